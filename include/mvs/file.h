@@ -1,0 +1,39 @@
+/* Load and save: a valve with its state from and to a path or memory.
+ *
+ * Formats are chosen by MVS_FORMAT_* or, where AUTO, by the ending of the path. Files are written
+ * beside their target and renamed, so a target is either the old file or the whole new one. */
+#ifndef MVS_FILE_H
+#define MVS_FILE_H
+
+#include "base.h"
+#include "sim.h"
+#include "snapshot.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+  MVS_FORMAT_AUTO = 0,
+  MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round trip */
+  MVS_FORMAT_VTP = 2  /* VTK XML PolyData, write only: for ParaView and Slicer */
+};
+
+/* Replaces the valve and state of a simulator by those of a file. */
+MVS_API mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format);
+
+/* The same from `size` bytes of memory; AUTO is MVS_FORMAT_OBJ. */
+MVS_API mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size, uint32_t format);
+
+/* Writes a snapshot to a path. */
+MVS_API mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_t format);
+
+/* Writes a snapshot to memory: at most `capacity` bytes, and the true number to *size. With
+ * capacity 0 (`data` nullable) only the size is told. */
+MVS_API mvs_result mvs_save_memory(const mvs_snapshot *snapshot, uint32_t format, void *data,
+                                   uint64_t capacity, uint64_t *size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,11 @@
+/* All of libmvs in plain C. */
+#ifndef MVS_MVS_H
+#define MVS_MVS_H
+
+#include "base.h"
+#include "file.h"
+#include "sim.h"
+#include "snapshot.h"
+#include "valve.h"
+
+#endif

@@ -1,0 +1,143 @@
+/* The simulator: create it, give it a valve and a load, settle or step it, ask how it went.
+ *
+ * Different simulators are independent. One simulator is used by one thread at a time; what takes
+ * a const mvs_snapshot * may be called from any thread. */
+#ifndef MVS_SIM_H
+#define MVS_SIM_H
+
+#include "base.h"
+#include "valve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct mvs_sim mvs_sim;
+
+/* Logging levels. */
+enum { MVS_LOG_ERROR = 1, MVS_LOG_WARNING = 2, MVS_LOG_INFO = 3, MVS_LOG_DEBUG = 4 };
+
+/* Sparse factorisations. */
+enum {
+  MVS_BACKEND_DEFAULT = 0, /* the first one this build has, in the order below */
+  MVS_BACKEND_CHOLMOD = 1, /* SuiteSparse CHOLMOD, simplicial LDL^T */
+  MVS_BACKEND_EIGEN = 2    /* Eigen SimplicialLDLT */
+};
+
+/* How a simulator is made. A null pointer or all zeros are the defaults. */
+typedef struct mvs_sim_desc {
+  uint32_t struct_size;
+  uint32_t backend; /* MVS_BACKEND_* */
+  /* Called with one line of text. Nullable: silent. */
+  void (*log)(void *user, int32_t level, const char *text);
+  /* Called during long work with the share done in [0, 1] and the largest out-of-balance nodal
+   * force in N; a non-zero return cancels. Nullable. */
+  int32_t (*progress)(void *user, double share, double residual);
+  void *user; /* handed to both */
+} mvs_sim_desc;
+
+/* Makes an empty simulator in *sim; mvs_destroy frees it. `desc` is nullable. */
+MVS_API mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim);
+
+/* Frees a simulator; snapshots taken from it stay valid. `sim` is nullable. */
+MVS_API void mvs_destroy(mvs_sim *sim);
+
+/* Replaces the valve by one given as arrays. MVS_E_OP names the first fault of a valve that is
+ * none; mvs_check_valve lists all of them. */
+MVS_API mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve);
+
+/* Replaces the valve by a parametric mitral valve. `desc` is nullable: the shipped valve. */
+MVS_API mvs_result mvs_generate_valve(mvs_sim *sim, const mvs_parametric_desc *desc);
+
+/* Called once for each fault of a valve: the part ("triangle 17") and a sentence. */
+typedef void (*mvs_fault_fn)(void *user, const char *part, const char *sentence);
+
+/* Says whether arrays are a valve, without touching any simulator: returns what mvs_set_valve
+ * would, and reports every fault, not only the first. `fault` is nullable. */
+MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void *user);
+
+/* The load on the valve. */
+typedef struct mvs_load_case {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double pressure;          /* Pa, ventricle minus atrium, on every leaflet face, following it */
+  double boundary_fraction; /* where annulus and heads are: 0 open .. 1 loaded position */
+} mvs_load_case;
+
+/* Sets the load that settle and step work towards; a new valve starts with pressure 0, fraction 0. */
+MVS_API mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load);
+
+/* 120 mmHg in Pa (1 mmHg = 133.322 Pa): the default systolic load. */
+#define MVS_SYSTOLE_PA 15998.64
+
+/* Reads the load. */
+MVS_API mvs_result mvs_get_load(const mvs_sim *sim, mvs_load_case *load);
+
+/* Solvers. */
+enum {
+  MVS_SOLVER_NEWTON = 1,   /* static equilibrium: projected Newton on the potential (mvs_settle) */
+  MVS_SOLVER_IMPLICIT = 2, /* backward Euler, a bounded amount of work a step */
+  MVS_SOLVER_EXPLICIT = 3  /* symplectic Euler with penalty contact: the founding paper's method */
+};
+
+/* How to settle. Zeros and null are the defaults in brackets. */
+typedef struct mvs_settle_options {
+  uint32_t struct_size;
+  uint32_t solver;         /* MVS_SOLVER_* [newton] */
+  uint32_t max_iterations; /* [1000 for newton, 20000 implicit, 2000000 explicit] */
+  uint32_t reserved;
+  double residual;         /* N, largest out-of-balance force on a node at rest [1e-5] */
+  double dt;               /* s, for the solvers that step in time [explicit 16e-6, implicit 1e-3] */
+  double damping;          /* 1/s, mass-proportional, for the solvers in time [explicit 500] */
+} mvs_settle_options;
+
+/* Phases of the work, as indices of mvs_stats.phase_s. */
+enum {
+  MVS_PHASE_TERMS = 0,        /* energy, gradient and Hessian blocks of the terms */
+  MVS_PHASE_BROAD = 1,        /* candidate pairs */
+  MVS_PHASE_NARROW = 2,       /* distances */
+  MVS_PHASE_ASSEMBLY = 3,     /* blocks into the sparse matrix */
+  MVS_PHASE_ORDERING = 4,     /* symbolic analysis */
+  MVS_PHASE_FACTOR = 5,
+  MVS_PHASE_SOLVE = 6,
+  MVS_PHASE_LINE_SEARCH = 7,  /* trial energies, with their distances */
+  MVS_PHASE_COUNT = 8
+};
+
+/* How the last settle or step went. */
+typedef struct mvs_stats {
+  uint32_t struct_size;
+  uint32_t converged;     /* 1: residual reached */
+  uint32_t iterations;    /* Newton iterations, or steps in time */
+  uint32_t factorisations;
+  uint32_t contact_pairs; /* active at the end */
+  uint32_t shifted;       /* iterations whose matrix needed a shift to be positive definite */
+  double residual;        /* N, largest out-of-balance force on a free node */
+  double energy;          /* J, total potential at the end */
+  double kinetic;         /* J */
+  double wall_s;
+  double phase_s[MVS_PHASE_COUNT];
+} mvs_stats;
+
+/* Brings the valve to static equilibrium under the load. Not converged is not an error: look at
+ * stats->converged. `options` and `stats` are nullable. */
+MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats);
+
+/* How to step. */
+typedef struct mvs_step_options {
+  uint32_t struct_size;
+  uint32_t solver;  /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
+  double dt;        /* s [implicit 1e-3, explicit 16e-6]; 1e-9 to 1 */
+  double damping;   /* 1/s, mass-proportional [0 implicit, 500 explicit] */
+} mvs_step_options;
+
+/* Advances by one time step: one bounded amount of work. `options` is nullable. */
+MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
+
+/* Reads the statistics of the last settle or step; `stats->struct_size` must be set. */
+MVS_API mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

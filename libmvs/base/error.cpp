@@ -1,0 +1,34 @@
+// Building the sentences of errors.
+#include "base/error.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace mvs {
+namespace {
+
+std::string vformat(const char *pattern, va_list arguments) {
+  char text[sizeof(mvs_error::message)];
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  return text;
+}
+
+}  // namespace
+
+std::string format(const char *pattern, ...) {
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::string text = vformat(pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+void fail(mvs_result code, const std::string &part, const char *pattern, ...) {
+  va_list arguments;
+  va_start(arguments, pattern);
+  const std::string text = vformat(pattern, arguments);
+  va_end(arguments);
+  throw Error(code, part, text);
+}
+
+}  // namespace mvs

@@ -1,0 +1,36 @@
+// Failures inside the core: must() throws an Error, only api/guard.h catches it.
+#pragma once
+
+#include <mvs/base.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace mvs {
+
+// A failure with everything mvs_last_error() shows.
+class Error : public std::runtime_error {
+ public:
+  Error(mvs_result code_in, std::string part_in, const std::string &message, int32_t line_in = 0)
+      : std::runtime_error(message), code(code_in), line(line_in), part(std::move(part_in)) {}
+
+  mvs_result code;
+  int32_t line;
+  std::string part;
+};
+
+// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string format(const char *pattern, ...);
+
+// Throws an Error of `code` about `part` ("" for none) with a printf-style sentence.
+[[noreturn, gnu::format(printf, 3, 4)]] void fail(mvs_result code, const std::string &part,
+                                                  const char *pattern, ...);
+
+}  // namespace mvs
+
+// Throws unless `condition` holds; the sentence names the part and what to do.
+#define MVS_MUST(condition, code, part, ...)             \
+  do {                                                   \
+    if (!(condition)) ::mvs::fail(code, part, __VA_ARGS__); \
+  } while (false)

@@ -1,0 +1,53 @@
+// Model, State and Snapshot: the three things that everything else is made of.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/topology.h"
+#include "model/valve.h"
+
+namespace mvs {
+
+// An immutable valve with what follows from it. Made by make_model, shared by every snapshot.
+struct Model {
+  Valve valve;
+  Topology topology;
+  std::vector<double> rest_area;    // m2 per triangle
+  std::vector<double> rest_length;  // m per edge
+  std::vector<double> vertex_area;  // m2 per node: a third of its rest triangles
+  std::vector<double> node_mass;    // kg: lumped from triangles and chordae
+
+  size_t node_count() const { return valve.rest.size(); }
+  // Where a prescribed node is at a fraction 0 (open) .. 1 (loaded) of the boundary motion.
+  Vec3 target(uint32_t node, double fraction) const {
+    return valve.rest[node] + fraction * (valve.loaded[node] - valve.rest[node]);
+  }
+};
+
+using ModelPtr = std::shared_ptr<const Model>;
+
+struct Load {
+  double pressure = 0;           // Pa
+  double boundary_fraction = 0;  // 0 open .. 1 loaded
+};
+
+// Every input of the next step.
+struct State {
+  std::vector<Vec3> x;  // m
+  std::vector<Vec3> v;  // m/s
+  double time = 0;      // s
+  uint64_t steps = 0;
+  Load load;
+};
+
+// Checks, completes (ids, names, fibres, thickness) and freezes a valve; throws the first fault.
+ModelPtr make_model(Valve valve);
+
+// The state a new valve starts from: at rest, no load.
+State initial_state(const Model &model);
+
+// 128 bits over the meaning of both: names, numbers, order; never addresses or padding.
+std::array<uint64_t, 2> hash_of(const Model &model, const State &state);
+
+}  // namespace mvs
