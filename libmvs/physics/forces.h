@@ -1,0 +1,18 @@
+// The forces of a state, for looking at: what every term does to every node.
+#pragma once
+
+#include <vector>
+
+#include "model/model.h"
+
+namespace mvs {
+
+struct Forces {
+  std::vector<Vec3> total;    // N: out of balance on free nodes, reaction on prescribed ones
+  std::vector<Vec3> contact;  // N
+  double energy = 0;          // J, total potential
+};
+
+Forces evaluate_forces(const Model &model, const State &state);
+
+}  // namespace mvs

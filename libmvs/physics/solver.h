@@ -1,0 +1,56 @@
+// The solvers over the terms: static closure, implicit step, explicit step.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "model/model.h"
+
+namespace mvs {
+
+// Zeros are the defaults stated in include/mvs/sim.h.
+struct SolveOptions {
+  uint32_t solver = 0;  // MVS_SOLVER_*
+  uint32_t max_iterations = 0;
+  double residual = 0;  // N
+  double dt = 0;        // s
+  double damping = 0;   // 1/s
+};
+
+struct SolveStats {
+  bool converged = false;
+  uint32_t iterations = 0;
+  uint32_t factorisations = 0;
+  uint32_t contact_pairs = 0;
+  uint32_t shifted = 0;
+  double residual = 0;  // N
+  double energy = 0;    // J
+  double kinetic = 0;   // J
+  double wall_s = 0;
+  std::array<double, 8> phase_s{};  // MVS_PHASE_*
+};
+
+// Told the share done and the residual in N; returns true to go on, false to cancel.
+using Progress = std::function<bool(double share, double residual)>;
+
+// Keeps what is worth keeping between calls (symbolic factorisation, candidate pairs), none of
+// which changes a result: a new Solver gives the same bits.
+class Solver {
+ public:
+  explicit Solver(uint32_t backend);  // MVS_BACKEND_*; throws MVS_E_UNSUPPORTED
+  ~Solver();
+  Solver(Solver &&) noexcept;
+  Solver &operator=(Solver &&) noexcept;
+
+  // Both change `state` in place and may leave it half-way when they throw: hand in a copy.
+  SolveStats settle(const Model &model, State &state, const SolveOptions &options,
+                    const Progress &progress);
+  SolveStats step(const Model &model, State &state, const SolveOptions &options);
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace mvs
