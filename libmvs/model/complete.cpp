@@ -1,0 +1,191 @@
+// The defaults of a valve, one function a kind of part.
+#include "model/complete.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+
+#include "base/error.h"
+
+namespace mvs {
+namespace {
+
+void complete_arrays(Valve &valve) {
+  if (valve.loaded.empty()) valve.loaded = valve.rest;
+  std::vector<uint8_t> prescribed(valve.rest.size(), 0);
+  for (const uint32_t node : valve.annulus) prescribed[node] = 1;
+  for (const Head &head : valve.heads) prescribed[head.node] = 1;
+  for (size_t n = 0; n < valve.rest.size(); ++n) {
+    if (!prescribed[n]) valve.loaded[n] = valve.rest[n];
+  }
+  if (valve.triangle_thickness.empty()) {
+    for (const uint32_t leaflet : valve.triangle_leaflet) {
+      valve.triangle_thickness.push_back(valve.leaflets[leaflet].thickness);
+    }
+  }
+}
+
+void complete_scallops(Valve &valve) {
+  if (!valve.scallops.empty()) return;
+  for (uint32_t l = 0; l < valve.leaflets.size(); ++l) {
+    valve.scallops.push_back({0, valve.leaflets[l].name, l});
+  }
+  valve.triangle_scallop = valve.triangle_leaflet;
+}
+
+template <typename Part>
+void raise_next_id(const std::vector<Part> &parts, Id &next_id) {
+  for (const Part &part : parts) next_id = std::max(next_id, part.id + 1);
+}
+
+template <typename Part>
+void give_ids(std::vector<Part> &parts, Id &next_id) {
+  for (Part &part : parts) {
+    if (part.id == 0) part.id = next_id++;
+  }
+}
+
+void complete_ids(Valve &valve) {
+  raise_next_id(valve.leaflets, valve.next_id);
+  raise_next_id(valve.scallops, valve.next_id);
+  raise_next_id(valve.heads, valve.next_id);
+  raise_next_id(valve.chords, valve.next_id);
+  give_ids(valve.leaflets, valve.next_id);
+  give_ids(valve.scallops, valve.next_id);
+  give_ids(valve.heads, valve.next_id);
+  give_ids(valve.chords, valve.next_id);
+}
+
+template <typename Part>
+std::set<std::string> names_of(const std::vector<Part> &parts) {
+  std::set<std::string> names;
+  for (const Part &part : parts) names.insert(part.name);
+  return names;
+}
+
+// The first of "prefix1", "prefix2", ... that is not taken yet.
+std::string free_name(const std::string &prefix, std::set<std::string> &taken, uint32_t &number) {
+  std::string name;
+  do {
+    name = prefix + std::to_string(++number);
+  } while (!taken.insert(name).second);
+  return name;
+}
+
+void complete_head_names(Valve &valve) {
+  std::set<std::string> taken = names_of(valve.heads);
+  uint32_t number = 0;
+  for (Head &head : valve.heads) {
+    if (head.name.empty()) head.name = free_name("PM", taken, number);
+  }
+}
+
+// The scallop that each leaflet node lies in: that of its first triangle.
+std::vector<uint32_t> node_scallops(const Valve &valve) {
+  std::vector<uint32_t> scallop(valve.rest.size(), none);
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    for (const uint32_t node : valve.triangles[t]) {
+      if (scallop[node] == none) scallop[node] = valve.triangle_scallop[t];
+    }
+  }
+  return scallop;
+}
+
+// The head that each branch node hangs from: the first one reached along the segments a -> b.
+std::vector<uint32_t> node_heads(const Valve &valve) {
+  std::vector<uint32_t> head(valve.rest.size(), none);
+  for (uint32_t h = 0; h < valve.heads.size(); ++h) head[valve.heads[h].node] = h;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Chord &chord : valve.chords) {
+      if (head[chord.a] == none || head[chord.b] != none) continue;
+      head[chord.b] = head[chord.a];
+      changed = true;
+    }
+  }
+  return head;
+}
+
+// "P2/3": the third chord without a name that goes to P2; "PM1/2" where it ends at a branch point.
+void complete_chord_names(Valve &valve) {
+  const std::vector<uint32_t> scallop = node_scallops(valve), head = node_heads(valve);
+  std::set<std::string> taken = names_of(valve.chords);
+  std::vector<uint32_t> by_scallop(valve.scallops.size(), 0), by_head(valve.heads.size(), 0);
+  uint32_t loose = 0;
+  for (Chord &chord : valve.chords) {
+    if (!chord.name.empty()) continue;
+    if (const uint32_t s = scallop[chord.b]; s != none) {
+      chord.name = free_name(valve.scallops[s].name + "/", taken, by_scallop[s]);
+    } else if (const uint32_t h = head[chord.b]; h != none) {
+      chord.name = free_name(valve.heads[h].name + "/", taken, by_head[h]);
+    } else {
+      chord.name = free_name("chord/", taken, loose);
+    }
+  }
+}
+
+void complete_lengths(Valve &valve) {
+  for (Chord &chord : valve.chords) {
+    if (chord.rest_length == 0) {
+      chord.rest_length = (valve.rest[chord.b] - valve.rest[chord.a]).norm();
+    }
+  }
+}
+
+// Vector area of the annulus: its direction is the valve's axis.
+Vec3 annulus_axis(const Valve &valve, const Vec3 &centre) {
+  Vec3 area = Vec3::Zero();
+  for (size_t k = 0; k < valve.annulus.size(); ++k) {
+    const Vec3 &p = valve.rest[valve.annulus[k]];
+    const Vec3 &q = valve.rest[valve.annulus[(k + 1) % valve.annulus.size()]];
+    area += (p - centre).cross(q - centre);
+  }
+  return area.normalized();
+}
+
+Vec3 annulus_centre(const Valve &valve) {
+  Vec3 sum = Vec3::Zero();
+  for (const uint32_t node : valve.annulus) sum += valve.rest[node];
+  return sum / static_cast<double>(valve.annulus.size());
+}
+
+// A direction laid into the plane of a triangle, unit; the triangle's first side where it has no
+// part in that plane. One that is unit and in the plane already is kept as it is.
+Vec3 into_plane(const Valve &valve, const Tri &triangle, const Vec3 &direction) {
+  const Vec3 side = valve.rest[triangle[1]] - valve.rest[triangle[0]];
+  const Vec3 normal = side.cross(valve.rest[triangle[2]] - valve.rest[triangle[0]]).normalized();
+  const double out = direction.dot(normal), length = direction.norm();
+  // far above the rounding of a unit vector, far below any angle that matters
+  constexpr double close = 1e-12;
+  if (std::abs(length - 1) < close && std::abs(out) < close) return direction;
+  const Vec3 flat = direction - out * normal;
+  return flat.norm() > 1e-6 * length ? flat.normalized() : side.normalized();
+}
+
+// Circumferential by default: the way a point moves when the valve turns about its axis.
+void complete_fibres(Valve &valve) {
+  const bool given = !valve.triangle_fibre.empty();
+  const Vec3 centre = annulus_centre(valve), axis = annulus_axis(valve, centre);
+  valve.triangle_fibre.resize(valve.triangles.size());
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const Tri &triangle = valve.triangles[t];
+    const Vec3 middle =
+        (valve.rest[triangle[0]] + valve.rest[triangle[1]] + valve.rest[triangle[2]]) / 3;
+    Vec3 &fibre = valve.triangle_fibre[t];
+    fibre = into_plane(valve, triangle, given ? fibre : Vec3(axis.cross(middle - centre)));
+  }
+}
+
+}  // namespace
+
+void complete(Valve &valve) {
+  complete_arrays(valve);
+  complete_scallops(valve);
+  complete_ids(valve);
+  complete_head_names(valve);
+  complete_chord_names(valve);
+  complete_lengths(valve);
+  complete_fibres(valve);
+}
+
+}  // namespace mvs

@@ -1,0 +1,88 @@
+// The hash of a model and a state: every field that a later step can depend on, in one fixed order.
+#include "base/hash.h"
+
+#include "model/model.h"
+
+namespace mvs {
+namespace {
+
+void add(Hash &hash, const Vec3 &v) {
+  for (int k = 0; k < 3; ++k) hash.add(v[k]);
+}
+void add(Hash &hash, const Tri &triangle) {
+  for (const uint32_t node : triangle) hash.add(uint64_t{node});
+}
+void add(Hash &hash, uint32_t number) {
+  hash.add(uint64_t{number});
+}
+void add(Hash &hash, double number) {
+  hash.add(number);
+}
+void add(Hash &hash, const Leaflet &leaflet) {
+  hash.add(leaflet.id);
+  hash.add(leaflet.name);
+  add(hash, leaflet.law);
+  hash.add(leaflet.thickness);
+  hash.add(leaflet.bilinear.low);
+  hash.add(leaflet.bilinear.high);
+  hash.add(leaflet.bilinear.kink);
+}
+void add(Hash &hash, const Scallop &scallop) {
+  hash.add(scallop.id);
+  hash.add(scallop.name);
+  add(hash, scallop.leaflet);
+}
+void add(Hash &hash, const Chord &chord) {
+  hash.add(chord.id);
+  hash.add(chord.name);
+  for (const uint32_t number : {chord.a, chord.b, chord.kind, chord.law}) add(hash, number);
+  for (const double number : {chord.rest_length, chord.young, chord.area}) hash.add(number);
+}
+void add(Hash &hash, const Head &head) {
+  hash.add(head.id);
+  hash.add(head.name);
+  add(hash, head.node);
+}
+
+template <typename Item>
+void add(Hash &hash, const std::vector<Item> &items) {
+  hash.add(uint64_t{items.size()});
+  for (const Item &item : items) add(hash, item);
+}
+
+void add(Hash &hash, const Valve &valve) {
+  hash.add(valve.name);
+  add(hash, valve.rest);
+  add(hash, valve.loaded);
+  add(hash, valve.triangles);
+  add(hash, valve.triangle_leaflet);
+  add(hash, valve.triangle_scallop);
+  add(hash, valve.triangle_thickness);
+  add(hash, valve.triangle_fibre);
+  add(hash, valve.annulus);
+  add(hash, valve.leaflets);
+  add(hash, valve.scallops);
+  add(hash, valve.chords);
+  add(hash, valve.heads);
+  for (const double number :
+       {valve.density, valve.contact_thickness, valve.contact_stiffness, valve.bending_scale}) {
+    hash.add(number);
+  }
+  hash.add(valve.next_id);
+}
+
+}  // namespace
+
+std::array<uint64_t, 2> hash_of(const Model &model, const State &state) {
+  Hash hash;
+  add(hash, model.valve);
+  add(hash, state.x);
+  add(hash, state.v);
+  hash.add(state.time);
+  hash.add(state.steps);
+  hash.add(state.load.pressure);
+  hash.add(state.load.boundary_fraction);
+  return hash.value();
+}
+
+}  // namespace mvs

@@ -1,0 +1,68 @@
+// Making models: check, complete, derive, freeze.
+#include "model/model.h"
+
+#include <Eigen/Geometry>
+
+#include "base/error.h"
+#include "model/check.h"
+#include "model/complete.h"
+
+namespace mvs {
+namespace {
+
+double triangle_area(const Valve &valve, const Tri &triangle) {
+  const Vec3 &a = valve.rest[triangle[0]];
+  return 0.5 * (valve.rest[triangle[1]] - a).cross(valve.rest[triangle[2]] - a).norm();
+}
+
+void derive_lengths_and_areas(Model &model) {
+  const Valve &valve = model.valve;
+  for (const Edge &edge : model.topology.edges) {
+    model.rest_length.push_back((valve.rest[edge[1]] - valve.rest[edge[0]]).norm());
+  }
+  model.vertex_area.assign(valve.rest.size(), 0);
+  for (const Tri &triangle : valve.triangles) {
+    const double area = triangle_area(valve, triangle);
+    model.rest_area.push_back(area);
+    for (const uint32_t node : triangle) model.vertex_area[node] += area / 3;
+  }
+}
+
+void derive_mass(Model &model) {
+  const Valve &valve = model.valve;
+  model.node_mass.assign(valve.rest.size(), 0);
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const double mass = valve.density * valve.triangle_thickness[t] * model.rest_area[t];
+    for (const uint32_t node : valve.triangles[t]) model.node_mass[node] += mass / 3;
+  }
+  for (const Chord &chord : valve.chords) {
+    const double mass = valve.density * chord.area * chord.rest_length;
+    model.node_mass[chord.a] += mass / 2;
+    model.node_mass[chord.b] += mass / 2;
+  }
+}
+
+}  // namespace
+
+ModelPtr make_model(Valve valve) {
+  const std::vector<Fault> faults = find_faults(valve);
+  if (!faults.empty()) {
+    fail(MVS_E_OP, faults.front().part, "%s", faults.front().sentence.c_str());
+  }
+  complete(valve);
+  auto model = std::make_shared<Model>();
+  model->valve = std::move(valve);
+  model->topology = make_topology(model->valve);
+  derive_lengths_and_areas(*model);
+  derive_mass(*model);
+  return model;
+}
+
+State initial_state(const Model &model) {
+  State state;
+  state.x = model.valve.rest;
+  state.v.assign(state.x.size(), Vec3::Zero());
+  return state;
+}
+
+}  // namespace mvs

@@ -1,0 +1,23 @@
+// Collecting and sorting sides.
+#include "model/sides.h"
+
+#include <algorithm>
+
+namespace mvs {
+
+std::vector<Side> sorted_sides(const std::vector<Tri> &triangles) {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, t, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side &l, const Side &r) {
+    return l.edge != r.edge ? l.edge < r.edge : l.triangle < r.triangle;
+  });
+  return sides;
+}
+
+}  // namespace mvs

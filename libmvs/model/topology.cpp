@@ -1,0 +1,114 @@
+// Topology by sorting: every list comes out in one order, whatever the order of the input.
+#include "model/topology.h"
+
+#include <mvs/snapshot.h>
+
+#include "model/sides.h"
+
+namespace mvs {
+namespace {
+
+void add_edges(const std::vector<Side> &sides, Topology &topology) {
+  for (const Side &side : sides) {
+    if (topology.edges.empty() || topology.edges.back() != side.edge) {
+      topology.edges.push_back(side.edge);
+      topology.edge_triangles.push_back({side.triangle, none});
+    } else {
+      topology.edge_triangles.back()[1] = side.triangle;
+    }
+    topology.triangle_edges[side.triangle][side.k] =
+        static_cast<uint32_t>(topology.edges.size() - 1);
+  }
+}
+
+uint32_t opposite_corner(const Tri &triangle, const Edge &edge) {
+  for (const uint32_t corner : triangle) {
+    if (corner != edge[0] && corner != edge[1]) return corner;
+  }
+  return none;
+}
+
+void add_hinges(const std::vector<Tri> &triangles, Topology &topology) {
+  for (uint32_t e = 0; e < topology.edges.size(); ++e) {
+    const Edge &edge = topology.edges[e], &pair = topology.edge_triangles[e];
+    if (pair[1] == none) continue;
+    topology.hinges.push_back({edge[0], edge[1], opposite_corner(triangles[pair[0]], edge),
+                               opposite_corner(triangles[pair[1]], edge)});
+    topology.hinge_edge.push_back(e);
+  }
+}
+
+// Which of the groups (triangles, chords) hold each node; `Group` has its nodes in an array.
+template <typename Group>
+Rows rows_of(size_t node_count, const std::vector<Group> &groups) {
+  Rows rows;
+  rows.start.assign(node_count + 1, 0);
+  for (const Group &group : groups) {
+    for (const uint32_t node : group) ++rows.start[node + 1];
+  }
+  for (size_t n = 0; n < node_count; ++n) rows.start[n + 1] += rows.start[n];
+  rows.items.resize(rows.start.back());
+  std::vector<uint32_t> next(rows.start.begin(), rows.start.end() - 1);
+  for (uint32_t g = 0; g < groups.size(); ++g) {
+    for (const uint32_t node : groups[g]) rows.items[next[node]++] = g;
+  }
+  return rows;
+}
+
+void add_kinds(const Valve &valve, Topology &topology) {
+  const size_t n = valve.rest.size();
+  topology.node_kind.assign(n, MVS_NODE_IS_BRANCH);
+  topology.fixed.assign(n, 0);
+  for (const Tri &triangle : valve.triangles) {
+    for (const uint32_t node : triangle) topology.node_kind[node] = MVS_NODE_IS_LEAFLET;
+  }
+  for (const uint32_t node : valve.annulus) topology.node_kind[node] = MVS_NODE_IS_ANNULUS;
+  for (const Head &head : valve.heads) topology.node_kind[head.node] = MVS_NODE_IS_HEAD;
+  for (size_t node = 0; node < n; ++node) {
+    topology.fixed[node] = topology.node_kind[node] == MVS_NODE_IS_ANNULUS ||
+                           topology.node_kind[node] == MVS_NODE_IS_HEAD;
+  }
+}
+
+// Walks the boundary along the winding of its triangles. In a manifold sheet a boundary node has
+// one way out, so loops are disjoint; the annulus is one of them and is left out.
+void add_free_edges(const Valve &valve, Topology &topology) {
+  std::vector<uint32_t> next(valve.rest.size(), none);
+  for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      if (topology.edge_triangles[topology.triangle_edges[t][k]][1] != none) continue;
+      next[valve.triangles[t][k]] = valve.triangles[t][(k + 1) % 3];
+    }
+  }
+  for (const uint32_t node : valve.annulus) next[node] = none;
+  for (uint32_t first = 0; first < next.size(); ++first) {
+    if (next[first] == none) continue;
+    std::vector<uint32_t> loop;
+    for (uint32_t node = first; next[node] != none;) {
+      loop.push_back(node);
+      const uint32_t after = next[node];
+      next[node] = none;
+      node = after;
+    }
+    topology.free_edges.push_back(std::move(loop));
+  }
+}
+
+}  // namespace
+
+Topology make_topology(const Valve &valve) {
+  Topology topology;
+  topology.triangle_edges.resize(valve.triangles.size());
+  add_edges(sorted_sides(valve.triangles), topology);
+  add_hinges(valve.triangles, topology);
+  topology.node_triangles = rows_of(valve.rest.size(), valve.triangles);
+  std::vector<Edge> chords;
+  chords.reserve(valve.chords.size());
+  for (const Chord &chord : valve.chords) chords.push_back({chord.a, chord.b});
+  topology.node_chords = rows_of(valve.rest.size(), chords);
+  add_kinds(valve, topology);
+  add_free_edges(valve, topology);
+  return topology;
+}
+
+}  // namespace mvs
