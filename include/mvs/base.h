@@ -48,8 +48,8 @@ enum {
 /* The last failure on this thread. Strings are never null. */
 typedef struct mvs_error {
   mvs_result code;
-  int32_t line;     /* 1-based line of the file being read, 0 if there is none */
-  char part[64];    /* the part it is about ("triangle 17", "chord P2/3"), or "" */
+  int32_t line;      /* 1-based line of the file being read, 0 if there is none */
+  char part[64];     /* the part it is about ("triangle 17", "chord P2/3"), or "" */
   char message[432]; /* one sentence: what is wrong, and what to do */
 } mvs_error;
 

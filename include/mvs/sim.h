@@ -64,7 +64,8 @@ typedef struct mvs_load_case {
   double boundary_fraction; /* where annulus and heads are: 0 open .. 1 loaded position */
 } mvs_load_case;
 
-/* Sets the load that settle and step work towards; a new valve starts with pressure 0, fraction 0. */
+/* Sets the load that settle and step work towards. A new valve starts with pressure and fraction
+ * 0. */
 MVS_API mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load);
 
 /* 120 mmHg in Pa (1 mmHg = 133.322 Pa): the default systolic load. */
@@ -86,29 +87,29 @@ typedef struct mvs_settle_options {
   uint32_t solver;         /* MVS_SOLVER_* [newton] */
   uint32_t max_iterations; /* [1000 for newton, 20000 implicit, 2000000 explicit] */
   uint32_t reserved;
-  double residual;         /* N, largest out-of-balance force on a node at rest [1e-5] */
-  double dt;               /* s, for the solvers that step in time [explicit 16e-6, implicit 1e-3] */
-  double damping;          /* 1/s, mass-proportional, for the solvers in time [explicit 500] */
+  double residual; /* N, largest out-of-balance force on a node at rest [1e-5] */
+  double dt;       /* s, for the solvers that step in time [explicit 16e-6, implicit 1e-3] */
+  double damping;  /* 1/s, mass-proportional, for the solvers in time [explicit 500] */
 } mvs_settle_options;
 
 /* Phases of the work, as indices of mvs_stats.phase_s. */
 enum {
-  MVS_PHASE_TERMS = 0,        /* energy, gradient and Hessian blocks of the terms */
-  MVS_PHASE_BROAD = 1,        /* candidate pairs */
-  MVS_PHASE_NARROW = 2,       /* distances */
-  MVS_PHASE_ASSEMBLY = 3,     /* blocks into the sparse matrix */
-  MVS_PHASE_ORDERING = 4,     /* symbolic analysis */
+  MVS_PHASE_TERMS = 0,    /* energy, gradient and Hessian blocks of the terms */
+  MVS_PHASE_BROAD = 1,    /* candidate pairs */
+  MVS_PHASE_NARROW = 2,   /* distances */
+  MVS_PHASE_ASSEMBLY = 3, /* blocks into the sparse matrix */
+  MVS_PHASE_ORDERING = 4, /* symbolic analysis */
   MVS_PHASE_FACTOR = 5,
   MVS_PHASE_SOLVE = 6,
-  MVS_PHASE_LINE_SEARCH = 7,  /* trial energies, with their distances */
+  MVS_PHASE_LINE_SEARCH = 7, /* trial energies, with their distances */
   MVS_PHASE_COUNT = 8
 };
 
 /* How the last settle or step went. */
 typedef struct mvs_stats {
   uint32_t struct_size;
-  uint32_t converged;     /* 1: residual reached */
-  uint32_t iterations;    /* Newton iterations, or steps in time */
+  uint32_t converged;  /* 1: residual reached */
+  uint32_t iterations; /* Newton iterations, or steps in time */
   uint32_t factorisations;
   uint32_t contact_pairs; /* active at the end */
   uint32_t shifted;       /* iterations whose matrix needed a shift to be positive definite */
@@ -126,9 +127,9 @@ MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, m
 /* How to step. */
 typedef struct mvs_step_options {
   uint32_t struct_size;
-  uint32_t solver;  /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
-  double dt;        /* s [implicit 1e-3, explicit 16e-6]; 1e-9 to 1 */
-  double damping;   /* 1/s, mass-proportional [0 implicit, 500 explicit] */
+  uint32_t solver; /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
+  double dt;       /* s [implicit 1e-3, explicit 16e-6]; 1e-9 to 1 */
+  double damping;  /* 1/s, mass-proportional [0 implicit, 500 explicit] */
 } mvs_step_options;
 
 /* Advances by one time step: one bounded amount of work. `options` is nullable. */

@@ -29,36 +29,36 @@ MVS_API mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash
 
 /* The arrays of a snapshot: n nodes, m triangles, e edges, c chord segments, h heads. */
 enum {
-  MVS_NODE_POSITION = 1,        /* F64 n x 3, m */
-  MVS_NODE_REST = 2,            /* F64 n x 3, m: the open, unloaded valve */
-  MVS_NODE_LOADED = 3,          /* F64 n x 3, m: targets of prescribed nodes under load */
-  MVS_NODE_VELOCITY = 4,        /* F64 n x 3, m/s */
-  MVS_NODE_KIND = 5,            /* U8 n: MVS_NODE_IS_* */
-  MVS_NODE_FORCE = 6,           /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
-  MVS_NODE_CONTACT_FORCE = 7,   /* F64 n x 3, N */
-  MVS_NODE_COAPTATION = 8,      /* F64 n, m: distance to the facing leaflet; infinity: none */
-  MVS_TRIANGLE_NODES = 20,      /* U32 m x 3 */
-  MVS_TRIANGLE_LEAFLET = 21,    /* U32 m */
-  MVS_TRIANGLE_SCALLOP = 22,    /* U32 m */
-  MVS_TRIANGLE_THICKNESS = 23,  /* F64 m, m */
-  MVS_TRIANGLE_FIBRE = 24,      /* F64 m x 3, unit */
-  MVS_TRIANGLE_STRETCH = 25,    /* F64 m x 2: principal stretches, larger first */
-  MVS_TRIANGLE_STRESS = 26,     /* F64 m x 2, Pa: principal Cauchy stresses, larger first */
-  MVS_TRIANGLE_COAPTED = 27,    /* F64 m: share of the triangle that faces another leaflet */
-  MVS_ANNULUS_NODES = 40,       /* U32 k, in order */
-  MVS_FREE_EDGE_NODES = 41,     /* U32, in order */
-  MVS_CHORD_NODES = 50,         /* U32 c x 2 */
-  MVS_CHORD_REST_LENGTH = 51,   /* F64 c, m */
-  MVS_CHORD_KIND = 52,          /* U32 c: MVS_CHORD_* */
-  MVS_CHORD_STRAIN = 53,        /* F64 c: (L - L0) / L0, negative when slack */
-  MVS_CHORD_TENSION = 54,       /* F64 c, N */
-  MVS_CHORD_ID = 55,            /* U64 c */
-  MVS_CHORD_YOUNG = 56,         /* F64 c, Pa */
-  MVS_CHORD_AREA = 57,          /* F64 c, m2 */
-  MVS_HEAD_NODES = 60,          /* U32 h */
-  MVS_HEAD_FORCE = 61,          /* F64 h x 3, N: pull of the chordae on each head */
-  MVS_ORIFICE_VERTICES = 70,    /* F64 x 3, m: the smallest opening, as triangles */
-  MVS_ORIFICE_TRIANGLES = 71    /* U32 x 3 into MVS_ORIFICE_VERTICES */
+  MVS_NODE_POSITION = 1,       /* F64 n x 3, m */
+  MVS_NODE_REST = 2,           /* F64 n x 3, m: the open, unloaded valve */
+  MVS_NODE_LOADED = 3,         /* F64 n x 3, m: targets of prescribed nodes under load */
+  MVS_NODE_VELOCITY = 4,       /* F64 n x 3, m/s */
+  MVS_NODE_KIND = 5,           /* U8 n: MVS_NODE_IS_* */
+  MVS_NODE_FORCE = 6,          /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
+  MVS_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
+  MVS_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet; infinity: none */
+  MVS_TRIANGLE_NODES = 20,     /* U32 m x 3 */
+  MVS_TRIANGLE_LEAFLET = 21,   /* U32 m */
+  MVS_TRIANGLE_SCALLOP = 22,   /* U32 m */
+  MVS_TRIANGLE_THICKNESS = 23, /* F64 m, m */
+  MVS_TRIANGLE_FIBRE = 24,     /* F64 m x 3, unit */
+  MVS_TRIANGLE_STRETCH = 25,   /* F64 m x 2: principal stretches, larger first */
+  MVS_TRIANGLE_STRESS = 26,    /* F64 m x 2, Pa: principal Cauchy stresses, larger first */
+  MVS_TRIANGLE_COAPTED = 27,   /* F64 m: share of the triangle that faces another leaflet */
+  MVS_ANNULUS_NODES = 40,      /* U32 k, in order */
+  MVS_FREE_EDGE_NODES = 41,    /* U32, in order */
+  MVS_CHORD_NODES = 50,        /* U32 c x 2 */
+  MVS_CHORD_REST_LENGTH = 51,  /* F64 c, m */
+  MVS_CHORD_KIND = 52,         /* U32 c: MVS_CHORD_* */
+  MVS_CHORD_STRAIN = 53,       /* F64 c: (L - L0) / L0, negative when slack */
+  MVS_CHORD_TENSION = 54,      /* F64 c, N */
+  MVS_CHORD_ID = 55,           /* U64 c */
+  MVS_CHORD_YOUNG = 56,        /* F64 c, Pa */
+  MVS_CHORD_AREA = 57,         /* F64 c, m2 */
+  MVS_HEAD_NODES = 60,         /* U32 h */
+  MVS_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
+  MVS_ORIFICE_VERTICES = 70,   /* F64 x 3, m: the smallest opening, as triangles */
+  MVS_ORIFICE_TRIANGLES = 71   /* U32 x 3 into MVS_ORIFICE_VERTICES */
 };
 
 /* Values of MVS_NODE_KIND. */
@@ -73,12 +73,7 @@ enum {
 MVS_API mvs_result mvs_snapshot_view(const mvs_snapshot *snapshot, uint32_t which, mvs_view *view);
 
 /* Kinds of named parts. */
-enum {
-  MVS_PART_LEAFLET = 1,
-  MVS_PART_SCALLOP = 2,
-  MVS_PART_CHORD = 3,
-  MVS_PART_HEAD = 4
-};
+enum { MVS_PART_LEAFLET = 1, MVS_PART_SCALLOP = 2, MVS_PART_CHORD = 3, MVS_PART_HEAD = 4 };
 
 /* A named part of the valve. */
 typedef struct mvs_part {
@@ -109,31 +104,31 @@ MVS_API mvs_result mvs_snapshot_load(const mvs_snapshot *snapshot, mvs_load_case
 /* What the valve measures. Definitions and sources: libmvs/measure/README.md. SI units. */
 typedef struct mvs_measures {
   uint32_t struct_size;
-  uint32_t intersections;           /* pairs of triangles that cross (exact test) */
-  double regurgitant_orifice_area;  /* m2, 0 when sealed */
-  double coaptation_area;           /* m2, of one side */
-  double coaptation_length_mean;    /* m, along the coaptation line */
-  double coaptation_length_min;     /* m */
-  double coaptation_length_max;     /* m */
-  double coaptation_height;         /* m, extent along the valve axis */
-  double coaptation_depth;          /* m, annulus plane to the nearest coapting point */
-  double tenting_height;            /* m, deepest leaflet point on the atrial side below the plane */
-  double tenting_area;              /* m2, in the central AP plane */
-  double tenting_volume;            /* m3 */
-  double billow_height;             /* m, highest leaflet point above the annulus surface */
-  double billow_volume;             /* m3 */
-  double annulus_ap;                /* m */
-  double annulus_cc;                /* m */
-  double annulus_perimeter;         /* m */
-  double annulus_area_3d;           /* m2, of the surface spanning it */
-  double annulus_area;              /* m2, projected on its plane */
-  double annulus_saddle_height;     /* m */
-  double annulus_nonplanar_angle;   /* rad */
-  double max_chord_strain;          /* engineering, 0 when all are slack */
-  double max_chord_tension;         /* N */
-  double max_leaflet_strain;        /* largest principal engineering strain */
-  double max_leaflet_stress;        /* Pa, largest principal Cauchy stress */
-  double leaflet_area;              /* m2 */
+  uint32_t intersections;          /* pairs of triangles that cross (exact test) */
+  double regurgitant_orifice_area; /* m2, 0 when sealed */
+  double coaptation_area;          /* m2, of one side */
+  double coaptation_length_mean;   /* m, along the coaptation line */
+  double coaptation_length_min;    /* m */
+  double coaptation_length_max;    /* m */
+  double coaptation_height;        /* m, extent along the valve axis */
+  double coaptation_depth;         /* m, annulus plane to the nearest coapting point */
+  double tenting_height;           /* m, deepest leaflet point on the atrial side below the plane */
+  double tenting_area;             /* m2, in the central AP plane */
+  double tenting_volume;           /* m3 */
+  double billow_height;            /* m, highest leaflet point above the annulus surface */
+  double billow_volume;            /* m3 */
+  double annulus_ap;               /* m */
+  double annulus_cc;               /* m */
+  double annulus_perimeter;        /* m */
+  double annulus_area_3d;          /* m2, of the surface spanning it */
+  double annulus_area;             /* m2, projected on its plane */
+  double annulus_saddle_height;    /* m */
+  double annulus_nonplanar_angle;  /* rad */
+  double max_chord_strain;         /* engineering, 0 when all are slack */
+  double max_chord_tension;        /* N */
+  double max_leaflet_strain;       /* largest principal engineering strain */
+  double max_leaflet_stress;       /* Pa, largest principal Cauchy stress */
+  double leaflet_area;             /* m2 */
 } mvs_measures;
 
 /* Measures a snapshot; `measures->struct_size` must be set. The first call on a snapshot does the
@@ -143,12 +138,12 @@ MVS_API mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measur
 /* How far two shapes are apart, in m. Node figures are NaN where the meshes do not match. */
 typedef struct mvs_comparison {
   uint32_t struct_size;
-  uint32_t same_mesh;              /* 1: node-to-node figures exist */
-  double node_rms, node_max;       /* node to node, as they lie */
-  double surface_rms, surface_max; /* symmetric surface distance, as they lie */
-  double node_rms_registered, node_max_registered;       /* after the best rigid motion */
+  uint32_t same_mesh;                              /* 1: node-to-node figures exist */
+  double node_rms, node_max;                       /* node to node, as they lie */
+  double surface_rms, surface_max;                 /* symmetric surface distance, as they lie */
+  double node_rms_registered, node_max_registered; /* after the best rigid motion */
   double surface_rms_registered, surface_max_registered; /* after the best rigid motion */
-  double registration[12];         /* rows of [R | t]: b ~ R a + t, t in m */
+  double registration[12];                               /* rows of [R | t]: b ~ R a + t, t in m */
 } mvs_comparison;
 
 /* Compares the leaflet surfaces of two snapshots; `comparison->struct_size` must be set. */

@@ -14,12 +14,12 @@ extern "C" {
 /* Kinds of chordae. */
 enum {
   MVS_CHORD_OTHER = 0,
-  MVS_CHORD_MARGINAL = 1,     /* to the free edge */
-  MVS_CHORD_ROUGH_ZONE = 2,   /* to the coapting zone behind the free edge */
-  MVS_CHORD_STRUT = 3,        /* the two thick ones of the anterior leaflet */
-  MVS_CHORD_BASAL = 4,        /* to the base of the posterior leaflet */
-  MVS_CHORD_COMMISSURAL = 5,  /* to a commissure */
-  MVS_CHORD_TRUNK = 6         /* between papillary head and branch point */
+  MVS_CHORD_MARGINAL = 1,    /* to the free edge */
+  MVS_CHORD_ROUGH_ZONE = 2,  /* to the coapting zone behind the free edge */
+  MVS_CHORD_STRUT = 3,       /* the two thick ones of the anterior leaflet */
+  MVS_CHORD_BASAL = 4,       /* to the base of the posterior leaflet */
+  MVS_CHORD_COMMISSURAL = 5, /* to a commissure */
+  MVS_CHORD_TRUNK = 6        /* between papillary head and branch point */
 };
 
 /* The laws a leaflet sheet can follow, and what `constants` means for each. */
@@ -31,12 +31,12 @@ enum {
 
 /* A leaflet and its tissue. Zero fields take the defaults in brackets. */
 typedef struct mvs_leaflet_desc {
-  const char *name;         /* "A", "P", or free text; required, unique */
-  mvs_id id;                /* 0: given by the library */
-  uint32_t law;             /* MVS_LEAFLET_* [spring] */
+  const char *name; /* "A", "P", or free text; required, unique */
+  mvs_id id;        /* 0: given by the library */
+  uint32_t law;     /* MVS_LEAFLET_* [spring] */
   uint32_t reserved;
-  double thickness;         /* m [1e-3] */
-  double constants[8];      /* of the law */
+  double thickness;    /* m [1e-3] */
+  double constants[8]; /* of the law */
 } mvs_leaflet_desc;
 
 /* The laws a chord can follow. */
@@ -46,24 +46,24 @@ enum {
 
 /* A chord segment between two nodes, tension only. */
 typedef struct mvs_chord_desc {
-  uint32_t node_a;          /* nearer the papillary head */
-  uint32_t node_b;          /* nearer the leaflet */
-  uint32_t kind;            /* MVS_CHORD_MARGINAL ... */
-  uint32_t law;             /* MVS_CHORD_LINEAR [linear] */
-  double rest_length;       /* m; 0: the distance of its nodes */
-  double young;             /* Pa [40e6] */
-  double area;              /* m2 [pi/4 * (1 mm)^2] */
-  double constants[6];      /* of laws that need more; zero */
-  mvs_id id;                /* 0: given by the library */
-  const char *name;         /* null: made by the library from its kind and scallop, "P2/3" */
+  uint32_t node_a;     /* nearer the papillary head */
+  uint32_t node_b;     /* nearer the leaflet */
+  uint32_t kind;       /* MVS_CHORD_MARGINAL ... */
+  uint32_t law;        /* MVS_CHORD_LINEAR [linear] */
+  double rest_length;  /* m; 0: the distance of its nodes */
+  double young;        /* Pa [40e6] */
+  double area;         /* m2 [pi/4 * (1 mm)^2] */
+  double constants[6]; /* of laws that need more; zero */
+  mvs_id id;           /* 0: given by the library */
+  const char *name;    /* null: made by the library from its kind and scallop, "P2/3" */
 } mvs_chord_desc;
 
 /* A papillary head: a prescribed node that holds chordae. */
 typedef struct mvs_head_desc {
   uint32_t node;
   uint32_t reserved;
-  mvs_id id;                /* 0: given by the library */
-  const char *name;         /* null: "PM1", "PM2", ... */
+  mvs_id id;        /* 0: given by the library */
+  const char *name; /* null: "PM1", "PM2", ... */
 } mvs_head_desc;
 
 /* mvs_valve_desc.flags */
@@ -87,38 +87,38 @@ typedef struct mvs_valve_desc {
   mvs_array triangle_fibre;     /* optional, F64, m x 3: fibre direction [circumferential] */
   mvs_array annulus;            /* U32, k: the boundary loop held by the heart, in order */
   const mvs_leaflet_desc *leaflets;
-  const char *const *scallops;  /* names, "A1" .. "P3"; null: one per leaflet */
+  const char *const *scallops; /* names, "A1" .. "P3"; null: one per leaflet */
   const mvs_chord_desc *chords;
   const mvs_head_desc *heads;
   uint32_t leaflet_count;
   uint32_t scallop_count;
   uint32_t chord_count;
   uint32_t head_count;
-  double density;               /* kg/m3 [1060] */
-  double contact_thickness;     /* m, mid-surface distance at which leaflets touch [0.6e-3] */
-  double contact_stiffness;     /* Pa, scale of the contact pressure [20e3] */
-  double bending_scale;         /* factor on E t^3 / (12 (1 - nu^2)) [1]; negative: no bending */
+  double density;           /* kg/m3 [1060] */
+  double contact_thickness; /* m, mid-surface distance at which leaflets touch [0.6e-3] */
+  double contact_stiffness; /* Pa, scale of the contact pressure [20e3] */
+  double bending_scale;     /* factor on E t^3 / (12 (1 - nu^2)) [1]; negative: no bending */
 } mvs_valve_desc;
 
 /* A parametric mitral valve. Zero fields take the defaults in brackets (adult human; sources in
  * libmvs/anatomy/README.md). The fibrous trigones lie at +-38 degrees from the A point. */
 typedef struct mvs_parametric_desc {
   uint32_t struct_size;
-  uint32_t vertices;            /* leaflet vertices wanted, about [425]; 200 to 100000 */
-  uint32_t chords;              /* chord segments wanted, about [80] */
-  uint32_t branching;           /* 1: chordae branch at free nodes; 0: straight [0] */
-  double annulus_ap;            /* m, septal-lateral diameter */
-  double annulus_cc;            /* m, intercommissural diameter */
-  double saddle_height;         /* m */
-  double anterior_height;       /* m, leaflet height at A2 */
-  double posterior_height;      /* m, at P2 */
-  double commissure_height;     /* m */
-  double thickness;             /* m */
-  double papillary_depth;       /* m, papillary tip to annulus plane */
-  double papillary_separation;  /* m, between the two tips */
-  double annulus_contraction;   /* loaded / open annulus size [1: none given] */
-  double annulus_scale;         /* factor on the loaded annulus, rest shape kept: dilation [1] */
-  double chord_slack;           /* factor on all rest lengths [1] */
+  uint32_t vertices;           /* leaflet vertices wanted, about [425]; 200 to 100000 */
+  uint32_t chords;             /* chord segments wanted, about [80] */
+  uint32_t branching;          /* 1: chordae branch at free nodes; 0: straight [0] */
+  double annulus_ap;           /* m, septal-lateral diameter */
+  double annulus_cc;           /* m, intercommissural diameter */
+  double saddle_height;        /* m */
+  double anterior_height;      /* m, leaflet height at A2 */
+  double posterior_height;     /* m, at P2 */
+  double commissure_height;    /* m */
+  double thickness;            /* m */
+  double papillary_depth;      /* m, papillary tip to annulus plane */
+  double papillary_separation; /* m, between the two tips */
+  double annulus_contraction;  /* loaded / open annulus size [1: none given] */
+  double annulus_scale;        /* factor on the loaded annulus, rest shape kept: dilation [1] */
+  double chord_slack;          /* factor on all rest lengths [1] */
 } mvs_parametric_desc;
 
 #ifdef __cplusplus

@@ -8,8 +8,8 @@
 
 namespace mvs {
 
-// The valve's frame: rows of `axes` are AP (towards the anterior leaflet), CC, and the axis into the
-// atrium; right-handed.
+// The valve's frame: rows of `axes` are AP (towards the anterior leaflet), CC, and the axis into
+// the atrium; right-handed.
 struct Frame {
   Vec3 origin;  // annulus centroid (by arc length)
   Mat3 axes;

@@ -26,13 +26,13 @@ struct Scallop {
 struct Chord {
   Id id = 0;
   std::string name;
-  uint32_t a = none;  // nearer the papillary head
-  uint32_t b = none;  // nearer the leaflet
-  uint32_t kind = 0;  // MVS_CHORD_MARGINAL ...
-  uint32_t law = 1;   // MVS_CHORD_LINEAR
-  double rest_length = 0;           // m
-  double young = 40e6;              // Pa
-  double area = 7.853981633974483e-7;  // m2, diameter 1 mm
+  uint32_t a = none;                                 // nearer the papillary head
+  uint32_t b = none;                                 // nearer the leaflet
+  uint32_t kind = 0;                                 // MVS_CHORD_MARGINAL ...
+  uint32_t law = 1;                                  // MVS_CHORD_LINEAR
+  double rest_length = 0;                            // m
+  double young = 40e6;                               // Pa
+  double area = 7.853981633974483e-7;                // m2, diameter 1 mm
   double stiffness() const { return young * area; }  // E A, N
 };
 
@@ -57,7 +57,7 @@ struct Valve {
   std::vector<Scallop> scallops;
   std::vector<Chord> chords;
   std::vector<Head> heads;
-  double density = 1060;             // kg/m3
+  double density = 1060;              // kg/m3
   double contact_thickness = 0.6e-3;  // m
   double contact_stiffness = 20e3;    // Pa
   double bending_scale = 1;           // 0: no bending
