@@ -27,7 +27,8 @@ MVS_API mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot);
 /* 128 bits over the meaning of model and state: equal for equal inputs of the next step. */
 MVS_API mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash[2]);
 
-/* The arrays of a snapshot: n nodes, m triangles, e edges, c chord segments, h heads. */
+/* The arrays of a snapshot: n nodes, m triangles, e edges, c chord segments, h heads.
+ * With the parts they are all that mvs_set_valve takes: a valve can be edited and set again. */
 enum {
   MVS_NODE_POSITION = 1,       /* F64 n x 3, m */
   MVS_NODE_REST = 2,           /* F64 n x 3, m: the open, unloaded valve */
@@ -45,6 +46,8 @@ enum {
   MVS_TRIANGLE_STRETCH = 25,   /* F64 m x 2: principal stretches, larger first */
   MVS_TRIANGLE_STRESS = 26,    /* F64 m x 2, Pa: principal Cauchy stresses, larger first */
   MVS_TRIANGLE_COAPTED = 27,   /* F64 m: share of the triangle that faces another leaflet */
+  MVS_LEAFLET_LAW = 30,        /* U32 l, a row a leaflet: MVS_LEAFLET_* */
+  MVS_LEAFLET_CONSTANTS = 31,  /* F64 l x 9: thickness in m, then the constants of the law */
   MVS_ANNULUS_NODES = 40,      /* U32 k, in order */
   MVS_FREE_EDGE_NODES = 41,    /* U32, in order */
   MVS_CHORD_NODES = 50,        /* U32 c x 2 */
@@ -58,7 +61,9 @@ enum {
   MVS_HEAD_NODES = 60,         /* U32 h */
   MVS_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
   MVS_ORIFICE_VERTICES = 70,   /* F64 x 3, m: the smallest opening, as triangles */
-  MVS_ORIFICE_TRIANGLES = 71   /* U32 x 3 into MVS_ORIFICE_VERTICES */
+  MVS_ORIFICE_TRIANGLES = 71,  /* U32 x 3 into MVS_ORIFICE_VERTICES */
+  MVS_VALVE_CONSTANTS = 80     /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
+                                  Pa; bending scale, 0 for none */
 };
 
 /* Values of MVS_NODE_KIND. */
