@@ -1,0 +1,16 @@
+// How far the leaflets sag below the annulus (tenting) or rise above it (billow).
+#pragma once
+
+#include <vector>
+
+#include "model/model.h"
+
+namespace mvs {
+
+struct Doming {
+  double tenting_height = 0, tenting_area = 0, tenting_volume = 0, billow_height = 0,
+         billow_volume = 0;
+};
+Doming measure_doming(const Model &model, const std::vector<Vec3> &x);
+
+}  // namespace mvs

@@ -1,0 +1,18 @@
+// The regurgitant orifice.
+#pragma once
+
+#include <vector>
+
+#include "model/model.h"
+
+namespace mvs {
+
+// The smallest cross-section joining ventricle and atrium: its area, and it as triangles.
+struct Orifice {
+  double area = 0;  // m2
+  std::vector<Vec3> vertices;
+  std::vector<Tri> triangles;
+};
+Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x);
+
+}  // namespace mvs
