@@ -1,0 +1,37 @@
+# What `cmake --install` puts where: the library, its headers, mvsConfig.cmake and mvs.pc.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS mvs EXPORT mvsTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mvs_runtime
+    NAMELINK_COMPONENT mvs_development
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mvs_development
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mvs_runtime)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/mvs DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  COMPONENT mvs_development FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT mvs_runtime)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mvs)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/mvsConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/mvsConfig.cmake INSTALL_DESTINATION ${package_dir})
+# While 0.x a minor version may break, so it must be the one asked for.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/mvsConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(EXPORT mvsTargets NAMESPACE mvs:: DESTINATION ${package_dir} COMPONENT mvs_development)
+install(FILES ${PROJECT_BINARY_DIR}/mvsConfig.cmake ${PROJECT_BINARY_DIR}/mvsConfigVersion.cmake
+  DESTINATION ${package_dir} COMPONENT mvs_development)
+
+# Absolute or relative, as GNUInstallDirs allows both.
+foreach(dir LIBDIR INCLUDEDIR)
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${dir}}")
+    set(pc_${dir} "${CMAKE_INSTALL_${dir}}")
+  else()
+    set(pc_${dir} "\${prefix}/${CMAKE_INSTALL_${dir}}")
+  endif()
+endforeach()
+# A package can be moved: the prefix is found from the place of mvs.pc itself.
+file(RELATIVE_PATH pc_up "/p/${CMAKE_INSTALL_LIBDIR}/pkgconfig" /p)
+string(REGEX REPLACE "/$" "" pc_up "${pc_up}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/mvs.pc.in ${PROJECT_BINARY_DIR}/mvs.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/mvs.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT mvs_development)
