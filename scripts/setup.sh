@@ -1,0 +1,67 @@
+# shellcheck shell=bash disable=SC2034 # the lists of packages are for the scripts that source this
+# Sourced by demo and test: takes a fresh Debian 12 or Ubuntu 22.04 to where libmvs builds.
+# Installs only what is missing, from Debian's packages and PyPI; safe to repeat.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# One line that says what happens now.
+say() { printf '\n== %s\n' "$*"; }
+
+# The last line of a failed set-up: what is wrong and what to do.
+give_up() {
+  printf '\n%s: %s\n' "$0" "$*" >&2
+  exit 1
+}
+
+missing_packages() {
+  local package
+  for package in "$@"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || echo "$package"
+  done
+}
+
+# Installs those of the named packages that are missing; asks for root only if there are any.
+install_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    say "This is neither Debian nor Ubuntu: going on with what is installed (needed: $*)"
+    return
+  fi
+  local missing root=()
+  mapfile -t missing < <(missing_packages "$@")
+  if [ ${#missing[@]} -eq 0 ]; then return; fi
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null ||
+      give_up "please run this as root, then start again: apt-get install ${missing[*]}"
+    root=(sudo)
+  fi
+  say "Installing ${#missing[@]} Debian packages: ${missing[*]}"
+  "${root[@]}" apt-get -q update
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends install \
+    "${missing[@]}" || give_up "apt-get could not install: ${missing[*]}"
+}
+
+build_packages=(build-essential cmake ninja-build pkg-config libeigen3-dev libsuitesparse-dev
+  libcli11-dev nlohmann-json3-dev)
+python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
+test_packages=(doctest-dev clang clang-format clang-tidy git)
+
+# Configures and builds a preset of CMakePresets.json: build_preset NAME [CMAKE OPTION ...]
+build_preset() {
+  local preset=$1 launcher=()
+  shift
+  if command -v ccache >/dev/null; then
+    launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  mkdir -p build
+  cmake --preset "$preset" "${launcher[@]}" "$@" >"build/$preset.log" 2>&1 || {
+    cat "build/$preset.log" >&2
+    return 1
+  }
+  cmake --build --preset "$preset"
+}
+
+# Makes .venv once and installs the Python package with the named extras: install_python EXTRAS
+install_python() {
+  [ -x .venv/bin/pip ] || "${PYTHON:-python3}" -m venv .venv || return 1
+  .venv/bin/pip install --quiet --disable-pip-version-check ".[$1]"
+}
