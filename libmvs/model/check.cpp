@@ -1,32 +1,41 @@
-// Is this a valve? The faults, from the coarse (sizes) to the fine (materials).
+// Is this a valve? The order of the checks: what later ones rely on comes first.
 #include "model/check.h"
 
-#include "base/error.h"
+#include "model/checks.h"
 
 namespace mvs {
 namespace {
 
-using Faults = std::vector<Fault>;
-
-void check_indices(const Valve &valve, Faults &faults) {
-  const size_t n = valve.rest.size();
-  for (size_t t = 0; t < valve.triangles.size(); ++t) {
-    for (const uint32_t node : valve.triangles[t]) {
-      if (node < n) continue;
-      faults.push_back({format("triangle %zu", t),
-                        format("triangle %zu names node %u, but there are %zu nodes: indices "
-                               "start at 0",
-                               t, node, n)});
-    }
+Sheet make_sheet(const Valve &valve) {
+  Sheet sheet;
+  sheet.sides = sorted_sides(valve.triangles);
+  sheet.winding = find_winding(valve.triangles, sheet.sides);
+  sheet.is_vertex.assign(valve.rest.size(), 0);
+  for (const Tri &triangle : valve.triangles) {
+    for (const uint32_t node : triangle) sheet.is_vertex[node] = 1;
   }
+  return sheet;
+}
+
+void check_shape(const Valve &valve, Faults &faults) {
+  const size_t before = faults.list.size();
+  check_lists(valve, faults);
+  if (faults.list.size() > before) return;
+  check_places(valve, faults);
+  if (faults.list.size() > before) return;
+  const Sheet sheet = make_sheet(valve);
+  check_sheet(valve, sheet, faults);
+  check_annulus(valve, sheet, faults);
+  check_chords(valve, sheet, faults);
 }
 
 }  // namespace
 
 std::vector<Fault> find_faults(const Valve &valve) {
   Faults faults;
-  check_indices(valve, faults);
-  return faults;
+  check_shape(valve, faults);
+  check_parts(valve, faults);
+  return faults.list;
 }
 
 }  // namespace mvs

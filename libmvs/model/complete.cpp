@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "base/error.h"
+#include "model/rows.h"
 
 namespace mvs {
 namespace {
@@ -91,16 +91,22 @@ std::vector<uint32_t> node_scallops(const Valve &valve) {
   return scallop;
 }
 
-// The head that each branch node hangs from: the first one reached along the segments a -> b.
+// The head that each node of the chordae is reached from: the first one to get there.
 std::vector<uint32_t> node_heads(const Valve &valve) {
-  std::vector<uint32_t> head(valve.rest.size(), none);
-  for (uint32_t h = 0; h < valve.heads.size(); ++h) head[valve.heads[h].node] = h;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Chord &chord : valve.chords) {
-      if (head[chord.a] == none || head[chord.b] != none) continue;
-      head[chord.b] = head[chord.a];
-      changed = true;
+  std::vector<Edge> segments;
+  for (const Chord &chord : valve.chords) segments.push_back({chord.a, chord.b});
+  const Rows chords_at = rows_of(valve.rest.size(), segments);
+  std::vector<uint32_t> head(valve.rest.size(), none), queue;
+  for (uint32_t h = 0; h < valve.heads.size(); ++h) {
+    head[valve.heads[h].node] = h;
+    queue.push_back(valve.heads[h].node);
+  }
+  for (size_t q = 0; q < queue.size(); ++q) {
+    for (const uint32_t c : chords_at[queue[q]]) {
+      const uint32_t other = segments[c][0] + segments[c][1] - queue[q];
+      if (head[other] != none) continue;
+      head[other] = head[queue[q]];
+      queue.push_back(other);
     }
   }
   return head;
@@ -111,15 +117,14 @@ void complete_chord_names(Valve &valve) {
   const std::vector<uint32_t> scallop = node_scallops(valve), head = node_heads(valve);
   std::set<std::string> taken = names_of(valve.chords);
   std::vector<uint32_t> by_scallop(valve.scallops.size(), 0), by_head(valve.heads.size(), 0);
-  uint32_t loose = 0;
   for (Chord &chord : valve.chords) {
     if (!chord.name.empty()) continue;
-    if (const uint32_t s = scallop[chord.b]; s != none) {
+    const uint32_t s = std::min(scallop[chord.a], scallop[chord.b]);
+    if (s != none) {
       chord.name = free_name(valve.scallops[s].name + "/", taken, by_scallop[s]);
-    } else if (const uint32_t h = head[chord.b]; h != none) {
-      chord.name = free_name(valve.heads[h].name + "/", taken, by_head[h]);
     } else {
-      chord.name = free_name("chord/", taken, loose);
+      const uint32_t h = head[chord.a];
+      chord.name = free_name(valve.heads[h].name + "/", taken, by_head[h]);
     }
   }
 }

@@ -42,44 +42,6 @@ bool in_range(const Valve &valve) {
   return true;
 }
 
-struct Neighbour {
-  uint32_t triangle = none;
-  bool same_way = false;  // both run along their edge in the same direction: one has to turn
-};
-using Neighbours = std::vector<std::array<Neighbour, 3>>;
-
-Neighbours neighbours_of(const std::vector<Tri> &triangles, const std::vector<Side> &sides) {
-  Neighbours neighbours(triangles.size());
-  for_each_edge(sides, [&](size_t first, size_t last) {
-    if (last - first != 2) return;
-    const Side &l = sides[first], &r = sides[first + 1];
-    const bool same_way = side_from(triangles, l) == side_from(triangles, r);
-    neighbours[l.triangle][l.k] = {r.triangle, same_way};
-    neighbours[r.triangle][r.k] = {l.triangle, same_way};
-  });
-  return neighbours;
-}
-
-// Turns the triangles connected with `first` so that they agree with it; marks them in `member`.
-void make_agree(std::vector<Tri> &triangles, const Neighbours &neighbours, uint32_t first,
-                std::vector<uint8_t> &member) {
-  std::vector<uint8_t> turned(triangles.size(), 0);
-  std::vector<uint32_t> queue = {first};
-  member[first] = 1;
-  for (size_t q = 0; q < queue.size(); ++q) {
-    const uint32_t t = queue[q];
-    for (const Neighbour &neighbour : neighbours[t]) {
-      if (neighbour.triangle == none || member[neighbour.triangle]) continue;
-      member[neighbour.triangle] = 1;
-      turned[neighbour.triangle] = turned[t] != neighbour.same_way;
-      queue.push_back(neighbour.triangle);
-    }
-  }
-  for (const uint32_t t : queue) {
-    if (turned[t]) std::swap(triangles[t][1], triangles[t][2]);
-  }
-}
-
 }  // namespace
 
 AtrialSide atrial_side(const Valve &valve) {
@@ -101,39 +63,33 @@ AtrialSide atrial_side(const Valve &valve) {
   return side;
 }
 
-Vec3 faced_area(const Valve &valve, const std::vector<Side> &sides,
-                const std::vector<uint8_t> &counts) {
+std::vector<Vec3> faced_areas(const Valve &valve, const std::vector<Side> &sides,
+                              const Winding &winding) {
   std::vector<uint8_t> in_annulus(valve.rest.size(), 0);
   for (const uint32_t node : valve.annulus) in_annulus[node] = 1;
   const Vec3 centre = atrial_side(valve).centre;
-  Vec3 area = Vec3::Zero();
+  std::vector<Vec3> areas(winding.component_count, Vec3::Zero());
   for_each_edge(sides, [&](size_t first, size_t last) {
     const Side &side = sides[first];
-    if (last - first != 1 || !counts[side.triangle]) return;
-    if (!in_annulus[side.edge[0]] || !in_annulus[side.edge[1]]) return;
+    if (last - first != 1 || !in_annulus[side.edge[0]] || !in_annulus[side.edge[1]]) return;
     const Vec3 p = valve.rest[side_from(valve.triangles, side)] - centre;
     const Vec3 q = valve.rest[side_to(valve.triangles, side)] - centre;
-    area += 0.5 * p.cross(q);
+    areas[winding.component[side.triangle]] += 0.5 * p.cross(q);
   });
-  return area;
+  return areas;
 }
 
 void orient(Valve &valve) {
   if (!in_range(valve)) return;  // find_faults says what is wrong with it
-  const std::vector<Side> sides = sorted_sides(valve.triangles);
-  const Neighbours neighbours = neighbours_of(valve.triangles, sides);
-  const AtrialSide atrium = atrial_side(valve);
-  std::vector<uint8_t> done(valve.triangles.size(), 0);
-  for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
-    if (done[t]) continue;
-    std::vector<uint8_t> member(valve.triangles.size(), 0);
-    make_agree(valve.triangles, neighbours, t, member);
-    const Vec3 area = faced_area(valve, sorted_sides(valve.triangles), member);
-    const bool turn = area.dot(atrium.axis) < 0;
-    for (uint32_t m = 0; m < member.size(); ++m) {
-      if (member[m] && turn) std::swap(valve.triangles[m][1], valve.triangles[m][2]);
-      done[m] |= member[m];
-    }
+  const Winding winding = find_winding(valve.triangles, sorted_sides(valve.triangles));
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    if (winding.against[t]) std::swap(valve.triangles[t][1], valve.triangles[t][2]);
+  }
+  const Vec3 axis = atrial_side(valve).axis;
+  const std::vector<Vec3> areas = faced_areas(valve, sorted_sides(valve.triangles), winding);
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const bool turn = areas[winding.component[t]].dot(axis) < 0;
+    if (turn) std::swap(valve.triangles[t][1], valve.triangles[t][2]);
   }
 }
 

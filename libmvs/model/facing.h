@@ -1,8 +1,8 @@
 // Which way a sheet faces: towards the atrium, or into the ventricle.
 #pragma once
 
-#include "model/sides.h"
 #include "model/valve.h"
+#include "model/winding.h"
 
 namespace mvs {
 
@@ -15,11 +15,11 @@ struct AtrialSide {
 };
 AtrialSide atrial_side(const Valve &valve);
 
-// The vector area of the annulus, walked along the winding of the triangles at it, of those
-// triangles that `counts` says. A sheet with normals on one side of its rim has a rim that runs
+// For each component, the vector area of its rim at the annulus, walked along the winding of the
+// triangles there. A sheet with normals on one side of its rim has a rim that runs
 // counter-clockwise seen from that side, however its walls hang: so this points to the side that
-// the sheet faces.
-Vec3 faced_area(const Valve &valve, const std::vector<Side> &sides,
-                const std::vector<uint8_t> &counts);
+// the component faces.
+std::vector<Vec3> faced_areas(const Valve &valve, const std::vector<Side> &sides,
+                              const Winding &winding);
 
 }  // namespace mvs

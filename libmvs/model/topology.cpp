@@ -38,23 +38,6 @@ void add_hinges(const std::vector<Tri> &triangles, Topology &topology) {
   }
 }
 
-// Which of the groups (triangles, chords) hold each node; `Group` has its nodes in an array.
-template <typename Group>
-Rows rows_of(size_t node_count, const std::vector<Group> &groups) {
-  Rows rows;
-  rows.start.assign(node_count + 1, 0);
-  for (const Group &group : groups) {
-    for (const uint32_t node : group) ++rows.start[node + 1];
-  }
-  for (size_t n = 0; n < node_count; ++n) rows.start[n + 1] += rows.start[n];
-  rows.items.resize(rows.start.back());
-  std::vector<uint32_t> next(rows.start.begin(), rows.start.end() - 1);
-  for (uint32_t g = 0; g < groups.size(); ++g) {
-    for (const uint32_t node : groups[g]) rows.items[next[node]++] = g;
-  }
-  return rows;
-}
-
 void add_kinds(const Valve &valve, Topology &topology) {
   const size_t n = valve.rest.size();
   topology.node_kind.assign(n, MVS_NODE_IS_BRANCH);

@@ -3,14 +3,10 @@
 
 #include <vector>
 
+#include "model/rows.h"
 #include "model/valve.h"
 
 namespace mvs {
-
-// Compressed rows: row r holds items[start[r] .. start[r + 1]).
-struct Rows {
-  std::vector<uint32_t> start, items;
-};
 
 struct Topology {
   std::vector<Edge> edges;           // smaller node first, sorted

@@ -14,7 +14,7 @@ struct Leaflet {
   std::string name;
   uint32_t law = 1;  // MVS_LEAFLET_*
   double thickness = 1e-3;
-  Bilinear bilinear;  // constants of MVS_LEAFLET_SPRING
+  Bilinear bilinear = {};  // constants of MVS_LEAFLET_SPRING
 };
 
 struct Scallop {

@@ -1,0 +1,148 @@
+// Names, ids and materials.
+#include <mvs/snapshot.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "model/checks.h"
+
+namespace mvs {
+namespace {
+
+// What a name has room for in mvs_part, less the end.
+constexpr size_t name_limit = sizeof(mvs_part::name) - 1;
+
+bool has_control_character(const std::string &name) {
+  return std::any_of(name.begin(), name.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+template <typename Part>
+void check_names(const std::vector<Part> &parts, const char *kind, bool needed, Faults &faults) {
+  std::map<std::string, size_t> seen;
+  for (size_t k = 0; k < parts.size(); ++k) {
+    const std::string &name = parts[k].name;
+    const std::string part = format("%s %zu", kind, k);
+    if (name.empty()) {
+      if (needed) faults.add(part, "%s has no name", part.c_str());
+      continue;
+    }
+    if (name.size() > name_limit) {
+      faults.add(part, "the name of %s has %zu bytes, the limit is %zu", part.c_str(), name.size(),
+                 name_limit);
+    }
+    if (has_control_character(name)) {
+      faults.add(part, "the name of %s has a control character in it", part.c_str());
+    }
+    if (const auto [other, is_new] = seen.emplace(name, k); !is_new) {
+      faults.add(part, "%s has the same name as %s %zu, \"%.63s\"", part.c_str(), kind,
+                 other->second, name.c_str());
+    }
+  }
+}
+
+template <typename Part>
+void check_ids(const std::vector<Part> &parts, const char *kind, std::set<Id> &seen,
+               Faults &faults) {
+  // room for every id that is still to be given
+  constexpr Id id_limit = Id{1} << 62;
+  for (size_t k = 0; k < parts.size(); ++k) {
+    const Id id = parts[k].id;
+    if (id == 0) continue;
+    const std::string part = format("%s %zu", kind, k);
+    if (id >= id_limit) {
+      faults.add(part, "%s has id %llu: ids are below 2^62", part.c_str(),
+                 static_cast<unsigned long long>(id));
+    }
+    if (!seen.insert(id).second) {
+      faults.add(part, "%s has id %llu, which another part has already", part.c_str(),
+                 static_cast<unsigned long long>(id));
+    }
+  }
+}
+
+// That a number is one and lies in the range in which it means something.
+struct Range {
+  double low, high;
+  const char *unit, *hint;
+};
+constexpr Range thickness_range = {1e-5, 2e-2, "m", "looks like mm given as m"};
+constexpr Range modulus_range = {1, 1e12, "Pa", "moduli are in Pa"};
+constexpr Range strain_range = {0, 10, "", "strains are fractions, not percent"};
+constexpr Range density_range = {100, 20000, "kg/m3", "tissue has about 1060"};
+constexpr Range area_range = {1e-11, 1e-3, "m2", "looks like mm2 given as m2"};
+constexpr Range length_range = {0, 1, "m", "looks like mm given as m"};
+constexpr Range gap_range = {1e-6, 1e-2, "m", "looks like mm given as m"};
+constexpr Range scale_range = {0, 1e6, "", "1 is the sheet's own bending stiffness"};
+
+void check_range(const std::string &part, const char *what, double value, const Range &range,
+                 Faults &faults) {
+  if (value >= range.low && value <= range.high) return;
+  faults.add(part, "%s has %s %g%s%s, outside %g to %g: %s", part.c_str(), what, value,
+             *range.unit ? " " : "", range.unit, range.low, range.high, range.hint);
+}
+
+void check_leaflet(const Leaflet &leaflet, size_t k, Faults &faults) {
+  const std::string part =
+      leaflet.name.empty() ? format("leaflet %zu", k) : "leaflet " + leaflet.name;
+  if (leaflet.law != MVS_LEAFLET_SPRING) {
+    faults.add(part, "%s follows law %u, which this library does not know", part.c_str(),
+               leaflet.law);
+  }
+  check_range(part, "thickness", leaflet.thickness, thickness_range, faults);
+  check_range(part, "low modulus", leaflet.bilinear.low, modulus_range, faults);
+  check_range(part, "high modulus", leaflet.bilinear.high, modulus_range, faults);
+  check_range(part, "kink strain", leaflet.bilinear.kink, strain_range, faults);
+}
+
+void check_chord(const Chord &chord, size_t k, Faults &faults) {
+  const std::string part = chord.name.empty() ? format("chord %zu", k) : "chord " + chord.name;
+  if (chord.law != MVS_CHORD_LINEAR) {
+    faults.add(part, "%s follows law %u, which this library does not know", part.c_str(),
+               chord.law);
+  }
+  if (chord.kind > MVS_CHORD_TRUNK) {
+    faults.add(part, "%s is of kind %u, which this library does not know", part.c_str(),
+               chord.kind);
+  }
+  check_range(part, "Young's modulus", chord.young, modulus_range, faults);
+  check_range(part, "area", chord.area, area_range, faults);
+  check_range(part, "rest length", chord.rest_length, length_range, faults);
+}
+
+void check_valve(const Valve &valve, Faults &faults) {
+  if (valve.name.empty() || valve.name.size() > name_limit || has_control_character(valve.name)) {
+    faults.add("valve",
+               "the name of the valve is empty, over %zu bytes, or has a control character",
+               name_limit);
+  }
+  check_range("valve", "density", valve.density, density_range, faults);
+  check_range("valve", "contact thickness", valve.contact_thickness, gap_range, faults);
+  check_range("valve", "contact stiffness", valve.contact_stiffness, modulus_range, faults);
+  check_range("valve", "bending scale", valve.bending_scale, scale_range, faults);
+  for (size_t t = 0; t < valve.triangle_thickness.size(); ++t) {
+    const double thickness = valve.triangle_thickness[t];
+    if (thickness >= thickness_range.low && thickness <= thickness_range.high) continue;
+    check_range(format("triangle %zu", t), "thickness", thickness, thickness_range, faults);
+  }
+}
+
+}  // namespace
+
+void check_parts(const Valve &valve, Faults &faults) {
+  check_names(valve.leaflets, "leaflet", true, faults);
+  check_names(valve.scallops, "scallop", true, faults);
+  check_names(valve.heads, "papillary head", false, faults);
+  check_names(valve.chords, "chord", false, faults);
+  std::set<Id> seen;
+  check_ids(valve.leaflets, "leaflet", seen, faults);
+  check_ids(valve.scallops, "scallop", seen, faults);
+  check_ids(valve.heads, "papillary head", seen, faults);
+  check_ids(valve.chords, "chord", seen, faults);
+  check_valve(valve, faults);
+  for (size_t k = 0; k < valve.leaflets.size(); ++k) check_leaflet(valve.leaflets[k], k, faults);
+  for (size_t k = 0; k < valve.chords.size(); ++k) check_chord(valve.chords[k], k, faults);
+}
+
+}  // namespace mvs

@@ -1,0 +1,106 @@
+// Where nodes are: numbers, metres, one place.
+#include <algorithm>
+#include <cmath>
+
+#include "model/checks.h"
+
+namespace mvs {
+namespace {
+
+// An adult mitral valve spans about 40 mm; a mouse's about 2 mm, a whale's below 300 mm.
+constexpr double smallest_valve = 1e-3, largest_valve = 0.4;
+// In units of the valve's size: farther away than any head, moved farther than any annulus.
+constexpr double far_away = 10, far_moved = 2;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Medians, so that one stray node does not move them.
+struct Extent {
+  Vec3 centre;
+  double size;  // m: twice the median distance from the centre
+};
+Extent extent_of(const std::vector<Vec3> &points) {
+  Extent extent{Vec3::Zero(), 0};
+  std::vector<double> values(points.size());
+  for (int k = 0; k < 3; ++k) {
+    for (size_t i = 0; i < points.size(); ++i) values[i] = points[i][k];
+    extent.centre[k] = median(values);
+  }
+  for (size_t i = 0; i < points.size(); ++i) values[i] = (points[i] - extent.centre).norm();
+  extent.size = 2 * median(values);
+  return extent;
+}
+
+void check_numbers(const std::vector<Vec3> &points, const char *what, Faults &faults) {
+  for (size_t n = 0; n < points.size(); ++n) {
+    // hypot of doubles near the limit would overflow into infinity: they are as absurd
+    if (points[n].allFinite() && points[n].cwiseAbs().maxCoeff() < 1e100) continue;
+    faults.add(format("node %zu", n),
+               "node %zu has a %s coordinate that is not a usable number (%g, %g, %g)", n, what,
+               points[n][0], points[n][1], points[n][2]);
+  }
+}
+
+void check_units(const Extent &extent, Faults &faults) {
+  if (extent.size > largest_valve) {
+    faults.add("nodes", "the valve is %.3g m across: looks like mm given as m; multiply by 0.001",
+               extent.size);
+  } else if (extent.size < smallest_valve) {
+    faults.add("nodes",
+               "the valve is %.3g m across: looks like m converted to m once more (or km); "
+               "coordinates are in metres, a valve spans about 0.04",
+               extent.size);
+  }
+}
+
+void check_strays(const Valve &valve, const Extent &extent, Faults &faults) {
+  for (size_t n = 0; n < valve.rest.size(); ++n) {
+    const double distance = (valve.rest[n] - extent.centre).norm();
+    if (distance <= far_away * extent.size) continue;
+    faults.add(format("node %zu", n),
+               "node %zu lies %.3g m from the middle of a valve of %.3g m: remove or correct it", n,
+               distance, extent.size);
+  }
+}
+
+// The nodes that the heart holds; only their loaded positions mean something.
+std::vector<uint32_t> held_nodes(const Valve &valve) {
+  std::vector<uint32_t> held = valve.annulus;
+  for (const Head &head : valve.heads) held.push_back(head.node);
+  return held;
+}
+
+void check_loaded(const Valve &valve, const Extent &extent, Faults &faults) {
+  if (valve.loaded.empty()) return;
+  for (const uint32_t node : held_nodes(valve)) {
+    const Vec3 &p = valve.loaded[node];
+    if (!p.allFinite()) {
+      faults.add(format("node %u", node), "node %u has a loaded position that is not a number",
+                 node);
+    } else if (const double moved = (p - valve.rest[node]).norm();
+               !(moved <= far_moved * extent.size)) {
+      faults.add(format("node %u", node),
+                 "node %u moves %.3g m under load, in a valve of %.3g m: looks like nodes_loaded "
+                 "in other units than nodes",
+                 node, moved, extent.size);
+    }
+  }
+}
+
+}  // namespace
+
+void check_places(const Valve &valve, Faults &faults) {
+  const size_t before = faults.list.size();
+  check_numbers(valve.rest, "rest", faults);
+  if (faults.list.size() > before) return;
+  const Extent extent = extent_of(valve.rest);
+  check_units(extent, faults);
+  check_strays(valve, extent, faults);
+  check_loaded(valve, extent, faults);
+}
+
+}  // namespace mvs
