@@ -1,0 +1,17 @@
+// The sheet as it lies now: areas and normals.
+#pragma once
+
+#include <vector>
+
+#include "model/model.h"
+
+namespace mvs {
+
+struct Surface {
+  std::vector<double> area;       // m2 per triangle
+  std::vector<Vec3> normal;       // unit, per triangle, into the atrium; zero where it has no area
+  std::vector<Vec3> node_normal;  // unit, per node: by the areas around it; zero off the sheet
+};
+Surface surface_of(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+
+}  // namespace mvs

@@ -1,0 +1,44 @@
+// Shapes with known measures: sheets between an annulus and a free edge, given by a map.
+#pragma once
+
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "model/model.h"
+
+namespace mvs::test {
+
+inline constexpr double pi = std::numbers::pi;
+
+// Nodes at angles 2 pi k / around, from the annulus (s = 0) to the free edge (s = 1). The anterior
+// leaflet A lies within +-anterior of angle 0, P is the rest; angle 0 is +x, the atrium is +z.
+struct Sheet {
+  size_t around = 48, rings = 12;
+  double anterior = pi / 2;
+  std::function<Vec3(double angle, double s)> at;
+};
+
+Valve valve_of(const Sheet &sheet);
+ModelPtr model_of(const Sheet &sheet);
+
+// A flat ring of the radius in m with a hole of the second radius, at a height over it.
+Sheet disc(double radius, double hole, std::function<double(double x, double y)> height);
+
+struct Motion {
+  Mat3 turn;
+  Vec3 shift;
+  Vec3 operator()(const Vec3 &p) const { return turn * p + shift; }
+};
+Motion some_motion();
+std::vector<Vec3> moved(const std::vector<Vec3> &x, const std::function<Vec3(const Vec3 &)> &by);
+
+// The same valve with its nodes in another order; `place` says where each went.
+struct Renumbered {
+  ModelPtr model;
+  std::vector<uint32_t> place;
+  std::vector<Vec3> operator()(const std::vector<Vec3> &x) const;
+};
+Renumbered renumbered(const Valve &valve);
+
+}  // namespace mvs::test
