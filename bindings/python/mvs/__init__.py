@@ -1,0 +1,94 @@
+"""libmvs: mitral valve repair, simulated for one patient. A research tool, not a medical device.
+
+    import mvs
+
+    with mvs.Simulator() as sim:
+        sim.generate()
+        sim.set_load(mvs.SYSTOLE_PA)
+        print(sim.settle().converged)
+        closed = sim.snapshot()
+    print(closed.measures.regurgitant_orifice_area)
+
+SI units throughout: m, kg, s, N, Pa, rad.
+"""
+
+from . import _core
+from ._core import Simulator, Snapshot, check_valve
+from .editing import valve_of
+from .errors import (
+    ArgumentError,
+    CancelledError,
+    DeviceError,
+    DivergedError,
+    Error,
+    FormatError,
+    IdError,
+    InternalError,
+    IoError,
+    LimitError,
+    OpError,
+    StateError,
+    UnsupportedError,
+    VersionError,
+)
+from .values import (
+    MMHG,
+    SYSTOLE_PA,
+    ChordKind,
+    Comparison,
+    Fault,
+    Frame,
+    Leaflet,
+    LeafletLaw,
+    Load,
+    Measures,
+    NodeKind,
+    Part,
+    PartKind,
+    Stats,
+    Valve,
+    definition_of,
+    unit_of,
+)
+
+__version__ = _core.version()
+features = tuple(_core.features().split())
+
+__all__ = [
+    "MMHG",
+    "SYSTOLE_PA",
+    "ArgumentError",
+    "CancelledError",
+    "ChordKind",
+    "Comparison",
+    "DeviceError",
+    "DivergedError",
+    "Error",
+    "Fault",
+    "FormatError",
+    "Frame",
+    "IdError",
+    "InternalError",
+    "IoError",
+    "Leaflet",
+    "LeafletLaw",
+    "LimitError",
+    "Load",
+    "Measures",
+    "NodeKind",
+    "OpError",
+    "Part",
+    "PartKind",
+    "Simulator",
+    "Snapshot",
+    "StateError",
+    "Stats",
+    "UnsupportedError",
+    "Valve",
+    "VersionError",
+    "check_valve",
+    "definition_of",
+    "features",
+    "unit_of",
+    "valve_of",
+]

@@ -1,0 +1,57 @@
+"""A snapshot as editable arrays, so that a valve can be changed and set again."""
+
+from __future__ import annotations
+
+from ._core import Snapshot
+from .values import Leaflet, LeafletLaw, PartKind, Valve
+
+import numpy as np
+
+
+def valve_of(snapshot: Snapshot) -> Valve:
+    """The valve of a snapshot as arrays of its own, ids and names included.
+
+    ``sim.set_valve(mvs.valve_of(snapshot))`` sets the same valve; change the arrays before it to
+    set another one. The shape to start from is the snapshot's; velocities are not part of a valve.
+    """
+    parts = {kind: [p for p in snapshot.parts if p.kind == kind] for kind in PartKind}
+    leaflets = [
+        Leaflet(part.name, float(row[0]), tuple(map(float, row[1:])), LeafletLaw(int(law)), part.id)
+        for part, law, row in zip(
+            parts[PartKind.LEAFLET], snapshot.leaflet_law, snapshot.leaflet_constants
+        )
+    ]
+    density, contact_thickness, contact_stiffness, bending = map(float, snapshot.valve_constants)
+    return Valve(
+        nodes=snapshot.node_rest.copy(),
+        triangles=snapshot.triangle_nodes.copy(),
+        annulus=snapshot.annulus_nodes.copy(),
+        leaflets=leaflets,
+        triangle_leaflet=snapshot.triangle_leaflet.copy(),
+        nodes_loaded=snapshot.node_loaded.copy(),
+        nodes_now=snapshot.node_position.copy(),
+        scallops=[part.name for part in parts[PartKind.SCALLOP]],
+        scallop_id=_ids(parts[PartKind.SCALLOP]),
+        triangle_scallop=snapshot.triangle_scallop.copy(),
+        triangle_thickness=snapshot.triangle_thickness.copy(),
+        triangle_fibre=snapshot.triangle_fibre.copy(),
+        chord_nodes=snapshot.chord_nodes.copy(),
+        chord_rest_length=snapshot.chord_rest_length.copy(),
+        chord_kind=snapshot.chord_kind.copy(),
+        chord_young=snapshot.chord_young.copy(),
+        chord_area=snapshot.chord_area.copy(),
+        chord_id=snapshot.chord_id.copy(),
+        chord_names=[part.name for part in parts[PartKind.CHORD]],
+        head_nodes=snapshot.head_nodes.copy(),
+        head_id=_ids(parts[PartKind.HEAD]),
+        head_names=[part.name for part in parts[PartKind.HEAD]],
+        name=snapshot.name,
+        density=density,
+        contact_thickness=contact_thickness,
+        contact_stiffness=contact_stiffness,
+        bending_scale=bending,
+    )
+
+
+def _ids(parts: list) -> np.ndarray:
+    return np.array([part.id for part in parts], dtype=np.uint64)

@@ -1,0 +1,30 @@
+#include "errors.h"
+
+namespace mvs_python {
+namespace {
+
+[[noreturn]] void raise(mvs_result code, const char *sentence, const char *part, int32_t line) {
+  const py::object error = py::module_::import("mvs.errors").attr("of")(code, sentence, part, line);
+  PyErr_SetObject(py::type::handle_of(error).ptr(), error.ptr());
+  throw py::error_already_set();
+}
+
+}  // namespace
+
+Outcome outcome_of(mvs_result result) {
+  Outcome outcome;
+  outcome.result = result;
+  if (result != MVS_OK) outcome.error = *mvs_last_error();
+  return outcome;
+}
+
+void must(const Outcome &outcome) {
+  if (outcome.result == MVS_OK) return;
+  raise(outcome.result, outcome.error.message, outcome.error.part, outcome.error.line);
+}
+
+void refuse(mvs_result code, const std::string &part, const std::string &sentence) {
+  raise(code, sentence.c_str(), part.c_str(), 0);
+}
+
+}  // namespace mvs_python

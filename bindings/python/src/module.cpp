@@ -1,0 +1,23 @@
+// mvs._core: the C interface of libmvs for Python.
+#include <mvs/base.h>
+
+#include "simulator.h"
+#include "snapshot.h"
+
+namespace {
+
+std::string version() {
+  const uint32_t v = mvs_version();
+  return std::to_string(v / 10000) + "." + std::to_string(v / 100 % 100) + "." +
+         std::to_string(v % 100);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "The C interface of libmvs for Python; import mvs instead.";
+  mvs_python::bind_snapshot(module);
+  mvs_python::bind_simulator(module);
+  module.def("version", &version, "The version of the library in use.");
+  module.def("features", &mvs_features, "Optional parts of this build, separated by spaces.");
+}

@@ -1,0 +1,166 @@
+#include "simulator.h"
+
+#include <mvs/file.h>
+
+namespace mvs_python {
+namespace {
+
+uint32_t backend_of(const std::string &name) {
+  if (name == "default") return MVS_BACKEND_DEFAULT;
+  if (name == "cholmod") return MVS_BACKEND_CHOLMOD;
+  if (name == "eigen") return MVS_BACKEND_EIGEN;
+  refuse(MVS_E_ARGUMENT, "backend",
+         "backend: \"default\", \"cholmod\" or \"eigen\" is needed, not \"" + name + "\"");
+}
+
+}  // namespace
+
+Simulator::Simulator(const std::string &backend, py::object log) : log_(std::move(log)) {
+  mvs_sim_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.backend = backend_of(backend);
+  if (!log_.is_none()) desc.log = &Simulator::on_log;
+  desc.progress = &Simulator::on_progress;
+  desc.user = this;
+  must(mvs_create(&desc, &sim_));
+}
+
+// Runs a call when no other thread does, and raises what it or a callback failed with.
+template <typename Call>
+void Simulator::call(Call &&work) {
+  must_not_be_called_back();
+  Outcome outcome;
+  std::exception_ptr raised;
+  bool closed = false;
+  {
+    py::gil_scoped_release released;
+    const std::lock_guard<std::mutex> turn(turn_);
+    closed = sim_ == nullptr;
+    caller_ = std::this_thread::get_id();
+    if (!closed) outcome = outcome_of(work());
+    caller_ = std::thread::id();
+    raised = std::exchange(raised_, nullptr);
+  }
+  if (closed) refuse(MVS_E_STATE, "", "the simulator is closed; make a new one");
+  if (raised) std::rethrow_exception(raised);
+  must(outcome);
+}
+
+// The library calls this in the thread that called it, many times during long work.
+int32_t Simulator::on_progress(void *user, double share, double residual) {
+  auto &self = *static_cast<Simulator *>(user);
+  py::gil_scoped_acquire held;
+  try {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!self.progress_ || self.progress_.is_none()) return 0;
+    return py::bool_(self.progress_(share, residual)) ? 1 : 0;
+  } catch (...) {
+    self.raised_ = std::current_exception();
+    return 1;
+  }
+}
+
+void Simulator::on_log(void *user, int32_t level, const char *text) {
+  auto &self = *static_cast<Simulator *>(user);
+  py::gil_scoped_acquire held;
+  try {
+    self.log_(level, text);
+  } catch (...) {
+    self.raised_ = std::current_exception();
+  }
+}
+
+void Simulator::must_not_be_called_back() const {
+  if (caller_ != std::this_thread::get_id()) return;
+  refuse(MVS_E_STATE, "", "a callback may not use the simulator that called it");
+}
+
+void Simulator::close() {
+  must_not_be_called_back();
+  free_now();
+}
+
+void Simulator::free_now() {
+  mvs_sim *closing = nullptr;
+  {
+    py::gil_scoped_release released;
+    const std::lock_guard<std::mutex> turn(turn_);
+    closing = std::exchange(sim_, nullptr);
+  }
+  mvs_destroy(closing);
+}
+
+void Simulator::load(const std::string &path, uint32_t format) {
+  call([&] { return mvs_load_file(sim_, path.c_str(), format); });
+}
+
+void Simulator::load_bytes(const std::string &bytes, uint32_t format) {
+  call([&] { return mvs_load_memory(sim_, bytes.data(), bytes.size(), format); });
+}
+
+void Simulator::set_valve(const mvs_valve_desc &valve) {
+  call([&] { return mvs_set_valve(sim_, &valve); });
+}
+
+void Simulator::generate(const mvs_parametric_desc &dimensions) {
+  call([&] { return mvs_generate_valve(sim_, &dimensions); });
+}
+
+void Simulator::set_load(double pressure, double boundary_fraction) {
+  mvs_load_case load{};
+  load.struct_size = sizeof load;
+  load.pressure = pressure;
+  load.boundary_fraction = boundary_fraction;
+  call([&] { return mvs_set_load(sim_, &load); });
+}
+
+mvs_load_case Simulator::load_case() {
+  mvs_load_case load{};
+  load.struct_size = sizeof load;
+  call([&] { return mvs_get_load(sim_, &load); });
+  return load;
+}
+
+mvs_stats Simulator::settle(const mvs_settle_options &options, py::object progress) {
+  mvs_stats stats{};
+  stats.struct_size = sizeof stats;
+  call([&] {
+    {
+      py::gil_scoped_acquire held;
+      progress_ = std::move(progress);
+    }
+    const mvs_result result = mvs_settle(sim_, &options, &stats);
+    py::gil_scoped_acquire held;
+    progress_ = py::none();
+    return result;
+  });
+  return stats;
+}
+
+mvs_stats Simulator::step(const mvs_step_options &options, uint64_t count) {
+  call([&] {
+    mvs_result result = MVS_OK;
+    for (uint64_t i = 0; i < count && result == MVS_OK; ++i) result = mvs_step(sim_, &options);
+    return result;
+  });
+  return stats();
+}
+
+mvs_stats Simulator::stats() {
+  mvs_stats stats{};
+  stats.struct_size = sizeof stats;
+  call([&] { return mvs_get_stats(sim_, &stats); });
+  return stats;
+}
+
+std::unique_ptr<Snapshot> Simulator::snapshot() {
+  const mvs_snapshot *taken = nullptr;
+  call([&] { return mvs_get_snapshot(sim_, &taken); });
+  return std::make_unique<Snapshot>(taken);
+}
+
+void Simulator::restore(const Snapshot &snapshot) {
+  call([&] { return mvs_restore(sim_, snapshot.get()); });
+}
+
+}  // namespace mvs_python

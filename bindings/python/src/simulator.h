@@ -1,0 +1,55 @@
+// mvs.Simulator: one simulator of the C library, safe to use from any Python thread.
+#pragma once
+
+#include <mvs/sim.h>
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "snapshot.h"
+
+namespace mvs_python {
+
+// Calls run with the interpreter released and one at a time; a second thread waits its turn, and a
+// callback that calls its own simulator is refused.
+class Simulator {
+ public:
+  Simulator(const std::string &backend, py::object log);
+  ~Simulator() { free_now(); }
+  Simulator(const Simulator &) = delete;
+  Simulator &operator=(const Simulator &) = delete;
+
+  void close();
+  void load(const std::string &path, uint32_t format);
+  void load_bytes(const std::string &bytes, uint32_t format);
+  void set_valve(const mvs_valve_desc &valve);
+  void generate(const mvs_parametric_desc &dimensions);
+  void set_load(double pressure, double boundary_fraction);
+  mvs_load_case load_case();
+  mvs_stats settle(const mvs_settle_options &options, py::object progress);
+  mvs_stats step(const mvs_step_options &options, uint64_t count);
+  mvs_stats stats();
+  std::unique_ptr<Snapshot> snapshot();
+  void restore(const Snapshot &snapshot);
+
+ private:
+  template <typename Call>
+  void call(Call &&work);
+  void must_not_be_called_back() const;
+  void free_now();
+  static int32_t on_progress(void *user, double share, double residual);
+  static void on_log(void *user, int32_t level, const char *text);
+
+  mvs_sim *sim_ = nullptr;
+  py::object log_, progress_;
+  std::exception_ptr raised_;  // by a callback, to be raised again when the call is back
+  std::mutex turn_;
+  std::atomic<std::thread::id> caller_{};
+};
+
+void bind_simulator(py::module_ &module);
+
+}  // namespace mvs_python

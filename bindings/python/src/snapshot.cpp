@@ -1,0 +1,164 @@
+#include "snapshot.h"
+
+#include <mvs/file.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+
+#include "arrays.h"
+#include "values.h"
+#include "views.h"
+
+namespace mvs_python {
+namespace {
+
+py::array view(const py::object &self, uint32_t which) {
+  const Snapshot &snapshot = self.cast<const Snapshot &>();
+  mvs_view found{};
+  release_and([&] { return mvs_snapshot_view(snapshot.get(), which, &found); });
+  return array_of(found, self);
+}
+
+std::string hash(const Snapshot &snapshot) {
+  uint64_t bits[2];
+  release_and([&] { return mvs_snapshot_hash(snapshot.get(), bits); });
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(bits[0]),
+                static_cast<unsigned long long>(bits[1]));
+  return text;
+}
+
+py::object load_case(const Snapshot &snapshot) {
+  mvs_load_case load{};
+  load.struct_size = sizeof load;
+  must(mvs_snapshot_load(snapshot.get(), &load));
+  return load_value(load);
+}
+
+py::object measures(const Snapshot &snapshot) {
+  mvs_measures found{};
+  found.struct_size = sizeof found;
+  release_and([&] { return mvs_snapshot_measure(snapshot.get(), &found); });
+  return measures_value(found);
+}
+
+py::object frame(const Snapshot &snapshot) {
+  double rows[12];
+  release_and([&] { return mvs_snapshot_frame(snapshot.get(), rows); });
+  return frame_value(rows);
+}
+
+py::object compare(const Snapshot &snapshot, const Snapshot &other) {
+  mvs_comparison found{};
+  found.struct_size = sizeof found;
+  release_and([&] { return mvs_snapshot_compare(snapshot.get(), other.get(), &found); });
+  return comparison_value(found);
+}
+
+py::tuple parts(const Snapshot &snapshot) {
+  py::list all;
+  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_HEAD; ++kind) {
+    uint32_t count = 0;
+    must(mvs_snapshot_part_count(snapshot.get(), kind, &count));
+    for (uint32_t index = 0; index < count; ++index) {
+      mvs_part part{};
+      must(mvs_snapshot_part(snapshot.get(), kind, index, &part));
+      all.append(part_value(part));
+    }
+  }
+  return py::tuple(all);
+}
+
+py::object find(const Snapshot &snapshot, uint32_t kind, const std::string &name) {
+  mvs_part part{};
+  must(mvs_snapshot_find(snapshot.get(), kind, name.c_str(), &part));
+  return part_value(part);
+}
+
+py::array section(const Snapshot &snapshot, const std::array<double, 3> &point,
+                  const std::array<double, 3> &normal) {
+  uint64_t count = 0;
+  std::vector<double> points;
+  const auto cut = [&] {
+    return mvs_snapshot_section(snapshot.get(), point.data(), normal.data(), points.data(),
+                                points.size() / 3, &count);
+  };
+  release_and(cut);
+  points.resize(3 * count);
+  if (count > 0) release_and(cut);
+  return py::array_t<double>({static_cast<py::ssize_t>(count / 2), py::ssize_t{2}, py::ssize_t{3}},
+                             points.data());
+}
+
+void save(const Snapshot &snapshot, const std::filesystem::path &path, const std::string &format) {
+  const uint32_t chosen = format_of(format);
+  const std::string name = path.string();
+  release_and([&] { return mvs_save_file(snapshot.get(), name.c_str(), chosen); });
+}
+
+py::bytes to_bytes(const Snapshot &snapshot, const std::string &format) {
+  const uint32_t chosen = format_of(format);
+  uint64_t size = 0;
+  std::string bytes;
+  const auto write = [&] {
+    return mvs_save_memory(snapshot.get(), chosen, bytes.data(), bytes.size(), &size);
+  };
+  release_and(write);
+  bytes.resize(size);
+  release_and(write);
+  return py::bytes(bytes);
+}
+
+std::string text(const Snapshot &snapshot) {
+  return std::string("<mvs.Snapshot \"") + mvs_snapshot_name(snapshot.get()) + "\" " +
+         hash(snapshot) + ">";
+}
+
+}  // namespace
+
+uint32_t format_of(const std::string &name) {
+  if (name == "auto") return MVS_FORMAT_AUTO;
+  if (name == "obj") return MVS_FORMAT_OBJ;
+  if (name == "vtp") return MVS_FORMAT_VTP;
+  refuse(MVS_E_ARGUMENT, "format",
+         "format: \"auto\", \"obj\" or \"vtp\" is needed, not \"" + name + "\"");
+}
+
+void bind_snapshot(py::module_ &module) {
+  py::class_<Snapshot> type(module, "Snapshot",
+                            "An immutable picture of a valve and its state.\n\nIts arrays are "
+                            "read-only and zero-copy; each keeps the snapshot alive, and a "
+                            "snapshot outlives its simulator. Any thread may use it.");
+  for (const View &entry : views) {
+    const uint32_t which = entry.which;
+    type.def_property_readonly(
+        entry.name, [which](const py::object &self) { return view(self, which); }, entry.doc);
+  }
+  type.def_property_readonly(
+      "name", [](const Snapshot &s) { return mvs_snapshot_name(s.get()); }, "Name of the valve.");
+  type.def_property_readonly("hash", &hash,
+                             "128 bits over the meaning of model and state, in hexadecimal: equal "
+                             "for equal inputs of the next step.");
+  type.def_property_readonly("load_case", &load_case, "The load (mvs.Load), Pa and fraction.");
+  type.def_property_readonly("measures", &measures,
+                             "What the valve measures (mvs.Measures, SI units). The first call on "
+                             "a snapshot does the work.");
+  type.def_property_readonly("frame", &frame, "The valve's own frame (mvs.Frame), m.");
+  type.def_property_readonly("parts", &parts,
+                             "All named parts (tuple of mvs.Part): leaflets, scallops, chordae, "
+                             "heads; `index` is the row in the arrays of their kind.");
+  type.def("find", &find, py::arg("kind"), py::arg("name"),
+           "The part of a kind with this name; IdError if there is none.");
+  type.def("compare", &compare, py::arg("other"),
+           "Distance between the leaflet surfaces of two snapshots (mvs.Comparison), m.");
+  type.def("section", &section, py::arg("point"), py::arg("normal"),
+           "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
+  type.def("save", &save, py::arg("path"), py::kw_only(), py::arg("format") = "auto",
+           "Writes a file; format \"auto\" goes by the ending: .obj (exact round trip) or .vtp "
+           "(for ParaView and Slicer). IoError if the system refuses.");
+  type.def("to_bytes", &to_bytes, py::kw_only(), py::arg("format") = "obj",
+           "The bytes that save would write.");
+  type.def("__repr__", &text);
+}
+
+}  // namespace mvs_python

@@ -1,0 +1,28 @@
+// mvs.Snapshot: a reference to a snapshot of the C library.
+#pragma once
+
+#include <mvs/snapshot.h>
+
+#include <memory>
+
+#include "errors.h"
+
+namespace mvs_python {
+
+// Holds one reference to a snapshot; a Python object owns it, and arrays own the Python object.
+class Snapshot {
+ public:
+  // Takes over the reference that mvs_get_snapshot gave.
+  explicit Snapshot(const mvs_snapshot *taken) : handle_(taken, &mvs_snapshot_release) {}
+  const mvs_snapshot *get() const { return handle_.get(); }
+
+ private:
+  std::unique_ptr<const mvs_snapshot, void (*)(const mvs_snapshot *)> handle_;
+};
+
+// MVS_FORMAT_* from "auto", "obj" or "vtp".
+uint32_t format_of(const std::string &name);
+
+void bind_snapshot(py::module_ &module);
+
+}  // namespace mvs_python

@@ -1,0 +1,109 @@
+#include "values.h"
+
+#include <pybind11/numpy.h>
+
+// One field of the C struct `s` into the keywords of its dataclass, under the same name.
+#define FIELD(name) fields[#name] = s.name
+
+namespace mvs_python {
+namespace {
+
+py::object make(const char *type, const py::dict &fields) {
+  return py::module_::import("mvs.values").attr(type)(**fields);
+}
+
+py::array_t<double> matrix(const double *values, py::ssize_t rows, py::ssize_t columns) {
+  py::array_t<double> array({rows, columns});
+  std::copy(values, values + rows * columns, array.mutable_data());
+  return array;
+}
+
+}  // namespace
+
+py::object load_value(const mvs_load_case &s) {
+  py::dict fields;
+  FIELD(pressure);
+  FIELD(boundary_fraction);
+  return make("Load", fields);
+}
+
+py::object stats_value(const mvs_stats &s) {
+  py::dict fields, phases;
+  static constexpr const char *names[MVS_PHASE_COUNT] = {
+      "terms", "broad", "narrow", "assembly", "ordering", "factor", "solve", "line_search"};
+  for (int i = 0; i < MVS_PHASE_COUNT; ++i) phases[names[i]] = s.phase_s[i];
+  fields["converged"] = s.converged != 0;
+  FIELD(iterations);
+  FIELD(factorisations);
+  FIELD(contact_pairs);
+  FIELD(shifted);
+  FIELD(residual);
+  FIELD(energy);
+  FIELD(kinetic);
+  FIELD(wall_s);
+  fields["phase_s"] = phases;
+  return make("Stats", fields);
+}
+
+py::object measures_value(const mvs_measures &s) {
+  py::dict fields;
+  FIELD(intersections);
+  FIELD(regurgitant_orifice_area);
+  FIELD(coaptation_area);
+  FIELD(coaptation_length_mean);
+  FIELD(coaptation_length_min);
+  FIELD(coaptation_length_max);
+  FIELD(coaptation_height);
+  FIELD(coaptation_depth);
+  FIELD(tenting_height);
+  FIELD(tenting_area);
+  FIELD(tenting_volume);
+  FIELD(billow_height);
+  FIELD(billow_volume);
+  FIELD(annulus_ap);
+  FIELD(annulus_cc);
+  FIELD(annulus_perimeter);
+  FIELD(annulus_area_3d);
+  FIELD(annulus_area);
+  FIELD(annulus_saddle_height);
+  FIELD(annulus_nonplanar_angle);
+  FIELD(max_chord_strain);
+  FIELD(max_chord_tension);
+  FIELD(max_leaflet_strain);
+  FIELD(max_leaflet_stress);
+  FIELD(leaflet_area);
+  return make("Measures", fields);
+}
+
+py::object comparison_value(const mvs_comparison &s) {
+  py::dict fields;
+  fields["same_mesh"] = s.same_mesh != 0;
+  FIELD(node_rms);
+  FIELD(node_max);
+  FIELD(surface_rms);
+  FIELD(surface_max);
+  FIELD(node_rms_registered);
+  FIELD(node_max_registered);
+  FIELD(surface_rms_registered);
+  FIELD(surface_max_registered);
+  fields["registration"] = matrix(s.registration, 3, 4);
+  return make("Comparison", fields);
+}
+
+py::object frame_value(const double frame[12]) {
+  py::dict fields;
+  fields["origin"] = py::array_t<double>(3, frame);
+  fields["axes"] = matrix(frame + 3, 3, 3);
+  return make("Frame", fields);
+}
+
+py::object part_value(const mvs_part &s) {
+  py::dict fields;
+  FIELD(id);
+  fields["kind"] = py::module_::import("mvs.values").attr("PartKind")(s.kind);
+  FIELD(index);
+  FIELD(name);
+  return make("Part", fields);
+}
+
+}  // namespace mvs_python

@@ -1,0 +1,169 @@
+#include "valve.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+namespace mvs_python {
+namespace {
+
+// A column of numbers beside the rows of `of`: given for each row, or not at all.
+template <typename T>
+std::vector<T> column(const py::object &valve, const char *name, uint32_t type, const char *of,
+                      size_t rows) {
+  std::vector<T> values = values_of<T>(valve.attr(name), {name, 1, {type}});
+  if (values.empty()) values.resize(rows);
+  if (values.size() != rows) {
+    refuse(MVS_E_ARGUMENT, name,
+           std::string(name) + ": " + std::to_string(rows) +
+               " values are needed, one for each of " + of + ", not " +
+               std::to_string(values.size()));
+  }
+  return values;
+}
+
+}  // namespace
+
+ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
+  desc_.struct_size = sizeof desc_;
+  name_ = py::str(valve_.attr("name"));
+  desc_.name = name_.c_str();
+  if (valve_.attr("orient").cast<bool>()) desc_.flags |= MVS_VALVE_ORIENT;
+  read_arrays();
+  read_leaflets();
+  read_scallops();
+  read_chords();
+  read_heads();
+  read_numbers();
+}
+
+mvs_array ValveArguments::array(const char *name, uint32_t components,
+                                std::vector<uint32_t> types) {
+  const py::object value = valve_.attr(name);
+  if (value.is_none()) return {};
+  return described(array_argument(value, {name, components, std::move(types)}), kept_);
+}
+
+void ValveArguments::read_arrays() {
+  desc_.nodes = array("nodes", 3, {MVS_F64, MVS_F32});
+  desc_.nodes_loaded = array("nodes_loaded", 3, {MVS_F64, MVS_F32});
+  desc_.nodes_now = array("nodes_now", 3, {MVS_F64, MVS_F32});
+  desc_.triangles = array("triangles", 3, {MVS_U32});
+  desc_.triangle_leaflet = array("triangle_leaflet", 1, {MVS_U32});
+  desc_.triangle_scallop = array("triangle_scallop", 1, {MVS_U32});
+  desc_.triangle_thickness = array("triangle_thickness", 1, {MVS_F64});
+  desc_.triangle_fibre = array("triangle_fibre", 3, {MVS_F64});
+  desc_.annulus = array("annulus", 1, {MVS_U32});
+  if (!desc_.triangle_leaflet.data) {
+    first_leaflet_.assign(desc_.triangles.count, 0);
+    desc_.triangle_leaflet = {first_leaflet_.data(), first_leaflet_.size(), 1, MVS_U32, 0};
+  }
+}
+
+void ValveArguments::read_leaflets() {
+  const py::module_ values = py::module_::import("mvs.values");
+  const auto given = valve_.attr("leaflets").cast<std::vector<py::object>>();
+  leaflet_names_.reserve(given.size());
+  for (py::object leaflet : given) {
+    if (py::isinstance<py::str>(leaflet)) leaflet = values.attr("Leaflet")(leaflet);
+    leaflet_names_.push_back(leaflet.attr("name").cast<std::string>());
+    mvs_leaflet_desc desc{};
+    desc.name = leaflet_names_.back().c_str();
+    desc.id = leaflet.attr("id").cast<mvs_id>();
+    desc.law = leaflet.attr("law").cast<uint32_t>();
+    desc.thickness = leaflet.attr("thickness").cast<double>();
+    const auto constants = leaflet.attr("constants").cast<std::vector<double>>();
+    if (constants.size() > std::size(desc.constants)) {
+      refuse(MVS_E_ARGUMENT, "leaflets", "leaflets: a law has at most 8 constants");
+    }
+    std::copy(constants.begin(), constants.end(), desc.constants);
+    leaflets_.push_back(desc);
+  }
+  desc_.leaflets = leaflets_.data();
+  desc_.leaflet_count = static_cast<uint32_t>(leaflets_.size());
+}
+
+void ValveArguments::read_scallops() {
+  if (valve_.attr("scallops").is_none()) return;
+  scallop_names_ = valve_.attr("scallops").cast<std::vector<std::string>>();
+  for (const std::string &name : scallop_names_) scallops_.push_back(name.c_str());
+  scallop_ids_ = column<mvs_id>(valve_, "scallop_id", MVS_U64, "scallops", scallop_names_.size());
+  desc_.scallops = scallops_.data();
+  desc_.scallop_ids = scallop_ids_.data();
+  desc_.scallop_count = static_cast<uint32_t>(scallops_.size());
+}
+
+void ValveArguments::read_chords() {
+  const py::object nodes = valve_.attr("chord_nodes");
+  if (nodes.is_none()) return;
+  const py::array_t<uint32_t> pairs(array_argument(nodes, {"chord_nodes", 2, {MVS_U32}}));
+  const auto node = pairs.unchecked<2>();
+  const size_t count = static_cast<size_t>(node.shape(0));
+  const char *of = "chord_nodes";
+  const auto length = column<double>(valve_, "chord_rest_length", MVS_F64, of, count);
+  const auto kind = column<uint32_t>(valve_, "chord_kind", MVS_U32, of, count);
+  const auto young = column<double>(valve_, "chord_young", MVS_F64, of, count);
+  const auto area = column<double>(valve_, "chord_area", MVS_F64, of, count);
+  const auto id = column<mvs_id>(valve_, "chord_id", MVS_U64, of, count);
+  chord_names_ = names("chord_names", count);
+  for (size_t c = 0; c < count; ++c) {
+    const auto row = static_cast<py::ssize_t>(c);
+    mvs_chord_desc chord{};
+    chord.node_a = node(row, 0);
+    chord.node_b = node(row, 1);
+    chord.kind = kind[c];
+    chord.rest_length = length[c];
+    chord.young = young[c];
+    chord.area = area[c];
+    chord.id = id[c];
+    chord.name = chord_names_.empty() ? nullptr : chord_names_[c].c_str();
+    chords_.push_back(chord);
+  }
+  desc_.chords = chords_.data();
+  desc_.chord_count = static_cast<uint32_t>(count);
+}
+
+void ValveArguments::read_heads() {
+  const auto nodes = values_of<uint32_t>(valve_.attr("head_nodes"), {"head_nodes", 1, {MVS_U32}});
+  const auto id = column<mvs_id>(valve_, "head_id", MVS_U64, "head_nodes", nodes.size());
+  head_names_ = names("head_names", nodes.size());
+  for (size_t h = 0; h < nodes.size(); ++h) {
+    mvs_head_desc head{};
+    head.node = nodes[h];
+    head.id = id[h];
+    head.name = head_names_.empty() ? nullptr : head_names_[h].c_str();
+    heads_.push_back(head);
+  }
+  desc_.heads = heads_.data();
+  desc_.head_count = static_cast<uint32_t>(heads_.size());
+}
+
+void ValveArguments::read_numbers() {
+  desc_.density = number("density");
+  desc_.contact_thickness = number("contact_thickness");
+  desc_.contact_stiffness = number("contact_stiffness");
+  desc_.bending_scale = number("bending_scale");
+  // zero means the default in the C struct and "no bending" in Python, where None is the default
+  if (desc_.bending_scale == 0 && !valve_.attr("bending_scale").is_none()) {
+    desc_.bending_scale = -1;
+  }
+}
+
+double ValveArguments::number(const char *name) const {
+  const py::object value = valve_.attr(name);
+  return value.is_none() ? 0 : value.cast<double>();
+}
+
+std::vector<std::string> ValveArguments::names(const char *name, size_t count) const {
+  const py::object value = valve_.attr(name);
+  if (value.is_none()) return {};
+  auto given = value.cast<std::vector<std::string>>();
+  if (given.size() != count) {
+    refuse(MVS_E_ARGUMENT, name,
+           std::string(name) + ": " + std::to_string(count) + " names are needed, not " +
+               std::to_string(given.size()));
+  }
+  return given;
+}
+
+}  // namespace mvs_python

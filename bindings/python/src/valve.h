@@ -1,0 +1,43 @@
+// A valve given as arrays (mvs.values.Valve) as the description the C interface takes.
+#pragma once
+
+#include <mvs/valve.h>
+
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+
+namespace mvs_python {
+
+// Checks the arrays of a mvs.values.Valve and holds all that its description points to.
+class ValveArguments {
+ public:
+  explicit ValveArguments(const py::object &valve);
+  const mvs_valve_desc &desc() const { return desc_; }
+
+ private:
+  mvs_array array(const char *name, uint32_t components, std::vector<uint32_t> types);
+  void read_arrays();
+  void read_leaflets();
+  void read_scallops();
+  void read_chords();
+  void read_heads();
+  void read_numbers();
+  double number(const char *name) const;
+  std::vector<std::string> names(const char *name, size_t count) const;
+
+  py::object valve_;
+  mvs_valve_desc desc_{};
+  std::vector<py::array> kept_;
+  std::string name_;
+  std::vector<std::string> leaflet_names_, scallop_names_, chord_names_, head_names_;
+  std::vector<const char *> scallops_;
+  std::vector<mvs_id> scallop_ids_;
+  std::vector<uint32_t> first_leaflet_;  // where triangle_leaflet is not given
+  std::vector<mvs_leaflet_desc> leaflets_;
+  std::vector<mvs_chord_desc> chords_;
+  std::vector<mvs_head_desc> heads_;
+};
+
+}  // namespace mvs_python

@@ -1,0 +1,60 @@
+// The arrays a snapshot shows, each a read-only property of mvs.Snapshot of the same name.
+#pragma once
+
+#include <mvs/snapshot.h>
+
+namespace mvs_python {
+
+struct View {
+  const char *name;
+  uint32_t which;
+  const char *doc;  // shape, type, unit, meaning
+};
+
+inline constexpr View views[] = {
+    {"node_position", MVS_NODE_POSITION, "(n, 3) float64, m: present positions."},
+    {"node_rest", MVS_NODE_REST, "(n, 3) float64, m: the open, unloaded valve."},
+    {"node_loaded", MVS_NODE_LOADED,
+     "(n, 3) float64, m: where prescribed nodes (annulus, heads) are under load."},
+    {"node_velocity", MVS_NODE_VELOCITY, "(n, 3) float64, m/s."},
+    {"node_kind", MVS_NODE_KIND, "(n,) uint8: mvs.NodeKind."},
+    {"node_force", MVS_NODE_FORCE,
+     "(n, 3) float64, N: out-of-balance force; the reaction where prescribed."},
+    {"node_contact_force", MVS_NODE_CONTACT_FORCE, "(n, 3) float64, N: force of contact."},
+    {"node_coaptation", MVS_NODE_COAPTATION,
+     "(n,) float64, m: distance to the facing leaflet; infinity where none is."},
+    {"triangle_nodes", MVS_TRIANGLE_NODES, "(m, 3) uint32: normals point into the atrium."},
+    {"triangle_leaflet", MVS_TRIANGLE_LEAFLET, "(m,) uint32: index of the leaflet."},
+    {"triangle_scallop", MVS_TRIANGLE_SCALLOP, "(m,) uint32: index of the scallop."},
+    {"triangle_thickness", MVS_TRIANGLE_THICKNESS, "(m,) float64, m."},
+    {"triangle_fibre", MVS_TRIANGLE_FIBRE, "(m, 3) float64: unit fibre direction at rest."},
+    {"triangle_stretch", MVS_TRIANGLE_STRETCH,
+     "(m, 2) float64: principal stretches, larger first."},
+    {"triangle_stress", MVS_TRIANGLE_STRESS,
+     "(m, 2) float64, Pa: principal Cauchy stresses, larger first."},
+    {"triangle_coapted", MVS_TRIANGLE_COAPTED,
+     "(m,) float64: share of the triangle that faces another leaflet."},
+    {"leaflet_law", MVS_LEAFLET_LAW, "(l,) uint32: mvs.LeafletLaw."},
+    {"leaflet_constants", MVS_LEAFLET_CONSTANTS,
+     "(l, 9) float64: thickness in m, then the constants of the law."},
+    {"annulus_nodes", MVS_ANNULUS_NODES, "(k,) uint32: in order around the annulus."},
+    {"free_edge_nodes", MVS_FREE_EDGE_NODES, "(f,) uint32: in order along the free edge."},
+    {"chord_nodes", MVS_CHORD_NODES, "(c, 2) uint32: papillary side first."},
+    {"chord_rest_length", MVS_CHORD_REST_LENGTH, "(c,) float64, m."},
+    {"chord_kind", MVS_CHORD_KIND, "(c,) uint32: mvs.ChordKind."},
+    {"chord_strain", MVS_CHORD_STRAIN, "(c,) float64: (L - L0) / L0, negative when slack."},
+    {"chord_tension", MVS_CHORD_TENSION, "(c,) float64, N."},
+    {"chord_id", MVS_CHORD_ID, "(c,) uint64: stable ids."},
+    {"chord_young", MVS_CHORD_YOUNG, "(c,) float64, Pa."},
+    {"chord_area", MVS_CHORD_AREA, "(c,) float64, m2: cross-section."},
+    {"head_nodes", MVS_HEAD_NODES, "(h,) uint32: nodes of the papillary heads."},
+    {"head_force", MVS_HEAD_FORCE, "(h, 3) float64, N: pull of the chordae on each head."},
+    {"orifice_vertices", MVS_ORIFICE_VERTICES,
+     "(o, 3) float64, m: the smallest opening; empty when sealed."},
+    {"orifice_triangles", MVS_ORIFICE_TRIANGLES,
+     "(q, 3) uint32 into orifice_vertices: the opening as triangles."},
+    {"valve_constants", MVS_VALVE_CONSTANTS,
+     "(4,) float64: density, kg/m3; contact thickness, m; contact stiffness, Pa; bending scale."},
+};
+
+}  // namespace mvs_python
