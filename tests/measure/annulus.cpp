@@ -88,14 +88,13 @@ TEST_CASE("circle_is_measured_as_its_polygon") {
   const ModelPtr model = model_of(sheet);
   const AnnulusMeasures measures = measure_annulus(*model, model->valve.rest);
   // rounding only: everything here is a sum over 48 sides
-  CHECK(measures.perimeter == doctest::Approx(2 * n * radius * std::sin(pi / n)).epsilon(1e-13));
-  CHECK(measures.area ==
-        doctest::Approx(0.5 * n * radius * radius * std::sin(2 * pi / n)).epsilon(1e-13));
-  CHECK(measures.area_3d == doctest::Approx(measures.area).epsilon(1e-12));
-  CHECK(measures.ap == doctest::Approx(2 * radius).epsilon(1e-13));
-  CHECK(measures.cc == doctest::Approx(2 * radius).epsilon(1e-13));
+  CHECK(measures.perimeter == about(2 * n * radius * std::sin(pi / n), 1e-13));
+  CHECK(measures.area == about(0.5 * n * radius * radius * std::sin(2 * pi / n), 1e-13));
+  CHECK(measures.area_3d == about(measures.area, 1e-12));
+  CHECK(measures.ap == about(2 * radius, 1e-13));
+  CHECK(measures.cc == about(2 * radius, 1e-13));
   CHECK(measures.saddle_height < 1e-16);
-  CHECK(measures.nonplanar_angle == doctest::Approx(pi).epsilon(1e-12));
+  CHECK(measures.nonplanar_angle == about(pi, 1e-12));
 }
 
 TEST_CASE("ellipse_has_its_two_diameters") {
@@ -107,10 +106,10 @@ TEST_CASE("ellipse_has_its_two_diameters") {
   const ModelPtr model = model_of(sheet);
   const AnnulusMeasures measures = measure_annulus(*model, model->valve.rest);
   const double n = static_cast<double>(sheet.around);
-  CHECK(measures.ap == doctest::Approx(2 * a).epsilon(1e-13));
-  CHECK(measures.cc == doctest::Approx(2 * b).epsilon(1e-13));
-  CHECK(measures.area == doctest::Approx(0.5 * n * a * b * std::sin(2 * pi / n)).epsilon(1e-13));
-  CHECK(measures.area_3d == doctest::Approx(measures.area).epsilon(1e-12));
+  CHECK(measures.ap == about(2 * a, 1e-13));
+  CHECK(measures.cc == about(2 * b, 1e-13));
+  CHECK(measures.area == about(0.5 * n * a * b * std::sin(2 * pi / n), 1e-13));
+  CHECK(measures.area_3d == about(measures.area, 1e-12));
 }
 
 TEST_CASE("commissures_are_where_the_leaflet_changes") {
@@ -118,21 +117,21 @@ TEST_CASE("commissures_are_where_the_leaflet_changes") {
   sheet.anterior = pi / 3;
   const ModelPtr model = model_of(sheet);
   const AnnulusMeasures measures = measure_annulus(*model, model->valve.rest);
-  CHECK(measures.cc == doctest::Approx(2 * radius * std::sin(pi / 3)).epsilon(1e-13));
-  CHECK(measures.ap == doctest::Approx(2 * radius).epsilon(1e-13));
+  CHECK(measures.cc == about(2 * radius * std::sin(pi / 3), 1e-13));
+  CHECK(measures.ap == about(2 * radius, 1e-13));
 }
 
 TEST_CASE("saddle_has_its_height_angle_and_film_area") {
   const double h = 7e-3;
   const ModelPtr model = model_of(saddle(h, 192));
   const AnnulusMeasures measures = measure_annulus(*model, model->valve.rest);
-  CHECK(measures.saddle_height == doctest::Approx(h).epsilon(1e-12));
-  CHECK(measures.nonplanar_angle == doctest::Approx(pi - 2 * std::atan(h / radius)).epsilon(1e-12));
+  CHECK(measures.saddle_height == about(h, 1e-12));
+  CHECK(measures.nonplanar_angle == about(pi - 2 * std::atan(h / radius), 1e-12));
   // z = c (x^2 - y^2) is harmonic: its area over the disc, with slope 2 c r
   const double g = h / radius;
   const double film = 2 * pi * radius * radius * (std::pow(1 + g * g, 1.5) - 1) / (3 * g * g);
   // 192 sides lose 1.8e-4 of the disc's area, 24 rings 1e-4 of the bulge
-  CHECK(measures.area_3d == doctest::Approx(film).epsilon(3e-4));
+  CHECK(measures.area_3d == about(film, 3e-4));
   CHECK(measures.area_3d > measures.area);
 }
 
@@ -155,8 +154,8 @@ TEST_CASE("annulus_of_one_leaflet_has_quarter_points") {
   std::fill(valve.triangle_leaflet.begin(), valve.triangle_leaflet.end(), 0u);
   const ModelPtr model = make_model(valve);
   const AnnulusMeasures measures = measure_annulus(*model, valve.rest);
-  CHECK(measures.ap == doctest::Approx(2 * radius).epsilon(1e-13));
-  CHECK(measures.cc == doctest::Approx(2 * radius).epsilon(1e-13));
+  CHECK(measures.ap == about(2 * radius, 1e-13));
+  CHECK(measures.cc == about(2 * radius, 1e-13));
   CHECK((valve_frame(*model, valve.rest).axes - Mat3::Identity()).norm() < 1e-13);
 }
 

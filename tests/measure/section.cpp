@@ -34,14 +34,14 @@ double length_of(const std::vector<Vec3> &pairs) {
 TEST_CASE("cut_across_a_tube_is_its_polygon") {
   const ModelPtr model = model_of(tube());
   const std::vector<Vec3> pairs = cut(*model, model->valve.rest, {0, 0, -9e-3}, {0, 0, 1});
-  CHECK(length_of(pairs) == doctest::Approx(2 * 48 * radius * std::sin(pi / 48)).epsilon(1e-13));
-  for (const Vec3 &p : pairs) CHECK(p[2] == doctest::Approx(-9e-3).epsilon(1e-14));
+  CHECK(length_of(pairs) == about(2 * 48 * radius * std::sin(pi / 48), 1e-13));
+  for (const Vec3 &p : pairs) CHECK(p[2] == about(-9e-3, 1e-14));
 }
 
 TEST_CASE("cut_along_mesh_edges_counts_them_once") {
   const ModelPtr model = model_of(tube());
   const std::vector<Vec3> pairs = cut(*model, model->valve.rest, {0, 0, -10e-3}, {0, 0, 1});
-  CHECK(length_of(pairs) == doctest::Approx(2 * 48 * radius * std::sin(pi / 48)).epsilon(1e-13));
+  CHECK(length_of(pairs) == about(2 * 48 * radius * std::sin(pi / 48), 1e-13));
 }
 
 TEST_CASE("cut_of_a_closed_loop_meets_itself_bit_for_bit") {

@@ -54,13 +54,13 @@ TEST_CASE("uniform_stretch_is_found_in_every_triangle") {
   }));
   for (const auto &stretch : strain.stretch) {
     // rounding of coordinates of 0.3 m against sides of 1 mm
-    CHECK(stretch[0] == doctest::Approx(1.2).epsilon(1e-12));
-    CHECK(stretch[1] == doctest::Approx(0.9).epsilon(1e-12));
+    CHECK(stretch[0] == about(1.2, 1e-12));
+    CHECK(stretch[1] == about(0.9, 1e-12));
   }
-  CHECK(strain.max_strain == doctest::Approx(0.2).epsilon(1e-11));
+  CHECK(strain.max_strain == about(0.2, 1e-11));
   double area = 0;
   for (const double rest : model->rest_area) area += rest;
-  CHECK(strain.leaflet_area == doctest::Approx(1.2 * 0.9 * area).epsilon(1e-12));
+  CHECK(strain.leaflet_area == about(1.2 * 0.9 * area, 1e-12));
 }
 
 TEST_CASE("a_valve_at_rest_is_free_of_strain_and_stress") {
@@ -87,8 +87,7 @@ TEST_CASE("equilateral_triangles_stretched_evenly_carry_one_and_a_half_sigma_lam
   size_t equilateral = 0;
   for (size_t t = 0; t < model->valve.triangles.size(); ++t) {
     // any triangle: the trace of the sum of three n n^T is 3
-    CHECK(strain.stress[t][0] + strain.stress[t][1] ==
-          doctest::Approx(3 * sigma * stretch).epsilon(1e-12));
+    CHECK(strain.stress[t][0] + strain.stress[t][1] == about(3 * sigma * stretch, 1e-12));
     const Tri &triangle = model->valve.triangles[t];
     double shortest = 1, longest = 0;
     for (size_t k = 0; k < 3; ++k) {
@@ -99,8 +98,8 @@ TEST_CASE("equilateral_triangles_stretched_evenly_carry_one_and_a_half_sigma_lam
     }
     if (longest - shortest > 1e-9) continue;
     ++equilateral;
-    CHECK(strain.stress[t][0] == doctest::Approx(1.5 * sigma * stretch).epsilon(1e-12));
-    CHECK(strain.stress[t][1] == doctest::Approx(1.5 * sigma * stretch).epsilon(1e-12));
+    CHECK(strain.stress[t][0] == about(1.5 * sigma * stretch, 1e-12));
+    CHECK(strain.stress[t][1] == about(1.5 * sigma * stretch, 1e-12));
   }
   CHECK(equilateral == 6);
 }
@@ -124,7 +123,7 @@ TEST_CASE("stress_does_the_work_of_the_springs") {
   };
   const double expected = (energy_at(1 + step) - energy_at(1 - step)) / (2 * step);
   // a kink crossed within the step is wrong by step * 6 MPa / 0.1 MPa = 6e-5 of that side's share
-  CHECK(work == doctest::Approx(expected).epsilon(1e-6));
+  CHECK(work == about(expected, 1e-6));
 }
 
 TEST_CASE("stress_and_stretch_do_not_see_rigid_motion") {
@@ -134,9 +133,9 @@ TEST_CASE("stress_and_stretch_do_not_see_rigid_motion") {
   });
   const Strain still = measure_strain(*model, x);
   const Strain turned = measure_strain(*model, moved(x, some_motion()));
-  CHECK(turned.max_strain == doctest::Approx(still.max_strain).epsilon(1e-11));
-  CHECK(turned.max_stress == doctest::Approx(still.max_stress).epsilon(1e-9));
-  CHECK(turned.leaflet_area == doctest::Approx(still.leaflet_area).epsilon(1e-12));
+  CHECK(turned.max_strain == about(still.max_strain, 1e-11));
+  CHECK(turned.max_stress == about(still.max_stress, 1e-9));
+  CHECK(turned.leaflet_area == about(still.leaflet_area, 1e-12));
 }
 
 TEST_CASE("chord_tension_follows_its_length") {
@@ -146,9 +145,9 @@ TEST_CASE("chord_tension_follows_its_length") {
   const ModelPtr model = make_model(valve);
   const ChordMeasures measures = measure_chords(*model, valve.rest);
   const double stiffness = 40e6 * pi / 4 * 1e-6;
-  CHECK(measures.strain[0] == doctest::Approx(0.05).epsilon(1e-13));
-  CHECK(measures.tension[0] == doctest::Approx(0.05 * stiffness).epsilon(1e-13));
-  CHECK(measures.strain[1] == doctest::Approx(-0.1).epsilon(1e-13));
+  CHECK(measures.strain[0] == about(0.05, 1e-13));
+  CHECK(measures.tension[0] == about(0.05 * stiffness, 1e-13));
+  CHECK(measures.strain[1] == about(-0.1, 1e-13));
   CHECK(measures.tension[1] == 0);
   CHECK(measures.max_strain == measures.strain[0]);
   CHECK(measures.max_tension == measures.tension[0]);
