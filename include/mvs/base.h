@@ -1,7 +1,16 @@
 /* What every other header stands on: export macro, results, errors, ids and array descriptions.
  *
- * Units are SI everywhere (m, kg, s, N, Pa, rad). Structs passed in start with `struct_size`
- * (sizeof of the struct); a field left zero takes its default; structs grow only at their end. */
+ * Units are SI everywhere (m, kg, s, N, Pa, rad). Text is UTF-8. A pointer must not be null unless
+ * its function says nullable; null gives MVS_E_ARGUMENT, never a crash.
+ *
+ * Structs that may grow start with `struct_size`, set by the caller to sizeof the struct, for input
+ * and output alike; they grow only at their end. Of an input, a field left zero takes its default,
+ * and what an older program does not have counts as zero; what a newer program sets and this
+ * library does not know gives MVS_E_VERSION. An output is filled as far as the caller's reaches.
+ * Fields named `reserved` must be zero.
+ *
+ * Callbacks of the host run on the thread of the call that they belong to; they must return, not
+ * throw or jump out. */
 #ifndef MVS_BASE_H
 #define MVS_BASE_H
 
@@ -26,7 +35,8 @@ extern "C" {
 #endif
 
 /* What a fallible function returns: MVS_OK, or a negative code; the sentence is in
- * mvs_last_error(). After a failure the simulator is bit for bit as before the call. */
+ * mvs_last_error(). After a failure the simulator is bit for bit as before the call, and outputs
+ * are as the caller left them. */
 typedef int32_t mvs_result;
 enum {
   MVS_OK = 0,
@@ -45,7 +55,7 @@ enum {
   MVS_E_CANCELLED = -13    /* the progress callback asked to stop */
 };
 
-/* The last failure on this thread. Strings are never null. */
+/* A failure in words. Texts end with a zero byte and are cut to fit. */
 typedef struct mvs_error {
   mvs_result code;
   int32_t line;      /* 1-based line of the file being read, 0 if there is none */
@@ -53,16 +63,18 @@ typedef struct mvs_error {
   char message[432]; /* one sentence: what is wrong, and what to do */
 } mvs_error;
 
-/* The last failure on the calling thread; valid until its next failing call. Never null. */
+/* The last failure on the calling thread, of any simulator; a success leaves it as it is. Valid
+ * until the thread's next failing call or end. Never null: before any failure its code is MVS_OK.
+ */
 MVS_API const mvs_error *mvs_last_error(void);
 
-/* The name of a result code, "MVS_E_FORMAT"; "MVS_E_UNKNOWN" for a number that is none. */
+/* The name of a result code, "MVS_E_FORMAT"; "MVS_E_UNKNOWN" for a number that is none. Static. */
 MVS_API const char *mvs_result_name(mvs_result code);
 
 /* The version of the library in use, 10000 * major + 100 * minor + patch. */
 MVS_API uint32_t mvs_version(void);
 
-/* The names of the optional parts this build has, separated by spaces: "cholmod eigen". */
+/* The names of the optional parts this build has, separated by spaces: "cholmod eigen". Static. */
 MVS_API const char *mvs_features(void);
 
 /* Names a part of the valve for its whole life: survives undo, save and load. Zero is none. */
@@ -72,7 +84,8 @@ typedef uint64_t mvs_id;
 enum { MVS_F64 = 1, MVS_F32 = 2, MVS_U32 = 3, MVS_U64 = 4, MVS_U8 = 5 };
 
 /* An array of the caller: `count` elements of `components` values of `type`, the elements
- * `stride` bytes apart (0: packed). All zero: not given. Read during the call only. */
+ * `stride` bytes apart (0: packed), at any alignment. All zero: not given. Read during the call
+ * only. */
 typedef struct mvs_array {
   const void *data;
   uint64_t count;
@@ -81,7 +94,8 @@ typedef struct mvs_array {
   uint64_t stride;
 } mvs_array;
 
-/* An array of the library, read-only, packed; valid while its snapshot is held. */
+/* An array of the library, read-only, packed (`stride` says how far apart elements are, for those
+ * who want it); valid while its snapshot is held. `data` may be null where `count` is 0. */
 typedef struct mvs_view {
   const void *data;
   uint64_t count;

@@ -19,17 +19,18 @@ enum {
   MVS_FORMAT_VTP = 2  /* VTK XML PolyData, write only: for ParaView and Slicer */
 };
 
-/* Replaces the valve and state of a simulator by those of a file. */
+/* Replaces the valve and state of a simulator by those of a file. The sentence of a failure begins
+ * with "path: ", or "path:line: " for MVS_E_FORMAT. */
 MVS_API mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format);
 
 /* The same from `size` bytes of memory; AUTO is MVS_FORMAT_OBJ. */
 MVS_API mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size, uint32_t format);
 
-/* Writes a snapshot to a path. */
+/* Writes a snapshot to a path, over what is there. */
 MVS_API mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_t format);
 
-/* Writes a snapshot to memory: at most `capacity` bytes, and the true number to *size. With
- * capacity 0 (`data` nullable) only the size is told. */
+/* Writes a snapshot to memory: at most `capacity` bytes, and the true number to *size; AUTO is
+ * MVS_FORMAT_OBJ. With capacity 0 (`data` nullable) only the size is told. */
 MVS_API mvs_result mvs_save_memory(const mvs_snapshot *snapshot, uint32_t format, void *data,
                                    uint64_t capacity, uint64_t *size);
 

@@ -1,7 +1,8 @@
 /* The simulator: create it, give it a valve and a load, settle or step it, ask how it went.
  *
- * Different simulators are independent. One simulator is used by one thread at a time; what takes
- * a const mvs_snapshot * may be called from any thread. */
+ * Different simulators are independent. One simulator is used by one thread at a time: a second
+ * call while one is at work, from another thread or from a callback, gives MVS_E_STATE. What takes
+ * a const mvs_snapshot *, and mvs_get_snapshot, may be called from any thread at any time. */
 #ifndef MVS_SIM_H
 #define MVS_SIM_H
 
@@ -14,7 +15,7 @@ extern "C" {
 
 typedef struct mvs_sim mvs_sim;
 
-/* Logging levels. */
+/* Logging levels. Failures are not logged: they are returned. */
 enum { MVS_LOG_ERROR = 1, MVS_LOG_WARNING = 2, MVS_LOG_INFO = 3, MVS_LOG_DEBUG = 4 };
 
 /* Sparse factorisations. */
@@ -28,7 +29,7 @@ enum {
 typedef struct mvs_sim_desc {
   uint32_t struct_size;
   uint32_t backend; /* MVS_BACKEND_* */
-  /* Called with one line of text. Nullable: silent. */
+  /* Called with one line of text, without its end of line. Nullable: silent. */
   void (*log)(void *user, int32_t level, const char *text);
   /* Called during long work with the share done in [0, 1] and the largest out-of-balance nodal
    * force in N; a non-zero return cancels. Nullable. */
@@ -36,36 +37,42 @@ typedef struct mvs_sim_desc {
   void *user; /* handed to both */
 } mvs_sim_desc;
 
-/* Makes an empty simulator in *sim; mvs_destroy frees it. `desc` is nullable. */
+/* Makes an empty simulator in *sim; mvs_destroy frees it. `desc` is nullable. MVS_E_UNSUPPORTED if
+ * this build lacks the backend. */
 MVS_API mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim);
 
-/* Frees a simulator; snapshots taken from it stay valid. `sim` is nullable. */
+/* Frees a simulator that is not at work; snapshots taken from it stay valid. `sim` is nullable. */
 MVS_API void mvs_destroy(mvs_sim *sim);
 
-/* Replaces the valve by one given as arrays. MVS_E_OP names the first fault of a valve that is
- * none; mvs_check_valve lists all of them. */
+/* Replaces the valve by one given as arrays, at rest and without load; nothing of the caller's is
+ * kept. MVS_E_OP names the first fault of a valve that is none; mvs_check_valve lists all of them.
+ */
 MVS_API mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve);
 
-/* Replaces the valve by a parametric mitral valve. `desc` is nullable: the shipped valve. */
+/* Replaces the valve by a parametric mitral valve. `desc` is nullable: the shipped valve.
+ * MVS_E_ARGUMENT names the dimension that no valve can have. */
 MVS_API mvs_result mvs_generate_valve(mvs_sim *sim, const mvs_parametric_desc *desc);
 
-/* Called once for each fault of a valve: the part ("triangle 17") and a sentence. */
+/* Called once for each fault of a valve: the part ("triangle 17") and a sentence; both are valid
+ * during the call only. */
 typedef void (*mvs_fault_fn)(void *user, const char *part, const char *sentence);
 
-/* Says whether arrays are a valve, without touching any simulator: returns what mvs_set_valve
- * would, and reports every fault, not only the first. `fault` is nullable. */
+/* Says whether arrays are a valve, without any simulator: returns what mvs_set_valve would, and
+ * reports every fault, not only the first. Faults that keep others from being looked for (an index
+ * out of range) come alone. `fault` and `user` are nullable. */
 MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void *user);
 
 /* The load on the valve. */
 typedef struct mvs_load_case {
   uint32_t struct_size;
   uint32_t reserved;
-  double pressure;          /* Pa, ventricle minus atrium, on every leaflet face, following it */
+  double pressure;          /* Pa, ventricle minus atrium, on every leaflet face, following it;
+                               at most 400 kPa either way */
   double boundary_fraction; /* where annulus and heads are: 0 open .. 1 loaded position */
 } mvs_load_case;
 
-/* Sets the load that settle and step work towards. A new valve starts with pressure and fraction
- * 0. */
+/* Sets the load that settle and step work towards; nothing moves yet. A new valve starts with
+ * pressure and fraction 0. */
 MVS_API mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load);
 
 /* 120 mmHg in Pa (1 mmHg = 133.322 Pa): the default systolic load. */
@@ -81,7 +88,7 @@ enum {
   MVS_SOLVER_EXPLICIT = 3  /* symplectic Euler with penalty contact: the founding paper's method */
 };
 
-/* How to settle. Zeros and null are the defaults in brackets. */
+/* How to settle. Zero fields take the defaults in brackets. */
 typedef struct mvs_settle_options {
   uint32_t struct_size;
   uint32_t solver;         /* MVS_SOLVER_* [newton] */
@@ -120,11 +127,12 @@ typedef struct mvs_stats {
   double phase_s[MVS_PHASE_COUNT];
 } mvs_stats;
 
-/* Brings the valve to static equilibrium under the load. Not converged is not an error: look at
- * stats->converged. `options` and `stats` are nullable. */
+/* Brings the valve to static equilibrium under the load. Not converged is not an error: the valve
+ * is then where the work ended, and stats->converged is 0. MVS_E_CANCELLED if the progress callback
+ * asked to stop, MVS_E_DIVERGED if numbers left their range. `options` and `stats` are nullable. */
 MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats);
 
-/* How to step. */
+/* How to step. Zero fields take the defaults in brackets. */
 typedef struct mvs_step_options {
   uint32_t struct_size;
   uint32_t solver; /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
@@ -132,10 +140,11 @@ typedef struct mvs_step_options {
   double damping;  /* 1/s, mass-proportional [0 implicit, 500 explicit] */
 } mvs_step_options;
 
-/* Advances by one time step: one bounded amount of work. `options` is nullable. */
+/* Advances by one time step: one bounded amount of work, without progress callbacks. MVS_E_DIVERGED
+ * if numbers left their range: take a smaller dt. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
-/* Reads the statistics of the last settle or step; `stats->struct_size` must be set. */
+/* Reads the statistics of the last settle or step of this valve; MVS_E_STATE if there was none. */
 MVS_API mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats);
 
 #ifdef __cplusplus

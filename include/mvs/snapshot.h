@@ -14,17 +14,19 @@ extern "C" {
 
 typedef struct mvs_snapshot mvs_snapshot;
 
-/* The present valve and state of a simulator; release it with mvs_snapshot_release. */
+/* The valve and state after the last finished call; release it with mvs_snapshot_release. From any
+ * thread, also while the simulator is at work. Costs nothing: no array is copied. */
 MVS_API mvs_result mvs_get_snapshot(mvs_sim *sim, const mvs_snapshot **snapshot);
 
 /* Adds or drops a reference. Both accept null. */
 MVS_API void mvs_snapshot_retain(const mvs_snapshot *snapshot);
 MVS_API void mvs_snapshot_release(const mvs_snapshot *snapshot);
 
-/* Puts a simulator back to a snapshot, of this simulator or of another one. */
+/* Puts a simulator back to a snapshot, of this simulator or of another one, bit for bit. */
 MVS_API mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot);
 
-/* 128 bits over the meaning of model and state: equal for equal inputs of the next step. */
+/* 128 bits over the meaning of model and state, names and numbers in order: equal for equal inputs
+ * of the next step. The hash of one snapshot may differ between versions of the library. */
 MVS_API mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash[2]);
 
 /* The arrays of a snapshot: n nodes, m triangles, e edges, c chord segments, h heads.
@@ -62,8 +64,9 @@ enum {
   MVS_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
   MVS_ORIFICE_VERTICES = 70,   /* F64 x 3, m: the smallest opening, as triangles */
   MVS_ORIFICE_TRIANGLES = 71,  /* U32 x 3 into MVS_ORIFICE_VERTICES */
-  MVS_VALVE_CONSTANTS = 80     /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
+  MVS_VALVE_CONSTANTS = 80,    /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
                                   Pa; bending scale, 0 for none */
+  MVS_STATE_TIME = 81          /* F64 1, s: simulated time since the valve was set */
 };
 
 /* Values of MVS_NODE_KIND. */
@@ -74,13 +77,14 @@ enum {
   MVS_NODE_IS_HEAD = 3     /* papillary head, prescribed */
 };
 
-/* Shows one array, zero-copy, valid while the snapshot is held. */
+/* Shows one array, zero-copy, valid while the snapshot is held. Forces, strains, coaptation and the
+ * orifice are worked out at the first call that needs them. */
 MVS_API mvs_result mvs_snapshot_view(const mvs_snapshot *snapshot, uint32_t which, mvs_view *view);
 
 /* Kinds of named parts. */
 enum { MVS_PART_LEAFLET = 1, MVS_PART_SCALLOP = 2, MVS_PART_CHORD = 3, MVS_PART_HEAD = 4 };
 
-/* A named part of the valve. */
+/* A named part of the valve. Names are unique within their kind, of at most 63 bytes. */
 typedef struct mvs_part {
   mvs_id id;
   uint32_t kind;  /* MVS_PART_* */
@@ -100,10 +104,10 @@ MVS_API mvs_result mvs_snapshot_part(const mvs_snapshot *snapshot, uint32_t kind
 MVS_API mvs_result mvs_snapshot_find(const mvs_snapshot *snapshot, uint32_t kind, const char *name,
                                      mvs_part *part);
 
-/* The name of the valve; valid while the snapshot is held. Never null. */
+/* The name of the valve; valid while the snapshot is held. Never null; "" for a null snapshot. */
 MVS_API const char *mvs_snapshot_name(const mvs_snapshot *snapshot);
 
-/* The load and time of the snapshot. */
+/* The load of the snapshot. */
 MVS_API mvs_result mvs_snapshot_load(const mvs_snapshot *snapshot, mvs_load_case *load);
 
 /* What the valve measures. Definitions and sources: libmvs/measure/README.md. SI units. */
@@ -136,8 +140,8 @@ typedef struct mvs_measures {
   double leaflet_area;             /* m2 */
 } mvs_measures;
 
-/* Measures a snapshot; `measures->struct_size` must be set. The first call on a snapshot does the
- * work, later ones return what it found. */
+/* Measures a snapshot. The first call on a snapshot does the work, later ones return what it
+ * found. */
 MVS_API mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *measures);
 
 /* How far two shapes are apart, in m. Node figures are NaN where the meshes do not match. */
@@ -151,12 +155,13 @@ typedef struct mvs_comparison {
   double registration[12];                               /* rows of [R | t]: b ~ R a + t, t in m */
 } mvs_comparison;
 
-/* Compares the leaflet surfaces of two snapshots; `comparison->struct_size` must be set. */
+/* Compares the leaflet surfaces of two snapshots. */
 MVS_API mvs_result mvs_snapshot_compare(const mvs_snapshot *a, const mvs_snapshot *b,
                                         mvs_comparison *comparison);
 
 /* A planar cut of the leaflets: segments as F64 pairs of points (count = 2 x segments), in m.
- * Writes at most `capacity` points, and their true number to *count; `points` nullable if 0. */
+ * Writes at most `capacity` points, and their true number to *count; `points` is nullable if
+ * `capacity` is 0. The normal may have any length but 0. */
 MVS_API mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const double point[3],
                                         const double normal[3], double *points, uint64_t capacity,
                                         uint64_t *count);

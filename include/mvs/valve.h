@@ -1,7 +1,10 @@
 /* A valve from arrays: its nodes, leaflets, annulus, chordae, papillary heads and materials.
+ * mvs_set_valve (sim.h) takes it; mvs_check_valve says all that is wrong with one.
  *
  * Nodes are one list: leaflet vertices, chord branch points and papillary heads in any order.
- * Triangles are wound so that their normals point into the atrium: pressure pushes along them. */
+ * Triangles are wound so that their normals point into the atrium: pressure pushes along them. All
+ * leaflets are one sheet, joined along the annulus; the annulus is one closed loop of its boundary.
+ * Names have at most 63 bytes, no control characters, and are unique among parts of their kind. */
 #ifndef MVS_VALVE_H
 #define MVS_VALVE_H
 

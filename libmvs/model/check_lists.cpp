@@ -72,6 +72,12 @@ void check_other_indices(const Valve &valve, Faults &faults) {
     check_index("annulus entry", k, "node", valve.annulus[k], n, faults);
   }
   for (size_t s = 0; s < valve.scallops.size(); ++s) {
+    const std::string &name = valve.scallops[s].name;
+    if (valve.scallops[s].leaflet == none && !valve.triangle_scallop.empty()) {
+      faults.add(format("scallop %zu", s), "scallop %s has no triangle: leave it out",
+                 name.c_str());
+      continue;
+    }
     check_index("scallop", s, "leaflet", valve.scallops[s].leaflet, valve.leaflets.size(), faults);
   }
   for (size_t c = 0; c < valve.chords.size(); ++c) {

@@ -1,0 +1,270 @@
+// libmvs for C++17, header only: handles that free themselves, failures as exceptions.
+//
+// Everything here is a thin cover of the C interface, whose headers are the manual. Structs are
+// those of C; functions fill in struct_size themselves.
+#ifndef MVS_MVS_HPP
+#define MVS_MVS_HPP
+
+#include <mvs/mvs.h>
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mvs {
+inline namespace cpp17 {
+
+// A failed call: what() is the sentence of mvs_last_error().
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const mvs_error &error)
+      : std::runtime_error(error.message),
+        code_(error.code),
+        line_(error.line),
+        part_(error.part) {}
+
+  mvs_result code() const noexcept { return code_; }
+  std::int32_t line() const noexcept { return line_; }
+  const std::string &part() const noexcept { return part_; }
+
+ private:
+  mvs_result code_;
+  std::int32_t line_;
+  std::string part_;
+};
+
+// Throws the last failure of this thread unless `result` is MVS_OK.
+inline void must(mvs_result result) {
+  if (result != MVS_OK) throw Error(*mvs_last_error());
+}
+
+// A struct of the C interface, zero but for its size.
+template <typename Struct>
+Struct sized() {
+  Struct made = {};
+  made.struct_size = sizeof(Struct);
+  return made;
+}
+
+// The element type of a view, as MVS_F64 ...
+template <typename Value>
+struct TypeOf;
+template <>
+struct TypeOf<double> {
+  static constexpr std::uint32_t value = MVS_F64;
+};
+template <>
+struct TypeOf<std::uint32_t> {
+  static constexpr std::uint32_t value = MVS_U32;
+};
+template <>
+struct TypeOf<std::uint64_t> {
+  static constexpr std::uint32_t value = MVS_U64;
+};
+template <>
+struct TypeOf<std::uint8_t> {
+  static constexpr std::uint32_t value = MVS_U8;
+};
+
+// Rows of one array of a snapshot; valid while the snapshot is held.
+template <typename Value>
+class View {
+ public:
+  explicit View(const mvs_view &view) : view_(view) {}
+
+  std::size_t rows() const { return static_cast<std::size_t>(view_.count); }
+  std::size_t components() const { return view_.components; }
+  const Value *data() const { return static_cast<const Value *>(view_.data); }
+  const Value *row(std::size_t r) const { return data() + r * components(); }
+  const Value *begin() const { return data(); }
+  const Value *end() const { return data() + rows() * components(); }
+
+ private:
+  mvs_view view_;
+};
+
+// A reference to a snapshot; copies share it.
+class Snapshot {
+ public:
+  // Takes over the caller's reference.
+  explicit Snapshot(const mvs_snapshot *held) : held_(held) {}
+  Snapshot(const Snapshot &other) : held_(other.held_) { mvs_snapshot_retain(held_); }
+  Snapshot(Snapshot &&other) noexcept : held_(std::exchange(other.held_, nullptr)) {}
+  Snapshot &operator=(Snapshot other) noexcept {
+    std::swap(held_, other.held_);
+    return *this;
+  }
+  ~Snapshot() { mvs_snapshot_release(held_); }
+
+  const mvs_snapshot *get() const { return held_; }
+  std::string name() const { return mvs_snapshot_name(held_); }
+
+  std::array<std::uint64_t, 2> hash() const {
+    std::array<std::uint64_t, 2> value = {};
+    must(mvs_snapshot_hash(held_, value.data()));
+    return value;
+  }
+
+  // The array MVS_NODE_POSITION ...; throws std::invalid_argument if it is not of `Value`.
+  template <typename Value>
+  View<Value> view(std::uint32_t which) const {
+    mvs_view found = {};
+    must(mvs_snapshot_view(held_, which, &found));
+    if (found.type != TypeOf<Value>::value) {
+      throw std::invalid_argument("this array of the snapshot has another element type");
+    }
+    return View<Value>(found);
+  }
+
+  std::vector<mvs_part> parts(std::uint32_t kind) const {
+    std::uint32_t count = 0;
+    must(mvs_snapshot_part_count(held_, kind, &count));
+    std::vector<mvs_part> found(count);
+    for (std::uint32_t k = 0; k < count; ++k) must(mvs_snapshot_part(held_, kind, k, &found[k]));
+    return found;
+  }
+
+  mvs_part find(std::uint32_t kind, const std::string &name) const {
+    mvs_part part = {};
+    must(mvs_snapshot_find(held_, kind, name.c_str(), &part));
+    return part;
+  }
+
+  mvs_load_case load() const {
+    mvs_load_case load = sized<mvs_load_case>();
+    must(mvs_snapshot_load(held_, &load));
+    return load;
+  }
+
+  mvs_measures measure() const {
+    mvs_measures measures = sized<mvs_measures>();
+    must(mvs_snapshot_measure(held_, &measures));
+    return measures;
+  }
+
+  mvs_comparison compare(const Snapshot &other) const {
+    mvs_comparison comparison = sized<mvs_comparison>();
+    must(mvs_snapshot_compare(held_, other.held_, &comparison));
+    return comparison;
+  }
+
+  // Segments as pairs of points.
+  std::vector<std::array<double, 3>> section(const std::array<double, 3> &point,
+                                             const std::array<double, 3> &normal) const {
+    std::uint64_t count = 0;
+    must(mvs_snapshot_section(held_, point.data(), normal.data(), nullptr, 0, &count));
+    std::vector<std::array<double, 3>> points(count);
+    double *to = count > 0 ? points[0].data() : nullptr;
+    must(mvs_snapshot_section(held_, point.data(), normal.data(), to, count, &count));
+    return points;
+  }
+
+  std::array<double, 12> frame() const {
+    std::array<double, 12> value = {};
+    must(mvs_snapshot_frame(held_, value.data()));
+    return value;
+  }
+
+  void save(const std::string &path, std::uint32_t format = MVS_FORMAT_AUTO) const {
+    must(mvs_save_file(held_, path.c_str(), format));
+  }
+
+  std::string save_memory(std::uint32_t format = MVS_FORMAT_AUTO) const {
+    std::uint64_t size = 0;
+    must(mvs_save_memory(held_, format, nullptr, 0, &size));
+    std::string bytes(size, '\0');
+    must(mvs_save_memory(held_, format, bytes.data(), size, &size));
+    return bytes;
+  }
+
+ private:
+  const mvs_snapshot *held_;
+};
+
+// A simulator, owned.
+class Sim {
+ public:
+  explicit Sim(mvs_sim_desc desc = {}) {
+    desc.struct_size = sizeof desc;
+    must(mvs_create(&desc, &sim_));
+  }
+  Sim(Sim &&other) noexcept : sim_(std::exchange(other.sim_, nullptr)) {}
+  Sim &operator=(Sim &&other) noexcept {
+    std::swap(sim_, other.sim_);
+    return *this;
+  }
+  Sim(const Sim &) = delete;
+  Sim &operator=(const Sim &) = delete;
+  ~Sim() { mvs_destroy(sim_); }
+
+  mvs_sim *get() const { return sim_; }
+
+  void set_valve(mvs_valve_desc valve) {
+    valve.struct_size = sizeof valve;
+    must(mvs_set_valve(sim_, &valve));
+  }
+
+  void generate(mvs_parametric_desc desc = {}) {
+    desc.struct_size = sizeof desc;
+    must(mvs_generate_valve(sim_, &desc));
+  }
+
+  void load_file(const std::string &path, std::uint32_t format = MVS_FORMAT_AUTO) {
+    must(mvs_load_file(sim_, path.c_str(), format));
+  }
+
+  void load_memory(const std::string &bytes, std::uint32_t format = MVS_FORMAT_AUTO) {
+    must(mvs_load_memory(sim_, bytes.data(), bytes.size(), format));
+  }
+
+  void set_load(double pressure, double boundary_fraction = 1) {
+    mvs_load_case load = sized<mvs_load_case>();
+    load.pressure = pressure;
+    load.boundary_fraction = boundary_fraction;
+    must(mvs_set_load(sim_, &load));
+  }
+
+  mvs_load_case load() const {
+    mvs_load_case load = sized<mvs_load_case>();
+    must(mvs_get_load(sim_, &load));
+    return load;
+  }
+
+  // Not converged is no failure: look at the result's `converged`.
+  mvs_stats settle(mvs_settle_options options = {}) {
+    options.struct_size = sizeof options;
+    mvs_stats stats = sized<mvs_stats>();
+    must(mvs_settle(sim_, &options, &stats));
+    return stats;
+  }
+
+  void step(mvs_step_options options = {}) {
+    options.struct_size = sizeof options;
+    must(mvs_step(sim_, &options));
+  }
+
+  mvs_stats stats() const {
+    mvs_stats stats = sized<mvs_stats>();
+    must(mvs_get_stats(sim_, &stats));
+    return stats;
+  }
+
+  Snapshot snapshot() const {
+    const mvs_snapshot *held = nullptr;
+    must(mvs_get_snapshot(sim_, &held));
+    return Snapshot(held);
+  }
+
+  void restore(const Snapshot &snapshot) { must(mvs_restore(sim_, snapshot.get())); }
+
+ private:
+  mvs_sim *sim_ = nullptr;
+};
+
+}  // namespace cpp17
+}  // namespace mvs
+
+#endif
