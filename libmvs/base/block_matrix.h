@@ -1,0 +1,45 @@
+// A symmetric sparse matrix of 3x3 blocks: the lower triangle by columns, diagonal block first.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "base/types.h"
+
+namespace mvs {
+
+class BlockMatrix {
+ public:
+  // Takes the pattern of `n` block rows from pairs of rows in any order; the diagonal is always in.
+  void set_pattern(uint32_t n, std::vector<Edge> pairs) {
+    for (Edge &p : pairs) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
+    for (uint32_t i = 0; i < n; ++i) pairs.push_back({i, i});
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    start.assign(n + 1, 0);
+    row.resize(pairs.size());
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      ++start[pairs[k][0] + 1];
+      row[k] = pairs[k][1];
+    }
+    for (uint32_t c = 0; c < n; ++c) start[c + 1] += start[c];
+    value.resize(pairs.size());
+    clear();
+  }
+
+  void clear() { std::fill(value.begin(), value.end(), Mat3::Zero()); }
+
+  uint32_t size() const { return start.empty() ? 0 : static_cast<uint32_t>(start.size() - 1); }
+
+  // Where block (r, c), r >= c, is kept; `none` if it is not in the pattern.
+  uint32_t find(uint32_t r, uint32_t c) const {
+    const uint32_t *first = row.data() + start[c], *last = row.data() + start[c + 1];
+    const uint32_t *at = std::lower_bound(first, last, r);
+    return at != last && *at == r ? static_cast<uint32_t>(at - row.data()) : none;
+  }
+
+  std::vector<uint32_t> start, row;  // column c holds blocks start[c] .. start[c + 1]
+  std::vector<Mat3> value;
+};
+
+}  // namespace mvs

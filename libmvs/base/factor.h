@@ -1,0 +1,33 @@
+// Sparse LDL^T of a BlockMatrix, behind one interface: CHOLMOD, Eigen.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/block_matrix.h"
+
+namespace mvs {
+
+class Factor {
+ public:
+  virtual ~Factor() = default;
+  // Takes the pattern in; call it again when the pattern changes. The rows are expected in a
+  // fill-reducing order already (see fill_reducing_order).
+  virtual void analyse(const BlockMatrix &matrix) = 0;
+  // Factorises the values; false if the matrix is not positive definite (or not finite).
+  virtual bool factorise(const BlockMatrix &matrix) = 0;
+  // Solves in place with the last factor.
+  virtual void solve(std::vector<Vec3> &b) = 0;
+};
+
+// A factorisation of the named MVS_BACKEND_*; throws MVS_E_UNSUPPORTED if this build lacks it.
+std::unique_ptr<Factor> make_factor(uint32_t backend);
+
+// The backends of this build by name, separated by spaces.
+const char *factor_names();
+
+// An elimination order for rows 0 .. n that keeps the factor sparse (approximate minimum degree):
+// order[k] is the row eliminated k-th.
+std::vector<uint32_t> fill_reducing_order(uint32_t n, const std::vector<Edge> &pairs);
+
+}  // namespace mvs
