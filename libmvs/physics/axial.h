@@ -1,0 +1,22 @@
+// What springs and chordae share: the Hessian block of a force along the line between two nodes.
+#pragma once
+
+#include "base/types.h"
+
+namespace mvs {
+
+// How a term gives its Hessian: as it is, or with what makes it indefinite left out.
+enum class Curvature { exact, projected };
+
+// d2E/dx_i2 for E(L), L = |x_i - x_j|: stiffness along the unit direction n, tension / L across it.
+// A compressed spring buckles sideways (tension < 0): the projected block leaves that out.
+inline Mat3 axial_block(const Vec3 &n, double stiffness, double tension_over_length,
+                        Curvature curvature) {
+  const double across =
+      curvature == Curvature::projected && tension_over_length < 0 ? 0.0 : tension_over_length;
+  Mat3 block = (stiffness - across) * (n * n.transpose());
+  block.diagonal().array() += across;
+  return block;
+}
+
+}  // namespace mvs

@@ -1,0 +1,60 @@
+// The linear system of one Newton iteration: blocks of the Hessian go in by node numbers.
+#pragma once
+
+#include <vector>
+
+#include "base/block_matrix.h"
+#include "model/model.h"
+
+namespace mvs {
+
+// Free nodes have a row, numbered in elimination order; prescribed nodes have none. What couples a
+// free node to a prescribed one that moves by a known amount goes to the right-hand side.
+class System {
+ public:
+  // Rows from the free nodes of a model; the pattern from pairs of nodes.
+  void set_pattern(const Model &model, const std::vector<Edge> &pairs);
+
+  void clear() {
+    matrix.clear();
+    boundary_force.assign(matrix.size(), Vec3::Zero());
+  }
+
+  // Adds block (i, j), i != j, and its transpose at (j, i). False if the pattern lacks it.
+  bool add(uint32_t i, uint32_t j, const Mat3 &block) {
+    const uint32_t r = row_of[i], c = row_of[j];
+    if (r == none || c == none) {
+      if (boundary_step != nullptr) couple(i, j, block);
+      return true;
+    }
+    const bool lower = r > c;
+    const uint32_t slot = lower ? matrix.find(r, c) : matrix.find(c, r);
+    if (slot == none) return false;
+    if (lower) {
+      matrix.value[slot] += block;
+    } else {
+      matrix.value[slot] += block.transpose();
+    }
+    return true;
+  }
+
+  void add_diagonal(uint32_t i, const Mat3 &block) {
+    const uint32_t r = row_of[i];
+    if (r != none) matrix.value[matrix.start[r]] += block;
+  }
+
+  BlockMatrix matrix;
+  std::vector<uint32_t> row_of;   // node -> row, none where prescribed
+  std::vector<uint32_t> node_of;  // row -> node
+  // While the boundary moves: the step of every node (zero where free), and -H_fb times it by rows.
+  const std::vector<Vec3> *boundary_step = nullptr;
+  std::vector<Vec3> boundary_force;
+
+ private:
+  void couple(uint32_t i, uint32_t j, const Mat3 &block) {
+    if (row_of[i] != none) boundary_force[row_of[i]] -= block * (*boundary_step)[j];
+    if (row_of[j] != none) boundary_force[row_of[j]] -= block.transpose() * (*boundary_step)[i];
+  }
+};
+
+}  // namespace mvs
