@@ -1,0 +1,275 @@
+// What touches, and the forces of it.
+#include "physics/contact.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/distance.h"
+
+namespace mvs {
+namespace {
+
+enum : uint32_t { vertex_feature, edge_feature, triangle_feature };
+
+ContactStencil point_point(uint32_t v, uint32_t a) {
+  return {{v, a, none, none}, {1, -1, 0, 0}, {}, 2, 0, {}, 0, 0, 0, false};
+}
+
+ContactStencil point_edge(uint32_t v, uint32_t a, uint32_t b, double s) {
+  return {{v, a, b, none}, {1, s - 1, -s, 0}, {{{0, 1, -1, 0}, {}}}, 3, 1, {}, 0, 0, 0, false};
+}
+
+ContactStencil point_face(uint32_t v, const Tri &t, const std::array<double, 3> &w) {
+  return {{v, t[0], t[1], t[2]},
+          {1, -w[0], -w[1], -w[2]},
+          {{{0, 1, -1, 0}, {0, 1, 0, -1}}},
+          4,
+          2,
+          {},
+          0,
+          0,
+          0,
+          false};
+}
+
+// The stencil of a vertex and the feature of a triangle that is closest to it.
+ContactStencil vertex_triangle(uint32_t v, const Tri &t, const TrianglePoint &p) {
+  if (p.feature < 3) return point_point(v, t[p.feature]);
+  if (p.feature == 6) return point_face(v, t, p.weight);
+  const uint32_t k = p.feature - 3, l = (k + 1) % 3;
+  return point_edge(v, t[k], t[l], p.weight[l]);
+}
+
+ContactStencil edge_edge(const Edge &e, const Edge &f, const SegmentPair &p) {
+  ContactStencil c{
+      {e[0], e[1], f[0], f[1]}, {1 - p.s, p.s, p.t - 1, -p.t}, {}, 4, 0, {}, 0, 0, 0, true};
+  if (p.s > 0 && p.s < 1) c.slide[c.slides++] = {-1, 1, 0, 0};
+  if (p.t > 0 && p.t < 1) c.slide[c.slides++] = {0, 0, 1, -1};
+  return c;
+}
+
+}  // namespace
+
+Barrier barrier(double s) {
+  if (s >= 1) return {0, 0, 0};
+  const double log = std::log(s), q = 1 - s;
+  return {-q * q * log, 2 * q * log - q * q / s, -2 * log + 4 * q / s + q * q / (s * s)};
+}
+
+Barrier penalty(double s) {
+  if (s >= 1) return {0, 0, 0};
+  const double q = 1 - s;
+  const double scale = -barrier(0.5).first / (3 * 0.25);
+  return {scale * q * q * q, -3 * scale * q * q, 6 * scale * q};
+}
+
+ContactTerm::ContactTerm(const Model &model, ContactLaw law)
+    : model_(&model),
+      thickness_(model.valve.contact_thickness),
+      stiffness_(model.valve.contact_stiffness),
+      law_(law),
+      curve_(law == ContactLaw::barrier ? barrier : penalty) {
+  for (const Edge &triangles : model.topology.edge_triangles) {
+    double area = 0;
+    for (const uint32_t t : triangles) area += t == none ? 0 : model.rest_area[t] / 3;
+    edge_area_.push_back(area);
+  }
+}
+
+void ContactTerm::collect(const std::vector<Vec3> &x, const Candidates &candidates) {
+  stencils_.clear();
+  const auto &list = candidates.vertex_triangles();
+  for (size_t first = 0; first < list.size();) {
+    size_t last = first;
+    while (last < list.size() && list[last].vertex == list[first].vertex) ++last;
+    collect_vertex(x, list.data() + first, list.data() + last);
+    first = last;
+  }
+  if (law_ == ContactLaw::penalty) return;
+  for (const EdgeEdge &pair : candidates.edge_edges()) add_guard(x, pair);
+}
+
+void ContactTerm::collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
+                                 const VertexTriangle *last) {
+  const uint32_t v = first->vertex;
+  const double range2 = thickness_ * thickness_;
+  features_.clear();
+  for (const VertexTriangle *c = first; c != last; ++c) {
+    const Tri &t = model_->valve.triangles[c->triangle];
+    const TrianglePoint p = closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]);
+    if (law_ == ContactLaw::barrier && p.distance2 < c->guard * c->guard) {
+      const double strength = 0.5 * stiffness_ * model_->vertex_area[v];
+      add_vertex_triangle(x, v, t, c->guard, strength, true);
+    }
+    if (!c->facing || p.distance2 >= range2) continue;
+    const Tri &edges = model_->topology.triangle_edges[c->triangle];
+    const uint32_t kind = p.feature < 3   ? vertex_feature
+                          : p.feature < 6 ? edge_feature
+                                          : triangle_feature;
+    const uint32_t index = kind == vertex_feature ? t[p.feature]
+                           : kind == edge_feature ? edges[p.feature - 3]
+                                                  : c->triangle;
+    count_feature(kind, index, 1);
+    // each edge and corner of the surface is counted once, whatever its number of triangles
+    for (int k = 0; k < 3; ++k) {
+      count_feature(edge_feature + 2, edges[k], 0);
+      count_feature(vertex_feature + 4, t[k], 0);
+    }
+  }
+  if (features_.empty()) return;
+  const size_t listed = features_.size();
+  for (size_t i = 0; i < listed; ++i) {
+    const Feature f = features_[i];
+    if (f.kind == edge_feature + 2) {
+      const Edge &e = model_->topology.edges[f.index];
+      const double s = closest_on_segment(x[v], x[e[0]], x[e[1]]).s;
+      if (s > 0 && s < 1) {
+        count_feature(edge_feature, f.index, -1);
+      } else {
+        count_feature(vertex_feature, e[s > 0 ? 1 : 0], -1);
+      }
+    } else if (f.kind == vertex_feature + 4) {
+      count_feature(vertex_feature, f.index, 1);
+    }
+  }
+  for (const Feature &f : features_) {
+    if (f.kind <= triangle_feature && f.count != 0) add_feature(x, v, f);
+  }
+}
+
+void ContactTerm::count_feature(uint32_t kind, uint32_t index, int by) {
+  for (Feature &f : features_) {
+    if (f.kind == kind && f.index == index) {
+      f.count += by;
+      return;
+    }
+  }
+  features_.push_back({kind, index, by});
+}
+
+void ContactTerm::add_feature(const std::vector<Vec3> &x, uint32_t v, const Feature &feature) {
+  const double strength = 0.5 * stiffness_ * model_->vertex_area[v] * feature.count;
+  ContactStencil s;
+  if (feature.kind == triangle_feature) {
+    add_vertex_triangle(x, v, model_->valve.triangles[feature.index], thickness_, strength, false);
+    return;
+  }
+  if (feature.kind == edge_feature) {
+    const Edge &e = model_->topology.edges[feature.index];
+    s = point_edge(v, e[0], e[1], closest_on_segment(x[v], x[e[0]], x[e[1]]).s);
+  } else {
+    s = point_point(v, feature.index);
+  }
+  s.range = thickness_;
+  s.strength = strength;
+  finish(x, s);
+}
+
+void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t,
+                                      double range, double strength, bool guard) {
+  ContactStencil s = vertex_triangle(v, t, closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]));
+  s.range = range;
+  s.strength = strength;
+  s.guard = guard;
+  finish(x, s);
+}
+
+void ContactTerm::add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair) {
+  const Edge &e = model_->topology.edges[pair.first], &f = model_->topology.edges[pair.second];
+  const SegmentPair p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
+  if (p.distance2 >= pair.guard * pair.guard) return;
+  ContactStencil s = edge_edge(e, f, p);
+  s.range = pair.guard;
+  s.strength = 0.25 * stiffness_ * (edge_area_[pair.first] + edge_area_[pair.second]);
+  finish(x, s);
+}
+
+void ContactTerm::finish(const std::vector<Vec3> &x, ContactStencil s) {
+  Vec3 r = Vec3::Zero();
+  for (uint32_t k = 0; k < s.count; ++k) r += s.weight[k] * x[s.node[k]];
+  s.distance = r.norm();
+  if (s.distance >= s.range) return;
+  s.normal = r / s.distance;
+  stencils_.push_back(s);
+}
+
+double ContactTerm::energy() const {
+  double sum = 0;
+  for (const ContactStencil &s : stencils_) {
+    sum += s.strength * s.range * curve_(s.distance / s.range).value;
+  }
+  return sum;
+}
+
+double ContactTerm::gradient(std::vector<Vec3> &g) const {
+  double sum = 0;
+  for (const ContactStencil &s : stencils_) {
+    const Barrier b = curve_(s.distance / s.range);
+    sum += s.strength * s.range * b.value;
+    const Vec3 f = s.strength * b.first * s.normal;
+    for (uint32_t k = 0; k < s.count; ++k) g[s.node[k]] += s.weight[k] * f;
+  }
+  return sum;
+}
+
+// With r = sum w_k x_k, n = r / |r|, t_a = sum slide_ak x_k and the closest point sliding freely
+// (n t_a = 0), the Hessian of E(d) is, with c = E' / d and G_ab = t_a t_b,
+//   w_k w_l (E'' n n^T + c (I - n n^T)) - c sum_ab (G^-1)_ab u_ka u_lb^T,
+//   u_ka = w_k t_a + slide_ka d n.
+// The projected one keeps E'' n n^T, which is positive, and leaves the rest.
+bool ContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+  bool complete = true;
+  for (const ContactStencil &s : stencils_) {
+    const Barrier b = curve_(s.distance / s.range);
+    const double second = s.strength / s.range * b.second;
+    const bool exact = curvature == Curvature::exact;
+    if (!exact && second <= 0) continue;
+    const Vec3 &n = s.normal;
+    const double c = exact ? s.strength * b.first / s.distance : 0;
+    Mat3 stiffness = (second - c) * n * n.transpose();
+    stiffness.diagonal().array() += c;
+    std::array<std::array<Vec3, 4>, 2> u;
+    Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
+    if (exact && s.slides > 0) {
+      std::array<Vec3, 2> t{Vec3::Zero(), Vec3::Zero()};
+      Eigen::Matrix2d gram = Eigen::Matrix2d::Identity();
+      for (uint32_t a = 0; a < s.slides; ++a) {
+        for (uint32_t k = 0; k < s.count; ++k) t[a] += s.slide[a][k] * x[s.node[k]];
+      }
+      for (uint32_t a = 0; a < s.slides; ++a) {
+        for (uint32_t e = 0; e < s.slides; ++e) gram(a, e) = t[a].dot(t[e]);
+        for (uint32_t k = 0; k < s.count; ++k) {
+          u[a][k] = s.weight[k] * t[a] + s.slide[a][k] * s.distance * n;
+        }
+      }
+      inverse = gram.inverse();
+    }
+    for (uint32_t k = 0; k < s.count; ++k) {
+      for (uint32_t l = 0; l <= k; ++l) {
+        Mat3 block = s.weight[k] * s.weight[l] * stiffness;
+        for (uint32_t a = 0; exact && a < s.slides; ++a) {
+          for (uint32_t e = 0; e < s.slides; ++e) {
+            block -= c * inverse(a, e) * u[a][k] * u[e][l].transpose();
+          }
+        }
+        if (k == l) {
+          system.add_diagonal(s.node[k], block);
+        } else {
+          complete = system.add(s.node[k], s.node[l], block) && complete;
+        }
+      }
+    }
+  }
+  return complete;
+}
+
+void ContactTerm::add_pairs(std::vector<Edge> &pairs) const {
+  for (const ContactStencil &s : stencils_) {
+    for (uint32_t k = 0; k < s.count; ++k) {
+      for (uint32_t l = 0; l < k; ++l) pairs.push_back({s.node[k], s.node[l]});
+    }
+  }
+}
+
+}  // namespace mvs

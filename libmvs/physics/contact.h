@@ -1,0 +1,100 @@
+// Contact of the sheet with itself: a smooth force between surfaces that face each other within the
+// contact thickness, and a guard that keeps every vertex-triangle and edge-edge pair apart.
+//
+// Contact proper. Each vertex v feels the surface that faces it through
+//   E_v = kappa A_v / 2 * sum_p c_p r B(d_p / r),   B(s) = -(1 - s)^2 ln s for s < 1,
+// r the contact thickness, kappa the contact stiffness, A_v the vertex's rest area, d_p the
+// distance to a triangle, edge or vertex. The barrier B is that of Li et al., Incremental Potential
+// Contact (2020). The integers c_p count +1 for triangles, -1 for edges, +1 for vertices (the
+// inclusion-exclusion of Li et al., Convergent IPC, 2023), so that a flat surface is felt once
+// however finely it is meshed, and the force is continuous as the vertex slides across it. What is
+// closer than facing_rest_distance * r in the rest shape belongs to the same piece of sheet and is
+// left out. Two sheets pressed together by p rest at a distance where -kappa B'(d / r) = p.
+//
+// The guard is the same barrier over a short range for every pair that is not incident, edges with
+// edges included: nothing comes to distance zero.
+#pragma once
+
+#include <vector>
+
+#include "model/model.h"
+#include "physics/axial.h"
+#include "physics/candidates.h"
+#include "physics/system.h"
+
+namespace mvs {
+
+inline constexpr double facing_rest_distance = 1.5;  // times the contact thickness
+inline constexpr double guard_share = 0.2;           // of the contact thickness
+inline constexpr double guard_rest_share = 0.4;      // of the pair's distance at rest
+
+inline double guard_range(double thickness, double rest_distance) {
+  const double a = guard_share * thickness, b = guard_rest_share * rest_distance;
+  return a < b ? a : b;
+}
+
+// The barrier with its first and second derivative.
+struct Barrier {
+  double value, first, second;
+};
+Barrier barrier(double s);
+// (1 - s)^3 scaled to push as the barrier does at s = 1/2.
+Barrier penalty(double s);
+
+// One distance and what it does: d = |sum_k weight_k x_k| over up to four nodes.
+struct ContactStencil {
+  std::array<uint32_t, 4> node;
+  std::array<double, 4> weight;
+  std::array<std::array<double, 4>, 2> slide;  // d(weight) along each direction it may slide in
+  uint32_t count;                              // nodes
+  uint32_t slides;                             // 0: point-point, 1: point-edge, 2: face or edges
+  Vec3 normal;                                 // unit, towards the first nodes
+  double distance;
+  double range;
+  double strength;  // kappa times an area, times c_p: may be negative
+  bool guard;
+};
+
+// The barrier of this file, or the founding paper's kind of contact: a force that grows with depth
+// up to a bound, from vertices to triangles only, with no guard.
+enum class ContactLaw { barrier, penalty };
+
+class ContactTerm {
+ public:
+  explicit ContactTerm(const Model &model, ContactLaw law = ContactLaw::barrier);
+
+  // Finds what touches at x; `candidates` must be valid there.
+  void collect(const std::vector<Vec3> &x, const Candidates &candidates);
+  const std::vector<ContactStencil> &stencils() const { return stencils_; }
+
+  // All three speak of the last collect().
+  double energy() const;
+  double gradient(std::vector<Vec3> &g) const;
+  // False if the pattern lacks a block; add_pairs() then gives what is needed.
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  void add_pairs(std::vector<Edge> &pairs) const;
+
+ private:
+  struct Feature {
+    uint32_t kind, index;  // 0 vertex, 1 edge, 2 triangle
+    int count;
+  };
+  void collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
+                      const VertexTriangle *last);
+  void count_feature(uint32_t kind, uint32_t index, int by);
+  void add_feature(const std::vector<Vec3> &x, uint32_t v, const Feature &feature);
+  void add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair);
+  void add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t, double range,
+                           double strength, bool guard);
+  void finish(const std::vector<Vec3> &x, ContactStencil s);
+
+  const Model *model_;
+  double thickness_, stiffness_;
+  ContactLaw law_;
+  Barrier (*curve_)(double);
+  std::vector<double> edge_area_;
+  std::vector<Feature> features_;  // of the vertex at hand
+  std::vector<ContactStencil> stencils_;
+};
+
+}  // namespace mvs

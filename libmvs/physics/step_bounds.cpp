@@ -1,0 +1,92 @@
+// Step bounds by separating planes.
+#include "physics/step_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/distance.h"
+
+namespace mvs {
+namespace {
+
+// The share of a distance that one step may use up. The rest is what rounding could never cross.
+constexpr double usable = 0.9;
+// Passes in which a node may follow one that gives way; then each keeps to its own half.
+constexpr int lenient_passes = 30;
+
+}  // namespace
+
+double StepBounds::limit(const Model &model, const std::vector<Vec3> &x,
+                         const Candidates &candidates, std::vector<Vec3> &dx) {
+  take_pairs(model, x, candidates, dx);
+  if (pairs_.empty()) return 1;
+  scale_.assign(dx.size(), 1.0);
+  bool changed = true;
+  for (int pass = 0; changed; ++pass) {
+    changed = false;
+    strict_ = pass >= lenient_passes;
+    for (const Pair &pair : pairs_) changed = cut(pair, dx) || changed;
+  }
+  double least = 1;
+  for (size_t i = 0; i < dx.size(); ++i) {
+    if (scale_[i] < 1) dx[i] *= scale_[i];
+    least = std::min(least, scale_[i]);
+  }
+  return least;
+}
+
+// Keeps the pairs whose nodes move far enough to matter.
+void StepBounds::take_pairs(const Model &model, const std::vector<Vec3> &x,
+                            const Candidates &candidates, const std::vector<Vec3> &dx) {
+  pairs_.clear();
+  auto keep = [&](const std::array<uint32_t, 4> &node, uint32_t split, const Vec3 &r) {
+    const double distance = r.norm();
+    double near = 0, far = 0;
+    for (uint32_t k = 0; k < 4; ++k) {
+      double &side = k < split ? near : far;
+      side = std::max(side, dx[node[k]].squaredNorm());
+    }
+    if (std::sqrt(near) + std::sqrt(far) <= usable * distance) return;
+    pairs_.push_back({node, split, r / distance, usable * distance});
+  };
+  for (const VertexTriangle &c : candidates.vertex_triangles()) {
+    const Tri &t = model.valve.triangles[c.triangle];
+    const auto p = closest_on_triangle(x[c.vertex], x[t[0]], x[t[1]], x[t[2]]);
+    const Vec3 q = p.weight[0] * x[t[0]] + p.weight[1] * x[t[1]] + p.weight[2] * x[t[2]];
+    keep({c.vertex, t[0], t[1], t[2]}, 1, x[c.vertex] - q);
+  }
+  for (const EdgeEdge &c : candidates.edge_edges()) {
+    const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
+    const auto p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
+    const Vec3 r = x[e[0]] + p.s * (x[e[1]] - x[e[0]]) - x[f[0]] - p.t * (x[f[1]] - x[f[0]]);
+    keep({e[0], e[1], f[0], f[1]}, 2, r);
+  }
+}
+
+bool StepBounds::cut(const Pair &pair, const std::vector<Vec3> &dx) {
+  std::array<double, 4> approach;
+  std::array<double, 2> side{-1e300, -1e300};
+  for (uint32_t k = 0; k < 4; ++k) {
+    const uint32_t s = k < pair.split ? 0 : 1;
+    const double along = pair.normal.dot(dx[pair.node[k]]) * scale_[pair.node[k]];
+    approach[k] = s == 0 ? -along : along;
+    side[s] = std::max(side[s], approach[k]);
+  }
+  if (side[0] + side[1] <= pair.room) return false;
+  // what one side gives way, the other may follow; what both want, they share
+  const double half = 0.5 * pair.room;
+  std::array<double, 2> limit{half, half};
+  if (!strict_ && side[0] < half) limit[1] = pair.room - side[0];
+  if (!strict_ && side[1] < half) limit[0] = pair.room - side[1];
+  bool changed = false;
+  for (uint32_t k = 0; k < 4; ++k) {
+    const double most = limit[k < pair.split ? 0 : 1];
+    if (approach[k] <= most) continue;
+    // a hair below, so that rounding does not bring the pair back
+    scale_[pair.node[k]] *= most / approach[k] * (1 - 1e-12);
+    changed = true;
+  }
+  return changed;
+}
+
+}  // namespace mvs
