@@ -1,0 +1,318 @@
+// Newton in a trust region: the loop first, then the two kinds of step, then what they share.
+#include "physics/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/gmres.h"
+
+namespace mvs {
+namespace {
+
+constexpr double longest_step = 1e-3;     // m a node may go in one iteration
+constexpr double boundary_step = 0.5e-3;  // m a prescribed node may go in one iteration
+constexpr double least_shift = 1e-4;      // keeps slack branch points and loose flaps solvable
+constexpr double largest_shift = 1e3;
+constexpr int trials = 8;  // of one iteration, each with a larger shift
+constexpr int most_patience = 16;
+
+double largest(const std::vector<Vec3> &v) {
+  double square = 0;
+  for (const Vec3 &a : v) square = std::max(square, a.squaredNorm());
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+SolveStats Newton::settle(State &state, const SolveOptions &options, const Progress &progress) {
+  const double start = seconds_now();
+  const double tolerance = options.residual > 0 ? options.residual : 1e-5;
+  const uint32_t most = options.max_iterations > 0 ? options.max_iterations : 1000;
+  begin(state);
+  while (true) {
+    stats_.converged = boundary_is_there() && residual_ <= tolerance;
+    if (stats_.converged || stats_.iterations == most) break;
+    const double share = static_cast<double>(stats_.iterations) / most;
+    MVS_MUST(!progress || progress(share, residual_), MVS_E_CANCELLED, "settle",
+             "settling was cancelled by the progress callback; the valve is as before");
+    ++stats_.iterations;
+    if (!boundary_is_there()) move_boundary();
+    iterate();
+  }
+  state.x = x_;
+  state.v.assign(x_.size(), Vec3::Zero());
+  stats_.residual = residual_;
+  stats_.energy = energy_;
+  stats_.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
+  stats_.wall_s = seconds_now() - start;
+  return stats_;
+}
+
+void Newton::begin(const State &state) {
+  stats_ = {};
+  x_ = state.x;
+  fraction_ = state.load.boundary_fraction;
+  potential_.set_pressure(state.load.pressure);
+  // an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle
+  const double pressure = std::max(std::abs(state.load.pressure), 1e3);
+  double area = 0;
+  for (const double a : model_->rest_area) area += a;
+  area /= static_cast<double>(model_->node_count());
+  shift_scale_.clear();
+  for (const double a : model_->vertex_area) {
+    shift_scale_.push_back(pressure * std::sqrt(std::max(a, area)));
+  }
+  near_force_ = 4 * pressure * area;
+  rest_force_ = pressure * area;
+  shift_ = 1;
+  wait_ = 0;
+  patience_ = 1;
+  reach_.assign(x_.size(), 0.25 * model_->valve.contact_thickness);
+  evaluate();
+}
+
+void Newton::evaluate() {
+  if (!potential_.prepared_for(x_)) potential_.prepare(x_, reach_, stats_.phase_s);
+  energy_ = potential_.gradient(x_, g_, stats_.phase_s);
+  double square = 0;
+  for (size_t i = 0; i < g_.size(); ++i) {
+    if (!model_->topology.fixed[i]) square = std::max(square, g_[i].squaredNorm());
+  }
+  residual_ = std::sqrt(square);
+  MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "settle",
+           "the forces are not finite: nodes coincide or the material is too stiff; check the "
+           "rest shape and the materials");
+}
+
+void Newton::iterate() {
+  if (residual_ < rest_force_ && wait_ == 0) {
+    if (rest_step()) {
+      patience_ = 1;
+      return;
+    }
+    wait_ = patience_;
+    patience_ = std::min(2 * patience_, most_patience);
+  }
+  wait_ = std::max(wait_ - 1, 0);
+  travel_step();
+}
+
+// A full Newton step on the out-of-balance force; false, and nothing moved, unless it falls.
+bool Newton::rest_step() {
+  const double kept = shift_;
+  shift_ = 0;
+  assemble(Curvature::exact);
+  factorise();
+  const bool close = added_ < 1;
+  shift_ = kept;
+  solve(!close);
+  limit_step();
+  if (!try_force()) return false;
+  evaluate();
+  return true;
+}
+
+// A step that lowers the energy about as foretold; the shift grows until there is one.
+void Newton::travel_step() {
+  assemble(residual_ < near_force_ ? Curvature::exact : Curvature::projected);
+  for (int trial = 0; trial < trials; ++trial) {
+    factorise();
+    solve(true);
+    limit_step();
+    double foretold;
+    const double found = try_step(foretold);
+    // the linear part is common to both, so their difference is what the matrix got wrong
+    double agreement = 1 - std::abs(found - foretold) / (std::abs(slope()) + 1e-300);
+    if (curvature_ == Curvature::projected) {
+      agreement = foretold < 0 ? found / foretold : (found < 0 ? 1 : -1);
+    }
+    if (longest_ > 1.5 * longest_step) {
+      shift_ = std::max(2 * shift_, 0.01);
+    } else if (agreement > 0.6) {
+      shift_ = shift_ < 1e-3 ? 0 : 0.3 * shift_;
+    } else if (!(agreement > 0.2)) {
+      shift_ = std::min(std::max(4 * shift_, 0.03), largest_shift);
+    }
+    if (agreement > 0.01 || shift_ >= largest_shift) break;
+  }
+  x_.swap(trial_);
+  evaluate();
+}
+
+// The change of energy along the step as it is, and as the quadratic model says.
+double Newton::try_step(double &foretold) {
+  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_LINE_SEARCH);
+  foretold = slope() + 0.5 * curvature_along();
+  for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
+  return potential_.energy(trial_) - energy_;
+}
+
+bool Newton::boundary_is_there() const {
+  for (uint32_t i = 0; i < x_.size(); ++i) {
+    if (model_->topology.fixed[i] && x_[i] != model_->target(i, fraction_)) return false;
+  }
+  return true;
+}
+
+// Moves the prescribed nodes towards their targets and carries the sheet along: the free nodes
+// follow as the linearised system says, dx_f = -H_ff^-1 H_fb dx_b.
+void Newton::move_boundary() {
+  boundary_.assign(x_.size(), Vec3::Zero());
+  for (uint32_t i = 0; i < x_.size(); ++i) {
+    if (model_->topology.fixed[i]) boundary_[i] = model_->target(i, fraction_) - x_[i];
+  }
+  const double farthest = largest(boundary_);
+  const double share = farthest > boundary_step ? boundary_step / farthest : 1.0;
+  for (Vec3 &b : boundary_) b *= share;
+  system_.boundary_step = &boundary_;
+  assemble(Curvature::projected);
+  system_.boundary_step = nullptr;
+  factorise();
+  rows_ = system_.boundary_force;
+  factor_->solve(rows_);
+  full_ = boundary_;
+  for (size_t r = 0; r < rows_.size(); ++r) full_[system_.node_of[r]] = rows_[r];
+  limit_step();
+  for (uint32_t i = 0; i < x_.size(); ++i) {
+    const bool arrives = model_->topology.fixed[i] && share == 1.0 && step_[i] == boundary_[i];
+    x_[i] = arrives ? model_->target(i, fraction_) : Vec3(x_[i] + step_[i]);
+  }
+  evaluate();
+}
+
+void Newton::assemble(Curvature curvature) {
+  curvature_ = curvature;
+  if (potential_.hessian(x_, curvature, system_, stats_.phase_s)) {
+    const PhaseTimer timer(stats_.phase_s, MVS_PHASE_ORDERING);
+    factor_->analyse(system_.matrix);
+  }
+  diagonal_.resize(system_.node_of.size());
+  for (size_t r = 0; r < diagonal_.size(); ++r) {
+    diagonal_[r] = system_.matrix.value[system_.matrix.start[r]];
+  }
+}
+
+// Factorises with the present shift, or the first larger one that makes the matrix positive
+// definite.
+void Newton::factorise() {
+  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_FACTOR);
+  added_ = std::max(shift_, least_shift);
+  for (bool first = true;; first = false) {
+    for (size_t r = 0; r < diagonal_.size(); ++r) {
+      Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
+      block = diagonal_[r];
+      block.diagonal().array() += added_ * shift_scale_[system_.node_of[r]];
+    }
+    ++stats_.factorisations;
+    if (factor_->factorise(system_.matrix)) return;
+    if (first) ++stats_.shifted;
+    added_ = shift_ = std::max(3 * added_, 0.05);
+    MVS_MUST(added_ < 1e12, MVS_E_DIVERGED, "settle",
+             "the stiffness matrix is not finite; check the materials");
+  }
+}
+
+// The step that the factorised system gives, in full_.
+void Newton::solve(bool with_shift) {
+  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_SOLVE);
+  rows_.resize(system_.node_of.size());
+  for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = -g_[system_.node_of[r]];
+  factor_->solve(rows_);
+  if (curvature_ == Curvature::exact) include_skew(with_shift);
+  full_.assign(x_.size(), Vec3::Zero());
+  for (size_t r = 0; r < rows_.size(); ++r) full_[system_.node_of[r]] = rows_[r];
+}
+
+// Turns (H + shift D)^-1 b into the solution for the true derivative, H + S (+ shift D), S the skew
+// part that the free edge adds.
+void Newton::include_skew(bool with_shift) {
+  const double removed = with_shift ? 0 : added_;
+  auto apply = [&](const std::vector<Vec3> &v) {
+    trial_.assign(x_.size(), Vec3::Zero());
+    for (size_t r = 0; r < v.size(); ++r) trial_[system_.node_of[r]] = v[r];
+    step_.assign(x_.size(), Vec3::Zero());
+    potential_.add_skew(x_, trial_, step_);
+    std::vector<Vec3> y(v.size());
+    for (size_t r = 0; r < v.size(); ++r) {
+      const uint32_t i = system_.node_of[r];
+      y[r] = step_[i] - removed * shift_scale_[i] * v[r];
+    }
+    factor_->solve(y);
+    for (size_t r = 0; r < v.size(); ++r) y[r] += v[r];
+    return y;
+  };
+  gmres(apply, rows_, 30, 1e-3);
+}
+
+// Makes step_ from full_: no node goes farther than allowed, none through another sheet.
+void Newton::limit_step() {
+  longest_ = largest(full_);
+  step_ = full_;
+  for (Vec3 &d : step_) {
+    const double length = d.norm();
+    if (length > longest_step) d *= longest_step / length;
+  }
+  cover_step();
+  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_NARROW);
+  bounds_.limit(*model_, x_, potential_.candidates(), step_);
+}
+
+// Candidate pairs must reach as far as the step.
+void Newton::cover_step() {
+  trial_.resize(x_.size());
+  for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
+  if (potential_.prepared_for(trial_) && potential_.prepared_for(x_)) return;
+  const double least = 0.1 * model_->valve.contact_thickness;
+  for (size_t i = 0; i < x_.size(); ++i) reach_[i] = std::max(1.25 * step_[i].norm(), least);
+  potential_.prepare(x_, reach_, stats_.phase_s);
+}
+
+bool Newton::try_force() {
+  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_LINE_SEARCH);
+  Profile inside{};
+  const double before = free_norm();
+  std::vector<Vec3> kept = g_;
+  double share = 1;
+  for (int trial = 0; trial < 5; ++trial, share *= 0.5) {
+    for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + share * step_[i];
+    potential_.gradient(trial_, g_, inside);
+    if (free_norm() <= (1 - 0.1 * share) * before) {
+      x_.swap(trial_);
+      return true;
+    }
+  }
+  g_ = std::move(kept);
+  // the free edge is to be frozen, and contact known, at x again
+  evaluate();
+  return false;
+}
+
+double Newton::free_norm() const {
+  double sum = 0;
+  for (size_t i = 0; i < g_.size(); ++i) {
+    if (!model_->topology.fixed[i]) sum += g_[i].squaredNorm();
+  }
+  return std::sqrt(sum);
+}
+
+double Newton::slope() const {
+  return dot(g_, step_);
+}
+
+// step^T H step with the matrix before its shift.
+double Newton::curvature_along() const {
+  const BlockMatrix &m = system_.matrix;
+  double sum = 0;
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    const Vec3 &d = step_[system_.node_of[c]];
+    Vec3 below = Vec3::Zero();
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      below += m.value[k].transpose() * step_[system_.node_of[m.row[k]]];
+    }
+    sum += d.dot(diagonal_[c] * d + 2 * below);
+  }
+  return sum;
+}
+
+}  // namespace mvs

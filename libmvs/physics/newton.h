@@ -1,0 +1,69 @@
+// The static closure: Newton on the potential inside a trust region, with the boundary on its way.
+//
+// The matrix is H + shift * D, D a stiffness the load itself has (pressure times element size). Far
+// from rest H is projected (what makes it indefinite is left out) and the shift follows how well
+// the quadratic model foretold the energy (Conn, Gould, Toint, Trust-Region Methods, 2000). Near
+// rest H is exact and the skew part of the follower load at the free edge is solved for too, so
+// that the last iterations converge quadratically although the load has no potential there. Every
+// step is cut node by node so that no sheet passes another (physics/step_bounds.h).
+#pragma once
+
+#include "base/factor.h"
+#include "physics/potential.h"
+#include "physics/solver.h"
+#include "physics/step_bounds.h"
+
+namespace mvs {
+
+class Newton {
+ public:
+  Newton(const Model &model, Factor &factor)
+      : model_(&model), factor_(&factor), potential_(model) {}
+
+  // Brings state.x to rest under state.load and sets velocities to zero.
+  SolveStats settle(State &state, const SolveOptions &options, const Progress &progress);
+
+ private:
+  void begin(const State &state);
+  void evaluate();
+  void iterate();
+  bool rest_step();
+  void travel_step();
+  double try_step(double &foretold);
+  void move_boundary();
+  bool boundary_is_there() const;
+
+  void assemble(Curvature curvature);
+  void factorise();
+  void solve(bool with_shift);
+  void include_skew(bool with_shift);
+  void limit_step();
+  void cover_step();
+  bool try_force();
+  double free_norm() const;
+  double slope() const;
+  double curvature_along() const;
+
+  const Model *model_;
+  Factor *factor_;
+  Potential potential_;
+  System system_;
+  StepBounds bounds_;
+  SolveStats stats_;
+
+  std::vector<Vec3> x_, trial_, g_;    // positions, positions tried, dE/dx
+  std::vector<Vec3> step_, full_;      // the step as cut, as the system gave it
+  std::vector<Vec3> rows_, boundary_;  // right-hand side and solution; step of prescribed nodes
+  std::vector<Mat3> diagonal_;         // of the system before a shift
+  std::vector<double> shift_scale_;    // N/m per node: D
+  std::vector<double> reach_;
+  double fraction_ = 0;
+  double near_force_ = 0, rest_force_ = 0;  // N: below it, exact curvature; attempts at rest
+  double shift_ = 0, added_ = 0;            // wanted; in the matrix now
+  double longest_ = 0;                      // m, of the uncut step
+  double energy_ = 0, residual_ = 0;
+  Curvature curvature_ = Curvature::projected;
+  int wait_ = 0, patience_ = 1;  // iterations until rest_step is tried again
+};
+
+}  // namespace mvs

@@ -1,0 +1,74 @@
+// The sum of the terms.
+#include "physics/potential.h"
+
+namespace mvs {
+
+Potential::Potential(const Model &model, ContactLaw law)
+    : model_(&model),
+      spring_(model),
+      bending_(model),
+      chord_(model),
+      pressure_(model),
+      candidates_(model),
+      contact_(model, law) {
+  spring_.add_pairs(pairs_);
+  bending_.add_pairs(pairs_);
+  chord_.add_pairs(pairs_);
+  pressure_.add_pairs(pairs_);
+}
+
+void Potential::prepare(const std::vector<Vec3> &x, const std::vector<double> &reach,
+                        Profile &profile) {
+  const PhaseTimer timer(profile, MVS_PHASE_BROAD);
+  candidates_.build(x, reach);
+}
+
+double Potential::energy(const std::vector<Vec3> &x) {
+  contact_.collect(x, candidates_);
+  return spring_.energy(x) + bending_.energy(x) + chord_.energy(x) + pressure_.energy(x) +
+         contact_.energy();
+}
+
+double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
+  {
+    const PhaseTimer timer(profile, MVS_PHASE_NARROW);
+    contact_.collect(x, candidates_);
+  }
+  const PhaseTimer timer(profile, MVS_PHASE_TERMS);
+  pressure_.freeze(x);
+  g.assign(x.size(), Vec3::Zero());
+  double sum = spring_.gradient(x, g);
+  sum += bending_.gradient(x, g);
+  sum += chord_.gradient(x, g);
+  sum += pressure_.gradient(x, g);
+  return sum + contact_.gradient(g);
+}
+
+bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &system) {
+  system.clear();
+  spring_.hessian(x, curvature, system);
+  bending_.hessian(x, curvature, system);
+  chord_.hessian(x, curvature, system);
+  pressure_.hessian(x, system);
+  return contact_.hessian(x, curvature, system);
+}
+
+bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,
+                        Profile &profile) {
+  if (!system.row_of.empty()) {
+    const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
+    if (fill(x, curvature, system)) return false;
+  }
+  // contact has come where the pattern has no room: a new pattern from what touches now
+  {
+    const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
+    std::vector<Edge> pairs = pairs_;
+    contact_.add_pairs(pairs);
+    system.set_pattern(*model_, pairs);
+  }
+  const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
+  fill(x, curvature, system);
+  return true;
+}
+
+}  // namespace mvs

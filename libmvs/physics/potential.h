@@ -1,0 +1,55 @@
+// All the terms a model has, as one potential: what every solver runs over.
+#pragma once
+
+#include <vector>
+
+#include "physics/bending.h"
+#include "physics/candidates.h"
+#include "physics/chord.h"
+#include "physics/contact.h"
+#include "physics/pressure.h"
+#include "physics/profile.h"
+#include "physics/spring.h"
+
+namespace mvs {
+
+class Potential {
+ public:
+  explicit Potential(const Model &model, ContactLaw law = ContactLaw::barrier);
+
+  void set_pressure(double pressure) { pressure_.set_pressure(pressure); }
+
+  // Makes contact known around x: each node i may then go as far as reach[i].
+  void prepare(const std::vector<Vec3> &x, const std::vector<double> &reach, Profile &profile);
+  bool prepared_for(const std::vector<Vec3> &x) const { return candidates_.valid_for(x); }
+
+  // The energy at x, comparable between calls of gradient(); x must be prepared for.
+  double energy(const std::vector<Vec3> &x);
+  // Sets g = dE/dx and returns the energy; x must be prepared for.
+  double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile);
+  // Fills the system with the Hessian at the x of the last gradient(). True if its pattern is new.
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system, Profile &profile);
+
+  // Adds what the Hessian leaves out because it is not symmetric: see PressureTerm::add_skew.
+  void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v,
+                std::vector<Vec3> &y) const {
+    pressure_.add_skew(x, v, y);
+  }
+
+  const Candidates &candidates() const { return candidates_; }
+  const ContactTerm &contact() const { return contact_; }
+
+ private:
+  bool fill(const std::vector<Vec3> &x, Curvature curvature, System &system);
+
+  const Model *model_;
+  SpringTerm spring_;
+  BendingTerm bending_;
+  ChordTerm chord_;
+  PressureTerm pressure_;
+  Candidates candidates_;
+  ContactTerm contact_;
+  std::vector<Edge> pairs_;  // of the terms whose pattern never changes
+};
+
+}  // namespace mvs

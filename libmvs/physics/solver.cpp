@@ -1,0 +1,149 @@
+// One face for the solvers: options checked, defaults filled in, the right one run.
+#include "physics/solver.h"
+
+#include <mvs/sim.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "physics/forces.h"
+#include "physics/newton.h"
+#include "physics/stepper.h"
+
+namespace mvs {
+namespace {
+
+struct InTime {
+  double dt, damping;
+  uint32_t most;
+};
+
+InTime defaults(const SolveOptions &options) {
+  const bool is_explicit = options.solver == MVS_SOLVER_EXPLICIT;
+  InTime t{options.dt, options.damping, options.max_iterations};
+  if (t.dt == 0) t.dt = is_explicit ? 8e-6 : 1e-3;
+  if (t.damping == 0 && is_explicit) t.damping = 500;
+  if (t.most == 0) t.most = is_explicit ? 2000000 : 20000;
+  return t;
+}
+
+bool boundary_is_there(const Model &model, const State &state) {
+  for (uint32_t i = 0; i < state.x.size(); ++i) {
+    if (!model.topology.fixed[i]) continue;
+    // a boundary that has come within rounding of its target is there
+    const Vec3 gap = model.target(i, state.load.boundary_fraction) - state.x[i];
+    if (gap.norm() > 1e-9) return false;
+  }
+  return true;
+}
+
+// Steps until the out-of-balance force is below the tolerance and stays there for a while, so that
+// a valve passing through balance in motion does not count as at rest.
+template <typename Step>
+SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &options,
+                          const Progress &progress, Step &&step) {
+  constexpr int calm_needed = 10;
+  const double start = seconds_now();
+  const double tolerance = options.residual > 0 ? options.residual : 1e-5;
+  const InTime time = defaults(options);
+  SolveStats stats;
+  int calm = 0;
+  while (stats.iterations < time.most && calm < calm_needed) {
+    ++stats.iterations;
+    step(time, stats);
+    state.time += time.dt;
+    ++state.steps;
+    calm = stats.residual <= tolerance && boundary_is_there(model, state) ? calm + 1 : 0;
+    const bool tell = progress && stats.iterations % 64 == 0;
+    MVS_MUST(!tell || progress(static_cast<double>(stats.iterations) / time.most, stats.residual),
+             MVS_E_CANCELLED, "settle",
+             "settling was cancelled by the progress callback; the valve is as before");
+  }
+  stats.converged = calm == calm_needed;
+  state.v.assign(state.v.size(), Vec3::Zero());
+  stats.kinetic = 0;
+  stats.wall_s = seconds_now() - start;
+  return stats;
+}
+
+}  // namespace
+
+// The workers of the last model, so that a sequence of steps keeps its matrices.
+struct Solver::Work {
+  explicit Work(uint32_t backend) : factor(make_factor(backend)) {}
+
+  ImplicitStepper &implicit_for(const Model &model) {
+    if (implicit_model != &model) implicit.reset();
+    implicit_model = &model;
+    if (!implicit) implicit = std::make_unique<ImplicitStepper>(model, *factor);
+    return *implicit;
+  }
+  ExplicitStepper &explicit_for(const Model &model) {
+    if (explicit_model != &model) explicit_.reset();
+    explicit_model = &model;
+    if (!explicit_) explicit_ = std::make_unique<ExplicitStepper>(model);
+    return *explicit_;
+  }
+
+  std::unique_ptr<Factor> factor;
+  std::unique_ptr<ImplicitStepper> implicit;
+  std::unique_ptr<ExplicitStepper> explicit_;
+  const Model *implicit_model = nullptr, *explicit_model = nullptr;
+};
+
+Solver::Solver(uint32_t backend) : work_(std::make_unique<Work>(backend)) {}
+Solver::~Solver() = default;
+Solver::Solver(Solver &&) noexcept = default;
+Solver &Solver::operator=(Solver &&) noexcept = default;
+
+SolveStats Solver::settle(const Model &model, State &state, const SolveOptions &options,
+                          const Progress &progress) {
+  if (options.solver == MVS_SOLVER_IMPLICIT) {
+    ImplicitStepper stepper(model, *work_->factor);
+    return settle_in_time(model, state, options, progress, [&](const InTime &t, SolveStats &s) {
+      stepper.step(state, t.dt, t.damping, s);
+    });
+  }
+  if (options.solver == MVS_SOLVER_EXPLICIT) {
+    ExplicitStepper stepper(model);
+    return settle_in_time(model, state, options, progress, [&](const InTime &t, SolveStats &s) {
+      stepper.step(state, t.dt, t.damping, s);
+    });
+  }
+  // the factor's pattern is about to be another one
+  work_->implicit.reset();
+  return Newton(model, *work_->factor).settle(state, options, progress);
+}
+
+SolveStats Solver::step(const Model &model, State &state, const SolveOptions &options) {
+  const double start = seconds_now();
+  const InTime t = defaults(options);
+  SolveStats stats;
+  if (options.solver == MVS_SOLVER_EXPLICIT) {
+    work_->explicit_for(model).step(state, t.dt, t.damping, stats);
+  } else {
+    work_->implicit_for(model).step(state, t.dt, t.damping, stats);
+  }
+  state.time += t.dt;
+  ++state.steps;
+  stats.iterations = 1;
+  stats.wall_s = seconds_now() - start;
+  return stats;
+}
+
+Forces evaluate_forces(const Model &model, const State &state) {
+  Potential potential(model);
+  Profile profile{};
+  potential.set_pressure(state.load.pressure);
+  const std::vector<double> reach(state.x.size(), 0.0);
+  potential.prepare(state.x, reach, profile);
+  Forces forces;
+  forces.energy = potential.gradient(state.x, forces.total, profile);
+  forces.contact.assign(state.x.size(), Vec3::Zero());
+  potential.contact().gradient(forces.contact);
+  for (Vec3 &f : forces.total) f = -f;
+  for (Vec3 &f : forces.contact) f = -f;
+  return forces;
+}
+
+}  // namespace mvs

@@ -1,0 +1,169 @@
+// The two steps in time, each top to bottom.
+#include "physics/stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace mvs {
+namespace {
+
+constexpr double longest_step = 1e-3;  // m a node may go in one implicit step
+constexpr int halvings = 6;
+
+}  // namespace
+
+double kinetic_energy(const Model &model, const std::vector<Vec3> &v) {
+  double sum = 0;
+  for (size_t i = 0; i < v.size(); ++i) sum += 0.5 * model.node_mass[i] * v[i].squaredNorm();
+  return sum;
+}
+
+double largest_free(const Model &model, const std::vector<Vec3> &g) {
+  double square = 0;
+  for (size_t i = 0; i < g.size(); ++i) {
+    if (!model.topology.fixed[i]) square = std::max(square, g[i].squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+void advance_boundary(const Model &model, const State &state, double dt, std::vector<Vec3> &step) {
+  step.assign(state.x.size(), Vec3::Zero());
+  double farthest = 0;
+  for (uint32_t i = 0; i < state.x.size(); ++i) {
+    if (!model.topology.fixed[i]) continue;
+    step[i] = model.target(i, state.load.boundary_fraction) - state.x[i];
+    farthest = std::max(farthest, step[i].norm());
+  }
+  const double share = farthest > boundary_speed * dt ? boundary_speed * dt / farthest : 1.0;
+  for (Vec3 &s : step) s *= share;
+}
+
+ImplicitStepper::ImplicitStepper(const Model &model, Factor &factor)
+    : model_(&model), factor_(&factor), potential_(model) {}
+
+void ImplicitStepper::evaluate(SolveStats &stats) {
+  if (!potential_.prepared_for(x_)) {
+    reach_.assign(x_.size(), 0.25 * model_->valve.contact_thickness);
+    potential_.prepare(x_, reach_, stats.phase_s);
+  }
+  energy_ = potential_.gradient(x_, g_, stats.phase_s);
+  residual_ = largest_free(*model_, g_);
+  MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "step",
+           "the forces are not finite: nodes coincide or the material is too stiff");
+}
+
+void ImplicitStepper::step(State &state, double dt, double damping, SolveStats &stats) {
+  potential_.set_pressure(state.load.pressure);
+  x_ = state.x;
+  v_ = state.v;
+  advance_boundary(*model_, state, dt, boundary_);
+  evaluate(stats);
+  solve(dt, damping, stats);
+  limit(stats);
+  // energy may come from the pressure (part of the potential) and the boundary, from nowhere else
+  const double before = energy_ + kinetic_energy(*model_, v_);
+  const bool free_of_work =
+      std::all_of(boundary_.begin(), boundary_.end(), [](const Vec3 &b) { return b.isZero(0); });
+  double share = 1;
+  for (int k = 0; k <= halvings; ++k, share *= 0.5) {
+    for (size_t i = 0; i < x_.size(); ++i) {
+      state.x[i] = x_[i] + share * step_[i];
+      state.v[i] = (share / dt) * step_[i];
+    }
+    const double after = potential_.energy(state.x) + kinetic_energy(*model_, state.v);
+    if (!free_of_work || after <= before + 1e-12 * std::abs(before)) break;
+  }
+  for (uint32_t i = 0; share == 1 && i < x_.size(); ++i) {
+    const bool arrives = model_->topology.fixed[i] && step_[i] == boundary_[i];
+    const Vec3 target = model_->target(i, state.load.boundary_fraction);
+    if (arrives && (state.x[i] - target).norm() < 1e-12) state.x[i] = target;
+  }
+  x_ = state.x;
+  evaluate(stats);
+  stats.residual = residual_;
+  stats.energy = energy_;
+  stats.kinetic = kinetic_energy(*model_, state.v);
+  stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
+}
+
+void ImplicitStepper::solve(double dt, double damping, SolveStats &stats) {
+  system_.boundary_step = &boundary_;
+  if (potential_.hessian(x_, Curvature::projected, system_, stats.phase_s)) {
+    const PhaseTimer timer(stats.phase_s, MVS_PHASE_ORDERING);
+    factor_->analyse(system_.matrix);
+  }
+  system_.boundary_step = nullptr;
+  rows_.resize(system_.node_of.size());
+  for (size_t r = 0; r < rows_.size(); ++r) {
+    const uint32_t i = system_.node_of[r];
+    rows_[r] = system_.boundary_force[r] - g_[i] + (model_->node_mass[i] / dt) * v_[i];
+  }
+  const PhaseTimer timer(stats.phase_s, MVS_PHASE_FACTOR);
+  std::vector<Mat3> diagonal(rows_.size());
+  for (size_t r = 0; r < rows_.size(); ++r)
+    diagonal[r] = system_.matrix.value[system_.matrix.start[r]];
+  // more mass where the pressure makes the matrix indefinite: a smaller step in disguise
+  for (double factor = 1;; factor *= 4) {
+    for (size_t r = 0; r < rows_.size(); ++r) {
+      const double m = model_->node_mass[system_.node_of[r]];
+      Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
+      block = diagonal[r];
+      block.diagonal().array() += factor * m * (1 / (dt * dt) + damping / dt);
+    }
+    ++stats.factorisations;
+    if (factor_->factorise(system_.matrix)) break;
+    ++stats.shifted;
+    MVS_MUST(factor < 1e18, MVS_E_DIVERGED, "step", "the stiffness matrix is not finite");
+  }
+  factor_->solve(rows_);
+}
+
+void ImplicitStepper::limit(SolveStats &stats) {
+  step_ = boundary_;
+  for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = rows_[r];
+  trial_.resize(x_.size());
+  for (size_t i = 0; i < x_.size(); ++i) {
+    const double length = step_[i].norm();
+    if (length > longest_step) step_[i] *= longest_step / length;
+    trial_[i] = x_[i] + step_[i];
+  }
+  if (!potential_.prepared_for(trial_)) {
+    const double least = 0.1 * model_->valve.contact_thickness;
+    reach_.resize(x_.size());
+    for (size_t i = 0; i < x_.size(); ++i) reach_[i] = std::max(1.5 * step_[i].norm(), least);
+    potential_.prepare(x_, reach_, stats.phase_s);
+  }
+  bounds_.limit(*model_, x_, potential_.candidates(), step_);
+}
+
+ExplicitStepper::ExplicitStepper(const Model &model)
+    : model_(&model), potential_(model, ContactLaw::penalty) {}
+
+void ExplicitStepper::step(State &state, double dt, double damping, SolveStats &stats) {
+  potential_.set_pressure(state.load.pressure);
+  if (!potential_.prepared_for(state.x)) {
+    reach_.assign(state.x.size(), 0.5 * model_->valve.contact_thickness);
+    potential_.prepare(state.x, reach_, stats.phase_s);
+  }
+  stats.energy = potential_.gradient(state.x, g_, stats.phase_s);
+  stats.residual = largest_free(*model_, g_);
+  MVS_MUST(std::isfinite(stats.residual), MVS_E_DIVERGED, "step",
+           "the explicit solver blew up: its time step is too large for this valve");
+  std::vector<Vec3> boundary;
+  advance_boundary(*model_, state, dt, boundary);
+  for (uint32_t i = 0; i < state.x.size(); ++i) {
+    if (model_->topology.fixed[i]) {
+      state.v[i] = boundary[i] / dt;
+      state.x[i] += boundary[i];
+      continue;
+    }
+    state.v[i] += dt * (-g_[i] / model_->node_mass[i] - damping * state.v[i]);
+    state.x[i] += dt * state.v[i];
+  }
+  stats.kinetic = kinetic_energy(*model_, state.v);
+  stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
+}
+
+}  // namespace mvs
