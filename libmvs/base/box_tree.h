@@ -1,4 +1,4 @@
-// A balanced tree of boxes over triangles: which of them touch a box, which is nearest to a point.
+// A balanced tree of boxes over triangles: which of them touch a box.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,6 @@ struct Box {
   }
   bool touches(const Box &other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-  double distance2(const Vec3 &p) const {
-    return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
   }
 };
 
@@ -47,24 +44,6 @@ class BoxTree {
       }
       for (uint32_t k = node.first; k < node.last; ++k) {
         if (boxes_[items_[k]].touches(box)) visit(items_[k]);
-      }
-      ++n;
-    }
-  }
-
-  // Lowers `best2` by distance2(item) of every item that may be nearer to `p` than it.
-  template <typename Distance2>
-  void lower_to_nearest(const Vec3 &p, double &best2, Distance2 distance2) const {
-    for (size_t n = 0; n < nodes_.size();) {
-      const Node &node = nodes_[n];
-      if (node.box.distance2(p) >= best2) {
-        n = node.after;
-        continue;
-      }
-      for (uint32_t k = node.first; k < node.last; ++k) {
-        if (boxes_[items_[k]].distance2(p) < best2) {
-          best2 = std::min(best2, distance2(items_[k]));
-        }
       }
       ++n;
     }

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <random>
 
-#include "base/box_tree.h"
-
 using namespace mvs;
 
 namespace {
@@ -272,25 +270,6 @@ TEST_CASE("neighbours_over_an_edge_cross_only_when_folded_flat") {
   CHECK(count({2, 0, 0}) == 0);  // flat triangle in the fold itself
   CHECK(find_intersections({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(1, 4, 0)}, {{0, 1, 2}, {2, 1, 0}})
             .size() == 1);
-}
-
-TEST_CASE("nearest_in_a_tree_is_the_nearest_of_all") {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  const auto point = [&] {
-    const double x = unit(random), y = unit(random), z = unit(random);
-    return Vec3(x, y, z);
-  };
-  std::vector<Box> boxes(500);
-  for (Box &box : boxes) box.add(point());
-  const BoxTree tree(boxes);
-  for (int round = 0; round < 200; ++round) {
-    const Vec3 p = 2 * point();
-    double expected = 1e300, best = 1e300;
-    for (const Box &box : boxes) expected = std::min(expected, (box.low - p).squaredNorm());
-    tree.lower_to_nearest(p, best, [&](uint32_t k) { return (boxes[k].low - p).squaredNorm(); });
-    CHECK(best == expected);
-  }
 }
 
 TEST_CASE("fifty_thousand_triangles_are_tested_at_interactive_speed") {
