@@ -1,0 +1,122 @@
+// Longest-edge bisection in rounds, each of which leaves a sheet without gaps.
+#include "measure/orifice_bisect.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "model/sides.h"
+
+namespace mvs::orifice {
+namespace {
+
+struct Edges {
+  std::vector<Edge> ends;
+  std::vector<Vec3> normal;
+  std::vector<uint8_t> on_rim;
+  std::vector<Tri> of_triangle;  // per triangle, side k joins corners k and k + 1
+};
+
+Vec3 area_vector(const Mesh &mesh, uint32_t t) {
+  const Tri &c = mesh.triangles[t];
+  return 0.5 * (mesh.x[c[1]] - mesh.x[c[0]]).cross(mesh.x[c[2]] - mesh.x[c[0]]);
+}
+
+Edges edges_of(const Mesh &mesh) {
+  Edges edges;
+  edges.of_triangle.resize(mesh.triangles.size());
+  const std::vector<Side> sides = sorted_sides(mesh.triangles);
+  for_each_edge(sides, [&](size_t first, size_t last) {
+    Vec3 normal = Vec3::Zero();
+    for (size_t s = first; s < last; ++s) {
+      normal += area_vector(mesh, sides[s].triangle);
+      edges.of_triangle[sides[s].triangle][sides[s].k] = static_cast<uint32_t>(edges.ends.size());
+    }
+    edges.ends.push_back(sides[first].edge);
+    edges.normal.push_back(normal);
+    edges.on_rim.push_back(last == first + 1);
+  });
+  return edges;
+}
+
+// The side of triangle t that is cut first; on equal lengths, that with the larger edge number.
+uint32_t longest_side(const Mesh &mesh, const Edges &edges, uint32_t t) {
+  const auto key = [&](uint32_t k) {
+    const Edge &e = edges.ends[edges.of_triangle[t][k]];
+    return std::pair((mesh.x[e[0]] - mesh.x[e[1]]).squaredNorm(), edges.of_triangle[t][k]);
+  };
+  uint32_t longest = 0;
+  for (uint32_t k = 1; k < 3; ++k) {
+    if (key(k) > key(longest)) longest = k;
+  }
+  return longest;
+}
+
+// A triangle with any edge to cut cuts its longest one too.
+void spread(const Mesh &mesh, const Edges &edges, std::vector<uint8_t> &cut) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Tri &e = edges.of_triangle[t];
+      if (!cut[e[0]] && !cut[e[1]] && !cut[e[2]]) continue;
+      uint8_t &longest = cut[e[longest_side(mesh, edges, t)]];
+      changed |= !longest;
+      longest = 1;
+    }
+  }
+}
+
+// The parts of triangle t; `middle` holds the new node of each edge or `none`.
+void cut_triangle(const Mesh &mesh, const Edges &edges, const std::vector<uint32_t> &middle,
+                  uint32_t t, std::vector<Tri> &parts) {
+  const uint32_t k = longest_side(mesh, edges, t), k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+  const Tri &corner = mesh.triangles[t], &edge = edges.of_triangle[t];
+  const uint32_t a = corner[k], b = corner[k1], c = corner[k2];
+  const uint32_t ab = middle[edge[k]], bc = middle[edge[k1]], ca = middle[edge[k2]];
+  if (ab == none) {
+    parts.push_back(corner);
+    return;
+  }
+  if (ca == none) {
+    parts.push_back({a, ab, c});
+  } else {
+    parts.push_back({a, ab, ca});
+    parts.push_back({ab, c, ca});
+  }
+  if (bc == none) {
+    parts.push_back({ab, b, c});
+  } else {
+    parts.push_back({ab, b, bc});
+    parts.push_back({ab, bc, c});
+  }
+}
+
+}  // namespace
+
+void bisect(Mesh &mesh, const std::function<bool(const BisectEdge &)> &is_too_long) {
+  for (size_t known = 0;;) {
+    const Edges edges = edges_of(mesh);
+    std::vector<uint8_t> cut(edges.ends.size());
+    for (size_t e = 0; e < cut.size(); ++e) {
+      // an edge between nodes of earlier rounds was short enough then
+      if (edges.ends[e][1] < known) continue;
+      cut[e] = is_too_long({mesh.x[edges.ends[e][0]], mesh.x[edges.ends[e][1]], edges.normal[e],
+                            edges.on_rim[e] != 0});
+    }
+    if (std::find(cut.begin(), cut.end(), 1) == cut.end()) return;
+    known = mesh.x.size();
+    spread(mesh, edges, cut);
+    std::vector<uint32_t> middle(cut.size(), none);
+    for (size_t e = 0; e < cut.size(); ++e) {
+      if (!cut[e]) continue;
+      middle[e] = static_cast<uint32_t>(mesh.x.size());
+      mesh.x.push_back(0.5 * (mesh.x[edges.ends[e][0]] + mesh.x[edges.ends[e][1]]));
+    }
+    std::vector<Tri> parts;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      cut_triangle(mesh, edges, middle, t, parts);
+    }
+    mesh.triangles = std::move(parts);
+  }
+}
+
+}  // namespace mvs::orifice
