@@ -98,7 +98,8 @@ typedef struct mvs_valve_desc {
   uint32_t chord_count;
   uint32_t head_count;
   double density;            /* kg/m3 [1060] */
-  double contact_thickness;  /* m, mid-surface distance at which leaflets touch [0.6e-3] */
+  double contact_thickness;  /* m, mid-surface distance at which leaflets touch [1e-3, a leaflet
+                                thickness] */
   double contact_stiffness;  /* Pa, scale of the contact pressure [20e3] */
   double bending_scale;      /* factor on E t^3 / (12 (1 - nu^2)) [1]; negative: no bending */
   const mvs_id *scallop_ids; /* one a scallop, 0: given by the library; null: all are */

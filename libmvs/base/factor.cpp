@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "base/error.h"
+#include "base/factor_block.h"
 #include "base/factor_cholmod.h"
 
 namespace mvs {
@@ -64,26 +65,24 @@ void expand_lower(const BlockMatrix &matrix, int *start, int *row, double *value
 }
 
 std::unique_ptr<Factor> make_factor(uint32_t backend) {
-#ifdef MVS_HAVE_CHOLMOD
-  if (backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_CHOLMOD) {
-    return make_cholmod_factor();
-  }
-#else
-  MVS_MUST(backend != MVS_BACKEND_CHOLMOD, MVS_E_UNSUPPORTED, "backend",
-           "this build of libmvs has no CHOLMOD; use MVS_BACKEND_EIGEN or build with "
-           "-DMVS_CHOLMOD=ON");
-  if (backend == MVS_BACKEND_DEFAULT) return std::make_unique<EigenFactor>();
-#endif
-  MVS_MUST(backend == MVS_BACKEND_EIGEN, MVS_E_ARGUMENT, "backend",
+  if (backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK) return make_block_factor();
+  if (backend == MVS_BACKEND_EIGEN) return std::make_unique<EigenFactor>();
+  MVS_MUST(backend == MVS_BACKEND_CHOLMOD, MVS_E_ARGUMENT, "backend",
            "there is no factorisation number %u; use MVS_BACKEND_DEFAULT", backend);
-  return std::make_unique<EigenFactor>();
+#ifdef MVS_HAVE_CHOLMOD
+  return make_cholmod_factor();
+#else
+  fail(MVS_E_UNSUPPORTED, "backend",
+       "this build of libmvs has no CHOLMOD; use MVS_BACKEND_DEFAULT or build with "
+       "-DMVS_CHOLMOD=ON");
+#endif
 }
 
 const char *factor_names() {
 #ifdef MVS_HAVE_CHOLMOD
-  return "cholmod eigen";
+  return "block cholmod eigen";
 #else
-  return "eigen";
+  return "block eigen";
 #endif
 }
 

@@ -1,4 +1,4 @@
-// Sparse LDL^T of a BlockMatrix, behind one interface: CHOLMOD, Eigen.
+// Sparse Cholesky factors of a BlockMatrix, behind one interface: our own, CHOLMOD, Eigen.
 #pragma once
 
 #include <memory>
