@@ -63,5 +63,7 @@ build_preset() {
 # Makes .venv once and installs the Python package with the named extras: install_python EXTRAS
 install_python() {
   [ -x .venv/bin/pip ] || "${PYTHON:-python3}" -m venv .venv || return 1
-  .venv/bin/pip install --quiet --disable-pip-version-check ".[$1]"
+  echo "pip installs this package and what it needs into .venv: a minute or two the first time"
+  .venv/bin/pip install --quiet --disable-pip-version-check --config-settings=build-dir=build/python \
+    ".[$1]"
 }
