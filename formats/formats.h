@@ -14,7 +14,11 @@ struct Loaded {
   State state;
 };
 
-// Extended OBJ. Reading is strict: MVS_E_FORMAT with the line, or MVS_E_VERSION.
+// Files above this size are refused.
+inline constexpr size_t max_file_bytes = size_t{1} << 30;
+
+// Extended OBJ. Reading is strict: MVS_E_FORMAT with the line, or MVS_E_VERSION. What it returns
+// has indices in range and finite numbers, and may leave out what make_model completes.
 Loaded read_obj(std::string_view text);
 std::string write_obj(const Model &model, const State &state);
 
@@ -28,8 +32,11 @@ struct VtpArray {
 };
 std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays);
 
-// Whole files: reading with a size limit, writing beside the target and renaming.
-std::string read_whole_file(const std::string &path);
+// Reads a file or pipe of at most `limit` bytes.
+std::string read_whole_file(const std::string &path, size_t limit = max_file_bytes);
+
+// Writes beside the target, to the disk, and renames: at every moment, also when the machine loses
+// power, the target is either the old file or the whole new one. A failure leaves nothing behind.
 void write_whole_file(const std::string &path, std::string_view bytes);
 
 }  // namespace mvs
