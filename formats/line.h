@@ -1,0 +1,76 @@
+// One line of a text file, taken apart word by word; every complaint names the line and the word.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace mvs {
+
+// A word as it may be shown in a sentence: at most 32 bytes, odd ones as \x00, in backquotes.
+std::string quoted(std::string_view word);
+
+// A whole number of digits alone; false for anything else.
+bool parse_whole(std::string_view text, uint64_t &value);
+
+class Line {
+ public:
+  Line() = default;
+  Line(std::string_view text, int32_t number) : rest_(text), number_(number) {}
+
+  // The next word, empty at the end of the line. Words are parted by spaces and tabs.
+  std::string_view word();
+  // A number, divided by 10^shift.
+  double number(int shift = 0);
+  // A whole number, without sign.
+  uint64_t whole();
+  // The 0-based index of a vertex out of `count`: files count from 1, or from the end with -1.
+  uint32_t vertex(size_t count);
+  // Fails if words are left.
+  void end();
+  bool at_end();
+
+  int32_t number_of_line() const { return number_; }
+  [[noreturn, gnu::format(printf, 2, 3)]] void fail(const char *pattern, ...) const;
+
+ private:
+  std::string_view rest_;
+  int32_t number_ = 0;
+};
+
+// The words left in a line, as key=value pairs. Each getter takes its key; what nobody took is an
+// unknown key.
+class Fields {
+ public:
+  explicit Fields(Line &line);
+
+  bool number(std::string_view key, double &value, int shift = 0);
+  bool whole(std::string_view key, uint64_t &value);
+  bool text(std::string_view key, std::string &value);
+  // The index of the value in a list of words.
+  bool choice(std::string_view key, uint32_t &value, std::span<const std::string_view> words);
+  // Fails unless one of the getters above found its key.
+  void need(bool found, std::string_view key) const;
+  void end() const;
+
+ private:
+  struct Field {
+    std::string_view key, value;
+    bool taken = false;
+  };
+  Field *take(std::string_view key);
+
+  const Line &line_;
+  std::array<Field, 12> fields_;
+  size_t count_ = 0;
+};
+
+// Names as words: letters, digits and -_.+/ stand for themselves, other bytes are %XX.
+void append_text(std::string &out, std::string_view text);
+std::string decoded(std::string_view word, const Line &line);
+
+}  // namespace mvs

@@ -1,0 +1,80 @@
+// The reader of extended OBJ: what OBJ itself has is in obj_read.cpp, the #mvs lines are in
+// obj_records.cpp. Every index, number and name is checked where it stands, so that what leaves the
+// reader can at worst be no valve (make_model says that), but never out of bounds. Nothing is
+// allocated for a count that the file only claims.
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "formats/formats.h"
+#include "formats/line.h"
+#include "formats/obj_words.h"
+
+namespace mvs {
+
+class ObjReader {
+ public:
+  Loaded read(std::string_view text);
+
+ private:
+  void statement(std::string_view content, Line &line);
+  static void comment(std::string_view text, const Line &line);
+  void vertex(Line &line);
+  void group(Line &line);
+  void face(Line &line);
+  void segments(Line &line);
+
+  void record(Line &line);
+  void version(std::string_view word, Line &line);
+  void valve(Line &line);
+  void state(Line &line);
+  void leaflet(Line &line);
+  void scallop(Line &line);
+  void rest(Line &line);
+  void loaded(Line &line);
+  void velocity(Line &line);
+  void annulus(Line &line);
+  void head(Line &line);
+  void thickness(Line &line);
+  void fibre(Line &line);
+  void chord(Line &line);
+  void end(Line &line);
+
+  void enter_group(const Line &line);
+  template <typename Item>
+  static void check_room(const std::vector<Item> &items, const Line &line);
+  void check_complete(const Line &last) const;
+
+  // What attributes the last v, f and l line have got so far.
+  struct Given {
+    bool rest = false, loaded = false, velocity = false, thickness = false, chord = false;
+  };
+  struct Counts {
+    uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
+  };
+
+  Loaded out_;
+  std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_;
+  std::string_view leaflet_word_, scallop_word_;  // of the group that faces are in
+  uint32_t leaflet_ = none, scallop_ = none;      // the same as indices, once a face needs them
+  size_t segments_in_line_ = 0;
+  Given given_;
+  Counts counts_;
+  bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
+};
+
+template <typename Item>
+void ObjReader::check_room(const std::vector<Item> &items, const Line &line) {
+  constexpr size_t most = size_t{1} << 22;
+  if (items.size() < most) return;
+  line.fail("the limit is %zu vertices, triangles, segments or parts of one kind", most);
+}
+
+// x y z in mm.
+inline Vec3 read_place(Line &line) {
+  const double x = line.number(obj::mm), y = line.number(obj::mm), z = line.number(obj::mm);
+  return {x, y, z};
+}
+
+}  // namespace mvs
