@@ -1,0 +1,170 @@
+// Valves and states to write and read: a good one, and random ones with any bits.
+#pragma once
+
+#include <mvs/valve.h>
+
+#include <doctest/doctest.h>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include "../unit/small_valve.h"
+#include "base/error.h"
+#include "formats/formats.h"
+
+namespace mvs {
+
+// A model and its state.
+struct Pair {
+  Model model;
+  State state;
+};
+
+// The example of FORMAT.md: nine nodes.
+inline std::string example_text() {
+  std::stringstream document;
+  document << std::ifstream(MVS_SOURCE_DIR "/formats/FORMAT.md").rdbuf();
+  const std::string text = document.str(), fence = "```obj\n";
+  const size_t start = text.find(fence) + fence.size();
+  return text.substr(start, text.find("```", start) - start);
+}
+
+// What make_model makes of a file's content.
+inline Pair complete(const Loaded &loaded) {
+  return {*make_model(loaded.valve), loaded.state};
+}
+
+// Sets everything that a file can hold and that is not the default yet.
+inline Pair in_motion(Valve valve) {
+  valve.name = "in motion";
+  valve.loaded = valve.rest;
+  for (const uint32_t node : valve.annulus) valve.loaded[node] *= 0.95;
+  valve.loaded[valve.heads[0].node] += Vec3(1e-3, -2e-3, 3e-3);
+  valve.scallops = {{0, "A2", 0}, {0, "P1", 1}, {0, "P3", 1}};
+  valve.triangle_scallop.clear();
+  valve.triangle_thickness.clear();
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const uint32_t leaflet = valve.triangle_leaflet[t];
+    valve.triangle_scallop.push_back(leaflet == 0 ? 0 : 1 + static_cast<uint32_t>(t / 2 % 2));
+    valve.triangle_thickness.push_back(t % 5 == 0 ? 1.3e-3 : 1e-3);
+  }
+  valve.leaflets[1].bilinear = {90e3, 5.5e6, 0.3};
+  valve.chords[2].young = 35e6;
+  valve.chords[3].area = 5e-7;
+  valve.next_id = 1000;
+  valve.bending_scale = 0.5;
+  Pair pair{*make_model(valve), {}};
+  pair.state = initial_state(pair.model);
+  for (size_t n = 0; n < pair.state.x.size(); n += 3) {
+    pair.state.x[n] += Vec3(1e-4, 2e-4, -3e-4) * std::sin(static_cast<double>(n + 1));
+    pair.state.v[n] = Vec3(0.1, -0.2, 0.3) * std::cos(static_cast<double>(n));
+  }
+  pair.state.time = 0.125;
+  pair.state.steps = 125;
+  pair.state.load = {15998.64, 0.75};
+  return pair;
+}
+
+// 68 nodes for looking at, 9 nodes for what is done to every byte.
+inline Pair moving_valve() {
+  return in_motion(small_valve());
+}
+inline Pair moving_example() {
+  return in_motion(read_obj(example_text()).valve);
+}
+
+// Numbers of any bits but infinity and NaN, a quarter of them subnormal.
+class RandomBits {
+ public:
+  explicit RandomBits(uint64_t seed) : engine_(seed) {}
+  uint64_t bits() { return engine_(); }
+  uint32_t below(uint32_t limit) { return static_cast<uint32_t>(engine_() % limit); }
+  double number() {
+    for (;;) {
+      const uint64_t word = engine_();
+      const double value =
+          std::bit_cast<double>(word % 4 == 0 ? word & ~(uint64_t{0x7ff} << 52) : word);
+      if (std::isfinite(value)) return value;
+    }
+  }
+  Vec3 place() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+  std::string name(uint32_t number) {
+    std::string text = std::to_string(number) + ":";
+    for (uint32_t k = below(12); k > 0; --k) text += static_cast<char>(bits() & 255);
+    return text;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+template <typename Part>
+std::vector<Part> random_parts(RandomBits &random, uint32_t least) {
+  std::vector<Part> parts(least + random.below(5));
+  for (uint32_t k = 0; k < parts.size(); ++k) {
+    parts[k].id = random.bits();
+    parts[k].name = random.name(k);
+  }
+  return parts;
+}
+
+// Anything that fits the types and has indices in range; no valve by any means.
+inline Pair random_pair(uint64_t seed) {
+  RandomBits random(seed);
+  Pair pair;
+  Valve &valve = pair.model.valve;
+  valve.name = random.name(0);
+  valve.leaflets = random_parts<Leaflet>(random, 1);
+  valve.scallops = random_parts<Scallop>(random, 1);
+  valve.chords = random_parts<Chord>(random, 0);
+  valve.heads = random_parts<Head>(random, 0);
+  const uint32_t n = 1 + random.below(20), m = random.below(30);
+  const auto any_node = [&] { return random.below(n); };
+  for (uint32_t k = 0; k < n; ++k) {
+    pair.state.x.push_back(random.place());
+    pair.state.v.push_back(random.below(2) == 0 ? random.place() : Vec3::Zero());
+    valve.rest.push_back(random.below(2) == 0 ? random.place() : pair.state.x.back());
+    valve.loaded.push_back(random.below(2) == 0 ? random.place() : valve.rest.back());
+  }
+  for (Leaflet &leaflet : valve.leaflets) {
+    leaflet.thickness = random.number();
+    leaflet.bilinear = {random.number(), random.number(), random.number()};
+  }
+  for (Scallop &scallop : valve.scallops) {
+    scallop.leaflet = random.below(static_cast<uint32_t>(valve.leaflets.size()));
+  }
+  for (uint32_t t = 0; t < m; ++t) {
+    valve.triangles.push_back({any_node(), any_node(), any_node()});
+    valve.triangle_leaflet.push_back(random.below(static_cast<uint32_t>(valve.leaflets.size())));
+    valve.triangle_scallop.push_back(random.below(static_cast<uint32_t>(valve.scallops.size())));
+    valve.triangle_thickness.push_back(random.number());
+    valve.triangle_fibre.push_back(random.place());
+  }
+  for (uint32_t k = random.below(40); k > 0; --k) valve.annulus.push_back(any_node());
+  for (Chord &chord : valve.chords) {
+    chord.a = any_node();
+    chord.b = any_node();
+    chord.kind = random.below(MVS_CHORD_TRUNK + 1);
+    chord.rest_length = random.number();
+    chord.young = random.number();
+    chord.area = random.number();
+  }
+  for (Head &head : valve.heads) head.node = any_node();
+  valve.density = random.number();
+  valve.contact_thickness = random.number();
+  valve.contact_stiffness = random.number();
+  valve.bending_scale = random.number();
+  valve.next_id = random.bits();
+  pair.state.time = random.number();
+  pair.state.steps = random.bits();
+  pair.state.load = {random.number(), random.number()};
+  return pair;
+}
+
+}  // namespace mvs
