@@ -1,0 +1,121 @@
+// Load and save: the formats behind one pair of functions.
+#include <mvs/file.h>
+
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+#include "api/sim.h"
+#include "formats/formats.h"
+
+using namespace mvs;
+
+namespace {
+
+const char *const ending_hint = "known endings are .obj and .vtp, or name the format";
+
+bool ends_with(std::string_view text, std::string_view ending) {
+  return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
+}
+
+uint32_t checked_format(uint32_t format_given) {
+  MVS_MUST(format_given <= MVS_FORMAT_VTP, MVS_E_ARGUMENT, "format",
+           "format is %u: it has to be one of MVS_FORMAT_*", format_given);
+  return format_given;
+}
+
+uint32_t format_of(const char *path, uint32_t format_given) {
+  must_point(path, "path");
+  MVS_MUST(*path, MVS_E_ARGUMENT, "path", "the path is empty");
+  if (checked_format(format_given) != MVS_FORMAT_AUTO) return format_given;
+  if (ends_with(path, ".obj")) return MVS_FORMAT_OBJ;
+  if (ends_with(path, ".vtp")) return MVS_FORMAT_VTP;
+  fail(MVS_E_ARGUMENT, "path", "the ending does not tell a format: %s", ending_hint);
+}
+
+void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
+  MVS_MUST(format_given != MVS_FORMAT_VTP, MVS_E_UNSUPPORTED, "format",
+           "VTP files are written for other programs, not read: load the OBJ file");
+  Loaded loaded = read_obj(bytes);
+  ModelPtr model = make_model(std::move(loaded.valve));
+  replace_valve(sim, std::move(model), std::move(loaded.state));
+}
+
+// Chords stand after the triangles in the cells of a VTP file.
+VtpArray triangle_array(const mvs_snapshot &s, const char *name, int components,
+                        const double *values) {
+  const size_t triangles = s.model->valve.triangles.size(), chords = s.model->valve.chords.size();
+  VtpArray array{name, false, components, {}};
+  array.values.assign(values, values + components * triangles);
+  array.values.resize(components * (triangles + chords), std::numeric_limits<double>::quiet_NaN());
+  return array;
+}
+
+VtpArray chord_array(const mvs_snapshot &s, const char *name, const std::vector<double> &values) {
+  VtpArray array{name, false, 1, {}};
+  array.values.assign(s.model->valve.triangles.size(), std::numeric_limits<double>::quiet_NaN());
+  array.values.insert(array.values.end(), values.begin(), values.end());
+  return array;
+}
+
+VtpArray point_array(const char *name, int components, const double *values, size_t count) {
+  return {name, true, components, std::vector<double>(values, values + components * count)};
+}
+
+std::vector<VtpArray> result_arrays(const mvs_snapshot &s) {
+  const size_t n = s.model->node_count();
+  return {point_array("force_N", 3, s.forces().total.data()->data(), n),
+          point_array("contact_force_N", 3, s.forces().contact.data()->data(), n),
+          point_array("coaptation_distance_m", 1, s.coaptation().distance.data(), n),
+          triangle_array(s, "stretch", 2, s.strain().stretch.data()->data()),
+          triangle_array(s, "stress_Pa", 2, s.strain().stress.data()->data()),
+          triangle_array(s, "coapted_share", 1, s.coaptation().share.data()),
+          chord_array(s, "chord_strain", s.chords().strain),
+          chord_array(s, "chord_tension_N", s.chords().tension)};
+}
+
+std::string written(const mvs_snapshot &s, uint32_t format_given) {
+  if (format_given == MVS_FORMAT_VTP) return write_vtp(*s.model, s.state, result_arrays(s));
+  return write_obj(*s.model, s.state);
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format_given) {
+  return guarded_file(path ? path : "", [&] {
+    const AtWork at_work(sim);
+    const uint32_t how = format_of(path, format_given);
+    load_bytes(*sim, read_whole_file(path), how);
+  });
+}
+
+mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size, uint32_t format_given) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    must_point(data, "data");
+    load_bytes(s, {static_cast<const char *>(data), size}, checked_format(format_given));
+  });
+}
+
+mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_t format_given) {
+  return guarded_file(path ? path : "", [&] {
+    must_point(snapshot, "snapshot");
+    const uint32_t how = format_of(path, format_given);
+    write_whole_file(path, written(*snapshot, how));
+  });
+}
+
+mvs_result mvs_save_memory(const mvs_snapshot *snapshot, uint32_t format_given, void *data,
+                           uint64_t capacity, uint64_t *size) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    must_point(size, "size");
+    if (capacity > 0) must_point(data, "data");
+    const std::string bytes = written(*snapshot, checked_format(format_given));
+    std::memcpy(data, bytes.data(), std::min<uint64_t>(capacity, bytes.size()));
+    *size = bytes.size();
+  });
+}
+
+}  // extern "C"

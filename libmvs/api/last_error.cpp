@@ -1,0 +1,98 @@
+// The last failure of each thread, and what the library says about itself.
+#include <mvs/base.h>
+
+#include <cstring>
+
+#include "api/guard.h"
+#include "base/factor.h"
+
+namespace {
+
+thread_local mvs_error last_error = {};
+
+// Copies what fits; never cuts a UTF-8 character in two.
+template <size_t size>
+void copy_text(char (&to)[size], const char *from) noexcept {
+  size_t length = std::strlen(from);
+  if (length >= size) {
+    length = size - 1;
+    while (length > 0 && (static_cast<unsigned char>(from[length]) & 0xc0) == 0x80) --length;
+  }
+  std::memcpy(to, from, length);
+  std::memset(to + length, 0, size - length);
+}
+
+}  // namespace
+
+namespace mvs {
+
+mvs_result record_failure(mvs_result code, int32_t line, const char *part,
+                          const char *message) noexcept {
+  last_error.code = code;
+  last_error.line = line;
+  copy_text(last_error.part, part);
+  copy_text(last_error.message, message);
+  return code;
+}
+
+Error about_file(const Error &error, const std::string &path) {
+  if (path.empty()) return error;
+  // the end of a long path tells more than its beginning, and the reason has to fit as well
+  constexpr size_t longest = 150;
+  std::string where = path.size() > longest ? "..." + path.substr(path.size() - longest) : path;
+  if (error.line > 0) where += ":" + std::to_string(error.line);
+  return {error.code, error.part, where + ": " + error.what(), error.line};
+}
+
+}  // namespace mvs
+
+extern "C" {
+
+const mvs_error *mvs_last_error(void) {
+  return &last_error;
+}
+
+const char *mvs_result_name(mvs_result code) {
+  switch (code) {
+    case MVS_OK:
+      return "MVS_OK";
+    case MVS_E_ARGUMENT:
+      return "MVS_E_ARGUMENT";
+    case MVS_E_ID:
+      return "MVS_E_ID";
+    case MVS_E_STATE:
+      return "MVS_E_STATE";
+    case MVS_E_OP:
+      return "MVS_E_OP";
+    case MVS_E_DIVERGED:
+      return "MVS_E_DIVERGED";
+    case MVS_E_FORMAT:
+      return "MVS_E_FORMAT";
+    case MVS_E_VERSION:
+      return "MVS_E_VERSION";
+    case MVS_E_IO:
+      return "MVS_E_IO";
+    case MVS_E_DEVICE:
+      return "MVS_E_DEVICE";
+    case MVS_E_MEMORY:
+      return "MVS_E_MEMORY";
+    case MVS_E_UNSUPPORTED:
+      return "MVS_E_UNSUPPORTED";
+    case MVS_E_INTERNAL:
+      return "MVS_E_INTERNAL";
+    case MVS_E_CANCELLED:
+      return "MVS_E_CANCELLED";
+    default:
+      return "MVS_E_UNKNOWN";
+  }
+}
+
+uint32_t mvs_version(void) {
+  return 10000 * MVS_VERSION_MAJOR + 100 * MVS_VERSION_MINOR + MVS_VERSION_PATCH;
+}
+
+const char *mvs_features(void) {
+  return mvs::factor_names();
+}
+
+}  // extern "C"

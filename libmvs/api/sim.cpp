@@ -1,0 +1,126 @@
+// The life of a simulator: create, give it a valve, snapshot, restore, destroy.
+#include "api/sim.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "anatomy/parametric.h"
+#include "api/valve_desc.h"
+#include "model/check.h"
+
+using namespace mvs;
+
+SnapshotPtr mvs_sim::present() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  MVS_MUST(present_, MVS_E_STATE, "sim",
+           "the simulator has no valve yet: set, generate or load one first");
+  return present_;
+}
+
+void mvs_sim::replace(SnapshotPtr next) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  present_ = std::move(next);
+}
+
+void mvs_sim::log(int32_t level, const char *pattern, ...) const {
+  if (!desc.log) return;
+  char text[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  desc.log(desc.user, level, text);
+}
+
+Progress mvs_sim::progress() const {
+  if (!desc.progress) return {};
+  return [this](double share, double residual) {
+    return desc.progress(desc.user, share, residual) == 0;
+  };
+}
+
+namespace mvs {
+
+AtWork::AtWork(mvs_sim *sim) : sim_(sim) {
+  must_point(sim, "sim");
+  MVS_MUST(!sim->at_work.exchange(true), MVS_E_STATE, "sim",
+           "the simulator is at work in another call: wait for it, and do not call back into it");
+}
+
+void replace_valve(mvs_sim &sim, ModelPtr model, State state) {
+  const ModelPtr held = model;
+  sim.replace(make_snapshot(std::move(model), std::move(state)));
+  sim.stats = {};
+  sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",
+          held->valve.name.c_str(), held->node_count(), held->valve.triangles.size(),
+          held->valve.chords.size());
+}
+
+}  // namespace mvs
+
+extern "C" {
+
+mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    const mvs_sim_desc how = read_struct_or_default(desc, "desc");
+    MVS_MUST(how.backend <= MVS_BACKEND_EIGEN, MVS_E_ARGUMENT, "desc.backend",
+             "desc.backend is %u: it has to be one of MVS_BACKEND_*", how.backend);
+    *sim = new mvs_sim(how);
+  });
+}
+
+void mvs_destroy(mvs_sim *sim) {
+  delete sim;
+}
+
+mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    Described described = read_valve_desc(valve);
+    ModelPtr model = make_model(std::move(described.valve));
+    State state = described_state(*model, described.now);
+    replace_valve(s, std::move(model), std::move(state));
+  });
+}
+
+mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void *user) {
+  bool told = false;
+  const auto tell = [&](const char *part, const char *sentence) {
+    told = true;
+    if (fault) fault(user, part, sentence);
+  };
+  const mvs_result result = guarded([&] {
+    Described described = read_valve_desc(valve);
+    for (const Fault &f : find_faults(described.valve)) tell(f.part.c_str(), f.sentence.c_str());
+    described_state(*make_model(std::move(described.valve)), described.now);
+  });
+  // what kept the description from being read is a fault as well
+  if (result != MVS_OK && !told) tell(mvs_last_error()->part, mvs_last_error()->message);
+  return result;
+}
+
+mvs_result mvs_generate_valve(mvs_sim *sim, const mvs_parametric_desc *desc) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    ModelPtr model = make_model(make_parametric_valve(read_struct_or_default(desc, "desc")));
+    State state = initial_state(*model);
+    replace_valve(s, std::move(model), std::move(state));
+  });
+}
+
+mvs_result mvs_get_snapshot(mvs_sim *sim, const mvs_snapshot **snapshot) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    must_point(snapshot, "snapshot");
+    *snapshot = sim->present().release();
+  });
+}
+
+mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    must_point(snapshot, "snapshot");
+    mvs_snapshot_retain(snapshot);
+    s.replace(SnapshotPtr(snapshot));
+  });
+}
+
+}  // extern "C"

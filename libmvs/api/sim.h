@@ -1,0 +1,63 @@
+// The simulator behind mvs_sim: its present snapshot, a solver, the host's callbacks.
+#pragma once
+
+#include <mvs/sim.h>
+
+#include <atomic>
+#include <mutex>
+#include <utility>
+
+#include "api/snapshot.h"
+#include "api/structs.h"
+#include "physics/solver.h"
+
+// A call works on copies and ends by replacing the present snapshot: that is the transaction.
+struct mvs_sim {
+  explicit mvs_sim(const mvs_sim_desc &desc_in) : desc(desc_in), solver(desc_in.backend) {}
+
+  // The present snapshot; throws MVS_E_STATE before there is a valve. From any thread.
+  mvs::SnapshotPtr present() const;
+  void replace(mvs::SnapshotPtr next);
+
+  // One line to the host.
+  [[gnu::format(printf, 3, 4)]] void log(int32_t level, const char *pattern, ...) const;
+  // The host's progress callback; empty where there is none.
+  mvs::Progress progress() const;
+
+  const mvs_sim_desc desc;
+  mvs::Solver solver;
+  mvs_stats stats = {};  // struct_size 0: none yet
+  std::atomic<bool> at_work{false};
+
+ private:
+  mutable std::mutex mutex_;  // of present_
+  mvs::SnapshotPtr present_;
+};
+
+namespace mvs {
+
+// Marks a simulator as at work; a second call meanwhile, from a callback or another thread, throws.
+class AtWork {
+ public:
+  explicit AtWork(mvs_sim *sim);
+  AtWork(const AtWork &) = delete;
+  AtWork &operator=(const AtWork &) = delete;
+  ~AtWork() { sim_->at_work = false; }
+
+ private:
+  mvs_sim *sim_;
+};
+
+// Runs work(*sim) as the one call at work on a simulator.
+template <typename Work>
+mvs_result guarded_call(mvs_sim *sim, Work &&work) noexcept {
+  return guarded([&] {
+    const AtWork at_work(sim);
+    work(*sim);
+  });
+}
+
+// Makes a model and a state the present of a simulator, as a new valve.
+void replace_valve(mvs_sim &sim, ModelPtr model, State state);
+
+}  // namespace mvs

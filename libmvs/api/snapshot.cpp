@@ -1,0 +1,117 @@
+// Snapshots: references, hash, load, measures, comparison, cuts.
+#include "api/snapshot.h"
+
+#include "api/structs.h"
+
+using namespace mvs;
+
+namespace {
+
+Vec3 read_vector(const double given[3], const char *what) {
+  must_point(given, what);
+  const Vec3 vector(given[0], given[1], given[2]);
+  MVS_MUST(vector.allFinite(), MVS_E_ARGUMENT, what, "%s has a component that is not a number",
+           what);
+  return vector;
+}
+
+mvs_comparison public_comparison(const Comparison &c) {
+  mvs_comparison out = {};
+  out.struct_size = sizeof out;
+  out.same_mesh = c.same_mesh ? 1 : 0;
+  out.node_rms = c.node_rms;
+  out.node_max = c.node_max;
+  out.surface_rms = c.surface_rms;
+  out.surface_max = c.surface_max;
+  out.node_rms_registered = c.node_rms_registered;
+  out.node_max_registered = c.node_max_registered;
+  out.surface_rms_registered = c.surface_rms_registered;
+  out.surface_max_registered = c.surface_max_registered;
+  std::copy(c.registration.begin(), c.registration.end(), out.registration);
+  return out;
+}
+
+}  // namespace
+
+extern "C" {
+
+void mvs_snapshot_retain(const mvs_snapshot *snapshot) {
+  if (snapshot) snapshot->references.fetch_add(1, std::memory_order_relaxed);
+}
+
+void mvs_snapshot_release(const mvs_snapshot *snapshot) {
+  // the last one to let go has to see what the others did before
+  if (snapshot && snapshot->references.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+    delete snapshot;
+  }
+}
+
+mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash[2]) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    must_point(hash, "hash");
+    const std::array<uint64_t, 2> value = hash_of(*snapshot->model, snapshot->state);
+    std::copy(value.begin(), value.end(), hash);
+  });
+}
+
+const char *mvs_snapshot_name(const mvs_snapshot *snapshot) {
+  return snapshot ? snapshot->model->valve.name.c_str() : "";
+}
+
+mvs_result mvs_snapshot_load(const mvs_snapshot *snapshot, mvs_load_case *load) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    write_struct(load, public_load(snapshot->state.load), "load");
+  });
+}
+
+mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *measures) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(measures, "measures");
+    write_struct(measures, snapshot->measures(), "measures");
+  });
+}
+
+mvs_result mvs_snapshot_compare(const mvs_snapshot *a, const mvs_snapshot *b,
+                                mvs_comparison *comparison) {
+  return guarded([&] {
+    must_point(a, "a");
+    must_point(b, "b");
+    checked_struct_size(comparison, "comparison");
+    const Comparison found = compare_shapes(*a->model, a->state.x, *b->model, b->state.x);
+    write_struct(comparison, public_comparison(found), "comparison");
+  });
+}
+
+mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const double point[3],
+                                const double normal[3], double *points, uint64_t capacity,
+                                uint64_t *count) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    must_point(count, "count");
+    if (capacity > 0) must_point(points, "points");
+    const Vec3 at = read_vector(point, "point"), along = read_vector(normal, "normal");
+    MVS_MUST(along.norm() > 0, MVS_E_ARGUMENT, "normal", "normal has no length");
+    const std::vector<Vec3> found =
+        cut(*snapshot->model, snapshot->state.x, at, along.normalized());
+    const size_t written = std::min<uint64_t>(capacity, found.size());
+    for (size_t k = 0; k < 3 * written; ++k) points[k] = found[k / 3][k % 3];
+    *count = found.size();
+  });
+}
+
+mvs_result mvs_snapshot_frame(const mvs_snapshot *snapshot, double frame[12]) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    must_point(frame, "frame");
+    const Frame found = valve_frame(*snapshot->model, snapshot->state.x);
+    for (int k = 0; k < 3; ++k) {
+      frame[k] = found.origin[k];
+      for (int row = 0; row < 3; ++row) frame[3 + 3 * row + k] = found.axes(row, k);
+    }
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,107 @@
+// The snapshot behind mvs_snapshot: a model, a state, and what has been worked out from them.
+#pragma once
+
+#include <mvs/snapshot.h>
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "measure/measure.h"
+#include "model/model.h"
+#include "physics/forces.h"
+
+namespace mvs {
+
+// A value that the first one to ask for works out, whichever thread that is. A failure is not
+// kept: the next one to ask tries again.
+template <typename Value>
+class Lazy {
+ public:
+  template <typename Make>
+  const Value &get(Make make) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!value_) value_.emplace(make());
+    return *value_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::optional<Value> value_;
+};
+
+// Fields of parts, gathered into arrays for views.
+struct Tables {
+  std::vector<Edge> chord_nodes;
+  std::vector<uint32_t> chord_kind, head_nodes, leaflet_law, free_edge_nodes;
+  std::vector<Id> chord_id;
+  std::vector<double> chord_rest_length, chord_young, chord_area;
+  std::vector<std::array<double, 9>> leaflet_constants;
+  std::array<double, 4> valve_constants;
+};
+
+}  // namespace mvs
+
+// Immutable but for the count of references and the values that are worked out once.
+struct mvs_snapshot {
+  mvs_snapshot(mvs::ModelPtr model_in, mvs::State state_in)
+      : model(std::move(model_in)), state(std::move(state_in)) {}
+
+  const mvs::Forces &forces() const;
+  const mvs::Coaptation &coaptation() const;
+  const mvs::Strain &strain() const;
+  const mvs::ChordMeasures &chords() const;
+  const mvs::Orifice &orifice() const;
+  const mvs::Tables &tables() const;
+  const mvs_measures &measures() const;
+
+  const mvs::ModelPtr model;
+  const mvs::State state;
+  mutable std::atomic<uint32_t> references{1};
+
+ private:
+  mvs::Lazy<mvs::Forces> forces_;
+  mvs::Lazy<mvs::Coaptation> coaptation_;
+  mvs::Lazy<mvs::Strain> strain_;
+  mvs::Lazy<mvs::ChordMeasures> chords_;
+  mvs::Lazy<mvs::Orifice> orifice_;
+  mvs::Lazy<mvs::Tables> tables_;
+  mvs::Lazy<mvs_measures> measures_;
+};
+
+namespace mvs {
+
+// Holds one reference to a snapshot.
+class SnapshotPtr {
+ public:
+  SnapshotPtr() = default;
+  // Takes over a reference that the caller holds.
+  explicit SnapshotPtr(const mvs_snapshot *held) : held_(held) {}
+  SnapshotPtr(const SnapshotPtr &other) : held_(other.held_) { mvs_snapshot_retain(held_); }
+  SnapshotPtr(SnapshotPtr &&other) noexcept : held_(std::exchange(other.held_, nullptr)) {}
+  SnapshotPtr &operator=(SnapshotPtr other) noexcept {
+    std::swap(held_, other.held_);
+    return *this;
+  }
+  ~SnapshotPtr() { mvs_snapshot_release(held_); }
+
+  const mvs_snapshot *get() const { return held_; }
+  const mvs_snapshot *operator->() const { return held_; }
+  explicit operator bool() const { return held_ != nullptr; }
+  // Hands the reference over to the caller.
+  const mvs_snapshot *release() { return std::exchange(held_, nullptr); }
+
+ private:
+  const mvs_snapshot *held_ = nullptr;
+};
+
+inline SnapshotPtr make_snapshot(ModelPtr model, State state) {
+  return SnapshotPtr(new mvs_snapshot(std::move(model), std::move(state)));
+}
+
+inline mvs_load_case public_load(const Load &load) {
+  return {sizeof(mvs_load_case), 0, load.pressure, load.boundary_fraction};
+}
+
+}  // namespace mvs

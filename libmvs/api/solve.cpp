@@ -1,0 +1,136 @@
+// Load, settle, step, statistics.
+#include <cmath>
+
+#include "api/sim.h"
+
+using namespace mvs;
+
+namespace {
+
+// Ten times the highest pressure a heart makes: beyond it the unit is wrong.
+constexpr double pressure_limit = 400e3;
+
+Load read_load(const mvs_load_case *given) {
+  const mvs_load_case load = read_struct(given, "load");
+  must_be_zero(load.reserved, "load.reserved");
+  MVS_MUST(std::abs(load.pressure) <= pressure_limit, MVS_E_ARGUMENT, "load.pressure",
+           "load.pressure is %g Pa: it has to be within %g Pa; 120 mmHg are 15998.64 Pa",
+           load.pressure, pressure_limit);
+  MVS_MUST(load.boundary_fraction >= 0 && load.boundary_fraction <= 1, MVS_E_ARGUMENT,
+           "load.boundary_fraction",
+           "load.boundary_fraction is %g: it has to be 0 (open) to 1 (loaded)",
+           load.boundary_fraction);
+  return {load.pressure, load.boundary_fraction};
+}
+
+SolveOptions read_options(const mvs_settle_options *given) {
+  const mvs_settle_options options = read_struct_or_default(given, "options");
+  must_be_zero(options.reserved, "options.reserved");
+  MVS_MUST(options.solver <= MVS_SOLVER_EXPLICIT, MVS_E_ARGUMENT, "options.solver",
+           "options.solver is %u: it has to be one of MVS_SOLVER_*, or 0", options.solver);
+  must_be_in(options.residual, 1e-12, 1e3, "options.residual");
+  must_be_in(options.dt, 1e-9, 1, "options.dt");
+  must_be_in(options.damping, 1e-6, 1e6, "options.damping");
+  return {options.solver, options.max_iterations, options.residual, options.dt, options.damping};
+}
+
+SolveOptions read_options(const mvs_step_options *given) {
+  const mvs_step_options options = read_struct_or_default(given, "options");
+  MVS_MUST(options.solver == 0 || options.solver == MVS_SOLVER_IMPLICIT ||
+               options.solver == MVS_SOLVER_EXPLICIT,
+           MVS_E_ARGUMENT, "options.solver",
+           "options.solver is %u: a step is MVS_SOLVER_IMPLICIT or MVS_SOLVER_EXPLICIT",
+           options.solver);
+  must_be_in(options.dt, 1e-9, 1, "options.dt");
+  must_be_in(options.damping, 1e-6, 1e6, "options.damping");
+  return {options.solver, 0, 0, options.dt, options.damping};
+}
+
+mvs_stats public_stats(const SolveStats &from) {
+  mvs_stats stats = {};
+  stats.struct_size = sizeof stats;
+  stats.converged = from.converged ? 1 : 0;
+  stats.iterations = from.iterations;
+  stats.factorisations = from.factorisations;
+  stats.contact_pairs = from.contact_pairs;
+  stats.shifted = from.shifted;
+  stats.residual = from.residual;
+  stats.energy = from.energy;
+  stats.kinetic = from.kinetic;
+  stats.wall_s = from.wall_s;
+  std::copy(from.phase_s.begin(), from.phase_s.end(), stats.phase_s);
+  return stats;
+}
+
+// Makes a state that a solver arrived at the present one.
+void commit(mvs_sim &sim, const SnapshotPtr &before, State state, const SolveStats &stats) {
+  for (const Vec3 &x : state.x) {
+    MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
+             "a node left the range of numbers: take a smaller time step or load");
+  }
+  sim.replace(make_snapshot(before->model, std::move(state)));
+  sim.stats = public_stats(stats);
+}
+
+void log_settled(const mvs_sim &sim, const SolveStats &stats) {
+  sim.log(stats.converged ? MVS_LOG_INFO : MVS_LOG_WARNING,
+          "settle: %s after %u iterations, residual %.3g N, %.3f s",
+          stats.converged ? "converged" : "not converged", stats.iterations, stats.residual,
+          stats.wall_s);
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const Load given = read_load(load);
+    const SnapshotPtr before = s.present();
+    State state = before->state;
+    state.load = given;
+    s.replace(make_snapshot(before->model, std::move(state)));
+  });
+}
+
+mvs_result mvs_get_load(const mvs_sim *sim, mvs_load_case *load) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    write_struct(load, public_load(sim->present()->state.load), "load");
+  });
+}
+
+mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const SolveOptions how = read_options(options);
+    if (stats) checked_struct_size(stats, "stats");
+    const SnapshotPtr before = s.present();
+    State state = before->state;
+    const SolveStats found = s.solver.settle(*before->model, state, how, s.progress());
+    commit(s, before, std::move(state), found);
+    if (stats) write_struct(stats, s.stats, "stats");
+    log_settled(s, found);
+  });
+}
+
+mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const SolveOptions how = read_options(options);
+    const SnapshotPtr before = s.present();
+    State state = before->state;
+    const SolveStats found = s.solver.step(*before->model, state, how);
+    commit(s, before, std::move(state), found);
+  });
+}
+
+mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    checked_struct_size(stats, "stats");
+    MVS_MUST(sim->stats.struct_size != 0, MVS_E_STATE, "sim",
+             "the simulator has no statistics: this valve was neither settled nor stepped");
+    write_struct(stats, sim->stats, "stats");
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,72 @@
+// Sized structs across the boundary: older and newer callers than this library.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+
+#include "api/guard.h"
+
+namespace mvs {
+
+// No struct of this interface is larger; a size above it was never set.
+inline constexpr uint32_t struct_size_limit = 4096;
+
+// The struct_size of a struct, checked for sense.
+inline uint32_t checked_struct_size(const void *given, const char *what) {
+  must_point(given, what);
+  uint32_t size = 0;
+  std::memcpy(&size, given, sizeof size);
+  MVS_MUST(size >= 8 && size <= struct_size_limit && size % 4 == 0, MVS_E_ARGUMENT, what,
+           "%s.struct_size is %u: set it to sizeof the struct", what, size);
+  return size;
+}
+
+// Reads an input struct. What an older caller does not have counts as zero; what a newer one has
+// must be zero, since this library cannot honour it.
+template <typename Struct>
+Struct read_struct(const Struct *given, const char *what) {
+  const uint32_t size = checked_struct_size(given, what);
+  const char *bytes = reinterpret_cast<const char *>(given);
+  for (size_t k = sizeof(Struct); k < size; ++k) {
+    MVS_MUST(bytes[k] == 0, MVS_E_VERSION, what,
+             "%s has a field at byte %zu that this version of libmvs does not know: update libmvs, "
+             "or leave the field zero",
+             what, k);
+  }
+  Struct known = {};
+  std::memcpy(&known, bytes, std::min<size_t>(size, sizeof(Struct)));
+  known.struct_size = sizeof(Struct);
+  return known;
+}
+
+// The same where null means all defaults.
+template <typename Struct>
+Struct read_struct_or_default(const Struct *given, const char *what) {
+  return given ? read_struct(given, what) : Struct{};
+}
+
+// Fills an output struct as far as the caller's reaches; what only a newer caller knows becomes 0.
+// The caller's struct_size stays.
+template <typename Struct>
+void write_struct(Struct *to, const Struct &value, const char *what) {
+  const uint32_t size = checked_struct_size(to, what);
+  char *bytes = reinterpret_cast<char *>(to);
+  const char *from = reinterpret_cast<const char *>(&value);
+  const size_t common = std::min<size_t>(size, sizeof(Struct));
+  std::memcpy(bytes + sizeof size, from + sizeof size, common - sizeof size);
+  std::memset(bytes + common, 0, size - common);
+}
+
+// Fields kept for later versions have to be zero, so that they can get a meaning.
+inline void must_be_zero(double value, const char *what) {
+  MVS_MUST(value == 0, MVS_E_ARGUMENT, what,
+           "%s is %g: this version has no meaning for it, leave 0", what, value);
+}
+
+// That an option is a number in its range; zero stays the default.
+inline void must_be_in(double value, double low, double high, const char *what) {
+  MVS_MUST(value == 0 || (value >= low && value <= high), MVS_E_ARGUMENT, what,
+           "%s is %g: it has to be 0 (the default) or %g to %g", what, value, low, high);
+}
+
+}  // namespace mvs

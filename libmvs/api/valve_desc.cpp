@@ -1,0 +1,132 @@
+// One function a kind of part; zeros become the defaults that include/mvs/valve.h states.
+#include "api/valve_desc.h"
+
+#include "api/arrays.h"
+#include "api/structs.h"
+#include "model/check.h"
+
+namespace mvs {
+namespace {
+
+double or_default(double given, double fallback) {
+  return given == 0 ? fallback : given;
+}
+
+std::string text_or_empty(const char *text) {
+  return text ? text : "";
+}
+
+void read_nodes_and_triangles(const mvs_valve_desc &desc, Described &described) {
+  Valve &valve = described.valve;
+  valve.rest = read_points(desc.nodes, "nodes");
+  valve.loaded = read_points(desc.nodes_loaded, "nodes_loaded");
+  described.now = read_points(desc.nodes_now, "nodes_now");
+  valve.triangles = read_triangles(desc.triangles, "triangles");
+  valve.triangle_leaflet = read_indices(desc.triangle_leaflet, "triangle_leaflet");
+  valve.triangle_scallop = read_indices(desc.triangle_scallop, "triangle_scallop");
+  valve.triangle_thickness = read_numbers(desc.triangle_thickness, "triangle_thickness");
+  valve.triangle_fibre = read_points(desc.triangle_fibre, "triangle_fibre");
+  valve.annulus = read_indices(desc.annulus, "annulus");
+}
+
+void read_leaflets(const mvs_valve_desc &desc, Valve &valve) {
+  check_list(desc.leaflets, desc.leaflet_count, "leaflets");
+  for (uint32_t l = 0; l < desc.leaflet_count; ++l) {
+    const mvs_leaflet_desc &given = desc.leaflets[l];
+    must_be_zero(given.reserved, "leaflets[].reserved");
+    Leaflet leaflet;
+    leaflet.id = given.id;
+    leaflet.name = text_or_empty(given.name);
+    if (given.law != 0) leaflet.law = given.law;
+    leaflet.thickness = or_default(given.thickness, leaflet.thickness);
+    leaflet.bilinear.low = or_default(given.constants[0], leaflet.bilinear.low);
+    leaflet.bilinear.high = or_default(given.constants[1], leaflet.bilinear.high);
+    leaflet.bilinear.kink = or_default(given.constants[2], leaflet.bilinear.kink);
+    for (int k = 3; k < 8; ++k) must_be_zero(given.constants[k], "leaflets[].constants[3..7]");
+    valve.leaflets.push_back(std::move(leaflet));
+  }
+}
+
+// A scallop lies in the leaflet of its first triangle.
+void read_scallops(const mvs_valve_desc &desc, Valve &valve) {
+  check_list(desc.scallops, desc.scallop_count, "scallops");
+  for (uint32_t s = 0; s < desc.scallop_count; ++s) {
+    const Id id = desc.scallop_ids ? desc.scallop_ids[s] : 0;
+    valve.scallops.push_back({id, text_or_empty(desc.scallops[s]), none});
+  }
+  const size_t count = std::min(valve.triangle_scallop.size(), valve.triangle_leaflet.size());
+  for (size_t t = 0; t < count; ++t) {
+    if (valve.triangle_scallop[t] >= valve.scallops.size()) continue;
+    Scallop &scallop = valve.scallops[valve.triangle_scallop[t]];
+    if (scallop.leaflet == none) scallop.leaflet = valve.triangle_leaflet[t];
+  }
+}
+
+void read_chords(const mvs_valve_desc &desc, Valve &valve) {
+  check_list(desc.chords, desc.chord_count, "chords");
+  for (uint32_t c = 0; c < desc.chord_count; ++c) {
+    const mvs_chord_desc &given = desc.chords[c];
+    Chord chord;
+    chord.id = given.id;
+    chord.name = text_or_empty(given.name);
+    chord.a = given.node_a;
+    chord.b = given.node_b;
+    chord.kind = given.kind;
+    if (given.law != 0) chord.law = given.law;
+    chord.rest_length = given.rest_length;
+    chord.young = or_default(given.young, chord.young);
+    chord.area = or_default(given.area, chord.area);
+    for (const double constant : given.constants) must_be_zero(constant, "chords[].constants");
+    valve.chords.push_back(std::move(chord));
+  }
+}
+
+void read_heads(const mvs_valve_desc &desc, Valve &valve) {
+  check_list(desc.heads, desc.head_count, "heads");
+  for (uint32_t h = 0; h < desc.head_count; ++h) {
+    const mvs_head_desc &given = desc.heads[h];
+    must_be_zero(given.reserved, "heads[].reserved");
+    valve.heads.push_back({given.id, text_or_empty(given.name), given.node});
+  }
+}
+
+void read_constants(const mvs_valve_desc &desc, Valve &valve) {
+  if (desc.name) valve.name = desc.name;
+  valve.density = or_default(desc.density, valve.density);
+  valve.contact_thickness = or_default(desc.contact_thickness, valve.contact_thickness);
+  valve.contact_stiffness = or_default(desc.contact_stiffness, valve.contact_stiffness);
+  valve.bending_scale = desc.bending_scale < 0 ? 0 : or_default(desc.bending_scale, 1);
+}
+
+}  // namespace
+
+Described read_valve_desc(const mvs_valve_desc *given) {
+  const mvs_valve_desc desc = read_struct(given, "valve");
+  MVS_MUST((desc.flags & ~uint32_t{MVS_VALVE_ORIENT}) == 0, MVS_E_ARGUMENT, "valve.flags",
+           "valve.flags is %u: it has bits that this version does not know", desc.flags);
+  Described described;
+  read_nodes_and_triangles(desc, described);
+  read_leaflets(desc, described.valve);
+  read_scallops(desc, described.valve);
+  read_chords(desc, described.valve);
+  read_heads(desc, described.valve);
+  read_constants(desc, described.valve);
+  if (desc.flags & MVS_VALVE_ORIENT) orient(described.valve);
+  return described;
+}
+
+State described_state(const Model &model, const std::vector<Vec3> &now) {
+  State state = initial_state(model);
+  if (now.empty()) return state;
+  MVS_MUST(now.size() == state.x.size(), MVS_E_ARGUMENT, "nodes_now",
+           "nodes_now has %zu rows, the valve has %zu nodes", now.size(), state.x.size());
+  for (size_t n = 0; n < now.size(); ++n) {
+    // no heart moves a node by a metre; written so that NaN fails
+    MVS_MUST((now[n] - state.x[n]).norm() < 1, MVS_E_ARGUMENT, format("node %zu", n),
+             "node %zu of nodes_now is not a number, or over 1 m from where it rests", n);
+  }
+  state.x = now;
+  return state;
+}
+
+}  // namespace mvs

@@ -1,0 +1,90 @@
+/* What the host is told during work, and how it stops it. */
+#include "check.h"
+#include "funnel.h"
+
+typedef struct host {
+  mvs_sim *sim;
+  int lines, warnings, calls, stop_at;
+  double share, residual;
+  int share_fell, reentered, seen;
+} host;
+
+static void take_line(void *user, int32_t level, const char *text) {
+  host *h = user;
+  ++h->lines;
+  h->warnings += level == MVS_LOG_WARNING;
+  CHECK(text[0] != 0 && strchr(text, '\n') == NULL);
+}
+
+static int32_t take_progress(void *user, double share, double residual) {
+  host *h = user;
+  ++h->calls;
+  h->share_fell |= share < h->share;
+  h->share = share;
+  h->residual = residual;
+  /* the simulator is at work: it refuses another call, but shows its latest snapshot */
+  h->reentered |= mvs_step(h->sim, NULL) != MVS_E_STATE;
+  const mvs_snapshot *snapshot = NULL;
+  h->seen += mvs_get_snapshot(h->sim, &snapshot) == MVS_OK;
+  mvs_snapshot_release(snapshot);
+  return h->stop_at && h->calls >= h->stop_at;
+}
+
+static void settle_with(host *h, mvs_result wanted) {
+  static funnel f;
+  mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, take_progress, h};
+  mvs_load_case load = funnel_load();
+  make_funnel(&f);
+  MUST(mvs_create(&desc, &h->sim));
+  MUST(mvs_set_valve(h->sim, &f.desc));
+  CHECK(h->lines == 1);
+  MUST(mvs_set_load(h->sim, &load));
+  hash128 before = sim_hash(h->sim);
+  mvs_stats stats = {.struct_size = sizeof stats};
+  CHECK(mvs_settle(h->sim, NULL, &stats) == wanted);
+  CHECK(same_hash(before, sim_hash(h->sim)) == (wanted != MVS_OK));
+  if (wanted != MVS_OK) MUST_FAIL(mvs_get_stats(h->sim, &stats), MVS_E_STATE, "no statistics");
+}
+
+static void progress_is_told_and_rises(void) {
+  host h = {0};
+  settle_with(&h, MVS_OK);
+  CHECK(h.calls > 0 && h.share >= 0 && h.share <= 1 && !h.share_fell);
+  CHECK(h.residual >= 0);
+  CHECK(h.lines == 2);
+  CHECK(!h.reentered && h.seen == h.calls);
+  mvs_destroy(h.sim);
+}
+
+static void a_cancelled_settle_changes_nothing(void) {
+  host h = {.stop_at = 1};
+  settle_with(&h, MVS_E_CANCELLED);
+  CHECK(h.calls == 1);
+  CHECK(strlen(mvs_last_error()->message) > 0);
+  /* and the simulator works on */
+  h.stop_at = 0;
+  MUST(mvs_settle(h.sim, NULL, NULL));
+  mvs_destroy(h.sim);
+}
+
+static void not_converged_is_a_warning_and_no_error(void) {
+  host h = {0};
+  settle_with(&h, MVS_OK);
+  CHECK(h.warnings == 0);
+  mvs_settle_options once = {.struct_size = sizeof once, .max_iterations = 1, .residual = 1e-12};
+  mvs_load_case load = funnel_load();
+  load.pressure *= 2;
+  MUST(mvs_set_load(h.sim, &load));
+  mvs_stats stats = {.struct_size = sizeof stats};
+  MUST(mvs_settle(h.sim, &once, &stats));
+  CHECK(stats.converged == 0);
+  CHECK(h.warnings == 1);
+  mvs_destroy(h.sim);
+}
+
+int main(void) {
+  progress_is_told_and_rises();
+  a_cancelled_settle_changes_nothing();
+  not_converged_is_a_warning_and_no_error();
+  return finish("callbacks");
+}

@@ -1,0 +1,287 @@
+/* Every wrong argument has its code and its sentence, and changes nothing. */
+#include <math.h>
+
+#include "check.h"
+#include "funnel.h"
+
+static mvs_sim *sim = NULL;
+static const mvs_snapshot *snapshot = NULL;
+static hash128 start;
+static funnel f;
+
+/* The call fails so, and the simulator is as it was. */
+#define REFUSED(call, code, word)           \
+  do {                                      \
+    MUST_FAIL(call, code, word);            \
+    CHECK(same_hash(start, sim_hash(sim))); \
+  } while (0)
+
+/* A valve with one thing changed is refused so; it is made anew afterwards. */
+#define REFUSED_VALVE(change, code, word)                        \
+  do {                                                           \
+    make_funnel(&f);                                             \
+    change;                                                      \
+    REFUSED(mvs_set_valve(sim, &f.desc), code, word);            \
+    MUST_FAIL(mvs_check_valve(&f.desc, NULL, NULL), code, word); \
+  } while (0)
+
+static void null_pointers(void) {
+  mvs_stats stats = {.struct_size = sizeof stats};
+  uint64_t hash[2], size = 0;
+  uint32_t count = 0;
+  double frame[12], up[3] = {0, 0, 1};
+  mvs_view view;
+  mvs_part part;
+  mvs_measures measures = {.struct_size = sizeof measures};
+  mvs_comparison comparison = {.struct_size = sizeof comparison};
+  mvs_load_case load = funnel_load();
+  REFUSED(mvs_create(NULL, NULL), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_set_valve(NULL, &f.desc), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_set_valve(sim, NULL), MVS_E_ARGUMENT, "valve is a null pointer");
+  REFUSED(mvs_check_valve(NULL, NULL, NULL), MVS_E_ARGUMENT, "valve is a null pointer");
+  REFUSED(mvs_generate_valve(NULL, NULL), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_set_load(NULL, &load), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_set_load(sim, NULL), MVS_E_ARGUMENT, "load is a null pointer");
+  REFUSED(mvs_get_load(NULL, &load), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_get_load(sim, NULL), MVS_E_ARGUMENT, "load is a null pointer");
+  REFUSED(mvs_settle(NULL, NULL, NULL), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_step(NULL, NULL), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_get_stats(NULL, &stats), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_get_stats(sim, NULL), MVS_E_ARGUMENT, "stats is a null pointer");
+  REFUSED(mvs_get_snapshot(NULL, &snapshot), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_get_snapshot(sim, NULL), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_restore(NULL, snapshot), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_restore(sim, NULL), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_hash(NULL, hash), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_hash(snapshot, NULL), MVS_E_ARGUMENT, "hash is a null pointer");
+  REFUSED(mvs_snapshot_view(NULL, 1, &view), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_view(snapshot, 1, NULL), MVS_E_ARGUMENT, "view is a null pointer");
+  REFUSED(mvs_snapshot_part_count(NULL, 1, &count), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_part_count(snapshot, 1, NULL), MVS_E_ARGUMENT, "count is a null pointer");
+  REFUSED(mvs_snapshot_part(NULL, 1, 0, &part), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_part(snapshot, 1, 0, NULL), MVS_E_ARGUMENT, "part is a null pointer");
+  REFUSED(mvs_snapshot_find(NULL, 1, "A", &part), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_find(snapshot, 1, NULL, &part), MVS_E_ARGUMENT, "name is a null pointer");
+  REFUSED(mvs_snapshot_find(snapshot, 1, "A", NULL), MVS_E_ARGUMENT, "part is a null pointer");
+  REFUSED(mvs_snapshot_load(NULL, &load), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_load(snapshot, NULL), MVS_E_ARGUMENT, "load is a null pointer");
+  REFUSED(mvs_snapshot_measure(NULL, &measures), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_measure(snapshot, NULL), MVS_E_ARGUMENT, "measures is a null pointer");
+  REFUSED(mvs_snapshot_compare(NULL, snapshot, &comparison), MVS_E_ARGUMENT, "a is a null");
+  REFUSED(mvs_snapshot_compare(snapshot, NULL, &comparison), MVS_E_ARGUMENT, "b is a null");
+  REFUSED(mvs_snapshot_compare(snapshot, snapshot, NULL), MVS_E_ARGUMENT, "comparison is a null");
+  REFUSED(mvs_snapshot_section(NULL, up, up, NULL, 0, &size), MVS_E_ARGUMENT, "snapshot is a null");
+  REFUSED(mvs_snapshot_section(snapshot, NULL, up, NULL, 0, &size), MVS_E_ARGUMENT, "point is a");
+  REFUSED(mvs_snapshot_section(snapshot, up, NULL, NULL, 0, &size), MVS_E_ARGUMENT, "normal is a");
+  REFUSED(mvs_snapshot_section(snapshot, up, up, NULL, 1, &size), MVS_E_ARGUMENT, "points is a");
+  REFUSED(mvs_snapshot_section(snapshot, up, up, NULL, 0, NULL), MVS_E_ARGUMENT, "count is a");
+  REFUSED(mvs_snapshot_frame(NULL, frame), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_frame(snapshot, NULL), MVS_E_ARGUMENT, "frame is a null pointer");
+  REFUSED(mvs_load_file(NULL, "a.obj", 0), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_load_file(sim, NULL, 0), MVS_E_ARGUMENT, "path is a null pointer");
+  REFUSED(mvs_load_memory(NULL, "", 0, 0), MVS_E_ARGUMENT, "sim is a null pointer");
+  REFUSED(mvs_load_memory(sim, NULL, 0, 0), MVS_E_ARGUMENT, "data is a null pointer");
+  REFUSED(mvs_save_file(NULL, "a.obj", 0), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_save_file(snapshot, NULL, 0), MVS_E_ARGUMENT, "path is a null pointer");
+  REFUSED(mvs_save_memory(NULL, 0, NULL, 0, &size), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_save_memory(snapshot, 0, NULL, 0, NULL), MVS_E_ARGUMENT, "size is a null pointer");
+  REFUSED(mvs_save_memory(snapshot, 0, NULL, 1, &size), MVS_E_ARGUMENT, "data is a null pointer");
+}
+
+static void options_out_of_range(void) {
+  mvs_sim *other = NULL;
+  mvs_sim_desc desc = {.struct_size = sizeof desc, .backend = 9};
+  REFUSED(mvs_create(&desc, &other), MVS_E_ARGUMENT, "desc.backend is 9");
+  mvs_load_case load = {sizeof load, 1, 0, 0};
+  REFUSED(mvs_set_load(sim, &load), MVS_E_ARGUMENT, "reserved");
+  load.reserved = 0;
+  load.pressure = NAN;
+  REFUSED(mvs_set_load(sim, &load), MVS_E_ARGUMENT, "load.pressure is nan");
+  load.pressure = 1e9;
+  REFUSED(mvs_set_load(sim, &load), MVS_E_ARGUMENT, "120 mmHg are");
+  load.pressure = 0;
+  load.boundary_fraction = -0.1;
+  REFUSED(mvs_set_load(sim, &load), MVS_E_ARGUMENT, "boundary_fraction is -0.1");
+  load.boundary_fraction = NAN;
+  REFUSED(mvs_set_load(sim, &load), MVS_E_ARGUMENT, "boundary_fraction is nan");
+  mvs_settle_options settle = {.struct_size = sizeof settle, .solver = 4};
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.solver is 4");
+  settle = (mvs_settle_options){.struct_size = sizeof settle, .reserved = 1};
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "reserved");
+  settle = (mvs_settle_options){.struct_size = sizeof settle, .residual = -1};
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.residual is -1");
+  settle = (mvs_settle_options){.struct_size = sizeof settle, .dt = NAN};
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.dt is nan");
+  settle = (mvs_settle_options){.struct_size = sizeof settle, .damping = 1e9};
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.damping is 1e+09");
+  mvs_step_options step = {sizeof step, MVS_SOLVER_NEWTON, 0, 0};
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.solver is 1");
+  step = (mvs_step_options){sizeof step, 0, 2, 0};
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.dt is 2");
+  step = (mvs_step_options){sizeof step, 0, 0, -1};
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.damping is -1");
+  mvs_parametric_desc valve = {.struct_size = sizeof valve, .vertices = 3};
+  REFUSED(mvs_generate_valve(sim, &valve), MVS_E_ARGUMENT, "vertices");
+}
+
+static void arrays_that_cannot_be_read(void) {
+  REFUSED_VALVE(f.desc.flags = 2, MVS_E_ARGUMENT, "valve.flags is 2");
+  REFUSED_VALVE(f.desc.nodes.data = NULL, MVS_E_ARGUMENT, "nodes has 66 entries but is a null");
+  REFUSED_VALVE(f.desc.nodes.components = 2, MVS_E_ARGUMENT, "nodes has 2 components");
+  REFUSED_VALVE(f.desc.nodes.type = MVS_U32, MVS_E_ARGUMENT, "nodes is of MVS_U32");
+  REFUSED_VALVE(f.desc.nodes.type = MVS_U64, MVS_E_ARGUMENT, "nodes is of MVS_U64");
+  REFUSED_VALVE(f.desc.nodes.type = MVS_U8, MVS_E_ARGUMENT, "nodes is of MVS_U8");
+  REFUSED_VALVE(f.desc.nodes.type = 99, MVS_E_ARGUMENT, "nodes is of no type");
+  REFUSED_VALVE(f.desc.nodes.stride = 23, MVS_E_ARGUMENT, "nodes has a stride of 23");
+  REFUSED_VALVE(f.desc.nodes.stride = UINT64_MAX, MVS_E_ARGUMENT, "nodes has a stride");
+  REFUSED_VALVE(f.desc.nodes.count = UINT64_MAX, MVS_E_MEMORY, "the limit is");
+  REFUSED_VALVE(f.desc.triangles.type = MVS_F64, MVS_E_ARGUMENT, "triangles is of MVS_F64");
+  REFUSED_VALVE(f.desc.triangles.type = MVS_F32, MVS_E_ARGUMENT, "triangles is of MVS_F32");
+  REFUSED_VALVE(f.desc.annulus.components = 3, MVS_E_ARGUMENT, "annulus has 3 components");
+  REFUSED_VALVE(f.desc.nodes_now = f.desc.nodes;
+                f.desc.nodes_now.count = 5, MVS_E_ARGUMENT, "nodes_now has 5 rows");
+  REFUSED_VALVE(f.desc.leaflets = NULL, MVS_E_ARGUMENT, "leaflets has 2 entries but is a null");
+  REFUSED_VALVE(f.desc.chords = NULL, MVS_E_ARGUMENT, "chords has 10 entries but is a null");
+  REFUSED_VALVE(f.desc.heads = NULL, MVS_E_ARGUMENT, "heads has 2 entries but is a null");
+  REFUSED_VALVE(f.desc.scallop_count = 1, MVS_E_ARGUMENT, "scallops has 1 entries but is a null");
+  REFUSED_VALVE(f.desc.chord_count = UINT32_MAX, MVS_E_MEMORY, "chords has 4294967295 entries");
+  REFUSED_VALVE(f.leaflets[0].reserved = 1, MVS_E_ARGUMENT, "leaflets[].reserved");
+  REFUSED_VALVE(f.leaflets[0].constants[7] = 1, MVS_E_ARGUMENT, "leaflets[].constants");
+  REFUSED_VALVE(f.chords[0].constants[5] = NAN, MVS_E_ARGUMENT, "chords[].constants");
+  REFUSED_VALVE(f.heads[1].reserved = 1, MVS_E_ARGUMENT, "heads[].reserved");
+}
+
+static void start_positions_that_are_none(void) {
+  static double now[FUNNEL_NODES][3];
+  memcpy(now, f.nodes, sizeof now);
+  now[7][1] = NAN;
+  REFUSED_VALVE(f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_F64), MVS_E_ARGUMENT,
+                "node 7 of nodes_now");
+  now[7][1] = 5;
+  REFUSED_VALVE(f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_F64), MVS_E_ARGUMENT,
+                "node 7 of nodes_now");
+}
+
+static void what_is_no_valve(void) {
+  REFUSED_VALVE(f.desc.nodes.count = 0, MVS_E_OP, "has no nodes");
+  REFUSED_VALVE(memset(&f.desc.nodes, 0, sizeof f.desc.nodes), MVS_E_OP, "has no nodes");
+  REFUSED_VALVE(f.triangles[5][0] = 1000, MVS_E_OP, "triangle 5 names node 1000");
+  REFUSED_VALVE(f.nodes[9][0] = NAN, MVS_E_OP, "node 9");
+  REFUSED_VALVE(f.leaflets[1].name = "", MVS_E_OP, "leaflet 1 has no name");
+  REFUSED_VALVE(f.leaflets[1].name = NULL, MVS_E_OP, "leaflet 1 has no name");
+  REFUSED_VALVE(f.leaflets[0].law = 7, MVS_E_OP, "law 7");
+  REFUSED_VALVE(f.leaflets[0].thickness = -1, MVS_E_OP, "thickness");
+  REFUSED_VALVE(f.desc.bending_scale = NAN, MVS_E_OP, "bending scale");
+  REFUSED_VALVE(f.chords[2].law = 7, MVS_E_OP, "law 7");
+  REFUSED_VALVE(f.chords[2].rest_length = NAN, MVS_E_OP, "rest length");
+  const char *scallops[2] = {"all", "none"};
+  static uint32_t zeros[FUNNEL_TRIANGLES];
+  REFUSED_VALVE(f.desc.scallops = scallops; f.desc.scallop_count = 2;
+                f.desc.triangle_scallop = packed(zeros, FUNNEL_TRIANGLES, 1, MVS_U32), MVS_E_OP,
+                "scallop none has no triangle");
+  REFUSED_VALVE(f.desc.triangle_scallop = packed(zeros, FUNNEL_TRIANGLES, 1, MVS_U32), MVS_E_OP,
+                "names scallop 0");
+}
+
+typedef struct told {
+  int count;
+  char part[8][64], sentence[8][256];
+} told;
+
+static void tell(void *user, const char *part, const char *sentence) {
+  told *t = user;
+  if (t->count < 8) {
+    snprintf(t->part[t->count], sizeof t->part[0], "%s", part);
+    snprintf(t->sentence[t->count], sizeof t->sentence[0], "%s", sentence);
+  }
+  ++t->count;
+}
+
+static void check_valve_tells_every_fault(void) {
+  told t = {0};
+  make_funnel(&f);
+  MUST(mvs_check_valve(&f.desc, tell, &t));
+  CHECK(t.count == 0);
+  f.desc.density = -1;
+  f.chords[2].area = 0.785;
+  f.chords[4].node_b = f.chords[4].node_a;
+  MUST_FAIL(mvs_check_valve(&f.desc, tell, &t), MVS_E_OP, "to itself");
+  CHECK(t.count == 3);
+  CHECK(strcmp(t.part[0], "chord 4") == 0);
+  t.count = 0;
+  f.desc.nodes.type = 0;
+  MUST_FAIL(mvs_check_valve(&f.desc, tell, &t), MVS_E_ARGUMENT, "nodes is of");
+  CHECK(t.count == 1 && strcmp(t.part[0], "nodes") == 0);
+  CHECK(strcmp(t.sentence[0], mvs_last_error()->message) == 0);
+}
+
+static void parts_and_arrays_that_are_not_there(void) {
+  mvs_part part;
+  mvs_view view;
+  uint32_t count = 0;
+  REFUSED(mvs_snapshot_view(snapshot, 0, &view), MVS_E_ARGUMENT, "which is 0");
+  REFUSED(mvs_snapshot_view(snapshot, 9999, &view), MVS_E_ARGUMENT, "which is 9999");
+  REFUSED(mvs_snapshot_part_count(snapshot, 5, &count), MVS_E_ARGUMENT, "kind is 5");
+  REFUSED(mvs_snapshot_part(snapshot, 0, 0, &part), MVS_E_ARGUMENT, "kind is 0");
+  for (uint32_t kind = 1; kind <= 4; ++kind) {
+    REFUSED(mvs_snapshot_part(snapshot, kind, 1000, &part), MVS_E_ARGUMENT, "index is 1000");
+    REFUSED(mvs_snapshot_find(snapshot, kind, "Q9", &part), MVS_E_ID, "named \"Q9\"");
+  }
+  double up[3] = {0, 0, 1}, zero[3] = {0, 0, 0}, nan[3] = {0, NAN, 0};
+  uint64_t points = 0;
+  REFUSED(mvs_snapshot_section(snapshot, nan, up, NULL, 0, &points), MVS_E_ARGUMENT, "point has");
+  REFUSED(mvs_snapshot_section(snapshot, up, nan, NULL, 0, &points), MVS_E_ARGUMENT, "normal has");
+  REFUSED(mvs_snapshot_section(snapshot, up, zero, NULL, 0, &points), MVS_E_ARGUMENT, "no length");
+}
+
+static void an_empty_simulator_says_so(void) {
+  mvs_sim *empty = NULL;
+  const mvs_snapshot *nothing = NULL;
+  mvs_load_case load = funnel_load();
+  mvs_stats stats = {.struct_size = sizeof stats};
+  MUST(mvs_create(NULL, &empty));
+  MUST_FAIL(mvs_get_snapshot(empty, &nothing), MVS_E_STATE, "has no valve yet");
+  CHECK(nothing == NULL);
+  MUST_FAIL(mvs_set_load(empty, &load), MVS_E_STATE, "has no valve yet");
+  MUST_FAIL(mvs_get_load(empty, &load), MVS_E_STATE, "has no valve yet");
+  MUST_FAIL(mvs_settle(empty, NULL, NULL), MVS_E_STATE, "has no valve yet");
+  MUST_FAIL(mvs_step(empty, NULL), MVS_E_STATE, "has no valve yet");
+  MUST_FAIL(mvs_get_stats(empty, &stats), MVS_E_STATE, "has no statistics");
+  mvs_destroy(empty);
+}
+
+static void an_error_stays_until_the_next_and_fits_its_room(void) {
+  char name[2000];
+  mvs_part part;
+  MUST_FAIL(mvs_snapshot_find(snapshot, 1, "one", &part), MVS_E_ID, "one");
+  MUST(mvs_snapshot_find(snapshot, 1, "A", &part));
+  CHECK(mvs_last_error()->code == MVS_E_ID);
+  CHECK(strcmp(mvs_last_error()->part, "one") == 0);
+  /* a part that does not fit is cut before, not within, a character of two bytes */
+  memset(name, 'x', sizeof name);
+  memcpy(name + 62, "\xc3\xa4", 2);
+  name[sizeof name - 1] = 0;
+  MUST_FAIL(mvs_snapshot_find(snapshot, 1, name, &part), MVS_E_ID, "named");
+  CHECK(strlen(mvs_last_error()->part) == 62);
+}
+
+int main(void) {
+  make_funnel(&f);
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_set_valve(sim, &f.desc));
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  start = sim_hash(sim);
+  null_pointers();
+  options_out_of_range();
+  arrays_that_cannot_be_read();
+  start_positions_that_are_none();
+  what_is_no_valve();
+  check_valve_tells_every_fault();
+  parts_and_arrays_that_are_not_there();
+  an_empty_simulator_says_so();
+  an_error_stays_until_the_next_and_fits_its_room();
+  CHECK(same_hash(start, sim_hash(sim)));
+  mvs_snapshot_release(snapshot);
+  mvs_destroy(sim);
+  return finish("errors");
+}

@@ -1,0 +1,116 @@
+/* Loading and saving through memory and paths. */
+#include <stdlib.h>
+
+#include "check.h"
+#include "funnel.h"
+
+static mvs_sim *sim;
+
+static const mvs_snapshot *present(mvs_sim *of) {
+  const mvs_snapshot *snapshot = NULL;
+  MUST(mvs_get_snapshot(of, &snapshot));
+  return snapshot;
+}
+
+static char *save(const mvs_snapshot *snapshot, uint32_t format, uint64_t *size) {
+  uint64_t again = 0;
+  MUST(mvs_save_memory(snapshot, format, NULL, 0, size));
+  char *bytes = malloc(*size + 1);
+  if (!bytes) exit(2);
+  bytes[*size] = 0x55;
+  MUST(mvs_save_memory(snapshot, format, bytes, *size, &again));
+  CHECK(again == *size && bytes[*size] == 0x55);
+  return bytes;
+}
+
+static void saved_and_loaded_settles_to_the_same_bits(void) {
+  mvs_load_case load = funnel_load();
+  MUST(mvs_set_load(sim, &load));
+  MUST(mvs_step(sim, NULL)); /* so that velocity and time are there, too */
+  const mvs_snapshot *start = present(sim);
+  uint64_t size = 0;
+  char *bytes = save(start, MVS_FORMAT_OBJ, &size);
+  mvs_sim *other = NULL;
+  MUST(mvs_create(NULL, &other));
+  MUST(mvs_load_memory(other, bytes, size, MVS_FORMAT_AUTO));
+  CHECK(same_hash(sim_hash(sim), sim_hash(other)));
+  MUST(mvs_settle(sim, NULL, NULL));
+  MUST(mvs_settle(other, NULL, NULL));
+  CHECK(same_hash(sim_hash(sim), sim_hash(other)));
+  MUST(mvs_restore(sim, start));
+  mvs_snapshot_release(start);
+  mvs_destroy(other);
+  free(bytes);
+}
+
+static void a_file_comes_back_the_same(void) {
+  const mvs_snapshot *snapshot = present(sim);
+  hash128 before = snapshot_hash(snapshot);
+  MUST(mvs_save_file(snapshot, "files_test.obj", MVS_FORMAT_AUTO));
+  MUST(mvs_generate_valve(sim, NULL));
+  MUST(mvs_load_file(sim, "files_test.obj", MVS_FORMAT_AUTO));
+  CHECK(same_hash(before, sim_hash(sim)));
+  MUST(mvs_save_file(snapshot, "files_test.other", MVS_FORMAT_OBJ));
+  MUST(mvs_load_file(sim, "files_test.other", MVS_FORMAT_OBJ));
+  CHECK(same_hash(before, sim_hash(sim)));
+  remove("files_test.obj");
+  remove("files_test.other");
+  mvs_snapshot_release(snapshot);
+}
+
+static void vtp_is_written_with_results(void) {
+  const mvs_snapshot *snapshot = present(sim);
+  uint64_t size = 0;
+  char *bytes = save(snapshot, MVS_FORMAT_VTP, &size);
+  bytes[size] = 0;
+  CHECK(strstr(bytes, "<VTKFile") != NULL);
+  free(bytes);
+  MUST(mvs_save_file(snapshot, "files_test.vtp", MVS_FORMAT_AUTO));
+  remove("files_test.vtp");
+  mvs_snapshot_release(snapshot);
+}
+
+static void refused_files_name_themselves_and_change_nothing(void) {
+  hash128 before = sim_hash(sim);
+  const mvs_snapshot *snapshot = present(sim);
+  char path[400];
+  uint64_t size = 0;
+  MUST_FAIL(mvs_load_file(sim, "no/such/file.obj", 0), MVS_E_IO, "no/such/file.obj: ");
+  MUST_FAIL(mvs_load_file(sim, "", 0), MVS_E_ARGUMENT, "path is empty");
+  MUST_FAIL(mvs_load_file(sim, "valve.stl", 0), MVS_E_ARGUMENT, ".obj and .vtp");
+  MUST_FAIL(mvs_load_file(sim, "obj", 0), MVS_E_ARGUMENT, ".obj and .vtp");
+  MUST_FAIL(mvs_load_file(sim, "valve.obj", 7), MVS_E_ARGUMENT, "format is 7");
+  MUST_FAIL(mvs_load_memory(sim, "x", 1, 7), MVS_E_ARGUMENT, "format is 7");
+  MUST_FAIL(mvs_load_memory(sim, "x", 1, MVS_FORMAT_VTP), MVS_E_UNSUPPORTED, "not read");
+  MUST_FAIL(mvs_load_memory(sim, "what is this", 12, 0), MVS_E_FORMAT, "");
+  MUST_FAIL(mvs_load_memory(sim, "", 0, 0), MVS_E_FORMAT, "");
+  MUST_FAIL(mvs_save_file(snapshot, "no/such/folder/a.obj", 0), MVS_E_IO, "no/such/folder/a.obj");
+  MUST_FAIL(mvs_save_file(snapshot, "a.stl", 0), MVS_E_ARGUMENT, ".obj and .vtp");
+  MUST_FAIL(mvs_save_memory(snapshot, 9, NULL, 0, &size), MVS_E_ARGUMENT, "format is 9");
+  /* of a long path the end is shown, and the reason as well */
+  memset(path, 'd', sizeof path);
+  strcpy(path + sizeof path - 10, "/last.obj");
+  MUST_FAIL(mvs_load_file(sim, path, 0), MVS_E_IO, "/last.obj: ");
+  FILE *file = fopen("files_test.bad.obj", "w");
+  if (!file) exit(2);
+  fputs("# a comment\nv 1 2 3\nv what\n", file);
+  fclose(file);
+  MUST_FAIL(mvs_load_file(sim, "files_test.bad.obj", 0), MVS_E_FORMAT, "files_test.bad.obj:");
+  CHECK(mvs_last_error()->line > 0);
+  remove("files_test.bad.obj");
+  CHECK(same_hash(before, sim_hash(sim)));
+  mvs_snapshot_release(snapshot);
+}
+
+int main(void) {
+  static funnel f;
+  make_funnel(&f);
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_set_valve(sim, &f.desc));
+  saved_and_loaded_settles_to_the_same_bits();
+  a_file_comes_back_the_same();
+  vtp_is_written_with_results();
+  refused_files_name_themselves_and_change_nothing();
+  mvs_destroy(sim);
+  return finish("files");
+}

@@ -1,0 +1,189 @@
+/* Every array, part and figure of a snapshot: sizes, types, values that are known. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "check.h"
+#include "funnel.h"
+
+typedef struct expected {
+  uint32_t which, components, type;
+  uint64_t count;
+} expected;
+
+#define ANY UINT64_MAX
+
+static const expected arrays[] = {
+    {MVS_NODE_POSITION, 3, MVS_F64, FUNNEL_NODES},
+    {MVS_NODE_REST, 3, MVS_F64, FUNNEL_NODES},
+    {MVS_NODE_LOADED, 3, MVS_F64, FUNNEL_NODES},
+    {MVS_NODE_VELOCITY, 3, MVS_F64, FUNNEL_NODES},
+    {MVS_NODE_KIND, 1, MVS_U8, FUNNEL_NODES},
+    {MVS_NODE_FORCE, 3, MVS_F64, FUNNEL_NODES},
+    {MVS_NODE_CONTACT_FORCE, 3, MVS_F64, FUNNEL_NODES},
+    {MVS_NODE_COAPTATION, 1, MVS_F64, FUNNEL_NODES},
+    {MVS_TRIANGLE_NODES, 3, MVS_U32, FUNNEL_TRIANGLES},
+    {MVS_TRIANGLE_LEAFLET, 1, MVS_U32, FUNNEL_TRIANGLES},
+    {MVS_TRIANGLE_SCALLOP, 1, MVS_U32, FUNNEL_TRIANGLES},
+    {MVS_TRIANGLE_THICKNESS, 1, MVS_F64, FUNNEL_TRIANGLES},
+    {MVS_TRIANGLE_FIBRE, 3, MVS_F64, FUNNEL_TRIANGLES},
+    {MVS_TRIANGLE_STRETCH, 2, MVS_F64, FUNNEL_TRIANGLES},
+    {MVS_TRIANGLE_STRESS, 2, MVS_F64, FUNNEL_TRIANGLES},
+    {MVS_TRIANGLE_COAPTED, 1, MVS_F64, FUNNEL_TRIANGLES},
+    {MVS_LEAFLET_LAW, 1, MVS_U32, 2},
+    {MVS_LEAFLET_CONSTANTS, 9, MVS_F64, 2},
+    {MVS_ANNULUS_NODES, 1, MVS_U32, FUNNEL_SEGMENTS},
+    {MVS_FREE_EDGE_NODES, 1, MVS_U32, FUNNEL_SEGMENTS},
+    {MVS_CHORD_NODES, 2, MVS_U32, FUNNEL_CHORDS},
+    {MVS_CHORD_REST_LENGTH, 1, MVS_F64, FUNNEL_CHORDS},
+    {MVS_CHORD_KIND, 1, MVS_U32, FUNNEL_CHORDS},
+    {MVS_CHORD_STRAIN, 1, MVS_F64, FUNNEL_CHORDS},
+    {MVS_CHORD_TENSION, 1, MVS_F64, FUNNEL_CHORDS},
+    {MVS_CHORD_ID, 1, MVS_U64, FUNNEL_CHORDS},
+    {MVS_CHORD_YOUNG, 1, MVS_F64, FUNNEL_CHORDS},
+    {MVS_CHORD_AREA, 1, MVS_F64, FUNNEL_CHORDS},
+    {MVS_HEAD_NODES, 1, MVS_U32, 2},
+    {MVS_HEAD_FORCE, 3, MVS_F64, 2},
+    {MVS_ORIFICE_VERTICES, 3, MVS_F64, ANY},
+    {MVS_ORIFICE_TRIANGLES, 3, MVS_U32, ANY},
+    {MVS_VALVE_CONSTANTS, 1, MVS_F64, 4},
+    {MVS_STATE_TIME, 1, MVS_F64, 1},
+};
+
+static funnel f;
+static const mvs_snapshot *snapshot;
+
+static mvs_view view_of(uint32_t which) {
+  mvs_view view = {0};
+  MUST(mvs_snapshot_view(snapshot, which, &view));
+  return view;
+}
+
+static void every_array_has_its_size_and_type(void) {
+  const uint64_t size[6] = {0, 8, 4, 4, 8, 1};
+  for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
+    mvs_view view = view_of(arrays[k].which);
+    if (arrays[k].count != ANY && view.count != arrays[k].count) {
+      printf("array %u has %d rows\n", arrays[k].which, (int)view.count);
+    }
+    CHECK(arrays[k].count == ANY || view.count == arrays[k].count);
+    CHECK(view.components == arrays[k].components);
+    CHECK(view.type == arrays[k].type);
+    CHECK(view.stride == view.components * size[view.type]);
+    CHECK(view.data != NULL || view.count == 0);
+    mvs_view again = view_of(arrays[k].which);
+    CHECK(again.data == view.data); /* worked out once, stays where it is */
+  }
+}
+
+static void every_number_between_names_an_array_or_none(void) {
+  for (uint32_t which = 0, next = 0; which < 100; ++which) {
+    mvs_view view;
+    int known = next < sizeof arrays / sizeof *arrays && arrays[next].which == which;
+    if (known) ++next;
+    CHECK((mvs_snapshot_view(snapshot, which, &view) == MVS_OK) == known);
+  }
+}
+
+static void arrays_show_what_was_set(void) {
+  CHECK(memcmp(view_of(MVS_NODE_POSITION).data, f.nodes, sizeof f.nodes) == 0);
+  CHECK(memcmp(view_of(MVS_TRIANGLE_NODES).data, f.triangles, sizeof f.triangles) == 0);
+  CHECK(memcmp(view_of(MVS_TRIANGLE_LEAFLET).data, f.leaflet, sizeof f.leaflet) == 0);
+  CHECK(memcmp(view_of(MVS_ANNULUS_NODES).data, f.annulus, sizeof f.annulus) == 0);
+  const uint32_t *ends = view_of(MVS_CHORD_NODES).data, *kind = view_of(MVS_CHORD_KIND).data;
+  for (int c = 0; c < FUNNEL_CHORDS; ++c) {
+    CHECK(ends[2 * c] == f.chords[c].node_a && ends[2 * c + 1] == f.chords[c].node_b);
+    CHECK(kind[c] == f.chords[c].kind);
+  }
+  const double *constants = view_of(MVS_LEAFLET_CONSTANTS).data;
+  CHECK(constants[0] == 1e-3 && constants[1] == 100e3 && constants[2] == 6e6);
+  CHECK(constants[3] == 0.25 && constants[4] == 0);
+  const uint8_t *node_kind = view_of(MVS_NODE_KIND).data;
+  CHECK(node_kind[0] == MVS_NODE_IS_ANNULUS && node_kind[FUNNEL_SEGMENTS] == MVS_NODE_IS_LEAFLET);
+  CHECK(node_kind[FUNNEL_SHEET] == MVS_NODE_IS_HEAD);
+}
+
+static void parts_are_found_by_index_and_name(void) {
+  const uint32_t counts[5] = {0, 2, 2, FUNNEL_CHORDS, 2};
+  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_HEAD; ++kind) {
+    uint32_t count = 0;
+    MUST(mvs_snapshot_part_count(snapshot, kind, &count));
+    CHECK(count == counts[kind]);
+    for (uint32_t k = 0; k < count; ++k) {
+      mvs_part part, found;
+      MUST(mvs_snapshot_part(snapshot, kind, k, &part));
+      CHECK(part.index == k && part.kind == kind && part.id != 0 && part.name[0] != 0);
+      MUST(mvs_snapshot_find(snapshot, kind, part.name, &found));
+      CHECK(memcmp(&part, &found, sizeof part) == 0);
+    }
+  }
+}
+
+/* The annulus lies in z = 0, a circle of 15 mm cut to 16 sides; the ventricle is below. */
+static void measures_of_the_open_funnel(void) {
+  mvs_measures m = {.struct_size = sizeof m}, again = {.struct_size = sizeof again};
+  MUST(mvs_snapshot_measure(snapshot, &m));
+  MUST(mvs_snapshot_measure(snapshot, &again));
+  CHECK(memcmp(&m, &again, sizeof m) == 0);
+  double perimeter = 16 * 30e-3 * sin(3.14159265358979 / 16);
+  CHECK(fabs(m.annulus_perimeter - perimeter) < 1e-12); /* rounding of pi in the funnel */
+  CHECK(m.intersections == 0);
+  CHECK(m.regurgitant_orifice_area > 0);
+  CHECK(m.max_leaflet_strain < 1e-12 && m.max_chord_strain < 1e-12); /* nothing is stretched */
+}
+
+static void the_frame_points_into_the_atrium(void) {
+  double frame[12];
+  MUST(mvs_snapshot_frame(snapshot, frame));
+  for (int k = 0; k < 3; ++k) CHECK(fabs(frame[k]) < 1e-12);
+  CHECK(fabs(frame[11] - 1) < 1e-12);
+  for (int a = 1; a < 4; ++a) {
+    for (int b = 1; b < 4; ++b) {
+      double dot = 0;
+      for (int k = 0; k < 3; ++k) dot += frame[3 * a + k] * frame[3 * b + k];
+      CHECK(fabs(dot - (a == b)) < 1e-12);
+    }
+  }
+}
+
+static void a_cut_gives_its_size_first_and_then_its_points(void) {
+  const double at[3] = {0, 0, -7e-3}, up[3] = {0, 0, 2};
+  uint64_t count = 0, again = 0;
+  MUST(mvs_snapshot_section(snapshot, at, up, NULL, 0, &count));
+  CHECK(count == 2 * 2 * FUNNEL_SEGMENTS); /* each triangle of one row gives a segment */
+  double *points = malloc(3 * sizeof *points * count);
+  if (!points) exit(2);
+  MUST(mvs_snapshot_section(snapshot, at, up, points, count, &again));
+  CHECK(again == count);
+  for (uint64_t k = 0; k < count; ++k) CHECK(fabs(points[3 * k + 2] + 7e-3) < 1e-15);
+  points[3] = 42;
+  MUST(mvs_snapshot_section(snapshot, at, up, points, 1, &again)); /* no more than there is room */
+  CHECK(again == count && points[3] == 42);
+  free(points);
+}
+
+static void a_valve_does_not_differ_from_itself(void) {
+  mvs_comparison c = {.struct_size = sizeof c};
+  MUST(mvs_snapshot_compare(snapshot, snapshot, &c));
+  CHECK(c.same_mesh == 1);
+  CHECK(c.node_max == 0 && c.surface_max < 1e-12); /* distance of a point to its own triangle */
+  CHECK(fabs(c.registration[0] - 1) < 1e-9 && fabs(c.registration[3]) < 1e-12);
+}
+
+int main(void) {
+  mvs_sim *sim = NULL;
+  make_funnel(&f);
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_set_valve(sim, &f.desc));
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  every_array_has_its_size_and_type();
+  every_number_between_names_an_array_or_none();
+  arrays_show_what_was_set();
+  parts_are_found_by_index_and_name();
+  measures_of_the_open_funnel();
+  the_frame_points_into_the_atrium();
+  a_cut_gives_its_size_first_and_then_its_points();
+  a_valve_does_not_differ_from_itself();
+  mvs_snapshot_release(snapshot);
+  mvs_destroy(sim);
+  return finish("views");
+}
