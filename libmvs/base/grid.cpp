@@ -59,34 +59,63 @@ void for_cells(const Grid &grid, const Vec3 &low, const Vec3 &high, Visit &&visi
   }
 }
 
+// Which boxes reach into each cell, ascending.
+struct Cells {
+  Grid grid;
+  std::vector<uint32_t> start, item;
+
+  Cells(const std::vector<Vec3> &low, const std::vector<Vec3> &high) : grid(fit(low, high)) {
+    const size_t cells = static_cast<size_t>(grid.size[0]) * grid.size[1] * grid.size[2];
+    const auto n = static_cast<uint32_t>(low.size());
+    start.assign(cells + 1, 0);
+    for (uint32_t i = 0; i < n; ++i) {
+      for_cells(grid, low[i], high[i], [&](size_t c) { ++start[c + 1]; });
+    }
+    for (size_t c = 0; c < cells; ++c) start[c + 1] += start[c];
+    item.resize(start[cells]);
+    std::vector<uint32_t> next(start.begin(), start.end() - 1);
+    for (uint32_t i = 0; i < n; ++i) {
+      for_cells(grid, low[i], high[i], [&](size_t c) { item[next[c]++] = i; });
+    }
+  }
+};
+
 }  // namespace
 
 void overlapping_boxes(const std::vector<Vec3> &low, const std::vector<Vec3> &high,
                        std::vector<Edge> &pairs) {
   pairs.clear();
   if (low.empty()) return;
-  const Grid grid = fit(low, high);
-  const size_t cells = static_cast<size_t>(grid.size[0]) * grid.size[1] * grid.size[2];
-  std::vector<uint32_t> start(cells + 1, 0);
-  const auto n = static_cast<uint32_t>(low.size());
-  for (uint32_t i = 0; i < n; ++i)
-    for_cells(grid, low[i], high[i], [&](size_t c) { ++start[c + 1]; });
-  for (size_t c = 0; c < cells; ++c) start[c + 1] += start[c];
-  std::vector<uint32_t> item(start[cells]), next(start.begin(), start.end() - 1);
-  for (uint32_t i = 0; i < n; ++i)
-    for_cells(grid, low[i], high[i], [&](size_t c) { item[next[c]++] = i; });
-  for (size_t c = 0; c < cells; ++c) {
-    for (uint32_t p = start[c]; p < start[c + 1]; ++p) {
-      for (uint32_t q = p + 1; q < start[c + 1]; ++q) {
-        const uint32_t a = item[p], b = item[q];
+  const Cells cells(low, high);
+  for (size_t c = 0; c + 1 < cells.start.size(); ++c) {
+    for (uint32_t p = cells.start[c]; p < cells.start[c + 1]; ++p) {
+      const uint32_t a = cells.item[p];
+      for (uint32_t q = p + 1; q < cells.start[c + 1]; ++q) {
+        const uint32_t b = cells.item[q];
         if ((low[a].array() > high[b].array()).any()) continue;
         if ((low[b].array() > high[a].array()).any()) continue;
-        const auto home = grid.cell_of(low[a].cwiseMax(low[b]));
-        if (grid.index(home[0], home[1], home[2]) == c) pairs.push_back({a, b});
+        const auto home = cells.grid.cell_of(low[a].cwiseMax(low[b]));
+        if (cells.grid.index(home[0], home[1], home[2]) == c) pairs.push_back({a, b});
       }
     }
   }
-  std::sort(pairs.begin(), pairs.end());
+}
+
+void points_in_boxes(const std::vector<Vec3> &points, const std::vector<Vec3> &low,
+                     const std::vector<Vec3> &high, std::vector<Edge> &pairs) {
+  pairs.clear();
+  if (low.empty()) return;
+  const Cells cells(low, high);
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    const auto home = cells.grid.cell_of(points[i]);
+    const size_t c = cells.grid.index(home[0], home[1], home[2]);
+    for (uint32_t p = cells.start[c]; p < cells.start[c + 1]; ++p) {
+      const uint32_t b = cells.item[p];
+      if ((points[i].array() < low[b].array()).any()) continue;
+      if ((points[i].array() > high[b].array()).any()) continue;
+      pairs.push_back({i, b});
+    }
+  }
 }
 
 }  // namespace mvs

@@ -1,9 +1,11 @@
 // Which vertices and triangles, and which edges, could meet: the broad phase.
 //
-// A uniform grid over triangle boxes gives pairs of triangles; each vertex and edge is owned by one
-// of its triangles, so that every vertex-triangle and edge-edge pair comes up once (representative
-// triangles: Curtis, Tamstorf, Manocha, I3D 2008). A pair is kept if it is within its range of
-// touching after every node has moved by its reach.
+// Two lists by uniform grids. Facing pairs: a vertex and a triangle apart in the rest shape, within
+// the contact thickness of each other. Guard pairs: every vertex and triangle, and every two edges,
+// that are not incident and within their guard range. Each list also takes what could come that
+// near when every node moves by its reach. Vertices and edges are owned by one of their triangles,
+// so that each guard pair comes up once (representative triangles: Curtis, Tamstorf, Manocha, I3D
+// 2008).
 #pragma once
 
 #include <vector>
@@ -12,11 +14,9 @@
 
 namespace mvs {
 
-// Ranges below are those of physics/contact.h.
 struct VertexTriangle {
   uint32_t vertex, triangle;
-  double guard;  // m, range of the pair's guard barrier
-  bool facing;   // apart in the rest shape: takes part in contact proper
+  double guard;  // m, range of the guard; unused in facing pairs
 };
 
 struct EdgeEdge {
@@ -28,32 +28,35 @@ class Candidates {
  public:
   explicit Candidates(const Model &model);
 
-  // Makes the list for positions x, valid while no node is farther than its reach from there.
+  // Makes the lists for positions x, valid while no node is farther than its reach from there.
   void build(const std::vector<Vec3> &x, const std::vector<double> &reach);
   bool valid_for(const std::vector<Vec3> &x) const;
-  void forget() { built_at_.clear(); }
 
-  // Sorted by vertex, then triangle; by first, then second edge.
-  const std::vector<VertexTriangle> &vertex_triangles() const { return vertex_triangles_; }
-  const std::vector<EdgeEdge> &edge_edges() const { return edge_edges_; }
-
-  double thickness() const { return thickness_; }
+  // Sorted by vertex, then triangle; edges by first, then second.
+  const std::vector<VertexTriangle> &facing() const { return facing_; }
+  const std::vector<VertexTriangle> &guarded() const { return guarded_; }
+  const std::vector<EdgeEdge> &guarded_edges() const { return guarded_edges_; }
 
  private:
-  void make_boxes(const std::vector<Vec3> &x);
-  void make_triangle_pairs();
-  void take_pair(const std::vector<Vec3> &x, uint32_t a, uint32_t b);
+  void make_boxes(const std::vector<Vec3> &x, double margin);
+  void find_guarded(const std::vector<Vec3> &x);
+  void find_facing(const std::vector<Vec3> &x);
   void take_vertices(const std::vector<Vec3> &x, uint32_t owner, uint32_t triangle);
   void take_edges(const std::vector<Vec3> &x, uint32_t a, uint32_t b);
+  bool apart_at_rest(uint32_t vertex, uint32_t triangle) const;
+  double triangle_reach(uint32_t triangle) const;
 
   const Model *model_;
   double thickness_;
   std::vector<uint32_t> vertex_owner_, edge_owner_;
+  std::vector<Vec3> rest_centre_;    // of each triangle
+  std::vector<double> rest_radius_;  // from there to its farthest corner
+  std::vector<uint32_t> sheet_;      // the nodes that are vertices of the sheet
   std::vector<double> reach_;
-  std::vector<Vec3> built_at_, low_, high_;
-  std::vector<Edge> triangle_pairs_;
-  std::vector<VertexTriangle> vertex_triangles_;
-  std::vector<EdgeEdge> edge_edges_;
+  std::vector<Vec3> built_at_, low_, high_, points_;
+  std::vector<Edge> pairs_;
+  std::vector<VertexTriangle> facing_, guarded_;
+  std::vector<EdgeEdge> guarded_edges_;
 };
 
 }  // namespace mvs

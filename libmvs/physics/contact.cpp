@@ -10,8 +10,6 @@
 namespace mvs {
 namespace {
 
-enum : uint32_t { vertex_feature, edge_feature, triangle_feature };
-
 ContactStencil point_point(uint32_t v, uint32_t a) {
   return {{v, a, none, none}, {1, -1, 0, 0}, {}, 2, 0, {}, 0, 0, 0, false};
 }
@@ -70,6 +68,10 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
       stiffness_(model.valve.contact_stiffness),
       law_(law),
       curve_(law == ContactLaw::barrier ? barrier : penalty) {
+  edges_.count.assign(model.topology.edges.size(), 0);
+  edges_.seen.assign(model.topology.edges.size(), 0);
+  corners_.count.assign(model.node_count(), 0);
+  corners_.seen.assign(model.node_count(), 0);
   for (const Edge &triangles : model.topology.edge_triangles) {
     double area = 0;
     for (const uint32_t t : triangles) area += t == none ? 0 : model.rest_area[t] / 3;
@@ -79,7 +81,7 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
 
 void ContactTerm::collect(const std::vector<Vec3> &x, const Candidates &candidates) {
   stencils_.clear();
-  const auto &list = candidates.vertex_triangles();
+  const auto &list = candidates.facing();
   for (size_t first = 0; first < list.size();) {
     size_t last = first;
     while (last < list.size() && list[last].vertex == list[first].vertex) ++last;
@@ -87,83 +89,83 @@ void ContactTerm::collect(const std::vector<Vec3> &x, const Candidates &candidat
     first = last;
   }
   if (law_ == ContactLaw::penalty) return;
-  for (const EdgeEdge &pair : candidates.edge_edges()) add_guard(x, pair);
+  for (const VertexTriangle &pair : candidates.guarded()) {
+    const double strength = 0.5 * stiffness_ * model_->vertex_area[pair.vertex];
+    add_vertex_triangle(x, pair.vertex, model_->valve.triangles[pair.triangle], pair.guard,
+                        strength, true);
+  }
+  for (const EdgeEdge &pair : candidates.guarded_edges()) add_guard(x, pair);
 }
 
+bool ContactTerm::Tally::meet(uint32_t index) {
+  if (seen[index]) return false;
+  seen[index] = 1;
+  touched.push_back(index);
+  return true;
+}
+
+void ContactTerm::Tally::clear() {
+  for (const uint32_t i : touched) {
+    seen[i] = 0;
+    count[i] = 0;
+  }
+  touched.clear();
+}
+
+// Triangles whose closest point is inside act at once; edges and corners are tallied first.
 void ContactTerm::collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
                                  const VertexTriangle *last) {
-  const uint32_t v = first->vertex;
-  const double range2 = thickness_ * thickness_;
-  features_.clear();
-  for (const VertexTriangle *c = first; c != last; ++c) {
-    const Tri &t = model_->valve.triangles[c->triangle];
-    const TrianglePoint p = closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]);
-    if (law_ == ContactLaw::barrier && p.distance2 < c->guard * c->guard) {
-      const double strength = 0.5 * stiffness_ * model_->vertex_area[v];
-      add_vertex_triangle(x, v, t, c->guard, strength, true);
-    }
-    if (!c->facing || p.distance2 >= range2) continue;
-    const Tri &edges = model_->topology.triangle_edges[c->triangle];
-    const uint32_t kind = p.feature < 3   ? vertex_feature
-                          : p.feature < 6 ? edge_feature
-                                          : triangle_feature;
-    const uint32_t index = kind == vertex_feature ? t[p.feature]
-                           : kind == edge_feature ? edges[p.feature - 3]
-                                                  : c->triangle;
-    count_feature(kind, index, 1);
-    // each edge and corner of the surface is counted once, whatever its number of triangles
-    for (int k = 0; k < 3; ++k) {
-      count_feature(edge_feature + 2, edges[k], 0);
-      count_feature(vertex_feature + 4, t[k], 0);
-    }
-  }
-  if (features_.empty()) return;
-  const size_t listed = features_.size();
-  for (size_t i = 0; i < listed; ++i) {
-    const Feature f = features_[i];
-    if (f.kind == edge_feature + 2) {
-      const Edge &e = model_->topology.edges[f.index];
-      const double s = closest_on_segment(x[v], x[e[0]], x[e[1]]).s;
-      if (s > 0 && s < 1) {
-        count_feature(edge_feature, f.index, -1);
-      } else {
-        count_feature(vertex_feature, e[s > 0 ? 1 : 0], -1);
-      }
-    } else if (f.kind == vertex_feature + 4) {
-      count_feature(vertex_feature, f.index, 1);
-    }
-  }
-  for (const Feature &f : features_) {
-    if (f.kind <= triangle_feature && f.count != 0) add_feature(x, v, f);
-  }
+  for (const VertexTriangle *c = first; c != last; ++c) tally(x, c->vertex, c->triangle);
+  if (!corners_.touched.empty()) add_tallied(x, first->vertex);
 }
 
-void ContactTerm::count_feature(uint32_t kind, uint32_t index, int by) {
-  for (Feature &f : features_) {
-    if (f.kind == kind && f.index == index) {
-      f.count += by;
-      return;
-    }
+void ContactTerm::tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangle) {
+  const Tri &t = model_->valve.triangles[triangle];
+  const TrianglePoint p = closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]);
+  if (p.distance2 >= thickness_ * thickness_) return;
+  const Tri &edges = model_->topology.triangle_edges[triangle];
+  // each edge and corner of the surface counts once, whatever its number of triangles
+  for (const uint32_t k : t) {
+    if (corners_.meet(k)) ++corners_.count[k];
   }
-  features_.push_back({kind, index, by});
-}
-
-void ContactTerm::add_feature(const std::vector<Vec3> &x, uint32_t v, const Feature &feature) {
-  const double strength = 0.5 * stiffness_ * model_->vertex_area[v] * feature.count;
-  ContactStencil s;
-  if (feature.kind == triangle_feature) {
-    add_vertex_triangle(x, v, model_->valve.triangles[feature.index], thickness_, strength, false);
-    return;
-  }
-  if (feature.kind == edge_feature) {
-    const Edge &e = model_->topology.edges[feature.index];
-    s = point_edge(v, e[0], e[1], closest_on_segment(x[v], x[e[0]], x[e[1]]).s);
+  for (const uint32_t e : edges) edges_.meet(e);
+  if (p.feature < 3) {
+    ++corners_.count[t[p.feature]];
+  } else if (p.feature < 6) {
+    ++edges_.count[edges[p.feature - 3]];
   } else {
-    s = point_point(v, feature.index);
+    ContactStencil s = point_face(v, t, p.weight);
+    s.range = thickness_;
+    s.strength = 0.5 * stiffness_ * model_->vertex_area[v];
+    finish(x, s);
   }
-  s.range = thickness_;
-  s.strength = strength;
-  finish(x, s);
+}
+
+void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v) {
+  const double strength = 0.5 * stiffness_ * model_->vertex_area[v];
+  for (const uint32_t index : edges_.touched) {
+    const Edge &e = model_->topology.edges[index];
+    const double s = closest_on_segment(x[v], x[e[0]], x[e[1]]).s;
+    if (!(s > 0 && s < 1)) {
+      --corners_.count[e[s > 0 ? 1 : 0]];
+      continue;
+    }
+    const int count = edges_.count[index] - 1;
+    if (count == 0) continue;
+    ContactStencil stencil = point_edge(v, e[0], e[1], s);
+    stencil.range = thickness_;
+    stencil.strength = strength * count;
+    finish(x, stencil);
+  }
+  for (const uint32_t corner : corners_.touched) {
+    if (corners_.count[corner] == 0) continue;
+    ContactStencil stencil = point_point(v, corner);
+    stencil.range = thickness_;
+    stencil.strength = strength * corners_.count[corner];
+    finish(x, stencil);
+  }
+  edges_.clear();
+  corners_.clear();
 }
 
 void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t,

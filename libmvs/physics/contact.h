@@ -75,14 +75,18 @@ class ContactTerm {
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:
-  struct Feature {
-    uint32_t kind, index;  // 0 vertex, 1 edge, 2 triangle
-    int count;
+  // Counts per edge or vertex of the sheet, for the vertex at hand.
+  struct Tally {
+    std::vector<int> count;
+    std::vector<uint8_t> seen;
+    std::vector<uint32_t> touched;
+    bool meet(uint32_t index);  // true the first time
+    void clear();
   };
   void collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
                       const VertexTriangle *last);
-  void count_feature(uint32_t kind, uint32_t index, int by);
-  void add_feature(const std::vector<Vec3> &x, uint32_t v, const Feature &feature);
+  void tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangle);
+  void add_tallied(const std::vector<Vec3> &x, uint32_t v);
   void add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair);
   void add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t, double range,
                            double strength, bool guard);
@@ -93,7 +97,7 @@ class ContactTerm {
   ContactLaw law_;
   Barrier (*curve_)(double);
   std::vector<double> edge_area_;
-  std::vector<Feature> features_;  // of the vertex at hand
+  Tally edges_, corners_;
   std::vector<ContactStencil> stencils_;
 };
 

@@ -49,13 +49,13 @@ void StepBounds::take_pairs(const Model &model, const std::vector<Vec3> &x,
     if (std::sqrt(near) + std::sqrt(far) <= usable * distance) return;
     pairs_.push_back({node, split, r / distance, usable * distance});
   };
-  for (const VertexTriangle &c : candidates.vertex_triangles()) {
+  for (const VertexTriangle &c : candidates.guarded()) {
     const Tri &t = model.valve.triangles[c.triangle];
     const auto p = closest_on_triangle(x[c.vertex], x[t[0]], x[t[1]], x[t[2]]);
     const Vec3 q = p.weight[0] * x[t[0]] + p.weight[1] * x[t[1]] + p.weight[2] * x[t[2]];
     keep({c.vertex, t[0], t[1], t[2]}, 1, x[c.vertex] - q);
   }
-  for (const EdgeEdge &c : candidates.edge_edges()) {
+  for (const EdgeEdge &c : candidates.guarded_edges()) {
     const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
     const auto p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
     const Vec3 r = x[e[0]] + p.s * (x[e[1]] - x[e[0]]) - x[f[0]] - p.t * (x[f[1]] - x[f[0]]);
