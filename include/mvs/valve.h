@@ -121,9 +121,11 @@ typedef struct mvs_parametric_desc {
   double thickness;            /* m */
   double papillary_depth;      /* m, papillary tip to annulus plane */
   double papillary_separation; /* m, between the two tips */
-  double annulus_contraction;  /* loaded / open annulus size [1: none given] */
+  double annulus_contraction;  /* loaded / open annulus size */
   double annulus_scale;        /* factor on the loaded annulus, rest shape kept: dilation [1] */
   double chord_slack;          /* factor on all rest lengths [1] */
+  double indentation_depth;    /* m, of the clefts on either side of P2 */
+  double coaptation_depth;     /* m, of the coaptation line below the annulus plane, closed */
 } mvs_parametric_desc;
 
 #ifdef __cplusplus

@@ -1,0 +1,139 @@
+#include "anatomy/chordae.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace mvs {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Chordae within this share of a row from the commissure are its fan.
+constexpr double commissural_share = 0.08;
+
+struct Spot {
+  Place place;
+  uint32_t kind;
+};
+
+using Row = std::vector<Spot>;
+
+// `count` spots evenly along the curve v between two angles, half a gap from either end.
+Row even_row(const Shape &shape, double v, double theta0, double theta1, uint32_t count,
+             uint32_t kind) {
+  const ArcLength arc(shape, v, theta0, theta1);
+  Row row;
+  for (uint32_t i = 0; i < count; ++i) {
+    row.push_back({{arc.theta_at((i + 0.5) / count * arc.total()), v}, kind});
+  }
+  return row;
+}
+
+// Turns the spots near the commissure into its fan.
+void name_commissural(const Shape &shape, double v, Row &row) {
+  const double reach = commissural_share * ArcLength(shape, v, 0, pi).total();
+  for (Spot &spot : row) {
+    const double from = std::min(spot.place.theta, Shape::commissure);
+    const double to = std::max(spot.place.theta, Shape::commissure);
+    if (ArcLength(shape, v, from, to).total() < reach) spot.kind = MVS_CHORD_COMMISSURAL;
+  }
+}
+
+// The rows of one muscle, `count` spots in all: free edge, rough zone, strut, base.
+std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
+  const auto part = [&](double share) {
+    return std::max(1u, static_cast<uint32_t>(std::lround(share * count)));
+  };
+  const uint32_t basal = part(0.15), rough = part(0.375);
+  const uint32_t edge = count - basal - rough - 1;
+  constexpr double rough_v = 0.8, strut_v = 0.45, basal_v = 0.35;
+  std::vector<Row> rows = {
+      even_row(shape, 1, 0, pi, edge, MVS_CHORD_MARGINAL),
+      even_row(shape, rough_v, 0, pi, rough, MVS_CHORD_ROUGH_ZONE),
+      {{{0.4 * Shape::commissure, strut_v}, MVS_CHORD_STRUT}},
+      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, MVS_CHORD_BASAL)};
+  name_commissural(shape, 1, rows[0]);
+  name_commissural(shape, rough_v, rows[1]);
+  return rows;
+}
+
+// Gives spots to vertices, each vertex once.
+class Snapper {
+ public:
+  Snapper(const Shape &shape, const HalfSheet &sheet)
+      : shape_(shape), sheet_(sheet), taken_(sheet.x.size(), 0) {
+    for (size_t i = 0; i < taken_.size(); ++i) {
+      // the mirror is no muscle's own, the annulus needs no chord
+      taken_[i] = (sheet.sides[i] & (on_mirror | on_annulus)) != 0;
+    }
+  }
+
+  uint32_t nearest_free(const Place &place) {
+    const Vec3 at = shape_.open(place);
+    uint32_t best = none;
+    double best_distance = 0;
+    for (uint32_t i = 0; i < sheet_.x.size(); ++i) {
+      if (taken_[i]) continue;
+      const double distance = (sheet_.x[i] - at).squaredNorm();
+      if (best != none && distance >= best_distance) continue;
+      best = i;
+      best_distance = distance;
+    }
+    MVS_MUST(best != none, MVS_E_ARGUMENT, "chords",
+             "parametric valve: the mesh has too few vertices for its chords, ask for more "
+             "vertices or fewer chords");
+    taken_[best] = 1;
+    return best;
+  }
+
+ private:
+  const Shape &shape_;
+  const HalfSheet &sheet_;
+  std::vector<uint8_t> taken_;
+};
+
+uint32_t nearest_tip(const std::vector<Vec3> &tips, const Vec3 &x) {
+  const auto nearer = [&](const Vec3 &a, const Vec3 &b) {
+    return (a - x).squaredNorm() < (b - x).squaredNorm();
+  };
+  return static_cast<uint32_t>(std::min_element(tips.begin(), tips.end(), nearer) - tips.begin());
+}
+
+// Cuts a run of neighbours into equal trees of at most `most`.
+void cut_into_trees(const Tree &run, size_t most, std::vector<Tree> &trees) {
+  const size_t count = (run.size() + most - 1) / most;
+  for (size_t i = 0; i < count; ++i) {
+    trees.emplace_back(run.begin() + static_cast<std::ptrdiff_t>(i * run.size() / count),
+                       run.begin() + static_cast<std::ptrdiff_t>((i + 1) * run.size() / count));
+  }
+}
+
+}  // namespace
+
+std::vector<Tree> plan_trees(const Shape &shape, const HalfSheet &sheet, const Dimensions &d) {
+  const uint32_t segments = (d.chords + 1) / 2;
+  // a tree of three branches has four segments; the strut is always plain
+  const uint32_t spots = d.branching ? 1 + (3 * (segments - 1) + 2) / 4 : segments;
+  const std::vector<Vec3> tips = shape.medial_tips();
+  Snapper snapper(shape, sheet);
+  std::vector<Tree> trees;
+  for (const Row &row : plan_rows(shape, spots)) {
+    Tree run;
+    for (const Spot &spot : row) {
+      const uint32_t vertex = snapper.nearest_free(spot.place);
+      const Attachment next{vertex, spot.kind,
+                            nearest_tip(tips, shape.closed(sheet.place[vertex]))};
+      if (!run.empty() && run.back().tip != next.tip) {
+        cut_into_trees(run, d.branching ? 3 : 1, trees);
+        run.clear();
+      }
+      run.push_back(next);
+    }
+    cut_into_trees(run, d.branching ? 3 : 1, trees);
+  }
+  return trees;
+}
+
+}  // namespace mvs

@@ -1,0 +1,90 @@
+#include "anatomy/dimensions.h"
+
+#include <cinttypes>
+
+#include "base/error.h"
+
+namespace mvs {
+namespace {
+
+constexpr double mm = 1e-3;
+
+// Takes `given` unless it is zero; refuses what lies outside low .. high (NaN lies nowhere).
+void take(double &value, double given, double low, double high, const char *name, const char *unit,
+          double in_unit) {
+  if (given == 0) return;
+  MVS_MUST(given >= low && given <= high, MVS_E_ARGUMENT, name,
+           "parametric valve: %s is %g%s, it must be %g to %g%s (or 0 for %g%s)", name,
+           given / in_unit, unit, low / in_unit, high / in_unit, unit, value / in_unit, unit);
+  value = given;
+}
+
+void take_length(double &value, double given, double low, double high, const char *name) {
+  take(value, given, low, high, name, " mm", mm);
+}
+
+void take_factor(double &value, double given, double low, double high, const char *name) {
+  take(value, given, low, high, name, "", 1);
+}
+
+void take_count(uint32_t &value, uint32_t given, uint32_t low, uint32_t high, const char *name) {
+  if (given == 0) return;
+  MVS_MUST(given >= low && given <= high, MVS_E_ARGUMENT, name,
+           "parametric valve: %s is %" PRIu32 ", it must be %" PRIu32 " to %" PRIu32
+           " (or 0 for %" PRIu32 ")",
+           name, given, low, high, value);
+  value = given;
+}
+
+// Dimensions that are each possible but not together.
+void check_together(const Dimensions &d) {
+  MVS_MUST(d.annulus_ap <= 1.2 * d.annulus_cc, MVS_E_ARGUMENT, "annulus_ap",
+           "parametric valve: annulus_ap is %g mm, it must not exceed 1.2 times annulus_cc (%g mm)",
+           d.annulus_ap / mm, d.annulus_cc / mm);
+  MVS_MUST(d.annulus_cc <= 2.5 * d.annulus_ap, MVS_E_ARGUMENT, "annulus_cc",
+           "parametric valve: annulus_cc is %g mm, it must not exceed 2.5 times annulus_ap (%g mm)",
+           d.annulus_cc / mm, d.annulus_ap / mm);
+  MVS_MUST(d.commissure_height <= 0.3 * d.annulus_cc, MVS_E_ARGUMENT, "commissure_height",
+           "parametric valve: commissure_height is %g mm, it must not exceed 0.3 times annulus_cc "
+           "(%g mm)",
+           d.commissure_height / mm, d.annulus_cc / mm);
+  MVS_MUST(d.indentation_depth <= 0.4 * d.posterior_height, MVS_E_ARGUMENT, "indentation_depth",
+           "parametric valve: indentation_depth is %g mm, it must not exceed 0.4 times "
+           "posterior_height (%g mm)",
+           d.indentation_depth / mm, d.posterior_height / mm);
+  MVS_MUST(d.papillary_depth >= d.coaptation_depth + 5 * mm, MVS_E_ARGUMENT, "papillary_depth",
+           "parametric valve: papillary_depth is %g mm, it must be at least 5 mm more than "
+           "coaptation_depth (%g mm)",
+           d.papillary_depth / mm, d.coaptation_depth / mm);
+}
+
+}  // namespace
+
+Dimensions resolve_dimensions(const mvs_parametric_desc &desc) {
+  Dimensions d;
+  take_count(d.vertices, desc.vertices, 200, 100000, "vertices");
+  take_count(d.chords, desc.chords, 20, 400, "chords");
+  MVS_MUST(desc.branching <= 1, MVS_E_ARGUMENT, "branching",
+           "parametric valve: branching is %" PRIu32 ", it must be 0 (straight) or 1 (branching)",
+           desc.branching);
+  d.branching = desc.branching == 1;
+  take_length(d.annulus_ap, desc.annulus_ap, 10 * mm, 60 * mm, "annulus_ap");
+  take_length(d.annulus_cc, desc.annulus_cc, 10 * mm, 70 * mm, "annulus_cc");
+  take_length(d.saddle_height, desc.saddle_height, 0.01 * mm, 15 * mm, "saddle_height");
+  take_length(d.anterior_height, desc.anterior_height, 8 * mm, 45 * mm, "anterior_height");
+  take_length(d.posterior_height, desc.posterior_height, 5 * mm, 35 * mm, "posterior_height");
+  take_length(d.commissure_height, desc.commissure_height, 3 * mm, 20 * mm, "commissure_height");
+  take_length(d.thickness, desc.thickness, 0.1 * mm, 5 * mm, "thickness");
+  take_length(d.papillary_depth, desc.papillary_depth, 10 * mm, 60 * mm, "papillary_depth");
+  take_length(d.papillary_separation, desc.papillary_separation, 4 * mm, 50 * mm,
+              "papillary_separation");
+  take_factor(d.annulus_contraction, desc.annulus_contraction, 0.7, 1.3, "annulus_contraction");
+  take_factor(d.annulus_scale, desc.annulus_scale, 0.25, 2, "annulus_scale");
+  take_factor(d.chord_slack, desc.chord_slack, 0.5, 2, "chord_slack");
+  take_length(d.indentation_depth, desc.indentation_depth, 0.01 * mm, 8 * mm, "indentation_depth");
+  take_length(d.coaptation_depth, desc.coaptation_depth, 0.01 * mm, 15 * mm, "coaptation_depth");
+  check_together(d);
+  return d;
+}
+
+}  // namespace mvs

@@ -1,0 +1,132 @@
+#include "anatomy/shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mvs {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double mm = 1e-3;
+
+// The annulus is y = AP/2 (cos + flatness sin^2): 0 is an ellipse, 1/2 a straight anterior side.
+constexpr double flatness = 0.3;
+// Where the clefts beside P2 lie, and how wide they are, as a share of the way from the P point to
+// a commissure.
+constexpr double cleft = 0.38;
+constexpr double cleft_width = 0.1;
+// The open leaflet leaves the annulus leaning inwards and turns to hang almost straight down.
+constexpr double tilt_annulus = 0.65;
+constexpr double tilt_edge = 0.05;
+// Seen from above it leans towards the coaptation line, and this share of its x towards the middle.
+constexpr double inward_pull = 0.3;
+// Of the AP diameter, the leaflets may lean over at most this share: the open orifice stays open.
+constexpr double greatest_lean = 0.55;
+// The coaptation line lies this share of the way from the posterior to the anterior annulus, and
+// spans this share of the width.
+constexpr double coaptation_share = 0.35;
+constexpr double coaptation_span = 0.86;
+// How much longer than at rest a loaded leaflet is: a little less than the kink of its law.
+constexpr double closed_stretch = 1.15;
+
+double square(double a) {
+  return a * a;
+}
+
+// Inward and downward run of a leaflet that turns evenly from tilt a to tilt b, at share v.
+std::array<double, 2> generator(double a, double b, double v) {
+  const double here = a + (b - a) * v;
+  return {(std::cos(a) - std::cos(here)) / (b - a), (std::sin(here) - std::sin(a)) / (b - a)};
+}
+
+}  // namespace
+
+Shape::Shape(const Dimensions &dimensions) : d_(dimensions) {
+  constexpr int samples = 720;
+  double length = 0;
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < samples; ++i) {
+    const Vec3 a = annulus(2 * pi * i / samples), b = annulus(2 * pi * (i + 1) / samples);
+    length += (b - a).norm();
+    sum += (b - a).norm() * 0.5 * (a + b);
+  }
+  centroid_ = sum / length;
+  centroid_.x() = 0;
+  const double lean = generator(tilt_annulus, tilt_edge, 1)[0] * (height(0) + height(pi));
+  tilt_scale_ = std::min(1.0, greatest_lean * d_.annulus_ap / lean);
+}
+
+double Shape::cleft_theta() {
+  return pi - cleft * (pi - commissure);
+}
+
+Vec3 Shape::annulus(double theta) const {
+  const double c = std::cos(theta), s = std::sin(theta);
+  return Vec3(0.5 * d_.annulus_cc * s, 0.5 * d_.annulus_ap * (c + flatness * s * s),
+              0.5 * d_.saddle_height * (c * c - s * s)) -
+         centroid_;
+}
+
+double Shape::height(double theta) const {
+  const double angle = std::abs(theta), base = d_.commissure_height;
+  if (angle < commissure) {
+    const double s = angle / commissure;
+    return base + (d_.anterior_height - base) * square(1 - s * s * s);
+  }
+  const double t = (pi - angle) / (pi - commissure);
+  const double dip = d_.indentation_depth * std::exp(-square((t - cleft) / cleft_width));
+  return base + (d_.posterior_height - base) * square(1 - square(square(t))) - dip;
+}
+
+Vec3 Shape::open(const Place &place) const {
+  const Vec3 base = annulus(place.theta);
+  Vec3 inward = coaptation(place.theta) - base;
+  inward.x() = -inward_pull * base.x();
+  inward.z() = 0;
+  inward.normalize();
+  const auto run = generator(tilt_scale_ * tilt_annulus, tilt_scale_ * tilt_edge, place.v);
+  const double h = height(place.theta);
+  return base + h * run[0] * inward - Vec3(0, 0, h * run[1]);
+}
+
+Vec3 Shape::coaptation(double theta) const {
+  const double s = std::sin(theta), c = std::abs(std::cos(theta));
+  const double y = 0.5 * d_.annulus_ap * (flatness * s * s + (2 * coaptation_share - 1) * c);
+  return {coaptation_span * 0.5 * d_.annulus_cc * s, y - centroid_.y(), -d_.coaptation_depth};
+}
+
+Vec3 Shape::closed(const Place &place) const {
+  const Vec3 base = d_.annulus_contraction * annulus(place.theta);
+  const Vec3 line = coaptation(place.theta);
+  const double run = closed_stretch * height(place.theta) * place.v;
+  const double reach = (line - base).norm();
+  if (run < reach) return base + run / reach * (line - base);
+  return line - Vec3(0, 0, run - reach);
+}
+
+std::vector<Vec3> Shape::medial_tips() const {
+  const double x = 0.5 * d_.papillary_separation, z = -d_.papillary_depth;
+  const double y = -0.12 * d_.annulus_ap;
+  return {{x, y + 1 * mm, z}, {x + 1.5 * mm, y, z}, {x, y - 1 * mm, z}};
+}
+
+ArcLength::ArcLength(const Shape &shape, double v, double theta0, double theta1)
+    : theta0_(theta0), theta1_(theta1), length_{0} {
+  constexpr int samples = 1000;
+  step_ = (theta1 - theta0) / samples;
+  Vec3 last = shape.open({theta0, v});
+  for (int i = 1; i <= samples; ++i) {
+    const Vec3 next = shape.open({theta0 + i * step_, v});
+    length_.push_back(length_.back() + (next - last).norm());
+    last = next;
+  }
+}
+
+double ArcLength::theta_at(double length) const {
+  if (length >= total()) return theta1_;
+  const auto above = std::upper_bound(length_.begin() + 1, length_.end() - 1, length);
+  const double low = *(above - 1), share = (length - low) / (*above - low);
+  return theta0_ + step_ * (static_cast<double>(above - length_.begin()) - 1 + share);
+}
+
+}  // namespace mvs
