@@ -96,10 +96,10 @@ Vec3 point_at(const std::vector<Vec3> &points, const Place &place) {
 // otherwise fall on one side or the other of a boundary and show as ripples.
 CoaptationLine area_along(const std::vector<Ordered> &pieces, const Curve &curve, double spacing) {
   const double length = curve.start.back();
-  const double count = std::max(1.0, std::round(length / spacing));
+  const int count = static_cast<int>(std::max(1.0, std::round(length / spacing)));
   CoaptationLine line;
   line.spacing = count > 1 ? length / count : std::max(length, spacing);
-  for (double k = 0; k < count; ++k) {
+  for (int k = 0; k < count; ++k) {
     const Place place = find_place(curve.start, (k + 0.5) * length / count);
     line.stations.push_back({point_at(curve.points, place), 0});
   }
@@ -107,7 +107,7 @@ CoaptationLine area_along(const std::vector<Ordered> &pieces, const Curve &curve
     const Place on_curve = find_place(curve.order, piece.order);
     const double start = curve.start[on_curve.k], end = curve.start[on_curve.k + 1];
     const double t = start + on_curve.share * (end - start);
-    const double place = std::clamp(t / line.spacing - 0.5, 0.0, count - 1);
+    const double place = std::clamp(t / line.spacing - 0.5, 0.0, count - 1.0);
     const size_t before = static_cast<size_t>(place);
     const size_t after = std::min(before + 1, line.stations.size() - 1);
     const double share = place - static_cast<double>(before);
@@ -150,6 +150,7 @@ CoaptationLine find_coaptation_line(const std::vector<CoaptedPiece> &pieces, con
                                     const Vec3 &axis, double spacing) {
   const Angle angle(pole, axis, pieces);
   std::vector<Ordered> ordered;
+  ordered.reserve(pieces.size());
   for (const CoaptedPiece &piece : pieces) {
     ordered.push_back({piece.middle, piece.area, angle(piece.middle)});
   }

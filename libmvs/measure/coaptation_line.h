@@ -17,7 +17,6 @@ struct CoaptedPiece {
 struct CoaptationLine {
   std::vector<CoaptationStation> stations;
   double spacing = 0;  // m between stations
-  double length() const { return spacing * static_cast<double>(stations.size()); }
 };
 
 // A smooth curve through the middle of the pieces, and the area of tissue per length of that curve
