@@ -64,7 +64,7 @@ mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim) {
   return guarded([&] {
     must_point(sim, "sim");
     const mvs_sim_desc how = read_struct_or_default(desc, "desc");
-    MVS_MUST(how.backend <= MVS_BACKEND_EIGEN, MVS_E_ARGUMENT, "desc.backend",
+    MVS_MUST(how.backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, "desc.backend",
              "desc.backend is %u: it has to be one of MVS_BACKEND_*", how.backend);
     *sim = new mvs_sim(how);
   });

@@ -77,7 +77,7 @@ static void given_defaults_are_the_defaults(void) {
   f.desc.nodes_loaded = f.desc.nodes;
   f.desc.nodes_now = f.desc.nodes;
   f.desc.density = 1060;
-  f.desc.contact_thickness = 0.6e-3;
+  f.desc.contact_thickness = 1e-3;
   f.desc.contact_stiffness = 20e3;
   f.desc.bending_scale = 1;
   for (int l = 0; l < 2; ++l) {

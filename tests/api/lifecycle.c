@@ -138,6 +138,20 @@ static void the_last_release_of_a_snapshot_in_use_frees_nothing_else(void) {
   mvs_destroy(sim);
 }
 
+static void every_backend_is_there_or_refused(void) {
+  int there = 0;
+  for (uint32_t backend = MVS_BACKEND_DEFAULT; backend <= MVS_BACKEND_BLOCK; ++backend) {
+    mvs_sim_desc desc = {.struct_size = sizeof desc, .backend = backend};
+    mvs_sim *sim = NULL;
+    mvs_result result = mvs_create(&desc, &sim);
+    CHECK(result == MVS_OK || result == MVS_E_UNSUPPORTED);
+    CHECK((result == MVS_OK) == (sim != NULL));
+    there += result == MVS_OK;
+    mvs_destroy(sim);
+  }
+  CHECK(there >= 2); /* the default, and the one it is */
+}
+
 static void null_is_accepted_where_it_is_said(void) {
   mvs_destroy(NULL);
   mvs_snapshot_retain(NULL);
@@ -169,6 +183,7 @@ int main(void) {
   load_and_time_are_part_of_the_state();
   a_generated_valve_replaces_the_one_before();
   the_last_release_of_a_snapshot_in_use_frees_nothing_else();
+  every_backend_is_there_or_refused();
   null_is_accepted_where_it_is_said();
   the_library_tells_its_version_and_names();
   return finish("lifecycle");
