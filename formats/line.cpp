@@ -12,7 +12,16 @@
 namespace mvs {
 namespace {
 
-constexpr std::string_view blanks = " \t";
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+// The number of blanks, or of others, that a text begins with.
+size_t count_leading(std::string_view text, bool blanks) {
+  size_t count = 0;
+  while (count < text.size() && is_blank(text[count]) == blanks) ++count;
+  return count;
+}
 
 bool parse_signed(std::string_view text, int64_t &value) {
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -74,10 +83,9 @@ std::string quoted(std::string_view word) {
 }
 
 std::string_view Line::word() {
-  const size_t start = std::min(rest_.find_first_not_of(blanks), rest_.size());
-  const size_t stop = std::min(rest_.find_first_of(blanks, start), rest_.size());
-  const std::string_view found = rest_.substr(start, stop - start);
-  rest_.remove_prefix(stop);
+  rest_.remove_prefix(count_leading(rest_, true));
+  const std::string_view found = rest_.substr(0, count_leading(rest_, false));
+  rest_.remove_prefix(found.size());
   return found;
 }
 
@@ -115,7 +123,7 @@ uint32_t Line::vertex(size_t count) {
 }
 
 bool Line::at_end() {
-  return rest_.find_first_not_of(blanks) == std::string_view::npos;
+  return count_leading(rest_, true) == rest_.size();
 }
 
 void Line::end() {
