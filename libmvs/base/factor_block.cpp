@@ -12,14 +12,49 @@
 namespace mvs {
 namespace {
 
-// C -= A B^T for blocks stored by columns.
-inline void subtract_product(double *c, const double *a, const double *b) {
+// A block is kept by columns of four, the fourth row zero, so that a column fills a vector
+// register.
+constexpr size_t block_size = 12;
+
+// C -= A B^T.
+[[gnu::always_inline]] inline void subtract_product(double *c, const double *a, const double *b) {
   for (int col = 0; col < 3; ++col) {
-    const double b0 = b[col], b1 = b[col + 3], b2 = b[col + 6];
-    for (int row = 0; row < 3; ++row) {
-      c[3 * col + row] -= a[row] * b0 + a[row + 3] * b1 + a[row + 6] * b2;
+    const double b0 = b[col], b1 = b[col + 4], b2 = b[col + 8];
+    for (int row = 0; row < 4; ++row) {
+      c[4 * col + row] -= a[row] * b0 + a[row + 4] * b1 + a[row + 8] * b2;
     }
   }
+}
+
+// Takes from the gathered column what one earlier column contributes: blocks first .. last of it.
+[[gnu::always_inline]] inline void subtract_column(double *gather, const double *value,
+                                                   const uint32_t *row, size_t first, size_t last) {
+  const double *mine = value + block_size * first;
+  for (size_t p = first; p < last; ++p) {
+    subtract_product(gather + block_size * row[p], value + block_size * p, mine);
+  }
+}
+
+using SubtractColumn = void (*)(double *, const double *, const uint32_t *, size_t, size_t);
+
+void subtract_column_plain(double *gather, const double *value, const uint32_t *row, size_t first,
+                           size_t last) {
+  subtract_column(gather, value, row, first, last);
+}
+
+// The same operations in the same order, four at a time where the processor can: the same bits,
+// because products and sums are never fused.
+SubtractColumn choose_subtract_column() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  struct Wide {
+    [[gnu::target("avx2")]] static void run(double *gather, const double *value,
+                                            const uint32_t *row, size_t first, size_t last) {
+      subtract_column(gather, value, row, first, last);
+    }
+  };
+  if (__builtin_cpu_supports("avx2")) return &Wide::run;
+#endif
+  return &subtract_column_plain;
 }
 
 // The lower Cholesky factor of a 3x3 block with the inverses of its diagonal beside it.
@@ -36,11 +71,11 @@ inline bool cholesky(const double *a, Small &s) {
   s.i0 = 1 / l00;
   s.l10 = a[1] * s.i0;
   s.l20 = a[2] * s.i0;
-  const double d1 = a[4] - s.l10 * s.l10;
+  const double d1 = a[5] - s.l10 * s.l10;
   if (!(d1 > 0) || !std::isfinite(d1)) return false;
   s.i1 = 1 / std::sqrt(d1);
-  s.l21 = (a[5] - s.l20 * s.l10) * s.i1;
-  const double d2 = a[8] - s.l20 * s.l20 - s.l21 * s.l21;
+  s.l21 = (a[6] - s.l20 * s.l10) * s.i1;
+  const double d2 = a[10] - s.l20 * s.l20 - s.l21 * s.l21;
   if (!(d2 > 0) || !std::isfinite(d2)) return false;
   s.i2 = 1 / std::sqrt(d2);
   return true;
@@ -50,10 +85,10 @@ inline bool cholesky(const double *a, Small &s) {
 inline void divide(double *b, const Small &s) {
   for (int row = 0; row < 3; ++row) {
     const double x0 = b[row] * s.i0;
-    const double x1 = (b[row + 3] - x0 * s.l10) * s.i1;
+    const double x1 = (b[row + 4] - x0 * s.l10) * s.i1;
     b[row] = x0;
-    b[row + 3] = x1;
-    b[row + 6] = (b[row + 6] - x0 * s.l20 - x1 * s.l21) * s.i2;
+    b[row + 4] = x1;
+    b[row + 8] = (b[row + 8] - x0 * s.l20 - x1 * s.l21) * s.i2;
   }
 }
 
@@ -64,12 +99,16 @@ class BlockFactor final : public Factor {
   void solve(std::vector<Vec3> &b) override;
 
  private:
-  double *block(size_t slot) { return value_.data() + 9 * slot; }
+  double *block(size_t slot) { return value_.data() + block_size * slot; }
+  double *gathered(uint32_t row) { return gather_.data() + block_size * row; }
+  void gather(const BlockMatrix &matrix, uint32_t j);
+  void link(uint32_t column, size_t slot);
 
+  SubtractColumn subtract_ = choose_subtract_column();
   uint32_t n_ = 0;
   std::vector<size_t> start_;  // of each column's blocks below the diagonal
   std::vector<uint32_t> row_;
-  std::vector<double> value_;  // 9 a block, by columns
+  std::vector<double> value_;  // block_size a block
   std::vector<Small> diagonal_;
   std::vector<double> gather_;         // column at hand, 9 a row
   std::vector<uint32_t> next_, head_;  // columns waiting to contribute to a row, linked
@@ -102,49 +141,49 @@ void BlockFactor::analyse(const BlockMatrix &matrix) {
     start_[j + 1] = row_.size();
     if (!column.empty()) children[column[0]].push_back(j);
   }
-  value_.resize(9 * row_.size());
+  value_.resize(block_size * row_.size());
   diagonal_.resize(n_);
-  gather_.assign(9 * static_cast<size_t>(n_), 0);
+  gather_.assign(block_size * n_, 0);
   at_.resize(n_);
   next_.resize(n_);
+}
+
+// The column of the matrix, in the rows of the factor's column.
+void BlockFactor::gather(const BlockMatrix &matrix, uint32_t j) {
+  for (size_t k = start_[j]; k < start_[j + 1]; ++k) {
+    std::fill_n(gathered(row_[k]), block_size, 0.0);
+  }
+  for (uint32_t k = matrix.start[j]; k < matrix.start[j + 1]; ++k) {
+    const double *from = matrix.value[k].data();
+    double *to = gathered(matrix.row[k]);
+    for (int c = 0; c < 3; ++c) std::copy(from + 3 * c, from + 3 * c + 3, to + 4 * c);
+  }
+}
+
+// Lets a column wait for the row of its block `slot`.
+void BlockFactor::link(uint32_t column, size_t slot) {
+  at_[column] = slot;
+  if (slot == start_[column + 1]) return;
+  next_[column] = head_[row_[slot]];
+  head_[row_[slot]] = column;
 }
 
 bool BlockFactor::factorise(const BlockMatrix &matrix) {
   head_.assign(n_, none);
   for (uint32_t j = 0; j < n_; ++j) {
-    double *own = gather_.data() + 9 * static_cast<size_t>(j);
-    for (size_t k = start_[j]; k < start_[j + 1]; ++k) {
-      std::fill_n(gather_.data() + 9 * static_cast<size_t>(row_[k]), 9, 0.0);
-    }
-    for (uint32_t k = matrix.start[j]; k < matrix.start[j + 1]; ++k) {
-      const double *from = matrix.value[k].data();
-      std::copy(from, from + 9, gather_.data() + 9 * static_cast<size_t>(matrix.row[k]));
-    }
+    gather(matrix, j);
     for (uint32_t k = head_[j]; k != none;) {
       const uint32_t following = next_[k];
-      const size_t first = at_[k], last = start_[k + 1];
-      const double *mine = block(first);
-      for (size_t p = first; p < last; ++p) {
-        subtract_product(gather_.data() + 9 * static_cast<size_t>(row_[p]), block(p), mine);
-      }
-      at_[k] = first + 1;
-      if (first + 1 < last) {
-        next_[k] = head_[row_[first + 1]];
-        head_[row_[first + 1]] = k;
-      }
+      subtract_(gather_.data(), value_.data(), row_.data(), at_[k], start_[k + 1]);
+      link(k, at_[k] + 1);
       k = following;
     }
-    if (!cholesky(own, diagonal_[j])) return false;
+    if (!cholesky(gathered(j), diagonal_[j])) return false;
     for (size_t k = start_[j]; k < start_[j + 1]; ++k) {
-      const double *from = gather_.data() + 9 * static_cast<size_t>(row_[k]);
-      std::copy(from, from + 9, block(k));
+      std::copy_n(gathered(row_[k]), block_size, block(k));
       divide(block(k), diagonal_[j]);
     }
-    at_[j] = start_[j];
-    if (start_[j] < start_[j + 1]) {
-      next_[j] = head_[row_[start_[j]]];
-      head_[row_[start_[j]]] = j;
-    }
+    link(j, start_[j]);
   }
   return true;
 }
@@ -159,7 +198,7 @@ void BlockFactor::solve(std::vector<Vec3> &b) {
     for (size_t k = start_[j]; k < start_[j + 1]; ++k) {
       const double *a = block(k);
       Vec3 &y = b[row_[k]];
-      for (int r = 0; r < 3; ++r) y[r] -= a[r] * x[0] + a[r + 3] * x[1] + a[r + 6] * x[2];
+      for (int r = 0; r < 3; ++r) y[r] -= a[r] * x[0] + a[r + 4] * x[1] + a[r + 8] * x[2];
     }
   }
   for (uint32_t j = n_; j-- > 0;) {
@@ -167,8 +206,9 @@ void BlockFactor::solve(std::vector<Vec3> &b) {
     for (size_t k = start_[j]; k < start_[j + 1]; ++k) {
       const double *a = block(k);
       const Vec3 &y = b[row_[k]];
-      for (int c = 0; c < 3; ++c)
-        x[c] -= a[3 * c] * y[0] + a[3 * c + 1] * y[1] + a[3 * c + 2] * y[2];
+      for (int c = 0; c < 3; ++c) {
+        x[c] -= a[4 * c] * y[0] + a[4 * c + 1] * y[1] + a[4 * c + 2] * y[2];
+      }
     }
     const Small &s = diagonal_[j];
     x[2] *= s.i2;

@@ -27,6 +27,11 @@ double edge_edge_distance(const std::vector<Vec3> &x, const Edge &e, const Edge 
   return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
 }
 
+// Squared gap between two boxes, 0 where they overlap: a cheap lower bound of any distance inside.
+double gap2(const Vec3 &low_a, const Vec3 &high_a, const Vec3 &low_b, const Vec3 &high_b) {
+  return (low_b - high_a).cwiseMax(low_a - high_b).cwiseMax(0.0).squaredNorm();
+}
+
 void sort_pairs(std::vector<VertexTriangle> &pairs) {
   std::sort(pairs.begin(), pairs.end(), [](const VertexTriangle &p, const VertexTriangle &q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.triangle < q.triangle;
@@ -110,8 +115,12 @@ void Candidates::find_guarded(const std::vector<Vec3> &x) {
 void Candidates::take_vertices(const std::vector<Vec3> &x, uint32_t owner, uint32_t triangle) {
   const Tri &t = model_->valve.triangles[triangle];
   const double t_reach = triangle_reach(triangle);
+  const Vec3 low = x[t[0]].cwiseMin(x[t[1]]).cwiseMin(x[t[2]]);
+  const Vec3 high = x[t[0]].cwiseMax(x[t[1]]).cwiseMax(x[t[2]]);
   for (const uint32_t v : model_->valve.triangles[owner]) {
     if (vertex_owner_[v] != owner || has(t, v)) continue;
+    const double near = guard_share * thickness_ + reach_[v] + t_reach;
+    if (gap2(x[v], x[v], low, high) > near * near) continue;
     const double distance = vertex_triangle_distance(x, v, t) - reach_[v] - t_reach;
     if (distance > guard_share * thickness_) continue;
     const double guard =
@@ -128,6 +137,11 @@ void Candidates::take_edges(const std::vector<Vec3> &x, uint32_t a, uint32_t b) 
     for (const uint32_t j : model_->topology.triangle_edges[b]) {
       if (edge_owner_[j] != b || share(edges[i], edges[j])) continue;
       const Edge &e = edges[i], &f = edges[j];
+      const double near = guard_share * thickness_ + edge_reach(e) + edge_reach(f);
+      if (gap2(x[e[0]].cwiseMin(x[e[1]]), x[e[0]].cwiseMax(x[e[1]]), x[f[0]].cwiseMin(x[f[1]]),
+               x[f[0]].cwiseMax(x[f[1]])) > near * near) {
+        continue;
+      }
       const double distance = edge_edge_distance(x, e, f) - edge_reach(e) - edge_reach(f);
       if (distance > guard_share * thickness_) continue;
       const double guard = guard_range(thickness_, edge_edge_distance(model_->valve.rest, e, f));
