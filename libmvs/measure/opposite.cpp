@@ -7,10 +7,6 @@
 namespace mvs {
 namespace {
 
-// Leaflets pressed together rest at mid-surface distances just below the contact thickness;
-// between the nodes of curved sheets facets stand a little further apart.
-constexpr double margin = 1.25;
-
 constexpr double facing = -0.5;           // cosine between the normals
 constexpr double ahead = 0.5;             // cosine between a normal and the way to the partner
 constexpr double straight_ahead = 0.966;  // 15 degrees: how far beyond a border still faces it
@@ -49,7 +45,7 @@ Opposite::Opposite(const Model &model, const std::vector<Vec3> &x, const Surface
       surface_(surface),
       tree_(model.valve.triangles, x),
       border_(find_borders(model)),
-      reach_(margin * model.valve.contact_thickness) {}
+      reach_(model.valve.contact_thickness) {}
 
 Partner Opposite::of_node(uint32_t node) const {
   return find(x_[node], surface_.node_normal[node], {node, node, node});

@@ -24,7 +24,7 @@ class Opposite {
  public:
   Opposite(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
 
-  double reach() const { return reach_; }  // m, between mid-surfaces
+  double reach() const { return reach_; }  // m: the contact thickness
   Partner of_node(uint32_t node) const;
   Partner of_point(uint32_t triangle, const Vec3 &p) const;
 

@@ -9,6 +9,7 @@ namespace mvs::test {
 
 Valve valve_of(const Sheet &sheet) {
   Valve valve;
+  valve.contact_thickness = contact_thickness;
   valve.leaflets.resize(2);
   valve.leaflets[0].name = "A";
   valve.leaflets[1].name = "P";

@@ -13,6 +13,8 @@ namespace mvs::test {
 
 inline constexpr double pi = std::numbers::pi;
 
+inline constexpr double contact_thickness = 0.6e-3;
+
 // Equal to a relative tolerance. (doctest's own Approx adds 1 to what epsilon multiplies, so that
 // numbers in metres would always agree.)
 inline doctest::Approx about(double value, double relative) {
