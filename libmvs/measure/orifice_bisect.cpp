@@ -3,8 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-
-#include "model/sides.h"
+#include <utility>
 
 namespace mvs::orifice {
 namespace {
@@ -21,20 +20,45 @@ Vec3 area_vector(const Mesh &mesh, uint32_t t) {
   return 0.5 * (mesh.x[c[1]] - mesh.x[c[0]]).cross(mesh.x[c[2]] - mesh.x[c[0]]);
 }
 
+// Sides gathered at their smaller node, so that the few of each node can be sorted among
+// themselves: this runs once a round, and one sort of all sides would be most of its time.
 Edges edges_of(const Mesh &mesh) {
+  struct Side {
+    uint32_t larger, triangle, k;
+  };
+  const auto smaller = [&](const Tri &t, uint32_t k) { return std::min(t[k], t[(k + 1) % 3]); };
+  std::vector<uint32_t> first(mesh.x.size() + 1, 0);
+  for (const Tri &t : mesh.triangles) {
+    for (uint32_t k = 0; k < 3; ++k) ++first[smaller(t, k) + 1];
+  }
+  for (size_t n = 0; n < mesh.x.size(); ++n) first[n + 1] += first[n];
+  std::vector<Side> sides(3 * mesh.triangles.size());
+  std::vector<uint32_t> place(first.begin(), first.end() - 1);
+  for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Tri &t = mesh.triangles[i];
+    for (uint32_t k = 0; k < 3; ++k) {
+      sides[place[smaller(t, k)]++] = {std::max(t[k], t[(k + 1) % 3]), i, k};
+    }
+  }
   Edges edges;
   edges.of_triangle.resize(mesh.triangles.size());
-  const std::vector<Side> sides = sorted_sides(mesh.triangles);
-  for_each_edge(sides, [&](size_t first, size_t last) {
-    Vec3 normal = Vec3::Zero();
-    for (size_t s = first; s < last; ++s) {
-      normal += area_vector(mesh, sides[s].triangle);
-      edges.of_triangle[sides[s].triangle][sides[s].k] = static_cast<uint32_t>(edges.ends.size());
+  for (uint32_t n = 0; n < mesh.x.size(); ++n) {
+    const auto begin = sides.begin() + first[n], end = sides.begin() + first[n + 1];
+    std::sort(begin, end, [](const Side &l, const Side &r) {
+      return l.larger != r.larger ? l.larger < r.larger : l.triangle < r.triangle;
+    });
+    for (auto side = begin; side != end; ++side) {
+      if (side == begin || side->larger != (side - 1)->larger) {
+        edges.ends.push_back({n, side->larger});
+        edges.normal.push_back(Vec3::Zero());
+        edges.on_rim.push_back(1);
+      } else {
+        edges.on_rim.back() = 0;
+      }
+      edges.normal.back() += area_vector(mesh, side->triangle);
+      edges.of_triangle[side->triangle][side->k] = static_cast<uint32_t>(edges.ends.size() - 1);
     }
-    edges.ends.push_back(sides[first].edge);
-    edges.normal.push_back(normal);
-    edges.on_rim.push_back(last == first + 1);
-  });
+  }
   return edges;
 }
 
@@ -91,6 +115,12 @@ void cut_triangle(const Mesh &mesh, const Edges &edges, const std::vector<uint32
 }
 
 }  // namespace
+
+double area_of(const Mesh &mesh) {
+  double area = 0;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) area += area_vector(mesh, t).norm();
+  return area;
+}
 
 void bisect(Mesh &mesh, const std::function<bool(const BisectEdge &)> &is_too_long) {
   for (size_t known = 0;;) {

@@ -13,6 +13,8 @@ struct Mesh {
   std::vector<Tri> triangles;
 };
 
+double area_of(const Mesh &mesh);
+
 // An edge as the criterion sees it.
 struct BisectEdge {
   Vec3 a, b;

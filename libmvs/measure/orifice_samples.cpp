@@ -14,12 +14,17 @@ namespace {
 // Spacings over the contact thickness: three quarters keep a ball of that diameter from slipping
 // between the samples (see orifice_space.cpp) and place the verdict "closed" within a tenth.
 constexpr double grain_of_seal = 0.75;
-// The finest spacing over the length of the annulus, where the contact thickness is tiny: it bounds
-// the work. The coarsest spacing over the finest.
-constexpr double grain_of_annulus = 1.0 / 400;
+// The finest spacing over the length of the rims and over the root of the sheet's area: it bounds
+// the work where the contact thickness is tiny or the sheet torn far apart. For a mitral valve it
+// is a quarter of a millimetre. Below, the coarsest spacing over the finest.
+constexpr double grain_of_rim = 1e-3, grain_of_size = 1.0 / 150;
 constexpr double coarsest = 4;
 // Edges are as long as half the way to what faces them, and grow half as fast as that from a rim.
 constexpr double growth = 0.5;
+// Where leaflets touch, nearer to each other than this part of the contact thickness, no blood
+// comes and samples may be coarse: a ball that is held back by them is held back by the contact,
+// too.
+constexpr double deep_of_seal = 0.8;
 // What lies within 60 degrees of the normal faces a point; the sheet's own neighbourhood does not.
 constexpr double facing_cosine = 0.5;
 
@@ -54,11 +59,15 @@ Mesh refined(const Sheet &sheet) {
   Mesh mesh = sheet.mesh;
   bisect(mesh, [&](const BisectEdge &edge) {
     const double length = (edge.b - edge.a).norm();
-    if (length <= sheet.grain) return false;
+    if (!(length > sheet.grain)) return false;
     if (edge.on_rim || length > coarsest * sheet.grain) return true;
-    const Vec3 middle = 0.5 * (edge.a + edge.b);
-    return is_near(rim_tree, middle, (length - sheet.grain) / growth) ||
-           faces_something(tree, middle, edge.normal.normalized(), length / growth);
+    const Vec3 middle = 0.5 * (edge.a + edge.b), normal = edge.normal.normalized();
+    if (is_near(rim_tree, middle, (length - sheet.grain) / growth)) return true;
+    if (!faces_something(tree, middle, normal, length / growth)) return false;
+    const auto is_deep = [&](const Vec3 &p) {
+      return faces_something(tree, p, normal, deep_of_seal * sheet.seal);
+    };
+    return length > 2 * sheet.seal || !is_deep(middle) || !is_deep(edge.a) || !is_deep(edge.b);
   });
   return mesh;
 }
@@ -126,8 +135,11 @@ Sheet local_sheet(const Model &model, const std::vector<Vec3> &local) {
   for_each_edge(sides, [&](size_t first, size_t last) {
     if (last == first + 1) sheet.rim.push_back(sides[first].edge);
   });
+  double rim = 0;
+  for (const Edge &e : sheet.rim) rim += (sheet.mesh.x[e[0]] - sheet.mesh.x[e[1]]).norm();
   for (const Vec3 &p : sheet.mesh.x) sheet.radius = std::max(sheet.radius, p.norm());
-  sheet.grain = std::max(grain_of_seal * sheet.seal, grain_of_annulus * sheet.annulus.length());
+  sheet.grain = std::max({grain_of_seal * sheet.seal, grain_of_rim * rim,
+                          grain_of_size * std::sqrt(area_of(sheet.mesh))});
   return sheet;
 }
 

@@ -203,15 +203,6 @@ Mesh Shrinking::run() {
 
 }  // namespace
 
-double area_of(const Mesh &mesh) {
-  double twice = 0;
-  for (const Tri &t : mesh.triangles) {
-    const Vec3 &a = mesh.x[t[0]];
-    twice += (mesh.x[t[1]] - a).cross(mesh.x[t[2]] - a).norm();
-  }
-  return 0.5 * twice;
-}
-
 Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut) {
   Mesh mesh = surface_of_cut(samples, cut);
   if (cut.empty()) return mesh;

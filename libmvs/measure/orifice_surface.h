@@ -7,8 +7,6 @@
 
 namespace mvs::orifice {
 
-double area_of(const Mesh &mesh);
-
 // Lets the cut shrink: its rim slides along the sheet (where it crosses a closed passage it stays),
 // the rest is free.
 Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut);
