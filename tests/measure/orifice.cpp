@@ -22,6 +22,14 @@ double flat(double, double) {
   return 0;
 }
 
+constexpr double seal = 0.6 * mm;  // what the expectations below are made for
+
+Valve sealing(const mvs::test::Sheet &sheet) {
+  Valve valve = valve_of(sheet);
+  valve.contact_thickness = seal;
+  return valve;
+}
+
 double orifice_area(const Valve &valve) {
   const ModelPtr model = make_model(valve);
   return measure_orifice(*model, model->valve.rest).area;
@@ -55,7 +63,7 @@ mvs::test::Sheet overlap(double gap, double reach) {
 }
 
 // The part of an ellipse gap * width / 2 high and wide, where it is higher than `seal`.
-double lens_area(double gap, double half_width, double seal) {
+double lens_area(double gap, double half_width) {
   const int steps = 100000;
   double area = 0;
   for (int i = 0; i < steps; ++i) {
@@ -104,7 +112,7 @@ std::vector<Edge> rim_of(const std::vector<Tri> &triangles) {
 
 TEST_CASE("a_round_hole_has_its_area") {
   for (const double radius : {0.4 * mm, 0.7 * mm, 1.5 * mm, 3 * mm, 6 * mm, 12 * mm}) {
-    const double area = orifice_area(valve_of(disc(16 * mm, radius, flat)));
+    const double area = orifice_area(sealing(disc(16 * mm, radius, flat)));
     // the mesh has the polygon as its rim and the surface is flat: only rounding is left
     CHECK(area == about(polygon_area(radius, 48), 1e-4));
     CHECK(area == about(pi * radius * radius, 0.01));
@@ -112,8 +120,8 @@ TEST_CASE("a_round_hole_has_its_area") {
 }
 
 TEST_CASE("a_hole_narrower_than_the_contact_thickness_is_closed") {
-  CHECK(orifice_area(valve_of(disc(16 * mm, 0.28 * mm, flat))) == 0);
-  Valve valve = valve_of(disc(16 * mm, 0.7 * mm, flat));
+  CHECK(orifice_area(sealing(disc(16 * mm, 0.28 * mm, flat))) == 0);
+  Valve valve = sealing(disc(16 * mm, 0.7 * mm, flat));
   CHECK(orifice_area(valve) > 0);
   valve.contact_thickness = 1.5 * mm;
   CHECK(orifice_area(valve) == 0);
@@ -121,20 +129,20 @@ TEST_CASE("a_hole_narrower_than_the_contact_thickness_is_closed") {
 
 TEST_CASE("a_slit_has_width_times_length") {
   for (const double width : {0.8 * mm, 1 * mm, 2 * mm, 4 * mm}) {
-    const double area = orifice_area(valve_of(slit(width, 14 * mm)));
+    const double area = orifice_area(sealing(slit(width, 14 * mm)));
     // A ball of the contact thickness d does not reach into corners: (1 - pi / 4) d2 = 0.08 mm2 of
     // the slit. On samples it loses triangles with legs up to d: at most 0.18 mm2 in each of four.
     CHECK(area < width * 14 * mm);
     CHECK(width * 14 * mm - area < 0.4 * mm2);
   }
-  CHECK(orifice_area(valve_of(slit(0.5 * mm, 14 * mm))) == 0);
+  CHECK(orifice_area(sealing(slit(0.5 * mm, 14 * mm))) == 0);
 }
 
 TEST_CASE("less_of_a_slit_is_lost_in_its_corners_with_thinner_contact") {
-  Valve valve = valve_of(slit(2 * mm, 14 * mm));
+  Valve valve = sealing(slit(2 * mm, 14 * mm));
   double previous = 0.03;
-  for (const double seal : {1.2 * mm, 0.6 * mm, 0.3 * mm}) {  // it sets the spacing of the samples
-    valve.contact_thickness = seal;
+  for (const double d : {1.2 * mm, 0.6 * mm, 0.3 * mm}) {  // it sets the spacing of the samples
+    valve.contact_thickness = d;
     const double error = 1 - orifice_area(valve) / (28 * mm2);
     CHECK(error > 0);
     CHECK(error < previous);
@@ -146,7 +154,7 @@ TEST_CASE("holes_add_up") {
   mvs::test::Sheet sheet = disc(16 * mm, 2 * mm, flat);
   sheet.around = 24;
   sheet.rings = 6;
-  Valve valve = valve_of(sheet);
+  Valve valve = sealing(sheet);
   double expected = polygon_area(2 * mm, 24);
   // two cells of the mesh, each of two triangles, far from each other in the third ring
   for (const size_t t : {2u * 48u + 35u, 2u * 48u + 34u, 2u * 48u + 11u, 2u * 48u + 10u}) {
@@ -161,16 +169,16 @@ TEST_CASE("holes_add_up") {
 
 TEST_CASE("overlapping_leaflets_leak_through_the_gap_between_them") {
   for (const double gap : {1 * mm, 1.5 * mm, 3 * mm}) {
-    const double expected = lens_area(gap, 14 * mm, 0.6 * mm);
+    const double expected = lens_area(gap, 14 * mm);
     // the ends, closed where lower than d, move by about a spacing of the samples (0.45 mm)
-    CHECK(orifice_area(valve_of(overlap(gap, 3 * mm))) == about(expected, 0.03));
+    CHECK(orifice_area(sealing(overlap(gap, 3 * mm))) == about(expected, 0.03));
   }
 }
 
 TEST_CASE("leaflets_within_the_contact_thickness_are_sealed") {
   for (const double gap : {0.1 * mm, 0.2 * mm, 0.4 * mm, 0.58 * mm}) {
     for (const double reach : {1 * mm, 3 * mm}) {
-      const ModelPtr model = make_model(valve_of(overlap(gap, reach)));
+      const ModelPtr model = make_model(sealing(overlap(gap, reach)));
       const Orifice orifice = measure_orifice(*model, model->valve.rest);
       CHECK(orifice.area == 0);
       CHECK(orifice.triangles.empty());
@@ -185,14 +193,14 @@ TEST_CASE("a_funnel_has_its_smallest_cross_section") {
     const double r = (16 - 8 * s) * mm;
     return {r * std::cos(angle), r * std::sin(angle), -15 * mm * s};
   };
-  CHECK(orifice_area(valve_of(funnel)) == about(polygon_area(8 * mm, 48), 1e-3));
+  CHECK(orifice_area(sealing(funnel)) == about(polygon_area(8 * mm, 48), 1e-3));
   mvs::test::Sheet hourglass = funnel;  // here that is half way down
   hourglass.at = [](double angle, double s) -> Vec3 {
     const double r = (8 + 32 * (s - 0.5) * (s - 0.5)) * mm;
     return {r * std::cos(angle), r * std::sin(angle), -15 * mm * s};
   };
   // the surface dips through nodes of the waist, whose rows are 1.25 mm apart
-  CHECK(orifice_area(valve_of(hourglass)) == about(polygon_area(8 * mm, 48), 5e-3));
+  CHECK(orifice_area(sealing(hourglass)) == about(polygon_area(8 * mm, 48), 5e-3));
 }
 
 TEST_CASE("an_oblique_tube_has_its_cross_section_not_its_mouth") {
@@ -208,7 +216,7 @@ TEST_CASE("an_oblique_tube_has_its_cross_section_not_its_mouth") {
   };
   const double section = pi * radius * radius;
   // a polygon of 48 corners (0.3 %), and nodes that only nearly lie across the tube
-  CHECK(orifice_area(valve_of(tube)) == about(section, 0.02));
+  CHECK(orifice_area(sealing(tube)) == about(section, 0.02));
 }
 
 TEST_CASE("the_orifice_on_a_saddle_is_a_minimal_surface") {
@@ -217,13 +225,13 @@ TEST_CASE("the_orifice_on_a_saddle_is_a_minimal_surface") {
   const double radius = 5 * mm, a = 0.5 * mm, curvature = a / (radius * radius);
   const auto saddle = [=](double x, double y) { return curvature * (x * x - y * y); };
   const double expected = polygon_area(radius, 48) + pi * a * a;
-  CHECK(orifice_area(valve_of(disc(16 * mm, radius, saddle))) == about(expected, 2e-3));
+  CHECK(orifice_area(sealing(disc(16 * mm, radius, saddle))) == about(expected, 2e-3));
 }
 
 TEST_CASE("a_rigid_motion_does_not_change_the_area") {
   for (const mvs::test::Sheet &sheet :
        {overlap(1.5 * mm, 3 * mm), slit(1 * mm, 14 * mm), disc(16 * mm, 3 * mm, flat)}) {
-    const ModelPtr model = make_model(valve_of(sheet));
+    const ModelPtr model = make_model(sealing(sheet));
     const std::vector<Vec3> &x = model->valve.rest;
     const double area = measure_orifice(*model, x).area;
     const double there = measure_orifice(*model, moved(x, some_motion())).area;
@@ -235,14 +243,14 @@ TEST_CASE("a_rigid_motion_does_not_change_the_area") {
 
 TEST_CASE("a_finer_mesh_of_the_same_shape_has_the_same_orifice") {
   mvs::test::Sheet sheet = overlap(1.5 * mm, 3 * mm);
-  const double coarse = orifice_area(valve_of(sheet));
+  const double coarse = orifice_area(sealing(sheet));
   sheet.around *= 2;
   sheet.rings *= 2;
-  CHECK(orifice_area(valve_of(sheet)) == about(coarse, 0.02));
+  CHECK(orifice_area(sealing(sheet)) == about(coarse, 0.02));
 }
 
 TEST_CASE("the_surface_shown_has_the_area_and_its_rim_on_the_leaflets") {
-  const ModelPtr model = make_model(valve_of(disc(16 * mm, 3 * mm, flat)));
+  const ModelPtr model = make_model(sealing(disc(16 * mm, 3 * mm, flat)));
   const Orifice orifice = measure_orifice(*model, model->valve.rest);
   double area = 0;
   Vec3 normal = Vec3::Zero();
@@ -265,7 +273,7 @@ TEST_CASE("the_surface_shown_has_the_area_and_its_rim_on_the_leaflets") {
 }
 
 TEST_CASE("the_same_valve_gives_the_same_bits") {
-  const ModelPtr model = make_model(valve_of(overlap(1.5 * mm, 3 * mm)));
+  const ModelPtr model = make_model(sealing(overlap(1.5 * mm, 3 * mm)));
   const Orifice a = measure_orifice(*model, model->valve.rest);
   const Orifice b = measure_orifice(*model, model->valve.rest);
   CHECK(a.area == b.area);
