@@ -119,8 +119,8 @@ typedef struct mvs_measures {
   double coaptation_length_mean;   /* m, along the coaptation line */
   double coaptation_length_min;    /* m */
   double coaptation_length_max;    /* m */
-  double coaptation_height;        /* m, extent along the valve axis */
-  double coaptation_depth;         /* m, annulus plane to the nearest coapting point */
+  double coaptation_height;        /* m, extent along the valve axis, central AP plane */
+  double coaptation_depth;         /* m, annulus plane to its upper end, central AP plane */
   double tenting_height;           /* m, deepest leaflet point on the atrial side below the plane */
   double tenting_area;             /* m2, in the central AP plane */
   double tenting_volume;           /* m3 */

@@ -20,7 +20,9 @@ struct Raster {
   double low_u, low_v, width, height;  // m, of the first corner and of a cell
   std::vector<double> span, leaflet;
 
-  size_t at(int column, int row) const { return static_cast<size_t>(row * cells_across + column); }
+  size_t at(int column, int row) const {
+    return static_cast<size_t>(row) * cells_across + static_cast<size_t>(column);
+  }
   bool inside(size_t cell) const { return !std::isnan(span[cell]); }
 };
 
