@@ -9,12 +9,6 @@
 namespace mvs {
 namespace {
 
-Mat3 cross_matrix(const Vec3 &v) {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 // The parts of a hinge that its derivatives share. N1 = e x (x2 - x0), N2 = (x3 - x0) x e.
 struct Parts {
   Vec3 e, m1, m2;  // m = N / |N|^2

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/model.h"
-#include "physics/axial.h"
+#include "physics/blocks.h"
 #include "physics/system.h"
 
 namespace mvs {

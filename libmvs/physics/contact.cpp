@@ -215,11 +215,63 @@ double ContactTerm::gradient(std::vector<Vec3> &g) const {
   return sum;
 }
 
-// With r = sum w_k x_k, n = r / |r|, t_a = sum slide_ak x_k and the closest point sliding freely
-// (n t_a = 0), the Hessian of E(d) is, with c = E' / d and G_ab = t_a t_b,
+namespace {
+
+// The second derivative of E(d) over the nodes of one stencil. With r = sum w_k x_k, n = r / |r|,
+// t_a = sum slide_ak x_k and the closest point sliding freely (n t_a = 0), c = E' / d and
+// G_ab = t_a t_b, block (k, l) is
 //   w_k w_l (E'' n n^T + c (I - n n^T)) - c sum_ab (G^-1)_ab u_ka u_lb^T,
 //   u_ka = w_k t_a + slide_ka d n.
-// The projected one keeps E'' n n^T, which is positive, and leaves the rest.
+// The projected one keeps E'' n n^T, which is positive where E'' is, and leaves the rest.
+class StencilHessian {
+ public:
+  StencilHessian(const ContactStencil &s, double second, double c, const std::vector<Vec3> &x)
+      : stencil_(s), c_(c) {
+    const Vec3 &n = s.normal;
+    along_ = (second - c) * n * n.transpose();
+    along_.diagonal().array() += c;
+    if (c != 0 && s.slides > 0) slide(x);
+  }
+
+  Mat3 block(uint32_t k, uint32_t l) const {
+    Mat3 sum = stencil_.weight[k] * stencil_.weight[l] * along_;
+    for (uint32_t a = 0; a < slides_; ++a) {
+      for (uint32_t b = 0; b < slides_; ++b) {
+        sum -= c_ * inverse_(a, b) * u_[a][k] * u_[b][l].transpose();
+      }
+    }
+    return sum;
+  }
+
+ private:
+  void slide(const std::vector<Vec3> &x) {
+    slides_ = stencil_.slides;
+    std::array<Vec3, 2> t{Vec3::Zero(), Vec3::Zero()};
+    Eigen::Matrix2d gram = Eigen::Matrix2d::Identity();
+    for (uint32_t a = 0; a < slides_; ++a) {
+      for (uint32_t k = 0; k < stencil_.count; ++k)
+        t[a] += stencil_.slide[a][k] * x[stencil_.node[k]];
+    }
+    for (uint32_t a = 0; a < slides_; ++a) {
+      for (uint32_t b = 0; b < slides_; ++b) gram(a, b) = t[a].dot(t[b]);
+      for (uint32_t k = 0; k < stencil_.count; ++k) {
+        u_[a][k] =
+            stencil_.weight[k] * t[a] + stencil_.slide[a][k] * stencil_.distance * stencil_.normal;
+      }
+    }
+    inverse_ = gram.inverse();
+  }
+
+  const ContactStencil &stencil_;
+  double c_;
+  Mat3 along_;
+  uint32_t slides_ = 0;
+  std::array<std::array<Vec3, 4>, 2> u_;
+  Eigen::Matrix2d inverse_;
+};
+
+}  // namespace
+
 bool ContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
   bool complete = true;
   for (const ContactStencil &s : stencils_) {
@@ -227,39 +279,11 @@ bool ContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syste
     const double second = s.strength / s.range * b.second;
     const bool exact = curvature == Curvature::exact;
     if (!exact && second <= 0) continue;
-    const Vec3 &n = s.normal;
-    const double c = exact ? s.strength * b.first / s.distance : 0;
-    Mat3 stiffness = (second - c) * n * n.transpose();
-    stiffness.diagonal().array() += c;
-    std::array<std::array<Vec3, 4>, 2> u;
-    Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
-    if (exact && s.slides > 0) {
-      std::array<Vec3, 2> t{Vec3::Zero(), Vec3::Zero()};
-      Eigen::Matrix2d gram = Eigen::Matrix2d::Identity();
-      for (uint32_t a = 0; a < s.slides; ++a) {
-        for (uint32_t k = 0; k < s.count; ++k) t[a] += s.slide[a][k] * x[s.node[k]];
-      }
-      for (uint32_t a = 0; a < s.slides; ++a) {
-        for (uint32_t e = 0; e < s.slides; ++e) gram(a, e) = t[a].dot(t[e]);
-        for (uint32_t k = 0; k < s.count; ++k) {
-          u[a][k] = s.weight[k] * t[a] + s.slide[a][k] * s.distance * n;
-        }
-      }
-      inverse = gram.inverse();
-    }
+    const StencilHessian blocks(s, second, exact ? s.strength * b.first / s.distance : 0, x);
     for (uint32_t k = 0; k < s.count; ++k) {
-      for (uint32_t l = 0; l <= k; ++l) {
-        Mat3 block = s.weight[k] * s.weight[l] * stiffness;
-        for (uint32_t a = 0; exact && a < s.slides; ++a) {
-          for (uint32_t e = 0; e < s.slides; ++e) {
-            block -= c * inverse(a, e) * u[a][k] * u[e][l].transpose();
-          }
-        }
-        if (k == l) {
-          system.add_diagonal(s.node[k], block);
-        } else {
-          complete = system.add(s.node[k], s.node[l], block) && complete;
-        }
+      system.add_diagonal(s.node[k], blocks.block(k, k));
+      for (uint32_t l = 0; l < k; ++l) {
+        complete = system.add(s.node[k], s.node[l], blocks.block(k, l)) && complete;
       }
     }
   }

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "model/model.h"
-#include "physics/axial.h"
+#include "physics/blocks.h"
 #include "physics/candidates.h"
 #include "physics/system.h"
 

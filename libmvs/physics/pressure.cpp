@@ -6,12 +6,6 @@
 namespace mvs {
 namespace {
 
-Mat3 cross_matrix(const Vec3 &v) {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 // The corner of a triangle that is neither i nor j.
 uint32_t opposite(const Tri &t, uint32_t i, uint32_t j) {
   for (const uint32_t k : t) {

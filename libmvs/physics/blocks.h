@@ -1,4 +1,4 @@
-// What springs and chordae share: the Hessian block of a force along the line between two nodes.
+// Small blocks that several terms share.
 #pragma once
 
 #include "base/types.h"
@@ -17,6 +17,13 @@ inline Mat3 axial_block(const Vec3 &n, double stiffness, double tension_over_len
   Mat3 block = (stiffness - across) * (n * n.transpose());
   block.diagonal().array() += across;
   return block;
+}
+
+// [v]x, the matrix with [v]x a = v x a.
+inline Mat3 cross_matrix(const Vec3 &v) {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
 }
 
 }  // namespace mvs
