@@ -1,7 +1,6 @@
 """The plain values of the interface: loads, statistics, measures, parts and valves as arrays.
 
-SI units throughout. The unit and the definition of every figure stand in the field's metadata, so
-that tables and reports print the same words: ``unit_of(Measures, "tenting_height")``.
+SI units throughout. The unit and the definition of every figure stand in its annotation, so that tables and reports print the same words: ``unit_of(Measures, "tenting_height")``.
 """
 
 from __future__ import annotations
@@ -9,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any, Optional, Union
+from typing import Annotated, Any, Optional, Union, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,30 +56,27 @@ class LeafletLaw(IntEnum):
     SPRING = 1
 
 
-def _figure(unit: str, definition: str) -> Any:
-    return dataclasses.field(metadata={"unit": unit, "definition": definition})
-
-
-def _metadata(kind: type, name: str) -> Any:
-    return kind.__dataclass_fields__[name].metadata  # type: ignore[attr-defined]
+def _annotation(kind: type, name: str) -> tuple[str, str]:
+    unit, definition = get_type_hints(kind, include_extras=True)[name].__metadata__
+    return unit, definition
 
 
 def unit_of(kind: type, name: str) -> str:
     """The unit of a field of Measures, Stats or Comparison; "1" where it has none."""
-    return str(_metadata(kind, name)["unit"])
+    return _annotation(kind, name)[0]
 
 
 def definition_of(kind: type, name: str) -> str:
     """What a field of Measures, Stats or Comparison means, in words."""
-    return str(_metadata(kind, name)["definition"])
+    return _annotation(kind, name)[1]
 
 
 @dataclasses.dataclass(frozen=True)
 class Load:
     """The load on a valve."""
 
-    pressure: float = _figure("Pa", "ventricle minus atrium")
-    boundary_fraction: float = _figure("1", "where annulus and heads are: 0 open to 1 loaded")
+    pressure: Annotated[float, "Pa", "ventricle minus atrium"]
+    boundary_fraction: Annotated[float, "1", "where annulus and heads are: 0 open to 1 loaded"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -105,69 +101,69 @@ class Fault:
 class Stats:
     """How the last settle or step went. Not converged is no error: look at ``converged``."""
 
-    converged: bool = _figure("1", "the residual asked for was reached")
-    iterations: int = _figure("1", "Newton iterations, or steps in time")
-    factorisations: int = _figure("1", "sparse factorisations")
-    contact_pairs: int = _figure("1", "active contact pairs at the end")
-    shifted: int = _figure("1", "iterations whose matrix needed a shift to be positive definite")
-    residual: float = _figure("N", "largest out-of-balance force on a free node")
-    energy: float = _figure("J", "total potential at the end")
-    kinetic: float = _figure("J", "kinetic energy at the end")
-    wall_s: float = _figure("s", "time taken")
-    phase_s: dict[str, float] = _figure("s", "time taken by each phase of the work")
+    converged: Annotated[bool, "1", "the residual asked for was reached"]
+    iterations: Annotated[int, "1", "Newton iterations, or steps in time"]
+    factorisations: Annotated[int, "1", "sparse factorisations"]
+    contact_pairs: Annotated[int, "1", "active contact pairs at the end"]
+    shifted: Annotated[int, "1", "iterations whose matrix needed a shift to be positive definite"]
+    residual: Annotated[float, "N", "largest out-of-balance force on a free node"]
+    energy: Annotated[float, "J", "total potential at the end"]
+    kinetic: Annotated[float, "J", "kinetic energy at the end"]
+    wall_s: Annotated[float, "s", "time taken"]
+    phase_s: Annotated[dict[str, float], "s", "time taken by each phase of the work"]
 
 
 @dataclasses.dataclass(frozen=True)
 class Measures:
     """What a valve measures. Sources: libmvs/measure/README.md."""
 
-    intersections: int = _figure("1", "pairs of triangles that cross (exact test)")
-    regurgitant_orifice_area: float = _figure(
-        "m2", "smallest cross-section joining ventricle and atrium; 0 when sealed"
-    )
-    coaptation_area: float = _figure(
-        "m2", "area of one side where leaflets face each other within the contact thickness"
-    )
-    coaptation_length_mean: float = _figure("m", "mean along the coaptation line")
-    coaptation_length_min: float = _figure("m", "smallest along the coaptation line")
-    coaptation_length_max: float = _figure("m", "largest along the coaptation line")
-    coaptation_height: float = _figure("m", "extent of the coaptation along the valve axis")
-    coaptation_depth: float = _figure("m", "annulus plane to the nearest coapting point")
-    tenting_height: float = _figure(
-        "m", "deepest leaflet point on the atrial side below the annulus plane"
-    )
-    tenting_area: float = _figure("m2", "below the annulus plane, in the central AP plane")
-    tenting_volume: float = _figure("m3", "between leaflets and annulus surface, below it")
-    billow_height: float = _figure("m", "highest leaflet point above the annulus surface")
-    billow_volume: float = _figure("m3", "between leaflets and annulus surface, above it")
-    annulus_ap: float = _figure("m", "anteroposterior (septal-lateral) diameter")
-    annulus_cc: float = _figure("m", "intercommissural diameter")
-    annulus_perimeter: float = _figure("m", "length of the annulus in space")
-    annulus_area_3d: float = _figure("m2", "area of the surface spanning the annulus")
-    annulus_area: float = _figure("m2", "area projected on the annulus plane")
-    annulus_saddle_height: float = _figure("m", "height of the annulus along the valve axis")
-    annulus_nonplanar_angle: float = _figure("rad", "angle between the two halves of the saddle")
-    max_chord_strain: float = _figure("1", "largest engineering strain; 0 when all are slack")
-    max_chord_tension: float = _figure("N", "largest tension of a chord segment")
-    max_leaflet_strain: float = _figure("1", "largest principal engineering strain")
-    max_leaflet_stress: float = _figure("Pa", "largest principal Cauchy stress")
-    leaflet_area: float = _figure("m2", "area of both leaflets in the present shape")
+    intersections: Annotated[int, "1", "pairs of triangles that cross (exact test)"]
+    regurgitant_orifice_area: Annotated[
+        float, "m2", "smallest cross-section joining ventricle and atrium; 0 when sealed"
+    ]
+    coaptation_area: Annotated[
+        float, "m2", "area of one side where leaflets face each other within the contact thickness"
+    ]
+    coaptation_length_mean: Annotated[float, "m", "mean along the coaptation line"]
+    coaptation_length_min: Annotated[float, "m", "smallest along the coaptation line"]
+    coaptation_length_max: Annotated[float, "m", "largest along the coaptation line"]
+    coaptation_height: Annotated[float, "m", "extent of the coaptation along the valve axis"]
+    coaptation_depth: Annotated[float, "m", "annulus plane to the nearest coapting point"]
+    tenting_height: Annotated[
+        float, "m", "deepest leaflet point on the atrial side below the annulus plane"
+    ]
+    tenting_area: Annotated[float, "m2", "below the annulus plane, in the central AP plane"]
+    tenting_volume: Annotated[float, "m3", "between leaflets and annulus surface, below it"]
+    billow_height: Annotated[float, "m", "highest leaflet point above the annulus surface"]
+    billow_volume: Annotated[float, "m3", "between leaflets and annulus surface, above it"]
+    annulus_ap: Annotated[float, "m", "anteroposterior (septal-lateral) diameter"]
+    annulus_cc: Annotated[float, "m", "intercommissural diameter"]
+    annulus_perimeter: Annotated[float, "m", "length of the annulus in space"]
+    annulus_area_3d: Annotated[float, "m2", "area of the surface spanning the annulus"]
+    annulus_area: Annotated[float, "m2", "area projected on the annulus plane"]
+    annulus_saddle_height: Annotated[float, "m", "height of the annulus along the valve axis"]
+    annulus_nonplanar_angle: Annotated[float, "rad", "angle between the two halves of the saddle"]
+    max_chord_strain: Annotated[float, "1", "largest engineering strain; 0 when all are slack"]
+    max_chord_tension: Annotated[float, "N", "largest tension of a chord segment"]
+    max_leaflet_strain: Annotated[float, "1", "largest principal engineering strain"]
+    max_leaflet_stress: Annotated[float, "Pa", "largest principal Cauchy stress"]
+    leaflet_area: Annotated[float, "m2", "area of both leaflets in the present shape"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Comparison:
     """How far two shapes are apart. Node figures are NaN where the meshes do not match."""
 
-    same_mesh: bool = _figure("1", "the meshes match, so node-to-node figures exist")
-    node_rms: float = _figure("m", "node to node, RMS, as they lie")
-    node_max: float = _figure("m", "node to node, largest, as they lie")
-    surface_rms: float = _figure("m", "symmetric surface distance, RMS, as they lie")
-    surface_max: float = _figure("m", "symmetric surface distance, largest, as they lie")
-    node_rms_registered: float = _figure("m", "node to node, RMS, after the best rigid motion")
-    node_max_registered: float = _figure("m", "node to node, largest, after the best rigid motion")
-    surface_rms_registered: float = _figure("m", "surface, RMS, after the best rigid motion")
-    surface_max_registered: float = _figure("m", "surface, largest, after the best rigid motion")
-    registration: NDArray[np.float64] = _figure("m", "rows of [R | t], 3 x 4: b ~ R a + t")
+    same_mesh: Annotated[bool, "1", "the meshes match, so node-to-node figures exist"]
+    node_rms: Annotated[float, "m", "node to node, RMS, as they lie"]
+    node_max: Annotated[float, "m", "node to node, largest, as they lie"]
+    surface_rms: Annotated[float, "m", "symmetric surface distance, RMS, as they lie"]
+    surface_max: Annotated[float, "m", "symmetric surface distance, largest, as they lie"]
+    node_rms_registered: Annotated[float, "m", "node to node, RMS, after the best rigid motion"]
+    node_max_registered: Annotated[float, "m", "node to node, largest, after the best rigid motion"]
+    surface_rms_registered: Annotated[float, "m", "surface, RMS, after the best rigid motion"]
+    surface_max_registered: Annotated[float, "m", "surface, largest, after the best rigid motion"]
+    registration: Annotated[NDArray[np.float64], "m", "rows of [R | t], 3 x 4: b ~ R a + t"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

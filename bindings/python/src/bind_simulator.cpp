@@ -75,7 +75,7 @@ void bind_generate(py::class_<Simulator> &type) {
          Number annulus_cc, Number saddle_height, Number anterior_height, Number posterior_height,
          Number commissure_height, Number thickness, Number papillary_depth,
          Number papillary_separation, Number annulus_contraction, Number annulus_scale,
-         Number chord_slack) {
+         Number chord_slack, Number indentation_depth, Number coaptation_depth) {
         self.generate({.struct_size = sizeof(mvs_parametric_desc),
                        .vertices = vertices.value_or(0),
                        .chords = chords.value_or(0),
@@ -91,7 +91,9 @@ void bind_generate(py::class_<Simulator> &type) {
                        .papillary_separation = papillary_separation.value_or(0),
                        .annulus_contraction = annulus_contraction.value_or(0),
                        .annulus_scale = annulus_scale.value_or(0),
-                       .chord_slack = chord_slack.value_or(0)});
+                       .chord_slack = chord_slack.value_or(0),
+                       .indentation_depth = indentation_depth.value_or(0),
+                       .coaptation_depth = coaptation_depth.value_or(0)});
       },
       py::kw_only(), py::arg("vertices") = py::none(), py::arg("chords") = py::none(),
       py::arg("branching") = false, py::arg("annulus_ap") = py::none(),
@@ -100,13 +102,15 @@ void bind_generate(py::class_<Simulator> &type) {
       py::arg("commissure_height") = py::none(), py::arg("thickness") = py::none(),
       py::arg("papillary_depth") = py::none(), py::arg("papillary_separation") = py::none(),
       py::arg("annulus_contraction") = py::none(), py::arg("annulus_scale") = py::none(),
-      py::arg("chord_slack") = py::none(),
+      py::arg("chord_slack") = py::none(), py::arg("indentation_depth") = py::none(),
+      py::arg("coaptation_depth") = py::none(),
       "Replaces the valve by a parametric mitral valve; None or 0 takes the default of an "
       "adult.\n\n"
       "vertices: 200 to 100000, about this many on the leaflets\nchords: chord segments, about\n"
       "branching: chordae branch at free nodes\nlengths in m; annulus_contraction: loaded / open "
       "size\nannulus_scale: factor on the loaded annulus, rest shape kept (dilation)\n"
-      "chord_slack: factor on all rest lengths");
+      "chord_slack: factor on all rest lengths\nindentation_depth: of the clefts beside "
+      "P2\ncoaptation_depth: of the closed coaptation line below the annulus plane");
 }
 
 void bind_work(py::class_<Simulator> &type) {
@@ -167,7 +171,10 @@ void bind_simulator(py::module_ &module) {
   type.def("set_valve", &set_valve,
            "Replaces the valve by a mvs.Valve, or by the arrays one is made of. OpError names the "
            "first fault of a valve that is none; mvs.check_valve lists all.");
-  type.def("snapshot", &Simulator::snapshot, "The present valve and state (mvs.Snapshot).");
+  type.def(
+      "snapshot", &Simulator::snapshot,
+      "The present valve and state (mvs.Snapshot); any thread may ask at any time, and sees the "
+      "state before a call that is at work.");
   type.def("restore", &Simulator::restore, py::arg("snapshot"),
            "Puts the simulator back to a snapshot, of this simulator or of another one.");
   type.def("close", &Simulator::close, "Frees the simulator; its snapshots stay valid.");

@@ -13,6 +13,10 @@ uint32_t backend_of(const std::string &name) {
          "backend: \"default\", \"cholmod\" or \"eigen\" is needed, not \"" + name + "\"");
 }
 
+[[noreturn]] void refuse_closed() {
+  refuse(MVS_E_STATE, "", "the simulator is closed; make a new one");
+}
+
 }  // namespace
 
 Simulator::Simulator(const std::string &backend, py::object log) : log_(std::move(log)) {
@@ -41,7 +45,7 @@ void Simulator::call(Call &&work) {
     caller_ = std::thread::id();
     raised = std::exchange(raised_, nullptr);
   }
-  if (closed) refuse(MVS_E_STATE, "", "the simulator is closed; make a new one");
+  if (closed) refuse_closed();
   if (raised) std::rethrow_exception(raised);
   must(outcome);
 }
@@ -85,6 +89,7 @@ void Simulator::free_now() {
   {
     py::gil_scoped_release released;
     const std::lock_guard<std::mutex> turn(turn_);
+    const std::unique_lock<std::shared_mutex> alone(open_);
     closing = std::exchange(sim_, nullptr);
   }
   mvs_destroy(closing);
@@ -155,7 +160,13 @@ mvs_stats Simulator::stats() {
 
 std::unique_ptr<Snapshot> Simulator::snapshot() {
   const mvs_snapshot *taken = nullptr;
-  call([&] { return mvs_get_snapshot(sim_, &taken); });
+  bool closed = false;
+  release_and([&] {
+    const std::shared_lock<std::shared_mutex> looking(open_);
+    closed = sim_ == nullptr;
+    return closed ? MVS_OK : mvs_get_snapshot(sim_, &taken);
+  });
+  if (closed) refuse_closed();
   return std::make_unique<Snapshot>(taken);
 }
 

@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <shared_mutex>
 #include <thread>
 
 #include "snapshot.h"
@@ -14,7 +15,7 @@
 namespace mvs_python {
 
 // Calls run with the interpreter released and one at a time; a second thread waits its turn, and a
-// callback that calls its own simulator is refused.
+// callback that calls its own simulator is refused. A snapshot may be taken at any time.
 class Simulator {
  public:
   Simulator(const std::string &backend, py::object log);
@@ -47,6 +48,7 @@ class Simulator {
   py::object log_, progress_;
   std::exception_ptr raised_;  // by a callback, to be raised again when the call is back
   std::mutex turn_;
+  std::shared_mutex open_;  // held by those who look while another thread's call is at work
   std::atomic<std::thread::id> caller_{};
 };
 

@@ -1,6 +1,7 @@
 #include "snapshot.h"
 
 #include <mvs/file.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <array>

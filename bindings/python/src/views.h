@@ -55,6 +55,7 @@ inline constexpr View views[] = {
      "(q, 3) uint32 into orifice_vertices: the opening as triangles."},
     {"valve_constants", MVS_VALVE_CONSTANTS,
      "(4,) float64: density, kg/m3; contact thickness, m; contact stiffness, Pa; bending scale."},
+    {"state_time", MVS_STATE_TIME, "(1,) float64, s: simulated time since the valve was set."},
 };
 
 }  // namespace mvs_python
