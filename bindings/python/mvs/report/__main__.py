@@ -1,0 +1,70 @@
+"""python -m mvs.report --out DIR [FILE ...]"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import mvs
+
+from .cases import Case, from_file, leaking, shipped
+from .table import as_text
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="python -m mvs.report",
+        description="Closes the shipped valve, a leaking variant of it and the valves of the "
+        "files; prints a table and writes DIR/report.html.",
+    )
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to write")
+    parser.add_argument("--pressure", type=float, default=120.0, metavar="MMHG", help="[120]")
+    parser.add_argument("--no-pictures", action="store_true", help="only the table")
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="more valves (.obj)")
+    return parser.parse_args()
+
+
+def _close_all(files: list[Path], pressure_pa: float) -> list[Case]:
+    cases = []
+    for make in (shipped, leaking, *(lambda p, f=file: from_file(f, p) for file in files)):
+        cases.append(make(pressure_pa))
+        print(f"{cases[-1].title}: {cases[-1].verdict}", file=sys.stderr)
+    return cases
+
+
+def _draw(cases: list[Case], folder: Path) -> list:
+    from .gallery import common_scales, pictures_of
+
+    folder.mkdir(parents=True, exist_ok=True)
+    scales = common_scales(cases)
+    pictures = []
+    for case in cases:
+        print(f"{case.title}: drawing", file=sys.stderr)
+        pictures += pictures_of(case, scales)
+    for shown in pictures:
+        (folder / f"{shown.case}-{shown.name}.png").write_bytes(shown.png)
+    return pictures
+
+
+def main() -> int:
+    """Makes the report; 0, or 1 with a sentence on stderr."""
+    arguments = _arguments()
+    try:
+        cases = _close_all(arguments.files, arguments.pressure * mvs.MMHG)
+        arguments.out.mkdir(parents=True, exist_ok=True)
+        print(as_text(cases))
+        pictures = [] if arguments.no_pictures else _draw(cases, arguments.out / "pictures")
+        from .page import build
+
+        page = arguments.out / "report.html"
+        page.write_text(build(cases, pictures), encoding="utf-8")
+        print(f"wrote {page}", file=sys.stderr)
+    except (mvs.Error, OSError, ImportError) as error:
+        print(f"mvs.report: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

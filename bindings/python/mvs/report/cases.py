@@ -1,0 +1,93 @@
+"""The valves of a report: each open, and closed under systolic pressure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import mvs
+from mvs import ChordKind, PartKind, Simulator, Snapshot, Stats
+
+DILATION = 1.15
+ELONGATION = 1.25
+
+
+@dataclass
+class Case:
+    """A valve of the report."""
+
+    key: str
+    title: str
+    note: str
+    opened: Snapshot
+    closed: Snapshot
+    stats: Stats
+
+    @property
+    def verdict(self) -> str:
+        """What the closed valve does, in a few words."""
+        if not self.stats.converged:
+            return "did not converge"
+        area = self.closed.measures.regurgitant_orifice_area * 1e6
+        return "sealed" if area == 0 else f"leaks through {area:.1f} mm²"
+
+
+def close(sim: Simulator, key: str, title: str, note: str, pressure_pa: float) -> Case:
+    """Settles the valve a simulator holds, from open, under a pressure."""
+    opened = sim.snapshot()
+    sim.set_load(pressure_pa)
+    stats = sim.settle()
+    return Case(key, title, note, opened, sim.snapshot(), stats)
+
+
+def shipped(pressure_pa: float) -> Case:
+    """The valve the project ships, with every dimension at its default."""
+    with Simulator() as sim:
+        sim.generate()
+        note = "The parametric valve shipped with libmvs: an adult mitral valve, by default."
+        return close(sim, "shipped", "Shipped valve", note, pressure_pa)
+
+
+def leaking(pressure_pa: float) -> Case:
+    """The shipped valve with its annulus dilated and one marginal chord of P2 elongated."""
+    with Simulator() as sim:
+        sim.generate(annulus_scale=DILATION)
+        valve = mvs.valve_of(sim.snapshot())
+        row, name = middle_chord(sim.snapshot(), "P2")
+        assert valve.chord_rest_length is not None
+        valve.chord_rest_length[row] *= ELONGATION
+        valve.name = "leaking"
+        sim.set_valve(valve)
+        note = (
+            f"The same valve with its annulus dilated by {DILATION - 1:.0%} under load and the "
+            f"chord {name} elongated by {ELONGATION - 1:.0%}."
+        )
+        return close(sim, "leaking", "Dilated variant", note, pressure_pa)
+
+
+def from_file(path: Path, pressure_pa: float) -> Case:
+    """The valve of a file, closed from its open shape whatever state it was saved in."""
+    with Simulator() as sim:
+        sim.load(path)
+        valve = mvs.valve_of(sim.snapshot())
+        valve.nodes_now = None
+        sim.set_valve(valve)
+        return close(sim, path.stem, path.stem, f"Read from {path.name}.", pressure_pa)
+
+
+def middle_chord(snapshot: Snapshot, scallop: str) -> tuple[int, str]:
+    """The marginal chord nearest the middle of a scallop: its row and its name."""
+    part = snapshot.find(PartKind.SCALLOP, scallop)
+    on_scallop = np.zeros(len(snapshot.node_rest), dtype=bool)
+    on_scallop[snapshot.triangle_nodes[snapshot.triangle_scallop == part.index]] = True
+    end = snapshot.chord_nodes[:, 1]
+    rows = np.flatnonzero(on_scallop[end] & (snapshot.chord_kind == ChordKind.MARGINAL))
+    if len(rows) == 0:
+        raise mvs.IdError(f"no marginal chord goes to {scallop}", part=scallop)
+    middle = snapshot.node_rest[on_scallop].mean(axis=0)
+    across = (snapshot.node_rest[end[rows]] - middle) @ snapshot.frame.axes[1]
+    row = int(rows[np.argmin(np.abs(across))])
+    names = [part.name for part in snapshot.parts if part.kind == PartKind.CHORD]
+    return row, names[row]

@@ -1,0 +1,136 @@
+"""The report as one HTML file that needs nothing else."""
+
+from __future__ import annotations
+
+import base64
+import html
+from datetime import datetime, timezone
+from string import Template
+
+import mvs
+
+from .cases import Case
+from .gallery import CAPTIONS, Picture
+from .table import as_html
+
+PAGE = Template("""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Mitral valve closure: libmvs report</title>
+<style>
+  body { font: 16px/1.5 system-ui, sans-serif; color: #222; max-width: 78rem; margin: 2rem auto;
+         padding: 0 1rem; }
+  h1 { font-weight: 600; margin-bottom: 0 } h2 { margin-top: 2.5rem; font-weight: 600 }
+  .sub { color: #666; margin-top: .2rem }
+  .warning { border-left: 5px solid #c8553d; background: #fbf1ee; padding: .7rem 1rem }
+  .cards, .row { display: grid; gap: 1rem; grid-template-columns: repeat($columns, 1fr) }
+  .card { border: 1px solid #ddd; border-radius: 8px; padding: .8rem 1rem }
+  .card b { font-size: 1.25rem } .sealed { color: #1b6f5a } .leaks { color: #b3261e }
+  figure { margin: 0 } figure img { width: 100%; height: auto } figcaption { color: #444 }
+  .row figcaption { text-align: center; font-weight: 600 }
+  table { border-collapse: collapse; font-size: .92rem; width: 100% }
+  th, td { padding: .25rem .6rem; border-bottom: 1px solid #e5e5e5; text-align: right;
+           font-variant-numeric: tabular-nums }
+  tr > th:first-child { text-align: left; font-weight: 500 } td.words { text-align: left; color: #555 }
+  code { font-size: .85rem; overflow-wrap: anywhere }
+</style>
+</head>
+<body>
+<h1>A mitral valve closes</h1>
+<p class="sub">libmvs $version, $date</p>
+<p class="warning"><strong>Planning and research tool, not a cleared medical device.</strong>
+Nothing here may be used to decide on the treatment of a patient.</p>
+<div class="cards">$cards</div>
+$comparison
+<h2>Pictures</h2>
+$pictures
+<h2>Figures</h2>
+<p>All valves closed under the pressure stated. Coaptation counts where leaflets face each other
+within the contact thickness; definitions in full: libmvs/measure/README.md. The literature's
+figures are widely quoted ranges for orientation, not limits of this model.</p>
+$table
+<h2>Settings</h2>
+$settings
+</body>
+</html>
+""")
+
+
+def build(cases: list[Case], pictures: list[Picture]) -> str:
+    """The page for some valves and their pictures."""
+    return PAGE.substitute(
+        columns=min(len(cases), 3),
+        version=f"{mvs.__version__} ({', '.join(mvs.features)})",
+        date=datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
+        cards="".join(_card(case) for case in cases),
+        comparison=_comparison(cases),
+        pictures="".join(_row(name, cases, pictures) for name in CAPTIONS),
+        table=as_html(cases),
+        settings=_settings(cases),
+    )
+
+
+def _card(case: Case) -> str:
+    kind = "sealed" if case.verdict == "sealed" else "leaks"
+    return (
+        f'<div class="card"><strong>{html.escape(case.title)}</strong><br>'
+        f'<b class="{kind}">{html.escape(case.verdict)}</b><br>{html.escape(case.note)}<br>'
+        f"Closed in {case.stats.wall_s:.2f} s, {case.stats.iterations} iterations.</div>\n"
+    )
+
+
+def _comparison(cases: list[Case]) -> str:
+    if len(cases) < 2:
+        return ""
+    first, lines = cases[0], []
+    for other in cases[1:]:
+        found = first.closed.compare(other.closed)
+        lines.append(
+            f"{html.escape(other.title)}: RMS {found.surface_rms_registered * 1e3:.2f} mm, "
+            f"largest {found.surface_max_registered * 1e3:.2f} mm"
+        )
+    return (
+        f"<p>Distance of the closed surfaces from that of “{html.escape(first.title)}” "
+        f"(symmetric, after rigid registration): {'; '.join(lines)}.</p>"
+    )
+
+
+def _row(name: str, cases: list[Case], pictures: list[Picture]) -> str:
+    titles = {case.key: case.title for case in cases}
+    figures = "".join(
+        f"<figure>{_image(shown, titles[shown.case])}"
+        f"<figcaption>{html.escape(titles[shown.case])}</figcaption></figure>\n"
+        for shown in pictures
+        if shown.name == name
+    )
+    return f'<h3>{html.escape(CAPTIONS[name])}</h3>\n<div class="row">{figures}</div>' if figures else ""
+
+
+def _image(shown: Picture, title: str) -> str:
+    data = base64.b64encode(shown.png).decode()
+    words = html.escape(f"{title}. {CAPTIONS[shown.name]}", quote=True)
+    return f'<img alt="{words}" src="data:image/png;base64,{data}">'
+
+
+def _settings(cases: list[Case]) -> str:
+    items = []
+    for case in cases:
+        closed = case.closed
+        density, thickness, stiffness, bending = closed.valve_constants
+        sheet = closed.leaflet_constants[0]
+        items.append(
+            f"<li><strong>{html.escape(case.title)}</strong>: spring sheet {sheet[0] * 1e3:g} mm "
+            f"thick, {sheet[1] / 1e3:g} kPa below and {sheet[2] / 1e3:g} kPa above a strain of "
+            f"{sheet[3]:g}; chordae {closed.chord_young.mean() / 1e6:g} MPa, mean cross-section "
+            f"{closed.chord_area.mean() * 1e6:.2f} mm²; density {density:g} kg/m³; leaflets touch "
+            f"at {thickness * 1e3:g} mm, contact stiffness {stiffness / 1e3:g} kPa; bending scale "
+            f"{bending:g}; snapshot <code>{closed.hash}</code></li>\n"
+        )
+    return (
+        f"<ul>\n{''.join(items)}</ul>\n<p>Solver: projected Newton on the potential. Pictures: "
+        "the sheets are drawn through an interpolating subdivision of the mesh, as thick as the "
+        "distance at which they touch; the strip of atrial wall and the bodies of the papillary "
+        "muscles only show where the valve hangs. All figures come from the mesh itself.</p>"
+    )

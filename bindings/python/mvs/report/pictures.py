@@ -1,0 +1,155 @@
+"""The pictures of a valve: scenes with labels, legends and scale bars laid over them."""
+
+from __future__ import annotations
+
+import io
+from typing import Any, Optional
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.patheffects as effects  # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
+
+from .. import PartKind  # noqa: E402
+from .geometry import Drawing  # noqa: E402
+from .scene import ORIFICE, Colours, Scene, View  # noqa: E402
+
+INK = "#222222"
+DPI = 110
+plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 11, "text.color": INK})
+
+
+def to_png(figure: Any) -> bytes:
+    """A figure as the bytes of a PNG file; the figure is closed."""
+    memory = io.BytesIO()
+    figure.savefig(memory, format="png", dpi=DPI, facecolor="white")
+    plt.close(figure)
+    return memory.getvalue()
+
+
+def view_from_atrium(width: float) -> View:
+    """The surgeon's view: the anterior leaflet up, P2 down."""
+    return View(towards=(0, 0, 1), up=(0, 1, 0), width=width, centre=(0, -1.5, 0))
+
+
+def view_oblique(width: float) -> View:
+    """From the posterior side and above, with the papillary muscles."""
+    return View(towards=(0.45, -1.0, 0.62), up=(0, 0, 1), width=width, centre=(0, 0, -13))
+
+
+def view_from_ventricle(width: float) -> View:
+    """From the posterior side and below: chordae and papillary muscles."""
+    return View(towards=(0.35, -1.0, -0.28), up=(0, 0, 1), width=width, centre=(0, 0, -14))
+
+
+def place_image(ax: Any, image: NDArray[np.uint8], view: View) -> None:
+    """A rendered picture on axes whose coordinates are mm from the picture's centre."""
+    high, wide = image.shape[0] / image.shape[1] * view.width / 2, view.width / 2
+    ax.imshow(image, extent=(-wide, wide, -high, high), interpolation="lanczos")
+    ax.set_axis_off()
+
+
+def scale_bar(ax: Any, length: float = 10.0) -> None:
+    """A bar of a length in mm at the lower left; rays are parallel, so it holds everywhere."""
+    left, bottom = ax.get_xlim()[0], ax.get_ylim()[0]
+    x, y = left + 2.5, bottom + 2.2
+    ax.plot([x, x + length], [y, y], color=INK, linewidth=2.5, solid_capstyle="butt")
+    ax.text(x + length / 2, y + 0.7, f"{length:g} mm", ha="center", va="bottom", fontsize=10)
+
+
+def _label(ax: Any, at: NDArray[np.float64], text: str, **style: Any) -> None:
+    halo = [effects.withStroke(linewidth=3, foreground="white")]
+    ax.text(*at, text, ha="center", va="center", path_effects=halo, **style)
+
+
+def label_scallops(ax: Any, drawing: Drawing, view: View) -> None:
+    """A1 .. P3, each on its scallop."""
+    for row, name in enumerate(drawing.names(PartKind.SCALLOP)):
+        anchor = drawing.scallop_anchor(row, view.axes[2])
+        _label(ax, view.project(anchor), name, fontsize=14, fontweight="bold")
+
+
+def label_sides(ax: Any, drawing: Drawing) -> None:
+    """Which side is which, on the strip of wall, for a view from the atrium."""
+    ring = drawing.annulus
+    for y, text in ((ring[:, 1].max() + 2.3, "anterior"), (ring[:, 1].min() - 2.3, "posterior")):
+        ax.text(0, y, text, ha="center", va="center", fontsize=11, style="italic", color="#5a3d34")
+
+
+def label_heads(ax: Any, drawing: Drawing, view: View) -> None:
+    """The names of the papillary heads, beside their tips."""
+    heads = drawing.names(PartKind.HEAD)
+    if len(heads) > 4:
+        return
+    for name, tip in zip(heads, view.project(drawing.heads)):
+        side = 1 if tip[0] > 0 else -1
+        ax.text(tip[0] + 4.2 * side, tip[1] - 3, name, va="center", fontsize=12,
+                ha="left" if side > 0 else "right", fontweight="bold")
+
+
+def colour_bar(figure: Any, ax: Any, colours: Colours, text: str, extend: str = "neither") -> None:
+    """The legend of a colour map: quantity and unit."""
+    norm = matplotlib.colors.Normalize(colours.low, colours.high)
+    shades = matplotlib.cm.ScalarMappable(norm, colours.map)
+    bar = figure.colorbar(shades, cax=ax, orientation="horizontal", extend=extend)
+    bar.set_label(text, fontsize=11)
+    bar.outline.set_visible(False)
+
+
+def picture(
+    drawing: Drawing,
+    view: View,
+    *,
+    closed: bool,
+    tension: Optional[float] = None,
+    labels: bool = True,
+) -> bytes:
+    """One view of a valve; with `tension`, chordae are coloured up to that many N."""
+    scene = Scene(drawing)
+    from_atrium = view.towards == (0, 0, 1)
+    scene.add_leaflets(opacity=0.55 if tension else 1.0)
+    scene.add_rim()
+    scene.add_annulus()
+    if from_atrium:
+        scene.add_wall()
+    scene.add_chords(drawing.snapshot.chord_tension if tension else None, tension or 1.0)
+    scene.add_heads()
+    if closed:
+        scene.add_orifice()
+    image = scene.render(view)
+
+    figure = plt.figure(figsize=(8, 7.0 if tension else 6.4))
+    ax = figure.add_axes((0, 0.1 if tension else 0, 1, 0.9 if tension else 1))
+    place_image(ax, image, view)
+    if from_atrium:
+        label_sides(ax, drawing)
+        if labels:
+            label_scallops(ax, drawing, view)
+    else:
+        label_heads(ax, drawing, view)
+    if closed and len(drawing.snapshot.orifice_triangles) and from_atrium:
+        _label_orifice(ax, drawing, view)
+    scale_bar(ax)
+    if tension:
+        bar = figure.add_axes((0.25, 0.085, 0.5, 0.022))
+        colour_bar(figure, bar, Colours(np.zeros(0), 0, tension, "viridis"),
+                   "chordal tension, N (grey: slack)")
+    return to_png(figure)
+
+
+def _label_orifice(ax: Any, drawing: Drawing, view: View) -> None:
+    snapshot = drawing.snapshot
+    area = snapshot.measures.regurgitant_orifice_area * 1e6
+    right, top = ax.get_xlim()[1], ax.get_ylim()[1]
+    corners = drawing.place(snapshot.orifice_vertices)[snapshot.orifice_triangles]
+    spots = view.project(corners.mean(axis=1))
+    spot = spots[np.argmin(np.linalg.norm(spots - [right, top], axis=1))]
+    ax.annotate(
+        f"regurgitant orifice\n{area:.1f} mm²", xy=spot, xytext=(right - 1, top - 1.5),
+        ha="right", va="top", fontsize=12, color=ORIFICE, fontweight="bold",
+        arrowprops={"arrowstyle": "-", "color": ORIFICE, "linewidth": 1.5},
+    )

@@ -1,0 +1,257 @@
+"""The valve in three dimensions, drawn off-screen by VTK; labels are laid over it elsewhere."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+# a window of the graphics library's own: there need be no display
+os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+
+import pyvista  # noqa: E402
+
+from .geometry import Drawing, Points  # noqa: E402
+
+ANTERIOR, POSTERIOR = "#efc4ae", "#dfa491"
+CHORD, SLACK, HEAD, ANNULUS, WALL = "#f4ecd8", "#a9a9a9", "#9e4a41", "#4a6d8c", "#d9b3a6"
+ORIFICE = "#d7191c"
+PIXELS = 1100
+
+
+@dataclass(frozen=True)
+class View:
+    """From where one looks, with parallel rays, so that a scale bar holds everywhere.
+
+    towards: from the valve to the eye; up: upwards in the picture; width: mm across the picture
+    """
+
+    towards: tuple[float, float, float]
+    up: tuple[float, float, float]
+    width: float
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Rows: to the right, upwards, towards the eye."""
+        eye = np.asarray(self.towards) / np.linalg.norm(self.towards)
+        right = np.cross(self.up, eye)
+        right /= np.linalg.norm(right)
+        return np.array([right, np.cross(eye, right), eye])
+
+    def project(self, points: Points) -> Points:
+        """Points of the drawing, in mm to the right of and above the picture's centre."""
+        return np.asarray((points - np.asarray(self.centre)) @ self.axes[:2].T)
+
+
+@dataclass
+class Colours:
+    """Values at the nodes shown as colours of the leaflets."""
+
+    values: NDArray[np.float64]
+    low: float
+    high: float
+    map: Any
+    above: Optional[str] = None
+
+
+def _surface(points: Points, triangles: NDArray[np.int64]) -> Any:
+    faces = np.column_stack([np.full(len(triangles), 3), triangles]).ravel()
+    return pyvista.PolyData(np.ascontiguousarray(points), faces)
+
+
+def _polyline(points: Points, closed: bool) -> Any:
+    count = len(points)
+    # closed: one point more than once around, so that the ends of a tube overlap
+    order = np.append(np.arange(count), [0, 1]) if closed else np.arange(count)
+    return pyvista.PolyData(points, lines=np.concatenate([[len(order)], order]))
+
+
+class Scene:
+    """Collects the parts of a valve and renders them."""
+
+    def __init__(self, drawing: Drawing, height: float = 0.8) -> None:
+        self.drawing = drawing
+        self.plotter = pyvista.Plotter(
+            off_screen=True, window_size=[PIXELS, int(PIXELS * height)], lighting="none"
+        )
+        self.plotter.set_background("white")  # type: ignore[arg-type]
+        for position, strength in (
+            ((-0.7, 0.9, 1.0), 0.7),
+            ((1.0, 0.1, 0.6), 0.34),
+            ((0.0, -0.5, 1.0), 0.3),
+        ):
+            light = pyvista.Light(position=position, light_type="camera light")
+            light.intensity = strength
+            self.plotter.add_light(light)
+
+    def add_leaflets(
+        self,
+        colours: Optional[Colours] = None,
+        only: Optional[int] = None,
+        opacity: float = 1.0,
+    ) -> None:
+        """The sheets, as thick as the distance at which they touch, smoothly shaded.
+
+        Drawn through an interpolating subdivision: every vertex of the mesh stays where it is.
+        """
+        drawing = self.drawing
+        for leaflet in np.unique(drawing.snapshot.triangle_leaflet):
+            if only is not None and leaflet != only:
+                continue
+            self._add_sheet(int(leaflet), colours, opacity)
+
+    def _add_sheet(self, leaflet: int, colours: Optional[Colours], opacity: float) -> None:
+        drawing = self.drawing
+        mine = drawing.snapshot.triangle_leaflet == leaflet
+        whole = _surface(drawing.nodes, drawing.triangles)
+        whole.cell_data["mine"] = mine.astype(np.uint8)
+        if colours is not None:
+            whole.point_data["value"] = colours.values
+        fine = whole.clean().subdivide(2, "butterfly") if len(mine) < 20000 else whole
+        fine = fine.compute_normals(
+            cell_normals=False, split_vertices=False, consistent_normals=False,
+            auto_orient_normals=False,
+        )
+        normals = fine.point_data["Normals"]
+        faces = fine.regular_faces[fine.cell_data["mine"] > 0]
+        half = drawing.contact_thickness / 2
+        style: dict[str, Any] = dict(
+            smooth_shading=True, split_sharp_edges=False, opacity=opacity, ambient=0.22,
+            diffuse=0.85, specular=0.18, specular_power=18,
+        )
+        if colours is None:
+            style["color"] = ANTERIOR if leaflet == 0 else POSTERIOR
+        else:
+            # flatter light: shading must not be taken for a colour of the scale
+            style.update(ambient=0.45, diffuse=0.6, specular=0.0)
+            style.update(
+                scalars="value", cmap=colours.map, clim=(colours.low, colours.high),
+                show_scalar_bar=False, above_color=colours.above,
+            )
+        for side in (1, -1):
+            # the lower side is wound the other way, so that it is lit from below
+            sheet = _surface(fine.points + side * half * normals, faces[:, ::side])
+            sheet.point_data["Normals"] = side * normals
+            if colours is not None:
+                sheet.point_data["value"] = fine.point_data["value"]
+            self.plotter.add_mesh(sheet, **style)
+
+    def add_rim(self) -> None:
+        """The free edge, rounded."""
+        edge = _polyline(self.drawing.free_edge, closed=True)
+        tube = edge.tube(radius=self.drawing.contact_thickness / 2, n_sides=12)
+        self.plotter.add_mesh(tube, color="#e8b8a2", smooth_shading=True, ambient=0.2)
+
+    def add_annulus(self) -> None:
+        """The annulus as a cord, and a strip of atrial wall that shows where the valve hangs."""
+        ring = _smooth_loop(self.drawing.annulus)
+        tube = _polyline(ring, closed=True).tube(radius=0.55, n_sides=16)
+        self.plotter.add_mesh(tube, color=ANNULUS, smooth_shading=True, ambient=0.25, specular=0.3)
+
+    def add_wall(self) -> None:
+        """A strip of atrial wall around the annulus: only to show where the valve hangs."""
+        ring = _smooth_loop(self.drawing.annulus)
+        centre = ring.mean(axis=0)
+        outward = (ring - centre) * np.array([1.0, 1.0, 0.0])
+        outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+        rows = [ring + s * (4.0 * outward + [0, 0, 1.1 * s]) for s in np.linspace(0, 1, 5)]
+        count = len(ring)
+        points = np.concatenate(rows)
+        index = np.arange(count)
+        triangles = []
+        for row in range(len(rows) - 1):
+            a, b = row * count + index, row * count + (index + 1) % count
+            triangles += [np.column_stack([a, a + count, b]), np.column_stack([b, a + count, b + count])]
+        wall = _surface(points, np.concatenate(triangles))
+        self.plotter.add_mesh(wall, color=WALL, smooth_shading=True, ambient=0.3, specular=0.0)
+
+    def add_chords(self, tension: Optional[NDArray[np.float64]] = None, high: float = 1.0) -> None:
+        """Chordae as tubes of their cross-section that narrow towards the leaflet, where they fan
+        out; coloured by tension in N where it is given."""
+        snapshot = self.drawing.snapshot
+        radius = np.sqrt(snapshot.chord_area / np.pi) * 1e3
+        for row, (a, b) in enumerate(snapshot.chord_nodes):
+            tube = _tapered(self.drawing.nodes[a], self.drawing.nodes[b], float(radius[row]))
+            if tension is None or tension[row] <= 0:
+                colour: Any = CHORD if tension is None else SLACK
+                self.plotter.add_mesh(tube, color=colour, smooth_shading=True, ambient=0.25)
+                continue
+            tube.point_data["tension"] = np.full(tube.n_points, tension[row])
+            self.plotter.add_mesh(
+                tube, scalars="tension", clim=(0, high), cmap="viridis", smooth_shading=True,
+                ambient=0.25, show_scalar_bar=False,
+            )
+
+    def add_heads(self) -> None:
+        """Papillary muscles: one body under each cluster of heads, its tips where chordae start."""
+        for cluster in _clusters(self.drawing.heads, 9.0):
+            tip = cluster.mean(axis=0)
+            length, spread = 14.0, max(3.0, 1.5 + np.linalg.norm(cluster - tip, axis=1).max())
+            body = pyvista.ParametricEllipsoid(spread, spread, length / 2)
+            body = body.translate(tip - [0, 0, length / 2 - 0.4])
+            self.plotter.add_mesh(body, color=HEAD, smooth_shading=True, ambient=0.2, specular=0.25)
+            for point in cluster:
+                self.plotter.add_mesh(
+                    pyvista.Sphere(radius=1.1, center=point), color=HEAD, smooth_shading=True
+                )
+
+    def add_orifice(self) -> None:
+        """The smallest opening, in red; nothing on a sealed valve."""
+        snapshot = self.drawing.snapshot
+        if len(snapshot.orifice_triangles) == 0:
+            return
+        points = self.drawing.place(snapshot.orifice_vertices)
+        surface = _surface(points, snapshot.orifice_triangles.astype(np.int64))
+        self.plotter.add_mesh(surface, color=ORIFICE, lighting=False)
+
+    def render(self, view: View) -> NDArray[np.uint8]:
+        """The picture, (height, width, 3)."""
+        camera = self.plotter.camera
+        centre = np.asarray(view.centre)
+        camera.position = tuple(centre + 200 * view.axes[2])
+        camera.focal_point = tuple(centre)
+        camera.up = tuple(view.axes[1])
+        camera.parallel_projection = True
+        high, wide = self.plotter.window_size[1], self.plotter.window_size[0]
+        camera.parallel_scale = view.width * high / wide / 2
+        camera.clipping_range = (20.0, 400.0)
+        self.plotter.enable_anti_aliasing("msaa", multi_samples=8)
+        picture = self.plotter.screenshot(None, return_img=True)
+        self.plotter.close()
+        return np.asarray(picture)
+
+
+def _smooth_loop(points: Points, fine: int = 6) -> Points:
+    """A closed Catmull-Rom curve through the points."""
+    before, after, next_ = (np.roll(points, k, axis=0) for k in (1, -1, -2))
+    t = (np.arange(fine) / fine)[None, :, None]
+    p0, p1, p2, p3 = (p[:, None, :] for p in (before, points, after, next_))
+    curve = p1 + 0.5 * t * (
+        p2 - p0 + t * (2 * p0 - 5 * p1 + 4 * p2 - p3 + t * (3 * (p1 - p2) + p3 - p0))
+    )
+    return np.asarray(curve.reshape(-1, 3))
+
+
+def _tapered(start: Points, end: Points, radius: float) -> Any:
+    line = pyvista.Line(start, end, resolution=8)
+    line.point_data["radius"] = radius * np.linspace(1.0, 0.4, line.n_points)
+    tube = line.tube(scalars="radius", absolute=True, n_sides=10)
+    tube.clear_data()
+    return tube
+
+
+def _clusters(points: Points, reach: float) -> list[Points]:
+    """Groups of points; each point is within reach of the first of its group."""
+    groups: list[list[Points]] = []
+    for point in points:
+        for group in groups:
+            if np.linalg.norm(point - group[0]) < reach:
+                group.append(point)
+                break
+        else:
+            groups.append([point])
+    return [np.array(group) for group in groups]

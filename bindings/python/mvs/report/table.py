@@ -1,0 +1,110 @@
+"""The figures of a report, in the units of the clinic, as text and as HTML."""
+
+from __future__ import annotations
+
+import html
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import MMHG, Measures, definition_of
+from .cases import Case
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure: a field of Measures, in a unit of the clinic."""
+
+    label: str
+    field: str
+    unit: str
+    scale: float
+    digits: int
+    literature: str = ""
+
+
+ROWS = (
+    Row("Regurgitant orifice area", "regurgitant_orifice_area", "mm²", 1e6, 1,
+        "graded by EROA: 20 / 30 / 40 mm²"),
+    Row("Coaptation area", "coaptation_area", "mm²", 1e6, 1),
+    Row("Coaptation length, mean", "coaptation_length_mean", "mm", 1e3, 2),
+    Row("Coaptation length, least", "coaptation_length_min", "mm", 1e3, 2),
+    Row("Coaptation length, largest", "coaptation_length_max", "mm", 1e3, 2,
+        "surgical target 8 mm or more"),
+    Row("Coaptation height", "coaptation_height", "mm", 1e3, 2),
+    Row("Coaptation depth", "coaptation_depth", "mm", 1e3, 2),
+    Row("Tenting height", "tenting_height", "mm", 1e3, 2, "5.0 ± 0.7 mm"),
+    Row("Tenting area", "tenting_area", "mm²", 1e6, 1),
+    Row("Tenting volume", "tenting_volume", "ml", 1e6, 3),
+    Row("Billow height", "billow_height", "mm", 1e3, 2, "above 2 mm: prolapse"),
+    Row("Billow volume", "billow_volume", "ml", 1e6, 3),
+    Row("Annulus, AP diameter", "annulus_ap", "mm", 1e3, 1, "24 to 29 mm"),
+    Row("Annulus, CC diameter", "annulus_cc", "mm", 1e3, 1, "35 to 39 mm"),
+    Row("Annulus, perimeter", "annulus_perimeter", "mm", 1e3, 1),
+    Row("Annulus, area in space", "annulus_area_3d", "cm²", 1e4, 2),
+    Row("Annulus, projected area", "annulus_area", "cm²", 1e4, 2, "7.7 to 9.8 cm²"),
+    Row("Annulus, saddle height", "annulus_saddle_height", "mm", 1e3, 1, "5.9 to 6.8 mm"),
+    Row("Annulus, nonplanar angle", "annulus_nonplanar_angle", "°", 180 / np.pi, 1),
+    Row("Chordal strain, largest", "max_chord_strain", "%", 100, 2, "working strain 4.3 ± 3.4 %"),
+    Row("Chordal tension, largest", "max_chord_tension", "N", 1, 3,
+        "strut about 1 N, others 0.1 to 0.4 N"),
+    Row("Leaflet strain, largest", "max_leaflet_strain", "%", 100, 1),
+    Row("Leaflet stress, largest", "max_leaflet_stress", "kPa", 1e-3, 0),
+    Row("Leaflet area, closed", "leaflet_area", "cm²", 1e4, 2),
+    Row("Crossing triangle pairs", "intersections", "", 1, 0),
+)
+
+
+def value(row: Row, measures: Measures) -> str:
+    """A figure as it is printed, without its unit."""
+    return f"{getattr(measures, row.field) * row.scale:.{row.digits}f}"
+
+
+def solution(case: Case) -> list[tuple[str, str]]:
+    """How a closure went: label and text."""
+    stats, closed = case.stats, case.closed
+    leaflet = np.unique(closed.triangle_nodes)
+    return [
+        ("Verdict", case.verdict),
+        ("Pressure", f"{closed.load_case.pressure / MMHG:.0f} mmHg"),
+        ("Leaflet vertices", f"{len(leaflet)}"),
+        ("Triangles", f"{len(closed.triangle_nodes)}"),
+        ("Chord segments", f"{len(closed.chord_nodes)}"),
+        ("Converged", "yes" if stats.converged else "no"),
+        ("Iterations", f"{stats.iterations}"),
+        ("Largest out-of-balance force", f"{stats.residual:.1e} N"),
+        ("Time to close", f"{stats.wall_s:.3f} s"),
+    ]
+
+
+def as_text(cases: list[Case]) -> str:
+    """The table for a terminal."""
+    lines = [["", *(case.title for case in cases)]]
+    for k, (label, _) in enumerate(solution(cases[0])):
+        lines.append([label, *(solution(case)[k][1] for case in cases)])
+    for row in ROWS:
+        label = f"{row.label}, {row.unit}" if row.unit else row.label
+        lines.append([label, *(value(row, case.closed.measures) for case in cases)])
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    return "\n".join(
+        line[0].ljust(widths[0])
+        + "".join("  " + text.rjust(width) for text, width in zip(line[1:], widths[1:]))
+        for line in lines
+    )
+
+
+def as_html(cases: list[Case]) -> str:
+    """The table for the page, with definitions and the literature's figures."""
+    head = "".join(f"<th>{html.escape(case.title)}</th>" for case in cases)
+    rows = [f"<tr><th></th>{head}<th>unit</th><th>what it is</th><th>literature</th></tr>"]
+    for k, (label, _) in enumerate(solution(cases[0])):
+        cells = "".join(f"<td>{html.escape(solution(case)[k][1])}</td>" for case in cases)
+        rows.append(f"<tr><th>{label}</th>{cells}<td></td><td></td><td></td></tr>")
+    for row in ROWS:
+        cells = "".join(f"<td>{value(row, case.closed.measures)}</td>" for case in cases)
+        meaning = html.escape(definition_of(Measures, row.field))
+        rows.append(
+            f"<tr><th>{row.label}</th>{cells}<td>{row.unit}</td>"
+            f"<td class=words>{meaning}</td><td class=words>{row.literature}</td></tr>"
+        )
+    return "<table>\n" + "\n".join(rows) + "\n</table>"
