@@ -1,0 +1,79 @@
+"""Measures: floats in SI units, each with its unit and definition in words."""
+
+import dataclasses
+import math
+import re
+
+import mvs
+import numpy as np
+import pytest
+
+
+@pytest.mark.parametrize("kind", [mvs.Measures, mvs.Stats, mvs.Comparison, mvs.Load])
+def test_every_figure_has_a_unit_and_a_definition(kind):
+    for field in dataclasses.fields(kind):
+        assert re.fullmatch(r"1|m|m2|m3|N|Pa|J|s|rad", mvs.unit_of(kind, field.name))
+        assert len(mvs.definition_of(kind, field.name)) > 3
+
+
+def test_measures_are_finite_floats(closed):
+    for field in dataclasses.fields(closed.measures):
+        value = getattr(closed.measures, field.name)
+        assert isinstance(value, int if field.name == "intersections" else float)
+        assert math.isfinite(value)
+
+
+def test_measures_have_the_size_of_a_heart(closed):
+    measures = closed.measures
+    assert 20e-3 < measures.annulus_ap < measures.annulus_cc < 50e-3
+    assert 5e-4 < measures.annulus_area < 12e-4
+    assert measures.leaflet_area > measures.annulus_area
+    assert 0 < measures.max_chord_tension < 20
+
+
+def test_chord_figures_agree_with_the_arrays(closed):
+    a, b = closed.chord_nodes.T
+    length = np.linalg.norm(closed.node_position[a] - closed.node_position[b], axis=1)
+    strain = length / closed.chord_rest_length - 1
+    # the same formula in another order of operations: a few roundings apart
+    assert np.allclose(closed.chord_strain, strain, atol=1e-12)
+    tension = closed.chord_young * closed.chord_area * np.clip(strain, 0, None)
+    assert np.allclose(closed.chord_tension, tension, atol=1e-9)
+    assert closed.measures.max_chord_tension == pytest.approx(tension.max(), rel=1e-9)
+
+
+def test_the_heads_hold_what_the_chordae_pull(closed):
+    a, b = closed.chord_nodes.T
+    pull = np.zeros_like(closed.node_position)
+    along = closed.node_position[b] - closed.node_position[a]
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    np.add.at(pull, a, along * closed.chord_tension[:, None])
+    np.add.at(pull, b, -along * closed.chord_tension[:, None])
+    assert np.allclose(closed.head_force, pull[closed.head_nodes], atol=1e-9)
+
+
+def test_the_frame_is_right_handed_and_looks_into_the_atrium(closed):
+    frame = closed.frame
+    assert np.allclose(frame.axes @ frame.axes.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(frame.axes) == pytest.approx(1)
+    heads = frame.to_local(closed.node_position[closed.head_nodes])
+    assert (heads[:, 2] < 0).all()
+
+
+def test_a_section_lies_in_its_plane(closed):
+    frame = closed.frame
+    segments = closed.section(frame.origin, frame.axes[1])
+    assert segments.ndim == 3 and segments.shape[1:] == (2, 3) and len(segments) > 10
+    assert np.abs(frame.to_local(segments)[..., 1]).max() < 1e-12
+
+
+def test_a_shape_is_no_distance_from_itself_and_some_from_another(opened, closed):
+    same = closed.compare(closed)
+    assert same.same_mesh and same.node_max == 0
+    # a point of a triangle is found again to within the rounding of its own coordinates
+    assert same.surface_max < 1e-15
+    other = opened.compare(closed)
+    assert other.node_max >= other.node_rms > 1e-4
+    direct = np.linalg.norm(opened.node_position - closed.node_position, axis=1)
+    leaflet = np.unique(opened.triangle_nodes)
+    assert other.node_max == pytest.approx(direct[leaflet].max(), rel=1e-9)

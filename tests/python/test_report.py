@@ -1,0 +1,72 @@
+"""The report: a page that needs nothing else, with a picture of each kind and every figure."""
+
+import dataclasses
+import io
+import re
+
+import mvs
+import pytest
+
+pytest.importorskip("pyvista")
+pytest.importorskip("matplotlib")
+
+from mvs.report import cases, gallery, geometry, page, table  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def case(opened, closed):
+    stats = mvs.Stats(True, 1, 1, 0, 0, 1e-6, 0.0, 0.0, 0.1, {})
+    return cases.Case("shipped", "Shipped <valve>", "a note", opened, closed, stats)
+
+
+@pytest.fixture(scope="module")
+def pictures(case):
+    return gallery.pictures_of(case, gallery.common_scales([case]))
+
+
+def test_there_is_a_picture_of_each_kind_and_none_is_blank(pictures):
+    import matplotlib.image
+
+    assert [shown.name for shown in pictures] == list(gallery.CAPTIONS)
+    for shown in pictures:
+        image = matplotlib.image.imread(io.BytesIO(shown.png))
+        # the sheets alone cover far more than a tenth of a view, the lines of a section 1 %
+        drawn = (image[..., :3] < 0.9).any(axis=2).mean()
+        assert drawn > (0.01 if shown.name == "section" else 0.1)
+
+
+def test_the_page_needs_nothing_else(case, pictures):
+    text = page.build([case], pictures)
+    assert text.count("data:image/png;base64,") == len(pictures)
+    assert not re.search(r"(src|href)=\"(?!data:)", text)
+    assert "not a cleared medical device" in text
+    assert mvs.__version__ in text and case.closed.hash in text
+    assert "Shipped &lt;valve&gt;" in text and "<valve>" not in text
+
+
+def test_the_table_prints_every_measure_with_its_unit(case):
+    assert {row.field for row in table.ROWS} == {f.name for f in dataclasses.fields(mvs.Measures)}
+    text = table.as_text([case])
+    assert len(text.splitlines()) == 1 + len(table.solution(case)) + len(table.ROWS)
+    si = {"mm": "m", "mm²": "m2", "cm²": "m2", "ml": "m3", "%": "1", "": "1", "N": "N",
+          "kPa": "Pa", "°": "rad"}
+    for row in table.ROWS:
+        assert si[row.unit] == mvs.unit_of(mvs.Measures, row.field)
+
+
+def test_the_elongated_chord_is_a_marginal_one_of_p2(opened):
+    row, name = cases.middle_chord(opened, "P2")
+    assert opened.chord_kind[row] == mvs.ChordKind.MARGINAL
+    assert name.startswith("P2/")
+
+
+def test_unrolled_leaflets_hang_from_the_annulus(opened):
+    drawing = geometry.Drawing(opened)
+    flat = geometry.unroll(drawing)
+    assert (flat.down[opened.annulus_nodes] == 0).all()
+    assert flat.width == pytest.approx(opened.measures.annulus_perimeter * 1e3, rel=0.05)
+    # only the triangles that lie over the cut are left out: a strip two triangles wide at most
+    assert len(flat.triangles) > 0.9 * len(drawing.triangles)
+    leaflet = opened.triangle_leaflet[flat.rows]
+    left, right = (flat.across[flat.triangles[leaflet == k]].mean() for k in (0, 1))
+    assert left < right

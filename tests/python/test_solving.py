@@ -1,0 +1,149 @@
+"""Settling and stepping: repeatable, open to other threads, and stoppable."""
+
+import signal
+import threading
+import time
+
+import mvs
+import numpy as np
+import pytest
+
+
+def settle_fresh(**options):
+    with mvs.Simulator() as sim:
+        sim.generate()
+        sim.set_load(mvs.SYSTOLE_PA)
+        stats = sim.settle(**options)
+        return stats, sim.snapshot()
+
+
+def test_settling_closes_the_shipped_valve():
+    stats, closed = settle_fresh()
+    assert stats.converged and stats.residual <= 1e-4
+    assert closed.measures.intersections == 0
+    assert closed.measures.regurgitant_orifice_area == 0
+
+
+def test_settling_twice_gives_the_same_bits():
+    first, second = settle_fresh(max_iterations=20)[1], settle_fresh(max_iterations=20)[1]
+    assert first.hash == second.hash
+    assert first.node_position.tobytes() == second.node_position.tobytes()
+
+
+def test_other_python_threads_run_while_it_settles():
+    ticks = 0
+    done = threading.Event()
+
+    def work():
+        settle_fresh()
+        done.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    while not done.is_set():
+        time.sleep(0.001)
+        ticks += 1
+    thread.join()
+    # held, the interpreter would let this loop run only between calls: a handful of times
+    assert ticks > 20
+
+
+def test_simulators_in_threads_agree_with_one_alone():
+    alone = settle_fresh(max_iterations=15)[1].hash
+    found = []
+    threads = [
+        threading.Thread(target=lambda: found.append(settle_fresh(max_iterations=15)[1].hash))
+        for _ in range(3)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [alone] * 3
+
+
+def test_threads_that_share_a_simulator_take_turns(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+    threads = [threading.Thread(target=lambda: sim.settle(max_iterations=5)) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert np.isfinite(sim.snapshot().node_position).all()
+
+
+def test_progress_tells_share_and_residual(sim):
+    seen = []
+    sim.set_load(mvs.SYSTOLE_PA)
+    sim.settle(progress=lambda share, residual: seen.append((share, residual)))
+    assert seen
+    assert all(0 <= share <= 1 and residual >= 0 for share, residual in seen)
+
+
+def test_progress_that_returns_true_cancels_and_changes_nothing(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+    before = sim.snapshot().hash
+    with pytest.raises(mvs.CancelledError):
+        sim.settle(progress=lambda share, residual: True)
+    assert sim.snapshot().hash == before
+
+
+def test_an_exception_in_progress_stops_and_comes_out(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+    before = sim.snapshot().hash
+
+    def fail(share, residual):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        sim.settle(progress=fail)
+    assert sim.snapshot().hash == before
+
+
+def test_a_callback_may_look_but_not_work(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+    before = sim.snapshot().hash
+    seen = []
+    sim.settle(max_iterations=3, progress=lambda *_: seen.append(sim.snapshot().hash))
+    assert set(seen) == {before}
+    for call in (lambda *_: sim.step(), lambda *_: sim.close(), lambda *_: sim.stats):
+        with pytest.raises(mvs.StateError, match="callback"):
+            sim.settle(progress=call)
+
+
+def test_ctrl_c_stops_a_settle(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+
+    def interrupt(share, residual):
+        signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        sim.settle(progress=interrupt)
+
+
+def test_steps_move_the_valve_and_count(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+    before = sim.snapshot().node_position
+    sim.step(3, solver="explicit")
+    moved = np.abs(sim.snapshot().node_position - before).max()
+    assert 0 < moved < 1e-3
+    sim.step(solver="implicit", dt=1e-4)
+    assert np.isfinite(sim.snapshot().node_velocity).all()
+
+
+def test_restore_puts_every_bit_back(sim):
+    start = sim.snapshot()
+    sim.set_load(mvs.SYSTOLE_PA)
+    sim.step(2, solver="explicit")
+    assert sim.snapshot().hash != start.hash
+    sim.restore(start)
+    assert sim.snapshot().hash == start.hash
+
+
+def test_stats_and_load_can_be_read_back(sim):
+    sim.set_load(1e4, 0.5)
+    assert sim.load_case == mvs.Load(1e4, 0.5)
+    stats = sim.settle(max_iterations=2)
+    assert sim.stats == stats
+    assert stats.iterations <= 2
+    assert set(stats.phase_s) >= {"terms", "factor", "solve"}

@@ -1,0 +1,55 @@
+"""The stubs say what the module has."""
+
+import re
+import subprocess
+import sys
+
+import mvs
+
+
+def test_stubs_match_the_module(tmp_path):
+    # set_valve, check_valve and __exit__ take *args at run time, the stubs say which; the classes
+    # of an extension have a metaclass of their own, and a Snapshot is made by a Simulator only
+    allowed = tmp_path / "allowed.txt"
+    allowed.write_text(
+        "\n".join(
+            [
+                r"mvs\._core\.check_valve",
+                r"mvs\._core\.Simulator\.set_valve",
+                r"mvs\._core\.Simulator\.__exit__",
+                r"mvs\._core\.(Simulator|Snapshot)",
+                r"mvs\._core\.Snapshot\.__init__",
+                "",
+            ]
+        )
+    )
+    found = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "--allowlist", str(allowed), "--concise",
+         "--ignore-unused-allowlist", "mvs._core", "mvs.editing", "mvs.errors", "mvs.values"],
+        capture_output=True,
+        text=True,
+    )
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+def test_the_version_is_that_of_the_header():
+    from conftest import ROOT
+
+    header = (ROOT / "include" / "mvs" / "base.h").read_text()
+    numbers = [
+        re.search(rf"MVS_VERSION_{name} (\d+)", header).group(1)
+        for name in ("MAJOR", "MINOR", "PATCH")
+    ]
+    assert mvs.__version__ == ".".join(numbers)
+    assert "eigen" in mvs.features
+
+
+def test_everything_public_is_documented():
+    for name in mvs.__all__:
+        thing = getattr(mvs, name)
+        if callable(thing):
+            assert thing.__doc__, name
+    for kind in (mvs.Snapshot, mvs.Simulator):
+        for name, member in vars(kind).items():
+            if not name.startswith("_"):
+                assert member.__doc__, f"{kind.__name__}.{name}"

@@ -1,0 +1,153 @@
+"""Valves from arrays: any strides, no silent casts, and the way from a snapshot and back."""
+
+import dataclasses
+
+import mvs
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def valve(opened):
+    return mvs.valve_of(opened)
+
+
+def set_and_look(valve):
+    with mvs.Simulator() as sim:
+        sim.set_valve(valve)
+        return sim.snapshot()
+
+
+def test_a_valve_taken_from_a_snapshot_sets_the_same_valve(opened, valve):
+    assert set_and_look(valve).hash == opened.hash
+
+
+def test_a_valve_can_be_given_as_keywords(opened, valve):
+    arrays = {f.name: getattr(valve, f.name) for f in dataclasses.fields(valve)}
+    with mvs.Simulator() as sim:
+        sim.set_valve(**arrays)
+        assert sim.snapshot().hash == opened.hash
+
+
+def spread(array):
+    """The same values as every second row and column of a larger array."""
+    wide = np.zeros(tuple(2 * n for n in array.shape), dtype=array.dtype)
+    wide[tuple(slice(None, None, 2) for _ in array.shape)] = array
+    return wide[tuple(slice(None, None, 2) for _ in array.shape)]
+
+
+def padded_rows(array):
+    """The same values with space between the rows only: read in place."""
+    wide = np.zeros((len(array), 4) if array.ndim == 2 else (len(array), 2), dtype=array.dtype)
+    if array.ndim == 1:
+        wide[:, 0] = array
+        return wide[:, 0]
+    wide[:, : array.shape[1]] = array
+    return wide[:, : array.shape[1]]
+
+
+def unaligned(array):
+    """The same values at an odd address."""
+    raw = np.zeros(array.nbytes + 1, dtype=np.uint8)
+    odd = raw[1:].view(array.dtype).reshape(array.shape)
+    odd[...] = array
+    return odd
+
+
+LAYOUTS = {
+    "columns first": np.asfortranarray,
+    "every second": spread,
+    "padded rows": padded_rows,
+    "backwards": lambda a: a[::-1].copy()[::-1],
+    "unaligned": unaligned,
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_strides_do_not_matter(opened, valve, layout):
+    for field in dataclasses.fields(valve):
+        value = getattr(valve, field.name)
+        if isinstance(value, np.ndarray):
+            placed = LAYOUTS[layout](value)
+            assert np.array_equal(placed, value)
+            setattr(valve, field.name, placed)
+    assert set_and_look(valve).hash == opened.hash
+
+
+def test_positions_may_be_single_precision(valve):
+    valve.nodes = valve.nodes.astype(np.float32)
+    valve.nodes_now = valve.nodes_loaded = None
+    seen = set_and_look(valve).node_rest
+    assert np.array_equal(seen, valve.nodes.astype(np.float64))
+
+
+@pytest.mark.parametrize(
+    "name, spoil, words",
+    [
+        ("nodes", lambda a: a.astype(np.int64), "float64 or float32"),
+        ("nodes", lambda a: a[:, :2], "shape (count, 3)"),
+        ("nodes", lambda a: a.tolist(), "not list"),
+        ("nodes", lambda a: a.astype(">f8"), ">f8"),
+        ("triangles", lambda a: a.astype(np.int64), "int64"),
+        ("triangles", lambda a: a.ravel(), "shape (count, 3)"),
+        ("annulus", lambda a: a.astype(np.int32), "int32"),
+        ("chord_nodes", lambda a: a[:, :1], "shape (count, 2)"),
+        ("chord_rest_length", lambda a: a.astype(np.float32), "float32"),
+        ("chord_rest_length", lambda a: a[:-1], "one for each"),
+        ("head_nodes", lambda a: a.astype(np.int64), "int64"),
+        ("chord_names", lambda a: a[:-1], "names are needed"),
+    ],
+)
+def test_a_wrong_array_is_refused_by_name(valve, name, spoil, words):
+    setattr(valve, name, spoil(getattr(valve, name)))
+    with pytest.raises(mvs.ArgumentError) as caught:
+        set_and_look(valve)
+    assert caught.value.part == name
+    assert words in str(caught.value)
+
+
+def test_check_valve_lists_every_fault(valve):
+    assert mvs.check_valve(valve) == []
+    valve.triangles[3] = valve.triangles[3, 0]
+    valve.triangles[8, 1] = valve.triangles[8, 2]
+    faults = mvs.check_valve(valve)
+    assert len(faults) >= 2
+    assert {"triangle 3", "triangle 8"} <= {fault.part for fault in faults}
+    with pytest.raises(mvs.OpError) as caught:
+        set_and_look(valve)
+    assert str(caught.value) == faults[0].sentence
+    assert caught.value.part == faults[0].part
+
+
+def test_an_edited_chord_is_the_only_thing_that_changes(opened, valve):
+    valve.chord_rest_length[5] *= 1.25
+    changed = set_and_look(valve)
+    ratio = changed.chord_rest_length / opened.chord_rest_length
+    assert ratio[5] == pytest.approx(1.25, rel=1e-15)
+    assert (np.delete(ratio, 5) == 1).all()
+    assert np.array_equal(changed.chord_id, opened.chord_id)
+
+
+def test_zero_bending_scale_means_no_bending(valve):
+    valve.bending_scale = 0.0
+    assert set_and_look(valve).valve_constants[3] == 0
+    valve.bending_scale = None
+    assert set_and_look(valve).valve_constants[3] == 1
+
+
+def test_dimensions_reach_the_generator():
+    with mvs.Simulator() as sim:
+        sim.generate(annulus_ap=30e-3, annulus_cc=40e-3, thickness=0.8e-3)
+        large = sim.snapshot()
+        sim.generate(annulus_ap=24e-3, annulus_cc=32e-3)
+        small = sim.snapshot()
+    # a polygon through the annulus is a little narrower than the curve it samples
+    assert large.measures.annulus_ap == pytest.approx(30e-3, rel=0.03)
+    assert large.measures.annulus_cc == pytest.approx(40e-3, rel=0.03)
+    assert small.measures.annulus_cc == pytest.approx(32e-3, rel=0.03)
+    assert (large.triangle_thickness == 0.8e-3).all()
+
+
+def test_dimensions_are_keywords_only(sim):
+    with pytest.raises(TypeError):
+        sim.generate(500)
