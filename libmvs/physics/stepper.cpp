@@ -89,6 +89,9 @@ void ImplicitStepper::step(State &state, double dt, double damping, SolveStats &
 }
 
 void ImplicitStepper::solve(double dt, double damping, SolveStats &stats) {
+  // a new pattern each step: the order of elimination, and with it the last bits, then depends on
+  // the state alone and not on the steps that led to it
+  system_ = System();
   system_.boundary_step = &boundary_;
   if (potential_.hessian(x_, Curvature::projected, system_, stats.phase_s)) {
     const PhaseTimer timer(stats.phase_s, MVS_PHASE_ORDERING);
