@@ -12,6 +12,12 @@
 namespace mvs {
 namespace {
 
+std::string sentence(const char *pattern, va_list arguments) {
+  char text[sizeof(mvs_error::message)];
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  return text;
+}
+
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
@@ -132,10 +138,9 @@ void Line::end() {
 }
 
 void Line::fail(const char *pattern, ...) const {
-  char text[sizeof(mvs_error::message)];
   va_list arguments;
   va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
+  const std::string text = sentence(pattern, arguments);
   va_end(arguments);
   throw Error(MVS_E_FORMAT, "", text, number_);
 }
