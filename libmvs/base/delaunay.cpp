@@ -112,13 +112,16 @@ class Builder {
   struct Facet {
     std::array<uint32_t, 4> corner;  // the new vertex at `place`
     uint32_t place;
-    uint32_t inside, outside;  // the tetrahedra on both sides; `outside` may be `none`
+    uint32_t outside;  // the tetrahedron on the other side, or `none`
   };
 
   const LatticePoint &at(uint32_t vertex) const { return point_[vertex]; }
   uint32_t locate(const LatticePoint &p);
   void find_hole(uint32_t start, uint32_t vertex);
   void fill_hole();
+  uint32_t vacancy();
+  void join_outside(const Facet &facet, uint32_t t);
+  void join_inside(const Facet &facet, uint32_t t);
 
   std::vector<LatticePoint> point_;
   std::vector<Tetrahedron> tetrahedra_;
@@ -183,10 +186,52 @@ void Builder::find_hole(uint32_t start, uint32_t vertex) {
         if (hit) hole_.push_back(n);
       }
       if (n != none && seen_[n] == 2 * insertion_ + 1) continue;
-      Facet facet{here.corner, k, hole_[i], n};
+      Facet facet{here.corner, k, n};
       facet.corner[k] = vertex;
       facets_.push_back(facet);
     }
+  }
+}
+
+// A place for a new tetrahedron: one of the hole, as long as there are any.
+uint32_t Builder::vacancy() {
+  if (vacant_.empty()) {
+    tetrahedra_.emplace_back();
+    seen_.push_back(0);
+    return static_cast<uint32_t>(tetrahedra_.size() - 1);
+  }
+  const uint32_t t = vacant_.back();
+  vacant_.pop_back();
+  seen_[t] = 0;
+  return t;
+}
+
+// Joins the new tetrahedron of a facet to the old one outside.
+void Builder::join_outside(const Facet &facet, uint32_t t) {
+  tetrahedra_[t].neighbour[facet.place] = facet.outside;
+  if (facet.outside == none) return;
+  Tetrahedron &outside = tetrahedra_[facet.outside];
+  const auto is_shared = [&](uint32_t corner) {
+    return std::find(facet.corner.begin(), facet.corner.end(), corner) != facet.corner.end();
+  };
+  for (uint32_t k = 0; k < 4; ++k) {
+    if (!is_shared(outside.corner[k])) outside.neighbour[k] = t;
+  }
+}
+
+// Joins it to those new ones, over the edges of the facet, that are there already.
+void Builder::join_inside(const Facet &facet, uint32_t t) {
+  for (uint32_t k = 0; k < 4; ++k) {
+    if (k == facet.place) continue;
+    std::array<uint32_t, 2> edge;
+    size_t count = 0;
+    for (uint32_t j = 0; j < 4; ++j) {
+      if (j != k && j != facet.place) edge[count++] = facet.corner[j];
+    }
+    const EdgeTable::Side *other = table_.match(edge[0], edge[1], t, k);
+    if (other == nullptr) continue;
+    tetrahedra_[t].neighbour[k] = other->tetrahedron;
+    tetrahedra_[other->tetrahedron].neighbour[other->face] = t;
   }
 }
 
@@ -194,39 +239,10 @@ void Builder::fill_hole() {
   vacant_.insert(vacant_.end(), hole_.begin(), hole_.end());
   table_.clear(3 * facets_.size() / 2);
   for (const Facet &facet : facets_) {
-    if (vacant_.empty()) {
-      vacant_.push_back(static_cast<uint32_t>(tetrahedra_.size()));
-      tetrahedra_.emplace_back();
-      seen_.push_back(0);
-    }
-    const uint32_t t = vacant_.back();
-    vacant_.pop_back();
-    last_ = t;
-    tetrahedra_[t].corner = facet.corner;
-    tetrahedra_[t].neighbour[facet.place] = facet.outside;
-    seen_[t] = 0;
-    if (facet.outside != none) {
-      // `inside` may have been filled again already, but its number still stands here
-      std::array<uint32_t, 4> &back = tetrahedra_[facet.outside].neighbour;
-      std::array<uint32_t, 4> &corner = tetrahedra_[facet.outside].corner;
-      for (uint32_t k = 0; k < 4; ++k) {
-        const bool shared =
-            std::find(facet.corner.begin(), facet.corner.end(), corner[k]) != facet.corner.end();
-        if (!shared) back[k] = t;
-      }
-    }
-    for (uint32_t k = 0; k < 4; ++k) {
-      if (k == facet.place) continue;
-      std::array<uint32_t, 2> edge;
-      size_t count = 0;
-      for (uint32_t j = 0; j < 4; ++j) {
-        if (j != k && j != facet.place) edge[count++] = facet.corner[j];
-      }
-      const EdgeTable::Side *other = table_.match(edge[0], edge[1], t, k);
-      if (other == nullptr) continue;
-      tetrahedra_[t].neighbour[k] = other->tetrahedron;
-      tetrahedra_[other->tetrahedron].neighbour[other->face] = t;
-    }
+    last_ = vacancy();
+    tetrahedra_[last_].corner = facet.corner;
+    join_outside(facet, last_);
+    join_inside(facet, last_);
   }
 }
 

@@ -20,14 +20,16 @@ Vec3 area_vector(const Mesh &mesh, uint32_t t) {
   return 0.5 * (mesh.x[c[1]] - mesh.x[c[0]]).cross(mesh.x[c[2]] - mesh.x[c[0]]);
 }
 
+struct Side {
+  uint32_t larger, triangle, k;
+};
+
 // Sides gathered at their smaller node, so that the few of each node can be sorted among
 // themselves: this runs once a round, and one sort of all sides would be most of its time.
-Edges edges_of(const Mesh &mesh) {
-  struct Side {
-    uint32_t larger, triangle, k;
-  };
-  const auto smaller = [&](const Tri &t, uint32_t k) { return std::min(t[k], t[(k + 1) % 3]); };
-  std::vector<uint32_t> first(mesh.x.size() + 1, 0);
+// Those of node n are sides[first[n] .. first[n + 1]).
+std::vector<Side> sides_by_node(const Mesh &mesh, std::vector<uint32_t> &first) {
+  const auto smaller = [](const Tri &t, uint32_t k) { return std::min(t[k], t[(k + 1) % 3]); };
+  first.assign(mesh.x.size() + 1, 0);
   for (const Tri &t : mesh.triangles) {
     for (uint32_t k = 0; k < 3; ++k) ++first[smaller(t, k) + 1];
   }
@@ -40,6 +42,12 @@ Edges edges_of(const Mesh &mesh) {
       sides[place[smaller(t, k)]++] = {std::max(t[k], t[(k + 1) % 3]), i, k};
     }
   }
+  return sides;
+}
+
+Edges edges_of(const Mesh &mesh) {
+  std::vector<uint32_t> first;
+  std::vector<Side> sides = sides_by_node(mesh, first);
   Edges edges;
   edges.of_triangle.resize(mesh.triangles.size());
   for (uint32_t n = 0; n < mesh.x.size(); ++n) {
