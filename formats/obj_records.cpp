@@ -90,6 +90,10 @@ void ObjReader::state(Line &line) {
   fields.number("pressure", state.load.pressure);
   fields.number("boundary_fraction", state.load.boundary_fraction);
   fields.end();
+  if (!(state.load.boundary_fraction >= 0 && state.load.boundary_fraction <= 1)) {
+    line.fail("boundary_fraction is %g: it has to be 0 (open) to 1 (loaded)",
+              state.load.boundary_fraction);
+  }
 }
 
 void ObjReader::leaflet(Line &line) {

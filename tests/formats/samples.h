@@ -163,7 +163,7 @@ inline Pair random_pair(uint64_t seed) {
   valve.next_id = random.bits();
   pair.state.time = random.number();
   pair.state.steps = random.bits();
-  pair.state.load = {random.number(), random.number()};
+  pair.state.load = {random.number(), std::ldexp(static_cast<double>(random.bits() >> 11), -53)};
   return pair;
 }
 

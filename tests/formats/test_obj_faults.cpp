@@ -114,6 +114,8 @@ TEST_CASE("words_that_mean_nothing_are_told") {
   check_fault("\ng A A2", "\nB A A2", "`B` is not a statement");
   check_fault("#mvs state", "#mvs stat", "#mvs `stat` is not known");
   check_fault("#mvs state", "#mvs", "#mvs `time=0.125`");
+  check_fault("boundary_fraction=0.75", "boundary_fraction=1.5", "0 (open) to 1 (loaded)");
+  check_fault("boundary_fraction=0.75", "boundary_fraction=-0.1", "0 (open) to 1 (loaded)");
   check_fault("steps=125", "stops=125", "key `stops` is not known");
   check_fault("steps=125", "steps=-1", "`-1` is not a whole number");
   check_fault("steps=125", "steps", "`steps` should be key=value");
