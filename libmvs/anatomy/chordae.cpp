@@ -48,7 +48,7 @@ std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
   };
   const uint32_t basal = part(0.15), rough = part(0.375);
   const uint32_t edge = count - basal - rough - 1;
-  constexpr double rough_v = 0.8, strut_v = 0.45, basal_v = 0.35;
+  constexpr double rough_v = 0.75, strut_v = 0.38, basal_v = 0.35;
   std::vector<Row> rows = {
       even_row(shape, 1, 0, pi, edge, MVS_CHORD_MARGINAL),
       even_row(shape, rough_v, 0, pi, rough, MVS_CHORD_ROUGH_ZONE),

@@ -12,19 +12,19 @@ struct Dimensions {
   uint32_t vertices = 425;
   uint32_t chords = 80;
   bool branching = false;
-  double annulus_ap = 26e-3;
-  double annulus_cc = 33e-3;
+  double annulus_ap = 28e-3;
+  double annulus_cc = 35e-3;
   double saddle_height = 5.5e-3;
-  double anterior_height = 24e-3;
-  double posterior_height = 14e-3;
-  double commissure_height = 9e-3;
+  double anterior_height = 23e-3;
+  double posterior_height = 13e-3;
+  double commissure_height = 8e-3;
   double thickness = 1e-3;
   double papillary_depth = 23.5e-3;
   double papillary_separation = 20e-3;
-  double annulus_contraction = 0.97;
+  double annulus_contraction = 1;
   double annulus_scale = 1;
   double chord_slack = 1;
-  double indentation_depth = 2e-3;
+  double indentation_depth = 2.5e-3;
   double coaptation_depth = 5e-3;
 };
 

@@ -16,15 +16,15 @@ constexpr double flatness = 0.3;
 constexpr double cleft = 0.38;
 constexpr double cleft_width = 0.1;
 // The open leaflet leaves the annulus leaning inwards and turns to hang almost straight down.
-constexpr double tilt_annulus = 0.65;
+constexpr double tilt_annulus = 1.0;
 constexpr double tilt_edge = 0.05;
 // Seen from above it leans towards the coaptation line, and this share of its x towards the middle.
-constexpr double inward_pull = 0.3;
+constexpr double inward_pull = 0.8;
 // Of the AP diameter, the leaflets may lean over at most this share: the open orifice stays open.
-constexpr double greatest_lean = 0.55;
+constexpr double greatest_lean = 0.65;
 // The coaptation line lies this share of the way from the posterior to the anterior annulus, and
 // spans this share of the width.
-constexpr double coaptation_share = 0.35;
+constexpr double coaptation_share = 0.4;
 constexpr double coaptation_span = 0.86;
 // How much longer than at rest a loaded leaflet is: a little less than the kink of its law.
 constexpr double closed_stretch = 1.15;
