@@ -3,32 +3,21 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
-#include "model/topology.h"
+#include "anatomy/delaunay.h"
 
 namespace mvs {
 namespace {
 
-constexpr int rounds = 10;        // sizes settle in about 6
-constexpr int last_rounds = 10;   // of flips and smoothing alone
-constexpr int most_passes = 40;   // of splits or collapses in one round: a stop, never reached
-constexpr int most_sweeps = 100;  // of flips: likewise
+constexpr int rounds = 8;        // sizes settle in about 6
+constexpr int last_rounds = 8;   // of flips and smoothing alone
+constexpr int most_passes = 40;  // of splits or collapses in one round: a stop, never reached
 
 // An edge outside low .. high is nearer to the wanted length after a collapse or a split.
 constexpr double low = 4.0 / 5, high = 4.0 / 3;
 
-// Twice the signed area in (v, theta): positive for every triangle of a valid sheet.
-double signed_area(const Place &a, const Place &b, const Place &c) {
-  return (b.v - a.v) * (c.theta - a.theta) - (b.theta - a.theta) * (c.v - a.v);
-}
-
 Place between(const Place &a, const Place &b, double share) {
   return {a.theta + share * (b.theta - a.theta), a.v + share * (b.v - a.v)};
-}
-
-double cotangent(const Vec3 &at, const Vec3 &b, const Vec3 &c) {
-  return (b - at).dot(c - at) / (b - at).cross(c - at).norm();
 }
 
 // 1 for an equilateral triangle, 0 for a flat one.
@@ -43,55 +32,22 @@ class Remesher {
       : shape_(shape), edge_(edge), s_(sheet) {}
 
   void run() {
-    connect();
+    across_ = connect(s_.triangles);
     for (int i = 0; i < rounds; ++i) {
-      for (int pass = 0; split_long() && pass < most_passes; ++pass) flip_all();
-      for (int pass = 0; collapse_short() && pass < most_passes; ++pass) flip_all();
-      flip_all();
+      for (int pass = 0; split_long() && pass < most_passes; ++pass) flip_to_delaunay(s_, across_);
+      for (int pass = 0; collapse_short() && pass < most_passes; ++pass)
+        flip_to_delaunay(s_, across_);
+      flip_to_delaunay(s_, across_);
       smooth();
     }
     for (int i = 0; i < last_rounds; ++i) {
       smooth();
-      flip_all();
+      flip_to_delaunay(s_, across_);
     }
   }
 
  private:
   double length(uint32_t a, uint32_t b) const { return (s_.x[a] - s_.x[b]).norm(); }
-
-  // across_[t][k] is the triangle over the edge from corner k to k + 1.
-  void connect() {
-    struct Side {
-      uint32_t low, high, triangle, corner;
-    };
-    std::vector<Side> sides;
-    sides.reserve(3 * s_.triangles.size());
-    for (uint32_t t = 0; t < s_.triangles.size(); ++t) {
-      for (uint32_t k = 0; k < 3; ++k) {
-        const auto [a, b] = std::minmax(s_.triangles[t][k], s_.triangles[t][(k + 1) % 3]);
-        sides.push_back({a, b, t, k});
-      }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side &p, const Side &q) {
-      return std::tie(p.low, p.high, p.triangle) < std::tie(q.low, q.high, q.triangle);
-    });
-    across_.assign(s_.triangles.size(), {none, none, none});
-    for (size_t i = 1; i < sides.size(); ++i) {
-      const Side &p = sides[i - 1], &q = sides[i];
-      if (p.low != q.low || p.high != q.high) continue;
-      across_[p.triangle][p.corner] = q.triangle;
-      across_[q.triangle][q.corner] = p.triangle;
-    }
-  }
-
-  uint32_t corner_facing(uint32_t triangle, uint32_t other) const {
-    const auto &n = across_[triangle];
-    return static_cast<uint32_t>(std::find(n.begin(), n.end(), other) - n.begin());
-  }
-
-  bool on_one_column(uint32_t a, uint32_t b) const {
-    return (s_.sides[a] & s_.sides[b] & on_column) && s_.place[a].theta == s_.place[b].theta;
-  }
 
   uint32_t add_vertex(const Place &place, uint8_t sides) {
     s_.place.push_back(place);
@@ -125,13 +81,13 @@ class Remesher {
       if (u != none) cut[u] = 1;
       split(t, k);
     }
-    if (!edges.empty()) connect();
+    if (!edges.empty()) across_ = connect(s_.triangles);
     return !edges.empty();
   }
 
   void split(uint32_t t, uint32_t k) {
     const uint32_t a = s_.triangles[t][k], b = s_.triangles[t][(k + 1) % 3], u = across_[t][k];
-    const bool curve = u == none || on_one_column(a, b);
+    const bool curve = u == none || on_one_column(s_, a, b);
     const uint8_t sides = curve ? s_.sides[a] & s_.sides[b] : 0;
     const uint32_t middle = add_vertex(between(s_.place[a], s_.place[b], 0.5), sides);
     for (uint32_t triangle : {t, u}) {
@@ -145,14 +101,14 @@ class Remesher {
 
   // One pass over all edges; collapses of one pass do not touch each other.
   bool collapse_short() {
-    ring_ = rings();
+    ring_ = rings_of(s_);
     std::vector<uint8_t> locked(s_.x.size(), 0);
     bool any = false;
     for (uint32_t t = 0; t < s_.triangles.size(); ++t) {
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t a = s_.triangles[t][k], b = s_.triangles[t][(k + 1) % 3];
         if (a == none || locked[a] || locked[b] || length(a, b) >= low * edge_) continue;
-        const bool curve = across_[t][k] == none || on_one_column(a, b);
+        const bool curve = across_[t][k] == none || on_one_column(s_, a, b);
         if (can_collapse(a, b, curve, locked)) {
           collapse(a, b, locked);
         } else if (can_collapse(b, a, curve, locked)) {
@@ -241,63 +197,11 @@ class Remesher {
     for (Tri &triangle : s_.triangles) {
       for (uint32_t &corner : triangle) corner = number[corner];
     }
-    connect();
-  }
-
-  void flip_all() {
-    bool flipped = true;
-    for (int sweep = 0; flipped && sweep < most_sweeps; ++sweep) {
-      flipped = false;
-      for (uint32_t t = 0; t < s_.triangles.size(); ++t) {
-        for (uint32_t k = 0; k < 3; ++k) flipped |= flip(t, k);
-      }
-    }
-  }
-
-  // Triangles a b c and b a d become a d c and d b c if the edge a b is not Delaunay.
-  bool flip(uint32_t t, uint32_t k) {
-    const uint32_t u = across_[t][k];
-    const uint32_t a = s_.triangles[t][k], b = s_.triangles[t][(k + 1) % 3],
-                   c = s_.triangles[t][(k + 2) % 3];
-    if (u == none || on_one_column(a, b)) return false;
-    const uint32_t j = corner_facing(u, t);
-    const uint32_t d = s_.triangles[u][(j + 2) % 3];
-    const auto &x = s_.x;
-    const auto &p = s_.place;
-    const double now = cotangent(x[c], x[a], x[b]) + cotangent(x[d], x[a], x[b]);
-    const double then = cotangent(x[a], x[c], x[d]) + cotangent(x[b], x[c], x[d]);
-    if (now > -1e-9 || then <= now) return false;
-    if (signed_area(p[a], p[d], p[c]) <= 0 || signed_area(p[d], p[b], p[c]) <= 0) return false;
-
-    const uint32_t over_bc = across_[t][(k + 1) % 3], over_ca = across_[t][(k + 2) % 3];
-    const uint32_t over_ad = across_[u][(j + 1) % 3], over_db = across_[u][(j + 2) % 3];
-    s_.triangles[t] = {a, d, c};
-    s_.triangles[u] = {d, b, c};
-    across_[t] = {over_ad, u, over_ca};
-    across_[u] = {over_db, over_bc, t};
-    if (over_ad != none) across_[over_ad][corner_facing(over_ad, u)] = t;
-    if (over_bc != none) across_[over_bc][corner_facing(over_bc, t)] = u;
-    return true;
-  }
-
-  // Triangles around each vertex, ascending.
-  Rows rings() const {
-    Rows rows;
-    rows.start.assign(s_.x.size() + 1, 0);
-    for (const Tri &triangle : s_.triangles) {
-      for (uint32_t i : triangle) ++rows.start[i + 1];
-    }
-    for (size_t i = 1; i < rows.start.size(); ++i) rows.start[i] += rows.start[i - 1];
-    rows.items.resize(rows.start.back());
-    std::vector<uint32_t> next(rows.start.begin(), rows.start.end() - 1);
-    for (uint32_t t = 0; t < s_.triangles.size(); ++t) {
-      for (uint32_t i : s_.triangles[t]) rows.items[next[i]++] = t;
-    }
-    return rows;
+    across_ = connect(s_.triangles);
   }
 
   void smooth() {
-    ring_ = rings();
+    ring_ = rings_of(s_);
     for (uint32_t i = 0; i < s_.x.size(); ++i) {
       if (is_corner(s_.sides[i])) continue;
       move(i, s_.sides[i] == 0 ? centre_of_ring(i) : middle_of_curve(i));
@@ -337,7 +241,7 @@ class Remesher {
     const auto along = [&](uint32_t i) { return column ? s_.place[i].v : s_.place[i].theta; };
     uint32_t before = vertex, after = vertex;
     for (uint32_t i : neighbours(vertex)) {
-      const bool same = column ? on_one_column(vertex, i) : s_.sides[vertex] & s_.sides[i];
+      const bool same = column ? on_one_column(s_, vertex, i) : s_.sides[vertex] & s_.sides[i];
       if (!same) continue;
       if (along(i) < along(vertex) && (before == vertex || along(i) > along(before))) before = i;
       if (along(i) > along(vertex) && (after == vertex || along(i) < along(after))) after = i;

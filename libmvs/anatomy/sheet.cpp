@@ -85,16 +85,19 @@ HalfSheet in_order(const HalfSheet &sheet) {
 HalfSheet mesh_half_sheet(const Shape &shape, uint32_t vertices) {
   constexpr int attempts = 8;
   constexpr double close_enough = 0.02;
-  HalfSheet best, sheet = coarse_sheet(shape);
+  constexpr uint32_t trial = 1000;        // vertices that show how edge and count go together
   const double row = std::sqrt(3.0) / 2;  // a vertex of a regular sheet has row * edge^2
-  double edge = std::sqrt(2 * area_of(sheet) / (row * vertices));
-  double best_miss = INFINITY;
+  HalfSheet best, sheet = coarse_sheet(shape);
+  const double area = 2 * area_of(sheet);
+  double best_miss = INFINITY, factor = 1;
   for (int i = 0; i < attempts && best_miss > close_enough; ++i) {
-    remesh(shape, edge, sheet);
-    const double ratio = whole_count(sheet) / vertices;
-    if (std::abs(ratio - 1) < best_miss) best = sheet;
-    best_miss = std::min(best_miss, std::abs(ratio - 1));
-    edge *= std::sqrt(ratio);
+    const uint32_t wanted = i == 0 ? std::min(vertices, trial) : vertices;
+    remesh(shape, factor * std::sqrt(area / (row * wanted)), sheet);
+    const double ratio = whole_count(sheet) / wanted, miss = std::abs(ratio - 1);
+    factor *= std::sqrt(ratio);
+    if (wanted != vertices || miss >= best_miss) continue;
+    best = sheet;
+    best_miss = miss;
   }
   return in_order(best);
 }

@@ -1,0 +1,108 @@
+#include "anatomy/delaunay.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <tuple>
+
+namespace mvs {
+namespace {
+
+constexpr int most_sweeps = 100;  // a stop, never reached
+
+double cotangent(const Vec3 &at, const Vec3 &b, const Vec3 &c) {
+  return (b - at).dot(c - at) / (b - at).cross(c - at).norm();
+}
+
+uint32_t corner_facing(const std::vector<Tri> &across, uint32_t triangle, uint32_t other) {
+  const auto &n = across[triangle];
+  return static_cast<uint32_t>(std::find(n.begin(), n.end(), other) - n.begin());
+}
+
+// Triangles a b c and b a d become a d c and d b c if the edge a b is not Delaunay.
+bool flip(HalfSheet &sheet, std::vector<Tri> &across, uint32_t t, uint32_t k) {
+  const uint32_t u = across[t][k];
+  const uint32_t a = sheet.triangles[t][k], b = sheet.triangles[t][(k + 1) % 3],
+                 c = sheet.triangles[t][(k + 2) % 3];
+  if (u == none || on_one_column(sheet, a, b)) return false;
+  const uint32_t j = corner_facing(across, u, t);
+  const uint32_t d = sheet.triangles[u][(j + 2) % 3];
+  const auto &x = sheet.x;
+  const auto &p = sheet.place;
+  const double now = cotangent(x[c], x[a], x[b]) + cotangent(x[d], x[a], x[b]);
+  const double then = cotangent(x[a], x[c], x[d]) + cotangent(x[b], x[c], x[d]);
+  if (now > -1e-9 || then <= now) return false;
+  if (signed_area(p[a], p[d], p[c]) <= 0 || signed_area(p[d], p[b], p[c]) <= 0) return false;
+
+  const uint32_t over_bc = across[t][(k + 1) % 3], over_ca = across[t][(k + 2) % 3];
+  const uint32_t over_ad = across[u][(j + 1) % 3], over_db = across[u][(j + 2) % 3];
+  sheet.triangles[t] = {a, d, c};
+  sheet.triangles[u] = {d, b, c};
+  across[t] = {over_ad, u, over_ca};
+  across[u] = {over_db, over_bc, t};
+  if (over_ad != none) across[over_ad][corner_facing(across, over_ad, u)] = t;
+  if (over_bc != none) across[over_bc][corner_facing(across, over_bc, t)] = u;
+  return true;
+}
+
+}  // namespace
+
+double signed_area(const Place &a, const Place &b, const Place &c) {
+  return (b.v - a.v) * (c.theta - a.theta) - (b.theta - a.theta) * (c.v - a.v);
+}
+
+bool on_one_column(const HalfSheet &sheet, uint32_t a, uint32_t b) {
+  return (sheet.sides[a] & sheet.sides[b] & on_column) &&
+         sheet.place[a].theta == sheet.place[b].theta;
+}
+
+std::vector<Tri> connect(const std::vector<Tri> &triangles) {
+  struct Side {
+    uint32_t low, high, triangle, corner;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
+      sides.push_back({a, b, t, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side &p, const Side &q) {
+    return std::tie(p.low, p.high, p.triangle) < std::tie(q.low, q.high, q.triangle);
+  });
+  std::vector<Tri> across(triangles.size(), {none, none, none});
+  for (size_t i = 1; i < sides.size(); ++i) {
+    const Side &p = sides[i - 1], &q = sides[i];
+    if (p.low != q.low || p.high != q.high) continue;
+    across[p.triangle][p.corner] = q.triangle;
+    across[q.triangle][q.corner] = p.triangle;
+  }
+  return across;
+}
+
+Rows rings_of(const HalfSheet &sheet) {
+  Rows rows;
+  rows.start.assign(sheet.x.size() + 1, 0);
+  for (const Tri &triangle : sheet.triangles) {
+    for (uint32_t i : triangle) ++rows.start[i + 1];
+  }
+  for (size_t i = 1; i < rows.start.size(); ++i) rows.start[i] += rows.start[i - 1];
+  rows.items.resize(rows.start.back());
+  std::vector<uint32_t> next(rows.start.begin(), rows.start.end() - 1);
+  for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
+    for (uint32_t i : sheet.triangles[t]) rows.items[next[i]++] = t;
+  }
+  return rows;
+}
+
+void flip_to_delaunay(HalfSheet &sheet, std::vector<Tri> &across) {
+  bool flipped = true;
+  for (int sweep = 0; flipped && sweep < most_sweeps; ++sweep) {
+    flipped = false;
+    for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
+      for (uint32_t k = 0; k < 3; ++k) flipped |= flip(sheet, across, t, k);
+    }
+  }
+}
+
+}  // namespace mvs
