@@ -1,0 +1,146 @@
+// `mvs close`: brings a valve to rest under systolic pressure and measures it.
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "commands.h"
+#include "readouts.h"
+
+namespace cli {
+namespace {
+
+const std::map<std::string, uint32_t> solvers = {{"newton", MVS_SOLVER_NEWTON},
+                                                 {"implicit", MVS_SOLVER_IMPLICIT},
+                                                 {"explicit", MVS_SOLVER_EXPLICIT}};
+const std::map<std::string, uint32_t> backends = {{"default", MVS_BACKEND_DEFAULT},
+                                                  {"cholmod", MVS_BACKEND_CHOLMOD},
+                                                  {"eigen", MVS_BACKEND_EIGEN}};
+
+struct Options {
+  std::string in, out;
+  std::string leaflet = "spring", solver = "newton", backend = "default";
+  double pressure_mmhg = 120;
+  mvs_settle_options settle = {};
+};
+
+struct Closed {
+  mvs::Snapshot valve;
+  mvs_stats stats;
+};
+
+Closed close_valve(const Options &options, const Console &console) {
+  Progress progress(console);
+  mvs_sim_desc desc = {};
+  desc.backend = backends.at(options.backend);
+  desc.progress = Progress::callback;
+  desc.user = &progress;
+  mvs::Sim sim = make_sim(desc);
+  sim.load_file(options.in);
+  sim.set_load(options.pressure_mmhg * pa_per_mmhg);
+  mvs_settle_options settle = options.settle;
+  settle.solver = solvers.at(options.solver);
+  const mvs_stats stats = sim.settle(settle);
+  return {sim.snapshot(), stats};
+}
+
+Json phases_json(const mvs_stats &stats) {
+  static constexpr const char *names[MVS_PHASE_COUNT] = {
+      "terms", "broad", "narrow", "assembly", "ordering", "factor", "solve", "line_search"};
+  Json phases = Json::object();
+  for (int p = 0; p < MVS_PHASE_COUNT; ++p) phases[names[p]] = stats.phase_s[p];
+  return phases;
+}
+
+Json result_json(const Options &options, const Closed &closed, const mvs_measures &measures) {
+  const Size size = size_of(closed.valve);
+  const mvs_stats &stats = closed.stats;
+  return {{"file", options.in},
+          {"leaflet", options.leaflet},
+          {"solver", options.solver},
+          {"pressure_mmHg", options.pressure_mmhg},
+          {"converged", stats.converged != 0},
+          {"iterations", stats.iterations},
+          {"wall_s", stats.wall_s},
+          {"residual_N", stats.residual},
+          {"energy_J", stats.energy},
+          {"kinetic_J", stats.kinetic},
+          {"factorisations", stats.factorisations},
+          {"shifted", stats.shifted},
+          {"contact_pairs", stats.contact_pairs},
+          {"phase_s", phases_json(stats)},
+          {"vertices", size.vertices},
+          {"faces", size.faces},
+          {"chords", size.chords},
+          {"intersections", measures.intersections},
+          {"hash", hash_of(closed.valve)},
+          {"measures", measures_json(measures)}};
+}
+
+std::string result_text(const Options &options, const mvs_stats &stats,
+                        const mvs_measures &measures) {
+  return text("%s: %s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
+              options.in.c_str(), stats.converged ? "at rest" : "NOT at rest",
+              options.pressure_mmhg, stats.wall_s, stats.iterations, stats.residual) +
+         measures_text(measures);
+}
+
+// Not at rest is a result, not a failure: it is written and marked, and said aloud.
+void run(const Options &options, const Console &console) {
+  const Closed closed = close_valve(options, console);
+  const mvs_measures measures = closed.valve.measure();
+  if (!options.out.empty()) closed.valve.save(options.out);
+  if (!closed.stats.converged) {
+    std::fprintf(stderr,
+                 "mvs: warning: not converged after %u iterations, residual %.1e N; the shape is "
+                 "not an equilibrium (see --max-iterations)\n",
+                 closed.stats.iterations, closed.stats.residual);
+  }
+  print(console, result_json(options, closed, measures),
+        result_text(options, closed.stats, measures));
+}
+
+std::vector<std::string> names_of(const std::map<std::string, uint32_t> &map) {
+  std::vector<std::string> names;
+  names.reserve(map.size());
+  for (const auto &[name, value] : map) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+void add_close(CLI::App &app, Console &console) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command =
+      add_command(app, console, "close", "close a valve under systolic pressure and measure it");
+  command->add_option("file", options->in, "valve to close, .obj")->required();
+  command->add_option("-o,--output", options->out, "write the closed valve, .obj or .vtp");
+  command->add_option("--pressure", options->pressure_mmhg, "transvalvular pressure, mmHg")
+      ->capture_default_str()
+      ->check(CLI::Number);
+  command->add_option("--leaflet", options->leaflet, "element of the leaflets")
+      ->capture_default_str()
+      ->check(one_of({"spring"}));
+  command->add_option("--solver", options->solver, "method")
+      ->capture_default_str()
+      ->check(one_of(names_of(solvers)));
+  command->add_option("--backend", options->backend, "sparse factorisation")
+      ->capture_default_str()
+      ->check(one_of(names_of(backends)));
+  command
+      ->add_option("--residual", options->settle.residual,
+                   "largest out-of-balance force of a node at rest, N [1e-5]")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--max-iterations", options->settle.max_iterations,
+                   "iterations or time steps [newton 1000, implicit 20000, explicit 2000000]")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--dt", options->settle.dt,
+                   "time step of the solvers in time, s [implicit 1e-3, explicit 16e-6]")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--progress", console.progress,
+                    "show progress on stderr although it is no terminal");
+  command->callback([options, &console] { run(*options, console); });
+}
+
+}  // namespace cli

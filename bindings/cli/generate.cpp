@@ -1,0 +1,119 @@
+// `mvs generate`: a parametric valve, healthy or with the lesion asked for, as a file.
+#include <memory>
+#include <utility>
+
+#include "commands.h"
+#include "valve_copy.h"
+
+namespace cli {
+namespace {
+
+struct Options {
+  std::string out;
+  mvs_parametric_desc valve = {};  // lengths in mm until the library gets it
+  std::vector<std::string> chord_factors;
+};
+
+struct Dimension {
+  const char *option;
+  double mvs_parametric_desc::*value;
+  double standard;  // the default of the library, for the help; tests/cli checks it
+  const char *what;
+};
+
+using P = mvs_parametric_desc;
+constexpr Dimension lengths[] = {
+    {"--annulus-ap", &P::annulus_ap, 26, "septal-lateral diameter of the annulus"},
+    {"--annulus-cc", &P::annulus_cc, 33, "intercommissural diameter of the annulus"},
+    {"--saddle-height", &P::saddle_height, 5.5, "height of the annular saddle"},
+    {"--anterior-height", &P::anterior_height, 24, "height of the anterior leaflet at A2"},
+    {"--posterior-height", &P::posterior_height, 14, "height of the posterior leaflet at P2"},
+    {"--commissure-height", &P::commissure_height, 9, "height of the leaflets at a commissure"},
+    {"--thickness", &P::thickness, 1, "thickness of the leaflets"},
+    {"--papillary-depth", &P::papillary_depth, 23.5, "papillary tip to annulus plane"},
+    {"--papillary-separation", &P::papillary_separation, 20, "between the two papillary tips"},
+    {"--indentation-depth", &P::indentation_depth, 2, "clefts on either side of P2"},
+    {"--coaptation-depth", &P::coaptation_depth, 5, "coaptation line below the annulus plane"},
+};
+constexpr Dimension factors[] = {
+    {"--annulus-contraction", &P::annulus_contraction, 0.97,
+     "loaded over open size of the annulus"},
+    {"--annulus-scale", &P::annulus_scale, 1, "dilation of the loaded annulus, 1.15 for 15 %"},
+    {"--chord-slack", &P::chord_slack, 1, "factor on the rest length of every chord"},
+};
+
+// "P2/3=1.25" as a name and a factor; an empty name where it is neither.
+std::pair<std::string, double> parse_chord_factor(const std::string &given) {
+  const size_t sign = given.rfind('=');
+  double factor = 0;
+  if (sign == std::string::npos || !CLI::detail::lexical_cast(given.substr(sign + 1), factor) ||
+      !(factor > 0)) {
+    return {};
+  }
+  return {given.substr(0, sign), factor};
+}
+
+std::string check_chord_factor(const std::string &given) {
+  if (!parse_chord_factor(given).first.empty()) return {};
+  return "'" + given + "' is no chord and factor, as in P2/3=1.25";
+}
+
+mvs::Snapshot make_valve(const Options &options) {
+  mvs_parametric_desc desc = options.valve;
+  for (const Dimension &length : lengths) desc.*length.value /= 1e3;
+  mvs::Sim sim = make_sim();
+  sim.generate(desc);
+  if (options.chord_factors.empty()) return sim.snapshot();
+  ValveCopy copy(sim.snapshot());
+  for (const std::string &given : options.chord_factors) {
+    const auto [name, factor] = parse_chord_factor(given);
+    copy.scale_chord(name, factor);
+  }
+  copy.set(sim);
+  return sim.snapshot();
+}
+
+void run(const Options &options, const Console &console) {
+  const mvs::Snapshot valve = make_valve(options);
+  valve.save(options.out);
+  const Size size = size_of(valve);
+  const Json object = {{"file", options.out},       {"name", mvs_snapshot_name(valve.get())},
+                       {"vertices", size.vertices}, {"faces", size.faces},
+                       {"chords", size.chords},     {"heads", size.heads},
+                       {"hash", hash_of(valve)}};
+  print(console, object,
+        text("%s: an open valve of %zu leaflet vertices, %zu triangles, %zu chordae, %zu papillary "
+             "heads",
+             options.out.c_str(), size.vertices, size.faces, size.chords, size.heads));
+}
+
+}  // namespace
+
+void add_generate(CLI::App &app, Console &console) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = add_command(app, console, "generate", "make a parametric mitral valve");
+  command->add_option("-o,--output", options->out, "file to write, .obj or .vtp")->required();
+  command->add_option("--vertices", options->valve.vertices, "leaflet vertices, about [425]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--chords", options->valve.chords, "chord segments, about [80]")
+      ->check(CLI::PositiveNumber);
+  command->add_flag_callback(
+      "--branching", [options] { options->valve.branching = 1; },
+      "chordae branch on their way to the leaflet");
+  for (const Dimension &d : lengths) {
+    command->add_option(d.option, options->valve.*d.value, text("%s, mm [%g]", d.what, d.standard))
+        ->check(CLI::PositiveNumber);
+  }
+  for (const Dimension &d : factors) {
+    command->add_option(d.option, options->valve.*d.value, text("%s [%g]", d.what, d.standard))
+        ->check(CLI::PositiveNumber);
+  }
+  command
+      ->add_option("--chord-factor", options->chord_factors,
+                   "NAME=FACTOR: factor on the rest length of one chord, P2/3=1.25; repeatable")
+      ->check(CLI::Validator(check_chord_factor, "NAME=FACTOR"))
+      ->allow_extra_args(false);
+  command->callback([options, &console] { run(*options, console); });
+}
+
+}  // namespace cli

@@ -1,0 +1,46 @@
+#include "host.h"
+
+#include <cinttypes>
+#include <cstdio>
+
+namespace cli {
+namespace {
+
+void log_to_stderr(void *, int32_t level, const char *text) {
+  if (level <= MVS_LOG_WARNING) std::fprintf(stderr, "mvs: %s\n", text);
+}
+
+}  // namespace
+
+mvs::Sim make_sim(mvs_sim_desc desc) {
+  desc.log = log_to_stderr;
+  return mvs::Sim(desc);
+}
+
+mvs::Snapshot load(const std::string &path) {
+  mvs::Sim sim = make_sim();
+  sim.load_file(path);
+  return sim.snapshot();
+}
+
+Size size_of(const mvs::Snapshot &valve) {
+  Size size;
+  for (const uint8_t kind : valve.view<uint8_t>(MVS_NODE_KIND)) {
+    size.vertices += kind == MVS_NODE_IS_LEAFLET || kind == MVS_NODE_IS_ANNULUS;
+    size.branches += kind == MVS_NODE_IS_BRANCH;
+  }
+  size.faces = valve.view<uint32_t>(MVS_TRIANGLE_NODES).rows();
+  size.chords = valve.view<uint32_t>(MVS_CHORD_NODES).rows();
+  size.heads = valve.view<uint32_t>(MVS_HEAD_NODES).rows();
+  size.annulus = valve.view<uint32_t>(MVS_ANNULUS_NODES).rows();
+  return size;
+}
+
+std::string hash_of(const mvs::Snapshot &valve) {
+  const auto hash = valve.hash();
+  char text[33];
+  std::snprintf(text, sizeof text, "%016" PRIx64 "%016" PRIx64, hash[0], hash[1]);
+  return text;
+}
+
+}  // namespace cli

@@ -1,0 +1,20 @@
+// The read-outs of mvs_measures with their names, units and words.
+#pragma once
+
+#include <string>
+
+#include "console.h"
+
+namespace cli {
+
+// Every read-out, named with its unit: {"regurgitant_orifice_area_mm2": 0.0, ...}. A read-out that
+// does not exist (no coaptation, say) is null.
+Json measures_json(const mvs_measures &measures);
+
+// The same as a table for people, with the grade of the leak.
+std::string measures_text(const mvs_measures &measures);
+
+// The grade of a leak of this orifice area in m2: "none", "mild", ...
+const char *leak_grade(double orifice_area);
+
+}  // namespace cli
