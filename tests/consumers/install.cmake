@@ -1,0 +1,38 @@
+# Installs a build afresh and looks whether everything a user needs is there, and nothing else is.
+file(REMOVE_RECURSE ${PREFIX})
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX}
+  RESULT_VARIABLE failed OUTPUT_QUIET)
+if(failed)
+  message(FATAL_ERROR "cmake --install failed")
+endif()
+
+file(GLOB shipped RELATIVE ${SOURCE}/include/mvs ${SOURCE}/include/mvs/*)
+file(GLOB installed RELATIVE ${PREFIX}/include/mvs ${PREFIX}/include/mvs/*)
+if(NOT "${shipped}" STREQUAL "${installed}")
+  message(FATAL_ERROR "headers: installed '${installed}', in the repository '${shipped}'")
+endif()
+# the library under its SONAME, which carries major.minor
+foreach(pattern bin/mvs lib*/libmvs.so.${SOVERSION} lib*/cmake/mvs/mvsConfig.cmake
+        lib*/pkgconfig/mvs.pc share/doc/libmvs/LICENSE)
+  file(GLOB found ${PREFIX}/${pattern})
+  if(NOT found)
+    message(FATAL_ERROR "not installed: ${pattern}")
+  endif()
+endforeach()
+
+# Not one path of the building machine may be in what is shipped as text.
+file(GLOB_RECURSE texts ${PREFIX}/*.cmake ${PREFIX}/*.pc ${PREFIX}/*.h)
+foreach(text ${texts})
+  file(READ ${text} content)
+  foreach(path ${BUILD} ${SOURCE} ${PREFIX})
+    string(FIND "${content}" "${path}" place)
+    if(NOT place EQUAL -1)
+      message(FATAL_ERROR "${text} holds the path ${path}")
+    endif()
+  endforeach()
+endforeach()
+
+execute_process(COMMAND ${PREFIX}/bin/mvs --version RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "the installed command does not start")
+endif()
