@@ -113,7 +113,7 @@ mvs_result mvs_save_memory(const mvs_snapshot *snapshot, uint32_t format_given, 
     must_point(size, "size");
     if (capacity > 0) must_point(data, "data");
     const std::string bytes = written(*snapshot, checked_format(format_given));
-    std::memcpy(data, bytes.data(), std::min<uint64_t>(capacity, bytes.size()));
+    if (capacity > 0) std::memcpy(data, bytes.data(), std::min<uint64_t>(capacity, bytes.size()));
     *size = bytes.size();
   });
 }
