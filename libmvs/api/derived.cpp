@@ -1,5 +1,5 @@
 // What a snapshot works out, each part once.
-#include "api/snapshot.h"
+#include "api/snapshot_impl.h"
 #include "base/intersect.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "api/sim.h"
+#include "api/simulator.h"
 #include "formats/formats.h"
 
 using namespace mvs;

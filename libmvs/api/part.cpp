@@ -1,7 +1,7 @@
 // The named parts of a snapshot.
 #include <cstring>
 
-#include "api/snapshot.h"
+#include "api/snapshot_impl.h"
 #include "api/structs.h"
 
 namespace {

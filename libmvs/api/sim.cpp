@@ -1,5 +1,5 @@
 // The life of a simulator: create, give it a valve, snapshot, restore, destroy.
-#include "api/sim.h"
+#include "api/simulator.h"
 
 #include <cstdarg>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // Snapshots: references, hash, load, measures, comparison, cuts.
-#include "api/snapshot.h"
+#include "api/snapshot_impl.h"
 
 #include "api/structs.h"
 

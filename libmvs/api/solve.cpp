@@ -1,7 +1,7 @@
 // Load, settle, step, statistics.
 #include <cmath>
 
-#include "api/sim.h"
+#include "api/simulator.h"
 
 using namespace mvs;
 

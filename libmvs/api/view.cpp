@@ -1,5 +1,5 @@
 // The arrays of a snapshot, each where it lies.
-#include "api/snapshot.h"
+#include "api/snapshot_impl.h"
 #include "api/structs.h"
 
 namespace {

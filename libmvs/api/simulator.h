@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "api/snapshot.h"
+#include "api/snapshot_impl.h"
 #include "api/structs.h"
 #include "physics/solver.h"
 

@@ -1,0 +1,100 @@
+// The C++ handles: they free, share, throw, and show what C shows.
+#include <cstdio>
+#include <mvs/mvs.hpp>
+#include <type_traits>
+
+namespace {
+
+int failures = 0;
+
+void check(bool condition, const char *what) {
+  if (condition) return;
+  ++failures;
+  std::printf("not so: %s\n", what);
+}
+
+void handles_move_and_snapshots_are_shared() {
+  static_assert(!std::is_copy_constructible<mvs::Sim>::value, "one owner");
+  static_assert(std::is_nothrow_move_constructible<mvs::Sim>::value, "moves");
+  mvs::Sim first;
+  first.generate();
+  mvs::Sim sim = std::move(first);
+  const mvs::Snapshot one = sim.snapshot();
+  mvs::Snapshot two = one, three = std::move(two);
+  two = three;
+  sim = mvs::Sim();
+  check(one.hash() == two.hash() && one.get() == three.get(), "copies show one snapshot");
+}
+
+void failures_are_thrown_with_code_and_part() {
+  try {
+    mvs::Sim().snapshot();
+    check(false, "an empty simulator has no snapshot");
+  } catch (const mvs::Error &error) {
+    check(error.code() == MVS_E_STATE, "the code of C");
+    check(error.part() == "sim" && error.line() == 0, "part and line of C");
+    check(std::string(error.what()) == mvs_last_error()->message, "the sentence of C");
+  }
+}
+
+void views_know_their_type() {
+  mvs::Sim sim;
+  sim.generate();
+  const mvs::Snapshot snapshot = sim.snapshot();
+  const mvs::View<double> x = snapshot.view<double>(MVS_NODE_POSITION);
+  check(x.rows() > 0 && x.components() == 3, "positions are rows of three");
+  check(x.end() - x.begin() == static_cast<std::ptrdiff_t>(3 * x.rows()), "all of them");
+  check(x.row(1) == x.data() + 3, "packed");
+  check(snapshot.view<std::uint32_t>(MVS_TRIANGLE_NODES).rows() > 0, "triangles");
+  check(snapshot.view<std::uint8_t>(MVS_NODE_KIND).rows() == x.rows(), "kinds");
+  check(snapshot.view<std::uint64_t>(MVS_CHORD_ID).rows() > 0, "ids");
+  try {
+    snapshot.view<double>(MVS_TRIANGLE_NODES);
+    check(false, "an index is no double");
+  } catch (const std::invalid_argument &) {
+  }
+}
+
+void a_valve_is_worked_on_from_load_to_file() {
+  mvs::Sim sim;
+  sim.generate();
+  const mvs::Snapshot open = sim.snapshot();
+  sim.set_load(100, 0.5);
+  check(sim.load().pressure == 100, "the load is read back");
+  mvs_settle_options few = {};
+  few.max_iterations = 2;
+  sim.settle(few);
+  sim.step();
+  check(sim.stats().iterations == 1, "statistics of the step");
+  const mvs::Snapshot now = sim.snapshot();
+  check(now.load().boundary_fraction == 0.5 && now.name() == open.name(), "state and name");
+  check(now.measure().annulus_perimeter > 0, "measures");
+  check(open.compare(open).same_mesh == 1, "comparison");
+  const std::vector<mvs_part> leaflets = now.parts(MVS_PART_LEAFLET);
+  check(!leaflets.empty() && now.find(MVS_PART_LEAFLET, leaflets[0].name).id == leaflets[0].id,
+        "parts");
+  const std::array<double, 12> frame = now.frame();
+  check(now.section({frame[0], frame[1], frame[2]}, {frame[3], frame[4], frame[5]}).size() > 1,
+        "a cut through the middle");
+  check(now.section({1, 1, 1}, {1, 1, 1}).empty(), "a cut beside the valve");
+  const std::string bytes = now.save_memory();
+  mvs::Sim other;
+  other.load_memory(bytes);
+  check(other.snapshot().hash() == now.hash(), "saved and loaded");
+  now.save("handles_test.obj");
+  other.load_file("handles_test.obj");
+  std::remove("handles_test.obj");
+  other.restore(open);
+  check(other.snapshot().hash() == open.hash(), "restored");
+}
+
+}  // namespace
+
+int main() {
+  handles_move_and_snapshots_are_shared();
+  failures_are_thrown_with_code_and_part();
+  views_know_their_type();
+  a_valve_is_worked_on_from_load_to_file();
+  std::printf("handles: %s\n", failures ? "FAILED" : "ok");
+  return failures ? 1 : 0;
+}

@@ -1,0 +1,20 @@
+# Compares the dynamic symbols that LIBRARY defines with the list in WANTED.
+execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE lines
+  RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "${NM} could not read ${LIBRARY}")
+endif()
+string(REGEX MATCHALL "[^ \n]+\n" found "${lines}")
+string(REPLACE "\n" "" found "${found}")
+list(SORT found)
+file(STRINGS ${WANTED} wanted)
+set(extra ${found})
+set(missing ${wanted})
+list(REMOVE_ITEM extra ${wanted})
+list(REMOVE_ITEM missing ${found})
+if(extra OR missing)
+  message(FATAL_ERROR "exported but not in symbols.txt: ${extra}\n"
+    "in symbols.txt but not exported: ${missing}")
+endif()
+list(LENGTH found count)
+message(STATUS "${count} symbols, as listed")

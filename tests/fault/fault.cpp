@@ -1,0 +1,198 @@
+// For each call, the n-th allocation fails, for one n after the other. Then the code is
+// MVS_E_MEMORY, the simulator and its snapshots are bit for bit as before, and nothing has leaked.
+#include <mvs/mvs.h>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "allocator.h"
+#include "check.h"
+#include "funnel.h"
+
+namespace {
+
+// What a call works on: made anew for each attempt, so that nothing is worked out already.
+struct Scene {
+  mvs_sim *sim = nullptr;
+  const mvs_snapshot *snapshot = nullptr;
+};
+
+funnel valve;
+std::string saved;  // the valve as a file
+
+mvs_load_case light_load() {
+  mvs_load_case load = funnel_load();
+  load.pressure /= 10;
+  return load;
+}
+
+Scene make_scene() {
+  Scene scene;
+  const mvs_load_case load = light_load();
+  MUST(mvs_create(nullptr, &scene.sim));
+  MUST(mvs_set_valve(scene.sim, &valve.desc));
+  MUST(mvs_set_load(scene.sim, &load));
+  MUST(mvs_get_snapshot(scene.sim, &scene.snapshot));
+  return scene;
+}
+
+void free_scene(const Scene &scene) {
+  mvs_snapshot_release(scene.snapshot);
+  mvs_destroy(scene.sim);
+}
+
+struct Call {
+  const char *name;
+  std::function<mvs_result(Scene &)> make;
+};
+
+// How many allocations a call makes when none fails.
+long count_allocations(const Call &call) {
+  Scene scene = make_scene();
+  fault::fail_from(0);
+  MUST(call.make(scene));
+  const long count = fault::allocations();
+  free_scene(scene);
+  return count;
+}
+
+// Fails allocation n of one call in a new scene.
+void fail_allocation(const Call &call, long n) {
+  const long before = fault::alive();
+  Scene scene = make_scene();
+  const hash128 start = sim_hash(scene.sim);
+  fault::fail_from(n);
+  const mvs_result result = call.make(scene);
+  const bool failed = fault::has_failed();
+  fault::fail_from(0);
+  const bool same =
+      same_hash(start, sim_hash(scene.sim)) && same_hash(start, snapshot_hash(scene.snapshot));
+  free_scene(scene);
+  const bool leaked = fault::alive() != before;
+  if (failed && result == MVS_E_MEMORY && same && !leaked) return;
+  ++failures;
+  std::printf("%s, allocation %ld: %s%s%s%s\n", call.name, n, mvs_result_name(result),
+              failed ? "" : ", not reached", same ? "" : ", changed", leaked ? ", leaked" : "");
+}
+
+// The first allocations all, where most of the kinds are; of thousands in a loop some hundred,
+// spread evenly, since each attempt costs a whole call.
+void fail_each_allocation(const Call &call) {
+  constexpr long all_of_first = 800, spread = 150;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const long count = count_allocations(call);
+  long attempts = 0;
+  for (long n = 1; n <= count && failures < 10; ++attempts) {
+    fail_allocation(call, n);
+    n += n < all_of_first ? 1 : 1 + (count - all_of_first) / spread;
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  std::printf("%-14s %6ld of %6ld allocations failed, %.2f s\n", call.name, attempts, count,
+              seconds);
+  std::fflush(stdout);
+}
+
+mvs_result view(const Scene &scene, uint32_t which) {
+  mvs_view found;
+  return mvs_snapshot_view(scene.snapshot, which, &found);
+}
+
+mvs_result save(const Scene &scene, uint32_t format) {
+  uint64_t size = 0;
+  return mvs_save_memory(scene.snapshot, format, nullptr, 0, &size);
+}
+
+std::vector<Call> calls() {
+  return {
+      {"create",
+       [](Scene &) {
+         mvs_sim *sim = nullptr;
+         const mvs_result result = mvs_create(nullptr, &sim);
+         mvs_destroy(sim);
+         return result;
+       }},
+      {"set_valve", [](Scene &s) { return mvs_set_valve(s.sim, &valve.desc); }},
+      {"check_valve", [](Scene &) { return mvs_check_valve(&valve.desc, nullptr, nullptr); }},
+      {"generate",
+       [](Scene &s) {
+         mvs_parametric_desc desc = {};
+         desc.struct_size = sizeof desc;
+         desc.vertices = 200;
+         return mvs_generate_valve(s.sim, &desc);
+       }},
+      {"set_load",
+       [](Scene &s) {
+         const mvs_load_case load = funnel_load();
+         return mvs_set_load(s.sim, &load);
+       }},
+      {"settle",
+       [](Scene &s) {
+         mvs_settle_options options = {};
+         options.struct_size = sizeof options;
+         options.max_iterations = 2;
+         return mvs_settle(s.sim, &options, nullptr);
+       }},
+      {"step implicit", [](Scene &s) { return mvs_step(s.sim, nullptr); }},
+      {"step explicit",
+       [](Scene &s) {
+         const mvs_step_options options = {sizeof options, MVS_SOLVER_EXPLICIT, 0, 0};
+         return mvs_step(s.sim, &options);
+       }},
+      {"forces", [](Scene &s) { return view(s, MVS_NODE_FORCE); }},
+      {"tables", [](Scene &s) { return view(s, MVS_CHORD_NODES); }},
+      {"coaptation", [](Scene &s) { return view(s, MVS_NODE_COAPTATION); }},
+      {"strain", [](Scene &s) { return view(s, MVS_TRIANGLE_STRESS); }},
+      {"chords", [](Scene &s) { return view(s, MVS_CHORD_TENSION); }},
+      {"measure",
+       [](Scene &s) {
+         mvs_measures measures = {};
+         measures.struct_size = sizeof measures;
+         return mvs_snapshot_measure(s.snapshot, &measures);
+       }},
+      {"compare",
+       [](Scene &s) {
+         mvs_comparison comparison = {};
+         comparison.struct_size = sizeof comparison;
+         return mvs_snapshot_compare(s.snapshot, s.snapshot, &comparison);
+       }},
+      {"section",
+       [](Scene &s) {
+         const double at[3] = {0, 0, -1e-3}, up[3] = {0, 0, 1};
+         uint64_t count = 0;
+         return mvs_snapshot_section(s.snapshot, at, up, nullptr, 0, &count);
+       }},
+      {"frame",
+       [](Scene &s) {
+         double frame[12];
+         return mvs_snapshot_frame(s.snapshot, frame);
+       }},
+      {"restore", [](Scene &s) { return mvs_restore(s.sim, s.snapshot); }},
+      {"load_memory",
+       [](Scene &s) { return mvs_load_memory(s.sim, saved.data(), saved.size(), 0); }},
+      {"save obj", [](Scene &s) { return save(s, MVS_FORMAT_OBJ); }},
+      {"save vtp", [](Scene &s) { return save(s, MVS_FORMAT_VTP); }},
+  };
+}
+
+std::string save_scene() {
+  const Scene scene = make_scene();
+  uint64_t size = 0;
+  MUST(mvs_save_memory(scene.snapshot, MVS_FORMAT_OBJ, nullptr, 0, &size));
+  std::string bytes(size, ' ');
+  MUST(mvs_save_memory(scene.snapshot, MVS_FORMAT_OBJ, bytes.data(), size, &size));
+  free_scene(scene);
+  return bytes;
+}
+
+}  // namespace
+
+int main() {
+  make_funnel(&valve);
+  saved = save_scene();
+  for (const Call &call : calls()) fail_each_allocation(call);
+  return finish("fault");
+}
