@@ -1,5 +1,7 @@
-# Compares the types that LIBRARY exports with the baseline. After a change that is meant, make a
-# new baseline with the command that ctest -V -R abi_types shows, and -DUPDATE=ON before its -P.
+# Compares the types that LIBRARY exports with the baseline. After a change that is meant, such as a
+# field at the end of a struct with struct_size, make a new baseline with the command that
+# ctest -V -R abi_types shows, and -DUPDATE=ON before its -P. No suppression lets such fields pass by
+# themselves: with "has_data_member_inserted_at = end" libabigail 2.2 lets moved fields pass as well.
 if(NOT ABIDIFF OR NOT ABIDW)
   message(STATUS "skipped: abidw and abidiff (abigail-tools) are not installed")
   return()
@@ -19,7 +21,7 @@ if(UPDATE)
   message(STATUS "new baseline ${FOLDER}/mvs.abi")
   return()
 endif()
-execute_process(COMMAND ${ABIDIFF} --no-added-syms --suppressions ${FOLDER}/grows.abignore
+execute_process(COMMAND ${ABIDIFF} --no-added-syms
   ${FOLDER}/mvs.abi ${NEW} RESULT_VARIABLE changed OUTPUT_VARIABLE report)
 if(changed)
   message(FATAL_ERROR "the binary interface changed:\n${report}")
