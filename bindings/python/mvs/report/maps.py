@@ -68,7 +68,7 @@ def _map(
     figure = plt.figure(figsize=(8, 9.7))
     top = figure.add_axes((0, 0.34, 1, 0.66))
     place_image(top, image, view)
-    label_sides(top, drawing)
+    label_sides(top, drawing, view)
     label_scallops(top, drawing, view)
     scale_bar(top)
     flat = figure.add_axes((0.09, 0.135, 0.88, 0.22))

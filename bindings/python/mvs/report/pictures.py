@@ -38,7 +38,7 @@ def view_from_atrium(width: float) -> View:
 
 def view_oblique(width: float) -> View:
     """From the posterior side and above, with the papillary muscles."""
-    return View(towards=(0.45, -1.0, 0.62), up=(0, 0, 1), width=width, centre=(0, 0, -13))
+    return View(towards=(0.45, -1.0, 0.62), up=(0, 0, 1), width=width, centre=(0, 0, -14))
 
 
 def view_from_ventricle(width: float) -> View:
@@ -73,11 +73,12 @@ def label_scallops(ax: Any, drawing: Drawing, view: View) -> None:
         _label(ax, view.project(anchor), name, fontsize=14, fontweight="bold")
 
 
-def label_sides(ax: Any, drawing: Drawing) -> None:
+def label_sides(ax: Any, drawing: Drawing, view: View) -> None:
     """Which side is which, on the strip of wall, for a view from the atrium."""
     ring = drawing.annulus
-    for y, text in ((ring[:, 1].max() + 2.3, "anterior"), (ring[:, 1].min() - 2.3, "posterior")):
-        ax.text(0, y, text, ha="center", va="center", fontsize=11, style="italic", color="#5a3d34")
+    for y, text in ((ring[:, 1].max() + 2.6, "anterior"), (ring[:, 1].min() - 2.6, "posterior")):
+        ax.text(*view.project(np.array([0.0, y, 0.0])), text, ha="center", va="center",
+                fontsize=11, style="italic", color="#5a3d34")
 
 
 def label_heads(ax: Any, drawing: Drawing, view: View) -> None:
@@ -126,7 +127,7 @@ def picture(
     ax = figure.add_axes((0, 0.1 if tension else 0, 1, 0.9 if tension else 1))
     place_image(ax, image, view)
     if from_atrium:
-        label_sides(ax, drawing)
+        label_sides(ax, drawing, view)
         if labels:
             label_scallops(ax, drawing, view)
     else:
