@@ -31,6 +31,14 @@ def to_png(figure: Any) -> bytes:
     return memory.getvalue()
 
 
+def side_by_side(pictures: list[bytes]) -> bytes:
+    """Pictures of one height joined to a strip."""
+    images = [plt.imread(io.BytesIO(png)) for png in pictures]
+    memory = io.BytesIO()
+    plt.imsave(memory, np.ascontiguousarray(np.hstack(images)), format="png")
+    return memory.getvalue()
+
+
 def view_from_atrium(width: float) -> View:
     """The surgeon's view: the anterior leaflet up, P2 down."""
     return View(towards=(0, 0, 1), up=(0, 1, 0), width=width, centre=(0, -1.5, 0))
