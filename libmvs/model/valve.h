@@ -57,11 +57,11 @@ struct Valve {
   std::vector<Scallop> scallops;
   std::vector<Chord> chords;
   std::vector<Head> heads;
-  double density = 1060;              // kg/m3
+  double density = 1060;            // kg/m3
   double contact_thickness = 1e-3;  // m, of a leaflet
-  double contact_stiffness = 20e3;    // Pa
-  double bending_scale = 1;           // 0: no bending
-  Id next_id = 1;                     // every id given so far is below it
+  double contact_stiffness = 20e3;  // Pa
+  double bending_scale = 1;         // 0: no bending
+  Id next_id = 1;                   // every id given so far is below it
 };
 
 }  // namespace mvs

@@ -89,8 +89,9 @@ class Close(Command):
         self.assertEqual(self.closed["measures"]["regurgitant_orifice_area_mm2"], 0)
 
     def test_dilated_annulus_leaks(self):
+        # the annulus by 15 %, and one strut chord longer by 25 %
         self.ok("generate", "-o", "dilated.obj", "--annulus-scale", 1.15,
-                "--chord-factor", "P2/1=1.25")
+                "--chord-factor", "A1/11=1.25")
         leaking = self.json("close", "dilated.obj")
         self.assertTrue(leaking["converged"])
         self.assertEqual(leaking["intersections"], 0)
