@@ -15,7 +15,7 @@ constexpr double boundary_step = 0.5e-3;  // m a prescribed node may go in one i
 constexpr double least_shift = 1e-4;      // keeps slack branch points and loose flaps solvable
 constexpr double largest_shift = 1e3;
 constexpr int trials = 8;  // of one iteration, each with a larger shift
-constexpr int most_patience = 16;
+constexpr int most_patience = 64;
 
 double largest(const std::vector<Vec3> &v) {
   double square = 0;
@@ -68,6 +68,7 @@ void Newton::begin(const State &state) {
   shift_ = 1;
   wait_ = 0;
   patience_ = 1;
+  best_ = rest_force_;
   reach_.assign(x_.size(), 0.25 * model_->valve.contact_thickness);
   evaluate();
 }
@@ -88,7 +89,12 @@ void Newton::evaluate() {
 void Newton::iterate() {
   if (residual_ < rest_force_ && wait_ == 0) {
     if (rest_step()) {
-      patience_ = 1;
+      // steps on the force and steps on the energy may undo each other: only a force that has
+      // never been so small shows that rest is near
+      if (residual_ < 0.5 * best_) {
+        best_ = residual_;
+        patience_ = 1;
+      }
       return;
     }
     wait_ = patience_;

@@ -62,6 +62,7 @@ class Newton {
   double shift_ = 0, added_ = 0;            // wanted; in the matrix now
   double longest_ = 0;                      // m, of the uncut step
   double energy_ = 0, residual_ = 0;
+  double best_ = 0;  // N, the smallest residual at rest so far
   Curvature curvature_ = Curvature::projected;
   int wait_ = 0, patience_ = 1;  // iterations until rest_step is tried again
 };
