@@ -9,7 +9,7 @@ namespace {
 
 Vec3 read_vector(const double given[3], const char *what) {
   must_point(given, what);
-  const Vec3 vector(given[0], given[1], given[2]);
+  Vec3 vector(given[0], given[1], given[2]);
   MVS_MUST(vector.allFinite(), MVS_E_ARGUMENT, what, "%s has a component that is not a number",
            what);
   return vector;
