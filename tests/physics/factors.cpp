@@ -1,0 +1,188 @@
+// Sparse factors, the elimination order and GMRES against dense algebra.
+#include "base/factor.h"
+
+#include <mvs/sim.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "base/gmres.h"
+#include "bench.h"
+
+using namespace mvs;
+using namespace mvs::test;
+
+namespace {
+
+std::vector<uint32_t> backends() {
+  std::vector<uint32_t> list{MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN};
+  if (std::string(factor_names()).find("cholmod") != std::string::npos) {
+    list.push_back(MVS_BACKEND_CHOLMOD);
+  }
+  return list;
+}
+
+std::vector<Edge> random_pairs(Random &random, uint32_t n, size_t count) {
+  std::vector<Edge> pairs;
+  while (pairs.size() < count) {
+    const auto i = static_cast<uint32_t>(random(0, n)), j = static_cast<uint32_t>(random(0, n));
+    if (i != j) pairs.push_back({i, j});
+  }
+  return pairs;
+}
+
+// Random blocks; the diagonal outweighs its row, so that the matrix is positive definite.
+BlockMatrix random_matrix(Random &random, uint32_t n, size_t pairs) {
+  BlockMatrix m;
+  m.set_pattern(n, random_pairs(random, n, pairs));
+  std::vector<double> weight(n, 1.0);
+  for (uint32_t c = 0; c < n; ++c) {
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      for (int i = 0; i < 9; ++i) m.value[k](i) = random(-1, 1);
+      weight[c] += 3;
+      weight[m.row[k]] += 3;
+    }
+  }
+  for (uint32_t c = 0; c < n; ++c) {
+    Mat3 &d = m.value[m.start[c]];
+    for (int i = 0; i < 9; ++i) d(i) = random(-0.2, 0.2);
+    d = (d + d.transpose()).eval() + weight[c] * Mat3::Identity();
+  }
+  return m;
+}
+
+Eigen::MatrixXd dense(const BlockMatrix &m) {
+  const Eigen::Index n = 3 * m.size();
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    for (uint32_t k = m.start[c]; k < m.start[c + 1]; ++k) {
+      full.block<3, 3>(3 * m.row[k], 3 * c) = m.value[k];
+      full.block<3, 3>(3 * c, 3 * m.row[k]) = m.value[k].transpose();
+    }
+  }
+  return full;
+}
+
+}  // namespace
+
+TEST_CASE("every_factor_solves_as_dense_algebra_does") {
+  Random random(1);
+  for (const uint32_t backend : backends()) {
+    CAPTURE(backend);
+    const std::unique_ptr<Factor> factor = make_factor(backend);
+    for (const uint32_t n : {1u, 2u, 7u, 40u, 90u}) {
+      const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 3 * n);
+      factor->analyse(m);
+      REQUIRE(factor->factorise(m));
+      const Positions b = random.vectors(n, 1);
+      Positions x = b;
+      factor->solve(x);
+      const Eigen::VectorXd expected = dense(m).ldlt().solve(flat(b));
+      // rounding of a well-conditioned matrix of at most 270 rows
+      CHECK((flat(x) - expected).norm() < 1e-12 * expected.norm());
+    }
+  }
+}
+
+TEST_CASE("a_factor_takes_new_values_on_its_pattern") {
+  Random random(2);
+  for (const uint32_t backend : backends()) {
+    CAPTURE(backend);
+    const std::unique_ptr<Factor> factor = make_factor(backend);
+    BlockMatrix m = random_matrix(random, 30, 80);
+    factor->analyse(m);
+    REQUIRE(factor->factorise(m));
+    for (uint32_t c = 0; c < m.size(); ++c) m.value[m.start[c]] *= 3;
+    REQUIRE(factor->factorise(m));
+    const Positions b = random.vectors(30, 1);
+    Positions x = b;
+    factor->solve(x);
+    // the residual of a well-conditioned solve: rounding
+    CHECK((dense(m) * flat(x) - flat(b)).norm() < 1e-12 * flat(b).norm());
+  }
+}
+
+TEST_CASE("every_factor_refuses_what_is_not_positive_definite") {
+  Random random(3);
+  for (const uint32_t backend : backends()) {
+    CAPTURE(backend);
+    const std::unique_ptr<Factor> factor = make_factor(backend);
+    const BlockMatrix good = random_matrix(random, 30, 80);
+    factor->analyse(good);
+    for (const uint32_t row : {0u, 11u, 29u}) {
+      BlockMatrix bad = good;
+      bad.value[bad.start[row]](1, 1) = -1;  // a negative diagonal is no positive definite matrix
+      CHECK_FALSE(factor->factorise(bad));
+      bad.value[bad.start[row]](1, 1) = std::numeric_limits<double>::quiet_NaN();
+      CHECK_FALSE(factor->factorise(bad));
+    }
+    // indefinite although every diagonal entry is positive
+    BlockMatrix hidden = good;
+    for (uint32_t k = hidden.start[0] + 1; k < hidden.start[1]; ++k) hidden.value[k] *= 1e3;
+    REQUIRE(dense(hidden).selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() < 0);
+    CHECK_FALSE(factor->factorise(hidden));
+    CHECK(factor->factorise(good));  // and is usable again afterwards
+  }
+}
+
+TEST_CASE("an_unknown_backend_is_refused") {
+  CHECK_THROWS_AS(make_factor(99), Error);
+}
+
+TEST_CASE("a_fill_reducing_order_is_a_permutation") {
+  Random random(4);
+  for (const uint32_t n : {1u, 5u, 64u, 300u}) {
+    std::vector<uint32_t> order =
+        fill_reducing_order(n, random_pairs(random, n, n < 2 ? 0 : 4 * n));
+    std::sort(order.begin(), order.end());
+    REQUIRE(order.size() == n);
+    for (uint32_t k = 0; k < n; ++k) CHECK(order[k] == k);
+  }
+}
+
+TEST_CASE("gmres_solves_an_unsymmetric_system") {
+  Random random(5);
+  const uint32_t n = 20;
+  // the identity and something small beside it, as a factorisation leaves it
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(3 * n, 3 * n);
+  for (Eigen::Index i = 0; i < a.size(); ++i) a(i) += random(-0.1, 0.1);
+  const auto apply = [&](const Positions &v) {
+    const Eigen::VectorXd y = a * flat(v);
+    Positions result(n);
+    for (uint32_t i = 0; i < n; ++i) result[i] = y.segment<3>(3 * i);
+    return result;
+  };
+  const Positions b = random.vectors(n, 1);
+  for (const double tolerance : {1e-3, 1e-10}) {
+    Positions x = b;
+    const double reached = gmres(apply, x, 60, tolerance);
+    CHECK(reached <= tolerance);
+    // what it says it has reached is what it has reached, to rounding
+    const double residual = (a * flat(x) - flat(b)).norm() / flat(b).norm();
+    CHECK(residual == doctest::Approx(reached).epsilon(1e-6).scale(1e-6));
+  }
+  Positions zero(n, Vec3::Zero());
+  CHECK(gmres(apply, zero, 60, 1e-10) == 0);
+  CHECK(largest(zero) == 0);
+}
+
+TEST_CASE("gmres_stops_at_its_limit_and_says_how_far_it_got") {
+  Random random(6);
+  Eigen::MatrixXd a(60, 60);
+  for (Eigen::Index i = 0; i < a.size(); ++i) a(i) = random(-1, 1);
+  const auto apply = [&](const Positions &v) {
+    const Eigen::VectorXd y = a * flat(v);
+    Positions result(20);
+    for (uint32_t i = 0; i < 20; ++i) result[i] = y.segment<3>(3 * i);
+    return result;
+  };
+  const Positions b = random.vectors(20, 1);
+  Positions x = b;
+  const double reached = gmres(apply, x, 5, 1e-10);
+  CHECK(reached > 1e-10);
+  CHECK(reached <= 1);
+  CHECK((a * flat(x) - flat(b)).norm() == about(reached * flat(b).norm(), 1e-9));
+}

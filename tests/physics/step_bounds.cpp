@@ -1,0 +1,312 @@
+// Which pairs come up, against all pairs; and steps that never lead through a sheet.
+#include "physics/step_bounds.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../unit/small_valve.h"
+#include "base/distance.h"
+#include "base/grid.h"
+#include "base/intersect.h"
+#include "bench.h"
+#include "physics/contact.h"
+
+using namespace mvs;
+using namespace mvs::test;
+
+namespace {
+
+double distance(const Positions &x, uint32_t v, const Tri &t) {
+  return std::sqrt(closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).distance2);
+}
+
+double distance(const Positions &x, const Edge &e, const Edge &f) {
+  return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
+}
+
+bool has(const Tri &t, uint32_t v) {
+  return t[0] == v || t[1] == v || t[2] == v;
+}
+
+bool share(const Edge &e, const Edge &f) {
+  return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
+}
+
+// All pairs that do not touch by their nodes, in the order of Candidates.
+template <typename Visit>
+void for_vertex_triangles(const Model &model, Visit &&visit) {
+  for (uint32_t v = 0; v < model.node_count(); ++v) {
+    if (model.vertex_area[v] == 0) continue;  // heads and branch points are no part of the sheet
+    for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
+      if (!has(model.valve.triangles[t], v)) visit(v, t);
+    }
+  }
+}
+template <typename Visit>
+void for_edge_pairs(const Model &model, Visit &&visit) {
+  const auto &edges = model.topology.edges;
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    for (uint32_t j = i + 1; j < edges.size(); ++j) {
+      if (!share(edges[i], edges[j])) visit(i, j);
+    }
+  }
+}
+
+// Two plates that wave near each other and do not cross.
+Positions wavy(const Plates &plates, Random &random) {
+  Positions x = plates.at(0.5e-3);
+  const double phase = random(0, 6), other = random(0, 6);
+  for (Vec3 &p : x) {
+    p.z() += 1e-3 * std::sin(400 * p.x() + phase) * std::cos(300 * p.y() + other);
+    p += random.vector(0.08e-3);
+  }
+  return x;
+}
+
+Plates plates_for_steps() {
+  return two_plates(8, 10e-3, 3e-3, false, [](Valve &) {});
+}
+
+Positions moved(const Positions &x, double share, const Positions &dx) {
+  Positions y = x;
+  for (size_t i = 0; i < y.size(); ++i) y[i] += share * dx[i];
+  return y;
+}
+
+std::vector<double> lengths(const Positions &dx) {
+  std::vector<double> result;
+  for (const Vec3 &d : dx) result.push_back(d.norm());
+  return result;
+}
+
+// What a step may never do, whatever it was: cross, or use up a pair.
+void check_motion(const Model &model, const Candidates &candidates, const Positions &x,
+                  const Positions &dx) {
+  for (const double share : {0.2, 0.5, 0.7, 0.9, 1.0}) {
+    const Positions y = moved(x, share, dx);
+    CHECK(find_intersections(y, model.valve.triangles).empty());
+    double least = 1;
+    for (const VertexTriangle &c : candidates.guarded()) {
+      const Tri &t = model.valve.triangles[c.triangle];
+      least = std::min(least, distance(y, c.vertex, t) / distance(x, c.vertex, t));
+    }
+    for (const EdgeEdge &c : candidates.guarded_edges()) {
+      const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
+      least = std::min(least, distance(y, e, f) / distance(x, e, f));
+    }
+    CHECK(least > 0.1 * (1 - 1e-9));  // rounding of a distance
+  }
+}
+
+}  // namespace
+
+TEST_CASE("boxes_and_points_in_them_are_those_that_brute_force_finds") {
+  Random random(1);
+  for (const double size : {0.01, 0.1, 0.8}) {
+    for (const uint32_t n : {0u, 1u, 2u, 60u, 200u}) {
+      Positions low = random.vectors(n, 1), high;
+      for (const Vec3 &p : low) {
+        high.push_back(p + (size * Vec3(1, 1, 1) + random.vector(size)));
+      }
+      std::vector<Edge> expected, found{{7, 7}};
+      for (uint32_t a = 0; a < n; ++a) {
+        for (uint32_t b = a + 1; b < n; ++b) {
+          const bool apart =
+              (low[a].array() > high[b].array()).any() || (low[b].array() > high[a].array()).any();
+          if (!apart) expected.push_back({a, b});
+        }
+      }
+      overlapping_boxes(low, high, found);
+      std::sort(found.begin(), found.end());
+      CHECK(found == expected);
+
+      const Positions points = random.vectors(n, 1.2);
+      expected.clear();
+      for (uint32_t a = 0; a < n; ++a) {
+        for (uint32_t b = 0; b < n; ++b) {
+          const bool outside = (points[a].array() < low[b].array()).any() ||
+                               (points[a].array() > high[b].array()).any();
+          if (!outside) expected.push_back({a, b});
+        }
+      }
+      points_in_boxes(points, low, high, found);
+      CHECK(found == expected);  // in this order
+    }
+  }
+}
+
+TEST_CASE("boxes_in_a_line_or_in_one_place_are_found_too") {
+  Positions low, high;
+  for (int i = 0; i < 40; ++i) {
+    low.push_back({0.1 * i, 0, 0});
+    high.push_back({0.1 * i + 0.15, 0, 0});
+  }
+  std::vector<Edge> pairs;
+  overlapping_boxes(low, high, pairs);
+  CHECK(pairs.size() == 39);
+  overlapping_boxes(Positions(20, Vec3::Zero()), Positions(20, Vec3::Zero()), pairs);
+  CHECK(pairs.size() == 190);
+}
+
+TEST_CASE("candidates_are_all_pairs_within_reach_and_no_other") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  Random random(2);
+  const double r = model.valve.contact_thickness;
+  for (int round = 0; round < 3; ++round) {
+    const Positions x = wavy(plates, random);
+    std::vector<double> reach;
+    for (size_t i = 0; i < x.size(); ++i) reach.push_back(random(0, 0.4e-3));
+    Candidates candidates(model);
+    candidates.build(x, reach);
+    size_t k = 0, facing = 0;
+    bool same = true;
+    for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+      const Tri &tri = model.valve.triangles[t];
+      const double most = std::max({reach[tri[0]], reach[tri[1]], reach[tri[2]]});
+      const double rest = distance(model.valve.rest, v, tri), guard = guard_range(r, rest);
+      const double least = distance(x, v, tri) - reach[v] - most;
+      const auto &guarded = candidates.guarded(), &faced = candidates.facing();
+      if (rest >= facing_rest_distance * r && least <= r) {
+        same = same && facing < faced.size() && faced[facing].vertex == v &&
+               faced[facing].triangle == t;
+        ++facing;
+      }
+      if (least <= guard) {
+        same = same && k < guarded.size() && guarded[k].vertex == v && guarded[k].triangle == t &&
+               guarded[k].guard == guard;
+        ++k;
+      }
+    });
+    CHECK(same);
+    CHECK(facing == candidates.facing().size());
+    CHECK(facing > 100);
+    CHECK(k == candidates.guarded().size());
+    CHECK(k > 100);
+    k = 0;
+    for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
+      const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
+      const double most = std::max(reach[e[0]], reach[e[1]]) + std::max(reach[f[0]], reach[f[1]]);
+      const double guard = guard_range(r, distance(model.valve.rest, e, f));
+      if (distance(x, e, f) - most > guard) return;
+      const auto &list = candidates.guarded_edges();
+      same = same && k < list.size() && list[k].first == i && list[k].second == j;
+      ++k;
+    });
+    CHECK(same);
+    CHECK(k == candidates.guarded_edges().size());
+    CHECK(k > 100);
+  }
+}
+
+TEST_CASE("candidates_know_how_far_they_hold") {
+  const Plates plates = plates_for_steps();
+  Random random(3);
+  const Positions x = wavy(plates, random);
+  Candidates candidates(plates.model);
+  CHECK_FALSE(candidates.valid_for(x));
+  candidates.build(x, std::vector<double>(x.size(), 1e-4));
+  Positions y = x;
+  CHECK(candidates.valid_for(y));
+  y[5].x() += 0.99e-4;
+  CHECK(candidates.valid_for(y));
+  y[5].x() += 0.02e-4;
+  CHECK_FALSE(candidates.valid_for(y));
+}
+
+TEST_CASE("no_step_however_wild_leads_through_a_sheet") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  int cut = 0, wild = 0;
+  for (uint64_t seed = 1; seed <= 24; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const Positions x = wavy(plates, random);
+    if (!find_intersections(x, model.valve.triangles).empty()) continue;
+    Positions dx = random.vectors(x.size(), seed % 2 == 0 ? 2e-3 : 0.3e-3);
+    // half of them press the plates through each other as a whole
+    for (size_t i = 0; seed % 4 < 2 && i < dx.size(); ++i) {
+      dx[i].z() += i < plates.upper ? 1e-3 : -1e-3;
+    }
+    Candidates candidates(model);
+    candidates.build(x, lengths(dx));
+    wild += !find_intersections(moved(x, 1, dx), model.valve.triangles).empty();
+    const double least = StepBounds().limit(model, x, candidates, dx);
+    CHECK(least > 0);
+    cut += least < 1;
+    check_motion(model, candidates, x, dx);
+  }
+  // the steps were such that something had to be done
+  CHECK(wild > 12);
+  CHECK(cut >= wild);
+}
+
+TEST_CASE("a_crumpling_valve_never_crosses_itself") {
+  const ModelPtr model = make_model(small_valve());
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random(seed);
+    Positions x = model->valve.rest;
+    for (int step = 0; step < 12; ++step) {
+      Positions dx = random.vectors(x.size(), 1.5e-3);
+      for (size_t i = 0; i < x.size(); ++i) {
+        dx[i].head<2>() -= 0.15 * x[i].head<2>();  // towards the axis
+        if (model->topology.fixed[i]) dx[i].setZero();
+      }
+      Candidates candidates(*model);
+      candidates.build(x, lengths(dx));
+      StepBounds().limit(*model, x, candidates, dx);
+      check_motion(*model, candidates, x, dx);
+      x = moved(x, 1, dx);
+    }
+  }
+}
+
+TEST_CASE("a_step_is_only_shortened_and_only_where_sheets_meet") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  // the plates meet at one corner and are 3 mm apart at the other
+  Positions x = model.valve.rest;
+  for (size_t i = plates.upper; i < x.size(); ++i) x[i].z() = 0.3e-3 + 0.25 * x[i].x();
+  Positions dx(x.size(), Vec3::Zero());
+  for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -0.8e-3};
+  const Positions wanted = dx;
+  Candidates candidates(model);
+  candidates.build(x, lengths(dx));
+  CHECK(StepBounds().limit(model, x, candidates, dx) < 0.5);
+  check_motion(model, candidates, x, dx);
+  int uncut = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    // each node keeps its direction: this is a straight line down
+    CHECK(dx[i].head<2>().norm() == 0);
+    CHECK(dx[i].norm() <= wanted[i].norm());
+    if (i < plates.upper || x[i].x() < 6e-3) continue;
+    // 1.8 mm apart and more: 0.8 mm is below nine tenths of that
+    CHECK(dx[i] == wanted[i]);
+    ++uncut;
+  }
+  CHECK(uncut > 20);
+}
+
+TEST_CASE("a_step_away_from_each_other_is_not_cut") {
+  const Plates plates = plates_for_steps();
+  const Positions x = plates.at(0.1e-3);
+  Positions dx(x.size(), Vec3::Zero());
+  for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, 1e-3};
+  Candidates candidates(plates.model);
+  candidates.build(x, lengths(dx));
+  CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
+}
+
+TEST_CASE("sheets_that_move_together_are_not_held_back") {
+  const Plates plates = plates_for_steps();
+  const Positions x = plates.at(0.1e-3);
+  // a hundred times their distance, the same way
+  Positions dx(x.size(), Vec3(0, 0, 10e-3));
+  const Positions wanted = dx;
+  Candidates candidates(plates.model);
+  candidates.build(x, lengths(dx));
+  CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
+  CHECK(farthest(dx, wanted) == 0);
+}

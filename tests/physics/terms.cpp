@@ -1,0 +1,380 @@
+// Every term: its gradient against differences of its energy, its Hessian against differences of
+// its gradient, and what it must not feel.
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "../unit/small_valve.h"
+#include "bench.h"
+#include "physics/potential.h"
+
+using namespace mvs;
+using namespace mvs::test;
+
+namespace {
+
+// A term as functions of the positions alone.
+struct Probe {
+  std::function<double(const Positions &)> energy;
+  Gradient gradient;
+  std::function<Eigen::MatrixXd(const Positions &, Curvature)> hessian;
+};
+
+template <typename Term>
+Probe probe_of(const Model &model, const Term &term) {
+  Probe probe;
+  probe.energy = [&term](const Positions &x) { return term.energy(x); };
+  probe.gradient = [&term](const Positions &x) {
+    Positions g(x.size(), Vec3::Zero());
+    const double found = term.gradient(x, g);
+    // the sums run in the same order, or at least over the same numbers
+    CHECK(found == about(term.energy(x), 1e-14));
+    return g;
+  };
+  probe.hessian = [&model, &term](const Positions &x, Curvature curvature) {
+    System system;
+    std::vector<Edge> pairs;
+    term.add_pairs(pairs);
+    system.set_pattern(model, pairs);
+    system.clear();
+    term.hessian(x, curvature, system);
+    return dense(system);
+  };
+  return probe;
+}
+
+// The small valve with nothing prescribed, so that every block is looked at.
+Model free_valve() {
+  return model_of_sheet(small_valve(), {});
+}
+
+// Strains up to about +-0.3: both branches of the bilinear law, slack and taut chordae, folds.
+Positions crumpled(const Model &model, uint64_t seed) {
+  Random random(seed);
+  Positions x = model.valve.rest;
+  for (Vec3 &p : x) p += random.vector(0.8e-3);
+  return x;
+}
+
+void check_gradient(const Probe &probe, const Positions &x) {
+  const Positions g = probe.gradient(x);
+  REQUIRE(largest(g) > 0);
+  // h^2 / length^2 of a central difference at 1e-7 of 1e-2 m, and 1e-16 / 1e-5 of rounding
+  CHECK(farthest(g, differences(probe.energy, x, 1e-7)) < 1e-6 * largest(g));
+}
+
+void check_hessian(const Probe &probe, const Positions &x) {
+  const Eigen::MatrixXd h = probe.hessian(x, Curvature::exact);
+  const double size = h.cwiseAbs().maxCoeff();
+  REQUIRE(size > 0);
+  // as above
+  CHECK((h - differences(probe.gradient, x, 1e-7)).cwiseAbs().maxCoeff() < 1e-6 * size);
+}
+
+void check_projected(const Probe &probe, const Positions &x) {
+  const Eigen::MatrixXd h = probe.hessian(x, Curvature::projected);
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(h, Eigen::EigenvaluesOnly).eigenvalues();
+  // rounding of the eigenvalues themselves
+  CHECK(values.minCoeff() > -1e-12 * values.maxCoeff());
+  CHECK(values.maxCoeff() > 0);
+}
+
+// A term of the sheet's own shape does not see where the sheet is or which way it is turned.
+void check_invariance(const Probe &probe, const Positions &x) {
+  const Motion motion = some_motion();
+  const Positions moved = motion(x);
+  // 1e-16 of 0.3 m over edges of 5e-3 m, then strain over its own size
+  CHECK(probe.energy(moved) == about(probe.energy(x), 1e-11));
+  Positions turned = probe.gradient(x);
+  for (Vec3 &f : turned) f = motion.turn * f;
+  CHECK(farthest(turned, probe.gradient(moved)) < 1e-11 * largest(turned));
+}
+
+template <typename Term>
+void check_term(const Model &model, const Term &term) {
+  const Probe probe = probe_of(model, term);
+  for (const uint64_t seed : {1u, 2u, 3u}) {
+    const Positions x = crumpled(model, seed);
+    check_gradient(probe, x);
+    check_hessian(probe, x);
+    check_projected(probe, x);
+    check_invariance(probe, x);
+  }
+}
+
+Vec3 sum_of(const Positions &g) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3 &f : g) sum += f;
+  return sum;
+}
+
+Vec3 moment_of(const Positions &x, const Positions &g) {
+  Vec3 sum = Vec3::Zero();
+  for (size_t i = 0; i < x.size(); ++i) sum += x[i].cross(g[i]);
+  return sum;
+}
+
+Model octahedron() {
+  Valve valve;
+  for (int k = 0; k < 3; ++k) {
+    valve.rest.push_back(0.01 * Vec3::Unit(k));
+    valve.rest.push_back(-0.01 * Vec3::Unit(k));
+  }
+  valve.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                     {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  return model_of_sheet(valve, {});
+}
+
+// A cylinder of radius R out of an equilateral lattice of m x n cells, rolled along a direction.
+double rolled_energy(uint32_t m, uint32_t n, double edge, double radius, bool along) {
+  Valve valve;
+  add_grid(valve, m, n, [&](double u, double v) -> Vec3 {
+    return {edge * (u + v / 2), edge * std::sqrt(0.75) * v, 0};
+  });
+  const Model model = model_of_sheet(valve, {});
+  Positions x = model.valve.rest;
+  for (Vec3 &p : x) {
+    double &rolled = along ? p.x() : p.y();
+    const double angle = rolled / radius;
+    rolled = radius * std::sin(angle);
+    p.z() = radius * (1 - std::cos(angle));
+  }
+  return BendingTerm(model).energy(x);
+}
+
+}  // namespace
+
+TEST_CASE("springs_have_the_derivatives_of_their_energy") {
+  const Model model = free_valve();
+  check_term(model, SpringTerm(model));
+}
+
+TEST_CASE("bending_has_the_derivatives_of_its_energy") {
+  const Model model = free_valve();
+  check_term(model, BendingTerm(model));
+}
+
+TEST_CASE("chordae_have_the_derivatives_of_their_energy") {
+  const Model model = free_valve();
+  check_term(model, ChordTerm(model));
+}
+
+TEST_CASE("inner_forces_have_no_resultant") {
+  const Model model = free_valve();
+  const Positions x = crumpled(model, 4);
+  for (int term = 0; term < 3; ++term) {
+    CAPTURE(term);
+    Positions g(x.size(), Vec3::Zero());
+    if (term == 0) SpringTerm(model).gradient(x, g);
+    if (term == 1) BendingTerm(model).gradient(x, g);
+    if (term == 2) ChordTerm(model).gradient(x, g);
+    // rounding of a sum of some hundred forces; arms are below 0.03 m
+    CHECK(sum_of(g).norm() < 1e-13 * largest(g));
+    CHECK(moment_of(x, g).norm() < 1e-13 * 0.03 * largest(g));
+  }
+}
+
+TEST_CASE("nothing_pulls_in_the_rest_shape") {
+  const Model model = free_valve();
+  const Positions &x = model.valve.rest;
+  Positions g(x.size(), Vec3::Zero());
+  SpringTerm(model).gradient(x, g);
+  BendingTerm(model).gradient(x, g);
+  ChordTerm(model).gradient(x, g);
+  // rounding of a strain, 1e-16, times the stiffest part: a chord of 31 N
+  CHECK(largest(g) < 1e-13);
+}
+
+TEST_CASE("a_sheet_without_bending_has_no_hinges") {
+  Valve valve = small_valve();
+  valve.bending_scale = 0;
+  const Model model = model_of_sheet(valve, {});
+  const BendingTerm term(model);
+  CHECK(term.empty());
+  CHECK(term.energy(crumpled(model, 5)) == 0);
+}
+
+TEST_CASE("a_rolled_lattice_has_the_bending_energy_of_a_cylinder") {
+  const double edge = 1e-3, radius = 0.1;
+  const double rigidity = 100e3 * 1e-9 / (12 * (1 - 0.25));
+  const double area = std::sqrt(0.75) * edge * edge;
+  const double expected = 0.5 * rigidity / (radius * radius) * area;
+  for (const bool along : {true, false}) {
+    // the second difference over patches leaves the energy of one cell, without its borders
+    const double cell =
+        rolled_energy(7, 7, edge, radius, along) - rolled_energy(7, 6, edge, radius, along) -
+        rolled_energy(6, 7, edge, radius, along) + rolled_energy(6, 6, edge, radius, along);
+    // chords for arcs: (edge / radius)^2 / 12
+    CHECK(cell == about(expected, 2e-5));
+  }
+}
+
+TEST_CASE("a_chord_pulls_with_ea_times_strain_and_never_pushes") {
+  Valve valve;
+  valve.rest = {Vec3(0, 0, 0), Vec3(0, 0, 20e-3)};
+  Chord chord;
+  chord.a = 0;
+  chord.b = 1;
+  valve.chords = {chord};
+  const Model model = model_of_sheet(valve, {0});
+  const ChordTerm term(model);
+  for (const double strain : {0.01, 0.05, 0.2}) {
+    Positions g(2, Vec3::Zero());
+    const double energy = term.gradient({Vec3::Zero(), Vec3(0, 0, 20e-3 * (1 + strain))}, g);
+    const double ea = 40e6 * pi * 0.25e-6;  // a diameter of 1 mm
+    // rounding, which the strain of 0.01 makes a hundred times larger
+    CHECK(g[1].z() == about(ea * strain, 1e-13));
+    CHECK(g[0].z() == about(-ea * strain, 1e-13));
+    CHECK(energy == about(0.5 * ea * 20e-3 * strain * strain, 1e-13));
+  }
+  Positions g(2, Vec3::Zero());
+  CHECK(term.gradient({Vec3::Zero(), Vec3(0, 0, 19e-3)}, g) == 0);
+  CHECK(largest(g) == 0);
+}
+
+TEST_CASE("pressure_has_the_derivatives_of_its_force_also_at_the_free_edge") {
+  const Model model = free_valve();
+  PressureTerm term(model);
+  term.set_pressure(16e3);
+  const Gradient gradient = [&](const Positions &y) {
+    Positions g(y.size(), Vec3::Zero());
+    term.gradient(y, g);
+    return g;
+  };
+  for (const uint64_t seed : {1u, 2u}) {
+    const Positions x = crumpled(model, seed);
+    term.freeze(x);
+    const Positions g = gradient(x);
+    // a cubic: differences of it have an error of h^2 / length^2
+    const Positions found =
+        differences([&](const Positions &y) { return term.energy(y); }, x, 1e-6);
+    CHECK(farthest(g, found) < 1e-7 * largest(g));
+
+    System system;
+    std::vector<Edge> pairs;
+    term.add_pairs(pairs);
+    system.set_pattern(model, pairs);
+    system.clear();
+    term.hessian(x, system);
+    const Eigen::MatrixXd symmetric = dense(system);
+    Eigen::MatrixXd skew(symmetric.rows(), symmetric.cols());
+    for (Eigen::Index c = 0; c < skew.cols(); ++c) {
+      Positions unit(x.size(), Vec3::Zero()), y = unit;
+      unit[static_cast<size_t>(c / 3)][c % 3] = 1;
+      term.add_skew(x, unit, y);
+      skew.col(c) = flat(y);
+    }
+    const double size = symmetric.cwiseAbs().maxCoeff();
+    // the force is quadratic in x, so that differences are exact but for rounding, 1e-16 / 1e-4
+    const Eigen::MatrixXd slope = differences(gradient, x, 1e-6);
+    CHECK((symmetric + skew - slope).cwiseAbs().maxCoeff() < 1e-9 * size);
+    CHECK((skew + skew.transpose()).cwiseAbs().maxCoeff() < 1e-12 * size);
+    CHECK(skew.cwiseAbs().maxCoeff() > 1e-3 * size);  // the free edge is felt
+  }
+}
+
+TEST_CASE("pressure_inside_a_prescribed_rim_has_a_potential") {
+  const Model model = clamped_disc(4, 0.01, [](Valve &) {});
+  PressureTerm term(model);
+  term.set_pressure(1e3);
+  Random random(3);
+  Positions x = model.valve.rest, y(x.size(), Vec3::Zero());
+  for (Vec3 &p : x) p += random.vector(1e-3);
+  term.add_skew(x, random.vectors(x.size(), 1), y);
+  CHECK(largest(y) == 0);
+}
+
+TEST_CASE("pressure_on_a_closed_surface_has_no_resultant") {
+  const Model model = octahedron();
+  PressureTerm term(model);
+  term.set_pressure(16e3);
+  Random random(6);
+  Positions x = model.valve.rest;
+  for (Vec3 &p : x) p += random.vector(3e-3);
+  Positions g(x.size(), Vec3::Zero());
+  term.gradient(x, g);
+  // rounding of eight areas
+  CHECK(sum_of(g).norm() < 1e-14 * largest(g));
+  CHECK(moment_of(x, g).norm() < 1e-14 * 0.01 * largest(g));
+}
+
+TEST_CASE("pressure_on_a_cap_pushes_with_its_projected_area") {
+  const Model model = clamped_disc(6, 0.012, [](Valve &) {});
+  PressureTerm term(model);
+  term.set_pressure(16e3);
+  Positions x = model.valve.rest;
+  for (Vec3 &p : x) p.z() = 50 * (0.012 * 0.012 - p.squaredNorm());
+  Positions g(x.size(), Vec3::Zero());
+  term.gradient(x, g);
+  const double area = 0.5 * 36 * 0.012 * 0.012 * std::sin(2 * pi / 36);  // of a 36-gon
+  const Vec3 force = -sum_of(g);
+  // rounding
+  CHECK(force.z() == about(16e3 * area, 1e-12));
+  CHECK(force.head<2>().norm() < 1e-12 * force.z());
+}
+
+TEST_CASE("the_whole_potential_has_the_derivatives_of_its_energy") {
+  const Model model = free_valve();
+  Potential potential(model);
+  potential.set_pressure(16e3);
+  const Positions x = crumpled(model, 7);
+  Profile profile{};
+  potential.prepare(x, std::vector<double>(x.size(), 1e-4), profile);
+  System system;
+  Positions g;
+  const Gradient gradient = [&](const Positions &y) {
+    potential.gradient(y, g, profile);
+    return g;
+  };
+  const Positions at_x = gradient(x);
+  potential.hessian(x, Curvature::exact, system, profile);
+  const Eigen::MatrixXd h = dense(system);
+  const Positions found =
+      differences([&](const Positions &y) { return potential.energy(y); }, x, 1e-7);
+  // as for the terms
+  CHECK(farthest(at_x, found) < 1e-6 * largest(at_x));
+  Random random(8);
+  const Positions v = random.vectors(x.size(), 1);
+  Positions skew(x.size(), Vec3::Zero()), after = x, before = x;
+  potential.add_skew(x, v, skew);
+  for (size_t i = 0; i < x.size(); ++i) {
+    after[i] += 1e-7 * v[i];
+    before[i] -= 1e-7 * v[i];
+  }
+  const Eigen::VectorXd slope = (flat(gradient(after)) - flat(gradient(before))) / 2e-7;
+  CHECK((h * flat(v) + flat(skew) - slope).norm() < 1e-6 * slope.norm());
+}
+
+TEST_CASE("a_moving_boundary_pulls_through_the_blocks_it_has_no_rows_for") {
+  Valve valve = small_valve();
+  const Model whole = model_of_sheet(valve, {});
+  std::vector<uint32_t> fixed = valve.annulus;
+  const Model model = model_of_sheet(std::move(valve), fixed);
+  const Positions x = crumpled(model, 9);
+  Random random(10);
+  Positions step(x.size(), Vec3::Zero());
+  for (const uint32_t node : fixed) step[node] = random.vector(1e-3);
+  const auto assemble = [&x](const Model &m, System &system) {
+    Potential potential(m);
+    Profile profile{};
+    Positions g;
+    potential.prepare(x, std::vector<double>(x.size(), 1e-4), profile);
+    potential.gradient(x, g, profile);
+    potential.hessian(x, Curvature::projected, system, profile);
+  };
+  System all, some;
+  assemble(whole, all);
+  some.boundary_step = &step;
+  assemble(model, some);
+  const Eigen::VectorXd pull = -dense(all) * flat(step);
+  Eigen::VectorXd got = Eigen::VectorXd::Zero(pull.size()), expected = got;
+  for (uint32_t r = 0; r < some.node_of.size(); ++r) {
+    const Eigen::Index i = 3 * some.node_of[r];
+    got.segment<3>(i) = some.boundary_force[r];
+    expected.segment<3>(i) = pull.segment<3>(i);
+  }
+  // rounding
+  CHECK((got - expected).norm() < 1e-13 * expected.norm());
+}
