@@ -91,7 +91,7 @@ class Close(Command):
     def test_dilated_annulus_leaks(self):
         # the annulus by 15 %, and one strut chord longer by 25 %
         self.ok("generate", "-o", "dilated.obj", "--annulus-scale", 1.15,
-                "--chord-factor", "A1/11=1.25")
+                "--chord-factor", "A2/7=1.25")
         leaking = self.json("close", "dilated.obj")
         self.assertTrue(leaking["converged"])
         self.assertEqual(leaking["intersections"], 0)
