@@ -54,10 +54,10 @@ def test_the_table_prints_every_measure_with_its_unit(case):
         assert si[row.unit] == mvs.unit_of(mvs.Measures, row.field)
 
 
-def test_the_elongated_chord_is_a_marginal_one_of_p2(opened):
-    row, name = cases.middle_chord(opened, "P2")
-    assert opened.chord_kind[row] == mvs.ChordKind.MARGINAL
-    assert name.startswith("P2/")
+def test_the_elongated_chord_is_a_strut(opened):
+    row, name = cases.strut_chord(opened)
+    assert opened.chord_kind[row] == mvs.ChordKind.STRUT
+    assert opened.find(mvs.PartKind.CHORD, name).index == row
 
 
 def test_unrolled_leaflets_hang_from_the_annulus(opened):

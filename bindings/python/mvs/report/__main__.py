@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from itertools import chain
 from pathlib import Path
 
 import mvs
@@ -26,10 +27,14 @@ def _arguments() -> argparse.Namespace:
 
 
 def _close_all(files: list[Path], pressure_pa: float) -> list[Case]:
-    cases = []
-    for make in (shipped, leaking, *(lambda p, f=file: from_file(f, p) for file in files)):
-        cases.append(make(pressure_pa))
-        print(f"{cases[-1].title}: {cases[-1].verdict}", file=sys.stderr)
+    cases: list[Case] = []
+    made = chain(
+        (make(pressure_pa) for make in (shipped, leaking)),
+        (from_file(file, f"file{k}", pressure_pa) for k, file in enumerate(files, 1)),
+    )
+    for case in made:
+        cases.append(case)
+        print(f"{case.title}: {case.verdict}", file=sys.stderr)
     return cases
 
 

@@ -51,43 +51,37 @@ def shipped(pressure_pa: float) -> Case:
 
 
 def leaking(pressure_pa: float) -> Case:
-    """The shipped valve with its annulus dilated and one marginal chord of P2 elongated."""
+    """The shipped valve with its annulus dilated and one strut chord elongated."""
     with Simulator() as sim:
         sim.generate(annulus_scale=DILATION)
-        valve = mvs.valve_of(sim.snapshot())
-        row, name = middle_chord(sim.snapshot(), "P2")
+        opened = sim.snapshot()
+        valve = mvs.valve_of(opened)
+        row, name = strut_chord(opened)
         assert valve.chord_rest_length is not None
         valve.chord_rest_length[row] *= ELONGATION
         valve.name = "leaking"
         sim.set_valve(valve)
         note = (
             f"The same valve with its annulus dilated by {DILATION - 1:.0%} under load and the "
-            f"chord {name} elongated by {ELONGATION - 1:.0%}."
+            f"strut chord {name} elongated by {ELONGATION - 1:.0%}."
         )
-        return close(sim, "leaking", "Dilated variant", note, pressure_pa)
+        return close(sim, "leaking", "Leaking variant", note, pressure_pa)
 
 
-def from_file(path: Path, pressure_pa: float) -> Case:
+def from_file(path: Path, key: str, pressure_pa: float) -> Case:
     """The valve of a file, closed from its open shape whatever state it was saved in."""
     with Simulator() as sim:
         sim.load(path)
         valve = mvs.valve_of(sim.snapshot())
         valve.nodes_now = None
         sim.set_valve(valve)
-        return close(sim, path.stem, path.stem, f"Read from {path.name}.", pressure_pa)
+        return close(sim, key, path.stem, f"Read from {path.name}.", pressure_pa)
 
 
-def middle_chord(snapshot: Snapshot, scallop: str) -> tuple[int, str]:
-    """The marginal chord nearest the middle of a scallop: its row and its name."""
-    part = snapshot.find(PartKind.SCALLOP, scallop)
-    on_scallop = np.zeros(len(snapshot.node_rest), dtype=bool)
-    on_scallop[snapshot.triangle_nodes[snapshot.triangle_scallop == part.index]] = True
-    end = snapshot.chord_nodes[:, 1]
-    rows = np.flatnonzero(on_scallop[end] & (snapshot.chord_kind == ChordKind.MARGINAL))
+def strut_chord(snapshot: Snapshot) -> tuple[int, str]:
+    """The first strut chord: its row and its name."""
+    rows = np.flatnonzero(snapshot.chord_kind == ChordKind.STRUT)
     if len(rows) == 0:
-        raise mvs.IdError(f"no marginal chord goes to {scallop}", part=scallop)
-    middle = snapshot.node_rest[on_scallop].mean(axis=0)
-    across = (snapshot.node_rest[end[rows]] - middle) @ snapshot.frame.axes[1]
-    row = int(rows[np.argmin(np.abs(across))])
+        raise mvs.IdError("the valve has no strut chord")
     names = [part.name for part in snapshot.parts if part.kind == PartKind.CHORD]
-    return row, names[row]
+    return int(rows[0]), names[rows[0]]
