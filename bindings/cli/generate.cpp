@@ -23,21 +23,20 @@ struct Dimension {
 
 using P = mvs_parametric_desc;
 constexpr Dimension lengths[] = {
-    {"--annulus-ap", &P::annulus_ap, 26, "septal-lateral diameter of the annulus"},
-    {"--annulus-cc", &P::annulus_cc, 33, "intercommissural diameter of the annulus"},
+    {"--annulus-ap", &P::annulus_ap, 28, "septal-lateral diameter of the annulus"},
+    {"--annulus-cc", &P::annulus_cc, 35, "intercommissural diameter of the annulus"},
     {"--saddle-height", &P::saddle_height, 5.5, "height of the annular saddle"},
-    {"--anterior-height", &P::anterior_height, 24, "height of the anterior leaflet at A2"},
-    {"--posterior-height", &P::posterior_height, 14, "height of the posterior leaflet at P2"},
-    {"--commissure-height", &P::commissure_height, 9, "height of the leaflets at a commissure"},
+    {"--anterior-height", &P::anterior_height, 23, "height of the anterior leaflet at A2"},
+    {"--posterior-height", &P::posterior_height, 13, "height of the posterior leaflet at P2"},
+    {"--commissure-height", &P::commissure_height, 8, "height of the leaflets at a commissure"},
     {"--thickness", &P::thickness, 1, "thickness of the leaflets"},
     {"--papillary-depth", &P::papillary_depth, 23.5, "papillary tip to annulus plane"},
     {"--papillary-separation", &P::papillary_separation, 20, "between the two papillary tips"},
-    {"--indentation-depth", &P::indentation_depth, 2, "clefts on either side of P2"},
+    {"--indentation-depth", &P::indentation_depth, 2.5, "clefts on either side of P2"},
     {"--coaptation-depth", &P::coaptation_depth, 5, "coaptation line below the annulus plane"},
 };
 constexpr Dimension factors[] = {
-    {"--annulus-contraction", &P::annulus_contraction, 0.97,
-     "loaded over open size of the annulus"},
+    {"--annulus-contraction", &P::annulus_contraction, 1, "loaded over open size of the annulus"},
     {"--annulus-scale", &P::annulus_scale, 1, "dilation of the loaded annulus, 1.15 for 15 %"},
     {"--chord-slack", &P::chord_slack, 1, "factor on the rest length of every chord"},
 };
