@@ -96,7 +96,7 @@ typedef struct mvs_settle_options {
   uint32_t max_iterations; /* [1000 for newton, 20000 implicit, 2000000 explicit] */
   uint32_t reserved;
   double residual; /* N, largest out-of-balance force on a node at rest [1e-5] */
-  double dt;       /* s, for the solvers that step in time [explicit 16e-6, implicit 1e-3] */
+  double dt;       /* s, for the solvers that step in time [explicit 8e-6, implicit 1e-3] */
   double damping;  /* 1/s, mass-proportional, for the solvers in time [explicit 500] */
 } mvs_settle_options;
 
@@ -137,7 +137,7 @@ MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, m
 typedef struct mvs_step_options {
   uint32_t struct_size;
   uint32_t solver; /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
-  double dt;       /* s [implicit 1e-3, explicit 16e-6]; 1e-9 to 1 */
+  double dt;       /* s [implicit 1e-3, explicit 8e-6]; 1e-9 to 1 */
   double damping;  /* 1/s, mass-proportional [0 implicit, 500 explicit] */
 } mvs_step_options;
 

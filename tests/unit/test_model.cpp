@@ -191,7 +191,7 @@ TEST_CASE("the_hash_tells_every_input_apart") {
   model_differs([](Model &m) { m.valve.heads[0].name = "left"; });
   model_differs([](Model &m) { m.valve.heads[0].node = 1; });
   model_differs([](Model &m) { m.valve.density = 1000; });
-  model_differs([](Model &m) { m.valve.contact_thickness = 1e-3; });
+  model_differs([](Model &m) { m.valve.contact_thickness *= 1.25; });
   model_differs([](Model &m) { m.valve.contact_stiffness = 1e3; });
   model_differs([](Model &m) { m.valve.bending_scale = 0; });
   model_differs([](Model &m) { m.valve.next_id += 1; });
