@@ -136,7 +136,7 @@ void add_close(CLI::App &app, Console &console) {
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--dt", options->settle.dt,
-                   "time step of the solvers in time, s [implicit 1e-3, explicit 16e-6]")
+                   "time step of the solvers in time, s [implicit 1e-3, explicit 8e-6]")
       ->check(CLI::PositiveNumber);
   command->add_flag("--progress", console.progress,
                     "show progress on stderr although it is no terminal");

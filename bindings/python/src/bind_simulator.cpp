@@ -130,7 +130,7 @@ void bind_work(py::class_<Simulator> &type) {
   type.def("step", &step, py::arg("count") = 1, py::kw_only(), py::arg("solver") = "implicit",
            py::arg("dt") = py::none(), py::arg("damping") = py::none(),
            "Advances by `count` time steps and returns mvs.Stats of the last.\n\nsolver: "
-           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 16e-6]\ndamping: 1/s");
+           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: 1/s");
   type.def_property_readonly(
       "stats", [](Simulator &self) { return stats_value(self.stats()); },
       "How the last settle or step went (mvs.Stats).");
