@@ -5,15 +5,12 @@
 #include <cstdio>
 
 namespace mvs {
-namespace {
 
 std::string vformat(const char *pattern, va_list arguments) {
   char text[sizeof(mvs_error::message)];
   std::vsnprintf(text, sizeof text, pattern, arguments);
   return text;
 }
-
-}  // namespace
 
 std::string format(const char *pattern, ...) {
   va_list arguments;

@@ -3,6 +3,7 @@
 
 #include <mvs/base.h>
 
+#include <cstdarg>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -22,6 +23,7 @@ class Error : public std::runtime_error {
 
 // printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char *pattern, ...);
+[[gnu::format(printf, 1, 0)]] std::string vformat(const char *pattern, va_list arguments);
 
 // Throws an Error of `code` about `part` ("" for none) with a printf-style sentence.
 [[noreturn, gnu::format(printf, 3, 4)]] void fail(mvs_result code, const std::string &part,

@@ -31,6 +31,13 @@ void check_shape(const Valve &valve, Faults &faults) {
 
 }  // namespace
 
+void Faults::add(const std::string &part, const char *pattern, ...) {
+  va_list arguments;
+  va_start(arguments, pattern);
+  list.push_back({part, vformat(pattern, arguments)});
+  va_end(arguments);
+}
+
 std::vector<Fault> find_faults(const Valve &valve) {
   Faults faults;
   check_shape(valve, faults);

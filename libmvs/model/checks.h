@@ -13,10 +13,7 @@ namespace mvs {
 struct Faults {
   std::vector<Fault> list;
 
-  template <typename... Arguments>
-  void add(const std::string &part, const char *pattern, Arguments... arguments) {
-    list.push_back({part, format(pattern, arguments...)});
-  }
+  [[gnu::format(printf, 3, 4)]] void add(const std::string &part, const char *pattern, ...);
 };
 
 // What the geometric checks share; made once sizes and indices are in order.
