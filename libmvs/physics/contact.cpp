@@ -77,6 +77,13 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
     for (const uint32_t t : triangles) area += t == none ? 0 : model.rest_area[t] / 3;
     edge_area_.push_back(area);
   }
+  edge_share_.assign(model.topology.edges.size(), -1);
+  corner_share_.assign(model.node_count(), 1);
+  for (size_t e = 0; e < edge_share_.size(); ++e) {
+    if (model.topology.edge_triangles[e][1] != none) continue;
+    edge_share_[e] = 0;
+    for (const uint32_t i : model.topology.edges[e]) corner_share_[i] = 0;
+  }
 }
 
 void ContactTerm::collect(const std::vector<Vec3> &x, const Candidates &candidates) {
@@ -126,9 +133,11 @@ void ContactTerm::tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangl
   const Tri &edges = model_->topology.triangle_edges[triangle];
   // each edge and corner of the surface counts once, whatever its number of triangles
   for (const uint32_t k : t) {
-    if (corners_.meet(k)) ++corners_.count[k];
+    if (corners_.meet(k)) corners_.count[k] += corner_share_[k];
   }
-  for (const uint32_t e : edges) edges_.meet(e);
+  for (const uint32_t e : edges) {
+    if (edges_.meet(e)) edges_.count[e] += edge_share_[e];
+  }
   if (p.feature < 3) {
     ++corners_.count[t[p.feature]];
   } else if (p.feature < 6) {
@@ -147,14 +156,13 @@ void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v) {
     const Edge &e = model_->topology.edges[index];
     const double s = closest_on_segment(x[v], x[e[0]], x[e[1]]).s;
     if (!(s > 0 && s < 1)) {
-      --corners_.count[e[s > 0 ? 1 : 0]];
+      corners_.count[e[s > 0 ? 1 : 0]] += edges_.count[index];
       continue;
     }
-    const int count = edges_.count[index] - 1;
-    if (count == 0) continue;
+    if (edges_.count[index] == 0) continue;
     ContactStencil stencil = point_edge(v, e[0], e[1], s);
     stencil.range = thickness_;
-    stencil.strength = strength * count;
+    stencil.strength = strength * edges_.count[index];
     finish(x, stencil);
   }
   for (const uint32_t corner : corners_.touched) {

@@ -7,9 +7,12 @@
 // distance to a triangle, edge or vertex. The barrier B is that of Li et al., Incremental Potential
 // Contact (2020). The integers c_p count +1 for triangles, -1 for edges, +1 for vertices (the
 // inclusion-exclusion of Li et al., Convergent IPC, 2023), so that a flat surface is felt once
-// however finely it is meshed, and the force is continuous as the vertex slides across it. What is
-// closer than facing_rest_distance * r in the rest shape belongs to the same piece of sheet and is
-// left out. Two sheets pressed together by p rest at a distance where -kappa B'(d / r) = p.
+// however finely it is meshed. Edges and vertices of a rim count 0: what is subtracted is what two
+// triangles share. So the sheet is felt once up to its rim and past it, E = B(distance to the
+// sheet) for a flat one without notches. Each d_p is the distance to a convex set and smooth off
+// it, so that the force is continuous as the vertex slides across faces, edges, corners and rims.
+// What is closer than facing_rest_distance * r in the rest shape belongs to the same piece of sheet
+// and is left out. Two sheets pressed together by p rest at a distance where -kappa B'(d / r) = p.
 //
 // The guard is the same barrier over a short range for every pair that is not incident, edges with
 // edges included: nothing comes to distance zero.
@@ -97,6 +100,7 @@ class ContactTerm {
   ContactLaw law_;
   Barrier (*curve_)(double);
   std::vector<double> edge_area_;
+  std::vector<int> edge_share_, corner_share_;  // c_p: -1 and +1 inside the sheet, 0 on its rims
   Tally edges_, corners_;
   std::vector<ContactStencil> stencils_;
 };
