@@ -65,8 +65,10 @@ void ObjReader::vertex(Line &line) {
   out_.state.x.push_back(x);
   out_.state.v.push_back(Vec3::Zero());
   out_.valve.rest.push_back(x);
+  out_.valve.open.push_back(x);
   out_.valve.loaded.push_back(x);
-  given_.rest = given_.loaded = given_.velocity = false;
+  out_.valve.origin.push_back(static_cast<uint32_t>(out_.valve.origin.size()));
+  given_ = {};
 }
 
 void ObjReader::group(Line &line) {

@@ -32,10 +32,14 @@ class ObjReader {
   void leaflet(Line &line);
   void scallop(Line &line);
   void rest(Line &line);
+  void open(Line &line);
   void loaded(Line &line);
+  void origin(Line &line);
   void velocity(Line &line);
   void annulus(Line &line);
   void head(Line &line);
+  void ring(Line &line);
+  void ring_point(Line &line);
   void thickness(Line &line);
   void fibre(Line &line);
   void chord(Line &line);
@@ -43,12 +47,13 @@ class ObjReader {
 
   void enter_group(const Line &line);
   template <typename Item>
-  static void check_room(const std::vector<Item> &items, const Line &line);
+  static void check_room(const SharedVector<Item> &items, const Line &line);
   void check_complete(const Line &last) const;
 
   // What attributes the last v, f and l line have got so far.
   struct Given {
-    bool rest = false, loaded = false, velocity = false, thickness = false, chord = false;
+    bool rest = false, open = false, loaded = false, origin = false, velocity = false;
+    bool thickness = false, chord = false;
   };
   struct Counts {
     uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
@@ -65,7 +70,7 @@ class ObjReader {
 };
 
 template <typename Item>
-void ObjReader::check_room(const std::vector<Item> &items, const Line &line) {
+void ObjReader::check_room(const SharedVector<Item> &items, const Line &line) {
   constexpr size_t most = size_t{1} << 22;
   if (items.size() < most) return;
   line.fail("the limit is %zu vertices, triangles, segments or parts of one kind", most);

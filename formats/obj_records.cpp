@@ -25,6 +25,10 @@ void ObjReader::record(Line &line) {
                                          Record{"rest", &ObjReader::rest},
                                          Record{"velocity", &ObjReader::velocity},
                                          Record{"loaded", &ObjReader::loaded},
+                                         Record{"open", &ObjReader::open},
+                                         Record{"origin", &ObjReader::origin},
+                                         Record{"ring", &ObjReader::ring},
+                                         Record{"ring_point", &ObjReader::ring_point},
                                          Record{"thickness", &ObjReader::thickness},
                                          Record{"chord", &ObjReader::chord},
                                          Record{"annulus", &ObjReader::annulus},
@@ -145,6 +149,7 @@ void ObjReader::rest(Line &line) {
   once(given_.rest, "the rest position of this vertex", line);
   Valve &valve = out_.valve;
   valve.rest.back() = read_place(line);
+  if (!given_.open) valve.open.back() = valve.rest.back();
   if (!given_.loaded) valve.loaded.back() = valve.rest.back();
   line.end();
 }
@@ -153,6 +158,30 @@ void ObjReader::loaded(Line &line) {
   follows("v", counts_.vertices > 0, line);
   once(given_.loaded, "the loaded position of this vertex", line);
   out_.valve.loaded.back() = read_place(line);
+  line.end();
+}
+
+void ObjReader::open(Line &line) {
+  follows("v", counts_.vertices > 0, line);
+  once(given_.open, "the open position of this vertex", line);
+  out_.valve.open.back() = read_place(line);
+  line.end();
+}
+
+// `#mvs origin 17`, or `#mvs origin new` for a node that an operation made.
+void ObjReader::origin(Line &line) {
+  follows("v", counts_.vertices > 0, line);
+  once(given_.origin, "the origin of this vertex", line);
+  const std::string_view word = line.word();
+  uint64_t number = 0;
+  if (word == "new") {
+    out_.valve.origin.back() = none;
+  } else if (parse_whole(word, number) && number >= 1 && number < none) {
+    out_.valve.origin.back() = static_cast<uint32_t>(number - 1);
+  } else {
+    line.fail("the origin is %s: it has to be the number of a vertex, or new",
+              quoted(word).c_str());
+  }
   line.end();
 }
 
@@ -187,6 +216,26 @@ void ObjReader::head(Line &line) {
   }
   head.node = static_cast<uint32_t>(node - 1);
   valve.heads.push_back(std::move(head));
+}
+
+void ObjReader::ring(Line &line) {
+  Valve &valve = out_.valve;
+  check_room(valve.rings, line);
+  Ring ring;
+  uint32_t kind = 0;
+  Fields fields(line);
+  fields.need(fields.text("name", ring.name), "name");
+  fields.whole("id", ring.id);
+  if (fields.choice("kind", kind, obj::ring_kinds)) ring.kind = kind + 1;
+  fields.end();
+  valve.rings.push_back(std::move(ring));
+}
+
+void ObjReader::ring_point(Line &line) {
+  follows("#mvs ring", !out_.valve.rings.empty(), line);
+  check_room(out_.valve.rings.back().curve, line);
+  out_.valve.rings.back().curve.push_back(read_place(line));
+  line.end();
 }
 
 void ObjReader::thickness(Line &line) {

@@ -33,6 +33,7 @@ class ObjWriter {
   void leaflets();
   void nodes();
   void annulus_and_heads();
+  void rings();
   void triangles();
   void chords();
   void end();
@@ -61,6 +62,7 @@ std::string ObjWriter::write() {
   leaflets();
   nodes();
   annulus_and_heads();
+  rings();
   triangles();
   chords();
   end();
@@ -108,7 +110,8 @@ void ObjWriter::leaflets() {
   }
 }
 
-// Rest, loaded position and velocity only where they are not what the line before lets expect.
+// Rest, open and loaded position, velocity, origin only where they are not what the line before
+// lets expect.
 void ObjWriter::nodes() {
   const Vec3 still = Vec3::Zero();
   for (size_t n = 0; n < valve_.rest.size(); ++n) {
@@ -122,6 +125,10 @@ void ObjWriter::nodes() {
       record("rest");
       place(valve_.rest[n]);
     }
+    if (!same_bits(valve_.open[n], valve_.rest[n])) {
+      record("open");
+      place(valve_.open[n]);
+    }
     if (!same_bits(valve_.loaded[n], valve_.rest[n])) {
       record("loaded");
       place(valve_.loaded[n]);
@@ -129,6 +136,11 @@ void ObjWriter::nodes() {
     if (!same_bits(state_.v[n], still)) {
       record("velocity");
       place(state_.v[n]);
+    }
+    if (valve_.origin[n] != n) {
+      record("origin ");
+      out_ += valve_.origin[n] == none ? "new" : std::to_string(uint64_t{valve_.origin[n]} + 1);
+      out_ += '\n';
     }
   }
 }
@@ -146,6 +158,21 @@ void ObjWriter::annulus_and_heads() {
     key_whole("id", head.id);
     key_whole("node", uint64_t{head.node} + 1);
     out_ += '\n';
+  }
+}
+
+void ObjWriter::rings() {
+  for (const Ring &ring : valve_.rings) {
+    record("ring");
+    key_text("name", ring.name);
+    key_whole("id", ring.id);
+    key_choice("kind", obj::ring_kinds, ring.kind - 1);
+    out_ += '\n';
+    for (const Vec3 &point : ring.curve) {
+      record("ring_point");
+      numbers(point, obj::mm);
+      out_ += '\n';
+    }
   }
 }
 

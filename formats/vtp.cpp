@@ -124,7 +124,7 @@ void VtpWriter::point_data(const std::vector<VtpArray> &arrays) {
     rest.insert(rest.end(), {place[0] * mm, place[1] * mm, place[2] * mm});
   }
   out_ += "<PointData>\n";
-  array("node_kind", 1, model_.topology.node_kind);
+  array("node_kind", 1, model_.topology.node_kind.get());
   array("rest_mm", 3, rest);
   for (const VtpArray &given : arrays) {
     if (given.on_points) given_array(given, model_.node_count());

@@ -33,13 +33,16 @@ MVS_API mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash
  * With the parts they are all that mvs_set_valve takes: a valve can be edited and set again. */
 enum {
   MVS_NODE_POSITION = 1,       /* F64 n x 3, m */
-  MVS_NODE_REST = 2,           /* F64 n x 3, m: the open, unloaded valve */
+  MVS_NODE_REST = 2,           /* F64 n x 3, m: the unloaded valve */
   MVS_NODE_LOADED = 3,         /* F64 n x 3, m: targets of prescribed nodes under load */
   MVS_NODE_VELOCITY = 4,       /* F64 n x 3, m/s */
   MVS_NODE_KIND = 5,           /* U8 n: MVS_NODE_IS_* */
   MVS_NODE_FORCE = 6,          /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
   MVS_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
   MVS_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet; infinity: none */
+  MVS_NODE_OPEN = 9,           /* F64 n x 3, m: where prescribed nodes are without load */
+  MVS_NODE_ORIGIN = 10,        /* U32 n: the node's index before any operation added or removed
+                                  nodes; UINT32_MAX for a new one */
   MVS_TRIANGLE_NODES = 20,     /* U32 m x 3 */
   MVS_TRIANGLE_LEAFLET = 21,   /* U32 m */
   MVS_TRIANGLE_SCALLOP = 22,   /* U32 m */
@@ -62,6 +65,10 @@ enum {
   MVS_CHORD_AREA = 57,         /* F64 c, m2 */
   MVS_HEAD_NODES = 60,         /* U32 h */
   MVS_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
+  MVS_RING_POINTS = 65,        /* F64 x 3, m: the points of all rings, one after the other */
+  MVS_RING_START = 66,         /* U32 r + 1: where each ring's points start, and their number */
+  MVS_RING_KIND = 67,          /* U32 r: MVS_RING_* */
+  MVS_RING_ID = 68,            /* U64 r */
   MVS_ORIFICE_VERTICES = 70,   /* F64 x 3, m: the smallest opening, as triangles */
   MVS_ORIFICE_TRIANGLES = 71,  /* U32 x 3 into MVS_ORIFICE_VERTICES */
   MVS_VALVE_CONSTANTS = 80,    /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
@@ -82,7 +89,13 @@ enum {
 MVS_API mvs_result mvs_snapshot_view(const mvs_snapshot *snapshot, uint32_t which, mvs_view *view);
 
 /* Kinds of named parts. */
-enum { MVS_PART_LEAFLET = 1, MVS_PART_SCALLOP = 2, MVS_PART_CHORD = 3, MVS_PART_HEAD = 4 };
+enum {
+  MVS_PART_LEAFLET = 1,
+  MVS_PART_SCALLOP = 2,
+  MVS_PART_CHORD = 3,
+  MVS_PART_HEAD = 4,
+  MVS_PART_RING = 5
+};
 
 /* A named part of the valve. Names are unique within their kind, of at most 63 bytes. */
 typedef struct mvs_part {

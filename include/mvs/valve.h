@@ -22,7 +22,8 @@ enum {
   MVS_CHORD_STRUT = 3,       /* the two thick ones of the anterior leaflet */
   MVS_CHORD_BASAL = 4,       /* to the base of the posterior leaflet */
   MVS_CHORD_COMMISSURAL = 5, /* to a commissure */
-  MVS_CHORD_TRUNK = 6        /* between papillary head and branch point */
+  MVS_CHORD_TRUNK = 6,       /* between papillary head and branch point */
+  MVS_CHORD_SUTURE = 7       /* a surgeon's: joins two places of the leaflets */
 };
 
 /* The laws a leaflet sheet can follow, and what `constants` means for each. */
@@ -74,6 +75,22 @@ enum {
   MVS_VALVE_ORIENT = 1 /* turn triangles so that their normals point into the atrium */
 };
 
+/* Kinds of rings. */
+enum {
+  MVS_RING_RIGID = 1, /* closed and rigid: holds the whole annulus */
+  MVS_RING_BAND = 2   /* posterior, from trigone to trigone, flexible */
+};
+
+/* A ring or band that is sewn to the annulus. Where it holds the annulus is in nodes_open and
+ * nodes_loaded; this is what to draw. */
+typedef struct mvs_ring_desc {
+  const char *name; /* required, unique */
+  mvs_id id;        /* 0: given by the library */
+  uint32_t kind;    /* MVS_RING_* [rigid] */
+  uint32_t reserved;
+  mvs_array curve; /* F64 or F32, k x 3, m: its points in order */
+} mvs_ring_desc;
+
 /* A whole valve. Optional arrays are left zero. Lengths in m. */
 typedef struct mvs_valve_desc {
   uint32_t struct_size;
@@ -103,6 +120,12 @@ typedef struct mvs_valve_desc {
   double contact_stiffness;  /* Pa, scale of the contact pressure [20e3] */
   double bending_scale;      /* factor on E t^3 / (12 (1 - nu^2)) [1]; negative: no bending */
   const mvs_id *scallop_ids; /* one a scallop, 0: given by the library; null: all are */
+  mvs_array nodes_open;      /* optional, n x 3: where annulus and heads are without load [nodes];
+                                other rows are ignored */
+  mvs_array node_origin;     /* optional, U32, n: MVS_NODE_ORIGIN of a valve that was operated on */
+  const mvs_ring_desc *rings;
+  uint32_t ring_count;
+  uint32_t reserved;
 } mvs_valve_desc;
 
 /* A parametric mitral valve. Zero fields take the defaults in brackets (adult human; sources in

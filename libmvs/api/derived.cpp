@@ -18,6 +18,13 @@ Tables make_tables(const Model &model) {
     tables.chord_area.push_back(chord.area);
   }
   for (const Head &head : valve.heads) tables.head_nodes.push_back(head.node);
+  tables.ring_start = {0};
+  for (const Ring &ring : valve.rings) {
+    tables.ring_kind.push_back(ring.kind);
+    tables.ring_id.push_back(ring.id);
+    tables.ring_points.insert(tables.ring_points.end(), ring.curve.begin(), ring.curve.end());
+    tables.ring_start.push_back(static_cast<uint32_t>(tables.ring_points.size()));
+  }
   for (const Leaflet &leaflet : valve.leaflets) {
     tables.leaflet_law.push_back(leaflet.law);
     tables.leaflet_constants.push_back(

@@ -16,6 +16,8 @@ const char *kind_name(uint32_t kind) {
       return "scallop";
     case MVS_PART_CHORD:
       return "chord";
+    case MVS_PART_RING:
+      return "ring";
     default:
       return "papillary head";
   }
@@ -35,13 +37,15 @@ void with_parts(const mvs_snapshot *snapshot, uint32_t kind, Use use) {
       return use(valve.chords);
     case MVS_PART_HEAD:
       return use(valve.heads);
+    case MVS_PART_RING:
+      return use(valve.rings);
     default:
       fail(MVS_E_ARGUMENT, "kind", "kind is %u: it has to be one of MVS_PART_*", kind);
   }
 }
 
 template <typename Part>
-mvs_part public_part(const std::vector<Part> &parts, uint32_t kind, uint32_t index) {
+mvs_part public_part(const SharedVector<Part> &parts, uint32_t kind, uint32_t index) {
   mvs_part out = {};
   out.id = parts[index].id;
   out.kind = kind;

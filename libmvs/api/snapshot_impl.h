@@ -35,7 +35,9 @@ class Lazy {
 struct Tables {
   std::vector<Edge> chord_nodes;
   std::vector<uint32_t> chord_kind, head_nodes, leaflet_law, free_edge_nodes;
-  std::vector<Id> chord_id;
+  std::vector<uint32_t> ring_start, ring_kind;
+  std::vector<Vec3> ring_points;
+  std::vector<Id> chord_id, ring_id;
   std::vector<double> chord_rest_length, chord_young, chord_area;
   std::vector<std::array<double, 9>> leaflet_constants;
   std::array<double, 4> valve_constants;

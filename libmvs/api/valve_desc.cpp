@@ -19,7 +19,9 @@ std::string text_or_empty(const char *text) {
 void read_nodes_and_triangles(const mvs_valve_desc &desc, Described &described) {
   Valve &valve = described.valve;
   valve.rest = read_points(desc.nodes, "nodes");
+  valve.open = read_points(desc.nodes_open, "nodes_open");
   valve.loaded = read_points(desc.nodes_loaded, "nodes_loaded");
+  valve.origin = read_indices(desc.node_origin, "node_origin");
   described.now = read_points(desc.nodes_now, "nodes_now");
   valve.triangles = read_triangles(desc.triangles, "triangles");
   valve.triangle_leaflet = read_indices(desc.triangle_leaflet, "triangle_leaflet");
@@ -90,6 +92,19 @@ void read_heads(const mvs_valve_desc &desc, Valve &valve) {
   }
 }
 
+void read_rings(const mvs_valve_desc &desc, Valve &valve) {
+  must_be_zero(desc.reserved, "valve.reserved");
+  check_list(desc.rings, desc.ring_count, "rings");
+  for (uint32_t r = 0; r < desc.ring_count; ++r) {
+    const mvs_ring_desc &given = desc.rings[r];
+    must_be_zero(given.reserved, "rings[].reserved");
+    Ring ring{given.id, text_or_empty(given.name), MVS_RING_RIGID, {}};
+    if (given.kind != 0) ring.kind = given.kind;
+    ring.curve = read_points(given.curve, "rings[].curve");
+    valve.rings.push_back(std::move(ring));
+  }
+}
+
 void read_constants(const mvs_valve_desc &desc, Valve &valve) {
   if (desc.name) valve.name = desc.name;
   valve.density = or_default(desc.density, valve.density);
@@ -110,6 +125,7 @@ Described read_valve_desc(const mvs_valve_desc *given) {
   read_scallops(desc, described.valve);
   read_chords(desc, described.valve);
   read_heads(desc, described.valve);
+  read_rings(desc, described.valve);
   read_constants(desc, described.valve);
   if (desc.flags & MVS_VALVE_ORIENT) orient(described.valve);
   return described;

@@ -43,6 +43,10 @@ Viewed node_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.state.x);
     case MVS_NODE_REST:
       return view_of(s.model->valve.rest);
+    case MVS_NODE_OPEN:
+      return view_of(s.model->valve.open);
+    case MVS_NODE_ORIGIN:
+      return view_of(s.model->valve.origin);
     case MVS_NODE_LOADED:
       return view_of(s.model->valve.loaded);
     case MVS_NODE_VELOCITY:
@@ -64,7 +68,7 @@ Viewed triangle_view(const mvs_snapshot &s, uint32_t which) {
   const Valve &valve = s.model->valve;
   switch (which) {
     case MVS_TRIANGLE_NODES:
-      return view_of(valve.triangles);
+      return view_of(valve.triangles.get());
     case MVS_TRIANGLE_LEAFLET:
       return view_of(valve.triangle_leaflet);
     case MVS_TRIANGLE_SCALLOP:
@@ -121,6 +125,14 @@ Viewed other_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.tables().head_nodes);
     case MVS_HEAD_FORCE:
       return view_of(s.chords().head_force);
+    case MVS_RING_POINTS:
+      return view_of(s.tables().ring_points);
+    case MVS_RING_START:
+      return view_of(s.tables().ring_start);
+    case MVS_RING_KIND:
+      return view_of(s.tables().ring_kind);
+    case MVS_RING_ID:
+      return view_of(s.tables().ring_id);
     case MVS_ORIFICE_VERTICES:
       return view_of(s.orifice().vertices);
     case MVS_ORIFICE_TRIANGLES:

@@ -1,4 +1,6 @@
 // Chordae and papillary heads: what they join.
+#include <mvs/valve.h>
+
 #include <algorithm>
 
 #include "model/checks.h"
@@ -41,7 +43,11 @@ void check_chord(const Valve &valve, const std::vector<uint8_t> &role, size_t c,
     faults.add(part, "%s leads from node %u to itself", part.c_str(), chord.a);
   } else if (role[chord.a] == role_head && role[chord.b] == role_head) {
     faults.add(part, "%s joins two papillary heads: it has to lead to the sheet", part.c_str());
-  } else if (role[chord.a] == role_sheet && role[chord.b] == role_sheet) {
+  } else if (chord.kind == MVS_CHORD_SUTURE &&
+             (role[chord.a] != role_sheet || role[chord.b] != role_sheet)) {
+    faults.add(part, "%s is a suture: it has to join two nodes of the sheet", part.c_str());
+  } else if (chord.kind != MVS_CHORD_SUTURE && role[chord.a] == role_sheet &&
+             role[chord.b] == role_sheet) {
     faults.add(part, "%s joins two nodes of the sheet: it has to lead to a papillary head",
                part.c_str());
   } else if ((valve.rest[chord.a] - valve.rest[chord.b]).norm() < 1e-8) {

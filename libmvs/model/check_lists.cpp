@@ -39,10 +39,13 @@ void check_counts(const Valve &valve, Faults &faults) {
   check_count("scallops", valve.scallops.size(), false, faults);
   check_count("chords", valve.chords.size(), false, faults);
   check_count("heads", valve.heads.size(), false, faults);
+  check_count("rings", valve.rings.size(), false, faults);
 }
 
 void check_lengths(const Valve &valve, Faults &faults) {
   const size_t n = valve.rest.size(), m = valve.triangles.size();
+  check_length("nodes_open", "nodes", valve.open.size(), n, true, faults);
+  check_length("origin", "nodes", valve.origin.size(), n, true, faults);
   check_length("nodes_loaded", "nodes", valve.loaded.size(), n, true, faults);
   check_length("triangle_leaflet", "triangles", valve.triangle_leaflet.size(), m, false, faults);
   check_length("triangle_scallop", "triangles", valve.triangle_scallop.size(), m,

@@ -19,7 +19,7 @@ bool has_control_character(const std::string &name) {
 }
 
 template <typename Part>
-void check_names(const std::vector<Part> &parts, const char *kind, bool needed, Faults &faults) {
+void check_names(const SharedVector<Part> &parts, const char *kind, bool needed, Faults &faults) {
   std::map<std::string, size_t> seen;
   for (size_t k = 0; k < parts.size(); ++k) {
     const std::string &name = parts[k].name;
@@ -43,7 +43,7 @@ void check_names(const std::vector<Part> &parts, const char *kind, bool needed, 
 }
 
 template <typename Part>
-void check_ids(const std::vector<Part> &parts, const char *kind, std::set<Id> &seen,
+void check_ids(const SharedVector<Part> &parts, const char *kind, std::set<Id> &seen,
                Faults &faults) {
   // room for every id that is still to be given
   constexpr Id id_limit = Id{1} << 62;
@@ -102,7 +102,7 @@ void check_chord(const Chord &chord, size_t k, Faults &faults) {
     faults.add(part, "%s follows law %u, which this library does not know", part.c_str(),
                chord.law);
   }
-  if (chord.kind > MVS_CHORD_TRUNK) {
+  if (chord.kind > MVS_CHORD_SUTURE) {
     faults.add(part, "%s is of kind %u, which this library does not know", part.c_str(),
                chord.kind);
   }
@@ -135,12 +135,20 @@ void check_parts(const Valve &valve, Faults &faults) {
   check_names(valve.scallops, "scallop", true, faults);
   check_names(valve.heads, "papillary head", false, faults);
   check_names(valve.chords, "chord", false, faults);
+  check_names(valve.rings, "ring", true, faults);
   std::set<Id> seen;
   check_ids(valve.leaflets, "leaflet", seen, faults);
   check_ids(valve.scallops, "scallop", seen, faults);
   check_ids(valve.heads, "papillary head", seen, faults);
   check_ids(valve.chords, "chord", seen, faults);
+  check_ids(valve.rings, "ring", seen, faults);
   check_valve(valve, faults);
+  for (size_t k = 0; k < valve.rings.size(); ++k) {
+    const Ring &ring = valve.rings[k];
+    if (ring.kind == MVS_RING_RIGID || ring.kind == MVS_RING_BAND) continue;
+    faults.add("ring " + ring.name, "ring %s is of kind %u, which this library does not know",
+               ring.name.c_str(), ring.kind);
+  }
   for (size_t k = 0; k < valve.leaflets.size(); ++k) check_leaflet(valve.leaflets[k], k, faults);
   for (size_t k = 0; k < valve.chords.size(); ++k) check_chord(valve.chords[k], k, faults);
 }

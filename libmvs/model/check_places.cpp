@@ -67,26 +67,37 @@ void check_strays(const Valve &valve, const Extent &extent, Faults &faults) {
   }
 }
 
-// The nodes that the heart holds; only their loaded positions mean something.
+// The nodes that the heart holds; only their open and loaded positions mean something.
 std::vector<uint32_t> held_nodes(const Valve &valve) {
   std::vector<uint32_t> held = valve.annulus;
   for (const Head &head : valve.heads) held.push_back(head.node);
   return held;
 }
 
-void check_loaded(const Valve &valve, const Extent &extent, Faults &faults) {
-  if (valve.loaded.empty()) return;
+void check_held(const Valve &valve, const SharedVector<Vec3> &places, const char *which,
+                const Extent &extent, Faults &faults) {
+  if (places.empty()) return;
   for (const uint32_t node : held_nodes(valve)) {
-    const Vec3 &p = valve.loaded[node];
+    const Vec3 &p = places[node];
     if (!p.allFinite()) {
-      faults.add(format("node %u", node), "node %u has a loaded position that is not a number",
-                 node);
+      faults.add(format("node %u", node), "node %u has a position when %s that is not a number",
+                 node, which);
     } else if (const double moved = (p - valve.rest[node]).norm();
                !(moved <= far_moved * extent.size)) {
       faults.add(format("node %u", node),
-                 "node %u moves %.3g m under load, in a valve of %.3g m: looks like nodes_loaded "
-                 "in other units than nodes",
-                 node, moved, extent.size);
+                 "node %u is %.3g m from its rest position when %s, in a valve of %.3g m: looks "
+                 "like nodes_%s in other units than nodes",
+                 node, moved, which, extent.size, which);
+    }
+  }
+}
+
+void check_rings(const Valve &valve, const Extent &extent, Faults &faults) {
+  for (size_t r = 0; r < valve.rings.size(); ++r) {
+    for (const Vec3 &p : valve.rings[r].curve) {
+      if ((p - extent.centre).norm() <= far_away * extent.size) continue;
+      faults.add(format("ring %zu", r), "ring %zu has a point that is not a number or far away", r);
+      break;
     }
   }
 }
@@ -100,7 +111,9 @@ void check_places(const Valve &valve, Faults &faults) {
   const Extent extent = extent_of(valve.rest);
   check_units(extent, faults);
   check_strays(valve, extent, faults);
-  check_loaded(valve, extent, faults);
+  check_held(valve, valve.open, "open", extent, faults);
+  check_held(valve, valve.loaded, "loaded", extent, faults);
+  check_rings(valve, extent, faults);
 }
 
 }  // namespace mvs

@@ -137,7 +137,7 @@ bool is_one_fan(const Valve &valve, uint32_t node, std::span<const uint32_t> aro
 }
 
 void check_vertices(const Valve &valve, Faults &faults) {
-  const Rows around = rows_of(valve.rest.size(), valve.triangles);
+  const Rows around = rows_of(valve.rest.size(), valve.triangles.get());
   for (uint32_t n = 0; n < valve.rest.size(); ++n) {
     if (around[n].empty() || is_one_fan(valve, n, around[n])) continue;
     faults.add(format("node %u", n),

@@ -3,20 +3,31 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "model/rows.h"
 
 namespace mvs {
 namespace {
 
+// Only where prescribed nodes are means something.
+void complete_places(const Valve &valve, SharedVector<Vec3> &places) {
+  std::vector<Vec3> complete = valve.rest;
+  if (!places.empty()) {
+    for (const uint32_t node : valve.annulus) complete[node] = std::as_const(places)[node];
+    for (const Head &head : valve.heads) complete[head.node] = std::as_const(places)[head.node];
+  }
+  places = std::move(complete);
+}
+
 void complete_arrays(Valve &valve) {
-  if (valve.loaded.empty()) valve.loaded = valve.rest;
-  std::vector<uint8_t> prescribed(valve.rest.size(), 0);
-  for (const uint32_t node : valve.annulus) prescribed[node] = 1;
-  for (const Head &head : valve.heads) prescribed[head.node] = 1;
-  for (size_t n = 0; n < valve.rest.size(); ++n) {
-    if (!prescribed[n]) valve.loaded[n] = valve.rest[n];
+  complete_places(valve, valve.open);
+  complete_places(valve, valve.loaded);
+  if (valve.origin.empty()) {
+    valve.origin.resize(valve.rest.size());
+    std::iota(valve.origin.begin(), valve.origin.end(), 0u);
   }
   if (valve.triangle_thickness.empty()) {
     for (const uint32_t leaflet : valve.triangle_leaflet) {
@@ -34,14 +45,14 @@ void complete_scallops(Valve &valve) {
 }
 
 template <typename Part>
-void raise_next_id(const std::vector<Part> &parts, Id &next_id) {
+void raise_next_id(const SharedVector<Part> &parts, Id &next_id) {
   for (const Part &part : parts) next_id = std::max(next_id, part.id + 1);
 }
 
 template <typename Part>
-void give_ids(std::vector<Part> &parts, Id &next_id) {
-  for (Part &part : parts) {
-    if (part.id == 0) part.id = next_id++;
+void give_ids(SharedVector<Part> &parts, Id &next_id) {
+  for (size_t k = 0; k < parts.size(); ++k) {
+    if (std::as_const(parts)[k].id == 0) parts[k].id = next_id++;
   }
 }
 
@@ -50,14 +61,16 @@ void complete_ids(Valve &valve) {
   raise_next_id(valve.scallops, valve.next_id);
   raise_next_id(valve.heads, valve.next_id);
   raise_next_id(valve.chords, valve.next_id);
+  raise_next_id(valve.rings, valve.next_id);
   give_ids(valve.leaflets, valve.next_id);
   give_ids(valve.scallops, valve.next_id);
   give_ids(valve.heads, valve.next_id);
   give_ids(valve.chords, valve.next_id);
+  give_ids(valve.rings, valve.next_id);
 }
 
 template <typename Part>
-std::set<std::string> names_of(const std::vector<Part> &parts) {
+std::set<std::string> names_of(const SharedVector<Part> &parts) {
   std::set<std::string> names;
   for (const Part &part : parts) names.insert(part.name);
   return names;

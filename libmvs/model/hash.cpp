@@ -45,7 +45,16 @@ void add(Hash &hash, const Head &head) {
 }
 
 template <typename Item>
-void add(Hash &hash, const std::vector<Item> &items) {
+void add(Hash &hash, const SharedVector<Item> &items);
+void add(Hash &hash, const Ring &ring) {
+  hash.add(ring.id);
+  hash.add(ring.name);
+  add(hash, ring.kind);
+  add(hash, ring.curve);
+}
+
+template <typename Item>
+void add(Hash &hash, const SharedVector<Item> &items) {
   hash.add(uint64_t{items.size()});
   for (const Item &item : items) add(hash, item);
 }
@@ -53,7 +62,9 @@ void add(Hash &hash, const std::vector<Item> &items) {
 void add(Hash &hash, const Valve &valve) {
   hash.add(valve.name);
   add(hash, valve.rest);
+  add(hash, valve.open);
   add(hash, valve.loaded);
+  add(hash, valve.origin);
   add(hash, valve.triangles);
   add(hash, valve.triangle_leaflet);
   add(hash, valve.triangle_scallop);
@@ -64,6 +75,7 @@ void add(Hash &hash, const Valve &valve) {
   add(hash, valve.scallops);
   add(hash, valve.chords);
   add(hash, valve.heads);
+  add(hash, valve.rings);
   for (const double number :
        {valve.density, valve.contact_thickness, valve.contact_stiffness, valve.bending_scale}) {
     hash.add(number);

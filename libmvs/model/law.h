@@ -20,6 +20,8 @@ struct Bilinear {
     const double over = e - kink;
     return 0.5 * low * kink * kink + low * kink * over + 0.5 * high * over * over;
   }
+
+  bool operator==(const Bilinear &) const = default;
 };
 
 // Tension in N of a cable with axial stiffness ea = E A at engineering strain e; none when slack.

@@ -44,7 +44,7 @@ void derive_mass(Model &model) {
 
 }  // namespace
 
-ModelPtr make_model(Valve valve) {
+ModelPtr make_model(Valve valve, const Model *parent) {
   const std::vector<Fault> faults = find_faults(valve);
   if (!faults.empty()) {
     fail(MVS_E_OP, faults.front().part, "%s", faults.front().sentence.c_str());
@@ -55,6 +55,7 @@ ModelPtr make_model(Valve valve) {
   model->topology = make_topology(model->valve);
   derive_lengths_and_areas(*model);
   derive_mass(*model);
+  if (parent) share(*model, *parent);
   return model;
 }
 

@@ -13,15 +13,15 @@ namespace mvs {
 struct Model {
   Valve valve;
   Topology topology;
-  std::vector<double> rest_area;    // m2 per triangle
-  std::vector<double> rest_length;  // m per edge
-  std::vector<double> vertex_area;  // m2 per node: a third of its rest triangles
-  std::vector<double> node_mass;    // kg: lumped from triangles and chordae
+  SharedVector<double> rest_area;    // m2 per triangle
+  SharedVector<double> rest_length;  // m per edge
+  SharedVector<double> vertex_area;  // m2 per node: a third of its rest triangles
+  SharedVector<double> node_mass;    // kg: lumped from triangles and chordae
 
   size_t node_count() const { return valve.rest.size(); }
   // Where a prescribed node is at a fraction 0 (open) .. 1 (loaded) of the boundary motion.
   Vec3 target(uint32_t node, double fraction) const {
-    return valve.rest[node] + fraction * (valve.loaded[node] - valve.rest[node]);
+    return valve.open[node] + fraction * (valve.loaded[node] - valve.open[node]);
   }
 };
 
@@ -34,15 +34,20 @@ struct Load {
 
 // Every input of the next step.
 struct State {
-  std::vector<Vec3> x;  // m
-  std::vector<Vec3> v;  // m/s
-  double time = 0;      // s
+  SharedVector<Vec3> x;  // m
+  SharedVector<Vec3> v;  // m/s
+  double time = 0;       // s
   uint64_t steps = 0;
   Load load;
 };
 
 // Checks, completes (ids, names, fibres, thickness) and freezes a valve; throws the first fault.
-ModelPtr make_model(Valve valve);
+// Arrays that hold the same as those of `parent` (nullable) are shared with it.
+ModelPtr make_model(Valve valve, const Model *parent = nullptr);
+
+// Shares with `other` the arrays that hold the same bits; nothing else changes.
+void share(Model &model, const Model &other);
+void share(State &state, const State &other);
 
 // The state a new valve starts from: at rest, no load.
 State initial_state(const Model &model);

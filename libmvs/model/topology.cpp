@@ -84,7 +84,7 @@ Topology make_topology(const Valve &valve) {
   topology.triangle_edges.resize(valve.triangles.size());
   add_edges(sorted_sides(valve.triangles), topology);
   add_hinges(valve.triangles, topology);
-  topology.node_triangles = rows_of(valve.rest.size(), valve.triangles);
+  topology.node_triangles = rows_of(valve.rest.size(), valve.triangles.get());
   std::vector<Edge> chords;
   chords.reserve(valve.chords.size());
   for (const Chord &chord : valve.chords) chords.push_back({chord.a, chord.b});

@@ -9,16 +9,16 @@
 namespace mvs {
 
 struct Topology {
-  std::vector<Edge> edges;           // smaller node first, sorted
-  std::vector<Edge> edge_triangles;  // one or two adjacent triangles; `none` in the second place
-  std::vector<Tri> triangle_edges;   // edge k of a triangle joins its corners k and k + 1
-  std::vector<std::array<uint32_t, 4>> hinges;  // edge nodes i j, then the opposite corners
-  std::vector<uint32_t> hinge_edge;
-  Rows node_triangles;                            // triangles around each node, ascending
-  Rows node_chords;                               // chord segments at each node, ascending
-  std::vector<uint8_t> node_kind;                 // MVS_NODE_IS_*
-  std::vector<uint8_t> fixed;                     // 1: prescribed (annulus, head)
-  std::vector<std::vector<uint32_t>> free_edges;  // the other boundary loops, in order
+  SharedVector<Edge> edges;           // smaller node first, sorted
+  SharedVector<Edge> edge_triangles;  // one or two adjacent triangles; `none` in the second place
+  SharedVector<Tri> triangle_edges;   // edge k of a triangle joins its corners k and k + 1
+  SharedVector<std::array<uint32_t, 4>> hinges;  // edge nodes i j, then the opposite corners
+  SharedVector<uint32_t> hinge_edge;
+  Rows node_triangles;                             // triangles around each node, ascending
+  Rows node_chords;                                // chord segments at each node, ascending
+  SharedVector<uint8_t> node_kind;                 // MVS_NODE_IS_*
+  SharedVector<uint8_t> fixed;                     // 1: prescribed (annulus, head)
+  SharedVector<std::vector<uint32_t>> free_edges;  // the other boundary loops, in order
 };
 
 Topology make_topology(const Valve &valve);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "base/shared_vector.h"
 #include "base/types.h"
 #include "model/law.h"
 
@@ -15,12 +15,16 @@ struct Leaflet {
   uint32_t law = 1;  // MVS_LEAFLET_*
   double thickness = 1e-3;
   Bilinear bilinear = {};  // constants of MVS_LEAFLET_SPRING
+
+  bool operator==(const Leaflet &) const = default;
 };
 
 struct Scallop {
   Id id = 0;
   std::string name;
   uint32_t leaflet = 0;  // index into leaflets
+
+  bool operator==(const Scallop &) const = default;
 };
 
 struct Chord {
@@ -34,29 +38,48 @@ struct Chord {
   double young = 40e6;                               // Pa
   double area = 7.853981633974483e-7;                // m2, diameter 1 mm
   double stiffness() const { return young * area; }  // E A, N
+
+  bool operator==(const Chord &) const = default;
 };
 
 struct Head {
   Id id = 0;
   std::string name;
   uint32_t node = none;
+
+  bool operator==(const Head &) const = default;
+};
+
+// A ring or band sewn to the annulus: what to draw, and that it is there. Where it holds the
+// annulus is in Valve::open and Valve::loaded.
+struct Ring {
+  Id id = 0;
+  std::string name;
+  uint32_t kind = 1;         // MVS_RING_*
+  SharedVector<Vec3> curve;  // m, closed for a ring, open for a band
+
+  bool operator==(const Ring &) const = default;
 };
 
 // Everything that is not derived. Nodes are leaflet vertices, branch points and heads in any order.
+// Copies share their arrays, so that a valve after an operation costs what the operation changed.
 struct Valve {
   std::string name = "valve";
-  std::vector<Vec3> rest;    // open, unloaded: the rest shape of the sheet
-  std::vector<Vec3> loaded;  // where prescribed nodes go under load; equals rest elsewhere
-  std::vector<Tri> triangles;
-  std::vector<uint32_t> triangle_leaflet;
-  std::vector<uint32_t> triangle_scallop;
-  std::vector<double> triangle_thickness;
-  std::vector<Vec3> triangle_fibre;  // unit, in the rest triangle's plane
-  std::vector<uint32_t> annulus;     // closed loop, in order
-  std::vector<Leaflet> leaflets;
-  std::vector<Scallop> scallops;
-  std::vector<Chord> chords;
-  std::vector<Head> heads;
+  SharedVector<Vec3> rest;        // unloaded: the rest shape of the sheet
+  SharedVector<Vec3> open;        // where prescribed nodes are without load; equals rest elsewhere
+  SharedVector<Vec3> loaded;      // where prescribed nodes go under load; equals rest elsewhere
+  SharedVector<uint32_t> origin;  // index before any operation added or removed nodes; none: new
+  SharedVector<Tri> triangles;
+  SharedVector<uint32_t> triangle_leaflet;
+  SharedVector<uint32_t> triangle_scallop;
+  SharedVector<double> triangle_thickness;
+  SharedVector<Vec3> triangle_fibre;  // unit, in the rest triangle's plane
+  SharedVector<uint32_t> annulus;     // closed loop, in order
+  SharedVector<Leaflet> leaflets;
+  SharedVector<Scallop> scallops;
+  SharedVector<Chord> chords;
+  SharedVector<Head> heads;
+  SharedVector<Ring> rings;
   double density = 1060;            // kg/m3
   double contact_thickness = 1e-3;  // m, of a leaflet
   double contact_stiffness = 20e3;  // Pa

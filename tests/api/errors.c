@@ -221,9 +221,9 @@ static void parts_and_arrays_that_are_not_there(void) {
   uint32_t count = 0;
   REFUSED(mvs_snapshot_view(snapshot, 0, &view), MVS_E_ARGUMENT, "which is 0");
   REFUSED(mvs_snapshot_view(snapshot, 9999, &view), MVS_E_ARGUMENT, "which is 9999");
-  REFUSED(mvs_snapshot_part_count(snapshot, 5, &count), MVS_E_ARGUMENT, "kind is 5");
+  REFUSED(mvs_snapshot_part_count(snapshot, 6, &count), MVS_E_ARGUMENT, "kind is 6");
   REFUSED(mvs_snapshot_part(snapshot, 0, 0, &part), MVS_E_ARGUMENT, "kind is 0");
-  for (uint32_t kind = 1; kind <= 4; ++kind) {
+  for (uint32_t kind = 1; kind <= 5; ++kind) {
     REFUSED(mvs_snapshot_part(snapshot, kind, 1000, &part), MVS_E_ARGUMENT, "index is 1000");
     REFUSED(mvs_snapshot_find(snapshot, kind, "Q9", &part), MVS_E_ID, "named \"Q9\"");
   }

@@ -43,6 +43,12 @@ inline Pair in_motion(Valve valve) {
   valve.loaded = valve.rest;
   for (const uint32_t node : valve.annulus) valve.loaded[node] *= 0.95;
   valve.loaded[valve.heads[0].node] += Vec3(1e-3, -2e-3, 3e-3);
+  valve.open = valve.rest;
+  valve.open[valve.annulus[0]] += Vec3(1e-4, 0, 0);
+  valve.origin.resize(valve.rest.size(), 3u);
+  valve.origin.back() = none;
+  valve.rings.push_back({0, "ring 1", MVS_RING_RIGID, {Vec3(0, 1e-3, 2e-3), Vec3(1e-3, 0, 0)}});
+  valve.rings.push_back({0, "band", MVS_RING_BAND, {}});
   valve.scallops = {{0, "A2", 0}, {0, "P1", 1}, {0, "P3", 1}};
   valve.triangle_scallop.clear();
   valve.triangle_thickness.clear();
@@ -130,7 +136,9 @@ inline Pair random_pair(uint64_t seed) {
     pair.state.x.push_back(random.place());
     pair.state.v.push_back(random.below(2) == 0 ? random.place() : Vec3::Zero());
     valve.rest.push_back(random.below(2) == 0 ? random.place() : pair.state.x.back());
+    valve.open.push_back(random.below(2) == 0 ? random.place() : valve.rest.back());
     valve.loaded.push_back(random.below(2) == 0 ? random.place() : valve.rest.back());
+    valve.origin.push_back(random.below(2) == 0 ? random.below(n) : none);
   }
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.thickness = random.number();

@@ -168,13 +168,15 @@ TEST_CASE("what_is_given_twice_or_in_the_wrong_place_is_told") {
     CHECK(fault.line == line_of(text, start + line.size()));
     CHECK(fault.message.find(wanted) != std::string::npos);
   };
-  twice("1 ", "#mvs `1` is not known");
+  twice("2 ", "#mvs `2` is not known");
   twice("valve", "#mvs valve is given twice");
   twice("state", "#mvs state is given twice");
   twice("leaflet", "leaflet `A` is given twice");
   twice("scallop", "scallop `A2` is given twice");
   twice("rest", "rest position of this vertex is given twice");
   twice("loaded", "loaded position of this vertex is given twice");
+  twice("open", "open position of this vertex is given twice");
+  twice("origin", "origin of this vertex is given twice");
   twice("velocity", "velocity of this vertex is given twice");
   twice("fibre", "fibre of this triangle is given twice");
   twice("thickness", "thickness of this triangle is given twice");
@@ -183,20 +185,23 @@ TEST_CASE("what_is_given_twice_or_in_the_wrong_place_is_told") {
   check_fault("#mvs scallop name=A2", "#mvs rest 1 2 3\n#mvs scallop name=A2", "no `v` line above");
   check_fault("#mvs scallop name=A2", "#mvs fibre 1 0 0\n#mvs scallop name=A2", "no `f` line");
   check_fault("#mvs scallop name=A2", "#mvs chord id=1\n#mvs scallop name=A2", "no `l` line");
+  check_fault("#mvs scallop name=A2", "#mvs ring_point 1 0 0\n#mvs scallop name=A2",
+              "no `#mvs ring`");
+  check_fault("#mvs origin 4", "#mvs origin 0", "number of a vertex, or new");
   check_fault("leaflet=A", "leaflet=B", "no leaflet `B`");
   check_fault("\nl 65 66", "\n#mvs scallop name=Z leaflet=A\nl 65 66", "above the first f line");
 }
 
 TEST_CASE("versions_units_and_spaces_that_do_not_fit_are_told") {
-  check_fault("#mvs 1 units=mm", "#mvs 2 units=furlong", "version `2`", MVS_E_VERSION);
-  check_fault("#mvs 1 units=mm", "#mvs 99999999999", "version `99999999999`", MVS_E_VERSION);
-  check_fault("#mvs 1 units=mm", "#mvs 0 units=mm", "`#mvs 1 units=mm`");
-  check_fault("#mvs 1 units=mm", "#mvs x units=mm", "`#mvs 1 units=mm`");
-  check_fault("#mvs 1 units=mm", "#mvs 1", "lacks units=");
-  check_fault("#mvs 1 units=mm", "#mvs 1 units=m", "`m` is not known; known are: mm");
-  check_fault("#mvs 1 units=mm", "#mvs 1 units=inch", "known are: mm");
+  check_fault("#mvs 2 units=mm", "#mvs 3 units=furlong", "version `3`", MVS_E_VERSION);
+  check_fault("#mvs 2 units=mm", "#mvs 99999999999", "version `99999999999`", MVS_E_VERSION);
+  check_fault("#mvs 2 units=mm", "#mvs 0 units=mm", "`#mvs 2 units=mm`");
+  check_fault("#mvs 2 units=mm", "#mvs x units=mm", "`#mvs 2 units=mm`");
+  check_fault("#mvs 2 units=mm", "#mvs 2", "lacks units=");
+  check_fault("#mvs 2 units=mm", "#mvs 2 units=m", "`m` is not known; known are: mm");
+  check_fault("#mvs 2 units=mm", "#mvs 2 units=inch", "known are: mm");
   check_fault("SPACE=LPS", "SPACE=RAS", "RAS");
-  CHECK(fault_of("v 0 0 0\n#mvs 1 units=mm\n").message.find("above the first v") !=
+  CHECK(fault_of("v 0 0 0\n#mvs 2 units=mm\n").message.find("above the first v") !=
         std::string::npos);
 }
 
@@ -212,7 +217,7 @@ TEST_CASE("a_plain_obj_is_told_what_it_lacks") {
   const Fault plain = fault_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   CHECK(plain.code == MVS_E_FORMAT);
   CHECK(plain.line == 4);
-  for (const char *word : {"3 vertices and 1 triangles", "#mvs 1 units=mm", "annulus", "head",
+  for (const char *word : {"3 vertices and 1 triangles", "#mvs 2 units=mm", "annulus", "head",
                            "leaflet", "`l HEAD LEAFLET`", "FORMAT.md"}) {
     CHECK(plain.message.find(word) != std::string::npos);
   }
@@ -231,7 +236,7 @@ TEST_CASE("a_line_without_end_is_told") {
 }
 
 TEST_CASE("more_than_the_limit_is_refused") {
-  std::string text = "#mvs 1 units=mm\nv 0 0 0\n", line = "#mvs annulus";
+  std::string text = "#mvs 2 units=mm\nv 0 0 0\n", line = "#mvs annulus";
   for (int k = 0; k < 32000; ++k) line += " 1";
   while (text.size() < 9000000) text += line + "\n";
   const Fault fault = fault_of(text);

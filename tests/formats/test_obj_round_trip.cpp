@@ -7,10 +7,10 @@ using namespace mvs;
 
 namespace {
 
-template <typename Item>
-bool same_bits(const std::vector<Item> &a, const std::vector<Item> &b) {
+template <typename List>
+bool same_bits(const List &a, const List &b) {
   return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0);
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof *a.data()) == 0);
 }
 
 bool same_bits(std::initializer_list<double> a, std::initializer_list<double> b) {
@@ -18,7 +18,7 @@ bool same_bits(std::initializer_list<double> a, std::initializer_list<double> b)
 }
 
 template <typename Part, typename Same>
-bool same_parts(const std::vector<Part> &a, const std::vector<Part> &b, Same same) {
+bool same_parts(const SharedVector<Part> &a, const SharedVector<Part> &b, Same same) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const Part &p, const Part &q) {
     return p.id == q.id && p.name == q.name && same(p, q);
   });
@@ -26,7 +26,9 @@ bool same_parts(const std::vector<Part> &a, const std::vector<Part> &b, Same sam
 
 void check_same_lists(const Valve &a, const Valve &b) {
   CHECK(same_bits(a.rest, b.rest));
+  CHECK(same_bits(a.open, b.open));
   CHECK(same_bits(a.loaded, b.loaded));
+  CHECK(same_bits(a.origin, b.origin));
   CHECK(same_bits(a.triangles, b.triangles));
   CHECK(same_bits(a.triangle_leaflet, b.triangle_leaflet));
   CHECK(same_bits(a.triangle_scallop, b.triangle_scallop));
@@ -55,6 +57,7 @@ void check_same(const Valve &a, const State &x, const Valve &b, const State &y) 
   check_same_lists(a, b);
   check_same_parts(a, b);
   CHECK(a.name == b.name);
+  CHECK(a.rings == b.rings);
   CHECK(a.next_id == b.next_id);
   CHECK(same_bits({a.density, a.contact_thickness, a.contact_stiffness, a.bending_scale},
                   {b.density, b.contact_thickness, b.contact_stiffness, b.bending_scale}));

@@ -11,8 +11,8 @@ namespace {
 
 void complete_sheet(Valve &valve) {
   if (valve.leaflets.empty()) valve.leaflets.resize(1);
-  valve.triangle_leaflet.resize(valve.triangles.size(), 0);
-  valve.loaded = valve.rest;
+  valve.triangle_leaflet.resize(valve.triangles.size(), 0u);
+  valve.open = valve.loaded = valve.rest;
   for (const uint32_t l : valve.triangle_leaflet) {
     valve.triangle_thickness.push_back(valve.leaflets[l].thickness);
   }

@@ -109,9 +109,13 @@ TEST_CASE("coordinates_that_cannot_be_are_named") {
   check_fault("coordinates are in metres", 1, [](Valve &v) {
     for (Vec3 &p : v.rest) p /= 1000;
   });
-  check_fault("node 0 has a loaded position", 1, [](Valve &v) {
+  check_fault("node 0 has a position when loaded", 1, [](Valve &v) {
     v.loaded = v.rest;
     v.loaded[0][0] = not_a_number;
+  });
+  check_fault("node 0 has a position when open", 1, [](Valve &v) {
+    v.open = v.rest;
+    v.open[0][0] = not_a_number;
   });
   check_fault("other units than nodes", small_segments + 2, [](Valve &v) {
     v.loaded = v.rest;
