@@ -74,7 +74,7 @@ MVS_API const char *mvs_result_name(mvs_result code);
 /* The version of the library in use, 10000 * major + 100 * minor + patch. */
 MVS_API uint32_t mvs_version(void);
 
-/* The names of the optional parts this build has, separated by spaces: "cholmod eigen". Static. */
+/* The names of the optional parts this build has, separated by spaces: "cholmod hdf5". Static. */
 MVS_API const char *mvs_features(void);
 
 /* Names a part of the valve for its whole life: survives undo, save and load. Zero is none. */

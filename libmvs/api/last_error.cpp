@@ -1,6 +1,8 @@
 // The last failure of each thread, and what the library says about itself.
 #include <mvs/base.h>
 
+#include <array>
+#include <cstdio>
 #include <cstring>
 
 #include "api/guard.h"
@@ -92,7 +94,17 @@ uint32_t mvs_version(void) {
 }
 
 const char *mvs_features(void) {
-  return mvs::factor_names();
+  static const auto names = [] {
+#ifdef MVS_HAVE_HDF5
+    constexpr char hdf5[] = " hdf5";
+#else
+    constexpr char hdf5[] = "";
+#endif
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "%s%s", mvs::factor_names(), hdf5);
+    return text;
+  }();
+  return names.data();
 }
 
 }  // extern "C"

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "formats/h5_tree.h"
 #include "samples.h"
 
 using namespace mvs;
@@ -163,3 +164,17 @@ TEST_CASE("any_allocation_may_fail") {
   CHECK(read_whole_file(path) == text);
   std::remove(path.c_str());
 }
+
+#ifdef MVS_HAVE_HDF5
+TEST_CASE("any_allocation_of_an_hdf5_file_may_fail") {
+  H5Tree tree;
+  tree.arrays["mvs/some/x"] = {std::vector<double>(30, 1.5), 3};
+  tree.arrays["other/names"] = {std::vector<std::string>{"A", "P"}};
+  tree.attributes[{"other", "text"}] = {"a text that no short string holds in itself"};
+  const std::string bytes = write_h5(tree, 1);
+  // HDF5 itself takes its memory from malloc, which does not fail here
+  CHECK(fail_every_allocation([&] { write_h5(tree, 1); }) > 5);
+  CHECK(fail_every_allocation([&] { read_h5(bytes, "mvs", 1); }) > 4);
+  CHECK(write_h5(tree, 1) == bytes);
+}
+#endif

@@ -1,21 +1,7 @@
 // Any bytes as an extended OBJ: a clean error, or a valve that survives writing and reading.
-// With clang and -DMVS_LIBFUZZER=ON a libFuzzer target; else a program that runs over the files of
-// the folders named as arguments, as a test.
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <string_view>
-
-#include "base/error.h"
-#include "formats/formats.h"
+#include "fuzz.h"
 
 namespace {
-
-void demand(bool condition, const char *what) {
-  if (condition) return;
-  std::fprintf(stderr, "fuzz_obj: %s\n", what);
-  std::abort();
-}
 
 void check_round_trip(const mvs::Loaded &loaded) {
   const mvs::ModelPtr model = mvs::make_model(loaded.valve);
@@ -40,18 +26,3 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   }
   return 0;
 }
-
-#ifndef MVS_LIBFUZZER
-int main(int count, char **arguments) {
-  size_t files = 0;
-  for (int k = 1; k < count; ++k) {
-    for (const auto &entry : std::filesystem::directory_iterator(arguments[k])) {
-      const std::string text = mvs::read_whole_file(entry.path().string());
-      LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t *>(text.data()), text.size());
-      ++files;
-    }
-  }
-  std::printf("%zu files\n", files);
-  return files > 0 ? 0 : 1;
-}
-#endif
