@@ -8,8 +8,10 @@ from itertools import chain
 from pathlib import Path
 
 import mvs
+from mvs import study
 
-from .cases import Case, from_file, leaking, shipped
+from . import repairs
+from .cases import Case, from_file, leaking, shipped, verdict
 from .table import as_text
 
 
@@ -17,7 +19,8 @@ def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m mvs.report",
         description="Closes the shipped valve, a leaking variant of it and the valves of the "
-        "files; prints a table and writes DIR/report.html.",
+        "files, and repeats the founding paper's study of repairs; prints tables and writes "
+        "DIR/report.html.",
     )
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to write")
     parser.add_argument("--pressure", type=float, default=120.0, metavar="MMHG", help="[120]")
@@ -52,6 +55,19 @@ def _draw(cases: list[Case], folder: Path) -> list:
     return pictures
 
 
+def _study(folder: Path, with_picture: bool) -> str:
+    """Runs the founding paper's study, prints its tables, and returns its chapter."""
+    stages = []
+    for stage in study.run(study.healthy_valve(), study.PARAMETRIC):
+        stages.append(stage)
+        print(f"Study, {stage.title}: {verdict(stage.closed, stage.stats)}", file=sys.stderr)
+    print(f"\n{repairs.as_text(stages)}")
+    png = repairs.sections(stages) if with_picture else b""
+    if png:
+        (folder / "pictures" / "study-sections.png").write_bytes(png)
+    return repairs.as_html(stages, png)
+
+
 def main() -> int:
     """Makes the report; 0, or 1 with a sentence on stderr."""
     arguments = _arguments()
@@ -63,7 +79,8 @@ def main() -> int:
         from .page import build
 
         page = arguments.out / "report.html"
-        page.write_text(build(cases, pictures), encoding="utf-8")
+        chapter = _study(arguments.out, not arguments.no_pictures)
+        page.write_text(build(cases, pictures, chapter), encoding="utf-8")
         print(f"wrote {page}", file=sys.stderr)
     except (mvs.Error, OSError, ImportError) as error:
         print(f"mvs.report: {error}", file=sys.stderr)

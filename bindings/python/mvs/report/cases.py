@@ -28,10 +28,15 @@ class Case:
     @property
     def verdict(self) -> str:
         """What the closed valve does, in a few words."""
-        if not self.stats.converged:
-            return "did not converge"
-        area = self.closed.measures.regurgitant_orifice_area * 1e6
-        return "sealed" if area == 0 else f"leaks through {area:.1f} mm²"
+        return verdict(self.closed, self.stats)
+
+
+def verdict(closed: Snapshot, stats: Stats) -> str:
+    """What a closed valve does, in a few words."""
+    if not stats.converged:
+        return "did not converge"
+    area = closed.measures.regurgitant_orifice_area * 1e6
+    return "sealed" if area == 0 else f"leaks through {area:.1f} mm²"
 
 
 def close(sim: Simulator, key: str, title: str, note: str, pressure_pa: float) -> Case:

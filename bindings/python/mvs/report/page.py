@@ -51,6 +51,7 @@ $pictures
 within the contact thickness; definitions in full: libmvs/measure/README.md. The literature's
 figures are widely quoted ranges for orientation, not limits of this model.</p>
 $table
+$study
 <h2>Settings</h2>
 $settings
 </body>
@@ -58,8 +59,8 @@ $settings
 """)
 
 
-def build(cases: list[Case], pictures: list[Picture]) -> str:
-    """The page for some valves and their pictures."""
+def build(cases: list[Case], pictures: list[Picture], study: str = "") -> str:
+    """The page for some valves and their pictures; `study` is a chapter of its own, in HTML."""
     return PAGE.substitute(
         columns=min(len(cases), 3),
         version=f"{mvs.__version__} ({', '.join(mvs.features)})",
@@ -68,6 +69,7 @@ def build(cases: list[Case], pictures: list[Picture]) -> str:
         comparison=_comparison(cases),
         pictures="".join(_row(name, cases, pictures) for name in CAPTIONS),
         table=as_html(cases),
+        study=study,
         settings=_settings(cases),
     )
 

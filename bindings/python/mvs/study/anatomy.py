@@ -1,0 +1,154 @@
+"""Chordae and leaflet vertices by where they are, so that one plan fits many valves.
+
+Names of chordae differ between valves and even between meshes of one valve; a place on a leaflet
+does not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import IdError, NodeKind, Part, PartKind, Snapshot
+from ..report.geometry import edges_of, ways_along
+
+NEIGHBOURS = 4
+"""Chordae that tell how taut a new one is: two on either side, as a row has."""
+
+
+@dataclass(frozen=True)
+class Site:
+    """A place on a leaflet.
+
+    across: from its middle, as a share of half the width of the annulus; towards the
+        anterolateral commissure is positive
+    down: share of the way from the annulus to the free edge
+    """
+
+    leaflet: str
+    across: float
+    down: float
+
+
+@dataclass(frozen=True)
+class Chord:
+    """A chord from a papillary head with all that it branches into.
+
+    row: of its first segment
+    vertices: leaflet vertices that it holds
+    lengths: m, rest length from the head to each
+    """
+
+    row: int
+    vertices: tuple[int, ...]
+    lengths: tuple[float, ...]
+
+
+class Anatomy:
+    """Where things are on a valve at rest."""
+
+    def __init__(self, snapshot: Snapshot) -> None:
+        self.snapshot = snapshot
+        self.rest = snapshot.node_rest
+        self._triangles = snapshot.triangle_nodes.astype(np.int64)
+        self._x = snapshot.frame.to_local(self.rest)[:, 1]
+        self._half_width = float(np.abs(self._x[snapshot.annulus_nodes]).max())
+
+    @cached_property
+    def chords(self) -> list[Chord]:
+        """The chordae that spring from papillary heads, in the order of the valve."""
+        rows = np.flatnonzero(np.isin(self.snapshot.chord_nodes[:, 0], self.snapshot.head_nodes))
+        return [self._chord(int(row)) for row in rows]
+
+    def chord_at(self, site: Site) -> Chord:
+        """The chord that holds vertices of that leaflet only, nearest to the site on average."""
+        inside = set(self._vertices(site.leaflet).tolist())
+        found = [chord for chord in self.chords if inside.issuperset(chord.vertices)]
+        if not found:
+            raise IdError(f"no chord holds leaflet {site.leaflet} alone")
+        return min(found, key=lambda c: float(self._off(np.array(c.vertices), site).mean()))
+
+    def vertex_at(self, site: Site) -> int:
+        """The vertex nearest to the site among those of its leaflet that no chord holds."""
+        free = np.setdiff1d(self._vertices(site.leaflet), self.snapshot.chord_nodes)
+        free = free[self.snapshot.node_kind[free] == NodeKind.LEAFLET]
+        if len(free) == 0:
+            raise IdError(f"every vertex of leaflet {site.leaflet} has a chord")
+        return int(free[np.argmin(self._off(free, site))])
+
+    def nearest_head(self, vertex: int, side: float) -> int:
+        """The node of the papillary head nearest to a vertex, of the muscle of that side."""
+        heads = self._muscle(side)
+        return int(heads[np.argmin(np.linalg.norm(self.rest[heads] - self.rest[vertex], axis=1))])
+
+    def taut_length(self, head: int, vertex: int, leaflet: str) -> float:
+        """The rest length that makes a new chord as taut as its neighbours, m.
+
+        They are the nearest ones of the same muscle and leaflet; a chord that branches counts
+        from the head to each vertex that it holds.
+        """
+        muscle = set(self._muscle(self._x[head]).tolist())
+        inside = set(self._vertices(leaflet).tolist())
+        ways, ratios = [], []
+        for chord in self.chords:
+            start = int(self.snapshot.chord_nodes[chord.row, 0])
+            for end, length in zip(chord.vertices, chord.lengths):
+                if start in muscle and end in inside and end != vertex:
+                    ways.append(float(np.linalg.norm(self.rest[end] - self.rest[vertex])))
+                    ratios.append(length / float(np.linalg.norm(self.rest[end] - self.rest[start])))
+        if not ratios:
+            raise IdError(f"no chord of that muscle holds leaflet {leaflet}")
+        nearest = np.argsort(ways, kind="stable")[:NEIGHBOURS]
+        distance = float(np.linalg.norm(self.rest[head] - self.rest[vertex]))
+        return distance * float(np.mean(np.array(ratios)[nearest]))
+
+    def part(self, kind: PartKind, row: int) -> Part:
+        """The part of a kind in a row of its arrays."""
+        return next(part for part in self.snapshot.parts if (part.kind, part.index) == (kind, row))
+
+    def head_of(self, node: int) -> Part:
+        """The papillary head at a node."""
+        return self.part(PartKind.HEAD, int(np.flatnonzero(self.snapshot.head_nodes == node)[0]))
+
+    def _chord(self, row: int) -> Chord:
+        nodes, length = self.snapshot.chord_nodes, self.snapshot.chord_rest_length
+        held: list[tuple[int, float]] = []
+        open_ends = [(row, 0.0)]
+        while open_ends:
+            segment, above = open_ends.pop()
+            end, total = int(nodes[segment, 1]), above + float(length[segment])
+            if self.snapshot.node_kind[end] == NodeKind.BRANCH:
+                below = np.flatnonzero(nodes[:, 0] == end)[::-1]
+                open_ends += [(int(other), total) for other in below]
+            else:
+                held.append((end, total))
+        return Chord(row, tuple(end for end, _ in held), tuple(total for _, total in held))
+
+    def _vertices(self, leaflet: str) -> NDArray[np.int64]:
+        index = self.snapshot.find(PartKind.LEAFLET, leaflet).index
+        return np.unique(self._triangles[self.snapshot.triangle_leaflet == index])
+
+    def _muscle(self, side: float) -> NDArray[np.int64]:
+        heads = self.snapshot.head_nodes.astype(np.int64)
+        return np.asarray(heads[(self._x[heads] > 0) == (side > 0)])
+
+    @cached_property
+    def _down(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Of each node, the share of the way from the annulus to the free edge; that way, m."""
+        edges = edges_of(self._triangles)
+        snapshot = self.snapshot
+        above, below = (
+            ways_along(self.rest, edges, loop.astype(np.int64))[0]
+            for loop in (snapshot.annulus_nodes, snapshot.free_edge_nodes)
+        )
+        return above / np.maximum(above + below, 1e-12), above + below
+
+    def _off(self, vertices: NDArray[np.int64], site: Site) -> NDArray[np.float64]:
+        """Squared distances of vertices from a site, m2."""
+        share, way = self._down
+        across = self._x[vertices] - site.across * self._half_width
+        down = (share[vertices] - site.down) * way[vertices]
+        return across**2 + down**2
