@@ -4,6 +4,7 @@
 
 #include "base.h"
 #include "file.h"
+#include "op.h"
 #include "sim.h"
 #include "snapshot.h"
 #include "valve.h"

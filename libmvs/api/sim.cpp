@@ -49,7 +49,8 @@ AtWork::AtWork(mvs_sim *sim) : sim_(sim) {
 
 void replace_valve(mvs_sim &sim, ModelPtr model, State state) {
   const ModelPtr held = model;
-  sim.replace(make_snapshot(std::move(model), std::move(state)));
+  sim.replace(make_snapshot({{std::move(model), std::move(state)}, {}}));
+  sim.group = {};
   sim.stats = {};
   sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",
           held->valve.name.c_str(), held->node_count(), held->valve.triangles.size(),

@@ -27,6 +27,7 @@ struct mvs_sim {
   const mvs_sim_desc desc;
   mvs::Solver solver;
   mvs_stats stats = {};  // struct_size 0: none yet
+  mvs::Group group;      // number 0: none is open
   std::atomic<bool> at_work{false};
 
  private:

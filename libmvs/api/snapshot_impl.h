@@ -11,6 +11,7 @@
 #include "measure/measure.h"
 #include "model/model.h"
 #include "physics/forces.h"
+#include "surgery/history.h"
 
 namespace mvs {
 
@@ -47,8 +48,8 @@ struct Tables {
 
 // Immutable but for the count of references and the values that are worked out once.
 struct mvs_snapshot {
-  mvs_snapshot(mvs::ModelPtr model_in, mvs::State state_in)
-      : model(std::move(model_in)), state(std::move(state_in)) {}
+  explicit mvs_snapshot(mvs::Moment moment_in)
+      : moment(std::move(moment_in)), model(moment.picture.model), state(moment.picture.state) {}
 
   const mvs::Forces &forces() const;
   const mvs::Coaptation &coaptation() const;
@@ -58,8 +59,9 @@ struct mvs_snapshot {
   const mvs::Tables &tables() const;
   const mvs_measures &measures() const;
 
-  const mvs::ModelPtr model;
-  const mvs::State state;
+  const mvs::Moment moment;
+  const mvs::ModelPtr &model;
+  const mvs::State &state;
   mutable std::atomic<uint32_t> references{1};
 
  private:
@@ -98,8 +100,8 @@ class SnapshotPtr {
   const mvs_snapshot *held_ = nullptr;
 };
 
-inline SnapshotPtr make_snapshot(ModelPtr model, State state) {
-  return SnapshotPtr(new mvs_snapshot(std::move(model), std::move(state)));
+inline SnapshotPtr make_snapshot(Moment moment) {
+  return SnapshotPtr(new mvs_snapshot(std::move(moment)));
 }
 
 inline mvs_load_case public_load(const Load &load) {

@@ -62,13 +62,37 @@ mvs_stats public_stats(const SolveStats &from) {
   return stats;
 }
 
+// Makes a state the present one, and notes how it was reached. What it has in common with the state
+// before is shared.
+void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move) {
+  share(state, before->state);
+  Moment moment{{before->model, std::move(state)}, before->moment.timeline};
+  if (!moment.timeline.start) {
+    moment.timeline.start = std::make_shared<const Picture>(before->moment.picture);
+  }
+  moment.timeline.moves = with_move(moment.timeline.moves, move);
+  sim.replace(make_snapshot(std::move(moment)));
+}
+
+Move move_of(Move::Kind kind, const SolveOptions &how) {
+  Move move;
+  move.kind = kind;
+  move.solver = how.solver;
+  move.max_iterations = how.max_iterations;
+  move.residual = how.residual;
+  move.dt = how.dt;
+  move.damping = how.damping;
+  return move;
+}
+
 // Makes a state that a solver arrived at the present one.
-void commit(mvs_sim &sim, const SnapshotPtr &before, State state, const SolveStats &stats) {
+void commit(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move,
+            const SolveStats &stats) {
   for (const Vec3 &x : state.x) {
     MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
              "a node left the range of numbers: take a smaller time step or load");
   }
-  sim.replace(make_snapshot(before->model, std::move(state)));
+  go_on(sim, before, std::move(state), move);
   sim.stats = public_stats(stats);
 }
 
@@ -89,7 +113,10 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
     const SnapshotPtr before = s.present();
     State state = before->state;
     state.load = given;
-    s.replace(make_snapshot(before->model, std::move(state)));
+    Move move;
+    move.pressure = given.pressure;
+    move.boundary_fraction = given.boundary_fraction;
+    go_on(s, before, std::move(state), move);
   });
 }
 
@@ -107,7 +134,7 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     const SnapshotPtr before = s.present();
     State state = before->state;
     const SolveStats found = s.solver.settle(*before->model, state, how, s.progress());
-    commit(s, before, std::move(state), found);
+    commit(s, before, std::move(state), move_of(Move::settle, how), found);
     if (stats) write_struct(stats, s.stats, "stats");
     log_settled(s, found);
   });
@@ -119,7 +146,7 @@ mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
     const SnapshotPtr before = s.present();
     State state = before->state;
     const SolveStats found = s.solver.step(*before->model, state, how);
-    commit(s, before, std::move(state), found);
+    commit(s, before, std::move(state), move_of(Move::step, how), found);
   });
 }
 

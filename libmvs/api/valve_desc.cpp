@@ -1,8 +1,8 @@
 // One function a kind of part; zeros become the defaults that include/mvs/valve.h states.
 #include "api/valve_desc.h"
 
-#include "api/arrays.h"
 #include "api/structs.h"
+#include "base/arrays.h"
 #include "model/check.h"
 
 namespace mvs {

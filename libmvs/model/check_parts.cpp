@@ -6,17 +6,13 @@
 #include <set>
 
 #include "model/checks.h"
+#include "model/text.h"
 
 namespace mvs {
 namespace {
 
 // What a name has room for in mvs_part, less the end.
 constexpr size_t name_limit = sizeof(mvs_part::name) - 1;
-
-bool has_control_character(const std::string &name) {
-  return std::any_of(name.begin(), name.end(),
-                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-}
 
 template <typename Part>
 void check_names(const SharedVector<Part> &parts, const char *kind, bool needed, Faults &faults) {
@@ -32,7 +28,7 @@ void check_names(const SharedVector<Part> &parts, const char *kind, bool needed,
       faults.add(part, "the name of %s has %zu bytes, the limit is %zu", part.c_str(), name.size(),
                  name_limit);
     }
-    if (has_control_character(name)) {
+    if (!is_plain_text(name)) {
       faults.add(part, "the name of %s has a control character in it", part.c_str());
     }
     if (const auto [other, is_new] = seen.emplace(name, k); !is_new) {
@@ -112,7 +108,7 @@ void check_chord(const Chord &chord, size_t k, Faults &faults) {
 }
 
 void check_valve(const Valve &valve, Faults &faults) {
-  if (valve.name.empty() || valve.name.size() > name_limit || has_control_character(valve.name)) {
+  if (valve.name.empty() || valve.name.size() > name_limit || !is_plain_text(valve.name)) {
     faults.add("valve",
                "the name of the valve is empty, over %zu bytes, or has a control character",
                name_limit);

@@ -1,9 +1,9 @@
 // Reading by element: any stride, any alignment, F32 widened to F64.
-#include "api/arrays.h"
+#include "base/arrays.h"
 
 #include <cstring>
 
-#include "api/guard.h"
+#include "base/error.h"
 
 namespace mvs {
 namespace {

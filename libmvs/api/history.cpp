@@ -1,0 +1,109 @@
+// The history of a snapshot, and the kinds of operations, told to the host.
+#include <mvs/op.h>
+
+#include <cstring>
+
+#include "api/snapshot_impl.h"
+#include "api/structs.h"
+
+using namespace mvs;
+
+namespace {
+
+template <size_t size>
+void copy_text(char (&to)[size], const std::string &from) {
+  const size_t length = std::min(from.size(), size - 1);
+  std::memcpy(to, from.data(), length);
+  to[length] = 0;
+}
+
+// Entry `index`, those done first; the next to be redone is the first of those undone.
+const Entry &entry_at(const Timeline &timeline, uint32_t index) {
+  const size_t done = timeline.past.size(), count = done + timeline.future.size();
+  MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but the history has %zu entries",
+           index, count);
+  if (index < done) return **timeline.past.items()[index];
+  return **timeline.future.items()[count - 1 - index];
+}
+
+const OpKind &kind_at(uint32_t index) {
+  MVS_MUST(index < op_kinds().size(), MVS_E_ARGUMENT, "index",
+           "index is %u, but there are %zu kinds of operations", index, op_kinds().size());
+  return op_kinds()[index];
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_snapshot_history(const mvs_snapshot *snapshot, mvs_history *history) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    const Timeline &timeline = snapshot->moment.timeline;
+    mvs_history out = {};
+    out.done = static_cast<uint32_t>(timeline.past.size());
+    out.undone = static_cast<uint32_t>(timeline.future.size());
+    if (timeline.checkpoints) out.checkpoints = static_cast<uint32_t>(timeline.checkpoints->size());
+    write_struct(history, out, "history");
+  });
+}
+
+mvs_result mvs_snapshot_history_entry(const mvs_snapshot *snapshot, uint32_t index,
+                                      mvs_history_entry *entry) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    const Entry &found = entry_at(snapshot->moment.timeline, index);
+    mvs_history_entry out = {};
+    out.kind = found.op.kind().number;
+    out.group = found.group;
+    out.made = found.made;
+    copy_text(out.title, found.title);
+    copy_text(out.in_group, found.group_name);
+    write_struct(entry, out, "entry");
+  });
+}
+
+const char *mvs_snapshot_checkpoint(const mvs_snapshot *snapshot, uint32_t index) {
+  if (!snapshot || !snapshot->moment.timeline.checkpoints) return nullptr;
+  const std::vector<Checkpoint> &list = *snapshot->moment.timeline.checkpoints;
+  return index < list.size() ? list[index].name.c_str() : nullptr;
+}
+
+uint32_t mvs_op_count(void) {
+  return static_cast<uint32_t>(op_kinds().size());
+}
+
+mvs_result mvs_op_describe(uint32_t index, mvs_op_info *info) {
+  return guarded([&] {
+    const OpKind &kind = kind_at(index);
+    mvs_op_info out = {};
+    out.kind = kind.number;
+    out.size = kind.size;
+    out.fields = static_cast<uint32_t>(kind.fields.size());
+    out.name = kind.name;
+    out.help = kind.help;
+    write_struct(info, out, "info");
+  });
+}
+
+mvs_result mvs_op_describe_field(uint32_t index, uint32_t field, mvs_field_info *info) {
+  return guarded([&] {
+    const OpKind &kind = kind_at(index);
+    MVS_MUST(field < kind.fields.size(), MVS_E_ARGUMENT, "field",
+             "field is %u, but %s has %zu fields", field, kind.name, kind.fields.size());
+    const OpField &f = kind.fields[field];
+    mvs_field_info out = {};
+    out.type = f.type;
+    out.offset = f.offset;
+    out.required = f.required ? 1 : 0;
+    out.low = f.low;
+    out.high = f.high;
+    out.name = f.name;
+    out.unit = f.unit;
+    out.help = f.help;
+    out.choices = f.choices;
+    write_struct(info, out, "info");
+  });
+}
+
+}  // extern "C"

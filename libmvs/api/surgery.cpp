@@ -1,0 +1,105 @@
+// Operations: check, apply, undo, redo, groups, checkpoints.
+#include <mvs/op.h>
+
+#include <chrono>
+
+#include "api/simulator.h"
+#include "model/text.h"
+
+using namespace mvs;
+
+namespace {
+
+int64_t now_ms() {
+  using namespace std::chrono;
+  return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+void must_be_no_group(const mvs_sim &sim, const char *call) {
+  MVS_MUST(sim.group.number == 0, MVS_E_STATE, "group",
+           "%s: the group \"%.63s\" is open: call mvs_end_group first", call,
+           sim.group.name.c_str());
+}
+
+std::string checked_name(const char *name, const char *what) {
+  must_point(name, what);
+  const std::string text = name;
+  MVS_MUST(!text.empty() && text.size() <= 63 && is_plain_text(text), MVS_E_ARGUMENT, what,
+           "the name of a %s has to have 1 to 63 bytes and no control characters", what);
+  return text;
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_check_op(const mvs_sim *sim, const mvs_op *op) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    const SnapshotPtr present = sim->present();
+    perform(present->moment.picture, Operation(op));
+  });
+}
+
+mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const SnapshotPtr before = s.present();
+    Moment after = after_op(before->moment, Operation(op), s.group, now_ms());
+    const std::shared_ptr<const Entry> entry = after.timeline.past.top();
+    s.replace(make_snapshot(std::move(after)));
+    if (made) *made = entry->made;
+    s.log(MVS_LOG_INFO, "%s", entry->title.c_str());
+  });
+}
+
+mvs_result mvs_undo(mvs_sim *sim) {
+  return guarded_call(sim, [](mvs_sim &s) {
+    const SnapshotPtr before = s.present();
+    must_be_no_group(s, "undo");
+    s.replace(make_snapshot(undone(before->moment)));
+  });
+}
+
+mvs_result mvs_redo(mvs_sim *sim) {
+  return guarded_call(sim, [](mvs_sim &s) {
+    const SnapshotPtr before = s.present();
+    must_be_no_group(s, "redo");
+    s.replace(make_snapshot(redone(before->moment)));
+  });
+}
+
+mvs_result mvs_begin_group(mvs_sim *sim, const char *name) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const SnapshotPtr before = s.present();
+    must_be_no_group(s, "begin_group");
+    Group group{before->moment.timeline.next_group, checked_name(name, "group")};
+    Moment moment = before->moment;
+    ++moment.timeline.next_group;
+    s.replace(make_snapshot(std::move(moment)));
+    s.group = std::move(group);
+  });
+}
+
+mvs_result mvs_end_group(mvs_sim *sim) {
+  return guarded_call(sim, [](mvs_sim &s) {
+    MVS_MUST(s.group.number != 0, MVS_E_STATE, "group", "end_group: no group is open");
+    s.group = {};
+  });
+}
+
+mvs_result mvs_set_checkpoint(mvs_sim *sim, const char *name) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const SnapshotPtr before = s.present();
+    s.replace(make_snapshot(with_checkpoint(before->moment, checked_name(name, "checkpoint"))));
+  });
+}
+
+mvs_result mvs_restore_checkpoint(mvs_sim *sim, const char *name) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const SnapshotPtr before = s.present();
+    must_be_no_group(s, "restore_checkpoint");
+    s.replace(make_snapshot(at_checkpoint(before->moment, checked_name(name, "checkpoint"))));
+  });
+}
+
+}  // extern "C"

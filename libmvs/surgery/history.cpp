@@ -1,0 +1,111 @@
+// Going along a history.
+#include "surgery/history.h"
+
+#include "base/error.h"
+
+namespace mvs {
+namespace {
+
+std::shared_ptr<const Picture> start_of(const Moment &moment) {
+  if (moment.timeline.start) return moment.timeline.start;
+  return std::make_shared<const Picture>(moment.picture);
+}
+
+bool in_same_group(const Entry &a, const Entry &b) {
+  return a.group != 0 && a.group == b.group;
+}
+
+Moment undone_once(const Moment &now) {
+  const std::shared_ptr<const Entry> entry = now.timeline.past.top();
+  Moment moment{entry->before, now.timeline};
+  moment.timeline.past = now.timeline.past.popped();
+  moment.timeline.future = now.timeline.future.pushed(entry);
+  moment.timeline.moves = entry->moves;
+  return moment;
+}
+
+Moment redone_once(const Moment &now) {
+  const std::shared_ptr<const Entry> entry = now.timeline.future.top();
+  Moment moment{entry->after, now.timeline};
+  moment.timeline.past = now.timeline.past.pushed(entry);
+  moment.timeline.future = now.timeline.future.popped();
+  moment.timeline.moves = {};
+  return moment;
+}
+
+}  // namespace
+
+Moves with_move(const Moves &moves, Move move) {
+  if (moves.empty()) return moves.pushed(move);
+  Move last = moves.top();
+  // a load that nothing has followed yet is replaced, equal steps are counted
+  if (move.kind == Move::load && last.kind == Move::load) return moves.popped().pushed(move);
+  move.count = last.count;
+  if (move.kind != Move::step || !(move == last)) {
+    move.count = 1;
+    return moves.pushed(move);
+  }
+  ++last.count;
+  return moves.popped().pushed(last);
+}
+
+Moment after_op(const Moment &now, const Operation &op, const Group &group, int64_t time_ms) {
+  Operated done = perform(now.picture, op);
+  auto entry = std::make_shared<const Entry>(Entry{op, std::move(done.title), done.made,
+                                                   group.number, group.name, time_ms,
+                                                   now.timeline.moves, now.picture, done.picture});
+  Moment moment{std::move(done.picture), now.timeline};
+  moment.timeline.start = start_of(now);
+  moment.timeline.past = now.timeline.past.pushed(std::move(entry));
+  moment.timeline.future = {};
+  moment.timeline.moves = {};
+  return moment;
+}
+
+Moment undone(const Moment &now) {
+  MVS_MUST(!now.timeline.past.empty(), MVS_E_STATE, "undo",
+           "there is no operation to undo: the valve is as it was set or loaded");
+  const std::shared_ptr<const Entry> first = now.timeline.past.top();
+  Moment moment = undone_once(now);
+  while (!moment.timeline.past.empty() && in_same_group(*moment.timeline.past.top(), *first)) {
+    moment = undone_once(moment);
+  }
+  return moment;
+}
+
+Moment redone(const Moment &now) {
+  MVS_MUST(!now.timeline.future.empty(), MVS_E_STATE, "redo",
+           "there is no operation to redo: none was undone, or another one was applied since");
+  const std::shared_ptr<const Entry> first = now.timeline.future.top();
+  Moment moment = redone_once(now);
+  while (!moment.timeline.future.empty() && in_same_group(*moment.timeline.future.top(), *first)) {
+    moment = redone_once(moment);
+  }
+  return moment;
+}
+
+Moment with_checkpoint(const Moment &now, const std::string &name) {
+  auto list = now.timeline.checkpoints ? *now.timeline.checkpoints : std::vector<Checkpoint>();
+  std::erase_if(list, [&](const Checkpoint &c) { return c.name == name; });
+  list.push_back({name, now.picture, now.timeline.past, now.timeline.future, now.timeline.moves});
+  Moment moment = now;
+  moment.timeline.start = start_of(now);
+  moment.timeline.checkpoints = std::make_shared<const std::vector<Checkpoint>>(std::move(list));
+  return moment;
+}
+
+Moment at_checkpoint(const Moment &now, const std::string &name) {
+  if (now.timeline.checkpoints) {
+    for (const Checkpoint &c : *now.timeline.checkpoints) {
+      if (c.name != name) continue;
+      Moment moment{c.at, now.timeline};
+      moment.timeline.past = c.past;
+      moment.timeline.future = c.future;
+      moment.timeline.moves = c.moves;
+      return moment;
+    }
+  }
+  fail(MVS_E_ID, "checkpoint", "there is no checkpoint named \"%.63s\"", name.c_str());
+}
+
+}  // namespace mvs

@@ -1,0 +1,95 @@
+// The history of a valve: what was done to it, what was undone, the checkpoints.
+//
+// It is immutable and shared like models and states are: each snapshot has the history up to it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+#include "surgery/operation.h"
+#include "surgery/stack.h"
+
+namespace mvs {
+
+// A model and a state of it.
+struct Picture {
+  ModelPtr model;
+  State state;
+};
+
+// What changes a state between two operations, so that a plan can be replayed to the same bits.
+struct Move {
+  enum Kind : uint32_t { load = 1, settle = 2, step = 3 };
+  Kind kind = load;
+  uint32_t solver = 0, max_iterations = 0;     // of settle and step, as the caller gave them
+  uint64_t count = 1;                          // how many of the same in a row
+  double pressure = 0, boundary_fraction = 0;  // of load: Pa, 0 to 1
+  double residual = 0, dt = 0, damping = 0;    // N, s, 1/s
+
+  bool operator==(const Move &) const = default;
+};
+using Moves = Stack<Move>;
+
+// With one more move; equal steps are counted up.
+Moves with_move(const Moves &moves, Move move);
+
+// One operation that was applied.
+struct Entry {
+  Operation op;
+  std::string title;  // for a menu
+  Id made = 0;
+  uint64_t group = 0;      // 0: none
+  std::string group_name;  // "" for none
+  int64_t time_ms = 0;     // when, since 1970 UTC
+  Moves moves;             // since the operation before it
+  Picture before, after;
+};
+using Entries = Stack<std::shared_ptr<const Entry>>;
+
+// A place to come back to.
+struct Checkpoint {
+  std::string name;
+  Picture at;
+  Entries past, future;
+  Moves moves;
+};
+
+struct Timeline {
+  std::shared_ptr<const Picture> start;  // the valve as it was set; null: it is this picture
+  Entries past;                          // the last operation on top
+  Entries future;                        // undone; the next to be redone on top
+  Moves moves;                           // since the last operation
+  std::shared_ptr<const std::vector<Checkpoint>> checkpoints;  // null: none
+  uint64_t next_group = 1;
+};
+
+// A picture with the history up to it.
+struct Moment {
+  Picture picture;
+  Timeline timeline;
+};
+
+// What an operation did.
+struct Operated {
+  Picture picture;
+  Id made = 0;
+  std::string title;
+};
+
+// Applies an operation to a picture; throws and leaves it as it is if that cannot be done.
+Operated perform(const Picture &before, const Operation &op);
+
+// These give the moment after; they throw MVS_E_STATE or MVS_E_ID where there is nothing to go to.
+struct Group {
+  uint64_t number = 0;
+  std::string name;
+};
+Moment after_op(const Moment &now, const Operation &op, const Group &group, int64_t time_ms);
+Moment undone(const Moment &now);
+Moment redone(const Moment &now);
+Moment with_checkpoint(const Moment &now, const std::string &name);
+Moment at_checkpoint(const Moment &now, const std::string &name);
+
+}  // namespace mvs

@@ -1,0 +1,36 @@
+// The kinds of operations and their fields, as ops.def lists them.
+#pragma once
+
+#include <mvs/op.h>
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace mvs {
+
+struct OpField {
+  const char *name;
+  uint32_t type;    // MVS_FIELD_*
+  uint32_t offset;  // bytes into the struct
+  bool required;
+  double low, high;  // of a number that is given; of the count of points; of the bytes of a text
+  const char *unit, *choices, *help;
+};
+
+struct OpKind {
+  uint32_t number;  // MVS_OP_*
+  uint32_t size;    // of its struct
+  const char *name;
+  const char *help;
+  std::span<const OpField> fields;
+};
+
+// In the order of their numbers.
+std::span<const OpKind> op_kinds();
+
+// Null where there is none.
+const OpKind *find_op_kind(uint32_t number);
+const OpKind *find_op_kind(std::string_view name);
+
+}  // namespace mvs

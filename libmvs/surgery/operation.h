@@ -1,0 +1,48 @@
+// One operation with its values: an immutable copy of the caller's struct and of what it points to.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+#include "surgery/kinds.h"
+
+namespace mvs {
+
+// Copies share what they own.
+class Operation {
+ public:
+  // Throws MVS_E_ARGUMENT or MVS_E_VERSION where the struct cannot be read or a value is out of its
+  // range; whether its parts are there is for perform() to say.
+  explicit Operation(const mvs_op *given);
+
+  const OpKind &kind() const { return *owned_->kind; }
+  template <typename Struct>
+  const Struct &as() const {
+    return *reinterpret_cast<const Struct *>(owned_->bytes.data());
+  }
+  const mvs_op *get() const { return &as<mvs_op>(); }
+  // A field, read as what its type is in C.
+  template <typename Value>
+  const Value &field(const OpField &f) const {
+    return *reinterpret_cast<const Value *>(bytes() + f.offset);
+  }
+
+ private:
+  struct Owned {
+    const OpKind *kind;
+    std::vector<uint64_t> bytes;  // of the struct; words, so that it is aligned
+    std::vector<std::unique_ptr<std::vector<Vec3>>> points;
+    std::vector<std::unique_ptr<std::string>> texts;
+  };
+  const char *bytes() const { return reinterpret_cast<const char *>(owned_->bytes.data()); }
+  static void own(Owned &owned, const OpField &f);
+
+  std::shared_ptr<const Owned> owned_;
+};
+
+// The points of an array field of an Operation.
+std::vector<Vec3> points_of(const mvs_array &array);
+
+}  // namespace mvs

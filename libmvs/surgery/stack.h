@@ -1,0 +1,53 @@
+// An immutable stack that shares everything below its top: a history costs what each level adds.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace mvs {
+
+template <typename T>
+class Stack {
+ public:
+  bool empty() const { return cell_ == nullptr; }
+  size_t size() const { return cell_ ? cell_->size : 0; }
+  const T &top() const { return cell_->value; }
+  // Without its top.
+  Stack popped() const { return Stack(cell_->below); }
+  // With one more on top.
+  Stack pushed(T value) const {
+    return Stack(std::make_shared<Cell>(std::move(value), cell_, size() + 1));
+  }
+  // All, from the bottom to the top; valid while this stack is.
+  std::vector<const T *> items() const {
+    std::vector<const T *> all(size());
+    size_t k = all.size();
+    for (const Cell *c = cell_.get(); c; c = c->below.get()) all[--k] = &c->value;
+    return all;
+  }
+
+  Stack() = default;
+
+ private:
+  struct Cell {
+    Cell(T value_in, std::shared_ptr<Cell> below_in, size_t size_in)
+        : value(std::move(value_in)), below(std::move(below_in)), size(size_in) {}
+    Cell(const Cell &) = delete;
+    Cell &operator=(const Cell &) = delete;
+    // thousands of levels must not become thousands of nested calls
+    ~Cell() {
+      std::shared_ptr<Cell> next = std::move(below);
+      while (next && next.use_count() == 1) next = std::shared_ptr<Cell>(std::move(next->below));
+    }
+    T value;
+    std::shared_ptr<Cell> below;
+    size_t size;
+  };
+
+  explicit Stack(std::shared_ptr<Cell> cell) : cell_(std::move(cell)) {}
+
+  std::shared_ptr<Cell> cell_;
+};
+
+}  // namespace mvs
