@@ -64,47 +64,67 @@ Candidates::Candidates(const Model &model)
 }
 
 bool Candidates::valid_for(const std::vector<Vec3> &x) const {
-  if (built_at_.size() != x.size()) return false;
+  if (from_.size() != x.size()) return false;
   for (size_t i = 0; i < x.size(); ++i) {
-    if ((x[i] - built_at_[i]).squaredNorm() > reach_[i] * reach_[i]) return false;
+    if (closest_on_segment(x[i], from_[i], to_[i]).distance2 > slack_ * slack_) return false;
   }
   return true;
 }
 
-void Candidates::build(const std::vector<Vec3> &x, const std::vector<double> &reach) {
-  reach_ = reach;
-  built_at_ = x;
-  find_guarded(x);
-  find_facing(x);
+void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack) {
+  take_ways(x, to, slack);
+  find_guarded();
+  find_facing();
 }
 
+void Candidates::take_ways(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack) {
+  from_ = x;
+  to_ = to;
+  slack_ = slack;
+  node_low_.resize(x.size());
+  node_high_.resize(x.size());
+  middle_.resize(x.size());
+  reach_.resize(x.size());
+  for (size_t i = 0; i < x.size(); ++i) {
+    node_low_[i] = x[i].cwiseMin(to[i]).array() - slack;
+    node_high_[i] = x[i].cwiseMax(to[i]).array() + slack;
+    middle_[i] = 0.5 * (x[i] + to[i]);
+    reach_[i] = 0.5 * (to[i] - x[i]).norm() + slack;
+  }
+}
+
+// How far a point of a triangle may be from where it is between its corners' middles.
 double Candidates::triangle_reach(uint32_t triangle) const {
   const auto [i, j, k] = model_->valve.triangles[triangle];
   return std::max(reach_[i], std::max(reach_[j], reach_[k]));
 }
 
-// Each box reaches as far as its corners may go, and a margin more.
-void Candidates::make_boxes(const std::vector<Vec3> &x, double margin) {
+// As far as the corners may go.
+std::array<Vec3, 2> Candidates::box_of(const Tri &t) const {
+  return {node_low_[t[0]].cwiseMin(node_low_[t[1]]).cwiseMin(node_low_[t[2]]),
+          node_high_[t[0]].cwiseMax(node_high_[t[1]]).cwiseMax(node_high_[t[2]])};
+}
+
+void Candidates::make_boxes(double margin) {
   const auto &triangles = model_->valve.triangles;
   low_.resize(triangles.size());
   high_.resize(triangles.size());
   for (uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [i, j, k] = triangles[t];
-    const Vec3 m = Vec3::Constant(margin + triangle_reach(t));
-    low_[t] = x[i].cwiseMin(x[j]).cwiseMin(x[k]) - m;
-    high_[t] = x[i].cwiseMax(x[j]).cwiseMax(x[k]) + m;
+    const auto [low, high] = box_of(triangles[t]);
+    low_[t] = low.array() - margin;
+    high_[t] = high.array() + margin;
   }
 }
 
-void Candidates::find_guarded(const std::vector<Vec3> &x) {
+void Candidates::find_guarded() {
   guarded_.clear();
   guarded_edges_.clear();
-  make_boxes(x, 0.5 * guard_share * thickness_);
+  make_boxes(0.5 * guard_share * thickness_);
   overlapping_boxes(low_, high_, pairs_);
   for (const auto &[a, b] : pairs_) {
-    take_vertices(x, a, b);
-    take_vertices(x, b, a);
-    take_edges(x, a, b);
+    take_vertices(a, b);
+    take_vertices(b, a);
+    take_edges(a, b);
   }
   sort_pairs(guarded_);
   std::sort(guarded_edges_.begin(), guarded_edges_.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
@@ -112,59 +132,63 @@ void Candidates::find_guarded(const std::vector<Vec3> &x) {
   });
 }
 
-void Candidates::take_vertices(const std::vector<Vec3> &x, uint32_t owner, uint32_t triangle) {
+// What is farther apart than the guard's longest range goes by the boxes, then by the balls.
+void Candidates::take_vertices(uint32_t owner, uint32_t triangle) {
   const Tri &t = model_->valve.triangles[triangle];
-  const double t_reach = triangle_reach(triangle);
-  const Vec3 low = x[t[0]].cwiseMin(x[t[1]]).cwiseMin(x[t[2]]);
-  const Vec3 high = x[t[0]].cwiseMax(x[t[1]]).cwiseMax(x[t[2]]);
+  const double longest = guard_share * thickness_;
+  const auto [low, high] = box_of(t);
   for (const uint32_t v : model_->valve.triangles[owner]) {
     if (vertex_owner_[v] != owner || has(t, v)) continue;
-    const double near = guard_share * thickness_ + reach_[v] + t_reach;
-    if (gap2(x[v], x[v], low, high) > near * near) continue;
-    const double distance = vertex_triangle_distance(x, v, t) - reach_[v] - t_reach;
-    if (distance > guard_share * thickness_) continue;
+    if (gap2(node_low_[v], node_high_[v], low, high) > longest * longest) continue;
+    const double distance =
+        vertex_triangle_distance(middle_, v, t) - reach_[v] - triangle_reach(triangle);
+    if (distance > longest) continue;
     const double guard =
         guard_range(thickness_, vertex_triangle_distance(model_->valve.rest, v, t));
     if (distance <= guard) guarded_.push_back({v, triangle, guard});
   }
 }
 
-void Candidates::take_edges(const std::vector<Vec3> &x, uint32_t a, uint32_t b) {
+void Candidates::take_edges(uint32_t a, uint32_t b) {
   const auto &edges = model_->topology.edges;
-  auto edge_reach = [&](const Edge &e) { return std::max(reach_[e[0]], reach_[e[1]]); };
+  const double longest = guard_share * thickness_;
+  auto low = [&](const Edge &e) { return node_low_[e[0]].cwiseMin(node_low_[e[1]]); };
+  auto high = [&](const Edge &e) { return node_high_[e[0]].cwiseMax(node_high_[e[1]]); };
+  auto reach = [&](const Edge &e) { return std::max(reach_[e[0]], reach_[e[1]]); };
   for (const uint32_t i : model_->topology.triangle_edges[a]) {
     if (edge_owner_[i] != a) continue;
+    const Edge &e = edges[i];
+    const Vec3 low_e = low(e), high_e = high(e);
     for (const uint32_t j : model_->topology.triangle_edges[b]) {
-      if (edge_owner_[j] != b || share(edges[i], edges[j])) continue;
-      const Edge &e = edges[i], &f = edges[j];
-      const double near = guard_share * thickness_ + edge_reach(e) + edge_reach(f);
-      if (gap2(x[e[0]].cwiseMin(x[e[1]]), x[e[0]].cwiseMax(x[e[1]]), x[f[0]].cwiseMin(x[f[1]]),
-               x[f[0]].cwiseMax(x[f[1]])) > near * near) {
-        continue;
-      }
-      const double distance = edge_edge_distance(x, e, f) - edge_reach(e) - edge_reach(f);
-      if (distance > guard_share * thickness_) continue;
+      const Edge &f = edges[j];
+      if (edge_owner_[j] != b || share(e, f)) continue;
+      if (gap2(low_e, high_e, low(f), high(f)) > longest * longest) continue;
+      const double distance = edge_edge_distance(middle_, e, f) - reach(e) - reach(f);
+      if (distance > longest) continue;
       const double guard = guard_range(thickness_, edge_edge_distance(model_->valve.rest, e, f));
       if (distance <= guard) guarded_edges_.push_back({std::min(i, j), std::max(i, j), guard});
     }
   }
 }
 
-// The boxes carry the reach of the triangles and the largest reach of a vertex.
-void Candidates::find_facing(const std::vector<Vec3> &x) {
+// The boxes carry the ways of the triangles and the largest reach of a vertex.
+void Candidates::find_facing() {
   facing_.clear();
   points_.clear();
   double far = 0;
   for (const uint32_t v : sheet_) {
-    points_.push_back(x[v]);
+    points_.push_back(middle_[v]);
     far = std::max(far, reach_[v]);
   }
-  make_boxes(x, thickness_ + far);
+  make_boxes(thickness_ + far);
   points_in_boxes(points_, low_, high_, pairs_);
   for (const auto &[p, t] : pairs_) {
     const uint32_t v = sheet_[p];
+    const Tri &tri = model_->valve.triangles[t];
+    const auto [low, high] = box_of(tri);
+    if (gap2(node_low_[v], node_high_[v], low, high) > thickness_ * thickness_) continue;
     if (!apart_at_rest(v, t)) continue;
-    const double distance = vertex_triangle_distance(x, v, model_->valve.triangles[t]);
+    const double distance = vertex_triangle_distance(middle_, v, tri);
     if (distance <= thickness_ + reach_[v] + triangle_reach(t)) facing_.push_back({v, t, 0});
   }
 }

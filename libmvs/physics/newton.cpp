@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/gmres.h"
+#include "physics/nodes.h"
 
 namespace mvs {
 namespace {
@@ -31,13 +32,14 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
   const uint32_t most = options.max_iterations > 0 ? options.max_iterations : 1000;
   begin(state);
   while (true) {
-    stats_.converged = boundary_is_there() && residual_ <= tolerance;
+    const bool arrived = boundary_is_there(*model_, x_, fraction_, 0);
+    stats_.converged = arrived && residual_ <= tolerance;
     if (stats_.converged || stats_.iterations == most) break;
     const double share = static_cast<double>(stats_.iterations) / most;
     MVS_MUST(!progress || progress(share, residual_), MVS_E_CANCELLED, "settle",
              "settling was cancelled by the progress callback; the valve is as before");
     ++stats_.iterations;
-    if (!boundary_is_there()) move_boundary();
+    if (!arrived) move_boundary();
     iterate();
   }
   state.x = x_;
@@ -69,18 +71,14 @@ void Newton::begin(const State &state) {
   wait_ = 0;
   patience_ = 1;
   best_ = rest_force_;
-  reach_.assign(x_.size(), 0.25 * model_->valve.contact_thickness);
+  slack_ = 0.1 * model_->valve.contact_thickness;
   evaluate();
 }
 
 void Newton::evaluate() {
-  if (!potential_.prepared_for(x_)) potential_.prepare(x_, reach_, stats_.phase_s);
+  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats_.phase_s);
   energy_ = potential_.gradient(x_, g_, stats_.phase_s);
-  double square = 0;
-  for (size_t i = 0; i < g_.size(); ++i) {
-    if (!model_->topology.fixed[i]) square = std::max(square, g_[i].squaredNorm());
-  }
-  residual_ = std::sqrt(square);
+  residual_ = largest_free(*model_, g_);
   MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "settle",
            "the forces are not finite: nodes coincide or the material is too stiff; check the "
            "rest shape and the materials");
@@ -152,13 +150,6 @@ double Newton::try_step(double &foretold) {
   foretold = slope() + 0.5 * curvature_along();
   for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
   return potential_.energy(trial_) - energy_;
-}
-
-bool Newton::boundary_is_there() const {
-  for (uint32_t i = 0; i < x_.size(); ++i) {
-    if (model_->topology.fixed[i] && x_[i] != model_->target(i, fraction_)) return false;
-  }
-  return true;
 }
 
 // Moves the prescribed nodes towards their targets and carries the sheet along: the free nodes
@@ -269,9 +260,7 @@ void Newton::cover_step() {
   trial_.resize(x_.size());
   for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
   if (potential_.prepared_for(trial_) && potential_.prepared_for(x_)) return;
-  const double least = 0.1 * model_->valve.contact_thickness;
-  for (size_t i = 0; i < x_.size(); ++i) reach_[i] = std::max(1.25 * step_[i].norm(), least);
-  potential_.prepare(x_, reach_, stats_.phase_s);
+  potential_.prepare(x_, trial_, slack_, stats_.phase_s);
 }
 
 bool Newton::try_force() {

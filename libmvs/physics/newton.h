@@ -31,7 +31,6 @@ class Newton {
   void travel_step();
   double try_step(double &foretold);
   void move_boundary();
-  bool boundary_is_there() const;
 
   void assemble(Curvature curvature);
   void factorise();
@@ -56,7 +55,7 @@ class Newton {
   std::vector<Vec3> rows_, boundary_;  // right-hand side and solution; step of prescribed nodes
   std::vector<Mat3> diagonal_;         // of the system before a shift
   std::vector<double> shift_scale_;    // N/m per node: D
-  std::vector<double> reach_;
+  double slack_ = 0;                   // m, for Potential::prepare
   double fraction_ = 0;
   double near_force_ = 0, rest_force_ = 0;  // N: below it, exact curvature; attempts at rest
   double shift_ = 0, added_ = 0;            // wanted; in the matrix now

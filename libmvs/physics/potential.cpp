@@ -17,10 +17,10 @@ Potential::Potential(const Model &model, ContactLaw law)
   pressure_.add_pairs(pairs_);
 }
 
-void Potential::prepare(const std::vector<Vec3> &x, const std::vector<double> &reach,
+void Potential::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                         Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_BROAD);
-  candidates_.build(x, reach);
+  candidates_.build(x, to, slack);
 }
 
 double Potential::energy(const std::vector<Vec3> &x) {

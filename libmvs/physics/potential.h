@@ -19,8 +19,9 @@ class Potential {
 
   void set_pressure(double pressure) { pressure_.set_pressure(pressure); }
 
-  // Makes contact known around x: each node i may then go as far as reach[i].
-  void prepare(const std::vector<Vec3> &x, const std::vector<double> &reach, Profile &profile);
+  // Makes contact known while each node stays within `slack` of its way from x to `to`.
+  void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+               Profile &profile);
   bool prepared_for(const std::vector<Vec3> &x) const { return candidates_.valid_for(x); }
 
   // The energy at x, comparable between calls of gradient(); x must be prepared for.

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "physics/forces.h"
 #include "physics/newton.h"
+#include "physics/nodes.h"
 #include "physics/stepper.h"
 
 namespace mvs {
@@ -27,15 +28,8 @@ InTime defaults(const SolveOptions &options) {
   return t;
 }
 
-bool boundary_is_there(const Model &model, const State &state) {
-  for (uint32_t i = 0; i < state.x.size(); ++i) {
-    if (!model.topology.fixed[i]) continue;
-    // a boundary that has come within rounding of its target is there
-    const Vec3 gap = model.target(i, state.load.boundary_fraction) - state.x[i];
-    if (gap.norm() > 1e-9) return false;
-  }
-  return true;
-}
+// A boundary that steps in time have brought within rounding of its target is there.
+constexpr double arrival = 1e-9;  // m
 
 // Steps until the out-of-balance force is below the tolerance and stays there for a while, so that
 // a valve passing through balance in motion does not count as at rest.
@@ -53,7 +47,9 @@ SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &
     step(time, stats);
     state.time += time.dt;
     ++state.steps;
-    calm = stats.residual <= tolerance && boundary_is_there(model, state) ? calm + 1 : 0;
+    const bool at_rest = stats.residual <= tolerance &&
+                         boundary_is_there(model, state.x, state.load.boundary_fraction, arrival);
+    calm = at_rest ? calm + 1 : 0;
     const bool tell = progress && stats.iterations % 64 == 0;
     MVS_MUST(!tell || progress(static_cast<double>(stats.iterations) / time.most, stats.residual),
              MVS_E_CANCELLED, "settle",
@@ -135,8 +131,7 @@ Forces evaluate_forces(const Model &model, const State &state) {
   Potential potential(model);
   Profile profile{};
   potential.set_pressure(state.load.pressure);
-  const std::vector<double> reach(state.x.size(), 0.0);
-  potential.prepare(state.x, reach, profile);
+  potential.prepare(state.x, state.x, 0, profile);
   Forces forces;
   forces.energy = potential.gradient(state.x, forces.total, profile);
   forces.contact.assign(state.x.size(), Vec3::Zero());

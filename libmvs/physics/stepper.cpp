@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "physics/nodes.h"
 
 namespace mvs {
 namespace {
@@ -20,14 +21,6 @@ double kinetic_energy(const Model &model, const std::vector<Vec3> &v) {
   return sum;
 }
 
-double largest_free(const Model &model, const std::vector<Vec3> &g) {
-  double square = 0;
-  for (size_t i = 0; i < g.size(); ++i) {
-    if (!model.topology.fixed[i]) square = std::max(square, g[i].squaredNorm());
-  }
-  return std::sqrt(square);
-}
-
 void advance_boundary(const Model &model, const State &state, double dt, std::vector<Vec3> &step) {
   step.assign(state.x.size(), Vec3::Zero());
   double farthest = 0;
@@ -41,13 +34,13 @@ void advance_boundary(const Model &model, const State &state, double dt, std::ve
 }
 
 ImplicitStepper::ImplicitStepper(const Model &model, Factor &factor)
-    : model_(&model), factor_(&factor), potential_(model) {}
+    : model_(&model),
+      factor_(&factor),
+      potential_(model),
+      slack_(0.1 * model.valve.contact_thickness) {}
 
 void ImplicitStepper::evaluate(SolveStats &stats) {
-  if (!potential_.prepared_for(x_)) {
-    reach_.assign(x_.size(), 0.25 * model_->valve.contact_thickness);
-    potential_.prepare(x_, reach_, stats.phase_s);
-  }
+  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats.phase_s);
   energy_ = potential_.gradient(x_, g_, stats.phase_s);
   residual_ = largest_free(*model_, g_);
   MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "step",
@@ -132,11 +125,8 @@ void ImplicitStepper::limit(SolveStats &stats) {
     if (length > longest_step) step_[i] *= longest_step / length;
     trial_[i] = x_[i] + step_[i];
   }
-  if (!potential_.prepared_for(trial_)) {
-    const double least = 0.1 * model_->valve.contact_thickness;
-    reach_.resize(x_.size());
-    for (size_t i = 0; i < x_.size(); ++i) reach_[i] = std::max(1.5 * step_[i].norm(), least);
-    potential_.prepare(x_, reach_, stats.phase_s);
+  if (!potential_.prepared_for(trial_) || !potential_.prepared_for(x_)) {
+    potential_.prepare(x_, trial_, slack_, stats.phase_s);
   }
   bounds_.limit(*model_, x_, potential_.candidates(), step_);
 }
@@ -147,8 +137,7 @@ ExplicitStepper::ExplicitStepper(const Model &model)
 void ExplicitStepper::step(State &state, double dt, double damping, SolveStats &stats) {
   potential_.set_pressure(state.load.pressure);
   if (!potential_.prepared_for(state.x)) {
-    reach_.assign(state.x.size(), 0.5 * model_->valve.contact_thickness);
-    potential_.prepare(state.x, reach_, stats.phase_s);
+    potential_.prepare(state.x, state.x, 0.5 * model_->valve.contact_thickness, stats.phase_s);
   }
   stats.energy = potential_.gradient(state.x, g_, stats.phase_s);
   stats.residual = largest_free(*model_, g_);

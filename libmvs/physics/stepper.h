@@ -28,7 +28,7 @@ class ImplicitStepper {
   System system_;
   StepBounds bounds_;
   std::vector<Vec3> x_, v_, g_, step_, trial_, boundary_, rows_;
-  std::vector<double> reach_;
+  double slack_;  // m, for Potential::prepare
   double energy_ = 0, residual_ = 0;
 };
 
@@ -44,7 +44,6 @@ class ExplicitStepper {
   const Model *model_;
   Potential potential_;
   std::vector<Vec3> g_;
-  std::vector<double> reach_;
 };
 
 // The largest speed at which annulus and heads travel to their targets, m/s.
@@ -54,6 +53,5 @@ inline constexpr double boundary_speed = 0.1;
 void advance_boundary(const Model &model, const State &state, double dt, std::vector<Vec3> &step);
 
 double kinetic_energy(const Model &model, const std::vector<Vec3> &v);
-double largest_free(const Model &model, const std::vector<Vec3> &g);
 
 }  // namespace mvs

@@ -23,7 +23,7 @@ class Touch {
   Touch(const Model &model, const Positions &around, double reach,
         ContactLaw law = ContactLaw::barrier)
       : model_(&model), candidates_(model), term_(model, law) {
-    candidates_.build(around, std::vector<double>(around.size(), reach));
+    candidates_.build(around, around, reach);
   }
   double energy(const Positions &x) {
     term_.collect(x, candidates_);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "../unit/small_valve.h"
 #include "base/distance.h"
@@ -75,11 +76,43 @@ Positions moved(const Positions &x, double share, const Positions &dx) {
   return y;
 }
 
-std::vector<double> lengths(const Positions &dx) {
-  std::vector<double> result;
-  for (const Vec3 &d : dx) result.push_back(d.norm());
-  return result;
-}
+// What Candidates says of the ways of nodes, once more.
+struct Ways {
+  Ways(const Positions &x, const Positions &to, double slack) {
+    for (size_t i = 0; i < x.size(); ++i) {
+      low.push_back(x[i].cwiseMin(to[i]) - Vec3::Constant(slack));
+      high.push_back(x[i].cwiseMax(to[i]) + Vec3::Constant(slack));
+      middle.push_back(0.5 * (x[i] + to[i]));
+      radius.push_back(0.5 * (to[i] - x[i]).norm() + slack);
+    }
+  }
+  double reach(std::initializer_list<uint32_t> nodes) const {
+    double most = 0;
+    for (const uint32_t i : nodes) most = std::max(most, radius[i]);
+    return most;
+  }
+  // Between the boxes around two sets of nodes.
+  double gap(std::initializer_list<uint32_t> a, std::initializer_list<uint32_t> b) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto least = [&](std::initializer_list<uint32_t> set) {
+        double value = 1e300;
+        for (const uint32_t i : set) value = std::min(value, low[i][k]);
+        return value;
+      };
+      const auto most = [&](std::initializer_list<uint32_t> set) {
+        double value = -1e300;
+        for (const uint32_t i : set) value = std::max(value, high[i][k]);
+        return value;
+      };
+      const double apart = std::max({least(a) - most(b), least(b) - most(a), 0.0});
+      sum += apart * apart;
+    }
+    return std::sqrt(sum);
+  }
+  Positions low, high, middle;
+  std::vector<double> radius;
+};
 
 // What a step may never do, whatever it was: cross, or use up a pair.
 void check_motion(const Model &model, const Candidates &candidates, const Positions &x,
@@ -150,31 +183,32 @@ TEST_CASE("boxes_in_a_line_or_in_one_place_are_found_too") {
   CHECK(pairs.size() == 190);
 }
 
-TEST_CASE("candidates_are_all_pairs_within_reach_and_no_other") {
+TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {
   const Plates plates = plates_for_steps();
   const Model &model = plates.model;
   Random random(2);
-  const double r = model.valve.contact_thickness;
+  const double r = model.valve.contact_thickness, slack = 0.05e-3;
   for (int round = 0; round < 3; ++round) {
     const Positions x = wavy(plates, random);
-    std::vector<double> reach;
-    for (size_t i = 0; i < x.size(); ++i) reach.push_back(random(0, 0.4e-3));
+    const Positions to = moved(x, 1, random.vectors(x.size(), 0.4e-3));
+    const Ways ways(x, to, slack);
     Candidates candidates(model);
-    candidates.build(x, reach);
+    candidates.build(x, to, slack);
     size_t k = 0, facing = 0;
     bool same = true;
     for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
       const Tri &tri = model.valve.triangles[t];
-      const double most = std::max({reach[tri[0]], reach[tri[1]], reach[tri[2]]});
       const double rest = distance(model.valve.rest, v, tri), guard = guard_range(r, rest);
-      const double least = distance(x, v, tri) - reach[v] - most;
+      const double least =
+          distance(ways.middle, v, tri) - ways.reach({v}) - ways.reach({tri[0], tri[1], tri[2]});
       const auto &guarded = candidates.guarded(), &faced = candidates.facing();
-      if (rest >= facing_rest_distance * r && least <= r) {
+      const double gap = ways.gap({v}, {tri[0], tri[1], tri[2]});
+      if (rest >= facing_rest_distance * r && least <= r && gap <= r) {
         same = same && facing < faced.size() && faced[facing].vertex == v &&
                faced[facing].triangle == t;
         ++facing;
       }
-      if (least <= guard) {
+      if (least <= guard && gap <= guard_share * r) {
         same = same && k < guarded.size() && guarded[k].vertex == v && guarded[k].triangle == t &&
                guarded[k].guard == guard;
         ++k;
@@ -188,9 +222,10 @@ TEST_CASE("candidates_are_all_pairs_within_reach_and_no_other") {
     k = 0;
     for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
       const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
-      const double most = std::max(reach[e[0]], reach[e[1]]) + std::max(reach[f[0]], reach[f[1]]);
       const double guard = guard_range(r, distance(model.valve.rest, e, f));
-      if (distance(x, e, f) - most > guard) return;
+      const double least =
+          distance(ways.middle, e, f) - ways.reach({e[0], e[1]}) - ways.reach({f[0], f[1]});
+      if (least > guard || ways.gap({e[0], e[1]}, {f[0], f[1]}) > guard_share * r) return;
       const auto &list = candidates.guarded_edges();
       same = same && k < list.size() && list[k].first == i && list[k].second == j;
       ++k;
@@ -201,18 +236,71 @@ TEST_CASE("candidates_are_all_pairs_within_reach_and_no_other") {
   }
 }
 
+TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  const double r = model.valve.contact_thickness, slack = 0.05e-3;
+  Random random(12);
+  size_t met = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Positions x = wavy(plates, random);
+    const Positions step = random.vectors(x.size(), 1e-3);
+    Candidates candidates(model);
+    candidates.build(x, moved(x, 1, step), slack);
+    // anywhere on the way, each node for itself
+    Positions y = x;
+    for (size_t i = 0; i < y.size(); ++i) {
+      y[i] += random(0, 1) * step[i] + random.vector(slack / std::sqrt(3.0));
+    }
+    REQUIRE(candidates.valid_for(y));
+    const auto &guarded = candidates.guarded(), &faced = candidates.facing();
+    const auto listed = [](const std::vector<VertexTriangle> &list, uint32_t v, uint32_t t) {
+      return std::any_of(list.begin(), list.end(),
+                         [&](const VertexTriangle &c) { return c.vertex == v && c.triangle == t; });
+    };
+    bool all = true;
+    for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+      const double now = distance(y, v, model.valve.triangles[t]);
+      if (now >= r) return;
+      const double rest = distance(model.valve.rest, v, model.valve.triangles[t]);
+      if (rest >= facing_rest_distance * r) all = all && listed(faced, v, t);
+      if (now >= guard_range(r, rest)) return;
+      ++met;
+      all = all && listed(guarded, v, t);
+    });
+    for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
+      const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
+      const double now = distance(y, e, f);
+      if (now >= guard_share * r || now >= guard_range(r, distance(model.valve.rest, e, f))) return;
+      ++met;
+      const auto &list = candidates.guarded_edges();
+      all = all && std::any_of(list.begin(), list.end(),
+                               [&](const EdgeEdge &c) { return c.first == i && c.second == j; });
+    });
+    CHECK(all);
+  }
+  CHECK(met > 1000);
+}
+
 TEST_CASE("candidates_know_how_far_they_hold") {
   const Plates plates = plates_for_steps();
   Random random(3);
   const Positions x = wavy(plates, random);
   Candidates candidates(plates.model);
   CHECK_FALSE(candidates.valid_for(x));
-  candidates.build(x, std::vector<double>(x.size(), 1e-4));
+  Positions to = x;
+  to[6].z() += 1e-3;
+  candidates.build(x, to, 1e-4);
   Positions y = x;
   CHECK(candidates.valid_for(y));
   y[5].x() += 0.99e-4;
+  y[6].z() += 0.7e-3;
+  y[6].x() += 0.99e-4;
   CHECK(candidates.valid_for(y));
   y[5].x() += 0.02e-4;
+  CHECK_FALSE(candidates.valid_for(y));
+  y[5] = x[5];
+  y[6].x() += 0.02e-4;
   CHECK_FALSE(candidates.valid_for(y));
 }
 
@@ -231,7 +319,7 @@ TEST_CASE("no_step_however_wild_leads_through_a_sheet") {
       dx[i].z() += i < plates.upper ? 1e-3 : -1e-3;
     }
     Candidates candidates(model);
-    candidates.build(x, lengths(dx));
+    candidates.build(x, moved(x, 1, dx), 0);
     wild += !find_intersections(moved(x, 1, dx), model.valve.triangles).empty();
     const double least = StepBounds().limit(model, x, candidates, dx);
     CHECK(least > 0);
@@ -255,7 +343,7 @@ TEST_CASE("a_crumpling_valve_never_crosses_itself") {
         if (model->topology.fixed[i]) dx[i].setZero();
       }
       Candidates candidates(*model);
-      candidates.build(x, lengths(dx));
+      candidates.build(x, moved(x, 1, dx), 0);
       StepBounds().limit(*model, x, candidates, dx);
       check_motion(*model, candidates, x, dx);
       x = moved(x, 1, dx);
@@ -273,7 +361,7 @@ TEST_CASE("a_step_is_only_shortened_and_only_where_sheets_meet") {
   for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -0.8e-3};
   const Positions wanted = dx;
   Candidates candidates(model);
-  candidates.build(x, lengths(dx));
+  candidates.build(x, moved(x, 1, dx), 0);
   CHECK(StepBounds().limit(model, x, candidates, dx) < 0.5);
   check_motion(model, candidates, x, dx);
   int uncut = 0;
@@ -295,7 +383,7 @@ TEST_CASE("a_step_away_from_each_other_is_not_cut") {
   Positions dx(x.size(), Vec3::Zero());
   for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, 1e-3};
   Candidates candidates(plates.model);
-  candidates.build(x, lengths(dx));
+  candidates.build(x, moved(x, 1, dx), 0);
   CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
 }
 
@@ -306,7 +394,7 @@ TEST_CASE("sheets_that_move_together_are_not_held_back") {
   Positions dx(x.size(), Vec3(0, 0, 10e-3));
   const Positions wanted = dx;
   Candidates candidates(plates.model);
-  candidates.build(x, lengths(dx));
+  candidates.build(x, moved(x, 1, dx), 0);
   CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
   CHECK(farthest(dx, wanted) == 0);
 }

@@ -24,7 +24,7 @@ double total_energy(const Model &model, const State &state) {
   Profile profile{};
   Positions g;
   potential.set_pressure(state.load.pressure);
-  potential.prepare(state.x, std::vector<double>(state.x.size(), 0.0), profile);
+  potential.prepare(state.x, state.x, 0, profile);
   return potential.gradient(state.x, g, profile) + kinetic_energy(model, state.v);
 }
 

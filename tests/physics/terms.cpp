@@ -321,7 +321,7 @@ TEST_CASE("the_whole_potential_has_the_derivatives_of_its_energy") {
   potential.set_pressure(16e3);
   const Positions x = crumpled(model, 7);
   Profile profile{};
-  potential.prepare(x, std::vector<double>(x.size(), 1e-4), profile);
+  potential.prepare(x, x, 1e-4, profile);
   System system;
   Positions g;
   const Gradient gradient = [&](const Positions &y) {
@@ -360,7 +360,7 @@ TEST_CASE("a_moving_boundary_pulls_through_the_blocks_it_has_no_rows_for") {
     Potential potential(m);
     Profile profile{};
     Positions g;
-    potential.prepare(x, std::vector<double>(x.size(), 1e-4), profile);
+    potential.prepare(x, x, 1e-4, profile);
     potential.gradient(x, g, profile);
     potential.hessian(x, Curvature::projected, system, profile);
   };

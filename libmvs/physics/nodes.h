@@ -1,0 +1,31 @@
+// What every solver asks about nodes that are free to move, and about those that are prescribed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/model.h"
+
+namespace mvs {
+
+// The longest of the vectors on free nodes: of forces, the residual.
+inline double largest_free(const Model &model, const std::vector<Vec3> &g) {
+  double square = 0;
+  for (size_t i = 0; i < g.size(); ++i) {
+    if (!model.topology.fixed[i]) square = std::max(square, g[i].squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+// Whether every prescribed node has come within a distance of its target; 0: to the bit.
+inline bool boundary_is_there(const Model &model, const std::vector<Vec3> &x, double fraction,
+                              double within) {
+  for (uint32_t i = 0; i < x.size(); ++i) {
+    if (!model.topology.fixed[i]) continue;
+    if (!((model.target(i, fraction) - x[i]).squaredNorm() <= within * within)) return false;
+  }
+  return true;
+}
+
+}  // namespace mvs
