@@ -13,7 +13,7 @@ SI units throughout: m, kg, s, N, Pa, rad.
 """
 
 from . import _core
-from ._core import Simulator, Snapshot, check_valve, operations
+from ._core import Simulator, Snapshot, check_valve
 from .editing import valve_of
 from .errors import (
     ArgumentError,
@@ -38,19 +38,13 @@ from .values import (
     Comparison,
     Fault,
     Frame,
-    History,
-    HistoryEntry,
     Leaflet,
     LeafletLaw,
     Load,
     Measures,
     NodeKind,
-    OperationField,
-    OperationKind,
     Part,
     PartKind,
-    Ring,
-    RingKind,
     Stats,
     Valve,
     definition_of,
@@ -73,8 +67,6 @@ __all__ = [
     "Fault",
     "FormatError",
     "Frame",
-    "History",
-    "HistoryEntry",
     "IdError",
     "InternalError",
     "IoError",
@@ -85,12 +77,8 @@ __all__ = [
     "Measures",
     "NodeKind",
     "OpError",
-    "OperationField",
-    "OperationKind",
     "Part",
     "PartKind",
-    "Ring",
-    "RingKind",
     "Simulator",
     "Snapshot",
     "StateError",
@@ -101,7 +89,6 @@ __all__ = [
     "check_valve",
     "definition_of",
     "features",
-    "operations",
     "unit_of",
     "valve_of",
 ]

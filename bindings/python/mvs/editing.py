@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ._core import Snapshot
-from .values import Leaflet, LeafletLaw, Part, PartKind, Ring, RingKind, Valve
+from .values import Leaflet, LeafletLaw, PartKind, Valve
 
 import numpy as np
 
@@ -29,8 +29,6 @@ def valve_of(snapshot: Snapshot) -> Valve:
         leaflets=leaflets,
         triangle_leaflet=snapshot.triangle_leaflet.copy(),
         nodes_loaded=snapshot.node_loaded.copy(),
-        nodes_open=snapshot.node_open.copy(),
-        node_origin=snapshot.node_origin.copy(),
         nodes_now=snapshot.node_position.copy(),
         scallops=[part.name for part in parts[PartKind.SCALLOP]],
         scallop_id=_ids(parts[PartKind.SCALLOP]),
@@ -47,7 +45,6 @@ def valve_of(snapshot: Snapshot) -> Valve:
         head_nodes=snapshot.head_nodes.copy(),
         head_id=_ids(parts[PartKind.HEAD]),
         head_names=[part.name for part in parts[PartKind.HEAD]],
-        rings=_rings(snapshot, parts[PartKind.RING]),
         name=snapshot.name,
         density=density,
         contact_thickness=contact_thickness,
@@ -56,13 +53,5 @@ def valve_of(snapshot: Snapshot) -> Valve:
     )
 
 
-def _rings(snapshot: Snapshot, parts: list[Part]) -> list[Ring]:
-    curves = np.split(snapshot.ring_points, snapshot.ring_start[1:-1])
-    return [
-        Ring(part.name, curve.copy(), RingKind(int(kind)), part.id)
-        for part, curve, kind in zip(parts, curves, snapshot.ring_kind)
-    ]
-
-
-def _ids(parts: list[Part]) -> np.ndarray:
+def _ids(parts: list) -> np.ndarray:
     return np.array([part.id for part in parts], dtype=np.uint64)

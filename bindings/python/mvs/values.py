@@ -39,14 +39,6 @@ class ChordKind(IntEnum):
     BASAL = 4
     COMMISSURAL = 5
     TRUNK = 6
-    SUTURE = 7
-
-
-class RingKind(IntEnum):
-    """Values of ``Snapshot.ring_kind``."""
-
-    RIGID = 1
-    BAND = 2
 
 
 class PartKind(IntEnum):
@@ -56,7 +48,6 @@ class PartKind(IntEnum):
     SCALLOP = 2
     CHORD = 3
     HEAD = 4
-    RING = 5
 
 
 class LeafletLaw(IntEnum):
@@ -104,60 +95,6 @@ class Fault:
 
     part: str
     sentence: str
-
-
-@dataclasses.dataclass(frozen=True)
-class OperationField:
-    """A field of an operation, in SI units.
-
-    type: "number", "count", "choice", "chord", "head", "scallop", "site", "point", "vector",
-        "points" or "text"
-    low, high: the range of a number or count that is given
-    choices: names and numbers of a choice
-    """
-
-    name: str
-    type: str
-    required: bool
-    low: float
-    high: float
-    unit: str
-    help: str
-    choices: dict[str, int]
-
-
-@dataclasses.dataclass(frozen=True)
-class OperationKind:
-    """A kind of surgical operation, as ``Simulator.apply_op`` takes it."""
-
-    name: str
-    help: str
-    fields: tuple[OperationField, ...]
-
-
-@dataclasses.dataclass(frozen=True)
-class HistoryEntry:
-    """An operation of a history.
-
-    made: id of what it made, 0 for nothing
-    group: equal for the operations of a group, 0 for none; `in_group` is the group's name
-    """
-
-    kind: str
-    title: str
-    made: int
-    group: int
-    in_group: str
-
-
-@dataclasses.dataclass(frozen=True)
-class History:
-    """Operations that can be undone, from the first to the last; those that can be redone, in
-    the order in which they would be; and the names of the checkpoints."""
-
-    done: tuple[HistoryEntry, ...]
-    undone: tuple[HistoryEntry, ...]
-    checkpoints: tuple[str, ...]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -261,19 +198,6 @@ class Leaflet:
     id: int = 0
 
 
-@dataclasses.dataclass(eq=False)
-class Ring:
-    """A ring or band sewn to the annulus; what holds the annulus are the valve's nodes.
-
-    curve: (k, 3) float64, m, its points in order
-    """
-
-    name: str
-    curve: NDArray[np.float64]
-    kind: RingKind = RingKind.RIGID
-    id: int = 0
-
-
 Array = Optional[NDArray[Any]]
 
 
@@ -287,7 +211,7 @@ class Valve:
     """
 
     nodes: Array
-    """float64 or float32 (n, 3): the unloaded valve"""
+    """float64 or float32 (n, 3): the open, unloaded valve"""
     triangles: Array
     """uint32 (m, 3): wound so that normals point into the atrium (or see ``orient``)"""
     annulus: Array
@@ -298,10 +222,6 @@ class Valve:
     """uint32 (m,): index into leaflets; None: all 0"""
     nodes_loaded: Array = None
     """float64 or float32 (n, 3): where annulus and heads go under load; other rows are ignored"""
-    nodes_open: Array = None
-    """float64 or float32 (n, 3): where annulus and heads are without load; None: ``nodes``"""
-    node_origin: Array = None
-    """uint32 (n,): see ``Snapshot.node_origin``; None: nothing was operated on"""
     nodes_now: Array = None
     """float64 or float32 (n, 3): the shape to start from; None: ``nodes``"""
     scallops: Optional[Sequence[str]] = None
@@ -334,7 +254,6 @@ class Valve:
     """uint64 (h,)"""
     head_names: Optional[Sequence[str]] = None
     """None: "PM1", "PM2", ..."""
-    rings: Sequence[Ring] = ()
     name: str = "valve"
     density: Optional[float] = None
     """kg/m3"""

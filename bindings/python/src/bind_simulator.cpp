@@ -180,7 +180,6 @@ void bind_simulator(py::module_ &module) {
   type.def("close", &Simulator::close, "Frees the simulator; its snapshots stay valid.");
   type.def("__enter__", [](const py::object &self) { return self; });
   type.def("__exit__", [](Simulator &self, const py::args &) { self.close(); });
-  bind_surgery(module, type);
   module.def("check_valve", &check_valve,
              "The faults of arrays that are to be a valve (list of mvs.Fault), empty if it is one; "
              "arguments as for Simulator.set_valve.");

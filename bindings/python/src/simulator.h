@@ -1,7 +1,6 @@
 // mvs.Simulator: one simulator of the C library, safe to use from any Python thread.
 #pragma once
 
-#include <mvs/op.h>
 #include <mvs/sim.h>
 
 #include <atomic>
@@ -36,14 +35,6 @@ class Simulator {
   mvs_stats stats();
   std::unique_ptr<Snapshot> snapshot();
   void restore(const Snapshot &snapshot);
-  void check_op(const mvs_op *op);
-  mvs_id apply_op(const mvs_op *op);
-  void undo();
-  void redo();
-  void begin_group(const std::string &name);
-  void end_group();
-  void set_checkpoint(const std::string &name);
-  void restore_checkpoint(const std::string &name);
 
  private:
   template <typename Call>
@@ -62,6 +53,5 @@ class Simulator {
 };
 
 void bind_simulator(py::module_ &module);
-void bind_surgery(py::module_ &module, py::class_<Simulator> &type);
 
 }  // namespace mvs_python

@@ -7,7 +7,6 @@
 #include <array>
 
 #include "arrays.h"
-#include "operation.h"
 #include "values.h"
 #include "views.h"
 
@@ -59,7 +58,7 @@ py::object compare(const Snapshot &snapshot, const Snapshot &other) {
 
 py::tuple parts(const Snapshot &snapshot) {
   py::list all;
-  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_RING; ++kind) {
+  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_HEAD; ++kind) {
     uint32_t count = 0;
     must(mvs_snapshot_part_count(snapshot.get(), kind, &count));
     for (uint32_t index = 0; index < count; ++index) {
@@ -148,9 +147,7 @@ void bind_snapshot(py::module_ &module) {
   type.def_property_readonly("frame", &frame, "The valve's own frame (mvs.Frame), m.");
   type.def_property_readonly("parts", &parts,
                              "All named parts (tuple of mvs.Part): leaflets, scallops, chordae, "
-                             "heads, rings; `index` is the row in the arrays of their kind.");
-  type.def_property_readonly("history", &history_value,
-                             "What was operated (mvs.History): done, undone, checkpoints.");
+                             "heads; `index` is the row in the arrays of their kind.");
   type.def("find", &find, py::arg("kind"), py::arg("name"),
            "The part of a kind with this name; IdError if there is none.");
   type.def("compare", &compare, py::arg("other"),
