@@ -5,6 +5,7 @@
 #include "base.h"
 #include "file.h"
 #include "op.h"
+#include "plan.h"
 #include "sim.h"
 #include "snapshot.h"
 #include "valve.h"

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "anatomy/parametric.h"
+#include "api/commit.h"
 #include "api/valve_desc.h"
 #include "model/check.h"
 
@@ -51,6 +52,8 @@ void replace_valve(mvs_sim &sim, ModelPtr model, State state) {
   const ModelPtr held = model;
   sim.replace(make_snapshot({{std::move(model), std::move(state)}, {}}));
   sim.group = {};
+  if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: there is a new valve");
+  sim.journal.reset();
   sim.stats = {};
   sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",
           held->valve.name.c_str(), held->node_count(), held->valve.triangles.size(),
@@ -119,6 +122,10 @@ mvs_result mvs_get_snapshot(mvs_sim *sim, const mvs_snapshot **snapshot) {
 mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot) {
   return guarded_call(sim, [&](mvs_sim &s) {
     must_point(snapshot, "snapshot");
+    MVS_MUST(s.group.number == 0, MVS_E_STATE, "group",
+             "restore: the group \"%.63s\" is open: call mvs_end_group first",
+             s.group.name.c_str());
+    restart_journal(s, snapshot->moment);
     mvs_snapshot_retain(snapshot);
     s.replace(SnapshotPtr(snapshot));
   });

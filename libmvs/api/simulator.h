@@ -4,11 +4,13 @@
 #include <mvs/sim.h>
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <utility>
 
 #include "api/snapshot_impl.h"
 #include "api/structs.h"
+#include "formats/journal.h"
 #include "physics/solver.h"
 
 // A call works on copies and ends by replacing the present snapshot: that is the transaction.
@@ -26,8 +28,9 @@ struct mvs_sim {
 
   const mvs_sim_desc desc;
   mvs::Solver solver;
-  mvs_stats stats = {};  // struct_size 0: none yet
-  mvs::Group group;      // number 0: none is open
+  mvs_stats stats = {};                   // struct_size 0: none yet
+  mvs::Group group;                       // number 0: none is open
+  std::unique_ptr<mvs::Journal> journal;  // null: none
   std::atomic<bool> at_work{false};
 
  private:

@@ -1,7 +1,7 @@
 // Load, settle, step, statistics.
 #include <cmath>
 
-#include "api/simulator.h"
+#include "api/commit.h"
 
 using namespace mvs;
 
@@ -67,10 +67,7 @@ mvs_stats public_stats(const SolveStats &from) {
 void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move) {
   share(state, before->state);
   Moment moment{{before->model, std::move(state)}, before->moment.timeline};
-  if (!moment.timeline.start) {
-    moment.timeline.start = std::make_shared<const Picture>(before->moment.picture);
-  }
-  moment.timeline.moves = with_move(moment.timeline.moves, move);
+  note_move(moment, before->moment.picture, move);
   sim.replace(make_snapshot(std::move(moment)));
 }
 
@@ -88,10 +85,7 @@ Move move_of(Move::Kind kind, const SolveOptions &how) {
 // Makes a state that a solver arrived at the present one.
 void commit(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move,
             const SolveStats &stats) {
-  for (const Vec3 &x : state.x) {
-    MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
-             "a node left the range of numbers: take a smaller time step or load");
-  }
+  must_be_finite(state);
   go_on(sim, before, std::move(state), move);
   sim.stats = public_stats(stats);
 }

@@ -1,19 +1,12 @@
 // Operations: check, apply, undo, redo, groups, checkpoints.
 #include <mvs/op.h>
 
-#include <chrono>
-
-#include "api/simulator.h"
+#include "api/commit.h"
 #include "model/text.h"
 
 using namespace mvs;
 
 namespace {
-
-int64_t now_ms() {
-  using namespace std::chrono;
-  return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 void must_be_no_group(const mvs_sim &sim, const char *call) {
   MVS_MUST(sim.group.number == 0, MVS_E_STATE, "group",
@@ -46,7 +39,8 @@ mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
     const SnapshotPtr before = s.present();
     Moment after = after_op(before->moment, Operation(op), s.group, now_ms());
     const std::shared_ptr<const Entry> entry = after.timeline.past.top();
-    s.replace(make_snapshot(std::move(after)));
+    const Json record = s.journal ? steps_record(before->moment, after) : Json();
+    commit(s, std::move(after), [&] { return record; });
     if (made) *made = entry->made;
     s.log(MVS_LOG_INFO, "%s", entry->title.c_str());
   });
@@ -56,7 +50,7 @@ mvs_result mvs_undo(mvs_sim *sim) {
   return guarded_call(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "undo");
-    s.replace(make_snapshot(undone(before->moment)));
+    commit(s, undone(before->moment), [] { return word_record("undo"); });
   });
 }
 
@@ -64,7 +58,7 @@ mvs_result mvs_redo(mvs_sim *sim) {
   return guarded_call(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "redo");
-    s.replace(make_snapshot(redone(before->moment)));
+    commit(s, redone(before->moment), [] { return word_record("redo"); });
   });
 }
 
@@ -90,7 +84,9 @@ mvs_result mvs_end_group(mvs_sim *sim) {
 mvs_result mvs_set_checkpoint(mvs_sim *sim, const char *name) {
   return guarded_call(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
-    s.replace(make_snapshot(with_checkpoint(before->moment, checked_name(name, "checkpoint"))));
+    const std::string text = checked_name(name, "checkpoint");
+    commit(s, with_checkpoint(before->moment, text),
+           [&] { return named_record("checkpoint", text, before->moment.timeline.moves); });
   });
 }
 
@@ -98,7 +94,9 @@ mvs_result mvs_restore_checkpoint(mvs_sim *sim, const char *name) {
   return guarded_call(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "restore_checkpoint");
-    s.replace(make_snapshot(at_checkpoint(before->moment, checked_name(name, "checkpoint"))));
+    const std::string text = checked_name(name, "checkpoint");
+    commit(s, at_checkpoint(before->moment, text),
+           [&] { return named_record("restore_checkpoint", text, {}); });
   });
 }
 

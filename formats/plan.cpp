@@ -1,0 +1,236 @@
+// The plan as a whole, and the moves between its operations.
+#include "formats/plan.h"
+
+#include <mvs/base.h>
+#include <mvs/sim.h>
+
+#include <ctime>
+
+#include "base/error.h"
+
+namespace mvs {
+namespace {
+
+constexpr const char *format_name = "mvs-plan";
+constexpr unsigned plan_version = 1;
+constexpr size_t most_bytes = size_t{64} << 20;
+
+const char *solver_word(uint32_t solver) {
+  switch (solver) {
+    case MVS_SOLVER_NEWTON:
+      return "newton";
+    case MVS_SOLVER_IMPLICIT:
+      return "implicit";
+    case MVS_SOLVER_EXPLICIT:
+      return "explicit";
+    default:
+      return "";
+  }
+}
+
+// "2026-11-21T14:05:09.123Z"
+std::string time_text(int64_t ms) {
+  const std::time_t seconds = ms / 1000;
+  std::tm utc = {};
+  gmtime_r(&seconds, &utc);
+  return format("%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", utc.tm_year + 1900, utc.tm_mon + 1,
+                utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, static_cast<int>(ms % 1000));
+}
+
+void put_unless_zero(Json &json, const char *key, double value) {
+  if (value != 0) json[key] = value;
+}
+
+double number_at(const Json &json, const char *key) {
+  if (!json.contains(key)) return 0;
+  MVS_MUST(json[key].is_number(), MVS_E_FORMAT, "plan", "%s has to be a number", key);
+  return json[key].get<double>();
+}
+
+uint64_t whole_at(const Json &json, const char *key, uint64_t fallback, uint64_t most) {
+  if (!json.contains(key)) return fallback;
+  MVS_MUST(json[key].is_number_unsigned() && json[key].get<uint64_t>() <= most, MVS_E_FORMAT,
+           "plan", "%s has to be a whole number of at most %llu", key,
+           static_cast<unsigned long long>(most));
+  return json[key].get<uint64_t>();
+}
+
+uint32_t solver_at(const Json &json) {
+  if (!json.contains("solver")) return 0;
+  const std::string word = json["solver"].is_string() ? json["solver"].get<std::string>() : "";
+  for (uint32_t solver = MVS_SOLVER_NEWTON; solver <= MVS_SOLVER_EXPLICIT; ++solver) {
+    if (word == solver_word(solver)) return solver;
+  }
+  fail(MVS_E_FORMAT, "plan", "solver has to be newton, implicit or explicit");
+}
+
+// Throws unless each key of a move is one that it can have.
+void check_keys(const Json &json, std::initializer_list<std::string_view> known) {
+  for (const auto &[key, value] : json.items()) {
+    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
+    MVS_MUST(is_known, MVS_E_FORMAT, "plan", "%s has no field \"%.60s\"",
+             json["do"].get<std::string>().c_str(), key.c_str());
+  }
+}
+
+std::optional<Move> read_move(const Json &json) {
+  const std::string word = json["do"].get<std::string>();
+  Move move;
+  if (word == "load") {
+    check_keys(json, {"do", "pressure_Pa", "boundary_fraction"});
+    move.pressure = number_at(json, "pressure_Pa");
+    move.boundary_fraction = number_at(json, "boundary_fraction");
+    return move;
+  }
+  if (word != "settle" && word != "step") return {};
+  check_keys(json,
+             {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s"});
+  move.kind = word == "settle" ? Move::settle : Move::step;
+  move.count = whole_at(json, "count", 1, uint64_t{1} << 40);
+  move.solver = solver_at(json);
+  move.max_iterations = static_cast<uint32_t>(whole_at(json, "max_iterations", 0, UINT32_MAX));
+  move.residual = number_at(json, "residual_N");
+  move.dt = number_at(json, "dt_s");
+  move.damping = number_at(json, "damping_1/s");
+  return move;
+}
+
+std::string version_text() {
+  return format("%d.%d.%d", MVS_VERSION_MAJOR, MVS_VERSION_MINOR, MVS_VERSION_PATCH);
+}
+
+PlanStep read_step(const Json &json) {
+  MVS_MUST(json.is_object() && json.contains("do") && json["do"].is_string(), MVS_E_FORMAT, "plan",
+           "a step has to be an object with a \"do\"");
+  PlanStep step;
+  step.move = read_move(json);
+  if (step.move) return step;
+  step.op = json;
+  if (!json.contains("group")) return step;
+  MVS_MUST(json["group"].is_string(), MVS_E_FORMAT, "plan", "group has to be a name");
+  step.group = json["group"].get<std::string>();
+  step.group_id = whole_at(json, "group_id", 0, UINT64_MAX);
+  return step;
+}
+
+Json parse(std::string_view text) {
+  MVS_MUST(text.size() <= most_bytes, MVS_E_FORMAT, "plan", "the plan has %zu bytes, at most %zu",
+           text.size(), most_bytes);
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error &error) {
+    fail(MVS_E_FORMAT, "plan", "the plan is no JSON: wrong at byte %zu; it may be cut short",
+         error.byte);
+  }
+}
+
+void check_head(const Json &json) {
+  MVS_MUST(json.is_object() && json.contains("format") && json["format"] == format_name,
+           MVS_E_FORMAT, "plan", "this is not a plan: it lacks \"format\": \"%s\"", format_name);
+  const uint64_t version = whole_at(json, "version", 0, UINT64_MAX);
+  MVS_MUST(version >= 1, MVS_E_FORMAT, "plan", "the plan has no version");
+  MVS_MUST(version <= plan_version, MVS_E_VERSION, "plan",
+           "the plan is of version %llu, this library reads up to %u: use a newer libmvs",
+           static_cast<unsigned long long>(version), plan_version);
+}
+
+std::string hash_at(const Json &json, const char *part) {
+  if (!json.contains(part) || !json[part].is_object() || !json[part].contains("hash")) return "";
+  const Json &hash = json[part]["hash"];
+  return hash.is_string() ? hash.get<std::string>() : "";
+}
+
+}  // namespace
+
+std::string hash_text(const Picture &picture) {
+  const auto hash = hash_of(*picture.model, picture.state);
+  return format("%016llx%016llx", static_cast<unsigned long long>(hash[0]),
+                static_cast<unsigned long long>(hash[1]));
+}
+
+Json move_json(const Move &move) {
+  Json json;
+  if (move.kind == Move::load) {
+    json["do"] = "load";
+    json["pressure_Pa"] = move.pressure;
+    json["boundary_fraction"] = move.boundary_fraction;
+    return json;
+  }
+  json["do"] = move.kind == Move::settle ? "settle" : "step";
+  if (move.count != 1) json["count"] = move.count;
+  if (move.solver != 0) json["solver"] = solver_word(move.solver);
+  if (move.max_iterations != 0) json["max_iterations"] = move.max_iterations;
+  put_unless_zero(json, "residual_N", move.residual);
+  put_unless_zero(json, "dt_s", move.dt);
+  put_unless_zero(json, "damping_1/s", move.damping);
+  return json;
+}
+
+Json entry_json(const Entry &entry) {
+  Json json = op_json(entry.op, *entry.before.model);
+  json["title"] = entry.title;
+  if (entry.time_ms != 0) json["time"] = time_text(entry.time_ms);
+  if (entry.group == 0) return json;
+  json["group"] = entry.group_name;
+  json["group_id"] = entry.group;
+  return json;
+}
+
+void add_moves(Json &steps, const Moves &moves) {
+  for (const Move *move : moves.items()) steps.push_back(move_json(*move));
+}
+
+Json plan_steps(const Moment &moment, const Measure &measure) {
+  Json steps = Json::array();
+  const auto entries = moment.timeline.past.items();
+  for (size_t k = 0; k < entries.size(); ++k) {
+    const Entry &entry = **entries[k];
+    add_moves(steps, entry.moves);
+    Json json = entry_json(entry);
+    if (measure) {
+      json["before"] = measure(entry.before);
+      // what it led to is seen just before the next operation, when the valve has settled
+      json["after"] = measure(k + 1 < entries.size() ? (*entries[k + 1])->before : moment.picture);
+    }
+    steps.push_back(std::move(json));
+  }
+  add_moves(steps, moment.timeline.moves);
+  return steps;
+}
+
+std::string write_plan(const Moment &moment, const PlanText &text, const Measure &measure) {
+  const Picture &start = moment.timeline.start ? *moment.timeline.start : moment.picture;
+  Json json;
+  json["format"] = format_name;
+  json["version"] = plan_version;
+  json["libmvs"] = version_text();
+  json["units"] = "SI: m, N, Pa, s";
+  json["valve"] = {{"name", start.model->valve.name}, {"hash", hash_text(start)}};
+  if (!text.author.empty()) json["author"] = text.author;
+  if (!text.notes.empty()) json["notes"] = text.notes;
+  json["steps"] = plan_steps(moment, measure);
+  json["result"] = {{"hash", hash_text(moment.picture)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<PlanStep> read_steps(const Json &steps) {
+  MVS_MUST(steps.is_array(), MVS_E_FORMAT, "plan", "\"steps\" has to be a list");
+  std::vector<PlanStep> out;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    try {
+      out.push_back(read_step(steps[k]));
+    } catch (const Error &error) {
+      fail(error.code, format("step %zu", k + 1), "step %zu: %s", k + 1, error.what());
+    }
+  }
+  return out;
+}
+
+Plan read_plan(std::string_view text) {
+  const Json json = parse(text);
+  check_head(json);
+  MVS_MUST(json.contains("steps"), MVS_E_FORMAT, "plan", "the plan has no \"steps\"");
+  return {hash_at(json, "valve"), hash_at(json, "result"), read_steps(json["steps"])};
+}
+
+}  // namespace mvs

@@ -1,0 +1,59 @@
+// The plan as JSON: operations and what was done between them, to text and back.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "surgery/history.h"
+
+namespace mvs {
+
+using Json = nlohmann::ordered_json;
+
+// One step of a plan: a move, or an operation as it stands in the file.
+struct PlanStep {
+  std::optional<Move> move;
+  Json op;                // null for a move
+  std::string group;      // "" for none
+  uint64_t group_id = 0;  // tells groups of one name apart
+};
+
+struct Plan {
+  std::string valve_hash, result_hash;  // 32 hexadecimal digits; "" where not told
+  std::vector<PlanStep> steps;
+};
+
+// "0123456789abcdef0123456789abcdef"
+std::string hash_text(const Picture &picture);
+
+// The steps that lead from the start of a history to its moment. `measures` is asked for what each
+// picture measures; it may be empty.
+using Measure = std::function<Json(const Picture &)>;
+Json plan_steps(const Moment &moment, const Measure &measure);
+
+// A whole plan.
+struct PlanText {
+  std::string author, notes;
+};
+std::string write_plan(const Moment &moment, const PlanText &text, const Measure &measure);
+
+// Throws MVS_E_FORMAT or MVS_E_VERSION with the step that is wrong.
+Plan read_plan(std::string_view text);
+std::vector<PlanStep> read_steps(const Json &steps);
+
+Json move_json(const Move &move);
+void add_moves(Json &steps, const Moves &moves);
+
+// An operation that was applied, with its title, time and group.
+Json entry_json(const Entry &entry);
+
+// An operation with the names of its parts in this model, and back. In `exact` replay a site is the
+// node or triangle that it was, else its anatomical place.
+Json op_json(const Operation &op, const Model &model);
+Operation read_op(const Json &json, const Model &model, bool exact);
+
+}  // namespace mvs

@@ -1,0 +1,98 @@
+#include "api/commit.h"
+
+#include <chrono>
+
+namespace mvs {
+
+int64_t now_ms() {
+  using namespace std::chrono;
+  return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+void must_be_finite(const State &state) {
+  for (const Vec3 &x : state.x.get()) {
+    MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
+             "a node left the range of numbers: take a smaller time step or load");
+  }
+}
+
+void note_move(Moment &moment, const Picture &from, const Move &move) {
+  if (!moment.timeline.start) moment.timeline.start = std::make_shared<const Picture>(from);
+  moment.timeline.moves = with_move(moment.timeline.moves, move);
+}
+
+void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record) {
+  SnapshotPtr next = make_snapshot(std::move(after));
+  if (sim.journal) sim.journal->append(record().dump());
+  sim.replace(std::move(next));
+}
+
+namespace {
+
+std::string start_hash(const Moment &moment) {
+  return hash_text(moment.timeline.start ? *moment.timeline.start : moment.picture);
+}
+
+Json restart_record(const Moment &moment) {
+  Json json = word_record("restart");
+  json["steps"] = plan_steps(moment, {});
+  Json &list = json["checkpoints"] = Json::array();
+  if (!moment.timeline.checkpoints) return json;
+  for (const Checkpoint &c : *moment.timeline.checkpoints) {
+    Moment there{c.at, moment.timeline};
+    there.timeline.past = c.past;
+    there.timeline.moves = c.moves;
+    list.push_back({{"name", c.name}, {"steps", plan_steps(there, {})}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void restart_journal(mvs_sim &sim, const Moment &restored) {
+  if (!sim.journal) return;
+  if (start_hash(restored) == start_hash(sim.present()->moment)) {
+    sim.journal->append(restart_record(restored).dump());
+    return;
+  }
+  sim.journal.reset();
+  sim.log(MVS_LOG_WARNING, "the journal ends: the snapshot restored is of another valve");
+}
+
+Json begun_record(const Moment &moment) {
+  const Picture &start = moment.timeline.start ? *moment.timeline.start : moment.picture;
+  Json json;
+  json["do"] = "begin";
+  json["journal"] = 1;
+  json["valve"] = {{"name", start.model->valve.name}, {"hash", hash_text(start)}};
+  json["steps"] = plan_steps(moment, {});
+  return json;
+}
+
+Json steps_record(const Moment &before, const Moment &after) {
+  Json json;
+  json["do"] = "apply";
+  Json &steps = json["steps"] = Json::array();
+  const auto entries = after.timeline.past.items();
+  for (size_t k = before.timeline.past.size(); k < entries.size(); ++k) {
+    add_moves(steps, (*entries[k])->moves);
+    steps.push_back(entry_json(**entries[k]));
+  }
+  add_moves(steps, after.timeline.moves);
+  return json;
+}
+
+Json word_record(const char *word) {
+  Json json;
+  json["do"] = word;
+  return json;
+}
+
+Json named_record(const char *word, const std::string &name, const Moves &moves) {
+  Json json = word_record(word);
+  json["name"] = name;
+  add_moves(json["steps"] = Json::array(), moves);
+  return json;
+}
+
+}  // namespace mvs

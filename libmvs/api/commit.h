@@ -1,0 +1,32 @@
+// Making a moment the present one of a simulator: the journal first.
+#pragma once
+
+#include "api/simulator.h"
+#include "formats/plan.h"
+
+namespace mvs {
+
+// Milliseconds since 1970 UTC.
+int64_t now_ms();
+
+// Throws MVS_E_DIVERGED where a position is not a number.
+void must_be_finite(const State &state);
+
+// Notes that a move led from a picture to this moment.
+void note_move(Moment &moment, const Picture &from, const Move &move);
+
+// Makes `after` the present. The record goes into the journal, if there is one, before anything
+// counts; it is asked for only then.
+void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record);
+
+// Writes into the journal, if there is one, that a snapshot is restored. A snapshot of another
+// valve ends it.
+void restart_journal(mvs_sim &sim, const Moment &restored);
+
+// The records of a journal.
+Json begun_record(const Moment &moment);                       // its first
+Json steps_record(const Moment &before, const Moment &after);  // operations applied since `before`
+Json word_record(const char *word);                            // undo, redo
+Json named_record(const char *word, const std::string &name, const Moves &moves);
+
+}  // namespace mvs

@@ -1,0 +1,139 @@
+// The journal of a simulator: begun, closed, recovered.
+#include "formats/journal.h"
+
+#include <mvs/plan.h>
+
+#include "api/commit.h"
+#include "api/replay.h"
+#include "formats/formats.h"
+
+using namespace mvs;
+
+namespace {
+
+Json parsed(const std::string &text, size_t number) {
+  Json json = Json::parse(text, nullptr, false);
+  MVS_MUST(json.is_object() && json.contains("do") && json["do"].is_string(), MVS_E_FORMAT,
+           "journal", "record %zu of the journal is none that libmvs wrote", number);
+  return json;
+}
+
+std::string text_at(const Json &json, const char *key) {
+  MVS_MUST(json.contains(key) && json[key].is_string(), MVS_E_FORMAT, "journal",
+           "a record of the journal lacks its %s", key);
+  return json[key].get<std::string>();
+}
+
+std::vector<PlanStep> steps_at(const Json &json) {
+  MVS_MUST(json.contains("steps"), MVS_E_FORMAT, "journal", "a record of the journal has no steps");
+  return read_steps(json.at("steps"));
+}
+
+Picture start_of(const Moment &now) {
+  return now.timeline.start ? *now.timeline.start : now.picture;
+}
+
+// Back to right after the last operation: a record tells all moves since then.
+void rewind_moves(Moment &now) {
+  const Picture at = now.timeline.past.empty() ? start_of(now) : now.timeline.past.top()->after;
+  now.picture = at;
+  now.timeline.moves = {};
+}
+
+// Every checkpoint by the steps that led to it, then the steps to where the snapshot was.
+void restart(Replay &replay, const Json &record) {
+  Replay there({start_of(replay.now), {}}, replay);
+  for (const Json &checkpoint : record.value("checkpoints", Json::array())) {
+    there.now = {start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
+    there.go(steps_at(checkpoint));
+    there.now = with_checkpoint(there.now, text_at(checkpoint, "name"));
+  }
+  there.now = {start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
+  there.go(steps_at(record));
+  replay.now = std::move(there.now);
+}
+
+// One record after the first.
+void redo(Replay &replay, const Json &record) {
+  const std::string word = text_at(record, "do");
+  if (word == "restart") return restart(replay, record);
+  if (record.contains("steps")) {
+    rewind_moves(replay.now);
+    replay.go(steps_at(record));
+  }
+  if (word == "undo") {
+    replay.now = undone(replay.now);
+  } else if (word == "redo") {
+    replay.now = redone(replay.now);
+  } else if (word == "checkpoint") {
+    replay.now = with_checkpoint(replay.now, text_at(record, "name"));
+  } else if (word == "restore_checkpoint") {
+    replay.now = at_checkpoint(replay.now, text_at(record, "name"));
+  } else {
+    MVS_MUST(word == "apply", MVS_E_VERSION, "journal",
+             "the journal has a record \"%.40s\", which this version of libmvs does not know",
+             word.c_str());
+  }
+}
+
+void check_beginning(const Json &first, const Picture &present) {
+  MVS_MUST(text_at(first, "do") == "begin" && first.contains("valve"), MVS_E_FORMAT, "journal",
+           "the journal does not begin with its valve");
+  const std::string wanted = text_at(first.at("valve"), "hash"), found = hash_text(present);
+  MVS_MUST(wanted == found, MVS_E_STATE, "journal",
+           "the journal belongs to the valve \"%.63s\" with hash %s, the present one has %s: load "
+           "that valve first",
+           text_at(first.at("valve"), "name").c_str(), wanted.c_str(), found.c_str());
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    must_point(path, "path");
+    MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",
+             s.journal->path().c_str());
+    const SnapshotPtr present = s.present();
+    const std::string first = begun_record(present->moment).dump();
+    auto journal = std::make_unique<Journal>(Journal::create(path));
+    journal->append(first);
+    s.journal = std::move(journal);
+  });
+}
+
+mvs_result mvs_close_journal(mvs_sim *sim) {
+  return guarded_call(sim, [](mvs_sim &s) {
+    MVS_MUST(s.journal, MVS_E_STATE, "journal", "no journal is open");
+    s.journal.reset();
+  });
+}
+
+mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *replay) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    must_point(path, "path");
+    if (replay) checked_struct_size(replay, "replay");
+    MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",
+             s.journal->path().c_str());
+    const SnapshotPtr present = s.present();
+    const JournalRecords records = read_journal(read_whole_file(path));
+    const Json first = parsed(records.texts[0], 1);
+    check_beginning(first, present->moment.picture);
+    Replay steps({present->moment.picture, {}}, true, moves_of(s));
+    steps.go(steps_at(first));
+    for (size_t k = 1; k < records.texts.size(); ++k) {
+      redo(steps, parsed(records.texts[k], k + 1));
+    }
+    mvs_replay how = {};
+    how.operations = static_cast<uint32_t>(steps.now.timeline.past.size());
+    how.same_valve = how.same_result = 1;
+    SnapshotPtr next = make_snapshot(std::move(steps.now));
+    s.journal = std::make_unique<Journal>(Journal::go_on(path, records.bytes));
+    s.replace(std::move(next));
+    s.group = {};
+    if (replay) write_struct(replay, how, "replay");
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,93 @@
+// Plans: written from a snapshot's history, replayed on the present valve.
+#include <mvs/plan.h>
+
+#include <cstring>
+
+#include "api/commit.h"
+#include "api/replay.h"
+#include "formats/formats.h"
+
+using namespace mvs;
+
+namespace {
+
+std::string text_or_empty(const char *text) {
+  return text ? text : "";
+}
+
+std::string plan_text(const mvs_snapshot *snapshot, const mvs_plan_options *given) {
+  must_point(snapshot, "snapshot");
+  const mvs_plan_options options = read_struct_or_default(given, "options");
+  MVS_MUST(options.measures <= 1, MVS_E_ARGUMENT, "options.measures",
+           "options.measures is %u: it has to be 0 or 1", options.measures);
+  return write_plan(snapshot->moment, {text_or_empty(options.author), text_or_empty(options.notes)},
+                    options.measures ? plan_measures : Measure());
+}
+
+mvs_replay replay_of(const Plan &plan, const Moment &from, const Moment &to) {
+  mvs_replay replay = {};
+  replay.operations = static_cast<uint32_t>(to.timeline.past.size() - from.timeline.past.size());
+  replay.same_valve = plan.valve_hash == hash_text(from.picture) ? 1 : 0;
+  replay.same_result = plan.result_hash == hash_text(to.picture) ? 1 : 0;
+  return replay;
+}
+
+Plan read_given(const void *data, uint64_t size) {
+  must_point(data, "data");
+  return read_plan({static_cast<const char *>(data), size});
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_save_plan(const mvs_snapshot *snapshot, const mvs_plan_options *options,
+                         const char *path) {
+  return guarded_file(path ? path : "", [&] {
+    must_point(path, "path");
+    write_whole_file(path, plan_text(snapshot, options));
+  });
+}
+
+mvs_result mvs_write_plan(const mvs_snapshot *snapshot, const mvs_plan_options *options, void *data,
+                          uint64_t capacity, uint64_t *size) {
+  return guarded([&] {
+    must_point(size, "size");
+    if (capacity > 0) must_point(data, "data");
+    const std::string text = plan_text(snapshot, options);
+    if (capacity > 0) std::memcpy(data, text.data(), std::min<uint64_t>(capacity, text.size()));
+    *size = text.size();
+  });
+}
+
+mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_replay *replay) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    const SnapshotPtr before = s.present();
+    if (replay) checked_struct_size(replay, "replay");
+    const Plan plan = read_given(data, size);
+    const bool exact = plan.valve_hash == hash_text(before->moment.picture);
+    MVS_MUST(s.group.number == 0, MVS_E_STATE, "group",
+             "replay: the group \"%.63s\" is open: call mvs_end_group first", s.group.name.c_str());
+    Replay steps(before->moment, exact, moves_of(s));
+    steps.go(plan.steps);
+    const mvs_replay how = replay_of(plan, before->moment, steps.now);
+    const Json record = s.journal ? steps_record(before->moment, steps.now) : Json();
+    commit(s, std::move(steps.now), [&] { return record; });
+    if (replay) write_struct(replay, how, "replay");
+  });
+}
+
+mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size, mvs_replay *replay) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    if (replay) checked_struct_size(replay, "replay");
+    const SnapshotPtr before = sim->present();
+    const Plan plan = read_given(data, size);
+    const bool exact = plan.valve_hash == hash_text(before->moment.picture);
+    Replay steps(before->moment, exact, {});
+    steps.go(plan.steps);
+    if (replay) write_struct(replay, replay_of(plan, before->moment, steps.now), "replay");
+  });
+}
+
+}  // extern "C"

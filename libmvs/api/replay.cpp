@@ -1,0 +1,89 @@
+// Steps of a plan: moves by the solver, operations as any other.
+#include "api/replay.h"
+
+#include "api/commit.h"
+
+namespace mvs {
+namespace {
+
+SolveOptions options_of(const Move &move) {
+  SolveOptions options;
+  options.solver = move.solver;
+  options.max_iterations = move.max_iterations;
+  options.residual = move.residual;
+  options.dt = move.dt;
+  options.damping = move.damping;
+  return options;
+}
+
+Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
+  Moment next = now;
+  State &state = next.picture.state;
+  if (move.kind == Move::load) {
+    state.load = {move.pressure, move.boundary_fraction};
+  } else if (move.kind == Move::settle) {
+    sim.solver.settle(*now.picture.model, state, options_of(move), sim.progress());
+  } else {
+    for (uint64_t k = 0; k < move.count; ++k) {
+      sim.solver.step(*now.picture.model, state, options_of(move));
+    }
+  }
+  must_be_finite(state);
+  share(state, now.picture.state);
+  note_move(next, now.picture, move);
+  return next;
+}
+
+}  // namespace
+
+void Replay::operate(const PlanStep &step) {
+  const Operation op = read_op(step.op, *now.picture.model, exact_);
+  const bool goes_on = step.group == group_ && step.group_id == group_id_;
+  if (!step.group.empty() && !goes_on) number_ = now.timeline.next_group++;
+  now = after_op(now, op, step.group.empty() ? Group{} : Group{number_, step.group}, now_ms());
+  group_ = step.group;
+  group_id_ = step.group_id;
+}
+
+void Replay::go(const std::vector<PlanStep> &steps) {
+  for (size_t k = 0; k < steps.size(); ++k) {
+    const PlanStep &step = steps[k];
+    if (step.move && !take_) continue;
+    const std::string word = step.move ? "" : step.op["do"].get<std::string>() + ": ";
+    try {
+      if (step.move) {
+        now = take_(now, *step.move);
+      } else {
+        operate(step);
+      }
+    } catch (const Error &error) {
+      const bool named = std::string_view(error.what()).starts_with(word);
+      fail(error.code, error.part, "step %zu of the plan: %s%s", k + 1, named ? "" : word.c_str(),
+           error.what());
+    }
+  }
+}
+
+TakeMove moves_of(mvs_sim &sim) {
+  return [&sim](const Moment &now, const Move &move) { return moved(sim, now, move); };
+}
+
+Json plan_measures(const Picture &picture) {
+  const SnapshotPtr snapshot = make_snapshot({picture, {}});
+  const mvs_measures &m = snapshot->measures();
+  Json json;
+  json["regurgitant_orifice_area_m2"] = m.regurgitant_orifice_area;
+  json["coaptation_area_m2"] = m.coaptation_area;
+  json["coaptation_height_m"] = m.coaptation_height;
+  json["coaptation_length_mean_m"] = m.coaptation_length_mean;
+  json["tenting_height_m"] = m.tenting_height;
+  json["billow_height_m"] = m.billow_height;
+  json["annulus_ap_m"] = m.annulus_ap;
+  json["annulus_cc_m"] = m.annulus_cc;
+  json["max_chord_strain"] = m.max_chord_strain;
+  json["max_chord_tension_N"] = m.max_chord_tension;
+  json["intersections"] = m.intersections;
+  return json;
+}
+
+}  // namespace mvs

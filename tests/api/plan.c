@@ -1,0 +1,289 @@
+/* Plans replay to the same bits; journals survive a killed process. */
+#define _POSIX_C_SOURCE 200809L
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "check.h"
+
+static char path[64]; /* of the journal at work */
+static mvs_id named(mvs_sim *sim, uint32_t kind, const char *name) {
+  const mvs_snapshot *snapshot = NULL;
+  mvs_part part = {0};
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_snapshot_find(snapshot, kind, name, &part));
+  mvs_snapshot_release(snapshot);
+  return part.id;
+}
+
+static mvs_sim *new_valve(uint32_t vertices) {
+  mvs_sim *sim = NULL;
+  mvs_parametric_desc desc = {.struct_size = sizeof desc, .vertices = vertices};
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_generate_valve(sim, &desc));
+  return sim;
+}
+
+static void shorten(mvs_sim *sim, const char *name, double factor) {
+  mvs_op_chord_length op = {{sizeof op, MVS_OP_CHORD_LENGTH}, 0, 0, factor, {{0}, 0, 0}};
+  op.chord = named(sim, MVS_PART_CHORD, name);
+  MUST(mvs_apply_op(sim, &op.op, NULL));
+}
+
+static void add_chord(mvs_sim *sim) {
+  mvs_op_chord_add op = {.op = {sizeof op, MVS_OP_CHORD_ADD}, .name = "new one"};
+  op.head = named(sim, MVS_PART_HEAD, "PM1");
+  op.site = (mvs_site){MVS_SITE_ANATOMICAL, 0, named(sim, MVS_PART_SCALLOP, "P2"), {0.4, 0.8, 0}};
+  MUST(mvs_apply_op(sim, &op.op, NULL));
+}
+
+static void scale(mvs_sim *sim, double factor) {
+  mvs_op_annulus_scale op = {{sizeof op, MVS_OP_ANNULUS_SCALE}, factor, 0, 0};
+  MUST(mvs_apply_op(sim, &op.op, NULL));
+}
+
+static void close_a_bit(mvs_sim *sim) {
+  mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+  mvs_settle_options options = {.struct_size = sizeof options, .max_iterations = 4};
+  MUST(mvs_set_load(sim, &systole));
+  MUST(mvs_settle(sim, &options, NULL));
+  for (int k = 0; k < 3; ++k) MUST(mvs_step(sim, NULL));
+}
+
+static void operate(mvs_sim *sim) {
+  shorten(sim, "P2/3", 0.75);
+  close_a_bit(sim);
+  MUST(mvs_begin_group(sim, "repair"));
+  add_chord(sim);
+  scale(sim, 0.95);
+  MUST(mvs_end_group(sim));
+  close_a_bit(sim);
+}
+
+static char *plan_of(mvs_sim *sim, uint64_t *size) {
+  const mvs_snapshot *snapshot = NULL;
+  mvs_plan_options options = {.struct_size = sizeof options, .measures = 1, .author = "a surgeon"};
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_write_plan(snapshot, &options, NULL, 0, size));
+  char *text = malloc(*size + 1);
+  MUST(mvs_write_plan(snapshot, &options, text, *size, size));
+  text[*size] = 0;
+  mvs_snapshot_release(snapshot);
+  return text;
+}
+
+static void a_plan_replays_to_the_same_bits(void) {
+  mvs_sim *sim = new_valve(0), *again = new_valve(0), *other = new_valve(800);
+  uint64_t size = 0, size_again = 0;
+  mvs_replay replay = {.struct_size = sizeof replay};
+  operate(sim);
+  char *text = plan_of(sim, &size);
+  CHECK(strstr(text, "\"regurgitant_orifice_area_m2\"") && strstr(text, "a surgeon"));
+  CHECK(strstr(text, "\"factor\": 0.75") && strstr(text, "\"chord\": \"P2/3\""));
+  const hash128 fresh = sim_hash(again);
+  MUST(mvs_check_plan(again, text, size, &replay));
+  CHECK(replay.operations == 3 && replay.same_valve == 1);
+  CHECK(same_hash(fresh, sim_hash(again)));
+  MUST(mvs_replay_plan(again, text, size, &replay));
+  CHECK(replay.operations == 3 && replay.same_valve == 1 && replay.same_result == 1);
+  CHECK(same_hash(sim_hash(sim), sim_hash(again)));
+  /* groups as well: one undo takes back both operations */
+  MUST(mvs_undo(sim));
+  MUST(mvs_undo(again));
+  CHECK(same_hash(sim_hash(sim), sim_hash(again)));
+  MUST(mvs_redo(sim));
+  MUST(mvs_redo(again));
+  /* on another valve by name and place */
+  MUST(mvs_replay_plan(other, text, size, &replay));
+  CHECK(replay.operations == 3 && replay.same_valve == 0 && replay.same_result == 0);
+  CHECK(named(other, MVS_PART_CHORD, "new one") != 0);
+  char *third = plan_of(other, &size_again);
+  CHECK(size_again > 0);
+  free(third);
+  free(text);
+  mvs_destroy(sim);
+  mvs_destroy(again);
+  mvs_destroy(other);
+}
+
+static void refused(mvs_sim *sim, const char *text, mvs_result code, const char *word) {
+  const hash128 before = sim_hash(sim);
+  MUST_FAIL(mvs_check_plan(sim, text, strlen(text), NULL), code, word);
+  MUST_FAIL(mvs_replay_plan(sim, text, strlen(text), NULL), code, word);
+  CHECK(same_hash(before, sim_hash(sim)));
+}
+
+#define PLAN(steps) "{\"format\":\"mvs-plan\",\"version\":1,\"steps\":[" steps "]}"
+
+static void plans_that_cannot_be_done_are_told(void) {
+  mvs_sim *sim = new_valve(0);
+  refused(sim, "", MVS_E_FORMAT, "no JSON");
+  refused(sim, "{\"format\":\"mvs-plan\",\"version\":1,\"steps\":[", MVS_E_FORMAT, "cut short");
+  refused(sim, "[1]", MVS_E_FORMAT, "not a plan");
+  refused(sim, "{\"format\":\"mvs-plan\",\"version\":99,\"steps\":[]}", MVS_E_VERSION, "newer");
+  refused(sim, "{\"format\":\"mvs-plan\",\"version\":1}", MVS_E_FORMAT, "no \"steps\"");
+  refused(sim, PLAN("1"), MVS_E_FORMAT, "step 1");
+  refused(sim, PLAN("{\"do\":\"fly\"}"), MVS_E_VERSION, "\"fly\"");
+  refused(sim, PLAN("{\"do\":\"settle\",\"dt\":1}"), MVS_E_FORMAT, "no field \"dt\"");
+  refused(sim, PLAN("{\"do\":\"chord_length\",\"chord\":\"Q1/1\",\"factor\":0.5}"), MVS_E_ID,
+          "no chord named \"Q1/1\"");
+  refused(sim, PLAN("{\"do\":\"chord_length\",\"chord\":\"P2/3\",\"factor\":\"half\"}"),
+          MVS_E_FORMAT, "factor has to be a number");
+  refused(sim, PLAN("{\"do\":\"chord_length\",\"chord\":\"P2/3\",\"speed\":1}"), MVS_E_FORMAT,
+          "no field \"speed\"");
+  refused(sim,
+          PLAN("{\"do\":\"annulus_scale\",\"factor\":0.9},"
+               "{\"do\":\"chord_remove\",\"chord\":\"P2/3\"},"
+               "{\"do\":\"chord_remove\",\"chord\":\"P2/3\"}"),
+          MVS_E_ID, "step 3 of the plan: chord_remove: ");
+  refused(sim,
+          PLAN("{\"do\":\"chord_add\",\"head\":\"PM1\",\"site\":{\"scallop\":\"P9\",\"along\":0,"
+               "\"height\":1}}"),
+          MVS_E_ID, "no scallop named \"P9\"");
+  mvs_destroy(sim);
+}
+
+/* What a session with a journal does; the hash after each of its calls that count. */
+enum { session_length = 9 };
+static void session(mvs_sim *sim, int steps, hash128 *after) {
+  for (int k = 0; k < steps; ++k) {
+    if (k == 0) shorten(sim, "P2/3", 0.75);
+    if (k == 1) close_a_bit(sim);
+    if (k == 1) add_chord(sim);
+    if (k == 2) MUST(mvs_undo(sim));
+    if (k == 3) MUST(mvs_redo(sim));
+    if (k == 4 || k == 5) close_a_bit(sim);
+    if (k == 4) MUST(mvs_set_checkpoint(sim, "here"));
+    if (k == 5) scale(sim, 0.9);
+    if (k == 6) MUST(mvs_restore_checkpoint(sim, "here"));
+    if (k == 7) scale(sim, 1.1);
+    if (k == 8) shorten(sim, "A2/2", 1.1);
+    if (after) after[k] = sim_hash(sim);
+  }
+}
+
+static char *whole_file(size_t *size) {
+  FILE *file = fopen(path, "rb");
+  char *bytes = malloc(1 << 20);
+  *size = file ? fread(bytes, 1, 1 << 20, file) : 0;
+  if (file) fclose(file);
+  return bytes;
+}
+
+static void write_file(const char *bytes, size_t size) {
+  FILE *file = fopen(path, "wb");
+  CHECK(file && fwrite(bytes, 1, size, file) == size);
+  if (file) fclose(file);
+}
+
+/* A child is killed after each record; what it did is recovered, and the journal goes on. */
+static void a_killed_process_loses_nothing(void) {
+  hash128 wanted[session_length];
+  mvs_sim *whole = new_valve(0);
+  session(whole, session_length, wanted);
+  for (int steps = 1; steps <= session_length; ++steps) {
+    remove(path);
+    const pid_t child = fork();
+    if (child == 0) {
+      mvs_sim *sim = new_valve(0);
+      MUST(mvs_open_journal(sim, path));
+      session(sim, steps, NULL);
+      kill(getpid(), SIGKILL);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+    mvs_sim *sim = new_valve(0);
+    mvs_replay replay = {.struct_size = sizeof replay};
+    MUST(mvs_recover_journal(sim, path, &replay));
+    CHECK(same_hash(wanted[steps - 1], sim_hash(sim)));
+    MUST(mvs_close_journal(sim));
+    mvs_destroy(sim);
+  }
+  mvs_destroy(whole);
+}
+
+/* The last record is cut at many bytes: what stands before it is recovered. */
+static void a_torn_record_is_dropped(void) {
+  hash128 wanted[session_length];
+  size_t size = 0;
+  mvs_sim *sim = new_valve(0);
+  remove(path);
+  MUST(mvs_open_journal(sim, path));
+  session(sim, session_length, wanted);
+  mvs_destroy(sim);
+  char *bytes = whole_file(&size);
+  size_t last = size - 1;
+  while (bytes[last - 1] != '\n') --last;
+  for (size_t cut = last; cut < size; cut += (size - last) / 7 + 1) {
+    write_file(bytes, cut);
+    sim = new_valve(0);
+    MUST(mvs_recover_journal(sim, path, NULL));
+    CHECK(same_hash(wanted[session_length - 2], sim_hash(sim)));
+    /* it goes on where the whole records end */
+    shorten(sim, "A2/2", 1.1);
+    CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
+    mvs_destroy(sim);
+    sim = new_valve(0);
+    MUST(mvs_recover_journal(sim, path, NULL));
+    CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
+    mvs_destroy(sim);
+  }
+  /* damage in the middle is no crash */
+  bytes[size / 2] ^= 1;
+  write_file(bytes, size);
+  sim = new_valve(0);
+  MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_FORMAT, "is damaged, and others follow");
+  write_file("v 0 0 0\n", 8);
+  MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_FORMAT, "no journal");
+  MUST_FAIL(mvs_open_journal(sim, path), MVS_E_STATE, "is there already");
+  MUST_FAIL(mvs_open_journal(sim, "/nowhere/at/all"), MVS_E_IO, "cannot create");
+  MUST_FAIL(mvs_close_journal(sim), MVS_E_STATE, "no journal is open");
+  bytes[size / 2] ^= 1;
+  write_file(bytes, size);
+  scale(sim, 0.9);
+  MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_STATE, "load that valve first");
+  mvs_destroy(sim);
+  free(bytes);
+}
+
+static void a_restored_snapshot_is_recovered_with_its_history(void) {
+  const mvs_snapshot *early = NULL;
+  mvs_sim *sim = new_valve(0);
+  remove(path);
+  shorten(sim, "P2/3", 0.75); /* before the journal: its first record has it */
+  MUST(mvs_open_journal(sim, path));
+  close_a_bit(sim);
+  MUST(mvs_set_checkpoint(sim, "one"));
+  MUST(mvs_get_snapshot(sim, &early));
+  scale(sim, 0.9);
+  MUST(mvs_set_checkpoint(sim, "one"));
+  MUST(mvs_restore(sim, early));
+  scale(sim, 1.05);
+  const hash128 wanted = sim_hash(sim);
+  MUST(mvs_undo(sim));
+  MUST(mvs_restore_checkpoint(sim, "one"));
+  const hash128 one = sim_hash(sim);
+  mvs_destroy(sim);
+  sim = new_valve(0);
+  MUST(mvs_recover_journal(sim, path, NULL));
+  CHECK(same_hash(one, sim_hash(sim)));
+  scale(sim, 1.05);
+  CHECK(same_hash(wanted, sim_hash(sim)));
+  MUST(mvs_undo(sim));
+  MUST(mvs_undo(sim));
+  mvs_destroy(sim);
+  mvs_snapshot_release(early);
+}
+
+int main(void) {
+  snprintf(path, sizeof path, "plan_test_%d.journal", (int)getpid());
+  a_plan_replays_to_the_same_bits();
+  plans_that_cannot_be_done_are_told();
+  a_killed_process_loses_nothing();
+  a_torn_record_is_dropped();
+  a_restored_snapshot_is_recovered_with_its_history();
+  remove(path);
+  return finish("plan");
+}
