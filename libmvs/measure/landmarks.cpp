@@ -6,9 +6,21 @@
 
 namespace mvs {
 
-Loop::Loop(const std::vector<uint32_t> &nodes, const std::vector<Vec3> &x) : start_{0} {
-  points_.reserve(nodes.size());
-  for (const uint32_t node : nodes) points_.push_back(x[node]);
+namespace {
+
+std::vector<Vec3> points_at(const std::vector<uint32_t> &nodes, const std::vector<Vec3> &x) {
+  std::vector<Vec3> points;
+  points.reserve(nodes.size());
+  for (const uint32_t node : nodes) points.push_back(x[node]);
+  return points;
+}
+
+}  // namespace
+
+Loop::Loop(const std::vector<uint32_t> &nodes, const std::vector<Vec3> &x)
+    : Loop(points_at(nodes, x)) {}
+
+Loop::Loop(std::vector<Vec3> points) : points_(std::move(points)), start_{0} {
   for (size_t k = 0; k < size(); ++k) {
     start_.push_back(start_.back() + (point(k + 1) - point(k)).norm());
   }
@@ -67,9 +79,14 @@ uint32_t anterior_leaflet(const Valve &valve) {
   return similar < valve.leaflets.size() ? similar : 0;
 }
 
+Arc anterior_stretch(const Model &model, const Loop &annulus) {
+  const Arc arc = attachment(model, annulus, anterior_leaflet(model.valve));
+  if (arc.length() > 0) return arc;
+  return {-0.25 * annulus.length(), 0.25 * annulus.length()};
+}
+
 Landmarks find_landmarks(const Model &model, const Loop &annulus) {
-  Arc arc = attachment(model, annulus, anterior_leaflet(model.valve));
-  if (arc.length() == 0) arc = {-0.25 * annulus.length(), 0.25 * annulus.length()};
+  const Arc arc = anterior_stretch(model, annulus);
   return {annulus.at(arc.middle()),
           annulus.at(arc.middle() + 0.5 * annulus.length()),
           {annulus.at(arc.from), annulus.at(arc.to)}};

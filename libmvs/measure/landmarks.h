@@ -11,6 +11,7 @@ namespace mvs {
 class Loop {
  public:
   Loop(const std::vector<uint32_t> &nodes, const std::vector<Vec3> &x);
+  explicit Loop(std::vector<Vec3> points);
 
   size_t size() const { return points_.size(); }
   double length() const { return start_.back(); }
@@ -40,6 +41,10 @@ Arc attachment(const Model &model, const Loop &annulus, uint32_t leaflet);
 
 // The leaflet named "A", else the first whose name starts with A or a, else the first.
 uint32_t anterior_leaflet(const Valve &valve);
+
+// The stretch that holds the anterior leaflet, with the A point in its middle; without one, the
+// half of the loop around its first node.
+Arc anterior_stretch(const Model &model, const Loop &annulus);
 
 // Where the anterior leaflet is attached, and what follows from it. Without such a stretch the
 // landmarks are the quarter points of the loop, A at its first node.

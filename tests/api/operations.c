@@ -56,6 +56,7 @@ typedef union example {
   mvs_op_annulus_scale scale;
   mvs_op_neochord neochord;
   mvs_op_head_move move;
+  mvs_op_ring ring;
 } example;
 
 static int make_examples(example *out) {
@@ -87,6 +88,7 @@ static int make_examples(example *out) {
                                      .head = head,
                                      .by = {0, 0, 2e-3},
                                      .frame = 1};
+  out[n++].ring = (mvs_op_ring){.op = {sizeof(mvs_op_ring), MVS_OP_RING}, .size = 34e-3};
   return n;
 }
 
