@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -86,6 +87,64 @@ class View {
   mvs_view view_;
 };
 
+// The number of an operation's struct: KindOf<mvs_op_clip>::value is MVS_OP_CLIP.
+template <typename Op>
+struct KindOf;
+template <>
+struct KindOf<mvs_op_chord_length> : std::integral_constant<std::uint32_t, MVS_OP_CHORD_LENGTH> {};
+template <>
+struct KindOf<mvs_op_chord_remove> : std::integral_constant<std::uint32_t, MVS_OP_CHORD_REMOVE> {};
+template <>
+struct KindOf<mvs_op_chord_add> : std::integral_constant<std::uint32_t, MVS_OP_CHORD_ADD> {};
+template <>
+struct KindOf<mvs_op_chord_transfer>
+    : std::integral_constant<std::uint32_t, MVS_OP_CHORD_TRANSFER> {};
+template <>
+struct KindOf<mvs_op_annulus_scale> : std::integral_constant<std::uint32_t, MVS_OP_ANNULUS_SCALE> {
+};
+template <>
+struct KindOf<mvs_op_ring> : std::integral_constant<std::uint32_t, MVS_OP_RING> {};
+template <>
+struct KindOf<mvs_op_band> : std::integral_constant<std::uint32_t, MVS_OP_BAND> {};
+template <>
+struct KindOf<mvs_op_neochord> : std::integral_constant<std::uint32_t, MVS_OP_NEOCHORD> {};
+template <>
+struct KindOf<mvs_op_head_move> : std::integral_constant<std::uint32_t, MVS_OP_HEAD_MOVE> {};
+template <>
+struct KindOf<mvs_op_clip> : std::integral_constant<std::uint32_t, MVS_OP_CLIP> {};
+template <>
+struct KindOf<mvs_op_resect> : std::integral_constant<std::uint32_t, MVS_OP_RESECT> {};
+template <>
+struct KindOf<mvs_op_patch> : std::integral_constant<std::uint32_t, MVS_OP_PATCH> {};
+
+// A kind of operation as the library describes it.
+struct OpKind {
+  mvs_op_info info;
+  std::vector<mvs_field_info> fields;
+};
+
+// All kinds that the library in use has, in the order of their numbers.
+inline std::vector<OpKind> op_kinds() {
+  std::vector<OpKind> kinds;
+  for (std::uint32_t k = 0; k < mvs_op_count(); ++k) {
+    OpKind kind = {sized<mvs_op_info>(), {}};
+    must(mvs_op_describe(k, &kind.info));
+    kind.fields.assign(kind.info.fields, sized<mvs_field_info>());
+    for (std::uint32_t f = 0; f < kind.info.fields; ++f) {
+      must(mvs_op_describe_field(k, f, &kind.fields[f]));
+    }
+    kinds.push_back(std::move(kind));
+  }
+  return kinds;
+}
+
+// The history of a snapshot.
+struct History {
+  std::vector<mvs_history_entry> done;    // from the first to the last
+  std::vector<mvs_history_entry> undone;  // in the order in which they would be redone
+  std::vector<std::string> checkpoints;
+};
+
 // A reference to a snapshot; copies share it.
 class Snapshot {
  public:
@@ -137,6 +196,21 @@ class Snapshot {
     mvs_load_case load = sized<mvs_load_case>();
     must(mvs_snapshot_load(held_, &load));
     return load;
+  }
+
+  History history() const {
+    mvs_history size = sized<mvs_history>();
+    must(mvs_snapshot_history(held_, &size));
+    History found;
+    for (std::uint32_t k = 0; k < size.done + size.undone; ++k) {
+      mvs_history_entry entry = sized<mvs_history_entry>();
+      must(mvs_snapshot_history_entry(held_, k, &entry));
+      (k < size.done ? found.done : found.undone).push_back(entry);
+    }
+    for (std::uint32_t k = 0; k < size.checkpoints; ++k) {
+      found.checkpoints.emplace_back(mvs_snapshot_checkpoint(held_, k));
+    }
+    return found;
   }
 
   mvs_measures measure() const {
@@ -259,6 +333,37 @@ class Sim {
   }
 
   void restore(const Snapshot &snapshot) { must(mvs_restore(sim_, snapshot.get())); }
+
+  // Throws what apply would throw; changes nothing.
+  void check(const mvs_op *op) const { must(mvs_check_op(sim_, op)); }
+
+  // Applies an operation; the id of what it made, 0 for nothing.
+  mvs_id apply(const mvs_op *op) {
+    mvs_id made = 0;
+    must(mvs_apply_op(sim_, op, &made));
+    return made;
+  }
+
+  // The same for a struct mvs_op_*, whose size and kind need not be set.
+  template <typename Op, std::uint32_t kind = KindOf<Op>::value>
+  void check(Op op) const {
+    op.op = {sizeof(Op), kind};
+    check(&op.op);
+  }
+  template <typename Op, std::uint32_t kind = KindOf<Op>::value>
+  mvs_id apply(Op op) {
+    op.op = {sizeof(Op), kind};
+    return apply(&op.op);
+  }
+
+  void undo() { must(mvs_undo(sim_)); }
+  void redo() { must(mvs_redo(sim_)); }
+  void begin_group(const std::string &name) { must(mvs_begin_group(sim_, name.c_str())); }
+  void end_group() { must(mvs_end_group(sim_)); }
+  void set_checkpoint(const std::string &name) { must(mvs_set_checkpoint(sim_, name.c_str())); }
+  void restore_checkpoint(const std::string &name) {
+    must(mvs_restore_checkpoint(sim_, name.c_str()));
+  }
 
  private:
   mvs_sim *sim_ = nullptr;

@@ -88,6 +88,51 @@ void a_valve_is_worked_on_from_load_to_file() {
   check(other.snapshot().hash() == open.hash(), "restored");
 }
 
+void operations_are_applied_undone_and_listed() {
+  mvs::Sim sim;
+  sim.generate();
+  const mvs::Snapshot open = sim.snapshot();
+  mvs_op_chord_length shorter = {};
+  shorter.chord = open.find(MVS_PART_CHORD, "P2/3").id;
+  shorter.factor = 0.75;
+  sim.check(shorter);
+  check(sim.snapshot().hash() == open.hash(), "check changes nothing");
+  sim.begin_group("repair");
+  check(sim.apply(shorter) == 0, "a shortened chord is nothing new");
+  mvs_op_chord_add add = {};
+  add.head = open.find(MVS_PART_HEAD, "PM1").id;
+  add.site = {MVS_SITE_ANATOMICAL, 0, open.find(MVS_PART_SCALLOP, "P2").id, {0.5, 0.9, 0}};
+  check(sim.apply(add) != 0, "an added chord is");
+  sim.end_group();
+  sim.set_checkpoint("repaired");
+  const mvs::Snapshot repaired = sim.snapshot();
+  sim.undo();
+  check(sim.snapshot().hash() == open.hash(), "the group is undone");
+  sim.redo();
+  check(sim.snapshot().hash() == repaired.hash(), "and redone");
+  sim.undo();
+  const mvs::History undone = sim.snapshot().history();
+  check(undone.done.empty() && undone.undone.size() == 2, "two operations can be redone");
+  sim.restore_checkpoint("repaired");
+  const mvs::History history = sim.snapshot().history();
+  check(history.done.size() == 2 && history.done[0].kind == MVS_OP_CHORD_LENGTH, "kinds");
+  check(history.checkpoints == std::vector<std::string>{"repaired"}, "checkpoints");
+  try {
+    shorter.factor = -1;
+    sim.apply(&shorter.op);
+    check(false, "an operation without size and kind is none");
+  } catch (const mvs::Error &error) {
+    check(error.code() == MVS_E_ARGUMENT, "what C says");
+  }
+}
+
+void kinds_of_operations_describe_themselves() {
+  const std::vector<mvs::OpKind> kinds = mvs::op_kinds();
+  check(kinds.size() == mvs_op_count() && kinds.size() >= 7, "all kinds");
+  check(std::string(kinds[0].info.name) == "chord_length", "in order");
+  check(std::string(kinds[0].fields.at(0).name) == "chord", "with their fields");
+}
+
 }  // namespace
 
 int main() {
@@ -95,6 +140,8 @@ int main() {
   failures_are_thrown_with_code_and_part();
   views_know_their_type();
   a_valve_is_worked_on_from_load_to_file();
+  operations_are_applied_undone_and_listed();
+  kinds_of_operations_describe_themselves();
   std::printf("handles: %s\n", failures ? "FAILED" : "ok");
   return failures ? 1 : 0;
 }
