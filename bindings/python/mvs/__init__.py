@@ -12,7 +12,7 @@
 SI units throughout: m, kg, s, N, Pa, rad.
 """
 
-from . import _core
+from . import _core, ops
 from ._core import Simulator, Snapshot, check_valve
 from .editing import valve_of
 from .errors import (
@@ -31,6 +31,7 @@ from .errors import (
     UnsupportedError,
     VersionError,
 )
+from .ops import Operation, Site
 from .values import (
     MMHG,
     SYSTOLE_PA,
@@ -38,6 +39,7 @@ from .values import (
     Comparison,
     Fault,
     Frame,
+    HistoryEntry,
     Leaflet,
     LeafletLaw,
     Load,
@@ -45,6 +47,8 @@ from .values import (
     NodeKind,
     Part,
     PartKind,
+    Ring,
+    RingKind,
     Stats,
     Valve,
     definition_of,
@@ -67,6 +71,7 @@ __all__ = [
     "Fault",
     "FormatError",
     "Frame",
+    "HistoryEntry",
     "IdError",
     "InternalError",
     "IoError",
@@ -77,9 +82,13 @@ __all__ = [
     "Measures",
     "NodeKind",
     "OpError",
+    "Operation",
     "Part",
     "PartKind",
+    "Ring",
+    "RingKind",
     "Simulator",
+    "Site",
     "Snapshot",
     "StateError",
     "Stats",
@@ -89,6 +98,7 @@ __all__ = [
     "check_valve",
     "definition_of",
     "features",
+    "ops",
     "unit_of",
     "valve_of",
 ]

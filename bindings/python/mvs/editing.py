@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ._core import Snapshot
-from .values import Leaflet, LeafletLaw, PartKind, Valve
+from .values import Leaflet, LeafletLaw, PartKind, Ring, RingKind, Valve
 
 import numpy as np
 
@@ -29,7 +29,9 @@ def valve_of(snapshot: Snapshot) -> Valve:
         leaflets=leaflets,
         triangle_leaflet=snapshot.triangle_leaflet.copy(),
         nodes_loaded=snapshot.node_loaded.copy(),
+        nodes_open=snapshot.node_open.copy(),
         nodes_now=snapshot.node_position.copy(),
+        node_origin=snapshot.node_origin.copy(),
         scallops=[part.name for part in parts[PartKind.SCALLOP]],
         scallop_id=_ids(parts[PartKind.SCALLOP]),
         triangle_scallop=snapshot.triangle_scallop.copy(),
@@ -45,12 +47,22 @@ def valve_of(snapshot: Snapshot) -> Valve:
         head_nodes=snapshot.head_nodes.copy(),
         head_id=_ids(parts[PartKind.HEAD]),
         head_names=[part.name for part in parts[PartKind.HEAD]],
+        rings=_rings(snapshot, parts[PartKind.RING]),
         name=snapshot.name,
         density=density,
         contact_thickness=contact_thickness,
         contact_stiffness=contact_stiffness,
         bending_scale=bending,
     )
+
+
+def _rings(snapshot: Snapshot, parts: list) -> list[Ring]:
+    start = snapshot.ring_start
+    curves = [snapshot.ring_points[a:b].copy() for a, b in zip(start, start[1:])]
+    return [
+        Ring(part.name, curve, RingKind(int(kind)), part.id)
+        for part, curve, kind in zip(parts, curves, snapshot.ring_kind)
+    ]
 
 
 def _ids(parts: list) -> np.ndarray:

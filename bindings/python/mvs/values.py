@@ -39,6 +39,7 @@ class ChordKind(IntEnum):
     BASAL = 4
     COMMISSURAL = 5
     TRUNK = 6
+    SUTURE = 7
 
 
 class PartKind(IntEnum):
@@ -48,6 +49,14 @@ class PartKind(IntEnum):
     SCALLOP = 2
     CHORD = 3
     HEAD = 4
+    RING = 5
+
+
+class RingKind(IntEnum):
+    """Kinds of rings: closed and rigid, or a flexible posterior band."""
+
+    RIGID = 1
+    BAND = 2
 
 
 class LeafletLaw(IntEnum):
@@ -87,6 +96,25 @@ class Part:
     kind: PartKind
     index: int
     name: str
+
+
+@dataclasses.dataclass(frozen=True)
+class HistoryEntry:
+    """One operation in the history of a valve.
+
+    kind: its name in ``mvs.ops``
+    title: what it did, for a menu
+    group: equal for operations that are undone together; None: it stands alone
+    made: id of the part that it made, or None
+    done: False for an operation that was undone
+    """
+
+    kind: str
+    title: str
+    group: Optional[int]
+    group_name: str
+    made: Optional[int]
+    done: bool
 
 
 @dataclasses.dataclass(frozen=True)
@@ -201,6 +229,20 @@ class Leaflet:
 Array = Optional[NDArray[Any]]
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class Ring:
+    """A ring or band that is sewn to the annulus, to be drawn.
+
+    Where it holds the annulus is in ``nodes_open`` and ``nodes_loaded``.
+    curve: float64 or float32 (k, 3), m, its points in order
+    """
+
+    name: str
+    curve: NDArray[Any]
+    kind: RingKind = RingKind.RIGID
+    id: int = 0
+
+
 @dataclasses.dataclass(eq=False)
 class Valve:
     """A whole valve as arrays: n nodes, m triangles, l leaflets, c chord segments, h heads.
@@ -222,8 +264,12 @@ class Valve:
     """uint32 (m,): index into leaflets; None: all 0"""
     nodes_loaded: Array = None
     """float64 or float32 (n, 3): where annulus and heads go under load; other rows are ignored"""
+    nodes_open: Array = None
+    """float64 or float32 (n, 3): where annulus and heads are without load; None: ``nodes``"""
     nodes_now: Array = None
     """float64 or float32 (n, 3): the shape to start from; None: ``nodes``"""
+    node_origin: Array = None
+    """uint32 (n,): ``Snapshot.node_origin`` of a valve that was operated on"""
     scallops: Optional[Sequence[str]] = None
     """names; None: one per leaflet"""
     scallop_id: Array = None
@@ -254,6 +300,8 @@ class Valve:
     """uint64 (h,)"""
     head_names: Optional[Sequence[str]] = None
     """None: "PM1", "PM2", ..."""
+    rings: Sequence[Ring] = ()
+    """rings and bands sewn to the annulus"""
     name: str = "valve"
     density: Optional[float] = None
     """kg/m3"""

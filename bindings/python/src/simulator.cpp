@@ -174,4 +174,38 @@ void Simulator::restore(const Snapshot &snapshot) {
   call([&] { return mvs_restore(sim_, snapshot.get()); });
 }
 
+void Simulator::check(const mvs_op *op) {
+  call([&] { return mvs_check_op(sim_, op); });
+}
+
+mvs_id Simulator::apply(const mvs_op *op) {
+  mvs_id made = 0;
+  call([&] { return mvs_apply_op(sim_, op, &made); });
+  return made;
+}
+
+void Simulator::undo() {
+  call([&] { return mvs_undo(sim_); });
+}
+
+void Simulator::redo() {
+  call([&] { return mvs_redo(sim_); });
+}
+
+void Simulator::begin_group(const std::string &name) {
+  call([&] { return mvs_begin_group(sim_, name.c_str()); });
+}
+
+void Simulator::end_group() {
+  call([&] { return mvs_end_group(sim_); });
+}
+
+void Simulator::set_checkpoint(const std::string &name) {
+  call([&] { return mvs_set_checkpoint(sim_, name.c_str()); });
+}
+
+void Simulator::restore_checkpoint(const std::string &name) {
+  call([&] { return mvs_restore_checkpoint(sim_, name.c_str()); });
+}
+
 }  // namespace mvs_python

@@ -1,6 +1,7 @@
 // mvs.Simulator: one simulator of the C library, safe to use from any Python thread.
 #pragma once
 
+#include <mvs/op.h>
 #include <mvs/sim.h>
 
 #include <atomic>
@@ -35,6 +36,14 @@ class Simulator {
   mvs_stats stats();
   std::unique_ptr<Snapshot> snapshot();
   void restore(const Snapshot &snapshot);
+  void check(const mvs_op *op);
+  mvs_id apply(const mvs_op *op);  // 0: it made nothing
+  void undo();
+  void redo();
+  void begin_group(const std::string &name);
+  void end_group();
+  void set_checkpoint(const std::string &name);
+  void restore_checkpoint(const std::string &name);
 
  private:
   template <typename Call>
@@ -53,5 +62,6 @@ class Simulator {
 };
 
 void bind_simulator(py::module_ &module);
+void bind_operations(py::module_ &module, py::class_<Simulator> &type);
 
 }  // namespace mvs_python

@@ -58,7 +58,7 @@ py::object compare(const Snapshot &snapshot, const Snapshot &other) {
 
 py::tuple parts(const Snapshot &snapshot) {
   py::list all;
-  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_HEAD; ++kind) {
+  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_RING; ++kind) {
     uint32_t count = 0;
     must(mvs_snapshot_part_count(snapshot.get(), kind, &count));
     for (uint32_t index = 0; index < count; ++index) {
@@ -74,6 +74,28 @@ py::object find(const Snapshot &snapshot, uint32_t kind, const std::string &name
   mvs_part part{};
   must(mvs_snapshot_find(snapshot.get(), kind, name.c_str(), &part));
   return part_value(part);
+}
+
+py::tuple history(const Snapshot &snapshot) {
+  mvs_history size{};
+  size.struct_size = sizeof size;
+  must(mvs_snapshot_history(snapshot.get(), &size));
+  py::list entries;
+  for (uint32_t k = 0; k < size.done + size.undone; ++k) {
+    mvs_history_entry entry{};
+    entry.struct_size = sizeof entry;
+    must(mvs_snapshot_history_entry(snapshot.get(), k, &entry));
+    entries.append(history_value(entry, k < size.done));
+  }
+  return py::tuple(entries);
+}
+
+py::tuple checkpoints(const Snapshot &snapshot) {
+  py::list names;
+  for (uint32_t k = 0; const char *name = mvs_snapshot_checkpoint(snapshot.get(), k); ++k) {
+    names.append(name);
+  }
+  return py::tuple(names);
 }
 
 py::array section(const Snapshot &snapshot, const std::array<double, 3> &point,
@@ -147,7 +169,13 @@ void bind_snapshot(py::module_ &module) {
   type.def_property_readonly("frame", &frame, "The valve's own frame (mvs.Frame), m.");
   type.def_property_readonly("parts", &parts,
                              "All named parts (tuple of mvs.Part): leaflets, scallops, chordae, "
-                             "heads; `index` is the row in the arrays of their kind.");
+                             "heads, rings; `index` is the row in the arrays of their kind.");
+  type.def_property_readonly("history", &history,
+                             "What was done to the valve (tuple of mvs.HistoryEntry): the "
+                             "operations done from first to last, then those undone in the order "
+                             "in which they would be redone.");
+  type.def_property_readonly("checkpoints", &checkpoints,
+                             "The names of the checkpoints (tuple of str).");
   type.def("find", &find, py::arg("kind"), py::arg("name"),
            "The part of a kind with this name; IdError if there is none.");
   type.def("compare", &compare, py::arg("other"),

@@ -106,4 +106,15 @@ py::object part_value(const mvs_part &s) {
   return make("Part", fields);
 }
 
+py::object history_value(const mvs_history_entry &s, bool done) {
+  py::dict fields;
+  fields["kind"] = py::module_::import("mvs.ops").attr("name_of_kind")(s.kind);
+  FIELD(title);
+  fields["group"] = s.group ? py::object(py::int_(s.group)) : py::none();
+  fields["group_name"] = s.in_group;
+  fields["made"] = s.made ? py::object(py::int_(s.made)) : py::none();
+  fields["done"] = done;
+  return make("HistoryEntry", fields);
+}
+
 }  // namespace mvs_python

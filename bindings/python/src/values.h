@@ -13,5 +13,6 @@ py::object measures_value(const mvs_measures &measures);
 py::object comparison_value(const mvs_comparison &comparison);
 py::object frame_value(const double frame[12]);
 py::object part_value(const mvs_part &part);
+py::object history_value(const mvs_history_entry &entry, bool done);
 
 }  // namespace mvs_python

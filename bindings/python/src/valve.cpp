@@ -34,6 +34,7 @@ ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
   read_scallops();
   read_chords();
   read_heads();
+  read_rings();
   read_numbers();
 }
 
@@ -48,6 +49,8 @@ void ValveArguments::read_arrays() {
   desc_.nodes = array("nodes", 3, {MVS_F64, MVS_F32});
   desc_.nodes_loaded = array("nodes_loaded", 3, {MVS_F64, MVS_F32});
   desc_.nodes_now = array("nodes_now", 3, {MVS_F64, MVS_F32});
+  desc_.nodes_open = array("nodes_open", 3, {MVS_F64, MVS_F32});
+  desc_.node_origin = array("node_origin", 1, {MVS_U32});
   desc_.triangles = array("triangles", 3, {MVS_U32});
   desc_.triangle_leaflet = array("triangle_leaflet", 1, {MVS_U32});
   desc_.triangle_scallop = array("triangle_scallop", 1, {MVS_U32});
@@ -136,6 +139,23 @@ void ValveArguments::read_heads() {
   }
   desc_.heads = heads_.data();
   desc_.head_count = static_cast<uint32_t>(heads_.size());
+}
+
+void ValveArguments::read_rings() {
+  const auto given = valve_.attr("rings").cast<std::vector<py::object>>();
+  ring_names_.reserve(given.size());
+  for (const py::object &ring : given) {
+    ring_names_.push_back(ring.attr("name").cast<std::string>());
+    mvs_ring_desc desc{};
+    desc.name = ring_names_.back().c_str();
+    desc.id = ring.attr("id").cast<mvs_id>();
+    desc.kind = ring.attr("kind").cast<uint32_t>();
+    const Wanted wanted{"rings", 3, {MVS_F64, MVS_F32}};
+    desc.curve = described(array_argument(ring.attr("curve"), wanted), kept_);
+    rings_.push_back(desc);
+  }
+  desc_.rings = rings_.data();
+  desc_.ring_count = static_cast<uint32_t>(rings_.size());
 }
 
 void ValveArguments::read_numbers() {

@@ -23,6 +23,7 @@ class ValveArguments {
   void read_scallops();
   void read_chords();
   void read_heads();
+  void read_rings();
   void read_numbers();
   double number(const char *name) const;
   std::vector<std::string> names(const char *name, size_t count) const;
@@ -31,13 +32,14 @@ class ValveArguments {
   mvs_valve_desc desc_{};
   std::vector<py::array> kept_;
   std::string name_;
-  std::vector<std::string> leaflet_names_, scallop_names_, chord_names_, head_names_;
+  std::vector<std::string> leaflet_names_, scallop_names_, chord_names_, head_names_, ring_names_;
   std::vector<const char *> scallops_;
   std::vector<mvs_id> scallop_ids_;
   std::vector<uint32_t> first_leaflet_;  // where triangle_leaflet is not given
   std::vector<mvs_leaflet_desc> leaflets_;
   std::vector<mvs_chord_desc> chords_;
   std::vector<mvs_head_desc> heads_;
+  std::vector<mvs_ring_desc> rings_;
 };
 
 }  // namespace mvs_python

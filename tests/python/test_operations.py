@@ -1,0 +1,260 @@
+"""Surgical operations: applied and refused, as the library describes them."""
+
+import inspect
+import pickle
+
+import mvs
+import numpy as np
+import pytest
+
+
+def site_node(snapshot):
+    """A free vertex of P2."""
+    scallop = snapshot.find(mvs.PartKind.SCALLOP, "P2").index
+    nodes = np.unique(snapshot.triangle_nodes[snapshot.triangle_scallop == scallop])
+    tied = snapshot.chord_nodes[:, 1]
+    free = nodes[snapshot.node_kind[nodes] == mvs.NodeKind.LEAFLET]
+    return int(np.setdiff1d(free, tied)[0])
+
+
+EXAMPLES = {
+    "chord_length": [
+        dict(chord="P2/3", factor=0.75),
+        dict(chord="P2/3", length=15e-3),
+        dict(chord="P2/3", drag_to=(0.0, 0.0, 0.0)),
+    ],
+    "chord_remove": [dict(chord="P2/3")],
+    "chord_add": [
+        dict(head="PM1", site=("P2", 0.4, 0.8)),
+        dict(head="PM1", site=site_node, type="strut", name="mine", young=30e6, area=1e-6),
+        dict(head="PM2", site=(5, (0.3, 0.3, 0.4)), length=0.02),
+    ],
+    "chord_transfer": [
+        dict(chord="P2/3", site=("A2", 0.5, 0.9)),
+        dict(chord="A1/2", end="head", head="PM2"),
+    ],
+    "annulus_scale": [dict(factor=0.95), dict(ap=0.9, cc=1.05)],
+    "neochord": [dict(head="PM1", site=("P2", 0.5, 1.0), strands=4, diameter=0.2e-3)],
+    "head_move": [
+        dict(head="PM1", by=(0, 0, 2e-3), frame="valve"),
+        dict(head="PM1", by=np.array([1e-3, 0, 0])),
+    ],
+    "ring": [dict(size=34e-3)],
+    "band": [dict(factor=0.9)],
+    "clip": [dict()],
+    "resect": [dict(scallop="P2", width=6e-3, depth=6e-3)],
+    "patch": [dict(site=("P2", 0.5, 0.5))],
+}
+CASES = [(kind, fields) for kind in mvs.ops.KINDS for fields in EXAMPLES[kind]]
+
+
+def filled(fields, snapshot):
+    return {key: v(snapshot) if inspect.isfunction(v) else v for key, v in fields.items()}
+
+
+def test_every_kind_has_an_example():
+    assert len(mvs.ops.KINDS) >= 7
+    assert set(mvs.ops.KINDS) <= set(EXAMPLES)
+
+
+@pytest.mark.parametrize("kind, fields", CASES)
+def test_undo_and_redo_restore_every_bit(sim, kind, fields):
+    fields = filled(fields, sim.snapshot())
+    before = sim.snapshot().hash
+    assert sim.check(kind, **fields) is None
+    assert sim.snapshot().hash == before
+    made = sim.apply(kind, **fields)
+    changed = sim.snapshot()
+    assert changed.hash != before
+    (entry,) = changed.history
+    assert (entry.kind, entry.made, entry.done, entry.group) == (kind, made, True, None)
+    assert made is None or made in {part.id for part in changed.parts}
+    sim.undo()
+    assert sim.snapshot().hash == before
+    assert [e.done for e in sim.snapshot().history] == [False]
+    sim.redo()
+    assert sim.snapshot().hash == changed.hash
+
+
+@pytest.mark.parametrize("kind, fields", CASES)
+def test_an_operation_object_is_the_same_as_its_fields(sim, kind, fields):
+    fields = filled(fields, sim.snapshot())
+    operation = getattr(mvs.ops, kind)(**fields)
+    sim.apply(kind, **fields)
+    expected = sim.snapshot().hash
+    sim.undo()
+    sim.check(operation)
+    sim.apply(pickle.loads(pickle.dumps(operation)))
+    assert sim.snapshot().hash == expected
+    assert eval(repr(operation), {"mvs": mvs}) == operation
+
+
+def test_parts_may_be_named_or_given_by_id(sim):
+    part = sim.snapshot().find(mvs.PartKind.CHORD, "P2/3")
+    hashes = set()
+    for chord in ("P2/3", part.id, np.uint64(part.id), part):
+        sim.apply("chord_length", chord=chord, factor=0.75)
+        hashes.add(sim.snapshot().hash)
+        sim.undo()
+    assert len(hashes) == 1
+
+
+def test_a_site_may_be_written_in_several_ways(sim):
+    scallop = sim.snapshot().find(mvs.PartKind.SCALLOP, "P2")
+    hashes = set()
+    for site in (
+        ("P2", 0.4, 0.8),
+        [scallop, 0.4, 0.8],
+        (scallop.id, 0.4, np.float64(0.8)),
+        mvs.Site(scallop="P2", along=0.4, height=0.8),
+    ):
+        sim.apply("neochord", head="PM1", site=site)
+        hashes.add(sim.snapshot().hash)
+        sim.undo()
+    assert len(hashes) == 1
+    node = site_node(sim.snapshot())
+    sim.apply("neochord", head="PM1", site=node)
+    as_number = sim.snapshot().hash
+    assert sim.snapshot().chord_nodes[-1, 1] == node
+    sim.undo()
+    sim.apply("neochord", head="PM1", site=mvs.Site(node=node))
+    assert sim.snapshot().hash == as_number
+
+
+def test_factors_do_what_they_say(sim):
+    before = sim.snapshot()
+    row = before.find(mvs.PartKind.CHORD, "P2/3").index
+    assert sim.apply(mvs.ops.chord_length(chord="P2/3", factor=0.75)) is None
+    ratio = sim.snapshot().chord_rest_length / before.chord_rest_length
+    assert ratio[row] == pytest.approx(0.75, rel=1e-15)
+    assert (np.delete(ratio, row) == 1).all()
+
+
+def test_a_choice_may_be_a_word_or_its_number(sim):
+    sim.apply("chord_add", head="PM1", site=("P2", 0.4, 0.8), type="strut")
+    assert sim.snapshot().chord_kind[-1] == mvs.ChordKind.STRUT
+    word = mvs.ops.chord_add(head="PM1", site=3, type="strut")
+    assert mvs.ops.chord_add(head="PM1", site=3, type=mvs.ChordKind.STRUT) == word
+
+
+def test_what_is_made_can_be_worked_on_by_its_id(sim):
+    made = sim.apply("neochord", head="PM1", site=("P2", 0.5, 1.0), name="loop")
+    assert sim.snapshot().find(mvs.PartKind.CHORD, "loop").id == made
+    sim.apply("chord_length", chord=made, factor=0.9)
+    assert "loop" in sim.snapshot().history[1].title
+
+
+REFUSED = [
+    ("chord_lenght", dict(chord="P2/3"), mvs.ArgumentError, 'no operation "chord_lenght"'),
+    ("chord_lenght", dict(chord="P2/3"), mvs.ArgumentError, "chord_length, chord_remove"),
+    ("chord_length", dict(chord="P2/3", lenght=1), mvs.ArgumentError, 'no field "lenght"'),
+    ("chord_length", dict(chord="P2/3", lenght=1), mvs.ArgumentError, "chord, length (m), factor"),
+    ("chord_length", dict(factor=2), mvs.ArgumentError, "needs chord (the chord)"),
+    ("chord_length", dict(chord=None, factor=2), mvs.ArgumentError, "needs chord"),
+    ("chord_length", dict(chord="P2/3", factor="2"), mvs.ArgumentError, "a number, not '2'"),
+    ("chord_length", dict(chord="P2/3", factor=True), mvs.ArgumentError, "a number, not True"),
+    ("chord_length", dict(chord="P2/3", factor=0), mvs.ArgumentError, "leave it out"),
+    ("chord_length", dict(chord="P2/3", factor=-1), mvs.ArgumentError, "0.01 to 100"),
+    ("chord_length", dict(chord="P2/3", factor=np.nan), mvs.ArgumentError, "factor is nan"),
+    ("chord_length", dict(chord="P2/3", length=20), mvs.ArgumentError, "0.0001 to 0.2"),
+    ("chord_length", dict(chord="P2/3"), mvs.ArgumentError, "0 of length, factor and drag_to"),
+    ("chord_length", dict(chord="P2/3", drag_to=(1, 2)), mvs.ArgumentError, "three numbers in m"),
+    ("chord_length", dict(chord="P2/99", factor=2), mvs.IdError, 'no chord named "P2/99"'),
+    ("chord_length", dict(chord=-1, factor=2), mvs.ArgumentError, "name or id of a chord"),
+    ("chord_length", dict(chord=1.0, factor=2), mvs.ArgumentError, "name or id of a chord"),
+    ("chord_length", dict(chord=10**9, factor=2), mvs.IdError, "1000000000"),
+    ("chord_add", dict(head="PM1", site="P2"), mvs.ArgumentError, "(scallop, along, height)"),
+    ("chord_add", dict(head="PM1", site=("Q2", 0.1, 1)), mvs.IdError, "Q2"),
+    ("chord_add", dict(head="PM1", site=("P2", 1.5, 1)), mvs.ArgumentError, "coordinate of 1.5"),
+    ("chord_add", dict(head="PM1", site=10**6), mvs.IdError, "node 1000000"),
+    ("chord_add", dict(head="PM1", site=3, type="magic"), mvs.ArgumentError, '"rough_zone"'),
+    ("chord_add", dict(head="PM1", site=3, type=9), mvs.ArgumentError, '"rough_zone"'),
+    ("neochord", dict(head="PM1", site=3, strands=2.0), mvs.ArgumentError, "a whole number"),
+    ("neochord", dict(head="PM1", site=3, name=4), mvs.ArgumentError, "text"),
+    ("neochord", dict(head="PM1", site=3, name="a\0b"), mvs.ArgumentError, "zero character"),
+    ("neochord", dict(head="PM1", site=3, name="x" * 80), mvs.ArgumentError, "80 bytes"),
+    ("head_move", dict(head="PM1", by=1e-3), mvs.ArgumentError, "a vector, three numbers in m"),
+    ("head_move", dict(head="PM1", by=(1, 0, 0)), mvs.ArgumentError, "0.05"),
+]
+
+
+@pytest.mark.parametrize("kind, fields, error, words", REFUSED)
+def test_what_cannot_be_done_is_said_and_changes_nothing(sim, kind, fields, error, words):
+    before = sim.snapshot().hash
+    said = []
+    for call in (sim.check, sim.apply):
+        with pytest.raises(error) as caught:
+            call(kind, **fields)
+        said.append(str(caught.value))
+    assert words in said[0]
+    assert said[0] == said[1]
+    assert sim.snapshot().hash == before
+
+
+def test_a_part_of_another_kind_is_refused(sim):
+    head = sim.snapshot().find(mvs.PartKind.HEAD, "PM1")
+    with pytest.raises(mvs.IdError, match="papillary head PM1, not a chord"):
+        sim.apply("chord_remove", chord=head.id)
+    with pytest.raises(mvs.ArgumentError, match="name or id of a chord"):
+        sim.apply("chord_remove", chord=head)
+
+
+def test_a_site_is_one_place():
+    for wrong in (
+        dict(),
+        dict(node=1, scallop="P2"),
+        dict(triangle=1),
+        dict(node=1, barycentric=(0.3, 0.3, 0.4)),
+    ):
+        with pytest.raises(mvs.ArgumentError, match="a site is"):
+            mvs.Site(**wrong)
+
+
+def test_only_operations_are_applied(sim):
+    with pytest.raises(mvs.ArgumentError, match="not int"):
+        sim.apply(3)
+    with pytest.raises(mvs.ArgumentError, match="has its fields already"):
+        sim.apply(mvs.ops.chord_remove(chord="P2/3"), chord="P2/4")
+    with pytest.raises(AttributeError, match="chord_length"):
+        mvs.ops.chord_lenght
+    with pytest.raises(mvs.StateError), mvs.Simulator() as empty:
+        empty.apply("annulus_scale", factor=0.9)
+
+
+def test_an_operation_is_a_value():
+    one = mvs.ops.chord_length(chord="P2/3", factor=0.75)
+    assert repr(one) == "mvs.ops.chord_length(chord='P2/3', factor=0.75)"
+    assert one == mvs.ops.chord_length(factor=0.75, chord="P2/3", length=None)
+    assert len({one, mvs.Operation("chord_length", chord="P2/3", factor=0.75)}) == 1
+    assert one != mvs.ops.chord_length(chord="P2/3", factor=0.76)
+    with pytest.raises(AttributeError):
+        one.kind = None
+    with pytest.raises(TypeError):
+        one.fields["factor"] = 2
+
+
+def test_constructors_say_their_fields_and_units():
+    for name, kind in mvs.ops.KINDS.items():
+        made = getattr(mvs.ops, name)
+        assert kind.help in made.__doc__
+        assert set(inspect.signature(made).parameters) == {f.name for f in kind.fields}
+        for field in kind.fields:
+            assert f"{field.with_unit()}: {field.help}" in made.__doc__
+    assert "length (m): new rest length" in mvs.ops.chord_length.__doc__
+
+
+def test_points_are_taken_over_as_they_are():
+    field = mvs.ops.OpField.told(
+        "any",
+        dict(name="outline", type=10, offset=0, required=False, low=3, high=9, unit="m", help="",
+             choices=""),
+    )
+    given = np.arange(12, dtype=np.float32).reshape(4, 3)
+    read = field.read(given)
+    assert read.dtype == np.float64 and np.array_equal(read, given)
+    given[0] = 7
+    assert read[0, 0] == 0 and not read.flags.writeable
+    assert np.array_equal(field.read([(0, 1, 2), (3, 4, 5)]), [[0, 1, 2], [3, 4, 5]])
+    for wrong in (given[:, :2], given.ravel(), [["a", "b", "c"]], [[1j, 0, 0]], 3, [[1, 2], [3]]):
+        with pytest.raises(mvs.ArgumentError, match=r"any: outline has to be points.* in m"):
+            field.read(wrong)
