@@ -86,6 +86,42 @@ def test_a_diseased_chord_has_its_new_length_and_a_repaired_one_its_old(healthy,
         assert lengths == pytest.approx({1: [1.25], 2: [], 3: [1.0]}[plan.number])
 
 
+def test_all_of_it_is_operations_that_can_be_undone(stages):
+    done = {
+        (stage.number, stage.state): [entry.kind for entry in stage.closed.history]
+        for stage in stages
+    }
+    sick = ["annulus_scale", "chord_length"]
+    assert done == {
+        (0, "healthy"): [],
+        (1, "diseased"): sick,
+        (1, "repaired"): [*sick, "annulus_scale", "chord_add", "chord_add"],
+        (2, "diseased"): sick,
+        (2, "repaired"): [*sick, "annulus_scale", "chord_remove", "chord_add"],
+        (3, "diseased"): sick,
+        (3, "repaired"): [*sick, "annulus_scale", "chord_length", "chord_add", "chord_add"],
+    }
+    with mvs.Simulator() as sim:
+        for before, after in ((0, 1), (1, 2), (3, 4), (5, 6)):
+            sim.restore(stages[after].closed)
+            for _ in stages[after].closed.history[len(stages[before].closed.history):]:
+                sim.undo()
+            assert sim.snapshot().hash == stages[before].closed.hash
+
+
+def test_the_shape_does_not_depend_on_the_way_to_it(stages):
+    for stage in stages[1:]:
+        valve = mvs.valve_of(stage.closed)
+        valve.nodes_now = None
+        with mvs.Simulator() as sim:
+            sim.set_valve(valve)
+            sim.set_load(mvs.SYSTOLE_PA)
+            assert sim.settle().converged
+            again = sim.snapshot().compare(stage.closed)
+        # a residual of 1e-5 N leaves the softest fold 0.2 um: ten times that
+        assert again.node_max < 2e-6, stage.title
+
+
 def test_sites_find_the_chords_that_they_mean(healthy):
     anatomy = Anatomy(healthy)
     kind = [healthy.chord_kind[anatomy.chord_at(p.disease.site).row] for p in study.PARAMETRIC]
@@ -107,21 +143,6 @@ def test_a_free_vertex_is_found_where_it_was_asked_for(healthy):
     half = np.abs(local[healthy.annulus_nodes, 1]).max()
     # half an edge of a mesh of 425 vertices, 1.5 mm, and a vertex or two that chordae hold
     assert abs(local[vertex, 1] - 0.15 * half) < 3e-3
-
-
-@pytest.mark.parametrize("branching", [False, True])
-def test_a_new_chord_is_as_taut_as_its_neighbours(branching):
-    """Slack of all chordae is slack of the new one, whether they branch or not."""
-    found = []
-    for slack in (1.0, 1.1):
-        with mvs.Simulator() as sim:
-            sim.generate(branching=branching, chord_slack=slack)
-            anatomy = Anatomy(sim.snapshot())
-        vertex = anatomy.vertex_at(Site("A", 0.15, 0.75))
-        head = anatomy.nearest_head(vertex, 0.15)
-        found.append(anatomy.taut_length(head, vertex, "A"))
-    # every rest length is 1.1 times as long, so the mean of their ratios is too, up to rounding
-    assert found[1] == pytest.approx(1.1 * found[0], rel=1e-12)
 
 
 def test_chordae_that_branch_are_followed_to_the_leaflet():

@@ -15,10 +15,6 @@ from numpy.typing import NDArray
 from .. import IdError, NodeKind, Part, PartKind, Snapshot
 from ..report.geometry import edges_of, ways_along
 
-NEIGHBOURS = 4
-"""Chordae that tell how taut a new one is: two on either side, as a row has."""
-
-
 @dataclass(frozen=True)
 class Site:
     """A place on a leaflet.
@@ -39,12 +35,10 @@ class Chord:
 
     row: of its first segment
     vertices: leaflet vertices that it holds
-    lengths: m, rest length from the head to each
     """
 
     row: int
     vertices: tuple[int, ...]
-    lengths: tuple[float, ...]
 
 
 class Anatomy:
@@ -84,27 +78,6 @@ class Anatomy:
         heads = self._muscle(side)
         return int(heads[np.argmin(np.linalg.norm(self.rest[heads] - self.rest[vertex], axis=1))])
 
-    def taut_length(self, head: int, vertex: int, leaflet: str) -> float:
-        """The rest length that makes a new chord as taut as its neighbours, m.
-
-        They are the nearest ones of the same muscle and leaflet; a chord that branches counts
-        from the head to each vertex that it holds.
-        """
-        muscle = set(self._muscle(self._x[head]).tolist())
-        inside = set(self._vertices(leaflet).tolist())
-        ways, ratios = [], []
-        for chord in self.chords:
-            start = int(self.snapshot.chord_nodes[chord.row, 0])
-            for end, length in zip(chord.vertices, chord.lengths):
-                if start in muscle and end in inside and end != vertex:
-                    ways.append(float(np.linalg.norm(self.rest[end] - self.rest[vertex])))
-                    ratios.append(length / float(np.linalg.norm(self.rest[end] - self.rest[start])))
-        if not ratios:
-            raise IdError(f"no chord of that muscle holds leaflet {leaflet}")
-        nearest = np.argsort(ways, kind="stable")[:NEIGHBOURS]
-        distance = float(np.linalg.norm(self.rest[head] - self.rest[vertex]))
-        return distance * float(np.mean(np.array(ratios)[nearest]))
-
     def part(self, kind: PartKind, row: int) -> Part:
         """The part of a kind in a row of its arrays."""
         return next(part for part in self.snapshot.parts if (part.kind, part.index) == (kind, row))
@@ -114,18 +87,16 @@ class Anatomy:
         return self.part(PartKind.HEAD, int(np.flatnonzero(self.snapshot.head_nodes == node)[0]))
 
     def _chord(self, row: int) -> Chord:
-        nodes, length = self.snapshot.chord_nodes, self.snapshot.chord_rest_length
-        held: list[tuple[int, float]] = []
-        open_ends = [(row, 0.0)]
-        while open_ends:
-            segment, above = open_ends.pop()
-            end, total = int(nodes[segment, 1]), above + float(length[segment])
+        nodes = self.snapshot.chord_nodes
+        held: list[int] = []
+        segments = [row]
+        while segments:
+            end = int(nodes[segments.pop(), 1])
             if self.snapshot.node_kind[end] == NodeKind.BRANCH:
-                below = np.flatnonzero(nodes[:, 0] == end)[::-1]
-                open_ends += [(int(other), total) for other in below]
+                segments += np.flatnonzero(nodes[:, 0] == end)[::-1].tolist()
             else:
-                held.append((end, total))
-        return Chord(row, tuple(end for end, _ in held), tuple(total for _, total in held))
+                held.append(end)
+        return Chord(row, tuple(held))
 
     def _vertices(self, leaflet: str) -> NDArray[np.int64]:
         index = self.snapshot.find(PartKind.LEAFLET, leaflet).index

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from .. import SYSTOLE_PA, Part, PartKind, Simulator, Snapshot, Stats
-from . import surgery
 from .anatomy import Anatomy
 from .plans import Plan, Treatment
 
@@ -69,26 +68,27 @@ def _close(sim: Simulator, number: int, state: str, note: str) -> Stage:
 
 def _sicken(sim: Simulator, plan: Plan, anatomy: Anatomy) -> Stage:
     disease, chord = plan.disease, _diseased_chord(plan, anatomy)
-    surgery.scale_annulus(sim, disease.annulus)
-    surgery.scale_chord(sim, chord.id, disease.chord)
+    sim.apply("annulus_scale", factor=disease.annulus)
+    sim.apply("chord_length", chord=chord, factor=disease.chord)
     note = f"annulus {disease.annulus - 1:+.0%}, chord {chord.name} {disease.chord - 1:+.0%}"
     return _close(sim, plan.number, "diseased", note)
 
 
 def _repair(sim: Simulator, plan: Plan, anatomy: Anatomy) -> Stage:
     repair, chord = plan.repair, _diseased_chord(plan, anatomy)
-    surgery.scale_annulus(sim, repair.annulus / plan.disease.annulus)
+    sim.apply("annulus_scale", factor=repair.annulus / plan.disease.annulus)
     if repair.treatment == Treatment.RESTORE:
-        surgery.scale_chord(sim, chord.id, 1 / plan.disease.chord)
+        length = float(anatomy.snapshot.chord_rest_length[chord.index])
+        sim.apply("chord_length", chord=chord, length=length)
     elif repair.treatment == Treatment.REPLACE:
-        surgery.remove_chord(sim, chord.id)
+        sim.apply("chord_remove", chord=chord)
     added = _new_chords(plan, anatomy)
-    for head, vertex, length in added:
-        surgery.add_chord(sim, head.id, vertex, length)
-    ends = ", ".join(f"{head.name} {length * 1e3:.1f} mm" for head, _, length in added)
+    for head, vertex in added:
+        # without a length it is as taut as its neighbours
+        sim.apply("chord_add", head=head, site=vertex)
     note = (
         f"annulus to {repair.annulus:.0%} of the healthy one, chord {chord.name} "
-        f"{repair.treatment.value}, new: {ends}"
+        f"{repair.treatment.value}, new from {', '.join(head.name for head, _ in added)}"
     )
     return _close(sim, plan.number, "repaired", note)
 
@@ -97,17 +97,14 @@ def _diseased_chord(plan: Plan, anatomy: Anatomy) -> Part:
     return anatomy.part(PartKind.CHORD, anatomy.chord_at(plan.disease.site).row)
 
 
-def _new_chords(plan: Plan, anatomy: Anatomy) -> list[tuple[Part, int, float]]:
-    """Head, vertex and length of each chord that a repair adds."""
+def _new_chords(plan: Plan, anatomy: Anatomy) -> list[tuple[Part, int]]:
+    """Head and vertex of each chord that a repair adds."""
     ends = []
     if plan.repair.treatment == Treatment.REPLACE:
         old = anatomy.chord_at(plan.disease.site)
         head = int(anatomy.snapshot.chord_nodes[old.row, 0])
-        ends = [(head, vertex, plan.disease.site.leaflet) for vertex in old.vertices]
+        ends = [(head, vertex) for vertex in old.vertices]
     for site in plan.repair.add:
         vertex = anatomy.vertex_at(site)
-        ends.append((anatomy.nearest_head(vertex, site.across), vertex, site.leaflet))
-    return [
-        (anatomy.head_of(head), vertex, anatomy.taut_length(head, vertex, leaflet))
-        for head, vertex, leaflet in ends
-    ]
+        ends.append((anatomy.nearest_head(vertex, site.across), vertex))
+    return [(anatomy.head_of(head), vertex) for head, vertex in ends]
