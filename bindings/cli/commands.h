@@ -15,6 +15,8 @@ void add_close(CLI::App &app, Console &console);
 void add_measure(CLI::App &app, Console &console);
 void add_compare(CLI::App &app, Console &console);
 void add_convert(CLI::App &app, Console &console);
+void add_plan(CLI::App &app, Console &console);
+void add_repair(CLI::App &app, Console &console);
 
 // A command with the options that all have: --json.
 CLI::App *add_command(CLI::App &app, Console &console, const std::string &name,

@@ -25,6 +25,8 @@ void add_commands(CLI::App &app, cli::Console &console) {
   cli::add_measure(app, console);
   cli::add_compare(app, console);
   cli::add_convert(app, console);
+  cli::add_plan(app, console);
+  cli::add_repair(app, console);
 }
 
 int run(int argc, char **argv) {

@@ -246,6 +246,21 @@ class Snapshot {
     must(mvs_save_file(held_, path.c_str(), format));
   }
 
+  // The plan that led to this snapshot, as the text of its file.
+  std::string plan(mvs_plan_options options = {}) const {
+    options.struct_size = sizeof options;
+    std::uint64_t size = 0;
+    must(mvs_write_plan(held_, &options, nullptr, 0, &size));
+    std::string text(size, '\0');
+    must(mvs_write_plan(held_, &options, text.data(), size, &size));
+    return text;
+  }
+
+  void save_plan(const std::string &path, mvs_plan_options options = {}) const {
+    options.struct_size = sizeof options;
+    must(mvs_save_plan(held_, &options, path.c_str()));
+  }
+
   std::string save_memory(std::uint32_t format = MVS_FORMAT_AUTO) const {
     std::uint64_t size = 0;
     must(mvs_save_memory(held_, format, nullptr, 0, &size));
@@ -330,6 +345,28 @@ class Sim {
     const mvs_snapshot *held = nullptr;
     must(mvs_get_snapshot(sim_, &held));
     return Snapshot(held);
+  }
+
+  // The text of a plan's file.
+  mvs_replay replay_plan(const std::string &text) {
+    mvs_replay replay = sized<mvs_replay>();
+    must(mvs_replay_plan(sim_, text.data(), text.size(), &replay));
+    return replay;
+  }
+
+  mvs_replay check_plan(const std::string &text) const {
+    mvs_replay replay = sized<mvs_replay>();
+    must(mvs_check_plan(sim_, text.data(), text.size(), &replay));
+    return replay;
+  }
+
+  void open_journal(const std::string &path) { must(mvs_open_journal(sim_, path.c_str())); }
+  void close_journal() { must(mvs_close_journal(sim_)); }
+
+  mvs_replay recover_journal(const std::string &path) {
+    mvs_replay replay = sized<mvs_replay>();
+    must(mvs_recover_journal(sim_, path.c_str(), &replay));
+    return replay;
   }
 
   void restore(const Snapshot &snapshot) { must(mvs_restore(sim_, snapshot.get())); }

@@ -247,6 +247,53 @@ class BadInput(Command):
         self.assertNotEqual(self.fails("info", ".").stderr, "")
 
 
+class Plans(Command):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.ok("generate", "-o", "sick.obj", "--annulus-scale", 1.15, "--chord-factor", "A2/7=1.25")
+        cls.plan("p.json", {"do": "annulus_scale", "factor": 0.85},
+                 {"do": "chord_add", "head": "PM1",
+                  "site": {"scallop": "A2", "along": 0.4, "height": 0.95}})
+
+    @classmethod
+    def plan(cls, name, *steps):
+        (cls.dir / name).write_text(json.dumps(
+            {"format": "mvs-plan", "version": 1, "valve": {"name": "any"}, "steps": steps}))
+
+    def test_a_repair_seals_a_leaking_valve(self):
+        done = self.json("repair", "sick.obj", "--plan", "p.json", "-o", "fixed.obj",
+                         "--save-plan", "done.json")
+        orifice = "regurgitant_orifice_area_mm2"
+        self.assertGreater(done["before"]["measures"][orifice], 10)
+        self.assertEqual(done["after"]["measures"][orifice], 0)
+        self.assertEqual(len(done["operations"]), 2)
+        self.assertEqual(done["after"]["intersections"], 0)
+        # the plan as done is replayed to the same bits, and shows what each operation did
+        again = self.json("plan", "replay", "done.json", "--on", "sick.obj", "-o", "again.obj")
+        self.assertTrue(again["same_valve"] and again["same_result"])
+        self.assertEqual(again["hash"], done["after"]["hash"])
+        self.assertEqual((self.dir / "again.obj").read_bytes(),
+                         (self.dir / "fixed.obj").read_bytes())
+        self.assertIn("orifice", self.ok("plan", "show", "done.json").stdout)
+        self.assertFalse(self.json("plan", "check", "done.json", "--on", "v.obj")["same_valve"])
+
+    def test_a_plan_that_cannot_be_done_is_told_before_anything_is_written(self):
+        self.plan("bad.json", {"do": "annulus_scale", "factor": 0.9},
+                  {"do": "chord_remove", "chord": "P9/9"})
+        for line in (["repair", "sick.obj", "--plan", "bad.json", "-o", "x.obj"],
+                     ["plan", "check", "bad.json", "--on", "v.obj"],
+                     ["plan", "replay", "bad.json", "--on", "v.obj", "-o", "x.obj"]):
+            with self.subTest(line):
+                told = self.fails(*line).stderr
+                self.assertIn("step 2 of the plan", told)
+                self.assertIn("P9/9", told)
+
+    def test_what_is_no_plan_is_refused(self):
+        for name in ("v.obj", "nowhere.json"):
+            self.assertIn(name, self.fails("plan", "show", name).stderr)
+
+
 class Usage(Command):
     def test_elements_that_do_not_exist_yet_name_those_that_do(self):
         self.assertIn("spring", self.misused("close", "v.obj", "--leaflet", "membrane"))
