@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <string>
 
-#include "base/error.h"
-#include "formats/formats.h"
+#include "formats/vtk_picture.h"
 
 namespace mvs {
 namespace {
-
-constexpr double mm = 1e3;
 
 void append_base64(std::string &out, std::string_view bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -45,8 +41,14 @@ const char *type_name(double) {
 const char *type_name(int64_t) {
   return "Int64";
 }
+const char *type_name(uint64_t) {
+  return "UInt64";
+}
 const char *type_name(int32_t) {
   return "Int32";
+}
+const char *type_name(uint32_t) {
+  return "UInt32";
 }
 const char *type_name(uint8_t) {
   return "UInt8";
@@ -54,177 +56,79 @@ const char *type_name(uint8_t) {
 
 class VtpWriter {
  public:
-  VtpWriter(const Model &model, const State &state) : model_(model), state_(state) {}
-  std::string write(const std::vector<VtpArray> &arrays);
+  std::string write(const VtkPicture &picture);
 
  private:
-  void field_data();
-  void point_data(const std::vector<VtpArray> &arrays);
-  void cell_data(const std::vector<VtpArray> &arrays);
-  void points();
-  void lines();
-  void polygons();
-  void given_array(const VtpArray &array, size_t rows);
+  void section(const char *name, const std::vector<VtkArray> &arrays);
+  void cells(const char *name, const VtkCells &cells);
 
   template <typename Number>
-  void array(std::string_view name, size_t components, const std::vector<Number> &values,
-             bool in_field = false);
-  void strings(std::string_view name, const std::vector<std::string> &values);
-  // One value a chord, then one a triangle: the order of cells in the file.
-  template <typename Number, typename OfChord, typename OfTriangle>
-  void cells(std::string_view name, OfChord of_chord, OfTriangle of_triangle);
+  void array(std::string_view name, size_t components, const std::vector<Number> &values);
+  // Strings are the codes of their bytes, each with a zero at its end.
+  void array(std::string_view name, size_t, const std::vector<std::string> &values);
 
-  const Model &model_;
-  const State &state_;
   std::string out_;
+  bool in_field_ = false;  // the one section whose arrays have lengths of their own
 };
 
-std::string VtpWriter::write(const std::vector<VtpArray> &arrays) {
-  const Valve &valve = model_.valve;
+std::string VtpWriter::write(const VtkPicture &picture) {
   out_ += "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"";
   out_ += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   out_ += "\" header_type=\"UInt64\">\n<PolyData>\n";
-  field_data();
-  out_ += "<Piece NumberOfPoints=\"" + std::to_string(valve.rest.size()) +
-          "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(valve.chords.size()) +
-          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(valve.triangles.size()) +
+  in_field_ = true;
+  section("FieldData", picture.field_data);
+  in_field_ = false;
+  out_ += "<Piece NumberOfPoints=\"" + std::to_string(picture.points.size() / 3) +
+          "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(picture.chords.count) +
+          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(picture.triangles.count) +
           "\">\n";
-  point_data(arrays);
-  cell_data(arrays);
-  points();
-  lines();
-  polygons();
+  section("PointData", picture.point_data);
+  section("CellData", picture.cell_data);
+  out_ += "<Points>\n";
+  array("Points", 3, picture.points);
+  out_ += "</Points>\n";
+  cells("Lines", picture.chords);
+  cells("Polys", picture.triangles);
   out_ += "</Piece>\n</PolyData>\n</VTKFile>\n";
   return std::move(out_);
 }
 
-// SPACE is what 3D Slicer looks for, TimeValue what ParaView does.
-void VtpWriter::field_data() {
-  const Valve &valve = model_.valve;
-  std::vector<std::string> leaflets, scallops, chords;
-  for (const Leaflet &leaflet : valve.leaflets) leaflets.push_back(leaflet.name);
-  for (const Scallop &scallop : valve.scallops) scallops.push_back(scallop.name);
-  for (const Chord &chord : valve.chords) chords.push_back(chord.name);
-  out_ += "<FieldData>\n";
-  strings("SPACE", {"LPS"});
-  strings("UNITS", {"mm"});
-  strings("name", {valve.name});
-  strings("leaflet_names", leaflets);
-  strings("scallop_names", scallops);
-  strings("chord_names", chords);
-  array<double>("TimeValue", 1, {state_.time}, true);
-  array<double>("pressure_Pa", 1, {state_.load.pressure}, true);
-  array<double>("boundary_fraction", 1, {state_.load.boundary_fraction}, true);
-  out_ += "</FieldData>\n";
+void VtpWriter::section(const char *name, const std::vector<VtkArray> &arrays) {
+  out_.append("<").append(name).append(">\n");
+  for (const VtkArray &given : arrays) {
+    std::visit([&](const auto &values) { array(given.name, given.components, values); },
+               given.values);
+  }
+  out_.append("</").append(name).append(">\n");
 }
 
-void VtpWriter::point_data(const std::vector<VtpArray> &arrays) {
-  std::vector<double> rest;
-  for (const Vec3 &place : model_.valve.rest) {
-    rest.insert(rest.end(), {place[0] * mm, place[1] * mm, place[2] * mm});
+void VtpWriter::cells(const char *name, const VtkCells &cells) {
+  std::vector<int64_t> ends;
+  ends.reserve(cells.count);
+  for (size_t k = 1; k <= cells.count; ++k) {
+    ends.push_back(static_cast<int64_t>(k * cells.nodes_each));
   }
-  out_ += "<PointData>\n";
-  array("node_kind", 1, model_.topology.node_kind.get());
-  array("rest_mm", 3, rest);
-  for (const VtpArray &given : arrays) {
-    if (given.on_points) given_array(given, model_.node_count());
-  }
-  out_ += "</PointData>\n";
-}
-
-void VtpWriter::cell_data(const std::vector<VtpArray> &arrays) {
-  const Valve &valve = model_.valve;
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  out_ += "<CellData>\n";
-  cells<int64_t>(
-      "id", [&](size_t c) { return static_cast<int64_t>(valve.chords[c].id); },
-      [&](size_t t) { return static_cast<int64_t>(valve.leaflets[valve.triangle_leaflet[t]].id); });
-  cells<int32_t>(
-      "leaflet", [](size_t) { return -1; },
-      [&](size_t t) { return static_cast<int32_t>(valve.triangle_leaflet[t]); });
-  cells<int32_t>(
-      "scallop", [](size_t) { return -1; },
-      [&](size_t t) { return static_cast<int32_t>(valve.triangle_scallop[t]); });
-  cells<int32_t>(
-      "chord_kind", [&](size_t c) { return static_cast<int32_t>(valve.chords[c].kind); },
-      [](size_t) { return -1; });
-  cells<double>(
-      "rest_length_mm", [&](size_t c) { return valve.chords[c].rest_length * mm; },
-      [](size_t) { return nothing; });
-  cells<double>(
-      "thickness_mm", [](size_t) { return nothing; },
-      [&](size_t t) { return valve.triangle_thickness[t] * mm; });
-  for (const VtpArray &given : arrays) {
-    if (!given.on_points) given_array(given, valve.triangles.size() + valve.chords.size());
-  }
-  out_ += "</CellData>\n";
-}
-
-void VtpWriter::points() {
-  std::vector<double> places;
-  for (const Vec3 &place : state_.x) {
-    places.insert(places.end(), {place[0] * mm, place[1] * mm, place[2] * mm});
-  }
-  out_ += "<Points>\n";
-  array("Points", 3, places);
-  out_ += "</Points>\n";
-}
-
-void VtpWriter::lines() {
-  std::vector<int64_t> nodes, ends;
-  for (const Chord &chord : model_.valve.chords) {
-    nodes.insert(nodes.end(), {chord.a, chord.b});
-    ends.push_back(static_cast<int64_t>(nodes.size()));
-  }
-  out_ += "<Lines>\n";
-  array("connectivity", 1, nodes);
+  out_.append("<").append(name).append(">\n");
+  array("connectivity", 1, cells.nodes);
   array("offsets", 1, ends);
-  out_ += "</Lines>\n";
-}
-
-void VtpWriter::polygons() {
-  std::vector<int64_t> nodes, ends;
-  for (const Tri &triangle : model_.valve.triangles) {
-    nodes.insert(nodes.end(), triangle.begin(), triangle.end());
-    ends.push_back(static_cast<int64_t>(nodes.size()));
-  }
-  out_ += "<Polys>\n";
-  array("connectivity", 1, nodes);
-  array("offsets", 1, ends);
-  out_ += "</Polys>\n";
-}
-
-void VtpWriter::given_array(const VtpArray &given, size_t rows) {
-  const size_t components = static_cast<size_t>(given.components);
-  MVS_MUST(given.components > 0 && given.values.size() == rows * components, MVS_E_INTERNAL,
-           given.name, "array %s has %zu values for %zu rows of %d", given.name.c_str(),
-           given.values.size(), rows, given.components);
-  if (given.on_points) return array(given.name, components, given.values);
-  // the caller has triangles first, VTK has lines first
-  const auto middle =
-      given.values.begin() + static_cast<ptrdiff_t>(model_.valve.triangles.size() * components);
-  std::vector<double> values(middle, given.values.end());
-  values.insert(values.end(), given.values.begin(), middle);
-  array(given.name, components, values);
+  out_.append("</").append(name).append(">\n");
 }
 
 template <typename Number>
-void VtpWriter::array(std::string_view name, size_t components, const std::vector<Number> &values,
-                      bool in_field) {
+void VtpWriter::array(std::string_view name, size_t components, const std::vector<Number> &values) {
   const uint64_t size = values.size() * sizeof(Number);
   std::string bytes(sizeof size + size, '\0');
   std::memcpy(bytes.data(), &size, sizeof size);
   if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
   out_.append("<DataArray type=\"").append(type_name(Number{})).append("\" Name=\"");
   out_ += escaped(name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
-  if (in_field) out_ += " NumberOfTuples=\"" + std::to_string(values.size() / components) + "\"";
+  if (in_field_) out_ += " NumberOfTuples=\"" + std::to_string(values.size() / components) + "\"";
   out_ += " format=\"binary\">";
   append_base64(out_, bytes);
   out_ += "</DataArray>\n";
 }
 
-// Strings are the codes of their bytes, each with a zero at its end.
-void VtpWriter::strings(std::string_view name, const std::vector<std::string> &values) {
+void VtpWriter::array(std::string_view name, size_t, const std::vector<std::string> &values) {
   out_.append("<Array type=\"String\" Name=\"").append(name).append("\" NumberOfTuples=\"");
   out_ += std::to_string(values.size()) + "\" format=\"ascii\">";
   for (const std::string &value : values) {
@@ -234,20 +138,10 @@ void VtpWriter::strings(std::string_view name, const std::vector<std::string> &v
   out_ += "</Array>\n";
 }
 
-template <typename Number, typename OfChord, typename OfTriangle>
-void VtpWriter::cells(std::string_view name, OfChord of_chord, OfTriangle of_triangle) {
-  std::vector<Number> values;
-  for (size_t c = 0; c < model_.valve.chords.size(); ++c) values.push_back(of_chord(c));
-  for (size_t t = 0; t < model_.valve.triangles.size(); ++t) values.push_back(of_triangle(t));
-  array(name, 1, values);
-}
-
 }  // namespace
 
 std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays) {
-  MVS_MUST(state.x.size() == model.node_count(), MVS_E_INTERNAL, "state",
-           "the state has %zu positions for %zu nodes", state.x.size(), model.node_count());
-  return VtpWriter(model, state).write(arrays);
+  return VtpWriter().write(make_vtk_picture(model, state, arrays));
 }
 
 }  // namespace mvs
