@@ -3,8 +3,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "model/model.h"
+#include "surgery/history.h"
 
 namespace mvs {
 
@@ -31,6 +32,12 @@ struct VtpArray {
   std::vector<double> values;  // points: all nodes; cells: triangles, then chords (NaN: not there)
 };
 std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays);
+
+// HDF5: a valve with its state and all of its history, and the present for VTK in the same file,
+// with `arrays` as above. What levels of the history share is shared in the file and again when
+// read. MVS_E_UNSUPPORTED in a build without HDF5.
+std::string write_session(const Moment &moment, const std::vector<VtpArray> &arrays);
+Moment read_session(std::string_view bytes);
 
 // Reads a file or pipe of at most `limit` bytes.
 std::string read_whole_file(const std::string &path, size_t limit = max_file_bytes);

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import h5py
 import meshio
 import numpy as np
 import pytest
@@ -12,14 +13,16 @@ import vtk
 DATA = Path(__file__).parent / "data"
 OBJ = DATA / "valve.obj"
 VTP = DATA / "valve.vtp"
+SESSION = DATA / "session_v1.h5"
+PRESENT = DATA / "session_v1_present.obj"
 
 # Coordinates go through a decimal text or a product by 1000: a few units in the last place.
 CLOSE = {"rtol": 1e-15, "atol": 0}
 
 
-def rows(statement, kind):
-    """The numbers of all lines of valve.obj that start with a statement."""
-    lines = (line.split() for line in OBJ.read_text(encoding="ascii").splitlines())
+def rows(statement, kind, path=OBJ):
+    """The numbers of all lines of an OBJ file that start with a statement."""
+    lines = (line.split() for line in path.read_text(encoding="ascii").splitlines())
     return np.array([[kind(word) for word in line[1:]] for line in lines if line[:1] == [statement]])
 
 
@@ -121,3 +124,51 @@ def test_the_rest_lengths_of_the_vtp_are_those_at_rest(chords):
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     # the file's chordae have the lengths of its rest shape; sums of squares round a little
     np.testing.assert_allclose(mesh.cell_data["rest_length_mm"][: len(chords)], lengths, rtol=1e-14)
+
+
+@pytest.fixture(scope="module", name="session")
+def fixture_session():
+    reader = vtk.vtkHDFReader()
+    assert reader.CanReadFile(str(SESSION))
+    reader.SetFileName(str(SESSION))
+    reader.Update()
+    return pyvista.wrap(reader.GetOutput())
+
+
+def test_vtk_reads_the_present_of_a_session(session):
+    faces, chords = rows("f", int, PRESENT) - 1, rows("l", int, PRESENT) - 1
+    assert session.points.dtype == np.float64
+    np.testing.assert_allclose(session.points, rows("v", float, PRESENT), **CLOSE)
+    np.testing.assert_array_equal(session.faces.reshape(-1, 4)[:, 1:], faces)
+    np.testing.assert_array_equal(session.lines.reshape(-1, 3)[:, 1:], chords)
+
+
+def test_vtk_finds_the_arrays_of_the_vtp_in_a_session(session):
+    vtp = pyvista.read(VTP)
+    for data in ("point_data", "cell_data", "field_data"):
+        found, wanted = getattr(session, data), getattr(vtp, data)
+        assert set(found.keys()) == set(wanted.keys())
+        for name in wanted.keys():
+            assert found[name].dtype.kind == wanted[name].dtype.kind, name
+    is_chord = np.arange(session.n_cells) < session.n_lines
+    np.testing.assert_array_equal(session.cell_data["leaflet"] < 0, is_chord)
+    np.testing.assert_array_equal(np.isnan(session.cell_data["rest_length_mm"]), ~is_chord)
+    assert list(session.field_data["SPACE"]) == ["LPS"]
+    assert list(session.field_data["scallop_names"]) == ["A2", "P1", "P3"]
+    assert len(session.field_data["chord_names"]) == session.n_lines
+
+
+def test_h5py_reads_the_pools_of_a_session():
+    with h5py.File(SESSION) as file:
+        assert file.userblock_size == 512
+        kinds = set()
+        file["mvs"].visititems(lambda _, item: kinds.add(type(item)))
+        assert kinds == {h5py.Group, h5py.Dataset}
+        texts = file["mvs/texts/values"][:].tobytes()
+        ends = file["mvs/texts/ends"][:]
+        words = [texts[a:b].decode() for a, b in zip([0, *ends[:-1]], ends)]
+        assert {"short chord", "two at once", "annulus_scale"} <= set(words)
+        for pool in ("numbers", "indices", "parts", "texts"):
+            assert file["mvs"][pool]["ends"][-1] == len(file["mvs"][pool]["values"])
+        # no filters, no chunks
+        assert file["mvs/numbers/values"].chunks is None

@@ -1,13 +1,15 @@
-// Any bytes as an HDF5 file of libmvs: a clean error, or a tree that survives writing and reading.
+// Any bytes as an HDF5 file of libmvs: a clean error, or a tree and a session that survive writing
+// and reading.
 // No change gets past the checksum, so the bytes are tried a second time under a good one: that is
 // what a file made with intent looks like, and what our checks before HDF5's reading are for.
 #include "fuzz.h"
 
 #include "formats/h5_tree.h"
+#include "formats/session_layout.h"
 
 namespace {
 
-constexpr uint32_t version = 1;
+constexpr uint32_t version = mvs::session_version;
 
 void check_round_trip(const mvs::H5Tree &tree) {
   const std::string bytes = mvs::write_h5(tree, version);
@@ -19,8 +21,11 @@ void check_round_trip(const mvs::H5Tree &tree) {
 void try_bytes(std::string_view bytes) {
   try {
     check_round_trip(mvs::read_h5(bytes, "mvs", version).tree);
+    const std::string again = mvs::write_session(mvs::read_session(bytes), {});
+    demand(mvs::write_session(mvs::read_session(again), {}) == again, "a session changed");
   } catch (const mvs::Error &error) {
-    demand(error.code == MVS_E_FORMAT || error.code == MVS_E_VERSION || error.code == MVS_E_MEMORY,
+    demand(error.code == MVS_E_FORMAT || error.code == MVS_E_VERSION ||
+               error.code == MVS_E_MEMORY || error.code == MVS_E_OP,
            "an error of a kind that a reader does not make");
     demand(error.what()[0] != '\0', "an error without a sentence");
   }

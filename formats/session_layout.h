@@ -1,0 +1,150 @@
+// The layout of a session, once for both directions: an archive writes what it is given, or fills
+// it. FORMAT.md says the same in words; a change of it is a new version of the format.
+#pragma once
+
+#include <concepts>
+
+#include "surgery/history.h"
+
+namespace mvs {
+
+inline constexpr uint32_t session_version = 1;
+
+template <typename T, typename Plain>
+concept Is = std::same_as<std::remove_const_t<T>, Plain>;
+
+template <typename Archive>
+void pass(Archive &a, Is<Leaflet> auto &leaflet) {
+  a.word(leaflet.id);
+  a.text(leaflet.name);
+  a.word(leaflet.law);
+  a.number(leaflet.thickness);
+  a.number(leaflet.bilinear.low);
+  a.number(leaflet.bilinear.high);
+  a.number(leaflet.bilinear.kink);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Scallop> auto &scallop) {
+  a.word(scallop.id);
+  a.text(scallop.name);
+  a.word(scallop.leaflet);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Chord> auto &chord) {
+  a.word(chord.id);
+  a.text(chord.name);
+  a.word(chord.a);
+  a.word(chord.b);
+  a.word(chord.kind);
+  a.word(chord.law);
+  a.number(chord.rest_length);
+  a.number(chord.young);
+  a.number(chord.area);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Head> auto &head) {
+  a.word(head.id);
+  a.text(head.name);
+  a.word(head.node);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Ring> auto &ring) {
+  a.word(ring.id);
+  a.text(ring.name);
+  a.word(ring.kind);
+  a.array(ring.curve);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Valve> auto &valve) {
+  a.text(valve.name);
+  a.word(valve.next_id);
+  a.number(valve.density);
+  a.number(valve.contact_thickness);
+  a.number(valve.contact_stiffness);
+  a.number(valve.bending_scale);
+  a.array(valve.rest);
+  a.array(valve.open);
+  a.array(valve.loaded);
+  a.array(valve.origin);
+  a.array(valve.triangles);
+  a.array(valve.triangle_leaflet);
+  a.array(valve.triangle_scallop);
+  a.array(valve.triangle_thickness);
+  a.array(valve.triangle_fibre);
+  a.array(valve.annulus);
+  a.list(valve.leaflets);
+  a.list(valve.scallops);
+  a.list(valve.chords);
+  a.list(valve.heads);
+  a.list(valve.rings);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<State> auto &state) {
+  a.array(state.x);
+  a.array(state.v);
+  a.number(state.time);
+  a.word(state.steps);
+  a.number(state.load.pressure);
+  a.number(state.load.boundary_fraction);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Picture> auto &picture) {
+  a.model(picture.model);
+  pass(a, picture.state);
+  a.check(picture);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Move> auto &move) {
+  a.choice(move.kind);
+  a.word(move.solver);
+  a.word(move.max_iterations);
+  a.word(move.count);
+  a.number(move.pressure);
+  a.number(move.boundary_fraction);
+  a.number(move.residual);
+  a.number(move.dt);
+  a.number(move.damping);
+}
+
+// Behind the operation of an entry, which cannot be made empty and filled.
+template <typename Archive>
+void pass_rest(Archive &a, Is<Entry> auto &entry) {
+  a.text(entry.title);
+  a.word(entry.made);
+  a.word(entry.group);
+  a.text(entry.group_name);
+  a.word(entry.time_ms);
+  a.stack(entry.moves);
+  pass(a, entry.before);
+  pass(a, entry.after);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Checkpoint> auto &checkpoint) {
+  a.text(checkpoint.name);
+  pass(a, checkpoint.at);
+  a.stack(checkpoint.past);
+  a.stack(checkpoint.future);
+  a.stack(checkpoint.moves);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<Moment> auto &moment) {
+  pass(a, moment.picture);
+  a.optional(moment.timeline.start);
+  a.stack(moment.timeline.past);
+  a.stack(moment.timeline.future);
+  a.stack(moment.timeline.moves);
+  a.optional(moment.timeline.checkpoints);
+  a.word(moment.timeline.next_group);
+}
+
+}  // namespace mvs
