@@ -16,10 +16,13 @@ extern "C" {
 enum {
   MVS_FORMAT_AUTO = 0,
   MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round trip */
-  MVS_FORMAT_VTP = 2  /* VTK XML PolyData, write only: for ParaView and Slicer */
+  MVS_FORMAT_VTP = 2, /* VTK XML PolyData, write only: for ParaView and Slicer */
+  MVS_FORMAT_H5 = 3   /* HDF5, read and write: the history as well, to undo and redo in; ParaView
+                         and h5py open it too. MVS_E_UNSUPPORTED in a build without HDF5 */
 };
 
-/* Replaces the valve and state of a simulator by those of a file. The sentence of a failure begins
+/* Replaces the valve and state of a simulator by those of a file, and its history by that of an
+ * HDF5 file, by an empty one else. The sentence of a failure begins
  * with "path: ", or "path:line: " for MVS_E_FORMAT. */
 MVS_API mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format);
 

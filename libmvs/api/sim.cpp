@@ -48,9 +48,9 @@ AtWork::AtWork(mvs_sim *sim) : sim_(sim) {
            "the simulator is at work in another call: wait for it, and do not call back into it");
 }
 
-void replace_valve(mvs_sim &sim, ModelPtr model, State state) {
-  const ModelPtr held = model;
-  sim.replace(make_snapshot({{std::move(model), std::move(state)}, {}}));
+void replace_valve(mvs_sim &sim, Moment moment) {
+  const ModelPtr held = moment.picture.model;
+  sim.replace(make_snapshot(std::move(moment)));
   sim.group = {};
   if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: there is a new valve");
   sim.journal.reset();
@@ -83,7 +83,7 @@ mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve) {
     Described described = read_valve_desc(valve);
     ModelPtr model = make_model(std::move(described.valve));
     State state = described_state(*model, described.now);
-    replace_valve(s, std::move(model), std::move(state));
+    replace_valve(s, {{std::move(model), std::move(state)}, {}});
   });
 }
 
@@ -107,7 +107,7 @@ mvs_result mvs_generate_valve(mvs_sim *sim, const mvs_parametric_desc *desc) {
   return guarded_call(sim, [&](mvs_sim &s) {
     ModelPtr model = make_model(make_parametric_valve(read_struct_or_default(desc, "desc")));
     State state = initial_state(*model);
-    replace_valve(s, std::move(model), std::move(state));
+    replace_valve(s, {{std::move(model), std::move(state)}, {}});
   });
 }
 

@@ -61,7 +61,7 @@ mvs_result guarded_call(mvs_sim *sim, Work &&work) noexcept {
   });
 }
 
-// Makes a model and a state the present of a simulator, as a new valve.
-void replace_valve(mvs_sim &sim, ModelPtr model, State state);
+// Makes a valve with its state and history the present of a simulator.
+void replace_valve(mvs_sim &sim, Moment moment);
 
 }  // namespace mvs

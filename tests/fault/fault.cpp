@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ struct Scene {
 };
 
 funnel valve;
-std::string saved;  // the valve as a file
+std::string saved, saved_session;  // the valve as a file
 
 mvs_load_case light_load() {
   mvs_load_case load = funnel_load();
@@ -142,6 +143,14 @@ std::vector<Call> calls() {
          const mvs_step_options options = {sizeof options, MVS_SOLVER_EXPLICIT, 0, 0};
          return mvs_step(s.sim, &options);
        }},
+      {"restore", [](Scene &s) { return mvs_restore(s.sim, s.snapshot); }},
+      {"load_memory",
+       [](Scene &s) { return mvs_load_memory(s.sim, saved.data(), saved.size(), 0); }},
+  };
+}
+
+std::vector<Call> calls_of_snapshots() {
+  return {
       {"forces", [](Scene &s) { return view(s, MVS_NODE_FORCE); }},
       {"tables", [](Scene &s) { return view(s, MVS_CHORD_NODES); }},
       {"coaptation", [](Scene &s) { return view(s, MVS_NODE_COAPTATION); }},
@@ -170,20 +179,26 @@ std::vector<Call> calls() {
          double frame[12];
          return mvs_snapshot_frame(s.snapshot, frame);
        }},
-      {"restore", [](Scene &s) { return mvs_restore(s.sim, s.snapshot); }},
-      {"load_memory",
-       [](Scene &s) { return mvs_load_memory(s.sim, saved.data(), saved.size(), 0); }},
       {"save obj", [](Scene &s) { return save(s, MVS_FORMAT_OBJ); }},
       {"save vtp", [](Scene &s) { return save(s, MVS_FORMAT_VTP); }},
   };
 }
 
-std::string save_scene() {
+std::vector<Call> calls_with_hdf5() {
+  return {{"load h5",
+           [](Scene &s) {
+             return mvs_load_memory(s.sim, saved_session.data(), saved_session.size(),
+                                    MVS_FORMAT_H5);
+           }},
+          {"save h5", [](Scene &s) { return save(s, MVS_FORMAT_H5); }}};
+}
+
+std::string save_scene(uint32_t format) {
   const Scene scene = make_scene();
   uint64_t size = 0;
-  MUST(mvs_save_memory(scene.snapshot, MVS_FORMAT_OBJ, nullptr, 0, &size));
+  MUST(mvs_save_memory(scene.snapshot, format, nullptr, 0, &size));
   std::string bytes(size, ' ');
-  MUST(mvs_save_memory(scene.snapshot, MVS_FORMAT_OBJ, bytes.data(), size, &size));
+  MUST(mvs_save_memory(scene.snapshot, format, bytes.data(), size, &size));
   free_scene(scene);
   return bytes;
 }
@@ -192,7 +207,12 @@ std::string save_scene() {
 
 int main() {
   make_funnel(&valve);
-  saved = save_scene();
+  saved = save_scene(MVS_FORMAT_OBJ);
   for (const Call &call : calls()) fail_each_allocation(call);
+  for (const Call &call : calls_of_snapshots()) fail_each_allocation(call);
+  if (std::strstr(mvs_features(), "hdf5")) {
+    saved_session = save_scene(MVS_FORMAT_H5);
+    for (const Call &call : calls_with_hdf5()) fail_each_allocation(call);
+  }
   return finish("fault");
 }
