@@ -112,8 +112,8 @@ void add_close(CLI::App &app, Console &console) {
   auto options = std::make_shared<Options>();
   CLI::App *command =
       add_command(app, console, "close", "close a valve under systolic pressure and measure it");
-  command->add_option("file", options->in, "valve to close, .obj")->required();
-  command->add_option("-o,--output", options->out, "write the closed valve, .obj or .vtp");
+  command->add_option("file", options->in, "valve to close, .obj or .h5")->required();
+  command->add_option("-o,--output", options->out, "write the closed valve, .obj, .h5 or .vtp");
   command->add_option("--pressure", options->pressure_mmhg, "transvalvular pressure, mmHg")
       ->capture_default_str()
       ->check(CLI::Number);

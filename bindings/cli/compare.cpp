@@ -60,8 +60,8 @@ void add_compare(CLI::App &app, Console &console) {
   auto files = std::make_shared<std::pair<std::string, std::string>>();
   CLI::App *command =
       add_command(app, console, "compare", "distance of two valves, before and after registration");
-  command->add_option("a", files->first, "a valve, .obj")->required();
-  command->add_option("b", files->second, "the valve to compare it with, .obj")->required();
+  command->add_option("a", files->first, "a valve, .obj or .h5")->required();
+  command->add_option("b", files->second, "the valve to compare it with, .obj or .h5")->required();
   command->callback([files, &console] { run(files->first, files->second, console); });
 }
 

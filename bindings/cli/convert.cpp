@@ -19,8 +19,8 @@ void add_convert(CLI::App &app, Console &console) {
   auto files = std::make_shared<std::pair<std::string, std::string>>();
   CLI::App *command = add_command(app, console, "convert",
                                   "write a valve in another format: .vtp for ParaView and Slicer");
-  command->add_option("file", files->first, "valve to read, .obj")->required();
-  command->add_option("-o,--output", files->second, "file to write, .obj or .vtp")->required();
+  command->add_option("file", files->first, "valve to read, .obj or .h5")->required();
+  command->add_option("-o,--output", files->second, "file to write, .obj, .h5 or .vtp")->required();
   command->callback([files, &console] { run(files->first, files->second, console); });
 }
 

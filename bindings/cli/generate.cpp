@@ -91,7 +91,7 @@ void run(const Options &options, const Console &console) {
 void add_generate(CLI::App &app, Console &console) {
   auto options = std::make_shared<Options>();
   CLI::App *command = add_command(app, console, "generate", "make a parametric mitral valve");
-  command->add_option("-o,--output", options->out, "file to write, .obj or .vtp")->required();
+  command->add_option("-o,--output", options->out, "file to write, .obj, .h5 or .vtp")->required();
   command->add_option("--vertices", options->valve.vertices, "leaflet vertices, about [425]")
       ->check(CLI::PositiveNumber);
   command->add_option("--chords", options->valve.chords, "chord segments, about [80]")

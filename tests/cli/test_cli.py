@@ -196,6 +196,11 @@ class Convert(Command):
 
     def test_vtp_is_vtk_xml(self):
         self.ok("convert", "closed.obj", "-o", "closed.vtp")
+        if "hdf5" in self.ok("--version").stdout:
+            self.ok("convert", "closed.obj", "-o", "closed.h5")
+            self.ok("convert", "closed.h5", "-o", "back.obj")
+            self.assertEqual((self.dir / "back.obj").read_bytes(),
+                             (self.dir / "closed.obj").read_bytes())
         self.assertIn("PolyData", (self.dir / "closed.vtp").read_text()[:400])
 
     def test_unknown_ending_is_refused(self):

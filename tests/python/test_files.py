@@ -2,6 +2,7 @@
 
 import mvs
 import numpy as np
+import pytest
 
 
 def test_a_saved_state_loads_with_the_same_hash(closed, tmp_path):
@@ -33,6 +34,18 @@ def test_save_load_settle_gives_what_settle_gives(opened, tmp_path):
             sim.settle()
             hashes.append(sim.snapshot().hash)
     assert hashes[0] == hashes[1]
+
+
+def test_an_hdf5_file_loads_with_the_same_hash(closed, tmp_path):
+    if "hdf5" not in mvs.features:
+        pytest.skip("built without HDF5")
+    path = tmp_path / "closed.h5"
+    closed.save(path)
+    with mvs.Simulator() as sim:
+        sim.load(path)
+        assert sim.snapshot().hash == closed.hash
+        sim.load_bytes(closed.to_bytes(format="h5"), format="h5")
+        assert sim.snapshot().hash == closed.hash
 
 
 def test_a_vtp_file_holds_the_leaflets(closed, tmp_path):

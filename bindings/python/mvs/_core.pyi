@@ -29,7 +29,7 @@ _U64 = NDArray[np.uint64]
 _U8 = NDArray[np.uint8]
 _Point = Union[Sequence[float], _F64]
 _Path = Union[str, os.PathLike[str]]
-_Format = Literal["auto", "obj", "vtp"]
+_Format = Literal["auto", "obj", "h5", "vtp"]
 
 def version() -> str: ...
 def features() -> str: ...

@@ -146,7 +146,8 @@ void bind_files(py::class_<Simulator> &type) {
         self.load(path.string(), format_of(format));
       },
       py::arg("path"), py::kw_only(), py::arg("format") = "auto",
-      "Replaces valve and state by those of a file (extended OBJ). FormatError tells the line.");
+      "Replaces valve, state and history by those of a file: extended OBJ, or HDF5 (.h5). "
+      "FormatError tells the line of an OBJ.");
   type.def(
       "load_bytes",
       [](Simulator &self, const py::bytes &data, const std::string &format) {

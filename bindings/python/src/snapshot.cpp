@@ -143,8 +143,9 @@ uint32_t format_of(const std::string &name) {
   if (name == "auto") return MVS_FORMAT_AUTO;
   if (name == "obj") return MVS_FORMAT_OBJ;
   if (name == "vtp") return MVS_FORMAT_VTP;
+  if (name == "h5") return MVS_FORMAT_H5;
   refuse(MVS_E_ARGUMENT, "format",
-         "format: \"auto\", \"obj\" or \"vtp\" is needed, not \"" + name + "\"");
+         "format: \"auto\", \"obj\", \"h5\" or \"vtp\" is needed, not \"" + name + "\"");
 }
 
 void bind_snapshot(py::module_ &module) {
@@ -183,8 +184,8 @@ void bind_snapshot(py::module_ &module) {
   type.def("section", &section, py::arg("point"), py::arg("normal"),
            "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
   type.def("save", &save, py::arg("path"), py::kw_only(), py::arg("format") = "auto",
-           "Writes a file; format \"auto\" goes by the ending: .obj (exact round trip) or .vtp "
-           "(for ParaView and Slicer). IoError if the system refuses.");
+           "Writes a file; format \"auto\" goes by the ending: .obj (exact round trip), .h5 (the "
+           "history as well) or .vtp (for ParaView and Slicer). IoError if the system refuses.");
   type.def("to_bytes", &to_bytes, py::kw_only(), py::arg("format") = "obj",
            "The bytes that save would write.");
   type.def("__repr__", &text);
