@@ -13,6 +13,7 @@ namespace {
 
 constexpr double longest_step = 1e-3;     // m a node may go in one iteration
 constexpr double boundary_step = 0.5e-3;  // m a prescribed node may go in one iteration
+constexpr double many_far = 0.03;         // share of the nodes: more, and the shift grows
 constexpr double least_shift = 1e-4;      // keeps slack branch points and loose flaps solvable
 constexpr double largest_shift = 1e3;
 constexpr int trials = 8;  // of one iteration, each with a larger shift
@@ -131,10 +132,10 @@ void Newton::travel_step() {
     if (curvature_ == Curvature::projected) {
       agreement = foretold < 0 ? found / foretold : (found < 0 ? 1 : -1);
     }
-    if (longest_ > 1.5 * longest_step) {
+    if (far_ > many_far) {
       shift_ = std::max(2 * shift_, 0.01);
     } else if (agreement > 0.6) {
-      shift_ = shift_ < 1e-3 ? 0 : 0.3 * shift_;
+      shift_ = shift_ < 1e-3 ? 0 : (agreement > 0.9 ? 0.1 : 0.3) * shift_;
     } else if (!(agreement > 0.2)) {
       shift_ = std::min(std::max(4 * shift_, 0.03), largest_shift);
     }
@@ -244,10 +245,11 @@ void Newton::include_skew(bool with_shift) {
 
 // Makes step_ from full_: no node goes farther than allowed, none through another sheet.
 void Newton::limit_step() {
-  longest_ = largest(full_);
+  far_ = 0;
   step_ = full_;
   for (Vec3 &d : step_) {
     const double length = d.norm();
+    if (length > 1.5 * longest_step) far_ += 1 / static_cast<double>(step_.size());
     if (length > longest_step) d *= longest_step / length;
   }
   cover_step();

@@ -59,7 +59,7 @@ class Newton {
   double fraction_ = 0;
   double near_force_ = 0, rest_force_ = 0;  // N: below it, exact curvature; attempts at rest
   double shift_ = 0, added_ = 0;            // wanted; in the matrix now
-  double longest_ = 0;                      // m, of the uncut step
+  double far_ = 0;                          // share of nodes whose uncut step was much too long
   double energy_ = 0, residual_ = 0;
   double best_ = 0;  // N, the smallest residual at rest so far
   Curvature curvature_ = Curvature::projected;
