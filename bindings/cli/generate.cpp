@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "commands.h"
-#include "valve_copy.h"
 
 namespace cli {
 namespace {
@@ -62,13 +61,13 @@ mvs::Snapshot make_valve(const Options &options) {
   for (const Dimension &length : lengths) desc.*length.value /= 1e3;
   mvs::Sim sim = make_sim();
   sim.generate(desc);
-  if (options.chord_factors.empty()) return sim.snapshot();
-  ValveCopy copy(sim.snapshot());
   for (const std::string &given : options.chord_factors) {
     const auto [name, factor] = parse_chord_factor(given);
-    copy.scale_chord(name, factor);
+    mvs_op_chord_length longer = {};
+    longer.chord = sim.snapshot().find(MVS_PART_CHORD, name).id;
+    longer.factor = factor;
+    sim.apply(longer);
   }
-  copy.set(sim);
   return sim.snapshot();
 }
 
