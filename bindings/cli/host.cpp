@@ -36,6 +36,15 @@ Size size_of(const mvs::Snapshot &valve) {
   return size;
 }
 
+void fail(mvs_result code, const std::string &part, const std::string &sentence, int32_t line) {
+  mvs_error error = {};
+  error.code = code;
+  error.line = line;
+  std::snprintf(error.part, sizeof error.part, "%s", part.c_str());
+  std::snprintf(error.message, sizeof error.message, "%s", sentence.c_str());
+  throw mvs::Error(error);
+}
+
 std::string hash_of(const mvs::Snapshot &valve) {
   const auto hash = valve.hash();
   char text[33];

@@ -20,6 +20,10 @@ struct Size {
 };
 Size size_of(const mvs::Snapshot &valve);
 
+// Throws a failure of the command itself, in the form of those of the library.
+[[noreturn]] void fail(mvs_result code, const std::string &part, const std::string &sentence,
+                       int32_t line = 0);
+
 // The hash of a snapshot as 32 hexadecimal digits.
 std::string hash_of(const mvs::Snapshot &valve);
 

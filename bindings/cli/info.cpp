@@ -9,7 +9,7 @@ namespace cli {
 namespace {
 
 constexpr const char *chord_kinds[] = {"other", "marginal",    "rough zone", "strut",
-                                       "basal", "commissural", "trunk"};
+                                       "basal", "commissural", "trunk",      "suture"};
 
 struct ChordGroup {
   size_t count = 0;

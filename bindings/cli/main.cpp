@@ -1,4 +1,4 @@
-// `mvs`: generates, closes, measures and compares valves from the command line.
+// `mvs`: generates, closes, operates on, measures and compares valves from the command line.
 // Exit code 0: done; 1: failed, with the reason on stderr; 2: the command line is not understood.
 #include <cstdio>
 #include <exception>
@@ -21,6 +21,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
       "Exit code 0: done; 1: failed, with the reason on stderr; 2: wrong usage.");
   cli::add_generate(app, console);
   cli::add_info(app, console);
+  cli::add_op(app, console);
   cli::add_close(app, console);
   cli::add_measure(app, console);
   cli::add_compare(app, console);

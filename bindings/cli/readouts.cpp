@@ -84,4 +84,24 @@ std::string measures_text(const mvs_measures &measures) {
   return table;
 }
 
+std::string measures_text(const mvs_measures &before, const mvs_measures &after) {
+  std::string table = text("  %-27s%10u%10u\n", "Intersecting triangles", before.intersections,
+                           after.intersections);
+  for (const Readout &readout : readouts) {
+    table += text("  %-27s", readout.label);
+    for (const mvs_measures *measures : {&before, &after}) {
+      const double value = measures->*readout.value;
+      table +=
+          std::isfinite(value) ? text("%10.2f", value * readout.text_scale) : text("%10s", "none");
+    }
+    table += text(" %s", readout.unit);
+    if (readout.value == &M::regurgitant_orifice_area) {
+      table += text(" (%s, then %s)", leak_grade(before.regurgitant_orifice_area),
+                    leak_grade(after.regurgitant_orifice_area));
+    }
+    table += '\n';
+  }
+  return table;
+}
+
 }  // namespace cli

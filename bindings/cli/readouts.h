@@ -14,6 +14,9 @@ Json measures_json(const mvs_measures &measures);
 // The same as a table for people, with the grade of the leak.
 std::string measures_text(const mvs_measures &measures);
 
+// Two of them side by side.
+std::string measures_text(const mvs_measures &before, const mvs_measures &after);
+
 // The grade of a leak of this orifice area in m2: "none", "mild", ...
 const char *leak_grade(double orifice_area);
 

@@ -1,0 +1,194 @@
+// `mvs op`: one surgical operation on the valve of a file. Its commands and their options come from
+// what the library tells of its operations, so that a new one needs no line here.
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "commands.h"
+#include "op_text.h"
+#include "readouts.h"
+
+namespace cli {
+namespace {
+
+struct Request {
+  mvs::OpKind kind;
+  std::string in, out;
+  std::optional<double> settle_mmhg;
+  std::map<std::string, std::string> fields;  // those given, in text
+};
+
+// The valve at rest, before or after the operation.
+struct AtRest {
+  mvs_stats stats;
+  mvs_measures measures;
+};
+
+struct Operated {
+  mvs::Snapshot valve;
+  std::string title;
+  mvs_id made;
+  std::vector<AtRest> at_rest;  // before and after, if it was asked for
+};
+
+AtRest settle(mvs::Sim &sim, double pressure_mmhg, const char *when) {
+  sim.set_load(pressure_mmhg * pa_per_mmhg);
+  const mvs_stats stats = sim.settle();
+  if (!stats.converged) {
+    std::fprintf(stderr, "mvs: warning: %s the operation not converged, residual %.1e N\n", when,
+                 stats.residual);
+  }
+  return {stats, sim.snapshot().measure()};
+}
+
+// Before and after start from the same shape, that of the file.
+Operated operate(const Request &request, const Console &console) {
+  Progress progress(console);
+  mvs_sim_desc desc = {};
+  desc.progress = Progress::callback;
+  desc.user = &progress;
+  mvs::Sim sim = make_sim(desc);
+  sim.load_file(request.in);
+  const mvs::Snapshot first = sim.snapshot();
+  OpText op(request.kind);
+  for (const auto &[name, given] : request.fields) op.set(name, given, first);
+  sim.check(op.get());
+  std::vector<AtRest> at_rest;
+  if (request.settle_mmhg) {
+    at_rest.push_back(settle(sim, *request.settle_mmhg, "before"));
+    sim.restore(first);
+  }
+  const mvs_id made = sim.apply(op.get());
+  const std::string title = sim.snapshot().history().done.back().title;
+  if (request.settle_mmhg) at_rest.push_back(settle(sim, *request.settle_mmhg, "after"));
+  return {sim.snapshot(), title, made, at_rest};
+}
+
+std::optional<mvs_part> part_of(const mvs::Snapshot &valve, mvs_id id) {
+  if (id == 0) return {};
+  for (const uint32_t kind : {MVS_PART_CHORD, MVS_PART_RING, MVS_PART_HEAD}) {
+    for (const mvs_part &part : valve.parts(kind)) {
+      if (part.id == id) return part;
+    }
+  }
+  return {};
+}
+
+Json at_rest_json(const AtRest &at_rest) {
+  return {{"converged", at_rest.stats.converged != 0},
+          {"iterations", at_rest.stats.iterations},
+          {"residual_N", at_rest.stats.residual},
+          {"wall_s", at_rest.stats.wall_s},
+          {"intersections", at_rest.measures.intersections},
+          {"measures", measures_json(at_rest.measures)}};
+}
+
+Json result_json(const Request &request, const Operated &done) {
+  Json object = {{"file", request.in},
+                 {"operation", request.kind.info.name},
+                 {"title", done.title},
+                 {"made", nullptr},
+                 {"hash", hash_of(done.valve)}};
+  if (const auto part = part_of(done.valve, done.made)) {
+    object["made"] = {{"id", part->id}, {"name", part->name}};
+  }
+  if (!request.out.empty()) object["output"] = request.out;
+  if (!done.at_rest.empty()) {
+    object["pressure_mmHg"] = *request.settle_mmhg;
+    object["before"] = at_rest_json(done.at_rest[0]);
+    object["after"] = at_rest_json(done.at_rest[1]);
+  }
+  return object;
+}
+
+std::string result_text(const Request &request, const Operated &done) {
+  std::string human = request.in + ": " + done.title;
+  if (const auto part = part_of(done.valve, done.made)) human += text(" (made %s)", part->name);
+  if (!request.out.empty()) human += "\nwritten to " + request.out;
+  if (done.at_rest.empty()) return human;
+  const auto word = [](const AtRest &at_rest) {
+    return at_rest.stats.converged ? "at rest" : "NOT at rest";
+  };
+  return human +
+         text("\nbefore (%s) and after (%s), under %g mmHg\n", word(done.at_rest[0]),
+              word(done.at_rest[1]), *request.settle_mmhg) +
+         measures_text(done.at_rest[0].measures, done.at_rest[1].measures);
+}
+
+void run(const Request &request, const Console &console) {
+  if (request.out.empty() && !request.settle_mmhg) throw CLI::RequiredError("--output or --settle");
+  const Operated done = operate(request, console);
+  if (!request.out.empty()) done.valve.save(request.out);
+  print(console, result_json(request, done), result_text(request, done));
+}
+
+// Underscores are awkward on a command line.
+std::string dashed(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+void add_field(CLI::App &command, Request &request, const mvs_field_info &field) {
+  std::string range;
+  if (field.type == MVS_FIELD_NUMBER || field.type == MVS_FIELD_COUNT) {
+    range = text("; %g to %g", in_text(field, field.low), in_text(field, field.high));
+  }
+  const auto keep = [&request, name = std::string(field.name)](const std::string &given) {
+    request.fields[name] = given;
+  };
+  command.add_option_function<std::string>("--" + dashed(field.name), keep, help_of(field) + range)
+      ->required(field.required != 0)
+      ->type_name(form_of(field))
+      ->check([field](const std::string &given) { return complaint(field, given); });
+}
+
+void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
+              const std::shared_ptr<std::string> &file) {
+  auto request = std::make_shared<Request>();
+  request->kind = kind;
+  CLI::App *command = add_command(op, console, dashed(kind.info.name), kind.info.help);
+  for (const mvs_field_info &field : kind.fields) add_field(*command, *request, field);
+  command->add_option("-o,--output", request->out, "write the valve, .obj, .h5 or .vtp")
+      ->type_name("FILE");
+  command
+      ->add_option_function<double>(
+          "--settle", [request](double given) { request->settle_mmhg = given; },
+          "close it before and after, and measure, under this pressure, mmHg [120]")
+      ->expected(0, 1)
+      ->default_str("120")
+      ->type_name("MMHG")
+      ->check(CLI::Validator(CLI::Number).description(""));
+  command->add_flag("--progress", console.progress,
+                    "show progress on stderr although it is no terminal");
+  command->callback([request, file, &console] {
+    if (file->empty()) throw CLI::RequiredError("file");
+    request->in = *file;
+    run(*request, console);
+  });
+}
+
+}  // namespace
+
+void add_op(CLI::App &app, Console &console) {
+  auto file = std::make_shared<std::string>();
+  CLI::App *command =
+      add_command(app, console, "op", "operate on a valve: mvs op FILE OPERATION, see --help");
+  // not required for the parser, which would take the operation for the file in `mvs op ring
+  // --help`
+  command->add_option("file", *file, "valve to operate on, .obj or .h5");
+  command->require_subcommand(0, 1);
+  command->callback([command] {
+    if (command->get_subcommands().empty()) {
+      throw CLI::RequiredError("an operation (mvs op --help lists them)");
+    }
+  });
+  command->footer(
+      "Lengths are in mm, areas in mm2, moduli in MPa. A place on a leaflet is P2:0.5:0.9, along "
+      "the scallop and\nfrom annulus to free edge; or node:17; or triangle:12:0.3:0.3:0.4. Points "
+      "are a text file, x,y,z a line.");
+  for (const mvs::OpKind &kind : mvs::op_kinds()) add_kind(*command, console, kind, file);
+}
+
+}  // namespace cli

@@ -1,0 +1,152 @@
+"""`mvs op`: one surgical operation from the command line."""
+import re
+import unittest
+
+from test_cli import Command
+
+# One operation of each kind, with options of every type.
+EXAMPLES = {
+    "chord-length": [["--chord", "P2/3", "--factor", 0.75], ["--chord", "P2/3", "--length", 15],
+                     ["--chord", "P2/3", "--drag-to", "-1,0,2.5"]],
+    "chord-remove": [["--chord", "P2/3"]],
+    "chord-add": [["--head", "PM1", "--site", "P2:0.4:0.8", "--type", "rough_zone",
+                   "--young", 30, "--area", 1, "--name", "mine"],
+                  ["--head", "PM1", "--site", "triangle:5:0.3:0.3:0.4"]],
+    "chord-transfer": [["--chord", "P2/3", "--site", "A2:0.5:0.9"],
+                       ["--chord", "A1/2", "--end", "head", "--head", "PM2"]],
+    "annulus-scale": [["--factor", 0.95]],
+    "ring": [["--size", 34]],
+    "band": [["--factor", 0.9]],
+    "neochord": [["--head", "PM1", "--site", "P2:0.5:1", "--strands", 4]],
+    "head-move": [["--head", "PM1", "--by", "0,-0.5,2", "--frame", "valve"]],
+    "clip": [[]],
+    "resect": [["--scallop", "P2", "--width", 6, "--depth", 6]],
+    "patch": [["--site", "P2:0.5:0.5"]],
+}
+
+
+class Op(Command):
+    def op(self, *arguments, file="v.obj"):
+        return self.json("op", file, *arguments, "-o", "op.obj")
+
+    def test_every_kind_writes_another_valve_with_a_title(self):
+        listed = re.search(r"Subcommands:\n(.*?)\n\n", self.ok("op", "--help").stdout, re.S)
+        kinds = re.findall(r"^  ([\w-]+)", listed.group(1), re.M)
+        self.assertGreaterEqual(len(kinds), 7)
+        first = self.json("info", "v.obj")["hash"]
+        for kind in kinds:
+            for options in EXAMPLES[kind]:
+                with self.subTest([kind, *options]):
+                    done = self.op(kind, *options)
+                    self.assertEqual(done["operation"], kind.replace("-", "_"))
+                    self.assertNotEqual(done["hash"], first)
+                    self.assertEqual(self.json("info", "op.obj")["hash"], done["hash"])
+                    self.assertIn(done["title"], self.ok("op", "v.obj", kind, *options, "-o",
+                                                         "op.obj").stdout)
+
+    def test_help_of_every_kind_needs_no_file_and_speaks_mm(self):
+        self.assertRegex(self.ok("op", "chord-length", "--help").stdout,
+                         r"--length mm +new rest length, mm; 0.1 to 200")
+        self.assertRegex(self.ok("op", "neochord", "--help").stdout,
+                         r"--diameter mm +of one strand, mm \[0.3\]; 0.01 to 5")
+        self.assertRegex(self.ok("op", "chord-add", "--help").stdout,
+                         r"--young MPa +Young's modulus, MPa \[40\]")
+
+    def test_millimetres_and_factors_agree(self):
+        half = self.op("chord-length", "--chord", "P2/3", "--factor", 0.5)
+        length = re.search(r"([\d.]+) mm", half["title"]).group(1)
+        again = self.op("chord-length", "--chord", "P2/3", "--length", length)
+        # the title has three digits
+        self.assertIn(f"{length} mm", again["title"])
+
+    def test_what_is_made_is_told_by_its_name(self):
+        made = self.op("neochord", "--head", "PM1", "--site", "P2:0.5:0.9", "--name", "loop")
+        self.assertEqual(made["made"]["name"], "loop")
+        self.op("chord-remove", "--chord", "loop", file="op.obj")
+        self.assertIsNone(self.op("chord-remove", "--chord", "P2/3")["made"])
+
+    def test_settle_measures_before_and_after_from_the_same_shape(self):
+        done = self.json("op", "v.obj", "annulus-scale", "--factor", 1.2, "--settle")
+        self.assertEqual(done["pressure_mmHg"], 120)
+        self.assertTrue(done["before"]["converged"] and done["after"]["converged"])
+        self.assertEqual(done["before"]["measures"], self.closed["measures"])
+        self.assertGreater(done["after"]["measures"]["annulus_area_mm2"],
+                           1.3 * done["before"]["measures"]["annulus_area_mm2"])
+        other = self.json("op", "v.obj", "annulus-scale", "--factor", 1.2, "--settle", 80)
+        self.assertEqual(other["pressure_mmHg"], 80)
+        table = self.ok("op", "v.obj", "annulus-scale", "--factor", 1.2, "--settle").stdout
+        self.assertRegex(table, r"Annulus CC diameter +35\.00 +42\.00 mm")
+
+    def test_points_come_from_text_in_mm(self):
+        names = self.ok("op", "--help").stdout
+        if " ring " not in names:
+            self.skipTest("this library has no ring")
+        rows = [(17 * c, 13 * s, 0) for c, s in ((1, 0), (.7, .7), (0, 1), (-.7, .7), (-1, 0),
+                                                 (-.7, -.7), (0, -1), (.7, -.7))]
+        hashes = set()
+        for name, comma, head in (("a.csv", ",", "x,y,z\n"), ("b.xyz", " ", "# a ring\n\n"),
+                                  ("c.txt", " ;\t", "")):
+            text = head + "\n".join(comma.join(map(str, row)) for row in rows)
+            (self.dir / name).write_text(text)
+            hashes.add(self.op("ring", "--curve", name)["hash"])
+        self.assertEqual(len(hashes), 1)
+        (self.dir / "bad.csv").write_text("x,y,z\n1,2,3\n1,2\n")
+        self.assertIn("bad.csv:3: ", self.refused("ring", "--curve", "bad.csv"))
+        (self.dir / "empty.csv").write_text("x,y,z\n")
+        self.assertIn("has no points", self.refused("ring", "--curve", "empty.csv"))
+        self.assertIn("none.csv", self.refused("ring", "--curve", "none.csv"))
+        self.assertIn("has 1 points", self.one_point())
+
+    def one_point(self):
+        (self.dir / "one.csv").write_text("1,2,3\n")
+        return self.refused("ring", "--curve", "one.csv")
+
+    def refused(self, *arguments):
+        return self.fails("op", "v.obj", *arguments, "-o", "never.obj").stderr
+
+    def test_what_cannot_be_done_is_refused_with_a_reason(self):
+        for words, options in (
+                ('no chord named "P9/1"', ["chord-length", "--chord", "P9/1", "--factor", 2]),
+                ('no papillary head named "PM9"', ["neochord", "--head", "PM9", "--site", "node:3"]),
+                ('no scallop named "Q2"', ["neochord", "--head", "PM1", "--site", "Q2:0.1:1"]),
+                ("length is 20000 mm, it has to be 0.1 to 200",
+                 ["chord-length", "--chord", "P2/3", "--length", 20000]),
+                ("factor is 0, it has to be", ["chord-length", "--chord", "P2/3", "--factor", 0]),
+                ("factor is nan", ["chord-length", "--chord", "P2/3", "--factor", "nan"]),
+                ("strands is 99", ["neochord", "--head", "PM1", "--site", "node:3", "--strands",
+                                   99]),
+                ("0 of length, factor and drag_to", ["chord-length", "--chord", "P2/3"]),
+                ("node 1000000", ["chord-add", "--head", "PM1", "--site", "node:1000000"]),
+                ("coordinate of 1.5", ["chord-add", "--head", "PM1", "--site", "P2:1.5:1"]),
+                ("nowhere", ["chord-remove", "--chord", "nowhere"])):
+            with self.subTest(options):
+                self.assertIn(words, self.refused(*options))
+
+    def test_words_that_are_not_understood_are_usage_errors(self):
+        chord = ["chord-length", "--chord", "P2/3"]
+        for words, line in (
+                ("fly", ["v.obj", "fly"]),
+                ("an operation", ["v.obj"]),
+                ("an operation", []),
+                ("file is required", [*chord, "--factor", 2, "-o", "x.obj"]),
+                ("--output or --settle", ["v.obj", *chord, "--factor", 2]),
+                ("--chord is required", ["v.obj", "chord-remove", "-o", "x.obj"]),
+                ("--lenght", ["v.obj", *chord, "--lenght", 2, "-o", "x.obj"]),
+                ("not a number in mm", ["v.obj", *chord, "--length", "long", "-o", "x.obj"]),
+                ("not a number in mm", ["v.obj", *chord, "--length", "15mm", "-o", "x.obj"]),
+                ("X,Y,Z in mm", ["v.obj", *chord, "--drag-to", "1,2", "-o", "x.obj"]),
+                ("there is: leaflet, head",
+                 ["v.obj", "chord-transfer", "--chord", "P2/3", "--end", "tail", "-o", "x.obj"]),
+                ("SCALLOP:ALONG:HEIGHT",
+                 ["v.obj", "chord-add", "--head", "PM1", "--site", "P2", "-o", "x.obj"]),
+                ("SCALLOP:ALONG:HEIGHT",
+                 ["v.obj", "chord-add", "--head", "PM1", "--site", "node:-1", "-o", "x.obj"]),
+                ("whole number", ["v.obj", "neochord", "--head", "PM1", "--site", "node:3",
+                                  "--strands", 2.5, "-o", "x.obj"])):
+            with self.subTest(line):
+                self.assertIn(words, self.misused("op", *line))
+        self.assertFalse((self.dir / "x.obj").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
