@@ -2,6 +2,7 @@
 #include "model/model.h"
 
 #include <Eigen/Geometry>
+#include <atomic>
 
 #include "base/error.h"
 #include "model/check.h"
@@ -50,7 +51,9 @@ ModelPtr make_model(Valve valve, const Model *parent) {
     fail(MVS_E_OP, faults.front().part, "%s", faults.front().sentence.c_str());
   }
   complete(valve);
+  static std::atomic<uint64_t> models{0};
   auto model = std::make_shared<Model>();
+  model->serial = ++models;
   model->valve = std::move(valve);
   model->topology = make_topology(model->valve);
   derive_lengths_and_areas(*model);

@@ -17,6 +17,7 @@ struct Model {
   SharedVector<double> rest_length;  // m per edge
   SharedVector<double> vertex_area;  // m2 per node: a third of its rest triangles
   SharedVector<double> node_mass;    // kg: lumped from triangles and chordae
+  uint64_t serial = 0;  // of this process: tells a new model from one that lay at its address
 
   size_t node_count() const { return valve.rest.size(); }
   // Where a prescribed node is at a fraction 0 (open) .. 1 (loaded) of the boundary motion.

@@ -69,14 +69,14 @@ struct Solver::Work {
   explicit Work(uint32_t backend) : factor(make_factor(backend)) {}
 
   ImplicitStepper &implicit_for(const Model &model) {
-    if (implicit_model != &model) implicit.reset();
-    implicit_model = &model;
+    if (implicit_model != model.serial) implicit.reset();
+    implicit_model = model.serial;
     if (!implicit) implicit = std::make_unique<ImplicitStepper>(model, *factor);
     return *implicit;
   }
   ExplicitStepper &explicit_for(const Model &model) {
-    if (explicit_model != &model) explicit_.reset();
-    explicit_model = &model;
+    if (explicit_model != model.serial) explicit_.reset();
+    explicit_model = model.serial;
     if (!explicit_) explicit_ = std::make_unique<ExplicitStepper>(model);
     return *explicit_;
   }
@@ -84,7 +84,7 @@ struct Solver::Work {
   std::unique_ptr<Factor> factor;
   std::unique_ptr<ImplicitStepper> implicit;
   std::unique_ptr<ExplicitStepper> explicit_;
-  const Model *implicit_model = nullptr, *explicit_model = nullptr;
+  uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
 };
 
 Solver::Solver(uint32_t backend) : work_(std::make_unique<Work>(backend)) {}

@@ -1,5 +1,6 @@
 // Applying one operation: on copies, checked as any valve is, all or nothing.
 #include "base/error.h"
+#include "surgery/site.h"
 #include "surgery/surgery.h"
 
 namespace mvs {
@@ -19,6 +20,22 @@ void dispatch(Surgery &s, const Operation &op) {
   }
 }
 
+// That every part an operation names is there, also one that it has no use for: a plan tells parts
+// by their names.
+void check_parts(const Surgery &s, const Operation &op) {
+  for (const OpField &f : op.kind().fields) {
+    const bool names_part =
+        f.type == MVS_FIELD_CHORD || f.type == MVS_FIELD_HEAD || f.type == MVS_FIELD_SCALLOP;
+    if (f.type == MVS_FIELD_SITE && op.field<mvs_site>(f).how != MVS_SITE_NONE) {
+      locate(s, op.field<mvs_site>(f));
+    }
+    if (!names_part || op.field<Id>(f) == 0) continue;
+    if (f.type == MVS_FIELD_CHORD) chord_of(s, op.field<Id>(f));
+    if (f.type == MVS_FIELD_HEAD) head_of(s, op.field<Id>(f));
+    if (f.type == MVS_FIELD_SCALLOP) scallop_of(s, op.field<Id>(f));
+  }
+}
+
 // A valve that the operation spoilt is the operation's failure.
 ModelPtr checked_model(Surgery &s) {
   try {
@@ -32,6 +49,7 @@ ModelPtr checked_model(Surgery &s) {
 
 Operated perform(const Picture &before, const Operation &op) {
   Surgery s{*before.model, before.model->valve, before.state, op.kind().name};
+  check_parts(s, op);
   dispatch(s, op);
   Operated done;
   done.made = s.made;
