@@ -2,8 +2,8 @@
  *
  * An operation is a struct that begins with mvs_op: its own size and kind. mvs_check_op and
  * mvs_apply_op give the same verdict and the same words. An operation may be applied to an open, a
- * closed or a moving valve; positions and velocities stay as they are, and the next settle or step
- * brings the valve to where the operation leads. Lengths are in m.
+ * closed or a moving valve; positions and velocities stay as they are (a clip opens the valve), and
+ * the next settle or step brings the valve to where the operation leads. Lengths are in m.
  *
  * Every operation can be undone: the history of a valve is part of its snapshots, so that restoring
  * a snapshot brings its history back too, and a new valve starts a new one. */
@@ -166,7 +166,8 @@ typedef struct mvs_op_head_move {
 } mvs_op_head_move;
 
 /* Joins two free edges (edge to edge: a clip or an Alfieri stitch) by sutures one contact thickness
- * long; makes a chord, the middle one. */
+ * long; makes a chord, the middle one. It is set on the open valve: positions go back to the rest
+ * shape, at rest. */
 typedef struct mvs_op_clip {
   mvs_op op;
   mvs_id anterior;  /* scallop [A2] */

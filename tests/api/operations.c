@@ -57,6 +57,8 @@ typedef union example {
   mvs_op_neochord neochord;
   mvs_op_head_move move;
   mvs_op_ring ring;
+  mvs_op_band band;
+  mvs_op_clip clip;
 } example;
 
 static int make_examples(example *out) {
@@ -89,6 +91,8 @@ static int make_examples(example *out) {
                                      .by = {0, 0, 2e-3},
                                      .frame = 1};
   out[n++].ring = (mvs_op_ring){.op = {sizeof(mvs_op_ring), MVS_OP_RING}, .size = 34e-3};
+  out[n++].band = (mvs_op_band){.op = {sizeof(mvs_op_band), MVS_OP_BAND}, .factor = 0.9};
+  out[n++].clip = (mvs_op_clip){.op = {sizeof(mvs_op_clip), MVS_OP_CLIP}};
   return n;
 }
 

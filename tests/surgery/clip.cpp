@@ -1,0 +1,199 @@
+// Edge-to-edge repair: which places are joined, and what that does to the valve.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "operated.h"
+#include "surgery/sheet_map.h"
+
+namespace mvs::test {
+namespace {
+
+mvs_op_clip clip() {
+  return op_of<mvs_op_clip>(MVS_OP_CLIP);
+}
+
+mvs_parametric_desc of_size(uint32_t vertices) {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = vertices;
+  return desc;
+}
+
+std::vector<Chord> stitches(const Model &model) {
+  std::vector<Chord> found;
+  for (const Chord &chord : model.valve.chords.get()) {
+    if (chord.kind == MVS_CHORD_SUTURE) found.push_back(chord);
+  }
+  return found;
+}
+
+std::vector<uint8_t> nodes_of_leaflet(const Model &model, const std::string &name) {
+  std::vector<uint8_t> is(model.node_count(), 0);
+  for (size_t t = 0; t < model.valve.triangles.size(); ++t) {
+    if (model.valve.leaflets[model.valve.triangle_leaflet[t]].name != name) continue;
+    for (const uint32_t node : model.valve.triangles[t]) is[node] = 1;
+  }
+  return is;
+}
+
+// Parts of the orifice that share no vertex: the openings it consists of.
+size_t openings(const Orifice &orifice) {
+  std::vector<uint32_t> group(orifice.vertices.size());
+  std::iota(group.begin(), group.end(), 0u);
+  const auto root = [&](uint32_t v) {
+    while (group[v] != v) v = group[v];
+    return v;
+  };
+  for (const Tri &t : orifice.triangles) {
+    group[root(t[1])] = root(t[0]);
+    group[root(t[2])] = root(t[0]);
+  }
+  std::vector<uint8_t> seen(group.size(), 0);
+  for (const Tri &t : orifice.triangles) seen[root(t[0])] = 1;
+  return static_cast<size_t>(std::count(seen.begin(), seen.end(), uint8_t{1}));
+}
+
+// The open valve at rest.
+std::vector<Vec3> opened(const Picture &picture) {
+  State state = picture.state;
+  Solver solver(0);
+  CHECK(solver.settle(*picture.model, state, {}, {}).converged);
+  return state.x;
+}
+
+}  // namespace
+
+TEST_CASE("a_clip_joins_facing_places_of_the_two_leaflets_in_rows") {
+  const Picture before = shipped();
+  const Operated done = apply(before, clip());
+  const Model &model = *done.picture.model;
+  const std::vector<Chord> list = stitches(model);
+  // 5 mm along the edge and 4 mm into the leaflets, 2 mm apart: three rows of three
+  REQUIRE(list.size() == 9);
+  CHECK(list[0].id == done.made);
+  CHECK(list[0].name == "clip");
+  CHECK(list[1].name == "clip/2");
+  CHECK(done.title == "Join A2 and P2 by clip, 9 stitches over 5.0 mm");
+  const std::vector<uint8_t> in_a = nodes_of_leaflet(model, "A"),
+                             in_p = nodes_of_leaflet(model, "P");
+  for (const Chord &c : list) {
+    CHECK(c.rest_length == model.valve.contact_thickness);
+    CHECK((in_a[c.a] && !in_p[c.a] && in_p[c.b] && !in_a[c.b]));
+    // half the width, and half a stitch for the mesh
+    CHECK(std::abs(model.valve.rest[c.a][0]) < 2.5 * mm + 1 * mm);
+    CHECK(std::abs(model.valve.rest[c.a][0] - model.valve.rest[c.b][0]) < 1 * mm);
+  }
+  // the valve is its own mirror image in x: the middle stitch is at the middle of the scallop, but
+  // for half an edge of the mesh
+  CHECK(std::abs(model.valve.rest[list[0].a][0]) < 1 * mm);
+  CHECK(model.valve.chords.size() == before.model->valve.chords.size() + 9);
+}
+
+TEST_CASE("the_number_of_stitches_does_not_hang_on_the_mesh") {
+  CHECK(stitches(*apply(shipped(of_size(1700)), clip()).picture.model).size() == 9);
+  auto op = clip();
+  op.width = 1 * mm;
+  op.reach = 0.5 * mm;
+  CHECK(stitches(*apply(shipped(), op).picture.model).size() == 1);
+}
+
+TEST_CASE("a_clip_goes_where_its_position_says") {
+  const Picture before = shipped();
+  const SheetMap map(*before.model);
+  for (const double position : {-0.8, 0.0, 0.8}) {
+    CAPTURE(position);
+    auto op = clip();
+    op.position = position;
+    const Model &model = *apply(before, op).picture.model;
+    const Chord middle = stitches(model)[0];
+    const std::vector<Scallop> &scallops = model.valve.scallops;
+    for (uint32_t s = 0; s < scallops.size(); ++s) {
+      if (scallops[s].name != "A2" && scallops[s].name != "P2") continue;
+      const uint32_t node = scallops[s].name == "A2" ? middle.a : middle.b;
+      // half an edge of the mesh, 1 mm of a scallop that is 7 mm wide there
+      CHECK(std::abs(map.along(s, node) - 0.5 * (1 + position)) < 0.15);
+    }
+  }
+}
+
+TEST_CASE("joined_places_stay_together_and_the_valve_closes") {
+  for (const double width : {1 * mm, 5 * mm, 8 * mm}) {
+    CAPTURE(width);
+    auto op = clip();
+    op.width = width;
+    const Closed closed = close(apply(shipped(), op).picture);
+    CHECK(closed.stats.converged);
+    CHECK(intersections(closed) == 0);
+    CHECK(measure_orifice(*closed.model, closed.state.x).area == 0);
+    for (const Chord &c : stitches(*closed.model)) {
+      CHECK((closed.state.x[c.a] - closed.state.x[c.b]).norm() <
+            1.3 * closed.model->valve.contact_thickness);
+    }
+  }
+}
+
+TEST_CASE("a_clip_is_set_on_the_open_valve_whatever_the_valve_does") {
+  const Picture before = shipped();
+  const Closed healthy = close(before);
+  const Closed from_open = close(apply(before, clip()).picture);
+  const Closed from_closed = close(apply(Picture{healthy.model, healthy.state}, clip()).picture);
+  CHECK(from_open.state.x.get() == from_closed.state.x.get());
+}
+
+TEST_CASE("a_closed_valve_with_a_clip_takes_a_ring_and_closes_again") {
+  const Closed clipped = close(apply(shipped(), clip()).picture);
+  auto ring = op_of<mvs_op_ring>(MVS_OP_RING);
+  ring.size = 32 * mm;
+  const Closed closed = close(apply(Picture{clipped.model, clipped.state}, ring).picture);
+  CHECK(closed.stats.converged);
+  CHECK(intersections(closed) == 0);
+}
+
+TEST_CASE("a_clip_makes_two_orifices_of_one") {
+  const Picture before = shipped(), after = apply(before, clip()).picture;
+  const Orifice one = measure_orifice(*before.model, opened(before));
+  const Orifice two = measure_orifice(*after.model, opened(after));
+  MESSAGE("open valve: " << 1e6 * one.area << " mm2, with a clip " << 1e6 * two.area << " mm2");
+  CHECK(openings(one) == 1);
+  CHECK(openings(two) == 2);
+  CHECK(two.area < 0.9 * one.area);
+}
+
+TEST_CASE("a_second_clip_has_a_name_of_its_own") {
+  auto op = clip();
+  op.position = -0.7;
+  op.width = 2 * mm;
+  const Operated first = apply(shipped(), op);
+  op.position = 0.7;
+  const Operated second = apply(first.picture, op);
+  CHECK(stitches(*second.picture.model).back().name.starts_with("clip2"));
+  op.name = "clip2";
+  refused(second.picture, op, MVS_E_OP, "named clip2 already");
+  op.name = "again";
+  refused(second.picture, op, MVS_E_OP, "joins these two places already");
+}
+
+TEST_CASE("what_cannot_be_clipped_is_said") {
+  const Picture valve = shipped();
+  const Valve &parts = valve.model->valve;
+  auto op = clip();
+  op.posterior = parts.scallops[0].id;
+  op.anterior = parts.scallops[1].id;
+  refused(valve, op, MVS_E_OP, "belong to the same leaflet");
+  op = clip();
+  op.anterior = parts.heads[0].id;
+  refused(valve, op, MVS_E_ID, "not a scallop");
+  op = clip();
+  op.position = 1.5;
+  refused(valve, op, MVS_E_ARGUMENT, "position is 1.5");
+  op = clip();
+  op.width = 1e-4;
+  refused(valve, op, MVS_E_ARGUMENT, "width is 0.0001 m");
+  Valve renamed = parts;
+  for (Scallop &scallop : renamed.scallops) scallop.name += "x";
+  const ModelPtr model = make_model(renamed);
+  refused({model, initial_state(*model)}, clip(), MVS_E_ID, "no scallop named A2");
+}
+
+}  // namespace mvs::test
