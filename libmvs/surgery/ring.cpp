@@ -131,7 +131,7 @@ void operate(Surgery &s, const mvs_op_ring &op) {
   for (Vec3 &p : points) p = fit.motion(p);
   part.curve = std::move(points);
   const Vec3 extent = extent_of(ring);
-  s.title = format("Ring %s of %.1f x %.1f mm, perimeter %.1f mm", part.name.c_str(),
+  s.title = format("Sew in %s, %.1f x %.1f mm, perimeter %.1f mm", part.name.c_str(),
                    1e3 * extent[0], 1e3 * extent[1], 1e3 * ring.length());
   s.valve.rings = {std::move(part)};
 }

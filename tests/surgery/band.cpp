@@ -39,7 +39,7 @@ TEST_CASE("a_band_has_its_length_and_its_ends_stay_at_the_trigones") {
   CHECK(valve.rings[0].id == done.made);
   CHECK(valve.rings[0].name == "band");
   const double percent = 100 * 70 * mm / length_of(was);
-  CHECK(done.title == format("Band band of 70.0 mm, %.0f %% of the posterior annulus", percent));
+  CHECK(done.title == format("Sew in band, 70.0 mm, %.0f %% of the posterior annulus", percent));
   // the annulus of the shipped valve has a node every 6 degrees or so: the trigone is the nearest
   const Frame frame = valve_frame(*before.model, before.model->valve.loaded);
   for (const Vec3 &end : {is.front(), is.back()}) {

@@ -100,7 +100,7 @@ TEST_CASE("a_ring_holds_the_annulus_on_its_curve_open_and_loaded") {
   // the tissue's own shape and everything else of the valve stay
   CHECK(valve.rest.get() == before.model->valve.rest.get());
   CHECK(valve.chords.get() == before.model->valve.chords.get());
-  CHECK(done.title == "Ring ring of 34.0 x 25.6 mm, perimeter 98.4 mm");
+  CHECK(done.title == "Sew in ring, 34.0 x 25.6 mm, perimeter 98.4 mm");
 }
 
 TEST_CASE("annulus_nodes_keep_their_share_of_the_length_from_a") {
