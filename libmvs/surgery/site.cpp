@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "surgery/sheet_map.h"
+#include "surgery/split.h"
 
 namespace mvs {
 namespace {
@@ -78,43 +79,11 @@ bool is_annulus(const Surgery &s, uint32_t node) {
   return std::find(annulus.begin(), annulus.end(), node) != annulus.end();
 }
 
-// A triangle like another one, with other corners.
-void add_triangle(Valve &valve, uint32_t like, const Tri &corners) {
-  valve.triangles.push_back(corners);
-  valve.triangle_leaflet.push_back(uint32_t{valve.triangle_leaflet.get()[like]});
-  valve.triangle_scallop.push_back(uint32_t{valve.triangle_scallop.get()[like]});
-  valve.triangle_thickness.push_back(double{valve.triangle_thickness.get()[like]});
-  valve.triangle_fibre.push_back(Vec3(valve.triangle_fibre.get()[like]));
-}
-
-uint32_t split_triangle(Surgery &s, uint32_t t, std::array<double, 3> weight) {
+std::array<double, 3> away_from_sides(std::array<double, 3> weight) {
   double sum = 0;
   for (double &w : weight) sum += w = std::max(w, side_share);
   for (double &w : weight) w /= sum;
-  const Tri tri = s.valve.triangles.get()[t];
-  const uint32_t node = s.add_node({tri[0], tri[1], tri[2]}, {weight[0], weight[1], weight[2]});
-  s.valve.triangles[t] = {tri[0], tri[1], node};
-  add_triangle(s.valve, t, {tri[1], tri[2], node});
-  add_triangle(s.valve, t, {tri[2], tri[0], node});
-  return node;
-}
-
-// Splits side k of a triangle, and of its neighbour there.
-uint32_t split_side(Surgery &s, uint32_t t, uint32_t k, double share) {
-  const Tri tri = s.valve.triangles.get()[t];
-  const uint32_t a = tri[k], b = tri[(k + 1) % 3];
-  const uint32_t node = s.add_node({a, b}, {1 - share, share});
-  const size_t count = s.valve.triangles.size();
-  for (uint32_t other = 0; other < count; ++other) {
-    const Tri old = s.valve.triangles.get()[other];
-    for (uint32_t j = 0; j < 3; ++j) {
-      const uint32_t p = old[j], q = old[(j + 1) % 3], r = old[(j + 2) % 3];
-      if (!((p == a && q == b) || (p == b && q == a))) continue;
-      s.valve.triangles[other] = {p, node, r};
-      add_triangle(s.valve, other, {node, q, r});
-    }
-  }
-  return node;
+  return weight;
 }
 
 uint32_t make_node(Surgery &s, const SheetPoint &point) {
@@ -126,10 +95,9 @@ uint32_t make_node(Surgery &s, const SheetPoint &point) {
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t a = tri[k], b = tri[(k + 1) % 3];
     if (w[(k + 2) % 3] >= side_share || (is_annulus(s, a) && is_annulus(s, b))) continue;
-    return split_side(s, point.triangle, k,
-                      std::clamp(w[(k + 1) % 3] / (w[k] + w[(k + 1) % 3]), 0.2, 0.8));
+    return split_side(s, a, b, std::clamp(w[(k + 1) % 3] / (w[k] + w[(k + 1) % 3]), 0.2, 0.8));
   }
-  return split_triangle(s, point.triangle, w);
+  return split_triangle(s, point.triangle, away_from_sides(w));
 }
 
 }  // namespace
