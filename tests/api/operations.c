@@ -59,6 +59,7 @@ typedef union example {
   mvs_op_ring ring;
   mvs_op_band band;
   mvs_op_clip clip;
+  mvs_op_resect resect;
 } example;
 
 static int make_examples(example *out) {
@@ -93,6 +94,8 @@ static int make_examples(example *out) {
   out[n++].ring = (mvs_op_ring){.op = {sizeof(mvs_op_ring), MVS_OP_RING}, .size = 34e-3};
   out[n++].band = (mvs_op_band){.op = {sizeof(mvs_op_band), MVS_OP_BAND}, .factor = 0.9};
   out[n++].clip = (mvs_op_clip){.op = {sizeof(mvs_op_clip), MVS_OP_CLIP}};
+  out[n++].resect =
+      (mvs_op_resect){.op = {sizeof(mvs_op_resect), MVS_OP_RESECT}, .width = 7e-3, .position = 0.2};
   return n;
 }
 
