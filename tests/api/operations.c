@@ -60,6 +60,7 @@ typedef union example {
   mvs_op_band band;
   mvs_op_clip clip;
   mvs_op_resect resect;
+  mvs_op_patch patch;
 } example;
 
 static int make_examples(example *out) {
@@ -96,6 +97,8 @@ static int make_examples(example *out) {
   out[n++].clip = (mvs_op_clip){.op = {sizeof(mvs_op_clip), MVS_OP_CLIP}};
   out[n++].resect =
       (mvs_op_resect){.op = {sizeof(mvs_op_resect), MVS_OP_RESECT}, .width = 7e-3, .position = 0.2};
+  out[n++].patch = (mvs_op_patch){.op = {sizeof(mvs_op_patch), MVS_OP_PATCH},
+                                  .site = on_scallop("A2", 0.5, 0.5)};
   return n;
 }
 
