@@ -173,14 +173,17 @@ std::vector<Piece> pieces_of(const Valve &valve, const std::vector<uint8_t> &mar
   return pieces;
 }
 
-// Only the largest piece inside is taken out. A scrap outside that would hang on nothing goes with
-// it; anything larger is an island.
+// One piece is taken out: a scrap beside it stays, and a scrap of the rest that would hang on
+// nothing goes with it. Anything larger is refused.
 void tidy(const Surgery &s, std::vector<uint8_t> &inside) {
   constexpr double scrap = 0.05;  // of what is cut out
   std::vector<Piece> pieces = pieces_of(s.valve, inside, 1);
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece &a, const Piece &b) { return a.area > b.area; });
   for (size_t p = 1; p < pieces.size(); ++p) {
+    MVS_MUST(pieces[p].area < scrap * pieces[0].area, MVS_E_OP, "outline",
+             "%s: the outline cuts out two pieces, of %.1f and %.1f mm2: cut one after the other",
+             s.op_name, 1e6 * pieces[0].area, 1e6 * pieces[p].area);
     for (const uint32_t t : pieces[p].triangles) inside[t] = 0;
   }
   for (const Piece &piece : pieces_of(s.valve, inside, 0)) {

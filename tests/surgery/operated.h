@@ -43,9 +43,10 @@ void refused(const Picture &before, const Op &op, mvs_result code, const std::st
     apply(before, op);
     FAIL_CHECK("was not refused");
   } catch (const Error &fault) {
-    CAPTURE(fault.what());
+    const std::string said = fault.what();
+    CAPTURE(said);
     CHECK(fault.code == code);
-    CHECK(std::string(fault.what()).find(word) != std::string::npos);
+    CHECK(said.find(word) != std::string::npos);
   }
 }
 

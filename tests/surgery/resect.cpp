@@ -229,6 +229,78 @@ TEST_CASE("what_cannot_be_resected_is_said") {
   refused(p, along_outline(points), MVS_E_OP, "from leaflet");
 }
 
+TEST_CASE("pieces_that_cannot_come_out_in_one_are_refused") {
+  const Picture p = fine_valve();
+  const auto drawn = [&](const std::vector<std::array<double, 2>> &places) {
+    std::vector<Vec3> points;
+    for (const auto &[along, height] : places) points.push_back(place_on(p, "P2", along, height));
+    return points;
+  };
+  // a ring around a middle that only a slit of 0.1 mm joins to the rest
+  std::vector<Vec3> points = drawn({{0.45, 1},
+                                    {0.45, 0.8},
+                                    {0.2, 0.8},
+                                    {0.2, 0.51},
+                                    {0.35, 0.51},
+                                    {0.35, 0.65},
+                                    {0.65, 0.65},
+                                    {0.65, 0.4},
+                                    {0.35, 0.4},
+                                    {0.35, 0.5},
+                                    {0.2, 0.5},
+                                    {0.2, 0.25},
+                                    {0.8, 0.25},
+                                    {0.8, 0.8},
+                                    {0.55, 0.8},
+                                    {0.55, 1}});
+  refused(p, along_outline(points), MVS_E_OP, "island");
+  points = drawn({{0.1, 1}, {0.3, 0.4}, {0.5, 1}, {0.7, 0.4}, {0.9, 1}});
+  refused(p, along_outline(points), MVS_E_OP, "two pieces");
+  // across the notch of an earlier one
+  points = drawn({{0.2, 1}, {0.2, 0.6}, {0.8, 0.6}, {0.8, 1}});
+  const Picture cut = apply(p, resection(5 * mm, 0, 10 * mm)).picture;
+  refused(cut, along_outline(points), MVS_E_OP, "two pieces");
+}
+
+TEST_CASE("what_is_narrower_than_the_mesh_is_cut_or_refused_as_such") {
+  mvs_parametric_desc coarse = {};
+  coarse.struct_size = sizeof coarse;
+  coarse.vertices = 200;
+  const Picture p = shipped(coarse);
+  size_t empty = 0, holes = 0;
+  for (int k = 0; k < 40; ++k) {
+    try {
+      apply(p, resection(1.2 * mm, 0, 10 * mm, 0.045 * k - 0.9));
+    } catch (const Error &fault) {
+      const std::string said = fault.what();
+      CAPTURE(said);
+      empty += said.find("narrower than a side") != std::string::npos;
+      holes += said.find("come through the free edge") != std::string::npos;
+      CHECK(fault.code == MVS_E_OP);
+    }
+  }
+  CHECK(empty > 0);
+  CHECK(holes > 0);
+}
+
+TEST_CASE("a_scallop_is_not_taken_out_whole") {
+  Picture p = shipped();
+  Valve valve = p.model->valve;
+  const SheetMap map(*p.model);
+  const uint32_t p2 = scallop_named(valve, "P2");
+  valve.scallops.push_back({0, "tip", valve.scallops.get()[p2].leaflet});
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    if (valve.triangle_scallop.get()[t] != p2) continue;
+    bool tip = true;
+    for (const uint32_t n : valve.triangles.get()[t]) {
+      tip &= map.height(n) > 0.7 && std::abs(map.along(p2, n) - 0.5) < 0.12;
+    }
+    if (tip) valve.triangle_scallop[t] = static_cast<uint32_t>(valve.scallops.size() - 1);
+  }
+  p.model = make_model(valve);
+  refused(p, resection(9 * mm, 8 * mm, 9 * mm), MVS_E_OP, "nothing would be left of tip");
+}
+
 TEST_CASE("after_a_ring_only_triangles_can_be_cut") {
   auto ring = op_of<mvs_op_ring>(MVS_OP_RING);
   ring.size = 34 * mm;
