@@ -68,11 +68,16 @@ Json measures_json(const mvs_measures &measures) {
     const double value = measures.*readout.value;
     object[readout.key] = std::isfinite(value) ? Json(value * readout.scale) : Json();
   }
+  object["chords_over_strain"] = measures.chords_over_strain;
+  object["chords_over_tension"] = measures.chords_over_tension;
   return object;
 }
 
 std::string measures_text(const mvs_measures &measures) {
   std::string table = text("  %-27s%10u\n", "Intersecting triangles", measures.intersections);
+  table +=
+      text("  %-27s%10u\n  %-27s%10u\n", "Chordae over their strain", measures.chords_over_strain,
+           "Chordae over their tension", measures.chords_over_tension);
   for (const Readout &readout : readouts) {
     const double value = measures.*readout.value;
     table += std::isfinite(value)
@@ -87,6 +92,9 @@ std::string measures_text(const mvs_measures &measures) {
 std::string measures_text(const mvs_measures &before, const mvs_measures &after) {
   std::string table = text("  %-27s%10u%10u\n", "Intersecting triangles", before.intersections,
                            after.intersections);
+  table += text("  %-27s%10u%10u\n  %-27s%10u%10u\n", "Chordae over their strain",
+                before.chords_over_strain, after.chords_over_strain, "Chordae over their tension",
+                before.chords_over_tension, after.chords_over_tension);
   for (const Readout &readout : readouts) {
     table += text("  %-27s", readout.label);
     for (const mvs_measures *measures : {&before, &after}) {

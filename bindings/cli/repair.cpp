@@ -50,35 +50,6 @@ Json side_json(const Side &side) {
           {"measures", measures_json(side.measures)}};
 }
 
-struct Row {
-  const char *name, *unit;
-  double mvs_measures::*value;
-  double scale;
-};
-using M = mvs_measures;
-constexpr Row rows[] = {
-    {"regurgitant orifice", "mm2", &M::regurgitant_orifice_area, 1e6},
-    {"coaptation area", "mm2", &M::coaptation_area, 1e6},
-    {"coaptation height, middle", "mm", &M::coaptation_height, 1e3},
-    {"tenting height", "mm", &M::tenting_height, 1e3},
-    {"billow height", "mm", &M::billow_height, 1e3},
-    {"annulus AP", "mm", &M::annulus_ap, 1e3},
-    {"annulus CC", "mm", &M::annulus_cc, 1e3},
-    {"largest chord strain", "%", &M::max_chord_strain, 1e2},
-    {"largest chord tension", "N", &M::max_chord_tension, 1},
-};
-
-std::string table(const Side &before, const Side &after) {
-  std::string lines = text("%-28s %10s %10s\n", "", "before", "after");
-  for (const Row &row : rows) {
-    lines += text("%-24s %-3s %10.2f %10.2f\n", row.name, row.unit,
-                  row.scale * before.measures.*row.value, row.scale * after.measures.*row.value);
-  }
-  lines += text("%-28s %10s %10s", "leak", leak_grade(before.measures.regurgitant_orifice_area),
-                leak_grade(after.measures.regurgitant_orifice_area));
-  return lines;
-}
-
 std::vector<std::string> titles(const mvs::Snapshot &valve) {
   std::vector<std::string> out;
   mvs_history history = mvs::sized<mvs_history>();
@@ -117,7 +88,7 @@ void run(const Options &options, const Console &console) {
          {"operations", titles(after.valve)},
          {"before", side_json(before)},
          {"after", side_json(after)}},
-        human + table(before, after));
+        human + measures_text(before.measures, after.measures));
 }
 
 }  // namespace

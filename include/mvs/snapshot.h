@@ -63,6 +63,7 @@ enum {
   MVS_CHORD_ID = 55,           /* U64 c */
   MVS_CHORD_YOUNG = 56,        /* F64 c, Pa */
   MVS_CHORD_AREA = 57,         /* F64 c, m2 */
+  MVS_CHORD_FLAGS = 58,        /* U8 c: MVS_CHORD_OVER_* */
   MVS_HEAD_NODES = 60,         /* U32 h */
   MVS_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
   MVS_RING_POINTS = 65,        /* F64 x 3, m: the points of all rings, one after the other */
@@ -82,6 +83,12 @@ enum {
   MVS_NODE_IS_ANNULUS = 1, /* vertex of the sheet, prescribed */
   MVS_NODE_IS_BRANCH = 2,  /* free branch point of chordae */
   MVS_NODE_IS_HEAD = 3     /* papillary head, prescribed */
+};
+
+/* Bits of MVS_CHORD_FLAGS. */
+enum {
+  MVS_CHORD_OVER_STRAIN = 1, /* strained beyond the limit of its kind */
+  MVS_CHORD_OVER_TENSION = 2 /* carries more than the limit of its kind */
 };
 
 /* Shows one array, zero-copy, valid while the snapshot is held. Forces, strains, coaptation and the
@@ -151,7 +158,14 @@ typedef struct mvs_measures {
   double max_leaflet_strain;       /* largest principal engineering strain */
   double max_leaflet_stress;       /* Pa, largest principal Cauchy stress */
   double leaflet_area;             /* m2 */
+  uint32_t chords_over_strain;     /* chordae strained beyond the limit of their kind */
+  uint32_t chords_over_tension;    /* chordae that carry more than the limit of their kind */
 } mvs_measures;
+
+/* The range in which chordae of a kind work (MVS_CHORD_*): strain and tension in N; infinite for
+ * sutures. Not where they rupture: a chord beyond it asks for a look. Sources:
+ * libmvs/measure/README.md. */
+MVS_API mvs_result mvs_chord_limits(uint32_t kind, double *strain, double *tension);
 
 /* Measures a snapshot. The first call on a snapshot does the work, later ones return what it
  * found. */

@@ -73,6 +73,8 @@ void add_closure(const mvs_snapshot &s, mvs_measures &m) {
 void add_strength(const mvs_snapshot &s, mvs_measures &m) {
   m.max_chord_strain = s.chords().max_strain;
   m.max_chord_tension = s.chords().max_tension;
+  m.chords_over_strain = s.chords().over_strain;
+  m.chords_over_tension = s.chords().over_tension;
   m.max_leaflet_strain = s.strain().max_strain;
   m.max_leaflet_stress = s.strain().max_stress;
   m.leaflet_area = s.strain().leaflet_area;

@@ -68,6 +68,15 @@ TakeMove moves_of(mvs_sim &sim) {
   return [&sim](const Moment &now, const Move &move) { return moved(sim, now, move); };
 }
 
+// The names of the chordae with a flag.
+static Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
+  Json names = Json::array();
+  for (size_t c = 0; c < snapshot.chords().flags.size(); ++c) {
+    if (snapshot.chords().flags[c] & flag) names.push_back(snapshot.model->valve.chords[c].name);
+  }
+  return names;
+}
+
 Json plan_measures(const Picture &picture) {
   const SnapshotPtr snapshot = make_snapshot({picture, {}});
   const mvs_measures &m = snapshot->measures();
@@ -82,6 +91,8 @@ Json plan_measures(const Picture &picture) {
   json["annulus_cc_m"] = m.annulus_cc;
   json["max_chord_strain"] = m.max_chord_strain;
   json["max_chord_tension_N"] = m.max_chord_tension;
+  json["chords_over_strain"] = flagged(*snapshot.get(), MVS_CHORD_OVER_STRAIN);
+  json["chords_over_tension"] = flagged(*snapshot.get(), MVS_CHORD_OVER_TENSION);
   json["intersections"] = m.intersections;
   return json;
 }

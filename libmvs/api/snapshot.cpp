@@ -114,4 +114,16 @@ mvs_result mvs_snapshot_frame(const mvs_snapshot *snapshot, double frame[12]) {
   });
 }
 
+mvs_result mvs_chord_limits(uint32_t kind, double *strain, double *tension) {
+  return guarded([&] {
+    must_point(strain, "strain");
+    must_point(tension, "tension");
+    MVS_MUST(kind <= MVS_CHORD_SUTURE, MVS_E_ARGUMENT, "kind",
+             "kind is %u: it has to be one of MVS_CHORD_*", kind);
+    const ChordLimits limits = chord_limits(kind);
+    *strain = limits.strain;
+    *tension = limits.tension;
+  });
+}
+
 }  // extern "C"

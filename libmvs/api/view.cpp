@@ -106,6 +106,8 @@ Viewed chord_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.tables().chord_young);
     case MVS_CHORD_AREA:
       return view_of(s.tables().chord_area);
+    case MVS_CHORD_FLAGS:
+      return view_of(s.chords().flags);
     default:
       return {};
   }

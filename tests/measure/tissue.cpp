@@ -1,4 +1,6 @@
 // Strain, stress and chordae against closed forms and virtual work.
+#include <mvs/snapshot.h>
+
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -151,6 +153,27 @@ TEST_CASE("chord_tension_follows_its_length") {
   CHECK(measures.tension[1] == 0);
   CHECK(measures.max_strain == measures.strain[0]);
   CHECK(measures.max_tension == measures.tension[0]);
+}
+
+TEST_CASE("chordae_beyond_the_range_of_their_kind_are_flagged") {
+  Valve valve = valve_with_chords();
+  const double rest = valve.chords[0].rest_length;
+  // 5 % of the standard chord carry 1.6 N: too much for a marginal chord, not for a strut
+  valve.chords[0].rest_length = rest / 1.05;
+  valve.chords[0].kind = MVS_CHORD_MARGINAL;
+  const auto flags = [&] {
+    const ModelPtr model = make_model(valve);
+    return measure_chords(*model, valve.rest);
+  };
+  CHECK(flags().flags[0] == MVS_CHORD_OVER_TENSION);
+  CHECK(flags().over_tension == 1);
+  valve.chords[0].kind = MVS_CHORD_STRUT;
+  CHECK(flags().flags[0] == 0);
+  // 12 % are above 11.1 %, whatever they carry
+  valve.chords[0].rest_length = rest / 1.12;
+  valve.chords[0].young = 1e6;
+  CHECK(flags().flags[0] == MVS_CHORD_OVER_STRAIN);
+  CHECK(flags().over_strain == 1);
 }
 
 TEST_CASE("heads_are_pulled_along_their_chordae") {

@@ -176,6 +176,8 @@ class Measures:
     max_leaflet_strain: Annotated[float, "1", "largest principal engineering strain"]
     max_leaflet_stress: Annotated[float, "Pa", "largest principal Cauchy stress"]
     leaflet_area: Annotated[float, "m2", "area of both leaflets in the present shape"]
+    chords_over_strain: Annotated[int, "1", "chordae strained beyond the limit of their kind"]
+    chords_over_tension: Annotated[int, "1", "chordae that carry more than the limit of their kind"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -72,6 +72,8 @@ py::object measures_value(const mvs_measures &s) {
   FIELD(max_leaflet_strain);
   FIELD(max_leaflet_stress);
   FIELD(leaflet_area);
+  FIELD(chords_over_strain);
+  FIELD(chords_over_tension);
   return make("Measures", fields);
 }
 

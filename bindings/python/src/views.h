@@ -51,6 +51,8 @@ inline constexpr View views[] = {
     {"chord_id", MVS_CHORD_ID, "(c,) uint64: stable ids."},
     {"chord_young", MVS_CHORD_YOUNG, "(c,) float64, Pa."},
     {"chord_area", MVS_CHORD_AREA, "(c,) float64, m2: cross-section."},
+    {"chord_flags", MVS_CHORD_FLAGS,
+     "(c,) uint8: 1 strained, 2 loaded beyond the limit of its kind."},
     {"head_nodes", MVS_HEAD_NODES, "(h,) uint32: nodes of the papillary heads."},
     {"head_force", MVS_HEAD_FORCE, "(h, 3) float64, N: pull of the chordae on each head."},
     {"ring_points", MVS_RING_POINTS,
