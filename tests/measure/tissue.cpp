@@ -1,7 +1,6 @@
 // Strain, stress and chordae against closed forms and virtual work.
-#include <mvs/snapshot.h>
-
 #include <doctest/doctest.h>
+#include <mvs/snapshot.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
