@@ -2,17 +2,15 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "formats/json.h"
 #include "surgery/history.h"
 
 namespace mvs {
-
-using Json = nlohmann::ordered_json;
 
 // One step of a plan: a move, or an operation as it stands in the file.
 struct PlanStep {

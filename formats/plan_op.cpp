@@ -65,26 +65,26 @@ Id id_in(const Parts &parts, const std::string &name, const char *word) {
 }
 
 Json point_json(const double *at) {
-  return {at[0], at[1], at[2]};
+  return Json::numbers({at[0], at[1], at[2]});
 }
 
 Json site_json(const Model &model, const mvs_site &site) {
   Json json;
-  if (site.how == MVS_SITE_NODE) json["node"] = site.index;
+  if (site.how == MVS_SITE_NODE) json.set("node", site.index);
   if (site.how == MVS_SITE_TRIANGLE) {
-    json["triangle"] = site.index;
-    json["weights"] = point_json(site.u);
+    json.set("triangle", site.index);
+    json.set("weights", point_json(site.u));
   }
   const mvs_site place = anatomical(model, site);
-  json["scallop"] = name_in(model.valve.scallops, place.scallop);
-  json["along"] = place.u[0];
-  json["height"] = place.u[1];
+  json.set("scallop", name_in(model.valve.scallops, place.scallop));
+  json.set("along", place.u[0]);
+  json.set("height", place.u[1]);
   return json;
 }
 
 Json points_json(const mvs_array &array) {
   Json json = Json::array();
-  for (const Vec3 &p : points_of(array)) json.push_back(point_json(p.data()));
+  for (const Vec3 &p : points_of(array)) json.add(point_json(p.data()));
   return json;
 }
 
@@ -152,20 +152,20 @@ class OpReader {
   }
   double number(const OpField &f, const Json &json) const {
     if (!json.is_number()) refuse(f, "a number");
-    return json.get<double>();
+    return json.number();
   }
   std::string text(const OpField &f, const Json &json) const {
-    if (!json.is_string()) refuse(f, "a text");
-    return json.get<std::string>();
+    if (!json.is_text()) refuse(f, "a text");
+    return json.text();
   }
   uint32_t whole(const OpField &f, const Json &json) const {
-    if (!json.is_number_unsigned() || json.get<uint64_t>() > UINT32_MAX)
-      refuse(f, "a whole number");
-    return json.get<uint32_t>();
+    if (!json.is_whole() || json.whole() > UINT32_MAX) refuse(f, "a whole number");
+    return static_cast<uint32_t>(json.whole());
   }
   Vec3 point(const OpField &f, const Json &json) const {
-    if (!json.is_array() || json.size() != 3) refuse(f, "three numbers, [x, y, z]");
-    return {number(f, json[0]), number(f, json[1]), number(f, json[2])};
+    if (!json.is_array() || json.items().size() != 3) refuse(f, "three numbers, [x, y, z]");
+    const std::vector<Json> &xyz = json.items();
+    return {number(f, xyz[0]), number(f, xyz[1]), number(f, xyz[2])};
   }
   uint32_t choice(const OpField &f, const Json &json) const;
   mvs_site site(const OpField &f, const Json &json) const;
@@ -188,16 +188,16 @@ uint32_t OpReader::choice(const OpField &f, const Json &json) const {
 mvs_site OpReader::site(const OpField &f, const Json &json) const {
   if (!json.is_object()) refuse(f, "an object with scallop, along and height");
   mvs_site site = {};
-  if (exact_ && json.contains("node")) {
+  if (exact_ && json.has("node")) {
     site.how = MVS_SITE_NODE;
     site.index = whole(f, json["node"]);
-  } else if (exact_ && json.contains("triangle") && json.contains("weights")) {
+  } else if (exact_ && json.has("triangle") && json.has("weights")) {
     site.how = MVS_SITE_TRIANGLE;
     site.index = whole(f, json["triangle"]);
     const Vec3 u = point(f, json["weights"]);
     std::copy(u.data(), u.data() + 3, site.u);
   } else {
-    if (!json.contains("scallop") || !json.contains("along") || !json.contains("height")) {
+    if (!json.has("scallop") || !json.has("along") || !json.has("height")) {
       refuse(f, "an object with scallop, along and height");
     }
     site.how = MVS_SITE_ANATOMICAL;
@@ -211,7 +211,7 @@ mvs_site OpReader::site(const OpField &f, const Json &json) const {
 mvs_array OpReader::points(const OpField &f, const Json &json) {
   if (!json.is_array()) refuse(f, "a list of points, [[x, y, z], ...]");
   auto list = std::make_unique<std::vector<Vec3>>();
-  for (const Json &one : json) list->push_back(point(f, one));
+  for (const Json &one : json.items()) list->push_back(point(f, one));
   points_.push_back(std::move(list));
   return {points_.back()->data(), points_.back()->size(), 3, MVS_F64, 0};
 }
@@ -259,21 +259,21 @@ bool is_remark(std::string_view key) {
 
 Json op_json(const Operation &op, const Model &model) {
   Json json;
-  json["do"] = op.kind().name;
+  json.set("do", op.kind().name);
   for (const OpField &f : op.kind().fields) {
     Json value = field_json(op, f, model);
-    if (!value.is_null()) json[key_of(f)] = std::move(value);
+    if (!value.is_null()) json.set(key_of(f), std::move(value));
   }
   return json;
 }
 
 Operation read_op(const Json &json, const Model &model, bool exact) {
-  const OpKind *kind = find_op_kind(json.at("do").get<std::string>());
+  const OpKind *kind = find_op_kind(json["do"].text());
   MVS_MUST(kind != nullptr, MVS_E_VERSION, "plan",
            "the operation \"%.40s\" is not known to this version of libmvs",
-           json.at("do").get<std::string>().c_str());
+           json["do"].text().c_str());
   OpReader reader(*kind, model, exact);
-  for (const auto &[key, value] : json.items()) {
+  for (const auto &[key, value] : json.members()) {
     if (is_remark(key)) continue;
     const auto f = std::find_if(kind->fields.begin(), kind->fields.end(),
                                 [&](const OpField &field) { return key_of(field) == key; });

@@ -23,7 +23,7 @@ void note_move(Moment &moment, const Picture &from, const Move &move) {
 
 void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record) {
   SnapshotPtr next = make_snapshot(std::move(after));
-  if (sim.journal) sim.journal->append(record().dump());
+  if (sim.journal) sim.journal->append(record().line());
   sim.replace(std::move(next));
 }
 
@@ -33,17 +33,22 @@ std::string start_hash(const Moment &moment) {
   return hash_text(moment.timeline.start ? *moment.timeline.start : moment.picture);
 }
 
+const std::vector<Checkpoint> &checkpoints_of(const Moment &moment) {
+  static const std::vector<Checkpoint> none_there;
+  return moment.timeline.checkpoints ? *moment.timeline.checkpoints : none_there;
+}
+
 Json restart_record(const Moment &moment) {
   Json json = word_record("restart");
-  json["steps"] = plan_steps(moment, {});
-  Json &list = json["checkpoints"] = Json::array();
-  if (!moment.timeline.checkpoints) return json;
-  for (const Checkpoint &c : *moment.timeline.checkpoints) {
+  json.set("steps", plan_steps(moment, {}));
+  Json list = Json::array();
+  for (const Checkpoint &c : checkpoints_of(moment)) {
     Moment there{c.at, moment.timeline};
     there.timeline.past = c.past;
     there.timeline.moves = c.moves;
-    list.push_back({{"name", c.name}, {"steps", plan_steps(there, {})}});
+    list.add(Json::object({{"name", c.name}, {"steps", plan_steps(there, {})}}));
   }
+  json.set("checkpoints", std::move(list));
   return json;
 }
 
@@ -52,7 +57,7 @@ Json restart_record(const Moment &moment) {
 void restart_journal(mvs_sim &sim, const Moment &restored) {
   if (!sim.journal) return;
   if (start_hash(restored) == start_hash(sim.present()->moment)) {
-    sim.journal->append(restart_record(restored).dump());
+    sim.journal->append(restart_record(restored).line());
     return;
   }
   sim.journal.reset();
@@ -62,36 +67,39 @@ void restart_journal(mvs_sim &sim, const Moment &restored) {
 Json begun_record(const Moment &moment) {
   const Picture &start = moment.timeline.start ? *moment.timeline.start : moment.picture;
   Json json;
-  json["do"] = "begin";
-  json["journal"] = 1;
-  json["valve"] = {{"name", start.model->valve.name}, {"hash", hash_text(start)}};
-  json["steps"] = plan_steps(moment, {});
+  json.set("do", "begin");
+  json.set("journal", uint64_t{1});
+  json.set("valve", Json::object({{"name", start.model->valve.name}, {"hash", hash_text(start)}}));
+  json.set("steps", plan_steps(moment, {}));
   return json;
 }
 
 Json steps_record(const Moment &before, const Moment &after) {
   Json json;
-  json["do"] = "apply";
-  Json &steps = json["steps"] = Json::array();
+  json.set("do", "apply");
+  Json steps = Json::array();
   const auto entries = after.timeline.past.items();
   for (size_t k = before.timeline.past.size(); k < entries.size(); ++k) {
     add_moves(steps, (*entries[k])->moves);
-    steps.push_back(entry_json(**entries[k]));
+    steps.add(entry_json(**entries[k]));
   }
   add_moves(steps, after.timeline.moves);
+  json.set("steps", std::move(steps));
   return json;
 }
 
 Json word_record(const char *word) {
   Json json;
-  json["do"] = word;
+  json.set("do", word);
   return json;
 }
 
 Json named_record(const char *word, const std::string &name, const Moves &moves) {
   Json json = word_record(word);
-  json["name"] = name;
-  add_moves(json["steps"] = Json::array(), moves);
+  json.set("name", name);
+  Json steps = Json::array();
+  add_moves(steps, moves);
+  json.set("steps", std::move(steps));
   return json;
 }
 

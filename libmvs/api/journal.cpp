@@ -12,21 +12,21 @@ using namespace mvs;
 namespace {
 
 Json parsed(const std::string &text, size_t number) {
-  Json json = Json::parse(text, nullptr, false);
-  MVS_MUST(json.is_object() && json.contains("do") && json["do"].is_string(), MVS_E_FORMAT,
-           "journal", "record %zu of the journal is none that libmvs wrote", number);
+  Json json = Json::parse(text);
+  MVS_MUST(json.is_object() && json.has("do") && json["do"].is_text(), MVS_E_FORMAT, "journal",
+           "record %zu of the journal is none that libmvs wrote", number);
   return json;
 }
 
 std::string text_at(const Json &json, const char *key) {
-  MVS_MUST(json.contains(key) && json[key].is_string(), MVS_E_FORMAT, "journal",
+  MVS_MUST(json.has(key) && json[key].is_text(), MVS_E_FORMAT, "journal",
            "a record of the journal lacks its %s", key);
-  return json[key].get<std::string>();
+  return json[key].text();
 }
 
 std::vector<PlanStep> steps_at(const Json &json) {
-  MVS_MUST(json.contains("steps"), MVS_E_FORMAT, "journal", "a record of the journal has no steps");
-  return read_steps(json.at("steps"));
+  MVS_MUST(json.has("steps"), MVS_E_FORMAT, "journal", "a record of the journal has no steps");
+  return read_steps(json["steps"]);
 }
 
 Picture start_of(const Moment &now) {
@@ -43,7 +43,7 @@ void rewind_moves(Moment &now) {
 // Every checkpoint by the steps that led to it, then the steps to where the snapshot was.
 void restart(Replay &replay, const Json &record) {
   Replay there({start_of(replay.now), {}}, replay);
-  for (const Json &checkpoint : record.value("checkpoints", Json::array())) {
+  for (const Json &checkpoint : record["checkpoints"].items()) {
     there.now = {start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
     there.go(steps_at(checkpoint));
     there.now = with_checkpoint(there.now, text_at(checkpoint, "name"));
@@ -57,7 +57,7 @@ void restart(Replay &replay, const Json &record) {
 void redo(Replay &replay, const Json &record) {
   const std::string word = text_at(record, "do");
   if (word == "restart") return restart(replay, record);
-  if (record.contains("steps")) {
+  if (record.has("steps")) {
     rewind_moves(replay.now);
     replay.go(steps_at(record));
   }
@@ -77,13 +77,13 @@ void redo(Replay &replay, const Json &record) {
 }
 
 void check_beginning(const Json &first, const Picture &present) {
-  MVS_MUST(text_at(first, "do") == "begin" && first.contains("valve"), MVS_E_FORMAT, "journal",
+  MVS_MUST(text_at(first, "do") == "begin" && first.has("valve"), MVS_E_FORMAT, "journal",
            "the journal does not begin with its valve");
-  const std::string wanted = text_at(first.at("valve"), "hash"), found = hash_text(present);
+  const std::string wanted = text_at(first["valve"], "hash"), found = hash_text(present);
   MVS_MUST(wanted == found, MVS_E_STATE, "journal",
            "the journal belongs to the valve \"%.63s\" with hash %s, the present one has %s: load "
            "that valve first",
-           text_at(first.at("valve"), "name").c_str(), wanted.c_str(), found.c_str());
+           text_at(first["valve"], "name").c_str(), wanted.c_str(), found.c_str());
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
     MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",
              s.journal->path().c_str());
     const SnapshotPtr present = s.present();
-    const std::string first = begun_record(present->moment).dump();
+    const std::string first = begun_record(present->moment).line();
     auto journal = std::make_unique<Journal>(Journal::create(path));
     journal->append(first);
     s.journal = std::move(journal);

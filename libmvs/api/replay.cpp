@@ -49,7 +49,7 @@ void Replay::go(const std::vector<PlanStep> &steps) {
   for (size_t k = 0; k < steps.size(); ++k) {
     const PlanStep &step = steps[k];
     if (step.move && !take_) continue;
-    const std::string word = step.move ? "" : step.op["do"].get<std::string>() + ": ";
+    const std::string word = step.move ? "" : step.op["do"].text() + ": ";
     try {
       if (step.move) {
         now = take_(now, *step.move);
@@ -72,7 +72,7 @@ TakeMove moves_of(mvs_sim &sim) {
 static Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
   Json names = Json::array();
   for (size_t c = 0; c < snapshot.chords().flags.size(); ++c) {
-    if (snapshot.chords().flags[c] & flag) names.push_back(snapshot.model->valve.chords[c].name);
+    if (snapshot.chords().flags[c] & flag) names.add(snapshot.model->valve.chords[c].name);
   }
   return names;
 }
@@ -81,19 +81,19 @@ Json plan_measures(const Picture &picture) {
   const SnapshotPtr snapshot = make_snapshot({picture, {}});
   const mvs_measures &m = snapshot->measures();
   Json json;
-  json["regurgitant_orifice_area_m2"] = m.regurgitant_orifice_area;
-  json["coaptation_area_m2"] = m.coaptation_area;
-  json["coaptation_height_m"] = m.coaptation_height;
-  json["coaptation_length_mean_m"] = m.coaptation_length_mean;
-  json["tenting_height_m"] = m.tenting_height;
-  json["billow_height_m"] = m.billow_height;
-  json["annulus_ap_m"] = m.annulus_ap;
-  json["annulus_cc_m"] = m.annulus_cc;
-  json["max_chord_strain"] = m.max_chord_strain;
-  json["max_chord_tension_N"] = m.max_chord_tension;
-  json["chords_over_strain"] = flagged(*snapshot.get(), MVS_CHORD_OVER_STRAIN);
-  json["chords_over_tension"] = flagged(*snapshot.get(), MVS_CHORD_OVER_TENSION);
-  json["intersections"] = m.intersections;
+  json.set("regurgitant_orifice_area_m2", m.regurgitant_orifice_area);
+  json.set("coaptation_area_m2", m.coaptation_area);
+  json.set("coaptation_height_m", m.coaptation_height);
+  json.set("coaptation_length_mean_m", m.coaptation_length_mean);
+  json.set("tenting_height_m", m.tenting_height);
+  json.set("billow_height_m", m.billow_height);
+  json.set("annulus_ap_m", m.annulus_ap);
+  json.set("annulus_cc_m", m.annulus_cc);
+  json.set("max_chord_strain", m.max_chord_strain);
+  json.set("max_chord_tension_N", m.max_chord_tension);
+  json.set("chords_over_strain", flagged(*snapshot.get(), MVS_CHORD_OVER_STRAIN));
+  json.set("chords_over_tension", flagged(*snapshot.get(), MVS_CHORD_OVER_TENSION));
+  json.set("intersections", m.intersections);
   return json;
 }
 

@@ -23,6 +23,7 @@ struct Scene {
 
 funnel valve;
 std::string saved, saved_session;  // the valve as a file
+std::string plan;
 
 mvs_load_case light_load() {
   mvs_load_case load = funnel_load();
@@ -184,6 +185,48 @@ std::vector<Call> calls_of_snapshots() {
   };
 }
 
+mvs_id first_part(const Scene &s, uint32_t kind) {
+  mvs_part part = {};
+  MUST(mvs_snapshot_part(s.snapshot, kind, 0, &part));
+  return part.id;
+}
+
+mvs_result scale_annulus(const Scene &s) {
+  const mvs_op_annulus_scale op = {{sizeof op, MVS_OP_ANNULUS_SCALE}, 0.9, 0, 0};
+  return mvs_apply_op(s.sim, &op.op, nullptr);
+}
+
+std::vector<Call> calls_of_operations() {
+  return {
+      {"scale annulus", [](Scene &s) { return scale_annulus(s); }},
+      {"remove chord",
+       [](Scene &s) {
+         const mvs_op_chord_remove op = {{sizeof op, MVS_OP_CHORD_REMOVE},
+                                         first_part(s, MVS_PART_CHORD)};
+         return mvs_apply_op(s.sim, &op.op, nullptr);
+       }},
+      {"add chord",
+       [](Scene &s) {
+         mvs_op_chord_add op = {};
+         op.op = {sizeof op, MVS_OP_CHORD_ADD};
+         op.head = first_part(s, MVS_PART_HEAD);
+         op.site.how = MVS_SITE_ANATOMICAL;
+         op.site.scallop = first_part(s, MVS_PART_SCALLOP);
+         op.site.u[0] = op.site.u[1] = 0.45;
+         return mvs_apply_op(s.sim, &op.op, nullptr);
+       }},
+      {"group", [](Scene &s) { return mvs_begin_group(s.sim, "a group"); }},
+      {"checkpoint", [](Scene &s) { return mvs_set_checkpoint(s.sim, "a place"); }},
+      {"replay plan",
+       [](Scene &s) { return mvs_replay_plan(s.sim, plan.data(), plan.size(), nullptr); }},
+      {"write plan",
+       [](Scene &s) {
+         uint64_t size = 0;
+         return mvs_write_plan(s.snapshot, nullptr, nullptr, 0, &size);
+       }},
+  };
+}
+
 std::vector<Call> calls_with_hdf5() {
   return {{"load h5",
            [](Scene &s) {
@@ -210,6 +253,9 @@ int main() {
   saved = save_scene(MVS_FORMAT_OBJ);
   for (const Call &call : calls()) fail_each_allocation(call);
   for (const Call &call : calls_of_snapshots()) fail_each_allocation(call);
+  plan = R"({"format": "mvs-plan", "version": 1, "steps": [{"do": "annulus_scale", "factor": 0.9},
+    {"do": "chord_length", "chord": "A/1", "factor": 0.9}]})";
+  for (const Call &call : calls_of_operations()) fail_each_allocation(call);
   if (std::strstr(mvs_features(), "hdf5")) {
     saved_session = save_scene(MVS_FORMAT_H5);
     for (const Call &call : calls_with_hdf5()) fail_each_allocation(call);

@@ -1,0 +1,77 @@
+// JSON values of our own, read and written by nlohmann::json.
+//
+// Its own values are not used: their destructor allocates (to flatten what is nested), so that
+// running out of memory while one is taken apart would end the host's process. Ours do not, and are
+// never nested deeper than the limit.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mvs {
+
+class Json {
+ public:
+  enum class Type : uint8_t { null, boolean, whole, number, text, array, object };
+  using Member = std::pair<std::string, Json>;
+
+  Json() = default;
+  Json(double value) : type_(Type::number), number_(value) {}
+  Json(uint64_t value) : type_(Type::whole), whole_(value) {}
+  Json(uint32_t value) : Json(uint64_t{value}) {}
+  Json(std::string value) : type_(Type::text), text_(std::move(value)) {}
+  Json(const char *value) : Json(std::string(value)) {}
+  explicit Json(bool value) : type_(Type::boolean), whole_(value) {}
+  static Json array() { return Json(Type::array); }
+  static Json object(std::initializer_list<Member> members = {});
+  static Json numbers(std::initializer_list<double> values);
+
+  // Throws MVS_E_FORMAT with the byte where the text is no JSON.
+  static Json parse(std::string_view text);
+  // On one line, or indented by two blanks a level. Doubles have the digits that read back as they
+  // are; bytes that are not UTF-8 are replaced.
+  std::string line() const;
+  std::string page() const;
+
+  bool is_null() const { return type_ == Type::null; }
+  bool is_text() const { return type_ == Type::text; }
+  bool is_array() const { return type_ == Type::array; }
+  bool is_object() const { return type_ == Type::object; }
+  bool is_whole() const { return type_ == Type::whole; }
+  bool is_number() const { return type_ == Type::number || type_ == Type::whole; }
+
+  // What it holds; of another type a zero or an empty text.
+  double number() const { return is_whole() ? static_cast<double>(whole_) : number_; }
+  uint64_t whole() const { return whole_; }
+  const std::string &text() const { return text_; }
+
+  // The members of an object, in order; the items of an array.
+  const std::vector<Member> &members() const { return members_; }
+  const std::vector<Json> &items() const { return items_; }
+  // Null where there is none.
+  const Json *find(std::string_view key) const;
+  bool has(std::string_view key) const { return find(key) != nullptr; }
+  // The member of this key; a null value where there is none.
+  const Json &operator[](std::string_view key) const;
+
+  // Makes this an object with the member, or an array with one more item.
+  void set(std::string_view key, Json value);
+  void add(Json value);
+
+ private:
+  explicit Json(Type type) : type_(type) {}
+  void write(std::string &out, int indent) const;
+
+  Type type_ = Type::null;
+  double number_ = 0;
+  uint64_t whole_ = 0;
+  std::string text_;
+  std::vector<Json> items_;
+  std::vector<Member> members_;
+};
+
+}  // namespace mvs

@@ -1,0 +1,60 @@
+// JSON values: what is written is read back, and nothing that a file holds breaks the reader.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "formats/json.h"
+
+using namespace mvs;
+
+namespace {
+
+Json sample() {
+  Json list = Json::array();
+  list.add(0.1);
+  list.add(uint64_t{18446744073709551615u});
+  list.add(-1e-300);
+  list.add("quoted \" and \n and ü");
+  list.add(Json());
+  return Json::object({{"list", list}, {"inner", Json::object({{"empty", Json::array()}})}});
+}
+
+}  // namespace
+
+TEST_CASE("values_are_read_back_as_they_were_written") {
+  for (const std::string &text : {sample().line(), sample().page()}) {
+    const Json back = Json::parse(text);
+    CHECK(back.line() == sample().line());
+    CHECK(back["list"].items()[0].number() == 0.1);
+    CHECK(back["list"].items()[1].whole() == 18446744073709551615u);
+    CHECK(back["list"].items()[2].number() == -1e-300);
+    CHECK(back["list"].items()[4].is_null());
+    CHECK(back["inner"]["empty"].is_array());
+    CHECK(back["nowhere"].is_null());
+    CHECK_FALSE(back.has("nowhere"));
+  }
+}
+
+TEST_CASE("a_record_is_one_line") {
+  CHECK(sample().line().find('\n') == std::string::npos);
+}
+
+TEST_CASE("every_cut_of_a_text_is_an_error_and_no_crash") {
+  const std::string text = sample().page();
+  for (size_t cut = 0; cut < text.size(); ++cut) {
+    CAPTURE(cut);
+    CHECK_THROWS_AS(Json::parse(std::string_view(text).substr(0, cut)), Error);
+  }
+}
+
+TEST_CASE("what_is_nested_without_end_is_refused") {
+  const std::string deep(1000000, '[');
+  CHECK_THROWS_AS(Json::parse(deep), Error);
+  CHECK_NOTHROW(Json::parse(std::string(60, '[') + std::string(60, ']')));
+}
+
+TEST_CASE("text_that_is_not_utf8_is_written_as_text_that_is") {
+  const std::string line = Json(std::string("a\xff\xfe")).line();
+  CHECK_NOTHROW(Json::parse(line));
+}
