@@ -10,7 +10,7 @@ from pathlib import Path
 import mvs
 from mvs import study
 
-from . import repairs
+from . import operations, repairs
 from .cases import Case, from_file, leaking, shipped, verdict
 from .table import as_text
 
@@ -68,6 +68,18 @@ def _study(folder: Path, with_picture: bool) -> str:
     return repairs.as_html(stages, png)
 
 
+def _operations(folder: Path, with_pictures: bool, pressure_pa: float) -> str:
+    """Tries every operation by itself, and returns its chapter."""
+    shown, pictures = [], {}
+    for each in operations.run(pressure_pa):
+        shown.append(each)
+        print(f"{each.title}: {each.verdict}", file=sys.stderr)
+        if with_pictures:
+            png = pictures[each.kind] = operations.picture_of(each)
+            (folder / "pictures" / f"operation-{each.kind}.png").write_bytes(png)
+    return operations.as_html(shown, pictures)
+
+
 def main() -> int:
     """Makes the report; 0, or 1 with a sentence on stderr."""
     arguments = _arguments()
@@ -80,6 +92,8 @@ def main() -> int:
 
         page = arguments.out / "report.html"
         chapter = _study(arguments.out, not arguments.no_pictures)
+        pressure = arguments.pressure * mvs.MMHG
+        chapter += _operations(arguments.out, not arguments.no_pictures, pressure)
         page.write_text(build(cases, pictures, chapter), encoding="utf-8")
         print(f"wrote {page}", file=sys.stderr)
     except (mvs.Error, OSError, ImportError) as error:

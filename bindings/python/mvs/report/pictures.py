@@ -127,6 +127,7 @@ def picture(
         scene.add_wall()
     scene.add_chords(drawing.snapshot.chord_tension if tension else None, tension or 1.0)
     scene.add_heads()
+    scene.add_rings()
     if closed:
         scene.add_orifice()
     image = scene.render(view)

@@ -14,11 +14,12 @@ os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 
 import pyvista  # noqa: E402
 
+from .. import ChordKind, RingKind  # noqa: E402
 from .geometry import Drawing, Points  # noqa: E402
 
 ANTERIOR, POSTERIOR = "#efc4ae", "#dfa491"
 CHORD, SLACK, HEAD, ANNULUS, WALL = "#f4ecd8", "#a9a9a9", "#9e4a41", "#4a6d8c", "#d9b3a6"
-ORIFICE = "#d7191c"
+ORIFICE, SEWN = "#d7191c", "#2f5fa8"
 PIXELS = 1100
 
 
@@ -176,6 +177,9 @@ class Scene:
         radius = np.sqrt(snapshot.chord_area / np.pi) * 1e3
         for row, (a, b) in enumerate(snapshot.chord_nodes):
             tube = _tapered(self.drawing.nodes[a], self.drawing.nodes[b], float(radius[row]))
+            if snapshot.chord_kind[row] == ChordKind.SUTURE:
+                self.plotter.add_mesh(tube, color=SEWN, smooth_shading=True, ambient=0.25)
+                continue
             if tension is None or tension[row] <= 0:
                 colour: Any = CHORD if tension is None else SLACK
                 self.plotter.add_mesh(tube, color=colour, smooth_shading=True, ambient=0.25)
@@ -185,6 +189,16 @@ class Scene:
                 tube, scalars="tension", clim=(0, high), cmap="viridis", smooth_shading=True,
                 ambient=0.25, show_scalar_bar=False,
             )
+
+    def add_rings(self) -> None:
+        """Rings and bands, as thick as the cord of a real one."""
+        snapshot = self.drawing.snapshot
+        points = self.drawing.place(snapshot.ring_points)
+        start = snapshot.ring_start
+        for first, last, kind in zip(start[:-1], start[1:], snapshot.ring_kind):
+            curve = _polyline(points[first:last], closed=kind == RingKind.RIGID)
+            self.plotter.add_mesh(curve.tube(radius=1.1, n_sides=16), color=SEWN,
+                                  smooth_shading=True, ambient=0.25, specular=0.3)
 
     def add_heads(self) -> None:
         """Papillary muscles: one body under each cluster of heads, its tips where chordae start."""

@@ -1,0 +1,100 @@
+"""Every surgical operation on the shipped valve, closed, as a chapter of the report."""
+
+from __future__ import annotations
+
+import base64
+import html
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import mvs
+from mvs import Simulator, Snapshot
+
+from .cases import strut_chord, verdict
+from .geometry import Drawing
+from .table import ROWS, value
+
+
+@dataclass(frozen=True)
+class Shown:
+    """One operation, and the valve that it leads to."""
+
+    kind: str
+    title: str
+    closed: Snapshot
+    verdict: str
+
+
+_CHORDAE = ("chord_length", "chord_remove", "chord_add", "chord_transfer", "neochord", "head_move")
+"""Looked at from below, with the tension of the chordae; the others from the atrium."""
+
+
+def _examples(valve: Snapshot) -> dict[str, dict[str, Any]]:
+    strut = strut_chord(valve)[1]
+    return {
+        "chord_length": {"chord": strut, "factor": 0.8},
+        "chord_remove": {"chord": strut},
+        "chord_add": {"head": "PM1", "site": ("P2", 0.5, 0.8)},
+        "chord_transfer": {"chord": strut, "end": "leaflet", "site": ("A2", 0.5, 0.9)},
+        "neochord": {"head": "AL1", "site": ("A2", 0.4, 1.0)},
+        "head_move": {"head": "PM1", "by": (0.0, 0.0, -0.004), "frame": "valve"},
+        "annulus_scale": {"factor": 0.9},
+        "ring": {"size": 0.030},
+        "band": {"factor": 0.8},
+        "clip": {},
+        "resect": {"base_width": 0.006},
+        "patch": {"site": ("A2", 0.5, 0.5)},
+    }
+
+
+def run(pressure_pa: float = mvs.SYSTOLE_PA) -> Iterator[Shown]:
+    """Each operation of this library by itself, applied to the open valve and closed."""
+    with Simulator() as sim:
+        sim.generate()
+        opened = sim.snapshot()
+        for kind, fields in _examples(opened).items():
+            if kind not in mvs.ops.KINDS:
+                continue
+            sim.restore(opened)
+            sim.apply(kind, **fields)
+            sim.set_load(pressure_pa)
+            stats = sim.settle()
+            closed = sim.snapshot()
+            yield Shown(kind, closed.history[-1].title, closed, verdict(closed, stats))
+
+
+def picture_of(shown: Shown) -> bytes:
+    """The closed valve with what was sewn in, as PNG."""
+    from .pictures import picture, view_from_atrium, view_from_ventricle
+
+    drawing = Drawing(shown.closed)
+    if shown.kind in _CHORDAE:
+        return picture(drawing, view_from_ventricle(58.0), closed=True, tension=0.8)
+    return picture(drawing, view_from_atrium(54.0), closed=True)
+
+
+_FIELDS = ("regurgitant_orifice_area", "coaptation_area", "coaptation_height", "annulus_ap",
+           "max_chord_strain", "max_chord_tension", "intersections")
+
+
+def as_html(shown: list[Shown], pictures: dict[str, bytes]) -> str:
+    """The chapter: a table, and a picture of each."""
+    columns = [row for field in _FIELDS for row in ROWS if row.field == field]
+    head = "".join(f"<th>{r.label}{', ' + r.unit if r.unit else ''}</th>" for r in columns)
+    rows = [f"<tr><th>operation</th>{head}<th>verdict</th></tr>"]
+    for each in shown:
+        cells = "".join(f"<td>{value(row, each.closed.measures)}</td>" for row in columns)
+        rows.append(f"<tr><th>{html.escape(each.title)}</th>{cells}"
+                    f"<td class=words>{html.escape(each.verdict)}</td></tr>")
+    figures = "".join(_figure(each, pictures[each.kind]) for each in shown if each.kind in pictures)
+    return ("<h2>Every operation by itself</h2>\n<p>On the shipped valve, open, which is then "
+            "closed. Rings, bands and sutures are blue.</p>\n<table>\n" + "\n".join(rows)
+            + f'\n</table>\n<div class="row">{figures}</div>')
+
+
+def _figure(shown: Shown, png: bytes) -> str:
+    data = base64.b64encode(png).decode()
+    words = html.escape(shown.title, quote=True)
+    return (f'<figure><img alt="{words}" src="data:image/png;base64,{data}">'
+            f"<figcaption>{words}</figcaption></figure>\n")
