@@ -73,6 +73,7 @@ bool Candidates::valid_for(const std::vector<Vec3> &x) const {
 
 void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack) {
   take_ways(x, to, slack);
+  find_still();
   find_guarded();
   find_facing();
 }
@@ -90,6 +91,22 @@ void Candidates::take_ways(const std::vector<Vec3> &x, const std::vector<Vec3> &
     node_high_[i] = x[i].cwiseMax(to[i]).array() + slack;
     middle_[i] = 0.5 * (x[i] + to[i]);
     reach_[i] = 0.5 * (to[i] - x[i]).norm() + slack;
+  }
+}
+
+// What is prescribed to stay where it is.
+bool Candidates::stays(uint32_t node) const {
+  const Valve &valve = model_->valve;
+  return model_->topology.fixed[node] && from_[node] == valve.open[node] &&
+         valve.open[node] == valve.loaded[node];
+}
+
+void Candidates::find_still() {
+  const auto &triangles = model_->valve.triangles;
+  still_.resize(triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [i, j, k] = triangles[t];
+    still_[t] = stays(i) && stays(j) && stays(k);
   }
 }
 
@@ -122,6 +139,7 @@ void Candidates::find_guarded() {
   make_boxes(0.5 * guard_share * thickness_);
   overlapping_boxes(low_, high_, pairs_);
   for (const auto &[a, b] : pairs_) {
+    if (still_[a] && still_[b]) continue;
     take_vertices(a, b);
     take_vertices(b, a);
     take_edges(a, b);
@@ -184,6 +202,7 @@ void Candidates::find_facing() {
   points_in_boxes(points_, low_, high_, pairs_);
   for (const auto &[p, t] : pairs_) {
     const uint32_t v = sheet_[p];
+    if (still_[t] && stays(v)) continue;
     const Tri &tri = model_->valve.triangles[t];
     const auto [low, high] = box_of(tri);
     if (gap2(node_low_[v], node_high_[v], low, high) > thickness_ * thickness_) continue;

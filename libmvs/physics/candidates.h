@@ -44,6 +44,8 @@ class Candidates {
   void take_ways(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack);
   std::array<Vec3, 2> box_of(const Tri &t) const;
   void make_boxes(double margin);
+  bool stays(uint32_t node) const;
+  void find_still();
   void find_guarded();
   void find_facing();
   void take_vertices(uint32_t owner, uint32_t triangle);
@@ -61,6 +63,7 @@ class Candidates {
   std::vector<Vec3> from_, to_, node_low_, node_high_, middle_;
   std::vector<double> reach_;
   double slack_ = 0;
+  std::vector<uint8_t> still_;             // triangles that never move: nothing between two of them
   std::vector<Vec3> low_, high_, points_;  // boxes of the triangles, for the grid
   std::vector<Edge> pairs_;
   std::vector<VertexTriangle> facing_, guarded_;

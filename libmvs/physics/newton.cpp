@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/gmres.h"
 #include "physics/nodes.h"
+#include "physics/region.h"
 
 namespace mvs {
 namespace {
@@ -18,6 +19,15 @@ constexpr double least_shift = 1e-4;      // keeps slack branch points and loose
 constexpr double largest_shift = 1e3;
 constexpr int trials = 8;  // of one iteration, each with a larger shift
 constexpr int most_patience = 64;
+// The piece around a disturbance that goes to rest first: an operation disturbs a few nodes, a load
+// all of them; the share and the reach are where piece and whole together cost least.
+constexpr double disturbed = 0.25;      // of rest_force_: more, and a node feels the operation
+constexpr double many_disturbed = 0.1;  // share of the nodes: more, and there is no piece
+constexpr double piece_share = 0.2;     // of the nodes, at most, is free
+constexpr double piece_radius = 10e-3;  // m from the disturbance, at most
+constexpr double piece_leash = 4e-3;    // m a node of it may go
+constexpr uint32_t piece_iterations = 12;
+constexpr double piece_rest = 0.2;  // of rest_force_: its rim is as far from rest
 
 double largest(const std::vector<Vec3> &v) {
   double square = 0;
@@ -32,10 +42,11 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
   const double tolerance = options.residual > 0 ? options.residual : 1e-5;
   const uint32_t most = options.max_iterations > 0 ? options.max_iterations : 1000;
   begin(state);
+  settle_disturbed(state.load);
   while (true) {
     const bool arrived = boundary_is_there(*model_, x_, fraction_, 0);
     stats_.converged = arrived && residual_ <= tolerance;
-    if (stats_.converged || stats_.iterations == most) break;
+    if (stats_.converged || stats_.iterations == most || held_) break;
     const double share = static_cast<double>(stats_.iterations) / most;
     MVS_MUST(!progress || progress(share, residual_), MVS_E_CANCELLED, "settle",
              "settling was cancelled by the progress callback; the valve is as before");
@@ -73,6 +84,35 @@ void Newton::begin(const State &state) {
   patience_ = 1;
   best_ = rest_force_;
   slack_ = 0.1 * model_->valve.contact_thickness;
+  evaluate();
+}
+
+// Where an operation has left only a few nodes far from rest, their neighbourhood goes to rest
+// first, held by the remaining valve: many steps there cost less than one of the whole.
+void Newton::settle_disturbed(const Load &load) {
+  if (leash_ > 0 || !boundary_is_there(*model_, x_, fraction_, 0)) return;
+  std::vector<uint32_t> places;
+  for (uint32_t i = 0; i < g_.size(); ++i) {
+    const bool far = g_[i].squaredNorm() > disturbed * disturbed * rest_force_ * rest_force_;
+    if (far && !model_->topology.fixed[i]) places.push_back(i);
+  }
+  const auto nodes = static_cast<double>(x_.size());
+  if (places.empty() || static_cast<double>(places.size()) > many_disturbed * nodes) return;
+  const auto most = static_cast<size_t>(piece_share * nodes);
+  const Region region = cut_out(*model_, x_, places, {piece_radius, most, piece_leash});
+  State piece;
+  for (const uint32_t i : region.node) piece.x.push_back(x_[i]);
+  piece.load = load;
+  SolveOptions options;
+  options.max_iterations = piece_iterations;
+  options.residual = piece_rest * rest_force_;
+  Newton newton(region.model, *factor_);
+  newton.leash_ = piece_leash;
+  newton.from_ = piece.x;
+  const SolveStats done = newton.settle(piece, options, {});
+  const auto &x = piece.x.get();
+  for (size_t k = 0; k < x.size(); ++k) x_[region.node[k]] = x[k];
+  for (size_t k = 0; k < done.phase_s.size(); ++k) stats_.phase_s[k] += done.phase_s[k];
   evaluate();
 }
 
@@ -251,6 +291,11 @@ void Newton::limit_step() {
     const double length = d.norm();
     if (length > 1.5 * longest_step) far_ += 1 / static_cast<double>(step_.size());
     if (length > longest_step) d *= longest_step / length;
+  }
+  for (size_t i = 0; i < from_.size(); ++i) {
+    if ((x_[i] + step_[i] - from_[i]).squaredNorm() <= leash_ * leash_) continue;
+    step_[i].setZero();
+    held_ = true;
   }
   cover_step();
   const PhaseTimer timer(stats_.phase_s, MVS_PHASE_NARROW);

@@ -6,6 +6,9 @@
 // rest H is exact and the skew part of the follower load at the free edge is solved for too, so
 // that the last iterations converge quadratically although the load has no potential there. Every
 // step is cut node by node so that no sheet passes another (physics/step_bounds.h).
+//
+// Where only a few nodes are far from rest, as after an operation on a closed valve, a piece around
+// them is settled first (physics/region.h): a better start, nothing more.
 #pragma once
 
 #include "base/factor.h"
@@ -25,6 +28,7 @@ class Newton {
 
  private:
   void begin(const State &state);
+  void settle_disturbed(const Load &load);
   void evaluate();
   void iterate();
   bool rest_step();
@@ -61,7 +65,10 @@ class Newton {
   double shift_ = 0, added_ = 0;            // wanted; in the matrix now
   double far_ = 0;                          // share of nodes whose uncut step was much too long
   double energy_ = 0, residual_ = 0;
-  double best_ = 0;  // N, the smallest residual at rest so far
+  double leash_ = 0;        // m, of a piece: no node goes farther from where it was; 0: the whole
+  std::vector<Vec3> from_;  // where the nodes of a piece were
+  bool held_ = false;       // a node of it would have gone farther
+  double best_ = 0;         // N, the smallest residual at rest so far
   Curvature curvature_ = Curvature::projected;
   int wait_ = 0, patience_ = 1;  // iterations until rest_step is tried again
 };
