@@ -4,10 +4,12 @@
 //   bench_reclose --scenes S --repeat 1
 //
 // A valve is closed, then operated on. The changed valve is closed twice: from open, and from where
-// the valve was. Columns: iterations and wall time (the median of the runs) of both, their ratio,
-// and how far apart the two closed shapes are. The last line is the median over all operations.
+// the operation left it. Columns: iterations and wall time (the median of the runs) of both, their
+// ratio, and how far apart the two closed shapes are. The last line is the median over all
+// operations.
 //
 // Exit code 1: a valve did not come to rest, or meets itself.
+#include <mvs/op.h>
 #include <mvs/sim.h>
 
 #include <CLI/CLI.hpp>
@@ -23,6 +25,7 @@
 #include "base/error.h"
 #include "base/intersect.h"
 #include "physics/solver.h"
+#include "surgery/history.h"
 
 using namespace mvs;
 
@@ -40,8 +43,8 @@ const std::map<std::string, Scene> scenes = {{"S", {425, 1, false}},
                                              {"sickM", {1700, 1.15, true}}};
 
 struct Operation {
-  std::string name;
-  std::function<void(Valve &, const State &closed)> apply;
+  std::string kind, name;
+  std::function<Operated(const Picture &closed)> apply;
 };
 
 struct Options {
@@ -68,79 +71,130 @@ Valve make_scene(const Scene &scene) {
   return valve;
 }
 
-size_t chord_named(const Valve &valve, const std::string &name) {
-  for (size_t c = 0; c < valve.chords.size(); ++c) {
-    if (valve.chords[c].name == name) return c;
+template <typename Op>
+Op op_of(uint32_t kind) {
+  Op op = {};
+  op.op = {sizeof op, kind};
+  return op;
+}
+
+template <typename Part>
+Id id_of(const std::vector<Part> &parts, const std::string &name) {
+  for (const Part &part : parts) {
+    if (part.name == name) return part.id;
   }
-  fail(MVS_E_ARGUMENT, "chord", "the valve has no chord %s", name.c_str());
+  fail(MVS_E_ARGUMENT, "bench", "the valve has no %s", name.c_str());
+}
+
+mvs_site site_in(const Valve &v, const std::string &scallop, double along, double down) {
+  mvs_site site = {};
+  site.how = MVS_SITE_ANATOMICAL;
+  site.scallop = id_of(v.scallops.get(), scallop);
+  site.u[0] = along;
+  site.u[1] = down;
+  return site;
 }
 
 Operation chord_length(const std::string &name, double factor) {
-  return {"length " + name + " " + std::to_string(factor).substr(0, 4),
-          [=](Valve &v, const State &) { v.chords[chord_named(v, name)].rest_length *= factor; }};
-}
-
-Operation remove_chord(const std::string &name) {
-  return {"remove " + name, [=](Valve &v, const State &) {
-            v.chords.erase(v.chords.begin() + static_cast<long>(chord_named(v, name)));
+  return {"chord_length", name + " " + std::to_string(factor).substr(0, 4), [=](const Picture &p) {
+            auto op = op_of<mvs_op_chord_length>(MVS_OP_CHORD_LENGTH);
+            op.chord = id_of(p.model->valve.chords.get(), name);
+            op.factor = factor;
+            return perform(p, mvs::Operation(&op.op));
           }};
 }
 
-// A neochord beside another: from its head to the vertex nearest to its insertion that has none,
-// tight by a tenth in the closed valve.
-Operation add_chord(const std::string &beside) {
-  return {"add beside " + beside, [=](Valve &v, const State &closed) {
-            const Chord &old = v.chords[chord_named(v, beside)];
-            std::vector<uint8_t> taken(v.rest.size(), 1);
-            for (const Tri &t : v.triangles) {
-              for (const uint32_t i : t) taken[i] = 0;
-            }
-            for (const Chord &c : v.chords) taken[c.b] = 1;
-            for (const uint32_t i : v.annulus) taken[i] = 1;
-            uint32_t best = none;
-            for (uint32_t i = 0; i < v.rest.size(); ++i) {
-              if (taken[i]) continue;
-              const auto away = [&](uint32_t k) { return (v.rest[k] - v.rest[old.b]).norm(); };
-              if (best == none || away(i) < away(best)) best = i;
-            }
-            Chord chord = old;
-            chord.id = 0;
-            chord.name = "neochord";
-            chord.b = best;
-            chord.rest_length = 0.9 * (closed.x[chord.a] - closed.x[best]).norm();
-            v.chords.push_back(chord);
+Operation chord_remove(const std::string &name) {
+  return {"chord_remove", name, [=](const Picture &p) {
+            auto op = op_of<mvs_op_chord_remove>(MVS_OP_CHORD_REMOVE);
+            op.chord = id_of(p.model->valve.chords.get(), name);
+            return perform(p, mvs::Operation(&op.op));
           }};
 }
 
-// The annulus under load about its centroid; x runs from commissure to commissure.
-Operation scale_annulus(const std::string &name, const Vec3 &factor) {
-  return {name, [=](Valve &v, const State &) {
-            Vec3 centre = Vec3::Zero();
-            for (const uint32_t i : v.annulus) centre += v.loaded[i];
-            centre /= static_cast<double>(v.annulus.size());
-            for (const uint32_t i : v.annulus) {
-              v.loaded[i] = centre + factor.cwiseProduct(v.loaded[i] - centre);
-            }
+// To a place on a leaflet, from the first head or the second.
+template <typename Op>
+Operation tie(uint32_t kind, const char *name, const std::string &scallop, int head) {
+  return {name, scallop, [=](const Picture &p) {
+            auto op = op_of<Op>(kind);
+            op.head = p.model->valve.heads[head].id;
+            op.site = site_in(p.model->valve, scallop, 0.5, 0.85);
+            return perform(p, mvs::Operation(&op.op));
           }};
 }
 
-Operation move_head(const Vec3 &by) {
-  return {"move a head", [=](Valve &v, const State &) { v.loaded[v.heads[0].node] += by; }};
+Operation chord_transfer(const std::string &name, const std::string &scallop) {
+  return {"chord_transfer", name + " to " + scallop, [=](const Picture &p) {
+            auto op = op_of<mvs_op_chord_transfer>(MVS_OP_CHORD_TRANSFER);
+            op.chord = id_of(p.model->valve.chords.get(), name);
+            op.site = site_in(p.model->valve, scallop, 0.5, 0.85);
+            return perform(p, mvs::Operation(&op.op));
+          }};
+}
+
+Operation annulus_scale(const std::string &name, double factor, double ap) {
+  return {"annulus_scale", name, [=](const Picture &p) {
+            auto op = op_of<mvs_op_annulus_scale>(MVS_OP_ANNULUS_SCALE);
+            op.factor = factor;
+            op.ap = ap;
+            return perform(p, mvs::Operation(&op.op));
+          }};
+}
+
+Operation head_move(const std::string &name, int head, double z) {
+  return {"head_move", name, [=](const Picture &p) {
+            auto op = op_of<mvs_op_head_move>(MVS_OP_HEAD_MOVE);
+            op.head = p.model->valve.heads[head].id;
+            op.by[2] = z;
+            return perform(p, mvs::Operation(&op.op));
+          }};
+}
+
+// An operation with one value, the rest left to its defaults.
+template <typename Op>
+Operation with(uint32_t kind, const char *kind_name, const std::string &name, double Op::*field,
+               double value) {
+  return {kind_name, name, [=](const Picture &p) {
+            auto op = op_of<Op>(kind);
+            op.*field = value;
+            return perform(p, mvs::Operation(&op.op));
+          }};
+}
+
+Operation patch(const std::string &scallop) {
+  return {"patch", scallop, [=](const Picture &p) {
+            auto op = op_of<mvs_op_patch>(MVS_OP_PATCH);
+            op.site = site_in(p.model->valve, scallop, 0.5, 0.5);
+            return perform(p, mvs::Operation(&op.op));
+          }};
 }
 
 std::vector<Operation> operations() {
   std::vector<Operation> all;
   for (const char *name : {"A2/7", "A2/2", "A1/7", "P2/2", "P2/6", "P1/3"}) {
     all.push_back(chord_length(name, 0.75));
-    all.push_back(remove_chord(name));
+    all.push_back(chord_remove(name));
   }
   all.push_back(chord_length("A2/7", 1.25));
   all.push_back(chord_length("P2/2", 0.90));
-  for (const char *name : {"A2/2", "P2/6"}) all.push_back(add_chord(name));
-  all.push_back(scale_annulus("annulus 0.97", {0.97, 0.97, 1}));
-  all.push_back(scale_annulus("annulus 0.90", {0.90, 0.90, 1}));
-  all.push_back(scale_annulus("annulus AP 0.85", {1, 0.85, 1}));
-  all.push_back(move_head({0, 0, 2e-3}));
+  for (const char *scallop : {"A2", "P2"}) {
+    all.push_back(tie<mvs_op_chord_add>(MVS_OP_CHORD_ADD, "chord_add", scallop, 0));
+    all.push_back(tie<mvs_op_neochord>(MVS_OP_NEOCHORD, "neochord", scallop, 1));
+    all.push_back(patch(scallop));
+  }
+  all.push_back(chord_transfer("A2/2", "A1"));
+  all.push_back(chord_transfer("P2/6", "A2"));
+  all.push_back(annulus_scale("0.97", 0.97, 0));
+  all.push_back(annulus_scale("0.90", 0.90, 0));
+  all.push_back(annulus_scale("AP 0.85", 0, 0.85));
+  all.push_back(head_move("2 mm up", 0, 2e-3));
+  all.push_back(head_move("1 mm down", 1, -1e-3));
+  all.push_back(with(MVS_OP_RING, "ring", "34", &mvs_op_ring::size, 34e-3));
+  all.push_back(with(MVS_OP_RING, "ring", "30", &mvs_op_ring::size, 30e-3));
+  all.push_back(with(MVS_OP_BAND, "band", "0.9", &mvs_op_band::factor, 0.9));
+  all.push_back(with(MVS_OP_CLIP, "clip", "5 mm", &mvs_op_clip::width, 5e-3));
+  all.push_back(with(MVS_OP_RESECT, "resect", "triangle", &mvs_op_resect::width, 8e-3));
+  all.push_back(with(MVS_OP_RESECT, "resect", "quadrangle", &mvs_op_resect::base_width, 4e-3));
   return all;
 }
 
@@ -159,6 +213,7 @@ Run close(const Options &options, const Model &model, const State &from) {
 }
 
 struct Row {
+  std::string kind;
   double iterations, wall;  // again over open
   bool sound;               // both at rest, nothing intersects
 };
@@ -169,19 +224,19 @@ double farthest(const State &a, const State &b) {
   return most;
 }
 
-Row compare(const Options &options, const std::string &scene, const Valve &valve,
-            const State &closed, const Operation &operation) {
-  Valve changed = valve;
-  operation.apply(changed, closed);
-  const ModelPtr model = make_model(changed);
+Row compare(const Options &options, const std::string &scene, const Picture &closed,
+            const Operation &operation) {
+  const Picture changed = operation.apply(closed).picture;
+  const ModelPtr &model = changed.model;
   const Run open = close(options, *model, initial_state(*model));
-  const Run again = close(options, *model, closed);
+  const Run again = close(options, *model, changed.state);
   const bool sound = open.stats.converged && again.stats.converged &&
                      find_intersections(again.state.x, model->valve.triangles).empty();
-  const Row row{static_cast<double>(again.stats.iterations) / open.stats.iterations,
+  const Row row{operation.kind, static_cast<double>(again.stats.iterations) / open.stats.iterations,
                 again.median_s() / open.median_s(), sound};
-  std::printf("%-6s %-20s %5u %5u %6.2f  %8.4f %8.4f %6.2f  %6.2f  %s\n", scene.c_str(),
-              operation.name.c_str(), open.stats.iterations, again.stats.iterations, row.iterations,
+  const std::string title = operation.kind + " " + operation.name;
+  std::printf("%-6s %-22s %5u %5u %6.2f  %8.4f %8.4f %6.2f  %6.2f  %s\n", scene.c_str(),
+              title.c_str(), open.stats.iterations, again.stats.iterations, row.iterations,
               open.median_s(), again.median_s(), row.wall, farthest(open.state, again.state) * 1e3,
               sound ? "" : "NOT AT REST");
   std::fflush(stdout);
@@ -191,6 +246,16 @@ Row compare(const Options &options, const std::string &scene, const Valve &valve
 double median(std::vector<Row> rows, double Row::*of) {
   std::sort(rows.begin(), rows.end(), [=](const Row &a, const Row &b) { return a.*of < b.*of; });
   return rows[rows.size() / 2].*of;
+}
+
+// The median of each kind of operation.
+void tell_kinds(const std::vector<Row> &rows) {
+  std::map<std::string, std::vector<Row>> kinds;
+  for (const Row &row : rows) kinds[row.kind].push_back(row);
+  for (const auto &[kind, of_kind] : kinds) {
+    std::printf("%-14s %3zu: %.2f of the iterations, %.2f of the time\n", kind.c_str(),
+                of_kind.size(), median(of_kind, &Row::iterations), median(of_kind, &Row::wall));
+  }
 }
 
 int run(int argc, char **argv) {
@@ -206,18 +271,18 @@ int run(int argc, char **argv) {
       ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
 
-  std::printf("%-6s %-20s %5s %5s %6s  %8s %8s %6s  %6s\n", "scene", "operation", "open", "again",
+  std::printf("%-6s %-22s %5s %5s %6s  %8s %8s %6s  %6s\n", "scene", "operation", "open", "again",
               "ratio", "open s", "again s", "ratio", "mm");
   std::vector<Row> rows;
   for (const std::string &scene : options.scenes) {
-    const Valve valve = make_scene(scenes.at(scene));
-    const ModelPtr model = make_model(valve);
-    const Run before = close(options, *model, initial_state(*model));
+    const ModelPtr model = make_model(make_scene(scenes.at(scene)));
+    const Picture closed{model, close(options, *model, initial_state(*model)).state};
     for (const Operation &operation : operations()) {
-      rows.push_back(compare(options, scene, valve, before.state, operation));
+      rows.push_back(compare(options, scene, closed, operation));
     }
   }
-  std::printf("median of %zu: %.2f of the iterations, %.2f of the time\n", rows.size(),
+  tell_kinds(rows);
+  std::printf("median of %zu operations: %.2f of the iterations, %.2f of the time\n", rows.size(),
               median(rows, &Row::iterations), median(rows, &Row::wall));
   const bool sound = std::all_of(rows.begin(), rows.end(), [](const Row &r) { return r.sound; });
   return sound ? 0 : 1;
