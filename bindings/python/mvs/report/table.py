@@ -48,6 +48,8 @@ ROWS = (
     Row("Chordal strain, largest", "max_chord_strain", "%", 100, 2, "working strain 4.3 ± 3.4 %"),
     Row("Chordal tension, largest", "max_chord_tension", "N", 1, 3,
         "strut about 1 N, others 0.1 to 0.4 N"),
+    Row("Chordae over their working strain", "chords_over_strain", "", 1, 0, "none"),
+    Row("Chordae over their working tension", "chords_over_tension", "", 1, 0, "none"),
     Row("Leaflet strain, largest", "max_leaflet_strain", "%", 100, 1),
     Row("Leaflet stress, largest", "max_leaflet_stress", "kPa", 1e-3, 0),
     Row("Leaflet area, closed", "leaflet_area", "cm²", 1e4, 2),
