@@ -9,17 +9,23 @@ import numpy as np
 import pytest
 
 
-@pytest.mark.parametrize("kind", [mvs.Measures, mvs.Stats, mvs.Comparison, mvs.Load])
+@pytest.mark.parametrize(
+    "kind",
+    [mvs.Measures, mvs.Stats, mvs.Comparison, mvs.Load, mvs.Replay, mvs.ChordLimits],
+)
 def test_every_figure_has_a_unit_and_a_definition(kind):
     for field in dataclasses.fields(kind):
         assert re.fullmatch(r"1|m|m2|m3|N|Pa|J|s|rad", mvs.unit_of(kind, field.name))
         assert len(mvs.definition_of(kind, field.name)) > 3
 
 
+COUNTS = {"intersections", "chords_over_strain", "chords_over_tension"}
+
+
 def test_measures_are_finite_floats(closed):
     for field in dataclasses.fields(closed.measures):
         value = getattr(closed.measures, field.name)
-        assert isinstance(value, int if field.name == "intersections" else float)
+        assert isinstance(value, int if field.name in COUNTS else float)
         assert math.isfinite(value)
 
 
@@ -40,6 +46,32 @@ def test_chord_figures_agree_with_the_arrays(closed):
     tension = closed.chord_young * closed.chord_area * np.clip(strain, 0, None)
     assert np.allclose(closed.chord_tension, tension, atol=1e-9)
     assert closed.measures.max_chord_tension == pytest.approx(tension.max(), rel=1e-9)
+
+
+def test_chordae_are_flagged_beyond_the_limits_of_their_kind(closed):
+    limits = [mvs.chord_limits(mvs.ChordKind(kind)) for kind in closed.chord_kind]
+    strained = closed.chord_strain > [limit.strain for limit in limits]
+    loaded = closed.chord_tension > [limit.tension for limit in limits]
+    assert np.array_equal(closed.chord_flags, strained + 2 * loaded)
+    assert closed.measures.chords_over_strain == strained.sum()
+    assert closed.measures.chords_over_tension == loaded.sum()
+
+
+def test_an_overloaded_chord_is_counted(sim):
+    sim.apply("chord_length", chord="P2/3", factor=0.5)
+    chord = sim.snapshot().find(mvs.PartKind.CHORD, "P2/3").index
+    over = sim.snapshot()
+    assert over.chord_flags[chord] == 3
+    assert over.measures.chords_over_strain >= 1 and over.measures.chords_over_tension >= 1
+
+
+def test_every_kind_of_chord_has_limits():
+    for kind in mvs.ChordKind:
+        limits = mvs.chord_limits(kind)
+        assert limits.strain > 0 and limits.tension > 0
+        assert math.isinf(limits.tension) == (kind == mvs.ChordKind.SUTURE)
+    with pytest.raises(mvs.ArgumentError, match="kind"):
+        mvs.chord_limits(99)
 
 
 def test_the_heads_hold_what_the_chordae_pull(closed):

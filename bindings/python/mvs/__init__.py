@@ -13,7 +13,7 @@ SI units throughout: m, kg, s, N, Pa, rad.
 """
 
 from . import _core, ops
-from ._core import Simulator, Snapshot, check_valve
+from ._core import Simulator, Snapshot, check_valve, chord_limits
 from .editing import valve_of
 from .errors import (
     ArgumentError,
@@ -36,6 +36,7 @@ from .values import (
     MMHG,
     SYSTOLE_PA,
     ChordKind,
+    ChordLimits,
     Comparison,
     Fault,
     Frame,
@@ -47,6 +48,7 @@ from .values import (
     NodeKind,
     Part,
     PartKind,
+    Replay,
     Ring,
     RingKind,
     Stats,
@@ -64,6 +66,7 @@ __all__ = [
     "ArgumentError",
     "CancelledError",
     "ChordKind",
+    "ChordLimits",
     "Comparison",
     "DeviceError",
     "DivergedError",
@@ -85,6 +88,7 @@ __all__ = [
     "Operation",
     "Part",
     "PartKind",
+    "Replay",
     "Ring",
     "RingKind",
     "Simulator",
@@ -96,6 +100,7 @@ __all__ = [
     "Valve",
     "VersionError",
     "check_valve",
+    "chord_limits",
     "definition_of",
     "features",
     "ops",

@@ -1,7 +1,7 @@
 """The C interface of libmvs for Python; shapes, units and errors stand in the docstrings."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
 from typing import Any, Literal, Optional, Union, overload
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from .ops import Group, Operation
 from .values import (
+    ChordLimits,
     Comparison,
     Fault,
     Frame,
@@ -19,6 +20,7 @@ from .values import (
     Measures,
     Part,
     PartKind,
+    Replay,
     Stats,
     Valve,
 )
@@ -29,11 +31,14 @@ _U64 = NDArray[np.uint64]
 _U8 = NDArray[np.uint8]
 _Point = Union[Sequence[float], _F64]
 _Path = Union[str, os.PathLike[str]]
+_Plan = Union[str, bytes, os.PathLike[str], Mapping[str, Any]]
+_Progress = Optional[Callable[[float, float], object]]
 _Format = Literal["auto", "obj", "h5", "vtp"]
 
 def version() -> str: ...
 def features() -> str: ...
 def op_kinds() -> list[dict[str, Any]]: ...
+def chord_limits(kind: int) -> ChordLimits: ...
 @overload
 def check_valve(valve: Valve, /) -> list[Fault]: ...
 @overload
@@ -143,6 +148,10 @@ class Snapshot:
     def section(self, point: _Point, normal: _Point) -> _F64: ...
     def save(self, path: _Path, *, format: _Format = "auto") -> None: ...
     def to_bytes(self, *, format: _Format = "obj") -> bytes: ...
+    def plan(self, *, author: str = "", notes: str = "", measures: bool = False) -> str: ...
+    def save_plan(
+        self, path: _Path, *, author: str = "", notes: str = "", measures: bool = False
+    ) -> None: ...
 
 class Simulator:
     def __init__(
@@ -194,7 +203,7 @@ class Simulator:
         residual: Optional[float] = None,
         dt: Optional[float] = None,
         damping: Optional[float] = None,
-        progress: Optional[Callable[[float, float], object]] = None,
+        progress: _Progress = None,
     ) -> Stats: ...
     def step(
         self,
@@ -219,6 +228,11 @@ class Simulator:
     def end_group(self) -> None: ...
     def set_checkpoint(self, name: str) -> None: ...
     def restore_checkpoint(self, name: str) -> None: ...
+    def replay_plan(self, plan: _Plan, *, progress: _Progress = None) -> Replay: ...
+    def check_plan(self, plan: _Plan) -> Replay: ...
+    def open_journal(self, path: _Path) -> None: ...
+    def close_journal(self) -> None: ...
+    def recover_journal(self, path: _Path, *, progress: _Progress = None) -> Replay: ...
     def close(self) -> None: ...
     def __enter__(self) -> Simulator: ...
     def __exit__(

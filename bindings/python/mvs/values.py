@@ -118,6 +118,23 @@ class HistoryEntry:
 
 
 @dataclasses.dataclass(frozen=True)
+class Replay:
+    """How a plan or a journal was replayed."""
+
+    operations: Annotated[int, "1", "operations applied"]
+    same_valve: Annotated[bool, "1", "it was made on this valve"]
+    same_result: Annotated[bool, "1", "the hash at the end is the one that it tells"]
+
+
+@dataclasses.dataclass(frozen=True)
+class ChordLimits:
+    """The range in which chordae of a kind work: beyond it one asks for a look."""
+
+    strain: Annotated[float, "1", "largest engineering strain"]
+    tension: Annotated[float, "N", "largest tension"]
+
+
+@dataclasses.dataclass(frozen=True)
 class Fault:
     """One reason why arrays are no valve."""
 

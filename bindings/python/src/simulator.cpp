@@ -50,6 +50,21 @@ void Simulator::call(Call &&work) {
   must(outcome);
 }
 
+// The same for long work; `progress` is called while this call has its turn.
+template <typename Call>
+void Simulator::call_with(py::object progress, Call &&work) {
+  call([&] {
+    {
+      py::gil_scoped_acquire held;
+      progress_ = std::move(progress);
+    }
+    const mvs_result result = work();
+    py::gil_scoped_acquire held;
+    progress_ = py::none();
+    return result;
+  });
+}
+
 // The library calls this in the thread that called it, many times during long work.
 int32_t Simulator::on_progress(void *user, double share, double residual) {
   auto &self = *static_cast<Simulator *>(user);
@@ -129,16 +144,7 @@ mvs_load_case Simulator::load_case() {
 mvs_stats Simulator::settle(const mvs_settle_options &options, py::object progress) {
   mvs_stats stats{};
   stats.struct_size = sizeof stats;
-  call([&] {
-    {
-      py::gil_scoped_acquire held;
-      progress_ = std::move(progress);
-    }
-    const mvs_result result = mvs_settle(sim_, &options, &stats);
-    py::gil_scoped_acquire held;
-    progress_ = py::none();
-    return result;
-  });
+  call_with(std::move(progress), [&] { return mvs_settle(sim_, &options, &stats); });
   return stats;
 }
 
@@ -206,6 +212,36 @@ void Simulator::set_checkpoint(const std::string &name) {
 
 void Simulator::restore_checkpoint(const std::string &name) {
   call([&] { return mvs_restore_checkpoint(sim_, name.c_str()); });
+}
+
+mvs_replay Simulator::replay_plan(const std::string &text, py::object progress) {
+  mvs_replay replay{};
+  replay.struct_size = sizeof replay;
+  call_with(std::move(progress),
+            [&] { return mvs_replay_plan(sim_, text.data(), text.size(), &replay); });
+  return replay;
+}
+
+mvs_replay Simulator::check_plan(const std::string &text) {
+  mvs_replay replay{};
+  replay.struct_size = sizeof replay;
+  call([&] { return mvs_check_plan(sim_, text.data(), text.size(), &replay); });
+  return replay;
+}
+
+void Simulator::open_journal(const std::string &path) {
+  call([&] { return mvs_open_journal(sim_, path.c_str()); });
+}
+
+void Simulator::close_journal() {
+  call([&] { return mvs_close_journal(sim_); });
+}
+
+mvs_replay Simulator::recover_journal(const std::string &path, py::object progress) {
+  mvs_replay replay{};
+  replay.struct_size = sizeof replay;
+  call_with(std::move(progress), [&] { return mvs_recover_journal(sim_, path.c_str(), &replay); });
+  return replay;
 }
 
 }  // namespace mvs_python

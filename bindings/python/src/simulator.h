@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mvs/op.h>
+#include <mvs/plan.h>
 #include <mvs/sim.h>
 
 #include <atomic>
@@ -44,10 +45,17 @@ class Simulator {
   void end_group();
   void set_checkpoint(const std::string &name);
   void restore_checkpoint(const std::string &name);
+  mvs_replay replay_plan(const std::string &text, py::object progress);
+  mvs_replay check_plan(const std::string &text);
+  void open_journal(const std::string &path);
+  void close_journal();
+  mvs_replay recover_journal(const std::string &path, py::object progress);
 
  private:
   template <typename Call>
   void call(Call &&work);
+  template <typename Call>
+  void call_with(py::object progress, Call &&work);
   void must_not_be_called_back() const;
   void free_now();
   static int32_t on_progress(void *user, double share, double residual);
@@ -63,5 +71,6 @@ class Simulator {
 
 void bind_simulator(py::module_ &module);
 void bind_operations(py::module_ &module, py::class_<Simulator> &type);
+void bind_plans(py::module_ &module, py::class_<Simulator> &type);
 
 }  // namespace mvs_python

@@ -188,6 +188,7 @@ void bind_snapshot(py::module_ &module) {
            "history as well) or .vtp (for ParaView and Slicer). IoError if the system refuses.");
   type.def("to_bytes", &to_bytes, py::kw_only(), py::arg("format") = "obj",
            "The bytes that save would write.");
+  bind_plan_writing(type);
   type.def("__repr__", &text);
 }
 

@@ -108,6 +108,21 @@ py::object part_value(const mvs_part &s) {
   return make("Part", fields);
 }
 
+py::object replay_value(const mvs_replay &s) {
+  py::dict fields;
+  FIELD(operations);
+  fields["same_valve"] = s.same_valve != 0;
+  fields["same_result"] = s.same_result != 0;
+  return make("Replay", fields);
+}
+
+py::object chord_limits_value(double strain, double tension) {
+  py::dict fields;
+  fields["strain"] = strain;
+  fields["tension"] = tension;
+  return make("ChordLimits", fields);
+}
+
 py::object history_value(const mvs_history_entry &s, bool done) {
   py::dict fields;
   fields["kind"] = py::module_::import("mvs.ops").attr("name_of_kind")(s.kind);

@@ -1,0 +1,196 @@
+"""Plans and journals: the same bits on the same valve, parts by name on another one."""
+
+import gc
+import json
+import math
+import signal
+import subprocess
+import sys
+
+import mvs
+import pytest
+
+
+def operate(sim):
+    sim.apply("chord_length", chord="P2/3", factor=0.75)
+    sim.set_load(mvs.SYSTOLE_PA)
+    sim.settle(max_iterations=4)
+    with sim.group("repair of P2"):
+        sim.apply("chord_add", name="new one", head="PM1", site=("P2", 0.4, 0.8))
+        sim.apply("annulus_scale", factor=0.95)
+
+
+@pytest.fixture(scope="module")
+def operated():
+    with mvs.Simulator() as sim:
+        sim.generate()
+        operate(sim)
+        return sim.snapshot()
+
+
+def shapes_of(plan, folder):
+    """A plan in every shape that replay_plan takes."""
+    path = folder / "plan.json"
+    path.write_text(plan, encoding="utf-8")
+    return [plan, plan.encode(), json.loads(plan), path, str(path)]
+
+
+def test_a_plan_tells_what_was_done(operated):
+    plan = json.loads(operated.plan(author="Élodie", notes="first try"))
+    assert (plan["format"], plan["author"], plan["notes"]) == ("mvs-plan", "Élodie", "first try")
+    assert [step["do"] for step in plan["steps"]] == [
+        "chord_length", "load", "settle", "chord_add", "annulus_scale"
+    ]
+    assert plan["result"]["hash"] == operated.hash
+    assert "before" not in plan["steps"][0]
+
+
+def test_measures_are_written_when_asked_for(operated, tmp_path):
+    with_measures = operated.plan(measures=True)
+    first = json.loads(with_measures)["steps"][0]
+    assert first["before"]["annulus_ap_m"] > 0
+    assert first["after"]["max_chord_strain"] >= 0
+    path = tmp_path / "plan.json"
+    operated.save_plan(path, measures=True)
+    assert path.read_text(encoding="utf-8") == with_measures
+
+
+def test_a_long_plan_is_whole(opened):
+    # longer than what the binding asks for at first, 64 KiB
+    notes = "ä" * 50_000
+    assert json.loads(opened.plan(notes=notes))["notes"] == notes
+
+
+def test_the_same_valve_ends_at_the_same_bits(operated, tmp_path):
+    for plan in shapes_of(operated.plan(), tmp_path):
+        with mvs.Simulator() as sim:
+            sim.generate()
+            fresh = sim.snapshot().hash
+            checked = sim.check_plan(plan)
+            assert (checked.operations, checked.same_valve) == (3, True)
+            assert sim.snapshot().hash == fresh
+            assert sim.replay_plan(plan) == mvs.Replay(3, True, True)
+            assert sim.snapshot().hash == operated.hash
+            sim.undo()  # the group as one
+            assert len([e for e in sim.snapshot().history if e.done]) == 1
+
+
+def test_another_mesh_is_operated_on_by_name(operated):
+    with mvs.Simulator() as sim:
+        sim.generate(vertices=800)
+        assert sim.replay_plan(operated.plan()) == mvs.Replay(3, False, False)
+        done = sim.snapshot()
+    assert done.find(mvs.PartKind.CHORD, "new one").id
+    assert [e.kind for e in done.history] == ["chord_length", "chord_add", "annulus_scale"]
+
+
+STEP_3 = {"do": "chord_remove", "chord": "P2/3"}
+
+
+@pytest.mark.parametrize(
+    "plan, kind, words",
+    [
+        ("", mvs.FormatError, "no JSON"),
+        ("[1]", mvs.FormatError, "not a plan"),
+        ({"version": 99, "steps": []}, mvs.VersionError, "newer"),
+        ({"steps": [1]}, mvs.FormatError, "step 1"),
+        ({"steps": [{"do": "fly"}]}, mvs.VersionError, '"fly"'),
+        ({"steps": [STEP_3, STEP_3]}, mvs.IdError, "step 2 of the plan: chord_remove: "),
+        (
+            {"steps": [STEP_3, {"do": "annulus_scale", "factor": 0}]},
+            mvs.Error,
+            "step 2 of the plan: annulus_scale: ",
+        ),
+        ({"steps": [{"do": "annulus_scale", "factor": math.nan}]}, mvs.ArgumentError, "no JSON"),
+        ({"steps": {1, 2}}, mvs.ArgumentError, "no JSON"),
+        (7, mvs.ArgumentError, "not int"),
+        ("no/such/plan.json", mvs.IoError, "no/such/plan.json: cannot read the plan: "),
+        ('{"\ud800": 1}', mvs.FormatError, "no JSON"),
+    ],
+)
+def test_what_cannot_be_replayed_is_told_and_changes_nothing(sim, plan, kind, words):
+    before = sim.snapshot().hash
+    if isinstance(plan, dict):
+        plan = {"format": "mvs-plan", "version": 1, **plan}
+    for call in (sim.check_plan, sim.replay_plan):
+        with pytest.raises(kind) as caught:
+            call(plan)
+        assert words in str(caught.value)
+    assert sim.snapshot().hash == before
+
+
+def test_a_replay_can_be_cancelled(sim, operated):
+    before = sim.snapshot().hash
+    with pytest.raises(mvs.CancelledError):
+        sim.replay_plan(operated.plan(), progress=lambda share, residual: True)
+    with pytest.raises(ZeroDivisionError):
+        sim.replay_plan(operated.plan(), progress=lambda share, residual: 1 / 0)
+    assert sim.snapshot().hash == before
+
+
+def test_what_a_plan_cannot_say_or_be_written_to_is_refused(operated, tmp_path):
+    with pytest.raises(mvs.ArgumentError, match="notes"):
+        operated.plan(notes="one\0two")
+    with pytest.raises(mvs.IoError):
+        operated.save_plan(tmp_path / "nowhere" / "plan.json")
+
+
+def test_a_journal_outlives_its_simulator(tmp_path):
+    path = tmp_path / "session.mvsj"
+    first = mvs.Simulator()
+    first.generate()
+    first.open_journal(path)
+    operate(first)
+    wanted = first.snapshot().hash
+    del first  # not closed
+    gc.collect()
+    with mvs.Simulator() as sim:
+        sim.generate()
+        assert sim.recover_journal(path).operations == 3
+        assert sim.snapshot().hash == wanted
+        sim.undo()  # the journal goes on
+        undone = sim.snapshot().hash
+        sim.close_journal()
+        sim.apply("annulus_scale", factor=1.1)  # and then no more
+    with mvs.Simulator() as sim:
+        sim.generate()
+        sim.recover_journal(path)
+        assert sim.snapshot().hash == undone
+
+
+KILLED = """
+import os, signal, sys, mvs
+sim = mvs.Simulator()
+sim.generate()
+sim.open_journal(sys.argv[1])
+sim.apply("chord_length", chord="P2/3", factor=0.75)
+print(sim.snapshot().hash, flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system has no SIGKILL")
+def test_a_journal_outlives_a_killed_process(sim, tmp_path):
+    path = tmp_path / "session.mvsj"
+    run = subprocess.run([sys.executable, "-c", KILLED, str(path)], capture_output=True, text=True)
+    assert run.returncode == -signal.SIGKILL, run.stderr
+    sim.recover_journal(path)
+    assert sim.snapshot().hash == run.stdout.strip()
+
+
+def test_journals_that_cannot_be_are_told(sim, tmp_path):
+    path = tmp_path / "session.mvsj"
+    with pytest.raises(mvs.StateError, match="no journal is open"):
+        sim.close_journal()
+    with pytest.raises(mvs.IoError):
+        sim.open_journal(tmp_path / "nowhere" / "session.mvsj")
+    sim.open_journal(path)
+    sim.close_journal()
+    with pytest.raises(mvs.StateError, match="is there already"):
+        sim.open_journal(path)
+    sim.apply("annulus_scale", factor=0.9)
+    with pytest.raises(mvs.StateError, match="load that valve first"):
+        sim.recover_journal(path)
+    path.write_text("v 0 0 0\n")
+    with pytest.raises(mvs.FormatError, match="no journal"):
+        sim.recover_journal(path)
