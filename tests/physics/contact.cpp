@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 #include "../unit/small_valve.h"
 #include "base/distance.h"
@@ -135,14 +136,17 @@ Facing notched(uint32_t cells) {
 void check_smooth_slide(const Facing &sheet, const Vec3 &from, const Vec3 &to) {
   constexpr int steps = 600;
   const Vec3 step = (to - from) / steps;
-  Touch touch(sheet.model, sheet.with_probe_at(0.5 * (from + to)), (to - from).norm());
+  // candidates of a stretch of the way at a time: those of all of it would be the whole sheet
+  constexpr int stretch = 30;
+  std::optional<Touch> touch;
   double most = 0, force = 0;
   Vec3 last = Vec3::Zero();
   double energy = 0, worst_energy = 0;
   for (int k = 0; k <= steps; ++k) {
     const Positions x = sheet.with_probe_at(from + k * step);
-    const double e = touch.energy(x);
-    const Positions all = touch.gradient(x);
+    if (k % stretch == 0) touch.emplace(sheet.model, x, stretch * step.norm());
+    const double e = touch->energy(x);
+    const Positions all = touch->gradient(x);
     const Vec3 g = all[sheet.probe] + all[sheet.probe + 1] + all[sheet.probe + 2];
     force = std::max(force, g.norm());
     if (k > 0) {
