@@ -88,6 +88,14 @@ void *operator new(size_t size) {
 void *operator new[](size_t size) {
   return allocate(size);
 }
+// std::stable_sort asks for its buffer in this way
+void *operator new(size_t size, const std::nothrow_t &) noexcept {
+  try {
+    return allocate(size);
+  } catch (const std::bad_alloc &) {
+    return nullptr;
+  }
+}
 void operator delete(void *memory) noexcept {
   release(memory);
 }

@@ -105,7 +105,8 @@ TEST_CASE("a_clip_goes_where_its_position_says") {
     CAPTURE(position);
     auto op = clip();
     op.position = position;
-    const Model &model = *apply(before, op).picture.model;
+    const ModelPtr held = apply(before, op).picture.model;
+    const Model &model = *held;
     const Chord middle = stitches(model)[0];
     const std::vector<Scallop> &scallops = model.valve.scallops;
     for (uint32_t s = 0; s < scallops.size(); ++s) {
