@@ -273,13 +273,14 @@ Operation read_op(const Json &json, const Model &model, bool exact) {
            "the operation \"%.40s\" is not known to this version of libmvs",
            json["do"].text().c_str());
   OpReader reader(*kind, model, exact);
-  for (const auto &[key, value] : json.members()) {
+  for (const Json::Member &member : json.members()) {
+    const std::string &key = member.first;
     if (is_remark(key)) continue;
     const auto f = std::find_if(kind->fields.begin(), kind->fields.end(),
                                 [&](const OpField &field) { return key_of(field) == key; });
     MVS_MUST(f != kind->fields.end(), MVS_E_FORMAT, kind->name, "%s has no field \"%.60s\"",
              kind->name, key.c_str());
-    reader.read(*f, value);
+    reader.read(*f, member.second);
   }
   return reader.made();
 }
