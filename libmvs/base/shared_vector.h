@@ -117,7 +117,9 @@ class SharedVector {
   }
   // Plain doubles, alone or as the three of a vector: no padding.
   template <typename U>
-  static constexpr bool is_numbers = std::is_floating_point_v<U> || requires { typename U::Scalar; };
+  static constexpr bool is_numbers = std::is_floating_point_v<U> || requires {
+    typename U::Scalar;
+  };
 
   void drop() {
     if (block_ && block_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete block_;
