@@ -32,10 +32,7 @@ Closed close_valve(const Options &options, const Console &console) {
   Progress progress(console);
   mvs_sim_desc desc = {};
   desc.backend = backends.at(options.backend);
-  desc.progress = Progress::callback;
-  desc.user = &progress;
-  mvs::Sim sim = make_sim(desc);
-  sim.load_file(options.in);
+  mvs::Sim sim = load_sim(options.in, progress, desc);
   sim.set_load(options.pressure_mmhg * pa_per_mmhg);
   mvs_settle_options settle = options.settle;
   settle.solver = solvers.at(options.solver);

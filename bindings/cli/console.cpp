@@ -87,4 +87,12 @@ void Progress::show(double share, double residual) {
   line_open_ = terminal_;
 }
 
+mvs::Sim load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc) {
+  desc.progress = Progress::callback;
+  desc.user = &progress;
+  mvs::Sim sim = make_sim(desc);
+  sim.load_file(path);
+  return sim;
+}
+
 }  // namespace cli

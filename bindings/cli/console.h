@@ -48,4 +48,8 @@ class Progress {
   void (*old_handler_)(int);
 };
 
+// A simulator that holds the valve of a file and tells `progress`, which has to outlive it. `desc`
+// may set all but the log and the progress.
+mvs::Sim load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc = {});
+
 }  // namespace cli

@@ -1,11 +1,11 @@
 // `mvs op`: one surgical operation on the valve of a file. Its commands and their options come from
 // what the library tells of its operations, so that a new one needs no line here.
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "at_rest.h"
 #include "commands.h"
 #include "op_text.h"
 #include "readouts.h"
@@ -20,12 +20,6 @@ struct Request {
   std::map<std::string, std::string> fields;  // those given, in text
 };
 
-// The valve at rest, before or after the operation.
-struct AtRest {
-  mvs_stats stats;
-  mvs_measures measures;
-};
-
 struct Operated {
   mvs::Snapshot valve;
   std::string title;
@@ -33,36 +27,24 @@ struct Operated {
   std::vector<AtRest> at_rest;  // before and after, if it was asked for
 };
 
-AtRest settle(mvs::Sim &sim, double pressure_mmhg, const char *when) {
-  sim.set_load(pressure_mmhg * pa_per_mmhg);
-  const mvs_stats stats = sim.settle();
-  if (!stats.converged) {
-    std::fprintf(stderr, "mvs: warning: %s the operation not converged, residual %.1e N\n", when,
-                 stats.residual);
-  }
-  return {stats, sim.snapshot().measure()};
-}
-
 // Before and after start from the same shape, that of the file.
 Operated operate(const Request &request, const Console &console) {
   Progress progress(console);
-  mvs_sim_desc desc = {};
-  desc.progress = Progress::callback;
-  desc.user = &progress;
-  mvs::Sim sim = make_sim(desc);
-  sim.load_file(request.in);
+  mvs::Sim sim = load_sim(request.in, progress);
   const mvs::Snapshot first = sim.snapshot();
   OpText op(request.kind);
   for (const auto &[name, given] : request.fields) op.set(name, given, first);
   sim.check(op.get());
   std::vector<AtRest> at_rest;
   if (request.settle_mmhg) {
-    at_rest.push_back(settle(sim, *request.settle_mmhg, "before"));
+    at_rest.push_back(settle(sim, *request.settle_mmhg, request.in + " before"));
     sim.restore(first);
   }
   const mvs_id made = sim.apply(op.get());
   const std::string title = sim.snapshot().history().done.back().title;
-  if (request.settle_mmhg) at_rest.push_back(settle(sim, *request.settle_mmhg, "after"));
+  if (request.settle_mmhg) {
+    at_rest.push_back(settle(sim, *request.settle_mmhg, request.in + " after"));
+  }
   return {sim.snapshot(), title, made, at_rest};
 }
 
@@ -74,15 +56,6 @@ std::optional<mvs_part> part_of(const mvs::Snapshot &valve, mvs_id id) {
     }
   }
   return {};
-}
-
-Json at_rest_json(const AtRest &at_rest) {
-  return {{"converged", at_rest.stats.converged != 0},
-          {"iterations", at_rest.stats.iterations},
-          {"residual_N", at_rest.stats.residual},
-          {"wall_s", at_rest.stats.wall_s},
-          {"intersections", at_rest.measures.intersections},
-          {"measures", measures_json(at_rest.measures)}};
 }
 
 Json result_json(const Request &request, const Operated &done) {

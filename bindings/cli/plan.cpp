@@ -69,11 +69,7 @@ void check(const Options &options, const Console &console) {
 
 void replay(const Options &options, const Console &console) {
   Progress progress(console);
-  mvs_sim_desc desc = {};
-  desc.progress = Progress::callback;
-  desc.user = &progress;
-  mvs::Sim sim = make_sim(desc);
-  sim.load_file(options.on);
+  mvs::Sim sim = load_sim(options.on, progress);
   const mvs_replay how = sim.replay_plan(plan_text(options.plan));
   const mvs::Snapshot valve = sim.snapshot();
   if (!options.out.empty()) valve.save(options.out);

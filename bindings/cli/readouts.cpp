@@ -1,4 +1,5 @@
-// One table lists the read-outs; JSON and text both come from it.
+// One table lists the read-outs; JSON and text both come from it. Another lists the counts of the
+// text.
 #include "readouts.h"
 
 #include <cmath>
@@ -50,6 +51,17 @@ constexpr Readout readouts[] = {
     {"leaflet_area_mm2", mm2, "Leaflet area", "mm2", mm2, &M::leaflet_area},
 };
 
+struct Count {
+  const char *label;
+  uint32_t mvs_measures::*value;
+};
+
+constexpr Count counts[] = {
+    {"Intersecting triangles", &M::intersections},
+    {"Chordae over their strain", &M::chords_over_strain},
+    {"Chordae over their tension", &M::chords_over_tension},
+};
+
 }  // namespace
 
 // Grades by effective orifice area, 0.20, 0.30 and 0.40 cm2.
@@ -74,10 +86,10 @@ Json measures_json(const mvs_measures &measures) {
 }
 
 std::string measures_text(const mvs_measures &measures) {
-  std::string table = text("  %-27s%10u\n", "Intersecting triangles", measures.intersections);
-  table +=
-      text("  %-27s%10u\n  %-27s%10u\n", "Chordae over their strain", measures.chords_over_strain,
-           "Chordae over their tension", measures.chords_over_tension);
+  std::string table;
+  for (const Count &count : counts) {
+    table += text("  %-27s%10u\n", count.label, measures.*count.value);
+  }
   for (const Readout &readout : readouts) {
     const double value = measures.*readout.value;
     table += std::isfinite(value)
@@ -90,11 +102,10 @@ std::string measures_text(const mvs_measures &measures) {
 }
 
 std::string measures_text(const mvs_measures &before, const mvs_measures &after) {
-  std::string table = text("  %-27s%10u%10u\n", "Intersecting triangles", before.intersections,
-                           after.intersections);
-  table += text("  %-27s%10u%10u\n  %-27s%10u%10u\n", "Chordae over their strain",
-                before.chords_over_strain, after.chords_over_strain, "Chordae over their tension",
-                before.chords_over_tension, after.chords_over_tension);
+  std::string table;
+  for (const Count &count : counts) {
+    table += text("  %-27s%10u%10u\n", count.label, before.*count.value, after.*count.value);
+  }
   for (const Readout &readout : readouts) {
     table += text("  %-27s", readout.label);
     for (const mvs_measures *measures : {&before, &after}) {
