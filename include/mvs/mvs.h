@@ -8,6 +8,7 @@
 #include "plan.h"
 #include "sim.h"
 #include "snapshot.h"
+#include "spread.h"
 #include "valve.h"
 
 #endif

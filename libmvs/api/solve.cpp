@@ -1,14 +1,17 @@
 // Load, settle, step, statistics.
+#include "api/solve.h"
+
 #include <cmath>
 
 #include "api/commit.h"
 
-using namespace mvs;
-
+namespace mvs {
 namespace {
 
 // Ten times the highest pressure a heart makes: beyond it the unit is wrong.
 constexpr double pressure_limit = 400e3;
+
+}  // namespace
 
 Load read_load(const mvs_load_case *given) {
   const mvs_load_case load = read_struct(given, "load");
@@ -34,18 +37,6 @@ SolveOptions read_options(const mvs_settle_options *given) {
   return {options.solver, options.max_iterations, options.residual, options.dt, options.damping};
 }
 
-SolveOptions read_options(const mvs_step_options *given) {
-  const mvs_step_options options = read_struct_or_default(given, "options");
-  MVS_MUST(options.solver == 0 || options.solver == MVS_SOLVER_IMPLICIT ||
-               options.solver == MVS_SOLVER_EXPLICIT,
-           MVS_E_ARGUMENT, "options.solver",
-           "options.solver is %u: a step is MVS_SOLVER_IMPLICIT or MVS_SOLVER_EXPLICIT",
-           options.solver);
-  must_be_in(options.dt, 1e-9, 1, "options.dt");
-  must_be_in(options.damping, 1e-6, 1e6, "options.damping");
-  return {options.solver, 0, 0, options.dt, options.damping};
-}
-
 mvs_stats public_stats(const SolveStats &from) {
   mvs_stats stats = {};
   stats.struct_size = sizeof stats;
@@ -62,15 +53,6 @@ mvs_stats public_stats(const SolveStats &from) {
   return stats;
 }
 
-// Makes a state the present one, and notes how it was reached. What it has in common with the state
-// before is shared.
-void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move) {
-  share(state, before->state);
-  Moment moment{{before->model, std::move(state)}, before->moment.timeline};
-  note_move(moment, before->moment.picture, move);
-  sim.replace(make_snapshot(std::move(moment)));
-}
-
 Move move_of(Move::Kind kind, const SolveOptions &how) {
   Move move;
   move.kind = kind;
@@ -80,6 +62,40 @@ Move move_of(Move::Kind kind, const SolveOptions &how) {
   move.dt = how.dt;
   move.damping = how.damping;
   return move;
+}
+
+Move move_of(const Load &load) {
+  Move move;
+  move.pressure = load.pressure;
+  move.boundary_fraction = load.boundary_fraction;
+  return move;
+}
+
+}  // namespace mvs
+
+using namespace mvs;
+
+namespace {
+
+SolveOptions read_options(const mvs_step_options *given) {
+  const mvs_step_options options = read_struct_or_default(given, "options");
+  MVS_MUST(options.solver == 0 || options.solver == MVS_SOLVER_IMPLICIT ||
+               options.solver == MVS_SOLVER_EXPLICIT,
+           MVS_E_ARGUMENT, "options.solver",
+           "options.solver is %u: a step is MVS_SOLVER_IMPLICIT or MVS_SOLVER_EXPLICIT",
+           options.solver);
+  must_be_in(options.dt, 1e-9, 1, "options.dt");
+  must_be_in(options.damping, 1e-6, 1e6, "options.damping");
+  return {options.solver, 0, 0, options.dt, options.damping};
+}
+
+// Makes a state the present one, and notes how it was reached. What it has in common with the state
+// before is shared.
+void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move) {
+  share(state, before->state);
+  Moment moment{{before->model, std::move(state)}, before->moment.timeline};
+  note_move(moment, before->moment.picture, move);
+  sim.replace(make_snapshot(std::move(moment)));
 }
 
 // Makes a state that a solver arrived at the present one.
@@ -107,10 +123,7 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
     const SnapshotPtr before = s.present();
     State state = before->state;
     state.load = given;
-    Move move;
-    move.pressure = given.pressure;
-    move.boundary_fraction = given.boundary_fraction;
-    go_on(s, before, std::move(state), move);
+    go_on(s, before, std::move(state), move_of(given));
   });
 }
 

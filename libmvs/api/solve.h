@@ -1,0 +1,21 @@
+// What loads and solver options mean, for every call that settles.
+#pragma once
+
+#include <mvs/sim.h>
+
+#include "physics/solver.h"
+#include "surgery/history.h"
+
+namespace mvs {
+
+// Both throw MVS_E_ARGUMENT for a value out of its range.
+Load read_load(const mvs_load_case *given);
+SolveOptions read_options(const mvs_settle_options *given);
+
+mvs_stats public_stats(const SolveStats &from);
+
+// The move that a plan keeps of a settle or step with these options, or of a load.
+Move move_of(Move::Kind kind, const SolveOptions &how);
+Move move_of(const Load &load);
+
+}  // namespace mvs

@@ -1,0 +1,38 @@
+// Random numbers that are the same on every machine: those of <random> are not.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/types.h"
+
+namespace mvs {
+
+// splitmix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+class Random {
+ public:
+  // Streams of one seed are independent.
+  Random(uint64_t seed, uint64_t stream) : state_(seed) {
+    state_ = next() ^ (stream * 0xd1342543de82ef95u);
+  }
+
+  uint64_t next() {
+    uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+  // In [0, 1), a multiple of 2^-53.
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+  // Any direction as likely as another: height and longitude are uniform (Archimedes).
+  Vec3 direction() {
+    const double z = 2 * uniform() - 1, turn = 6.283185307179586 * uniform();
+    const double r = std::sqrt(1 - z * z);
+    return {r * std::cos(turn), r * std::sin(turn), z};
+  }
+
+ private:
+  uint64_t state_;
+};
+
+}  // namespace mvs

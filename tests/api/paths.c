@@ -1,0 +1,310 @@
+/* Closing along several paths: what is the same, what is told, what is refused. */
+#include <math.h>
+
+#include "check.h"
+
+static const mvs_load_case systole = {sizeof(mvs_load_case), 0, MVS_SYSTOLE_PA, 1};
+
+/* The shipped valve, coarse, and half as thick so that it has folds to choose from. */
+static mvs_sim *thin_valve(void) {
+  mvs_sim *sim = NULL;
+  mvs_parametric_desc desc = {.struct_size = sizeof desc, .vertices = 250, .thickness = 0.5e-3};
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_generate_valve(sim, &desc));
+  return sim;
+}
+
+static const mvs_snapshot *snapshot_of(mvs_sim *sim) {
+  const mvs_snapshot *snapshot = NULL;
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  return snapshot;
+}
+
+static mvs_spread_options options_of(uint32_t paths, uint64_t seed) {
+  mvs_spread_options options = {.struct_size = sizeof options, .paths = paths, .seed = seed};
+  return options;
+}
+
+static mvs_spread *run(const mvs_snapshot *start, mvs_spread_options options) {
+  mvs_spread *spread = NULL;
+  MUST(mvs_spread_run(start, &systole, NULL, &options, &spread));
+  return spread;
+}
+
+static hash128 path_hash(const mvs_spread *spread, uint32_t path) {
+  const mvs_snapshot *snapshot = NULL;
+  MUST(mvs_spread_snapshot(spread, path, &snapshot));
+  hash128 hash = snapshot_hash(snapshot);
+  mvs_snapshot_release(snapshot);
+  return hash;
+}
+
+static void path_0_is_the_plain_closure(const mvs_spread *spread, mvs_sim *sim) {
+  mvs_stats plain = {.struct_size = sizeof plain}, told = plain;
+  hash128 before = sim_hash(sim);
+  const mvs_snapshot *start = snapshot_of(sim), *closed = NULL;
+  MUST(mvs_set_load(sim, &systole));
+  MUST(mvs_settle(sim, NULL, &plain));
+  CHECK(!same_hash(before, sim_hash(sim)));
+  CHECK(same_hash(path_hash(spread, 0), sim_hash(sim)));
+  MUST(mvs_spread_stats(spread, 0, &told));
+  CHECK(told.converged == 1 && told.iterations == plain.iterations);
+  CHECK(told.energy == plain.energy && told.residual == plain.residual);
+  /* its plan leads there too, so that it can stand in for the simulator's */
+  mvs_replay replay = {.struct_size = sizeof replay};
+  static char text[65536];
+  uint64_t size = 0;
+  MUST(mvs_spread_snapshot(spread, 0, &closed));
+  MUST(mvs_write_plan(closed, NULL, text, sizeof text, &size));
+  MUST(mvs_restore(sim, start));
+  MUST(mvs_replay_plan(sim, text, size, &replay));
+  CHECK(replay.same_valve == 1 && replay.same_result == 1);
+  MUST(mvs_restore(sim, start));
+  mvs_snapshot_release(start);
+  mvs_snapshot_release(closed);
+}
+
+/* Whatever ran before: the same seed gives the same bits, more paths do not change the first. */
+static void same_seed_same_bits(const mvs_snapshot *start, const mvs_spread *spread) {
+  mvs_spread *other = run(start, options_of(3, 5)), *again = run(start, options_of(2, 0));
+  for (uint32_t k = 0; k < 2; ++k) CHECK(same_hash(path_hash(spread, k), path_hash(again, k)));
+  CHECK(same_hash(path_hash(spread, 0), path_hash(other, 0)));
+  mvs_spread_path path = {.struct_size = sizeof path}, moved = path;
+  MUST(mvs_spread_get_path(spread, 2, &path));
+  MUST(mvs_spread_get_path(other, 2, &moved));
+  /* another seed is another disturbance; where it leads may be the same fold */
+  CHECK(!same_hash(path_hash(spread, 2), path_hash(other, 2)));
+  CHECK(path.perturbation > 0 && moved.perturbation > 0);
+  mvs_spread_release(other);
+  mvs_spread_release(again);
+}
+
+static double number_at(const mvs_view *view, uint64_t row, uint32_t column) {
+  return ((const double *)view->data)[row * view->components + column];
+}
+
+static void paths_are_told(const mvs_spread *spread, uint32_t count) {
+  mvs_spread_summary all = {.struct_size = sizeof all};
+  mvs_view pairs = {0};
+  MUST(mvs_spread_summarise(spread, &all));
+  MUST(mvs_spread_view(spread, MVS_SPREAD_PAIRS, &pairs));
+  CHECK(all.paths == count && all.converged == count && all.lowest < count);
+  CHECK(pairs.count == count && pairs.components == count && pairs.type == MVS_F64);
+  double lowest = INFINITY, squares = 0;
+  uint32_t at = 0, equilibria = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    mvs_spread_path path = {.struct_size = sizeof path};
+    mvs_stats stats = {.struct_size = sizeof stats};
+    MUST(mvs_spread_get_path(spread, k, &path));
+    MUST(mvs_spread_stats(spread, k, &stats));
+    CHECK(path.converged == 1 && path.diverged == 0 && path.increments >= 1);
+    CHECK(path.order >= MVS_SPREAD_TOGETHER && path.order <= MVS_SPREAD_PRESSURE_FIRST);
+    /* the default, 0.5 mm, but for rounding; cut where sheets would meet */
+    CHECK(k == 0 ? path.perturbation == 0 : path.perturbation > 0);
+    CHECK(path.perturbation <= 0.5e-3 * (1 + 1e-12));
+    CHECK(path.node_rms <= path.node_max && path.surface_rms <= path.surface_max);
+    CHECK(number_at(&pairs, 0, k) == path.node_rms && number_at(&pairs, k, 0) == path.node_rms);
+    for (uint32_t j = 0; j < k; ++j) squares += pow(number_at(&pairs, j, k), 2);
+    equilibria += path.equilibrium == equilibria;
+    if (stats.energy < lowest) at = k;
+    lowest = fmin(lowest, stats.energy);
+  }
+  CHECK(all.lowest == at && all.equilibria == equilibria);
+  double rms = sqrt(squares / (count * (count - 1) / 2.0));
+  CHECK(fabs(all.node_rms - rms) <= 1e-12 * rms);
+}
+
+/* Mean, range and deviation are those of the measures that the paths' own snapshots show. */
+static void statistics_are_those_of_the_paths(const mvs_spread *spread, uint32_t count) {
+  mvs_measures of[5], each = {.struct_size = sizeof each};
+  for (uint32_t s = 0; s < 5; ++s) {
+    of[s].struct_size = sizeof of[s];
+    MUST(mvs_spread_measure(spread, s + 1, &of[s]));
+  }
+  double sum = 0, squares = 0, least = INFINITY, most = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    const mvs_snapshot *snapshot = NULL;
+    MUST(mvs_spread_snapshot(spread, k, &snapshot));
+    MUST(mvs_snapshot_measure(snapshot, &each));
+    mvs_snapshot_release(snapshot);
+    sum += each.coaptation_area;
+    squares += pow(each.coaptation_area - of[0].coaptation_area, 2);
+    least = fmin(least, each.coaptation_area);
+    most = fmax(most, each.coaptation_area);
+    CHECK(each.intersections == 0);
+  }
+  CHECK(fabs(of[0].coaptation_area - sum / count) <= 1e-12 * most);
+  CHECK(of[1].coaptation_area == least && of[2].coaptation_area == most);
+  CHECK(fabs(of[3].coaptation_area - sqrt(squares / (count - 1))) <= 1e-12 * most);
+  CHECK(of[4].coaptation_area == count && of[4].intersections == count);
+  /* the annulus is where it is told to be on every path */
+  CHECK(of[3].annulus_ap == 0 && of[1].annulus_ap == of[2].annulus_ap);
+}
+
+/* The picture: nothing where nodes are held, and its squares those of the pairs. For n shapes the
+ * mean square from the mean is half the mean square between two picked with replacement. */
+static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_spread *spread) {
+  mvs_view nodes = {0}, kind = {0}, pairs = {0};
+  MUST(mvs_spread_view(spread, MVS_SPREAD_NODE, &nodes));
+  MUST(mvs_spread_view(spread, MVS_SPREAD_PAIRS, &pairs));
+  MUST(mvs_snapshot_view(start, MVS_NODE_KIND, &kind));
+  CHECK(nodes.count == kind.count && nodes.components == 1);
+  double squares = 0, between = 0, sheet = 0;
+  for (uint64_t k = 0; k < nodes.count; ++k) {
+    uint8_t what = ((const uint8_t *)kind.data)[k];
+    double spread_here = number_at(&nodes, k, 0);
+    if (what == MVS_NODE_IS_ANNULUS || what == MVS_NODE_IS_HEAD) CHECK(spread_here == 0);
+    if (what > MVS_NODE_IS_ANNULUS) continue;
+    squares += spread_here * spread_here;
+    sheet += 1;
+  }
+  for (uint64_t a = 0; a < pairs.count; ++a) {
+    for (uint32_t b = 0; b < pairs.count; ++b) between += pow(number_at(&pairs, a, b), 2);
+  }
+  between /= (double)(pairs.count * pairs.count);
+  CHECK(between > 0);
+  /* sums of 250 squares in another order */
+  CHECK(fabs(squares / sheet - between / 2) <= 1e-9 * between);
+}
+
+typedef struct host {
+  int calls, stop_at, share_fell;
+  double share;
+} host;
+
+static int32_t take_progress(void *user, double share, double residual) {
+  host *h = user;
+  ++h->calls;
+  h->share_fell |= share < h->share || share > 1 || !(residual >= 0);
+  h->share = share;
+  return h->stop_at && h->calls >= h->stop_at;
+}
+
+static void it_is_told_how_far_it_is_and_can_be_stopped(const mvs_snapshot *start) {
+  host h = {0};
+  mvs_spread_options options = options_of(2, 0);
+  options.progress = take_progress;
+  options.user = &h;
+  mvs_spread *spread = run(start, options), *kept = NULL;
+  CHECK(h.calls > 10 && !h.share_fell && h.share > 0.5);
+  mvs_spread_release(spread);
+  /* in the second path: the last call but one */
+  h = (host){.stop_at = h.calls - 1};
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &kept), MVS_E_CANCELLED, "cancelled");
+  CHECK(kept == NULL);
+}
+
+static void paths_not_at_rest_are_not_mixed_in(const mvs_snapshot *start) {
+  mvs_settle_options one = {.struct_size = sizeof one, .max_iterations = 1};
+  mvs_spread_options options = options_of(2, 0);
+  mvs_spread *spread = NULL;
+  MUST(mvs_spread_run(start, &systole, &one, &options, &spread));
+  mvs_spread_summary all = {.struct_size = sizeof all};
+  mvs_spread_path path = {.struct_size = sizeof path};
+  mvs_measures mean = {.struct_size = sizeof mean}, count = mean;
+  MUST(mvs_spread_summarise(spread, &all));
+  MUST(mvs_spread_get_path(spread, 1, &path));
+  MUST(mvs_spread_measure(spread, MVS_SPREAD_MEAN, &mean));
+  MUST(mvs_spread_measure(spread, MVS_SPREAD_COUNT, &count));
+  CHECK(all.converged == 0 && all.equilibria == 0 && all.lowest == UINT32_MAX);
+  CHECK(all.node_rms == 0 && path.converged == 0 && path.equilibrium == UINT32_MAX);
+  CHECK(path.node_rms > 0); /* still told, of the path itself */
+  CHECK(isnan(mean.annulus_ap) && count.annulus_ap == 0);
+  mvs_spread_release(spread);
+}
+
+/* From a closed valve: as it lies, the fold is found again; from rest, the plain closure is. */
+static void a_closed_valve_is_opened_again(mvs_sim *sim) {
+  mvs_spread_summary near_it = {.struct_size = sizeof near_it};
+  mvs_spread_path path = {.struct_size = sizeof path};
+  const mvs_snapshot *open = snapshot_of(sim);
+  mvs_spread_options options = options_of(2, 0);
+  mvs_spread *from_open = run(open, options), *from_rest, *from_start;
+  MUST(mvs_set_load(sim, &systole));
+  MUST(mvs_settle(sim, NULL, NULL));
+  const mvs_snapshot *closed = snapshot_of(sim);
+  from_rest = run(closed, options);
+  /* the closed valve settles again at once, and the other path is the one from the open valve */
+  CHECK(same_hash(path_hash(from_rest, 0), snapshot_hash(closed)));
+  CHECK(same_hash(path_hash(from_rest, 1), path_hash(from_open, 1)));
+  options.from = MVS_SPREAD_FROM_START;
+  from_start = run(closed, options);
+  MUST(mvs_spread_summarise(from_start, &near_it));
+  MUST(mvs_spread_get_path(from_start, 1, &path));
+  CHECK(near_it.converged == 2 && path.perturbation > 0);
+  CHECK(!same_hash(path_hash(from_start, 1), path_hash(from_rest, 1)));
+  MUST(mvs_restore(sim, open));
+  mvs_snapshot_release(open);
+  mvs_snapshot_release(closed);
+  mvs_spread_release(from_open);
+  mvs_spread_release(from_rest);
+  mvs_spread_release(from_start);
+}
+
+static void bad_options_are_refused(const mvs_snapshot *start) {
+  mvs_spread *spread = NULL;
+  mvs_spread_options options = options_of(1001, 0);
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "1 to 1000");
+  options = options_of(2, 0);
+  options.perturbation = 1;
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
+  options.perturbation = NAN;
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
+  options = options_of(2, 0);
+  options.wavelength = 1e-6;
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "wavelength");
+  options = options_of(2, 0);
+  options.same = -1;
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "same");
+  options = options_of(2, 0);
+  options.from = 3;
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "FROM");
+  options = options_of(2, 0);
+  options.backend = 9;
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "BACKEND");
+  mvs_load_case load = systole;
+  load.pressure = 1e9;
+  MUST_FAIL(mvs_spread_run(start, &load, NULL, NULL, &spread), MVS_E_ARGUMENT, "pressure");
+  MUST_FAIL(mvs_spread_run(NULL, &systole, NULL, NULL, &spread), MVS_E_ARGUMENT, "start");
+  MUST_FAIL(mvs_spread_run(start, NULL, NULL, NULL, &spread), MVS_E_ARGUMENT, "load");
+  MUST_FAIL(mvs_spread_run(start, &systole, NULL, NULL, NULL), MVS_E_ARGUMENT, "spread");
+  CHECK(spread == NULL);
+}
+
+static void bad_questions_are_refused(const mvs_spread *spread) {
+  mvs_spread_path path = {.struct_size = sizeof path};
+  mvs_measures measures = {.struct_size = sizeof measures};
+  mvs_stats stats = {.struct_size = sizeof stats};
+  const mvs_snapshot *snapshot = NULL;
+  mvs_view view;
+  MUST_FAIL(mvs_spread_get_path(spread, 3, &path), MVS_E_ARGUMENT, "0 to 2");
+  MUST_FAIL(mvs_spread_stats(spread, 3, &stats), MVS_E_ARGUMENT, "0 to 2");
+  MUST_FAIL(mvs_spread_snapshot(spread, 3, &snapshot), MVS_E_ARGUMENT, "0 to 2");
+  MUST_FAIL(mvs_spread_measure(spread, 0, &measures), MVS_E_ARGUMENT, "statistic");
+  MUST_FAIL(mvs_spread_measure(spread, 6, &measures), MVS_E_ARGUMENT, "statistic");
+  MUST_FAIL(mvs_spread_view(spread, 3, &view), MVS_E_ARGUMENT, "which");
+  MUST_FAIL(mvs_spread_summarise(NULL, NULL), MVS_E_ARGUMENT, "spread");
+  mvs_spread_release(NULL);
+}
+
+int main(void) {
+  mvs_sim *sim = thin_valve();
+  const mvs_snapshot *start = snapshot_of(sim);
+  hash128 before = snapshot_hash(start);
+  mvs_spread *spread = run(start, options_of(3, 0));
+  CHECK(same_hash(before, snapshot_hash(start)) && same_hash(before, sim_hash(sim)));
+  path_0_is_the_plain_closure(spread, sim);
+  same_seed_same_bits(start, spread);
+  paths_are_told(spread, 3);
+  statistics_are_those_of_the_paths(spread, 3);
+  nodes_spread_as_the_pairs_do(start, spread);
+  it_is_told_how_far_it_is_and_can_be_stopped(start);
+  paths_not_at_rest_are_not_mixed_in(start);
+  a_closed_valve_is_opened_again(sim);
+  bad_options_are_refused(start);
+  bad_questions_are_refused(spread);
+  mvs_spread_release(spread);
+  mvs_snapshot_release(start);
+  mvs_destroy(sim);
+  return finish("paths");
+}
