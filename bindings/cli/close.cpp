@@ -2,9 +2,11 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "readouts.h"
+#include "spread.h"
 
 namespace cli {
 namespace {
@@ -21,11 +23,13 @@ struct Options {
   std::string leaflet = "spring", solver = "newton", backend = "default";
   double pressure_mmhg = 120;
   mvs_settle_options settle = {};
+  SpreadOptions spread;
 };
 
 struct Closed {
   mvs::Snapshot valve;
   mvs_stats stats;
+  std::optional<mvs::Spread> spread;  // with --paths: then the valve is that of path 0
 };
 
 Closed close_valve(const Options &options, const Console &console) {
@@ -33,11 +37,16 @@ Closed close_valve(const Options &options, const Console &console) {
   mvs_sim_desc desc = {};
   desc.backend = backends.at(options.backend);
   mvs::Sim sim = load_sim(options.in, progress, desc);
-  sim.set_load(options.pressure_mmhg * pa_per_mmhg);
   mvs_settle_options settle = options.settle;
   settle.solver = solvers.at(options.solver);
+  if (options.spread.paths > 0) {
+    mvs::Spread spread = spread_of(sim.snapshot(), options.pressure_mmhg, settle, options.spread,
+                                   desc.backend, progress);
+    return {spread.snapshot(0), spread.stats(0), std::move(spread)};
+  }
+  sim.set_load(options.pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle(settle);
-  return {sim.snapshot(), stats};
+  return {sim.snapshot(), stats, {}};
 }
 
 Json phases_json(const mvs_stats &stats) {
@@ -51,34 +60,37 @@ Json phases_json(const mvs_stats &stats) {
 Json result_json(const Options &options, const Closed &closed, const mvs_measures &measures) {
   const Size size = size_of(closed.valve);
   const mvs_stats &stats = closed.stats;
-  return {{"file", options.in},
-          {"leaflet", options.leaflet},
-          {"solver", options.solver},
-          {"pressure_mmHg", options.pressure_mmhg},
-          {"converged", stats.converged != 0},
-          {"iterations", stats.iterations},
-          {"wall_s", stats.wall_s},
-          {"residual_N", stats.residual},
-          {"energy_J", stats.energy},
-          {"kinetic_J", stats.kinetic},
-          {"factorisations", stats.factorisations},
-          {"shifted", stats.shifted},
-          {"contact_pairs", stats.contact_pairs},
-          {"phase_s", phases_json(stats)},
-          {"vertices", size.vertices},
-          {"faces", size.faces},
-          {"chords", size.chords},
-          {"intersections", measures.intersections},
-          {"hash", hash_of(closed.valve)},
-          {"measures", measures_json(measures)}};
+  Json json = {{"file", options.in},
+               {"leaflet", options.leaflet},
+               {"solver", options.solver},
+               {"pressure_mmHg", options.pressure_mmhg},
+               {"converged", stats.converged != 0},
+               {"iterations", stats.iterations},
+               {"wall_s", stats.wall_s},
+               {"residual_N", stats.residual},
+               {"energy_J", stats.energy},
+               {"kinetic_J", stats.kinetic},
+               {"factorisations", stats.factorisations},
+               {"shifted", stats.shifted},
+               {"contact_pairs", stats.contact_pairs},
+               {"phase_s", phases_json(stats)},
+               {"vertices", size.vertices},
+               {"faces", size.faces},
+               {"chords", size.chords},
+               {"intersections", measures.intersections},
+               {"hash", hash_of(closed.valve)},
+               {"measures", measures_json(measures)}};
+  if (closed.spread) json["spread"] = spread_json(*closed.spread, options.spread);
+  return json;
 }
 
-std::string result_text(const Options &options, const mvs_stats &stats,
+std::string result_text(const Options &options, const Closed &closed,
                         const mvs_measures &measures) {
+  const mvs_stats &stats = closed.stats;
   return text("%s: %s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
               options.in.c_str(), stats.converged ? "at rest" : "NOT at rest",
               options.pressure_mmhg, stats.wall_s, stats.iterations, stats.residual) +
-         measures_text(measures);
+         (closed.spread ? spread_text(*closed.spread) : measures_text(measures));
 }
 
 // Not at rest is a result, not a failure: it is written and marked, and said aloud.
@@ -92,8 +104,7 @@ void run(const Options &options, const Console &console) {
                  "not an equilibrium (see --max-iterations)\n",
                  closed.stats.iterations, closed.stats.residual);
   }
-  print(console, result_json(options, closed, measures),
-        result_text(options, closed.stats, measures));
+  print(console, result_json(options, closed, measures), result_text(options, closed, measures));
 }
 
 std::vector<std::string> names_of(const std::map<std::string, uint32_t> &map) {
@@ -135,6 +146,7 @@ void add_close(CLI::App &app, Console &console) {
       ->add_option("--dt", options->settle.dt,
                    "time step of the solvers in time, s [implicit 1e-3, explicit 8e-6]")
       ->check(CLI::PositiveNumber);
+  add_spread_options(*command, options->spread);
   command->add_flag("--progress", console.progress,
                     "show progress on stderr although it is no terminal");
   command->callback([options, &console] { run(*options, console); });

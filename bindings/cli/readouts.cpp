@@ -3,6 +3,7 @@
 #include "readouts.h"
 
 #include <cmath>
+#include <vector>
 
 namespace cli {
 namespace {
@@ -52,15 +53,26 @@ constexpr Readout readouts[] = {
 };
 
 struct Count {
+  const char *key;  // in JSON
   const char *label;
   uint32_t mvs_measures::*value;
 };
 
 constexpr Count counts[] = {
-    {"Intersecting triangles", &M::intersections},
-    {"Chordae over their strain", &M::chords_over_strain},
-    {"Chordae over their tension", &M::chords_over_tension},
+    {"intersections", "Intersecting triangles", &M::intersections},
+    {"chords_over_strain", "Chordae over their strain", &M::chords_over_strain},
+    {"chords_over_tension", "Chordae over their tension", &M::chords_over_tension},
 };
+
+// One read-out of several valves, with its unit.
+std::string row_text(const Readout &readout, const std::vector<const mvs_measures *> &valves) {
+  std::string row = text("  %-27s", readout.label);
+  for (const mvs_measures *measures : valves) {
+    const double value = measures->*readout.value;
+    row += std::isfinite(value) ? text("%10.2f", value * readout.text_scale) : text("%10s", "none");
+  }
+  return row + text(" %s", readout.unit);
+}
 
 }  // namespace
 
@@ -107,16 +119,48 @@ std::string measures_text(const mvs_measures &before, const mvs_measures &after)
     table += text("  %-27s%10u%10u\n", count.label, before.*count.value, after.*count.value);
   }
   for (const Readout &readout : readouts) {
-    table += text("  %-27s", readout.label);
-    for (const mvs_measures *measures : {&before, &after}) {
-      const double value = measures->*readout.value;
-      table +=
-          std::isfinite(value) ? text("%10.2f", value * readout.text_scale) : text("%10s", "none");
-    }
-    table += text(" %s", readout.unit);
+    table += row_text(readout, {&before, &after});
     if (readout.value == &M::regurgitant_orifice_area) {
       table += text(" (%s, then %s)", leak_grade(before.regurgitant_orifice_area),
                     leak_grade(after.regurgitant_orifice_area));
+    }
+    table += '\n';
+  }
+  return table;
+}
+
+Json statistics_json(const Statistics &of) {
+  Json object = Json::object();
+  for (const Readout &readout : readouts) {
+    const auto number = [&](const mvs_measures &m) {
+      const double value = m.*readout.value;
+      return std::isfinite(value) ? Json(value * readout.scale) : Json();
+    };
+    object[readout.key] = {{"mean", number(of.mean)},
+                           {"min", number(of.min)},
+                           {"max", number(of.max)},
+                           {"deviation", number(of.deviation)},
+                           {"paths", static_cast<uint32_t>(of.count.*readout.value)}};
+  }
+  for (const Count &count : counts) {
+    object[count.key] = {{"min", of.min.*count.value}, {"max", of.max.*count.value}};
+  }
+  return object;
+}
+
+std::string measures_text(const mvs_measures &plain, const Statistics &of) {
+  std::string table = text("  %-27s%10s%10s%10s%10s\n", "", "plain", "least", "most", "deviation");
+  for (const Count &count : counts) {
+    table += text("  %-27s%10u%10u%10u\n", count.label, plain.*count.value, of.min.*count.value,
+                  of.max.*count.value);
+  }
+  for (const Readout &readout : readouts) {
+    table += row_text(readout, {&plain, &of.min, &of.max, &of.deviation});
+    if (readout.value == &M::regurgitant_orifice_area) {
+      const std::string least = leak_grade(of.min.*readout.value);
+      const std::string most = leak_grade(of.max.*readout.value);
+      table += least == most ? text(" (%s)", most.c_str())
+                             : text(" (%s to %s)", least.c_str(), most.c_str());
     }
     table += '\n';
   }

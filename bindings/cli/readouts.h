@@ -17,6 +17,18 @@ std::string measures_text(const mvs_measures &measures);
 // Two of them side by side.
 std::string measures_text(const mvs_measures &before, const mvs_measures &after);
 
+// Statistics of the closures of one valve, as mvs::Spread::measure gives them.
+struct Statistics {
+  mvs_measures mean, min, max, deviation, count;
+};
+
+// Of every read-out {"mean": ..., "min": ..., "max": ..., "deviation": ..., "paths": ...}; counts
+// are whole numbers and have the range only.
+Json statistics_json(const Statistics &statistics);
+
+// The read-outs of one closure with their range and deviation beside them.
+std::string measures_text(const mvs_measures &plain, const Statistics &statistics);
+
 // The grade of a leak of this orifice area in m2: "none", "mild", ...
 const char *leak_grade(double orifice_area);
 

@@ -1,0 +1,115 @@
+"""`mvs close --paths`: what a script reads of the spread, and what people do."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+MVS = os.environ["MVS_COMMAND"]
+PATHS = 3
+
+
+def mvs(*arguments, cwd):
+    return subprocess.run([MVS, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
+                          timeout=300)
+
+
+class Spread(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.dir = pathlib.Path(cls.folder.name)
+        cls.ok("generate", "-o", "thin.obj", "--vertices", 250, "--thickness", 0.5)
+        cls.plain = cls.json("close", "thin.obj", "-o", "plain.obj")
+        cls.found = cls.json("close", "thin.obj", "--paths", PATHS, "-o", "closed.obj")
+
+    @classmethod
+    def ok(cls, *arguments):
+        done = mvs(*arguments, cwd=cls.dir)
+        assert done.returncode == 0, done.stderr
+        return done
+
+    @classmethod
+    def json(cls, *arguments):
+        return json.loads(cls.ok(*arguments, "--json").stdout)
+
+    def test_the_valve_is_the_one_without_paths(self):
+        for key in ("hash", "iterations", "energy_J", "residual_N", "measures", "intersections"):
+            self.assertEqual(self.found[key], self.plain[key], key)
+        self.assertEqual((self.dir / "closed.obj").read_bytes(),
+                         (self.dir / "plain.obj").read_bytes())
+        self.assertNotIn("spread", self.plain)
+
+    def test_statistics_are_those_of_the_closures(self):
+        spread = self.found["spread"]
+        self.assertEqual(len(spread["closures"]), PATHS)
+        self.assertEqual(spread["converged"], PATHS)
+        self.assertEqual(spread["closures"][0]["hash"], self.found["hash"])
+        for key in self.found["measures"]:
+            values = [c["measures"][key] for c in spread["closures"]]
+            told = spread["measures"][key]
+            if None in values:
+                continue
+            self.assertEqual((told["min"], told["max"]), (min(values), max(values)), key)
+            if "mean" in told:
+                self.assertEqual(told["paths"], PATHS)
+                # sums in another order
+                size = max(map(abs, values)) or 1
+                self.assertAlmostEqual(told["mean"] / size, sum(values) / PATHS / size, 12)
+
+    def test_shapes_and_equilibria_are_those_of_the_closures(self):
+        spread = self.found["spread"]
+        numbers = [c["equilibrium"] for c in spread["closures"]]
+        self.assertEqual(spread["equilibria"], len(set(numbers)))
+        energies = [c["energy_J"] for c in spread["closures"]]
+        self.assertEqual(spread["lowest"], energies.index(min(energies)))
+        self.assertEqual(spread["surface_max_mm"],
+                         max(c["surface_max_mm"] for c in spread["closures"]))
+
+    def test_same_seed_same_figures(self):
+        def hashes(found):
+            return [c["hash"] for c in found["spread"]["closures"]]
+
+        again = self.json("close", "thin.obj", "--paths", PATHS, "--seed", 0)
+        other = self.json("close", "thin.obj", "--paths", PATHS, "--seed", 9)
+        self.assertEqual(hashes(again), hashes(self.found))
+        self.assertEqual(hashes(other)[0], hashes(self.found)[0])
+        self.assertNotEqual(hashes(other)[1:], hashes(self.found)[1:])
+
+    def test_no_disturbance_leaves_the_ways_of_loading(self):
+        found = self.json("close", "thin.obj", "--paths", 2, "--perturbation", 0)
+        self.assertEqual([c["perturbation_mm"] for c in found["spread"]["closures"]], [0, 0])
+
+    def test_people_read_value_range_and_paths(self):
+        told = self.ok("close", "thin.obj", "--paths", PATHS).stdout
+        self.assertIn(f"{PATHS} of {PATHS} paths at rest", told)
+        self.assertRegex(told, r"plain +least +most +deviation\n")
+        area = [self.found["measures"]["coaptation_area_mm2"]]
+        spread = self.found["spread"]["measures"]["coaptation_area_mm2"]
+        area += [spread["min"], spread["max"], spread["deviation"]]
+        self.assertRegex(told, r"Coaptation area +" + r" +".join(f"{a:.2f}" for a in area) + " mm2")
+        self.assertRegex(told, r"\n +2 +2  pressure first +0\.50 ")
+
+    def test_paths_not_at_rest_are_named(self):
+        done = self.ok("close", "thin.obj", "--paths", 2, "--max-iterations", 2)
+        self.assertIn("0 of 2 paths at rest", done.stdout)
+        self.assertEqual(done.stdout.count("NOT at rest"), 3)
+        self.assertIn("not converged", done.stderr)
+        found = self.json("close", "thin.obj", "--paths", 2, "--max-iterations", 2)["spread"]
+        self.assertIsNone(found["lowest"])
+        self.assertIsNone(found["measures"]["annulus_ap_mm"]["mean"])
+        self.assertEqual(found["measures"]["annulus_ap_mm"]["paths"], 0)
+
+    def test_wrong_numbers_are_usage_errors(self):
+        for line in (["--paths", 0], ["--paths", 1001], ["--seed", 1],
+                     ["--paths", 2, "--perturbation", 6], ["--paths", 2, "--perturbation", -1]):
+            with self.subTest(line):
+                done = mvs("close", "thin.obj", *line, cwd=self.dir)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertEqual(done.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
