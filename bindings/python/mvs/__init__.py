@@ -13,7 +13,7 @@ SI units throughout: m, kg, s, N, Pa, rad.
 """
 
 from . import _core, ops
-from ._core import Simulator, Snapshot, check_valve, chord_limits
+from ._core import Simulator, Snapshot, Spread, check_valve, chord_limits
 from .editing import valve_of
 from .errors import (
     ArgumentError,
@@ -51,6 +51,9 @@ from .values import (
     Replay,
     Ring,
     RingKind,
+    SpreadOrder,
+    SpreadPath,
+    SpreadSummary,
     Stats,
     Valve,
     definition_of,
@@ -94,6 +97,10 @@ __all__ = [
     "Simulator",
     "Site",
     "Snapshot",
+    "Spread",
+    "SpreadOrder",
+    "SpreadPath",
+    "SpreadSummary",
     "StateError",
     "Stats",
     "UnsupportedError",

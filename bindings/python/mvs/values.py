@@ -65,6 +65,14 @@ class LeafletLaw(IntEnum):
     SPRING = 1
 
 
+class SpreadOrder(IntEnum):
+    """When the boundary goes where the load wants it: with the pressure, before or after it."""
+
+    TOGETHER = 1
+    BOUNDARY_FIRST = 2
+    PRESSURE_FIRST = 3
+
+
 def _annotation(kind: type, name: str) -> tuple[str, str]:
     unit, definition = get_type_hints(kind, include_extras=True)[name].__metadata__
     return unit, definition
@@ -211,6 +219,37 @@ class Comparison:
     surface_rms_registered: Annotated[float, "m", "surface, RMS, after the best rigid motion"]
     surface_max_registered: Annotated[float, "m", "surface, largest, after the best rigid motion"]
     registration: Annotated[NDArray[np.float64], "m", "rows of [R | t], 3 x 4: b ~ R a + t"]
+
+
+@dataclasses.dataclass(frozen=True)
+class SpreadSummary:
+    """What all paths of a spread show together. Shapes are over the paths at rest, as they lie."""
+
+    paths: Annotated[int, "1", "closures, the plain one included"]
+    converged: Annotated[int, "1", "paths at rest"]
+    equilibria: Annotated[int, "1", "distinct shapes among them"]
+    lowest: Annotated[Optional[int], "1", "the path at rest of the lowest potential; None: none is"]
+    node_rms: Annotated[float, "m", "node to node, RMS over all pairs of paths"]
+    node_max: Annotated[float, "m", "the farthest any node is apart in any two paths"]
+    surface_rms: Annotated[float, "m", "surface distance from path 0, RMS over the other paths"]
+    surface_max: Annotated[float, "m", "the largest distance from the surface of path 0"]
+
+
+@dataclasses.dataclass(frozen=True)
+class SpreadPath:
+    """One path of a spread: how it closed, and how far from path 0 it ended."""
+
+    converged: Annotated[bool, "1", "at rest; only then it counts in the statistics"]
+    diverged: Annotated[bool, "1", "it left the range of numbers; its snapshot is where it began"]
+    increments: Annotated[int, "1", "equal steps in which the pressure came"]
+    order: Annotated[SpreadOrder, "1", "when the boundary moved"]
+    equilibrium: Annotated[Optional[int], "1", "number of its shape; None: not at rest"]
+    perturbation: Annotated[float, "m", "the longest way a node of its start was moved"]
+    node_rms: Annotated[float, "m", "node to node from path 0, RMS"]
+    node_max: Annotated[float, "m", "node to node from path 0, largest"]
+    surface_rms: Annotated[float, "m", "symmetric surface distance from path 0, RMS"]
+    surface_max: Annotated[float, "m", "symmetric surface distance from path 0, largest"]
+    stats: Annotated[Stats, "1", "counts and times over all increments, the rest at the end"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

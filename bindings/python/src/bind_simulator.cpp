@@ -12,14 +12,6 @@ namespace {
 using Number = std::optional<double>;
 using Count = std::optional<uint32_t>;
 
-uint32_t solver_of(const std::string &name) {
-  if (name == "newton") return MVS_SOLVER_NEWTON;
-  if (name == "implicit") return MVS_SOLVER_IMPLICIT;
-  if (name == "explicit") return MVS_SOLVER_EXPLICIT;
-  refuse(MVS_E_ARGUMENT, "solver",
-         "solver: \"newton\", \"implicit\" or \"explicit\" is needed, not \"" + name + "\"");
-}
-
 // A valve as mvs.Valve: the one given, or one made of the arguments.
 py::object valve_of(const py::args &args, const py::kwargs &kwargs) {
   const py::object type = py::module_::import("mvs.values").attr("Valve");

@@ -20,6 +20,14 @@ py::array_t<double> matrix(const double *values, py::ssize_t rows, py::ssize_t c
 
 }  // namespace
 
+uint32_t solver_of(const std::string &name) {
+  if (name == "newton") return MVS_SOLVER_NEWTON;
+  if (name == "implicit") return MVS_SOLVER_IMPLICIT;
+  if (name == "explicit") return MVS_SOLVER_EXPLICIT;
+  refuse(MVS_E_ARGUMENT, "solver",
+         "solver: \"newton\", \"implicit\" or \"explicit\" is needed, not \"" + name + "\"");
+}
+
 py::object load_value(const mvs_load_case &s) {
   py::dict fields;
   FIELD(pressure);
@@ -132,6 +140,36 @@ py::object history_value(const mvs_history_entry &s, bool done) {
   fields["made"] = s.made ? py::object(py::int_(s.made)) : py::none();
   fields["done"] = done;
   return make("HistoryEntry", fields);
+}
+
+py::object spread_summary_value(const mvs_spread_summary &s) {
+  py::dict fields;
+  FIELD(paths);
+  FIELD(converged);
+  FIELD(equilibria);
+  fields["lowest"] = s.lowest == UINT32_MAX ? py::object(py::none()) : py::int_(s.lowest);
+  FIELD(node_rms);
+  FIELD(node_max);
+  FIELD(surface_rms);
+  FIELD(surface_max);
+  return make("SpreadSummary", fields);
+}
+
+py::object spread_path_value(const mvs_spread_path &s, const mvs_stats &stats) {
+  py::dict fields;
+  fields["converged"] = s.converged != 0;
+  fields["diverged"] = s.diverged != 0;
+  FIELD(increments);
+  fields["order"] = py::module_::import("mvs.values").attr("SpreadOrder")(s.order);
+  fields["equilibrium"] =
+      s.equilibrium == UINT32_MAX ? py::object(py::none()) : py::int_(s.equilibrium);
+  FIELD(perturbation);
+  FIELD(node_rms);
+  FIELD(node_max);
+  FIELD(surface_rms);
+  FIELD(surface_max);
+  fields["stats"] = stats_value(stats);
+  return make("SpreadPath", fields);
 }
 
 }  // namespace mvs_python

@@ -7,6 +7,9 @@
 
 namespace mvs_python {
 
+// MVS_SOLVER_* from "newton", "implicit" or "explicit".
+uint32_t solver_of(const std::string &name);
+
 py::object load_value(const mvs_load_case &load);
 py::object stats_value(const mvs_stats &stats);
 py::object measures_value(const mvs_measures &measures);
@@ -16,5 +19,7 @@ py::object part_value(const mvs_part &part);
 py::object replay_value(const mvs_replay &replay);
 py::object chord_limits_value(double strain, double tension);
 py::object history_value(const mvs_history_entry &entry, bool done);
+py::object spread_summary_value(const mvs_spread_summary &summary);
+py::object spread_path_value(const mvs_spread_path &path, const mvs_stats &stats);
 
 }  // namespace mvs_python

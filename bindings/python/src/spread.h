@@ -1,0 +1,24 @@
+// mvs.Spread: what a valve closes to along several paths.
+#pragma once
+
+#include <mvs/spread.h>
+
+#include <memory>
+
+#include "snapshot.h"
+
+namespace mvs_python {
+
+// Owns a spread of the C library, which never changes.
+class Spread {
+ public:
+  explicit Spread(mvs_spread *made) : handle_(made, &mvs_spread_release) {}
+  const mvs_spread *get() const { return handle_.get(); }
+
+ private:
+  std::unique_ptr<mvs_spread, void (*)(mvs_spread *)> handle_;
+};
+
+void bind_spread(py::module_ &module, py::class_<Snapshot> &type);
+
+}  // namespace mvs_python
