@@ -47,6 +47,18 @@ def strain_map(drawing: Drawing, width: float, high: float) -> bytes:
     return _map(drawing, colours, "largest principal strain, %", width, faces=strain)
 
 
+SPREAD_LIMIT = 0.5
+"""mm: the end of the colour scale of the spread"""
+
+
+def spread_map(drawing: Drawing, spread: NDArray[np.float64], width: float) -> bytes:
+    """How far the nodes of a valve spread over several closures, in mm."""
+    shades = matplotlib.colormaps["YlOrRd"].with_extremes(over="#3d0014")
+    colours = Colours(spread, 0.0, SPREAD_LIMIT, shades, above="#3d0014")
+    text = "RMS distance of a node from its mean place over the paths, mm"
+    return _map(drawing, colours, text, width, extend="max")
+
+
 def _map(
     drawing: Drawing,
     colours: Colours,
