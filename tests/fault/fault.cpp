@@ -169,6 +169,23 @@ std::vector<Call> calls_of_snapshots() {
          comparison.struct_size = sizeof comparison;
          return mvs_snapshot_compare(s.snapshot, s.snapshot, &comparison);
        }},
+      {"spread",
+       [](Scene &s) {
+         mvs_spread *spread = nullptr;
+         const mvs_load_case load = light_load();
+         mvs_settle_options settle = {};
+         settle.struct_size = sizeof settle;
+         settle.max_iterations = 1;
+         mvs_spread_options options = {};
+         options.struct_size = sizeof options;
+         options.paths = 2;
+         mvs_measures mean = {};
+         mean.struct_size = sizeof mean;
+         mvs_result result = mvs_spread_run(s.snapshot, &load, &settle, &options, &spread);
+         if (result == MVS_OK) result = mvs_spread_measure(spread, MVS_SPREAD_MEAN, &mean);
+         mvs_spread_release(spread);
+         return result;
+       }},
       {"section",
        [](Scene &s) {
          const double at[3] = {0, 0, -1e-3}, up[3] = {0, 0, 1};

@@ -51,4 +51,5 @@ def test_its_shape_can_be_plotted(result, tmp_path):
 
     kaiser.draw([result], tmp_path)
     assert len(list(tmp_path.glob("*.png"))) == 3
-    assert "crossing" in kaiser.table([result])
+    text = kaiser.table([result], 2)
+    assert "crossing" in text and "over 2 of 2 paths at rest" in text
