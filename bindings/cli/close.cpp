@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "readouts.h"
+#include "reference.h"
 #include "spread.h"
 
 namespace cli {
@@ -19,7 +20,7 @@ const std::map<std::string, uint32_t> backends = {{"default", MVS_BACKEND_DEFAUL
                                                   {"eigen", MVS_BACKEND_EIGEN}};
 
 struct Options {
-  std::string in, out;
+  std::string in, out, reference;
   std::string leaflet = "spring", solver = "newton", backend = "default";
   double pressure_mmhg = 120;
   mvs_settle_options settle = {};
@@ -30,6 +31,7 @@ struct Closed {
   mvs::Snapshot valve;
   mvs_stats stats;
   std::optional<mvs::Spread> spread;  // with --paths: then the valve is that of path 0
+  std::optional<Errors> errors;       // with --reference
 };
 
 Closed close_valve(const Options &options, const Console &console) {
@@ -42,11 +44,11 @@ Closed close_valve(const Options &options, const Console &console) {
   if (options.spread.paths > 0) {
     mvs::Spread spread = spread_of(sim.snapshot(), options.pressure_mmhg, settle, options.spread,
                                    desc.backend, progress);
-    return {spread.snapshot(0), spread.stats(0), std::move(spread)};
+    return {spread.snapshot(0), spread.stats(0), std::move(spread), {}};
   }
   sim.set_load(options.pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle(settle);
-  return {sim.snapshot(), stats, {}};
+  return {sim.snapshot(), stats, {}, {}};
 }
 
 Json phases_json(const mvs_stats &stats) {
@@ -81,6 +83,7 @@ Json result_json(const Options &options, const Closed &closed, const mvs_measure
                {"hash", hash_of(closed.valve)},
                {"measures", measures_json(measures)}};
   if (closed.spread) json["spread"] = spread_json(*closed.spread, options.spread);
+  if (closed.errors) json["reference"] = errors_json(*closed.errors);
   return json;
 }
 
@@ -90,12 +93,19 @@ std::string result_text(const Options &options, const Closed &closed,
   return text("%s: %s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
               options.in.c_str(), stats.converged ? "at rest" : "NOT at rest",
               options.pressure_mmhg, stats.wall_s, stats.iterations, stats.residual) +
-         (closed.spread ? spread_text(*closed.spread) : measures_text(measures));
+         (closed.spread ? spread_text(*closed.spread) : measures_text(measures)) +
+         (closed.errors ? errors_text(*closed.errors) : "");
 }
 
 // Not at rest is a result, not a failure: it is written and marked, and said aloud.
 void run(const Options &options, const Console &console) {
-  const Closed closed = close_valve(options, console);
+  std::optional<mvs::Snapshot> reference;  // first: a file that is not there costs no closure
+  if (!options.reference.empty()) reference = load(options.reference);
+  Closed closed = close_valve(options, console);
+  if (reference) {
+    const mvs::Spread *spread = closed.spread ? &*closed.spread : nullptr;
+    closed.errors = errors_from(options.reference, *reference, closed.valve, spread);
+  }
   const mvs_measures measures = closed.valve.measure();
   if (!options.out.empty()) closed.valve.save(options.out);
   if (!closed.stats.converged) {
@@ -146,6 +156,8 @@ void add_close(CLI::App &app, Console &console) {
       ->add_option("--dt", options->settle.dt,
                    "time step of the solvers in time, s [implicit 1e-3, explicit 8e-6]")
       ->check(CLI::PositiveNumber);
+  command->add_option("--reference", options->reference,
+                      "tell how far the closed valve is from the shape of this file");
   add_spread_options(*command, options->spread);
   command->add_flag("--progress", console.progress,
                     "show progress on stderr although it is no terminal");

@@ -82,6 +82,29 @@ class Spread(unittest.TestCase):
         found = self.json("close", "thin.obj", "--paths", 2, "--perturbation", 0)
         self.assertEqual([c["perturbation_mm"] for c in found["spread"]["closures"]], [0, 0])
 
+    def test_errors_against_a_reference_have_their_spread(self):
+        self.ok("generate", "-o", "other.obj", "--vertices", 250)
+        self.ok("close", "other.obj", "-o", "reference.obj")
+        line = ["close", "thin.obj", "--reference", "reference.obj"]
+        alone = self.json(*line)["reference"]
+        compared = self.json("compare", "plain.obj", "reference.obj")
+        for key in ("node_rms_mm", "node_max_mm", "surface_rms_mm", "surface_max_mm"):
+            self.assertEqual(alone[key], compared["as_they_lie"][key])
+            registered = key.replace("_mm", "_registered_mm")
+            self.assertEqual(alone[registered], compared["registered"][key])
+        self.assertNotIn("spread", alone)
+        found = self.json(*line, "--paths", PATHS)["reference"]
+        over = found.pop("spread")
+        self.assertEqual(found, alone)
+        self.assertEqual(over["paths"], PATHS)
+        # the coarse thin valve folds in more ways than one, so the error has a range
+        self.assertLess(over["node_max_mm"]["min"], over["node_max_mm"]["max"])
+        self.assertLessEqual(over["surface_rms_mm"]["min"], found["surface_rms_mm"])
+        self.assertRegex(self.ok(*line, "--paths", PATHS).stdout,
+                         rf"Surfaces, RMS +{found['surface_rms_mm']:.3f}  \(")
+        self.assertIn("nowhere.obj", mvs("close", "thin.obj", "--reference", "nowhere.obj",
+                                         cwd=self.dir).stderr)
+
     def test_people_read_value_range_and_paths(self):
         told = self.ok("close", "thin.obj", "--paths", PATHS).stdout
         self.assertIn(f"{PATHS} of {PATHS} paths at rest", told)

@@ -1,0 +1,24 @@
+// `mvs close --reference`: how far a closed valve is from another shape of it, on every path.
+#pragma once
+
+#include <vector>
+
+#include "console.h"
+
+namespace cli {
+
+// The comparisons of all closures at rest with a reference, the plain one first.
+struct Errors {
+  std::string file;
+  mvs_comparison plain;
+  std::vector<mvs_comparison> at_rest;  // empty: one closure only
+};
+
+// `reference` is the valve of `file`; `spread` is null for one closure.
+Errors errors_from(const std::string &file, const mvs::Snapshot &reference,
+                   const mvs::Snapshot &closed, const mvs::Spread *spread);
+
+Json errors_json(const Errors &errors);
+std::string errors_text(const Errors &errors);
+
+}  // namespace cli
