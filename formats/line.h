@@ -65,7 +65,7 @@ class Fields {
   Field *take(std::string_view key);
 
   const Line &line_;
-  std::array<Field, 12> fields_;
+  std::array<Field, 16> fields_;
   size_t count_ = 0;
 };
 

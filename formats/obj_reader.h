@@ -40,6 +40,9 @@ class ObjReader {
   void head(Line &line);
   void ring(Line &line);
   void ring_point(Line &line);
+  void curve(Line &line);
+  void curve_point(Line &line);
+  uint32_t curve_of(Fields &fields, const Line &line) const;
   void thickness(Line &line);
   void fibre(Line &line);
   void chord(Line &line);

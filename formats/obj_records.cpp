@@ -1,6 +1,7 @@
 // Extended OBJ, read: the #mvs lines. Each belongs to the valve, or to the last v, f or l line
 // above.
 #include "formats/obj_reader.h"
+#include "model/chord_law.h"
 
 namespace mvs {
 namespace {
@@ -12,6 +13,15 @@ void once(bool &given, const char *word, const Line &line) {
 
 void follows(const char *statement, bool is_there, const Line &line) {
   if (!is_there) line.fail("there is no `%s` line above that this one could belong to", statement);
+}
+
+// The constants of a law, each a key of its own.
+template <typename Values>
+void read_constants(Fields &fields, std::span<const Constant> constants, Values &values) {
+  for (size_t k = 0; k < constants.size(); ++k) {
+    values[k] = constants[k].fallback;
+    fields.number(constants[k].key, values[k]);
+  }
 }
 
 }  // namespace
@@ -29,6 +39,8 @@ void ObjReader::record(Line &line) {
                                          Record{"origin", &ObjReader::origin},
                                          Record{"ring", &ObjReader::ring},
                                          Record{"ring_point", &ObjReader::ring_point},
+                                         Record{"curve", &ObjReader::curve},
+                                         Record{"curve_point", &ObjReader::curve_point},
                                          Record{"thickness", &ObjReader::thickness},
                                          Record{"chord", &ObjReader::chord},
                                          Record{"annulus", &ObjReader::annulus},
@@ -108,11 +120,10 @@ void ObjReader::leaflet(Line &line) {
   Fields fields(line);
   fields.need(fields.text("name", leaflet.name), "name");
   fields.whole("id", leaflet.id);
-  if (fields.choice("law", law, obj::leaflet_laws)) leaflet.law = law + 1;
+  if (fields.choice("law", law, obj::words_of(leaflet_laws()))) leaflet.law = law + 1;
   fields.number("thickness", leaflet.thickness, obj::mm);
-  fields.number("low", leaflet.bilinear.low);
-  fields.number("high", leaflet.bilinear.high);
-  fields.number("kink", leaflet.bilinear.kink);
+  leaflet.constants = {};
+  read_constants(fields, find_leaflet_law(leaflet.law)->constants, leaflet.constants);
   fields.end();
   const auto index = static_cast<uint32_t>(valve.leaflets.size());
   if (!leaflets_.emplace(leaflet.name, index).second) {
@@ -238,6 +249,25 @@ void ObjReader::ring_point(Line &line) {
   line.end();
 }
 
+void ObjReader::curve(Line &line) {
+  Valve &valve = out_.valve;
+  check_room(valve.curves, line);
+  ChordCurve curve;
+  Fields fields(line);
+  fields.need(fields.text("name", curve.name), "name");
+  fields.whole("id", curve.id);
+  fields.end();
+  valve.curves.push_back(std::move(curve));
+}
+
+void ObjReader::curve_point(Line &line) {
+  follows("#mvs curve", !out_.valve.curves.empty(), line);
+  check_room(out_.valve.curves.back().points, line);
+  const double strain = line.number(), stress = line.number();
+  out_.valve.curves.back().points.push_back({strain, stress});
+  line.end();
+}
+
 void ObjReader::thickness(Line &line) {
   follows("f", counts_.faces > 0, line);
   once(given_.thickness, "the thickness of this triangle", line);
@@ -259,6 +289,17 @@ void ObjReader::fibre(Line &line) {
   line.end();
 }
 
+// The index of the curve that a chord names.
+uint32_t ObjReader::curve_of(Fields &fields, const Line &line) const {
+  std::string name;
+  fields.need(fields.text("curve", name), "curve");
+  const auto &curves = out_.valve.curves.get();
+  for (uint32_t c = 0; c < curves.size(); ++c) {
+    if (curves[c].name == name) return c;
+  }
+  line.fail("there is no curve %s above this line", quoted(name).c_str());
+}
+
 void ObjReader::chord(Line &line) {
   follows("l", counts_.lines > 0, line);
   once(given_.chord, "this chord", line);
@@ -271,10 +312,15 @@ void ObjReader::chord(Line &line) {
   fields.text("name", chord.name);
   fields.whole("id", chord.id);
   fields.choice("kind", chord.kind, obj::chord_kinds);
-  if (fields.choice("law", law, obj::chord_laws)) chord.law = law + 1;
+  if (fields.choice("law", law, obj::words_of(chord_laws()))) chord.law = law + 1;
   fields.number("rest_length", chord.rest_length, obj::mm);
   fields.number("young", chord.young);
   fields.number("area", chord.area, obj::mm2);
+  if (chord.law == MVS_CHORD_TABLE) {
+    chord.constants[0] = curve_of(fields, line);
+  } else {
+    read_constants(fields, find_chord_law(chord.law)->constants, chord.constants);
+  }
   fields.end();
 }
 

@@ -3,20 +3,27 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace mvs::obj {
 
 // The version this library writes, and the newest it reads.
-inline constexpr unsigned version = 2;
+inline constexpr unsigned version = 3;
 
 // Lengths are mm in the file and m in memory; areas go with the square.
 inline constexpr int mm = 3, mm2 = 6;
 
 // Indices are MVS_LEAFLET_*, MVS_CHORD_*, MVS_RING_*, less one where those start at 1.
-inline constexpr std::array<std::string_view, 1> leaflet_laws = {"spring"};
-inline constexpr std::array<std::string_view, 1> chord_laws = {"linear"};
 inline constexpr std::array<std::string_view, 8> chord_kinds = {
     "other", "marginal", "rough_zone", "strut", "basal", "commissural", "trunk", "suture"};
+// Words of the laws, in the order of their numbers less one.
+template <typename Laws>
+std::vector<std::string_view> words_of(const Laws &laws) {
+  std::vector<std::string_view> words;
+  for (const auto &law : laws) words.push_back(law.word);
+  return words;
+}
+
 inline constexpr std::array<std::string_view, 2> ring_kinds = {"ring", "band"};
 
 }  // namespace mvs::obj

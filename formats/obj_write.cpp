@@ -11,6 +11,7 @@
 #include "formats/formats.h"
 #include "formats/line.h"
 #include "formats/obj_words.h"
+#include "model/chord_law.h"
 
 namespace mvs {
 namespace {
@@ -34,6 +35,7 @@ class ObjWriter {
   void nodes();
   void annulus_and_heads();
   void rings();
+  void curves();
   void triangles();
   void chords();
   void end();
@@ -47,6 +49,10 @@ class ObjWriter {
   void key_text(std::string_view name, std::string_view text);
   void key_number(std::string_view name, double value, int shift = 0);
   void key_whole(std::string_view name, uint64_t value);
+  template <typename Values>
+  void key_constants(std::span<const Constant> constants, const Values &values) {
+    for (size_t k = 0; k < constants.size(); ++k) key_number(constants[k].key, values[k]);
+  }
   void key_choice(std::string_view name, std::span<const std::string_view> words, uint32_t index);
   void vertices(std::initializer_list<uint32_t> nodes);
 
@@ -63,6 +69,7 @@ std::string ObjWriter::write() {
   nodes();
   annulus_and_heads();
   rings();
+  curves();
   triangles();
   chords();
   end();
@@ -94,11 +101,9 @@ void ObjWriter::leaflets() {
     record("leaflet");
     key_text("name", leaflet.name);
     key_whole("id", leaflet.id);
-    key_choice("law", obj::leaflet_laws, leaflet.law - 1);
+    key_choice("law", obj::words_of(leaflet_laws()), leaflet.law - 1);
     key_number("thickness", leaflet.thickness, obj::mm);
-    key_number("low", leaflet.bilinear.low);
-    key_number("high", leaflet.bilinear.high);
-    key_number("kink", leaflet.bilinear.kink);
+    key_constants(find_leaflet_law(leaflet.law)->constants, leaflet.constants);
     out_ += '\n';
   }
   for (const Scallop &scallop : valve_.scallops) {
@@ -176,6 +181,23 @@ void ObjWriter::rings() {
   }
 }
 
+void ObjWriter::curves() {
+  for (const ChordCurve &curve : valve_.curves) {
+    record("curve");
+    key_text("name", curve.name);
+    key_whole("id", curve.id);
+    out_ += '\n';
+    for (const auto &[strain, stress] : curve.points) {
+      record("curve_point");
+      out_ += ' ';
+      number(strain);
+      out_ += ' ';
+      number(stress);
+      out_ += '\n';
+    }
+  }
+}
+
 void ObjWriter::triangles() {
   uint32_t leaflet = none, scallop = none;
   for (size_t t = 0; t < valve_.triangles.size(); ++t) {
@@ -218,10 +240,15 @@ void ObjWriter::chords() {
     key_text("name", chord.name);
     key_whole("id", chord.id);
     key_choice("kind", obj::chord_kinds, chord.kind);
-    key_choice("law", obj::chord_laws, chord.law - 1);
+    key_choice("law", obj::words_of(chord_laws()), chord.law - 1);
     key_number("rest_length", chord.rest_length, obj::mm);
     key_number("young", chord.young);
     key_number("area", chord.area, obj::mm2);
+    if (chord.law == MVS_CHORD_TABLE) {
+      key_text("curve", valve_.curves[static_cast<size_t>(chord.constants[0])].name);
+    } else {
+      key_constants(find_chord_law(chord.law)->constants, chord.constants);
+    }
     out_ += '\n';
   }
 }

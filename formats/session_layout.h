@@ -8,7 +8,8 @@
 
 namespace mvs {
 
-inline constexpr uint32_t session_version = 1;
+// Version 1 had springs with three constants, linear chordae and no curves.
+inline constexpr uint32_t session_version = 2;
 
 template <typename T, typename Plain>
 concept Is = std::same_as<std::remove_const_t<T>, Plain>;
@@ -19,9 +20,8 @@ void pass(Archive &a, Is<Leaflet> auto &leaflet) {
   a.text(leaflet.name);
   a.word(leaflet.law);
   a.number(leaflet.thickness);
-  a.number(leaflet.bilinear.low);
-  a.number(leaflet.bilinear.high);
-  a.number(leaflet.bilinear.kink);
+  const size_t known = a.version() == 1 ? 3 : leaflet.constants.size();
+  for (size_t k = 0; k < known; ++k) a.number(leaflet.constants[k]);
 }
 
 template <typename Archive>
@@ -42,6 +42,15 @@ void pass(Archive &a, Is<Chord> auto &chord) {
   a.number(chord.rest_length);
   a.number(chord.young);
   a.number(chord.area);
+  if (a.version() == 1) return;
+  for (auto &constant : chord.constants) a.number(constant);
+}
+
+template <typename Archive>
+void pass(Archive &a, Is<ChordCurve> auto &curve) {
+  a.word(curve.id);
+  a.text(curve.name);
+  a.array(curve.points);
 }
 
 template <typename Archive>
@@ -82,6 +91,7 @@ void pass(Archive &a, Is<Valve> auto &valve) {
   a.list(valve.chords);
   a.list(valve.heads);
   a.list(valve.rings);
+  if (a.version() > 1) a.list(valve.curves);
 }
 
 template <typename Archive>

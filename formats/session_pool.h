@@ -99,6 +99,11 @@ struct Stored<Vec3> {
   static constexpr size_t columns = 3;
 };
 template <>
+struct Stored<std::array<double, 2>> {
+  using Value = double;
+  static constexpr size_t columns = 2;
+};
+template <>
 struct Stored<Tri> {
   using Value = uint32_t;
   static constexpr size_t columns = 3;

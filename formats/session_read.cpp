@@ -17,8 +17,9 @@ using Made = std::map<uint64_t, Thing>;
 
 class SessionReader {
  public:
-  explicit SessionReader(const H5Tree &tree)
-      : words_(tree.at<uint64_t>("mvs/moment")),
+  SessionReader(const H5Tree &tree, uint32_t version)
+      : version_(version),
+        words_(tree.at<uint64_t>("mvs/moment")),
         parts_(tree, "mvs/parts"),
         numbers_(tree, "mvs/numbers"),
         indices_(tree, "mvs/indices"),
@@ -32,6 +33,7 @@ class SessionReader {
   }
 
   // what session_layout.h asks of an archive
+  uint32_t version() const { return version_; }
   void word(uint64_t &number) { number = next(); }
   void word(int64_t &number) { number = static_cast<int64_t>(next()); }
   void word(uint32_t &number);
@@ -92,6 +94,7 @@ class SessionReader {
   Operation operation();
   void field(const OpField &f, char *at);
 
+  const uint32_t version_;
   std::span<const uint64_t> words_;  // what is left of the part being read
   const PoolReader<uint64_t> parts_;
   const PoolReader<double> numbers_;
@@ -100,7 +103,8 @@ class SessionReader {
   std::tuple<Made<SharedVector<Vec3>>, Made<SharedVector<Tri>>, Made<SharedVector<double>>,
              Made<SharedVector<uint32_t>>, Made<SharedVector<Leaflet>>, Made<SharedVector<Scallop>>,
              Made<SharedVector<Chord>>, Made<SharedVector<Head>>, Made<SharedVector<Ring>>,
-             Made<ModelPtr>, Made<Moves>, Made<Entries>, Made<std::shared_ptr<const Entry>>>
+             Made<SharedVector<ChordCurve>>, Made<SharedVector<CurvePoint>>, Made<ModelPtr>,
+             Made<Moves>, Made<Entries>, Made<std::shared_ptr<const Entry>>>
       made_;
   ModelPtr last_model_;
   // what the operation being read points to
@@ -308,7 +312,7 @@ void SessionReader::field(const OpField &f, char *at) {
 
 Moment read_session(std::string_view bytes) {
   const H5Content content = read_h5(bytes, "mvs", session_version);
-  return SessionReader(content.tree).read();
+  return SessionReader(content.tree, content.version).read();
 }
 
 }  // namespace mvs

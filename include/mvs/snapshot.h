@@ -64,12 +64,16 @@ enum {
   MVS_CHORD_YOUNG = 56,        /* F64 c, Pa */
   MVS_CHORD_AREA = 57,         /* F64 c, m2 */
   MVS_CHORD_FLAGS = 58,        /* U8 c: MVS_CHORD_OVER_* */
+  MVS_CHORD_LAW = 59,          /* U32 c: the laws MVS_CHORD_* */
   MVS_HEAD_NODES = 60,         /* U32 h */
   MVS_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
+  MVS_CHORD_CONSTANTS = 62,    /* F64 c x 6: of the law */
   MVS_RING_POINTS = 65,        /* F64 x 3, m: the points of all rings, one after the other */
   MVS_RING_START = 66,         /* U32 r + 1: where each ring's points start, and their number */
   MVS_RING_KIND = 67,          /* U32 r: MVS_RING_* */
   MVS_RING_ID = 68,            /* U64 r */
+  MVS_CURVE_POINTS = 75,       /* F64 x 2: strain, nominal stress in Pa; of all curves in turn */
+  MVS_CURVE_START = 76,        /* U32 k + 1: where each curve's points start, and their number */
   MVS_ORIFICE_VERTICES = 70,   /* F64 x 3, m: the smallest opening, as triangles */
   MVS_ORIFICE_TRIANGLES = 71,  /* U32 x 3 into MVS_ORIFICE_VERTICES */
   MVS_VALVE_CONSTANTS = 80,    /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
@@ -101,7 +105,8 @@ enum {
   MVS_PART_SCALLOP = 2,
   MVS_PART_CHORD = 3,
   MVS_PART_HEAD = 4,
-  MVS_PART_RING = 5
+  MVS_PART_RING = 5,
+  MVS_PART_CURVE = 6
 };
 
 /* A named part of the valve. Names are unique within their kind, of at most 63 bytes. */

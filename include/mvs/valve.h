@@ -30,7 +30,23 @@ enum {
 enum {
   /* Mass-spring sheet, bilinear law, Van Gelder stiffness (Tenenholtz et al. 2011): constants are
    * Young's modulus below the kink, Pa [100e3]; above it, Pa [6e6]; strain at the kink [0.25]. */
-  MVS_LEAFLET_SPRING = 1
+  MVS_LEAFLET_SPRING = 1,
+  /* The others are membranes: constant-strain triangles, plane stress, incompressible, W(I1, I4) in
+   * J/m3 with I1 = tr C and I4 = f . C f along the fibre f of the triangle.
+   * Bilinear: the curve of the springs as an isotropic tissue, dW/dI1 = c + a (x + sqrt(x^2 +
+   * s^2)) / 2, x = I1 - Ic: c, Pa [18.49e3]; a, Pa [3146e3]; Ic [3.1611]; s [0.006]. */
+  MVS_LEAFLET_BILINEAR = 2,
+  /* Fung-type isotropic, W = c0 / 2 (I1 - 3) + c1 / 2 (exp(c2 (I1 - 3)^2) - 1) (Texas TriValve 1.1,
+   * Mathur et al. 2022): c0, Pa [1e3]; c1, Pa [124]; c2 [4.568202], its anterior leaflet. */
+  MVS_LEAFLET_FUNG = 3,
+  /* W = c0 (exp(c1 (I1 - 3)^2 + c2 (sqrt(I4) - 1)^4) - 1) (May-Newman and Yin 1998): c0, Pa [399];
+   * c1 [4.325]; c2 [1446.5], the anterior leaflet; posterior 414, 4.848, 305.4. */
+  MVS_LEAFLET_MAY_NEWMAN_YIN = 4,
+  /* W = c0 (exp(c1 (I1 - 3)^2 + c2 (I4 - 1)^2) - 1) (Prot et al. 2009): c0, Pa [52]; c1 [4.63]; c2
+   * [22.6], the anterior leaflet; posterior 171, 5.28, 6.46. */
+  MVS_LEAFLET_PROT = 5,
+  /* W = mu / 2 (I1 - 3): mu, Pa [100e3 / 3]; Young's modulus is 3 mu. */
+  MVS_LEAFLET_NEO_HOOKEAN = 6
 };
 
 /* A leaflet and its tissue. Zero fields take the defaults in brackets. */
@@ -43,21 +59,39 @@ typedef struct mvs_leaflet_desc {
   double constants[8]; /* of the law */
 } mvs_leaflet_desc;
 
-/* The laws a chord can follow. */
+/* The laws a chord can follow: tension = area x nominal stress P at strain e = (L - L0) / L0 when
+ * longer than L0, else none. */
 enum {
-  MVS_CHORD_LINEAR = 1 /* tension = E A (L - L0) / L0 when longer than L0, else 0 */
+  MVS_CHORD_LINEAR = 1, /* P = young e */
+  /* P = young e below the kink, then slope high: constants are kink [0.05]; high, Pa [100e6] */
+  MVS_CHORD_BILINEAR = 2,
+  /* Incompressible Ogden, W = sum of 2 mu_k / alpha_k^2 (l1^alpha_k + l2^alpha_k + l3^alpha_k - 3),
+   * up to three terms: constants are mu_1, Pa; alpha_1; mu_2; alpha_2; mu_3; alpha_3. The first
+   * term is required; the sum has to stiffen the chord from the start. young is not used */
+  MVS_CHORD_OGDEN = 3,
+  /* Straight lines between the points of a curve of the valve, then on with the last slope:
+   * constants[0] is its index in mvs_valve_desc.curves. young is not used */
+  MVS_CHORD_TABLE = 4
 };
+
+/* A measured curve that chordae can follow. */
+typedef struct mvs_curve_desc {
+  const char *name; /* required, unique */
+  mvs_id id;        /* 0: given by the library */
+  mvs_array points; /* F64 or F32, k x 2, k >= 2: strain, rising; nominal stress in Pa, not falling,
+                       0 at the first point, which says where the chord gets taut */
+} mvs_curve_desc;
 
 /* A chord segment between two nodes, tension only. */
 typedef struct mvs_chord_desc {
   uint32_t node_a;     /* nearer the papillary head */
   uint32_t node_b;     /* nearer the leaflet */
   uint32_t kind;       /* MVS_CHORD_MARGINAL ... */
-  uint32_t law;        /* MVS_CHORD_LINEAR [linear] */
+  uint32_t law;        /* MVS_CHORD_* [linear] */
   double rest_length;  /* m; 0: the distance of its nodes */
   double young;        /* Pa [40e6] */
   double area;         /* m2 [pi/4 * (1 mm)^2] */
-  double constants[6]; /* of laws that need more; zero */
+  double constants[6]; /* of laws that have them; zeros take the defaults */
   mvs_id id;           /* 0: given by the library */
   const char *name;    /* null: made by the library from its kind and scallop, "P2/3" */
 } mvs_chord_desc;
@@ -125,7 +159,8 @@ typedef struct mvs_valve_desc {
   mvs_array node_origin;     /* optional, U32, n: MVS_NODE_ORIGIN of a valve that was operated on */
   const mvs_ring_desc *rings;
   uint32_t ring_count;
-  uint32_t reserved;
+  uint32_t curve_count;
+  const mvs_curve_desc *curves; /* that chordae of MVS_CHORD_TABLE follow */
 } mvs_valve_desc;
 
 /* A parametric mitral valve. Zero fields take the defaults in brackets (adult human; sources in

@@ -16,6 +16,8 @@ Tables make_tables(const Model &model) {
     tables.chord_rest_length.push_back(chord.rest_length);
     tables.chord_young.push_back(chord.young);
     tables.chord_area.push_back(chord.area);
+    tables.chord_law.push_back(chord.law);
+    tables.chord_constants.push_back(chord.constants);
   }
   for (const Head &head : valve.heads) tables.head_nodes.push_back(head.node);
   tables.ring_start = {0};
@@ -25,10 +27,16 @@ Tables make_tables(const Model &model) {
     tables.ring_points.insert(tables.ring_points.end(), ring.curve.begin(), ring.curve.end());
     tables.ring_start.push_back(static_cast<uint32_t>(tables.ring_points.size()));
   }
+  tables.curve_start = {0};
+  for (const ChordCurve &curve : valve.curves) {
+    tables.curve_points.insert(tables.curve_points.end(), curve.points.begin(), curve.points.end());
+    tables.curve_start.push_back(static_cast<uint32_t>(tables.curve_points.size()));
+  }
   for (const Leaflet &leaflet : valve.leaflets) {
     tables.leaflet_law.push_back(leaflet.law);
-    tables.leaflet_constants.push_back(
-        {leaflet.thickness, leaflet.bilinear.low, leaflet.bilinear.high, leaflet.bilinear.kink});
+    auto &row = tables.leaflet_constants.emplace_back();
+    row[0] = leaflet.thickness;
+    std::copy(leaflet.constants.begin(), leaflet.constants.end(), row.begin() + 1);
   }
   for (const std::vector<uint32_t> &loop : model.topology.free_edges) {
     tables.free_edge_nodes.insert(tables.free_edge_nodes.end(), loop.begin(), loop.end());

@@ -18,6 +18,8 @@ const char *kind_name(uint32_t kind) {
       return "chord";
     case MVS_PART_RING:
       return "ring";
+    case MVS_PART_CURVE:
+      return "curve";
     default:
       return "papillary head";
   }
@@ -39,6 +41,8 @@ void with_parts(const mvs_snapshot *snapshot, uint32_t kind, Use use) {
       return use(valve.heads);
     case MVS_PART_RING:
       return use(valve.rings);
+    case MVS_PART_CURVE:
+      return use(valve.curves);
     default:
       fail(MVS_E_ARGUMENT, "kind", "kind is %u: it has to be one of MVS_PART_*", kind);
   }

@@ -36,8 +36,10 @@ class Lazy {
 struct Tables {
   std::vector<Edge> chord_nodes;
   std::vector<uint32_t> chord_kind, head_nodes, leaflet_law, free_edge_nodes;
-  std::vector<uint32_t> ring_start, ring_kind;
+  std::vector<uint32_t> ring_start, ring_kind, chord_law, curve_start;
   std::vector<Vec3> ring_points;
+  std::vector<CurvePoint> curve_points;
+  std::vector<Chord::Constants> chord_constants;
   std::vector<Id> chord_id, ring_id;
   std::vector<double> chord_rest_length, chord_young, chord_area;
   std::vector<std::array<double, 9>> leaflet_constants;

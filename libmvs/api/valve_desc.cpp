@@ -4,6 +4,7 @@
 #include "api/structs.h"
 #include "base/arrays.h"
 #include "model/check.h"
+#include "model/chord_law.h"
 
 namespace mvs {
 namespace {
@@ -31,6 +32,15 @@ void read_nodes_and_triangles(const mvs_valve_desc &desc, Described &described) 
   valve.annulus = read_indices(desc.annulus, "annulus");
 }
 
+// Zeros become the law's defaults; what a law does not know is left for the check to name.
+template <typename Law, typename Values>
+void read_law_constants(const Law *law, const double *given, Values &values) {
+  for (size_t k = 0; k < values.size(); ++k) {
+    const bool known = law && k < law->constants.size();
+    values[k] = known ? or_default(given[k], law->constants[k].fallback) : given[k];
+  }
+}
+
 void read_leaflets(const mvs_valve_desc &desc, Valve &valve) {
   check_list(desc.leaflets, desc.leaflet_count, "leaflets");
   for (uint32_t l = 0; l < desc.leaflet_count; ++l) {
@@ -41,10 +51,7 @@ void read_leaflets(const mvs_valve_desc &desc, Valve &valve) {
     leaflet.name = text_or_empty(given.name);
     if (given.law != 0) leaflet.law = given.law;
     leaflet.thickness = or_default(given.thickness, leaflet.thickness);
-    leaflet.bilinear.low = or_default(given.constants[0], leaflet.bilinear.low);
-    leaflet.bilinear.high = or_default(given.constants[1], leaflet.bilinear.high);
-    leaflet.bilinear.kink = or_default(given.constants[2], leaflet.bilinear.kink);
-    for (int k = 3; k < 8; ++k) must_be_zero(given.constants[k], "leaflets[].constants[3..7]");
+    read_law_constants(find_leaflet_law(leaflet.law), given.constants, leaflet.constants);
     valve.leaflets.push_back(std::move(leaflet));
   }
 }
@@ -78,7 +85,7 @@ void read_chords(const mvs_valve_desc &desc, Valve &valve) {
     chord.rest_length = given.rest_length;
     chord.young = or_default(given.young, chord.young);
     chord.area = or_default(given.area, chord.area);
-    for (const double constant : given.constants) must_be_zero(constant, "chords[].constants");
+    read_law_constants(find_chord_law(chord.law), given.constants, chord.constants);
     valve.chords.push_back(std::move(chord));
   }
 }
@@ -93,7 +100,6 @@ void read_heads(const mvs_valve_desc &desc, Valve &valve) {
 }
 
 void read_rings(const mvs_valve_desc &desc, Valve &valve) {
-  must_be_zero(desc.reserved, "valve.reserved");
   check_list(desc.rings, desc.ring_count, "rings");
   for (uint32_t r = 0; r < desc.ring_count; ++r) {
     const mvs_ring_desc &given = desc.rings[r];
@@ -102,6 +108,15 @@ void read_rings(const mvs_valve_desc &desc, Valve &valve) {
     if (given.kind != 0) ring.kind = given.kind;
     ring.curve = read_points(given.curve, "rings[].curve");
     valve.rings.push_back(std::move(ring));
+  }
+}
+
+void read_curves(const mvs_valve_desc &desc, Valve &valve) {
+  check_list(desc.curves, desc.curve_count, "curves");
+  for (uint32_t c = 0; c < desc.curve_count; ++c) {
+    const mvs_curve_desc &given = desc.curves[c];
+    valve.curves.push_back(
+        {given.id, text_or_empty(given.name), read_pairs(given.points, "curves[].points")});
   }
 }
 
@@ -126,6 +141,7 @@ Described read_valve_desc(const mvs_valve_desc *given) {
   read_chords(desc, described.valve);
   read_heads(desc, described.valve);
   read_rings(desc, described.valve);
+  read_curves(desc, described.valve);
   read_constants(desc, described.valve);
   if (desc.flags & MVS_VALVE_ORIENT) orient(described.valve);
   return described;

@@ -108,6 +108,10 @@ Viewed chord_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.tables().chord_area);
     case MVS_CHORD_FLAGS:
       return view_of(s.chords().flags);
+    case MVS_CHORD_LAW:
+      return view_of(s.tables().chord_law);
+    case MVS_CHORD_CONSTANTS:
+      return view_of(s.tables().chord_constants);
     default:
       return {};
   }
@@ -127,6 +131,10 @@ Viewed other_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.tables().head_nodes);
     case MVS_HEAD_FORCE:
       return view_of(s.chords().head_force);
+    case MVS_CURVE_POINTS:
+      return view_of(s.tables().curve_points);
+    case MVS_CURVE_START:
+      return view_of(s.tables().curve_start);
     case MVS_RING_POINTS:
       return view_of(s.tables().ring_points);
     case MVS_RING_START:

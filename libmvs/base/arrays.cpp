@@ -92,6 +92,13 @@ std::vector<Vec3> read_points(const mvs_array &array, const char *what) {
   return points;
 }
 
+std::vector<std::array<double, 2>> read_pairs(const mvs_array &array, const char *what) {
+  std::vector<std::array<double, 2>> pairs(array.count);
+  for_each_real(array, 2, what,
+                [&](uint64_t row, uint32_t column, double value) { pairs[row][column] = value; });
+  return pairs;
+}
+
 std::vector<double> read_numbers(const mvs_array &array, const char *what) {
   std::vector<double> numbers;
   for_each_real(array, 1, what,

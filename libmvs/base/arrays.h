@@ -3,6 +3,7 @@
 
 #include <mvs/base.h>
 
+#include <array>
 #include <vector>
 
 #include "base/types.h"
@@ -14,6 +15,9 @@ bool is_given(const mvs_array &array);
 
 // Points or directions: F64 or F32, 3 components. An array that is not given is empty.
 std::vector<Vec3> read_points(const mvs_array &array, const char *what);
+
+// Pairs of numbers: F64 or F32, 2 components.
+std::vector<std::array<double, 2>> read_pairs(const mvs_array &array, const char *what);
 
 // One number a row: F64 or F32, 1 component.
 std::vector<double> read_numbers(const mvs_array &array, const char *what);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "model/law.h"
+#include "model/chord_law.h"
 
 namespace mvs {
 namespace {
@@ -50,7 +50,7 @@ ChordMeasures measure_chords(const Model &model, const std::vector<Vec3> &x) {
   for (const Chord &chord : model.valve.chords) {
     const double strain =
         ((x[chord.b] - x[chord.a]).norm() - chord.rest_length) / chord.rest_length;
-    const double tension = chord_tension(chord.stiffness(), strain);
+    const double tension = chord_tension(model.valve, chord, strain);
     measures.strain.push_back(strain);
     measures.tension.push_back(tension);
     measures.flags.push_back(flags_of(chord, strain, tension));

@@ -1,4 +1,5 @@
-// Stretch from the deformation of each triangle, stress from the springs along its sides.
+// Stretch from the deformation of each triangle; stress from the law of its membrane, or from the
+// springs along its sides.
 #include "measure/strain.h"
 
 #include <Eigen/Geometry>
@@ -6,12 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/law.h"
+#include "model/membrane.h"
 
 namespace mvs {
 namespace {
 
-using Mat2 = Eigen::Matrix2d;
 using Vec2 = Eigen::Vector2d;
 using Sides = Eigen::Matrix<double, 2, 3>;
 
@@ -56,6 +56,21 @@ std::array<double, 2> principal_stresses(const Bilinear &law, const Sides &rest,
   return principal(stress);
 }
 
+// Cauchy stress of a membrane, 2 F (dW/dC) F^T: nothing compresses, so that det of the whole
+// deformation is 1.
+std::array<double, 2> principal_stresses(const LeafletLaw &law, const Constants &constants,
+                                         const Mat2 &inverse, const Sides &now) {
+  Mat2 sides;
+  sides << now.col(0), -now.col(2);
+  const Mat2 f = sides * inverse, c = f.transpose() * f;
+  const InPlaneStrain strain{c(0, 0), c(1, 1), c(0, 1)};
+  const double i1 = strain.a + strain.b + 1 / strain.det();
+  const Vec3 slope = in_plane_stress(law.response(constants, i1, strain.a), strain).first;
+  Mat2 s;
+  s << 2 * slope[0], slope[2], slope[2], 2 * slope[1];
+  return principal(f * s * f.transpose());
+}
+
 }  // namespace
 
 Strain measure_strain(const Model &model, const std::vector<Vec3> &x) {
@@ -64,9 +79,12 @@ Strain measure_strain(const Model &model, const std::vector<Vec3> &x) {
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     const Sides rest = sides_in_plane(valve.rest, valve.triangles[t]);
     const Sides now = sides_in_plane(x, valve.triangles[t]);
-    const Bilinear &law = valve.leaflets[valve.triangle_leaflet[t]].bilinear;
+    const Leaflet &leaflet = valve.leaflets[valve.triangle_leaflet[t]];
+    const LeafletLaw &law = *find_leaflet_law(leaflet.law);
     strain.stretch.push_back(principal_stretches(rest, now));
-    strain.stress.push_back(principal_stresses(law, rest, now));
+    strain.stress.push_back(
+        law.response ? principal_stresses(law, leaflet.constants, rest_inverse(valve, t), now)
+                     : principal_stresses(Bilinear(leaflet.constants), rest, now));
     strain.max_strain = std::max(strain.max_strain, strain.stretch[t][0] - 1);
     strain.max_stress = std::max(strain.max_stress, strain.stress[t][0]);
     strain.leaflet_area += 0.5 * std::abs(now(0, 0) * now(1, 2));

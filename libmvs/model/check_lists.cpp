@@ -1,4 +1,8 @@
 // Sizes of lists and ranges of indices.
+#include <mvs/valve.h>
+
+#include <cmath>
+
 #include "model/checks.h"
 
 namespace mvs {
@@ -31,6 +35,13 @@ void check_index(const char *what, size_t number, const char *of, size_t index, 
              index, count);
 }
 
+void check_curve_index(const Valve &valve, size_t chord, Faults &faults) {
+  const double curve = valve.chords[chord].constants[0];
+  const bool whole = curve >= 0 && curve < list_limit && curve == std::floor(curve);
+  check_index("chord", chord, "curve", whole ? static_cast<size_t>(curve) : SIZE_MAX,
+              valve.curves.size(), faults);
+}
+
 void check_counts(const Valve &valve, Faults &faults) {
   check_count("nodes", valve.rest.size(), true, faults);
   check_count("triangles", valve.triangles.size(), true, faults);
@@ -40,6 +51,7 @@ void check_counts(const Valve &valve, Faults &faults) {
   check_count("chords", valve.chords.size(), false, faults);
   check_count("heads", valve.heads.size(), false, faults);
   check_count("rings", valve.rings.size(), false, faults);
+  check_count("curves", valve.curves.size(), false, faults);
 }
 
 void check_lengths(const Valve &valve, Faults &faults) {
@@ -86,6 +98,7 @@ void check_other_indices(const Valve &valve, Faults &faults) {
   for (size_t c = 0; c < valve.chords.size(); ++c) {
     check_index("chord", c, "node", valve.chords[c].a, n, faults);
     check_index("chord", c, "node", valve.chords[c].b, n, faults);
+    if (valve.chords[c].law == MVS_CHORD_TABLE) check_curve_index(valve, c, faults);
   }
   for (size_t h = 0; h < valve.heads.size(); ++h) {
     check_index("papillary head", h, "node", valve.heads[h].node, n, faults);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "model/checks.h"
+#include "model/chord_law.h"
 #include "model/text.h"
 
 namespace mvs {
@@ -65,7 +66,6 @@ struct Range {
 };
 constexpr Range thickness_range = {1e-5, 2e-2, "m", "looks like mm given as m"};
 constexpr Range modulus_range = {1, 1e12, "Pa", "moduli are in Pa"};
-constexpr Range strain_range = {0, 10, "", "strains are fractions, not percent"};
 constexpr Range density_range = {100, 20000, "kg/m3", "tissue has about 1060"};
 constexpr Range area_range = {1e-11, 1e-3, "m2", "looks like mm2 given as m2"};
 constexpr Range length_range = {0, 1, "m", "looks like mm given as m"};
@@ -79,25 +79,85 @@ void check_range(const std::string &part, const char *what, double value, const 
              *range.unit ? " " : "", range.unit, range.low, range.high, range.hint);
 }
 
+// That a law is known, that each of its constants is in range, and that no other is given.
+template <typename Law, typename Values>
+void check_law(const std::string &part, uint32_t id, const Law *law, const Values &values,
+               Faults &faults) {
+  if (!law) {
+    faults.add(part, "%s follows law %u, which this library does not know", part.c_str(), id);
+    return;
+  }
+  for (size_t k = 0; k < values.size(); ++k) {
+    if (k < law->constants.size()) {
+      const Constant &c = law->constants[k];
+      const bool is_modulus = *c.unit != 0;
+      check_range(part, c.what, values[k],
+                  {c.low, c.high, c.unit, is_modulus ? "moduli are in Pa" : "no tissue has that"},
+                  faults);
+    } else if (values[k] != 0) {
+      faults.add(part, "%s has a constant %zu of %g, but its law (%.*s) has only %zu: make it 0",
+                 part.c_str(), k, values[k], static_cast<int>(law->word.size()), law->word.data(),
+                 law->constants.size());
+    }
+  }
+}
+
+// Rising strains, stress that starts at 0 and does not fall: else a chord would push or jump.
+void check_curve(const ChordCurve &curve, Faults &faults) {
+  const std::string part = "curve " + curve.name;
+  const auto &points = curve.points.get();
+  if (points.size() < 2) {
+    faults.add(part, "%s has %zu points: it needs 2 at least", part.c_str(), points.size());
+    return;
+  }
+  if (!(points[0][0] >= 0 && points[0][1] == 0)) {
+    faults.add(part,
+               "%s starts at strain %g and stress %g Pa: begin where the chord gets taut, "
+               "with stress 0",
+               part.c_str(), points[0][0], points[0][1]);
+  }
+  for (size_t k = 1; k < points.size(); ++k) {
+    const double step = points[k][0] - points[k - 1][0], rise = points[k][1] - points[k - 1][1];
+    if (step > 0 && points[k][0] < 100 && rise >= 0 && points[k][1] < 1e13) continue;
+    faults.add(part,
+               "%s does not rise at point %zu (strain %g, stress %g Pa): strains have to "
+               "rise, stresses must not fall",
+               part.c_str(), k, points[k][0], points[k][1]);
+    return;
+  }
+}
+
+// A chord has to resist from the start, and to more than a twentieth of its length.
+void check_ogden(const std::string &part, const Valve &valve, const Chord &chord, Faults &faults) {
+  for (size_t k = 0; k < chord.constants.size(); k += 2) {
+    if ((chord.constants[k] == 0) == (chord.constants[k + 1] == 0)) continue;
+    faults.add(part, "%s has an Ogden term with mu %g Pa and alpha %g: give both, or neither",
+               part.c_str(), chord.constants[k], chord.constants[k + 1]);
+    return;
+  }
+  for (const double strain : {1e-6, 0.01, 0.05}) {
+    if (chord_response(valve, chord, strain).slope > 0) continue;
+    faults.add(part,
+               "%s gets softer than nothing at a strain of %g: its Ogden constants are of no "
+               "tissue",
+               part.c_str(), strain);
+    return;
+  }
+}
+
 void check_leaflet(const Leaflet &leaflet, size_t k, Faults &faults) {
   const std::string part =
       leaflet.name.empty() ? format("leaflet %zu", k) : "leaflet " + leaflet.name;
-  if (leaflet.law != MVS_LEAFLET_SPRING) {
-    faults.add(part, "%s follows law %u, which this library does not know", part.c_str(),
-               leaflet.law);
-  }
+  const LeafletLaw *law = find_leaflet_law(leaflet.law);
+  check_law(part, leaflet.law, law, leaflet.constants, faults);
   check_range(part, "thickness", leaflet.thickness, thickness_range, faults);
-  check_range(part, "low modulus", leaflet.bilinear.low, modulus_range, faults);
-  check_range(part, "high modulus", leaflet.bilinear.high, modulus_range, faults);
-  check_range(part, "kink strain", leaflet.bilinear.kink, strain_range, faults);
 }
 
-void check_chord(const Chord &chord, size_t k, Faults &faults) {
+void check_chord(const Valve &valve, size_t k, Faults &faults) {
+  const Chord &chord = valve.chords[k];
   const std::string part = chord.name.empty() ? format("chord %zu", k) : "chord " + chord.name;
-  if (chord.law != MVS_CHORD_LINEAR) {
-    faults.add(part, "%s follows law %u, which this library does not know", part.c_str(),
-               chord.law);
-  }
+  check_law(part, chord.law, find_chord_law(chord.law), chord.constants, faults);
+  if (chord.law == MVS_CHORD_OGDEN) check_ogden(part, valve, chord, faults);
   if (chord.kind > MVS_CHORD_SUTURE) {
     faults.add(part, "%s is of kind %u, which this library does not know", part.c_str(),
                chord.kind);
@@ -132,12 +192,14 @@ void check_parts(const Valve &valve, Faults &faults) {
   check_names(valve.heads, "papillary head", false, faults);
   check_names(valve.chords, "chord", false, faults);
   check_names(valve.rings, "ring", true, faults);
+  check_names(valve.curves, "curve", true, faults);
   std::set<Id> seen;
   check_ids(valve.leaflets, "leaflet", seen, faults);
   check_ids(valve.scallops, "scallop", seen, faults);
   check_ids(valve.heads, "papillary head", seen, faults);
   check_ids(valve.chords, "chord", seen, faults);
   check_ids(valve.rings, "ring", seen, faults);
+  check_ids(valve.curves, "curve", seen, faults);
   check_valve(valve, faults);
   for (size_t k = 0; k < valve.rings.size(); ++k) {
     const Ring &ring = valve.rings[k];
@@ -146,7 +208,8 @@ void check_parts(const Valve &valve, Faults &faults) {
                ring.name.c_str(), ring.kind);
   }
   for (size_t k = 0; k < valve.leaflets.size(); ++k) check_leaflet(valve.leaflets[k], k, faults);
-  for (size_t k = 0; k < valve.chords.size(); ++k) check_chord(valve.chords[k], k, faults);
+  for (size_t k = 0; k < valve.chords.size(); ++k) check_chord(valve, k, faults);
+  for (const ChordCurve &curve : valve.curves) check_curve(curve, faults);
 }
 
 }  // namespace mvs

@@ -62,11 +62,13 @@ void complete_ids(Valve &valve) {
   raise_next_id(valve.heads, valve.next_id);
   raise_next_id(valve.chords, valve.next_id);
   raise_next_id(valve.rings, valve.next_id);
+  raise_next_id(valve.curves, valve.next_id);
   give_ids(valve.leaflets, valve.next_id);
   give_ids(valve.scallops, valve.next_id);
   give_ids(valve.heads, valve.next_id);
   give_ids(valve.chords, valve.next_id);
   give_ids(valve.rings, valve.next_id);
+  give_ids(valve.curves, valve.next_id);
 }
 
 template <typename Part>

@@ -23,9 +23,7 @@ void add(Hash &hash, const Leaflet &leaflet) {
   hash.add(leaflet.name);
   add(hash, leaflet.law);
   hash.add(leaflet.thickness);
-  hash.add(leaflet.bilinear.low);
-  hash.add(leaflet.bilinear.high);
-  hash.add(leaflet.bilinear.kink);
+  for (const double constant : leaflet.constants) hash.add(constant);
 }
 void add(Hash &hash, const Scallop &scallop) {
   hash.add(scallop.id);
@@ -37,6 +35,7 @@ void add(Hash &hash, const Chord &chord) {
   hash.add(chord.name);
   for (const uint32_t number : {chord.a, chord.b, chord.kind, chord.law}) add(hash, number);
   for (const double number : {chord.rest_length, chord.young, chord.area}) hash.add(number);
+  for (const double constant : chord.constants) hash.add(constant);
 }
 void add(Hash &hash, const Head &head) {
   hash.add(head.id);
@@ -51,6 +50,15 @@ void add(Hash &hash, const Ring &ring) {
   hash.add(ring.name);
   add(hash, ring.kind);
   add(hash, ring.curve);
+}
+
+void add(Hash &hash, const CurvePoint &point) {
+  for (const double number : point) hash.add(number);
+}
+void add(Hash &hash, const ChordCurve &curve) {
+  hash.add(curve.id);
+  hash.add(curve.name);
+  add(hash, curve.points);
 }
 
 template <typename Item>
@@ -76,6 +84,7 @@ void add(Hash &hash, const Valve &valve) {
   add(hash, valve.chords);
   add(hash, valve.heads);
   add(hash, valve.rings);
+  add(hash, valve.curves);
   for (const double number :
        {valve.density, valve.contact_thickness, valve.contact_stiffness, valve.bending_scale}) {
     hash.add(number);

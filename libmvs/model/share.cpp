@@ -25,6 +25,7 @@ void share(Valve &valve, const Valve &other) {
   valve.chords.share_with(other.chords);
   valve.heads.share_with(other.heads);
   valve.rings.share_with(other.rings);
+  valve.curves.share_with(other.curves);
 }
 
 void share(Topology &topology, const Topology &other) {

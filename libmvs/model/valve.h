@@ -14,7 +14,7 @@ struct Leaflet {
   std::string name;
   uint32_t law = 1;  // MVS_LEAFLET_*
   double thickness = 1e-3;
-  Bilinear bilinear = {};  // constants of MVS_LEAFLET_SPRING
+  Constants constants = {100e3, 6e6, 0.25};  // of the law; what it does not use is 0
 
   bool operator==(const Leaflet &) const = default;
 };
@@ -30,16 +30,28 @@ struct Scallop {
 struct Chord {
   Id id = 0;
   std::string name;
-  uint32_t a = none;                                 // nearer the papillary head
-  uint32_t b = none;                                 // nearer the leaflet
-  uint32_t kind = 0;                                 // MVS_CHORD_MARGINAL ...
-  uint32_t law = 1;                                  // MVS_CHORD_LINEAR
-  double rest_length = 0;                            // m
-  double young = 40e6;                               // Pa
-  double area = 7.853981633974483e-7;                // m2, diameter 1 mm
-  double stiffness() const { return young * area; }  // E A, N
+  uint32_t a = none;                   // nearer the papillary head
+  uint32_t b = none;                   // nearer the leaflet
+  uint32_t kind = 0;                   // MVS_CHORD_MARGINAL ...
+  uint32_t law = 1;                    // MVS_CHORD_LINEAR ...
+  double rest_length = 0;              // m
+  double young = 40e6;                 // Pa
+  double area = 7.853981633974483e-7;  // m2, diameter 1 mm
+  using Constants = std::array<double, 6>;
+  Constants constants = {};  // of the law; what it does not use is 0
 
   bool operator==(const Chord &) const = default;
+};
+
+using CurvePoint = std::array<double, 2>;  // engineering strain, nominal stress in Pa
+
+// A measured curve that chordae can follow.
+struct ChordCurve {
+  Id id = 0;
+  std::string name;
+  SharedVector<CurvePoint> points;
+
+  bool operator==(const ChordCurve &) const = default;
 };
 
 struct Head {
@@ -80,6 +92,7 @@ struct Valve {
   SharedVector<Chord> chords;
   SharedVector<Head> heads;
   SharedVector<Ring> rings;
+  SharedVector<ChordCurve> curves;
   double density = 1060;            // kg/m3
   double contact_thickness = 1e-3;  // m, of a leaflet
   double contact_stiffness = 20e3;  // Pa

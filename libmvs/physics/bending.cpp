@@ -92,13 +92,17 @@ BendingTerm::BendingTerm(const Model &model) {
   const Valve &valve = model.valve;
   const Topology &topology = model.topology;
   if (valve.bending_scale <= 0) return;
+  std::vector<double> modulus;
+  for (const Leaflet &leaflet : valve.leaflets) {
+    modulus.push_back(bending_modulus(*find_leaflet_law(leaflet.law), leaflet.constants));
+  }
   for (size_t h = 0; h < topology.hinges.size(); ++h) {
     const auto &node = topology.hinges[h];
     const uint32_t edge = topology.hinge_edge[h];
     double area = 0, rigidity = 0;
     for (const uint32_t t : topology.edge_triangles[edge]) {
       const double thickness = valve.triangle_thickness[t];
-      const double young = valve.leaflets[valve.triangle_leaflet[t]].bilinear.low;
+      const double young = modulus[valve.triangle_leaflet[t]];
       area += model.rest_area[t];
       rigidity += 0.5 * young * thickness * thickness * thickness / (12 * (1 - 0.25));
     }

@@ -6,12 +6,14 @@ namespace mvs {
 Potential::Potential(const Model &model, ContactLaw law)
     : model_(&model),
       spring_(model),
+      membrane_(model),
       bending_(model),
       chord_(model),
       pressure_(model),
       candidates_(model),
       contact_(model, law) {
   spring_.add_pairs(pairs_);
+  membrane_.add_pairs(pairs_);
   bending_.add_pairs(pairs_);
   chord_.add_pairs(pairs_);
   pressure_.add_pairs(pairs_);
@@ -25,8 +27,8 @@ void Potential::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to,
 
 double Potential::energy(const std::vector<Vec3> &x) {
   contact_.collect(x, candidates_);
-  return spring_.energy(x) + bending_.energy(x) + chord_.energy(x) + pressure_.energy(x) +
-         contact_.energy();
+  return spring_.energy(x) + membrane_.energy(x) + bending_.energy(x) + chord_.energy(x) +
+         pressure_.energy(x) + contact_.energy();
 }
 
 double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
@@ -38,6 +40,7 @@ double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Pro
   pressure_.freeze(x);
   g.assign(x.size(), Vec3::Zero());
   double sum = spring_.gradient(x, g);
+  sum += membrane_.gradient(x, g);
   sum += bending_.gradient(x, g);
   sum += chord_.gradient(x, g);
   sum += pressure_.gradient(x, g);
@@ -47,6 +50,7 @@ double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Pro
 bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &system) {
   system.clear();
   spring_.hessian(x, curvature, system);
+  membrane_.hessian(x, curvature, system);
   bending_.hessian(x, curvature, system);
   chord_.hessian(x, curvature, system);
   pressure_.hessian(x, system);

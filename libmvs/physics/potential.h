@@ -7,6 +7,7 @@
 #include "physics/candidates.h"
 #include "physics/chord.h"
 #include "physics/contact.h"
+#include "physics/membrane.h"
 #include "physics/pressure.h"
 #include "physics/profile.h"
 #include "physics/spring.h"
@@ -45,6 +46,7 @@ class Potential {
 
   const Model *model_;
   SpringTerm spring_;
+  MembraneTerm membrane_;
   BendingTerm bending_;
   ChordTerm chord_;
   PressureTerm pressure_;

@@ -111,6 +111,7 @@ Numbering number(const Model &whole, const std::vector<uint8_t> &free,
 
 void copy_constants(const Valve &from, Valve &to) {
   to.leaflets = from.leaflets;
+  to.curves = from.curves;
   to.contact_thickness = from.contact_thickness;
   to.contact_stiffness = from.contact_stiffness;
   to.bending_scale = from.bending_scale;
@@ -125,6 +126,7 @@ void add_triangles(const Model &whole, const std::vector<uint8_t> &taken, const 
     piece.valve.triangles.push_back({index.of[tri[0]], index.of[tri[1]], index.of[tri[2]]});
     piece.valve.triangle_leaflet.push_back(valve.triangle_leaflet[t]);
     piece.valve.triangle_thickness.push_back(valve.triangle_thickness[t]);
+    piece.valve.triangle_fibre.push_back(valve.triangle_fibre[t]);
     piece.rest_area.push_back(whole.rest_area[t]);
   }
 }

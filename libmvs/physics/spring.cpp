@@ -1,17 +1,20 @@
 // The mass-spring sheet.
 #include "physics/spring.h"
 
+#include <mvs/valve.h>
+
 namespace mvs {
 
 SpringTerm::SpringTerm(const Model &model) {
   const Valve &valve = model.valve;
-  for (const Leaflet &leaflet : valve.leaflets) laws_.push_back(leaflet.bilinear);
+  for (const Leaflet &leaflet : valve.leaflets) laws_.emplace_back(leaflet.constants);
   for (size_t e = 0; e < model.topology.edges.size(); ++e) {
     const auto [i, j] = model.topology.edges[e];
     if (model.topology.fixed[i] && model.topology.fixed[j]) continue;
     for (const uint32_t t : model.topology.edge_triangles[e]) {
       if (t == none) continue;
       const uint32_t law = valve.triangle_leaflet[t];
+      if (valve.leaflets[law].law != MVS_LEAFLET_SPRING) continue;
       const double volume = valve.triangle_thickness[t] * model.rest_area[t];
       Spring *last = springs_.empty() ? nullptr : &springs_.back();
       if (last != nullptr && last->i == i && last->j == j && last->law == law) {

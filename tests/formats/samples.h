@@ -14,6 +14,7 @@
 #include "../unit/small_valve.h"
 #include "base/error.h"
 #include "formats/formats.h"
+#include "model/chord_law.h"
 
 namespace mvs {
 
@@ -57,7 +58,7 @@ inline Pair in_motion(Valve valve) {
     valve.triangle_scallop.push_back(leaflet == 0 ? 0 : 1 + static_cast<uint32_t>(t / 2 % 2));
     valve.triangle_thickness.push_back(t % 5 == 0 ? 1.3e-3 : 1e-3);
   }
-  valve.leaflets[1].bilinear = {90e3, 5.5e6, 0.3};
+  valve.leaflets[1].constants = {90e3, 5.5e6, 0.3};
   valve.chords[2].young = 35e6;
   valve.chords[3].area = 5e-7;
   valve.next_id = 1000;
@@ -130,6 +131,13 @@ inline Pair random_pair(uint64_t seed) {
   valve.scallops = random_parts<Scallop>(random, 1);
   valve.chords = random_parts<Chord>(random, 0);
   valve.heads = random_parts<Head>(random, 0);
+  valve.curves = random_parts<ChordCurve>(random, 1);
+  for (ChordCurve &curve : valve.curves) {
+    for (uint32_t k = random.below(4); k > 0; --k) {
+      const double strain = random.number(), stress = random.number();
+      curve.points.push_back({strain, stress});
+    }
+  }
   const uint32_t n = 1 + random.below(20), m = random.below(30);
   const auto any_node = [&] { return random.below(n); };
   for (uint32_t k = 0; k < n; ++k) {
@@ -142,7 +150,10 @@ inline Pair random_pair(uint64_t seed) {
   }
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.thickness = random.number();
-    leaflet.bilinear = {random.number(), random.number(), random.number()};
+    leaflet.law = 1 + random.below(static_cast<uint32_t>(leaflet_laws().size()));
+    leaflet.constants = {};
+    const size_t known = find_leaflet_law(leaflet.law)->constants.size();
+    for (size_t k = 0; k < known; ++k) leaflet.constants[k] = random.number();
   }
   for (Scallop &scallop : valve.scallops) {
     scallop.leaflet = random.below(static_cast<uint32_t>(valve.leaflets.size()));
@@ -162,6 +173,13 @@ inline Pair random_pair(uint64_t seed) {
     chord.rest_length = random.number();
     chord.young = random.number();
     chord.area = random.number();
+    chord.law = 1 + random.below(MVS_CHORD_TABLE);
+    if (chord.law == MVS_CHORD_TABLE) {
+      chord.constants[0] = random.below(static_cast<uint32_t>(valve.curves.size()));
+    } else {
+      const size_t known = find_chord_law(chord.law)->constants.size();
+      for (size_t k = 0; k < known; ++k) chord.constants[k] = random.number();
+    }
   }
   for (Head &head : valve.heads) head.node = any_node();
   valve.density = random.number();

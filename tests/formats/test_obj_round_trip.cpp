@@ -39,9 +39,8 @@ void check_same_lists(const Valve &a, const Valve &b) {
 
 void check_same_parts(const Valve &a, const Valve &b) {
   CHECK(same_parts(a.leaflets, b.leaflets, [](const Leaflet &p, const Leaflet &q) {
-    const Bilinear &s = p.bilinear, &t = q.bilinear;
-    return p.law == q.law &&
-           same_bits({p.thickness, s.low, s.high, s.kink}, {q.thickness, t.low, t.high, t.kink});
+    return p.law == q.law && same_bits({p.thickness}, {q.thickness}) &&
+           same_bits(p.constants, q.constants);
   }));
   CHECK(same_parts(a.scallops, b.scallops,
                    [](const Scallop &p, const Scallop &q) { return p.leaflet == q.leaflet; }));
@@ -49,6 +48,7 @@ void check_same_parts(const Valve &a, const Valve &b) {
       same_parts(a.heads, b.heads, [](const Head &p, const Head &q) { return p.node == q.node; }));
   CHECK(same_parts(a.chords, b.chords, [](const Chord &p, const Chord &q) {
     return p.a == q.a && p.b == q.b && p.kind == q.kind && p.law == q.law &&
+           same_bits(p.constants, q.constants) &&
            same_bits({p.rest_length, p.young, p.area}, {q.rest_length, q.young, q.area});
   }));
 }
@@ -58,6 +58,7 @@ void check_same(const Valve &a, const State &x, const Valve &b, const State &y) 
   check_same_parts(a, b);
   CHECK(a.name == b.name);
   CHECK(a.rings == b.rings);
+  CHECK(a.curves == b.curves);
   CHECK(a.next_id == b.next_id);
   CHECK(same_bits({a.density, a.contact_thickness, a.contact_stiffness, a.bending_scale},
                   {b.density, b.contact_thickness, b.contact_stiffness, b.bending_scale}));

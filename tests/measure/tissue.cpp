@@ -22,7 +22,7 @@ double spring_energy(const Model &model, const std::vector<Vec3> &x) {
   const Valve &valve = model.valve;
   double sum = 0;
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
-    const Bilinear &law = valve.leaflets[valve.triangle_leaflet[t]].bilinear;
+    const Bilinear law(valve.leaflets[valve.triangle_leaflet[t]].constants);
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = valve.triangles[t][k], b = valve.triangles[t][(k + 1) % 3];
       const double rest = (valve.rest[b] - valve.rest[a]).norm();

@@ -16,6 +16,11 @@ void complete_sheet(Valve &valve) {
   for (const uint32_t l : valve.triangle_leaflet) {
     valve.triangle_thickness.push_back(valve.leaflets[l].thickness);
   }
+  if (valve.triangle_fibre.empty()) {
+    for (const Tri &t : valve.triangles) {
+      valve.triangle_fibre.push_back(Vec3((valve.rest[t[1]] - valve.rest[t[0]]).normalized()));
+    }
+  }
   for (Chord &c : valve.chords) {
     if (c.rest_length == 0) c.rest_length = (valve.rest[c.b] - valve.rest[c.a]).norm();
   }

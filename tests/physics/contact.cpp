@@ -389,7 +389,7 @@ TEST_CASE("plates_pressed_together_rest_where_contact_bears_the_pressure") {
     CAPTURE(cells);
     const Plates plates = two_plates(cells, 20e-3, 1.6e-3, true, [](Valve &v) {
       v.leaflets.resize(1);
-      v.leaflets[0].bilinear = {200e3, 200e3, 10};
+      v.leaflets[0].constants = {200e3, 200e3, 10};
     });
     const Settled settled = settle(plates.model, pressure);
     REQUIRE(settled.stats.converged);

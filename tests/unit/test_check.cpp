@@ -268,9 +268,34 @@ TEST_CASE("names_and_ids_are_checked") {
 
 TEST_CASE("materials_that_cannot_be_are_named") {
   check_fault("leaflet A has thickness 1 m", 1, [](Valve &v) { v.leaflets[0].thickness = 1; });
-  check_fault("low modulus", 1, [](Valve &v) { v.leaflets[0].bilinear.low = -1; });
-  check_fault("high modulus", 1, [](Valve &v) { v.leaflets[0].bilinear.high = not_a_number; });
-  check_fault("kink strain", 1, [](Valve &v) { v.leaflets[0].bilinear.kink = 25; });
+  check_fault("low modulus", 1, [](Valve &v) { v.leaflets[0].constants[0] = -1; });
+  check_fault("high modulus", 1, [](Valve &v) { v.leaflets[0].constants[1] = not_a_number; });
+  check_fault("follows law 7", 1, [](Valve &v) { v.leaflets[0].law = 7; });
+  check_fault("its law (spring) has only 3", 1, [](Valve &v) { v.leaflets[0].constants[3] = 1; });
+  check_fault("constant c2", 1, [](Valve &v) {
+    v.leaflets[0].law = MVS_LEAFLET_FUNG;
+    v.leaflets[0].constants = {1e3, 124, -4.6};
+  });
+  check_fault("follows law 5", 1, [](Valve &v) { v.chords[2].law = 5; });
+  check_fault("give both, or neither", 1, [](Valve &v) {
+    v.chords[2].law = MVS_CHORD_OGDEN;
+    v.chords[2].constants = {1e6, 10, 1e6, 0, 0, 0};
+  });
+  check_fault("gets softer than nothing", 1, [](Valve &v) {
+    v.chords[2].law = MVS_CHORD_OGDEN;
+    v.chords[2].constants = {-1e6, 10, 0, 0, 0, 0};
+  });
+  check_fault("names curve 1, but there are 1", 1, [](Valve &v) {
+    v.chords[2].law = MVS_CHORD_TABLE;
+    v.chords[2].constants = {1};
+    v.curves = {{0, "c", {{0, 0}, {0.1, 1e6}}}};
+  });
+  check_fault("it needs 2 at least", 1, [](Valve &v) { v.curves = {{0, "c", {{0, 0}}}}; });
+  check_fault("starts at strain", 1, [](Valve &v) { v.curves = {{0, "c", {{0, 5}, {0.1, 1e6}}}}; });
+  check_fault("does not rise at point 1", 1, [](Valve &v) {
+    v.curves = {{0, "c", {{0, 0}, {0.1, -1}}}};
+  });
+  check_fault("kink strain", 1, [](Valve &v) { v.leaflets[0].constants[2] = 25; });
   check_fault("law 9", 1, [](Valve &v) { v.leaflets[0].law = 9; });
   check_fault("chord 2 follows law 9", 1, [](Valve &v) { v.chords[2].law = 9; });
   check_fault("is of kind 99", 1, [](Valve &v) { v.chords[2].kind = 99; });

@@ -178,9 +178,9 @@ TEST_CASE("the_hash_tells_every_input_apart") {
   model_differs([](Model &m) { m.valve.leaflets[0].id = 99; });
   model_differs([](Model &m) { m.valve.leaflets[0].law = 2; });
   model_differs([](Model &m) { m.valve.leaflets[0].thickness = 2e-3; });
-  model_differs([](Model &m) { m.valve.leaflets[0].bilinear.low = 2e5; });
-  model_differs([](Model &m) { m.valve.leaflets[0].bilinear.high = 2e6; });
-  model_differs([](Model &m) { m.valve.leaflets[0].bilinear.kink = 0.2; });
+  model_differs([](Model &m) { m.valve.leaflets[0].constants[0] = 2e5; });
+  model_differs([](Model &m) { m.valve.leaflets[0].constants[1] = 2e6; });
+  model_differs([](Model &m) { m.valve.leaflets[0].constants[2] = 0.2; });
   model_differs([](Model &m) { m.valve.scallops[0].leaflet = 1; });
   model_differs([](Model &m) { m.valve.chords[0].rest_length *= 1.25; });
   model_differs([](Model &m) { m.valve.chords[0].young *= 1.25; });

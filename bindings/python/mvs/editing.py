@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ._core import Snapshot
-from .values import Leaflet, LeafletLaw, PartKind, Ring, RingKind, Valve
+from .values import Curve, Leaflet, LeafletLaw, PartKind, Ring, RingKind, Valve
 
 import numpy as np
 
@@ -42,6 +42,9 @@ def valve_of(snapshot: Snapshot) -> Valve:
         chord_kind=snapshot.chord_kind.copy(),
         chord_young=snapshot.chord_young.copy(),
         chord_area=snapshot.chord_area.copy(),
+        chord_law=snapshot.chord_law.copy(),
+        chord_constants=snapshot.chord_constants.copy(),
+        curves=_curves(snapshot, parts[PartKind.CURVE]),
         chord_id=snapshot.chord_id.copy(),
         chord_names=[part.name for part in parts[PartKind.CHORD]],
         head_nodes=snapshot.head_nodes.copy(),
@@ -62,6 +65,14 @@ def _rings(snapshot: Snapshot, parts: list) -> list[Ring]:
     return [
         Ring(part.name, curve, RingKind(int(kind)), part.id)
         for part, curve, kind in zip(parts, curves, snapshot.ring_kind)
+    ]
+
+
+def _curves(snapshot: Snapshot, parts: list) -> list[Curve]:
+    start = snapshot.curve_start
+    return [
+        Curve(part.name, snapshot.curve_points[a:b].copy(), part.id)
+        for part, a, b in zip(parts, start, start[1:])
     ]
 
 

@@ -50,6 +50,7 @@ class PartKind(IntEnum):
     CHORD = 3
     HEAD = 4
     RING = 5
+    CURVE = 6
 
 
 class RingKind(IntEnum):
@@ -60,9 +61,26 @@ class RingKind(IntEnum):
 
 
 class LeafletLaw(IntEnum):
-    """The laws a leaflet sheet can follow."""
+    """The laws a leaflet sheet can follow: springs, or membranes with W(I1, I4) in J/m3.
+
+    Formulas, constants and sources: include/mvs/valve.h.
+    """
 
     SPRING = 1
+    BILINEAR = 2
+    FUNG = 3
+    MAY_NEWMAN_YIN = 4
+    PROT = 5
+    NEO_HOOKEAN = 6
+
+
+class ChordLaw(IntEnum):
+    """The laws a chord can follow: nominal stress over strain, none when slack (valve.h)."""
+
+    LINEAR = 1
+    BILINEAR = 2
+    OGDEN = 3
+    TABLE = 4
 
 
 class SpreadOrder(IntEnum):
@@ -273,8 +291,8 @@ class Leaflet:
     """A leaflet and its tissue; zeros take the library's defaults.
 
     thickness: m
-    constants: of the law; for the spring sheet Young's modulus below and above the kink (Pa) and
-        the strain at the kink
+    constants: of the law, at most 8, moduli in Pa; for the spring sheet Young's modulus below and
+        above the kink and the strain at the kink
     """
 
     name: str
@@ -298,6 +316,19 @@ class Ring:
     name: str
     curve: NDArray[Any]
     kind: RingKind = RingKind.RIGID
+    id: int = 0
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Curve:
+    """A measured curve that chordae of ``ChordLaw.TABLE`` follow.
+
+    points: float64 or float32 (k, 2): strain, rising, and nominal stress in Pa, not falling; 0 at
+        the first point, where the chord gets taut
+    """
+
+    name: str
+    points: NDArray[Any]
     id: int = 0
 
 
@@ -348,6 +379,12 @@ class Valve:
     """float64 (c,), Pa"""
     chord_area: Array = None
     """float64 (c,), m2"""
+    chord_law: Array = None
+    """uint32 (c,): ChordLaw; None: linear"""
+    chord_constants: Array = None
+    """float64 (c, 6): of the law; for ChordLaw.TABLE the index of its curve first"""
+    curves: Sequence[Curve] = ()
+    """measured curves that chordae follow"""
     chord_id: Array = None
     """uint64 (c,)"""
     chord_names: Optional[Sequence[str]] = None

@@ -59,7 +59,7 @@ py::object compare(const Snapshot &snapshot, const Snapshot &other) {
 
 py::tuple parts(const Snapshot &snapshot) {
   py::list all;
-  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_RING; ++kind) {
+  for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_CURVE; ++kind) {
     uint32_t count = 0;
     must(mvs_snapshot_part_count(snapshot.get(), kind, &count));
     for (uint32_t index = 0; index < count; ++index) {

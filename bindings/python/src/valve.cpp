@@ -22,6 +22,27 @@ std::vector<T> column(const py::object &valve, const char *name, uint32_t type, 
   return values;
 }
 
+// (rows, 6) numbers beside the rows of `of`, or zeros.
+std::vector<double> rows_of_six(const py::object &valve, const char *name, const char *of,
+                                size_t rows) {
+  const py::object given = valve.attr(name);
+  std::vector<double> values(6 * rows);
+  if (given.is_none()) return values;
+  const py::array_t<double> table(array_argument(given, {name, 6, {MVS_F64}}));
+  const auto at = table.unchecked<2>();
+  if (static_cast<size_t>(at.shape(0)) != rows) {
+    refuse(MVS_E_ARGUMENT, name,
+           std::string(name) + ": " + std::to_string(rows) + " rows are needed, one for each of " +
+               of + ", not " + std::to_string(at.shape(0)));
+  }
+  for (size_t r = 0; r < rows; ++r) {
+    for (size_t k = 0; k < 6; ++k) {
+      values[6 * r + k] = at(static_cast<py::ssize_t>(r), static_cast<py::ssize_t>(k));
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
@@ -35,6 +56,7 @@ ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
   read_chords();
   read_heads();
   read_rings();
+  read_curves();
   read_numbers();
 }
 
@@ -108,6 +130,8 @@ void ValveArguments::read_chords() {
   const auto young = column<double>(valve_, "chord_young", MVS_F64, of, count);
   const auto area = column<double>(valve_, "chord_area", MVS_F64, of, count);
   const auto id = column<mvs_id>(valve_, "chord_id", MVS_U64, of, count);
+  const auto law = column<uint32_t>(valve_, "chord_law", MVS_U32, of, count);
+  const auto constants = rows_of_six(valve_, "chord_constants", of, count);
   chord_names_ = names("chord_names", count);
   for (size_t c = 0; c < count; ++c) {
     const auto row = static_cast<py::ssize_t>(c);
@@ -119,6 +143,8 @@ void ValveArguments::read_chords() {
     chord.young = young[c];
     chord.area = area[c];
     chord.id = id[c];
+    chord.law = law[c];
+    std::copy_n(&constants[6 * c], 6, chord.constants);
     chord.name = chord_names_.empty() ? nullptr : chord_names_[c].c_str();
     chords_.push_back(chord);
   }
@@ -156,6 +182,22 @@ void ValveArguments::read_rings() {
   }
   desc_.rings = rings_.data();
   desc_.ring_count = static_cast<uint32_t>(rings_.size());
+}
+
+void ValveArguments::read_curves() {
+  const auto given = valve_.attr("curves").cast<std::vector<py::object>>();
+  curve_names_.reserve(given.size());
+  for (const py::object &curve : given) {
+    curve_names_.push_back(curve.attr("name").cast<std::string>());
+    mvs_curve_desc desc{};
+    desc.name = curve_names_.back().c_str();
+    desc.id = curve.attr("id").cast<mvs_id>();
+    const Wanted wanted{"curves", 2, {MVS_F64, MVS_F32}};
+    desc.points = described(array_argument(curve.attr("points"), wanted), kept_);
+    curves_.push_back(desc);
+  }
+  desc_.curves = curves_.data();
+  desc_.curve_count = static_cast<uint32_t>(curves_.size());
 }
 
 void ValveArguments::read_numbers() {

@@ -24,6 +24,7 @@ class ValveArguments {
   void read_chords();
   void read_heads();
   void read_rings();
+  void read_curves();
   void read_numbers();
   double number(const char *name) const;
   std::vector<std::string> names(const char *name, size_t count) const;
@@ -32,7 +33,8 @@ class ValveArguments {
   mvs_valve_desc desc_{};
   std::vector<py::array> kept_;
   std::string name_;
-  std::vector<std::string> leaflet_names_, scallop_names_, chord_names_, head_names_, ring_names_;
+  std::vector<std::string> leaflet_names_, scallop_names_, chord_names_, head_names_, ring_names_,
+      curve_names_;
   std::vector<const char *> scallops_;
   std::vector<mvs_id> scallop_ids_;
   std::vector<uint32_t> first_leaflet_;  // where triangle_leaflet is not given
@@ -40,6 +42,7 @@ class ValveArguments {
   std::vector<mvs_chord_desc> chords_;
   std::vector<mvs_head_desc> heads_;
   std::vector<mvs_ring_desc> rings_;
+  std::vector<mvs_curve_desc> curves_;
 };
 
 }  // namespace mvs_python

@@ -1,0 +1,99 @@
+// The laws of chordae. A new one is a case here and a row of the table, and its number in
+// include/mvs/valve.h.
+#include "model/chord_law.h"
+
+#include <mvs/valve.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mvs {
+namespace {
+
+Axial linear(double young, double e) {
+  return {0.5 * young * e * e, young * e, young};
+}
+
+Axial bilinear(double low, double kink, double high, double e) {
+  if (e < kink) return linear(low, e);
+  const double over = e - kink;
+  return {0.5 * low * kink * kink + low * kink * over + 0.5 * high * over * over,
+          low * kink + high * over, high};
+}
+
+// P = sum of 2 mu / alpha (l^(alpha - 1) - l^(-alpha / 2 - 1)): uniaxial, incompressible.
+Axial ogden(const Chord::Constants &c, double e) {
+  const double l = 1 + e;
+  Axial sum;
+  for (size_t k = 0; k < c.size(); k += 2) {
+    const double mu = c[k], alpha = c[k + 1];
+    if (mu == 0) continue;
+    // less one, so that a small alpha (fits have 1e-4) does not lose the digits
+    const double along = std::expm1(alpha * std::log(l)),
+                 across = std::expm1(-alpha / 2 * std::log(l));
+    sum.energy += 2 * mu / (alpha * alpha) * (along + 2 * across);
+    sum.stress += 2 * mu / alpha * (along - across) / l;
+    sum.slope +=
+        2 * mu / alpha * ((alpha - 1) * along + (alpha / 2 + 1) * across + 1.5 * alpha) / (l * l);
+  }
+  return sum;
+}
+
+Axial table(const SharedVector<CurvePoint> &points, double e) {
+  Axial at;
+  for (size_t k = 0; k + 1 < points.size() && e > points[k][0]; ++k) {
+    const auto [from_strain, from_stress] = points[k];
+    const auto [to_strain, to_stress] = points[k + 1];
+    at.slope = (to_stress - from_stress) / (to_strain - from_strain);
+    const bool last = k + 2 == points.size();
+    const double step = (last ? e : std::min(e, to_strain)) - from_strain;
+    at.stress = from_stress + at.slope * step;
+    at.energy += 0.5 * (from_stress + at.stress) * step;
+  }
+  return at;
+}
+
+constexpr Constant bilinear_constants[] = {{"kink", "kink strain", "", 0.05, 0, 10},
+                                           {"high", "high modulus", "Pa", 100e6, 1, 1e12}};
+constexpr double mu = 1e12, alpha = 1e3;
+// alpha of a term that is not there is 0
+constexpr Constant ogden_constants[] = {
+    {"mu1", "constant mu1", "Pa", 0, -mu, mu}, {"alpha1", "constant alpha1", "", 0, -alpha, alpha},
+    {"mu2", "constant mu2", "Pa", 0, -mu, mu}, {"alpha2", "constant alpha2", "", 0, -alpha, alpha},
+    {"mu3", "constant mu3", "Pa", 0, -mu, mu}, {"alpha3", "constant alpha3", "", 0, -alpha, alpha}};
+constexpr Constant table_constants[] = {{"curve", "curve", "", 0, 0, 4294967294.0}};
+
+constexpr ChordLaw laws[] = {{MVS_CHORD_LINEAR, "linear", {}},
+                             {MVS_CHORD_BILINEAR, "bilinear", bilinear_constants},
+                             {MVS_CHORD_OGDEN, "ogden", ogden_constants},
+                             {MVS_CHORD_TABLE, "table", table_constants}};
+
+}  // namespace
+
+std::span<const ChordLaw> chord_laws() {
+  return laws;
+}
+
+const ChordLaw *find_chord_law(uint32_t id) {
+  for (const ChordLaw &law : laws) {
+    if (law.id == id) return &law;
+  }
+  return nullptr;
+}
+
+Axial chord_response(const Valve &valve, const Chord &chord, double strain) {
+  if (strain <= 0) return {};
+  const auto &c = chord.constants;
+  switch (chord.law) {
+    case MVS_CHORD_BILINEAR:
+      return bilinear(chord.young, c[0], c[1], strain);
+    case MVS_CHORD_OGDEN:
+      return ogden(c, strain);
+    case MVS_CHORD_TABLE:
+      return table(valve.curves[static_cast<size_t>(c[0])].points, strain);
+    default:
+      return linear(chord.young, strain);
+  }
+}
+
+}  // namespace mvs

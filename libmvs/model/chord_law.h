@@ -1,0 +1,32 @@
+// What a chord does when it is stretched: nominal stress over engineering strain, none when slack.
+#pragma once
+
+#include <span>
+
+#include "model/valve.h"
+
+namespace mvs {
+
+// At one strain: energy per rest volume in J/m3, nominal stress in Pa, and its slope.
+struct Axial {
+  double energy = 0, stress = 0, slope = 0;
+};
+
+struct ChordLaw {
+  uint32_t id;  // MVS_CHORD_*
+  std::string_view word;
+  std::span<const Constant> constants;
+};
+
+std::span<const ChordLaw> chord_laws();       // in the order of their ids, from 1
+const ChordLaw *find_chord_law(uint32_t id);  // null if there is none
+
+// `chord` follows a law that is known, with the constants it needs (check_parts.cpp).
+Axial chord_response(const Valve &valve, const Chord &chord, double strain);
+
+// N
+inline double chord_tension(const Valve &valve, const Chord &chord, double strain) {
+  return chord.area * chord_response(valve, chord, strain).stress;
+}
+
+}  // namespace mvs

@@ -1,0 +1,71 @@
+// The strain of a membrane triangle and what its law makes of it. With F = [f0 f1] the map from the
+// rest triangle (first axis along the fibre) into space, everything follows from three numbers,
+//     a = f0 . f0,  b = f1 . f1,  c = f0 . f1,
+// the in-plane Cauchy-Green strain C = [a c; c b]. The tissue does not compress and nothing presses
+// on its faces (plane stress), so that the thickness stretches by 1 / sqrt(det C):
+//     I1 = a + b + 1 / (a b - c^2),  I4 = a.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "model/model.h"
+
+namespace mvs {
+
+using Mat2 = Eigen::Matrix2d;
+
+// Energy density and its derivatives by (a, b, c).
+struct InPlane {
+  double w;
+  Vec3 first;
+  Mat3 second;
+};
+
+struct InPlaneStrain {
+  double a, b, c;
+  double det() const { return a * b - c * c; }
+};
+
+// The energy density and its slope; `second` is left as it is.
+inline InPlane in_plane_stress(const Response &r, const InPlaneStrain &s) {
+  const double d2 = s.det() * s.det();
+  InPlane out;
+  out.w = r.w;
+  out.first = r.w1 * Vec3(1 - s.b / d2, 1 - s.a / d2, 2 * s.c / d2);
+  out.first[0] += r.w4;
+  return out;
+}
+
+// With its curvature. W is convex in (a, b, c) for every law of law.h, for I1 is convex in C, I4
+// linear, and W rises in I1 and is convex in both: `second` is positive semidefinite.
+inline InPlane in_plane_stiffness(const Response &r, const InPlaneStrain &s) {
+  InPlane out = in_plane_stress(r, s);
+  const auto [a, b, c] = s;
+  const double d = s.det(), d2 = d * d, d3 = d2 * d;
+  const Vec3 slope(1 - b / d2, 1 - a / d2, 2 * c / d2);                    // of I1
+  out.second << 2 * b * b / d3, 2 * a * b / d3 - 1 / d2, -4 * b * c / d3,  //
+      2 * a * b / d3 - 1 / d2, 2 * a * a / d3, -4 * a * c / d3,            //
+      -4 * b * c / d3, -4 * a * c / d3, 2 / d2 + 8 * c * c / d3;
+  out.second *= r.w1;
+  out.second += r.w11 * slope * slope.transpose();
+  out.second.row(0) += r.w14 * slope.transpose();
+  out.second.col(0) += r.w14 * slope;
+  out.second(0, 0) += r.w44;
+  return out;
+}
+
+// The inverse of the rest triangle's sides 0-1 and 0-2 in its own axes: fibre, normal x fibre.
+// F = [x1 - x0, x2 - x0] times it.
+inline Mat2 rest_inverse(const Valve &valve, size_t t) {
+  const Tri &nodes = valve.triangles[t];
+  const Vec3 s1 = valve.rest[nodes[1]] - valve.rest[nodes[0]];
+  const Vec3 s2 = valve.rest[nodes[2]] - valve.rest[nodes[0]];
+  const Vec3 &fibre = valve.triangle_fibre[t];
+  const Vec3 across = s1.cross(s2).normalized().cross(fibre);
+  Mat2 sides;
+  sides << fibre.dot(s1), fibre.dot(s2), across.dot(s1), across.dot(s2);
+  return sides.inverse();
+}
+
+}  // namespace mvs

@@ -1,0 +1,98 @@
+// Laws by themselves: derivatives against differences, also where exponents are cut off.
+#include <doctest/doctest.h>
+#include <mvs/valve.h>
+
+#include <cmath>
+
+#include "model/chord_law.h"
+#include "model/law.h"
+
+using namespace mvs;
+
+namespace {
+
+// Relative to the size of what is compared: h^2 of central differences at h = 1e-5 of numbers of
+// the order of 1 whose third derivative may be 1e3 times the first, and rounding 1e-16 / h.
+bool close(double a, double b, double size) {
+  return std::abs(a - b) <= 1e-6 * size;
+}
+
+void check_response(const LeafletLaw &law, const Constants &c, double i1, double i4) {
+  const double h = 1e-5;
+  const Response at = law.response(c, i1, i4);
+  const Response up = law.response(c, i1 + h, i4), down = law.response(c, i1 - h, i4);
+  const Response over = law.response(c, i1, i4 + h), under = law.response(c, i1, i4 - h);
+  const double slope = std::abs(at.w1) + std::abs(at.w4);
+  const double curve = slope + std::abs(at.w11) + std::abs(at.w14) + std::abs(at.w44);
+  CHECK(close((up.w - down.w) / (2 * h), at.w1, curve));
+  CHECK(close((over.w - under.w) / (2 * h), at.w4, curve));
+  CHECK(close((up.w1 - down.w1) / (2 * h), at.w11, 100 * curve));
+  CHECK(close((over.w1 - under.w1) / (2 * h), at.w14, 100 * curve));
+  CHECK(close((over.w4 - under.w4) / (2 * h), at.w44, 100 * curve));
+}
+
+}  // namespace
+
+TEST_CASE("every_law_has_the_derivatives_of_its_energy") {
+  for (const LeafletLaw &law : leaflet_laws()) {
+    if (!law.response) continue;
+    CAPTURE(law.word);
+    const Constants c = default_constants(law.constants);
+    for (const double i1 : {3.001, 3.1611, 3.3, 4.0}) {
+      for (const double i4 : {0.7, 1.001, 1.2}) check_response(law, c, i1, i4);
+    }
+  }
+}
+
+TEST_CASE("laws_do_nothing_at_rest_and_stay_finite_when_a_triangle_is_crushed") {
+  for (const LeafletLaw &law : leaflet_laws()) {
+    if (!law.response) continue;
+    CAPTURE(law.word);
+    const Constants c = default_constants(law.constants);
+    CHECK(law.response(c, 3, 1).w == 0);
+    double last = 0;
+    for (const double i1 : {4.0, 10.0, 1e3, 1e6}) {
+      const Response r = law.response(c, i1, 4);
+      CHECK(std::isfinite(r.w11));
+      CHECK(r.w > last);  // and it goes on rising
+      last = r.w;
+    }
+  }
+}
+
+TEST_CASE("chord_laws_have_the_derivatives_of_their_energy") {
+  Valve valve;
+  valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};
+  Chord chord;
+  const double h = 1e-6;
+  for (const ChordLaw &law : chord_laws()) {
+    CAPTURE(law.word);
+    chord.law = law.id;
+    if (law.id == MVS_CHORD_BILINEAR) chord.constants = {0.05, 100e6};
+    if (law.id == MVS_CHORD_OGDEN) chord.constants = {4.24e6, 55.9, 2.72e6, 1e-4, 37, 70.7};
+    if (law.id == MVS_CHORD_TABLE) chord.constants = {0};
+    for (const double e : {0.01, 0.03, 0.07, 0.1, 0.2}) {
+      CAPTURE(e);
+      const Axial at = chord_response(valve, chord, e);
+      const Axial up = chord_response(valve, chord, e + h),
+                  down = chord_response(valve, chord, e - h);
+      CHECK(close((up.energy - down.energy) / (2 * h), at.stress, at.stress + 1e3));
+      CHECK(close((up.stress - down.stress) / (2 * h), at.slope, at.slope + 1e3));
+    }
+    CHECK(chord_response(valve, chord, -0.1).stress == 0);
+  }
+}
+
+TEST_CASE("a_table_goes_through_its_points_and_on_with_the_last_slope") {
+  Valve valve;
+  valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};
+  Chord chord;
+  chord.law = MVS_CHORD_TABLE;
+  // rounding of strains
+  CHECK(chord_response(valve, chord, 0.02).stress == doctest::Approx(0).epsilon(1e-12));
+  CHECK(chord_response(valve, chord, 0.08).stress == doctest::Approx(1e6).epsilon(1e-12));
+  CHECK(chord_response(valve, chord, 0.11).stress == doctest::Approx(4e6).epsilon(1e-12));
+  CHECK(chord_response(valve, chord, 0.12).stress == doctest::Approx(5e6).epsilon(1e-12));
+  CHECK(chord_response(valve, chord, 0.12).energy ==
+        doctest::Approx(0.5 * 0.06 * 1e6 + 0.5 * 0.03 * 5e6 + 0.5 * 0.01 * 9e6).epsilon(1e-12));
+}
