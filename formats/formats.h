@@ -23,6 +23,23 @@ inline constexpr size_t max_file_bytes = size_t{1} << 30;
 Loaded read_obj(std::string_view text);
 std::string write_obj(const Model &model, const State &state);
 
+// Abaqus input (.inp): the valve of its shells and trusses, at rest, with the load that it ends
+// with set. MVS_E_FORMAT with the line. What the file has and a valve has not is in the notes, and
+// what had to be chosen.
+struct Note {
+  int32_t level;  // MVS_LOG_WARNING: left out or chosen; MVS_LOG_INFO: a count
+  std::string text;
+};
+struct Imported {
+  Loaded loaded;
+  std::vector<Note> notes;
+};
+Imported read_inp(std::string_view text);
+
+// A FEBio 4.0 model that closes the valve from its rest shape, under the pressure of the state (120
+// mmHg where it has none). MVS_E_UNSUPPORTED for a law that FEBio cannot express.
+std::string write_feb(const Model &model, const State &state);
+
 // VTK XML PolyData with the point and cell arrays of FORMAT.md. `arrays` is made by the caller, so
 // that this layer needs no physics.
 struct VtpArray {

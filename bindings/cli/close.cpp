@@ -22,7 +22,7 @@ const std::map<std::string, uint32_t> backends = {{"default", MVS_BACKEND_DEFAUL
 struct Options {
   std::string in, out, reference;
   std::string leaflet = "spring", solver = "newton", backend = "default";
-  double pressure_mmhg = 120;
+  std::optional<double> pressure_mmhg;
   mvs_settle_options settle = {};
   SpreadOptions spread;
 };
@@ -32,23 +32,32 @@ struct Closed {
   mvs_stats stats;
   std::optional<mvs::Spread> spread;  // with --paths: then the valve is that of path 0
   std::optional<Errors> errors;       // with --reference
+  double pressure_mmhg = 0;
 };
+
+// What was asked for, else what an Abaqus input file closes under, else systole.
+double pressure_of(const Options &options, const mvs::Sim &sim) {
+  if (options.pressure_mmhg) return *options.pressure_mmhg;
+  const double of_file = sim.load().pressure / pa_per_mmhg;
+  return options.in.ends_with(".inp") && of_file != 0 ? of_file : 120;
+}
 
 Closed close_valve(const Options &options, const Console &console) {
   Progress progress(console);
   mvs_sim_desc desc = {};
   desc.backend = backends.at(options.backend);
   mvs::Sim sim = load_sim(options.in, progress, desc);
+  const double pressure_mmhg = pressure_of(options, sim);
   mvs_settle_options settle = options.settle;
   settle.solver = solvers.at(options.solver);
   if (options.spread.paths > 0) {
-    mvs::Spread spread = spread_of(sim.snapshot(), options.pressure_mmhg, settle, options.spread,
-                                   desc.backend, progress);
-    return {spread.snapshot(0), spread.stats(0), std::move(spread), {}};
+    mvs::Spread spread =
+        spread_of(sim.snapshot(), pressure_mmhg, settle, options.spread, desc.backend, progress);
+    return {spread.snapshot(0), spread.stats(0), std::move(spread), {}, pressure_mmhg};
   }
-  sim.set_load(options.pressure_mmhg * pa_per_mmhg);
+  sim.set_load(pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle(settle);
-  return {sim.snapshot(), stats, {}, {}};
+  return {sim.snapshot(), stats, {}, {}, pressure_mmhg};
 }
 
 Json phases_json(const mvs_stats &stats) {
@@ -65,7 +74,7 @@ Json result_json(const Options &options, const Closed &closed, const mvs_measure
   Json json = {{"file", options.in},
                {"leaflet", options.leaflet},
                {"solver", options.solver},
-               {"pressure_mmHg", options.pressure_mmhg},
+               {"pressure_mmHg", closed.pressure_mmhg},
                {"converged", stats.converged != 0},
                {"iterations", stats.iterations},
                {"wall_s", stats.wall_s},
@@ -91,8 +100,8 @@ std::string result_text(const Options &options, const Closed &closed,
                         const mvs_measures &measures) {
   const mvs_stats &stats = closed.stats;
   return text("%s: %s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
-              options.in.c_str(), stats.converged ? "at rest" : "NOT at rest",
-              options.pressure_mmhg, stats.wall_s, stats.iterations, stats.residual) +
+              options.in.c_str(), stats.converged ? "at rest" : "NOT at rest", closed.pressure_mmhg,
+              stats.wall_s, stats.iterations, stats.residual) +
          (closed.spread ? spread_text(*closed.spread) : measures_text(measures)) +
          (closed.errors ? errors_text(*closed.errors) : "");
 }
@@ -130,10 +139,11 @@ void add_close(CLI::App &app, Console &console) {
   auto options = std::make_shared<Options>();
   CLI::App *command =
       add_command(app, console, "close", "close a valve under systolic pressure and measure it");
-  command->add_option("file", options->in, "valve to close, .obj or .h5")->required();
+  command->add_option("file", options->in, "valve to close, .obj, .h5 or .inp")->required();
   command->add_option("-o,--output", options->out, "write the closed valve, .obj, .h5 or .vtp");
-  command->add_option("--pressure", options->pressure_mmhg, "transvalvular pressure, mmHg")
-      ->capture_default_str()
+  command
+      ->add_option("--pressure", options->pressure_mmhg,
+                   "transvalvular pressure, mmHg [120, or that of an .inp file]")
       ->check(CLI::Number);
   command->add_option("--leaflet", options->leaflet, "element of the leaflets")
       ->capture_default_str()

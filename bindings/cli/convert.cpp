@@ -17,10 +17,12 @@ void run(const std::string &in, const std::string &out, const Console &console) 
 
 void add_convert(CLI::App &app, Console &console) {
   auto files = std::make_shared<std::pair<std::string, std::string>>();
-  CLI::App *command = add_command(app, console, "convert",
-                                  "write a valve in another format: .vtp for ParaView and Slicer");
-  command->add_option("file", files->first, "valve to read, .obj or .h5")->required();
-  command->add_option("-o,--output", files->second, "file to write, .obj, .h5 or .vtp")->required();
+  CLI::App *command =
+      add_command(app, console, "convert",
+                  "write a valve in another format: .vtp for ParaView and Slicer, .feb for FEBio");
+  command->add_option("file", files->first, "valve to read, .obj, .h5 or .inp")->required();
+  command->add_option("-o,--output", files->second, "file to write, .obj, .h5, .vtp or .feb")
+      ->required();
   command->callback([files, &console] { run(files->first, files->second, console); });
 }
 

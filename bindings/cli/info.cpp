@@ -166,7 +166,7 @@ void run(const std::string &file, const Console &console) {
 void add_info(CLI::App &app, Console &console) {
   auto file = std::make_shared<std::string>();
   CLI::App *command = add_command(app, console, "info", "the parts of a valve and their sizes");
-  command->add_option("file", *file, "valve to look at, .obj or .h5")->required();
+  command->add_option("file", *file, "valve to look at, .obj, .h5 or .inp")->required();
   command->callback([file, &console] { run(*file, console); });
 }
 

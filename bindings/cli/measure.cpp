@@ -27,7 +27,7 @@ void run(const std::string &file, const Console &console) {
 void add_measure(CLI::App &app, Console &console) {
   auto file = std::make_shared<std::string>();
   CLI::App *command = add_command(app, console, "measure", "measure a valve as it lies in a file");
-  command->add_option("file", *file, "valve to measure, .obj or .h5")->required();
+  command->add_option("file", *file, "valve to measure, .obj, .h5 or .inp")->required();
   command->callback([file, &console] { run(*file, console); });
 }
 

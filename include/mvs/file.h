@@ -17,8 +17,14 @@ enum {
   MVS_FORMAT_AUTO = 0,
   MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round trip */
   MVS_FORMAT_VTP = 2, /* VTK XML PolyData, write only: for ParaView and Slicer */
-  MVS_FORMAT_H5 = 3   /* HDF5, read and write: the history as well, to undo and redo in; ParaView
+  MVS_FORMAT_H5 = 3,  /* HDF5, read and write: the history as well, to undo and redo in; ParaView
                          and h5py open it too. MVS_E_UNSUPPORTED in a build without HDF5 */
+  MVS_FORMAT_INP = 4, /* Abaqus input, read only: shells, trusses, materials, prescribed nodes and
+                         pressure. What a valve has no place for, and what had to be chosen, goes to
+                         the log, MVS_LOG_WARNING. The valve is at rest, with the load of the file
+                         set: mvs_get_load tells it, mvs_settle works towards it */
+  MVS_FORMAT_FEB = 5  /* FEBio 4.0 model, write only: a valve at rest, to be closed there under the
+                         load of the snapshot. MVS_E_UNSUPPORTED where FEBio lacks the law */
 };
 
 /* Replaces the valve and state of a simulator by those of a file, and its history by that of an

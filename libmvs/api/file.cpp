@@ -12,14 +12,15 @@ using namespace mvs;
 
 namespace {
 
-const char *const ending_hint = "known endings are .obj, .h5, .vtkhdf and .vtp, or name the format";
+const char *const ending_hint =
+    "known endings are .obj, .h5, .vtkhdf, .vtp, .inp and .feb, or name the format";
 
 bool ends_with(std::string_view text, std::string_view ending) {
   return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
 }
 
 uint32_t checked_format(uint32_t format_given) {
-  MVS_MUST(format_given <= MVS_FORMAT_H5, MVS_E_ARGUMENT, "format",
+  MVS_MUST(format_given <= MVS_FORMAT_FEB, MVS_E_ARGUMENT, "format",
            "format is %u: it has to be one of MVS_FORMAT_*", format_given);
   return format_given;
 }
@@ -31,13 +32,25 @@ uint32_t format_of(const char *path, uint32_t format_given) {
   if (ends_with(path, ".obj")) return MVS_FORMAT_OBJ;
   if (ends_with(path, ".vtp")) return MVS_FORMAT_VTP;
   if (ends_with(path, ".h5") || ends_with(path, ".vtkhdf")) return MVS_FORMAT_H5;
+  if (ends_with(path, ".inp")) return MVS_FORMAT_INP;
+  if (ends_with(path, ".feb")) return MVS_FORMAT_FEB;
   fail(MVS_E_ARGUMENT, "path", "the ending does not tell a format: %s", ending_hint);
+}
+
+void load_inp(mvs_sim &sim, std::string_view bytes) {
+  Imported imported = read_inp(bytes);
+  ModelPtr model = make_model(std::move(imported.loaded.valve));
+  for (const Note &note : imported.notes) sim.log(note.level, "%s", note.text.c_str());
+  replace_valve(sim, {{std::move(model), std::move(imported.loaded.state)}, {}});
 }
 
 void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   MVS_MUST(format_given != MVS_FORMAT_VTP, MVS_E_UNSUPPORTED, "format",
            "VTP files are written for other programs, not read: load the OBJ or HDF5 file");
+  MVS_MUST(format_given != MVS_FORMAT_FEB, MVS_E_UNSUPPORTED, "format",
+           "FEBio models are written for FEBio, not read: load the OBJ or HDF5 file");
   if (format_given == MVS_FORMAT_H5) return replace_valve(sim, read_session(bytes));
+  if (format_given == MVS_FORMAT_INP) return load_inp(sim, bytes);
   Loaded loaded = read_obj(bytes);
   ModelPtr model = make_model(std::move(loaded.valve));
   replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
@@ -77,6 +90,9 @@ std::vector<VtpArray> result_arrays(const mvs_snapshot &s) {
 }
 
 std::string written(const mvs_snapshot &s, uint32_t format_given) {
+  MVS_MUST(format_given != MVS_FORMAT_INP, MVS_E_UNSUPPORTED, "format",
+           "Abaqus input is read, not written: save as .obj, .h5 or .feb");
+  if (format_given == MVS_FORMAT_FEB) return write_feb(*s.model, s.state);
   if (format_given == MVS_FORMAT_VTP) return write_vtp(*s.model, s.state, result_arrays(s));
   if (format_given == MVS_FORMAT_H5) return write_session(s.moment, result_arrays(s));
   return write_obj(*s.model, s.state);

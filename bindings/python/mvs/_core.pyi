@@ -35,7 +35,7 @@ _Point = Union[Sequence[float], _F64]
 _Path = Union[str, os.PathLike[str]]
 _Plan = Union[str, bytes, os.PathLike[str], Mapping[str, Any]]
 _Progress = Optional[Callable[[float, float], object]]
-_Format = Literal["auto", "obj", "h5", "vtp"]
+_Format = Literal["auto", "obj", "h5", "vtp", "inp", "feb"]
 
 def version() -> str: ...
 def features() -> str: ...

@@ -145,8 +145,11 @@ uint32_t format_of(const std::string &name) {
   if (name == "obj") return MVS_FORMAT_OBJ;
   if (name == "vtp") return MVS_FORMAT_VTP;
   if (name == "h5") return MVS_FORMAT_H5;
+  if (name == "inp") return MVS_FORMAT_INP;
+  if (name == "feb") return MVS_FORMAT_FEB;
   refuse(MVS_E_ARGUMENT, "format",
-         "format: \"auto\", \"obj\", \"h5\" or \"vtp\" is needed, not \"" + name + "\"");
+         "format: \"auto\", \"obj\", \"h5\", \"vtp\", \"inp\" or \"feb\" is needed, not \"" + name +
+             "\"");
 }
 
 void bind_snapshot(py::module_ &module) {

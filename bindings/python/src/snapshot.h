@@ -20,7 +20,7 @@ class Snapshot {
   std::unique_ptr<const mvs_snapshot, void (*)(const mvs_snapshot *)> handle_;
 };
 
-// MVS_FORMAT_* from "auto", "obj", "h5" or "vtp".
+// MVS_FORMAT_* from "auto", "obj", "h5", "vtp", "inp" or "feb".
 uint32_t format_of(const std::string &name);
 
 void bind_snapshot(py::module_ &module);

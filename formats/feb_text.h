@@ -1,0 +1,60 @@
+// FEBio models as text: the parts of feb.cpp. mm, kPa, kg, s, and so mN.
+//
+// Names of features are those of the FEBio 4 sources and feature manual (github
+// febiosoftware/FEBio, FEBioMech/FEBioMechModule.cpp; febiosoftware/febio-feature-manual); the
+// comments say which.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "model/model.h"
+
+namespace mvs {
+
+// Nested elements, two blanks a level.
+class FebText {
+ public:
+  // <name attributes>; `attributes` as `key="value"`.
+  void open(std::string_view name, std::string_view attributes = "");
+  void close(std::string_view name);
+  // <name attributes>value</name>
+  void leaf(std::string_view name, std::string_view value, std::string_view attributes = "");
+  void leaf(std::string_view name, double value, std::string_view attributes = "");
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+  size_t depth_ = 0;
+};
+
+// A number in the fewest digits; a plain decimal, without an exponent, for FEBio's formulas.
+std::string feb_number(double value);
+std::string feb_plain(double value);
+// `key="text"` with what XML reserves escaped.
+std::string feb_attribute(std::string_view key, std::string_view text);
+// Numbers with commas between them.
+std::string feb_list(std::span<const double> values);
+
+// The triangles of one leaflet that have one thickness.
+struct FebDomain {
+  std::string name;
+  uint32_t leaflet;
+  double thickness;  // m
+  std::vector<uint32_t> triangles;
+};
+std::vector<FebDomain> feb_domains(const Valve &valve);
+
+// One material a domain. MVS_E_UNSUPPORTED for a law that FEBio has no counterpart of.
+void write_feb_materials(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out);
+void write_feb_springs(const Valve &valve, FebText &out);
+void write_feb_mesh(const Model &model, const std::vector<FebDomain> &domains, FebText &out);
+void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out);
+
+// Whether the law of a leaflet asks for fibres.
+bool feb_has_fibres(uint32_t law);
+
+// Nodes that are prescribed, ascending.
+std::vector<uint32_t> feb_held(const Valve &valve);
+
+}  // namespace mvs

@@ -1,0 +1,16 @@
+// Any bytes as Abaqus input: an error with a sentence, or a valve that is one.
+#include "fuzz.h"
+#include "model/model.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  const std::string_view text(reinterpret_cast<const char *>(data), size);
+  try {
+    const mvs::Imported imported = mvs::read_inp(text);
+    const mvs::ModelPtr model = mvs::make_model(imported.loaded.valve);
+    demand(model->node_count() == imported.loaded.state.x.size(), "a state of another valve");
+  } catch (const mvs::Error &error) {
+    demand(error.code == MVS_E_FORMAT, "an error of a kind that this reader does not make");
+    demand(error.what()[0] != '\0', "an error without a sentence");
+  }
+  return 0;
+}
