@@ -33,6 +33,10 @@ struct InpChordae {
 InpChordae make_inp_chordae(const InpMesh &mesh, const InpProperties &properties,
                             const InpLoad &load, const InpSheet &sheet, InpNotes &notes);
 
+// All of it together, at rest, with the load of the file set.
+Loaded build_inp_valve(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
+                       InpNotes &notes);
+
 // The name of a leaflet: that of its set without "_Elements", "_Leaflet" and the like.
 std::string inp_leaflet_name(std::string_view set);
 

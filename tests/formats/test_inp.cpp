@@ -251,6 +251,38 @@ TEST_CASE("inp_line_ends_case_and_blanks_change_nothing") {
   CHECK(other.valve.loaded == plain.valve.loaded);
 }
 
+TEST_CASE("inp_a_file_without_parts_and_steps_that_add_to_the_model") {
+  std::stringstream text;
+  text << std::ifstream(MVS_SOURCE_DIR "/tests/fuzz/corpus_inp/flat.inp").rdbuf();
+  const Loaded loaded = read_inp(text.str()).loaded;
+  const Valve &valve = loaded.valve;
+  // *DLOAD pushes along the normals of the file, which point into the atrium here
+  CHECK(loaded.state.load.pressure == 15e3);
+  // pinned before the step, in which one direction of one node is moved
+  CHECK((valve.loaded[0] - valve.rest[0] - Vec3(-5e-4, 0, 0)).norm() < 1e-17);
+  for (const uint32_t node : {1u, 7u, 16u}) CHECK(valve.loaded[node] == valve.rest[node]);
+  CHECK(valve.leaflets[0].law == MVS_LEAFLET_NEO_HOOKEAN);
+  CHECK(valve.leaflets[0].constants[0] == 30e3);
+  CHECK(valve.chords[0].law == MVS_CHORD_OGDEN);
+  CHECK(valve.chords[0].constants[0] == 1e7);
+  CHECK(valve.density == 1060);
+}
+
+TEST_CASE("inp_a_step_with_op_new_starts_over") {
+  // a second step that holds the same nodes elsewhere, and loads less
+  const Imported imported =
+      read_inp(toy_inp() +
+               "*Step\n*Boundary, op=NEW\nSheet-1.Annulus, 1, 3\nSheet-1.Heads, 3, 3, 0.1\n"
+               "*Dsload, op=NEW\nWet, P, 0.001\n*End Step\n");
+  const Valve &valve = imported.loaded.valve;
+  CHECK(valve.loaded[0] == valve.rest[0]);
+  CHECK((valve.loaded[36] - valve.rest[36] - Vec3(0, 0, 1e-4)).norm() < 1e-17);
+  CHECK(imported.loaded.state.load.pressure == doctest::Approx(1000).epsilon(rounding));
+  CHECK(has_note(imported, "2 steps: the end of the last one is the load"));
+  CHECK(has_note(imported,
+                 "a node that is held in some directions is held in all of them (6 times)"));
+}
+
 TEST_CASE("inp_the_texas_tricuspid_valve_is_a_valve") {
   const char *folder = std::getenv("MVS_TEST_DATA");
   const std::string path = (folder ? std::string(folder) : MVS_SOURCE_DIR "/../shared/data") +
