@@ -43,7 +43,7 @@ void write_domains(const std::vector<FebDomain> &domains, FebText &out) {
   for (const FebDomain &domain : domains) {
     out.open("ShellDomain", feb_attribute("name", domain.name) + " " +
                                 feb_attribute("mat", domain.name) + " type=\"elastic-shell\"");
-    out.leaf("shell_thickness", domain.thickness * mm);
+    out.leaf("shell_thickness", feb_number(domain.thickness, 3));
     out.leaf("shell_normal_nodal", "1");
     out.close("ShellDomain");
   }
@@ -67,7 +67,7 @@ void write_boundary(FebText &out) {
 void write_loads(double pressure, FebText &out) {
   out.open("Loads");
   out.open("surface_load", "name=\"systole\" surface=\"sheet\" type=\"pressure\"");
-  out.leaf("pressure", -pressure * kpa, "lc=\"1\"");
+  out.leaf("pressure", feb_number(-pressure, -3), "lc=\"1\"");
   out.leaf("symmetric_stiffness", "1");
   out.leaf("linear", "0");
   out.close("surface_load");

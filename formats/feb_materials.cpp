@@ -57,7 +57,7 @@ void write_leaflet(const Valve &valve, const FebDomain &domain, size_t k, FebTex
   out.open("material", "id=\"" + std::to_string(k + 1) + "\" " +
                            feb_attribute("name", domain.name) + " type=\"" +
                            (fibres ? "trans-iso hyperelastic" : "uncoupled hyperelastic") + "\"");
-  out.leaf("density", valve.density * 1e-9);  // kg/mm3
+  out.leaf("density", feb_number(valve.density, -9));  // kg/mm3
   if (fibres) {
     const std::string w = energy(leaflet, "(I1*J^(-2/3))", "(I4*J^(-2/3))");
     out.leaf("W", w + "+" + feb_plain(bulk / 2) + "*(ln(J))^2");

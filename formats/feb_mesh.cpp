@@ -7,7 +7,7 @@
 namespace mvs {
 namespace {
 
-constexpr double mm = 1e3;
+constexpr int mm = 3;  // power of ten
 
 std::string corners_of(const Tri &t) {
   return std::to_string(t[0] + 1) + "," + std::to_string(t[1] + 1) + "," + std::to_string(t[2] + 1);
@@ -20,8 +20,8 @@ std::string with_id(size_t number) {
 void write_nodes(const Valve &valve, FebText &out) {
   out.open("Nodes", "name=\"valve\"");
   for (size_t n = 0; n < valve.rest.size(); ++n) {
-    const Vec3 x = valve.rest[n] * mm;
-    out.leaf("node", feb_list(std::array{x[0], x[1], x[2]}), with_id(n + 1));
+    const Vec3 &x = valve.rest[n];
+    out.leaf("node", feb_list(std::array{x[0], x[1], x[2]}, mm), with_id(n + 1));
   }
   out.close("Nodes");
 }
@@ -89,8 +89,7 @@ std::vector<FebDomain> feb_domains(const Valve &valve) {
   // a leaflet of several thicknesses: "A", "A, 1.2 mm", ...
   std::map<uint32_t, size_t> count;
   for (FebDomain &domain : domains) {
-    if (++count[domain.leaflet] > 1)
-      domain.name += ", " + feb_number(domain.thickness * mm) + " mm";
+    if (++count[domain.leaflet] > 1) domain.name += ", " + feb_number(domain.thickness, mm) + " mm";
   }
   return domains;
 }
@@ -120,8 +119,8 @@ void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domai
     out.open("NodeData", std::string("name=\"held ") + "xyz"[axis] +
                              "\" node_set=\"held\" data_type=\"scalar\"");
     for (size_t k = 0; k < held.size(); ++k) {
-      const double by = (valve.loaded[held[k]] - valve.rest[held[k]])[axis] * mm;
-      out.leaf("node", by, "lid=\"" + std::to_string(k + 1) + "\"");
+      const double by = (valve.loaded[held[k]] - valve.rest[held[k]])[axis];
+      out.leaf("node", feb_number(by, mm), "lid=\"" + std::to_string(k + 1) + "\"");
     }
     out.close("NodeData");
   }

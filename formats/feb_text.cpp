@@ -30,9 +30,9 @@ void FebText::leaf(std::string_view name, double value, std::string_view attribu
   leaf(name, feb_number(value), attributes);
 }
 
-std::string feb_number(double value) {
+std::string feb_number(double value, int shift) {
   std::string text;
-  append_decimal(text, value);
+  append_decimal(text, value, shift);
   return text;
 }
 
@@ -67,11 +67,11 @@ std::string feb_attribute(std::string_view key, std::string_view text) {
   return out + '"';
 }
 
-std::string feb_list(std::span<const double> values) {
+std::string feb_list(std::span<const double> values, int shift) {
   std::string text;
   for (const double value : values) {
     if (!text.empty()) text += ',';
-    append_decimal(text, value);
+    append_decimal(text, value, shift);
   }
   return text;
 }

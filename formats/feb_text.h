@@ -28,13 +28,14 @@ class FebText {
   size_t depth_ = 0;
 };
 
-// A number in the fewest digits; a plain decimal, without an exponent, for FEBio's formulas.
-std::string feb_number(double value);
+// A number times 10^shift in the fewest digits; a plain decimal, without an exponent, for FEBio's
+// formulas.
+std::string feb_number(double value, int shift = 0);
 std::string feb_plain(double value);
 // `key="text"` with what XML reserves escaped.
 std::string feb_attribute(std::string_view key, std::string_view text);
-// Numbers with commas between them.
-std::string feb_list(std::span<const double> values);
+// Numbers times 10^shift with commas between them.
+std::string feb_list(std::span<const double> values, int shift = 0);
 
 // The triangles of one leaflet that have one thickness.
 struct FebDomain {

@@ -77,15 +77,18 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   uint64_t size = 0;
   MUST_FAIL(mvs_load_file(sim, "no/such/file.obj", 0), MVS_E_IO, "no/such/file.obj: ");
   MUST_FAIL(mvs_load_file(sim, "", 0), MVS_E_ARGUMENT, "path is empty");
-  MUST_FAIL(mvs_load_file(sim, "valve.stl", 0), MVS_E_ARGUMENT, ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
-  MUST_FAIL(mvs_load_file(sim, "obj", 0), MVS_E_ARGUMENT, ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
+  MUST_FAIL(mvs_load_file(sim, "valve.stl", 0), MVS_E_ARGUMENT,
+            ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
+  MUST_FAIL(mvs_load_file(sim, "obj", 0), MVS_E_ARGUMENT,
+            ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
   MUST_FAIL(mvs_load_file(sim, "valve.obj", 7), MVS_E_ARGUMENT, "format is 7");
   MUST_FAIL(mvs_load_memory(sim, "x", 1, 7), MVS_E_ARGUMENT, "format is 7");
   MUST_FAIL(mvs_load_memory(sim, "x", 1, MVS_FORMAT_VTP), MVS_E_UNSUPPORTED, "not read");
   MUST_FAIL(mvs_load_memory(sim, "what is this", 12, 0), MVS_E_FORMAT, "");
   MUST_FAIL(mvs_load_memory(sim, "", 0, 0), MVS_E_FORMAT, "");
   MUST_FAIL(mvs_save_file(snapshot, "no/such/folder/a.obj", 0), MVS_E_IO, "no/such/folder/a.obj");
-  MUST_FAIL(mvs_save_file(snapshot, "a.stl", 0), MVS_E_ARGUMENT, ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
+  MUST_FAIL(mvs_save_file(snapshot, "a.stl", 0), MVS_E_ARGUMENT,
+            ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
   MUST_FAIL(mvs_save_memory(snapshot, 9, NULL, 0, &size), MVS_E_ARGUMENT, "format is 9");
   /* of a long path the end is shown, and the reason as well */
   memset(path, 'd', sizeof path);
