@@ -1,8 +1,14 @@
 """Files: what is saved is what is loaded, to the last bit."""
 
+from pathlib import Path
+from xml.etree import ElementTree
+
 import mvs
 import numpy as np
 import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+TOY = ROOT / "tests" / "formats" / "data" / "three_leaflets.inp"
 
 
 def test_a_saved_state_loads_with_the_same_hash(closed, tmp_path):
@@ -60,3 +66,69 @@ def test_a_vtp_file_holds_the_leaflets(closed, tmp_path):
     # VTK files are in mm (FORMAT.md), the library in m
     assert np.allclose(mesh.points, closed.node_position * 1e3, atol=1e-3)
     assert faces is None or np.array_equal(faces, closed.triangle_nodes)
+
+
+def test_abaqus_input_is_a_valve_with_its_load(tmp_path):
+    told = []
+    with mvs.Simulator(log=lambda level, text: told.append(text)) as sim:
+        sim.load(TOY)
+        valve = sim.snapshot()
+        assert sim.load_case.pressure == pytest.approx(3000)
+        assert len(valve.node_position) == 42
+        names = [part.name for part in valve.parts if part.kind == mvs.PartKind.LEAFLET]
+        assert names == ["Anterior", "Septal", "Posterior"]
+        # what has no place in a valve is told with its line
+        line = 1 + TOY.read_text(encoding="ascii").splitlines().index("*Friction")
+        assert any(text.startswith(f"line {line}: ") for text in told)
+        sim.load_bytes(TOY.read_bytes(), format="inp")
+        assert sim.snapshot().hash == valve.hash
+        with pytest.raises(mvs.Error, match="read, not written"):
+            valve.save(tmp_path / "toy.inp")
+        with pytest.raises(mvs.Error, match=r"toy\.inp:2: .*`x`"):
+            (tmp_path / "toy.inp").write_text("*NODE\nx, 1, 2, 3\n", encoding="ascii")
+            sim.load(tmp_path / "toy.inp")
+        assert sim.snapshot().hash == valve.hash
+
+
+def rows_of(elements, kind):
+    return np.array([[kind(word) for word in element.text.split(",")] for element in elements])
+
+
+def test_a_febio_model_is_the_valve(tmp_path):
+    with mvs.Simulator() as sim:
+        sim.load(TOY)
+        valve = sim.snapshot()
+    valve.save(tmp_path / "toy.feb")
+    root = ElementTree.parse(tmp_path / "toy.feb").getroot()
+    assert (root.tag, root.get("version")) == ("febio_spec", "4.0")
+    # the order of sections that FEBio wants
+    assert [section.tag for section in root] == [
+        "Module", "Control", "Material", "Mesh", "MeshDomains", "MeshData", "Boundary", "Loads",
+        "Contact", "Discrete", "LoadData", "Output",
+    ]  # fmt: skip
+    nodes = rows_of(root.findall("Mesh/Nodes/node"), float)
+    np.testing.assert_allclose(nodes, valve.node_rest * 1e3, rtol=1e-15, atol=1e-15)
+    shells = rows_of(root.findall("Mesh/Elements/elem"), int)
+    np.testing.assert_array_equal(shells - 1, valve.triangle_nodes)
+    springs = rows_of(root.findall("Mesh/DiscreteSet/delem"), int)
+    np.testing.assert_array_equal(springs - 1, valve.chord_nodes)
+    # whatever is named is there
+    names = {(e.tag, e.get("name")) for e in root.iter() if e.get("name")}
+    for load in root.findall("Loads/surface_load"):
+        assert ("Surface", load.get("surface")) in names
+    for domain in root.find("MeshDomains"):
+        assert ("material", domain.get("mat")) in names
+        assert ("Elements", domain.get("name")) in names
+    for bc in root.find("Boundary"):
+        assert ("NodeSet", bc.get("node_set")) in names
+        assert ("NodeData", bc.find("value").text) in names
+    for binding in root.findall("Discrete/discrete"):
+        assert ("DiscreteSet", binding.get("discrete_set")) in names
+    assert ("SurfacePair", root.find("Contact/contact").get("surface_pair")) in names
+    assert root.findtext("Loads/surface_load/pressure") == "-3"
+
+
+def test_a_net_of_springs_is_no_febio_model(opened, tmp_path):
+    with pytest.raises(mvs.Error, match="net of springs"):
+        opened.save(tmp_path / "springs.feb")
+    assert not (tmp_path / "springs.feb").exists()
