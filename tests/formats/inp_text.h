@@ -23,11 +23,12 @@ inline std::string toy_inp() {
 // A text with changes, each of what stands there in one place.
 inline std::string changed(std::string text,
                            const std::vector<std::pair<std::string, std::string>> &changes) {
-  for (const auto &[old, with] : changes) {
+  for (const std::pair<std::string, std::string> &change : changes) {
+    const std::string &old = change.first;
     const size_t place = text.find(old);
     REQUIRE_MESSAGE(place != std::string::npos, old);
     REQUIRE_MESSAGE(text.find(old, place + 1) == std::string::npos, old, " stands there twice");
-    text.replace(place, old.size(), with);
+    text.replace(place, old.size(), change.second);
   }
   return text;
 }
