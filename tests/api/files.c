@@ -84,6 +84,13 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   MUST_FAIL(mvs_load_file(sim, "valve.obj", 7), MVS_E_ARGUMENT, "format is 7");
   MUST_FAIL(mvs_load_memory(sim, "x", 1, 7), MVS_E_ARGUMENT, "format is 7");
   MUST_FAIL(mvs_load_memory(sim, "x", 1, MVS_FORMAT_VTP), MVS_E_UNSUPPORTED, "not read");
+  MUST_FAIL(mvs_load_memory(sim, "x", 1, MVS_FORMAT_FEB), MVS_E_UNSUPPORTED, "not read");
+  MUST_FAIL(mvs_load_memory(sim, "x", 1, MVS_FORMAT_INP), MVS_E_FORMAT, "before the first keyword");
+  CHECK(mvs_last_error()->line == 1);
+  MUST_FAIL(mvs_save_memory(snapshot, MVS_FORMAT_INP, NULL, 0, &size), MVS_E_UNSUPPORTED,
+            "read, not written");
+  MUST_FAIL(mvs_save_memory(snapshot, MVS_FORMAT_FEB, NULL, 0, &size), MVS_E_UNSUPPORTED,
+            "net of springs");
   MUST_FAIL(mvs_load_memory(sim, "what is this", 12, 0), MVS_E_FORMAT, "");
   MUST_FAIL(mvs_load_memory(sim, "", 0, 0), MVS_E_FORMAT, "");
   MUST_FAIL(mvs_save_file(snapshot, "no/such/folder/a.obj", 0), MVS_E_IO, "no/such/folder/a.obj");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/frame.h"
 #include "shapes.h"
 
 namespace mvs::test {
@@ -256,6 +257,54 @@ TEST_CASE("coaptation_survives_motion_and_renumbering") {
   check_same(measure_coaptation(*model, moved(valve.rest, some_motion())));
   const Renumbered other = renumbered(valve);
   check_same(measure_coaptation(*other.model, other(valve.rest)));
+}
+
+namespace {
+
+// The closed sheet with its posterior leaflet cut in two along the plane between both commissures,
+// the anterior one last: as a tricuspid valve has them.
+ModelPtr three_leaflets(const Closed &closed) {
+  Valve valve = valve_of(sheet_of(closed));
+  valve.leaflets.resize(3);
+  valve.leaflets[0].name = "Septal";
+  valve.leaflets[1].name = "Posterior";
+  valve.leaflets[2].name = "Anterior";
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const Tri &nodes = valve.triangles[t];
+    const double across =
+        valve.rest[nodes[0]].y() + valve.rest[nodes[1]].y() + valve.rest[nodes[2]].y();
+    uint32_t &leaflet = valve.triangle_leaflet[t];
+    leaflet = leaflet == 0 ? 2 : across > 0 ? 0 : 1;
+  }
+  valve.scallops.clear();
+  valve.triangle_scallop.clear();
+  return make_model(valve);
+}
+
+}  // namespace
+
+TEST_CASE("three_leaflets_coapt_where_two_do") {
+  const Closed closed;
+  const ModelPtr two = model_of(sheet_of(closed)), three = three_leaflets(closed);
+  const Coaptation of_two = measure_coaptation(*two, two->valve.rest);
+  const Coaptation of_three = measure_coaptation(*three, three->valve.rest);
+  // what faces what does not depend on the names of leaflets
+  CHECK(of_three.distance == of_two.distance);
+  CHECK(of_three.share == of_two.share);
+  CHECK(of_three.area == of_two.area);
+  // the line of A with P is now one with each half of P; stations at the cut are shared out anew
+  CHECK(of_three.line.size() + 2 >= of_two.line.size());
+  CHECK(of_three.length_mean == about(of_two.length_mean, 0.05));
+  CHECK(of_three.height == about(of_two.height, 1e-9));
+}
+
+TEST_CASE("three_leaflets_have_the_frame_of_the_anterior_one") {
+  const Closed closed;
+  const ModelPtr two = model_of(sheet_of(closed)), three = three_leaflets(closed);
+  const Frame of_two = valve_frame(*two, two->valve.rest);
+  const Frame of_three = valve_frame(*three, three->valve.rest);
+  CHECK(of_three.axes == of_two.axes);
+  CHECK(of_three.origin == of_two.origin);
 }
 
 }  // namespace mvs::test
