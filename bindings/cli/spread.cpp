@@ -29,6 +29,7 @@ Json path_json(const mvs::Spread &spread, uint32_t number) {
   const mvs_measures measures = closed.measure();
   return {{"path", number},
           {"increments", path.increments},
+          {"ramp_s", path.ramp},
           {"order", order_name(path.order)},
           {"perturbation_mm", path.perturbation * 1e3},
           {"converged", path.converged != 0},
@@ -66,7 +67,9 @@ std::string path_text(const mvs::Spread &spread, uint32_t number) {
   const std::string where = path.converged  ? std::to_string(path.equilibrium)
                             : path.diverged ? "diverged"
                                             : "NOT at rest";
-  return text("  %4u %10u  %-14s %8.2f %10u %12s %12.4f %8.3f %8.2f\n", number, path.increments,
+  const std::string increments =
+      path.ramp > 0 ? text("in %.0f ms", path.ramp * 1e3) : std::to_string(path.increments);
+  return text("  %4u %10s  %-14s %8.2f %10u %12s %12.4f %8.3f %8.2f\n", number, increments.c_str(),
               order_name(path.order), path.perturbation * 1e3, stats.iterations, where.c_str(),
               stats.energy * 1e3, path.node_rms * 1e3, path.node_max * 1e3);
 }

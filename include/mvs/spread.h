@@ -87,7 +87,7 @@ enum {
 typedef struct mvs_spread_path {
   uint32_t struct_size;
   uint32_t converged;   /* 1: at rest */
-  uint32_t increments;  /* equal steps in which the pressure came, at rest between them */
+  uint32_t increments;  /* equal steps in which the pressure came */
   uint32_t order;       /* MVS_SPREAD_TOGETHER ... */
   uint32_t equilibrium; /* number of its shape, 0 is that of the first path at rest; UINT32_MAX: not
                            at rest */
@@ -95,6 +95,8 @@ typedef struct mvs_spread_path {
   double perturbation;  /* m, the longest way a node of its start was moved */
   double node_rms, node_max;       /* m, node to node from path 0 */
   double surface_rms, surface_max; /* m, symmetric surface distance from path 0 */
+  double ramp; /* s, the time in which the pressure came, with inertia, before the valve settled;
+                  0: it settled after each increment */
 } mvs_spread_path;
 
 MVS_API mvs_result mvs_spread_get_path(const mvs_spread *spread, uint32_t path,

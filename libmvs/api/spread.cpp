@@ -95,6 +95,7 @@ void close_path(const Task &task, uint32_t number, Solver &solver, mvs_spread &s
   told.order = path.order;
   told.diverged = closing.diverged ? 1 : 0;
   told.perturbation = closing.moved;
+  told.ramp = path.ramp;
   spread.stats[number] = public_stats(closing.stats);
   spread.snapshots[number] = snapshot_of(task, std::move(closing.state), plain);
 }

@@ -15,26 +15,37 @@ namespace {
 constexpr double between_residual = 0.1;
 constexpr uint32_t between_iterations = 100;
 
-std::vector<Load> stages_of(const Path &path, const Load &from, const Load &to) {
-  std::vector<Load> stages;
+// A normal left ventricle raises its pressure by up to about 2,000 mmHg/s (a widely quoted figure):
+// 120 mmHg in 60 ms, in implicit steps of 1 ms.
+constexpr double ramp_time = 60e-3;
+constexpr uint32_t ramp_steps = 60;
+
+// A load on the way: passed in time by one step, or settled to.
+struct Stage {
+  Load load;
+  bool in_time;
+};
+
+std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to) {
+  std::vector<Stage> stages;
   const bool together = path.order == MVS_SPREAD_TOGETHER;
   const bool first = path.order == MVS_SPREAD_BOUNDARY_FIRST;
   const bool moves = from.boundary_fraction != to.boundary_fraction;
-  if (first && moves) stages.push_back({from.pressure, to.boundary_fraction});
+  const double held = first ? to.boundary_fraction : from.boundary_fraction;
+  if (first && moves) stages.push_back({{from.pressure, held}, false});
   for (uint32_t k = 1; k <= path.increments; ++k) {
     const double share = static_cast<double>(k) / path.increments;
     const double travelled =
         from.boundary_fraction + share * (to.boundary_fraction - from.boundary_fraction);
-    const double held = first ? to.boundary_fraction : from.boundary_fraction;
     stages.push_back(
-        {from.pressure + share * (to.pressure - from.pressure), together ? travelled : held});
+        {{from.pressure + share * (to.pressure - from.pressure), together ? travelled : held},
+         path.ramp > 0});
   }
-  // the last one is the load itself, to the bit
-  if (path.order == MVS_SPREAD_PRESSURE_FIRST && moves) {
-    stages.push_back(to);
-  } else {
-    stages.back() = to;
+  // the last one is the load itself, to the bit, and is settled to
+  if (!stages.back().in_time && !(moves && path.order == MVS_SPREAD_PRESSURE_FIRST)) {
+    stages.pop_back();
   }
+  stages.push_back({to, false});
   return stages;
 }
 
@@ -59,36 +70,64 @@ void must_be_finite(const std::vector<Vec3> &x) {
            "a node left the range of numbers: take a smaller time step or load");
 }
 
-void settle_stages(Solver &solver, const Model &model, const std::vector<Load> &stages,
-                   const SolveOptions &options, const Progress &progress, Closing &closing) {
-  SolveOptions between = options;
-  between.residual = std::max(options.residual, force_between(model, stages.back()));
-  between.max_iterations =
-      options.solver <= MVS_SOLVER_NEWTON ? between_iterations : options.max_iterations;
-  for (size_t k = 0; k < stages.size(); ++k) {
-    const auto count = static_cast<double>(stages.size());
-    const auto tell = [&](double share, double residual) {
-      return progress((static_cast<double>(k) + share) / count, residual);
-    };
-    const bool last = k + 1 == stages.size();
-    closing.state.load = stages[k];
-    const SolveStats before = closing.stats;
-    closing.stats = solver.settle(model, closing.state, last ? options : between,
-                                  progress ? Progress(tell) : Progress());
-    add_counts(before, closing.stats);
+// Goes from stage to stage, and counts what each of them took.
+class Walk {
+ public:
+  Walk(Solver &solver, const Model &model, Closing &closing, const Progress &progress)
+      : solver_(solver), model_(model), closing_(closing), progress_(progress) {}
+
+  void go(const std::vector<Stage> &stages, const SolveOptions &options, double dt) {
+    SolveOptions between = options, step;
+    between.residual = std::max(options.residual, force_between(model_, stages.back().load));
+    if (options.solver <= MVS_SOLVER_NEWTON) between.max_iterations = between_iterations;
+    step.dt = dt;
+    for (size_t k = 0; k < stages.size(); ++k) {
+      closing_.state.load = stages[k].load;
+      begun_ = static_cast<double>(k) / static_cast<double>(stages.size());
+      stage_ = 1 / static_cast<double>(stages.size());
+      const SolveStats before = closing_.stats;
+      closing_.stats =
+          stages[k].in_time ? pass(step) : settle(k + 1 == stages.size() ? options : between);
+      add_counts(before, closing_.stats);
+    }
   }
-}
+
+ private:
+  SolveStats settle(const SolveOptions &how) {
+    const auto tell = [this](double share, double residual) {
+      return progress_(begun_ + share * stage_, residual);
+    };
+    return solver_.settle(model_, closing_.state, how, progress_ ? Progress(tell) : Progress());
+  }
+
+  SolveStats pass(const SolveOptions &how) {
+    const SolveStats done = solver_.step(model_, closing_.state, how);
+    MVS_MUST(!progress_ || progress_(begun_, done.residual), MVS_E_CANCELLED, "spread",
+             "closing along paths was cancelled by the progress callback");
+    return done;
+  }
+
+  Solver &solver_;
+  const Model &model_;
+  Closing &closing_;
+  const Progress &progress_;
+  double begun_ = 0, stage_ = 0;  // shares of the path: where the stage begins, how long it is
+};
 
 }  // namespace
 
 Path make_path(uint32_t number, const Disturbance &disturbance, uint64_t seed) {
-  // 4 and 3 have no common factor: twelve combinations before one comes back
-  static constexpr uint32_t increments[] = {1, 4, 2, 8};
+  // 5 and 3 have no common factor: fifteen combinations before one comes back; 0 is in time
+  static constexpr uint32_t increments[] = {1, 4, 2, 0, 8};
   static constexpr uint32_t orders[] = {MVS_SPREAD_TOGETHER, MVS_SPREAD_BOUNDARY_FIRST,
                                         MVS_SPREAD_PRESSURE_FIRST};
   Path path;
   path.plain = number == 0;
-  path.increments = increments[number % 4];
+  path.increments = increments[number % 5];
+  if (path.increments == 0) {
+    path.increments = ramp_steps;
+    path.ramp = ramp_time;
+  }
   path.order = orders[number % 3];
   if (!path.plain) path.disturbance = disturbance;
   path.random = Random(seed, number);
@@ -104,7 +143,8 @@ Closing close_along(Solver &solver, const Model &model, const State &start, cons
   }
   closing.state = begun;
   try {
-    settle_stages(solver, model, stages_of(path, start.load, load), options, progress, closing);
+    Walk(solver, model, closing, progress)
+        .go(stages_of(path, start.load, load), options, path.ramp / path.increments);
     must_be_finite(closing.state.x);
   } catch (const Error &error) {
     if (error.code != MVS_E_DIVERGED || path.plain) throw;

@@ -8,14 +8,15 @@ namespace mvs {
 
 struct Path {
   uint32_t increments = 1;  // equal steps of the pressure
+  double ramp = 0;          // s: the pressure comes in time, with inertia; 0: at rest between steps
   uint32_t order = 0;       // MVS_SPREAD_TOGETHER ...
   Disturbance disturbance;
   Random random{0, 0};
   bool plain = false;  // the plain closure: numbers out of range are a failure of the whole
 };
 
-// The number-th way; number 0 is the plain closure. Twelve ways of loading come in turn, each time
-// with another disturbance.
+// The number-th way; number 0 is the plain closure. Fifteen ways of loading come in turn, each
+// time with another disturbance.
 Path make_path(uint32_t number, const Disturbance &disturbance, uint64_t seed);
 
 // How a path ended.

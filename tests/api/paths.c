@@ -3,6 +3,8 @@
 
 #include "check.h"
 
+enum { PATHS = 4 }; /* the last one in time, with inertia */
+
 static const mvs_load_case systole = {sizeof(mvs_load_case), 0, MVS_SYSTOLE_PA, 1};
 
 /* The shipped valve, coarse, and half as thick so that it has folds to choose from. */
@@ -98,6 +100,7 @@ static void paths_are_told(const mvs_spread *spread, uint32_t count) {
     MUST(mvs_spread_get_path(spread, k, &path));
     MUST(mvs_spread_stats(spread, k, &stats));
     CHECK(path.converged == 1 && path.diverged == 0 && path.increments >= 1);
+    CHECK((path.ramp > 0) == (k == 3));
     CHECK(path.order >= MVS_SPREAD_TOGETHER && path.order <= MVS_SPREAD_PRESSURE_FIRST);
     /* the default, 0.5 mm, but for rounding; cut where sheets would meet */
     CHECK(k == 0 ? path.perturbation == 0 : path.perturbation > 0);
@@ -277,9 +280,9 @@ static void bad_questions_are_refused(const mvs_spread *spread) {
   mvs_stats stats = {.struct_size = sizeof stats};
   const mvs_snapshot *snapshot = NULL;
   mvs_view view;
-  MUST_FAIL(mvs_spread_get_path(spread, 3, &path), MVS_E_ARGUMENT, "0 to 2");
-  MUST_FAIL(mvs_spread_stats(spread, 3, &stats), MVS_E_ARGUMENT, "0 to 2");
-  MUST_FAIL(mvs_spread_snapshot(spread, 3, &snapshot), MVS_E_ARGUMENT, "0 to 2");
+  MUST_FAIL(mvs_spread_get_path(spread, PATHS, &path), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_spread_stats(spread, PATHS, &stats), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_spread_snapshot(spread, PATHS, &snapshot), MVS_E_ARGUMENT, "0 to 3");
   MUST_FAIL(mvs_spread_measure(spread, 0, &measures), MVS_E_ARGUMENT, "statistic");
   MUST_FAIL(mvs_spread_measure(spread, 6, &measures), MVS_E_ARGUMENT, "statistic");
   MUST_FAIL(mvs_spread_view(spread, 3, &view), MVS_E_ARGUMENT, "which");
@@ -291,12 +294,12 @@ int main(void) {
   mvs_sim *sim = thin_valve();
   const mvs_snapshot *start = snapshot_of(sim);
   hash128 before = snapshot_hash(start);
-  mvs_spread *spread = run(start, options_of(3, 0));
+  mvs_spread *spread = run(start, options_of(PATHS, 0));
   CHECK(same_hash(before, snapshot_hash(start)) && same_hash(before, sim_hash(sim)));
   path_0_is_the_plain_closure(spread, sim);
   same_seed_same_bits(start, spread);
-  paths_are_told(spread, 3);
-  statistics_are_those_of_the_paths(spread, 3);
+  paths_are_told(spread, PATHS);
+  statistics_are_those_of_the_paths(spread, PATHS);
   nodes_spread_as_the_pairs_do(start, spread);
   it_is_told_how_far_it_is_and_can_be_stopped(start);
   paths_not_at_rest_are_not_mixed_in(start);

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 MVS = os.environ["MVS_COMMAND"]
-PATHS = 3
+PATHS = 4
 
 
 def mvs(*arguments, cwd):
@@ -114,6 +114,7 @@ class Spread(unittest.TestCase):
         area += [spread["min"], spread["max"], spread["deviation"]]
         self.assertRegex(told, r"Coaptation area +" + r" +".join(f"{a:.2f}" for a in area) + " mm2")
         self.assertRegex(told, r"\n +2 +2  pressure first +0\.50 ")
+        self.assertRegex(told, r"\n +3 +in 60 ms  together +0\.50 ")
 
     def test_paths_not_at_rest_are_named(self):
         done = self.ok("close", "thin.obj", "--paths", 2, "--max-iterations", 2)

@@ -6,7 +6,7 @@ import mvs
 import numpy as np
 import pytest
 
-PATHS = 3
+PATHS = 4
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +72,8 @@ def test_paths_tell_how_they_went(spread):
     assert spread.summary.equilibria == len(set(numbers))
     energies = [path.stats.energy for path in spread.paths]
     assert spread.summary.lowest == int(np.argmin(energies))
-    assert [path.order for path in spread.paths] == list(mvs.SpreadOrder)
+    assert [path.order for path in spread.paths[:3]] == list(mvs.SpreadOrder)
+    assert [path.ramp > 0 for path in spread.paths] == [False, False, False, True]
     for path in spread.paths[1:]:
         assert 0 < path.perturbation <= 0.5e-3 * (1 + 1e-12)
         assert path.surface_rms <= path.surface_max
@@ -116,5 +117,5 @@ def test_bad_arguments_are_refused(thin, spread):
     ]:
         with pytest.raises(mvs.ArgumentError, match=word):
             thin.spread(mvs.SYSTOLE_PA, **{name: value})
-    with pytest.raises(mvs.ArgumentError, match="0 to 2"):
-        spread.snapshot(3)
+    with pytest.raises(mvs.ArgumentError, match="0 to 3"):
+        spread.snapshot(PATHS)

@@ -267,6 +267,7 @@ class SpreadPath:
     node_max: Annotated[float, "m", "node to node from path 0, largest"]
     surface_rms: Annotated[float, "m", "symmetric surface distance from path 0, RMS"]
     surface_max: Annotated[float, "m", "symmetric surface distance from path 0, largest"]
+    ramp: Annotated[float, "s", "time in which the pressure came, with inertia; 0: at rest between"]
     stats: Annotated[Stats, "1", "counts and times over all increments, the rest at the end"]
 
 

@@ -168,6 +168,7 @@ py::object spread_path_value(const mvs_spread_path &s, const mvs_stats &stats) {
   FIELD(node_max);
   FIELD(surface_rms);
   FIELD(surface_max);
+  FIELD(ramp);
   fields["stats"] = stats_value(stats);
   return make("SpreadPath", fields);
 }

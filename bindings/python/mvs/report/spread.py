@@ -86,8 +86,8 @@ def as_html(spreadings: list[Spreading], pictures: dict[str, bytes]) -> str:
                       if each.key in pictures)
     return (
         "<h2>How much of it is fold</h2>\n<p>Slack tissue can fold in several ways, all of them at "
-        "rest. Each valve is closed along several paths: the pressure in 1 to 8 increments, the "
-        "annulus moved before, with or after it, from starts moved by up to 0.5 mm. Path 0 is the "
+        "rest. Each valve is closed along several paths: the pressure in 1 to 8 increments or in "
+        "time, with inertia, the annulus moved before, with or after it, from starts moved by up to 0.5 mm. Path 0 is the "
         "plain closure, whose figures stand everywhere else on this page; beside them here the "
         "least and the most over the paths at rest, and the standard deviation. It is the spread "
         "over these paths, not the error of the model (libmvs/spread/README.md).</p>\n"
@@ -117,8 +117,9 @@ def _paths(each: Spreading) -> str:
             "<th>nodes from path 0, RMS / largest, mm</th></tr>"]
     for k, path in enumerate(each.spread.paths):
         shape = "not at rest" if path.equilibrium is None else str(path.equilibrium)
+        came = f"in {path.ramp * 1e3:.0f} ms" if path.ramp else str(path.increments)
         rows.append(
-            f"<tr><th>{k}</th><td>{path.increments}</td><td>{_ORDERS[path.order]}</td>"
+            f"<tr><th>{k}</th><td>{came}</td><td>{_ORDERS[path.order]}</td>"
             f"<td>{path.perturbation * 1e3:.2f}</td><td>{path.stats.iterations}</td>"
             f"<td>{shape}</td><td>{path.stats.energy * 1e3:.3f}</td>"
             f"<td>{path.node_rms * 1e3:.3f} / {path.node_max * 1e3:.2f}</td></tr>"
