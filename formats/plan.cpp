@@ -86,7 +86,9 @@ std::optional<Move> read_move(const Json &json) {
   check_keys(json,
              {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s"});
   move.kind = word == "settle" ? Move::settle : Move::step;
-  move.count = whole_at(json, "count", 1, uint64_t{1} << 40);
+  MVS_MUST(move.kind == Move::step || !json.has("count"), MVS_E_FORMAT, "plan",
+           "settle has no field \"count\": settled once is settled");
+  move.count = whole_at(json, "count", 1, Move::most_count);
   move.solver = solver_at(json);
   move.max_iterations = static_cast<uint32_t>(whole_at(json, "max_iterations", 0, UINT32_MAX));
   move.residual = number_at(json, "residual_N");

@@ -33,20 +33,25 @@ Moment redone_once(const Moment &now) {
   return moment;
 }
 
+// Whether two moves are steps that differ at most in how often they are taken.
+bool are_equal_steps(const Move &a, Move b) {
+  b.count = a.count;
+  return a.kind == Move::step && a == b;
+}
+
 }  // namespace
 
-Moves with_move(const Moves &moves, Move move) {
+Moves with_move(const Moves &moves, const Move &move) {
   if (moves.empty()) return moves.pushed(move);
-  Move last = moves.top();
-  // a load that nothing has followed yet is replaced, equal steps are counted
+  const Move &last = moves.top();
+  // a load that nothing has followed yet is replaced
   if (move.kind == Move::load && last.kind == Move::load) return moves.popped().pushed(move);
-  move.count = last.count;
-  if (move.kind != Move::step || !(move == last)) {
-    move.count = 1;
+  if (!are_equal_steps(last, move) || last.count > Move::most_count - move.count) {
     return moves.pushed(move);
   }
-  ++last.count;
-  return moves.popped().pushed(last);
+  Move both = last;
+  both.count += move.count;
+  return moves.popped().pushed(both);
 }
 
 Moment after_op(const Moment &now, const Operation &op, const Group &group, int64_t time_ms) {

@@ -22,9 +22,10 @@ struct Picture {
 // What changes a state between two operations, so that a plan can be replayed to the same bits.
 struct Move {
   enum Kind : uint32_t { load = 1, settle = 2, step = 3 };
+  static constexpr uint64_t most_count = uint64_t{1} << 40;
   Kind kind = load;
-  uint32_t solver = 0, max_iterations = 0;     // of settle and step, as the caller gave them
-  uint64_t count = 1;                          // how many of the same in a row
+  uint32_t solver = 0, max_iterations = 0;  // of settle and step, as the caller gave them
+  uint64_t count = 1;  // of step: how many of the same in a row, at most most_count
   double pressure = 0, boundary_fraction = 0;  // of load: Pa, 0 to 1
   double residual = 0, dt = 0, damping = 0;    // N, s, 1/s
 
@@ -32,8 +33,8 @@ struct Move {
 };
 using Moves = Stack<Move>;
 
-// With one more move; equal steps are counted up.
-Moves with_move(const Moves &moves, Move move);
+// With one more move; equal steps are counted together.
+Moves with_move(const Moves &moves, const Move &move);
 
 // One operation that was applied.
 struct Entry {

@@ -107,6 +107,34 @@ static void a_plan_replays_to_the_same_bits(void) {
   mvs_destroy(other);
 }
 
+/* Entries tell when they were applied; all else of two plans can be compared byte for byte. */
+static void blank_times(char *text) {
+  static const char key[] = "\"time\": \"";
+  for (char *at = text; (at = strstr(at, key)) != NULL;) {
+    for (at += strlen(key); *at && *at != '"'; ++at) *at = '-';
+  }
+}
+
+static void a_replayed_plan_is_written_as_it_was_read(void) {
+  mvs_sim *sim = new_valve(0), *again = new_valve(0), *third = new_valve(0);
+  uint64_t size = 0, size_again = 0;
+  mvs_replay replay = {.struct_size = sizeof replay};
+  operate(sim);
+  char *text = plan_of(sim, &size);
+  MUST(mvs_replay_plan(again, text, size, NULL));
+  char *text_again = plan_of(again, &size_again);
+  MUST(mvs_replay_plan(third, text_again, size_again, &replay));
+  CHECK(replay.same_result == 1 && same_hash(sim_hash(sim), sim_hash(third)));
+  blank_times(text);
+  blank_times(text_again);
+  CHECK(strcmp(text, text_again) == 0);
+  free(text_again);
+  free(text);
+  mvs_destroy(sim);
+  mvs_destroy(again);
+  mvs_destroy(third);
+}
+
 static void refused(mvs_sim *sim, const char *text, mvs_result code, const char *word) {
   const hash128 before = sim_hash(sim);
   MUST_FAIL(mvs_check_plan(sim, text, strlen(text), NULL), code, word);
@@ -115,6 +143,37 @@ static void refused(mvs_sim *sim, const char *text, mvs_result code, const char 
 }
 
 #define PLAN(steps) "{\"format\":\"mvs-plan\",\"version\":1,\"steps\":[" steps "]}"
+
+static void remove_blanks(char *text) {
+  char *to = text;
+  for (; *text; ++text) {
+    if (*text != ' ' && *text != '\n') *to++ = *text;
+  }
+  *to = 0;
+}
+
+/* Equal steps in a row are one step of the plan, however they were taken. */
+static void equal_steps_are_counted_together(void) {
+  static const char plan[] = PLAN(
+      "{\"do\":\"load\",\"pressure_Pa\":9000,\"boundary_fraction\":1},"
+      "{\"do\":\"step\",\"count\":2},{\"do\":\"step\",\"count\":3},"
+      "{\"do\":\"step\",\"solver\":\"implicit\",\"count\":2}");
+  mvs_sim *sim = new_valve(0), *stepped = new_valve(0);
+  mvs_load_case load = {sizeof load, 0, 9000, 1};
+  uint64_t size = 0;
+  MUST(mvs_replay_plan(sim, plan, strlen(plan), NULL));
+  MUST(mvs_set_load(stepped, &load));
+  for (int k = 0; k < 7; ++k) MUST(mvs_step(stepped, NULL));
+  CHECK(same_hash(sim_hash(sim), sim_hash(stepped)));
+  char *text = plan_of(sim, &size);
+  remove_blanks(text);
+  CHECK(strstr(text,
+               "{\"do\":\"step\",\"count\":5},"
+               "{\"do\":\"step\",\"count\":2,\"solver\":\"implicit\"}]"));
+  free(text);
+  mvs_destroy(sim);
+  mvs_destroy(stepped);
+}
 
 static void plans_that_cannot_be_done_are_told(void) {
   mvs_sim *sim = new_valve(0);
@@ -126,6 +185,7 @@ static void plans_that_cannot_be_done_are_told(void) {
   refused(sim, PLAN("1"), MVS_E_FORMAT, "step 1");
   refused(sim, PLAN("{\"do\":\"fly\"}"), MVS_E_VERSION, "\"fly\"");
   refused(sim, PLAN("{\"do\":\"settle\",\"dt\":1}"), MVS_E_FORMAT, "no field \"dt\"");
+  refused(sim, PLAN("{\"do\":\"settle\",\"count\":2}"), MVS_E_FORMAT, "no field \"count\"");
   refused(sim, PLAN("{\"do\":\"chord_length\",\"chord\":\"Q1/1\",\"factor\":0.5}"), MVS_E_ID,
           "no chord named \"Q1/1\"");
   refused(sim, PLAN("{\"do\":\"chord_length\",\"chord\":\"P2/3\",\"factor\":\"half\"}"),
@@ -280,6 +340,8 @@ static void a_restored_snapshot_is_recovered_with_its_history(void) {
 int main(void) {
   snprintf(path, sizeof path, "plan_test_%d.journal", (int)getpid());
   a_plan_replays_to_the_same_bits();
+  a_replayed_plan_is_written_as_it_was_read();
+  equal_steps_are_counted_together();
   plans_that_cannot_be_done_are_told();
   a_killed_process_loses_nothing();
   a_torn_record_is_dropped();
