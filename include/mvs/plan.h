@@ -42,7 +42,8 @@ typedef struct mvs_replay {
 
 /* Replays a plan, the text of its file, from the present valve on: all of it, or nothing and the
  * sentence of the step that cannot be done. Settling and stepping are replayed as well; the
- * progress callback can cancel. `replay` is nullable. */
+ * progress callback is told of each of them in turn and can cancel (MVS_E_CANCELLED). `replay` is
+ * nullable. */
 MVS_API mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size,
                                    mvs_replay *replay);
 

@@ -16,6 +16,18 @@ SolveOptions options_of(const Move &move) {
   return options;
 }
 
+// Takes a step as often as the move says. The host is asked after the first and every 64th one
+// more.
+void step_on(mvs_sim &sim, const Model &model, State &state, const Move &move) {
+  const Progress progress = sim.progress();
+  for (uint64_t k = 0; k < move.count; ++k) {
+    const SolveStats found = sim.solver.step(model, state, options_of(move));
+    const double share = static_cast<double>(k + 1) / static_cast<double>(move.count);
+    MVS_MUST(!progress || k % 64 != 0 || progress(share, found.residual), MVS_E_CANCELLED, "step",
+             "stepping was cancelled by the progress callback; the valve is as before");
+  }
+}
+
 Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
   Moment next = now;
   State &state = next.picture.state;
@@ -24,14 +36,21 @@ Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
   } else if (move.kind == Move::settle) {
     sim.solver.settle(*now.picture.model, state, options_of(move), sim.progress());
   } else {
-    for (uint64_t k = 0; k < move.count; ++k) {
-      sim.solver.step(*now.picture.model, state, options_of(move));
-    }
+    step_on(sim, *now.picture.model, state, move);
   }
   must_be_finite(state);
   share(state, now.picture.state);
   note_move(next, now.picture, move);
   return next;
+}
+
+// The names of the chordae with a flag.
+Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
+  Json names = Json::array();
+  for (size_t c = 0; c < snapshot.chords().flags.size(); ++c) {
+    if (snapshot.chords().flags[c] & flag) names.add(snapshot.model->valve.chords[c].name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -66,15 +85,6 @@ void Replay::go(const std::vector<PlanStep> &steps) {
 
 TakeMove moves_of(mvs_sim &sim) {
   return [&sim](const Moment &now, const Move &move) { return moved(sim, now, move); };
-}
-
-// The names of the chordae with a flag.
-static Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
-  Json names = Json::array();
-  for (size_t c = 0; c < snapshot.chords().flags.size(); ++c) {
-    if (snapshot.chords().flags[c] & flag) names.add(snapshot.model->valve.chords[c].name);
-  }
-  return names;
 }
 
 Json plan_measures(const Picture &picture) {

@@ -116,7 +116,7 @@ static void blank_times(char *text) {
 }
 
 static void a_replayed_plan_is_written_as_it_was_read(void) {
-  mvs_sim *sim = new_valve(0), *again = new_valve(0), *third = new_valve(0);
+  mvs_sim *sim = new_valve(200), *again = new_valve(200), *third = new_valve(200);
   uint64_t size = 0, size_again = 0;
   mvs_replay replay = {.struct_size = sizeof replay};
   operate(sim);
@@ -158,7 +158,7 @@ static void equal_steps_are_counted_together(void) {
       "{\"do\":\"load\",\"pressure_Pa\":9000,\"boundary_fraction\":1},"
       "{\"do\":\"step\",\"count\":2},{\"do\":\"step\",\"count\":3},"
       "{\"do\":\"step\",\"solver\":\"implicit\",\"count\":2}");
-  mvs_sim *sim = new_valve(0), *stepped = new_valve(0);
+  mvs_sim *sim = new_valve(200), *stepped = new_valve(200);
   mvs_load_case load = {sizeof load, 0, 9000, 1};
   uint64_t size = 0;
   MUST(mvs_replay_plan(sim, plan, strlen(plan), NULL));
@@ -173,6 +173,47 @@ static void equal_steps_are_counted_together(void) {
   free(text);
   mvs_destroy(sim);
   mvs_destroy(stepped);
+}
+
+/* A host that ends the work at a call of its progress callback. */
+typedef struct host {
+  int calls, stop_at;
+  double share;
+} host;
+
+static int32_t tell(void *user, double share, double residual) {
+  host *h = user;
+  CHECK(share >= h->share && share <= 1 && residual >= 0);
+  h->share = share;
+  return ++h->calls == h->stop_at;
+}
+
+/* More steps than anybody can wait for end when the host says so, and nothing has happened. */
+static void a_cancelled_replay_changes_nothing(void) {
+  static const char plan[] = PLAN(
+      "{\"do\":\"annulus_scale\",\"factor\":0.9},"
+      "{\"do\":\"step\",\"solver\":\"explicit\",\"count\":1000000000000}");
+  host h = {0, 3, 0};
+  mvs_sim_desc desc = {.struct_size = sizeof desc, .progress = tell, .user = &h};
+  mvs_sim *sim = NULL, *undisturbed = new_valve(0);
+  uint64_t size = 0;
+  MUST(mvs_create(&desc, &sim));
+  MUST(mvs_generate_valve(sim, NULL));
+  MUST(mvs_step(sim, NULL));
+  MUST(mvs_step(undisturbed, NULL));
+  char *before = plan_of(sim, &size);
+  MUST_FAIL(mvs_replay_plan(sim, plan, strlen(plan), NULL), MVS_E_CANCELLED,
+            "step 2 of the plan: ");
+  CHECK(h.calls == 3 && h.share > 0);
+  char *after = plan_of(sim, &size);
+  CHECK(strcmp(before, after) == 0);
+  MUST(mvs_step(sim, NULL));
+  MUST(mvs_step(undisturbed, NULL));
+  CHECK(same_hash(sim_hash(undisturbed), sim_hash(sim)));
+  free(after);
+  free(before);
+  mvs_destroy(undisturbed);
+  mvs_destroy(sim);
 }
 
 static void plans_that_cannot_be_done_are_told(void) {
@@ -342,6 +383,7 @@ int main(void) {
   a_plan_replays_to_the_same_bits();
   a_replayed_plan_is_written_as_it_was_read();
   equal_steps_are_counted_together();
+  a_cancelled_replay_changes_nothing();
   plans_that_cannot_be_done_are_told();
   a_killed_process_loses_nothing();
   a_torn_record_is_dropped();
