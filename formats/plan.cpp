@@ -145,6 +145,10 @@ std::string hash_text(const Picture &picture) {
                 static_cast<unsigned long long>(hash[1]));
 }
 
+Json valve_json(const Picture &start) {
+  return Json::object({{"name", start.model->valve.name}, {"hash", hash_text(start)}});
+}
+
 Json move_json(const Move &move) {
   Json json;
   if (move.kind == Move::load) {
@@ -197,13 +201,12 @@ Json plan_steps(const Moment &moment, const Measure &measure) {
 }
 
 std::string write_plan(const Moment &moment, const PlanText &text, const Measure &measure) {
-  const Picture &start = moment.timeline.start ? *moment.timeline.start : moment.picture;
   Json json;
   json.set("format", format_name);
   json.set("version", plan_version);
   json.set("libmvs", version_text());
   json.set("units", "SI: m, N, Pa, s");
-  json.set("valve", Json::object({{"name", start.model->valve.name}, {"hash", hash_text(start)}}));
+  json.set("valve", valve_json(*start_of(moment)));
   if (!text.author.empty()) json.set("author", text.author);
   if (!text.notes.empty()) json.set("notes", text.notes);
   json.set("steps", plan_steps(moment, measure));

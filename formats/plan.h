@@ -43,6 +43,9 @@ std::string write_plan(const Moment &moment, const PlanText &text, const Measure
 Plan read_plan(std::string_view text);
 std::vector<PlanStep> read_steps(const Json &steps);
 
+// The valve that a plan or journal belongs to.
+Json valve_json(const Picture &start);
+
 Json move_json(const Move &move);
 void add_moves(Json &steps, const Moves &moves);
 

@@ -29,10 +29,6 @@ void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record) {
 
 namespace {
 
-std::string start_hash(const Moment &moment) {
-  return hash_text(moment.timeline.start ? *moment.timeline.start : moment.picture);
-}
-
 const std::vector<Checkpoint> &checkpoints_of(const Moment &moment) {
   static const std::vector<Checkpoint> none_there;
   return moment.timeline.checkpoints ? *moment.timeline.checkpoints : none_there;
@@ -56,7 +52,7 @@ Json restart_record(const Moment &moment) {
 
 void restart_journal(mvs_sim &sim, const Moment &restored) {
   if (!sim.journal) return;
-  if (start_hash(restored) == start_hash(sim.present()->moment)) {
+  if (hash_text(*start_of(restored)) == hash_text(*start_of(sim.present()->moment))) {
     sim.journal->append(restart_record(restored).line());
     return;
   }
@@ -65,11 +61,10 @@ void restart_journal(mvs_sim &sim, const Moment &restored) {
 }
 
 Json begun_record(const Moment &moment) {
-  const Picture &start = moment.timeline.start ? *moment.timeline.start : moment.picture;
   Json json;
   json.set("do", "begin");
   json.set("journal", uint64_t{1});
-  json.set("valve", Json::object({{"name", start.model->valve.name}, {"hash", hash_text(start)}}));
+  json.set("valve", valve_json(*start_of(moment)));
   json.set("steps", plan_steps(moment, {}));
   return json;
 }

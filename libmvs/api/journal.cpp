@@ -29,26 +29,22 @@ std::vector<PlanStep> steps_at(const Json &json) {
   return read_steps(json["steps"]);
 }
 
-Picture start_of(const Moment &now) {
-  return now.timeline.start ? *now.timeline.start : now.picture;
-}
-
 // Back to right after the last operation: a record tells all moves since then.
 void rewind_moves(Moment &now) {
-  const Picture at = now.timeline.past.empty() ? start_of(now) : now.timeline.past.top()->after;
+  const Picture at = now.timeline.past.empty() ? *start_of(now) : now.timeline.past.top()->after;
   now.picture = at;
   now.timeline.moves = {};
 }
 
 // Every checkpoint by the steps that led to it, then the steps to where the snapshot was.
 void restart(Replay &replay, const Json &record) {
-  Replay there({start_of(replay.now), {}}, replay);
+  Replay there({*start_of(replay.now), {}}, replay);
   for (const Json &checkpoint : record["checkpoints"].items()) {
-    there.now = {start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
+    there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
     there.go(steps_at(checkpoint));
     there.now = with_checkpoint(there.now, text_at(checkpoint, "name"));
   }
-  there.now = {start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
+  there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
   there.go(steps_at(record));
   replay.now = std::move(there.now);
 }

@@ -6,11 +6,6 @@
 namespace mvs {
 namespace {
 
-std::shared_ptr<const Picture> start_of(const Moment &moment) {
-  if (moment.timeline.start) return moment.timeline.start;
-  return std::make_shared<const Picture>(moment.picture);
-}
-
 bool in_same_group(const Entry &a, const Entry &b) {
   return a.group != 0 && a.group == b.group;
 }
@@ -40,6 +35,11 @@ bool are_equal_steps(const Move &a, Move b) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Picture> start_of(const Moment &moment) {
+  if (moment.timeline.start) return moment.timeline.start;
+  return std::make_shared<const Picture>(moment.picture);
+}
 
 Moves with_move(const Moves &moves, const Move &move) {
   if (moves.empty()) return moves.pushed(move);

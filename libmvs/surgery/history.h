@@ -72,6 +72,9 @@ struct Moment {
   Timeline timeline;
 };
 
+// The valve as it was set, where the history begins.
+std::shared_ptr<const Picture> start_of(const Moment &moment);
+
 // What an operation did.
 struct Operated {
   Picture picture;
