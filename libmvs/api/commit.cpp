@@ -9,18 +9,6 @@ int64_t now_ms() {
   return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-void must_be_finite(const State &state) {
-  for (const Vec3 &x : state.x.get()) {
-    MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
-             "a node left the range of numbers: take a smaller time step or load");
-  }
-}
-
-void note_move(Moment &moment, const Picture &from, const Move &move) {
-  if (!moment.timeline.start) moment.timeline.start = std::make_shared<const Picture>(from);
-  moment.timeline.moves = with_move(moment.timeline.moves, move);
-}
-
 void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record) {
   SnapshotPtr next = make_snapshot(std::move(after));
   if (sim.journal) sim.journal->append(record().line());

@@ -9,12 +9,6 @@ namespace mvs {
 // Milliseconds since 1970 UTC.
 int64_t now_ms();
 
-// Throws MVS_E_DIVERGED where a position is not a number.
-void must_be_finite(const State &state);
-
-// Notes that a move led from a picture to this moment.
-void note_move(Moment &moment, const Picture &from, const Move &move);
-
 // Makes `after` the present. The record goes into the journal, if there is one, before anything
 // counts; it is asked for only then.
 void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record);

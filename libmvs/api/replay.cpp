@@ -2,19 +2,10 @@
 #include "api/replay.h"
 
 #include "api/commit.h"
+#include "api/moves.h"
 
 namespace mvs {
 namespace {
-
-SolveOptions options_of(const Move &move) {
-  SolveOptions options;
-  options.solver = move.solver;
-  options.max_iterations = move.max_iterations;
-  options.residual = move.residual;
-  options.dt = move.dt;
-  options.damping = move.damping;
-  return options;
-}
 
 // Takes a step as often as the move says. The host is asked after the first and every 64th one
 // more.
@@ -29,19 +20,15 @@ void step_on(mvs_sim &sim, const Model &model, State &state, const Move &move) {
 }
 
 Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
-  Moment next = now;
-  State &state = next.picture.state;
+  State state = now.picture.state;
   if (move.kind == Move::load) {
-    state.load = {move.pressure, move.boundary_fraction};
+    state.load = load_of(move);
   } else if (move.kind == Move::settle) {
     sim.solver.settle(*now.picture.model, state, options_of(move), sim.progress());
   } else {
     step_on(sim, *now.picture.model, state, move);
   }
-  must_be_finite(state);
-  share(state, now.picture.state);
-  note_move(next, now.picture, move);
-  return next;
+  return after_move(now, std::move(state), move);
 }
 
 // The names of the chordae with a flag.

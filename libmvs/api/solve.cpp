@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "api/commit.h"
+#include "api/moves.h"
+#include "api/simulator.h"
 
 namespace mvs {
 namespace {
@@ -53,24 +54,6 @@ mvs_stats public_stats(const SolveStats &from) {
   return stats;
 }
 
-Move move_of(Move::Kind kind, const SolveOptions &how) {
-  Move move;
-  move.kind = kind;
-  move.solver = how.solver;
-  move.max_iterations = how.max_iterations;
-  move.residual = how.residual;
-  move.dt = how.dt;
-  move.damping = how.damping;
-  return move;
-}
-
-Move move_of(const Load &load) {
-  Move move;
-  move.pressure = load.pressure;
-  move.boundary_fraction = load.boundary_fraction;
-  return move;
-}
-
 }  // namespace mvs
 
 using namespace mvs;
@@ -89,20 +72,10 @@ SolveOptions read_options(const mvs_step_options *given) {
   return {options.solver, 0, 0, options.dt, options.damping};
 }
 
-// Makes a state the present one, and notes how it was reached. What it has in common with the state
-// before is shared.
-void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move) {
-  share(state, before->state);
-  Moment moment{{before->model, std::move(state)}, before->moment.timeline};
-  note_move(moment, before->moment.picture, move);
-  sim.replace(make_snapshot(std::move(moment)));
-}
-
 // Makes a state that a solver arrived at the present one.
-void commit(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move,
-            const SolveStats &stats) {
-  must_be_finite(state);
-  go_on(sim, before, std::move(state), move);
+void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move,
+           const SolveStats &stats) {
+  sim.replace(make_snapshot(after_move(before->moment, std::move(state), move)));
   sim.stats = public_stats(stats);
 }
 
@@ -123,7 +96,7 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
     const SnapshotPtr before = s.present();
     State state = before->state;
     state.load = given;
-    go_on(s, before, std::move(state), move_of(given));
+    s.replace(make_snapshot(after_move(before->moment, std::move(state), move_of(given))));
   });
 }
 
@@ -141,7 +114,7 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     const SnapshotPtr before = s.present();
     State state = before->state;
     const SolveStats found = s.solver.settle(*before->model, state, how, s.progress());
-    commit(s, before, std::move(state), move_of(Move::settle, how), found);
+    go_on(s, before, std::move(state), move_of(Move::settle, how), found);
     if (stats) write_struct(stats, s.stats, "stats");
     log_settled(s, found);
   });
@@ -153,7 +126,7 @@ mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
     const SnapshotPtr before = s.present();
     State state = before->state;
     const SolveStats found = s.solver.step(*before->model, state, how);
-    commit(s, before, std::move(state), move_of(Move::step, how), found);
+    go_on(s, before, std::move(state), move_of(Move::step, how), found);
   });
 }
 

@@ -4,7 +4,6 @@
 #include <mvs/sim.h>
 
 #include "physics/solver.h"
-#include "surgery/history.h"
 
 namespace mvs {
 
@@ -13,9 +12,5 @@ Load read_load(const mvs_load_case *given);
 SolveOptions read_options(const mvs_settle_options *given);
 
 mvs_stats public_stats(const SolveStats &from);
-
-// The move that a plan keeps of a settle or step with these options, or of a load.
-Move move_of(Move::Kind kind, const SolveOptions &how);
-Move move_of(const Load &load);
 
 }  // namespace mvs

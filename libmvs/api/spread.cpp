@@ -5,7 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "api/commit.h"
+#include "api/moves.h"
+#include "api/simulator.h"
 #include "api/solve.h"
 #include "api/statistics.h"
 #include "spread/path.h"
@@ -69,15 +70,14 @@ Progress progress_of(const mvs_spread_options &options, uint32_t number) {
 // Path 0 goes on with the history of the start, as after mvs_set_load and mvs_settle; no plan leads
 // to the others.
 SnapshotPtr snapshot_of(const Task &task, State state, bool plain) {
-  const Moment &before = task.start.moment;
-  share(state, task.start.state);
-  Moment after{{task.start.model, std::move(state)}, {}};
   if (plain) {
-    after.timeline = before.timeline;
-    note_move(after, before.picture, move_of(task.load));
-    note_move(after, before.picture, move_of(Move::settle, task.solve));
+    State loaded = task.start.state;
+    loaded.load = task.load;
+    const Moment before = after_move(task.start.moment, loaded, move_of(task.load));
+    return make_snapshot(after_move(before, std::move(state), move_of(Move::settle, task.solve)));
   }
-  return make_snapshot(std::move(after));
+  share(state, task.start.state);
+  return make_snapshot({{task.start.model, std::move(state)}, {}});
 }
 
 void close_path(const Task &task, uint32_t number, Solver &solver, mvs_spread &spread) {

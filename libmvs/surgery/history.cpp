@@ -54,6 +54,18 @@ Moves with_move(const Moves &moves, const Move &move) {
   return moves.popped().pushed(both);
 }
 
+Moment after_move(const Moment &now, State state, const Move &move) {
+  for (const Vec3 &x : state.x.get()) {
+    MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
+             "a node left the range of numbers: take a smaller time step or load");
+  }
+  share(state, now.picture.state);
+  Moment moment{{now.picture.model, std::move(state)}, now.timeline};
+  moment.timeline.start = start_of(now);
+  moment.timeline.moves = with_move(now.timeline.moves, move);
+  return moment;
+}
+
 Moment after_op(const Moment &now, const Operation &op, const Group &group, int64_t time_ms) {
   Operated done = perform(now.picture, op);
   auto entry = std::make_shared<const Entry>(Entry{op, std::move(done.title), done.made,

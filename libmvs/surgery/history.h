@@ -85,6 +85,10 @@ struct Operated {
 // Applies an operation to a picture; throws and leaves it as it is if that cannot be done.
 Operated perform(const Picture &before, const Operation &op);
 
+// The moment after a move, which led to `state`; throws MVS_E_DIVERGED where a position is no
+// number. What the state has in common with the one before is shared.
+Moment after_move(const Moment &now, State state, const Move &move);
+
 // These give the moment after; they throw MVS_E_STATE or MVS_E_ID where there is nothing to go to.
 struct Group {
   uint64_t number = 0;

@@ -1,0 +1,35 @@
+// The moves that a history keeps, from loads and solver options and back to them.
+#pragma once
+
+#include "physics/solver.h"
+#include "surgery/history.h"
+
+namespace mvs {
+
+inline Move move_of(Move::Kind kind, const SolveOptions &how) {
+  Move move;
+  move.kind = kind;
+  move.solver = how.solver;
+  move.max_iterations = how.max_iterations;
+  move.residual = how.residual;
+  move.dt = how.dt;
+  move.damping = how.damping;
+  return move;
+}
+
+inline SolveOptions options_of(const Move &move) {
+  return {move.solver, move.max_iterations, move.residual, move.dt, move.damping};
+}
+
+inline Move move_of(const Load &load) {
+  Move move;
+  move.pressure = load.pressure;
+  move.boundary_fraction = load.boundary_fraction;
+  return move;
+}
+
+inline Load load_of(const Move &move) {
+  return {move.pressure, move.boundary_fraction};
+}
+
+}  // namespace mvs
