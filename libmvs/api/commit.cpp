@@ -9,9 +9,9 @@ int64_t now_ms() {
   return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record) {
+void commit(mvs_sim &sim, Moment after, const Record &record) {
   SnapshotPtr next = make_snapshot(std::move(after));
-  if (sim.journal) sim.journal->append(record().line());
+  if (sim.journal) sim.journal->append(record(next->moment).line());
   sim.replace(std::move(next));
 }
 

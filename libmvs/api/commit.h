@@ -9,9 +9,10 @@ namespace mvs {
 // Milliseconds since 1970 UTC.
 int64_t now_ms();
 
-// Makes `after` the present. The record goes into the journal, if there is one, before anything
+// Makes `after` the present. Its record goes into the journal, if there is one, before anything
 // counts; it is asked for only then.
-void commit(mvs_sim &sim, Moment after, const std::function<Json()> &record);
+using Record = std::function<Json(const Moment &after)>;
+void commit(mvs_sim &sim, Moment after, const Record &record);
 
 // Writes into the journal, if there is one, that a snapshot is restored. A snapshot of another
 // valve ends it.

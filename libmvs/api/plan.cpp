@@ -71,8 +71,8 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
     Replay steps(before->moment, exact, moves_of(s));
     steps.go(plan.steps);
     const mvs_replay how = replay_of(plan, before->moment, steps.now);
-    const Json record = s.journal ? steps_record(before->moment, steps.now) : Json();
-    commit(s, std::move(steps.now), [&] { return record; });
+    commit(s, std::move(steps.now),
+           [&](const Moment &after) { return steps_record(before->moment, after); });
     if (replay) write_struct(replay, how, "replay");
   });
 }

@@ -39,8 +39,8 @@ mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
     const SnapshotPtr before = s.present();
     Moment after = after_op(before->moment, Operation(op), s.group, now_ms());
     const std::shared_ptr<const Entry> entry = after.timeline.past.top();
-    const Json record = s.journal ? steps_record(before->moment, after) : Json();
-    commit(s, std::move(after), [&] { return record; });
+    commit(s, std::move(after),
+           [&](const Moment &next) { return steps_record(before->moment, next); });
     if (made) *made = entry->made;
     s.log(MVS_LOG_INFO, "%s", entry->title.c_str());
   });
@@ -50,7 +50,7 @@ mvs_result mvs_undo(mvs_sim *sim) {
   return guarded_call(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "undo");
-    commit(s, undone(before->moment), [] { return word_record("undo"); });
+    commit(s, undone(before->moment), [](const Moment &) { return word_record("undo"); });
   });
 }
 
@@ -58,7 +58,7 @@ mvs_result mvs_redo(mvs_sim *sim) {
   return guarded_call(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "redo");
-    commit(s, redone(before->moment), [] { return word_record("redo"); });
+    commit(s, redone(before->moment), [](const Moment &) { return word_record("redo"); });
   });
 }
 
@@ -85,8 +85,9 @@ mvs_result mvs_set_checkpoint(mvs_sim *sim, const char *name) {
   return guarded_call(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     const std::string text = checked_name(name, "checkpoint");
-    commit(s, with_checkpoint(before->moment, text),
-           [&] { return named_record("checkpoint", text, before->moment.timeline.moves); });
+    commit(s, with_checkpoint(before->moment, text), [&](const Moment &after) {
+      return named_record("checkpoint", text, after.timeline.moves);
+    });
   });
 }
 
@@ -96,7 +97,7 @@ mvs_result mvs_restore_checkpoint(mvs_sim *sim, const char *name) {
     must_be_no_group(s, "restore_checkpoint");
     const std::string text = checked_name(name, "checkpoint");
     commit(s, at_checkpoint(before->moment, text),
-           [&] { return named_record("restore_checkpoint", text, {}); });
+           [&](const Moment &) { return named_record("restore_checkpoint", text, {}); });
   });
 }
 
