@@ -66,8 +66,7 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
     if (replay) checked_struct_size(replay, "replay");
     const Plan plan = read_given(data, size);
     const bool exact = plan.valve_hash == hash_text(before->moment.picture);
-    MVS_MUST(s.group.number == 0, MVS_E_STATE, "group",
-             "replay: the group \"%.63s\" is open: call mvs_end_group first", s.group.name.c_str());
+    must_be_no_group(s, "replay");
     Replay steps(before->moment, exact, moves_of(s));
     steps.go(plan.steps);
     const mvs_replay how = replay_of(plan, before->moment, steps.now);

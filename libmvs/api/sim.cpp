@@ -48,6 +48,12 @@ AtWork::AtWork(mvs_sim *sim) : sim_(sim) {
            "the simulator is at work in another call: wait for it, and do not call back into it");
 }
 
+void must_be_no_group(const mvs_sim &sim, const char *call) {
+  MVS_MUST(sim.group.number == 0, MVS_E_STATE, "group",
+           "%s: the group \"%.63s\" is open: call mvs_end_group first", call,
+           sim.group.name.c_str());
+}
+
 void replace_valve(mvs_sim &sim, Moment moment) {
   const ModelPtr held = moment.picture.model;
   sim.replace(make_snapshot(std::move(moment)));
@@ -122,9 +128,7 @@ mvs_result mvs_get_snapshot(mvs_sim *sim, const mvs_snapshot **snapshot) {
 mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot) {
   return guarded_call(sim, [&](mvs_sim &s) {
     must_point(snapshot, "snapshot");
-    MVS_MUST(s.group.number == 0, MVS_E_STATE, "group",
-             "restore: the group \"%.63s\" is open: call mvs_end_group first",
-             s.group.name.c_str());
+    must_be_no_group(s, "restore");
     restart_journal(s, snapshot->moment);
     mvs_snapshot_retain(snapshot);
     s.replace(SnapshotPtr(snapshot));

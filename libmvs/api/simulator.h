@@ -61,6 +61,9 @@ mvs_result guarded_call(mvs_sim *sim, Work &&work) noexcept {
   });
 }
 
+// Throws MVS_E_STATE in the name of a call while a group is open.
+void must_be_no_group(const mvs_sim &sim, const char *call);
+
 // Makes a valve with its state and history the present of a simulator.
 void replace_valve(mvs_sim &sim, Moment moment);
 

@@ -8,12 +8,6 @@ using namespace mvs;
 
 namespace {
 
-void must_be_no_group(const mvs_sim &sim, const char *call) {
-  MVS_MUST(sim.group.number == 0, MVS_E_STATE, "group",
-           "%s: the group \"%.63s\" is open: call mvs_end_group first", call,
-           sim.group.name.c_str());
-}
-
 std::string checked_name(const char *name, const char *what) {
   must_point(name, what);
   const std::string text = name;
