@@ -1,7 +1,6 @@
 // Load and save: the formats behind one pair of functions.
 #include <mvs/file.h>
 
-#include <cstring>
 #include <limits>
 #include <string_view>
 
@@ -129,11 +128,8 @@ mvs_result mvs_save_memory(const mvs_snapshot *snapshot, uint32_t format_given, 
                            uint64_t capacity, uint64_t *size) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
-    must_point(size, "size");
-    if (capacity > 0) must_point(data, "data");
-    const std::string bytes = written(*snapshot, checked_format(format_given));
-    if (capacity > 0) std::memcpy(data, bytes.data(), std::min<uint64_t>(capacity, bytes.size()));
-    *size = bytes.size();
+    write_bytes(data, capacity, size,
+                [&] { return written(*snapshot, checked_format(format_given)); });
   });
 }
 

@@ -1,8 +1,6 @@
 // Plans: written from a snapshot's history, replayed on the present valve.
 #include <mvs/plan.h>
 
-#include <cstring>
-
 #include "api/commit.h"
 #include "api/replay.h"
 #include "formats/formats.h"
@@ -10,10 +8,6 @@
 using namespace mvs;
 
 namespace {
-
-std::string text_or_empty(const char *text) {
-  return text ? text : "";
-}
 
 std::string plan_text(const mvs_snapshot *snapshot, const mvs_plan_options *given) {
   must_point(snapshot, "snapshot");
@@ -51,13 +45,8 @@ mvs_result mvs_save_plan(const mvs_snapshot *snapshot, const mvs_plan_options *o
 
 mvs_result mvs_write_plan(const mvs_snapshot *snapshot, const mvs_plan_options *options, void *data,
                           uint64_t capacity, uint64_t *size) {
-  return guarded([&] {
-    must_point(size, "size");
-    if (capacity > 0) must_point(data, "data");
-    const std::string text = plan_text(snapshot, options);
-    if (capacity > 0) std::memcpy(data, text.data(), std::min<uint64_t>(capacity, text.size()));
-    *size = text.size();
-  });
+  return guarded(
+      [&] { write_bytes(data, capacity, size, [&] { return plan_text(snapshot, options); }); });
 }
 
 mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_replay *replay) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 #include "api/guard.h"
 
@@ -55,6 +56,22 @@ void write_struct(Struct *to, const Struct &value, const char *what) {
   const size_t common = std::min<size_t>(size, sizeof(Struct));
   std::memcpy(bytes + sizeof size, from + sizeof size, common - sizeof size);
   std::memset(bytes + common, 0, size - common);
+}
+
+// Hands the bytes that make() gives to the caller's memory, as far as it reaches, and their true
+// number to *size.
+template <typename Make>
+void write_bytes(void *data, uint64_t capacity, uint64_t *size, Make make) {
+  must_point(size, "size");
+  if (capacity > 0) must_point(data, "data");
+  const std::string bytes = make();
+  if (capacity > 0) std::memcpy(data, bytes.data(), std::min<uint64_t>(capacity, bytes.size()));
+  *size = bytes.size();
+}
+
+// A nullable text.
+inline std::string text_or_empty(const char *text) {
+  return text ? text : "";
 }
 
 // Fields kept for later versions have to be zero, so that they can get a meaning.

@@ -13,10 +13,6 @@ double or_default(double given, double fallback) {
   return given == 0 ? fallback : given;
 }
 
-std::string text_or_empty(const char *text) {
-  return text ? text : "";
-}
-
 void read_nodes_and_triangles(const mvs_valve_desc &desc, Described &described) {
   Valve &valve = described.valve;
   valve.rest = read_points(desc.nodes, "nodes");
