@@ -23,13 +23,13 @@ std::vector<uint8_t> kinds_of_nodes(const Valve &valve) {
   return kind;
 }
 
-// Marks the chords that can be reached from nodes of a kind without passing such a node.
-std::vector<uint8_t> reached_from(const Valve &valve, const Rows &chords_at,
-                                  const std::vector<uint8_t> &kind, uint8_t from) {
+// Marks the chords that can be reached from the heads by branch points only.
+std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_at,
+                                        const std::vector<uint8_t> &kind) {
   std::vector<uint8_t> reached(valve.chords.size(), 0);
   std::vector<uint32_t> queue;
   for (uint32_t n = 0; n < kind.size(); ++n) {
-    if (kind[n] == from) queue.push_back(n);
+    if (kind[n] == MVS_NODE_IS_HEAD) queue.push_back(n);
   }
   std::vector<uint8_t> seen(kind.size(), 0);
   for (size_t q = 0; q < queue.size(); ++q) {
@@ -59,7 +59,7 @@ void keep_chords(Valve &valve, const std::vector<uint8_t> &kept) {
 bool prune_once(Valve &valve) {
   const Rows chords_at = chords_at_nodes(valve);
   const std::vector<uint8_t> kind = kinds_of_nodes(valve);
-  const std::vector<uint8_t> from_head = reached_from(valve, chords_at, kind, MVS_NODE_IS_HEAD);
+  const std::vector<uint8_t> from_head = reached_from_heads(valve, chords_at, kind);
   std::vector<uint8_t> kept(valve.chords.size(), 1);
   bool changed = false;
   for (size_t c = 0; c < kept.size(); ++c) {

@@ -26,9 +26,7 @@ void check_parts(const Surgery &s, const Operation &op) {
   for (const OpField &f : op.kind().fields) {
     const bool names_part =
         f.type == MVS_FIELD_CHORD || f.type == MVS_FIELD_HEAD || f.type == MVS_FIELD_SCALLOP;
-    if (f.type == MVS_FIELD_SITE && op.field<mvs_site>(f).how != MVS_SITE_NONE) {
-      locate(s, op.field<mvs_site>(f));
-    }
+    if (f.type == MVS_FIELD_SITE) check_site(s, op.field<mvs_site>(f));
     if (!names_part || op.field<Id>(f) == 0) continue;
     if (f.type == MVS_FIELD_CHORD) chord_of(s, op.field<Id>(f));
     if (f.type == MVS_FIELD_HEAD) head_of(s, op.field<Id>(f));

@@ -102,6 +102,12 @@ uint32_t make_node(Surgery &s, const SheetPoint &point) {
 
 }  // namespace
 
+void check_site(const Surgery &s, const mvs_site &site) {
+  if (site.how == MVS_SITE_NODE) at_vertex(s, site.index);
+  if (site.how == MVS_SITE_TRIANGLE) at_triangle(s, site);
+  if (site.how == MVS_SITE_ANATOMICAL) scallop_of(s, site.scallop);
+}
+
 SheetPoint locate(const Surgery &s, const mvs_site &site) {
   if (site.how == MVS_SITE_NODE) return at_vertex(s, site.index);
   if (site.how == MVS_SITE_TRIANGLE) return at_triangle(s, site);

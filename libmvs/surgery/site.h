@@ -11,6 +11,9 @@ struct SheetPoint {
   std::array<double, 3> weight{};
 };
 
+// Throws MVS_E_ID or MVS_E_OP where a site names what is not there; finds no place, which costs.
+void check_site(const Surgery &s, const mvs_site &site);
+
 // Where a site is on the present valve; throws MVS_E_ID or MVS_E_OP where there is none.
 SheetPoint locate(const Surgery &s, const mvs_site &site);
 
