@@ -13,7 +13,7 @@ from mvs import Simulator, Snapshot
 
 from .cases import strut_chord, verdict
 from .geometry import Drawing
-from .table import ROWS, value
+from .table import rows_of, valves_html
 
 
 @dataclass(frozen=True)
@@ -74,23 +74,19 @@ def picture_of(shown: Shown) -> bytes:
     return picture(drawing, view_from_atrium(54.0), closed=True)
 
 
-_FIELDS = ("regurgitant_orifice_area", "coaptation_area", "coaptation_height", "annulus_ap",
-           "max_chord_strain", "max_chord_tension", "intersections")
+_COLUMNS = rows_of((
+    "regurgitant_orifice_area", "coaptation_area", "coaptation_height", "annulus_ap",
+    "max_chord_strain", "max_chord_tension", "intersections"))
 
 
 def as_html(shown: list[Shown], pictures: dict[str, bytes]) -> str:
     """The chapter: a table, and a picture of each."""
-    columns = [row for field in _FIELDS for row in ROWS if row.field == field]
-    head = "".join(f"<th>{r.label}{', ' + r.unit if r.unit else ''}</th>" for r in columns)
-    rows = [f"<tr><th>operation</th>{head}<th>verdict</th></tr>"]
-    for each in shown:
-        cells = "".join(f"<td>{value(row, each.closed.measures)}</td>" for row in columns)
-        rows.append(f"<tr><th>{html.escape(each.title)}</th>{cells}"
-                    f"<td class=words>{html.escape(each.verdict)}</td></tr>")
+    table = valves_html("operation", _COLUMNS, "verdict",
+                        ((each.title, each.closed.measures, each.verdict) for each in shown))
     figures = "".join(_figure(each, pictures[each.kind]) for each in shown if each.kind in pictures)
     return ("<h2>Every operation by itself</h2>\n<p>On the shipped valve, open, which is then "
-            "closed. Rings, bands and sutures are blue.</p>\n<table>\n" + "\n".join(rows)
-            + f'\n</table>\n<div class="row">{figures}</div>')
+            f"closed. Rings, bands and sutures are blue.</p>\n{table}\n"
+            f'<div class="row">{figures}</div>')
 
 
 def _figure(shown: Shown, png: bytes) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import html
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,11 +13,11 @@ from numpy.typing import NDArray
 from .. import Snapshot
 from ..study import Stage
 from .geometry import Drawing
-from .table import ROWS, value
+from .table import aligned, rows_of, value, valves_html
 
 Segments = NDArray[np.float64]
 
-FIELDS = (
+COLUMNS = rows_of((
     "regurgitant_orifice_area",
     "coaptation_height",
     "coaptation_length_mean",
@@ -26,8 +25,7 @@ FIELDS = (
     "max_chord_tension",
     "annulus_ap",
     "intersections",
-)
-COLUMNS = tuple(row for field in FIELDS for row in ROWS if row.field == field)
+))
 
 PAPER_MM = {3: (1.3, 0.5, 1.7)}
 """Of the founding paper: RMS of its valve 3 in cross-section, pairs in the order of `Distances`."""
@@ -104,18 +102,11 @@ def _to_nearest(points: Segments, segments: Segments) -> NDArray[np.float64]:
 
 def as_text(stages: Sequence[Stage]) -> str:
     """Both tables for a terminal."""
-    head = ["", *(f"{row.label}, {row.unit}" if row.unit else row.label for row in COLUMNS)]
-    lines = [head]
+    lines = [["", *(row.head for row in COLUMNS)]]
     for stage in stages:
         measures = stage.closed.measures
         lines.append([stage.title, *(value(row, measures) for row in COLUMNS)])
-    widths = [max(len(line[k]) for line in lines) for k in range(len(head))]
-    text = [
-        line[0].ljust(widths[0])
-        + "".join("  " + cell.rjust(width) for cell, width in zip(line[1:], widths[1:]))
-        for line in lines
-    ]
-    return "\n".join([*text, "", *(_sentence(found) for found in distances(stages))])
+    return "\n".join([aligned(lines), "", *(_sentence(found) for found in distances(stages))])
 
 
 def _sentence(found: Distances) -> str:
@@ -188,17 +179,8 @@ def as_html(stages: Sequence[Stage], png: bytes) -> str:
 
 
 def _stage_table(stages: Sequence[Stage]) -> str:
-    head = "".join(
-        f"<th>{row.label}{', ' + row.unit if row.unit else ''}</th>" for row in COLUMNS
-    )
-    rows = [f"<tr><th>valve</th>{head}<th>how it was made</th></tr>"]
-    for stage in stages:
-        cells = "".join(f"<td>{value(row, stage.closed.measures)}</td>" for row in COLUMNS)
-        rows.append(
-            f"<tr><th>{html.escape(stage.title)}</th>{cells}"
-            f"<td class=words>{html.escape(stage.note)}</td></tr>"
-        )
-    return "<table>\n" + "\n".join(rows) + "\n</table>"
+    return valves_html("valve", COLUMNS, "how it was made",
+                       ((stage.title, stage.closed.measures, stage.note) for stage in stages))
 
 
 def _distance_table(found: list[Distances]) -> str:

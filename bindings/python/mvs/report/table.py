@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,11 @@ class Row:
     scale: float
     digits: int
     literature: str = ""
+
+    @property
+    def head(self) -> str:
+        """What stands over its figures: label and unit."""
+        return f"{self.label}, {self.unit}" if self.unit else self.label
 
 
 ROWS = (
@@ -62,6 +68,36 @@ def value(row: Row, measures: Measures) -> str:
     return f"{getattr(measures, row.field) * row.scale:.{row.digits}f}"
 
 
+def rows_of(fields: Iterable[str]) -> tuple[Row, ...]:
+    """The rows of these fields of Measures, in their order."""
+    return tuple(row for field in fields for row in ROWS if row.field == field)
+
+
+def aligned(lines: Sequence[Sequence[str]]) -> str:
+    """Lines of cells as text: the first column to the left, the others to the right."""
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    return "\n".join(
+        line[0].ljust(widths[0])
+        + "".join("  " + text.rjust(width) for text, width in zip(line[1:], widths[1:]))
+        for line in lines
+    )
+
+
+def valves_html(what: str, figures: Sequence[Row], last: str,
+                valves: Iterable[tuple[str, Measures, str]]) -> str:
+    """A valve a line: what it is, its figures, and words on it.
+
+    `what` and `last` are the heads of the first and the last column.
+    """
+    head = "".join(f"<th>{row.head}</th>" for row in figures)
+    lines = [f"<tr><th>{what}</th>{head}<th>{last}</th></tr>"]
+    for title, measures, words in valves:
+        cells = "".join(f"<td>{value(row, measures)}</td>" for row in figures)
+        lines.append(f"<tr><th>{html.escape(title)}</th>{cells}"
+                     f"<td class=words>{html.escape(words)}</td></tr>")
+    return "<table>\n" + "\n".join(lines) + "\n</table>"
+
+
 def solution(case: Case) -> list[tuple[str, str]]:
     """How a closure went: label and text."""
     stats, closed = case.stats, case.closed
@@ -85,14 +121,8 @@ def as_text(cases: list[Case]) -> str:
     for k, (label, _) in enumerate(solution(cases[0])):
         lines.append([label, *(solution(case)[k][1] for case in cases)])
     for row in ROWS:
-        label = f"{row.label}, {row.unit}" if row.unit else row.label
-        lines.append([label, *(value(row, case.closed.measures) for case in cases)])
-    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
-    return "\n".join(
-        line[0].ljust(widths[0])
-        + "".join("  " + text.rjust(width) for text, width in zip(line[1:], widths[1:]))
-        for line in lines
-    )
+        lines.append([row.head, *(value(row, case.closed.measures) for case in cases)])
+    return aligned(lines)
 
 
 def as_html(cases: list[Case]) -> str:
