@@ -2,7 +2,6 @@
 #include "formats/journal.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -12,7 +11,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "formats/formats.h"
 
 namespace mvs {
 namespace {
@@ -20,9 +18,8 @@ namespace {
 constexpr std::string_view mark = "mvsj ";
 constexpr size_t longest_record = size_t{64} << 20;
 
-[[noreturn]] void fail_io(const char *verb, const std::string &path, int error) {
-  fail(MVS_E_IO, "journal", "cannot %s the journal %s: %s", verb, path.c_str(),
-       std::system_category().message(error).c_str());
+[[noreturn]] void fail_journal(const char *verb, const std::string &path, int error) {
+  fail_io(verb, "the journal " + path, error, "journal");
 }
 
 uint32_t crc32(std::string_view text) {
@@ -58,15 +55,6 @@ bool take_record(std::string_view &rest, std::string &text) {
   return true;
 }
 
-void sync_folder(const std::string &path) {
-  const size_t slash = path.find_last_of('/');
-  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
-  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;
-  ::fsync(file);
-  ::close(file);
-}
-
 }  // namespace
 
 JournalRecords read_journal(std::string_view bytes) {
@@ -92,51 +80,36 @@ std::string journal_line(std::string_view text) {
 }
 
 Journal Journal::create(const std::string &path) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  MVS_MUST(file >= 0 || errno != EEXIST, MVS_E_STATE, "journal",
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+  MVS_MUST(file.number() >= 0 || errno != EEXIST, MVS_E_STATE, "journal",
            "the journal %s is there already: recover it, or move it away", path.c_str());
-  if (file < 0) fail_io("create", path, errno);
-  sync_folder(path);
-  return {path, file, 0};
+  if (file.number() < 0) fail_journal("create", path, errno);
+  sync_folder(folder_of(path));
+  return {path, std::move(file), 0};
 }
 
 Journal Journal::go_on(const std::string &path, size_t bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (file < 0) fail_io("open", path, errno);
-  Journal journal(path, file, bytes);
-  if (::ftruncate(file, static_cast<off_t>(bytes)) != 0) fail_io("cut", path, errno);
-  return journal;
-}
-
-Journal::Journal(Journal &&other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), size_(other.size_) {}
-
-Journal &Journal::operator=(Journal &&other) noexcept {
-  std::swap(path_, other.path_);
-  std::swap(file_, other.file_);
-  std::swap(size_, other.size_);
-  return *this;
-}
-
-Journal::~Journal() {
-  if (file_ >= 0) ::close(file_);
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.number() < 0) fail_journal("open", path, errno);
+  if (::ftruncate(file.number(), static_cast<off_t>(bytes)) != 0) fail_journal("cut", path, errno);
+  return {path, std::move(file), bytes};
 }
 
 void Journal::append(std::string_view text) {
   const std::string line = journal_line(text);
   size_t written = 0;
   while (written < line.size()) {
-    const ssize_t count = ::pwrite(file_, line.data() + written, line.size() - written,
+    const ssize_t count = ::pwrite(file_.number(), line.data() + written, line.size() - written,
                                    static_cast<off_t>(size_ + written));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) break;
     written += static_cast<size_t>(count);
   }
-  if (written < line.size() || ::fdatasync(file_) != 0) {
+  if (written < line.size() || ::fdatasync(file_.number()) != 0) {
     const int error = errno;
     // best effort: what is left half-written is taken for a torn record
-    if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) fail_io("write", path_, error);
-    fail_io("write", path_, error);
+    [[maybe_unused]] const int cut = ::ftruncate(file_.number(), static_cast<off_t>(size_));
+    fail_journal("write", path_, error);
   }
   size_ += line.size();
 }

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/posix_file.h"
+
 namespace mvs {
 
 // What a journal holds.
@@ -30,20 +32,16 @@ class Journal {
   // Goes on with a file after its first `bytes`, dropping what follows them.
   static Journal go_on(const std::string &path, size_t bytes);
 
-  Journal(Journal &&other) noexcept;
-  Journal &operator=(Journal &&other) noexcept;
-  ~Journal();
-
   // Throws MVS_E_IO, and the file is as before, where the record cannot be written.
   void append(std::string_view text);
   const std::string &path() const { return path_; }
 
  private:
-  Journal(std::string path, int file, size_t size)
-      : path_(std::move(path)), file_(file), size_(size) {}
+  Journal(std::string path, Descriptor file, size_t size)
+      : path_(std::move(path)), file_(std::move(file)), size_(size) {}
 
   std::string path_;
-  int file_ = -1;
+  Descriptor file_;
   size_t size_ = 0;
 };
 

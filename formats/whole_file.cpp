@@ -9,38 +9,15 @@
 #include <cerrno>
 #include <cstdlib>
 #include <memory>
-#include <system_error>
-#include <utility>
 
 #include "base/error.h"
 #include "formats/formats.h"
+#include "formats/posix_file.h"
 
 namespace mvs {
 namespace {
 
 using Status = struct stat;
-
-[[noreturn]] void fail_io(const char *verb, const std::string &path, int error) {
-  fail(MVS_E_IO, "", "cannot %s %s: %s", verb, path.c_str(),
-       std::system_category().message(error).c_str());
-}
-
-// A file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor &) = delete;
-  Descriptor &operator=(const Descriptor &) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int number() const { return number_; }
-  // Closes now and says whether that went well: some file systems report a full disk only here.
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
- private:
-  int number_;
-};
 
 // A file's name that is unlinked at the end, unless the file was renamed.
 class Temporary {
@@ -90,11 +67,6 @@ std::string follow_links(const std::string &path) {
   return resolved;
 }
 
-std::string folder_of(const std::string &path) {
-  const size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "." : path.substr(0, std::max<size_t>(slash, 1));
-}
-
 // Whether there is a file to be replaced; its status, if so.
 bool find_old(const std::string &target, Status &old) {
   if (::stat(target.c_str(), &old) != 0) return false;
@@ -103,13 +75,6 @@ bool find_old(const std::string &target, Status &old) {
            target.c_str());
   if (::access(target.c_str(), W_OK) != 0) fail_io("write", target, errno);
   return true;
-}
-
-// Some file systems cannot sync a folder, and say so by EINVAL: nothing is to be done about that.
-void sync_folder(const std::string &folder) {
-  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.number() < 0) return;
-  if (::fsync(opened.number()) != 0 && errno != EINVAL) fail_io("sync folder", folder, errno);
 }
 
 // The size to read at first, or a failure for what is no file or too large.
