@@ -1,7 +1,8 @@
 # Compares the types that LIBRARY exports with the baseline. After a change that is meant, such as a
-# field at the end of a struct with struct_size, make a new baseline with the command that
-# ctest -V -R abi_types shows, and -DUPDATE=ON before its -P. No suppression lets such fields pass by
-# themselves: with "has_data_member_inserted_at = end" libabigail 2.2 lets moved fields pass as well.
+# field at the end of a struct with struct_size, make a new baseline:
+#   cmake --preset dev && cmake --build --preset dev --target abi_baseline
+# No suppression lets such fields pass by themselves: with "has_data_member_inserted_at = end"
+# libabigail 2.2 lets moved fields pass as well.
 if(NOT ABIDIFF OR NOT ABIDW)
   message(STATUS "skipped: abidw and abidiff (abigail-tools) are not installed")
   return()
@@ -11,11 +12,15 @@ if(NOT BUILD_TYPE MATCHES "Deb")
   return()
 endif()
 execute_process(COMMAND ${ABIDW} --drop-private-types --exported-interfaces-only
-  --headers-dir ${HEADERS} --no-show-locs --no-corpus-path --no-comp-dir-path
+  --headers-dir ${SOURCE}/include --no-show-locs --no-corpus-path --no-comp-dir-path --no-elf-needed
   --out-file ${NEW} ${LIBRARY} RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "abidw failed with ${failed}")
 endif()
+# files by their place in the sources, wherever those lie
+file(READ ${NEW} types)
+string(REPLACE "path='${SOURCE}/" "path='" types "${types}")
+file(WRITE ${NEW} "${types}")
 if(UPDATE)
   file(COPY ${NEW} DESTINATION ${FOLDER})
   message(STATUS "new baseline ${FOLDER}/mvs.abi")
