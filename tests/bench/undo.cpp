@@ -1,6 +1,9 @@
 // What undo costs: memory a level, and the time of undo and redo beside a step, in one run.
-// Each level is an operation after a step, so that no two levels have the same positions.
+// Each level is an operation after a step, so that no two levels have the same positions. Fails if
+// undoing all of them does not lead back to the valve before the first one, or redoing all to the
+// last one.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -56,19 +59,26 @@ int main(int argc, char **argv) {
   const std::vector<mvs_part> chords = sim.snapshot().parts(MVS_PART_CHORD);
   const size_t nodes = sim.snapshot().view<double>(MVS_NODE_POSITION).rows();
   std::vector<double> step, apply, undo, redo;
+  std::array<uint64_t, 2> first = {};
   const double before = resident();
   for (int k = 0; k < levels; ++k) {
     step.push_back(timed([&] { sim.step(); }));
+    if (k == 0) first = sim.snapshot().hash();
     apply.push_back(timed([&] { shorten(sim, chords, static_cast<size_t>(k)); }));
   }
   const double grown = resident() - before;
+  const auto last = sim.snapshot().hash();
   for (int k = 0; k < levels; ++k) undo.push_back(timed([&] { sim.undo(); }));
+  const bool is_first = sim.snapshot().hash() == first;
   for (int k = 0; k < levels; ++k) redo.push_back(timed([&] { sim.redo(); }));
+  const bool is_last = sim.snapshot().hash() == last;
   std::printf("%zu nodes, %zu chords, %d levels: %.1f MB, %.1f kB a level\n", nodes, chords.size(),
               levels, grown / 1e6, grown / 1e3 / levels);
   std::printf("median: step %.3f ms, apply %.3f ms, undo %.4f ms, redo %.4f ms\n",
               1e3 * median(step), 1e3 * median(apply), 1e3 * median(undo), 1e3 * median(redo));
   std::printf("undo / step %.4f, redo / step %.4f\n", median(undo) / median(step),
               median(redo) / median(step));
-  return 0;
+  if (!is_first) std::fprintf(stderr, "all undone, this is not the valve that it was\n");
+  if (!is_last) std::fprintf(stderr, "all redone, this is not the valve that it was\n");
+  return is_first && is_last ? 0 : 1;
 }
