@@ -281,13 +281,13 @@ static void write_file(const char *bytes, size_t size) {
 /* A child is killed after each record; what it did is recovered, and the journal goes on. */
 static void a_killed_process_loses_nothing(void) {
   hash128 wanted[session_length];
-  mvs_sim *whole = new_valve(0);
+  mvs_sim *whole = new_valve(200);
   session(whole, session_length, wanted);
   for (int steps = 1; steps <= session_length; ++steps) {
     remove(path);
     const pid_t child = fork();
     if (child == 0) {
-      mvs_sim *sim = new_valve(0);
+      mvs_sim *sim = new_valve(200);
       MUST(mvs_open_journal(sim, path));
       session(sim, steps, NULL);
       kill(getpid(), SIGKILL);
@@ -295,7 +295,7 @@ static void a_killed_process_loses_nothing(void) {
     int status = 0;
     waitpid(child, &status, 0);
     CHECK(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
-    mvs_sim *sim = new_valve(0);
+    mvs_sim *sim = new_valve(200);
     mvs_replay replay = {.struct_size = sizeof replay};
     MUST(mvs_recover_journal(sim, path, &replay));
     CHECK(same_hash(wanted[steps - 1], sim_hash(sim)));
@@ -309,7 +309,7 @@ static void a_killed_process_loses_nothing(void) {
 static void a_torn_record_is_dropped(void) {
   hash128 wanted[session_length];
   size_t size = 0;
-  mvs_sim *sim = new_valve(0);
+  mvs_sim *sim = new_valve(200);
   remove(path);
   MUST(mvs_open_journal(sim, path));
   session(sim, session_length, wanted);
@@ -319,14 +319,14 @@ static void a_torn_record_is_dropped(void) {
   while (bytes[last - 1] != '\n') --last;
   for (size_t cut = last; cut < size; cut += (size - last) / 7 + 1) {
     write_file(bytes, cut);
-    sim = new_valve(0);
+    sim = new_valve(200);
     MUST(mvs_recover_journal(sim, path, NULL));
     CHECK(same_hash(wanted[session_length - 2], sim_hash(sim)));
     /* it goes on where the whole records end */
     shorten(sim, "A2/2", 1.1);
     CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
     mvs_destroy(sim);
-    sim = new_valve(0);
+    sim = new_valve(200);
     MUST(mvs_recover_journal(sim, path, NULL));
     CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
     mvs_destroy(sim);
@@ -334,7 +334,7 @@ static void a_torn_record_is_dropped(void) {
   /* damage in the middle is no crash */
   bytes[size / 2] ^= 1;
   write_file(bytes, size);
-  sim = new_valve(0);
+  sim = new_valve(200);
   MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_FORMAT, "is damaged, and others follow");
   write_file("v 0 0 0\n", 8);
   MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_FORMAT, "no journal");
@@ -351,7 +351,7 @@ static void a_torn_record_is_dropped(void) {
 
 static void a_restored_snapshot_is_recovered_with_its_history(void) {
   const mvs_snapshot *early = NULL;
-  mvs_sim *sim = new_valve(0);
+  mvs_sim *sim = new_valve(200);
   remove(path);
   shorten(sim, "P2/3", 0.75); /* before the journal: its first record has it */
   MUST(mvs_open_journal(sim, path));
@@ -367,7 +367,7 @@ static void a_restored_snapshot_is_recovered_with_its_history(void) {
   MUST(mvs_restore_checkpoint(sim, "one"));
   const hash128 one = sim_hash(sim);
   mvs_destroy(sim);
-  sim = new_valve(0);
+  sim = new_valve(200);
   MUST(mvs_recover_journal(sim, path, NULL));
   CHECK(same_hash(one, sim_hash(sim)));
   scale(sim, 1.05);
