@@ -1,0 +1,132 @@
+#include "anatomy/coarse_chordae.h"
+
+#include <mvs/valve.h>
+
+#include <algorithm>
+
+namespace mvs {
+namespace {
+
+// A move may shorten the rest length of a chord to this share of it, or of its new distance.
+constexpr double shortest = 0.5;
+
+// Whether two chordae differ in nothing but their size and place.
+bool same_tissue(const Chord &a, const Chord &b) {
+  Chord other = b;
+  other.id = a.id;
+  other.name = a.name;
+  other.a = a.a;
+  other.b = a.b;
+  other.rest_length = a.rest_length;
+  other.area = a.area;
+  return other == a;
+}
+
+}  // namespace
+
+CoarseChordae::CoarseChordae(const Model &model)
+    : model_(model),
+      chords_(model.valve.chords),
+      gone_(chords_.size(), 0),
+      at_(model.node_count()) {
+  for (uint32_t c = 0; c < chords_.size(); ++c) {
+    for (const uint32_t node : {chords_[c].a, chords_[c].b}) {
+      if (!model.topology.node_triangles[node].empty()) at_[node].push_back(c);
+    }
+  }
+}
+
+bool CoarseChordae::sewn(uint32_t vertex) const {
+  return std::any_of(at_[vertex].begin(), at_[vertex].end(),
+                     [&](uint32_t c) { return chords_[c].kind == MVS_CHORD_SUTURE; });
+}
+
+// The rest length of a chord whose leaflet end goes to another vertex.
+double CoarseChordae::moved_length(const Chord &chord, uint32_t to) const {
+  const std::vector<Vec3> &x = model_.valve.rest;
+  const bool b_moves = !model_.topology.node_triangles[chord.b].empty();
+  const Vec3 &stays = x[b_moves ? chord.a : chord.b], &moves = x[b_moves ? chord.b : chord.a];
+  return chord.rest_length + (x[to] - stays).norm() - (moves - stays).norm();
+}
+
+// The chord at `to` that joins it to the same node as this chord would; `none` for none.
+uint32_t CoarseChordae::same_ends(uint32_t chord, uint32_t to) const {
+  const auto far_end = [&](uint32_t c) {
+    const Chord &one = chords_[c];
+    return model_.topology.node_triangles[one.b].empty() ? one.b : one.a;
+  };
+  for (const uint32_t c : at_[to]) {
+    if (far_end(c) == far_end(chord)) return c;
+  }
+  return none;
+}
+
+bool CoarseChordae::may_move(uint32_t from, uint32_t to) const {
+  if (sewn(from) || sewn(to)) return at_[from].empty();
+  for (const uint32_t c : at_[from]) {
+    const Chord &chord = chords_[c];
+    const bool b_moves = !model_.topology.node_triangles[chord.b].empty();
+    const uint32_t far_end = b_moves ? chord.a : chord.b;
+    const double distance = (model_.valve.rest[far_end] - model_.valve.rest[to]).norm();
+    const double length = moved_length(chord, to);
+    if (length < shortest * std::min(chord.rest_length, distance)) return false;
+    const uint32_t other = same_ends(c, to);
+    if (other != none && !same_tissue(chord, chords_[other])) return false;
+  }
+  return true;
+}
+
+void CoarseChordae::move(uint32_t from, uint32_t to) {
+  for (const uint32_t c : at_[from]) {
+    Chord &chord = chords_[c];
+    chord.rest_length = moved_length(chord, to);
+    const uint32_t other = same_ends(c, to);
+    (chord.a == from ? chord.a : chord.b) = to;
+    if (other == none) {
+      at_[to].push_back(c);
+      continue;
+    }
+    const uint32_t first = std::min(c, other), second = std::max(c, other);
+    Chord &whole = chords_[first];
+    const Chord &part = chords_[second];
+    const double stiffness = whole.area / whole.rest_length + part.area / part.rest_length;
+    whole.area += part.area;
+    whole.rest_length = whole.area / stiffness;
+    gone_[second] = 1;
+    ++merged_;
+    std::replace(at_[to].begin(), at_[to].end(), other, first);
+  }
+  at_[from].clear();
+  std::sort(at_[to].begin(), at_[to].end());
+}
+
+std::vector<Chord> CoarseChordae::left() const {
+  std::vector<Chord> chords;
+  for (size_t c = 0; c < chords_.size(); ++c) {
+    if (!gone_[c]) chords.push_back(chords_[c]);
+  }
+  return chords;
+}
+
+uint32_t CoarseChordae::moved() const {
+  uint32_t count = 0;
+  for (size_t c = 0; c < chords_.size(); ++c) {
+    const Chord &old = model_.valve.chords[c];
+    count += !gone_[c] && (chords_[c].a != old.a || chords_[c].b != old.b);
+  }
+  return count;
+}
+
+double CoarseChordae::largest_move() const {
+  const std::vector<Vec3> &x = model_.valve.rest;
+  double largest = 0;
+  for (size_t c = 0; c < chords_.size(); ++c) {
+    const Chord &old = model_.valve.chords[c];
+    if (gone_[c]) continue;
+    largest = std::max(
+        {largest, (x[chords_[c].a] - x[old.a]).norm(), (x[chords_[c].b] - x[old.b]).norm()});
+  }
+  return largest;
+}
+
+}  // namespace mvs

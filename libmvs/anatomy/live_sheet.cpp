@@ -1,0 +1,226 @@
+// Half-edge collapses under the link condition (Dey et al. 1999), and flips towards good triangles.
+#include "anatomy/live_sheet.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace mvs {
+namespace {
+
+// A triangle with a smallest angle of about 12 degrees; one this poor may only replace a poorer
+// one.
+constexpr double poor = 0.3;
+// Cosine of the most that a triangle may turn when a corner or a side of it is replaced: 60
+// degrees.
+constexpr double turned = 0.5;
+// A flip may not make the sheet this much sharper there, in the cosine of the angle between
+// normals.
+constexpr double sharper = 0.1;
+
+enum Rim : uint8_t { inside, annulus, free_edge };
+
+Tri with(Tri triangle, uint32_t from, uint32_t to) {
+  std::replace(triangle.begin(), triangle.end(), from, to);
+  return triangle;
+}
+
+bool has(const Tri &triangle, uint32_t vertex) {
+  return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
+}
+
+uint32_t third_corner(const Tri &triangle, uint32_t a, uint32_t b) {
+  for (const uint32_t corner : triangle) {
+    if (corner != a && corner != b) return corner;
+  }
+  return none;
+}
+
+// Whether the triangle runs from a to b.
+bool runs(const Tri &t, uint32_t a, uint32_t b) {
+  return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
+}
+
+}  // namespace
+
+LiveSheet::LiveSheet(const Model &model)
+    : x_(model.valve.rest),
+      scallop_(model.valve.triangle_scallop),
+      triangles_(model.valve.triangles),
+      star_(model.node_count()),
+      scallop_size_(model.valve.scallops.size(), 0),
+      rim_(model.node_count(), inside) {
+  for (uint32_t t = 0; t < triangles_.size(); ++t) {
+    for (const uint32_t corner : triangles_[t]) star_[corner].push_back(t);
+    ++scallop_size_[scallop_[t]];
+  }
+  for (const std::vector<uint32_t> &loop : model.topology.free_edges) {
+    for (const uint32_t node : loop) rim_[node] = free_edge;
+  }
+  for (const uint32_t node : model.valve.annulus) rim_[node] = annulus;
+}
+
+double LiveSheet::quality(const Tri &triangle) const {
+  const auto &[a, b, c] = triangle;
+  const Vec3 ab = x_[b] - x_[a], ac = x_[c] - x_[a];
+  const double sum = ab.squaredNorm() + ac.squaredNorm() + (ac - ab).squaredNorm();
+  return 2 * std::sqrt(3.0) * ab.cross(ac).norm() / sum;
+}
+
+Vec3 LiveSheet::normal(const Tri &triangle) const {
+  const Vec3 &a = x_[triangle[0]];
+  return (x_[triangle[1]] - a).cross(x_[triangle[2]] - a).normalized();
+}
+
+// Whether a triangle leaves the sheet no freedom: all of it is held, or it leads from the annulus
+// to the free edge without a vertex between.
+bool LiveSheet::too_stiff(const Tri &triangle) const {
+  int on[3] = {0, 0, 0};
+  for (const uint32_t corner : triangle) ++on[rim_[corner]];
+  return on[annulus] == 3 || (on[annulus] > 0 && on[free_edge] > 0);
+}
+
+std::vector<uint32_t> LiveSheet::neighbours(uint32_t vertex) const {
+  std::vector<uint32_t> around;
+  for (const uint32_t t : star_[vertex]) {
+    for (const uint32_t corner : triangles_[t]) {
+      if (corner != vertex) around.push_back(corner);
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return around;
+}
+
+LiveSheet::Pair LiveSheet::at_side(uint32_t a, uint32_t b) const {
+  Pair pair;
+  for (const uint32_t t : star_[a]) {
+    if (has(triangles_[t], b)) pair.triangle[pair.count++] = t;
+  }
+  return pair;
+}
+
+bool LiveSheet::joined(uint32_t a, uint32_t b) const {
+  return at_side(a, b).count > 0;
+}
+
+bool LiveSheet::on_line(uint32_t a, uint32_t b) const {
+  const Pair pair = at_side(a, b);
+  return pair.count == 1 || scallop_[pair.triangle[0]] != scallop_[pair.triangle[1]];
+}
+
+std::vector<uint32_t> LiveSheet::along_lines(uint32_t vertex) const {
+  std::vector<uint32_t> along = neighbours(vertex);
+  std::erase_if(along, [&](uint32_t other) { return !on_line(vertex, other); });
+  return along;
+}
+
+// The vertices that are neighbours of both are opposite to the side between them: then a collapse
+// does not change the topology. A vertex of a boundary goes along the boundary only, see
+// along_lines.
+bool LiveSheet::link_holds(uint32_t gone, uint32_t kept) const {
+  const std::vector<uint32_t> a = neighbours(gone), b = neighbours(kept);
+  std::vector<uint32_t> common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  return common.size() == at_side(gone, kept).count;
+}
+
+double LiveSheet::collapse_quality(uint32_t gone, uint32_t kept) const {
+  if (!link_holds(gone, kept)) return -1;
+  double worst = 1, worst_before = 1;
+  for (const uint32_t t : star_[gone]) {
+    const Tri &old = triangles_[t];
+    worst_before = std::min(worst_before, quality(old));
+    if (has(old, kept)) {
+      if (scallop_size_[scallop_[t]] <= 2) return -1;
+      continue;
+    }
+    const Tri made = with(old, gone, kept);
+    if (too_stiff(made) && !too_stiff(old)) return -1;
+    if (normal(made).dot(normal(old)) < turned) return -1;
+    worst = std::min(worst, quality(made));
+  }
+  return worst < std::min(poor, worst_before) ? -1 : worst;
+}
+
+void LiveSheet::drop_from_star(uint32_t vertex, uint32_t triangle) {
+  std::erase(star_[vertex], triangle);
+}
+
+void LiveSheet::collapse(uint32_t gone, uint32_t kept) {
+  for (const uint32_t t : star_[gone]) {
+    if (has(triangles_[t], kept)) {
+      for (const uint32_t corner : triangles_[t]) {
+        if (corner != gone) drop_from_star(corner, t);
+      }
+      --scallop_size_[scallop_[t]];
+      triangles_[t] = {none, none, none};
+    } else {
+      triangles_[t] = with(triangles_[t], gone, kept);
+      star_[kept].push_back(t);
+    }
+  }
+  star_[gone].clear();
+  std::sort(star_[kept].begin(), star_[kept].end());
+}
+
+// Whether two triangles may be replaced by these, and are better then.
+bool LiveSheet::flip_helps(const std::array<Tri, 2> &old, const std::array<Tri, 2> &made) const {
+  const double before = std::min(quality(old[0]), quality(old[1]));
+  // above rounding, so that flips come to an end: each raises the worst quality of a pair
+  constexpr double gain = 1e-9;
+  if (std::min(quality(made[0]), quality(made[1])) <= before + gain) return false;
+  const bool stiff = too_stiff(old[0]) || too_stiff(old[1]);
+  if (!stiff && (too_stiff(made[0]) || too_stiff(made[1]))) return false;
+  const std::array<Vec3, 2> n = {normal(old[0]), normal(old[1])};
+  const std::array<Vec3, 2> m = {normal(made[0]), normal(made[1])};
+  for (const Vec3 &a : n) {
+    for (const Vec3 &b : m) {
+      if (a.dot(b) < turned) return false;
+    }
+  }
+  return m[0].dot(m[1]) > n[0].dot(n[1]) - sharper;
+}
+
+// Flips the side between a and b if that helps; its triangles keep their scallop.
+bool LiveSheet::flip(uint32_t a, uint32_t b) {
+  const Pair pair = at_side(a, b);
+  if (pair.count != 2 || scallop_[pair.triangle[0]] != scallop_[pair.triangle[1]]) return false;
+  auto [t, u] = pair.triangle;
+  if (!runs(triangles_[t], a, b)) std::swap(t, u);
+  const uint32_t c = third_corner(triangles_[t], a, b), d = third_corner(triangles_[u], a, b);
+  const bool too_few = star_[a].size() <= 3 || star_[b].size() <= 3;
+  if (too_few || joined(c, d)) return false;
+  const std::array<Tri, 2> made = {Tri{a, d, c}, Tri{d, b, c}};
+  if (!flip_helps({triangles_[t], triangles_[u]}, made)) return false;
+  triangles_[t] = made[0];
+  triangles_[u] = made[1];
+  drop_from_star(b, t);
+  drop_from_star(a, u);
+  star_[c].push_back(u);
+  star_[d].push_back(t);
+  return true;
+}
+
+void LiveSheet::flip_around(uint32_t vertex) {
+  std::vector<Edge> sides;
+  const auto add_star = [&](uint32_t of) {
+    for (const uint32_t t : star_[of]) {
+      const auto &[a, b, c] = triangles_[t];
+      sides.insert(sides.end(), {{a, b}, {b, c}, {c, a}});
+    }
+  };
+  add_star(vertex);
+  while (!sides.empty()) {
+    const auto [a, b] = sides.back();
+    sides.pop_back();
+    const Pair pair = at_side(a, b);
+    if (pair.count != 2 || !flip(a, b)) continue;
+    for (const uint32_t t : pair.triangle) {
+      const auto &[i, j, k] = triangles_[t];
+      sides.insert(sides.end(), {{i, j}, {j, k}, {k, i}});
+    }
+  }
+}
+
+}  // namespace mvs
