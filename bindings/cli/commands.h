@@ -17,6 +17,7 @@ void add_measure(CLI::App &app, Console &console);
 void add_compare(CLI::App &app, Console &console);
 void add_convert(CLI::App &app, Console &console);
 void add_plan(CLI::App &app, Console &console);
+void add_remesh(CLI::App &app, Console &console);
 void add_repair(CLI::App &app, Console &console);
 
 // A command with the options that all have: --json.

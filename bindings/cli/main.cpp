@@ -27,6 +27,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
   cli::add_compare(app, console);
   cli::add_convert(app, console);
   cli::add_plan(app, console);
+  cli::add_remesh(app, console);
   cli::add_repair(app, console);
 }
 

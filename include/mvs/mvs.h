@@ -4,6 +4,7 @@
 
 #include "base.h"
 #include "file.h"
+#include "levels.h"
 #include "op.h"
 #include "plan.h"
 #include "sim.h"

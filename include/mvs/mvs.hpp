@@ -219,6 +219,19 @@ class Sim {
     must(mvs_generate_valve(sim_, &desc));
   }
 
+  void refine() { must(mvs_refine_valve(sim_)); }
+
+  // By vertices or by edge; what it did.
+  mvs_coarsening coarsen(mvs_coarsen_options options) {
+    options.struct_size = sizeof options;
+    mvs_coarsening made = sized<mvs_coarsening>();
+    must(mvs_coarsen_valve(sim_, &options, &made));
+    return made;
+  }
+
+  // The state of a coarser or finer level of this valve.
+  void transfer_state(const Snapshot &from) { must(mvs_transfer_state(sim_, from.get())); }
+
   void load_file(const std::string &path, std::uint32_t format = MVS_FORMAT_AUTO) {
     must(mvs_load_file(sim_, path.c_str(), format));
   }

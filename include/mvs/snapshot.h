@@ -41,8 +41,8 @@ enum {
   MVS_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
   MVS_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet; infinity: none */
   MVS_NODE_OPEN = 9,           /* F64 n x 3, m: where prescribed nodes are without load */
-  MVS_NODE_ORIGIN = 10,        /* U32 n: the node's index before any operation added or removed
-                                  nodes; UINT32_MAX for a new one */
+  MVS_NODE_ORIGIN = 10,        /* U32 n: the node's index before any operation, refinement or
+                                  coarsening added or removed nodes; UINT32_MAX for a new one */
   MVS_TRIANGLE_NODES = 20,     /* U32 m x 3 */
   MVS_TRIANGLE_LEAFLET = 21,   /* U32 m */
   MVS_TRIANGLE_SCALLOP = 22,   /* U32 m */

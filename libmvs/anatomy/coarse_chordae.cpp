@@ -3,12 +3,15 @@
 #include <mvs/valve.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace mvs {
 namespace {
 
 // A move may shorten the rest length of a chord to this share of it, or of its new distance.
 constexpr double shortest = 0.5;
+// m: a chord between nodes this near has no direction to pull in.
+constexpr double no_length = 1e-6;
 
 // Whether two chordae differ in nothing but their size and place.
 bool same_tissue(const Chord &a, const Chord &b) {
@@ -27,8 +30,9 @@ bool same_tissue(const Chord &a, const Chord &b) {
 CoarseChordae::CoarseChordae(const Model &model)
     : model_(model),
       chords_(model.valve.chords),
-      gone_(chords_.size(), 0),
+      part_of_(chords_.size()),
       at_(model.node_count()) {
+  std::iota(part_of_.begin(), part_of_.end(), 0u);
   for (uint32_t c = 0; c < chords_.size(); ++c) {
     for (const uint32_t node : {chords_[c].a, chords_[c].b}) {
       if (!model.topology.node_triangles[node].empty()) at_[node].push_back(c);
@@ -69,9 +73,13 @@ bool CoarseChordae::may_move(uint32_t from, uint32_t to) const {
     const uint32_t far_end = b_moves ? chord.a : chord.b;
     const double distance = (model_.valve.rest[far_end] - model_.valve.rest[to]).norm();
     const double length = moved_length(chord, to);
-    if (length < shortest * std::min(chord.rest_length, distance)) return false;
+    if (distance < no_length || length < shortest * std::min(chord.rest_length, distance)) {
+      return false;
+    }
     const uint32_t other = same_ends(c, to);
-    if (other != none && !same_tissue(chord, chords_[other])) return false;
+    if (other == none) continue;
+    const bool same_way = (b_moves ? chords_[other].a : chords_[other].b) == far_end;
+    if (!same_way || !same_tissue(chord, chords_[other])) return false;
   }
   return true;
 }
@@ -87,13 +95,12 @@ void CoarseChordae::move(uint32_t from, uint32_t to) {
       continue;
     }
     const uint32_t first = std::min(c, other), second = std::max(c, other);
-    Chord &whole = chords_[first];
+    Chord &both = chords_[first];
     const Chord &part = chords_[second];
-    const double stiffness = whole.area / whole.rest_length + part.area / part.rest_length;
-    whole.area += part.area;
-    whole.rest_length = whole.area / stiffness;
-    gone_[second] = 1;
-    ++merged_;
+    const double stiffness = both.area / both.rest_length + part.area / part.rest_length;
+    both.area += part.area;
+    both.rest_length = both.area / stiffness;
+    part_of_[second] = first;
     std::replace(at_[to].begin(), at_[to].end(), other, first);
   }
   at_[from].clear();
@@ -102,17 +109,26 @@ void CoarseChordae::move(uint32_t from, uint32_t to) {
 
 std::vector<Chord> CoarseChordae::left() const {
   std::vector<Chord> chords;
-  for (size_t c = 0; c < chords_.size(); ++c) {
-    if (!gone_[c]) chords.push_back(chords_[c]);
+  for (uint32_t c = 0; c < chords_.size(); ++c) {
+    if (part_of_[c] == c) chords.push_back(chords_[c]);
   }
   return chords;
 }
 
+const Chord &CoarseChordae::whole(uint32_t chord) const {
+  while (part_of_[chord] != chord) chord = part_of_[chord];
+  return chords_[chord];
+}
+
+uint32_t CoarseChordae::merged() const {
+  return static_cast<uint32_t>(chords_.size() - left().size());
+}
+
 uint32_t CoarseChordae::moved() const {
   uint32_t count = 0;
-  for (size_t c = 0; c < chords_.size(); ++c) {
-    const Chord &old = model_.valve.chords[c];
-    count += !gone_[c] && (chords_[c].a != old.a || chords_[c].b != old.b);
+  for (uint32_t c = 0; c < chords_.size(); ++c) {
+    const Chord &old = model_.valve.chords[c], &now = whole(c);
+    count += now.a != old.a || now.b != old.b;
   }
   return count;
 }
@@ -120,11 +136,9 @@ uint32_t CoarseChordae::moved() const {
 double CoarseChordae::largest_move() const {
   const std::vector<Vec3> &x = model_.valve.rest;
   double largest = 0;
-  for (size_t c = 0; c < chords_.size(); ++c) {
-    const Chord &old = model_.valve.chords[c];
-    if (gone_[c]) continue;
-    largest = std::max(
-        {largest, (x[chords_[c].a] - x[old.a]).norm(), (x[chords_[c].b] - x[old.b]).norm()});
+  for (uint32_t c = 0; c < chords_.size(); ++c) {
+    const Chord &old = model_.valve.chords[c], &now = whole(c);
+    largest = std::max({largest, (x[now.a] - x[old.a]).norm(), (x[now.b] - x[old.b]).norm()});
   }
   return largest;
 }

@@ -26,19 +26,21 @@ class CoarseChordae {
 
   // Those that are left, in order.
   std::vector<Chord> left() const;
-  uint32_t moved() const;                      // how many of them end elsewhere than before
-  double largest_move() const;                 // m, at rest
-  uint32_t merged() const { return merged_; }  // how many are part of another one
+  // How many end elsewhere than before, those that are part of another one included, and the
+  // farthest that an end went, m at rest.
+  uint32_t moved() const;
+  double largest_move() const;
+  uint32_t merged() const;  // how many are part of another one
 
  private:
   double moved_length(const Chord &chord, uint32_t to) const;
+  const Chord &whole(uint32_t chord) const;
   uint32_t same_ends(uint32_t chord, uint32_t to) const;
 
   const Model &model_;
   std::vector<Chord> chords_;
-  std::vector<uint8_t> gone_;
+  std::vector<uint32_t> part_of_;          // itself, or another one that it is part of
   std::vector<std::vector<uint32_t>> at_;  // of each node, ascending
-  uint32_t merged_ = 0;
 };
 
 }  // namespace mvs

@@ -80,7 +80,7 @@ struct Valve {
   SharedVector<Vec3> rest;        // unloaded: the rest shape of the sheet
   SharedVector<Vec3> open;        // where prescribed nodes are without load; equals rest elsewhere
   SharedVector<Vec3> loaded;      // where prescribed nodes go under load; equals rest elsewhere
-  SharedVector<uint32_t> origin;  // index before any operation added or removed nodes; none: new
+  SharedVector<uint32_t> origin;  // index before operations, levels changed the nodes; none: new
   SharedVector<Tri> triangles;
   SharedVector<uint32_t> triangle_leaflet;
   SharedVector<uint32_t> triangle_scallop;

@@ -207,6 +207,36 @@ class Convert(Command):
         self.assertIn(".xyz", self.fails("convert", "v.obj", "-o", "v.xyz").stderr)
 
 
+class Remesh(Command):
+    def test_refining_cuts_triangles_in_four(self):
+        coarse = self.json("info", "v.obj")
+        done = self.json("remesh", "closed.obj", "-o", "fine.obj", "--refine", "2")
+        self.assertEqual(done["faces"], 16 * coarse["faces"])
+        self.assertEqual(done["chords"], coarse["chords"])
+        self.assertEqual(done["vertices_before"], coarse["vertices"])
+        # the same surface, cut finer; files hold every digit
+        apart = self.json("compare", "closed.obj", "fine.obj")["as_they_lie"]
+        self.assertLess(apart["surface_max_mm"], 1e-9)
+
+    def test_coarsening_by_vertices_or_by_edge(self):
+        done = self.json("remesh", "v.obj", "-o", "coarse.obj", "--vertices", "220")
+        self.assertEqual(done["vertices"], 220)
+        self.assertEqual(self.json("info", "coarse.obj")["vertices"], 220)
+        self.assertLess(done["coarsening"]["surface_rms_mm"], 0.2)
+        self.assertIn("220", self.ok("remesh", "v.obj", "-o", "coarse.obj", "--vertices", "220").stdout)
+        by_edge = self.json("remesh", "v.obj", "-o", "coarse.obj", "--edge", "3")
+        self.assertTrue(120 < by_edge["vertices"] < 300, by_edge)
+
+    def test_too_few_vertices_are_refused_with_the_least_number(self):
+        self.assertRegex(self.fails("remesh", "v.obj", "-o", "no.obj", "--vertices", "5").stderr,
+                         r"it needs \d+")
+
+    def test_one_way_has_to_be_given(self):
+        for line in ([], ["--refine", "1", "--vertices", "9"], ["--refine", "0"], ["--edge", "-1"]):
+            with self.subTest(line):
+                self.misused("remesh", "v.obj", "-o", "no.obj", *line)
+
+
 class Info(Command):
     def test_parts_add_up(self):
         info = self.json("info", "v.obj")

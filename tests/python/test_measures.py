@@ -11,7 +11,7 @@ import pytest
 
 @pytest.mark.parametrize(
     "kind",
-    [mvs.Measures, mvs.Stats, mvs.Comparison, mvs.Load, mvs.Replay, mvs.ChordLimits],
+    [mvs.Measures, mvs.Stats, mvs.Comparison, mvs.Coarsening, mvs.Load, mvs.Replay, mvs.ChordLimits],
 )
 def test_every_figure_has_a_unit_and_a_definition(kind):
     for field in dataclasses.fields(kind):

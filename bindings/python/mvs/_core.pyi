@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .ops import Group, Operation
 from .values import (
     ChordLimits,
+    Coarsening,
     Comparison,
     Fault,
     Frame,
@@ -231,6 +232,11 @@ class Simulator:
         indentation_depth: Optional[float] = None,
         coaptation_depth: Optional[float] = None,
     ) -> None: ...
+    def refine(self, times: int = 1) -> None: ...
+    def coarsen(
+        self, *, vertices: Optional[int] = None, edge: Optional[float] = None
+    ) -> Coarsening: ...
+    def transfer_state(self, snapshot: Snapshot) -> None: ...
     @overload
     def set_valve(self, valve: Valve, /) -> None: ...
     @overload

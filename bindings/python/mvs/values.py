@@ -271,6 +271,22 @@ class SpreadPath:
     stats: Annotated[Stats, "1", "counts and times over all increments, the rest at the end"]
 
 
+@dataclasses.dataclass(frozen=True)
+class Coarsening:
+    """What coarsening did to a valve."""
+
+    vertices_before: Annotated[int, "1", "vertices of the leaflets before"]
+    vertices: Annotated[int, "1", "vertices of the leaflets now"]
+    chords_moved: Annotated[int, "1", "chordae that end at another vertex"]
+    chords_merged: Annotated[int, "1", "chordae that became part of another one"]
+    chord_move: Annotated[float, "m", "the farthest that an end of a chord went"]
+    surface_max: Annotated[
+        float, "m", "largest distance of a vertex taken out from the coarse surface"
+    ]
+    surface_rms: Annotated[float, "m", "RMS of that over all vertices of the fine level"]
+    worst_quality: Annotated[float, "1", "of a triangle: 1 equilateral, 0 flat"]
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Frame:
     """A valve's own frame.

@@ -131,6 +131,34 @@ void bind_work(py::class_<Simulator> &type) {
       "The load in force (mvs.Load).");
 }
 
+void refine(Simulator &self, uint32_t times) {
+  for (uint32_t k = 0; k < times; ++k) self.refine();
+}
+
+py::object coarsen(Simulator &self, Count vertices, Number edge) {
+  mvs_coarsen_options options{};
+  options.struct_size = sizeof options;
+  options.vertices = vertices.value_or(0);
+  options.edge = edge.value_or(0);
+  return coarsening_value(self.coarsen(options));
+}
+
+void bind_levels(py::class_<Simulator> &type) {
+  type.def(
+      "refine", &refine, py::arg("times") = 1,
+      "Cuts every triangle in four, this many times: the same surface and parts, old nodes with "
+      "their index, the state carried over. The history starts anew.");
+  type.def("coarsen", &coarsen, py::kw_only(), py::arg("vertices") = py::none(),
+           py::arg("edge") = py::none(),
+           "Takes vertices out of the leaflets and returns mvs.Coarsening. Those that stay keep "
+           "place and state; Snapshot.node_origin tells which they are. The history starts anew. "
+           "ArgumentError tells the least number.\n\nvertices: of the leaflets, exactly\nedge: m, "
+           "about the mean length of edges; one of the two is given");
+  type.def("transfer_state", &Simulator::transfer_state, py::arg("snapshot"),
+           "Takes over the state of a snapshot of a coarser or finer level of this valve. The "
+           "history starts anew. ArgumentError if they are not levels of one valve.");
+}
+
 void bind_files(py::class_<Simulator> &type) {
   type.def(
       "load",
@@ -160,6 +188,7 @@ void bind_simulator(py::module_ &module) {
            py::arg("backend") = "default", py::arg("log") = py::none());
   bind_files(type);
   bind_generate(type);
+  bind_levels(type);
   bind_work(type);
   bind_operations(module, type);
   bind_plans(module, type);

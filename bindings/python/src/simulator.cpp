@@ -126,6 +126,21 @@ void Simulator::generate(const mvs_parametric_desc &dimensions) {
   call([&] { return mvs_generate_valve(sim_, &dimensions); });
 }
 
+void Simulator::refine() {
+  call([&] { return mvs_refine_valve(sim_); });
+}
+
+mvs_coarsening Simulator::coarsen(const mvs_coarsen_options &options) {
+  mvs_coarsening made{};
+  made.struct_size = sizeof made;
+  call([&] { return mvs_coarsen_valve(sim_, &options, &made); });
+  return made;
+}
+
+void Simulator::transfer_state(const Snapshot &from) {
+  call([&] { return mvs_transfer_state(sim_, from.get()); });
+}
+
 void Simulator::set_load(double pressure, double boundary_fraction) {
   mvs_load_case load{};
   load.struct_size = sizeof load;

@@ -1,6 +1,7 @@
 // mvs.Simulator: one simulator of the C library, safe to use from any Python thread.
 #pragma once
 
+#include <mvs/levels.h>
 #include <mvs/op.h>
 #include <mvs/plan.h>
 #include <mvs/sim.h>
@@ -30,6 +31,9 @@ class Simulator {
   void load_bytes(const std::string &bytes, uint32_t format);
   void set_valve(const mvs_valve_desc &valve);
   void generate(const mvs_parametric_desc &dimensions);
+  void refine();
+  mvs_coarsening coarsen(const mvs_coarsen_options &options);
+  void transfer_state(const Snapshot &from);
   void set_load(double pressure, double boundary_fraction);
   mvs_load_case load_case();
   mvs_stats settle(const mvs_settle_options &options, py::object progress);

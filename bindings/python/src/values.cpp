@@ -100,6 +100,19 @@ py::object comparison_value(const mvs_comparison &s) {
   return make("Comparison", fields);
 }
 
+py::object coarsening_value(const mvs_coarsening &s) {
+  py::dict fields;
+  FIELD(vertices_before);
+  FIELD(vertices);
+  FIELD(chords_moved);
+  FIELD(chords_merged);
+  FIELD(chord_move);
+  FIELD(surface_max);
+  FIELD(surface_rms);
+  FIELD(worst_quality);
+  return make("Coarsening", fields);
+}
+
 py::object frame_value(const double frame[12]) {
   py::dict fields;
   fields["origin"] = py::array_t<double>(3, frame);

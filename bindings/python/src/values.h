@@ -14,6 +14,7 @@ py::object load_value(const mvs_load_case &load);
 py::object stats_value(const mvs_stats &stats);
 py::object measures_value(const mvs_measures &measures);
 py::object comparison_value(const mvs_comparison &comparison);
+py::object coarsening_value(const mvs_coarsening &coarsening);
 py::object frame_value(const double frame[12]);
 py::object part_value(const mvs_part &part);
 py::object replay_value(const mvs_replay &replay);
