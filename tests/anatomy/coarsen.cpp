@@ -38,9 +38,10 @@ bool has_all(std::vector<uint32_t> nodes, const std::vector<uint32_t> &wanted) {
 }  // namespace
 
 TEST_CASE("a_coarsened_valve_is_a_valve_of_the_size_asked_for_and_of_the_same_topology") {
-  for (const auto &[name, fine] : all_kinds_of_valves()) {
+  for (const Named &one : all_kinds_of_valves()) {
+    const ModelPtr &fine = one.model;
     for (const double share : {0.9, 0.5, 0.3}) {
-      CAPTURE(name);
+      CAPTURE(one.name);
       CAPTURE(share);
       const auto wanted = static_cast<size_t>(share * static_cast<double>(sheet_vertices(*fine)));
       const Coarsened coarse = coarsen(*fine, wanted);
@@ -59,8 +60,9 @@ TEST_CASE("a_coarsened_valve_is_a_valve_of_the_size_asked_for_and_of_the_same_to
 }
 
 TEST_CASE("vertices_that_stay_are_fine_ones_bit_for_bit_and_in_order") {
-  for (const auto &[name, fine] : all_kinds_of_valves()) {
-    CAPTURE(name);
+  for (const Named &one : all_kinds_of_valves()) {
+    const ModelPtr &fine = one.model;
+    CAPTURE(one.name);
     const Coarsened made = coarsen(*fine, sheet_vertices(*fine) / 2);
     const Valve &coarse = made.model->valve;
     const std::vector<uint32_t> &old = made.map.fine_of_coarse;

@@ -17,10 +17,11 @@ struct Pair {
 // Two levels of every valve, made either way.
 std::vector<Pair> pairs() {
   std::vector<Pair> made;
-  for (const auto &[name, model] : all_kinds_of_valves()) {
-    made.push_back({name + ", refined", model, make_model(refine(*model))});
+  for (const Named &one : all_kinds_of_valves()) {
+    const ModelPtr &model = one.model;
+    made.push_back({one.name + ", refined", model, make_model(refine(*model))});
     made.push_back(
-        {name + ", coarsened", coarsen(*model, sheet_vertices(*model) / 3).model, model});
+        {one.name + ", coarsened", coarsen(*model, sheet_vertices(*model) / 3).model, model});
   }
   return made;
 }
@@ -46,8 +47,9 @@ constexpr double rounding = 1e-15;
 }  // namespace
 
 TEST_CASE("weights_of_a_place_sum_to_one") {
-  for (const auto &[name, coarse, fine] : pairs()) {
-    CAPTURE(name);
+  for (const Pair &one : pairs()) {
+    const ModelPtr &coarse = one.coarse, &fine = one.fine;
+    CAPTURE(one.name);
     const LevelMap map = make_level_map(*coarse, *fine);
     REQUIRE(map.place.size() == fine->node_count());
     REQUIRE(map.fine_of_coarse.size() == coarse->node_count());
@@ -62,8 +64,9 @@ TEST_CASE("weights_of_a_place_sum_to_one") {
 TEST_CASE("the_rest_shape_and_rigid_motions_go_over_to_rounding") {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   const Vec3 shift(0.01, -0.02, 0.005), spin(3, -1, 2);
-  for (const auto &[name, coarse, fine] : pairs()) {
-    CAPTURE(name);
+  for (const Pair &one : pairs()) {
+    const ModelPtr &coarse = one.coarse, &fine = one.fine;
+    CAPTURE(one.name);
     const LevelMap map = make_level_map(*coarse, *fine);
     const State rest = to_fine(map, *coarse, *fine, initial_state(*coarse));
     CHECK(largest_difference(rest.x, fine->valve.rest) < rounding);
@@ -89,8 +92,9 @@ TEST_CASE("refined_places_are_middles_of_sides") {
 }
 
 TEST_CASE("there_and_back_is_the_same_state_to_the_last_bit") {
-  for (const auto &[name, coarse, fine] : pairs()) {
-    CAPTURE(name);
+  for (const Pair &one : pairs()) {
+    const ModelPtr &coarse = one.coarse, &fine = one.fine;
+    CAPTURE(one.name);
     const LevelMap map = make_level_map(*coarse, *fine);
     State state = initial_state(*coarse);
     for (size_t n = 0; n < state.x.size(); ++n) {

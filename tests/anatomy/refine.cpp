@@ -7,8 +7,9 @@ using namespace mvs;
 using namespace mvs::test;
 
 TEST_CASE("a_refined_valve_is_a_valve_of_the_same_topology") {
-  for (const auto &[name, model] : all_kinds_of_valves()) {
-    CAPTURE(name);
+  for (const Named &one : all_kinds_of_valves()) {
+    const ModelPtr &model = one.model;
+    CAPTURE(one.name);
     const Valve valve = refine(*model);
     REQUIRE(find_faults(valve).empty());
     const ModelPtr fine = make_model(valve);
@@ -21,8 +22,9 @@ TEST_CASE("a_refined_valve_is_a_valve_of_the_same_topology") {
 }
 
 TEST_CASE("refining_keeps_every_part_and_every_old_node") {
-  for (const auto &[name, model] : all_kinds_of_valves()) {
-    CAPTURE(name);
+  for (const Named &one : all_kinds_of_valves()) {
+    const ModelPtr &model = one.model;
+    CAPTURE(one.name);
     const Valve &old = model->valve, made = refine(*model);
     CHECK(made.leaflets == old.leaflets);
     CHECK(made.scallops == old.scallops);
@@ -41,8 +43,9 @@ TEST_CASE("refining_keeps_every_part_and_every_old_node") {
 }
 
 TEST_CASE("the_children_of_a_triangle_cover_it_and_have_its_tissue") {
-  for (const auto &[name, model] : all_kinds_of_valves()) {
-    CAPTURE(name);
+  for (const Named &one : all_kinds_of_valves()) {
+    const ModelPtr &model = one.model;
+    CAPTURE(one.name);
     const ModelPtr fine = make_model(refine(*model));
     const Valve &old = model->valve, &made = fine->valve;
     for (size_t t = 0; t < old.triangles.size(); ++t) {
