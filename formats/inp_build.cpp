@@ -239,6 +239,9 @@ int32_t Builder::line_of(const std::string &part) const {
   if (std::sscanf(part.c_str(), "triangle %u", &index) == 1) {
     return index < sheet_.element.size() ? mesh_.elements[sheet_.element[index]].line : 0;
   }
+  for (size_t l = 0; l < valve_.leaflets.size(); ++l) {
+    if (part == "leaflet " + valve_.leaflets[l].name) return properties_.shells[l].line;
+  }
   if (std::sscanf(part.c_str(), "chord %u", &index) == 1) {
     return index < chordae_.cables.size() ? mesh_.elements[chordae_.cables[index].element].line : 0;
   }
@@ -253,7 +256,7 @@ void Builder::check() const {
 }
 
 Loaded Builder::build() {
-  valve_.name = "inp";
+  if (!mesh_.heading.empty()) valve_.name = mesh_.heading;
   add_nodes();
   add_leaflets();
   add_triangles();

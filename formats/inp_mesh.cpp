@@ -5,6 +5,7 @@
 
 #include "formats/inp_sets.h"
 #include "formats/line.h"
+#include "model/text.h"
 
 namespace mvs {
 namespace {
@@ -36,6 +37,11 @@ void name_once(InpCard &card, const char *key, std::string &name) {
   name = label;
 }
 
+bool is_name(std::string_view text) {
+  constexpr size_t longest = 63;  // of a valve
+  return !text.empty() && text.size() <= longest && is_plain_text(text);
+}
+
 void read_structure(InpCard &card, InpMesh &mesh) {
   if (card.is("PART")) name_once(card, "NAME", mesh.part);
   if (card.is("INSTANCE")) {
@@ -44,8 +50,12 @@ void read_structure(InpCard &card, InpMesh &mesh) {
     card.take("PART");
     check_place(card);
   }
-  static constexpr std::array silent = {"HEADING",  "END PART",     "END INSTANCE",
-                                        "ASSEMBLY", "END ASSEMBLY", "END STEP"};
+  if (card.is("HEADING")) {
+    card.used = true;
+    if (!card.data.empty() && is_name(card.data[0].text)) mesh.heading = card.data[0].text;
+  }
+  static constexpr std::array silent = {"END PART", "END INSTANCE", "ASSEMBLY", "END ASSEMBLY",
+                                        "END STEP"};
   if (std::find(silent.begin(), silent.end(), card.keyword) == silent.end()) return;
   card.used = true;
   card.take("NAME");

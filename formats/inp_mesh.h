@@ -33,6 +33,7 @@ struct InpSet {
   std::string name;  // as written
   int32_t line = 0;
   std::vector<uint32_t> items;  // of InpMesh::nodes or elements, each once
+  std::set<uint32_t> members;   // the same
 };
 using InpSets = std::map<std::string, InpSet>;
 
@@ -43,6 +44,7 @@ struct InpMesh {
   std::map<uint64_t, uint32_t> node_of, element_of;  // by number
   std::set<uint64_t> skipped;       // numbers of elements that a valve has no place for
   InpSets node_sets, element_sets;  // by label; "@" before those of the assembly
+  std::string heading;              // its first line, if a valve can have that name
   std::string part, instance;       // labels, empty without
 
   // What a number, a set, or either of them behind "instance." names; fails where it is nothing.

@@ -1,8 +1,6 @@
 // Sets and what names them: numbers, ranges, sets of sets, "instance.set".
 #include "formats/inp_sets.h"
 
-#include <algorithm>
-
 #include "formats/line.h"
 
 namespace mvs {
@@ -12,15 +10,6 @@ using Numbers = std::map<uint64_t, uint32_t>;
 
 // A range of numbers beyond this is a mistake, not a set.
 constexpr uint64_t longest_range = uint64_t{1} << 24;
-
-// Keeps the first of items that are equal.
-void keep_first(std::vector<uint32_t> &items) {
-  std::vector<uint32_t> sorted = items;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return;
-  std::set<uint32_t> seen;
-  std::erase_if(items, [&](uint32_t item) { return !seen.insert(item).second; });
-}
 
 // Takes "instance." off a name; says whether it stood there.
 bool strip_instance(std::string &label, const InpMesh &mesh) {
@@ -86,15 +75,25 @@ void add_range(InpRow row, const InpMesh &mesh, const Kind &kind, std::vector<ui
   }
 }
 
+// *NSET, ELSET=...: the nodes of a set of elements.
+void add_nodes_of(InpCard &card, const InpMesh &mesh, std::vector<uint32_t> &items) {
+  const auto elements = card.take("ELSET");
+  if (!elements) return;
+  for (const uint32_t e : mesh.named_elements(*elements, card.line)) {
+    const std::vector<uint32_t> &nodes = mesh.elements[e].nodes;
+    items.insert(items.end(), nodes.begin(), nodes.end());
+  }
+}
+
 void read_set(InpCard &card, const char *key, const std::string &level, const InpMesh &mesh,
               const Kind &kind, InpSets &into) {
   card.used = true;
   card.need(key);
-  card.take("INTERNAL");
-  card.take("INSTANCE");
+  for (const char *plain : {"INTERNAL", "INSTANCE", "UNSORTED"}) card.take(plain);
   const std::string_view name = *card.take(key);
   const bool generate = card.take("GENERATE").has_value();
   std::vector<uint32_t> items;
+  if (card.is("NSET")) add_nodes_of(card, mesh, items);
   for (size_t k = 0; k < card.data.size(); ++k) {
     InpRow row = card.row(k);
     if (generate) {
@@ -122,8 +121,9 @@ void add_to_inp_set(InpSets &sets, const std::string &level, std::string_view na
     std::erase(set.name, '"');
     set.line = line;
   }
-  set.items.insert(set.items.end(), items.begin(), items.end());
-  keep_first(set.items);
+  for (const uint32_t item : items) {
+    if (set.members.insert(item).second) set.items.push_back(item);
+  }
 }
 
 void read_inp_sets(std::vector<InpCard> &cards, InpMesh &mesh) {

@@ -35,6 +35,7 @@ TEST_CASE("inp_rows_are_the_kept_nodes_in_the_order_of_the_file") {
   const Valve valve = toy();
   // 36 of the sheet, 3 heads, and the branch points 921 to 923; not 911 to 913, inside cables
   REQUIRE(valve.rest.size() == 42);
+  CHECK(valve.name == "Three leaflets, slack trusses");
   CHECK(valve.rest[0] == Vec3(12e-3, 0, 0));
   CHECK(valve.rest[12] == Vec3(10e-3, 0, -5e-3));
   CHECK(valve.rest[36].z() == -22e-3);
@@ -205,6 +206,16 @@ TEST_CASE("inp_whatever_is_left_out_is_listed_with_its_line") {
       toy_with("*NSET, NSET=Annulus, GENERATE",
                "*ELEMENT, TYPE=C3D4\n900, 101, 102, 103, 104\n*NSET, NSET=Annulus, GENERATE"));
   CHECK(has_note(element, "an element of type `C3D4` is left out"));
+}
+
+TEST_CASE("inp_a_set_of_nodes_may_be_that_of_elements") {
+  // the nodes of elements on the annulus, and those alone, by their numbers
+  const Valve plain = read_inp(toy_inp()).loaded.valve;
+  const Valve same = read_inp(toy_with("*NSET, NSET=Held\nAnnulus, HEADS",
+                                       "*NSET, NSET=Thick_Nodes, ELSET=Thick\n*NSET, NSET=Held\n"
+                                       "Annulus, Thick_Nodes"))
+                         .loaded.valve;
+  CHECK(same.rest == plain.rest);
 }
 
 TEST_CASE("inp_units_are_what_the_file_says_in_a_comment") {

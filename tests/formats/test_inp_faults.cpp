@@ -138,6 +138,11 @@ TEST_CASE("inp_faults_of_loads") {
 }
 
 TEST_CASE("inp_faults_of_the_whole") {
+  // every node of the thick trusses is held
+  check_text(toy_with("*NSET, NSET=Held\n", "*NSET, NSET=Heads, ELSET=Thick\n*NSET, NSET=Held\n"),
+             toy_line("101, 901, 911"), "joins two papillary heads");
+  check_text(toy_with(".8\n", "80.\n"), toy_line("*Shell Section, elset=Septal"),
+             "leaflet Septal has thickness 0.08 m");
   // one node of the annulus is not prescribed
   check_text(toy_with("101, 112, 1\n", "101, 111, 1\n"), toy_line("112, 10.39"),
              "has 11 of its 12 nodes prescribed, but not node 112");
