@@ -166,8 +166,10 @@ void bind_files(py::class_<Simulator> &type) {
         self.load(path.string(), format_of(format));
       },
       py::arg("path"), py::kw_only(), py::arg("format") = "auto",
-      "Replaces valve, state and history by those of a file: extended OBJ, or HDF5 (.h5). "
-      "FormatError tells the line of an OBJ.");
+      "Replaces valve, state and history by those of a file: extended OBJ, HDF5 (.h5), or Abaqus "
+      "input (.inp), whose load is then set and whose leftovers go to the log. FormatError tells "
+      "the "
+      "line.");
   type.def(
       "load_bytes",
       [](Simulator &self, const py::bytes &data, const std::string &format) {

@@ -187,9 +187,11 @@ void bind_snapshot(py::module_ &module) {
            "Distance between the leaflet surfaces of two snapshots (mvs.Comparison), m.");
   type.def("section", &section, py::arg("point"), py::arg("normal"),
            "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
-  type.def("save", &save, py::arg("path"), py::kw_only(), py::arg("format") = "auto",
-           "Writes a file; format \"auto\" goes by the ending: .obj (exact round trip), .h5 (the "
-           "history as well) or .vtp (for ParaView and Slicer). IoError if the system refuses.");
+  type.def(
+      "save", &save, py::arg("path"), py::kw_only(), py::arg("format") = "auto",
+      "Writes a file; format \"auto\" goes by the ending: .obj (exact round trip), .h5 (the "
+      "history as well), .vtp (for ParaView and Slicer) or .feb (a FEBio model that closes it). "
+      "IoError if the system refuses.");
   type.def("to_bytes", &to_bytes, py::kw_only(), py::arg("format") = "obj",
            "The bytes that save would write.");
   bind_plan_writing(type);
