@@ -1,0 +1,37 @@
+// Rest under dead loads, which the library has no word for: the terms of the library with a linear
+// term of the test, brought to rest by a plain damped Newton.
+#pragma once
+
+#include "../physics/bench.h"
+#include "physics/bending.h"
+#include "physics/chord.h"
+#include "physics/membrane.h"
+#include "physics/spring.h"
+
+namespace mvs::verification {
+
+using mvs::test::Positions;
+
+class Balance {
+ public:
+  // Terms of `model`, which may leave nodes free that are held here: `held` is where they stay.
+  Balance(const Model &model, const std::vector<uint32_t> &held);
+
+  // Positions at which no free node feels more than `tolerance` N; throws if there are none in
+  // reach. Energy - sum of load . x falls from step to step.
+  Positions rest(Positions start, const Positions &load, double tolerance) const;
+
+  // dE/dx of all terms, also on held nodes: what holds them.
+  double gradient(const Positions &x, Positions &g) const;
+
+ private:
+  struct Newton;
+
+  Model held_;  // for the rows of the system
+  SpringTerm spring_;
+  MembraneTerm membrane_;
+  BendingTerm bending_;
+  ChordTerm chord_;
+};
+
+}  // namespace mvs::verification

@@ -1,0 +1,177 @@
+// A sphere and a tube of tissue under inner pressure: Laplace's law.
+#include <mvs/valve.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "patch.h"
+#include "study.h"
+
+namespace mvs::verification {
+namespace {
+
+constexpr double radius = 20e-3;
+
+// An octahedron, its triangles cut in four `times` times and drawn onto the sphere; outward.
+void add_sphere(Valve &valve, int times) {
+  for (int k = 0; k < 3; ++k) {
+    valve.rest.push_back(radius * Vec3::Unit(k));
+    valve.rest.push_back(-radius * Vec3::Unit(k));
+  }
+  std::vector<Tri> triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (; times > 0; --times) {
+    std::map<Edge, uint32_t> middle;
+    const auto between = [&](uint32_t a, uint32_t b) {
+      const auto [at, is_new] = middle.try_emplace({std::min(a, b), std::max(a, b)},
+                                                   static_cast<uint32_t>(valve.rest.size()));
+      if (is_new) valve.rest.push_back(radius * (valve.rest[a] + valve.rest[b]).normalized());
+      return at->second;
+    };
+    std::vector<Tri> finer;
+    for (const auto &[a, b, c] : triangles) {
+      const uint32_t ab = between(a, b), bc = between(b, c), ca = between(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    triangles = finer;
+  }
+  valve.triangles = triangles;
+}
+
+void make_tissue(Valve &valve, const Published &law) {
+  valve.leaflets.resize(1);
+  valve.leaflets[0].law = law.law;
+  valve.leaflets[0].constants = law.constants;
+  valve.bending_scale = 0;
+}
+
+Positions settled(const Model &model, State state, double pressure) {
+  state.load = {pressure, 1};
+  SolveOptions options;
+  options.residual = 1e-10;
+  const test::Settled result = test::settle(model, state, options);
+  if (!result.stats.converged) throw std::runtime_error("a sphere or tube did not come to rest");
+  return result.state.x;
+}
+
+double volume(const std::vector<Tri> &triangles, const Positions &x) {
+  double sum = 0;
+  for (const Tri &t : triangles) sum += x[t[0]].dot(x[t[1]].cross(x[t[2]])) / 6;
+  return sum;
+}
+
+// One node is held, the rest floats: a closed surface under its own pressure needs no more. The
+// stretch from the volumes.
+Row sphere(const Published &law, int times, double pressure, double exact) {
+  Valve valve;
+  add_sphere(valve, times);
+  make_tissue(valve, law);
+  const Model model = test::model_of_sheet(valve, {0});
+  const Positions x = settled(model, initial_state(model), pressure);
+  const std::vector<Tri> triangles(model.valve.triangles.begin(), model.valve.triangles.end());
+  const double before = volume(triangles, model.valve.rest), after = volume(triangles, x);
+  return {law.name, 1e-3 * pressure, mean_edge(model), std::cbrt(after / before) - 1, exact - 1};
+}
+
+// A tube whose ends are drawn out to the radius that Laplace has for the pressure, without change
+// of length: then all of it stands there. Fibres go around.
+struct Tube {
+  Model model;
+  uint32_t around, rows;
+};
+Tube tube(const Published &law, uint32_t around, double stretch) {
+  const uint32_t rows = around / 2;
+  const double step = 2 * test::pi * radius / around, high = step * std::sqrt(0.75);
+  Valve valve;
+  std::vector<uint32_t> ends;
+  for (uint32_t j = 0; j <= rows; ++j) {
+    for (uint32_t i = 0; i < around; ++i) {
+      const double angle = 2 * test::pi * (i + 0.5 * (j % 2)) / around;
+      if (j == 0 || j == rows) ends.push_back(static_cast<uint32_t>(valve.rest.size()));
+      valve.rest.push_back({radius * std::cos(angle), radius * std::sin(angle), high * j});
+    }
+  }
+  for (uint32_t j = 0; j < rows; ++j) {
+    for (uint32_t i = 0; i < around; ++i) {
+      const uint32_t next = (i + 1) % around, shift = j % 2;
+      const uint32_t a = j * around + i, b = j * around + next;
+      const uint32_t c = (j + 1) * around + i, d = (j + 1) * around + next;
+      valve.triangles.push_back({a, b, shift == 0 ? c : d});
+      valve.triangles.push_back(shift == 0 ? Tri{b, d, c} : Tri{a, d, c});
+    }
+  }
+  for (const Tri &t : valve.triangles) {
+    const Vec3 normal = (valve.rest[t[1]] - valve.rest[t[0]])
+                            .cross(valve.rest[t[2]] - valve.rest[t[0]])
+                            .normalized();
+    valve.triangle_fibre.push_back(Vec3(Vec3::UnitZ().cross(normal).normalized()));
+  }
+  make_tissue(valve, law);
+  Tube result{test::model_of_sheet(valve, ends), around, rows};
+  for (Vec3 &p : result.model.valve.loaded) p.head<2>() *= stretch;
+  return result;
+}
+
+Row cylinder(const Published &law, uint32_t around, double pressure, double exact) {
+  const Tube made = tube(law, around, exact);
+  const Positions x = settled(made.model, initial_state(made.model), pressure);
+  double sum = 0;
+  const uint32_t middle = made.rows / 2 * around;
+  for (uint32_t i = 0; i < around; ++i) sum += x[middle + i].head<2>().norm();
+  return {law.name, 1e-3 * pressure, 2 * test::pi * radius / around, sum / around / radius - 1,
+          exact - 1};
+}
+
+Study study_of(const std::string &name, const std::string &title) {
+  Study s;
+  s.name = name;
+  s.title = title;
+  s.quantity = "strain";
+  s.x = "pressure, kPa";
+  s.level = "edge, m";
+  s.source = "shared/data/verification/d_laplace.csv: p = 2 T / r, and T / r";
+  s.expects = "2: linear triangles, flat between nodes";
+  s.tolerance = 0.01;
+  s.order_low = 1.7;
+  s.order_high = 2.3;
+  return s;
+}
+
+struct Wanted {
+  const char *material, *law;
+  double stretch;
+  bool sphere;
+};
+const Wanted wanted[] = {{"neoHooke_mu33.333kPa", "neo-Hookean", 1.1, true},
+                         {"neoHooke_mu33.333kPa", "neo-Hookean", 1.2, true},
+                         {"bilinear_fit", "bilinear", 1.1, true},
+                         {"bilinear_fit", "bilinear", 1.2, true},
+                         {"neoHooke_mu33.333kPa", "neo-Hookean", 1.2, false},
+                         {"bilinear_fit", "bilinear", 1.1, false},
+                         {"bilinear_fit", "bilinear", 1.25, false},
+                         {"MNY_anterior_circ_fibre", "May-Newman and Yin, anterior", 1.15, false},
+                         {"MNY_posterior_circ_fibre", "May-Newman and Yin, posterior", 1.2, false}};
+
+}  // namespace
+
+std::vector<Study> laplace_studies() {
+  Study spheres = study_of("laplace_sphere", "A sphere under inner pressure");
+  Study tubes = study_of("laplace_cylinder", "A tube under inner pressure");
+  tubes.source += "; its ends are drawn out to the radius there, the length is kept";
+  for (const Cells &row : reference("d_laplace.csv")) {
+    for (const Wanted &w : wanted) {
+      if (row[0] != w.material || std::stod(row[3]) != w.stretch) continue;
+      const Published law = published(w.law);
+      const double pressure = 1e3 * std::stod(row[w.sphere ? 5 : 7]);
+      for (int level = 0; level < 4; ++level) {
+        if (w.sphere) spheres.rows.push_back(sphere(law, 1 + level, pressure, w.stretch));
+        if (!w.sphere) tubes.rows.push_back(cylinder(law, 12u << level, pressure, w.stretch));
+      }
+    }
+  }
+  return {spheres, tubes};
+}
+
+}  // namespace mvs::verification

@@ -1,0 +1,172 @@
+// Steps in time: what becomes of energy and momentum, step for step smaller.
+#include <mvs/sim.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "../physics/bench.h"
+#include "../unit/small_valve.h"
+#include "physics/stepper.h"
+#include "published.h"
+#include "study.h"
+
+namespace mvs::verification {
+namespace {
+
+using test::Positions;
+
+constexpr double pressure = 500;   // Pa, all at once on a flat disc
+constexpr double duration = 2e-3;  // s, in which a wave crosses it
+
+Model disc() {
+  return test::clamped_disc(5, 12e-3, [](Valve &valve) {
+    const Published law = published("neo-Hookean");
+    valve.leaflets.resize(1);
+    valve.leaflets[0].law = law.law;
+    valve.leaflets[0].constants = law.constants;
+  });
+}
+
+// Kinetic and potential energy with that of the load: no free edge, so that it has one.
+double total_energy(const Model &model, const State &state) {
+  Potential potential(model);
+  Profile profile{};
+  Positions g;
+  potential.set_pressure(state.load.pressure);
+  potential.prepare(state.x, state.x, 0, profile);
+  return potential.gradient(state.x, g, profile) + kinetic_energy(model, state.v);
+}
+
+// What is missing in energy + damped away - work at the end, over the largest kinetic energy.
+Row balance(const char *name, uint32_t kind, double dt, double damping) {
+  const Model model = disc();
+  State state = initial_state(model);
+  state.load.pressure = pressure;
+  SolveOptions options;
+  options.solver = kind;
+  options.dt = dt;
+  options.damping = damping;
+  Solver solver(MVS_BACKEND_DEFAULT);
+  const double before = total_energy(model, state);
+  double damped = 0, most = 0;
+  const auto steps = std::lround(duration / dt);
+  for (long k = 0; k < steps; ++k) {
+    const double last = kinetic_energy(model, state.v);
+    solver.step(model, state, options);
+    const double now = kinetic_energy(model, state.v);
+    damped += dt * damping * (last + now);  // 2 c T, by trapezes
+    most = std::max(most, now);
+  }
+  return {name, 0, dt, total_energy(model, state) + damped - before, 0, most};
+}
+
+Study study_of(const std::string &name, const std::string &title) {
+  Study s;
+  s.name = name;
+  s.title = title;
+  s.level = "step, s";
+  return s;
+}
+
+Study energy() {
+  Study s = study_of("steps_energy", "Energy of a disc under sudden pressure");
+  s.quantity = "energy + damped - work after 2 ms, J; relative to the largest kinetic energy";
+  s.source = "conservation of energy";
+  s.expects =
+      "1: backward Euler takes energy away in proportion to its step; symplectic Euler "
+      "keeps an energy that lies off by its step";
+  s.tolerance = 0.05;  // at steps below those in use; what matters is that it falls
+  s.order_low = 0.8;
+  s.order_high = 1.2;
+  for (const double dt : {4e-5, 2e-5, 1e-5, 5e-6}) {
+    s.rows.push_back(balance("implicit, no damping", MVS_SOLVER_IMPLICIT, dt, 0));
+    s.rows.push_back(balance("implicit, damping 200 / s", MVS_SOLVER_IMPLICIT, dt, 200));
+  }
+  // 0 would be the default damping
+  for (const double dt : {8e-6, 4e-6, 2e-6, 1e-6}) {
+    s.rows.push_back(balance("explicit, no damping", MVS_SOLVER_EXPLICIT, dt, 1e-12));
+    s.rows.push_back(balance("explicit, damping 200 / s", MVS_SOLVER_EXPLICIT, dt, 200));
+  }
+  return s;
+}
+
+Vec3 momentum(const Model &model, const State &state) {
+  Vec3 sum = Vec3::Zero();
+  for (size_t i = 0; i < state.v.size(); ++i) sum += model.node_mass[i] * state.v[i];
+  return sum;
+}
+
+Vec3 angular_momentum(const Model &model, const State &state) {
+  Vec3 sum = Vec3::Zero();
+  for (size_t i = 0; i < state.v.size(); ++i) {
+    sum += model.node_mass[i] * state.x[i].cross(state.v[i]);
+  }
+  return sum;
+}
+
+// A valve with nothing held, no load, thrown and spinning, and shaking in itself.
+struct Flight {
+  Vec3 before, after;  // momentum
+  Vec3 spin_before, spin_after;
+};
+Flight flight(uint32_t kind, double dt) {
+  const Model model = test::model_of_sheet(small_valve(), {});
+  State state = initial_state(model);
+  test::Random random(17);
+  for (size_t i = 0; i < state.v.size(); ++i) {
+    state.v[i] = Vec3(0.1, -0.2, 0.15) + Vec3(5, -3, 8).cross(state.x[i]) + random.vector(0.05);
+  }
+  SolveOptions options;
+  options.solver = kind;
+  options.dt = dt;
+  options.damping = 1e-12;
+  Solver solver(MVS_BACKEND_DEFAULT);
+  Flight f;
+  f.before = momentum(model, state);
+  f.spin_before = angular_momentum(model, state);
+  const auto steps = std::lround(duration / dt);
+  for (long k = 0; k < steps; ++k) solver.step(model, state, options);
+  f.after = momentum(model, state);
+  f.spin_after = angular_momentum(model, state);
+  return f;
+}
+
+std::vector<Study> momenta() {
+  Study exact = study_of("steps_momentum", "Momentum of a free valve without load");
+  exact.quantity = "change in 2 ms, kg m/s; of the spin, kg m2/s; relative to what it was";
+  exact.source = "conservation of momentum";
+  exact.expects = "rounding: inner forces cancel, and the explicit step turns about where it is";
+  exact.tolerance = 1e-10;
+  Study spin = exact;
+  spin.name = "steps_spin";
+  spin.title = "Spin of a free valve under implicit steps";
+  spin.quantity = "change in 2 ms, kg m2/s; relative to what it was";
+  spin.expects = "1: the linearised step turns about where the forces were";
+  spin.tolerance = 0.01;
+  spin.order_low = 0.7;
+  spin.order_high = 1.3;
+  for (const uint32_t kind : {MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+    const bool is_explicit = kind == MVS_SOLVER_EXPLICIT;
+    const std::string name = is_explicit ? "explicit" : "implicit";
+    for (const double dt : {2e-5, 1e-5, 5e-6}) {
+      if (is_explicit && dt > 1e-5) continue;
+      const Flight f = flight(kind, dt);
+      exact.rows.push_back(
+          {name + ", momentum", 0, dt, (f.after - f.before).norm(), 0, f.before.norm()});
+      (is_explicit ? exact : spin)
+          .rows.push_back({name + ", spin", 0, dt, (f.spin_after - f.spin_before).norm(), 0,
+                           f.spin_before.norm()});
+    }
+  }
+  return {exact, spin};
+}
+
+}  // namespace
+
+std::vector<Study> step_studies() {
+  std::vector<Study> all = momenta();
+  all.insert(all.begin(), energy());
+  return all;
+}
+
+}  // namespace mvs::verification
