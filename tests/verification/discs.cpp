@@ -52,8 +52,9 @@ Disc inflated(const Published &law, uint32_t rings, double pressure, Mesh mesh) 
     if (mesh == irregular) disturb(valve, rings);
   });
   SolveOptions options;
-  // beside the force on a node, p A = 1 kPa * 0.06 mm2 at the finest
-  options.residual = 1e-9 * pressure * disc.edge * disc.edge / 1e-3;
+  // beside the force of the pressure on a node; Hencky's stiff tissue cannot do with much less, for
+  // a place is rounded to 1e-18 m
+  options.residual = 1e-5 * pressure * disc.edge * disc.edge;
   const test::Settled settled = test::settle(disc.model, pressure, 0, options);
   if (!settled.stats.converged) throw std::runtime_error("a disc did not come to rest");
   disc.x = settled.state.x;
@@ -133,12 +134,12 @@ Study study_of(const std::string &name, const std::string &title) {
   return s;
 }
 
-// Strains of 2e-6, so that Hencky's linear tissue is what the law is; nu = 1/2.
+// Strains of 7e-6, so that Hencky's linear tissue is what the law is; nu = 1/2.
 Study hencky() {
   Study s = study_of("hencky_disc", "Hencky's disc");
   s.source =
       "shared/data/verification/b_hencky_disc.csv, nu 0.5: w0 = 0.594879 a (p a / E h)^(1/3)";
-  const double pressure = 1e3, young = 1e12;
+  const double pressure = 1e3, young = 1e11;
   for (const Cells &row : reference("b_hencky_disc.csv")) {
     if (std::stod(row[0]) != 0.5 || std::stod(row[4]) != 1e-5) continue;
     // p a / E h = 1e-3 in that row
@@ -164,7 +165,7 @@ Study hencky_of_springs() {
   s.source = "as for the membrane, nu = 1/3: what an equilateral lattice has";
   s.expects = "none: rings of triangles are no lattice, and refinement does not make them one";
   s.tolerance = s.order_low = s.order_high = 0;
-  const double pressure = 1e3, young = 1e12;
+  const double pressure = 1e3, young = 1e11;
   Published law = published("springs");
   law.constants = {young, young, 10};
   for (const Cells &row : reference("b_hencky_disc.csv")) {

@@ -1,0 +1,156 @@
+// What the leaflet's terms cost: energy, gradient and Hessian of the springs and of the membrane in
+// every law, side by side in one run, on the shipped valve and on a larger one.
+//
+//   bench_terms                      valves of 425 and 6,800 vertices, 25 rounds
+//   bench_terms --vertices 425 --rounds 3
+//   bench_terms --csv FILE
+//
+// Each round times every law once, one after the other, so that all of them meet the same machine;
+// the columns are medians over the rounds, in microseconds, and their ratios to the springs'. The
+// positions are the rest shape with every node moved somehow by up to 0.1 mm. "assembly" is
+// gradient and projected Hessian: what one Newton iteration asks for.
+#include <mvs/op.h>
+#include <mvs/sim.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "anatomy/parametric.h"
+#include "base/error.h"
+#include "physics/membrane.h"
+#include "physics/profile.h"
+#include "physics/spring.h"
+
+using namespace mvs;
+
+namespace {
+
+struct Options {
+  std::vector<uint32_t> vertices = {425, 6800};
+  int rounds = 25;
+  std::string csv;
+};
+
+// One law on one valve, and the seconds of every round.
+struct Bench {
+  std::string law;
+  ModelPtr model;
+  SpringTerm spring;
+  MembraneTerm membrane;
+  System system = {};
+  std::vector<Vec3> x = {}, g = {};
+  std::vector<double> energy = {}, gradient = {}, hessian = {}, assembly = {};
+  double sum = 0;  // of all energies, so that none is left out
+
+  Bench(const std::string &name, const ModelPtr &of)
+      : law(name), model(of), spring(*of), membrane(*of) {
+    std::vector<Edge> pairs;
+    spring.add_pairs(pairs);
+    membrane.add_pairs(pairs);
+    system.set_pattern(*of, pairs);
+    std::mt19937_64 engine(1);
+    x = of->valve.rest;
+    for (Vec3 &p : x) {
+      for (double &at : p) at += 2e-4 * (static_cast<double>(engine() >> 11) * 0x1p-53 - 0.5);
+    }
+  }
+
+  bool is_spring() const { return law == "spring"; }
+
+  static double seconds(const std::function<void()> &work) {
+    const double start = seconds_now();
+    work();
+    return seconds_now() - start;
+  }
+
+  void round() {
+    energy.push_back(seconds([&] { sum += is_spring() ? spring.energy(x) : membrane.energy(x); }));
+    gradient.push_back(seconds([&] {
+      g.assign(x.size(), Vec3::Zero());
+      sum += is_spring() ? spring.gradient(x, g) : membrane.gradient(x, g);
+    }));
+    hessian.push_back(seconds([&] {
+      system.clear();
+      if (is_spring()) spring.hessian(x, Curvature::projected, system);
+      if (!is_spring()) membrane.hessian(x, Curvature::projected, system);
+    }));
+    assembly.push_back(gradient.back() + hessian.back());
+  }
+};
+
+double median(std::vector<double> seconds) {
+  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
+std::vector<Bench> benches(uint32_t vertices) {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = vertices;
+  const Valve valve = make_parametric_valve(desc);
+  std::vector<Bench> all;
+  for (const LeafletLaw &law : leaflet_laws()) {
+    Valve made = valve;
+    for (size_t l = 0; l < made.leaflets.size(); ++l) {
+      made.leaflets[l].law = law.id;
+      made.leaflets[l].constants = default_constants(law.constants);
+    }
+    all.emplace_back(std::string(law.word), make_model(std::move(made)));
+  }
+  return all;
+}
+
+void print(uint32_t vertices, const Bench &bench, const Bench &spring, std::ofstream &csv) {
+  std::printf("%8u  %-15s", vertices, bench.law.c_str());
+  if (csv.is_open()) csv << vertices << ',' << bench.law;
+  for (const auto column : {&Bench::energy, &Bench::gradient, &Bench::hessian, &Bench::assembly}) {
+    const double took = median(bench.*column), ratio = took / median(spring.*column);
+    std::printf("  %9.1f %6.2f", 1e6 * took, ratio);
+    if (csv.is_open()) csv << ',' << 1e6 * took << ',' << ratio;
+  }
+  std::printf("\n");
+  if (csv.is_open()) csv << '\n';
+}
+
+void run(const Options &options) {
+  std::ofstream csv;
+  if (!options.csv.empty()) csv.open(options.csv);
+  if (csv.is_open()) {
+    csv << "vertices,law,energy_us,energy_ratio,gradient_us,gradient_ratio,hessian_us,"
+           "hessian_ratio,assembly_us,assembly_ratio\n";
+  }
+  std::printf("%8s  %-15s  %9s %6s  %9s %6s  %9s %6s  %9s %6s\n", "vertices", "law", "energy us",
+              "ratio", "grad. us", "ratio", "Hess. us", "ratio", "assem. us", "ratio");
+  for (const uint32_t vertices : options.vertices) {
+    std::vector<Bench> all = benches(vertices);
+    for (int k = 0; k < options.rounds; ++k) {
+      for (Bench &bench : all) bench.round();
+    }
+    for (const Bench &bench : all) print(vertices, bench, all.front(), csv);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  Options options;
+  CLI::App app("What the leaflet's terms cost, law by law, as ratios to the springs.");
+  app.add_option("--vertices", options.vertices, "sizes of the valve");
+  app.add_option("--rounds", options.rounds, "of which the medians are taken")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--csv", options.csv, "write the table there too");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(options);
+  } catch (const Error &error) {
+    std::fprintf(stderr, "bench_terms: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
