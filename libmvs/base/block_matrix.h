@@ -34,8 +34,13 @@ class BlockMatrix {
   // Where block (r, c), r >= c, is kept; `none` if it is not in the pattern.
   uint32_t find(uint32_t r, uint32_t c) const {
     const uint32_t *first = row.data() + start[c], *last = row.data() + start[c + 1];
-    const uint32_t *at = std::lower_bound(first, last, r);
-    return at != last && *at == r ? static_cast<uint32_t>(at - row.data()) : none;
+    // halves without branches: where to look next is no guess of the processor's
+    for (size_t left = static_cast<size_t>(last - first); left > 1;) {
+      const size_t half = left / 2;
+      first = first[half] <= r ? first + half : first;
+      left -= half;
+    }
+    return first != last && *first == r ? static_cast<uint32_t>(first - row.data()) : none;
   }
 
   std::vector<uint32_t> start, row;  // column c holds blocks start[c] .. start[c + 1]

@@ -29,29 +29,30 @@ struct InPlaneStrain {
 
 // The energy density and its slope; `second` is left as it is.
 inline InPlane in_plane_stress(const Response &r, const InPlaneStrain &s) {
-  const double d2 = s.det() * s.det();
+  const double d = 1 / s.det(), d2 = d * d;
   InPlane out;
   out.w = r.w;
-  out.first = r.w1 * Vec3(1 - s.b / d2, 1 - s.a / d2, 2 * s.c / d2);
-  out.first[0] += r.w4;
+  out.first = {r.w1 * (1 - s.b * d2) + r.w4, r.w1 * (1 - s.a * d2), 2 * r.w1 * s.c * d2};
   return out;
 }
 
 // With its curvature. W is convex in (a, b, c) for every law of law.h, for I1 is convex in C, I4
-// linear, and W rises in I1 and is convex in both: `second` is positive semidefinite.
+// linear, and W rises in I1 and is convex in both: `second` is positive semidefinite. Its entries
+// are w1 d2I1 + w11 dI1 dI1 + w14 (dI1 dI4 + dI4 dI1) + w44 dI4 dI4.
 inline InPlane in_plane_stiffness(const Response &r, const InPlaneStrain &s) {
-  InPlane out = in_plane_stress(r, s);
   const auto [a, b, c] = s;
-  const double d = s.det(), d2 = d * d, d3 = d2 * d;
-  const Vec3 slope(1 - b / d2, 1 - a / d2, 2 * c / d2);                    // of I1
-  out.second << 2 * b * b / d3, 2 * a * b / d3 - 1 / d2, -4 * b * c / d3,  //
-      2 * a * b / d3 - 1 / d2, 2 * a * a / d3, -4 * a * c / d3,            //
-      -4 * b * c / d3, -4 * a * c / d3, 2 / d2 + 8 * c * c / d3;
-  out.second *= r.w1;
-  out.second += r.w11 * slope * slope.transpose();
-  out.second.row(0) += r.w14 * slope.transpose();
-  out.second.col(0) += r.w14 * slope;
-  out.second(0, 0) += r.w44;
+  const double d = 1 / s.det(), d2 = d * d, k = 2 * r.w1 * d2 * d;
+  const double p = 1 - b * d2, q = 1 - a * d2, u = 2 * c * d2;  // dI1 by a, b, c
+  InPlane out;
+  out.w = r.w;
+  out.first = {r.w1 * p + r.w4, r.w1 * q, r.w1 * u};
+  const double aa = k * b * b + (r.w11 * p + 2 * r.w14) * p + r.w44;
+  const double ab = k * a * b - r.w1 * d2 + (r.w11 * p + r.w14) * q;
+  const double ac = -2 * k * b * c + (r.w11 * p + r.w14) * u;
+  const double bb = k * a * a + r.w11 * q * q;
+  const double bc = -2 * k * a * c + r.w11 * q * u;
+  const double cc = 2 * r.w1 * d2 + 4 * k * c * c + r.w11 * u * u;
+  out.second << aa, ab, ac, ab, bb, bc, ac, bc, cc;
   return out;
 }
 

@@ -20,7 +20,7 @@ Mat2 stress_form(const Vec3 &first, Curvature curvature) {
   form << 2 * first[0], first[2], first[2], 2 * first[1];
   if (curvature == Curvature::exact) return form;
   const double mean = first[0] + first[1], half = first[0] - first[1];
-  const double radius = std::hypot(half, first[2]);
+  const double radius = std::sqrt(half * half + first[2] * first[2]);
   if (mean >= radius) return form;              // tension in both directions
   if (mean + radius <= 0) return Mat2::Zero();  // in none
   // tension along one: its share of the form
@@ -81,28 +81,71 @@ double MembraneTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) 
   return sum;
 }
 
-// d2E / dx_k dx_l = F J_k (d2W) J_l^T F^T + (w_k . S w_l) I for corners 1 and 2, with w_k the
-// corner's weights, J_k = [2 w0 0 w1; 0 2 w1 w0] and S the stress form. A shift of all three
-// corners changes nothing: that gives the rows of corner 0.
+namespace {
+
+// d2W / df_p df_q = F m_pq F^T + (what the stress adds), from the curvature of W.
+struct Middle {
+  Mat2 m00, m01, m11;
+
+  explicit Middle(const Mat3 &w) {
+    m00 << 4 * w(0, 0), 2 * w(0, 2), 2 * w(0, 2), w(2, 2);
+    m01 << 2 * w(0, 2), 4 * w(0, 1), w(2, 2), 2 * w(1, 2);
+    m11 << w(2, 2), 2 * w(1, 2), 2 * w(1, 2), 4 * w(1, 1);
+  }
+
+  // The same for corners with weights k and l in F.
+  Mat2 between(const double (&k)[2], const double (&l)[2]) const {
+    return (k[0] * l[0]) * m00 + (k[0] * l[1]) * m01 + (k[1] * l[0]) * m01.transpose() +
+           (k[1] * l[1]) * m11;
+  }
+};
+
+// A block column by column, and one number more, so that all of it fits pairs of numbers.
+using Flat = Eigen::Matrix<double, 10, 1>;
+
+// F m F^T + s I. The products of the columns of F serve three blocks.
+struct Outer {
+  Flat f00, f01, f10, f11;
+
+  Outer(const Vec3 &f0, const Vec3 &f1) {
+    for (int k = 0; k < 3; ++k) {
+      f00.segment<3>(3 * k) = f0[k] * f0;
+      f01.segment<3>(3 * k) = f1[k] * f0;
+      f10.segment<3>(3 * k) = f0[k] * f1;
+      f11.segment<3>(3 * k) = f1[k] * f1;
+    }
+    f00[9] = f01[9] = f10[9] = f11[9] = 0;
+  }
+
+  Mat3 block(const Mat2 &m, double s) const {
+    const Flat b = m(0, 0) * f00 + m(0, 1) * f01 + m(1, 0) * f10 + m(1, 1) * f11;
+    Mat3 result = Eigen::Map<const Mat3>(b.data());
+    result.diagonal().array() += s;
+    return result;
+  }
+};
+
+}  // namespace
+
+// A corner k that moves by dx_k moves column p of F by w_kp dx_k, w its weights, so that
+//     d2E / dx_k dx_l = t A sum_pq w_kp w_lq d2W / df_p df_q,
+// and the stress adds (w_k . S w_l) I, S its form. A shift of all three corners changes nothing:
+// that gives the rows of corner 0.
 void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
-  using Weights = Eigen::Matrix<double, 2, 3>;
   for (const Triangle &t : triangles_) {
     const Deformed d = deform(t, x);
     const InPlane at = in_plane_stiffness(d.response, d.strain);
-    const Mat2 form = t.inverse * stress_form(at.first, curvature) * t.inverse.transpose();
-    Eigen::Matrix<double, 3, 2> f;
-    f << d.f0, d.f1;
-    Weights j1, j2;
-    j1 << 2 * t.inverse(0, 0), 0, t.inverse(0, 1), 0, 2 * t.inverse(0, 1), t.inverse(0, 0);
-    j2 << 2 * t.inverse(1, 0), 0, t.inverse(1, 1), 0, 2 * t.inverse(1, 1), t.inverse(1, 0);
-    const auto block = [&](const Weights &k, const Weights &l, double stress) -> Mat3 {
-      const Mat2 m = k * at.second * l.transpose();
-      Mat3 b = f * m * f.transpose();
-      b.diagonal().array() += stress;
-      return t.volume * b;
+    const Mat2 form = stress_form(t.volume * at.first, curvature);
+    const Middle middle(t.volume * at.second);
+    const Outer outer(d.f0, d.f1);
+    const double w1[2] = {t.inverse(0, 0), t.inverse(0, 1)};
+    const double w2[2] = {t.inverse(1, 0), t.inverse(1, 1)};
+    const auto block = [&](const double(&k)[2], const double(&l)[2]) -> Mat3 {
+      const double stress = k[0] * (form(0, 0) * l[0] + form(0, 1) * l[1]) +
+                            k[1] * (form(1, 0) * l[0] + form(1, 1) * l[1]);
+      return outer.block(middle.between(k, l), stress);
     };
-    const Mat3 b11 = block(j1, j1, form(0, 0)), b12 = block(j1, j2, form(0, 1));
-    const Mat3 b22 = block(j2, j2, form(1, 1));
+    const Mat3 b11 = block(w1, w1), b12 = block(w1, w2), b22 = block(w2, w2);
     const Mat3 b10 = -(b11 + b12), b20 = -(b12.transpose() + b22);
     system.add_diagonal(t.nodes[0], -(b10 + b20));
     system.add_diagonal(t.nodes[1], b11);
