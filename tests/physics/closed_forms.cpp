@@ -1,4 +1,5 @@
-// Equilibria against closed forms and tables: cables, trusses, membranes.
+// Equilibria of springs and chordae against closed forms. More, and everything about the membrane:
+// tests/verification.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,8 +10,6 @@
 
 #include "bench.h"
 #include "model/law.h"
-#include "physics/chord.h"
-#include "physics/spring.h"
 
 using namespace mvs;
 using namespace mvs::test;
@@ -70,65 +69,6 @@ TEST_CASE("the_bilinear_law_is_the_curve_of_the_paper") {
   }
 }
 
-TEST_CASE("an_equilateral_lattice_carries_the_stress_of_its_table") {
-  Valve valve;
-  const double edge = 1e-3, thickness = 1e-3;
-  add_grid(valve, 6, 6, [&](double u, double v) -> Vec3 {
-    return {edge * (u + v / 2), edge * std::sqrt(0.75) * v, 0};
-  });
-  const Model model = model_of_sheet(valve, {});
-  const SpringTerm term(model);
-  const uint32_t inner = 3 * 7 + 3;
-  for (const Row &row : table("a_bilinear.csv")) {
-    const double strain = std::stod(row[0]), kpa = std::stod(row[5]);
-    CAPTURE(strain);
-    // the energy of stretching by a hair more is stress times area: twice, for two directions
-    const double h = 1e-6;
-    const auto energy = [&](double e) {
-      Positions x = model.valve.rest;
-      for (Vec3 &p : x) p *= 1 + e;
-      return term.energy(x);
-    };
-    const bool at_the_kink = std::abs(strain - 0.25) < 2 * h;
-    if (at_the_kink) continue;
-    double volume = 0;
-    for (const double a : model.rest_area) volume += a * thickness;
-    const double stress = (energy(strain + h) - energy(strain - h)) / (2 * h) / (2 * volume);
-    // rounding of the difference, 1e-16 / 1e-6, and its h
-    CHECK(stress * 1e-3 == doctest::Approx(kpa).epsilon(1e-6).scale(1));
-    Positions g(model.node_count(), Vec3::Zero()), x = model.valve.rest;
-    for (Vec3 &p : x) p *= 1 + strain;
-    term.gradient(x, g);
-    // inside, equal springs pull equally from all sides
-    CHECK(g[inner].norm() <= 1e-9 * (largest(g) + 1e-9));
-  }
-}
-
-TEST_CASE("two_chordae_carry_a_load_as_the_closed_form_says") {
-  const std::vector<Row> rows = table("c_tension_only_chords.csv");
-  for (const Row &row : rows) {
-    const bool pair = row[0] == "V two chords";
-    const double load = std::stod(row[1]), depth = std::stod(row[2]) * 1e-3;
-    CAPTURE(row[0]);
-    CAPTURE(load);
-    // 25 mm chordae from a head above, or two of them from heads 20 mm apart
-    const double length = 25e-3, half = pair ? 10e-3 : 0;
-    Valve valve;
-    valve.rest = {Vec3(-half, 0, 0), Vec3(half, 0, 0),
-                  Vec3(0, 0, -std::sqrt(length * length - half * half))};
-    valve.chords = {chord_between(0, 2)};
-    if (pair) valve.chords.push_back(chord_between(1, 2));
-    const Model model = model_of_sheet(valve, {0, 1});
-    Positions x = model.valve.rest, g(3, Vec3::Zero());
-    x[2].z() = -depth;
-    ChordTerm(model).gradient(x, g);
-    // depths are given to 1e-8 mm, which is 1.3e-8 mm * E A / L, 31.4 N / 25 mm
-    CHECK(g[2].z() == doctest::Approx(-load).scale(1).epsilon(2e-8));
-    CHECK(std::abs(g[2].x()) < 1e-15);
-    CHECK(g[0].norm() == doctest::Approx(std::stod(row[3])).scale(1).epsilon(2e-8));
-  }
-}
-
 TEST_CASE("a_branching_chord_finds_its_node_between_three_pulls") {
   // a Y of chordae between three fixed points; by symmetry its node is on the axis, where
   // E A (L1 - l1) / l1 = 2 E A (L2 - l2) / l2 cos(angle): solved by bisection here
@@ -151,44 +91,6 @@ TEST_CASE("a_branching_chord_finds_its_node_between_three_pulls") {
   }
   // 1e-10 N over a stiffness of 31 N / 20 mm and, across, tension / length of 0.3 N / 0.01 m
   CHECK((settled.state.x[3] - Vec3(0, 0, low)).norm() < 1e-10);
-}
-
-TEST_CASE("a_chain_of_chordae_hangs_as_an_elastic_cable") {
-  // dead weights at equal steps of cable: force balance holds node by node in the closed form
-  for (const Row &row : table("c_elastic_catenary.csv")) {
-    const double span = std::stod(row[0]) * 1e-3, unstretched = std::stod(row[1]) * 1e-3;
-    const double weight = std::stod(row[2]), ea = std::stod(row[3]), pull = std::stod(row[4]);
-    CAPTURE(unstretched);
-    CAPTURE(weight);
-    // x(s), z(s) of the elastic catenary (Irvine, Cable Structures, 1981, eq. 2.25, 2.26)
-    const auto at = [&](double s) -> Vec3 {
-      const double w = weight / unstretched, t = weight / 2;
-      const double v = t - w * s;
-      const double x = pull * s / ea + pull / w * (std::asinh(t / pull) - std::asinh(v / pull));
-      const double z =
-          s / ea * (t - w * s / 2) + 1 / w * (std::hypot(pull, t) - std::hypot(pull, v));
-      return {x, 0, -z};
-    };
-    CHECK(at(unstretched).x() == about(span, 1e-8));  // the table has ten digits
-    const uint32_t parts = 200;
-    Valve valve;
-    for (uint32_t k = 0; k <= parts; ++k) valve.rest.push_back(at(unstretched * k / parts));
-    for (uint32_t k = 0; k < parts; ++k) {
-      valve.chords.push_back(chord_between(k, k + 1));
-      valve.chords.back().rest_length = unstretched / parts;
-    }
-    const Model model = model_of_sheet(valve, {0, parts});
-    Positions g(parts + 1, Vec3::Zero());
-    ChordTerm(model).gradient(model.valve.rest, g);
-    // each inner node holds its share of the weight; a chord is shorter than its arc by
-    // (dx / radius)^2 / 24, which E A turns into a force beside a tension of H
-    const double radius = pull * unstretched / weight, step = unstretched / parts;
-    const double arc = ea * std::pow(step / radius, 2) / 24;
-    for (uint32_t k = 1; k < parts; ++k) {
-      CHECK(-g[k].z() == doctest::Approx(weight / parts).epsilon(1e-3 + arc / pull).scale(0));
-    }
-    CHECK(std::abs(g[0].x()) == doctest::Approx(pull).scale(0).epsilon(1e-3 + arc / pull));
-  }
 }
 
 TEST_CASE("a_clamped_membrane_converges_with_its_mesh") {

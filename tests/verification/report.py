@@ -24,6 +24,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 9, "axes.spines.top": False,
                      "axes.spines.right": False, "legend.frameon": False})
@@ -115,7 +116,7 @@ def laws_picture(studies: Studies) -> bytes:
             rows = curves[f"{law}, {mode}"]
             ax.plot([100 * r.x for r in rows], [r.value / 1e3 for r in rows], color=colour,
                     linewidth=1.4, label=mode)
-            ax.plot([100 * r.x for r in rows], [r.exact / 1e3 for r in rows], "o", color=colour,
+            ax.plot([100 * r.x for r in rows[1::2]], [r.exact / 1e3 for r in rows[1::2]], "o", color=colour,
                     markersize=3.5, markerfacecolor="none")
             points = tables.get(f"{law}, {mode}, nominal", [])
             ax.plot([100 * r.x for r in points], [r.exact / 1e3 for r in points], "+",
@@ -140,6 +141,13 @@ CONVERGING = (
     ("Bending", ("heavy_cantilever", "bending_lattice")),
     ("Steps in time", ("steps_energy", "steps_spin")),
 )
+
+
+def _log_x(ax: Any) -> None:
+    ax.set_xscale("log")
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+    ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _slopes(ax: Any) -> None:
@@ -171,7 +179,7 @@ def convergence_picture(studies: Studies) -> bytes:
             if name in studies:
                 study = studies[name]
                 _errors(ax, study, colour, study.title, 1e6 if in_time else 1e3)
-        ax.set_xscale("log")
+        _log_x(ax)
         ax.set_yscale("log")
         ax.set_title(title, fontsize=10)
         ax.set_xlabel("step, µs" if in_time else "edge, mm")
@@ -196,7 +204,8 @@ def limits_picture(studies: Studies) -> bytes:
             axes[1].plot([1e3 * r.level for r in rows], [100 * r.error for r in rows],
                          "o-" if label == "membrane" else "s--", markersize=3.5,
                          color=COLOURS["irregular" in case], label=f"{label}, {case}")
-    axes[1].set(xscale="log", xlabel="edge, mm", ylabel="error of the height, %",
+    _log_x(axes[1])
+    axes[1].set(xlabel="edge, mm", ylabel="error of the height, %",
                 title="Hencky's disc")
     k = 0
     for name in ("bending_lattice", "bending_meshes"):
@@ -285,6 +294,10 @@ def _summary(studies: Studies) -> str:
     return "<table>\n" + "\n".join(lines) + "\n</table>"
 
 
+LONG = 200
+"""rows of a table that is shown by its worst ones"""
+
+
 def _table(s: Study) -> str:
     columns = [("case", lambda r: html.escape(r.case))]
     if s.x:
@@ -296,12 +309,16 @@ def _table(s: Study) -> str:
                 ("order", lambda r: "" if math.isnan(r.order) else f"{r.order:.2f}")]
     head = "".join(f"<th>{html.escape(name)}</th>" for name, _ in columns)
     lines = [f"<tr>{head}</tr>"]
-    for row in s.rows:
+    rows, note = s.rows, ""
+    if len(rows) > LONG:
+        rows = [max(of_case, key=lambda row: row.error) for of_case in s.curves().values()]
+        note = f"; here the worst of each case, all of them in {s.name}.csv"
+    for row in rows:
         first, *rest = (show(row) for _, show in columns)
         lines.append(f"<tr><th>{first}</th>" + "".join(f"<td>{cell}</td>" for cell in rest)
                      + "</tr>")
     return (f"<details id='{s.name}'><summary>{html.escape(s.title)} ({len(s.rows)} rows; "
-            f"{html.escape(s.quantity)})</summary>\n<table>\n" + "\n".join(lines)
+            f"{html.escape(s.quantity)}{note})</summary>\n<table>\n" + "\n".join(lines)
             + "\n</table>\n</details>")
 
 
