@@ -8,6 +8,7 @@
 #include "readouts.h"
 #include "reference.h"
 #include "spread.h"
+#include "tissue.h"
 
 namespace cli {
 namespace {
@@ -21,7 +22,7 @@ const std::map<std::string, uint32_t> backends = {{"default", MVS_BACKEND_DEFAUL
 
 struct Options {
   std::string in, out, reference;
-  std::string leaflet = "spring", solver = "newton", backend = "default";
+  std::string leaflet = "file", solver = "newton", backend = "default";
   std::optional<double> pressure_mmhg;
   mvs_settle_options settle = {};
   SpreadOptions spread;
@@ -47,6 +48,7 @@ Closed close_valve(const Options &options, const Console &console) {
   mvs_sim_desc desc = {};
   desc.backend = backends.at(options.backend);
   mvs::Sim sim = load_sim(options.in, progress, desc);
+  set_tissue(sim, options.leaflet);
   const double pressure_mmhg = pressure_of(options, sim);
   mvs_settle_options settle = options.settle;
   settle.solver = solvers.at(options.solver);
@@ -72,7 +74,7 @@ Json result_json(const Options &options, const Closed &closed, const mvs_measure
   const Size size = size_of(closed.valve);
   const mvs_stats &stats = closed.stats;
   Json json = {{"file", options.in},
-               {"leaflet", options.leaflet},
+               {"leaflet", laws_of(closed.valve)},
                {"solver", options.solver},
                {"pressure_mmHg", closed.pressure_mmhg},
                {"converged", stats.converged != 0},
@@ -145,9 +147,7 @@ void add_close(CLI::App &app, Console &console) {
       ->add_option("--pressure", options->pressure_mmhg,
                    "transvalvular pressure, mmHg [120, or that of an .inp file]")
       ->check(CLI::Number);
-  command->add_option("--leaflet", options->leaflet, "element of the leaflets")
-      ->capture_default_str()
-      ->check(one_of({"spring"}));
+  add_tissue_option(*command, options->leaflet);
   command->add_option("--solver", options->solver, "method")
       ->capture_default_str()
       ->check(one_of(names_of(solvers)));

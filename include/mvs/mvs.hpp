@@ -214,6 +214,10 @@ class Sim {
     must(mvs_set_valve(sim_, &valve));
   }
 
+  // leaflet 0: all of them
+  void set_leaflet(const mvs_leaflet_desc &tissue, mvs_id leaflet = 0) {
+    must(mvs_set_leaflet(sim_, leaflet, &tissue));
+  }
   void generate(mvs_parametric_desc desc = {}) {
     desc.struct_size = sizeof desc;
     must(mvs_generate_valve(sim_, &desc));

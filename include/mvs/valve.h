@@ -32,9 +32,10 @@ enum {
    * Young's modulus below the kink, Pa [100e3]; above it, Pa [6e6]; strain at the kink [0.25]. */
   MVS_LEAFLET_SPRING = 1,
   /* The others are membranes: constant-strain triangles, plane stress, incompressible, W(I1, I4) in
-   * J/m3 with I1 = tr C and I4 = f . C f along the fibre f of the triangle.
-   * Bilinear: the curve of the springs as an isotropic tissue, dW/dI1 = c + a (x + sqrt(x^2 +
-   * s^2)) / 2, x = I1 - Ic: c, Pa [18.49e3]; a, Pa [3146e3]; Ic [3.1611]; s [0.006]. */
+   * J/m3 with I1 = tr C and I4 = f . C f along the fibre f of the triangle. Where c exp() is past
+   * 100 MPa, it goes on as a parabola in its exponent. Bilinear: the curve of the springs as an
+   * isotropic tissue, dW/dI1 = c + a (x + sqrt(x^2 + s^2)) / 2, x = I1 - Ic: c, Pa [18.49e3]; a, Pa
+   * [3146e3]; Ic [3.1611]; s [0.006]. */
   MVS_LEAFLET_BILINEAR = 2,
   /* Fung-type isotropic, W = c0 / 2 (I1 - 3) + c1 / 2 (exp(c2 (I1 - 3)^2) - 1) (Texas TriValve 1.1,
    * Mathur et al. 2022): c0, Pa [1e3]; c1, Pa [124]; c2 [4.568202], its anterior leaflet. */
@@ -67,7 +68,8 @@ enum {
   MVS_CHORD_BILINEAR = 2,
   /* Incompressible Ogden, W = sum of 2 mu_k / alpha_k^2 (l1^alpha_k + l2^alpha_k + l3^alpha_k - 3),
    * up to three terms: constants are mu_1, Pa; alpha_1; mu_2; alpha_2; mu_3; alpha_3. The first
-   * term is required; the sum has to stiffen the chord from the start. young is not used */
+   * term is required; the sum has to stiffen the chord from the start. Past 100 MPa the curve goes
+   * on along its tangent. young is not used */
   MVS_CHORD_OGDEN = 3,
   /* Straight lines between the points of a curve of the valve, then on with the last slope:
    * constants[0] is its index in mvs_valve_desc.curves. young is not used */

@@ -143,6 +143,23 @@ Described read_valve_desc(const mvs_valve_desc *given) {
   return described;
 }
 
+void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue) {
+  must_be_zero(tissue.reserved, "tissue.reserved");
+  MVS_MUST(
+      !tissue.name && tissue.id == 0, MVS_E_ARGUMENT, "tissue.name",
+      "tissue.name and tissue.id have to be empty: a tissue has none, the leaflet keeps its own");
+  const bool bare = std::all_of(std::begin(tissue.constants), std::end(tissue.constants),
+                                [](double constant) { return constant == 0; });
+  const uint32_t law = tissue.law == 0 ? uint32_t{MVS_LEAFLET_SPRING} : tissue.law;
+  if (bare && law == MVS_LEAFLET_BILINEAR && leaflet.law == MVS_LEAFLET_SPRING) {
+    leaflet.constants = membrane_like(Bilinear(leaflet.constants));
+  } else {
+    read_law_constants(find_leaflet_law(law), tissue.constants, leaflet.constants);
+  }
+  leaflet.law = law;
+  leaflet.thickness = or_default(tissue.thickness, leaflet.thickness);
+}
+
 State described_state(const Model &model, const std::vector<Vec3> &now) {
   State state = initial_state(model);
   if (now.empty()) return state;

@@ -17,6 +17,10 @@ struct Described {
 // valve is left to find_faults.
 Described read_valve_desc(const mvs_valve_desc *given);
 
+// Gives a leaflet the law, thickness and constants of a description; throws MVS_E_ARGUMENT where it
+// says more than that.
+void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue);
+
 // The state that a described valve starts from; throws MVS_E_ARGUMENT where positions are none.
 State described_state(const Model &model, const std::vector<Vec3> &now);
 

@@ -39,6 +39,23 @@ Axial ogden(const Chord::Constants &c, double e) {
   return sum;
 }
 
+// Past 100 MPa, several times what tears a chord, on along the tangent: with an alpha of 100 a
+// trial step could otherwise ask for more force than a double holds.
+Axial bounded_ogden(const Chord::Constants &c, double e) {
+  constexpr double limit = 100e6;
+  const Axial plain = ogden(c, e);
+  if (plain.stress <= limit) return plain;
+  double low = 0, high = e;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (ogden(c, middle).stress <= limit ? low : high) = middle;
+  }
+  const Axial at = ogden(c, low);
+  const double over = e - low;
+  return {at.energy + at.stress * over + 0.5 * at.slope * over * over, at.stress + at.slope * over,
+          at.slope};
+}
+
 Axial table(const SharedVector<CurvePoint> &points, double e) {
   Axial at;
   for (size_t k = 0; k + 1 < points.size() && e > points[k][0]; ++k) {
@@ -88,7 +105,7 @@ Axial chord_response(const Valve &valve, const Chord &chord, double strain) {
     case MVS_CHORD_BILINEAR:
       return bilinear(chord.young, c[0], c[1], strain);
     case MVS_CHORD_OGDEN:
-      return ogden(c, strain);
+      return bounded_ogden(c, strain);
     case MVS_CHORD_TABLE:
       return table(valve.curves[static_cast<size_t>(c[0])].points, strain);
     default:

@@ -9,27 +9,25 @@
 namespace mvs {
 namespace {
 
-// exp(q), continued as a parabola where it is past what tissue survives (1e17 times the stress at
-// rest): a trial step that crushes a triangle gives a large number and not infinity.
+// scale exp(q), continued as a parabola in q past 100 MPa, ten times what tears a leaflet: a trial
+// step that crushes a triangle gives a large number that a solver can come back from.
 struct Exponential {
   double value, first, second;  // and derivatives by q
 };
-Exponential bounded_exp(double q) {
-  constexpr double limit = 40;
-  if (q <= limit) {
-    const double e = std::exp(q);
-    return {e, e, e};
-  }
-  const double e = std::exp(limit), over = q - limit;
-  return {e * (1 + over + 0.5 * over * over), e * (1 + over), e};
+Exponential bounded_exp(double scale, double q) {
+  constexpr double limit = 100e6;
+  const double plain = scale * std::exp(q);
+  if (plain <= limit) return {plain, plain, plain};
+  const double over = q - std::log(limit / scale);
+  return {limit * (1 + over + 0.5 * over * over), limit * (1 + over), limit};
 }
 
 // W = scale (exp(q) - 1), from the derivatives of q by I1 and I4.
 Response exponential(double scale, double q, double q1, double q11, double q4, double q44) {
-  const auto [value, first, second] = bounded_exp(q);
-  return {scale * (value - 1),      scale * first * q1,
-          scale * first * q4,       scale * (second * q1 * q1 + first * q11),
-          scale * second * q1 * q4, scale * (second * q4 * q4 + first * q44)};
+  const auto [value, first, second] = bounded_exp(scale, q);
+  return {value - scale,    first * q1,
+          first * q4,       second * q1 * q1 + first * q11,
+          second * q1 * q4, second * q4 * q4 + first * q44};
 }
 
 // The smooth fit to the paper's curve: c 18.49 kPa, a 3146 kPa, Ic 3.1611, s 0.006 (its stress lies
@@ -116,6 +114,12 @@ Constants default_constants(std::span<const Constant> constants) {
   Constants values{};
   for (size_t k = 0; k < constants.size(); ++k) values[k] = constants[k].fallback;
   return values;
+}
+
+Constants membrane_like(const Bilinear &springs) {
+  // the fit to 100 kPa, 6 MPa and 0.25, scaled; its turn lies 0.0014 below I1 at the kink
+  const double l = 1 + springs.kink;
+  return {18.49e-2 * springs.low, 3146e-3 / 6 * springs.high, l * l + 2 / l - 0.0014, 0.006};
 }
 
 double bending_modulus(const LeafletLaw &law, const Constants &constants) {

@@ -60,4 +60,7 @@ struct Bilinear {
   }
 };
 
+// The constants of the bilinear membrane whose uniaxial curve is that of the springs.
+Constants membrane_like(const Bilinear &springs);
+
 }  // namespace mvs

@@ -83,6 +83,21 @@ TEST_CASE("chord_laws_have_the_derivatives_of_their_energy") {
   }
 }
 
+TEST_CASE("an_ogden_chord_goes_on_along_its_tangent_past_what_tears_it") {
+  Valve valve;
+  Chord chord;
+  chord.law = MVS_CHORD_OGDEN;
+  chord.constants = {18.9e6, 98.25, 22.7e6, 98.25, 19.5e6, 98.25};  // Texas TriValve, anterior
+  double edge = 0;
+  while (chord_response(valve, chord, edge).stress <= 100e6) edge += 1e-5;
+  const Axial before = chord_response(valve, chord, edge - 1e-5);
+  const Axial far = chord_response(valve, chord, 2), farther = chord_response(valve, chord, 3);
+  CHECK(far.slope == farther.slope);
+  CHECK(farther.stress - far.stress == doctest::Approx(far.slope).epsilon(1e-12));  // rounding
+  // the slope grows by a factor exp(98 x 1e-5) a step
+  CHECK(far.slope == doctest::Approx(before.slope).epsilon(2e-3));
+}
+
 TEST_CASE("a_table_goes_through_its_points_and_on_with_the_last_slope") {
   Valve valve;
   valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};

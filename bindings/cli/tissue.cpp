@@ -1,0 +1,63 @@
+// Words for the laws of leaflets.
+#include "tissue.h"
+
+#include <algorithm>
+#include <array>
+
+#include "commands.h"
+
+namespace cli {
+namespace {
+
+// In the order of MVS_LEAFLET_*, from 1.
+constexpr std::array<const char *, 6> laws = {"spring",         "bilinear", "fung",
+                                              "may_newman_yin", "prot",     "neo_hookean"};
+
+std::vector<uint32_t> law_numbers(const mvs::Snapshot &valve) {
+  const auto view = valve.view<uint32_t>(MVS_LEAFLET_LAW);
+  return {view.data(), view.data() + view.rows()};
+}
+
+}  // namespace
+
+void add_tissue_option(CLI::App &command, std::string &choice) {
+  std::vector<std::string> words = {"file", "membrane"};
+  words.insert(words.end(), laws.begin(), laws.end());
+  command
+      .add_option(
+          "--leaflet", choice,
+          "tissue of the leaflets: that of the file, membranes in place of springs, or a law")
+      ->capture_default_str()
+      ->check(one_of(words));
+}
+
+void set_tissue(mvs::Sim &sim, const std::string &choice) {
+  if (choice == "file") return;
+  const mvs::Snapshot before = sim.snapshot();
+  const std::vector<uint32_t> now = law_numbers(before);
+  const std::vector<mvs_part> leaflets = before.parts(MVS_PART_LEAFLET);
+  for (uint32_t l = 0; l < now.size(); ++l) {
+    mvs_leaflet_desc tissue = {};
+    if (choice != "membrane") {
+      tissue.law =
+          static_cast<uint32_t>(std::find(laws.begin(), laws.end(), choice) - laws.begin()) + 1;
+    } else if (now[l] == MVS_LEAFLET_SPRING) {
+      tissue.law = MVS_LEAFLET_BILINEAR;
+    } else {
+      continue;
+    }
+    if (tissue.law != now[l]) sim.set_leaflet(tissue, leaflets[l].id);
+  }
+}
+
+std::string laws_of(const mvs::Snapshot &valve) {
+  std::string text, last;
+  for (const uint32_t law : law_numbers(valve)) {
+    if (last == laws[law - 1]) continue;
+    last = laws[law - 1];
+    text += (text.empty() ? "" : ", ") + last;
+  }
+  return text;
+}
+
+}  // namespace cli

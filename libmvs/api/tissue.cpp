@@ -1,0 +1,34 @@
+// Another tissue for a leaflet.
+#include "api/commit.h"
+#include "api/valve_desc.h"
+
+using namespace mvs;
+
+extern "C" {
+
+mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    must_point(tissue, "tissue");
+    const SnapshotPtr present = s.present();
+    Valve valve = present->model->valve;
+    std::vector<double> scale;
+    bool found = false;
+    for (Leaflet &part : valve.leaflets.edit()) {
+      scale.push_back(part.thickness);
+      if (leaflet != 0 && part.id != leaflet) continue;
+      found = true;
+      set_tissue(part, *tissue);
+      scale.back() = part.thickness / scale.back();
+    }
+    MVS_MUST(found, MVS_E_ID, "leaflet", "the valve has no leaflet with the id %llu",
+             static_cast<unsigned long long>(leaflet));
+    for (size_t t = 0; t < valve.triangles.size(); ++t) {
+      const uint32_t l = valve.triangle_leaflet[t];
+      if (scale[l] != 1) valve.triangle_thickness[t] *= scale[l];
+    }
+    ModelPtr model = make_model(std::move(valve), present->model.get());
+    replace_valve(s, {{std::move(model), present->state}, {}});
+  });
+}
+
+}  // extern "C"
