@@ -14,11 +14,12 @@ mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc 
     std::vector<double> scale;
     bool found = false;
     for (Leaflet &part : valve.leaflets.edit()) {
-      scale.push_back(part.thickness);
-      if (leaflet != 0 && part.id != leaflet) continue;
-      found = true;
-      set_tissue(part, *tissue);
-      scale.back() = part.thickness / scale.back();
+      const double before = part.thickness;
+      if (leaflet == 0 || part.id == leaflet) {
+        found = true;
+        set_tissue(part, *tissue);
+      }
+      scale.push_back(part.thickness / before);
     }
     MVS_MUST(found, MVS_E_ID, "leaflet", "the valve has no leaflet with the id %llu",
              static_cast<unsigned long long>(leaflet));
