@@ -331,7 +331,7 @@ class Plans(Command):
 
 class Usage(Command):
     def test_elements_that_do_not_exist_yet_name_those_that_do(self):
-        self.assertIn("spring", self.misused("close", "v.obj", "--leaflet", "membrane"))
+        self.assertIn("spring", self.misused("close", "v.obj", "--leaflet", "rubber"))
 
     def test_unknown_words_are_usage_errors(self):
         for line in ([], ["fly"], ["close"], ["close", "v.obj", "--solver", "magic"],

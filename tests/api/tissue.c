@@ -1,0 +1,140 @@
+/* Another tissue for a leaflet. */
+#include <math.h>
+
+#include "check.h"
+#include "funnel.h"
+
+static mvs_sim *sim;
+
+static const mvs_snapshot *present(void) {
+  const mvs_snapshot *snapshot = NULL;
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  return snapshot;
+}
+
+static const void *data_of(const mvs_snapshot *snapshot, uint32_t which) {
+  mvs_view view = {0};
+  MUST(mvs_snapshot_view(snapshot, which, &view));
+  return view.data;
+}
+
+static void start(void) {
+  mvs_parametric_desc desc = {0};
+  desc.struct_size = sizeof desc;
+  desc.vertices = 250;
+  MUST(mvs_generate_valve(sim, &desc));
+}
+
+/* At rest under systolic pressure, without a crossing. */
+static mvs_measures close_valve(void) {
+  mvs_load_case load = {sizeof load, 0, MVS_SYSTOLE_PA, 1};
+  MUST(mvs_set_load(sim, &load));
+  mvs_stats stats = {0};
+  stats.struct_size = sizeof stats;
+  MUST(mvs_settle(sim, NULL, &stats));
+  CHECK(stats.converged == 1);
+  const mvs_snapshot *closed = present();
+  mvs_measures measures = {0};
+  measures.struct_size = sizeof measures;
+  MUST(mvs_snapshot_measure(closed, &measures));
+  CHECK(measures.intersections == 0);
+  mvs_snapshot_release(closed);
+  return measures;
+}
+
+static void one_leaflet_changes_and_the_other_stays(void) {
+  start();
+  const mvs_snapshot *before = present();
+  mvs_part leaflet = {0};
+  MUST(mvs_snapshot_part(before, MVS_PART_LEAFLET, 1, &leaflet));
+  mvs_leaflet_desc tissue = {0};
+  tissue.law = MVS_LEAFLET_FUNG;
+  tissue.thickness = 0.5e-3;
+  tissue.constants[2] = 5;
+  MUST(mvs_set_leaflet(sim, leaflet.id, &tissue));
+  const mvs_snapshot *after = present();
+  const uint32_t *law = data_of(after, MVS_LEAFLET_LAW);
+  CHECK(law[0] == MVS_LEAFLET_SPRING && law[1] == MVS_LEAFLET_FUNG);
+  const double *constants = data_of(after, MVS_LEAFLET_CONSTANTS);
+  CHECK(constants[9] == 0.5e-3 && constants[10] == 1e3 && constants[11] == 124);
+  CHECK(constants[12] == 5);
+  const double *thick = data_of(after, MVS_TRIANGLE_THICKNESS);
+  const double *thick_before = data_of(before, MVS_TRIANGLE_THICKNESS);
+  const uint32_t *of = data_of(after, MVS_TRIANGLE_LEAFLET);
+  mvs_view triangles = {0};
+  MUST(mvs_snapshot_view(after, MVS_TRIANGLE_LEAFLET, &triangles));
+  for (uint64_t t = 0; t < triangles.count; ++t) {
+    CHECK(thick[t] == (of[t] == 1 ? 0.5 : 1.0) * thick_before[t]);
+  }
+  mvs_snapshot_release(before);
+  mvs_snapshot_release(after);
+}
+
+static void springs_become_the_membrane_of_their_curve(void) {
+  start();
+  mvs_leaflet_desc tissue = {0};
+  tissue.law = MVS_LEAFLET_BILINEAR;
+  MUST(mvs_set_leaflet(sim, 0, &tissue));
+  const mvs_snapshot *after = present();
+  const double *constants = data_of(after, MVS_LEAFLET_CONSTANTS);
+  /* the fit of the header; rounding of products */
+  const double fit[4] = {18.49e3, 3146e3, 3.1611, 0.006};
+  for (int k = 0; k < 4; ++k) CHECK(fabs(constants[1 + k] - fit[k]) < 1e-12 * fit[k]);
+  mvs_snapshot_release(after);
+}
+
+static void a_valve_closes_in_every_law_of_tissue(void) {
+  const uint32_t laws[] = {MVS_LEAFLET_SPRING, MVS_LEAFLET_BILINEAR, MVS_LEAFLET_FUNG,
+                           MVS_LEAFLET_MAY_NEWMAN_YIN, MVS_LEAFLET_PROT};
+  double strain[5];
+  for (int k = 0; k < 5; ++k) {
+    start();
+    mvs_leaflet_desc tissue = {0};
+    tissue.law = laws[k];
+    MUST(mvs_set_leaflet(sim, 0, &tissue));
+    strain[k] = close_valve().max_leaflet_strain;
+    CHECK(strain[k] > 0.05 && strain[k] < 2);
+    for (int j = 0; j < k; ++j) CHECK(strain[j] != strain[k]); /* they are different tissues */
+  }
+}
+
+static void what_is_no_tissue_changes_nothing(void) {
+  start();
+  const mvs_snapshot *before = present();
+  uint64_t hash[2], now[2];
+  MUST(mvs_snapshot_hash(before, hash));
+  mvs_leaflet_desc tissue = {0};
+  tissue.law = 77;
+  MUST_FAIL(mvs_set_leaflet(sim, 0, &tissue), MVS_E_OP, "follows law 77");
+  tissue.law = MVS_LEAFLET_PROT;
+  tissue.constants[0] = -1;
+  MUST_FAIL(mvs_set_leaflet(sim, 0, &tissue), MVS_E_OP, "constant c0 -1 Pa");
+  tissue.constants[0] = 0;
+  tissue.constants[3] = 1;
+  MUST_FAIL(mvs_set_leaflet(sim, 0, &tissue), MVS_E_OP, "its law (prot) has only 3");
+  tissue.constants[3] = 0;
+  tissue.name = "A";
+  MUST_FAIL(mvs_set_leaflet(sim, 0, &tissue), MVS_E_ARGUMENT, "have to be empty");
+  tissue.name = NULL;
+  tissue.thickness = 1;
+  MUST_FAIL(mvs_set_leaflet(sim, 0, &tissue), MVS_E_OP, "mm given as m");
+  tissue.thickness = 0;
+  MUST_FAIL(mvs_set_leaflet(sim, 9999, &tissue), MVS_E_ID, "no leaflet with the id 9999");
+  MUST_FAIL(mvs_set_leaflet(sim, 0, NULL), MVS_E_ARGUMENT, "tissue");
+  MUST_FAIL(mvs_set_leaflet(NULL, 0, &tissue), MVS_E_ARGUMENT, "sim");
+  const mvs_snapshot *after = present();
+  MUST(mvs_snapshot_hash(after, now));
+  CHECK(now[0] == hash[0] && now[1] == hash[1]);
+  mvs_snapshot_release(before);
+  mvs_snapshot_release(after);
+}
+
+int main(void) {
+  MUST(mvs_create(NULL, &sim));
+  one_leaflet_changes_and_the_other_stays();
+  springs_become_the_membrane_of_their_curve();
+  a_valve_closes_in_every_law_of_tissue();
+  what_is_no_tissue_changes_nothing();
+  mvs_destroy(sim);
+  return finish("tissue");
+}
