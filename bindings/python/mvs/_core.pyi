@@ -17,6 +17,7 @@ from .values import (
     Frame,
     HistoryEntry,
     Leaflet,
+    LeafletLaw,
     Load,
     Measures,
     Part,
@@ -231,6 +232,16 @@ class Simulator:
         chord_slack: Optional[float] = None,
         indentation_depth: Optional[float] = None,
         coaptation_depth: Optional[float] = None,
+    ) -> None: ...
+    def set_leaflet(
+        self,
+        leaflet: Optional[str] = None,
+        *,
+        law: Union[LeafletLaw, Literal[
+            "spring", "bilinear", "fung", "may_newman_yin", "prot", "neo_hookean"
+        ]],
+        constants: Sequence[float] = ...,
+        thickness: float = 0.0,
     ) -> None: ...
     def refine(self, times: int = 1) -> None: ...
     def coarsen(

@@ -38,6 +38,32 @@ py::list check_valve(const py::args &args, const py::kwargs &kwargs) {
   return list;
 }
 
+// MVS_LEAFLET_* from a mvs.LeafletLaw, its number or its name in small letters.
+uint32_t law_of(const py::object &law) {
+  if (!py::isinstance<py::str>(law)) return law.cast<uint32_t>();
+  const std::string wanted = law.cast<std::string>();
+  std::string names;
+  for (const py::handle member : py::module_::import("mvs.values").attr("LeafletLaw")) {
+    const std::string name = py::str(member.attr("name").attr("lower")());
+    if (name == wanted) return member.cast<uint32_t>();
+    names += (names.empty() ? "\"" : ", \"") + name + "\"";
+  }
+  refuse(MVS_E_ARGUMENT, "law", "law: one of " + names + " is needed, not \"" + wanted + "\"");
+}
+
+void set_leaflet(Simulator &self, const std::optional<std::string> &leaflet, const py::object &law,
+                 const std::vector<double> &constants, double thickness) {
+  mvs_leaflet_desc tissue{};
+  tissue.law = law_of(law);
+  tissue.thickness = thickness;
+  if (constants.size() > std::size(tissue.constants)) {
+    refuse(MVS_E_ARGUMENT, "constants",
+           "constants: a law has at most 8, not " + std::to_string(constants.size()));
+  }
+  std::copy(constants.begin(), constants.end(), tissue.constants);
+  self.set_leaflet(leaflet, tissue);
+}
+
 py::object settle(Simulator &self, const std::string &solver, Count max_iterations, Number residual,
                   Number dt, Number damping, py::object progress) {
   mvs_settle_options options{};
@@ -159,6 +185,18 @@ void bind_levels(py::class_<Simulator> &type) {
            "history starts anew. ArgumentError if they are not levels of one valve.");
 }
 
+void bind_tissue(py::class_<Simulator> &type) {
+  type.def(
+      "set_leaflet", &set_leaflet, py::arg("leaflet") = py::none(), py::kw_only(), py::arg("law"),
+      py::arg("constants") = std::vector<double>{}, py::arg("thickness") = 0.0,
+      "Gives a leaflet another tissue; shape, chordae, state and load stay, the history starts "
+      "anew.\n\nleaflet: its name; None: all of them\nlaw: a mvs.LeafletLaw, or its name in small "
+      "letters (\"bilinear\")\nconstants: of the law, at most 8, moduli in Pa; without any, its "
+      "defaults, and \"bilinear\" on springs becomes the membrane of their curve\nthickness: m; 0 "
+      "leaves it, another one scales that of each triangle\nIdError: no leaflet has that name. "
+      "OpError: constants that no tissue has.");
+}
+
 void bind_files(py::class_<Simulator> &type) {
   type.def(
       "load",
@@ -191,6 +229,7 @@ void bind_simulator(py::module_ &module) {
   bind_files(type);
   bind_generate(type);
   bind_levels(type);
+  bind_tissue(type);
   bind_work(type);
   bind_operations(module, type);
   bind_plans(module, type);

@@ -126,6 +126,13 @@ void Simulator::generate(const mvs_parametric_desc &dimensions) {
   call([&] { return mvs_generate_valve(sim_, &dimensions); });
 }
 
+void Simulator::set_leaflet(const std::optional<std::string> &name,
+                            const mvs_leaflet_desc &tissue) {
+  mvs_part part{};
+  if (name) must(mvs_snapshot_find(snapshot()->get(), MVS_PART_LEAFLET, name->c_str(), &part));
+  call([&] { return mvs_set_leaflet(sim_, part.id, &tissue); });
+}
+
 void Simulator::refine() {
   call([&] { return mvs_refine_valve(sim_); });
 }

@@ -31,6 +31,7 @@ class Simulator {
   void load_bytes(const std::string &bytes, uint32_t format);
   void set_valve(const mvs_valve_desc &valve);
   void generate(const mvs_parametric_desc &dimensions);
+  void set_leaflet(const std::optional<std::string> &name, const mvs_leaflet_desc &tissue);
   void refine();
   mvs_coarsening coarsen(const mvs_coarsen_options &options);
   void transfer_state(const Snapshot &from);
