@@ -3,6 +3,7 @@
 import importlib.util
 import pathlib
 import re
+import sys
 
 import pytest
 
@@ -24,8 +25,6 @@ def report():
     path = pathlib.Path(__file__).parents[1] / "verification" / "report.py"
     spec = importlib.util.spec_from_file_location("verification_report", path)
     module = importlib.util.module_from_spec(spec)
-    import sys
-
     sys.modules[spec.name] = module  # dataclasses look their module up
     spec.loader.exec_module(module)
     return module

@@ -20,7 +20,7 @@ Invariants invariants(const Map2 &f) {
 
 using Law = std::function<Real(Real i1, Real i4)>;
 
-std::function<Real(const Map2 &)> of_invariants(Law w) {
+std::function<Real(const Map2 &)> of_invariants(const Law &w) {
   return [w](const Map2 &f) {
     const auto [i1, i4] = invariants(f);
     return w(i1, i4);

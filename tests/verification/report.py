@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The verification suite as a page: every table that `verification --tables DIR` wrote, and pictures.
+"""The verification suite as a page: each table that `verification --tables DIR` wrote, with pictures.
 
     report.py TABLES OUT      writes OUT/verification.html and OUT/verification-*.png
 
@@ -116,8 +116,8 @@ def laws_picture(studies: Studies) -> bytes:
             rows = curves[f"{law}, {mode}"]
             ax.plot([100 * r.x for r in rows], [r.value / 1e3 for r in rows], color=colour,
                     linewidth=1.4, label=mode)
-            ax.plot([100 * r.x for r in rows[1::2]], [r.exact / 1e3 for r in rows[1::2]], "o", color=colour,
-                    markersize=3.5, markerfacecolor="none")
+            ax.plot([100 * r.x for r in rows[1::2]], [r.exact / 1e3 for r in rows[1::2]], "o",
+                    color=colour, markersize=3.5, markerfacecolor="none")
             points = tables.get(f"{law}, {mode}, nominal", [])
             ax.plot([100 * r.x for r in points], [r.exact / 1e3 for r in points], "+",
                     color=colour, markersize=6)
@@ -218,7 +218,8 @@ def limits_picture(studies: Studies) -> bytes:
     axes[2].set(xlabel="direction of the cylinder, degrees", ylabel="bending energy over exact",
                 title="Hinges on finest meshes of four kinds")
     for ax in axes:
-        ax.legend(fontsize=7.5)
+        if ax.get_legend_handles_labels()[0]:
+            ax.legend(fontsize=7.5)
     figure.tight_layout()
     return _png(figure)
 

@@ -1,0 +1,42 @@
+// The studies as tests.
+#include <doctest/doctest.h>
+
+#include "study.h"
+
+using namespace mvs::verification;
+
+namespace {
+
+void check(const std::vector<Study> &studies) {
+  for (const Study &study : studies) {
+    INFO(as_text(study));
+    CHECK(faults(study).empty());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("every_law_carries_the_stress_of_its_paper") {
+  check(law_studies());
+}
+TEST_CASE("springs_in_shear_are_as_wrong_as_reported") {
+  check(shear_studies());
+}
+TEST_CASE("the_patch_and_the_rigid_motion_are_exact") {
+  check(patch_studies());
+}
+TEST_CASE("discs_bulge_as_hencky_and_the_finite_membrane_say") {
+  check(disc_studies());
+}
+TEST_CASE("spheres_and_tubes_follow_laplace") {
+  check(laplace_studies());
+}
+TEST_CASE("cables_hang_as_the_closed_forms_say") {
+  check(cable_studies());
+}
+TEST_CASE("a_strip_bends_as_the_heavy_cantilever") {
+  check(bending_studies());
+}
+TEST_CASE("steps_in_time_keep_their_balances") {
+  check(step_studies());
+}
