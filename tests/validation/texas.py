@@ -22,13 +22,17 @@ import numpy as np
 
 FOLDER = "texas_trivalve_1.1_healthy"
 INPUT = "Healthy_QuasiStatic.inp"
-LEAFLETS = ("Anterior", "Septal", "Posterior")
+LEAFLETS = ("Posterior", "Anterior", "Septal")
+"""in the order of `element_sets` 1 to 3 of the frames, which is not that of the input"""
 CLOSED_FRAME, MIDDLE_FRAME, OPEN_FRAME = 20, 10, 0
 
 PRESSURE = 3060.0
 """Pa: the pressure of the input file"""
 
 MM = 1e3
+
+Change = Callable[[mvs.Valve], None]
+"""What is done to the arrays of a valve before it is set"""
 
 
 def data_folder() -> Path:
@@ -84,8 +88,8 @@ def read_frame(folder: Path, number: int = CLOSED_FRAME) -> AbaqusFrame:
 def open_valve(
     folder: Path,
     vertices: Optional[int] = None,
-    change: Optional[Callable[[mvs.Valve], None]] = None,
-    change_mesh: Optional[Callable[[mvs.Valve], None]] = None,
+    change: Optional[Change] = None,
+    change_mesh: Optional[Change] = None,
 ) -> mvs.Snapshot:
     """The valve of the input file, open; with about so many leaflet vertices, None: all 8,587.
 
@@ -103,11 +107,30 @@ def open_valve(
         return sim.snapshot()
 
 
-def _set_changed(sim: mvs.Simulator, change: Callable[[mvs.Valve], None]) -> None:
+def _set_changed(sim: mvs.Simulator, change: Change) -> None:
     valve = mvs.valve_of(sim.snapshot())
     valve.nodes_now = None
     change(valve)
     sim.set_valve(valve)
+
+
+def shape_of(frame: AbaqusFrame, opened: mvs.Snapshot) -> mvs.Snapshot:
+    """The full valve with its leaflets where a frame has them, under the whole load, to measure.
+
+    Chordae keep their ends at the heads; inner branch points are not where Abaqus has them.
+    """
+    valve = mvs.valve_of(opened)
+    valve.nodes_now = np.array(valve.nodes_loaded)
+    valve.nodes_now[: len(frame.points)] = frame.points
+    with mvs.Simulator() as sim:
+        sim.set_valve(valve)
+        sim.set_load(PRESSURE)
+        return sim.snapshot()
+
+
+def touching(snapshot: mvs.Snapshot) -> np.ndarray:
+    """(n,): nodes on which contact presses."""
+    return np.any(snapshot.node_contact_force != 0, axis=1)
 
 
 def mesh_vertices(snapshot: mvs.Snapshot) -> int:
@@ -127,11 +150,11 @@ def kept_nodes(snapshot: mvs.Snapshot, count: int) -> tuple[np.ndarray, np.ndarr
 class Errors:
     """Distances between two shapes at the nodes that both have, in m."""
 
+    nodes: int
     rms: float
     max: float
     median: float
     p95: float
-    nodes: int
     leaflet_rms: dict[str, float]
     distance: np.ndarray = field(repr=False)
     """(n,), in the order of the frame, nan where a node was not kept"""
@@ -144,10 +167,8 @@ def distances(points: np.ndarray, origin: np.ndarray, frame: AbaqusFrame) -> Err
     everywhere = np.full(len(frame.points), np.nan)
     everywhere[origin] = d
     by_leaflet = {name: _rms(d[leaflet == k]) for k, name in enumerate(LEAFLETS)}
-    return Errors(
-        _rms(d), d.max(), float(np.median(d)), float(np.percentile(d, 95)), len(d), by_leaflet,
-        everywhere,
-    )
+    median, p95 = (float(np.percentile(d, share)) for share in (50, 95))
+    return Errors(len(d), _rms(d), float(d.max()), median, p95, by_leaflet, everywhere)
 
 
 def errors_of(snapshot: mvs.Snapshot, frame: AbaqusFrame) -> Errors:
@@ -202,7 +223,7 @@ def triangle_of_quad(frame: AbaqusFrame, snapshot: mvs.Snapshot) -> np.ndarray:
     return quad
 
 
-def split_other_way(frame: AbaqusFrame) -> Callable[[mvs.Valve], None]:
+def split_other_way(frame: AbaqusFrame) -> Change:
     """A change of the full mesh: every quad is cut along its other diagonal."""
 
     def change(valve: mvs.Valve) -> None:

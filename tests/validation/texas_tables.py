@@ -8,20 +8,19 @@ from __future__ import annotations
 
 import argparse
 import csv
-from dataclasses import replace
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, Optional
+from typing import Any, Iterable, Iterator, Optional
 
 import mvs
 import numpy as np
 from texas import (
-    CLOSED_FRAME, LEAFLETS, MIDDLE_FRAME, MM, PRESSURE, AbaqusFrame, Errors, Result, close,
-    data_folder, distances, errors_of, mesh_vertices, open_valve, read_frame, split_other_way,
-    triangle_of_quad,
+    CLOSED_FRAME, INPUT, LEAFLETS, MIDDLE_FRAME, MM, PRESSURE, AbaqusFrame, Errors, Result, close,
+    data_folder, distances, errors_of, kept_nodes, mesh_vertices, open_valve, read_frame, shape_of,
+    touching, triangle_of_quad,
 )
+from texas_parts import variants
 
 Row = dict[str, Any]
-Change = Callable[[mvs.Valve], None]
 
 LEVELS = (800, 1500)
 LONG_LEVELS = (4000, None)
@@ -50,22 +49,33 @@ def result_columns(result: Result) -> Row:
     }
 
 
+def measure_columns(shape: mvs.Snapshot) -> Row:
+    """What a closed shape measures."""
+    found = shape.measures
+    return {"crossings": found.intersections, "orifice": found.regurgitant_orifice_area * 1e6,
+            "coaptation": found.coaptation_area * 1e6, "leaflet area": found.leaflet_area * 1e6,
+            "tenting": found.tenting_height * MM}
+
+
 class Study:
     """The data, the settings and the closures that more than one table needs."""
 
-    def __init__(self, folder: Path, out: Path, long: bool, paths: int) -> None:
-        self.folder, self.out, self.long, self.paths = folder, out, long, paths
-        self.frame = read_frame(folder, CLOSED_FRAME)
-        self.finest: Optional[Result] = None
+    def __init__(self, options: argparse.Namespace) -> None:
+        self.folder, self.out, self.paths = options.data, options.out, options.paths
+        self.mesh_levels, self.solvers = options.levels, options.solvers
+        self.parts_named = options.parts
+        self.frame = read_frame(self.folder, CLOSED_FRAME)
+        self.by_newton: list[Result] = []
+        """closures of finer and finer levels"""
 
     def levels(self) -> Iterator[Row]:
         """Every level with every solver, and how far Abaqus' own frames are from each other."""
-        for vertices in LEVELS + (LONG_LEVELS if self.long else ()):
+        for vertices in self.mesh_levels:
             opened = open_valve(self.folder, vertices)
-            for solver in SOLVERS:
+            for solver in self.solvers:
                 result = close(opened, self.frame, solver)
                 if solver == "newton":
-                    self.finest = result
+                    self.by_newton.append(result)
                 yield {"vertices": mesh_vertices(opened), "solver": solver,
                        **result_columns(result)}
         middle = read_frame(self.folder, MIDDLE_FRAME)
@@ -77,7 +87,8 @@ class Study:
         """One part of the model changed at a time; `moved` is how far that moves the closed valve."""
         reference: Optional[Result] = None
         for title, options in variants(self.frame):
-            options = dict(options)
+            if not (reference is None or self.parts_named in title):
+                continue
             level = options.pop("vertices", PART_LEVEL)
             solver = options.pop("solver", "newton")
             increments = options.pop("increments", 1)
@@ -103,29 +114,62 @@ class Study:
                "from path 0, RMS": summary.node_rms * MM,
                "from path 0, max": summary.node_max * MM}
 
+    def closures(self) -> list[Result]:
+        """The closures by Newton that there are; one, if there are none."""
+        if not self.by_newton:
+            opened = open_valve(self.folder, self.mesh_levels[-1])
+            self.by_newton.append(close(opened, self.frame))
+        return self.by_newton
+
+    def contact(self) -> Iterator[Row]:
+        """Where leaflets touch and what that measures, ours by Newton and in Abaqus' frames.
+
+        `both`: nodes that touch in both, as 2 |A and B| / (|A| + |B|) over the nodes kept.
+        """
+        opened = open_valve(self.folder)
+        target = shape_of(self.frame, opened)
+        for result in self.closures():
+            closed = result.closed
+            rows, origin = kept_nodes(closed, len(self.frame.points))
+            own, other = touching(closed)[rows], self.frame.contact[origin]
+            found = closed.compare(target)
+            yield {"shape": f"ours, {mesh_vertices(closed)} vertices", "touching": own.mean(),
+                   "both": 2 * np.sum(own & other) / (own.sum() + other.sum()),
+                   **measure_columns(closed), "surface RMS": found.surface_rms * MM,
+                   "surface max": found.surface_max * MM}
+        for number in (MIDDLE_FRAME, CLOSED_FRAME):
+            frame = read_frame(self.folder, number)
+            yield {"shape": f"Abaqus, frame {number}", "touching": frame.contact.mean(),
+                   **measure_columns(shape_of(frame, opened))}
+
     def stress(self) -> Iterator[Row]:
-        """Largest principal stress on the full mesh, beside that of the shells of Abaqus."""
-        result = self.finest
-        if result is None or mesh_vertices(result.closed) < len(self.frame.points):
-            result = close(open_valve(self.folder), self.frame)
-        ours = stress_of_quads(result.closed, self.frame)
-        near = near_everywhere(result.errors, self.frame, 0.5e-3)
-        touching = self.frame.contact[self.frame.quads].any(axis=1)
-        for title, chosen in (("all", np.ones(len(ours), bool)), ("not in contact", ~touching),
-                              ("in contact", touching),
-                              ("not in contact, nodes within 0.5 mm", ~touching & near)):
-            yield {"shells": title, **stress_columns(ours, self.frame.stress, chosen)}
-        for k, name in enumerate(LEAFLETS):
-            chosen = ~touching & (self.frame.quad_leaflet == k)
-            yield {"shells": f"not in contact, {name}",
-                   **stress_columns(ours, self.frame.stress, chosen)}
+        """Largest principal stress: ours, what the frame reports, the law on the frame's shape.
+
+        All are of shells of the full mesh. The third is our law, in the middle of the sheet, where
+        Abaqus has its nodes: where it is not what the frame reports, the field is another one.
+        """
+        result = self.closures()[-1]
+        opened = open_valve(self.folder)
+        if mesh_vertices(result.closed) < len(self.frame.points):
+            result = close(opened, self.frame)
+        frame = self.frame
+        ours = stress_of_quads(result.closed, frame)
+        on_shape = stress_of_quads(shape_of(frame, opened), frame)
+        pressed = frame.contact[frame.quads].any(axis=1)
+        near = near_everywhere(result.errors, frame, 0.5e-3)
+        places = {"in contact": pressed, "not in contact": ~pressed,
+                  "not in contact, within 0.5 mm": ~pressed & near}
+        for of, a, b in (("ours, reported", ours, frame.stress),
+                         ("law on their shape, reported", on_shape, frame.stress),
+                         ("ours, law on their shape", ours, on_shape)):
+            for place, chosen in places.items():
+                yield {"of": f"{of}: {place}", **stress_columns(a[chosen], b[chosen])}
 
     def pictures(self) -> Iterator[Row]:
         """Maps and histogram of the finest closure by Newton that was made."""
         from texas_pictures import draw
 
-        result = self.finest or close(open_valve(self.folder, PART_LEVEL), self.frame)
-        for path in draw(result, self.frame, self.out):
+        for path in draw(self.closures()[-1], self.frame, self.out):
             yield {"picture": path}
 
 
@@ -140,75 +184,6 @@ def moved(result: Result, reference: Result, frame: AbaqusFrame) -> float:
     return float(np.sqrt(np.nanmean(d**2)))
 
 
-def variants(frame: AbaqusFrame) -> Iterable[tuple[str, dict[str, Any]]]:
-    """What is changed, one thing at a time: arguments of open_valve and of close."""
-    yield "nothing", {}
-    yield "mesh: 1,450 vertices", {"vertices": 1450}
-    yield "mesh: 1,550 vertices", {"vertices": 1550}
-    yield "mesh: quads cut along the other diagonal", {"change_mesh": split_other_way(frame)}
-    yield "solver: implicit", {"solver": "implicit"}
-    yield "path: 2 increments", {"increments": 2}
-    yield "path: 8 increments", {"increments": 8}
-    for thickness in (0.1e-3, 0.4e-3, 0.65e-3):
-        yield (f"contact thickness {thickness * MM:g} mm (0.234)",
-               {"change": setting("contact_thickness", lambda _, t=thickness: t)})
-    for factor in (0.25, 4):
-        yield (f"contact stiffness x {factor:g}",
-               {"change": setting("contact_stiffness", lambda old, f=factor: f * old)})
-    for scale in (0.0, 4.0, 10.0):
-        yield (f"bending scale {scale:g} (1)",
-               {"change": setting("bending_scale", lambda _, s=scale: s)})
-    yield "chordae: no slack", {"change": taut}
-    yield "chordae: linear, 40 MPa", {"change": linear_chordae}
-    yield "leaflets: neo-Hookean, same modulus at rest", {"change": neo_hookean}
-    yield "leaflets: bilinear membrane", {"change": lawful(mvs.LeafletLaw.BILINEAR)}
-    yield "leaflets: bilinear springs", {"change": lawful(mvs.LeafletLaw.SPRING)}
-    yield "founding model: springs, linear chordae", {"change": founding}
-
-
-def setting(name: str, value: Callable[[float], float]) -> Change:
-    """A constant of the valve made another one."""
-    return lambda valve: setattr(valve, name, value(getattr(valve, name)))
-
-
-def taut(valve: mvs.Valve) -> None:
-    """No chord is longer at rest than the distance of its ends."""
-    ends = valve.nodes[valve.chord_nodes]
-    straight = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    valve.chord_rest_length = np.minimum(valve.chord_rest_length, straight)
-
-
-def linear_chordae(valve: mvs.Valve) -> None:
-    """The founding paper's chordae, of 40 MPa, with the areas of the file."""
-    count = len(valve.chord_nodes)
-    valve.chord_law = np.full(count, mvs.ChordLaw.LINEAR, dtype=np.uint32)
-    valve.chord_young = np.full(count, 40e6)
-    valve.chord_constants = None
-
-
-def neo_hookean(valve: mvs.Valve) -> None:
-    """W = mu / 2 (I1 - 3) with mu = C0: the exponential of the file's law adds nothing at rest."""
-    valve.leaflets = [
-        replace(leaflet, law=mvs.LeafletLaw.NEO_HOOKEAN, constants=leaflet.constants[:1])
-        for leaflet in valve.leaflets
-    ]
-
-
-def lawful(law: mvs.LeafletLaw) -> Change:
-    """Leaflets of a law with its default constants, which the founding paper has: no tissue's."""
-
-    def change(valve: mvs.Valve) -> None:
-        valve.leaflets = [replace(each, law=law, constants=()) for each in valve.leaflets]
-
-    return change
-
-
-def founding(valve: mvs.Valve) -> None:
-    """Springs and linear chordae, everything else as in the file."""
-    lawful(mvs.LeafletLaw.SPRING)(valve)
-    linear_chordae(valve)
-
-
 def stress_of_quads(closed: mvs.Snapshot, frame: AbaqusFrame) -> np.ndarray:
     """(q,), Pa: the largest principal stress of each quad, the mean of its two triangles."""
     stress = closed.triangle_stress[:, 0]
@@ -220,13 +195,12 @@ def near_everywhere(errors: Errors, frame: AbaqusFrame, limit: float) -> np.ndar
     return (errors.distance[frame.quads] <= limit).all(axis=1)
 
 
-def stress_columns(ours: np.ndarray, theirs: np.ndarray, chosen: np.ndarray) -> Row:
-    """How two fields of stress compare: medians in kPa, ratio, correlation, ranks."""
-    a, b = ours[chosen], theirs[chosen]
+def stress_columns(a: np.ndarray, b: np.ndarray) -> Row:
+    """How two fields of stress compare: medians in kPa, median of the ratio, correlations."""
     ranks = [np.argsort(np.argsort(values)) for values in (a, b)]
     return {
-        "count": int(chosen.sum()), "ours kPa": np.median(a) / 1e3,
-        "Abaqus kPa": np.median(b) / 1e3, "median ratio": float(np.median(a[b > 0] / b[b > 0])),
+        "count": len(a), "first kPa": np.median(a) / 1e3, "second kPa": np.median(b) / 1e3,
+        "median ratio": float(np.median(a[b > 0] / b[b > 0])),
         "correlation": float(np.corrcoef(a, b)[0, 1]),
         "of ranks": float(np.corrcoef(*ranks)[0, 1]),
     }
@@ -260,6 +234,7 @@ TITLES = {
     "levels": "distance from Abaqus' closed frame, mm, by level and solver",
     "parts": f"one part of the model changed at a time, {PART_LEVEL} vertices",
     "spread": f"closures along several paths, {PART_LEVEL} vertices",
+    "contact": "where leaflets touch, mm and mm2",
     "stress": "largest principal Cauchy stress, full mesh",
     "pictures": "written",
 }
@@ -271,19 +246,33 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=data_folder(), metavar="DIR")
     parser.add_argument("--out", type=Path, default=Path("out/texas"), metavar="DIR")
     parser.add_argument("--only", default=",".join(TITLES), metavar="LIST",
-                        help="tables, with commas: levels,parts,spread,stress,pictures [all]")
+                        help="tables, with commas: levels,parts,spread,contact,stress,pictures [all]")
     parser.add_argument("--paths", type=int, default=4, metavar="N", help="of the spread [4]")
     parser.add_argument("--long", action="store_true",
                         help="also 4,000 vertices and the full mesh, and stress, which needs it")
-    arguments = parser.parse_args()
-    if not (arguments.data / "Healthy_QuasiStatic.inp").is_file():
-        print(f"skipped: no Texas valve in {arguments.data} (--data, or set MVS_TEST_DATA)")
+    parser.add_argument("--levels", metavar="LIST", help="vertices of the levels, or `full`")
+    parser.add_argument("--parts", default="", metavar="TEXT",
+                        help="of the parts only those whose name contains this")
+    parser.add_argument("--solvers", default=",".join(SOLVERS), metavar="LIST")
+    options = parser.parse_args()
+    names = options.only.split(",")
+    for name in set(names) - set(TITLES):
+        parser.error(f"no table is called {name!r}: there are {', '.join(TITLES)}")
+    options.solvers = options.solvers.split(",")
+    options.levels = levels_of(options)
+    if not (options.data / INPUT).is_file():
+        print(f"skipped: no Texas valve in {options.data} (--data, or set MVS_TEST_DATA)")
         return
-    study = Study(arguments.data, arguments.out, arguments.long, arguments.paths)
-    for name in arguments.only.split(","):
-        if name not in TITLES:
-            parser.error(f"no table is called {name!r}: there are {', '.join(TITLES)}")
-        if name == "stress" and not arguments.long:
+    study = Study(options)
+    for name in names:
+        if name == "stress" and None not in options.levels:
             print("\nstress: left out, it needs the full mesh (--long)")
-            continue
-        print_table(f"{name}: {TITLES[name]}", getattr(study, name)(), arguments.out)
+        else:
+            print_table(f"{name}: {TITLES[name]}", getattr(study, name)(), options.out)
+
+
+def levels_of(options: argparse.Namespace) -> tuple[Optional[int], ...]:
+    """The levels asked for, the finest last; None is the full mesh."""
+    if options.levels:
+        return tuple(None if each == "full" else int(each) for each in options.levels.split(","))
+    return LEVELS + (LONG_LEVELS if options.long else ())
