@@ -75,8 +75,20 @@ double zero_scale(const Map2 &p) {
   return static_cast<double>(p.cwiseAbs().maxCoeff());
 }
 
+// libmvs follows the papers up to an energy of 100 MPa, ten times what tears a leaflet, and goes on
+// as a parabola from there (libmvs/model/law.cpp). What lies past it is not compared, only counted.
+bool is_past_rupture(const Published &law, const Mat2 &f) {
+  return law.energy(f.cast<Real>()) > 99e6L;
+}
+
+void say_left_out(Study &study, size_t rows) {
+  if (rows == 0) return;
+  study.expects += "; " + std::to_string(rows) + " rows past an energy of 99 MPa are left out";
+}
+
 // Nominal and Cauchy stress of one law in every mode, beside the differentiated W.
-void add_law(const Published &law, Study &nominal, Study &cauchy, Study &inside) {
+size_t add_law(const Published &law, Study &nominal, Study &cauchy, Study &inside) {
+  size_t left_out = 0;
   const Patch patch(law, cells);
   double worst = 0;
   for (const Mode &mode : modes) {
@@ -84,6 +96,10 @@ void add_law(const Published &law, Study &nominal, Study &cauchy, Study &inside)
       const Mat2 f = map_of(mode, e, [&](int axis) { return free_stretch_of(patch, axis, 1 + e); });
       const Mat2 want =
           map_of(mode, e, [&](int a) { return static_cast<double>(free_stretch(law, a, 1 + e)); });
+      if (is_past_rupture(law, want)) {
+        ++left_out;
+        continue;
+      }
       double inner = 0;
       const Mat2 p = patch.stress(patch.mapped(f), inner), s = p * f.transpose();
       worst = std::max(worst, inner);
@@ -98,6 +114,7 @@ void add_law(const Published &law, Study &nominal, Study &cauchy, Study &inside)
     }
   }
   inside.rows.push_back({law.name, 0, 0, worst, 0, 1});
+  return left_out;
 }
 
 // Rows of a mode against a column of a table in kPa; rounded to its ten digits.
@@ -107,9 +124,10 @@ struct Column {
   bool cauchy;
 };
 
-void add_table(const std::string &file, const std::string &name, const Published &law,
-               const std::vector<Column> &columns, Study &study) {
+size_t add_table(const std::string &file, const std::string &name, const Published &law,
+                 const std::vector<Column> &columns, Study &study) {
   const Patch patch(law, cells);
+  size_t left_out = 0;
   for (const Cells &row : reference(file)) {
     const double e = std::stod(row[0]);
     const bool at_the_kink = std::abs(e - 0.25) < 1e-6 && law.name == "springs";
@@ -119,6 +137,10 @@ void add_table(const std::string &file, const std::string &name, const Published
         if (mode.name != c.mode) continue;
         const Mat2 f =
             map_of(mode, e, [&](int axis) { return free_stretch_of(patch, axis, 1 + e); });
+        if (is_past_rupture(law, f)) {
+          ++left_out;
+          continue;
+        }
         double inner = 0;
         Mat2 p = patch.stress(patch.mapped(f), inner);
         if (c.cauchy) p = p * f.transpose();
@@ -127,13 +149,14 @@ void add_table(const std::string &file, const std::string &name, const Published
       }
     }
   }
+  return left_out;
 }
 
 Study against_tables() {
   Study s = study_of("laws_tables", "Laws through the patch against the tables");
   s.source = "shared/data/verification/a_bilinear.csv, a_mny_anterior.csv, a_mny_posterior.csv";
-  add_table("a_bilinear.csv", "springs", published("springs"), {{"equibiaxial, along", 5, false}},
-            s);
+  size_t left_out = add_table("a_bilinear.csv", "springs", published("springs"),
+                              {{"equibiaxial, along", 5, false}}, s);
   add_table(
       "a_bilinear.csv", "bilinear", published("bilinear"),
       {{"uniaxial along", 2, false}, {"uniaxial along", 3, true}, {"equibiaxial, along", 4, false}},
@@ -147,8 +170,9 @@ Study against_tables() {
       {"strip across, along", 13, true}, {"strip across, across", 14, true}};
   for (const std::string leaflet : {"anterior", "posterior"}) {
     const std::string name = "May-Newman and Yin, " + leaflet;
-    add_table("a_mny_" + leaflet + ".csv", name, published(name), yin, s);
+    left_out += add_table("a_mny_" + leaflet + ".csv", name, published(name), yin, s);
   }
+  say_left_out(s, left_out);
   return s;
 }
 
@@ -168,7 +192,10 @@ std::vector<Study> law_studies() {
   // a fibre strain of 1e-15 is stiff beside a shear stress that is cubic in a shear of 0.01
   inside.tolerance = 1e-7;
   inside.expects = "rounding: the irregular patch is in balance";
-  for (const Published &law : published_laws()) add_law(law, nominal, cauchy, inside);
+  size_t left_out = 0;
+  for (const Published &law : published_laws()) left_out += add_law(law, nominal, cauchy, inside);
+  say_left_out(nominal, left_out);
+  say_left_out(cauchy, left_out);
   return {nominal, cauchy, inside, against_tables()};
 }
 
