@@ -2,7 +2,6 @@
 #include "tissue.h"
 
 #include <algorithm>
-#include <array>
 
 #include "commands.h"
 
@@ -10,8 +9,13 @@ namespace cli {
 namespace {
 
 // In the order of MVS_LEAFLET_*, from 1.
-constexpr std::array<const char *, 6> laws = {"spring",         "bilinear", "fung",
-                                              "may_newman_yin", "prot",     "neo_hookean"};
+std::vector<std::string> known_laws() {
+  std::vector<std::string> words;
+  mvs_law law = {};
+  law.struct_size = sizeof law;
+  for (uint32_t k = 1; mvs_leaflet_law(k, &law) == MVS_OK; ++k) words.emplace_back(law.word);
+  return words;
+}
 
 std::vector<uint32_t> law_numbers(const mvs::Snapshot &valve) {
   const auto view = valve.view<uint32_t>(MVS_LEAFLET_LAW);
@@ -22,6 +26,7 @@ std::vector<uint32_t> law_numbers(const mvs::Snapshot &valve) {
 
 void add_tissue_option(CLI::App &command, std::string &choice) {
   std::vector<std::string> words = {"file", "membrane"};
+  const std::vector<std::string> laws = known_laws();
   words.insert(words.end(), laws.begin(), laws.end());
   command
       .add_option(
@@ -33,6 +38,7 @@ void add_tissue_option(CLI::App &command, std::string &choice) {
 
 void set_tissue(mvs::Sim &sim, const std::string &choice) {
   if (choice == "file") return;
+  const std::vector<std::string> laws = known_laws();
   const mvs::Snapshot before = sim.snapshot();
   const std::vector<uint32_t> now = law_numbers(before);
   const std::vector<mvs_part> leaflets = before.parts(MVS_PART_LEAFLET);
@@ -51,6 +57,7 @@ void set_tissue(mvs::Sim &sim, const std::string &choice) {
 }
 
 std::string laws_of(const mvs::Snapshot &valve) {
+  const std::vector<std::string> laws = known_laws();
   std::string text, last;
   for (const uint32_t law : law_numbers(valve)) {
     if (last == laws[law - 1]) continue;

@@ -50,6 +50,28 @@ enum {
   MVS_LEAFLET_NEO_HOOKEAN = 6
 };
 
+/* A constant of a law, in the order of `constants`. */
+typedef struct mvs_law_constant {
+  const char *key;  /* its word in files: "c0" */
+  const char *unit; /* "Pa", or "" for a pure number */
+  double fallback;  /* what 0 means */
+  double low, high; /* outside of them a valve is refused */
+} mvs_law_constant;
+
+/* What a law says of itself; texts live as long as the library. */
+typedef struct mvs_law {
+  uint32_t struct_size;
+  uint32_t constant_count; /* 0 to 8 */
+  const char *word;        /* in files and commands: "fung" */
+  const char *name;        /* for people: "Fung-type membrane" */
+  mvs_law_constant constants[8];
+} mvs_law;
+
+/* Describes the law MVS_LEAFLET_* or MVS_CHORD_* of that number; MVS_E_ARGUMENT for one that there
+ * is not: count up from 1 to see all. */
+MVS_API mvs_result mvs_leaflet_law(uint32_t law, mvs_law *description);
+MVS_API mvs_result mvs_chord_law(uint32_t law, mvs_law *description);
+
 /* A leaflet and its tissue. Zero fields take the defaults in brackets. */
 typedef struct mvs_leaflet_desc {
   const char *name; /* "A", "P", or free text; required, unique */

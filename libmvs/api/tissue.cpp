@@ -1,10 +1,36 @@
-// Another tissue for a leaflet.
+// Another tissue for a leaflet, and what laws say of themselves.
 #include "api/commit.h"
+#include "api/structs.h"
 #include "api/valve_desc.h"
+#include "model/chord_law.h"
 
 using namespace mvs;
 
+namespace {
+
+template <typename Law>
+void describe(const Law *law, uint32_t number, const char *kind, mvs_law *description) {
+  MVS_MUST(law, MVS_E_ARGUMENT, "law", "there is no law %u of %s", number, kind);
+  mvs_law out = {};
+  out.word = law->word;
+  out.name = law->name;
+  for (const Constant &c : law->constants) {
+    out.constants[out.constant_count++] = {c.key, c.unit, c.fallback, c.low, c.high};
+  }
+  write_struct(description, out, "description");
+}
+
+}  // namespace
+
 extern "C" {
+
+mvs_result mvs_leaflet_law(uint32_t law, mvs_law *description) {
+  return guarded([&] { describe(find_leaflet_law(law), law, "leaflets", description); });
+}
+
+mvs_result mvs_chord_law(uint32_t law, mvs_law *description) {
+  return guarded([&] { describe(find_chord_law(law), law, "chordae", description); });
+}
 
 mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue) {
   return guarded_call(sim, [&](mvs_sim &s) {

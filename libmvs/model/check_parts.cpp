@@ -95,9 +95,8 @@ void check_law(const std::string &part, uint32_t id, const Law *law, const Value
                   {c.low, c.high, c.unit, is_modulus ? "moduli are in Pa" : "no tissue has that"},
                   faults);
     } else if (values[k] != 0) {
-      faults.add(part, "%s has a constant %zu of %g, but its law (%.*s) has only %zu: make it 0",
-                 part.c_str(), k, values[k], static_cast<int>(law->word.size()), law->word.data(),
-                 law->constants.size());
+      faults.add(part, "%s has a constant %zu of %g, but its law (%s) has only %zu: make it 0",
+                 part.c_str(), k, values[k], law->word, law->constants.size());
     }
   }
 }

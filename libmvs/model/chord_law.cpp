@@ -80,10 +80,10 @@ constexpr Constant ogden_constants[] = {
     {"mu3", "constant mu3", "Pa", 0, -mu, mu}, {"alpha3", "constant alpha3", "", 0, -alpha, alpha}};
 constexpr Constant table_constants[] = {{"curve", "curve", "", 0, 0, 4294967294.0}};
 
-constexpr ChordLaw laws[] = {{MVS_CHORD_LINEAR, "linear", {}},
-                             {MVS_CHORD_BILINEAR, "bilinear", bilinear_constants},
-                             {MVS_CHORD_OGDEN, "ogden", ogden_constants},
-                             {MVS_CHORD_TABLE, "table", table_constants}};
+constexpr ChordLaw laws[] = {{MVS_CHORD_LINEAR, "linear", "linear cable", {}},
+                             {MVS_CHORD_BILINEAR, "bilinear", "bilinear cable", bilinear_constants},
+                             {MVS_CHORD_OGDEN, "ogden", "Ogden", ogden_constants},
+                             {MVS_CHORD_TABLE, "table", "measured curve", table_constants}};
 
 }  // namespace
 

@@ -14,7 +14,7 @@ struct Axial {
 
 struct ChordLaw {
   uint32_t id;  // MVS_CHORD_*
-  std::string_view word;
+  const char *word, *name;
   std::span<const Constant> constants;
 };
 

@@ -13,7 +13,7 @@ using Constants = std::array<double, 8>;
 
 // One constant of a law. `key` is its word in files, `what` its name in sentences.
 struct Constant {
-  std::string_view key;
+  const char *key;
   const char *what;
   const char *unit;
   double fallback, low, high;
@@ -28,7 +28,7 @@ struct Response {
 
 struct LeafletLaw {
   uint32_t id;  // MVS_LEAFLET_*
-  std::string_view word;
+  const char *word;
   const char *name;
   std::span<const Constant> constants;
   Response (*response)(const Constants &c, double i1, double i4);  // null: a spring sheet

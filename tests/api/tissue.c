@@ -1,5 +1,6 @@
 /* Another tissue for a leaflet. */
 #include <math.h>
+#include <string.h>
 
 #include "check.h"
 #include "funnel.h"
@@ -129,12 +130,28 @@ static void what_is_no_tissue_changes_nothing(void) {
   mvs_snapshot_release(after);
 }
 
+static void laws_say_what_they_are(void) {
+  mvs_law law = {0};
+  law.struct_size = sizeof law;
+  MUST(mvs_leaflet_law(MVS_LEAFLET_FUNG, &law));
+  CHECK(strcmp(law.word, "fung") == 0 && law.constant_count == 3);
+  CHECK(strcmp(law.constants[1].key, "c1") == 0 && strcmp(law.constants[1].unit, "Pa") == 0);
+  CHECK(law.constants[1].fallback == 124 && law.constants[1].low > 0);
+  MUST(mvs_chord_law(MVS_CHORD_BILINEAR, &law));
+  CHECK(strcmp(law.word, "bilinear") == 0 && law.constants[0].fallback == 0.05);
+  CHECK(law.struct_size == sizeof law);
+  MUST_FAIL(mvs_leaflet_law(0, &law), MVS_E_ARGUMENT, "no law 0 of leaflets");
+  MUST_FAIL(mvs_chord_law(5, &law), MVS_E_ARGUMENT, "no law 5 of chordae");
+  MUST_FAIL(mvs_leaflet_law(1, NULL), MVS_E_ARGUMENT, "description");
+}
+
 int main(void) {
   MUST(mvs_create(NULL, &sim));
   one_leaflet_changes_and_the_other_stays();
   springs_become_the_membrane_of_their_curve();
   a_valve_closes_in_every_law_of_tissue();
   what_is_no_tissue_changes_nothing();
+  laws_say_what_they_are();
   mvs_destroy(sim);
   return finish("tissue");
 }

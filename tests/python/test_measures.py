@@ -109,3 +109,14 @@ def test_a_shape_is_no_distance_from_itself_and_some_from_another(opened, closed
     direct = np.linalg.norm(opened.node_position - closed.node_position, axis=1)
     leaflet = np.unique(opened.triangle_nodes)
     assert other.node_max == pytest.approx(direct[leaflet].max(), rel=1e-9)
+
+
+def test_laws_say_what_their_constants_are():
+    law = mvs.leaflet_law(mvs.LeafletLaw.FUNG)
+    assert law.word == "fung"
+    assert [(c.key, c.unit) for c in law.constants] == [("c0", "Pa"), ("c1", "Pa"), ("c2", "")]
+    assert [c.key for c in mvs.chord_law(mvs.ChordLaw.BILINEAR).constants] == ["kink", "high"]
+    for law in mvs.LeafletLaw:
+        assert all(c.low <= c.default <= c.high for c in mvs.leaflet_law(law).constants)
+    with pytest.raises(mvs.ArgumentError, match="no law 9"):
+        mvs.leaflet_law(9)

@@ -13,7 +13,7 @@ SI units throughout: m, kg, s, N, Pa, rad.
 """
 
 from . import _core, ops
-from ._core import Simulator, Snapshot, Spread, check_valve, chord_limits
+from ._core import Simulator, Snapshot, Spread, check_valve, chord_law, chord_limits, leaflet_law
 from .editing import valve_of
 from .errors import (
     ArgumentError,
@@ -44,6 +44,8 @@ from .values import (
     Fault,
     Frame,
     HistoryEntry,
+    Law,
+    LawConstant,
     Leaflet,
     LeafletLaw,
     Load,
@@ -87,6 +89,8 @@ __all__ = [
     "IdError",
     "InternalError",
     "IoError",
+    "Law",
+    "LawConstant",
     "Leaflet",
     "LeafletLaw",
     "LimitError",
@@ -113,9 +117,11 @@ __all__ = [
     "Valve",
     "VersionError",
     "check_valve",
+    "chord_law",
     "chord_limits",
     "definition_of",
     "features",
+    "leaflet_law",
     "ops",
     "unit_of",
     "valve_of",

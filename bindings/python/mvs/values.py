@@ -304,6 +304,26 @@ class Frame:
 
 
 @dataclasses.dataclass(frozen=True)
+class LawConstant:
+    """A constant of a law: its word in files, its unit ("" for a pure number), default and range."""
+
+    key: str
+    unit: str
+    default: float
+    low: float
+    high: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Law:
+    """A law of tissue: its word in files and commands, its name, and its constants in order."""
+
+    word: str
+    name: str
+    constants: tuple[LawConstant, ...]
+
+
+@dataclasses.dataclass(frozen=True)
 class Leaflet:
     """A leaflet and its tissue; zeros take the library's defaults.
 

@@ -116,16 +116,26 @@ def _image(shown: Picture, title: str) -> str:
     return f'<img alt="{words}" src="data:image/png;base64,{data}">'
 
 
+def _tissues(closed: mvs.Snapshot) -> str:
+    """The laws of the leaflets in words, each once."""
+    told = {}
+    for number, row in zip(closed.leaflet_law, closed.leaflet_constants):
+        law = mvs.leaflet_law(int(number))
+        values = ", ".join(
+            f"{c.key} {value / 1e3 if c.unit == 'Pa' else value:g}{' kPa' if c.unit else ''}"
+            for c, value in zip(law.constants, row[1:])
+        )
+        told[f"{law.name}, {row[0] * 1e3:g} mm thick, {values}"] = None
+    return "; ".join(told)
+
+
 def _settings(cases: list[Case]) -> str:
     items = []
     for case in cases:
         closed = case.closed
         density, thickness, stiffness, bending = closed.valve_constants
-        sheet = closed.leaflet_constants[0]
         items.append(
-            f"<li><strong>{html.escape(case.title)}</strong>: spring sheet {sheet[0] * 1e3:g} mm "
-            f"thick, {sheet[1] / 1e3:g} kPa below and {sheet[2] / 1e3:g} kPa above a strain of "
-            f"{sheet[3]:g}; chordae {closed.chord_young.mean() / 1e6:g} MPa, mean cross-section "
+            f"<li><strong>{html.escape(case.title)}</strong>: {_tissues(closed)}; chordae {closed.chord_young.mean() / 1e6:g} MPa, mean cross-section "
             f"{closed.chord_area.mean() * 1e6:.2f} mm²; density {density:g} kg/m³; leaflets touch "
             f"at {thickness * 1e3:g} mm, contact stiffness {stiffness / 1e3:g} kPa; bending scale "
             f"{bending:g}; snapshot <code>{closed.hash}</code></li>\n"

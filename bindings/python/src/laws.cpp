@@ -1,0 +1,39 @@
+#include "laws.h"
+
+#include <mvs/valve.h>
+
+#include "errors.h"
+
+namespace mvs_python {
+namespace {
+
+namespace py = pybind11;
+
+using Describe = mvs_result (*)(uint32_t law, mvs_law *description);
+
+py::object law_value(Describe describe, uint32_t number) {
+  mvs_law law{};
+  law.struct_size = sizeof law;
+  must(describe(number, &law));
+  const py::module_ values = py::module_::import("mvs.values");
+  py::list constants;
+  for (uint32_t k = 0; k < law.constant_count; ++k) {
+    const mvs_law_constant &c = law.constants[k];
+    constants.append(values.attr("LawConstant")(c.key, c.unit, c.fallback, c.low, c.high));
+  }
+  return values.attr("Law")(law.word, law.name, py::tuple(constants));
+}
+
+}  // namespace
+
+void bind_laws(py::module_ &module) {
+  module.def(
+      "leaflet_law", [](uint32_t law) { return law_value(&mvs_leaflet_law, law); }, py::arg("law"),
+      "What a LeafletLaw says of itself (mvs.Law): its constants, units, defaults and ranges. "
+      "ArgumentError for a law that there is not.");
+  module.def(
+      "chord_law", [](uint32_t law) { return law_value(&mvs_chord_law, law); }, py::arg("law"),
+      "What a ChordLaw says of itself (mvs.Law). ArgumentError for a law that there is not.");
+}
+
+}  // namespace mvs_python
