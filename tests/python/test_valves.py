@@ -38,7 +38,7 @@ def spread(array):
 
 def padded_rows(array):
     """The same values with space between the rows only: read in place."""
-    wide = np.zeros((len(array), 4) if array.ndim == 2 else (len(array), 2), dtype=array.dtype)
+    wide = np.zeros((len(array), 2 if array.ndim == 1 else array.shape[1] + 1), dtype=array.dtype)
     if array.ndim == 1:
         wide[:, 0] = array
         return wide[:, 0]
