@@ -5,8 +5,8 @@ bending, where one face wants to thicken and the other to thin, an almost incomp
 (bulk modulus 20 MPa beside a shear modulus of 37 kPa) cannot follow, and the shell is as stiff in
 bending as its bulk modulus says. This is the thickness locking of six-parameter shells (Buechter,
 Ramm and Roehl, Int. J. Numer. Methods Eng. 37, 1994), (K + 4 G / 3) (1 - nu^2) / E = 136 times too
-stiff here. Let the volume change only as a mean over each element (the mean dilatation of Nagtegaal,
-Parks and Rice, 1974), and the locking is gone.
+stiff here. Let the volume change only as a mean over each element (the mean dilatation of
+Nagtegaal, Parks and Rice, 1974), and the locking is gone.
 
 The test: nodes of FEBio's shape that touch another leaflet stay where they are, and all others
 find their rest under the same pressure, chordae and tissue. Where they stay, it was at rest.
@@ -132,7 +132,8 @@ class Case:
         stiffness = 31.416 / self.theirs.rest_length
         gradient = np.zeros_like(nodes)
         np.add.at(gradient, leaflet, (stiffness * (u + root) / 2 / length)[:, None] * way)
-        return float((stiffness * (u * u + u * root + s * s * np.arcsinh(u / s)) / 4).sum()), gradient
+        energy = stiffness * (u * u + u * root + s * s * np.arcsinh(u / s)) / 4
+        return float(energy.sum()), gradient
 
     def push(self, nodes: np.ndarray) -> np.ndarray:
         """Forces of the pressure on the nodes of the mesh."""
