@@ -1,0 +1,50 @@
+"""Finer meshes come to the same closed shape (tests/validation/convergence.py); run time against
+error (tests/bench/time_error.py) keeps working."""
+
+import csv
+
+import mvs
+import pytest
+from conftest import ROOT
+
+
+@pytest.fixture(scope="module")
+def levels():
+    import convergence
+
+    return convergence.close_levels(convergence.shipped("bilinear"), 3)
+
+
+def test_every_level_comes_to_rest_without_crossings(levels):
+    assert all(level.stats.converged for level in levels)
+    assert all(level.closed.measures.intersections == 0 for level in levels)
+
+
+def test_each_level_is_nearer_to_the_next(levels):
+    import convergence
+
+    # linear triangles have 2 where nothing touches; borders of contact leave between 1 and 2
+    assert 1 < convergence.orders(levels)[0] < 2.5
+    assert "6276" in convergence.table("membrane", levels)
+
+
+def test_a_run_has_its_row_and_its_place_in_the_picture(levels, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "tests" / "bench"))
+    import time_error
+
+    subject = time_error.Subject(
+        "shipped", ("bilinear",),
+        lambda law, k: time_error.refined(mvs.Simulator.generate, law, k),
+        1, mvs.SYSTOLE_PA, {"bilinear": levels[-1].closed}, None,
+    )
+    rows = [time_error.run(subject, "bilinear", solver, 0, 1e-3)
+            for solver in ("newton", "implicit")]
+    time_error.write(rows, tmp_path / "table.csv")
+    time_error.draw(rows, tmp_path / "picture.png")
+    with (tmp_path / "table.csv").open() as file:
+        read = list(csv.DictReader(file))
+    assert [row["solver"] for row in read] == ["newton", "implicit"]
+    assert min(float(row["times_fastest"]) for row in read) == 1
+    # 432 vertices lie 0.09 mm from 6,276, whoever closes them
+    assert all(0.05 < float(row["error_rms_mm"]) < 0.15 for row in read)
+    assert (tmp_path / "picture.png").stat().st_size > 10_000
