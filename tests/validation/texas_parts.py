@@ -31,8 +31,9 @@ def variants(frame: AbaqusFrame) -> Iterator[tuple[str, dict[str, Any]]]:
     yield "chordae: no slack", {"change": taut}
     yield "chordae: linear, 40 MPa", {"change": linear_chordae}
     yield "leaflets: neo-Hookean, same modulus at rest", {"change": neo_hookean}
-    yield "leaflets: bilinear membrane", {"change": lawful(mvs.LeafletLaw.BILINEAR)}
-    yield "leaflets: bilinear springs", {"change": lawful(mvs.LeafletLaw.SPRING)}
+    for name, law in (("membrane", mvs.LeafletLaw.BILINEAR), ("springs", mvs.LeafletLaw.SPRING)):
+        yield f"leaflets: bilinear {name}, 0.1 and 6 MPa", {"change": lawful(law)}
+        yield f"leaflets: bilinear {name}, fitted", {"change": fitted(law)}
     yield "founding model: springs, linear chordae", {"change": founding}
 
 
@@ -71,6 +72,54 @@ def lawful(law: mvs.LeafletLaw) -> Change:
         valve.leaflets = [replace(each, law=law, constants=()) for each in valve.leaflets]
 
     return change
+
+
+def fitted(law: mvs.LeafletLaw) -> Change:
+    """Bilinear leaflets with the tangents of the file's law, pulled one way, at rest and loaded."""
+    constants_of = two_lines if law == mvs.LeafletLaw.SPRING else smooth_lines
+
+    def change(valve: mvs.Valve) -> None:
+        valve.leaflets = [
+            replace(each, law=law, constants=constants_of(*each.constants[:3]))
+            for each in valve.leaflets
+        ]
+
+    return change
+
+
+FIT_STRESS = 50e3
+"""Pa, nominal: above the median of the closed leaflets, which is 36 kPa (Cauchy)"""
+
+
+def two_lines(c0: float, c1: float, c2: float) -> tuple[float, ...]:
+    """Of springs: Young's moduli below and above the kink, Pa, and its strain."""
+    stretch, slope = loaded_tangent(c0, c1, c2)
+    low = 3 * c0
+    return low, slope, (slope * (stretch - 1) - FIT_STRESS) / (slope - low)
+
+
+def smooth_lines(c0: float, c1: float, c2: float) -> tuple[float, ...]:
+    """Of the membrane dW/dI1 = c + a max(0, I1 - Ic), smoothed as by default: c, a, Ic, s.
+
+    Pulled one way the nominal stress is 2 g dW/dI1 with g = l - 1/l^2, and dI1/dl = 2 g.
+    """
+    stretch, slope = loaded_tangent(c0, c1, c2)
+    g, of_g = stretch - stretch**-2, 1 + 2 * stretch**-3
+    a = (slope - FIT_STRESS * of_g / g) / (4 * g**2)
+    c = c0 / 2
+    return c, a, stretch**2 + 2 / stretch - (FIT_STRESS / (2 * g) - c) / a, 0.006
+
+
+def loaded_tangent(c0: float, c1: float, c2: float) -> tuple[float, float]:
+    """Stretch of the file's law pulled one way by FIT_STRESS, and the slope there, Pa."""
+    stretch = np.linspace(1, 2, 100_001)
+    more = stretch**2 + 2 / stretch - 3
+    # far beyond that stress exp would leave the numbers
+    slope_of_w = c0 / 2 + c1 * c2 * more * np.exp(np.minimum(c2 * more**2, 50))
+    nominal = 2 * slope_of_w * (stretch - stretch**-2)
+    k = int(np.searchsorted(nominal, FIT_STRESS))
+    slope = (nominal[k + 1] - nominal[k - 1]) / (stretch[k + 1] - stretch[k - 1])
+    return float(stretch[k]), float(slope)
 
 
 def founding(valve: mvs.Valve) -> None:
