@@ -12,6 +12,7 @@ namespace {
 
 constexpr double longest_step = 1e-3;  // m a node may go in one implicit step
 constexpr int halvings = 6;
+constexpr double farthest_step = 1;  // m; beyond it an explicit step has blown up
 
 }  // namespace
 
@@ -141,10 +142,9 @@ void ExplicitStepper::step(State &state, double dt, double damping, SolveStats &
   }
   stats.energy = potential_.gradient(state.x, g_, stats.phase_s);
   stats.residual = largest_free(*model_, g_);
-  MVS_MUST(std::isfinite(stats.residual), MVS_E_DIVERGED, "step",
-           "the explicit solver blew up: its time step is too large for this valve");
   std::vector<Vec3> boundary;
   advance_boundary(*model_, state, dt, boundary);
+  bool sane = std::isfinite(stats.residual);
   for (uint32_t i = 0; i < state.x.size(); ++i) {
     if (model_->topology.fixed[i]) {
       state.v[i] = boundary[i] / dt;
@@ -153,7 +153,10 @@ void ExplicitStepper::step(State &state, double dt, double damping, SolveStats &
     }
     state.v[i] += dt * (-g_[i] / model_->node_mass[i] - damping * state.v[i]);
     state.x[i] += dt * state.v[i];
+    sane = sane && dt * state.v[i].norm() < farthest_step;
   }
+  MVS_MUST(sane, MVS_E_DIVERGED, "step",
+           "the explicit solver blew up: its time step is too large for this valve");
   stats.kinetic = kinetic_energy(*model_, state.v);
   stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
 }

@@ -147,3 +147,16 @@ def test_stats_and_load_can_be_read_back(sim):
     assert sim.stats == stats
     assert stats.iterations <= 2
     assert set(stats.phase_s) >= {"terms", "factor", "solve"}
+
+
+def test_an_explicit_step_too_large_for_a_stiff_valve_says_so(real_valves):
+    folder = real_valves / "texas_trivalve_1.1_healthy"
+    if not folder.is_dir():
+        pytest.skip(f"no {folder}")
+    with mvs.Simulator() as sim:
+        sim.load(folder / "Healthy_QuasiStatic.inp")
+        sim.coarsen(vertices=800)
+        sim.set_load(3060.0)
+        # nodes were a billion km away before a force was no number, and the grid had no room
+        with pytest.raises(mvs.DivergedError, match="time step is too large"):
+            sim.settle(solver="explicit", dt=8e-6, max_iterations=2000)
