@@ -63,11 +63,12 @@ typedef void (*mvs_fault_fn)(void *user, const char *part, const char *sentence)
  * out of range) come alone. `fault` and `user` are nullable. */
 MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void *user);
 
-/* Gives a leaflet, or all of them where `leaflet` is 0, another tissue: law, thickness and constants
- * of `tissue`, its name null and its id 0. A thickness of 0 leaves it, another one scales that of
- * each triangle. Constants of 0 take the law's defaults; MVS_LEAFLET_BILINEAR without constants, on
- * a leaflet of springs, becomes the membrane that follows the curve of those springs. Shape, chordae
- * and load stay; the history is emptied, as no operation can be undone into another tissue. */
+/* Gives a leaflet, or all of them where `leaflet` is 0, another tissue: law, thickness and
+ * constants of `tissue`, its name null and its id 0. A thickness of 0 leaves it, another one scales
+ * that of each triangle. Constants of 0 take the law's defaults; MVS_LEAFLET_BILINEAR without
+ * constants, on a leaflet of springs, becomes the membrane that follows the curve of those springs.
+ * Shape, chordae and load stay; the history is emptied, as no operation can be undone into another
+ * tissue. */
 MVS_API mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue);
 
 /* The load on the valve. */

@@ -175,9 +175,7 @@ TEST_CASE("two_chordae_made_one_pull_like_both") {
   Chord moved = *second;
   moved.rest_length += (x[chords[0].b] - x[moved.a]).norm() - (x[moved.b] - x[moved.a]).norm();
   for (const double d : {0.04, 0.06}) {  // m: both are taut
-    const auto pull = [&](const Chord &c) {
-      return c.young * c.area * (d / c.rest_length - 1);
-    };
+    const auto pull = [&](const Chord &c) { return c.young * c.area * (d / c.rest_length - 1); };
     CHECK(pull(left[0]) == doctest::Approx(pull(chords[0]) + pull(moved)).epsilon(1e-12));
   }
 }
