@@ -30,8 +30,9 @@ Response exponential(double scale, double q, double q1, double q11, double q4, d
           second * q1 * q4, second * q4 * q4 + first * q44};
 }
 
-// The smooth fit to the paper's curve: c 18.49 kPa, a 3146 kPa, Ic 3.1611, s 0.006 (its stress lies
-// within 3 % of the curve except at the kink, which it rounds).
+// The smooth fit to the paper's curve: c 18.49 kPa, a 3146 kPa, Ic 3.1611, s 0.006 (its
+// uniaxial stress lies within 12 % of the curve except at the kink, which it rounds: the table of
+// tests/verification).
 Response bilinear(const Constants &k, double i1, double) {
   const double c = k[0], a = k[1], x = i1 - k[2], s2 = k[3] * k[3], x0 = 3 - k[2];
   const double root = std::sqrt(x * x + s2), root0 = std::sqrt(x0 * x0 + s2);

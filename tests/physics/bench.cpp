@@ -3,6 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
 
 #include <mvs/sim.h>
 
@@ -54,6 +58,24 @@ Model clamped_rings(uint32_t rings, const std::function<void(Valve &)> &change,
 }
 
 }  // namespace
+
+std::vector<Cells> reference_table(const std::string &file) {
+  const char *folder = std::getenv("MVS_TEST_DATA");
+  const std::string data = folder != nullptr ? folder : MVS_SOURCE_DIR "/../shared/data";
+  std::ifstream in(data + "/verification/" + file);
+  std::vector<Cells> rows;
+  std::string line, cell;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    while (std::getline(cells, cell, ',')) rows.back().push_back(cell);
+  }
+  if (rows.empty()) {
+    std::cerr << "skipped: no " << file << " in MVS_TEST_DATA or ../shared/data\n";
+  }
+  return rows;
+}
 
 Positions Random::vectors(size_t count, double size) {
   Positions result;

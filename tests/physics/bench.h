@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "model/model.h"
 #include "physics/blocks.h"
@@ -22,6 +23,11 @@ using Positions = std::vector<Vec3>;
 inline doctest::Approx about(double value, double relative) {
   return doctest::Approx(value).epsilon(relative).scale(0);
 }
+
+// The rows below the heading of a table of the shared data; none, and a line on stderr that says
+// so, where it is missing.
+using Cells = std::vector<std::string>;
+std::vector<Cells> reference_table(const std::string &file);
 
 // The same numbers on every machine, unlike those of std's distributions.
 class Random {

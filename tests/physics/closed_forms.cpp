@@ -3,9 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "bench.h"
@@ -15,25 +12,6 @@ using namespace mvs;
 using namespace mvs::test;
 
 namespace {
-
-using Row = std::vector<std::string>;
-
-// The rows below the heading of a table, or none, and says so.
-std::vector<Row> table(const std::string &file) {
-  const char *folder = std::getenv("MVS_TEST_DATA");
-  const std::string data = folder != nullptr ? folder : MVS_SOURCE_DIR "/../shared/data";
-  std::ifstream in(data + "/verification/" + file);
-  std::vector<Row> rows;
-  std::string line, cell;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    std::istringstream cells(line);
-    rows.emplace_back();
-    while (std::getline(cells, cell, ',')) rows.back().push_back(cell);
-  }
-  if (rows.empty()) MESSAGE("skipped: no " << file << " in MVS_TEST_DATA or ../shared/data");
-  return rows;
-}
 
 Chord chord_between(uint32_t a, uint32_t b) {
   Chord chord;
@@ -60,7 +38,7 @@ void make_linear_membrane(Valve &valve) {
 }  // namespace
 
 TEST_CASE("the_bilinear_law_is_the_curve_of_the_paper") {
-  for (const Row &row : table("a_bilinear.csv")) {
+  for (const Cells &row : reference_table("a_bilinear.csv")) {
     const double strain = std::stod(row[0]), kpa = std::stod(row[1]);
     CAPTURE(strain);
     // the table has ten digits

@@ -36,7 +36,7 @@ struct Exact {
 };
 std::vector<Exact> table() {
   std::vector<Exact> rows;
-  for (const Cells &row : reference("e_heavy_cantilever.csv")) {
+  for (const test::Cells &row : test::reference_table("e_heavy_cantilever.csv")) {
     rows.push_back({std::stod(row[0]), std::stod(row[1]), std::stod(row[3])});
   }
   return rows;

@@ -84,7 +84,7 @@ Study catenary() {
   s.tolerance = 0.01;
   s.order_low = 1.8;
   s.order_high = 2.2;
-  for (const Cells &row : reference("c_catenary.csv")) {
+  for (const test::Cells &row : test::reference_table("c_catenary.csv")) {
     const double span = 1e-3 * std::stod(row[0]), length = 1e-3 * std::stod(row[1]);
     const double weight = 0.1;
     const Vec3 end(span, 0, 1e-3 * std::stod(row[2]));
@@ -108,7 +108,7 @@ Study elastic_catenary() {
   s.quantity = "sag, m; horizontal pull, N";
   s.x = "weight, N, plus slack, mm";
   s.source = "shared/data/verification/c_elastic_catenary.csv";
-  for (const Cells &row : reference("c_elastic_catenary.csv")) {
+  for (const test::Cells &row : test::reference_table("c_elastic_catenary.csv")) {
     const double span = 1e-3 * std::stod(row[0]), length = 1e-3 * std::stod(row[1]);
     const double weight = std::stod(row[2]), ea = std::stod(row[3]);
     const double at = weight + 1e3 * (length - span);
@@ -129,7 +129,7 @@ Study tension_only() {
   s.x = "load, N";
   s.expects = "exact: chordae are straight; the table has ten digits";
   s.tolerance = 1e-7;
-  for (const Cells &row : reference("c_tension_only_chords.csv")) {
+  for (const test::Cells &row : test::reference_table("c_tension_only_chords.csv")) {
     const bool pair = row[0] == "V two chords";
     const double load = std::stod(row[1]), length = 25e-3, half = pair ? 10e-3 : 0;
     Valve valve;

@@ -71,7 +71,7 @@ struct Profile {
 };
 Profile profile(const std::string &material, double pressure_kpa) {
   Profile p;
-  for (const Cells &row : reference("b_finite_membrane_profiles.csv")) {
+  for (const test::Cells &row : test::reference_table("b_finite_membrane_profiles.csv")) {
     if (row[0] != material || std::stod(row[1]) != pressure_kpa) continue;
     p.s.push_back(1e-3 * std::stod(row[2]));
     p.r.push_back(1e-3 * std::stod(row[3]));
@@ -140,7 +140,7 @@ Study hencky() {
   s.source =
       "shared/data/verification/b_hencky_disc.csv, nu 0.5: w0 = 0.594879 a (p a / E h)^(1/3)";
   const double pressure = 1e3, young = 1e11;
-  for (const Cells &row : reference("b_hencky_disc.csv")) {
+  for (const test::Cells &row : test::reference_table("b_hencky_disc.csv")) {
     if (std::stod(row[0]) != 0.5 || std::stod(row[4]) != 1e-5) continue;
     // p a / E h = 1e-3 in that row
     const double exact =
@@ -168,7 +168,7 @@ Study hencky_of_springs() {
   const double pressure = 1e3, young = 1e11;
   Published law = published("springs");
   law.constants = {young, young, 10};
-  for (const Cells &row : reference("b_hencky_disc.csv")) {
+  for (const test::Cells &row : test::reference_table("b_hencky_disc.csv")) {
     if (std::abs(std::stod(row[0]) - 1. / 3) > 1e-6 || std::stod(row[4]) != 1e-5) continue;
     const double exact =
         std::stod(row[6]) * 10 * radius * std::cbrt(pressure * radius / young / 1e-3);
@@ -195,7 +195,7 @@ const Inflation inflations[] = {{"neoHooke_mu33.333kPa(E=100kPa)", "neo-Hookean"
                                 {"bilinear_fit", "bilinear", 15.9987, true}};
 
 double centre_in_table(const Inflation &inflation) {
-  for (const Cells &row : reference("b_finite_membrane_disc.csv")) {
+  for (const test::Cells &row : test::reference_table("b_finite_membrane_disc.csv")) {
     if (row[0] == inflation.material && std::stod(row[3]) == inflation.pressure_kpa) {
       return 1e-3 * std::stod(row[4]);
     }

@@ -160,7 +160,7 @@ std::vector<Study> laplace_studies() {
   Study spheres = study_of("laplace_sphere", "A sphere under inner pressure");
   Study tubes = study_of("laplace_cylinder", "A tube under inner pressure");
   tubes.source += "; its ends are drawn out to the radius there, the length is kept";
-  for (const Cells &row : reference("d_laplace.csv")) {
+  for (const test::Cells &row : test::reference_table("d_laplace.csv")) {
     for (const Wanted &w : wanted) {
       if (row[0] != w.material || std::stod(row[3]) != w.stretch) continue;
       const Published law = published(w.law);

@@ -162,24 +162,6 @@ std::string as_text(const Study &s) {
   return out.str();
 }
 
-std::vector<Cells> reference(const std::string &file) {
-  const char *folder = std::getenv("MVS_TEST_DATA");
-  const std::string data = folder != nullptr ? folder : MVS_SOURCE_DIR "/../shared/data";
-  std::ifstream in(data + "/verification/" + file);
-  std::vector<Cells> rows;
-  std::string line, cell;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    std::istringstream cells(line);
-    rows.emplace_back();
-    while (std::getline(cells, cell, ',')) rows.back().push_back(cell);
-  }
-  if (rows.empty()) {
-    std::cerr << "skipped: no " << file << " in MVS_TEST_DATA or ../shared/data\n";
-  }
-  return rows;
-}
-
 bool long_runs() {
   const char *lengthy = std::getenv("MVS_TEST_LONG");
   return lengthy != nullptr && *lengthy != 0;

@@ -49,10 +49,6 @@ std::vector<std::string> faults(const Study &study);
 void write_tables(const std::vector<Study> &studies, const std::filesystem::path &folder);
 std::string as_text(const Study &study);
 
-// A table of shared/data/verification below its heading, or none, and says so.
-using Cells = std::vector<std::string>;
-std::vector<Cells> reference(const std::string &file);
-
 // Whether the long runs are asked for (MVS_TEST_LONG).
 bool long_runs();
 
