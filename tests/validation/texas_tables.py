@@ -63,7 +63,7 @@ class Study:
     def __init__(self, options: argparse.Namespace) -> None:
         self.folder, self.out, self.paths = options.data, options.out, options.paths
         self.mesh_levels, self.solvers = options.levels, options.solvers
-        self.parts_named = options.parts
+        self.parts_named, self.part_level = options.parts, options.part_level
         self.frame = read_frame(self.folder, CLOSED_FRAME)
         self.by_newton: list[Result] = []
         """closures of finer and finer levels"""
@@ -89,7 +89,7 @@ class Study:
         for title, options in variants(self.frame):
             if not (reference is None or self.parts_named in title):
                 continue
-            level = options.pop("vertices", PART_LEVEL)
+            level = options.pop("vertices", self.part_level)
             solver = options.pop("solver", "newton")
             increments = options.pop("increments", 1)
             opened = open_valve(self.folder, level, **options)
@@ -232,7 +232,7 @@ def print_table(title: str, rows: Iterable[Row], out: Path) -> None:
 
 TITLES = {
     "levels": "distance from Abaqus' closed frame, mm, by level and solver",
-    "parts": f"one part of the model changed at a time, {PART_LEVEL} vertices",
+    "parts": f"one part of the model changed at a time, on {PART_LEVEL} vertices or --part-level",
     "spread": f"closures along several paths, {PART_LEVEL} vertices",
     "contact": "where leaflets touch, mm and mm2",
     "stress": "largest principal Cauchy stress, full mesh",
@@ -253,6 +253,9 @@ def main() -> None:
     parser.add_argument("--levels", metavar="LIST", help="vertices of the levels, or `full`")
     parser.add_argument("--parts", default="", metavar="TEXT",
                         help="of the parts only those whose name contains this")
+    parser.add_argument("--part-level", default=PART_LEVEL, metavar="N",
+                        type=lambda text: None if text == "full" else int(text),
+                        help="vertices on which parts are changed, or `full` [1500]")
     parser.add_argument("--solvers", default=",".join(SOLVERS), metavar="LIST")
     options = parser.parse_args()
     names = options.only.split(",")
