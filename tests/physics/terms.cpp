@@ -219,7 +219,9 @@ TEST_CASE("chordae_have_the_derivatives_of_their_energy_in_every_law") {
       {MVS_CHORD_BILINEAR, {0.05, 100e6}},
       {MVS_CHORD_OGDEN, {4.24e6, 55.9, 2.72e6, 55.9, 37, 70.7}},  // Texas TriValve, posterior
       {MVS_CHORD_TABLE, {0}}};
-  for (const auto &[law, constants] : laws) {
+  for (const auto &row : laws) {
+    const uint32_t law = row.first;
+    const Chord::Constants &constants = row.second;
     CAPTURE(law);
     Valve valve = small_valve();
     valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};
