@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "model/finite.h"
 
 namespace mvs {
 namespace {
@@ -62,12 +63,6 @@ void add_counts(const SolveStats &before, SolveStats &to) {
   to.shifted += before.shifted;
   to.wall_s += before.wall_s;
   for (size_t k = 0; k < to.phase_s.size(); ++k) to.phase_s[k] += before.phase_s[k];
-}
-
-void must_be_finite(const std::vector<Vec3> &x) {
-  const auto finite = [](const Vec3 &p) { return p.allFinite(); };
-  MVS_MUST(std::all_of(x.begin(), x.end(), finite), MVS_E_DIVERGED, "nodes",
-           "a node left the range of numbers: take a smaller time step or load");
 }
 
 // Goes from stage to stage, and counts what each of them took.
@@ -145,7 +140,7 @@ Closing close_along(Solver &solver, const Model &model, const State &start, cons
   try {
     Walk(solver, model, closing, progress)
         .go(stages_of(path, start.load, load), options, path.ramp / path.increments);
-    must_be_finite(closing.state.x);
+    must_be_finite(closing.state);
   } catch (const Error &error) {
     if (error.code != MVS_E_DIVERGED || path.plain) throw;
     closing.diverged = true;

@@ -2,6 +2,7 @@
 #include "surgery/history.h"
 
 #include "base/error.h"
+#include "model/finite.h"
 
 namespace mvs {
 namespace {
@@ -55,10 +56,7 @@ Moves with_move(const Moves &moves, const Move &move) {
 }
 
 Moment after_move(const Moment &now, State state, const Move &move) {
-  for (const Vec3 &x : state.x.get()) {
-    MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
-             "a node left the range of numbers: take a smaller time step or load");
-  }
+  must_be_finite(state);
   share(state, now.picture.state);
   Moment moment{{now.picture.model, std::move(state)}, now.timeline};
   moment.timeline.start = start_of(now);

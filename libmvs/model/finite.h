@@ -1,0 +1,17 @@
+// That a state is made of numbers.
+#pragma once
+
+#include "base/error.h"
+#include "model/model.h"
+
+namespace mvs {
+
+// Throws MVS_E_DIVERGED where a position is not a number.
+inline void must_be_finite(const State &state) {
+  for (const Vec3 &x : state.x.get()) {
+    MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
+             "a node left the range of numbers: take a smaller time step or load");
+  }
+}
+
+}  // namespace mvs
