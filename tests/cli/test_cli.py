@@ -24,14 +24,14 @@ def mvs(*arguments, cwd):
                           timeout=300)
 
 
-class Command(unittest.TestCase):
+class Shell(unittest.TestCase):
+    """Runs commands in a folder of its own."""
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         cls.dir = pathlib.Path(cls.folder.name)
-        cls.ok("generate", "-o", "v.obj")
-        cls.closed = cls.json("close", "v.obj", "-o", "closed.obj")
 
     @classmethod
     def ok(cls, *arguments):
@@ -42,6 +42,14 @@ class Command(unittest.TestCase):
     @classmethod
     def json(cls, *arguments):
         return json.loads(cls.ok(*arguments, "--json").stdout)
+
+
+class Command(Shell):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.ok("generate", "-o", "v.obj")
+        cls.closed = cls.json("close", "v.obj", "-o", "closed.obj")
 
     def fails(self, *arguments):
         """Runs a command that must fail and leave the folder as it was."""

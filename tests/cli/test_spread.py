@@ -1,39 +1,18 @@
 """`mvs close --paths`: what a script reads of the spread, and what people do."""
-import json
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-MVS = os.environ["MVS_COMMAND"]
+from test_cli import Shell, mvs
+
 PATHS = 4
 
 
-def mvs(*arguments, cwd):
-    return subprocess.run([MVS, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
-                          timeout=300)
-
-
-class Spread(unittest.TestCase):
+class Spread(Shell):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.dir = pathlib.Path(cls.folder.name)
+        super().setUpClass()
         cls.ok("generate", "-o", "thin.obj", "--vertices", 250, "--thickness", 0.5)
         cls.plain = cls.json("close", "thin.obj", "-o", "plain.obj")
         cls.found = cls.json("close", "thin.obj", "--paths", PATHS, "-o", "closed.obj")
-
-    @classmethod
-    def ok(cls, *arguments):
-        done = mvs(*arguments, cwd=cls.dir)
-        assert done.returncode == 0, done.stderr
-        return done
-
-    @classmethod
-    def json(cls, *arguments):
-        return json.loads(cls.ok(*arguments, "--json").stdout)
 
     def test_the_valve_is_the_one_without_paths(self):
         for key in ("hash", "iterations", "energy_J", "residual_N", "measures", "intersections"):
