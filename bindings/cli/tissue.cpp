@@ -58,11 +58,12 @@ void set_tissue(mvs::Sim &sim, const std::string &choice) {
 
 std::string laws_of(const mvs::Snapshot &valve) {
   const std::vector<std::string> laws = known_laws();
-  std::string text, last;
+  std::vector<uint32_t> told;
+  std::string text;
   for (const uint32_t law : law_numbers(valve)) {
-    if (last == laws[law - 1]) continue;
-    last = laws[law - 1];
-    text += (text.empty() ? "" : ", ") + last;
+    if (std::find(told.begin(), told.end(), law) != told.end()) continue;
+    told.push_back(law);
+    text += (text.empty() ? "" : ", ") + laws[law - 1];
   }
   return text;
 }

@@ -92,7 +92,8 @@ void check_law(const std::string &part, uint32_t id, const Law *law, const Value
       const Constant &c = law->constants[k];
       const bool is_modulus = *c.unit != 0;
       check_range(part, c.what, values[k],
-                  {c.low, c.high, c.unit, is_modulus ? "moduli are in Pa" : "no tissue has that"},
+                  {c.low, c.high, c.unit,
+                   is_modulus ? "moduli are in Pa" : "strains are fractions, not percent"},
                   faults);
     } else if (values[k] != 0) {
       faults.add(part, "%s has a constant %zu of %g, but its law (%s) has only %zu: make it 0",
