@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 
 #include "formats/inp_valve.h"
 #include "formats/line.h"
@@ -228,21 +228,27 @@ double Builder::pressure() const {
   return pressure;
 }
 
+// Whether a part is of a kind ("node 17" of "node"), and then its index.
+bool is_part(std::string_view part, std::string_view kind, uint32_t &index) {
+  if (!part.starts_with(kind) || part.size() < kind.size() + 2) return false;
+  const char *const first = part.data() + kind.size() + 1;
+  return std::from_chars(first, part.data() + part.size(), index).ec == std::errc();
+}
+
 // The line of the file behind a part that find_faults names; 0 where there is none.
 int32_t Builder::line_of(const std::string &part) const {
-  unsigned index = 0;
-  if (std::sscanf(part.c_str(), "node %u", &index) == 1 ||
-      std::sscanf(part.c_str(), "edge %u", &index) == 1 ||
-      std::sscanf(part.c_str(), "annulus %u", &index) == 1) {
+  uint32_t index = 0;
+  if (is_part(part, "node", index) || is_part(part, "edge", index) ||
+      is_part(part, "annulus", index)) {
     return index < node_.size() ? mesh_.nodes[node_[index]].line : 0;
   }
-  if (std::sscanf(part.c_str(), "triangle %u", &index) == 1) {
+  if (is_part(part, "triangle", index)) {
     return index < sheet_.element.size() ? mesh_.elements[sheet_.element[index]].line : 0;
   }
   for (size_t l = 0; l < valve_.leaflets.size(); ++l) {
     if (part == "leaflet " + valve_.leaflets[l].name) return properties_.shells[l].line;
   }
-  if (std::sscanf(part.c_str(), "chord %u", &index) == 1) {
+  if (is_part(part, "chord", index)) {
     return index < chordae_.cables.size() ? mesh_.elements[chordae_.cables[index].element].line : 0;
   }
   return 0;

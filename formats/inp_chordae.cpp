@@ -124,6 +124,7 @@ std::vector<uint32_t> Network::heads() const {
 std::vector<uint32_t> distances(const std::vector<InpCable> &cables,
                                 const std::vector<uint32_t> &heads, const InpSheet &sheet) {
   std::vector<Edge> ends;
+  ends.reserve(cables.size());
   for (const InpCable &cable : cables) ends.push_back({cable.a, cable.b});
   const Rows at = rows_of(sheet.holds.size(), ends);
   std::vector<uint32_t> distance(sheet.holds.size(), none), queue = heads;

@@ -10,7 +10,7 @@ namespace {
 
 std::string checked_name(const char *name, const char *what) {
   must_point(name, what);
-  const std::string text = name;
+  std::string text = name;
   MVS_MUST(!text.empty() && text.size() <= 63 && is_plain_text(text), MVS_E_ARGUMENT, what,
            "the name of a %s has to have 1 to 63 bytes and no control characters", what);
   return text;

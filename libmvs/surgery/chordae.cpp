@@ -158,7 +158,7 @@ std::string free_chord_name(const Surgery &s, uint32_t node) {
     break;
   }
   for (uint32_t number = 1;; ++number) {
-    const std::string name = scallop + "/" + std::to_string(number);
+    std::string name = scallop + "/" + std::to_string(number);
     const auto taken = [&](const Chord &chord) { return chord.name == name; };
     const std::vector<Chord> &chords = valve.chords;
     if (std::none_of(chords.begin(), chords.end(), taken)) return name;
