@@ -121,6 +121,29 @@ enum {
   MVS_PHASE_COUNT = 8
 };
 
+/* What a settle or step did not compute, because nothing needed it: bits of mvs_stats.skipped. None
+ * of it changes a result. */
+enum {
+  MVS_SKIPPED_SPRINGS = 1 << 0, /* the first seven: the scene has none, or no load on it */
+  MVS_SKIPPED_MEMBRANE = 1 << 1,
+  MVS_SKIPPED_BENDING = 1 << 2,
+  MVS_SKIPPED_CHORDAE = 1 << 3,
+  MVS_SKIPPED_PRESSURE = 1 << 4,
+  MVS_SKIPPED_CONTACT = 1 << 5, /* nothing came near enough to look for distances */
+  MVS_SKIPPED_TOOLS = 1 << 6,
+  MVS_SKIPPED_BROAD = 1 << 7,    /* the candidate pairs known before were still all */
+  MVS_SKIPPED_ORDERING = 1 << 8, /* the pattern of the matrix was known */
+  MVS_SKIPPED_FACTOR = 1 << 9,   /* an earlier factorisation served as preconditioner */
+  MVS_SKIPPED_STEP = 1 << 10     /* at rest, and nothing changed: only time went on */
+};
+
+/* What a step gave up to stay within its budget, in this order: bits of mvs_stats.lowered. Bounds
+ * against crossing and the bound on energy are never given up. */
+enum {
+  MVS_LOWERED_LINEAR = 1 << 0, /* the linear system was solved less accurately */
+  MVS_LOWERED_STEP = 1 << 1    /* the nodes went a part of their way, or none of it */
+};
+
 /* How the last settle or step went. */
 typedef struct mvs_stats {
   uint32_t struct_size;
@@ -134,6 +157,12 @@ typedef struct mvs_stats {
   double kinetic;         /* J */
   double wall_s;
   double phase_s[MVS_PHASE_COUNT];
+  uint32_t skipped;      /* MVS_SKIPPED_*: what was never computed in the whole settle or step */
+  uint32_t lowered;      /* MVS_LOWERED_* */
+  uint32_t broad_phases; /* how often candidate pairs were looked for */
+  uint32_t orderings;    /* symbolic analyses */
+  uint32_t linear_iterations; /* of iterative solutions on top of a factorisation */
+  uint32_t passes;            /* energies, gradients and matrices over all the terms */
 } mvs_stats;
 
 /* Brings the valve to static equilibrium under the load. Not converged is not an error: the valve
@@ -147,10 +176,17 @@ typedef struct mvs_step_options {
   uint32_t solver; /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
   double dt;       /* s [implicit 1e-3, explicit 8e-6]; 1e-9 to 1 */
   double damping;  /* 1/s, mass-proportional [0 implicit, 500 explicit] */
+  /* The most passes over the terms and solutions with the factor in an implicit step, 4 to 10000
+   * [64]. Counted, not timed, so that the same calls give the same bits on any machine; what a
+   * short budget lowers is in mvs_stats.lowered. */
+  uint32_t budget;
+  uint32_t reserved;
 } mvs_step_options;
 
-/* Advances by one time step: one bounded amount of work, without progress callbacks. MVS_E_DIVERGED
- * if numbers left their range: take a smaller dt. `options` is nullable. */
+/* Advances by one time step: one bounded amount of work, without progress callbacks, and, once a
+ * valve has been stepped a few times, without allocation or system call while nobody holds a
+ * snapshot of it. MVS_E_DIVERGED if numbers left their range: take a smaller dt. `options` is
+ * nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE if there was none. */

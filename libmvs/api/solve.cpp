@@ -50,7 +50,13 @@ mvs_stats public_stats(const SolveStats &from) {
   stats.energy = from.energy;
   stats.kinetic = from.kinetic;
   stats.wall_s = from.wall_s;
-  std::copy(from.phase_s.begin(), from.phase_s.end(), stats.phase_s);
+  std::copy(from.work.seconds.begin(), from.work.seconds.end(), stats.phase_s);
+  stats.skipped = from.skipped;
+  stats.lowered = from.lowered;
+  stats.broad_phases = from.work.broad_phases;
+  stats.orderings = from.work.orderings;
+  stats.linear_iterations = from.work.linear_iterations;
+  stats.passes = from.work.passes;
   return stats;
 }
 
@@ -69,7 +75,14 @@ SolveOptions read_options(const mvs_step_options *given) {
            options.solver);
   must_be_in(options.dt, 1e-9, 1, "options.dt");
   must_be_in(options.damping, 1e-6, 1e6, "options.damping");
-  return {options.solver, 0, 0, options.dt, options.damping};
+  must_be_zero(options.reserved, "options.reserved");
+  MVS_MUST(
+      options.budget == 0 || (options.budget >= 4 && options.budget <= 10000), MVS_E_ARGUMENT,
+      "options.budget",
+      "options.budget is %u: a step needs 4 passes over the terms and may take 10000; 0 is the "
+      "default",
+      options.budget);
+  return {options.solver, 0, 0, options.dt, options.damping, options.budget};
 }
 
 // Makes a state that a solver arrived at the present one.

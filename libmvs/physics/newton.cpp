@@ -112,13 +112,13 @@ void Newton::settle_disturbed(const Load &load) {
   const SolveStats done = newton.settle(piece, options, {});
   const auto &x = piece.x.get();
   for (size_t k = 0; k < x.size(); ++k) x_[region.node[k]] = x[k];
-  for (size_t k = 0; k < done.phase_s.size(); ++k) stats_.phase_s[k] += done.phase_s[k];
+  stats_.work.add(done.work);
   evaluate();
 }
 
 void Newton::evaluate() {
-  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats_.phase_s);
-  energy_ = potential_.gradient(x_, g_, stats_.phase_s);
+  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats_.work);
+  energy_ = potential_.gradient(x_, g_, stats_.work);
   residual_ = largest_free(*model_, g_);
   MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "settle",
            "the forces are not finite: nodes coincide or the material is too stiff; check the "
@@ -187,7 +187,8 @@ void Newton::travel_step() {
 
 // The change of energy along the step as it is, and as the quadratic model says.
 double Newton::try_step(double &foretold) {
-  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_LINE_SEARCH);
+  const PhaseTimer timer(stats_.work, MVS_PHASE_LINE_SEARCH);
+  ++stats_.work.passes;
   foretold = slope() + 0.5 * curvature_along();
   for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
   return potential_.energy(trial_) - energy_;
@@ -221,8 +222,8 @@ void Newton::move_boundary() {
 
 void Newton::assemble(Curvature curvature) {
   curvature_ = curvature;
-  if (potential_.hessian(x_, curvature, system_, stats_.phase_s)) {
-    const PhaseTimer timer(stats_.phase_s, MVS_PHASE_ORDERING);
+  if (potential_.hessian(x_, curvature, system_, stats_.work)) {
+    const PhaseTimer timer(stats_.work, MVS_PHASE_ORDERING);
     factor_->analyse(system_.matrix);
   }
   diagonal_.resize(system_.node_of.size());
@@ -234,7 +235,7 @@ void Newton::assemble(Curvature curvature) {
 // Factorises with the present shift, or the first larger one that makes the matrix positive
 // definite.
 void Newton::factorise() {
-  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_FACTOR);
+  const PhaseTimer timer(stats_.work, MVS_PHASE_FACTOR);
   added_ = std::max(shift_, least_shift);
   for (bool first = true;; first = false) {
     for (size_t r = 0; r < diagonal_.size(); ++r) {
@@ -253,7 +254,7 @@ void Newton::factorise() {
 
 // The step that the factorised system gives, in full_.
 void Newton::solve(bool with_shift) {
-  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_SOLVE);
+  const PhaseTimer timer(stats_.work, MVS_PHASE_SOLVE);
   rows_.resize(system_.node_of.size());
   for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = -g_[system_.node_of[r]];
   factor_->solve(rows_);
@@ -298,7 +299,7 @@ void Newton::limit_step() {
     held_ = true;
   }
   cover_step();
-  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_NARROW);
+  const PhaseTimer timer(stats_.work, MVS_PHASE_NARROW);
   bounds_.limit(*model_, x_, potential_.candidates(), step_);
 }
 
@@ -307,11 +308,11 @@ void Newton::cover_step() {
   trial_.resize(x_.size());
   for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
   if (potential_.prepared_for(trial_) && potential_.prepared_for(x_)) return;
-  potential_.prepare(x_, trial_, slack_, stats_.phase_s);
+  potential_.prepare(x_, trial_, slack_, stats_.work);
 }
 
 bool Newton::try_force() {
-  const PhaseTimer timer(stats_.phase_s, MVS_PHASE_LINE_SEARCH);
+  const PhaseTimer timer(stats_.work, MVS_PHASE_LINE_SEARCH);
   Profile inside{};
   const double before = free_norm();
   std::vector<Vec3> kept = g_;
@@ -319,6 +320,7 @@ bool Newton::try_force() {
   for (int trial = 0; trial < 5; ++trial, share *= 0.5) {
     for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + share * step_[i];
     potential_.gradient(trial_, g_, inside);
+    ++stats_.work.passes;
     if (free_norm() <= (1 - 0.1 * share) * before) {
       x_.swap(trial_);
       return true;

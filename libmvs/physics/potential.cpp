@@ -22,6 +22,7 @@ Potential::Potential(const Model &model, ContactLaw law)
 void Potential::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                         Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_BROAD);
+  ++profile.broad_phases;
   candidates_.build(x, to, slack);
 }
 
@@ -36,6 +37,7 @@ double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Pro
     const PhaseTimer timer(profile, MVS_PHASE_NARROW);
     contact_.collect(x, candidates_);
   }
+  ++profile.passes;
   const PhaseTimer timer(profile, MVS_PHASE_TERMS);
   pressure_.freeze(x);
   g.assign(x.size(), Vec3::Zero());
@@ -59,6 +61,7 @@ bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &sy
 
 bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,
                         Profile &profile) {
+  ++profile.passes;
   if (!system.row_of.empty()) {
     const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
     if (fill(x, curvature, system)) return false;
@@ -66,6 +69,7 @@ bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System 
   // contact has come where the pattern has no room: a new pattern from what touches now
   {
     const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
+    ++profile.orderings;
     std::vector<Edge> pairs = pairs_;
     contact_.add_pairs(pairs);
     system.set_pattern(*model_, pairs);

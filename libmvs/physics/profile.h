@@ -1,4 +1,4 @@
-// Where the time of a solver goes.
+// Where the work of a solver goes.
 #pragma once
 
 #include <mvs/sim.h>
@@ -8,8 +8,21 @@
 
 namespace mvs {
 
-// Seconds by MVS_PHASE_*. Only ever reported, never part of a result.
-using Profile = std::array<double, MVS_PHASE_COUNT>;
+// Seconds by MVS_PHASE_*, and how often things were done. Only ever reported, never part of a
+// result.
+struct Profile {
+  std::array<double, MVS_PHASE_COUNT> seconds{};
+  uint32_t broad_phases = 0, orderings = 0, linear_iterations = 0;
+  uint32_t passes = 0;  // energies, gradients and matrices over all the terms
+
+  void add(const Profile &other) {
+    for (size_t k = 0; k < seconds.size(); ++k) seconds[k] += other.seconds[k];
+    broad_phases += other.broad_phases;
+    orderings += other.orderings;
+    linear_iterations += other.linear_iterations;
+    passes += other.passes;
+  }
+};
 
 inline double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -18,7 +31,8 @@ inline double seconds_now() {
 // Adds the time it lives to one phase.
 class PhaseTimer {
  public:
-  PhaseTimer(Profile &profile, uint32_t phase) : seconds_(&profile[phase]), start_(seconds_now()) {}
+  PhaseTimer(Profile &profile, uint32_t phase)
+      : seconds_(&profile.seconds[phase]), start_(seconds_now()) {}
   PhaseTimer(const PhaseTimer &) = delete;
   PhaseTimer &operator=(const PhaseTimer &) = delete;
   ~PhaseTimer() { *seconds_ += seconds_now() - start_; }

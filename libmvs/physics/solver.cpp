@@ -129,7 +129,7 @@ SolveStats Solver::step(const Model &model, State &state, const SolveOptions &op
 
 Forces evaluate_forces(const Model &model, const State &state) {
   Potential potential(model);
-  Profile profile{};
+  Profile profile;
   potential.set_pressure(state.load.pressure);
   potential.prepare(state.x, state.x, 0, profile);
   Forces forces;

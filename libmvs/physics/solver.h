@@ -1,11 +1,11 @@
 // The solvers over the terms: static closure, implicit step, explicit step.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 
 #include "model/model.h"
+#include "physics/profile.h"
 
 namespace mvs {
 
@@ -16,6 +16,7 @@ struct SolveOptions {
   double residual = 0;  // N
   double dt = 0;        // s
   double damping = 0;   // 1/s
+  uint32_t budget = 0;  // of a step
 };
 
 struct SolveStats {
@@ -28,7 +29,9 @@ struct SolveStats {
   double energy = 0;    // J
   double kinetic = 0;   // J
   double wall_s = 0;
-  std::array<double, 8> phase_s{};  // MVS_PHASE_*
+  uint32_t skipped = 0;  // MVS_SKIPPED_*
+  uint32_t lowered = 0;  // MVS_LOWERED_*
+  Profile work;
 };
 
 // Told the share done and the residual in N; returns true to go on, false to cancel.

@@ -41,8 +41,8 @@ ImplicitStepper::ImplicitStepper(const Model &model, Factor &factor)
       slack_(0.1 * model.valve.contact_thickness) {}
 
 void ImplicitStepper::evaluate(SolveStats &stats) {
-  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats.phase_s);
-  energy_ = potential_.gradient(x_, g_, stats.phase_s);
+  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats.work);
+  energy_ = potential_.gradient(x_, g_, stats.work);
   residual_ = largest_free(*model_, g_);
   MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "step",
            "the forces are not finite: nodes coincide or the material is too stiff");
@@ -66,6 +66,7 @@ void ImplicitStepper::step(State &state, double dt, double damping, SolveStats &
       state.x[i] = x_[i] + share * step_[i];
       state.v[i] = (share / dt) * step_[i];
     }
+    ++stats.work.passes;
     const double after = potential_.energy(state.x) + kinetic_energy(*model_, state.v);
     if (!free_of_work || after <= before + 1e-12 * std::abs(before)) break;
   }
@@ -87,8 +88,8 @@ void ImplicitStepper::solve(double dt, double damping, SolveStats &stats) {
   // the state alone and not on the steps that led to it
   system_ = System();
   system_.boundary_step = &boundary_;
-  if (potential_.hessian(x_, Curvature::projected, system_, stats.phase_s)) {
-    const PhaseTimer timer(stats.phase_s, MVS_PHASE_ORDERING);
+  if (potential_.hessian(x_, Curvature::projected, system_, stats.work)) {
+    const PhaseTimer timer(stats.work, MVS_PHASE_ORDERING);
     factor_->analyse(system_.matrix);
   }
   system_.boundary_step = nullptr;
@@ -97,7 +98,7 @@ void ImplicitStepper::solve(double dt, double damping, SolveStats &stats) {
     const uint32_t i = system_.node_of[r];
     rows_[r] = system_.boundary_force[r] - g_[i] + (model_->node_mass[i] / dt) * v_[i];
   }
-  const PhaseTimer timer(stats.phase_s, MVS_PHASE_FACTOR);
+  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
   std::vector<Mat3> diagonal(rows_.size());
   for (size_t r = 0; r < rows_.size(); ++r)
     diagonal[r] = system_.matrix.value[system_.matrix.start[r]];
@@ -127,7 +128,7 @@ void ImplicitStepper::limit(SolveStats &stats) {
     trial_[i] = x_[i] + step_[i];
   }
   if (!potential_.prepared_for(trial_) || !potential_.prepared_for(x_)) {
-    potential_.prepare(x_, trial_, slack_, stats.phase_s);
+    potential_.prepare(x_, trial_, slack_, stats.work);
   }
   bounds_.limit(*model_, x_, potential_.candidates(), step_);
 }
@@ -138,9 +139,9 @@ ExplicitStepper::ExplicitStepper(const Model &model)
 void ExplicitStepper::step(State &state, double dt, double damping, SolveStats &stats) {
   potential_.set_pressure(state.load.pressure);
   if (!potential_.prepared_for(state.x)) {
-    potential_.prepare(state.x, state.x, 0.5 * model_->valve.contact_thickness, stats.phase_s);
+    potential_.prepare(state.x, state.x, 0.5 * model_->valve.contact_thickness, stats.work);
   }
-  stats.energy = potential_.gradient(state.x, g_, stats.phase_s);
+  stats.energy = potential_.gradient(state.x, g_, stats.work);
   stats.residual = largest_free(*model_, g_);
   std::vector<Vec3> boundary;
   advance_boundary(*model_, state, dt, boundary);

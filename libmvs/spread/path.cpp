@@ -62,7 +62,7 @@ void add_counts(const SolveStats &before, SolveStats &to) {
   to.factorisations += before.factorisations;
   to.shifted += before.shifted;
   to.wall_s += before.wall_s;
-  for (size_t k = 0; k < to.phase_s.size(); ++k) to.phase_s[k] += before.phase_s[k];
+  to.work.add(before.work);
 }
 
 // Goes from stage to stage, and counts what each of them took.

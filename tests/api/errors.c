@@ -114,12 +114,14 @@ static void options_out_of_range(void) {
   REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.dt is nan");
   settle = (mvs_settle_options){.struct_size = sizeof settle, .damping = 1e9};
   REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.damping is 1e+09");
-  mvs_step_options step = {sizeof step, MVS_SOLVER_NEWTON, 0, 0};
+  mvs_step_options step = {sizeof step, MVS_SOLVER_NEWTON, 0, 0, 0, 0};
   REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.solver is 1");
-  step = (mvs_step_options){sizeof step, 0, 2, 0};
+  step = (mvs_step_options){sizeof step, 0, 2, 0, 0, 0};
   REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.dt is 2");
-  step = (mvs_step_options){sizeof step, 0, 0, -1};
+  step = (mvs_step_options){sizeof step, 0, 0, -1, 0, 0};
   REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.damping is -1");
+  step = (mvs_step_options){.struct_size = sizeof step, .budget = 3};
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.budget is 3");
   mvs_parametric_desc valve = {.struct_size = sizeof valve, .vertices = 3};
   REFUSED(mvs_generate_valve(sim, &valve), MVS_E_ARGUMENT, "vertices");
 }

@@ -102,7 +102,7 @@ static void load_and_time_are_part_of_the_state(void) {
   CHECK(!same_hash(before, sim_hash(sim)));
   MUST(mvs_get_load(sim, &read));
   CHECK(read.pressure == load.pressure && read.boundary_fraction == 0.25);
-  mvs_step_options explicit_step = {sizeof explicit_step, MVS_SOLVER_EXPLICIT, 1e-5, 0};
+  mvs_step_options explicit_step = {sizeof explicit_step, MVS_SOLVER_EXPLICIT, 1e-5, 0, 0, 0};
   MUST(mvs_step(sim, &explicit_step));
   MUST(mvs_step(sim, &explicit_step));
   const mvs_snapshot *snapshot = present(sim);

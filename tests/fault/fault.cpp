@@ -141,7 +141,7 @@ std::vector<Call> calls() {
       {"step implicit", [](Scene &s) { return mvs_step(s.sim, nullptr); }},
       {"step explicit",
        [](Scene &s) {
-         const mvs_step_options options = {sizeof options, MVS_SOLVER_EXPLICIT, 0, 0};
+         const mvs_step_options options = {sizeof options, MVS_SOLVER_EXPLICIT, 0, 0, 0, 0};
          return mvs_step(s.sim, &options);
        }},
       {"restore", [](Scene &s) { return mvs_restore(s.sim, s.snapshot); }},

@@ -50,6 +50,12 @@ py::object stats_value(const mvs_stats &s) {
   FIELD(kinetic);
   FIELD(wall_s);
   fields["phase_s"] = phases;
+  FIELD(skipped);
+  FIELD(lowered);
+  FIELD(broad_phases);
+  FIELD(orderings);
+  FIELD(linear_iterations);
+  FIELD(passes);
   return make("Stats", fields);
 }
 
