@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/distance.h"
-#include "base/grid.h"
 #include "physics/contact.h"
 
 namespace mvs {
@@ -27,71 +26,85 @@ double edge_edge_distance(const std::vector<Vec3> &x, const Edge &e, const Edge 
   return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
 }
 
-// Squared gap between two boxes, 0 where they overlap: a cheap lower bound of any distance inside.
-double gap2(const Vec3 &low_a, const Vec3 &high_a, const Vec3 &low_b, const Vec3 &high_b) {
-  return (low_b - high_a).cwiseMax(low_a - high_b).cwiseMax(0.0).squaredNorm();
-}
-
-void sort_pairs(std::vector<VertexTriangle> &pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const VertexTriangle &p, const VertexTriangle &q) {
-    return p.vertex != q.vertex ? p.vertex < q.vertex : p.triangle < q.triangle;
-  });
+// The pairs of one vertex, from `first` on.
+void sort_triangles(std::vector<VertexTriangle> &pairs, size_t first) {
+  std::sort(
+      pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
+      [](const VertexTriangle &p, const VertexTriangle &q) { return p.triangle < q.triangle; });
 }
 
 }  // namespace
 
 Candidates::Candidates(const Model &model)
-    : model_(&model), thickness_(model.valve.contact_thickness) {
+    : model_(&model),
+      thickness_(model.valve.contact_thickness),
+      tree_(model.valve.rest, model.valve.triangles) {
   const auto &x = model.valve.rest;
-  vertex_owner_.assign(model.node_count(), none);
-  edge_owner_.assign(model.topology.edges.size(), none);
+  std::vector<uint8_t> of_sheet(model.node_count(), 0), taken(model.topology.edges.size(), 0);
   for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
     const Tri &corners = model.valve.triangles[t];
     const Vec3 centre = (x[corners[0]] + x[corners[1]] + x[corners[2]]) / 3;
     double radius = 0;
+    Owned owned{};
     for (int k = 0; k < 3; ++k) {
-      uint32_t &edge_owner = edge_owner_[model.topology.triangle_edges[t][k]];
-      if (vertex_owner_[corners[k]] == none) vertex_owner_[corners[k]] = t;
-      if (edge_owner == none) edge_owner = t;
+      const uint32_t edge = model.topology.triangle_edges[t][k];
+      if (!taken[edge]) owned.edge[owned.count++] = edge;
+      taken[edge] = of_sheet[corners[k]] = 1;
       radius = std::max(radius, (x[corners[k]] - centre).norm());
     }
+    owned_.push_back(owned);
     rest_centre_.push_back(centre);
     rest_radius_.push_back(radius);
   }
-  for (uint32_t i = 0; i < vertex_owner_.size(); ++i) {
-    if (vertex_owner_[i] != none) sheet_.push_back(i);
+  for (uint32_t i = 0; i < of_sheet.size(); ++i) {
+    if (of_sheet[i]) sheet_.push_back(i);
   }
+}
+
+// The share of their ways at which nodes that go together are nearest to x.
+double Candidates::share_of(const std::vector<Vec3> &x) const {
+  double along = 0, square = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    along += half_[i].dot(x[i] - from_[i]);
+    square += half_[i].squaredNorm();
+  }
+  return square > 0 ? std::clamp(0.5 * along / square, 0.0, 1.0) : 0.0;
 }
 
 bool Candidates::valid_for(const std::vector<Vec3> &x) const {
   if (from_.size() != x.size()) return false;
+  const double share = for_itself() ? 0 : share_of(x);
   for (size_t i = 0; i < x.size(); ++i) {
-    if (closest_on_segment(x[i], from_[i], to_[i]).distance2 > slack_ * slack_) return false;
+    const double off2 = for_itself() ? closest_on_segment(x[i], from_[i], to_[i]).distance2
+                                     : (x[i] - from_[i] - 2 * share * half_[i]).squaredNorm();
+    if (off2 > slack_ * slack_) return false;
   }
   return true;
 }
 
-void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack) {
-  take_ways(x, to, slack);
-  find_still();
-  find_guarded();
-  find_facing();
-}
-
-void Candidates::take_ways(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack) {
+void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+                       Pace pace) {
   from_ = x;
   to_ = to;
   slack_ = slack;
-  node_low_.resize(x.size());
-  node_high_.resize(x.size());
+  pace_ = pace;
   middle_.resize(x.size());
-  reach_.resize(x.size());
+  half_.resize(x.size());
   for (size_t i = 0; i < x.size(); ++i) {
-    node_low_[i] = x[i].cwiseMin(to[i]).array() - slack;
-    node_high_[i] = x[i].cwiseMax(to[i]).array() + slack;
     middle_[i] = 0.5 * (x[i] + to[i]);
-    reach_[i] = 0.5 * (to[i] - x[i]).norm() + slack;
+    half_[i] = 0.5 * (to[i] - x[i]);
   }
+  find_still();
+  tree_.place(x, to, pace, still_);
+  vertex_way_.resize(x.size());
+  for (uint32_t i = 0; i < x.size(); ++i) {
+    vertex_way_[i] = Way::of(std::array<uint32_t, 1>{i}, x, to, pace);
+  }
+  const auto &edges = model_->topology.edges;
+  edge_way_.resize(edges.size());
+  for (size_t i = 0; i < edges.size(); ++i) edge_way_[i] = Way::of(edges[i], x, to, pace);
+  find_vertices();
+  find_edges();
 }
 
 // What is prescribed to stay where it is.
@@ -110,105 +123,73 @@ void Candidates::find_still() {
   }
 }
 
-// How far a point of a triangle may be from where it is between its corners' middles.
-double Candidates::triangle_reach(uint32_t triangle) const {
-  const auto [i, j, k] = model_->valve.triangles[triangle];
-  return std::max(reach_[i], std::max(reach_[j], reach_[k]));
-}
-
-// As far as the corners may go.
-std::array<Vec3, 2> Candidates::box_of(const Tri &t) const {
-  return {node_low_[t[0]].cwiseMin(node_low_[t[1]]).cwiseMin(node_low_[t[2]]),
-          node_high_[t[0]].cwiseMax(node_high_[t[1]]).cwiseMax(node_high_[t[2]])};
-}
-
-void Candidates::make_boxes(double margin) {
-  const auto &triangles = model_->valve.triangles;
-  low_.resize(triangles.size());
-  high_.resize(triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [low, high] = box_of(triangles[t]);
-    low_[t] = low.array() - margin;
-    high_[t] = high.array() + margin;
+// How much nearer than in the middle of their ways points of the hulls of two sets of nodes may
+// come. On common shares only what the nodes move against each other counts, and the difference of
+// two convex combinations is one of differences.
+template <typename A, typename B>
+double Candidates::reach(const A &a, const B &b) const {
+  double together2 = 0, of_a2 = 0, of_b2 = 0;
+  for (const uint32_t i : a) {
+    of_a2 = std::max(of_a2, half_[i].squaredNorm());
+    for (const uint32_t j : b) {
+      together2 = std::max(together2, (half_[i] - half_[j]).squaredNorm());
+      of_b2 = std::max(of_b2, half_[j].squaredNorm());
+    }
   }
+  return 2 * slack_ + (for_itself() ? std::sqrt(of_a2) + std::sqrt(of_b2) : std::sqrt(together2));
 }
 
-void Candidates::find_guarded() {
+void Candidates::find_vertices() {
+  facing_.clear();
   guarded_.clear();
-  guarded_edges_.clear();
-  make_boxes(0.5 * guard_share * thickness_);
-  overlapping_boxes(low_, high_, pairs_);
-  for (const auto &[a, b] : pairs_) {
-    if (still_[a] && still_[b]) continue;
-    take_vertices(a, b);
-    take_vertices(b, a);
-    take_edges(a, b);
+  for (const uint32_t v : sheet_) {
+    const size_t facing = facing_.size(), guarded = guarded_.size();
+    tree_.for_near(vertex_way_[v], thickness_ + 2 * slack_, [&](uint32_t t) { take(v, t); });
+    sort_triangles(facing_, facing);
+    sort_triangles(guarded_, guarded);
   }
-  sort_pairs(guarded_);
+}
+
+// What is apart at rest faces; what is near enough is guarded, whatever it was at rest.
+void Candidates::take(uint32_t vertex, uint32_t triangle) {
+  const Tri &t = model_->valve.triangles[triangle];
+  if (has(t, vertex) || (still_[triangle] && stays(vertex))) return;
+  const bool faces = apart_at_rest(vertex, triangle);
+  const double longest = guard_share * thickness_;
+  const std::array<uint32_t, 1> alone{vertex};
+  if (!faces && apart(vertex_way_[vertex], Way::of(t, from_, to_, pace_), longest + 2 * slack_)) {
+    return;
+  }
+  const double distance = vertex_triangle_distance(middle_, vertex, t) - reach(alone, t);
+  if (faces && distance <= thickness_) facing_.push_back({vertex, triangle, 0});
+  if (distance > longest) return;
+  const double guard =
+      guard_range(thickness_, vertex_triangle_distance(model_->valve.rest, vertex, t));
+  if (distance <= guard) guarded_.push_back({vertex, triangle, guard});
+}
+
+void Candidates::find_edges() {
+  guarded_edges_.clear();
+  tree_.for_near(guard_share * thickness_ + 2 * slack_,
+                 [&](uint32_t a, uint32_t b) { take_edges(a, b); });
   std::sort(guarded_edges_.begin(), guarded_edges_.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
     return p.first != q.first ? p.first < q.first : p.second < q.second;
   });
 }
 
-// What is farther apart than the guard's longest range goes by the boxes, then by the balls.
-void Candidates::take_vertices(uint32_t owner, uint32_t triangle) {
-  const Tri &t = model_->valve.triangles[triangle];
-  const double longest = guard_share * thickness_;
-  const auto [low, high] = box_of(t);
-  for (const uint32_t v : model_->valve.triangles[owner]) {
-    if (vertex_owner_[v] != owner || has(t, v)) continue;
-    if (gap2(node_low_[v], node_high_[v], low, high) > longest * longest) continue;
-    const double distance =
-        vertex_triangle_distance(middle_, v, t) - reach_[v] - triangle_reach(triangle);
-    if (distance > longest) continue;
-    const double guard =
-        guard_range(thickness_, vertex_triangle_distance(model_->valve.rest, v, t));
-    if (distance <= guard) guarded_.push_back({v, triangle, guard});
-  }
-}
-
 void Candidates::take_edges(uint32_t a, uint32_t b) {
   const auto &edges = model_->topology.edges;
   const double longest = guard_share * thickness_;
-  auto low = [&](const Edge &e) { return node_low_[e[0]].cwiseMin(node_low_[e[1]]); };
-  auto high = [&](const Edge &e) { return node_high_[e[0]].cwiseMax(node_high_[e[1]]); };
-  auto reach = [&](const Edge &e) { return std::max(reach_[e[0]], reach_[e[1]]); };
-  for (const uint32_t i : model_->topology.triangle_edges[a]) {
-    if (edge_owner_[i] != a) continue;
+  for (const uint32_t i : owned_[a]) {
     const Edge &e = edges[i];
-    const Vec3 low_e = low(e), high_e = high(e);
-    for (const uint32_t j : model_->topology.triangle_edges[b]) {
+    for (const uint32_t j : owned_[b]) {
       const Edge &f = edges[j];
-      if (edge_owner_[j] != b || share(e, f)) continue;
-      if (gap2(low_e, high_e, low(f), high(f)) > longest * longest) continue;
-      const double distance = edge_edge_distance(middle_, e, f) - reach(e) - reach(f);
+      if (apart(edge_way_[i], edge_way_[j], longest + 2 * slack_) || share(e, f)) continue;
+      const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
       if (distance > longest) continue;
       const double guard = guard_range(thickness_, edge_edge_distance(model_->valve.rest, e, f));
       if (distance <= guard) guarded_edges_.push_back({std::min(i, j), std::max(i, j), guard});
     }
-  }
-}
-
-// The boxes carry the ways of the triangles and the largest reach of a vertex.
-void Candidates::find_facing() {
-  facing_.clear();
-  points_.clear();
-  double far = 0;
-  for (const uint32_t v : sheet_) {
-    points_.push_back(middle_[v]);
-    far = std::max(far, reach_[v]);
-  }
-  make_boxes(thickness_ + far);
-  points_in_boxes(points_, low_, high_, pairs_);
-  for (const auto &[p, t] : pairs_) {
-    const uint32_t v = sheet_[p];
-    if (still_[t] && stays(v)) continue;
-    const Tri &tri = model_->valve.triangles[t];
-    const auto [low, high] = box_of(tri);
-    if (gap2(node_low_[v], node_high_[v], low, high) > thickness_ * thickness_) continue;
-    if (!apart_at_rest(v, t)) continue;
-    const double distance = vertex_triangle_distance(middle_, v, tri);
-    if (distance <= thickness_ + reach_[v] + triangle_reach(t)) facing_.push_back({v, t, 0});
   }
 }
 

@@ -1,17 +1,18 @@
 // Which vertices and triangles, and which edges, could meet: the broad phase.
 //
-// Two lists by uniform grids. Facing pairs: a vertex and a triangle apart in the rest shape, within
-// the contact thickness of each other. Guard pairs: every vertex and triangle, and every two edges,
-// that are not incident and within their guard range. Each list also takes what could come that
-// near while every node stays on its way: within `slack` of the segment from where it is to where a
-// step would take it, wherever on it the others are. A sheet that moves across itself sweeps boxes
-// that hardly meet their neighbours', where balls around its nodes would meet all of them. Vertices
-// and edges are owned by one of their triangles, so that each guard pair comes up once
+// Two lists, by a tree of moving boxes. Facing pairs: a vertex and a triangle apart in the rest
+// shape, within the contact thickness of each other. Guard pairs: every vertex and triangle, and
+// every two edges, that are not incident and within their guard range. Each list also takes what
+// could come that near while every node stays within `slack` of its way: the segment from where it
+// is to where a step would take it. Together: all nodes the same share of their ways at a time, so
+// that what moves alike stays apart. Each for itself: wherever on its way every node is. Edges are
+// owned by one of their triangles, so that each pair of them comes up once
 // (representative triangles: Curtis, Tamstorf, Manocha, I3D 2008).
 #pragma once
 
 #include <vector>
 
+#include "base/moving_tree.h"
 #include "model/model.h"
 
 namespace mvs {
@@ -31,9 +32,12 @@ class Candidates {
   explicit Candidates(const Model &model);
 
   // Makes the lists for nodes on their way from x to `to`.
-  void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack);
-  // Whether each node is on its way.
+  void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+             Pace pace = Pace::together);
+  // Whether each node is on its way, and all at the same share of it if they go together. What is
+  // true of two places is true of the straight way between them.
   bool valid_for(const std::vector<Vec3> &x) const;
+  bool for_itself() const { return pace_ == Pace::each_for_itself; }
 
   // Sorted by vertex, then triangle; edges by first, then second.
   const std::vector<VertexTriangle> &facing() const { return facing_; }
@@ -41,31 +45,38 @@ class Candidates {
   const std::vector<EdgeEdge> &guarded_edges() const { return guarded_edges_; }
 
  private:
-  void take_ways(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack);
-  std::array<Vec3, 2> box_of(const Tri &t) const;
-  void make_boxes(double margin);
+  // The edges that come up with a triangle, because it owns them.
+  struct Owned {
+    std::array<uint32_t, 3> edge;
+    uint32_t count;
+    const uint32_t *begin() const { return edge.data(); }
+    const uint32_t *end() const { return edge.data() + count; }
+  };
+
+  double share_of(const std::vector<Vec3> &x) const;
   bool stays(uint32_t node) const;
   void find_still();
-  void find_guarded();
-  void find_facing();
-  void take_vertices(uint32_t owner, uint32_t triangle);
+  void find_vertices();
+  void take(uint32_t vertex, uint32_t triangle);
+  void find_edges();
   void take_edges(uint32_t a, uint32_t b);
   bool apart_at_rest(uint32_t vertex, uint32_t triangle) const;
-  double triangle_reach(uint32_t triangle) const;
+  template <typename A, typename B>
+  double reach(const A &a, const B &b) const;
 
   const Model *model_;
   double thickness_;
-  std::vector<uint32_t> vertex_owner_, edge_owner_;
+  MovingTree tree_;
+  std::vector<uint32_t> sheet_;      // the nodes that are vertices of it
+  std::vector<Owned> owned_;         // by each triangle
   std::vector<Vec3> rest_centre_;    // of each triangle
   std::vector<double> rest_radius_;  // from there to its farthest corner
-  std::vector<uint32_t> sheet_;      // the nodes that are vertices of the sheet
-  // of each node: its way, the box and the ball around it
-  std::vector<Vec3> from_, to_, node_low_, node_high_, middle_;
-  std::vector<double> reach_;
+  std::vector<Vec3> from_, to_;      // of each node
+  std::vector<Vec3> middle_, half_;  // of its way; from there to the end
+  std::vector<Way> vertex_way_, edge_way_;
   double slack_ = 0;
-  std::vector<uint8_t> still_;             // triangles that never move: nothing between two of them
-  std::vector<Vec3> low_, high_, points_;  // boxes of the triangles, for the grid
-  std::vector<Edge> pairs_;
+  Pace pace_ = Pace::together;
+  std::vector<uint8_t> still_;  // triangles that never move: nothing between two of them
   std::vector<VertexTriangle> facing_, guarded_;
   std::vector<EdgeEdge> guarded_edges_;
 };

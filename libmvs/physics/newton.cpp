@@ -66,6 +66,7 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
 void Newton::begin(const State &state) {
   stats_ = {};
   x_ = state.x;
+  trial_.resize(x_.size());
   fraction_ = state.load.boundary_fraction;
   potential_.set_pressure(state.load.pressure);
   // an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle
@@ -298,17 +299,7 @@ void Newton::limit_step() {
     step_[i].setZero();
     held_ = true;
   }
-  cover_step();
-  const PhaseTimer timer(stats_.work, MVS_PHASE_NARROW);
-  bounds_.limit(*model_, x_, potential_.candidates(), step_);
-}
-
-// Candidate pairs must reach as far as the step.
-void Newton::cover_step() {
-  trial_.resize(x_.size());
-  for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
-  if (potential_.prepared_for(trial_) && potential_.prepared_for(x_)) return;
-  potential_.prepare(x_, trial_, slack_, stats_.work);
+  potential_.limit_step(x_, slack_, step_, stats_.work);
 }
 
 bool Newton::try_force() {

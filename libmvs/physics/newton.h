@@ -14,7 +14,6 @@
 #include "base/factor.h"
 #include "physics/potential.h"
 #include "physics/solver.h"
-#include "physics/step_bounds.h"
 
 namespace mvs {
 
@@ -41,7 +40,6 @@ class Newton {
   void solve(bool with_shift);
   void include_skew(bool with_shift);
   void limit_step();
-  void cover_step();
   bool try_force();
   double free_norm() const;
   double slope() const;
@@ -51,7 +49,6 @@ class Newton {
   Factor *factor_;
   Potential potential_;
   System system_;
-  StepBounds bounds_;
   SolveStats stats_;
 
   std::vector<Vec3> x_, trial_, g_;    // positions, positions tried, dE/dx

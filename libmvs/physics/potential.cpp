@@ -26,6 +26,12 @@ void Potential::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to,
   candidates_.build(x, to, slack);
 }
 
+void Potential::limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
+                           Profile &profile) {
+  const PhaseTimer timer(profile, MVS_PHASE_BROAD);
+  profile.broad_phases += bounds_.limit(*model_, x, slack, candidates_, dx);
+}
+
 double Potential::energy(const std::vector<Vec3> &x) {
   contact_.collect(x, candidates_);
   return spring_.energy(x) + membrane_.energy(x) + bending_.energy(x) + chord_.energy(x) +

@@ -11,6 +11,7 @@
 #include "physics/pressure.h"
 #include "physics/profile.h"
 #include "physics/spring.h"
+#include "physics/step_bounds.h"
 
 namespace mvs {
 
@@ -23,6 +24,10 @@ class Potential {
   // Makes contact known while each node stays within `slack` of its way from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                Profile &profile);
+  // Shortens a step dx from x so that nothing passes through anything; contact is then known at x,
+  // at x + dx, and between.
+  void limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
+                  Profile &profile);
   bool prepared_for(const std::vector<Vec3> &x) const { return candidates_.valid_for(x); }
 
   // The energy at x, comparable between calls of gradient(); x must be prepared for.
@@ -51,6 +56,7 @@ class Potential {
   ChordTerm chord_;
   PressureTerm pressure_;
   Candidates candidates_;
+  StepBounds bounds_;
   ContactTerm contact_;
   std::vector<Edge> pairs_;  // of the terms whose pattern never changes
 };

@@ -11,10 +11,28 @@ namespace {
 
 // The share of a distance that one step may use up. The rest is what rounding could never cross.
 constexpr double usable = 0.9;
+// m, nearer than this no pair comes: far above the rounding of places, 1e-17 m.
+constexpr double closest = 1e-10;
 // Passes in which a node may follow one that gives way; then each keeps to its own half.
 constexpr int lenient_passes = 30;
+// Lists made for nodes that go together, before one that holds for each node by itself.
+constexpr uint32_t lists_together = 2;
 
 }  // namespace
+
+uint32_t StepBounds::limit(const Model &model, const std::vector<Vec3> &x, double slack,
+                           Candidates &candidates, std::vector<Vec3> &dx) {
+  for (uint32_t lists = 0;;) {
+    to_.resize(x.size());
+    for (size_t i = 0; i < x.size(); ++i) to_[i] = x[i] + dx[i];
+    if (!candidates.valid_for(x) || !candidates.valid_for(to_)) {
+      candidates.build(x, to_, slack,
+                       lists < lists_together ? Pace::together : Pace::each_for_itself);
+      ++lists;
+    }
+    if (limit(model, x, candidates, dx) == 1 || candidates.for_itself()) return lists;
+  }
+}
 
 double StepBounds::limit(const Model &model, const std::vector<Vec3> &x,
                          const Candidates &candidates, std::vector<Vec3> &dx) {
@@ -46,8 +64,9 @@ void StepBounds::take_pairs(const Model &model, const std::vector<Vec3> &x,
       double &side = k < split ? near : far;
       side = std::max(side, dx[node[k]].squaredNorm());
     }
-    if (std::sqrt(near) + std::sqrt(far) <= usable * distance) return;
-    pairs_.push_back({node, split, r / distance, usable * distance});
+    const double room = usable * std::max(0.0, distance - closest);
+    if (std::sqrt(near) + std::sqrt(far) <= room) return;
+    pairs_.push_back({node, split, r / distance, room});
   };
   for (const VertexTriangle &c : candidates.guarded()) {
     const Tri &t = model.valve.triangles[c.triangle];

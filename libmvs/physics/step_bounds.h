@@ -17,6 +17,14 @@ namespace mvs {
 // time of impact, two sheets that nearly touch do not stop the rest of the valve.
 class StepBounds {
  public:
+  // Shortens a step so that nothing passes through anything, whatever there is to meet: finds the
+  // pairs that could meet while all nodes move together, cuts, and looks again, as what is cut
+  // moves against what is not. What cuts again and again gets a list that holds however each node
+  // is cut. `candidates` then hold for x, for x + dx and between, within `slack`. Returns how often
+  // they were looked for.
+  uint32_t limit(const Model &model, const std::vector<Vec3> &x, double slack,
+                 Candidates &candidates, std::vector<Vec3> &dx);
+
   // Returns the smallest factor by which a node's step was cut, 1 if none was.
   double limit(const Model &model, const std::vector<Vec3> &x, const Candidates &candidates,
                std::vector<Vec3> &dx);
@@ -32,6 +40,7 @@ class StepBounds {
                   const std::vector<Vec3> &dx);
   bool cut(const Pair &pair, const std::vector<Vec3> &dx);
 
+  std::vector<Vec3> to_;
   std::vector<Pair> pairs_;
   std::vector<double> scale_;
   bool strict_ = false;

@@ -121,16 +121,11 @@ void ImplicitStepper::solve(double dt, double damping, SolveStats &stats) {
 void ImplicitStepper::limit(SolveStats &stats) {
   step_ = boundary_;
   for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = rows_[r];
-  trial_.resize(x_.size());
-  for (size_t i = 0; i < x_.size(); ++i) {
-    const double length = step_[i].norm();
-    if (length > longest_step) step_[i] *= longest_step / length;
-    trial_[i] = x_[i] + step_[i];
+  for (Vec3 &d : step_) {
+    const double length = d.norm();
+    if (length > longest_step) d *= longest_step / length;
   }
-  if (!potential_.prepared_for(trial_) || !potential_.prepared_for(x_)) {
-    potential_.prepare(x_, trial_, slack_, stats.work);
-  }
-  bounds_.limit(*model_, x_, potential_.candidates(), step_);
+  potential_.limit_step(x_, slack_, step_, stats.work);
 }
 
 ExplicitStepper::ExplicitStepper(const Model &model)

@@ -4,7 +4,6 @@
 #include "base/factor.h"
 #include "physics/potential.h"
 #include "physics/solver.h"
-#include "physics/step_bounds.h"
 
 namespace mvs {
 
@@ -26,8 +25,7 @@ class ImplicitStepper {
   Factor *factor_;
   Potential potential_;
   System system_;
-  StepBounds bounds_;
-  std::vector<Vec3> x_, v_, g_, step_, trial_, boundary_, rows_;
+  std::vector<Vec3> x_, v_, g_, step_, boundary_, rows_;
   double slack_;  // m, for Potential::prepare
   double energy_ = 0, residual_ = 0;
 };

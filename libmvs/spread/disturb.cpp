@@ -63,14 +63,9 @@ double disturb(const Model &model, std::vector<Vec3> &x, const Disturbance &how,
   std::vector<Vec3> dx = displacements(model, x, how, random);
   const double farthest = longest(dx);
   if (how.longest <= 0 || farthest == 0) return 0;
-  std::vector<Vec3> to(x.size());
-  for (size_t i = 0; i < x.size(); ++i) {
-    dx[i] *= how.longest / farthest;
-    to[i] = x[i] + dx[i];
-  }
+  for (Vec3 &d : dx) d *= how.longest / farthest;
   Candidates candidates(model);
-  candidates.build(x, to, 0);
-  StepBounds().limit(model, x, candidates, dx);
+  StepBounds().limit(model, x, 0, candidates, dx);
   for (size_t i = 0; i < x.size(); ++i) x[i] += dx[i];
   return longest(dx);
 }

@@ -105,6 +105,36 @@ TEST_CASE("a_factor_takes_new_values_on_its_pattern") {
   }
 }
 
+// So a pattern may be kept while contact comes and goes.
+TEST_CASE("zeros_in_the_pattern_change_no_bit_of_the_block_factor") {
+  Random random(7);
+  for (const uint32_t n : {5u, 40u, 200u}) {
+    const BlockMatrix m = random_matrix(random, n, 3 * n);
+    std::vector<Edge> pairs = random_pairs(random, n, 4 * n);
+    for (uint32_t c = 0; c < n; ++c) {
+      for (uint32_t k = m.start[c]; k < m.start[c + 1]; ++k) pairs.push_back({c, m.row[k]});
+    }
+    BlockMatrix wider;
+    wider.set_pattern(n, pairs);
+    REQUIRE(wider.row.size() > m.row.size());
+    for (uint32_t c = 0; c < n; ++c) {
+      for (uint32_t k = m.start[c]; k < m.start[c + 1]; ++k) {
+        wider.value[wider.find(m.row[k], c)] = m.value[k];
+      }
+    }
+    const Positions b = random.vectors(n, 1);
+    Positions x = b, y = b;
+    const std::unique_ptr<Factor> factor = make_factor(MVS_BACKEND_BLOCK);
+    factor->analyse(m);
+    REQUIRE(factor->factorise(m));
+    factor->solve(x);
+    factor->analyse(wider);
+    REQUIRE(factor->factorise(wider));
+    factor->solve(y);
+    CHECK((flat(x) - flat(y)).cwiseAbs().maxCoeff() == 0);
+  }
+}
+
 TEST_CASE("every_factor_refuses_what_is_not_positive_definite") {
   Random random(3);
   for (const uint32_t backend : backends()) {

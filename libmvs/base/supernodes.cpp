@@ -1,0 +1,131 @@
+// Symbolic factorisation.
+#include "base/supernodes.h"
+
+namespace mvs {
+namespace {
+
+// Explicit zeros that a merge may bring, as a share of the panel, by its width in blocks: narrow
+// panels cost more than the zeros do. Measured on valves of 400 to 6,800 vertices.
+double bearable_zeros(uint32_t width) {
+  return width <= 4 ? 0.5 : width <= 12 ? 0.2 : 0.05;
+}
+
+size_t blocks_of(const Supernode &s) {
+  return s.width() * (s.width() + 1) / 2 + s.width() * s.below();
+}
+
+}  // namespace
+
+void Supernodes::analyse(const BlockMatrix &matrix) {
+  find_columns(matrix);
+  gather_runs();
+  merge();
+  place_panels();
+  find_contributions();
+}
+
+// The rows of column j: its own, and those of the columns whose first row below is j.
+void Supernodes::find_columns(const BlockMatrix &matrix) {
+  const uint32_t n = matrix.size();
+  column_start_.assign(n + 1, 0);
+  column_row_.clear();
+  child_.assign(n, none);
+  sibling_.assign(n, none);
+  mark_.assign(n, none);
+  for (uint32_t j = 0; j < n; ++j) {
+    const size_t begin = column_row_.size();
+    mark_[j] = j;
+    auto take = [&](uint32_t r) {
+      if (r <= j || mark_[r] == j) return;
+      mark_[r] = j;
+      column_row_.push_back(r);
+    };
+    for (uint32_t k = matrix.start[j]; k < matrix.start[j + 1]; ++k) take(matrix.row[k]);
+    for (uint32_t c = child_[j]; c != none; c = sibling_[c]) {
+      for (size_t k = column_start_[c]; k < column_start_[c + 1]; ++k) take(column_row_[k]);
+    }
+    std::sort(column_row_.begin() + static_cast<std::ptrdiff_t>(begin), column_row_.end());
+    column_start_[j + 1] = column_row_.size();
+    if (begin == column_row_.size()) continue;
+    sibling_[j] = child_[column_row_[begin]];
+    child_[column_row_[begin]] = j;
+  }
+}
+
+// Columns that follow each other with the same rows.
+void Supernodes::gather_runs() {
+  const auto n = static_cast<uint32_t>(mark_.size());
+  auto rows = [&](uint32_t j) { return column_start_[j + 1] - column_start_[j]; };
+  node.clear();
+  for (uint32_t j = 0; j < n; ++j) {
+    const bool follows =
+        j > 0 && rows(j - 1) == rows(j) + 1 && column_row_[column_start_[j - 1]] == j;
+    if (!follows) node.push_back({j, j, 0, 0, 0});
+    Supernode &s = node.back();
+    s.last = j + 1;
+    s.row_start = column_start_[j];
+    s.row_end = column_start_[j + 1];
+  }
+}
+
+// Joins a supernode to the one before it where that is its child and few zeros come in. What is
+// merged has the rows of the later one.
+void Supernodes::merge() {
+  size_t kept = 0;
+  for (size_t k = 0; k < node.size(); ++k) {
+    Supernode s = node[k];
+    while (kept > 0 && worth_merging(node[kept - 1], s)) s.first = node[--kept].first;
+    node[kept++] = s;
+  }
+  node.resize(kept);
+}
+
+bool Supernodes::worth_merging(const Supernode &left, const Supernode &right) const {
+  if (left.below() == 0 || column_row_[left.row_start] != right.first) return false;
+  Supernode both = right;
+  both.first = left.first;
+  const auto filled = static_cast<double>(blocks_of(left) + blocks_of(right));
+  const auto all = static_cast<double>(blocks_of(both));
+  return all - filled <= bearable_zeros(both.width()) * all;
+}
+
+void Supernodes::place_panels() {
+  row.clear();
+  numbers = 0;
+  for (Supernode &s : node) {
+    const size_t begin = row.size();
+    for (size_t k = s.row_start; k < s.row_end; ++k) row.push_back(column_row_[k]);
+    s.row_start = begin;
+    s.row_end = row.size();
+    s.panel = numbers;
+    numbers += 3 * s.width() * s.height();
+  }
+}
+
+// Counted first, then placed, so that each supernode's list ascends.
+void Supernodes::find_contributions() {
+  owner_.resize(mark_.size());
+  for (uint32_t s = 0; s < node.size(); ++s) {
+    for (uint32_t j = node[s].first; j < node[s].last; ++j) owner_[j] = s;
+  }
+  auto for_each = [&](auto visit) {
+    for (uint32_t s = 0; s < node.size(); ++s) {
+      for (size_t k = node[s].row_start; k < node[s].row_end;) {
+        const uint32_t to = owner_[row[k]];
+        size_t end = k + 1;
+        while (end < node[s].row_end && owner_[row[end]] == to) ++end;
+        visit(to, Contribution{s, k, end});
+        k = end;
+      }
+    }
+  };
+  contribution_start.assign(node.size() + 1, 0);
+  for_each([&](uint32_t to, const Contribution &) { ++contribution_start[to + 1]; });
+  for (size_t s = 0; s < node.size(); ++s) contribution_start[s + 1] += contribution_start[s];
+  contribution.resize(contribution_start.back());
+  for_each([&](uint32_t to, const Contribution &c) { contribution[contribution_start[to]++] = c; });
+  for (size_t s = node.size(); s > 0; --s) contribution_start[s] = contribution_start[s - 1];
+  if (!contribution_start.empty()) contribution_start[0] = 0;
+}
+
+}  // namespace mvs
