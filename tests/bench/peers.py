@@ -62,6 +62,8 @@ CASES = (
     Case("numpy", "L-BFGS (SciPy)", "engine_lbfgs.py", "", SAME),
     Case("mujoco", "tendons", "engine_mujoco.py", "sheet=tendons dt=5e-5 damping=500",
          "springs and chordae the same"),
+    Case("mujoco", "tendons, IPC", "engine_mujoco.py",
+         "sheet=tendons contact=ipc dt=5e-5 damping=500", "springs and chordae the same"),
     Case("mujoco", "flex", "engine_mujoco.py", "sheet=flex dt=5e-4 young=3e5",
          "linear membrane; chordae the same"),
     Case("mujoco", "flex, IPC", "engine_mujoco.py", "sheet=flex contact=ipc dt=1e-3 young=3e5",
@@ -307,7 +309,7 @@ def main() -> None:
     options = parser.parse_args()
     known = {"libmvs", "numpy", "febio", *PACKAGES}
     if unknown := set(options.engines.split(",")) - known:
-        parser.error(f"no engine {', '.join(sorted(unknown))}; there are {', '.join(sorted(known))}")
+        parser.error(f"no engine {', '.join(unknown)}; there are {', '.join(sorted(known))}")
     options.out = options.out.resolve()
     options.out.mkdir(parents=True, exist_ok=True)
     if options.install:

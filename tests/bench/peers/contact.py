@@ -1,6 +1,6 @@
 """Contact of the sheet with itself in NumPy: each vertex and the nearest point that faces it.
 
-Barrier or penalty of libmvs/physics/contact.h, without its sum over the sheet and without its guard.
+Barrier or penalty of libmvs/physics/contact.h, without its sum over the sheet and its guard.
 """
 
 from __future__ import annotations
@@ -70,8 +70,8 @@ class Contact:
         self.margin = 0.4 * self.range
         self.triangles = valve.triangles.astype(np.int64)
         corners = valve.nodes[self.triangles]
-        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]),
-                              axis=1) / 2
+        sides = corners[:, 1:] - corners[:, :1]
+        area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
         share = np.zeros(len(valve.nodes))
         np.add.at(share, self.triangles.ravel(), np.repeat(area / 3, 3))
         self.strength = 0.5 * stiffness * share

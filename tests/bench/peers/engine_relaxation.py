@@ -12,7 +12,7 @@ from valve import Recorder, Valve, arguments
 
 
 def scaled_masses(valve: Valve, law: Law, x: np.ndarray, safety: float) -> np.ndarray:
-    """Half the sum of the stiffnesses at each node: a time step of 1 is then stable (Gershgorin)."""
+    """The sum of the stiffnesses at each node: a time step of 1 is then stable (Gershgorin)."""
     low, high, kink = valve.spring_law
     strain = law.sheet.lengths(x)[1] / valve.spring_length - 1
     modulus = np.where(strain > kink - 0.05, high, low)

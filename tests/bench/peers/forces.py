@@ -38,7 +38,7 @@ class Cables:
 
 
 class Law:
-    """All terms: `forces` gives the true ones, `energy` a potential of them at a fixed free edge."""
+    """All terms: `forces` are the true ones, `energy` a potential of them at a frozen free edge."""
 
     def __init__(self, valve: Valve, contact: str = "barrier") -> None:
         n = len(valve.nodes)
