@@ -45,25 +45,57 @@ build_packages=(build-essential cmake ninja-build pkg-config libeigen3-dev libsu
 python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
 test_packages=(doctest-dev libtinyobjloader-dev clang clang-format clang-tidy git)
 
-# Configures and builds a preset of CMakePresets.json: build_preset NAME [CMAKE OPTION ...]
+# Configures and builds a preset of CMakePresets.json:
+# build_preset NAME [CMAKE OPTION ...] [-- BUILD OPTION ...]
 build_preset() {
-  local preset=$1 launcher=()
+  local preset=$1 launcher=() options=()
   shift
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do
+    options+=("$1")
+    shift
+  done
   if command -v ccache >/dev/null; then
     launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   mkdir -p build
-  cmake --preset "$preset" "${launcher[@]}" "$@" >"build/$preset.log" 2>&1 || {
+  cmake --preset "$preset" "${launcher[@]}" "${options[@]}" >"build/$preset.log" 2>&1 || {
     cat "build/$preset.log" >&2
     return 1
   }
-  cmake --build --preset "$preset"
+  cmake --build --preset "$preset" "${@:2}"
 }
 
-# Makes .venv once and installs the Python package with the named extras: install_python EXTRAS
+# What the package, its build and the named extras need, as pyproject.toml says: python_needs EXTRA ...
+python_needs() {
+  .venv/bin/python - "$@" <<'PYTHON'
+import sys
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # before Python 3.11
+    from pip._vendor import tomli as tomllib
+
+with open("pyproject.toml", "rb") as file:
+    told = tomllib.load(file)
+extras = told["project"]["optional-dependencies"]
+lists = [told["build-system"]["requires"], told["project"]["dependencies"]]
+print(*sum(lists + [extras[name] for name in sys.argv[1:]], []), sep="\n")
+PYTHON
+}
+
+# Makes .venv once with what the named extras need, and has it import the Python module of the
+# release tree, which compiles nothing of the library a second time: install_python EXTRA ...
 install_python() {
+  local needs site
   [ -x .venv/bin/pip ] || "${PYTHON:-python3}" -m venv .venv || return 1
-  echo "pip installs this package and what it needs into .venv: a minute or two the first time"
-  .venv/bin/pip install --quiet --disable-pip-version-check --config-settings=build-dir=build/python \
-    ".[$1]"
+  echo "pip installs what the Python module needs into .venv: a minute or two the first time"
+  needs=$(python_needs "$@") || return 1
+  mapfile -t needs <<<"$needs"
+  .venv/bin/pip install --quiet --disable-pip-version-check "${needs[@]}" || return 1
+  build_preset release -DMVS_PYTHON=ON "-DPython_EXECUTABLE=$PWD/.venv/bin/python" \
+    "-Dpybind11_DIR=$(.venv/bin/python -m pybind11 --cmakedir)" -- --target mvs_python || return 1
+  # an installed one would be found before it
+  .venv/bin/pip uninstall --quiet --yes libmvs 2>/dev/null
+  site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))') || return 1
+  echo "$PWD/build/release/python" >"$site/libmvs.pth"
 }
