@@ -15,7 +15,7 @@ from mvs.report import cases, gallery, geometry, page, spread, table  # noqa: E4
 
 @pytest.fixture(scope="module")
 def case(opened, closed):
-    stats = mvs.Stats(True, 1, 1, 0, 0, 1e-6, 0.0, 0.0, 0.1, {})
+    stats = mvs.Stats(True, 1, 1, 0, 0, 1e-6, 0.0, 0.0, 0.1, {}, 0, 0, 1, 1, 0, 4)
     return cases.Case("shipped", "Shipped <valve>", "a note", opened, closed, stats)
 
 
