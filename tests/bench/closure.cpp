@@ -1,155 +1,130 @@
-// How long a valve takes to close, from open to rest at one residual, with each solver side by
-// side.
+// What closing a valve from open takes, to one residual: leaflets of springs and of membrane,
+// solver beside solver, and where the time goes.
 //
 //   bench_closure                    scenes S, M, L with newton; S also with the founding paper's
-//                                    explicit method; prints the ratio of the two
-//   bench_closure --csv FILE         also as a table: scene,vertices,solver,...
-#include <mvs/mvs.hpp>
-
+//                                    explicit method, at its largest stable step and best damping
+//   bench_closure --scenes XL --leaflets membrane
+//   bench_closure --explicit M       minutes; --dt and --damping spare it the search
+//   bench_closure --csv FILE         also as a table
+//
+// CPU seconds are medians of the runs; those of a phase are its share of the wall time.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <fstream>
-#include <map>
-#include <stdexcept>
+#include <exception>
 #include <string>
 #include <vector>
 
+#include "founding.h"
+#include "table.h"
+
+using namespace bench;
+
 namespace {
 
-const std::map<std::string, uint32_t> solvers = {{"newton", MVS_SOLVER_NEWTON},
-                                                 {"implicit", MVS_SOLVER_IMPLICIT},
-                                                 {"explicit", MVS_SOLVER_EXPLICIT}};
-const std::map<std::string, uint32_t> scene_vertices = {{"S", 425}, {"M", 1700}, {"L", 6800}};
-
 struct Options {
-  std::vector<std::string> scenes = {"S", "M", "L"};
-  std::vector<std::string> solvers = {"newton"};
-  std::vector<std::string> explicit_scenes = {"S"};
-  double residual = 1e-4;
+  std::vector<std::string> scenes = {"S", "M", "L"}, leaflets = {"spring", "membrane"};
+  std::vector<std::string> solvers = {"newton"}, explicit_scenes = {"S"};
+  double residual = rest_residual, dt = 0, damping = 0;
   int repeat = 3;
   std::string csv;
 };
 
 struct Row {
-  std::string scene, solver;
-  size_t vertices = 0;
-  mvs_stats stats = {};
-  mvs_measures measures = {};
-  std::vector<double> wall_s;  // sorted
-
-  double median_s() const { return wall_s[wall_s.size() / 2]; }
+  Case of;
+  Closing closing;
 };
 
-size_t leaflet_vertices(const mvs::Snapshot &valve) {
-  const auto kinds = valve.view<uint8_t>(MVS_NODE_KIND);
-  return static_cast<size_t>(std::count_if(kinds.begin(), kinds.end(), [](uint8_t kind) {
-    return kind == MVS_NODE_IS_LEAFLET || kind == MVS_NODE_IS_ANNULUS;
-  }));
+std::vector<std::string> columns() {
+  std::vector<std::string> names = {"scene",      "vertices", "leaflet ",  "solver  ",
+                                    "steps",      "factored", "orderings", "broad",
+                                    "passes",     "linear",   "cpu s",     "wall s",
+                                    "residual N", "at rest",  "crossings", "hole mm2"};
+  for (const std::string &phase : phase_names) names.push_back(phase + " ms");
+  return names;
 }
 
-// Closes one freshly made valve; a new simulator each time, so that no run warms up the next.
-void close_once(const Options &options, Row &row) {
-  mvs::Sim sim;
-  mvs_parametric_desc valve = {};
-  valve.vertices = scene_vertices.at(row.scene);
-  sim.generate(valve);
-  sim.set_load(MVS_SYSTOLE_PA);
-
-  mvs_settle_options settle = {};
-  settle.solver = solvers.at(row.solver);
-  settle.residual = options.residual;
-  const auto start = std::chrono::steady_clock::now();
-  row.stats = sim.settle(settle);
-  row.wall_s.push_back(
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-
-  const mvs::Snapshot closed = sim.snapshot();
-  row.vertices = leaflet_vertices(closed);
-  row.measures = closed.measure();
-}
-
-void print(const Row &row) {
-  std::printf("%-5s %8zu  %-9s %9u  %10.4f  %10.4f  %9.1e  %-9s %5u  %8.1f\n", row.scene.c_str(),
-              row.vertices, row.solver.c_str(), row.stats.iterations, row.median_s(),
-              row.wall_s.back(), row.stats.residual, row.stats.converged ? "yes" : "NO",
-              row.measures.intersections, row.measures.regurgitant_orifice_area * 1e6);
-  std::fflush(stdout);
-}
-
-Row run(const Options &options, const std::string &scene, const std::string &solver) {
-  Row row;
-  row.scene = scene;
-  row.solver = solver;
-  // the explicit method takes minutes, so that once must do
-  const int repeat = solver == "explicit" ? 1 : options.repeat;
-  for (int i = 0; i < repeat; ++i) close_once(options, row);
-  std::sort(row.wall_s.begin(), row.wall_s.end());
-  print(row);
-  return row;
+void tell(Table &table, const Row &row) {
+  const mvs_stats &s = row.closing.stats;
+  std::vector<Cell> cells = {row.of.scene,
+                             row.closing.vertices,
+                             row.of.leaflet,
+                             row.of.solver,
+                             s.iterations,
+                             s.factorisations,
+                             s.orderings,
+                             s.broad_phases,
+                             s.passes,
+                             s.linear_iterations,
+                             row.closing.cpu(),
+                             row.closing.wall(),
+                             s.residual,
+                             row.closing.at_rest(),
+                             row.closing.measures.intersections,
+                             row.closing.measures.regurgitant_orifice_area * 1e6};
+  for (size_t k = 0; k < phase_names.size(); ++k) cells.push_back(row.closing.phase(k) * 1e3);
+  table.row(cells);
 }
 
 std::vector<Row> run_all(const Options &options) {
-  std::printf("%-5s %8s  %-9s %9s  %10s  %10s  %9s  %-9s %5s  %8s\n", "scene", "vertices", "solver",
-              "steps", "median s", "max s", "residual N", "converged", "cross", "hole mm2");
+  Table table(columns(), options.csv);
   std::vector<Row> rows;
+  const auto add = [&](const Row &row) {
+    tell(table, row);
+    rows.push_back(row);
+  };
   for (const std::string &scene : options.scenes) {
-    for (const std::string &solver : options.solvers) rows.push_back(run(options, scene, solver));
+    for (const std::string &leaflet : options.leaflets) {
+      for (const std::string &solver : options.solvers) {
+        const Case of{scene, leaflet, solver, options.residual};
+        add({of, close(of, options.repeat)});
+      }
+    }
   }
   for (const std::string &scene : options.explicit_scenes) {
-    rows.push_back(run(options, scene, "explicit"));
+    const Founding best = close_founding(
+        {scene, "spring", "explicit", options.residual, options.dt, options.damping});
+    add({best.taken, best.closing});
   }
   return rows;
 }
 
-// Explicit over Newton, where both ran on a scene and both came to rest.
-void print_ratios(const std::vector<Row> &rows) {
+// Explicit over newton, where both ran on a scene and both came to rest.
+void tell_ratios(const std::vector<Row> &rows) {
   for (const Row &slow : rows) {
+    if (slow.of.solver != "explicit") continue;
+    std::printf("%s: the founding method took steps of %.3g us and a damping of %.3g /s\n",
+                slow.of.scene.c_str(), slow.of.dt * 1e6, slow.of.damping);
     for (const Row &fast : rows) {
-      if (slow.solver != "explicit" || fast.solver != "newton" || slow.scene != fast.scene)
-        continue;
-      if (slow.stats.converged && fast.stats.converged) {
-        std::printf("%s: explicit takes %.0f times as long as newton to the same residual\n",
-                    slow.scene.c_str(), slow.median_s() / fast.median_s());
+      if (fast.of.solver != "newton" || slow.of.scene != fast.of.scene) continue;
+      if (fast.of.leaflet != slow.of.leaflet) continue;
+      if (slow.closing.at_rest() && fast.closing.at_rest()) {
+        std::printf("%s: explicit takes %.1f times as long as newton to the same residual\n",
+                    slow.of.scene.c_str(), slow.closing.cpu() / fast.closing.cpu());
       } else {
         std::printf("%s: no ratio, as one of the two did not reach the residual\n",
-                    slow.scene.c_str());
+                    slow.of.scene.c_str());
       }
     }
   }
 }
 
-void write_csv(const std::vector<Row> &rows, const std::string &path) {
-  std::ofstream file(path);
-  file << "scene,vertices,solver,iterations,s_median,s_max,residual_N,converged,intersections,"
-          "orifice_mm2\n";
-  for (const Row &row : rows) {
-    file << row.scene << ',' << row.vertices << ',' << row.solver << ',' << row.stats.iterations
-         << ',' << row.median_s() << ',' << row.wall_s.back() << ',' << row.stats.residual << ','
-         << row.stats.converged << ',' << row.measures.intersections << ','
-         << row.measures.regurgitant_orifice_area * 1e6 << '\n';
-  }
-  if (!file.flush()) throw std::runtime_error("could not write " + path);
-}
-
-std::vector<std::string> keys(const std::map<std::string, uint32_t> &map) {
-  std::vector<std::string> names;
-  names.reserve(map.size());
-  for (const auto &[name, value] : map) names.push_back(name);
-  return names;
-}
-
 void add_options(CLI::App &app, Options &options) {
-  app.add_option("--scenes", options.scenes, "S 425, M 1700, L 6800 vertices")
+  app.add_option("--scenes", options.scenes, "S 425, M 1700, L 6800, XL 27000 vertices")
       ->capture_default_str()
       ->check(CLI::IsMember(keys(scene_vertices)));
+  app.add_option("--leaflets", options.leaflets, "of these scenes")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"spring", "membrane"}));
   app.add_option("--solvers", options.solvers, "for these scenes")
       ->capture_default_str()
-      ->check(CLI::IsMember(keys(solvers)));
-  app.add_option("--explicit", options.explicit_scenes, "scenes for the explicit method, too")
+      ->check(CLI::IsMember(keys(solver_names)));
+  app.add_option("--explicit", options.explicit_scenes, "scenes for the founding method, too")
       ->capture_default_str()
       ->check(CLI::IsMember(keys(scene_vertices)));
+  app.add_option("--dt", options.dt, "s, of the founding method [searched]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--damping", options.damping, "1/s, of the founding method [searched]")
+      ->check(CLI::PositiveNumber);
   app.add_option("--residual", options.residual, "N, at which a valve is at rest")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -166,9 +141,7 @@ int run(int argc, char **argv) {
   CLI11_PARSE(app, argc, argv);
   // asking for solvers by name asks for no other one
   if (app.count("--solvers") > 0 && app.count("--explicit") == 0) options.explicit_scenes.clear();
-  const std::vector<Row> rows = run_all(options);
-  print_ratios(rows);
-  if (!options.csv.empty()) write_csv(rows, options.csv);
+  tell_ratios(run_all(options));
   return 0;
 }
 

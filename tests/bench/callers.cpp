@@ -1,0 +1,64 @@
+// Steps a closed valve with and without what a caller may want beside.
+#include "callers.h"
+
+#include <functional>
+#include <mvs/mvs.hpp>
+
+#include "clock.h"
+
+namespace bench {
+namespace {
+
+mvs::Sim closed_valve(uint32_t vertices) {
+  mvs::Sim sim;
+  mvs_parametric_desc desc = {};
+  desc.vertices = vertices;
+  sim.generate(desc);
+  sim.set_load(MVS_SYSTOLE_PA);
+  sim.settle();
+  return sim;
+}
+
+// The median of steps towards a lower pressure, each with what is done after it.
+double step_cost(mvs::Sim sim, const std::function<void(mvs::Sim &)> &after) {
+  sim.set_load(0.9 * MVS_SYSTOLE_PA);
+  std::vector<double> cpu_s;
+  for (int k = 0; k < 40; ++k) {
+    const auto work = [&] {
+      sim.step();
+      if (after) after(sim);
+    };
+    cpu_s.push_back(timed(work).cpu);
+  }
+  return median(cpu_s);
+}
+
+mvs::Sim with_levels(mvs::Sim sim, int levels) {
+  const auto chords = sim.snapshot().parts(MVS_PART_CHORD);
+  for (int k = 0; k < levels; ++k) {
+    mvs_op_chord_length op = {};
+    op.chord = chords[static_cast<size_t>(k) % chords.size()].id;
+    op.factor = k % 2 == 0 ? 0.9999 : 1 / 0.9999;
+    sim.apply(op);
+  }
+  return sim;
+}
+
+}  // namespace
+
+std::vector<Part> caller_parts(uint32_t vertices) {
+  const auto valve = [=] { return closed_valve(vertices); };
+  const double bare = step_cost(valve(), {});
+  const auto snap = [](mvs::Sim &sim) { sim.snapshot(); };
+  const auto measure = [](mvs::Sim &sim) { sim.snapshot().measure(); };
+  std::vector<Part> parts;
+  parts.push_back({"snapshot each step", step_cost(valve(), snap), bare});
+  parts.push_back({"measures each step", step_cost(valve(), measure), bare});
+  parts.push_back({"100 levels of undo", step_cost(with_levels(valve(), 100), {}), bare});
+  const mvs::Snapshot closed = valve().snapshot();
+  const double first = timed([&] { closed.measure(); }).cpu;
+  parts.push_back({"measures, once more", first, timed([&] { closed.measure(); }).cpu});
+  return parts;
+}
+
+}  // namespace bench

@@ -1,0 +1,61 @@
+// One closure from open, as a user has it: through include/mvs.
+#pragma once
+
+#include <mvs/sim.h>
+#include <mvs/snapshot.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "clock.h"
+
+namespace bench {
+
+// Scenes by name: the shipped valve in as many vertices.
+inline const std::map<std::string, uint32_t> scene_vertices = {
+    {"S", 425}, {"M", 1700}, {"L", 6800}, {"XL", 27000}};
+inline const std::map<std::string, uint32_t> solver_names = {{"newton", MVS_SOLVER_NEWTON},
+                                                             {"implicit", MVS_SOLVER_IMPLICIT},
+                                                             {"explicit", MVS_SOLVER_EXPLICIT}};
+inline const std::vector<std::string> phase_names = {"terms",    "broad",  "narrow", "assembly",
+                                                     "ordering", "factor", "solve",  "line_search"};
+
+// A force on a node below which a valve is at rest; what every bench closes to, N.
+inline constexpr double rest_residual = 1e-4;
+
+struct Case {
+  std::string scene = "S", leaflet = "spring", solver = "newton";
+  double residual = rest_residual;
+  double dt = 0, damping = 0;  // of solvers in time; 0: the default
+  uint32_t most = 0;           // iterations; 0: the default
+};
+
+struct Closing {
+  size_t vertices = 0;    // of the leaflets
+  bool diverged = false;  // numbers left their range; what follows is then meaningless
+  mvs_stats stats = {};   // of the last run
+  mvs_measures measures = {};
+  std::vector<double> cpu_s, wall_s;  // of each run
+
+  bool at_rest() const { return !diverged && stats.converged != 0; }
+  double cpu() const { return median(cpu_s); }
+  double wall() const { return median(wall_s); }
+  // CPU seconds of a phase: its share of the wall's.
+  double phase(size_t k) const {
+    return stats.wall_s > 0 ? stats.phase_s[k] / stats.wall_s * cpu() : 0;
+  }
+};
+
+// Closes it `repeat` times, each in a simulator of its own, so that no run warms up the next.
+Closing close(const Case &of, int repeat);
+
+// The keys of a map, for options.
+template <typename Map>
+std::vector<std::string> keys(const Map &map) {
+  std::vector<std::string> names;
+  for (const auto &entry : map) names.push_back(entry.first);
+  return names;
+}
+
+}  // namespace bench

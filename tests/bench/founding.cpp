@@ -1,0 +1,65 @@
+// The search for the founding method's step and damping; each try is a closure.
+#include "founding.h"
+
+#include <cmath>
+
+namespace bench {
+namespace {
+
+constexpr double rung = 1.189207115002721;  // the fourth root of two
+constexpr double usual_damping = 500;       // 1/s
+constexpr double longest = 1.0;             // s simulated, after which a try has failed
+
+// A try is given up where it takes longer than the best so far.
+Closing attempt(Case of, const Closing *best) {
+  of.most = static_cast<uint32_t>(longest / of.dt);
+  if (best != nullptr) of.most = best->stats.iterations + best->stats.iterations / 4;
+  return close(of, 1);
+}
+
+// The smallest edges are in proportion to 1 / sqrt(vertices), and so is what is stable.
+double first_dt(const std::string &scene) {
+  return 8e-6 * std::sqrt(425.0 / scene_vertices.at(scene));
+}
+
+Founding largest_step(Case of) {
+  of.dt = first_dt(of.scene);
+  Founding best{of, attempt(of, nullptr)};
+  for (int k = 0; k < 12 && !best.closing.at_rest(); ++k) {
+    best.taken.dt /= rung;
+    best.closing = attempt(best.taken, nullptr);
+  }
+  const bool was_first = best.taken.dt == of.dt;
+  while (was_first && best.closing.at_rest()) {
+    of.dt *= rung;
+    const Closing next = attempt(of, &best.closing);
+    if (!next.at_rest()) break;
+    best = {of, next};
+  }
+  return best;
+}
+
+void best_damping(Founding &best, double factor) {
+  for (;;) {
+    Case of = best.taken;
+    of.damping *= factor;
+    const Closing next = attempt(of, &best.closing);
+    if (!next.at_rest() || next.stats.iterations >= best.closing.stats.iterations) return;
+    best = {of, next};
+  }
+}
+
+}  // namespace
+
+Founding close_founding(Case of) {
+  const bool seek_step = of.dt == 0, seek_damping = of.damping == 0;
+  if (seek_damping) of.damping = usual_damping;
+  Founding best = seek_step ? largest_step(of) : Founding{of, attempt(of, nullptr)};
+  if (!seek_damping || !best.closing.at_rest()) return best;
+  const double started = best.taken.damping;
+  best_damping(best, 2);
+  if (best.taken.damping == started) best_damping(best, 0.5);
+  return best;
+}
+
+}  // namespace bench

@@ -1,0 +1,20 @@
+// The operations after which a valve is closed again.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "surgery/history.h"
+
+namespace bench {
+
+struct Operation {
+  std::string kind, name;
+  std::function<mvs::Operated(const mvs::Picture &closed)> apply;
+};
+
+// Every kind of operation on the shipped valve, chordae and sites by their names.
+std::vector<Operation> operations();
+
+}  // namespace bench

@@ -1,0 +1,243 @@
+// What each part of a scene costs, and what it costs where the scene has none of it.
+//
+//   bench_skip                       scene S
+//   bench_skip --scene M --csv FILE
+//
+// Terms: one energy, gradient and Hessian on a valve with the part, and on one without. Contact: of
+// the closed valve, and of the open one, where nothing meets. Steps: one that moves, and one at
+// rest; callers: what a snapshot, measures and levels of undo add to a step. CPU time, the fastest
+// of the rounds. Then, for whole closures, what mvs_stats says was skipped.
+#include <mvs/sim.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "anatomy/parametric.h"
+#include "callers.h"
+#include "closing.h"
+#include "physics/potential.h"
+#include "physics/solver.h"
+#include "table.h"
+
+using namespace mvs;
+
+namespace {
+
+struct Options {
+  std::string scene = "S", csv;
+  int rounds = 20;
+};
+
+using Change = std::function<void(Valve &)>;
+
+void to_membrane(Valve &valve) {
+  for (size_t k = 0; k < valve.leaflets.size(); ++k) {
+    valve.leaflets[k].law = MVS_LEAFLET_BILINEAR;
+    for (const LeafletLaw &law : leaflet_laws()) {
+      if (law.id == MVS_LEAFLET_BILINEAR)
+        valve.leaflets[k].constants = default_constants(law.constants);
+    }
+  }
+}
+
+ModelPtr scene(const Options &options, const Change &change) {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = bench::scene_vertices.at(options.scene);
+  Valve valve = make_parametric_valve(desc);
+  if (change) change(valve);
+  return make_model(std::move(valve));
+}
+
+std::vector<Vec3> nodes_of(const SharedVector<Vec3> &x) {
+  return {x.begin(), x.end()};
+}
+
+// A system with room for every term of a model at x.
+System room_for(const Model &model, const std::vector<Vec3> &x) {
+  Potential potential(model);
+  Profile profile;
+  System system;
+  std::vector<Vec3> g;
+  potential.prepare(x, x, 0, profile);
+  potential.gradient(x, g, profile);
+  potential.hessian(x, Curvature::projected, system, profile);
+  return system;
+}
+
+template <typename Term>
+double term_cost(const Options &options, const Model &model, const Term &term,
+                 const std::vector<Vec3> &x) {
+  System system = room_for(model, x);
+  std::vector<Vec3> g(x.size(), Vec3::Zero());
+  double sum = 0;
+  return bench::fastest(options.rounds, [&] {
+    sum += term.energy(x) + term.gradient(x, g);
+    term.hessian(x, Curvature::projected, system);
+  });
+}
+
+double pressure_cost(const Options &options, const Model &model, double pressure,
+                     const std::vector<Vec3> &x) {
+  System system = room_for(model, x);
+  std::vector<Vec3> g(x.size(), Vec3::Zero());
+  PressureTerm term(model);
+  term.set_pressure(pressure);
+  double sum = 0;
+  return bench::fastest(options.rounds, [&] {
+    term.freeze(x);
+    sum += term.energy(x) + term.gradient(x, g);
+    term.hessian(x, system);
+  });
+}
+
+// Pairs, distances, and the term of what touches.
+struct ContactCost {
+  double broad, narrow, terms;
+};
+
+ContactCost contact_cost(const Options &options, const Model &model, const std::vector<Vec3> &x) {
+  const double slack = 0.1 * model.valve.contact_thickness;
+  Candidates pairs(model);
+  ContactTerm contact(model);
+  ContactCost cost = {};
+  cost.broad = bench::fastest(options.rounds, [&] { pairs.build(x, x, slack); });
+  cost.narrow = bench::fastest(options.rounds, [&] { contact.collect(x, pairs); });
+  System system = room_for(model, x);
+  std::vector<Vec3> g(x.size(), Vec3::Zero());
+  double sum = 0;
+  cost.terms = bench::fastest(options.rounds, [&] {
+    sum += contact.energy() + contact.gradient(g);
+    contact.hessian(x, Curvature::projected, system);
+  });
+  return cost;
+}
+
+// Every scene that lacks something.
+struct Scenes {
+  ModelPtr full, membrane, no_chordae, no_bending;
+  explicit Scenes(const Options &options)
+      : full(scene(options, {})),
+        membrane(scene(options, to_membrane)),
+        no_chordae(scene(options, [](Valve &v) { v.chords = SharedVector<Chord>(); })),
+        no_bending(scene(options, [](Valve &v) { v.bending_scale = 0; })) {}
+};
+
+State loaded(const Model &model, double pressure, double fraction) {
+  State state = initial_state(model);
+  state.load = {pressure, fraction};
+  return state;
+}
+
+State closed(const Model &model) {
+  State state = loaded(model, MVS_SYSTOLE_PA, 1);
+  Solver(MVS_BACKEND_DEFAULT).settle(model, state, {}, {});
+  return state;
+}
+
+void tell(bench::Table &table, const char *part, double on, double off) {
+  table.row({part, on * 1e6, off * 1e6, on > 0 ? off / on : 0});
+}
+
+void tell_terms(const Options &options, const Scenes &s, bench::Table &table) {
+  const std::vector<Vec3> x = nodes_of(closed(*s.full).x);
+  const auto cost = [&](const Model &model, const auto &term) {
+    return term_cost(options, model, term, x);
+  };
+  tell(table, "springs", cost(*s.full, SpringTerm(*s.full)),
+       cost(*s.membrane, SpringTerm(*s.membrane)));
+  tell(table, "membrane", cost(*s.membrane, MembraneTerm(*s.membrane)),
+       cost(*s.full, MembraneTerm(*s.full)));
+  tell(table, "bending", cost(*s.full, BendingTerm(*s.full)),
+       cost(*s.no_bending, BendingTerm(*s.no_bending)));
+  tell(table, "chordae", cost(*s.full, ChordTerm(*s.full)),
+       cost(*s.no_chordae, ChordTerm(*s.no_chordae)));
+  tell(table, "pressure", pressure_cost(options, *s.full, MVS_SYSTOLE_PA, x),
+       pressure_cost(options, *s.full, 0, x));
+  const ContactCost on = contact_cost(options, *s.full, x);
+  const ContactCost off = contact_cost(options, *s.full, nodes_of(s.full->valve.rest));
+  tell(table, "contact: pairs", on.broad, off.broad);
+  tell(table, "contact: distances", on.narrow, off.narrow);
+  tell(table, "contact: terms", on.terms, off.terms);
+}
+
+// The CPU seconds of one of `count` implicit steps: their median.
+double step_cost(const Model &model, State state, int before, int count) {
+  Solver solver(MVS_BACKEND_DEFAULT);
+  SolveOptions how;
+  how.solver = MVS_SOLVER_IMPLICIT;
+  for (int k = 0; k < before; ++k) solver.step(model, state, how);
+  std::vector<double> cpu_s;
+  for (int k = 0; k < count; ++k)
+    cpu_s.push_back(bench::timed([&] { solver.step(model, state, how); }).cpu);
+  return bench::median(cpu_s);
+}
+
+std::string words(uint32_t skipped) {
+  const char *names[] = {"springs", "membrane", "bending",  "chordae", "pressure", "contact",
+                         "tools",   "broad",    "ordering", "factor",  "step"};
+  std::string text;
+  for (uint32_t k = 0; k < std::size(names); ++k) {
+    if ((skipped >> k & 1) != 0) text += (text.empty() ? "" : " ") + std::string(names[k]);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+void tell_closure(bench::Table &table, const char *name, const Model &model, double pressure,
+                  double fraction) {
+  State state = loaded(model, pressure, fraction);
+  SolveStats stats;
+  Solver solver(MVS_BACKEND_DEFAULT);
+  SolveOptions how;
+  how.residual = bench::rest_residual;
+  how.max_iterations = 100;
+  const double cpu = bench::timed([&] { stats = solver.settle(model, state, how, {}); }).cpu;
+  table.row({name, cpu * 1e3, stats.iterations, stats.work.passes, stats.work.broad_phases,
+             stats.converged, words(stats.skipped)});
+}
+
+void run(const Options &options) {
+  const Scenes s(options);
+  {
+    bench::Table table({"part                ", "on us", "off us", "off / on"}, options.csv);
+    tell_terms(options, s, table);
+    tell(table, "a step that moves", step_cost(*s.full, loaded(*s.full, MVS_SYSTOLE_PA, 1), 5, 30),
+         step_cost(*s.full, closed(*s.full), 20, 30));
+    for (const bench::Part &part : bench::caller_parts(bench::scene_vertices.at(options.scene)))
+      tell(table, part.name.c_str(), part.on, part.off);
+  }
+  std::printf("\n");
+  bench::Table table(
+      {"scene               ", "cpu ms", "steps", "passes", "broad", "at rest ", "skipped"});
+  tell_closure(table, "shipped valve", *s.full, MVS_SYSTOLE_PA, 1);
+  tell_closure(table, "membrane", *s.membrane, MVS_SYSTOLE_PA, 1);
+  tell_closure(table, "no bending", *s.no_bending, MVS_SYSTOLE_PA, 1);
+  tell_closure(table, "no chordae", *s.no_chordae, MVS_SYSTOLE_PA, 1);
+  tell_closure(table, "no pressure", *s.full, 0, 1);
+  tell_closure(table, "leaflets pushed open", *s.full, -100, 0);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  try {
+    Options options;
+    CLI::App app("What parts of a scene cost, present and absent.", "bench_skip");
+    app.add_option("--scene", options.scene, "S 425, M 1700, L 6800, XL 27000 vertices")
+        ->capture_default_str()
+        ->check(CLI::IsMember(bench::keys(bench::scene_vertices)));
+    app.add_option("--rounds", options.rounds, "of which the fastest counts")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--csv", options.csv, "file to write the first table to");
+    CLI11_PARSE(app, argc, argv);
+    run(options);
+    return 0;
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "bench_skip: %s\n", error.what());
+    return 1;
+  }
+}
