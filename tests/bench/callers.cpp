@@ -20,10 +20,10 @@ mvs::Sim closed_valve(uint32_t vertices) {
 }
 
 // The median of steps towards a lower pressure, each with what is done after it.
-double step_cost(mvs::Sim sim, const std::function<void(mvs::Sim &)> &after) {
+double step_cost(mvs::Sim sim, int steps, const std::function<void(mvs::Sim &)> &after) {
   sim.set_load(0.9 * MVS_SYSTOLE_PA);
   std::vector<double> cpu_s;
-  for (int k = 0; k < 40; ++k) {
+  for (int k = 0; k < steps; ++k) {
     const auto work = [&] {
       sim.step();
       if (after) after(sim);
@@ -46,15 +46,15 @@ mvs::Sim with_levels(mvs::Sim sim, int levels) {
 
 }  // namespace
 
-std::vector<Part> caller_parts(uint32_t vertices) {
+std::vector<Part> caller_parts(uint32_t vertices, int steps) {
   const auto valve = [=] { return closed_valve(vertices); };
-  const double bare = step_cost(valve(), {});
+  const double bare = step_cost(valve(), steps, {});
   const auto snap = [](mvs::Sim &sim) { sim.snapshot(); };
   const auto measure = [](mvs::Sim &sim) { sim.snapshot().measure(); };
   std::vector<Part> parts;
-  parts.push_back({"snapshot each step", step_cost(valve(), snap), bare});
-  parts.push_back({"measures each step", step_cost(valve(), measure), bare});
-  parts.push_back({"100 levels of undo", step_cost(with_levels(valve(), 100), {}), bare});
+  parts.push_back({"snapshot each step", step_cost(valve(), steps, snap), bare});
+  parts.push_back({"measures each step", step_cost(valve(), steps, measure), bare});
+  parts.push_back({"100 levels of undo", step_cost(with_levels(valve(), 100), steps, {}), bare});
   const mvs::Snapshot closed = valve().snapshot();
   const double first = timed([&] { closed.measure(); }).cpu;
   parts.push_back({"measures, once more", first, timed([&] { closed.measure(); }).cpu});

@@ -12,7 +12,7 @@ struct Part {
   double on, off;  // CPU seconds
 };
 
-// Snapshots taken or not, measures asked for or not, levels of undo or none.
-std::vector<Part> caller_parts(uint32_t vertices);
+// Snapshots taken or not, measures asked for or not, levels of undo or none, over so many steps.
+std::vector<Part> caller_parts(uint32_t vertices, int steps);
 
 }  // namespace bench

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,7 @@ const std::map<std::string, Scene> scenes = {{"S", {"S", 1, false}},
 struct Options {
   std::vector<std::string> scenes = {"S", "sickS", "M", "sickM"};
   int repeat = 3;
-  std::string csv;
+  std::string only, csv;
 };
 
 struct Run {
@@ -156,6 +157,7 @@ int run(int argc, char **argv) {
   app.add_option("--repeat", options.repeat, "runs of each")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  app.add_option("--only", options.only, "this kind of operation: \"clip\"");
   app.add_option("--csv", options.csv, "file to write the table to");
   CLI11_PARSE(app, argc, argv);
 
@@ -167,9 +169,11 @@ int run(int argc, char **argv) {
     const ModelPtr model = make_model(make_scene(scenes.at(scene)));
     const Picture closed{model, close(options, *model, initial_state(*model)).state};
     for (const bench::Operation &operation : bench::operations()) {
+      if (!options.only.empty() && options.only != operation.kind) continue;
       rows.push_back(compare(options, scene, closed, operation, table));
     }
   }
+  if (rows.empty()) throw std::runtime_error("no operation is called " + options.only);
   tell_kinds(rows);
   tell_all(rows);
   const bool sound = std::all_of(rows.begin(), rows.end(), [](const Row &r) { return r.sound; });

@@ -205,9 +205,11 @@ void run(const Options &options) {
   {
     bench::Table table({"part                ", "on us", "off us", "off / on"}, options.csv);
     tell_terms(options, s, table);
-    tell(table, "a step that moves", step_cost(*s.full, loaded(*s.full, MVS_SYSTOLE_PA, 1), 5, 30),
-         step_cost(*s.full, closed(*s.full), 20, 30));
-    for (const bench::Part &part : bench::caller_parts(bench::scene_vertices.at(options.scene)))
+    tell(table, "a step that moves",
+         step_cost(*s.full, loaded(*s.full, MVS_SYSTOLE_PA, 1), 5, options.rounds),
+         step_cost(*s.full, closed(*s.full), 20, options.rounds));
+    for (const bench::Part &part :
+         bench::caller_parts(bench::scene_vertices.at(options.scene), options.rounds))
       tell(table, part.name.c_str(), part.on, part.off);
   }
   std::printf("\n");
