@@ -190,7 +190,7 @@ def run(case: Case, goal: Goal, valve: Path, out: Path, limit: float) -> dict[st
     command = [str(python), str(HERE / case.script), str(valve), str(trace),
                *case.settings.split(), f"limit={limit}"]
     alone = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL")}
-    told = subprocess.run(command, capture_output=True, text=True, env=os.environ | alone,
+    told = subprocess.run(command, capture_output=True, text=True, cwd=out, env=os.environ | alone,
                           preexec_fn=lambda: resource.setrlimit(
                               resource.RLIMIT_CPU, (int(20 * limit) + 900,) * 2))
     if told.returncode or not trace.exists():
