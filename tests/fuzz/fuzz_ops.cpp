@@ -1,8 +1,10 @@
 // Any bytes as a script of operations, undo, redo, settle, step, save and load, checkpoints: every
-// call succeeds or leaves all bits as they were, undo and redo are exact, and undoing everything
-// gives the first valve. Without libFuzzer: `fuzz_ops SCRIPTS`, so many random scripts.
+// call succeeds or leaves all bits as they were, undo and redo are exact, undoing everything gives
+// the first valve, and no move leaves a number that is none or makes triangles cross. Without
+// libFuzzer: `fuzz_ops SCRIPTS`, so many random scripts.
 #include <mvs/mvs.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +14,8 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include "../stability/crossings.h"
 
 namespace {
 
@@ -233,10 +237,31 @@ class Script {
     sim_.set_load(bytes_.between(0, 20e3), bytes_.between(0, 1));
     mvs_settle_options options = mvs::sized<mvs_settle_options>();
     options.max_iterations = 3;
-    tolerate(mvs_settle(sim_.get(), &options, nullptr));
+    move([&] { return mvs_settle(sim_.get(), &options, nullptr); });
   }
 
-  void step() { tolerate(mvs_step(sim_.get(), nullptr)); }
+  void step() {
+    move([&] { return mvs_step(sim_.get(), nullptr); });
+  }
+
+  // What crosses after a move crossed before it: operations may make triangles cross, moves not.
+  template <typename Call>
+  void move(Call &&call) {
+    const std::vector<stability::Pair> before = crossing();
+    tolerate(call());
+    const std::vector<stability::Pair> after = crossing();
+    demand(std::includes(before.begin(), before.end(), after.begin(), after.end()),
+           "a move made triangles cross");
+  }
+
+  std::vector<stability::Pair> crossing() const {
+    const mvs::Snapshot now = sim_.snapshot();
+    const auto x = now.view<double>(MVS_NODE_POSITION);
+    const auto triangles = now.view<uint32_t>(MVS_TRIANGLE_NODES);
+    demand(std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); }),
+           "a place is no number");
+    return stability::crossings(x.data(), x.rows(), triangles.data(), triangles.rows());
+  }
 
   // An operation may make a valve whose forces overflow; that is told, and changes nothing.
   void tolerate(mvs_result result) {
@@ -297,7 +322,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 int main(int argc, char **argv) {
   const char *lengthy = std::getenv("MVS_TEST_LONG");
   const int given = argc > 1 ? std::atoi(argv[1]) : 100;
-  const int scripts = lengthy && *lengthy ? 5000 : given;
+  const int scripts = lengthy && *lengthy ? 10000 : given;
   for (int seed = 0; seed < scripts; ++seed) {
     std::mt19937 random(static_cast<uint32_t>(seed));
     std::vector<uint8_t> bytes(600);

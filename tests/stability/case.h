@@ -1,0 +1,30 @@
+// A case: what is done to a valve, on which valves, and how it comes to rest.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "watch.h"
+
+namespace stability {
+
+struct Case {
+  std::string name;  // "group/what"
+  std::function<void(Watch &)> play;
+  std::vector<std::string> valves = {"S"};  // in short runs; `more` as well in long ones
+  std::vector<std::string> more = {"M", "N32"};
+  std::vector<Way> ways = {Way::newton, Way::implicit, Way::live};
+  bool may_refuse = false;  // moves may fail with MVS_E_DIVERGED
+  // Lays the valve out; without it the case starts from the closed valve under systolic pressure.
+  std::function<void(Watch &, const std::string &valve)> prepare = {};
+};
+
+std::vector<Case> boundary_cases();
+std::vector<Case> chord_cases(bool every_chord);
+std::vector<Case> load_cases();
+std::vector<Case> start_cases();
+std::vector<Case> mesh_cases();
+std::vector<Case> script_cases(uint32_t first, uint32_t count);
+
+}  // namespace stability
