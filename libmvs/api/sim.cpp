@@ -1,4 +1,5 @@
 // The life of a simulator: create, give it a valve, snapshot, restore, destroy.
+#include "api/mesh_notes.h"
 #include "api/simulator.h"
 
 #include <cstdarg>
@@ -64,6 +65,7 @@ void replace_valve(mvs_sim &sim, Moment moment) {
   sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",
           held->valve.name.c_str(), held->node_count(), held->valve.triangles.size(),
           held->valve.chords.size());
+  log_mesh(sim, *held);
 }
 
 }  // namespace mvs

@@ -4,6 +4,7 @@
 
 typedef struct host {
   mvs_sim *sim;
+  char last[512];
   int lines, warnings, calls, stop_at;
   double share, residual;
   int share_fell, reentered, seen;
@@ -14,6 +15,7 @@ static void take_line(void *user, int32_t level, const char *text) {
   ++h->lines;
   h->warnings += level == MVS_LOG_WARNING;
   CHECK(text[0] != 0 && strchr(text, '\n') == NULL);
+  if (level != MVS_LOG_INFO || h->warnings == 0) snprintf(h->last, sizeof h->last, "%s", text);
 }
 
 static int32_t take_progress(void *user, double share, double residual) {
@@ -82,7 +84,27 @@ static void not_converged_is_a_warning_and_no_error(void) {
   mvs_destroy(h.sim);
 }
 
+/* Finer than its contact is no fault, but is told; with slivers it is a warning. */
+static void edges_below_the_contact_thickness_are_told(void) {
+  static funnel f;
+  host h = {0};
+  mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, NULL, &h};
+  make_funnel(&f);
+  f.desc.contact_thickness = 5e-3; /* the funnel's lower edges are 3.5 mm long */
+  MUST(mvs_create(&desc, &h.sim));
+  MUST(mvs_set_valve(h.sim, &f.desc));
+  CHECK(h.lines == 2 && h.warnings == 0);
+  CHECK(strstr(h.last, "edges are shorter than the contact thickness of 0.005 m") != NULL);
+  /* node 33 but a micrometre from node 32 */
+  for (int k = 0; k < 3; ++k) f.nodes[33][k] = f.nodes[32][k] + (k == 1 ? 1e-6 : 0);
+  MUST(mvs_set_valve(h.sim, &f.desc));
+  CHECK(h.warnings == 1);
+  CHECK(strstr(h.last, "the edge from node 32 to node 33 is 1e-06 m long") != NULL);
+  mvs_destroy(h.sim);
+}
+
 int main(void) {
+  edges_below_the_contact_thickness_are_told();
   progress_is_told_and_rises();
   a_cancelled_settle_changes_nothing();
   not_converged_is_a_warning_and_no_error();

@@ -110,6 +110,12 @@ static void options_out_of_range(void) {
   REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "reserved");
   settle = (mvs_settle_options){.struct_size = sizeof settle, .residual = -1};
   REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.residual is -1");
+  settle.residual = NAN;
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.residual is nan");
+  settle.residual = 1e-15; /* below rounding */
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.residual is 1e-15");
+  settle.residual = 1e6;
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.residual is 1e+06");
   settle = (mvs_settle_options){.struct_size = sizeof settle, .dt = NAN};
   REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.dt is nan");
   settle = (mvs_settle_options){.struct_size = sizeof settle, .damping = 1e9};
@@ -118,12 +124,41 @@ static void options_out_of_range(void) {
   REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.solver is 1");
   step = (mvs_step_options){sizeof step, 0, 2, 0, 0, 0};
   REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.dt is 2");
+  step.dt = -1e-3;
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.dt is -0.001");
+  step.dt = NAN;
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.dt is nan");
+  step.dt = 1e-12;
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.dt is 1e-12");
   step = (mvs_step_options){sizeof step, 0, 0, -1, 0, 0};
   REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.damping is -1");
   step = (mvs_step_options){.struct_size = sizeof step, .budget = 3};
   REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.budget is 3");
+  step.budget = 20000;
+  REFUSED(mvs_step(sim, &step), MVS_E_ARGUMENT, "options.budget is 20000");
   mvs_parametric_desc valve = {.struct_size = sizeof valve, .vertices = 3};
   REFUSED(mvs_generate_valve(sim, &valve), MVS_E_ARGUMENT, "vertices");
+}
+
+/* The bits after a step of a loaded funnel with this budget. */
+static hash128 after_step(uint32_t budget) {
+  static funnel g;
+  mvs_sim *other = NULL;
+  mvs_load_case load = funnel_load();
+  mvs_step_options step = {.struct_size = sizeof step, .budget = budget};
+  make_funnel(&g);
+  MUST(mvs_create(NULL, &other));
+  MUST(mvs_set_valve(other, &g.desc));
+  MUST(mvs_set_load(other, &load));
+  MUST(mvs_step(other, &step));
+  const hash128 hash = sim_hash(other);
+  mvs_destroy(other);
+  return hash;
+}
+
+/* Not an error: the default, 64. */
+static void a_budget_of_zero_is_the_default(void) {
+  CHECK(same_hash(after_step(0), after_step(64)));
 }
 
 static void arrays_that_cannot_be_read(void) {
@@ -275,6 +310,7 @@ int main(void) {
   start = sim_hash(sim);
   null_pointers();
   options_out_of_range();
+  a_budget_of_zero_is_the_default();
   arrays_that_cannot_be_read();
   start_positions_that_are_none();
   what_is_no_valve();
