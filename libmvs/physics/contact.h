@@ -21,9 +21,8 @@
 #include <vector>
 
 #include "model/model.h"
-#include "physics/blocks.h"
 #include "physics/candidates.h"
-#include "physics/system.h"
+#include "physics/stencil.h"
 
 namespace mvs {
 
@@ -35,28 +34,6 @@ inline double guard_range(double thickness, double rest_distance) {
   const double a = guard_share * thickness, b = guard_rest_share * rest_distance;
   return a < b ? a : b;
 }
-
-// The barrier with its first and second derivative.
-struct Barrier {
-  double value, first, second;
-};
-Barrier barrier(double s);
-// (1 - s)^3 scaled to push as the barrier does at s = 1/2.
-Barrier penalty(double s);
-
-// One distance and what it does: d = |sum_k weight_k x_k| over up to four nodes.
-struct ContactStencil {
-  std::array<uint32_t, 4> node;
-  std::array<double, 4> weight;
-  std::array<std::array<double, 4>, 2> slide;  // d(weight) along each direction it may slide in
-  uint32_t count;                              // nodes
-  uint32_t slides;                             // 0: point-point, 1: point-edge, 2: face or edges
-  Vec3 normal;                                 // unit, towards the first nodes
-  double distance;
-  double range;
-  double strength;  // kappa times an area, times c_p: may be negative
-  bool guard;
-};
 
 // The barrier of this file, or the founding paper's kind of contact: a force that grows with depth
 // up to a bound, from vertices to triangles only, with no guard.
