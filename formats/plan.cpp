@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "base/error.h"
+#include "formats/plan_tool.h"
 
 namespace mvs {
 namespace {
@@ -82,7 +83,7 @@ std::optional<Move> read_move(const Json &json) {
     move.boundary_fraction = number_at(json, "boundary_fraction");
     return move;
   }
-  if (word != "settle" && word != "step") return {};
+  if (word != "settle" && word != "step") return read_tool_step(json);
   check_keys(json,
              {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s"});
   move.kind = word == "settle" ? Move::settle : Move::step;
@@ -157,6 +158,7 @@ Json move_json(const Move &move) {
     json.set("boundary_fraction", move.boundary_fraction);
     return json;
   }
+  if (!move.tool.empty()) return tool_json(move);
   json.set("do", move.kind == Move::settle ? "settle" : "step");
   if (move.count != 1) json.set("count", move.count);
   if (move.solver != 0) json.set("solver", solver_word(move.solver));

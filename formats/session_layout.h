@@ -8,8 +8,9 @@
 
 namespace mvs {
 
-// Version 1 had springs with three constants, linear chordae and no curves.
-inline constexpr uint32_t session_version = 2;
+// Version 1 had springs with three constants, linear chordae and no curves; up to version 2 there
+// were no tools.
+inline constexpr uint32_t session_version = 3;
 
 template <typename T, typename Plain>
 concept Is = std::same_as<std::remove_const_t<T>, Plain>;
@@ -95,6 +96,20 @@ void pass(Archive &a, Is<Valve> auto &valve) {
 }
 
 template <typename Archive>
+void pass(Archive &a, Is<Tool> auto &tool) {
+  a.word(tool.id);
+  a.word(tool.kind);
+  a.word(tool.node);
+  a.number(tool.radius);
+  a.number(tool.length);
+  a.number(tool.stiffness);
+  a.number(tool.max_force);
+  for (auto *v : {&tool.position, &tool.axis, &tool.proxy[0], &tool.proxy[1]}) {
+    for (int k = 0; k < 3; ++k) a.number((*v)[k]);
+  }
+}
+
+template <typename Archive>
 void pass(Archive &a, Is<State> auto &state) {
   a.array(state.x);
   a.array(state.v);
@@ -102,6 +117,9 @@ void pass(Archive &a, Is<State> auto &state) {
   a.word(state.steps);
   a.number(state.load.pressure);
   a.number(state.load.boundary_fraction);
+  if (a.version() < 3) return;
+  a.list(state.tools);
+  a.word(state.tools_made);
 }
 
 template <typename Archive>
@@ -122,6 +140,7 @@ void pass(Archive &a, Is<Move> auto &move) {
   a.number(move.residual);
   a.number(move.dt);
   a.number(move.damping);
+  if (a.version() > 2) a.list(move.tool);
 }
 
 // Behind the operation of an entry, which cannot be made empty and filled.

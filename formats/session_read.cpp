@@ -1,5 +1,7 @@
 // Sessions, read. What was shared is shared again: each array, list, model and entry is made once,
 // by its number in the file.
+#include <mvs/tool.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -103,8 +105,9 @@ class SessionReader {
   std::tuple<Made<SharedVector<Vec3>>, Made<SharedVector<Tri>>, Made<SharedVector<double>>,
              Made<SharedVector<uint32_t>>, Made<SharedVector<Leaflet>>, Made<SharedVector<Scallop>>,
              Made<SharedVector<Chord>>, Made<SharedVector<Head>>, Made<SharedVector<Ring>>,
-             Made<SharedVector<ChordCurve>>, Made<SharedVector<CurvePoint>>, Made<ModelPtr>,
-             Made<Moves>, Made<Entries>, Made<std::shared_ptr<const Entry>>>
+             Made<SharedVector<Tool>>, Made<SharedVector<ChordCurve>>,
+             Made<SharedVector<CurvePoint>>, Made<ModelPtr>, Made<Moves>, Made<Entries>,
+             Made<std::shared_ptr<const Entry>>>
       made_;
   ModelPtr last_model_;
   // what the operation being read points to
@@ -120,7 +123,7 @@ void SessionReader::word(uint32_t &number) {
 
 void SessionReader::choice(Move::Kind &kind) {
   const uint64_t word = next();
-  MVS_MUST(word >= Move::load && word <= Move::step, MVS_E_FORMAT, "mvs",
+  MVS_MUST(word >= Move::load && word <= Move::tool_remove, MVS_E_FORMAT, "mvs",
            "the history of the file has a move of kind %llu, which there is not",
            static_cast<unsigned long long>(word));
   kind = static_cast<Move::Kind>(word);
@@ -200,6 +203,14 @@ void SessionReader::check(const Picture &picture) const {
   const double fraction = state.load.boundary_fraction;
   MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
            "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);
+  for (const Tool &tool : state.tools.get()) {
+    const bool holds =
+        tool.kind == MVS_TOOL_GRASP && tool.node < n && !picture.model->topology.fixed[tool.node];
+    const bool pushes =
+        (tool.kind == MVS_TOOL_BALL || tool.kind == MVS_TOOL_ROD) && tool.node == none;
+    MVS_MUST((holds || pushes) && tool.stiffness > 0 && tool.max_force > 0, MVS_E_FORMAT, "state",
+             "a state of the file has a tool that cannot be");
+  }
 }
 
 template <typename Item>

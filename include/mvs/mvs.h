@@ -10,6 +10,7 @@
 #include "sim.h"
 #include "snapshot.h"
 #include "spread.h"
+#include "tool.h"
 #include "valve.h"
 
 #endif

@@ -28,8 +28,12 @@ inline Move move_of(const Load &load) {
   return move;
 }
 
-inline Load load_of(const Move &move) {
-  return {move.pressure, move.boundary_fraction};
+// What is done with a tool.
+inline Move move_of(Move::Kind kind, const Tool &tool) {
+  Move move;
+  move.kind = kind;
+  move.tool = {tool};
+  return move;
 }
 
 }  // namespace mvs

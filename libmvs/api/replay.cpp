@@ -21,12 +21,12 @@ void step_on(mvs_sim &sim, const Model &model, State &state, const Move &move) {
 
 Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
   State state = now.picture.state;
-  if (move.kind == Move::load) {
-    state.load = load_of(move);
-  } else if (move.kind == Move::settle) {
+  if (move.kind == Move::settle) {
     sim.solver.settle(*now.picture.model, state, options_of(move), sim.progress());
-  } else {
+  } else if (move.kind == Move::step) {
     step_on(sim, *now.picture.model, state, move);
+  } else {
+    take_move(*now.picture.model, state, move);
   }
   return after_move(now, std::move(state), move);
 }

@@ -59,6 +59,7 @@ void replace_valve(mvs_sim &sim, Moment moment) {
   const ModelPtr held = moment.picture.model;
   sim.replace(make_snapshot(std::move(moment)));
   sim.group = {};
+  sim.hands.forget();
   if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: there is a new valve");
   sim.journal.reset();
   sim.stats = {};
@@ -134,6 +135,7 @@ mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot) {
     restart_journal(s, snapshot->moment);
     mvs_snapshot_retain(snapshot);
     s.replace(SnapshotPtr(snapshot));
+    s.hands.forget();
   });
 }
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "api/hands.h"
 #include "api/snapshot_impl.h"
 #include "api/structs.h"
 #include "formats/journal.h"
@@ -31,6 +32,7 @@ struct mvs_sim {
   mvs_stats stats = {};                   // struct_size 0: none yet
   mvs::Group group;                       // number 0: none is open
   std::unique_ptr<mvs::Journal> journal;  // null: none
+  mvs::Hands hands;                       // from any thread
   std::atomic<bool> at_work{false};
 
  private:

@@ -85,10 +85,11 @@ SolveOptions read_options(const mvs_step_options *given) {
   return {options.solver, 0, 0, options.dt, options.damping, options.budget};
 }
 
-// Makes a state that a solver arrived at the present one.
-void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const Move &move,
-           const SolveStats &stats) {
-  sim.replace(make_snapshot(after_move(before->moment, std::move(state), move)));
+// Makes a state that a solver arrived at the present one; it began with what the hands had moved.
+void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const std::vector<Move> &hands,
+           const Move &move, const SolveStats &stats) {
+  sim.replace(make_snapshot(after_move(before->moment, std::move(state), hands, move)));
+  sim.hands.done(sim.present()->state);
   sim.stats = public_stats(stats);
 }
 
@@ -126,8 +127,9 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     if (stats) checked_struct_size(stats, "stats");
     const SnapshotPtr before = s.present();
     State state = before->state;
+    const std::vector<Move> hands = s.hands.take(state);
     const SolveStats found = s.solver.settle(*before->model, state, how, s.progress());
-    go_on(s, before, std::move(state), move_of(Move::settle, how), found);
+    go_on(s, before, std::move(state), hands, move_of(Move::settle, how), found);
     if (stats) write_struct(stats, s.stats, "stats");
     log_settled(s, found);
   });
@@ -138,8 +140,9 @@ mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
     const SolveOptions how = read_options(options);
     const SnapshotPtr before = s.present();
     State state = before->state;
+    const std::vector<Move> hands = s.hands.take(state);
     const SolveStats found = s.solver.step(*before->model, state, how);
-    go_on(s, before, std::move(state), move_of(Move::step, how), found);
+    go_on(s, before, std::move(state), hands, move_of(Move::step, how), found);
   });
 }
 

@@ -99,4 +99,14 @@ inline SegmentPair closest_of_segments(const Vec3 &p0, const Vec3 &p1, const Vec
   return {s, t, (r + s * d1 - t * d2).squaredNorm()};
 }
 
+// The squared distance of a segment from a triangle that it does not pass through: from an end of
+// the segment to the triangle, or between the segment and an edge.
+inline double segment_triangle_distance2(const Vec3 &p, const Vec3 &q, const Vec3 &a, const Vec3 &b,
+                                         const Vec3 &c) {
+  return std::min(
+      {closest_on_triangle(p, a, b, c).distance2, closest_on_triangle(q, a, b, c).distance2,
+       closest_of_segments(p, q, a, b).distance2, closest_of_segments(p, q, b, c).distance2,
+       closest_of_segments(p, q, c, a).distance2});
+}
+
 }  // namespace mvs

@@ -12,6 +12,10 @@ inline void must_be_finite(const State &state) {
     MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",
              "a node left the range of numbers: take a smaller time step or load");
   }
+  for (const Tool &tool : state.tools.get()) {
+    MVS_MUST(tool.proxy[0].allFinite() && tool.proxy[1].allFinite(), MVS_E_DIVERGED, "tool",
+             "a tool left the range of numbers: take a smaller time step or move it less");
+  }
 }
 
 }  // namespace mvs

@@ -61,6 +61,16 @@ void add(Hash &hash, const ChordCurve &curve) {
   add(hash, curve.points);
 }
 
+void add(Hash &hash, const Tool &tool) {
+  hash.add(tool.id);
+  add(hash, tool.kind);
+  add(hash, tool.node);
+  for (const double number : {tool.radius, tool.length, tool.stiffness, tool.max_force}) {
+    hash.add(number);
+  }
+  for (const Vec3 &v : {tool.position, tool.axis, tool.proxy[0], tool.proxy[1]}) add(hash, v);
+}
+
 template <typename Item>
 void add(Hash &hash, const SharedVector<Item> &items) {
   hash.add(uint64_t{items.size()});
@@ -103,6 +113,11 @@ std::array<uint64_t, 2> hash_of(const Model &model, const State &state) {
   hash.add(state.steps);
   hash.add(state.load.pressure);
   hash.add(state.load.boundary_fraction);
+  // a state that never had a tool hashes as before there were any
+  if (state.tools_made > 0) {
+    hash.add(state.tools_made);
+    add(hash, state.tools);
+  }
   return hash.value();
 }
 

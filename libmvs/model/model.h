@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/tool.h"
 #include "model/topology.h"
 #include "model/valve.h"
 
@@ -40,6 +41,8 @@ struct State {
   double time = 0;       // s
   uint64_t steps = 0;
   Load load;
+  SharedVector<Tool> tools;  // in the order in which they were added
+  uint64_t tools_made = 0;   // so far; no id is given twice
 };
 
 // Checks, completes (ids, names, fibres, thickness) and freezes a valve; throws the first fault.

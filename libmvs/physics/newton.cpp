@@ -42,7 +42,8 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
   const double tolerance = options.residual > 0 ? options.residual : 1e-5;
   const uint32_t most = options.max_iterations > 0 ? options.max_iterations : 1000;
   begin(state);
-  settle_disturbed(state.load);
+  // a piece is cut out without the tools that are in it
+  if (state.tools.empty()) settle_disturbed(state.load);
   while (true) {
     const bool arrived = boundary_is_there(*model_, x_, fraction_, 0);
     stats_.converged = arrived && residual_ <= tolerance;
@@ -69,6 +70,7 @@ void Newton::begin(const State &state) {
   trial_.resize(x_.size());
   fraction_ = state.load.boundary_fraction;
   potential_.set_pressure(state.load.pressure);
+  potential_.set_tools(state.tools);
   // an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle
   const double pressure = std::max(std::abs(state.load.pressure), 1e3);
   double area = 0;
@@ -289,6 +291,7 @@ void Newton::include_skew(bool with_shift) {
 void Newton::limit_step() {
   far_ = 0;
   step_ = full_;
+  potential_.instrument().shorten(step_, longest_step);
   for (Vec3 &d : step_) {
     const double length = d.norm();
     if (length > 1.5 * longest_step) far_ += 1 / static_cast<double>(step_.size());

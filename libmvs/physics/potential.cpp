@@ -11,7 +11,8 @@ Potential::Potential(const Model &model, ContactLaw law)
       chord_(model),
       pressure_(model),
       candidates_(model),
-      contact_(model, law) {
+      contact_(model, law),
+      instrument_(model) {
   spring_.add_pairs(pairs_);
   membrane_.add_pairs(pairs_);
   bending_.add_pairs(pairs_);
@@ -19,29 +20,40 @@ Potential::Potential(const Model &model, ContactLaw law)
   pressure_.add_pairs(pairs_);
 }
 
+void Potential::set_tools(const std::vector<Tool> &tools) {
+  uint32_t points = 0;
+  for (const Tool &tool : tools) points += tool.points();
+  const uint32_t first = static_cast<uint32_t>(model_->node_count()) - points;
+  grasp_.set_tools(tools, first);
+  instrument_.set_tools(tools, first);
+}
+
 void Potential::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                         Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_BROAD);
   ++profile.broad_phases;
   candidates_.build(x, to, slack);
+  instrument_.prepare(x, to, slack);
 }
 
 void Potential::limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
                            Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_BROAD);
-  profile.broad_phases += bounds_.limit(*model_, x, slack, candidates_, dx);
+  profile.broad_phases += bounds_.limit(*model_, x, slack, candidates_, dx, &instrument_);
 }
 
 double Potential::energy(const std::vector<Vec3> &x) {
   contact_.collect(x, candidates_);
+  instrument_.collect(x);
   return spring_.energy(x) + membrane_.energy(x) + bending_.energy(x) + chord_.energy(x) +
-         pressure_.energy(x) + contact_.energy();
+         pressure_.energy(x) + grasp_.energy(x) + instrument_.energy(x) + contact_.energy();
 }
 
 double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
   {
     const PhaseTimer timer(profile, MVS_PHASE_NARROW);
     contact_.collect(x, candidates_);
+    instrument_.collect(x);
   }
   ++profile.passes;
   const PhaseTimer timer(profile, MVS_PHASE_TERMS);
@@ -52,6 +64,8 @@ double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Pro
   sum += bending_.gradient(x, g);
   sum += chord_.gradient(x, g);
   sum += pressure_.gradient(x, g);
+  sum += grasp_.gradient(x, g);
+  sum += instrument_.gradient(x, g);
   return sum + contact_.gradient(g);
 }
 
@@ -62,7 +76,9 @@ bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &sy
   bending_.hessian(x, curvature, system);
   chord_.hessian(x, curvature, system);
   pressure_.hessian(x, system);
-  return contact_.hessian(x, curvature, system);
+  grasp_.hessian(x, system);
+  const bool complete = instrument_.hessian(x, curvature, system);
+  return contact_.hessian(x, curvature, system) && complete;
 }
 
 bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,
@@ -78,6 +94,7 @@ bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System 
     ++profile.orderings;
     std::vector<Edge> pairs = pairs_;
     contact_.add_pairs(pairs);
+    instrument_.add_pairs(pairs);
     system.set_pattern(*model_, pairs);
   }
   const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);

@@ -7,6 +7,8 @@
 #include "physics/candidates.h"
 #include "physics/chord.h"
 #include "physics/contact.h"
+#include "physics/grasp.h"
+#include "physics/instrument.h"
 #include "physics/membrane.h"
 #include "physics/pressure.h"
 #include "physics/profile.h"
@@ -20,6 +22,8 @@ class Potential {
   explicit Potential(const Model &model, ContactLaw law = ContactLaw::barrier);
 
   void set_pressure(double pressure) { pressure_.set_pressure(pressure); }
+  // The points of instruments are the last nodes (physics/tool_points.h).
+  void set_tools(const std::vector<Tool> &tools);
 
   // Makes contact known while each node stays within `slack` of its way from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
@@ -28,7 +32,9 @@ class Potential {
   // at x + dx, and between.
   void limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
                   Profile &profile);
-  bool prepared_for(const std::vector<Vec3> &x) const { return candidates_.valid_for(x); }
+  bool prepared_for(const std::vector<Vec3> &x) const {
+    return instrument_.is_prepared() && candidates_.valid_for(x);
+  }
 
   // The energy at x, comparable between calls of gradient(); x must be prepared for.
   double energy(const std::vector<Vec3> &x);
@@ -45,6 +51,7 @@ class Potential {
 
   const Candidates &candidates() const { return candidates_; }
   const ContactTerm &contact() const { return contact_; }
+  InstrumentTerm &instrument() { return instrument_; }
 
  private:
   bool fill(const std::vector<Vec3> &x, Curvature curvature, System &system);
@@ -58,6 +65,8 @@ class Potential {
   Candidates candidates_;
   StepBounds bounds_;
   ContactTerm contact_;
+  GraspTerm grasp_;
+  InstrumentTerm instrument_;
   std::vector<Edge> pairs_;  // of the terms whose pattern never changes
 };
 

@@ -10,6 +10,7 @@
 #include "physics/newton.h"
 #include "physics/nodes.h"
 #include "physics/stepper.h"
+#include "physics/tool_points.h"
 
 namespace mvs {
 namespace {
@@ -81,6 +82,7 @@ struct Solver::Work {
     return *explicit_;
   }
 
+  ToolPoints tool_points;
   std::unique_ptr<Factor> factor;
   std::unique_ptr<ImplicitStepper> implicit;
   std::unique_ptr<ExplicitStepper> explicit_;
@@ -92,8 +94,39 @@ Solver::~Solver() = default;
 Solver::Solver(Solver &&) noexcept = default;
 Solver &Solver::operator=(Solver &&) noexcept = default;
 
+// Runs solve(model, state) with nodes for the points of the tools, if they have any.
+template <typename Solve>
+SolveStats Solver::with_points(const Model &model, State &state, const SolveOptions &options,
+                               Solve solve) {
+  const uint32_t points = tool_points(state);
+  if (points == 0) {
+    SolveStats stats = solve(model, state);
+    if (state.tools.empty()) stats.skipped |= MVS_SKIPPED_TOOLS;
+    return stats;
+  }
+  MVS_MUST(options.solver != MVS_SOLVER_EXPLICIT, MVS_E_UNSUPPORTED, "tool",
+           "the explicit solver guards against no crossing and cannot push with a ball or rod: "
+           "remove it, or take another solver");
+  State extended = ToolPoints::extended(state);
+  const SolveStats stats = solve(work_->tool_points.extend(model, points), extended);
+  ToolPoints::take_back(std::move(extended), state);
+  return stats;
+}
+
 SolveStats Solver::settle(const Model &model, State &state, const SolveOptions &options,
                           const Progress &progress) {
+  return with_points(model, state, options, [&](const Model &m, State &s) {
+    return settle_nodes(m, s, options, progress);
+  });
+}
+
+SolveStats Solver::step(const Model &model, State &state, const SolveOptions &options) {
+  return with_points(model, state, options,
+                     [&](const Model &m, State &s) { return step_nodes(m, s, options); });
+}
+
+SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOptions &options,
+                                const Progress &progress) {
   if (options.solver == MVS_SOLVER_IMPLICIT) {
     ImplicitStepper stepper(model, *work_->factor);
     return settle_in_time(model, state, options, progress, [&](const InTime &t, SolveStats &s) {
@@ -111,7 +144,7 @@ SolveStats Solver::settle(const Model &model, State &state, const SolveOptions &
   return Newton(model, *work_->factor).settle(state, options, progress);
 }
 
-SolveStats Solver::step(const Model &model, State &state, const SolveOptions &options) {
+SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptions &options) {
   const double start = seconds_now();
   const InTime t = defaults(options);
   SolveStats stats;
@@ -127,10 +160,14 @@ SolveStats Solver::step(const Model &model, State &state, const SolveOptions &op
   return stats;
 }
 
-Forces evaluate_forces(const Model &model, const State &state) {
+Forces evaluate_forces(const Model &valve, const State &valve_state) {
+  ToolPoints points;
+  const Model &model = points.extend(valve, tool_points(valve_state));
+  const State state = ToolPoints::extended(valve_state);
   Potential potential(model);
   Profile profile;
   potential.set_pressure(state.load.pressure);
+  potential.set_tools(state.tools);
   potential.prepare(state.x, state.x, 0, profile);
   Forces forces;
   forces.energy = potential.gradient(state.x, forces.total, profile);
@@ -138,6 +175,8 @@ Forces evaluate_forces(const Model &model, const State &state) {
   potential.contact().gradient(forces.contact);
   for (Vec3 &f : forces.total) f = -f;
   for (Vec3 &f : forces.contact) f = -f;
+  forces.total.resize(valve_state.x.size());
+  forces.contact.resize(valve_state.x.size());
   return forces;
 }
 

@@ -52,6 +52,13 @@ class Solver {
   SolveStats step(const Model &model, State &state, const SolveOptions &options);
 
  private:
+  template <typename Solve>
+  SolveStats with_points(const Model &model, State &state, const SolveOptions &options,
+                         Solve solve);
+  SolveStats settle_nodes(const Model &model, State &state, const SolveOptions &options,
+                          const Progress &progress);
+  SolveStats step_nodes(const Model &model, State &state, const SolveOptions &options);
+
   struct Work;
   std::unique_ptr<Work> work_;
 };

@@ -21,22 +21,28 @@ constexpr uint32_t lists_together = 2;
 }  // namespace
 
 uint32_t StepBounds::limit(const Model &model, const std::vector<Vec3> &x, double slack,
-                           Candidates &candidates, std::vector<Vec3> &dx) {
+                           Candidates &candidates, std::vector<Vec3> &dx, InstrumentTerm *tools) {
+  static const std::vector<ToolPair> no_pairs;
   for (uint32_t lists = 0;;) {
     to_.resize(x.size());
     for (size_t i = 0; i < x.size(); ++i) to_[i] = x[i] + dx[i];
-    if (!candidates.valid_for(x) || !candidates.valid_for(to_)) {
+    const bool is_new = tools && !tools->is_prepared();
+    if (is_new || !candidates.valid_for(x) || !candidates.valid_for(to_)) {
       candidates.build(x, to_, slack,
                        lists < lists_together ? Pace::together : Pace::each_for_itself);
+      if (tools) tools->prepare(x, to_, slack);
       ++lists;
     }
-    if (limit(model, x, candidates, dx) == 1 || candidates.for_itself()) return lists;
+    const auto &apart = tools ? tools->pairs_to_part(x) : no_pairs;
+    if (limit(model, x, candidates, dx, apart) == 1 || candidates.for_itself()) return lists;
   }
 }
 
 double StepBounds::limit(const Model &model, const std::vector<Vec3> &x,
-                         const Candidates &candidates, std::vector<Vec3> &dx) {
+                         const Candidates &candidates, std::vector<Vec3> &dx,
+                         const std::vector<ToolPair> &tools) {
   take_pairs(model, x, candidates, dx);
+  for (const ToolPair &p : tools) keep(p, dx);
   if (pairs_.empty()) return 1;
   scale_.assign(dx.size(), 1.0);
   bool changed = true;
@@ -44,6 +50,9 @@ double StepBounds::limit(const Model &model, const std::vector<Vec3> &x,
     changed = false;
     strict_ = pass >= lenient_passes;
     for (const Pair &pair : pairs_) changed = cut(pair, dx) || changed;
+  }
+  for (const ToolPair &p : tools) {
+    for (uint32_t k = 0; k < 4; ++k) scale_[p.node[k]] = scale_[p.with[k]];
   }
   double least = 1;
   for (size_t i = 0; i < dx.size(); ++i) {
@@ -53,32 +62,35 @@ double StepBounds::limit(const Model &model, const std::vector<Vec3> &x,
   return least;
 }
 
-// Keeps the pairs whose nodes move far enough to matter.
+// Keeps a pair if its nodes move far enough to matter.
+void StepBounds::keep(const ToolPair &pair, const std::vector<Vec3> &dx) {
+  const double length = pair.apart.norm();
+  const double room = usable * std::max(0.0, length - pair.radius - closest);
+  double near = 0, far = 0;
+  for (uint32_t k = 0; k < 4; ++k) {
+    double &side = k < pair.split ? near : far;
+    side = std::max(side, dx[pair.node[k]].squaredNorm());
+  }
+  if (std::sqrt(near) + std::sqrt(far) <= room) return;
+  pairs_.push_back({pair.node, pair.with, pair.split, pair.apart / length, room});
+}
+
 void StepBounds::take_pairs(const Model &model, const std::vector<Vec3> &x,
                             const Candidates &candidates, const std::vector<Vec3> &dx) {
   pairs_.clear();
-  auto keep = [&](const std::array<uint32_t, 4> &node, uint32_t split, const Vec3 &r) {
-    const double distance = r.norm();
-    double near = 0, far = 0;
-    for (uint32_t k = 0; k < 4; ++k) {
-      double &side = k < split ? near : far;
-      side = std::max(side, dx[node[k]].squaredNorm());
-    }
-    const double room = usable * std::max(0.0, distance - closest);
-    if (std::sqrt(near) + std::sqrt(far) <= room) return;
-    pairs_.push_back({node, split, r / distance, room});
-  };
   for (const VertexTriangle &c : candidates.guarded()) {
     const Tri &t = model.valve.triangles[c.triangle];
     const auto p = closest_on_triangle(x[c.vertex], x[t[0]], x[t[1]], x[t[2]]);
     const Vec3 q = p.weight[0] * x[t[0]] + p.weight[1] * x[t[1]] + p.weight[2] * x[t[2]];
-    keep({c.vertex, t[0], t[1], t[2]}, 1, x[c.vertex] - q);
+    const std::array<uint32_t, 4> node = {c.vertex, t[0], t[1], t[2]};
+    keep({node, node, 1, x[c.vertex] - q, 0}, dx);
   }
   for (const EdgeEdge &c : candidates.guarded_edges()) {
     const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
     const auto p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
     const Vec3 r = x[e[0]] + p.s * (x[e[1]] - x[e[0]]) - x[f[0]] - p.t * (x[f[1]] - x[f[0]]);
-    keep({e[0], e[1], f[0], f[1]}, 2, r);
+    const std::array<uint32_t, 4> node = {e[0], e[1], f[0], f[1]};
+    keep({node, node, 2, r, 0}, dx);
   }
 }
 
@@ -87,7 +99,7 @@ bool StepBounds::cut(const Pair &pair, const std::vector<Vec3> &dx) {
   std::array<double, 2> side{-1e300, -1e300};
   for (uint32_t k = 0; k < 4; ++k) {
     const uint32_t s = k < pair.split ? 0 : 1;
-    const double along = pair.normal.dot(dx[pair.node[k]]) * scale_[pair.node[k]];
+    const double along = pair.normal.dot(dx[pair.node[k]]) * scale_[pair.with[k]];
     approach[k] = s == 0 ? -along : along;
     side[s] = std::max(side[s], approach[k]);
   }
@@ -102,7 +114,9 @@ bool StepBounds::cut(const Pair &pair, const std::vector<Vec3> &dx) {
     const double most = limit[k < pair.split ? 0 : 1];
     if (approach[k] <= most) continue;
     // a hair below, so that rounding does not bring the pair back
-    scale_[pair.node[k]] *= most / approach[k] * (1 - 1e-12);
+    const double share = most / approach[k] * (1 - 1e-12);
+    scale_[pair.with[k]] *= share;
+    if (k + 1 < pair.split && pair.with[k] == pair.with[k + 1]) approach[k + 1] *= share;
     changed = true;
   }
   return changed;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "physics/candidates.h"
+#include "physics/instrument.h"
 
 namespace mvs {
 
@@ -21,23 +22,25 @@ class StepBounds {
   // pairs that could meet while all nodes move together, cuts, and looks again, as what is cut
   // moves against what is not. What cuts again and again gets a list that holds however each node
   // is cut. `candidates` then hold for x, for x + dx and between, within `slack`. Returns how often
-  // they were looked for.
+  // they were looked for. What must not cross `tools` is looked for with them.
   uint32_t limit(const Model &model, const std::vector<Vec3> &x, double slack,
-                 Candidates &candidates, std::vector<Vec3> &dx);
+                 Candidates &candidates, std::vector<Vec3> &dx, InstrumentTerm *tools = nullptr);
 
-  // Returns the smallest factor by which a node's step was cut, 1 if none was.
+  // Returns the smallest factor by which a node's step was cut, 1 if none was. What an instrument
+  // must not cross comes in `tools`.
   double limit(const Model &model, const std::vector<Vec3> &x, const Candidates &candidates,
-               std::vector<Vec3> &dx);
+               std::vector<Vec3> &dx, const std::vector<ToolPair> &tools = {});
 
  private:
   struct Pair {
-    std::array<uint32_t, 4> node;
-    uint32_t split;  // nodes before it are on the side the normal points to
+    std::array<uint32_t, 4> node, with;  // with: whose share of its step a node goes
+    uint32_t split;                      // nodes before it are on the side the normal points to
     Vec3 normal;
     double room;  // m, the share of the distance that may be used up
   };
   void take_pairs(const Model &model, const std::vector<Vec3> &x, const Candidates &candidates,
                   const std::vector<Vec3> &dx);
+  void keep(const ToolPair &pair, const std::vector<Vec3> &dx);
   bool cut(const Pair &pair, const std::vector<Vec3> &dx);
 
   std::vector<Vec3> to_;

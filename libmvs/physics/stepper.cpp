@@ -50,6 +50,7 @@ void ImplicitStepper::evaluate(SolveStats &stats) {
 
 void ImplicitStepper::step(State &state, double dt, double damping, SolveStats &stats) {
   potential_.set_pressure(state.load.pressure);
+  potential_.set_tools(state.tools.get());
   x_ = state.x;
   v_ = state.v;
   advance_boundary(*model_, state, dt, boundary_);
@@ -121,6 +122,7 @@ void ImplicitStepper::solve(double dt, double damping, SolveStats &stats) {
 void ImplicitStepper::limit(SolveStats &stats) {
   step_ = boundary_;
   for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = rows_[r];
+  potential_.instrument().shorten(step_, longest_step);
   for (Vec3 &d : step_) {
     const double length = d.norm();
     if (length > longest_step) d *= longest_step / length;
@@ -133,6 +135,7 @@ ExplicitStepper::ExplicitStepper(const Model &model)
 
 void ExplicitStepper::step(State &state, double dt, double damping, SolveStats &stats) {
   potential_.set_pressure(state.load.pressure);
+  potential_.set_tools(state.tools.get());
   if (!potential_.prepared_for(state.x)) {
     potential_.prepare(state.x, state.x, 0.5 * model_->valve.contact_thickness, stats.work);
   }

@@ -35,6 +35,12 @@ bool are_equal_steps(const Move &a, Move b) {
   return a.kind == Move::step && a == b;
 }
 
+bool replaces(const Move &move, const Move &last) {
+  if (move.kind != last.kind) return false;
+  if (move.kind == Move::load) return true;
+  return move.kind == Move::tool_move && move.tool[0].id == last.tool[0].id;
+}
+
 }  // namespace
 
 std::shared_ptr<const Picture> start_of(const Moment &moment) {
@@ -45,8 +51,7 @@ std::shared_ptr<const Picture> start_of(const Moment &moment) {
 Moves with_move(const Moves &moves, const Move &move) {
   if (moves.empty()) return moves.pushed(move);
   const Move &last = moves.top();
-  // a load that nothing has followed yet is replaced
-  if (move.kind == Move::load && last.kind == Move::load) return moves.popped().pushed(move);
+  if (replaces(move, last)) return moves.popped().pushed(move);
   if (!are_equal_steps(last, move) || last.count > Move::most_count - move.count) {
     return moves.pushed(move);
   }
@@ -56,12 +61,35 @@ Moves with_move(const Moves &moves, const Move &move) {
 }
 
 Moment after_move(const Moment &now, State state, const Move &move) {
+  return after_move(now, std::move(state), {}, move);
+}
+
+Moment after_move(const Moment &now, State state, const std::vector<Move> &first,
+                  const Move &move) {
   must_be_finite(state);
   share(state, now.picture.state);
   Moment moment{{now.picture.model, std::move(state)}, now.timeline};
   moment.timeline.start = start_of(now);
-  moment.timeline.moves = with_move(now.timeline.moves, move);
+  for (const Move &before : first) {
+    moment.timeline.moves = with_move(moment.timeline.moves, before);
+  }
+  moment.timeline.moves = with_move(moment.timeline.moves, move);
   return moment;
+}
+
+void take_move(const Model &model, State &state, const Move &move) {
+  if (move.kind == Move::load) {
+    state.load = {move.pressure, move.boundary_fraction};
+    return;
+  }
+  const Tool &tool = move.tool[0];
+  if (move.kind == Move::tool_add) {
+    add_tool(model, state, tool);
+  } else if (move.kind == Move::tool_move) {
+    move_tool(state, tool.id, tool.position, tool.axis);
+  } else {
+    remove_tool(state, tool.id);
+  }
 }
 
 Moment after_op(const Moment &now, const Operation &op, const Group &group, int64_t time_ms) {

@@ -21,19 +21,28 @@ struct Picture {
 
 // What changes a state between two operations, so that a plan can be replayed to the same bits.
 struct Move {
-  enum Kind : uint32_t { load = 1, settle = 2, step = 3 };
+  enum Kind : uint32_t {
+    load = 1,
+    settle = 2,
+    step = 3,
+    tool_add = 4,
+    tool_move = 5,
+    tool_remove = 6
+  };
   static constexpr uint64_t most_count = uint64_t{1} << 40;
   Kind kind = load;
   uint32_t solver = 0, max_iterations = 0;  // of settle and step, as the caller gave them
   uint64_t count = 1;  // of step: how many of the same in a row, at most most_count
   double pressure = 0, boundary_fraction = 0;  // of load: Pa, 0 to 1
   double residual = 0, dt = 0, damping = 0;    // N, s, 1/s
+  SharedVector<Tool> tool;  // one, of what is done with it: as added; its hand; its id
 
   bool operator==(const Move &) const = default;
 };
 using Moves = Stack<Move>;
 
-// With one more move; equal steps are counted together.
+// With one more move; equal steps are counted together, and a load or a hand that moves on before
+// anything has followed it is replaced.
 Moves with_move(const Moves &moves, const Move &move);
 
 // One operation that was applied.
@@ -88,6 +97,11 @@ Operated perform(const Picture &before, const Operation &op);
 // The moment after a move, which led to `state`; throws MVS_E_DIVERGED where a position is no
 // number. What the state has in common with the one before is shared.
 Moment after_move(const Moment &now, State state, const Move &move);
+// The same where other moves came first.
+Moment after_move(const Moment &now, State state, const std::vector<Move> &first, const Move &move);
+
+// What a load or a move of a tool does to a state; throws where it cannot be done.
+void take_move(const Model &model, State &state, const Move &move);
 
 // These give the moment after; they throw MVS_E_STATE or MVS_E_ID where there is nothing to go to.
 struct Group {

@@ -113,6 +113,7 @@ void remove_nodes(Surgery &s, const std::vector<uint8_t> &gone) {
     chord.b = number[chord.b];
   }
   for (Head &head : valve.heads) head.node = number[head.node];
+  renumber_grasps(s.state, number);
 }
 
 }  // namespace mvs

@@ -55,6 +55,21 @@ void views_know_their_type() {
   }
 }
 
+void tools_are_added_moved_told_and_removed() {
+  mvs::Sim sim;
+  sim.generate();
+  mvs_tool_desc ball = {};
+  ball.kind = MVS_TOOL_BALL;
+  ball.position[2] = 0.05;
+  const mvs_id tool = sim.add_tool(ball);
+  sim.move_tool(tool, {0, 0, 0.049});
+  sim.step();
+  check(sim.tool(tool).position[2] == 0.049, "the hand has moved");
+  check(mvs::tools_of(sim.snapshot()).size() == 1, "one tool");
+  sim.remove_tool(tool);
+  check(mvs::tools_of(sim.snapshot()).empty(), "no tool");
+}
+
 void a_valve_is_worked_on_from_load_to_file() {
   mvs::Sim sim;
   sim.generate();
@@ -139,6 +154,7 @@ int main() {
   handles_move_and_snapshots_are_shared();
   failures_are_thrown_with_code_and_part();
   views_know_their_type();
+  tools_are_added_moved_told_and_removed();
   a_valve_is_worked_on_from_load_to_file();
   operations_are_applied_undone_and_listed();
   kinds_of_operations_describe_themselves();

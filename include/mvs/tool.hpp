@@ -1,0 +1,27 @@
+// Instruments for C++17. Part of mvs/mvs.hpp.
+#ifndef MVS_TOOL_HPP
+#define MVS_TOOL_HPP
+
+#include <mvs/tool.h>
+#include <mvs/snapshot.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mvs {
+inline namespace cpp17 {
+
+// The tools of a snapshot, in the order in which they were added.
+inline std::vector<mvs_tool_state> tools_of(const Snapshot &snapshot) {
+  std::uint32_t count = 0;
+  must(mvs_snapshot_tool_count(snapshot.get(), &count));
+  std::vector<mvs_tool_state> found(count, sized<mvs_tool_state>());
+  for (std::uint32_t k = 0; k < count; ++k) must(mvs_snapshot_tool(snapshot.get(), k, &found[k]));
+  return found;
+}
+
+}  // namespace cpp17
+}  // namespace mvs
+
+#endif

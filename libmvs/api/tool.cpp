@@ -1,0 +1,204 @@
+// Instruments: read, posted, told.
+#include <mvs/tool.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "api/moves.h"
+#include "api/simulator.h"
+#include "physics/grasp.h"
+
+using namespace mvs;
+
+namespace {
+
+// Farther away than any heart is from its origin: the unit is wrong.
+constexpr double farthest = 10;
+
+Vec3 read_place(const double given[3], const char *what) {
+  const Vec3 place(given[0], given[1], given[2]);
+  MVS_MUST((place.cwiseAbs().array() <= farthest).all(), MVS_E_ARGUMENT, what,
+           "%s is (%g, %g, %g) m: each has to be a number within %g", what, place.x(), place.y(),
+           place.z(), farthest);
+  return place;
+}
+
+Vec3 read_axis(const double given[3], const char *what) {
+  const Vec3 axis(given[0], given[1], given[2]);
+  const double length = axis.stableNorm();
+  MVS_MUST(std::isfinite(length) && length > 0, MVS_E_ARGUMENT, what,
+           "%s is (%g, %g, %g): it has to be a direction", what, axis.x(), axis.y(), axis.z());
+  return axis / length;
+}
+
+double value_or(double value, double fallback) {
+  return value == 0 ? fallback : value;
+}
+
+// The free vertex of the leaflets that is nearest to the hand.
+uint32_t nearest_node(const mvs_snapshot &now, const Vec3 &place, double reach) {
+  uint32_t nearest = none;
+  double least = reach * reach;
+  for (uint32_t i = 0; i < now.state.x.size(); ++i) {
+    if (now.model->topology.node_kind[i] != MVS_NODE_IS_LEAFLET) continue;
+    const double distance2 = (now.state.x[i] - place).squaredNorm();
+    if (distance2 > least || (nearest != none && distance2 == least)) continue;
+    least = distance2;
+    nearest = i;
+  }
+  MVS_MUST(nearest != none, MVS_E_ARGUMENT, "desc.position",
+           "no free vertex of a leaflet lies within %g mm of the hand: bring it nearer, or give a "
+           "larger reach",
+           1e3 * reach);
+  return nearest;
+}
+
+void check_numbers(const mvs_tool_desc &desc) {
+  MVS_MUST(desc.kind >= MVS_TOOL_GRASP && desc.kind <= MVS_TOOL_ROD, MVS_E_ARGUMENT, "desc.kind",
+           "desc.kind is %u: it has to be one of MVS_TOOL_*", desc.kind);
+  must_be_in(desc.radius, 1e-4, 0.02, "desc.radius");
+  must_be_in(desc.length, 1e-3, 0.3, "desc.length");
+  must_be_in(desc.stiffness, 1, 1e5, "desc.stiffness");
+  must_be_in(desc.max_force, 1e-3, 100, "desc.max_force");
+  must_be_in(desc.reach, 1e-6, 1, "desc.reach");
+  MVS_MUST(desc.by_node <= 1, MVS_E_ARGUMENT, "desc.by_node",
+           "desc.by_node is %u: it has to be 0 or 1", desc.by_node);
+}
+
+Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc *given) {
+  const mvs_tool_desc desc = read_struct(given, "desc");
+  check_numbers(desc);
+  Tool tool;
+  tool.kind = desc.kind;
+  tool.position = read_place(desc.position, "desc.position");
+  tool.stiffness = value_or(desc.stiffness, 200);
+  tool.max_force = value_or(desc.max_force, 5);
+  if (desc.kind == MVS_TOOL_GRASP) {
+    const double reach = value_or(desc.reach, 2e-3);
+    tool.node = desc.by_node ? desc.node : nearest_node(now, tool.position, reach);
+    return tool;
+  }
+  tool.radius = value_or(desc.radius, 2e-3);
+  if (desc.kind == MVS_TOOL_BALL) return tool;
+  tool.length = value_or(desc.length, 40e-3);
+  const bool is_given = desc.axis[0] != 0 || desc.axis[1] != 0 || desc.axis[2] != 0;
+  tool.axis = is_given ? read_axis(desc.axis, "desc.axis") : Vec3::UnitZ();
+  return tool;
+}
+
+void write(const Vec3 &from, double to[3]) {
+  std::copy(from.data(), from.data() + 3, to);
+}
+
+// The springs answer the hand with what they pull, turned round.
+void add_forces(const State &state, const Tool &tool, mvs_tool_state &out) {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  const uint32_t springs = tool.kind == MVS_TOOL_ROD ? 2 : 1;
+  for (uint32_t k = 0; k < springs; ++k) {
+    const Vec3 at = tool.kind == MVS_TOOL_GRASP ? state.x[tool.node] : tool.proxy[k];
+    const Vec3 back = -pull(hold_of(tool, k, 0), at);
+    force += back;
+    torque += (tool.target(k) - tool.position).cross(back);
+  }
+  write(force, out.force);
+  write(torque, out.torque);
+}
+
+mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
+  const State &state = snapshot.state;
+  mvs_tool_state out = {};
+  out.kind = tool.kind;
+  out.id = tool.id;
+  write(tool.position, out.position);
+  write(tool.axis, out.axis);
+  add_forces(state, tool, out);
+  out.radius = tool.radius;
+  out.length = tool.length;
+  out.stiffness = tool.stiffness;
+  out.max_force = tool.max_force;
+  out.node = tool.node;
+  if (tool.kind == MVS_TOOL_GRASP) {
+    write(state.x[tool.node], out.proxy);
+    out.touching = 1;
+    return out;
+  }
+  write(tool.proxy[0], out.proxy);
+  if (tool.kind == MVS_TOOL_ROD) {
+    write((tool.proxy[1] - tool.proxy[0]).normalized(), out.proxy_axis);
+  }
+  out.distance = clearance(*snapshot.model, state.x, tool);
+  out.touching = out.distance < tool_range(*snapshot.model) ? 1 : 0;
+  return out;
+}
+
+void take_at_once(mvs_sim &sim, const Move &move) {
+  const SnapshotPtr before = sim.present();
+  State state = before->state;
+  take_move(*before->model, state, move);
+  sim.replace(make_snapshot(after_move(before->moment, std::move(state), move)));
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_tool_add(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    must_point(tool, "tool");
+    const SnapshotPtr before = s.present();
+    Tool added = read_tool(*before.get(), desc);
+    added.id = first_tool_id + before->state.tools_made;
+    take_at_once(s, move_of(Move::tool_add, added));
+    *tool = added.id;
+  });
+}
+
+mvs_result mvs_tool_move(mvs_sim *sim, mvs_id tool, const double position[3],
+                         const double axis[3]) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    must_point(position, "position");
+    Tool moved = tool_of(sim->present()->state, tool, "move");
+    moved.position = read_place(position, "position");
+    if (axis && moved.kind == MVS_TOOL_ROD) moved.axis = read_axis(axis, "axis");
+    sim->hands.post(moved, axis != nullptr);
+  });
+}
+
+mvs_result mvs_tool_remove(mvs_sim *sim, mvs_id tool) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    Tool removed;
+    removed.id = tool;
+    take_at_once(s, move_of(Move::tool_remove, removed));
+  });
+}
+
+mvs_result mvs_tool_get(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state) {
+  return guarded([&] {
+    must_point(sim, "sim");
+    checked_struct_size(state, "state");
+    const SnapshotPtr now = sim->present();
+    write_struct(state, public_tool(*now.get(), tool_of(now->state, tool, "get")), "state");
+  });
+}
+
+mvs_result mvs_snapshot_tool_count(const mvs_snapshot *snapshot, uint32_t *count) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    must_point(count, "count");
+    *count = static_cast<uint32_t>(snapshot->state.tools.size());
+  });
+}
+
+mvs_result mvs_snapshot_tool(const mvs_snapshot *snapshot, uint32_t index, mvs_tool_state *state) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(state, "state");
+    const std::vector<Tool> &tools = snapshot->state.tools;
+    MVS_MUST(index < tools.size(), MVS_E_ARGUMENT, "index",
+             "index is %u, but the snapshot has %zu tools", index, tools.size());
+    write_struct(state, public_tool(*snapshot, tools[index]), "state");
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,113 @@
+// Adding, moving and removing instruments; whether there is room for one.
+#include "model/tool.h"
+
+#include <mvs/tool.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/distance.h"
+#include "base/error.h"
+#include "base/intersect.h"
+#include "model/model.h"
+
+namespace mvs {
+namespace {
+
+// A tool closer to tissue than this share of its range would start with a blow.
+constexpr double least_room = 0.01;
+
+bool is(const Tool &tool, Id id) {
+  return tool.id == id;
+}
+
+// Crossing a triangle counts as 0.
+double distance_of_core(const std::vector<Vec3> &x, const Tri &t, const Tool &tool) {
+  const auto &[a, b] = tool.proxy;
+  const Vec3 &p = x[t[0]], &q = x[t[1]], &r = x[t[2]];
+  if (tool.points() == 1) return std::sqrt(closest_on_triangle(a, p, q, r).distance2);
+  if (segment_crosses_triangle(a, b, p, q, r)) return 0;
+  return std::sqrt(segment_triangle_distance2(a, b, p, q, r));
+}
+
+void check_node(const Model &model, uint32_t node) {
+  MVS_MUST(node < model.node_count(), MVS_E_ARGUMENT, "desc.node",
+           "desc.node is %u, but the valve has %zu nodes", node, model.node_count());
+  MVS_MUST(!model.topology.fixed[node], MVS_E_ARGUMENT, "desc.node",
+           "node %u is prescribed (annulus or papillary head): only free nodes can be held", node);
+}
+
+}  // namespace
+
+double tool_range(const Model &model) {
+  return 0.5 * model.valve.contact_thickness;
+}
+
+double clearance(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Tri &t : model.valve.triangles) least = std::min(least, distance_of_core(x, t, tool));
+  return least - tool.radius;
+}
+
+Id add_tool(const Model &model, State &state, Tool tool) {
+  MVS_MUST(state.tools.size() < MVS_TOOL_LIMIT, MVS_E_STATE, "tool",
+           "there are %u tools already, as many as there can be: remove one first", MVS_TOOL_LIMIT);
+  tool.id = first_tool_id + state.tools_made;
+  tool.proxy = {tool.target(0), tool.target(1)};
+  if (tool.kind == MVS_TOOL_GRASP) {
+    check_node(model, tool.node);
+  } else {
+    const double room = clearance(model, state.x, tool);
+    MVS_MUST(room > least_room * tool_range(model), MVS_E_STATE, "tool",
+             "the tool would lie in leaflet tissue, %.3g mm deep: add it farther away and move it "
+             "there",
+             -1e3 * room);
+  }
+  state.tools.push_back(tool);
+  ++state.tools_made;
+  return tool.id;
+}
+
+const Tool &tool_of(const State &state, Id id, const char *call) {
+  const std::vector<Tool> &tools = state.tools;
+  const auto found = std::find_if(tools.begin(), tools.end(), [&](auto &t) { return is(t, id); });
+  const auto number = static_cast<unsigned long long>(id);
+  MVS_MUST(id >= first_tool_id, MVS_E_ID, "tool", "%s: id %llu is not that of a tool", call,
+           number);
+  MVS_MUST(found != tools.end(), MVS_E_ID, "tool",
+           "%s: tool %llu is not there: it was removed, or this state is from before it", call,
+           number);
+  return *found;
+}
+
+void move_tool(State &state, Id id, const Vec3 &position, const Vec3 &axis) {
+  tool_of(state, id, "move");
+  for (Tool &tool : state.tools) {
+    if (!is(tool, id)) continue;
+    tool.position = position;
+    tool.axis = axis;
+  }
+}
+
+void remove_tool(State &state, Id id) {
+  tool_of(state, id, "remove");
+  std::erase_if(state.tools.edit(), [&](const Tool &tool) { return is(tool, id); });
+}
+
+void renumber_grasps(State &state, const std::vector<uint32_t> &number) {
+  if (state.tools.empty()) return;
+  for (Tool &tool : state.tools) {
+    if (tool.node != none) tool.node = number[tool.node];
+  }
+}
+
+void drop_lost_tools(const Model &model, State &state) {
+  if (state.tools.empty()) return;
+  std::erase_if(state.tools.edit(), [&](const Tool &tool) {
+    if (tool.kind == MVS_TOOL_GRASP) return tool.node == none || model.topology.fixed[tool.node];
+    return clearance(model, state.x, tool) <= 0;
+  });
+}
+
+}  // namespace mvs

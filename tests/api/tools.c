@@ -1,0 +1,322 @@
+/* Instruments across the interface: their lives, what is refused, what keeps them. */
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+#include "check.h"
+
+static mvs_sim *sim;
+
+static const mvs_snapshot *present(mvs_sim *of) {
+  const mvs_snapshot *snapshot = NULL;
+  MUST(mvs_get_snapshot(of, &snapshot));
+  return snapshot;
+}
+
+static void steps(mvs_sim *of, int count) {
+  for (int k = 0; k < count; ++k) MUST(mvs_step(of, NULL));
+}
+
+/* A small valve under some load; the first vertex of its free edge in *node, its place in at. */
+static void start(uint32_t *node, double at[3]) {
+  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  mvs_load_case load = {sizeof load, 0, 2000, 0.2};
+  mvs_view edge, x;
+  MUST(mvs_generate_valve(sim, &small));
+  MUST(mvs_set_load(sim, &load));
+  const mvs_snapshot *snapshot = present(sim);
+  MUST(mvs_snapshot_view(snapshot, MVS_FREE_EDGE_NODES, &edge));
+  MUST(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &x));
+  *node = ((const uint32_t *)edge.data)[0];
+  memcpy(at, (const double *)x.data + 3 * *node, 3 * sizeof *at);
+  mvs_snapshot_release(snapshot);
+}
+
+static mvs_tool_desc grasp_at(const double at[3]) {
+  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_GRASP};
+  memcpy(desc.position, at, sizeof desc.position);
+  return desc;
+}
+
+static mvs_tool_state state_of(mvs_sim *of, mvs_id tool) {
+  mvs_tool_state state = {.struct_size = sizeof state};
+  MUST(mvs_tool_get(of, tool, &state));
+  return state;
+}
+
+static void a_grasp_takes_the_nearest_vertex_and_is_moved_and_let_go(void) {
+  uint32_t node, count = 9;
+  double at[3];
+  mvs_id tool = 0;
+  start(&node, at);
+  const hash128 before = sim_hash(sim);
+  at[2] += 1e-4;
+  mvs_tool_desc desc = grasp_at(at);
+  MUST(mvs_tool_add(sim, &desc, &tool));
+  mvs_tool_state held = state_of(sim, tool);
+  CHECK(held.id == tool && held.kind == MVS_TOOL_GRASP && held.node == node && held.touching == 1);
+  CHECK(held.stiffness == 200 && held.max_force == 5);
+  CHECK(fabs(held.force[2] + 200 * 1e-4) < 1e-12); /* the spring as it lies, down on the hand */
+  CHECK(!same_hash(before, sim_hash(sim)));
+
+  /* a move is nothing until a step begins with it */
+  const hash128 added = sim_hash(sim);
+  at[2] += 3e-3;
+  MUST(mvs_tool_move(sim, tool, at, NULL));
+  CHECK(same_hash(added, sim_hash(sim)));
+  steps(sim, 20);
+  held = state_of(sim, tool);
+  CHECK(held.position[2] == at[2]);
+  CHECK(held.force[2] < -0.01 && held.proxy[2] > at[2] - 3.1e-3);
+
+  MUST(mvs_tool_remove(sim, tool));
+  const mvs_snapshot *snapshot = present(sim);
+  MUST(mvs_snapshot_tool_count(snapshot, &count));
+  CHECK(count == 0);
+  MUST_FAIL(mvs_snapshot_tool(snapshot, 0, &held), MVS_E_ARGUMENT, "has 0 tools");
+  mvs_snapshot_release(snapshot);
+  MUST_FAIL(mvs_tool_get(sim, tool, &held), MVS_E_ID, "is not there");
+  MUST_FAIL(mvs_tool_move(sim, tool, at, NULL), MVS_E_ID, "is not there");
+  MUST_FAIL(mvs_tool_remove(sim, tool), MVS_E_ID, "is not there");
+  MUST_FAIL(mvs_tool_remove(sim, 17), MVS_E_ID, "not that of a tool");
+}
+
+static void what_cannot_be_is_refused_and_changes_nothing(void) {
+  uint32_t node;
+  double at[3], nowhere[3] = {0, NAN, 0}, flat[3] = {0, 0, 0};
+  mvs_id tool = 0;
+  start(&node, at);
+  const hash128 before = sim_hash(sim);
+  mvs_tool_desc good = grasp_at(at), bad = good;
+  MUST_FAIL(mvs_tool_add(NULL, &good, &tool), MVS_E_ARGUMENT, "null");
+  MUST_FAIL(mvs_tool_add(sim, NULL, &tool), MVS_E_ARGUMENT, "null");
+  MUST_FAIL(mvs_tool_add(sim, &good, NULL), MVS_E_ARGUMENT, "null");
+#define REFUSED(field, value, code, word)                    \
+  do {                                                       \
+    bad = good;                                              \
+    bad.field = (value);                                     \
+    MUST_FAIL(mvs_tool_add(sim, &bad, &tool), (code), word); \
+  } while (0)
+  REFUSED(struct_size, 0, MVS_E_ARGUMENT, "struct_size");
+  REFUSED(kind, 0, MVS_E_ARGUMENT, "MVS_TOOL_");
+  REFUSED(kind, 4, MVS_E_ARGUMENT, "MVS_TOOL_");
+  REFUSED(position[1], NAN, MVS_E_ARGUMENT, "within 10");
+  REFUSED(position[1], 11, MVS_E_ARGUMENT, "within 10");
+  REFUSED(position[1], 9, MVS_E_ARGUMENT, "no free vertex");
+  REFUSED(radius, 1, MVS_E_ARGUMENT, "desc.radius");
+  REFUSED(length, -1, MVS_E_ARGUMENT, "desc.length");
+  REFUSED(stiffness, INFINITY, MVS_E_ARGUMENT, "desc.stiffness");
+  REFUSED(max_force, NAN, MVS_E_ARGUMENT, "desc.max_force");
+  REFUSED(reach, -1, MVS_E_ARGUMENT, "desc.reach");
+  REFUSED(by_node, 2, MVS_E_ARGUMENT, "desc.by_node");
+  good.by_node = 1;
+  REFUSED(node, 100000, MVS_E_ARGUMENT, "nodes");
+  REFUSED(kind, MVS_TOOL_BALL, MVS_E_STATE, "would lie in leaflet tissue");
+  REFUSED(kind, MVS_TOOL_ROD, MVS_E_STATE, "would lie in leaflet tissue");
+  bad = good;
+  bad.kind = MVS_TOOL_ROD;
+  bad.axis[0] = NAN;
+  MUST_FAIL(mvs_tool_add(sim, &bad, &tool), MVS_E_ARGUMENT, "direction");
+  CHECK(tool == 0);
+  CHECK(same_hash(before, sim_hash(sim)));
+  bad.axis[0] = 0;
+  bad.position[2] = 0.06;
+  MUST(mvs_tool_add(sim, &bad, &tool));
+  MUST_FAIL(mvs_tool_move(sim, tool, NULL, NULL), MVS_E_ARGUMENT, "null");
+  MUST_FAIL(mvs_tool_move(sim, tool, nowhere, NULL), MVS_E_ARGUMENT, "within 10");
+  MUST_FAIL(mvs_tool_move(sim, tool, at, flat), MVS_E_ARGUMENT, "direction");
+  const mvs_step_options explicitly = {sizeof explicitly, MVS_SOLVER_EXPLICIT, 0, 0, 0, 0};
+  MUST_FAIL(mvs_step(sim, &explicitly), MVS_E_UNSUPPORTED, "explicit solver");
+  for (int k = 1; k < MVS_TOOL_LIMIT; ++k) MUST(mvs_tool_add(sim, &bad, &tool));
+  MUST_FAIL(mvs_tool_add(sim, &bad, &tool), MVS_E_STATE, "there are 64 tools");
+}
+
+static void a_node_of_the_annulus_cannot_be_held(void) {
+  uint32_t node;
+  double at[3];
+  mvs_view annulus;
+  mvs_id tool = 0;
+  start(&node, at);
+  const mvs_snapshot *snapshot = present(sim);
+  MUST(mvs_snapshot_view(snapshot, MVS_ANNULUS_NODES, &annulus));
+  mvs_tool_desc desc = grasp_at(at);
+  desc.by_node = 1;
+  desc.node = ((const uint32_t *)annulus.data)[0];
+  MUST_FAIL(mvs_tool_add(sim, &desc, &tool), MVS_E_ARGUMENT, "only free nodes");
+  mvs_snapshot_release(snapshot);
+}
+
+/* A grasp that pulls, a ball that is pushed down the orifice, ten steps on. */
+static void make_work(mvs_id tools[2]) {
+  uint32_t node;
+  double at[3];
+  start(&node, at);
+  mvs_tool_desc grasp = grasp_at(at), ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_BALL};
+  ball.position[2] = 0.02;
+  MUST(mvs_tool_add(sim, &grasp, &tools[0]));
+  MUST(mvs_tool_add(sim, &ball, &tools[1]));
+  for (int k = 0; k < 10; ++k) {
+    at[2] += 2e-4;
+    ball.position[2] -= 1e-3;
+    MUST(mvs_tool_move(sim, tools[0], at, NULL));
+    MUST(mvs_tool_move(sim, tools[1], ball.position, NULL));
+    steps(sim, 1);
+  }
+}
+
+static void undo_and_restore_bring_tools_back(void) {
+  mvs_id tools[2];
+  make_work(tools);
+  const hash128 worked = sim_hash(sim);
+  const mvs_snapshot *then = present(sim);
+  mvs_op_annulus_scale smaller = {{sizeof smaller, MVS_OP_ANNULUS_SCALE}, 0.97, 0, 0};
+  MUST(mvs_apply_op(sim, &smaller.op, NULL));
+  CHECK(state_of(sim, tools[0]).id == tools[0]); /* an operation lets go of nothing that stays */
+  MUST(mvs_tool_remove(sim, tools[0]));
+  MUST(mvs_tool_remove(sim, tools[1]));
+  MUST(mvs_undo(sim));
+  CHECK(same_hash(worked, sim_hash(sim)));
+  CHECK(state_of(sim, tools[1]).kind == MVS_TOOL_BALL);
+  steps(sim, 5);
+  const hash128 on = sim_hash(sim);
+  const double away[3] = {0, 0, 0.05};
+  MUST(mvs_tool_move(sim, tools[1], away, NULL));
+  MUST(mvs_restore(sim, then)); /* forgets the move */
+  CHECK(same_hash(worked, sim_hash(sim)));
+  steps(sim, 5);
+  CHECK(same_hash(on, sim_hash(sim)));
+  mvs_snapshot_release(then);
+}
+
+static mvs_sim *saved_and_loaded(uint32_t format) {
+  uint64_t size = 0;
+  mvs_sim *other = NULL;
+  const mvs_snapshot *snapshot = present(sim);
+  MUST(mvs_save_memory(snapshot, format, NULL, 0, &size));
+  char *bytes = malloc(size);
+  if (!bytes) exit(2);
+  MUST(mvs_save_memory(snapshot, format, bytes, size, &size));
+  MUST(mvs_create(NULL, &other));
+  MUST(mvs_load_memory(other, bytes, size, format));
+  mvs_snapshot_release(snapshot);
+  free(bytes);
+  return other;
+}
+
+static void an_obj_file_is_without_tools(void) {
+  mvs_id tools[2];
+  uint32_t count = 9;
+  make_work(tools);
+  mvs_sim *other = saved_and_loaded(MVS_FORMAT_OBJ);
+  const mvs_snapshot *snapshot = present(other);
+  MUST(mvs_snapshot_tool_count(snapshot, &count));
+  CHECK(count == 0);
+  mvs_snapshot_release(snapshot);
+  mvs_destroy(other);
+}
+
+static void a_session_keeps_tools_and_the_steps_to_come(void) {
+  mvs_id tools[2];
+  make_work(tools);
+  mvs_sim *other = saved_and_loaded(MVS_FORMAT_H5);
+  CHECK(same_hash(sim_hash(sim), sim_hash(other)));
+  steps(sim, 50);
+  steps(other, 50);
+  CHECK(same_hash(sim_hash(sim), sim_hash(other)));
+  const mvs_tool_state one = state_of(sim, tools[1]), two = state_of(other, tools[1]);
+  CHECK(memcmp(&one, &two, sizeof one) == 0);
+  mvs_destroy(other);
+}
+
+static void a_plan_does_with_tools_what_was_done(void) {
+  uint64_t size = 0;
+  mvs_id tools[2];
+  mvs_replay replay = {.struct_size = sizeof replay};
+  mvs_op_annulus_scale smaller = {{sizeof smaller, MVS_OP_ANNULUS_SCALE}, 0.97, 0, 0};
+  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  const double axis[3] = {0, 1, 1}, up[3] = {0, 0, 0.03};
+  mvs_tool_desc rod = {.struct_size = sizeof rod, .kind = MVS_TOOL_ROD};
+  mvs_id third = 0;
+  make_work(tools);
+  MUST(mvs_apply_op(sim, &smaller.op, NULL));
+  MUST(mvs_tool_remove(sim, tools[0]));
+  rod.position[2] = 0.04;
+  MUST(mvs_tool_add(sim, &rod, &third));
+  MUST(mvs_tool_move(sim, third, up, axis));
+  steps(sim, 3);
+  const hash128 done = sim_hash(sim);
+  const mvs_snapshot *snapshot = present(sim);
+  MUST(mvs_write_plan(snapshot, NULL, NULL, 0, &size));
+  char *text = malloc(size);
+  if (!text) exit(2);
+  MUST(mvs_write_plan(snapshot, NULL, text, size, &size));
+  mvs_snapshot_release(snapshot);
+  MUST(mvs_generate_valve(sim, &small));
+  MUST(mvs_replay_plan(sim, text, size, &replay));
+  CHECK(replay.same_result == 1);
+  CHECK(same_hash(done, sim_hash(sim)));
+  free(text);
+}
+
+/* A hand in a thread of its own, as fast as it can. */
+typedef struct hand {
+  mvs_id tool;
+  double at[3];
+  int bad;
+} hand;
+
+static void *move_on(void *user) {
+  hand *h = user;
+  for (int k = 0; k < 2000; ++k) {
+    h->at[2] += 1e-6;
+    h->bad |= mvs_tool_move(sim, h->tool, h->at, NULL) != MVS_OK;
+  }
+  return NULL;
+}
+
+static void a_hand_moves_from_another_thread(void) {
+  uint32_t node;
+  pthread_t thread;
+  hand h = {0, {0, 0, 0}, 0};
+  start(&node, h.at);
+  mvs_tool_desc desc = grasp_at(h.at);
+  MUST(mvs_tool_add(sim, &desc, &h.tool));
+  if (pthread_create(&thread, NULL, move_on, &h)) exit(2);
+  steps(sim, 10);
+  pthread_join(thread, NULL);
+  CHECK(!h.bad);
+  steps(sim, 1);
+  CHECK(state_of(sim, h.tool).position[2] == h.at[2]); /* the last of them, whatever came before */
+}
+
+static void a_failed_settle_keeps_what_the_hand_wants(void) {
+  uint32_t node;
+  double at[3];
+  mvs_id tool = 0;
+  start(&node, at);
+  mvs_tool_desc desc = grasp_at(at);
+  MUST(mvs_tool_add(sim, &desc, &tool));
+  const hash128 before = sim_hash(sim);
+  at[2] += 1e-3;
+  MUST(mvs_tool_move(sim, tool, at, NULL));
+  const mvs_step_options wrong = {sizeof wrong, MVS_SOLVER_EXPLICIT, 0.5, 0, 0, 0};
+  MUST_FAIL(mvs_step(sim, &wrong), MVS_E_DIVERGED, "blew up");
+  CHECK(same_hash(before, sim_hash(sim)));
+  steps(sim, 1);
+  CHECK(state_of(sim, tool).position[2] == at[2]);
+}
+
+int main(void) {
+  MUST(mvs_create(NULL, &sim));
+  a_grasp_takes_the_nearest_vertex_and_is_moved_and_let_go();
+  what_cannot_be_is_refused_and_changes_nothing();
+  a_node_of_the_annulus_cannot_be_held();
+  undo_and_restore_bring_tools_back();
+  an_obj_file_is_without_tools();
+  a_session_keeps_tools_and_the_steps_to_come();
+  a_plan_does_with_tools_what_was_done();
+  a_hand_moves_from_another_thread();
+  a_failed_settle_keeps_what_the_hand_wants();
+  mvs_destroy(sim);
+  return finish("tools");
+}
