@@ -59,10 +59,11 @@ Id add_tool(const Model &model, State &state, Tool tool) {
     check_node(model, tool.node);
   } else {
     const double room = clearance(model, state.x, tool);
-    MVS_MUST(room > least_room * tool_range(model), MVS_E_STATE, "tool",
-             "the tool would lie in leaflet tissue, %.3g mm deep: add it farther away and move it "
-             "there",
-             -1e3 * room);
+    const double needed = least_room * tool_range(model);
+    MVS_MUST(room > needed, MVS_E_STATE, "tool",
+             "the tool would lie in leaflet tissue: its surface would be %.3g mm off the middle of "
+             "a leaflet and not %.3g; add it farther away and move it there",
+             1e3 * room, 1e3 * needed);
   }
   state.tools.push_back(tool);
   ++state.tools_made;

@@ -202,6 +202,18 @@ TEST_CASE("a_file_of_version_1_is_read_as_ever") {
   CHECK(hash_of(now.picture) == told("_undone.obj"));
 }
 
+// session_v2.h5 is the same session as version 2 of the format wrote it.
+TEST_CASE("a_file_of_version_2_is_read_as_ever") {
+  const std::string data = MVS_SOURCE_DIR "/tests/formats/data/session_v";
+  Moment now = read_session(read_whole_file(data + "2.h5"));
+  const Moment first = read_session(read_whole_file(data + "1.h5"));
+  CHECK(hash_of(now.picture) == hash_of(first.picture));
+  CHECK(now.timeline.future.size() == 3);
+  CHECK(now.timeline.moves.size() == first.timeline.moves.size());
+  CHECK(now.picture.state.tools.empty());
+  CHECK(hash_of(at_checkpoint(now, "").picture) == hash_of(at_checkpoint(first, "").picture));
+}
+
 TEST_CASE("what_levels_share_is_shared_again") {
   const Moment again = read_session(write_session(a_session(), {}));
   std::set<const void *> triangles, rests, topologies;

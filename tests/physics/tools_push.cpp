@@ -90,7 +90,7 @@ TEST_CASE("what_pushes_is_the_gradient_of_its_energy_and_its_slope_that_of_the_g
   const Tri &t = valve->valve.triangles[60];
   const Vec3 along = state.x[t[1]] - state.x[t[0]];
   add_tool(*valve, state,
-           rod(above(*valve, state.x, 60, -0.5e-3 - near), along + Vec3(0, 0, 5e-4), 0.5e-3, 4e-3));
+           rod(above(*valve, state.x, 60, -0.5e-3 - near), along - Vec3(0, 0, 5e-4), 0.5e-3, 4e-3));
   ToolPoints points;
   const Model &with = points.extend(*valve, tool_points(state));
   const State extended = ToolPoints::extended(state);
