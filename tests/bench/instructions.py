@@ -25,7 +25,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 TABLE = HERE / "instructions.csv"
 
-# The same binary repeats to a few parts in 10,000 (addresses decide how hash tables and allocations
+# The same binary repeats to one part in 10,000 (addresses decide how hash tables and allocations
 # fall); what changes by more than 2 % has been changed by somebody.
 TOLERANCE = 0.02
 
