@@ -60,6 +60,14 @@ class RingKind(IntEnum):
     BAND = 2
 
 
+class ToolKind(IntEnum):
+    """Kinds of instruments."""
+
+    GRASP = 1
+    BALL = 2
+    ROD = 3
+
+
 class LeafletLaw(IntEnum):
     """The laws a leaflet sheet can follow: springs, or membranes with W(I1, I4) in J/m3.
 
@@ -166,6 +174,27 @@ class Fault:
 
     part: str
     sentence: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Tool:
+    """An instrument as it is in a snapshot: where the hand is, where the tool is, what is felt."""
+
+    id: Annotated[int, "1", "names the tool"]
+    kind: Annotated[ToolKind, "1", "grasp, ball or rod"]
+    position: Annotated[NDArray[np.float64], "m", "of the hand"]
+    axis: Annotated[NDArray[np.float64], "1", "of the hand's rod, of length 1; 0 for others"]
+    proxy: Annotated[NDArray[np.float64], "m", "the held node, the middle of ball or tip"]
+    proxy_axis: Annotated[NDArray[np.float64], "1", "of the rod, of length 1; 0 for others"]
+    force: Annotated[NDArray[np.float64], "N", "on the hand"]
+    torque: Annotated[NDArray[np.float64], "N m", "on the hand about its position, of a rod"]
+    distance: Annotated[float, "m", "from its surface to the middle of the nearest leaflet"]
+    radius: Annotated[float, "m", "of a ball or rod"]
+    length: Annotated[float, "m", "of a rod between the middles of its ends"]
+    stiffness: Annotated[float, "N/m", "of the spring between hand and tool"]
+    max_force: Annotated[float, "N", "of that spring"]
+    node: Annotated[Optional[int], "1", "held by a grasp; None for others"]
+    touching: Annotated[bool, "1", "tissue pushes on it; always of a grasp"]
 
 
 @dataclasses.dataclass(frozen=True)

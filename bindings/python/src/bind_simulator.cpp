@@ -233,6 +233,7 @@ void bind_simulator(py::module_ &module) {
   bind_work(type);
   bind_operations(module, type);
   bind_plans(module, type);
+  bind_tools(type);
   type.def("set_valve", &set_valve,
            "Replaces the valve by a mvs.Valve, or by the arrays one is made of. OpError names the "
            "first fault of a valve that is none; mvs.check_valve lists all.");

@@ -186,16 +186,43 @@ mvs_stats Simulator::stats() {
   return stats;
 }
 
-std::unique_ptr<Snapshot> Simulator::snapshot() {
-  const mvs_snapshot *taken = nullptr;
+// Runs a call that any thread may make at any time.
+template <typename Look>
+void Simulator::look(Look &&work) {
   bool closed = false;
   release_and([&] {
     const std::shared_lock<std::shared_mutex> looking(open_);
     closed = sim_ == nullptr;
-    return closed ? MVS_OK : mvs_get_snapshot(sim_, &taken);
+    return closed ? MVS_OK : work();
   });
   if (closed) refuse_closed();
+}
+
+std::unique_ptr<Snapshot> Simulator::snapshot() {
+  const mvs_snapshot *taken = nullptr;
+  look([&] { return mvs_get_snapshot(sim_, &taken); });
   return std::make_unique<Snapshot>(taken);
+}
+
+mvs_id Simulator::add_tool(const mvs_tool_desc &desc) {
+  mvs_id tool = 0;
+  call([&] { return mvs_tool_add(sim_, &desc, &tool); });
+  return tool;
+}
+
+void Simulator::move_tool(mvs_id tool, const double position[3], const double *axis) {
+  look([&] { return mvs_tool_move(sim_, tool, position, axis); });
+}
+
+void Simulator::remove_tool(mvs_id tool) {
+  call([&] { return mvs_tool_remove(sim_, tool); });
+}
+
+mvs_tool_state Simulator::tool(mvs_id tool) {
+  mvs_tool_state state{};
+  state.struct_size = sizeof state;
+  look([&] { return mvs_tool_get(sim_, tool, &state); });
+  return state;
 }
 
 void Simulator::restore(const Snapshot &snapshot) {

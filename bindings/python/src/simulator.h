@@ -5,6 +5,7 @@
 #include <mvs/op.h>
 #include <mvs/plan.h>
 #include <mvs/sim.h>
+#include <mvs/tool.h>
 
 #include <atomic>
 #include <exception>
@@ -44,6 +45,10 @@ class Simulator {
   void restore(const Snapshot &snapshot);
   void check(const mvs_op *op);
   mvs_id apply(const mvs_op *op);  // 0: it made nothing
+  mvs_id add_tool(const mvs_tool_desc &desc);
+  void move_tool(mvs_id tool, const double position[3], const double *axis);  // waits for nothing
+  void remove_tool(mvs_id tool);
+  mvs_tool_state tool(mvs_id tool);  // waits for nothing
   void undo();
   void redo();
   void begin_group(const std::string &name);
@@ -59,6 +64,8 @@ class Simulator {
  private:
   template <typename Call>
   void call(Call &&work);
+  template <typename Look>
+  void look(Look &&work);
   template <typename Call>
   void call_with(py::object progress, Call &&work);
   void must_not_be_called_back() const;
@@ -77,5 +84,6 @@ class Simulator {
 void bind_simulator(py::module_ &module);
 void bind_operations(py::module_ &module, py::class_<Simulator> &type);
 void bind_plans(py::module_ &module, py::class_<Simulator> &type);
+void bind_tools(py::class_<Simulator> &type);
 
 }  // namespace mvs_python

@@ -77,6 +77,19 @@ py::object find(const Snapshot &snapshot, uint32_t kind, const std::string &name
   return part_value(part);
 }
 
+py::tuple tools(const Snapshot &snapshot) {
+  uint32_t count = 0;
+  must(mvs_snapshot_tool_count(snapshot.get(), &count));
+  py::tuple found(count);
+  for (uint32_t k = 0; k < count; ++k) {
+    mvs_tool_state state{};
+    state.struct_size = sizeof state;
+    must(mvs_snapshot_tool(snapshot.get(), k, &state));
+    found[k] = tool_value(state);
+  }
+  return found;
+}
+
 py::tuple history(const Snapshot &snapshot) {
   mvs_history size{};
   size.struct_size = sizeof size;
@@ -175,6 +188,9 @@ void bind_snapshot(py::module_ &module) {
   type.def_property_readonly("parts", &parts,
                              "All named parts (tuple of mvs.Part): leaflets, scallops, chordae, "
                              "heads, rings; `index` is the row in the arrays of their kind.");
+  type.def_property_readonly("tools", &tools,
+                             "The instruments in the valve (tuple of mvs.Tool), in the order in "
+                             "which they were added.");
   type.def_property_readonly("history", &history,
                              "What was done to the valve (tuple of mvs.HistoryEntry): the "
                              "operations done from first to last, then those undone in the order "

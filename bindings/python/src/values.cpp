@@ -161,6 +161,27 @@ py::object history_value(const mvs_history_entry &s, bool done) {
   return make("HistoryEntry", fields);
 }
 
+py::object tool_value(const mvs_tool_state &s) {
+  const auto vector = [](const double v[3]) { return py::array_t<double>(3, v); };
+  py::dict fields;
+  FIELD(id);
+  fields["kind"] = py::module_::import("mvs.values").attr("ToolKind")(s.kind);
+  fields["position"] = vector(s.position);
+  fields["axis"] = vector(s.axis);
+  fields["proxy"] = vector(s.proxy);
+  fields["proxy_axis"] = vector(s.proxy_axis);
+  fields["force"] = vector(s.force);
+  fields["torque"] = vector(s.torque);
+  FIELD(distance);
+  FIELD(radius);
+  FIELD(length);
+  FIELD(stiffness);
+  FIELD(max_force);
+  fields["node"] = s.node == UINT32_MAX ? py::object(py::none()) : py::int_(s.node);
+  fields["touching"] = s.touching != 0;
+  return make("Tool", fields);
+}
+
 py::object spread_summary_value(const mvs_spread_summary &s) {
   py::dict fields;
   FIELD(paths);

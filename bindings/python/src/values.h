@@ -20,6 +20,7 @@ py::object part_value(const mvs_part &part);
 py::object replay_value(const mvs_replay &replay);
 py::object chord_limits_value(double strain, double tension);
 py::object history_value(const mvs_history_entry &entry, bool done);
+py::object tool_value(const mvs_tool_state &tool);
 py::object spread_summary_value(const mvs_spread_summary &summary);
 py::object spread_path_value(const mvs_spread_path &path, const mvs_stats &stats);
 

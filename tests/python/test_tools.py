@@ -1,0 +1,74 @@
+"""Instruments from Python: held, pushed, felt, from another thread, and back by undo."""
+
+import threading
+
+import mvs
+import numpy as np
+import pytest
+
+
+def test_a_leaflet_is_held_pulled_and_let_go(sim):
+    edge = sim.snapshot().free_edge_nodes[0]
+    at = sim.snapshot().node_position[edge]
+    tool = sim.add_tool("grasp", at)
+    held = sim.tool(tool)
+    assert (held.id, held.kind, held.node) == (tool, mvs.ToolKind.GRASP, edge)
+    assert held.touching and held.stiffness == 200 and held.max_force == 5
+    for k in range(10):
+        sim.move_tool(tool, at + [0, 0, 2e-4 * (k + 1)])
+        sim.step()
+    pulled = sim.snapshot()
+    (seen,) = pulled.tools
+    np.testing.assert_array_equal(seen.proxy, pulled.node_position[edge])
+    # the spring of the hand, by hand
+    np.testing.assert_allclose(seen.force, 200 * (seen.proxy - seen.position), rtol=1e-12)
+    sim.remove_tool(tool)
+    assert sim.snapshot().tools == ()
+    with pytest.raises(mvs.IdError, match="is not there"):
+        sim.tool(tool)
+    sim.restore(pulled)
+    assert sim.snapshot().hash == pulled.hash
+
+
+def test_a_ball_stays_out_of_the_leaflets(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+    tool = sim.add_tool("ball", (0, 0, 0.03), radius=3e-3)
+    for k in range(30):
+        sim.move_tool(tool, (0, 0, 0.03 - 1e-3 * (k + 1)))
+        sim.step()
+        assert sim.tool(tool).distance > 0
+    assert sim.snapshot().measures.intersections == 0
+
+
+def test_a_rod_has_an_axis(sim):
+    tool = sim.add_tool("rod", [0, 0, 0.05], axis=[0, 3, 4], length=0.02)
+    np.testing.assert_allclose(sim.tool(tool).proxy_axis, [0, 0.6, 0.8], rtol=1e-12)
+    with pytest.raises(mvs.ArgumentError, match="direction"):
+        sim.move_tool(tool, [0, 0, 0.05], [0, 0, 0])
+
+
+def test_a_hand_moves_while_the_simulator_works(sim):
+    tool = sim.add_tool("ball", [0, 0, 0.05])
+    done = threading.Event()
+
+    def move():
+        for k in range(200):
+            sim.move_tool(tool, [0, 0, 0.05 - 1e-5 * k])
+        done.set()
+
+    hand = threading.Thread(target=move)
+    hand.start()
+    while not done.is_set():
+        sim.step()
+    hand.join()
+    sim.step()
+    assert sim.tool(tool).position[2] == 0.05 - 1e-5 * 199
+
+
+def test_wrong_words_are_refused(sim):
+    with pytest.raises(mvs.ArgumentError, match="grasp"):
+        sim.add_tool("knife", (0, 0, 0))
+    with pytest.raises(mvs.ArgumentError, match="no free vertex"):
+        sim.add_tool("grasp", (0, 0, 1))
+    with pytest.raises(mvs.StateError, match="leaflet tissue"):
+        sim.add_tool("ball", sim.snapshot().node_position[sim.snapshot().free_edge_nodes[0]])
