@@ -10,10 +10,12 @@ namespace {
 
 // A step may make this share of its energy: rounding of sums of some thousand terms.
 constexpr double step_bound = 1e-9;
-// J that Newton may end above where it began: its last iterations go by the force and not by the
-// energy, and the work at the free edge is reckoned along a straight way here, which was not its
-// own. A settle by steps goes far from straight: each of its steps is what `live` looks at.
+// J that Newton may end above where it began, as its last iterations go by the force and not by the
+// energy. Asked where no node went farther than `near`: the work at the free edge is reckoned along
+// a straight way here, which says nothing about a leaflet that turned over. A settle by steps in
+// time is not asked: each of its steps is what `live` looks at.
 constexpr double newton_bound = 1e-4;
+constexpr double near = 5e-3;       // m
 constexpr double tolerance = 1e-5;  // N, the library's own
 constexpr double arrival = 1e-9;    // m
 
@@ -24,6 +26,15 @@ std::vector<double> positions(const mvs::Snapshot &now) {
 
 bool is_held(uint8_t kind) {
   return kind == MVS_NODE_IS_ANNULUS || kind == MVS_NODE_IS_HEAD;
+}
+
+double farthest(const std::vector<double> &from, const mvs::View<double> &to) {
+  double most = 0;
+  for (size_t n = 0; n < to.rows(); ++n) {
+    const double *a = &from[3 * n], *b = to.row(n);
+    most = std::max(most, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+  }
+  return most;
 }
 
 bool all_finite(const mvs::View<double> &rows) {
@@ -157,10 +168,9 @@ void Watch::settle(uint32_t solver, uint32_t iterations) {
   mvs_stats stats = mvs::sized<mvs_stats>();
   if (!attempt(mvs_settle(sim_.get(), &options, &stats))) return refuse("settle", before);
   const mvs::Snapshot now = sim_.snapshot();
-  if (std::isfinite(energy) && held_nodes_stayed(now, x_)) {
-    const double work =
-        now.load().pressure *
-        EdgeWork(now).followed(x_.data(), now.view<double>(MVS_NODE_POSITION).data());
+  const auto x = now.view<double>(MVS_NODE_POSITION);
+  if (std::isfinite(energy) && held_nodes_stayed(now, x_) && farthest(x_, x) < near) {
+    const double work = now.load().pressure * EdgeWork(now).followed(x_.data(), x.data());
     verdict_.gained = std::max(verdict_.gained, stats.energy - energy - work);
     demand(solver != MVS_SOLVER_NEWTON || verdict_.gained <= newton_bound, "a settle made energy");
   }
