@@ -36,7 +36,7 @@ constexpr int looks = 100;             // how often a run is looked at for cross
 
 struct Options {
   bool quick = false;
-  std::string csv, solver;
+  std::string csv, solver, operation;
 };
 
 struct Run {
@@ -193,6 +193,7 @@ Run played(Run run) {
 // implicit ones begin where a run takes half a minute.
 void play_grid(const Options &options, const char *operation, const std::vector<double> &sizes,
                std::ostream &out) {
+  if (!options.operation.empty() && options.operation != operation) return;
   std::vector<double> steps = {4e-6,   8e-6,   16e-6, 32e-6, 64e-6, 128e-6,
                                256e-6, 512e-6, 1e-3,  2e-3,  5e-3,  20e-3};
   if (options.quick) steps = {8e-6, 32e-6, 128e-6, 2e-3, 20e-3};
@@ -213,6 +214,7 @@ int run(int argc, char **argv) {
   CLI::App app("Maps where steps in time break.", "stability_breakdown");
   app.add_flag("--quick", options.quick, "a coarse grid");
   app.add_option("--solver", options.solver, "only explicit, or only implicit");
+  app.add_option("--operation", options.operation, "only annulus, or only chord");
   app.add_option("--csv", options.csv, "file to write the table to");
   CLI11_PARSE(app, argc, argv);
   std::ofstream file;

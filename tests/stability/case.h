@@ -25,6 +25,6 @@ std::vector<Case> chord_cases(bool every_chord);
 std::vector<Case> load_cases();
 std::vector<Case> start_cases();
 std::vector<Case> mesh_cases();
-std::vector<Case> script_cases(uint32_t first, uint32_t count);
+std::vector<Case> tool_cases();
 
 }  // namespace stability

@@ -12,6 +12,9 @@ struct Known {
 inline constexpr char last_resort[] =
     "a step whose every cut makes energy takes the shortest of them all the same";
 
+inline constexpr char felt[] =
+    "the forces of a snapshot and the residual of the step differ while a ball touches";
+
 inline constexpr Known known_failures[] = {
     {"chords/each_minus_90", "live", last_resort},
     {"chords/all_removed", "live", last_resort},
@@ -22,6 +25,8 @@ inline constexpr Known known_failures[] = {
     {"starts/inverted", "live", last_resort},
     {"starts/intersecting", "live", last_resort},
     {"meshes/slivers_10_percent", "live", last_resort},
+    {"tools/grasp_50mm_up", "live", last_resort},
+    {"tools/ball_through_at_1_m_s", "live", felt},
 };
 
 }  // namespace stability

@@ -33,7 +33,7 @@ double cpu_now() {
 std::vector<Case> all_cases(const Options &options) {
   std::vector<Case> all;
   for (const auto &some : {boundary_cases(), chord_cases(options.lengthy), load_cases(),
-                           start_cases(), mesh_cases()}) {
+                           start_cases(), mesh_cases(), tool_cases()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
@@ -127,7 +127,7 @@ int run(int argc, char **argv) {
   options.lengthy = lengthy && *lengthy;
   CLI::App app("Plays what should not be done to a valve, and says what came of it.", "stability");
   app.add_flag("--long", options.lengthy, "every valve, every chord, more scripts");
-  app.add_option("--group", options.group, "boundary, chords, loads, starts, meshes, scripts");
+  app.add_option("--group", options.group, "boundary, chords, loads, starts, meshes, tools");
   app.add_option("--case", options.part, "cases whose name has this in it");
   app.add_option("--valve", options.valve, "this valve: S, S2, M, L, XL, N32");
   app.add_option("--way", options.way, "newton, implicit or live");

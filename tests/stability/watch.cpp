@@ -169,7 +169,8 @@ void Watch::settle(uint32_t solver, uint32_t iterations) {
   if (!attempt(mvs_settle(sim_.get(), &options, &stats))) return refuse("settle", before);
   const mvs::Snapshot now = sim_.snapshot();
   const auto x = now.view<double>(MVS_NODE_POSITION);
-  if (std::isfinite(energy) && held_nodes_stayed(now, x_) && farthest(x_, x) < near) {
+  if (std::isfinite(energy) && !tool_has_changed_ && held_nodes_stayed(now, x_) &&
+      farthest(x_, x) < near) {
     const double work = now.load().pressure * EdgeWork(now).followed(x_.data(), x.data());
     verdict_.gained = std::max(verdict_.gained, stats.energy - energy - work);
     demand(solver != MVS_SOLVER_NEWTON || verdict_.gained <= newton_bound, "a settle made energy");
@@ -210,6 +211,7 @@ bool Watch::step(double dt) {
 // What every move is held to.
 void Watch::look(const mvs_stats &stats) {
   ++verdict_.moves;
+  tool_has_changed_ = false;
   const mvs::Snapshot now = sim_.snapshot();
   demand(all_finite(now.view<double>(MVS_NODE_POSITION)) &&
              all_finite(now.view<double>(MVS_NODE_VELOCITY)) && std::isfinite(stats.energy) &&

@@ -64,6 +64,11 @@ class Watch {
   // A call that may be refused with a sentence; true when it was not.
   bool attempt(mvs_result result);
 
+  // A tool has moved, come or gone: the next move is not asked for energy.
+  void changed() {
+    energy_is_known_ = false;
+    tool_has_changed_ = true;
+  }
   void load(double pressure, double boundary_fraction = 1);
   // Settles, or steps as often as the effort says.
   void rest();
@@ -100,7 +105,8 @@ class Watch {
   // of the state before the move at hand
   std::vector<double> x_;
   std::vector<Pair> crossing_;
-  double energy_ = 0;             // J, potential and kinetic
+  double energy_ = 0;  // J, potential and kinetic
+  bool tool_has_changed_ = false;
   bool energy_is_known_ = false;  // false where something but a move has changed since
 };
 
