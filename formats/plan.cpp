@@ -84,8 +84,8 @@ std::optional<Move> read_move(const Json &json) {
     return move;
   }
   if (word != "settle" && word != "step") return read_tool_step(json);
-  check_keys(json,
-             {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s"});
+  check_keys(json, {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s",
+                    "budget"});
   move.kind = word == "settle" ? Move::settle : Move::step;
   MVS_MUST(move.kind == Move::step || !json.has("count"), MVS_E_FORMAT, "plan",
            "settle has no field \"count\": settled once is settled");
@@ -95,6 +95,9 @@ std::optional<Move> read_move(const Json &json) {
   move.residual = number_at(json, "residual_N");
   move.dt = number_at(json, "dt_s");
   move.damping = number_at(json, "damping_1/s");
+  MVS_MUST(move.kind == Move::step || !json.has("budget"), MVS_E_FORMAT, "plan",
+           "settle has no field \"budget\": it goes on until the valve is at rest");
+  move.budget = static_cast<uint32_t>(whole_at(json, "budget", 0, UINT32_MAX));
   return move;
 }
 
@@ -166,6 +169,7 @@ Json move_json(const Move &move) {
   put_unless_zero(json, "residual_N", move.residual);
   put_unless_zero(json, "dt_s", move.dt);
   put_unless_zero(json, "damping_1/s", move.damping);
+  if (move.budget != 0) json.set("budget", move.budget);
   return json;
 }
 

@@ -9,7 +9,7 @@
 namespace mvs {
 
 // Version 1 had springs with three constants, linear chordae and no curves; up to version 2 there
-// were no tools.
+// were no tools, and steps had no budget.
 inline constexpr uint32_t session_version = 3;
 
 template <typename T, typename Plain>
@@ -140,7 +140,10 @@ void pass(Archive &a, Is<Move> auto &move) {
   a.number(move.residual);
   a.number(move.dt);
   a.number(move.damping);
-  if (a.version() > 2) a.list(move.tool);
+  if (a.version() > 2) {
+    a.word(move.budget);
+    a.list(move.tool);
+  }
 }
 
 // Behind the operation of an entry, which cannot be made empty and filled.

@@ -14,11 +14,12 @@ inline Move move_of(Move::Kind kind, const SolveOptions &how) {
   move.residual = how.residual;
   move.dt = how.dt;
   move.damping = how.damping;
+  move.budget = how.budget;
   return move;
 }
 
 inline SolveOptions options_of(const Move &move) {
-  return {move.solver, move.max_iterations, move.residual, move.dt, move.damping};
+  return {move.solver, move.max_iterations, move.residual, move.dt, move.damping, move.budget};
 }
 
 inline Move move_of(const Load &load) {

@@ -29,12 +29,6 @@ Moment redone_once(const Moment &now) {
   return moment;
 }
 
-// Whether two moves are steps that differ at most in how often they are taken.
-bool are_equal_steps(const Move &a, Move b) {
-  b.count = a.count;
-  return a.kind == Move::step && a == b;
-}
-
 bool replaces(const Move &move, const Move &last) {
   if (move.kind != last.kind) return false;
   if (move.kind == Move::load) return true;
@@ -42,6 +36,12 @@ bool replaces(const Move &move, const Move &last) {
 }
 
 }  // namespace
+
+bool is_same_step(const Move &a, const Move &b) {
+  Move counted = b;
+  counted.count = a.count;
+  return a.kind == Move::step && a == counted;
+}
 
 std::shared_ptr<const Picture> start_of(const Moment &moment) {
   if (moment.timeline.start) return moment.timeline.start;
@@ -52,7 +52,7 @@ Moves with_move(const Moves &moves, const Move &move) {
   if (moves.empty()) return moves.pushed(move);
   const Move &last = moves.top();
   if (replaces(move, last)) return moves.popped().pushed(move);
-  if (!are_equal_steps(last, move) || last.count > Move::most_count - move.count) {
+  if (!is_same_step(last, move) || last.count > Move::most_count - move.count) {
     return moves.pushed(move);
   }
   Move both = last;

@@ -32,7 +32,8 @@ struct Move {
   static constexpr uint64_t most_count = uint64_t{1} << 40;
   Kind kind = load;
   uint32_t solver = 0, max_iterations = 0;  // of settle and step, as the caller gave them
-  uint64_t count = 1;  // of step: how many of the same in a row, at most most_count
+  uint64_t count = 1;   // of step: how many of the same in a row, at most most_count
+  uint32_t budget = 0;  // of step, as the caller gave it
   double pressure = 0, boundary_fraction = 0;  // of load: Pa, 0 to 1
   double residual = 0, dt = 0, damping = 0;    // N, s, 1/s
   SharedVector<Tool> tool;  // one, of what is done with it: as added; its hand; its id
@@ -41,6 +42,8 @@ struct Move {
 };
 using Moves = Stack<Move>;
 
+// Whether two moves are steps that differ at most in how often they are taken.
+bool is_same_step(const Move &a, const Move &b);
 // With one more move; equal steps are counted together, and a load or a hand that moves on before
 // anything has followed it is replaced.
 Moves with_move(const Moves &moves, const Move &move);

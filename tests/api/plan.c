@@ -175,6 +175,25 @@ static void equal_steps_are_counted_together(void) {
   mvs_destroy(stepped);
 }
 
+/* A step taken with a budget is replayed with it, and counted apart from others. */
+static void steps_keep_their_budget(void) {
+  mvs_sim *sim = new_valve(200), *again = new_valve(200);
+  const mvs_load_case load = {sizeof load, 0, 9000, 1};
+  const mvs_step_options tight = {.struct_size = sizeof tight, .budget = 4};
+  uint64_t size = 0;
+  MUST(mvs_set_load(sim, &load));
+  MUST(mvs_step(sim, NULL));
+  for (int k = 0; k < 3; ++k) MUST(mvs_step(sim, &tight));
+  char *text = plan_of(sim, &size);
+  MUST(mvs_replay_plan(again, text, size, NULL));
+  CHECK(same_hash(sim_hash(sim), sim_hash(again)));
+  remove_blanks(text);
+  CHECK(strstr(text, "{\"do\":\"step\"},{\"do\":\"step\",\"count\":3,\"budget\":4}]"));
+  free(text);
+  mvs_destroy(sim);
+  mvs_destroy(again);
+}
+
 /* A host that ends the work at a call of its progress callback. */
 typedef struct host {
   int calls, stop_at;
@@ -227,6 +246,7 @@ static void plans_that_cannot_be_done_are_told(void) {
   refused(sim, PLAN("{\"do\":\"fly\"}"), MVS_E_VERSION, "\"fly\"");
   refused(sim, PLAN("{\"do\":\"settle\",\"dt\":1}"), MVS_E_FORMAT, "no field \"dt\"");
   refused(sim, PLAN("{\"do\":\"settle\",\"count\":2}"), MVS_E_FORMAT, "no field \"count\"");
+  refused(sim, PLAN("{\"do\":\"settle\",\"budget\":9}"), MVS_E_FORMAT, "no field \"budget\"");
   refused(sim, PLAN("{\"do\":\"chord_length\",\"chord\":\"Q1/1\",\"factor\":0.5}"), MVS_E_ID,
           "no chord named \"Q1/1\"");
   refused(sim, PLAN("{\"do\":\"chord_length\",\"chord\":\"P2/3\",\"factor\":\"half\"}"),
@@ -383,6 +403,7 @@ int main(void) {
   a_plan_replays_to_the_same_bits();
   a_replayed_plan_is_written_as_it_was_read();
   equal_steps_are_counted_together();
+  steps_keep_their_budget();
   a_cancelled_replay_changes_nothing();
   plans_that_cannot_be_done_are_told();
   a_killed_process_loses_nothing();

@@ -34,6 +34,7 @@ Moment stepped(const Moment &now, uint64_t steps) {
   Move move;
   move.kind = Move::step;
   move.dt = 1e-3;
+  move.budget = 32;
   for (uint64_t k = 0; k < steps; ++k) {
     moment.timeline.moves = with_move(moment.timeline.moves, move);
   }

@@ -283,6 +283,7 @@ class Simulator:
         solver: Literal["implicit", "explicit"] = "implicit",
         dt: Optional[float] = None,
         damping: Optional[float] = None,
+        budget: Optional[int] = None,
     ) -> Stats: ...
     @property
     def stats(self) -> Stats: ...

@@ -77,12 +77,13 @@ py::object settle(Simulator &self, const std::string &solver, Count max_iteratio
 }
 
 py::object step(Simulator &self, uint64_t count, const std::string &solver, Number dt,
-                Number damping) {
+                Number damping, Count budget) {
   mvs_step_options options{};
   options.struct_size = sizeof options;
   options.solver = solver_of(solver);
   options.dt = dt.value_or(0);
   options.damping = damping.value_or(0);
+  options.budget = budget.value_or(0);
   return stats_value(self.step(options, count));
 }
 
@@ -147,8 +148,10 @@ void bind_work(py::class_<Simulator> &type) {
            "N) in this thread; True cancels (CancelledError), an exception stops and is raised");
   type.def("step", &step, py::arg("count") = 1, py::kw_only(), py::arg("solver") = "implicit",
            py::arg("dt") = py::none(), py::arg("damping") = py::none(),
+           py::arg("budget") = py::none(),
            "Advances by `count` time steps and returns mvs.Stats of the last.\n\nsolver: "
-           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: 1/s");
+           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: 1/s\n"
+           "budget: passes over the terms in an implicit step, 4 to 10000 [64]");
   type.def_property_readonly(
       "stats", [](Simulator &self) { return stats_value(self.stats()); },
       "How the last settle or step went (mvs.Stats).");
