@@ -11,11 +11,12 @@ namespace mvs {
 class BlockMatrix {
  public:
   // Takes the pattern of `n` block rows from pairs of rows in any order; the diagonal is always in.
-  void set_pattern(uint32_t n, std::vector<Edge> pairs) {
-    for (Edge &p : pairs) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
+  void set_pattern(uint32_t n, std::vector<Edge> pairs) { take_pattern(n, pairs); }
+
+  // The same in the memory of `pairs`.
+  void take_pattern(uint32_t n, std::vector<Edge> &pairs) {
     for (uint32_t i = 0; i < n; ++i) pairs.push_back({i, i});
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    sort_pairs(pairs);
     start.assign(n + 1, 0);
     row.resize(pairs.size());
     for (size_t k = 0; k < pairs.size(); ++k) {
@@ -25,6 +26,20 @@ class BlockMatrix {
     for (uint32_t c = 0; c < n; ++c) start[c + 1] += start[c];
     value.resize(pairs.size());
     clear();
+  }
+
+  // Leaves no rows; their memory stays.
+  void forget_pattern() {
+    start.clear();
+    row.clear();
+    value.clear();
+  }
+
+  // The lower row first, each pair once.
+  static void sort_pairs(std::vector<Edge> &pairs) {
+    for (Edge &p : pairs) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   }
 
   void clear() { std::fill(value.begin(), value.end(), Mat3::Zero()); }

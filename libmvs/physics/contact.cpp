@@ -9,6 +9,7 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
       stiffness_(model.valve.contact_stiffness),
       law_(law),
       curve_(law == ContactLaw::barrier ? barrier : penalty) {
+  stencils_.reserve(model.node_count());  // more than a closed valve has
   edges_.count.assign(model.topology.edges.size(), 0);
   edges_.seen.assign(model.topology.edges.size(), 0);
   corners_.count.assign(model.node_count(), 0);

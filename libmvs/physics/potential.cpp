@@ -81,6 +81,13 @@ bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &sy
   return contact_.hessian(x, curvature, system) && complete;
 }
 
+void Potential::set_pattern(System &system) {
+  wanted_ = pairs_;
+  contact_.add_pairs(wanted_);
+  instrument_.add_pairs(wanted_);
+  system.set_pattern(*model_, wanted_);
+}
+
 bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,
                         Profile &profile) {
   ++profile.passes;
@@ -92,10 +99,7 @@ bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System 
   {
     const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
     ++profile.orderings;
-    std::vector<Edge> pairs = pairs_;
-    contact_.add_pairs(pairs);
-    instrument_.add_pairs(pairs);
-    system.set_pattern(*model_, pairs);
+    set_pattern(system);
   }
   const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
   fill(x, curvature, system);

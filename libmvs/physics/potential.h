@@ -49,6 +49,10 @@ class Potential {
     pressure_.add_skew(x, v, y);
   }
 
+  // Sets the pattern that the Hessian at the x of the last gradient() needs.
+  void set_pattern(System &system);
+  // Nodes that the terms whose pattern never changes couple.
+  const std::vector<Edge> &pairs() const { return pairs_; }
   const Candidates &candidates() const { return candidates_; }
   const ContactTerm &contact() const { return contact_; }
   InstrumentTerm &instrument() { return instrument_; }
@@ -67,7 +71,8 @@ class Potential {
   ContactTerm contact_;
   GraspTerm grasp_;
   InstrumentTerm instrument_;
-  std::vector<Edge> pairs_;  // of the terms whose pattern never changes
+  std::vector<Edge> pairs_;   // of the terms whose pattern never changes
+  std::vector<Edge> wanted_;  // and of what touches, while a pattern is made
 };
 
 }  // namespace mvs

@@ -4,29 +4,50 @@
 #include <mvs/sim.h>
 
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
+#include "physics/explicit_stepper.h"
 #include "physics/forces.h"
+#include "physics/implicit_stepper.h"
 #include "physics/newton.h"
 #include "physics/nodes.h"
-#include "physics/stepper.h"
 #include "physics/tool_points.h"
 
 namespace mvs {
 namespace {
 
-struct InTime {
-  double dt, damping;
-  uint32_t most;
-};
+constexpr uint32_t default_budget = 64;
+constexpr uint32_t largest_budget = 10000;
 
-InTime defaults(const SolveOptions &options) {
+StepOptions defaults(const SolveOptions &options) {
   const bool is_explicit = options.solver == MVS_SOLVER_EXPLICIT;
-  InTime t{options.dt, options.damping, options.max_iterations};
-  if (t.dt == 0) t.dt = is_explicit ? 8e-6 : 1e-3;
-  if (t.damping == 0 && is_explicit) t.damping = 500;
-  if (t.most == 0) t.most = is_explicit ? 2000000 : 20000;
-  return t;
+  StepOptions how{options.dt, options.damping, options.budget, true};
+  if (how.dt == 0) how.dt = is_explicit ? 8e-6 : 1e-3;
+  if (how.damping == 0 && is_explicit) how.damping = 500;
+  if (how.budget == 0) how.budget = default_budget;
+  return how;
+}
+
+// Settling goes on until the residual asked for, with all the work that a step may need.
+StepOptions settling(const SolveOptions &options) {
+  StepOptions how = defaults(options);
+  how.budget = largest_budget;
+  how.may_sleep = false;
+  return how;
+}
+
+uint32_t most_steps(const SolveOptions &options) {
+  if (options.max_iterations > 0) return options.max_iterations;
+  return options.solver == MVS_SOLVER_EXPLICIT ? 2000000 : 20000;
+}
+
+// What of mvs_stats.skipped the counts of a whole run tell.
+uint32_t never_done(const Profile &work) {
+  uint32_t skipped = 0;
+  if (work.broad_phases == 0) skipped |= MVS_SKIPPED_BROAD;
+  if (work.orderings == 0) skipped |= MVS_SKIPPED_ORDERING;
+  return skipped;
 }
 
 // A boundary that steps in time have brought within rounding of its target is there.
@@ -40,19 +61,20 @@ SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &
   constexpr int calm_needed = 10;
   const double start = seconds_now();
   const double tolerance = options.residual > 0 ? options.residual : 1e-5;
-  const InTime time = defaults(options);
+  const StepOptions how = settling(options);
+  const uint32_t most = most_steps(options);
   SolveStats stats;
   int calm = 0;
-  while (stats.iterations < time.most && calm < calm_needed) {
+  while (stats.iterations < most && calm < calm_needed) {
     ++stats.iterations;
-    step(time, stats);
-    state.time += time.dt;
+    step(how, stats);
+    state.time += how.dt;
     ++state.steps;
     const bool at_rest = stats.residual <= tolerance &&
                          boundary_is_there(model, state.x, state.load.boundary_fraction, arrival);
     calm = at_rest ? calm + 1 : 0;
     const bool tell = progress && stats.iterations % 64 == 0;
-    MVS_MUST(!tell || progress(static_cast<double>(stats.iterations) / time.most, stats.residual),
+    MVS_MUST(!tell || progress(static_cast<double>(stats.iterations) / most, stats.residual),
              MVS_E_CANCELLED, "settle",
              "settling was cancelled by the progress callback; the valve is as before");
   }
@@ -67,25 +89,31 @@ SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &
 
 // The workers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
-  explicit Work(uint32_t backend) : factor(make_factor(backend)) {}
+  explicit Work(uint32_t backend_in)
+      : backend(backend_in), factor(make_factor(backend)), step_factor(make_factor(backend)) {}
 
+  // Only our own factor has the same bits in a pattern with more zeros.
+  bool keeps_pattern() const {
+    return backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK;
+  }
   ImplicitStepper &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();
     implicit_model = model.serial;
-    if (!implicit) implicit = std::make_unique<ImplicitStepper>(model, *factor);
+    if (!implicit) implicit.emplace(model, *step_factor, keeps_pattern());
     return *implicit;
   }
   ExplicitStepper &explicit_for(const Model &model) {
     if (explicit_model != model.serial) explicit_.reset();
     explicit_model = model.serial;
-    if (!explicit_) explicit_ = std::make_unique<ExplicitStepper>(model);
+    if (!explicit_) explicit_.emplace(model);
     return *explicit_;
   }
 
+  const uint32_t backend;
   ToolPoints tool_points;
-  std::unique_ptr<Factor> factor;
-  std::unique_ptr<ImplicitStepper> implicit;
-  std::unique_ptr<ExplicitStepper> explicit_;
+  std::unique_ptr<Factor> factor, step_factor;  // of settling and of single steps
+  std::optional<ImplicitStepper> implicit;
+  std::optional<ExplicitStepper> explicit_;
   uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
 };
 
@@ -127,35 +155,40 @@ SolveStats Solver::step(const Model &model, State &state, const SolveOptions &op
 
 SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOptions &options,
                                 const Progress &progress) {
+  SolveStats stats;
   if (options.solver == MVS_SOLVER_IMPLICIT) {
-    ImplicitStepper stepper(model, *work_->factor);
-    return settle_in_time(model, state, options, progress, [&](const InTime &t, SolveStats &s) {
-      stepper.step(state, t.dt, t.damping, s);
-    });
-  }
-  if (options.solver == MVS_SOLVER_EXPLICIT) {
+    ImplicitStepper stepper(model, *work_->factor, work_->keeps_pattern());
+    const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
+    stats = settle_in_time(model, state, options, progress, step);
+  } else if (options.solver == MVS_SOLVER_EXPLICIT) {
     ExplicitStepper stepper(model);
-    return settle_in_time(model, state, options, progress, [&](const InTime &t, SolveStats &s) {
-      stepper.step(state, t.dt, t.damping, s);
-    });
+    const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
+    stats = settle_in_time(model, state, options, progress, step);
+  } else {
+    stats = Newton(model, *work_->factor).settle(state, options, progress);
   }
-  // the factor's pattern is about to be another one
-  work_->implicit.reset();
-  return Newton(model, *work_->factor).settle(state, options, progress);
+  stats.skipped |= never_done(stats.work);
+  return stats;
 }
 
 SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptions &options) {
   const double start = seconds_now();
-  const InTime t = defaults(options);
+  const StepOptions how = defaults(options);
   SolveStats stats;
   if (options.solver == MVS_SOLVER_EXPLICIT) {
-    work_->explicit_for(model).step(state, t.dt, t.damping, stats);
+    work_->explicit_for(model).step(state, how, stats);
   } else {
-    work_->implicit_for(model).step(state, t.dt, t.damping, stats);
+    try {
+      work_->implicit_for(model).step(state, how, stats);
+    } catch (...) {
+      work_->implicit.reset();  // half-way: nothing of it is to be kept
+      throw;
+    }
   }
-  state.time += t.dt;
+  state.time += how.dt;
   ++state.steps;
   stats.iterations = 1;
+  stats.skipped |= never_done(stats.work);
   stats.wall_s = seconds_now() - start;
   return stats;
 }

@@ -4,8 +4,49 @@
 #include "base/factor.h"
 
 namespace mvs {
+namespace {
+
+// Times the blocks that are needed: more are not kept from one pattern to the next.
+constexpr double most_kept = 1.25;
+
+}  // namespace
 
 void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
+  if (!keeps_order_) number_rows(model, pairs);
+  take_rows(pairs);
+  const auto rows = static_cast<uint32_t>(node_of.size());
+  if (keeps_order_ && matrix.size() == rows) {
+    const auto needed = most_kept * static_cast<double>(rows_.size());
+    for (uint32_t c = 0; c < rows; ++c) {
+      for (uint32_t k = matrix.start[c] + 1; k < matrix.start[c + 1]; ++k) {
+        rows_.push_back({c, matrix.row[k]});
+      }
+    }
+    BlockMatrix::sort_pairs(rows_);
+    if (static_cast<double>(rows_.size()) > needed) take_rows(pairs);
+  }
+  matrix.take_pattern(rows, rows_);
+}
+
+void System::set_order(const Model &model, const std::vector<uint32_t> &nodes) {
+  keeps_order_ = true;
+  node_of = nodes;
+  row_of.assign(model.node_count(), none);
+  for (uint32_t r = 0; r < node_of.size(); ++r) row_of[node_of[r]] = r;
+  matrix.forget_pattern();
+}
+
+// The pairs of free nodes, by their rows.
+void System::take_rows(const std::vector<Edge> &pairs) {
+  rows_.clear();
+  for (const Edge &p : pairs) {
+    const uint32_t r = row_of[p[0]], c = row_of[p[1]];
+    if (r != none && c != none) rows_.push_back({r, c});
+  }
+  BlockMatrix::sort_pairs(rows_);
+}
+
+void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {
   const auto n = static_cast<uint32_t>(model.node_count());
   std::vector<uint32_t> free_index(n, none), free_nodes;
   for (uint32_t i = 0; i < n; ++i) {
@@ -28,8 +69,6 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
     node_of[k] = free_nodes[order[k]];
     row_of[node_of[k]] = k;
   }
-  for (Edge &p : free_pairs) p = {row_of[free_nodes[p[0]]], row_of[free_nodes[p[1]]]};
-  matrix.set_pattern(rows, std::move(free_pairs));
 }
 
 }  // namespace mvs

@@ -14,6 +14,10 @@ class System {
  public:
   // Rows from the free nodes of a model; the pattern from pairs of nodes.
   void set_pattern(const Model &model, const std::vector<Edge> &pairs);
+  // Puts the free nodes in this order, which then stays whatever the pattern; that is to be set
+  // next. Another one with the same order keeps what it had, unless that has become much more than
+  // needed.
+  void set_order(const Model &model, const std::vector<uint32_t> &nodes);
 
   void clear() {
     matrix.clear();
@@ -51,10 +55,15 @@ class System {
   std::vector<Vec3> boundary_force;
 
  private:
+  void number_rows(const Model &model, const std::vector<Edge> &pairs);
+  void take_rows(const std::vector<Edge> &pairs);
   void couple(uint32_t i, uint32_t j, const Mat3 &block) {
     if (row_of[i] != none) boundary_force[row_of[i]] -= block * (*boundary_step)[j];
     if (row_of[j] != none) boundary_force[row_of[j]] -= block.transpose() * (*boundary_step)[i];
   }
+
+  bool keeps_order_ = false;
+  std::vector<Edge> rows_;  // pairs of rows, while a pattern is made
 };
 
 }  // namespace mvs

@@ -9,6 +9,7 @@
 #include "../unit/small_valve.h"
 #include "base/intersect.h"
 #include "bench.h"
+#include "physics/potential.h"
 #include "physics/stepper.h"
 
 using namespace mvs;

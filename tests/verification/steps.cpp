@@ -6,6 +6,7 @@
 
 #include "../physics/bench.h"
 #include "../unit/small_valve.h"
+#include "physics/potential.h"
 #include "physics/stepper.h"
 #include "published.h"
 #include "study.h"

@@ -1,0 +1,23 @@
+// Symplectic Euler: v += dt (f / m - c v), x += dt v, with a soft vertex-triangle penalty as
+// contact (Tenenholtz et al. 2011). Nothing guards it against crossings or large steps: it is the
+// baseline.
+#pragma once
+
+#include "physics/potential.h"
+#include "physics/solver.h"
+#include "physics/stepper.h"
+
+namespace mvs {
+
+class ExplicitStepper {
+ public:
+  explicit ExplicitStepper(const Model &model);
+  void step(State &state, const StepOptions &how, SolveStats &stats);
+
+ private:
+  const Model *model_;
+  Potential potential_;
+  std::vector<Vec3> g_, boundary_;
+};
+
+}  // namespace mvs

@@ -1,0 +1,246 @@
+// The implicit step, top to bottom.
+#include "physics/implicit_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "physics/nodes.h"
+
+namespace mvs {
+namespace {
+
+constexpr double longest_step = 1e-3;  // m a node may go in one step
+constexpr int halvings = 12;
+// What is over after the matrix: an energy to try and the forces at the end.
+constexpr uint32_t closing_passes = 2;
+// Of the contact thickness: where no node goes farther, pairs that no list of candidates has to
+// hold cannot be cut either, and one made for an earlier step serves.
+constexpr double slow = 0.02;
+
+bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+}  // namespace
+
+double rest_force(const Load &load) {
+  return std::min(1.0001e-5, 1e-9 + 1e-5 / MVS_SYSTOLE_PA * std::abs(load.pressure));
+}
+
+ImplicitStepper::ImplicitStepper(const Model &model, Factor &factor, bool keeps_pattern)
+    : model_(&model),
+      factor_(&factor),
+      potential_(model),
+      slack_(0.1 * model.valve.contact_thickness) {
+  if (keeps_pattern) order_.emplace(model, potential_.pairs());
+}
+
+void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &stats) {
+  begin(state, how, stats);
+  if (how.may_sleep && is_at_rest(state, how)) {
+    const auto stands = [](const Vec3 &v) { return v.isZero(0); };
+    if (!std::all_of(v_.begin(), v_.end(), stands)) {
+      std::fill(v_.begin(), v_.end(), Vec3::Zero());
+      state.v.edit() = v_;
+    }
+    kinetic_ = 0;
+    stats.skipped |= MVS_SKIPPED_STEP;
+    report(stats);
+    return;
+  }
+  assemble(how, stats);
+  solve(how, stats);
+  limit(stats);
+  if (go(how, stats) == 1) arrive(state);
+  std::vector<Vec3> &x = state.x.edit(), &v = state.v.edit();
+  evaluated_ = false;
+  x_.swap(next_x_);
+  v_.swap(next_v_);
+  evaluate(stats);
+  x = x_;
+  v = v_;
+  report(stats);
+}
+
+// Forces of the step before are those of this one, where it goes on from there.
+void ImplicitStepper::begin(const State &state, const StepOptions &how, SolveStats &stats) {
+  left_ = how.budget;
+  evaluated_ = evaluated_ && state.load.pressure == load_.pressure && state.tools == tools_ &&
+               same_bits(x_, state.x);
+  load_ = state.load;
+  tools_ = state.tools;
+  x_ = state.x.get();
+  v_ = state.v.get();
+  potential_.set_pressure(load_.pressure);
+  if (!evaluated_) potential_.set_tools(tools_.get());
+  travels_ = advance_boundary(*model_, state, how.dt, boundary_);
+  if (!evaluated_) evaluate(stats);
+}
+
+void ImplicitStepper::evaluate(SolveStats &stats) {
+  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats.work);
+  energy_ = potential_.gradient(x_, g_, stats.work);
+  residual_ = largest_free(*model_, g_);
+  MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "step",
+           "the forces are not finite: nodes coincide or the material is too stiff");
+  evaluated_ = true;
+}
+
+// Whether nothing drives the valve: neither out-of-balance forces, nor, in the same unit, what is
+// left of its motion.
+bool ImplicitStepper::is_at_rest(const State &state, const StepOptions &how) const {
+  const double most = rest_force(state.load);
+  if (travels_ || residual_ > most) return false;
+  for (size_t i = 0; i < v_.size(); ++i) {
+    if (model_->topology.fixed[i] || v_[i].isZero(0)) continue;
+    if (!(model_->node_mass[i] * v_[i].norm() <= most * how.dt)) return false;
+  }
+  return true;
+}
+
+// Puts the rows in the order of what touches now. True if that is another one than before; a system
+// that keeps nothing finds its own order with its pattern.
+bool ImplicitStepper::order_rows(SolveStats &stats) {
+  if (!order_) {
+    system_ = System();
+    return false;
+  }
+  const PhaseTimer timer(stats.work, MVS_PHASE_ORDERING);
+  if (!order_->update(potential_.contact().stencils())) return false;
+  ++stats.work.orderings;
+  system_.set_order(*model_, order_->nodes());
+  potential_.set_pattern(system_);
+  return true;
+}
+
+void ImplicitStepper::assemble(const StepOptions &how, SolveStats &stats) {
+  const bool reordered = order_rows(stats);
+  system_.boundary_step = travels_ ? &boundary_ : nullptr;
+  if (potential_.hessian(x_, Curvature::projected, system_, stats.work) || reordered) {
+    const PhaseTimer timer(stats.work, MVS_PHASE_ORDERING);
+    factor_->analyse(system_.matrix);
+  }
+  --left_;
+  system_.boundary_step = nullptr;
+  rows_.resize(system_.node_of.size());
+  diagonal_.resize(rows_.size());
+  for (size_t r = 0; r < rows_.size(); ++r) {
+    const uint32_t i = system_.node_of[r];
+    rows_[r] = system_.boundary_force[r] - g_[i] + (model_->node_mass[i] / how.dt) * v_[i];
+    diagonal_[r] = system_.matrix.value[system_.matrix.start[r]];
+  }
+}
+
+void ImplicitStepper::solve(const StepOptions &how, SolveStats &stats) {
+  if (factorise(how, stats)) {
+    const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
+    factor_->solve(rows_);
+  } else {
+    stats.lowered |= MVS_LOWERED_LINEAR;
+    solve_by_diagonal();
+  }
+  // a zero has the sign that it has in any pattern
+  for (Vec3 &row : rows_) row.array() += 0.0;
+}
+
+// More mass where the pressure makes the matrix indefinite: a smaller step in disguise. False where
+// the budget ends before.
+bool ImplicitStepper::factorise(const StepOptions &how, SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+  for (double more = 1; left_ > closing_passes && more < 1e18; more *= 4) {
+    for (size_t r = 0; r < rows_.size(); ++r) {
+      const double m = model_->node_mass[system_.node_of[r]];
+      Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
+      block = diagonal_[r];
+      block.diagonal().array() += more * m * (1 / (how.dt * how.dt) + how.damping / how.dt);
+    }
+    --left_;
+    ++stats.factorisations;
+    if (factor_->factorise(system_.matrix)) return true;
+    if (more == 1) ++stats.shifted;
+  }
+  return false;
+}
+
+// Divides each row by a bound of its sum: a step against the force, short enough for any matrix of
+// these entries.
+void ImplicitStepper::solve_by_diagonal() {
+  const BlockMatrix &m = system_.matrix;
+  bound_.assign(m.size(), 0);
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    bound_[c] += m.value[m.start[c]].norm();
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      const double size = m.value[k].norm();
+      bound_[c] += size;
+      bound_[m.row[k]] += size;
+    }
+  }
+  for (size_t r = 0; r < rows_.size(); ++r) rows_[r] /= bound_[r];
+}
+
+void ImplicitStepper::limit(SolveStats &stats) {
+  step_ = boundary_;
+  for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = rows_[r];
+  potential_.instrument().shorten(step_, longest_step);
+  double farthest = 0;
+  for (size_t i = 0; i < x_.size(); ++i) {
+    const double length = step_[i].norm();
+    if (length > longest_step) step_[i] *= longest_step / length;
+    farthest = std::max(farthest, std::min(length, longest_step));
+  }
+  next_x_.resize(x_.size());
+  for (size_t i = 0; i < x_.size(); ++i) next_x_[i] = x_[i] + step_[i];
+  if (farthest > slow * model_->valve.contact_thickness || !potential_.prepared_for(next_x_) ||
+      !potential_.prepared_for(x_)) {
+    potential_.prepare(x_, next_x_, slack_, stats.work);
+  }
+  potential_.limit_step(x_, slack_, step_, stats.work);
+}
+
+// Goes the largest share of the step, a half as often as need be, that makes no energy: it may come
+// from the pressure (part of the potential) and the boundary, from nowhere else.
+double ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_LINE_SEARCH);
+  const double before = energy_ + kinetic_energy(*model_, v_);
+  double share = 1;
+  for (int k = 0; k <= halvings && left_ >= closing_passes; ++k, share *= 0.5) {
+    place(share, how.dt);
+    --left_;
+    ++stats.work.passes;
+    const double after = potential_.energy(next_x_) + kinetic_;
+    if (travels_ || after <= before + 1e-12 * std::abs(before)) return share;
+  }
+  stats.lowered |= MVS_LOWERED_STEP;
+  place(0, how.dt);
+  return 0;
+}
+
+void ImplicitStepper::place(double share, double dt) {
+  next_x_.resize(x_.size());
+  next_v_.resize(x_.size());
+  for (size_t i = 0; i < x_.size(); ++i) {
+    next_x_[i] = x_[i] + share * step_[i];
+    next_v_[i] = (share / dt) * step_[i];
+  }
+  kinetic_ = kinetic_energy(*model_, next_v_);
+}
+
+// A boundary that has come to its target is there to the bit.
+void ImplicitStepper::arrive(const State &state) {
+  for (uint32_t i = 0; i < x_.size(); ++i) {
+    if (!model_->topology.fixed[i] || step_[i] != boundary_[i]) continue;
+    const Vec3 target = model_->target(i, state.load.boundary_fraction);
+    if ((next_x_[i] - target).norm() < 1e-12) next_x_[i] = target;
+  }
+}
+
+void ImplicitStepper::report(SolveStats &stats) const {
+  stats.residual = residual_;
+  stats.energy = energy_;
+  stats.kinetic = kinetic_;
+  stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
+}
+
+}  // namespace mvs

@@ -1,0 +1,69 @@
+// One linearised backward Euler step: (M / dt^2 + c M / dt + H) dx = -g + M v / dt with the
+// projected H, then the cut against collisions. The step is halved until the mechanical energy does
+// not grow by more than what the load and the moving boundary put in; where no share of it will do,
+// the valve stays where it is and stops.
+//
+// Bounded work: a step may pass over the terms, or factorise and solve, `budget` times. When the
+// matrix is not positive definite and the budget ends, the system is solved by its diagonal alone;
+// when energies cannot be tried any more, the step is none. Bounds and energies are never left out.
+//
+// The bits of a step depend on the state alone, though much is kept from one to the next: the order
+// of elimination follows from which patches of the sheet touch; the pattern of the matrix holds
+// what has touched of late, and entries that are zero change no bit of the factor (base/panel.h);
+// forces are kept with the positions they are of. Nothing is allocated once the memory is there.
+#pragma once
+
+#include <optional>
+
+#include "base/factor.h"
+#include "physics/contact_order.h"
+#include "physics/potential.h"
+#include "physics/solver.h"
+#include "physics/stepper.h"
+
+namespace mvs {
+
+// Out-of-balance force up to which a valve under a pressure counts as at rest, N: the default
+// residual of mvs_settle at systole, and as much less as the pressure is.
+double rest_force(const Load &load);
+
+class ImplicitStepper {
+ public:
+  ImplicitStepper(const Model &model, Factor &factor, bool keeps_pattern);
+  void step(State &state, const StepOptions &how, SolveStats &stats);
+
+ private:
+  void begin(const State &state, const StepOptions &how, SolveStats &stats);
+  void evaluate(SolveStats &stats);
+  bool is_at_rest(const State &state, const StepOptions &how) const;
+  bool order_rows(SolveStats &stats);
+  void assemble(const StepOptions &how, SolveStats &stats);
+  void solve(const StepOptions &how, SolveStats &stats);
+  bool factorise(const StepOptions &how, SolveStats &stats);
+  void solve_by_diagonal();
+  void limit(SolveStats &stats);
+  double go(const StepOptions &how, SolveStats &stats);
+  void place(double share, double dt);
+  void arrive(const State &state);
+  void report(SolveStats &stats) const;
+
+  const Model *model_;
+  Factor *factor_;
+  Potential potential_;
+  std::optional<ContactOrder> order_;  // none: the pattern is made anew in each step
+  System system_;
+  // positions and velocities at the start, and at the end
+  std::vector<Vec3> x_, v_, next_x_, next_v_;
+  std::vector<Vec3> g_, step_, boundary_, rows_;
+  std::vector<Mat3> diagonal_;  // of the system without mass
+  std::vector<double> bound_;   // of the rows of the matrix, for solve_by_diagonal
+  double slack_;                // m, for Potential::prepare
+  double energy_ = 0, residual_ = 0, kinetic_ = 0;
+  Load load_;
+  SharedVector<Tool> tools_;
+  bool evaluated_ = false;  // energy and forces are those of x_ under load_ and tools_
+  bool travels_ = false;    // the boundary
+  uint32_t left_ = 0;       // of the budget
+};
+
+}  // namespace mvs
