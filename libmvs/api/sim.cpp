@@ -14,14 +14,30 @@ using namespace mvs;
 
 SnapshotPtr mvs_sim::present() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  MVS_MUST(present_, MVS_E_STATE, "sim",
-           "the simulator has no valve yet: set, generate or load one first");
+  must_have_valve();
+  if (present_) return present_;
+  if (stepped_.count > 0) now_.timeline.moves = with_move(now_.timeline.moves, stepped_);
+  stepped_.count = 0;
+  present_ = make_snapshot(now_);
   return present_;
 }
 
 void mvs_sim::replace(SnapshotPtr next) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  present_ = std::move(next);
+  now_ = next->moment;
+  stepped_.count = 0;
+  present_.swap(next);
+}
+
+Load mvs_sim::load() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  must_have_valve();
+  return now_.picture.state.load;
+}
+
+void mvs_sim::must_have_valve() const {
+  MVS_MUST(now_.picture.model, MVS_E_STATE, "sim",
+           "the simulator has no valve yet: set, generate or load one first");
 }
 
 void mvs_sim::log(int32_t level, const char *pattern, ...) const {

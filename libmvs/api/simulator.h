@@ -1,4 +1,4 @@
-// The simulator behind mvs_sim: its present snapshot, a solver, the host's callbacks.
+// The simulator behind mvs_sim: its present moment, a solver, the host's callbacks.
 #pragma once
 
 #include <mvs/sim.h>
@@ -9,18 +9,24 @@
 #include <utility>
 
 #include "api/hands.h"
+#include "api/moves.h"
 #include "api/snapshot_impl.h"
 #include "api/structs.h"
 #include "formats/journal.h"
 #include "physics/solver.h"
 
-// A call works on copies and ends by replacing the present snapshot: that is the transaction.
+// A call works on copies and ends by replacing the present moment: that is the transaction. Only a
+// step takes no copy: it works in memory of its own, changes places with the present state when all
+// is well, and leaves it to who asks for a snapshot to make one.
 struct mvs_sim {
   explicit mvs_sim(const mvs_sim_desc &desc_in) : desc(desc_in), solver(desc_in.backend) {}
 
   // The present snapshot; throws MVS_E_STATE before there is a valve. From any thread.
   mvs::SnapshotPtr present() const;
   void replace(mvs::SnapshotPtr next);
+  mvs::Load load() const;
+  // One step in time of the present valve.
+  void step(const mvs::SolveOptions &how);
 
   // One line to the host.
   [[gnu::format(printf, 3, 4)]] void log(int32_t level, const char *pattern, ...) const;
@@ -36,8 +42,15 @@ struct mvs_sim {
   std::atomic<bool> at_work{false};
 
  private:
-  mutable std::mutex mutex_;  // of present_
-  mvs::SnapshotPtr present_;
+  void must_have_valve() const;
+  void begin_step();
+  void record_step(const std::vector<mvs::Move> &moved, const mvs::Move &step) const;
+
+  mutable std::mutex mutex_;          // of the next three
+  mutable mvs::Moment now_;           // no model: no valve yet
+  mutable mvs::Move stepped_;         // steps that the moves of now_ lack; of count 0: none
+  mutable mvs::SnapshotPtr present_;  // of now_; null: nobody has asked since the last step
+  mvs::State next_;                   // where a step works, in memory of the state before
 };
 
 namespace mvs {

@@ -90,6 +90,7 @@ class SnapshotPtr {
     std::swap(held_, other.held_);
     return *this;
   }
+  void swap(SnapshotPtr &other) noexcept { std::swap(held_, other.held_); }
   ~SnapshotPtr() { mvs_snapshot_release(held_); }
 
   const mvs_snapshot *get() const { return held_; }

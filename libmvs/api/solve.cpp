@@ -117,7 +117,7 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
 mvs_result mvs_get_load(const mvs_sim *sim, mvs_load_case *load) {
   return guarded([&] {
     must_point(sim, "sim");
-    write_struct(load, public_load(sim->present()->state.load), "load");
+    write_struct(load, public_load(sim->load()), "load");
   });
 }
 
@@ -136,14 +136,7 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
 }
 
 mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
-  return guarded_call(sim, [&](mvs_sim &s) {
-    const SolveOptions how = read_options(options);
-    const SnapshotPtr before = s.present();
-    State state = before->state;
-    const std::vector<Move> hands = s.hands.take(state);
-    const SolveStats found = s.solver.step(*before->model, state, how);
-    go_on(s, before, std::move(state), hands, move_of(Move::step, how), found);
-  });
+  return guarded_call(sim, [&](mvs_sim &s) { s.step(read_options(options)); });
 }
 
 mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats) {

@@ -1,0 +1,221 @@
+// A live step, once it has been taken a few times, allocates nothing and calls no system: counted
+// by a malloc of our own, and shown by a process that is killed for any other call.
+#include <mvs/mvs.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "check.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAS_OWN_MALLOC 0
+#elif defined(__GLIBC__)
+#define HAS_OWN_MALLOC 1
+#else
+#define HAS_OWN_MALLOC 0
+#endif
+
+#if HAS_OWN_MALLOC
+namespace {
+thread_local long allocations = 0;
+}
+
+// What every library of this process gets; operator new comes here too.
+extern "C" {
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *old, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
+
+void *malloc(size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void *calloc(size_t count, size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void *realloc(void *old, size_t size) {
+  ++allocations;
+  return __libc_realloc(old, size);
+}
+void *aligned_alloc(size_t alignment, size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void **made, size_t alignment, size_t size) {
+  ++allocations;
+  *made = __libc_memalign(alignment, size);
+  return *made ? 0 : 12;
+}
+}
+#endif
+
+#if HAS_OWN_MALLOC && defined(__x86_64__)
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstddef>
+#define HAS_SECCOMP 1
+#else
+#define HAS_SECCOMP 0
+#endif
+
+namespace {
+
+constexpr int warm_up = 50;
+
+mvs_sim *closed_valve() {
+  mvs_sim *sim = nullptr;
+  const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+  MUST(mvs_create(nullptr, &sim));
+  MUST(mvs_generate_valve(sim, nullptr));
+  MUST(mvs_set_load(sim, &systole));
+  MUST(mvs_settle(sim, nullptr, nullptr));
+  return sim;
+}
+
+// Pressures under which the leaflets part and meet again, ten times in a thousand steps.
+void beat(mvs_sim *sim, int step) {
+  const double share = 0.55 + 0.45 * std::cos(2 * 3.14159265358979 * step / 100);
+  const mvs_load_case load = {sizeof load, 0, MVS_SYSTOLE_PA * share, 1};
+  MUST(mvs_set_load(sim, &load));
+}
+
+mvs_stats stats_of(mvs_sim *sim) {
+  mvs_stats stats = {};
+  stats.struct_size = sizeof stats;
+  MUST(mvs_get_stats(sim, &stats));
+  return stats;
+}
+
+#if HAS_OWN_MALLOC
+void steps_allocate_nothing(uint32_t solver) {
+  mvs_sim *sim = closed_valve();
+  mvs_step_options how = {};
+  how.struct_size = sizeof how;
+  how.solver = solver;
+  long made = 0;
+  uint32_t least = UINT32_MAX, most = 0;
+  for (int k = 0; k < warm_up + 1000; ++k) {
+    if (k % 5 == 0) beat(sim, k);
+    const long before = allocations;
+    MUST(mvs_step(sim, &how));
+    if (k < warm_up) continue;
+    made += allocations - before;
+    const uint32_t pairs = stats_of(sim).contact_pairs;
+    least = pairs < least ? pairs : least;
+    most = pairs > most ? pairs : most;
+  }
+  std::printf("solver %u: %ld allocations in 1000 steps, %u to %u contacts\n", solver, made, least,
+              most);
+  CHECK(made == 0);
+  CHECK(least < most);
+  mvs_destroy(sim);
+}
+
+// Somebody who holds a snapshot keeps its memory; once it is let go, steps are as before.
+void a_snapshot_costs_a_step_or_two(void) {
+  mvs_sim *sim = closed_valve();
+  const mvs_snapshot *held = nullptr;
+  for (int k = 0; k < warm_up; ++k) MUST(mvs_step(sim, nullptr));
+  MUST(mvs_get_snapshot(sim, &held));
+  const hash128 seen = snapshot_hash(held);
+  beat(sim, 25);
+  for (int k = 0; k < 100; ++k) MUST(mvs_step(sim, nullptr));
+  CHECK(same_hash(seen, snapshot_hash(held)));
+  CHECK(!same_hash(seen, sim_hash(sim)));
+  mvs_snapshot_release(held);
+  for (int k = 0; k < 3; ++k) MUST(mvs_step(sim, nullptr));
+  const long before = allocations;
+  for (int k = 0; k < 10; ++k) MUST(mvs_step(sim, nullptr));
+  CHECK(allocations == before);
+  mvs_destroy(sim);
+}
+#endif
+
+#if HAS_SECCOMP
+// From here on this process may write and end; anything else kills it. Reading the clock is a call
+// only where the kernel does not lend it to user space. False where that cannot be had.
+bool allow_nothing_more() {
+#define ALLOW(call) \
+  BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (call), 0, 1), BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)
+  sock_filter rules[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      ALLOW(SYS_write),
+      ALLOW(SYS_exit_group),
+      ALLOW(SYS_clock_gettime),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
+  };
+#undef ALLOW
+  const sock_fprog program = {sizeof rules / sizeof rules[0], rules};
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+void steps_call_no_system(void) {
+  mvs_sim *sim = closed_valve();
+  for (int k = 0; k < 2 * warm_up; ++k) {
+    if (k % 5 == 0) beat(sim, k);
+    MUST(mvs_step(sim, nullptr));
+  }
+  beat(sim, 50);
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!allow_nothing_more()) _exit(77);
+    int failed = 0;
+    for (int k = 0; k < 100; ++k) failed += mvs_step(sim, nullptr) != MVS_OK;
+    _exit(failed ? 1 : 0);
+  }
+  int status = 0;
+  CHECK(waitpid(child, &status, 0) == child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
+    std::printf("no seccomp here: system calls not tested\n");
+  } else {
+    CHECK(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  }
+  mvs_destroy(sim);
+}
+#endif
+
+// Left alone, a valve falls asleep; whatever happens to it wakes it.
+void a_valve_at_rest_sleeps(void) {
+  mvs_sim *sim = closed_valve();
+  MUST(mvs_step(sim, nullptr));
+  CHECK(stats_of(sim).skipped & MVS_SKIPPED_STEP);
+  beat(sim, 25);
+  MUST(mvs_step(sim, nullptr));
+  CHECK(!(stats_of(sim).skipped & MVS_SKIPPED_STEP));
+  beat(sim, 0);
+  int steps = 0;
+  do {
+    MUST(mvs_step(sim, nullptr));
+  } while (!(stats_of(sim).skipped & MVS_SKIPPED_STEP) && ++steps < 5000);
+  std::printf("asleep after %d steps\n", steps);
+  CHECK(steps < 5000);
+  CHECK(stats_of(sim).residual <= 1.0001e-5);
+  CHECK(stats_of(sim).kinetic == 0);
+  mvs_destroy(sim);
+}
+
+}  // namespace
+
+int main(void) {
+  a_valve_at_rest_sleeps();
+#if HAS_OWN_MALLOC
+  steps_allocate_nothing(MVS_SOLVER_IMPLICIT);
+  steps_allocate_nothing(MVS_SOLVER_EXPLICIT);
+  a_snapshot_costs_a_step_or_two();
+#endif
+#if HAS_SECCOMP
+  steps_call_no_system();
+#endif
+  return finish("live");
+}
