@@ -20,7 +20,7 @@ void mvs_sim::step(const SolveOptions &how) {
     std::swap(now_.picture.state, next_);
     present_.swap(before);
   }
-  if (!moved.empty()) hands.done(now_.picture.state);
+  hands.done(now_.picture.state);
   stats = public_stats(found);
 }
 

@@ -9,7 +9,10 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
       stiffness_(model.valve.contact_stiffness),
       law_(law),
       curve_(law == ContactLaw::barrier ? barrier : penalty) {
-  stencils_.reserve(model.node_count());  // more than a closed valve has
+  // more than a closed valve has, so that a live step seldom allocates
+  stencils_.reserve(model.node_count());
+  edges_.touched.reserve(256);
+  corners_.touched.reserve(256);
   edges_.count.assign(model.topology.edges.size(), 0);
   edges_.seen.assign(model.topology.edges.size(), 0);
   corners_.count.assign(model.node_count(), 0);

@@ -78,6 +78,7 @@ void StepBounds::keep(const ToolPair &pair, const std::vector<Vec3> &dx) {
 void StepBounds::take_pairs(const Model &model, const std::vector<Vec3> &x,
                             const Candidates &candidates, const std::vector<Vec3> &dx) {
   pairs_.clear();
+  pairs_.reserve(model.node_count());  // rarely more, so that a live step seldom allocates
   for (const VertexTriangle &c : candidates.guarded()) {
     const Tri &t = model.valve.triangles[c.triangle];
     const auto p = closest_on_triangle(x[c.vertex], x[t[0]], x[t[1]], x[t[2]]);
