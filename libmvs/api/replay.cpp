@@ -3,6 +3,7 @@
 
 #include "api/commit.h"
 #include "api/moves.h"
+#include "cascade/cascade.h"
 
 namespace mvs {
 namespace {
@@ -22,7 +23,7 @@ void step_on(mvs_sim &sim, const Model &model, State &state, const Move &move) {
 Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
   State state = now.picture.state;
   if (move.kind == Move::settle) {
-    sim.solver.settle(*now.picture.model, state, options_of(move), sim.progress());
+    settle_by_levels(sim.solver, *now.picture.model, state, options_of(move), sim.progress());
   } else if (move.kind == Move::step) {
     step_on(sim, *now.picture.model, state, move);
   } else {

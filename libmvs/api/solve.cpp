@@ -5,6 +5,7 @@
 
 #include "api/moves.h"
 #include "api/simulator.h"
+#include "cascade/cascade.h"
 
 namespace mvs {
 namespace {
@@ -128,7 +129,7 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     const SnapshotPtr before = s.present();
     State state = before->state;
     const std::vector<Move> hands = s.hands.take(state);
-    const SolveStats found = s.solver.settle(*before->model, state, how, s.progress());
+    const SolveStats found = settle_by_levels(s.solver, *before->model, state, how, s.progress());
     go_on(s, before, std::move(state), hands, move_of(Move::settle, how), found);
     if (stats) write_struct(stats, s.stats, "stats");
     log_settled(s, found);

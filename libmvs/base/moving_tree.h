@@ -81,12 +81,12 @@ class MovingTree {
     if (!nodes_.empty()) within(0, margin, visit);
   }
 
-  // Calls visit(triangle) for those that come within `margin` of something on its way.
+  // Calls visit(triangle, its way) for those that come within `margin` of something on its way.
   template <typename Visit>
   void for_near(const Way &way, double margin, Visit &&visit) const {
     for (uint32_t i = 0; i < nodes_.size();) {
       const bool out = apart(way, nodes_[i].way, margin);
-      if (!out && nodes_[i].right == none) visit(nodes_[i].triangle);
+      if (!out && nodes_[i].right == none) visit(nodes_[i].triangle, nodes_[i].way);
       i = out ? nodes_[i].after : i + 1;
     }
   }

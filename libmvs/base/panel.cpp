@@ -9,6 +9,9 @@ namespace mvs {
 namespace {
 
 constexpr size_t tile_columns = 6;
+constexpr size_t block_columns = 48;
+// A piece of this size is 96 kB: a part of the second-level cache.
+constexpr size_t piece_depth = 128, piece_rows = 96;
 
 // Vectors in registers, and as they lie in memory: anywhere.
 #if defined(__GNUC__)
@@ -72,44 +75,75 @@ MVS_INLINE void subtract_scattered(const PanelUpdate &u, size_t i, size_t j, siz
   }
 }
 
+// Rows first .. last against columns from j on, a piece of the depth at a time.
+template <typename V>
+MVS_INLINE void update_rows(const PanelUpdate &u, size_t first, size_t last, size_t j) {
+  constexpr size_t height = 2 * V::lanes;
+  const size_t columns = std::min(tile_columns, u.n - j);
+  const bool run = columns == tile_columns && u.row[j + columns - 1] - u.row[j] == columns - 1;
+  for (size_t i = std::max(first, j); i < last; i += height) {
+    const size_t rows = std::min(height, last - i);
+    if (run && rows == height && u.row[i + height - 1] - u.row[i] == height - 1) {
+      subtract_tile<V>(u.c + u.row[j] * u.c_stride + u.row[i], u.c_stride, u.a + i, u.a + j,
+                       u.a_stride, u.depth);
+    } else {
+      subtract_scattered<V>(u, i, j, rows, columns);
+    }
+  }
+}
+
+// A piece of A that stays in the cache meets all its columns before the next one comes.
 template <typename V>
 MVS_INLINE void update(const PanelUpdate &u) {
-  constexpr size_t height = 2 * V::lanes;
-  for (size_t j = 0; j < u.n; j += tile_columns) {
-    const size_t columns = std::min(tile_columns, u.n - j);
-    const bool run = columns == tile_columns && u.row[j + columns - 1] - u.row[j] == columns - 1;
-    for (size_t i = j; i < u.m; i += height) {
-      const size_t rows = std::min(height, u.m - i);
-      if (run && rows == height && u.row[i + height - 1] - u.row[i] == height - 1) {
-        subtract_tile<V>(u.c + u.row[j] * u.c_stride + u.row[i], u.c_stride, u.a + i, u.a + j,
-                         u.a_stride, u.depth);
-      } else {
-        subtract_scattered<V>(u, i, j, rows, columns);
+  for (size_t k = 0; k < u.depth; k += piece_depth) {
+    PanelUpdate piece = u;
+    piece.a += k * u.a_stride;
+    piece.depth = std::min(piece_depth, u.depth - k);
+    for (size_t i = 0; i < u.m; i += piece_rows) {
+      const size_t last = std::min(i + piece_rows, u.m);
+      for (size_t j = 0; j < std::min(u.n, last); j += tile_columns) {
+        update_rows<V>(piece, i, last, j);
       }
     }
   }
 }
 
-// Columns first .. last of a panel, from what is to their left, then within themselves.
+// Takes from columns first .. last of a panel what the columns left .. first to their left give.
+template <typename V>
+MVS_INLINE void subtract_left(double *panel, size_t height, size_t left, size_t first, size_t last,
+                              const uint32_t *identity) {
+  if (left == first) return;
+  update<V>({panel + left * height + first, height, panel + first * height + first, height,
+             identity, height - first, last - first, first - left});
+}
+
+// Factorises columns first .. last by themselves, one after the other.
+MVS_INLINE bool factorise_columns(double *panel, size_t height, size_t first, size_t last) {
+  for (size_t j = first; j < last; ++j) {
+    double *column = panel + j * height;
+    for (size_t k = first; k < j; ++k) {
+      const double *earlier = panel + k * height, factor = earlier[j];
+      for (size_t i = j; i < height; ++i) column[i] -= earlier[i] * factor;
+    }
+    const double pivot = column[j];
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    const double inverse = 1 / std::sqrt(pivot);
+    column[j] = inverse;
+    for (size_t i = j + 1; i < height; ++i) column[i] *= inverse;
+  }
+  return true;
+}
+
+// Blocks of columns, and tiles of columns in them.
 template <typename V>
 MVS_INLINE bool factorise(double *panel, size_t width, size_t height, const uint32_t *identity) {
-  for (size_t first = 0; first < width; first += tile_columns) {
-    const size_t last = std::min(first + tile_columns, width);
-    const PanelUpdate left{panel + first, height,   panel + first * height + first,
-                           height,        identity, height - first,
-                           last - first,  first};
-    if (first > 0) update<V>(left);
-    for (size_t j = first; j < last; ++j) {
-      double *column = panel + j * height;
-      for (size_t k = first; k < j; ++k) {
-        const double *earlier = panel + k * height, factor = earlier[j];
-        for (size_t i = j; i < height; ++i) column[i] -= earlier[i] * factor;
-      }
-      const double pivot = column[j];
-      if (!(pivot > 0) || !std::isfinite(pivot)) return false;
-      const double inverse = 1 / std::sqrt(pivot);
-      column[j] = inverse;
-      for (size_t i = j + 1; i < height; ++i) column[i] *= inverse;
+  for (size_t block = 0; block < width; block += block_columns) {
+    const size_t end = std::min(block + block_columns, width);
+    subtract_left<V>(panel, height, 0, block, end, identity);
+    for (size_t first = block; first < end; first += tile_columns) {
+      const size_t last = std::min(first + tile_columns, end);
+      subtract_left<V>(panel, height, block, first, last, identity);
+      if (!factorise_columns(panel, height, first, last)) return false;
     }
   }
   return true;

@@ -144,22 +144,21 @@ void Candidates::find_vertices() {
   guarded_.clear();
   for (const uint32_t v : sheet_) {
     const size_t facing = facing_.size(), guarded = guarded_.size();
-    tree_.for_near(vertex_way_[v], thickness_ + 2 * slack_, [&](uint32_t t) { take(v, t); });
+    tree_.for_near(vertex_way_[v], thickness_ + 2 * slack_,
+                   [&](uint32_t t, const Way &way) { take(v, t, way); });
     sort_triangles(facing_, facing);
     sort_triangles(guarded_, guarded);
   }
 }
 
 // What is apart at rest faces; what is near enough is guarded, whatever it was at rest.
-void Candidates::take(uint32_t vertex, uint32_t triangle) {
+void Candidates::take(uint32_t vertex, uint32_t triangle, const Way &way) {
   const Tri &t = model_->valve.triangles[triangle];
   if (has(t, vertex) || (still_[triangle] && stays(vertex))) return;
   const bool faces = apart_at_rest(vertex, triangle);
   const double longest = guard_share * thickness_;
   const std::array<uint32_t, 1> alone{vertex};
-  if (!faces && apart(vertex_way_[vertex], Way::of(t, from_, to_, pace_), longest + 2 * slack_)) {
-    return;
-  }
+  if (!faces && apart(vertex_way_[vertex], way, longest + 2 * slack_)) return;
   const double distance = vertex_triangle_distance(middle_, vertex, t) - reach(alone, t);
   if (faces && distance <= thickness_) facing_.push_back({vertex, triangle, 0});
   if (distance > longest) return;

@@ -57,7 +57,7 @@ class Candidates {
   bool stays(uint32_t node) const;
   void find_still();
   void find_vertices();
-  void take(uint32_t vertex, uint32_t triangle);
+  void take(uint32_t vertex, uint32_t triangle, const Way &way);
   void find_edges();
   void take_edges(uint32_t a, uint32_t b);
   bool apart_at_rest(uint32_t vertex, uint32_t triangle) const;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/gmres.h"
+#include "physics/forces.h"
 #include "physics/nodes.h"
 #include "physics/region.h"
 
@@ -17,6 +18,9 @@ constexpr double boundary_step = 0.5e-3;  // m a prescribed node may go in one i
 constexpr double many_far = 0.03;         // share of the nodes: more, and the shift grows
 constexpr double least_shift = 1e-4;      // keeps slack branch points and loose flaps solvable
 constexpr double largest_shift = 1e3;
+// Of the contact thickness: what candidate pairs hold for beside the step. Steps far from rest need
+// new ones anyway, those near rest are far smaller.
+constexpr double slack_share = 0.02;
 constexpr int trials = 8;  // of one iteration, each with a larger shift
 constexpr int most_patience = 64;
 // The piece around a disturbance that goes to rest first: an operation disturbs a few nodes, a load
@@ -29,6 +33,28 @@ constexpr double piece_leash = 4e-3;    // m a node of it may go
 constexpr uint32_t piece_iterations = 12;
 constexpr double piece_rest = 0.2;  // of rest_force_: its rim is as far from rest
 
+// m2, of a node.
+double mean_area(const Model &model) {
+  double area = 0;
+  for (const double a : model.rest_area) area += a;
+  return area / static_cast<double>(model.node_count());
+}
+
+// Pa; an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle.
+double scale_of(const Load &load) {
+  return std::max(std::abs(load.pressure), 1e3);
+}
+
+std::vector<uint32_t> disturbed_nodes(const Model &model, const std::vector<Vec3> &g,
+                                      double rest_force) {
+  std::vector<uint32_t> nodes;
+  for (uint32_t i = 0; i < g.size(); ++i) {
+    const bool far = g[i].squaredNorm() > disturbed * disturbed * rest_force * rest_force;
+    if (far && !model.topology.fixed[i]) nodes.push_back(i);
+  }
+  return nodes;
+}
+
 double largest(const std::vector<Vec3> &v) {
   double square = 0;
   for (const Vec3 &a : v) square = std::max(square, a.squaredNorm());
@@ -36,6 +62,15 @@ double largest(const std::vector<Vec3> &v) {
 }
 
 }  // namespace
+
+bool far_from_rest(const Model &model, const State &state) {
+  if (!boundary_is_there(model, state.x, state.load.boundary_fraction, 0)) return true;
+  const std::vector<Vec3> force = evaluate_forces(model, state).total;
+  const auto nodes = static_cast<double>(state.x.size());
+  const size_t places =
+      disturbed_nodes(model, force, scale_of(state.load) * mean_area(model)).size();
+  return static_cast<double>(places) > many_disturbed * nodes;
+}
 
 SolveStats Newton::settle(State &state, const SolveOptions &options, const Progress &progress) {
   const double start = seconds_now();
@@ -71,11 +106,7 @@ void Newton::begin(const State &state) {
   fraction_ = state.load.boundary_fraction;
   potential_.set_pressure(state.load.pressure);
   potential_.set_tools(state.tools);
-  // an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle
-  const double pressure = std::max(std::abs(state.load.pressure), 1e3);
-  double area = 0;
-  for (const double a : model_->rest_area) area += a;
-  area /= static_cast<double>(model_->node_count());
+  const double pressure = scale_of(state.load), area = mean_area(*model_);
   shift_scale_.clear();
   for (const double a : model_->vertex_area) {
     shift_scale_.push_back(pressure * std::sqrt(std::max(a, area)));
@@ -86,7 +117,7 @@ void Newton::begin(const State &state) {
   wait_ = 0;
   patience_ = 1;
   best_ = rest_force_;
-  slack_ = 0.1 * model_->valve.contact_thickness;
+  slack_ = slack_share * model_->valve.contact_thickness;
   evaluate();
 }
 
@@ -94,11 +125,7 @@ void Newton::begin(const State &state) {
 // first, held by the remaining valve: many steps there cost less than one of the whole.
 void Newton::settle_disturbed(const Load &load) {
   if (leash_ > 0 || !boundary_is_there(*model_, x_, fraction_, 0)) return;
-  std::vector<uint32_t> places;
-  for (uint32_t i = 0; i < g_.size(); ++i) {
-    const bool far = g_[i].squaredNorm() > disturbed * disturbed * rest_force_ * rest_force_;
-    if (far && !model_->topology.fixed[i]) places.push_back(i);
-  }
+  const std::vector<uint32_t> places = disturbed_nodes(*model_, g_, rest_force_);
   const auto nodes = static_cast<double>(x_.size());
   if (places.empty() || static_cast<double>(places.size()) > many_disturbed * nodes) return;
   const auto most = static_cast<size_t>(piece_share * nodes);

@@ -32,6 +32,15 @@ struct SolveStats {
   uint32_t skipped = 0;  // MVS_SKIPPED_*
   uint32_t lowered = 0;  // MVS_LOWERED_*
   Profile work;
+
+  // Counts and times of what was done before.
+  void add(const SolveStats &before) {
+    iterations += before.iterations;
+    factorisations += before.factorisations;
+    shifted += before.shifted;
+    wall_s += before.wall_s;
+    work.add(before.work);
+  }
 };
 
 // Told the share done and the residual in N; returns true to go on, false to cancel.
@@ -62,5 +71,9 @@ class Solver {
   struct Work;
   std::unique_ptr<Work> work_;
 };
+
+// Whether the valve is far from rest as a whole: its boundary is still to move, or too many nodes
+// for a piece around a disturbance feel a force as the load's own.
+bool far_from_rest(const Model &model, const State &state);
 
 }  // namespace mvs

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "cascade/cascade.h"
 #include "model/finite.h"
 
 namespace mvs {
@@ -57,19 +58,11 @@ double force_between(const Model &model, const Load &load) {
          static_cast<double>(model.node_count());
 }
 
-void add_counts(const SolveStats &before, SolveStats &to) {
-  to.iterations += before.iterations;
-  to.factorisations += before.factorisations;
-  to.shifted += before.shifted;
-  to.wall_s += before.wall_s;
-  to.work.add(before.work);
-}
-
 // Goes from stage to stage, and counts what each of them took.
 class Walk {
  public:
-  Walk(Solver &solver, const Model &model, Closing &closing, const Progress &progress)
-      : solver_(solver), model_(model), closing_(closing), progress_(progress) {}
+  Walk(Solver &solver, const Model &model, Closing &closing, bool plain, const Progress &progress)
+      : solver_(solver), model_(model), closing_(closing), plain_(plain), progress_(progress) {}
 
   void go(const std::vector<Stage> &stages, const SolveOptions &options, double dt) {
     SolveOptions between = options, step;
@@ -83,7 +76,7 @@ class Walk {
       const SolveStats before = closing_.stats;
       closing_.stats =
           stages[k].in_time ? pass(step) : settle(k + 1 == stages.size() ? options : between);
-      add_counts(before, closing_.stats);
+      closing_.stats.add(before);
     }
   }
 
@@ -92,7 +85,10 @@ class Walk {
     const auto tell = [this](double share, double residual) {
       return progress_(begun_ + share * stage_, residual);
     };
-    return solver_.settle(model_, closing_.state, how, progress_ ? Progress(tell) : Progress());
+    const Progress told = progress_ ? Progress(tell) : Progress();
+    // the others are on this mesh all the way, so that what it can fold to is found
+    return plain_ ? settle_by_levels(solver_, model_, closing_.state, how, told)
+                  : solver_.settle(model_, closing_.state, how, told);
   }
 
   SolveStats pass(const SolveOptions &how) {
@@ -105,6 +101,7 @@ class Walk {
   Solver &solver_;
   const Model &model_;
   Closing &closing_;
+  bool plain_;
   const Progress &progress_;
   double begun_ = 0, stage_ = 0;  // shares of the path: where the stage begins, how long it is
 };
@@ -138,7 +135,7 @@ Closing close_along(Solver &solver, const Model &model, const State &start, cons
   }
   closing.state = begun;
   try {
-    Walk(solver, model, closing, progress)
+    Walk(solver, model, closing, path.plain, progress)
         .go(stages_of(path, start.load, load), options, path.ramp / path.increments);
     must_be_finite(closing.state);
   } catch (const Error &error) {

@@ -154,7 +154,7 @@ TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
         for (uint32_t b = 0; b < n; ++b) {
           if (!apart(ways[a], ways[b], 0.05)) near.push_back(b);
         }
-        tree.for_near(ways[a], 0.05, [&](uint32_t b) { seen.push_back(b); });
+        tree.for_near(ways[a], 0.05, [&](uint32_t b, const Way &) { seen.push_back(b); });
         std::sort(seen.begin(), seen.end());
         CHECK(seen == near);
       }
