@@ -192,11 +192,13 @@ void ImplicitStepper::limit(SolveStats &stats) {
   }
   next_x_.resize(x_.size());
   for (size_t i = 0; i < x_.size(); ++i) next_x_[i] = x_[i] + step_[i];
-  if (farthest > slow * model_->valve.contact_thickness || !potential_.prepared_for(next_x_) ||
-      !potential_.prepared_for(x_)) {
-    potential_.prepare(x_, next_x_, slack_, stats.work);
+  const double quick = slow * model_->valve.contact_thickness;
+  // what moves needs another list in the next step anyway: the shortest one will do
+  const double slack = farthest > quick ? quick : slack_;
+  if (farthest > quick || !potential_.prepared_for(next_x_) || !potential_.prepared_for(x_)) {
+    potential_.prepare(x_, next_x_, slack, stats.work);
   }
-  potential_.limit_step(x_, slack_, step_, stats.work);
+  potential_.limit_step(x_, slack, step_, stats.work);
 }
 
 // Goes the largest share of the step, a half as often as need be, that makes no energy: it may come
