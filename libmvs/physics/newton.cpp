@@ -21,6 +21,9 @@ constexpr double largest_shift = 1e3;
 // Of the contact thickness: what candidate pairs hold for beside the step. Steps far from rest need
 // new ones anyway, those near rest are far smaller.
 constexpr double slack_share = 0.02;
+// Contact comes where the pattern has no room in most iterations; an order of elimination is good
+// for a few such patterns.
+constexpr uint32_t patterns_per_order = 6;
 constexpr int trials = 8;  // of one iteration, each with a larger shift
 constexpr int most_patience = 64;
 // The piece around a disturbance that goes to rest first: an operation disturbs a few nodes, a load
@@ -114,6 +117,7 @@ void Newton::begin(const State &state) {
   near_force_ = 4 * pressure * area;
   rest_force_ = pressure * area;
   shift_ = 1;
+  patterns_ = 0;
   wait_ = 0;
   patience_ = 1;
   best_ = rest_force_;
@@ -253,6 +257,7 @@ void Newton::move_boundary() {
 void Newton::assemble(Curvature curvature) {
   curvature_ = curvature;
   if (potential_.hessian(x_, curvature, system_, stats_.work)) {
+    system_.keep_order(++patterns_ % patterns_per_order != 0);
     const PhaseTimer timer(stats_.work, MVS_PHASE_ORDERING);
     factor_->analyse(system_.matrix);
   }

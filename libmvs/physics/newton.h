@@ -67,6 +67,7 @@ class Newton {
   bool held_ = false;       // a node of it would have gone farther
   double best_ = 0;         // N, the smallest residual at rest so far
   Curvature curvature_ = Curvature::projected;
+  uint32_t patterns_ = 0;        // of the matrix so far
   int wait_ = 0, patience_ = 1;  // iterations until rest_step is tried again
 };
 
