@@ -12,7 +12,8 @@ namespace mvs {
 namespace {
 
 constexpr double longest_step = 1e-3;  // m a node may go in one step
-constexpr int halvings = 12;
+constexpr int halvings = 12;           // of a step that was cut
+constexpr int quarterings = 12;        // of a step before it is cut
 // What is over after the matrix: an energy to try and the forces at the end.
 constexpr uint32_t closing_passes = 2;
 // Of the contact thickness: where no node goes farther, pairs that no list of candidates has to
@@ -204,19 +205,39 @@ void ImplicitStepper::limit(SolveStats &stats) {
 // Goes the largest share of the step, a half as often as need be, that makes no energy: it may come
 // from the pressure (part of the potential) and the boundary, from nowhere else.
 double ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
-  const PhaseTimer timer(stats.work, MVS_PHASE_LINE_SEARCH);
-  const double before = energy_ + kinetic_energy(*model_, v_);
   double share = 1;
   for (int k = 0; k <= halvings && left_ >= closing_passes; ++k, share *= 0.5) {
-    place(share, how.dt);
-    --left_;
-    ++stats.work.passes;
-    const double after = potential_.energy(next_x_) + kinetic_;
-    if (travels_ || after <= before + 1e-12 * std::abs(before)) return share;
+    if (goes(share, how.dt, stats)) return share;
   }
   stats.lowered |= MVS_LOWERED_STEP;
-  place(0, how.dt);
+  if (!go_less(how, stats)) place(0, how.dt);
   return 0;
+}
+
+// A step that was cut node by node may lead uphill, however little of it is gone. Shortened as a
+// whole it leads downhill, and the shorter it is, the less of it is cut.
+bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
+  double farthest = longest_step;
+  for (const Vec3 &row : rows_) farthest = std::max(farthest, row.norm());
+  double share = longest_step / farthest;
+  for (int k = 0; k < quarterings && left_ >= closing_passes; ++k, share *= 0.25) {
+    step_ = boundary_;
+    for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = share * rows_[r];
+    potential_.limit_step(x_, slack_, step_, stats.work);
+    if (goes(1, how.dt, stats)) return true;
+  }
+  return false;
+}
+
+// Whether a share of the step makes no energy; it is in next_x_ and next_v_ then.
+bool ImplicitStepper::goes(double share, double dt, SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_LINE_SEARCH);
+  const double before = energy_ + kinetic_energy(*model_, v_);
+  place(share, dt);
+  --left_;
+  ++stats.work.passes;
+  const double after = potential_.energy(next_x_) + kinetic_;
+  return travels_ || after <= before + 1e-12 * std::abs(before);
 }
 
 void ImplicitStepper::place(double share, double dt) {

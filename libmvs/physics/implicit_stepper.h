@@ -1,7 +1,7 @@
 // One linearised backward Euler step: (M / dt^2 + c M / dt + H) dx = -g + M v / dt with the
 // projected H, then the cut against collisions. The step is halved until the mechanical energy does
 // not grow by more than what the load and the moving boundary put in; where no share of it will do,
-// the valve stays where it is and stops.
+// it is shortened before the cut; where that will not do, the valve stays where it is and stops.
 //
 // Bounded work: a step may pass over the terms, or factorise and solve, `budget` times. When the
 // matrix is not positive definite and the budget ends, the system is solved by its diagonal alone;
@@ -43,6 +43,8 @@ class ImplicitStepper {
   void solve_by_diagonal();
   void limit(SolveStats &stats);
   double go(const StepOptions &how, SolveStats &stats);
+  bool go_less(const StepOptions &how, SolveStats &stats);
+  bool goes(double share, double dt, SolveStats &stats);
   void place(double share, double dt);
   void arrive(const State &state);
   void report(SolveStats &stats) const;
