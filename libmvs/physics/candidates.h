@@ -39,6 +39,7 @@ class Candidates {
   bool valid_for(const std::vector<Vec3> &x) const;
   bool for_itself() const { return pace_ == Pace::each_for_itself; }
 
+  bool empty() const { return facing_.empty() && guarded_.empty() && guarded_edges_.empty(); }
   // Sorted by vertex, then triangle; edges by first, then second.
   const std::vector<VertexTriangle> &facing() const { return facing_; }
   const std::vector<VertexTriangle> &guarded() const { return guarded_; }

@@ -13,6 +13,7 @@ class ChordTerm {
  public:
   explicit ChordTerm(const Model &model);
 
+  bool empty() const { return valve_->chords.empty(); }
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
   void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;

@@ -13,6 +13,9 @@ class ExplicitStepper {
  public:
   explicit ExplicitStepper(const Model &model);
   void step(State &state, const StepOptions &how, SolveStats &stats);
+  // See Potential.
+  void begin_call() { potential_.begin_call(); }
+  uint32_t skipped() const { return potential_.skipped(); }
 
  private:
   const Model *model_;

@@ -31,6 +31,9 @@ class ImplicitStepper {
  public:
   ImplicitStepper(const Model &model, Factor &factor, bool keeps_pattern);
   void step(State &state, const StepOptions &how, SolveStats &stats);
+  // See Potential.
+  void begin_call() { potential_.begin_call(); }
+  uint32_t skipped() const { return potential_.skipped(); }
 
  private:
   void begin(const State &state, const StepOptions &how, SolveStats &stats);

@@ -24,6 +24,7 @@ class MembraneTerm {
  public:
   explicit MembraneTerm(const Model &model);
 
+  bool empty() const { return triangles_.empty(); }
   double energy(const std::vector<Vec3> &x) const;
   // Adds dE/dx and returns E.
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;

@@ -98,6 +98,7 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
   stats_.residual = residual_;
   stats_.energy = energy_;
   stats_.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
+  stats_.skipped |= potential_.skipped();
   stats_.wall_s = seconds_now() - start;
   return stats_;
 }

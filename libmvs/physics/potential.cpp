@@ -42,9 +42,25 @@ void Potential::limit_step(const std::vector<Vec3> &x, double slack, std::vector
   profile.broad_phases += bounds_.limit(*model_, x, slack, candidates_, dx, &instrument_);
 }
 
-double Potential::energy(const std::vector<Vec3> &x) {
+uint32_t Potential::skipped() const {
+  uint32_t skipped = 0;
+  if (spring_.empty()) skipped |= MVS_SKIPPED_SPRINGS;
+  if (membrane_.empty()) skipped |= MVS_SKIPPED_MEMBRANE;
+  if (bending_.empty()) skipped |= MVS_SKIPPED_BENDING;
+  if (chord_.empty()) skipped |= MVS_SKIPPED_CHORDAE;
+  if (pressure_.empty()) skipped |= MVS_SKIPPED_PRESSURE;
+  if (!was_near_ && candidates_.empty()) skipped |= MVS_SKIPPED_CONTACT;
+  return skipped;
+}
+
+void Potential::collect(const std::vector<Vec3> &x) {
+  was_near_ = was_near_ || !candidates_.empty();
   contact_.collect(x, candidates_);
   instrument_.collect(x);
+}
+
+double Potential::energy(const std::vector<Vec3> &x) {
+  collect(x);
   return spring_.energy(x) + membrane_.energy(x) + bending_.energy(x) + chord_.energy(x) +
          pressure_.energy(x) + grasp_.energy(x) + instrument_.energy(x) + contact_.energy();
 }
@@ -52,8 +68,7 @@ double Potential::energy(const std::vector<Vec3> &x) {
 double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
   {
     const PhaseTimer timer(profile, MVS_PHASE_NARROW);
-    contact_.collect(x, candidates_);
-    instrument_.collect(x);
+    collect(x);
   }
   ++profile.passes;
   const PhaseTimer timer(profile, MVS_PHASE_TERMS);

@@ -36,6 +36,11 @@ class Potential {
     return instrument_.is_prepared() && candidates_.valid_for(x);
   }
 
+  // Forgets what was near, for skipped().
+  void begin_call() { was_near_ = false; }
+  // MVS_SKIPPED_* of the terms that no pass since begin_call() has computed.
+  uint32_t skipped() const;
+
   // The energy at x, comparable between calls of gradient(); x must be prepared for.
   double energy(const std::vector<Vec3> &x);
   // Sets g = dE/dx and returns the energy; x must be prepared for.
@@ -58,6 +63,7 @@ class Potential {
   InstrumentTerm &instrument() { return instrument_; }
 
  private:
+  void collect(const std::vector<Vec3> &x);
   bool fill(const std::vector<Vec3> &x, Curvature curvature, System &system);
 
   const Model *model_;
@@ -71,6 +77,7 @@ class Potential {
   ContactTerm contact_;
   GraspTerm grasp_;
   InstrumentTerm instrument_;
+  bool was_near_ = false;     // contact had pairs to look at
   std::vector<Edge> pairs_;   // of the terms whose pattern never changes
   std::vector<Edge> wanted_;  // and of what touches, while a pattern is made
 };

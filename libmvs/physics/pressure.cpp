@@ -45,6 +45,7 @@ void PressureTerm::freeze(const std::vector<Vec3> &x) {
 }
 
 double PressureTerm::energy(const std::vector<Vec3> &x) const {
+  if (empty()) return 0;
   double volume = 0;
   for (const Tri &t : triangles_) {
     const Vec3 a = x[t[0]] - origin_;
@@ -58,6 +59,7 @@ double PressureTerm::energy(const std::vector<Vec3> &x) const {
 }
 
 double PressureTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+  if (empty()) return 0;
   for (const Tri &t : triangles_) {
     const Vec3 f = (pressure_ / 6) * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
     for (const uint32_t i : t) g[i] -= f;
@@ -69,6 +71,7 @@ double PressureTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) 
 // corner k. The symmetric part for the corners (i, j) of one triangle is
 // -p / 12 [x_i + x_j - 2 x_k]x, and zero on the diagonal.
 void PressureTerm::hessian(const std::vector<Vec3> &x, System &system) const {
+  if (empty()) return;
   for (const Slope &s : slopes_) {
     const Vec3 arm = s.right == none ? Vec3(x[s.i] + x[s.j] - 2 * x[s.left])
                                      : Vec3(2 * (x[s.right] - x[s.left]));
@@ -79,6 +82,7 @@ void PressureTerm::hessian(const std::vector<Vec3> &x, System &system) const {
 // The derivative of the force (p / 6) a x b on both ends of a free edge, less its symmetric part.
 void PressureTerm::add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v,
                             std::vector<Vec3> &y) const {
+  if (empty()) return;
   const double p = pressure_ / 12;
   for (const auto &[a, b] : free_edges_) {
     const Vec3 xa = x[a] - origin_, xb = x[b] - origin_, ab = xa - xb;

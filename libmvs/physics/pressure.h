@@ -20,6 +20,8 @@ class PressureTerm {
   explicit PressureTerm(const Model &model);
 
   void set_pressure(double pressure) { pressure_ = pressure; }
+  // Without pressure nothing but freeze() costs anything.
+  bool empty() const { return pressure_ == 0; }
   // Takes the shape whose free edge the energy is exact at. Call it before each line search.
   void freeze(const std::vector<Vec3> &x);
 

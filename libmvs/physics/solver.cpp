@@ -85,6 +85,14 @@ SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &
   return stats;
 }
 
+// One step of a stepper that has made others before.
+template <typename Stepper>
+void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveStats &stats) {
+  stepper.begin_call();
+  stepper.step(state, how, stats);
+  stats.skipped |= stepper.skipped();
+}
+
 }  // namespace
 
 // The workers of the last model, so that a sequence of steps keeps its matrices.
@@ -160,10 +168,12 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
     ImplicitStepper stepper(model, *work_->factor, work_->keeps_pattern());
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
     stats = settle_in_time(model, state, options, progress, step);
+    stats.skipped = stepper.skipped();
   } else if (options.solver == MVS_SOLVER_EXPLICIT) {
     ExplicitStepper stepper(model);
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
     stats = settle_in_time(model, state, options, progress, step);
+    stats.skipped = stepper.skipped();
   } else {
     stats = Newton(model, *work_->factor).settle(state, options, progress);
   }
@@ -176,10 +186,10 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
   const StepOptions how = defaults(options);
   SolveStats stats;
   if (options.solver == MVS_SOLVER_EXPLICIT) {
-    work_->explicit_for(model).step(state, how, stats);
+    step_alone(work_->explicit_for(model), state, how, stats);
   } else {
     try {
-      work_->implicit_for(model).step(state, how, stats);
+      step_alone(work_->implicit_for(model), state, how, stats);
     } catch (...) {
       work_->implicit.reset();  // half-way: nothing of it is to be kept
       throw;

@@ -18,6 +18,7 @@ class SpringTerm {
  public:
   explicit SpringTerm(const Model &model);
 
+  bool empty() const { return springs_.empty(); }
   double energy(const std::vector<Vec3> &x) const;
   // Adds dE/dx and returns E.
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
