@@ -33,8 +33,9 @@ struct SolveStats {
   uint32_t lowered = 0;  // MVS_LOWERED_*
   Profile work;
 
-  // Counts and times of what was done before.
+  // Counts and times of what was done before; skipped is what was in both.
   void add(const SolveStats &before) {
+    if (before.work.passes > 0) skipped &= before.skipped;
     iterations += before.iterations;
     factorisations += before.factorisations;
     shifted += before.shifted;
