@@ -152,7 +152,7 @@ typedef struct mvs_stats {
   uint32_t factorisations;
   uint32_t contact_pairs; /* active at the end */
   uint32_t shifted;       /* iterations whose matrix needed a shift to be positive definite */
-  double residual;        /* N, largest out-of-balance force on a free node */
+  double residual;        /* N, largest out-of-balance force on a free node or point of a tool */
   double energy;          /* J, total potential at the end */
   double kinetic;         /* J */
   double wall_s;

@@ -97,11 +97,11 @@ TEST_CASE("no_pressure_is_no_force_no_energy_and_no_stiffness") {
     const double energy = term.gradient(x, g);
     term.hessian(x, system);
     term.add_skew(x, x, y);
-    const bool none = pressure == 0;
+    const bool unloaded = pressure == 0;
     CHECK(energy == term.energy(x));
-    CHECK((energy == 0) == none);
-    CHECK((largest(g) == 0) == none);
-    CHECK((largest(y) == 0) == none);
-    CHECK((dense(system).norm() == 0) == none);
+    CHECK((energy == 0) == unloaded);
+    CHECK((largest(g) == 0) == unloaded);
+    CHECK((largest(y) == 0) == unloaded);
+    CHECK((dense(system).norm() == 0) == unloaded);
   }
 }
