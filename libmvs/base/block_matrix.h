@@ -16,7 +16,7 @@ class BlockMatrix {
   // The same in the memory of `pairs`.
   void take_pattern(uint32_t n, std::vector<Edge> &pairs) {
     for (uint32_t i = 0; i < n; ++i) pairs.push_back({i, i});
-    sort_pairs(pairs);
+    sort_pairs(n, pairs);
     start.assign(n + 1, 0);
     row.resize(pairs.size());
     for (size_t k = 0; k < pairs.size(); ++k) {
@@ -35,10 +35,19 @@ class BlockMatrix {
     value.clear();
   }
 
-  // The lower row first, each pair once.
-  static void sort_pairs(std::vector<Edge> &pairs) {
+  // Pairs of `n` rows, ascending, the lower row first, each once. In linear time: by the higher
+  // row, then, keeping that order, by the lower one.
+  void sort_pairs(uint32_t n, std::vector<Edge> &pairs) {
     for (Edge &p : pairs) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
-    std::sort(pairs.begin(), pairs.end());
+    halfway_.reserve(pairs.capacity());  // grows no more often than what is sorted
+    halfway_.resize(pairs.size());
+    for (const size_t key : {1u, 0u}) {
+      count_.assign(n + 1, 0);
+      for (const Edge &p : pairs) ++count_[p[key] + 1];
+      for (uint32_t r = 0; r < n; ++r) count_[r + 1] += count_[r];
+      for (const Edge &p : pairs) halfway_[count_[p[key]]++] = p;
+      pairs.swap(halfway_);
+    }
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   }
 
@@ -60,6 +69,11 @@ class BlockMatrix {
 
   std::vector<uint32_t> start, row;  // column c holds blocks start[c] .. start[c + 1]
   std::vector<Mat3> value;
+
+ private:
+  // while pairs are sorted: halfway there, how many begin with each row
+  std::vector<Edge> halfway_;
+  std::vector<uint32_t> count_;
 };
 
 }  // namespace mvs

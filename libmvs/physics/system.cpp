@@ -1,8 +1,6 @@
 // Numbering the rows of the system.
 #include "physics/system.h"
 
-#include <algorithm>
-
 #include "base/factor.h"
 
 namespace mvs {
@@ -24,7 +22,7 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
         rows_.push_back({c, matrix.row[k]});
       }
     }
-    sort_rows();
+    matrix.sort_pairs(rows, rows_);
     if (static_cast<double>(rows_.size()) > needed) take_rows(pairs);
   }
   matrix.take_pattern(rows, rows_);
@@ -45,22 +43,7 @@ void System::take_rows(const std::vector<Edge> &pairs) {
     const uint32_t r = row_of[p[0]], c = row_of[p[1]];
     if (r != none && c != none) rows_.push_back({r, c});
   }
-  sort_rows();
-}
-
-// As BlockMatrix::sort_pairs does, in linear time: by the higher row, then, keeping that order, by
-// the lower one.
-void System::sort_rows() {
-  for (Edge &p : rows_) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
-  halfway_.resize(rows_.size());
-  for (const size_t key : {1u, 0u}) {
-    count_.assign(node_of.size() + 1, 0);
-    for (const Edge &p : rows_) ++count_[p[key] + 1];
-    for (size_t r = 0; r < node_of.size(); ++r) count_[r + 1] += count_[r];
-    for (const Edge &p : rows_) halfway_[count_[p[key]]++] = p;
-    rows_.swap(halfway_);
-  }
-  rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
+  matrix.sort_pairs(static_cast<uint32_t>(node_of.size()), rows_);
 }
 
 void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {

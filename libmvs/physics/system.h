@@ -60,16 +60,13 @@ class System {
  private:
   void number_rows(const Model &model, const std::vector<Edge> &pairs);
   void take_rows(const std::vector<Edge> &pairs);
-  void sort_rows();
   void couple(uint32_t i, uint32_t j, const Mat3 &block) {
     if (row_of[i] != none) boundary_force[row_of[i]] -= block * (*boundary_step)[j];
     if (row_of[j] != none) boundary_force[row_of[j]] -= block.transpose() * (*boundary_step)[i];
   }
 
   bool keeps_order_ = false;
-  // while a pattern is made: pairs of rows, the same halfway sorted, how many begin with each row
-  std::vector<Edge> rows_, halfway_;
-  std::vector<uint32_t> count_;
+  std::vector<Edge> rows_;  // pairs of rows, while a pattern is made
 };
 
 }  // namespace mvs
