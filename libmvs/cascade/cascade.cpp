@@ -30,9 +30,7 @@ size_t sheet_vertices(const Model &model) {
 }
 
 double coarse_residual(const Model &coarse, const Load &load) {
-  double area = 0;
-  for (const double a : coarse.rest_area) area += a;
-  return coarse_rest * std::abs(load.pressure) * area / static_cast<double>(coarse.node_count());
+  return coarse_rest * std::abs(load.pressure) * mean_area(coarse);
 }
 
 // A coarser mesh of the valve and its state there; nothing where there is none that could do.

@@ -36,13 +36,6 @@ constexpr double piece_leash = 4e-3;    // m a node of it may go
 constexpr uint32_t piece_iterations = 12;
 constexpr double piece_rest = 0.2;  // of rest_force_: its rim is as far from rest
 
-// m2, of a node.
-double mean_area(const Model &model) {
-  double area = 0;
-  for (const double a : model.rest_area) area += a;
-  return area / static_cast<double>(model.node_count());
-}
-
 // Pa; an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle.
 double scale_of(const Load &load) {
   return std::max(std::abs(load.pressure), 1e3);

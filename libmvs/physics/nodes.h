@@ -9,6 +9,13 @@
 
 namespace mvs {
 
+// m2, of the sheet for each node.
+inline double mean_area(const Model &model) {
+  double area = 0;
+  for (const double a : model.rest_area) area += a;
+  return area / static_cast<double>(model.node_count());
+}
+
 // The longest of the vectors on free nodes: of forces, the residual.
 inline double largest_free(const Model &model, const std::vector<Vec3> &g) {
   double square = 0;

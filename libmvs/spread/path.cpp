@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cascade/cascade.h"
 #include "model/finite.h"
+#include "physics/nodes.h"
 
 namespace mvs {
 namespace {
@@ -52,10 +53,7 @@ std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to)
 }
 
 double force_between(const Model &model, const Load &load) {
-  double area = 0;
-  for (const double a : model.rest_area) area += a;
-  return between_residual * std::abs(load.pressure) * area /
-         static_cast<double>(model.node_count());
+  return between_residual * std::abs(load.pressure) * mean_area(model);
 }
 
 // Goes from stage to stage, and counts what each of them took.
