@@ -10,6 +10,9 @@
 
 #include <mvs/sim.h>
 
+#include "physics/potential.h"
+#include "physics/stepper.h"
+
 namespace mvs::test {
 namespace {
 
@@ -256,6 +259,15 @@ double farthest(const Positions &x, const Positions &y) {
   double most = 0;
   for (size_t i = 0; i < x.size(); ++i) most = std::max(most, (x[i] - y[i]).norm());
   return most;
+}
+
+double total_energy(const Model &model, const State &state) {
+  Potential potential(model);
+  Profile profile{};
+  Positions g;
+  potential.set_pressure(state.load.pressure);
+  potential.prepare(state.x, state.x, 0, profile);
+  return potential.gradient(state.x, g, profile) + kinetic_energy(model, state.v);
 }
 
 Settled settle(const Model &model, const State &from, const SolveOptions &options) {

@@ -96,6 +96,10 @@ Eigen::VectorXd flat(const Positions &x);
 double largest(const Positions &x);
 double farthest(const Positions &x, const Positions &y);
 
+// Kinetic energy and the potential, whose differences are exact on a sheet without free edge or
+// without pressure.
+double total_energy(const Model &model, const State &state);
+
 // Settles from a state and returns where that went.
 struct Settled {
   State state;

@@ -19,16 +19,6 @@ namespace {
 
 constexpr double systole = MVS_SYSTOLE_PA;
 
-// The potential whose differences are exact: of a sheet without free edge, or without pressure.
-double total_energy(const Model &model, const State &state) {
-  Potential potential(model);
-  Profile profile{};
-  Positions g;
-  potential.set_pressure(state.load.pressure);
-  potential.prepare(state.x, state.x, 0, profile);
-  return potential.gradient(state.x, g, profile) + kinetic_energy(model, state.v);
-}
-
 void check_energy_falls(const Model &model, State state, double dt, int steps) {
   SolveOptions options;
   options.dt = dt;

@@ -28,16 +28,6 @@ Model disc() {
   });
 }
 
-// Kinetic and potential energy with that of the load: no free edge, so that it has one.
-double total_energy(const Model &model, const State &state) {
-  Potential potential(model);
-  Profile profile{};
-  Positions g;
-  potential.set_pressure(state.load.pressure);
-  potential.prepare(state.x, state.x, 0, profile);
-  return potential.gradient(state.x, g, profile) + kinetic_energy(model, state.v);
-}
-
 // What is missing in energy + damped away - work at the end, over the largest kinetic energy.
 Row balance(const char *name, uint32_t kind, double dt, double damping) {
   const Model model = disc();
@@ -48,7 +38,7 @@ Row balance(const char *name, uint32_t kind, double dt, double damping) {
   options.dt = dt;
   options.damping = damping;
   Solver solver(MVS_BACKEND_DEFAULT);
-  const double before = total_energy(model, state);
+  const double before = test::total_energy(model, state);
   double damped = 0, most = 0;
   const auto steps = std::lround(duration / dt);
   for (long k = 0; k < steps; ++k) {
@@ -58,7 +48,7 @@ Row balance(const char *name, uint32_t kind, double dt, double damping) {
     damped += dt * damping * (last + now);  // 2 c T, by trapezes
     most = std::max(most, now);
   }
-  return {name, 0, dt, total_energy(model, state) + damped - before, 0, most};
+  return {name, 0, dt, test::total_energy(model, state) + damped - before, 0, most};
 }
 
 Study study_of(const std::string &name, const std::string &title) {
