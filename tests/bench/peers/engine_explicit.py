@@ -29,11 +29,9 @@ def main() -> None:
             verdict = "exploded"
             break
         rests = residual <= s["tolerance"]
-        if rests or recorder.due():
-            goes_on = recorder.sample(x, np.linalg.norm(v, axis=1).max())
-            if rests or not goes_on:
-                verdict = "rest" if rests else "limit"
-                break
+        verdict = recorder.verdict(x, np.linalg.norm(v, axis=1).max(), rests)
+        if verdict:
+            break
     recorder.save(out, verdict, step, s, f"NumPy {np.__version__}")
 
 

@@ -103,11 +103,10 @@ def main() -> None:
         if not np.isfinite(x).all() or data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
             verdict = "exploded"
             break
-        if rests or recorder.due():
-            goes_on = recorder.sample(x, speed)
-            if rests or not goes_on:
-                verdict = "rest" if rests else "limit" if np.abs(x).max() < 1 else "exploded"
-                break
+        verdict = recorder.verdict(x, speed, rests)
+        if verdict:
+            verdict = "exploded" if verdict == "limit" and np.abs(x).max() >= 1 else verdict
+            break
     recorder.save(out, verdict, step, s, f"MuJoCo {mujoco.__version__}")
 
 

@@ -112,11 +112,9 @@ def main() -> None:
         if not np.isfinite(x).all() or np.abs(x).max() > 1:
             verdict = "exploded"
             break
-        if rests or recorder.due():
-            goes_on = recorder.sample(x, speed)
-            if rests or not goes_on:
-                verdict = "rest" if rests else "limit"
-                break
+        verdict = recorder.verdict(x, speed, rests)
+        if verdict:
+            break
     version = f"Newton {newton.__version__}, Warp {wp.config.version}"
     recorder.save(out, verdict, step, s, version)
 

@@ -49,11 +49,9 @@ def main() -> None:
         v *= np.minimum(1, s["longest"] / np.maximum(length, 1e-300))
         x += v
         rests = residual <= s["tolerance"]
-        if rests or recorder.due():
-            goes_on = recorder.sample(x, np.inf)
-            if rests or not goes_on:
-                verdict = "rest" if rests else "limit"
-                break
+        verdict = recorder.verdict(x, np.inf, rests)
+        if verdict:
+            break
     recorder.save(out, verdict, step, s, f"NumPy {np.__version__}")
 
 

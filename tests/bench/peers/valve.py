@@ -99,6 +99,13 @@ class Recorder:
         self.lost += time.process_time() - now
         return sane and self.cpu[-1] < self.limit
 
+    def verdict(self, nodes: np.ndarray, speed: float, rests: bool) -> str:
+        """Takes a shape if one is due, or the last one; "rest" or "limit" where it is, else ""."""
+        if not rests and not self.due():
+            return ""
+        goes_on = self.sample(nodes, speed)
+        return "rest" if rests else "" if goes_on else "limit"
+
     def save(self, path: str, verdict: str, steps: int, settings: dict[str, Any],
              version: str = "") -> None:
         """Writes the trace, the verdict (rest, limit, exploded) and the settings that were used."""
