@@ -23,9 +23,9 @@
 
 #include "anatomy/parametric.h"
 #include "base/intersect.h"
+#include "cascade/cascade.h"
 #include "closing.h"
 #include "operations.h"
-#include "physics/solver.h"
 #include "table.h"
 
 using namespace mvs;
@@ -75,7 +75,7 @@ Run close(const Options &options, const Model &model, const State &from) {
     run.state.load = {MVS_SYSTOLE_PA, 1};
     // a new solver each time, so that no run warms up the next
     Solver solver(MVS_BACKEND_DEFAULT);
-    const auto settle = [&] { run.stats = solver.settle(model, run.state, {}, {}); };
+    const auto settle = [&] { run.stats = settle_by_levels(solver, model, run.state, {}, {}); };
     run.cpu_s.push_back(bench::timed(settle).cpu);
   }
   return run;
