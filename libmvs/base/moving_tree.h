@@ -100,7 +100,9 @@ class MovingTree {
     uint32_t after;     // the first node that is not below it
     uint32_t triangle;  // of a leaf
   };
-  uint32_t build(uint32_t first, uint32_t last, std::vector<Vec3> &centre);
+  // The part of the tree over items first .. last, triangles in their places.
+  uint32_t build(std::vector<uint32_t> &items, uint32_t first, uint32_t last,
+                 const std::vector<Vec3> &centre);
 
   template <typename Visit>
   void within(uint32_t i, double margin, Visit &visit) const {
@@ -126,7 +128,6 @@ class MovingTree {
   }
 
   std::vector<Tri> triangles_;
-  std::vector<uint32_t> items_;  // triangles by place, while the tree is built
   std::vector<Node> nodes_;
 };
 
