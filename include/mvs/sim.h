@@ -111,7 +111,7 @@ typedef struct mvs_settle_options {
 /* Phases of the work, as indices of mvs_stats.phase_s. */
 enum {
   MVS_PHASE_TERMS = 0,    /* energy, gradient and Hessian blocks of the terms */
-  MVS_PHASE_BROAD = 1,    /* candidate pairs */
+  MVS_PHASE_BROAD = 1,    /* candidate pairs, and how they bound a step */
   MVS_PHASE_NARROW = 2,   /* distances */
   MVS_PHASE_ASSEMBLY = 3, /* blocks into the sparse matrix */
   MVS_PHASE_ORDERING = 4, /* symbolic analysis */

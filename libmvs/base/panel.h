@@ -11,7 +11,7 @@
 
 namespace mvs {
 
-// C[row[i], col[j]] -= sum_k A[i, k] A[j, k] for j < n, j <= i < m, k < depth ascending. A may be
+// C[row[i], row[j]] -= sum_k A[i, k] A[j, k] for j < n, j <= i < m, k < depth ascending. A may be
 // read up to panel_slack numbers past its end, and entries of C above the diagonal (i < j) may be
 // written.
 struct PanelUpdate {
