@@ -1,0 +1,143 @@
+// The handshake, for drivers that run without hardware: versions, sizes, and what may be missing.
+#include <cstring>
+#include <thread>
+
+#include "plug.h"
+
+namespace {
+
+mvs_driver_negotiate_fn negotiate_of(const std::string &name) {
+  void *const library =
+      dlopen((std::string(MVS_DRIVERS_DIR) + "/" + name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
+  REQUIRE(library);
+  return reinterpret_cast<mvs_driver_negotiate_fn>(dlsym(library, "mvs_driver_negotiate"));
+}
+
+const char *const kDrivers[] = {"template", "replay"};
+
+std::map<std::string, std::string> options_of(const std::string &driver) {
+  if (driver != "replay") return {};
+  return {{"file", MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/circle.txt"}};
+}
+
+}  // namespace
+
+TEST_CASE("a_driver_speaks_version_1_to_a_host_that_speaks_it_too") {
+  for (const std::string name : kDrivers) {
+    CAPTURE(name);
+    const auto negotiate = negotiate_of(name);
+    const auto asked = [&](uint32_t oldest, uint32_t newest, uint32_t room) {
+      mvs_driver_host host = {};
+      host.struct_size = sizeof host;
+      host.oldest = oldest;
+      host.newest = newest;
+      mvs_driver_api api = {};
+      api.struct_size = room;
+      const int32_t code = negotiate(&host, &api);
+      CHECK_EQ(code == MVS_DRIVER_OK, api.version == 1);
+      return code;
+    };
+    const uint32_t whole = sizeof(mvs_driver_api);
+    CHECK_EQ(asked(1, 1, whole), MVS_DRIVER_OK);
+    CHECK_EQ(asked(0, 7, whole), MVS_DRIVER_OK);
+    CHECK_EQ(asked(2, 3, whole), MVS_DRIVER_E_VERSION);
+    CHECK_EQ(asked(0, 0, whole), MVS_DRIVER_E_VERSION);
+    CHECK_EQ(asked(1, 1, 8), MVS_DRIVER_E_VERSION);
+    CHECK_EQ(negotiate(nullptr, nullptr), MVS_DRIVER_E_VERSION);
+  }
+}
+
+TEST_CASE("a_driver_tells_a_newer_host_how_much_it_filled") {
+  for (const std::string name : kDrivers) {
+    CAPTURE(name);
+    struct {
+      mvs_driver_api api;
+      uint64_t later;
+    } room = {};
+    room.api.struct_size = sizeof room;
+    room.later = 42;
+    mvs_driver_host host = {};
+    host.struct_size = sizeof host;
+    host.oldest = host.newest = 1;
+    REQUIRE_EQ(negotiate_of(name)(&host, &room.api), MVS_DRIVER_OK);
+    CHECK_EQ(room.api.struct_size, sizeof room.api);
+    CHECK_EQ(room.later, 42);
+    CHECK_EQ(std::string(room.api.name), name);
+    CHECK(room.api.about[0] != 0);
+    CHECK(room.api.error(nullptr) != nullptr);
+  }
+}
+
+TEST_CASE("a_driver_writes_no_further_than_its_host_has_room") {
+  for (const std::string name : kDrivers) {
+    CAPTURE(name);
+    Plug plug(name, options_of(name));
+    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    mvs_driver_info info;
+    std::memset(&info, 0x5a, sizeof info);
+    info.struct_size = offsetof(mvs_driver_info, peak_force);
+    REQUIRE_EQ(plug.api.info(plug.device, &info), MVS_DRIVER_OK);
+    CHECK_EQ(info.struct_size, offsetof(mvs_driver_info, peak_force));
+    CHECK_LT(info.workspace_min[0], info.workspace_max[0]);
+    CHECK_EQ(info.model[0], 0x5a);
+    mvs_driver_state state;
+    std::memset(&state, 0x5a, sizeof state);
+    state.struct_size = offsetof(mvs_driver_state, orientation);
+    REQUIRE_EQ(plug.api.read(plug.device, 1, &state), MVS_DRIVER_OK);
+    CHECK_EQ(state.sequence, 1);
+    CHECK_EQ(state.cause, 0x5a5a5a5au);
+    // a force of which only `on` was filled is zero, not what lies behind it
+    mvs_driver_force force;
+    std::memset(&force, 0xff, sizeof force);
+    force.struct_size = offsetof(mvs_driver_force, force);
+    force.on = 1;
+    CHECK_EQ(plug.api.write(plug.device, &force), MVS_DRIVER_OK);
+  }
+}
+
+TEST_CASE("the_sample_stays_while_the_clock_stands") {
+  for (const std::string name : kDrivers) {
+    CAPTURE(name);
+    Plug plug(name, options_of(name));
+    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    mvs_driver_state first, again, earlier, later;
+    CHECK_EQ(plug.read(1000000, first), MVS_DRIVER_OK);
+    CHECK_EQ(plug.read(1000000, again), MVS_DRIVER_OK);
+    CHECK_EQ(plug.read(500000, earlier), MVS_DRIVER_OK);
+    CHECK_EQ(plug.read(2000000, later), MVS_DRIVER_OK);
+    CHECK_EQ(first.time_ns, 1000000);
+    CHECK_EQ(again.sequence, first.sequence);
+    CHECK_EQ(earlier.sequence, first.sequence);
+    CHECK_EQ(earlier.time_ns, first.time_ns);
+    CHECK_EQ(later.sequence, first.sequence + 1);
+    CHECK_EQ(later.time_ns, 2000000);
+  }
+}
+
+TEST_CASE("forces_are_on_between_start_and_stop_only") {
+  for (const std::string name : kDrivers) {
+    CAPTURE(name);
+    Plug plug(name, options_of(name));
+    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+    uint64_t now = 0;
+    const auto on = [&] {
+      mvs_driver_state state;
+      CHECK_EQ(plug.write(0, 1, 0), MVS_DRIVER_OK);
+      CHECK_EQ(plug.read(now += 1000000, state), MVS_DRIVER_OK);
+      return (state.flags & MVS_DRIVER_FORCE_ON) != 0;
+    };
+    CHECK_FALSE(on());
+    CHECK_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    CHECK(on());
+    std::thread([&] { CHECK_EQ(plug.api.stop(plug.device), MVS_DRIVER_OK); }).join();
+    CHECK_FALSE(on());
+    CHECK_EQ(plug.api.stop(plug.device), MVS_DRIVER_OK);
+    CHECK_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    CHECK(on());
+    if (!plug.api.panic) continue;
+    plug.api.panic(plug.device);
+    CHECK_FALSE(on());
+  }
+}
