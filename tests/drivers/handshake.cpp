@@ -13,7 +13,7 @@ mvs_driver_negotiate_fn negotiate_of(const std::string &name) {
   return reinterpret_cast<mvs_driver_negotiate_fn>(dlsym(library, "mvs_driver_negotiate"));
 }
 
-const char *const kDrivers[] = {"template", "replay"};
+const char *const kDrivers[] = {"template", "replay", "hand"};
 
 std::map<std::string, std::string> options_of(const std::string &driver) {
   if (driver != "replay") return {};

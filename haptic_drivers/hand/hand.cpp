@@ -1,0 +1,251 @@
+// A simulated hand that holds a simulated device, for tests of the closed loop without hardware.
+#include <mvs/driver.h>
+
+#include <time.h>
+
+#include <atomic>
+
+#include "body.h"
+#include "common/interface.h"
+#include "motors.h"
+
+using driver::give;
+using driver::guarded;
+using driver::take;
+using driver::Vector;
+using hand::Fault;
+
+struct mvs_driver_device {
+  explicit mvs_driver_device(hand::Settings wanted)
+      : settings(std::move(wanted)),
+        body(settings.oscillator, settings.script, settings.from),
+        motors(settings.device) {}
+
+  const hand::Settings settings;
+  hand::Body body;
+  hand::Motors motors;
+  std::atomic<bool> running{false};  // stop() comes from any thread
+  bool on = false;                   // of the last force written
+  bool seen = false, begun = false;  // a sample was read: ever, since start()
+  uint64_t now_ns = 0, begin_ns = 0;
+  mvs_driver_state last = {};
+  const char *sentence = "";
+};
+
+namespace {
+
+const char *const kOptions[] = {
+    "device: what it holds: ideal, touch (default), omni, desktop, premium15, premium30, omega, "
+    "delta, lambda, falcon",
+    "mass: of the hand, kg; arm_stiffness, N/m, and arm_damping, N s/m: how the arm leads it",
+    "target: x,y,z in m, where the arm leads it; from: where it begins, if elsewhere",
+    "amplitude: x,y,z in m, and frequency, Hz: the arm swings about the target",
+    "file: a recording (haptic_drivers/replay/README.md) that leads the arm instead",
+    "push: x,y,z in N, a constant force on the hand",
+    "buttons: held for ever, a sum of 1, 2, 4, ...",
+    "velocity: 1: the device measures velocity; 0 (default): libmvs has to estimate it",
+    "force, continuous_force, stiffness, damping, rate, resolution, device_mass, device_damping, "
+    "delay: of the device, instead of its own",
+    "fault: nan_position, inf_velocity, jump, unplug, silent, stuck_button, bounce, uncalibrated, "
+    "hot, saturated, deadman, clock_back, clock_jump, slow, button, absent or licence",
+    "fault_at: when it begins, s after start; fault_for: how long it lasts, s, 0 for ever",
+    nullptr};
+
+int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
+  return guarded([&] {
+    const hand::Settings settings = hand::settings(host);
+    if (settings.faults.kind != Fault::kAbsent) found(user, "hand", settings.device.model);
+  });
+}
+
+int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *user) {
+  const int32_t code = guarded([&] {
+    const hand::Settings settings = hand::settings(host);
+    finding(user, 1, "options",
+            (std::string("a hand that holds a ") + settings.device.model).c_str());
+    if (settings.faults.kind != Fault::kNone)
+      finding(user, -1, "fault", "a fault was asked for: this is a test");
+  });
+  if (code != MVS_DRIVER_OK) finding(user, 0, "options", driver::last_sentence);
+  return MVS_DRIVER_OK;
+}
+
+int32_t open(const mvs_driver_host *host, const char *name, mvs_driver_device **device) {
+  return guarded([&] {
+    hand::Settings settings = hand::settings(host);
+    if (name && std::strcmp(name, "hand") != 0)
+      driver::refuse(MVS_DRIVER_E_ABSENT, std::string("there is no \"") + name + "\": try hand");
+    if (settings.faults.kind == Fault::kAbsent)
+      driver::refuse(MVS_DRIVER_E_ABSENT, "no device is there, as option fault=absent wants it");
+    if (settings.faults.kind == Fault::kLicence)
+      driver::refuse(MVS_DRIVER_E_LICENCE, "there is no licence, as option fault=licence wants it");
+    *device = new mvs_driver_device(std::move(settings));
+  });
+}
+
+int32_t info(mvs_driver_device *device, mvs_driver_info *out) {
+  const hand::Device &held = device->settings.device;
+  mvs_driver_info info = {};
+  info.freedoms_in = held.freedoms_in;
+  info.freedoms_out = held.force > 0 ? 3 : 0;
+  info.buttons = 2;
+  info.has_deadman = device->settings.faults.kind == Fault::kDeadman;
+  for (int k = 0; k < 3; ++k) {
+    info.workspace_min[k] = -held.reach;
+    info.workspace_max[k] = held.reach;
+  }
+  info.peak_force = held.force;
+  info.continuous_force = held.continuous_force;
+  info.max_stiffness = held.stiffness;
+  info.max_damping = held.damping;
+  info.rate = held.rate;
+  std::snprintf(info.model, sizeof info.model, "%s (simulated)", held.model);
+  give(info, out);
+  return MVS_DRIVER_OK;
+}
+
+int32_t calibrate(mvs_driver_device *device) {
+  if (!device->settings.faults.now(Fault::kUncalibrated, 0)) return MVS_DRIVER_OK;
+  device->sentence = "put the stylus into its holder, as option fault=uncalibrated wants it";
+  return MVS_DRIVER_E_CALIBRATION;
+}
+
+int32_t start(mvs_driver_device *device) {
+  device->begun = false;
+  device->on = false;
+  device->motors.off();
+  device->running = true;
+  return MVS_DRIVER_OK;
+}
+
+// Seconds since the first sample after start(); negative before.
+double script_time(const mvs_driver_device &device) {
+  return device.begun ? static_cast<double>(device.now_ns - device.begin_ns) * 1e-9 : -1;
+}
+
+// Moves the hand on to `now_ns`, and tells where it is.
+void sample(mvs_driver_device &device, uint64_t now_ns) {
+  const double before = script_time(device);
+  const double length = device.seen ? static_cast<double>(now_ns - device.now_ns) * 1e-9 : 0;
+  const bool felt = device.running && !device.settings.faults.limp(before);
+  Vector force = device.settings.push;
+  for (int k = 0; k < 3; ++k) force[k] += felt ? device.motors.force()[k] : 0;
+  device.body.move(before < 0 ? -length : before, length, force);
+  device.motors.sampled();
+  device.now_ns = now_ns;
+  if (device.running && !device.begun) device.begin_ns = now_ns;
+  device.begun = device.begun || device.running;
+  device.seen = true;
+}
+
+// What the encoder makes of a position.
+double encoded(double position, double resolution) {
+  return resolution > 0 ? resolution * std::round(position / resolution) : position;
+}
+
+mvs_driver_state state_of(const mvs_driver_device &device) {
+  const hand::Settings &settings = device.settings;
+  mvs_driver_state state = {};
+  state.flags = MVS_DRIVER_CALIBRATED;
+  if (settings.tells_velocity) state.flags |= MVS_DRIVER_VELOCITY;
+  if (settings.faults.kind == Fault::kDeadman) state.flags |= MVS_DRIVER_HELD;
+  const bool on = device.running && device.on && !settings.faults.limp(script_time(device));
+  if (on) state.flags |= MVS_DRIVER_FORCE_ON;
+  if (on && device.motors.saturated()) state.flags |= MVS_DRIVER_SATURATED;
+  state.time_ns = device.now_ns;
+  state.sequence = device.last.sequence + 1;
+  for (int k = 0; k < 3; ++k)
+    state.position[k] = encoded(device.body.position()[k], settings.device.resolution);
+  for (int k = 0; k < 3 && settings.tells_velocity; ++k)
+    state.velocity[k] = device.body.velocity()[k];
+  state.orientation[0] = 1;
+  state.buttons = settings.buttons;
+  if (!settings.script.recording) return state;
+  const driver::Pose pose = settings.script.recording->at(script_time(device));
+  for (int k = 0; k < 4; ++k) state.orientation[k] = pose.orientation[k];
+  state.buttons |= pose.buttons;
+  return state;
+}
+
+// One of the two faults that a function shows by itself; the others are in the state.
+int32_t unplugged(mvs_driver_device *device) {
+  device->sentence = "the device was unplugged, as option fault=unplug wants it";
+  return MVS_DRIVER_E_LOST;
+}
+
+int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *state) {
+  const hand::Faults &faults = device->settings.faults;
+  if (!device->seen || now_ns > device->now_ns) {
+    sample(*device, now_ns);
+    mvs_driver_state now = state_of(*device);
+    hand::spoil(faults, script_time(*device), device->last, now);
+    device->last = now;
+  }
+  if (faults.now(Fault::kUnplug, script_time(*device))) return unplugged(device);
+  if (faults.now(Fault::kSlow, script_time(*device))) {
+    const timespec longer_than_patience = {0, 150000000};
+    nanosleep(&longer_than_patience, nullptr);
+  }
+  give(device->last, state);
+  return MVS_DRIVER_OK;
+}
+
+int32_t write(mvs_driver_device *device, const mvs_driver_force *force) {
+  if (device->settings.faults.now(Fault::kUnplug, script_time(*device))) return unplugged(device);
+  const mvs_driver_force wanted = take(force);
+  device->on = wanted.on && device->running;
+  Vector newtons = {};
+  for (int k = 0; k < 3 && device->on; ++k) newtons[k] = wanted.force[k];
+  if (!std::isfinite(newtons[0] + newtons[1] + newtons[2])) {
+    device->on = false;
+    device->motors.off();
+    device->sentence = "the force that was written is not finite";
+    return MVS_DRIVER_E_FAULT;
+  }
+  device->motors.write(newtons);
+  return MVS_DRIVER_OK;
+}
+
+int32_t stop(mvs_driver_device *device) {
+  device->running = false;
+  return MVS_DRIVER_OK;
+}
+
+void panic(mvs_driver_device *device) {
+  device->running = false;
+}
+
+void close(mvs_driver_device *device) {
+  delete device;
+}
+
+const char *error(const mvs_driver_device *device) {
+  return device ? device->sentence : driver::last_sentence;
+}
+
+constexpr mvs_driver_api kDriver = {
+    sizeof(mvs_driver_api),
+    MVS_DRIVER_VERSION,
+    "hand",
+    "a simulated hand that holds a simulated device; no device is needed",
+    kOptions,
+    list,
+    doctor,
+    open,
+    info,
+    calibrate,
+    start,
+    read,
+    write,
+    nullptr,  // polled
+    stop,
+    panic,
+    close,
+    error,
+};
+
+}  // namespace
+
+int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
+  return driver::negotiate(host, api, kDriver);
+}

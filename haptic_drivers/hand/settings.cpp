@@ -1,0 +1,83 @@
+#include "settings.h"
+
+#include "common/recording_file.h"
+
+namespace hand {
+
+namespace {
+
+using driver::Options;
+using driver::refuse;
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kMost = 1e6;  // of what has no natural bound, in its unit
+
+Device held_device(const Options &options) {
+  Device held = device(options.text("device").value_or("touch"));
+  held.force = options.number("force", held.force, 0, kMost);
+  held.continuous_force = options.number("continuous_force", held.continuous_force, 0, kMost);
+  held.stiffness = options.number("stiffness", held.stiffness, 0, kMost);
+  held.damping = options.number("damping", held.damping, 0, kMost);
+  held.rate = options.number("rate", held.rate, 1, 1e5);
+  held.resolution = options.number("resolution", held.resolution, 0, 0.01);
+  held.mass = options.number("device_mass", held.mass, 0, 100);
+  held.drag = options.number("device_damping", held.drag, 0, kMost);
+  const double delay = options.number("delay", held.delay, 0, 16);
+  if (delay != std::floor(delay))
+    refuse(MVS_DRIVER_E_OPTION, "option delay: give a whole number of samples");
+  held.delay = static_cast<unsigned>(delay);
+  return held;
+}
+
+Script script_of(const Options &options) {
+  Script script;
+  if (const auto file = options.text("file")) {
+    if (options.given("target") || options.given("amplitude") || options.given("frequency"))
+      refuse(MVS_DRIVER_E_OPTION,
+             "option file: the file leads the hand; leave out target, amplitude and frequency");
+    script.recording = driver::RecordingFile::load(*file);
+    return script;
+  }
+  script.target = options.vector("target", {}, 1);
+  script.amplitude = options.vector("amplitude", {}, 1);
+  script.frequency = options.number("frequency", 0, 0, 1000);
+  if (options.given("amplitude") != options.given("frequency"))
+    refuse(MVS_DRIVER_E_OPTION, "options amplitude and frequency: give both or neither");
+  return script;
+}
+
+// One person's, as measured at the handle of a haptic device; README.md cites it.
+Oscillator oscillator_of(const Options &options, const Device &held, const Script &script) {
+  Oscillator o;
+  o.mass = options.number("mass", 0.554, 0, 100) + held.mass;
+  o.stiffness = options.number("arm_stiffness", 135, 0, kMost);
+  o.arm_damping = options.number("arm_damping", 6.45, 0, kMost);
+  o.damping = held.drag;
+  o.swing = kTwoPi * script.frequency;
+  // lighter than any finger, it would only be a stiff equation
+  if (o.mass < 1e-3)
+    refuse(MVS_DRIVER_E_OPTION, "option mass: hand and device together weigh less than a gram");
+  return o;
+}
+
+}  // namespace
+
+Settings settings(const mvs_driver_host *host) {
+  const Options options(host);
+  Settings out;
+  out.device = held_device(options);
+  out.script = script_of(options);
+  out.oscillator = oscillator_of(options, out.device, out.script);
+  const auto &recording = out.script.recording;
+  const driver::Vector begin = recording ? recording->at(0).position : out.script.target;
+  out.from = options.vector("from", begin, 1);
+  out.push = options.vector("push", {}, kMost);
+  out.tells_velocity = options.number("velocity", 0, 0, 1) != 0;
+  const auto buttons = driver::count(options.text("buttons").value_or("0"));
+  if (!buttons) refuse(MVS_DRIVER_E_OPTION, "option buttons: give a sum of 1, 2, 4, ...");
+  out.buttons = *buttons;
+  out.faults = faults(options);
+  return out;
+}
+
+}  // namespace hand
