@@ -66,7 +66,8 @@ enum {
   MVS_CAUSE_UNPLUGGED = 5,  /* the device is gone */
   MVS_CAUSE_DEADMAN = 6,    /* nobody holds it */
   MVS_CAUSE_NOT_FINITE = 7, /* a number was none */
-  MVS_CAUSE_THERMAL = 8     /* the motors are too warm */
+  MVS_CAUSE_THERMAL = 8,    /* the motors are too warm */
+  MVS_CAUSE_CALIBRATION = 9 /* where it is cannot be trusted */
 };
 
 /* What a device is. Zero of a number means that the device does not say: libmvs then takes the
@@ -78,7 +79,8 @@ typedef struct mvs_driver_info {
   uint32_t buttons;      /* how many there are, at most 32 */
   uint32_t has_gripper;
   uint32_t has_deadman;                      /* 1: MVS_DRIVER_HELD is told */
-  double workspace_min[3], workspace_max[3]; /* m, the corners of the box that the hand can reach */
+  double workspace_min[3], workspace_max[3]; /* m, the corners of the box that the hand can reach,
+                                                in the device's axes */
   double peak_force;                         /* N */
   double continuous_force;                   /* N, that the motors bear for ever */
   double peak_torque;                        /* N m */

@@ -3,6 +3,7 @@
 #define MVS_MVS_H
 
 #include "base.h"
+#include "device.h"
 #include "file.h"
 #include "levels.h"
 #include "op.h"

@@ -22,6 +22,11 @@ SnapshotPtr mvs_sim::present() const {
   return present_;
 }
 
+const Picture &mvs_sim::picture() const {
+  must_have_valve();
+  return now_.picture;
+}
+
 void mvs_sim::replace(SnapshotPtr next) {
   const std::lock_guard<std::mutex> lock(mutex_);
   now_ = next->moment;

@@ -23,6 +23,8 @@ struct mvs_sim {
 
   // The present snapshot; throws MVS_E_STATE before there is a valve. From any thread.
   mvs::SnapshotPtr present() const;
+  // The same for the call at work, without making one.
+  const mvs::Picture &picture() const;
   void replace(mvs::SnapshotPtr next);
   mvs::Load load() const;
   // One step in time of the present valve.

@@ -1,12 +1,13 @@
 // Instruments: read, posted, told.
 #include <mvs/tool.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "api/moves.h"
+#include "api/nearest.h"
 #include "api/simulator.h"
-#include "physics/grasp.h"
+#include "api/tools.h"
+#include "physics/tool_feel.h"
 
 using namespace mvs;
 
@@ -35,22 +36,13 @@ double value_or(double value, double fallback) {
   return value == 0 ? fallback : value;
 }
 
-// The free vertex of the leaflets that is nearest to the hand.
-uint32_t nearest_node(const mvs_snapshot &now, const Vec3 &place, double reach) {
-  uint32_t nearest = none;
-  double least = reach * reach;
-  for (uint32_t i = 0; i < now.state.x.size(); ++i) {
-    if (now.model->topology.node_kind[i] != MVS_NODE_IS_LEAFLET) continue;
-    const double distance2 = (now.state.x[i] - place).squaredNorm();
-    if (distance2 > least || (nearest != none && distance2 == least)) continue;
-    least = distance2;
-    nearest = i;
-  }
-  MVS_MUST(nearest != none, MVS_E_ARGUMENT, "desc.position",
+uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach) {
+  const NearNode nearest = nearest_node(now.moment.picture, place);
+  MVS_MUST(nearest.distance <= reach, MVS_E_ARGUMENT, "desc.position",
            "no free vertex of a leaflet lies within %g mm of the hand: bring it nearer, or give a "
            "larger reach",
            1e3 * reach);
-  return nearest;
+  return nearest.node;
 }
 
 void check_numbers(const mvs_tool_desc &desc) {
@@ -65,8 +57,7 @@ void check_numbers(const mvs_tool_desc &desc) {
            "desc.by_node is %u: it has to be 0 or 1", desc.by_node);
 }
 
-Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc *given) {
-  const mvs_tool_desc desc = read_struct(given, "desc");
+Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
   check_numbers(desc);
   Tool tool;
   tool.kind = desc.kind;
@@ -75,7 +66,7 @@ Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc *given) {
   tool.max_force = value_or(desc.max_force, 5);
   if (desc.kind == MVS_TOOL_GRASP) {
     const double reach = value_or(desc.reach, 2e-3);
-    tool.node = desc.by_node ? desc.node : nearest_node(now, tool.position, reach);
+    tool.node = desc.by_node ? desc.node : node_in_reach(now, tool.position, reach);
     return tool;
   }
   tool.radius = value_or(desc.radius, 2e-3);
@@ -90,20 +81,6 @@ void write(const Vec3 &from, double to[3]) {
   std::copy(from.data(), from.data() + 3, to);
 }
 
-// The springs answer the hand with what they pull, turned round.
-void add_forces(const State &state, const Tool &tool, mvs_tool_state &out) {
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  const uint32_t springs = tool.kind == MVS_TOOL_ROD ? 2 : 1;
-  for (uint32_t k = 0; k < springs; ++k) {
-    const Vec3 at = tool.kind == MVS_TOOL_GRASP ? state.x[tool.node] : tool.proxy[k];
-    const Vec3 back = -pull(hold_of(tool, k, 0), at);
-    force += back;
-    torque += (tool.target(k) - tool.position).cross(back);
-  }
-  write(force, out.force);
-  write(torque, out.torque);
-}
-
 mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
   const State &state = snapshot.state;
   mvs_tool_state out = {};
@@ -111,7 +88,9 @@ mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
   out.id = tool.id;
   write(tool.position, out.position);
   write(tool.axis, out.axis);
-  add_forces(state, tool, out);
+  const ToolForce answer = force_of(state, tool);
+  write(answer.force, out.force);
+  write(answer.torque, out.torque);
   out.radius = tool.radius;
   out.length = tool.length;
   out.stiffness = tool.stiffness;
@@ -140,16 +119,30 @@ void take_at_once(mvs_sim &sim, const Move &move) {
 
 }  // namespace
 
+namespace mvs {
+
+Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc) {
+  const SnapshotPtr before = sim.present();
+  Tool added = read_tool(*before.get(), desc);
+  added.id = first_tool_id + before->state.tools_made;
+  take_at_once(sim, move_of(Move::tool_add, added));
+  return added.id;
+}
+
+void remove_tool_now(mvs_sim &sim, Id id) {
+  Tool removed;
+  removed.id = id;
+  take_at_once(sim, move_of(Move::tool_remove, removed));
+}
+
+}  // namespace mvs
+
 extern "C" {
 
 mvs_result mvs_tool_add(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
   return guarded_call(sim, [&](mvs_sim &s) {
     must_point(tool, "tool");
-    const SnapshotPtr before = s.present();
-    Tool added = read_tool(*before.get(), desc);
-    added.id = first_tool_id + before->state.tools_made;
-    take_at_once(s, move_of(Move::tool_add, added));
-    *tool = added.id;
+    *tool = add_tool_now(s, read_struct(desc, "desc"));
   });
 }
 
@@ -166,11 +159,7 @@ mvs_result mvs_tool_move(mvs_sim *sim, mvs_id tool, const double position[3],
 }
 
 mvs_result mvs_tool_remove(mvs_sim *sim, mvs_id tool) {
-  return guarded_call(sim, [&](mvs_sim &s) {
-    Tool removed;
-    removed.id = tool;
-    take_at_once(s, move_of(Move::tool_remove, removed));
-  });
+  return guarded_call(sim, [&](mvs_sim &s) { remove_tool_now(s, tool); });
 }
 
 mvs_result mvs_tool_get(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state) {

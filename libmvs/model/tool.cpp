@@ -31,6 +31,27 @@ double distance_of_core(const std::vector<Vec3> &x, const Tri &t, const Tool &to
   return std::sqrt(segment_triangle_distance2(a, b, p, q, r));
 }
 
+// From the point of a triangle nearest to the axis of a tool: that of its ends, or that of an edge.
+Vec3 away_from(const std::vector<Vec3> &x, const Tri &t, const Tool &tool) {
+  Vec3 away = Vec3::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  const auto take = [&](const Vec3 &apart) {
+    if (apart.squaredNorm() >= least) return;
+    least = apart.squaredNorm();
+    away = apart;
+  };
+  for (uint32_t k = 0; k < tool.points(); ++k) {
+    const auto w = closest_on_triangle(tool.proxy[k], x[t[0]], x[t[1]], x[t[2]]).weight;
+    take(tool.proxy[k] - (w[0] * x[t[0]] + w[1] * x[t[1]] + w[2] * x[t[2]]));
+  }
+  for (uint32_t k = 0; tool.points() == 2 && k < 3; ++k) {
+    const Vec3 &a = x[t[k]], &b = x[t[(k + 1) % 3]];
+    const SegmentPair pair = closest_of_segments(tool.proxy[0], tool.proxy[1], a, b);
+    take(tool.proxy[0] + pair.s * (tool.proxy[1] - tool.proxy[0]) - a - pair.t * (b - a));
+  }
+  return away.normalized();
+}
+
 void check_node(const Model &model, uint32_t node) {
   MVS_MUST(node < model.node_count(), MVS_E_ARGUMENT, "desc.node",
            "desc.node is %u, but the valve has %zu nodes", node, model.node_count());
@@ -45,9 +66,20 @@ double tool_range(const Model &model) {
 }
 
 double clearance(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
+  return room_of(model, x, tool).distance;
+}
+
+Room room_of(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Tri &t : model.valve.triangles) least = std::min(least, distance_of_core(x, t, tool));
-  return least - tool.radius;
+  const Tri *nearest = nullptr;
+  for (const Tri &t : model.valve.triangles) {
+    const double distance = distance_of_core(x, t, tool);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = &t;
+  }
+  const Vec3 away = nearest ? away_from(x, *nearest, tool) : Vec3::Zero();
+  return {least - tool.radius, away};
 }
 
 Id add_tool(const Model &model, State &state, Tool tool) {

@@ -36,6 +36,13 @@ inline constexpr Id first_tool_id = Id{1} << 48;
 // leaflets.
 double clearance(const Model &model, const std::vector<Vec3> &x, const Tool &tool);
 
+// The same, and the unit direction from the tissue there to the tool; 0 without leaflets.
+struct Room {
+  double distance;
+  Vec3 away;
+};
+Room room_of(const Model &model, const std::vector<Vec3> &x, const Tool &tool);
+
 // How near the middle of a leaflet tissue begins to push: half of the contact thickness.
 double tool_range(const Model &model);
 

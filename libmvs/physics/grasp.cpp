@@ -19,6 +19,13 @@ Vec3 pull(const Hold &hold, const Vec3 &x) {
   return hold.force / length * d;
 }
 
+Mat3 hold_block(const Hold &hold, const Vec3 &x) {
+  const Vec3 d = x - hold.target;
+  const double length = d.norm();
+  if (hold.stiffness * length <= hold.force) return hold.stiffness * Mat3::Identity();
+  return axial_block(d / length, 0, hold.force / length, Curvature::exact);
+}
+
 void GraspTerm::set_tools(const std::vector<Tool> &tools, uint32_t first) {
   holds_.clear();
   for (const Tool &tool : tools) {
@@ -42,15 +49,7 @@ double GraspTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) con
 }
 
 void GraspTerm::hessian(const std::vector<Vec3> &x, System &system) const {
-  for (const Hold &h : holds_) {
-    const Vec3 d = x[h.node] - h.target;
-    const double length = d.norm();
-    if (h.stiffness * length <= h.force) {
-      system.add_diagonal(h.node, h.stiffness * Mat3::Identity());
-    } else {
-      system.add_diagonal(h.node, axial_block(d / length, 0, h.force / length, Curvature::exact));
-    }
-  }
+  for (const Hold &h : holds_) system.add_diagonal(h.node, hold_block(h, x[h.node]));
 }
 
 }  // namespace mvs

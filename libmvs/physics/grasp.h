@@ -25,6 +25,9 @@ Hold hold_of(const Tool &tool, uint32_t k, uint32_t node);
 // The force of a hold on what is at x, N.
 Vec3 pull(const Hold &hold, const Vec3 &x);
 
+// The second derivative of its energy there; positive semidefinite.
+Mat3 hold_block(const Hold &hold, const Vec3 &x);
+
 class GraspTerm {
  public:
   // Points of instruments are nodes from `first` on, in the order of the tools.
@@ -32,7 +35,6 @@ class GraspTerm {
 
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  // Positive semidefinite as it is.
   void hessian(const std::vector<Vec3> &x, System &system) const;
 
  private:

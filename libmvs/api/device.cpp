@@ -1,0 +1,272 @@
+// Haptic devices for applications.
+#include "haptics/device.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+#include "api/device_hand.h"
+#include "api/structs.h"
+#include "haptics/crash.h"
+
+using namespace mvs;
+
+struct mvs_device {
+  mvs_device(const mvs_device_desc &desc, Plug::Log log) : device(desc, std::move(log)) {
+    hand.set_hand({});
+  }
+  mutable Device device;
+  Hand hand;
+  std::mutex viewing;  // of the view, which the state is told through
+};
+
+namespace {
+
+Plug::Log log_of(const mvs_device_desc &desc) {
+  if (!desc.log) return {};
+  return [log = desc.log, user = desc.user](int32_t level, const char *text) {
+    log(user, level, text);
+  };
+}
+
+template <typename Work>
+mvs_result guarded_device(mvs_device *device, Work &&work) noexcept {
+  return guarded([&] {
+    must_point(device, "device");
+    work(*device);
+  });
+}
+
+mvs_device_desc read_device(const mvs_device_desc *given) {
+  const mvs_device_desc desc = read_struct(given, "desc");
+  must_point(desc.driver, "desc.driver");
+  MVS_MUST(desc.clock <= MVS_CLOCK_VIRTUAL, MVS_E_ARGUMENT, "desc.clock",
+           "desc.clock is %u: it has to be one of MVS_CLOCK_*", desc.clock);
+  must_be_in(desc.rate, 100, 10000, "desc.rate");
+  return desc;
+}
+
+void write(const Vec3 &from, double to[3]) {
+  std::copy(from.data(), from.data() + 3, to);
+}
+
+mvs_device_state public_state(const ServoPicture &now, const DeviceView &view) {
+  mvs_device_state out = {};
+  out.phase = now.phase;
+  out.cause = now.cause;
+  out.flags = now.flags;
+  out.limited = now.limited;
+  out.buttons = now.buttons;
+  out.time = now.time;
+  write(view.to_scene(now.pose.position), out.position);
+  const Eigen::Quaterniond turn = view.turned(now.pose.orientation);
+  for (int k = 0; k < 4; ++k) out.orientation[k] = k == 0 ? turn.w() : turn.vec()[k - 1];
+  write(view.scale() * view.turned(now.pose.velocity), out.velocity);
+  write(now.pose.position, out.hand);
+  write(now.force, out.force);
+  out.rate = now.rate;
+  out.worst_period = now.worst_period;
+  out.model_age = now.model_age;
+  out.energy = now.energy;
+  out.heat = now.heat;
+  out.ticks = now.ticks;
+  out.late = now.late;
+  return out;
+}
+
+// Hand to valve, then valve to hand.
+mvs_device_report sync(mvs_device &d, mvs_sim &sim) {
+  const ServoPicture now = d.device.picture();
+  ServoLinks &links = d.device.links();
+  d.hand.begin(now, d.device.limits().stiffness);
+  ButtonEvent event;
+  while (links.buttons.pop(event)) d.hand.take_button(event, sim);
+  if (now.phase == MVS_DEVICE_STOPPED) {
+    d.hand.let_go(sim);
+  } else {
+    d.hand.follow(sim);
+  }
+  const Tissue tissue = d.hand.tissue(sim);
+  links.tissue.post(tissue);
+  return d.hand.report(sim, tissue, now.phase == MVS_DEVICE_LATCHED);
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_driver_each(mvs_driver_fn each, void *user) {
+  return guarded([&] {
+    MVS_MUST(each, MVS_E_ARGUMENT, "each", "each is a null pointer");
+    for (const DriverFile &file : installed_drivers()) {
+      each(user, file.name.c_str(), file.path.c_str());
+    }
+  });
+}
+
+mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_found found,
+                           void *user) {
+  return guarded([&] {
+    must_point(driver, "driver");
+    MVS_MUST(found, MVS_E_ARGUMENT, "found", "found is a null pointer");
+    const auto plug = Plug::load(driver, text_or_empty(options), {});
+    struct Names {
+      std::vector<std::pair<std::string, std::string>> rows;
+    };
+    // kept by the call: a driver that does not come back may go on writing
+    const auto names = std::make_shared<Names>();
+    if (!plug->api().list) return;
+    plug->call("list", nullptr, [names, plug](const mvs_driver_api &api) {
+      return api.list(
+          plug->host(),
+          [](void *to, const char *name, const char *model) {
+            static_cast<Names *>(to)->rows.emplace_back(text_or_empty(name), text_or_empty(model));
+          },
+          names.get());
+    });
+    for (const auto &[name, model] : names->rows) found(user, name.c_str(), model.c_str());
+  });
+}
+
+mvs_result mvs_device_doctor(const char *driver, const char *options, mvs_driver_finding finding,
+                             void *user) {
+  return guarded([&] {
+    must_point(driver, "driver");
+    MVS_MUST(finding, MVS_E_ARGUMENT, "finding", "finding is a null pointer");
+    const auto plug = Plug::load(driver, text_or_empty(options), {});
+    finding(user, 1, "driver", plug->api().about ? plug->api().about : plug->name().c_str());
+    struct Row {
+      int32_t verdict;
+      std::string check, sentence;
+    };
+    const auto rows = std::make_shared<std::vector<Row>>();
+    if (!plug->api().doctor) return;
+    plug->call("doctor", nullptr, [rows, plug](const mvs_driver_api &api) {
+      return api.doctor(
+          plug->host(),
+          [](void *to, int32_t verdict, const char *check, const char *sentence) {
+            static_cast<std::vector<Row> *>(to)->push_back(
+                {verdict, text_or_empty(check), text_or_empty(sentence)});
+          },
+          rows.get());
+    });
+    for (const Row &row : *rows)
+      finding(user, row.verdict, row.check.c_str(), row.sentence.c_str());
+  });
+}
+
+mvs_result mvs_device_open(const mvs_device_desc *desc, mvs_device **device) {
+  return guarded([&] {
+    must_point(device, "device");
+    const mvs_device_desc given = read_device(desc);
+    *device = new mvs_device(given, log_of(given));
+  });
+}
+
+void mvs_device_close(mvs_device *device) {
+  delete device;
+}
+
+mvs_result mvs_device_get_info(const mvs_device *device, mvs_device_info *info) {
+  return guarded([&] {
+    must_point(device, "device");
+    write_struct(info, device->device.info(), "info");
+  });
+}
+
+mvs_result mvs_device_set_limits(mvs_device *device, const mvs_device_limits *limits) {
+  return guarded_device(device,
+                        [&](mvs_device &d) { d.device.set_limits(read_struct(limits, "limits")); });
+}
+
+mvs_result mvs_device_get_limits(const mvs_device *device, mvs_device_limits *limits) {
+  return guarded([&] {
+    must_point(device, "device");
+    write_struct(limits, device->device.limits(), "limits");
+  });
+}
+
+mvs_result mvs_device_set_view(mvs_device *device, const mvs_device_view *view) {
+  return guarded_device(device, [&](mvs_device &d) {
+    const mvs_device_view given = read_struct(view, "view");
+    const std::lock_guard<std::mutex> lock(d.viewing);
+    d.hand.set_view(given);
+  });
+}
+
+mvs_result mvs_device_get_view(const mvs_device *device, mvs_device_view *view) {
+  return guarded([&] {
+    must_point(device, "device");
+    write_struct(view, device->hand.view().told(), "view");
+  });
+}
+
+mvs_result mvs_device_set_hand(mvs_device *device, const mvs_device_hand *hand) {
+  return guarded_device(device, [&](mvs_device &d) { d.hand.set_hand(read_struct(hand, "hand")); });
+}
+
+mvs_result mvs_device_get_hand(const mvs_device *device, mvs_device_hand *hand) {
+  return guarded([&] {
+    must_point(device, "device");
+    write_struct(hand, device->hand.hand(), "hand");
+  });
+}
+
+mvs_result mvs_device_start(mvs_device *device) {
+  return guarded_device(device, [](mvs_device &d) { d.device.start(); });
+}
+
+mvs_result mvs_device_stop(mvs_device *device) {
+  return guarded_device(device, [](mvs_device &d) { d.device.stop(); });
+}
+
+mvs_result mvs_device_arm(mvs_device *device) {
+  return guarded_device(device, [](mvs_device &d) { d.device.arm(); });
+}
+
+mvs_result mvs_device_cut(mvs_device *device) {
+  return guarded_device(device, [](mvs_device &d) { d.device.cut(); });
+}
+
+mvs_result mvs_device_advance(mvs_device *device, double seconds) {
+  return guarded_device(device, [&](mvs_device &d) { d.device.advance(seconds); });
+}
+
+mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *report) {
+  return guarded_call(sim, [&](mvs_sim &s) {
+    must_point(device, "device");
+    if (report) checked_struct_size(report, "report");
+    const mvs_device_report made = sync(*device, s);
+    if (report) write_struct(report, made, "report");
+  });
+}
+
+mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state) {
+  return guarded_device(device, [&](mvs_device &d) {
+    checked_struct_size(state, "state");
+    const ServoPicture now = d.device.picture();
+    const std::lock_guard<std::mutex> lock(d.viewing);
+    write_struct(state, public_state(now, d.hand.view()), "state");
+  });
+}
+
+mvs_result mvs_device_trace(mvs_device *device, mvs_device_sample *samples, uint32_t capacity,
+                            uint32_t *count, uint64_t *lost) {
+  return guarded_device(device, [&](mvs_device &d) {
+    if (capacity > 0) must_point(samples, "samples");
+    must_point(count, "count");
+    must_point(lost, "lost");
+    *count = 0;
+    *lost = 0;
+    while (*count < capacity && d.device.links().trace.pop(samples[*count], *lost)) ++*count;
+  });
+}
+
+mvs_result mvs_device_guard_crashes(uint32_t on) {
+  return guarded([&] {
+    MVS_MUST(on <= 1, MVS_E_ARGUMENT, "on", "on is %u: it has to be 0 or 1", on);
+    watch_for_crashes(on == 1);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,37 @@
+// From the simulated valve to the model of the tissue that a servo renders.
+#pragma once
+
+#include "haptics/tissue.h"
+#include "physics/tool_feel.h"
+
+namespace mvs {
+
+// Follows one tool. Force and place are new each time; the stiffness, which costs a factorisation
+// and changes slowly, is worked out again when the tool has moved or enough time has gone.
+class TissueMaker {
+ public:
+  // Another tool, or none.
+  void begin_contact() {
+    ++contact_;
+    age_ = 0;
+  }
+  Tissue nothing();
+  Tissue of_tool(const Model &model, const State &state, const Tool &tool);
+  // The tension of a chord, `gain` times, as its leaflet end feels it.
+  Tissue of_chord(const Model &model, const State &state, const Chord &chord, const Vec3 &hand,
+                  double gain);
+
+ private:
+  Tissue next(uint32_t kind);
+  void refresh_stiffness(const Model &model, const State &state, const Tool &tool, bool touches);
+
+  uint64_t contact_ = 0, number_ = 0;
+  ToolFeel feel_{MVS_BACKEND_BLOCK};
+  Mat3 stiffness_ = Mat3::Zero();
+  Vec3 at_ = Vec3::Zero();  // where the hand was when that was worked out
+  uint64_t valve_ = 0;      // of which model
+  bool touched_ = false;
+  uint32_t age_ = 0;  // calls left until it is worked out again
+};
+
+}  // namespace mvs

@@ -1,0 +1,65 @@
+// Reading a view, and rendering through it.
+#include "api/device_view.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "api/structs.h"
+
+namespace mvs {
+namespace {
+
+constexpr double farthest = 10;  // m, from the origin of any scene
+
+Mat3 no_stiffer(const Mat3 &stiffness, double most) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(stiffness);
+  if (eigen.eigenvalues()[2] <= most) return stiffness;
+  const Vec3 values = eigen.eigenvalues().cwiseMin(most);
+  return eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+DeviceView DeviceView::read(const mvs_device_view &given) {
+  DeviceView view;
+  view.origin_ = Vec3::Map(given.origin);
+  MVS_MUST((view.origin_.array().abs() <= farthest).all(), MVS_E_ARGUMENT, "view.origin",
+           "view.origin is (%g, %g, %g) m: each has to be a number within %g", given.origin[0],
+           given.origin[1], given.origin[2], farthest);
+  const double *const q = given.rotation;
+  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  const double length = rotation.coeffs().stableNorm();
+  MVS_MUST(std::isfinite(length), MVS_E_ARGUMENT, "view.rotation",
+           "view.rotation is (%g, %g, %g, %g): it has to be a quaternion w x y z", q[0], q[1], q[2],
+           q[3]);
+  if (length > 0) view.rotation_.coeffs() = rotation.coeffs() / length;
+  must_be_in(given.scale, 0.01, 100, "view.scale");
+  must_be_in(given.force_scale, 0.001, 1000, "view.force_scale");
+  if (given.scale != 0) view.scale_ = given.scale;
+  if (given.force_scale != 0) view.force_scale_ = given.force_scale;
+  return view;
+}
+
+mvs_device_view DeviceView::told() const {
+  mvs_device_view out = {};
+  for (int k = 0; k < 3; ++k) out.origin[k] = origin_[k];
+  for (int k = 0; k < 4; ++k) out.rotation[k] = k == 0 ? rotation_.w() : rotation_.vec()[k - 1];
+  out.scale = scale_;
+  out.force_scale = force_scale_;
+  return out;
+}
+
+Tissue DeviceView::to_device(const Tissue &scene, double most) const {
+  const Mat3 turn = rotation_.toRotationMatrix();
+  Tissue out = scene;
+  out.origin = to_device(scene.origin);
+  out.force = force_scale_ * (turn.transpose() * scene.force);
+  out.stiffness =
+      no_stiffer(stiffness_scale() * (turn.transpose() * scene.stiffness * turn).eval(), most);
+  out.most = force_scale_ * scene.most;
+  out.normal = turn.transpose() * scene.normal;
+  out.gap = scene.gap / scale_;
+  return out;
+}
+
+}  // namespace mvs

@@ -1,0 +1,29 @@
+// The account of what the loop makes.
+#include "haptics/energy.h"
+
+#include <algorithm>
+
+namespace mvs {
+
+// What the loop took out of its own is not saved for later: a store could be spent all at once.
+void EnergyObserver::take_step(const Vec3 &step, const Vec3 &felt, const Vec3 &before,
+                               const Vec3 &now) {
+  energy_ = std::max(0.0, energy_ + (felt - 0.5 * (before + now)).dot(step));
+}
+
+// The old model said that it worked W_old on the way from its origin to here. The simulation worked
+// between the two origins, the new model from there to here.
+void EnergyObserver::take_model(const Tissue &before, const Tissue &now, const Vec3 &hand,
+                                double share) {
+  const double simulated = 0.5 * (before.force + now.force).dot(now.origin - before.origin);
+  const double made = work_to(before, hand) - simulated - work_to(now, hand);
+  energy_ = std::max(0.0, energy_ + share * made);
+}
+
+Vec3 EnergyObserver::damp(const Vec3 &velocity, double dt, double most) const {
+  const double square = velocity.squaredNorm();
+  if (energy_ <= 0 || square == 0) return Vec3::Zero();
+  return -std::min(most, energy_ / (square * dt)) * velocity;
+}
+
+}  // namespace mvs

@@ -1,0 +1,54 @@
+// Whether the hand may feel anything: the gate and ramp by which forces begin, the fade when the
+// simulation stands still, and the latch that ends them.
+#pragma once
+
+#include <atomic>
+
+#include "haptics/servo_types.h"
+
+namespace mvs {
+
+// What the guard has to know of a tick.
+struct Facts {
+  uint32_t cause = MVS_CAUSE_NONE;  // a reason to latch
+  bool may_feel = false;            // held, not parked, not stale
+  double wanted = 0;                // N, of the force if nothing limited it
+  double dt = 0;                    // s
+};
+
+// What an application asks for, from any thread.
+class Requests {
+ public:
+  void arm() { armed_.fetch_add(1, std::memory_order_relaxed); }
+  void cut(uint32_t cause) { cut_.store(cause, std::memory_order_relaxed); }
+
+ private:
+  friend class Guard;
+  std::atomic<uint32_t> armed_{0}, cut_{MVS_CAUSE_NONE};
+};
+
+class Guard {
+ public:
+  explicit Guard(Requests &requests) : requests_(&requests) {}
+
+  // Takes in a tick, and says which share of the force the hand may feel.
+  double share(const Facts &facts, const mvs_device_limits &limits);
+  void start();
+
+  uint32_t phase() const { return phase_; }
+  uint32_t cause() const { return cause_; }
+  bool is_armed() const { return phase_ >= MVS_DEVICE_WAITING && phase_ != MVS_DEVICE_LATCHED; }
+
+ private:
+  void take_requests();
+  void latch(uint32_t cause);
+  void pass_gate(const Facts &facts, const mvs_device_limits &limits);
+  void fade(const Facts &facts, const mvs_device_limits &limits);
+
+  Requests *requests_;
+  uint32_t phase_ = MVS_DEVICE_STOPPED, cause_ = MVS_CAUSE_NONE, armed_ = 0;
+  uint32_t quiet_ = 0;  // ticks below the gate
+  double ramp_ = 0, fade_ = 1;
+};
+
+}  // namespace mvs

@@ -1,0 +1,126 @@
+// The thread of the servo: the device's own clock, or one of ours at its rate.
+#include <pthread.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "haptics/device_core.h"
+
+namespace mvs {
+namespace {
+
+constexpr int realtime_priority = 60;  // of SCHED_FIFO, below what kernels keep for themselves
+
+// Refused without the right to it (RLIMIT_RTPRIO): then it is an ordinary thread, and told so.
+bool become_realtime() {
+  sched_param wanted = {};
+  wanted.sched_priority = realtime_priority;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted) == 0;
+}
+
+void sleep_until(uint64_t ns) {
+  const timespec when = {static_cast<time_t>(ns / 1000000000), static_cast<long>(ns % 1000000000)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, nullptr) == EINTR) {
+  }
+}
+
+uint32_t cause_of(int32_t code) {
+  switch (code) {
+    case MVS_DRIVER_E_END:
+      return MVS_CAUSE_SOFTWARE;
+    case MVS_DRIVER_E_FAULT:
+      return MVS_CAUSE_THERMAL;
+    case MVS_DRIVER_E_CALIBRATION:
+      return MVS_CAUSE_CALIBRATION;
+    default:
+      return MVS_CAUSE_UNPLUGGED;
+  }
+}
+
+}  // namespace
+
+uint64_t clock_ns() {
+  timespec now = {};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<uint64_t>(now.tv_sec) * 1000000000 + static_cast<uint64_t>(now.tv_nsec);
+}
+
+void Device::Core::serve() {
+  const mvs_driver_api &api = plug->api();
+  const bool own_clock = api.run != nullptr;
+  realtime = own_clock || become_realtime() ? 1 : 0;
+  const int32_t code = own_clock ? api.run(handle, &serve_sample, this) : poll_until_stopped();
+  if (code < 0 || !stopping) {
+    const char *const why = code < 0 ? api.error(handle) : nullptr;
+    servo->lose(cause_of(code));
+    const std::lock_guard<std::mutex> lock(mutex);
+    lost = why ? why : "the driver left its loop without being asked to";
+  }
+  const std::lock_guard<std::mutex> lock(mutex);
+  running = false;
+  ended.notify_all();
+}
+
+int32_t Device::Core::serve_sample(void *core, const mvs_driver_state *state,
+                                   mvs_driver_force *force) {
+  Core &self = *static_cast<Core *>(core);
+  if (self.stopping || !state || !force) {
+    if (force) {
+      const uint32_t size = force->struct_size;
+      *force = {};
+      force->struct_size = size;
+    }
+    return MVS_DRIVER_STOP;
+  }
+  self.tick(*state, *force);
+  return MVS_DRIVER_OK;
+}
+
+// What is late is not made up for: two forces in a row help nobody.
+int32_t Device::Core::poll_until_stopped() {
+  const auto period = static_cast<uint64_t>(1e9 / traits.info.rate);
+  uint64_t next = clock_ns();
+  while (!stopping) {
+    const mvs_driver_api &api = plug->api();
+    mvs_driver_state state = {};
+    state.struct_size = sizeof state;
+    if (const int32_t code = api.read(handle, clock_ns(), &state); code < 0) return code;
+    mvs_driver_force force = {};
+    force.struct_size = sizeof force;
+    tick(state, force);
+    if (const int32_t code = api.write(handle, &force); code < 0) return code;
+    next = std::max(next + period, clock_ns());
+    sleep_until(next);
+  }
+  mvs_driver_force none_ = {};
+  none_.struct_size = sizeof none_;
+  return plug->api().write(handle, &none_);
+}
+
+void Device::Core::tick(const mvs_driver_state &state, mvs_driver_force &force) {
+  const uint64_t begin = clock_ns();
+  last_tick_ns.store(static_cast<int64_t>(begin), std::memory_order_relaxed);
+  servo->tick(state, force);
+  servo->took(1e-9 * static_cast<double>(clock_ns() - begin));
+}
+
+bool Device::Core::poll(uint64_t now) {
+  const mvs_driver_api &api = plug->api();
+  mvs_driver_state state = {};
+  state.struct_size = sizeof state;
+  int32_t code = api.read(handle, now, &state);
+  if (code >= 0) {
+    mvs_driver_force force = {};
+    force.struct_size = sizeof force;
+    servo->tick(state, force);
+    code = api.write(handle, &force);
+  }
+  if (code >= 0) return true;
+  const char *const why = api.error(handle);
+  servo->lose(cause_of(code));
+  lost = why ? why : "the driver does not say why";
+  return false;
+}
+
+}  // namespace mvs

@@ -1,0 +1,52 @@
+// What the servo is given, and what it tells.
+#pragma once
+
+#include <mvs/device.h>
+
+#include <Eigen/Geometry>
+
+#include "haptics/tissue.h"
+
+namespace mvs {
+
+// A device as its driver describes it, checked and completed; m, N, s, in the frame of the device.
+struct DeviceTraits {
+  mvs_device_info info = {};
+  bool has_deadman = false;
+  // from what a driver says to the frame of the device: p = turn p + shift
+  Mat3 turn = Mat3::Identity();
+  Eigen::Quaterniond turn_quaternion = Eigen::Quaterniond::Identity();
+  Vec3 shift = Vec3::Zero();
+  bool has_workspace = false;
+};
+
+// Takes a driver's word for nothing: throws MVS_E_DEVICE for numbers that cannot be.
+DeviceTraits read_traits(const mvs_driver_info &told, const char *driver);
+
+// The limits with their defaults filled in; throws MVS_E_ARGUMENT.
+mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_device_info &info);
+
+// Where the hand is, in the frame of the device.
+struct HandPose {
+  Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  double gripper = 0;
+};
+
+// A change of the buttons.
+struct ButtonEvent {
+  uint32_t buttons = 0;
+  Vec3 position = Vec3::Zero();
+};
+
+// The servo after a tick.
+struct ServoPicture {
+  uint32_t phase = MVS_DEVICE_STOPPED, cause = MVS_CAUSE_NONE, device_cause = MVS_CAUSE_NONE;
+  uint32_t flags = 0, limited = 0, buttons = 0;
+  HandPose pose;
+  Vec3 force = Vec3::Zero();
+  double time = 0, rate = 0, worst_period = 0, model_age = 0, energy = 0, heat = 0;
+  uint64_t ticks = 0, late = 0;
+};
+
+}  // namespace mvs

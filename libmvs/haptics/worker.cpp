@@ -1,0 +1,53 @@
+// A queue of one.
+#include "haptics/worker.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace mvs {
+
+struct Worker::Shared {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::function<void()> work;
+  bool busy = false, over = false;
+
+  void serve() {
+    std::unique_lock<std::mutex> lock(mutex);
+    for (;;) {
+      changed.wait(lock, [&] { return over || work; });
+      if (!work) return;
+      const std::function<void()> now = std::move(work);
+      work = nullptr;
+      lock.unlock();
+      now();
+      lock.lock();
+      busy = false;
+      changed.notify_all();
+    }
+  }
+};
+
+Worker::Worker() : shared_(std::make_shared<Shared>()) {
+  std::thread([shared = shared_] { shared->serve(); }).detach();
+}
+
+// The thread owns what it works on, and ends when it comes back.
+Worker::~Worker() {
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  shared_->over = true;
+  shared_->changed.notify_all();
+}
+
+bool Worker::run(std::function<void()> work, std::chrono::milliseconds patience) {
+  if (stuck_) return false;
+  std::unique_lock<std::mutex> lock(shared_->mutex);
+  shared_->work = std::move(work);
+  shared_->busy = true;
+  shared_->changed.notify_all();
+  stuck_ = !shared_->changed.wait_for(lock, patience, [&] { return !shared_->busy; });
+  return !stuck_;
+}
+
+}  // namespace mvs
