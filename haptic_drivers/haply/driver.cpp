@@ -1,0 +1,297 @@
+// The Haply Inverse3, Inverse3x and Minverse as devices of libmvs, by way of the vendor's service.
+#include <mvs/driver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+
+#include "connection.h"
+#include "exchange.h"
+#include "fault.h"
+
+using namespace haply;
+
+struct mvs_driver_device {
+  Options options;
+  Inverse inverse;
+  Grip grip;
+  Fault fault;
+  const char *said = "";
+  Exchange exchange;  // last: its thread ends first
+};
+
+namespace {
+
+thread_local Fault unopened;
+
+// What is filled is no more than the host has room for.
+template <typename T>
+void hand_over(T filled, T *wanted) {
+  filled.struct_size = std::min(wanted->struct_size, static_cast<uint32_t>(sizeof filled));
+  std::memcpy(wanted, &filled, filled.struct_size);
+}
+
+const char *model_of(const Inverse &inverse) {
+  if (inverse.type == "minverse") return "Haply Minverse";
+  return inverse.type == "inverse3x" ? "Haply Inverse3x" : "Haply Inverse3";
+}
+
+int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
+  Options options;
+  Connection connection;
+  int32_t result = read_options(host, options, unopened);
+  if (result == MVS_DRIVER_OK) result = connection.open(options, unopened);
+  connection.socket.close(options.patience_ms);
+  if (result == MVS_DRIVER_E_LIBRARY) return MVS_DRIVER_OK;  // no service, no device
+  for (const Inverse &inverse : connection.inventory.inverses)
+    found(user, inverse.id.c_str(), model_of(inverse));
+  return result;
+}
+
+void examine(const Inverse &inverse, mvs_driver_finding finding, void *user) {
+  const std::string name = model_of(inverse) + (" " + inverse.id);
+  finding(user, 1, "device", (name + ", firmware " + inverse.firmware).c_str());
+  finding(user, inverse.powered, "power",
+          inverse.powered ? "its power supply is on"
+                          : "it has no power: without its power supply it gives no force");
+  finding(user, inverse.calibrated, "calibration",
+          inverse.calibrated ? "it is calibrated"
+                             : "put the grip on its rest and wait until the light is steady");
+  if (inverse.in_use) finding(user, -1, "in use", "another program drives it: end that first");
+  if (!inverse.basis.empty() && inverse.basis != "XYZ")
+    finding(user, 0, "basis", "its axes are not XYZ: set the basis of the session back");
+}
+
+int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *user) {
+  Options options;
+  Connection connection;
+  int32_t result = read_options(host, options, unopened);
+  if (result == MVS_DRIVER_OK) result = connection.open(options, unopened);
+  connection.socket.close(options.patience_ms);
+  const std::string where = "version " + std::to_string(connection.version.major) + "." +
+                            std::to_string(connection.version.minor) + " answers at " +
+                            options.host + ":" + std::to_string(options.port);
+  finding(user, result == MVS_DRIVER_OK, "Haply Inverse Service",
+          result == MVS_DRIVER_OK ? where.c_str() : unopened.sentence);
+  if (result != MVS_DRIVER_OK) return MVS_DRIVER_OK;
+  const Inventory &inventory = connection.inventory;
+  if (inventory.inverses.empty())
+    finding(user, 0, "device", "the service has found none: plug it in and look into Haply Hub");
+  for (const Inverse &inverse : inventory.inverses) examine(inverse, finding, user);
+  if (inventory.grips.empty())
+    finding(user, -1, "grip", "no VerseGrip: there is a position, but no orientation, no button");
+  for (const Grip &grip : inventory.grips)
+    finding(user, grip.connected ? 1 : -1, "grip",
+            (grip.kind + " " + grip.id + (grip.connected ? " is there" : " sleeps: press a button"))
+                .c_str());
+  return MVS_DRIVER_OK;
+}
+
+// The one that is wanted, or the first.
+template <typename T>
+const T *chosen(const std::vector<T> &all, const std::string &id) {
+  for (const T &one : all)
+    if (id.empty() || one.id == id) return &one;
+  return nullptr;
+}
+
+int32_t choose(mvs_driver_device &device) {
+  const Inventory &inventory = device.exchange.connection.inventory;
+  const std::string &id = device.options.device, &grip_id = device.options.grip;
+  const Inverse *inverse = chosen(inventory.inverses, id);
+  if (!inverse)
+    return unopened.set(MVS_DRIVER_E_ABSENT,
+                        "the Haply Inverse Service has %zu devices, and none is '%.64s': plug it "
+                        "in, or name another (mvs haptics list)",
+                        inventory.inverses.size(), id.empty() ? "an Inverse3" : id.c_str());
+  if (!inverse->basis.empty() && inverse->basis != "XYZ")
+    return unopened.set(MVS_DRIVER_E_UNSUPPORTED,
+                        "the axes of device %.64s are %.16s: set the basis back to XYZ",
+                        inverse->id.c_str(), inverse->basis.c_str());
+  const Grip *grip = grip_id == "none" ? nullptr : chosen(inventory.grips, grip_id);
+  if (!grip && !grip_id.empty() && grip_id != "none")
+    return unopened.set(MVS_DRIVER_E_ABSENT, "the Haply Inverse Service has no grip '%.64s'",
+                        grip_id.c_str());
+  device.inverse = *inverse;
+  if (grip) device.grip = *grip;
+  return MVS_DRIVER_OK;
+}
+
+int32_t open_device(const mvs_driver_host *host, const char *name, mvs_driver_device **out) {
+  *out = nullptr;
+  auto device = std::make_unique<mvs_driver_device>();
+  Options &options = device->options;
+  int32_t result = read_options(host, options, unopened);
+  if (name) options.device = name;
+  Exchange &exchange = device->exchange;
+  if (result == MVS_DRIVER_OK) result = exchange.connection.open(options, unopened);
+  if (!exchange.connection.version.at_least(3, 5)) options.preset.clear();
+  if (result == MVS_DRIVER_OK) result = choose(*device);
+  if (result == MVS_DRIVER_OK)
+    result = exchange.open(options, device->inverse, device->grip, unopened);
+  if (result != MVS_DRIVER_OK) {
+    exchange.connection.socket.close(options.patience_ms);
+    return result;
+  }
+  if (exchange.wish_for_real_time() != 0 && host->log)
+    host->log(host->host,
+              "haply: its thread runs without real-time priority: on a busy machine states come "
+              "late (ulimit -r, /etc/security/limits.d)");
+  *out = device.release();
+  return MVS_DRIVER_OK;
+}
+
+int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
+  mvs_driver_info told = {};
+  const bool has_grip = !device->grip.id.empty();
+  told.freedoms_in = has_grip ? 6 : 3;
+  told.freedoms_out = 3;
+  told.buttons = has_grip ? device->grip.buttons : 0;
+  // the sphere in which Haply's own tutorial 06 keeps the cursor, around the preset's origin
+  if (device->options.preset == "arm_front_centered") {
+    const double reach = device->inverse.type == "minverse" ? 0.04 : 0.1;
+    std::fill_n(told.workspace_min, 3, -reach);
+    std::fill_n(told.workspace_max, 3, reach);
+  }
+  told.rate = 1000;
+  // from x right, y forward, z up (docs.haply.co, Basis Permutation)
+  constexpr double kFrame[12] = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0};
+  std::copy_n(kFrame, 12, told.frame);
+  std::string(model_of(device->inverse)).copy(told.model, sizeof told.model - 1);
+  const std::string &serial = device->inverse.serial;
+  (serial.empty() ? device->inverse.id : serial).copy(told.serial, sizeof told.serial - 1);
+  device->inverse.firmware.copy(told.firmware, sizeof told.firmware - 1);
+  hand_over(told, wanted);
+  return MVS_DRIVER_OK;
+}
+
+int32_t say(mvs_driver_device &device, int32_t code, const char *sentence) {
+  device.said = sentence;
+  return code;
+}
+
+// MVS_DRIVER_OK while the thread talks with the service.
+int32_t alive(mvs_driver_device &device) {
+  const int32_t failure = device.exchange.failure();
+  return failure == MVS_DRIVER_OK ? failure : say(device, failure, device.exchange.why());
+}
+
+int32_t calibrate(mvs_driver_device *device) {
+  const int32_t result = alive(*device);
+  if (result != MVS_DRIVER_OK || device->exchange.latest().hand.calibrated) return result;
+  return say(*device, MVS_DRIVER_E_CALIBRATION,
+             "put the grip on its rest and wait until the light is steady");
+}
+
+int32_t start(mvs_driver_device *device) {
+  const int32_t result = alive(*device);
+  if (result == MVS_DRIVER_OK) {
+    device->exchange.put({});
+    device->exchange.allow(true);
+  }
+  return result;
+}
+
+int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *wanted) {
+  const int32_t result = alive(*device);
+  if (result != MVS_DRIVER_OK) return result;
+  const Sample &sample = device->exchange.latest();
+  const Hand &hand = sample.hand;
+  const uint64_t here = monotonic_ns();
+  const uint64_t age = here > sample.arrived_ns ? here - sample.arrived_ns : 0;
+  if (age > static_cast<uint64_t>(device->options.patience_ms) * 1000000)
+    return say(*device, MVS_DRIVER_E_LOST,
+               "no state came in time: the service is silent, or this machine too busy");
+  mvs_driver_state state = {};
+  if (hand.calibrated) state.flags |= MVS_DRIVER_CALIBRATED;
+  if (hand.has_velocity) state.flags |= MVS_DRIVER_VELOCITY;
+  if (sample.force_on) state.flags |= MVS_DRIVER_FORCE_ON;
+  state.time_ns = now_ns > age ? now_ns - age : 0;
+  state.sequence = sample.sequence;
+  std::copy_n(hand.position, 3, state.position);
+  std::copy_n(hand.velocity, 3, state.velocity);
+  std::copy_n(hand.orientation, 4, state.orientation);
+  state.buttons = hand.buttons;
+  hand_over(state, wanted);
+  return MVS_DRIVER_OK;
+}
+
+int32_t write(mvs_driver_device *device, const mvs_driver_force *wanted) {
+  mvs_driver_force given = {};
+  std::memcpy(&given, wanted, std::min<size_t>(wanted->struct_size, sizeof given));
+  Force force = {{given.force[0], given.force[1], given.force[2]}, given.on != 0};
+  const bool finite = std::all_of(force.newton, force.newton + 3,
+                                  [](double newton) { return std::isfinite(newton); });
+  if (!finite) force = {};  // it could not be written as JSON
+  device->exchange.put(force);
+  const int32_t result = alive(*device);
+  if (result != MVS_DRIVER_OK || finite) return result;
+  return say(*device, MVS_DRIVER_E_INTERNAL, "a force is not a number: zero was written");
+}
+
+int32_t stop(mvs_driver_device *device) {
+  device->exchange.allow(false);
+  return MVS_DRIVER_OK;
+}
+
+void panic(mvs_driver_device *device) {
+  device->exchange.panic();
+}
+
+void close_device(mvs_driver_device *device) {
+  delete device;
+}
+
+const char *error(const mvs_driver_device *device) {
+  return device ? device->said : unopened.sentence;
+}
+
+// Nothing is thrown at the host; what may be thrown here is that there is no memory.
+template <auto function, typename... Arguments>
+int32_t guarded(Arguments... arguments) {
+  try {
+    return function(arguments...);
+  } catch (const std::exception &failure) {
+    return unopened.set(MVS_DRIVER_E_INTERNAL, "%s", failure.what());
+  }
+}
+
+const char *const kOptions[] = {
+    "host: where the Haply Inverse Service is [localhost]",
+    "port: its port [10001]",
+    "device: the id of the Inverse3, as open() names it [the first one]",
+    "grip: the id of the VerseGrip, or none [the first one]",
+    "preset: where the origin is, from service 3.5 on; none leaves it [arm_front_centered]",
+    "rate: how often a second force and state are exchanged [2000]",
+    "version: that of the service, instead of asking it [asked]",
+    "patience: ms after which a silent service is lost [100]",
+    nullptr};
+
+}  // namespace
+
+int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
+  if (host->oldest > MVS_DRIVER_VERSION || host->newest < MVS_DRIVER_VERSION)
+    return MVS_DRIVER_E_VERSION;
+  mvs_driver_api ours = {};
+  ours.version = MVS_DRIVER_VERSION;
+  ours.name = "haply";
+  ours.about = "Haply Inverse3, Inverse3x and Minverse with a VerseGrip, by the Inverse Service";
+  ours.options = kOptions;
+  ours.list = guarded<list, const mvs_driver_host *, mvs_driver_found, void *>;
+  ours.doctor = guarded<doctor, const mvs_driver_host *, mvs_driver_finding, void *>;
+  ours.open = guarded<open_device, const mvs_driver_host *, const char *, mvs_driver_device **>;
+  ours.info = info;
+  ours.calibrate = calibrate;
+  ours.start = start;
+  ours.read = read;
+  ours.write = write;
+  ours.stop = stop;
+  ours.panic = panic;
+  ours.close = close_device;
+  ours.error = error;
+  hand_over(ours, api);
+  return MVS_DRIVER_OK;
+}
