@@ -141,3 +141,23 @@ TEST_CASE("forces_are_on_between_start_and_stop_only") {
     CHECK_FALSE(on());
   }
 }
+
+TEST_CASE("stop_may_come_while_the_device_is_read") {
+  for (const std::string name : kDrivers) {
+    CAPTURE(name);
+    Plug plug(name, options_of(name));
+    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    std::thread other([&] {
+      for (int n = 0; n < 100; ++n) plug.api.stop(plug.device);
+    });
+    mvs_driver_state state;
+    for (uint64_t n = 1; n <= 1000; ++n) {
+      CHECK_EQ(plug.read(n * 1000000, state), MVS_DRIVER_OK);
+      CHECK_EQ(plug.write(0, 0, 1), MVS_DRIVER_OK);
+    }
+    other.join();
+    CHECK_EQ(plug.read(2000000000, state), MVS_DRIVER_OK);
+    CHECK_EQ(state.flags & MVS_DRIVER_FORCE_ON, 0);
+  }
+}

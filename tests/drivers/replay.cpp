@@ -131,7 +131,8 @@ TEST_CASE("a_recording_stays_loops_or_stops_at_its_end") {
   begun(stay);
   CHECK_EQ(at(stay, 2).position[2], 0.03);
   CHECK_EQ(at(stay, 2.1).velocity[2], 0);
-  CHECK_GT(at(stay, 2.3).sequence, at(stay, 2.2).sequence);  // it is at rest, not gone
+  const uint64_t before = at(stay, 2.2).sequence;
+  CHECK_GT(at(stay, 2.3).sequence, before);  // it is at rest, not gone
 
   Plug loop("replay", {{"file", file.path()}, {"end", "loop"}});
   begun(loop);
