@@ -36,19 +36,31 @@ namespace {
 
 const char *const kOptions[] = {
     "device: what it holds: ideal, touch (default), omni, desktop, premium15, premium30, omega, "
-    "delta, lambda, falcon",
-    "mass: of the hand, kg; arm_stiffness, N/m, and arm_damping, N s/m: how the arm leads it",
-    "target: x,y,z in m, where the arm leads it; from: where it begins, if elsewhere",
-    "amplitude: x,y,z in m, and frequency, Hz: the arm swings about the target",
+    "delta, lambda or falcon",
+    "mass: of the hand, kg",
+    "arm_stiffness: N/m, of the spring by which the arm leads it",
+    "arm_damping: N s/m, beside that spring",
+    "target: x,y,z in m, where the arm leads it",
+    "amplitude: x,y,z in m, of a sine about the target",
+    "frequency: Hz, of that sine",
     "file: a recording (haptic_drivers/replay/README.md) that leads the arm instead",
+    "from: x,y,z in m, where the hand begins, if not at the target",
     "push: x,y,z in N, a constant force on the hand",
     "buttons: held for ever, a sum of 1, 2, 4, ...",
     "velocity: 1: the device measures velocity; 0 (default): libmvs has to estimate it",
-    "force, continuous_force, stiffness, damping, rate, resolution, device_mass, device_damping, "
-    "delay: of the device, instead of its own",
+    "force: the device's peak force, N, and so on: in place of its own",
+    "continuous_force: N",
+    "stiffness: N/m, the largest that is stable",
+    "damping: N s/m, likewise",
+    "rate: Hz",
+    "resolution: m, a step of its encoder",
+    "device_mass: kg, moved along with the hand",
+    "device_damping: N s/m, likewise",
+    "delay: samples, from the writing of a force to its effect",
     "fault: nan_position, inf_velocity, jump, unplug, silent, stuck_button, bounce, uncalibrated, "
     "hot, saturated, deadman, clock_back, clock_jump, slow, button, absent or licence",
-    "fault_at: when it begins, s after start; fault_for: how long it lasts, s, 0 for ever",
+    "fault_at: s after start",
+    "fault_for: s; 0 (default): for ever",
     nullptr};
 
 int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {

@@ -9,7 +9,9 @@ namespace {
 using driver::Options;
 using driver::refuse;
 
-// What the hand may reach if nobody says: the recording's own box, and this much around it, m.
+// What the hand may reach if nobody says: this much further than it went, m, and as far to the
+// other side: libmvs counts places from the middle of the workspace, which is the recording's zero
+// then.
 constexpr double kMargin = 0.02;
 
 End end_of(const Options &options) {
@@ -31,12 +33,10 @@ void put_workspace(const driver::Recording &recording, mvs_driver_info &info) {
     info.workspace_min[k] = said[k];
     info.workspace_max[k] = said[k + 3];
     if (said[k] < said[k + 3]) continue;
-    double least = 1e300, most = -1e300;
-    for (const auto &sample : recording.samples()) {
-      least = std::min(least, sample.pose.position[k]);
-      most = std::max(most, sample.pose.position[k]);
-    }
-    info.workspace_min[k] = least - kMargin;
+    double most = 0;
+    for (const auto &sample : recording.samples())
+      most = std::max(most, std::abs(sample.pose.position[k]));
+    info.workspace_min[k] = -(most + kMargin);
     info.workspace_max[k] = most + kMargin;
   }
 }

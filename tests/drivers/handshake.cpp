@@ -1,5 +1,6 @@
 // The handshake, for drivers that run without hardware: versions, sizes, and what may be missing.
 #include <cstring>
+#include <set>
 #include <thread>
 
 #include "plug.h"
@@ -113,6 +114,38 @@ TEST_CASE("the_sample_stays_while_the_clock_stands") {
     CHECK_EQ(earlier.time_ns, first.time_ns);
     CHECK_EQ(later.sequence, first.sequence + 1);
     CHECK_EQ(later.time_ns, 2000000);
+  }
+}
+
+TEST_CASE("a_driver_lists_the_options_that_it_asks_for") {
+  struct Asked {
+    std::map<std::string, std::string> given;
+    std::set<std::string> keys;
+  };
+  for (const std::string name : kDrivers) {
+    CAPTURE(name);
+    Plug plug(name);
+    Asked asked = {options_of(name), {}};
+    mvs_driver_host host = {};
+    host.struct_size = sizeof host;
+    host.oldest = host.newest = 1;
+    host.host = &asked;
+    host.option = [](void *to, const char *key) {
+      Asked &all = *static_cast<Asked *>(to);
+      all.keys.insert(key);
+      const auto found = all.given.find(key);
+      return found == all.given.end() ? nullptr : found->second.c_str();
+    };
+    REQUIRE_EQ(plug.api.open(&host, nullptr, &plug.device), MVS_DRIVER_OK);
+    std::set<std::string> listed;
+    for (const char *const *o = plug.api.options; o && *o; ++o)
+      listed.insert(std::string(*o).substr(0, std::string(*o).find(':')));
+    if (name == "hand") {  // asked for only where a fault, a file, or neither is given
+      asked.given = {{"fault", "jump"}};
+      plug.close();
+      REQUIRE_EQ(plug.api.open(&host, nullptr, &plug.device), MVS_DRIVER_OK);
+    }
+    CHECK_EQ(asked.keys, listed);
   }
 }
 
