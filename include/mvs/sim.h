@@ -117,7 +117,8 @@ enum {
   MVS_PHASE_ORDERING = 4, /* symbolic analysis */
   MVS_PHASE_FACTOR = 5,
   MVS_PHASE_SOLVE = 6,
-  MVS_PHASE_LINE_SEARCH = 7, /* trial energies, with their distances */
+  MVS_PHASE_LINE_SEARCH = 7, /* trial energies, with their distances; those of an implicit step
+                                count as terms, as forces come with them */
   MVS_PHASE_COUNT = 8
 };
 

@@ -76,16 +76,23 @@ void angle_hessian(const Vec3 &x0, const Vec3 &x2, const Vec3 &x3, const Parts &
   }
 }
 
+// The difference of two angles in (-pi, pi].
 double wrap(double angle) {
-  return std::remainder(angle, 2 * std::numbers::pi);
+  if (std::abs(angle) <= std::numbers::pi) return angle;
+  return angle > 0 ? angle - 2 * std::numbers::pi : angle + 2 * std::numbers::pi;
+}
+
+// N1 x N2 = -e (N1 c3), c3 = x3 - x0.
+double angle_of(const Vec3 &n1, const Vec3 &n2, const Vec3 &c3, double length) {
+  return std::atan2(0 - length * n1.dot(c3), n1.dot(n2));
 }
 
 }  // namespace
 
 double hinge_angle(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3) {
-  const Vec3 e = x1 - x0;
-  const Vec3 n1 = e.cross(x2 - x0), n2 = (x3 - x0).cross(e);
-  return std::atan2(n1.cross(n2).dot(e) / e.norm(), n1.dot(n2));
+  const Vec3 e = x1 - x0, c3 = x3 - x0;
+  const Vec3 n1 = e.cross(x2 - x0), n2 = c3.cross(e);
+  return angle_of(n1, n2, c3, e.norm());
 }
 
 BendingTerm::BendingTerm(const Model &model) {
@@ -127,14 +134,15 @@ double BendingTerm::energy(const std::vector<Vec3> &x) const {
 double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
   double sum = 0;
   for (const Hinge &h : hinges_) {
-    const Vec3 &x0 = x[h.node[0]], &x1 = x[h.node[1]], &x2 = x[h.node[2]], &x3 = x[h.node[3]];
-    const double bent = wrap(hinge_angle(x0, x1, x2, x3) - h.rest_angle);
-    sum += 0.5 * h.stiffness * bent * bent;
-    const Vec3 e = x1 - x0;
-    const Vec3 n1 = e.cross(x2 - x0), n2 = (x3 - x0).cross(e);
-    const double length = e.norm(), moment = h.stiffness * bent;
+    const Vec3 &x0 = x[h.node[0]];
+    const Vec3 e = x[h.node[1]] - x0, c2 = x[h.node[2]] - x0, c3 = x[h.node[3]] - x0;
+    const Vec3 n1 = e.cross(c2), n2 = c3.cross(e);
+    const double length = e.norm();
+    const double bent = wrap(angle_of(n1, n2, c3, length) - h.rest_angle);
+    const double moment = h.stiffness * bent;
+    sum += 0.5 * moment * bent;
     const Vec3 m1 = moment / n1.squaredNorm() * n1, m2 = moment / n2.squaredNorm() * n2;
-    const double s2 = (x2 - x0).dot(e) / length, s3 = (x3 - x0).dot(e) / length;
+    const double s2 = c2.dot(e) / length, s3 = c3.dot(e) / length;
     g[h.node[0]] += (length - s2) * m1 + (length - s3) * m2;
     g[h.node[1]] += s2 * m1 + s3 * m2;
     g[h.node[2]] -= length * m1;

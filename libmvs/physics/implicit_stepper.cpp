@@ -11,14 +11,32 @@
 namespace mvs {
 namespace {
 
-constexpr double longest_step = 1e-3;  // m a node may go in one step
-constexpr int halvings = 12;           // of a step that was cut
-constexpr int quarterings = 12;        // of a step before it is cut
-// What is over after the matrix: an energy to try and the forces at the end.
+constexpr double longest_step = 1e-3;                  // m a node may go in one step
+constexpr int trials = 8;                              // of shares of a step that was cut
+constexpr double least_share = 0.1, most_share = 0.5;  // of the share tried before
+constexpr int quarterings = 12;                        // of a step before it is cut
+// What is over after the matrix: a place to try, and the forces where the valve stays.
 constexpr uint32_t closing_passes = 2;
 // Of the contact thickness: where no node goes farther, pairs that no list of candidates has to
 // hold cannot be cut either, and one made for an earlier step serves.
 constexpr double slow = 0.02;
+
+void take_pushing(const std::vector<Tool> &tools, std::vector<Id> &ids) {
+  ids.clear();
+  for (const Tool &tool : tools) {
+    if (tool.points() > 0) ids.push_back(tool.id);
+  }
+}
+
+// Whether the tools that push are these.
+bool pushes(const std::vector<Tool> &tools, const std::vector<Id> &ids) {
+  size_t k = 0;
+  for (const Tool &tool : tools) {
+    if (tool.points() == 0) continue;
+    if (k == ids.size() || ids[k++] != tool.id) return false;
+  }
+  return k == ids.size();
+}
 
 bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
@@ -54,35 +72,53 @@ void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
   assemble(how, stats);
   solve(how, stats);
   limit(stats);
-  if (go(how, stats) == 1) arrive(state);
-  std::vector<Vec3> &x = state.x.edit(), &v = state.v.edit();
-  evaluated_ = false;
-  x_.swap(next_x_);
-  v_.swap(next_v_);
-  evaluate(stats);
-  x = x_;
-  v = v_;
+  if (go(how, stats)) {
+    x_.swap(next_x_);
+    v_.swap(next_v_);
+    sheet_g_.swap(next_g_);
+    sheet_energy_ = potential_.freeze(x_);
+    sum_up();
+  } else {
+    stand();
+    evaluate(stats);  // contact is known at the last place tried
+  }
+  state.x.edit() = x_;
+  state.v.edit() = v_;
   report(stats);
 }
 
 // Forces of the step before are those of this one, where it goes on from there.
 void ImplicitStepper::begin(const State &state, const StepOptions &how, SolveStats &stats) {
   left_ = how.budget;
-  evaluated_ = evaluated_ && state.load.pressure == load_.pressure && state.tools == tools_ &&
-               same_bits(x_, state.x);
+  evaluated_ = evaluated_ && state.load.pressure == load_.pressure &&
+               pushes(state.tools, pushing_) && same_bits(x_, state.x);
   load_ = state.load;
-  tools_ = state.tools;
   x_ = state.x.get();
   v_ = state.v.get();
   potential_.set_pressure(load_.pressure);
-  if (!evaluated_) potential_.set_tools(tools_.get());
+  potential_.set_tools(state.tools);
   travels_ = advance_boundary(*model_, state, how.dt, boundary_);
-  if (!evaluated_) evaluate(stats);
+  if (evaluated_) {
+    sum_up();
+  } else {
+    take_pushing(state.tools, pushing_);
+    evaluate(stats);
+  }
 }
 
 void ImplicitStepper::evaluate(SolveStats &stats) {
+  evaluated_ = false;
   if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats.work);
-  energy_ = potential_.gradient(x_, g_, stats.work);
+  potential_.sheet_gradient(x_, sheet_g_, stats.work);
+  sheet_energy_ = potential_.freeze(x_);
+  sum_up();
+}
+
+// Hands may move while the sheet stays.
+void ImplicitStepper::sum_up() {
+  evaluated_ = false;
+  g_ = sheet_g_;
+  energy_ = sheet_energy_ + potential_.add_hands(x_, g_);
   residual_ = largest_free(*model_, g_);
   MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "step",
            "the forces are not finite: nodes coincide or the material is too stiff");
@@ -202,42 +238,49 @@ void ImplicitStepper::limit(SolveStats &stats) {
   potential_.limit_step(x_, slack, step_, stats.work);
 }
 
-// Goes the largest share of the step, a half as often as need be, that makes no energy: it may come
-// from the pressure (part of the potential) and the boundary, from nowhere else.
-double ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
-  double share = 1;
-  for (int k = 0; k <= halvings && left_ >= closing_passes; ++k, share *= 0.5) {
-    if (goes(share, how.dt, stats)) return share;
+// Goes a share of the step that makes no energy: it may come from the pressure (part of the
+// potential) and the boundary, from nowhere else. False if there is none. Where a whole step is too
+// much, the parabola of its slope, its start and its end tells how much may do.
+bool ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
+  double share = 1, slope = 0;
+  for (size_t i = 0; i < x_.size(); ++i) slope += g_[i].dot(step_[i]);
+  for (int k = 0; k < trials && left_ >= closing_passes; ++k) {
+    const double made = goes(share, how.dt, stats);
+    if (made <= 0) return true;
+    // cut node by node it leads uphill, however little of it is gone
+    if (slope >= 0) break;
+    const double bend = made + kinetic_energy(*model_, v_) - slope * share;
+    const double lowest = -slope * share / (2 * bend);  // of the parabola, in shares of this one
+    share *= lowest > least_share ? std::min(lowest, most_share) : least_share;
   }
   stats.lowered |= MVS_LOWERED_STEP;
-  if (!go_less(how, stats)) place(0, how.dt);
-  return 0;
+  return go_less(how, stats);
 }
 
-// A step that was cut node by node may lead uphill, however little of it is gone. Shortened as a
-// whole it leads downhill, and the shorter it is, the less of it is cut.
+// Shortened as a whole the step leads downhill, and the shorter it is, the less of it is cut.
 bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
   double farthest = longest_step;
   for (const Vec3 &row : rows_) farthest = std::max(farthest, row.norm());
   double share = longest_step / farthest;
-  for (int k = 0; k < quarterings && left_ >= closing_passes; ++k, share *= 0.25) {
+  for (int k = 0; k < quarterings && left_ >= closing_passes; ++k) {
+    share *= 0.25;
     step_ = boundary_;
     for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = share * rows_[r];
     potential_.limit_step(x_, slack_, step_, stats.work);
-    if (goes(1, how.dt, stats)) return true;
+    if (goes(1, how.dt, stats) <= 0) return true;
   }
   return false;
 }
 
-// Whether a share of the step makes no energy; it is in next_x_ and next_v_ then.
-bool ImplicitStepper::goes(double share, double dt, SolveStats &stats) {
-  const PhaseTimer timer(stats.work, MVS_PHASE_LINE_SEARCH);
+// The energy that a share of the step makes beyond rounding, at most 0 if it may be gone; where it
+// leads is in next_x_ and next_v_, the forces there in next_g_.
+double ImplicitStepper::goes(double share, double dt, SolveStats &stats) {
   const double before = energy_ + kinetic_energy(*model_, v_);
   place(share, dt);
   --left_;
-  ++stats.work.passes;
-  const double after = potential_.energy(next_x_) + kinetic_;
-  return travels_ || after <= before + 1e-12 * std::abs(before);
+  const double after = potential_.sheet_gradient(next_x_, next_g_, stats.work) +
+                       potential_.hands_energy(next_x_) + kinetic_;
+  return travels_ ? 0 : after - before - 1e-12 * std::abs(before);
 }
 
 void ImplicitStepper::place(double share, double dt) {
@@ -248,13 +291,19 @@ void ImplicitStepper::place(double share, double dt) {
     next_v_[i] = (share / dt) * step_[i];
   }
   kinetic_ = kinetic_energy(*model_, next_v_);
+  if (share == 1) arrive();
+}
+
+void ImplicitStepper::stand() {
+  std::fill(v_.begin(), v_.end(), Vec3::Zero());
+  kinetic_ = 0;
 }
 
 // A boundary that has come to its target is there to the bit.
-void ImplicitStepper::arrive(const State &state) {
+void ImplicitStepper::arrive() {
   for (uint32_t i = 0; i < x_.size(); ++i) {
     if (!model_->topology.fixed[i] || step_[i] != boundary_[i]) continue;
-    const Vec3 target = model_->target(i, state.load.boundary_fraction);
+    const Vec3 target = model_->target(i, load_.boundary_fraction);
     if ((next_x_[i] - target).norm() < 1e-12) next_x_[i] = target;
   }
 }

@@ -1,7 +1,8 @@
 // One linearised backward Euler step: (M / dt^2 + c M / dt + H) dx = -g + M v / dt with the
-// projected H, then the cut against collisions. The step is halved until the mechanical energy does
-// not grow by more than what the load and the moving boundary put in; where no share of it will do,
-// it is shortened before the cut; where that will not do, the valve stays where it is and stops.
+// projected H, then the cut against collisions. The mechanical energy may not grow by more than
+// what the load and the moving boundary put in: a step that makes some is shortened as long as it
+// leads downhill, then, or where its cuts have turned it uphill, before the cut; where that will not
+// do, the valve stays where it is and stops.
 //
 // Bounded work: a step may pass over the terms, or factorise and solve, `budget` times. When the
 // matrix is not positive definite and the budget ends, the system is solved by its diagonal alone;
@@ -38,6 +39,7 @@ class ImplicitStepper {
  private:
   void begin(const State &state, const StepOptions &how, SolveStats &stats);
   void evaluate(SolveStats &stats);
+  void sum_up();
   bool is_at_rest(const State &state, const StepOptions &how) const;
   bool order_rows(SolveStats &stats);
   void assemble(const StepOptions &how, SolveStats &stats);
@@ -45,11 +47,12 @@ class ImplicitStepper {
   bool factorise(const StepOptions &how, SolveStats &stats);
   void solve_by_diagonal();
   void limit(SolveStats &stats);
-  double go(const StepOptions &how, SolveStats &stats);
+  bool go(const StepOptions &how, SolveStats &stats);
   bool go_less(const StepOptions &how, SolveStats &stats);
-  bool goes(double share, double dt, SolveStats &stats);
+  double goes(double share, double dt, SolveStats &stats);
+  void stand();
   void place(double share, double dt);
-  void arrive(const State &state);
+  void arrive();
   void report(SolveStats &stats) const;
 
   const Model *model_;
@@ -60,13 +63,15 @@ class ImplicitStepper {
   // positions and velocities at the start, and at the end
   std::vector<Vec3> x_, v_, next_x_, next_v_;
   std::vector<Vec3> g_, step_, boundary_, rows_;
+  std::vector<Vec3> sheet_g_, next_g_;  // without what hands do
   std::vector<Mat3> diagonal_;  // of the system without mass
   std::vector<double> bound_;   // of the rows of the matrix, for solve_by_diagonal
   double slack_;                // m, for Potential::prepare
-  double energy_ = 0, residual_ = 0, kinetic_ = 0;
+  double energy_ = 0, sheet_energy_ = 0, residual_ = 0, kinetic_ = 0;
   Load load_;
-  SharedVector<Tool> tools_;
-  bool evaluated_ = false;  // energy and forces are those of x_ under load_ and tools_
+  std::vector<Id> pushing_;  // the instruments that push
+  // energy and forces of the sheet are those of x_ under load_ and what pushes
+  bool evaluated_ = false;
   bool travels_ = false;    // the boundary
   uint32_t left_ = 0;       // of the budget
 };

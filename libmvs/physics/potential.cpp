@@ -62,26 +62,36 @@ void Potential::collect(const std::vector<Vec3> &x) {
 double Potential::energy(const std::vector<Vec3> &x) {
   collect(x);
   return spring_.energy(x) + membrane_.energy(x) + bending_.energy(x) + chord_.energy(x) +
-         pressure_.energy(x) + grasp_.energy(x) + instrument_.energy(x) + contact_.energy();
+         instrument_.energy(x) + contact_.energy() + pressure_.energy(x) + grasp_.energy(x);
 }
 
 double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
+  pressure_.freeze(x);
+  const double sheet = sheet_gradient(x, g, profile);
+  return sheet + add_hands(x, g);
+}
+
+double Potential::sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g,
+                                 Profile &profile) {
   {
     const PhaseTimer timer(profile, MVS_PHASE_NARROW);
     collect(x);
   }
   ++profile.passes;
   const PhaseTimer timer(profile, MVS_PHASE_TERMS);
-  pressure_.freeze(x);
   g.assign(x.size(), Vec3::Zero());
-  double sum = spring_.gradient(x, g);
-  sum += membrane_.gradient(x, g);
-  sum += bending_.gradient(x, g);
-  sum += chord_.gradient(x, g);
-  sum += pressure_.gradient(x, g);
-  sum += grasp_.gradient(x, g);
-  sum += instrument_.gradient(x, g);
-  return sum + contact_.gradient(g);
+  elastic_ = spring_.gradient(x, g);
+  elastic_ += membrane_.gradient(x, g);
+  elastic_ += bending_.gradient(x, g);
+  elastic_ += chord_.gradient(x, g);
+  elastic_ += instrument_.gradient(x, g);
+  elastic_ += contact_.gradient(g);
+  return elastic_ + pressure_.gradient(x, g);
+}
+
+double Potential::freeze(const std::vector<Vec3> &x) {
+  pressure_.freeze(x);
+  return elastic_ + pressure_.energy(x);
 }
 
 bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &system) {

@@ -45,6 +45,17 @@ class Potential {
   double energy(const std::vector<Vec3> &x);
   // Sets g = dE/dx and returns the energy; x must be prepared for.
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile);
+
+  // The same in parts, for a step that tries a place and stays there. Without what hands do, and
+  // with an energy comparable with that at the last freeze():
+  double sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile);
+  // ... at the x of the last sheet_gradient(), whose energy it returns as gradient() would;
+  double freeze(const std::vector<Vec3> &x);
+  // ... and what hands do: all that changes when only they move.
+  double hands_energy(const std::vector<Vec3> &x) const { return grasp_.energy(x); }
+  double add_hands(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+    return grasp_.gradient(x, g);
+  }
   // Fills the system with the Hessian at the x of the last gradient(). True if its pattern is new.
   bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system, Profile &profile);
 
@@ -78,6 +89,7 @@ class Potential {
   GraspTerm grasp_;
   InstrumentTerm instrument_;
   bool was_near_ = false;     // contact had pairs to look at
+  double elastic_ = 0;        // energy of the last sheet_gradient(), without that of the pressure
   std::vector<Edge> pairs_;   // of the terms whose pattern never changes
   std::vector<Edge> wanted_;  // and of what touches, while a pattern is made
 };
