@@ -100,10 +100,6 @@ class MovingTree {
     uint32_t after;     // the first node that is not below it
     uint32_t triangle;  // of a leaf
   };
-  // The part of the tree over items first .. last, triangles in their places.
-  uint32_t build(std::vector<uint32_t> &items, uint32_t first, uint32_t last,
-                 const std::vector<Vec3> &centre);
-
   template <typename Visit>
   void within(uint32_t i, double margin, Visit &visit) const {
     if (nodes_[i].right == none || nodes_[i].still) return;

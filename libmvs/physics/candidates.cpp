@@ -38,7 +38,9 @@ void sort_triangles(std::vector<VertexTriangle> &pairs, size_t first) {
 Candidates::Candidates(const Model &model)
     : model_(&model),
       thickness_(model.valve.contact_thickness),
-      tree_(model.valve.rest, model.valve.triangles) {
+      tree_(model.valve.rest, model.valve.triangles),
+      owner_(model.topology.edges.size(), none),
+      near_(model) {
   const auto &x = model.valve.rest;
   std::vector<uint8_t> of_sheet(model.node_count(), 0), taken(model.topology.edges.size(), 0);
   for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
@@ -48,7 +50,10 @@ Candidates::Candidates(const Model &model)
     Owned owned{};
     for (int k = 0; k < 3; ++k) {
       const uint32_t edge = model.topology.triangle_edges[t][k];
-      if (!taken[edge]) owned.edge[owned.count++] = edge;
+      if (!taken[edge]) {
+        owned.edge[owned.count++] = edge;
+        owner_[edge] = t;
+      }
       taken[edge] = of_sheet[corners[k]] = 1;
       radius = std::max(radius, (x[corners[k]] - centre).norm());
     }
@@ -95,14 +100,52 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
     half_[i] = 0.5 * (to[i] - x[i]);
   }
   find_still();
-  tree_.place(x, to, pace, still_);
+  if (near_.follow(middle_, half_, slack)) {
+    choose();
+  } else {
+    search();
+  }
+}
+
+// From what is kept: what search() would find.
+void Candidates::choose() {
+  facing_.clear();
+  guarded_.clear();
+  guarded_edges_.clear();
+  const double longest = guard_share * thickness_;
+  const auto &triangles = model_->valve.triangles.get();
+  for (const NearTriangle &p : near_.triangles()) {
+    if (still_[p.triangle] && stays(p.vertex)) continue;
+    const Tri &t = triangles[p.triangle];
+    const std::array<uint32_t, 1> alone{p.vertex};
+    const double most = p.faces ? thickness_ : longest;
+    if (apart(Way::of(alone, from_, to_, pace_), Way::of(t, from_, to_, pace_), most + 2 * slack_))
+      continue;
+    const double distance = vertex_triangle_distance(middle_, p.vertex, t) - reach(alone, t);
+    if (p.faces && distance <= thickness_) facing_.push_back({p.vertex, p.triangle, 0});
+    if (distance <= p.guard) guarded_.push_back({p.vertex, p.triangle, p.guard});
+  }
+  const auto &edges = model_->topology.edges.get();
+  for (const NearEdges &p : near_.edges()) {
+    if (still_[owner_[p.first]] && still_[owner_[p.second]]) continue;
+    const Edge &e = edges[p.first], &f = edges[p.second];
+    if (apart(Way::of(e, from_, to_, pace_), Way::of(f, from_, to_, pace_), longest + 2 * slack_))
+      continue;
+    const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
+    if (distance <= p.guard) guarded_edges_.push_back({p.first, p.second, p.guard});
+  }
+}
+
+void Candidates::search() {
+  const std::vector<Vec3> &x = from_, &to = to_;
+  tree_.place(x, to, pace_, still_);
   vertex_way_.resize(x.size());
   for (uint32_t i = 0; i < x.size(); ++i) {
-    vertex_way_[i] = Way::of(std::array<uint32_t, 1>{i}, x, to, pace);
+    vertex_way_[i] = Way::of(std::array<uint32_t, 1>{i}, x, to, pace_);
   }
   const auto &edges = model_->topology.edges;
   edge_way_.resize(edges.size());
-  for (size_t i = 0; i < edges.size(); ++i) edge_way_[i] = Way::of(edges[i], x, to, pace);
+  for (size_t i = 0; i < edges.size(); ++i) edge_way_[i] = Way::of(edges[i], x, to, pace_);
   find_vertices();
   find_edges();
 }

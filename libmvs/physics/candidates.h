@@ -14,6 +14,7 @@
 
 #include "base/moving_tree.h"
 #include "model/model.h"
+#include "physics/near_pairs.h"
 
 namespace mvs {
 
@@ -57,6 +58,8 @@ class Candidates {
   double share_of(const std::vector<Vec3> &x) const;
   bool stays(uint32_t node) const;
   void find_still();
+  void choose();
+  void search();
   void find_vertices();
   void take(uint32_t vertex, uint32_t triangle, const Way &way);
   void find_edges();
@@ -70,6 +73,7 @@ class Candidates {
   MovingTree tree_;
   std::vector<uint32_t> sheet_;      // the nodes that are vertices of it
   std::vector<Owned> owned_;         // by each triangle
+  std::vector<uint32_t> owner_;      // of each edge
   std::vector<Vec3> rest_centre_;    // of each triangle
   std::vector<double> rest_radius_;  // from there to its farthest corner
   std::vector<Vec3> from_, to_;      // of each node
@@ -80,6 +84,7 @@ class Candidates {
   std::vector<uint8_t> still_;  // triangles that never move: nothing between two of them
   std::vector<VertexTriangle> facing_, guarded_;
   std::vector<EdgeEdge> guarded_edges_;
+  NearPairs near_;
 };
 
 }  // namespace mvs

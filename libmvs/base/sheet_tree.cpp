@@ -1,0 +1,55 @@
+#include "base/sheet_tree.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace mvs {
+namespace {
+
+struct Builder {
+  std::vector<Vec3> centre;
+  std::vector<uint32_t> items;
+  std::vector<SheetBranch> nodes;
+
+  // The part of the tree over items first .. last, triangles in their places.
+  uint32_t build(uint32_t first, uint32_t last) {
+    const auto self = static_cast<uint32_t>(nodes.size());
+    nodes.push_back({none, self + 1, items[first]});
+    if (last - first == 1) return self;
+    Vec3 low = Vec3::Constant(1e300), high = -low;
+    for (uint32_t k = first; k < last; ++k) {
+      low = low.cwiseMin(centre[items[k]]);
+      high = high.cwiseMax(centre[items[k]]);
+    }
+    Eigen::Index axis;
+    (high - low).maxCoeff(&axis);
+    const uint32_t middle = first + (last - first) / 2;
+    std::nth_element(items.begin() + first, items.begin() + middle, items.begin() + last,
+                     [&](uint32_t a, uint32_t b) {
+                       return std::pair(centre[a][axis], a) < std::pair(centre[b][axis], b);
+                     });
+    build(first, middle);
+    nodes[self].right = build(middle, last);
+    nodes[self].after = static_cast<uint32_t>(nodes.size());
+    return self;
+  }
+};
+
+}  // namespace
+
+std::vector<SheetBranch> sheet_tree(const std::vector<Vec3> &shape,
+                                    const std::vector<Tri> &triangles) {
+  if (triangles.empty()) return {};
+  Builder builder;
+  builder.items.resize(triangles.size());
+  std::iota(builder.items.begin(), builder.items.end(), 0u);
+  for (const Tri &t : triangles) {
+    builder.centre.push_back(shape[t[0]] + shape[t[1]] + shape[t[2]]);
+  }
+  builder.nodes.reserve(2 * triangles.size() - 1);
+  builder.build(0, static_cast<uint32_t>(triangles.size()));
+  return std::move(builder.nodes);
+}
+
+}  // namespace mvs
