@@ -1,8 +1,6 @@
 #include "connection.h"
 
-#include <charconv>
-#include <cstring>
-
+#include "common/options.h"
 #include "http.h"
 
 namespace haply {
@@ -11,48 +9,25 @@ namespace {
 // For what is done before the device's rate counts.
 constexpr int kOpenMs = 1000;
 
-const char *given(const mvs_driver_host *host, const char *key) {
-  return host->option ? host->option(host->host, key) : nullptr;
-}
-
-int32_t number(const mvs_driver_host *host, const char *key, double least, double most,
-               double &value, Fault &fault) {
-  const char *text = given(host, key);
-  if (!text) return MVS_DRIVER_OK;
-  double told = 0;
-  const char *end = text + std::strlen(text);
-  const auto read = std::from_chars(text, end, told);
-  if (read.ec != std::errc() || read.ptr != end || !(told >= least && told <= most))
-    return fault.set(MVS_DRIVER_E_OPTION, "option %s is '%.80s': give a number from %g to %g", key,
-                     text, least, most);
-  value = told;
-  return MVS_DRIVER_OK;
-}
-
 }  // namespace
 
-int32_t read_options(const mvs_driver_host *host, Options &options, Fault &fault) {
-  struct Text {
-    const char *key;
-    std::string *value;
+Options::Options(const mvs_driver_host *application) {
+  const driver::Options given(application);
+  const auto text = [&](const char *key, const char *otherwise) {
+    return given.text(key).value_or(otherwise);
   };
-  for (const Text &text :
-       {Text{"host", &options.host}, Text{"device", &options.device}, Text{"grip", &options.grip},
-        Text{"preset", &options.preset}, Text{"version", &options.version}})
-    if (const char *told = given(host, text.key)) *text.value = told;
-  if (options.preset == "none") options.preset.clear();
-  double port = options.port, patience = options.patience_ms;
-  int32_t result = number(host, "port", 1, 65535, port, fault);
-  if (result == MVS_DRIVER_OK) result = number(host, "rate", 50, 8000, options.rate, fault);
-  if (result == MVS_DRIVER_OK) result = number(host, "patience", 10, 2000, patience, fault);
-  options.port = static_cast<int>(port);
-  options.patience_ms = static_cast<int>(patience);
-  Version version;
-  if (result == MVS_DRIVER_OK && !options.version.empty() &&
-      !parse_version(options.version, version))
-    return fault.set(MVS_DRIVER_E_OPTION, "option version is '%.80s': give one like 3.5",
-                     options.version.c_str());
-  return result;
+  host = text("host", "localhost");
+  device = text("device", "");
+  grip = text("grip", "");
+  preset = text("preset", "arm_front_centered");
+  if (preset == "none") preset.clear();
+  version = text("version", "");
+  Version read;
+  if (!version.empty() && !parse_version(version, read))
+    driver::refuse(MVS_DRIVER_E_OPTION, "option version=" + version + ": give one like 3.5");
+  port = static_cast<int>(given.number("port", 10001, 1, 65535));
+  rate = given.number("rate", 2000, 50, 8000);
+  patience_ms = static_cast<int>(given.number("patience", MVS_DRIVER_PATIENCE_MS, 10, 2000));
 }
 
 int32_t Connection::open(const Options &options, Fault &fault) {

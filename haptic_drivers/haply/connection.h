@@ -9,12 +9,14 @@
 namespace haply {
 
 struct Options {
-  std::string host = "localhost", device, grip, preset = "arm_front_centered", version;
-  int port = 10001;
-  double rate = 2000;  // Hz
-  int patience_ms = MVS_DRIVER_PATIENCE_MS;
+  // Refuses what makes no sense.
+  explicit Options(const mvs_driver_host *host);
+
+  std::string host, device, grip, preset, version;
+  int port;
+  double rate;  // Hz
+  int patience_ms;
 };
-int32_t read_options(const mvs_driver_host *host, Options &options, Fault &fault);
 
 struct Connection {
   Version version;

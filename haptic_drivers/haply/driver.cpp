@@ -1,38 +1,27 @@
 // The Haply Inverse3, Inverse3x and Minverse as devices of libmvs, by way of the vendor's service.
-#include <mvs/driver.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <exception>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "common/fault.h"
 #include "connection.h"
 #include "exchange.h"
-#include "fault.h"
 
 using namespace haply;
 
 struct mvs_driver_device {
+  explicit mvs_driver_device(const mvs_driver_host *host) : options(host), exchange(options) {}
+
   Options options;
   Inverse inverse;
   Grip grip;
-  Fault fault;
   const char *said = "";
   Exchange exchange;  // last: its thread ends first
 };
 
 namespace {
-
-thread_local Fault unopened;
-
-// What is filled is no more than the host has room for.
-template <typename T>
-void hand_over(T filled, T *wanted) {
-  filled.struct_size = std::min(wanted->struct_size, static_cast<uint32_t>(sizeof filled));
-  std::memcpy(wanted, &filled, filled.struct_size);
-}
 
 const char *model_of(const Inverse &inverse) {
   if (inverse.type == "minverse") return "Haply Minverse";
@@ -40,15 +29,17 @@ const char *model_of(const Inverse &inverse) {
 }
 
 int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
-  Options options;
-  Connection connection;
-  int32_t result = read_options(host, options, unopened);
-  if (result == MVS_DRIVER_OK) result = connection.open(options, unopened);
-  connection.socket.close(options.patience_ms);
-  if (result == MVS_DRIVER_E_LIBRARY) return MVS_DRIVER_OK;  // no service, no device
-  for (const Inverse &inverse : connection.inventory.inverses)
-    found(user, inverse.id.c_str(), model_of(inverse));
-  return result;
+  return driver::guarded([&] {
+    const Options options(host);
+    Connection connection;
+    Fault fault;
+    const int32_t result = connection.open(options, fault);
+    connection.socket.close(options.patience_ms);
+    if (result == MVS_DRIVER_E_LIBRARY) return;  // no service, no device
+    driver::must(result, fault);
+    for (const Inverse &inverse : connection.inventory.inverses)
+      found(user, inverse.id.c_str(), model_of(inverse));
+  });
 }
 
 void examine(const Inverse &inverse, mvs_driver_finding finding, void *user) {
@@ -65,19 +56,7 @@ void examine(const Inverse &inverse, mvs_driver_finding finding, void *user) {
     finding(user, 0, "basis", "its axes are not XYZ: set the basis of the session back");
 }
 
-int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *user) {
-  Options options;
-  Connection connection;
-  int32_t result = read_options(host, options, unopened);
-  if (result == MVS_DRIVER_OK) result = connection.open(options, unopened);
-  connection.socket.close(options.patience_ms);
-  const std::string where = "version " + std::to_string(connection.version.major) + "." +
-                            std::to_string(connection.version.minor) + " answers at " +
-                            options.host + ":" + std::to_string(options.port);
-  finding(user, result == MVS_DRIVER_OK, "Haply Inverse Service",
-          result == MVS_DRIVER_OK ? where.c_str() : unopened.sentence);
-  if (result != MVS_DRIVER_OK) return MVS_DRIVER_OK;
-  const Inventory &inventory = connection.inventory;
+void examine(const Inventory &inventory, mvs_driver_finding finding, void *user) {
   if (inventory.inverses.empty())
     finding(user, 0, "device", "the service has found none: plug it in and look into Haply Hub");
   for (const Inverse &inverse : inventory.inverses) examine(inverse, finding, user);
@@ -87,7 +66,24 @@ int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *us
     finding(user, grip.connected ? 1 : -1, "grip",
             (grip.kind + " " + grip.id + (grip.connected ? " is there" : " sleeps: press a button"))
                 .c_str());
-  return MVS_DRIVER_OK;
+}
+
+int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *user) {
+  return driver::guarded([&] {
+    const Options options(host);
+    Connection connection;
+    Fault fault;
+    const int32_t result = connection.open(options, fault);
+    connection.socket.close(options.patience_ms);
+    constexpr char kService[] = "Haply Inverse Service";
+    if (result != MVS_DRIVER_OK) return finding(user, 0, kService, fault.sentence);
+    const Version &version = connection.version;
+    finding(user, 1, kService,
+            ("version " + std::to_string(version.major) + "." + std::to_string(version.minor) +
+             " answers at " + options.host + ":" + std::to_string(options.port))
+                .c_str());
+    examine(connection.inventory, finding, user);
+  });
 }
 
 // The one that is wanted, or the first.
@@ -98,50 +94,47 @@ const T *chosen(const std::vector<T> &all, const std::string &id) {
   return nullptr;
 }
 
-int32_t choose(mvs_driver_device &device) {
+void choose(mvs_driver_device &device) {
   const Inventory &inventory = device.exchange.connection.inventory;
   const std::string &id = device.options.device, &grip_id = device.options.grip;
   const Inverse *inverse = chosen(inventory.inverses, id);
   if (!inverse)
-    return unopened.set(MVS_DRIVER_E_ABSENT,
-                        "the Haply Inverse Service has %zu devices, and none is '%.64s': plug it "
-                        "in, or name another (mvs haptics list)",
-                        inventory.inverses.size(), id.empty() ? "an Inverse3" : id.c_str());
+    driver::refuse(MVS_DRIVER_E_ABSENT,
+                   "the Haply Inverse Service has " + std::to_string(inventory.inverses.size()) +
+                       " devices, and none is " + (id.empty() ? "an Inverse3" : "'" + id + "'") +
+                       ": plug it in, or name another (mvs haptics list)");
   if (!inverse->basis.empty() && inverse->basis != "XYZ")
-    return unopened.set(MVS_DRIVER_E_UNSUPPORTED,
-                        "the axes of device %.64s are %.16s: set the basis back to XYZ",
-                        inverse->id.c_str(), inverse->basis.c_str());
+    driver::refuse(MVS_DRIVER_E_UNSUPPORTED, "the axes of device " + inverse->id + " are " +
+                                                 inverse->basis + ": set the basis back to XYZ");
   const Grip *grip = grip_id == "none" ? nullptr : chosen(inventory.grips, grip_id);
   if (!grip && !grip_id.empty() && grip_id != "none")
-    return unopened.set(MVS_DRIVER_E_ABSENT, "the Haply Inverse Service has no grip '%.64s'",
-                        grip_id.c_str());
+    driver::refuse(MVS_DRIVER_E_ABSENT, "the Haply Inverse Service has no grip '" + grip_id + "'");
   device.inverse = *inverse;
   if (grip) device.grip = *grip;
-  return MVS_DRIVER_OK;
+}
+
+void wish_for_real_time(const mvs_driver_host *host, Exchange &exchange) {
+  if (exchange.wish_for_real_time() == 0 || !host->log) return;
+  host->log(host->host,
+            "haply: its thread runs without real-time priority: on a busy machine states come late "
+            "(ulimit -r, /etc/security/limits.d)");
 }
 
 int32_t open_device(const mvs_driver_host *host, const char *name, mvs_driver_device **out) {
-  *out = nullptr;
-  auto device = std::make_unique<mvs_driver_device>();
-  Options &options = device->options;
-  int32_t result = read_options(host, options, unopened);
-  if (name) options.device = name;
-  Exchange &exchange = device->exchange;
-  if (result == MVS_DRIVER_OK) result = exchange.connection.open(options, unopened);
-  if (!exchange.connection.version.at_least(3, 5)) options.preset.clear();
-  if (result == MVS_DRIVER_OK) result = choose(*device);
-  if (result == MVS_DRIVER_OK)
-    result = exchange.open(options, device->inverse, device->grip, unopened);
-  if (result != MVS_DRIVER_OK) {
-    exchange.connection.socket.close(options.patience_ms);
-    return result;
-  }
-  if (exchange.wish_for_real_time() != 0 && host->log)
-    host->log(host->host,
-              "haply: its thread runs without real-time priority: on a busy machine states come "
-              "late (ulimit -r, /etc/security/limits.d)");
-  *out = device.release();
-  return MVS_DRIVER_OK;
+  return driver::guarded([&] {
+    *out = nullptr;
+    auto device = std::make_unique<mvs_driver_device>(host);
+    Options &options = device->options;
+    Exchange &exchange = device->exchange;
+    Fault fault;
+    if (name) options.device = name;
+    driver::must(exchange.connection.open(options, fault), fault);
+    if (!exchange.connection.version.at_least(3, 5)) options.preset.clear();
+    choose(*device);
+    driver::must(exchange.open(device->inverse, device->grip, fault), fault);
+    wish_for_real_time(host, exchange);
+    *out = device.release();
+  });
 }
 
 int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
@@ -164,7 +157,7 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
   const std::string &serial = device->inverse.serial;
   (serial.empty() ? device->inverse.id : serial).copy(told.serial, sizeof told.serial - 1);
   device->inverse.firmware.copy(told.firmware, sizeof told.firmware - 1);
-  hand_over(told, wanted);
+  driver::give(told, wanted);
   return MVS_DRIVER_OK;
 }
 
@@ -215,13 +208,12 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *wante
   std::copy_n(hand.velocity, 3, state.velocity);
   std::copy_n(hand.orientation, 4, state.orientation);
   state.buttons = hand.buttons;
-  hand_over(state, wanted);
+  driver::give(state, wanted);
   return MVS_DRIVER_OK;
 }
 
 int32_t write(mvs_driver_device *device, const mvs_driver_force *wanted) {
-  mvs_driver_force given = {};
-  std::memcpy(&given, wanted, std::min<size_t>(wanted->struct_size, sizeof given));
+  const mvs_driver_force given = driver::take(wanted);
   Force force = {{given.force[0], given.force[1], given.force[2]}, given.on != 0};
   const bool finite = std::all_of(force.newton, force.newton + 3,
                                   [](double newton) { return std::isfinite(newton); });
@@ -246,17 +238,7 @@ void close_device(mvs_driver_device *device) {
 }
 
 const char *error(const mvs_driver_device *device) {
-  return device ? device->said : unopened.sentence;
-}
-
-// Nothing is thrown at the host; what may be thrown here is that there is no memory.
-template <auto function, typename... Arguments>
-int32_t guarded(Arguments... arguments) {
-  try {
-    return function(arguments...);
-  } catch (const std::exception &failure) {
-    return unopened.set(MVS_DRIVER_E_INTERNAL, "%s", failure.what());
-  }
+  return device ? device->said : driver::last_sentence;
 }
 
 const char *const kOptions[] = {
@@ -273,16 +255,14 @@ const char *const kOptions[] = {
 }  // namespace
 
 int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
-  if (host->oldest > MVS_DRIVER_VERSION || host->newest < MVS_DRIVER_VERSION)
-    return MVS_DRIVER_E_VERSION;
   mvs_driver_api ours = {};
   ours.version = MVS_DRIVER_VERSION;
   ours.name = "haply";
   ours.about = "Haply Inverse3, Inverse3x and Minverse with a VerseGrip, by the Inverse Service";
   ours.options = kOptions;
-  ours.list = guarded<list, const mvs_driver_host *, mvs_driver_found, void *>;
-  ours.doctor = guarded<doctor, const mvs_driver_host *, mvs_driver_finding, void *>;
-  ours.open = guarded<open_device, const mvs_driver_host *, const char *, mvs_driver_device **>;
+  ours.list = list;
+  ours.doctor = doctor;
+  ours.open = open_device;
   ours.info = info;
   ours.calibrate = calibrate;
   ours.start = start;
@@ -292,6 +272,5 @@ int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
   ours.panic = panic;
   ours.close = close_device;
   ours.error = error;
-  hand_over(ours, api);
-  return MVS_DRIVER_OK;
+  return driver::negotiate(host, api, ours);
 }

@@ -45,16 +45,14 @@ class NoSignals {
 
 }  // namespace
 
-int32_t Exchange::open(const Options &options, const Inverse &inverse, const Grip &grip,
-                       Fault &fault) {
-  options_ = options;
+int32_t Exchange::open(const Inverse &inverse, const Grip &grip, Fault &fault) {
   device_ = inverse.id;
   grip_ = grip;
   sample_.hand.calibrated = inverse.calibrated;
   sample_.hand.powered = inverse.powered;
   commands_ = std::make_unique<Commands>(connection.version, device_);
   panic_frame_ = connection.socket.frame_of(commands_->force(kZero.newton));
-  const std::string hello = commands_->hello(options.preset);
+  const std::string hello = commands_->hello(options_.preset);
   int32_t result = MVS_DRIVER_OK;
   if (!connection.socket.send_text(hello.data(), hello.size(), options_.patience_ms))
     result = silent();
@@ -72,6 +70,7 @@ Exchange::~Exchange() {
   allow(false);
   ending_ = true;
   if (thread_.joinable()) thread_.join();
+  connection.socket.close(options_.patience_ms);  // of one that never got so far
 }
 
 int Exchange::wish_for_real_time() {

@@ -25,8 +25,9 @@ struct Force {
 
 class Exchange {
  public:
+  explicit Exchange(const Options &options) : options_(options) {}
   // Says hello, and has a first sample when it returns MVS_DRIVER_OK; forces are off.
-  int32_t open(const Options &options, const Inverse &inverse, const Grip &grip, Fault &fault);
+  int32_t open(const Inverse &inverse, const Grip &grip, Fault &fault);
   // Zero force, then goodbye.
   ~Exchange();
   // 0, or what pthread_setschedparam says.
@@ -56,7 +57,7 @@ class Exchange {
   int32_t silent();
   Force wanted();
 
-  Options options_;
+  const Options &options_;
   std::string device_, panic_frame_, text_;
   Grip grip_;
   Sample sample_;

@@ -3,9 +3,11 @@
 
 #include <string>
 
-#include "fault.h"
+#include "common/fault.h"
 
 namespace haply {
+
+using driver::Fault;
 
 // The body of `path`, e.g. "/version".
 int32_t http_get(const char *host, int port, const char *path, std::string &body, Fault &fault);

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "fault.h"
+#include "common/fault.h"
 
 namespace haply {
+
+using driver::Fault;
 
 struct Version {
   int major = 0, minor = 0;

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fault.h"
+#include "common/fault.h"
 
 namespace haply {
+
+using driver::Fault;
 
 // Of CLOCK_MONOTONIC.
 uint64_t monotonic_ns();

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <string>
 
-#include "fault.h"
+#include "common/fault.h"
 
 namespace spacenav {
+
+using driver::Fault;
 
 struct Packet {
   int32_t type;

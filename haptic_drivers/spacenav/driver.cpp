@@ -1,15 +1,12 @@
 // A 3D mouse as a device of libmvs: a pose and buttons, no force.
-#include <mvs/driver.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <string>
 
+#include "common/fault.h"
+#include "common/options.h"
 #include "daemon.h"
-#include "fault.h"
 #include "puck.h"
 
 using namespace spacenav;
@@ -40,87 +37,68 @@ constexpr double kLongestStep = 0.05;
 // Drops what the host has not read for so long that it would keep us here.
 constexpr int kPacketsARead = 4096;
 
-thread_local Fault unopened;
-
-// What is filled is no more than the host has room for.
-template <typename T>
-void hand_over(T filled, T *wanted) {
-  filled.struct_size = std::min(wanted->struct_size, static_cast<uint32_t>(sizeof filled));
-  std::memcpy(wanted, &filled, filled.struct_size);
-}
-
-const char *option(const mvs_driver_host *host, const char *key) {
-  return host->option ? host->option(host->host, key) : nullptr;
-}
-
-int32_t positive(const mvs_driver_host *host, const char *key, double &value) {
-  const char *text = option(host, key);
-  if (!text) return MVS_DRIVER_OK;
-  double given = 0;
-  const char *end = text + std::strlen(text);
-  const auto read = std::from_chars(text, end, given);
-  if (read.ec != std::errc() || read.ptr != end || !(given > 0 && given <= 10))
-    return unopened.set(MVS_DRIVER_E_OPTION,
-                        "option %s is '%.80s': give a number above 0, at most 10", key, text);
-  value = given;
-  return MVS_DRIVER_OK;
+const char *socket_of(const std::optional<std::string> &named) {
+  return named ? named->c_str() : nullptr;
 }
 
 int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
-  Daemon daemon;
-  std::string model;
-  int32_t buttons = 0;
-  const int32_t result = daemon.open(option(host, "socket"), unopened);
-  if (result == MVS_DRIVER_E_LIBRARY) return MVS_DRIVER_OK;  // no daemon, no device
-  if (result != MVS_DRIVER_OK) return result;
-  if (daemon.device(model, buttons)) found(user, kName, model.c_str());
-  if (daemon.protocol() == 0) found(user, kName, "3D mouse (if one is plugged in)");
-  return MVS_DRIVER_OK;
+  return driver::guarded([&] {
+    Daemon daemon;
+    Fault fault;
+    std::string model;
+    int32_t buttons = 0;
+    const auto named = driver::Options(host).text("socket");
+    const int32_t result = daemon.open(socket_of(named), fault);
+    if (result == MVS_DRIVER_E_LIBRARY) return;  // no daemon, no device
+    driver::must(result, fault);
+    if (daemon.device(model, buttons)) found(user, kName, model.c_str());
+    if (daemon.protocol() == 0) found(user, kName, "3D mouse (if one is plugged in)");
+  });
 }
 
 int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *user) {
-  Daemon daemon;
-  std::string model;
-  int32_t buttons = 0;
-  const int32_t result = daemon.open(option(host, "socket"), unopened);
-  if (result != MVS_DRIVER_OK) {
-    finding(user, 0, "daemon spacenavd", unopened.sentence);
-    return MVS_DRIVER_OK;
-  }
-  finding(user, 1, "daemon spacenavd", ("it answers at " + daemon.path()).c_str());
-  if (daemon.protocol() == 0) {
-    finding(user, -1, "3D mouse",
-            "this spacenavd is older than 1.0 and does not tell of devices: "
-            "if nothing moves, see /var/log/spnavd.log");
-  } else if (daemon.device(model, buttons)) {
+  return driver::guarded([&] {
+    Daemon daemon;
+    Fault fault;
+    std::string model;
+    int32_t buttons = 0;
+    const auto named = driver::Options(host).text("socket");
+    if (daemon.open(socket_of(named), fault) != MVS_DRIVER_OK)
+      return finding(user, 0, "daemon spacenavd", fault.sentence);
+    finding(user, 1, "daemon spacenavd", ("it answers at " + daemon.path()).c_str());
+    if (daemon.protocol() == 0)
+      return finding(user, -1, "3D mouse",
+                     "this spacenavd is older than 1.0 and does not tell of devices: if nothing "
+                     "moves, see /var/log/spnavd.log");
+    if (!daemon.device(model, buttons))
+      return finding(user, 0, "3D mouse",
+                     "spacenavd has found none: plug it in, and see /var/log/spnavd.log if it "
+                     "still does not");
     finding(user, 1, "3D mouse", (model + ", " + std::to_string(buttons) + " buttons").c_str());
-  } else {
-    finding(user, 0, "3D mouse",
-            "spacenavd has found none: plug it in, and see "
-            "/var/log/spnavd.log if it still does not");
-  }
-  return MVS_DRIVER_OK;
+  });
 }
 
 int32_t open_device(const mvs_driver_host *host, const char *name, mvs_driver_device **device) {
-  *device = nullptr;
-  if (name && std::strcmp(name, kName) != 0)
-    return unopened.set(MVS_DRIVER_E_ABSENT, "there is no 3D mouse '%.80s': it is called %s", name,
-                        kName);
-  Speeds speeds;
-  int32_t result = positive(host, "speed", speeds.move);
-  if (result == MVS_DRIVER_OK) result = positive(host, "turn", speeds.turn);
-  if (result != MVS_DRIVER_OK) return result;
-  auto opened = std::make_unique<mvs_driver_device>(speeds);
-  result = opened->daemon.open(option(host, "socket"), unopened);
-  if (result != MVS_DRIVER_OK) return result;
-  const bool found = opened->daemon.device(opened->model, opened->button_count);
-  if (!found && opened->daemon.protocol() > 0)
-    return unopened.set(MVS_DRIVER_E_ABSENT, "spacenavd at %s has no 3D mouse: plug one in",
-                        opened->daemon.path().c_str());
-  if (!found) opened->model = "3D mouse";
-  *device = opened.release();
-  return MVS_DRIVER_OK;
+  return driver::guarded([&] {
+    *device = nullptr;
+    if (name && std::strcmp(name, kName) != 0)
+      driver::refuse(MVS_DRIVER_E_ABSENT,
+                     std::string("there is no 3D mouse '") + name + "': it is called " + kName);
+    const driver::Options options(host);
+    Speeds speeds;
+    speeds.move = options.number("speed", speeds.move, 0.001, 1);
+    speeds.turn = options.number("turn", speeds.turn, 0.01, 10);
+    auto opened = std::make_unique<mvs_driver_device>(speeds);
+    Daemon &daemon = opened->daemon;
+    const auto named = options.text("socket");
+    driver::must(daemon.open(socket_of(named), opened->fault), opened->fault);
+    const bool found = daemon.device(opened->model, opened->button_count);
+    if (!found && daemon.protocol() > 0)
+      driver::refuse(MVS_DRIVER_E_ABSENT,
+                     "spacenavd at " + daemon.path() + " has no 3D mouse: plug one in");
+    if (!found) opened->model = "3D mouse";
+    *device = opened.release();
+  });
 }
 
 int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
@@ -132,7 +110,7 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
   told.max_speed = device->speeds.move;
   told.rate = 250;  // twice that of the mice: nothing is felt here, only seen
   device->model.copy(told.model, sizeof told.model - 1);
-  hand_over(told, wanted);
+  driver::give(told, wanted);
   return MVS_DRIVER_OK;
 }
 
@@ -190,7 +168,7 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *wante
   std::copy_n(device->puck.orientation(), 4, state.orientation);
   std::copy_n(device->puck.velocity(), 3, state.velocity);
   state.buttons = device->buttons;
-  hand_over(state, wanted);
+  driver::give(state, wanted);
   return MVS_DRIVER_OK;
 }
 
@@ -215,17 +193,7 @@ void close_device(mvs_driver_device *device) {
 }
 
 const char *error(const mvs_driver_device *device) {
-  return device ? device->fault.sentence : unopened.sentence;
-}
-
-// Nothing is thrown at the host; what may be thrown here is that there is no memory.
-template <auto function, typename... Arguments>
-int32_t guarded(Arguments... arguments) {
-  try {
-    return function(arguments...);
-  } catch (const std::exception &failure) {
-    return unopened.set(MVS_DRIVER_E_INTERNAL, "%s", failure.what());
-  }
+  return device ? device->fault.sentence : driver::last_sentence;
 }
 
 const char *const kOptions[] = {
@@ -235,16 +203,14 @@ const char *const kOptions[] = {
 }  // namespace
 
 int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
-  if (host->oldest > MVS_DRIVER_VERSION || host->newest < MVS_DRIVER_VERSION)
-    return MVS_DRIVER_E_VERSION;
   mvs_driver_api ours = {};
   ours.version = MVS_DRIVER_VERSION;
   ours.name = "spacenav";
   ours.about = "3D mice of 3Dconnexion (SpaceNavigator, SpaceMouse, ...), by spacenavd; no force";
   ours.options = kOptions;
-  ours.list = guarded<list, const mvs_driver_host *, mvs_driver_found, void *>;
-  ours.doctor = guarded<doctor, const mvs_driver_host *, mvs_driver_finding, void *>;
-  ours.open = guarded<open_device, const mvs_driver_host *, const char *, mvs_driver_device **>;
+  ours.list = list;
+  ours.doctor = doctor;
+  ours.open = open_device;
   ours.info = info;
   ours.calibrate = calibrate;
   ours.start = start;
@@ -253,6 +219,5 @@ int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
   ours.stop = stop;
   ours.close = close_device;
   ours.error = error;
-  hand_over(ours, api);
-  return MVS_DRIVER_OK;
+  return driver::negotiate(host, api, ours);
 }

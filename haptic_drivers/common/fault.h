@@ -1,0 +1,29 @@
+// Why a function failed: a code and its sentence, kept without allocating, for the device's rate.
+#pragma once
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "common/interface.h"
+
+namespace driver {
+
+struct Fault {
+  // Returns `code`.
+  [[gnu::format(printf, 3, 4)]] int32_t set(int32_t code, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    return code;
+  }
+
+  char sentence[400] = "";
+};
+
+// Turns a failure into a Refusal, where nothing hurries.
+inline void must(int32_t result, const Fault &fault) {
+  if (result != MVS_DRIVER_OK) refuse(result, fault.sentence);
+}
+
+}  // namespace driver
