@@ -157,13 +157,14 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *wante
                              ? 0
                              : static_cast<double>(now_ns - device->last_ns) * 1e-9;
   device->puck.step(std::min(seconds, kLongestStep));
+  const bool anew = device->sequence == 0 || now_ns != device->last_ns;
   device->last_ns = now_ns;
   const int32_t result = listen(*device);
   if (result != MVS_DRIVER_OK) return result;
   mvs_driver_state state = {};
   state.flags = MVS_DRIVER_CALIBRATED | MVS_DRIVER_VELOCITY;
   state.time_ns = now_ns;
-  state.sequence = ++device->sequence;
+  state.sequence = device->sequence += anew ? 1 : 0;
   std::copy_n(device->puck.position(), 3, state.position);
   std::copy_n(device->puck.orientation(), 4, state.orientation);
   std::copy_n(device->puck.velocity(), 3, state.velocity);

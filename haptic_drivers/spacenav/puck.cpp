@@ -30,9 +30,9 @@ void Puck::centre() {
 
 void Puck::step(double seconds) {
   for (int i = 0; i < 3; ++i) {
-    const double wanted = position_[i] + told_[i] * seconds;
-    position_[i] = std::clamp(wanted, -kReach, kReach);
-    velocity_[i] = position_[i] == wanted ? told_[i] : 0;
+    position_[i] = std::clamp(position_[i] + told_[i] * seconds, -kReach, kReach);
+    const bool at_wall = position_[i] == std::copysign(kReach, told_[i]);
+    velocity_[i] = at_wall ? 0 : told_[i];
   }
   turn(seconds);
 }

@@ -140,6 +140,8 @@ TEST_CASE("spacenav: a deflection is a speed, inside a box") {
   for (uint64_t i = 0; i < 100; ++i)
     REQUIRE_EQ(plug.read((1020 + 10 * i) * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.sequence, sequence + 100);
+  REQUIRE_EQ(plug.read(2010 * kMs, state), MVS_DRIVER_OK);  // the clock stands
+  CHECK_EQ(state.sequence, sequence + 100);
   CHECK_EQ(state.position[0], 0.05);
   CHECK_EQ(state.velocity[0], 0);
   daemon.motion({});
