@@ -195,6 +195,18 @@ TEST_CASE("motors_give_no_more_than_they_can") {
   CHECK((hand.state.flags & MVS_DRIVER_SATURATED) != 0);
   hand.plug.write(0, 3, 0);
   CHECK_EQ(hand.tick().flags & MVS_DRIVER_SATURATED, 0);
+  hand.plug.write(0, 3.001, 0);
+  CHECK_NE(hand.tick().flags & MVS_DRIVER_SATURATED, 0);
+}
+
+TEST_CASE("motors_that_the_device_switched_off_are_not_felt") {
+  for (const std::string fault : {"hot", "button"}) {
+    Hand hand(ideal({{"fault", fault}, {"fault_for", "0.01"}}));
+    for (int ms = 1; ms <= 20; ++ms) {
+      hand.plug.write(1, 0, 0);
+      CHECK_EQ(hand.tick().position[0] == 0, ms <= 10);
+    }
+  }
 }
 
 TEST_CASE("a_force_that_is_no_number_moves_nothing_and_is_told_of") {
