@@ -122,7 +122,7 @@ void Daemon::close() {
 }
 
 bool Daemon::device(std::string &name, int32_t &buttons) {
-  Packet packet;
+  Packet packet = {};
   name.clear();
   buttons = 2;
   if (!ask(kDeviceName, packet) || packet.data[6] < 0) return false;
