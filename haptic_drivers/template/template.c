@@ -1,7 +1,7 @@
 /* A driver to copy: one device, at rest in the middle of its workspace, that works as it is.
  *
  * 1. Copy the folder, put your name for `template` here and in its CMakeLists.txt; build; now
- *    `mvs haptics test --driver YOURS` runs.
+ *    `mvs haptics list` names it.
  * 2. Make the five functions of "the hardware" talk to your device. Convert there: to m, m/s, N,
  *    rad, and the device's own right-handed axes. Everything below may then stay.
  * 3. Fill describe() with your device's limits. They keep the hand safe: rather too small.
