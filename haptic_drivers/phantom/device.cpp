@@ -1,14 +1,14 @@
 // Opens a device, says what it is, calibrates it, closes it.
 #include "device.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <memory>
 #include <thread>
 #include <vector>
 
-#include "../vendor/locale.h"
+#include "common/interface.h"
+#include "common/locale.h"
 #include "words.h"
 
 namespace phantom {
@@ -137,7 +137,7 @@ int32_t open_locked(const mvs_driver_host *host, const char *name, mvs_driver_de
   device->host = host;
   device->name = name ? name : "";
   device->slot = slot;
-  const vendor::DecimalPoint point;
+  const driver::DecimalPoint point;
   unsigned code = 0;
   device->handle = init(device->name, code);
   if (device->handle == kInvalidHandle) {
@@ -157,7 +157,7 @@ int32_t open_locked(const mvs_driver_host *host, const char *name, mvs_driver_de
 
 // The library is free, and the device current.
 int32_t calibrate_locked(mvs_driver_device &device) {
-  const vendor::DecimalPoint point;
+  const driver::DecimalPoint point;
   hd().make_current(device.handle);
   take_errors(hd());
   unsigned state = hd().check_calibration();
@@ -187,7 +187,7 @@ void stop_all(unsigned) {
   hd().stop_scheduler();
 }
 void disable(unsigned handle) {
-  const vendor::DecimalPoint point;
+  const driver::DecimalPoint point;
   hd().disable_device(handle);
   take_errors(hd());
 }
@@ -219,9 +219,7 @@ int32_t open(const mvs_driver_host *host, const char *name, mvs_driver_device **
 }
 
 int32_t info(mvs_driver_device *device, mvs_driver_info *out) {
-  const uint32_t size = out->struct_size;
-  std::memcpy(out, &device->info, std::min<size_t>(size, sizeof *out));
-  out->struct_size = size;
+  driver::give(device->info, out);
   return MVS_DRIVER_OK;
 }
 

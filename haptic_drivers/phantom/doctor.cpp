@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <set>
 
-#include "../vendor/library.h"
-#include "../vendor/locale.h"
-#include "../vendor/sentence.h"
-#include "../vendor/usb.h"
+#include "common/library.h"
+#include "common/locale.h"
+#include "common/sentence.h"
+#include "common/usb.h"
 #include "device.h"
 #include "words.h"
 
@@ -16,8 +16,8 @@ namespace {
 std::vector<std::string> configured() {
   namespace fs = std::filesystem;
   std::set<std::string> names;
-  for (const std::string &folder : {vendor::below_variable("GTDD_HOME", "/config"),
-                                    vendor::below_variable("HOME", "/.3dsystems/config")}) {
+  for (const std::string &folder : {driver::below_variable("GTDD_HOME", "/config"),
+                                    driver::below_variable("HOME", "/.3dsystems/config")}) {
     std::error_code ignored;
     if (folder.empty()) continue;
     for (const auto &entry : fs::directory_iterator(folder, ignored))
@@ -44,7 +44,7 @@ void check_dependencies(const Finder &finder) {
       {"libtinfo.so.5", "apt-get install libtinfo5 (Debian 12 is the last to have it)"},
       {"libPhantomIOLib42.so", "install the vendor's device driver, which brings it"}};
   for (const auto &one : needed) {
-    const bool good = vendor::load({one.name}).handle;
+    const bool good = driver::load({one.name}).handle;
     finder.say(good ? 1 : 0, std::string("library ") + one.name,
                good ? "it is there" : std::string("libHD.so needs it: ") + one.cure);
   }
@@ -64,7 +64,7 @@ bool check_library(const mvs_driver_host *host, const Finder &finder) {
 }
 
 void check_usb(const mvs_driver_host *host, const Finder &finder) {
-  const auto devices = vendor::usb_devices(option(host, "sysroot"), {"2988:"});
+  const auto devices = driver::usb_devices(option(host, "sysroot"), {"2988:"});
   if (devices.empty())
     finder.say(-1, "USB",
                "no device of 3D Systems (2988:*) is plugged in; one on FireWire or "
@@ -81,7 +81,7 @@ void check_usb(const mvs_driver_host *host, const Finder &finder) {
 }
 
 void check_locale(const Finder &finder) {
-  const bool comma = std::string(vendor::decimal_point()) != ".";
+  const bool comma = std::string(driver::decimal_point()) != ".";
   finder.say(1, "locale",
              comma ? "numbers have a decimal comma here, with which OpenHaptics reads its own "
                      "files wrongly: this driver has it read them with a point"
@@ -99,7 +99,7 @@ void check_device(const mvs_driver_host *host, const Finder &finder, const std::
   }
   const mvs_driver_info &info = device->info;
   finder.say(1, check,
-             vendor::sentence("%s, serial %s, firmware %s: %.2g N (%.2g N for ever) at %.0f Hz",
+             driver::sentence("%s, serial %s, firmware %s: %.2g N (%.2g N for ever) at %.0f Hz",
                               info.model, info.serial, info.firmware, info.peak_force,
                               info.continuous_force, info.rate));
   const bool good = calibrate(device) == MVS_DRIVER_OK;

@@ -1,14 +1,14 @@
 #include "hdapi.h"
 
-#include "../vendor/library.h"
-#include "../vendor/sentence.h"
+#include "common/library.h"
+#include "common/sentence.h"
 
 namespace phantom {
 
 std::string bind(void *library, Hdapi &hd) {
   std::string missing;
   const auto take = [&](const char *name, auto &function) {
-    vendor::bind(library, name, function, missing);
+    driver::bind(library, name, function, missing);
   };
   take("hdInitDevice", hd.init_device);
   take("hdDisableDevice", hd.disable_device);
@@ -48,7 +48,7 @@ ErrorInfo take_errors(const Hdapi &hd) {
 
 std::string describe(const Hdapi &hd, unsigned code) {
   const char *const words = hd.error_string(code);
-  return vendor::sentence("%s (0x%03x)", words ? words : "error", code);
+  return driver::sentence("%s (0x%03x)", words ? words : "error", code);
 }
 
 }  // namespace phantom

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "../vendor/locale.h"
-#include "../vendor/sentence.h"
+#include "common/locale.h"
+#include "common/sentence.h"
 #include "device.h"
 #include "words.h"
 
@@ -41,13 +41,13 @@ unsigned long rate_of(const mvs_driver_device &device) {
 
 int32_t begin_locked(mvs_driver_device &device) {
   Shared &all = shared();
-  const vendor::DecimalPoint point;
+  const driver::DecimalPoint point;
   take_errors(hd());
   const unsigned long rate = rate_of(device);
   if (rate && all.running == 0) hd().set_scheduler_rate(rate);
   if (const unsigned code = take_errors(hd()).code)
     return fail(device.sentence, MVS_DRIVER_E_OPTION,
-                vendor::sentence("rate=%lu: this device does not run at that: %s", rate,
+                driver::sentence("rate=%lu: this device does not run at that: %s", rate,
                                  describe(hd(), code).c_str()));
   const unsigned long ticket = hd().schedule(tick, &device, kHighestPriority);
   unsigned code = take_errors(hd()).code;
@@ -108,7 +108,7 @@ int32_t finish(mvs_driver_device &device, bool answered) {
     device.quit = true;
     device.loop.result = MVS_DRIVER_E_LOST;
     return fail(device.sentence, MVS_DRIVER_E_LOST,
-                vendor::sentence("OpenHaptics has not called for %u ms: %s is gone or its driver "
+                driver::sentence("OpenHaptics has not called for %u ms: %s is gone or its driver "
                                  "hangs. Unplug it, plug it in, and open it again",
                                  MVS_DRIVER_PATIENCE_MS, device.info.model));
   }

@@ -1,7 +1,5 @@
 // The driver's one symbol: the table of its functions.
-#include <algorithm>
-#include <cstring>
-
+#include "common/interface.h"
 #include "device.h"
 
 namespace {
@@ -19,25 +17,20 @@ const char *error(const mvs_driver_device *device) {
 }  // namespace
 
 int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
-  if (!host || !api || host->oldest > MVS_DRIVER_VERSION || host->newest < MVS_DRIVER_VERSION)
-    return MVS_DRIVER_E_VERSION;
-  mvs_driver_api mine = {};
-  mine.struct_size = uint32_t(std::min<size_t>(api->struct_size, sizeof mine));
-  mine.version = MVS_DRIVER_VERSION;
-  mine.name = "phantom";
-  mine.about = "Phantom, Omni and Touch of 3D Systems (SensAble), through OpenHaptics";
-  mine.options = kOptions;
-  mine.list = phantom::list;
-  mine.doctor = phantom::doctor;
-  mine.open = phantom::open;
-  mine.info = phantom::info;
-  mine.calibrate = phantom::calibrate;
-  mine.start = phantom::start;
-  mine.run = phantom::run;
-  mine.stop = phantom::stop;
-  mine.panic = phantom::panic;
-  mine.close = phantom::close;
-  mine.error = error;
-  std::memcpy(api, &mine, mine.struct_size);
-  return MVS_DRIVER_OK;
+  mvs_driver_api ours = {};
+  ours.name = "phantom";
+  ours.about = "Phantom, Omni and Touch of 3D Systems (SensAble), through OpenHaptics";
+  ours.options = kOptions;
+  ours.list = phantom::list;
+  ours.doctor = phantom::doctor;
+  ours.open = phantom::open;
+  ours.info = phantom::info;
+  ours.calibrate = phantom::calibrate;
+  ours.start = phantom::start;
+  ours.run = phantom::run;
+  ours.stop = phantom::stop;
+  ours.panic = phantom::panic;
+  ours.close = phantom::close;
+  ours.error = error;
+  return driver::negotiate(host, api, ours);
 }

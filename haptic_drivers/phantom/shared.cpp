@@ -3,9 +3,9 @@
 #include <memory>
 #include <thread>
 
-#include "../vendor/library.h"
-#include "../vendor/locale.h"
-#include "../vendor/sentence.h"
+#include "common/library.h"
+#include "common/locale.h"
+#include "common/sentence.h"
 #include "device.h"
 #include "words.h"
 
@@ -14,8 +14,8 @@ namespace {
 
 std::vector<std::string> candidates(const std::string &chosen) {
   if (!chosen.empty()) return {chosen};
-  return {vendor::below_variable("OH_SDK_BASE", "/lib/libHD.so"),
-          vendor::below_variable("OH_SDK_BASE", "/usr/lib/libHD.so"),
+  return {driver::below_variable("OH_SDK_BASE", "/lib/libHD.so"),
+          driver::below_variable("OH_SDK_BASE", "/usr/lib/libHD.so"),
           "libHD.so.3.4",
           "libHD.so.3",
           "libHD.so",
@@ -27,7 +27,7 @@ std::vector<std::string> candidates(const std::string &chosen) {
 
 // Another path than that of the library that is loaded already.
 int32_t compare_with_loaded(const std::string &chosen, std::string &sentence) {
-  const vendor::Library other = vendor::load({chosen});
+  const driver::Library other = driver::load({chosen});
   if (!other.handle)
     return fail(sentence, MVS_DRIVER_E_LIBRARY, explain_load(chosen, other.there, other.why));
   if (other.handle == shared().library) return MVS_DRIVER_OK;
@@ -66,8 +66,8 @@ int32_t load(const mvs_driver_host *host, std::string &sentence) {
     return fail(sentence, MVS_DRIVER_E_FAULT,
                 "OpenHaptics did not come back from its last call: start this program again");
   if (all.library) return chosen.empty() ? MVS_DRIVER_OK : compare_with_loaded(chosen, sentence);
-  const vendor::DecimalPoint point;
-  const vendor::Library one = vendor::load(candidates(chosen));
+  const driver::DecimalPoint point;
+  const driver::Library one = driver::load(candidates(chosen));
   if (!one.handle)
     return fail(sentence, MVS_DRIVER_E_LIBRARY, explain_load(one.path, one.there, one.why));
   Hdapi hd = {};

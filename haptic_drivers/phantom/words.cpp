@@ -2,19 +2,19 @@
 
 #include <mvs/driver.h>
 
-#include "../vendor/sentence.h"
-#include "../vendor/usb.h"
+#include "common/sentence.h"
+#include "common/usb.h"
 #include "hdapi.h"
 
 namespace phantom {
 namespace {
 
-using vendor::sentence;
+using driver::sentence;
 
 // Silence has three reasons, and only the USB bus tells which: it is not plugged in, it is and we
 // may not, it is and we may.
 int32_t explain_silence(const std::string &who, const std::string &sysroot, std::string &out) {
-  const auto devices = vendor::usb_devices(sysroot, {"2988:"});
+  const auto devices = driver::usb_devices(sysroot, {"2988:"});
   for (const auto &device : devices) {
     if (device.closed.empty()) continue;
     out = sentence(

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace vendor {
+namespace driver {
 
 struct Library {
   void *handle = nullptr;  // null: nothing was loaded; never closed, some do not bear it
@@ -32,4 +32,4 @@ bool bind(void *library, const char *name, Function &function, std::string &miss
   return function != nullptr;
 }
 
-}  // namespace vendor
+}  // namespace driver

@@ -1,4 +1,4 @@
-#include "usb.h"
+#include "common/usb.h"
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace vendor {
+namespace driver {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ std::vector<UsbDevice> usb_devices(const std::string &root, const std::vector<st
   return found;
 }
 
-}  // namespace vendor
+}  // namespace driver

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-namespace vendor {
+namespace driver {
 
 [[gnu::format(printf, 1, 2)]] inline std::string sentence(const char *format, ...) {
   char text[1024];
@@ -15,4 +15,4 @@ namespace vendor {
   return text;
 }
 
-}  // namespace vendor
+}  // namespace driver

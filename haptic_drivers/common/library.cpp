@@ -1,11 +1,11 @@
-#include "library.h"
+#include "common/library.h"
 
 #include <dlfcn.h>
 #include <unistd.h>
 
 #include <cstdlib>
 
-namespace vendor {
+namespace driver {
 namespace {
 
 bool is_absolute(const std::string &path) {
@@ -57,4 +57,4 @@ void *symbol(void *library, const char *name) {
   return dlsym(library, name);
 }
 
-}  // namespace vendor
+}  // namespace driver

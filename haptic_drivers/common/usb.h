@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace vendor {
+namespace driver {
 
 struct UsbDevice {
   std::string id;      // "2988:0304"
@@ -15,4 +15,4 @@ struct UsbDevice {
 // and /dev, "" but in tests.
 std::vector<UsbDevice> usb_devices(const std::string &root, const std::vector<std::string> &ids);
 
-}  // namespace vendor
+}  // namespace driver

@@ -5,7 +5,7 @@
 #include <locale.h>
 #endif
 
-namespace vendor {
+namespace driver {
 
 // Vendors' libraries read their files with strtod and scanf, which in a German locale stop at the
 // point of "0.5": the first numbers of a device are then zero. uselocale changes the calling thread
@@ -49,4 +49,4 @@ inline const char *decimal_point() {
   return std::localeconv()->decimal_point;
 }
 
-}  // namespace vendor
+}  // namespace driver
