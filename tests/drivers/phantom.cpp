@@ -54,7 +54,7 @@ struct Bench {
     REQUIRE_MESSAGE(plug.api.start(plug.device) == MVS_DRIVER_OK, plug.error());
   }
   bool was_zero(int device, long frame) const {
-    for (const double one : in.forces[device][frame])
+    for (const double one : in.forces[device][frame % HdStandIn::kKept])
       if (one != 0) return false;
     return true;
   }
@@ -96,9 +96,8 @@ TEST_CASE("phantom_knows_its_version_only") {
   CHECK(negotiate(&newer, &api) == MVS_DRIVER_E_VERSION);
   mvs_driver_host host = {sizeof host, 1, 1, 0, nullptr, nullptr, nullptr};
   api.struct_size = 24;
-  CHECK(negotiate(&host, &api) == MVS_DRIVER_OK);
-  CHECK(api.struct_size == 24);
-  CHECK_MESSAGE(!api.open, "it wrote further than it may");
+  CHECK_MESSAGE(negotiate(&host, &api) == MVS_DRIVER_E_VERSION, "no room for the first version");
+  CHECK(!api.open);
 }
 
 TEST_CASE("phantom_says_which_library_is_missing") {

@@ -144,8 +144,8 @@ void commit(unsigned handle, Device &device) {
     raise(0x201, handle);
   HdStandIn &in = told();
   const long frame = in.frames[handle];
-  if (frame < HdStandIn::kKept)
-    for (int i = 0; i < 6; ++i) in.forces[handle][frame][i] = device.force[i] * scale;
+  for (int i = 0; i < 6; ++i)
+    in.forces[handle][frame % HdStandIn::kKept][i] = device.force[i] * scale;
   ++in.frames[handle];
 }
 

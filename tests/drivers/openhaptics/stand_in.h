@@ -26,7 +26,7 @@ struct HdStandIn {
   // What was seen, of device 0 ("Default Device") and 1 ("Phantom2").
   std::atomic<long> ticks{0};
   std::atomic<long> frames[kDevices] = {};   // in the scheduler
-  double forces[kDevices][kKept][6] = {};    // N and mN m that the motors gave in each of them
+  double forces[kDevices][kKept][6] = {};    // N and mN m in each of them; the last kKept
   std::atomic<long> misuses{0};              // calls that HDAPI forbids, numbers that are none
   std::atomic<const char *> misuse{""};      // the last one
   std::atomic<long> enabled[kDevices] = {};  // bits of hdEnable: 1 << (capability - 0x4000)
