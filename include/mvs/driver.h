@@ -165,7 +165,8 @@ typedef struct mvs_driver_api {
   uint32_t version;  /* the one that the driver speaks, of those that the host offered */
   const char *name;  /* of the driver, as the application asks for it: "phantom" */
   const char *about; /* one line: which devices */
-  /* The options that it knows, "key: what it means", ended by null. Nullable: none. */
+  /* Every option that it knows, an entry for each, "key: what it means", ended by null; libmvs
+   * refuses others. Nullable: none. */
   const char *const *options;
 
   /* Names every device that is there; quick, and without moving any. Nullable: open() takes none.

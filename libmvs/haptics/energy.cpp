@@ -6,9 +6,10 @@
 namespace mvs {
 
 // What the loop took out of its own is not saved for later: a store could be spent all at once.
-void EnergyObserver::take_step(const Vec3 &step, const Vec3 &felt, const Vec3 &before,
-                               const Vec3 &now) {
-  energy_ = std::max(0.0, energy_ + (felt - 0.5 * (before + now)).dot(step));
+void EnergyObserver::take_step(const Vec3 &step, const std::array<Vec3, 2> &told,
+                               const Vec3 &before, const Vec3 &now) {
+  const double given = std::max(told[0].dot(step), told[1].dot(step));
+  energy_ = std::max(0.0, energy_ + given - 0.5 * (before + now).dot(step));
 }
 
 // The old model said that it worked W_old on the way from its origin to here. The simulation worked

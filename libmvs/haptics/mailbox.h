@@ -88,7 +88,7 @@ class Trace {
       for (size_t k = 0; k < words; ++k) bits[k] = place[k].load(std::memory_order_acquire);
       // the writer may be at work on the place of value `end_`
       if (end_.load(std::memory_order_acquire) - next_ >= Size) continue;
-      std::memcpy(&value, bits.data(), sizeof value);
+      std::memcpy(static_cast<void *>(&value), bits.data(), sizeof value);
       ++next_;
       return true;
     }

@@ -27,7 +27,7 @@ void Servo::start() {
   buttons_.start();
   guard_.start();
   energy_.forget();
-  field_ = force_ = Vec3::Zero();
+  field_ = force_ = before_ = Vec3::Zero();
   has_tissue_ = false;
   picture_ = {};
   picture_.rate = traits_->info.rate;
@@ -44,7 +44,7 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
   if (dt > 0) {
     // the force since the last sample against the field at both ends of the way
     uint32_t unused = 0;
-    energy_.take_step(hand - at_, force_, field_, rendered(wanted(), unused));
+    energy_.take_step(hand - at_, {force_, before_}, field_, rendered(wanted(), unused));
     heat_.spend(force_, dt, limits_);
   }
   at_ = hand;
@@ -52,6 +52,7 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
   take_news();
   const bool may_feel = picture_.model_age <= limits_.stale_s && !watch_.is_parked();
   share_ = guard_.share({watch_.cause(), may_feel, wanted().norm(), watch_.passed()}, limits_);
+  before_ = force_;
   force_ = limited();
   tell(force);
   publish(sample);

@@ -57,7 +57,8 @@ class Servo {
   EnergyObserver energy_;
   Tissue tissue_;
   Vec3 field_ = Vec3::Zero();  // what tissue and wall give at the last sample, as it is rendered
-  Vec3 force_ = Vec3::Zero();  // what the hand feels
+  Vec3 force_ = Vec3::Zero();  // what the motors were told last
+  Vec3 before_ = Vec3::Zero();  // and before that
   Vec3 at_ = Vec3::Zero();     // where the hand was at the last tick
   double share_ = 0;
   uint32_t bits_ = 0;  // MVS_LIMITED_*

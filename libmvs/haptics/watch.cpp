@@ -60,10 +60,11 @@ void Watch::take_time(const mvs_driver_state &sample) {
   }
   passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
-  silent_ += passed_;
+  // a clock that stands still says nothing about how long: then ticks do
+  silent_ += passed_ > 0 ? passed_ : 1 / traits_->info.rate;
   if (has_pose_ && sample.sequence == sequence_) return;
   sequence_ = sample.sequence;
-  dt_ = silent_;
+  dt_ = passed_ > 0 ? silent_ : 0;
   if (silent_ > patience) blame(MVS_CAUSE_WATCHDOG);
   silent_ = 0;
 }

@@ -18,10 +18,11 @@ struct Worker::Shared {
     for (;;) {
       changed.wait(lock, [&] { return over || work; });
       if (!work) return;
-      const std::function<void()> now = std::move(work);
+      std::function<void()> now = std::move(work);
       work = nullptr;
       lock.unlock();
       now();
+      now = nullptr;  // it may own who owns this worker: not with the lock held
       lock.lock();
       busy = false;
       changed.notify_all();

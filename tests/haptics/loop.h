@@ -1,0 +1,67 @@
+// A simulated hand in the loop of the servo, on a virtual clock; the tissue is whatever a test
+// says.
+#pragma once
+
+#include <string>
+
+#include "haptics/device.h"
+
+namespace mvs {
+
+class Loop {
+ public:
+  explicit Loop(const std::string &options)
+      : options_(options), device_(description(options_), {}) {
+    device_.start();
+  }
+
+  Device &device() { return device_; }
+  ServoPicture run(double seconds) {
+    device_.advance(seconds);
+    return device_.picture();
+  }
+  ServoPicture run_stopped() { return device_.picture(); }
+  void post(Tissue tissue) {
+    tissue.number = ++number_;
+    device_.links().tissue.post(tissue);
+  }
+  // Forces on: the gate and the ramp behind it.
+  void arm() {
+    device_.advance(5e-3);
+    device_.arm();
+    post({});
+    mvs_device_limits limits = {};
+    limits.ramp_s = 0.01;
+    limits.stale_s = 10;
+    device_.set_limits(limits);
+    device_.advance(0.03);
+  }
+  double period() const { return 1 / device_.info().rate; }
+
+ private:
+  static mvs_device_desc description(const std::string &options) {
+    mvs_device_desc desc = {};
+    desc.struct_size = sizeof desc;
+    desc.clock = MVS_CLOCK_VIRTUAL;
+    desc.driver = MVS_DRIVERS_DIR "/hand.so";
+    desc.options = options.c_str();
+    return desc;
+  }
+
+  std::string options_;
+  Device device_;
+  uint64_t number_ = 0;
+};
+
+// A spring to a place, as a grasp of something that does not move.
+inline Tissue spring(double stiffness, const Vec3 &to = Vec3::Zero()) {
+  Tissue tissue;
+  tissue.kind = Tissue::held;
+  tissue.contact = 1;
+  tissue.origin = to;
+  tissue.stiffness = stiffness * Mat3::Identity();
+  tissue.most = 1000;
+  return tissue;
+}
+
+}  // namespace mvs

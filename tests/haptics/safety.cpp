@@ -1,0 +1,270 @@
+// Each fault of a device ends in zero force and a named cause, and in nothing else; forces begin by
+// gate and ramp, stay below their limits, and fade when nothing new is heard of the tissue.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/error.h"
+#include "loop.h"
+
+using namespace mvs;
+
+namespace {
+
+// A Touch held at rest 2 mm from the middle, in a spring that pulls it back.
+constexpr char at_rest[] = "device=touch\nfrom=0.002,0,0\ntarget=0.002,0,0\nresolution=0\n";
+
+bool can_arm(Loop &loop) {
+  try {
+    loop.device().arm();
+    return true;
+  } catch (const Error &error) {
+    CHECK_EQ(error.code, MVS_E_DEVICE);
+    CHECK_GT(std::string(error.what()).size(), 20);
+    return false;
+  }
+}
+
+void check_felt(const ServoPicture &now) {
+  CHECK_EQ(now.phase, MVS_DEVICE_ON);
+  CHECK_LT(now.force.x(), -0.05);
+}
+
+}  // namespace
+
+TEST_CASE("every fault of the list latches forces off, and only an arm brings them back") {
+  struct Fault {
+    const char *name;
+    uint32_t cause;
+    bool passes;  // it is over after a while, and the device can be armed again
+  };
+  const Fault faults[] = {{"nan_position", MVS_CAUSE_NOT_FINITE, true},
+                          {"inf_velocity", MVS_CAUSE_NOT_FINITE, true},
+                          {"jump", MVS_CAUSE_VELOCITY, true},
+                          {"unplug", MVS_CAUSE_UNPLUGGED, false},
+                          {"silent", MVS_CAUSE_WATCHDOG, true},
+                          {"uncalibrated", MVS_CAUSE_CALIBRATION, true},
+                          {"hot", MVS_CAUSE_THERMAL, true},
+                          {"button", MVS_CAUSE_BUTTON, true},
+                          {"deadman", MVS_CAUSE_DEADMAN, true},
+                          {"clock_back", MVS_CAUSE_WATCHDOG, true},
+                          {"clock_jump", MVS_CAUSE_WATCHDOG, true}};
+  for (const Fault &fault : faults) {
+    CAPTURE(fault.name);
+    Loop loop(std::string(at_rest) + "fault=" + fault.name + "\nfault_at=1\nfault_for=0.5");
+    loop.arm();
+    loop.post(spring(200));
+    check_felt(loop.run(0.9));
+    const ServoPicture during = loop.run(0.4);
+    CHECK_EQ(during.phase, MVS_DEVICE_LATCHED);
+    CHECK_EQ(during.cause, fault.cause);
+    CHECK(during.force.isZero(0));
+    const ServoPicture after = loop.run(0.5);
+    CHECK_EQ(after.phase, MVS_DEVICE_LATCHED);
+    CHECK_EQ(after.cause, fault.cause);
+    CHECK(after.force.isZero(0));
+    CHECK_EQ(can_arm(loop), fault.passes);
+    if (fault.passes) {
+      loop.post({});
+      loop.run(0.05);
+      loop.post(spring(200));
+      check_felt(loop.run(0.2));
+    }
+  }
+}
+
+TEST_CASE("while a fault lasts a device cannot be armed") {
+  for (const char *fault : {"nan_position", "silent", "uncalibrated", "hot", "button", "deadman"}) {
+    CAPTURE(fault);
+    Loop loop(std::string(at_rest) + "fault=" + fault + "\nfault_at=0.2");
+    loop.run(0.5);
+    CHECK_FALSE(can_arm(loop));
+    CHECK(loop.run(0.1).force.isZero(0));
+  }
+}
+
+TEST_CASE("saturated motors are told, and nothing else happens") {
+  Loop loop(std::string(at_rest) + "fault=saturated\nfault_at=0.1");
+  loop.arm();
+  loop.post(spring(200));
+  const ServoPicture now = loop.run(0.5);
+  check_felt(now);
+  CHECK((now.flags & MVS_DRIVER_SATURATED) != 0);
+}
+
+TEST_CASE("a button that is stuck from the start is no press, one that bounces changes nothing") {
+  for (const char *buttons : {"buttons=1", "fault=bounce", "fault=stuck_button"}) {
+    CAPTURE(buttons);
+    Loop loop(std::string(at_rest) + buttons);
+    loop.run(1);
+    ButtonEvent event;
+    CHECK_FALSE(loop.device().links().buttons.pop(event));
+    CHECK_EQ(loop.run(0).buttons, 0);
+  }
+}
+
+TEST_CASE("a button is told once, when it has settled, and once when it is let go") {
+  Loop loop(std::string(at_rest) + "fault=stuck_button\nfault_at=0.5\nfault_for=0.5");
+  ButtonEvent event;
+  loop.run(0.505);
+  CHECK_FALSE(loop.device().links().buttons.pop(event));
+  loop.run(0.02);
+  REQUIRE(loop.device().links().buttons.pop(event));
+  CHECK_EQ(event.buttons, 1);
+  CHECK_EQ(event.position.x(), doctest::Approx(0.002));
+  loop.run(1);
+  REQUIRE(loop.device().links().buttons.pop(event));
+  CHECK_EQ(event.buttons, 0);
+  CHECK_FALSE(loop.device().links().buttons.pop(event));
+}
+
+TEST_CASE("forces wait behind the gate, then come up along the ramp") {
+  Loop loop(at_rest);
+  loop.run(0.01);
+  mvs_device_limits limits = {};
+  limits.ramp_s = 0.5;
+  limits.stale_s = 10;
+  loop.device().set_limits(limits);
+  loop.post(spring(200));  // 0.4 N at 2 mm, above the gate of 0.2
+  loop.device().arm();
+  const ServoPicture waiting = loop.run(0.5);
+  CHECK_EQ(waiting.phase, MVS_DEVICE_WAITING);
+  CHECK(waiting.force.isZero(0));
+  loop.post(spring(80));
+  loop.run(0.01);
+  double before = 0;
+  for (int k = 0; k < 48; ++k) {
+    const ServoPicture now = loop.run(0.01);
+    const double force = now.force.norm();
+    CHECK_EQ(now.phase, MVS_DEVICE_RAMPING);
+    // a fiftieth of the force each 10 ms, and what the hand moves meanwhile
+    CHECK_GT(force, before);
+    CHECK_LT(force - before, 2.0 / 50 * 80 * 0.002);
+    before = force;
+  }
+  CHECK_EQ(loop.run(0.05).phase, MVS_DEVICE_ON);
+}
+
+TEST_CASE("a force is clamped to what the user allows, and changes no faster than that") {
+  Loop loop(at_rest);
+  loop.arm();
+  mvs_device_limits limits = {};
+  limits.force = 0.3;
+  limits.slew = 2;
+  limits.ramp_s = 0.01;
+  limits.stale_s = 10;
+  loop.device().set_limits(limits);
+  Tissue pull;
+  pull.kind = Tissue::pulled;
+  pull.contact = 1;
+  pull.force = Vec3(0, 50, 0);
+  pull.most = 100;
+  loop.post(pull);
+  Vec3 before = Vec3::Zero();
+  uint32_t limited = 0;
+  for (int k = 0; k < 400; ++k) {
+    const ServoPicture now = loop.run(1e-3);
+    CHECK_LE((now.force - before).norm(), 2e-3 * (1 + 1e-9));
+    CHECK_LE(now.force.norm(), 0.3 * (1 + 1e-9));
+    before = now.force;
+    limited |= now.limited;
+  }
+  CHECK_EQ(before.norm(), doctest::Approx(0.3));
+  CHECK((limited & MVS_LIMITED_FORCE) != 0);
+  CHECK((limited & MVS_LIMITED_SLEW) != 0);
+}
+
+TEST_CASE("motors are not asked for more than they bear") {
+  Loop loop(at_rest);
+  loop.arm();
+  mvs_device_limits limits = {};
+  limits.thermal_s = 1;
+  limits.ramp_s = 0.01;
+  limits.stale_s = 10;
+  limits.speed = 100;
+  loop.device().set_limits(limits);
+  Tissue pull;
+  pull.kind = Tissue::pulled;
+  pull.contact = 1;
+  pull.force = Vec3(-10, 0, 0);
+  pull.most = 100;
+  loop.post(pull);
+  const double at_first = loop.run(0.03).force.norm();
+  CHECK_GT(at_first, 2.5);
+  // where the limit and the mean square of the force meet: the continuous force, 0.88 N
+  ServoPicture hot;
+  for (int k = 0; k < 4; ++k) {
+    loop.post(pull);
+    hot = loop.run(5);
+  }
+  CHECK_EQ(hot.force.norm(), doctest::Approx(0.88).epsilon(0.01));
+  CHECK_EQ(hot.heat, doctest::Approx(1).epsilon(0.02));
+  CHECK((hot.limited & MVS_LIMITED_CONTINUOUS) != 0);
+}
+
+TEST_CASE("forces fade when the simulation stands still, and come back with it") {
+  Loop loop(at_rest);
+  loop.arm();
+  mvs_device_limits limits = {};
+  limits.ramp_s = 0.01;
+  loop.device().set_limits(limits);  // stale after 0.1 s, faded after 0.05 more
+  loop.post(spring(200));
+  check_felt(loop.run(0.09));
+  const ServoPicture fading = loop.run(0.03);
+  CHECK_EQ(fading.phase, MVS_DEVICE_FADED);
+  CHECK_GT(fading.force.norm(), 0);
+  CHECK(loop.run(0.1).force.isZero(1e-12));
+  loop.post(spring(200));
+  loop.run(0.09);
+  loop.post(spring(200));
+  loop.run(0.09);
+  loop.post(spring(200));
+  check_felt(loop.run(0.05));
+}
+
+TEST_CASE("a tissue that is no number latches, and never reaches the motors") {
+  for (int where = 0; where < 4; ++where) {
+    CAPTURE(where);
+    Loop loop(at_rest);
+    loop.arm();
+    loop.post(spring(200));
+    check_felt(loop.run(0.1));
+    Tissue wrong = spring(200);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (where == 0) wrong.force.x() = nan;
+    if (where == 1) wrong.stiffness(1, 2) = std::numeric_limits<double>::infinity();
+    if (where == 2) wrong.origin.z() = nan;
+    if (where == 3) wrong.most = nan;
+    loop.post(wrong);
+    const ServoPicture now = loop.run(0.01);
+    CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
+    CHECK_EQ(now.cause, MVS_CAUSE_NOT_FINITE);
+    CHECK(now.force.isZero(0));
+  }
+}
+
+TEST_CASE("the application's cut works from anywhere, and a stop and start does not undo it") {
+  Loop loop(at_rest);
+  loop.arm();
+  loop.post(spring(200));
+  check_felt(loop.run(0.1));
+  loop.device().cut();
+  const ServoPicture now = loop.run(1e-3);
+  CHECK_EQ(now.cause, MVS_CAUSE_SOFTWARE);
+  CHECK(now.force.isZero(0));
+  loop.device().stop();
+  CHECK_EQ(loop.run_stopped().phase, MVS_DEVICE_STOPPED);
+  loop.device().start();
+  CHECK(loop.run(0.1).force.isZero(0));
+  CHECK_EQ(loop.run(0).phase, MVS_DEVICE_OFF);
+}
+
+TEST_CASE("the edge of the workspace pushes back, before the device's own stop") {
+  Loop loop("device=touch\nfrom=0.06,0,0\ntarget=0.09,0,0\nresolution=0");
+  loop.arm();
+  const ServoPicture now = loop.run(0.5);
+  CHECK_GT(now.pose.position.x(), 0.07);
+  CHECK_LT(now.force.x(), -0.1);
+}
