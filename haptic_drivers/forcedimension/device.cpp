@@ -178,7 +178,7 @@ int32_t start(mvs_driver_device *device) {
                 device->info.model + std::string(" does not enable its forces: switch it off and "
                                                  "on"));
   device->on = true;
-  device->grace = 50;
+  device->grace = kGrace;
   device->until_status = 0;
   device->good_ns = 0;
   device->stopped = false;

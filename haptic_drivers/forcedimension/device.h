@@ -14,6 +14,7 @@
 namespace forcedimension {
 
 inline constexpr int kMaxDevices = 8;
+inline constexpr int kGrace = 50;  // reads until forces that were enabled must be on
 
 struct Shared {
   std::mutex mutex;  // of everything here; not needed at the device's rate

@@ -10,7 +10,6 @@ namespace forcedimension {
 namespace {
 
 constexpr int kStatusEvery = 10;                                            // reads
-constexpr int kGrace = 50;                                                  // reads
 constexpr uint64_t kPatience = uint64_t(MVS_DRIVER_PATIENCE_MS) * 1000000;  // ns
 
 class Turn {

@@ -41,8 +41,9 @@ struct Bench {
   explicit Bench(Options options = {}) : plug("forcedimension", with_library(std::move(options))) {
     for (auto *at : {&in.unplug_at, &in.deaf_at, &in.nan_at, &in.guard_at, &in.force_off_at})
       *at = DhdStandIn::kNever;
-    for (auto *zero : {&in.left_handed, &in.deaf_for, &in.cause, &in.reset, &in.stuck,
-                       &in.open_error, &in.buttons, &in.moved, &in.unsafe, &in.unsimulated})
+    for (auto *zero :
+         {&in.left_handed, &in.deaf_for, &in.cause, &in.reset, &in.stuck, &in.open_error,
+          &in.buttons, &in.slow, &in.moved, &in.unsafe, &in.unsimulated})
       *zero = 0;
     for (int i = 0; i < DhdStandIn::kDevices; ++i)
       in.ticks[i] = in.writes[i] = in.enables[i] = in.stops[i] = 0;
@@ -243,6 +244,17 @@ TEST_CASE("forcedimension_tells_why_the_device_took_its_forces_off") {
     CHECK(bench.state.cause == MVS_CAUSE_NONE);
     CHECK((bench.state.flags & MVS_DRIVER_FORCE_ON) != 0);
   }
+}
+
+TEST_CASE("forcedimension_forces_that_are_slow_to_come_on_were_not_taken_off") {
+  Bench bench;
+  bench.in.slow = 30;
+  bench.start();
+  for (int i = 0; i < 200; ++i) {
+    REQUIRE(bench.tick(1, 0, 0, i % 100 > 10) == MVS_DRIVER_OK);
+    CHECK(bench.state.cause == MVS_CAUSE_NONE);
+  }
+  CHECK((bench.state.flags & MVS_DRIVER_FORCE_ON) != 0);
 }
 
 TEST_CASE("forcedimension_off_is_no_force_and_then_the_brakes") {

@@ -36,8 +36,9 @@ struct Bench {
     in.period_ns = 20000;
     for (auto *at : {&in.unplug_at, &in.nan_at, &in.silent_at, &in.fail_at})
       *at = HdStandIn::kNever;
-    for (auto *zero : {&in.init_code, &in.init_times, &in.parked, &in.buttons, &in.hang,
-                       &in.misuses, &in.fail_code, &in.fail_device, &in.frames[0], &in.frames[1]})
+    for (auto *zero :
+         {&in.init_code, &in.init_times, &in.parked, &in.buttons, &in.hang, &in.misuses,
+          &in.fail_code, &in.fail_device, &in.fail_of, &in.frames[0], &in.frames[1]})
       *zero = 0;
     in.calibration = 0x5000;
     in.style = 2;
@@ -367,30 +368,33 @@ TEST_CASE("phantom_calibrates_what_needs_no_hand_and_says_what_does") {
   CHECK(Hand().run(bench.plug) == MVS_DRIVER_E_INTERNAL);
 }
 
+// The library has one stack of errors: whose callback comes first may find those of the other.
 TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_go") {
-  Bench bench;
-  Plug second("phantom", {{"library", kLibrary}});
-  REQUIRE(second.open("Phantom2") == MVS_DRIVER_OK);
-  REQUIRE(second.api.start(second.device) == MVS_DRIVER_OK);
-  bench.start();
-  bench.in.fail_at = 500;
-  bench.in.fail_code = 0x302;
-  bench.in.fail_device = 1;
-  Hand left{100000}, right{2000};
-  left.force.force[0] = 2;
-  left.stop = second.device;
-  left.api = &second.api;
-  int32_t lost = 0;
-  std::thread other([&] { lost = left.run(second); });
-  while (bench.in.frames[1] == 0) std::this_thread::yield();
-  CHECK(right.run(bench.plug) == MVS_DRIVER_OK);
-  other.join();
-  CHECK(lost == MVS_DRIVER_E_LOST);
-  CHECK(right.seen.size() == 2000);
-  CHECK(bench.in.forces[0][10][0] == 1);
-  CHECK(bench.in.forces[1][10][0] == 2);
-  CHECK(left.seen[10].position[1] - 0.03 * std::sin(2 * 3.14159265358979323846 * 0.01) ==
-        doctest::Approx(0.005));
+  for (const long found_by : {1, 0}) {
+    CAPTURE(found_by);
+    Bench bench;
+    Plug second("phantom", {{"library", kLibrary}});
+    REQUIRE(second.open("Phantom2") == MVS_DRIVER_OK);
+    REQUIRE(second.api.start(second.device) == MVS_DRIVER_OK);
+    bench.start();
+    bench.in.fail_at = 500;
+    bench.in.fail_code = 0x302;
+    bench.in.fail_device = found_by;
+    bench.in.fail_of = 1;
+    Hand left{100000}, right{2000};
+    left.force.force[0] = 2;
+    int32_t lost = 0;
+    std::thread other([&] { lost = left.run(second); });
+    while (bench.in.frames[1] == 0) std::this_thread::yield();
+    CHECK(right.run(bench.plug) == MVS_DRIVER_OK);
+    other.join();
+    CHECK(lost == MVS_DRIVER_E_LOST);
+    CHECK(right.seen.size() == 2000);
+    CHECK(bench.in.forces[0][10][0] == 1);
+    CHECK(bench.in.forces[1][10][0] == 2);
+    CHECK(left.seen[10].position[1] - 0.03 * std::sin(2 * 3.14159265358979323846 * 0.01) ==
+          doctest::Approx(0.005));
+  }
 }
 
 TEST_CASE("phantom_opens_nothing_while_a_device_runs") {

@@ -25,6 +25,7 @@ struct Device {
   bool open = false, forces = false, gone = false, reset = false;
   int cause = 0;
   long next = 0, tick = -1;  // of the sample
+  long on_from = 0;
   double max_force = -1;
   double force[7] = {};
 };
@@ -174,7 +175,8 @@ void switch_forces(char id, bool on) {
   Device *const device = at(id);
   if (!device) return;
   device->forces = on;
-  device->cause = on ? 0 : 4;
+  device->on_from = device->next + told().slow;
+  if (!on) device->cause = 4;
   told().on[index_of(id)] = on;
 }
 
@@ -352,10 +354,10 @@ DHDAPI int dhdGetStatus(int *status, char id) {
   std::memset(status, 0, 17 * sizeof *status);
   status[0] = status[1] = status[2] = !device->gone;
   status[3] = device->reset;
-  status[5] = device->forces;
-  status[6] = !device->forces;
+  status[5] = device->forces && device->next >= device->on_from;
+  status[6] = !status[5];
   status[8] = wrist();
-  status[14] = device->forces ? 0 : device->cause;
+  status[14] = status[5] ? 0 : device->cause;
   return 0;
 }
 

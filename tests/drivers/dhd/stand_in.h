@@ -18,6 +18,7 @@ struct DhdStandIn {
   std::atomic<long> guard_at{kNever};      // the time guard gives the sample before, once
   std::atomic<long> force_off_at{kNever};  // the device takes its forces off, for `cause`
   std::atomic<long> cause{0};
+  std::atomic<long> slow{0};            // ticks until forces that are enabled are on
   std::atomic<long> largest_mn{12000};  // mN; more saturates the motors
   std::atomic<long> reset{0};           // it waits to be calibrated
   std::atomic<long> supported{1};       // by DRD

@@ -245,7 +245,7 @@ HDAPI void hdBeginFrame(unsigned handle) {
   if (told().unplug_at >= 0 && tick >= told().unplug_at) device->gone = true;
   if (device->gone) raise(0x302, handle);
   if (tick == told().fail_at && handle == unsigned(told().fail_device))
-    raise(unsigned(told().fail_code), handle);
+    raise(unsigned(told().fail_code), unsigned(told().fail_of));
 }
 
 HDAPI void hdEndFrame(unsigned handle) {

@@ -13,8 +13,9 @@ struct HdStandIn {
   std::atomic<long> unplug_at{kNever};   // no device answers from this tick on
   std::atomic<long> nan_at{kNever};      // the position of this one tick
   std::atomic<long> silent_at{kNever};   // the scheduler calls nobody from here on
-  std::atomic<long> fail_at{kNever};     // an error `fail_code` in this one tick, of `fail_device`
-  std::atomic<long> fail_code{0}, fail_device{0};
+  // an error `fail_code` in this one tick, in the frame of `fail_device`, that names `fail_of`
+  std::atomic<long> fail_at{kNever};
+  std::atomic<long> fail_code{0}, fail_device{0}, fail_of{0};
   std::atomic<long> init_code{0}, init_times{0};  // hdInitDevice fails so often with this
   std::atomic<long> calibration{0x5000}, style{2};
   std::atomic<long> freedoms_out{3};
