@@ -188,10 +188,12 @@ Tissue Hand::tissue(mvs_sim &sim) {
   const Tool *const held = tool(sim);
   const Chord *const felt = hand_.mode == MVS_HAND_FEEL ? chord(sim) : nullptr;
   Tissue scene = maker_.nothing();
+  felt_ = Vec3::Zero();
   if (held) {
     scene = maker_.of_tool(*now.model, now.state, *held);
   } else if (felt) {
     scene = maker_.of_chord(*now.model, now.state, *felt, place_, hand_.gain);
+    felt_ = scene.force;
   }
   return view_.to_device(scene, most_);
 }
@@ -212,7 +214,7 @@ mvs_device_report Hand::report(const mvs_sim &sim, const Tissue &tissue, bool la
   const Tool *const held = tool(sim);
   out.node = held ? held->node : none;
   write(place_, out.position);
-  if (held) write(force_of(now.state, *held).force, out.force);
+  write(held ? force_of(now.state, *held).force : felt_, out.force);
   out.stiffness = largest_eigenvalue(tissue.stiffness);
   write(drag_to_, out.drag_to);
   return out;

@@ -49,6 +49,7 @@ class Hand {
   bool down_ = false, changed_ = true;
   uint32_t events_ = 0;
   Vec3 drag_to_ = Vec3::Zero();
+  Vec3 felt_ = Vec3::Zero();  // of the chord, on the hand
 };
 
 }  // namespace mvs
