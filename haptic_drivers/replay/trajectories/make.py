@@ -5,7 +5,8 @@ They are synthetic, for the valve that `mvs generate` makes, closed by `mvs clos
 at the device's, at scale 1: the hand is above the atrium (the valve's z is the device's y), its
 right is the valve's x, and the valve's anterior side (y) points away from it (the device's z is
 the valve's -y). The grasp takes A2 at vertex 8 of that file, (0, -2.5, -3.2) mm in the valve; the
-push meets P2 at vertex 222, (0, -10.1, 0.7).
+push meets P2 at vertex 222, (0, -10.1, 0.7). The session also goes to where the strut chord A2/7 ends,
+(-8.3, 2.7, -2.2).
 """
 
 import math
@@ -14,6 +15,7 @@ import os
 RATE = 100  # samples a second: a hand has little above 10 Hz
 A2 = (0.0, -3.2, 2.5)
 P2 = (0.0, 0.7, 10.1)
+STRUT = (-8.3, -2.2, -2.7)
 
 HEADER = """mvs-recording 1
 # {title}
@@ -85,6 +87,24 @@ def push():
         (1.0, in_touch, 0, 30), (1.5, rest, 0, 20), (0.5, rest, 0, 20)])
 
 
+def session():
+    rest, over_p2, deep = above(A2, 20), above(P2, 15), above(P2, -5)
+    aside = [(deep[0] + x, deep[1], deep[2]) for x in (5.0, -5.0)]
+    over_strut, at_strut, below = above(STRUT, 15), above(STRUT, 1), above(STRUT, -12)
+    return play(rest, [
+        (0.3, rest, 0, 20), (1.0, A2, 0, 30), (0.2, A2, 0, 30), (0.3, A2, 1, 30),  # grasp A2
+        (1.0, above(A2, 10), 1, 35), (0.7, above(A2, 10), 1, 35),
+        (0.7, above(A2, 3), 1, 30), (0.3, above(A2, 3), 0, 30),  # 4.2 s: let it go
+        (1.0, over_p2, 0, 30), (0.5, over_p2, 0, 30),  # to 6.0 s: another tool
+        (1.0, deep, 0, 30), (0.3, deep, 0, 30),  # push P2, and slide
+        (0.6, aside[0], 0, 30), (1.0, aside[1], 0, 30), (0.6, deep, 0, 30),
+        (1.0, over_p2, 0, 30), (0.8, over_strut, 0, 30),  # to 11.3 s: another tool
+        (0.7, at_strut, 0, 30), (0.3, at_strut, 1, 30), (0.9, at_strut, 0, 30),  # feel the strut
+        (0.1, at_strut, 0, 30), (0.3, at_strut, 1, 30),  # 13.3 s: take its end, another tool
+        (1.0, below, 1, 30), (0.4, below, 1, 30), (0.3, below, 0, 30),  # shorten it, 15.0 s: let go
+        (1.5, rest, 0, 20), (1.0, rest, 0, 20)])
+
+
 def circle():
     """Ends where it begins, at the same speed: for option end=loop."""
     lines = []
@@ -103,4 +123,5 @@ def write(name, title, lines):
 
 write("grasp_a2.txt", "Reaches for A2, grasps it, pulls it 10 mm up, lets go, and leaves.", grasp())
 write("push_p2.txt", "Pushes P2 5 mm down, slides 6 mm to both sides, and leaves.", push())
+write("session.txt", "Grasps A2, pushes P2, takes the strut A2/7 twice: examples/phantom.c.", session())
 write("circle.txt", "A circle of 20 mm radius in 4 s, again and again with end=loop.", circle())
