@@ -43,7 +43,8 @@ install_packages() {
 build_packages=(build-essential cmake ninja-build pkg-config libeigen3-dev libsuitesparse-dev
   libhdf5-dev libcli11-dev nlohmann-json3-dev)
 python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
-test_packages=(doctest-dev libtinyobjloader-dev libspnav0 clang clang-format clang-tidy git)
+test_packages=(doctest-dev libtinyobjloader-dev libspnav0 libglfw3-dev xvfb xauth clang clang-format
+  clang-tidy git)
 
 # Configures and builds a preset of CMakePresets.json:
 # build_preset NAME [CMAKE OPTION ...] [-- BUILD OPTION ...]

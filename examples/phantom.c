@@ -1,0 +1,260 @@
+/* The user interface of the founding paper (Tenenholtz et al. 2011): a hand in a mitral valve. It
+ * grasps and pushes leaflets, feels and drags chordae, colours strain, operates, undoes, saves.
+ * Build: cc -std=c99 phantom.c phantom/[!nw]*.c phantom/no_window.c -o phantom -lm -pthread \
+ *          $(pkg-config --cflags --libs mvs)     (with a window: see CMakeLists.txt)
+ * Use:   ./phantom --driver NAME [--valve FILE]; README.md has more, ./phantom all options. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "phantom/phantom.h"
+
+static mvs_sim *sim;
+static mvs_device *device;
+static mvs_device_report hand = {.struct_size = sizeof hand};
+static mvs_device_state now = {.struct_size = sizeof now};
+static mvs_id chosen; /* chord, for operations */
+static uint32_t mode;
+static int window, strain = 1, ended, frames;
+static double turn, tilt = 0.7, distance = 0.088; /* of the view: rad, rad, m */
+static double tissue_time, frame_time, strongest; /* s, s, N */
+
+void must(mvs_result result) {
+  if (result == MVS_OK) return;
+  fprintf(stderr, "phantom: %s\n", mvs_last_error()->message);
+  exit(1);
+}
+
+/* However the program ends: no device is left with a force. */
+static void put_down(void) {
+  mvs_device_close(device);
+  device = NULL;
+}
+
+static const mvs_snapshot *present(void) {
+  const mvs_snapshot *valve;
+  must(mvs_get_snapshot(sim, &valve));
+  return valve;
+}
+
+/* Tells them, and does what is to be done about them. */
+static void take_events(void) {
+  tell_events(sim, &hand, &now);
+  strongest = fmax(strongest, length_of(hand.force));
+  if (hand.events & MVS_EVENT_CHOSEN) chosen = hand.chord;
+  if (hand.events & MVS_EVENT_DRAGGED) {
+    tell(now.time, "%s", surgery_drag(sim, hand.chord, hand.drag_to));
+  }
+}
+
+static void set_mode(uint32_t wanted, mvs_id chord) {
+  mvs_device_hand tool = {0};
+  tool.struct_size = sizeof tool;
+  tool.mode = mode = wanted;
+  tool.chord = chord;
+  must(mvs_device_set_hand(device, &tool));
+  tell(now.time, "the hand %s", mode_name(mode));
+}
+
+static void help(void) {
+  printf(
+      "  1 look  2 grasp  3 push with a ball  4 with a rod  5 feel a chord  6 drag a chord\n"
+      "  a  forces on   space  forces off   n  chooses the chord nearest to the hand\n"
+      "  c  strain or anatomy   arrows, or h j k l, turn the view; z Z bring it near and far\n");
+  surgery_help();
+  printf("  ?  this   q  end\n");
+}
+
+static void choose_chord(void) {
+  mvs_part part = {0};
+  chosen = hand.near_chord;
+  tell(now.time, "chooses chord %s", chord_name(sim, chosen, &part));
+  set_mode(mode, chosen);
+}
+
+static void press(int key) {
+  const char *said;
+  if (key >= '1' && key <= '6')
+    set_mode((uint32_t)(key - '1'), 0);
+  else if (key == 'a')
+    tell(now.time, "%s", mvs_device_arm(device) ? mvs_last_error()->message : "armed");
+  else if (key == ' ')
+    must(mvs_device_cut(device));
+  else if (key == 'n')
+    choose_chord();
+  else if (key == 'c')
+    strain = !strain;
+  else if (key == 'h' || key == 'l')
+    turn += key == 'h' ? -0.2 : 0.2;
+  else if (key == 'j' || key == 'k')
+    tilt += key == 'j' ? -0.2 : 0.2;
+  else if (key == 'z' || key == 'Z')
+    distance *= key == 'z' ? 0.9 : 1 / 0.9;
+  else if (key == '?')
+    help();
+  else if (key == 'q')
+    ended = 1;
+  else if ((said = surgery(sim, key, &hand, chosen, option.out)) != NULL) {
+    tell(now.time, "%s; orifice %.1f mm2", said, 1e6 * orifice_now(sim));
+  }
+}
+
+static void press_due_keys(void) {
+  const char *rest;
+  double when;
+  int key;
+  while ((rest = next_key(option.keys, &when, &key)) != NULL && when <= now.time) {
+    option.keys = rest;
+    press(key);
+  }
+}
+
+/* Shows the valve in the window, and in a file where frames are wanted. */
+static void show(void) {
+  static scene triangles;
+  const mvs_snapshot *const valve = present();
+  const eye from = eye_of_surgeon(valve, turn, tilt, distance);
+  char title[256], path[1024];
+  int save = option.frames != NULL && now.time >= frames * option.every;
+  sight what = {0};
+  mvs_view nodes;
+  what.strain = strain;
+  what.chord = chosen;
+  what.tool.struct_size = sizeof what.tool;
+  if (hand.tool) mvs_tool_get(sim, hand.tool, &what.tool);
+  memcpy(what.hand, hand.position, sizeof what.hand);
+  memcpy(what.force, hand.force, sizeof what.force);
+  must(mvs_snapshot_view(valve, MVS_NODE_POSITION, &nodes));
+  if (hand.near_node < nodes.count) what.marked = (const double *)nodes.data + 3 * hand.near_node;
+  orifice_look(valve, !window);
+  orifice_area(&what.orifice);
+  scene_build(&triangles, valve, &from, &what);
+  write_title(title, sizeof title, mode, strain, &hand, &now);
+  snprintf(path, sizeof path, "%s/frame_%04d.ppm", option.frames ? option.frames : "", frames);
+  if (!(window ? window_show(&triangles, &from, title, save ? path : NULL)
+               : picture_paint(&triangles, &from, path))) {
+    fprintf(stderr, "phantom: %s cannot be written: is there such a folder?\n", path);
+    exit(1);
+  }
+  frames += save;
+  mvs_snapshot_release(what.orifice);
+  mvs_snapshot_release(valve);
+}
+
+static void open_valve(void) {
+  const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+  must(mvs_create(NULL, &sim));
+  must(option.valve ? mvs_load_file(sim, option.valve, MVS_FORMAT_AUTO)
+                    : mvs_generate_valve(sim, NULL));
+  must(mvs_set_load(sim, &systole));
+  must(mvs_settle(sim, NULL, NULL));
+}
+
+static void log_driver(void *user, int32_t level, const char *text) {
+  (void)user;
+  (void)level;
+  fprintf(stderr, "%s: %s\n", option.driver, text);
+}
+
+/* The device's right, up and towards the user are the surgeon's: right, out of the valve, down. */
+static void lay_over_valve(void) {
+  const mvs_snapshot *const valve = present();
+  const eye e = eye_of_surgeon(valve, 0, 0, 1);
+  const double x = e.right[0], y = e.back[1], z = -e.up[2];
+  mvs_device_view view = {0};
+  double frame[12];
+  must(mvs_snapshot_frame(valve, frame));
+  mvs_snapshot_release(valve);
+  view.struct_size = sizeof view;
+  view.scale = option.scale;
+  memcpy(view.origin, frame, sizeof view.origin);
+  view.rotation[0] = sqrt(fmax(0, 1 + x + y + z));
+  view.rotation[1] = copysign(sqrt(fmax(0, 1 + x - y - z)), e.back[2] + e.up[1]);
+  view.rotation[2] = copysign(sqrt(fmax(0, 1 - x + y - z)), -e.up[0] - e.right[2]);
+  view.rotation[3] = copysign(sqrt(fmax(0, 1 - x - y + z)), e.right[1] - e.back[0]);
+  must(mvs_device_set_view(device, &view));
+}
+
+static void open_device(void) {
+  mvs_device_desc desc = {0};
+  mvs_device_info info = {0};
+  desc.struct_size = sizeof desc;
+  desc.clock = option.headless ? MVS_CLOCK_VIRTUAL : MVS_CLOCK_REAL;
+  desc.driver = option.driver;
+  desc.device = option.device;
+  desc.options = option.driver_options;
+  desc.log = log_driver;
+  must(mvs_device_open(&desc, &device));
+  info.struct_size = sizeof info;
+  must(mvs_device_get_info(device, &info));
+  printf("%s: %s, %.1f N at most, %.2f N for long\n", info.driver, info.model, info.peak_force,
+         info.continuous_force);
+  lay_over_valve();
+  must(mvs_device_start(device));
+}
+
+/* The tissue's clock follows the device's; what a slow machine does not manage is left out. */
+static int tissue_is_behind(void) {
+  if (option.headless) return 1;
+  if (tissue_time < now.time - 0.05) tissue_time = now.time - 0.05;
+  return tissue_time < now.time;
+}
+
+static void turn_once(void) {
+  mvs_step_options step = {0};
+  int key;
+  step.struct_size = sizeof step;
+  step.dt = option.dt;
+  if (option.headless) must(mvs_device_advance(device, option.dt));
+  must(mvs_device_sync(device, sim, &hand));
+  must(mvs_device_get_state(device, &now));
+  take_events();
+  press_due_keys();
+  while (window && (key = window_key()) != 0) press(key);
+  if (tissue_is_behind()) {
+    must(mvs_step(sim, &step));
+    tissue_time += option.dt;
+  }
+  if (window ? now.time >= frame_time : option.frames && now.time >= frames * option.every) {
+    frame_time = now.time + 0.03;
+    show();
+  }
+  if (window) window_wait(tissue_time < now.time ? 0 : 1e-3);
+  if ((window && window_wants_to_close()) || (option.seconds > 0 && now.time >= option.seconds))
+    ended = 1;
+}
+
+static void tell_end(double before) {
+  const mvs_snapshot *const valve = present();
+  uint64_t hash[2];
+  must(mvs_snapshot_hash(valve, hash));
+  mvs_snapshot_release(valve);
+  printf("peak force %.2f N, orifice %.1f mm2 before, %.1f after, %d frames, hash %016llx%016llx\n",
+         strongest, before, 1e6 * orifice_now(sim), frames, (unsigned long long)hash[0],
+         (unsigned long long)hash[1]);
+}
+
+int main(int argc, char **argv) {
+  const char *no_window = "";
+  double before;
+  read_options(argc, argv);
+  must(mvs_device_guard_crashes(1));
+  atexit(put_down);
+  open_valve();
+  before = 1e6 * orifice_now(sim);
+  if (!option.headless && (no_window = window_open(800, 600)) != NULL) {
+    fprintf(stderr, "phantom: no window (%s): --seconds or ^C ends it\n", no_window);
+  }
+  window = no_window == NULL;
+  if (window) help();
+  open_device();
+  set_mode(MVS_HAND_GRASP, 0);
+  while (!ended) turn_once();
+  put_down();
+  tell_end(before);
+  if (window) window_close();
+  orifice_close();
+  mvs_destroy(sim);
+  return 0;
+}

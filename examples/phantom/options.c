@@ -1,0 +1,103 @@
+/* What the command line says. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "phantom.h"
+
+options option = {NULL, NULL, NULL, "", NULL, "phantom", "", 1, 1e-3, 0.1, 0, 0};
+
+static void list_driver(void *user, const char *name, const char *path) {
+  (void)user;
+  fprintf(stderr, "  %-16s %s\n", name, path);
+}
+
+static void use(void) {
+  fprintf(
+      stderr,
+      "use: phantom --driver NAME|PATH [--device NAME] [--option KEY=VALUE ...]\n"
+      "  [--valve FILE]    else the shipped valve       [--scale S]  of motion, 1\n"
+      "  [--script FILE]   a recording, for replay      [--keys \"2.0:u 3.0:s\"]  pressed for you\n"
+      "  [--headless]      unattended, on a virtual clock, no window\n"
+      "  [--seconds S]     the end                      [--dt S]  of a step, 0.001\n"
+      "  [--frames DIR]    pictures into it             [--every S]  0.1\n"
+      "  [--out BASE]      files of keys s and w: BASE.obj, BASE.json\n"
+      "drivers:\n");
+  mvs_driver_each(list_driver, NULL);
+  exit(2);
+}
+
+static double number(const char *text) {
+  char *end;
+  const double value = strtod(text, &end);
+  if (end == text || *end != 0) use();
+  return value;
+}
+
+static void add_driver_option(const char *key, const char *value) {
+  const size_t used = strlen(option.driver_options), room = sizeof option.driver_options - used;
+  const int wanted = snprintf(option.driver_options + used, room, "%s%s\n", key, value);
+  if (wanted < 0 || (size_t)wanted >= room) use();
+}
+
+static void read_option(const char *name, const char *value) {
+  if (!strcmp(name, "--driver"))
+    option.driver = value;
+  else if (!strcmp(name, "--device"))
+    option.device = value;
+  else if (!strcmp(name, "--option"))
+    add_driver_option("", value);
+  else if (!strcmp(name, "--script"))
+    add_driver_option("file=", value);
+  else if (!strcmp(name, "--valve"))
+    option.valve = value;
+  else if (!strcmp(name, "--keys"))
+    option.keys = value;
+  else if (!strcmp(name, "--frames"))
+    option.frames = value;
+  else if (!strcmp(name, "--out"))
+    option.out = value;
+  else if (!strcmp(name, "--scale"))
+    option.scale = number(value);
+  else if (!strcmp(name, "--seconds"))
+    option.seconds = number(value);
+  else if (!strcmp(name, "--every"))
+    option.every = number(value);
+  else if (!strcmp(name, "--dt"))
+    option.dt = number(value);
+  else
+    use();
+}
+
+const char *next_key(const char *keys, double *when, int *key) {
+  char *colon;
+  *when = strtod(keys, &colon);
+  if (colon == keys || colon[0] != ':' || colon[1] == 0) return NULL;
+  *key = (unsigned char)colon[1];
+  return colon + 2;
+}
+
+/* Whether these are keys with their times, and nothing else. */
+static int are_keys(const char *keys) {
+  const char *rest;
+  double when;
+  int key;
+  while ((rest = next_key(keys, &when, &key)) != NULL) keys = rest;
+  return keys[strspn(keys, " ")] == 0;
+}
+
+void read_options(int argc, char **argv) {
+  int i;
+  for (i = 1; i < argc; ++i) {
+    if (!strcmp(argv[i], "--headless")) {
+      option.headless = 1;
+    } else if (i + 1 < argc) {
+      read_option(argv[i], argv[i + 1]);
+      ++i;
+    } else {
+      use();
+    }
+  }
+  if (!option.driver || option.every <= 0 || !are_keys(option.keys)) use();
+  if (option.headless && option.seconds <= 0) use();
+}

@@ -1,0 +1,113 @@
+/* What happens, in words. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "phantom.h"
+
+void tell(double time, const char *format, ...) {
+  va_list arguments;
+  printf("%7.3f s  ", time);
+  va_start(arguments, format);
+  vprintf(format, arguments);
+  va_end(arguments);
+  printf("\n");
+  fflush(stdout);
+}
+
+double orifice_now(mvs_sim *sim) {
+  const mvs_snapshot *valve;
+  must(mvs_get_snapshot(sim, &valve));
+  orifice_look(valve, 1);
+  mvs_snapshot_release(valve);
+  return orifice_area(NULL);
+}
+
+/* The scallop that a node lies in. */
+static const char *scallop_of(mvs_sim *sim, uint32_t node, mvs_part *part) {
+  const mvs_snapshot *valve;
+  mvs_view triangles, scallops;
+  const uint32_t *nodes, *scallop;
+  uint64_t i;
+  must(mvs_get_snapshot(sim, &valve));
+  must(mvs_snapshot_view(valve, MVS_TRIANGLE_NODES, &triangles));
+  must(mvs_snapshot_view(valve, MVS_TRIANGLE_SCALLOP, &scallops));
+  nodes = triangles.data;
+  scallop = scallops.data;
+  strcpy(part->name, "no leaflet");
+  for (i = 0; i < 3 * triangles.count && nodes[i] != node; ++i) continue;
+  if (i < 3 * triangles.count) {
+    must(mvs_snapshot_part(valve, MVS_PART_SCALLOP, scallop[i / 3], part));
+  }
+  mvs_snapshot_release(valve);
+  return part->name;
+}
+
+const char *chord_name(mvs_sim *sim, mvs_id id, mvs_part *part) {
+  const mvs_snapshot *valve;
+  uint32_t count, i;
+  must(mvs_get_snapshot(sim, &valve));
+  must(mvs_snapshot_part_count(valve, MVS_PART_CHORD, &count));
+  for (i = 0, part->id = 0; i < count && part->id != id; ++i) {
+    must(mvs_snapshot_part(valve, MVS_PART_CHORD, i, part));
+  }
+  mvs_snapshot_release(valve);
+  if (part->id != id || id == 0) strcpy(part->name, "none");
+  return part->name;
+}
+
+double length_of(const double v[3]) {
+  return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static const char *cause_name(uint32_t cause) {
+  static const char *const names[] = {
+      "",           "the button at the device", "its speed",  "a watchdog", "a program",
+      "unplugging", "nobody holding it",        "no numbers", "its warmth", "calibration"};
+  return cause < sizeof names / sizeof names[0] ? names[cause] : "something new";
+}
+
+void tell_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now) {
+  static double peak; /* N, since something was let go */
+  const uint32_t e = hand->events;
+  mvs_part part = {0};
+  if (e & MVS_EVENT_CHOSEN) {
+    tell(now->time, "chooses chord %s, feels %.2f N", chord_name(sim, hand->chord, &part),
+         length_of(hand->force));
+  }
+  if (e & MVS_EVENT_GRASPED) {
+    tell(now->time, "grasps node %u of %s; orifice %.1f mm2", (unsigned)hand->node,
+         scallop_of(sim, hand->node, &part), 1e6 * orifice_now(sim));
+  }
+  if (e & MVS_EVENT_MISSED) tell(now->time, "reaches nothing");
+  if (e & MVS_EVENT_LET_GO) {
+    tell(now->time, "lets go; %.2f N at most, orifice %.1f mm2", peak, 1e6 * orifice_now(sim));
+    peak = 0;
+  }
+  if (e & MVS_EVENT_LOST_TOOL) tell(now->time, "the instrument went with that");
+  if (e & MVS_EVENT_LATCHED) {
+    tell(now->time, "forces are off because of %s: key a arms again", cause_name(now->cause));
+  }
+  peak = fmax(peak, length_of(hand->force));
+}
+
+const char *mode_name(uint32_t mode) {
+  static const char *const names[] = {
+      "looks",         "grasps",       "pushes with a ball", "pushes with a rod",
+      "feels a chord", "drags a chord"};
+  return mode < 6 ? names[mode] : "";
+}
+
+void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_device_report *hand,
+                 const mvs_device_state *now) {
+  static const char *const phases[] = {
+      "stopped",        "off (a: on)", "wait for the hand to move away",
+      "coming up",      "on",          "faded, the valve stands still",
+      "off because of "};
+  snprintf(text, size, "%s | orifice %.1f mm2 | %.2f N, felt %.2f N | forces %s%s%s",
+           mode_name(mode), 1e6 * orifice_area(NULL), length_of(hand->force), length_of(now->force),
+           now->phase < 7 ? phases[now->phase] : "",
+           now->phase == MVS_DEVICE_LATCHED ? cause_name(now->cause) : "",
+           strain ? " | strain 0 to 50 %, of chordae 0 to 5 %" : "");
+}

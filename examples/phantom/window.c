@@ -1,0 +1,189 @@
+/* The window: GLFW and OpenGL 3.3, whose functions GLFW finds by their names. */
+#define GLFW_INCLUDE_GLCOREARB
+#include <GLFW/glfw3.h>
+#include <stdlib.h>
+
+#include "phantom.h"
+
+/* All of OpenGL that is used here. */
+#define FUNCTIONS(f)                                                                              \
+  f(PFNGLATTACHSHADERPROC, glAttachShader) f(PFNGLBINDBUFFERPROC, glBindBuffer) f(                \
+      PFNGLBINDVERTEXARRAYPROC, glBindVertexArray) f(PFNGLBUFFERDATAPROC, glBufferData)           \
+      f(PFNGLCLEARPROC, glClear) f(PFNGLCLEARCOLORPROC, glClearColor) f(                          \
+          PFNGLCOMPILESHADERPROC, glCompileShader) f(PFNGLCREATEPROGRAMPROC, glCreateProgram)     \
+          f(PFNGLCREATESHADERPROC, glCreateShader) f(PFNGLDRAWARRAYSPROC, glDrawArrays) f(        \
+              PFNGLENABLEPROC, glEnable) f(PFNGLENABLEVERTEXATTRIBARRAYPROC,                      \
+                                           glEnableVertexAttribArray)                             \
+              f(PFNGLGENBUFFERSPROC, glGenBuffers) f(PFNGLGENVERTEXARRAYSPROC, glGenVertexArrays) \
+                  f(PFNGLGETPROGRAMIVPROC, glGetProgramiv) f(                                     \
+                      PFNGLGETUNIFORMLOCATIONPROC, glGetUniformLocation) f(PFNGLLINKPROGRAMPROC,  \
+                                                                           glLinkProgram)         \
+                      f(PFNGLPIXELSTOREIPROC, glPixelStorei) f(PFNGLREADPIXELSPROC, glReadPixels) \
+                          f(PFNGLSHADERSOURCEPROC, glShaderSource)                                \
+                              f(PFNGLUNIFORMMATRIX4FVPROC, glUniformMatrix4fv)                    \
+                                  f(PFNGLUSEPROGRAMPROC, glUseProgram)                            \
+                                      f(PFNGLVERTEXATTRIBPOINTERPROC, glVertexAttribPointer)      \
+                                          f(PFNGLVIEWPORTPROC, glViewport)
+
+#define DECLARE(type, name) static type name;
+FUNCTIONS(DECLARE)
+
+static const char *const vertex_shader =
+    "#version 330 core\n"
+    "layout(location = 0) in vec3 at; layout(location = 1) in vec3 colour;\n"
+    "uniform mat4 eye; out vec3 lit;\n"
+    "void main() { lit = colour; gl_Position = eye * vec4(at, 1); }\n";
+static const char *const fragment_shader =
+    "#version 330 core\n"
+    "in vec3 lit; out vec4 pixel;\n"
+    "void main() { pixel = vec4(lit, 1); }\n";
+
+static const float background[3] = BACKGROUND;
+static GLFWwindow *window;
+static const char *reason;
+static GLint eye_place;
+static int keys[32], first_key, key_count;
+
+static void note_error(int code, const char *text) {
+  (void)code;
+  reason = text;
+}
+
+static void add_key(int key) {
+  if (key_count == 32) return; /* nobody types so fast */
+  keys[(first_key + key_count++) % 32] = key;
+}
+
+static void on_character(GLFWwindow *of, unsigned key) {
+  (void)of;
+  if (key < 128) add_key((int)key);
+}
+
+/* Arrows type the letters that turn the view. */
+static void on_key(GLFWwindow *of, int key, int code, int action, int modifiers) {
+  (void)of, (void)code, (void)modifiers;
+  if (action == GLFW_RELEASE) return;
+  if (key == GLFW_KEY_LEFT) add_key('h');
+  if (key == GLFW_KEY_DOWN) add_key('j');
+  if (key == GLFW_KEY_UP) add_key('k');
+  if (key == GLFW_KEY_RIGHT) add_key('l');
+}
+
+static int load_functions(void) {
+#define LOAD(type, name) \
+  if (!((name) = (type)glfwGetProcAddress(#name))) return 0;
+  FUNCTIONS(LOAD)
+  return 1;
+}
+
+static void add_shader(GLuint program, GLenum kind, const char *text) {
+  const GLuint shader = glCreateShader(kind);
+  glShaderSource(shader, 1, &text, NULL);
+  glCompileShader(shader);
+  glAttachShader(program, shader);
+}
+
+static int make_program(void) {
+  const GLuint program = glCreateProgram();
+  GLint good;
+  add_shader(program, GL_VERTEX_SHADER, vertex_shader);
+  add_shader(program, GL_FRAGMENT_SHADER, fragment_shader);
+  glLinkProgram(program);
+  glGetProgramiv(program, GL_LINK_STATUS, &good);
+  glUseProgram(program);
+  eye_place = glGetUniformLocation(program, "eye");
+  return good;
+}
+
+/* One buffer, filled anew for each picture. */
+static void make_buffer(void) {
+  /* OpenGL takes an offset for a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr) */
+  const void *const colours = (const void *)offsetof(corner, colour);
+  GLuint array, buffer;
+  glGenVertexArrays(1, &array);
+  glBindVertexArray(array);
+  glGenBuffers(1, &buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(corner), NULL);
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(corner), colours);
+  glEnableVertexAttribArray(0);
+  glEnableVertexAttribArray(1);
+  glEnable(GL_DEPTH_TEST);
+  glClearColor(background[0], background[1], background[2], 1);
+}
+
+const char *window_open(int width, int height) {
+  glfwSetErrorCallback(note_error);
+  reason = "GLFW does not say why";
+  if (!glfwInit()) return reason;
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SAMPLES, 4);
+  window = glfwCreateWindow(width, height, "phantom", NULL, NULL);
+  if (!window) return reason;
+  glfwMakeContextCurrent(window);
+  glfwSwapInterval(0); /* the simulation must not wait for the screen */
+  if (!load_functions() || !make_program()) return "its OpenGL is older than 3.3";
+  make_buffer();
+  glfwSetCharCallback(window, on_character);
+  glfwSetKeyCallback(window, on_key);
+  return NULL;
+}
+
+int window_key(void) {
+  const int key = keys[first_key];
+  if (key_count == 0) return 0;
+  first_key = (first_key + 1) % 32;
+  --key_count;
+  return key;
+}
+
+int window_wants_to_close(void) {
+  return glfwWindowShouldClose(window);
+}
+
+void window_wait(double seconds) {
+  if (seconds > 0) {
+    glfwWaitEventsTimeout(seconds);
+  } else {
+    glfwPollEvents();
+  }
+}
+
+static int save(const char *path, int width, int height) {
+  const size_t row = 3 * (size_t)width;
+  unsigned char *const rgb = malloc(row * (size_t)height);
+  int y, good;
+  if (!rgb) return 0;
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  for (y = 0; y < height; ++y) { /* OpenGL counts rows from below */
+    glReadPixels(0, height - 1 - y, width, 1, GL_RGB, GL_UNSIGNED_BYTE, rgb + row * (size_t)y);
+  }
+  good = picture_write(path, rgb, width, height);
+  free(rgb);
+  return good;
+}
+
+int window_show(const scene *what, const eye *from, const char *title, const char *path) {
+  float matrix[16];
+  int width, height, good = 1;
+  glfwSetWindowTitle(window, title);
+  glfwGetFramebufferSize(window, &width, &height);
+  if (width == 0 || height == 0) return path == NULL; /* minimised */
+  glViewport(0, 0, width, height);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  eye_matrix(from, (double)width / height, matrix);
+  glUniformMatrix4fv(eye_place, 1, GL_FALSE, matrix);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(what->count * sizeof(corner)), what->corners,
+               GL_STREAM_DRAW);
+  glDrawArrays(GL_TRIANGLES, 0, (GLsizei)what->count);
+  if (path) good = save(path, width, height);
+  glfwSwapBuffers(window);
+  return good;
+}
+
+void window_close(void) {
+  glfwTerminate();
+}
