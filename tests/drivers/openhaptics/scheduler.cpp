@@ -55,7 +55,6 @@ void call_all() {
 
 void loop() {
   Scheduler &all = scheduler();
-  auto next = Clock::now();
   for (long tick = 0; all.running; ++tick) {
     if (tick == told().silent_at)
       while (all.running) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -63,9 +62,9 @@ void loop() {
     all.tick_began = Clock::now();
     call_all();
     told().ticks = tick + 1;
-    next = std::max(next + std::chrono::nanoseconds(told().period_ns), Clock::now());
+    // never two ticks in less than a period: the hand moves by ticks, and would seem to jump
     if (told().period_ns > 0)
-      std::this_thread::sleep_until(next);
+      std::this_thread::sleep_until(all.tick_began + std::chrono::nanoseconds(told().period_ns));
     else
       std::this_thread::yield();
   }
