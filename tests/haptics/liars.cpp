@@ -1,0 +1,149 @@
+// Drivers that lie, hang, or lack something are found out, each with a sentence, and do no harm.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "base/error.h"
+#include "haptics/device.h"
+
+using namespace mvs;
+
+namespace {
+
+std::string path_of(const std::string &lie) {
+  return std::string(MVS_LIARS_DIR) + "/" + lie + ".so";
+}
+
+mvs_device_desc desc_of(const std::string &path, uint32_t clock = MVS_CLOCK_VIRTUAL) {
+  mvs_device_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.clock = clock;
+  desc.driver = path.c_str();
+  return desc;
+}
+
+// The code and sentence with which opening fails; MVS_OK if it does not.
+mvs_result why_not(const std::string &path, std::string &sentence) {
+  try {
+    Device device(desc_of(path), {});
+    return MVS_OK;
+  } catch (const Error &error) {
+    sentence = error.what();
+    return error.code;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("what a driver says of itself is not believed") {
+  struct Lie {
+    const char *name;
+    mvs_result code;
+    const char *part;  // of the sentence
+  };
+  const Lie lies[] = {{"old", MVS_E_VERSION, "no version"},
+                      {"version", MVS_E_VERSION, "version 99"},
+                      {"size", MVS_E_VERSION, "8 bytes"},
+                      {"overruns", MVS_E_DEVICE, "writes behind"},
+                      {"no_symbol", MVS_E_DEVICE, "mvs_driver_negotiate"},
+                      {"no_close", MVS_E_DEVICE, "close"},
+                      {"no_write", MVS_E_DEVICE, "read and write"},
+                      {"refuses", MVS_E_DEVICE, "does not say why"},
+                      {"no_handle", MVS_E_DEVICE, "gives none"},
+                      {"nan", MVS_E_DEVICE, "peak force"},
+                      {"frame", MVS_E_DEVICE, "frame"},
+                      {"workspace", MVS_E_DEVICE, "workspace"}};
+  for (const Lie &lie : lies) {
+    CAPTURE(lie.name);
+    std::string sentence;
+    CHECK_EQ(why_not(path_of(lie.name), sentence), lie.code);
+    CHECK_NE(sentence.find(lie.part), std::string::npos);
+  }
+}
+
+TEST_CASE("an honest one opens, and one whose text has no end is cut") {
+  for (const char *name : {"honest", "text"}) {
+    const std::string path = path_of(name);
+    Device device(desc_of(path), {});
+    const mvs_device_info info = device.info();
+    CHECK_LT(std::string(info.model).size(), sizeof info.model);
+    CHECK_EQ(info.peak_force, 3.3);  // what is not told is that of the weakest device
+    CHECK_EQ(info.rate, 1000);
+  }
+}
+
+TEST_CASE("a driver that hangs costs its caller some seconds, not the process") {
+  std::string sentence;
+  CHECK_EQ(why_not(path_of("hangs"), sentence), MVS_E_DEVICE);
+  CHECK_NE(sentence.find("does not come back from open()"), std::string::npos);
+}
+
+TEST_CASE("a loop that hangs is noticed, latched, and left behind") {
+  const std::string path = path_of("loop_hangs");
+  Device device(desc_of(path, MVS_CLOCK_REAL), {});
+  device.start();
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  const ServoPicture now = device.picture();
+  CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
+  CHECK_EQ(now.cause, MVS_CAUSE_WATCHDOG);
+  CHECK_THROWS_AS(device.arm(), Error);
+  CHECK_THROWS_AS(device.stop(), Error);
+}
+
+TEST_CASE("a loop that ends by itself is a lost device") {
+  const std::string path = path_of("leaves");
+  Device device(desc_of(path, MVS_CLOCK_REAL), {});
+  device.start();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK_EQ(device.picture().cause, MVS_CAUSE_UNPLUGGED);
+  CHECK_THROWS_AS(device.arm(), Error);
+  device.stop();
+}
+
+TEST_CASE("samples of garbage move nothing") {
+  const std::string path = path_of("garbage");
+  Device device(desc_of(path), {});
+  device.start();
+  device.advance(0.1);
+  CHECK_THROWS_AS(device.arm(), Error);
+  const ServoPicture now = device.picture();
+  CHECK(now.pose.position.isZero(0));
+  CHECK(now.force.isZero(0));
+}
+
+TEST_CASE("drivers are named plainly or by absolute path, and nobody else may have written them") {
+  std::string sentence;
+  CHECK_EQ(why_not("../honest", sentence), MVS_E_ARGUMENT);
+  CHECK_EQ(why_not("honest.so", sentence), MVS_E_ARGUMENT);
+  CHECK_EQ(why_not("", sentence), MVS_E_ARGUMENT);
+  CHECK_EQ(why_not("nowhere", sentence), MVS_E_IO);
+  CHECK_EQ(why_not("/", sentence), MVS_E_IO);
+  const std::string copy = path_of("copied_for_writing");
+  std::filesystem::copy_file(path_of("honest"), copy,
+                             std::filesystem::copy_options::overwrite_existing);
+  REQUIRE_EQ(chmod(copy.c_str(), 0777), 0);
+  CHECK_EQ(why_not(copy, sentence), MVS_E_IO);
+  CHECK_NE(sentence.find("chmod"), std::string::npos);
+  REQUIRE_EQ(chmod(copy.c_str(), 0755), 0);
+  CHECK_EQ(why_not(copy, sentence), MVS_OK);
+}
+
+TEST_CASE("options that a driver does not know, or that are none, are refused") {
+  const std::string path = std::string(MVS_DRIVERS_DIR) + "/hand.so";
+  for (const char *options : {"nonsense=1", "mass", "=1", "mas=1"}) {
+    CAPTURE(options);
+    mvs_device_desc desc = desc_of(path);
+    desc.options = options;
+    try {
+      Device device(desc, {});
+      FAIL("opened");
+    } catch (const Error &error) {
+      CHECK_EQ(error.code, MVS_E_ARGUMENT);
+    }
+  }
+}

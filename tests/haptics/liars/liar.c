@@ -1,0 +1,147 @@
+/* Drivers that libmvs has to find out: built once for each LIE_*. */
+#include <math.h>
+#include <mvs/driver.h>
+#include <stddef.h>
+#include <string.h>
+#include <unistd.h>
+
+struct mvs_driver_device {
+  uint64_t sequence;
+};
+static struct mvs_driver_device the_one;
+
+static int32_t open_device(const mvs_driver_host *host, const char *name,
+                           mvs_driver_device **device) {
+  (void)host;
+  (void)name;
+#ifdef LIE_HANGS
+  pause(); /* for ever */
+#endif
+#ifdef LIE_REFUSES
+  return MVS_DRIVER_E_PERMISSION;
+#endif
+  *device = &the_one;
+#ifdef LIE_NO_HANDLE
+  *device = NULL;
+#endif
+  return MVS_DRIVER_OK;
+}
+
+static int32_t info(mvs_driver_device *device, mvs_driver_info *to) {
+  (void)device;
+  const uint32_t size = to->struct_size;
+  memset(to, 0, sizeof *to);
+  to->struct_size = size;
+  to->freedoms_in = to->freedoms_out = 3;
+#ifdef LIE_NAN
+  to->peak_force = NAN;
+#endif
+#ifdef LIE_FRAME
+  to->frame[0] = to->frame[5] = to->frame[10] = 2;
+#endif
+#ifdef LIE_WORKSPACE
+  to->workspace_min[0] = 1;
+  to->workspace_max[0] = -1;
+#endif
+#ifdef LIE_TEXT /* without its end */
+  memset(to->model, 'x', sizeof to->model);
+#endif
+  return MVS_DRIVER_OK;
+}
+
+static int32_t start(mvs_driver_device *device) {
+  (void)device;
+  return MVS_DRIVER_OK;
+}
+
+static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *state) {
+#ifdef LIE_LOOP_HANGS
+  if (device->sequence > 10) pause();
+#endif
+  state->flags = MVS_DRIVER_CALIBRATED;
+  state->time_ns = now_ns;
+  state->sequence = ++device->sequence;
+  state->orientation[0] = 1;
+#ifdef LIE_GARBAGE
+  memset(state, 0xff, sizeof *state);
+#endif
+  return MVS_DRIVER_OK;
+}
+
+static int32_t write_force(mvs_driver_device *device, const mvs_driver_force *force) {
+  (void)device;
+  (void)force;
+  return MVS_DRIVER_OK;
+}
+
+static int32_t run(mvs_driver_device *device, mvs_driver_servo servo, void *user) {
+  (void)device;
+  (void)servo;
+  (void)user;
+  return MVS_DRIVER_OK; /* at once: without having been asked to */
+}
+
+static int32_t stop(mvs_driver_device *device) {
+  (void)device;
+  return MVS_DRIVER_OK;
+}
+
+static void close_device(mvs_driver_device *device) {
+  (void)device;
+}
+
+static const char *error(const mvs_driver_device *device) {
+  (void)device;
+#ifdef LIE_REFUSES
+  return NULL;
+#else
+  return "a sentence";
+#endif
+}
+
+#ifdef LIE_NO_SYMBOL
+int32_t mvs_driver_negotiat(const mvs_driver_host *host, mvs_driver_api *api);
+int32_t mvs_driver_negotiat(const mvs_driver_host *host, mvs_driver_api *api)
+#else
+int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api)
+#endif
+{
+  (void)host;
+  mvs_driver_api ours = {0};
+  ours.struct_size = sizeof ours;
+  ours.version = MVS_DRIVER_VERSION;
+  ours.name = "liar";
+  ours.open = open_device;
+  ours.info = info;
+  ours.start = start;
+  ours.read = read_state;
+  ours.write = write_force;
+  ours.stop = stop;
+  ours.close = close_device;
+  ours.error = error;
+#ifdef LIE_OLD
+  return MVS_DRIVER_E_VERSION;
+#endif
+#ifdef LIE_VERSION
+  ours.version = 99;
+#endif
+#ifdef LIE_SIZE
+  ours.struct_size = 8;
+#endif
+#ifdef LIE_NO_CLOSE
+  ours.close = NULL;
+#endif
+#ifdef LIE_NO_WRITE
+  ours.write = NULL;
+#endif
+#ifdef LIE_LEAVES
+  ours.run = run;
+#else
+  (void)run;
+#endif
+  memcpy(api, &ours, sizeof ours);
+#ifdef LIE_OVERRUNS
+  memset((char *)api + sizeof ours, 0, 16);
+#endif
+  return MVS_DRIVER_OK;
+}
