@@ -3,7 +3,7 @@
 
 #include <mvs/tool.h>
 
-#include "api/device_feel.h"
+#include "haptics/tissue_maker.h"
 #include "api/device_view.h"
 #include "api/simulator.h"
 #include "haptics/servo_types.h"

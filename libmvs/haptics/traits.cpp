@@ -9,7 +9,7 @@
 namespace mvs {
 namespace {
 
-// The weakest device of the table in haptic_drivers/README.md (3D Systems Touch).
+// The weakest device of the table in haptic_drivers/hand/README.md (3D Systems Touch).
 constexpr double weakest_force = 3.3, weakest_continuous = 0.88;           // N
 constexpr double weakest_stiffness = 400, weakest_damping = 4;             // N/m, N s/m
 constexpr double usual_rate = 1000;                                        // Hz

@@ -1,5 +1,5 @@
 // Local models of grasps, instruments and chordae.
-#include "api/device_feel.h"
+#include "haptics/tissue_maker.h"
 
 #include <mvs/tool.h>
 
