@@ -96,7 +96,7 @@ static void press(int key) {
   else if (key == 'q')
     ended = 1;
   else if ((said = surgery(sim, key, &hand, chosen, option.out)) != NULL) {
-    tell(now.time, "%s; orifice %.1f mm2", said, 1e6 * orifice_now(sim));
+    tell(now.time, "%s; orifice %.1f mm2", said, 1e6 * orifice_now(sim, option.headless));
   }
 }
 
@@ -231,7 +231,7 @@ static void tell_end(double before) {
   must(mvs_snapshot_hash(valve, hash));
   mvs_snapshot_release(valve);
   printf("peak force %.2f N, orifice %.1f mm2 before, %.1f after, %d frames, hash %016llx%016llx\n",
-         strongest, before, 1e6 * orifice_now(sim), frames, (unsigned long long)hash[0],
+         strongest, before, 1e6 * orifice_now(sim, 1), frames, (unsigned long long)hash[0],
          (unsigned long long)hash[1]);
 }
 
@@ -242,7 +242,7 @@ int main(int argc, char **argv) {
   must(mvs_device_guard_crashes(1));
   atexit(put_down);
   open_valve();
-  before = 1e6 * orifice_now(sim);
+  before = 1e6 * orifice_now(sim, 1);
   if (!option.headless && (no_window = window_open(800, 600)) != NULL) {
     fprintf(stderr, "phantom: no window (%s): --seconds or ^C ends it\n", no_window);
   }

@@ -80,8 +80,8 @@ void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_d
 const char *mode_name(uint32_t mode);
 const char *chord_name(mvs_sim *sim, mvs_id id, mvs_part *part);
 double length_of(const double v[3]);
-/* The orifice as it is now, m2; takes some 30 ms. */
-double orifice_now(mvs_sim *sim);
+/* The orifice as it is now, m2, which takes some 30 ms; without waiting as it was last measured. */
+double orifice_now(mvs_sim *sim, int wait);
 
 /* Does what a key means to the valve, and says what that was; null if it means nothing. `out` is
  * the path of files to write, without its end. */

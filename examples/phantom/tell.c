@@ -16,10 +16,10 @@ void tell(double time, const char *format, ...) {
   fflush(stdout);
 }
 
-double orifice_now(mvs_sim *sim) {
+double orifice_now(mvs_sim *sim, int wait) {
   const mvs_snapshot *valve;
   must(mvs_get_snapshot(sim, &valve));
-  orifice_look(valve, 1);
+  orifice_look(valve, wait);
   mvs_snapshot_release(valve);
   return orifice_area(NULL);
 }
@@ -70,6 +70,7 @@ static const char *cause_name(uint32_t cause) {
 
 void tell_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now) {
   static double peak; /* N, since something was let go */
+  static int latched;
   const uint32_t e = hand->events;
   mvs_part part = {0};
   if (e & MVS_EVENT_CHOSEN) {
@@ -78,17 +79,19 @@ void tell_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_s
   }
   if (e & MVS_EVENT_GRASPED) {
     tell(now->time, "grasps node %u of %s; orifice %.1f mm2", (unsigned)hand->node,
-         scallop_of(sim, hand->node, &part), 1e6 * orifice_now(sim));
+         scallop_of(sim, hand->node, &part), 1e6 * orifice_now(sim, option.headless));
   }
   if (e & MVS_EVENT_MISSED) tell(now->time, "reaches nothing");
   if (e & MVS_EVENT_LET_GO) {
-    tell(now->time, "lets go; %.2f N at most, orifice %.1f mm2", peak, 1e6 * orifice_now(sim));
+    tell(now->time, "lets go; %.2f N at most, orifice %.1f mm2", peak,
+         1e6 * orifice_now(sim, option.headless));
     peak = 0;
   }
   if (e & MVS_EVENT_LOST_TOOL) tell(now->time, "the instrument went with that");
-  if (e & MVS_EVENT_LATCHED) {
+  if ((e & MVS_EVENT_LATCHED) && !latched) { /* it is told for as long as they are off */
     tell(now->time, "forces are off because of %s: key a arms again", cause_name(now->cause));
   }
+  latched = (e & MVS_EVENT_LATCHED) != 0;
   peak = fmax(peak, length_of(hand->force));
 }
 
