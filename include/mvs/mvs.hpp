@@ -7,6 +7,7 @@
 
 #include <mvs/mvs.h>
 #include <mvs/base.hpp>
+#include <mvs/device.hpp>
 #include <mvs/op.hpp>
 #include <mvs/snapshot.hpp>
 #include <mvs/spread.hpp>

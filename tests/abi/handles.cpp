@@ -70,6 +70,46 @@ void tools_are_added_moved_told_and_removed() {
   check(mvs::tools_of(sim.snapshot()).empty(), "no tool");
 }
 
+// With the driver template, where drivers are built.
+void devices_are_found_opened_and_turned() {
+  try {
+    mvs::Device({0, MVS_CLOCK_REAL, "nowhere", nullptr, nullptr, 0, nullptr, nullptr});
+    check(false, "there is no such driver");
+  } catch (const mvs::Error &error) {
+    check(error.code() == MVS_E_IO, "the code of C");
+  }
+  for (const mvs::Driver &driver : mvs::drivers()) {
+    if (driver.name != "template") continue;
+    check(!mvs::findings_of(driver.path).empty(), "it has a doctor");
+    const std::vector<mvs::FoundDevice> found = mvs::devices_of(driver.name);
+    check(found.size() == 1, "and one device");
+    mvs_device_desc desc = {};
+    desc.clock = MVS_CLOCK_VIRTUAL;
+    desc.driver = driver.path.c_str();
+    desc.device = found[0].name.c_str();
+    mvs::Device first(desc);
+    mvs::Device device = std::move(first);
+    mvs_device_limits limits = device.limits();
+    limits.force = 0.5;
+    device.set_limits(limits);
+    check(device.limits().force == 0.5 && device.info().peak_force >= 0.5, "limits");
+    device.set_view(device.view());
+    device.set_hand(device.hand());
+    device.start();
+    device.arm();
+    device.advance(0.01);
+    std::uint64_t lost = 0;
+    check(device.trace(lost).size() == 10 && lost == 0, "ticks");
+    mvs::Sim sim;
+    sim.generate();
+    check(device.sync(sim.get()).tool == 0, "an empty hand");
+    device.cut();
+    device.advance(0.001);
+    check(device.state().cause == MVS_CAUSE_SOFTWARE, "cut");
+    device.stop();
+  }
+}
+
 void a_valve_is_worked_on_from_load_to_file() {
   mvs::Sim sim;
   sim.generate();
@@ -155,6 +195,7 @@ int main() {
   failures_are_thrown_with_code_and_part();
   views_know_their_type();
   tools_are_added_moved_told_and_removed();
+  devices_are_found_opened_and_turned();
   a_valve_is_worked_on_from_load_to_file();
   operations_are_applied_undone_and_listed();
   kinds_of_operations_describe_themselves();

@@ -1,0 +1,163 @@
+// Haptic devices for C++17. Part of mvs/mvs.hpp.
+#ifndef MVS_DEVICE_HPP
+#define MVS_DEVICE_HPP
+
+#include <mvs/device.h>
+#include <mvs/base.hpp>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mvs {
+inline namespace cpp17 {
+
+// A driver that is installed.
+struct Driver {
+  std::string name, path;
+};
+
+// A device that a driver finds: the name that mvs_device_desc takes, and what it is.
+struct FoundDevice {
+  std::string name, model;
+};
+
+// One check of a driver's doctor; `verdict` is 1 good, 0 a fault, -1 a warning.
+struct Finding {
+  std::int32_t verdict;
+  std::string check, sentence;
+};
+
+// The drivers in the folder beside the library.
+inline std::vector<Driver> drivers() {
+  std::vector<Driver> found;
+  must(mvs_driver_each(
+      [](void *to, const char *name, const char *path) {
+        static_cast<std::vector<Driver> *>(to)->push_back({name, path});
+      },
+      &found));
+  return found;
+}
+
+// The devices that a driver finds; `options` are "key=value" lines.
+inline std::vector<FoundDevice> devices_of(const std::string &driver,
+                                           const std::string &options = "") {
+  std::vector<FoundDevice> found;
+  must(mvs_device_list(
+      driver.c_str(), options.c_str(),
+      [](void *to, const char *name, const char *model) {
+        static_cast<std::vector<FoundDevice> *>(to)->push_back({name, model});
+      },
+      &found));
+  return found;
+}
+
+// All that a driver's doctor says.
+inline std::vector<Finding> findings_of(const std::string &driver,
+                                        const std::string &options = "") {
+  std::vector<Finding> found;
+  must(mvs_device_doctor(
+      driver.c_str(), options.c_str(),
+      [](void *to, std::int32_t verdict, const char *check, const char *sentence) {
+        static_cast<std::vector<Finding> *>(to)->push_back({verdict, check, sentence});
+      },
+      &found));
+  return found;
+}
+
+// An open device, owned; it stops when it goes.
+class Device {
+ public:
+  explicit Device(mvs_device_desc desc) {
+    desc.struct_size = sizeof desc;
+    must(mvs_device_open(&desc, &device_));
+  }
+  Device(Device &&other) noexcept : device_(std::exchange(other.device_, nullptr)) {}
+  Device &operator=(Device &&other) noexcept {
+    std::swap(device_, other.device_);
+    return *this;
+  }
+  Device(const Device &) = delete;
+  Device &operator=(const Device &) = delete;
+  ~Device() { mvs_device_close(device_); }
+
+  mvs_device *get() const { return device_; }
+
+  mvs_device_info info() const {
+    mvs_device_info info = sized<mvs_device_info>();
+    must(mvs_device_get_info(device_, &info));
+    return info;
+  }
+
+  void set_limits(mvs_device_limits limits) {
+    limits.struct_size = sizeof limits;
+    must(mvs_device_set_limits(device_, &limits));
+  }
+  mvs_device_limits limits() const {
+    mvs_device_limits limits = sized<mvs_device_limits>();
+    must(mvs_device_get_limits(device_, &limits));
+    return limits;
+  }
+
+  void set_view(mvs_device_view view) {
+    view.struct_size = sizeof view;
+    must(mvs_device_set_view(device_, &view));
+  }
+  mvs_device_view view() const {
+    mvs_device_view view = sized<mvs_device_view>();
+    must(mvs_device_get_view(device_, &view));
+    return view;
+  }
+
+  void set_hand(mvs_device_hand hand) {
+    hand.struct_size = sizeof hand;
+    must(mvs_device_set_hand(device_, &hand));
+  }
+  mvs_device_hand hand() const {
+    mvs_device_hand hand = sized<mvs_device_hand>();
+    must(mvs_device_get_hand(device_, &hand));
+    return hand;
+  }
+
+  void start() { must(mvs_device_start(device_)); }
+  void stop() { must(mvs_device_stop(device_)); }
+  void arm() { must(mvs_device_arm(device_)); }
+  // From any thread.
+  void cut() { must(mvs_device_cut(device_)); }
+  void advance(double seconds) { must(mvs_device_advance(device_, seconds)); }
+
+  // Before each step of the simulator; mvs::Sim::get() is one.
+  mvs_device_report sync(mvs_sim *sim) {
+    mvs_device_report report = sized<mvs_device_report>();
+    must(mvs_device_sync(device_, sim, &report));
+    return report;
+  }
+
+  // From any thread.
+  mvs_device_state state() const {
+    mvs_device_state state = sized<mvs_device_state>();
+    must(mvs_device_get_state(device_, &state));
+    return state;
+  }
+
+  // The ticks since the last call; adds to `lost` how many nobody fetched in time.
+  std::vector<mvs_device_sample> trace(std::uint64_t &lost) {
+    std::vector<mvs_device_sample> samples(8192);
+    std::uint32_t count = 0;
+    std::uint64_t missed = 0;
+    must(mvs_device_trace(device_, samples.data(), static_cast<std::uint32_t>(samples.size()),
+                          &count, &missed));
+    lost += missed;
+    samples.resize(count);
+    return samples;
+  }
+
+ private:
+  mvs_device *device_ = nullptr;
+};
+
+}  // namespace cpp17
+}  // namespace mvs
+
+#endif
