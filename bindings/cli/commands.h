@@ -19,6 +19,7 @@ void add_convert(CLI::App &app, Console &console);
 void add_plan(CLI::App &app, Console &console);
 void add_remesh(CLI::App &app, Console &console);
 void add_repair(CLI::App &app, Console &console);
+void add_haptics(CLI::App &app, Console &console);
 
 // A command with the options that all have: --json.
 CLI::App *add_command(CLI::App &app, Console &console, const std::string &name,

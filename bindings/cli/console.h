@@ -16,6 +16,7 @@ inline constexpr double pa_per_mmhg = 133.322;
 struct Console {
   bool json = false;      // --json: stdout holds one object and nothing else
   bool progress = false;  // --progress: show it although stderr is no terminal
+  int exit_code = 0;      // of a command that did its work and found something wrong
 };
 
 // printf into a string.

@@ -29,6 +29,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
   cli::add_plan(app, console);
   cli::add_remesh(app, console);
   cli::add_repair(app, console);
+  cli::add_haptics(app, console);
 }
 
 int run(int argc, char **argv) {
@@ -37,7 +38,7 @@ int run(int argc, char **argv) {
   add_commands(app, console);
   try {
     app.parse(argc, argv);
-    return 0;
+    return console.exit_code;
   } catch (const CLI::ParseError &error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const mvs::Error &failure) {

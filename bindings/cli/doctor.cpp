@@ -1,0 +1,145 @@
+// `mvs haptics doctor`: all that a device needs, looked at; exit code 1 if something is missing.
+#include <pthread.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "device.h"
+#include "haptics.h"
+
+namespace cli {
+namespace {
+
+constexpr int priority = 60;  // of SCHED_FIFO, which the library asks for
+
+// A finding and what it is about: "system", or a driver's name.
+struct Row {
+  std::string about;
+  mvs::Finding finding;
+};
+
+// Asked as the library does, by a thread of its own.
+bool may_be_realtime() {
+  bool granted = false;
+  std::thread([&granted] {
+    sched_param wanted = {};
+    wanted.sched_priority = priority;
+    granted = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted) == 0;
+  }).join();
+  return granted;
+}
+
+mvs::Finding realtime() {
+  if (may_be_realtime()) return {1, "real-time priority", text("SCHED_FIFO %d granted", priority)};
+  rlimit allowed = {};
+  getrlimit(RLIMIT_RTPRIO, &allowed);
+  const std::string why =
+      allowed.rlim_cur >= priority
+          ? text(
+                "RLIMIT_RTPRIO is %d, but the system refuses SCHED_FIFO %d: a container or a "
+                "control group without real-time time?",
+                priority, priority)
+          : text(
+                "RLIMIT_RTPRIO is %llu, and %d is needed: write the line \"@audio - rtprio %d\" "
+                "(or another group, or your name without @) into "
+                "/etc/security/limits.d/mvs.conf, be in that group, and log in anew",
+                static_cast<unsigned long long>(allowed.rlim_cur), priority, priority);
+  return {-1, "real-time priority",
+          why + "; without it the hand feels what else this computer does"};
+}
+
+mvs::Finding processors() {
+  const unsigned count = std::thread::hardware_concurrency();
+  const bool enough = count != 1;
+  return {enough ? 1 : -1, "processors",
+          enough ? text("%u", count)
+                 : "only one: servo and simulation take turns on it, and the hand feels that"};
+}
+
+mvs::Finding library() {
+  const uint32_t v = mvs_version();
+  return {1, "library",
+          text("libmvs %u.%u.%u (%s), drivers of version %u", v / 10000, v / 100 % 100, v % 100,
+               mvs_features(), MVS_DRIVER_VERSION)};
+}
+
+// A driver that cannot be asked is a finding too.
+void ask(const std::string &name, const std::string &driver, const std::string &options,
+         std::vector<Row> &rows) {
+  try {
+    for (mvs::Finding &found : mvs::findings_of(driver, options)) {
+      rows.push_back({name, std::move(found)});
+    }
+  } catch (const mvs::Error &failure) {
+    rows.push_back({name, {0, "driver", failure.what()}});
+  }
+}
+
+std::vector<Row> examine(const DeviceOptions &options) {
+  std::vector<Row> rows = {{"system", library()}, {"system", processors()}, {"system", realtime()}};
+  if (!options.driver.empty()) {
+    ask(options.driver, driver_of(options), lines_of(options.options), rows);
+    return rows;
+  }
+  const std::vector<mvs::Driver> installed = mvs::drivers();
+  for (const mvs::Driver &driver : installed) ask(driver.name, driver.path, "", rows);
+  if (installed.empty()) {
+    rows.push_back({"system",
+                    {0, "drivers",
+                     "none is installed: they lie in the folder mvs/drivers beside the library"}});
+  }
+  return rows;
+}
+
+const char *word_of(int32_t verdict) {
+  return verdict > 0 ? "good" : verdict < 0 ? "warning" : "fault";
+}
+
+std::string rows_text(const std::vector<Row> &rows) {
+  std::string told;
+  for (const Row &row : rows) {
+    const mvs::Finding &found = row.finding;
+    told += text("%s%-7s  %-14s %s: %s", told.empty() ? "" : "\n", word_of(found.verdict),
+                 row.about.c_str(), found.check.c_str(), found.sentence.c_str());
+  }
+  return told;
+}
+
+Json rows_json(const std::vector<Row> &rows) {
+  Json all = Json::array();
+  for (const Row &row : rows) {
+    all.push_back({{"about", row.about},
+                   {"verdict", word_of(row.finding.verdict)},
+                   {"check", row.finding.check},
+                   {"sentence", row.finding.sentence}});
+  }
+  return all;
+}
+
+void run(const DeviceOptions &options, Console &console) {
+  const std::vector<Row> rows = examine(options);
+  const auto count = [&](int32_t verdict) {
+    return std::count_if(rows.begin(), rows.end(),
+                         [&](const Row &row) { return row.finding.verdict == verdict; });
+  };
+  print(console, {{"faults", count(0)}, {"warnings", count(-1)}, {"findings", rows_json(rows)}},
+        rows_text(rows));
+  if (count(0) == 0) return;
+  std::fprintf(stderr, "mvs: %td of %zu findings are faults\n", count(0), rows.size());
+  console.exit_code = 1;
+}
+
+}  // namespace
+
+void add_haptics_doctor(CLI::App &haptics, Console &console) {
+  auto options = std::make_shared<DeviceOptions>();
+  CLI::App *command = add_command(haptics, console, "doctor",
+                                  "look at all that a device needs; exit code 1 for a fault");
+  add_driver_options(*command, *options);
+  command->callback([=, &console] { run(*options, console); });
+}
+
+}  // namespace cli

@@ -1,0 +1,228 @@
+// The library renders tissue and nothing else, so the pushes are tissue: the pull of a taut chord
+// of a closed valve, felt with a gain that makes it as large as is asked, through a view that turns
+// it along the axis. So they go all the way that a surgeon's forces go, with every limit in it.
+#include "push.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cli {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr double look = 0.005;             // s, between two calls of mvs_device_sync
+constexpr double rise = 0.25, top = 0.25;  // s, of a push; it falls as it rose
+constexpr double rest = 0.25;              // s, between two
+constexpr double settled = 0.1;            // s, after which the slew limit has let the force follow
+constexpr double patience = 5;             // s, for forces to begin
+constexpr double least_gain = 1e-3;        // of mvs_device_hand.gain
+
+double dot(const Vector &a, const double *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// The quaternion that turns the unit vector `from` into `to`.
+std::array<double, 4> turn(const Vector &from, const Vector &to) {
+  const double cosine = dot(from, to.data());
+  if (1 + cosine < 1e-9) {  // half a turn about any axis across
+    const Vector other = std::abs(from[0]) < 0.9 ? Vector{1, 0, 0} : Vector{0, 1, 0};
+    return {0, from[1] * other[2] - from[2] * other[1], from[2] * other[0] - from[0] * other[2],
+            from[0] * other[1] - from[1] * other[0]};
+  }
+  return {1 + cosine, from[1] * to[2] - from[2] * to[1], from[2] * to[0] - from[0] * to[2],
+          from[0] * to[1] - from[1] * to[0]};
+}
+
+// A force of any size in any direction, of a device.
+class ChordPull {
+ public:
+  explicit ChordPull(mvs::Device &device) : device_(device), sim_(make_sim()) {
+    mvs_parametric_desc small = {};
+    small.vertices = 200;
+    sim_.generate(small);
+    sim_.set_load(120 * pa_per_mmhg);
+    sim_.settle();
+    take_tautest(sim_.snapshot());
+  }
+
+  // From now on along the unit vector `direction` of the device.
+  void aim(const Vector &direction) {
+    mvs_device_view view = {};
+    const auto rotation = turn(direction, pull_);
+    std::copy(rotation.begin(), rotation.end(), view.rotation);
+    device_.set_view(view);
+  }
+
+  void ask(double force) {
+    mvs_device_hand hand = {};
+    hand.mode = force / tension_ < least_gain ? MVS_HAND_LOOK : MVS_HAND_FEEL;
+    hand.chord = chord_;
+    hand.gain = hand.mode == MVS_HAND_FEEL ? force / tension_ : 0;
+    device_.set_hand(hand);
+    device_.sync(sim_.get());
+  }
+
+ private:
+  void take_tautest(const mvs::Snapshot &valve) {
+    const auto tensions = valve.view<double>(MVS_CHORD_TENSION);
+    const auto tautest = std::max_element(tensions.begin(), tensions.end()) - tensions.begin();
+    tension_ = tensions.begin()[tautest];
+    chord_ = valve.view<uint64_t>(MVS_CHORD_ID).begin()[tautest];
+    const uint32_t *const ends = valve.view<uint32_t>(MVS_CHORD_NODES).row(tautest);
+    const auto nodes = valve.view<double>(MVS_NODE_POSITION);
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      pull_[k] = nodes.row(ends[0])[k] - nodes.row(ends[1])[k];
+      square += pull_[k] * pull_[k];
+    }
+    for (double &p : pull_) p /= std::sqrt(square);
+  }
+
+  mvs::Device &device_;
+  mvs::Sim sim_;
+  double tension_ = 0;
+  mvs_id chord_ = 0;
+  Vector pull_ = {};  // the direction in the valve
+};
+
+// Turns the device, feeding it, and stops whatever went wrong.
+class Pusher {
+ public:
+  Pusher(Session &session, Ticks &ticks)
+      : session_(session), ticks_(ticks), pull_(session.device()) {}
+
+  void begin();
+  Push push(const std::string &direction, const Vector &axis, double force);
+
+ private:
+  std::vector<mvs_device_sample> pass(double force);
+  void rest_for(double seconds);
+
+  Session &session_;
+  Ticks &ticks_;
+  ChordPull pull_;
+};
+
+std::vector<mvs_device_sample> Pusher::pass(double force) {
+  const uint64_t lost = session_.lost();
+  pull_.ask(force);
+  std::vector<mvs_device_sample> samples = session_.pass(look);
+  ticks_.take(samples, session_.lost() > lost);
+  if (session_.is_interrupted()) {
+    fail(MVS_E_CANCELLED, "force", "stopped by Ctrl-C; forces are off");
+  }
+  const mvs_device_state state = session_.device().state();
+  if (state.phase == MVS_DEVICE_LATCHED) {
+    fail(MVS_E_DEVICE, "force",
+         text("forces latched off (%s): %s", cause_of(state.cause).name,
+              cause_of(state.cause).sentence));
+  }
+  return samples;
+}
+
+// Until gate and ramp have let forces begin.
+void Pusher::begin() {
+  session_.device().arm();
+  const double begun = session_.elapsed();
+  while (session_.device().state().phase != MVS_DEVICE_ON) {
+    pass(0);
+    if (session_.elapsed() - begun < patience) continue;
+    fail(MVS_E_DEVICE, "force",
+         text("forces did not begin within %g s: hold the stylus in the middle of its workspace, "
+              "out of its holder",
+              patience));
+  }
+}
+
+void Pusher::rest_for(double seconds) {
+  for (double t = 0; t < seconds; t += look) pass(0);
+}
+
+// What the motors were told at the top of a push, summed over the ticks.
+struct Top {
+  double along = 0, across = 0;
+  size_t ticks = 0;
+
+  void take(const std::vector<mvs_device_sample> &samples, const Vector &axis) {
+    for (const mvs_device_sample &sample : samples) {
+      const double *const f = sample.force;
+      const double here = dot(axis, f), square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+      along += here;
+      across = std::max(across, std::sqrt(std::max(0.0, square - here * here)));
+      ++ticks;
+    }
+  }
+};
+
+Push Pusher::push(const std::string &direction, const Vector &axis, double force) {
+  Push made = {direction, force, 0, 0, 0, true};
+  pull_.aim(axis);
+  rest_for(rest);
+  const double from = dot(axis, session_.device().state().hand);
+  Top at_top;
+  for (double t = 0; t < 2 * rise + top; t += look) {
+    const double share = std::clamp(std::min(t, 2 * rise + top - t) / rise, 0.0, 1.0);
+    const std::vector<mvs_device_sample> samples = pass(share * force);
+    for (const mvs_device_sample &sample : samples) {
+      made.moved_m = std::max(made.moved_m, dot(axis, sample.position) - from);
+    }
+    if (t < rise + settled || t > rise + top - look) continue;
+    at_top.take(samples, axis);
+    const uint32_t flags = session_.device().state().flags;
+    made.motors_on = made.motors_on && (flags & MVS_DRIVER_FORCE_ON) != 0;
+  }
+  made.told_N = at_top.along / static_cast<double>(std::max<size_t>(1, at_top.ticks));
+  made.across_N = at_top.across;
+  return made;
+}
+
+}  // namespace
+
+double push_of(const mvs_device_info &info) {
+  return std::min(0.5, info.continuous_force / 4);
+}
+
+std::vector<Push> push_hand(Session &session, double push, Ticks &ticks) {
+  static constexpr const char *names[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  mvs_device_limits limits = {};
+  limits.force = push;
+  session.device().set_limits(limits);
+  Pusher pusher(session, ticks);
+  pusher.begin();
+  std::vector<Push> pushes;
+  for (size_t k = 0; k < 6; ++k) {
+    Vector axis = {};
+    axis[k / 2] = k % 2 == 0 ? 1 : -1;
+    pushes.push_back(pusher.push(names[k], axis, push));
+  }
+  return pushes;
+}
+
+Json pushes_json(const std::vector<Push> &pushes) {
+  Json all = Json::array();
+  for (const Push &push : pushes) {
+    all.push_back({{"direction", push.direction},
+                   {"asked_N", push.asked_N},
+                   {"told_N", push.told_N},
+                   {"across_N", push.across_N},
+                   {"moved_mm", 1e3 * push.moved_m},
+                   {"motors_on", push.motors_on}});
+  }
+  return all;
+}
+
+std::string pushes_text(const std::vector<Push> &pushes) {
+  std::string told;
+  for (const Push &push : pushes) {
+    told += text(
+        "  push %s  asked %.3f N, told the motors %.3f N (%.3f N across), hand moved %.2f "
+        "mm%s\n",
+        push.direction.c_str(), push.asked_N, push.told_N, push.across_N, 1e3 * push.moved_m,
+        push.motors_on ? "" : "; the device says that its motors did NOT follow");
+  }
+  return told;
+}
+
+}  // namespace cli
