@@ -12,8 +12,17 @@
 SI units throughout: m, kg, s, N, Pa, rad.
 """
 
-from . import _core, ops
-from ._core import Simulator, Snapshot, Spread, check_valve, chord_law, chord_limits, leaflet_law
+from . import _core, haptics, ops
+from ._core import (
+    Device,
+    Simulator,
+    Snapshot,
+    Spread,
+    check_valve,
+    chord_law,
+    chord_limits,
+    leaflet_law,
+)
 from .editing import valve_of
 from .errors import (
     ArgumentError,
@@ -81,6 +90,7 @@ __all__ = [
     "Coarsening",
     "Comparison",
     "Curve",
+    "Device",
     "DeviceError",
     "DivergedError",
     "Error",
@@ -125,6 +135,7 @@ __all__ = [
     "chord_limits",
     "definition_of",
     "features",
+    "haptics",
     "leaflet_law",
     "ops",
     "unit_of",

@@ -8,6 +8,7 @@ from typing import Any, Literal, Optional, Union, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from . import haptics
 from .ops import Group, Operation
 from .values import (
     ChordLimits,
@@ -51,6 +52,10 @@ def chord_limits(kind: int) -> ChordLimits: ...
 def check_valve(valve: Valve, /) -> list[Fault]: ...
 @overload
 def check_valve(nodes: NDArray[Any], triangles: _U32, annulus: _U32, **arrays: Any) -> list[Fault]: ...
+
+def drivers() -> list[tuple[str, str]]: ...
+def devices(driver: str, options: str) -> list[tuple[str, str]]: ...
+def doctor(driver: str, options: str) -> list[tuple[int, str, str]]: ...
 
 class Snapshot:
     @property
@@ -325,6 +330,80 @@ class Simulator:
     def recover_journal(self, path: _Path, *, progress: _Progress = None) -> Replay: ...
     def close(self) -> None: ...
     def __enter__(self) -> Simulator: ...
+    def __exit__(
+        self,
+        kind: Optional[type[BaseException]],
+        error: Optional[BaseException],
+        trace: Optional[TracebackType],
+        /,
+    ) -> None: ...
+
+class Device:
+    def __init__(
+        self,
+        driver: _Path,
+        device: Optional[str] = None,
+        *,
+        options: Optional[Mapping[str, Any]] = None,
+        clock: Literal["real", "virtual"] = "real",
+        rate: Optional[float] = None,
+    ) -> None: ...
+    @property
+    def info(self) -> haptics.Info: ...
+    @property
+    def limits(self) -> haptics.Limits: ...
+    @property
+    def view(self) -> haptics.View: ...
+    @property
+    def hand(self) -> haptics.Hand: ...
+    @property
+    def state(self) -> haptics.State: ...
+    @property
+    def lost(self) -> int: ...
+    def set_limits(
+        self,
+        *,
+        force: Optional[float] = None,
+        continuous_force: Optional[float] = None,
+        thermal_s: Optional[float] = None,
+        slew: Optional[float] = None,
+        gate: Optional[float] = None,
+        ramp_s: Optional[float] = None,
+        speed: Optional[float] = None,
+        stale_s: Optional[float] = None,
+        fade_s: Optional[float] = None,
+        stiffness: Optional[float] = None,
+    ) -> None: ...
+    def set_view(
+        self,
+        *,
+        origin: _Point = ...,
+        rotation: _Point = ...,
+        scale: float = 1.0,
+        force_scale: float = 1.0,
+    ) -> None: ...
+    def set_hand(
+        self,
+        mode: Literal["look", "grasp", "ball", "rod", "feel", "drag"],
+        *,
+        chord: Optional[int] = None,
+        button: int = 0,
+        reach: Optional[float] = None,
+        radius: Optional[float] = None,
+        length: Optional[float] = None,
+        stiffness: Optional[float] = None,
+        max_force: Optional[float] = None,
+        gain: Optional[float] = None,
+    ) -> None: ...
+    def start(self) -> None: ...
+    def stop(self) -> None: ...
+    def arm(self) -> None: ...
+    def cut(self) -> None: ...
+    def advance(self, seconds: float) -> None: ...
+    def sync(self, sim: Simulator) -> haptics.Report: ...
+    def trace(self) -> NDArray[np.void]: ...
+    def close(self) -> None: ...
+    def __enter__(self) -> Device: ...
     def __exit__(
         self,
         kind: Optional[type[BaseException]],

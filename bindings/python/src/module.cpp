@@ -1,6 +1,7 @@
 // mvs._core: the C interface of libmvs for Python.
 #include <mvs/base.h>
 
+#include "device.h"
 #include "laws.h"
 #include "simulator.h"
 #include "snapshot.h"
@@ -19,6 +20,7 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The C interface of libmvs for Python; import mvs instead.";
   mvs_python::bind_snapshot(module);
   mvs_python::bind_simulator(module);
+  mvs_python::bind_device(module);
   mvs_python::bind_laws(module);
   module.def("version", &version, "The version of the library in use.");
   module.def("features", &mvs_features, "Optional parts of this build, separated by spaces.");

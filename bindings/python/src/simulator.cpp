@@ -293,4 +293,8 @@ mvs_replay Simulator::recover_journal(const std::string &path, py::object progre
   return replay;
 }
 
+void Simulator::use(const std::function<mvs_result(mvs_sim *)> &work) {
+  call([&] { return work(sim_); });
+}
+
 }  // namespace mvs_python

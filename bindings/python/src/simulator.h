@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
@@ -60,6 +61,8 @@ class Simulator {
   void open_journal(const std::string &path);
   void close_journal();
   mvs_replay recover_journal(const std::string &path, py::object progress);
+  // A call that has something else to lock as well, on the simulator in its turn.
+  void use(const std::function<mvs_result(mvs_sim *)> &work);
 
  private:
   template <typename Call>

@@ -1,0 +1,81 @@
+#include "device.h"
+
+#include <vector>
+
+namespace mvs_python {
+
+Device::Device(mvs_device_desc desc) {
+  desc.struct_size = sizeof desc;
+  release_and([&] { return mvs_device_open(&desc, &device_); });
+}
+
+void Device::refuse_closed() {
+  refuse(MVS_E_STATE, "", "the device is closed; open it again");
+}
+
+void Device::close() {
+  const py::gil_scoped_release released;
+  const std::lock_guard<std::mutex> turn(turn_);
+  const std::unique_lock<std::shared_mutex> alone(open_);
+  mvs_device_close(std::exchange(device_, nullptr));
+}
+
+// The simulator's turn first, then the device's: nobody takes them the other way round.
+mvs_device_report Device::sync(Simulator &sim) {
+  mvs_device_report report{};
+  report.struct_size = sizeof report;
+  bool closed = false;
+  sim.use([&](mvs_sim *in_turn) {
+    const std::lock_guard<std::mutex> turn(turn_);
+    closed = device_ == nullptr;
+    return closed ? MVS_OK : mvs_device_sync(device_, in_turn, &report);
+  });
+  if (closed) refuse_closed();
+  return report;
+}
+
+template <typename Look>
+void Device::look(Look &&work) {
+  bool closed = false;
+  release_and([&] {
+    const std::shared_lock<std::shared_mutex> looking(open_);
+    closed = device_ == nullptr;
+    return closed ? MVS_OK : work();
+  });
+  if (closed) refuse_closed();
+}
+
+mvs_device_state Device::state() {
+  mvs_device_state state{};
+  state.struct_size = sizeof state;
+  look([&] { return mvs_device_get_state(device_, &state); });
+  return state;
+}
+
+void Device::cut() {
+  look([&] { return mvs_device_cut(device_); });
+}
+
+py::array_t<mvs_device_sample> Device::trace() {
+  std::vector<mvs_device_sample> samples(8192);
+  uint32_t count = 0;
+  call([&](mvs_device *device) {
+    uint64_t lost = 0;
+    const mvs_result result = mvs_device_trace(
+        device, samples.data(), static_cast<uint32_t>(samples.size()), &count, &lost);
+    lost_ += lost;
+    return result;
+  });
+  return py::array_t<mvs_device_sample>(count, samples.data());
+}
+
+uint64_t Device::lost() {
+  uint64_t lost = 0;
+  call([&](mvs_device *) {
+    lost = lost_;
+    return MVS_OK;
+  });
+  return lost;
+}
+
+}  // namespace mvs_python
