@@ -11,12 +11,13 @@ namespace {
 
 // The parts of a hinge that its derivatives share. N1 = e x (x2 - x0), N2 = (x3 - x0) x e.
 struct Parts {
-  Vec3 e, m1, m2;  // m = N / |N|^2
-  Mat3 dm1, dm2;   // dm / dN
+  Vec3 e, n1, n2, m1, m2;  // m = N / |N|^2
+  double q1, q2;           // |N|^2
   double length;
   std::array<double, 4> a, b;  // dtheta/dx_k = a_k m1 + b_k m2
 };
 
+// dm / dN
 Mat3 slope_of(const Vec3 &n, double norm2) {
   return (Mat3::Identity() - (2 / norm2) * n * n.transpose()) / norm2;
 }
@@ -24,12 +25,12 @@ Mat3 slope_of(const Vec3 &n, double norm2) {
 Parts parts_of(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3) {
   Parts p;
   p.e = x1 - x0;
-  const Vec3 n1 = p.e.cross(x2 - x0), n2 = (x3 - x0).cross(p.e);
-  const double q1 = n1.squaredNorm(), q2 = n2.squaredNorm();
-  p.m1 = n1 / q1;
-  p.m2 = n2 / q2;
-  p.dm1 = slope_of(n1, q1);
-  p.dm2 = slope_of(n2, q2);
+  p.n1 = p.e.cross(x2 - x0);
+  p.n2 = (x3 - x0).cross(p.e);
+  p.q1 = p.n1.squaredNorm();
+  p.q2 = p.n2.squaredNorm();
+  p.m1 = p.n1 / p.q1;
+  p.m2 = p.n2 / p.q2;
   p.length = p.e.norm();
   const double s2 = (x2 - x0).dot(p.e) / p.length, s3 = (x3 - x0).dot(p.e) / p.length;
   // s is where a corner's foot stands along the edge; theta grows as x2 sinks below the fold.
@@ -67,8 +68,9 @@ void angle_hessian(const Vec3 &x0, const Vec3 &x2, const Vec3 &x3, const Parts &
   const Mat3 e = cross_matrix(p.e), c2 = cross_matrix(x2 - x0), c3 = cross_matrix(x3 - x0);
   const std::array<Mat3, 4> dn1{c2 - e, -c2, e, Mat3::Zero()};
   const std::array<Mat3, 4> dn2{e - c3, c3, Mat3::Zero(), -e};
+  const Mat3 dm1 = slope_of(p.n1, p.q1), dm2 = slope_of(p.n2, p.q2);
   for (uint32_t l = 0; l < 4; ++l) {
-    const Mat3 d1 = p.dm1 * dn1[l], d2 = p.dm2 * dn2[l];
+    const Mat3 d1 = dm1 * dn1[l], d2 = dm2 * dn2[l];
     for (uint32_t k = 0; k < 4; ++k) {
       h[k][l] =
           p.m1 * da[k][l].transpose() + p.m2 * db[k][l].transpose() + p.a[k] * d1 + p.b[k] * d2;
@@ -153,6 +155,7 @@ double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) c
 
 void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
   Hessian exact;
+  size_t pair = 0;
   for (const Hinge &h : hinges_) {
     const Vec3 &x0 = x[h.node[0]], &x1 = x[h.node[1]], &x2 = x[h.node[2]], &x3 = x[h.node[3]];
     const Parts p = parts_of(x0, x1, x2, x3);
@@ -165,12 +168,12 @@ void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syste
     }
     for (uint32_t k = 0; k < 4; ++k) {
       for (uint32_t l = 0; l <= k; ++l) {
-        Mat3 block = h.stiffness * slope[k] * slope[l].transpose();
+        Mat3 block = (h.stiffness * slope[k]) * slope[l].transpose();
         if (curvature == Curvature::exact) block += moment * exact[k][l];
         if (k == l) {
           system.add_diagonal(h.node[k], block);
         } else {
-          system.add(h.node[k], h.node[l], block);
+          system.add(pair++, h.node[k], h.node[l], block);
         }
       }
     }

@@ -43,7 +43,7 @@ void ChordTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System 
                                    c.area * at.stress / length, curvature);
     system.add_diagonal(c.a, block);
     system.add_diagonal(c.b, block);
-    system.add(c.a, c.b, -block);
+    system.add(static_cast<size_t>(&c - valve_->chords.data()), c.a, c.b, -block);
   }
 }
 

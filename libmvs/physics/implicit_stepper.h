@@ -1,8 +1,8 @@
 // One linearised backward Euler step: (M / dt^2 + c M / dt + H) dx = -g + M v / dt with the
 // projected H, then the cut against collisions. The mechanical energy may not grow by more than
 // what the load and the moving boundary put in: a step that makes some is shortened as long as it
-// leads downhill, then, or where its cuts have turned it uphill, before the cut; where that will not
-// do, the valve stays where it is and stops.
+// leads downhill, then, or where its cuts have turned it uphill, before the cut; where that will
+// not do, the valve stays where it is and stops.
 //
 // Bounded work: a step may pass over the terms, or factorise and solve, `budget` times. When the
 // matrix is not positive definite and the budget ends, the system is solved by its diagonal alone;
@@ -64,16 +64,16 @@ class ImplicitStepper {
   std::vector<Vec3> x_, v_, next_x_, next_v_;
   std::vector<Vec3> g_, step_, boundary_, rows_;
   std::vector<Vec3> sheet_g_, next_g_;  // without what hands do
-  std::vector<Mat3> diagonal_;  // of the system without mass
-  std::vector<double> bound_;   // of the rows of the matrix, for solve_by_diagonal
-  double slack_;                // m, for Potential::prepare
+  std::vector<Mat3> diagonal_;          // of the system without mass
+  std::vector<double> bound_;           // of the rows of the matrix, for solve_by_diagonal
+  double slack_;                        // m, for Potential::prepare
   double energy_ = 0, sheet_energy_ = 0, residual_ = 0, kinetic_ = 0;
   Load load_;
   std::vector<Id> pushing_;  // the instruments that push
   // energy and forces of the sheet are those of x_ under load_ and what pushes
   bool evaluated_ = false;
-  bool travels_ = false;    // the boundary
-  uint32_t left_ = 0;       // of the budget
+  bool travels_ = false;  // the boundary
+  uint32_t left_ = 0;     // of the budget
 };
 
 }  // namespace mvs

@@ -132,6 +132,7 @@ struct Outer {
 // and the stress adds (w_k . S w_l) I, S its form. A shift of all three corners changes nothing:
 // that gives the rows of corner 0.
 void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+  size_t pair = 0;
   for (const Triangle &t : triangles_) {
     const Deformed d = deform(t, x);
     const InPlane at = in_plane_stiffness(d.response, d.strain);
@@ -150,9 +151,9 @@ void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syst
     system.add_diagonal(t.nodes[0], -(b10 + b20));
     system.add_diagonal(t.nodes[1], b11);
     system.add_diagonal(t.nodes[2], b22);
-    system.add(t.nodes[1], t.nodes[0], b10);
-    system.add(t.nodes[2], t.nodes[0], b20);
-    system.add(t.nodes[1], t.nodes[2], b12);
+    system.add(pair++, t.nodes[1], t.nodes[0], b10);
+    system.add(pair++, t.nodes[1], t.nodes[2], b12);
+    system.add(pair++, t.nodes[2], t.nodes[0], b20);
   }
 }
 

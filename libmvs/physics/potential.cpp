@@ -14,9 +14,13 @@ Potential::Potential(const Model &model, ContactLaw law)
       contact_(model, law),
       instrument_(model) {
   spring_.add_pairs(pairs_);
+  first_.membrane = pairs_.size();
   membrane_.add_pairs(pairs_);
+  first_.bending = pairs_.size();
   bending_.add_pairs(pairs_);
+  first_.chord = pairs_.size();
   chord_.add_pairs(pairs_);
+  first_.pressure = pairs_.size();
   pressure_.add_pairs(pairs_);
 }
 
@@ -96,10 +100,15 @@ double Potential::freeze(const std::vector<Vec3> &x) {
 
 bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &system) {
   system.clear();
+  system.begin_term(0);
   spring_.hessian(x, curvature, system);
+  system.begin_term(first_.membrane);
   membrane_.hessian(x, curvature, system);
+  system.begin_term(first_.bending);
   bending_.hessian(x, curvature, system);
+  system.begin_term(first_.chord);
   chord_.hessian(x, curvature, system);
+  system.begin_term(first_.pressure);
   pressure_.hessian(x, system);
   grasp_.hessian(x, system);
   const bool complete = instrument_.hessian(x, curvature, system);
@@ -111,6 +120,7 @@ void Potential::set_pattern(System &system) {
   contact_.add_pairs(wanted_);
   instrument_.add_pairs(wanted_);
   system.set_pattern(*model_, wanted_);
+  system.find_slots(pairs_);
 }
 
 bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,

@@ -88,9 +88,12 @@ class Potential {
   ContactTerm contact_;
   GraspTerm grasp_;
   InstrumentTerm instrument_;
-  bool was_near_ = false;     // contact had pairs to look at
-  double elastic_ = 0;        // energy of the last sheet_gradient(), without that of the pressure
-  std::vector<Edge> pairs_;   // of the terms whose pattern never changes
+  bool was_near_ = false;    // contact had pairs to look at
+  double elastic_ = 0;       // energy of the last sheet_gradient(), without that of the pressure
+  std::vector<Edge> pairs_;  // of the terms whose pattern never changes,
+  struct {
+    size_t membrane, bending, chord, pressure;
+  } first_;                   // where those of each begin, the springs' at 0
   std::vector<Edge> wanted_;  // and of what touches, while a pattern is made
 };
 

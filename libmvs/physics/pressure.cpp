@@ -75,7 +75,8 @@ void PressureTerm::hessian(const std::vector<Vec3> &x, System &system) const {
   for (const Slope &s : slopes_) {
     const Vec3 arm = s.right == none ? Vec3(x[s.i] + x[s.j] - 2 * x[s.left])
                                      : Vec3(2 * (x[s.right] - x[s.left]));
-    system.add(s.i, s.j, cross_matrix((-pressure_ / 12) * arm));
+    system.add(static_cast<size_t>(&s - slopes_.data()), s.i, s.j,
+               cross_matrix((-pressure_ / 12) * arm));
   }
 }
 

@@ -62,7 +62,7 @@ void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System
     const Mat3 block = axial_block(d / length, stiffness, tension / length, curvature);
     system.add_diagonal(s.i, block);
     system.add_diagonal(s.j, block);
-    system.add(s.i, s.j, -block);
+    system.add(static_cast<size_t>(&s - springs_.data()), s.i, s.j, -block);
   }
 }
 

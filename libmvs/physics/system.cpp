@@ -12,6 +12,7 @@ constexpr double most_kept = 1.25;
 }  // namespace
 
 void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
+  slots_.clear();
   if (!keeps_order_) number_rows(model, pairs);
   take_rows(pairs);
   const auto rows = static_cast<uint32_t>(node_of.size());
@@ -26,6 +27,14 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
     if (static_cast<double>(rows_.size()) > needed) take_rows(pairs);
   }
   matrix.take_pattern(rows, rows_);
+}
+
+void System::find_slots(const std::vector<Edge> &pairs) {
+  slots_.resize(pairs.size());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const uint32_t r = row_of[pairs[k][0]], c = row_of[pairs[k][1]];
+    slots_[k] = r == none || c == none ? none : find(r, c);
+  }
 }
 
 void System::set_order(const Model &model, const std::vector<uint32_t> &nodes) {

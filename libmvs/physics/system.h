@@ -34,15 +34,28 @@ class System {
       if (boundary_step != nullptr) couple(i, j, block);
       return true;
     }
-    const bool lower = r > c;
-    const uint32_t slot = lower ? matrix.find(r, c) : matrix.find(c, r);
+    const uint32_t slot = find(r, c);
     if (slot == none) return false;
-    if (lower) {
-      matrix.value[slot] += block;
-    } else {
-      matrix.value[slot] += block.transpose();
-    }
+    add_at(slot, r > c, block);
     return true;
+  }
+
+  // Finds, once for a pattern, where the blocks of these pairs of nodes are, which it has.
+  void find_slots(const std::vector<Edge> &pairs);
+  // Of these pairs, those of a term begin here.
+  void begin_term(size_t first) { first_ = first; }
+  // The same as add(i, j, block) for what is pair `k` of a term, one way or the other.
+  void add(size_t k, uint32_t i, uint32_t j, const Mat3 &block) {
+    if (slots_.empty()) {
+      add(i, j, block);
+      return;
+    }
+    const uint32_t slot = slots_[first_ + k];
+    if (slot != none) {
+      add_at(slot, row_of[i] > row_of[j], block);
+    } else if (boundary_step != nullptr) {
+      couple(i, j, block);
+    }
   }
 
   void add_diagonal(uint32_t i, const Mat3 &block) {
@@ -58,6 +71,16 @@ class System {
   std::vector<Vec3> boundary_force;
 
  private:
+  uint32_t find(uint32_t r, uint32_t c) const {
+    return r > c ? matrix.find(r, c) : matrix.find(c, r);
+  }
+  void add_at(uint32_t slot, bool lower, const Mat3 &block) {
+    if (lower) {
+      matrix.value[slot] += block;
+    } else {
+      matrix.value[slot] += block.transpose();
+    }
+  }
   void number_rows(const Model &model, const std::vector<Edge> &pairs);
   void take_rows(const std::vector<Edge> &pairs);
   void couple(uint32_t i, uint32_t j, const Mat3 &block) {
@@ -66,7 +89,9 @@ class System {
   }
 
   bool keeps_order_ = false;
-  std::vector<Edge> rows_;  // pairs of rows, while a pattern is made
+  std::vector<Edge> rows_;       // pairs of rows, while a pattern is made
+  std::vector<uint32_t> slots_;  // by find_slots(); none where a node has no row
+  size_t first_ = 0;
 };
 
 }  // namespace mvs
