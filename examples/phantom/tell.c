@@ -70,7 +70,6 @@ static const char *cause_name(uint32_t cause) {
 
 void tell_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now) {
   static double peak; /* N, since something was let go */
-  static int latched;
   const uint32_t e = hand->events;
   mvs_part part = {0};
   if (e & MVS_EVENT_CHOSEN) {
@@ -88,10 +87,9 @@ void tell_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_s
     peak = 0;
   }
   if (e & MVS_EVENT_LOST_TOOL) tell(now->time, "the instrument went with that");
-  if ((e & MVS_EVENT_LATCHED) && !latched) { /* it is told for as long as they are off */
+  if (e & MVS_EVENT_LATCHED) {
     tell(now->time, "forces are off because of %s: key a arms again", cause_name(now->cause));
   }
-  latched = (e & MVS_EVENT_LATCHED) != 0;
   peak = fmax(peak, length_of(hand->force));
 }
 

@@ -176,7 +176,7 @@ enum {
                                    mvs_op_chord_length.drag_to */
   MVS_EVENT_LOST_TOOL = 1 << 7, /* an undo, an operation or a new valve took it away */
   MVS_EVENT_BLOCKED = 1 << 8,   /* a ball or rod would lie in tissue: move away to let it in */
-  MVS_EVENT_LATCHED = 1 << 9    /* forces are off: see mvs_device_state.cause */
+  MVS_EVENT_LATCHED = 1 << 9    /* forces went off: see mvs_device_state.cause */
 };
 
 /* What the hand points at and did. */

@@ -17,7 +17,8 @@ struct mvs_device {
   }
   mutable Device device;
   Hand hand;
-  std::mutex viewing;  // of the view, which the state is told through
+  bool latched = false;  // at the last sync
+  std::mutex viewing;    // of the view, which the state is told through
 };
 
 namespace {
@@ -88,7 +89,9 @@ mvs_device_report sync(mvs_device &d, mvs_sim &sim) {
   }
   const Tissue tissue = d.hand.tissue(sim);
   links.tissue.post(tissue);
-  return d.hand.report(sim, tissue, now.phase == MVS_DEVICE_LATCHED);
+  const bool is_latched = now.phase == MVS_DEVICE_LATCHED, was_latched = d.latched;
+  d.latched = is_latched;
+  return d.hand.report(sim, tissue, is_latched && !was_latched);
 }
 
 }  // namespace

@@ -9,8 +9,9 @@
 namespace mvs {
 namespace {
 
-constexpr double same_place = 0.25e-3;  // m, within which a stiffness stays
-constexpr uint32_t refresh_calls = 32;  // a stiffness serves no more calls than this
+constexpr double same_place = 0.5e-3;   // m, within which a stiffness stays
+constexpr uint32_t refresh_calls = 32;  // a stiffness serves no more calls than this...
+constexpr uint32_t least_calls = 8;     // ...and, of one contact, no fewer
 
 }  // namespace
 
@@ -28,8 +29,9 @@ Tissue TissueMaker::nothing() {
 
 void TissueMaker::refresh_stiffness(const Model &model, const State &state, const Tool &tool,
                                     bool touches) {
+  const bool is_near = (tool.position - at_).norm() <= same_place;
   const bool serves = age_ > 0 && valve_ == model.serial && touched_ == touches &&
-                      (tool.position - at_).norm() <= same_place;
+                      (is_near || age_ > refresh_calls - least_calls);
   age_ = serves ? age_ - 1 : refresh_calls;
   if (serves) return;
   stiffness_ = feel_.stiffness(model, state, tool);

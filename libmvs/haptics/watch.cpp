@@ -80,7 +80,8 @@ void Watch::take_pose(const mvs_driver_state &sample, const mvs_device_limits &l
     return;
   }
   const Vec3 step = pose_.position - before;
-  const double speed = step.norm() / dt_;
+  // two samples that a busy computer handed over at once say nothing about speed
+  const double speed = step.norm() / std::max(dt_, 0.5 / traits_->info.rate);
   fast_ = speed > limits.speed ? fast_ + 1 : 0;
   if (speed > jump * limits.speed || fast_ >= fast_samples) blame(MVS_CAUSE_VELOCITY);
   take_velocity(sample, step);

@@ -15,6 +15,10 @@ namespace {
 // be said to stand still.
 constexpr double quasi_static = 0.1;  // s
 
+// An elimination order serves for patterns that differ little; one that was indefinite stays so for
+// a while.
+constexpr uint32_t patterns_per_order = 20, wait_after_failure = 8;
+
 uint32_t springs_of(const Tool &tool) {
   return tool.kind == MVS_TOOL_ROD ? 2 : 1;
 }
@@ -67,10 +71,16 @@ void ToolFeel::factorise(const State &state) {
   }
   potential_->gradient(state.x, g_, profile_);
   for (const Curvature curvature : {Curvature::exact, Curvature::projected}) {
+    if (curvature == Curvature::exact && exact_fails_ > 0) {
+      --exact_fails_;
+      continue;
+    }
     if (potential_->hessian(state.x, curvature, system_, profile_)) {
+      system_.keep_order(++patterns_ % patterns_per_order != 0);
       factor_->analyse(system_.matrix);
     }
     if (try_factorise(1)) return;
+    if (curvature == Curvature::exact) exact_fails_ = wait_after_failure;
   }
   for (double more = 4; more < 1e18; more *= 4) {
     potential_->hessian(state.x, Curvature::projected, system_, profile_);

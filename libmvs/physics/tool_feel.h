@@ -41,6 +41,8 @@ class ToolFeel {
   std::optional<Potential> potential_;
   System system_;
   Profile profile_;
+  uint32_t patterns_ = 0;     // of the matrix so far
+  uint32_t exact_fails_ = 0;  // calls to come that do not try the exact curvature
   std::vector<Vec3> g_, rows_;
 };
 

@@ -1,0 +1,202 @@
+// What the servo costs, and how well it keeps its rate, beside a simulation that is at work.
+//
+//   bench_servo                      scenes S and M, 10 s each
+//   bench_servo --scenes S --seconds 2
+//
+// A simulated hand (haptic_drivers/hand) holds a Touch at 1 kHz on a thread of the library's,
+// grasps the edge of a closed valve and swings 3 mm at 1 Hz; this thread hands over and steps the
+// valve as fast as it can. "body" is the time that the servo took for a sample
+// (mvs_device_sample.servo_s, wall time: what preempts it counts), "period" the time between two
+// samples, "sync" and "step" the CPU time of handing over and of simulating. "late" counts periods
+// above two. "fifo" says whether the system gave the servo's thread real-time priority; without it
+// the worst periods are those of the machine's other work.
+#include <mvs/mvs.hpp>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace {
+
+const std::map<std::string, uint32_t> scene_vertices = {{"S", 425}, {"M", 1700}};
+
+double cpu_now() {
+  timespec now = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double quantile(std::vector<double> &values, double share) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+void print(const char *scene, const char *what, std::vector<double> &s) {
+  std::printf("%-5s %-7s %8zu %9.1f %9.1f %9.1f %9.1f %9.1f\n", scene, what, s.size(),
+              1e6 * quantile(s, 0.5), 1e6 * quantile(s, 0.99), 1e6 * quantile(s, 0.999),
+              1e6 * quantile(s, 0.9999), 1e6 * quantile(s, 1));
+}
+
+// Where the hand begins: the vertex of the free edge that lies highest.
+std::array<double, 3> highest_edge(mvs_sim *sim) {
+  const mvs_snapshot *snapshot = nullptr;
+  mvs::must(mvs_get_snapshot(sim, &snapshot));
+  mvs_view edge = {}, x = {};
+  mvs::must(mvs_snapshot_view(snapshot, MVS_FREE_EDGE_NODES, &edge));
+  mvs::must(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &x));
+  const auto *const nodes = static_cast<const uint32_t *>(edge.data);
+  const auto *const places = static_cast<const double *>(x.data);
+  std::array<double, 3> best = {0, 0, -1};
+  for (uint64_t k = 0; k < edge.count; ++k) {
+    const double *const p = places + 3 * nodes[k];
+    if (p[2] > best[2]) best = {p[0], p[1], p[2]};
+  }
+  mvs_snapshot_release(snapshot);
+  return best;
+}
+
+struct Times {
+  std::vector<double> body, period, free_sync, free_step, sync, step;
+  uint64_t lost = 0;
+};
+
+class Scene {
+ public:
+  explicit Scene(uint32_t vertices) {
+    mvs_parametric_desc valve = {};
+    valve.struct_size = sizeof valve;
+    valve.vertices = vertices;
+    mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+    mvs::must(mvs_create(nullptr, &sim_));
+    mvs::must(mvs_generate_valve(sim_, &valve));
+    mvs::must(mvs_set_load(sim_, &systole));
+    mvs::must(mvs_settle(sim_, nullptr, nullptr));
+    open();
+  }
+  ~Scene() {
+    mvs_device_close(device_);
+    mvs_destroy(sim_);
+  }
+  Scene(const Scene &) = delete;
+  Scene &operator=(const Scene &) = delete;
+
+  Times play(double seconds) {
+    Times times;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < end) {
+      turn(times);
+      fetch(times);
+    }
+    return times;
+  }
+  bool is_realtime() const {
+    mvs_device_info info = {};
+    info.struct_size = sizeof info;
+    mvs::must(mvs_device_get_info(device_, &info));
+    return info.realtime == 1;
+  }
+  mvs_device_state state() const {
+    mvs_device_state state = {};
+    state.struct_size = sizeof state;
+    mvs::must(mvs_device_get_state(device_, &state));
+    return state;
+  }
+
+ private:
+  void open() {
+    mvs_device_desc desc = {};
+    desc.struct_size = sizeof desc;
+    desc.driver = "hand";
+    desc.options =
+        "device=touch\namplitude=0.003,0.003,0\nfrequency=1\nfault=stuck_button\n"
+        "fault_at=0.5";
+    mvs_device_view view = {};
+    view.struct_size = sizeof view;
+    const auto at = highest_edge(sim_);
+    std::copy(at.begin(), at.end(), view.origin);
+    mvs_device_hand hand = {};
+    hand.struct_size = sizeof hand;
+    hand.mode = MVS_HAND_GRASP;
+    hand.reach = 0.02;
+    mvs::must(mvs_device_open(&desc, &device_));
+    mvs::must(mvs_device_set_view(device_, &view));
+    mvs::must(mvs_device_set_hand(device_, &hand));
+    mvs::must(mvs_device_start(device_));
+    while (state().ticks < 10) {
+    }
+    mvs::must(mvs_device_arm(device_));
+  }
+
+  void turn(Times &times) {
+    const double begin = cpu_now();
+    mvs_device_report report = {};
+    report.struct_size = sizeof report;
+    mvs::must(mvs_device_sync(device_, sim_, &report));
+    const double between = cpu_now();
+    mvs::must(mvs_step(sim_, nullptr));
+    (report.tool != 0 ? times.sync : times.free_sync).push_back(between - begin);
+    (report.tool != 0 ? times.step : times.free_step).push_back(cpu_now() - between);
+  }
+
+  void fetch(Times &times) {
+    mvs_device_sample rows[256];
+    uint32_t count = 0;
+    uint64_t lost = 0;
+    do {
+      mvs::must(mvs_device_trace(device_, rows, 256, &count, &lost));
+      times.lost += lost;
+      for (uint32_t k = 0; k < count; ++k) {
+        times.body.push_back(rows[k].servo_s);
+        if (last_ > 0) times.period.push_back(rows[k].time - last_);
+        last_ = rows[k].time;
+      }
+    } while (count == 256);
+  }
+
+  mvs_sim *sim_ = nullptr;
+  mvs_device *device_ = nullptr;
+  double last_ = 0;
+};
+
+void run(const std::string &name, double seconds) {
+  Scene scene(scene_vertices.at(name));
+  Times times = scene.play(seconds);
+  print(name.c_str(), "body", times.body);
+  print(name.c_str(), "period", times.period);
+  print(name.c_str(), "sync", times.sync);
+  print(name.c_str(), "step", times.step);
+  std::printf("%-5s %zu turns before the grasp\n", name.c_str(), times.free_step.size());
+  const mvs_device_state state = scene.state();
+  std::printf("%-5s fifo %s, late %llu of %llu, not fetched %llu, phase %u, cause %u\n",
+              name.c_str(), scene.is_realtime() ? "granted" : "refused",
+              static_cast<unsigned long long>(state.late),
+              static_cast<unsigned long long>(state.ticks),
+              static_cast<unsigned long long>(times.lost), state.phase, state.cause);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  CLI::App app("What the servo costs, and how well it keeps its rate");
+  std::vector<std::string> scenes = {"S", "M"};
+  double seconds = 10;
+  app.add_option("--scenes", scenes, "S (425 vertices), M (1,700)")
+      ->check(CLI::IsMember({"S", "M"}));
+  app.add_option("--seconds", seconds, "of play, each")->check(CLI::Range(0.1, 3600.0));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::printf("us\n%-5s %-7s %8s %9s %9s %9s %9s %9s\n", "scene", "what", "count", "p50", "p99",
+                "p99.9", "p99.99", "max");
+    for (const std::string &name : scenes) run(name, seconds);
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "bench_servo: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,110 @@
+// The servo of a haptic device allocates nothing and calls no system, whatever it is given: new
+// tissue, new limits, a cut, faults of the device.
+#include <mvs/mvs.h>
+
+#include <cstdio>
+
+#include "check.h"
+#include "counted.h"
+
+namespace {
+
+// A simulated hand that swings through a valve, started and armed.
+struct Scene {
+  explicit Scene(const char *options) {
+    const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+    MUST(mvs_create(nullptr, &sim));
+    MUST(mvs_generate_valve(sim, nullptr));
+    MUST(mvs_set_load(sim, &systole));
+    MUST(mvs_settle(sim, nullptr, nullptr));
+    mvs_device_desc desc = {};
+    desc.struct_size = sizeof desc;
+    desc.clock = MVS_CLOCK_VIRTUAL;
+    desc.driver = "hand";
+    desc.options = options;
+    mvs_device_hand hand = {};
+    hand.struct_size = sizeof hand;
+    hand.mode = MVS_HAND_GRASP;
+    hand.reach = 0.05;
+    MUST(mvs_device_open(&desc, &device));
+    MUST(mvs_device_set_hand(device, &hand));
+    MUST(mvs_device_start(device));
+    MUST(mvs_device_advance(device, 0.01));
+    MUST(mvs_device_arm(device));
+  }
+  ~Scene() {
+    mvs_device_close(device);
+    mvs_destroy(sim);
+  }
+  void hand_over() const {
+    MUST(mvs_device_sync(device, sim, nullptr));
+    MUST(mvs_step(sim, nullptr));
+  }
+  mvs_device_state state() const {
+    mvs_device_state state = {};
+    state.struct_size = sizeof state;
+    MUST(mvs_device_get_state(device, &state));
+    return state;
+  }
+
+  mvs_sim *sim = nullptr;
+  mvs_device *device = nullptr;
+};
+
+constexpr char grasping[] =
+    "device=touch\namplitude=0.005,0,0\nfrequency=2\nfault=stuck_button\nfault_at=0.1";
+
+#if HAS_OWN_MALLOC
+void ticks_allocate_nothing(const char *options, uint32_t phase) {
+  const Scene scene(options);
+  long made = 0;
+  for (int k = 0; k < 200; ++k) {
+    scene.hand_over();
+    const long before = allocations;
+    MUST(mvs_device_advance(scene.device, 0.01));
+    made += allocations - before;
+  }
+  CHECK(made == 0);
+  CHECK(scene.state().phase == phase);
+  std::printf("%ld allocations in %llu ticks\n", made,
+              static_cast<unsigned long long>(scene.state().ticks));
+}
+#endif
+
+#if HAS_SECCOMP
+void ticks_call_no_system() {
+  const Scene scene(grasping);
+  for (int k = 0; k < 100; ++k) {
+    scene.hand_over();
+    MUST(mvs_device_advance(scene.device, 0.01));
+  }
+  scene.hand_over();
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!allow_nothing_more()) _exit(77);
+    _exit(mvs_device_advance(scene.device, 1) == MVS_OK ? 0 : 1);
+  }
+  int status = 0;
+  CHECK(waitpid(child, &status, 0) == child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
+    std::printf("no seccomp here: system calls not tested\n");
+  } else {
+    CHECK(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  }
+}
+#endif
+
+}  // namespace
+
+int main() {
+#if HAS_OWN_MALLOC
+  ticks_allocate_nothing(grasping, MVS_DEVICE_ON);
+  ticks_allocate_nothing("fault=nan_position\nfault_at=0.5", MVS_DEVICE_LATCHED);
+  ticks_allocate_nothing("fault=jump\nfault_at=0.5", MVS_DEVICE_LATCHED);
+#endif
+#if HAS_SECCOMP
+  ticks_call_no_system();
+#endif
+  return finish("servo");
+}
