@@ -38,60 +38,36 @@ std::array<double, 4> turn(const Vector &from, const Vector &to) {
 // A force of any size in any direction, of a device.
 class ChordPull {
  public:
-  explicit ChordPull(mvs::Device &device) : device_(device), sim_(make_sim()) {
-    mvs_parametric_desc small = {};
-    small.vertices = 200;
-    sim_.generate(small);
-    sim_.set_load(120 * pa_per_mmhg);
-    sim_.settle();
-    take_tautest(sim_.snapshot());
-  }
+  ChordPull(mvs::Device &device, TautChord &chord) : device_(device), chord_(chord) {}
 
   // From now on along the unit vector `direction` of the device.
   void aim(const Vector &direction) {
     mvs_device_view view = {};
-    const auto rotation = turn(direction, pull_);
+    const auto rotation = turn(direction, chord_.pull);
     std::copy(rotation.begin(), rotation.end(), view.rotation);
     device_.set_view(view);
   }
 
   void ask(double force) {
+    const double gain = force / chord_.tension;
     mvs_device_hand hand = {};
-    hand.mode = force / tension_ < least_gain ? MVS_HAND_LOOK : MVS_HAND_FEEL;
-    hand.chord = chord_;
-    hand.gain = hand.mode == MVS_HAND_FEEL ? force / tension_ : 0;
+    hand.mode = gain < least_gain ? MVS_HAND_LOOK : MVS_HAND_FEEL;
+    hand.chord = chord_.id;
+    hand.gain = gain < least_gain ? 0 : gain;
     device_.set_hand(hand);
-    device_.sync(sim_.get());
+    device_.sync(chord_.sim.get());
   }
 
  private:
-  void take_tautest(const mvs::Snapshot &valve) {
-    const auto tensions = valve.view<double>(MVS_CHORD_TENSION);
-    const auto tautest = std::max_element(tensions.begin(), tensions.end()) - tensions.begin();
-    tension_ = tensions.begin()[tautest];
-    chord_ = valve.view<uint64_t>(MVS_CHORD_ID).begin()[tautest];
-    const uint32_t *const ends = valve.view<uint32_t>(MVS_CHORD_NODES).row(tautest);
-    const auto nodes = valve.view<double>(MVS_NODE_POSITION);
-    double square = 0;
-    for (int k = 0; k < 3; ++k) {
-      pull_[k] = nodes.row(ends[0])[k] - nodes.row(ends[1])[k];
-      square += pull_[k] * pull_[k];
-    }
-    for (double &p : pull_) p /= std::sqrt(square);
-  }
-
   mvs::Device &device_;
-  mvs::Sim sim_;
-  double tension_ = 0;
-  mvs_id chord_ = 0;
-  Vector pull_ = {};  // the direction in the valve
+  TautChord &chord_;
 };
 
 // Turns the device, feeding it, and stops whatever went wrong.
 class Pusher {
  public:
-  Pusher(Session &session, Ticks &ticks)
-      : session_(session), ticks_(ticks), pull_(session.device()) {}
+  Pusher(Session &session, TautChord &chord, Ticks &ticks)
+      : session_(session), ticks_(ticks), pull_(session.device(), chord) {}
 
   void begin();
   Push push(const std::string &direction, const Vector &axis, double force);
@@ -180,16 +156,36 @@ Push Pusher::push(const std::string &direction, const Vector &axis, double force
 
 }  // namespace
 
+TautChord taut_chord() {
+  TautChord found = {make_sim(), 0, 0, {}};
+  mvs_parametric_desc small = {};
+  small.vertices = 200;
+  found.sim.generate(small);
+  found.sim.set_load(120 * pa_per_mmhg);
+  found.sim.settle();
+  const mvs::Snapshot valve = found.sim.snapshot();
+  const auto tensions = valve.view<double>(MVS_CHORD_TENSION);
+  const auto tautest = std::max_element(tensions.begin(), tensions.end()) - tensions.begin();
+  found.tension = tensions.begin()[tautest];
+  found.id = valve.view<uint64_t>(MVS_CHORD_ID).begin()[tautest];
+  const uint32_t *const ends = valve.view<uint32_t>(MVS_CHORD_NODES).row(tautest);
+  const auto nodes = valve.view<double>(MVS_NODE_POSITION);
+  for (int k = 0; k < 3; ++k) found.pull[k] = nodes.row(ends[0])[k] - nodes.row(ends[1])[k];
+  const double length = std::sqrt(dot(found.pull, found.pull.data()));
+  for (double &p : found.pull) p /= length;
+  return found;
+}
+
 double push_of(const mvs_device_info &info) {
   return std::min(0.5, info.continuous_force / 4);
 }
 
-std::vector<Push> push_hand(Session &session, double push, Ticks &ticks) {
+std::vector<Push> push_hand(Session &session, TautChord &chord, double push, Ticks &ticks) {
   static constexpr const char *names[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
   mvs_device_limits limits = {};
   limits.force = push;
   session.device().set_limits(limits);
-  Pusher pusher(session, ticks);
+  Pusher pusher(session, chord, ticks);
   pusher.begin();
   std::vector<Push> pushes;
   for (size_t k = 0; k < 6; ++k) {

@@ -105,12 +105,18 @@ bool is_fault(const mvs_device_state &state) {
 void run(const Options &options, Console &console) {
   Session session(options.device);
   const mvs_device_info info = session.device().info();
-  if (options.force) confirm(options, info);
+  std::optional<TautChord> chord;
+  if (options.force) {
+    confirm(options, info);
+    chord = taut_chord();
+  }
   session.start();
   Ticks ticks(info.rate);
   watch(options, session, ticks);
   Tested tested = {};
-  if (options.force && !session.is_over()) tested.pushes = push_hand(session, push_of(info), ticks);
+  if (chord && !session.is_over()) {
+    tested.pushes = push_hand(session, *chord, push_of(info), ticks);
+  }
   tested.info = session.device().info();
   tested.state = session.device().state();
   tested.lost = session.lost();
