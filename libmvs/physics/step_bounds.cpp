@@ -11,8 +11,10 @@ namespace {
 
 // The share of a distance that one step may use up. The rest is what rounding could never cross.
 constexpr double usable = 0.9;
-// m, nearer than this no pair comes: far above the rounding of places, 1e-17 m.
-constexpr double closest = 1e-10;
+// m, nearer than this no pair comes. Far above the rounding of places, 1e-17 m; and so far that a
+// pair that was pressed to it parts again soon: a Newton step on a logarithm doubles its distance,
+// and from 1e-10 m a ball that a hand drew back stuck in the tissue for twenty steps.
+constexpr double closest = 1e-6;
 // Passes in which a node may follow one that gives way; then each keeps to its own half.
 constexpr int lenient_passes = 30;
 // Lists made for nodes that go together, before one that holds for each node by itself.

@@ -165,8 +165,8 @@ TEST_CASE("a_ball_and_a_rod_at_1_m_per_s_never_pass_through_a_leaflet") {
       add_tool(*model, state, tool);
       push(*model, state, -1e-3 * way, 40);
       const Vec3 behind = state.tools[0].position - state.tools[0].proxy[0];
-      // still on its side of where the triangle has gone
-      CHECK((state.tools[0].proxy[0] - above(*model, state.x, 40, 0)).dot(way) > 0);
+      // each step was looked at by push(); it may slide off the leaflet's side, but lies in none
+      CHECK(clearance(*model, state.x, state.tools[0]) > 0);
       CHECK(behind.norm() > 5e-3);
       CHECK(farthest(state.x, start.x) > 1e-3);
     }
