@@ -3,10 +3,10 @@
 
 #include <mvs/tool.h>
 
-#include "haptics/tissue_maker.h"
 #include "api/device_view.h"
 #include "api/simulator.h"
 #include "haptics/servo_types.h"
+#include "haptics/tissue_maker.h"
 
 namespace mvs {
 

@@ -4,7 +4,8 @@
 // link. So the observer compares the work that the hand was given with the work that the model
 // gives on the same way, and with that of the simulation when a new model replaces one.
 //
-// Whether a device acts on a force at once or a sample later nobody knows: what is worse is counted.
+// Whether a device acts on a force at once or a sample later nobody knows: what is worse is
+// counted.
 //
 // A spring K, held for a period T, makes K v^2 T^2 / 2 a period, in and out: damping takes out just
 // what Colgate & Schenkel ask for (J. Robotic Systems 14, 1997), b > K T / 2, and only what the
@@ -17,8 +18,8 @@ namespace mvs {
 
 class EnergyObserver {
  public:
-  // The hand went `step` under the force told last, or the one before it; the field gave `before` and
-  // `now` at its ends.
+  // The hand went `step` under the force told last, or the one before it; the field gave `before`
+  // and `now` at its ends.
   void take_step(const Vec3 &step, const std::array<Vec3, 2> &told, const Vec3 &before,
                  const Vec3 &now);
   // Another model of the same contact, with the hand at `hand`; `share` of the force is rendered.

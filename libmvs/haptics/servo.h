@@ -19,7 +19,7 @@ struct ServoLinks {
   Mailbox<Tissue> tissue;                // from the simulation
   Mailbox<mvs_device_limits> limits;     // from the application
   Mailbox<ServoPicture> picture;         // to whoever looks
-  Queue<ButtonEvent, 256> buttons;        // to the simulation
+  Queue<ButtonEvent, 256> buttons;       // to the simulation
   Trace<mvs_device_sample, 8192> trace;  // to the application
   Requests requests;
 };
@@ -56,10 +56,10 @@ class Servo {
   HeatBudget heat_;
   EnergyObserver energy_;
   Tissue tissue_;
-  Vec3 field_ = Vec3::Zero();  // what tissue and wall give at the last sample, as it is rendered
-  Vec3 force_ = Vec3::Zero();  // what the motors were told last
+  Vec3 field_ = Vec3::Zero();   // what tissue and wall give at the last sample, as it is rendered
+  Vec3 force_ = Vec3::Zero();   // what the motors were told last
   Vec3 before_ = Vec3::Zero();  // and before that
-  Vec3 at_ = Vec3::Zero();     // where the hand was at the last tick
+  Vec3 at_ = Vec3::Zero();      // where the hand was at the last tick
   double share_ = 0;
   uint32_t bits_ = 0;  // MVS_LIMITED_*
   bool has_tissue_ = false;

@@ -14,7 +14,7 @@ constexpr double weakest_force = 3.3, weakest_continuous = 0.88;           // N
 constexpr double weakest_stiffness = 400, weakest_damping = 4;             // N/m, N s/m
 constexpr double usual_rate = 1000;                                        // Hz
 constexpr double usual_speed = 1;                                          // m/s
-constexpr double strongest = 1000, farthest = 10, stiffest = 1e6;           // what no device exceeds
+constexpr double strongest = 1000, farthest = 10, stiffest = 1e6;          // what no device exceeds
 constexpr double slowest_rate = 100, fastest_rate = 10000, fastest = 100;  // Hz, Hz, m/s
 
 // 0 takes the fallback.

@@ -1,0 +1,68 @@
+// On a real clock: the servo's thread, one that hands over, one that looks, one that cuts. What it
+// is for is the thread sanitizer (cmake --preset tsan).
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "loop.h"
+
+using namespace mvs;
+using std::chrono::milliseconds;
+
+namespace {
+
+void hand_over(Device &device, uint64_t number) {
+  Tissue tissue = spring(100);
+  tissue.number = number;
+  device.links().tissue.post(tissue);
+  mvs_device_limits limits = {};
+  limits.ramp_s = 0.1;
+  device.set_limits(limits);
+  mvs_device_sample sample;
+  uint64_t lost = 0;
+  while (device.links().trace.pop(sample, lost)) {
+  }
+  ButtonEvent event;
+  while (device.links().buttons.pop(event)) {
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a servo, a simulation, a window and an emergency stop share a device") {
+  mvs_device_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.driver = MVS_DRIVERS_DIR "/hand.so";
+  desc.options = "device=touch\namplitude=0.005,0,0\nfrequency=2";
+  Device device(desc, {});
+  device.start();
+  while (device.picture().ticks < 20) std::this_thread::sleep_for(milliseconds(1));
+  device.arm();
+  std::atomic<bool> over{false};
+  std::thread looks([&] {
+    while (!over) {
+      (void)device.picture();
+      (void)device.info();
+    }
+  });
+  std::thread cuts([&] {
+    std::this_thread::sleep_for(milliseconds(300));
+    device.cut();
+  });
+  for (uint64_t k = 1; k <= 50; ++k) {
+    hand_over(device, k);
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  over = true;
+  looks.join();
+  cuts.join();
+  const ServoPicture now = device.picture();
+  CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
+  CHECK(now.force.isZero(0));
+  CHECK_GT(now.ticks, 100);
+  device.stop();
+  device.start();
+  device.stop();
+}
