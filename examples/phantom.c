@@ -201,6 +201,15 @@ static int tissue_is_behind(void) {
   return tissue_time < now.time;
 }
 
+/* A device on a virtual clock that has stopped ticking is at the end of its recording, or lost. */
+static int is_over(void) {
+  static uint64_t ticks;
+  static double still;
+  still = now.ticks == ticks ? still + option.dt : 0;
+  ticks = now.ticks;
+  return option.headless && still > 0.05;
+}
+
 static void turn_once(void) {
   mvs_step_options step = {0};
   int key;
@@ -221,8 +230,8 @@ static void turn_once(void) {
     show();
   }
   if (window) window_wait(tissue_time < now.time ? 0 : 1e-3);
-  if ((window && window_wants_to_close()) || (option.seconds > 0 && now.time >= option.seconds))
-    ended = 1;
+  if (is_over() || (window && window_wants_to_close())) ended = 1;
+  if (option.seconds > 0 && now.time >= option.seconds) ended = 1;
 }
 
 static void tell_end(double before) {

@@ -94,7 +94,12 @@ elseif(CASE STREQUAL "errors")
   run(1 ${unattended} --seconds 1 --script ${RECORDINGS}/circle.txt --frames nowhere)
   must_say("nowhere/frame_0000\\.ppm cannot be written")
   run(2 ${unattended} --seconds 1 --keys later:u)
-  must_say("^use: phantom .*replay")
+  must_say("no keys with their times: later:u" "use: phantom .*replay")
+  run(2 ${unattended})
+  must_say("needs --seconds or --script")
+  # and no error: a recording ends by itself
+  run(0 ${unattended} --script ${RECORDINGS}/circle.txt)
+  must_say("peak force 0.00 N")
 elseif(CASE STREQUAL "window")
   # on a real clock: how much of the recording a busy machine shows is its own affair
   run(0 ${XVFB_RUN} -a ${PHANTOM} --driver replay --script ${RECORDINGS}/grasp_a2.txt --seconds 2

@@ -7,19 +7,22 @@
 
 options option = {NULL, NULL, NULL, "", NULL, "phantom", "", 1, 1e-3, 0.1, 0, 0};
 
+static const char *script;
+
 static void list_driver(void *user, const char *name, const char *path) {
   (void)user;
   fprintf(stderr, "  %-16s %s\n", name, path);
 }
 
-static void use(void) {
+static void use(const char *why, const char *what) {
+  fprintf(stderr, "phantom: %s%s\n", why, what);
   fprintf(
       stderr,
       "use: phantom --driver NAME|PATH [--device NAME] [--option KEY=VALUE ...]\n"
       "  [--valve FILE]    else the shipped valve       [--scale S]  of motion, 1\n"
       "  [--script FILE]   a recording, for replay      [--keys \"2.0:u 3.0:s\"]  pressed for you\n"
       "  [--headless]      unattended, on a virtual clock, no window\n"
-      "  [--seconds S]     the end                      [--dt S]  of a step, 0.001\n"
+      "  [--seconds S]     else the script's end      [--dt S]  of a step, 0.001\n"
       "  [--frames DIR]    pictures into it             [--every S]  0.1\n"
       "  [--out BASE]      files of keys s and w: BASE.obj, BASE.json\n"
       "drivers:\n");
@@ -30,14 +33,14 @@ static void use(void) {
 static double number(const char *text) {
   char *end;
   const double value = strtod(text, &end);
-  if (end == text || *end != 0) use();
+  if (end == text || *end != 0) use("this is no number: ", text);
   return value;
 }
 
 static void add_driver_option(const char *key, const char *value) {
   const size_t used = strlen(option.driver_options), room = sizeof option.driver_options - used;
   const int wanted = snprintf(option.driver_options + used, room, "%s%s\n", key, value);
-  if (wanted < 0 || (size_t)wanted >= room) use();
+  if (wanted < 0 || (size_t)wanted >= room) use("too many options for the driver, at ", value);
 }
 
 static void read_option(const char *name, const char *value) {
@@ -48,7 +51,7 @@ static void read_option(const char *name, const char *value) {
   else if (!strcmp(name, "--option"))
     add_driver_option("", value);
   else if (!strcmp(name, "--script"))
-    add_driver_option("file=", value);
+    add_driver_option("file=", script = value);
   else if (!strcmp(name, "--valve"))
     option.valve = value;
   else if (!strcmp(name, "--keys"))
@@ -66,7 +69,7 @@ static void read_option(const char *name, const char *value) {
   else if (!strcmp(name, "--dt"))
     option.dt = number(value);
   else
-    use();
+    use("there is no option ", name);
 }
 
 const char *next_key(const char *keys, double *when, int *key) {
@@ -95,9 +98,14 @@ void read_options(int argc, char **argv) {
       read_option(argv[i], argv[i + 1]);
       ++i;
     } else {
-      use();
+      use("a value is missing after ", argv[i]);
     }
   }
-  if (!option.driver || option.every <= 0 || !are_keys(option.keys)) use();
-  if (option.headless && option.seconds <= 0) use();
+  if (!option.driver) use("--driver has to be given", "");
+  if (!(option.every > 0)) use("--every has to be above 0", "");
+  if (!are_keys(option.keys)) use("these are no keys with their times: ", option.keys);
+  if (option.headless && option.seconds <= 0) {
+    if (!script) use("--headless needs --seconds or --script: nothing else ends it", "");
+    add_driver_option("end=", "stop");
+  }
 }
