@@ -14,7 +14,10 @@ class Hand {
  public:
   // Both throw MVS_E_ARGUMENT.
   void set_hand(const mvs_device_hand &given);
-  void set_view(const mvs_device_view &given) { view_ = DeviceView::read(given); }
+  void set_view(const mvs_device_view &given) {
+    view_ = DeviceView::read(given);
+    maker_.begin_contact();  // the same tissue lies elsewhere for the servo
+  }
   const mvs_device_hand &hand() const { return hand_; }
   const DeviceView &view() const { return view_; }
 
