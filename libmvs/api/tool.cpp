@@ -17,7 +17,7 @@ namespace {
 constexpr double farthest = 10;
 
 Vec3 read_place(const double given[3], const char *what) {
-  const Vec3 place(given[0], given[1], given[2]);
+  Vec3 place(given[0], given[1], given[2]);
   MVS_MUST((place.cwiseAbs().array() <= farthest).all(), MVS_E_ARGUMENT, what,
            "%s is (%g, %g, %g) m: each has to be a number within %g", what, place.x(), place.y(),
            place.z(), farthest);

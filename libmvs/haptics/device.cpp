@@ -171,7 +171,9 @@ void Device::advance(double seconds) {
            "seconds is %g: it has to be 0 to 3600", seconds);
   const double period = 1 / core_->traits.info.rate;
   // a tick that is due but for rounding is due
-  for (core_->due += seconds; core_->due > (1 - 1e-6) * period; core_->due -= period) {
+  core_->due += seconds;
+  while (core_->due > (1 - 1e-6) * period) {
+    core_->due -= period;
     if (!core_->lost.empty()) continue;
     core_->now_ns += static_cast<uint64_t>(std::llround(1e9 * period));
     core_->poll(core_->now_ns);

@@ -102,7 +102,7 @@ std::vector<DriverFile> installed_drivers() {
 std::shared_ptr<Plug> Plug::load(const std::string &driver, const std::string &options, Log log) {
   const std::string path = path_of(driver);
   must_be_trusted(path);
-  const std::shared_ptr<Plug> plug(new Plug);
+  std::shared_ptr<Plug> plug(new Plug);
   plug->options_ = read_options(options);
   plug->log_ = std::move(log);
   plug->host_ = {sizeof(mvs_driver_host), MVS_DRIVER_VERSION, MVS_DRIVER_VERSION, 0, plug.get(),

@@ -186,7 +186,8 @@ void ImplicitStepper::solve(const StepOptions &how, SolveStats &stats) {
 // the budget ends before.
 bool ImplicitStepper::factorise(const StepOptions &how, SolveStats &stats) {
   const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
-  for (double more = 1; left_ > closing_passes && more < 1e18; more *= 4) {
+  double more = 1;
+  while (left_ > closing_passes && more < 1e18) {
     for (size_t r = 0; r < rows_.size(); ++r) {
       const double m = model_->node_mass[system_.node_of[r]];
       Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
@@ -197,6 +198,7 @@ bool ImplicitStepper::factorise(const StepOptions &how, SolveStats &stats) {
     ++stats.factorisations;
     if (factor_->factorise(system_.matrix)) return true;
     if (more == 1) ++stats.shifted;
+    more *= 4;
   }
   return false;
 }

@@ -82,7 +82,9 @@ void ToolFeel::factorise(const State &state) {
     if (try_factorise(1)) return;
     if (curvature == Curvature::exact) exact_fails_ = wait_after_failure;
   }
-  for (double more = 4; more < 1e18; more *= 4) {
+  double more = 1;
+  while (more < 1e18) {
+    more *= 4;
     potential_->hessian(state.x, Curvature::projected, system_, profile_);
     if (try_factorise(more)) return;
   }

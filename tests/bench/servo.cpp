@@ -181,9 +181,7 @@ void run(const std::string &name, double seconds) {
               static_cast<unsigned long long>(times.lost), state.phase, state.cause);
 }
 
-}  // namespace
-
-int main(int argc, char **argv) {
+int bench(int argc, char **argv) {
   CLI::App app("What the servo costs, and how well it keeps its rate");
   std::vector<std::string> scenes = {"S", "M"};
   double seconds = 10;
@@ -191,10 +189,17 @@ int main(int argc, char **argv) {
       ->check(CLI::IsMember({"S", "M"}));
   app.add_option("--seconds", seconds, "of play, each")->check(CLI::Range(0.1, 3600.0));
   CLI11_PARSE(app, argc, argv);
+  std::printf("us\n%-5s %-7s %8s %9s %9s %9s %9s %9s\n", "scene", "what", "count", "p50", "p99",
+              "p99.9", "p99.99", "max");
+  for (const std::string &name : scenes) run(name, seconds);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
   try {
-    std::printf("us\n%-5s %-7s %8s %9s %9s %9s %9s %9s\n", "scene", "what", "count", "p50", "p99",
-                "p99.9", "p99.99", "max");
-    for (const std::string &name : scenes) run(name, seconds);
+    return bench(argc, argv);
   } catch (const std::exception &error) {
     std::fprintf(stderr, "bench_servo: %s\n", error.what());
     return 1;

@@ -183,6 +183,7 @@ double step_cost(const Model &model, State state, int before, int count) {
   how.solver = MVS_SOLVER_IMPLICIT;
   for (int k = 0; k < before; ++k) solver.step(model, state, how);
   std::vector<double> cpu_s;
+  cpu_s.reserve(static_cast<size_t>(count));
   for (int k = 0; k < count; ++k)
     cpu_s.push_back(bench::timed([&] { solver.step(model, state, how); }).cpu);
   return bench::median(cpu_s);

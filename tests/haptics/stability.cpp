@@ -29,7 +29,8 @@ double unseen(double stiffness, double resolution) {
 class Work {
  public:
   void follow(Loop &loop, double seconds) {
-    for (double t = 0; t < seconds; t += 0.04) {
+    const auto turns = static_cast<int>(std::ceil(seconds / 0.04));
+    for (int k = 0; k < turns; ++k) {
       loop.run(0.04);
       mvs_device_sample row;
       uint64_t lost = 0;
