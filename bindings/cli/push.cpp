@@ -113,7 +113,8 @@ void Pusher::begin() {
 }
 
 void Pusher::rest_for(double seconds) {
-  for (double t = 0; t < seconds; t += look) pass(0);
+  const auto looks = static_cast<int>(std::ceil(seconds / look));
+  for (int k = 0; k < looks; ++k) pass(0);
 }
 
 // What the motors were told at the top of a push, summed over the ticks.
@@ -138,7 +139,9 @@ Push Pusher::push(const std::string &direction, const Vector &axis, double force
   rest_for(rest);
   const double from = dot(axis, session_.device().state().hand);
   Top at_top;
-  for (double t = 0; t < 2 * rise + top; t += look) {
+  const auto looks = static_cast<int>(std::ceil((2 * rise + top) / look));
+  for (int k = 0; k < looks; ++k) {
+    const double t = k * look;
     const double share = std::clamp(std::min(t, 2 * rise + top - t) / rise, 0.0, 1.0);
     const std::vector<mvs_device_sample> samples = pass(share * force);
     for (const mvs_device_sample &sample : samples) {
