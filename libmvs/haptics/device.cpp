@@ -63,26 +63,20 @@ Device::Device(const mvs_device_desc &desc, Plug::Log log) : core_(std::make_sha
     core_->traits.info.clock = desc.clock;
     limits_ = resolve_limits({}, core_->traits.info);
   } catch (...) {
-    plug.ask("close", nullptr, [core](const mvs_driver_api &api) {
-      api.close(core->handle);
-      return MVS_DRIVER_OK;
-    });
+    core_->close();
     throw;
   }
   core_->links = std::make_unique<ServoLinks>();
   core_->servo = std::make_unique<Servo>(core_->traits, limits_, *core_->links);
 }
 
+// A thread that hangs in the driver still uses the device, and owns what it needs.
 Device::~Device() {
   try {
     stop();
   } catch (const Error &) {
-    return;  // its thread hangs in the driver and owns what it needs
   }
-  core_->plug->ask("close", nullptr, [core = core_](const mvs_driver_api &api) {
-    api.close(core->handle);
-    return MVS_DRIVER_OK;
-  });
+  if (!core_->is_running()) core_->close();
 }
 
 mvs_device_info Device::info() const {
@@ -102,6 +96,9 @@ ServoLinks &Device::links() {
 
 void Device::start() {
   MVS_MUST(!started_, MVS_E_STATE, core_->plug->name(), "the device is started already");
+  MVS_MUST(!core_->is_running(), MVS_E_DEVICE, core_->plug->name(),
+           "%s: its driver has not come back from its loop: unplug the device, and start anew",
+           core_->plug->name().c_str());
   const auto &core = core_;
   Plug &plug = *core_->plug;
   if (plug.api().calibrate) {

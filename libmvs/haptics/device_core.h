@@ -8,11 +8,14 @@
 
 namespace mvs {
 
-struct Device::Core {
+struct Device::Core : std::enable_shared_from_this<Device::Core> {
   // Runs the servo on the device's clock, or polls it, until `stopping`; on a thread of its own.
   void serve();
-  // One sample and its force; false when the device is lost.
-  bool poll(uint64_t now_ns);
+  // One sample and its force, on a virtual clock.
+  void poll(uint64_t now_ns);
+  // Whether the thread is, also one that hangs.
+  bool is_running();
+  void close();
 
   std::shared_ptr<Plug> plug;
   mvs_driver_device *handle = nullptr;
@@ -35,7 +38,8 @@ struct Device::Core {
   static int32_t serve_sample(void *core, const mvs_driver_state *state, mvs_driver_force *force);
   int32_t poll_until_stopped();
   void tick(const mvs_driver_state &state, mvs_driver_force &force);
-  void lose(int32_t code);
+  int32_t exchange(uint64_t now_ns);
+  void lose(int32_t code, const char *otherwise);
 };
 
 // Monotonic, ns.

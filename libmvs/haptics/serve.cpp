@@ -51,15 +51,30 @@ void Device::Core::serve() {
   const bool own_clock = api.run != nullptr;
   realtime = own_clock || become_realtime() ? 1 : 0;
   const int32_t code = own_clock ? api.run(handle, &serve_sample, this) : poll_until_stopped();
-  if (code < 0 || !stopping) {
-    const char *const why = code < 0 ? api.error(handle) : nullptr;
-    servo->lose(cause_of(code));
-    const std::lock_guard<std::mutex> lock(mutex);
-    lost = why ? why : "the driver left its loop without being asked to";
-  }
+  if (code < 0 || !stopping) lose(code, "the driver left its loop without being asked to");
   const std::lock_guard<std::mutex> lock(mutex);
   running = false;
   ended.notify_all();
+}
+
+// With the driver's own sentence where it failed, else with another one.
+void Device::Core::lose(int32_t code, const char *otherwise) {
+  const char *const why = code < 0 ? plug->api().error(handle) : nullptr;
+  servo->lose(cause_of(code));
+  const std::lock_guard<std::mutex> lock(mutex);
+  lost = why ? why : otherwise;
+}
+
+bool Device::Core::is_running() {
+  const std::lock_guard<std::mutex> lock(mutex);
+  return running;
+}
+
+void Device::Core::close() {
+  plug->ask("close", nullptr, [self = shared_from_this()](const mvs_driver_api &api) {
+    api.close(self->handle);
+    return MVS_DRIVER_OK;
+  });
 }
 
 int32_t Device::Core::serve_sample(void *core, const mvs_driver_state *state,
@@ -82,45 +97,39 @@ int32_t Device::Core::poll_until_stopped() {
   const auto period = static_cast<uint64_t>(1e9 / traits.info.rate);
   uint64_t next = clock_ns();
   while (!stopping) {
-    const mvs_driver_api &api = plug->api();
-    mvs_driver_state state = {};
-    state.struct_size = sizeof state;
-    if (const int32_t code = api.read(handle, clock_ns(), &state); code < 0) return code;
-    mvs_driver_force force = {};
-    force.struct_size = sizeof force;
-    tick(state, force);
-    if (const int32_t code = api.write(handle, &force); code < 0) return code;
+    if (const int32_t code = exchange(clock_ns()); code < 0) return code;
     next = std::max(next + period, clock_ns());
     sleep_until(next);
   }
-  mvs_driver_force none_ = {};
-  none_.struct_size = sizeof none_;
-  return plug->api().write(handle, &none_);
+  mvs_driver_force zero = {};
+  zero.struct_size = sizeof zero;
+  return plug->api().write(handle, &zero);
 }
 
+// One sample for one force.
+int32_t Device::Core::exchange(uint64_t now) {
+  const mvs_driver_api &api = plug->api();
+  mvs_driver_state state = {};
+  state.struct_size = sizeof state;
+  if (const int32_t code = api.read(handle, now, &state); code < 0) return code;
+  mvs_driver_force force = {};
+  force.struct_size = sizeof force;
+  tick(state, force);
+  return api.write(handle, &force);
+}
+
+void Device::Core::poll(uint64_t now) {
+  const int32_t code = exchange(now);
+  if (code < 0) lose(code, "the driver does not say why");
+}
+
+// A virtual clock knows no time that a tick could take.
 void Device::Core::tick(const mvs_driver_state &state, mvs_driver_force &force) {
+  if (clock == MVS_CLOCK_VIRTUAL) return servo->tick(state, force);
   const uint64_t begin = clock_ns();
   last_tick_ns.store(static_cast<int64_t>(begin), std::memory_order_relaxed);
   servo->tick(state, force);
   servo->took(1e-9 * static_cast<double>(clock_ns() - begin));
-}
-
-bool Device::Core::poll(uint64_t now) {
-  const mvs_driver_api &api = plug->api();
-  mvs_driver_state state = {};
-  state.struct_size = sizeof state;
-  int32_t code = api.read(handle, now, &state);
-  if (code >= 0) {
-    mvs_driver_force force = {};
-    force.struct_size = sizeof force;
-    servo->tick(state, force);
-    code = api.write(handle, &force);
-  }
-  if (code >= 0) return true;
-  const char *const why = api.error(handle);
-  servo->lose(cause_of(code));
-  lost = why ? why : "the driver does not say why";
-  return false;
 }
 
 }  // namespace mvs

@@ -93,6 +93,8 @@ TEST_CASE("a loop that hangs is noticed, latched, and left behind") {
   CHECK_EQ(now.cause, MVS_CAUSE_WATCHDOG);
   CHECK_THROWS_AS(device.arm(), Error);
   CHECK_THROWS_AS(device.stop(), Error);
+  CHECK_THROWS_AS(device.start(), Error);
+  // and its end does not close what the loop still uses: the driver would end the process
 }
 
 TEST_CASE("a loop that ends by itself is a lost device") {
