@@ -9,8 +9,7 @@ namespace mvs {
 namespace {
 
 constexpr double rate_filter = 0.1;  // s, over which the rate is told
-
-constexpr double late_periods = 2;
+constexpr double late_periods = 2;   // between two samples, above which the second is late
 
 bool is_finite(const Tissue &t) {
   return t.origin.allFinite() && t.force.allFinite() && t.stiffness.allFinite() &&
@@ -28,7 +27,8 @@ void Servo::start() {
   guard_.start();
   energy_.forget();
   field_ = force_ = before_ = Vec3::Zero();
-  has_tissue_ = false;
+  tissue_ = {};
+  links_->tissue.refresh();  // what was posted before is of another time
   picture_ = {};
   picture_.rate = traits_->info.rate;
   picture_.model_age = std::numeric_limits<double>::infinity();
@@ -51,9 +51,10 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
   age(dt);
   take_news();
   const bool may_feel = picture_.model_age <= limits_.stale_s && !watch_.is_parked();
-  share_ = guard_.share({watch_.cause(), may_feel, wanted().norm(), watch_.passed()}, limits_);
+  const Vec3 field = wanted();
+  share_ = guard_.share({watch_.cause(), may_feel, field.norm(), watch_.passed()}, limits_);
   before_ = force_;
-  force_ = limited();
+  force_ = limited(field);
   tell(force);
   publish(sample);
 }
@@ -79,13 +80,13 @@ void Servo::take_news() {
     tissue_ = {};
     return links_->requests.cut(MVS_CAUSE_NOT_FINITE);
   }
-  if (has_tissue_ && news.contact == tissue_.contact && news.kind != Tissue::free) {
+  const bool goes_on = news.contact == tissue_.contact && news.kind != Tissue::free;
+  if (goes_on && tissue_.kind != Tissue::free) {
     energy_.take_model(tissue_, news, watch_.pose().position, share_);
   } else {
     energy_.forget();
   }
   tissue_ = news;
-  has_tissue_ = true;
   picture_.model_age = 0;
 }
 
@@ -101,8 +102,8 @@ Vec3 Servo::rendered(const Vec3 &given, uint32_t &bits) const {
   return clamped(force, heat_.most(limits_, is_warm), MVS_LIMITED_CONTINUOUS, bits);
 }
 
-Vec3 Servo::limited() {
-  field_ = rendered(wanted(), bits_);
+Vec3 Servo::limited(const Vec3 &given) {
+  field_ = rendered(given, bits_);
   if (share_ == 0) return Vec3::Zero();
   const double dt = watch_.dt();
   Vec3 force = field_;

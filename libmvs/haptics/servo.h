@@ -41,7 +41,7 @@ class Servo {
   void take_news();
   Vec3 wanted() const;
   Vec3 rendered(const Vec3 &given, uint32_t &bits) const;
-  Vec3 limited();
+  Vec3 limited(const Vec3 &given);
   void age(double dt);
   void tell(mvs_driver_force &force) const;
   void publish(const mvs_driver_state &sample);
@@ -62,7 +62,6 @@ class Servo {
   Vec3 at_ = Vec3::Zero();      // where the hand was at the last tick
   double share_ = 0;
   uint32_t bits_ = 0;  // MVS_LIMITED_*
-  bool has_tissue_ = false;
   ServoPicture picture_;
   double servo_s_ = 0;
 };

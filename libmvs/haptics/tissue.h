@@ -19,7 +19,6 @@ struct Tissue {
     pulled    // the same force wherever the hand is
   };
   uint32_t kind = free;
-  uint64_t number = 0;   // of this model; 0: none
   uint64_t contact = 0;  // one grasp or tool; models of the same one share it
   Vec3 origin = Vec3::Zero(), force = Vec3::Zero();
   Mat3 stiffness = Mat3::Zero();  // -dF/dx at the origin; of a plane along its normal

@@ -15,29 +15,22 @@ constexpr uint32_t least_calls = 8;     // ...and, of one contact, no fewer
 
 }  // namespace
 
-Tissue TissueMaker::next(uint32_t kind) {
+Tissue TissueMaker::next(uint32_t kind) const {
   Tissue tissue;
   tissue.kind = kind;
-  tissue.number = ++number_;
   tissue.contact = contact_;
   return tissue;
 }
 
-Tissue TissueMaker::nothing() {
-  return next(Tissue::free);
-}
-
-void TissueMaker::refresh_stiffness(const Model &model, const State &state, const Tool &tool,
-                                    bool touches) {
+void TissueMaker::refresh_stiffness(const Model &model, const State &state, const Tool &tool) {
   const bool is_near = (tool.position - at_).norm() <= same_place;
-  const bool serves = age_ > 0 && valve_ == model.serial && touched_ == touches &&
-                      (is_near || age_ > refresh_calls - least_calls);
+  const bool serves =
+      age_ > 0 && valve_ == model.serial && (is_near || age_ > refresh_calls - least_calls);
   age_ = serves ? age_ - 1 : refresh_calls;
   if (serves) return;
   stiffness_ = feel_.stiffness(model, state, tool);
   at_ = tool.position;
   valve_ = model.serial;
-  touched_ = touches;
 }
 
 // A ball or rod in the open has no stiffness: it only needs to know where tissue begins.
@@ -49,7 +42,7 @@ Tissue TissueMaker::of_tool(const Model &model, const State &state, const Tool &
   tissue.origin = tool.position;
   tissue.most = tool.max_force;
   if (touches) {
-    refresh_stiffness(model, state, tool, true);
+    refresh_stiffness(model, state, tool);
     tissue.force = force_of(state, tool).force;
     tissue.stiffness = stiffness_;
     return tissue;
@@ -63,7 +56,7 @@ Tissue TissueMaker::of_tool(const Model &model, const State &state, const Tool &
 }
 
 Tissue TissueMaker::of_chord(const Model &model, const State &state, const Chord &chord,
-                             const Vec3 &hand, double gain) {
+                             const Vec3 &hand, double gain) const {
   Tissue tissue = next(Tissue::pulled);
   const Vec3 d = state.x[chord.a] - state.x[chord.b];
   const double length = d.norm(), strain = length / chord.rest_length - 1;

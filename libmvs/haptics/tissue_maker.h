@@ -15,23 +15,22 @@ class TissueMaker {
     ++contact_;
     age_ = 0;
   }
-  Tissue nothing();
+  Tissue nothing() const { return next(Tissue::free); }
   Tissue of_tool(const Model &model, const State &state, const Tool &tool);
   // The tension of a chord, `gain` times, as its leaflet end feels it.
   Tissue of_chord(const Model &model, const State &state, const Chord &chord, const Vec3 &hand,
-                  double gain);
+                  double gain) const;
 
  private:
-  Tissue next(uint32_t kind);
-  void refresh_stiffness(const Model &model, const State &state, const Tool &tool, bool touches);
+  Tissue next(uint32_t kind) const;
+  void refresh_stiffness(const Model &model, const State &state, const Tool &tool);
 
-  uint64_t contact_ = 0, number_ = 0;
+  uint64_t contact_ = 0;
   ToolFeel feel_{MVS_BACKEND_BLOCK};
   Mat3 stiffness_ = Mat3::Zero();
   Vec3 at_ = Vec3::Zero();  // where the hand was when that was worked out
   uint64_t valve_ = 0;      // of which model
-  bool touched_ = false;
-  uint32_t age_ = 0;  // calls left until it is worked out again
+  uint32_t age_ = 0;        // calls left until it is worked out again
 };
 
 }  // namespace mvs

@@ -21,10 +21,7 @@ class Loop {
     return device_.picture();
   }
   ServoPicture run_stopped() { return device_.picture(); }
-  void post(Tissue tissue) {
-    tissue.number = ++number_;
-    device_.links().tissue.post(tissue);
-  }
+  void post(const Tissue &tissue) { device_.links().tissue.post(tissue); }
   // Forces on: the gate and the ramp behind it.
   void arm() {
     device_.advance(5e-3);
@@ -50,7 +47,6 @@ class Loop {
 
   std::string options_;
   Device device_;
-  uint64_t number_ = 0;
 };
 
 // A spring to a place, as a grasp of something that does not move.

@@ -13,10 +13,8 @@ using std::chrono::milliseconds;
 
 namespace {
 
-void hand_over(Device &device, uint64_t number) {
-  Tissue tissue = spring(100);
-  tissue.number = number;
-  device.links().tissue.post(tissue);
+void hand_over(Device &device) {
+  device.links().tissue.post(spring(100));
   mvs_device_limits limits = {};
   limits.ramp_s = 0.1;
   device.set_limits(limits);
@@ -51,8 +49,8 @@ TEST_CASE("a servo, a simulation, a window and an emergency stop share a device"
     std::this_thread::sleep_for(milliseconds(300));
     device.cut();
   });
-  for (uint64_t k = 1; k <= 50; ++k) {
-    hand_over(device, k);
+  for (int k = 0; k < 50; ++k) {
+    hand_over(device);
     std::this_thread::sleep_for(milliseconds(10));
   }
   over = true;
