@@ -47,10 +47,6 @@ mvs_device_desc read_device(const mvs_device_desc *given) {
   return desc;
 }
 
-void write(const Vec3 &from, double to[3]) {
-  std::copy(from.data(), from.data() + 3, to);
-}
-
 mvs_device_state public_state(const ServoPicture &now, const DeviceView &view) {
   mvs_device_state out = {};
   out.phase = now.phase;
@@ -60,8 +56,7 @@ mvs_device_state public_state(const ServoPicture &now, const DeviceView &view) {
   out.buttons = now.buttons;
   out.time = now.time;
   write(view.to_scene(now.pose.position), out.position);
-  const Eigen::Quaterniond turn = view.turned(now.pose.orientation);
-  for (int k = 0; k < 4; ++k) out.orientation[k] = k == 0 ? turn.w() : turn.vec()[k - 1];
+  write(view.turned(now.pose.orientation), out.orientation);
   write(view.scale() * view.turned(now.pose.velocity), out.velocity);
   write(now.pose.position, out.hand);
   write(now.force, out.force);
@@ -75,8 +70,8 @@ mvs_device_state public_state(const ServoPicture &now, const DeviceView &view) {
   return out;
 }
 
-// Hand to valve, then valve to hand.
-mvs_device_report sync(mvs_device &d, mvs_sim &sim) {
+// Hand to valve, then valve to hand; what the hand points at is looked for where somebody asks.
+void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   const ServoPicture now = d.device.picture();
   ServoLinks &links = d.device.links();
   d.hand.begin(now, d.device.limits().stiffness);
@@ -91,7 +86,8 @@ mvs_device_report sync(mvs_device &d, mvs_sim &sim) {
   links.tissue.post(tissue);
   const bool is_latched = now.phase == MVS_DEVICE_LATCHED, was_latched = d.latched;
   d.latched = is_latched;
-  return d.hand.report(sim, tissue, is_latched && !was_latched);
+  if (report)
+    write_struct(report, d.hand.report(sim, tissue, is_latched && !was_latched), "report");
 }
 
 }  // namespace
@@ -239,8 +235,7 @@ mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *
   return guarded_call(sim, [&](mvs_sim &s) {
     must_point(device, "device");
     if (report) checked_struct_size(report, "report");
-    const mvs_device_report made = sync(*device, s);
-    if (report) write_struct(report, made, "report");
+    sync(*device, s, report);
   });
 }
 

@@ -1,7 +1,6 @@
 // The hand, from its button to its tool.
 #include "api/device_hand.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,42 +8,24 @@
 #include "api/nearest.h"
 #include "api/structs.h"
 #include "api/tools.h"
+#include "base/eigenvalues.h"
 
 namespace mvs {
-namespace {
-
-void write(const Vec3 &from, double to[3]) {
-  std::copy(from.data(), from.data() + 3, to);
-}
-
-double largest_eigenvalue(const Mat3 &stiffness) {
-  return Eigen::SelfAdjointEigenSolver<Mat3>(stiffness, Eigen::EigenvaluesOnly).eigenvalues()[2];
-}
-
-double value_or(double value, double fallback) {
-  return value == 0 ? fallback : value;
-}
-
-}  // namespace
-
 void Hand::set_hand(const mvs_device_hand &given) {
   MVS_MUST(given.mode <= MVS_HAND_DRAG, MVS_E_ARGUMENT, "hand.mode",
            "hand.mode is %u: it has to be one of MVS_HAND_*", given.mode);
   MVS_MUST(given.button < 32, MVS_E_ARGUMENT, "hand.button",
            "hand.button is %u: it has to be 0 to 31", given.button);
   must_be_zero(given.reserved, "hand.reserved");
-  must_be_in(given.reach, 1e-6, 1, "hand.reach");
-  must_be_in(given.radius, 1e-4, 0.02, "hand.radius");
-  must_be_in(given.length, 1e-3, 0.3, "hand.length");
-  must_be_in(given.stiffness, 1, 1e5, "hand.stiffness");
-  must_be_in(given.max_force, 1e-3, 100, "hand.max_force");
   must_be_in(given.gain, 1e-3, 1e3, "hand.gain");
+  const ToolSizes sizes =
+      read_tool_sizes({given.radius, given.length, given.stiffness, given.max_force}, "hand");
   hand_ = given;
-  hand_.reach = value_or(given.reach, 5e-3);
-  hand_.radius = value_or(given.radius, 2e-3);
-  hand_.length = value_or(given.length, 40e-3);
-  hand_.stiffness = value_or(given.stiffness, 200);
-  hand_.max_force = value_or(given.max_force, 5);
+  hand_.reach = read_reach(given.reach, 5e-3, "hand");
+  hand_.radius = sizes.radius;
+  hand_.length = sizes.length;
+  hand_.stiffness = sizes.stiffness;
+  hand_.max_force = sizes.max_force;
   hand_.gain = value_or(given.gain, 1);
   chord_ = hand_.chord;
   changed_ = true;

@@ -1,22 +1,15 @@
 // Reading a view, and rendering through it.
 #include "api/device_view.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "api/structs.h"
+#include "base/eigenvalues.h"
 
 namespace mvs {
 namespace {
 
 constexpr double farthest = 10;  // m, from the origin of any scene
-
-Mat3 no_stiffer(const Mat3 &stiffness, double most) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(stiffness);
-  if (eigen.eigenvalues()[2] <= most) return stiffness;
-  const Vec3 values = eigen.eigenvalues().cwiseMin(most);
-  return eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
-}
 
 }  // namespace
 
@@ -35,15 +28,15 @@ DeviceView DeviceView::read(const mvs_device_view &given) {
   if (length > 0) view.rotation_.coeffs() = rotation.coeffs() / length;
   must_be_in(given.scale, 0.01, 100, "view.scale");
   must_be_in(given.force_scale, 0.001, 1000, "view.force_scale");
-  if (given.scale != 0) view.scale_ = given.scale;
-  if (given.force_scale != 0) view.force_scale_ = given.force_scale;
+  view.scale_ = value_or(given.scale, 1);
+  view.force_scale_ = value_or(given.force_scale, 1);
   return view;
 }
 
 mvs_device_view DeviceView::told() const {
   mvs_device_view out = {};
-  for (int k = 0; k < 3; ++k) out.origin[k] = origin_[k];
-  for (int k = 0; k < 4; ++k) out.rotation[k] = k == 0 ? rotation_.w() : rotation_.vec()[k - 1];
+  write(origin_, out.origin);
+  write(rotation_, out.rotation);
   out.scale = scale_;
   out.force_scale = force_scale_;
   return out;
@@ -54,8 +47,8 @@ Tissue DeviceView::to_device(const Tissue &scene, double most) const {
   Tissue out = scene;
   out.origin = to_device(scene.origin);
   out.force = force_scale_ * (turn.transpose() * scene.force);
-  out.stiffness =
-      no_stiffer(stiffness_scale() * (turn.transpose() * scene.stiffness * turn).eval(), most);
+  const Mat3 felt = stiffness_scale() * (turn.transpose() * scene.stiffness * turn);
+  out.stiffness = with_eigenvalues_in(felt, 0, most);
   out.most = force_scale_ * scene.most;
   out.normal = turn.transpose() * scene.normal;
   out.gap = scene.gap / scale_;

@@ -1,11 +1,13 @@
 // Sized structs across the boundary: older and newer callers than this library.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
 #include <string>
 
 #include "api/guard.h"
+#include "base/types.h"
 
 namespace mvs {
 
@@ -78,6 +80,20 @@ inline std::string text_or_empty(const char *text) {
 inline void must_be_zero(double value, const char *what) {
   MVS_MUST(value == 0, MVS_E_ARGUMENT, what,
            "%s is %g: this version has no meaning for it, leave 0", what, value);
+}
+
+inline double value_or(double value, double fallback) {
+  return value == 0 ? fallback : value;
+}
+
+inline void write(const Vec3 &from, double to[3]) {
+  std::copy(from.data(), from.data() + 3, to);
+}
+
+// As w x y z.
+inline void write(const Eigen::Quaterniond &from, double to[4]) {
+  to[0] = from.w();
+  std::copy(from.vec().data(), from.vec().data() + 3, to + 1);
 }
 
 // That an option is a number in its range; zero stays the default.

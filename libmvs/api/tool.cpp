@@ -32,10 +32,6 @@ Vec3 read_axis(const double given[3], const char *what) {
   return axis / length;
 }
 
-double value_or(double value, double fallback) {
-  return value == 0 ? fallback : value;
-}
-
 uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach) {
   const NearNode nearest = nearest_node(now.moment.picture, place);
   MVS_MUST(nearest.distance <= reach, MVS_E_ARGUMENT, "desc.position",
@@ -48,11 +44,6 @@ uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach)
 void check_numbers(const mvs_tool_desc &desc) {
   MVS_MUST(desc.kind >= MVS_TOOL_GRASP && desc.kind <= MVS_TOOL_ROD, MVS_E_ARGUMENT, "desc.kind",
            "desc.kind is %u: it has to be one of MVS_TOOL_*", desc.kind);
-  must_be_in(desc.radius, 1e-4, 0.02, "desc.radius");
-  must_be_in(desc.length, 1e-3, 0.3, "desc.length");
-  must_be_in(desc.stiffness, 1, 1e5, "desc.stiffness");
-  must_be_in(desc.max_force, 1e-3, 100, "desc.max_force");
-  must_be_in(desc.reach, 1e-6, 1, "desc.reach");
   MVS_MUST(desc.by_node <= 1, MVS_E_ARGUMENT, "desc.by_node",
            "desc.by_node is %u: it has to be 0 or 1", desc.by_node);
 }
@@ -62,23 +53,21 @@ Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
   Tool tool;
   tool.kind = desc.kind;
   tool.position = read_place(desc.position, "desc.position");
-  tool.stiffness = value_or(desc.stiffness, 200);
-  tool.max_force = value_or(desc.max_force, 5);
+  const ToolSizes sizes =
+      read_tool_sizes({desc.radius, desc.length, desc.stiffness, desc.max_force}, "desc");
+  const double reach = read_reach(desc.reach, 2e-3, "desc");
+  tool.stiffness = sizes.stiffness;
+  tool.max_force = sizes.max_force;
   if (desc.kind == MVS_TOOL_GRASP) {
-    const double reach = value_or(desc.reach, 2e-3);
     tool.node = desc.by_node ? desc.node : node_in_reach(now, tool.position, reach);
     return tool;
   }
-  tool.radius = value_or(desc.radius, 2e-3);
+  tool.radius = sizes.radius;
   if (desc.kind == MVS_TOOL_BALL) return tool;
-  tool.length = value_or(desc.length, 40e-3);
+  tool.length = sizes.length;
   const bool is_given = desc.axis[0] != 0 || desc.axis[1] != 0 || desc.axis[2] != 0;
   tool.axis = is_given ? read_axis(desc.axis, "desc.axis") : Vec3::UnitZ();
   return tool;
-}
-
-void write(const Vec3 &from, double to[3]) {
-  std::copy(from.data(), from.data() + 3, to);
 }
 
 mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
@@ -120,6 +109,20 @@ void take_at_once(mvs_sim &sim, const Move &move) {
 }  // namespace
 
 namespace mvs {
+
+ToolSizes read_tool_sizes(const ToolSizes &given, const std::string &of) {
+  must_be_in(given.radius, 1e-4, 0.02, (of + ".radius").c_str());
+  must_be_in(given.length, 1e-3, 0.3, (of + ".length").c_str());
+  must_be_in(given.stiffness, 1, 1e5, (of + ".stiffness").c_str());
+  must_be_in(given.max_force, 1e-3, 100, (of + ".max_force").c_str());
+  return {value_or(given.radius, 2e-3), value_or(given.length, 40e-3),
+          value_or(given.stiffness, 200), value_or(given.max_force, 5)};
+}
+
+double read_reach(double given, double fallback, const std::string &of) {
+  must_be_in(given, 1e-6, 1, (of + ".reach").c_str());
+  return value_or(given, fallback);
+}
 
 Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc) {
   const SnapshotPtr before = sim.present();

@@ -3,9 +3,10 @@
 
 #include <mvs/tool.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <limits>
 
+#include "base/eigenvalues.h"
 #include "base/error.h"
 
 namespace mvs {
@@ -32,13 +33,6 @@ uint32_t led_node(const State &state, size_t nodes, const Tool &tool, uint32_t k
     node += other.points();
   }
   return node + k;
-}
-
-Mat3 without_negative(const Mat3 &stiffness) {
-  const Mat3 symmetric = 0.5 * (stiffness + stiffness.transpose());
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
-  const Vec3 values = eigen.eigenvalues().cwiseMax(0);
-  return eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
 }  // namespace
@@ -121,7 +115,8 @@ Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Too
     factor_->solve(rows_);
     for (uint32_t k = 0; k < springs; ++k) sum.col(c) -= block[k] * rows_[row[k]];
   }
-  return without_negative(sum);
+  const Mat3 symmetric = 0.5 * (sum + sum.transpose());
+  return with_eigenvalues_in(symmetric, 0, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace mvs
