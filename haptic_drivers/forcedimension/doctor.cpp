@@ -1,21 +1,14 @@
 // Which devices are there, and what is in the way of those that are not.
+#include "common/finder.h"
 #include "common/library.h"
 #include "common/options.h"
-#include "common/usb.h"
 #include "device.h"
 
 namespace forcedimension {
 namespace {
 
+using driver::Finder;
 using driver::sentence;
-
-struct Finder {
-  mvs_driver_finding finding;
-  void *user;
-  void say(int32_t verdict, const std::string &check, const std::string &what) const {
-    finding(user, verdict, check.c_str(), what.c_str());
-  }
-};
 
 bool check_library(const mvs_driver_host *host, const Finder &finder) {
   const int32_t code = driver::guarded([&] {
@@ -36,20 +29,9 @@ bool check_library(const mvs_driver_host *host, const Finder &finder) {
 
 void check_usb(const mvs_driver_host *host, const Finder &finder) {
   const std::string root = driver::Options(host).text("sysroot").value_or("");
-  const auto devices = driver::usb_devices(root, {"1451:", "0403:cb48"});
-  if (devices.empty())
-    finder.say(-1, "USB",
-               "no device of Force Dimension (1451:*) or Falcon (0403:cb48) is plugged "
-               "in");
-  for (const auto &device : devices) {
-    const std::string who = device.name + " (" + device.id + ")";
-    if (device.closed.empty())
-      finder.say(1, "USB", who + " is plugged in, and this user may talk to it");
-    else
-      finder.say(0, "USB",
-                 who + " is plugged in, but this user may not open " + device.closed +
-                     ": add a udev rule, " + kUdevRule + ", then plug it in again");
-  }
+  finder.say_usb(driver::usb_devices(root, {"1451:", "0403:cb48"}),
+                 "no device of Force Dimension (1451:*) or Falcon (0403:cb48) is plugged in",
+                 kUdevRule);
 }
 
 // Opens one, moves nothing.

@@ -2,15 +2,17 @@
 #include <filesystem>
 #include <set>
 
+#include "common/finder.h"
 #include "common/library.h"
 #include "common/locale.h"
 #include "common/sentence.h"
-#include "common/usb.h"
 #include "device.h"
 #include "words.h"
 
 namespace phantom {
 namespace {
+
+using driver::Finder;
 
 // The names that the vendor's set-up program has written, a file each; none: the default device.
 std::vector<std::string> configured() {
@@ -26,14 +28,6 @@ std::vector<std::string> configured() {
   if (names.empty()) names.insert(kDefaultDevice);
   return {names.begin(), names.end()};
 }
-
-struct Finder {
-  mvs_driver_finding finding;
-  void *user;
-  void say(int32_t verdict, const std::string &check, const std::string &sentence) const {
-    finding(user, verdict, check.c_str(), sentence.c_str());
-  }
-};
 
 // What libHD.so needs, each by itself: the first that is missing hides the others.
 void check_dependencies(const Finder &finder) {
@@ -64,20 +58,10 @@ bool check_library(const mvs_driver_host *host, const Finder &finder) {
 }
 
 void check_usb(const mvs_driver_host *host, const Finder &finder) {
-  const auto devices = driver::usb_devices(option(host, "sysroot"), {"2988:"});
-  if (devices.empty())
-    finder.say(-1, "USB",
-               "no device of 3D Systems (2988:*) is plugged in; one on FireWire or "
-               "Ethernet is not looked for");
-  for (const auto &device : devices) {
-    const std::string who = device.name + " (" + device.id + ")";
-    if (device.closed.empty())
-      finder.say(1, "USB", who + " is plugged in, and this user may talk to it");
-    else
-      finder.say(0, "USB",
-                 who + " is plugged in, but this user may not open " + device.closed +
-                     ": add a udev rule, " + kUdevRule + ", then plug it in again");
-  }
+  finder.say_usb(driver::usb_devices(option(host, "sysroot"), {"2988:"}),
+                 "no device of 3D Systems (2988:*) is plugged in; one on FireWire or Ethernet is "
+                 "not looked for",
+                 kUdevRule);
 }
 
 void check_locale(const Finder &finder) {

@@ -20,6 +20,9 @@ constexpr Kind kinds[] = {{"touch", 55e-6},     {"omni", 55e-6},      {"desktop"
                           {"premium15", 30e-6}, {"premium30", 20e-6}, {"omega", 10e-6},
                           {"delta", 20e-6},     {"lambda", 10e-6},    {"falcon", 63.5e-6}};
 
+// The worst hand there is: no arm, no damping but the device's own.
+constexpr char held_by_nobody[] = "\nmass=0\narm_stiffness=0\narm_damping=0\nfrom=0.001,0,0";
+
 // What two steps of the encoders are worth in a spring: the servo cannot see less.
 double unseen(double stiffness, double resolution) {
   return stiffness * std::pow(2 * resolution, 2);
@@ -63,9 +66,7 @@ class Work {
 TEST_CASE("a device that nobody holds comes to rest in the stiffest spring") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
-    // the worst hand there is: no arm, no damping but the device's own
-    Loop loop(std::string("device=") + kind.name +
-              "\nmass=0\narm_stiffness=0\narm_damping=0\nfrom=0.001,0,0");
+    Loop loop(std::string("device=") + kind.name + held_by_nobody);
     loop.arm();
     const double stiffness = loop.device().info().max_stiffness;
     loop.post(spring(stiffness));
@@ -125,8 +126,7 @@ TEST_CASE("a hand that drags a spring gets no more work than the spring held at 
 TEST_CASE("models that come late keep a grasp stable") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
-    Loop loop(std::string("device=") + kind.name +
-              "\nmass=0\narm_stiffness=0\narm_damping=0\nfrom=0.001,0,0");
+    Loop loop(std::string("device=") + kind.name + held_by_nobody);
     loop.arm();
     const double stiffness = loop.device().info().max_stiffness;
     double first = 0, last = 0;
