@@ -35,8 +35,8 @@ struct mvs_driver_device {
 namespace {
 
 const char *const kOptions[] = {
-    "device: what it holds: ideal, touch (default), omni, desktop, premium15, premium30, omega, "
-    "delta, lambda or falcon",
+    ("device: what it holds: ideal, touch (default), omni, desktop, premium15, premium30, omega, "
+     "delta, lambda or falcon"),
     "mass: of the hand, kg",
     "arm_stiffness: N/m, of the spring by which the arm leads it",
     "arm_damping: N s/m, beside that spring",
@@ -57,8 +57,8 @@ const char *const kOptions[] = {
     "device_mass: kg, moved along with the hand",
     "device_damping: N s/m, likewise",
     "delay: samples, from the writing of a force to its effect",
-    "fault: nan_position, inf_velocity, jump, unplug, silent, stuck_button, bounce, uncalibrated, "
-    "hot, saturated, deadman, clock_back, clock_jump, slow, button, absent or licence",
+    ("fault: nan_position, inf_velocity, jump, unplug, silent, stuck_button, bounce, uncalibrated, "
+     "hot, saturated, deadman, clock_back, clock_jump, slow, button, absent or licence"),
     "fault_at: s after start",
     "fault_for: s; 0 (default): for ever",
     nullptr};

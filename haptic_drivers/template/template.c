@@ -8,7 +8,6 @@
  *
  * README.md, one folder up, says in which order these functions are called, and by which thread. */
 #include <mvs/driver.h>
-#include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,18 +16,18 @@
 /* ---- the device: all that belongs to one that is open; nothing of it is global */
 
 struct mvs_driver_device {
-  atomic_bool motors; /* stop() clears it from any thread: hence atomic */
+  int motors; /* stop() clears it from any thread: hence read and set atomically */
   uint64_t sequence, time_ns;
   mvs_driver_force force; /* the last one written */
   char sentence[256];     /* what error() gives: the last failure of this device */
 };
 
 /* The last failure of list, doctor or open, which have no device. */
-static _Thread_local char last_sentence[256] = "";
+static __thread char last_sentence[256] = "";
 
 /* The one device of this driver, and whether somebody has it open. */
 static const char only_name[] = "desk";
-static atomic_flag taken = ATOMIC_FLAG_INIT;
+static char taken;
 
 /* ---- the hardware: five functions to replace */
 
@@ -40,7 +39,7 @@ static int hardware_present(void) {
 /* Nobody may have a device twice. With real hardware its own library will say so. */
 static int32_t hardware_open(mvs_driver_device *device) {
   (void)device;
-  if (!atomic_flag_test_and_set(&taken)) return MVS_DRIVER_OK;
+  if (!__atomic_test_and_set(&taken, __ATOMIC_SEQ_CST)) return MVS_DRIVER_OK;
   snprintf(last_sentence, sizeof last_sentence,
            "%s is open already: close it there, or let that program end", only_name);
   return MVS_DRIVER_E_BUSY;
@@ -48,7 +47,7 @@ static int32_t hardware_open(mvs_driver_device *device) {
 
 static void hardware_close(mvs_driver_device *device) {
   (void)device;
-  atomic_flag_clear(&taken);
+  __atomic_clear(&taken, __ATOMIC_SEQ_CST);
 }
 
 /* Where the hand is. Called at the device's rate: no lock, no allocation, no waiting for anything
@@ -158,7 +157,7 @@ static int32_t info_of(mvs_driver_device *device, mvs_driver_info *info) {
 /* From here on the motors follow what is written; until then they are off. */
 static int32_t start(mvs_driver_device *device) {
   memset(&device->force, 0, sizeof device->force);
-  atomic_store(&device->motors, 1);
+  __atomic_store_n(&device->motors, 1, __ATOMIC_SEQ_CST);
   return MVS_DRIVER_OK;
 }
 
@@ -178,7 +177,8 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
   }
   full.sequence = device->sequence;
   full.time_ns = device->time_ns;
-  if (device->force.on && atomic_load(&device->motors)) full.flags |= MVS_DRIVER_FORCE_ON;
+  if (device->force.on && __atomic_load_n(&device->motors, __ATOMIC_SEQ_CST))
+    full.flags |= MVS_DRIVER_FORCE_ON;
   give(&full, sizeof full, state);
   return MVS_DRIVER_OK;
 }
@@ -187,18 +187,20 @@ static int32_t write_force(mvs_driver_device *device, const mvs_driver_force *fo
   static const double nothing[3] = {0, 0, 0};
   mvs_driver_force full;
   take(force, &full, sizeof full);
-  device->force.on = full.on && atomic_load(&device->motors);
+  device->force.on = full.on && __atomic_load_n(&device->motors, __ATOMIC_SEQ_CST);
   return hardware_write(device, device->force.on ? full.force : nothing);
 }
 
 static int32_t stop(mvs_driver_device *device) {
-  atomic_store(&device->motors, 0); /* and tell the hardware, if that may be done from any thread */
+  __atomic_store_n(
+      &device->motors, 0,
+      __ATOMIC_SEQ_CST); /* and tell the hardware, if that may be done from any thread */
   return MVS_DRIVER_OK;
 }
 
 /* In a handler of a fatal signal: no printf, no malloc, no lock. */
 static void panic(mvs_driver_device *device) {
-  atomic_store(&device->motors, 0);
+  __atomic_store_n(&device->motors, 0, __ATOMIC_SEQ_CST);
 }
 
 static void close_device(mvs_driver_device *device) {

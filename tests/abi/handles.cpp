@@ -73,7 +73,7 @@ void tools_are_added_moved_told_and_removed() {
 // With the driver template, where drivers are built.
 void devices_are_found_opened_and_turned() {
   try {
-    mvs::Device({0, MVS_CLOCK_REAL, "nowhere", nullptr, nullptr, 0, nullptr, nullptr});
+    const mvs::Device none({0, MVS_CLOCK_REAL, "nowhere", nullptr, nullptr, 0, nullptr, nullptr});
     check(false, "there is no such driver");
   } catch (const mvs::Error &error) {
     check(error.code() == MVS_E_IO, "the code of C");
@@ -188,9 +188,7 @@ void kinds_of_operations_describe_themselves() {
   check(std::string(kinds[0].fields.at(0).name) == "chord", "with their fields");
 }
 
-}  // namespace
-
-int main() {
+void run() {
   handles_move_and_snapshots_are_shared();
   failures_are_thrown_with_code_and_part();
   views_know_their_type();
@@ -199,6 +197,17 @@ int main() {
   a_valve_is_worked_on_from_load_to_file();
   operations_are_applied_undone_and_listed();
   kinds_of_operations_describe_themselves();
+}
+
+}  // namespace
+
+int main() {
+  try {
+    run();
+  } catch (const std::exception &error) {
+    std::printf("%s\n", error.what());
+    ++failures;
+  }
   std::printf("handles: %s\n", failures ? "FAILED" : "ok");
   return failures ? 1 : 0;
 }
