@@ -242,18 +242,21 @@ void ImplicitStepper::limit(SolveStats &stats) {
 
 // Goes a share of the step that makes no energy: it may come from the pressure (part of the
 // potential) and the boundary, from nowhere else. False if there is none. Where a whole step is too
-// much, the parabola of its slope, its start and its end tells how much may do.
+// much, the parabola of its slope, its start and its end tells how much may do. Where that is next
+// to nothing, the cuts have left a step across the slope: a ball that was drawn back stuck in the
+// tissue as long as such steps were followed.
 bool ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
   double share = 1, slope = 0;
   for (size_t i = 0; i < x_.size(); ++i) slope += g_[i].dot(step_[i]);
   for (int k = 0; k < trials && left_ >= closing_passes; ++k) {
     const double made = goes(share, how.dt, stats);
     if (made <= 0) return true;
-    // cut node by node it leads uphill, however little of it is gone
+    // cut node by node it leads uphill, however little of it is gone,
     if (slope >= 0) break;
     const double bend = made + kinetic_energy(*model_, v_) - slope * share;
     const double lowest = -slope * share / (2 * bend);  // of the parabola, in shares of this one
-    share *= lowest > least_share ? std::min(lowest, most_share) : least_share;
+    if (lowest <= least_share) break;
+    share *= std::min(lowest, most_share);
   }
   stats.lowered |= MVS_LOWERED_STEP;
   return go_less(how, stats);

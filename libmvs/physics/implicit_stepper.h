@@ -1,8 +1,8 @@
 // One linearised backward Euler step: (M / dt^2 + c M / dt + H) dx = -g + M v / dt with the
 // projected H, then the cut against collisions. The mechanical energy may not grow by more than
-// what the load and the moving boundary put in: a step that makes some is shortened as long as it
-// leads downhill, then, or where its cuts have turned it uphill, before the cut; where that will
-// not do, the valve stays where it is and stops.
+// what the load and the moving boundary put in: a step that makes some is shortened while that
+// leads well downhill, then, or where its cuts have turned it across the slope, before the cut;
+// where that will not do, the valve stays where it is and stops.
 //
 // Bounded work: a step may pass over the terms, or factorise and solve, `budget` times. When the
 // matrix is not positive definite and the budget ends, the system is solved by its diagonal alone;
