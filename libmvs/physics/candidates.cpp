@@ -10,6 +10,9 @@
 namespace mvs {
 namespace {
 
+// Of the nodes: where fewer go elsewhere, only what they could meet is looked for again.
+constexpr double most_changed = 0.25;
+
 bool has(const Tri &t, uint32_t node) {
   return t[0] == node || t[1] == node || t[2] == node;
 }
@@ -26,23 +29,15 @@ double edge_edge_distance(const std::vector<Vec3> &x, const Edge &e, const Edge 
   return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
 }
 
-// The pairs of one vertex, from `first` on.
-void sort_triangles(std::vector<VertexTriangle> &pairs, size_t first) {
-  std::sort(
-      pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
-      [](const VertexTriangle &p, const VertexTriangle &q) { return p.triangle < q.triangle; });
-}
-
 }  // namespace
 
 Candidates::Candidates(const Model &model)
     : model_(&model),
       thickness_(model.valve.contact_thickness),
       tree_(model.valve.rest, model.valve.triangles),
-      owner_(model.topology.edges.size(), none),
-      near_(model) {
+      owner_(model.topology.edges.size(), none) {
   const auto &x = model.valve.rest;
-  std::vector<uint8_t> of_sheet(model.node_count(), 0), taken(model.topology.edges.size(), 0);
+  std::vector<uint8_t> taken(model.topology.edges.size(), 0);
   for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
     const Tri &corners = model.valve.triangles[t];
     const Vec3 centre = (x[corners[0]] + x[corners[1]] + x[corners[2]]) / 3;
@@ -54,16 +49,30 @@ Candidates::Candidates(const Model &model)
         owned.edge[owned.count++] = edge;
         owner_[edge] = t;
       }
-      taken[edge] = of_sheet[corners[k]] = 1;
+      taken[edge] = 1;
       radius = std::max(radius, (x[corners[k]] - centre).norm());
     }
     owned_.push_back(owned);
     rest_centre_.push_back(centre);
     rest_radius_.push_back(radius);
   }
-  for (uint32_t i = 0; i < of_sheet.size(); ++i) {
-    if (of_sheet[i]) sheet_.push_back(i);
+  place_vertices();
+}
+
+// With the first block that has them.
+void Candidates::place_vertices() {
+  std::vector<uint8_t> taken(model_->node_count(), 0);
+  const auto &start = tree_.block_start();
+  for (size_t block = 0; block + 1 < start.size(); ++block) {
+    vertex_start_.push_back(static_cast<uint32_t>(sheet_.size()));
+    for (uint32_t k = start[block]; k < start[block + 1]; ++k) {
+      for (const uint32_t v : model_->valve.triangles[tree_.triangles()[k]]) {
+        if (!taken[v]) sheet_.push_back(v);
+        taken[v] = 1;
+      }
+    }
   }
+  vertex_start_.push_back(static_cast<uint32_t>(sheet_.size()));
 }
 
 // The share of their ways at which nodes that go together are nearest to x.
@@ -89,6 +98,7 @@ bool Candidates::valid_for(const std::vector<Vec3> &x) const {
 
 void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                        Pace pace) {
+  const bool little = find_changed(x, to, slack, pace);
   from_ = x;
   to_ = to;
   slack_ = slack;
@@ -100,11 +110,24 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
     half_[i] = 0.5 * (to[i] - x[i]);
   }
   find_still();
-  if (near_.follow(middle_, half_, slack)) {
+  if (keeps_near_ && !near_) near_.emplace(*model_);
+  if (keeps_near_ && near_->follow(middle_, half_, slack)) {
     choose();
   } else {
+    if (!little) std::fill(changed_.begin(), changed_.end(), uint8_t{1});
     search();
   }
+}
+
+// Marks the nodes that another way leads elsewhere than that of the last lists. True if these were
+// made for the same places and most nodes go as they did.
+bool Candidates::find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+                              Pace pace) {
+  changed_.assign(x.size(), 1);
+  if (from_ != x || slack != slack_ || pace != pace_) return false;
+  size_t changed = 0;
+  for (size_t i = 0; i < x.size(); ++i) changed += changed_[i] = !(to[i] == to_[i]);
+  return static_cast<double>(changed) < most_changed * static_cast<double>(x.size());
 }
 
 // From what is kept: what search() would find.
@@ -114,40 +137,84 @@ void Candidates::choose() {
   guarded_edges_.clear();
   const double longest = guard_share * thickness_;
   const auto &triangles = model_->valve.triangles.get();
-  for (const NearTriangle &p : near_.triangles()) {
+  for (const NearTriangle &p : near_->triangles()) {
     if (still_[p.triangle] && stays(p.vertex)) continue;
     const Tri &t = triangles[p.triangle];
     const std::array<uint32_t, 1> alone{p.vertex};
     const double most = p.faces ? thickness_ : longest;
-    if (apart(Way::of(alone, from_, to_, pace_), Way::of(t, from_, to_, pace_), most + 2 * slack_))
-      continue;
+    if (apart(way_of(alone), way_of(t), most + 2 * slack_)) continue;
     const double distance = vertex_triangle_distance(middle_, p.vertex, t) - reach(alone, t);
     if (p.faces && distance <= thickness_) facing_.push_back({p.vertex, p.triangle, 0});
     if (distance <= p.guard) guarded_.push_back({p.vertex, p.triangle, p.guard});
   }
   const auto &edges = model_->topology.edges.get();
-  for (const NearEdges &p : near_.edges()) {
+  for (const NearEdges &p : near_->edges()) {
     if (still_[owner_[p.first]] && still_[owner_[p.second]]) continue;
     const Edge &e = edges[p.first], &f = edges[p.second];
-    if (apart(Way::of(e, from_, to_, pace_), Way::of(f, from_, to_, pace_), longest + 2 * slack_))
-      continue;
+    if (apart(way_of(e), way_of(f), longest + 2 * slack_)) continue;
     const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
     if (distance <= p.guard) guarded_edges_.push_back({p.first, p.second, p.guard});
   }
 }
 
+// What changed nodes have no part in stays as it was found.
 void Candidates::search() {
-  const std::vector<Vec3> &x = from_, &to = to_;
-  tree_.place(x, to, pace_, still_);
-  vertex_way_.resize(x.size());
-  for (uint32_t i = 0; i < x.size(); ++i) {
-    vertex_way_[i] = Way::of(std::array<uint32_t, 1>{i}, x, to, pace_);
+  forget_changed();
+  tree_.place(from_, to_, pace_, skip_);
+  const double facing = thickness_ + 2 * slack_, guard = guard_share * thickness_ + 2 * slack_;
+  widen_ways(facing, guard);
+  tree_.for_near_blocks(facing, [&](uint32_t a, uint32_t b) {
+    find_vertices(a, b);
+    if (a != b) find_vertices(b, a);
+  });
+  sort_pairs(facing_);
+  sort_pairs(guarded_);
+  tree_.for_near_blocks(guard, [&](uint32_t a, uint32_t b) { find_edges(a, b); });
+  std::sort(guarded_edges_.begin(), guarded_edges_.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
+    return p.first != q.first ? p.first < q.first : p.second < q.second;
+  });
+}
+
+void Candidates::forget_changed() {
+  const auto &triangles = model_->valve.triangles.get();
+  triangle_changed_.resize(triangles.size());
+  skip_.resize(triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [i, j, k] = triangles[t];
+    triangle_changed_[t] = changed_[i] | changed_[j] | changed_[k];
+    skip_[t] = still_[t] | !triangle_changed_[t];
   }
-  const auto &edges = model_->topology.edges;
+  const auto forget = [&](std::vector<VertexTriangle> &pairs) {
+    std::erase_if(pairs, [&](const VertexTriangle &p) {
+      return changed_[p.vertex] || triangle_changed_[p.triangle];
+    });
+  };
+  forget(facing_);
+  forget(guarded_);
+  std::erase_if(guarded_edges_,
+                [&](const EdgeEdge &p) { return edge_changed(p.first) || edge_changed(p.second); });
+}
+
+bool Candidates::edge_changed(uint32_t edge) const {
+  const Edge &e = model_->topology.edges[edge];
+  return changed_[e[0]] || changed_[e[1]];
+}
+
+// Vertices and triangles are asked of blocks of triangles without a margin, edges of each other.
+void Candidates::widen_ways(double facing, double guard) {
+  vertex_way_.resize(from_.size());
+  for (const uint32_t v : sheet_) {
+    vertex_way_[v] = tree_.narrow(way_of(std::array<uint32_t, 1>{v}), facing);
+  }
+  triangle_way_.resize(still_.size());
+  for (uint32_t t = 0; t < still_.size(); ++t) {
+    triangle_way_[t] = tree_.narrow(tree_.way_of(t), guard);
+  }
+  const auto &edges = model_->topology.edges.get();
   edge_way_.resize(edges.size());
-  for (size_t i = 0; i < edges.size(); ++i) edge_way_[i] = Way::of(edges[i], x, to, pace_);
-  find_vertices();
-  find_edges();
+  for (size_t i = 0; i < edges.size(); ++i) {
+    edge_way_[i] = tree_.narrow(way_of(edges[i]), 0.5 * guard);
+  }
 }
 
 // What is prescribed to stay where it is.
@@ -182,26 +249,23 @@ double Candidates::reach(const A &a, const B &b) const {
   return 2 * slack_ + (for_itself() ? std::sqrt(of_a2) + std::sqrt(of_b2) : std::sqrt(together2));
 }
 
-void Candidates::find_vertices() {
-  facing_.clear();
-  guarded_.clear();
-  for (const uint32_t v : sheet_) {
-    const size_t facing = facing_.size(), guarded = guarded_.size();
-    tree_.for_near(vertex_way_[v], thickness_ + 2 * slack_,
-                   [&](uint32_t t, const Way &way) { take(v, t, way); });
-    sort_triangles(facing_, facing);
-    sort_triangles(guarded_, guarded);
+void Candidates::find_vertices(uint32_t of, uint32_t block) {
+  for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
+    const uint32_t v = sheet_[k];
+    tree_.for_near(block, vertex_way_[v], [&](uint32_t t) { take(v, t); });
   }
 }
 
 // What is apart at rest faces; what is near enough is guarded, whatever it was at rest.
-void Candidates::take(uint32_t vertex, uint32_t triangle, const Way &way) {
+void Candidates::take(uint32_t vertex, uint32_t triangle) {
   const Tri &t = model_->valve.triangles[triangle];
   if (has(t, vertex) || (still_[triangle] && stays(vertex))) return;
+  if (!changed_[vertex] && !triangle_changed_[triangle]) return;
   const bool faces = apart_at_rest(vertex, triangle);
   const double longest = guard_share * thickness_;
   const std::array<uint32_t, 1> alone{vertex};
-  if (!faces && apart(vertex_way_[vertex], way, longest + 2 * slack_)) return;
+  const double margin = (faces ? thickness_ : longest) + 2 * slack_;
+  if (apart(way_of(alone), tree_.way_of(triangle), margin)) return;
   const double distance = vertex_triangle_distance(middle_, vertex, t) - reach(alone, t);
   if (faces && distance <= thickness_) facing_.push_back({vertex, triangle, 0});
   if (distance > longest) return;
@@ -210,13 +274,33 @@ void Candidates::take(uint32_t vertex, uint32_t triangle, const Way &way) {
   if (distance <= guard) guarded_.push_back({vertex, triangle, guard});
 }
 
-void Candidates::find_edges() {
-  guarded_edges_.clear();
-  tree_.for_near(guard_share * thickness_ + 2 * slack_,
-                 [&](uint32_t a, uint32_t b) { take_edges(a, b); });
-  std::sort(guarded_edges_.begin(), guarded_edges_.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
-    return p.first != q.first ? p.first < q.first : p.second < q.second;
-  });
+// By vertex in linear time; the few of each by triangle.
+void Candidates::sort_pairs(std::vector<VertexTriangle> &pairs) {
+  count_.assign(from_.size() + 1, 0);
+  for (const VertexTriangle &p : pairs) ++count_[p.vertex + 1];
+  for (size_t v = 0; v < from_.size(); ++v) count_[v + 1] += count_[v];
+  sorted_.resize(pairs.size());
+  for (const VertexTriangle &p : pairs) sorted_[count_[p.vertex]++] = p;
+  pairs.swap(sorted_);
+  auto first = pairs.begin();
+  for (const uint32_t end : count_) {
+    const auto last = pairs.begin() + end;
+    std::sort(first, last, [](const VertexTriangle &p, const VertexTriangle &q) {
+      return p.triangle < q.triangle;
+    });
+    first = last;
+  }
+}
+
+void Candidates::find_edges(uint32_t of, uint32_t block) {
+  const auto &start = tree_.block_start();
+  for (uint32_t k = start[of]; k < start[of + 1]; ++k) {
+    const uint32_t a = tree_.triangles()[k];
+    tree_.for_near(block, triangle_way_[a], [&](uint32_t b) {
+      // of a block and itself each pair of triangles comes up twice
+      if ((of != block || a < b) && !(skip_[a] && skip_[b])) take_edges(a, b);
+    });
+  }
 }
 
 void Candidates::take_edges(uint32_t a, uint32_t b) {
@@ -226,7 +310,9 @@ void Candidates::take_edges(uint32_t a, uint32_t b) {
     const Edge &e = edges[i];
     for (const uint32_t j : owned_[b]) {
       const Edge &f = edges[j];
-      if (apart(edge_way_[i], edge_way_[j], longest + 2 * slack_) || share(e, f)) continue;
+      if (surely_apart(edge_way_[i], edge_way_[j]) || share(e, f)) continue;
+      if (!edge_changed(i) && !edge_changed(j)) continue;
+      if (apart(way_of(e), way_of(f), longest + 2 * slack_)) continue;
       const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
       if (distance > longest) continue;
       const double guard = guard_range(thickness_, edge_edge_distance(model_->valve.rest, e, f));

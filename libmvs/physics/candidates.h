@@ -10,6 +10,7 @@
 // (representative triangles: Curtis, Tamstorf, Manocha, I3D 2008).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/moving_tree.h"
@@ -32,6 +33,9 @@ class Candidates {
  public:
   explicit Candidates(const Model &model);
 
+  // Whether what is near is kept from one list to the next, which pays while the sheet moves
+  // slowly; the lists are the same.
+  void keep_near(bool keep) { keeps_near_ = keep; }
   // Makes the lists for nodes on their way from x to `to`.
   void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
              Pace pace = Pace::together);
@@ -58,11 +62,22 @@ class Candidates {
   double share_of(const std::vector<Vec3> &x) const;
   bool stays(uint32_t node) const;
   void find_still();
+  template <typename Nodes>
+  Way way_of(const Nodes &nodes) const {
+    return Way::of(nodes, from_, to_, pace_);
+  }
   void choose();
+  bool find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+                    Pace pace);
   void search();
-  void find_vertices();
-  void take(uint32_t vertex, uint32_t triangle, const Way &way);
-  void find_edges();
+  void forget_changed();
+  bool edge_changed(uint32_t edge) const;
+  void widen_ways(double facing, double guard);
+  void place_vertices();
+  void find_vertices(uint32_t of, uint32_t block);
+  void take(uint32_t vertex, uint32_t triangle);
+  void sort_pairs(std::vector<VertexTriangle> &pairs);
+  void find_edges(uint32_t of, uint32_t block);
   void take_edges(uint32_t a, uint32_t b);
   bool apart_at_rest(uint32_t vertex, uint32_t triangle) const;
   template <typename A, typename B>
@@ -71,20 +86,27 @@ class Candidates {
   const Model *model_;
   double thickness_;
   MovingTree tree_;
-  std::vector<uint32_t> sheet_;      // the nodes that are vertices of it
+  // The nodes that are vertices of the sheet, by blocks of the tree; where those of each begin.
+  std::vector<uint32_t> sheet_, vertex_start_;
   std::vector<Owned> owned_;         // by each triangle
   std::vector<uint32_t> owner_;      // of each edge
   std::vector<Vec3> rest_centre_;    // of each triangle
   std::vector<double> rest_radius_;  // from there to its farthest corner
   std::vector<Vec3> from_, to_;      // of each node
   std::vector<Vec3> middle_, half_;  // of its way; from there to the end
-  std::vector<Way> vertex_way_, edge_way_;
+  std::vector<NarrowWay> vertex_way_, triangle_way_, edge_way_;  // with what they seek around them
+  std::vector<VertexTriangle> sorted_;  // while pairs are sorted, with how many each vertex has
+  std::vector<uint32_t> count_;
   double slack_ = 0;
   Pace pace_ = Pace::together;
+  // Nodes and triangles that go elsewhere than when the lists were last made; triangles between two
+  // of which there is nothing to look for.
+  std::vector<uint8_t> changed_, triangle_changed_, skip_;
   std::vector<uint8_t> still_;  // triangles that never move: nothing between two of them
   std::vector<VertexTriangle> facing_, guarded_;
   std::vector<EdgeEdge> guarded_edges_;
-  NearPairs near_;
+  bool keeps_near_ = true;
+  std::optional<NearPairs> near_;
 };
 
 }  // namespace mvs

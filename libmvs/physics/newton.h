@@ -20,7 +20,9 @@ namespace mvs {
 class Newton {
  public:
   Newton(const Model &model, Factor &factor)
-      : model_(&model), factor_(&factor), potential_(model) {}
+      : model_(&model), factor_(&factor), potential_(model) {
+    potential_.keep_near(false);
+  }
 
   // Brings state.x to rest under state.load and sets velocities to zero.
   SolveStats settle(State &state, const SolveOptions &options, const Progress &progress);

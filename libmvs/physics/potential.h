@@ -25,6 +25,8 @@ class Potential {
   // The points of instruments are the last nodes (physics/tool_points.h).
   void set_tools(const std::vector<Tool> &tools);
 
+  // See Candidates.
+  void keep_near(bool keep) { candidates_.keep_near(keep); }
   // Makes contact known while each node stays within `slack` of its way from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                Profile &profile);

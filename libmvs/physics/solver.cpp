@@ -209,6 +209,7 @@ Forces evaluate_forces(const Model &valve, const State &valve_state) {
   const State state = ToolPoints::extended(valve_state);
   Potential potential(model);
   Profile profile;
+  potential.keep_near(false);
   potential.set_pressure(state.load.pressure);
   potential.set_tools(state.tools);
   potential.prepare(state.x, state.x, 0, profile);
