@@ -19,8 +19,7 @@ namespace mvs {
 
 class Newton {
  public:
-  Newton(const Model &model, Factor &factor)
-      : model_(&model), factor_(&factor), potential_(model) {
+  Newton(const Model &model, Factor &factor) : model_(&model), factor_(&factor), potential_(model) {
     potential_.keep_near(false);
   }
 
