@@ -1,0 +1,280 @@
+// Which pairs come up, against all pairs.
+#include "physics/candidates.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "base/moving_tree.h"
+#include "pairs.h"
+#include "physics/contact.h"
+
+using namespace mvs;
+using namespace mvs::test;
+
+namespace {
+
+bool share(const Edge &e, const Edge &f) {
+  return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
+}
+
+template <typename Visit>
+void for_edge_pairs(const Model &model, Visit &&visit) {
+  const auto &edges = model.topology.edges;
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    for (uint32_t j = i + 1; j < edges.size(); ++j) {
+      if (!share(edges[i], edges[j])) visit(i, j);
+    }
+  }
+}
+
+// What Candidates says of the ways of nodes, once more.
+struct Ways {
+  const Positions &x, &to;
+  double slack;
+  Pace pace;
+
+  Vec3 half(uint32_t i) const { return 0.5 * (to[i] - x[i]); }
+  Positions middle() const { return moved(x, 0.5, moved(to, -1, x)); }
+  double nearer(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b) const {
+    double together = 0, of_a = 0, of_b = 0;
+    for (const uint32_t i : a) {
+      of_a = std::max(of_a, half(i).norm());
+      for (const uint32_t j : b) {
+        of_b = std::max(of_b, half(j).norm());
+        together = std::max(together, (half(i) - half(j)).norm());
+      }
+    }
+    return 2 * slack + (pace == Pace::together ? together : of_a + of_b);
+  }
+  bool boxes_part(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b,
+                  double margin) const {
+    return apart(Way::of(a, x, to, pace), Way::of(b, x, to, pace), margin + 2 * slack);
+  }
+};
+
+// Whether the lists are what brute force finds on these ways, in their order.
+void check_pairs(const Model &model, const Candidates &candidates, const Ways &ways) {
+  const double r = model.valve.contact_thickness;
+  const Positions middle = ways.middle();
+  const auto &guarded = candidates.guarded(), &faced = candidates.facing();
+  const auto &list = candidates.guarded_edges();
+  size_t k = 0, facing = 0, pairs = 0;
+  bool same = true;
+  for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+    const Tri &tri = model.valve.triangles[t];
+    const std::vector<uint32_t> corners(tri.begin(), tri.end());
+    const double least = distance(middle, v, tri) - ways.nearer({v}, corners);
+    if (least > r) return;
+    const double rest = distance(model.valve.rest, v, tri), guard = guard_range(r, rest);
+    const bool faces = rest >= facing_rest_distance * r;
+    if (faces && !ways.boxes_part({v}, corners, r)) {
+      same =
+          same && facing < faced.size() && faced[facing].vertex == v && faced[facing].triangle == t;
+      ++facing;
+    }
+    if (least > guard || ways.boxes_part({v}, corners, faces ? r : guard_share * r)) return;
+    same = same && k < guarded.size() && guarded[k].vertex == v && guarded[k].triangle == t &&
+           guarded[k].guard == guard;
+    ++k;
+  });
+  for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
+    const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
+    const std::vector<uint32_t> a(e.begin(), e.end()), b(f.begin(), f.end());
+    const double least = distance(middle, e, f) - ways.nearer(a, b);
+    if (least > guard_share * r) return;
+    if (least > guard_range(r, distance(model.valve.rest, e, f))) return;
+    if (ways.boxes_part(a, b, guard_share * r)) return;
+    same = same && pairs < list.size() && list[pairs].first == i && list[pairs].second == j;
+    ++pairs;
+  });
+  CHECK(same);
+  CHECK(facing == faced.size());
+  CHECK(k == guarded.size());
+  CHECK(pairs == list.size());
+}
+
+}  // namespace
+
+TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
+  Random random(1);
+  for (const uint32_t n : {0u, 1u, 2u, 60u, 200u}) {
+    const Positions x = random.vectors(3 * n, 1);
+    std::vector<Tri> triangles;
+    for (uint32_t t = 0; t < n; ++t) triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    Positions small = x;
+    for (uint32_t i = 0; i < x.size(); ++i) small[i] = x[i - i % 3] + random.vector(0.1);
+    MovingTree tree(small, triangles);
+    std::vector<uint8_t> still(n, 0);
+    for (uint32_t t = 0; t < n; ++t) still[t] = t % 3 == 0;
+    for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+      const Positions to = moved(small, 1, random.vectors(small.size(), 0.2));
+      tree.place(small, to, pace, still);
+      std::vector<Way> ways;
+      for (const Tri &t : triangles) ways.push_back(Way::of(t, small, to, pace));
+      std::vector<Edge> expected, found;
+      for (uint32_t a = 0; a < n; ++a) {
+        for (uint32_t b = a + 1; b < n; ++b) {
+          if (!(still[a] && still[b]) && !apart(ways[a], ways[b], 0.05)) expected.push_back({a, b});
+        }
+      }
+      const auto &start = tree.block_start();
+      std::vector<Edge> blocks;
+      tree.for_near_blocks(0.05, [&](uint32_t of, uint32_t block) {
+        blocks.push_back({std::min(of, block), std::max(of, block)});
+        for (uint32_t k = start[of]; k < start[of + 1]; ++k) {
+          const uint32_t a = tree.triangles()[k];
+          const NarrowWay way = tree.narrow(ways[a], 0.05);
+          tree.for_near(block, way, [&](uint32_t b) {
+            if ((of == block && a >= b) || (still[a] && still[b])) return;
+            // no farther than single precision can tell
+            CHECK(!apart(ways[a], ways[b], 0.05 * (1 + 1e-4)));
+            if (!apart(ways[a], ways[b], 0.05)) found.push_back({std::min(a, b), std::max(a, b)});
+          });
+        }
+      });
+      std::sort(found.begin(), found.end());
+      CHECK(found == expected);
+      std::sort(blocks.begin(), blocks.end());
+      CHECK(std::adjacent_find(blocks.begin(), blocks.end()) == blocks.end());
+    }
+  }
+}
+
+TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {
+  const Plates plates = plates_for_steps();
+  Random random(2);
+  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+    const Positions x = wavy(plates, random);
+    const Positions to = moved(x, 1, random.vectors(x.size(), 0.4e-3));
+    Candidates candidates(plates.model);
+    candidates.build(x, to, 0.05e-3, pace);
+    check_pairs(plates.model, candidates, {x, to, 0.05e-3, pace});
+    CHECK(candidates.facing().size() > 30);
+    CHECK(candidates.guarded().size() > 30);
+    CHECK(candidates.guarded_edges().size() > 30);
+  }
+}
+
+// Pairs are kept from one list to the next, and which of them are looked at again depends on all
+// that went before: nothing of it may show, however the sheet moves and wherever it is cut.
+void check_on_the_way(bool keep_near) {
+  const Plates plates = plates_for_steps();
+  Random random(8);
+  Candidates candidates(plates.model);
+  candidates.keep_near(keep_near);
+  Positions x = wavy(plates, random);
+  std::vector<size_t> found;
+  for (int round = 0; round < 96; ++round) {
+    const Pace pace = round % 5 == 4 ? Pace::each_for_itself : Pace::together;
+    const double slack = round % 7 == 6 ? 0.1e-3 : 0.02e-3;
+    // slow, plate against plate, with a few fast ones, a part of the sheet, all of it fast, not at
+    // all
+    const int kind = (round / 8) % 6;
+    const Vec3 drift = random.vector(kind == 4 ? 0.4e-3 : 0.03e-3);
+    Positions step(x.size(), Vec3::Zero());
+    for (size_t i = 0; i < x.size(); ++i) {
+      if (kind == 5 || (kind == 3 && i % 81 > 20)) continue;
+      step[i] = drift + random.vector(0.02e-3);
+      if (kind == 1) step[i] = Vec3(0, 0, (i < x.size() / 2) == (round > 48) ? 0.1e-3 : -0.1e-3);
+      if (kind == 2 && i % 40 == 0) step[i] += random.vector(0.6e-3);
+    }
+    Positions to = moved(x, 1, step);
+    candidates.build(x, to, slack, pace);
+    CAPTURE(round);
+    check_pairs(plates.model, candidates, {x, to, slack, pace});
+    for (size_t i = 0; i < x.size(); i += 13) to[i] = x[i] + random(0, 1) * step[i];
+    candidates.build(x, to, slack, pace);
+    check_pairs(plates.model, candidates, {x, to, slack, pace});
+    found.push_back(candidates.guarded().size() + candidates.guarded_edges().size());
+    // some of the way, as a step that was cut
+    x = moved(x, random(0.3, 1), step);
+  }
+  std::sort(found.begin(), found.end());
+  CHECK(std::unique(found.begin(), found.end()) - found.begin() > 20);
+}
+
+TEST_CASE("candidates_are_the_same_however_the_sheet_came_there") {
+  check_on_the_way(true);
+  check_on_the_way(false);
+}
+
+TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  const double r = model.valve.contact_thickness, slack = 0.05e-3;
+  Random random(12);
+  size_t met = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Pace pace = round % 2 == 0 ? Pace::together : Pace::each_for_itself;
+    const Positions x = wavy(plates, random);
+    const Positions step = random.vectors(x.size(), 1e-3);
+    Candidates candidates(model);
+    candidates.build(x, moved(x, 1, step), slack, pace);
+    // anywhere on the way, all together or each node for itself
+    Positions y = x;
+    const double common = random(0, 1);
+    // least squares find the share to a few percent of the slack, hence the nine tenths
+    for (size_t i = 0; i < y.size(); ++i) {
+      const double share = pace == Pace::together ? common : random(0, 1);
+      y[i] += share * step[i] + random.vector(0.9 * slack / std::sqrt(3.0));
+    }
+    REQUIRE(candidates.valid_for(y));
+    const auto &guarded = candidates.guarded(), &faced = candidates.facing();
+    const auto listed = [](const std::vector<VertexTriangle> &list, uint32_t v, uint32_t t) {
+      return std::any_of(list.begin(), list.end(),
+                         [&](const VertexTriangle &c) { return c.vertex == v && c.triangle == t; });
+    };
+    bool all = true;
+    for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+      const double now = distance(y, v, model.valve.triangles[t]);
+      if (now >= r) return;
+      const double rest = distance(model.valve.rest, v, model.valve.triangles[t]);
+      if (rest >= facing_rest_distance * r) all = all && listed(faced, v, t);
+      if (now >= guard_range(r, rest)) return;
+      ++met;
+      all = all && listed(guarded, v, t);
+    });
+    for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
+      const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
+      const double now = distance(y, e, f);
+      if (now >= guard_share * r || now >= guard_range(r, distance(model.valve.rest, e, f))) return;
+      ++met;
+      const auto &list = candidates.guarded_edges();
+      all = all && std::any_of(list.begin(), list.end(),
+                               [&](const EdgeEdge &c) { return c.first == i && c.second == j; });
+    });
+    CHECK(all);
+  }
+  CHECK(met > 1000);
+}
+
+TEST_CASE("candidates_know_how_far_they_hold") {
+  const Plates plates = plates_for_steps();
+  Random random(3);
+  const Positions x = wavy(plates, random);
+  Candidates candidates(plates.model);
+  CHECK_FALSE(candidates.valid_for(x));
+  Positions to = x;
+  to[6].z() += 1e-3;
+  to[7].z() += 1e-3;
+  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+    candidates.build(x, to, 1e-4, pace);
+    Positions y = x;
+    CHECK(candidates.valid_for(y));
+    y[5].x() += 0.99e-4;
+    y[6].z() += 0.7e-3;
+    y[7].z() += 0.7e-3;
+    y[6].x() += 0.99e-4;
+    CHECK(candidates.valid_for(y));
+    y[5].x() += 0.02e-4;
+    CHECK_FALSE(candidates.valid_for(y));
+    y[5] = x[5];
+    y[6].x() += 0.02e-4;
+    CHECK_FALSE(candidates.valid_for(y));
+    // one node ahead of the other by more than the slack either way
+    y[6] = to[6];
+    CHECK(candidates.valid_for(y) == (pace == Pace::each_for_itself));
+  }
+}
