@@ -13,8 +13,8 @@ namespace mvs {
 namespace {
 
 constexpr const char *format_name = "mvs-plan";
-constexpr unsigned plan_version = 1;
-constexpr size_t most_bytes = size_t{64} << 20;
+constexpr unsigned plan_version = 2;              // 1 had no steps led by hands
+constexpr size_t most_bytes = size_t{512} << 20;  // hours of a hand at 1 kHz
 
 const char *solver_word(uint32_t solver) {
   switch (solver) {
@@ -74,6 +74,13 @@ void check_keys(const Json &json, std::initializer_list<std::string_view> known)
   }
 }
 
+void read_stepping(const Json &json, Move &move) {
+  move.solver = solver_at(json);
+  move.dt = number_at(json, "dt_s");
+  move.damping = number_at(json, "damping_1/s");
+  move.budget = static_cast<uint32_t>(whole_at(json, "budget", 0, UINT32_MAX));
+}
+
 std::optional<Move> read_move(const Json &json) {
   const std::string word = json["do"].text();
   Move move;
@@ -83,6 +90,13 @@ std::optional<Move> read_move(const Json &json) {
     move.boundary_fraction = number_at(json, "boundary_fraction");
     return move;
   }
+  if (word == "lead") {
+    check_keys(
+        json, {"do", "count", "hands", "way_m", "pace", "solver", "dt_s", "damping_1/s", "budget"});
+    move = read_lead(json);
+    read_stepping(json, move);
+    return move;
+  }
   if (word != "settle" && word != "step") return read_tool_step(json);
   check_keys(json, {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s",
                     "budget"});
@@ -90,14 +104,11 @@ std::optional<Move> read_move(const Json &json) {
   MVS_MUST(move.kind == Move::step || !json.has("count"), MVS_E_FORMAT, "plan",
            "settle has no field \"count\": settled once is settled");
   move.count = whole_at(json, "count", 1, Move::most_count);
-  move.solver = solver_at(json);
   move.max_iterations = static_cast<uint32_t>(whole_at(json, "max_iterations", 0, UINT32_MAX));
   move.residual = number_at(json, "residual_N");
-  move.dt = number_at(json, "dt_s");
-  move.damping = number_at(json, "damping_1/s");
   MVS_MUST(move.kind == Move::step || !json.has("budget"), MVS_E_FORMAT, "plan",
            "settle has no field \"budget\": it goes on until the valve is at rest");
-  move.budget = static_cast<uint32_t>(whole_at(json, "budget", 0, UINT32_MAX));
+  read_stepping(json, move);
   return move;
 }
 
@@ -161,9 +172,11 @@ Json move_json(const Move &move) {
     json.set("boundary_fraction", move.boundary_fraction);
     return json;
   }
-  if (!move.tool.empty()) return tool_json(move);
-  json.set("do", move.kind == Move::settle ? "settle" : "step");
-  if (move.count != 1) json.set("count", move.count);
+  const bool is_led = move.kind == Move::lead;
+  if (!move.tool.empty() && !is_led) return tool_json(move);
+  if (is_led) json = lead_json(move);
+  if (!is_led) json.set("do", move.kind == Move::settle ? "settle" : "step");
+  if (!is_led && move.count != 1) json.set("count", move.count);
   if (move.solver != 0) json.set("solver", solver_word(move.solver));
   if (move.max_iterations != 0) json.set("max_iterations", move.max_iterations);
   put_unless_zero(json, "residual_N", move.residual);

@@ -4,9 +4,12 @@
 #include <mvs/tool.h>
 
 #include <Eigen/Geometry>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
+#include "formats/base64.h"
+#include "surgery/lead.h"
 
 namespace mvs {
 namespace {
@@ -51,6 +54,46 @@ void check_keys(const Json &json, std::initializer_list<std::string_view> known)
     MVS_MUST(is_known, MVS_E_FORMAT, "plan", "%s has no field \"%.60s\"", json["do"].text().c_str(),
              key.c_str());
   }
+}
+
+// Numbers as their bytes, little-endian: they come back to the bit, in a third of the digits.
+template <typename Word>
+std::string packed(const std::vector<Word> &words) {
+  std::string bytes, text;
+  for (const Word word : words) {
+    for (size_t k = 0; k < sizeof word; ++k) bytes += static_cast<char>(word >> 8 * k & 255);
+  }
+  append_base64(text, bytes);
+  return text;
+}
+
+template <typename Word>
+std::vector<Word> unpacked(const Json &json, const char *key) {
+  const std::string bytes = base64_bytes(json[key].text(), key);
+  std::vector<Word> words(bytes.size() / sizeof(Word));
+  for (size_t k = 0; k < words.size() * sizeof(Word); ++k) {
+    const Word byte = static_cast<unsigned char>(bytes[k]);
+    words[k / sizeof(Word)] |= byte << 8 * (k % sizeof(Word));
+  }
+  return words;
+}
+
+std::vector<Tool> read_hands(const Json &json) {
+  std::vector<Tool> tools;
+  for (const Json &hand : json["hands"].items()) {
+    Tool tool;
+    tool.id = whole_at(hand, "tool");
+    tool.kind = kind_at(hand);
+    tools.push_back(tool);
+  }
+  return tools;
+}
+
+std::vector<Vec3> read_way(const Json &json) {
+  const std::vector<uint64_t> words = unpacked<uint64_t>(json, "way_m");
+  std::vector<Vec3> way(words.size() / 3);
+  for (size_t k = 0; k < 3 * way.size(); ++k) way[k / 3][k % 3] = std::bit_cast<double>(words[k]);
+  return way;
 }
 
 // A rod's axis comes back as it was to the last bit; what is written by hand is made a unit vector.
@@ -100,6 +143,38 @@ Json tool_json(const Move &move) {
   json.set("stiffness_N/m", tool.stiffness);
   json.set("max_force_N", tool.max_force);
   return json;
+}
+
+Json lead_json(const Move &move) {
+  Json json, hands = Json::array();
+  for (const Tool &tool : move.tool.get()) {
+    hands.add(Json::object({{"tool", tool.id}, {"kind", kinds[tool.kind - 1]}}));
+  }
+  std::vector<uint64_t> way;
+  for (const Vec3 &place : move.way.get()) {
+    for (int k = 0; k < 3; ++k) way.push_back(std::bit_cast<uint64_t>(place[k]));
+  }
+  json.set("do", "lead");
+  json.set("count", move.count);
+  json.set("hands", std::move(hands));
+  json.set("way_m", packed(way));
+  if (move.count != move.pace.size()) json.set("pace", packed(move.pace.get()));
+  return json;
+}
+
+Move read_lead(const Json &json) {
+  Move move;
+  move.kind = Move::lead;
+  move.tool = read_hands(json);
+  move.way = read_way(json);
+  const size_t rows = move.way.size() / std::max<size_t>(1, places_in_row(move));
+  move.pace = std::vector<uint32_t>(rows, 1);
+  if (json.has("pace")) move.pace = unpacked<uint32_t>(json, "pace");
+  move.count = whole_at(json, "count");
+  MVS_MUST(is_whole(move), MVS_E_FORMAT, "plan",
+           "lead has to have hands, a way with a row of numbers for each place of theirs, and a "
+           "pace of at least 1 for each row, which make its count");
+  return move;
 }
 
 std::optional<Move> read_tool_step(const Json &json) {

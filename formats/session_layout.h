@@ -9,8 +9,8 @@
 namespace mvs {
 
 // Version 1 had springs with three constants, linear chordae and no curves; up to version 2 there
-// were no tools, and steps had no budget.
-inline constexpr uint32_t session_version = 3;
+// were no tools, and steps had no budget; up to version 3 no steps were led.
+inline constexpr uint32_t session_version = 4;
 
 template <typename T, typename Plain>
 concept Is = std::same_as<std::remove_const_t<T>, Plain>;
@@ -144,6 +144,11 @@ void pass(Archive &a, Is<Move> auto &move) {
     a.word(move.budget);
     a.list(move.tool);
   }
+  if (a.version() > 3) {
+    a.array(move.way);
+    a.array(move.pace);
+  }
+  a.check(move);
 }
 
 // Behind the operation of an entry, which cannot be made empty and filled.

@@ -10,6 +10,7 @@
 #include "formats/formats.h"
 #include "formats/session_layout.h"
 #include "formats/session_pool.h"
+#include "surgery/lead.h"
 
 namespace mvs {
 namespace {
@@ -50,6 +51,7 @@ class SessionReader {
   template <typename Item>
   void stack(Stack<Item> &items);
   void check(const Picture &picture) const;
+  static void check(const Move &move);
   void optional(std::shared_ptr<const Picture> &picture);
   void optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
 
@@ -123,7 +125,7 @@ void SessionReader::word(uint32_t &number) {
 
 void SessionReader::choice(Move::Kind &kind) {
   const uint64_t word = next();
-  MVS_MUST(word >= Move::load && word <= Move::tool_remove, MVS_E_FORMAT, "mvs",
+  MVS_MUST(word >= Move::load && word <= Move::lead, MVS_E_FORMAT, "mvs",
            "the history of the file has a move of kind %llu, which there is not",
            static_cast<unsigned long long>(word));
   kind = static_cast<Move::Kind>(word);
@@ -211,6 +213,16 @@ void SessionReader::check(const Picture &picture) const {
     MVS_MUST((holds || pushes) && tool.stiffness > 0 && tool.max_force > 0, MVS_E_FORMAT, "state",
              "a state of the file has a tool that cannot be");
   }
+}
+
+void SessionReader::check(const Move &move) {
+  const bool is_of_tool = move.kind >= Move::tool_add && move.kind <= Move::tool_remove;
+  bool is_good = move.kind == Move::lead ? is_whole(move) : move.tool.size() == is_of_tool;
+  for (const Tool &tool : move.tool.get()) {
+    is_good = is_good && tool.kind >= MVS_TOOL_GRASP && tool.kind <= MVS_TOOL_ROD;
+  }
+  MVS_MUST(is_good, MVS_E_FORMAT, "history",
+           "the history of the file has a move whose tools and numbers do not agree");
 }
 
 template <typename Item>

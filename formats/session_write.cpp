@@ -32,6 +32,7 @@ class SessionWriter {
   template <typename Item>
   void stack(const Stack<Item> &items);
   void check(const Picture &) {}
+  void check(const Move &) {}
   void optional(const std::shared_ptr<const Picture> &picture);
   void optional(const std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
 

@@ -6,22 +6,11 @@
 #include <cstring>
 #include <string>
 
+#include "formats/base64.h"
 #include "formats/vtk_picture.h"
 
 namespace mvs {
 namespace {
-
-void append_base64(std::string &out, std::string_view bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (size_t at = 0; at < bytes.size(); at += 3) {
-    const size_t here = std::min<size_t>(3, bytes.size() - at);
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < here ? static_cast<unsigned char>(bytes[at + k]) : 0u);
-    }
-    for (size_t k = 0; k < 4; ++k) out += k <= here ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-}
 
 std::string escaped(std::string_view text) {
   std::string out;

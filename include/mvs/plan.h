@@ -3,7 +3,8 @@
  *
  * Replayed on the same valve a plan gives the same snapshot hash. On another valve parts are found
  * by their names and places on leaflets by their anatomical coordinates; what is not there is
- * refused with a sentence that names the step. */
+ * refused with a sentence that names the step. Tools that a plan adds come beside those that are
+ * held already, under other ids where theirs are taken; what was held stays as it is. */
 #ifndef MVS_PLAN_H
 #define MVS_PLAN_H
 

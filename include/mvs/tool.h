@@ -55,7 +55,9 @@ MVS_API mvs_result mvs_tool_add(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id 
  * tool; until then snapshots have the tool where it was. From any thread, also while the simulator
  * is at work. `axis` is nullable: as before; others than rods have none. MVS_E_ID if the tool is
  * not there (any more). A move that no settle or step has begun with is forgotten by mvs_restore
- * and with the valve. */
+ * and with the valve.
+ * What hands did stays in the history, so that plans can do it again: 30 bytes of memory for each
+ * step of a hand that moved (28 MB an hour at 250 a second), 33 in a plan; nothing while it rests. */
 MVS_API mvs_result mvs_tool_move(mvs_sim *sim, mvs_id tool, const double position[3],
                                  const double axis[3]);
 

@@ -4,30 +4,48 @@
 #include "api/commit.h"
 #include "api/moves.h"
 #include "cascade/cascade.h"
+#include "surgery/lead.h"
 
 namespace mvs {
 namespace {
 
-// Takes a step as often as the move says. The host is asked after the first and every 64th one
-// more.
-void step_on(mvs_sim &sim, const Model &model, State &state, const Move &move) {
-  const Progress progress = sim.progress();
-  for (uint64_t k = 0; k < move.count; ++k) {
-    const SolveStats found = sim.solver.step(model, state, options_of(move));
-    const double share = static_cast<double>(k + 1) / static_cast<double>(move.count);
-    MVS_MUST(!progress || k % 64 != 0 || progress(share, found.residual), MVS_E_CANCELLED, "step",
-             "stepping was cancelled by the progress callback; the valve is as before");
+// Takes the steps of a move. The host is asked after the first and every 64th one more.
+class Stepping {
+ public:
+  Stepping(mvs_sim &sim, const Move &move) : sim_(sim), move_(move), progress_(sim.progress()) {}
+
+  void on(const Model &model, State &state, uint64_t count) {
+    for (uint64_t k = 0; k < count; ++k) {
+      const SolveStats found = sim_.solver.step(model, state, options_of(move_));
+      ++taken_;
+      const double share = static_cast<double>(taken_) / static_cast<double>(move_.count);
+      MVS_MUST(!progress_ || taken_ % 64 != 1 || progress_(share, found.residual), MVS_E_CANCELLED,
+               "step", "stepping was cancelled by the progress callback; the valve is as before");
+    }
   }
-}
+
+ private:
+  mvs_sim &sim_;
+  const Move &move_;
+  const Progress progress_;
+  uint64_t taken_ = 0;
+};
 
 Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
+  const Model &model = *now.picture.model;
   State state = now.picture.state;
   if (move.kind == Move::settle) {
-    settle_by_levels(sim.solver, *now.picture.model, state, options_of(move), sim.progress());
+    settle_by_levels(sim.solver, model, state, options_of(move), sim.progress());
   } else if (move.kind == Move::step) {
-    step_on(sim, *now.picture.model, state, move);
+    Stepping(sim, move).on(model, state, move.count);
+  } else if (move.kind == Move::lead) {
+    Stepping stepping(sim, move);
+    for (size_t row = 0; row < move.pace.size(); ++row) {
+      take_row(state, move, row);
+      stepping.on(model, state, move.pace.get()[row]);
+    }
   } else {
-    take_move(*now.picture.model, state, move);
+    take_move(model, state, move);
   }
   return after_move(now, std::move(state), move);
 }
@@ -52,6 +70,19 @@ void Replay::operate(const PlanStep &step) {
   group_id_ = step.group_id;
 }
 
+// Tools are called otherwise here where there were some before the plan: those that it adds get the
+// next numbers, and what it does with them is done with these, not with tools that were there.
+void Replay::move(Move step) {
+  const Id added = step.kind == Move::tool_add ? step.tool.get()[0].id : 0;
+  const Id next = first_tool_id + now.picture.state.tools_made;
+  if (added != 0) tools_[added] = next;
+  for (size_t k = 0; k < step.tool.size(); ++k) {
+    const auto known = tools_.find(step.tool.get()[k].id);
+    if (known != tools_.end() && known->first != known->second) step.tool[k].id = known->second;
+  }
+  now = take_(now, step);
+}
+
 void Replay::go(const std::vector<PlanStep> &steps) {
   for (size_t k = 0; k < steps.size(); ++k) {
     const PlanStep &step = steps[k];
@@ -59,7 +90,7 @@ void Replay::go(const std::vector<PlanStep> &steps) {
     const std::string word = step.move ? "" : step.op["do"].text() + ": ";
     try {
       if (step.move) {
-        now = take_(now, *step.move);
+        move(*step.move);
       } else {
         operate(step);
       }

@@ -1,6 +1,8 @@
 // Replaying steps of a plan or a journal.
 #pragma once
 
+#include <map>
+
 #include "api/simulator.h"
 #include "formats/plan.h"
 
@@ -25,10 +27,12 @@ class Replay {
 
  private:
   void operate(const PlanStep &step);
+  void move(Move step);
 
   bool exact_;
   TakeMove take_;
-  std::string group_;  // of the last operation
+  std::map<Id, Id> tools_;  // what the tools that the plan added are called here
+  std::string group_;       // of the last operation
   uint64_t group_id_ = 0, number_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "api/simulator.h"
 #include "api/solve.h"
 #include "model/finite.h"
+#include "surgery/lead.h"
 
 using namespace mvs;
 
@@ -36,16 +37,12 @@ void mvs_sim::begin_step() {
   next_.v = std::move(v);
 }
 
-// Steps are counted, and go into the history together when somebody looks or a hand moves a tool.
+// Steps are counted, those that hands lead put into one run; they go into the history when somebody
+// looks or others follow.
 void mvs_sim::record_step(const std::vector<Move> &moved, const Move &step) const {
-  if (moved.empty() && stepped_.count > 0 && is_same_step(stepped_, step) &&
-      stepped_.count < Move::most_count) {
-    ++stepped_.count;
-    return;
-  }
-  Moves moves = now_.timeline.moves;
-  if (stepped_.count > 0) moves = with_move(moves, stepped_);
-  for (const Move &hand : moved) moves = with_move(moves, hand);
-  now_.timeline.moves = moves;
-  stepped_ = step;
+  Move next = moved.empty() ? step : lead_of(moved, step);
+  if (stepped_.count > 0) take_on(stepped_, next);
+  if (next.count == 0) return;
+  if (stepped_.count > 0) now_.timeline.moves = with_move(now_.timeline.moves, stepped_);
+  stepped_ = std::move(next);
 }

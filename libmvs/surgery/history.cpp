@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "model/finite.h"
+#include "surgery/lead.h"
 
 namespace mvs {
 namespace {
@@ -37,27 +38,23 @@ bool replaces(const Move &move, const Move &last) {
 
 }  // namespace
 
-bool is_same_step(const Move &a, const Move &b) {
-  Move counted = b;
-  counted.count = a.count;
-  return a.kind == Move::step && a == counted;
-}
-
 std::shared_ptr<const Picture> start_of(const Moment &moment) {
   if (moment.timeline.start) return moment.timeline.start;
   return std::make_shared<const Picture>(moment.picture);
 }
 
-Moves with_move(const Moves &moves, const Move &move) {
-  if (moves.empty()) return moves.pushed(move);
+Moves with_move(const Moves &moves, Move move) {
+  if (moves.empty()) return moves.pushed(std::move(move));
   const Move &last = moves.top();
-  if (replaces(move, last)) return moves.popped().pushed(move);
-  if (!is_same_step(last, move) || last.count > Move::most_count - move.count) {
-    return moves.pushed(move);
-  }
-  Move both = last;
-  both.count += move.count;
-  return moves.popped().pushed(both);
+  if (replaces(move, last)) return moves.popped().pushed(std::move(move));
+  Move longer = last;
+  const uint64_t all = move.count;
+  take_on(longer, move);
+  const Moves before = move.count < all ? moves.popped().pushed(std::move(longer)) : moves;
+  if (move.count == 0) return before;
+  move = widened(before.top(), std::move(move));
+  move.tool.share_with(before.top().tool);
+  return before.pushed(std::move(move));
 }
 
 Moment after_move(const Moment &now, State state, const Move &move) {

@@ -27,26 +27,29 @@ struct Move {
     step = 3,
     tool_add = 4,
     tool_move = 5,
-    tool_remove = 6
+    tool_remove = 6,
+    lead = 7  // steps, before each of which hands move (surgery/lead.h)
   };
   static constexpr uint64_t most_count = uint64_t{1} << 40;
   Kind kind = load;
   uint32_t solver = 0, max_iterations = 0;  // of settle and step, as the caller gave them
-  uint64_t count = 1;   // of step: how many of the same in a row, at most most_count
+  uint64_t count = 1;   // of step: how many of the same in a row, at most most_count; of lead: all
   uint32_t budget = 0;  // of step, as the caller gave it
   double pressure = 0, boundary_fraction = 0;  // of load: Pa, 0 to 1
   double residual = 0, dt = 0, damping = 0;    // N, s, 1/s
-  SharedVector<Tool> tool;  // one, of what is done with it: as added; its hand; its id
+  // One, of what is done with it: as added; its hand; its id. Of lead: all that are led, by id and
+  // kind.
+  SharedVector<Tool> tool;
+  SharedVector<Vec3> way;       // of lead, in rows: where the hands of all of them are,
+  SharedVector<uint32_t> pace;  // and how many steps follow
 
   bool operator==(const Move &) const = default;
 };
 using Moves = Stack<Move>;
 
-// Whether two moves are steps that differ at most in how often they are taken.
-bool is_same_step(const Move &a, const Move &b);
-// With one more move; equal steps are counted together, and a load or a hand that moves on before
-// anything has followed it is replaced.
-Moves with_move(const Moves &moves, const Move &move);
+// With one more move; equal steps are counted together, steps that hands lead become one run, and a
+// load or a hand that moves on before anything has followed it is replaced.
+Moves with_move(const Moves &moves, Move move);
 
 // One operation that was applied.
 struct Entry {

@@ -215,6 +215,24 @@ TEST_CASE("a_file_of_version_2_is_read_as_ever") {
   CHECK(hash_of(at_checkpoint(now, "").picture) == hash_of(at_checkpoint(first, "").picture));
 }
 
+// session_v3.h5 goes on from there: a grasp moved and stepped twice, a ball taken out again.
+TEST_CASE("a_file_of_version_3_is_read_as_ever") {
+  const std::string data = MVS_SOURCE_DIR "/tests/formats/data/session_v";
+  const Moment now = read_session(read_whole_file(data + "3.h5"));
+  const Moment first = read_session(read_whole_file(data + "2.h5"));
+  REQUIRE(now.picture.state.tools.size() == 1);
+  CHECK(now.picture.state.tools_made == 2);
+  CHECK(now.picture.state.steps == first.picture.state.steps + 2);
+  std::vector<Move::Kind> kinds;
+  const std::vector<const Move *> moves = now.timeline.moves.items();
+  for (size_t k = first.timeline.moves.size(); k < moves.size(); ++k) {
+    kinds.push_back(moves[k]->kind);
+  }
+  using Kinds = std::vector<Move::Kind>;
+  CHECK(kinds == Kinds{Move::tool_add, Move::tool_add, Move::tool_move, Move::step, Move::tool_move,
+                       Move::step, Move::tool_remove});
+}
+
 TEST_CASE("what_levels_share_is_shared_again") {
   const Moment again = read_session(write_session(a_session(), {}));
   std::set<const void *> triangles, rests, topologies;

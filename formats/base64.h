@@ -1,0 +1,14 @@
+// Bytes as text (RFC 4648, section 4).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mvs {
+
+void append_base64(std::string &out, std::string_view bytes);
+
+// Throws MVS_E_FORMAT, naming the part, where the text is none.
+std::string base64_bytes(std::string_view text, const char *part);
+
+}  // namespace mvs

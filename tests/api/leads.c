@@ -1,0 +1,231 @@
+/* What hands did, again: from plans and sessions, and where other tools are held already. */
+#include <stdlib.h>
+
+#include "check.h"
+
+static mvs_sim *make_sim(void) {
+  mvs_sim *sim = NULL;
+  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_generate_valve(sim, &small));
+  return sim;
+}
+
+/* Where node k of the free edge lies. */
+static uint32_t place(mvs_sim *sim, uint32_t k, double at[3]) {
+  const mvs_snapshot *snapshot = NULL;
+  mvs_view edge, x;
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_snapshot_view(snapshot, MVS_FREE_EDGE_NODES, &edge));
+  MUST(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &x));
+  const uint32_t node = ((const uint32_t *)edge.data)[k];
+  memcpy(at, (const double *)x.data + 3 * node, 3 * sizeof *at);
+  mvs_snapshot_release(snapshot);
+  return node;
+}
+
+static mvs_id grasp(mvs_sim *sim, uint32_t k, double at[3]) {
+  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_GRASP, .by_node = 1};
+  mvs_id tool = 0;
+  desc.node = place(sim, k, at);
+  memcpy(desc.position, at, sizeof desc.position);
+  MUST(mvs_tool_add(sim, &desc, &tool));
+  return tool;
+}
+
+static mvs_id rod(mvs_sim *sim, const double at[3]) {
+  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_ROD};
+  mvs_id tool = 0;
+  memcpy(desc.position, at, sizeof desc.position);
+  MUST(mvs_tool_add(sim, &desc, &tool));
+  return tool;
+}
+
+static mvs_tool_state state_of(mvs_sim *sim, mvs_id tool) {
+  mvs_tool_state state = {.struct_size = sizeof state};
+  MUST(mvs_tool_get(sim, tool, &state));
+  return state;
+}
+
+static uint32_t tools_in(mvs_sim *sim) {
+  const mvs_snapshot *snapshot = NULL;
+  uint32_t count = 0;
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_snapshot_tool_count(snapshot, &count));
+  mvs_snapshot_release(snapshot);
+  return count;
+}
+
+typedef struct plan {
+  char *text;
+  uint64_t size;
+} plan;
+
+static plan plan_of(mvs_sim *sim) {
+  const mvs_snapshot *snapshot = NULL;
+  plan made = {NULL, 0};
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_write_plan(snapshot, NULL, NULL, 0, &made.size));
+  made.text = malloc(made.size);
+  if (!made.text) exit(2);
+  MUST(mvs_write_plan(snapshot, NULL, made.text, made.size, &made.size));
+  mvs_snapshot_release(snapshot);
+  return made;
+}
+
+/* A grasp and a rod, led in turn and together, with steps in which they rest; the rod is let go. */
+static void work(mvs_sim *sim) {
+  double at[3], tip[3] = {0, 0, 0.02}, axis[3] = {0, 0.1, 1};
+  const mvs_id held = grasp(sim, 0, at);
+  const mvs_id pushing = rod(sim, tip);
+  mvs_step_options longer = {.struct_size = sizeof longer, .dt = 2e-3};
+  for (int k = 0; k < 150; ++k) {
+    at[2] += 1e-5;
+    tip[2] -= 1e-5;
+    axis[0] = 1e-3 * k;
+    if (k % 3 != 1) MUST(mvs_tool_move(sim, held, at, NULL));
+    if (k % 4 != 2) MUST(mvs_tool_move(sim, pushing, tip, axis));
+    MUST(mvs_step(sim, k == 100 ? &longer : NULL));
+  }
+  MUST(mvs_tool_remove(sim, pushing));
+  for (int k = 0; k < 5; ++k) MUST(mvs_step(sim, NULL));
+}
+
+static void a_plan_leads_tools_to_the_same_bits(void) {
+  mvs_sim *sim = make_sim(), *other = make_sim();
+  mvs_replay replay = {.struct_size = sizeof replay};
+  work(sim);
+  const plan made = plan_of(sim);
+  MUST(mvs_replay_plan(other, made.text, made.size, &replay));
+  CHECK(replay.same_valve == 1 && replay.same_result == 1);
+  CHECK(same_hash(sim_hash(sim), sim_hash(other)));
+  /* and the plan of that is the same one */
+  const plan again = plan_of(other);
+  CHECK(again.size == made.size && memcmp(again.text, made.text, made.size) == 0);
+  free(made.text);
+  free(again.text);
+  mvs_destroy(sim);
+  mvs_destroy(other);
+}
+
+static void looking_on_changes_no_plan(void) {
+  mvs_sim *sim = make_sim(), *watched = make_sim();
+  double at[3], same[3];
+  const mvs_id tool = grasp(sim, 0, at), seen = grasp(watched, 0, same);
+  for (int k = 0; k < 300; ++k) {
+    at[2] += 1e-5;
+    MUST(mvs_tool_move(sim, tool, at, NULL));
+    MUST(mvs_tool_move(watched, seen, at, NULL));
+    MUST(mvs_step(sim, NULL));
+    MUST(mvs_step(watched, NULL));
+    if (k % 7 == 0) state_of(watched, seen);
+  }
+  const plan alone = plan_of(sim), followed = plan_of(watched);
+  CHECK(alone.size == followed.size && memcmp(alone.text, followed.text, alone.size) == 0);
+  free(alone.text);
+  free(followed.text);
+  mvs_destroy(sim);
+  mvs_destroy(watched);
+}
+
+static void a_session_keeps_what_hands_did(void) {
+  if (!strstr(mvs_features(), "hdf5")) return;
+  mvs_sim *sim = make_sim(), *other = NULL;
+  const mvs_snapshot *snapshot = NULL;
+  uint64_t size = 0;
+  work(sim);
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_save_memory(snapshot, MVS_FORMAT_H5, NULL, 0, &size));
+  char *bytes = malloc(size);
+  if (!bytes) exit(2);
+  MUST(mvs_save_memory(snapshot, MVS_FORMAT_H5, bytes, size, &size));
+  MUST(mvs_create(NULL, &other));
+  MUST(mvs_load_memory(other, bytes, size, MVS_FORMAT_H5));
+  const plan made = plan_of(sim), loaded = plan_of(other);
+  CHECK(made.size == loaded.size && memcmp(made.text, loaded.text, made.size) == 0);
+  mvs_snapshot_release(snapshot);
+  free(bytes);
+  free(made.text);
+  free(loaded.text);
+  mvs_destroy(sim);
+  mvs_destroy(other);
+}
+
+/* The plan's tools come beside those that are held, and theirs stay as they are. */
+static void a_plan_touches_no_tool_that_was_held(void) {
+  mvs_sim *sim = make_sim(), *busy = make_sim();
+  double at[3];
+  mvs_replay replay = {.struct_size = sizeof replay};
+  work(sim);
+  const plan made = plan_of(sim);
+  const mvs_id mine = grasp(busy, 9, at);
+  const mvs_tool_state before = state_of(busy, mine);
+  MUST(mvs_replay_plan(busy, made.text, made.size, &replay));
+  CHECK(replay.same_valve == 0 && replay.same_result == 0);
+  CHECK(tools_in(busy) == 2); /* mine, and the grasp that the plan did not let go */
+  const mvs_tool_state after = state_of(busy, mine);
+  CHECK(after.node == before.node);
+  CHECK(memcmp(after.position, before.position, sizeof after.position) == 0);
+  const mvs_tool_state led = state_of(busy, mine + 1), there = state_of(sim, mine);
+  CHECK(led.node == there.node);
+  CHECK(memcmp(led.position, there.position, sizeof led.position) == 0);
+  /* what came of it is a history of its own: its plan leads there from the open valve */
+  mvs_sim *third = make_sim();
+  const plan both = plan_of(busy);
+  MUST(mvs_replay_plan(third, both.text, both.size, &replay));
+  CHECK(replay.same_valve == 1 && replay.same_result == 1);
+  CHECK(same_hash(sim_hash(third), sim_hash(busy)));
+  /* and once more on itself */
+  MUST(mvs_replay_plan(busy, made.text, made.size, NULL));
+  CHECK(tools_in(busy) == 3);
+  CHECK(memcmp(state_of(busy, mine).position, before.position, sizeof before.position) == 0);
+  free(made.text);
+  free(both.text);
+  mvs_destroy(sim);
+  mvs_destroy(busy);
+  mvs_destroy(third);
+}
+
+static void refused(mvs_sim *sim, const char *step, const char *word) {
+  char text[600];
+  const int size = snprintf(text, sizeof text,
+                            "{\"format\": \"mvs-plan\", \"version\": 2, \"steps\": [%s]}", step);
+  const hash128 before = sim_hash(sim);
+  MUST_FAIL(mvs_replay_plan(sim, text, (uint64_t)size, NULL), MVS_E_FORMAT, word);
+  CHECK(same_hash(before, sim_hash(sim)));
+}
+
+static void wrong_leads_are_refused(void) {
+  mvs_sim *sim = make_sim();
+  const char hands[] =
+      "{\"do\": \"lead\", \"count\": 1, \"hands\": [{\"tool\": 281474976710656, \"kind\": "
+      "\"grasp\"}], \"way_m\": ";
+  const struct {
+    const char *rest, *word;
+  } wrong[] = {
+      {"\"\"}", "a way with a row"},
+      {"\"AAAAAAAAAAA=\"}", "a way with a row"},
+      {"\"AAA\"}", "base64"},
+      {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"pace\": \"AAAAAA==\"}", "pace"},
+      {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"pace\": \"AgAAAA==\"}", "make its count"},
+      {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"speed\": 1}", "speed"},
+      {"\"AAAAAAAA+H8AAAAAAAAAAAAAAAAAAAAA\"}", "a way with a row"}, /* not a number */
+  };
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
+    char step[400];
+    snprintf(step, sizeof step, "%s%s", hands, wrong[k].rest);
+    refused(sim, step, wrong[k].word);
+  }
+  refused(sim, "{\"do\": \"lead\", \"count\": 0, \"hands\": [], \"way_m\": \"\"}",
+          "has to have hands");
+  mvs_destroy(sim);
+}
+
+int main(void) {
+  a_plan_leads_tools_to_the_same_bits();
+  looking_on_changes_no_plan();
+  a_session_keeps_what_hands_did();
+  a_plan_touches_no_tool_that_was_held();
+  wrong_leads_are_refused();
+  return finish("leads");
+}
