@@ -57,7 +57,7 @@ MVS_API mvs_result mvs_tool_add(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id 
  * not there (any more). A move that no settle or step has begun with is forgotten by mvs_restore
  * and with the valve.
  * What hands did stays in the history, so that plans can do it again: 30 bytes of memory for each
- * step of a hand that moved (28 MB an hour at 250 a second), 33 in a plan; nothing while it rests. */
+ * step of a hand that moved (27 MB an hour at 250 a second), 33 in a plan; none while it rests. */
 MVS_API mvs_result mvs_tool_move(mvs_sim *sim, mvs_id tool, const double position[3],
                                  const double axis[3]);
 

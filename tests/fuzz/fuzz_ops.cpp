@@ -1,8 +1,10 @@
-// Any bytes as a script of operations, undo, redo, settle, step, save and load, checkpoints: every
-// call succeeds or leaves all bits as they were, undo and redo are exact, undoing everything gives
-// the first valve, and no move leaves a number that is none or makes triangles cross. Without
-// libFuzzer: `fuzz_ops SCRIPTS`, so many random scripts.
+// Any bytes as a script of operations, tools, undo, redo, settle, step, save and load, checkpoints:
+// every call succeeds or leaves all bits as they were, undo and redo are exact, undoing everything
+// gives the first valve, no move leaves a number that is none or makes triangles or tools cross,
+// and the plan of it all leads to the same bits. Without libFuzzer: `fuzz_ops SCRIPTS [FIRST]`, so
+// many random scripts from number FIRST on.
 #include <mvs/mvs.hpp>
+#include <mvs/tool.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,9 +18,12 @@
 #include <vector>
 
 #include "../stability/crossings.h"
+#include "op_builder.h"
 
 namespace {
 
+using fuzz::Builder;
+using fuzz::Bytes;
 using Hash = std::array<uint64_t, 2>;
 
 void demand(bool condition, const char *what) {
@@ -27,131 +32,15 @@ void demand(bool condition, const char *what) {
   std::abort();
 }
 
-// Bytes as numbers; zeros when they run out.
-class Bytes {
- public:
-  Bytes(const uint8_t *data, size_t size) : data_(data), size_(size) {}
-  bool done() const { return size_ == 0; }
-  uint32_t below(uint32_t limit) { return limit == 0 ? 0 : next() % limit; }
-  double between(double low, double high) { return low + (high - low) * next() / 255.0; }
-
- private:
-  uint8_t next() {
-    if (size_ == 0) return 0;
-    --size_;
-    return *data_++;
-  }
-  const uint8_t *data_;
-  size_t size_;
-};
-
-// Builds an operation from its description: parts that are there, values in and out of range.
-class Builder {
- public:
-  Builder(const mvs::Snapshot &valve, Bytes &bytes) : valve_(valve), bytes_(bytes) {}
-
-  const mvs_op *build() {
-    const uint32_t index = bytes_.below(mvs_op_count());
-    mvs_op_info info = mvs::sized<mvs_op_info>();
-    mvs::must(mvs_op_describe(index, &info));
-    words_.assign((info.size + 7) / 8, 0);
-    put(mvs_op{info.size, info.kind}, 0);
-    for (uint32_t f = 0; f < info.fields; ++f) {
-      mvs_field_info field = mvs::sized<mvs_field_info>();
-      mvs::must(mvs_op_describe_field(index, f, &field));
-      // what may be left out is left out half the time
-      if (field.required || bytes_.below(2)) fill(field);
-    }
-    return reinterpret_cast<const mvs_op *>(words_.data());
-  }
-
- private:
-  template <typename Value>
-  void put(const Value &value, uint32_t offset) {
-    std::memcpy(reinterpret_cast<char *>(words_.data()) + offset, &value, sizeof value);
-  }
-
-  mvs_id part(uint32_t kind) {
-    const std::vector<mvs_part> parts = valve_.parts(kind);
-    if (parts.empty() || bytes_.below(32) == 0) return bytes_.below(200);
-    return parts[bytes_.below(static_cast<uint32_t>(parts.size()))].id;
-  }
-
-  mvs_site site() {
-    mvs_site s = {};
-    s.how = 1 + bytes_.below(3);
-    s.index = bytes_.below(250) * (1 + bytes_.below(2));
-    if (s.how == MVS_SITE_TRIANGLE) {
-      s.u[0] = bytes_.between(0, 1);
-      s.u[1] = (1 - s.u[0]) * bytes_.between(0, 1);
-      s.u[2] = 1 - s.u[0] - s.u[1];
-    } else if (s.how == MVS_SITE_ANATOMICAL) {
-      s.scallop = part(MVS_PART_SCALLOP);
-      s.u[0] = bytes_.between(0, 1);
-      s.u[1] = bytes_.between(0, 1);
-    }
-    return s;
-  }
-
-  // Mostly well inside the range, on a scale of factors where the range is wide.
-  double number(const mvs_field_info &f) {
-    const double share = bytes_.between(0, 1);
-    if (f.low > 0) return f.low * std::pow(f.high / f.low, share);
-    return f.low + share * (f.high - f.low);
-  }
-
-  void fill(const mvs_field_info &f) {
-    switch (f.type) {
-      case MVS_FIELD_NUMBER:
-        return put(number(f), f.offset);
-      case MVS_FIELD_COUNT:
-      case MVS_FIELD_CHOICE:
-        return put(static_cast<uint32_t>(number(f)), f.offset);
-      case MVS_FIELD_CHORD:
-        return put(part(MVS_PART_CHORD), f.offset);
-      case MVS_FIELD_HEAD:
-        return put(part(MVS_PART_HEAD), f.offset);
-      case MVS_FIELD_SCALLOP:
-        return put(part(MVS_PART_SCALLOP), f.offset);
-      case MVS_FIELD_SITE:
-        return put(site(), f.offset);
-      case MVS_FIELD_POINT:
-        return put(mvs_point{{bytes_.between(-0.02, 0.02), bytes_.between(-0.02, 0.02),
-                              bytes_.between(-0.03, 0.01)},
-                             1,
-                             0},
-                   f.offset);
-      case MVS_FIELD_VECTOR:
-        return put(std::array<double, 3>{bytes_.between(-0.01, 0.01), bytes_.between(-0.01, 0.01),
-                                         bytes_.between(-0.01, 0.01)},
-                   f.offset);
-      case MVS_FIELD_POINTS:
-        points_.push_back(std::make_unique<std::vector<double>>());
-        for (uint32_t k = 3 * bytes_.below(12); k > 0; --k) {
-          points_.back()->push_back(bytes_.between(-0.02, 0.02));
-        }
-        return put(mvs_array{points_.back()->data(), points_.back()->size() / 3, 3, MVS_F64, 0},
-                   f.offset);
-      default:
-        return put(bytes_.below(2) ? "a name" : "another", f.offset);
-    }
-  }
-
-  const mvs::Snapshot &valve_;
-  Bytes &bytes_;
-  std::vector<uint64_t> words_;
-  std::vector<std::unique_ptr<std::vector<double>>> points_;
-};
-
 // A simulator, and what is known about its history.
 class Script {
  public:
   explicit Script(const uint8_t *data, size_t size) : bytes_(data, size) {
-    mvs_parametric_desc desc = {};
-    desc.vertices = 200;
-    desc.chords = 30;
-    desc.branching = bytes_.below(2);
-    sim_.generate(desc);
+    desc_.vertices = 200;
+    desc_.chords = 30;
+    desc_.branching = bytes_.below(2);
+    replays_ = bytes_.below(4) == 0;
+    sim_.generate(desc_);
     first_ = undone_ = hash();
   }
 
@@ -160,6 +49,7 @@ class Script {
       act();
       if (history().done == 0) first_ = hash();
     }
+    if (replays_) replay();
     while (mvs_undo(sim_.get()) == MVS_OK) {
     }
     demand(hash() == first_, "undoing everything did not give what was before the first operation");
@@ -178,7 +68,7 @@ class Script {
   }
 
   void act() {
-    switch (bytes_.below(10)) {
+    switch (bytes_.below(14)) {
       case 0:
         return undo();
       case 1:
@@ -191,6 +81,12 @@ class Script {
         return save_and_load();
       case 5:
         return checkpoint();
+      case 6:
+        return add_tool();
+      case 7:
+        return lead();
+      case 8:
+        return remove_tool();
       default:
         return operate();
     }
@@ -244,6 +140,85 @@ class Script {
     move([&] { return mvs_step(sim_.get(), nullptr); });
   }
 
+  std::vector<mvs_tool_state> tools() const { return mvs::tools_of(sim_.snapshot()); }
+
+  // One that there is, seldom another.
+  mvs_id some_tool() {
+    const std::vector<mvs_tool_state> all = tools();
+    if (all.empty() || bytes_.below(16) == 0) return (mvs_id{1} << 48) + bytes_.below(9);
+    return all[bytes_.below(static_cast<uint32_t>(all.size()))].id;
+  }
+
+  std::array<double, 3> place() {
+    return {bytes_.between(-0.03, 0.03), bytes_.between(-0.03, 0.03), bytes_.between(-0.03, 0.03)};
+  }
+
+  // A grasp of some node, or a ball or rod somewhere, mostly in range.
+  void add_tool() {
+    mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
+    desc.kind = bytes_.below(16) == 0 ? bytes_.below(6) : 1 + bytes_.below(3);
+    std::copy_n(place().data(), 3, desc.position);
+    std::copy_n(place().data(), 3, desc.axis);
+    desc.by_node = bytes_.below(2);
+    desc.node = bytes_.below(250);
+    desc.reach = bytes_.between(0, 0.02);
+    if (bytes_.below(2)) desc.radius = bytes_.between(1e-4, 5e-3);
+    if (bytes_.below(2)) desc.length = bytes_.between(0, 0.05);
+    if (bytes_.below(2)) desc.stiffness = 200 * bytes_.between(0, 10);
+    const Hash before = hash();
+    mvs_id tool = 0;
+    const mvs_result added = mvs_tool_add(sim_.get(), &desc, &tool);
+    had_tools_ = had_tools_ || added == MVS_OK;
+    if (added == MVS_OK) return;
+    demand(added == MVS_E_ARGUMENT || added == MVS_E_STATE, mvs_last_error()->message);
+    demand(hash() == before, "a refused tool changed something");
+  }
+
+  // Some steps with one hand or several that go on a way, or leap.
+  void lead() {
+    for (uint32_t steps = 1 + bytes_.below(4); steps > 0; --steps) {
+      for (uint32_t hands = bytes_.below(3); hands > 0; --hands) move_hand();
+      step();
+    }
+  }
+
+  void move_hand() {
+    const mvs_id tool = some_tool();
+    mvs_tool_state state = mvs::sized<mvs_tool_state>();
+    std::array<double, 3> to = place();
+    const bool is_there = mvs_tool_get(sim_.get(), tool, &state) == MVS_OK;
+    if (is_there && bytes_.below(4) != 0) {
+      for (size_t k = 0; k < 3; ++k) to[k] = state.position[k] + 0.05 * to[k];
+    }
+    const std::array<double, 3> axis = place();
+    const Hash before = hash();
+    const mvs_result moved =
+        mvs_tool_move(sim_.get(), tool, to.data(), bytes_.below(2) ? axis.data() : nullptr);
+    demand(moved == (is_there ? MVS_OK : MVS_E_ID), mvs_last_error()->message);
+    demand(hash() == before, "a hand moved a tool before a step began");
+  }
+
+  void remove_tool() {
+    const mvs_id tool = some_tool();
+    mvs_tool_state state = mvs::sized<mvs_tool_state>();
+    const bool is_there = mvs_tool_get(sim_.get(), tool, &state) == MVS_OK;
+    const Hash before = hash();
+    const mvs_result removed = mvs_tool_remove(sim_.get(), tool);
+    demand(removed == (is_there ? MVS_OK : MVS_E_ID), mvs_last_error()->message);
+    demand(is_there != (hash() == before), "a tool was not removed, or none changed something");
+  }
+
+  // The plan, from the valve as it was made.
+  void replay() {
+    const mvs::Snapshot end = sim_.snapshot();
+    mvs::Sim again;
+    again.generate(desc_);
+    const mvs_replay replay = again.replay_plan(end.plan());
+    demand(replay.same_valve == 1, "the plan is not of its valve");
+    demand(replay.same_result == 1 && again.snapshot().hash() == end.hash(),
+           "the plan does not lead to the same bits");
+  }
+
   // What crosses after a move crossed before it: operations may make triangles cross, moves not.
   template <typename Call>
   void move(Call &&call) {
@@ -252,6 +227,9 @@ class Script {
     const std::vector<stability::Pair> after = crossing();
     demand(std::includes(before.begin(), before.end(), after.begin(), after.end()),
            "a move made triangles cross");
+    for (const mvs_tool_state &tool : tools()) {
+      demand(tool.kind == MVS_TOOL_GRASP || tool.distance > 0, "a tool lies in tissue");
+    }
   }
 
   std::vector<stability::Pair> crossing() const {
@@ -270,9 +248,13 @@ class Script {
 
   // A copy made by way of a file goes on to the same bits.
   void save_and_load() {
+    step();  // with which hands are where they want to be: files do not have that
     const mvs::Snapshot valve = sim_.snapshot();
     mvs::Sim copy;
-    const bool whole = bytes_.below(2) == 1 && std::strstr(mvs_features(), "hdf5");
+    // OBJ files know neither tools nor that there were some
+    const bool wants_whole = bytes_.below(2) == 1 || had_tools_;
+    const bool whole = wants_whole && std::strstr(mvs_features(), "hdf5");
+    if (wants_whole && !whole) return;
     const uint32_t how = whole ? MVS_FORMAT_H5 : MVS_FORMAT_OBJ;
     copy.load_memory(valve.save_memory(how), how);
     demand(copy.snapshot().hash() == valve.hash(), "the valve changed on its way through a file");
@@ -305,7 +287,9 @@ class Script {
   }
 
   mvs::Sim sim_;
+  mvs_parametric_desc desc_ = {};
   Bytes bytes_;
+  bool replays_ = false, had_tools_ = false;
   Hash first_{};            // what undoing everything has to give: before the first operation
   Hash undone_{};           // the same for what can be redone from there
   std::vector<Hash> kept_;  // of the checkpoint: its own, and both of the above
@@ -323,7 +307,8 @@ int main(int argc, char **argv) {
   const char *lengthy = std::getenv("MVS_TEST_LONG");
   const int given = argc > 1 ? std::atoi(argv[1]) : 100;
   const int scripts = lengthy && *lengthy ? 10000 : given;
-  for (int seed = 0; seed < scripts; ++seed) {
+  const int first = argc > 2 ? std::atoi(argv[2]) : 0;
+  for (int seed = first; seed < first + scripts; ++seed) {
     std::mt19937 random(static_cast<uint32_t>(seed));
     std::vector<uint8_t> bytes(600);
     for (uint8_t &byte : bytes) byte = static_cast<uint8_t>(random());
