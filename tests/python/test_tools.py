@@ -1,5 +1,7 @@
 """Instruments from Python: held, pushed, felt, from another thread, and back by undo."""
 
+import base64
+import json
 import threading
 
 import mvs
@@ -63,6 +65,29 @@ def test_a_hand_moves_while_the_simulator_works(sim):
     hand.join()
     sim.step()
     assert sim.tool(tool).position[2] == 0.05 - 1e-5 * 199
+
+
+def test_a_plan_leaves_tools_that_are_held_alone(sim):
+    edge = sim.snapshot().free_edge_nodes
+    at = sim.snapshot().node_position
+    with mvs.Simulator() as other:
+        other.restore(sim.snapshot())
+        theirs = other.add_tool("grasp", at[edge[0]])
+        for k in range(20):
+            other.move_tool(theirs, at[edge[0]] + [0, 0, 1e-4 * (k + 1)])
+            other.step()
+        plan = other.snapshot().plan()
+    (lead,) = [step for step in json.loads(plan)["steps"] if step["do"] == "lead"]
+    assert lead["count"] == 20
+    way = np.frombuffer(base64.b64decode(lead["way_m"])).reshape(-1, 3)
+    np.testing.assert_array_equal(way[-1], at[edge[0]] + [0, 0, 2e-3])
+    mine = sim.add_tool("grasp", at[edge[8]])
+    assert mine == theirs
+    assert not sim.replay_plan(plan).same_result
+    held, led = sim.snapshot().tools
+    assert (held.id, held.node, led.node) == (mine, edge[8], edge[0])
+    np.testing.assert_array_equal(held.position, at[edge[8]])
+    np.testing.assert_array_equal(led.position, way[-1])
 
 
 def test_wrong_words_are_refused(sim):
