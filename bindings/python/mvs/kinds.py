@@ -1,0 +1,88 @@
+"""The words of the interface: kinds, laws and orders by their numbers, and two units."""
+
+from enum import IntEnum
+
+MMHG = 133.322
+"""1 mmHg in Pa."""
+
+SYSTOLE_PA = 120 * MMHG
+"""120 mmHg in Pa: the default systolic load."""
+
+
+class NodeKind(IntEnum):
+    """Values of ``Snapshot.node_kind``."""
+
+    LEAFLET = 0
+    ANNULUS = 1
+    BRANCH = 2
+    HEAD = 3
+
+
+class ChordKind(IntEnum):
+    """Values of ``Snapshot.chord_kind``."""
+
+    OTHER = 0
+    MARGINAL = 1
+    ROUGH_ZONE = 2
+    STRUT = 3
+    BASAL = 4
+    COMMISSURAL = 5
+    TRUNK = 6
+    SUTURE = 7
+
+
+class PartKind(IntEnum):
+    """Kinds of named parts."""
+
+    LEAFLET = 1
+    SCALLOP = 2
+    CHORD = 3
+    HEAD = 4
+    RING = 5
+    CURVE = 6
+
+
+class RingKind(IntEnum):
+    """Kinds of rings: closed and rigid, or a flexible posterior band."""
+
+    RIGID = 1
+    BAND = 2
+
+
+class ToolKind(IntEnum):
+    """Kinds of instruments."""
+
+    GRASP = 1
+    BALL = 2
+    ROD = 3
+
+
+class LeafletLaw(IntEnum):
+    """The laws a leaflet sheet can follow: springs, or membranes with W(I1, I4) in J/m3.
+
+    Formulas, constants and sources: include/mvs/valve.h.
+    """
+
+    SPRING = 1
+    BILINEAR = 2
+    FUNG = 3
+    MAY_NEWMAN_YIN = 4
+    PROT = 5
+    NEO_HOOKEAN = 6
+
+
+class ChordLaw(IntEnum):
+    """The laws a chord can follow: nominal stress over strain, none when slack (valve.h)."""
+
+    LINEAR = 1
+    BILINEAR = 2
+    OGDEN = 3
+    TABLE = 4
+
+
+class SpreadOrder(IntEnum):
+    """When the boundary goes where the load wants it: with the pressure, before or after it."""
+
+    TOGETHER = 1
+    BOUNDARY_FIRST = 2
+    PRESSURE_FIRST = 3
