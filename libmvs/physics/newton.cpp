@@ -24,7 +24,8 @@ constexpr double slack_share = 0.02;
 // Contact comes where the pattern has no room in most iterations; an order of elimination is good
 // for a few such patterns.
 constexpr uint32_t patterns_per_order = 6;
-constexpr int trials = 8;  // of one iteration, each with a larger shift
+constexpr int trials = 8;           // of one iteration
+constexpr double shortened = 0.5;  // what every second one of these goes of the step before it
 constexpr int most_patience = 64;
 // The piece around a disturbance that goes to rest first: an operation disturbs a few nodes, a load
 // all of them; the share and the reach are where piece and whole together cost least.
@@ -111,6 +112,7 @@ void Newton::begin(const State &state) {
   near_force_ = 4 * pressure * area;
   rest_force_ = pressure * area;
   shift_ = 1;
+  rest_shift_ = 0;
   patterns_ = 0;
   wait_ = 0;
   patience_ = 1;
@@ -174,10 +176,11 @@ void Newton::iterate() {
 // A full Newton step on the out-of-balance force; false, and nothing moved, unless it falls.
 bool Newton::rest_step() {
   const double kept = shift_;
-  shift_ = 0;
+  shift_ = rest_shift_;
   assemble(Curvature::exact);
   factorise();
   const bool close = added_ < 1;
+  rest_shift_ = added_ > least_shift ? added_ : 0;
   shift_ = kept;
   solve(!close);
   limit_step();
@@ -186,12 +189,17 @@ bool Newton::rest_step() {
   return true;
 }
 
-// A step that lowers the energy about as foretold; the shift grows until there is one.
+// A step that lowers the energy about as foretold. Until there is one the shift grows; in between a
+// part of the step is tried, which takes no factorisation.
 void Newton::travel_step() {
   assemble(residual_ < near_force_ ? Curvature::exact : Curvature::projected);
   for (int trial = 0; trial < trials; ++trial) {
-    factorise();
-    solve(true);
+    if (trial % 2 == 0) {
+      factorise();
+      solve(true);
+    } else {
+      for (Vec3 &d : full_) d *= shortened;
+    }
     limit_step();
     double foretold;
     const double found = try_step(foretold);
