@@ -24,7 +24,7 @@ constexpr double slack_share = 0.02;
 // Contact comes where the pattern has no room in most iterations; an order of elimination is good
 // for a few such patterns.
 constexpr uint32_t patterns_per_order = 6;
-constexpr int trials = 8;           // of one iteration
+constexpr int trials = 8;          // of one iteration
 constexpr double shortened = 0.5;  // what every second one of these goes of the step before it
 constexpr int most_patience = 64;
 // The piece around a disturbance that goes to rest first: an operation disturbs a few nodes, a load
@@ -345,7 +345,7 @@ bool Newton::try_force() {
   const double before = free_norm();
   std::vector<Vec3> kept = g_;
   double share = 1;
-  for (int trial = 0; trial < 5; ++trial, share *= 0.5) {
+  for (int trial = 0; trial < 5; ++trial) {
     for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + share * step_[i];
     potential_.gradient(trial_, g_, inside);
     ++stats_.work.passes;
@@ -353,6 +353,7 @@ bool Newton::try_force() {
       x_.swap(trial_);
       return true;
     }
+    share *= 0.5;
   }
   g_ = std::move(kept);
   // the free edge is to be frozen, and contact known, at x again
