@@ -50,7 +50,7 @@ Moves with_move(const Moves &moves, Move move) {
   Move longer = last;
   const uint64_t all = move.count;
   take_on(longer, move);
-  const Moves before = move.count < all ? moves.popped().pushed(std::move(longer)) : moves;
+  Moves before = move.count < all ? moves.popped().pushed(std::move(longer)) : moves;
   if (move.count == 0) return before;
   move = widened(before.top(), std::move(move));
   move.tool.share_with(before.top().tool);

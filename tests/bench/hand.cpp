@@ -7,8 +7,8 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <mvs/mvs.hpp>
 #include <mvs/tool.hpp>
 #include <string>
@@ -101,12 +101,15 @@ bool play(const char *name, size_t count, int every, bool looks, int steps) {
 
 }  // namespace
 
-int main(int argc, char **argv) {
-  const int steps = argc > 1 ? std::atoi(argv[1]) : 5000;
+int main(int argc, char **argv) try {
+  const int steps = argc > 1 ? std::stoi(argv[1]) : 5000;
   std::printf("%-34s %9s %8s %8s %8s\n", "", "moves", "memory B", "plan B", "h5 B");
   bool good = play("one hand", 1, 1, false, steps);
   good = play("one hand, looked at every step", 1, 1, true, steps) && good;
   good = play("one hand, at every fourth step", 1, 4, false, steps) && good;
   good = play("two hands", 2, 1, false, steps) && good;
   return good ? 0 : 1;
+} catch (const std::exception &error) {
+  std::fprintf(stderr, "bench_hand: %s\n", error.what());
+  return 1;
 }
