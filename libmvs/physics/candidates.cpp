@@ -57,6 +57,15 @@ Candidates::Candidates(const Model &model)
     rest_radius_.push_back(radius);
   }
   place_vertices();
+  // more than a closed valve has, so that a live step seldom allocates
+  for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(8 * sheet_.size());
+  guarded_edges_.reserve(4 * taken.size());
+  vertex_way_.resize(model.node_count());
+  triangle_way_.resize(owned_.size());
+  edge_way_.resize(taken.size());
+  triangle_changed_.resize(owned_.size());
+  skip_.resize(owned_.size());
+  count_.reserve(model.node_count() + 1);
 }
 
 // With the first block that has them.
@@ -281,7 +290,7 @@ void Candidates::sort_pairs(std::vector<VertexTriangle> &pairs) {
   for (size_t v = 0; v < from_.size(); ++v) count_[v + 1] += count_[v];
   sorted_.resize(pairs.size());
   for (const VertexTriangle &p : pairs) sorted_[count_[p.vertex]++] = p;
-  pairs.swap(sorted_);
+  std::copy(sorted_.begin(), sorted_.end(), pairs.begin());
   auto first = pairs.begin();
   for (const uint32_t end : count_) {
     const auto last = pairs.begin() + end;
