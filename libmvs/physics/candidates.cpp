@@ -58,7 +58,7 @@ Candidates::Candidates(const Model &model)
   }
   place_vertices();
   // more than a closed valve has, so that a live step seldom allocates
-  for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(8 * sheet_.size());
+  for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(16 * sheet_.size());
   guarded_edges_.reserve(4 * taken.size());
   vertex_way_.resize(model.node_count());
   triangle_way_.resize(owned_.size());
