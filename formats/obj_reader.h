@@ -29,6 +29,12 @@ class ObjReader {
   void version(std::string_view word, Line &line);
   void valve(Line &line);
   void state(Line &line);
+  template <size_t k>
+  void waypoint(Line &line);
+  template <size_t k>
+  void waypoint_place(Line &line);
+  Waypoint &waypoint_of(size_t k) { return k == 0 ? out_.state.serving : out_.state.coming; }
+  void check_waypoints(const Line &last);
   void leaflet(Line &line);
   void scallop(Line &line);
   void rest(Line &line);
@@ -57,6 +63,7 @@ class ObjReader {
   struct Given {
     bool rest = false, open = false, loaded = false, origin = false, velocity = false;
     bool thickness = false, chord = false;
+    std::array<bool, 2> place = {};  // of a waypoint
   };
   struct Counts {
     uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
@@ -70,6 +77,7 @@ class ObjReader {
   Given given_;
   Counts counts_;
   bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
+  std::array<bool, 2> has_waypoint_ = {};
 };
 
 template <typename Item>

@@ -31,25 +31,30 @@ void ObjReader::record(Line &line) {
     std::string_view word;
     void (ObjReader::*read)(Line &);
   };
-  static constexpr std::array records = {Record{"fibre", &ObjReader::fibre},
-                                         Record{"rest", &ObjReader::rest},
-                                         Record{"velocity", &ObjReader::velocity},
-                                         Record{"loaded", &ObjReader::loaded},
-                                         Record{"open", &ObjReader::open},
-                                         Record{"origin", &ObjReader::origin},
-                                         Record{"ring", &ObjReader::ring},
-                                         Record{"ring_point", &ObjReader::ring_point},
-                                         Record{"curve", &ObjReader::curve},
-                                         Record{"curve_point", &ObjReader::curve_point},
-                                         Record{"thickness", &ObjReader::thickness},
-                                         Record{"chord", &ObjReader::chord},
-                                         Record{"annulus", &ObjReader::annulus},
-                                         Record{"head", &ObjReader::head},
-                                         Record{"scallop", &ObjReader::scallop},
-                                         Record{"leaflet", &ObjReader::leaflet},
-                                         Record{"state", &ObjReader::state},
-                                         Record{"valve", &ObjReader::valve},
-                                         Record{"end", &ObjReader::end}};
+  static constexpr std::array records = {
+      Record{"fibre", &ObjReader::fibre},
+      Record{"rest", &ObjReader::rest},
+      Record{"velocity", &ObjReader::velocity},
+      Record{"loaded", &ObjReader::loaded},
+      Record{"open", &ObjReader::open},
+      Record{"origin", &ObjReader::origin},
+      Record{"ring", &ObjReader::ring},
+      Record{"ring_point", &ObjReader::ring_point},
+      Record{"curve", &ObjReader::curve},
+      Record{"curve_point", &ObjReader::curve_point},
+      Record{"thickness", &ObjReader::thickness},
+      Record{"chord", &ObjReader::chord},
+      Record{"annulus", &ObjReader::annulus},
+      Record{"head", &ObjReader::head},
+      Record{"scallop", &ObjReader::scallop},
+      Record{"leaflet", &ObjReader::leaflet},
+      Record{"state", &ObjReader::state},
+      Record{"valve", &ObjReader::valve},
+      Record{obj::waypoint_places[0], &ObjReader::waypoint_place<0>},
+      Record{obj::waypoint_places[1], &ObjReader::waypoint_place<1>},
+      Record{obj::waypoints[0], &ObjReader::waypoint<0>},
+      Record{obj::waypoints[1], &ObjReader::waypoint<1>},
+      Record{"end", &ObjReader::end}};
   ++counts_.records;
   const std::string_view word = line.word();
   if (!has_version_) return version(word, line);
@@ -63,7 +68,7 @@ void ObjReader::record(Line &line) {
 void ObjReader::version(std::string_view word, Line &line) {
   uint64_t number = 0;
   if (!parse_whole(word, number) || number == 0) {
-    line.fail("the first #mvs line has to be `#mvs %u units=mm`, not #mvs %s", obj::version,
+    line.fail("the first #mvs line has to be `#mvs %u units=mm`, not #mvs %s", obj::version_at_rest,
               quoted(word).c_str());
   }
   if (number > obj::version) {
@@ -109,6 +114,44 @@ void ObjReader::state(Line &line) {
   if (!(state.load.boundary_fraction >= 0 && state.load.boundary_fraction <= 1)) {
     line.fail("boundary_fraction is %g: it has to be 0 (open) to 1 (loaded)",
               state.load.boundary_fraction);
+  }
+}
+
+template <size_t k>
+void ObjReader::waypoint(Line &line) {
+  once(has_waypoint_[k], k == 0 ? "#mvs serving" : "#mvs coming", line);
+  Waypoint &waypoint = waypoint_of(k);
+  uint64_t age = 0;
+  Fields fields(line);
+  fields.need(fields.number("pressure", waypoint.pressure), "pressure");
+  fields.need(fields.number("dt", waypoint.dt), "dt");
+  fields.need(fields.number("damping", waypoint.damping), "damping");
+  fields.need(fields.whole("age", age), "age");
+  fields.end();
+  if (age > UINT32_MAX) line.fail("age is too large");
+  waypoint.age = static_cast<uint32_t>(age);
+}
+
+template <size_t k>
+void ObjReader::waypoint_place(Line &line) {
+  follows("v", counts_.vertices > 0, line);
+  once(given_.place[k], "the place of this vertex", line);
+  SharedVector<Vec3> &x = waypoint_of(k).x;
+  if (x.size() + 1 != counts_.vertices) line.fail("a vertex above has no such place");
+  x.push_back(read_place(line));
+  line.end();
+}
+
+// A place is that of every vertex, and of a waypoint.
+void ObjReader::check_waypoints(const Line &last) {
+  for (size_t k = 0; k < has_waypoint_.size(); ++k) {
+    const size_t places = waypoint_of(k).x.size();
+    if (places == (has_waypoint_[k] ? counts_.vertices : 0)) continue;
+    last.fail(
+        "%zu of %llu vertices have a `#mvs %s` line: give one to each below a `#mvs %s` line, "
+        "or to none",
+        places, static_cast<unsigned long long>(counts_.vertices), obj::waypoint_places[k].data(),
+        obj::waypoints[k].data());
   }
 }
 
@@ -346,6 +389,7 @@ void ObjReader::end(Line &line) {
     line.fail("only %zu of %zu triangles have a fibre: give one to each of them, or to none",
               valve.triangle_fibre.size(), valve.triangles.size());
   }
+  check_waypoints(line);
   has_end_ = true;
 }
 

@@ -7,8 +7,9 @@
 
 namespace mvs::obj {
 
-// The version this library writes, and the newest it reads.
-inline constexpr unsigned version = 3;
+// The newest version that this library reads. It writes the oldest that has all there is to write:
+// only a valve in motion needs version 4.
+inline constexpr unsigned version = 4, version_at_rest = 3;
 
 // Lengths are mm in the file and m in memory; areas go with the square.
 inline constexpr int mm = 3, mm2 = 6;
@@ -23,6 +24,11 @@ std::vector<std::string_view> words_of(const Laws &laws) {
   for (const auto &law : laws) words.push_back(law.word);
   return words;
 }
+
+// Of the places that live steps go on from: `#mvs serving`, and `#mvs serving_place` below a `v`.
+inline constexpr std::array<std::string_view, 2> waypoints = {"serving", "coming"};
+inline constexpr std::array<std::string_view, 2> waypoint_places = {"serving_place",
+                                                                    "coming_place"};
 
 inline constexpr std::array<std::string_view, 2> ring_kinds = {"ring", "band"};
 

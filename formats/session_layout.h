@@ -9,7 +9,8 @@
 namespace mvs {
 
 // Version 1 had springs with three constants, linear chordae and no curves; up to version 2 there
-// were no tools, and steps had no budget; up to version 3 no steps were led.
+// were no tools, and steps had no budget; up to version 3 no steps were led, and a step left nothing
+// to the next.
 inline constexpr uint32_t session_version = 4;
 
 template <typename T, typename Plain>
@@ -110,6 +111,17 @@ void pass(Archive &a, Is<Tool> auto &tool) {
 }
 
 template <typename Archive>
+void pass(Archive &a, Is<Waypoint> auto &waypoint) {
+  a.array(waypoint.x);
+  if (waypoint.x.empty()) return;
+  a.list(waypoint.tools);
+  a.number(waypoint.pressure);
+  a.number(waypoint.dt);
+  a.number(waypoint.damping);
+  a.word(waypoint.age);
+}
+
+template <typename Archive>
 void pass(Archive &a, Is<State> auto &state) {
   a.array(state.x);
   a.array(state.v);
@@ -120,6 +132,9 @@ void pass(Archive &a, Is<State> auto &state) {
   if (a.version() < 3) return;
   a.list(state.tools);
   a.word(state.tools_made);
+  if (a.version() < 4) return;
+  pass(a, state.serving);
+  if (!state.serving.x.empty()) pass(a, state.coming);
 }
 
 template <typename Archive>

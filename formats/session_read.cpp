@@ -195,6 +195,17 @@ void SessionReader::model(ModelPtr &model) {
   });
 }
 
+void check_tools(const Model &model, const SharedVector<Tool> &tools) {
+  for (const Tool &tool : tools) {
+    const bool holds = tool.kind == MVS_TOOL_GRASP && tool.node < model.node_count() &&
+                       !model.topology.fixed[tool.node];
+    const bool pushes =
+        (tool.kind == MVS_TOOL_BALL || tool.kind == MVS_TOOL_ROD) && tool.node == none;
+    MVS_MUST((holds || pushes) && tool.stiffness > 0 && tool.max_force > 0, MVS_E_FORMAT, "state",
+             "a state of the file has a tool that cannot be");
+  }
+}
+
 // What make_model does not see: a state that fits its model.
 void SessionReader::check(const Picture &picture) const {
   const State &state = picture.state;
@@ -205,13 +216,14 @@ void SessionReader::check(const Picture &picture) const {
   const double fraction = state.load.boundary_fraction;
   MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
            "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);
-  for (const Tool &tool : state.tools.get()) {
-    const bool holds =
-        tool.kind == MVS_TOOL_GRASP && tool.node < n && !picture.model->topology.fixed[tool.node];
-    const bool pushes =
-        (tool.kind == MVS_TOOL_BALL || tool.kind == MVS_TOOL_ROD) && tool.node == none;
-    MVS_MUST((holds || pushes) && tool.stiffness > 0 && tool.max_force > 0, MVS_E_FORMAT, "state",
-             "a state of the file has a tool that cannot be");
+  check_tools(*picture.model, state.tools);
+  for (const Waypoint *waypoint : {&state.serving, &state.coming}) {
+    size_t points = 0;
+    for (const Tool &tool : waypoint->tools) points += tool.points();
+    check_tools(*picture.model, waypoint->tools);
+    MVS_MUST(waypoint->x.empty() || waypoint->x.size() == n + points, MVS_E_FORMAT, "state",
+             "a state of the file was at a place with %zu positions for %zu nodes",
+             waypoint->x.size(), n + points);
   }
 }
 

@@ -16,6 +16,11 @@ class Factor {
   virtual void analyse(const BlockMatrix &matrix) = 0;
   // Factorises the values; false if the matrix is not positive definite (or not finite).
   virtual bool factorise(const BlockMatrix &matrix) = 0;
+  // The same in parts of about equal work, 0 to parts - 1, of the same values: the bits are those
+  // of factorise(). A backend that cannot be interrupted does all of it in the last one.
+  virtual bool factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) {
+    return part + 1 < parts || factorise(matrix);
+  }
   // Solves in place with the last factor.
   virtual void solve(std::vector<Vec3> &b) = 0;
 };

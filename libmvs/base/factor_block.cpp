@@ -5,6 +5,7 @@
 // the earlier ones contribute, straight into its place, and is then factorised on its own.
 #include "base/factor_block.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/panel.h"
@@ -16,11 +17,14 @@ namespace {
 class BlockFactor final : public Factor {
  public:
   void analyse(const BlockMatrix &matrix) override;
-  bool factorise(const BlockMatrix &matrix) override;
+  bool factorise(const BlockMatrix &matrix) override { return factorise_part(matrix, 0, 1); }
+  bool factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) override;
   void solve(std::vector<Vec3> &b) override;
 
  private:
   double *panel(const Supernode &s) { return value_.data() + s.panel; }
+  void weigh();
+  size_t begin_of(uint32_t part, uint32_t parts) const;
   void locate(const Supernode &s);
   void gather(const BlockMatrix &matrix, const Supernode &s);
   void subtract(const Contribution &c, const Supernode &to);
@@ -30,6 +34,7 @@ class BlockFactor final : public Factor {
   Supernodes pattern_;
   std::vector<double> value_;       // all panels
   std::vector<double> local_;       // right-hand side in the rows of one panel
+  std::vector<double> work_;        // products up to the end of each supernode
   std::vector<uint32_t> place_;     // block row -> its place in the panel at hand
   std::vector<uint32_t> target_;    // rows of a contribution in the panel at hand
   std::vector<uint32_t> identity_;  // 0, 1, 2 ...
@@ -45,6 +50,34 @@ void BlockFactor::analyse(const BlockMatrix &matrix) {
   local_.resize(tallest);
   identity_.resize(tallest);
   std::iota(identity_.begin(), identity_.end(), 0u);
+  weigh();
+}
+
+// Products of blocks, and as many more as calls and copies cost about.
+void BlockFactor::weigh() {
+  constexpr double call = 100;
+  double sum = 0;
+  work_.clear();
+  for (size_t k = 0; k < pattern_.node.size(); ++k) {
+    const Supernode &s = pattern_.node[k];
+    const double width = s.width(), below = static_cast<double>(s.below());
+    sum += call + width * width * (width / 6 + below / 2);
+    for (size_t c = pattern_.contribution_start[k]; c < pattern_.contribution_start[k + 1]; ++c) {
+      const Contribution &from = pattern_.contribution[c];
+      const Supernode &source = pattern_.node[from.from];
+      const auto columns = static_cast<double>(from.in_columns - from.first);
+      const auto rows = static_cast<double>(source.row_end - from.first);
+      sum += call + columns * (rows - columns / 2) * source.width();
+    }
+    work_.push_back(sum);
+  }
+}
+
+// The first supernode of a part.
+size_t BlockFactor::begin_of(uint32_t part, uint32_t parts) const {
+  if (part == parts) return work_.size();
+  const double before = work_.empty() ? 0 : work_.back() * part / parts;
+  return static_cast<size_t>(std::upper_bound(work_.begin(), work_.end(), before) - work_.begin());
 }
 
 void BlockFactor::locate(const Supernode &s) {
@@ -79,8 +112,8 @@ void BlockFactor::subtract(const Contribution &c, const Supernode &to) {
                 3 * (c.in_columns - c.first), 3 * from.width()});
 }
 
-bool BlockFactor::factorise(const BlockMatrix &matrix) {
-  for (size_t k = 0; k < pattern_.node.size(); ++k) {
+bool BlockFactor::factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) {
+  for (size_t k = begin_of(part, parts); k < begin_of(part + 1, parts); ++k) {
     const Supernode &s = pattern_.node[k];
     locate(s);
     gather(matrix, s);

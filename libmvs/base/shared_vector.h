@@ -88,6 +88,8 @@ class SharedVector {
     *this = other;
     return true;
   }
+  // Whether a change would copy nothing.
+  bool is_alone() const { return !block_ || block_->owners.load(std::memory_order_acquire) == 1; }
   // Where the buffer is: equal for those that share it, null for an empty one.
   const void *buffer() const { return block_; }
 

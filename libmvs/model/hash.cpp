@@ -71,6 +71,13 @@ void add(Hash &hash, const Tool &tool) {
   for (const Vec3 &v : {tool.position, tool.axis, tool.proxy[0], tool.proxy[1]}) add(hash, v);
 }
 
+void add(Hash &hash, const Waypoint &waypoint) {
+  add(hash, waypoint.x);
+  add(hash, waypoint.tools);
+  for (const double number : {waypoint.pressure, waypoint.dt, waypoint.damping}) hash.add(number);
+  add(hash, waypoint.age);
+}
+
 template <typename Item>
 void add(Hash &hash, const SharedVector<Item> &items) {
   hash.add(uint64_t{items.size()});
@@ -117,6 +124,10 @@ std::array<uint64_t, 2> hash_of(const Model &model, const State &state) {
   if (state.tools_made > 0) {
     hash.add(state.tools_made);
     add(hash, state.tools);
+  }
+  if (!state.serving.x.empty() || !state.coming.x.empty()) {
+    add(hash, state.serving);
+    add(hash, state.coming);
   }
   return hash.value();
 }

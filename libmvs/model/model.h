@@ -34,6 +34,17 @@ struct Load {
   double boundary_fraction = 0;  // 0 open .. 1 loaded
 };
 
+// A place on the way whose matrix a live step has a factor of: it serves the steps that follow as
+// preconditioner (physics/kept_factor.h), so that it is an input of theirs.
+struct Waypoint {
+  SharedVector<Vec3> x;      // m, the points of its tools behind the nodes; empty: there is none
+  SharedVector<Tool> tools;  // at that time
+  double pressure = 0;       // Pa
+  double dt = 0;             // s, and
+  double damping = 0;        // 1/s, of the mass in the matrix
+  uint32_t age = 0;          // steps in which it was worked on or served
+};
+
 // Every input of the next step.
 struct State {
   SharedVector<Vec3> x;  // m
@@ -43,6 +54,9 @@ struct State {
   Load load;
   SharedVector<Tool> tools;  // in the order in which they were added
   uint64_t tools_made = 0;   // so far; no id is given twice
+  Waypoint serving, coming;  // while it moves in live steps; a valve at rest has none
+
+  void forget_way() { serving = coming = {}; }
 };
 
 // Checks, completes (ids, names, fibres, thickness) and freezes a valve; throws the first fault.

@@ -15,8 +15,7 @@ constexpr double longest_step = 1e-3;                  // m a node may go in one
 constexpr int trials = 8;                              // of shares of a step that was cut
 constexpr double least_share = 0.1, most_share = 0.5;  // of the share tried before
 constexpr int quarterings = 12;                        // of a step before it is cut
-// What is over after the matrix: a place to try, and the forces where the valve stays.
-constexpr uint32_t closing_passes = 2;
+constexpr uint32_t closing_passes = StepSolver::closing;
 // Of the contact thickness: where no node goes farther, pairs that no list of candidates has to
 // hold cannot be cut either, and one made for an earlier step serves.
 constexpr double slow = 0.02;
@@ -48,15 +47,15 @@ double rest_force(const Load &load) {
   return std::min(1.0001e-5, 1e-9 + 1e-5 / MVS_SYSTOLE_PA * std::abs(load.pressure));
 }
 
-ImplicitStepper::ImplicitStepper(const Model &model, Factor &factor, bool keeps_pattern)
+ImplicitStepper::ImplicitStepper(const Model &model, uint32_t backend)
     : model_(&model),
-      factor_(&factor),
       potential_(model),
-      slack_(0.1 * model.valve.contact_thickness) {
-  if (keeps_pattern) order_.emplace(model, potential_.pairs());
-}
+      matrix_(model),
+      solver_(model, potential_, backend),
+      slack_(0.1 * model.valve.contact_thickness) {}
 
 void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &stats) {
+  resume(state, how);
   begin(state, how, stats);
   if (how.may_sleep && is_at_rest(state, how)) {
     const auto stands = [](const Vec3 &v) { return v.isZero(0); };
@@ -64,13 +63,13 @@ void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
       std::fill(v_.begin(), v_.end(), Vec3::Zero());
       state.v.edit() = v_;
     }
+    state.forget_way();
     kinetic_ = 0;
     stats.skipped |= MVS_SKIPPED_STEP;
     report(stats);
     return;
   }
-  assemble(how, stats);
-  solve(how, stats);
+  solve(state, how, stats);
   limit(stats);
   if (go(how, stats)) {
     x_.swap(next_x_);
@@ -85,6 +84,22 @@ void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
   state.x.edit() = x_;
   state.v.edit() = v_;
   report(stats);
+}
+
+// A solver that has not made the steps before makes the factors that they have left.
+void ImplicitStepper::resume(State &state, const StepOptions &how) {
+  solver_.resume(state, how, matrix_,
+                 [&](const Waypoint &place, StepMatrix &matrix) { look(place, how, matrix); });
+}
+
+void ImplicitStepper::look(const Waypoint &place, const StepOptions &how, StepMatrix &matrix) {
+  evaluated_ = false;
+  Profile unseen{};
+  potential_.set_pressure(place.pressure);
+  potential_.set_tools(place.tools);
+  potential_.prepare(place.x, place.x, slack_, unseen);
+  potential_.sheet_gradient(place.x, next_g_, unseen);
+  matrix.assemble(potential_, place.x, how, nullptr, unseen);
 }
 
 // Forces of the step before are those of this one, where it goes on from there.
@@ -137,91 +152,22 @@ bool ImplicitStepper::is_at_rest(const State &state, const StepOptions &how) con
   return true;
 }
 
-// Puts the rows in the order of what touches now. True if that is another one than before; a system
-// that keeps nothing finds its own order with its pattern.
-bool ImplicitStepper::order_rows(SolveStats &stats) {
-  if (!order_) {
-    system_ = System();
-    return false;
-  }
-  const PhaseTimer timer(stats.work, MVS_PHASE_ORDERING);
-  if (!order_->update(potential_.contact().stencils())) return false;
-  ++stats.work.orderings;
-  system_.set_order(*model_, order_->nodes());
-  potential_.set_pattern(system_);
-  return true;
-}
-
-void ImplicitStepper::assemble(const StepOptions &how, SolveStats &stats) {
-  const bool reordered = order_rows(stats);
-  system_.boundary_step = travels_ ? &boundary_ : nullptr;
-  if (potential_.hessian(x_, Curvature::projected, system_, stats.work) || reordered) {
-    const PhaseTimer timer(stats.work, MVS_PHASE_ORDERING);
-    factor_->analyse(system_.matrix);
-  }
+void ImplicitStepper::solve(State &state, const StepOptions &how, SolveStats &stats) {
+  matrix_.assemble(potential_, x_, how, travels_ ? &boundary_ : nullptr, stats.work);
   --left_;
-  system_.boundary_step = nullptr;
-  rows_.resize(system_.node_of.size());
-  diagonal_.resize(rows_.size());
-  for (size_t r = 0; r < rows_.size(); ++r) {
-    const uint32_t i = system_.node_of[r];
-    rows_[r] = system_.boundary_force[r] - g_[i] + (model_->node_mass[i] / how.dt) * v_[i];
-    diagonal_[r] = system_.matrix.value[system_.matrix.start[r]];
+  rows_.resize(matrix_.size());
+  for (uint32_t r = 0; r < matrix_.size(); ++r) {
+    const uint32_t i = matrix_.node(r);
+    rows_[r] = matrix_.boundary_force()[r] - g_[i] + (model_->node_mass[i] / how.dt) * v_[i];
   }
-}
-
-void ImplicitStepper::solve(const StepOptions &how, SolveStats &stats) {
-  if (factorise(how, stats)) {
-    const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
-    factor_->solve(rows_);
-  } else {
-    stats.lowered |= MVS_LOWERED_LINEAR;
-    solve_by_diagonal();
-  }
-  // a zero has the sign that it has in any pattern
-  for (Vec3 &row : rows_) row.array() += 0.0;
-}
-
-// More mass where the pressure makes the matrix indefinite: a smaller step in disguise. False where
-// the budget ends before.
-bool ImplicitStepper::factorise(const StepOptions &how, SolveStats &stats) {
-  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
-  double more = 1;
-  while (left_ > closing_passes && more < 1e18) {
-    for (size_t r = 0; r < rows_.size(); ++r) {
-      const double m = model_->node_mass[system_.node_of[r]];
-      Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
-      block = diagonal_[r];
-      block.diagonal().array() += more * m * (1 / (how.dt * how.dt) + how.damping / how.dt);
-    }
-    --left_;
-    ++stats.factorisations;
-    if (factor_->factorise(system_.matrix)) return true;
-    if (more == 1) ++stats.shifted;
-    more *= 4;
-  }
-  return false;
-}
-
-// Divides each row by a bound of its sum: a step against the force, short enough for any matrix of
-// these entries.
-void ImplicitStepper::solve_by_diagonal() {
-  const BlockMatrix &m = system_.matrix;
-  bound_.assign(m.size(), 0);
-  for (uint32_t c = 0; c < m.size(); ++c) {
-    bound_[c] += m.value[m.start[c]].norm();
-    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
-      const double size = m.value[k].norm();
-      bound_[c] += size;
-      bound_[m.row[k]] += size;
-    }
-  }
-  for (size_t r = 0; r < rows_.size(); ++r) rows_[r] /= bound_[r];
+  const Waypoint here{{}, state.tools, load_.pressure, how.dt, how.damping, 0};
+  solver_.solve(matrix_, here, x_, state, rows_, left_, stats);
 }
 
 void ImplicitStepper::limit(SolveStats &stats) {
   step_ = boundary_;
-  for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = rows_[r];
+  for (size_t r = 0; r < rows_.size(); ++r)
+    step_[matrix_.node(static_cast<uint32_t>(r))] = rows_[r];
   potential_.instrument().shorten(step_, longest_step);
   double farthest = 0;
   for (size_t i = 0; i < x_.size(); ++i) {
@@ -270,7 +216,8 @@ bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
   for (int k = 0; k < quarterings && left_ >= closing_passes; ++k) {
     share *= 0.25;
     step_ = boundary_;
-    for (size_t r = 0; r < rows_.size(); ++r) step_[system_.node_of[r]] = share * rows_[r];
+    for (size_t r = 0; r < rows_.size(); ++r)
+      step_[matrix_.node(static_cast<uint32_t>(r))] = share * rows_[r];
     potential_.limit_step(x_, slack_, step_, stats.work);
     if (goes(1, how.dt, stats) <= 0) return true;
   }

@@ -8,18 +8,16 @@
 // matrix is not positive definite and the budget ends, the system is solved by its diagonal alone;
 // when energies cannot be tried any more, the step is none. Bounds and energies are never left out.
 //
-// The bits of a step depend on the state alone, though much is kept from one to the next: the order
-// of elimination follows from which patches of the sheet touch; the pattern of the matrix holds
-// what has touched of late, and entries that are zero change no bit of the factor (base/panel.h);
-// forces are kept with the positions they are of. Nothing is allocated once the memory is there.
+// The bits of a step depend on the state alone, though much is kept from one to the next: which
+// factors precondition the system is in the state (step_solver.h); the pattern of the matrix holds
+// what has touched of late, and entries that are zero change no bit of a product; forces are kept
+// with the positions they are of. Nothing is allocated once the memory is there.
 #pragma once
 
-#include <optional>
-
-#include "base/factor.h"
-#include "physics/contact_order.h"
 #include "physics/potential.h"
 #include "physics/solver.h"
+#include "physics/step_matrix.h"
+#include "physics/step_solver.h"
 #include "physics/stepper.h"
 
 namespace mvs {
@@ -30,22 +28,20 @@ double rest_force(const Load &load);
 
 class ImplicitStepper {
  public:
-  ImplicitStepper(const Model &model, Factor &factor, bool keeps_pattern);
+  ImplicitStepper(const Model &model, uint32_t backend);
   void step(State &state, const StepOptions &how, SolveStats &stats);
   // See Potential.
   void begin_call() { potential_.begin_call(); }
   uint32_t skipped() const { return potential_.skipped(); }
 
  private:
+  void resume(State &state, const StepOptions &how);
+  void look(const Waypoint &place, const StepOptions &how, StepMatrix &matrix);
   void begin(const State &state, const StepOptions &how, SolveStats &stats);
   void evaluate(SolveStats &stats);
   void sum_up();
   bool is_at_rest(const State &state, const StepOptions &how) const;
-  bool order_rows(SolveStats &stats);
-  void assemble(const StepOptions &how, SolveStats &stats);
-  void solve(const StepOptions &how, SolveStats &stats);
-  bool factorise(const StepOptions &how, SolveStats &stats);
-  void solve_by_diagonal();
+  void solve(State &state, const StepOptions &how, SolveStats &stats);
   void limit(SolveStats &stats);
   bool go(const StepOptions &how, SolveStats &stats);
   bool go_less(const StepOptions &how, SolveStats &stats);
@@ -56,16 +52,13 @@ class ImplicitStepper {
   void report(SolveStats &stats) const;
 
   const Model *model_;
-  Factor *factor_;
   Potential potential_;
-  std::optional<ContactOrder> order_;  // none: the pattern is made anew in each step
-  System system_;
+  StepMatrix matrix_;
+  StepSolver solver_;
   // positions and velocities at the start, and at the end
   std::vector<Vec3> x_, v_, next_x_, next_v_;
   std::vector<Vec3> g_, step_, boundary_, rows_;
   std::vector<Vec3> sheet_g_, next_g_;  // without what hands do
-  std::vector<Mat3> diagonal_;          // of the system without mass
-  std::vector<double> bound_;           // of the rows of the matrix, for solve_by_diagonal
   double slack_;                        // m, for Potential::prepare
   double energy_ = 0, sheet_energy_ = 0, residual_ = 0, kinetic_ = 0;
   Load load_;

@@ -97,17 +97,12 @@ void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveSta
 
 // The workers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
-  explicit Work(uint32_t backend_in)
-      : backend(backend_in), factor(make_factor(backend)), step_factor(make_factor(backend)) {}
+  explicit Work(uint32_t backend_in) : backend(backend_in), factor(make_factor(backend)) {}
 
-  // Only our own factor has the same bits in a pattern with more zeros.
-  bool keeps_pattern() const {
-    return backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK;
-  }
   ImplicitStepper &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();
     implicit_model = model.serial;
-    if (!implicit) implicit.emplace(model, *step_factor, keeps_pattern());
+    if (!implicit) implicit.emplace(model, backend);
     return *implicit;
   }
   ExplicitStepper &explicit_for(const Model &model) {
@@ -119,7 +114,7 @@ struct Solver::Work {
 
   const uint32_t backend;
   ToolPoints tool_points;
-  std::unique_ptr<Factor> factor, step_factor;  // of settling and of single steps
+  std::unique_ptr<Factor> factor;  // of settling
   std::optional<ImplicitStepper> implicit;
   std::optional<ExplicitStepper> explicit_;
   uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
@@ -164,8 +159,9 @@ SolveStats Solver::step(const Model &model, State &state, const SolveOptions &op
 SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOptions &options,
                                 const Progress &progress) {
   SolveStats stats;
+  state.forget_way();
   if (options.solver == MVS_SOLVER_IMPLICIT) {
-    ImplicitStepper stepper(model, *work_->factor, work_->keeps_pattern());
+    ImplicitStepper stepper(model, work_->backend);
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
     stats = settle_in_time(model, state, options, progress, step);
     stats.skipped = stepper.skipped();
@@ -177,6 +173,7 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
   } else {
     stats = Newton(model, *work_->factor).settle(state, options, progress);
   }
+  state.forget_way();
   stats.skipped |= never_done(stats.work);
   return stats;
 }
@@ -186,6 +183,7 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
   const StepOptions how = defaults(options);
   SolveStats stats;
   if (options.solver == MVS_SOLVER_EXPLICIT) {
+    state.forget_way();
     step_alone(work_->explicit_for(model), state, how, stats);
   } else {
     try {

@@ -54,6 +54,7 @@ Operated perform(const Picture &before, const Operation &op) {
   done.title = std::move(s.title);
   done.picture.state = std::move(s.state);
   done.picture.model = checked_model(s);
+  done.picture.state.forget_way();
   drop_lost_tools(*done.picture.model, done.picture.state);
   share(done.picture.state, before.state);
   MVS_MUST(done.picture.state.x.size() == done.picture.model->node_count(), MVS_E_INTERNAL,

@@ -19,29 +19,33 @@ static mvs_id id_of(uint32_t kind, const char *name) {
   return part.id;
 }
 
-static char *saved(mvs_sim *of, uint64_t *size) {
+static char *saved(mvs_sim *of, uint32_t format, uint64_t *size) {
   const mvs_snapshot *snapshot = present(of);
-  MUST(mvs_save_memory(snapshot, MVS_FORMAT_H5, NULL, 0, size));
+  MUST(mvs_save_memory(snapshot, format, NULL, 0, size));
   char *bytes = malloc(*size);
   if (!bytes) exit(2);
-  MUST(mvs_save_memory(snapshot, MVS_FORMAT_H5, bytes, *size, size));
+  MUST(mvs_save_memory(snapshot, format, bytes, *size, size));
   mvs_snapshot_release(snapshot);
   return bytes;
 }
 
-static mvs_sim *loaded(const char *bytes, uint64_t size) {
+static mvs_sim *loaded(const char *bytes, uint64_t size, uint32_t format) {
   mvs_sim *other = NULL;
   MUST(mvs_create(NULL, &other));
-  MUST(mvs_load_memory(other, bytes, size, MVS_FORMAT_H5));
+  MUST(mvs_load_memory(other, bytes, size, format));
+  return other;
+}
+
+static mvs_sim *saved_and_loaded_as(mvs_sim *of, uint32_t format) {
+  uint64_t size = 0;
+  char *bytes = saved(of, format, &size);
+  mvs_sim *other = loaded(bytes, size, format);
+  free(bytes);
   return other;
 }
 
 static mvs_sim *saved_and_loaded(mvs_sim *of) {
-  uint64_t size = 0;
-  char *bytes = saved(of, &size);
-  mvs_sim *other = loaded(bytes, size);
-  free(bytes);
-  return other;
+  return saved_and_loaded_as(of, MVS_FORMAT_H5);
 }
 
 static void steps(mvs_sim *of, uint32_t solver, int count) {
@@ -77,9 +81,9 @@ static void make_session(uint32_t solver) {
   steps(sim, solver, 5);
 }
 
-static void the_next_hundred_steps_are_the_same(uint32_t solver) {
+static void the_next_hundred_steps_are_the_same(uint32_t solver, uint32_t format) {
   make_session(solver);
-  mvs_sim *other = saved_and_loaded(sim);
+  mvs_sim *other = saved_and_loaded_as(sim, format);
   CHECK(same_hash(sim_hash(sim), sim_hash(other)));
   for (int k = 0; k < 10; ++k) {
     steps(sim, solver, 10);
@@ -149,7 +153,7 @@ static void a_session_goes_through_paths(void) {
 
 static void a_spoilt_file_changes_nothing(void) {
   uint64_t size = 0;
-  char *bytes = saved(sim, &size);
+  char *bytes = saved(sim, MVS_FORMAT_H5, &size);
   const hash128 before = sim_hash(sim);
   const uint32_t h5 = MVS_FORMAT_H5;
   MUST_FAIL(mvs_load_memory(sim, bytes, size - 1, h5), MVS_E_FORMAT, "the file was cut");
@@ -175,8 +179,9 @@ static void without_hdf5_it_says_so(void) {
 int main(void) {
   MUST(mvs_create(NULL, &sim));
   if (strstr(mvs_features(), "hdf5")) {
-    the_next_hundred_steps_are_the_same(MVS_SOLVER_IMPLICIT);
-    the_next_hundred_steps_are_the_same(MVS_SOLVER_EXPLICIT);
+    the_next_hundred_steps_are_the_same(MVS_SOLVER_IMPLICIT, MVS_FORMAT_H5);
+    the_next_hundred_steps_are_the_same(MVS_SOLVER_IMPLICIT, MVS_FORMAT_OBJ);
+    the_next_hundred_steps_are_the_same(MVS_SOLVER_EXPLICIT, MVS_FORMAT_H5);
     undo_and_redo_go_on_after_loading();
     the_history_is_listed_as_before();
     a_session_goes_through_paths();

@@ -200,7 +200,7 @@ TEST_CASE("what_is_given_twice_or_in_the_wrong_place_is_told") {
 }
 
 TEST_CASE("versions_units_and_spaces_that_do_not_fit_are_told") {
-  check_fault("#mvs 3 units=mm", "#mvs 4 units=furlong", "version `4`", MVS_E_VERSION);
+  check_fault("#mvs 3 units=mm", "#mvs 5 units=furlong", "version `5`", MVS_E_VERSION);
   check_fault("#mvs 3 units=mm", "#mvs 99999999999", "version `99999999999`", MVS_E_VERSION);
   check_fault("#mvs 3 units=mm", "#mvs 0 units=mm", "`#mvs 3 units=mm`");
   check_fault("#mvs 3 units=mm", "#mvs x units=mm", "`#mvs 3 units=mm`");

@@ -1,6 +1,8 @@
 // Sessions: all of the history comes back to the bit and shared as it was, and no file, however it
 // is made, gives anything but a session or a clean error.
 #ifdef MVS_HAVE_HDF5
+#include <mvs/tool.h>
+
 #include <algorithm>
 #include <set>
 
@@ -233,6 +235,24 @@ TEST_CASE("a_file_of_version_3_is_read_as_ever") {
                        Move::step, Move::tool_remove});
 }
 
+TEST_CASE("what_live_steps_go_on_from_is_part_of_a_session") {
+  Moment now = start();
+  State &state = now.picture.state;
+  Tool ball;
+  ball.id = 7;
+  ball.kind = MVS_TOOL_BALL;
+  ball.node = none;
+  ball.radius = ball.stiffness = ball.max_force = 1;
+  state.serving = {state.x, {}, 12e3, 1e-3, 0, 9};
+  state.coming = {state.x, {ball}, 13e3, 1e-3, 0, 2};
+  state.coming.x.push_back(Vec3(1, 2, 3));
+  const Moment again = read_session(write_session(now, {}));
+  CHECK(hash_of(again.picture) == hash_of(now.picture));
+  CHECK(again.picture.state.serving.x.buffer() == again.picture.state.x.buffer());
+  state.coming.x.push_back(Vec3(1, 2, 3));
+  CHECK(outcome(write_session(now, {})) == MVS_E_FORMAT);
+}
+
 TEST_CASE("what_levels_share_is_shared_again") {
   const Moment again = read_session(write_session(a_session(), {}));
   std::set<const void *> triangles, rests, topologies;
@@ -267,8 +287,8 @@ TEST_CASE("a_level_costs_what_it_changed") {
   }
   const size_t each = (write_session(now, {}).size() - empty) / levels;
   MESSAGE(each << " bytes a level of " << empty);
-  // two pictures, of 16 bytes more each since they count instruments, a model, its 12 chords and
-  // the operation in words: 2002; positions would be 3264 bytes
+  // two pictures, of 16 bytes more each since they count instruments and 8 since they say whether
+  // there are waypoints, a model, its 12 chords and the operation in words: 2018; positions would be 3264 bytes
   CHECK(each < 2032);
   CHECK(hash_of(read_session(write_session(now, {})).timeline.past.items()[7][0]->after) ==
         hash_of(now.timeline.past.items()[7][0]->after));

@@ -1,0 +1,62 @@
+// Conjugate gradients for a system that a factorisation nearly solves (Hestenes & Stiefel, J. Res.
+// Nat. Bur. Stand. 49, 1952; preconditioned: Saad, Iterative Methods for Sparse Linear Systems,
+// 2003, section 9.2).
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "base/gmres.h"
+
+namespace mvs {
+
+struct PcgResult {
+  uint32_t iterations = 0;
+  // What is left of the residual, in the norm that the preconditioner gives: 1 at the start.
+  double error = 0;
+};
+
+// Its vectors are kept from one system to the next.
+class Pcg {
+ public:
+  // Sets x to a solution of A x = b for multiply(v, y) giving y = A v and precondition(v, y) an
+  // approximate solution of A y = v: to `tolerance`, or what `most` iterations reach. From x = 0
+  // each iterate is better than the one before, and none leads uphill for b, whatever the
+  // preconditioner, as long as it is positive definite. Where A turns out not to be, the iterate
+  // before stays.
+  template <typename Multiply, typename Precondition>
+  PcgResult solve(const Multiply &multiply, const Precondition &precondition,
+                  const std::vector<Vec3> &b, std::vector<Vec3> &x, uint32_t most,
+                  double tolerance) {
+    x.assign(b.size(), Vec3::Zero());
+    r_ = b;
+    precondition(r_, z_);
+    p_ = z_;
+    const double first = dot(r_, z_);
+    PcgResult result;
+    if (!(first > 0)) return result;
+    double size = first;
+    result.error = 1;
+    while (result.iterations < most && result.error > tolerance) {
+      multiply(p_, y_);
+      const double curvature = dot(p_, y_);
+      if (!(curvature > 0)) break;
+      ++result.iterations;
+      const double far = size / curvature;
+      for (size_t i = 0; i < b.size(); ++i) x[i] += far * p_[i];
+      for (size_t i = 0; i < b.size(); ++i) r_[i] -= far * y_[i];
+      precondition(r_, z_);
+      const double next = dot(r_, z_);
+      result.error = std::sqrt(std::max(next, 0.0) / first);
+      const double turn = next / size;
+      for (size_t i = 0; i < b.size(); ++i) p_[i] = z_[i] + turn * p_[i];
+      size = next;
+    }
+    return result;
+  }
+
+ private:
+  std::vector<Vec3> r_, z_, p_, y_;
+};
+
+}  // namespace mvs

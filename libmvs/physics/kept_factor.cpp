@@ -1,0 +1,80 @@
+#include "physics/kept_factor.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace mvs {
+namespace {
+
+bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+}  // namespace
+
+KeptFactor::KeptFactor(const Model &model, std::unique_ptr<Factor> factor)
+    : model_(&model), factor_(std::move(factor)) {}
+
+bool KeptFactor::is_of(const Waypoint &place, uint32_t done) const {
+  const bool same_place = place_.x.buffer() == place.x.buffer() || same_bits(place_.x, place.x);
+  return done_ >= done && same_place && place_.tools == place.tools &&
+         place_.pressure == place.pressure && place_.dt == place.dt &&
+         place_.damping == place.damping;
+}
+
+// Blocks that are zero stay out: what a pattern has kept of earlier contact may not show.
+void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
+                      const std::vector<uint32_t> *order) {
+  const BlockMatrix &m = matrix.blocks();
+  const auto for_each = [&](auto visit) {
+    for (uint32_t c = 0; c < m.size(); ++c) {
+      for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+        if (!m.value[k].isZero(0)) visit(matrix.node(m.row[k]), matrix.node(c), m.value[k]);
+      }
+    }
+  };
+  place_ = place;
+  done_ = 0;
+  pairs_.clear();
+  for_each([&](uint32_t i, uint32_t j, const Mat3 &) { pairs_.push_back({i, j}); });
+  if (order) system_.set_order(*model_, *order);
+  system_.set_pattern(*model_, pairs_);
+  factor_->analyse(system_.matrix);
+  for_each([&](uint32_t i, uint32_t j, const Mat3 &block) { system_.add(i, j, block); });
+  row_.resize(m.size());
+  for (uint32_t r = 0; r < m.size(); ++r) {
+    system_.add_diagonal(matrix.node(r), m.value[m.start[r]]);
+    row_[r] = system_.row_of[matrix.node(r)];
+  }
+}
+
+bool KeptFactor::factorise_part(uint32_t part) {
+  if (part < done_) return true;
+  const bool positive = factor_->factorise_part(system_.matrix, part, parts);
+  done_ = part + 1;
+  if (!positive) place_ = {};
+  return positive;
+}
+
+bool KeptFactor::factorise() {
+  const bool positive = factor_->factorise(system_.matrix);
+  done_ = parts;
+  if (!positive) place_ = {};
+  return positive;
+}
+
+void KeptFactor::add_mass(const StepMatrix &matrix, double times) {
+  for (uint32_t r = 0; r < matrix.size(); ++r) {
+    system_.add_diagonal(matrix.node(r), Mat3::Identity() * (times * matrix.mass(r)));
+  }
+}
+
+void KeptFactor::solve(const std::vector<Vec3> &r, std::vector<Vec3> &z) {
+  turned_.resize(r.size());
+  for (size_t k = 0; k < r.size(); ++k) turned_[row_[k]] = r[k];
+  factor_->solve(turned_);
+  z.resize(r.size());
+  for (size_t k = 0; k < r.size(); ++k) z[k] = turned_[row_[k]];
+}
+
+}  // namespace mvs

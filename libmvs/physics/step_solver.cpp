@@ -1,0 +1,167 @@
+#include "physics/step_solver.h"
+
+#include <algorithm>
+
+namespace mvs {
+namespace {
+
+// Of the linear system, in the norm of its preconditioner. What is left of it is small beside what
+// linearising a step leaves out, and forces of the next step hold it again.
+constexpr double tolerance = 1e-3;
+// After the most iterations, each about a tenth of a factor, this will do, and the next factor is
+// begun; else one is made at once.
+constexpr double good_enough = 2e-2;
+constexpr uint32_t most_iterations = 8;
+// More iterations or an older factor: the next one is begun. A factor in parts costs as much as
+// some ten iterations.
+constexpr uint32_t many_iterations = 3;
+constexpr uint32_t oldest = 20;  // steps
+
+}  // namespace
+
+StepSolver::StepSolver(const Model &model, const Potential &potential, uint32_t backend)
+    : potential_(&potential),
+      first_(model, make_factor(backend)),
+      second_(model, make_factor(backend)) {
+  // other backends do best with the order that each matrix of its own gives
+  if (backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK) {
+    order_.emplace(model, potential.pairs());
+  }
+}
+
+void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,
+                        const Look &look) {
+  for (Waypoint *place : {&state.serving, &state.coming}) {
+    const bool fits =
+        place->x.size() == state.x.size() && place->dt == how.dt && place->damping == how.damping;
+    if (!fits) *place = {};
+  }
+  if (state.serving.x.empty()) return state.forget_way();
+  const uint32_t all = KeptFactor::parts, some = state.coming.age;
+  if (coming_->is_of(state.serving, all)) std::swap(serving_, coming_);
+  if (!serving_->is_of(state.serving, all) &&
+      !remake(state.serving, all, *serving_, matrix, look)) {
+    return state.forget_way();
+  }
+  if (state.coming.x.empty() || coming_->is_of(state.coming, some)) return;
+  if (!remake(state.coming, some, *coming_, matrix, look)) state.coming = {};
+}
+
+bool StepSolver::remake(const Waypoint &place, uint32_t parts, KeptFactor &factor,
+                        StepMatrix &matrix, const Look &look) {
+  look(place, matrix);
+  Profile unseen{};
+  take(matrix, place, factor, unseen);
+  for (uint32_t part = 0; part < parts; ++part) {
+    if (!factor.factorise_part(part)) return false;
+  }
+  return true;
+}
+
+void StepSolver::take(const StepMatrix &matrix, const Waypoint &place, KeptFactor &factor,
+                      Profile &profile) {
+  const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
+  ++profile.orderings;
+  if (order_) order_->update(potential_->contact().stencils());
+  factor.take(matrix, place, order_ ? &order_->nodes() : nullptr);
+}
+
+void StepSolver::solve(StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
+                       State &state, std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats) {
+  if (state.coming.age == KeptFactor::parts) {
+    std::swap(serving_, coming_);
+    state.serving = std::exchange(state.coming, {});
+  }
+  if (!state.serving.x.empty() && iterate(matrix, rows, left, stats)) {
+    ++state.serving.age;
+    work_ahead(matrix, here, x, state, left, stats);
+  } else if (factorise_here(matrix, here, x, state, left, stats)) {
+    const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
+    serving_->solve(rows, solution_);
+    rows.swap(solution_);
+  } else {
+    stats.lowered |= MVS_LOWERED_LINEAR;
+    matrix.divide(rows);
+  }
+  // a zero has the sign that it has in any pattern
+  for (Vec3 &row : rows) row.array() += 0.0;
+}
+
+bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint32_t &left,
+                         SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
+  const auto multiply = [&](const std::vector<Vec3> &v, std::vector<Vec3> &y) {
+    matrix.multiply(v, y);
+  };
+  const auto precondition = [&](const std::vector<Vec3> &r, std::vector<Vec3> &z) {
+    serving_->solve(r, z);
+  };
+  const uint32_t most = std::min(most_iterations, left - closing);
+  const PcgResult result = pcg_.solve(multiply, precondition, rows, solution_, most, tolerance);
+  left -= result.iterations;
+  iterations_ = result.iterations;
+  stats.work.linear_iterations += result.iterations;
+  const bool no_more = result.iterations > 0 && left <= closing;
+  if (!(result.error <= good_enough) && !no_more) return false;
+  if (!(result.error <= good_enough)) stats.lowered |= MVS_LOWERED_LINEAR;
+  rows.swap(solution_);
+  return true;
+}
+
+// Begins the next factor, or does a part of it.
+void StepSolver::work_ahead(const StepMatrix &matrix, const Waypoint &here,
+                            const std::vector<Vec3> &x, State &state, uint32_t &left,
+                            SolveStats &stats) {
+  if (state.coming.x.empty()) {
+    stats.skipped |= MVS_SKIPPED_FACTOR;
+    if (iterations_ <= many_iterations && state.serving.age <= oldest) return;
+    state.coming = with_place(here, x);
+    take(matrix, state.coming, *coming_, stats.work);
+  } else if (left > closing) {
+    const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+    --left;
+    if (!coming_->factorise_part(state.coming.age)) {
+      state.coming = {};
+    } else if (++state.coming.age == KeptFactor::parts) {
+      ++stats.factorisations;
+    }
+  }
+}
+
+// More mass where the pressure makes the matrix indefinite: a smaller step in disguise, whose
+// factor serves no other. False where the budget ends before.
+bool StepSolver::factorise_here(const StepMatrix &matrix, const Waypoint &here,
+                                const std::vector<Vec3> &x, State &state, uint32_t &left,
+                                SolveStats &stats) {
+  state.forget_way();
+  if (left <= closing) return false;
+  const Waypoint place = with_place(here, x);
+  take(matrix, place, *serving_, stats.work);
+  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+  double times = 1;
+  while (left > closing && times < 1e18) {
+    --left;
+    ++stats.factorisations;
+    if (serving_->factorise()) {
+      if (times == 1) state.serving = place;
+      return true;
+    }
+    if (times == 1) ++stats.shifted;
+    serving_->add_mass(matrix, 3 * times);
+    times *= 4;
+  }
+  return false;
+}
+
+Waypoint StepSolver::with_place(const Waypoint &here, const std::vector<Vec3> &x) {
+  Waypoint place = here;
+  auto free = std::find_if(places_.begin(), places_.end(),
+                           [](const SharedVector<Vec3> &p) { return p.is_alone(); });
+  // snapshots that somebody holds keep their memory
+  if (free == places_.end()) *(free = places_.begin()) = {};
+  free->edit() = x;
+  place.x = *free;
+  return place;
+}
+
+}  // namespace mvs
