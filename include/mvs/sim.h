@@ -148,20 +148,20 @@ enum {
 /* How the last settle or step went. */
 typedef struct mvs_stats {
   uint32_t struct_size;
-  uint32_t converged;  /* 1: residual reached */
-  uint32_t iterations; /* Newton iterations, or steps in time */
-  uint32_t factorisations;
-  uint32_t contact_pairs; /* active at the end */
-  uint32_t shifted;       /* iterations whose matrix needed a shift to be positive definite */
-  double residual;        /* N, largest out-of-balance force on a free node or point of a tool */
-  double energy;          /* J, total potential at the end */
-  double kinetic;         /* J */
+  uint32_t converged;      /* 1: residual reached */
+  uint32_t iterations;     /* Newton iterations, or steps in time */
+  uint32_t factorisations; /* those done in parts, over several steps, count in the last one */
+  uint32_t contact_pairs;  /* active at the end */
+  uint32_t shifted;        /* iterations whose matrix needed a shift to be positive definite */
+  double residual;         /* N, largest out-of-balance force on a free node or point of a tool */
+  double energy;           /* J, total potential at the end */
+  double kinetic;          /* J */
   double wall_s;
   double phase_s[MVS_PHASE_COUNT];
   uint32_t skipped;      /* MVS_SKIPPED_*: what was never computed in the whole settle or step */
   uint32_t lowered;      /* MVS_LOWERED_* */
   uint32_t broad_phases; /* how often candidate pairs were looked for */
-  uint32_t orderings;    /* symbolic analyses */
+  uint32_t orderings;    /* new patterns of the matrix, and symbolic analyses */
   uint32_t linear_iterations; /* of iterative solutions on top of a factorisation */
   uint32_t passes;            /* energies, gradients and matrices over all the terms */
 } mvs_stats;

@@ -18,6 +18,8 @@ class BlockMatrix {
     for (uint32_t i = 0; i < n; ++i) pairs.push_back({i, i});
     sort_pairs(n, pairs);
     start.assign(n + 1, 0);
+    make_room(row, pairs.size());
+    make_room(value, pairs.size());
     row.resize(pairs.size());
     for (size_t k = 0; k < pairs.size(); ++k) {
       ++start[pairs[k][0] + 1];
@@ -39,6 +41,7 @@ class BlockMatrix {
   // row, then, keeping that order, by the lower one.
   void sort_pairs(uint32_t n, std::vector<Edge> &pairs) {
     for (Edge &p : pairs) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
+    make_room(pairs, pairs.size() + n);  // and the diagonal
     halfway_.reserve(pairs.capacity());  // grows no more often than what is sorted
     halfway_.resize(pairs.size());
     for (const size_t key : {1u, 0u}) {

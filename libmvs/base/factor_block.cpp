@@ -44,6 +44,10 @@ void BlockFactor::analyse(const BlockMatrix &matrix) {
   pattern_.analyse(matrix);
   size_t tallest = 0;
   for (const Supernode &s : pattern_.node) tallest = std::max(tallest, s.height());
+  make_room(value_, 2 * pattern_.numbers + panel_slack);  // pages that are not used cost nothing
+  make_room(work_, pattern_.node.size());
+  for (auto *rows : {&target_, &identity_}) make_room(*rows, 3 * matrix.size());
+  make_room(local_, 3 * matrix.size());
   value_.resize(pattern_.numbers + panel_slack);
   place_.resize(matrix.size());
   target_.resize(tallest);

@@ -91,6 +91,7 @@ bool Supernodes::worth_merging(const Supernode &left, const Supernode &right) co
 
 void Supernodes::place_panels() {
   row.clear();
+  make_room(row, column_row_.size());
   numbers = 0;
   for (Supernode &s : node) {
     const size_t begin = row.size();
@@ -119,9 +120,11 @@ void Supernodes::find_contributions() {
       }
     }
   };
+  make_room(contribution_start, mark_.size() + 1);
   contribution_start.assign(node.size() + 1, 0);
   for_each([&](uint32_t to, const Contribution &) { ++contribution_start[to + 1]; });
   for (size_t s = 0; s < node.size(); ++s) contribution_start[s + 1] += contribution_start[s];
+  make_room(contribution, 2 * contribution_start.back());
   contribution.resize(contribution_start.back());
   for_each([&](uint32_t to, const Contribution &c) { contribution[contribution_start[to]++] = c; });
   for (size_t s = node.size(); s > 0; --s) contribution_start[s] = contribution_start[s - 1];

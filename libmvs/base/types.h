@@ -16,4 +16,11 @@ using Id = uint64_t;
 
 inline constexpr uint32_t none = UINT32_MAX;
 
+// Sees to room for `size` items, and for as many again: what follows the contact of a live step
+// comes to its largest size early.
+template <typename T>
+void make_room(std::vector<T> &items, size_t size) {
+  if (size > items.capacity()) items.reserve(2 * size);
+}
+
 }  // namespace mvs

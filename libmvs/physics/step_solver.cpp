@@ -9,9 +9,10 @@ namespace {
 // linearising a step leaves out, and forces of the next step hold it again.
 constexpr double tolerance = 1e-3;
 // After the most iterations, each about a tenth of a factor, this will do, and the next factor is
-// begun; else one is made at once.
-constexpr double good_enough = 2e-2;
-constexpr uint32_t most_iterations = 8;
+// begun; else one is made at once. What comes to that is a valve a few steps after a chord was cut
+// or its leaflets met: the step leads downhill, a tenth less far.
+constexpr double good_enough = 0.1;
+constexpr uint32_t most_iterations = 6;
 // More iterations or an older factor: the next one is begun. A factor in parts costs as much as
 // some ten iterations.
 constexpr uint32_t many_iterations = 3;

@@ -176,7 +176,7 @@ class Stats:
     skipped: Annotated[int, "1", "MVS_SKIPPED_* bits: what was never computed, as nothing needed it"]
     lowered: Annotated[int, "1", "MVS_LOWERED_* bits: what a step gave up to stay within its budget"]
     broad_phases: Annotated[int, "1", "how often candidate pairs were looked for"]
-    orderings: Annotated[int, "1", "symbolic analyses"]
+    orderings: Annotated[int, "1", "new patterns of the matrix, and symbolic analyses"]
     linear_iterations: Annotated[int, "1", "iterations on top of a factorisation"]
     passes: Annotated[int, "1", "energies, gradients and matrices over all the terms"]
 
