@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/gmres.h"
@@ -20,14 +21,14 @@ struct PcgResult {
 class Pcg {
  public:
   // Sets x to a solution of A x = b for multiply(v, y) giving y = A v and precondition(v, y) an
-  // approximate solution of A y = v: to `tolerance`, or what `most` iterations reach. From x = 0
-  // each iterate is better than the one before, and none leads uphill for b, whatever the
-  // preconditioner, as long as it is positive definite. Where A turns out not to be, the iterate
-  // before stays.
+  // approximate solution of A y = v: to `tolerance`, or what `most` iterations reach. It gives up
+  // where at the rate so far they would leave more than `worst`. From x = 0 each iterate is better
+  // than the one before, and none leads uphill for b, whatever the preconditioner, as long as it is
+  // positive definite. Where A turns out not to be, the iterate before stays.
   template <typename Multiply, typename Precondition>
   PcgResult solve(const Multiply &multiply, const Precondition &precondition,
-                  const std::vector<Vec3> &b, std::vector<Vec3> &x, uint32_t most,
-                  double tolerance) {
+                  const std::vector<Vec3> &b, std::vector<Vec3> &x, uint32_t most, double tolerance,
+                  double worst = 1) {
     x.assign(b.size(), Vec3::Zero());
     r_ = b;
     precondition(r_, z_);
@@ -48,6 +49,8 @@ class Pcg {
       precondition(r_, z_);
       const double next = dot(r_, z_);
       result.error = std::sqrt(std::max(next, 0.0) / first);
+      const double rate = std::pow(result.error, 1.0 / result.iterations);
+      if (result.iterations > 1 && std::pow(rate, most) > worst) break;
       const double turn = next / size;
       for (size_t i = 0; i < b.size(); ++i) p_[i] = z_[i] + turn * p_[i];
       size = next;

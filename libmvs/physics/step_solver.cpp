@@ -98,7 +98,8 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
     serving_->solve(r, z);
   };
   const uint32_t most = std::min(most_iterations, left - closing);
-  const PcgResult result = pcg_.solve(multiply, precondition, rows, solution_, most, tolerance);
+  const PcgResult result =
+      pcg_.solve(multiply, precondition, rows, solution_, most, tolerance, good_enough);
   left -= result.iterations;
   iterations_ = result.iterations;
   stats.work.linear_iterations += result.iterations;

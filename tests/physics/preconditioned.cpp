@@ -103,6 +103,23 @@ TEST_CASE("what_conjugate_gradients_say_is_left_is_left") {
   }
 }
 
+TEST_CASE("conjugate_gradients_give_up_what_they_cannot_reach") {
+  Random random(14);
+  Eigen::VectorXd values(30);
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = std::pow(2.0, static_cast<double>(i));
+  const Eigen::MatrixXd a = with_spectrum(random, values);
+  const Positions b = random.vectors(10, 1);
+  Pcg pcg;
+  Positions x;
+  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(a * flat_of(v)); };
+  const auto none_there = [](const Positions &r, Positions &z) { z = r; };
+  const PcgResult given_up = pcg.solve(multiply, none_there, b, x, 8, 1e-3, 0.1);
+  CHECK(given_up.iterations == 2);
+  CHECK(given_up.error > 0.1);
+  CHECK(pcg.solve(multiply, none_there, b, x, 8, 1e-3).iterations == 8);
+}
+
 TEST_CASE("conjugate_gradients_stop_where_the_matrix_is_not_positive_definite") {
   Random random(13);
   Eigen::VectorXd values = Eigen::VectorXd::Ones(30);
