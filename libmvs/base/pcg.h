@@ -28,7 +28,7 @@ class Pcg {
   template <typename Multiply, typename Precondition>
   PcgResult solve(const Multiply &multiply, const Precondition &precondition,
                   const std::vector<Vec3> &b, std::vector<Vec3> &x, uint32_t most, double tolerance,
-                  double worst = 1) {
+                  double worst = std::numeric_limits<double>::infinity()) {
     x.assign(b.size(), Vec3::Zero());
     r_ = b;
     precondition(r_, z_);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/error.h"
 #include "physics/nodes.h"
@@ -35,10 +34,6 @@ bool pushes(const std::vector<Tool> &tools, const std::vector<Id> &ids) {
     if (k == ids.size() || ids[k++] != tool.id) return false;
   }
   return k == ids.size();
-}
-
-bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }
 
 }  // namespace

@@ -1,17 +1,8 @@
 #include "physics/kept_factor.h"
 
-#include <algorithm>
-#include <cstring>
+#include "physics/nodes.h"
 
 namespace mvs {
-namespace {
-
-bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-
-}  // namespace
-
 KeptFactor::KeptFactor(const Model &model, std::unique_ptr<Factor> factor)
     : model_(&model), factor_(std::move(factor)) {}
 

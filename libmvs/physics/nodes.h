@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "model/model.h"
@@ -33,6 +34,11 @@ inline bool boundary_is_there(const Model &model, const std::vector<Vec3> &x, do
     if (!((model.target(i, fraction) - x[i]).squaredNorm() <= within * within)) return false;
   }
   return true;
+}
+
+// To the bit: -0.0 is not 0.0.
+inline bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }
 
 }  // namespace mvs
