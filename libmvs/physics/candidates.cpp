@@ -168,9 +168,6 @@ void Candidates::choose() {
 
 // What changed nodes have no part in stays as it was found.
 void Candidates::search() {
-  // rarely more, so that a live step seldom allocates: the lists change places as they are sorted
-  const size_t usual = 24 * sheet_.size();
-  for (auto *list : {&facing_, &guarded_, &sorted_}) list->reserve(usual);
   forget_changed();
   tree_.place(from_, to_, pace_, skip_);
   const double facing = thickness_ + 2 * slack_, guard = guard_share * thickness_ + 2 * slack_;
