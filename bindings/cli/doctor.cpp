@@ -66,27 +66,32 @@ mvs::Finding library() {
                mvs_features(), MVS_DRIVER_VERSION)};
 }
 
-// A driver that cannot be asked is a finding too.
-void ask(const std::string &name, const std::string &driver, const std::string &options,
-         std::vector<Row> &rows) {
-  try {
-    for (mvs::Finding &found : mvs::findings_of(driver, options)) {
+// Of the named driver, which may be one that cannot be asked; of every driver where none is named.
+std::vector<Row> driver_rows(const DeviceOptions &options) {
+  std::vector<Row> rows;
+  if (options.driver.empty()) {
+    for (mvs::Finding &found : mvs::findings_of()) {
+      const size_t colon = found.check.find(": ");
+      const std::string name = found.check.substr(0, colon);
+      found.check.erase(0, colon + 2);
       rows.push_back({name, std::move(found)});
     }
-  } catch (const mvs::Error &failure) {
-    rows.push_back({name, {0, "driver", failure.what()}});
+    return rows;
   }
+  try {
+    for (mvs::Finding &found : mvs::findings_of(driver_of(options), lines_of(options.options))) {
+      rows.push_back({options.driver, std::move(found)});
+    }
+  } catch (const mvs::Error &failure) {
+    rows.push_back({options.driver, {0, "driver", failure.what()}});
+  }
+  return rows;
 }
 
 std::vector<Row> examine(const DeviceOptions &options) {
   std::vector<Row> rows = {{"system", library()}, {"system", processors()}, {"system", realtime()}};
-  if (!options.driver.empty()) {
-    ask(options.driver, driver_of(options), lines_of(options.options), rows);
-    return rows;
-  }
-  const std::vector<mvs::Driver> installed = mvs::drivers();
-  for (const mvs::Driver &driver : installed) ask(driver.name, driver.path, "", rows);
-  if (installed.empty()) {
+  for (Row &row : driver_rows(options)) rows.push_back(std::move(row));
+  if (options.driver.empty() && mvs::drivers().empty()) {
     rows.push_back({"system",
                     {0, "drivers",
                      "none is installed: they lie in the folder mvs/drivers beside the library"}});
@@ -95,7 +100,7 @@ std::vector<Row> examine(const DeviceOptions &options) {
 }
 
 const char *word_of(int32_t verdict) {
-  return verdict > 0 ? "good" : verdict < 0 ? "warning" : "fault";
+  return verdict == 2 ? "note" : verdict > 0 ? "good" : verdict < 0 ? "warning" : "fault";
 }
 
 std::string rows_text(const std::vector<Row> &rows) {
@@ -137,7 +142,8 @@ void run(const DeviceOptions &options, Console &console) {
 void add_haptics_doctor(CLI::App &haptics, Console &console) {
   auto options = std::make_shared<DeviceOptions>();
   CLI::App *command = add_command(haptics, console, "doctor",
-                                  "look at all that a device needs; exit code 1 for a fault");
+                                  "look at all that a device needs; exit code 1 for a fault; "
+                                  "without --driver: of every driver that finds a device");
   add_driver_options(*command, *options);
   command->callback([=, &console] { run(*options, console); });
 }

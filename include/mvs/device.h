@@ -40,7 +40,9 @@ MVS_API mvs_result mvs_driver_each(mvs_driver_fn each, void *user);
 MVS_API mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_found found,
                                    void *user);
 
-/* Has a driver look at all that a device needs; also at whether the driver itself can be loaded. */
+/* Has a driver look at all that a device needs; also at whether the driver itself can be loaded.
+ * Null: every driver in that folder, without options; a check is "driver: check" then, and a driver
+ * whose device or vendor's library is not here is one note, not a fault. */
 MVS_API mvs_result mvs_device_doctor(const char *driver, const char *options,
                                      mvs_driver_finding finding, void *user);
 

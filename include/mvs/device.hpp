@@ -23,7 +23,7 @@ struct FoundDevice {
   std::string name, model;
 };
 
-// One check of a driver's doctor; `verdict` is 1 good, 0 a fault, -1 a warning.
+// One check of a driver's doctor; `verdict` is 1 good, 0 a fault, -1 a warning, 2 a note.
 struct Finding {
   std::int32_t verdict;
   std::string check, sentence;
@@ -53,12 +53,12 @@ inline std::vector<FoundDevice> devices_of(const std::string &driver,
   return found;
 }
 
-// All that a driver's doctor says.
-inline std::vector<Finding> findings_of(const std::string &driver,
+// All that a driver's doctor says; "": that of every driver which finds a device.
+inline std::vector<Finding> findings_of(const std::string &driver = "",
                                         const std::string &options = "") {
   std::vector<Finding> found;
   must(mvs_device_doctor(
-      driver.c_str(), options.c_str(),
+      driver.empty() ? nullptr : driver.c_str(), options.empty() ? nullptr : options.c_str(),
       [](void *to, std::int32_t verdict, const char *check, const char *sentence) {
         static_cast<std::vector<Finding> *>(to)->push_back({verdict, check, sentence});
       },

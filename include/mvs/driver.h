@@ -154,8 +154,8 @@ typedef int32_t (*mvs_driver_servo)(void *user, const mvs_driver_state *state,
 /* A device that was found: the name that open() takes, and what it is. */
 typedef void (*mvs_driver_found)(void *user, const char *name, const char *model);
 
-/* One check of doctor(): `verdict` is 1 good, 0 a fault, -1 a warning; `check` says what was looked
- * at ("library libHD.so"), `sentence` what was found and what to do. */
+/* One check of doctor(): `verdict` is 1 good, 0 a fault, -1 a warning, 2 a note; `check` says what
+ * was looked at ("library libHD.so"), `sentence` what was found and what to do. */
 typedef void (*mvs_driver_finding)(void *user, int32_t verdict, const char *check,
                                    const char *sentence);
 

@@ -8,6 +8,7 @@
 #include "api/device_hand.h"
 #include "api/structs.h"
 #include "haptics/crash.h"
+#include "haptics/examine.h"
 
 using namespace mvs;
 
@@ -130,27 +131,13 @@ mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_f
 mvs_result mvs_device_doctor(const char *driver, const char *options, mvs_driver_finding finding,
                              void *user) {
   return guarded([&] {
-    must_point(driver, "driver");
     MVS_MUST(finding, MVS_E_ARGUMENT, "finding", "finding is a null pointer");
-    const auto plug = Plug::load(driver, text_or_empty(options), {});
-    finding(user, 1, "driver", plug->api().about ? plug->api().about : plug->name().c_str());
-    struct Row {
-      int32_t verdict;
-      std::string check, sentence;
-    };
-    const auto rows = std::make_shared<std::vector<Row>>();
-    if (!plug->api().doctor) return;
-    plug->call("doctor", nullptr, [rows, plug](const mvs_driver_api &api) {
-      return api.doctor(
-          plug->host(),
-          [](void *to, int32_t verdict, const char *check, const char *sentence) {
-            static_cast<std::vector<Row> *>(to)->push_back(
-                {verdict, text_or_empty(check), text_or_empty(sentence)});
-          },
-          rows.get());
-    });
-    for (const Row &row : *rows)
+    MVS_MUST(driver || !options, MVS_E_ARGUMENT, "options",
+             "options are of one driver, and driver is a null pointer");
+    for (const DriverFinding &row :
+         driver ? examine(driver, text_or_empty(options)) : examine_all()) {
       finding(user, row.verdict, row.check.c_str(), row.sentence.c_str());
+    }
   });
 }
 

@@ -290,9 +290,53 @@ static void count_driver(void *user, const char *name, const char *path) {
   *(int *)user += strcmp(name, "replay") == 0;
 }
 
+static void count_device(void *user, const char *name, const char *model) {
+  CHECK(name[0] != 0 && model[0] != 0);
+  ++*(int *)user;
+}
+
+static void count_any(void *user, const char *name, const char *path) {
+  CHECK(name[0] != 0 && path[0] == '/');
+  ++*(int *)user;
+}
+
+static void count_fault(void *user, int32_t verdict, const char *check, const char *sentence) {
+  CHECK(check[0] != 0 && sentence[0] != 0);
+  *(int *)user += verdict == 0;
+}
+
 static void count_finding(void *user, int32_t verdict, const char *check, const char *sentence) {
   CHECK(check[0] != 0 && sentence[0] != 0);
   *(int *)user += verdict == 1;
+}
+
+/* Verdicts of all drivers, as "driver: check". */
+struct all_findings {
+  int drivers, notes, phantom;
+};
+
+static void sort_finding(void *user, int32_t verdict, const char *check, const char *sentence) {
+  struct all_findings *all = user;
+  const char *const colon = strstr(check, ": ");
+  CHECK(colon && sentence[0] != 0);
+  all->drivers += colon && strcmp(colon, ": driver") == 0;
+  all->notes += verdict == 2;
+  if (strncmp(check, "phantom: ", 9) == 0) all->phantom = verdict;
+}
+
+/* Who has no such device need not mend it, unless he asks for that driver. */
+static void a_vendors_library_that_is_not_here_is_a_note(void) {
+  struct all_findings all = {0, 0, 3};
+  int drivers = 0, good = 0;
+  MUST(mvs_driver_each(count_any, &drivers));
+  MUST(mvs_device_doctor(NULL, NULL, sort_finding, &all));
+  CHECK(all.drivers == drivers);
+  CHECK(all.notes > 0 && all.notes < drivers);
+  /* somebody may have one */
+  CHECK(all.phantom == 2 || mvs_device_list("phantom", NULL, count_device, &drivers) == MVS_OK);
+  MUST(mvs_device_doctor("phantom", NULL, count_fault, &good));
+  CHECK(good > 0);
+  CHECK(mvs_device_doctor(NULL, "file=x", count_finding, &good) == MVS_E_ARGUMENT);
 }
 
 static void drivers_are_listed_and_looked_at(void) {
@@ -323,6 +367,7 @@ int main(void) {
   limits_can_only_be_lowered();
   a_trace_has_every_tick();
   drivers_are_listed_and_looked_at();
+  a_vendors_library_that_is_not_here_is_a_note();
   mvs_snapshot_release(closed);
   mvs_destroy(sim);
   return finish("devices");

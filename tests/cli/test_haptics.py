@@ -81,6 +81,17 @@ class Doctor(Haptics):
         self.assertEqual(priority["verdict"], "warning")
         self.assertIn("rtprio 60", priority["sentence"])
 
+    def test_what_is_not_installed_is_a_note_unless_it_is_asked_for(self):
+        if mvs("haptics", "list", "--driver", "phantom", cwd=self.dir).returncode == 0:
+            self.skipTest("OpenHaptics is installed here")
+        told = self.json("haptics", "doctor")
+        self.assertEqual(told["faults"], 0)
+        (phantom,) = [row for row in told["findings"] if row["about"] == "phantom"]
+        self.assertEqual((phantom["verdict"], phantom["check"]), ("note", "driver"))
+        self.assertIn("not installed", phantom["sentence"])
+        self.assertEqual(mvs("haptics", "doctor", "--driver", "phantom",
+                             cwd=self.dir).returncode, 1)
+
     def test_faults_are_told_by_the_exit_code(self):
         done = mvs("haptics", "doctor", "--driver", "replay", "--option", "file=nowhere.txt",
                    "--json", cwd=self.dir)

@@ -27,6 +27,9 @@ def test_drivers_are_found_asked_and_examined():
     assert (found.name, found.model) == (str(GRASP), "Touch")
     verdicts = {row.check: row for row in mvs.haptics.doctor("replay", {"file": GRASP})}
     assert verdicts["recording"].verdict == "good"
+    everybody = {row.check: row.verdict for row in mvs.haptics.doctor()}
+    assert everybody["template: driver"] == "good"
+    assert "note" in everybody.values() and "fault" not in everybody.values()
     bad = mvs.haptics.doctor("replay", {"file": "nowhere.txt"})
     assert "nowhere.txt" in [row for row in bad if row.verdict == "fault"][0].sentence
 

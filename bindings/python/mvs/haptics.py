@@ -107,7 +107,7 @@ class Found:
 class Finding:
     """One check of a driver's doctor.
 
-    verdict: "good", "warning" or "fault"
+    verdict: "good", "warning", "fault" or "note"
     check: what was looked at
     sentence: what was found, and what to do
     """
@@ -250,11 +250,15 @@ def list(driver: Union[str, os.PathLike[str]], options: Options = None) -> tuple
 
 
 def doctor(
-    driver: Union[str, os.PathLike[str]], options: Options = None
+    driver: Optional[Union[str, os.PathLike[str]]] = None, options: Options = None
 ) -> tuple[Finding, ...]:
-    """All that a driver's device needs, looked at; errors as for ``list``."""
-    words = {1: "good", 0: "fault", -1: "warning"}
+    """All that a driver's device needs, looked at; errors as for ``list``.
+
+    Without a driver: of every driver that is installed, checks being "driver: check"; one whose
+    device or vendor's library is not here is one note.
+    """
+    words = {1: "good", 0: "fault", -1: "warning", 2: "note"}
     rows: builtins.list[tuple[int, str, str]] = _core.doctor(
-        os.fspath(driver), option_lines(options)
+        None if driver is None else os.fspath(driver), option_lines(options)
     )
     return tuple(Finding(words.get(verdict, "fault"), *told) for verdict, *told in rows)

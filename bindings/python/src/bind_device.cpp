@@ -48,11 +48,11 @@ Texts devices(const std::string &driver, const std::string &options) {
   return found;
 }
 
-Findings doctor(const std::string &driver, const std::string &options) {
+Findings doctor(const std::optional<std::string> &driver, const std::string &options) {
   Findings found;
   release_and([&] {
     return mvs_device_doctor(
-        driver.c_str(), options.c_str(),
+        driver ? driver->c_str() : nullptr, options.empty() ? nullptr : options.c_str(),
         [](void *to, int32_t verdict, const char *check, const char *sentence) {
           static_cast<Findings *>(to)->emplace_back(verdict, utf8(check), utf8(sentence));
         },

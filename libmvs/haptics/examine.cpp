@@ -1,0 +1,78 @@
+#include "haptics/examine.h"
+
+#include <memory>
+
+#include "base/error.h"
+#include "haptics/plug.h"
+
+namespace mvs {
+namespace {
+
+using Findings = std::vector<DriverFinding>;
+
+constexpr int32_t good = 1, fault = 0, note = 2;
+
+std::string text_of(const char *text) {
+  return text ? text : "";
+}
+
+Findings findings_of(const std::shared_ptr<Plug> &plug) {
+  Findings first = {{good, "driver", plug->api().about ? plug->api().about : plug->name()}};
+  if (!plug->api().doctor) return first;
+  // kept by the call: a driver that does not come back may go on writing
+  const auto rows = std::make_shared<Findings>(std::move(first));
+  plug->call("doctor", nullptr, [rows, plug](const mvs_driver_api &api) {
+    return api.doctor(
+        plug->host(),
+        [](void *to, int32_t verdict, const char *check, const char *sentence) {
+          static_cast<Findings *>(to)->push_back({verdict, text_of(check), text_of(sentence)});
+        },
+        rows.get());
+  });
+  return *rows;
+}
+
+// Why nobody is here whom the driver could examine; "" where somebody is.
+std::string absence(const std::shared_ptr<Plug> &plug) {
+  if (!plug->api().list) return "";
+  const auto count = std::make_shared<size_t>(0);
+  const Plug::Answer answer = plug->ask("list", nullptr, [count, plug](const mvs_driver_api &api) {
+    return api.list(
+        plug->host(), [](void *to, const char *, const char *) { ++*static_cast<size_t *>(to); },
+        count.get());
+  });
+  if (answer.code == MVS_DRIVER_E_LIBRARY) return "not installed: " + answer.sentence;
+  if (answer.code == MVS_DRIVER_E_ABSENT) return "no device: " + answer.sentence;
+  return answer.code >= 0 && *count == 0 ? "it finds no device" : "";
+}
+
+// A driver that cannot be asked is a finding too.
+Findings examine_installed(const std::string &path) {
+  try {
+    const auto plug = Plug::load(path, "", {});
+    const std::string why = absence(plug);
+    if (!why.empty()) return {{note, "driver", why}};
+    return findings_of(plug);
+  } catch (const Error &failure) {
+    return {{fault, "driver", failure.what()}};
+  }
+}
+
+}  // namespace
+
+Findings examine(const std::string &driver, const std::string &options) {
+  return findings_of(Plug::load(driver, options, {}));
+}
+
+Findings examine_all() {
+  Findings all;
+  for (const DriverFile &file : installed_drivers()) {
+    for (DriverFinding &found : examine_installed(file.path)) {
+      found.check = file.name + ": " + found.check;
+      all.push_back(std::move(found));
+    }
+  }
+  return all;
+}
+
+}  // namespace mvs
