@@ -28,7 +28,7 @@ void StepMatrix::multiply(const std::vector<Vec3> &v, std::vector<Vec3> &y) cons
   const BlockMatrix &m = system_.matrix;
   y.assign(v.size(), Vec3::Zero());
   for (uint32_t c = 0; c < m.size(); ++c) {
-    const Vec3 of_c = v[c];
+    const Vec3 &of_c = v[c];
     Vec3 sum = m.value[m.start[c]] * of_c;
     for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
       const Mat3 &block = m.value[k];
