@@ -38,6 +38,8 @@ void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix
     if (!fits) *place = {};
   }
   if (state.serving.x.empty()) return state.forget_way();
+  // a file may say anything
+  if (state.coming.age > KeptFactor::parts) state.coming = {};
   const uint32_t all = KeptFactor::parts, some = state.coming.age;
   if (coming_->is_of(state.serving, all)) std::swap(serving_, coming_);
   if (!serving_->is_of(state.serving, all) &&
@@ -103,9 +105,11 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
   left -= result.iterations;
   iterations_ = result.iterations;
   stats.work.linear_iterations += result.iterations;
-  const bool no_more = result.iterations > 0 && left <= closing;
-  if (!(result.error <= good_enough) && !no_more) return false;
-  if (!(result.error <= good_enough)) stats.lowered |= MVS_LOWERED_LINEAR;
+  if (!(result.error <= good_enough)) {
+    const bool no_more = result.iterations > 0 && left <= closing;
+    if (!no_more) return false;
+    stats.lowered |= MVS_LOWERED_LINEAR;
+  }
   rows.swap(solution_);
   return true;
 }

@@ -288,7 +288,8 @@ TEST_CASE("a_level_costs_what_it_changed") {
   const size_t each = (write_session(now, {}).size() - empty) / levels;
   MESSAGE(each << " bytes a level of " << empty);
   // two pictures, of 16 bytes more each since they count instruments and 8 since they say whether
-  // there are waypoints, a model, its 12 chords and the operation in words: 2018; positions would be 3264 bytes
+  // there are waypoints, a model, its 12 chords and the operation in words: 2018; positions would
+  // be 3264 bytes
   CHECK(each < 2032);
   CHECK(hash_of(read_session(write_session(now, {})).timeline.past.items()[7][0]->after) ==
         hash_of(now.timeline.past.items()[7][0]->after));

@@ -283,4 +283,10 @@ Settled settle(const Model &model, double pressure, double fraction, const Solve
   return settle(model, state, options);
 }
 
+State closed(const Model &model) {
+  const Settled settled = settle(model, MVS_SYSTOLE_PA, 1);
+  REQUIRE(settled.stats.converged);
+  return settled.state;
+}
+
 }  // namespace mvs::test

@@ -108,5 +108,7 @@ struct Settled {
 Settled settle(const Model &model, const State &from, const SolveOptions &options = {});
 Settled settle(const Model &model, double pressure, double fraction = 0,
                const SolveOptions &options = {});
+// At rest at systole, with its boundary loaded; it has to come there.
+State closed(const Model &model);
 
 }  // namespace mvs::test

@@ -27,14 +27,6 @@ ModelPtr small_parametric() {
   return make_model(make_parametric_valve(desc));
 }
 
-State closed(const Model &model) {
-  State state = initial_state(model);
-  state.load = {systole, 1};
-  Solver solver(MVS_BACKEND_DEFAULT);
-  REQUIRE(solver.settle(model, state, {}, {}).converged);
-  return state;
-}
-
 // The leaflets part and meet again.
 void beat(State &state, int step) {
   state.load.pressure = systole * (0.55 + 0.45 * std::cos(0.1 * step));

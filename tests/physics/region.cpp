@@ -6,19 +6,12 @@
 
 #include "anatomy/parametric.h"
 #include "base/intersect.h"
+#include "bench.h"
 #include "physics/potential.h"
 #include "physics/solver.h"
 
 namespace mvs::test {
 namespace {
-
-State closed(const Model &model) {
-  State state = initial_state(model);
-  state.load = {MVS_SYSTOLE_PA, 1};
-  Solver solver(MVS_BACKEND_DEFAULT);
-  REQUIRE(solver.settle(model, state, {}, {}).converged);
-  return state;
-}
 
 std::vector<Vec3> gradient(const Model &model, const std::vector<Vec3> &x) {
   Potential potential(model);
