@@ -60,6 +60,7 @@ struct Row {
   std::vector<double> active, resting;  // seconds a step
   std::vector<double> hand;             // of both, while a hand moves
   size_t lowered_linear = 0, lowered_step = 0, broad = 0, orderings = 0, made = 0;
+  size_t iterations = 0, served = 0;  // linear ones; steps that worked on no factor
   size_t crossings = 0;
 
   size_t steps() const { return active.size() + resting.size(); }
@@ -72,6 +73,8 @@ struct Row {
     broad += other.broad;
     orderings += other.orderings;
     made += other.made;
+    iterations += other.iterations;
+    served += other.served;
     crossings = std::max(crossings, other.crossings);
   }
 };
@@ -106,6 +109,8 @@ void take_step(mvs::Sim &sim, const Options &options, bool hand_moves, StepWatch
   row.lowered_step += (stats.lowered & MVS_LOWERED_STEP) != 0;
   row.broad += stats.broad_phases;
   row.orderings += stats.orderings;
+  row.iterations += stats.linear_iterations;
+  row.served += !asleep && (stats.skipped & MVS_SKIPPED_FACTOR) != 0;
   if (!asleep) row.made += watch.makes_energy(sim, stats);
 }
 
@@ -216,6 +221,10 @@ void write(std::ofstream &csv, const Row &row) {
 void tell(const std::string &scene, const Row &whole) {
   print(whole, "active steps", whole.active);
   print(whole, "steps with a hand moving", whole.hand);
+  const auto steps = static_cast<double>(std::max<size_t>(1, whole.active.size()));
+  std::printf("%s: %.1f linear iterations an active step; %.0f %% of them worked on no factor\n",
+              scene.c_str(), static_cast<double>(whole.iterations) / steps,
+              100 * static_cast<double>(whole.served) / steps);
   const double active = percentile(whole.active, 0.5), resting = percentile(whole.resting, 0.5);
   const double founding = explicit_step(scene);
   std::printf(
