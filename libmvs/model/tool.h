@@ -26,6 +26,11 @@ struct Tool {
   // Where the hand wants point k.
   Vec3 target(uint32_t k) const { return position + k * length * axis; }
 
+  // Whether it is the same thing, wherever it is. An id is not enough: what was undone gives its
+  // own to the next tool.
+  bool is_same_as(const Tool &other) const {
+    return id == other.id && kind == other.kind && radius == other.radius && length == other.length;
+  }
   bool operator==(const Tool &) const = default;
 };
 

@@ -19,21 +19,21 @@ constexpr uint32_t closing_passes = StepSolver::closing;
 // hold cannot be cut either, and one made for an earlier step serves.
 constexpr double slow = 0.02;
 
-void take_pushing(const std::vector<Tool> &tools, std::vector<Id> &ids) {
-  ids.clear();
+void take_pushing(const std::vector<Tool> &tools, std::vector<Tool> &pushing) {
+  pushing.clear();
   for (const Tool &tool : tools) {
-    if (tool.points() > 0) ids.push_back(tool.id);
+    if (tool.points() > 0) pushing.push_back(tool);
   }
 }
 
 // Whether the tools that push are these.
-bool pushes(const std::vector<Tool> &tools, const std::vector<Id> &ids) {
+bool pushes(const std::vector<Tool> &tools, const std::vector<Tool> &pushing) {
   size_t k = 0;
   for (const Tool &tool : tools) {
     if (tool.points() == 0) continue;
-    if (k == ids.size() || ids[k++] != tool.id) return false;
+    if (k == pushing.size() || !tool.is_same_as(pushing[k++])) return false;
   }
-  return k == ids.size();
+  return k == pushing.size();
 }
 
 }  // namespace

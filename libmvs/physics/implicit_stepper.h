@@ -62,7 +62,7 @@ class ImplicitStepper {
   double slack_;                        // m, for Potential::prepare
   double energy_ = 0, sheet_energy_ = 0, residual_ = 0, kinetic_ = 0;
   Load load_;
-  std::vector<Id> pushing_;  // the instruments that push
+  std::vector<Tool> pushing_;  // the instruments that push
   // energy and forces of the sheet are those of x_ under load_ and what pushes
   bool evaluated_ = false;
   bool travels_ = false;  // the boundary

@@ -33,10 +33,10 @@ void InstrumentTerm::set_tools(const std::vector<Tool> &tools, uint32_t first) {
   size_t k = 0;
   for (const Tool &tool : tools) {
     if (tool.points() == 0) continue;
-    const bool is_known = k < bodies_.size() && bodies_[k].id == tool.id;
+    const bool is_known = k < bodies_.size() && bodies_[k].tool.is_same_as(tool);
     if (!is_known) {
       bodies_.resize(k);
-      bodies_.push_back({tool.id, {}, tool.radius, tool.length, {}, {}, {}});
+      bodies_.push_back({tool, {}, tool.radius, tool.length, {}, {}, {}});
       prepared_ = false;
     }
     bodies_[k].point = {first, first + tool.points() - 1};

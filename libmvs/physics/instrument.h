@@ -59,7 +59,7 @@ class InstrumentTerm {
 
  private:
   struct Body {
-    Id id;
+    Tool tool;   // as it was when it came
     Edge point;  // nodes; the same twice for a ball
     double radius, length;
     std::vector<uint32_t> vertices, edges, triangles;  // near it

@@ -1,4 +1,5 @@
-/* A ball pressed into a closed valve and drawn back: it comes along. */
+/* A ball pressed into a closed valve and drawn back: it comes along; and is itself, whatever pushed
+ * before it. */
 #include <math.h>
 
 #include "check.h"
@@ -82,10 +83,47 @@ static void a_ball_drawn_back_comes_along(void) {
   }
 }
 
+/* The hash after a ball or rod went down by 15 mm into the closed valve. */
+static hash128 pushed(mvs_sim *by, mvs_tool_desc tool) {
+  const push p = {1e-3, 1e-3, -8e-3, 0, 15e-3, 1000};
+  mvs_tool_state state = {.struct_size = sizeof state};
+  mvs_id id = 0;
+  double down[3];
+  place(&p, 10e-3, tool.position);
+  place(&p, 10e-3 - p.depth, down);
+  MUST(mvs_restore(by, closed));
+  MUST(mvs_tool_add(by, &tool, &id));
+  MUST(mvs_tool_move(by, id, down, NULL));
+  for (int k = 0; k < 15; ++k) MUST(mvs_step(by, NULL));
+  MUST(mvs_tool_get(by, id, &state));
+  CHECK(state.touching == 1);
+  return sim_hash(by);
+}
+
+/* Going back takes an id back too, and the next tool gets it: what worked with the first one has to
+ * forget how large that was. */
+static void a_tool_with_the_id_of_another_is_its_own(void) {
+  static const mvs_tool_desc first[] = {
+      {.struct_size = sizeof *first, .kind = MVS_TOOL_BALL, .radius = 2e-3},
+      {.struct_size = sizeof *first, .kind = MVS_TOOL_ROD, .axis = {0, 0, 1}, .length = 10e-3}};
+  for (size_t k = 0; k < 2; ++k) {
+    mvs_tool_desc second = first[k];
+    mvs_sim *fresh = NULL;
+    if (second.kind == MVS_TOOL_BALL) second.radius = 3e-3;
+    if (second.kind == MVS_TOOL_ROD) second.length = 15e-3;
+    MUST(mvs_create(NULL, &fresh));
+    const hash128 wanted = pushed(fresh, second);
+    CHECK(!same_hash(pushed(sim, first[k]), wanted));
+    CHECK(same_hash(pushed(sim, second), wanted));
+    mvs_destroy(fresh);
+  }
+}
+
 int main(void) {
   MUST(mvs_create(NULL, &sim));
   close_valve();
   a_ball_drawn_back_comes_along();
+  a_tool_with_the_id_of_another_is_its_own();
   mvs_snapshot_release(closed);
   mvs_destroy(sim);
   return finish("push");
