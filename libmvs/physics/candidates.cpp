@@ -315,17 +315,18 @@ void Candidates::find_edges(uint32_t of, uint32_t block) {
 void Candidates::take_edges(uint32_t a, uint32_t b) {
   const auto &edges = model_->topology.edges;
   const double longest = guard_share * thickness_;
-  for (const uint32_t i : owned_[a]) {
-    const Edge &e = edges[i];
-    for (const uint32_t j : owned_[b]) {
-      const Edge &f = edges[j];
-      if (surely_apart(edge_way_[i], edge_way_[j]) || share(e, f)) continue;
-      if (!edge_changed(i) && !edge_changed(j)) continue;
+  for (const uint32_t mine : owned_[a]) {
+    for (const uint32_t other : owned_[b]) {
+      if (surely_apart(edge_way_[mine], edge_way_[other])) continue;
+      // in the order of the list: the rounding of a distance depends on it
+      const uint32_t i = std::min(mine, other), j = std::max(mine, other);
+      const Edge &e = edges[i], &f = edges[j];
+      if (share(e, f) || (!edge_changed(i) && !edge_changed(j))) continue;
       if (apart(way_of(e), way_of(f), longest + 2 * slack_)) continue;
       const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
       if (distance > longest) continue;
       const double guard = guard_range(thickness_, edge_edge_distance(model_->valve.rest, e, f));
-      if (distance <= guard) guarded_edges_.push_back({std::min(i, j), std::max(i, j), guard});
+      if (distance <= guard) guarded_edges_.push_back({i, j, guard});
     }
   }
 }

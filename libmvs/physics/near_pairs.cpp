@@ -317,11 +317,13 @@ void NearPairs::take_guarded(uint32_t owner, uint32_t triangle) {
 void NearPairs::take_edges(uint32_t a, uint32_t b) {
   for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
     for (uint32_t l = edge_start_[b]; l < edge_start_[b + 1]; ++l) {
-      take_edge_pair(owned_edge_[k], owned_edge_[l]);
+      const auto [i, j] = std::minmax(owned_edge_[k], owned_edge_[l]);
+      take_edge_pair(i, j);
     }
   }
 }
 
+// The lower one first: the rounding of their distance depends on it.
 void NearPairs::take_edge_pair(uint32_t i, uint32_t j) {
   const double longest = guard_share * thickness_;
   if (!edge_moved_[i] && !edge_moved_[j]) return;
@@ -334,7 +336,7 @@ void NearPairs::take_edge_pair(uint32_t i, uint32_t j) {
   const auto &rest = model_->valve.rest.get();
   const auto r = closest_of_segments(rest[e[0]], rest[e[1]], rest[f[0]], rest[f[1]]);
   const double guard = guard_range(thickness_, std::sqrt(r.distance2));
-  if (distance <= guard) new_edges_.push_back({std::min(i, j), std::max(i, j), guard});
+  if (distance <= guard) new_edges_.push_back({i, j, guard});
 }
 
 bool NearPairs::apart_at_rest(uint32_t vertex, uint32_t triangle) const {
