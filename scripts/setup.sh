@@ -43,10 +43,11 @@ install_packages() {
 build_packages=(build-essential cmake ninja-build pkg-config libeigen3-dev libsuitesparse-dev
   libhdf5-dev libcli11-dev nlohmann-json3-dev)
 python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
-test_packages=(doctest-dev libtinyobjloader-dev libspnav0 libglfw3-dev xvfb xauth clang clang-format
-  clang-tidy git)
+test_packages=(abigail-tools doctest-dev libtinyobjloader-dev libspnav0 libglfw3-dev locales xvfb
+  xauth clang clang-format clang-tidy git)
 
-# Configures and builds a preset of CMakePresets.json:
+# Configures and builds a preset of CMakePresets.json, with ccache where its cache is kept; where it
+# is not, clang compiles common headers once (cmake/precompiled.cmake):
 # build_preset NAME [CMAKE OPTION ...] [-- BUILD OPTION ...]
 build_preset() {
   local preset=$1 launcher=() options=()
@@ -55,8 +56,10 @@ build_preset() {
     options+=("$1")
     shift
   done
-  if command -v ccache >/dev/null; then
+  if command -v ccache >/dev/null && [ -z "${CI:-}" ]; then
     launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  elif [ "$preset" = clang ]; then
+    launcher=(-DMVS_PRECOMPILED=all)
   fi
   mkdir -p build
   cmake --preset "$preset" "${launcher[@]}" "${options[@]}" >"build/$preset.log" 2>&1 || {
@@ -84,15 +87,24 @@ print(*sum(lists + [extras[name] for name in sys.argv[1:]], []), sep="\n")
 PYTHON
 }
 
-# Makes .venv once with what the named extras need, and has it import the Python module of the
-# release tree, which compiles nothing of the library a second time: install_python EXTRA ...
-install_python() {
-  local needs site
+# Makes .venv once with what the named extras need: make_venv EXTRA ... [-- PIP OPTION ...]
+make_venv() {
+  local extras=() needs
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do
+    extras+=("$1")
+    shift
+  done
   [ -x .venv/bin/pip ] || "${PYTHON:-python3}" -m venv .venv || return 1
   echo "pip installs what the Python module needs into .venv: a minute or two the first time"
-  needs=$(python_needs "$@") || return 1
+  needs=$(python_needs "${extras[@]}") || return 1
   mapfile -t needs <<<"$needs"
-  .venv/bin/pip install --quiet --disable-pip-version-check "${needs[@]}" || return 1
+  .venv/bin/pip install --quiet --disable-pip-version-check "${needs[@]}" "${@:2}"
+}
+
+# Has .venv import the Python module of the release tree, which compiles nothing of the library a
+# second time.
+python_module() {
+  local site
   build_preset release -DMVS_PYTHON=ON "-DPython_EXECUTABLE=$PWD/.venv/bin/python" \
     "-Dpybind11_DIR=$(.venv/bin/python -m pybind11 --cmakedir)" -- --target mvs_python || return 1
   # an installed one would be found before it
@@ -100,3 +112,6 @@ install_python() {
   site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))') || return 1
   echo "$PWD/build/release/python" >"$site/libmvs.pth"
 }
+
+# install_python EXTRA ...
+install_python() { make_venv "$@" && python_module; }

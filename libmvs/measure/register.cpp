@@ -87,7 +87,9 @@ Rigid register_points(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   for (size_t i = 0; i < a.size(); ++i) {
     covariance += (b[i] - centre_b) * (a[i] - centre_a).transpose();
   }
-  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // square, so that nothing has to be preconditioned, nor compiled for it
+  const Eigen::JacobiSVD<Mat3, Eigen::NoQRPreconditioner> svd(
+      covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 sign = Mat3::Identity();
   sign(2, 2) = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1;
   const Mat3 turn = svd.matrixU() * sign * svd.matrixV().transpose();

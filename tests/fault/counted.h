@@ -6,7 +6,15 @@
 #include <cstdio>
 #include <cstdlib>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(__has_feature)  // clang has no __SANITIZE_ADDRESS__
+#define IS_SANITIZED (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define IS_SANITIZED 1
+#else
+#define IS_SANITIZED 0
+#endif
+
+#if IS_SANITIZED
 #define HAS_OWN_MALLOC 0
 #elif defined(__GLIBC__)
 #define HAS_OWN_MALLOC 1

@@ -11,7 +11,7 @@
 
 namespace {
 
-constexpr int warm_up = 50;
+[[maybe_unused]] constexpr int warm_up = 50;
 
 mvs_sim *closed_valve() {
   mvs_sim *sim = nullptr;

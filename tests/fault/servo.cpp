@@ -51,7 +51,7 @@ struct Scene {
   mvs_device *device = nullptr;
 };
 
-constexpr char grasping[] =
+[[maybe_unused]] constexpr char grasping[] =
     "device=touch\namplitude=0.005,0,0\nfrequency=2\nfault=stuck_button\nfault_at=0.1";
 
 #if HAS_OWN_MALLOC
