@@ -14,6 +14,8 @@
 namespace mvs {
 namespace {
 
+// Panels of T: double, or float where something else makes good what it rounds.
+template <typename T>
 class BlockFactor final : public Factor {
  public:
   void analyse(const BlockMatrix &matrix) override;
@@ -22,35 +24,39 @@ class BlockFactor final : public Factor {
   void solve(std::vector<Vec3> &b) override;
 
  private:
-  double *panel(const Supernode &s) { return value_.data() + s.panel; }
+  using Row = Eigen::Matrix<T, 3, 1>;
+  T *panel(const Supernode &s) { return value_.data() + s.panel; }
   void weigh();
   size_t begin_of(uint32_t part, uint32_t parts) const;
   void locate(const Supernode &s);
   void gather(const BlockMatrix &matrix, const Supernode &s);
   void subtract(const Contribution &c, const Supernode &to);
-  void load(const Supernode &s, const std::vector<Vec3> &b);
-  void store(const Supernode &s, std::vector<Vec3> &b) const;
+  void load(const Supernode &s);
+  void store(const Supernode &s);
 
   Supernodes pattern_;
-  std::vector<double> value_;       // all panels
-  std::vector<double> local_;       // right-hand side in the rows of one panel
+  std::vector<T> value_;            // all panels
+  std::vector<T> x_;                // right-hand side, then solution
+  std::vector<T> local_;            // right-hand side in the rows of one panel
   std::vector<double> work_;        // products up to the end of each supernode
   std::vector<uint32_t> place_;     // block row -> its place in the panel at hand
   std::vector<uint32_t> target_;    // rows of a contribution in the panel at hand
   std::vector<uint32_t> identity_;  // 0, 1, 2 ...
 };
 
-void BlockFactor::analyse(const BlockMatrix &matrix) {
+template <typename T>
+void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   pattern_.analyse(matrix);
   size_t tallest = 0;
   for (const Supernode &s : pattern_.node) tallest = std::max(tallest, s.height());
   make_room(value_, 2 * pattern_.numbers + panel_slack);  // pages that are not used cost nothing
   make_room(work_, pattern_.node.size());
   for (auto *rows : {&target_, &identity_}) make_room(*rows, 3 * matrix.size());
-  make_room(local_, 3 * matrix.size());
+  for (auto *rows : {&x_, &local_}) make_room(*rows, 3 * matrix.size());
   value_.resize(pattern_.numbers + panel_slack);
   place_.resize(matrix.size());
   target_.resize(tallest);
+  x_.resize(3 * matrix.size());
   local_.resize(tallest);
   identity_.resize(tallest);
   std::iota(identity_.begin(), identity_.end(), 0u);
@@ -58,7 +64,8 @@ void BlockFactor::analyse(const BlockMatrix &matrix) {
 }
 
 // Products of blocks, and as many more as calls and copies cost about.
-void BlockFactor::weigh() {
+template <typename T>
+void BlockFactor<T>::weigh() {
   constexpr double call = 100;
   double sum = 0;
   work_.clear();
@@ -78,45 +85,52 @@ void BlockFactor::weigh() {
 }
 
 // The first supernode of a part.
-size_t BlockFactor::begin_of(uint32_t part, uint32_t parts) const {
+template <typename T>
+size_t BlockFactor<T>::begin_of(uint32_t part, uint32_t parts) const {
   if (part == parts) return work_.size();
   const double before = work_.empty() ? 0 : work_.back() * part / parts;
   return static_cast<size_t>(std::upper_bound(work_.begin(), work_.end(), before) - work_.begin());
 }
 
-void BlockFactor::locate(const Supernode &s) {
+template <typename T>
+void BlockFactor<T>::locate(const Supernode &s) {
   for (uint32_t j = s.first; j < s.last; ++j) place_[j] = j - s.first;
   uint32_t at = s.width();
   for (size_t k = s.row_start; k < s.row_end; ++k) place_[pattern_.row[k]] = at++;
 }
 
 // The columns of the matrix, in the rows of the panel.
-void BlockFactor::gather(const BlockMatrix &matrix, const Supernode &s) {
+template <typename T>
+void BlockFactor<T>::gather(const BlockMatrix &matrix, const Supernode &s) {
   const size_t height = s.height();
-  std::fill_n(panel(s), 3 * s.width() * height, 0.0);
+  std::fill_n(panel(s), 3 * s.width() * height, T(0));
   for (uint32_t j = s.first; j < s.last; ++j) {
-    double *column = panel(s) + 3 * (j - s.first) * height;
+    T *column = panel(s) + 3 * (j - s.first) * height;
     for (uint32_t k = matrix.start[j]; k < matrix.start[j + 1]; ++k) {
       const double *from = matrix.value[k].data();
-      double *to = column + 3 * place_[matrix.row[k]];
-      for (int c = 0; c < 3; ++c) std::copy(from + 3 * c, from + 3 * c + 3, to + c * height);
+      T *to = column + 3 * place_[matrix.row[k]];
+      for (size_t c = 0; c < 3; ++c) {
+        for (size_t r = 0; r < 3; ++r) to[c * height + r] = static_cast<T>(from[3 * c + r]);
+      }
     }
   }
 }
 
-void BlockFactor::subtract(const Contribution &c, const Supernode &to) {
+template <typename T>
+void BlockFactor<T>::subtract(const Contribution &c, const Supernode &to) {
   const Supernode &from = pattern_.node[c.from];
   const size_t rows = from.row_end - c.first;
   for (size_t k = 0; k < rows; ++k) {
     const uint32_t at = 3 * place_[pattern_.row[c.first + k]];
     for (uint32_t r = 0; r < 3; ++r) target_[3 * k + r] = at + r;
   }
-  const double *a = panel(from) + 3 * (from.width() + c.first - from.row_start);
-  update_panel({a, from.height(), panel(to), to.height(), target_.data(), 3 * rows,
-                3 * (c.in_columns - c.first), 3 * from.width()});
+  const T *a = panel(from) + 3 * (from.width() + c.first - from.row_start);
+  update_panel<T>({a, from.height(), panel(to), to.height(), target_.data(), 3 * rows,
+                   3 * (c.in_columns - c.first), 3 * from.width()});
 }
 
-bool BlockFactor::factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) {
+template <typename T>
+bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) {
   for (size_t k = begin_of(part, parts); k < begin_of(part + 1, parts); ++k) {
     const Supernode &s = pattern_.node[k];
     locate(s);
@@ -129,43 +143,53 @@ bool BlockFactor::factorise_part(const BlockMatrix &matrix, uint32_t part, uint3
   return true;
 }
 
-void BlockFactor::load(const Supernode &s, const std::vector<Vec3> &b) {
-  double *to = local_.data();
-  const auto take = [&](const Vec3 &x) { to = std::copy_n(x.data(), 3, to); };
-  for (uint32_t j = s.first; j < s.last; ++j) take(b[j]);
-  for (size_t k = s.row_start; k < s.row_end; ++k) take(b[pattern_.row[k]]);
-}
-
-void BlockFactor::store(const Supernode &s, std::vector<Vec3> &b) const {
-  const double *from = local_.data();
-  for (uint32_t j = s.first; j < s.last; ++j, from += 3) b[j] = Eigen::Map<const Vec3>(from);
-  for (size_t k = s.row_start; k < s.row_end; ++k, from += 3) {
-    b[pattern_.row[k]] = Eigen::Map<const Vec3>(from);
+template <typename T>
+void BlockFactor<T>::load(const Supernode &s) {
+  T *to = std::copy_n(x_.data() + 3 * s.first, 3 * s.width(), local_.data());
+  for (size_t k = s.row_start; k < s.row_end; ++k) {
+    to = std::copy_n(x_.data() + 3 * pattern_.row[k], 3, to);
   }
 }
 
-// L y = b by columns, then L^T x = y with the sums of each row from its last column on: an order
-// that no explicit zero changes.
-void BlockFactor::solve(std::vector<Vec3> &b) {
+template <typename T>
+void BlockFactor<T>::store(const Supernode &s) {
+  const T *from = local_.data();
+  std::copy_n(from, 3 * s.width(), x_.data() + 3 * s.first);
+  from += 3 * s.width();
+  for (size_t k = s.row_start; k < s.row_end; ++k, from += 3) {
+    std::copy_n(from, 3, x_.data() + 3 * pattern_.row[k]);
+  }
+}
+
+// L y = b by columns, then L^T x = y; of doubles with the sums of each row from its last column on:
+// an order that no explicit zero changes.
+template <typename T>
+void BlockFactor<T>::solve(std::vector<Vec3> &b) {
+  for (size_t j = 0; j < b.size(); ++j) Eigen::Map<Row>(x_.data() + 3 * j) = b[j].cast<T>();
   for (const Supernode &s : pattern_.node) {
-    load(s, b);
+    load(s);
     solve_forward(panel(s), 3 * s.width(), s.height(), local_.data());
-    store(s, b);
+    store(s);
   }
   for (size_t k = pattern_.node.size(); k-- > 0;) {
     const Supernode &s = pattern_.node[k];
-    load(s, b);
+    load(s);
     solve_backward(panel(s), 3 * s.width(), s.height(), local_.data());
-    for (uint32_t j = s.first; j < s.last; ++j) {
-      b[j] = Eigen::Map<const Vec3>(local_.data() + 3 * (j - s.first));
-    }
+    std::copy_n(local_.data(), 3 * s.width(), x_.data() + 3 * s.first);
+  }
+  for (size_t j = 0; j < b.size(); ++j) {
+    b[j] = Eigen::Map<const Row>(x_.data() + 3 * j).template cast<double>();
   }
 }
 
 }  // namespace
 
 std::unique_ptr<Factor> make_block_factor() {
-  return std::make_unique<BlockFactor>();
+  return std::make_unique<BlockFactor<double>>();
+}
+
+std::unique_ptr<Factor> make_narrow_factor() {
+  return std::make_unique<BlockFactor<float>>();
 }
 
 }  // namespace mvs

@@ -3,7 +3,9 @@
 #include "base/panel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace mvs {
 namespace {
@@ -13,72 +15,89 @@ constexpr size_t block_columns = 48;
 // A piece of this size is 96 kB: a part of the second-level cache.
 constexpr size_t piece_depth = 128, piece_rows = 96;
 
-// Vectors in registers, and as they lie in memory: anywhere.
+// Vectors in registers, and as they lie in memory: anywhere. A tile is `vectors` of them high.
 #if defined(__GNUC__)
 #define MVS_INLINE [[gnu::always_inline]] inline
-template <size_t count>
+#define MVS_RESTRICT __restrict
+template <typename T, size_t count, size_t vectors_in>
 struct Wide {
-  static constexpr size_t lanes = count;
-  typedef double Value __attribute__((vector_size(8 * count)));
-  typedef double Memory __attribute__((vector_size(8 * count), aligned(8), may_alias));
+  using Number = T;
+  static constexpr size_t lanes = count, vectors = vectors_in, height = lanes * vectors;
+  typedef T Value __attribute__((vector_size(sizeof(T) * count)));
+  typedef T Memory __attribute__((vector_size(sizeof(T) * count), aligned(alignof(T)), may_alias));
 };
 #else
 #define MVS_INLINE inline
-template <size_t>
+#define MVS_RESTRICT
+template <typename T, size_t, size_t vectors_in>
 struct Wide {
-  static constexpr size_t lanes = 1;
-  typedef double Value;
-  typedef double Memory;
+  using Number = T;
+  static constexpr size_t lanes = 1, vectors = vectors_in, height = vectors;
+  typedef T Value;
+  typedef T Memory;
 };
 #endif
 
-// A tile of 2 vectors by tile_columns: rows contiguous in C, or gathered into a buffer that is.
 template <typename V>
-MVS_INLINE void subtract_tile(double *c, size_t c_stride, const double *a, const double *b,
-                              size_t a_stride, size_t depth) {
-  constexpr size_t lanes = V::lanes;
-  using Value = typename V::Value;
-  using Memory = typename V::Memory;
-  Value sum[2][tile_columns];
+MVS_INLINE auto &at(typename V::Number *p) {
+  return *reinterpret_cast<typename V::Memory *>(p);
+}
+
+template <typename V>
+MVS_INLINE const auto &at(const typename V::Number *p) {
+  return *reinterpret_cast<const typename V::Memory *>(p);
+}
+
+template <typename V>
+MVS_INLINE typename V::Number sum_of(typename V::Value &v) {
+  typename V::Number part[V::lanes];
+  std::memcpy(part, &v, sizeof part);
+  for (size_t half = V::lanes / 2; half > 0; half /= 2) {
+    for (size_t k = 0; k < half; ++k) part[k] += part[k + half];
+  }
+  return part[0];
+}
+
+// A tile of tile_columns: rows contiguous in C, or gathered into a buffer that is.
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void subtract_tile(T *c, size_t c_stride, const T *a, const T *b, size_t a_stride,
+                              size_t depth) {
+  constexpr size_t lanes = V::lanes, vectors = V::vectors;
+  typename V::Value sum[vectors][tile_columns], of_a[vectors];
   for (size_t j = 0; j < tile_columns; ++j) {
-    sum[0][j] = *reinterpret_cast<const Memory *>(c + j * c_stride);
-    sum[1][j] = *reinterpret_cast<const Memory *>(c + j * c_stride + lanes);
+    for (size_t v = 0; v < vectors; ++v) sum[v][j] = at<V>(c + j * c_stride + v * lanes);
   }
   for (size_t k = 0; k < depth; ++k, a += a_stride, b += a_stride) {
-    const Value a0 = *reinterpret_cast<const Memory *>(a),
-                a1 = *reinterpret_cast<const Memory *>(a + lanes);
+    for (size_t v = 0; v < vectors; ++v) of_a[v] = at<V>(a + v * lanes);
     for (size_t j = 0; j < tile_columns; ++j) {
-      sum[0][j] -= a0 * b[j];
-      sum[1][j] -= a1 * b[j];
+      for (size_t v = 0; v < vectors; ++v) sum[v][j] -= of_a[v] * b[j];
     }
   }
   for (size_t j = 0; j < tile_columns; ++j) {
-    *reinterpret_cast<Memory *>(c + j * c_stride) = sum[0][j];
-    *reinterpret_cast<Memory *>(c + j * c_stride + lanes) = sum[1][j];
+    for (size_t v = 0; v < vectors; ++v) at<V>(c + j * c_stride + v * lanes) = sum[v][j];
   }
 }
 
 // A tile whose rows or columns are not all there or not contiguous in C.
-template <typename V>
-MVS_INLINE void subtract_scattered(const PanelUpdate &u, size_t i, size_t j, size_t rows,
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void subtract_scattered(const PanelUpdate<T> &u, size_t i, size_t j, size_t rows,
                                    size_t columns) {
-  constexpr size_t height = 2 * V::lanes;
-  double tile[height * tile_columns] = {};
+  T tile[V::height * tile_columns] = {};
   for (size_t q = 0; q < columns; ++q) {
-    const double *from = u.c + u.row[j + q] * u.c_stride;
-    for (size_t p = 0; p < rows; ++p) tile[q * height + p] = from[u.row[i + p]];
+    const T *from = u.c + u.row[j + q] * u.c_stride;
+    for (size_t p = 0; p < rows; ++p) tile[q * V::height + p] = from[u.row[i + p]];
   }
-  subtract_tile<V>(tile, height, u.a + i, u.a + j, u.a_stride, u.depth);
+  subtract_tile<V>(tile, V::height, u.a + i, u.a + j, u.a_stride, u.depth);
   for (size_t q = 0; q < columns; ++q) {
-    double *to = u.c + u.row[j + q] * u.c_stride;
-    for (size_t p = 0; p < rows; ++p) to[u.row[i + p]] = tile[q * height + p];
+    T *to = u.c + u.row[j + q] * u.c_stride;
+    for (size_t p = 0; p < rows; ++p) to[u.row[i + p]] = tile[q * V::height + p];
   }
 }
 
 // Rows first .. last against columns from j on, a piece of the depth at a time.
-template <typename V>
-MVS_INLINE void update_rows(const PanelUpdate &u, size_t first, size_t last, size_t j) {
-  constexpr size_t height = 2 * V::lanes;
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void update_rows(const PanelUpdate<T> &u, size_t first, size_t last, size_t j) {
+  constexpr size_t height = V::height;
   const size_t columns = std::min(tile_columns, u.n - j);
   const bool run = columns == tile_columns && u.row[j + columns - 1] - u.row[j] == columns - 1;
   for (size_t i = std::max(first, j); i < last; i += height) {
@@ -93,10 +112,10 @@ MVS_INLINE void update_rows(const PanelUpdate &u, size_t first, size_t last, siz
 }
 
 // A piece of A that stays in the cache meets all its columns before the next one comes.
-template <typename V>
-MVS_INLINE void update(const PanelUpdate &u) {
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void update(const PanelUpdate<T> &u) {
   for (size_t k = 0; k < u.depth; k += piece_depth) {
-    PanelUpdate piece = u;
+    PanelUpdate<T> piece = u;
     piece.a += k * u.a_stride;
     piece.depth = std::min(piece_depth, u.depth - k);
     for (size_t i = 0; i < u.m; i += piece_rows) {
@@ -109,8 +128,8 @@ MVS_INLINE void update(const PanelUpdate &u) {
 }
 
 // Takes from columns first .. last of a panel what the columns left .. first to their left give.
-template <typename V>
-MVS_INLINE void subtract_left(double *panel, size_t height, size_t left, size_t first, size_t last,
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void subtract_left(T *panel, size_t height, size_t left, size_t first, size_t last,
                               const uint32_t *identity) {
   if (left == first) return;
   update<V>({panel + left * height + first, height, panel + first * height + first, height,
@@ -118,16 +137,17 @@ MVS_INLINE void subtract_left(double *panel, size_t height, size_t left, size_t 
 }
 
 // Factorises columns first .. last by themselves, one after the other.
-MVS_INLINE bool factorise_columns(double *panel, size_t height, size_t first, size_t last) {
+template <typename T>
+MVS_INLINE bool factorise_columns(T *panel, size_t height, size_t first, size_t last) {
   for (size_t j = first; j < last; ++j) {
-    double *column = panel + j * height;
+    T *column = panel + j * height;
     for (size_t k = first; k < j; ++k) {
-      const double *earlier = panel + k * height, factor = earlier[j];
+      const T *earlier = panel + k * height, factor = earlier[j];
       for (size_t i = j; i < height; ++i) column[i] -= earlier[i] * factor;
     }
-    const double pivot = column[j];
+    const T pivot = column[j];
     if (!(pivot > 0) || !std::isfinite(pivot)) return false;
-    const double inverse = 1 / std::sqrt(pivot);
+    const T inverse = 1 / std::sqrt(pivot);
     column[j] = inverse;
     for (size_t i = j + 1; i < height; ++i) column[i] *= inverse;
   }
@@ -135,8 +155,8 @@ MVS_INLINE bool factorise_columns(double *panel, size_t height, size_t first, si
 }
 
 // Blocks of columns, and tiles of columns in them.
-template <typename V>
-MVS_INLINE bool factorise(double *panel, size_t width, size_t height, const uint32_t *identity) {
+template <typename V, typename T = typename V::Number>
+MVS_INLINE bool factorise(T *panel, size_t width, size_t height, const uint32_t *identity) {
   for (size_t block = 0; block < width; block += block_columns) {
     const size_t end = std::min(block + block_columns, width);
     subtract_left<V>(panel, height, 0, block, end, identity);
@@ -149,78 +169,141 @@ MVS_INLINE bool factorise(double *panel, size_t width, size_t height, const uint
   return true;
 }
 
-struct Kernels {
-  void (*update)(const PanelUpdate &);
-  bool (*factorise)(double *, size_t, size_t, const uint32_t *);
-};
-
-Kernels choose() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  struct Widest {
-    [[gnu::target("avx512f")]] static void update(const PanelUpdate &u) { mvs::update<Wide<8>>(u); }
-    [[gnu::target("avx512f")]] static bool factorise(double *panel, size_t width, size_t height,
-                                                     const uint32_t *identity) {
-      return mvs::factorise<Wide<8>>(panel, width, height, identity);
-    }
-  };
-  struct Wider {
-    [[gnu::target("avx2")]] static void update(const PanelUpdate &u) { mvs::update<Wide<4>>(u); }
-    [[gnu::target("avx2")]] static bool factorise(double *panel, size_t width, size_t height,
-                                                  const uint32_t *identity) {
-      return mvs::factorise<Wide<4>>(panel, width, height, identity);
-    }
-  };
-  if (__builtin_cpu_supports("avx512f")) return {&Widest::update, &Widest::factorise};
-  if (__builtin_cpu_supports("avx2")) return {&Wider::update, &Wider::factorise};
-#endif
-  struct Plain {
-    static void update(const PanelUpdate &u) { mvs::update<Wide<2>>(u); }
-    static bool factorise(double *panel, size_t width, size_t height, const uint32_t *identity) {
-      return mvs::factorise<Wide<2>>(panel, width, height, identity);
-    }
-  };
-  return {&Plain::update, &Plain::factorise};
+// Three columns at a time, as many as a block has.
+template <typename T>
+MVS_INLINE void forward(const T *MVS_RESTRICT panel, size_t width, size_t height,
+                        T *MVS_RESTRICT x) {
+  for (size_t j = 0; j < width; j += 3) {
+    const T *a = panel + j * height, *b = a + height, *c = b + height;
+    const T x0 = x[j] * a[j];
+    const T x1 = (x[j + 1] - a[j + 1] * x0) * b[j + 1];
+    const T x2 = (x[j + 2] - a[j + 2] * x0 - b[j + 2] * x1) * c[j + 2];
+    x[j] = x0;
+    x[j + 1] = x1;
+    x[j + 2] = x2;
+    for (size_t i = j + 3; i < height; ++i) x[i] = x[i] - a[i] * x0 - b[i] * x1 - c[i] * x2;
+  }
 }
 
-const Kernels &kernels() {
-  static const Kernels chosen = choose();
+// What the rows below take from three columns: from the last row on.
+MVS_INLINE void take_below(const double *a, size_t height, size_t first, const double *x,
+                           std::array<double, 3> &sum) {
+  const double *b = a + height, *c = b + height;
+  for (size_t i = height; i-- > first;) {
+    sum[0] -= a[i] * x[i];
+    sum[1] -= b[i] * x[i];
+    sum[2] -= c[i] * x[i];
+  }
+}
+
+// In eight sums each, whatever the processor: the bits are the same on all of them.
+MVS_INLINE void take_below(const float *a, size_t height, size_t first, const float *x,
+                           std::array<float, 3> &sum) {
+  using Eight = Wide<float, 8, 1>;
+  typename Eight::Value part[3] = {};
+  size_t i = first;
+  for (; i + Eight::lanes <= height; i += Eight::lanes) {
+    const auto of_x = at<Eight>(x + i);
+    for (size_t c = 0; c < 3; ++c) part[c] += at<Eight>(a + c * height + i) * of_x;
+  }
+  for (; i < height; ++i) {
+    for (size_t c = 0; c < 3; ++c) sum[c] -= a[c * height + i] * x[i];
+  }
+  for (size_t c = 0; c < 3; ++c) sum[c] -= sum_of<Eight>(part[c]);
+}
+
+// Three columns at a time: their sums do not wait for each other.
+template <typename T>
+MVS_INLINE void backward(const T *panel, size_t width, size_t height, T *x) {
+  for (size_t j = width; j > 0; j -= 3) {
+    const T *a = panel + (j - 3) * height, *b = a + height, *c = b + height;
+    std::array<T, 3> sum = {x[j - 3], x[j - 2], x[j - 1]};
+    take_below(a, height, j, x, sum);
+    x[j - 1] = sum[2] * c[j - 1];
+    x[j - 2] = (sum[1] - b[j - 1] * x[j - 1]) * b[j - 2];
+    x[j - 3] = (sum[0] - a[j - 1] * x[j - 1] - a[j - 2] * x[j - 2]) * a[j - 3];
+  }
+}
+
+template <typename T>
+struct Kernels {
+  void (*update)(const PanelUpdate<T> &);
+  bool (*factorise)(T *, size_t, size_t, const uint32_t *);
+  void (*forward)(const T *, size_t, size_t, T *);
+  void (*backward)(const T *, size_t, size_t, T *);
+};
+
+// The kernels compiled for a target with V its vectors.
+#define MVS_KERNELS(Name, ATTRIBUTE)                                                      \
+  template <typename V>                                                                   \
+  struct Name {                                                                           \
+    using T = typename V::Number;                                                         \
+    ATTRIBUTE static void update(const PanelUpdate<T> &u) { mvs::update<V>(u); }          \
+    ATTRIBUTE static bool factorise(T *p, size_t w, size_t h, const uint32_t *identity) { \
+      return mvs::factorise<V>(p, w, h, identity);                                        \
+    }                                                                                     \
+    ATTRIBUTE static void forward(const T *p, size_t w, size_t h, T *x) {                 \
+      mvs::forward(p, w, h, x);                                                           \
+    }                                                                                     \
+    ATTRIBUTE static void backward(const T *p, size_t w, size_t h, T *x) {                \
+      mvs::backward(p, w, h, x);                                                          \
+    }                                                                                     \
+    static Kernels<T> all() { return {&update, &factorise, &forward, &backward}; }        \
+  }
+
+MVS_KERNELS(Plain, );
+#if defined(__x86_64__) && defined(__GNUC__)
+MVS_KERNELS(Wider, [[gnu::target("avx2")]]);
+MVS_KERNELS(Widest, [[gnu::target("avx512f")]]);
+#endif
+
+// A tile of floats has as many rows as one of doubles: panels of small valves are not high.
+template <typename T>
+Kernels<T> choose() {
+  constexpr size_t sse = 16 / sizeof(T);
+  constexpr bool narrow = sizeof(T) == 4;
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx512f")) return Widest<Wide<T, 4 * sse, narrow ? 1 : 2>>::all();
+  if (__builtin_cpu_supports("avx2")) return Wider<Wide<T, 2 * sse, narrow ? 1 : 2>>::all();
+#endif
+  return Plain<Wide<T, sse, 2>>::all();
+}
+
+template <typename T>
+const Kernels<T> &kernels() {
+  static const Kernels<T> chosen = choose<T>();
   return chosen;
 }
 
 }  // namespace
 
-void update_panel(const PanelUpdate &u) {
-  kernels().update(u);
+template <typename T>
+void update_panel(const PanelUpdate<T> &u) {
+  kernels<T>().update(u);
 }
 
-bool factorise_panel(double *panel, size_t width, size_t height, const uint32_t *identity) {
-  return kernels().factorise(panel, width, height, identity);
+template <typename T>
+bool factorise_panel(T *panel, size_t width, size_t height, const uint32_t *identity) {
+  return kernels<T>().factorise(panel, width, height, identity);
 }
 
-void solve_forward(const double *panel, size_t width, size_t height, double *x) {
-  for (size_t j = 0; j < width; ++j, panel += height) {
-    const double y = x[j] *= panel[j];
-    for (size_t i = j + 1; i < height; ++i) x[i] -= panel[i] * y;
-  }
+template <typename T>
+void solve_forward(const T *panel, size_t width, size_t height, T *x) {
+  kernels<T>().forward(panel, width, height, x);
 }
 
-// Three columns at a time, as many as a block has: their sums do not wait for each other.
-void solve_backward(const double *panel, size_t width, size_t height, double *x) {
-  for (size_t j = width; j > 0; j -= 3) {
-    const double *a = panel + (j - 3) * height, *b = a + height, *c = b + height;
-    double x0 = x[j - 3], x1 = x[j - 2], x2 = x[j - 1];
-    for (size_t i = height; i-- > j;) {
-      x0 -= a[i] * x[i];
-      x1 -= b[i] * x[i];
-      x2 -= c[i] * x[i];
-    }
-    x2 *= c[j - 1];
-    x1 = (x1 - b[j - 1] * x2) * b[j - 2];
-    x0 = (x0 - a[j - 1] * x2 - a[j - 2] * x1) * a[j - 3];
-    x[j - 3] = x0;
-    x[j - 2] = x1;
-    x[j - 1] = x2;
-  }
+template <typename T>
+void solve_backward(const T *panel, size_t width, size_t height, T *x) {
+  kernels<T>().backward(panel, width, height, x);
 }
+
+template void update_panel(const PanelUpdate<double> &);
+template void update_panel(const PanelUpdate<float> &);
+template bool factorise_panel(double *, size_t, size_t, const uint32_t *);
+template bool factorise_panel(float *, size_t, size_t, const uint32_t *);
+template void solve_forward(const double *, size_t, size_t, double *);
+template void solve_forward(const float *, size_t, size_t, float *);
+template void solve_backward(const double *, size_t, size_t, double *);
+template void solve_backward(const float *, size_t, size_t, float *);
 
 }  // namespace mvs

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/factor_block.h"
+
 namespace mvs {
 namespace {
 
@@ -18,16 +20,23 @@ constexpr uint32_t most_iterations = 6;
 constexpr uint32_t many_iterations = 3;
 constexpr uint32_t oldest = 20;  // steps
 
+bool is_our_own(uint32_t backend) {
+  return backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK;
+}
+
+std::unique_ptr<Factor> make_preconditioner(uint32_t backend) {
+  return is_our_own(backend) ? make_narrow_factor() : make_factor(backend);
+}
+
 }  // namespace
 
 StepSolver::StepSolver(const Model &model, const Potential &potential, uint32_t backend)
     : potential_(&potential),
-      first_(model, make_factor(backend)),
-      second_(model, make_factor(backend)) {
+      first_(model, make_preconditioner(backend)),
+      second_(model, make_preconditioner(backend)),
+      exact_(model, make_factor(backend)) {
   // other backends do best with the order that each matrix of its own gives
-  if (backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK) {
-    order_.emplace(model, potential.pairs());
-  }
+  if (is_our_own(backend)) order_.emplace(model, potential.pairs());
 }
 
 void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,
@@ -78,11 +87,7 @@ void StepSolver::solve(StepMatrix &matrix, const Waypoint &here, const std::vect
   if (!state.serving.x.empty() && iterate(matrix, rows, left, stats)) {
     ++state.serving.age;
     work_ahead(matrix, here, x, state, left, stats);
-  } else if (factorise_here(matrix, here, x, state, left, stats)) {
-    const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
-    serving_->solve(rows, solution_);
-    rows.swap(solution_);
-  } else {
+  } else if (!factorise_here(matrix, here, x, state, rows, left, stats)) {
     stats.lowered |= MVS_LOWERED_LINEAR;
     matrix.divide(rows);
   }
@@ -134,29 +139,56 @@ void StepSolver::work_ahead(const StepMatrix &matrix, const Waypoint &here,
   }
 }
 
-// More mass where the pressure makes the matrix indefinite: a smaller step in disguise, whose
-// factor serves no other. False where the budget ends before.
+// False where the budget ends before.
 bool StepSolver::factorise_here(const StepMatrix &matrix, const Waypoint &here,
-                                const std::vector<Vec3> &x, State &state, uint32_t &left,
-                                SolveStats &stats) {
+                                const std::vector<Vec3> &x, State &state, std::vector<Vec3> &rows,
+                                uint32_t &left, SolveStats &stats) {
   state.forget_way();
   if (left <= closing) return false;
   const Waypoint place = with_place(here, x);
   take(matrix, place, *serving_, stats.work);
-  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
-  double times = 1;
-  while (left > closing && times < 1e18) {
+  bool positive = false;
+  {
+    const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
     --left;
     ++stats.factorisations;
-    if (serving_->factorise()) {
-      if (times == 1) state.serving = place;
+    positive = serving_->factorise();
+  }
+  if (positive && (left == closing || iterate(matrix, rows, left, stats))) {
+    if (left == closing) solve_with(*serving_, rows, stats);
+    state.serving = place;
+    return true;
+  }
+  return solve_exactly(matrix, place, rows, left, stats);
+}
+
+// In double precision where single does not do, and with more mass where the pressure makes the
+// matrix indefinite: a smaller step in disguise. This factor serves no other step.
+bool StepSolver::solve_exactly(const StepMatrix &matrix, const Waypoint &place,
+                               std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats) {
+  take(matrix, place, exact_, stats.work);
+  for (double times = 1; left > closing && times < 1e18; times *= 4) {
+    --left;
+    ++stats.factorisations;
+    bool positive = false;
+    {
+      const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+      positive = exact_.factorise();
+    }
+    if (positive) {
+      solve_with(exact_, rows, stats);
       return true;
     }
     if (times == 1) ++stats.shifted;
-    serving_->add_mass(matrix, 3 * times);
-    times *= 4;
+    exact_.add_mass(matrix, 3 * times);
   }
   return false;
+}
+
+void StepSolver::solve_with(KeptFactor &factor, std::vector<Vec3> &rows, SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
+  factor.solve(rows, solution_);
+  rows.swap(solution_);
 }
 
 Waypoint StepSolver::with_place(const Waypoint &here, const std::vector<Vec3> &x) {

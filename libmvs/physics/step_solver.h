@@ -47,13 +47,17 @@ class StepSolver {
   void work_ahead(const StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
                   State &state, uint32_t &left, SolveStats &stats);
   bool factorise_here(const StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
-                      State &state, uint32_t &left, SolveStats &stats);
+                      State &state, std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats);
+  bool solve_exactly(const StepMatrix &matrix, const Waypoint &place, std::vector<Vec3> &rows,
+                     uint32_t &left, SolveStats &stats);
+  void solve_with(KeptFactor &factor, std::vector<Vec3> &rows, SolveStats &stats);
   Waypoint with_place(const Waypoint &here, const std::vector<Vec3> &x);
 
   const Potential *potential_;
   std::optional<ContactOrder> order_;  // none: backends find their own
   KeptFactor first_, second_;
   KeptFactor *serving_ = &first_, *coming_ = &second_;
+  KeptFactor exact_;
   Pcg pcg_;
   std::vector<Vec3> solution_;
   uint32_t iterations_ = 0;  // of this step
