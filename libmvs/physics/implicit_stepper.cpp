@@ -58,7 +58,6 @@ void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
       std::fill(v_.begin(), v_.end(), Vec3::Zero());
       state.v.edit() = v_;
     }
-    state.forget_way();
     kinetic_ = 0;
     stats.skipped |= MVS_SKIPPED_STEP;
     report(stats);

@@ -193,16 +193,30 @@ TEST_CASE("an_earlier_factor_serves_within_its_tolerance") {
   CHECK(whole < 40);
 }
 
-TEST_CASE("a_valve_at_rest_has_no_waypoints") {
+TEST_CASE("a_valve_that_wakes_makes_no_factor") {
+  const ModelPtr model = a_valve();
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  state.load.pressure *= 0.95;
+  bool asleep = false;
+  for (int k = 0; k < 2000 && !asleep; ++k) {
+    asleep = (solver.step(*model, state, {}).skipped & MVS_SKIPPED_STEP) != 0;
+  }
+  REQUIRE(asleep);
+  CHECK(!state.serving.x.empty());
+  state.load.pressure *= 1.01;
+  const SolveStats stats = solver.step(*model, state, {});
+  CHECK((stats.skipped & MVS_SKIPPED_STEP) == 0);
+  CHECK(stats.factorisations == 0);
+}
+
+TEST_CASE("a_valve_that_was_settled_has_no_waypoints") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Solver solver(MVS_BACKEND_DEFAULT);
   state.load.pressure *= 0.95;
   for (int k = 0; k < 5; ++k) solver.step(*model, state, {});
   CHECK(!state.serving.x.empty());
-  SUBCASE("asleep") {
-    for (int k = 0; k < 2000 && !state.serving.x.empty(); ++k) solver.step(*model, state, {});
-  }
   SUBCASE("settled") {
     solver.settle(*model, state, {}, {});
   }
