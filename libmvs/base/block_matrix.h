@@ -11,22 +11,26 @@ namespace mvs {
 class BlockMatrix {
  public:
   // Takes the pattern of `n` block rows from pairs of rows in any order; the diagonal is always in.
-  void set_pattern(uint32_t n, std::vector<Edge> pairs) { take_pattern(n, pairs); }
-
-  // The same in the memory of `pairs`.
-  void take_pattern(uint32_t n, std::vector<Edge> &pairs) {
-    for (uint32_t i = 0; i < n; ++i) pairs.push_back({i, i});
+  void set_pattern(uint32_t n, std::vector<Edge> pairs) {
     sort_pairs(n, pairs);
+    take_sorted(n, pairs);
+  }
+
+  // The same from what sort_pairs() gave.
+  void take_sorted(uint32_t n, const std::vector<Edge> &pairs) {
     start.assign(n + 1, 0);
-    make_room(row, pairs.size());
-    make_room(value, pairs.size());
-    row.resize(pairs.size());
-    for (size_t k = 0; k < pairs.size(); ++k) {
-      ++start[pairs[k][0] + 1];
-      row[k] = pairs[k][1];
+    make_room(row, pairs.size() + n);
+    make_room(value, pairs.size() + n);
+    row.clear();
+    auto pair = pairs.begin();
+    for (uint32_t c = 0; c < n; ++c) {
+      row.push_back(c);
+      for (; pair != pairs.end() && (*pair)[0] == c; ++pair) {
+        if ((*pair)[1] != c) row.push_back((*pair)[1]);
+      }
+      start[c + 1] = static_cast<uint32_t>(row.size());
     }
-    for (uint32_t c = 0; c < n; ++c) start[c + 1] += start[c];
-    value.resize(pairs.size());
+    value.resize(row.size());
     clear();
   }
 
@@ -41,7 +45,7 @@ class BlockMatrix {
   // row, then, keeping that order, by the lower one.
   void sort_pairs(uint32_t n, std::vector<Edge> &pairs) {
     for (Edge &p : pairs) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
-    make_room(pairs, pairs.size() + n);  // and the diagonal
+    make_room(pairs, pairs.size());
     halfway_.reserve(pairs.capacity());  // grows no more often than what is sorted
     halfway_.resize(pairs.size());
     for (const size_t key : {1u, 0u}) {

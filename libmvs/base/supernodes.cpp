@@ -24,31 +24,54 @@ void Supernodes::analyse(const BlockMatrix &matrix) {
   find_contributions();
 }
 
-// The rows of column j: its own, and those of the columns whose first row below is j.
+// The rows of column j: its own, and those of the columns whose first row below is j. Those of the
+// longest of these are in order already, and most of what there is.
 void Supernodes::find_columns(const BlockMatrix &matrix) {
   const uint32_t n = matrix.size();
   column_start_.assign(n + 1, 0);
   column_row_.clear();
+  make_room(added_, n);
   child_.assign(n, none);
   sibling_.assign(n, none);
   mark_.assign(n, none);
+  const auto length = [&](uint32_t c) { return column_start_[c + 1] - column_start_[c]; };
   for (uint32_t j = 0; j < n; ++j) {
     const size_t begin = column_row_.size();
     mark_[j] = j;
-    auto take = [&](uint32_t r) {
+    const auto take = [&](uint32_t r) {
       if (r <= j || mark_[r] == j) return;
       mark_[r] = j;
       column_row_.push_back(r);
     };
+    const auto take_column = [&](uint32_t c) {
+      for (size_t k = column_start_[c]; k < column_start_[c + 1]; ++k) take(column_row_[k]);
+    };
+    uint32_t longest = child_[j];
+    for (uint32_t c = child_[j]; c != none; c = sibling_[c]) {
+      if (length(c) > length(longest)) longest = c;
+    }
+    if (longest != none) take_column(longest);
+    const size_t ordered = column_row_.size();
     for (uint32_t k = matrix.start[j]; k < matrix.start[j + 1]; ++k) take(matrix.row[k]);
     for (uint32_t c = child_[j]; c != none; c = sibling_[c]) {
-      for (size_t k = column_start_[c]; k < column_start_[c + 1]; ++k) take(column_row_[k]);
+      if (c != longest) take_column(c);
     }
-    std::sort(column_row_.begin() + static_cast<std::ptrdiff_t>(begin), column_row_.end());
+    sort_in(begin, ordered);
     column_start_[j + 1] = column_row_.size();
     if (begin == column_row_.size()) continue;
     sibling_[j] = child_[column_row_[begin]];
     child_[column_row_[begin]] = j;
+  }
+}
+
+// Sorts column_row_ from `begin` on, of which all before `ordered` is.
+void Supernodes::sort_in(size_t begin, size_t ordered) {
+  if (ordered == column_row_.size()) return;
+  added_.assign(column_row_.begin() + static_cast<std::ptrdiff_t>(ordered), column_row_.end());
+  std::sort(added_.begin(), added_.end());
+  for (size_t to = column_row_.size(), old = ordered, left = added_.size(); left > 0;) {
+    const bool takes_old = old > begin && column_row_[old - 1] > added_[left - 1];
+    column_row_[--to] = takes_old ? column_row_[--old] : added_[--left];
   }
 }
 

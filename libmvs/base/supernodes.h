@@ -42,6 +42,7 @@ class Supernodes {
 
  private:
   void find_columns(const BlockMatrix &matrix);
+  void sort_in(size_t begin, size_t ordered);
   void gather_runs();
   void merge();
   void place_panels();
@@ -50,7 +51,7 @@ class Supernodes {
 
   // the factor by single columns
   std::vector<size_t> column_start_;
-  std::vector<uint32_t> column_row_, mark_, child_, sibling_, owner_;
+  std::vector<uint32_t> column_row_, mark_, child_, sibling_, owner_, added_;
 };
 
 }  // namespace mvs

@@ -17,37 +17,54 @@ bool KeptFactor::is_of(const Waypoint &place, uint32_t done) const {
 void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
                       const std::vector<uint32_t> *order) {
   const BlockMatrix &m = matrix.blocks();
-  const auto for_each = [&](auto visit) {
-    for (uint32_t c = 0; c < m.size(); ++c) {
-      for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
-        if (!m.value[k].isZero(0)) visit(matrix.node(m.row[k]), matrix.node(c), m.value[k]);
-      }
-    }
-  };
   place_ = place;
   done_ = 0;
+  has_order_ = order != nullptr;
+  if (has_order_) order_ = *order;
+  nodes_.clear();
   pairs_.clear();
-  for_each([&](uint32_t i, uint32_t j, const Mat3 &) { pairs_.push_back({i, j}); });
-  if (order) system_.set_order(*model_, *order);
+  blocks_.clear();
+  for (auto *list : {&blocks_, &diagonal_}) make_room(*list, m.value.size());
+  make_room(pairs_, m.value.size());
+  diagonal_.clear();
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    nodes_.push_back(matrix.node(c));
+    diagonal_.push_back(m.value[m.start[c]]);
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      if (m.value[k].isZero(0)) continue;
+      pairs_.push_back({matrix.node(m.row[k]), nodes_.back()});
+      blocks_.push_back(m.value[k]);
+    }
+  }
+}
+
+// Rows in the order of elimination, and what that fills.
+void KeptFactor::set_pattern() {
+  if (has_order_) system_.set_order(*model_, order_);
   system_.set_pattern(*model_, pairs_);
   factor_->analyse(system_.matrix);
-  for_each([&](uint32_t i, uint32_t j, const Mat3 &block) { system_.add(i, j, block); });
-  row_.resize(m.size());
-  for (uint32_t r = 0; r < m.size(); ++r) {
-    system_.add_diagonal(matrix.node(r), m.value[m.start[r]]);
-    row_[r] = system_.row_of[matrix.node(r)];
+  for (size_t k = 0; k < pairs_.size(); ++k) system_.add(pairs_[k][0], pairs_[k][1], blocks_[k]);
+  row_.resize(nodes_.size());
+  for (size_t r = 0; r < nodes_.size(); ++r) {
+    system_.add_diagonal(nodes_[r], diagonal_[r]);
+    row_[r] = system_.row_of[nodes_[r]];
   }
 }
 
 bool KeptFactor::factorise_part(uint32_t part) {
   if (part < done_) return true;
-  const bool positive = factor_->factorise_part(system_.matrix, part, parts);
   done_ = part + 1;
+  if (part == 0) {
+    set_pattern();
+    return true;
+  }
+  const bool positive = factor_->factorise_part(system_.matrix, part - 1, parts - 1);
   if (!positive) place_ = {};
   return positive;
 }
 
 bool KeptFactor::factorise() {
+  if (done_ == 0) set_pattern();
   const bool positive = factor_->factorise(system_.matrix);
   done_ = parts;
   if (!positive) place_ = {};

@@ -11,7 +11,8 @@ namespace mvs {
 
 class KeptFactor {
  public:
-  // Parts of about the same work in which a factor is made beside the steps that another serves.
+  // Parts of about the same work in which a factor is made beside the steps that another serves:
+  // first the pattern, then the numbers.
   static constexpr uint32_t parts = 3;
 
   KeptFactor(const Model &model, std::unique_ptr<Factor> factor);
@@ -31,14 +32,20 @@ class KeptFactor {
   void solve(const std::vector<Vec3> &r, std::vector<Vec3> &z);
 
  private:
+  void set_pattern();
+
   const Model *model_;
   std::unique_ptr<Factor> factor_;
   System system_;
   Waypoint place_;
   uint32_t done_ = 0;          // parts
   std::vector<uint32_t> row_;  // of a StepMatrix -> here
-  std::vector<Edge> pairs_;    // of nodes, while a pattern is made
-  std::vector<Vec3> turned_;   // a vector in the order here
+  // the matrix as it was taken: rows by node, blocks below the diagonal by pairs of nodes
+  std::vector<uint32_t> nodes_, order_;
+  bool has_order_ = false;
+  std::vector<Edge> pairs_;
+  std::vector<Mat3> blocks_, diagonal_;
+  std::vector<Vec3> turned_;  // a vector in the order here
 };
 
 }  // namespace mvs

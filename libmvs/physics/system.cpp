@@ -26,7 +26,7 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
     matrix.sort_pairs(rows, rows_);
     if (static_cast<double>(rows_.size()) > needed) take_rows(pairs);
   }
-  matrix.take_pattern(rows, rows_);
+  matrix.take_sorted(rows, rows_);
 }
 
 void System::find_slots(const std::vector<Edge> &pairs) {
