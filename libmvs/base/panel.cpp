@@ -233,7 +233,8 @@ struct Kernels {
   void (*backward)(const T *, size_t, size_t, T *);
 };
 
-// The kernels compiled for a target with V its vectors.
+// The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define MVS_KERNELS(Name, ATTRIBUTE)                                                      \
   template <typename V>                                                                   \
   struct Name {                                                                           \
@@ -250,6 +251,8 @@ struct Kernels {
     }                                                                                     \
     static Kernels<T> all() { return {&update, &factorise, &forward, &backward}; }        \
   }
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 MVS_KERNELS(Plain, );
 #if defined(__x86_64__) && defined(__GNUC__)

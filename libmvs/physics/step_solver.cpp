@@ -168,7 +168,8 @@ bool StepSolver::factorise_here(const StepMatrix &matrix, const Waypoint &here,
 bool StepSolver::solve_exactly(const StepMatrix &matrix, const Waypoint &place,
                                std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats) {
   take(matrix, place, exact_, stats.work);
-  for (double times = 1; left > closing && times < 1e18; times *= 4) {
+  double times = 1;
+  while (left > closing && times < 1e18) {
     --left;
     ++stats.factorisations;
     bool positive = false;
@@ -182,6 +183,7 @@ bool StepSolver::solve_exactly(const StepMatrix &matrix, const Waypoint &place,
     }
     if (times == 1) ++stats.shifted;
     exact_.add_mass(matrix, 3 * times);
+    times *= 4;
   }
   return false;
 }
