@@ -35,6 +35,7 @@ MovingTree::MovingTree(const std::vector<Vec3> &shape, const std::vector<Tri> &t
     node.after = place[node.after];
   }
   lanes_.resize(block_start_.size() - 1);
+  block_way_.resize(lanes_.size());
   for (WayLanes &lanes : lanes_) lanes.clear();
 }
 
@@ -65,6 +66,7 @@ void MovingTree::place_block(uint32_t block, Node &node, const std::vector<uint8
     node.way.add(way_[t]);
     lanes_[block].set(k - block_start_[block], way_[t]);
   }
+  block_way_[block] = {node.way, 0};
 }
 
 }  // namespace mvs

@@ -40,9 +40,22 @@ class MovingTree {
   // apart() tells for sure.
   template <typename Visit>
   void for_near(uint32_t block, const NarrowWay &way, Visit &&visit) const {
+    if (surely_apart(block_way_[block], way)) return;
     const uint32_t *triangle = order_.data() + block_start_[block];
     for (uint32_t lanes = lanes_[block].near(way); lanes != 0; lanes &= lanes - 1) {
       visit(triangle[std::countr_zero(lanes)]);
+    }
+  }
+  // The same for two of a way, the second with a smaller margin: visit(triangle, may be near it).
+  template <typename Visit>
+  void for_near(uint32_t block, const NarrowWay &way, const NarrowWay &closer,
+                Visit &&visit) const {
+    if (surely_apart(block_way_[block], way)) return;
+    const uint32_t *triangle = order_.data() + block_start_[block];
+    uint32_t lanes = lanes_[block].near(way);
+    if (lanes == 0) return;
+    for (const uint32_t close = lanes_[block].near(closer); lanes != 0; lanes &= lanes - 1) {
+      visit(triangle[std::countr_zero(lanes)], (close & lanes & -lanes) != 0);
     }
   }
 
@@ -89,8 +102,9 @@ class MovingTree {
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_, block_start_;
   std::vector<Way> way_;         // of each triangle
-  std::vector<WayLanes> lanes_;  // of each block
-  double error_ = 0;             // m, of single precision
+  std::vector<WayLanes> lanes_;  // of each block, and the way of all of it
+  std::vector<NarrowWay> block_way_;
+  double error_ = 0;  // m, of single precision
 };
 
 }  // namespace mvs

@@ -2,6 +2,10 @@
 // is near for sure is for apart() to tell.
 #pragma once
 
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
 #include <cstring>
 
 #include "base/way.h"
@@ -13,8 +17,12 @@ namespace mvs {
 typedef float FewNumbers __attribute__((vector_size(16)));
 typedef int32_t FewAnswers __attribute__((vector_size(16)));
 inline uint32_t bits_of(const FewAnswers &answers) {
+#if defined(__SSE__)
+  return static_cast<uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(answers)));
+#else
   const FewAnswers bits = answers & FewAnswers{1, 2, 4, 8};
   return static_cast<uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
+#endif
 }
 #else
 typedef float FewNumbers;

@@ -34,33 +34,27 @@ double edge_edge_distance(const std::vector<Vec3> &x, const Edge &e, const Edge 
 Candidates::Candidates(const Model &model)
     : model_(&model),
       thickness_(model.valve.contact_thickness),
+      apart_at_rest_(model),
       tree_(model.valve.rest, model.valve.triangles),
       owner_(model.topology.edges.size(), none) {
-  const auto &x = model.valve.rest;
   std::vector<uint8_t> taken(model.topology.edges.size(), 0);
   for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
-    const Tri &corners = model.valve.triangles[t];
-    const Vec3 centre = (x[corners[0]] + x[corners[1]] + x[corners[2]]) / 3;
-    double radius = 0;
     Owned owned{};
-    for (int k = 0; k < 3; ++k) {
-      const uint32_t edge = model.topology.triangle_edges[t][k];
+    for (const uint32_t edge : model.topology.triangle_edges[t]) {
       if (!taken[edge]) {
         owned.edge[owned.count++] = edge;
         owner_[edge] = t;
       }
       taken[edge] = 1;
-      radius = std::max(radius, (x[corners[k]] - centre).norm());
     }
     owned_.push_back(owned);
-    rest_centre_.push_back(centre);
-    rest_radius_.push_back(radius);
   }
   place_vertices();
   // more than a closed valve has, so that a live step seldom allocates
   for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(16 * sheet_.size());
   guarded_edges_.reserve(4 * taken.size());
   vertex_way_.resize(model.node_count());
+  guard_way_.resize(model.node_count());
   triangle_way_.resize(owned_.size());
   edge_way_.resize(taken.size());
   triangle_changed_.resize(owned_.size());
@@ -119,8 +113,8 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
     half_[i] = 0.5 * (to[i] - x[i]);
   }
   find_still();
-  if (keeps_near_ && !near_) near_.emplace(*model_);
-  if (keeps_near_ && near_->follow(middle_, half_, slack)) {
+  if (keeps_near_ && !near_) near_.emplace(*model_, apart_at_rest_, tree_);
+  if (keeps_near_ && near_->follow({from_, to_, middle_, half_, slack, pace})) {
     choose();
   } else {
     if (!little) std::fill(changed_.begin(), changed_.end(), uint8_t{1});
@@ -144,26 +138,46 @@ void Candidates::choose() {
   facing_.clear();
   guarded_.clear();
   guarded_edges_.clear();
+  for (const NearBlocks &blocks : near_->blocks()) {
+    for (uint32_t k = blocks.first_triangle; k < blocks.last_triangle; ++k) {
+      const NearTriangle &p = near_->triangles()[k];
+      if (p.over <= blocks.used + blocks.reach) choose(p, blocks);
+    }
+    for (uint32_t k = blocks.first_edge; k < blocks.last_edge; ++k) {
+      const NearEdges &p = near_->edges()[k];
+      if (p.over <= blocks.used + blocks.reach) choose(p);
+    }
+  }
+  sort_pairs(facing_);
+  sort_pairs(guarded_);
+  sort_edges();
+}
+
+// Of what has hardly moved since it was looked at, that is enough to know.
+void Candidates::choose(const NearTriangle &p, const NearBlocks &blocks) {
+  if (still_[p.triangle] && stays(p.vertex)) return;
   const double longest = guard_share * thickness_;
-  const auto &triangles = model_->valve.triangles.get();
-  for (const NearTriangle &p : near_->triangles()) {
-    if (still_[p.triangle] && stays(p.vertex)) continue;
-    const Tri &t = triangles[p.triangle];
-    const std::array<uint32_t, 1> alone{p.vertex};
-    const double most = p.faces ? thickness_ : longest;
-    if (apart(way_of(alone), way_of(t), most + 2 * slack_)) continue;
-    const double distance = vertex_triangle_distance(middle_, p.vertex, t) - reach(alone, t);
-    if (p.faces && distance <= thickness_) facing_.push_back({p.vertex, p.triangle, 0});
-    if (distance <= p.guard) guarded_.push_back({p.vertex, p.triangle, p.guard});
+  const bool surely_faces = p.faces && p.over + blocks.used <= 2 * slack_;
+  if (surely_faces && p.over + thickness_ - longest > blocks.used + blocks.reach) {
+    facing_.push_back({p.vertex, p.triangle, 0});
+    return;
   }
-  const auto &edges = model_->topology.edges.get();
-  for (const NearEdges &p : near_->edges()) {
-    if (still_[owner_[p.first]] && still_[owner_[p.second]]) continue;
-    const Edge &e = edges[p.first], &f = edges[p.second];
-    if (apart(way_of(e), way_of(f), longest + 2 * slack_)) continue;
-    const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
-    if (distance <= p.guard) guarded_edges_.push_back({p.first, p.second, p.guard});
-  }
+  const Tri &t = model_->valve.triangles[p.triangle];
+  const std::array<uint32_t, 1> alone{p.vertex};
+  const double distance = vertex_triangle_distance(middle_, p.vertex, t) - reach(alone, t);
+  if (distance > (p.faces ? thickness_ : p.guard)) return;
+  if (apart(way_of(alone), way_of(t), (p.faces ? thickness_ : longest) + 2 * slack_)) return;
+  if (p.faces) facing_.push_back({p.vertex, p.triangle, 0});
+  if (distance <= p.guard) guarded_.push_back({p.vertex, p.triangle, p.guard});
+}
+
+void Candidates::choose(const NearEdges &p) {
+  if (still_[owner_[p.first]] && still_[owner_[p.second]]) return;
+  const Edge &e = model_->topology.edges[p.first], &f = model_->topology.edges[p.second];
+  const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
+  if (distance > p.guard) return;
+  if (apart(way_of(e), way_of(f), guard_share * thickness_ + 2 * slack_)) return;
+  guarded_edges_.push_back({p.first, p.second, p.guard});
 }
 
 // What changed nodes have no part in stays as it was found.
@@ -179,9 +193,7 @@ void Candidates::search() {
   sort_pairs(facing_);
   sort_pairs(guarded_);
   tree_.for_near_blocks(guard, [&](uint32_t a, uint32_t b) { find_edges(a, b); });
-  std::sort(guarded_edges_.begin(), guarded_edges_.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
-    return p.first != q.first ? p.first < q.first : p.second < q.second;
-  });
+  sort_edges();
 }
 
 void Candidates::forget_changed() {
@@ -212,8 +224,11 @@ bool Candidates::edge_changed(uint32_t edge) const {
 // Vertices and triangles are asked of blocks of triangles without a margin, edges of each other.
 void Candidates::widen_ways(double facing, double guard) {
   vertex_way_.resize(from_.size());
+  guard_way_.resize(from_.size());
   for (const uint32_t v : sheet_) {
-    vertex_way_[v] = tree_.narrow(way_of(std::array<uint32_t, 1>{v}), facing);
+    const Way way = way_of(std::array<uint32_t, 1>{v});
+    vertex_way_[v] = tree_.narrow(way, facing);
+    guard_way_[v] = tree_.narrow(way, guard);
   }
   triangle_way_.resize(still_.size());
   for (uint32_t t = 0; t < still_.size(); ++t) {
@@ -261,7 +276,10 @@ double Candidates::reach(const A &a, const B &b) const {
 void Candidates::find_vertices(uint32_t of, uint32_t block) {
   for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
     const uint32_t v = sheet_[k];
-    tree_.for_near(block, vertex_way_[v], [&](uint32_t t) { take(v, t); });
+    // most of what is near is so at rest, where only what is as near as a guard counts
+    tree_.for_near(block, vertex_way_[v], guard_way_[v], [&](uint32_t t, bool is_guarded) {
+      if (is_guarded || apart_at_rest_(v, t)) take(v, t);
+    });
   }
 }
 
@@ -270,7 +288,7 @@ void Candidates::take(uint32_t vertex, uint32_t triangle) {
   const Tri &t = model_->valve.triangles[triangle];
   if (has(t, vertex) || (still_[triangle] && stays(vertex))) return;
   if (!changed_[vertex] && !triangle_changed_[triangle]) return;
-  const bool faces = apart_at_rest(vertex, triangle);
+  const bool faces = apart_at_rest_(vertex, triangle);
   const double longest = guard_share * thickness_;
   const std::array<uint32_t, 1> alone{vertex};
   const double margin = (faces ? thickness_ : longest) + 2 * slack_;
@@ -301,6 +319,12 @@ void Candidates::sort_pairs(std::vector<VertexTriangle> &pairs) {
   }
 }
 
+void Candidates::sort_edges() {
+  std::sort(guarded_edges_.begin(), guarded_edges_.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
+    return p.first != q.first ? p.first < q.first : p.second < q.second;
+  });
+}
+
 void Candidates::find_edges(uint32_t of, uint32_t block) {
   const auto &start = tree_.block_start();
   for (uint32_t k = start[of]; k < start[of + 1]; ++k) {
@@ -317,11 +341,11 @@ void Candidates::take_edges(uint32_t a, uint32_t b) {
   const double longest = guard_share * thickness_;
   for (const uint32_t mine : owned_[a]) {
     for (const uint32_t other : owned_[b]) {
-      if (surely_apart(edge_way_[mine], edge_way_[other])) continue;
       // in the order of the list: the rounding of a distance depends on it
       const uint32_t i = std::min(mine, other), j = std::max(mine, other);
       const Edge &e = edges[i], &f = edges[j];
-      if (share(e, f) || (!edge_changed(i) && !edge_changed(j))) continue;
+      if (share(e, f) || surely_apart(edge_way_[i], edge_way_[j])) continue;
+      if (!edge_changed(i) && !edge_changed(j)) continue;
       if (apart(way_of(e), way_of(f), longest + 2 * slack_)) continue;
       const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
       if (distance > longest) continue;
@@ -329,16 +353,6 @@ void Candidates::take_edges(uint32_t a, uint32_t b) {
       if (distance <= guard) guarded_edges_.push_back({i, j, guard});
     }
   }
-}
-
-// The exact distance at rest decides; the sphere around the triangle settles most pairs.
-bool Candidates::apart_at_rest(uint32_t vertex, uint32_t triangle) const {
-  const double needed = facing_rest_distance * thickness_;
-  const auto &rest = model_->valve.rest;
-  const double centre = (rest[vertex] - rest_centre_[triangle]).norm();
-  if (centre < needed) return false;
-  if (centre - rest_radius_[triangle] >= needed) return true;
-  return vertex_triangle_distance(rest, vertex, model_->valve.triangles[triangle]) >= needed;
 }
 
 }  // namespace mvs

@@ -32,9 +32,11 @@ struct EdgeEdge {
 class Candidates {
  public:
   explicit Candidates(const Model &model);
+  Candidates(const Candidates &) = delete;
+  Candidates &operator=(const Candidates &) = delete;
 
-  // Whether what is near is kept from one list to the next, which pays while the sheet moves
-  // slowly; the lists are the same.
+  // Whether what is near is kept from one list to the next, which pays in live steps; the lists are
+  // the same.
   void keep_near(bool keep) { keeps_near_ = keep; }
   // Makes the lists for nodes on their way from x to `to`.
   void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
@@ -67,6 +69,8 @@ class Candidates {
     return Way::of(nodes, from_, to_, pace_);
   }
   void choose();
+  void choose(const NearTriangle &pair, const NearBlocks &blocks);
+  void choose(const NearEdges &pair);
   bool find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                     Pace pace);
   void search();
@@ -77,24 +81,24 @@ class Candidates {
   void find_vertices(uint32_t of, uint32_t block);
   void take(uint32_t vertex, uint32_t triangle);
   void sort_pairs(std::vector<VertexTriangle> &pairs);
+  void sort_edges();
   void find_edges(uint32_t of, uint32_t block);
   void take_edges(uint32_t a, uint32_t b);
-  bool apart_at_rest(uint32_t vertex, uint32_t triangle) const;
   template <typename A, typename B>
   double reach(const A &a, const B &b) const;
 
   const Model *model_;
   double thickness_;
+  RestApart apart_at_rest_;
   MovingTree tree_;
   // The nodes that are vertices of the sheet, by blocks of the tree; where those of each begin.
   std::vector<uint32_t> sheet_, vertex_start_;
   std::vector<Owned> owned_;         // by each triangle
   std::vector<uint32_t> owner_;      // of each edge
-  std::vector<Vec3> rest_centre_;    // of each triangle
-  std::vector<double> rest_radius_;  // from there to its farthest corner
   std::vector<Vec3> from_, to_;      // of each node
   std::vector<Vec3> middle_, half_;  // of its way; from there to the end
-  std::vector<NarrowWay> vertex_way_, triangle_way_, edge_way_;  // with what they seek around them
+  // With what they seek around them; vertices what they face, and what guards them.
+  std::vector<NarrowWay> vertex_way_, guard_way_, triangle_way_, edge_way_;
   std::vector<VertexTriangle> sorted_;  // while pairs are sorted, with how many each vertex has
   std::vector<uint32_t> count_;
   double slack_ = 0;

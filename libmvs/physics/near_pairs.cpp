@@ -5,348 +5,385 @@
 #include <cmath>
 
 #include "base/distance.h"
-#include "base/sheet_tree.h"
 #include "physics/contact.h"
 
 namespace mvs {
 namespace {
 
-// Of the contact thickness: how far a node may be from where it was last looked at. More, and more
-// pairs are kept than can act; less, and nodes come up more often.
-constexpr double skin = 0.25;
-constexpr double calm = 0.2;  // of the skin: half ways up to there need no thicker one
-// Of the skin: what there has to be beside a calm way for lists to be worth it.
-constexpr double least_room = 0.25;
-constexpr double many_fast = 0.25;  // of the nodes: where more are, the whole sheet is looked at
-// So many nodes in turn are looked at, of those that have used up that much of their room.
-constexpr size_t turns = 8;
-constexpr double worn = 0.3;
+// Of the contact thickness: the skin between two blocks that do not move against each other. More,
+// and more pairs are kept than can act; less, and blocks come up more often.
+constexpr double skin = 0.3;
+// Of how far they come nearer on one way: what their skin is thicker where they do move.
+constexpr double ahead = 1.2;
+// Of the contact thickness: how much farther apart blocks are found than is needed now.
+constexpr double early = 1;
+// In turn a few pairs of blocks, of those that have used up that much of their skin.
+constexpr size_t turns = 16;
+constexpr double worn = 0.5;
+// Of the contact thickness: how far nodes go beside their block where lists are not worth keeping;
+// and of how many blocks.
+constexpr double wild = 0.08;
+constexpr double many_wild = 0.3;
+// Of the contact thickness: more than distances are wrong by, of near parallel edges too.
+constexpr double rounding = 1e-5;
 
 bool has(const Tri &t, uint32_t node) {
   return t[0] == node || t[1] == node || t[2] == node;
 }
 
-double rest_distance(const Valve &valve, uint32_t v, const Tri &t) {
-  const auto &x = valve.rest.get();
+double distance_of(const std::vector<Vec3> &x, uint32_t v, const Tri &t) {
   return std::sqrt(closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).distance2);
 }
 
-template <typename Box>
-bool near(const Box &a, const Box &b, double margin) {
-  for (size_t k = 0; k < 3; ++k) {
-    if (a.low[k] - b.high[k] > margin || b.low[k] - a.high[k] > margin) return false;
-  }
-  return true;
+double distance_of(const std::vector<Vec3> &x, const Edge &e, const Edge &f) {
+  return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
 }
 
-// The largest squared distance of a point in one from a point in the other.
-template <typename Box>
-double farthest2(const Box &a, const Box &b) {
+template <typename Nodes>
+Way::Box box_of(const Nodes &nodes, const std::vector<Vec3> &x) {
+  Way::Box box;
+  for (const uint32_t i : nodes) box.add(x[i].data());
+  return box;
+}
+
+double distance_of(const Way::Box &a, const Way::Box &b) {
   double sum = 0;
   for (size_t k = 0; k < 3; ++k) {
-    const double way = std::max(a.high[k] - b.low[k], b.high[k] - a.low[k]);
-    sum += way * way;
+    const double gap = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+    sum += gap * gap;
   }
-  return sum;
+  return std::sqrt(sum);
 }
 
-template <typename Box, typename Nodes>
-Box box_around(const Nodes &nodes, const std::vector<Vec3> &x, double more) {
-  Box box;
-  for (size_t k = 0; k < 3; ++k) box.low[k] = box.high[k] = x[nodes[0]][static_cast<int>(k)];
-  for (const uint32_t i : nodes) {
-    for (size_t k = 0; k < 3; ++k) {
-      const double at = x[i][static_cast<int>(k)];
-      box.low[k] = std::min(box.low[k], at);
-      box.high[k] = std::max(box.high[k], at);
-    }
-  }
+bool apart(const Way::Box &a, const Way::Box &b, double margin) {
   for (size_t k = 0; k < 3; ++k) {
-    box.low[k] -= more;
-    box.high[k] += more;
+    if (a.low[k] - b.high[k] > margin || b.low[k] - a.high[k] > margin) return true;
   }
-  return box;
-}
-
-template <typename Box>
-Box both(const Box &a, const Box &b) {
-  Box box;
-  for (size_t k = 0; k < 3; ++k) {
-    box.low[k] = std::min(a.low[k], b.low[k]);
-    box.high[k] = std::max(a.high[k], b.high[k]);
-  }
-  return box;
-}
-
-bool before(const NearTriangle &p, const NearTriangle &q) {
-  return p.vertex != q.vertex ? p.vertex < q.vertex : p.triangle < q.triangle;
-}
-
-bool before(const NearEdges &p, const NearEdges &q) {
-  return p.first != q.first ? p.first < q.first : p.second < q.second;
-}
-
-// Sorts what is new into what there is, in the memory of `spare`.
-template <typename Pairs>
-void sort_in(Pairs &pairs, Pairs &fresh, Pairs &spare) {
-  const auto less = [](const auto &p, const auto &q) { return before(p, q); };
-  std::sort(fresh.begin(), fresh.end(), less);
-  spare.resize(pairs.size() + fresh.size());
-  std::merge(pairs.begin(), pairs.end(), fresh.begin(), fresh.end(), spare.begin(), less);
-  pairs.swap(spare);
+  return false;
 }
 
 }  // namespace
 
-NearPairs::NearPairs(const Model &model)
+NearPairs::NearPairs(const Model &model, const RestApart &apart_at_rest, MovingTree &tree)
     : model_(&model),
+      apart_at_rest_(&apart_at_rest),
+      tree_(&tree),
       thickness_(model.valve.contact_thickness),
-      skin_(skin * model.valve.contact_thickness),
-      calm_(calm * skin_) {
-  const Valve &valve = model.valve;
-  const auto &triangles = valve.triangles.get();
-  moved_.assign(model.node_count(), 0);
-  triangle_moved_.assign(triangles.size(), 0);
-  edge_moved_.assign(model.topology.edges.size(), 0);
-  edge_box_.resize(edge_moved_.size());
-  std::vector<uint8_t> edge_taken(edge_moved_.size(), 0), vertex_taken(model.node_count(), 0);
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    vertex_start_.push_back(static_cast<uint32_t>(owned_vertex_.size()));
-    edge_start_.push_back(static_cast<uint32_t>(owned_edge_.size()));
-    for (const uint32_t v : triangles[t]) {
-      if (!vertex_taken[v]) owned_vertex_.push_back(v);
-      vertex_taken[v] = 1;
+      guard_(guard_share * thickness_),
+      skin_(skin * thickness_),
+      edge_start_{0} {
+  place_nodes();
+  std::vector<uint8_t> taken(model.topology.edges.size(), 0);
+  for (const Tri &edges : model.topology.triangle_edges) {
+    for (const uint32_t e : edges) {
+      if (!taken[e]) edge_.push_back(e);
+      taken[e] = 1;
     }
-    for (const uint32_t e : model.topology.triangle_edges[t]) {
-      if (!edge_taken[e]) owned_edge_.push_back(e);
-      edge_taken[e] = 1;
-    }
+    edge_start_.push_back(static_cast<uint32_t>(edge_.size()));
   }
-  vertex_start_.push_back(static_cast<uint32_t>(owned_vertex_.size()));
-  edge_start_.push_back(static_cast<uint32_t>(owned_edge_.size()));
-  for (const SheetBranch &b : sheet_tree(valve.rest, triangles)) {
-    tree_.push_back({{}, {}, false, b.right, b.after, b.triangle});
-    if (b.right != none) continue;
-    for (uint32_t k = vertex_start_[b.triangle]; k < vertex_start_[b.triangle + 1]; ++k) {
-      sheet_.push_back(owned_vertex_[k]);
-    }
-  }
-  for (size_t i = tree_.size(); i-- > 0;) {
-    Branch &b = tree_[i];
-    b.rest = b.right == none ? box_around<Box>(triangles[b.triangle], valve.rest.get(), 0)
-                             : both(tree_[i + 1].rest, tree_[b.right].rest);
-  }
+  const size_t count = tree.block_start().size() - 1;
+  gone_.resize(count);
+  half_.resize(count);
+  longest_half_.resize(count);
+  place_.resize(count);
+  edge_box_.resize(taken.size());
+  still_.assign(model.valve.triangles.size(), 0);
+  where_.assign(count, none);
+  row_start_.assign(count + 1, 0);
   // as much as a closed valve keeps, so that a live step seldom allocates
-  for (auto *pairs : {&triangles_, &new_triangles_, &all_triangles_}) {
-    pairs->reserve(8 * sheet_.size());
-  }
-  for (auto *pairs : {&edges_, &new_edges_, &all_edges_}) pairs->reserve(4 * edge_moved_.size());
+  for (auto *pairs : {&triangles_, &old_triangles_}) pairs->reserve(24 * model.node_count());
+  for (auto *pairs : {&edges_, &old_edges_}) pairs->reserve(8 * taken.size());
+  for (auto *pairs : {&blocks_, &old_blocks_}) pairs->reserve(24 * count);
+  found_.reserve(24 * count);
+  worn_.reserve(24 * count);
 }
 
-bool NearPairs::follow(const std::vector<Vec3> &middle, const std::vector<Vec3> &half,
-                       double slack) {
-  const double room = skin_ * (1 - 1e-9) - calm_ - slack;  // so that rounding does not count
-  if (!(room > least_room * skin_) || too_fast(half)) return false;
-  if (!find_moved(middle, half, room)) return true;
-  move_boxes();
-  forget_moved();
-  find_facing();
-  find_guarded();
-  merge();
+// A vertex comes up with the first block that has it.
+void NearPairs::place_nodes() {
+  const auto &start = tree_->block_start();
+  std::vector<uint32_t> last(model_->node_count(), none);
+  node_start_ = vertex_start_ = {0};
+  for (uint32_t block = 0; block + 1 < start.size(); ++block) {
+    for (uint32_t k = start[block]; k < start[block + 1]; ++k) {
+      for (const uint32_t i : model_->valve.triangles[tree_->triangles()[k]]) {
+        if (last[i] == block) continue;
+        if (last[i] == none) vertex_.push_back(i);
+        node_.push_back(i);
+        last[i] = block;
+      }
+    }
+    node_start_.push_back(static_cast<uint32_t>(node_.size()));
+    vertex_start_.push_back(static_cast<uint32_t>(vertex_.size()));
+  }
+}
+
+bool NearPairs::follow(const NodeWays &ways) {
+  if (!move(ways) || is_wild()) return false;
+  if (!holds(ways)) find_blocks(ways);
+  if (find_used(ways)) look_again();
   return true;
 }
 
-// What a node on its way wants of its skin above skin_.
-double NearPairs::wanted(const Vec3 &half) const {
-  const double square = half.squaredNorm();
-  return square <= calm_ * calm_ ? 0 : std::sqrt(square) - calm_;
+// How each block has moved since the last round, and will on the way ahead.
+bool NearPairs::move(const NodeWays &ways) {
+  if (middle_.empty()) middle_ = ways.middle;
+  step_.resize(middle_.size());
+  double farthest = 0;
+  for (const uint32_t i : vertex_) {
+    step_[i] = ways.middle[i] - middle_[i];
+    farthest = std::max(farthest, ways.middle[i].cwiseAbs().maxCoeff());
+    if (!std::isfinite(step_[i].sum() + ways.half[i].sum())) {
+      middle_.clear();
+      from_.clear();
+      blocks_.clear();
+      return false;
+    }
+  }
+  middle_ = ways.middle;
+  error_ = 4 * 0x1p-24 * farthest;
+  ++round_;
+  for (uint32_t block = 0; block < gone_.size(); ++block) {
+    const Motion gone = motion_of(block, step_);
+    gone_[block].common += gone.common;
+    gone_[block].beside += gone.beside;
+    half_[block] = motion_of(block, ways.half);
+  }
+  return true;
 }
 
-bool NearPairs::too_fast(const std::vector<Vec3> &half) const {
-  size_t fast = 0;
-  for (const uint32_t i : sheet_) fast += !(half[i].squaredNorm() <= calm_ * calm_);
-  return static_cast<double>(fast) > many_fast * static_cast<double>(sheet_.size());
+// Whether blocks are torn about so much that each would be looked at again on every way.
+bool NearPairs::is_wild() const {
+  const auto count = std::count_if(half_.begin(), half_.end(), [&](const Motion &half) {
+    return half.beside > wild * thickness_;
+  });
+  return static_cast<double>(count) > many_wild * static_cast<double>(half_.size());
 }
 
-// Marks the nodes to be looked at again and takes their places.
-bool NearPairs::find_moved(const std::vector<Vec3> &middle, const std::vector<Vec3> &half,
-                           double room) {
-  const bool first = place_.empty();
-  if (first) {
-    place_ = middle;
-    extra_.assign(middle.size(), 0);
+NearPairs::Motion NearPairs::motion_of(uint32_t block, const std::vector<Vec3> &nodes) const {
+  const uint32_t first = node_start_[block], last = node_start_[block + 1];
+  Vec3 low = nodes[node_[first]], high = low;
+  for (uint32_t k = first + 1; k < last; ++k) {
+    low = low.cwiseMin(nodes[node_[k]]);
+    high = high.cwiseMax(nodes[node_[k]]);
   }
-  bool any = first;
-  const auto quota = static_cast<uint32_t>(sheet_.size() / turns);
-  for (uint32_t k = 0; k < sheet_.size(); ++k) {
-    const uint32_t i = sheet_[k];
-    const bool its_turn = (k + sheet_.size() - turn_) % sheet_.size() < quota;
-    const double used = its_turn ? worn * room : room, more = wanted(half[i]);
-    const bool fits = more <= extra_[i] && (!its_turn || extra_[i] <= 2 * more);
-    // not a number is far from anywhere
-    moved_[i] = first || !fits || !((middle[i] - place_[i]).squaredNorm() <= used * used);
-    if (!moved_[i]) continue;
-    place_[i] = middle[i];
-    extra_[i] = 1.5 * more;
-    any = true;
+  Motion motion{0.5 * (low + high), 0};
+  for (uint32_t k = first; k < last; ++k) {
+    motion.beside = std::max(motion.beside, (nodes[node_[k]] - motion.common).squaredNorm());
   }
-  if (!sheet_.empty()) turn_ = (turn_ + quota) % static_cast<uint32_t>(sheet_.size());
+  motion.beside = std::sqrt(motion.beside);
+  return motion;
+}
+
+// Whether no other blocks than those found have come near enough to each other to act.
+bool NearPairs::holds(const NodeWays &ways) const {
+  if (from_.empty() || (pace_ != ways.pace && pace_ != Pace::each_for_itself)) return false;
+  const double needed = thickness_ * (1 + rounding) + 2 * ways.slack;
+  if (!(needed <= margin_)) return false;
+  const double most = 0.25 * (margin_ - needed) * (margin_ - needed);
+  for (const uint32_t i : vertex_) {
+    if ((ways.from[i] - from_[i]).squaredNorm() > most) return false;
+    if ((ways.to[i] - to_[i]).squaredNorm() > most) return false;
+  }
+  return true;
+}
+
+void NearPairs::find_blocks(const NodeWays &ways) {
+  from_ = ways.from;
+  to_ = ways.to;
+  pace_ = ways.pace;
+  margin_ = (1 + early) * thickness_ + 2 * ways.slack;
+  tree_->place(from_, to_, pace_, still_);
+  found_.clear();
+  tree_->for_near_blocks(margin_, [&](uint32_t a, uint32_t b) {
+    found_.push_back({std::min(a, b), std::max(a, b)});
+  });
+  keep_blocks();
+}
+
+// What is known of blocks that are still near is kept: by the rows of the lower ones.
+void NearPairs::keep_blocks() {
+  row_start_.swap(old_row_start_);
+  blocks_.swap(old_blocks_);
+  row_start_.assign(where_.size() + 1, 0);
+  if (old_row_start_.empty() || old_blocks_.empty()) old_row_start_ = row_start_;
+  for (const auto &[a, b] : found_) ++row_start_[a + 1];
+  for (size_t a = 0; a < where_.size(); ++a) row_start_[a + 1] += row_start_[a];
+  blocks_.resize(found_.size());
+  for (const auto &[a, b] : found_) blocks_[row_start_[a]++] = {a, b};
+  for (size_t a = where_.size(); a > 0; --a) row_start_[a] = row_start_[a - 1];
+  row_start_[0] = 0;
+  for (size_t a = 0; a < where_.size(); ++a) {
+    const uint32_t first = old_row_start_[a], last = old_row_start_[a + 1];
+    for (uint32_t k = first; k < last; ++k) where_[old_blocks_[k].b] = k;
+    for (uint32_t k = row_start_[a]; k < row_start_[a + 1]; ++k) {
+      const uint32_t old = where_[blocks_[k].b];
+      if (old != none) blocks_[k] = old_blocks_[old];
+    }
+    for (uint32_t k = first; k < last; ++k) where_[old_blocks_[k].b] = none;
+  }
+}
+
+// What blocks have used of their skins. True if one has to be looked at.
+bool NearPairs::find_used(const NodeWays &ways) {
+  const double error = rounding * thickness_;
+  for (size_t block = 0; ways.pace == Pace::each_for_itself && block < half_.size(); ++block) {
+    longest_half_[block] = half_[block].common.norm() + half_[block].beside;
+  }
+  worn_.assign(blocks_.size(), 0);
+  bool any = false;
+  const size_t turn = round_ % turns * blocks_.size() / turns;
+  const size_t next_turn = (round_ % turns + 1) * blocks_.size() / turns;
+  for (size_t k = 0; k < blocks_.size(); ++k) {
+    NearBlocks &p = blocks_[k];
+    const Motion &a = gone_[p.a], &b = gone_[p.b], &to_a = half_[p.a], &to_b = half_[p.b];
+    p.reach = 2 * ways.slack + error +
+              (ways.pace == Pace::each_for_itself
+                   ? longest_half_[p.a] + longest_half_[p.b]
+                   : (to_a.common - to_b.common).norm() + to_a.beside + to_b.beside);
+    p.used = error + (a.common - b.common - p.between).norm() + (a.beside + b.beside - p.beside);
+    const bool its_turn = k >= turn && k < next_turn;
+    worn_[k] = !(p.used + p.reach <= p.skin) || (its_turn && p.used > worn * (p.skin - p.reach));
+    any = any || worn_[k];
+  }
   return any;
 }
 
-template <typename Nodes>
-double NearPairs::extra_of(const Nodes &nodes) const {
-  double most = 0;
-  for (const uint32_t i : nodes) most = std::max(most, extra_[i]);
-  return most;
-}
-
-template <typename Nodes>
-NearPairs::Box NearPairs::box_of(const Nodes &nodes) const {
-  return box_around<Box>(nodes, place_, extra_of(nodes));
-}
-
-void NearPairs::move_boxes() {
-  const auto &triangles = model_->valve.triangles.get();
-  const auto &edges = model_->topology.edges.get();
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [i, j, k] = triangles[t];
-    triangle_moved_[t] = moved_[i] | moved_[j] | moved_[k];
-  }
-  for (uint32_t e = 0; e < edges.size(); ++e) {
-    edge_moved_[e] = moved_[edges[e][0]] | moved_[edges[e][1]];
-    if (edge_moved_[e]) edge_box_[e] = box_of(edges[e]);
-  }
-  for (size_t i = tree_.size(); i-- > 0;) {
-    Branch &b = tree_[i];
-    const bool leaf = b.right == none;
-    b.moved = leaf ? triangle_moved_[b.triangle] : tree_[i + 1].moved || tree_[b.right].moved;
-    if (!b.moved) continue;
-    b.box = leaf ? box_of(triangles[b.triangle]) : both(tree_[i + 1].box, tree_[b.right].box);
+void NearPairs::look_again() {
+  triangles_.swap(old_triangles_);
+  edges_.swap(old_edges_);
+  triangles_.clear();
+  edges_.clear();
+  for (size_t k = 0; k < blocks_.size(); ++k) {
+    NearBlocks &p = blocks_[k];
+    const auto first_triangle = static_cast<uint32_t>(triangles_.size());
+    const auto first_edge = static_cast<uint32_t>(edges_.size());
+    if (worn_[k]) {
+      look(p);
+    } else {
+      triangles_.insert(triangles_.end(), old_triangles_.begin() + p.first_triangle,
+                        old_triangles_.begin() + p.last_triangle);
+      edges_.insert(edges_.end(), old_edges_.begin() + p.first_edge,
+                    old_edges_.begin() + p.last_edge);
+    }
+    p.first_triangle = first_triangle;
+    p.last_triangle = static_cast<uint32_t>(triangles_.size());
+    p.first_edge = first_edge;
+    p.last_edge = static_cast<uint32_t>(edges_.size());
   }
 }
 
-void NearPairs::forget_moved() {
-  std::erase_if(triangles_, [&](const NearTriangle &p) {
-    return moved_[p.vertex] || triangle_moved_[p.triangle];
-  });
-  std::erase_if(edges_,
-                [&](const NearEdges &p) { return edge_moved_[p.first] || edge_moved_[p.second]; });
+void NearPairs::look(NearBlocks &p) {
+  p.between = gone_[p.a].common - gone_[p.b].common;
+  p.beside = gone_[p.a].beside + gone_[p.b].beside;
+  p.used = rounding * thickness_;
+  p.skin = skin_ + ahead * p.reach;
+  const double gap = distance_of(place(p.a).box, place(p.b).box);
+  if (gap > thickness_ + p.skin) {
+    p.skin = gap - thickness_;
+    return;
+  }
+  take_vertices(p, p.a, p.b);
+  if (p.a != p.b) take_vertices(p, p.b, p.a);
+  if (gap <= guard_ + p.skin) take_edges(p);
 }
 
-// Visits the pairs of triangles below a branch that are within a margin of each other and of which
-// one has moved, but for those below branches to skip.
-template <typename Skip, typename Visit>
-void NearPairs::within(uint32_t i, double margin, const Skip &skip, const Visit &visit) const {
-  const Branch &b = tree_[i];
-  if (b.right == none || !b.moved || skip(b, b)) return;
-  within(i + 1, margin, skip, visit);
-  within(b.right, margin, skip, visit);
-  between(i + 1, b.right, margin, skip, visit);
+// Where a block is in the middle of its way.
+const NearPairs::Place &NearPairs::place(uint32_t block) {
+  Place &place = place_[block];
+  if (place.round == round_) return place;
+  place.round = round_;
+  place.box = {};
+  place.lanes.clear();
+  const uint32_t first = tree_->block_start()[block], last = tree_->block_start()[block + 1];
+  for (uint32_t k = first; k < last; ++k) {
+    const uint32_t t = tree_->triangles()[k];
+    const Way::Box box = box_of(model_->valve.triangles[t], middle_);
+    place.triangle[k - first] = box;
+    place.lanes.set(k - first, {box, box});
+    place.box.add(box);
+    for (uint32_t e = edge_start_[t]; e < edge_start_[t + 1]; ++e) {
+      edge_box_[edge_[e]] = box_of(model_->topology.edges[edge_[e]], middle_);
+    }
+  }
+  return place;
 }
 
-template <typename Skip, typename Visit>
-void NearPairs::between(uint32_t i, uint32_t j, double margin, const Skip &skip,
-                        const Visit &visit) const {
-  const Branch &a = tree_[i], &b = tree_[j];
-  if ((!a.moved && !b.moved) || !near(a.box, b.box, margin) || skip(a, b)) return;
-  if (a.right == none && b.right == none) {
-    visit(a.triangle, b.triangle);
-  } else if (b.right == none || (a.right != none && a.after - i >= b.after - j)) {
-    between(i + 1, j, margin, skip, visit);
-    between(a.right, j, margin, skip, visit);
-  } else {
-    between(i, j + 1, margin, skip, visit);
-    between(i, b.right, margin, skip, visit);
+void NearPairs::take_vertices(const NearBlocks &p, uint32_t of, uint32_t in) {
+  const Place &there = place(in);
+  const uint32_t *triangle = tree_->triangles().data() + tree_->block_start()[in];
+  const double margin = thickness_ + p.skin, near = guard_ + p.skin;
+  for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
+    const uint32_t v = vertex_[k];
+    const Way::Box box = box_of(std::array<uint32_t, 1>{v}, middle_);
+    if (apart(box, there.box, margin)) continue;
+    uint32_t lanes = there.lanes.near({{box, box}, margin + error_});
+    if (lanes == 0) continue;
+    const uint32_t guarded = there.lanes.near({{box, box}, near + error_});
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const uint32_t t = triangle[std::countr_zero(lanes)];
+      if ((guarded & lanes & -lanes) != 0) {
+        take_guarded(p, v, t);
+      } else if ((*apart_at_rest_)(v, t)) {
+        take_facing(p, v, t);
+      }
+    }
   }
 }
 
-// What was near in the rest shape does not face: whole patches of sheet are skipped.
-void NearPairs::find_facing() {
-  new_triangles_.clear();
-  if (tree_.empty()) return;
-  const double needed = facing_rest_distance * thickness_;
-  const auto skip = [&](const Branch &a, const Branch &b) {
-    return farthest2(a.rest, b.rest) < needed * needed;
-  };
-  within(0, thickness_ + 2 * skin_, skip, [&](uint32_t a, uint32_t b) {
-    take_facing(a, b);
-    take_facing(b, a);
-  });
+void NearPairs::take_facing(const NearBlocks &p, uint32_t vertex, uint32_t triangle) {
+  const double over = distance_of(middle_, vertex, model_->valve.triangles[triangle]) - thickness_;
+  if (over <= p.skin) triangles_.push_back({vertex, triangle, guard_, over, true});
 }
 
-void NearPairs::find_guarded() {
-  new_edges_.clear();
-  if (tree_.empty()) return;
-  within(
-      0, guard_share * thickness_ + 2 * skin_, [](const Branch &, const Branch &) { return false; },
-      [&](uint32_t a, uint32_t b) {
-        take_guarded(a, b);
-        take_guarded(b, a);
-        take_edges(a, b);
-      });
-}
-
-void NearPairs::take_facing(uint32_t owner, uint32_t triangle) {
+void NearPairs::take_guarded(const NearBlocks &p, uint32_t vertex, uint32_t triangle) {
   const Tri &t = model_->valve.triangles[triangle];
-  const double skins = 2 * skin_ + extra_of(t);
-  for (uint32_t k = vertex_start_[owner]; k < vertex_start_[owner + 1]; ++k) {
-    const uint32_t v = owned_vertex_[k];
-    if ((!moved_[v] && !triangle_moved_[triangle]) || has(t, v)) continue;
-    const auto p = closest_on_triangle(place_[v], place_[t[0]], place_[t[1]], place_[t[2]]);
-    const double longest = thickness_ + skins + extra_[v];
-    if (p.distance2 > longest * longest || !apart_at_rest(v, triangle)) continue;
-    new_triangles_.push_back({v, triangle, guard_share * thickness_, true});
+  if (has(t, vertex)) return;
+  if ((*apart_at_rest_)(vertex, triangle)) {
+    take_facing(p, vertex, triangle);
+    return;
+  }
+  const double distance = distance_of(middle_, vertex, t);
+  if (distance > guard_ + p.skin) return;
+  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, vertex, t));
+  if (distance <= guard + p.skin) {
+    triangles_.push_back({vertex, triangle, guard, distance - guard, false});
   }
 }
 
-void NearPairs::take_guarded(uint32_t owner, uint32_t triangle) {
-  const Tri &t = model_->valve.triangles[triangle];
-  const double skins = 2 * skin_ + extra_of(t);
-  for (uint32_t k = vertex_start_[owner]; k < vertex_start_[owner + 1]; ++k) {
-    const uint32_t v = owned_vertex_[k];
-    if ((!moved_[v] && !triangle_moved_[triangle]) || has(t, v)) continue;
-    const auto p = closest_on_triangle(place_[v], place_[t[0]], place_[t[1]], place_[t[2]]);
-    const double distance = std::sqrt(p.distance2) - skins - extra_[v];
-    if (distance > guard_share * thickness_ || apart_at_rest(v, triangle)) continue;
-    const double guard = guard_range(thickness_, rest_distance(model_->valve, v, t));
-    if (distance <= guard) new_triangles_.push_back({v, triangle, guard, false});
+void NearPairs::take_edges(const NearBlocks &p) {
+  const Place &a = place(p.a), &b = place(p.b);
+  const auto &start = tree_->block_start();
+  const uint32_t *of_a = tree_->triangles().data() + start[p.a];
+  const uint32_t *of_b = tree_->triangles().data() + start[p.b];
+  const double margin = guard_ + p.skin;
+  for (uint32_t k = 0; k < start[p.a + 1] - start[p.a]; ++k) {
+    if (apart(a.triangle[k], b.box, margin)) continue;
+    const NarrowWay way({a.triangle[k], a.triangle[k]}, margin + error_);
+    for (uint32_t lanes = b.lanes.near(way); lanes != 0; lanes &= lanes - 1) {
+      const auto l = static_cast<uint32_t>(std::countr_zero(lanes));
+      // of a block and itself each pair of triangles comes up twice
+      if (p.a != p.b || of_a[k] < of_b[l]) take_edges(p, of_a[k], of_b[l]);
+    }
   }
 }
 
-void NearPairs::take_edges(uint32_t a, uint32_t b) {
+void NearPairs::take_edges(const NearBlocks &p, uint32_t a, uint32_t b) {
   for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
     for (uint32_t l = edge_start_[b]; l < edge_start_[b + 1]; ++l) {
-      const auto [i, j] = std::minmax(owned_edge_[k], owned_edge_[l]);
-      take_edge_pair(i, j);
+      if (apart(edge_box_[edge_[k]], edge_box_[edge_[l]], guard_ + p.skin)) continue;
+      take_edge_pair(p, std::min(edge_[k], edge_[l]), std::max(edge_[k], edge_[l]));
     }
   }
 }
 
 // The lower one first: the rounding of their distance depends on it.
-void NearPairs::take_edge_pair(uint32_t i, uint32_t j) {
-  const double longest = guard_share * thickness_;
-  if (!edge_moved_[i] && !edge_moved_[j]) return;
+void NearPairs::take_edge_pair(const NearBlocks &p, uint32_t i, uint32_t j) {
   const Edge &e = model_->topology.edges[i], &f = model_->topology.edges[j];
   if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
-  if (!near(edge_box_[i], edge_box_[j], longest + 2 * skin_)) return;
-  const auto p = closest_of_segments(place_[e[0]], place_[e[1]], place_[f[0]], place_[f[1]]);
-  const double distance = std::sqrt(p.distance2) - 2 * skin_ - extra_of(e) - extra_of(f);
-  if (distance > longest) return;
-  const auto &rest = model_->valve.rest.get();
-  const auto r = closest_of_segments(rest[e[0]], rest[e[1]], rest[f[0]], rest[f[1]]);
-  const double guard = guard_range(thickness_, std::sqrt(r.distance2));
-  if (distance <= guard) new_edges_.push_back({i, j, guard});
-}
-
-bool NearPairs::apart_at_rest(uint32_t vertex, uint32_t triangle) const {
-  const Tri &t = model_->valve.triangles[triangle];
-  return rest_distance(model_->valve, vertex, t) >= facing_rest_distance * thickness_;
-}
-
-void NearPairs::merge() {
-  sort_in(triangles_, new_triangles_, all_triangles_);
-  sort_in(edges_, new_edges_, all_edges_);
+  const double distance = distance_of(middle_, e, f);
+  if (distance > guard_ + p.skin) return;
+  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));
+  if (distance <= guard + p.skin) edges_.push_back({i, j, guard, distance - guard});
 }
 
 }  // namespace mvs

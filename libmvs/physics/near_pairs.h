@@ -1,94 +1,130 @@
-// Pairs of the sheet that are near each other, kept while the sheet moves slowly: the broad phase
-// of a live step.
+// Pairs of the sheet that are near each other, kept while the sheet moves: the broad phase of a
+// live step.
 //
-// Each node has a place where it was last looked at and a skin around it, the thicker the faster it
-// was. Kept is every pair that could act (see Candidates) without leaving its skins: nothing else
-// has to be looked at before a node uses its skin up. Then the neighbourhood of such nodes is
-// looked at again, not the whole sheet; and a few of the others in turn, so that those which move
-// together do not all come up in the same step. (Lists with a skin: Verlet, Phys. Rev. 159, 1967.)
-//
-// Of a triangle or edge whose nodes are w from their places and go h to either side of the middles
-// of their ways, w + h + slack has to be within its skin, the thickest of its nodes'. So a node may
-// be skin_ - calm_ - slack from its place, and its skin is skin_, or more by what h is above
-// calm_.
+// The sheet is looked at by blocks of at most eight triangles. For two blocks that could meet soon,
+// every pair between them is kept that could act (see Candidates) before the blocks have used up
+// the skin between them, and how much farther apart it was than where it acts. What uses a skin up
+// is what the blocks move against each other since they were last looked at, and will on the way
+// ahead: the way of either is told by how far the whole of it goes, and how far any of its nodes
+// goes beside that. So a leaflet that travels keeps its pairs, and most pairs can be told to act,
+// or not, without a distance. When a skin is used up, that pair of blocks is looked at again; and a
+// few of the others in turn, so that not all of them come up in the same step. (Lists with a skin:
+// Verlet, Phys. Rev. 159, 1967.)
 //
 // What is kept depends on the way of the sheet; what Candidates takes of it does not.
 #pragma once
 
 #include <vector>
 
+#include "base/moving_tree.h"
 #include "model/model.h"
+#include "physics/rest_apart.h"
 
 namespace mvs {
 
+// `over`: m, how much farther apart it was than the longest distance at which it acts.
 struct NearTriangle {
   uint32_t vertex, triangle;
   double guard;  // m, range of the guard
-  bool faces;    // apart in the rest shape
+  double over;
+  bool faces;  // apart in the rest shape
 };
 
 struct NearEdges {
   uint32_t first, second;  // edges, first < second
   double guard;            // m
+  double over;
+};
+
+// The pairs between two blocks, from the first to before the last. No distance between two things
+// of theirs has changed by more than `used` since they were looked at, and none falls by more than
+// `reach` below that in the middle of the way, slack included.
+struct NearBlocks {
+  uint32_t a = 0, b = 0;
+  double used = 0, reach = 0;
+  uint32_t first_triangle = 0, last_triangle = 0, first_edge = 0, last_edge = 0;
+  double skin = -1;             // m, for both; negative: never looked at
+  Vec3 between = Vec3::Zero();  // how far a had gone then, less how far b had,
+  double beside = 0;            // and how far nodes had gone beside that
+};
+
+// Where every node goes, and how far off its way it may be.
+struct NodeWays {
+  const std::vector<Vec3> &from, &to, &middle, &half;  // half: from the middle to the end
+  double slack;
+  Pace pace;
 };
 
 class NearPairs {
  public:
-  explicit NearPairs(const Model &model);
+  // All of the same model, and there as long as this.
+  NearPairs(const Model &model, const RestApart &apart_at_rest, MovingTree &tree);
 
-  // Makes the lists hold every pair that could act while each node is within `slack` of its way,
-  // given by its middle and its half. False if too many go too far for lists to be worth it.
-  bool follow(const std::vector<Vec3> &middle, const std::vector<Vec3> &half, double slack);
+  // Makes the lists hold every pair that could act on these ways. False if the sheet moves too
+  // wildly for lists to be worth it.
+  bool follow(const NodeWays &ways);
 
-  // Sorted by vertex, then triangle; by first edge, then second.
+  const std::vector<NearBlocks> &blocks() const { return blocks_; }
   const std::vector<NearTriangle> &triangles() const { return triangles_; }
   const std::vector<NearEdges> &edges() const { return edges_; }
 
  private:
-  struct Box {
-    std::array<double, 3> low, high;
+  // How a block moves: what its nodes have in common, and how far any of them is off that.
+  struct Motion {
+    Vec3 common = Vec3::Zero();
+    double beside = 0;
   };
-  struct Branch {
-    Box box, rest;  // around the places of its nodes, in the rest shape
-    bool moved;     // a node of it is looked at again
-    uint32_t right, after, triangle;
+  // A block where it was last placed.
+  struct Place {
+    uint64_t round = 0;
+    Way::Box box;
+    std::array<Way::Box, WayLanes::count> triangle;
+    WayLanes lanes;
   };
 
-  double wanted(const Vec3 &half) const;
-  bool too_fast(const std::vector<Vec3> &half) const;
-  bool find_moved(const std::vector<Vec3> &middle, const std::vector<Vec3> &half, double room);
-  template <typename Nodes>
-  double extra_of(const Nodes &nodes) const;
-  template <typename Nodes>
-  Box box_of(const Nodes &nodes) const;
-  void move_boxes();
-  void forget_moved();
-  template <typename Skip, typename Visit>
-  void within(uint32_t i, double margin, const Skip &skip, const Visit &visit) const;
-  template <typename Skip, typename Visit>
-  void between(uint32_t i, uint32_t j, double margin, const Skip &skip, const Visit &visit) const;
-  void find_facing();
-  void find_guarded();
-  void take_facing(uint32_t owner, uint32_t triangle);
-  void take_guarded(uint32_t owner, uint32_t triangle);
-  void take_edges(uint32_t a, uint32_t b);
-  void take_edge_pair(uint32_t i, uint32_t j);
-  bool apart_at_rest(uint32_t vertex, uint32_t triangle) const;
-  void merge();
+  void place_nodes();
+  bool move(const NodeWays &ways);
+  Motion motion_of(uint32_t block, const std::vector<Vec3> &nodes) const;
+  bool is_wild() const;
+  bool holds(const NodeWays &ways) const;
+  void find_blocks(const NodeWays &ways);
+  void keep_blocks();
+  bool find_used(const NodeWays &ways);
+  void look_again();
+  void look(NearBlocks &blocks);
+  const Place &place(uint32_t block);
+  void take_vertices(const NearBlocks &blocks, uint32_t of, uint32_t in);
+  void take_facing(const NearBlocks &blocks, uint32_t vertex, uint32_t triangle);
+  void take_guarded(const NearBlocks &blocks, uint32_t vertex, uint32_t triangle);
+  void take_edges(const NearBlocks &blocks);
+  void take_edges(const NearBlocks &blocks, uint32_t a, uint32_t b);
+  void take_edge_pair(const NearBlocks &blocks, uint32_t i, uint32_t j);
 
   const Model *model_;
-  double thickness_, skin_, calm_;
-  std::vector<uint32_t> sheet_;  // the nodes that are vertices of it, by place
-  std::vector<uint32_t> vertex_start_, owned_vertex_;  // by triangle: the vertices that come up
-  std::vector<uint32_t> edge_start_, owned_edge_;      // with it, and the edges
-  std::vector<Branch> tree_;
-  std::vector<Box> edge_box_;
-  std::vector<Vec3> place_;    // of each node when it was last looked at; empty: never
-  std::vector<double> extra_;  // m, of its skin, above skin_
-  std::vector<uint8_t> moved_, triangle_moved_, edge_moved_;
-  uint32_t turn_ = 0;  // where in sheet_ those come up that are looked at in turn
-  std::vector<NearTriangle> triangles_, new_triangles_, all_triangles_;
-  std::vector<NearEdges> edges_, new_edges_, all_edges_;
+  const RestApart *apart_at_rest_;
+  MovingTree *tree_;
+  double thickness_, guard_, skin_;
+  // By blocks: the nodes of its triangles; those of them that come up with it; by triangles: the
+  // edges that do.
+  std::vector<uint32_t> node_start_, node_, vertex_start_, vertex_, edge_start_, edge_;
+  std::vector<Vec3> middle_, step_;  // of each node in this round; how far that is from the last
+  std::vector<Motion> gone_, half_;  // of each block, since the first round and on the way ahead
+  std::vector<double> longest_half_;
+  double error_ = 0;  // m, of single precision
+  uint64_t round_ = 0;
+  std::vector<Place> place_;
+  std::vector<Way::Box> edge_box_;
+  // The ways for which blocks_ are all that come within a margin of each other.
+  std::vector<Vec3> from_, to_;
+  Pace pace_ = Pace::together;
+  double margin_ = 0;
+  std::vector<uint8_t> still_;  // no triangle, for the tree
+  std::vector<Edge> found_;     // pairs of blocks, the lower one first
+  std::vector<uint32_t> row_start_, old_row_start_, where_;
+  std::vector<NearBlocks> blocks_, old_blocks_;
+  std::vector<uint8_t> worn_;
+  std::vector<NearTriangle> triangles_, old_triangles_;
+  std::vector<NearEdges> edges_, old_edges_;
 };
 
 }  // namespace mvs
