@@ -167,8 +167,13 @@ void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syste
       angle_hessian(x0, x2, x3, p, exact);
     }
     for (uint32_t k = 0; k < 4; ++k) {
+      const Vec3 stiff = h.stiffness * slope[k];
       for (uint32_t l = 0; l <= k; ++l) {
-        Mat3 block = (h.stiffness * slope[k]) * slope[l].transpose();
+        if (curvature == Curvature::projected && k != l) {
+          system.add_product(pair++, h.node[k], h.node[l], stiff, slope[l]);
+          continue;
+        }
+        Mat3 block = stiff * slope[l].transpose();
         if (curvature == Curvature::exact) block += moment * exact[k][l];
         if (k == l) {
           system.add_diagonal(h.node[k], block);

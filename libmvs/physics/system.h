@@ -58,6 +58,19 @@ class System {
     }
   }
 
+  // The same for the block a b^T, which is written nowhere else: the bits are those of the above.
+  void add_product(size_t k, uint32_t i, uint32_t j, const Vec3 &a, const Vec3 &b) {
+    const uint32_t slot = slots_.empty() ? none : slots_[first_ + k];
+    if (slot == none) {
+      add(k, i, j, a * b.transpose());
+      return;
+    }
+    const bool lower = row_of[i] > row_of[j];
+    const Vec3 &column = lower ? a : b, &row = lower ? b : a;
+    Mat3 &to = matrix.value[slot];
+    for (int c = 0; c < 3; ++c) to.col(c) += column * row[c];
+  }
+
   void add_diagonal(uint32_t i, const Mat3 &block) {
     const uint32_t r = row_of[i];
     if (r != none) matrix.value[matrix.start[r]] += block;
