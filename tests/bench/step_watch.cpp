@@ -32,6 +32,20 @@ size_t StepWatch::crossings(const mvs::Sim &sim) {
   return stability::crossings(x.data(), x.rows(), triangles.data(), triangles.rows()).size();
 }
 
+double StepWatch::quiet(const mvs::Sim &sim, double dt, double least) {
+  const mvs::Snapshot now = sim.snapshot();
+  const auto kinds = now.view<uint8_t>(MVS_NODE_KIND);
+  const double *v = now.view<double>(MVS_NODE_VELOCITY).data();
+  size_t free = 0, quiet = 0;
+  for (size_t n = 0; n < kinds.rows(); ++n, v += 3) {
+    const uint8_t kind = kinds.data()[n];
+    if (kind == MVS_NODE_IS_ANNULUS || kind == MVS_NODE_IS_HEAD) continue;
+    ++free;
+    quiet += dt * std::hypot(v[0], v[1], v[2]) < least;
+  }
+  return free > 0 ? static_cast<double>(quiet) / static_cast<double>(free) : 0;
+}
+
 // The pressure at the free edge has no potential and is left out of the energy: its work is known
 // from the shapes before and after.
 bool StepWatch::makes_energy(const mvs::Sim &sim, const mvs_stats &stats) {

@@ -23,6 +23,8 @@ class StepWatch {
   // Pairs of triangles that cross, by the exact test alone: all measures take as long as many
   // steps.
   static size_t crossings(const mvs::Sim &sim);
+  // The share of the free nodes that went less than so far (m) in the last step of dt (s).
+  static double quiet(const mvs::Sim &sim, double dt, double least);
   // After a step that was awake. True if it made energy.
   bool makes_energy(const mvs::Sim &sim, const mvs_stats &stats);
 
