@@ -20,10 +20,11 @@ enum { MVS_LOG_ERROR = 1, MVS_LOG_WARNING = 2, MVS_LOG_INFO = 3, MVS_LOG_DEBUG =
 
 /* Sparse factorisations. */
 enum {
-  MVS_BACKEND_DEFAULT = 0, /* MVS_BACKEND_BLOCK */
+  MVS_BACKEND_DEFAULT = 0, /* MVS_BACKEND_BLOCK in single precision where conjugate gradients make
+                              good what that rounds: the fastest */
   MVS_BACKEND_CHOLMOD = 1, /* SuiteSparse CHOLMOD, simplicial LDL^T */
   MVS_BACKEND_EIGEN = 2,   /* Eigen SimplicialLDLT */
-  MVS_BACKEND_BLOCK = 3    /* the library's own Cholesky on 3x3 blocks: the fastest here */
+  MVS_BACKEND_BLOCK = 3    /* the library's own Cholesky on 3x3 blocks, in double precision */
 };
 
 /* How a simulator is made. A null pointer or all zeros are the defaults. */

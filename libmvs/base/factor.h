@@ -23,6 +23,8 @@ class Factor {
   }
   // Solves in place with the last factor.
   virtual void solve(std::vector<Vec3> &b) = 0;
+  // Iterations of the last solution, of a factor that needs some.
+  virtual uint32_t iterations() const { return 0; }
 };
 
 // A factorisation of the named MVS_BACKEND_*; throws MVS_E_UNSUPPORTED if this build lacks it.

@@ -245,7 +245,7 @@ void Newton::move_boundary() {
   system_.boundary_step = nullptr;
   factorise();
   rows_ = system_.boundary_force;
-  factor_->solve(rows_);
+  solve_system(rows_);
   full_ = boundary_;
   for (size_t r = 0; r < rows_.size(); ++r) full_[system_.node_of[r]] = rows_[r];
   limit_step();
@@ -289,12 +289,17 @@ void Newton::factorise() {
   }
 }
 
+void Newton::solve_system(std::vector<Vec3> &rows) {
+  factor_->solve(rows);
+  stats_.work.linear_iterations += factor_->iterations();
+}
+
 // The step that the factorised system gives, in full_.
 void Newton::solve(bool with_shift) {
   const PhaseTimer timer(stats_.work, MVS_PHASE_SOLVE);
   rows_.resize(system_.node_of.size());
   for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = -g_[system_.node_of[r]];
-  factor_->solve(rows_);
+  solve_system(rows_);
   if (curvature_ == Curvature::exact) include_skew(with_shift);
   full_.assign(x_.size(), Vec3::Zero());
   for (size_t r = 0; r < rows_.size(); ++r) full_[system_.node_of[r]] = rows_[r];
@@ -314,7 +319,7 @@ void Newton::include_skew(bool with_shift) {
       const uint32_t i = system_.node_of[r];
       y[r] = step_[i] - removed * shift_scale_[i] * v[r];
     }
-    factor_->solve(y);
+    solve_system(y);
     for (size_t r = 0; r < v.size(); ++r) y[r] += v[r];
     return y;
   };

@@ -38,6 +38,7 @@ class Newton {
 
   void assemble(Curvature curvature);
   void factorise();
+  void solve_system(std::vector<Vec3> &rows);
   void solve(bool with_shift);
   void include_skew(bool with_shift);
   void limit_step();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/refined_factor.h"
 #include "physics/explicit_stepper.h"
 #include "physics/forces.h"
 #include "physics/implicit_stepper.h"
@@ -93,11 +94,15 @@ void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveSta
   stats.skipped |= stepper.skipped();
 }
 
+std::unique_ptr<Factor> make_newton_factor(uint32_t backend) {
+  return backend == MVS_BACKEND_DEFAULT ? make_refined_factor() : make_factor(backend);
+}
+
 }  // namespace
 
 // The workers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
-  explicit Work(uint32_t backend_in) : backend(backend_in), factor(make_factor(backend)) {}
+  explicit Work(uint32_t backend_in) : backend(backend_in), factor(make_newton_factor(backend)) {}
 
   ImplicitStepper &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();

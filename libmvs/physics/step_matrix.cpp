@@ -25,18 +25,7 @@ void StepMatrix::assemble(Potential &potential, const std::vector<Vec3> &x, cons
 }
 
 void StepMatrix::multiply(const std::vector<Vec3> &v, std::vector<Vec3> &y) const {
-  const BlockMatrix &m = system_.matrix;
-  y.assign(v.size(), Vec3::Zero());
-  for (uint32_t c = 0; c < m.size(); ++c) {
-    const Vec3 &of_c = v[c];
-    Vec3 sum = m.value[m.start[c]] * of_c;
-    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
-      const Mat3 &block = m.value[k];
-      y[m.row[k]].noalias() += block * of_c;
-      sum.noalias() += block.transpose() * v[m.row[k]];
-    }
-    y[c] += sum;
-  }
+  system_.matrix.multiply(v, y);
 }
 
 void StepMatrix::divide(std::vector<Vec3> &rows) {

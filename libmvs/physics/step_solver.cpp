@@ -26,7 +26,7 @@ bool is_our_own(uint32_t backend) {
 }
 
 std::unique_ptr<Factor> make_preconditioner(uint32_t backend) {
-  return is_our_own(backend) ? make_narrow_factor() : make_factor(backend);
+  return backend == MVS_BACKEND_DEFAULT ? make_narrow_factor() : make_factor(backend);
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ std::vector<Row> run_scene(const Options &options, const std::string &scene) {
   const std::vector<Phase> phases = bench::play();
   const double times = std::max(1.0, std::round(options.seconds / play_s));
   const double share = options.seconds / (times * static_cast<double>(phases.size()));
-  const int steps = std::max(2, static_cast<int>(share / dt + 0.5));
+  const int steps = std::max(2, static_cast<int>(std::lround(share / dt)));
   std::vector<Row> rows(phases.size());
   for (int time = 0; time < static_cast<int>(times); ++time) {
     for (size_t p = 0; p < phases.size(); ++p) {
