@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -94,12 +95,12 @@ double fastest(const std::vector<double> &seconds) {
   return *std::min_element(seconds.begin(), seconds.end());
 }
 
-std::vector<Bench> benches(uint32_t vertices) {
+std::deque<Bench> benches(uint32_t vertices) {
   mvs_parametric_desc desc = {};
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   const Valve valve = make_parametric_valve(desc);
-  std::vector<Bench> all;
+  std::deque<Bench> all;
   for (const LeafletLaw &law : leaflet_laws()) {
     Valve made = valve;
     for (size_t l = 0; l < made.leaflets.size(); ++l) {
@@ -135,7 +136,7 @@ void run(const Options &options) {
               "energy us", "ratio", "grad. us", "ratio", "Hess. us", "ratio", "assem. us", "ratio",
               "whole us", "ratio");
   for (const uint32_t vertices : options.vertices) {
-    std::vector<Bench> all = benches(vertices);
+    std::deque<Bench> all = benches(vertices);
     System system;  // one for all: an edge has a spring, and sides of triangles
     for (Bench &bench : all) bench.begin(system);
     for (int k = 0; k < options.rounds; ++k) {
