@@ -151,12 +151,15 @@ bool NearPairs::move(const NodeWays &ways) {
   return true;
 }
 
-// Whether blocks are torn about so much that each would be looked at again on every way.
-bool NearPairs::is_wild() const {
+// Whether blocks are torn about so much that each would be looked at again on every way; until they
+// are half as many, so that not all are looked at in between.
+bool NearPairs::is_wild() {
   const auto count = std::count_if(half_.begin(), half_.end(), [&](const Motion &half) {
     return half.beside > wild * thickness_;
   });
-  return static_cast<double>(count) > many_wild * static_cast<double>(half_.size());
+  const double many = wild_ ? 0.5 * many_wild : many_wild;
+  wild_ = static_cast<double>(count) > many * static_cast<double>(half_.size());
+  return wild_;
 }
 
 NearPairs::Motion NearPairs::motion_of(uint32_t block, const std::vector<Vec3> &nodes) const {
@@ -368,8 +371,11 @@ void NearPairs::take_edges(const NearBlocks &p) {
 }
 
 void NearPairs::take_edges(const NearBlocks &p, uint32_t a, uint32_t b) {
+  const auto &edges = model_->topology.edges.get();
   for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
     for (uint32_t l = edge_start_[b]; l < edge_start_[b + 1]; ++l) {
+      const Edge &e = edges[edge_[k]], &f = edges[edge_[l]];
+      if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) continue;
       if (apart(edge_box_[edge_[k]], edge_box_[edge_[l]], guard_ + p.skin)) continue;
       take_edge_pair(p, std::min(edge_[k], edge_[l]), std::max(edge_[k], edge_[l]));
     }
@@ -379,7 +385,6 @@ void NearPairs::take_edges(const NearBlocks &p, uint32_t a, uint32_t b) {
 // The lower one first: the rounding of their distance depends on it.
 void NearPairs::take_edge_pair(const NearBlocks &p, uint32_t i, uint32_t j) {
   const Edge &e = model_->topology.edges[i], &f = model_->topology.edges[j];
-  if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
   const double distance = distance_of(middle_, e, f);
   if (distance > guard_ + p.skin) return;
   const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));

@@ -85,7 +85,7 @@ class NearPairs {
   void place_nodes();
   bool move(const NodeWays &ways);
   Motion motion_of(uint32_t block, const std::vector<Vec3> &nodes) const;
-  bool is_wild() const;
+  bool is_wild();
   bool holds(const NodeWays &ways) const;
   void find_blocks(const NodeWays &ways);
   void keep_blocks();
@@ -111,6 +111,7 @@ class NearPairs {
   std::vector<Motion> gone_, half_;  // of each block, since the first round and on the way ahead
   std::vector<double> longest_half_;
   double error_ = 0;  // m, of single precision
+  bool wild_ = false;
   uint64_t round_ = 0;
   std::vector<Place> place_;
   std::vector<Way::Box> edge_box_;
