@@ -22,6 +22,16 @@ Box around(const Vec3 &from, const Vec3 &to, double margin) {
   return box;
 }
 
+// The sides of a box that a place is beyond, one bit each.
+uint8_t sides(const Box &box, const Vec3 &place) {
+  uint32_t bits = 0;
+  for (int k = 0; k < 3; ++k) {
+    bits |= static_cast<uint32_t>(place[k] < box.low[k]) << (2 * k);
+    bits |= static_cast<uint32_t>(place[k] > box.high[k]) << (2 * k + 1);
+  }
+  return static_cast<uint8_t>(bits);
+}
+
 void make_unique(std::vector<uint32_t> &numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -57,20 +67,22 @@ void InstrumentTerm::prepare(const std::vector<Vec3> &x, const std::vector<Vec3>
   prepared_ = true;
 }
 
-// By boxes around the ways of the triangles' corners and of the instrument.
+// By boxes around the ways of the triangles' corners and of the instrument: apart where all corners
+// are, at both ends, beyond the same side.
 void InstrumentTerm::look_around(Body &body, const std::vector<Vec3> &x,
-                                 const std::vector<Vec3> &to, double slack) const {
+                                 const std::vector<Vec3> &to, double slack) {
   const double margin = body.radius + tool_range(*model_) + 2 * slack;
   Box box = around(x[body.point[0]], to[body.point[0]], margin);
   box.add(around(x[body.point[1]], to[body.point[1]], margin));
+  beyond_.resize(x.size());
+  for (size_t i = 0; i < x.size(); ++i) beyond_[i] = sides(box, x[i]) & sides(box, to[i]);
   body.vertices.clear();
   body.edges.clear();
   body.triangles.clear();
   const auto &triangles = model_->valve.triangles.get();
   for (uint32_t t = 0; t < triangles.size(); ++t) {
-    Box way = box_of(x, triangles[t]);
-    way.add(box_of(to, triangles[t]));
-    if (!way.touches(box)) continue;
+    const auto [i, j, k] = triangles[t];
+    if ((beyond_[i] & beyond_[j] & beyond_[k]) != 0) continue;
     body.triangles.push_back(t);
     for (const uint32_t v : triangles[t]) body.vertices.push_back(v);
     for (const uint32_t e : model_->topology.triangle_edges[t]) body.edges.push_back(e);

@@ -66,7 +66,7 @@ class InstrumentTerm {
     bool is_rod() const { return point[0] != point[1]; }
   };
   void look_around(Body &body, const std::vector<Vec3> &x, const std::vector<Vec3> &to,
-                   double slack) const;
+                   double slack);
   void take_vertex(const std::vector<Vec3> &x, const Body &body, uint32_t v);
   void take_triangle(const std::vector<Vec3> &x, const Body &body, uint32_t t);
   void take_edge(const std::vector<Vec3> &x, const Body &body, uint32_t e);
@@ -78,6 +78,7 @@ class InstrumentTerm {
   bool prepared_ = true;
   std::vector<ContactStencil> stencils_;
   std::vector<ToolPair> pairs_;
+  std::vector<uint8_t> beyond_;  // of each node, while one looks around
 };
 
 }  // namespace mvs

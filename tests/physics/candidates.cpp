@@ -211,6 +211,28 @@ TEST_CASE("candidates_of_a_fine_mesh_are_the_same_however_it_came_there") {
   check_on_the_way(plates, false);
 }
 
+// No block of one plate is near the other when what is kept is made; all come near on the way, a
+// third of the skins a step.
+TEST_CASE("what_comes_from_afar_is_found") {
+  const Plates plates = plates_for_steps();
+  Random random(5);
+  Candidates candidates(plates.model);
+  Positions x = wavy(plates, random);
+  const Vec3 step(0.03e-3, 0, -0.1e-3);
+  for (size_t i = x.size() / 2; i < x.size(); ++i) x[i] -= 60 * step;
+  size_t first = 0;
+  for (int k = 0; k < 60; ++k) {
+    Positions to = x;
+    for (size_t i = x.size() / 2; i < x.size(); ++i) to[i] += step;
+    candidates.build(x, to, 0.02e-3);
+    if (k == 0) first = candidates.facing().size();
+    CAPTURE(k);
+    if (k % 6 == 5) check_pairs(plates.model, candidates, {x, to, 0.02e-3, Pace::together});
+    x = to;
+  }
+  CHECK(candidates.facing().size() > first + 30);
+}
+
 TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
   const Plates plates = plates_for_steps();
   const Model &model = plates.model;
