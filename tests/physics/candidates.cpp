@@ -113,6 +113,7 @@ TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
       const Positions to = moved(small, 1, random.vectors(small.size(), 0.2));
       tree.place(small, to, pace, still);
       std::vector<Way> ways;
+      ways.reserve(triangles.size());
       for (const Tri &t : triangles) ways.push_back(Way::of(t, small, to, pace));
       std::vector<Edge> expected, found;
       for (uint32_t a = 0; a < n; ++a) {
