@@ -139,10 +139,11 @@ std::vector<Study> momenta() {
   spin.name = "steps_spin";
   spin.title = "Spin of a free valve under implicit steps";
   spin.quantity = "change in 2 ms, kg m2/s; relative to what it was";
-  spin.expects = "1: the linearised step turns about where the forces were";
-  spin.tolerance = 0.01;
-  spin.order_low = 0.7;
-  spin.order_high = 1.3;
+  // of first order where the linear system is solved to 1e-10: 2.2e-5, 1.1e-5 and 0.6e-5, measured
+  spin.expects =
+      "the linearised step turns about where the forces were, which leaves 2e-5 and less at these "
+      "steps; the linear system, solved to 1e-3, up to 1e-5";
+  spin.tolerance = 5e-5;
   for (const uint32_t kind : {MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
     const bool is_explicit = kind == MVS_SOLVER_EXPLICIT;
     const std::string name = is_explicit ? "explicit" : "implicit";
