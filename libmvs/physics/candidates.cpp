@@ -4,30 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/distance.h"
 #include "physics/contact.h"
+#include "physics/pair_distance.h"
 
 namespace mvs {
 namespace {
 
 // Of the nodes: where fewer go elsewhere, only what they could meet is looked for again.
 constexpr double most_changed = 0.25;
-
-bool has(const Tri &t, uint32_t node) {
-  return t[0] == node || t[1] == node || t[2] == node;
-}
-
-bool share(const Edge &a, const Edge &b) {
-  return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
-}
-
-double vertex_triangle_distance(const std::vector<Vec3> &x, uint32_t v, const Tri &t) {
-  return std::sqrt(closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).distance2);
-}
-
-double edge_edge_distance(const std::vector<Vec3> &x, const Edge &e, const Edge &f) {
-  return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
-}
 
 }  // namespace
 
@@ -36,46 +20,18 @@ Candidates::Candidates(const Model &model)
       thickness_(model.valve.contact_thickness),
       apart_at_rest_(model),
       tree_(model.valve.rest, model.valve.triangles),
-      owner_(model.topology.edges.size(), none) {
-  std::vector<uint8_t> taken(model.topology.edges.size(), 0);
-  for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
-    Owned owned{};
-    for (const uint32_t edge : model.topology.triangle_edges[t]) {
-      if (!taken[edge]) {
-        owned.edge[owned.count++] = edge;
-        owner_[edge] = t;
-      }
-      taken[edge] = 1;
-    }
-    owned_.push_back(owned);
-  }
-  place_vertices();
+      parts_(model, tree_) {
   // more than a closed valve has, so that a live step seldom allocates
-  for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(16 * sheet_.size());
-  guarded_edges_.reserve(4 * taken.size());
+  const size_t triangles = model.valve.triangles.size(), edges = model.topology.edges.size();
+  for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(16 * parts_.vertices().size());
+  guarded_edges_.reserve(4 * edges);
   vertex_way_.resize(model.node_count());
   guard_way_.resize(model.node_count());
-  triangle_way_.resize(owned_.size());
-  edge_way_.resize(taken.size());
-  triangle_changed_.resize(owned_.size());
-  skip_.resize(owned_.size());
+  triangle_way_.resize(triangles);
+  edge_way_.resize(edges);
+  triangle_changed_.resize(triangles);
+  skip_.resize(triangles);
   count_.reserve(model.node_count() + 1);
-}
-
-// With the first block that has them.
-void Candidates::place_vertices() {
-  std::vector<uint8_t> taken(model_->node_count(), 0);
-  const auto &start = tree_.block_start();
-  for (size_t block = 0; block + 1 < start.size(); ++block) {
-    vertex_start_.push_back(static_cast<uint32_t>(sheet_.size()));
-    for (uint32_t k = start[block]; k < start[block + 1]; ++k) {
-      for (const uint32_t v : model_->valve.triangles[tree_.triangles()[k]]) {
-        if (!taken[v]) sheet_.push_back(v);
-        taken[v] = 1;
-      }
-    }
-  }
-  vertex_start_.push_back(static_cast<uint32_t>(sheet_.size()));
 }
 
 // The share of their ways at which nodes that go together are nearest to x.
@@ -113,7 +69,7 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
     half_[i] = 0.5 * (to[i] - x[i]);
   }
   find_still();
-  if (keeps_near_ && !near_) near_.emplace(*model_, apart_at_rest_, tree_);
+  if (keeps_near_ && !near_) near_.emplace(*model_, parts_, apart_at_rest_, tree_);
   if (keeps_near_ && near_->follow({from_, to_, middle_, half_, slack, pace})) {
     choose();
   } else {
@@ -164,7 +120,7 @@ void Candidates::choose(const NearTriangle &p, const NearBlocks &blocks) {
   }
   const Tri &t = model_->valve.triangles[p.triangle];
   const std::array<uint32_t, 1> alone{p.vertex};
-  const double distance = vertex_triangle_distance(middle_, p.vertex, t) - reach(alone, t);
+  const double distance = distance_of(middle_, p.vertex, t) - reach(alone, t);
   if (distance > (p.faces ? thickness_ : p.guard)) return;
   if (apart(way_of(alone), way_of(t), (p.faces ? thickness_ : longest) + 2 * slack_)) return;
   if (p.faces) facing_.push_back({p.vertex, p.triangle, 0});
@@ -172,9 +128,9 @@ void Candidates::choose(const NearTriangle &p, const NearBlocks &blocks) {
 }
 
 void Candidates::choose(const NearEdges &p) {
-  if (still_[owner_[p.first]] && still_[owner_[p.second]]) return;
+  if (still_[parts_.owner_of(p.first)] && still_[parts_.owner_of(p.second)]) return;
   const Edge &e = model_->topology.edges[p.first], &f = model_->topology.edges[p.second];
-  const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
+  const double distance = distance_of(middle_, e, f) - reach(e, f);
   if (distance > p.guard) return;
   if (apart(way_of(e), way_of(f), guard_share * thickness_ + 2 * slack_)) return;
   guarded_edges_.push_back({p.first, p.second, p.guard});
@@ -225,7 +181,7 @@ bool Candidates::edge_changed(uint32_t edge) const {
 void Candidates::widen_ways(double facing, double guard) {
   vertex_way_.resize(from_.size());
   guard_way_.resize(from_.size());
-  for (const uint32_t v : sheet_) {
+  for (const uint32_t v : parts_.vertices()) {
     const Way way = way_of(std::array<uint32_t, 1>{v});
     vertex_way_[v] = tree_.narrow(way, facing);
     guard_way_[v] = tree_.narrow(way, guard);
@@ -274,8 +230,7 @@ double Candidates::reach(const A &a, const B &b) const {
 }
 
 void Candidates::find_vertices(uint32_t of, uint32_t block) {
-  for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
-    const uint32_t v = sheet_[k];
+  for (const uint32_t v : parts_.vertices_of(of)) {
     // most of what is near is so at rest, where only what is as near as a guard counts
     tree_.for_near(block, vertex_way_[v], guard_way_[v], [&](uint32_t t, bool is_guarded) {
       if (is_guarded || apart_at_rest_(v, t)) take(v, t);
@@ -293,11 +248,10 @@ void Candidates::take(uint32_t vertex, uint32_t triangle) {
   const std::array<uint32_t, 1> alone{vertex};
   const double margin = (faces ? thickness_ : longest) + 2 * slack_;
   if (apart(way_of(alone), tree_.way_of(triangle), margin)) return;
-  const double distance = vertex_triangle_distance(middle_, vertex, t) - reach(alone, t);
+  const double distance = distance_of(middle_, vertex, t) - reach(alone, t);
   if (faces && distance <= thickness_) facing_.push_back({vertex, triangle, 0});
   if (distance > longest) return;
-  const double guard =
-      guard_range(thickness_, vertex_triangle_distance(model_->valve.rest, vertex, t));
+  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, vertex, t));
   if (distance <= guard) guarded_.push_back({vertex, triangle, guard});
 }
 
@@ -339,17 +293,17 @@ void Candidates::find_edges(uint32_t of, uint32_t block) {
 void Candidates::take_edges(uint32_t a, uint32_t b) {
   const auto &edges = model_->topology.edges;
   const double longest = guard_share * thickness_;
-  for (const uint32_t mine : owned_[a]) {
-    for (const uint32_t other : owned_[b]) {
+  for (const uint32_t mine : parts_.edges_of(a)) {
+    for (const uint32_t other : parts_.edges_of(b)) {
       // in the order of the list: the rounding of a distance depends on it
       const uint32_t i = std::min(mine, other), j = std::max(mine, other);
       const Edge &e = edges[i], &f = edges[j];
       if (share(e, f) || surely_apart(edge_way_[i], edge_way_[j])) continue;
       if (!edge_changed(i) && !edge_changed(j)) continue;
       if (apart(way_of(e), way_of(f), longest + 2 * slack_)) continue;
-      const double distance = edge_edge_distance(middle_, e, f) - reach(e, f);
+      const double distance = distance_of(middle_, e, f) - reach(e, f);
       if (distance > longest) continue;
-      const double guard = guard_range(thickness_, edge_edge_distance(model_->valve.rest, e, f));
+      const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));
       if (distance <= guard) guarded_edges_.push_back({i, j, guard});
     }
   }

@@ -16,6 +16,7 @@
 #include "base/moving_tree.h"
 #include "model/model.h"
 #include "physics/near_pairs.h"
+#include "physics/sheet_parts.h"
 
 namespace mvs {
 
@@ -53,14 +54,6 @@ class Candidates {
   const std::vector<EdgeEdge> &guarded_edges() const { return guarded_edges_; }
 
  private:
-  // The edges that come up with a triangle, because it owns them.
-  struct Owned {
-    std::array<uint32_t, 3> edge;
-    uint32_t count;
-    const uint32_t *begin() const { return edge.data(); }
-    const uint32_t *end() const { return edge.data() + count; }
-  };
-
   double share_of(const std::vector<Vec3> &x) const;
   bool stays(uint32_t node) const;
   void find_still();
@@ -77,7 +70,6 @@ class Candidates {
   void forget_changed();
   bool edge_changed(uint32_t edge) const;
   void widen_ways(double facing, double guard);
-  void place_vertices();
   void find_vertices(uint32_t of, uint32_t block);
   void take(uint32_t vertex, uint32_t triangle);
   void sort_pairs(std::vector<VertexTriangle> &pairs);
@@ -91,10 +83,7 @@ class Candidates {
   double thickness_;
   RestApart apart_at_rest_;
   MovingTree tree_;
-  // The nodes that are vertices of the sheet, by blocks of the tree; where those of each begin.
-  std::vector<uint32_t> sheet_, vertex_start_;
-  std::vector<Owned> owned_;         // by each triangle
-  std::vector<uint32_t> owner_;      // of each edge
+  SheetParts parts_;
   std::vector<Vec3> from_, to_;      // of each node
   std::vector<Vec3> middle_, half_;  // of its way; from there to the end
   // With what they seek around them; vertices what they face, and what guards them.

@@ -46,7 +46,7 @@ void InstrumentTerm::set_tools(const std::vector<Tool> &tools, uint32_t first) {
     const bool is_known = k < bodies_.size() && bodies_[k].tool.is_same_as(tool);
     if (!is_known) {
       bodies_.resize(k);
-      bodies_.push_back({tool, {}, tool.radius, tool.length, {}, {}, {}});
+      bodies_.push_back({tool, {}, {}, {}, {}});
       prepared_ = false;
     }
     bodies_[k].point = {first, first + tool.points() - 1};
@@ -71,7 +71,7 @@ void InstrumentTerm::prepare(const std::vector<Vec3> &x, const std::vector<Vec3>
 // are, at both ends, beyond the same side.
 void InstrumentTerm::look_around(Body &body, const std::vector<Vec3> &x,
                                  const std::vector<Vec3> &to, double slack) {
-  const double margin = body.radius + tool_range(*model_) + 2 * slack;
+  const double margin = body.tool.radius + tool_range(*model_) + 2 * slack;
   Box box = around(x[body.point[0]], to[body.point[0]], margin);
   box.add(around(x[body.point[1]], to[body.point[1]], margin));
   beyond_.resize(x.size());
@@ -135,7 +135,7 @@ void InstrumentTerm::finish(const std::vector<Vec3> &x, const Body &body, Contac
   s.range = range;
   s.strength = (guard ? 0.5 : 1) * model_->valve.contact_stiffness * area;
   s.guard = guard;
-  s.radius = body.radius;
+  s.radius = body.tool.radius;
   if (measure(x, s)) stencils_.push_back(s);
 }
 
@@ -143,7 +143,7 @@ double InstrumentTerm::energy(const std::vector<Vec3> &x) const {
   double sum = energy_of(stencils_, barrier);
   for (const Body &body : bodies_) {
     if (!body.is_rod()) continue;
-    const double longer = (x[body.point[1]] - x[body.point[0]]).norm() - body.length;
+    const double longer = (x[body.point[1]] - x[body.point[0]]).norm() - body.tool.length;
     sum += 0.5 * axial_stiffness * longer * longer;
   }
   return sum;
@@ -154,7 +154,7 @@ double InstrumentTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g
   for (const Body &body : bodies_) {
     if (!body.is_rod()) continue;
     const Vec3 d = x[body.point[1]] - x[body.point[0]];
-    const Vec3 f = axial_stiffness * (1 - body.length / d.norm()) * d;
+    const Vec3 f = axial_stiffness * (1 - body.tool.length / d.norm()) * d;
     g[body.point[0]] -= f;
     g[body.point[1]] += f;
   }
@@ -170,7 +170,7 @@ bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
     const Vec3 d = x[b] - x[a];
     const double length = d.norm();
     const Mat3 block = axial_block(d / length, axial_stiffness,
-                                   axial_stiffness * (1 - body.length / length), curvature);
+                                   axial_stiffness * (1 - body.tool.length / length), curvature);
     system.add_diagonal(a, block);
     system.add_diagonal(b, block);
     complete = system.add(a, b, -block) && complete;
@@ -195,7 +195,7 @@ const std::vector<ToolPair> &InstrumentTerm::pairs_to_part(const std::vector<Vec
         const uint32_t v = body.point[end];
         const auto w = closest_on_triangle(x[v], x[i], x[j], x[k]).weight;
         const Vec3 apart = x[v] - (w[0] * x[i] + w[1] * x[j] + w[2] * x[k]);
-        pairs_.push_back({{v, i, j, k}, {p, i, j, k}, 1, apart, body.radius});
+        pairs_.push_back({{v, i, j, k}, {p, i, j, k}, 1, apart, body.tool.radius});
       }
     }
     if (!body.is_rod()) continue;
@@ -203,7 +203,7 @@ const std::vector<ToolPair> &InstrumentTerm::pairs_to_part(const std::vector<Vec
       const auto [i, j] = model_->topology.edges[e];
       const SegmentPair s = closest_of_segments(x[p], x[q], x[i], x[j]);
       const Vec3 apart = x[p] + s.s * (x[q] - x[p]) - x[i] - s.t * (x[j] - x[i]);
-      pairs_.push_back({{p, q, i, j}, {p, p, i, j}, 2, apart, body.radius});
+      pairs_.push_back({{p, q, i, j}, {p, p, i, j}, 2, apart, body.tool.radius});
     }
   }
   return pairs_;

@@ -59,9 +59,8 @@ class InstrumentTerm {
 
  private:
   struct Body {
-    Tool tool;   // as it was when it came
-    Edge point;  // nodes; the same twice for a ball
-    double radius, length;
+    Tool tool;                                         // as it was when it came: its size
+    Edge point;                                        // nodes; the same twice for a ball
     std::vector<uint32_t> vertices, edges, triangles;  // near it
     bool is_rod() const { return point[0] != point[1]; }
   };

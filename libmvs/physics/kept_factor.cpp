@@ -24,9 +24,9 @@ void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
   nodes_.clear();
   pairs_.clear();
   blocks_.clear();
-  for (auto *list : {&blocks_, &diagonal_}) make_room(*list, m.value.size());
-  make_room(pairs_, m.value.size());
   diagonal_.clear();
+  make_room(pairs_, m.value.size());
+  make_room(blocks_, m.value.size());
   for (uint32_t c = 0; c < m.size(); ++c) {
     nodes_.push_back(matrix.node(c));
     diagonal_.push_back(m.value[m.start[c]]);

@@ -2,10 +2,11 @@
 #include "physics/near_pairs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
-#include "base/distance.h"
 #include "physics/contact.h"
+#include "physics/pair_distance.h"
 
 namespace mvs {
 namespace {
@@ -26,18 +27,6 @@ constexpr double wild = 0.08;
 constexpr double many_wild = 0.3;
 // Of the contact thickness: more than distances are wrong by, of near parallel edges too.
 constexpr double rounding = 1e-5;
-
-bool has(const Tri &t, uint32_t node) {
-  return t[0] == node || t[1] == node || t[2] == node;
-}
-
-double distance_of(const std::vector<Vec3> &x, uint32_t v, const Tri &t) {
-  return std::sqrt(closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).distance2);
-}
-
-double distance_of(const std::vector<Vec3> &x, const Edge &e, const Edge &f) {
-  return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
-}
 
 template <typename Nodes>
 Way::Box box_of(const Nodes &nodes, const std::vector<Vec3> &x) {
@@ -64,56 +53,45 @@ bool apart(const Way::Box &a, const Way::Box &b, double margin) {
 
 }  // namespace
 
-NearPairs::NearPairs(const Model &model, const RestApart &apart_at_rest, MovingTree &tree)
+NearPairs::NearPairs(const Model &model, const SheetParts &parts, const RestApart &apart_at_rest,
+                     MovingTree &tree)
     : model_(&model),
+      parts_(&parts),
       apart_at_rest_(&apart_at_rest),
       tree_(&tree),
       thickness_(model.valve.contact_thickness),
       guard_(guard_share * thickness_),
-      skin_(skin * thickness_),
-      edge_start_{0} {
+      skin_(skin * thickness_) {
   place_nodes();
-  std::vector<uint8_t> taken(model.topology.edges.size(), 0);
-  for (const Tri &edges : model.topology.triangle_edges) {
-    for (const uint32_t e : edges) {
-      if (!taken[e]) edge_.push_back(e);
-      taken[e] = 1;
-    }
-    edge_start_.push_back(static_cast<uint32_t>(edge_.size()));
-  }
-  const size_t count = tree.block_start().size() - 1;
+  const size_t count = tree.block_start().size() - 1, edges = model.topology.edges.size();
   gone_.resize(count);
   half_.resize(count);
   longest_half_.resize(count);
   place_.resize(count);
-  edge_box_.resize(taken.size());
+  edge_box_.resize(edges);
   still_.assign(model.valve.triangles.size(), 0);
   where_.assign(count, none);
   row_start_.assign(count + 1, 0);
   // as much as a closed valve keeps, so that a live step seldom allocates
   for (auto *pairs : {&triangles_, &old_triangles_}) pairs->reserve(24 * model.node_count());
-  for (auto *pairs : {&edges_, &old_edges_}) pairs->reserve(8 * taken.size());
+  for (auto *pairs : {&edges_, &old_edges_}) pairs->reserve(8 * edges);
   for (auto *pairs : {&blocks_, &old_blocks_}) pairs->reserve(24 * count);
   found_.reserve(24 * count);
   worn_.reserve(24 * count);
 }
 
-// A vertex comes up with the first block that has it.
 void NearPairs::place_nodes() {
   const auto &start = tree_->block_start();
   std::vector<uint32_t> last(model_->node_count(), none);
-  node_start_ = vertex_start_ = {0};
+  node_start_ = {0};
   for (uint32_t block = 0; block + 1 < start.size(); ++block) {
     for (uint32_t k = start[block]; k < start[block + 1]; ++k) {
       for (const uint32_t i : model_->valve.triangles[tree_->triangles()[k]]) {
-        if (last[i] == block) continue;
-        if (last[i] == none) vertex_.push_back(i);
-        node_.push_back(i);
+        if (last[i] != block) node_.push_back(i);
         last[i] = block;
       }
     }
     node_start_.push_back(static_cast<uint32_t>(node_.size()));
-    vertex_start_.push_back(static_cast<uint32_t>(vertex_.size()));
   }
 }
 
@@ -129,7 +107,7 @@ bool NearPairs::move(const NodeWays &ways) {
   if (middle_.empty()) middle_ = ways.middle;
   step_.resize(middle_.size());
   double farthest = 0;
-  for (const uint32_t i : vertex_) {
+  for (const uint32_t i : parts_->vertices()) {
     step_[i] = ways.middle[i] - middle_[i];
     farthest = std::max(farthest, ways.middle[i].cwiseAbs().maxCoeff());
     if (!std::isfinite(step_[i].sum() + ways.half[i].sum())) {
@@ -183,7 +161,7 @@ bool NearPairs::holds(const NodeWays &ways) const {
   const double needed = thickness_ * (1 + rounding) + 2 * ways.slack;
   if (!(needed <= margin_)) return false;
   const double most = 0.25 * (margin_ - needed) * (margin_ - needed);
-  for (const uint32_t i : vertex_) {
+  for (const uint32_t i : parts_->vertices()) {
     if ((ways.from[i] - from_[i]).squaredNorm() > most) return false;
     if ((ways.to[i] - to_[i]).squaredNorm() > most) return false;
   }
@@ -304,8 +282,8 @@ const NearPairs::Place &NearPairs::place(uint32_t block) {
     place.triangle[k - first] = box;
     place.lanes.set(k - first, {box, box});
     place.box.add(box);
-    for (uint32_t e = edge_start_[t]; e < edge_start_[t + 1]; ++e) {
-      edge_box_[edge_[e]] = box_of(model_->topology.edges[edge_[e]], middle_);
+    for (const uint32_t e : parts_->edges_of(t)) {
+      edge_box_[e] = box_of(model_->topology.edges[e], middle_);
     }
   }
   return place;
@@ -315,8 +293,7 @@ void NearPairs::take_vertices(const NearBlocks &p, uint32_t of, uint32_t in) {
   const Place &there = place(in);
   const uint32_t *triangle = tree_->triangles().data() + tree_->block_start()[in];
   const double margin = thickness_ + p.skin, near = guard_ + p.skin;
-  for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
-    const uint32_t v = vertex_[k];
+  for (const uint32_t v : parts_->vertices_of(of)) {
     const Way::Box box = box_of(std::array<uint32_t, 1>{v}, middle_);
     if (apart(box, there.box, margin)) continue;
     uint32_t lanes = there.lanes.near({{box, box}, margin + error_});
@@ -372,12 +349,11 @@ void NearPairs::take_edges(const NearBlocks &p) {
 
 void NearPairs::take_edges(const NearBlocks &p, uint32_t a, uint32_t b) {
   const auto &edges = model_->topology.edges.get();
-  for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
-    for (uint32_t l = edge_start_[b]; l < edge_start_[b + 1]; ++l) {
-      const Edge &e = edges[edge_[k]], &f = edges[edge_[l]];
-      if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) continue;
-      if (apart(edge_box_[edge_[k]], edge_box_[edge_[l]], guard_ + p.skin)) continue;
-      take_edge_pair(p, std::min(edge_[k], edge_[l]), std::max(edge_[k], edge_[l]));
+  for (const uint32_t mine : parts_->edges_of(a)) {
+    for (const uint32_t other : parts_->edges_of(b)) {
+      if (share(edges[mine], edges[other])) continue;
+      if (apart(edge_box_[mine], edge_box_[other], guard_ + p.skin)) continue;
+      take_edge_pair(p, std::min(mine, other), std::max(mine, other));
     }
   }
 }

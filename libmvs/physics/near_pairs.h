@@ -19,6 +19,7 @@
 #include "base/moving_tree.h"
 #include "model/model.h"
 #include "physics/rest_apart.h"
+#include "physics/sheet_parts.h"
 
 namespace mvs {
 
@@ -58,7 +59,8 @@ struct NodeWays {
 class NearPairs {
  public:
   // All of the same model, and there as long as this.
-  NearPairs(const Model &model, const RestApart &apart_at_rest, MovingTree &tree);
+  NearPairs(const Model &model, const SheetParts &parts, const RestApart &apart_at_rest,
+            MovingTree &tree);
 
   // Makes the lists hold every pair that could act on these ways. False if the sheet moves too
   // wildly for lists to be worth it.
@@ -101,12 +103,11 @@ class NearPairs {
   void take_edge_pair(const NearBlocks &blocks, uint32_t i, uint32_t j);
 
   const Model *model_;
+  const SheetParts *parts_;
   const RestApart *apart_at_rest_;
   MovingTree *tree_;
   double thickness_, guard_, skin_;
-  // By blocks: the nodes of its triangles; those of them that come up with it; by triangles: the
-  // edges that do.
-  std::vector<uint32_t> node_start_, node_, vertex_start_, vertex_, edge_start_, edge_;
+  std::vector<uint32_t> node_start_, node_;  // of the triangles of each block
   std::vector<Vec3> middle_, step_;  // of each node in this round; how far that is from the last
   std::vector<Motion> gone_, half_;  // of each block, since the first round and on the way ahead
   std::vector<double> longest_half_;

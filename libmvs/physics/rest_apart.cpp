@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/distance.h"
 #include "physics/contact.h"
+#include "physics/pair_distance.h"
 
 namespace mvs {
 namespace {
@@ -33,9 +33,7 @@ RestApart::RestApart(const Model &model) : model_(&model) {
 }
 
 bool RestApart::is_apart(uint32_t vertex, uint32_t triangle) const {
-  const auto &x = model_->valve.rest.get();
-  const auto [i, j, k] = model_->valve.triangles[triangle];
-  return std::sqrt(closest_on_triangle(x[vertex], x[i], x[j], x[k]).distance2) >=
+  return distance_of(model_->valve.rest, vertex, model_->valve.triangles[triangle]) >=
          facing_rest_distance * model_->valve.contact_thickness;
 }
 

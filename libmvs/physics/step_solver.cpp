@@ -12,8 +12,7 @@ namespace {
 constexpr double tolerance = 1e-3;
 // After the most iterations, each about a tenth of a factor with its order, this will do, and the
 // next factor is begun; else one is made at once. What comes to that is a valve a few steps after a
-// chord was cut or its leaflets met: each step leads downhill, less far. On a play of load, beat
-// and push this changes the way of the nodes by 6 to 43 % of what half the time step does.
+// chord was cut or its leaflets met: each step leads downhill, less far.
 constexpr double good_enough = 0.3;
 constexpr uint32_t most_iterations = 10;
 // More iterations or an older factor: the next one is begun. A factor in parts costs as much as

@@ -1,0 +1,30 @@
+// Two things of a sheet that may meet: whether they have nodes in common, and how far apart they
+// are. Whoever makes pairs asks here, so that all find the same bits.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "base/distance.h"
+#include "base/types.h"
+
+namespace mvs {
+
+inline bool has(const Tri &t, uint32_t node) {
+  return t[0] == node || t[1] == node || t[2] == node;
+}
+
+inline bool share(const Edge &a, const Edge &b) {
+  return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+}
+
+inline double distance_of(const std::vector<Vec3> &x, uint32_t v, const Tri &t) {
+  return std::sqrt(closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).distance2);
+}
+
+// Rounded by the order of the edges.
+inline double distance_of(const std::vector<Vec3> &x, const Edge &e, const Edge &f) {
+  return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
+}
+
+}  // namespace mvs
