@@ -15,7 +15,7 @@ constexpr size_t block_columns = 48;
 // A piece of this size is 96 kB: a part of the second-level cache.
 constexpr size_t piece_depth = 128, piece_rows = 96;
 
-// Vectors in registers, and as they lie in memory: anywhere. A tile is `vectors` of them high.
+// Vectors in registers. A tile is `vectors` of them high.
 #if defined(__GNUC__)
 #define MVS_INLINE [[gnu::always_inline]] inline
 #define MVS_RESTRICT __restrict
@@ -24,7 +24,6 @@ struct Wide {
   using Number = T;
   static constexpr size_t lanes = count, vectors = vectors_in, height = lanes * vectors;
   typedef T Value __attribute__((vector_size(sizeof(T) * count)));
-  typedef T Memory __attribute__((vector_size(sizeof(T) * count), aligned(alignof(T)), may_alias));
 };
 #else
 #define MVS_INLINE inline
@@ -34,18 +33,19 @@ struct Wide {
   using Number = T;
   static constexpr size_t lanes = 1, vectors = vectors_in, height = vectors;
   typedef T Value;
-  typedef T Memory;
 };
 #endif
 
+// Numbers lie anywhere: a reference to them as a vector would promise more than that (clang then
+// reads them as aligned).
 template <typename V>
-MVS_INLINE auto &at(typename V::Number *p) {
-  return *reinterpret_cast<typename V::Memory *>(p);
+MVS_INLINE void load(typename V::Value &v, const typename V::Number *from) {
+  std::memcpy(&v, from, sizeof v);
 }
 
 template <typename V>
-MVS_INLINE const auto &at(const typename V::Number *p) {
-  return *reinterpret_cast<const typename V::Memory *>(p);
+MVS_INLINE void store(typename V::Number *to, const typename V::Value &v) {
+  std::memcpy(to, &v, sizeof v);
 }
 
 template <typename V>
@@ -65,16 +65,16 @@ MVS_INLINE void subtract_tile(T *c, size_t c_stride, const T *a, const T *b, siz
   constexpr size_t lanes = V::lanes, vectors = V::vectors;
   typename V::Value sum[vectors][tile_columns], of_a[vectors];
   for (size_t j = 0; j < tile_columns; ++j) {
-    for (size_t v = 0; v < vectors; ++v) sum[v][j] = at<V>(c + j * c_stride + v * lanes);
+    for (size_t v = 0; v < vectors; ++v) load<V>(sum[v][j], c + j * c_stride + v * lanes);
   }
   for (size_t k = 0; k < depth; ++k, a += a_stride, b += a_stride) {
-    for (size_t v = 0; v < vectors; ++v) of_a[v] = at<V>(a + v * lanes);
+    for (size_t v = 0; v < vectors; ++v) load<V>(of_a[v], a + v * lanes);
     for (size_t j = 0; j < tile_columns; ++j) {
       for (size_t v = 0; v < vectors; ++v) sum[v][j] -= of_a[v] * b[j];
     }
   }
   for (size_t j = 0; j < tile_columns; ++j) {
-    for (size_t v = 0; v < vectors; ++v) at<V>(c + j * c_stride + v * lanes) = sum[v][j];
+    for (size_t v = 0; v < vectors; ++v) store<V>(c + j * c_stride + v * lanes, sum[v][j]);
   }
 }
 
@@ -203,8 +203,12 @@ MVS_INLINE void take_below(const float *a, size_t height, size_t first, const fl
   typename Eight::Value part[3] = {};
   size_t i = first;
   for (; i + Eight::lanes <= height; i += Eight::lanes) {
-    const auto of_x = at<Eight>(x + i);
-    for (size_t c = 0; c < 3; ++c) part[c] += at<Eight>(a + c * height + i) * of_x;
+    typename Eight::Value of_a, of_x;
+    load<Eight>(of_x, x + i);
+    for (size_t c = 0; c < 3; ++c) {
+      load<Eight>(of_a, a + c * height + i);
+      part[c] += of_a * of_x;
+    }
   }
   for (; i < height; ++i) {
     for (size_t c = 0; c < 3; ++c) sum[c] -= a[c * height + i] * x[i];
