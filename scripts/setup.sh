@@ -47,7 +47,7 @@ test_packages=(abigail-tools doctest-dev libtinyobjloader-dev libspnav0 libglfw3
   xauth clang clang-format clang-tidy git)
 
 # Configures and builds a preset of CMakePresets.json, with ccache where its cache is kept; where it
-# is not, clang compiles common headers once (cmake/precompiled.cmake):
+# is not, common headers are compiled once (cmake/precompiled.cmake), but for long runs:
 # build_preset NAME [CMAKE OPTION ...] [-- BUILD OPTION ...]
 build_preset() {
   local preset=$1 launcher=() options=()
@@ -58,7 +58,7 @@ build_preset() {
   done
   if command -v ccache >/dev/null && [ -z "${CI:-}" ]; then
     launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  elif [ "$preset" = clang ]; then
+  elif [ -z "${MVS_TEST_LONG:-}" ]; then
     launcher=(-DMVS_PRECOMPILED=all)
   fi
   mkdir -p build
