@@ -24,6 +24,9 @@ constexpr double slack_share = 0.02;
 // Contact comes where the pattern has no room in most iterations; an order of elimination is good
 // for a few such patterns.
 constexpr uint32_t patterns_per_order = 6;
+// Of the shift that an attempt at rest needed, what the next begins with: one that stays when the
+// valve has left where it took it slows down all that follow.
+constexpr double relief = 0.1;
 constexpr int trials = 8;          // of one iteration
 constexpr double shortened = 0.5;  // what every second one of these goes of the step before it
 constexpr int most_patience = 64;
@@ -180,7 +183,7 @@ bool Newton::rest_step() {
   assemble(Curvature::exact);
   factorise();
   const bool close = added_ < 1;
-  rest_shift_ = added_ > least_shift ? added_ : 0;
+  rest_shift_ = added_ > least_shift ? relief * added_ : 0;
   shift_ = kept;
   solve(!close);
   limit_step();

@@ -62,7 +62,7 @@ class Newton {
   double fraction_ = 0;
   double near_force_ = 0, rest_force_ = 0;  // N: below it, exact curvature; attempts at rest
   double shift_ = 0, added_ = 0;            // wanted; in the matrix now
-  double rest_shift_ = 0;                   // that the last attempt at rest needed
+  double rest_shift_ = 0;                   // that the next attempt at rest begins with
   double far_ = 0;                          // share of nodes whose uncut step was much too long
   double energy_ = 0, residual_ = 0;
   double leash_ = 0;        // m, of a piece: no node goes farther from where it was; 0: the whole
