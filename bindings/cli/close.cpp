@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "pressure.h"
 #include "readouts.h"
 #include "reference.h"
 #include "spread.h"
@@ -36,20 +37,13 @@ struct Closed {
   double pressure_mmhg = 0;
 };
 
-// What was asked for, else what an Abaqus input file closes under, else systole.
-double pressure_of(const Options &options, const mvs::Sim &sim) {
-  if (options.pressure_mmhg) return *options.pressure_mmhg;
-  const double of_file = sim.load().pressure / pa_per_mmhg;
-  return options.in.ends_with(".inp") && of_file != 0 ? of_file : 120;
-}
-
 Closed close_valve(const Options &options, const Console &console) {
   Progress progress(console);
   mvs_sim_desc desc = {};
   desc.backend = backends.at(options.backend);
   mvs::Sim sim = load_sim(options.in, progress, desc);
   set_tissue(sim, options.leaflet);
-  const double pressure_mmhg = pressure_of(options, sim);
+  const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
   mvs_settle_options settle = options.settle;
   settle.solver = solvers.at(options.solver);
   if (options.spread.paths > 0) {
@@ -147,10 +141,7 @@ void add_close(CLI::App &app, Console &console) {
       add_command(app, console, "close", "close a valve under systolic pressure and measure it");
   command->add_option("file", options->in, "valve to close, .obj, .h5 or .inp")->required();
   command->add_option("-o,--output", options->out, "write the closed valve, .obj, .h5 or .vtp");
-  command
-      ->add_option("--pressure", options->pressure_mmhg,
-                   "transvalvular pressure, mmHg [120, or that of an .inp file]")
-      ->check(CLI::Number);
+  add_pressure_option(*command, options->pressure_mmhg);
   add_tissue_option(*command, options->leaflet);
   command->add_option("--solver", options->solver, "method")
       ->capture_default_str()

@@ -8,14 +8,18 @@
 #include "at_rest.h"
 #include "commands.h"
 #include "op_text.h"
+#include "pressure.h"
 #include "readouts.h"
 
 namespace cli {
 namespace {
 
+constexpr const char *of_file = "file";  // --settle without a pressure
+
 struct Request {
   mvs::OpKind kind;
   std::string in, out;
+  bool settle = false;
   std::optional<double> settle_mmhg;
   std::map<std::string, std::string> fields;  // those given, in text
 };
@@ -25,6 +29,7 @@ struct Operated {
   std::string title;
   mvs_id made;
   std::vector<AtRest> at_rest;  // before and after, if it was asked for
+  double pressure_mmhg;         // of both
 };
 
 // Before and after start from the same shape, that of the file.
@@ -36,16 +41,17 @@ Operated operate(const Request &request, const Console &console) {
   for (const auto &[name, given] : request.fields) op.set(name, given, first);
   sim.check(op.get());
   std::vector<AtRest> at_rest;
-  if (request.settle_mmhg) {
-    at_rest.push_back(settle(sim, *request.settle_mmhg, request.in + " before"));
+  const double pressure_mmhg = pressure_mmhg_of(request.settle_mmhg, sim);
+  if (request.settle) {
+    at_rest.push_back(settle(sim, pressure_mmhg, request.in + " before"));
     sim.restore(first);
   }
   const mvs_id made = sim.apply(op.get());
   const std::string title = sim.snapshot().history().done.back().title;
-  if (request.settle_mmhg) {
-    at_rest.push_back(settle(sim, *request.settle_mmhg, request.in + " after"));
+  if (request.settle) {
+    at_rest.push_back(settle(sim, pressure_mmhg, request.in + " after"));
   }
-  return {sim.snapshot(), title, made, at_rest};
+  return {sim.snapshot(), title, made, at_rest, pressure_mmhg};
 }
 
 std::optional<mvs_part> part_of(const mvs::Snapshot &valve, mvs_id id) {
@@ -69,7 +75,7 @@ Json result_json(const Request &request, const Operated &done) {
   }
   if (!request.out.empty()) object["output"] = request.out;
   if (!done.at_rest.empty()) {
-    object["pressure_mmHg"] = *request.settle_mmhg;
+    object["pressure_mmHg"] = done.pressure_mmhg;
     object["before"] = at_rest_json(done.at_rest[0]);
     object["after"] = at_rest_json(done.at_rest[1]);
   }
@@ -86,12 +92,12 @@ std::string result_text(const Request &request, const Operated &done) {
   };
   return human +
          text("\nbefore (%s) and after (%s), under %g mmHg\n", word(done.at_rest[0]),
-              word(done.at_rest[1]), *request.settle_mmhg) +
+              word(done.at_rest[1]), done.pressure_mmhg) +
          measures_text(done.at_rest[0].measures, done.at_rest[1].measures);
 }
 
 void run(const Request &request, const Console &console) {
-  if (request.out.empty() && !request.settle_mmhg) throw CLI::RequiredError("--output or --settle");
+  if (request.out.empty() && !request.settle) throw CLI::RequiredError("--output or --settle");
   const Operated done = operate(request, console);
   if (!request.out.empty()) done.valve.save(request.out);
   print(console, result_json(request, done), result_text(request, done));
@@ -126,13 +132,18 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
   command->add_option("-o,--output", request->out, "write the valve, .obj, .h5 or .vtp")
       ->type_name("FILE");
   command
-      ->add_option_function<double>(
-          "--settle", [request](double given) { request->settle_mmhg = given; },
-          "close it before and after, and measure, under this pressure, mmHg [120]")
+      ->add_option_function<std::string>(
+          "--settle",
+          [request](const std::string &given) {
+            request->settle = true;
+            if (given != of_file) request->settle_mmhg = std::stod(given);
+          },
+          "close it before and after, and measure, under this pressure, mmHg [that of the load in "
+          "the file; 120 if there is none]")
       ->expected(0, 1)
-      ->default_str("120")
+      ->default_str(of_file)
       ->type_name("MMHG")
-      ->check(CLI::Validator(CLI::Number).description(""));
+      ->check((CLI::Number | CLI::IsMember({of_file})).description(""));
   command->add_flag("--progress", console.progress,
                     "show progress on stderr although it is no terminal");
   command->callback([request, file, &console] {

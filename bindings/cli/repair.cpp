@@ -1,9 +1,11 @@
 // `mvs repair`: a valve before and after a surgical plan, both closed and measured.
 #include <memory>
+#include <optional>
 
 #include "at_rest.h"
 #include "commands.h"
 #include "plan_file.h"
+#include "pressure.h"
 #include "readouts.h"
 
 namespace cli {
@@ -11,7 +13,7 @@ namespace {
 
 struct Options {
   std::string file, plan, out, plan_out;
-  double pressure_mmhg = 120;
+  std::optional<double> pressure_mmhg;
 };
 
 void run(const Options &options, const Console &console) {
@@ -21,9 +23,10 @@ void run(const Options &options, const Console &console) {
   mvs::Sim repaired = load_sim(options.file, progress);
   // a plan that cannot be done is told before anything takes long
   repaired.check_plan(plan);
-  const AtRest before = settle(as_it_is, options.pressure_mmhg, options.file + " before");
+  const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, as_it_is);
+  const AtRest before = settle(as_it_is, pressure_mmhg, options.file + " before");
   const mvs_replay replay = repaired.replay_plan(plan);
-  const AtRest after = settle(repaired, options.pressure_mmhg, options.file + " after");
+  const AtRest after = settle(repaired, pressure_mmhg, options.file + " after");
   if (!options.out.empty()) after.valve.save(options.out);
   if (!options.plan_out.empty()) {
     mvs_plan_options with_measures = {};
@@ -31,7 +34,7 @@ void run(const Options &options, const Console &console) {
     after.valve.save_plan(options.plan_out, with_measures);
   }
   std::string human = text("%s repaired by %s under %g mmHg\n", options.file.c_str(),
-                           options.plan.c_str(), options.pressure_mmhg);
+                           options.plan.c_str(), pressure_mmhg);
   Json titles = Json::array();
   for (const mvs_history_entry &entry : after.valve.history().done) {
     titles.push_back(entry.title);
@@ -40,7 +43,7 @@ void run(const Options &options, const Console &console) {
   print(console,
         {{"file", options.file},
          {"plan", options.plan},
-         {"pressure_mmHg", options.pressure_mmhg},
+         {"pressure_mmHg", pressure_mmhg},
          {"same_valve", replay.same_valve != 0},
          {"operations", titles},
          {"before", at_rest_json(before)},
@@ -59,9 +62,7 @@ void add_repair(CLI::App &app, Console &console) {
   command->add_option("-o,--output", options->out, "write the repaired, closed valve");
   command->add_option("--save-plan", options->plan_out,
                       "write the plan as done, with measures before and after each operation");
-  command->add_option("--pressure", options->pressure_mmhg, "transvalvular pressure, mmHg")
-      ->capture_default_str()
-      ->check(CLI::Number);
+  add_pressure_option(*command, options->pressure_mmhg);
   command->callback([options, &console] { run(*options, console); });
 }
 

@@ -43,6 +43,16 @@ class Import(unittest.TestCase):
         told = json.loads(self.ok("close", TOY, "--pressure", 10, "--json").stdout)
         self.assertEqual(told["pressure_mmHg"], 10)
 
+    def test_a_valve_made_from_the_file_keeps_its_pressure(self):
+        for name in ("toy.obj", "toy.h5"):
+            self.ok("convert", TOY, "-o", self.dir / name)
+            told = json.loads(self.ok("close", self.dir / name, "--json").stdout)
+            self.assertAlmostEqual(told["pressure_mmHg"], 3000 / PA_PER_MMHG, places=9)
+            for settle, pressure in ((["--settle"], 3000 / PA_PER_MMHG), (["--settle", 10], 10)):
+                told = json.loads(self.ok("op", self.dir / name, "annulus-scale", "--ap",
+                                          0.9, *settle, "--json").stdout)
+                self.assertAlmostEqual(told["pressure_mmHg"], pressure, places=9)
+
     def test_convert_keeps_the_valve_and_writes_febio_models(self):
         before = json.loads(self.ok("info", TOY, "--json").stdout)
         self.ok("convert", TOY, "-o", self.dir / "toy.obj")

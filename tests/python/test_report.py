@@ -35,6 +35,16 @@ def test_there_is_a_picture_of_each_kind_and_none_is_blank(pictures):
         assert drawn > (0.01 if shown.name == "section" else 0.1)
 
 
+def test_the_valve_of_a_file_closes_under_its_own_pressure_unless_told_another(tmp_path):
+    with mvs.Simulator() as sim:
+        sim.generate(vertices=200)
+        sim.set_load(3e3)
+        sim.snapshot().save(tmp_path / "tricuspid.h5")
+    for asked, pressure in ((None, 3e3), (2e3, 2e3)):
+        case = cases.from_file(tmp_path / "tricuspid.h5", "file1", asked)
+        assert case.closed.load_case.pressure == pressure
+
+
 def test_the_page_needs_nothing_else(case, pictures):
     text = page.build([case], pictures)
     assert text.count("data:image/png;base64,") == len(pictures)

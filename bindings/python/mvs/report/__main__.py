@@ -23,7 +23,8 @@ def _arguments() -> argparse.Namespace:
         "DIR/report.html.",
     )
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to write")
-    parser.add_argument("--pressure", type=float, default=120.0, metavar="MMHG", help="[120]")
+    parser.add_argument("--pressure", type=float, metavar="MMHG",
+                        help="[that of the load in a FILE; 120 if there is none]")
     parser.add_argument("--paths", type=int, default=8, metavar="N",
                         help="closures of each valve, for their spread; 0: no such chapter [8]")
     parser.add_argument("--no-pictures", action="store_true", help="only the table")
@@ -31,11 +32,11 @@ def _arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _close_all(files: list[Path], pressure_pa: float) -> list[Case]:
+def _close_all(files: list[Path], asked_pa: float | None) -> list[Case]:
     cases: list[Case] = []
     made = chain(
-        (make(pressure_pa) for make in (shipped, leaking)),
-        (from_file(file, f"file{k}", pressure_pa) for k, file in enumerate(files, 1)),
+        (make(mvs.SYSTOLE_PA if asked_pa is None else asked_pa) for make in (shipped, leaking)),
+        (from_file(file, f"file{k}", asked_pa) for k, file in enumerate(files, 1)),
     )
     for case in made:
         cases.append(case)
@@ -104,7 +105,8 @@ def main() -> int:
     """Makes the report; 0, or 1 with a sentence on stderr."""
     arguments = _arguments()
     try:
-        cases = _close_all(arguments.files, arguments.pressure * mvs.MMHG)
+        asked = None if arguments.pressure is None else arguments.pressure * mvs.MMHG
+        cases = _close_all(arguments.files, asked)
         arguments.out.mkdir(parents=True, exist_ok=True)
         print(as_text(cases))
         pictures = [] if arguments.no_pictures else _draw(cases, arguments.out / "pictures")
@@ -112,7 +114,7 @@ def main() -> int:
 
         page = arguments.out / "report.html"
         chapter = _study(arguments.out, not arguments.no_pictures)
-        pressure = arguments.pressure * mvs.MMHG
+        pressure = mvs.SYSTOLE_PA if asked is None else asked
         chapter += _operations(arguments.out, not arguments.no_pictures, pressure)
         if arguments.paths > 0:
             chapter += _spread(

@@ -73,11 +73,18 @@ def leaking(pressure_pa: float) -> Case:
         return close(sim, "leaking", "Leaking variant", note, pressure_pa)
 
 
-def from_file(path: Path, key: str, pressure_pa: float) -> Case:
-    """The valve of a file, closed from its open shape whatever state it was saved in."""
+def from_file(path: Path, key: str, asked_pa: float | None = None) -> Case:
+    """The valve of a file, closed from its open shape whatever state it was saved in.
+
+    Under the pressure asked for (Pa), else that of the load in the file, else 120 mmHg.
+    """
     with Simulator() as sim:
         sim.load(path)
-        valve = mvs.valve_of(sim.snapshot())
+        saved = sim.snapshot()
+        pressure_pa = asked_pa
+        if pressure_pa is None:
+            pressure_pa = saved.load_case.pressure or mvs.SYSTOLE_PA
+        valve = mvs.valve_of(saved)
         valve.nodes_now = None
         sim.set_valve(valve)
         return close(sim, key, path.stem, f"Read from {path.name}.", pressure_pa)

@@ -36,9 +36,13 @@ def _thin() -> Snapshot:
 
 
 def run(cases: list[Case], paths: int, pressure_pa: float) -> Iterator[Spreading]:
-    """The valves of the report, and the shipped one with thinner leaflets, which fold more."""
+    """The valves of the report, each under its pressure there, and one more under ``pressure_pa``.
+
+    That is the shipped valve with thinner leaflets, which fold more.
+    """
     for case in cases:
-        yield Spreading(case.key, case.title, case.opened.spread(pressure_pa, paths=paths))
+        own = case.closed.load_case.pressure
+        yield Spreading(case.key, case.title, case.opened.spread(own, paths=paths))
     title = f"Shipped valve, leaflets {THIN * 1e3:g} mm thick"
     yield Spreading("thin", title, _thin().spread(pressure_pa, paths=paths))
 
