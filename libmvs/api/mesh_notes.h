@@ -5,7 +5,7 @@
 
 namespace mvs {
 
-// Logs edges shorter than the contact thickness, which is no fault, and those so short that the
+// Logs edges shorter than the contact thickness, which is no fault, and triangles so low that the
 // valve may not come to rest.
 void log_mesh(const mvs_sim &sim, const Model &model);
 

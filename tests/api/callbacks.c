@@ -84,7 +84,7 @@ static void not_converged_is_a_warning_and_no_error(void) {
   mvs_destroy(h.sim);
 }
 
-/* Finer than its contact is no fault, but is told; with slivers it is a warning. */
+/* Finer than its contact is no fault, but is told; with needles it is a warning. */
 static void edges_below_the_contact_thickness_are_told(void) {
   static funnel f;
   host h = {0};
@@ -99,7 +99,21 @@ static void edges_below_the_contact_thickness_are_told(void) {
   for (int k = 0; k < 3; ++k) f.nodes[33][k] = f.nodes[32][k] + (k == 1 ? 1e-6 : 0);
   MUST(mvs_set_valve(h.sim, &f.desc));
   CHECK(h.warnings == 1);
-  CHECK(strstr(h.last, "the edge from node 32 to node 33 is 1e-06 m long") != NULL);
+  CHECK(strstr(h.last, "under a hundredth of the contact thickness of 0.005 m (2 of") != NULL);
+  /* a corner far from the others, but nearly on the line between them */
+  make_funnel(&f);
+  f.desc.contact_thickness = 5e-3;
+  const uint32_t *t = f.triangles[FUNNEL_TRIANGLES - 1];
+  const uint32_t top = t[0] > t[1] ? (t[0] > t[2] ? 0 : 2) : (t[1] > t[2] ? 1 : 2);
+  double *moved = f.nodes[t[top]];
+  const double *b = f.nodes[t[(top + 1) % 3]], *c = f.nodes[t[(top + 2) % 3]];
+  for (int k = 0; k < 3; ++k) moved[k] = 0.5 * (b[k] + c[k]) + (k == 0 ? 2e-5 : 0);
+  h.warnings = 0;
+  MUST(mvs_set_valve(h.sim, &f.desc));
+  CHECK(h.warnings == 1);
+  char told[80];
+  snprintf(told, sizeof told, "the triangle of nodes %u, %u, %u is ", t[0], t[1], t[2]);
+  CHECK(strstr(h.last, told) != NULL && strstr(h.last, "(1 of them)") != NULL);
   mvs_destroy(h.sim);
 }
 
