@@ -14,8 +14,6 @@
 namespace cli {
 namespace {
 
-constexpr const char *of_file = "file";  // --settle without a pressure
-
 struct Request {
   mvs::OpKind kind;
   std::string in, out;
@@ -131,22 +129,18 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
   for (const mvs_field_info &field : kind.fields) add_field(*command, *request, field);
   command->add_option("-o,--output", request->out, "write the valve, .obj, .h5 or .vtp")
       ->type_name("FILE");
-  command
-      ->add_option_function<std::string>(
-          "--settle",
-          [request](const std::string &given) {
-            request->settle = true;
-            if (given != of_file) request->settle_mmhg = std::stod(given);
-          },
-          "close it before and after, and measure, under this pressure, mmHg [that of the load in "
-          "the file; 120 if there is none]")
-      ->expected(0, 1)
-      ->default_str(of_file)
-      ->type_name("MMHG")
-      ->check((CLI::Number | CLI::IsMember({of_file})).description(""));
+  const CLI::Option *settle =
+      command
+          ->add_option("--settle", request->settle_mmhg,
+                       "close it before and after, and measure, under this pressure, mmHg [that of "
+                       "the load in the file; 120 if there is none]")
+          ->expected(0, 1)
+          ->type_name("MMHG")
+          ->check(CLI::Validator(CLI::Number).description(""));
   command->add_flag("--progress", console.progress,
                     "show progress on stderr although it is no terminal");
-  command->callback([request, file, &console] {
+  command->callback([request, file, settle, &console] {
+    request->settle = settle->count() > 0;
     if (file->empty()) throw CLI::RequiredError("file");
     request->in = *file;
     run(*request, console);

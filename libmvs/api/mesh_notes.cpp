@@ -13,13 +13,6 @@ namespace {
 // valve whose lowest triangles have 0.016 of it closes, on a finer mesh with 0.001 it does not.
 constexpr double needle_share = 0.01;
 
-size_t edges_below(const Model &model, double length) {
-  size_t count = 0;
-  const auto &x = model.valve.rest;
-  for (const Edge &e : model.topology.edges) count += (x[e[0]] - x[e[1]]).norm() < length;
-  return count;
-}
-
 struct Needles {
   size_t count = 0;
   double lowest = 0;  // m
@@ -58,10 +51,11 @@ void log_mesh(const mvs_sim &sim, const Model &model) {
         "too close or make another mesh; to close without bending (bending_scale 0) may help too",
         i, j, k, needles.lowest, r, needles.count);
   }
-  const size_t thin = edges_below(model, r);
+  const auto thin = std::count_if(model.rest_length.begin(), model.rest_length.end(),
+                                  [r](double length) { return length < r; });
   if (thin == 0) return;
   sim.log(MVS_LOG_INFO,
-          "%zu of %zu edges are shorter than the contact thickness of %.3g m: places of the sheet "
+          "%td of %zu edges are shorter than the contact thickness of %.3g m: places of the sheet "
           "nearer to each other than %.3g m at rest do not touch, they are only kept apart",
           thin, model.topology.edges.size(), r, facing_rest_distance * r);
 }

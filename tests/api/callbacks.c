@@ -99,6 +99,7 @@ static void edges_below_the_contact_thickness_are_told(void) {
   for (int k = 0; k < 3; ++k) f.nodes[33][k] = f.nodes[32][k] + (k == 1 ? 1e-6 : 0);
   MUST(mvs_set_valve(h.sim, &f.desc));
   CHECK(h.warnings == 1);
+  CHECK(strstr(h.last, "the triangle of nodes 17, 33, 32 is 7.74e-07 m high") != NULL);
   CHECK(strstr(h.last, "under a hundredth of the contact thickness of 0.005 m (2 of") != NULL);
   /* a corner far from the others, but nearly on the line between them */
   make_funnel(&f);

@@ -74,6 +74,8 @@ class Op(Command):
                            1.3 * done["before"]["measures"]["annulus_area_mm2"])
         other = self.json("op", "v.obj", "annulus-scale", "--factor", 1.2, "--settle", 80)
         self.assertEqual(other["pressure_mmHg"], 80)
+        too_much = ("op", "v.obj", "annulus-scale", "--factor", 1.2, "--settle", "1e999")
+        self.assertIn("load.pressure is inf Pa", self.fails(*too_much).stderr)
         table = self.ok("op", "v.obj", "annulus-scale", "--factor", 1.2, "--settle").stdout
         self.assertRegex(table, r"Annulus CC diameter +35\.00 +42\.00 mm")
 

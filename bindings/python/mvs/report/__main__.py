@@ -32,10 +32,10 @@ def _arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _close_all(files: list[Path], asked_pa: float | None) -> list[Case]:
+def _close_all(files: list[Path], asked_pa: float | None, pressure_pa: float) -> list[Case]:
     cases: list[Case] = []
     made = chain(
-        (make(mvs.SYSTOLE_PA if asked_pa is None else asked_pa) for make in (shipped, leaking)),
+        (make(pressure_pa) for make in (shipped, leaking)),
         (from_file(file, f"file{k}", asked_pa) for k, file in enumerate(files, 1)),
     )
     for case in made:
@@ -106,7 +106,8 @@ def main() -> int:
     arguments = _arguments()
     try:
         asked = None if arguments.pressure is None else arguments.pressure * mvs.MMHG
-        cases = _close_all(arguments.files, asked)
+        pressure = mvs.SYSTOLE_PA if asked is None else asked
+        cases = _close_all(arguments.files, asked, pressure)
         arguments.out.mkdir(parents=True, exist_ok=True)
         print(as_text(cases))
         pictures = [] if arguments.no_pictures else _draw(cases, arguments.out / "pictures")
@@ -114,7 +115,6 @@ def main() -> int:
 
         page = arguments.out / "report.html"
         chapter = _study(arguments.out, not arguments.no_pictures)
-        pressure = mvs.SYSTOLE_PA if asked is None else asked
         chapter += _operations(arguments.out, not arguments.no_pictures, pressure)
         if arguments.paths > 0:
             chapter += _spread(
