@@ -1,45 +1,157 @@
+// Eight ways against eight others, with the widest vectors that the processor has.
 #include "base/way_lanes.h"
 
-#include <cmath>
+#include <bit>
 
 namespace mvs {
+namespace {
 
-double narrow_error(const Way &all) {
-  double farthest = 0;
-  for (const Way::Box &box : {all.start, all.end}) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      farthest = std::max({farthest, std::abs(box.low[k]), std::abs(box.high[k])});
+// Lying: what is anywhere in memory. Copied by memcpy, wide vectors would go through the stack,
+// sixteen bytes at a time. (Not templates: gcc forgets the alignment of those.)
+#if defined(__GNUC__)
+#define MVS_INLINE [[gnu::always_inline]] inline
+struct Four {
+  static constexpr uint32_t lanes = 4;
+  typedef float Value __attribute__((vector_size(16)));
+  typedef int32_t Answers __attribute__((vector_size(16)));
+  typedef float Lying __attribute__((vector_size(16), aligned(4), may_alias));
+};
+struct Eight {
+  static constexpr uint32_t lanes = 8;
+  typedef float Value __attribute__((vector_size(32)));
+  typedef int32_t Answers __attribute__((vector_size(32)));
+  typedef float Lying __attribute__((vector_size(32), aligned(4), may_alias));
+};
+#else
+#define MVS_INLINE inline
+struct Four {
+  static constexpr uint32_t lanes = 1;
+  typedef float Value;
+  typedef int32_t Answers;
+  typedef float Lying;
+};
+#endif
+
+template <typename V>
+MVS_INLINE uint32_t all_bits_of(const typename V::Answers &answers) {
+  uint32_t bits = 0;
+  for (uint32_t first = 0; first < V::lanes; first += few) {
+    FewAnswers part;
+    std::memcpy(&part, reinterpret_cast<const char *>(&answers) + 4 * first, sizeof part);
+    bits |= bits_of(part) << first;
+  }
+  return bits;
+}
+
+// As many lanes as V has, with a margin around them.
+template <typename V>
+struct Widened {
+  typename V::Value start_low[3], start_high[3], end_low[3], end_high[3];
+};
+
+template <typename V>
+MVS_INLINE void take(typename V::Value &to, const float *from, float margin) {
+  to = *reinterpret_cast<const typename V::Lying *>(from) + margin;
+}
+
+template <typename V>
+MVS_INLINE void widen(const WayLanes &lanes, uint32_t first, float margin, Widened<V> &to) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    take<V>(to.start_low[k], &lanes.start_low[k][first], -margin);
+    take<V>(to.start_high[k], &lanes.start_high[k][first], margin);
+    take<V>(to.end_low[k], &lanes.end_low[k][first], -margin);
+    take<V>(to.end_high[k], &lanes.end_high[k][first], margin);
+  }
+}
+
+// Along one axis a way is above or below the others at both ends.
+template <typename V>
+MVS_INLINE void part(const Widened<V> &there, uint32_t k, float start_low, float start_high,
+                     float end_low, float end_high, typename V::Answers &apart) {
+  apart |= (there.start_high[k] < start_low) & (there.end_high[k] < end_low);
+  apart |= (there.start_low[k] > start_high) & (there.end_low[k] > end_high);
+}
+
+// Bits of the lanes that are near one way.
+template <typename V>
+MVS_INLINE uint32_t near_box(const Widened<V> &there, const NarrowWay &way) {
+  typename V::Answers apart = {};
+  for (uint32_t k = 0; k < 3; ++k) {
+    part<V>(there, k, way.start_low[k], way.start_high[k], way.end_low[k], way.end_high[k], apart);
+  }
+  return all_bits_of<V>(~apart);
+}
+
+template <typename V>
+MVS_INLINE uint32_t near_lane(const Widened<V> &there, const WayLanes &here, uint32_t i) {
+  typename V::Answers apart = {};
+  for (uint32_t k = 0; k < 3; ++k) {
+    part<V>(there, k, here.start_low[k][i], here.start_high[k][i], here.end_low[k][i],
+            here.end_high[k][i], apart);
+  }
+  return all_bits_of<V>(~apart);
+}
+
+template <typename V>
+MVS_INLINE uint32_t find_near_with(const WayLanes &here, const WayLanes &there,
+                                   const NarrowWay &box, float margin, NearLanes &near) {
+  Widened<V> lanes;
+  uint32_t maybe = 0, some = 0;
+  for (uint32_t first = 0; first < WayLanes::count; first += V::lanes) {
+    widen<V>(here, first, margin, lanes);
+    maybe |= near_box<V>(lanes, box) << first;
+  }
+  if (maybe == 0) return 0;
+  for (uint32_t first = 0; first < WayLanes::count; first += V::lanes) {
+    widen<V>(there, first, margin, lanes);
+    for (uint32_t left = maybe; left != 0; left &= left - 1) {
+      const auto i = static_cast<uint32_t>(std::countr_zero(left));
+      const uint32_t found = near_lane<V>(lanes, here, i) << first;
+      near[i] = (some >> i & 1) != 0 ? near[i] | found : found;
+      some |= (found != 0 ? 1u : 0u) << i;
     }
   }
-  return 4 * 0x1p-24 * farthest;
+  return some;
 }
 
-NarrowWay::NarrowWay(const Way &way, double margin) {
-  for (uint32_t k = 0; k < 3; ++k) {
-    start_low[k] = static_cast<float>(way.start.low[k] - margin);
-    start_high[k] = static_cast<float>(way.start.high[k] + margin);
-    end_low[k] = static_cast<float>(way.end.low[k] - margin);
-    end_high[k] = static_cast<float>(way.end.high[k] + margin);
-  }
-  start_low[3] = start_high[3] = end_low[3] = end_high[3] = 0;
+using FindNear = uint32_t (*)(const WayLanes &, const WayLanes &, const NarrowWay &, float,
+                              NearLanes &);
+
+uint32_t find_near_few(const WayLanes &here, const WayLanes &there, const NarrowWay &box,
+                       float margin, NearLanes &near) {
+  return find_near_with<Four>(here, there, box, margin, near);
 }
+
+#if defined(__x86_64__) && defined(__GNUC__)
+[[gnu::target("avx2")]] uint32_t find_near_wider(const WayLanes &here, const WayLanes &there,
+                                                 const NarrowWay &box, float margin,
+                                                 NearLanes &near) {
+  return find_near_with<Eight>(here, there, box, margin, near);
+}
+#endif
+
+FindNear choose() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx2")) return find_near_wider;
+#endif
+  return find_near_few;
+}
+
+}  // namespace
 
 void WayLanes::clear() {
   for (uint32_t k = 0; k < 3; ++k) {
-    start_low_[k].fill(HUGE_VALF);
-    start_high_[k].fill(-HUGE_VALF);
+    start_low[k].fill(HUGE_VALF);
+    start_high[k].fill(-HUGE_VALF);
   }
-  end_low_ = start_low_;
-  end_high_ = start_high_;
+  end_low = start_low;
+  end_high = start_high;
 }
 
-void WayLanes::set(uint32_t lane, const Way &way) {
-  for (uint32_t k = 0; k < 3; ++k) {
-    start_low_[k][lane] = static_cast<float>(way.start.low[k]);
-    start_high_[k][lane] = static_cast<float>(way.start.high[k]);
-    end_low_[k][lane] = static_cast<float>(way.end.low[k]);
-    end_high_[k][lane] = static_cast<float>(way.end.high[k]);
-  }
+uint32_t find_near(const WayLanes &here, const WayLanes &there, const NarrowWay &box, float margin,
+                   NearLanes &near) {
+  static const FindNear chosen = choose();
+  return chosen(here, there, box, margin, near);
 }
 
 }  // namespace mvs

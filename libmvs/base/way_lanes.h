@@ -1,4 +1,4 @@
-// Ways in single precision, four numbers at a time: which of them could come near each other. What
+// Ways in single precision, many numbers at a time: which of them could come near each other. What
 // is near for sure is for apart() to tell.
 #pragma once
 
@@ -6,6 +6,7 @@
 #include <xmmintrin.h>
 #endif
 
+#include <cmath>
 #include <cstring>
 
 #include "base/way.h"
@@ -39,63 +40,111 @@ inline FewNumbers take_few(const float *from) {
   return numbers;
 }
 
-// How far from the truth a gap between ways inside of `all` can be in single precision: either
-// side, the margin and their sum are each off by at most half a unit in the last place.
-double narrow_error(const Way &all);
+inline FewAnswers take_few(const int32_t *from) {
+  FewAnswers numbers;
+  std::memcpy(&numbers, from, sizeof numbers);
+  return numbers;
+}
 
-// A way with a margin around it. The fourth axis is nothing: there all are at the same place.
-struct NarrowWay {
-  using Corner = std::array<float, 4>;
+// Three axes; the fourth is nothing: there all are at the same place.
+using NarrowCorner = std::array<float, 4>;
 
-  NarrowWay() = default;
-  NarrowWay(const Way &way, double margin);
-
-  Corner start_low, start_high, end_low, end_high;
+// Where a node is at both ends of its way.
+struct NarrowPlace {
+  NarrowCorner start{}, end{};
 };
 
-// Whether two ways are apart by their margins for sure.
-inline bool surely_apart(const NarrowWay &a, const NarrowWay &b) {
+struct NarrowWay {
+  NarrowCorner start_low = nowhere(1), start_high = nowhere(-1);
+  NarrowCorner end_low = nowhere(1), end_high = nowhere(-1);
+
+  // What is no number is left out.
+  void add(const NarrowPlace &place) {
+    lower(start_low, place.start);
+    raise(start_high, place.start);
+    lower(end_low, place.end);
+    raise(end_high, place.end);
+  }
+  void add(const NarrowWay &other) {
+    lower(start_low, other.start_low);
+    raise(start_high, other.start_high);
+    lower(end_low, other.end_low);
+    raise(end_high, other.end_high);
+  }
+  // Of what goes for itself (see Way).
+  void join_ends() {
+    lower(start_low, end_low);
+    raise(start_high, end_high);
+    end_low = start_low;
+    end_high = start_high;
+  }
+
+ private:
+  static constexpr NarrowCorner nowhere(float sign) {
+    return {sign * HUGE_VALF, sign * HUGE_VALF, sign * HUGE_VALF, 0};
+  }
+  static void lower(NarrowCorner &low, const NarrowCorner &other) {
+    for (uint32_t k = 0; k < 4; k += few) {
+      const FewNumbers mine = take_few(&low[k]), its = take_few(&other[k]);
+      const FewNumbers least = its < mine ? its : mine;
+      std::memcpy(&low[k], &least, sizeof least);
+    }
+  }
+  static void raise(NarrowCorner &high, const NarrowCorner &other) {
+    for (uint32_t k = 0; k < 4; k += few) {
+      const FewNumbers mine = take_few(&high[k]), its = take_few(&other[k]);
+      const FewNumbers most = its > mine ? its : mine;
+      std::memcpy(&high[k], &most, sizeof most);
+    }
+  }
+};
+
+// A margin for ways between places no farther than `farthest` from zero along any axis, with what
+// rounding may take from it: the sides of both, their sum with the margin and the margin itself are
+// each off by at most half a unit in the last place.
+inline float narrow_margin(double margin, double farthest) {
+  return static_cast<float>(margin + 4 * 0x1p-24 * (farthest + margin));
+}
+
+// Whether two ways are apart by a margin from narrow_margin() for sure.
+inline bool surely_apart(const NarrowWay &a, const NarrowWay &b, float margin) {
   for (uint32_t k = 0; k < 4; k += few) {
-    const auto at = [k](const NarrowWay::Corner &corner) { return take_few(&corner[k]); };
+    const auto at = [k](const NarrowCorner &corner) { return take_few(&corner[k]); };
     const FewAnswers above =
-        (at(a.start_low) > at(b.start_high)) & (at(a.end_low) > at(b.end_high));
+        (at(a.start_low) - margin > at(b.start_high)) & (at(a.end_low) - margin > at(b.end_high));
     const FewAnswers below =
-        (at(b.start_low) > at(a.start_high)) & (at(b.end_low) > at(a.end_high));
+        (at(a.start_high) + margin < at(b.start_low)) & (at(a.end_high) + margin < at(b.end_low));
     if (bits_of(above | below) != 0) return true;
   }
   return false;
 }
 
 // Eight ways side by side.
-class WayLanes {
- public:
+struct WayLanes {
   static constexpr uint32_t count = 8;
-
-  void clear();  // to what is nowhere and near nothing
-  void set(uint32_t lane, const Way &way);
-
-  // Bit k is set unless lane k is apart from a way by its margin for sure.
-  uint32_t near(const NarrowWay &way) const {
-    uint32_t lanes = 0;
-    for (uint32_t first = 0; first < count; first += few) lanes |= near(way, first) << first;
-    return lanes;
-  }
-
- private:
   using Numbers = std::array<std::array<float, count>, 3>;
 
-  uint32_t near(const NarrowWay &way, uint32_t first) const {
-    FewAnswers apart = {};
-    for (uint32_t k = 0; k < 3; ++k) {
-      apart |= (take_few(&start_high_[k][first]) < way.start_low[k]) &
-               (take_few(&end_high_[k][first]) < way.end_low[k]);
-      apart |= (take_few(&start_low_[k][first]) > way.start_high[k]) &
-               (take_few(&end_low_[k][first]) > way.end_high[k]);
-    }
-    return bits_of(~apart);
-  }
+  Numbers start_low, start_high, end_low, end_high;
 
-  Numbers start_low_, start_high_, end_low_, end_high_;
+  WayLanes() { clear(); }
+  void clear();  // to what is nowhere and near nothing
+  void set(uint32_t lane, const NarrowWay &way) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      start_low[k][lane] = way.start_low[k];
+      start_high[k][lane] = way.start_high[k];
+      end_low[k][lane] = way.end_low[k];
+      end_high[k][lane] = way.end_high[k];
+    }
+  }
 };
+
+// For each lane, bits of the lanes of others.
+using NearLanes = std::array<uint32_t, WayLanes::count>;
+
+// Bit j of near[i] is set unless lane i of `here` is apart from lane j of `there` by a margin from
+// narrow_margin() for sure. `box` is around all lanes of `there`. Returns the bits of those i that
+// have any; near[i] of the others is left as it is.
+uint32_t find_near(const WayLanes &here, const WayLanes &there, const NarrowWay &box, float margin,
+                   NearLanes &near);
 
 }  // namespace mvs

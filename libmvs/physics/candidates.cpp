@@ -12,6 +12,8 @@ namespace {
 
 // Of the nodes: where fewer go elsewhere, only what they could meet is looked for again.
 constexpr double most_changed = 0.25;
+// Pairs that are measured at once.
+constexpr size_t enough_found = 1024;
 
 }  // namespace
 
@@ -20,17 +22,18 @@ Candidates::Candidates(const Model &model)
       thickness_(model.valve.contact_thickness),
       apart_at_rest_(model),
       tree_(model.valve.rest, model.valve.triangles),
-      parts_(model, tree_) {
+      parts_(model, tree_),
+      lanes_(model, tree_, parts_, facing_rest_distance * thickness_) {
   // more than a closed valve has, so that a live step seldom allocates
   const size_t triangles = model.valve.triangles.size(), edges = model.topology.edges.size();
   for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(16 * parts_.vertices().size());
   guarded_edges_.reserve(4 * edges);
-  vertex_way_.resize(model.node_count());
-  guard_way_.resize(model.node_count());
-  triangle_way_.resize(triangles);
-  edge_way_.resize(edges);
+  for (auto *pairs : {&found_triangles_, &found_edges_}) {
+    pairs->reserve(enough_found + 2 * SheetLanes::most_pairs);
+  }
   triangle_changed_.resize(triangles);
   skip_.resize(triangles);
+  skip_block_.reserve(tree_.block_count());
   count_.reserve(model.node_count() + 1);
 }
 
@@ -69,7 +72,7 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
     half_[i] = 0.5 * (to[i] - x[i]);
   }
   find_still();
-  if (keeps_near_ && !near_) near_.emplace(*model_, parts_, apart_at_rest_, tree_);
+  if (keeps_near_ && !near_) near_.emplace(*model_, parts_, lanes_, apart_at_rest_, tree_);
   if (keeps_near_ && near_->follow({from_, to_, middle_, half_, slack, pace})) {
     choose();
   } else {
@@ -139,16 +142,22 @@ void Candidates::choose(const NearEdges &p) {
 // What changed nodes have no part in stays as it was found.
 void Candidates::search() {
   forget_changed();
-  tree_.place(from_, to_, pace_, skip_);
-  const double facing = thickness_ + 2 * slack_, guard = guard_share * thickness_ + 2 * slack_;
-  widen_ways(facing, guard);
+  lanes_.begin(from_, to_, pace_);
+  tree_.place(lanes_.place_all(), skip_block_);
+  const float facing = lanes_.margin(thickness_ + 2 * slack_);
+  const float guard = lanes_.margin(guard_share * thickness_ + 2 * slack_);
   tree_.for_near_blocks(facing, [&](uint32_t a, uint32_t b) {
-    find_vertices(a, b);
-    if (a != b) find_vertices(b, a);
+    lanes_.near_vertices(a, b, facing, guard, found_triangles_);
+    if (a != b) lanes_.near_vertices(b, a, facing, guard, found_triangles_);
+    if (found_triangles_.size() >= enough_found) take_triangles();
+    if (surely_apart(lanes_.way_of(a), lanes_.way_of(b), guard)) return;
+    lanes_.near_edges(a, b, guard, found_edges_);
+    if (found_edges_.size() >= enough_found) take_edges();
   });
+  take_triangles();
+  take_edges();
   sort_pairs(facing_);
   sort_pairs(guarded_);
-  tree_.for_near_blocks(guard, [&](uint32_t a, uint32_t b) { find_edges(a, b); });
   sort_edges();
 }
 
@@ -160,6 +169,12 @@ void Candidates::forget_changed() {
     const auto [i, j, k] = triangles[t];
     triangle_changed_[t] = changed_[i] | changed_[j] | changed_[k];
     skip_[t] = still_[t] | !triangle_changed_[t];
+  }
+  skip_block_.assign(tree_.block_count(), 1);
+  for (uint32_t block = 0; block < skip_block_.size(); ++block) {
+    for (uint32_t k = tree_.block_start()[block]; k < tree_.block_start()[block + 1]; ++k) {
+      skip_block_[block] &= skip_[tree_.triangles()[k]];
+    }
   }
   const auto forget = [&](std::vector<VertexTriangle> &pairs) {
     std::erase_if(pairs, [&](const VertexTriangle &p) {
@@ -175,26 +190,6 @@ void Candidates::forget_changed() {
 bool Candidates::edge_changed(uint32_t edge) const {
   const Edge &e = model_->topology.edges[edge];
   return changed_[e[0]] || changed_[e[1]];
-}
-
-// Vertices and triangles are asked of blocks of triangles without a margin, edges of each other.
-void Candidates::widen_ways(double facing, double guard) {
-  vertex_way_.resize(from_.size());
-  guard_way_.resize(from_.size());
-  for (const uint32_t v : parts_.vertices()) {
-    const Way way = way_of(std::array<uint32_t, 1>{v});
-    vertex_way_[v] = tree_.narrow(way, facing);
-    guard_way_[v] = tree_.narrow(way, guard);
-  }
-  triangle_way_.resize(still_.size());
-  for (uint32_t t = 0; t < still_.size(); ++t) {
-    triangle_way_[t] = tree_.narrow(tree_.way_of(t), guard);
-  }
-  const auto &edges = model_->topology.edges.get();
-  edge_way_.resize(edges.size());
-  for (size_t i = 0; i < edges.size(); ++i) {
-    edge_way_[i] = tree_.narrow(way_of(edges[i]), 0.5 * guard);
-  }
 }
 
 // What is prescribed to stay where it is.
@@ -229,27 +224,44 @@ double Candidates::reach(const A &a, const B &b) const {
   return 2 * slack_ + (for_itself() ? std::sqrt(of_a2) + std::sqrt(of_b2) : std::sqrt(together2));
 }
 
-void Candidates::find_vertices(uint32_t of, uint32_t block) {
-  for (const uint32_t v : parts_.vertices_of(of)) {
-    // most of what is near is so at rest, where only what is as near as a guard counts
-    tree_.for_near(block, vertex_way_[v], guard_way_[v], [&](uint32_t t, bool is_guarded) {
-      if (is_guarded || apart_at_rest_(v, t)) take(v, t);
-    });
+bool Candidates::concerns(uint32_t vertex, uint32_t triangle) const {
+  if (still_[triangle] && stays(vertex)) return false;
+  return changed_[vertex] || triangle_changed_[triangle];
+}
+
+void Candidates::take_triangles() {
+  const auto &triangles = model_->valve.triangles.get();
+  std::erase_if(found_triangles_, [&](const Edge &p) { return !concerns(p[0], p[1]); });
+  for (size_t first = 0; first < found_triangles_.size(); first += PairRows::most) {
+    const Edge *pair = found_triangles_.data() + first;
+    const auto count =
+        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_triangles_.size() - first));
+    for (uint32_t k = 0; k < count; ++k) {
+      set_pair(place_, k, middle_, pair[k][0], triangles[pair[k][1]]);
+      set_pair(motion_, k, half_, pair[k][0], triangles[pair[k][1]]);
+    }
+    measure_triangles(place_, count);
+    measure_farthest(motion_, count, 1);
+    for (uint32_t k = 0; k < count; ++k) {
+      const std::array<uint32_t, 1> alone{pair[k][0]};
+      const double near = for_itself() ? reach(alone, triangles[pair[k][1]])
+                                       : 2 * slack_ + std::sqrt(motion_.distance2[k]);
+      take(pair[k][0], pair[k][1], std::sqrt(place_.distance2[k]) - near);
+    }
   }
+  found_triangles_.clear();
 }
 
 // What is apart at rest faces; what is near enough is guarded, whatever it was at rest.
-void Candidates::take(uint32_t vertex, uint32_t triangle) {
-  const Tri &t = model_->valve.triangles[triangle];
-  if (has(t, vertex) || (still_[triangle] && stays(vertex))) return;
-  if (!changed_[vertex] && !triangle_changed_[triangle]) return;
+void Candidates::take(uint32_t vertex, uint32_t triangle, double distance) {
+  if (!(distance <= thickness_)) return;
   const bool faces = apart_at_rest_(vertex, triangle);
   const double longest = guard_share * thickness_;
-  const std::array<uint32_t, 1> alone{vertex};
+  if (!faces && distance > longest) return;
+  const Tri &t = model_->valve.triangles[triangle];
   const double margin = (faces ? thickness_ : longest) + 2 * slack_;
-  if (apart(way_of(alone), tree_.way_of(triangle), margin)) return;
-  const double distance = distance_of(middle_, vertex, t) - reach(alone, t);
-  if (faces && distance <= thickness_) facing_.push_back({vertex, triangle, 0});
+  if (apart(way_of(std::array<uint32_t, 1>{vertex}), way_of(t), margin)) return;
+  if (faces) facing_.push_back({vertex, triangle, 0});
   if (distance > longest) return;
   const double guard = guard_range(thickness_, distance_of(model_->valve.rest, vertex, t));
   if (distance <= guard) guarded_.push_back({vertex, triangle, guard});
@@ -279,34 +291,38 @@ void Candidates::sort_edges() {
   });
 }
 
-void Candidates::find_edges(uint32_t of, uint32_t block) {
-  const auto &start = tree_.block_start();
-  for (uint32_t k = start[of]; k < start[of + 1]; ++k) {
-    const uint32_t a = tree_.triangles()[k];
-    tree_.for_near(block, triangle_way_[a], [&](uint32_t b) {
-      // of a block and itself each pair of triangles comes up twice
-      if ((of != block || a < b) && !(skip_[a] && skip_[b])) take_edges(a, b);
-    });
-  }
-}
-
-void Candidates::take_edges(uint32_t a, uint32_t b) {
-  const auto &edges = model_->topology.edges;
-  const double longest = guard_share * thickness_;
-  for (const uint32_t mine : parts_.edges_of(a)) {
-    for (const uint32_t other : parts_.edges_of(b)) {
-      // in the order of the list: the rounding of a distance depends on it
-      const uint32_t i = std::min(mine, other), j = std::max(mine, other);
-      const Edge &e = edges[i], &f = edges[j];
-      if (share(e, f) || surely_apart(edge_way_[i], edge_way_[j])) continue;
-      if (!edge_changed(i) && !edge_changed(j)) continue;
-      if (apart(way_of(e), way_of(f), longest + 2 * slack_)) continue;
-      const double distance = distance_of(middle_, e, f) - reach(e, f);
-      if (distance > longest) continue;
-      const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));
-      if (distance <= guard) guarded_edges_.push_back({i, j, guard});
+void Candidates::take_edges() {
+  const auto &edges = model_->topology.edges.get();
+  std::erase_if(found_edges_, [&](const Edge &p) {
+    if (skip_[parts_.owner_of(p[0])] && skip_[parts_.owner_of(p[1])]) return true;
+    return !edge_changed(p[0]) && !edge_changed(p[1]);
+  });
+  for (size_t first = 0; first < found_edges_.size(); first += PairRows::most) {
+    const Edge *pair = found_edges_.data() + first;
+    const auto count =
+        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_edges_.size() - first));
+    for (uint32_t k = 0; k < count; ++k) {
+      set_pair(place_, k, middle_, edges[pair[k][0]], edges[pair[k][1]]);
+      set_pair(motion_, k, half_, edges[pair[k][0]], edges[pair[k][1]]);
+    }
+    measure_segments(place_, count);
+    measure_farthest(motion_, count, 2);
+    for (uint32_t k = 0; k < count; ++k) {
+      const double near = for_itself() ? reach(edges[pair[k][0]], edges[pair[k][1]])
+                                       : 2 * slack_ + std::sqrt(motion_.distance2[k]);
+      take_edge_pair(pair[k][0], pair[k][1], std::sqrt(place_.distance2[k]) - near);
     }
   }
+  found_edges_.clear();
+}
+
+void Candidates::take_edge_pair(uint32_t i, uint32_t j, double distance) {
+  const double longest = guard_share * thickness_;
+  if (!(distance <= longest)) return;
+  const Edge &e = model_->topology.edges[i], &f = model_->topology.edges[j];
+  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));
+  if (distance > guard || apart(way_of(e), way_of(f), longest + 2 * slack_)) return;
+  guarded_edges_.push_back({i, j, guard});
 }
 
 }  // namespace mvs

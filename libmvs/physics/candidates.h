@@ -13,9 +13,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/distance_lanes.h"
 #include "base/moving_tree.h"
 #include "model/model.h"
 #include "physics/near_pairs.h"
+#include "physics/sheet_lanes.h"
 #include "physics/sheet_parts.h"
 
 namespace mvs {
@@ -69,13 +71,13 @@ class Candidates {
   void search();
   void forget_changed();
   bool edge_changed(uint32_t edge) const;
-  void widen_ways(double facing, double guard);
-  void find_vertices(uint32_t of, uint32_t block);
-  void take(uint32_t vertex, uint32_t triangle);
+  bool concerns(uint32_t vertex, uint32_t triangle) const;
+  void take_triangles();
+  void take_edges();
+  void take(uint32_t vertex, uint32_t triangle, double distance);
+  void take_edge_pair(uint32_t i, uint32_t j, double distance);
   void sort_pairs(std::vector<VertexTriangle> &pairs);
   void sort_edges();
-  void find_edges(uint32_t of, uint32_t block);
-  void take_edges(uint32_t a, uint32_t b);
   template <typename A, typename B>
   double reach(const A &a, const B &b) const;
 
@@ -84,17 +86,19 @@ class Candidates {
   RestApart apart_at_rest_;
   MovingTree tree_;
   SheetParts parts_;
-  std::vector<Vec3> from_, to_;      // of each node
-  std::vector<Vec3> middle_, half_;  // of its way; from there to the end
-  // With what they seek around them; vertices what they face, and what guards them.
-  std::vector<NarrowWay> vertex_way_, guard_way_, triangle_way_, edge_way_;
+  SheetLanes lanes_;
+  std::vector<Vec3> from_, to_;         // of each node
+  std::vector<Vec3> middle_, half_;     // of its way; from there to the end
   std::vector<VertexTriangle> sorted_;  // while pairs are sorted, with how many each vertex has
   std::vector<uint32_t> count_;
+  // What is to be measured: pairs that the lanes have found, and some of them side by side.
+  std::vector<Edge> found_triangles_, found_edges_;
+  PairRows place_, motion_;
   double slack_ = 0;
   Pace pace_ = Pace::together;
   // Nodes and triangles that go elsewhere than when the lists were last made; triangles between two
   // of which there is nothing to look for.
-  std::vector<uint8_t> changed_, triangle_changed_, skip_;
+  std::vector<uint8_t> changed_, triangle_changed_, skip_, skip_block_;
   std::vector<uint8_t> still_;  // triangles that never move: nothing between two of them
   std::vector<VertexTriangle> facing_, guarded_;
   std::vector<EdgeEdge> guarded_edges_;

@@ -2,7 +2,6 @@
 #include "physics/near_pairs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "physics/contact.h"
@@ -28,48 +27,34 @@ constexpr double many_wild = 0.3;
 // Of the contact thickness: more than distances are wrong by, of near parallel edges too.
 constexpr double rounding = 1e-5;
 
-template <typename Nodes>
-Way::Box box_of(const Nodes &nodes, const std::vector<Vec3> &x) {
-  Way::Box box;
-  for (const uint32_t i : nodes) box.add(x[i].data());
-  return box;
-}
-
-double distance_of(const Way::Box &a, const Way::Box &b) {
+double gap_of(const NarrowWay &a, const NarrowWay &b) {
   double sum = 0;
   for (size_t k = 0; k < 3; ++k) {
-    const double gap = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+    const double above = a.start_low[k] - b.start_high[k], below = b.start_low[k] - a.start_high[k];
+    const double gap = std::max({0.0, above, below});
     sum += gap * gap;
   }
   return std::sqrt(sum);
 }
 
-bool apart(const Way::Box &a, const Way::Box &b, double margin) {
-  for (size_t k = 0; k < 3; ++k) {
-    if (a.low[k] - b.high[k] > margin || b.low[k] - a.high[k] > margin) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
-NearPairs::NearPairs(const Model &model, const SheetParts &parts, const RestApart &apart_at_rest,
-                     MovingTree &tree)
+NearPairs::NearPairs(const Model &model, const SheetParts &parts, SheetLanes &lanes,
+                     const RestApart &apart_at_rest, MovingTree &tree)
     : model_(&model),
       parts_(&parts),
+      lanes_(&lanes),
       apart_at_rest_(&apart_at_rest),
       tree_(&tree),
       thickness_(model.valve.contact_thickness),
       guard_(guard_share * thickness_),
       skin_(skin * thickness_) {
   place_nodes();
-  const size_t count = tree.block_start().size() - 1, edges = model.topology.edges.size();
+  const size_t count = tree.block_count(), edges = model.topology.edges.size();
   gone_.resize(count);
   half_.resize(count);
   longest_half_.resize(count);
-  place_.resize(count);
-  edge_box_.resize(edges);
-  still_.assign(model.valve.triangles.size(), 0);
+  still_.assign(count, 0);
   where_.assign(count, none);
   row_start_.assign(count + 1, 0);
   // as much as a closed valve keeps, so that a live step seldom allocates
@@ -78,6 +63,7 @@ NearPairs::NearPairs(const Model &model, const SheetParts &parts, const RestApar
   for (auto *pairs : {&blocks_, &old_blocks_}) pairs->reserve(24 * count);
   found_.reserve(24 * count);
   worn_.reserve(24 * count);
+  for (auto *pairs : {&found_triangles_, &found_edges_}) pairs->reserve(2 * SheetLanes::most_pairs);
 }
 
 void NearPairs::place_nodes() {
@@ -106,10 +92,8 @@ bool NearPairs::follow(const NodeWays &ways) {
 bool NearPairs::move(const NodeWays &ways) {
   if (middle_.empty()) middle_ = ways.middle;
   step_.resize(middle_.size());
-  double farthest = 0;
   for (const uint32_t i : parts_->vertices()) {
     step_[i] = ways.middle[i] - middle_[i];
-    farthest = std::max(farthest, ways.middle[i].cwiseAbs().maxCoeff());
     if (!std::isfinite(step_[i].sum() + ways.half[i].sum())) {
       middle_.clear();
       from_.clear();
@@ -118,7 +102,6 @@ bool NearPairs::move(const NodeWays &ways) {
     }
   }
   middle_ = ways.middle;
-  error_ = 4 * 0x1p-24 * farthest;
   ++round_;
   for (uint32_t block = 0; block < gone_.size(); ++block) {
     const Motion gone = motion_of(block, step_);
@@ -173,9 +156,10 @@ void NearPairs::find_blocks(const NodeWays &ways) {
   to_ = ways.to;
   pace_ = ways.pace;
   margin_ = (1 + early) * thickness_ + 2 * ways.slack;
-  tree_->place(from_, to_, pace_, still_);
+  lanes_->begin(from_, to_, pace_);
+  tree_->place(lanes_->place_all(), still_);
   found_.clear();
-  tree_->for_near_blocks(margin_, [&](uint32_t a, uint32_t b) {
+  tree_->for_near_blocks(lanes_->margin(margin_), [&](uint32_t a, uint32_t b) {
     found_.push_back({std::min(a, b), std::max(a, b)});
   });
   keep_blocks();
@@ -230,6 +214,7 @@ bool NearPairs::find_used(const NodeWays &ways) {
 }
 
 void NearPairs::look_again() {
+  lanes_->begin(middle_, middle_, Pace::together);
   triangles_.swap(old_triangles_);
   edges_.swap(old_edges_);
   triangles_.clear();
@@ -258,72 +243,49 @@ void NearPairs::look(NearBlocks &p) {
   p.beside = gone_[p.a].beside + gone_[p.b].beside;
   p.used = rounding * thickness_;
   p.skin = skin_ + ahead * p.reach;
-  const double gap = distance_of(place(p.a).box, place(p.b).box);
+  lanes_->place(p.a);
+  lanes_->place(p.b);
+  // rounding makes that no more
+  const double gap = gap_of(lanes_->way_of(p.a), lanes_->way_of(p.b)) - lanes_->margin(0);
   if (gap > thickness_ + p.skin) {
     p.skin = gap - thickness_;
     return;
   }
-  take_vertices(p, p.a, p.b);
-  if (p.a != p.b) take_vertices(p, p.b, p.a);
-  if (gap <= guard_ + p.skin) take_edges(p);
+  const float facing = lanes_->margin(thickness_ + p.skin), near = lanes_->margin(guard_ + p.skin);
+  lanes_->near_vertices(p.a, p.b, facing, near, found_triangles_);
+  if (p.a != p.b) lanes_->near_vertices(p.b, p.a, facing, near, found_triangles_);
+  take_triangles(p);
+  if (gap > guard_ + p.skin) return;
+  lanes_->near_edges(p.a, p.b, near, found_edges_);
+  take_edges(p);
 }
 
-// Where a block is in the middle of its way.
-const NearPairs::Place &NearPairs::place(uint32_t block) {
-  Place &place = place_[block];
-  if (place.round == round_) return place;
-  place.round = round_;
-  place.box = {};
-  place.lanes.clear();
-  const uint32_t first = tree_->block_start()[block], last = tree_->block_start()[block + 1];
-  for (uint32_t k = first; k < last; ++k) {
-    const uint32_t t = tree_->triangles()[k];
-    const Way::Box box = box_of(model_->valve.triangles[t], middle_);
-    place.triangle[k - first] = box;
-    place.lanes.set(k - first, {box, box});
-    place.box.add(box);
-    for (const uint32_t e : parts_->edges_of(t)) {
-      edge_box_[e] = box_of(model_->topology.edges[e], middle_);
+void NearPairs::take_triangles(const NearBlocks &p) {
+  const auto &triangles = model_->valve.triangles.get();
+  for (size_t first = 0; first < found_triangles_.size(); first += PairRows::most) {
+    const Edge *pair = found_triangles_.data() + first;
+    const auto count =
+        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_triangles_.size() - first));
+    for (uint32_t k = 0; k < count; ++k) {
+      set_pair(rows_, k, middle_, pair[k][0], triangles[pair[k][1]]);
+    }
+    measure_triangles(rows_, count);
+    for (uint32_t k = 0; k < count; ++k) {
+      take(p, pair[k][0], pair[k][1], std::sqrt(rows_.distance2[k]));
     }
   }
-  return place;
+  found_triangles_.clear();
 }
 
-void NearPairs::take_vertices(const NearBlocks &p, uint32_t of, uint32_t in) {
-  const Place &there = place(in);
-  const uint32_t *triangle = tree_->triangles().data() + tree_->block_start()[in];
-  const double margin = thickness_ + p.skin, near = guard_ + p.skin;
-  for (const uint32_t v : parts_->vertices_of(of)) {
-    const Way::Box box = box_of(std::array<uint32_t, 1>{v}, middle_);
-    if (apart(box, there.box, margin)) continue;
-    uint32_t lanes = there.lanes.near({{box, box}, margin + error_});
-    if (lanes == 0) continue;
-    const uint32_t guarded = there.lanes.near({{box, box}, near + error_});
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const uint32_t t = triangle[std::countr_zero(lanes)];
-      if ((guarded & lanes & -lanes) != 0) {
-        take_guarded(p, v, t);
-      } else if ((*apart_at_rest_)(v, t)) {
-        take_facing(p, v, t);
-      }
-    }
-  }
-}
-
-void NearPairs::take_facing(const NearBlocks &p, uint32_t vertex, uint32_t triangle) {
-  const double over = distance_of(middle_, vertex, model_->valve.triangles[triangle]) - thickness_;
-  if (over <= p.skin) triangles_.push_back({vertex, triangle, guard_, over, true});
-}
-
-void NearPairs::take_guarded(const NearBlocks &p, uint32_t vertex, uint32_t triangle) {
-  const Tri &t = model_->valve.triangles[triangle];
-  if (has(t, vertex)) return;
+void NearPairs::take(const NearBlocks &p, uint32_t vertex, uint32_t triangle, double distance) {
+  const double over = distance - thickness_;
+  if (over > p.skin) return;
   if ((*apart_at_rest_)(vertex, triangle)) {
-    take_facing(p, vertex, triangle);
+    triangles_.push_back({vertex, triangle, guard_, over, true});
     return;
   }
-  const double distance = distance_of(middle_, vertex, t);
   if (distance > guard_ + p.skin) return;
+  const Tri &t = model_->valve.triangles[triangle];
   const double guard = guard_range(thickness_, distance_of(model_->valve.rest, vertex, t));
   if (distance <= guard + p.skin) {
     triangles_.push_back({vertex, triangle, guard, distance - guard, false});
@@ -331,38 +293,26 @@ void NearPairs::take_guarded(const NearBlocks &p, uint32_t vertex, uint32_t tria
 }
 
 void NearPairs::take_edges(const NearBlocks &p) {
-  const Place &a = place(p.a), &b = place(p.b);
-  const auto &start = tree_->block_start();
-  const uint32_t *of_a = tree_->triangles().data() + start[p.a];
-  const uint32_t *of_b = tree_->triangles().data() + start[p.b];
-  const double margin = guard_ + p.skin;
-  for (uint32_t k = 0; k < start[p.a + 1] - start[p.a]; ++k) {
-    if (apart(a.triangle[k], b.box, margin)) continue;
-    const NarrowWay way({a.triangle[k], a.triangle[k]}, margin + error_);
-    for (uint32_t lanes = b.lanes.near(way); lanes != 0; lanes &= lanes - 1) {
-      const auto l = static_cast<uint32_t>(std::countr_zero(lanes));
-      // of a block and itself each pair of triangles comes up twice
-      if (p.a != p.b || of_a[k] < of_b[l]) take_edges(p, of_a[k], of_b[l]);
-    }
-  }
-}
-
-void NearPairs::take_edges(const NearBlocks &p, uint32_t a, uint32_t b) {
   const auto &edges = model_->topology.edges.get();
-  for (const uint32_t mine : parts_->edges_of(a)) {
-    for (const uint32_t other : parts_->edges_of(b)) {
-      if (share(edges[mine], edges[other])) continue;
-      if (apart(edge_box_[mine], edge_box_[other], guard_ + p.skin)) continue;
-      take_edge_pair(p, std::min(mine, other), std::max(mine, other));
+  for (size_t first = 0; first < found_edges_.size(); first += PairRows::most) {
+    const Edge *pair = found_edges_.data() + first;
+    const auto count =
+        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_edges_.size() - first));
+    for (uint32_t k = 0; k < count; ++k) {
+      set_pair(rows_, k, middle_, edges[pair[k][0]], edges[pair[k][1]]);
+    }
+    measure_segments(rows_, count);
+    for (uint32_t k = 0; k < count; ++k) {
+      take_edge_pair(p, pair[k][0], pair[k][1], std::sqrt(rows_.distance2[k]));
     }
   }
+  found_edges_.clear();
 }
 
 // The lower one first: the rounding of their distance depends on it.
-void NearPairs::take_edge_pair(const NearBlocks &p, uint32_t i, uint32_t j) {
-  const Edge &e = model_->topology.edges[i], &f = model_->topology.edges[j];
-  const double distance = distance_of(middle_, e, f);
+void NearPairs::take_edge_pair(const NearBlocks &p, uint32_t i, uint32_t j, double distance) {
   if (distance > guard_ + p.skin) return;
+  const Edge &e = model_->topology.edges[i], &f = model_->topology.edges[j];
   const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));
   if (distance <= guard + p.skin) edges_.push_back({i, j, guard, distance - guard});
 }

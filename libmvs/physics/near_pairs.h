@@ -16,9 +16,11 @@
 
 #include <vector>
 
+#include "base/distance_lanes.h"
 #include "base/moving_tree.h"
 #include "model/model.h"
 #include "physics/rest_apart.h"
+#include "physics/sheet_lanes.h"
 #include "physics/sheet_parts.h"
 
 namespace mvs {
@@ -59,8 +61,8 @@ struct NodeWays {
 class NearPairs {
  public:
   // All of the same model, and there as long as this.
-  NearPairs(const Model &model, const SheetParts &parts, const RestApart &apart_at_rest,
-            MovingTree &tree);
+  NearPairs(const Model &model, const SheetParts &parts, SheetLanes &lanes,
+            const RestApart &apart_at_rest, MovingTree &tree);
 
   // Makes the lists hold every pair that could act on these ways. False if the sheet moves too
   // wildly for lists to be worth it.
@@ -76,13 +78,6 @@ class NearPairs {
     Vec3 common = Vec3::Zero();
     double beside = 0;
   };
-  // A block where it was last placed.
-  struct Place {
-    uint64_t round = 0;
-    Way::Box box;
-    std::array<Way::Box, WayLanes::count> triangle;
-    WayLanes lanes;
-  };
 
   void place_nodes();
   bool move(const NodeWays &ways);
@@ -94,16 +89,14 @@ class NearPairs {
   bool find_used(const NodeWays &ways);
   void look_again();
   void look(NearBlocks &blocks);
-  const Place &place(uint32_t block);
-  void take_vertices(const NearBlocks &blocks, uint32_t of, uint32_t in);
-  void take_facing(const NearBlocks &blocks, uint32_t vertex, uint32_t triangle);
-  void take_guarded(const NearBlocks &blocks, uint32_t vertex, uint32_t triangle);
+  void take_triangles(const NearBlocks &blocks);
+  void take(const NearBlocks &blocks, uint32_t vertex, uint32_t triangle, double distance);
   void take_edges(const NearBlocks &blocks);
-  void take_edges(const NearBlocks &blocks, uint32_t a, uint32_t b);
-  void take_edge_pair(const NearBlocks &blocks, uint32_t i, uint32_t j);
+  void take_edge_pair(const NearBlocks &blocks, uint32_t i, uint32_t j, double distance);
 
   const Model *model_;
   const SheetParts *parts_;
+  SheetLanes *lanes_;
   const RestApart *apart_at_rest_;
   MovingTree *tree_;
   double thickness_, guard_, skin_;
@@ -111,22 +104,21 @@ class NearPairs {
   std::vector<Vec3> middle_, step_;  // of each node in this round; how far that is from the last
   std::vector<Motion> gone_, half_;  // of each block, since the first round and on the way ahead
   std::vector<double> longest_half_;
-  double error_ = 0;  // m, of single precision
   bool wild_ = false;
   uint64_t round_ = 0;
-  std::vector<Place> place_;
-  std::vector<Way::Box> edge_box_;
   // The ways for which blocks_ are all that come within a margin of each other.
   std::vector<Vec3> from_, to_;
   Pace pace_ = Pace::together;
   double margin_ = 0;
-  std::vector<uint8_t> still_;  // no triangle, for the tree
+  std::vector<uint8_t> still_;  // no block, for the tree
   std::vector<Edge> found_;     // pairs of blocks, the lower one first
   std::vector<uint32_t> row_start_, old_row_start_, where_;
   std::vector<NearBlocks> blocks_, old_blocks_;
   std::vector<uint8_t> worn_;
   std::vector<NearTriangle> triangles_, old_triangles_;
   std::vector<NearEdges> edges_, old_edges_;
+  std::vector<Edge> found_triangles_, found_edges_;  // of the blocks at hand
+  PairRows rows_;
 };
 
 }  // namespace mvs

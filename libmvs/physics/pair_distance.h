@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/distance.h"
+#include "base/distance_lanes.h"
 #include "base/types.h"
 
 namespace mvs {
@@ -25,6 +26,21 @@ inline double distance_of(const std::vector<Vec3> &x, uint32_t v, const Tri &t) 
 // Rounded by the order of the edges.
 inline double distance_of(const std::vector<Vec3> &x, const Edge &e, const Edge &f) {
   return std::sqrt(closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]).distance2);
+}
+
+// The same pairs, to be measured many at a time.
+inline void set_pair(PairRows &rows, uint32_t pair, const std::vector<Vec3> &x, uint32_t v,
+                     const Tri &t) {
+  rows.set(pair, 0, x[v]);
+  for (uint32_t k = 0; k < 3; ++k) rows.set(pair, k + 1, x[t[k]]);
+}
+
+inline void set_pair(PairRows &rows, uint32_t pair, const std::vector<Vec3> &x, const Edge &e,
+                     const Edge &f) {
+  for (uint32_t k = 0; k < 2; ++k) {
+    rows.set(pair, k, x[e[k]]);
+    rows.set(pair, k + 2, x[f[k]]);
+  }
 }
 
 }  // namespace mvs

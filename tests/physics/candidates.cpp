@@ -4,8 +4,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <initializer_list>
 
+#include "base/distance_lanes.h"
 #include "base/moving_tree.h"
 #include "pairs.h"
 #include "physics/contact.h"
@@ -98,50 +100,174 @@ void check_pairs(const Model &model, const Candidates &candidates, const Ways &w
 
 }  // namespace
 
+namespace {
+
+NarrowCorner narrow_corner(const Vec3 &p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0};
+}
+
+template <typename Nodes>
+NarrowWay narrow_way(const Nodes &nodes, const Ways &ways) {
+  NarrowWay way;
+  for (const uint32_t i : nodes) {
+    way.add(NarrowPlace{narrow_corner(ways.x[i]), narrow_corner(ways.to[i])});
+  }
+  if (ways.pace == Pace::each_for_itself) way.join_ends();
+  return way;
+}
+
+double farthest(const Ways &ways) {
+  double most = 0;
+  for (const Positions *places : {&ways.x, &ways.to}) {
+    for (const Vec3 &p : *places) most = std::max(most, p.cwiseAbs().maxCoeff());
+  }
+  return most;
+}
+
+// n triangles anywhere in a cube, each on its way.
+struct Scattered {
+  Positions x, to;
+  std::vector<Tri> triangles;
+
+  Scattered(uint32_t n, Random &random) : x(random.vectors(size_t{3} * n, 1)) {
+    for (uint32_t t = 0; t < n; ++t) triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    for (uint32_t i = 0; i < x.size(); ++i) x[i] = x[i - i % 3] + random.vector(0.1);
+    to = moved(x, 1, random.vectors(x.size(), 0.2));
+  }
+};
+
+}  // namespace
+
 TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
   Random random(1);
   for (const uint32_t n : {0u, 1u, 2u, 60u, 200u}) {
-    const Positions x = random.vectors(3 * n, 1);
-    std::vector<Tri> triangles;
-    for (uint32_t t = 0; t < n; ++t) triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    Positions small = x;
-    for (uint32_t i = 0; i < x.size(); ++i) small[i] = x[i - i % 3] + random.vector(0.1);
-    MovingTree tree(small, triangles);
-    std::vector<uint8_t> still(n, 0);
-    for (uint32_t t = 0; t < n; ++t) still[t] = t % 3 == 0;
+    const Scattered sheet(n, random);
+    MovingTree tree(sheet.x, sheet.triangles);
+    const auto &start = tree.block_start();
+    std::vector<uint32_t> block_of(n);
+    std::vector<uint8_t> still(tree.block_count());
+    for (uint32_t b = 0; b < tree.block_count(); ++b) {
+      CHECK(start[b + 1] - start[b] <= WayLanes::count);
+      still[b] = b % 3 == 0;
+      for (uint32_t k = start[b]; k < start[b + 1]; ++k) block_of[tree.triangles()[k]] = b;
+    }
     for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
-      const Positions to = moved(small, 1, random.vectors(small.size(), 0.2));
-      tree.place(small, to, pace, still);
-      std::vector<Way> ways;
-      ways.reserve(triangles.size());
-      for (const Tri &t : triangles) ways.push_back(Way::of(t, small, to, pace));
-      std::vector<Edge> expected, found;
-      for (uint32_t a = 0; a < n; ++a) {
-        for (uint32_t b = a + 1; b < n; ++b) {
-          if (!(still[a] && still[b]) && !apart(ways[a], ways[b], 0.05)) expected.push_back({a, b});
-        }
+      const Ways ways = {sheet.x, sheet.to, 0, pace};
+      std::vector<NarrowWay> blocks(tree.block_count());
+      for (uint32_t t = 0; t < n; ++t) {
+        blocks[block_of[t]].add(narrow_way(sheet.triangles[t], ways));
       }
-      const auto &start = tree.block_start();
-      std::vector<Edge> blocks;
-      tree.for_near_blocks(0.05, [&](uint32_t of, uint32_t block) {
-        blocks.push_back({std::min(of, block), std::max(of, block)});
-        for (uint32_t k = start[of]; k < start[of + 1]; ++k) {
-          const uint32_t a = tree.triangles()[k];
-          const NarrowWay way = tree.narrow(ways[a], 0.05);
-          tree.for_near(block, way, [&](uint32_t b) {
-            if ((of == block && a >= b) || (still[a] && still[b])) return;
-            // no farther than single precision can tell
-            CHECK(!apart(ways[a], ways[b], 0.05 * (1 + 1e-4)));
-            if (!apart(ways[a], ways[b], 0.05)) found.push_back({std::min(a, b), std::max(a, b)});
-          });
-        }
+      tree.place(blocks, still);
+      std::vector<Edge> found;
+      tree.for_near_blocks(narrow_margin(0.05, farthest(ways)), [&](uint32_t a, uint32_t b) {
+        CHECK_FALSE((still[a] && still[b]));
+        found.push_back({std::min(a, b), std::max(a, b)});
       });
       std::sort(found.begin(), found.end());
-      CHECK(found == expected);
-      std::sort(blocks.begin(), blocks.end());
-      CHECK(std::adjacent_find(blocks.begin(), blocks.end()) == blocks.end());
+      CHECK(std::adjacent_find(found.begin(), found.end()) == found.end());
+      bool all = true;
+      for (uint32_t a = 0; a < n; ++a) {
+        for (uint32_t b = a + 1; b < n; ++b) {
+          const Edge pair = {std::min(block_of[a], block_of[b]),
+                             std::max(block_of[a], block_of[b])};
+          if ((still[pair[0]] && still[pair[1]]) ||
+              apart(Way::of(sheet.triangles[a], sheet.x, sheet.to, pace),
+                    Way::of(sheet.triangles[b], sheet.x, sheet.to, pace), 0.05)) {
+            continue;
+          }
+          all = all && std::binary_search(found.begin(), found.end(), pair);
+        }
+      }
+      CHECK(all);
     }
   }
+}
+
+// All that are near, and none that single precision can tell to be farther; empty lanes are near
+// nothing.
+TEST_CASE("lanes_are_near_as_their_ways_are") {
+  Random random(6);
+  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+    size_t found = 0;
+    for (int round = 0; round < 200; ++round) {
+      const Scattered sheet(13, random);
+      const Ways ways = {sheet.x, sheet.to, 0, pace};
+      const double margin = random(0, 0.5);
+      WayLanes here, there;
+      NarrowWay box;
+      for (uint32_t t = 0; t < 13; ++t) {
+        const NarrowWay way = narrow_way(sheet.triangles[t], ways);
+        (t < 8 ? here : there).set(t < 8 ? t : t - 8, way);
+        if (t >= 8) box.add(way);
+      }
+      NearLanes near;
+      const uint32_t some =
+          find_near(here, there, box, narrow_margin(margin, farthest(ways)), near);
+      for (uint32_t i = 0; i < 8; ++i) {
+        const uint32_t bits = (some >> i & 1) != 0 ? near[i] : 0;
+        CHECK(bits < 32);
+        CHECK(((some >> i & 1) != 0) == (bits != 0));
+        for (uint32_t j = 0; j < 5; ++j) {
+          const Way a = Way::of(sheet.triangles[i], sheet.x, sheet.to, pace);
+          const Way b = Way::of(sheet.triangles[8 + j], sheet.x, sheet.to, pace);
+          const bool is_near = (bits >> j & 1) != 0;
+          if (!apart(a, b, margin)) CHECK(is_near);
+          if (is_near) CHECK_FALSE(apart(a, b, margin + 2e-6));
+          found += is_near;
+        }
+      }
+    }
+    CHECK(found > 500);
+  }
+}
+
+// Anywhere, on each other, in one plane, parallel, without a length.
+TEST_CASE("distances_side_by_side_are_to_the_bit_those_one_by_one") {
+  Random random(9);
+  const auto same = [](double a, double b) {
+    return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+  };
+  bool all = true;
+  PairRows rows;
+  for (int round = 0; round < 400; ++round) {
+    std::array<std::array<Vec3, 4>, PairRows::most> pair;
+    const uint32_t count = 1 + static_cast<uint32_t>(round) % PairRows::most;
+    for (uint32_t k = 0; k < count; ++k) {
+      auto &[p, a, b, c] = pair[k];
+      for (Vec3 &q : pair[k]) q = Vec3(0.01, 0.02, 0.03) + random.vector(1e-3);
+      if (k % 8 == 1) c = p + (b - a);
+      if (k % 8 == 2) c = p + 2 * (a - p);
+      if (k % 8 == 3) a = b;
+      if (k % 8 == 4) c = b = a;
+      if (k % 8 == 5) p = 0.25 * a + 0.25 * b + 0.5 * c;
+      if (k % 8 == 6) c = a + 0.5 * (b - a);
+      if (k % 8 == 7) p = a;
+      for (uint32_t i = 0; i < 4; ++i) rows.set(k, i, pair[k][i]);
+    }
+    measure_triangles(rows, count);
+    for (uint32_t k = 0; k < count; ++k) {
+      const auto &[p, a, b, c] = pair[k];
+      all = all && same(rows.distance2[k], closest_on_triangle(p, a, b, c).distance2);
+    }
+    measure_segments(rows, count);
+    for (uint32_t k = 0; k < count; ++k) {
+      const auto &[p, a, b, c] = pair[k];
+      all = all && same(rows.distance2[k], closest_of_segments(p, a, b, c).distance2);
+    }
+    for (const uint32_t split : {1u, 2u}) {
+      measure_farthest(rows, count, split);
+      for (uint32_t k = 0; k < count; ++k) {
+        double most = 0;
+        for (uint32_t i = 0; i < split; ++i) {
+          for (uint32_t j = split; j < 4; ++j) {
+            most = std::max(most, (pair[k][i] - pair[k][j]).squaredNorm());
+          }
+        }
+        all = all && same(rows.distance2[k], most);
+      }
+    }
+  }
+  CHECK(all);
 }
 
 TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {

@@ -1,0 +1,28 @@
+// Squared distances of many pairs at once: bit for bit those of distance.h.
+#pragma once
+
+#include "base/types.h"
+
+namespace mvs {
+
+// Pairs side by side, each of four points: a point and a triangle, or two segments.
+struct PairRows {
+  static constexpr uint32_t most = 64;
+  using Row = std::array<double, most>;
+
+  std::array<Row, 12> at{};  // x, y, z of the first point, of the second ...
+  Row distance2{};
+
+  void set(uint32_t pair, uint32_t point, const Vec3 &place) {
+    for (uint32_t k = 0; k < 3; ++k) at[3 * point + k][pair] = place[k];
+  }
+};
+
+// The first `count` pairs: closest_on_triangle() of the first point and the others.
+void measure_triangles(PairRows &rows, uint32_t count);
+// closest_of_segments() of the first two points and the others.
+void measure_segments(PairRows &rows, uint32_t count);
+// The farthest from any of the first `split` points to any of the others.
+void measure_farthest(PairRows &rows, uint32_t count, uint32_t split);
+
+}  // namespace mvs
