@@ -60,21 +60,6 @@ class BlockMatrix {
 
   void clear() { std::fill(value.begin(), value.end(), Mat3::Zero()); }
 
-  // y = A v
-  void multiply(const std::vector<Vec3> &v, std::vector<Vec3> &y) const {
-    y.assign(v.size(), Vec3::Zero());
-    for (uint32_t c = 0; c < size(); ++c) {
-      const Vec3 &of_c = v[c];
-      Vec3 sum = value[start[c]] * of_c;
-      for (uint32_t k = start[c] + 1; k < start[c + 1]; ++k) {
-        const Mat3 &block = value[k];
-        y[row[k]].noalias() += block * of_c;
-        sum.noalias() += block.transpose() * v[row[k]];
-      }
-      y[c] += sum;
-    }
-  }
-
   uint32_t size() const { return start.empty() ? 0 : static_cast<uint32_t>(start.size() - 1); }
 
   // Where block (r, c), r >= c, is kept; `none` if it is not in the pattern.

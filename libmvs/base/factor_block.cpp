@@ -32,7 +32,8 @@ class BlockFactor final : public Factor {
   void gather(const BlockMatrix &matrix, const Supernode &s);
   void subtract(const Contribution &c, const Supernode &to);
   void load(const Supernode &s);
-  void store(const Supernode &s);
+  void store_columns(const Supernode &s);
+  void store_rows(const Supernode &s);
 
   Supernodes pattern_;
   std::vector<T> value_;            // all panels
@@ -52,12 +53,12 @@ void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   make_room(value_, 2 * pattern_.numbers + panel_slack);  // pages that are not used cost nothing
   make_room(work_, pattern_.node.size());
   for (auto *rows : {&target_, &identity_}) make_room(*rows, 3 * matrix.size());
-  for (auto *rows : {&x_, &local_}) make_room(*rows, 3 * matrix.size());
+  for (auto *rows : {&x_, &local_}) make_room(*rows, 3 * matrix.size() + panel_slack);
   value_.resize(pattern_.numbers + panel_slack);
   place_.resize(matrix.size());
   target_.resize(tallest);
   x_.resize(3 * matrix.size());
-  local_.resize(tallest);
+  local_.resize(tallest + panel_slack);
   identity_.resize(tallest);
   std::iota(identity_.begin(), identity_.end(), 0u);
   weigh();
@@ -143,21 +144,32 @@ bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, ui
   return true;
 }
 
+// Three numbers at a time: most panels have but a few.
+template <typename T>
+void copy_block(const T *from, T *to) {
+  for (size_t c = 0; c < 3; ++c) to[c] = from[c];
+}
+
 template <typename T>
 void BlockFactor<T>::load(const Supernode &s) {
-  T *to = std::copy_n(x_.data() + 3 * s.first, 3 * s.width(), local_.data());
-  for (size_t k = s.row_start; k < s.row_end; ++k) {
-    to = std::copy_n(x_.data() + 3 * pattern_.row[k], 3, to);
+  T *to = local_.data();
+  for (uint32_t j = s.first; j < s.last; ++j, to += 3) copy_block(x_.data() + 3 * j, to);
+  for (size_t k = s.row_start; k < s.row_end; ++k, to += 3) {
+    copy_block(x_.data() + 3 * pattern_.row[k], to);
   }
 }
 
 template <typename T>
-void BlockFactor<T>::store(const Supernode &s) {
+void BlockFactor<T>::store_columns(const Supernode &s) {
   const T *from = local_.data();
-  std::copy_n(from, 3 * s.width(), x_.data() + 3 * s.first);
-  from += 3 * s.width();
+  for (uint32_t j = s.first; j < s.last; ++j, from += 3) copy_block(from, x_.data() + 3 * j);
+}
+
+template <typename T>
+void BlockFactor<T>::store_rows(const Supernode &s) {
+  const T *from = local_.data() + 3 * s.width();
   for (size_t k = s.row_start; k < s.row_end; ++k, from += 3) {
-    std::copy_n(from, 3, x_.data() + 3 * pattern_.row[k]);
+    copy_block(from, x_.data() + 3 * pattern_.row[k]);
   }
 }
 
@@ -169,13 +181,14 @@ void BlockFactor<T>::solve(std::vector<Vec3> &b) {
   for (const Supernode &s : pattern_.node) {
     load(s);
     solve_forward(panel(s), 3 * s.width(), s.height(), local_.data());
-    store(s);
+    store_columns(s);
+    store_rows(s);
   }
   for (size_t k = pattern_.node.size(); k-- > 0;) {
     const Supernode &s = pattern_.node[k];
     load(s);
     solve_backward(panel(s), 3 * s.width(), s.height(), local_.data());
-    std::copy_n(local_.data(), 3 * s.width(), x_.data() + 3 * s.first);
+    store_columns(s);
   }
   for (size_t j = 0; j < b.size(); ++j) {
     b[j] = Eigen::Map<const Row>(x_.data() + 3 * j).template cast<double>();

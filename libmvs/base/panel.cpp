@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+
+#include "base/lanes.h"
 
 namespace mvs {
 namespace {
@@ -14,49 +15,6 @@ constexpr size_t tile_columns = 6;
 constexpr size_t block_columns = 48;
 // A piece of this size is 96 kB: a part of the second-level cache.
 constexpr size_t piece_depth = 128, piece_rows = 96;
-
-// Vectors in registers. A tile is `vectors` of them high.
-#if defined(__GNUC__)
-#define MVS_INLINE [[gnu::always_inline]] inline
-#define MVS_RESTRICT __restrict
-template <typename T, size_t count, size_t vectors_in>
-struct Wide {
-  using Number = T;
-  static constexpr size_t lanes = count, vectors = vectors_in, height = lanes * vectors;
-  typedef T Value __attribute__((vector_size(sizeof(T) * count)));
-};
-#else
-#define MVS_INLINE inline
-#define MVS_RESTRICT
-template <typename T, size_t, size_t vectors_in>
-struct Wide {
-  using Number = T;
-  static constexpr size_t lanes = 1, vectors = vectors_in, height = vectors;
-  typedef T Value;
-};
-#endif
-
-// Numbers lie anywhere: a reference to them as a vector would promise more than that (clang then
-// reads them as aligned).
-template <typename V>
-MVS_INLINE void load(typename V::Value &v, const typename V::Number *from) {
-  std::memcpy(&v, from, sizeof v);
-}
-
-template <typename V>
-MVS_INLINE void store(typename V::Number *to, const typename V::Value &v) {
-  std::memcpy(to, &v, sizeof v);
-}
-
-template <typename V>
-MVS_INLINE typename V::Number sum_of(typename V::Value &v) {
-  typename V::Number part[V::lanes];
-  std::memcpy(part, &v, sizeof part);
-  for (size_t half = V::lanes / 2; half > 0; half /= 2) {
-    for (size_t k = 0; k < half; ++k) part[k] += part[k + half];
-  }
-  return part[0];
-}
 
 // A tile of tile_columns: rows contiguous in C, or gathered into a buffer that is.
 template <typename V, typename T = typename V::Number>
@@ -169,72 +127,10 @@ MVS_INLINE bool factorise(T *panel, size_t width, size_t height, const uint32_t 
   return true;
 }
 
-// Three columns at a time, as many as a block has.
-template <typename T>
-MVS_INLINE void forward(const T *MVS_RESTRICT panel, size_t width, size_t height,
-                        T *MVS_RESTRICT x) {
-  for (size_t j = 0; j < width; j += 3) {
-    const T *a = panel + j * height, *b = a + height, *c = b + height;
-    const T x0 = x[j] * a[j];
-    const T x1 = (x[j + 1] - a[j + 1] * x0) * b[j + 1];
-    const T x2 = (x[j + 2] - a[j + 2] * x0 - b[j + 2] * x1) * c[j + 2];
-    x[j] = x0;
-    x[j + 1] = x1;
-    x[j + 2] = x2;
-    for (size_t i = j + 3; i < height; ++i) x[i] = x[i] - a[i] * x0 - b[i] * x1 - c[i] * x2;
-  }
-}
-
-// What the rows below take from three columns: from the last row on.
-MVS_INLINE void take_below(const double *a, size_t height, size_t first, const double *x,
-                           std::array<double, 3> &sum) {
-  const double *b = a + height, *c = b + height;
-  for (size_t i = height; i-- > first;) {
-    sum[0] -= a[i] * x[i];
-    sum[1] -= b[i] * x[i];
-    sum[2] -= c[i] * x[i];
-  }
-}
-
-// In eight sums each, whatever the processor: the bits are the same on all of them.
-MVS_INLINE void take_below(const float *a, size_t height, size_t first, const float *x,
-                           std::array<float, 3> &sum) {
-  using Eight = Wide<float, 8, 1>;
-  typename Eight::Value part[3] = {};
-  size_t i = first;
-  for (; i + Eight::lanes <= height; i += Eight::lanes) {
-    typename Eight::Value of_a, of_x;
-    load<Eight>(of_x, x + i);
-    for (size_t c = 0; c < 3; ++c) {
-      load<Eight>(of_a, a + c * height + i);
-      part[c] += of_a * of_x;
-    }
-  }
-  for (; i < height; ++i) {
-    for (size_t c = 0; c < 3; ++c) sum[c] -= a[c * height + i] * x[i];
-  }
-  for (size_t c = 0; c < 3; ++c) sum[c] -= sum_of<Eight>(part[c]);
-}
-
-// Three columns at a time: their sums do not wait for each other.
-template <typename T>
-MVS_INLINE void backward(const T *panel, size_t width, size_t height, T *x) {
-  for (size_t j = width; j > 0; j -= 3) {
-    const T *a = panel + (j - 3) * height, *b = a + height, *c = b + height;
-    std::array<T, 3> sum = {x[j - 3], x[j - 2], x[j - 1]};
-    take_below(a, height, j, x, sum);
-    x[j - 1] = sum[2] * c[j - 1];
-    x[j - 2] = (sum[1] - b[j - 1] * x[j - 1]) * b[j - 2];
-    x[j - 3] = (sum[0] - a[j - 1] * x[j - 1] - a[j - 2] * x[j - 2]) * a[j - 3];
-  }
-}
-
 template <typename T>
 struct Kernels {
   void (*update)(const PanelUpdate<T> &);
   bool (*factorise)(T *, size_t, size_t, const uint32_t *);
-  void (*forward)(const T *, size_t, size_t, T *);
-  void (*backward)(const T *, size_t, size_t, T *);
 };
 
 // The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
@@ -247,13 +143,7 @@ struct Kernels {
     ATTRIBUTE static bool factorise(T *p, size_t w, size_t h, const uint32_t *identity) { \
       return mvs::factorise<V>(p, w, h, identity);                                        \
     }                                                                                     \
-    ATTRIBUTE static void forward(const T *p, size_t w, size_t h, T *x) {                 \
-      mvs::forward(p, w, h, x);                                                           \
-    }                                                                                     \
-    ATTRIBUTE static void backward(const T *p, size_t w, size_t h, T *x) {                \
-      mvs::backward(p, w, h, x);                                                          \
-    }                                                                                     \
-    static Kernels<T> all() { return {&update, &factorise, &forward, &backward}; }        \
+    static Kernels<T> all() { return {&update, &factorise}; }                             \
   }
 
 // NOLINTEND(bugprone-macro-parentheses)
@@ -294,23 +184,9 @@ bool factorise_panel(T *panel, size_t width, size_t height, const uint32_t *iden
   return kernels<T>().factorise(panel, width, height, identity);
 }
 
-template <typename T>
-void solve_forward(const T *panel, size_t width, size_t height, T *x) {
-  kernels<T>().forward(panel, width, height, x);
-}
-
-template <typename T>
-void solve_backward(const T *panel, size_t width, size_t height, T *x) {
-  kernels<T>().backward(panel, width, height, x);
-}
-
 template void update_panel(const PanelUpdate<double> &);
 template void update_panel(const PanelUpdate<float> &);
 template bool factorise_panel(double *, size_t, size_t, const uint32_t *);
 template bool factorise_panel(float *, size_t, size_t, const uint32_t *);
-template void solve_forward(const double *, size_t, size_t, double *);
-template void solve_forward(const float *, size_t, size_t, float *);
-template void solve_backward(const double *, size_t, size_t, double *);
-template void solve_backward(const float *, size_t, size_t, float *);
 
 }  // namespace mvs

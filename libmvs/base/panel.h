@@ -36,7 +36,8 @@ template <typename T>
 bool factorise_panel(T *panel, size_t width, size_t height, const uint32_t *identity);
 
 // Both work on the rows of a factorised panel, whose width is a multiple of 3: x becomes L^-1 x,
-// what is below takes its share.
+// what is below takes its share. The panel may be read, and x written, up to panel_slack numbers
+// past its end.
 template <typename T>
 void solve_forward(const T *panel, size_t width, size_t height, T *x);
 // The first `width` rows of x become L^-T (x - B^T x below).

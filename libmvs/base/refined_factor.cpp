@@ -1,5 +1,6 @@
 #include "base/refined_factor.h"
 
+#include "base/block_product.h"
 #include "base/factor_block.h"
 #include "base/pcg.h"
 
@@ -27,6 +28,7 @@ class RefinedFactor final : public Factor {
   bool is_exact_ = false, is_analysed_ = false;  // the exact one
   uint32_t iterations_ = 0;
   Pcg pcg_;
+  BlockProduct product_;
   std::vector<Vec3> solution_;
 };
 
@@ -52,7 +54,7 @@ void RefinedFactor::solve(std::vector<Vec3> &b) {
   iterations_ = 0;
   if (!is_exact_) {
     const auto multiply = [&](const std::vector<Vec3> &v, std::vector<Vec3> &y) {
-      matrix_.multiply(v, y);
+      product_.multiply(matrix_, v, y);
     };
     const auto precondition = [&](const std::vector<Vec3> &r, std::vector<Vec3> &z) {
       z = r;

@@ -24,10 +24,6 @@ void StepMatrix::assemble(Potential &potential, const std::vector<Vec3> &x, cons
   }
 }
 
-void StepMatrix::multiply(const std::vector<Vec3> &v, std::vector<Vec3> &y) const {
-  system_.matrix.multiply(v, y);
-}
-
 void StepMatrix::divide(std::vector<Vec3> &rows) {
   const BlockMatrix &m = system_.matrix;
   bound_.assign(m.size(), 0);

@@ -23,8 +23,6 @@ class StepMatrix {
   const std::vector<Vec3> &boundary_force() const { return system_.boundary_force; }
   const BlockMatrix &blocks() const { return system_.matrix; }
 
-  // y = A v.
-  void multiply(const std::vector<Vec3> &v, std::vector<Vec3> &y) const;
   // Divides each row by a bound of its sum: a step against the force, short enough for any matrix
   // of these entries.
   void divide(std::vector<Vec3> &rows);

@@ -99,7 +99,7 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
                          SolveStats &stats) {
   const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
   const auto multiply = [&](const std::vector<Vec3> &v, std::vector<Vec3> &y) {
-    matrix.multiply(v, y);
+    product_.multiply(matrix.blocks(), v, y);
   };
   const auto precondition = [&](const std::vector<Vec3> &r, std::vector<Vec3> &z) {
     serving_->solve(r, z);

@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/block_product.h"
 #include "base/pcg.h"
 #include "physics/contact_order.h"
 #include "physics/kept_factor.h"
@@ -59,6 +60,7 @@ class StepSolver {
   KeptFactor *serving_ = &first_, *coming_ = &second_;
   KeptFactor exact_;
   Pcg pcg_;
+  BlockProduct product_;
   std::vector<Vec3> solution_;
   uint32_t iterations_ = 0;  // of this step
   // Memory for places: what two states and two factors may hold, and one more.

@@ -1,4 +1,5 @@
 // Sparse factors, the elimination order and GMRES against dense algebra.
+#include "base/block_product.h"
 #include "base/factor.h"
 #include "base/factor_block.h"
 
@@ -104,6 +105,20 @@ TEST_CASE("every_factor_solves_as_dense_algebra_does") {
       // rounding of a well-conditioned matrix of at most 270 rows
       CHECK((flat(x) - expected).norm() < kind.rounding * expected.norm());
     }
+  }
+}
+
+TEST_CASE("products_are_those_of_dense_algebra") {
+  Random random(11);
+  BlockProduct product;
+  for (const uint32_t n : {1u, 2u, 7u, 90u}) {
+    const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 3 * n);
+    const Positions x = random.vectors(n, 1);
+    Positions y;
+    product.multiply(m, x, y);
+    const Eigen::VectorXd expected = dense(m).selfadjointView<Eigen::Lower>() * flat(x);
+    // rounding of sums of some ten products
+    CHECK((flat(y) - expected).norm() <= 1e-15 * dense(m).norm() * flat(x).norm());
   }
 }
 

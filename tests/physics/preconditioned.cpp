@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "anatomy/parametric.h"
+#include "base/block_product.h"
 #include "base/factor.h"
 #include "base/pcg.h"
 #include "bench.h"
@@ -156,7 +157,7 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
     parts.solve(rows, y);
     CHECK(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)) == 0);
     // and of the matrix that products are of
-    matrix.multiply(x, back);
+    BlockProduct().multiply(matrix.blocks(), x, back);
     for (size_t r = 0; r < rows.size(); ++r) back[r] -= rows[r];
     CHECK(largest(back) <= 1e-9 * largest(rows));  // its condition times rounding
   }
