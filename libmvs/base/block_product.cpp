@@ -40,7 +40,9 @@ MVS_INLINE void multiply(const BlockMatrix &matrix, uint32_t columns, const doub
     const Columns diagonal(values + 9 * start[c]);
     const Four::Value own = diagonal.a * x0 + diagonal.b * x1 + diagonal.c * x2;
     Four::Value sum0, sum1, sum2;
-    for (auto *sum : {&sum0, &sum1, &sum2}) load<Four>(*sum, zeros);
+    load<Four>(sum0, zeros);
+    load<Four>(sum1, zeros);
+    load<Four>(sum2, zeros);
     for (uint32_t k = start[c] + 1, end = start[c + 1]; k < end; ++k) {
       const Columns block(values + 9 * k);
       Four::Value of_r, of_y;

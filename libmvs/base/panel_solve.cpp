@@ -104,7 +104,10 @@ MVS_INLINE void add_rows(const float *a, size_t height, const float *x, size_t r
   load<Eight>(of_b, a + height);
   load<Eight>(of_c, a + 2 * height);
   if (rows < Eight::lanes) {
-    for (auto *v : {&of_x, &of_a, &of_b, &of_c}) keep_first(*v, rows);
+    keep_first(of_x, rows);
+    keep_first(of_a, rows);
+    keep_first(of_b, rows);
+    keep_first(of_c, rows);
   }
   sum.of_a += of_a * of_x;
   sum.of_b += of_b * of_x;

@@ -154,27 +154,27 @@ double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) c
 }
 
 void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+  if (curvature == Curvature::exact) {
+    add_exact(x, system);
+  } else {
+    add_projected(x, system);
+  }
+}
+
+void BendingTerm::add_exact(const std::vector<Vec3> &x, System &system) const {
   Hessian exact;
   size_t pair = 0;
   for (const Hinge &h : hinges_) {
     const Vec3 &x0 = x[h.node[0]], &x1 = x[h.node[1]], &x2 = x[h.node[2]], &x3 = x[h.node[3]];
     const Parts p = parts_of(x0, x1, x2, x3);
+    const double moment = h.stiffness * wrap(hinge_angle(x0, x1, x2, x3) - h.rest_angle);
+    angle_hessian(x0, x2, x3, p, exact);
     std::array<Vec3, 4> slope;
     for (uint32_t k = 0; k < 4; ++k) slope[k] = p.a[k] * p.m1 + p.b[k] * p.m2;
-    double moment = 0;
-    if (curvature == Curvature::exact) {
-      moment = h.stiffness * wrap(hinge_angle(x0, x1, x2, x3) - h.rest_angle);
-      angle_hessian(x0, x2, x3, p, exact);
-    }
     for (uint32_t k = 0; k < 4; ++k) {
       const Vec3 stiff = h.stiffness * slope[k];
       for (uint32_t l = 0; l <= k; ++l) {
-        if (curvature == Curvature::projected && k != l) {
-          system.add_product(pair++, h.node[k], h.node[l], stiff, slope[l]);
-          continue;
-        }
-        Mat3 block = stiff * slope[l].transpose();
-        if (curvature == Curvature::exact) block += moment * exact[k][l];
+        const Mat3 block = stiff * slope[l].transpose() + moment * exact[k][l];
         if (k == l) {
           system.add_diagonal(h.node[k], block);
         } else {
@@ -182,6 +182,25 @@ void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syste
         }
       }
     }
+  }
+}
+
+void BendingTerm::add_projected(const std::vector<Vec3> &x, System &system) const {
+  Slope slope;
+  size_t pair = 0;
+  for (const Hinge &h : hinges_) {
+    const Vec3 &x0 = x[h.node[0]];
+    const Vec3 e = x[h.node[1]] - x0, c2 = x[h.node[2]] - x0, c3 = x[h.node[3]] - x0;
+    const Vec3 n1 = e.cross(c2), n2 = c3.cross(e);
+    const double length = e.norm(), per_length = 1 / length;
+    const Vec3 m1 = (1 / n1.squaredNorm()) * n1, m2 = (1 / n2.squaredNorm()) * n2;
+    const double s2 = c2.dot(e) * per_length, s3 = c3.dot(e) * per_length;
+    slope.node(0) = (length - s2) * m1 + (length - s3) * m2;
+    slope.node(1) = s2 * m1 + s3 * m2;
+    slope.node(2) = -length * m1;
+    slope.node(3) = -length * m2;
+    system.add_rank_one(pair, h.node, slope, h.stiffness);
+    pair += 6;
   }
 }
 

@@ -30,6 +30,9 @@ class BendingTerm {
     double stiffness;              // N m
     double rest_angle;             // rad
   };
+  void add_exact(const std::vector<Vec3> &x, System &system) const;
+  void add_projected(const std::vector<Vec3> &x, System &system) const;
+
   std::vector<Hinge> hinges_;
 };
 

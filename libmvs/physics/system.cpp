@@ -37,6 +37,39 @@ void System::find_slots(const std::vector<Edge> &pairs) {
   }
 }
 
+// Where its blocks are; false unless all are in the matrix.
+bool System::find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to) {
+  if (slots_.empty()) return false;
+  std::array<uint32_t, 4> row;
+  for (uint32_t a = 0; a < 4; ++a) row[a] = row_of[nodes[a]];
+  const uint32_t *slot = slots_.data() + first_ + k;
+  for (uint32_t a = 0, pair = 0; a < 4; ++a) {
+    if (row[a] == none) return false;
+    to.diagonal[a] = matrix.value[matrix.start[row[a]]].data();
+    for (uint32_t b = 0; b < a; ++b, ++pair) {
+      to.lower[pair] = row[a] > row[b];
+      to.pair[pair] = matrix.value[slot[pair]].data();
+    }
+  }
+  return true;
+}
+
+void System::add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
+                          double times) {
+  RankOne to;
+  if (find_rank_one(k, nodes, to)) {
+    mvs::add_rank_one(slope, times, to);
+    return;
+  }
+  for (uint32_t a = 0; a < 4; ++a) {
+    const Vec3 of_a = slope.node(a);
+    add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
+    for (uint32_t b = 0; b < a; ++b, ++k) {
+      add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
+    }
+  }
+}
+
 void System::set_order(const Model &model, const std::vector<uint32_t> &nodes) {
   keeps_order_ = true;
   node_of = nodes;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/block_matrix.h"
+#include "base/rank_one.h"
 #include "model/model.h"
 
 namespace mvs {
@@ -58,18 +59,10 @@ class System {
     }
   }
 
-  // The same for the block a b^T, which is written nowhere else: the bits are those of the above.
-  void add_product(size_t k, uint32_t i, uint32_t j, const Vec3 &a, const Vec3 &b) {
-    const uint32_t slot = slots_.empty() ? none : slots_[first_ + k];
-    if (slot == none) {
-      add(k, i, j, a * b.transpose());
-      return;
-    }
-    const bool lower = row_of[i] > row_of[j];
-    const Vec3 &column = lower ? a : b, &row = lower ? b : a;
-    Mat3 &to = matrix.value[slot];
-    for (int c = 0; c < 3; ++c) to.col(c) += column * row[c];
-  }
+  // Adds times * slope slope^T, the slope by four nodes, whose six pairs (1, 0), (2, 0), (2, 1) ...
+  // are `k` and those after it of a term.
+  void add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
+                    double times);
 
   void add_diagonal(uint32_t i, const Mat3 &block) {
     const uint32_t r = row_of[i];
@@ -94,6 +87,7 @@ class System {
       matrix.value[slot] += block.transpose();
     }
   }
+  bool find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to);
   void number_rows(const Model &model, const std::vector<Edge> &pairs);
   void take_rows(const std::vector<Edge> &pairs);
   void couple(uint32_t i, uint32_t j, const Mat3 &block) {
