@@ -6,7 +6,6 @@
 #include "base/factor_block.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/panel.h"
 #include "base/supernodes.h"
@@ -36,13 +35,12 @@ class BlockFactor final : public Factor {
   void store_rows(const Supernode &s);
 
   Supernodes pattern_;
-  std::vector<T> value_;            // all panels
-  std::vector<T> x_;                // right-hand side, then solution
-  std::vector<T> local_;            // right-hand side in the rows of one panel
-  std::vector<double> work_;        // products up to the end of each supernode
-  std::vector<uint32_t> place_;     // block row -> its place in the panel at hand
-  std::vector<uint32_t> target_;    // rows of a contribution in the panel at hand
-  std::vector<uint32_t> identity_;  // 0, 1, 2 ...
+  std::vector<T> value_;          // all panels
+  std::vector<T> x_;              // right-hand side, then solution
+  std::vector<T> local_;          // right-hand side in the rows of one panel
+  std::vector<double> work_;      // products up to the end of each supernode
+  std::vector<uint32_t> place_;   // block row -> its place in the panel at hand
+  std::vector<uint32_t> target_;  // rows of a contribution in the panel at hand
 };
 
 template <typename T>
@@ -52,15 +50,13 @@ void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   for (const Supernode &s : pattern_.node) tallest = std::max(tallest, s.height());
   make_room(value_, 2 * pattern_.numbers + panel_slack);  // pages that are not used cost nothing
   make_room(work_, pattern_.node.size());
-  for (auto *rows : {&target_, &identity_}) make_room(*rows, 3 * matrix.size());
+  make_room(target_, matrix.size());
   for (auto *rows : {&x_, &local_}) make_room(*rows, 3 * matrix.size() + panel_slack);
   value_.resize(pattern_.numbers + panel_slack);
   place_.resize(matrix.size());
-  target_.resize(tallest);
+  target_.resize(matrix.size());
   x_.resize(3 * matrix.size());
   local_.resize(tallest + panel_slack);
-  identity_.resize(tallest);
-  std::iota(identity_.begin(), identity_.end(), 0u);
   weigh();
 }
 
@@ -122,8 +118,7 @@ void BlockFactor<T>::subtract(const Contribution &c, const Supernode &to) {
   const Supernode &from = pattern_.node[c.from];
   const size_t rows = from.row_end - c.first;
   for (size_t k = 0; k < rows; ++k) {
-    const uint32_t at = 3 * place_[pattern_.row[c.first + k]];
-    for (uint32_t r = 0; r < 3; ++r) target_[3 * k + r] = at + r;
+    target_[k] = place_[pattern_.row[c.first + k]];
   }
   const T *a = panel(from) + 3 * (from.width() + c.first - from.row_start);
   update_panel<T>({a, from.height(), panel(to), to.height(), target_.data(), 3 * rows,
@@ -139,7 +134,7 @@ bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, ui
     for (size_t c = pattern_.contribution_start[k]; c < pattern_.contribution_start[k + 1]; ++c) {
       subtract(pattern_.contribution[c], s);
     }
-    if (!factorise_panel(panel(s), 3 * s.width(), s.height(), identity_.data())) return false;
+    if (!factorise_panel(panel(s), 3 * s.width(), s.height())) return false;
   }
   return true;
 }

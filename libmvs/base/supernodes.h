@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/block_matrix.h"
+#include "base/panel.h"
 
 namespace mvs {
 
@@ -19,7 +20,10 @@ struct Supernode {
 
   uint32_t width() const { return last - first; }
   size_t below() const { return row_end - row_start; }
-  size_t height() const { return 3 * (width() + below()); }  // of the panel, in numbers
+  // Of the panel, in numbers: rounded up to what its kernels work on.
+  size_t height() const {
+    return (3 * (width() + below()) + panel_rows - 1) / panel_rows * panel_rows;
+  }
 };
 
 // What an earlier supernode contributes to a later one: its rows first .. in_columns lie in the
