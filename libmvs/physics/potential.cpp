@@ -118,11 +118,10 @@ bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &sy
 }
 
 void Potential::set_pattern(System &system) {
-  wanted_ = pairs_;
+  wanted_.clear();
   contact_.add_pairs(wanted_);
   instrument_.add_pairs(wanted_);
-  system.set_pattern(*model_, wanted_);
-  system.find_slots(pairs_);
+  system.set_pattern(*model_, pairs_, wanted_);
 }
 
 bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,

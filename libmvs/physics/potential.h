@@ -96,7 +96,7 @@ class Potential {
   struct {
     size_t membrane, bending, chord, pressure;
   } first_;                   // where those of each begin, the springs' at 0
-  std::vector<Edge> wanted_;  // and of what touches, while a pattern is made
+  std::vector<Edge> wanted_;  // what touches, while a pattern is made
 };
 
 }  // namespace mvs

@@ -1,6 +1,9 @@
 // Numbering the rows of the system.
 #include "physics/system.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "base/factor.h"
 
 namespace mvs {
@@ -15,26 +18,76 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
   slots_.clear();
   if (!keeps_order_) number_rows(model, pairs);
   take_rows(pairs);
-  const auto rows = static_cast<uint32_t>(node_of.size());
-  if (keeps_order_ && matrix.size() == rows) {
-    const auto needed = most_kept * static_cast<double>(rows_.size());
-    for (uint32_t c = 0; c < rows; ++c) {
-      for (uint32_t k = matrix.start[c] + 1; k < matrix.start[c + 1]; ++k) {
-        rows_.push_back({c, matrix.row[k]});
-      }
-    }
-    matrix.sort_pairs(rows, rows_);
-    if (static_cast<double>(rows_.size()) > needed) take_rows(pairs);
-  }
-  matrix.take_sorted(rows, rows_);
+  keep_old_rows();
+  matrix.take_sorted(static_cast<uint32_t>(node_of.size()), rows_);
 }
 
-void System::find_slots(const std::vector<Edge> &pairs) {
-  slots_.resize(pairs.size());
+void System::set_pattern(const Model &model, const std::vector<Edge> &always,
+                         const std::vector<Edge> &beside) {
+  if (!keeps_order_) {
+    std::vector<Edge> pairs = always;
+    pairs.insert(pairs.end(), beside.begin(), beside.end());
+    number_rows(model, pairs);
+  }
+  if (always_of_.size() != always.size()) find_always(always);
+  take_rows(beside);
+  unite(always_);
+  keep_old_rows();
+  matrix.take_sorted(static_cast<uint32_t>(node_of.size()), rows_);
+  place_always();
+}
+
+// Sorted, and which of these each of the pairs is: good for as long as the order of the rows.
+void System::find_always(const std::vector<Edge> &pairs) {
+  take_rows(pairs);
+  always_ = rows_;
+  always_of_.assign(pairs.size(), none);
   for (size_t k = 0; k < pairs.size(); ++k) {
     const uint32_t r = row_of[pairs[k][0]], c = row_of[pairs[k][1]];
-    slots_[k] = r == none || c == none ? none : find(r, c);
+    if (r == none || c == none) continue;
+    const Edge rows = {std::min(r, c), std::max(r, c)};
+    const auto at = std::lower_bound(always_.begin(), always_.end(), rows);
+    always_of_[k] = static_cast<uint32_t>(at - always_.begin());
   }
+}
+
+// Both they and the pattern ascend.
+void System::place_always() {
+  place_.resize(always_.size());
+  for (uint32_t i = 0, k = 0; i < always_.size(); ++i) {
+    const auto [c, r] = always_[i];
+    k = std::max(k, matrix.start[c]);
+    while (matrix.row[k] < r) ++k;
+    place_[i] = k;
+  }
+  slots_.resize(always_of_.size());
+  for (size_t k = 0; k < slots_.size(); ++k) {
+    slots_[k] = always_of_[k] == none ? none : place_[always_of_[k]];
+  }
+}
+
+// Adds to the pairs of rows what others, sorted as they are, have.
+void System::unite(const std::vector<Edge> &other) {
+  united_.clear();
+  make_room(united_, rows_.size() + other.size());
+  std::set_union(rows_.begin(), rows_.end(), other.begin(), other.end(),
+                 std::back_inserter(united_));
+  rows_.swap(united_);
+}
+
+// And what the pattern has, unless that has become too much.
+void System::keep_old_rows() {
+  if (!keeps_order_ || matrix.size() != node_of.size()) return;
+  const auto needed = most_kept * static_cast<double>(rows_.size());
+  old_.clear();
+  make_room(old_, matrix.row.size());
+  for (uint32_t c = 0; c < matrix.size(); ++c) {
+    for (uint32_t k = matrix.start[c] + 1; k < matrix.start[c + 1]; ++k) {
+      old_.push_back({c, matrix.row[k]});
+    }
+  }
+  unite(old_);
+  if (static_cast<double>(rows_.size()) > needed) rows_.swap(united_);
 }
 
 // Where its blocks are; false unless all are in the matrix.
@@ -75,6 +128,7 @@ void System::set_order(const Model &model, const std::vector<uint32_t> &nodes) {
   node_of = nodes;
   row_of.assign(model.node_count(), none);
   for (uint32_t r = 0; r < node_of.size(); ++r) row_of[node_of[r]] = r;
+  always_of_.clear();
   matrix.forget_pattern();
 }
 
@@ -105,6 +159,7 @@ void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {
   }
   const auto rows = static_cast<uint32_t>(free_nodes.size());
   const std::vector<uint32_t> order = fill_reducing_order(rows, free_pairs);
+  always_of_.clear();
   row_of.assign(n, none);
   node_of.resize(rows);
   for (uint32_t k = 0; k < rows; ++k) {

@@ -15,6 +15,10 @@ class System {
  public:
   // Rows from the free nodes of a model; the pattern from pairs of nodes.
   void set_pattern(const Model &model, const std::vector<Edge> &pairs);
+  // The same from pairs that it always has, and some beside; finds where the blocks of the former
+  // are.
+  void set_pattern(const Model &model, const std::vector<Edge> &always,
+                   const std::vector<Edge> &beside);
   // Puts the free nodes in this order, which then stays whatever the pattern; that is to be set
   // next. Another one with the same order keeps what it had, unless that has become much more than
   // needed.
@@ -41,9 +45,7 @@ class System {
     return true;
   }
 
-  // Finds, once for a pattern, where the blocks of these pairs of nodes are, which it has.
-  void find_slots(const std::vector<Edge> &pairs);
-  // Of these pairs, those of a term begin here.
+  // Of the pairs that it always has, those of a term begin here.
   void begin_term(size_t first) { first_ = first; }
   // The same as add(i, j, block) for what is pair `k` of a term, one way or the other.
   void add(size_t k, uint32_t i, uint32_t j, const Mat3 &block) {
@@ -90,14 +92,22 @@ class System {
   bool find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to);
   void number_rows(const Model &model, const std::vector<Edge> &pairs);
   void take_rows(const std::vector<Edge> &pairs);
+  void find_always(const std::vector<Edge> &pairs);
+  void place_always();
+  void unite(const std::vector<Edge> &other);
+  void keep_old_rows();
   void couple(uint32_t i, uint32_t j, const Mat3 &block) {
     if (row_of[i] != none) boundary_force[row_of[i]] -= block * (*boundary_step)[j];
     if (row_of[j] != none) boundary_force[row_of[j]] -= block.transpose() * (*boundary_step)[i];
   }
 
   bool keeps_order_ = false;
-  std::vector<Edge> rows_;       // pairs of rows, while a pattern is made
-  std::vector<uint32_t> slots_;  // by find_slots(); none where a node has no row
+  // pairs of rows, while a pattern is made
+  std::vector<Edge> rows_, united_, old_;
+  // of the pairs that it always has: sorted, where each of these is in the matrix, and for each
+  // pair as it was given which of these it is, and where: none where a node has no row
+  std::vector<Edge> always_;
+  std::vector<uint32_t> place_, always_of_, slots_;
   size_t first_ = 0;
 };
 

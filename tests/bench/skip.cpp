@@ -73,9 +73,15 @@ System room_for(const Model &model, const std::vector<Vec3> &x) {
 template <typename Term>
 System room_for(const Model &model, const std::vector<Vec3> &x, const Term &term) {
   System system = room_for(model, x);
-  std::vector<Edge> pairs;
+  std::vector<Edge> pairs, all;
   term.add_pairs(pairs);
-  system.find_slots(pairs);
+  const BlockMatrix &m = system.matrix;
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      all.push_back({system.node_of[m.row[k]], system.node_of[c]});
+    }
+  }
+  system.set_pattern(model, pairs, all);
   system.begin_term(0);
   return system;
 }
