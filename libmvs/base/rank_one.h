@@ -8,9 +8,9 @@
 
 namespace mvs {
 
-// Of four nodes, one after the other, and what a vector reads past them.
+// Of four nodes, one after the other; the last number is read past them, and not used.
 struct Slope {
-  std::array<double, 16> number{};
+  std::array<double, 13> number;
 
   Eigen::Map<Vec3> node(uint32_t k) { return Eigen::Map<Vec3>(&number[3 * k]); }
   Eigen::Map<const Vec3> node(uint32_t k) const { return Eigen::Map<const Vec3>(&number[3 * k]); }

@@ -3,8 +3,11 @@
 #include "physics/bending.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "base/arc_tangent.h"
 
 namespace mvs {
 namespace {
@@ -33,7 +36,7 @@ Parts parts_of(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3) {
   p.m2 = p.n2 / p.q2;
   p.length = p.e.norm();
   const double s2 = (x2 - x0).dot(p.e) / p.length, s3 = (x3 - x0).dot(p.e) / p.length;
-  // s is where a corner's foot stands along the edge; theta grows as x2 sinks below the fold.
+  // theta grows as x2 sinks below the fold
   p.a = {p.length - s2, s2, -p.length, 0};
   p.b = {p.length - s3, s3, 0, -p.length};
   return p;
@@ -84,17 +87,39 @@ double wrap(double angle) {
   return angle > 0 ? angle - 2 * std::numbers::pi : angle + 2 * std::numbers::pi;
 }
 
-// N1 x N2 = -e (N1 c3), c3 = x3 - x0.
-double angle_of(const Vec3 &n1, const Vec3 &n2, const Vec3 &c3, double length) {
-  return std::atan2(0 - length * n1.dot(c3), n1.dot(n2));
-}
+// A hinge as its angle has it.
+struct Fold {
+  Vec3 e, c2, c3, n1, n2;  // c = x - x0
+  double length;
+
+  Fold(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3)
+      : e(x1 - x0), c2(x2 - x0), c3(x3 - x0), n1(e.cross(c2)), n2(c3.cross(e)), length(e.norm()) {}
+
+  // The sine and cosine of the angle, both times |N1| |N2|: N1 x N2 = -e (N1 c3).
+  double sine() const { return 0 - length * n1.dot(c3); }
+  double cosine() const { return n1.dot(n2); }
+
+  // Of the angle, by the nodes. s is where a corner's foot stands along the edge.
+  void slopes(Slope &slope) const {
+    const double per_length = 1 / length, s2 = c2.dot(e) * per_length, s3 = c3.dot(e) * per_length;
+    const Vec3 m1 = 1 / n1.squaredNorm() * n1, m2 = 1 / n2.squaredNorm() * n2;
+    slope.node(0) = (length - s2) * m1 + (length - s3) * m2;
+    slope.node(1) = s2 * m1 + s3 * m2;
+    slope.node(2) = -length * m1;
+    slope.node(3) = -length * m2;
+  }
+};
+
+constexpr size_t at_once = 32;  // hinges
 
 }  // namespace
 
 double hinge_angle(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3) {
-  const Vec3 e = x1 - x0, c3 = x3 - x0;
-  const Vec3 n1 = e.cross(x2 - x0), n2 = c3.cross(e);
-  return angle_of(n1, n2, c3, e.norm());
+  const Fold fold(x0, x1, x2, x3);
+  const double sine = fold.sine(), cosine = fold.cosine();
+  double angle = 0;
+  arc_tangents(&sine, &cosine, &angle, 1);
+  return angle;
 }
 
 BendingTerm::BendingTerm(const Model &model) {
@@ -135,20 +160,30 @@ double BendingTerm::energy(const std::vector<Vec3> &x) const {
 
 double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
   double sum = 0;
-  for (const Hinge &h : hinges_) {
-    const Vec3 &x0 = x[h.node[0]];
-    const Vec3 e = x[h.node[1]] - x0, c2 = x[h.node[2]] - x0, c3 = x[h.node[3]] - x0;
-    const Vec3 n1 = e.cross(c2), n2 = c3.cross(e);
-    const double length = e.norm();
-    const double bent = wrap(angle_of(n1, n2, c3, length) - h.rest_angle);
-    const double moment = h.stiffness * bent;
+  for (size_t first = 0; first < hinges_.size(); first += at_once) {
+    sum += gradient_of(first, std::min(first + at_once, hinges_.size()), x, g);
+  }
+  return sum;
+}
+
+double BendingTerm::gradient_of(size_t first, size_t last, const std::vector<Vec3> &x,
+                                std::vector<Vec3> &g) const {
+  std::array<double, at_once> sine{}, cosine{}, angle{};
+  std::array<Slope, at_once> slope;
+  for (size_t k = first; k < last; ++k) {
+    const auto &node = hinges_[k].node;
+    const Fold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
+    sine[k - first] = fold.sine();
+    cosine[k - first] = fold.cosine();
+    fold.slopes(slope[k - first]);
+  }
+  arc_tangents(sine.data(), cosine.data(), angle.data(), last - first);
+  double sum = 0;
+  for (size_t k = first; k < last; ++k) {
+    const Hinge &h = hinges_[k];
+    const double bent = wrap(angle[k - first] - h.rest_angle), moment = h.stiffness * bent;
     sum += 0.5 * moment * bent;
-    const Vec3 m1 = moment / n1.squaredNorm() * n1, m2 = moment / n2.squaredNorm() * n2;
-    const double s2 = c2.dot(e) / length, s3 = c3.dot(e) / length;
-    g[h.node[0]] += (length - s2) * m1 + (length - s3) * m2;
-    g[h.node[1]] += s2 * m1 + s3 * m2;
-    g[h.node[2]] -= length * m1;
-    g[h.node[3]] -= length * m2;
+    for (uint32_t c = 0; c < 4; ++c) g[h.node[c]] += moment * slope[k - first].node(c);
   }
   return sum;
 }
@@ -189,16 +224,7 @@ void BendingTerm::add_projected(const std::vector<Vec3> &x, System &system) cons
   Slope slope;
   size_t pair = 0;
   for (const Hinge &h : hinges_) {
-    const Vec3 &x0 = x[h.node[0]];
-    const Vec3 e = x[h.node[1]] - x0, c2 = x[h.node[2]] - x0, c3 = x[h.node[3]] - x0;
-    const Vec3 n1 = e.cross(c2), n2 = c3.cross(e);
-    const double length = e.norm(), per_length = 1 / length;
-    const Vec3 m1 = (1 / n1.squaredNorm()) * n1, m2 = (1 / n2.squaredNorm()) * n2;
-    const double s2 = c2.dot(e) * per_length, s3 = c3.dot(e) * per_length;
-    slope.node(0) = (length - s2) * m1 + (length - s3) * m2;
-    slope.node(1) = s2 * m1 + s3 * m2;
-    slope.node(2) = -length * m1;
-    slope.node(3) = -length * m2;
+    Fold(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]).slopes(slope);
     system.add_rank_one(pair, h.node, slope, h.stiffness);
     pair += 6;
   }

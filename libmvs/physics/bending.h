@@ -30,6 +30,8 @@ class BendingTerm {
     double stiffness;              // N m
     double rest_angle;             // rad
   };
+  double gradient_of(size_t first, size_t last, const std::vector<Vec3> &x,
+                     std::vector<Vec3> &g) const;
   void add_exact(const std::vector<Vec3> &x, System &system) const;
   void add_projected(const std::vector<Vec3> &x, System &system) const;
 
