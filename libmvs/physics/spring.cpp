@@ -24,6 +24,10 @@ SpringTerm::SpringTerm(const Model &model) {
       }
     }
   }
+  for (Spring &s : springs_) {
+    s.per_length = 1 / s.length;
+    s.section = s.volume * s.per_length;
+  }
 }
 
 double SpringTerm::energy(const std::vector<Vec3> &x) const {
@@ -43,7 +47,7 @@ double SpringTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) co
     const double e = length / s.length - 1;
     const Bilinear &law = laws_[s.law];
     sum += s.volume * law.energy(e);
-    const double force = s.volume / s.length * law.stress(e);
+    const double force = s.section * law.stress(e);
     const Vec3 f = (force / length) * d;
     g[s.i] -= f;
     g[s.j] += f;
@@ -57,9 +61,9 @@ void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System
     const double length = d.norm();
     const double e = length / s.length - 1;
     const Bilinear &law = laws_[s.law];
-    const double stiffness = s.volume / (s.length * s.length) * law.tangent(e);
-    const double tension = s.volume / s.length * law.stress(e);
-    const Mat3 block = axial_block(d / length, stiffness, tension / length, curvature);
+    const double stiffness = s.section * s.per_length * law.tangent(e);
+    const double tension = s.section * law.stress(e), inverse = 1 / length;
+    const Mat3 block = axial_block(inverse * d, stiffness, inverse * tension, curvature);
     system.add_diagonal(s.i, block);
     system.add_diagonal(s.j, block);
     system.add(static_cast<size_t>(&s - springs_.data()), s.i, s.j, -block);

@@ -29,8 +29,9 @@ class SpringTerm {
   // One law on one edge: an edge between two leaflets has two.
   struct Spring {
     uint32_t i, j, law;
-    double length;  // L0, m
-    double volume;  // t A, m3
+    double length;                       // L0, m
+    double volume;                       // t A, m3
+    double per_length = 0, section = 0;  // 1 / L0, t A / L0
   };
   std::vector<Spring> springs_;
   std::vector<Bilinear> laws_;
