@@ -11,12 +11,13 @@ struct Builder {
   std::vector<Vec3> centre;
   std::vector<uint32_t> items;
   std::vector<SheetBranch> nodes;
+  uint32_t block;
 
   // The part of the tree over items first .. last, triangles in their places.
   uint32_t build(uint32_t first, uint32_t last) {
     const auto self = static_cast<uint32_t>(nodes.size());
-    nodes.push_back({none, self + 1, items[first]});
-    if (last - first == 1) return self;
+    nodes.push_back({none, self + 1, first});
+    if (last - first <= block) return self;
     Vec3 low = Vec3::Constant(1e300), high = -low;
     for (uint32_t k = first; k < last; ++k) {
       low = low.cwiseMin(centre[items[k]]);
@@ -24,7 +25,8 @@ struct Builder {
     }
     Eigen::Index axis;
     (high - low).maxCoeff(&axis);
-    const uint32_t middle = first + (last - first) / 2;
+    const uint32_t blocks = (last - first + block - 1) / block;
+    const uint32_t middle = first + (blocks + 1) / 2 * block;
     std::nth_element(items.begin() + first, items.begin() + middle, items.begin() + last,
                      [&](uint32_t a, uint32_t b) {
                        return std::pair(centre[a][axis], a) < std::pair(centre[b][axis], b);
@@ -38,18 +40,18 @@ struct Builder {
 
 }  // namespace
 
-std::vector<SheetBranch> sheet_tree(const std::vector<Vec3> &shape,
-                                    const std::vector<Tri> &triangles) {
+SheetTree sheet_tree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles,
+                     uint32_t block) {
   if (triangles.empty()) return {};
   Builder builder;
+  builder.block = block;
   builder.items.resize(triangles.size());
   std::iota(builder.items.begin(), builder.items.end(), 0u);
   for (const Tri &t : triangles) {
     builder.centre.push_back(shape[t[0]] + shape[t[1]] + shape[t[2]]);
   }
-  builder.nodes.reserve(2 * triangles.size() - 1);
   builder.build(0, static_cast<uint32_t>(triangles.size()));
-  return std::move(builder.nodes);
+  return {std::move(builder.nodes), std::move(builder.items)};
 }
 
 }  // namespace mvs

@@ -1,5 +1,5 @@
-// The shape of a tree over the triangles of a sheet, by halving at the median of the longest side:
-// for boxes that are placed anew as the sheet moves.
+// The shape of a tree over the triangles of a sheet, by halving at the median of the longest side,
+// down to blocks of a few: for boxes that are placed anew as the sheet moves.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,19 @@ namespace mvs {
 
 // In depth-first order: the left child follows its parent.
 struct SheetBranch {
-  uint32_t right;     // child, or none in a leaf
-  uint32_t after;     // the first node that is not below it
-  uint32_t triangle;  // of a leaf
+  uint32_t right;  // child, or none in a leaf
+  uint32_t after;  // the first branch that is not below it
+  uint32_t first;  // of its triangles, by their places in the order of the tree
 };
 
-// n log n, and the same on every machine; empty without triangles.
-std::vector<SheetBranch> sheet_tree(const std::vector<Vec3> &shape,
-                                    const std::vector<Tri> &triangles);
+struct SheetTree {
+  std::vector<SheetBranch> branches;
+  std::vector<uint32_t> order;  // of the triangles
+};
+
+// n log n, and the same on every machine; empty without triangles. All leaves but the last have
+// `block` triangles.
+SheetTree sheet_tree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles,
+                     uint32_t block);
 
 }  // namespace mvs

@@ -93,48 +93,68 @@ MVS_INLINE uint32_t near_lane(const Widened<V> &there, const WayLanes &here, uin
 }
 
 template <typename V>
-MVS_INLINE uint32_t find_near_with(const WayLanes &here, const WayLanes &there,
-                                   const NarrowWay &box, float margin, NearLanes &near) {
-  Widened<V> lanes;
-  uint32_t maybe = 0, some = 0;
+MVS_INLINE uint32_t near_box_with(const WayLanes &lanes, const NarrowWay &box, float margin) {
+  Widened<V> wide;
+  uint32_t bits = 0;
   for (uint32_t first = 0; first < WayLanes::count; first += V::lanes) {
-    widen<V>(here, first, margin, lanes);
-    maybe |= near_box<V>(lanes, box) << first;
+    widen<V>(lanes, first, margin, wide);
+    bits |= near_box<V>(wide, box) << first;
   }
-  if (maybe == 0) return 0;
+  return bits;
+}
+
+template <typename V>
+MVS_INLINE uint32_t near_lanes_with(const WayLanes &here, uint32_t of, const WayLanes &there,
+                                    float margin, NearLanes &near) {
+  Widened<V> lanes;
+  uint32_t some = 0;
   for (uint32_t first = 0; first < WayLanes::count; first += V::lanes) {
     widen<V>(there, first, margin, lanes);
-    for (uint32_t left = maybe; left != 0; left &= left - 1) {
+    for (uint32_t left = of; left != 0; left &= left - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(left));
       const uint32_t found = near_lane<V>(lanes, here, i) << first;
-      near[i] = (some >> i & 1) != 0 ? near[i] | found : found;
+      near[i] = first > 0 ? near[i] | found : found;
       some |= (found != 0 ? 1u : 0u) << i;
     }
   }
   return some;
 }
 
-using FindNear = uint32_t (*)(const WayLanes &, const WayLanes &, const NarrowWay &, float,
-                              NearLanes &);
+struct Kernels {
+  uint32_t (*box)(const WayLanes &, const NarrowWay &, float);
+  uint32_t (*lanes)(const WayLanes &, uint32_t, const WayLanes &, float, NearLanes &);
+};
 
-uint32_t find_near_few(const WayLanes &here, const WayLanes &there, const NarrowWay &box,
-                       float margin, NearLanes &near) {
-  return find_near_with<Four>(here, there, box, margin, near);
-}
+// The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+#define MVS_KERNELS(Name, V, ATTRIBUTE)                                                           \
+  struct Name {                                                                                   \
+    ATTRIBUTE static uint32_t box(const WayLanes &lanes, const NarrowWay &around, float margin) { \
+      return near_box_with<V>(lanes, around, margin);                                             \
+    }                                                                                             \
+    ATTRIBUTE static uint32_t lanes(const WayLanes &here, uint32_t of, const WayLanes &there,     \
+                                    float margin, NearLanes &near) {                              \
+      return near_lanes_with<V>(here, of, there, margin, near);                                   \
+    }                                                                                             \
+  }
 
+// NOLINTEND(bugprone-macro-parentheses)
+
+MVS_KERNELS(Plain, Four, );
 #if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] uint32_t find_near_wider(const WayLanes &here, const WayLanes &there,
-                                                 const NarrowWay &box, float margin,
-                                                 NearLanes &near) {
-  return find_near_with<Eight>(here, there, box, margin, near);
-}
+MVS_KERNELS(Wider, Eight, [[gnu::target("avx2")]]);
 #endif
 
-FindNear choose() {
+Kernels choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return find_near_wider;
+  if (__builtin_cpu_supports("avx2")) return {&Wider::box, &Wider::lanes};
 #endif
-  return find_near_few;
+  return {&Plain::box, &Plain::lanes};
+}
+
+const Kernels &kernels() {
+  static const Kernels chosen = choose();
+  return chosen;
 }
 
 }  // namespace
@@ -148,10 +168,13 @@ void WayLanes::clear() {
   end_high = start_high;
 }
 
-uint32_t find_near(const WayLanes &here, const WayLanes &there, const NarrowWay &box, float margin,
+uint32_t find_near(const WayLanes &lanes, const NarrowWay &box, float margin) {
+  return kernels().box(lanes, box, margin);
+}
+
+uint32_t find_near(const WayLanes &here, uint32_t of, const WayLanes &there, float margin,
                    NearLanes &near) {
-  static const FindNear chosen = choose();
-  return chosen(here, there, box, margin, near);
+  return kernels().lanes(here, of, there, margin, near);
 }
 
 }  // namespace mvs

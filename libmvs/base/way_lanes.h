@@ -141,10 +141,12 @@ struct WayLanes {
 // For each lane, bits of the lanes of others.
 using NearLanes = std::array<uint32_t, WayLanes::count>;
 
-// Bit j of near[i] is set unless lane i of `here` is apart from lane j of `there` by a margin from
-// narrow_margin() for sure. `box` is around all lanes of `there`. Returns the bits of those i that
-// have any; near[i] of the others is left as it is.
-uint32_t find_near(const WayLanes &here, const WayLanes &there, const NarrowWay &box, float margin,
+// Bit i is set unless lane i is apart from a box by a margin from narrow_margin() for sure.
+uint32_t find_near(const WayLanes &lanes, const NarrowWay &box, float margin);
+
+// For the bits i of `of`: bit j of near[i] is set unless lane i of `here` is apart from lane j of
+// `there` by a margin from narrow_margin() for sure. Returns the bits of those that have any.
+uint32_t find_near(const WayLanes &here, uint32_t of, const WayLanes &there, float margin,
                    NearLanes &near);
 
 }  // namespace mvs

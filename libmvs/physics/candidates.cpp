@@ -14,6 +14,11 @@ namespace {
 constexpr double most_changed = 0.25;
 // Pairs that are measured at once.
 constexpr size_t enough_found = 1024;
+// So few are sorted as they are.
+constexpr size_t few_pairs = 32;
+// Lists before what is near is kept, which takes longer than to search: a step that is the only one
+// does not need it, and the first step is dear enough.
+constexpr uint64_t lists_alone = 2;
 
 }  // namespace
 
@@ -32,7 +37,15 @@ Candidates::Candidates(const Model &model)
     pairs->reserve(enough_found + 2 * SheetLanes::most_pairs);
   }
   triangle_changed_.resize(triangles);
-  skip_.resize(triangles);
+  still_.assign(triangles, 0);
+  const auto is_held = [&](uint32_t node) {
+    return model.topology.fixed[node] && model.valve.open[node] == model.valve.loaded[node];
+  };
+  for (uint32_t t = 0; t < triangles; ++t) {
+    const auto [i, j, k] = model.valve.triangles[t];
+    if (is_held(i) && is_held(j) && is_held(k)) held_.push_back(t);
+  }
+  changed_.reserve(model.node_count());
   skip_block_.reserve(tree_.block_count());
   count_.reserve(model.node_count() + 1);
 }
@@ -60,7 +73,7 @@ bool Candidates::valid_for(const std::vector<Vec3> &x) const {
 
 void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                        Pace pace) {
-  const bool little = find_changed(x, to, slack, pace);
+  little_ = find_changed(x, to, slack, pace);
   from_ = x;
   to_ = to;
   slack_ = slack;
@@ -73,20 +86,23 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
   }
   find_still();
   if (keeps_near_ && !near_) near_.emplace(*model_, parts_, lanes_, apart_at_rest_, tree_);
-  if (keeps_near_ && near_->follow({from_, to_, middle_, half_, slack, pace})) {
+  if (keeps_near_ && lists_++ >= lists_alone &&
+      near_->follow({from_, to_, middle_, half_, slack, pace})) {
     choose();
   } else {
-    if (!little) std::fill(changed_.begin(), changed_.end(), uint8_t{1});
     search();
   }
+  sort_pairs(facing_);
+  sort_pairs(guarded_);
+  sort_edges();
 }
 
 // Marks the nodes that another way leads elsewhere than that of the last lists. True if these were
 // made for the same places and most nodes go as they did.
 bool Candidates::find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                               Pace pace) {
-  changed_.assign(x.size(), 1);
   if (from_ != x || slack != slack_ || pace != pace_) return false;
+  changed_.resize(x.size());
   size_t changed = 0;
   for (size_t i = 0; i < x.size(); ++i) changed += changed_[i] = !(to[i] == to_[i]);
   return static_cast<double>(changed) < most_changed * static_cast<double>(x.size());
@@ -94,49 +110,36 @@ bool Candidates::find_changed(const std::vector<Vec3> &x, const std::vector<Vec3
 
 // From what is kept: what search() would find.
 void Candidates::choose() {
+  little_ = false;
   facing_.clear();
   guarded_.clear();
   guarded_edges_.clear();
   for (const NearBlocks &blocks : near_->blocks()) {
+    const double reach = blocks.used + blocks.reach;
     for (uint32_t k = blocks.first_triangle; k < blocks.last_triangle; ++k) {
       const NearTriangle &p = near_->triangles()[k];
-      if (p.over <= blocks.used + blocks.reach) choose(p, blocks);
+      if (p.over <= reach) choose(p, blocks);
     }
     for (uint32_t k = blocks.first_edge; k < blocks.last_edge; ++k) {
       const NearEdges &p = near_->edges()[k];
-      if (p.over <= blocks.used + blocks.reach) choose(p);
+      if (p.over <= reach) found_edges_.push_back({p.first, p.second});
     }
+    if (found_triangles_.size() >= enough_found) take_triangles();
+    if (found_edges_.size() >= enough_found) take_edges();
   }
-  sort_pairs(facing_);
-  sort_pairs(guarded_);
-  sort_edges();
+  take_triangles();
+  take_edges();
 }
 
 // Of what has hardly moved since it was looked at, that is enough to know.
 void Candidates::choose(const NearTriangle &p, const NearBlocks &blocks) {
-  if (still_[p.triangle] && stays(p.vertex)) return;
-  const double longest = guard_share * thickness_;
   const bool surely_faces = p.faces && p.over + blocks.used <= 2 * slack_;
-  if (surely_faces && p.over + thickness_ - longest > blocks.used + blocks.reach) {
+  const double over_guard = p.over + thickness_ - guard_share * thickness_;
+  if (!surely_faces || !(over_guard > blocks.used + blocks.reach)) {
+    found_triangles_.push_back({p.vertex, p.triangle});
+  } else if (concerns(p.vertex, p.triangle)) {
     facing_.push_back({p.vertex, p.triangle, 0});
-    return;
   }
-  const Tri &t = model_->valve.triangles[p.triangle];
-  const std::array<uint32_t, 1> alone{p.vertex};
-  const double distance = distance_of(middle_, p.vertex, t) - reach(alone, t);
-  if (distance > (p.faces ? thickness_ : p.guard)) return;
-  if (apart(way_of(alone), way_of(t), (p.faces ? thickness_ : longest) + 2 * slack_)) return;
-  if (p.faces) facing_.push_back({p.vertex, p.triangle, 0});
-  if (distance <= p.guard) guarded_.push_back({p.vertex, p.triangle, p.guard});
-}
-
-void Candidates::choose(const NearEdges &p) {
-  if (still_[parts_.owner_of(p.first)] && still_[parts_.owner_of(p.second)]) return;
-  const Edge &e = model_->topology.edges[p.first], &f = model_->topology.edges[p.second];
-  const double distance = distance_of(middle_, e, f) - reach(e, f);
-  if (distance > p.guard) return;
-  if (apart(way_of(e), way_of(f), guard_share * thickness_ + 2 * slack_)) return;
-  guarded_edges_.push_back({p.first, p.second, p.guard});
 }
 
 // What changed nodes have no part in stays as it was found.
@@ -147,42 +150,45 @@ void Candidates::search() {
   const float facing = lanes_.margin(thickness_ + 2 * slack_);
   const float guard = lanes_.margin(guard_share * thickness_ + 2 * slack_);
   tree_.for_near_blocks(facing, [&](uint32_t a, uint32_t b) {
-    lanes_.near_vertices(a, b, facing, guard, found_triangles_);
-    if (a != b) lanes_.near_vertices(b, a, facing, guard, found_triangles_);
+    lanes_.meet(a, b, facing, guard, found_triangles_, found_edges_);
     if (found_triangles_.size() >= enough_found) take_triangles();
-    if (surely_apart(lanes_.way_of(a), lanes_.way_of(b), guard)) return;
-    lanes_.near_edges(a, b, guard, found_edges_);
     if (found_edges_.size() >= enough_found) take_edges();
   });
   take_triangles();
   take_edges();
-  sort_pairs(facing_);
-  sort_pairs(guarded_);
-  sort_edges();
 }
 
 void Candidates::forget_changed() {
-  const auto &triangles = model_->valve.triangles.get();
-  triangle_changed_.resize(triangles.size());
-  skip_.resize(triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [i, j, k] = triangles[t];
-    triangle_changed_[t] = changed_[i] | changed_[j] | changed_[k];
-    skip_[t] = still_[t] | !triangle_changed_[t];
-  }
-  skip_block_.assign(tree_.block_count(), 1);
-  for (uint32_t block = 0; block < skip_block_.size(); ++block) {
-    for (uint32_t k = tree_.block_start()[block]; k < tree_.block_start()[block + 1]; ++k) {
-      skip_block_[block] &= skip_[tree_.triangles()[k]];
+  skip_block_.assign(tree_.block_count(), 0);
+  if (!little_) {
+    facing_.clear();
+    guarded_.clear();
+    guarded_edges_.clear();
+  } else {
+    const auto &triangles = model_->valve.triangles.get();
+    for (uint32_t t = 0; t < triangles.size(); ++t) {
+      const auto [i, j, k] = triangles[t];
+      triangle_changed_[t] = changed_[i] | changed_[j] | changed_[k];
     }
+    forget();
   }
-  const auto forget = [&](std::vector<VertexTriangle> &pairs) {
-    std::erase_if(pairs, [&](const VertexTriangle &p) {
+  if (!little_ && !any_still_) return;
+  for (uint32_t block = 0; block < skip_block_.size(); ++block) {
+    bool skip = true;
+    for (uint32_t k = tree_.block_start()[block]; k < tree_.block_start()[block + 1]; ++k) {
+      const uint32_t t = tree_.triangles()[k];
+      skip = skip && (still_[t] || (little_ && !triangle_changed_[t]));
+    }
+    skip_block_[block] = skip;
+  }
+}
+
+void Candidates::forget() {
+  for (auto *pairs : {&facing_, &guarded_}) {
+    std::erase_if(*pairs, [&](const VertexTriangle &p) {
       return changed_[p.vertex] || triangle_changed_[p.triangle];
     });
-  };
-  forget(facing_);
-  forget(guarded_);
+  }
   std::erase_if(guarded_edges_,
                 [&](const EdgeEdge &p) { return edge_changed(p.first) || edge_changed(p.second); });
 }
@@ -200,11 +206,11 @@ bool Candidates::stays(uint32_t node) const {
 }
 
 void Candidates::find_still() {
-  const auto &triangles = model_->valve.triangles;
-  still_.resize(triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [i, j, k] = triangles[t];
+  any_still_ = false;
+  for (const uint32_t t : held_) {
+    const auto [i, j, k] = model_->valve.triangles[t];
     still_[t] = stays(i) && stays(j) && stays(k);
+    any_still_ = any_still_ || still_[t];
   }
 }
 
@@ -224,14 +230,24 @@ double Candidates::reach(const A &a, const B &b) const {
   return 2 * slack_ + (for_itself() ? std::sqrt(of_a2) + std::sqrt(of_b2) : std::sqrt(together2));
 }
 
+// Nothing is between two things that stay, nor to look for between those that go as they did.
 bool Candidates::concerns(uint32_t vertex, uint32_t triangle) const {
-  if (still_[triangle] && stays(vertex)) return false;
-  return changed_[vertex] || triangle_changed_[triangle];
+  if (any_still_ && still_[triangle] && stays(vertex)) return false;
+  return !little_ || changed_[vertex] || triangle_changed_[triangle];
+}
+
+bool Candidates::concerns(const Edge &pair) const {
+  if (any_still_ && still_[parts_.owner_of(pair[0])] && still_[parts_.owner_of(pair[1])]) {
+    return false;
+  }
+  return !little_ || edge_changed(pair[0]) || edge_changed(pair[1]);
 }
 
 void Candidates::take_triangles() {
   const auto &triangles = model_->valve.triangles.get();
-  std::erase_if(found_triangles_, [&](const Edge &p) { return !concerns(p[0], p[1]); });
+  if (any_still_ || little_) {
+    std::erase_if(found_triangles_, [&](const Edge &p) { return !concerns(p[0], p[1]); });
+  }
   for (size_t first = 0; first < found_triangles_.size(); first += PairRows::most) {
     const Edge *pair = found_triangles_.data() + first;
     const auto count =
@@ -246,21 +262,25 @@ void Candidates::take_triangles() {
       const std::array<uint32_t, 1> alone{pair[k][0]};
       const double near = for_itself() ? reach(alone, triangles[pair[k][1]])
                                        : 2 * slack_ + std::sqrt(motion_.distance2[k]);
-      take(pair[k][0], pair[k][1], std::sqrt(place_.distance2[k]) - near);
+      take(pair[k][0], pair[k][1], std::sqrt(place_.distance2[k]), near);
     }
   }
   found_triangles_.clear();
 }
 
-// What is apart at rest faces; what is near enough is guarded, whatever it was at rest.
-void Candidates::take(uint32_t vertex, uint32_t triangle, double distance) {
+// What is apart at rest faces; what is near enough is guarded, whatever it was at rest. Boxes
+// around the ends of two ways are no farther apart than the ways are in the middle and come nearer
+// until there.
+void Candidates::take(uint32_t vertex, uint32_t triangle, double middle, double near) {
+  const double distance = middle - near;
   if (!(distance <= thickness_)) return;
   const bool faces = apart_at_rest_(vertex, triangle);
   const double longest = guard_share * thickness_;
   if (!faces && distance > longest) return;
   const Tri &t = model_->valve.triangles[triangle];
   const double margin = (faces ? thickness_ : longest) + 2 * slack_;
-  if (apart(way_of(std::array<uint32_t, 1>{vertex}), way_of(t), margin)) return;
+  const bool surely_near = middle + near - 2 * slack_ < margin * (1 - 1e-9);
+  if (!surely_near && apart(way_of(std::array<uint32_t, 1>{vertex}), way_of(t), margin)) return;
   if (faces) facing_.push_back({vertex, triangle, 0});
   if (distance > longest) return;
   const double guard = guard_range(thickness_, distance_of(model_->valve.rest, vertex, t));
@@ -269,6 +289,12 @@ void Candidates::take(uint32_t vertex, uint32_t triangle, double distance) {
 
 // By vertex in linear time; the few of each by triangle.
 void Candidates::sort_pairs(std::vector<VertexTriangle> &pairs) {
+  if (pairs.size() < few_pairs) {
+    std::sort(pairs.begin(), pairs.end(), [](const VertexTriangle &p, const VertexTriangle &q) {
+      return p.vertex != q.vertex ? p.vertex < q.vertex : p.triangle < q.triangle;
+    });
+    return;
+  }
   count_.assign(from_.size() + 1, 0);
   for (const VertexTriangle &p : pairs) ++count_[p.vertex + 1];
   for (size_t v = 0; v < from_.size(); ++v) count_[v + 1] += count_[v];
@@ -293,10 +319,9 @@ void Candidates::sort_edges() {
 
 void Candidates::take_edges() {
   const auto &edges = model_->topology.edges.get();
-  std::erase_if(found_edges_, [&](const Edge &p) {
-    if (skip_[parts_.owner_of(p[0])] && skip_[parts_.owner_of(p[1])]) return true;
-    return !edge_changed(p[0]) && !edge_changed(p[1]);
-  });
+  if (any_still_ || little_) {
+    std::erase_if(found_edges_, [&](const Edge &p) { return !concerns(p); });
+  }
   for (size_t first = 0; first < found_edges_.size(); first += PairRows::most) {
     const Edge *pair = found_edges_.data() + first;
     const auto count =

@@ -65,16 +65,17 @@ class Candidates {
   }
   void choose();
   void choose(const NearTriangle &pair, const NearBlocks &blocks);
-  void choose(const NearEdges &pair);
   bool find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                     Pace pace);
   void search();
   void forget_changed();
+  void forget();
   bool edge_changed(uint32_t edge) const;
   bool concerns(uint32_t vertex, uint32_t triangle) const;
+  bool concerns(const Edge &pair) const;
   void take_triangles();
   void take_edges();
-  void take(uint32_t vertex, uint32_t triangle, double distance);
+  void take(uint32_t vertex, uint32_t triangle, double middle, double near);
   void take_edge_pair(uint32_t i, uint32_t j, double distance);
   void sort_pairs(std::vector<VertexTriangle> &pairs);
   void sort_edges();
@@ -98,11 +99,16 @@ class Candidates {
   Pace pace_ = Pace::together;
   // Nodes and triangles that go elsewhere than when the lists were last made; triangles between two
   // of which there is nothing to look for.
-  std::vector<uint8_t> changed_, triangle_changed_, skip_, skip_block_;
-  std::vector<uint8_t> still_;  // triangles that never move: nothing between two of them
+  std::vector<uint8_t> changed_, triangle_changed_, skip_block_;
+  bool little_ = false;  // has changed: the rest of the lists stays
+  // Triangles that may be prescribed to stay, and those that do: nothing is between two of them.
+  std::vector<uint32_t> held_;
+  std::vector<uint8_t> still_;
+  bool any_still_ = false;
   std::vector<VertexTriangle> facing_, guarded_;
   std::vector<EdgeEdge> guarded_edges_;
   bool keeps_near_ = true;
+  uint64_t lists_ = 0;
   std::optional<NearPairs> near_;
 };
 

@@ -57,6 +57,8 @@ NearPairs::NearPairs(const Model &model, const SheetParts &parts, SheetLanes &la
   still_.assign(count, 0);
   where_.assign(count, none);
   row_start_.assign(count + 1, 0);
+  old_row_start_ = row_start_;
+  for (auto *places : {&middle_, &step_, &from_, &to_}) places->reserve(model.node_count());
   // as much as a closed valve keeps, so that a live step seldom allocates
   for (auto *pairs : {&triangles_, &old_triangles_}) pairs->reserve(24 * model.node_count());
   for (auto *pairs : {&edges_, &old_edges_}) pairs->reserve(8 * edges);
@@ -170,7 +172,7 @@ void NearPairs::keep_blocks() {
   row_start_.swap(old_row_start_);
   blocks_.swap(old_blocks_);
   row_start_.assign(where_.size() + 1, 0);
-  if (old_row_start_.empty() || old_blocks_.empty()) old_row_start_ = row_start_;
+  if (old_blocks_.empty()) old_row_start_ = row_start_;
   for (const auto &[a, b] : found_) ++row_start_[a + 1];
   for (size_t a = 0; a < where_.size(); ++a) row_start_[a + 1] += row_start_[a];
   blocks_.resize(found_.size());
@@ -252,11 +254,8 @@ void NearPairs::look(NearBlocks &p) {
     return;
   }
   const float facing = lanes_->margin(thickness_ + p.skin), near = lanes_->margin(guard_ + p.skin);
-  lanes_->near_vertices(p.a, p.b, facing, near, found_triangles_);
-  if (p.a != p.b) lanes_->near_vertices(p.b, p.a, facing, near, found_triangles_);
+  lanes_->meet(p.a, p.b, facing, near, found_triangles_, found_edges_);
   take_triangles(p);
-  if (gap > guard_ + p.skin) return;
-  lanes_->near_edges(p.a, p.b, near, found_edges_);
   take_edges(p);
 }
 

@@ -152,26 +152,35 @@ void SheetLanes::place_block(uint32_t block) {
 
 // Where all of two blocks was surely apart at rest, as leaflets are, what is within a guard faces,
 // too.
-void SheetLanes::near_vertices(uint32_t of, uint32_t in, float facing, float guard,
+void SheetLanes::meet(uint32_t a, uint32_t b, float facing, float guard,
+                      std::vector<Edge> &triangles, std::vector<Edge> &edges) const {
+  const bool within_guard = !surely_apart(way_[a], way_[b], guard);
+  const bool asks_guard = within_guard && !surely_apart(rest_[a], rest_[b], rest_margin_);
+  const float *closer = asks_guard ? &guard : nullptr;
+  near_vertices(a, b, facing, closer, triangles);
+  if (a != b) near_vertices(b, a, facing, closer, triangles);
+  if (within_guard) near_edges(a, b, guard, edges);
+}
+
+void SheetLanes::near_vertices(uint32_t of, uint32_t in, float facing, const float *guard,
                                std::vector<Edge> &pairs) const {
-  const bool is_close =
-      !surely_apart(rest_[of], rest_[in], rest_margin_) && !surely_apart(way_[of], way_[in], guard);
   for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
-    near_vertices(vertices_[k], in, is_close, facing, guard, pairs);
+    near_vertices(vertices_[k], in, facing, guard, pairs);
   }
 }
 
-void SheetLanes::near_vertices(const Vertices &of, uint32_t in, bool is_close, float facing,
-                               float guard, std::vector<Edge> &pairs) const {
+void SheetLanes::near_vertices(const Vertices &of, uint32_t in, float facing, const float *guard,
+                               std::vector<Edge> &pairs) const {
   const Triangles &there = triangles_[in];
   NearLanes near, close;
-  uint32_t some = find_near(of.way, there.way, way_[in], facing, near);
+  uint32_t some = find_near(of.way, way_[in], facing);
   if (some == 0) return;
-  const uint32_t some_close = is_close ? find_near(of.way, there.way, way_[in], guard, close) : 0;
+  some = find_near(of.way, some, there.way, facing, near);
+  if (guard != nullptr) find_near(of.way, some, there.way, *guard, close);
   for (; some != 0; some &= some - 1) {
     const auto k = static_cast<uint32_t>(std::countr_zero(some));
     uint32_t lanes = near[k] & maybe_apart(of, k, there);
-    if ((some_close >> k & 1) != 0) lanes |= close[k];
+    if (guard != nullptr) lanes |= close[k];
     if (lanes != 0) lanes &= ~with_corner(there, of.id[k]);
     for (; lanes != 0; lanes &= lanes - 1) {
       pairs.push_back({of.id[k], there.id[std::countr_zero(lanes)]});
@@ -180,20 +189,27 @@ void SheetLanes::near_vertices(const Vertices &of, uint32_t in, bool is_close, f
 }
 
 void SheetLanes::near_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const {
-  NearLanes near;
   for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
+    const uint32_t of = find_near(edges_[k].way, way_[b], margin);
+    if (of == 0) continue;
     for (uint32_t l = a == b ? k : edge_start_[b]; l < edge_start_[b + 1]; ++l) {
-      const Edges &of = edges_[k], &in = edges_[l];
-      for (uint32_t some = find_near(of.way, in.way, way_[b], margin, near); some != 0;
-           some &= some - 1) {
-        const auto i = static_cast<uint32_t>(std::countr_zero(some));
-        uint32_t lanes = near[i] & ~sharing(in, of, i);
-        if (k == l) lanes &= ~((2u << i) - 1);
-        for (; lanes != 0; lanes &= lanes - 1) {
-          const uint32_t e = of.id[i], f = in.id[std::countr_zero(lanes)];
-          pairs.push_back({std::min(e, f), std::max(e, f)});
-        }
-      }
+      near_edges(edges_[k], of, edges_[l], margin, pairs);
+    }
+  }
+}
+
+// Of the lanes `of` of one; with itself, each pair comes once.
+void SheetLanes::near_edges(const Edges &here, uint32_t of, const Edges &there, float margin,
+                            std::vector<Edge> &pairs) {
+  NearLanes near;
+  for (uint32_t some = find_near(here.way, of, there.way, margin, near); some != 0;
+       some &= some - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(some));
+    uint32_t lanes = near[i] & ~sharing(there, here, i);
+    if (&here == &there) lanes &= ~((2u << i) - 1);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const uint32_t e = here.id[i], f = there.id[std::countr_zero(lanes)];
+      pairs.push_back({std::min(e, f), std::max(e, f)});
     }
   }
 }

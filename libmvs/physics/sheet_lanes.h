@@ -11,7 +11,7 @@ namespace mvs {
 
 class SheetLanes {
  public:
-  // `parts` and `tree` of the same model; `apart` m at rest, see near_vertices().
+  // `parts` and `tree` of the same model; `apart` m at rest, see meet().
   SheetLanes(const Model &model, const MovingTree &tree, const SheetParts &parts, double apart);
 
   // The ways of all nodes; what a block has is placed when it is asked for.
@@ -23,13 +23,12 @@ class SheetLanes {
   const NarrowWay &way_of(uint32_t block) const { return way_[block]; }
   float margin(double margin) const { return narrow_margin(margin, farthest_); }
 
-  // All of blocks that are placed, margins from margin(). Pairs are a vertex, a triangle without
-  // it: those within `facing` that may be `apart` at rest, and those within `guard` whatever they
-  // were.
-  void near_vertices(uint32_t of, uint32_t in, float facing, float guard,
-                     std::vector<Edge> &pairs) const;
-  // Edges, the lower one first, that share no node; each pair once, of a block and itself too.
-  void near_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const;
+  // What could meet of two blocks that are placed, or of one and itself; margins from margin().
+  // Vertices and triangles without them: those within `facing` that may be `apart` at rest, and
+  // those within `guard` whatever they were. Edges, the lower one first, that share no node: those
+  // within `guard`. Each pair comes once.
+  void meet(uint32_t a, uint32_t b, float facing, float guard, std::vector<Edge> &triangles,
+            std::vector<Edge> &edges) const;
   // How many pairs come of two blocks at most.
   static constexpr size_t most_pairs = size_t{3 * WayLanes::count} * 3 * WayLanes::count;
 
@@ -57,8 +56,13 @@ class SheetLanes {
   void place_block(uint32_t block);
   template <typename Nodes>
   NarrowWay narrow(const Nodes &nodes) const;
-  void near_vertices(const Vertices &of, uint32_t in, bool is_close, float facing, float guard,
+  void near_vertices(uint32_t of, uint32_t in, float facing, const float *guard,
                      std::vector<Edge> &pairs) const;
+  void near_vertices(const Vertices &of, uint32_t in, float facing, const float *guard,
+                     std::vector<Edge> &pairs) const;
+  void near_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const;
+  static void near_edges(const Edges &here, uint32_t of, const Edges &there, float margin,
+                         std::vector<Edge> &pairs);
   static uint32_t with_corner(const Triangles &triangles, uint32_t vertex);
   static uint32_t sharing(const Edges &edges, const Edges &of, uint32_t lane);
   uint32_t maybe_apart(const Vertices &of, uint32_t lane, const Triangles &in) const;

@@ -201,8 +201,10 @@ TEST_CASE("lanes_are_near_as_their_ways_are") {
         if (t >= 8) box.add(way);
       }
       NearLanes near;
-      const uint32_t some =
-          find_near(here, there, box, narrow_margin(margin, farthest(ways)), near);
+      const float wide = narrow_margin(margin, farthest(ways));
+      const uint32_t of = find_near(here, box, wide);
+      const uint32_t some = find_near(here, of, there, wide, near);
+      CHECK((some & ~of) == 0);
       for (uint32_t i = 0; i < 8; ++i) {
         const uint32_t bits = (some >> i & 1) != 0 ? near[i] : 0;
         CHECK(bits < 32);
