@@ -17,7 +17,7 @@ constexpr double longest_step = 1e-3;     // m a node may go in one iteration
 constexpr double boundary_step = 0.5e-3;  // m a prescribed node may go in one iteration
 constexpr double many_far = 0.03;         // share of the nodes: more, and the shift grows
 constexpr double least_shift = 1e-4;      // keeps slack branch points and loose flaps solvable
-constexpr double largest_shift = 1e3;
+constexpr double largest_shift = 1e6;
 // Of the contact thickness: what candidate pairs hold for beside the step. Steps far from rest need
 // new ones anyway, those near rest are far smaller.
 constexpr double slack_share = 0.02;
@@ -27,8 +27,10 @@ constexpr uint32_t patterns_per_order = 6;
 // Of the shift that an attempt at rest needed, what the next begins with: one that stays when the
 // valve has left where it took it slows down all that follow.
 constexpr double relief = 0.1;
-constexpr int trials = 8;          // of one iteration
-constexpr double shortened = 0.5;  // what every second one of these goes of the step before it
+constexpr int trials = 8;  // of one iteration
+// What every second one of these goes of the step before it, and at least. Between 0.1 and 0.35 the
+// least matters little; with 0.5 a stiff place holds up the valve.
+constexpr double shortened = 0.5, most_shortened = 0.2;
 constexpr int most_patience = 64;
 // The piece around a disturbance that goes to rest first: an operation disturbs a few nodes, a load
 // all of them; the share and the reach are where piece and whole together cost least.
@@ -193,35 +195,61 @@ bool Newton::rest_step() {
 }
 
 // A step that lowers the energy about as foretold. Until there is one the shift grows; in between a
-// part of the step is tried, which takes no factorisation.
+// part of the step is tried, which takes no factorisation. If there is none the valve stays where
+// it is: a step uphill may bend stiff triangles so that all that follow go uphill as well.
 void Newton::travel_step() {
   assemble(residual_ < near_force_ ? Curvature::exact : Curvature::projected);
+  bool lower = false;
   for (int trial = 0; trial < trials; ++trial) {
     if (trial % 2 == 0) {
       factorise();
       solve(true);
     } else {
-      for (Vec3 &d : full_) d *= shortened;
+      shorten();
     }
     limit_step();
     double foretold;
     const double found = try_step(foretold);
-    // the linear part is common to both, so their difference is what the matrix got wrong
-    double agreement = 1 - std::abs(found - foretold) / (std::abs(slope()) + 1e-300);
-    if (curvature_ == Curvature::projected) {
-      agreement = foretold < 0 ? found / foretold : (found < 0 ? 1 : -1);
-    }
-    if (far_ > many_far) {
-      shift_ = std::max(2 * shift_, 0.01);
-    } else if (agreement > 0.6) {
-      shift_ = shift_ < 1e-3 ? 0 : (agreement > 0.9 ? 0.1 : 0.3) * shift_;
-    } else if (!(agreement > 0.2)) {
-      shift_ = std::min(std::max(4 * shift_, 0.03), largest_shift);
-    }
+    const double agreement = agreement_of(found, foretold);
+    follow(agreement);
+    lower = agreement > 0.01 || found <= 0;
     if (agreement > 0.01 || shift_ >= largest_shift) break;
   }
-  x_.swap(trial_);
+  const double before = energy_;
+  if (lower) x_.swap(trial_);
   evaluate();
+  // where the load at the free edge was not what the step took it for
+  if (lower && energy_ >= before) shift_ = std::max(2 * shift_, 0.03);
+}
+
+// What is cut node by node is no longer a way down: it leads along the limits of what is stiff and
+// nearly touches. As much of the whole step as needs little cutting is one.
+void Newton::shorten() {
+  double share = shortened;
+  for (size_t i = 0; i < full_.size(); ++i) {
+    const double length = full_[i].norm();
+    if (length > 0) share = std::min(share, step_[i].norm() / length);
+  }
+  for (Vec3 &d : full_) d *= std::max(share, most_shortened);
+}
+
+double Newton::agreement_of(double found, double foretold) const {
+  if (curvature_ == Curvature::projected) {
+    return foretold < 0 ? found / foretold : (found < 0 ? 1 : -1);
+  }
+  // the linear part is common to both, so their difference is what the matrix got wrong
+  return 1 - std::abs(found - foretold) / (std::abs(slope()) + 1e-300);
+}
+
+// Makes the shift follow how well the matrix foretold a step.
+void Newton::follow(double agreement) {
+  if (far_ > many_far) {
+    shift_ = std::max(2 * shift_, 0.01);
+  } else if (agreement > 0.6) {
+    shift_ = shift_ < 1e-3 ? 0 : (agreement > 0.9 ? 0.1 : 0.3) * shift_;
+  } else if (!(agreement > 0.2)) {
+    shift_ = std::min(std::max(4 * shift_, 0.03), largest_shift);
+  }
 }
 
 // The change of energy along the step as it is, and as the quadratic model says.

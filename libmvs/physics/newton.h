@@ -33,6 +33,9 @@ class Newton {
   void iterate();
   bool rest_step();
   void travel_step();
+  void shorten();
+  double agreement_of(double found, double foretold) const;
+  void follow(double agreement);
   double try_step(double &foretold);
   void move_boundary();
 

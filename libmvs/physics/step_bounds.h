@@ -9,7 +9,8 @@
 namespace mvs {
 
 // Shortens a step dx, node by node, until no motion x .. x + dx along straight lines brings a pair
-// of `candidates` (which must reach as far as dx) to less than a tenth of its present distance.
+// of `candidates` (which must reach as far as dx) to less than a tenth of its present distance, or
+// nearer than its guard can hold it.
 //
 // For each pair a plane across its closest points separates it; the pair stays apart for the whole
 // motion if its corners, moving linearly, keep their sides of it. Pairs for which the sum of both
@@ -40,7 +41,7 @@ class StepBounds {
   };
   void take_pairs(const Model &model, const std::vector<Vec3> &x, const Candidates &candidates,
                   const std::vector<Vec3> &dx);
-  void keep(const ToolPair &pair, const std::vector<Vec3> &dx);
+  void keep(const ToolPair &pair, double least, const std::vector<Vec3> &dx);
   bool cut(const Pair &pair, const std::vector<Vec3> &dx);
 
   std::vector<Vec3> to_;

@@ -44,6 +44,7 @@ struct Bench {
   MembraneTerm membrane;
   Potential potential;
   std::vector<Vec3> x = {}, g = {};
+  System system = {};
   std::vector<double> energy = {}, gradient = {}, hessian = {}, assembly = {}, whole = {};
   Profile profile = {};
   double sum = 0;  // of all energies, so that none is left out
@@ -65,13 +66,13 @@ struct Bench {
     return seconds_now() - start;
   }
 
-  void begin(System &system) {
+  void begin() {
     potential.prepare(x, x, 1e-4, profile);
     potential.gradient(x, g, profile);
     potential.hessian(x, Curvature::projected, system, profile);
   }
 
-  void round(System &system) {
+  void round() {
     energy.push_back(seconds([&] { sum += is_spring() ? spring.energy(x) : membrane.energy(x); }));
     gradient.push_back(seconds([&] {
       g.assign(x.size(), Vec3::Zero());
@@ -137,10 +138,9 @@ void run(const Options &options) {
               "whole us", "ratio");
   for (const uint32_t vertices : options.vertices) {
     std::deque<Bench> all = benches(vertices);
-    System system;  // one for all: an edge has a spring, and sides of triangles
-    for (Bench &bench : all) bench.begin(system);
+    for (Bench &bench : all) bench.begin();
     for (int k = 0; k < options.rounds; ++k) {
-      for (Bench &bench : all) bench.round(system);
+      for (Bench &bench : all) bench.round();
     }
     for (const Bench &bench : all) print(vertices, bench, all.front(), csv);
   }

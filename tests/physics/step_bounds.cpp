@@ -8,6 +8,7 @@
 #include "../unit/small_valve.h"
 #include "base/intersect.h"
 #include "pairs.h"
+#include "physics/contact.h"
 
 using namespace mvs;
 using namespace mvs::test;
@@ -31,6 +32,26 @@ void check_motion(const Model &model, const Candidates &candidates, const Positi
     }
     CHECK(least > 0.1 * (1 - 1e-9));  // rounding of a distance
   }
+}
+
+// Where the upper plate ends that is pressed down for as long as it takes.
+Positions pressed(const Plates &plates, Positions x) {
+  for (int round = 0; round < 60; ++round) {
+    Positions dx(x.size(), Vec3::Zero());
+    for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -1e-3};
+    Candidates candidates(plates.model);
+    StepBounds().limit(plates.model, x, 0, candidates, dx);
+    x = moved(x, 1, dx);
+  }
+  return x;
+}
+
+double nearest(const Model &model, const Positions &x) {
+  double least = 1;
+  for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+    least = std::min(least, distance(x, v, model.valve.triangles[t]));
+  });
+  return least;
 }
 
 }  // namespace
@@ -132,19 +153,19 @@ TEST_CASE("sheets_that_move_together_are_not_held_back") {
 // Seven orders of magnitude above rounding, pressed together for as long as it takes.
 TEST_CASE("pressed_together_again_and_again_nothing_comes_to_distance_zero") {
   const Plates plates = plates_for_steps();
-  const Model &model = plates.model;
-  Positions x = plates.at(0.1e-3);
-  for (int round = 0; round < 60; ++round) {
-    Positions dx(x.size(), Vec3::Zero());
-    for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -1e-3};
-    Candidates candidates(model);
-    StepBounds().limit(model, x, 0, candidates, dx);
-    x = moved(x, 1, dx);
-  }
-  double least = 1;
-  for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
-    least = std::min(least, distance(x, v, model.valve.triangles[t]));
-  });
-  CHECK(least >= 1e-10);
-  CHECK(find_intersections(x, model.valve.triangles).empty());
+  const Positions x = pressed(plates, plates.at(0.1e-3));
+  CHECK(nearest(plates.model, x) >= 1e-10);
+  CHECK(find_intersections(x, plates.model.valve.triangles).empty());
+}
+
+// Parts of a needle a thousandth of the contact thickness apart: stopped before its guard pushes, a
+// pair would never be in balance.
+TEST_CASE("what_lies_close_at_rest_is_stopped_by_its_guard_and_not_before") {
+  const double apart = 1e-6;
+  const Plates plates = two_plates(8, 10e-3, apart, false, [](Valve &) {});
+  const Positions x = pressed(plates, plates.at(10 * apart));
+  const double range = guard_range(plates.model.valve.contact_thickness, apart);
+  CHECK(nearest(plates.model, x) < 0.01 * range);  // a barrier pushes a hundred times as there
+  CHECK(nearest(plates.model, x) > 0);
+  CHECK(find_intersections(x, plates.model.valve.triangles).empty());
 }
