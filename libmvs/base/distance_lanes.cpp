@@ -2,13 +2,14 @@
 // the processor has. Every sum is in the order that Eigen has in distance.h: of three, (x + y) + z.
 #include "base/distance_lanes.h"
 
+#include "base/lanes.h"
+
 namespace mvs {
 namespace {
 
 // Lying: what is anywhere in memory. Copied by memcpy, wide vectors would go through the stack,
 // sixteen bytes at a time. (Not templates: gcc forgets the alignment of those.)
 #if defined(__GNUC__)
-#define MVS_INLINE [[gnu::always_inline]] inline
 struct Two {
   static constexpr uint32_t lanes = 2;
   typedef double Value __attribute__((vector_size(16)));
@@ -22,7 +23,6 @@ struct Four {
   typedef double Lying __attribute__((vector_size(32), aligned(8), may_alias));
 };
 #else
-#define MVS_INLINE inline
 struct Two {
   static constexpr uint32_t lanes = 1;
   typedef double Value;

@@ -3,13 +3,14 @@
 
 #include <bit>
 
+#include "base/lanes.h"
+
 namespace mvs {
 namespace {
 
 // Lying: what is anywhere in memory. Copied by memcpy, wide vectors would go through the stack,
 // sixteen bytes at a time. (Not templates: gcc forgets the alignment of those.)
 #if defined(__GNUC__)
-#define MVS_INLINE [[gnu::always_inline]] inline
 struct Four {
   static constexpr uint32_t lanes = 4;
   typedef float Value __attribute__((vector_size(16)));
@@ -23,7 +24,6 @@ struct Eight {
   typedef float Lying __attribute__((vector_size(32), aligned(4), may_alias));
 };
 #else
-#define MVS_INLINE inline
 struct Four {
   static constexpr uint32_t lanes = 1;
   typedef float Value;

@@ -248,10 +248,7 @@ void Candidates::take_triangles() {
   if (any_still_ || little_) {
     std::erase_if(found_triangles_, [&](const Edge &p) { return !concerns(p[0], p[1]); });
   }
-  for (size_t first = 0; first < found_triangles_.size(); first += PairRows::most) {
-    const Edge *pair = found_triangles_.data() + first;
-    const auto count =
-        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_triangles_.size() - first));
+  for_rows(found_triangles_, [&](const Edge *pair, uint32_t count) {
     for (uint32_t k = 0; k < count; ++k) {
       set_pair(place_, k, middle_, pair[k][0], triangles[pair[k][1]]);
       set_pair(motion_, k, half_, pair[k][0], triangles[pair[k][1]]);
@@ -264,7 +261,7 @@ void Candidates::take_triangles() {
                                        : 2 * slack_ + std::sqrt(motion_.distance2[k]);
       take(pair[k][0], pair[k][1], std::sqrt(place_.distance2[k]), near);
     }
-  }
+  });
   found_triangles_.clear();
 }
 
@@ -322,10 +319,7 @@ void Candidates::take_edges() {
   if (any_still_ || little_) {
     std::erase_if(found_edges_, [&](const Edge &p) { return !concerns(p); });
   }
-  for (size_t first = 0; first < found_edges_.size(); first += PairRows::most) {
-    const Edge *pair = found_edges_.data() + first;
-    const auto count =
-        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_edges_.size() - first));
+  for_rows(found_edges_, [&](const Edge *pair, uint32_t count) {
     for (uint32_t k = 0; k < count; ++k) {
       set_pair(place_, k, middle_, edges[pair[k][0]], edges[pair[k][1]]);
       set_pair(motion_, k, half_, edges[pair[k][0]], edges[pair[k][1]]);
@@ -337,7 +331,7 @@ void Candidates::take_edges() {
                                        : 2 * slack_ + std::sqrt(motion_.distance2[k]);
       take_edge_pair(pair[k][0], pair[k][1], std::sqrt(place_.distance2[k]) - near);
     }
-  }
+  });
   found_edges_.clear();
 }
 

@@ -261,10 +261,7 @@ void NearPairs::look(NearBlocks &p) {
 
 void NearPairs::take_triangles(const NearBlocks &p) {
   const auto &triangles = model_->valve.triangles.get();
-  for (size_t first = 0; first < found_triangles_.size(); first += PairRows::most) {
-    const Edge *pair = found_triangles_.data() + first;
-    const auto count =
-        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_triangles_.size() - first));
+  for_rows(found_triangles_, [&](const Edge *pair, uint32_t count) {
     for (uint32_t k = 0; k < count; ++k) {
       set_pair(rows_, k, middle_, pair[k][0], triangles[pair[k][1]]);
     }
@@ -272,7 +269,7 @@ void NearPairs::take_triangles(const NearBlocks &p) {
     for (uint32_t k = 0; k < count; ++k) {
       take(p, pair[k][0], pair[k][1], std::sqrt(rows_.distance2[k]));
     }
-  }
+  });
   found_triangles_.clear();
 }
 
@@ -293,10 +290,7 @@ void NearPairs::take(const NearBlocks &p, uint32_t vertex, uint32_t triangle, do
 
 void NearPairs::take_edges(const NearBlocks &p) {
   const auto &edges = model_->topology.edges.get();
-  for (size_t first = 0; first < found_edges_.size(); first += PairRows::most) {
-    const Edge *pair = found_edges_.data() + first;
-    const auto count =
-        static_cast<uint32_t>(std::min<size_t>(PairRows::most, found_edges_.size() - first));
+  for_rows(found_edges_, [&](const Edge *pair, uint32_t count) {
     for (uint32_t k = 0; k < count; ++k) {
       set_pair(rows_, k, middle_, edges[pair[k][0]], edges[pair[k][1]]);
     }
@@ -304,7 +298,7 @@ void NearPairs::take_edges(const NearBlocks &p) {
     for (uint32_t k = 0; k < count; ++k) {
       take_edge_pair(p, pair[k][0], pair[k][1], std::sqrt(rows_.distance2[k]));
     }
-  }
+  });
   found_edges_.clear();
 }
 

@@ -2,6 +2,7 @@
 // are. Whoever makes pairs asks here, so that all find the same bits.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,6 +41,15 @@ inline void set_pair(PairRows &rows, uint32_t pair, const std::vector<Vec3> &x, 
   for (uint32_t k = 0; k < 2; ++k) {
     rows.set(pair, k, x[e[k]]);
     rows.set(pair, k + 2, x[f[k]]);
+  }
+}
+
+// As many pairs at a time as rows hold: work(the first of them, their number).
+template <typename Work>
+void for_rows(const std::vector<Edge> &pairs, Work &&work) {
+  for (size_t first = 0; first < pairs.size(); first += PairRows::most) {
+    const size_t count = std::min<size_t>(PairRows::most, pairs.size() - first);
+    work(pairs.data() + first, static_cast<uint32_t>(count));
   }
 }
 
