@@ -7,11 +7,20 @@
 
 #include <algorithm>
 
+#include "base/flush_tiny.h"
 #include "base/panel.h"
 #include "base/supernodes.h"
 
 namespace mvs {
 namespace {
+
+// What holds while panels of T are worked on.
+template <typename T>
+struct Rounding {
+  Rounding() {}  // not trivial: nobody warns of one that is not used
+};
+template <>
+struct Rounding<float> : FlushTiny {};
 
 // Panels of T: double, or float where something else makes good what it rounds.
 template <typename T>
@@ -127,6 +136,7 @@ void BlockFactor<T>::subtract(const Contribution &c, const Supernode &to) {
 
 template <typename T>
 bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) {
+  const Rounding<T> rounding;
   for (size_t k = begin_of(part, parts); k < begin_of(part + 1, parts); ++k) {
     const Supernode &s = pattern_.node[k];
     locate(s);
@@ -172,6 +182,7 @@ void BlockFactor<T>::store_rows(const Supernode &s) {
 // an order that no explicit zero changes.
 template <typename T>
 void BlockFactor<T>::solve(std::vector<Vec3> &b) {
+  const Rounding<T> rounding;
   for (size_t j = 0; j < b.size(); ++j) Eigen::Map<Row>(x_.data() + 3 * j) = b[j].cast<T>();
   for (const Supernode &s : pattern_.node) {
     load(s);

@@ -1,0 +1,54 @@
+// Numbers too small for single precision become zero while this lives.
+//
+// What a factor in single precision fills in dies away with the distance on the mesh, below 1e-38
+// on some thousand nodes; the processor then goes on with fewer digits, which takes it a hundred
+// times as long on Intel's (2.2 of 3.4 s of a closure with 6,800 vertices) and adds nothing.
+#pragma once
+
+#if defined(__SSE2__) || defined(_M_X64)
+#include <xmmintrin.h>
+#elif defined(__aarch64__)
+#include <cstdint>
+#endif
+
+namespace mvs {
+
+#if defined(__SSE2__) || defined(_M_X64)
+class FlushTiny {
+ public:
+  FlushTiny() { _mm_setcsr(before_ | results_and_operands); }
+  ~FlushTiny() { _mm_setcsr(before_); }
+  FlushTiny(const FlushTiny &) = delete;
+  FlushTiny &operator=(const FlushTiny &) = delete;
+
+ private:
+  static constexpr unsigned results_and_operands = 0x8040;
+  const unsigned before_ = _mm_getcsr();
+};
+#elif defined(__aarch64__) && defined(__GNUC__)
+class FlushTiny {
+ public:
+  FlushTiny() { set(before_ | results_and_operands); }
+  ~FlushTiny() { set(before_); }
+  FlushTiny(const FlushTiny &) = delete;
+  FlushTiny &operator=(const FlushTiny &) = delete;
+
+ private:
+  static constexpr uint64_t results_and_operands = uint64_t{1} << 24;
+  static uint64_t get() {
+    uint64_t control;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+    return control;
+  }
+  static void set(uint64_t control) { __asm__ volatile("msr fpcr, %0" ::"r"(control)); }
+  const uint64_t before_ = get();
+};
+#else
+class FlushTiny {
+ public:
+  FlushTiny() {}  // not constexpr, nor trivial: nobody warns of it as unused
+  ~FlushTiny() {}
+};
+#endif
+
+}  // namespace mvs
