@@ -21,6 +21,7 @@ class Newton {
  public:
   Newton(const Model &model, Factor &factor) : model_(&model), factor_(&factor), potential_(model) {
     potential_.keep_near(false);
+    system_.place = &x_;
   }
 
   // Brings state.x to rest under state.load and sets velocities to zero.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/dissection.h"
 #include "base/factor.h"
 
 namespace mvs {
@@ -11,6 +12,10 @@ namespace {
 
 // Times the blocks that are needed: more are not kept from one pattern to the next.
 constexpr double most_kept = 1.25;
+
+// From here on nested dissection makes a factor cheaper than minimum degree does: a closure of
+// 1,700 vertices by 3 %, of 3,400 by 7, of 6,800 by 25, of 27,000 by 31.
+constexpr size_t dissected_rows = 1000;
 
 }  // namespace
 
@@ -142,6 +147,18 @@ void System::take_rows(const std::vector<Edge> &pairs) {
   matrix.sort_pairs(static_cast<uint32_t>(node_of.size()), rows_);
 }
 
+// Of the nodes, coupled by pairs of their numbers in the list: the order that makes less work.
+std::vector<uint32_t> System::order_of(const std::vector<uint32_t> &nodes,
+                                       const std::vector<Edge> &pairs) const {
+  std::vector<uint32_t> order = fill_reducing_order(static_cast<uint32_t>(nodes.size()), pairs);
+  if (place == nullptr || nodes.size() < dissected_rows) return order;
+  std::vector<Vec3> places;
+  places.reserve(nodes.size());
+  for (const uint32_t i : nodes) places.push_back((*place)[i]);
+  std::vector<uint32_t> dissected = dissection_order(pairs, places);
+  return elimination_work(dissected, pairs) < elimination_work(order, pairs) ? dissected : order;
+}
+
 void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {
   const auto n = static_cast<uint32_t>(model.node_count());
   std::vector<uint32_t> free_index(n, none), free_nodes;
@@ -158,7 +175,8 @@ void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {
     }
   }
   const auto rows = static_cast<uint32_t>(free_nodes.size());
-  const std::vector<uint32_t> order = fill_reducing_order(rows, free_pairs);
+  matrix.sort_pairs(rows, free_pairs);
+  const std::vector<uint32_t> order = order_of(free_nodes, free_pairs);
   always_of_.clear();
   row_of.assign(n, none);
   node_of.resize(rows);

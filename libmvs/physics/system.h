@@ -71,6 +71,8 @@ class System {
     if (r != none) matrix.value[matrix.start[r]] += block;
   }
 
+  // Where the nodes lie; the order of many rows then goes by it, too.
+  const std::vector<Vec3> *place = nullptr;
   BlockMatrix matrix;
   std::vector<uint32_t> row_of;   // node -> row, none where prescribed
   std::vector<uint32_t> node_of;  // row -> node
@@ -90,6 +92,8 @@ class System {
     }
   }
   bool find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to);
+  std::vector<uint32_t> order_of(const std::vector<uint32_t> &nodes,
+                                 const std::vector<Edge> &pairs) const;
   void number_rows(const Model &model, const std::vector<Edge> &pairs);
   void take_rows(const std::vector<Edge> &pairs);
   void find_always(const std::vector<Edge> &pairs);

@@ -1,5 +1,6 @@
 // Sparse factors, the elimination order and GMRES against dense algebra.
 #include "base/block_product.h"
+#include "base/dissection.h"
 #include "base/factor.h"
 #include "base/factor_block.h"
 
@@ -257,6 +258,40 @@ TEST_CASE("single_precision_leaves_no_subnormal_numbers_and_the_rounding_as_it_w
 
 TEST_CASE("an_unknown_backend_is_refused") {
   CHECK_THROWS_AS(make_factor(99), Error);
+}
+
+// A sheet of 40 by 20 nodes, its edges told twice: its separator has 20 nodes, the last of the
+// order, and nothing joins what they separate.
+TEST_CASE("nested_dissection_separates_a_sheet_by_its_shorter_way") {
+  constexpr uint32_t wide = 40, high = 20;
+  std::vector<Edge> pairs;
+  std::vector<Vec3> place;
+  for (uint32_t i = 0; i < wide * high; ++i) {
+    place.emplace_back(i % wide, i / wide, 0);
+    if (i % wide > 0) pairs.insert(pairs.end(), {{i - 1, i}, {i, i - 1}});
+    if (i >= wide) pairs.push_back({i, i - wide});
+  }
+  const std::vector<uint32_t> order = dissection_order(pairs, place);
+  std::vector<uint32_t> rank(order.size(), none);
+  for (uint32_t k = 0; k < order.size(); ++k) rank[order[k]] = k;
+  CHECK(std::find(rank.begin(), rank.end(), none) == rank.end());
+  const uint32_t separated = wide * high - high;
+  const auto on_the_left = [&](uint32_t k) { return order[k] % wide < wide / 2; };
+  uint32_t of_first = 0;
+  while (of_first < separated && on_the_left(of_first) == on_the_left(0)) ++of_first;
+  CHECK(of_first >= separated / 2 - high);
+  for (const Edge &p : pairs) {
+    if (std::max(rank[p[0]], rank[p[1]]) >= separated) continue;
+    CHECK((rank[p[0]] < of_first) == (rank[p[1]] < of_first));
+  }
+}
+
+// A path that is eliminated from its ends leaves two numbers in each column but the last; a star
+// whose middle goes first leaves all.
+TEST_CASE("the_work_of_an_elimination_is_counted") {
+  CHECK(elimination_work({0, 1, 2, 3}, {{0, 1}, {1, 2}, {3, 2}, {1, 0}}) == 4 + 4 + 4 + 1);
+  CHECK(elimination_work({0, 1, 2, 3}, {{0, 1}, {0, 2}, {0, 3}}) == 16 + 9 + 4 + 1);
+  CHECK(elimination_work({3, 2, 1, 0}, {{0, 1}, {0, 2}, {0, 3}}) == 4 + 4 + 4 + 1);
 }
 
 TEST_CASE("a_fill_reducing_order_is_a_permutation") {
