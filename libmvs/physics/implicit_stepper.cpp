@@ -173,11 +173,11 @@ void ImplicitStepper::limit(SolveStats &stats) {
   for (size_t i = 0; i < x_.size(); ++i) next_x_[i] = x_[i] + step_[i];
   const double quick = slow * model_->valve.contact_thickness;
   // what moves needs another list in the next step anyway: the shortest one will do
-  const double slack = farthest > quick ? quick : slack_;
+  list_slack_ = farthest > quick ? quick : slack_;
   if (farthest > quick || !potential_.prepared_for(next_x_) || !potential_.prepared_for(x_)) {
-    potential_.prepare(x_, next_x_, slack, stats.work);
+    potential_.prepare(x_, next_x_, list_slack_, stats.work);
   }
-  potential_.limit_step(x_, slack, step_, stats.work);
+  potential_.limit_step(x_, list_slack_, step_, stats.work);
 }
 
 // Goes a share of the step that makes no energy: it may come from the pressure (part of the
@@ -212,7 +212,7 @@ bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
     step_ = boundary_;
     for (size_t r = 0; r < rows_.size(); ++r)
       step_[matrix_.node(static_cast<uint32_t>(r))] = share * rows_[r];
-    potential_.limit_step(x_, slack_, step_, stats.work);
+    potential_.limit_step(x_, list_slack_, step_, stats.work);
     if (goes(1, how.dt, stats) <= 0) return true;
   }
   return false;

@@ -59,7 +59,8 @@ class ImplicitStepper {
   std::vector<Vec3> x_, v_, next_x_, next_v_;
   std::vector<Vec3> g_, step_, boundary_, rows_;
   std::vector<Vec3> sheet_g_, next_g_;  // without what hands do
-  double slack_;                        // m, for Potential::prepare
+  double slack_;                        // m, for Potential::prepare,
+  double list_slack_ = 0;               // and for the lists of this step
   double energy_ = 0, sheet_energy_ = 0, residual_ = 0, kinetic_ = 0;
   Load load_;
   std::vector<Tool> pushing_;  // the instruments that push
