@@ -110,11 +110,9 @@ bool Candidates::find_changed(const std::vector<Vec3> &x, const std::vector<Vec3
 
 // From what is kept: what search() would find.
 void Candidates::choose() {
-  little_ = false;
-  facing_.clear();
-  guarded_.clear();
-  guarded_edges_.clear();
+  forget_changed();
   for (const NearBlocks &blocks : near_->blocks()) {
+    if (skip_block_[blocks.a] && skip_block_[blocks.b]) continue;
     const double reach = blocks.used + blocks.reach;
     for (uint32_t k = blocks.first_triangle; k < blocks.last_triangle; ++k) {
       const NearTriangle &p = near_->triangles()[k];

@@ -159,7 +159,7 @@ void NearPairs::find_blocks(const NodeWays &ways) {
   pace_ = ways.pace;
   margin_ = (1 + early) * thickness_ + 2 * ways.slack;
   lanes_->begin(from_, to_, pace_);
-  tree_->place(lanes_->place_all(), still_);
+  tree_->place(lanes_->place_boxes(), still_);
   found_.clear();
   tree_->for_near_blocks(lanes_->margin(margin_), [&](uint32_t a, uint32_t b) {
     found_.push_back({std::min(a, b), std::max(a, b)});

@@ -119,6 +119,18 @@ const std::vector<NarrowWay> &SheetLanes::place_all() {
   return way_;
 }
 
+const std::vector<NarrowWay> &SheetLanes::place_boxes() {
+  for (size_t block = 0; block < way_.size(); ++block) {
+    way_[block] = {};
+    for (const uint32_t t : triangles_[block].id) {
+      if (t == none) break;
+      for (const uint32_t i : model_->valve.triangles[t]) way_[block].add(node_[i]);
+    }
+    if (pace_ == Pace::each_for_itself) way_[block].join_ends();
+  }
+  return way_;
+}
+
 template <typename Nodes>
 NarrowWay SheetLanes::narrow(const Nodes &nodes) const {
   NarrowWay way;

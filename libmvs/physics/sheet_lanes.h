@@ -20,6 +20,8 @@ class SheetLanes {
     if (placed_[block] != round_) place_block(block);
   }
   const std::vector<NarrowWay> &place_all();
+  // The ways of all blocks, with nothing of what they have placed.
+  const std::vector<NarrowWay> &place_boxes();
   const NarrowWay &way_of(uint32_t block) const { return way_[block]; }
   float margin(double margin) const { return narrow_margin(margin, farthest_); }
 
