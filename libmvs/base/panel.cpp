@@ -165,6 +165,18 @@ MVS_INLINE bool factorise_columns(T *panel, size_t height, size_t first) {
   return true;
 }
 
+// Inverts the squares of three columns on the diagonal: a solution has its three numbers without
+// one waiting for the other.
+MVS_INLINE void invert_squares(float *panel, size_t width, size_t height) {
+  for (size_t j = 0; j < width; j += 3) {
+    float *a = panel + j * height + j, *b = a + height, *c = b + height;
+    const float to_last = a[2] * a[0];
+    a[1] *= -a[0] * b[1];
+    a[2] = -(to_last + b[2] * a[1]) * c[2];
+    b[2] *= -b[1] * c[2];
+  }
+}
+
 // Blocks of columns, and tiles of columns in them.
 template <typename V, typename T = typename V::Number>
 MVS_INLINE bool factorise(T *panel, size_t width, size_t height) {
@@ -180,6 +192,7 @@ MVS_INLINE bool factorise(T *panel, size_t width, size_t height) {
       if (!positive) return false;
     }
   }
+  if constexpr (std::is_same_v<T, float>) invert_squares(panel, width, height);
   return true;
 }
 

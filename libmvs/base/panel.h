@@ -34,8 +34,9 @@ template <typename T>
 void update_panel(const PanelUpdate<T> &u);
 
 // Factorises a panel of `width` columns, a multiple of 3, and `height` rows in place: its upper
-// square becomes L, with 1 / diagonal on the diagonal, what is below X L^-T. False unless it is
-// positive definite and finite.
+// square becomes L, with 1 / diagonal on the diagonal, what is below X L^-T. Of floats the squares
+// of three columns on the diagonal become those of L^-1. False unless it is positive definite and
+// finite.
 template <typename T>
 bool factorise_panel(T *panel, size_t width, size_t height);
 

@@ -12,17 +12,29 @@ namespace {
 
 constexpr size_t block_columns = 12;  // a multiple of 3: columns come three at a time
 
+// Three numbers by the square of their columns a, b, c, from row j on.
+MVS_INLINE void forward_square(const double *a, const double *b, const double *c, size_t j,
+                               double *x) {
+  x[j] *= a[j];
+  x[j + 1] = (x[j + 1] - a[j + 1] * x[j]) * b[j + 1];
+  x[j + 2] = (x[j + 2] - a[j + 2] * x[j] - b[j + 2] * x[j + 1]) * c[j + 2];
+}
+
+// The square of floats is inverse.
+MVS_INLINE void forward_square(const float *a, const float *b, const float *c, size_t j, float *x) {
+  const float x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
+  x[j] = a[j] * x0;
+  x[j + 1] = a[j + 1] * x0 + b[j + 1] * x1;
+  x[j + 2] = (a[j + 2] * x0 + b[j + 2] * x1) + c[j + 2] * x2;
+}
+
 // Columns first .. last by themselves.
 template <typename T>
 MVS_INLINE void forward_block(const T *panel, size_t height, size_t first, size_t last, T *x) {
   for (size_t j = first; j < last; j += 3) {
     const T *a = panel + j * height, *b = a + height, *c = b + height;
-    const T x0 = x[j] * a[j];
-    const T x1 = (x[j + 1] - a[j + 1] * x0) * b[j + 1];
-    const T x2 = (x[j + 2] - a[j + 2] * x0 - b[j + 2] * x1) * c[j + 2];
-    x[j] = x0;
-    x[j + 1] = x1;
-    x[j + 2] = x2;
+    forward_square(a, b, c, j, x);
+    const T x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
     for (size_t i = j + 3; i < last; ++i) x[i] = x[i] - a[i] * x0 - b[i] * x1 - c[i] * x2;
   }
 }
@@ -75,6 +87,21 @@ MVS_INLINE void take_rows(const T *a, size_t height, size_t first, size_t last, 
   }
 }
 
+// From what the rows below leave of three numbers, by the square of their columns from row j on.
+MVS_INLINE void backward_square(const double *a, const double *b, const double *c, size_t j,
+                                const std::array<double, 3> &sum, double *x) {
+  x[j + 2] = sum[2] * c[j + 2];
+  x[j + 1] = (sum[1] - b[j + 2] * x[j + 2]) * b[j + 1];
+  x[j] = (sum[0] - a[j + 2] * x[j + 2] - a[j + 1] * x[j + 1]) * a[j];
+}
+
+MVS_INLINE void backward_square(const float *a, const float *b, const float *c, size_t j,
+                                const std::array<float, 3> &sum, float *x) {
+  x[j + 2] = sum[2] * c[j + 2];
+  x[j + 1] = sum[2] * b[j + 2] + sum[1] * b[j + 1];
+  x[j] = (sum[2] * a[j + 2] + sum[1] * a[j + 1]) + sum[0] * a[j];
+}
+
 // Columns first .. last, of which x has what the rows from `last` on leave: three at a time, their
 // sums do not wait for each other.
 template <typename T>
@@ -84,9 +111,7 @@ MVS_INLINE void backward_block(const T *panel, size_t height, size_t first, size
     const T *a = panel + (j - 3) * height, *b = a + height, *c = b + height;
     std::array<T, 3> sum = {x[j - 3], x[j - 2], x[j - 1]};
     take_rows(a, height, j, rows, x, sum);
-    x[j - 1] = sum[2] * c[j - 1];
-    x[j - 2] = (sum[1] - b[j - 1] * x[j - 1]) * b[j - 2];
-    x[j - 3] = (sum[0] - a[j - 1] * x[j - 1] - a[j - 2] * x[j - 2]) * a[j - 3];
+    backward_square(a, b, c, j - 3, sum, x);
   }
 }
 
