@@ -46,12 +46,16 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &always,
 void System::find_always(const std::vector<Edge> &pairs) {
   take_rows(pairs);
   always_ = rows_;
+  std::vector<uint32_t> start(node_of.size() + 1, 0);  // of what each row has
+  for (const Edge &p : always_) ++start[p[0] + 1];
+  for (size_t r = 0; r < node_of.size(); ++r) start[r + 1] += start[r];
   always_of_.assign(pairs.size(), none);
   for (size_t k = 0; k < pairs.size(); ++k) {
     const uint32_t r = row_of[pairs[k][0]], c = row_of[pairs[k][1]];
     if (r == none || c == none) continue;
     const Edge rows = {std::min(r, c), std::max(r, c)};
-    const auto at = std::lower_bound(always_.begin(), always_.end(), rows);
+    const auto at = std::lower_bound(always_.begin() + start[rows[0]],
+                                     always_.begin() + start[rows[0] + 1], rows);
     always_of_[k] = static_cast<uint32_t>(at - always_.begin());
   }
 }
