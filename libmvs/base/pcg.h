@@ -17,18 +17,29 @@ struct PcgResult {
   double error = 0;
 };
 
+// How far to go.
+struct PcgGoal {
+  double tolerance;  // of PcgResult::error
+  uint32_t most;     // iterations
+  // It gives up where at the rate so far the most of them would leave more than that.
+  double worst = std::numeric_limits<double>::infinity();
+  // After so many iterations, that is enough.
+  uint32_t patience = std::numeric_limits<uint32_t>::max();
+  double enough = 0;
+
+  double after(uint32_t iterations) const { return iterations < patience ? tolerance : enough; }
+};
+
 // Its vectors are kept from one system to the next.
 class Pcg {
  public:
   // Sets x to a solution of A x = b for multiply(v, y) giving y = A v and precondition(v, y) an
-  // approximate solution of A y = v: to `tolerance`, or what `most` iterations reach. It gives up
-  // where at the rate so far they would leave more than `worst`. From x = 0 each iterate is better
-  // than the one before, and none leads uphill for b, whatever the preconditioner, as long as it is
-  // positive definite. Where A turns out not to be, the iterate before stays.
+  // approximate solution of A y = v. From x = 0 each iterate is better than the one before, and
+  // none leads uphill for b, whatever the preconditioner, as long as it is positive definite. Where
+  // A turns out not to be, the iterate before stays.
   template <typename Multiply, typename Precondition>
   PcgResult solve(const Multiply &multiply, const Precondition &precondition,
-                  const std::vector<Vec3> &b, std::vector<Vec3> &x, uint32_t most, double tolerance,
-                  double worst = std::numeric_limits<double>::infinity()) {
+                  const std::vector<Vec3> &b, std::vector<Vec3> &x, const PcgGoal &goal) {
     x.assign(b.size(), Vec3::Zero());
     r_ = b;
     precondition(r_, z_);
@@ -38,7 +49,7 @@ class Pcg {
     if (!(first > 0)) return result;
     double size = first;
     result.error = 1;
-    while (result.iterations < most && result.error > tolerance) {
+    while (result.iterations < goal.most && result.error > goal.after(result.iterations)) {
       multiply(p_, y_);
       const double curvature = dot(p_, y_);
       if (!(curvature > 0)) break;
@@ -50,7 +61,7 @@ class Pcg {
       const double next = dot(r_, z_);
       result.error = std::sqrt(std::max(next, 0.0) / first);
       const double rate = std::pow(result.error, 1.0 / result.iterations);
-      if (result.iterations > 1 && std::pow(rate, most) > worst) break;
+      if (result.iterations > 1 && std::pow(rate, goal.most) > goal.worst) break;
       const double turn = next / size;
       for (size_t i = 0; i < b.size(); ++i) p_[i] = z_[i] + turn * p_[i];
       size = next;

@@ -60,8 +60,8 @@ void RefinedFactor::solve(std::vector<Vec3> &b) {
       z = r;
       narrow_->solve(z);
     };
-    const PcgResult result =
-        pcg_.solve(multiply, precondition, b, solution_, most_iterations, tolerance, tolerance);
+    const PcgGoal goal{tolerance, most_iterations, tolerance};
+    const PcgResult result = pcg_.solve(multiply, precondition, b, solution_, goal);
     iterations_ = result.iterations;
     if (result.error <= tolerance || !factorise_exactly()) {
       b.swap(solution_);

@@ -19,6 +19,9 @@ constexpr uint32_t most_iterations = 10;
 // some ten iterations.
 constexpr uint32_t many_iterations = 3;
 constexpr uint32_t oldest = 20;  // steps
+// Then this will do: a slow step goes through no more iterations for what linearising it leaves out
+// anyway.
+constexpr double enough = 1e-2;
 
 bool is_our_own(uint32_t backend) {
   return backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK;
@@ -104,9 +107,9 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
   const auto precondition = [&](const std::vector<Vec3> &r, std::vector<Vec3> &z) {
     serving_->solve(r, z);
   };
-  const uint32_t most = std::min(most_iterations, left - closing);
-  const PcgResult result =
-      pcg_.solve(multiply, precondition, rows, solution_, most, tolerance, good_enough);
+  const PcgGoal goal{tolerance, std::min(most_iterations, left - closing), good_enough,
+                     many_iterations + 1, enough};
+  const PcgResult result = pcg_.solve(multiply, precondition, rows, solution_, goal);
   left -= result.iterations;
   iterations_ = result.iterations;
   stats.work.linear_iterations += result.iterations;

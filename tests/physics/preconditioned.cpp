@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "anatomy/parametric.h"
 #include "base/block_product.h"
@@ -45,12 +44,11 @@ Eigen::MatrixXd with_spectrum(Random &random, const Eigen::VectorXd &values) {
   return q * values.asDiagonal() * q.transpose();
 }
 
-PcgResult solve(const Eigen::MatrixXd &a, const Positions &b, Positions &x, uint32_t most,
-                double tolerance, double worst = std::numeric_limits<double>::infinity()) {
+PcgResult solve(const Eigen::MatrixXd &a, const Positions &b, Positions &x, const PcgGoal &goal) {
   Pcg pcg;
   const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(a * flat(v)); };
   const auto none_there = [](const Positions &r, Positions &z) { z = r; };
-  return pcg.solve(multiply, none_there, b, x, most, tolerance, worst);
+  return pcg.solve(multiply, none_there, b, x, goal);
 }
 
 ModelPtr a_valve() {
@@ -75,10 +73,10 @@ TEST_CASE("conjugate_gradients_end_after_as_many_iterations_as_eigenvalues") {
   const Eigen::MatrixXd a = with_spectrum(random, values);
   const Positions b = random.vectors(10, 1);
   Positions x;
-  const PcgResult two = solve(a, b, x, 2, 1e-12);
+  const PcgResult two = solve(a, b, x, {1e-12, 2});
   CHECK(two.iterations == 2);
   CHECK(two.error > 1e-6);
-  const PcgResult three = solve(a, b, x, 30, 1e-12);
+  const PcgResult three = solve(a, b, x, {1e-12, 30});
   CHECK(three.iterations == 3);
   // rounding of thirty sums
   CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
@@ -90,7 +88,7 @@ TEST_CASE("what_conjugate_gradients_say_is_left_is_left") {
   const Positions b = random.vectors(10, 1);
   for (const uint32_t most : {1u, 4u, 9u}) {
     Positions x;
-    const PcgResult result = solve(a, b, x, most, 1e-12);
+    const PcgResult result = solve(a, b, x, {1e-12, most});
     const double left = (a * flat(x) - flat(b)).norm() / flat(b).norm();
     CHECK(result.iterations == most);
     CHECK(result.error == doctest::Approx(left).epsilon(1e-8));
@@ -103,10 +101,32 @@ TEST_CASE("conjugate_gradients_give_up_what_they_cannot_reach") {
   const Eigen::MatrixXd a = with_spectrum(random, powers_of(2.0));
   const Positions b = random.vectors(10, 1);
   Positions x;
-  const PcgResult given_up = solve(a, b, x, 8, 1e-3, 0.1);
+  const PcgResult given_up = solve(a, b, x, {1e-3, 8, 0.1});
   CHECK(given_up.iterations == 2);
   CHECK(given_up.error > 0.1);
-  CHECK(solve(a, b, x, 8, 1e-3).iterations == 8);
+  CHECK(solve(a, b, x, {1e-3, 8}).iterations == 8);
+}
+
+TEST_CASE("conjugate_gradients_that_take_long_end_with_less") {
+  Random random(15);
+  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.1));
+  const Positions b = random.vectors(10, 1);
+  Positions x;
+  const uint32_t all = solve(a, b, x, {1e-3, 30}).iterations;
+  REQUIRE(all > 6);
+  PcgGoal goal{1e-3, 30};
+  goal.patience = 4;
+  goal.enough = 0.9;
+  const PcgResult impatient = solve(a, b, x, goal);
+  CHECK(impatient.iterations == 4);
+  CHECK(impatient.error <= 0.9);
+  goal.enough = 0.1;
+  const PcgResult later = solve(a, b, x, goal);
+  CHECK(later.iterations > 4);
+  CHECK(later.iterations < all);
+  CHECK(later.error <= 0.1);
+  goal.patience = all;  // what comes to its goal before
+  CHECK(solve(a, b, x, goal).iterations == all);
 }
 
 TEST_CASE("conjugate_gradients_stop_where_the_matrix_is_not_positive_definite") {
@@ -115,12 +135,12 @@ TEST_CASE("conjugate_gradients_stop_where_the_matrix_is_not_positive_definite") 
   values[0] = -5;
   const Positions b = random.vectors(10, 1);
   Positions x;
-  const PcgResult result = solve(with_spectrum(random, values), b, x, 30, 1e-10);
+  const PcgResult result = solve(with_spectrum(random, values), b, x, {1e-10, 30});
   CHECK(result.iterations < 30);
   CHECK(result.error > 1e-10);
   CHECK(flat(b).dot(flat(x)) >= 0);
   const PcgResult nothing =
-      solve(with_spectrum(random, values), Positions(10, Vec3::Zero()), x, 9, 0);
+      solve(with_spectrum(random, values), Positions(10, Vec3::Zero()), x, {0, 9});
   CHECK(nothing.error == 0);
   CHECK(largest(x) == 0);
 }
