@@ -1,11 +1,11 @@
-// Newton in a trust region: the loop first, then the two kinds of step, then what they share.
+// Newton in a trust region: the loop, the piece that goes first, steps at rest, the boundary, and
+// how far a step may go. Travel: newton_travel.cpp; the linear system: newton_system.cpp.
 #include "physics/newton.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/gmres.h"
 #include "physics/forces.h"
 #include "physics/nodes.h"
 #include "physics/region.h"
@@ -15,22 +15,12 @@ namespace {
 
 constexpr double longest_step = 1e-3;     // m a node may go in one iteration
 constexpr double boundary_step = 0.5e-3;  // m a prescribed node may go in one iteration
-constexpr double many_far = 0.03;         // share of the nodes: more, and the shift grows
-constexpr double least_shift = 1e-4;      // keeps slack branch points and loose flaps solvable
-constexpr double largest_shift = 1e6;
 // Of the contact thickness: what candidate pairs hold for beside the step. Steps far from rest need
 // new ones anyway, those near rest are far smaller.
 constexpr double slack_share = 0.02;
-// Contact comes where the pattern has no room in most iterations; an order of elimination is good
-// for a few such patterns.
-constexpr uint32_t patterns_per_order = 6;
 // Of the shift that an attempt at rest needed, what the next begins with: one that stays when the
 // valve has left where it took it slows down all that follow.
 constexpr double relief = 0.1;
-constexpr int trials = 8;  // of one iteration
-// What every second one of these goes of the step before it, and at least. Eighteen closings of
-// real and parametric valves took 3,400 to 3,600 iterations with 0.03 to 0.25, and 3,900 with 0.5.
-constexpr double shortened = 0.5, most_shortened = 0.2;
 constexpr int most_patience = 64;
 // The piece around a disturbance that goes to rest first: an operation disturbs a few nodes, a load
 // all of them; the share and the reach are where piece and whole together cost least.
@@ -194,74 +184,6 @@ bool Newton::rest_step() {
   return true;
 }
 
-// A step that lowers the energy about as foretold. Until there is one the shift grows; in between a
-// part of the step is tried, which takes no factorisation. If all trials fail and go uphill
-// the valve stays where it is: such a step may bend stiff triangles so that all that follow go
-// uphill as well.
-void Newton::travel_step() {
-  assemble(residual_ < near_force_ ? Curvature::exact : Curvature::projected);
-  bool lower = false;
-  for (int trial = 0; trial < trials; ++trial) {
-    if (trial % 2 == 0) {
-      factorise();
-      solve(true);
-    } else {
-      shorten();
-    }
-    limit_step();
-    double foretold;
-    const double found = try_step(foretold);
-    const double agreement = agreement_of(found, foretold);
-    follow(agreement);
-    lower = agreement > 0.01 || found <= 0;
-    if (agreement > 0.01 || shift_ >= largest_shift) break;
-  }
-  const double before = energy_;
-  if (lower) x_.swap(trial_);
-  evaluate();
-  // where the load at the free edge was not what the step took it for
-  if (lower && energy_ >= before) shift_ = std::max(2 * shift_, 0.03);
-}
-
-// What is cut node by node is no longer a way down: it leads along the limits of what is stiff and
-// nearly touches. As much of the whole step as needs little cutting is one.
-void Newton::shorten() {
-  double share = shortened;
-  for (size_t i = 0; i < full_.size(); ++i) {
-    const double length = full_[i].norm();
-    if (length > 0) share = std::min(share, step_[i].norm() / length);
-  }
-  for (Vec3 &d : full_) d *= std::max(share, most_shortened);
-}
-
-double Newton::agreement_of(double found, double foretold) const {
-  if (curvature_ == Curvature::projected) {
-    return foretold < 0 ? found / foretold : (found < 0 ? 1 : -1);
-  }
-  // the linear part is common to both, so their difference is what the matrix got wrong
-  return 1 - std::abs(found - foretold) / (std::abs(slope()) + 1e-300);
-}
-
-// Makes the shift follow how well the matrix foretold a step.
-void Newton::follow(double agreement) {
-  if (far_ > many_far) {
-    shift_ = std::max(2 * shift_, 0.01);
-  } else if (agreement > 0.6) {
-    shift_ = shift_ < 1e-3 ? 0 : (agreement > 0.9 ? 0.1 : 0.3) * shift_;
-  } else if (!(agreement > 0.2)) {
-    shift_ = std::min(std::max(4 * shift_, 0.03), largest_shift);
-  }
-}
-
-// The change of energy along the step as it is, and as the quadratic model says.
-double Newton::try_step(double &foretold) {
-  const PhaseTimer timer(stats_.work, MVS_PHASE_LINE_SEARCH);
-  ++stats_.work.passes;
-  foretold = slope() + 0.5 * curvature_along();
-  for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
-  return potential_.energy(trial_) - energy_;
-}
-
 // Moves the prescribed nodes towards their targets and carries the sheet along: the free nodes
 // follow as the linearised system says, dx_f = -H_ff^-1 H_fb dx_b.
 void Newton::move_boundary() {
@@ -286,76 +208,6 @@ void Newton::move_boundary() {
     x_[i] = arrives ? model_->target(i, fraction_) : Vec3(x_[i] + step_[i]);
   }
   evaluate();
-}
-
-void Newton::assemble(Curvature curvature) {
-  curvature_ = curvature;
-  if (potential_.hessian(x_, curvature, system_, stats_.work)) {
-    system_.keep_order(++patterns_ % patterns_per_order != 0);
-    const PhaseTimer timer(stats_.work, MVS_PHASE_ORDERING);
-    factor_->analyse(system_.matrix);
-  }
-  diagonal_.resize(system_.node_of.size());
-  for (size_t r = 0; r < diagonal_.size(); ++r) {
-    diagonal_[r] = system_.matrix.value[system_.matrix.start[r]];
-  }
-}
-
-// Factorises with the present shift, or the first larger one that makes the matrix positive
-// definite.
-void Newton::factorise() {
-  const PhaseTimer timer(stats_.work, MVS_PHASE_FACTOR);
-  added_ = std::max(shift_, least_shift);
-  for (bool first = true;; first = false) {
-    for (size_t r = 0; r < diagonal_.size(); ++r) {
-      Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
-      block = diagonal_[r];
-      block.diagonal().array() += added_ * shift_scale_[system_.node_of[r]];
-    }
-    ++stats_.factorisations;
-    if (factor_->factorise(system_.matrix)) return;
-    if (first) ++stats_.shifted;
-    added_ = shift_ = std::max(3 * added_, 0.05);
-    MVS_MUST(added_ < 1e12, MVS_E_DIVERGED, "settle",
-             "the stiffness matrix is not finite; check the materials");
-  }
-}
-
-void Newton::solve_system(std::vector<Vec3> &rows) {
-  factor_->solve(rows);
-  stats_.work.linear_iterations += factor_->iterations();
-}
-
-// The step that the factorised system gives, in full_.
-void Newton::solve(bool with_shift) {
-  const PhaseTimer timer(stats_.work, MVS_PHASE_SOLVE);
-  rows_.resize(system_.node_of.size());
-  for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = -g_[system_.node_of[r]];
-  solve_system(rows_);
-  if (curvature_ == Curvature::exact) include_skew(with_shift);
-  full_.assign(x_.size(), Vec3::Zero());
-  for (size_t r = 0; r < rows_.size(); ++r) full_[system_.node_of[r]] = rows_[r];
-}
-
-// Turns (H + shift D)^-1 b into the solution for the true derivative, H + S (+ shift D), S the skew
-// part that the free edge adds.
-void Newton::include_skew(bool with_shift) {
-  const double removed = with_shift ? 0 : added_;
-  auto apply = [&](const std::vector<Vec3> &v) {
-    trial_.assign(x_.size(), Vec3::Zero());
-    for (size_t r = 0; r < v.size(); ++r) trial_[system_.node_of[r]] = v[r];
-    step_.assign(x_.size(), Vec3::Zero());
-    potential_.add_skew(x_, trial_, step_);
-    std::vector<Vec3> y(v.size());
-    for (size_t r = 0; r < v.size(); ++r) {
-      const uint32_t i = system_.node_of[r];
-      y[r] = step_[i] - removed * shift_scale_[i] * v[r];
-    }
-    solve_system(y);
-    for (size_t r = 0; r < v.size(); ++r) y[r] += v[r];
-    return y;
-  };
-  gmres(apply, rows_, 30, 1e-3);
 }
 
 // Makes step_ from full_: no node goes farther than allowed, none through another sheet.
@@ -404,25 +256,6 @@ double Newton::free_norm() const {
     if (!model_->topology.fixed[i]) sum += g_[i].squaredNorm();
   }
   return std::sqrt(sum);
-}
-
-double Newton::slope() const {
-  return dot(g_, step_);
-}
-
-// step^T H step with the matrix before its shift.
-double Newton::curvature_along() const {
-  const BlockMatrix &m = system_.matrix;
-  double sum = 0;
-  for (uint32_t c = 0; c < m.size(); ++c) {
-    const Vec3 &d = step_[system_.node_of[c]];
-    Vec3 below = Vec3::Zero();
-    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
-      below += m.value[k].transpose() * step_[system_.node_of[m.row[k]]];
-    }
-    sum += d.dot(diagonal_[c] * d + 2 * below);
-  }
-  return sum;
 }
 
 }  // namespace mvs

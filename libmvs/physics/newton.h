@@ -17,6 +17,9 @@
 
 namespace mvs {
 
+// Of the stiffness of the load: keeps slack branch points and loose flaps solvable.
+inline constexpr double least_shift = 1e-4;
+
 class Newton {
  public:
   Newton(const Model &model, Factor &factor) : model_(&model), factor_(&factor), potential_(model) {
