@@ -14,6 +14,8 @@ namespace mvs {
 namespace {
 
 constexpr double longest_step = 1e-3;     // m a node may go in one iteration
+constexpr double torn = 1e3;              // of rest_force_: more, and the boundary waits
+constexpr uint32_t longest_wait = 20;     // iterations
 constexpr double boundary_step = 0.5e-3;  // m a prescribed node may go in one iteration
 // Of the contact thickness: what candidate pairs hold for beside the step. Steps far from rest need
 // new ones anyway, those near rest are far smaller.
@@ -79,7 +81,7 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
     MVS_MUST(!progress || progress(share, residual_), MVS_E_CANCELLED, "settle",
              "settling was cancelled by the progress callback; the valve is as before");
     ++stats_.iterations;
-    if (!arrived) move_boundary();
+    if (!arrived && may_move_boundary()) move_boundary();
     iterate();
   }
   state.x = x_;
@@ -110,6 +112,7 @@ void Newton::begin(const State &state) {
   rest_shift_ = 0;
   patterns_ = 0;
   wait_ = 0;
+  boundary_wait_ = 0;
   patience_ = 1;
   best_ = rest_force_;
   slack_ = slack_share * model_->valve.contact_thickness;
@@ -182,6 +185,14 @@ bool Newton::rest_step() {
   if (!try_force()) return false;
   evaluate();
   return true;
+}
+
+// Tissue that stiffens exponentially, and is held back by what it touches, is torn from a boundary
+// that goes on: forces of 1e7 N, from which a valve does not come back. So the boundary waits.
+bool Newton::may_move_boundary() {
+  const bool may = residual_ < torn * rest_force_ || boundary_wait_ == longest_wait;
+  boundary_wait_ = may ? 0 : boundary_wait_ + 1;
+  return may;
 }
 
 // Moves the prescribed nodes towards their targets and carries the sheet along: the free nodes

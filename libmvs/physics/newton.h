@@ -38,9 +38,12 @@ class Newton {
   bool rest_step();
   void travel_step();
   void shorten();
+  void note_stopped();
+  bool hold();
   double agreement_of(double found, double foretold) const;
   void follow(double agreement);
   double try_step(double &foretold);
+  bool may_move_boundary();
   void move_boundary();
 
   void assemble(Curvature curvature);
@@ -54,6 +57,12 @@ class Newton {
   double slope() const;
   double curvature_along() const;
 
+  struct Stopped {
+    size_t row;
+    Vec3 way;      // its direction
+    double share;  // the whole way over what is left of it
+  };
+
   const Model *model_;
   Factor *factor_;
   Potential potential_;
@@ -65,7 +74,9 @@ class Newton {
   std::vector<Vec3> rows_, boundary_;  // right-hand side and solution; step of prescribed nodes
   std::vector<Mat3> diagonal_;         // of the system before a shift
   std::vector<double> shift_scale_;    // N/m per node: D
-  double slack_ = 0;                   // m, for Potential::prepare
+  std::vector<Stopped> stopped_;
+  std::vector<Mat3> hold_;  // N/m per row, of nodes that are stopped; empty: none
+  double slack_ = 0;        // m, for Potential::prepare
   double fraction_ = 0;
   double near_force_ = 0, rest_force_ = 0;  // N: below it, exact curvature; attempts at rest
   double shift_ = 0, added_ = 0;            // wanted; in the matrix now
@@ -77,6 +88,7 @@ class Newton {
   bool held_ = false;       // a node of it would have gone farther
   double best_ = 0;         // N, the smallest residual at rest so far
   Curvature curvature_ = Curvature::projected;
+  uint32_t boundary_wait_ = 0;   // iterations that the boundary has waited
   uint32_t patterns_ = 0;        // of the matrix so far
   int wait_ = 0, patience_ = 1;  // iterations until rest_step is tried again
 };

@@ -38,6 +38,7 @@ void Newton::factorise() {
       Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
       block = diagonal_[r];
       block.diagonal().array() += added_ * shift_scale_[system_.node_of[r]];
+      if (!hold_.empty()) block += hold_[r];
     }
     ++stats_.factorisations;
     if (factor_->factorise(system_.matrix)) return;

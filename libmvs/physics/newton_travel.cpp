@@ -15,6 +15,12 @@ constexpr int trials = 8;  // of one iteration
 // What every second one of these goes of the step before it, and at least. Eighteen closings of
 // real and parametric valves took 3,400 to 3,600 iterations with 0.03 to 0.25, and 3,900 with 0.5.
 constexpr double shortened = 0.5, most_shortened = 0.2;
+constexpr double stopped_from = 0.9;   // of its way: a node that keeps less is stopped
+constexpr double many_stopped = 0.03;  // share of the nodes: more, and none is held
+constexpr double most_held = 1e3;      // times its stiffness
+// A shift above which only nodes that are stopped keep the rest: needles of a real mesh (Kaiser
+// N64), which are always stopped, take fewer iterations without being held.
+constexpr double locked = 100;
 
 }  // namespace
 
@@ -24,6 +30,7 @@ constexpr double shortened = 0.5, most_shortened = 0.2;
 // uphill as well.
 void Newton::travel_step() {
   assemble(residual_ < near_force_ ? Curvature::exact : Curvature::projected);
+  const double kept = shift_;
   bool lower = false;
   for (int trial = 0; trial < trials; ++trial) {
     if (trial % 2 == 0) {
@@ -39,7 +46,12 @@ void Newton::travel_step() {
     follow(agreement);
     lower = agreement > 0.01 || found <= 0;
     if (agreement > 0.01 || shift_ >= largest_shift) break;
+    if (trial % 2 == 0) note_stopped();
+    // the model itself foretells that what the others leave of the step leads up
+    const bool uphill = curvature_ == Curvature::projected && foretold > 0;
+    if (uphill && shift_ > locked && trial % 2 == 1 && trial + 1 < trials && hold()) shift_ = kept;
   }
+  hold_.clear();
   const double before = energy_;
   if (lower) x_.swap(trial_);
   evaluate();
@@ -56,6 +68,33 @@ void Newton::shorten() {
     if (length > 0) share = std::min(share, step_[i].norm() / length);
   }
   for (Vec3 &d : full_) d *= std::max(share, most_shortened);
+}
+
+// The nodes that others stop, unless they are many.
+void Newton::note_stopped() {
+  stopped_.clear();
+  for (size_t r = 0; r < diagonal_.size(); ++r) {
+    const uint32_t i = system_.node_of[r];
+    const double whole = full_[i].norm(), left = step_[i].norm();
+    if (left < stopped_from * whole) {
+      stopped_.push_back({r, full_[i] / whole, std::min(whole / left, most_held)});
+    }
+  }
+  if (static_cast<double>(stopped_.size()) > many_stopped * static_cast<double>(x_.size())) {
+    stopped_.clear();
+  }
+}
+
+// Gives them a stiffness of their own along their way for the rest of this iteration, so that the
+// others know how far they go. The shift of all nodes, which a few of them would raise until
+// nothing moves, may then stay. False if there are none.
+bool Newton::hold() {
+  hold_.resize(diagonal_.size(), Mat3::Zero());
+  for (const Stopped &s : stopped_) {
+    const double stiff = s.share * (diagonal_[s.row] + hold_[s.row]).trace() / 3;
+    hold_[s.row] += stiff * s.way * s.way.transpose();
+  }
+  return !stopped_.empty();
 }
 
 double Newton::agreement_of(double found, double foretold) const {

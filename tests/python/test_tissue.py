@@ -64,3 +64,22 @@ def test_what_is_no_tissue_is_refused_and_changes_nothing(sim, arguments, error,
 def test_a_law_is_required(sim):
     with pytest.raises(TypeError):
         sim.set_leaflet("A")
+
+
+@pytest.mark.parametrize(
+    "law, dimensions",
+    [
+        ("prot", {}),
+        ("prot", {"branching": True}),
+        ("may_newman_yin", {"vertices": 700, "annulus_scale": 1.2}),
+    ],
+)
+def test_a_resected_leaflet_that_stiffens_exponentially_comes_to_rest(sim, law, dimensions):
+    """Hundreds of newtons at the seam, kept there by a few nodes that others stop."""
+    sim.generate(**dimensions)
+    sim.set_leaflet(law=law)
+    sim.set_load(mvs.SYSTOLE_PA)
+    assert sim.settle().converged
+    sim.apply("resect")
+    assert sim.settle(max_iterations=600).converged  # about 60, 120, 60; over 1,000 before
+    assert sim.snapshot().measures.intersections == 0
