@@ -62,7 +62,8 @@ void check_ids(const SharedVector<Part> &parts, const char *kind, std::set<Id> &
 // That a number is one and lies in the range in which it means something.
 struct Range {
   double low, high;
-  const char *unit, *hint;
+  const char *unit, *hint;                           // of what is too large
+  const char *low_hint = "too small, or no number";  // of all else
 };
 constexpr Range thickness_range = {1e-5, 2e-2, "m", "looks like mm given as m"};
 constexpr Range modulus_range = {1, 1e12, "Pa", "moduli are in Pa"};
@@ -76,7 +77,8 @@ void check_range(const std::string &part, const char *what, double value, const 
                  Faults &faults) {
   if (value >= range.low && value <= range.high) return;
   faults.add(part, "%s has %s %g%s%s, outside %g to %g: %s", part.c_str(), what, value,
-             *range.unit ? " " : "", range.unit, range.low, range.high, range.hint);
+             *range.unit ? " " : "", range.unit, range.low, range.high,
+             value > range.high ? range.hint : range.low_hint);
 }
 
 // That a law is known, that each of its constants is in range, and that no other is given.

@@ -9,6 +9,7 @@ namespace {
 
 // An adult mitral valve spans about 40 mm; a mouse's about 2 mm, a whale's below 300 mm.
 constexpr double smallest_valve = 1e-3, largest_valve = 0.4;
+constexpr double smallest_in_mm = 8;  // m, as a valve of 8 mm or 8 cm seems if its unit is wrong
 // In units of the valve's size: farther away than any head, moved farther than any annulus.
 constexpr double far_away = 10, far_moved = 2;
 
@@ -47,8 +48,9 @@ void check_numbers(const std::vector<Vec3> &points, const char *what, Faults &fa
 
 void check_units(const Extent &extent, Faults &faults) {
   if (extent.size > largest_valve) {
-    faults.add("nodes", "the valve is %.3g m across: looks like mm given as m; multiply by 0.001",
-               extent.size);
+    const bool cm = extent.size < smallest_in_mm;
+    faults.add("nodes", "the valve is %.3g m across: looks like %s given as m; multiply by %g",
+               extent.size, cm ? "cm" : "mm", cm ? 0.01 : 0.001);
   } else if (extent.size < smallest_valve) {
     faults.add("nodes",
                "the valve is %.3g m across: looks like m converted to m once more (or km); "

@@ -106,6 +106,9 @@ TEST_CASE("coordinates_that_cannot_be_are_named") {
   check_fault("looks like mm given as m", 1, [](Valve &v) {
     for (Vec3 &p : v.rest) p *= 1000;
   });
+  check_fault("looks like cm given as m; multiply by 0.01", 1, [](Valve &v) {
+    for (Vec3 &p : v.rest) p *= 100;
+  });
   check_fault("coordinates are in metres", 1, [](Valve &v) {
     for (Vec3 &p : v.rest) p /= 1000;
   });
@@ -301,6 +304,8 @@ TEST_CASE("materials_that_cannot_be_are_named") {
   check_fault("is of kind 99", 1, [](Valve &v) { v.chords[2].kind = 99; });
   check_fault("mm2 given as m2", 1, [](Valve &v) { v.chords[2].area = 0.785; });
   check_fault("Young's modulus", 1, [](Valve &v) { v.chords[2].young = 0; });
+  check_fault("outside 0 to 1: too small, or no number", 1,
+              [](Valve &v) { v.chords[2].rest_length = not_a_number; });
   check_fault("chord s has rest length 20 m", 1, [](Valve &v) {
     v.chords[2].rest_length = 20;
     v.chords[2].name = "s";
