@@ -118,7 +118,7 @@ def _image(shown: Picture, title: str) -> str:
 
 def _tissues(closed: mvs.Snapshot) -> str:
     """The laws of the leaflets in words, each once."""
-    told = {}
+    told: dict[str, None] = {}
     for number, row in zip(closed.leaflet_law, closed.leaflet_constants):
         law = mvs.leaflet_law(int(number))
         values = ", ".join(
