@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "../short_run.h"
 #include "allocator.h"
 #include "check.h"
 #include "funnel.h"
@@ -83,7 +84,7 @@ void fail_allocation(const Call &call, long n) {
 // The first allocations all, where most of the kinds are; of thousands in a loop some hundred,
 // spread evenly, since each attempt costs a whole call.
 void fail_each_allocation(const Call &call) {
-  constexpr long all_of_first = 800, spread = 150;
+  const long all_of_first = short_run() ? 80 : 800, spread = short_run() ? 40 : 150;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const long count = count_allocations(call);

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "../short_run.h"
 #include "../stability/crossings.h"
 #include "op_builder.h"
 
@@ -306,7 +307,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 int main(int argc, char **argv) {
   const char *lengthy = std::getenv("MVS_TEST_LONG");
   const int given = argc > 1 ? std::atoi(argv[1]) : 100;
-  const int scripts = lengthy && *lengthy ? 10000 : given;
+  const int scripts = lengthy && *lengthy ? 10000 : short_run() ? (given + 3) / 4 : given;
   const int first = argc > 2 ? std::atoi(argv[2]) : 0;
   for (int seed = first; seed < first + scripts; ++seed) {
     std::mt19937 random(static_cast<uint32_t>(seed));
