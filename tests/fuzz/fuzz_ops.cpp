@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <random>
 #include <string>
@@ -304,11 +305,17 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 }
 
 #ifndef MVS_LIBFUZZER
-int main(int argc, char **argv) {
+namespace {
+
+// The k-th argument.
+int number(int argc, char **argv, int k, int otherwise) {
+  return argc > k ? static_cast<int>(std::strtol(argv[k], nullptr, 10)) : otherwise;
+}
+
+int run_scripts(int argc, char **argv) {
   const char *lengthy = std::getenv("MVS_TEST_LONG");
-  const int given = argc > 1 ? std::atoi(argv[1]) : 100;
+  const int given = number(argc, argv, 1, 100), first = number(argc, argv, 2, 0);
   const int scripts = lengthy && *lengthy ? 10000 : short_run() ? (given + 3) / 4 : given;
-  const int first = argc > 2 ? std::atoi(argv[2]) : 0;
   for (int seed = first; seed < first + scripts; ++seed) {
     std::mt19937 random(static_cast<uint32_t>(seed));
     std::vector<uint8_t> bytes(600);
@@ -318,5 +325,16 @@ int main(int argc, char **argv) {
   }
   std::fprintf(stderr, "\r%d scripts, every hash as it has to be\n", scripts);
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  try {
+    return run_scripts(argc, argv);
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "\n%s\n", error.what());
+    return 1;
+  }
 }
 #endif
