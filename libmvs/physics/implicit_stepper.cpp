@@ -10,6 +10,12 @@
 namespace mvs {
 namespace {
 
+// Of the force of the pressure on a mean node: more, and the boundary waits. With 3 to 30 live
+// steps of nine moving annuli with exponential laws keep forces of tens of newtons, with 100 some
+// of 1e5.
+constexpr double overstretched = 10;
+constexpr uint64_t steps_to_wait = 20;  // steps
+
 constexpr double longest_step = 1e-3;                  // m a node may go in one step
 constexpr int trials = 8;                              // of shares of a step that was cut
 constexpr double least_share = 0.1, most_share = 0.5;  // of the share tried before
@@ -113,6 +119,22 @@ void ImplicitStepper::begin(const State &state, const StepOptions &how, SolveSta
     take_pushing(state.tools, pushing_);
     evaluate(stats);
   }
+  // no memory is asked for once warm
+  alone_x_.reserve(x_.size());
+  alone_g_.reserve(x_.size());
+  if (travels_ && is_overstretched(state)) {
+    travels_ = false;
+    std::fill(boundary_.begin(), boundary_.end(), Vec3::Zero());
+  }
+}
+
+// Whether the sheet is to give way before the boundary goes on: where forces are so large, tissue
+// that stiffens exponentially is stretched as far as it can be. Not for good, for what is stuck may
+// need the boundary to get free.
+bool ImplicitStepper::is_overstretched(const State &state) const {
+  const double pressure = std::max(std::abs(state.load.pressure), 1e3);
+  return residual_ > overstretched * pressure * mean_area(*model_) &&
+         state.steps % steps_to_wait != 0;
 }
 
 void ImplicitStepper::evaluate(SolveStats &stats) {
@@ -187,6 +209,7 @@ void ImplicitStepper::limit(SolveStats &stats) {
 // tissue as long as such steps were followed.
 bool ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
   double share = 1, slope = 0;
+  boundary_made_ = -1;
   for (size_t i = 0; i < x_.size(); ++i) slope += g_[i].dot(step_[i]);
   for (int k = 0; k < trials && left_ >= closing_passes; ++k) {
     const double made = goes(share, how.dt, stats);
@@ -215,18 +238,34 @@ bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
     potential_.limit_step(x_, list_slack_, step_, stats.work);
     if (goes(1, how.dt, stats) <= 0) return true;
   }
-  return false;
+  return travels_;  // the last one hardly differs from what the boundary does alone
 }
 
-// The energy that a share of the step makes beyond rounding, at most 0 if it may be gone; where it
-// leads is in next_x_ and next_v_, the forces there in next_g_.
+// The energy that a share of the step makes beyond rounding, and beyond what a boundary on its way
+// would make alone, at most 0 if it may be gone; where it leads is in next_x_ and next_v_, the
+// forces there in next_g_.
 double ImplicitStepper::goes(double share, double dt, SolveStats &stats) {
   const double before = energy_ + kinetic_energy(*model_, v_);
   place(share, dt);
   --left_;
   const double after = potential_.sheet_gradient(next_x_, next_g_, stats.work) +
                        potential_.hands_energy(next_x_) + kinetic_;
-  return travels_ ? 0 : after - before - 1e-12 * std::abs(before);
+  const double made = after - before - 1e-12 * std::abs(before);
+  if (!travels_ || made <= 0) return made;
+  if (boundary_made_ < 0) boundary_made_ = boundary_alone(stats);
+  potential_.sheet_gradient(next_x_, next_g_, stats.work);
+  return made - boundary_made_;
+}
+
+// The energy that the step of the boundary makes where nothing gives way to it.
+double ImplicitStepper::boundary_alone(SolveStats &stats) {
+  alone_x_ = x_;
+  for (size_t i = 0; i < x_.size(); ++i) {
+    if (model_->topology.fixed[i]) alone_x_[i] += boundary_[i];
+  }
+  const double energy =
+      potential_.sheet_gradient(alone_x_, alone_g_, stats.work) + potential_.hands_energy(alone_x_);
+  return std::max(energy - energy_, 0.0);
 }
 
 void ImplicitStepper::place(double share, double dt) {

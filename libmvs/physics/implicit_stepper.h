@@ -45,6 +45,8 @@ class ImplicitStepper {
   void limit(SolveStats &stats);
   bool go(const StepOptions &how, SolveStats &stats);
   bool go_less(const StepOptions &how, SolveStats &stats);
+  bool is_overstretched(const State &state) const;
+  double boundary_alone(SolveStats &stats);
   double goes(double share, double dt, SolveStats &stats);
   void stand();
   void place(double share, double dt);
@@ -58,9 +60,11 @@ class ImplicitStepper {
   // positions and velocities at the start, and at the end
   std::vector<Vec3> x_, v_, next_x_, next_v_;
   std::vector<Vec3> g_, step_, boundary_, rows_;
-  std::vector<Vec3> sheet_g_, next_g_;  // without what hands do
-  double slack_;                        // m, for Potential::prepare,
-  double list_slack_ = 0;               // and for the lists of this step
+  std::vector<Vec3> sheet_g_, next_g_;   // without what hands do
+  std::vector<Vec3> alone_x_, alone_g_;  // of boundary_alone()
+  double boundary_made_ = -1;            // J, by it in this step; less than 0: not known
+  double slack_;                         // m, for Potential::prepare,
+  double list_slack_ = 0;                // and for the lists of this step
   double energy_ = 0, sheet_energy_ = 0, residual_ = 0, kinetic_ = 0;
   Load load_;
   std::vector<Tool> pushing_;  // the instruments that push
