@@ -34,11 +34,6 @@ constexpr double piece_leash = 4e-3;    // m a node of it may go
 constexpr uint32_t piece_iterations = 12;
 constexpr double piece_rest = 0.2;  // of rest_force_: its rim is as far from rest
 
-// Pa; an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle.
-double scale_of(const Load &load) {
-  return std::max(std::abs(load.pressure), 1e3);
-}
-
 std::vector<uint32_t> disturbed_nodes(const Model &model, const std::vector<Vec3> &g,
                                       double rest_force) {
   std::vector<uint32_t> nodes;

@@ -17,6 +17,11 @@ inline double mean_area(const Model &model) {
   return area / static_cast<double>(model.node_count());
 }
 
+// Pa; an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle.
+inline double scale_of(const Load &load) {
+  return std::max(std::abs(load.pressure), 1e3);
+}
+
 // The longest of the vectors on free nodes: of forces, the residual.
 inline double largest_free(const Model &model, const std::vector<Vec3> &g) {
   double square = 0;

@@ -101,3 +101,14 @@ def test_an_annulus_that_contracts_does_not_tear_tissue_in_live_steps(sim, law, 
     worst = max(sim.step(1, dt=1e-3).residual for _ in range(40))
     # tens of newtons; the pressure on a leaflet is 10
     assert worst < 1e3
+
+
+@pytest.mark.parametrize("budget", [4, 5, 8])
+def test_a_step_of_a_contracting_annulus_stays_within_its_budget(sim, budget):
+    sim.generate(annulus_contraction=0.85)
+    sim.set_leaflet(law="fung")
+    sim.set_load(mvs.SYSTOLE_PA)
+    for _ in range(60):
+        stats = sim.step(1, dt=1e-3, budget=budget)
+        # and the forces before the first step
+        assert stats.passes + stats.factorisations <= budget + 1
