@@ -12,10 +12,15 @@
 
 namespace mvs {
 
+// Of the steps of a plan or a journal. 1 had no steps led by hands; up to 2 a chord kept its length
+// when it went to another head (formats/old_ops.h).
+inline constexpr unsigned plan_version = 3;
+
 // One step of a plan: a move, or an operation as it stands in the file.
 struct PlanStep {
   std::optional<Move> move;
-  Json op;                // null for a move
+  Json op;  // null for a move
+  uint64_t version = plan_version;
   std::string group;      // "" for none
   uint64_t group_id = 0;  // tells groups of one name apart
 };
@@ -41,7 +46,11 @@ std::string write_plan(const Moment &moment, const PlanText &text, const Measure
 
 // Throws MVS_E_FORMAT or MVS_E_VERSION with the step that is wrong.
 Plan read_plan(std::string_view text);
-std::vector<PlanStep> read_steps(const Json &steps);
+
+// A record of a journal: steps with the version that they are of, and back; without one they are of
+// version 2, when records did not tell it.
+void put_steps(Json &record, Json steps);
+std::vector<PlanStep> read_steps(const Json &record);
 
 // The valve that a plan or journal belongs to.
 Json valve_json(const Picture &start);

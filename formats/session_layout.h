@@ -10,8 +10,8 @@ namespace mvs {
 
 // Version 1 had springs with three constants, linear chordae and no curves; up to version 2 there
 // were no tools, and steps had no budget; up to version 3 no steps were led, and a step left
-// nothing to the next.
-inline constexpr uint32_t session_version = 4;
+// nothing to the next; up to version 4 a chord kept its length when it went to another head.
+inline constexpr uint32_t session_version = 5;
 
 template <typename T, typename Plain>
 concept Is = std::same_as<std::remove_const_t<T>, Plain>;

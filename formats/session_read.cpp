@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "formats/formats.h"
+#include "formats/old_ops.h"
 #include "formats/session_layout.h"
 #include "formats/session_pool.h"
 #include "surgery/lead.h"
@@ -252,6 +253,7 @@ void SessionReader::item(std::shared_ptr<const Entry> &entry) {
   entry = part(made<std::shared_ptr<const Entry>>(), [&](std::shared_ptr<const Entry> &it) {
     auto read = std::make_shared<Entry>(Entry{operation(), {}, 0, 0, {}, 0, {}, {}, {}});
     pass_rest(*this, *read);
+    if (version_ < 5) read->op = keeping_length(read->op, *read->before.model);
     it = std::move(read);
   });
 }

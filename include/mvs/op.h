@@ -86,7 +86,8 @@ typedef struct mvs_op_chord_add {
   mvs_id head;
   mvs_site site;
   double length; /* m [as taut as its neighbours: its distance in the rest shape times the median
-                    ratio of rest length to distance of the five nearest chords of the head] */
+                    ratio of rest length to distance of the five nearest chords of the head;
+                    where it has none, its distance] */
   double young;  /* Pa [40e6] */
   double area;   /* m2 [pi/4 * (1 mm)^2] */
   uint32_t type; /* MVS_CHORD_* but trunk and suture [other] */
@@ -97,7 +98,9 @@ typedef struct mvs_op_chord_add {
 /* Ends of a chord. */
 enum { MVS_END_LEAFLET = 1, MVS_END_HEAD = 2 };
 
-/* Moves one end of a chord to another place of a leaflet, or to another papillary head. */
+/* Moves one end of a chord to another place of a leaflet, or to another papillary head. At a
+ * leaflet it is sewn on as long as it is. At a head it is cut off and tied anew, at a length that
+ * lets the leaflet close: that of mvs_op_chord_add. */
 typedef struct mvs_op_chord_transfer {
   mvs_op op;
   mvs_id chord;
@@ -105,7 +108,7 @@ typedef struct mvs_op_chord_transfer {
   uint32_t reserved;
   mvs_site site; /* where to, for the leaflet end */
   mvs_id head;   /* where to, for the head end */
-  double length; /* m [kept: it is the same chord] */
+  double length; /* m [leaflet end: kept; head end: as taut as its neighbours, mvs_op_chord_add] */
 } mvs_op_chord_transfer;
 
 /* Scales the annulus about its centroid in its own frame, open and under load; for making

@@ -24,13 +24,15 @@ const std::vector<Checkpoint> &checkpoints_of(const Moment &moment) {
 
 Json restart_record(const Moment &moment) {
   Json json = word_record("restart");
-  json.set("steps", plan_steps(moment, {}));
+  put_steps(json, plan_steps(moment, {}));
   Json list = Json::array();
   for (const Checkpoint &c : checkpoints_of(moment)) {
     Moment there{c.at, moment.timeline};
     there.timeline.past = c.past;
     there.timeline.moves = c.moves;
-    list.add(Json::object({{"name", c.name}, {"steps", plan_steps(there, {})}}));
+    Json one = Json::object({{"name", c.name}});
+    put_steps(one, plan_steps(there, {}));
+    list.add(std::move(one));
   }
   json.set("checkpoints", std::move(list));
   return json;
@@ -53,7 +55,7 @@ Json begun_record(const Moment &moment) {
   json.set("do", "begin");
   json.set("journal", uint64_t{1});
   json.set("valve", valve_json(*start_of(moment)));
-  json.set("steps", plan_steps(moment, {}));
+  put_steps(json, plan_steps(moment, {}));
   return json;
 }
 
@@ -67,7 +69,7 @@ Json steps_record(const Moment &before, const Moment &after) {
     steps.add(entry_json(**entries[k]));
   }
   add_moves(steps, after.timeline.moves);
-  json.set("steps", std::move(steps));
+  put_steps(json, std::move(steps));
   return json;
 }
 
@@ -82,7 +84,7 @@ Json named_record(const char *word, const std::string &name, const Moves &moves)
   json.set("name", name);
   Json steps = Json::array();
   add_moves(steps, moves);
-  json.set("steps", std::move(steps));
+  put_steps(json, std::move(steps));
   return json;
 }
 

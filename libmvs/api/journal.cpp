@@ -26,7 +26,7 @@ std::string text_at(const Json &json, const char *key) {
 
 std::vector<PlanStep> steps_at(const Json &json) {
   MVS_MUST(json.has("steps"), MVS_E_FORMAT, "journal", "a record of the journal has no steps");
-  return read_steps(json["steps"]);
+  return read_steps(json);
 }
 
 // Back to right after the last operation: a record tells all moves since then.

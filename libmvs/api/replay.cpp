@@ -4,6 +4,7 @@
 #include "api/commit.h"
 #include "api/moves.h"
 #include "cascade/cascade.h"
+#include "formats/old_ops.h"
 #include "surgery/lead.h"
 
 namespace mvs {
@@ -62,7 +63,9 @@ Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
 }  // namespace
 
 void Replay::operate(const PlanStep &step) {
-  const Operation op = read_op(step.op, *now.picture.model, exact_);
+  const Model &model = *now.picture.model;
+  const Operation told = read_op(step.op, model, exact_);
+  const Operation op = step.version > 2 ? told : keeping_length(told, model);
   const bool goes_on = step.group == group_ && step.group_id == group_id_;
   if (!step.group.empty() && !goes_on) number_ = now.timeline.next_group++;
   now = after_op(now, op, step.group.empty() ? Group{} : Group{number_, step.group}, now_ms());

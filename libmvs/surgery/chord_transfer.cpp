@@ -21,11 +21,15 @@ uint32_t new_leaflet_end(Surgery &s, const Chord &chord, const mvs_site &site) {
   return node_at(s, site);
 }
 
-uint32_t new_head_end(Surgery &s, const Chord &chord, Id head) {
+// Tied at the old length a chord to a head farther away would be torn, and a nearer one would hold
+// nothing.
+void go_to_head(const Surgery &s, Chord &chord, Id head) {
   MVS_MUST(head != 0, MVS_E_ID, "chord_transfer.head",
            "chord_transfer: the head end of chord %s needs a papillary head to go to",
            chord.name.c_str());
-  return s.valve.heads.get()[head_of(s, head)].node;
+  const uint32_t index = head_of(s, head);
+  chord.a = s.valve.heads.get()[index].node;
+  chord.rest_length = length_like_neighbours(s, index, chord.b);
 }
 
 }  // namespace
@@ -35,14 +39,15 @@ void operate(Surgery &s, const mvs_op_chord_transfer &op) {
   const uint32_t index = chord_of(s, op.chord);
   Chord chord = s.valve.chords.get()[index];
   if (op.end == MVS_END_HEAD) {
-    chord.a = new_head_end(s, chord, op.head);
+    go_to_head(s, chord, op.head);
   } else {
     chord.b = new_leaflet_end(s, chord, op.site);
   }
   must_not_be_tied(s, chord.a, chord.b);
   if (op.length != 0) chord.rest_length = op.length;
-  s.title = format("Transfer the %s end of chord %s", op.end == MVS_END_HEAD ? "head" : "leaflet",
-                   chord.name.c_str());
+  s.title = format("Transfer the %s end of chord %s, %.1f mm",
+                   op.end == MVS_END_HEAD ? "head" : "leaflet", chord.name.c_str(),
+                   1e3 * chord.rest_length);
   s.valve.chords[index] = std::move(chord);
   prune_chords(s);
 }

@@ -298,6 +298,56 @@ static void a_dragged_chord_has_the_length_to_there(void) {
   mvs_snapshot_release(snapshot);
 }
 
+/* What a test asks of a chord: how long it is at rest, and the node of a leaflet that it holds. */
+typedef struct seen_chord {
+  double length;
+  uint32_t leaflet_end;
+} seen_chord;
+
+static seen_chord see(const char *chord) {
+  const mvs_snapshot *snapshot = present();
+  mvs_part part;
+  mvs_view lengths, nodes;
+  MUST(mvs_snapshot_find(snapshot, MVS_PART_CHORD, chord, &part));
+  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_REST_LENGTH, &lengths));
+  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_NODES, &nodes));
+  const seen_chord seen = {((const double *)lengths.data)[part.index],
+                           ((const uint32_t *)nodes.data)[2 * part.index + 1]};
+  mvs_snapshot_release(snapshot);
+  return seen;
+}
+
+/* A surgeon who ties a chord to another head does so at a length that lets the leaflet close: that
+ * of a new chord between the same places. One who sews its other end on leaves it as long. */
+static void a_chord_tied_to_another_head_gets_the_length_of_a_new_one(void) {
+  new_valve();
+  mvs_op_chord_transfer transfer = {.op = {sizeof transfer, MVS_OP_CHORD_TRANSFER},
+                                    .chord = id_of(MVS_PART_CHORD, "A1/2"),
+                                    .end = MVS_END_HEAD,
+                                    .head = id_of(MVS_PART_HEAD, "PM3")};
+  mvs_op_chord_add add = {.op = {sizeof add, MVS_OP_CHORD_ADD},
+                          .head = transfer.head,
+                          .site = {MVS_SITE_NODE, see("A1/2").leaflet_end, 0, {0}},
+                          .name = "new"};
+  const double kept = see("A1/2").length;
+  MUST(mvs_apply_op(sim, &add.op, NULL));
+  const double wanted = see("new").length;
+  CHECK(wanted > 1.2 * kept); /* PM3 is on the far side: kept, it would be torn */
+  MUST(mvs_undo(sim));
+  MUST(mvs_apply_op(sim, &transfer.op, NULL));
+  CHECK(see("A1/2").length == wanted);
+  MUST(mvs_undo(sim));
+  transfer.length = 0.019;
+  MUST(mvs_apply_op(sim, &transfer.op, NULL));
+  CHECK(see("A1/2").length == 0.019);
+  MUST(mvs_undo(sim));
+  transfer.length = 0;
+  transfer.end = MVS_END_LEAFLET;
+  transfer.site = on_scallop("A2", 0.3, 0.9);
+  MUST(mvs_apply_op(sim, &transfer.op, NULL));
+  CHECK(see("A1/2").length == kept);
+}
+
 /* Every field that a struct has is described where it lies. */
 static void operations_describe_themselves(void) {
   CHECK(mvs_op_count() >= 7);
@@ -328,6 +378,7 @@ int main(void) {
   checkpoints_are_places_to_come_back_to();
   what_cannot_be_done_is_said();
   a_dragged_chord_has_the_length_to_there();
+  a_chord_tied_to_another_head_gets_the_length_of_a_new_one();
   operations_describe_themselves();
   mvs_destroy(sim);
   return finish("operations");

@@ -235,6 +235,23 @@ TEST_CASE("a_file_of_version_3_is_read_as_ever") {
                        Move::step, Move::tool_remove});
 }
 
+// session_v4.h5 is a parametric valve of which P2/1 was tied to AL1 without a length: then it kept
+// its own, and a plan of it has to say so.
+TEST_CASE("a_file_of_version_4_is_read_as_ever") {
+  const std::string data = MVS_SOURCE_DIR "/tests/formats/data/session_v4.h5";
+  const Moment now = read_session(read_whole_file(data));
+  REQUIRE(now.timeline.past.size() == 1);
+  const auto op = now.timeline.past.items()[0][0]->op.as<mvs_op_chord_transfer>();
+  CHECK(op.end == MVS_END_HEAD);
+  const std::vector<Chord> &chords = now.picture.model->valve.chords;
+  const auto chord = std::find_if(chords.begin(), chords.end(),
+                                  [&](const Chord &one) { return one.id == op.chord; });
+  REQUIRE(chord != chords.end());
+  CHECK(op.length == chord->rest_length);
+  const Moment again = after_op(undone(now), Operation(&op.op), {}, 0);
+  CHECK(hash_of(again.picture) == hash_of(now.picture));
+}
+
 TEST_CASE("what_live_steps_go_on_from_is_part_of_a_session") {
   Moment now = start();
   State &state = now.picture.state;

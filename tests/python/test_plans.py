@@ -6,6 +6,7 @@ import math
 import signal
 import subprocess
 import sys
+import zlib
 
 import mvs
 import pytest
@@ -156,6 +157,37 @@ def test_a_journal_outlives_its_simulator(tmp_path):
         sim.generate()
         sim.recover_journal(path)
         assert sim.snapshot().hash == undone
+
+
+def test_a_journal_without_versions_is_replayed_as_ever(sim, tmp_path):
+    # such journals were written while a chord kept its length at another head; new records go on
+    # with the rule of today in the same file
+    path = tmp_path / "session.mvsj"
+    start = json.loads(sim.snapshot().plan())["valve"]
+    records = [
+        {"do": "begin", "journal": 1, "valve": start, "steps": []},
+        {"do": "apply", "steps": [
+            {"do": "chord_transfer", "chord": "A1/2", "end": "head", "head": "PM3"}]},
+    ]
+    with path.open("w") as out:
+        for record in records:
+            text = json.dumps(record)
+            out.write(f"mvsj {len(text)} {zlib.crc32(text.encode()):08x} {text}\n")
+    first = sim.snapshot()
+    kept = first.chord_rest_length[first.find(mvs.PartKind.CHORD, "A1/2").index]
+    sim.recover_journal(path)
+    sim.apply("chord_transfer", chord="A1/3", end="head", head="PM3")
+    sim.close_journal()
+    wanted = sim.snapshot().hash
+    with mvs.Simulator() as again:
+        again.restore(first)
+        again.apply("chord_transfer", chord="A1/2", end="head", head="PM3", length=kept)
+        again.apply("chord_transfer", chord="A1/3", end="head", head="PM3")
+        assert again.snapshot().hash == wanted
+    with mvs.Simulator() as again:
+        again.restore(first)
+        again.recover_journal(path)
+        assert again.snapshot().hash == wanted
 
 
 KILLED = """
