@@ -136,7 +136,7 @@ Json parse(std::string_view text) {
   return Json::parse(text);
 }
 
-uint64_t version_at(const Json &json, uint64_t fallback) {
+uint64_t version_of_plan(const Json &json, uint64_t fallback) {
   const uint64_t version = whole_at(json, "version", fallback, UINT64_MAX);
   MVS_MUST(version >= 1, MVS_E_FORMAT, "plan", "the plan has no version");
   MVS_MUST(version <= plan_version, MVS_E_VERSION, "plan",
@@ -256,13 +256,13 @@ void put_steps(Json &record, Json steps) {
 }
 
 std::vector<PlanStep> read_steps(const Json &record) {
-  return steps_of(record["steps"], version_at(record, 2));
+  return steps_of(record["steps"], version_of_plan(record, 2));
 }
 
 Plan read_plan(std::string_view text) {
   const Json json = parse(text);
   check_format(json);
-  const uint64_t version = version_at(json, 0);
+  const uint64_t version = version_of_plan(json, 0);
   MVS_MUST(json.has("steps"), MVS_E_FORMAT, "plan", "the plan has no \"steps\"");
   return {hash_at(json, "valve"), hash_at(json, "result"), steps_of(json["steps"], version)};
 }
