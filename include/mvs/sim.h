@@ -48,7 +48,8 @@ MVS_API void mvs_destroy(mvs_sim *sim);
 
 /* Replaces the valve by one given as arrays, at rest and without load; nothing of the caller's is
  * kept. MVS_E_OP names the first fault of a valve that is none; mvs_check_valve lists all of them.
- */
+ * What can be but hardly is, of a valve from arrays or a file or of another tissue, goes to the log
+ * as MVS_LOG_WARNING: triangles like needles, and numbers that look like those of another unit. */
 MVS_API mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve);
 
 /* Replaces the valve by a parametric mitral valve. `desc` is nullable: the shipped valve.
@@ -82,7 +83,7 @@ typedef struct mvs_load_case {
 } mvs_load_case;
 
 /* Sets the load that settle and step work towards; nothing moves yet. A new valve starts with
- * pressure and fraction 0. */
+ * pressure and fraction 0. A pressure that looks like one in mmHg is warned of in the log. */
 MVS_API mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load);
 
 /* 120 mmHg in Pa (1 mmHg = 133.322 Pa): the default systolic load. */

@@ -7,6 +7,7 @@
 
 #include "anatomy/parametric.h"
 #include "api/commit.h"
+#include "api/unit_notes.h"
 #include "api/valve_desc.h"
 #include "model/check.h"
 
@@ -88,6 +89,8 @@ void replace_valve(mvs_sim &sim, Moment moment) {
           held->valve.name.c_str(), held->node_count(), held->valve.triangles.size(),
           held->valve.chords.size());
   log_mesh(sim, *held);
+  log_units(sim, *held);
+  log_pressure(sim, sim.load().pressure);
 }
 
 }  // namespace mvs

@@ -5,6 +5,7 @@
 
 #include "api/moves.h"
 #include "api/simulator.h"
+#include "api/unit_notes.h"
 #include "cascade/cascade.h"
 
 namespace mvs {
@@ -112,6 +113,7 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
     State state = before->state;
     state.load = given;
     s.replace(make_snapshot(after_move(before->moment, std::move(state), move_of(given))));
+    log_pressure(s, given.pressure);
   });
 }
 

@@ -66,10 +66,13 @@ struct Range {
   const char *low_hint = "too small, or no number";  // of all else
 };
 constexpr Range thickness_range = {1e-5, 2e-2, "m", "looks like mm given as m"};
-constexpr Range modulus_range = {1, 1e12, "Pa", "moduli are in Pa"};
-constexpr Range density_range = {100, 20000, "kg/m3", "tissue has about 1060"};
+constexpr const char *low_modulus = "looks like MPa or GPa given as Pa, or no number";
+constexpr Range modulus_range = {1, 1e12, "Pa", "moduli are in Pa", low_modulus};
+constexpr Range density_range = {100, 20000, "kg/m3", "tissue has about 1060",
+                                 "looks like g/cm3 given as kg/m3: tissue has about 1060"};
 constexpr Range area_range = {1e-11, 1e-3, "m2", "looks like mm2 given as m2"};
-constexpr Range length_range = {0, 1, "m", "looks like mm given as m"};
+// the shortest segment that a mesh of chordae has is about 0.1 mm
+constexpr Range length_range = {1e-6, 1, "m", "looks like mm given as m"};
 constexpr Range gap_range = {1e-6, 1e-2, "m", "looks like mm given as m"};
 constexpr Range scale_range = {0, 1e6, "", "1 is the sheet's own bending stiffness"};
 
@@ -93,10 +96,10 @@ void check_law(const std::string &part, uint32_t id, const Law *law, const Value
     if (k < law->constants.size()) {
       const Constant &c = law->constants[k];
       const bool is_modulus = *c.unit != 0;
-      check_range(part, c.what, values[k],
-                  {c.low, c.high, c.unit,
-                   is_modulus ? "moduli are in Pa" : "strains are fractions, not percent"},
-                  faults);
+      const Range range = is_modulus
+                              ? Range{c.low, c.high, c.unit, "moduli are in Pa", low_modulus}
+                              : Range{c.low, c.high, c.unit, "strains are fractions, not percent"};
+      check_range(part, c.what, values[k], range, faults);
     } else if (values[k] != 0) {
       faults.add(part, "%s has a constant %zu of %g, but its law (%s) has only %zu: make it 0",
                  part.c_str(), k, values[k], law->word, law->constants.size());
@@ -166,7 +169,10 @@ void check_chord(const Valve &valve, size_t k, Faults &faults) {
   }
   check_range(part, "Young's modulus", chord.young, modulus_range, faults);
   check_range(part, "area", chord.area, area_range, faults);
-  check_range(part, "rest length", chord.rest_length, length_range, faults);
+  // 0 is the distance of its nodes (complete.cpp)
+  if (chord.rest_length != 0) {
+    check_range(part, "rest length", chord.rest_length, length_range, faults);
+  }
 }
 
 void check_valve(const Valve &valve, Faults &faults) {

@@ -1,6 +1,7 @@
 """Valves from arrays: any strides, no silent casts, and the way from a snapshot and back."""
 
 import dataclasses
+import warnings
 
 import mvs
 import numpy as np
@@ -151,3 +152,25 @@ def test_dimensions_reach_the_generator():
 def test_dimensions_are_keywords_only(sim):
     with pytest.raises(TypeError):
         sim.generate(500)
+
+
+def test_what_looks_like_another_unit_is_warned_of(valve):
+    valve.chord_young[:] *= 1e-3
+    with pytest.warns(mvs.ValveWarning, match="kPa or MPa given as Pa"):
+        set_and_look(valve)
+    told = []
+    with mvs.Simulator(log=lambda level, text: told.append(text)) as sim:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # who has a log is not warned twice
+            sim.set_valve(valve)
+            sim.set_load(120)
+    assert any("looks like mmHg given as Pa" in text for text in told)
+
+
+def test_a_valve_as_tissue_is_warns_of_nothing(valve):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with mvs.Simulator() as sim:
+            sim.set_valve(valve)
+            sim.set_load(mvs.SYSTOLE_PA)
+            assert not sim.settle(max_iterations=1).converged  # its result says so

@@ -304,13 +304,16 @@ TEST_CASE("materials_that_cannot_be_are_named") {
   check_fault("is of kind 99", 1, [](Valve &v) { v.chords[2].kind = 99; });
   check_fault("mm2 given as m2", 1, [](Valve &v) { v.chords[2].area = 0.785; });
   check_fault("Young's modulus", 1, [](Valve &v) { v.chords[2].young = 0; });
-  check_fault("outside 0 to 1: too small, or no number", 1,
+  check_fault("outside 1e-06 to 1: too small, or no number", 1,
               [](Valve &v) { v.chords[2].rest_length = not_a_number; });
+  check_fault("has rest length 1e-09 m", 1, [](Valve &v) { v.chords[2].rest_length = 1e-9; });
+  check_fault("looks like MPa or GPa given as Pa", 1,
+              [](Valve &v) { v.leaflets[0].constants[0] = 0.1; });
   check_fault("chord s has rest length 20 m", 1, [](Valve &v) {
     v.chords[2].rest_length = 20;
     v.chords[2].name = "s";
   });
-  check_fault("density", 1, [](Valve &v) { v.density = 1.06; });
+  check_fault("looks like g/cm3 given as kg/m3", 1, [](Valve &v) { v.density = 1.06; });
   check_fault("contact thickness", 1, [](Valve &v) { v.contact_thickness = 0.6; });
   check_fault("contact stiffness", 1, [](Valve &v) { v.contact_stiffness = -1; });
   check_fault("bending scale", 1, [](Valve &v) { v.bending_scale = -1; });

@@ -38,6 +38,7 @@ from .errors import (
     OpError,
     StateError,
     UnsupportedError,
+    ValveWarning,
     VersionError,
 )
 from .ops import Operation, Site
@@ -129,6 +130,7 @@ __all__ = [
     "ToolKind",
     "UnsupportedError",
     "Valve",
+    "ValveWarning",
     "VersionError",
     "check_valve",
     "chord_law",

@@ -24,6 +24,12 @@ class Error(Exception):
         return type(self), (str(self), self.part, self.line)
 
 
+class ValveWarning(UserWarning):
+    """What can be but hardly is: a number that looks like one of another unit, a triangle like a
+    needle, a line of a file that is left out. A simulator with a ``log`` tells it there instead.
+    """
+
+
 class ArgumentError(Error, ValueError):
     """A value that is wrong: a dtype, a shape, a range."""
 

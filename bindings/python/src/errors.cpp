@@ -27,4 +27,9 @@ void refuse(mvs_result code, const std::string &part, const std::string &sentenc
   raise(code, sentence.c_str(), part.c_str(), 0);
 }
 
+void warn(const char *sentence) {
+  const py::object category = py::module_::import("mvs.errors").attr("ValveWarning");
+  if (PyErr_WarnEx(category.ptr(), sentence, 1) != 0) throw py::error_already_set();
+}
+
 }  // namespace mvs_python

@@ -28,6 +28,9 @@ inline void must(mvs_result result) {
 // Raises the exception of a code from a sentence of the binding itself.
 [[noreturn]] void refuse(mvs_result code, const std::string &part, const std::string &sentence);
 
+// Warns of what the library says to nobody in particular; throws where warnings are errors.
+void warn(const char *sentence);
+
 // Runs a call of the C library with the interpreter released, and raises if it failed.
 template <typename Call>
 void release_and(Call &&call) {

@@ -23,7 +23,7 @@ Simulator::Simulator(const std::string &backend, py::object log) : log_(std::mov
   mvs_sim_desc desc{};
   desc.struct_size = sizeof desc;
   desc.backend = backend_of(backend);
-  if (!log_.is_none()) desc.log = &Simulator::on_log;
+  desc.log = &Simulator::on_log;
   desc.progress = &Simulator::on_progress;
   desc.user = this;
   must(mvs_create(&desc, &sim_));
@@ -79,11 +79,16 @@ int32_t Simulator::on_progress(void *user, double share, double residual) {
   }
 }
 
+// Nobody would see what the library warns of if it went only to a log that nobody set.
 void Simulator::on_log(void *user, int32_t level, const char *text) {
   auto &self = *static_cast<Simulator *>(user);
   py::gil_scoped_acquire held;
   try {
-    self.log_(level, text);
+    if (!self.log_.is_none()) {
+      self.log_(level, text);
+    } else if (level <= MVS_LOG_WARNING && !self.settling_) {
+      warn(text);
+    }
   } catch (...) {
     self.raised_ = std::current_exception();
   }
@@ -166,7 +171,12 @@ mvs_load_case Simulator::load_case() {
 mvs_stats Simulator::settle(const mvs_settle_options &options, py::object progress) {
   mvs_stats stats{};
   stats.struct_size = sizeof stats;
-  call_with(std::move(progress), [&] { return mvs_settle(sim_, &options, &stats); });
+  call_with(std::move(progress), [&] {
+    settling_ = true;
+    const mvs_result result = mvs_settle(sim_, &options, &stats);
+    settling_ = false;
+    return result;
+  });
   return stats;
 }
 

@@ -78,6 +78,7 @@ class Simulator {
 
   mvs_sim *sim_ = nullptr;
   py::object log_, progress_;
+  bool settling_ = false;      // whether it came to rest is in what settle returns
   std::exception_ptr raised_;  // by a callback, to be raised again when the call is back
   std::mutex turn_;
   std::shared_mutex open_;  // held by those who look while another thread's call is at work

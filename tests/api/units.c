@@ -1,0 +1,105 @@
+/* What looks like a number in a wrong unit is warned of, and nothing else is. */
+#include "check.h"
+#include "funnel.h"
+
+typedef struct host {
+  char told[1024]; /* the warnings, one after the other */
+  int warnings;
+} host;
+
+static void take_line(void *user, int32_t level, const char *text) {
+  host *h = user;
+  if (level != MVS_LOG_WARNING) return;
+  ++h->warnings;
+  const size_t used = strlen(h->told);
+  snprintf(h->told + used, sizeof h->told - used, "%s\n", text);
+}
+
+static host heard;
+static mvs_sim *sim;
+static funnel f;
+
+/* The warnings of a call that succeeds. */
+static void must_warn(mvs_result result, int count, const char *words, int line) {
+  if (result != MVS_OK || heard.warnings != count || !strstr(heard.told, words)) {
+    ++failures;
+    printf("line %d: %s, %d warnings: %s\n  wanted %d and \"%s\"\n", line, mvs_result_name(result),
+           heard.warnings, heard.told, count, words);
+  }
+  heard = (host){0};
+}
+#define WARNS(call, count, words) must_warn(call, count, words, __LINE__)
+/* The same of the funnel with something changed. */
+#define CHANGED(change, count, words)                                   \
+  do {                                                                  \
+    make_funnel(&f);                                                    \
+    change;                                                             \
+    must_warn(mvs_set_valve(sim, &f.desc), (count), (words), __LINE__); \
+  } while (0)
+
+static mvs_result load(double pressure) {
+  const mvs_load_case to = {sizeof to, 0, pressure, 1};
+  return mvs_set_load(sim, &to);
+}
+
+static mvs_result tissue(uint32_t law, double first, double second) {
+  const mvs_leaflet_desc to = {.law = law, .constants = {first, second}};
+  return mvs_set_leaflet(sim, 0, &to);
+}
+
+/* What papers have is not warned of: every law with its defaults, and the softest and stiffest
+ * natural chordae (Kunzelman and Cochran 1990: 10 to 130 MPa). */
+static void what_tissue_is_like_is_not_warned_of(void) {
+  mvs_law law = {.struct_size = sizeof law};
+  WARNS(mvs_generate_valve(sim, NULL), 0, "");
+  for (uint32_t number = 1; mvs_leaflet_law(number, &law) == MVS_OK; ++number) {
+    WARNS(tissue(number, 0, 0), 0, "");
+  }
+  CHANGED((void)0, 0, "");
+  CHANGED(f.chords[2].young = 10e6, 0, "");
+  CHANGED(f.chords[2].young = 130e6, 0, "");
+  CHANGED(f.chords[2].rest_length = 3e-3, 0, "");
+  CHANGED(f.leaflets[0].thickness = 0.4e-3, 0, "");
+  WARNS(load(MVS_SYSTOLE_PA), 0, "");
+  WARNS(load(25 * MVS_SYSTOLE_PA / 120), 0, "");
+  for (int k = 0; k <= 100; ++k) WARNS(load(k * MVS_SYSTOLE_PA / 100), 0, "");
+}
+
+static void moduli_in_kpa_are_warned_of(void) {
+  CHANGED(f.chords[2].young = 40e3, 1, "bears");
+  CHANGED(for (int c = 0; c < FUNNEL_CHORDS; ++c) f.chords[c].young = 40e3, 1,
+          "looks like a modulus in kPa or MPa given as Pa (10 of them)");
+  CHANGED(f.chords[2].area = 0.785e-10, 1, "its share of the systolic force");
+  CHANGED(f.chords[2].young = 40e9, 1, "as steel wire does");
+  CHANGED(f.leaflets[0].constants[0] = 100, 1, "has low modulus 100 Pa, tissue about 100000");
+  CHANGED(f.desc.contact_stiffness = 20, 1, "contact stiffness is 20 Pa");
+  MUST(mvs_generate_valve(sim, NULL));
+  WARNS(tissue(MVS_LEAFLET_PROT, 0.052, 0), 2, "leaflet P has constant c0 0.052 Pa");
+  WARNS(tissue(MVS_LEAFLET_NEO_HOOKEAN, 1000, 0), 2, "over 10 times its length");
+  WARNS(tissue(MVS_LEAFLET_NEO_HOOKEAN, 33e9, 0), 2, "by less than 0.1 %");
+}
+
+static void lengths_in_other_units_are_warned_of(void) {
+  CHANGED(f.leaflets[0].thickness = 1e-2, 1, "is 10 mm thick, which is too much");
+  CHANGED(f.leaflets[0].thickness = 1e-5, 1, "is 0.01 mm thick, which is little");
+  CHANGED(f.chords[2].rest_length = 0.98, 1, "is 980 mm long at rest");
+  CHANGED(f.chords[2].rest_length = 1e-5, 1, "is 0.01 mm long at rest");
+}
+
+static void pressures_in_mmhg_are_warned_of(void) {
+  MUST(mvs_generate_valve(sim, NULL));
+  WARNS(load(120), 1, "a pressure of 120 Pa is 0.9 mmHg: looks like mmHg given as Pa");
+  WARNS(load(-25), 1, "-25 mmHg are -3333.05 Pa");
+  WARNS(load(120 * 133.322 * 20), 1, "looks like Pa taken for mmHg");
+}
+
+int main(void) {
+  const mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, NULL, &heard};
+  MUST(mvs_create(&desc, &sim));
+  what_tissue_is_like_is_not_warned_of();
+  moduli_in_kpa_are_warned_of();
+  lengths_in_other_units_are_warned_of();
+  pressures_in_mmhg_are_warned_of();
+  mvs_destroy(sim);
+  return finish("units");
+}
