@@ -158,6 +158,21 @@ TEST_CASE("pressed_together_again_and_again_nothing_comes_to_distance_zero") {
   CHECK(find_intersections(x, plates.model.valve.triangles).empty());
 }
 
+// Where a pair of edges is stopped its guard bears more than all the pressure on a valve, 120 mmHg
+// on 7 cm2: nothing that presses tissue together presses more, and so there is a balance.
+TEST_CASE("a_guard_has_the_room_to_bear_whatever_presses") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  const double range = guard_range(model.valve.contact_thickness, 1);
+  const double least = nearest(model, pressed(plates, plates.at(0.1e-3)));
+  // the strength of two edges in contact.cpp, each with a third of two triangles
+  double area = 0;
+  for (const double of_triangle : model.rest_area) area += of_triangle;
+  const double edge_area = area / static_cast<double>(model.topology.edges.size());
+  const double strength = 0.25 * model.valve.contact_stiffness * 2 * edge_area;
+  CHECK(-strength * barrier(least / range).first > 120 * 133.322 * 7e-4);
+}
+
 // Parts of a needle a thousandth of the contact thickness apart: stopped before its guard pushes, a
 // pair would never be in balance.
 TEST_CASE("what_lies_close_at_rest_is_stopped_by_its_guard_and_not_before") {
