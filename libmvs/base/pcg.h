@@ -13,7 +13,7 @@ namespace mvs {
 
 struct PcgResult {
   uint32_t iterations = 0;
-  // What is left of the residual, in the norm that the preconditioner gives: 1 at the start.
+  // What is left of the residual, in the norm that the preconditioner gives: 1 where x = 0.
   double error = 0;
 };
 
@@ -40,15 +40,28 @@ class Pcg {
   template <typename Multiply, typename Precondition>
   PcgResult solve(const Multiply &multiply, const Precondition &precondition,
                   const std::vector<Vec3> &b, std::vector<Vec3> &x, const PcgGoal &goal) {
+    return solve(multiply, precondition, b, {}, x, goal);
+  }
+  // The same from a guess, or none where it is empty: x begins with as much of it as leads farthest
+  // downhill, for a product and no preconditioning.
+  template <typename Multiply, typename Precondition>
+  PcgResult solve(const Multiply &multiply, const Precondition &precondition,
+                  const std::vector<Vec3> &b, const std::vector<Vec3> &guess, std::vector<Vec3> &x,
+                  const PcgGoal &goal) {
     x.assign(b.size(), Vec3::Zero());
     r_ = b;
+    const double begun = guess.empty() ? 0 : begin(multiply, guess, x);
     precondition(r_, z_);
     p_ = z_;
     const double first = dot(r_, z_);
     PcgResult result;
-    if (!(first > 0)) return result;
+    // the square of the norm of b if the preconditioner is exact, as what is left of b is at right
+    // angles to x
+    const double whole = begun + first;
+    if (!(first >= 0 && whole > 0)) return result;
+    const double left = std::sqrt(first / whole);
+    result.error = left;
     double size = first;
-    result.error = 1;
     while (result.iterations < goal.most && result.error > goal.after(result.iterations)) {
       multiply(p_, y_);
       const double curvature = dot(p_, y_);
@@ -59,9 +72,9 @@ class Pcg {
       for (size_t i = 0; i < b.size(); ++i) r_[i] -= far * y_[i];
       precondition(r_, z_);
       const double next = dot(r_, z_);
-      result.error = std::sqrt(std::max(next, 0.0) / first);
-      const double rate = std::pow(result.error, 1.0 / result.iterations);
-      if (result.iterations > 1 && std::pow(rate, goal.most) > goal.worst) break;
+      result.error = std::sqrt(std::max(next, 0.0) / whole);
+      const double rate = std::pow(result.error / left, 1.0 / result.iterations);
+      if (result.iterations > 1 && left * std::pow(rate, goal.most) > goal.worst) break;
       const double turn = next / size;
       for (size_t i = 0; i < b.size(); ++i) p_[i] = z_[i] + turn * p_[i];
       size = next;
@@ -70,6 +83,18 @@ class Pcg {
   }
 
  private:
+  // The share of a direction at which b . x - x . A x / 2 is largest; twice what it is there.
+  template <typename Multiply>
+  double begin(const Multiply &multiply, const std::vector<Vec3> &guess, std::vector<Vec3> &x) {
+    multiply(guess, y_);
+    const double curvature = dot(guess, y_), slope = dot(guess, r_);
+    if (!(curvature > 0 && slope > 0)) return 0;
+    const double share = slope / curvature;
+    for (size_t i = 0; i < x.size(); ++i) x[i] = share * guess[i];
+    for (size_t i = 0; i < x.size(); ++i) r_[i] -= share * y_[i];
+    return share * slope;
+  }
+
   std::vector<Vec3> r_, z_, p_, y_;
 };
 

@@ -87,6 +87,7 @@ void StepSolver::solve(StepMatrix &matrix, const Waypoint &here, const std::vect
     std::swap(serving_, coming_);
     state.serving = std::exchange(state.coming, {});
   }
+  guess(matrix, here.dt, state.v);
   if (!state.serving.x.empty() && iterate(matrix, rows, left, stats)) {
     ++state.serving.age;
     work_ahead(matrix, here, x, state, left, stats);
@@ -96,6 +97,12 @@ void StepSolver::solve(StepMatrix &matrix, const Waypoint &here, const std::vect
   }
   // a zero has the sign that it has in any pattern
   for (Vec3 &row : rows) row.array() += 0.0;
+}
+
+// That nodes go on as they went: a third of all steps are solved with one iteration from there.
+void StepSolver::guess(const StepMatrix &matrix, double dt, const std::vector<Vec3> &v) {
+  guess_.resize(matrix.size());
+  for (uint32_t r = 0; r < matrix.size(); ++r) guess_[r] = dt * v[matrix.node(r)];
 }
 
 bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint32_t &left,
@@ -109,7 +116,7 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
   };
   const PcgGoal goal{tolerance, std::min(most_iterations, left - closing), good_enough,
                      many_iterations + 1, enough};
-  const PcgResult result = pcg_.solve(multiply, precondition, rows, solution_, goal);
+  const PcgResult result = pcg_.solve(multiply, precondition, rows, guess_, solution_, goal);
   left -= result.iterations;
   iterations_ = result.iterations;
   stats.work.linear_iterations += result.iterations;
@@ -148,6 +155,7 @@ bool StepSolver::factorise_here(const StepMatrix &matrix, const Waypoint &here,
                                 uint32_t &left, SolveStats &stats) {
   state.forget_way();
   if (left <= closing) return false;
+  guess_.clear();  // a factor of this very matrix needs none
   const Waypoint place = with_place(here, x);
   take(matrix, place, *serving_, stats.work);
   bool positive = false;

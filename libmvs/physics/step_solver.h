@@ -43,6 +43,7 @@ class StepSolver {
   bool remake(const Waypoint &place, uint32_t parts, KeptFactor &factor, StepMatrix &matrix,
               const Look &look);
   void take(const StepMatrix &matrix, const Waypoint &place, KeptFactor &factor, Profile &profile);
+  void guess(const StepMatrix &matrix, double dt, const std::vector<Vec3> &v);
   bool iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint32_t &left,
                SolveStats &stats);
   void work_ahead(const StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
@@ -61,7 +62,7 @@ class StepSolver {
   KeptFactor exact_;
   Pcg pcg_;
   BlockProduct product_;
-  std::vector<Vec3> solution_;
+  std::vector<Vec3> guess_, solution_;
   uint32_t iterations_ = 0;  // of this step
   // Memory for places: what two states and two factors may hold, and one more.
   std::array<SharedVector<Vec3>, 7> places_;

@@ -96,6 +96,33 @@ TEST_CASE("what_conjugate_gradients_say_is_left_is_left") {
   }
 }
 
+// With an exact preconditioner that of what is left after the guess is known without it: both parts
+// are at right angles.
+TEST_CASE("conjugate_gradients_take_of_a_guess_what_leads_downhill") {
+  Random random(16);
+  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.4));
+  const Eigen::LLT<Eigen::MatrixXd> exact(a);
+  const Positions b = random.vectors(10, 1);
+  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(a * flat(v)); };
+  const auto precondition = [&](const Positions &r, Positions &z) {
+    z = rows_of(exact.solve(flat(r)));
+  };
+  const double size = std::sqrt(flat(b).dot(exact.solve(flat(b))));
+  Pcg pcg;
+  Positions x;
+  const Positions solution = rows_of(0.3 * exact.solve(flat(b)));
+  for (const Positions &guess : {solution, random.vectors(10, 1), rows_of(-flat(solution))}) {
+    const PcgResult result = pcg.solve(multiply, precondition, b, guess, x, {1e-3, 0});
+    const Eigen::VectorXd left = flat(b) - a * flat(x);
+    CHECK(flat(b).dot(flat(x)) >= 0);
+    // what is lost where nearly all of b is taken off
+    CHECK(std::abs(result.error - std::sqrt(left.dot(exact.solve(left))) / size) <= 1e-7);
+  }
+  CHECK(flat(x).isZero(0));  // nothing of one that leads uphill
+  CHECK(pcg.solve(multiply, precondition, b, solution, x, {1e-3, 9}).iterations == 0);
+  CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
+}
+
 TEST_CASE("conjugate_gradients_give_up_what_they_cannot_reach") {
   Random random(14);
   const Eigen::MatrixXd a = with_spectrum(random, powers_of(2.0));
