@@ -16,11 +16,25 @@ bool KeptFactor::is_of(const Waypoint &place, uint32_t done) const {
 // Blocks that are zero stay out: what a pattern has kept of earlier contact may not show.
 void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
                       const std::vector<uint32_t> *order) {
-  const BlockMatrix &m = matrix.blocks();
   place_ = place;
   done_ = 0;
   has_order_ = order != nullptr;
-  if (has_order_) order_ = *order;
+  if (has_order_) {
+    take_in_order(matrix, *order);
+  } else {
+    take_blocks(matrix);
+  }
+}
+
+void KeptFactor::take_in_order(const StepMatrix &matrix, const std::vector<uint32_t> &order) {
+  system_.set_order(*model_, order);
+  row_.resize(matrix.size());
+  for (uint32_t r = 0; r < matrix.size(); ++r) row_[r] = system_.row_of[matrix.node(r)];
+  permutation_.permute(matrix.blocks(), row_, system_.matrix);
+}
+
+void KeptFactor::take_blocks(const StepMatrix &matrix) {
+  const BlockMatrix &m = matrix.blocks();
   nodes_.clear();
   pairs_.clear();
   blocks_.clear();
@@ -38,11 +52,9 @@ void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
   }
 }
 
-// Rows in the order of elimination, and what that fills.
-void KeptFactor::set_pattern() {
-  if (has_order_) system_.set_order(*model_, order_);
+// Rows in the order that suits the pattern.
+void KeptFactor::find_order() {
   system_.set_pattern(*model_, pairs_);
-  factor_->analyse(system_.matrix);
   for (size_t k = 0; k < pairs_.size(); ++k) system_.add(pairs_[k][0], pairs_[k][1], blocks_[k]);
   row_.resize(nodes_.size());
   for (size_t r = 0; r < nodes_.size(); ++r) {
@@ -51,11 +63,16 @@ void KeptFactor::set_pattern() {
   }
 }
 
+void KeptFactor::analyse() {
+  if (!has_order_) find_order();
+  factor_->analyse(system_.matrix);
+}
+
 bool KeptFactor::factorise_part(uint32_t part) {
   if (part < done_) return true;
   done_ = part + 1;
   if (part == 0) {
-    set_pattern();
+    analyse();
     return true;
   }
   const bool positive = factor_->factorise_part(system_.matrix, part - 1, parts - 1);
@@ -64,7 +81,7 @@ bool KeptFactor::factorise_part(uint32_t part) {
 }
 
 bool KeptFactor::factorise() {
-  if (done_ == 0) set_pattern();
+  if (done_ == 0) analyse();
   const bool positive = factor_->factorise(system_.matrix);
   done_ = parts;
   if (!positive) place_ = {};

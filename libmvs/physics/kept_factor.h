@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "base/block_permutation.h"
 #include "base/factor.h"
 #include "physics/step_matrix.h"
 
@@ -32,7 +33,10 @@ class KeptFactor {
   void solve(const std::vector<Vec3> &r, std::vector<Vec3> &z);
 
  private:
-  void set_pattern();
+  void take_in_order(const StepMatrix &matrix, const std::vector<uint32_t> &order);
+  void take_blocks(const StepMatrix &matrix);
+  void find_order();
+  void analyse();
 
   const Model *model_;
   std::unique_ptr<Factor> factor_;
@@ -40,9 +44,10 @@ class KeptFactor {
   Waypoint place_;
   uint32_t done_ = 0;          // parts
   std::vector<uint32_t> row_;  // of a StepMatrix -> here
-  // the matrix as it was taken: rows by node, blocks below the diagonal by pairs of nodes
-  std::vector<uint32_t> nodes_, order_;
+  BlockPermutation permutation_;
+  // a matrix taken without an order: rows by node, blocks below the diagonal by pairs of nodes
   bool has_order_ = false;
+  std::vector<uint32_t> nodes_;
   std::vector<Edge> pairs_;
   std::vector<Mat3> blocks_, diagonal_;
   std::vector<Vec3> turned_;  // a vector in the order here
