@@ -188,8 +188,9 @@ typedef struct mvs_step_options {
 
 /* Advances by one time step: one bounded amount of work, without progress callbacks, and, once a
  * valve has been stepped a few times, without allocation or system call while nobody holds a
- * snapshot of it. MVS_E_DIVERGED if numbers left their range: take a smaller dt. `options` is
- * nullable. */
+ * snapshot of it. What an operation, a group that ends or a tool that comes or goes changes for the
+ * next step is done in that call if the valve is stepped. MVS_E_DIVERGED if numbers left their
+ * range: take a smaller dt. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE if there was none. */

@@ -29,6 +29,9 @@ struct mvs_sim {
   mvs::Load load() const;
   // One step in time of the present valve.
   void step(const mvs::SolveOptions &how);
+  // What the next step would do because of another valve or other tools, if steps are taken at all:
+  // work of the call that changed them.
+  void make_ready() { solver.make_ready(*now_.picture.model, now_.picture.state); }
 
   // One line to the host.
   [[gnu::format(printf, 3, 4)]] void log(int32_t level, const char *pattern, ...) const;

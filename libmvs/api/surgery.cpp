@@ -35,6 +35,7 @@ mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
     const std::shared_ptr<const Entry> entry = after.timeline.past.top();
     commit(s, std::move(after),
            [&](const Moment &next) { return steps_record(before->moment, next); });
+    if (s.group.number == 0) s.make_ready();
     if (made) *made = entry->made;
     s.log(MVS_LOG_INFO, "%s", entry->title.c_str());
   });
@@ -72,6 +73,7 @@ mvs_result mvs_end_group(mvs_sim *sim) {
   return guarded_call(sim, [](mvs_sim &s) {
     MVS_MUST(s.group.number != 0, MVS_E_STATE, "group", "end_group: no group is open");
     s.group = {};
+    s.make_ready();
   });
 }
 

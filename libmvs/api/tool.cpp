@@ -104,6 +104,7 @@ void take_at_once(mvs_sim &sim, const Move &move) {
   State state = before->state;
   take_move(*before->model, state, move);
   sim.replace(make_snapshot(after_move(before->moment, std::move(state), move)));
+  sim.make_ready();
 }
 
 }  // namespace

@@ -16,9 +16,6 @@ constexpr double most_changed = 0.25;
 constexpr size_t enough_found = 1024;
 // So few are sorted as they are.
 constexpr size_t few_pairs = 32;
-// Lists before what is near is kept, which takes longer than to search: a step that is the only one
-// does not need it, and the first step is dear enough.
-constexpr uint64_t lists_alone = 2;
 
 }  // namespace
 

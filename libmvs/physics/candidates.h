@@ -10,6 +10,7 @@
 // (representative triangles: Curtis, Tamstorf, Manocha, I3D 2008).
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,8 @@ class Candidates {
   // Whether what is near is kept from one list to the next, which pays in live steps; the lists are
   // the same.
   void keep_near(bool keep) { keeps_near_ = keep; }
+  // Keeps it from the next list on: there will be more.
+  void keep_near_at_once() { lists_ = std::max(lists_, lists_alone); }
   // Makes the lists for nodes on their way from x to `to`.
   void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
              Pace pace = Pace::together);
@@ -108,6 +111,9 @@ class Candidates {
   std::vector<VertexTriangle> facing_, guarded_;
   std::vector<EdgeEdge> guarded_edges_;
   bool keeps_near_ = true;
+  // Lists before what is near is kept, which takes longer than to search: a step that is the only
+  // one does not need it, and the first step is dear enough.
+  static constexpr uint64_t lists_alone = 2;
   uint64_t lists_ = 0;
   std::optional<NearPairs> near_;
 };

@@ -59,6 +59,16 @@ ImplicitStepper::ImplicitStepper(const Model &model, uint32_t backend)
   alone_g_.reserve(model.node_count());
 }
 
+void ImplicitStepper::make_ready(State &state, const StepOptions &how) {
+  SolveStats unseen;
+  potential_.keep_near_at_once();
+  resume(state, how);
+  begin(state, how, unseen);
+  if (how.may_sleep && is_at_rest(state, how)) return;
+  matrix_.assemble(potential_, x_, how, nullptr, unseen.work);
+  solver_.make_ready(matrix_, here(state, how), x_, state);
+}
+
 void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &stats) {
   resume(state, how);
   begin(state, how, stats);
@@ -176,8 +186,11 @@ void ImplicitStepper::solve(State &state, const StepOptions &how, SolveStats &st
     const uint32_t i = matrix_.node(r);
     rows_[r] = matrix_.boundary_force()[r] - g_[i] + (model_->node_mass[i] / how.dt) * v_[i];
   }
-  const Waypoint here{{}, state.tools, load_.pressure, how.dt, how.damping, 0};
-  solver_.solve(matrix_, here, x_, state, rows_, left_, stats);
+  solver_.solve(matrix_, here(state, how), x_, state, rows_, left_, stats);
+}
+
+Waypoint ImplicitStepper::here(const State &state, const StepOptions &how) const {
+  return {{}, state.tools, load_.pressure, how.dt, how.damping, 0};
 }
 
 void ImplicitStepper::limit(SolveStats &stats) {

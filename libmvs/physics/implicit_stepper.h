@@ -29,6 +29,9 @@ double rest_force(const Load &load);
 class ImplicitStepper {
  public:
   ImplicitStepper(const Model &model, uint32_t backend);
+  // What the first step from a state would do for those after it: memory, what is near, forces and
+  // the factor. Of the state it may take waypoints that fit no more, as a step does.
+  void make_ready(State &state, const StepOptions &how);
   void step(State &state, const StepOptions &how, SolveStats &stats);
   // See Potential.
   void begin_call() { potential_.begin_call(); }
@@ -42,6 +45,7 @@ class ImplicitStepper {
   void sum_up();
   bool is_at_rest(const State &state, const StepOptions &how) const;
   void solve(State &state, const StepOptions &how, SolveStats &stats);
+  Waypoint here(const State &state, const StepOptions &how) const;
   void limit(SolveStats &stats);
   bool go(const StepOptions &how, SolveStats &stats);
   bool go_less(const StepOptions &how, SolveStats &stats);

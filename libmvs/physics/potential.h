@@ -27,6 +27,7 @@ class Potential {
 
   // See Candidates.
   void keep_near(bool keep) { candidates_.keep_near(keep); }
+  void keep_near_at_once() { candidates_.keep_near_at_once(); }
   // Makes contact known while each node stays within `slack` of its way from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                Profile &profile);

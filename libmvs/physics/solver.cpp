@@ -122,6 +122,7 @@ struct Solver::Work {
   std::unique_ptr<Factor> factor;  // of settling
   std::optional<ImplicitStepper> implicit;
   std::optional<ExplicitStepper> explicit_;
+  StepOptions how{};                                // of the last implicit step
   uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
 };
 
@@ -191,6 +192,7 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
     state.forget_way();
     step_alone(work_->explicit_for(model), state, how, stats);
   } else {
+    work_->how = how;
     try {
       step_alone(work_->implicit_for(model), state, how, stats);
     } catch (...) {
@@ -204,6 +206,18 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
   stats.skipped |= never_done(stats.work);
   stats.wall_s = seconds_now() - start;
   return stats;
+}
+
+void Solver::make_ready(const Model &valve, const State &valve_state) noexcept {
+  if (!work_->implicit) return;
+  try {
+    const Model &model = work_->tool_points.extend(valve, tool_points(valve_state));
+    if (work_->implicit_model == model.serial) return;
+    State state = ToolPoints::extended(valve_state);
+    work_->implicit_for(model).make_ready(state, work_->how);
+  } catch (...) {
+    work_->implicit.reset();
+  }
 }
 
 Forces evaluate_forces(const Model &valve, const State &valve_state) {

@@ -60,6 +60,10 @@ class Solver {
   SolveStats settle(const Model &model, State &state, const SolveOptions &options,
                     const Progress &progress);
   SolveStats step(const Model &model, State &state, const SolveOptions &options);
+  // Where another model was stepped last: does now what the first step of this one would do for
+  // those after it, as for one with the same options. It changes no result, and what goes wrong is
+  // for that step to tell.
+  void make_ready(const Model &model, const State &state) noexcept;
 
  private:
   template <typename Solve>

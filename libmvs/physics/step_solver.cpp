@@ -62,6 +62,17 @@ void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix
   if (!remake(state.coming, some, *coming_, matrix, look)) state.coming = {};
 }
 
+void StepSolver::make_ready(const StepMatrix &matrix, const Waypoint &here,
+                            const std::vector<Vec3> &x, const State &state) {
+  if (!state.serving.x.empty()) return;
+  Profile unseen{};
+  const Waypoint place = with_place(here, x);
+  for (KeptFactor *factor : {coming_, serving_}) {
+    take(matrix, place, *factor, unseen);
+    factor->factorise();
+  }
+}
+
 bool StepSolver::remake(const Waypoint &place, uint32_t parts, KeptFactor &factor,
                         StepMatrix &matrix, const Look &look) {
   look(place, matrix);
@@ -157,11 +168,11 @@ bool StepSolver::factorise_here(const StepMatrix &matrix, const Waypoint &here,
   if (left <= closing) return false;
   guess_.clear();  // a factor of this very matrix needs none
   const Waypoint place = with_place(here, x);
-  take(matrix, place, *serving_, stats.work);
-  bool positive = false;
-  {
+  --left;  // of any solver, whether its factor is ready or not
+  bool positive = serving_->is_of(place, KeptFactor::parts);
+  if (!positive) {
+    take(matrix, place, *serving_, stats.work);
     const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
-    --left;
     ++stats.factorisations;
     positive = serving_->factorise();
   }

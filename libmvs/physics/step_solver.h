@@ -30,6 +30,10 @@ class StepSolver {
   // Sees that the factors of the state's waypoints are there; those that fit neither the valve nor
   // the step are taken out of it.
   void resume(State &state, const StepOptions &how, StepMatrix &matrix, const Look &look);
+  // Makes the factor that the next step from here will ask for, if it has none, and has memory for
+  // the one to come.
+  void make_ready(const StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
+                  const State &state);
   // Turns right-hand sides into a solution for the matrix, which is that of `here`, at x. May use
   // up what is `left` of the budget but the last `closing` units.
   void solve(StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x, State &state,

@@ -41,6 +41,7 @@ const Model &ToolPoints::extend(const Model &model, uint32_t points) {
   // below 2^48 models there are, and at most 128 points; a model made without a number has 0
   const uint64_t serial = model.serial | uint64_t{points} << 48;
   if (model.serial != 0 && serial == serial_) return model_;
+  serial_ = 0;  // until all is there
   model_ = model;
   for (uint32_t k = 0; k < points; ++k) add_node(model_);
   model_.serial = serial_ = serial;
