@@ -84,7 +84,7 @@ std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, cons
       ++found;
       const auto height =
           std::minmax({frame.local(at[0])[2], frame.local(at[1])[2], frame.local(at[2])[2]});
-      const Vec3 normal = surface.normal[t] - surface.normal[partner.triangle];
+      const Vec3 normal = surface.normal[t] - partner.normal;
       samples.push_back({0.5 * (centre + partner.point), normal, area, height.first, height.second,
                          valve.triangle_leaflet[t], valve.triangle_leaflet[partner.triangle]});
     });

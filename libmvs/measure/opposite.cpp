@@ -47,6 +47,14 @@ Opposite::Opposite(const Model &model, const std::vector<Vec3> &x, const Surface
       border_(find_borders(model)),
       reach_(model.valve.contact_thickness) {}
 
+Vec3 Opposite::normal_at(uint32_t triangle, const std::array<double, 3> &weight) const {
+  Vec3 normal = Vec3::Zero();
+  for (size_t k = 0; k < 3; ++k) {
+    normal += weight[k] * surface_.node_normal[model_.valve.triangles[triangle][k]];
+  }
+  return normal.normalized();
+}
+
 Partner Opposite::of_node(uint32_t node) const {
   return find(x_[node], surface_.node_normal[node], {node, node, node});
 }
@@ -74,7 +82,7 @@ Partner Opposite::find(const Vec3 &p, const Vec3 &normal, const Tri &own) const 
         far && at_border && -way.dot(surface_.normal[t]) < straight_ahead * distance;
     if (q.distance2 == limit2 && (beyond || t > partner.triangle)) return;
     limit2 = q.distance2;
-    partner = beyond ? Partner() : Partner{t, distance, point};
+    partner = beyond ? Partner() : Partner{t, distance, point, normal_at(t, q.weight)};
   });
   return partner;
 }

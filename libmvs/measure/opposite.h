@@ -14,6 +14,7 @@ struct Partner {
   uint32_t triangle = none;
   double distance = std::numeric_limits<double>::infinity();  // m
   Vec3 point;
+  Vec3 normal = Vec3::Zero();  // between those of its nodes: the same from either side of an edge
 };
 
 // Two pieces of tissue face each other when they lie within reach, atrial side to atrial side: each
@@ -29,6 +30,7 @@ class Opposite {
   Partner of_point(uint32_t triangle, const Vec3 &p) const;
 
  private:
+  Vec3 normal_at(uint32_t triangle, const std::array<double, 3> &weight) const;
   Partner find(const Vec3 &p, const Vec3 &normal, const Tri &own) const;
 
   const Model &model_;
