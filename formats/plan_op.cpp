@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "formats/plan.h"
+#include "model/part_names.h"
 #include "surgery/site.h"
 
 namespace mvs {
@@ -61,7 +62,8 @@ Id id_in(const Parts &parts, const std::string &name, const char *word) {
   for (const auto &part : parts) {
     if (part.name == name) return part.id;
   }
-  fail(MVS_E_ID, name, "the valve has no %s named \"%.63s\"", word, name.c_str());
+  fail(MVS_E_ID, name, "the valve has no %s named \"%.63s\"%s", word, name.c_str(),
+       names_there(parts).c_str());
 }
 
 Json point_json(const double *at) {

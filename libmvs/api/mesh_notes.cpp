@@ -1,8 +1,10 @@
-// What is said of a mesh that is finer than its contact, or too fine to close.
+// What is said of a mesh that is finer than its contact, or too fine to close, or without labels.
 #include "api/mesh_notes.h"
 
 #include <algorithm>
 
+#include "measure/annulus.h"
+#include "measure/landmarks.h"
 #include "physics/contact.h"
 
 namespace mvs {
@@ -37,9 +39,27 @@ Needles needles_of(const Model &model) {
   return found;
 }
 
+// Every read-out and ring goes by which side is anterior.
+void log_anterior(const mvs_sim &sim, const Model &model) {
+  const Leaflet &leaflet = model.valve.leaflets[anterior_leaflet(model.valve)];
+  if (leaflet.name[0] == 'A' || leaflet.name[0] == 'a') return;
+  if (model.valve.leaflets.size() > 1) {
+    sim.log(MVS_LOG_WARNING, "no leaflet is named A: %s is taken for the anterior one",
+            leaflet.name.c_str());
+    return;
+  }
+  const AnnulusMeasures m = measure_annulus(model, model.valve.rest);
+  sim.log(MVS_LOG_WARNING,
+          "no leaflet is named A: the middle of the anterior side is taken to be the first node of "
+          "the annulus, so that it is %.3g mm wide from there (AP) and %.3g mm across (CC); name "
+          "leaflets A and P, or let the annulus begin there",
+          1e3 * m.ap, 1e3 * m.cc);
+}
+
 }  // namespace
 
 void log_mesh(const mvs_sim &sim, const Model &model) {
+  log_anterior(sim, model);
   const double r = model.valve.contact_thickness;
   const Needles needles = needles_of(model);
   if (needles.count > 0) {

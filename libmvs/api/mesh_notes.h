@@ -5,8 +5,8 @@
 
 namespace mvs {
 
-// Logs edges shorter than the contact thickness, which is no fault, and triangles so low that the
-// valve may not come to rest.
+// Logs edges shorter than the contact thickness, which is no fault, triangles so low that the valve
+// may not come to rest, and which side is taken for the anterior one where no name tells.
 void log_mesh(const mvs_sim &sim, const Model &model);
 
 }  // namespace mvs

@@ -3,6 +3,7 @@
 
 #include "api/snapshot_impl.h"
 #include "api/structs.h"
+#include "model/part_names.h"
 
 namespace {
 
@@ -95,7 +96,8 @@ mvs_result mvs_snapshot_find(const mvs_snapshot *snapshot, uint32_t kind, const 
         *part = public_part(parts, kind, k);
         return;
       }
-      fail(MVS_E_ID, name, "the valve has no %s named \"%.63s\"", kind_name(kind), name);
+      fail(MVS_E_ID, name, "the valve has no %s named \"%.63s\"%s", kind_name(kind), name,
+           names_there(parts).c_str());
     });
   });
 }

@@ -1,5 +1,6 @@
 // Finding parts by id, adding nodes and taking them out.
 #include "base/error.h"
+#include "model/part_names.h"
 #include "surgery/surgery.h"
 
 namespace mvs {
@@ -75,8 +76,8 @@ uint32_t scallop_or(const Surgery &s, Id id, const char *name) {
   for (uint32_t k = 0; k < s.valve.scallops.size(); ++k) {
     if (s.valve.scallops.get()[k].name == name) return k;
   }
-  fail(MVS_E_ID, name, "%s: the valve has no scallop named %s: give the id of the one you mean",
-       s.op_name, name);
+  fail(MVS_E_ID, name, "%s: the valve has no scallop named %s: say which one you mean%s", s.op_name,
+       name, names_there(s.valve.scallops.get()).c_str());
 }
 
 uint32_t Surgery::add_node(const std::vector<uint32_t> &nodes, const std::vector<double> &weights) {

@@ -118,7 +118,28 @@ static void edges_below_the_contact_thickness_are_told(void) {
   mvs_destroy(h.sim);
 }
 
+/* AP, CC, A and P of every read-out hang on it. */
+static void which_side_is_taken_for_the_anterior_one_is_told(void) {
+  static funnel f;
+  host h = {0};
+  mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, NULL, &h};
+  make_funnel(&f);
+  f.leaflets[0].name = "Septal";
+  MUST(mvs_create(&desc, &h.sim));
+  MUST(mvs_set_valve(h.sim, &f.desc));
+  CHECK(h.warnings == 1);
+  CHECK(strstr(h.last, "no leaflet is named A: Septal is taken for the anterior one") != NULL);
+  f.leaflets[0].name = "M";
+  f.desc.leaflet_count = 1;
+  for (int t = 0; t < FUNNEL_TRIANGLES; ++t) f.leaflet[t] = 0;
+  MUST(mvs_set_valve(h.sim, &f.desc));
+  CHECK(h.warnings == 2);
+  CHECK(strstr(h.last, "the first node of the annulus, so that it is 30 mm wide") != NULL);
+  mvs_destroy(h.sim);
+}
+
 int main(void) {
+  which_side_is_taken_for_the_anterior_one_is_told();
   edges_below_the_contact_thickness_are_told();
   progress_is_told_and_rises();
   a_cancelled_settle_changes_nothing();

@@ -261,7 +261,7 @@ static void plans_that_cannot_be_done_are_told(void) {
   refused(sim,
           PLAN("{\"do\":\"chord_add\",\"head\":\"PM1\",\"site\":{\"scallop\":\"P9\",\"along\":0,"
                "\"height\":1}}"),
-          MVS_E_ID, "no scallop named \"P9\"");
+          MVS_E_ID, "no scallop named \"P9\"; there are A");
   mvs_destroy(sim);
 }
 

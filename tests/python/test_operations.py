@@ -173,7 +173,7 @@ REFUSED = [
     ("chord_length", dict(chord=1.0, factor=2), mvs.ArgumentError, "name or id of a chord"),
     ("chord_length", dict(chord=10**9, factor=2), mvs.IdError, "1000000000"),
     ("chord_add", dict(head="PM1", site="P2"), mvs.ArgumentError, "(scallop, along, height)"),
-    ("chord_add", dict(head="PM1", site=("Q2", 0.1, 1)), mvs.IdError, "Q2"),
+    ("chord_add", dict(head="PM1", site=("Q2", 0.1, 1)), mvs.IdError, "there are A"),
     ("chord_add", dict(head="PM1", site=("P2", 1.5, 1)), mvs.ArgumentError, "coordinate of 1.5"),
     ("chord_add", dict(head="PM1", site=10**6), mvs.IdError, "node 1000000"),
     ("chord_add", dict(head="PM1", site=3, type="magic"), mvs.ArgumentError, '"rough_zone"'),

@@ -231,7 +231,8 @@ TEST_CASE("what_cannot_be_clipped_is_said") {
   Valve renamed = parts;
   for (Scallop &scallop : renamed.scallops) scallop.name += "x";
   const ModelPtr model = make_model(renamed);
-  refused({model, initial_state(*model)}, clip(), MVS_E_ID, "no scallop named A2");
+  refused({model, initial_state(*model)}, clip(), MVS_E_ID,
+          "no scallop named A2: say which one you mean; there are A");
 }
 
 }  // namespace mvs::test
