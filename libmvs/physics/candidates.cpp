@@ -28,8 +28,11 @@ Candidates::Candidates(const Model &model)
       lanes_(model, tree_, parts_, facing_rest_distance * thickness_) {
   // more than a closed valve has, so that a live step seldom allocates
   const size_t triangles = model.valve.triangles.size(), edges = model.topology.edges.size();
-  for (auto *pairs : {&facing_, &guarded_, &sorted_}) pairs->reserve(16 * parts_.vertices().size());
-  guarded_edges_.reserve(4 * edges);
+  for (auto *pairs : {&facing_, &guarded_, &sorted_, &kept_.facing, &kept_.guarded}) {
+    pairs->reserve(16 * parts_.vertices().size());
+  }
+  for (auto *pairs : {&guarded_edges_, &kept_.edges}) pairs->reserve(4 * edges);
+  for (auto *places : {&kept_.from, &kept_.to, &kept_.half}) places->reserve(model.node_count());
   for (auto *pairs : {&found_triangles_, &found_edges_}) {
     pairs->reserve(enough_found + 2 * SheetLanes::most_pairs);
   }
@@ -70,6 +73,9 @@ bool Candidates::valid_for(const std::vector<Vec3> &x) const {
 
 void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                        Pace pace) {
+  const bool begins = from_ != x || to_ == from_;
+  if (!begins && first_) keep_first();
+  first_ = begins;
   little_ = find_changed(x, to, slack, pace);
   from_ = x;
   to_ = to;
@@ -92,6 +98,39 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
   sort_pairs(facing_);
   sort_pairs(guarded_);
   sort_edges();
+}
+
+// Before others take their place.
+void Candidates::keep_first() {
+  kept_.from = from_;
+  kept_.to = to_;
+  kept_.half = half_;
+  kept_.slack = slack_;
+  kept_.pace = pace_;
+  kept_.facing = facing_;
+  kept_.guarded = guarded_;
+  kept_.edges = guarded_edges_;
+  kept_.first = true;
+}
+
+void Candidates::exchange() {
+  from_.swap(kept_.from);
+  to_.swap(kept_.to);
+  half_.swap(kept_.half);
+  std::swap(slack_, kept_.slack);
+  std::swap(pace_, kept_.pace);
+  facing_.swap(kept_.facing);
+  guarded_.swap(kept_.guarded);
+  guarded_edges_.swap(kept_.edges);
+  std::swap(first_, kept_.first);
+}
+
+bool Candidates::recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to) {
+  if (!kept_.first || kept_.from != x) return false;
+  exchange();
+  if (valid_for(x) && valid_for(to)) return true;
+  exchange();
+  return false;
 }
 
 // Marks the nodes that another way leads elsewhere than that of the last lists. True if these were

@@ -47,6 +47,9 @@ class Candidates {
   // Makes the lists for nodes on their way from x to `to`.
   void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
              Pace pace = Pace::together);
+  // Goes back to the first lists made where the last ones were, if they hold for x and `to`: a step
+  // that is shortened as a whole after its cuts needs no lists of its own.
+  bool recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to);
   // Whether each node is on its way, and all at the same share of it if they go together. What is
   // true of two places is true of the straight way between them.
   bool valid_for(const std::vector<Vec3> &x) const;
@@ -59,6 +62,8 @@ class Candidates {
   const std::vector<EdgeEdge> &guarded_edges() const { return guarded_edges_; }
 
  private:
+  void keep_first();
+  void exchange();
   double share_of(const std::vector<Vec3> &x) const;
   bool stays(uint32_t node) const;
   void find_still();
@@ -110,6 +115,16 @@ class Candidates {
   bool any_still_ = false;
   std::vector<VertexTriangle> facing_, guarded_;
   std::vector<EdgeEdge> guarded_edges_;
+  bool first_ = false;  // lists of a way from this place
+  // Those before the present ones, where that place had other ones first.
+  struct {
+    std::vector<Vec3> from, to, half;
+    double slack = 0;
+    Pace pace = Pace::together;
+    std::vector<VertexTriangle> facing, guarded;
+    std::vector<EdgeEdge> edges;
+    bool first = false;
+  } kept_;
   bool keeps_near_ = true;
   // Lists before what is near is kept, which takes longer than to search: a step that is the only
   // one does not need it, and the first step is dear enough.

@@ -24,6 +24,8 @@ constexpr double worn = 0.5;
 // and of how many blocks.
 constexpr double wild = 0.08;
 constexpr double many_wild = 0.3;
+// Until so many rounds in a row were not: a step that is shortened is soon followed by a long one.
+constexpr uint32_t calm_rounds = 2;
 // Of the contact thickness: more than distances are wrong by, of near parallel edges too.
 constexpr double rounding = 1e-5;
 
@@ -121,7 +123,9 @@ bool NearPairs::is_wild() {
     return half.beside > wild * thickness_;
   });
   const double many = wild_ ? 0.5 * many_wild : many_wild;
-  wild_ = static_cast<double>(count) > many * static_cast<double>(half_.size());
+  const bool is_now = static_cast<double>(count) > many * static_cast<double>(half_.size());
+  calm_ = is_now ? 0 : calm_ + 1;
+  wild_ = is_now || (wild_ && calm_ < calm_rounds);
   return wild_;
 }
 

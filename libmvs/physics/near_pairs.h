@@ -105,6 +105,7 @@ class NearPairs {
   std::vector<Motion> gone_, half_;  // of each block, since the first round and on the way ahead
   std::vector<double> longest_half_;
   bool wild_ = false;
+  uint32_t calm_ = 0;  // rounds since
   uint64_t round_ = 0;
   // The ways for which blocks_ are all that come within a margin of each other.
   std::vector<Vec3> from_, to_;

@@ -41,10 +41,12 @@ uint32_t StepBounds::limit(const Model &model, const std::vector<Vec3> &x, doubl
     for (size_t i = 0; i < x.size(); ++i) to_[i] = x[i] + dx[i];
     const bool is_new = tools && !tools->is_prepared();
     if (is_new || !candidates.valid_for(x) || !candidates.valid_for(to_)) {
-      candidates.build(x, to_, slack,
-                       lists < lists_together ? Pace::together : Pace::each_for_itself);
+      if (is_new || !candidates.recall(x, to_)) {
+        candidates.build(x, to_, slack,
+                         lists < lists_together ? Pace::together : Pace::each_for_itself);
+        ++lists;
+      }
       if (tools) tools->prepare(x, to_, slack);
-      ++lists;
     }
     const auto &apart = tools ? tools->pairs_to_part(x) : no_pairs;
     if (limit(model, x, candidates, dx, apart) == 1 || candidates.for_itself()) return lists;

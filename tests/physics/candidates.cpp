@@ -442,3 +442,30 @@ TEST_CASE("candidates_know_how_far_they_hold") {
     CHECK(candidates.valid_for(y) == (pace == Pace::each_for_itself));
   }
 }
+
+// As a step is cut, then shortened as a whole.
+TEST_CASE("candidates_recall_the_first_way_from_a_place") {
+  const Plates plates = plates_for_steps();
+  Random random(77);
+  const Positions x = wavy(plates, random), step = random.vectors(x.size(), 0.3e-3);
+  const Positions to = moved(x, 1, step), some_way = moved(x, 0.25, step);
+  const double slack = 0.02e-3;
+  Positions cut = to;
+  for (size_t i = 0; i < cut.size(); i += 13) cut[i] = x[i];
+  Candidates candidates(plates.model);
+  candidates.build(x, x, slack);  // of no way
+  candidates.build(x, to, slack);
+  CHECK_FALSE(candidates.recall(x, some_way));  // there are no others
+  candidates.build(x, cut, slack);
+  CHECK_FALSE(candidates.recall(to, to));
+  CHECK_FALSE(candidates.recall(x, moved(some_way, 1, random.vectors(x.size(), 0.1e-3))));
+  CHECK(candidates.valid_for(cut));
+  CHECK_FALSE(candidates.valid_for(some_way));
+  REQUIRE(candidates.recall(x, some_way));
+  CHECK(candidates.valid_for(some_way));
+  CHECK(candidates.valid_for(to));
+  check_pairs(plates.model, candidates, {x, to, slack, Pace::together});
+  // what is looked for from there is all there is
+  candidates.build(x, cut, slack);
+  check_pairs(plates.model, candidates, {x, cut, slack, Pace::together});
+}
