@@ -41,7 +41,8 @@ std::string effect_text(const Json &step) {
 
 void show(const Options &options, const Console &console) {
   const Json plan = Json::parse(plan_text(options.plan));
-  std::string lines = text("plan for valve \"%s\"", plan["valve"].value("name", "?").c_str());
+  std::string lines =
+      text("plan for valve \"%s\"", plan.value("valve", Json::object()).value("name", "?").c_str());
   if (plan.contains("author")) lines += " by " + plan.value("author", "");
   if (plan.contains("notes")) lines += "\n" + plan.value("notes", "");
   size_t number = 0;

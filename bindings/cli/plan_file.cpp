@@ -11,6 +11,24 @@
 
 namespace cli {
 
+namespace {
+
+// What is wrong with a plan that somebody wrote; "" where the library can look at it. Its valve is
+// for people: a plan without one is done on any.
+std::string fault_of(const Json &plan) {
+  if (!plan.is_object() || plan.value("format", Json()) != "mvs-plan") {
+    return "this is no plan: it lacks \"format\": \"mvs-plan\"";
+  }
+  if (!plan.contains("steps") || !plan["steps"].is_array()) return "\"steps\" has to be a list";
+  for (const Json &step : plan["steps"]) {
+    if (!step.is_object()) return "each of its \"steps\" has to be an object with a \"do\"";
+  }
+  if (plan.contains("valve") && !plan["valve"].is_object()) return "\"valve\" has to be an object";
+  return "";
+}
+
+}  // namespace
+
 std::string plan_text(const std::string &path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream content;
@@ -18,11 +36,13 @@ std::string plan_text(const std::string &path) {
   if (!file || content.fail()) {
     fail(MVS_E_IO, "plan", path + ": cannot be read: " + std::strerror(errno));
   }
-  const Json json = Json::parse(content.str(), nullptr, false);
-  if (!json.is_object() || json.value("format", "") != "mvs-plan" || !json.contains("valve") ||
-      !json["valve"].is_object() || !json.contains("steps") || !json["steps"].is_array()) {
-    fail(MVS_E_FORMAT, "plan", path + ": this is no plan of libmvs");
+  std::string fault;
+  try {
+    fault = fault_of(Json::parse(content.str()));
+  } catch (const Json::exception &error) {
+    fault = std::string("this is no JSON: ") + error.what();
   }
+  if (!fault.empty()) fail(MVS_E_FORMAT, "plan", path + ": " + fault);
   return content.str();
 }
 

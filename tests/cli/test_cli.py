@@ -332,6 +332,25 @@ class Plans(Command):
                 self.assertIn("step 2 of the plan", told)
                 self.assertIn("P9/9", told)
 
+    def test_a_plan_written_by_hand_says_what_it_lacks(self):
+        step = {"do": "annulus_scale", "factor": 0.85}
+        head = {"format": "mvs-plan", "version": 3}
+        for text, words in (('{"format": "mvs-plan",\n "version": 3,\n}', "line 3"),
+                            ({"steps": [step]}, 'lacks "format": "mvs-plan"'),
+                            ({**head, "format": 3}, 'lacks "format": "mvs-plan"'),
+                            (head, '"steps" has to be a list'),
+                            ({**head, "steps": [3]}, 'an object with a "do"'),
+                            ({**head, "steps": [step], "valve": "any"}, '"valve" has to be')):
+            (self.dir / "own.json").write_text(text if isinstance(text, str) else json.dumps(text))
+            for line in (["plan", "show", "own.json"],
+                         ["repair", "sick.obj", "--plan", "own.json", "-o", "never.obj"]):
+                with self.subTest(line, words=words):
+                    self.assertIn(words, self.fails(*line).stderr)
+        # what is for people may be left out
+        (self.dir / "own.json").write_text(json.dumps({**head, "steps": [step]}))
+        self.assertIn("annulus_scale", self.ok("plan", "show", "own.json").stdout)
+        self.assertEqual(self.json("plan", "check", "own.json", "--on", "v.obj")["operations"], 1)
+
     def test_what_is_no_plan_is_refused(self):
         for name in ("v.obj", "nowhere.json"):
             self.assertIn(name, self.fails("plan", "show", name).stderr)
