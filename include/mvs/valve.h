@@ -32,10 +32,12 @@ enum {
    * Young's modulus below the kink, Pa [100e3]; above it, Pa [6e6]; strain at the kink [0.25]. */
   MVS_LEAFLET_SPRING = 1,
   /* The others are membranes: constant-strain triangles, plane stress, incompressible, W(I1, I4) in
-   * J/m3 with I1 = tr C and I4 = f . C f along the fibre f of the triangle. Where c exp() is past
-   * 100 MPa, it goes on as a parabola in its exponent. Bilinear: the curve of the springs as an
-   * isotropic tissue, dW/dI1 = c + a (x + sqrt(x^2 + s^2)) / 2, x = I1 - Ic: c, Pa [18.49e3]; a, Pa
-   * [3146e3]; Ic [3.1611]; s [0.006]. */
+   * J/m3 with I1 = tr C and I4 = f . C f along the fibre f of the triangle. Past 100 kPa, where
+   * stresses are 5 to 11 MPa (more than leaflets bear), c exp(q) goes on as a flat parabola in
+   * sqrt(q) with the same slope: what an operation tears or crushes does not keep a valve from
+   * rest. Bilinear: the curve of the springs as an isotropic tissue, dW/dI1 =
+   * c + a (x + sqrt(x^2 + s^2)) / 2, x = I1 - Ic: c, Pa [18.49e3]; a, Pa [3146e3]; Ic [3.1611];
+   * s [0.006]. */
   MVS_LEAFLET_BILINEAR = 2,
   /* Fung-type isotropic, W = c0 / 2 (I1 - 3) + c1 / 2 (exp(c2 (I1 - 3)^2) - 1) (Texas TriValve 1.1,
    * Mathur et al. 2022): c0, Pa [1e3]; c1, Pa [124]; c2 [4.568202], its anterior leaflet. */

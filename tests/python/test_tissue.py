@@ -85,6 +85,26 @@ def test_a_resected_leaflet_that_stiffens_exponentially_comes_to_rest(sim, law, 
     assert sim.snapshot().measures.intersections == 0
 
 
+@pytest.mark.parametrize("dimensions", [{}, {"branching": True}])
+@pytest.mark.parametrize(
+    "kind, fields",
+    [
+        ("resect", {"width": 6e-3, "base_width": 4e-3}),
+        ("ring", {"size": 22e-3}),
+        ("band", {"factor": 0.7}),
+    ],
+)
+def test_what_an_operation_tears_does_not_keep_a_valve_from_rest(sim, dimensions, kind, fields):
+    """Forces of 1e2 to 1e10 N in five of the six while exponents were followed to 100 MPa."""
+    sim.generate(**dimensions)
+    sim.set_leaflet(law="may_newman_yin")
+    sim.set_load(mvs.SYSTOLE_PA)
+    assert sim.settle().converged
+    sim.apply(kind, **fields)
+    assert sim.settle().converged
+    assert sim.snapshot().measures.intersections == 0
+
+
 @pytest.mark.parametrize(
     "law, dimensions",
     [

@@ -60,6 +60,68 @@ TEST_CASE("laws_do_nothing_at_rest_and_stay_finite_when_a_triangle_is_crushed") 
   }
 }
 
+namespace {
+
+// Stretched along the fibre and by the same across and through: l, 1 / sqrt(l), 1 / sqrt(l).
+Response stretched(const LeafletLaw &law, const Constants &c, double l) {
+  return law.response(c, l * l + 2 / l, l * l);
+}
+double cauchy(const Response &r, double l) {
+  return 2 * r.w1 * (l * l - 1 / l) + 2 * r.w4 * l * l;
+}
+
+}  // namespace
+
+TEST_CASE("exponentials_are_followed_past_what_leaflets_bear_and_end_without_a_jump") {
+  struct Tissue {
+    uint32_t law;
+    Constants constants;
+    double (*published)(double l);  // W, J/m3
+  };
+  const Tissue tissues[] = {{MVS_LEAFLET_FUNG,
+                             {1e3, 124, 4.568202},
+                             [](double l) {
+                               const double x = l * l + 2 / l - 3;
+                               return 500 * x + 62 * (std::exp(4.568202 * x * x) - 1);
+                             }},
+                            {MVS_LEAFLET_MAY_NEWMAN_YIN,
+                             {399, 4.325, 1446.5},
+                             [](double l) {
+                               const double x = l * l + 2 / l - 3;
+                               return 399 *
+                                      (std::exp(4.325 * x * x + 1446.5 * std::pow(l - 1, 4)) - 1);
+                             }},
+                            {MVS_LEAFLET_PROT, {171, 5.28, 6.46}, [](double l) {
+                               const double x = l * l + 2 / l - 3, y = l * l - 1;
+                               return 171 * (std::exp(5.28 * x * x + 6.46 * y * y) - 1);
+                             }}};
+  for (const Tissue &t : tissues) {
+    const LeafletLaw &law = *find_leaflet_law(t.law);
+    CAPTURE(law.word);
+    constexpr double h = 1e-6;
+    int k = 0;
+    const auto stretch = [&] { return 1 + h * k; };
+    // rounding in the exponent
+    for (; t.published(stretch()) < 99e3; k += 1000) {
+      const double l = stretch();
+      CHECK(stretched(law, t.constants, l).w == doctest::Approx(t.published(l)).epsilon(1e-11));
+    }
+    while (t.published(stretch()) > 99e3) --k;
+    double last = cauchy(stretched(law, t.constants, stretch()), stretch());
+    CHECK(last > 5e6);
+    // to where W is twice as large: the stress goes on rising, without a jump
+    bool rises = true, jumps = false;
+    for (; t.published(stretch()) < 200e3; ++k) {
+      const double stress = cauchy(stretched(law, t.constants, stretch()), stretch());
+      rises = rises && stress >= last;
+      jumps = jumps || stress > (1 + 1e-3) * last;  // exp(q) along h: less than 2e-4
+      last = stress;
+    }
+    CHECK(rises);
+    CHECK(!jumps);
+  }
+}
+
 TEST_CASE("chord_laws_have_the_derivatives_of_their_energy") {
   Valve valve;
   valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};
