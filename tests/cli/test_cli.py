@@ -360,6 +360,11 @@ class Usage(Command):
     def test_elements_that_do_not_exist_yet_name_those_that_do(self):
         self.assertIn("spring", self.misused("close", "v.obj", "--leaflet", "rubber"))
 
+    def test_a_pressure_in_pa_is_told_from_one_in_mmhg(self):
+        for pressure in (15998.64, -20000, "inf", "nan"):
+            self.assertIn("pressures are in mmHg here",
+                          self.misused("close", "v.obj", f"--pressure={pressure}"))
+
     def test_unknown_words_are_usage_errors(self):
         for line in ([], ["fly"], ["close"], ["close", "v.obj", "--solver", "magic"],
                      ["close", "v.obj", "--pressure", "high"], ["generate"],
