@@ -42,8 +42,10 @@ class Pcg {
                   const std::vector<Vec3> &b, std::vector<Vec3> &x, const PcgGoal &goal) {
     return solve(multiply, precondition, b, {}, x, goal);
   }
-  // The same from a guess, or none where it is empty: x begins with as much of it as leads farthest
-  // downhill, for a product and no preconditioning.
+  // The same from a guess, or none where it is empty or leads uphill, for a product and no
+  // preconditioning. The whole guess, for what it and the preconditioner both get right stays
+  // right: the momentum of what nothing holds. One iteration follows, however good it is: what
+  // turns as it turned grows.
   template <typename Multiply, typename Precondition>
   PcgResult solve(const Multiply &multiply, const Precondition &precondition,
                   const std::vector<Vec3> &b, const std::vector<Vec3> &guess, std::vector<Vec3> &x,
@@ -55,14 +57,13 @@ class Pcg {
     p_ = z_;
     const double first = dot(r_, z_);
     PcgResult result;
-    // the square of the norm of b if the preconditioner is exact, as what is left of b is at right
-    // angles to x
-    const double whole = begun + first;
+    const double whole = begun + first;  // the square of the norm of b, for an exact preconditioner
     if (!(first >= 0 && whole > 0)) return result;
     const double left = std::sqrt(first / whole);
     result.error = left;
     double size = first;
-    while (result.iterations < goal.most && result.error > goal.after(result.iterations)) {
+    while (result.iterations < goal.most &&
+           (result.iterations == 0 || result.error > goal.after(result.iterations))) {
       multiply(p_, y_);
       const double curvature = dot(p_, y_);
       if (!(curvature > 0)) break;
@@ -83,16 +84,15 @@ class Pcg {
   }
 
  private:
-  // The share of a direction at which b . x - x . A x / 2 is largest; twice what it is there.
+  // Twice b . x - x . A x / 2 there; 0, and x too, if that is not positive.
   template <typename Multiply>
   double begin(const Multiply &multiply, const std::vector<Vec3> &guess, std::vector<Vec3> &x) {
     multiply(guess, y_);
-    const double curvature = dot(guess, y_), slope = dot(guess, r_);
-    if (!(curvature > 0 && slope > 0)) return 0;
-    const double share = slope / curvature;
-    for (size_t i = 0; i < x.size(); ++i) x[i] = share * guess[i];
-    for (size_t i = 0; i < x.size(); ++i) r_[i] -= share * y_[i];
-    return share * slope;
+    const double gained = 2 * dot(guess, r_) - dot(guess, y_);
+    if (!(gained > 0)) return 0;
+    x = guess;
+    for (size_t i = 0; i < x.size(); ++i) r_[i] -= y_[i];
+    return gained;
   }
 
   std::vector<Vec3> r_, z_, p_, y_;
