@@ -226,8 +226,8 @@ void bind_simulator(py::module_ &module) {
       module, "Simulator",
       "Simulates one valve.\n\nCalls release the interpreter; threads that share a simulator wait "
       "for each other. A call that raises leaves the simulator as it was.\n\nbackend: \"default\", "
-      "\"cholmod\" or \"eigen\", the sparse factorisation\nlog: called with (level, text); without, "
-      "what is worth a warning (level 2) is an mvs.ValveWarning");
+      "\"cholmod\" or \"eigen\", the sparse factorisation\nlog: called with (level, text); "
+      "without, what is worth a warning (level 2) is an mvs.ValveWarning");
   type.def(py::init<const std::string &, py::object>(), py::kw_only(),
            py::arg("backend") = "default", py::arg("log") = py::none());
   bind_files(type);
