@@ -121,25 +121,17 @@ std::vector<Part> random_parts(RandomBits &random, uint32_t least) {
   return parts;
 }
 
-// Anything that fits the types and has indices in range; no valve by any means.
-inline Pair random_pair(uint64_t seed) {
-  RandomBits random(seed);
-  Pair pair;
-  Valve &valve = pair.model.valve;
-  valve.name = random.name(0);
-  valve.leaflets = random_parts<Leaflet>(random, 1);
-  valve.scallops = random_parts<Scallop>(random, 1);
-  valve.chords = random_parts<Chord>(random, 0);
-  valve.heads = random_parts<Head>(random, 0);
-  valve.curves = random_parts<ChordCurve>(random, 1);
+inline void draw_curves(RandomBits &random, Valve &valve) {
   for (ChordCurve &curve : valve.curves) {
     for (uint32_t k = random.below(4); k > 0; --k) {
       const double strain = random.number(), stress = random.number();
       curve.points.push_back({strain, stress});
     }
   }
-  const uint32_t n = 1 + random.below(20), m = random.below(30);
-  const auto any_node = [&] { return random.below(n); };
+}
+
+inline void draw_nodes(RandomBits &random, uint32_t n, Pair &pair) {
+  Valve &valve = pair.model.valve;
   for (uint32_t k = 0; k < n; ++k) {
     pair.state.x.push_back(random.place());
     pair.state.v.push_back(random.below(2) == 0 ? random.place() : Vec3::Zero());
@@ -148,6 +140,9 @@ inline Pair random_pair(uint64_t seed) {
     valve.loaded.push_back(random.below(2) == 0 ? random.place() : valve.rest.back());
     valve.origin.push_back(random.below(2) == 0 ? random.below(n) : none);
   }
+}
+
+inline void draw_leaflets(RandomBits &random, Valve &valve) {
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.thickness = random.number();
     leaflet.law = 1 + random.below(static_cast<uint32_t>(leaflet_laws().size()));
@@ -158,17 +153,22 @@ inline Pair random_pair(uint64_t seed) {
   for (Scallop &scallop : valve.scallops) {
     scallop.leaflet = random.below(static_cast<uint32_t>(valve.leaflets.size()));
   }
-  for (uint32_t t = 0; t < m; ++t) {
-    valve.triangles.push_back({any_node(), any_node(), any_node()});
+}
+
+inline void draw_triangles(RandomBits &random, uint32_t n, uint32_t count, Valve &valve) {
+  for (uint32_t t = 0; t < count; ++t) {
+    valve.triangles.push_back({random.below(n), random.below(n), random.below(n)});
     valve.triangle_leaflet.push_back(random.below(static_cast<uint32_t>(valve.leaflets.size())));
     valve.triangle_scallop.push_back(random.below(static_cast<uint32_t>(valve.scallops.size())));
     valve.triangle_thickness.push_back(random.number());
     valve.triangle_fibre.push_back(random.place());
   }
-  for (uint32_t k = random.below(40); k > 0; --k) valve.annulus.push_back(any_node());
+}
+
+inline void draw_chords(RandomBits &random, uint32_t n, Valve &valve) {
   for (Chord &chord : valve.chords) {
-    chord.a = any_node();
-    chord.b = any_node();
+    chord.a = random.below(n);
+    chord.b = random.below(n);
     chord.kind = random.below(MVS_CHORD_TRUNK + 1);
     chord.rest_length = random.number();
     chord.young = random.number();
@@ -181,7 +181,10 @@ inline Pair random_pair(uint64_t seed) {
       for (size_t k = 0; k < known; ++k) chord.constants[k] = random.number();
     }
   }
-  for (Head &head : valve.heads) head.node = any_node();
+}
+
+inline void draw_numbers(RandomBits &random, Pair &pair) {
+  Valve &valve = pair.model.valve;
   valve.density = random.number();
   valve.contact_thickness = random.number();
   valve.contact_stiffness = random.number();
@@ -190,6 +193,28 @@ inline Pair random_pair(uint64_t seed) {
   pair.state.time = random.number();
   pair.state.steps = random.bits();
   pair.state.load = {random.number(), std::ldexp(static_cast<double>(random.bits() >> 11), -53)};
+}
+
+// Anything that fits the types and has indices in range; no valve by any means.
+inline Pair random_pair(uint64_t seed) {
+  RandomBits random(seed);
+  Pair pair;
+  Valve &valve = pair.model.valve;
+  valve.name = random.name(0);
+  valve.leaflets = random_parts<Leaflet>(random, 1);
+  valve.scallops = random_parts<Scallop>(random, 1);
+  valve.chords = random_parts<Chord>(random, 0);
+  valve.heads = random_parts<Head>(random, 0);
+  valve.curves = random_parts<ChordCurve>(random, 1);
+  draw_curves(random, valve);
+  const uint32_t n = 1 + random.below(20), m = random.below(30);
+  draw_nodes(random, n, pair);
+  draw_leaflets(random, valve);
+  draw_triangles(random, n, m, valve);
+  for (uint32_t k = random.below(40); k > 0; --k) valve.annulus.push_back(random.below(n));
+  draw_chords(random, n, valve);
+  for (Head &head : valve.heads) head.node = random.below(n);
+  draw_numbers(random, pair);
   return pair;
 }
 
