@@ -23,13 +23,13 @@ uint32_t new_leaflet_end(Surgery &s, const Chord &chord, const mvs_site &site) {
 
 // Tied at the old length a chord to a head farther away would be torn, and a nearer one would hold
 // nothing.
-void go_to_head(const Surgery &s, Chord &chord, Id head) {
+void go_to_head(const Surgery &s, Chord &chord, Id head, double length) {
   MVS_MUST(head != 0, MVS_E_ID, "chord_transfer.head",
            "chord_transfer: the head end of chord %s needs a papillary head to go to",
            chord.name.c_str());
   const uint32_t index = head_of(s, head);
   chord.a = s.valve.heads.get()[index].node;
-  chord.rest_length = length_like_neighbours(s, index, chord.b);
+  if (length == 0) chord.rest_length = length_like_neighbours(s, index, chord.b);
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ void operate(Surgery &s, const mvs_op_chord_transfer &op) {
   const uint32_t index = chord_of(s, op.chord);
   Chord chord = s.valve.chords.get()[index];
   if (op.end == MVS_END_HEAD) {
-    go_to_head(s, chord, op.head);
+    go_to_head(s, chord, op.head, op.length);
   } else {
     chord.b = new_leaflet_end(s, chord, op.site);
   }
