@@ -1,0 +1,25 @@
+// The scenes whose bits are pinned: closures, live steps with a hand, every operation, a plan.
+#pragma once
+
+#include <mvs/mvs.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace golden {
+
+// Called with the name of a scene and the snapshot at its end, valid during the call.
+using Record = std::function<void(const std::string &scene, const mvs_snapshot *snapshot)>;
+
+// Scenes that begin in the same way.
+struct Group {
+  std::string name;
+  std::function<void(const Record &)> run;
+};
+std::vector<Group> groups();
+
+// Ends the program with the sentence of the library's last failure unless a call succeeded.
+void check(mvs_result result);
+
+}  // namespace golden
