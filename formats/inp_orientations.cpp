@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "base/math.h"
 #include "formats/inp_properties.h"
 #include "formats/line.h"
 
@@ -97,7 +98,7 @@ Vec3 InpOrientation::fibre(uint32_t element) const {
   const std::array<Vec3, 2> &axes = own == of.end() ? otherwise : own->second;
   const Vec3 e1 = axes[0].normalized(), e3 = axes[0].cross(axes[1]).normalized();
   const Vec3 e2 = e3.cross(e1);
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = math::cos(angle), s = math::sin(angle);
   const Vec3 f1 = c * e1 + s * e2, f2 = c * e2 - s * e1;
   return (direction[0] * f1 + direction[1] * f2 + direction[2] * e3).normalized();
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+
 namespace mvs {
 namespace {
 
@@ -36,7 +38,7 @@ double square(double a) {
 // Inward and downward run of a leaflet that turns evenly from tilt a to tilt b, at share v.
 std::array<double, 2> generator(double a, double b, double v) {
   const double here = a + (b - a) * v;
-  return {(std::cos(a) - std::cos(here)) / (b - a), (std::sin(here) - std::sin(a)) / (b - a)};
+  return {(math::cos(a) - math::cos(here)) / (b - a), (math::sin(here) - math::sin(a)) / (b - a)};
 }
 
 }  // namespace
@@ -61,7 +63,7 @@ double Shape::cleft_theta() {
 }
 
 Vec3 Shape::annulus(double theta) const {
-  const double c = std::cos(theta), s = std::sin(theta);
+  const double c = math::cos(theta), s = math::sin(theta);
   return Vec3(0.5 * d_.annulus_cc * s, 0.5 * d_.annulus_ap * (c + flatness * s * s),
               0.5 * d_.saddle_height * (c * c - s * s)) -
          centroid_;
@@ -74,7 +76,7 @@ double Shape::height(double theta) const {
     return base + (d_.anterior_height - base) * square(1 - s * s * s);
   }
   const double t = (pi - angle) / (pi - commissure);
-  const double dip = d_.indentation_depth * std::exp(-square((t - cleft) / cleft_width));
+  const double dip = d_.indentation_depth * math::exp(-square((t - cleft) / cleft_width));
   return base + (d_.posterior_height - base) * square(1 - square(square(t))) - dip;
 }
 
@@ -90,7 +92,7 @@ Vec3 Shape::open(const Place &place) const {
 }
 
 Vec3 Shape::coaptation(double theta) const {
-  const double s = std::sin(theta), c = std::abs(std::cos(theta));
+  const double s = math::sin(theta), c = std::abs(math::cos(theta));
   const double y = 0.5 * d_.annulus_ap * (flatness * s * s + (2 * coaptation_share - 1) * c);
   return {coaptation_span * 0.5 * d_.annulus_cc * s, y - centroid_.y(), -d_.coaptation_depth};
 }

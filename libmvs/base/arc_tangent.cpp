@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/lanes.h"
+#include "base/simd_level.h"
 
 namespace mvs {
 namespace {
@@ -56,7 +57,7 @@ using Kernel = void (*)(const double *, const double *, double *, size_t);
 
 Kernel choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return &all_wider;
+  if (simd_level() >= SimdLevel::avx2) return &all_wider;
 #endif
   return &all_plain;
 }

@@ -3,6 +3,7 @@
 #include "base/block_product.h"
 
 #include "base/lanes.h"
+#include "base/simd_level.h"
 
 namespace mvs {
 namespace {
@@ -75,7 +76,7 @@ using Kernel = void (*)(const BlockMatrix &, uint32_t, const double *, double *)
 
 Kernel choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return &multiply_wider;
+  if (simd_level() >= SimdLevel::avx2) return &multiply_wider;
 #endif
   return &multiply_plain;
 }

@@ -3,6 +3,7 @@
 #include "base/distance_lanes.h"
 
 #include "base/lanes.h"
+#include "base/simd_level.h"
 
 namespace mvs {
 namespace {
@@ -221,7 +222,7 @@ MVS_KERNELS(Wider, [[gnu::target("avx2")]]);
 
 Kernels choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return Wider<Four>::all();
+  if (simd_level() >= SimdLevel::avx2) return Wider<Four>::all();
 #endif
   return Plain<Two>::all();
 }

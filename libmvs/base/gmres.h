@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/math.h"
 #include "base/types.h"
 
 namespace mvs {
@@ -41,7 +42,7 @@ double gmres(const Apply &apply, std::vector<Vec3> &b, int most, double toleranc
       column[j] = turns[j][0] * a + turns[j][1] * c;
       column[j + 1] = -turns[j][1] * a + turns[j][0] * c;
     }
-    const double r = std::hypot(column[k], column[k + 1]);
+    const double r = math::hypot(column[k], column[k + 1]);
     if (!(r > 0)) break;
     turns.push_back({column[k] / r, column[k + 1] / r});
     column[k] = r;

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/lanes.h"
+#include "base/simd_level.h"
 
 namespace mvs {
 namespace {
@@ -229,8 +230,8 @@ Kernels<T> choose() {
   constexpr size_t sse = 16 / sizeof(T);
   constexpr bool narrow = sizeof(T) == 4;
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx512f")) return Widest<Wide<T, 4 * sse, narrow ? 1 : 2>>::all();
-  if (__builtin_cpu_supports("avx2")) return Wider<Wide<T, 2 * sse, narrow ? 1 : 2>>::all();
+  if (simd_level() == SimdLevel::avx512) return Widest<Wide<T, 4 * sse, narrow ? 1 : 2>>::all();
+  if (simd_level() >= SimdLevel::avx2) return Wider<Wide<T, 2 * sse, narrow ? 1 : 2>>::all();
 #endif
   return Plain<Wide<T, sse, 2>>::all();
 }

@@ -6,6 +6,7 @@
 
 #include "base/lanes.h"
 #include "base/panel.h"
+#include "base/simd_level.h"
 
 namespace mvs {
 namespace {
@@ -202,8 +203,8 @@ template <typename T>
 Kernels<T> choose() {
   constexpr size_t sse = 16 / sizeof(T);
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx512f")) return Widest<Wide<T, 4 * sse, 1>>::all();
-  if (__builtin_cpu_supports("avx2")) return Wider<Wide<T, 2 * sse, 1>>::all();
+  if (simd_level() == SimdLevel::avx512) return Widest<Wide<T, 4 * sse, 1>>::all();
+  if (simd_level() >= SimdLevel::avx2) return Wider<Wide<T, 2 * sse, 1>>::all();
 #endif
   return Plain<Wide<T, sse, 1>>::all();
 }

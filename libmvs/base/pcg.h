@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/gmres.h"
+#include "base/math.h"
 
 namespace mvs {
 
@@ -74,8 +75,8 @@ class Pcg {
       precondition(r_, z_);
       const double next = dot(r_, z_);
       result.error = std::sqrt(std::max(next, 0.0) / whole);
-      const double rate = std::pow(result.error / left, 1.0 / result.iterations);
-      if (result.iterations > 1 && left * std::pow(rate, goal.most) > goal.worst) break;
+      const double rate = math::pow(result.error / left, 1.0 / result.iterations);
+      if (result.iterations > 1 && left * math::pow(rate, goal.most) > goal.worst) break;
       const double turn = next / size;
       for (size_t i = 0; i < b.size(); ++i) p_[i] = z_[i] + turn * p_[i];
       size = next;

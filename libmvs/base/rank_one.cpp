@@ -1,6 +1,7 @@
 #include "base/rank_one.h"
 
 #include "base/lanes.h"
+#include "base/simd_level.h"
 
 namespace mvs {
 namespace {
@@ -99,7 +100,7 @@ using Kernel = void (*)(const Slope &, double, const RankOne &);
 
 Kernel choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return &add_wider;
+  if (simd_level() >= SimdLevel::avx2) return &add_wider;
 #endif
   return &add_plain;
 }

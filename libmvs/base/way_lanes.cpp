@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "base/lanes.h"
+#include "base/simd_level.h"
 
 namespace mvs {
 namespace {
@@ -147,7 +148,7 @@ MVS_KERNELS(Wider, Eight, [[gnu::target("avx2")]]);
 
 Kernels choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return {&Wider::box, &Wider::lanes};
+  if (simd_level() >= SimdLevel::avx2) return {&Wider::box, &Wider::lanes};
 #endif
   return {&Plain::box, &Plain::lanes};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "measure/frame.h"
 #include "measure/landmarks.h"
 #include "measure/span.h"
@@ -32,7 +33,7 @@ double height_over_plane(const Loop &loop, const Frame &frame) {
 double nonplanar_angle(const Landmarks &landmarks) {
   const Vec3 middle = 0.5 * (landmarks.commissure[0] + landmarks.commissure[1]);
   const Vec3 to_a = landmarks.a - middle, to_p = landmarks.p - middle;
-  return std::atan2(to_a.cross(to_p).norm(), to_a.dot(to_p));
+  return math::atan2(to_a.cross(to_p).norm(), to_a.dot(to_p));
 }
 
 }  // namespace

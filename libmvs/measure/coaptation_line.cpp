@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+
 namespace mvs {
 namespace {
 
@@ -128,7 +130,7 @@ class Angle {
     aside_ = axis.cross(ahead_);
   }
   double operator()(const Vec3 &p) const {
-    return std::atan2((p - pole_).dot(aside_), (p - pole_).dot(ahead_));
+    return math::atan2((p - pole_).dot(aside_), (p - pole_).dot(ahead_));
   }
 
  private:

@@ -26,6 +26,10 @@ struct Raster {
   bool inside(size_t cell) const { return !std::isnan(span[cell]); }
 };
 
+double square(double a) {
+  return a * a;
+}
+
 Raster empty_raster(const Loop &annulus, const Frame &frame) {
   Vec3 low = frame.local(annulus.point(0)), high = low;
   for (const Vec3 &point : annulus.points()) {
@@ -62,8 +66,7 @@ std::vector<double> roll(const Raster &raster, const std::vector<double> &height
   const int rows = static_cast<int>(radius / raster.height);
   for (int r = -rows; r <= rows; ++r) {
     for (int c = -columns; c <= columns; ++c) {
-      const double left2 =
-          radius * radius - std::pow(c * raster.width, 2) - std::pow(r * raster.height, 2);
+      const double left2 = radius * radius - square(c * raster.width) - square(r * raster.height);
       if (left2 >= 0) ball.push_back({c, r, std::sqrt(left2)});
     }
   }

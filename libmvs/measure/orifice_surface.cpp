@@ -1,11 +1,11 @@
 // A surface of least area whose rim slides on the sheet.
 #include "measure/orifice_surface.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "base/small_solve.h"
 #include "measure/surface.h"
 #include "measure/tree.h"
 #include "model/sides.h"
@@ -142,7 +142,7 @@ Vec3 Shrinking::move_of(uint32_t v) const {
   }
   if (hold_[v] == Hold::free) {
     stiffness += 1e-6 * stiffness.trace() * Mat3::Identity();
-    return stiffness.ldlt().solve(force);
+    return solve_positive(stiffness, force);
   }
   const TriangleTree::Hit hit = tree_.closest(x);
   const TrianglePoint where = tree_.closest_on(hit.triangle, x);

@@ -1,10 +1,11 @@
 // Kabsch for points; a damped Gauss-Newton method for surfaces.
 #include "measure/register.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
+
+#include "base/math.h"
+#include "base/small_solve.h"
 
 namespace mvs {
 namespace {
@@ -66,11 +67,17 @@ Fit fit(const SampledSurface &a, const SampledSurface &b, const Rigid &motion, c
   return sum;
 }
 
+// The rotation about a vector by its length (Rodrigues).
+Mat3 rotation_by(const Vec3 &turn) {
+  const double angle = turn.norm();
+  if (angle == 0) return Mat3::Identity();
+  const Mat3 about = cross_matrix(turn / angle);
+  return Mat3::Identity() + math::sin(angle) * about + (1 - math::cos(angle)) * about * about;
+}
+
 Rigid moved_by(const Rigid &motion, const Vec6 &step, const Vec3 &centre) {
   const Vec3 turn = step.head<3>();
-  const double angle = turn.norm();
-  const Vec3 about = angle > 0 ? Vec3(turn / angle) : Vec3(Vec3::UnitX());
-  const Mat3 more = Eigen::AngleAxisd(angle, about).toRotationMatrix();
+  const Mat3 more = rotation_by(turn);
   return {more * motion.turn, more * (motion.shift - centre) + centre + step.tail<3>()};
 }
 
@@ -105,7 +112,7 @@ Rigid register_surfaces(const SampledSurface &a, const SampledSurface &b, const 
   double damping = 1e-3;
   for (int step = 0; step < most_steps; ++step) {
     const Mat6 hessian = now.to_planes + damping * now.to_points;
-    const Rigid next = moved_by(best, -hessian.ldlt().solve(now.gradient), centre);
+    const Rigid next = moved_by(best, -solve_positive(hessian, now.gradient), centre);
     const Fit then = fit(a, b, next, centre);
     if (then.squares >= now.squares) {
       // at 1 the model bounds the distances from above: no descent there means none is left

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "model/membrane.h"
 
 namespace mvs {
@@ -29,7 +30,7 @@ Sides sides_in_plane(const std::vector<Vec3> &x, const Tri &triangle) {
 // Eigenvalues of a symmetric matrix, larger first.
 std::array<double, 2> principal(const Mat2 &m) {
   const double mean = 0.5 * (m(0, 0) + m(1, 1));
-  const double radius = std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
+  const double radius = math::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
   return {mean + radius, mean - radius};
 }
 

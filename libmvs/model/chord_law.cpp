@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+
 namespace mvs {
 namespace {
 
@@ -29,8 +31,8 @@ Axial ogden(const Chord::Constants &c, double e) {
     const double mu = c[k], alpha = c[k + 1];
     if (mu == 0) continue;
     // less one, so that a small alpha (fits have 1e-4) does not lose the digits
-    const double along = std::expm1(alpha * std::log(l)),
-                 across = std::expm1(-alpha / 2 * std::log(l));
+    const double along = math::expm1(alpha * math::log(l)),
+                 across = math::expm1(-alpha / 2 * math::log(l));
     sum.energy += 2 * mu / (alpha * alpha) * (along + 2 * across);
     sum.stress += 2 * mu / alpha * (along - across) / l;
     sum.slope +=

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+
 namespace mvs {
 namespace {
 
@@ -22,11 +24,11 @@ struct Exponential {
 };
 Exponential bounded_exp(double scale, double q) {
   constexpr double most = 100e3, share = 0.02;
-  const double plain = scale * std::exp(q);
+  const double plain = scale * math::exp(q);
   if (plain <= most) return {plain, plain, plain};
-  const double edge = std::max(std::log(most / scale), 1.0);  // tissue may begin above `most`
+  const double edge = std::max(math::log(most / scale), 1.0);  // tissue may begin above `most`
   if (q <= edge) return {plain, plain, plain};
-  const double top = scale * std::exp(edge), r = std::sqrt(q), over = r - std::sqrt(edge);
+  const double top = scale * math::exp(edge), r = std::sqrt(q), over = r - std::sqrt(edge);
   const double start = 2 * std::sqrt(edge) * top, curve = share * (2 + 4 * edge) * top;
   const double slope = start + curve * over;  // by r
   return {top + (start + 0.5 * curve * over) * over, slope / (2 * r),
@@ -49,7 +51,7 @@ Response bilinear(const Constants &k, double i1, double) {
   const double root = std::sqrt(x * x + s2), root0 = std::sqrt(x0 * x0 + s2);
   // the integral of (x + sqrt(x^2 + s^2)) / 2
   const auto integral = [&](double y, double r) {
-    return 0.25 * (y * y + y * r + s2 * std::log(y + r));
+    return 0.25 * (y * y + y * r + s2 * math::log(y + r));
   };
   const double w = c * (i1 - 3) + a * (integral(x, root) - integral(x0, root0));
   return {w, c + 0.5 * a * (x + root), 0, 0.5 * a * (1 + x / root), 0, 0};

@@ -4,11 +4,13 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "base/math.h"
+
 namespace mvs {
 
 Barrier barrier(double s) {
   if (s >= 1) return {0, 0, 0};
-  const double log = std::log(s), q = 1 - s;
+  const double log = math::log(s), q = 1 - s;
   return {-q * q * log, 2 * q * log - q * q / s, -2 * log + 4 * q / s + q * q / (s * s)};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/math.h"
 #include "physics/candidates.h"
 #include "physics/step_bounds.h"
 
@@ -23,7 +24,7 @@ std::vector<Wave> make_waves(double wavelength, Random &random) {
   constexpr double turn = 6.283185307179586;
   std::vector<Wave> waves(wave_count);
   for (Wave &wave : waves) {
-    const double length = wavelength * std::pow(longest_wave, random.uniform());
+    const double length = wavelength * math::pow(longest_wave, random.uniform());
     wave.along = turn / length * random.direction();
     wave.towards = random.direction();
     wave.phase = turn * random.uniform();
@@ -45,7 +46,7 @@ std::vector<Vec3> displacements(const Model &model, const std::vector<Vec3> &x,
   std::vector<Vec3> dx(x.size(), Vec3::Zero());
   for (size_t i = 0; i < x.size(); ++i) {
     if (model.topology.fixed[i]) continue;
-    for (const Wave &w : waves) dx[i] += std::cos(w.along.dot(x[i]) + w.phase) * w.towards;
+    for (const Wave &w : waves) dx[i] += math::cos(w.along.dot(x[i]) + w.phase) * w.towards;
     dx[i] *= std::min(1.0, to_nearest_prescribed(model, x, x[i]) / how.wavelength);
   }
   return dx;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/math.h"
 #include "base/types.h"
 
 namespace mvs {
@@ -28,7 +29,7 @@ class Random {
   Vec3 direction() {
     const double z = 2 * uniform() - 1, turn = 6.283185307179586 * uniform();
     const double r = std::sqrt(1 - z * z);
-    return {r * std::cos(turn), r * std::sin(turn), z};
+    return {r * math::cos(turn), r * math::sin(turn), z};
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "measure/frame.h"
 #include "measure/landmarks.h"
 #include "surgery/surgery.h"
@@ -19,7 +20,7 @@ std::vector<double> angles_from_a(const Model &model, const std::vector<Vec3> &x
   const Frame frame = valve_frame(model, x);
   const auto angle = [&](const Vec3 &p) {
     const Vec3 local = frame.local(p);
-    return std::atan2(local[1], local[0]);
+    return math::atan2(local[1], local[0]);
   };
   const double a = angle(find_landmarks(model, Loop(model.valve.annulus, x)).a);
   std::vector<double> angles;

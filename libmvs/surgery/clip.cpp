@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "surgery/free_edge.h"
 #include "surgery/surgery.h"
 
@@ -26,7 +27,7 @@ struct Sides {
 
 struct Place {
   double along, depth;
-  double away(const EdgeNode &n) const { return std::hypot(n.along - along, n.depth - depth); }
+  double away(const EdgeNode &n) const { return math::hypot(n.along - along, n.depth - depth); }
 };
 
 // The node nearest to a place that is not taken yet; row 0 is the free edge itself.

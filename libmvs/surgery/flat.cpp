@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "measure/frame.h"
 
 namespace mvs {
@@ -36,7 +37,7 @@ std::vector<uint32_t> piece_around(const Model &model, uint32_t triangle) {
   const auto angle = [&](uint32_t t) {
     Vec3 middle = Vec3::Zero();
     for (const uint32_t node : valve.triangles[t]) middle += frame.local(valve.rest[node]) / 3;
-    return std::atan2(middle[1], middle[0]);
+    return math::atan2(middle[1], middle[0]);
   };
   const double here = angle(triangle);
   std::vector<uint8_t> seen(valve.triangles.size(), 0);
@@ -136,7 +137,8 @@ Plane turned_shapes(const std::vector<Facet> &facets, const Plane &at) {
       const int a = (k + 1) % 3, b = (k + 2) % 3;
       turn += f.cotangent[k] * (at[f.row[a]] - at[f.row[b]]) * std::conj(f.shape[a] - f.shape[b]);
     }
-    turn = std::abs(turn) > 0 ? turn / std::abs(turn) : 1;
+    const double length = math::hypot(turn.real(), turn.imag());
+    turn = length > 0 ? turn / length : 1;
     for (int k = 0; k < 3; ++k) {
       const int a = (k + 1) % 3, b = (k + 2) % 3;
       const Complex side = f.cotangent[k] * turn * (f.shape[a] - f.shape[b]);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "measure/landmarks.h"
 
 namespace mvs {
@@ -26,7 +27,7 @@ double shortened(double from, double to, double width) {
   const double w = width / (1 - shortest);
   const auto taken = [&](double s) {
     const double u = std::clamp(s / w, -1.0, 1.0);
-    return (1 - shortest) * w * 0.5 * (u + std::sin(std::numbers::pi * u) / std::numbers::pi);
+    return (1 - shortest) * w * 0.5 * (u + math::sin(std::numbers::pi * u) / std::numbers::pi);
   };
   return 1 - (taken(to) - taken(from)) / (to - from);
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/math.h"
 
 namespace mvs {
 namespace {
@@ -123,11 +124,11 @@ std::vector<Vec3> parametric_ring(double width, double ap, double saddle) {
   const double h = saddle / (2 + r + r * r / 8);
   std::vector<Vec3> points;
   for (int k = 0; k < count; ++k) {
-    const double t = 2 * std::numbers::pi * k / count, sine = std::sin(t);
+    const double t = 2 * std::numbers::pi * k / count, sine = math::sin(t);
     points.emplace_back(
-        0.5 * ap * ((std::cos(t) - q * std::cos(3 * t)) / (1 - q) + c * sine * sine),
-        0.5 * width * (sine + q * std::sin(3 * t)) / (1 - q),
-        h * (std::cos(2 * t) + r * std::cos(t)));
+        0.5 * ap * ((math::cos(t) - q * math::cos(3 * t)) / (1 - q) + c * sine * sine),
+        0.5 * width * (sine + q * math::sin(3 * t)) / (1 - q),
+        h * (math::cos(2 * t) + r * math::cos(t)));
   }
   const Vec3 centre = centroid(Loop(points));
   for (Vec3 &p : points) p -= centre;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/math.h"
 #include "measure/frame.h"
 
 namespace mvs {
@@ -111,7 +112,7 @@ SheetMap::SheetMap(const Model &model) : height_(harmonic_heights(model)) {
   std::vector<double> cc;
   for (const Vec3 &p : rest) {
     const Vec3 local = frame.local(p);
-    angle_.push_back(std::atan2(local[1], local[0]));
+    angle_.push_back(math::atan2(local[1], local[0]));
     cc.push_back(local[1]);
   }
   ranges_.resize(model.valve.scallops.size());
@@ -122,11 +123,11 @@ SheetMap::SheetMap(const Model &model) : height_(harmonic_heights(model)) {
     for (size_t t = 0; t < model.valve.triangles.size(); ++t) {
       if (model.valve.triangle_scallop[t] != s) continue;
       for (const uint32_t node : model.valve.triangles[t]) {
-        towards += Vec3(std::cos(angle_[node]), std::sin(angle_[node]), 0);
+        towards += Vec3(math::cos(angle_[node]), math::sin(angle_[node]), 0);
         nodes.push_back(node);
       }
     }
-    range.middle = std::atan2(towards[1], towards[0]);
+    range.middle = math::atan2(towards[1], towards[0]);
     double slope = 0;
     for (const uint32_t node : nodes) {
       const double a = wrapped(angle_[node] - range.middle);

@@ -1,0 +1,27 @@
+# Fails where LIBRARY uses a function of the C library's mathematics whose last bit depends on the
+# machine. Those that IEEE 754 defines to the bit (sqrt, fma, remainder, rounding) are allowed.
+cmake_minimum_required(VERSION 3.22)
+execute_process(COMMAND ${NM} -D --undefined-only ${LIBRARY} OUTPUT_VARIABLE lines
+  RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "${NM} could not read ${LIBRARY}")
+endif()
+string(REGEX MATCHALL "[^ \n]+\n" names "${lines}")
+string(REGEX REPLACE "(@[^\n;]*)?\n" "" names "${names}")
+if(NOT "sqrt" IN_LIST names AND NOT "malloc" IN_LIST names)
+  message(FATAL_ERROR "the symbols of ${LIBRARY} were not understood: ${names}")
+endif()
+set(forbidden acos acosh asin asinh atan atan2 atanh cabs cbrt cos cosh erf exp exp10 exp2 expm1
+  hypot lgamma log log10 log1p log2 pow sin sincos sinh tan tanh tgamma)
+set(used "")
+foreach(name ${forbidden})
+  foreach(symbol ${name} ${name}f ${name}l)
+    if(symbol IN_LIST names)
+      list(APPEND used ${symbol})
+    endif()
+  endforeach()
+endforeach()
+if(used)
+  message(FATAL_ERROR "${LIBRARY} calls ${used}: call the function of libmvs/base/math.h instead")
+endif()
+message(STATUS "no function of the C library's mathematics")
