@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr std::string_view digits =
@@ -46,4 +46,4 @@ std::string base64_bytes(std::string_view text, const char *part) {
   return bytes;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 void append_base64(std::string &out, std::string_view bytes);
 
 // Throws MVS_E_FORMAT, naming the part, where the text is none.
 std::string base64_bytes(std::string_view text, const char *part);
 
-}  // namespace mvs
+}  // namespace mvs::core

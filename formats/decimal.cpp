@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Numbers of this exponent range are written without one: 0.0001 .. 10^16.
@@ -114,4 +114,4 @@ bool parse_decimal(std::string_view token, double &value, int shift) {
          (value != 0 || !mantissa.nonzero);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 // Appends value * 10^shift in the fewest digits (17 at most) that read back as the same double.
 // `value` must be finite.
@@ -16,4 +16,4 @@ void append_decimal(std::string &out, double value, int shift = 0);
 // number ("nan", "0x1", "1,5"), is too long, or the result is too large or too small for a double.
 bool parse_decimal(std::string_view token, double &value, int shift = 0);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "formats/sha256.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // As PNG's: a byte with its high bit, line ends and a DOS end of file, all of which a transfer in
@@ -90,4 +90,4 @@ uint32_t check_seal(std::string_view bytes, uint32_t newest) {
   return version;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 inline constexpr size_t envelope_bytes = 512;
 
@@ -26,4 +26,4 @@ void seal(std::string &bytes, uint32_t version);
 // MVS_E_FORMAT for what is foreign, cut or damaged, MVS_E_VERSION for what is whole and newer.
 uint32_t check_seal(std::string_view bytes, uint32_t newest);
 
-}  // namespace mvs
+}  // namespace mvs::core

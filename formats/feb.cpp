@@ -7,7 +7,7 @@
 #include "formats/feb_text.h"
 #include "formats/formats.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double mm = 1e3, kpa = 1e-3;
@@ -153,4 +153,4 @@ std::string write_feb(const Model &model, const State &state) {
          out.take();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

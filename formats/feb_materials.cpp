@@ -8,7 +8,7 @@
 #include "formats/feb_text.h"
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // kPa: stiff enough that the volume of tissue hardly changes. The case of tests/validation that
@@ -143,4 +143,4 @@ void write_feb_springs(const Valve &valve, FebText &out) {
   out.close("Discrete");
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 
 #include "formats/feb_text.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr int mm = 3;  // power of ten
@@ -128,4 +128,4 @@ void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domai
   out.close("MeshData");
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "formats/decimal.h"
 
-namespace mvs {
+namespace mvs::core {
 
 void FebText::open(std::string_view name, std::string_view attributes) {
   text_.append(2 * depth_++, ' ').append("<").append(name);
@@ -76,4 +76,4 @@ std::string feb_list(std::span<const double> values, int shift) {
   return text;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

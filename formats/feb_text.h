@@ -10,7 +10,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Nested elements, two blanks a level.
 class FebText {
@@ -58,4 +58,4 @@ bool feb_has_fibres(uint32_t law);
 // Nodes that are prescribed, ascending.
 std::vector<uint32_t> feb_held(const Valve &valve);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What a file holds.
 struct Loaded {
@@ -63,4 +63,4 @@ std::string read_whole_file(const std::string &path, size_t limit = max_file_byt
 // power, the target is either the old file or the whole new one. A failure leaves nothing behind.
 void write_whole_file(const std::string &path, std::string_view bytes);
 
-}  // namespace mvs
+}  // namespace mvs::core

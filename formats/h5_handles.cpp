@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-namespace mvs::h5 {
+namespace mvs::core::h5 {
 namespace {
 
 // Of all HDF5 calls of the process that are ours.
@@ -51,5 +51,5 @@ void fail_h5(mvs_result code, const std::string &part, const char *doing) {
        part.c_str(), said.text);
 }
 
-}  // namespace mvs::h5
+}  // namespace mvs::core::h5
 #endif

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace mvs::h5 {
+namespace mvs::core::h5 {
 
 // Closes its handle by the function of its kind.
 template <herr_t (*close)(hid_t)>
@@ -72,4 +72,4 @@ Result read(Result result, const std::string &part) {
   return result;
 }
 
-}  // namespace mvs::h5
+}  // namespace mvs::core::h5

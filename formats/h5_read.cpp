@@ -7,7 +7,7 @@
 #include "formats/h5_handles.h"
 #include "formats/h5_tree.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using namespace h5;
@@ -160,5 +160,5 @@ H5Content read_h5(std::string_view bytes, const std::string &group, uint32_t new
   return {std::move(reader.tree), version};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core
 #endif

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 
 const H5Array &H5Tree::found(const std::string &path, uint32_t columns) const {
   const auto place = arrays.find(path);
@@ -36,4 +36,4 @@ H5Content read_h5(std::string_view, const std::string &, uint32_t) {
 
 #endif
 
-}  // namespace mvs
+}  // namespace mvs::core

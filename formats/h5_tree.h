@@ -15,7 +15,7 @@
 
 #include "formats/envelope.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The type of the values is that of the array in the file, little-endian there. Texts end at their
 // first zero byte; they are for other programs and are refused by the reader.
@@ -64,4 +64,4 @@ struct H5Content {
 };
 H5Content read_h5(std::string_view bytes, const std::string &group, uint32_t newest);
 
-}  // namespace mvs
+}  // namespace mvs::core

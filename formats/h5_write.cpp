@@ -10,7 +10,7 @@
 #include "formats/h5_handles.h"
 #include "formats/h5_tree.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using namespace h5;
@@ -209,5 +209,5 @@ std::string write_h5(const H5Tree &tree, uint32_t version) {
   return bytes;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core
 #endif

@@ -9,7 +9,7 @@
 #include "formats/line.h"
 #include "model/check.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Puts the parts together; rows are those of the valve, nodes those of the file.
@@ -287,4 +287,4 @@ Loaded build_inp_valve(const InpMesh &mesh, const InpProperties &properties, con
   return Builder(mesh, properties, load, notes).build();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

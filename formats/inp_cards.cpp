@@ -8,7 +8,7 @@
 #include "formats/decimal.h"
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr size_t longest_line = 64 * 1024, most_lines = size_t{1} << 24, most_parameters = 64;
@@ -194,4 +194,4 @@ InpUnitsLine find_inp_units(std::string_view text) {
   return {};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

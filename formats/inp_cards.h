@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 
 [[noreturn, gnu::format(printf, 2, 3)]] void inp_fail(int32_t line, const char *pattern, ...);
 
@@ -71,4 +71,4 @@ struct InpUnitsLine {
 };
 InpUnitsLine find_inp_units(std::string_view text);
 
-}  // namespace mvs
+}  // namespace mvs::core

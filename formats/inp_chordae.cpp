@@ -4,7 +4,7 @@
 #include "formats/inp_valve.h"
 #include "model/rows.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 class Network {
@@ -193,4 +193,4 @@ InpChordae make_inp_chordae(const InpMesh &mesh, const InpProperties &properties
   return chordae;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "formats/inp_load.h"
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 int side_of(std::string_view word, int32_t line, InpNotes &notes) {
@@ -80,4 +80,4 @@ void read_inp_contact(std::vector<InpCard> &cards, const InpUnits &units, InpLoa
   if (!into.has_contact) notes.chosen("the file has no *CONTACT; leaflets always touch here");
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

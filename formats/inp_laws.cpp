@@ -6,7 +6,7 @@
 #include "formats/inp_valve.h"
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr const char *law_names[] = {"no law", "*ELASTIC", "*HYPERELASTIC, NEO HOOKE",
@@ -75,4 +75,4 @@ void set_inp_law(Chord &chord, const InpMaterial &material) {
   fail_law(material, "a chord", "known are OGDEN, NEO HOOKE and ELASTIC");
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // What holds a node so far, by degree of freedom; 4 to 6 are rotations.
@@ -204,4 +204,4 @@ InpLoad read_inp_load(std::vector<InpCard> &cards, const InpMesh &mesh, InpNotes
   return load;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "formats/inp_mesh.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // One side of shells.
 struct InpSurface {
@@ -35,4 +35,4 @@ using InpAmplitudes = std::map<std::string, double>;
 InpAmplitudes read_inp_amplitudes(std::vector<InpCard> &cards, InpNotes &notes);
 double inp_factor(InpCard &card, const InpAmplitudes &amplitudes);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "formats/inp_properties.h"
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // All numbers of a card in a row; what is not written is 0, as in Abaqus.
@@ -165,4 +165,4 @@ void read_inp_materials(std::vector<InpCard> &cards, const InpUnits &units, InpP
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "formats/line.h"
 #include "model/text.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr size_t most_items = size_t{1} << 22;
@@ -166,4 +166,4 @@ InpMesh read_inp_mesh(std::vector<InpCard> &cards, const InpUnits &units, InpNot
   return mesh;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

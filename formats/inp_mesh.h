@@ -8,7 +8,7 @@
 #include "base/types.h"
 #include "formats/inp_notes.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Powers of ten: lengths are divided by 10^length to be in m, stresses by 10^stress to be in Pa.
 // Time is in s, so that the unit of mass follows: stress x length x s2.
@@ -57,4 +57,4 @@ struct InpMesh {
 // Reads *PART, *INSTANCE, *NODE, *ELEMENT, *NSET and *ELSET.
 InpMesh read_inp_mesh(std::vector<InpCard> &cards, const InpUnits &units, InpNotes &notes);
 
-}  // namespace mvs
+}  // namespace mvs::core

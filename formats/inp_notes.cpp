@@ -9,7 +9,7 @@
 
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Enough for any real file, and no flood from a broken one.
@@ -109,4 +109,4 @@ std::vector<Note> InpNotes::list() const {
   return notes;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "formats/formats.h"
 #include "formats/inp_cards.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class InpNotes {
  public:
@@ -35,4 +35,4 @@ class InpNotes {
   std::vector<std::string> chosen_, counted_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "formats/inp_properties.h"
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 Vec3 read_direction(InpRow &row) {
@@ -122,4 +122,4 @@ void read_inp_orientations(std::vector<InpCard> &cards, const InpMesh &mesh, Inp
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

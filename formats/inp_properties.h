@@ -3,7 +3,7 @@
 
 #include "formats/inp_mesh.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct InpMaterial {
   enum Law : uint32_t { none_given, elastic, neo_hookean, ogden, fung };
@@ -51,4 +51,4 @@ void read_inp_orientations(std::vector<InpCard> &cards, const InpMesh &mesh, Inp
 void read_inp_sections(std::vector<InpCard> &cards, const InpMesh &mesh, InpProperties &into,
                        InpNotes &notes);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "formats/inp_valve.h"
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 struct Unit {
@@ -74,4 +74,4 @@ Imported read_inp(std::string_view text) {
   return imported;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -2,7 +2,7 @@
 #include "formats/inp_properties.h"
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 InpSection read_section(InpCard &card, const InpMesh &mesh, const InpProperties &properties,
@@ -96,4 +96,4 @@ InpProperties read_inp_properties(std::vector<InpCard> &cards, const InpMesh &me
   return properties;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

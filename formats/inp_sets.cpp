@@ -3,7 +3,7 @@
 
 #include "formats/line.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Numbers = std::map<uint64_t, uint32_t>;
@@ -159,4 +159,4 @@ std::vector<uint32_t> InpMesh::named_elements(std::string_view word, int32_t lin
   return named(word, line, *this, element_kind(*this));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "formats/inp_mesh.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Adds to a set, which begins to be where it is not there yet. Items that are in it are not
 // doubled.
@@ -13,4 +13,4 @@ void add_to_inp_set(InpSets &sets, const std::string &level, std::string_view na
 // Reads the sets, once all nodes and elements are there.
 void read_inp_sets(std::vector<InpCard> &cards, InpMesh &mesh);
 
-}  // namespace mvs
+}  // namespace mvs::core

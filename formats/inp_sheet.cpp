@@ -5,7 +5,7 @@
 #include "formats/inp_valve.h"
 #include "model/sides.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 unsigned long long number_of(const InpElement &element) {
@@ -205,4 +205,4 @@ std::string inp_leaflet_name(std::string_view set) {
   return std::string(name);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include "formats/inp_properties.h"
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Shells as triangles.
 struct InpSheet {
@@ -44,4 +44,4 @@ std::string inp_leaflet_name(std::string_view set);
 void set_inp_law(Leaflet &leaflet, const InpMaterial &material, InpNotes &notes);
 void set_inp_law(Chord &chord, const InpMaterial &material);
 
-}  // namespace mvs
+}  // namespace mvs::core

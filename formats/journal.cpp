@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr std::string_view mark = "mvsj ";
@@ -114,4 +114,4 @@ void Journal::append(std::string_view text) {
   size_ += line.size();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

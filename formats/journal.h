@@ -10,7 +10,7 @@
 
 #include "formats/posix_file.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What a journal holds.
 struct JournalRecords {
@@ -45,4 +45,4 @@ class Journal {
   size_t size_ = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Library = nlohmann::json;
@@ -178,4 +178,4 @@ void Json::write(std::string &out, int indent) const {
   out += is_list ? ']' : '}';
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace mvs {
+namespace mvs::core {
 
 class Json {
  public:
@@ -74,4 +74,4 @@ class Json {
   std::vector<Member> members_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

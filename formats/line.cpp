@@ -9,7 +9,7 @@
 
 #include "formats/decimal.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 std::string sentence(const char *pattern, va_list arguments) {
@@ -254,4 +254,4 @@ std::string decoded(std::string_view word, const Line &line) {
   return text;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A word as it may be shown in a sentence: at most 32 bytes, odd ones as \x00, in backquotes.
 std::string quoted(std::string_view word);
@@ -73,4 +73,4 @@ class Fields {
 void append_text(std::string &out, std::string_view text);
 std::string decoded(std::string_view word, const Line &line);
 
-}  // namespace mvs
+}  // namespace mvs::core

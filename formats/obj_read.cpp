@@ -3,7 +3,7 @@
 
 #include "formats/obj_reader.h"
 
-namespace mvs {
+namespace mvs::core {
 
 Loaded ObjReader::read(std::string_view text) {
   constexpr size_t longest_line = 64 * 1024;
@@ -155,4 +155,4 @@ Loaded read_obj(std::string_view text) {
   return ObjReader().read(text);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -11,7 +11,7 @@
 #include "formats/line.h"
 #include "formats/obj_words.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class ObjReader {
  public:
@@ -93,4 +93,4 @@ inline Vec3 read_place(Line &line) {
   return {x, y, z};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 #include "formats/obj_reader.h"
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 void once(bool &given, const char *word, const Line &line) {
@@ -393,4 +393,4 @@ void ObjReader::end(Line &line) {
   has_end_ = true;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mvs::obj {
+namespace mvs::core::obj {
 
 // The newest version that this library reads. It writes the oldest that has all there is to write:
 // only a valve in motion needs version 4.
@@ -32,4 +32,4 @@ inline constexpr std::array<std::string_view, 2> waypoint_places = {"serving_pla
 
 inline constexpr std::array<std::string_view, 2> ring_kinds = {"ring", "band"};
 
-}  // namespace mvs::obj
+}  // namespace mvs::core::obj

@@ -13,7 +13,7 @@
 #include "formats/obj_words.h"
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 bool same_bits(double a, double b) {
@@ -359,4 +359,4 @@ std::string write_obj(const Model &model, const State &state) {
   return ObjWriter(model.valve, state).write();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

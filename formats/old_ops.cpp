@@ -2,7 +2,7 @@
 
 #include <mvs/op.h>
 
-namespace mvs {
+namespace mvs::core {
 
 Operation keeping_length(const Operation &op, const Model &before) {
   if (op.kind().number != MVS_OP_CHORD_TRANSFER) return op;
@@ -14,4 +14,4 @@ Operation keeping_length(const Operation &op, const Model &before) {
   return Operation(&meant.op);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "formats/plan_tool.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr const char *format_name = "mvs-plan";
@@ -267,4 +267,4 @@ Plan read_plan(std::string_view text) {
   return {hash_at(json, "valve"), hash_at(json, "result"), steps_of(json["steps"], version)};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

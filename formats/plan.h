@@ -10,7 +10,7 @@
 #include "formats/json.h"
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Of the steps of a plan or a journal. 1 had no steps led by hands; up to 2 a chord kept its length
 // when it went to another head (formats/old_ops.h).
@@ -66,4 +66,4 @@ Json entry_json(const Entry &entry);
 Json op_json(const Operation &op, const Model &model);
 Operation read_op(const Json &json, const Model &model, bool exact);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "model/part_names.h"
 #include "surgery/site.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // "length_m"
@@ -287,4 +287,4 @@ Operation read_op(const Json &json, const Model &model, bool exact) {
   return reader.made();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

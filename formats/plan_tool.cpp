@@ -11,7 +11,7 @@
 #include "formats/base64.h"
 #include "surgery/lead.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr const char *kinds[] = {"grasp", "ball", "rod"};
@@ -199,4 +199,4 @@ std::optional<Move> read_tool_step(const Json &json) {
   return move;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "formats/json.h"
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 Json tool_json(const Move &move);
 
@@ -17,4 +17,4 @@ Move read_lead(const Json &json);
 // Null where the step is of another kind; throws MVS_E_FORMAT with what is wrong.
 std::optional<Move> read_tool_step(const Json &json);
 
-}  // namespace mvs
+}  // namespace mvs::core

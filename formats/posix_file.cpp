@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 
 void fail_io(const char *verb, const std::string &what, int error, const char *part) {
   fail(MVS_E_IO, part, "cannot %s %s: %s", verb, what.c_str(),
@@ -26,4 +26,4 @@ void sync_folder(const std::string &folder) {
   if (::fsync(opened.number()) != 0 && errno != EINVAL) fail_io("sync folder", folder, errno);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

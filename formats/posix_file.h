@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace mvs {
+namespace mvs::core {
 
 // A file descriptor that closes itself; -1 for none.
 class Descriptor {
@@ -37,4 +37,4 @@ std::string folder_of(const std::string &path);
 // is to be done about that.
 void sync_folder(const std::string &folder);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Version 1 had springs with three constants, linear chordae and no curves; up to version 2 there
 // were no tools, and steps had no budget; up to version 3 no steps were led, and a step left
@@ -199,4 +199,4 @@ void pass(Archive &a, Is<Moment> auto &moment) {
   a.word(moment.timeline.next_group);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

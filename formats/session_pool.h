@@ -14,7 +14,7 @@
 #include "base/types.h"
 #include "formats/h5_tree.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // For writing. Equal contents get equal numbers.
 template <typename Value>
@@ -109,4 +109,4 @@ struct Stored<Tri> {
   static constexpr size_t columns = 3;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -13,7 +13,7 @@
 #include "formats/session_pool.h"
 #include "surgery/lead.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 template <typename Thing>
@@ -352,4 +352,4 @@ Moment read_session(std::string_view bytes) {
   return SessionReader(content.tree, content.version).read();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

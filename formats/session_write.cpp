@@ -8,7 +8,7 @@
 #include "formats/session_pool.h"
 #include "formats/vtk_picture.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 class SessionWriter {
@@ -217,4 +217,4 @@ std::string write_session(const Moment &moment, const std::vector<VtpArray> &arr
   return write_h5(tree, session_version);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Section 4.2.2: the cube roots of the first 64 primes.
@@ -95,4 +95,4 @@ std::array<uint8_t, 32> Sha256::value() const {
   return digest;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 class Sha256 {
  public:
@@ -22,4 +22,4 @@ class Sha256 {
   uint64_t bytes_ = 0;               // added so far
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "formats/vtk_picture.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 std::vector<int64_t> one(size_t number) {
@@ -49,4 +49,4 @@ void add_vtk_hdf(H5Tree &tree, VtkPicture picture) {
   add_arrays(tree, group + "/CellData", std::move(picture.cell_data));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

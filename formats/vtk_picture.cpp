@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double mm = 1e3;
@@ -129,4 +129,4 @@ VtkPicture make_vtk_picture(const Model &model, const State &state,
   return picture;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

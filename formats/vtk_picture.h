@@ -4,7 +4,7 @@
 #include "formats/formats.h"
 #include "formats/h5_tree.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct VtkArray {
   std::string name;
@@ -32,4 +32,4 @@ VtkPicture make_vtk_picture(const Model &model, const State &state,
 // The same as group VTKHDF of an HDF5 file (VTK HDF file format, version 2.1).
 void add_vtk_hdf(H5Tree &tree, VtkPicture picture);
 
-}  // namespace mvs
+}  // namespace mvs::core

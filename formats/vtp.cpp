@@ -9,7 +9,7 @@
 #include "formats/base64.h"
 #include "formats/vtk_picture.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 std::string escaped(std::string_view text) {
@@ -133,4 +133,4 @@ std::string write_vtp(const Model &model, const State &state, const std::vector<
   return VtpWriter().write(make_vtk_picture(model, state, arrays));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

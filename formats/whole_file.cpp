@@ -14,7 +14,7 @@
 #include "formats/formats.h"
 #include "formats/posix_file.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Status = struct stat;
@@ -129,4 +129,4 @@ void write_whole_file(const std::string &path, std::string_view bytes) {
   sync_folder(folder);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

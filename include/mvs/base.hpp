@@ -9,7 +9,6 @@
 #include <string>
 
 namespace mvs {
-inline namespace cpp17 {
 
 // A failed call: what() is the sentence of mvs_last_error().
 class Error : public std::runtime_error {
@@ -43,7 +42,6 @@ Struct sized() {
   return made;
 }
 
-}  // namespace cpp17
 }  // namespace mvs
 
 #endif

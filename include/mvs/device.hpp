@@ -11,7 +11,6 @@
 #include <vector>
 
 namespace mvs {
-inline namespace cpp17 {
 
 // A driver that is installed.
 struct Driver {
@@ -157,7 +156,6 @@ class Device {
   mvs_device *device_ = nullptr;
 };
 
-}  // namespace cpp17
 }  // namespace mvs
 
 #endif

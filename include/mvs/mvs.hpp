@@ -19,7 +19,6 @@
 #include <utility>
 
 namespace mvs {
-inline namespace cpp17 {
 
 // A simulator, owned.
 class Sim {
@@ -192,7 +191,6 @@ class Sim {
   mvs_sim *sim_ = nullptr;
 };
 
-}  // namespace cpp17
 }  // namespace mvs
 
 #endif

@@ -11,7 +11,6 @@
 #include <vector>
 
 namespace mvs {
-inline namespace cpp17 {
 
 // The number of an operation's struct: KindOf<mvs_op_clip>::value is MVS_OP_CLIP.
 template <typename Op>
@@ -64,7 +63,6 @@ inline std::vector<OpKind> op_kinds() {
   return kinds;
 }
 
-}  // namespace cpp17
 }  // namespace mvs
 
 #endif

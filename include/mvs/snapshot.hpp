@@ -13,7 +13,6 @@
 #include <vector>
 
 namespace mvs {
-inline namespace cpp17 {
 
 // The element type of a view, as MVS_F64 ...
 template <typename Value>
@@ -187,7 +186,6 @@ class Snapshot {
   const mvs_snapshot *held_;
 };
 
-}  // namespace cpp17
 }  // namespace mvs
 
 #endif

@@ -9,7 +9,6 @@
 #include <utility>
 
 namespace mvs {
-inline namespace cpp17 {
 
 // What a valve closes to along several paths; mvs/spread.h says what it means.
 class Spread {
@@ -74,7 +73,6 @@ class Spread {
   mvs_spread *held_ = nullptr;
 };
 
-}  // namespace cpp17
 }  // namespace mvs
 
 #endif

@@ -10,7 +10,6 @@
 #include <vector>
 
 namespace mvs {
-inline namespace cpp17 {
 
 // The tools of a snapshot, in the order in which they were added.
 inline std::vector<mvs_tool_state> tools_of(const Snapshot &snapshot) {
@@ -21,7 +20,6 @@ inline std::vector<mvs_tool_state> tools_of(const Snapshot &snapshot) {
   return found;
 }
 
-}  // namespace cpp17
 }  // namespace mvs
 
 #endif

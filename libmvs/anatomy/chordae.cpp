@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -136,4 +136,4 @@ std::vector<Tree> plan_trees(const Shape &shape, const HalfSheet &sheet, const D
   return trees;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "anatomy/sheet.h"
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A vertex of the half sheet that a chord holds, and why.
 struct Attachment {
@@ -22,4 +22,4 @@ using Tree = std::vector<Attachment>;
 // the nearest vertex that is still free.
 std::vector<Tree> plan_trees(const Shape &shape, const HalfSheet &sheet, const Dimensions &d);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A move may shorten the rest length of a chord to this share of it, or of its new distance.
@@ -143,4 +143,4 @@ double CoarseChordae::largest_move() const {
   return largest;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

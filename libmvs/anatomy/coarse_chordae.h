@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class CoarseChordae {
  public:
@@ -43,4 +43,4 @@ class CoarseChordae {
   std::vector<std::vector<uint32_t>> at_;  // of each node, ascending
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

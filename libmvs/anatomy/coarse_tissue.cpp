@@ -6,7 +6,7 @@
 
 #include "anatomy/sheet_walk.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The coarse triangle of the same scallop on which the middle of a fine triangle lies; `none` where
@@ -86,4 +86,4 @@ void average_tissue(const Model &fine, const LevelMap &map, const Model &coarse,
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

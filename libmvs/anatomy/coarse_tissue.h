@@ -3,7 +3,7 @@
 
 #include "anatomy/level_map.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Gives each coarse triangle the mean, weighted by area, of the fine triangles of its scallop that
 // have their middle on it; fibres are lines without direction, so it is the principal axis of the
@@ -11,4 +11,4 @@ namespace mvs {
 // does one that stands for none. `valve` is the coarse model's, for the result.
 void average_tissue(const Model &fine, const LevelMap &map, const Model &coarse, Valve &valve);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -14,7 +14,7 @@
 #include "base/distance.h"
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A vertex with chordae goes when its neighbours are nearer than others' by this root of 8: 1.41.
@@ -282,4 +282,4 @@ Coarsened coarsen(const Model &model, size_t vertices) {
   return made;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "anatomy/level_map.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What coarsening did to the valve.
 struct CoarseningReport {
@@ -39,4 +39,4 @@ Coarsened coarsen(const Model &model, size_t vertices);
 // How many vertices of the sheet a level with edges of this length has, about.
 size_t vertices_for_edge(const Model &model, double edge);
 
-}  // namespace mvs
+}  // namespace mvs::core

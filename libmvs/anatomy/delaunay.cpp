@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr int most_sweeps = 100;  // a stop, never reached
@@ -105,4 +105,4 @@ void flip_to_delaunay(HalfSheet &sheet, std::vector<Tri> &across) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

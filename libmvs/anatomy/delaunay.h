@@ -4,7 +4,7 @@
 #include "anatomy/sheet.h"
 #include "model/topology.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Twice the signed area in (v, theta): positive for every triangle of a valid sheet.
 double signed_area(const Place &a, const Place &b, const Place &c);
@@ -22,4 +22,4 @@ Rows rings_of(const HalfSheet &sheet);
 // `across` up to date.
 void flip_to_delaunay(HalfSheet &sheet, std::vector<Tri> &across);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double mm = 1e-3;
@@ -87,4 +87,4 @@ Dimensions resolve_dimensions(const mvs_parametric_desc &desc) {
   return d;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace mvs {
+namespace mvs::core {
 
 // mvs_parametric_desc without its zeros; lengths in m. Sources: README.md of this folder.
 struct Dimensions {
@@ -31,4 +31,4 @@ struct Dimensions {
 // Throws MVS_E_ARGUMENT naming the field, its value and its range.
 Dimensions resolve_dimensions(const mvs_parametric_desc &desc);
 
-}  // namespace mvs
+}  // namespace mvs::core

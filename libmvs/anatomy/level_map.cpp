@@ -10,7 +10,7 @@
 #include "base/distance.h"
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Nodes in the order of their places, those of the sheet first. Several branch points may lie at
@@ -200,4 +200,4 @@ State transferred(const Model &from, const State &state, const Model &to) {
   return to_coarse({std::move(in_from), {}}, state);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Where a node of the fine level is on the coarse one: corners of a coarse triangle with weights
 // that sum to 1, and the height along the triangle's normal. Weights and height are those of the
@@ -47,4 +47,4 @@ State to_coarse(const LevelMap &map, const State &state);
 // MVS_E_ARGUMENT if they are not two levels of one valve.
 State transferred(const Model &from, const State &state, const Model &to);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A triangle with a smallest angle of about 12 degrees; one this poor may only replace a poorer
@@ -223,4 +223,4 @@ void LiveSheet::flip_around(uint32_t vertex) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

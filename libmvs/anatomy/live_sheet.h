@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class LiveSheet {
  public:
@@ -59,4 +59,4 @@ class LiveSheet {
   std::vector<uint8_t> rim_;            // 1: annulus, 2: free edge
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

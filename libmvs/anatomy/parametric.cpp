@@ -7,7 +7,7 @@
 #include "anatomy/chordae.h"
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The middle scallop of the anterior leaflet reaches this share of the way to a commissure.
@@ -182,4 +182,4 @@ Valve make_parametric_valve(const mvs_parametric_desc &desc) {
   return Builder(resolve_dimensions(desc)).build();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

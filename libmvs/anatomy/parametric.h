@@ -5,10 +5,10 @@
 
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Zeros in `desc` take the defaults stated in include/mvs/valve.h; throws MVS_E_ARGUMENT with the
 // name of a dimension that no valve can have.
 Valve make_parametric_valve(const mvs_parametric_desc &desc);
 
-}  // namespace mvs
+}  // namespace mvs::core

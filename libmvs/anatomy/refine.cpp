@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // What a list of a valve may hold (model/check_lists.cpp).
@@ -90,4 +90,4 @@ Valve refine(const Model &model) {
   return Refiner(model).run();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

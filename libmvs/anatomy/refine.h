@@ -3,7 +3,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Cuts every side of the sheet in half. Old nodes keep their index, new ones (origin `none`) follow
 // in the order of the edges. Leaflets, scallops, thickness and fibres are the parent triangle's;
@@ -12,4 +12,4 @@ namespace mvs {
 // so that closures of two levels differ by what the mesh does to the solution and by nothing else.
 Valve refine(const Model &model);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "anatomy/delaunay.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr int rounds = 8;        // sizes settle in about 6
@@ -283,4 +283,4 @@ void remesh(const Shape &shape, double edge, HalfSheet &sheet) {
   Remesher(shape, edge, sheet).run();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

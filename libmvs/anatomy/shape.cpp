@@ -5,7 +5,7 @@
 
 #include "base/math.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -131,4 +131,4 @@ double ArcLength::theta_at(double length) const {
   return theta0_ + step_ * (static_cast<double>(above - length_.begin()) - 1 + share);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "anatomy/dimensions.h"
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A place on the leaflets: angle theta around the annulus, 0 at the A point, +-pi at the P point,
 // positive on the posteromedial side; v from 0 at the annulus to 1 at the free edge.
@@ -54,4 +54,4 @@ class ArcLength {
   std::vector<double> length_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

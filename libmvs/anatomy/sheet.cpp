@@ -7,7 +7,7 @@
 
 #include "anatomy/remesh.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -102,4 +102,4 @@ HalfSheet mesh_half_sheet(const Shape &shape, uint32_t vertices) {
   return in_order(best);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "anatomy/shape.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Curves on which a vertex lies, as bits; it may slide along one and is held where two meet.
 enum SheetSide : uint8_t {
@@ -25,4 +25,4 @@ struct HalfSheet {
 // Near-uniform triangles; mirrored to a whole valve they have about `vertices` vertices.
 HalfSheet mesh_half_sheet(const Shape &shape, uint32_t vertices);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 
 #include "base/distance.h"
 
-namespace mvs {
+namespace mvs::core {
 
 void SheetWalk::look_around(uint32_t node, const Vec3 &p, uint32_t scallop,
                             Nearest &nearest) const {
@@ -29,4 +29,4 @@ uint32_t SheetWalk::nearest(uint32_t node, const Vec3 &p, uint32_t scallop) cons
   return nearest.triangle;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

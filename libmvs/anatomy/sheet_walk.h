@@ -4,7 +4,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class SheetWalk {
  public:
@@ -26,4 +26,4 @@ class SheetWalk {
   const Model &model_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace mvs {
+namespace mvs::core {
 
 int64_t now_ms() {
   using namespace std::chrono;
@@ -88,4 +88,4 @@ Json named_record(const char *word, const std::string &name, const Moves &moves)
   return json;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "api/simulator.h"
 #include "formats/plan.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Milliseconds since 1970 UTC.
 int64_t now_ms();
@@ -24,4 +24,4 @@ Json steps_record(const Moment &before, const Moment &after);  // operations app
 Json word_record(const char *word);                            // undo, redo
 Json named_record(const char *word, const std::string &name, const Moves &moves);
 
-}  // namespace mvs
+}  // namespace mvs::core

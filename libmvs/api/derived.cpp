@@ -4,7 +4,7 @@
 
 namespace {
 
-using namespace mvs;
+using namespace mvs::core;
 
 Tables make_tables(const Model &model) {
   const Valve &valve = model.valve;

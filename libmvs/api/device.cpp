@@ -10,7 +10,7 @@
 #include "haptics/crash.h"
 #include "haptics/examine.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 struct mvs_device {
   mvs_device(const mvs_device_desc &desc, Plug::Log log) : device(desc, std::move(log)) {

@@ -10,7 +10,7 @@
 #include "api/tools.h"
 #include "base/eigenvalues.h"
 
-namespace mvs {
+namespace mvs::core {
 void Hand::set_hand(const mvs_device_hand &given) {
   MVS_MUST(given.mode <= MVS_HAND_DRAG, MVS_E_ARGUMENT, "hand.mode",
            "hand.mode is %u: it has to be one of MVS_HAND_*", given.mode);
@@ -201,4 +201,4 @@ mvs_device_report Hand::report(const mvs_sim &sim, const Tissue &tissue, bool la
   return out;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "haptics/servo_types.h"
 #include "haptics/tissue_maker.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Hand {
  public:
@@ -55,4 +55,4 @@ class Hand {
   Vec3 felt_ = Vec3::Zero();  // of the chord, on the hand
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "api/structs.h"
 #include "base/eigenvalues.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double farthest = 10;  // m, from the origin of any scene
@@ -55,4 +55,4 @@ Tissue DeviceView::to_device(const Tissue &scene, double most) const {
   return out;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

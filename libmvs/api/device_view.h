@@ -7,7 +7,7 @@
 
 #include "haptics/tissue.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class DeviceView {
  public:
@@ -33,4 +33,4 @@ class DeviceView {
   double scale_ = 1, force_scale_ = 1;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "api/simulator.h"
 #include "formats/formats.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

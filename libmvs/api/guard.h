@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Makes these the last failure of this thread, and returns the code. Allocates nothing.
 mvs_result record_failure(mvs_result code, int32_t line, const char *part,
@@ -51,4 +51,4 @@ inline void must_point(const void *pointer, const char *what) {
   MVS_MUST(pointer != nullptr, MVS_E_ARGUMENT, what, "%s is a null pointer", what);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -2,7 +2,7 @@
 
 #include "api/moves.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 bool same_hand(const Tool &a, const Tool &b) {
@@ -55,4 +55,4 @@ void Hands::forget() {
   posted_.clear();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "model/model.h"
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Hands {
  public:
@@ -27,4 +27,4 @@ class Hands {
   std::vector<Tool> posted_;  // at most one a tool
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

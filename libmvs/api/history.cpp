@@ -6,7 +6,7 @@
 #include "api/snapshot_impl.h"
 #include "api/structs.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

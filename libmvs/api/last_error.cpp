@@ -26,7 +26,7 @@ void copy_text(char (&to)[size], const char *from) noexcept {
 
 }  // namespace
 
-namespace mvs {
+namespace mvs::core {
 
 mvs_result record_failure(mvs_result code, int32_t line, const char *part,
                           const char *message) noexcept {
@@ -46,7 +46,7 @@ Error about_file(const Error &error, const std::string &path) {
   return {error.code, error.part, where + ": " + error.what(), error.line};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core
 
 extern "C" {
 
@@ -101,7 +101,7 @@ const char *mvs_features(void) {
     constexpr char hdf5[] = "";
 #endif
     std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), "%s%s", mvs::factor_names(), hdf5);
+    std::snprintf(text.data(), text.size(), "%s%s", mvs::core::factor_names(), hdf5);
     return text;
   }();
   return names.data();

@@ -5,7 +5,7 @@
 #include "anatomy/refine.h"
 #include "api/simulator.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

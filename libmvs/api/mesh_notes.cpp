@@ -7,7 +7,7 @@
 #include "measure/landmarks.h"
 #include "physics/contact.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Lower than this share of the contact thickness a triangle is a needle, on which a closure may
@@ -80,4 +80,4 @@ void log_mesh(const mvs_sim &sim, const Model &model) {
           thin, model.topology.edges.size(), r, facing_rest_distance * r);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "physics/solver.h"
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 inline Move move_of(Move::Kind kind, const SolveOptions &how) {
   Move move;
@@ -37,4 +37,4 @@ inline Move move_of(Move::Kind kind, const Tool &tool) {
   return move;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

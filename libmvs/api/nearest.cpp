@@ -8,7 +8,7 @@
 
 #include "base/distance.h"
 
-namespace mvs {
+namespace mvs::core {
 
 NearChord nearest_chord(const Picture &now, const Vec3 &place) {
   NearChord found = {0, std::numeric_limits<double>::infinity()};
@@ -31,4 +31,4 @@ NearNode nearest_node(const Picture &now, const Vec3 &place) {
   return found;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct NearChord {
   Id id = 0;
@@ -18,4 +18,4 @@ struct NearNode {
 };
 NearNode nearest_node(const Picture &now, const Vec3 &place);
 
-}  // namespace mvs
+}  // namespace mvs::core

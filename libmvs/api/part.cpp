@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace mvs;
+using namespace mvs::core;
 
 const char *kind_name(uint32_t kind) {
   switch (kind) {

@@ -5,7 +5,7 @@
 #include "api/replay.h"
 #include "formats/formats.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "formats/old_ops.h"
 #include "surgery/lead.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Takes the steps of a move. The host is asked after the first and every 64th one more.
@@ -129,4 +129,4 @@ Json plan_measures(const Picture &picture) {
   return json;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

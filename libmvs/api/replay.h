@@ -6,7 +6,7 @@
 #include "api/simulator.h"
 #include "formats/plan.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Takes one move; empty: moves are left out.
 using TakeMove = std::function<Moment(const Moment &, const Move &)>;
@@ -42,4 +42,4 @@ TakeMove moves_of(mvs_sim &sim);
 // What measures of a picture a plan tells.
 Json plan_measures(const Picture &picture);
 
-}  // namespace mvs
+}  // namespace mvs::core

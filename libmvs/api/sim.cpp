@@ -11,7 +11,7 @@
 #include "api/valve_desc.h"
 #include "model/check.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 SnapshotPtr mvs_sim::present() const {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -63,7 +63,7 @@ Progress mvs_sim::progress() const {
   };
 }
 
-namespace mvs {
+namespace mvs::core {
 
 AtWork::AtWork(mvs_sim *sim) : sim_(sim) {
   must_point(sim, "sim");
@@ -93,7 +93,7 @@ void replace_valve(mvs_sim &sim, Moment moment) {
   log_pressure(sim, sim.load().pressure);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core
 
 extern "C" {
 

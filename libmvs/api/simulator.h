@@ -22,13 +22,13 @@ struct mvs_sim {
   explicit mvs_sim(const mvs_sim_desc &desc_in) : desc(desc_in), solver(desc_in.backend) {}
 
   // The present snapshot; throws MVS_E_STATE before there is a valve. From any thread.
-  mvs::SnapshotPtr present() const;
+  mvs::core::SnapshotPtr present() const;
   // The same for the call at work, without making one.
-  const mvs::Picture &picture() const;
-  void replace(mvs::SnapshotPtr next);
-  mvs::Load load() const;
+  const mvs::core::Picture &picture() const;
+  void replace(mvs::core::SnapshotPtr next);
+  mvs::core::Load load() const;
   // One step in time of the present valve.
-  void step(const mvs::SolveOptions &how);
+  void step(const mvs::core::SolveOptions &how);
   // What the next step would do because of another valve or other tools, if steps are taken at all:
   // work of the call that changed them.
   void make_ready() { solver.make_ready(*now_.picture.model, now_.picture.state); }
@@ -36,29 +36,29 @@ struct mvs_sim {
   // One line to the host.
   [[gnu::format(printf, 3, 4)]] void log(int32_t level, const char *pattern, ...) const;
   // The host's progress callback; empty where there is none.
-  mvs::Progress progress() const;
+  mvs::core::Progress progress() const;
 
   const mvs_sim_desc desc;
-  mvs::Solver solver;
-  mvs_stats stats = {};                   // struct_size 0: none yet
-  mvs::Group group;                       // number 0: none is open
-  std::unique_ptr<mvs::Journal> journal;  // null: none
-  mvs::Hands hands;                       // from any thread
+  mvs::core::Solver solver;
+  mvs_stats stats = {};                         // struct_size 0: none yet
+  mvs::core::Group group;                       // number 0: none is open
+  std::unique_ptr<mvs::core::Journal> journal;  // null: none
+  mvs::core::Hands hands;                       // from any thread
   std::atomic<bool> at_work{false};
 
  private:
   void must_have_valve() const;
   void begin_step();
-  void record_step(const std::vector<mvs::Move> &moved, const mvs::Move &step) const;
+  void record_step(const std::vector<mvs::core::Move> &moved, const mvs::core::Move &step) const;
 
-  mutable std::mutex mutex_;          // of the next three
-  mutable mvs::Moment now_;           // no model: no valve yet
-  mutable mvs::Move stepped_;         // steps that the moves of now_ lack; of count 0: none
-  mutable mvs::SnapshotPtr present_;  // of now_; null: nobody has asked since the last step
-  mvs::State next_;                   // where a step works, in memory of the state before
+  mutable std::mutex mutex_;                // of the next three
+  mutable mvs::core::Moment now_;           // no model: no valve yet
+  mutable mvs::core::Move stepped_;         // steps that the moves of now_ lack; of count 0: none
+  mutable mvs::core::SnapshotPtr present_;  // of now_; null: nobody has asked since the last step
+  mvs::core::State next_;                   // where a step works, in memory of the state before
 };
 
-namespace mvs {
+namespace mvs::core {
 
 // Marks a simulator as at work; a second call meanwhile, from a callback or another thread, throws.
 class AtWork {
@@ -87,4 +87,4 @@ void must_be_no_group(const mvs_sim &sim, const char *call);
 // Makes a valve with its state and history the present of a simulator.
 void replace_valve(mvs_sim &sim, Moment moment);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "api/structs.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

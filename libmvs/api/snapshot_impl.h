@@ -13,7 +13,7 @@
 #include "physics/forces.h"
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A value that the first one to ask for works out, whichever thread that is. A failure is not
 // kept: the next one to ask tries again.
@@ -46,37 +46,37 @@ struct Tables {
   std::array<double, 4> valve_constants;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core
 
 // Immutable but for the count of references and the values that are worked out once.
 struct mvs_snapshot {
-  explicit mvs_snapshot(mvs::Moment moment_in)
+  explicit mvs_snapshot(mvs::core::Moment moment_in)
       : moment(std::move(moment_in)), model(moment.picture.model), state(moment.picture.state) {}
 
-  const mvs::Forces &forces() const;
-  const mvs::Coaptation &coaptation() const;
-  const mvs::Strain &strain() const;
-  const mvs::ChordMeasures &chords() const;
-  const mvs::Orifice &orifice() const;
-  const mvs::Tables &tables() const;
+  const mvs::core::Forces &forces() const;
+  const mvs::core::Coaptation &coaptation() const;
+  const mvs::core::Strain &strain() const;
+  const mvs::core::ChordMeasures &chords() const;
+  const mvs::core::Orifice &orifice() const;
+  const mvs::core::Tables &tables() const;
   const mvs_measures &measures() const;
 
-  const mvs::Moment moment;
-  const mvs::ModelPtr &model;
-  const mvs::State &state;
+  const mvs::core::Moment moment;
+  const mvs::core::ModelPtr &model;
+  const mvs::core::State &state;
   mutable std::atomic<uint32_t> references{1};
 
  private:
-  mvs::Lazy<mvs::Forces> forces_;
-  mvs::Lazy<mvs::Coaptation> coaptation_;
-  mvs::Lazy<mvs::Strain> strain_;
-  mvs::Lazy<mvs::ChordMeasures> chords_;
-  mvs::Lazy<mvs::Orifice> orifice_;
-  mvs::Lazy<mvs::Tables> tables_;
-  mvs::Lazy<mvs_measures> measures_;
+  mvs::core::Lazy<mvs::core::Forces> forces_;
+  mvs::core::Lazy<mvs::core::Coaptation> coaptation_;
+  mvs::core::Lazy<mvs::core::Strain> strain_;
+  mvs::core::Lazy<mvs::core::ChordMeasures> chords_;
+  mvs::core::Lazy<mvs::core::Orifice> orifice_;
+  mvs::core::Lazy<mvs::core::Tables> tables_;
+  mvs::core::Lazy<mvs_measures> measures_;
 };
 
-namespace mvs {
+namespace mvs::core {
 
 // Holds one reference to a snapshot.
 class SnapshotPtr {
@@ -111,4 +111,4 @@ inline mvs_load_case public_load(const Load &load) {
   return {sizeof(mvs_load_case), 0, load.pressure, load.boundary_fraction};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

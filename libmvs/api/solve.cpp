@@ -8,7 +8,7 @@
 #include "api/unit_notes.h"
 #include "cascade/cascade.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Ten times the highest pressure a heart makes: beyond it the unit is wrong.
@@ -62,9 +62,9 @@ mvs_stats public_stats(const SolveStats &from) {
   return stats;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "physics/solver.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Both throw MVS_E_ARGUMENT for a value out of its range.
 Load read_load(const mvs_load_case *given);
@@ -13,4 +13,4 @@ SolveOptions read_options(const mvs_settle_options *given);
 
 mvs_stats public_stats(const SolveStats &from);
 
-}  // namespace mvs
+}  // namespace mvs::core

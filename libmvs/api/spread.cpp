@@ -12,7 +12,7 @@
 #include "spread/path.h"
 #include "spread/shapes.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 struct mvs_spread {
   std::vector<SnapshotPtr> snapshots;
@@ -208,7 +208,8 @@ mvs_result mvs_spread_run(const mvs_snapshot *start, const mvs_load_case *load,
   return guarded([&] {
     must_point(start, "start");
     must_point(spread, "spread");
-    const Task task{*start, read_load(load), mvs::read_options(settle), read_options(options)};
+    const Task task{*start, read_load(load), mvs::core::read_options(settle),
+                    read_options(options)};
     *spread = run(task).release();
   });
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using M = mvs_measures;
@@ -91,4 +91,4 @@ Statistics statistics_of(const std::vector<const mvs_measures *> &valves) {
   return statistics;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

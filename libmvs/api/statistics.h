@@ -6,11 +6,11 @@
 #include <array>
 #include <vector>
 
-namespace mvs {
+namespace mvs::core {
 
 // As MVS_SPREAD_MEAN ... MVS_SPREAD_COUNT, in that order.
 using Statistics = std::array<mvs_measures, 5>;
 
 Statistics statistics_of(const std::vector<const mvs_measures *> &valves);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "model/finite.h"
 #include "surgery/lead.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 // The call at work is the only one that changes the picture, so it reads it without a lock.
 void mvs_sim::step(const SolveOptions &how) {

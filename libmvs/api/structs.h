@@ -9,7 +9,7 @@
 #include "api/guard.h"
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // No struct of this interface is larger; a size above it was never set.
 inline constexpr uint32_t struct_size_limit = 4096;
@@ -102,4 +102,4 @@ inline void must_be_in(double value, double low, double high, const char *what) 
            "%s is %g: it has to be 0 (the default) or %g to %g", what, value, low, high);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

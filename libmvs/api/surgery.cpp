@@ -4,7 +4,7 @@
 #include "api/commit.h"
 #include "model/text.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include "api/valve_desc.h"
 #include "model/chord_law.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "api/tools.h"
 #include "physics/tool_feel.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 
@@ -109,7 +109,7 @@ void take_at_once(mvs_sim &sim, const Move &move) {
 
 }  // namespace
 
-namespace mvs {
+namespace mvs::core {
 
 ToolSizes read_tool_sizes(const ToolSizes &given, const std::string &of) {
   must_be_in(given.radius, 1e-4, 0.02, (of + ".radius").c_str());
@@ -139,7 +139,7 @@ void remove_tool_now(mvs_sim &sim, Id id) {
   take_at_once(sim, move_of(Move::tool_remove, removed));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core
 
 extern "C" {
 

@@ -5,7 +5,7 @@
 
 #include "api/simulator.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What a tool is made of, as tool.h says.
 struct ToolSizes {
@@ -21,4 +21,4 @@ double read_reach(double given, double fallback, const std::string &of);
 Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc);
 void remove_tool_now(mvs_sim &sim, Id id);
 
-}  // namespace mvs
+}  // namespace mvs::core

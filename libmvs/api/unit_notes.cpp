@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // kPa given as Pa are a thousandth, MPa less: a law with a hundredth of what its paper found is
@@ -188,4 +188,4 @@ void log_pressure(const mvs_sim &sim, double pressure) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

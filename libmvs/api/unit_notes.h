@@ -4,7 +4,7 @@
 
 #include "api/simulator.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Logs tissue and chordae that no valve could live with, and chordae whose length no surgeon would
 // cut.
@@ -13,4 +13,4 @@ void log_units(const mvs_sim &sim, const Model &model);
 // Logs a pressure that looks like one in mmHg.
 void log_pressure(const mvs_sim &sim, double pressure);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "model/check.h"
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 double or_default(double given, double fallback) {
@@ -174,4 +174,4 @@ State described_state(const Model &model, const std::vector<Vec3> &now) {
   return state;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

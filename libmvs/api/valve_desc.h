@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What a description holds: the valve, and the positions to start from (empty: the rest shape).
 struct Described {
@@ -24,4 +24,4 @@ void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue);
 // The state that a described valve starts from; throws MVS_E_ARGUMENT where positions are none.
 State described_state(const Model &model, const std::vector<Vec3> &now);
 
-}  // namespace mvs
+}  // namespace mvs::core

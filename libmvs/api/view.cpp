@@ -4,7 +4,7 @@
 
 namespace {
 
-using namespace mvs;
+using namespace mvs::core;
 
 mvs_view view_of(const void *data, size_t count, uint32_t components, uint32_t type,
                  uint64_t value_size) {

@@ -6,7 +6,7 @@
 #include "base/lanes.h"
 #include "base/simd_level.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // atan(t) / t as a polynomial in t^2, t within tan(pi / 8): interpolated where a Chebyshev
@@ -69,4 +69,4 @@ void arc_tangents(const double *y, const double *x, double *angle, size_t n) {
   kernel(y, x, angle, n);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr uint64_t count_limit = uint64_t{1} << 24;
@@ -129,4 +129,4 @@ void check_list(const void *list, uint64_t count, const char *what) {
            what, static_cast<unsigned long long>(count));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Whether an array is given at all: one that is all zero is not.
 bool is_given(const mvs_array &array);
@@ -31,4 +31,4 @@ std::vector<Tri> read_triangles(const mvs_array &array, const char *what);
 // Throws where a list of structs is too long to be meant, or has a count but no pointer.
 void check_list(const void *list, uint64_t count, const char *what);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class BlockMatrix {
  public:
@@ -83,4 +83,4 @@ class BlockMatrix {
   std::vector<uint32_t> count_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

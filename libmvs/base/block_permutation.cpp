@@ -1,6 +1,6 @@
 #include "base/block_permutation.h"
 
-namespace mvs {
+namespace mvs::core {
 
 void BlockPermutation::permute(const BlockMatrix &from, const std::vector<uint32_t> &to,
                                BlockMatrix &result) {
@@ -52,4 +52,4 @@ void BlockPermutation::sort_by(uint32_t rows, Key key) {
   blocks_.swap(sorted_);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

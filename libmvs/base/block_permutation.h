@@ -5,7 +5,7 @@
 
 #include "base/block_matrix.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Its memory is kept from one matrix to the next.
 class BlockPermutation {
@@ -28,4 +28,4 @@ class BlockPermutation {
   std::vector<uint32_t> count_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

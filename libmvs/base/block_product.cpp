@@ -5,7 +5,7 @@
 #include "base/lanes.h"
 #include "base/simd_level.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr size_t stride = 4;  // of the numbers of a row
@@ -101,4 +101,4 @@ void BlockProduct::multiply(const BlockMatrix &a, const std::vector<Vec3> &v,
   y[n - 1] += a.value[a.start[n - 1]] * v[n - 1];
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

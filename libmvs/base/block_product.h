@@ -3,7 +3,7 @@
 
 #include "base/block_matrix.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Keeps the memory that a product takes. The bits are the same on every processor, and entries that
 // are zero change none but signs of zeros.
@@ -16,4 +16,4 @@ class BlockProduct {
   std::vector<double> v_, y_;  // a row in four numbers, of which the last is nobody's
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr uint32_t leaf_items = 4;
@@ -51,4 +51,4 @@ void BoxTree::build(uint32_t first, uint32_t last) {
   nodes_[self].after = static_cast<uint32_t>(nodes_.size());
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

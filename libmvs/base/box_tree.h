@@ -5,7 +5,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Box {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
@@ -65,4 +65,4 @@ class BoxTree {
   std::vector<Node> nodes_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 __extension__ typedef __int128 Wide;
@@ -287,4 +287,4 @@ Delaunay delaunay(const std::vector<LatticePoint> &points) {
   return result;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace mvs {
+namespace mvs::core {
 
 // Coordinates of points are 1 .. lattice_size - 1; the corners of the box have 0 and lattice_size.
 // With 20 bits, the sphere test stays below 2^107 and fits 128-bit integers.
@@ -28,4 +28,4 @@ struct Delaunay {
 // along a space-filling curve (Amenta, Choi, Rote 2003): near-linear for points on surfaces.
 Delaunay delaunay(const std::vector<LatticePoint> &points);
 
-}  // namespace mvs
+}  // namespace mvs::core

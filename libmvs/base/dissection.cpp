@@ -5,7 +5,7 @@
 
 #include "base/factor.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Parts of 50 to 400 nodes give the same work to a twentieth (26,000 nodes).
@@ -220,4 +220,4 @@ double elimination_work(const std::vector<uint32_t> &order, const std::vector<Ed
   return sum;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -12,7 +12,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // order[k] is the node eliminated k-th; pairs of nodes may come more than once.
 std::vector<uint32_t> dissection_order(const std::vector<Edge> &pairs,
@@ -22,4 +22,4 @@ std::vector<uint32_t> dissection_order(const std::vector<Edge> &pairs,
 // columns (counted as in Davis, ACM Trans. Math. Softw. 31, 2005).
 double elimination_work(const std::vector<uint32_t> &order, const std::vector<Edge> &pairs);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A point of a triangle: barycentric weights and the feature it lies on. Features 0..2 are the
 // corners, 3..5 the edges (3 + k joins corners k and k + 1), 6 the inside.
@@ -109,4 +109,4 @@ inline double segment_triangle_distance2(const Vec3 &p, const Vec3 &q, const Vec
        closest_of_segments(p, q, c, a).distance2});
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include "base/lanes.h"
 #include "base/simd_level.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Lying: what is anywhere in memory. Copied by memcpy, wide vectors would go through the stack,
@@ -246,4 +246,4 @@ void measure_farthest(PairRows &rows, uint32_t count, uint32_t split) {
   kernels().farthest(rows, count, split);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Pairs side by side, each of four points: a point and a triangle, or two segments.
 struct PairRows {
@@ -25,4 +25,4 @@ void measure_segments(PairRows &rows, uint32_t count);
 // The farthest from any of the first `split` points to any of the others.
 void measure_farthest(PairRows &rows, uint32_t count, uint32_t split);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 inline double largest_eigenvalue(const Mat3 &m) {
   return Eigen::SelfAdjointEigenSolver<Mat3>(m, Eigen::EigenvaluesOnly).eigenvalues()[2];
@@ -20,4 +20,4 @@ inline Mat3 with_eigenvalues_in(const Mat3 &m, double low, double high) {
   return eigen.eigenvectors() * kept.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace mvs {
+namespace mvs::core {
 
 std::string vformat(const char *pattern, va_list arguments) {
   char text[sizeof(mvs_error::message)];
@@ -28,4 +28,4 @@ void fail(mvs_result code, const std::string &part, const char *pattern, ...) {
   throw Error(code, part, text);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

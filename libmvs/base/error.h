@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace mvs {
+namespace mvs::core {
 
 // A failure with everything mvs_last_error() shows.
 class Error : public std::runtime_error {
@@ -29,10 +29,10 @@ class Error : public std::runtime_error {
 [[noreturn, gnu::format(printf, 3, 4)]] void fail(mvs_result code, const std::string &part,
                                                   const char *pattern, ...);
 
-}  // namespace mvs
+}  // namespace mvs::core
 
 // Throws unless `condition` holds; the sentence names the part and what to do.
 #define MVS_MUST(condition, code, part, ...)                \
   do {                                                      \
-    if (!(condition)) ::mvs::fail(code, part, __VA_ARGS__); \
+    if (!(condition)) ::mvs::core::fail(code, part, __VA_ARGS__); \
   } while (false)

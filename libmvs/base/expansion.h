@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace mvs {
+namespace mvs::core {
 
 template <size_t N>
 struct Expansion {
@@ -95,4 +95,4 @@ Expansion<4 * N> operator*(const Expansion<N> &e, const Expansion<2> &f) {
   return scaled(e, low) + scaled(e, high);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "base/factor_block.h"
 #include "base/factor_cholmod.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
@@ -104,4 +104,4 @@ std::vector<uint32_t> fill_reducing_order(uint32_t n, const std::vector<Edge> &p
   return order;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "base/block_matrix.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Factor {
  public:
@@ -37,4 +37,4 @@ const char *factor_names();
 // order[k] is the row eliminated k-th.
 std::vector<uint32_t> fill_reducing_order(uint32_t n, const std::vector<Edge> &pairs);
 
-}  // namespace mvs
+}  // namespace mvs::core

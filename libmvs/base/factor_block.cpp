@@ -11,7 +11,7 @@
 #include "base/panel.h"
 #include "base/supernodes.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // What holds while panels of T are worked on.
@@ -211,4 +211,4 @@ std::unique_ptr<Factor> make_narrow_factor() {
   return std::make_unique<BlockFactor<float>>();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

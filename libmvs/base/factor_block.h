@@ -5,7 +5,7 @@
 
 #include "base/factor.h"
 
-namespace mvs {
+namespace mvs::core {
 
 std::unique_ptr<Factor> make_block_factor();
 
@@ -13,4 +13,4 @@ std::unique_ptr<Factor> make_block_factor();
 // factorisation fails where rounding alone makes a matrix indefinite, so of condition 1e7 or so.
 std::unique_ptr<Factor> make_narrow_factor();
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 class CholmodFactor final : public Factor {
@@ -103,5 +103,5 @@ std::unique_ptr<Factor> make_cholmod_factor() {
   return std::make_unique<CholmodFactor>();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core
 #endif

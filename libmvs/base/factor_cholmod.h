@@ -7,11 +7,11 @@
 
 #include "base/factor.h"
 
-namespace mvs {
+namespace mvs::core {
 
 std::unique_ptr<Factor> make_cholmod_factor();
 
 // Writes the lower triangle as scalar columns: 3 n + 1 starts, 9 * blocks - 3 n rows and values.
 void expand_lower(const BlockMatrix &matrix, int *start, int *row, double *value);
 
-}  // namespace mvs
+}  // namespace mvs::core

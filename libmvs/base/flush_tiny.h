@@ -11,7 +11,7 @@
 #include <cstdint>
 #endif
 
-namespace mvs {
+namespace mvs::core {
 
 #if defined(__SSE2__) || defined(_M_X64)
 class FlushTiny {
@@ -51,4 +51,4 @@ class FlushTiny {
 };
 #endif
 
-}  // namespace mvs
+}  // namespace mvs::core

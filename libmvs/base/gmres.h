@@ -8,7 +8,7 @@
 #include "base/math.h"
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 inline double dot(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   double sum = 0;
@@ -64,4 +64,4 @@ double gmres(const Apply &apply, std::vector<Vec3> &b, int most, double toleranc
   return std::abs(rhs.back()) / size;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

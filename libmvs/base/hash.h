@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 // Two independent 64-bit lanes. One word changes a lane by xor, a product with an odd number and a
 // shift, each of which can be undone: inputs that differ in one word alone never collide.
@@ -38,4 +38,4 @@ class Hash {
   uint64_t a_ = 0x243f6a8885a308d3u, b_ = 0x13198a2e03707344u;  // digits of pi
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "base/box_tree.h"
 #include "base/expansion.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Error bounds of the two determinants below relative to their permanents (Shewchuk 1997,
@@ -179,4 +179,4 @@ std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
   return crossing;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

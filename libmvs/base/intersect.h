@@ -7,7 +7,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The sign (-1, 0, 1) of the volume of tetrahedron a b c d, exact: 1 when d lies on the side of
 // triangle a b c that its normal (b - a) x (c - a) points to.
@@ -29,4 +29,4 @@ bool triangles_cross(const std::array<Vec3, 3> &first, const std::array<Vec3, 3>
 // - The same three nodes: when the triangle is not flat.
 std::vector<Edge> find_intersections(const std::vector<Vec3> &x, const std::vector<Tri> &triangles);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
-namespace mvs {
+namespace mvs::core {
 
 // A tile is `vectors` of them high.
 #if defined(__GNUC__)
@@ -70,4 +70,4 @@ MVS_INLINE void keep_first(Wide<float, 8, 1>::Value &v, size_t count) {
 MVS_INLINE void keep_first(float &, size_t) {}
 #endif
 
-}  // namespace mvs
+}  // namespace mvs::core

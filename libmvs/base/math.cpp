@@ -12,7 +12,7 @@
 
 #include "base/math_tables.h"
 
-namespace mvs::math {
+namespace mvs::core::math {
 namespace {
 
 using namespace tables;
@@ -349,4 +349,4 @@ double atan2(double y, double x) {
   return std::copysign(angle.high + angle.low, y);
 }
 
-}  // namespace mvs::math
+}  // namespace mvs::core::math

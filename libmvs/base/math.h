@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace mvs::math {
+namespace mvs::core::math {
 
 // Natural logarithm: -infinity at 0, NaN below.
 double log(double x);
@@ -35,4 +35,4 @@ inline double hypot(double a, double b) {
   return std::sqrt(a * a + b * b);
 }
 
-}  // namespace mvs::math
+}  // namespace mvs::core::math

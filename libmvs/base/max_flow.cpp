@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 
 void MaxFlow::connect() {
   first_.assign(nodes_ + 1, 0);
@@ -140,4 +140,4 @@ int64_t MaxFlow::run(uint32_t source, uint32_t sink) {
   return total;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // By two trees that grow from source and sink until they meet (Boykov, Kolmogorov, An Experimental
 // Comparison of Min-Cut/Max-Flow Algorithms, 2004), which suits short cuts through wide networks.
@@ -60,4 +60,4 @@ class MaxFlow {
   size_t active_head_ = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "base/sheet_tree.h"
 
-namespace mvs {
+namespace mvs::core {
 MovingTree::MovingTree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles) {
   SheetTree tree = sheet_tree(shape, triangles, WayLanes::count);
   for (const SheetBranch &branch : tree.branches) {
@@ -33,4 +33,4 @@ void MovingTree::place(const std::vector<NarrowWay> &blocks, const std::vector<u
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -13,7 +13,7 @@
 
 #include "base/way_lanes.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class MovingTree {
  public:
@@ -74,4 +74,4 @@ class MovingTree {
   std::vector<uint32_t> order_, block_start_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

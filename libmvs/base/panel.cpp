@@ -9,7 +9,7 @@
 #include "base/lanes.h"
 #include "base/simd_level.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr size_t tile_columns = 6;
@@ -205,15 +205,15 @@ struct Kernels {
 
 // The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
-#define MVS_KERNELS(Name, ATTRIBUTE)                                             \
-  template <typename V>                                                          \
-  struct Name {                                                                  \
-    using T = typename V::Number;                                                \
-    ATTRIBUTE static void update(const PanelUpdate<T> &u) { mvs::update<V>(u); } \
-    ATTRIBUTE static bool factorise(T *p, size_t w, size_t h) {                  \
-      return mvs::factorise<V>(p, w, h);                                         \
-    }                                                                            \
-    static Kernels<T> all() { return {&update, &factorise}; }                    \
+#define MVS_KERNELS(Name, ATTRIBUTE)                                                   \
+  template <typename V>                                                                \
+  struct Name {                                                                        \
+    using T = typename V::Number;                                                      \
+    ATTRIBUTE static void update(const PanelUpdate<T> &u) { mvs::core::update<V>(u); } \
+    ATTRIBUTE static bool factorise(T *p, size_t w, size_t h) {                        \
+      return mvs::core::factorise<V>(p, w, h);                                         \
+    }                                                                                  \
+    static Kernels<T> all() { return {&update, &factorise}; }                          \
   }
 
 // NOLINTEND(bugprone-macro-parentheses)
@@ -259,4 +259,4 @@ template void update_panel(const PanelUpdate<float> &);
 template bool factorise_panel(double *, size_t, size_t);
 template bool factorise_panel(float *, size_t, size_t);
 
-}  // namespace mvs
+}  // namespace mvs::core

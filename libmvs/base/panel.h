@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace mvs {
+namespace mvs::core {
 
 // The height of a panel is a multiple of this: what its rows do not fill is zero.
 inline constexpr size_t panel_rows = 16;
@@ -49,4 +49,4 @@ void solve_forward(const T *panel, size_t width, size_t height, T *x);
 template <typename T>
 void solve_backward(const T *panel, size_t width, size_t height, T *x);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "base/panel.h"
 #include "base/simd_level.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr size_t block_columns = 12;  // a multiple of 3: columns come three at a time
@@ -183,10 +183,10 @@ struct Kernels {
   struct Name {                                                            \
     using T = typename V::Number;                                          \
     ATTRIBUTE static void forward(const T *p, size_t w, size_t h, T *x) {  \
-      mvs::forward<V>(p, w, h, x);                                         \
+      mvs::core::forward<V>(p, w, h, x);                                   \
     }                                                                      \
     ATTRIBUTE static void backward(const T *p, size_t w, size_t h, T *x) { \
-      mvs::backward(p, w, h, x);                                           \
+      mvs::core::backward(p, w, h, x);                                     \
     }                                                                      \
     static Kernels<T> all() { return {&forward, &backward}; }              \
   }
@@ -232,4 +232,4 @@ template void solve_forward(const float *, size_t, size_t, float *);
 template void solve_backward(const double *, size_t, size_t, double *);
 template void solve_backward(const float *, size_t, size_t, float *);
 
-}  // namespace mvs
+}  // namespace mvs::core

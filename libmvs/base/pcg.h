@@ -10,7 +10,7 @@
 #include "base/gmres.h"
 #include "base/math.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct PcgResult {
   uint32_t iterations = 0;
@@ -99,4 +99,4 @@ class Pcg {
   std::vector<Vec3> r_, z_, p_, y_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

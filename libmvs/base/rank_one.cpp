@@ -3,7 +3,7 @@
 #include "base/lanes.h"
 #include "base/simd_level.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 #if defined(__GNUC__)
@@ -112,4 +112,4 @@ void add_rank_one(const Slope &slope, double times, const RankOne &to) {
   kernel(slope, times, to);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

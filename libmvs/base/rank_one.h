@@ -6,7 +6,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Of four nodes, one after the other; the last number is read past them, and not used.
 struct Slope {
@@ -27,4 +27,4 @@ struct RankOne {
 // Adds times * slope slope^T. The bits are the same on every processor, and in either triangle.
 void add_rank_one(const Slope &slope, double times, const RankOne &to);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "base/factor_block.h"
 #include "base/pcg.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Of the right-hand side, in the norm of the factor: what Newton's method leaves out of a step is
@@ -77,4 +77,4 @@ std::unique_ptr<Factor> make_refined_factor() {
   return std::make_unique<RefinedFactor>();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -11,8 +11,8 @@
 
 #include "base/factor.h"
 
-namespace mvs {
+namespace mvs::core {
 
 std::unique_ptr<Factor> make_refined_factor();
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace mvs {
+namespace mvs::core {
 
 // Used like a std::vector. Reading never copies; the first change to a copy does (copy on write).
 // Read through a const reference where it matters: a non-const operator[] or begin() counts as a
@@ -131,4 +131,4 @@ class SharedVector {
   Block *block_ = nullptr;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 struct Builder {
@@ -54,4 +54,4 @@ SheetTree sheet_tree(const std::vector<Vec3> &shape, const std::vector<Tri> &tri
   return {std::move(builder.nodes), std::move(builder.items)};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

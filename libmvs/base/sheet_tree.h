@@ -6,7 +6,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // In depth-first order: the left child follows its parent.
 struct SheetBranch {
@@ -25,4 +25,4 @@ struct SheetTree {
 SheetTree sheet_tree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles,
                      uint32_t block);
 
-}  // namespace mvs
+}  // namespace mvs::core

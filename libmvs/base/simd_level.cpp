@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 SimdLevel supported() {
@@ -29,4 +29,4 @@ SimdLevel simd_level() {
   return level;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

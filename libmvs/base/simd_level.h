@@ -2,11 +2,11 @@
 // environment variable MVS_SIMD says so (baseline, avx2, avx512), which the tests of equal bits do.
 #pragma once
 
-namespace mvs {
+namespace mvs::core {
 
 enum class SimdLevel { baseline, avx2, avx512 };
 
 // Decided at the first call.
 SimdLevel simd_level();
 
-}  // namespace mvs
+}  // namespace mvs::core

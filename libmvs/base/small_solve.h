@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace mvs {
+namespace mvs::core {
 
 // x with a x = b, for a positive semidefinite matrix; a direction without stiffness stays 0.
 template <int n>
@@ -27,4 +27,4 @@ Eigen::Matrix<double, n, 1> solve_positive(Eigen::Matrix<double, n, n> a,
   return b;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -1,7 +1,7 @@
 // Symbolic factorisation.
 #include "base/supernodes.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Explicit zeros that a merge may bring, as a share of the panel, by its width in blocks: narrow
@@ -154,4 +154,4 @@ void Supernodes::find_contributions() {
   if (!contribution_start.empty()) contribution_start[0] = 0;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "base/block_matrix.h"
 #include "base/panel.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Rows below a run of columns, block rows ascending; a panel has the columns' own rows before them.
 struct Supernode {
@@ -58,4 +58,4 @@ class Supernodes {
   std::vector<uint32_t> column_row_, mark_, child_, sibling_, owner_, added_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace mvs {
+namespace mvs::core {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
@@ -23,4 +23,4 @@ void make_room(std::vector<T> &items, size_t size) {
   if (size > items.capacity()) items.reserve(2 * size);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 enum class Pace { together, each_for_itself };
 
@@ -64,4 +64,4 @@ inline bool apart(const Way &a, const Way &b, double margin) {
   return false;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

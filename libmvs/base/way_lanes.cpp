@@ -6,7 +6,7 @@
 #include "base/lanes.h"
 #include "base/simd_level.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Lying: what is anywhere in memory. Copied by memcpy, wide vectors would go through the stack,
@@ -178,4 +178,4 @@ uint32_t find_near(const WayLanes &here, uint32_t of, const WayLanes &there, flo
   return kernels().lanes(here, of, there, margin, near);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

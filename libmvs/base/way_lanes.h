@@ -11,7 +11,7 @@
 
 #include "base/way.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Four numbers in a register where the compiler knows how, one elsewhere.
 #if defined(__GNUC__)
@@ -149,4 +149,4 @@ uint32_t find_near(const WayLanes &lanes, const NarrowWay &box, float margin);
 uint32_t find_near(const WayLanes &here, uint32_t of, const WayLanes &there, float margin,
                    NearLanes &near);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -11,7 +11,7 @@
 #include "base/intersect.h"
 #include "physics/nodes.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A quarter of the vertices have edges twice as long: an eighth of the work or less.
@@ -96,4 +96,4 @@ SolveStats settle_by_levels(Solver &solver, const Model &model, State &state,
   return stats;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -10,7 +10,7 @@
 
 #include "physics/solver.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Settles as Solver::settle does, over coarser meshes where that pays: with Newton's method, on at
 // least cascade_vertices of the sheet, if the valve is far from rest, without tools on it, and if
@@ -21,4 +21,4 @@ SolveStats settle_by_levels(Solver &solver, const Model &model, State &state,
 
 inline constexpr size_t cascade_vertices = 1200;
 
-}  // namespace mvs
+}  // namespace mvs::core

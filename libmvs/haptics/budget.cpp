@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double margin = 5e-3;         // m, of the wall inside the box...
@@ -33,4 +33,4 @@ Vec3 clamped(const Vec3 &force, double most, uint32_t bit, uint32_t &limited) {
   return most / size * force;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

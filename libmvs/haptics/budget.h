@@ -3,7 +3,7 @@
 
 #include "haptics/servo_types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Motors heat with the square of the force: a running mean of it stays below the square of the
 // continuous force. The limit falls from the peak, when cool, to the continuous force, when hot;
@@ -34,4 +34,4 @@ Vec3 workspace_wall(const DeviceTraits &traits, const Vec3 &hand);
 // The force, no longer than `most`; sets a bit of `limited` if it was.
 Vec3 clamped(const Vec3 &force, double most, uint32_t bit, uint32_t &limited);
 
-}  // namespace mvs
+}  // namespace mvs::core

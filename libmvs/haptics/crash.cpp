@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr std::array<int, 7> fatal = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT};
@@ -73,4 +73,4 @@ void watch_for_crashes(bool on) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

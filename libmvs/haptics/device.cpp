@@ -9,7 +9,7 @@
 #include "haptics/crash.h"
 #include "haptics/device_core.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr auto patience = std::chrono::seconds(2);         // with a thread that is to end
@@ -193,4 +193,4 @@ ServoPicture Device::picture() {
   return now;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

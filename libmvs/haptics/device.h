@@ -8,7 +8,7 @@
 #include "haptics/plug.h"
 #include "haptics/servo.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Device {
  public:
@@ -44,4 +44,4 @@ class Device {
   std::atomic<bool> started_{false};
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "haptics/device.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Device::Core : std::enable_shared_from_this<Device::Core> {
   // Runs the servo on the device's clock, or polls it, until `stopping`; on a thread of its own.
@@ -45,4 +45,4 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
 // Monotonic, ns.
 uint64_t clock_ns();
 
-}  // namespace mvs
+}  // namespace mvs::core

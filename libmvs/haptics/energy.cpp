@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 
 // What the loop took out of its own is not saved for later: a store could be spent all at once.
 void EnergyObserver::take_step(const Vec3 &step, const std::array<Vec3, 2> &told,
@@ -27,4 +27,4 @@ Vec3 EnergyObserver::damp(const Vec3 &velocity, double dt, double most) const {
   return -std::min(most, energy_ / (square * dt)) * velocity;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -14,7 +14,7 @@
 
 #include "haptics/tissue.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class EnergyObserver {
  public:
@@ -35,4 +35,4 @@ class EnergyObserver {
   double energy_ = 0;  // J, made and not yet taken out
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

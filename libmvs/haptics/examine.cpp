@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "haptics/plug.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Findings = std::vector<DriverFinding>;
@@ -75,4 +75,4 @@ Findings examine_all() {
   return all;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

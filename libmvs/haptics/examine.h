@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace mvs {
+namespace mvs::core {
 
 struct DriverFinding {
   int32_t verdict;  // as mvs_driver_finding has it
@@ -18,4 +18,4 @@ std::vector<DriverFinding> examine(const std::string &driver, const std::string 
 // device has one row, a note: nobody has every device.
 std::vector<DriverFinding> examine_all();
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr uint32_t quiet_ticks = 3;      // below the gate before a ramp begins
@@ -69,4 +69,4 @@ void Guard::fade(const Facts &facts, const mvs_device_limits &limits) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "haptics/servo_types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What the guard has to know of a tick.
 struct Facts {
@@ -51,4 +51,4 @@ class Guard {
   double ramp_ = 0, fade_ = 1;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include <memory>
 #include <type_traits>
 
-namespace mvs {
+namespace mvs::core {
 
 // The newest value: three places, of which the writer has one, the reader one, and the third
 // changes hands.
@@ -111,4 +111,4 @@ class Trace {
   uint64_t next_ = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using std::chrono::milliseconds;
@@ -217,4 +217,4 @@ void Plug::call(const char *what, mvs_driver_device *device, Work work) {
   fail(result_of_driver(answer.code), name_, "%s: %s", name_.c_str(), answer.sentence.c_str());
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -13,7 +13,7 @@
 
 #include "haptics/worker.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct DriverFile {
   std::string name, path;
@@ -62,4 +62,4 @@ class Plug : public std::enable_shared_from_this<Plug> {
 // What a driver's code means to who calls libmvs: MVS_E_VERSION, MVS_E_ARGUMENT or MVS_E_DEVICE.
 mvs_result result_of_driver(int32_t code);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 
 #include "haptics/device_core.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr int realtime_priority = 60;  // of SCHED_FIFO, below what kernels keep for themselves
@@ -132,4 +132,4 @@ void Device::Core::tick(const mvs_driver_state &state, mvs_driver_force &force) 
   servo->took(1e-9 * static_cast<double>(clock_ns() - begin));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double rate_filter = 0.1;  // s, over which the rate is told
@@ -165,4 +165,4 @@ void Servo::keep_sample(const mvs_driver_state &sample) {
   links_->trace.push(row);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

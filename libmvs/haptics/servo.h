@@ -12,7 +12,7 @@
 #include "haptics/mailbox.h"
 #include "haptics/watch.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What other threads share with the servo.
 struct ServoLinks {
@@ -66,4 +66,4 @@ class Servo {
   double servo_s_ = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

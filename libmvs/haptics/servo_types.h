@@ -7,7 +7,7 @@
 
 #include "haptics/tissue.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A device as its driver describes it, checked and completed; m, N, s, in the frame of the device.
 struct DeviceTraits {
@@ -49,4 +49,4 @@ struct ServoPicture {
   uint64_t ticks = 0, late = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -1,7 +1,7 @@
 // The local model, evaluated.
 #include "haptics/tissue.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 Vec3 shortened(const Vec3 &force, double most) {
@@ -36,4 +36,4 @@ double work_to(const Tissue &t, const Vec3 &hand) {
   return 0.5 * (force_at(t, t.origin) + force_at(t, hand)).dot(hand - t.origin);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

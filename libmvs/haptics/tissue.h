@@ -8,7 +8,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Tissue {
   enum Kind : uint32_t {
@@ -34,4 +34,4 @@ Vec3 force_at(const Tissue &tissue, const Vec3 &hand);
 // where the force is linear.
 double work_to(const Tissue &tissue, const Vec3 &hand);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "model/chord_law.h"
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double same_place = 0.5e-3;   // m, within which a stiffness stays
@@ -69,4 +69,4 @@ Tissue TissueMaker::of_chord(const Model &model, const State &state, const Chord
   return tissue;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

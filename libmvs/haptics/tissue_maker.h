@@ -4,7 +4,7 @@
 #include "haptics/tissue.h"
 #include "physics/tool_feel.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Follows one tool. Force and place are new each time; the stiffness, which costs a factorisation
 // and changes slowly, is worked out again when the tool has moved or enough time has gone.
@@ -33,4 +33,4 @@ class TissueMaker {
   uint32_t age_ = 0;        // calls left until it is worked out again
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "haptics/servo_types.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The weakest device of the table in haptic_drivers/hand/README.md (3D Systems Touch).
@@ -121,4 +121,4 @@ mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_devic
   return out;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double patience = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, without a new sample
@@ -110,4 +110,4 @@ bool Buttons::take(uint32_t raw, double dt) {
   return down() != before;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "haptics/servo_types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Watch {
  public:
@@ -56,4 +56,4 @@ class Buttons {
   std::array<double, 32> since_ = {};  // s that each button has differed from what it is held to be
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

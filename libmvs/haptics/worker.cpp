@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-namespace mvs {
+namespace mvs::core {
 
 struct Worker::Shared {
   std::mutex mutex;
@@ -51,4 +51,4 @@ bool Worker::run(std::function<void()> work, std::chrono::milliseconds patience)
   return !stuck_;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace mvs {
+namespace mvs::core {
 
 // Runs one piece of work after the other, all on one thread: vendors' libraries keep things for
 // each thread. Work that does not come back in time leaves the worker stuck for ever; its thread
@@ -28,4 +28,4 @@ class Worker {
   bool stuck_ = false;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -10,7 +10,7 @@
 #include "measure/landmarks.h"
 #include "measure/span.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 double projected_area(const Loop &loop, const Frame &frame) {
@@ -53,4 +53,4 @@ AnnulusMeasures measure_annulus(const Model &model, const std::vector<Vec3> &x) 
   return measures;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct AnnulusMeasures {
   double ap = 0, cc = 0, perimeter = 0, area_3d = 0, area = 0, saddle_height = 0,
@@ -13,4 +13,4 @@ struct AnnulusMeasures {
 };
 AnnulusMeasures measure_annulus(const Model &model, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

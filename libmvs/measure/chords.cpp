@@ -8,7 +8,7 @@
 
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The sum of the pulls on a node, each along its chord towards the other end.
@@ -65,4 +65,4 @@ ChordMeasures measure_chords(const Model &model, const std::vector<Vec3> &x) {
   return measures;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The working range of chordae of a kind; README.md has the sources.
 struct ChordLimits {
@@ -22,4 +22,4 @@ struct ChordMeasures {
 };
 ChordMeasures measure_chords(const Model &model, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

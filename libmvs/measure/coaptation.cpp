@@ -12,7 +12,7 @@
 #include "measure/opposite.h"
 #include "measure/surface.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double samples_per_reach = 2;
@@ -196,4 +196,4 @@ Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x) {
   return coaptation;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A place on the coaptation line and how long the leaflets lie together there.
 struct CoaptationStation {
@@ -21,4 +21,4 @@ struct Coaptation {
 };
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 
 #include "base/math.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double trimmed = 0.005;  // of the area, at either end
@@ -165,4 +165,4 @@ CoaptationLine find_coaptation_line(const std::vector<CoaptedPiece> &pieces, con
   return area_along(ordered, fit_curve(ordered), spacing);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "measure/coaptation.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A piece of the coaptation zone, midway between the leaflets.
 struct CoaptedPiece {
@@ -26,4 +26,4 @@ struct CoaptationLine {
 CoaptationLine find_coaptation_line(const std::vector<CoaptedPiece> &pieces, const Vec3 &pole,
                                     const Vec3 &axis, double spacing);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "measure/register.h"
 #include "measure/surface_distance.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -90,4 +90,4 @@ Comparison compare_shapes(const Model &a, const std::vector<Vec3> &xa, const Mod
   return comparison;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

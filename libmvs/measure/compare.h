@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Comparison {
   bool same_mesh = false;
@@ -17,4 +17,4 @@ struct Comparison {
 Comparison compare_shapes(const Model &a, const std::vector<Vec3> &xa, const Model &b,
                           const std::vector<Vec3> &xb);
 
-}  // namespace mvs
+}  // namespace mvs::core

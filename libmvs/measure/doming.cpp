@@ -9,7 +9,7 @@
 #include "measure/relief.h"
 #include "measure/span.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr int cells_across = 256;  // about 0.13 mm each
@@ -183,4 +183,4 @@ Doming measure_doming(const Model &model, const std::vector<Vec3> &x) {
   return doming;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Doming {
   double tenting_height = 0, tenting_area = 0, tenting_volume = 0, billow_height = 0,
@@ -13,4 +13,4 @@ struct Doming {
 };
 Doming measure_doming(const Model &model, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

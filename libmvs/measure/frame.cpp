@@ -6,7 +6,7 @@
 
 #include "measure/landmarks.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 Vec3 centroid(const Loop &loop) {
@@ -68,4 +68,4 @@ Frame valve_frame(const Model &model, const std::vector<Vec3> &x) {
   return frame;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The valve's frame: rows of `axes` are AP (towards the anterior leaflet), CC, and the axis into
 // the atrium; right-handed. It turns with the valve.
@@ -17,4 +17,4 @@ struct Frame {
 };
 Frame valve_frame(const Model &model, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

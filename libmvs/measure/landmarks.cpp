@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 
 namespace {
 
@@ -92,4 +92,4 @@ Landmarks find_landmarks(const Model &model, const Loop &annulus) {
           {annulus.at(arc.from), annulus.at(arc.to)}};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

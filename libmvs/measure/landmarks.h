@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A closed polygon by arc length.
 class Loop {
@@ -55,4 +55,4 @@ struct Landmarks {
 };
 Landmarks find_landmarks(const Model &model, const Loop &annulus);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double facing = -0.5;           // cosine between the normals
@@ -87,4 +87,4 @@ Partner Opposite::find(const Vec3 &p, const Vec3 &normal, const Tri &own) const 
   return partner;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

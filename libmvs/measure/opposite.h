@@ -8,7 +8,7 @@
 #include "measure/tree.h"
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Partner {
   uint32_t triangle = none;
@@ -41,4 +41,4 @@ class Opposite {
   double reach_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "measure/orifice_space.h"
 #include "measure/orifice_surface.h"
 
-namespace mvs {
+namespace mvs::core {
 
 Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x) {
   const Frame frame = valve_frame(model, x);
@@ -29,4 +29,4 @@ Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x) {
   return result;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The smallest cross-section joining ventricle and atrium: its area, and it as triangles.
 struct Orifice {
@@ -15,4 +15,4 @@ struct Orifice {
 };
 Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 namespace {
 
 struct Edges {
@@ -157,4 +157,4 @@ void bisect(Mesh &mesh, const std::function<bool(const BisectEdge &)> &is_too_lo
   }
 }
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

@@ -6,7 +6,7 @@
 
 #include "base/types.h"
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 
 struct Mesh {
   std::vector<Vec3> x;
@@ -27,4 +27,4 @@ struct BisectEdge {
 // Old nodes keep their numbers and places.
 void bisect(Mesh &mesh, const std::function<bool(const BisectEdge &)> &is_too_long);
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

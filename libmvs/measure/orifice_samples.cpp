@@ -8,7 +8,7 @@
 #include "measure/tree.h"
 #include "model/sides.h"
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 namespace {
 
 // Spacings over the contact thickness: three quarters keep a ball of that diameter from slipping
@@ -153,4 +153,4 @@ Samples sample(const Sheet &sheet) {
   return samples;
 }
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

@@ -7,7 +7,7 @@
 #include "measure/orifice_bisect.h"
 #include "model/model.h"
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 
 // The sheet in the valve's frame, z towards the atrium; only the nodes of its triangles.
 struct Sheet {
@@ -34,4 +34,4 @@ struct Samples {
 // twice the radius, in rings of growing spacing.
 Samples sample(const Sheet &sheet);
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

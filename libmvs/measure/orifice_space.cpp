@@ -10,7 +10,7 @@
 #include "base/max_flow.h"
 #include "measure/tree.h"
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 namespace {
 
 // No point of a triangle with edges up to 1 is farther from its corners than 1 / sqrt(3) = 0.58;
@@ -193,4 +193,4 @@ std::vector<Tri> smallest_cut(const Sheet &sheet, const Samples &samples) {
   return space.leaks() ? space.cut() : std::vector<Tri>{};
 }
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

@@ -5,9 +5,9 @@
 
 #include "measure/orifice_samples.h"
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 
 // Triangles that close the valve at the least area; nodes are those of `samples`. None if sealed.
 std::vector<Tri> smallest_cut(const Sheet &sheet, const Samples &samples);
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

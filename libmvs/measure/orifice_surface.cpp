@@ -10,7 +10,7 @@
 #include "measure/tree.h"
 #include "model/sides.h"
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 namespace {
 
 // Edges inside the surface are cut to this part of the square root of its area, at which a chord of
@@ -72,7 +72,7 @@ Shrinking::Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples)
       rim_edges_(as_triangles(sheet.rim)),
       rim_tree_(rim_edges_, sheet.mesh.x),
       tree_(sheet.mesh.triangles, sheet.mesh.x),
-      normal_(mvs::surface_of(sheet.mesh.triangles, sheet.mesh.x).node_normal),
+      normal_(mvs::core::surface_of(sheet.mesh.triangles, sheet.mesh.x).node_normal),
       mesh_(std::move(mesh)) {
   hold_rim(on_samples);
   list_triangles();
@@ -214,4 +214,4 @@ Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vec
   return Shrinking(sheet, std::move(mesh), on_samples).run();
 }
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

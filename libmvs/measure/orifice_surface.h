@@ -5,10 +5,10 @@
 
 #include "measure/orifice_samples.h"
 
-namespace mvs::orifice {
+namespace mvs::core::orifice {
 
 // Lets the cut shrink: its rim slides along the sheet (where it crosses a closed passage it stays),
 // the rest is free.
 Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut);
 
-}  // namespace mvs::orifice
+}  // namespace mvs::core::orifice

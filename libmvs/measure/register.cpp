@@ -7,7 +7,7 @@
 #include "base/math.h"
 #include "base/small_solve.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr size_t most_samples = 4000;  // of either surface
@@ -129,4 +129,4 @@ Rigid register_surfaces(const SampledSurface &a, const SampledSurface &b, const 
   return best;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "measure/frame.h"
 #include "measure/surface_distance.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // p -> turn p + shift
 struct Rigid {
@@ -28,4 +28,4 @@ Rigid register_points(const std::vector<Vec3> &a, const std::vector<Vec3> &b);
 // a few thousand samples of either.
 Rigid register_surfaces(const SampledSurface &a, const SampledSurface &b, const Rigid &start);
 
-}  // namespace mvs
+}  // namespace mvs::core

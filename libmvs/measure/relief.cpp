@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double edge_slack = 1e-9;  // a point on an edge belongs to both its triangles
@@ -78,4 +78,4 @@ Relief::Top Relief::top(double u, double v) const {
   return top;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "measure/frame.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Relief {
  public:
@@ -29,4 +29,4 @@ class Relief {
   Rows rows_;         // triangles by cell
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

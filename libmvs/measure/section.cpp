@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace mvs {
+namespace mvs::core {
 
 std::vector<Vec3> cut(const Model &model, const std::vector<Vec3> &x, const Vec3 &point,
                       const Vec3 &normal) {
@@ -26,4 +26,4 @@ std::vector<Vec3> cut(const Model &model, const std::vector<Vec3> &x, const Vec3
   return pairs;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr size_t rings = 24;  // the area of a saddle is then right to 1e-4
@@ -120,4 +120,4 @@ double Span::area() const {
   return sum;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

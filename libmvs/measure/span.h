@@ -5,7 +5,7 @@
 
 #include "measure/frame.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Heights above the annulus plane that solve Laplace's equation over the projection of the annulus
 // and equal it on the rim, by linear finite elements on rings that shrink towards the centre. The
@@ -30,4 +30,4 @@ class Span {
   std::vector<double> height_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -10,7 +10,7 @@
 #include "base/math.h"
 #include "model/membrane.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -93,4 +93,4 @@ Strain measure_strain(const Model &model, const std::vector<Vec3> &x) {
   return strain;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Principal stretches and Cauchy stresses per triangle, larger first.
 struct Strain {
@@ -14,4 +14,4 @@ struct Strain {
 };
 Strain measure_strain(const Model &model, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

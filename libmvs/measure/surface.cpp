@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 void normalise(Vec3 &v) {
@@ -29,4 +29,4 @@ Surface surface_of(const std::vector<Tri> &triangles, const std::vector<Vec3> &x
   return surface;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Surface {
   std::vector<double> area;       // m2 per triangle
@@ -14,4 +14,4 @@ struct Surface {
 };
 Surface surface_of(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
 
-}  // namespace mvs
+}  // namespace mvs::core

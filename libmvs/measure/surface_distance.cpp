@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 
 SampledSurface::SampledSurface(const std::vector<Tri> &triangles, const std::vector<Vec3> &x)
     : triangles_(triangles), x_(x), tree_(triangles, x) {
@@ -36,4 +36,4 @@ SurfaceDistance operator+(const SurfaceDistance &l, const SurfaceDistance &r) {
   return {l.squares + r.squares, l.area + r.area, std::max(l.max, r.max)};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

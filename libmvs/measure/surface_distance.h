@@ -5,7 +5,7 @@
 
 #include "measure/tree.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A surface with samples: corners and centroids of its triangles with weights in m2 that integrate
 // quadratic functions exactly, such as the squared distance to a plane.
@@ -39,4 +39,4 @@ struct SurfaceDistance {
 };
 SurfaceDistance operator+(const SurfaceDistance &l, const SurfaceDistance &r);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr uint32_t leaf_size = 4;
@@ -64,4 +64,4 @@ TriangleTree::Hit TriangleTree::closest(const Vec3 &p) const {
   return hit;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

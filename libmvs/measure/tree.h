@@ -7,7 +7,7 @@
 #include "base/distance.h"
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class TriangleTree {
  public:
@@ -70,4 +70,4 @@ void TriangleTree::visit_near(const Vec3 &p, const double &limit2, Visit visit) 
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "model/checks.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 Sheet make_sheet(const Valve &valve) {
@@ -45,4 +45,4 @@ std::vector<Fault> find_faults(const Valve &valve) {
   return faults.list;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Fault {
   std::string part;      // "triangle 17"
@@ -19,4 +19,4 @@ std::vector<Fault> find_faults(const Valve &valve);
 // Turns triangles so that neighbours agree and normals point into the atrium.
 void orient(Valve &valve);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "model/checks.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // How many triangles lie at the edge between two nodes.
@@ -59,4 +59,4 @@ void check_annulus(const Valve &valve, const Sheet &sheet, Faults &faults) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "model/checks.h"
 #include "model/rows.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 enum Role : uint8_t { role_branch, role_sheet, role_head };
@@ -138,4 +138,4 @@ void check_chords(const Valve &valve, const Sheet &sheet, Faults &faults) {
   check_nodes(role, chords_at, faults);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/checks.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Above any valve that can be computed, and far below where an index overflows.
@@ -114,4 +114,4 @@ void check_lists(const Valve &valve, Faults &faults) {
   check_other_indices(valve, faults);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "model/chord_law.h"
 #include "model/text.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // What a name has room for in mvs_part, less the end.
@@ -220,4 +220,4 @@ void check_parts(const Valve &valve, Faults &faults) {
   for (const ChordCurve &curve : valve.curves) check_curve(curve, faults);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 
 #include "model/checks.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // An adult mitral valve spans about 40 mm; a mouse's about 2 mm, a whale's below 300 mm.
@@ -118,4 +118,4 @@ void check_places(const Valve &valve, Faults &faults) {
   check_rings(valve, extent, faults);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

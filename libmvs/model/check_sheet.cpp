@@ -7,7 +7,7 @@
 #include "model/facing.h"
 #include "model/rows.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 std::string triangle_part(size_t t) {
@@ -219,4 +219,4 @@ void check_sheet(const Valve &valve, const Sheet &sheet, Faults &faults) {
   if (faults.list.size() == unwound) check_facing(valve, sheet, faults);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

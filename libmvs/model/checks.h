@@ -7,7 +7,7 @@
 #include "model/check.h"
 #include "model/winding.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The faults found so far; says one with a printf-style sentence.
 struct Faults {
@@ -42,4 +42,4 @@ void check_annulus(const Valve &valve, const Sheet &sheet, Faults &faults);
 // Chordae lead from papillary heads to the sheet; every node belongs to something.
 void check_chords(const Valve &valve, const Sheet &sheet, Faults &faults);
 
-}  // namespace mvs
+}  // namespace mvs::core

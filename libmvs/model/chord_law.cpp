@@ -9,7 +9,7 @@
 
 #include "base/math.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 Axial linear(double young, double e) {
@@ -115,4 +115,4 @@ Axial chord_response(const Valve &valve, const Chord &chord, double strain) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // At one strain: energy per rest volume in J/m3, nominal stress in Pa, and its slope.
 struct Axial {
@@ -29,4 +29,4 @@ inline double chord_tension(const Valve &valve, const Chord &chord, double strai
   return chord.area * chord_response(valve, chord, strain).stress;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

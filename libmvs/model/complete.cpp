@@ -9,7 +9,7 @@
 
 #include "model/rows.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Only where prescribed nodes are means something.
@@ -208,4 +208,4 @@ void complete(Valve &valve) {
   complete_fibres(valve);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,10 +3,10 @@
 
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Completes a valve without faults. What is given already stays bit for bit, so that completing
 // twice, or saving and loading in between, changes nothing.
 void complete(Valve &valve);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/check.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A sheet that hangs less than this share of the annulus' size from its plane does not tell where
@@ -93,4 +93,4 @@ void orient(Valve &valve) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

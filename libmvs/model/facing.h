@@ -4,7 +4,7 @@
 #include "model/valve.h"
 #include "model/winding.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Where the atrium is: the normal of the annulus loop that points away from the ventricle, unit,
 // with the centre of the loop. The ventricle is where the papillary heads are; without heads it is
@@ -22,4 +22,4 @@ AtrialSide atrial_side(const Valve &valve);
 std::vector<Vec3> faced_areas(const Valve &valve, const std::vector<Side> &sides,
                               const Winding &winding);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Throws MVS_E_DIVERGED where a position is not a number.
 inline void must_be_finite(const State &state) {
@@ -18,4 +18,4 @@ inline void must_be_finite(const State &state) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 void add(Hash &hash, const Vec3 &v) {
@@ -132,4 +132,4 @@ std::array<uint64_t, 2> hash_of(const Model &model, const State &state) {
   return hash.value();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

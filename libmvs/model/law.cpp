@@ -9,7 +9,7 @@
 
 #include "base/math.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // scale exp(q) up to 100 kPa, where the stress along a stretch is 6 to 11 MPa with the constants
@@ -146,4 +146,4 @@ double bending_modulus(const LeafletLaw &law, const Constants &constants) {
   return (2 * r.w1 * (l - 1 / (l * l)) + 2 * r.w4 * l) / strain;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

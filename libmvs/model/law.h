@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 using Constants = std::array<double, 8>;
 
@@ -63,4 +63,4 @@ struct Bilinear {
 // The constants of the bilinear membrane whose uniaxial curve is that of the springs.
 Constants membrane_like(const Bilinear &springs);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -11,7 +11,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 using Mat2 = Eigen::Matrix2d;
 
@@ -69,4 +69,4 @@ inline Mat2 rest_inverse(const Valve &valve, size_t t) {
   return sides.inverse();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "model/check.h"
 #include "model/complete.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 double triangle_area(const Valve &valve, const Tri &triangle) {
@@ -69,4 +69,4 @@ State initial_state(const Model &model) {
   return state;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

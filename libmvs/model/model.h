@@ -8,7 +8,7 @@
 #include "model/topology.h"
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // An immutable valve with what follows from it. Made by make_model, shared by every snapshot.
 struct Model {
@@ -73,4 +73,4 @@ State initial_state(const Model &model);
 // 128 bits over the meaning of both: names, numbers, order; never addresses or padding.
 std::array<uint64_t, 2> hash_of(const Model &model, const State &state);
 
-}  // namespace mvs
+}  // namespace mvs::core

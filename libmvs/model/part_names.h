@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace mvs {
+namespace mvs::core {
 
 // "; there are A, P", or the first dozen of more.
 template <typename Parts>
@@ -16,4 +16,4 @@ std::string names_there(const Parts &parts) {
   return list + (parts.size() > most ? ", ..." : "");
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "base/shared_vector.h"
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Row r holds items[start[r] .. start[r + 1]).
 struct Rows {
@@ -34,4 +34,4 @@ Rows rows_of(size_t node_count, const std::vector<Group> &groups) {
   return {std::move(start), std::move(items)};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -1,7 +1,7 @@
 // Arrays of two models that hold the same become one: what undo levels cost is what differs.
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 void share(Rows &rows, const Rows &other) {
@@ -60,4 +60,4 @@ void share(State &state, const State &other) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 
 std::vector<Side> sorted_sides(const std::vector<Tri> &triangles) {
   std::vector<Side> sides;
@@ -20,4 +20,4 @@ std::vector<Side> sorted_sides(const std::vector<Tri> &triangles) {
   return sides;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

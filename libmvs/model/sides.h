@@ -5,7 +5,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Side k of a triangle runs from its corner k to its corner k + 1.
 struct Side {
@@ -34,4 +34,4 @@ void for_each_edge(const std::vector<Side> &sides, Visit visit) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 // That no control character is in it.
 inline bool is_plain_text(std::string_view text) {
@@ -12,4 +12,4 @@ inline bool is_plain_text(std::string_view text) {
                       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

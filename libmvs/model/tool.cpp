@@ -12,7 +12,7 @@
 #include "base/intersect.h"
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A tool closer to tissue than this share of its range would start with a blow.
@@ -143,4 +143,4 @@ void drop_lost_tools(const Model &model, State &state) {
   });
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

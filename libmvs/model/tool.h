@@ -5,7 +5,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Model;
 struct State;
@@ -63,4 +63,4 @@ void remove_tool(State &state, Id id);
 void renumber_grasps(State &state, const std::vector<uint32_t> &number);
 void drop_lost_tools(const Model &model, State &state);
 
-}  // namespace mvs
+}  // namespace mvs::core

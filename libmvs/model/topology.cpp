@@ -5,7 +5,7 @@
 
 #include "model/sides.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 void add_edges(const std::vector<Side> &sides, Topology &topology) {
@@ -94,4 +94,4 @@ Topology make_topology(const Valve &valve) {
   return topology;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include "model/rows.h"
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Topology {
   SharedVector<Edge> edges;           // smaller node first, sorted
@@ -23,4 +23,4 @@ struct Topology {
 
 Topology make_topology(const Valve &valve);
 
-}  // namespace mvs
+}  // namespace mvs::core

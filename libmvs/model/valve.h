@@ -7,7 +7,7 @@
 #include "base/types.h"
 #include "model/law.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Leaflet {
   Id id = 0;
@@ -100,4 +100,4 @@ struct Valve {
   Id next_id = 1;                   // every id given so far is below it
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -1,7 +1,7 @@
 // Spreading the winding of one triangle over its part of the sheet.
 #include "model/winding.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 struct Neighbour {
@@ -56,4 +56,4 @@ Winding find_winding(const std::vector<Tri> &triangles, const std::vector<Side> 
   return winding;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

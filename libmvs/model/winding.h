@@ -3,7 +3,7 @@
 
 #include "model/sides.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Winding {
   uint32_t component_count = 0;
@@ -15,4 +15,4 @@ struct Winding {
 // Triangles are connected over edges that join exactly two of them.
 Winding find_winding(const std::vector<Tri> &triangles, const std::vector<Side> &sides);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 
 #include "base/arc_tangent.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The parts of a hinge that its derivatives share. N1 = e x (x2 - x0), N2 = (x3 - x0) x e.
@@ -238,4 +238,4 @@ void BendingTerm::add_pairs(std::vector<Edge> &pairs) const {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -12,7 +12,7 @@
 #include "physics/blocks.h"
 #include "physics/system.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class BendingTerm {
  public:
@@ -41,4 +41,4 @@ class BendingTerm {
 // The angle between the two triangles of a hinge, 0 when flat, in (-pi, pi].
 double hinge_angle(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // How a term gives its Hessian: as it is, or with what makes it indefinite left out.
 enum class Curvature { exact, projected };
@@ -26,4 +26,4 @@ inline Mat3 cross_matrix(const Vec3 &v) {
   return m;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "physics/contact.h"
 #include "physics/pair_distance.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Of the nodes: where fewer go elsewhere, only what they could meet is looked for again.
@@ -378,4 +378,4 @@ void Candidates::take_edge_pair(uint32_t i, uint32_t j, double distance) {
   guarded_edges_.push_back({i, j, guard});
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -21,7 +21,7 @@
 #include "physics/sheet_lanes.h"
 #include "physics/sheet_parts.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct VertexTriangle {
   uint32_t vertex, triangle;
@@ -133,4 +133,4 @@ class Candidates {
   std::optional<NearPairs> near_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

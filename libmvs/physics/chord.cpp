@@ -3,7 +3,7 @@
 
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 
 ChordTerm::ChordTerm(const Model &model) : valve_(&model.valve) {}
 
@@ -51,4 +51,4 @@ void ChordTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Chord &c : valve_->chords) pairs.push_back({c.a, c.b});
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

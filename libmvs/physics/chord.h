@@ -7,7 +7,7 @@
 #include "physics/blocks.h"
 #include "physics/system.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class ChordTerm {
  public:
@@ -23,4 +23,4 @@ class ChordTerm {
   const Valve *valve_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -1,7 +1,7 @@
 // What touches, and the forces of it.
 #include "physics/contact.h"
 
-namespace mvs {
+namespace mvs::core {
 
 ContactTerm::ContactTerm(const Model &model, ContactLaw law)
     : model_(&model),
@@ -157,7 +157,7 @@ bool ContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syste
 }
 
 void ContactTerm::add_pairs(std::vector<Edge> &pairs) const {
-  mvs::add_pairs(stencils_, pairs);
+  mvs::core::add_pairs(stencils_, pairs);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -24,7 +24,7 @@
 #include "physics/candidates.h"
 #include "physics/stencil.h"
 
-namespace mvs {
+namespace mvs::core {
 
 inline constexpr double facing_rest_distance = 1.5;  // times the contact thickness
 inline constexpr double guard_share = 0.2;           // of the contact thickness
@@ -82,4 +82,4 @@ class ContactTerm {
   std::vector<ContactStencil> stencils_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

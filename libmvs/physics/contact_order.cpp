@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace mvs {
+namespace mvs::core {
 
 ContactOrder::ContactOrder(const Model &model, const std::vector<Edge> &pairs) {
   make_patches(model);
@@ -103,4 +103,4 @@ void ContactOrder::find_order() {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -11,7 +11,7 @@
 
 #include "physics/contact.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class ContactOrder {
  public:
@@ -47,4 +47,4 @@ class ContactOrder {
   std::vector<uint32_t> nodes_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

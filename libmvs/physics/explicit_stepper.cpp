@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "physics/nodes.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double farthest_step = 1;  // m; beyond it a step has blown up
@@ -42,4 +42,4 @@ void ExplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
   stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

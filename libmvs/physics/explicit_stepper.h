@@ -7,7 +7,7 @@
 #include "physics/solver.h"
 #include "physics/stepper.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class ExplicitStepper {
  public:
@@ -23,4 +23,4 @@ class ExplicitStepper {
   std::vector<Vec3> g_, boundary_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Forces {
   std::vector<Vec3> total;    // N: out of balance on free nodes, reaction on prescribed ones
@@ -15,4 +15,4 @@ struct Forces {
 
 Forces evaluate_forces(const Model &model, const State &state);
 
-}  // namespace mvs
+}  // namespace mvs::core

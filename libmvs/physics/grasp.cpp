@@ -5,7 +5,7 @@
 
 #include "physics/blocks.h"
 
-namespace mvs {
+namespace mvs::core {
 
 Hold hold_of(const Tool &tool, uint32_t k, uint32_t node) {
   const double share = tool.kind == MVS_TOOL_ROD ? 0.5 : 1;
@@ -52,4 +52,4 @@ void GraspTerm::hessian(const std::vector<Vec3> &x, System &system) const {
   for (const Hold &h : holds_) system.add_diagonal(h.node, hold_block(h, x[h.node]));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -10,7 +10,7 @@
 #include "model/tool.h"
 #include "physics/system.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Hold {
   uint32_t node;
@@ -41,4 +41,4 @@ class GraspTerm {
   std::vector<Hold> holds_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "physics/nodes.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Of the force of the pressure on a mean node: more, and the boundary waits. Of nine moving annuli
@@ -318,4 +318,4 @@ void ImplicitStepper::report(SolveStats &stats) const {
   stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

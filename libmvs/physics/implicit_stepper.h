@@ -20,7 +20,7 @@
 #include "physics/step_solver.h"
 #include "physics/stepper.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Out-of-balance force up to which a valve under a pressure counts as at rest, N: the default
 // residual of mvs_settle at systole, and as much less as the pressure is.
@@ -78,4 +78,4 @@ class ImplicitStepper {
   uint32_t left_ = 0;     // of the budget
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

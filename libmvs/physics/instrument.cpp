@@ -7,7 +7,7 @@
 #include "base/box_tree.h"
 #include "physics/contact.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A rod gives in length by a quarter of a millimetre where its ends are pushed together with 5 N.
@@ -179,7 +179,7 @@ bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
 }
 
 void InstrumentTerm::add_pairs(std::vector<Edge> &pairs) const {
-  mvs::add_pairs(stencils_, pairs);
+  mvs::core::add_pairs(stencils_, pairs);
   for (const Body &body : bodies_) {
     if (body.is_rod()) pairs.push_back(body.point);
   }
@@ -217,4 +217,4 @@ void InstrumentTerm::shorten(std::vector<Vec3> &step, double longest) const {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

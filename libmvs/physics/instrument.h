@@ -16,7 +16,7 @@
 #include "model/model.h"
 #include "physics/stencil.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // What must stay more than `radius` apart: nodes before `split`, and the others; `apart` joins the
 // closest points, towards the first. Nodes of one body give way together, by the share of the node
@@ -80,4 +80,4 @@ class InstrumentTerm {
   std::vector<uint8_t> beyond_;  // of each node, while one looks around
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

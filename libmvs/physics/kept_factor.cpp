@@ -2,7 +2,7 @@
 
 #include "physics/nodes.h"
 
-namespace mvs {
+namespace mvs::core {
 KeptFactor::KeptFactor(const Model &model, std::unique_ptr<Factor> factor)
     : model_(&model), factor_(std::move(factor)) {}
 
@@ -102,4 +102,4 @@ void KeptFactor::solve(const std::vector<Vec3> &r, std::vector<Vec3> &z) {
   for (size_t k = 0; k < r.size(); ++k) z[k] = turned_[row_[k]];
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "base/factor.h"
 #include "physics/step_matrix.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class KeptFactor {
  public:
@@ -53,4 +53,4 @@ class KeptFactor {
   std::vector<Vec3> turned_;  // a vector in the order here
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

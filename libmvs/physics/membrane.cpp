@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 
 // A triangle where it is now.
 struct MembraneTerm::Deformed {
@@ -163,4 +163,4 @@ void MembraneTerm::add_pairs(std::vector<Edge> &pairs) const {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

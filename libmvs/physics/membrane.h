@@ -18,7 +18,7 @@
 #include "physics/blocks.h"
 #include "physics/system.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class MembraneTerm {
  public:
@@ -50,4 +50,4 @@ class MembraneTerm {
   std::vector<Tissue> tissues_;  // by leaflet
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

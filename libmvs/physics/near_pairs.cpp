@@ -7,7 +7,7 @@
 #include "physics/contact.h"
 #include "physics/pair_distance.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Of the contact thickness: the skin between two blocks that do not move against each other. More,
@@ -314,4 +314,4 @@ void NearPairs::take_edge_pair(const NearBlocks &p, uint32_t i, uint32_t j, doub
   if (distance <= guard + p.skin) edges_.push_back({i, j, guard, distance - guard});
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -23,7 +23,7 @@
 #include "physics/sheet_lanes.h"
 #include "physics/sheet_parts.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // `over`: m, how much farther apart it was than the longest distance at which it acts.
 struct NearTriangle {
@@ -122,4 +122,4 @@ class NearPairs {
   PairRows rows_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

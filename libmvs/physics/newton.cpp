@@ -10,7 +10,7 @@
 #include "physics/nodes.h"
 #include "physics/region.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double longest_step = 1e-3;     // m a node may go in one iteration
@@ -264,4 +264,4 @@ double Newton::free_norm() const {
   return std::sqrt(sum);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -15,7 +15,7 @@
 #include "physics/potential.h"
 #include "physics/solver.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Of the stiffness of the load: keeps slack branch points and loose flaps solvable.
 inline constexpr double least_shift = 1e-4;
@@ -93,4 +93,4 @@ class Newton {
   int wait_ = 0, patience_ = 1;  // iterations until rest_step is tried again
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

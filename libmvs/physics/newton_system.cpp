@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/gmres.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Contact comes where the pattern has no room in most iterations; an order of elimination is good
@@ -86,4 +86,4 @@ void Newton::include_skew(bool with_shift) {
   gmres(apply, rows_, 30, 1e-3);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

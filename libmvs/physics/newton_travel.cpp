@@ -6,7 +6,7 @@
 
 #include "base/gmres.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double many_far = 0.03;  // share of the nodes: more, and the shift grows
@@ -144,4 +144,4 @@ double Newton::curvature_along() const {
   return sum;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // m2, of the sheet for each node.
 inline double mean_area(const Model &model) {
@@ -46,4 +46,4 @@ inline bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

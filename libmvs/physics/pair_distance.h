@@ -10,7 +10,7 @@
 #include "base/distance_lanes.h"
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 inline bool has(const Tri &t, uint32_t node) {
   return t[0] == node || t[1] == node || t[2] == node;
@@ -53,4 +53,4 @@ void for_rows(const std::vector<Edge> &pairs, Work &&work) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

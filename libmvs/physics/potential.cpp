@@ -1,7 +1,7 @@
 // The sum of the terms.
 #include "physics/potential.h"
 
-namespace mvs {
+namespace mvs::core {
 
 Potential::Potential(const Model &model, ContactLaw law)
     : model_(&model),
@@ -142,4 +142,4 @@ bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System 
   return true;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

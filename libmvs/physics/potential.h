@@ -15,7 +15,7 @@
 #include "physics/spring.h"
 #include "physics/step_bounds.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Potential {
  public:
@@ -100,4 +100,4 @@ class Potential {
   std::vector<Edge> wanted_;  // what touches, while a pattern is made
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The corner of a triangle that is neither i nor j.
@@ -96,4 +96,4 @@ void PressureTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Slope &s : slopes_) pairs.push_back({s.i, s.j});
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

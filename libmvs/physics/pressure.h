@@ -13,7 +13,7 @@
 #include "physics/blocks.h"
 #include "physics/system.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class PressureTerm {
  public:
@@ -49,4 +49,4 @@ class PressureTerm {
   double pressure_ = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 #include <array>
 #include <chrono>
 
-namespace mvs {
+namespace mvs::core {
 
 // Seconds by MVS_PHASE_*, and how often things were done. Only ever reported, never part of a
 // result.
@@ -42,4 +42,4 @@ class PhaseTimer {
   double start_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 struct Box {
@@ -167,4 +167,4 @@ Region cut_out(const Model &whole, const std::vector<Vec3> &x, const std::vector
   return region;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -10,7 +10,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Region {
   Model model;                 // what the potential needs of it; no names, masses or fibres
@@ -27,4 +27,4 @@ struct Extent {
 Region cut_out(const Model &whole, const std::vector<Vec3> &x, const std::vector<uint32_t> &places,
                const Extent &extent);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "physics/contact.h"
 #include "physics/pair_distance.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double rounding = 1e-9;  // relative, more than squares and roots are wrong by
@@ -37,4 +37,4 @@ bool RestApart::is_apart(uint32_t vertex, uint32_t triangle) const {
          facing_rest_distance * model_->valve.contact_thickness;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

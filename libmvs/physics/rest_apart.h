@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class RestApart {
  public:
@@ -27,4 +27,4 @@ class RestApart {
   std::vector<double> surely_apart2_;  // what is as far from there has all of the triangle so far
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 double farthest_of(const Vec3 &p, double farthest) {
@@ -246,4 +246,4 @@ uint32_t SheetLanes::maybe_apart(const Vertices &of, uint32_t lane, const Triang
   return bits;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

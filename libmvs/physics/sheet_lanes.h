@@ -7,7 +7,7 @@
 #include "model/model.h"
 #include "physics/sheet_parts.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class SheetLanes {
  public:
@@ -83,4 +83,4 @@ class SheetLanes {
   std::vector<uint64_t> placed_;  // the round in which a block was
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

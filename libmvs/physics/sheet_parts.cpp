@@ -1,6 +1,6 @@
 #include "physics/sheet_parts.h"
 
-namespace mvs {
+namespace mvs::core {
 
 SheetParts::SheetParts(const Model &model, const MovingTree &tree)
     : vertex_start_{0}, edge_start_{0}, owner_(model.topology.edges.size(), none) {
@@ -25,4 +25,4 @@ SheetParts::SheetParts(const Model &model, const MovingTree &tree)
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "base/moving_tree.h"
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class SheetParts {
  public:
@@ -29,4 +29,4 @@ class SheetParts {
   std::vector<uint32_t> vertex_start_, vertex_, edge_start_, edge_, owner_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -15,7 +15,7 @@
 #include "physics/nodes.h"
 #include "physics/tool_points.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr uint32_t default_budget = 64;
@@ -241,4 +241,4 @@ Forces evaluate_forces(const Model &valve, const State &valve_state) {
   return forces;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

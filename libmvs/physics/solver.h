@@ -7,7 +7,7 @@
 #include "model/model.h"
 #include "physics/profile.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Zeros are the defaults stated in include/mvs/sim.h.
 struct SolveOptions {
@@ -81,4 +81,4 @@ class Solver {
 // for a piece around a disturbance feel a force as the load's own.
 bool far_from_rest(const Model &model, const State &state);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include <mvs/valve.h>
 
-namespace mvs {
+namespace mvs::core {
 
 SpringTerm::SpringTerm(const Model &model) {
   const Valve &valve = model.valve;
@@ -74,4 +74,4 @@ void SpringTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Spring &s : springs_) pairs.push_back({s.i, s.j});
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

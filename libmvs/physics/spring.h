@@ -12,7 +12,7 @@
 #include "physics/blocks.h"
 #include "physics/system.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class SpringTerm {
  public:
@@ -37,4 +37,4 @@ class SpringTerm {
   std::vector<Bilinear> laws_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "base/math.h"
 
-namespace mvs {
+namespace mvs::core {
 
 Barrier barrier(double s) {
   if (s >= 1) return {0, 0, 0};
@@ -170,4 +170,4 @@ void add_pairs(const std::vector<ContactStencil> &stencils, std::vector<Edge> &p
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

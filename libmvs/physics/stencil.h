@@ -8,7 +8,7 @@
 #include "physics/blocks.h"
 #include "physics/system.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The barrier with its first and second derivative.
 struct Barrier {
@@ -55,4 +55,4 @@ bool add_hessian(const std::vector<ContactStencil> &stencils, Barrier (*curve)(d
                  const std::vector<Vec3> &x, Curvature curvature, System &system);
 void add_pairs(const std::vector<ContactStencil> &stencils, std::vector<Edge> &pairs);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -6,7 +6,7 @@
 
 #include "base/distance.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The share of a distance that one step may use up. The rest is what rounding could never cross.
@@ -138,4 +138,4 @@ bool StepBounds::cut(const Pair &pair, const std::vector<Vec3> &dx) {
   return changed;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

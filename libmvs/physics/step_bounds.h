@@ -6,7 +6,7 @@
 #include "physics/candidates.h"
 #include "physics/instrument.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Shortens a step dx, node by node, until no motion x .. x + dx along straight lines brings a pair
 // of `candidates` (which must reach as far as dx) to less than a tenth of its present distance, or
@@ -50,4 +50,4 @@ class StepBounds {
   bool strict_ = false;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

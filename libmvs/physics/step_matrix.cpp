@@ -1,6 +1,6 @@
 #include "physics/step_matrix.h"
 
-namespace mvs {
+namespace mvs::core {
 
 StepMatrix::StepMatrix(const Model &model) : model_(&model) {
   std::vector<uint32_t> nodes;
@@ -38,4 +38,4 @@ void StepMatrix::divide(std::vector<Vec3> &rows) {
   for (size_t r = 0; r < rows.size(); ++r) rows[r] /= bound_[r];
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include "physics/potential.h"
 #include "physics/stepper.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class StepMatrix {
  public:
@@ -33,4 +33,4 @@ class StepMatrix {
   std::vector<double> mass_, bound_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 
 #include "base/factor_block.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Of the linear system, in the norm of its preconditioner. What is left of it is small beside what
@@ -226,4 +226,4 @@ Waypoint StepSolver::with_place(const Waypoint &here, const std::vector<Vec3> &x
   return place;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

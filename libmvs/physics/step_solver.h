@@ -18,7 +18,7 @@
 #include "physics/kept_factor.h"
 #include "physics/solver.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class StepSolver {
  public:
@@ -72,4 +72,4 @@ class StepSolver {
   std::array<SharedVector<Vec3>, 7> places_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 
 double kinetic_energy(const Model &model, const std::vector<Vec3> &v) {
   double sum = 0;
@@ -24,4 +24,4 @@ bool advance_boundary(const Model &model, const State &state, double dt, std::ve
   return farthest > 0;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

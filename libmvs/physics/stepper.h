@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // How to take one step in time, all filled in.
 struct StepOptions {
@@ -23,4 +23,4 @@ bool advance_boundary(const Model &model, const State &state, double dt, std::ve
 
 double kinetic_energy(const Model &model, const std::vector<Vec3> &v);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "base/dissection.h"
 #include "base/factor.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Times the blocks that are needed: more are not kept from one pattern to the next.
@@ -120,7 +120,7 @@ void System::add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const 
                           double times) {
   RankOne to;
   if (find_rank_one(k, nodes, to)) {
-    mvs::add_rank_one(slope, times, to);
+    mvs::core::add_rank_one(slope, times, to);
     return;
   }
   for (uint32_t a = 0; a < 4; ++a) {
@@ -190,4 +190,4 @@ void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

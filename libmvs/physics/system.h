@@ -7,7 +7,7 @@
 #include "base/rank_one.h"
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Free nodes have a row, numbered in elimination order; prescribed nodes have none. What couples a
 // free node to a prescribed one that moves by a known amount goes to the right-hand side.
@@ -115,4 +115,4 @@ class System {
   size_t first_ = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "base/eigenvalues.h"
 #include "base/error.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // What the slack part of a sheet lacks in stiffness its mass gives, over a time in which a hand can
@@ -119,4 +119,4 @@ Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Too
   return with_eigenvalues_in(symmetric, 0, std::numeric_limits<double>::infinity());
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -13,7 +13,7 @@
 #include "physics/potential.h"
 #include "physics/tool_points.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct ToolForce {
   Vec3 force = Vec3::Zero();   // N, on the hand
@@ -46,4 +46,4 @@ class ToolFeel {
   std::vector<Vec3> g_, rows_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include <mvs/snapshot.h>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Without it the implicit step could not move what no spring holds. At 1 kHz it is a twentieth of
@@ -70,4 +70,4 @@ void ToolPoints::take_back(State extended, State &state) {
   state = std::move(extended);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

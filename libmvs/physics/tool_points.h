@@ -4,7 +4,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // How many points the tools of a state have; a grasp has none.
 uint32_t tool_points(const State &state);
@@ -24,4 +24,4 @@ class ToolPoints {
   uint64_t serial_ = 0;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

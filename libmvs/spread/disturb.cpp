@@ -7,7 +7,7 @@
 #include "physics/candidates.h"
 #include "physics/step_bounds.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr int wave_count = 24;
@@ -71,4 +71,4 @@ double disturb(const Model &model, std::vector<Vec3> &x, const Disturbance &how,
   return longest(dx);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

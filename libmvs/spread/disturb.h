@@ -4,7 +4,7 @@
 #include "model/model.h"
 #include "spread/random.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Disturbance {
   double longest = 0;     // m, the farthest that a node is moved
@@ -17,4 +17,4 @@ struct Disturbance {
 // would meet (physics/step_bounds.h).
 double disturb(const Model &model, std::vector<Vec3> &x, const Disturbance &how, Random random);
 
-}  // namespace mvs
+}  // namespace mvs::core

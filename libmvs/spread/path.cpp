@@ -10,7 +10,7 @@
 #include "model/finite.h"
 #include "physics/nodes.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Between increments the valve need not be at rest to the last digit: a tenth of the pressure's
@@ -145,4 +145,4 @@ Closing close_along(Solver &solver, const Model &model, const State &start, cons
   return closing;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

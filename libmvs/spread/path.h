@@ -4,7 +4,7 @@
 #include "physics/solver.h"
 #include "spread/disturb.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct Path {
   uint32_t increments = 1;  // equal steps of the pressure
@@ -31,4 +31,4 @@ struct Closing {
 Closing close_along(Solver &solver, const Model &model, const State &start, const Load &load,
                     const SolveOptions &options, const Path &path, const Progress &progress);
 
-}  // namespace mvs
+}  // namespace mvs::core

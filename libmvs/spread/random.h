@@ -7,7 +7,7 @@
 #include "base/math.h"
 #include "base/types.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // splitmix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
 class Random {
@@ -36,4 +36,4 @@ class Random {
   uint64_t state_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

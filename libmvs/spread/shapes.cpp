@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 
 Apart nodes_apart(const Model &model, const Shape &a, const Shape &b) {
   const Rows &rows = model.topology.node_triangles;
@@ -51,4 +51,4 @@ std::vector<uint32_t> find_equilibria(const std::vector<double> &farthest,
   return number;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

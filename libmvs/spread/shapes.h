@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 using Shape = std::vector<Vec3>;  // positions of all nodes
 
@@ -25,4 +25,4 @@ std::vector<double> node_spread(size_t nodes, const std::vector<const Shape *> &
 std::vector<uint32_t> find_equilibria(const std::vector<double> &farthest,
                                       const std::vector<uint8_t> &counts, double same);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 #include "measure/frame.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Scales where the annulus is held, about its centroid and along its axes there.
@@ -28,4 +28,4 @@ void operate(Surgery &s, const mvs_op_annulus_scale &op) {
       format("Scale the annulus to %.0f %% (AP) and %.0f %% (CC)", 100 * along[0], 100 * along[1]);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "measure/landmarks.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The fibrous trigones, seen along the valve's axis from the A point (libmvs/anatomy/README.md).
@@ -132,4 +132,4 @@ void operate(Surgery &s, const mvs_op_band &op) {
   s.valve.rings = {std::move(part)};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

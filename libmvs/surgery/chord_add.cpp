@@ -5,7 +5,7 @@
 #include "surgery/site.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 struct NewChord {
@@ -56,4 +56,4 @@ void operate(Surgery &s, const mvs_op_neochord &op) {
   s.title = "Add neochord, " + s.title;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

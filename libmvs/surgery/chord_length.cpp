@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // With the tension it has now, the chord ends where its leaflet end was dragged to.
@@ -41,4 +41,4 @@ void operate(Surgery &s, const mvs_op_chord_length &op) {
                    chord.name.c_str(), 1e3 * length, 100 * length / before);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

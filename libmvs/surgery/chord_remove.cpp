@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 
 void operate(Surgery &s, const mvs_op_chord_remove &op) {
   const uint32_t index = chord_of(s, op.chord);
@@ -15,4 +15,4 @@ void operate(Surgery &s, const mvs_op_chord_remove &op) {
   if (with_it > 0) s.title += format(" and %zu segments that hung on it", with_it);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

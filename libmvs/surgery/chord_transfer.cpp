@@ -3,7 +3,7 @@
 #include "surgery/site.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 bool is_sheet(const Model &model, uint32_t node) {
@@ -52,4 +52,4 @@ void operate(Surgery &s, const mvs_op_chord_transfer &op) {
   prune_chords(s);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

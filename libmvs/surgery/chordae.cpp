@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 Rows chords_at_nodes(const Valve &valve) {
@@ -165,4 +165,4 @@ std::string free_chord_name(const Surgery &s, uint32_t node) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "surgery/free_edge.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr double default_width = 5e-3, default_reach = 4e-3;
@@ -136,4 +136,4 @@ void operate(Surgery &s, const mvs_op_clip &op) {
                    scallops[p].name.c_str(), name.c_str(), pairs.size(), 1e3 * width);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "surgery/split.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A node nearer to the outline than this share of a side is cut through, so that no sliver is left.
@@ -304,4 +304,4 @@ CutLine cut_out(Surgery &s, Flat &flat, const Outline &outline) {
   return line;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

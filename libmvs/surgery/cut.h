@@ -3,7 +3,7 @@
 
 #include "surgery/flat.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A closed polygon on a flat piece of leaflet.
 class Outline {
@@ -25,4 +25,4 @@ using CutLine = std::vector<uint32_t>;
 // outside. The flat piece follows the splits.
 CutLine cut_out(Surgery &s, Flat &flat, const Outline &outline);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -14,7 +14,7 @@
 #include "base/math.h"
 #include "measure/frame.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Complex = std::complex<double>;
@@ -209,4 +209,4 @@ double distance_to_segment(const Vec2 &p, const Vec2 &a, const Vec2 &b) {
   return (p - a - s * ab).norm();
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

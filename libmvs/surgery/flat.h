@@ -5,7 +5,7 @@
 
 #include "surgery/site.h"
 
-namespace mvs {
+namespace mvs::core {
 
 using Vec2 = Eigen::Vector2d;
 
@@ -25,4 +25,4 @@ Flat flatten(const Model &model, uint32_t triangle);
 // How far a point is from the segment from a to b.
 double distance_to_segment(const Vec2 &p, const Vec2 &a, const Vec2 &b);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 
 FlatEdges free_edges_on(const Surgery &s, const Flat &flat) {
   FlatEdges stretches;
@@ -68,4 +68,4 @@ bool walk(const Along &along, double by, Vec2 &out) {
   return false;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

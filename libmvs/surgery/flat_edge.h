@@ -3,7 +3,7 @@
 
 #include "surgery/flat.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Stretches of neighbours on the free edge.
 using FlatEdges = std::vector<std::vector<Vec2>>;
@@ -27,4 +27,4 @@ inline Vec2 turned(const Vec2 &v) {
   return {-v.y(), v.x()};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

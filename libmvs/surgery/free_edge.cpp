@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "surgery/sheet_map.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The part of a free edge that belongs to one leaflet.
@@ -135,4 +135,4 @@ std::vector<EdgeNode> nodes_from_free_edge(const Surgery &s, uint32_t scallop, d
   return nodes;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A node near the free edge.
 struct EdgeNode {
@@ -17,4 +17,4 @@ struct EdgeNode {
 // scallop has no free edge.
 std::vector<EdgeNode> nodes_from_free_edge(const Surgery &s, uint32_t scallop, double share);
 
-}  // namespace mvs
+}  // namespace mvs::core

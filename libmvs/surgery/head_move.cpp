@@ -3,7 +3,7 @@
 #include "measure/frame.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 
 void operate(Surgery &s, const mvs_op_head_move &op) {
   MVS_MUST(op.reserved == 0, MVS_E_ARGUMENT, "head_move", "head_move.reserved has to be 0");
@@ -19,4 +19,4 @@ void operate(Surgery &s, const mvs_op_head_move &op) {
   s.title = format("Move papillary head %s by %.1f mm", head.name.c_str(), 1e3 * by.norm());
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

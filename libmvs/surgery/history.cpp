@@ -5,7 +5,7 @@
 #include "model/finite.h"
 #include "surgery/lead.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 bool in_same_group(const Entry &a, const Entry &b) {
@@ -148,4 +148,4 @@ Moment at_checkpoint(const Moment &now, const std::string &name) {
   fail(MVS_E_ID, "checkpoint", "there is no checkpoint named \"%.63s\"", name.c_str());
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

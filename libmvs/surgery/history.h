@@ -11,7 +11,7 @@
 #include "surgery/operation.h"
 #include "surgery/stack.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A model and a state of it.
 struct Picture {
@@ -120,4 +120,4 @@ Moment redone(const Moment &now);
 Moment with_checkpoint(const Moment &now, const std::string &name);
 Moment at_checkpoint(const Moment &now, const std::string &name);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -4,7 +4,7 @@
 #include <array>
 #include <type_traits>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // What a field of each type is in C.
@@ -113,4 +113,4 @@ const OpKind *find_op_kind(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace mvs {
+namespace mvs::core {
 
 struct OpField {
   const char *name;
@@ -33,4 +33,4 @@ std::span<const OpKind> op_kinds();
 const OpKind *find_op_kind(uint32_t number);
 const OpKind *find_op_kind(std::string_view name);
 
-}  // namespace mvs
+}  // namespace mvs::core

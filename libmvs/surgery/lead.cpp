@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A look at a history copies its last run when it goes on, so that runs are short; what comes with
@@ -180,4 +180,4 @@ void take_row(State &state, const Move &lead, size_t row) {
   }
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

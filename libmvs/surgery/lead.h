@@ -4,7 +4,7 @@
 
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The places that a hand has in a row: its position, and the axis of a rod.
 size_t places_of(const Tool &tool);
@@ -28,4 +28,4 @@ bool is_whole(const Move &lead);
 // there.
 void take_row(State &state, const Move &lead, size_t row);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "model/text.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // "chord_length.factor"
@@ -163,4 +163,4 @@ std::vector<Vec3> points_of(const mvs_array &array) {
   return {first, first + array.count};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

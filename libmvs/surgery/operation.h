@@ -8,7 +8,7 @@
 #include "base/types.h"
 #include "surgery/kinds.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Copies share what they own.
 class Operation {
@@ -45,4 +45,4 @@ class Operation {
 // The points of an array field of an Operation.
 std::vector<Vec3> points_of(const mvs_array &array);
 
-}  // namespace mvs
+}  // namespace mvs::core

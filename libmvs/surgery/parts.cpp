@@ -3,7 +3,7 @@
 #include "model/part_names.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 template <typename Part>
@@ -117,4 +117,4 @@ void remove_nodes(Surgery &s, const std::vector<uint8_t> &gone) {
   renumber_grasps(s.state, number);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

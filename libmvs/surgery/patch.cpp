@@ -7,7 +7,7 @@
 #include "surgery/flat.h"
 #include "surgery/site.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // An ellipse on the flat leaflet.
@@ -165,4 +165,4 @@ void operate(Surgery &s, const mvs_op_patch &op) {
                    1e3 * ellipse.height, 100 * (factor - 1));
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

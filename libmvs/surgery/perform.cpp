@@ -3,7 +3,7 @@
 #include "surgery/site.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 void dispatch(Surgery &s, const Operation &op) {
@@ -63,4 +63,4 @@ Operated perform(const Picture &before, const Operation &op) {
   return done;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

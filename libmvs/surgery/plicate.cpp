@@ -8,7 +8,7 @@
 #include "base/math.h"
 #include "measure/landmarks.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // The shortest that an edge of the annulus becomes, as a share: it cannot vanish, for the tissue
@@ -148,4 +148,4 @@ void plicate(Surgery &s, const Vec3 &at, double width) {
   gather(s, stretch, s.valve.loaded);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

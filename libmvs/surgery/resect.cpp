@@ -6,7 +6,7 @@
 #include "surgery/resect_plan.h"
 #include "surgery/seam.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Where the two sides part: the middle of the deepest part of the line, measured from its ends.
@@ -78,4 +78,4 @@ void operate(Surgery &s, const mvs_op_resect &op) {
   prune_chords(s);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "surgery/flat_edge.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Tissue that has to stay between a cut and the annulus: what a stitch needs to hold, one thickness
@@ -293,4 +293,4 @@ ResectPlan plan_resection(const Surgery &s, const mvs_op_resect &op) {
   return plan;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -5,7 +5,7 @@
 
 #include "surgery/cut.h"
 
-namespace mvs {
+namespace mvs::core {
 
 struct ResectPlan {
   Flat flat;
@@ -23,4 +23,4 @@ struct ResectPlan {
 // cannot be cut.
 ResectPlan plan_resection(const Surgery &s, const mvs_op_resect &op);
 
-}  // namespace mvs
+}  // namespace mvs::core

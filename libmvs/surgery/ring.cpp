@@ -9,7 +9,7 @@
 #include "surgery/ring_fit.h"
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // Physio II 34 as measured: 34.7 mm CC, 26.1 mm AP, saddle 4.7 mm (README.md of this folder).
@@ -136,4 +136,4 @@ void operate(Surgery &s, const mvs_op_ring &op) {
   s.valve.rings = {std::move(part)};
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

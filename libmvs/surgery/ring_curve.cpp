@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/math.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -165,4 +165,4 @@ void must_be_a_ring(const char *op_name, const std::vector<Vec3> &curve) {
            op_name, 100 * roundness, 100 * least_roundness);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

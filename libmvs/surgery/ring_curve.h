@@ -3,7 +3,7 @@
 
 #include "measure/landmarks.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A ring of the proportions of the Physio II 34, stretched to these sizes in m: from its A point on
 // towards the positive CC axis. Axes are AP, CC, into the atrium; the centroid (by arc length) is
@@ -17,4 +17,4 @@ Vec3 extent_of(const Loop &curve);
 // same place, too small or too large for a valve, a slit, or a curve that crosses itself.
 void must_be_a_ring(const char *op_name, const std::vector<Vec3> &curve);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 constexpr int samples = 180;
@@ -65,4 +65,4 @@ RingFit fit_ring(const Loop &ring, const Loop &annulus, double a, const RingSeat
   return seat.start_is_a ? best : search.refined(best);
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

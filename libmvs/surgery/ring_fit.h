@@ -5,7 +5,7 @@
 #include "measure/landmarks.h"
 #include "measure/register.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // The point at share u of the annulus's length from its A point belongs to the point at
 // start + u (or start - u, where reversed) of the ring's length.
@@ -29,4 +29,4 @@ RingFit fit_ring(const Loop &ring, const Loop &annulus, double a, const RingSeat
 // Where the point of the ring that belongs to share u of the annulus comes to lie.
 Vec3 seat_of(const Loop &ring, const RingFit &fit, double u);
 
-}  // namespace mvs
+}  // namespace mvs::core

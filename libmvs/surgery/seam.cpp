@@ -8,7 +8,7 @@
 
 #include "surgery/split.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A monofilament of polypropylene, 5-0 (0.10 to 0.15 mm, USP), at 1.5 GPa: 18 N per unit strain.
@@ -100,4 +100,4 @@ uint32_t sew(Surgery &s, const CutLine &line, size_t turn, const std::string &na
   return count;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

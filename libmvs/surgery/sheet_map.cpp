@@ -10,7 +10,7 @@
 #include "base/math.h"
 #include "measure/frame.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -150,4 +150,4 @@ double SheetMap::along(uint32_t scallop, uint32_t node) const {
   return range.turned ? 1 - a : a;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

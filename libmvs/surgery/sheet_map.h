@@ -6,7 +6,7 @@
 
 #include "model/model.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class SheetMap {
  public:
@@ -30,4 +30,4 @@ class SheetMap {
   std::vector<Range> ranges_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "surgery/sheet_map.h"
 #include "surgery/split.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A corner closer than this in barycentric terms is taken instead of a new node; a side closer than
@@ -148,4 +148,4 @@ mvs_site anatomical(const Model &model, const mvs_site &site) {
   return out;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

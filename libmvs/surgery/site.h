@@ -3,7 +3,7 @@
 
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A point of the sheet.
 struct SheetPoint {
@@ -24,4 +24,4 @@ uint32_t node_at(Surgery &s, const mvs_site &site);
 // A site in anatomical coordinates, to be found on another valve.
 mvs_site anatomical(const Model &model, const mvs_site &site);
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -1,7 +1,7 @@
 // The parts of a triangle keep its leaflet, scallop, thickness and fibre.
 #include "surgery/split.h"
 
-namespace mvs {
+namespace mvs::core {
 namespace {
 
 // A triangle like another one, with other corners.
@@ -39,4 +39,4 @@ uint32_t split_side(Surgery &s, uint32_t a, uint32_t b, double share) {
   return node;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

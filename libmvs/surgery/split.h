@@ -3,7 +3,7 @@
 
 #include "surgery/surgery.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A node in a triangle, which becomes three.
 uint32_t split_triangle(Surgery &s, uint32_t triangle, const std::array<double, 3> &weight);
@@ -11,4 +11,4 @@ uint32_t split_triangle(Surgery &s, uint32_t triangle, const std::array<double, 
 // A node on the side from a to b, at a share of it; the triangles there become two each.
 uint32_t split_side(Surgery &s, uint32_t a, uint32_t b, double share);
 
-}  // namespace mvs
+}  // namespace mvs::core

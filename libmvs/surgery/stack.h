@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace mvs {
+namespace mvs::core {
 
 template <typename T>
 class Stack {
@@ -50,4 +50,4 @@ class Stack {
   std::shared_ptr<Cell> cell_;
 };
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -7,7 +7,7 @@
 #include "model/model.h"
 #include "surgery/history.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // One operation under way. Everything edited here is a copy; only perform() makes it count.
 struct Surgery {
@@ -53,4 +53,4 @@ std::string free_chord_name(const Surgery &s, uint32_t node);
 #undef OPERATION
 #undef FIELD
 
-}  // namespace mvs
+}  // namespace mvs::core

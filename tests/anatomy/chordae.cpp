@@ -8,7 +8,7 @@
 
 #include "anatomy/parametric.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

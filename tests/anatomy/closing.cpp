@@ -8,7 +8,7 @@
 #include "measure/measure.h"
 #include "physics/solver.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include "anatomy/coarse_chordae.h"
 #include "levels.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "anatomy/parametric.h"
 #include "base/error.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include "levels.h"
 #include "physics/solver.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

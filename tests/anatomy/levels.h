@@ -19,7 +19,7 @@
 #include "base/intersect.h"
 #include "model/check.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 struct Named {
   std::string name;
@@ -125,4 +125,4 @@ std::string refusal(Work work) {
   return "";
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

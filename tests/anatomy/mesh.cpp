@@ -11,7 +11,7 @@
 #include "anatomy/shape.h"
 #include "base/intersect.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include "levels.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 TEST_CASE("a_refined_valve_is_a_valve_of_the_same_topology") {
   for (const Named &one : all_kinds_of_valves()) {

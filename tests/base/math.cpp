@@ -13,7 +13,7 @@
 
 #include "base/small_solve.h"
 
-namespace math = mvs::math;
+namespace math = mvs::core::math;
 
 namespace {
 
@@ -129,12 +129,12 @@ TEST_CASE("a_small_system_is_solved") {
   const Eigen::Matrix<double, 4, 4> a = root * root.transpose();
   const Eigen::Vector4d x(1, -2, 3, 0.25);
   // condition 100: a hundred roundings
-  CHECK((mvs::solve_positive<4>(a, a * x) - x).norm() < 1e-13);
+  CHECK((mvs::core::solve_positive<4>(a, a * x) - x).norm() < 1e-13);
 }
 
 TEST_CASE("a_direction_without_stiffness_stays_zero") {
   const Eigen::Matrix2d a = Eigen::Vector2d(4, 0).asDiagonal();
-  const Eigen::Vector2d x = mvs::solve_positive<2>(a, Eigen::Vector2d(8, 0));
+  const Eigen::Vector2d x = mvs::core::solve_positive<2>(a, Eigen::Vector2d(8, 0));
   CHECK(x[0] == 2);
   CHECK(x[1] == 0);
 }

@@ -35,12 +35,12 @@ WORK = {
     "measure": "mvs_snapshot_measure",
     "save": "mvs_save_file",
     "load": "mvs_load_file",
-    "of these: gradients": "mvs::Potential::gradient(",
-    "of these: Hessians": "mvs::Potential::hessian(",
-    "of these: broad phase": "mvs::Candidates::build(",
-    "of these: narrow phase": "mvs::ContactTerm::collect(",
-    "of these: chordae": "mvs::ChordTerm::",
-    "of these: membrane": "mvs::MembraneTerm::",
+    "of these: gradients": "mvs::core::Potential::gradient(",
+    "of these: Hessians": "mvs::core::Potential::hessian(",
+    "of these: broad phase": "mvs::core::Candidates::build(",
+    "of these: narrow phase": "mvs::core::ContactTerm::collect(",
+    "of these: chordae": "mvs::core::ChordTerm::",
+    "of these: membrane": "mvs::core::MembraneTerm::",
 }
 """What is counted, and the function (or the start of the functions) that does it."""
 

@@ -24,7 +24,7 @@
 #include "physics/potential.h"
 #include "table.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

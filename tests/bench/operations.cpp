@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace bench {
 namespace {
@@ -39,7 +39,7 @@ Operation chord_length(const std::string &name, double factor) {
             auto op = op_of<mvs_op_chord_length>(MVS_OP_CHORD_LENGTH);
             op.chord = id_of(p.model->valve.chords.get(), name);
             op.factor = factor;
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 
@@ -47,7 +47,7 @@ Operation chord_remove(const std::string &name) {
   return {"chord_remove", name, [=](const Picture &p) {
             auto op = op_of<mvs_op_chord_remove>(MVS_OP_CHORD_REMOVE);
             op.chord = id_of(p.model->valve.chords.get(), name);
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 
@@ -58,7 +58,7 @@ Operation tie(uint32_t kind, const char *name, const std::string &scallop, int h
             auto op = op_of<Op>(kind);
             op.head = p.model->valve.heads[head].id;
             op.site = site_in(p.model->valve, scallop, 0.5, 0.85);
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 
@@ -67,7 +67,7 @@ Operation chord_transfer(const std::string &name, const std::string &scallop) {
             auto op = op_of<mvs_op_chord_transfer>(MVS_OP_CHORD_TRANSFER);
             op.chord = id_of(p.model->valve.chords.get(), name);
             op.site = site_in(p.model->valve, scallop, 0.5, 0.85);
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 
@@ -76,7 +76,7 @@ Operation annulus_scale(const std::string &name, double factor, double ap) {
             auto op = op_of<mvs_op_annulus_scale>(MVS_OP_ANNULUS_SCALE);
             op.factor = factor;
             op.ap = ap;
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 
@@ -85,7 +85,7 @@ Operation head_move(const std::string &name, int head, double z) {
             auto op = op_of<mvs_op_head_move>(MVS_OP_HEAD_MOVE);
             op.head = p.model->valve.heads[head].id;
             op.by[2] = z;
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 
@@ -96,7 +96,7 @@ Operation with(uint32_t kind, const char *kind_name, const std::string &name, do
   return {kind_name, name, [=](const Picture &p) {
             auto op = op_of<Op>(kind);
             op.*field = value;
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 
@@ -104,7 +104,7 @@ Operation patch(const std::string &scallop) {
   return {"patch", scallop, [=](const Picture &p) {
             auto op = op_of<mvs_op_patch>(MVS_OP_PATCH);
             op.site = site_in(p.model->valve, scallop, 0.5, 0.5);
-            return perform(p, mvs::Operation(&op.op));
+            return perform(p, mvs::core::Operation(&op.op));
           }};
 }
 

@@ -28,7 +28,7 @@
 #include "operations.h"
 #include "table.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

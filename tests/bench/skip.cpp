@@ -23,7 +23,7 @@
 #include "physics/solver.h"
 #include "table.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -26,7 +26,7 @@
 #include "anatomy/parametric.h"
 #include "physics/potential.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/intersect.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "formats/formats.h"
 
-namespace mvs {
+namespace mvs::core {
 
 inline std::string toy_inp() {
   std::stringstream text;
@@ -54,4 +54,4 @@ inline bool has_note(const Imported &imported, const std::string &piece) {
   return false;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -16,7 +16,7 @@
 #include "formats/formats.h"
 #include "model/chord_law.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // A model and its state.
 struct Pair {
@@ -218,4 +218,4 @@ inline Pair random_pair(uint64_t seed) {
   return pair;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

@@ -8,7 +8,7 @@
 #include "formats/decimal.h"
 #include "samples.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "inp_text.h"
 #include "model/chord_law.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "formats/formats.h"
 #include "formats/h5_tree.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 
@@ -318,7 +318,7 @@ TEST_CASE("links_to_elsewhere_are_refused") {
 TEST_CASE("a_build_without_hdf5_says_so") {
   const char *const sentence =
       "this libmvs was built without HDF5: use OBJ, or build it with -DMVS_HDF5=ON";
-  CHECK_THROWS_WITH_AS(mvs::write_h5({}, 1), sentence, mvs::Error);
-  CHECK_THROWS_WITH_AS(mvs::read_h5("", "mvs", 1), sentence, mvs::Error);
+  CHECK_THROWS_WITH_AS(mvs::core::write_h5({}, 1), sentence, mvs::core::Error);
+  CHECK_THROWS_WITH_AS(mvs::core::read_h5("", "mvs", 1), sentence, mvs::core::Error);
 }
 #endif

@@ -10,7 +10,7 @@
 #include "../unit/real_valves.h"
 #include "inp_text.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Every fault of Abaqus input is told with its line and a sentence.
 #include "inp_text.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

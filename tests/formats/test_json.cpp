@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "formats/json.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "formats/h5_tree.h"
 #include "samples.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

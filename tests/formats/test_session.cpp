@@ -10,14 +10,14 @@
 #include "formats/session_layout.h"
 #include "samples.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 
 using Hash128 = std::array<uint64_t, 2>;
 
 Hash128 hash_of(const Picture &picture) {
-  return mvs::hash_of(*picture.model, picture.state);
+  return mvs::core::hash_of(*picture.model, picture.state);
 }
 
 template <typename Struct>
@@ -191,7 +191,7 @@ TEST_CASE("a_file_of_version_1_is_read_as_ever") {
   const std::string data = MVS_SOURCE_DIR "/tests/formats/data/session_v1";
   const auto told = [&](const char *name) {
     const Pair pair = complete(read_obj(read_whole_file(data + name)));
-    return mvs::hash_of(pair.model, pair.state);
+    return mvs::core::hash_of(pair.model, pair.state);
   };
   Moment now = read_session(read_whole_file(data + ".h5"));
   CHECK(hash_of(now.picture) == told("_present.obj"));

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "samples.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 TEST_CASE("tinyobjloader_reads_nodes_faces_groups_and_chordae") {
   const Pair pair = moving_valve();

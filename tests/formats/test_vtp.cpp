@@ -3,7 +3,7 @@
 
 #include "samples.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "samples.h"
 
-using namespace mvs;
+using namespace mvs::core;
 namespace fs = std::filesystem;
 
 namespace {

@@ -24,7 +24,7 @@ int main(int count, char **arguments) {
   size_t files = 0;
   for (int k = 1; k < count; ++k) {
     for (const auto &entry : std::filesystem::directory_iterator(arguments[k])) {
-      const std::string text = mvs::read_whole_file(entry.path().string());
+      const std::string text = mvs::core::read_whole_file(entry.path().string());
       LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t *>(text.data()), text.size());
       ++files;
     }

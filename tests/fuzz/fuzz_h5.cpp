@@ -9,21 +9,22 @@
 
 namespace {
 
-constexpr uint32_t version = mvs::session_version;
+constexpr uint32_t version = mvs::core::session_version;
 
-void check_round_trip(const mvs::H5Tree &tree) {
-  const std::string bytes = mvs::write_h5(tree, version);
-  const mvs::H5Content again = mvs::read_h5(bytes, "mvs", version);
+void check_round_trip(const mvs::core::H5Tree &tree) {
+  const std::string bytes = mvs::core::write_h5(tree, version);
+  const mvs::core::H5Content again = mvs::core::read_h5(bytes, "mvs", version);
   demand(again.tree.arrays.size() == tree.arrays.size(), "arrays were lost on their way");
-  demand(mvs::write_h5(again.tree, version) == bytes, "the bytes changed on their way");
+  demand(mvs::core::write_h5(again.tree, version) == bytes, "the bytes changed on their way");
 }
 
 void try_bytes(std::string_view bytes) {
   try {
-    check_round_trip(mvs::read_h5(bytes, "mvs", version).tree);
-    const std::string again = mvs::write_session(mvs::read_session(bytes), {});
-    demand(mvs::write_session(mvs::read_session(again), {}) == again, "a session changed");
-  } catch (const mvs::Error &error) {
+    check_round_trip(mvs::core::read_h5(bytes, "mvs", version).tree);
+    const std::string again = mvs::core::write_session(mvs::core::read_session(bytes), {});
+    demand(mvs::core::write_session(mvs::core::read_session(again), {}) == again,
+           "a session changed");
+  } catch (const mvs::core::Error &error) {
     demand(error.code == MVS_E_FORMAT || error.code == MVS_E_VERSION ||
                error.code == MVS_E_MEMORY || error.code == MVS_E_OP,
            "an error of a kind that a reader does not make");
@@ -36,8 +37,8 @@ void try_bytes(std::string_view bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   std::string bytes(reinterpret_cast<const char *>(data), size);
   try_bytes(bytes);
-  if (size < mvs::envelope_bytes) return 0;
-  mvs::seal(bytes, version);
+  if (size < mvs::core::envelope_bytes) return 0;
+  mvs::core::seal(bytes, version);
   try_bytes(bytes);
   return 0;
 }

@@ -10,7 +10,7 @@
 
 #include "haptics/device.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "haptics/tissue_maker.h"
 #include "physics/solver.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "haptics/device.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "haptics/device.h"
 
-namespace mvs {
+namespace mvs::core {
 
 class Loop {
  public:
@@ -60,4 +60,4 @@ inline Tissue spring(double stiffness, const Vec3 &to = Vec3::Zero()) {
   return tissue;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

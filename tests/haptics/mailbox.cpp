@@ -5,7 +5,7 @@
 
 #include <thread>
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

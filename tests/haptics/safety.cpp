@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "loop.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "loop.h"
 
-using namespace mvs;
+using namespace mvs::core;
 using std::chrono::milliseconds;
 
 namespace {

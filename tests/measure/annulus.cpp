@@ -8,7 +8,7 @@
 #include "measure/frame.h"
 #include "shapes.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 constexpr double radius = 18e-3;
@@ -159,4 +159,4 @@ TEST_CASE("annulus_of_one_leaflet_has_quarter_points") {
   CHECK((valve_frame(*model, valve.rest).axes - Mat3::Identity()).norm() < 1e-13);
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

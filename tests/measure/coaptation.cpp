@@ -9,7 +9,7 @@
 #include "measure/frame.h"
 #include "shapes.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 constexpr double gap = 0.5e-3;  // below the contact thickness
@@ -307,4 +307,4 @@ TEST_CASE("three_leaflets_have_the_frame_of_the_anterior_one") {
   CHECK(of_three.origin == of_two.origin);
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

@@ -10,7 +10,7 @@
 #include "measure/surface_distance.h"
 #include "shapes.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 // An uneven bowl, so that no turn maps it onto itself.
@@ -230,4 +230,4 @@ TEST_CASE("comparison_is_symmetric_and_repeats_its_bits") {
   CHECK(again.surface_rms_registered == ab.surface_rms_registered);
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

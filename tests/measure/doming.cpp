@@ -7,7 +7,7 @@
 
 #include "shapes.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 constexpr double radius = 18e-3, depth = 5e-3;
@@ -121,4 +121,4 @@ TEST_CASE("doming_survives_motion_and_renumbering") {
   check_same(measure_doming(*other.model, other(valve.rest)));
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

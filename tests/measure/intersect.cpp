@@ -8,7 +8,7 @@
 #include <ctime>
 #include <random>
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include "model/sides.h"
 #include "shapes.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 
@@ -24,7 +24,7 @@ double flat(double, double) {
 
 constexpr double seal = 0.6 * mm;  // what the expectations below are made for
 
-Valve sealing(const mvs::test::Sheet &sheet) {
+Valve sealing(const mvs::core::test::Sheet &sheet) {
   Valve valve = valve_of(sheet);
   valve.contact_thickness = seal;
   return valve;
@@ -48,8 +48,8 @@ double triangle_area(const std::vector<Vec3> &x, const Tri &t) {
 // Leaflets whose free edges, half ellipses seen from the side, reach over each other by 2 * reach
 // where `gap` is the distance between them in the middle: lens-shaped seen along the sheets, and
 // closed seen from above.
-mvs::test::Sheet overlap(double gap, double reach) {
-  mvs::test::Sheet sheet;
+mvs::core::test::Sheet overlap(double gap, double reach) {
+  mvs::core::test::Sheet sheet;
   sheet.around = 96;
   sheet.rings = 24;
   sheet.at = [=](double angle, double s) -> Vec3 {
@@ -75,8 +75,8 @@ double lens_area(double gap, double half_width) {
 }
 
 // A flat disc with a straight slit from side to side, nodes at the corners of the slit.
-mvs::test::Sheet slit(double width, double length) {
-  mvs::test::Sheet sheet;
+mvs::core::test::Sheet slit(double width, double length) {
+  mvs::core::test::Sheet sheet;
   sheet.around = 72;
   sheet.rings = 16;
   sheet.at = [=](double angle, double s) -> Vec3 {
@@ -151,7 +151,7 @@ TEST_CASE("less_of_a_slit_is_lost_in_its_corners_with_thinner_contact") {
 }
 
 TEST_CASE("holes_add_up") {
-  mvs::test::Sheet sheet = disc(16 * mm, 2 * mm, flat);
+  mvs::core::test::Sheet sheet = disc(16 * mm, 2 * mm, flat);
   sheet.around = 24;
   sheet.rings = 6;
   Valve valve = sealing(sheet);
@@ -188,13 +188,13 @@ TEST_CASE("leaflets_within_the_contact_thickness_are_sealed") {
 }
 
 TEST_CASE("a_funnel_has_its_smallest_cross_section") {
-  mvs::test::Sheet funnel;  // its free edge is the narrowest place
+  mvs::core::test::Sheet funnel;  // its free edge is the narrowest place
   funnel.at = [](double angle, double s) -> Vec3 {
     const double r = (16 - 8 * s) * mm;
     return {r * std::cos(angle), r * std::sin(angle), -15 * mm * s};
   };
   CHECK(orifice_area(sealing(funnel)) == about(polygon_area(8 * mm, 48), 1e-3));
-  mvs::test::Sheet hourglass = funnel;  // here that is half way down
+  mvs::core::test::Sheet hourglass = funnel;  // here that is half way down
   hourglass.at = [](double angle, double s) -> Vec3 {
     const double r = (8 + 32 * (s - 0.5) * (s - 0.5)) * mm;
     return {r * std::cos(angle), r * std::sin(angle), -15 * mm * s};
@@ -206,7 +206,7 @@ TEST_CASE("a_funnel_has_its_smallest_cross_section") {
 TEST_CASE("an_oblique_tube_has_its_cross_section_not_its_mouth") {
   // a round tube that leaves the plane of the annulus at 45 degrees: cut level, it is an ellipse
   const double radius = 5 * mm;
-  mvs::test::Sheet tube;
+  mvs::core::test::Sheet tube;
   tube.rings = 24;
   tube.at = [=](double angle, double s) -> Vec3 {
     const double c = std::cos(angle), n = std::sin(angle), mouth = radius * std::sqrt(2.0);
@@ -229,7 +229,7 @@ TEST_CASE("the_orifice_on_a_saddle_is_a_minimal_surface") {
 }
 
 TEST_CASE("a_rigid_motion_does_not_change_the_area") {
-  for (const mvs::test::Sheet &sheet :
+  for (const mvs::core::test::Sheet &sheet :
        {overlap(1.5 * mm, 3 * mm), slit(1 * mm, 14 * mm), disc(16 * mm, 3 * mm, flat)}) {
     const ModelPtr model = make_model(sealing(sheet));
     const std::vector<Vec3> &x = model->valve.rest;
@@ -242,7 +242,7 @@ TEST_CASE("a_rigid_motion_does_not_change_the_area") {
 }
 
 TEST_CASE("a_finer_mesh_of_the_same_shape_has_the_same_orifice") {
-  mvs::test::Sheet sheet = overlap(1.5 * mm, 3 * mm);
+  mvs::core::test::Sheet sheet = overlap(1.5 * mm, 3 * mm);
   const double coarse = orifice_area(sealing(sheet));
   sheet.around *= 2;
   sheet.rings *= 2;

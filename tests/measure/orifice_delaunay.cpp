@@ -12,7 +12,7 @@
 #include "base/intersect.h"
 #include "base/max_flow.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

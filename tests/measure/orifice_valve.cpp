@@ -10,8 +10,8 @@
 #include "physics/solver.h"
 #include "shapes.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

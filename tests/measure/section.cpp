@@ -8,7 +8,7 @@
 
 #include "shapes.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 constexpr double radius = 10e-3;
@@ -57,4 +57,4 @@ TEST_CASE("cut_beside_the_valve_is_empty") {
   CHECK(cut(*model, model->valve.rest, {0, 0, 10e-3}, {0, 0, 1}).empty());
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

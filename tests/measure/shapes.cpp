@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 Valve valve_of(const Sheet &sheet) {
   Valve valve;
@@ -96,4 +96,4 @@ Renumbered renumbered(const Valve &valve) {
   return other;
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

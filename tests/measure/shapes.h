@@ -9,7 +9,7 @@
 
 #include "model/model.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 inline constexpr double pi = std::numbers::pi;
 
@@ -51,4 +51,4 @@ struct Renumbered {
 };
 Renumbered renumbered(const Valve &valve);
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

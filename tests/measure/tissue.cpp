@@ -9,7 +9,7 @@
 #include "measure/strain.h"
 #include "shapes.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 Sheet flat_ring() {
@@ -199,4 +199,4 @@ TEST_CASE("a_valve_without_chordae_pulls_nothing") {
   CHECK(measures.head_force[0] == Vec3::Zero());
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

@@ -13,7 +13,7 @@
 #include "physics/potential.h"
 #include "physics/stepper.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 void complete_sheet(Valve &valve) {
@@ -289,4 +289,4 @@ State closed(const Model &model) {
   return settled.state;
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

@@ -14,7 +14,7 @@
 #include "physics/solver.h"
 #include "physics/system.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 inline constexpr double pi = std::numbers::pi;
 using Positions = std::vector<Vec3>;
@@ -111,4 +111,4 @@ Settled settle(const Model &model, double pressure, double fraction = 0,
 // At rest at systole, with its boundary loaded; it has to come there.
 State closed(const Model &model);
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

@@ -13,8 +13,8 @@
 #include "pairs.h"
 #include "physics/contact.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include "bench.h"
 #include "model/law.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

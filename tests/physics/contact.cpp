@@ -11,8 +11,8 @@
 #include "physics/forces.h"
 #include "touch.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

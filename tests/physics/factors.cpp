@@ -17,8 +17,8 @@
 #include "base/refined_factor.h"
 #include "bench.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include "bench.h"
 #include "physics/implicit_stepper.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "base/distance.h"
 #include "bench.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 inline double distance(const Positions &x, uint32_t v, const Tri &t) {
   return std::sqrt(closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).distance2);
@@ -51,4 +51,4 @@ inline Positions moved(const Positions &x, double share, const Positions &dx) {
   return y;
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

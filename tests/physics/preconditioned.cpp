@@ -16,8 +16,8 @@
 #include "bench.h"
 #include "physics/kept_factor.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

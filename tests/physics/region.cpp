@@ -10,7 +10,7 @@
 #include "physics/potential.h"
 #include "physics/solver.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 std::vector<Vec3> gradient(const Model &model, const std::vector<Vec3> &x) {
@@ -73,4 +73,4 @@ TEST_CASE("a_closed_valve_comes_to_rest_after_a_chord_is_cut_or_tightened_with_n
   }
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

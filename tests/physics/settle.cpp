@@ -13,8 +13,8 @@
 #include "model/check.h"
 #include "physics/forces.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

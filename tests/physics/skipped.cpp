@@ -11,8 +11,8 @@
 #include "model/law.h"
 #include "physics/pressure.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include "base/distance.h"
 #include "touch.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include "physics/potential.h"
 #include "physics/stepper.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include "physics/potential.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

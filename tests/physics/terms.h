@@ -10,7 +10,7 @@
 #include "bench.h"
 #include "physics/system.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 // A term as functions of the positions alone.
 struct Probe {
@@ -125,4 +125,4 @@ inline Vec3 moment_of(const Positions &x, const Positions &g) {
   return sum;
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

@@ -15,8 +15,8 @@
 #include "physics/instrument.h"
 #include "physics/tool_points.h"
 
-using namespace mvs;
-using namespace mvs::test;
+using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
 

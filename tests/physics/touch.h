@@ -4,7 +4,7 @@
 #include "bench.h"
 #include "physics/contact.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 // Contact alone, as functions of the positions near `around`.
 class Touch {
@@ -42,4 +42,4 @@ class Touch {
   ContactTerm term_;
 };
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

@@ -9,7 +9,7 @@
 #include "anatomy/parametric.h"
 #include "spread/path.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 TEST_CASE("a sheet moved as a whole is apart by the way it went") {
   mvs_parametric_desc desc = {};

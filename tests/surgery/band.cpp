@@ -5,7 +5,7 @@
 
 #include "operated.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 mvs_op_band band(double length, double factor) {
@@ -111,4 +111,4 @@ TEST_CASE("lengths_that_no_band_can_have_are_said") {
   refused(valve, band(1, 0), MVS_E_ARGUMENT, "length is 1 m");
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

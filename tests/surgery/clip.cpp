@@ -6,7 +6,7 @@
 #include "operated.h"
 #include "surgery/sheet_map.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 mvs_op_clip clip() {
@@ -235,4 +235,4 @@ TEST_CASE("what_cannot_be_clipped_is_said") {
           "no scallop named A2: say which one you mean; there are A");
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

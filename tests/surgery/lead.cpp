@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

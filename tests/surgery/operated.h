@@ -13,7 +13,7 @@
 #include "physics/solver.h"
 #include "surgery/history.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 
 inline constexpr double mm = 1e-3;
 
@@ -73,4 +73,4 @@ inline mvs_array array_of(const std::vector<Vec3> &points) {
   return {points.data(), points.size(), 3, MVS_F64, 0};
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

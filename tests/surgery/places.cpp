@@ -3,7 +3,7 @@
 
 #include "operated.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 mvs_op_annulus_scale scaled(double factor, double ap, double cc) {
@@ -103,4 +103,4 @@ TEST_CASE("the_valve_closes_with_a_scaled_annulus_and_with_a_moved_head") {
   }
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

@@ -7,7 +7,7 @@
 #include "operated.h"
 #include "surgery/ring_curve.h"
 
-namespace mvs::test {
+namespace mvs::core::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -241,4 +241,4 @@ TEST_CASE("landmarks_that_place_nothing_are_said") {
   refused(valve, op, MVS_E_ARGUMENT, "the landmarks lie on one line");
 }
 
-}  // namespace mvs::test
+}  // namespace mvs::core::test

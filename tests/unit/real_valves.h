@@ -9,7 +9,7 @@
 
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 // Null where the file is not there.
 inline nlohmann::json read_real_valve(const std::string &file) {
@@ -61,4 +61,4 @@ inline Valve febio_valve(const nlohmann::json &json) {
   return valve;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

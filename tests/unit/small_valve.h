@@ -7,7 +7,7 @@
 
 #include "model/valve.h"
 
-namespace mvs {
+namespace mvs::core {
 
 inline constexpr uint32_t small_segments = 16, small_rows = 4;
 
@@ -64,4 +64,4 @@ inline Valve small_valve() {
   return valve;
 }
 
-}  // namespace mvs
+}  // namespace mvs::core

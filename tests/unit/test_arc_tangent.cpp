@@ -7,7 +7,7 @@
 
 #include "base/arc_tangent.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 TEST_CASE("arc_tangents_are_those_of_the_standard_library") {
   std::vector<double> y, x;

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-using namespace mvs;
+using namespace mvs::core;
 
 TEST_CASE("every_bit_of_a_word_changes_about_half_of_the_hash") {
   const uint64_t word = 0x0123456789abcdefu;

@@ -7,7 +7,7 @@
 #include "model/chord_law.h"
 #include "model/law.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

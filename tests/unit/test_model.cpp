@@ -10,7 +10,7 @@
 
 #include "small_valve.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

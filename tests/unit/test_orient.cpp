@@ -6,7 +6,7 @@
 #include "real_valves.h"
 #include "small_valve.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "model/model.h"
 #include "small_valve.h"
 
-using namespace mvs;
+using namespace mvs::core;
 
 TEST_CASE("euler_number_and_counts_of_the_small_valve") {
   const Valve valve = small_valve();

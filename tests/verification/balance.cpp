@@ -9,7 +9,7 @@
 #include "base/factor.h"
 #include "physics/nodes.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 
 struct Balance::Newton {
   const Balance &of;
@@ -126,4 +126,4 @@ Positions Balance::rest(Positions start, const Positions &load, double tolerance
   return newton.x;
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

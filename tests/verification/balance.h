@@ -8,9 +8,9 @@
 #include "physics/membrane.h"
 #include "physics/spring.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 
-using mvs::test::Positions;
+using mvs::core::test::Positions;
 
 class Balance {
  public:
@@ -34,4 +34,4 @@ class Balance {
   ChordTerm chord_;
 };
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

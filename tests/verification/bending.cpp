@@ -21,7 +21,7 @@
 #include "patch.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr double length = 20e-3, young = 100e3;
@@ -316,4 +316,4 @@ std::vector<Study> bending_studies() {
   return all;
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

@@ -9,7 +9,7 @@
 #include "physics/bending.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr double side = 20e-3, curl = 100e-3;  // m, of the sheet; radius of the cylinder
@@ -137,4 +137,4 @@ std::vector<Study> mesh_studies() {
   return {even, other, plate};
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

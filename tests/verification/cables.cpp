@@ -7,7 +7,7 @@
 #include "balance.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 Study study_of(const std::string &name, const std::string &title, const std::string &source) {
@@ -231,4 +231,4 @@ std::vector<Study> cable_studies() {
   return {catenary(), elastic_catenary(), tension_only(), chain_of_cables()};
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

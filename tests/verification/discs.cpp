@@ -9,7 +9,7 @@
 #include "patch.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr double radius = 10e-3;
@@ -242,4 +242,4 @@ std::vector<Study> disc_studies() {
   return {hencky(), hencky_of_springs(), centre, shape, rim};
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

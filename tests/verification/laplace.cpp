@@ -9,7 +9,7 @@
 #include "patch.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr double radius = 20e-3;
@@ -174,4 +174,4 @@ std::vector<Study> laplace_studies() {
   return {spheres, tubes};
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

@@ -4,7 +4,7 @@
 #include "patch.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr uint32_t cells = 6;
@@ -199,4 +199,4 @@ std::vector<Study> law_studies() {
   return {nominal, cauchy, inside, against_tables()};
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

@@ -8,7 +8,7 @@
 
 #include "study.h"
 
-using namespace mvs::verification;
+using namespace mvs::core::verification;
 
 namespace {
 

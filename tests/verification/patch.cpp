@@ -8,7 +8,7 @@
 #include "physics/membrane.h"
 #include "physics/spring.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr double side = 20e-3;
@@ -100,4 +100,4 @@ double Patch::edge() const {
   return mean_edge(model_);
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

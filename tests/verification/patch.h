@@ -5,9 +5,9 @@
 #include "model/membrane.h"
 #include "published.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 
-using mvs::test::Positions;
+using mvs::core::test::Positions;
 
 // A square of 20 mm of irregular triangles, whose fibre runs askew to the mesh, or a rhombus of
 // equilateral ones with the fibre along springs; turned somehow in space.
@@ -42,4 +42,4 @@ class Patch {
 
 double mean_edge(const Model &model);
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

@@ -8,7 +8,7 @@
 #include "patch.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 Mat2 some_strain() {
@@ -96,4 +96,4 @@ std::vector<Study> patch_studies() {
   return {patch_test(), patch_of_springs(), rigid_motion()};
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

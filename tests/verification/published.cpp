@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 // I1 and I4 of an incompressible sheet.
@@ -143,4 +143,4 @@ Real free_stretch(const Published &law, int axis, Real stretch) {
   return (low + high) / 2;
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

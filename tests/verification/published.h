@@ -10,7 +10,7 @@
 
 #include "model/law.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 
 using Real = long double;
 using Map2 = Eigen::Matrix<Real, 2, 2>;  // F in the plane, the first axis along the fibre
@@ -34,4 +34,4 @@ Map2 cauchy_stress(const Map2 &nominal, const Map2 &f);
 // The stretch across that leaves no stress across, for a stretch along `axis`.
 Real free_stretch(const Published &law, int axis, Real stretch);
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

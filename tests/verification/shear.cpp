@@ -13,7 +13,7 @@
 #include "patch.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr double strains[] = {0.001, 0.02, 0.05, 0.10, 0.15, 0.20, 0.24, 0.28, 0.30};
@@ -85,4 +85,4 @@ std::vector<Study> shear_studies() {
   return {springs_beside_membrane(), small_strains()};
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

@@ -11,7 +11,7 @@
 #include "published.h"
 #include "study.h"
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 using test::Positions;
@@ -183,4 +183,4 @@ std::vector<Study> step_studies() {
   return all;
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

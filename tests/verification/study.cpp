@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -167,4 +167,4 @@ bool long_runs() {
   return lengthy != nullptr && *lengthy != 0;
 }
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace mvs::verification {
+namespace mvs::core::verification {
 
 // Rows of one name and one x are a series, coarse to fine.
 struct Row {
@@ -62,4 +62,4 @@ std::vector<Study> cable_studies();
 std::vector<Study> bending_studies();
 std::vector<Study> step_studies();
 
-}  // namespace mvs::verification
+}  // namespace mvs::core::verification

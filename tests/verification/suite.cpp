@@ -3,7 +3,7 @@
 
 #include "study.h"
 
-using namespace mvs::verification;
+using namespace mvs::core::verification;
 
 namespace {
 
