@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "surgery/history.h"
+#include "history/history.h"
 
 namespace mvs::core {
 

@@ -2,7 +2,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include "short_run.h"
+#include "tests/short_run.h"
 
 namespace {
 

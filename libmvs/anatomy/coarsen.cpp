@@ -11,8 +11,8 @@
 #include "anatomy/coarse_chordae.h"
 #include "anatomy/coarse_tissue.h"
 #include "anatomy/live_sheet.h"
-#include "base/distance.h"
 #include "base/error.h"
+#include "geometry/distance.h"
 
 namespace mvs::core {
 namespace {

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "anatomy/sheet_walk.h"
-#include "base/distance.h"
 #include "base/error.h"
+#include "geometry/distance.h"
 
 namespace mvs::core {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/distance.h"
+#include "geometry/distance.h"
 
 namespace mvs::core {
 

@@ -1,14 +1,15 @@
 // Haptic devices for applications.
 #include "haptics/device.h"
+#include "api/sim_call.h"
 
 #include <algorithm>
 #include <memory>
 #include <mutex>
 
-#include "api/device_hand.h"
 #include "api/structs.h"
-#include "haptics/crash.h"
 #include "haptics/examine.h"
+#include "haptics/signal_handler.h"
+#include "session/device_hand.h"
 
 using namespace mvs::core;
 

@@ -4,8 +4,9 @@
 #include <limits>
 #include <string_view>
 
-#include "api/simulator.h"
+#include "api/sim_call.h"
 #include "formats/formats.h"
+#include "session/simulator.h"
 
 using namespace mvs::core;
 

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "api/snapshot_impl.h"
 #include "api/structs.h"
+#include "session/snapshot.h"
 
 using namespace mvs::core;
 

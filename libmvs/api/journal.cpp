@@ -1,11 +1,12 @@
 // The journal of a simulator: begun, closed, recovered.
-#include "formats/journal.h"
+#include "formats/file/journal.h"
+#include "api/sim_call.h"
 
 #include <mvs/plan.h>
 
-#include "api/commit.h"
-#include "api/replay.h"
 #include "formats/formats.h"
+#include "session/commit.h"
+#include "session/replay.h"
 
 using namespace mvs::core;
 

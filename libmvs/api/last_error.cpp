@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "api/guard.h"
-#include "base/factor.h"
+#include "api/exception_boundary.h"
+#include "linalg/direct_solver.h"
 
 namespace {
 

@@ -3,7 +3,8 @@
 
 #include "anatomy/coarsen.h"
 #include "anatomy/refine.h"
-#include "api/simulator.h"
+#include "api/sim_call.h"
+#include "session/simulator.h"
 
 using namespace mvs::core;
 

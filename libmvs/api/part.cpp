@@ -1,9 +1,9 @@
 // The named parts of a snapshot.
 #include <cstring>
 
-#include "api/snapshot_impl.h"
 #include "api/structs.h"
 #include "model/part_names.h"
+#include "session/snapshot.h"
 
 namespace {
 

@@ -1,9 +1,10 @@
 // Plans: written from a snapshot's history, replayed on the present valve.
 #include <mvs/plan.h>
 
-#include "api/commit.h"
-#include "api/replay.h"
+#include "api/sim_call.h"
 #include "formats/formats.h"
+#include "session/commit.h"
+#include "session/replay.h"
 
 using namespace mvs::core;
 

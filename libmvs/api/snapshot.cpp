@@ -1,5 +1,5 @@
 // Snapshots: references, hash, load, measures, comparison, cuts.
-#include "api/snapshot_impl.h"
+#include "session/snapshot.h"
 
 #include "api/structs.h"
 
@@ -36,14 +36,11 @@ mvs_comparison public_comparison(const Comparison &c) {
 extern "C" {
 
 void mvs_snapshot_retain(const mvs_snapshot *snapshot) {
-  if (snapshot) snapshot->references.fetch_add(1, std::memory_order_relaxed);
+  if (snapshot) snapshot->retain();
 }
 
 void mvs_snapshot_release(const mvs_snapshot *snapshot) {
-  // the last one to let go has to see what the others did before
-  if (snapshot && snapshot->references.fetch_sub(1, std::memory_order_acq_rel) == 1) {
-    delete snapshot;
-  }
+  if (snapshot) snapshot->release();
 }
 
 mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash[2]) {

@@ -3,10 +3,11 @@
 
 #include <cmath>
 
-#include "api/moves.h"
-#include "api/simulator.h"
-#include "api/unit_notes.h"
-#include "cascade/cascade.h"
+#include "api/sim_call.h"
+#include "session/recorded_event.h"
+#include "session/simulator.h"
+#include "session/unit_warnings.h"
+#include "solve/static/mesh_hierarchy.h"
 
 namespace mvs::core {
 namespace {
@@ -92,7 +93,7 @@ void go_on(mvs_sim &sim, const SnapshotPtr &before, State state, const std::vect
            const Move &move, const SolveStats &stats) {
   sim.replace(make_snapshot(after_move(before->moment, std::move(state), hands, move)));
   sim.hands.done(sim.present()->state);
-  sim.stats = public_stats(stats);
+  sim.stats = stats;
 }
 
 void log_settled(const mvs_sim &sim, const SolveStats &stats) {
@@ -133,7 +134,7 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     const std::vector<Move> hands = s.hands.take(state);
     const SolveStats found = settle_by_levels(s.solver, *before->model, state, how, s.progress());
     go_on(s, before, std::move(state), hands, move_of(Move::settle, how), found);
-    if (stats) write_struct(stats, s.stats, "stats");
+    if (stats) write_struct(stats, public_stats(found), "stats");
     log_settled(s, found);
   });
 }
@@ -146,9 +147,9 @@ mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats) {
   return guarded([&] {
     must_point(sim, "sim");
     checked_struct_size(stats, "stats");
-    MVS_MUST(sim->stats.struct_size != 0, MVS_E_STATE, "sim",
+    MVS_MUST(sim->stats, MVS_E_STATE, "sim",
              "the simulator has no statistics: this valve was neither settled nor stepped");
-    write_struct(stats, sim->stats, "stats");
+    write_struct(stats, public_stats(*sim->stats), "stats");
   });
 }
 

@@ -3,7 +3,7 @@
 
 #include <mvs/sim.h>
 
-#include "physics/solver.h"
+#include "solve/solver.h"
 
 namespace mvs::core {
 

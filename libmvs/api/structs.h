@@ -1,13 +1,12 @@
 // Sized structs across the boundary: older and newer callers than this library.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
 #include <string>
 
-#include "api/guard.h"
-#include "base/types.h"
+#include "api/exception_boundary.h"
+#include "base/option_checks.h"
 
 namespace mvs::core {
 
@@ -69,37 +68,6 @@ void write_bytes(void *data, uint64_t capacity, uint64_t *size, Make make) {
   const std::string bytes = make();
   if (capacity > 0) std::memcpy(data, bytes.data(), std::min<uint64_t>(capacity, bytes.size()));
   *size = bytes.size();
-}
-
-// A nullable text.
-inline std::string text_or_empty(const char *text) {
-  return text ? text : "";
-}
-
-// Fields kept for later versions have to be zero, so that they can get a meaning.
-inline void must_be_zero(double value, const char *what) {
-  MVS_MUST(value == 0, MVS_E_ARGUMENT, what,
-           "%s is %g: this version has no meaning for it, leave 0", what, value);
-}
-
-inline double value_or(double value, double fallback) {
-  return value == 0 ? fallback : value;
-}
-
-inline void write(const Vec3 &from, double to[3]) {
-  std::copy(from.data(), from.data() + 3, to);
-}
-
-// As w x y z.
-inline void write(const Eigen::Quaterniond &from, double to[4]) {
-  to[0] = from.w();
-  std::copy(from.vec().data(), from.vec().data() + 3, to + 1);
-}
-
-// That an option is a number in its range; zero stays the default.
-inline void must_be_in(double value, double low, double high, const char *what) {
-  MVS_MUST(value == 0 || (value >= low && value <= high), MVS_E_ARGUMENT, what,
-           "%s is %g: it has to be 0 (the default) or %g to %g", what, value, low, high);
 }
 
 }  // namespace mvs::core

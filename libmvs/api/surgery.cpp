@@ -1,8 +1,9 @@
 // Operations: check, apply, undo, redo, groups, checkpoints.
 #include <mvs/op.h>
 
-#include "api/commit.h"
+#include "api/sim_call.h"
 #include "model/text.h"
+#include "session/commit.h"
 
 using namespace mvs::core;
 

@@ -1,8 +1,9 @@
 // Another tissue for a leaflet, and what laws say of themselves.
-#include "api/commit.h"
+#include "api/sim_call.h"
 #include "api/structs.h"
 #include "api/valve_desc.h"
 #include "model/chord_law.h"
+#include "session/commit.h"
 
 using namespace mvs::core;
 

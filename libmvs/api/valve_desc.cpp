@@ -2,7 +2,7 @@
 #include "api/valve_desc.h"
 
 #include "api/structs.h"
-#include "base/arrays.h"
+#include "base/array_view.h"
 #include "model/check.h"
 #include "model/chord_law.h"
 

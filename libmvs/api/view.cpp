@@ -1,6 +1,6 @@
 // The arrays of a snapshot, each where it lies.
-#include "api/snapshot_impl.h"
 #include "api/structs.h"
+#include "session/snapshot.h"
 
 namespace {
 

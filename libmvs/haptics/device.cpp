@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "base/error.h"
-#include "haptics/crash.h"
 #include "haptics/device_core.h"
+#include "haptics/signal_handler.h"
 
 namespace mvs::core {
 namespace {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "haptics/plug.h"
+#include "haptics/driver_plugin.h"
 #include "haptics/servo.h"
 
 namespace mvs::core {

@@ -12,7 +12,7 @@
 // hand and the device do not.
 #pragma once
 
-#include "haptics/tissue.h"
+#include "haptics/tissue_model.h"
 
 namespace mvs::core {
 

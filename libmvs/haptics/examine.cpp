@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "base/error.h"
-#include "haptics/plug.h"
+#include "haptics/driver_plugin.h"
 
 namespace mvs::core {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "haptics/budget.h"
 #include "haptics/energy.h"
-#include "haptics/guard.h"
+#include "haptics/force_gate.h"
 #include "haptics/mailbox.h"
-#include "haptics/watch.h"
+#include "haptics/sample_validator.h"
 
 namespace mvs::core {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "haptics/tissue.h"
+#include "haptics/tissue_model.h"
 
 namespace mvs::core {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "measure/annulus_surface.h"
 #include "measure/frame.h"
 #include "measure/landmarks.h"
-#include "measure/span.h"
 
 namespace mvs::core {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "measure/coaptation_line.h"
+#include "measure/facing_surface.h"
 #include "measure/frame.h"
 #include "measure/landmarks.h"
-#include "measure/opposite.h"
 #include "measure/surface.h"
 
 namespace mvs::core {

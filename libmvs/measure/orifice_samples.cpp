@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "measure/tree.h"
+#include "geometry/triangle_tree.h"
 #include "model/sides.h"
 
 namespace mvs::core::orifice {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/delaunay.h"
-#include "base/max_flow.h"
-#include "measure/tree.h"
+#include "geometry/delaunay3d.h"
+#include "geometry/max_flow.h"
+#include "geometry/triangle_tree.h"
 
 namespace mvs::core::orifice {
 namespace {

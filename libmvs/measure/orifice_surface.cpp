@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/small_solve.h"
+#include "geometry/triangle_tree.h"
+#include "linalg/small_solve.h"
 #include "measure/surface.h"
-#include "measure/tree.h"
 #include "model/sides.h"
 
 namespace mvs::core::orifice {

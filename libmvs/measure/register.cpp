@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/math.h"
-#include "base/small_solve.h"
+#include "linalg/small_solve.h"
 
 namespace mvs::core {
 namespace {

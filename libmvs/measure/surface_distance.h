@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "measure/tree.h"
+#include "geometry/triangle_tree.h"
 
 namespace mvs::core {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "model/checks.h"
-#include "model/rows.h"
+#include "model/compressed_rows.h"
 
 namespace mvs::core {
 namespace {

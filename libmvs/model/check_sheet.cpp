@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "model/checks.h"
-#include "model/facing.h"
-#include "model/rows.h"
+#include "model/compressed_rows.h"
+#include "model/orientation.h"
 
 namespace mvs::core {
 namespace {

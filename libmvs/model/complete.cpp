@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "model/rows.h"
+#include "model/compressed_rows.h"
 
 namespace mvs::core {
 namespace {

@@ -59,6 +59,12 @@ struct State {
   void forget_way() { serving = coming = {}; }
 };
 
+// A model and a state of it.
+struct Picture {
+  ModelPtr model;
+  State state;
+};
+
 // Checks, completes (ids, names, fibres, thickness) and freezes a valve; throws the first fault.
 // Arrays that hold the same as those of `parent` (nullable) are shared with it.
 ModelPtr make_model(Valve valve, const Model *parent = nullptr);

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/distance.h"
 #include "base/error.h"
-#include "base/intersect.h"
+#include "geometry/distance.h"
+#include "geometry/intersect.h"
 #include "model/model.h"
 
 namespace mvs::core {

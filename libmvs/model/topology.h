@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "model/rows.h"
+#include "model/compressed_rows.h"
 #include "model/valve.h"
 
 namespace mvs::core {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/shared_vector.h"
+#include "base/cow_vector.h"
 #include "base/types.h"
 #include "model/law.h"
 

@@ -1,6 +1,6 @@
 // What the operations on chordae share.
 #include "base/error.h"
-#include "model/rows.h"
+#include "model/compressed_rows.h"
 #include "surgery/surgery.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/arrays.h"
+#include "base/array_view.h"
 #include "base/error.h"
 #include "model/text.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/intersect.h"
+#include "geometry/intersect.h"
 #include "surgery/flat.h"
 #include "surgery/site.h"
 

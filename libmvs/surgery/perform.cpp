@@ -1,4 +1,5 @@
-// Applying one operation: on copies, checked as any valve is, all or nothing.
+#include "surgery/perform.h"
+
 #include "base/error.h"
 #include "surgery/site.h"
 #include "surgery/surgery.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/distance.h"
 #include "base/error.h"
+#include "geometry/distance.h"
 #include "surgery/flat_edge.h"
 
 namespace mvs::core {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/model.h"
-#include "surgery/history.h"
+#include "surgery/operation.h"
 
 namespace mvs::core {
 

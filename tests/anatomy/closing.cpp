@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "anatomy/parametric.h"
-#include "base/intersect.h"
+#include "geometry/intersect.h"
 #include "measure/measure.h"
-#include "physics/solver.h"
+#include "solve/solver.h"
 
 using namespace mvs::core;
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "anatomy/coarse_chordae.h"
-#include "levels.h"
+#include "tests/anatomy/levels.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;

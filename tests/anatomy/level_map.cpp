@@ -1,8 +1,8 @@
 // Maps between levels: places, shapes, motions.
 #include "anatomy/level_map.h"
 
-#include "levels.h"
-#include "physics/solver.h"
+#include "solve/solver.h"
+#include "tests/anatomy/levels.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;

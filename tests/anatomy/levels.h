@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "../unit/real_valves.h"
-#include "../unit/small_valve.h"
 #include "anatomy/coarsen.h"
 #include "anatomy/parametric.h"
 #include "anatomy/refine.h"
 #include "base/error.h"
-#include "base/intersect.h"
+#include "geometry/intersect.h"
 #include "model/check.h"
+#include "tests/model/real_valves.h"
+#include "tests/model/small_valve.h"
 
 namespace mvs::core::test {
 

@@ -9,7 +9,7 @@
 
 #include "anatomy/parametric.h"
 #include "anatomy/shape.h"
-#include "base/intersect.h"
+#include "geometry/intersect.h"
 
 using namespace mvs::core;
 

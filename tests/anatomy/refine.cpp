@@ -1,7 +1,7 @@
 // Refinement: four triangles for one, and the same valve.
 #include "anatomy/refine.h"
 
-#include "levels.h"
+#include "tests/anatomy/levels.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;

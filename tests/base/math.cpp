@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "base/small_solve.h"
+#include "linalg/small_solve.h"
 
 namespace math = mvs::core::math;
 

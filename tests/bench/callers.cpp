@@ -1,10 +1,10 @@
 // Steps a closed valve with and without what a caller may want beside.
-#include "callers.h"
+#include "tests/bench/callers.h"
 
 #include <functional>
 #include <mvs/mvs.hpp>
 
-#include "clock.h"
+#include "tests/bench/clock.h"
 
 namespace bench {
 namespace {

@@ -1,5 +1,5 @@
 // Closes generated valves, for every bench that needs one closed.
-#include "closing.h"
+#include "tests/bench/closing.h"
 
 #include <mvs/mvs.hpp>
 

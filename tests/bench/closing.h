@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "clock.h"
+#include "tests/bench/clock.h"
 
 namespace bench {
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "founding.h"
-#include "table.h"
+#include "tests/bench/founding.h"
+#include "tests/bench/table.h"
 
 using namespace bench;
 

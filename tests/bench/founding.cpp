@@ -1,5 +1,5 @@
 // The search for the founding method's step and damping; each try is a closure.
-#include "founding.h"
+#include "tests/bench/founding.h"
 
 #include <cmath>
 

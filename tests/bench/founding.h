@@ -2,7 +2,7 @@
 // damping that closes it soonest.
 #pragma once
 
-#include "closing.h"
+#include "tests/bench/closing.h"
 
 namespace bench {
 

@@ -18,11 +18,11 @@
 #include <vector>
 
 #include "anatomy/parametric.h"
-#include "base/factor.h"
-#include "cascade/cascade.h"
-#include "closing.h"
-#include "physics/potential.h"
-#include "table.h"
+#include "energy/total_energy.h"
+#include "linalg/direct_solver.h"
+#include "solve/static/mesh_hierarchy.h"
+#include "tests/bench/closing.h"
+#include "tests/bench/table.h"
 
 using namespace mvs::core;
 

@@ -1,5 +1,5 @@
 // Each operation as a function of the closed valve.
-#include "operations.h"
+#include "tests/bench/operations.h"
 
 #include <mvs/op.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "surgery/history.h"
+#include "history/history.h"
 
 namespace bench {
 

@@ -22,11 +22,11 @@
 #include <vector>
 
 #include "anatomy/parametric.h"
-#include "base/intersect.h"
-#include "cascade/cascade.h"
-#include "closing.h"
-#include "operations.h"
-#include "table.h"
+#include "geometry/intersect.h"
+#include "solve/static/mesh_hierarchy.h"
+#include "tests/bench/closing.h"
+#include "tests/bench/operations.h"
+#include "tests/bench/table.h"
 
 using namespace mvs::core;
 

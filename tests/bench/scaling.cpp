@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "closing.h"
-#include "table.h"
+#include "tests/bench/closing.h"
+#include "tests/bench/table.h"
 
 using namespace bench;
 

@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "anatomy/parametric.h"
-#include "callers.h"
-#include "closing.h"
-#include "physics/potential.h"
-#include "physics/solver.h"
-#include "table.h"
+#include "energy/total_energy.h"
+#include "solve/solver.h"
+#include "tests/bench/callers.h"
+#include "tests/bench/closing.h"
+#include "tests/bench/table.h"
 
 using namespace mvs::core;
 

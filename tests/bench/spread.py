@@ -1,4 +1,4 @@
-"""The table of libmvs/spread/README.md: how far the closures of some valves lie apart.
+"""The table of libmvs/ensemble/README.md: how far the closures of some valves lie apart.
 
 Usage: MVS_COMMAND=build/release/bin/mvs python3 tests/bench/spread.py [PATHS]      [8]
 """

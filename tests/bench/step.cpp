@@ -28,8 +28,8 @@
 #include <string>
 #include <vector>
 
-#include "step_play.h"
-#include "step_watch.h"
+#include "tests/bench/step_play.h"
+#include "tests/bench/step_watch.h"
 
 namespace {
 

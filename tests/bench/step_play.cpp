@@ -1,4 +1,4 @@
-#include "step_play.h"
+#include "tests/bench/step_play.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include "step_watch.h"
+#include "tests/bench/step_watch.h"
 
 #include <cmath>
 
-#include "../stability/crossings.h"
+#include "tests/stability/crossings.h"
 
 namespace bench {
 namespace {

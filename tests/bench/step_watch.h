@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "../stability/edge_work.h"
+#include "tests/stability/edge_work.h"
 
 namespace bench {
 

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "anatomy/parametric.h"
-#include "physics/potential.h"
+#include "energy/total_energy.h"
 
 using namespace mvs::core;
 

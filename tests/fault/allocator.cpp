@@ -1,5 +1,5 @@
 // Replaces the global operator new and delete of the whole process, the library's included.
-#include "allocator.h"
+#include "tests/fault/allocator.h"
 
 #include <cstddef>
 #include <cstdlib>

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "../short_run.h"
-#include "allocator.h"
 #include "check.h"
 #include "funnel.h"
+#include "tests/fault/allocator.h"
+#include "tests/short_run.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "check.h"
-#include "counted.h"
+#include "tests/fault/counted.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "check.h"
-#include "counted.h"
+#include "tests/fault/counted.h"
 
 namespace {
 

@@ -11,10 +11,10 @@
 #include <sstream>
 #include <string>
 
-#include "../unit/small_valve.h"
 #include "base/error.h"
 #include "formats/formats.h"
 #include "model/chord_law.h"
+#include "tests/model/small_valve.h"
 
 namespace mvs::core {
 

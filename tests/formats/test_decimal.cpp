@@ -5,8 +5,8 @@
 #include <limits>
 #include <locale>
 
-#include "formats/decimal.h"
-#include "samples.h"
+#include "formats/text/decimal.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

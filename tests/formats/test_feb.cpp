@@ -6,8 +6,8 @@
 #include <map>
 
 #include "base/error.h"
-#include "inp_text.h"
 #include "model/chord_law.h"
+#include "tests/formats/inp_text.h"
 
 using namespace mvs::core;
 

@@ -1,6 +1,6 @@
 // The files of today are those of yesterday, and the document says what the code does.
-#include "formats/decimal.h"
-#include "samples.h"
+#include "formats/text/decimal.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

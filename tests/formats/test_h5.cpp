@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "formats/formats.h"
-#include "formats/h5_tree.h"
+#include "formats/hdf5/tree.h"
 
 using namespace mvs::core;
 
@@ -313,7 +313,7 @@ TEST_CASE("links_to_elsewhere_are_refused") {
 #include <doctest/doctest.h>
 
 #include "base/error.h"
-#include "formats/h5_tree.h"
+#include "formats/hdf5/tree.h"
 
 TEST_CASE("a_build_without_hdf5_says_so") {
   const char *const sentence =

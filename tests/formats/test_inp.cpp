@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "../unit/real_valves.h"
-#include "inp_text.h"
+#include "tests/formats/inp_text.h"
+#include "tests/model/real_valves.h"
 
 using namespace mvs::core;
 

@@ -1,5 +1,5 @@
 // Every fault of Abaqus input is told with its line and a sentence.
-#include "inp_text.h"
+#include "tests/formats/inp_text.h"
 
 using namespace mvs::core;
 

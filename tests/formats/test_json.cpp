@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "formats/json.h"
+#include "formats/text/json.h"
 
 using namespace mvs::core;
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "formats/h5_tree.h"
-#include "samples.h"
+#include "formats/hdf5/tree.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

@@ -1,7 +1,7 @@
 // Each fault of a file is told with its line and its word, and nothing worse happens.
 #include <algorithm>
 
-#include "samples.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

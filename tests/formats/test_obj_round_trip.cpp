@@ -1,7 +1,7 @@
 // What is written is read back bit for bit, whatever the bits are.
 #include <cstring>
 
-#include "samples.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "formats/h5_tree.h"
-#include "formats/session_layout.h"
-#include "samples.h"
+#include "formats/hdf5/tree.h"
+#include "formats/session/layout.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

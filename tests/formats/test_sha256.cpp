@@ -1,5 +1,5 @@
 // SHA-256 against the examples of NIST (FIPS 180-4 and the SHA-2 validation vectors).
-#include "formats/sha256.h"
+#include "formats/text/sha256.h"
 
 #include <doctest/doctest.h>
 #include <cstdio>

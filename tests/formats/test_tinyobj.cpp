@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "samples.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

@@ -1,7 +1,7 @@
 // The arrays inside a .vtp, decoded again. That VTK and meshio read it is checked in Python.
 #include <cstring>
 
-#include "samples.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 

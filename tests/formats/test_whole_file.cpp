@@ -8,7 +8,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "samples.h"
+#include "tests/formats/samples.h"
 
 using namespace mvs::core;
 namespace fs = std::filesystem;

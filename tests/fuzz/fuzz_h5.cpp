@@ -2,10 +2,10 @@
 // and reading.
 // No change gets past the checksum, so the bytes are tried a second time under a good one: that is
 // what a file made with intent looks like, and what our checks before HDF5's reading are for.
-#include "fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
-#include "formats/h5_tree.h"
-#include "formats/session_layout.h"
+#include "formats/hdf5/tree.h"
+#include "formats/session/layout.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Any bytes as Abaqus input: an error with a sentence, or a valve that is one.
-#include "fuzz.h"
 #include "model/model.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const std::string_view text(reinterpret_cast<const char *>(data), size);

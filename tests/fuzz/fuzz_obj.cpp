@@ -1,5 +1,5 @@
 // Any bytes as an extended OBJ: a clean error, or a valve that survives writing and reading.
-#include "fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace {
 

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "../short_run.h"
-#include "../stability/crossings.h"
-#include "op_builder.h"
+#include "tests/fuzz/op_builder.h"
+#include "tests/short_run.h"
+#include "tests/stability/crossings.h"
 
 namespace {
 

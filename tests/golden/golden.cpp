@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "golden/scenes.h"
+#include "tests/golden/scenes.h"
 
 namespace {
 

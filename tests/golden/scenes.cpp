@@ -1,5 +1,5 @@
 // Every scene starts from the parametric valve, so that the generator is pinned as well.
-#include "golden/scenes.h"
+#include "tests/golden/scenes.h"
 
 #include <cstdio>
 #include <cstdlib>

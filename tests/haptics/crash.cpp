@@ -1,5 +1,5 @@
 // A process that dies of a signal sets the forces of its devices to zero, and still dies of it.
-#include "haptics/crash.h"
+#include "haptics/signal_handler.h"
 
 #include <doctest/doctest.h>
 #include <signal.h>

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "anatomy/parametric.h"
-#include "haptics/tissue_maker.h"
-#include "physics/solver.h"
+#include "haptics/tissue_model_builder.h"
+#include "solve/solver.h"
 
 using namespace mvs::core;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "loop.h"
+#include "tests/haptics/loop.h"
 
 using namespace mvs::core;
 

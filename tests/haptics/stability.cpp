@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loop.h"
+#include "tests/haptics/loop.h"
 
 using namespace mvs::core;
 

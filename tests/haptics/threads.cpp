@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "loop.h"
+#include "tests/haptics/loop.h"
 
 using namespace mvs::core;
 using std::chrono::milliseconds;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "measure/frame.h"
-#include "shapes.h"
+#include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
 namespace {
@@ -58,7 +58,7 @@ TEST_CASE("frame_origin_weighs_by_arc_length_not_by_nodes") {
 
 TEST_CASE("frame_turns_with_the_valve") {
   const ModelPtr model = model_of(saddle(6e-3));
-  const Motion motion = some_motion();
+  const RigidMotion motion = some_rigid_motion();
   const Frame still = valve_frame(*model, model->valve.rest);
   const Frame turned = valve_frame(*model, moved(model->valve.rest, motion));
   CHECK((turned.axes - still.axes * motion.turn.transpose()).norm() < 1e-13);
@@ -141,7 +141,7 @@ TEST_CASE("annulus_measures_survive_motion_and_renumbering") {
   const Valve valve = valve_of(sheet);
   const ModelPtr model = make_model(valve);
   const AnnulusMeasures before = measure_annulus(*model, valve.rest);
-  const AnnulusMeasures after = measure_annulus(*model, moved(valve.rest, some_motion()));
+  const AnnulusMeasures after = measure_annulus(*model, moved(valve.rest, some_rigid_motion()));
   // rounding of coordinates of 0.3 m against lengths of 0.04 m
   CHECK(largest_difference(before, after) < 1e-13);
   const Renumbered other = renumbered(valve);

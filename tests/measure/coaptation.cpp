@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "measure/frame.h"
-#include "shapes.h"
+#include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
 namespace {
@@ -254,7 +254,7 @@ TEST_CASE("coaptation_survives_motion_and_renumbering") {
     CHECK(other.height == about(still.height, 1e-9));
     CHECK(other.depth == about(still.depth, 1e-9));
   };
-  check_same(measure_coaptation(*model, moved(valve.rest, some_motion())));
+  check_same(measure_coaptation(*model, moved(valve.rest, some_rigid_motion())));
   const Renumbered other = renumbered(valve);
   check_same(measure_coaptation(*other.model, other(valve.rest)));
 }

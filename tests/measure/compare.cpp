@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "base/distance.h"
+#include "geometry/distance.h"
 #include "measure/surface_distance.h"
-#include "shapes.h"
+#include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
 namespace {
@@ -23,7 +23,7 @@ Sheet bowl(size_t around, size_t rings) {
   return sheet;
 }
 
-double motion_error(const std::array<double, 12> &found, const Motion &motion) {
+double motion_error(const std::array<double, 12> &found, const RigidMotion &motion) {
   double error = 0;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
@@ -101,7 +101,7 @@ TEST_CASE("a_shape_is_nowhere_from_itself") {
 
 TEST_CASE("registration_finds_a_rigid_motion_of_the_same_mesh") {
   const ModelPtr model = model_of(bowl(40, 10));
-  const Motion motion = some_motion();
+  const RigidMotion motion = some_rigid_motion();
   const Comparison c =
       compare_shapes(*model, model->valve.rest, *model, moved(model->valve.rest, motion));
   CHECK(motion_error(c.registration, motion) < 1e-14);
@@ -125,7 +125,7 @@ TEST_CASE("a_shift_moves_every_node_by_itself") {
 TEST_CASE("a_scaled_shape_keeps_what_no_motion_takes_away") {
   const ModelPtr model = model_of(bowl(40, 10));
   const double scale = 1.05;
-  const Motion motion = some_motion();
+  const RigidMotion motion = some_rigid_motion();
   const Comparison c =
       compare_shapes(*model, model->valve.rest, *model,
                      moved(model->valve.rest, [&](const Vec3 &p) { return motion(scale * p); }));
@@ -180,7 +180,7 @@ TEST_CASE("squared_distance_to_a_plane_is_integrated_exactly") {
 TEST_CASE("registration_finds_a_rigid_motion_of_another_mesh_of_the_same_surface") {
   const Valve coarse = valve_of(bowl(40, 10));
   const ModelPtr a = make_model(coarse), b = make_model(refined(coarse));
-  const Motion motion = some_motion();
+  const RigidMotion motion = some_rigid_motion();
   const Comparison c = compare_shapes(*a, a->valve.rest, *b, moved(b->valve.rest, motion));
   CHECK(!c.same_mesh);
   // zero distance is found as the root of squares: 1e-12 of the first ones
@@ -196,7 +196,7 @@ TEST_CASE("surface_registration_leaves_no_better_motion_nearby") {
   });
   const Comparison c = compare_shapes(*a, a->valve.rest, *b, x);
   CHECK(c.surface_rms_registered < c.surface_rms);
-  Motion best;
+  RigidMotion best;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       best.turn(row, column) = c.registration[4 * row + column];

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "model/sides.h"
-#include "shapes.h"
+#include "tests/measure/shapes.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
@@ -234,7 +234,7 @@ TEST_CASE("a_rigid_motion_does_not_change_the_area") {
     const ModelPtr model = make_model(sealing(sheet));
     const std::vector<Vec3> &x = model->valve.rest;
     const double area = measure_orifice(*model, x).area;
-    const double there = measure_orifice(*model, moved(x, some_motion())).area;
+    const double there = measure_orifice(*model, moved(x, some_rigid_motion())).area;
     CHECK(area > 0);
     // the samples are placed in the valve's frame; rounding may choose other diagonals of them
     CHECK(there == about(area, 2e-3));

@@ -7,8 +7,8 @@
 #include "anatomy/parametric.h"
 #include "measure/coaptation.h"
 #include "measure/orifice.h"
-#include "physics/solver.h"
-#include "shapes.h"
+#include "solve/solver.h"
+#include "tests/measure/shapes.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
@@ -52,7 +52,7 @@ TEST_CASE("an_annulus_too_wide_for_its_leaflets_leaks_and_leaks_alike_in_any_pla
   CHECK(area > 10e-6);
   CHECK(area < 300e-6);
   const double moved_area =
-      measure_orifice(*closed.model, moved(closed.state.x, some_motion())).area;
+      measure_orifice(*closed.model, moved(closed.state.x, some_rigid_motion())).area;
   CHECK(moved_area == about(area, 2e-3));  // rounding may choose other diagonals of the samples
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("coaptation_of_a_closed_valve_is_the_same_in_any_place_and_order") {
       CHECK(std::abs(other.length_min - still.length_min) < rounding);
       CHECK(std::abs(other.length_max - still.length_max) < rounding);
     };
-    check_same(measure_coaptation(*closed.model, moved(closed.state.x, some_motion())));
+    check_same(measure_coaptation(*closed.model, moved(closed.state.x, some_rigid_motion())));
     const Renumbered other = renumbered(closed.model->valve);
     check_same(measure_coaptation(*other.model, other(closed.state.x)));
   }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shapes.h"
+#include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
 namespace {

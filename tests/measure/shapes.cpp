@@ -1,5 +1,5 @@
 // Meshing the shapes.
-#include "shapes.h"
+#include "tests/measure/shapes.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -56,7 +56,7 @@ Sheet disc(double radius, double hole, std::function<double(double x, double y)>
   return sheet;
 }
 
-Motion some_motion() {
+RigidMotion some_rigid_motion() {
   const Eigen::AngleAxisd turn(1.1, Vec3(0.3, -0.7, 0.5).normalized());
   return {turn.toRotationMatrix(), {0.12, -0.05, 0.31}};
 }

@@ -35,12 +35,12 @@ ModelPtr model_of(const Sheet &sheet);
 // A flat ring of the radius in m with a hole of the second radius, at a height over it.
 Sheet disc(double radius, double hole, std::function<double(double x, double y)> height);
 
-struct Motion {
+struct RigidMotion {
   Mat3 turn;
   Vec3 shift;
   Vec3 operator()(const Vec3 &p) const { return turn * p + shift; }
 };
-Motion some_motion();
+RigidMotion some_rigid_motion();
 std::vector<Vec3> moved(const std::vector<Vec3> &x, const std::function<Vec3(const Vec3 &)> &by);
 
 // The same valve with its nodes in another order; `place` says where each went.

@@ -7,7 +7,7 @@
 
 #include "measure/chords.h"
 #include "measure/strain.h"
-#include "shapes.h"
+#include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
 namespace {
@@ -49,7 +49,7 @@ Valve valve_with_chords() {
 
 TEST_CASE("uniform_stretch_is_found_in_every_triangle") {
   const ModelPtr model = model_of(flat_ring());
-  const Motion motion = some_motion();
+  const RigidMotion motion = some_rigid_motion();
   const Strain strain = measure_strain(*model, moved(model->valve.rest, [&](const Vec3 &p) {
     return motion({1.2 * p[0], 0.9 * p[1], p[2]});
   }));
@@ -66,7 +66,7 @@ TEST_CASE("uniform_stretch_is_found_in_every_triangle") {
 
 TEST_CASE("a_valve_at_rest_is_free_of_strain_and_stress") {
   const ModelPtr model = model_of(flat_ring());
-  const Strain strain = measure_strain(*model, moved(model->valve.rest, some_motion()));
+  const Strain strain = measure_strain(*model, moved(model->valve.rest, some_rigid_motion()));
   CHECK(strain.max_strain < 1e-12);  // rounding, as above
   CHECK(strain.max_stress < 1e-12 * 6e6);
 }
@@ -133,7 +133,7 @@ TEST_CASE("stress_and_stretch_do_not_see_rigid_motion") {
     return Vec3(1.1 * p[0], p[1] + 4 * p[0] * p[1], 20 * p[1] * p[1]);
   });
   const Strain still = measure_strain(*model, x);
-  const Strain turned = measure_strain(*model, moved(x, some_motion()));
+  const Strain turned = measure_strain(*model, moved(x, some_rigid_motion()));
   CHECK(turned.max_strain == about(still.max_strain, 1e-11));
   CHECK(turned.max_stress == about(still.max_stress, 1e-9));
   CHECK(turned.leaflet_area == about(still.leaflet_area, 1e-12));

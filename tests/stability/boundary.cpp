@@ -1,7 +1,7 @@
 // The annulus, rings and papillary heads moved as far as the operations let them.
 #include <cmath>
 
-#include "case.h"
+#include "tests/stability/case.h"
 
 namespace stability {
 namespace {

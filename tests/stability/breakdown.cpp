@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
-#include "crossings.h"
-#include "edge_work.h"
-#include "valves.h"
+#include "tests/stability/crossings.h"
+#include "tests/stability/edge_work.h"
+#include "tests/stability/valves.h"
 
 using namespace stability;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "watch.h"
+#include "tests/stability/watch.h"
 
 namespace stability {
 

@@ -1,5 +1,5 @@
 // Chordae drawn tight, slackened, and cut all at once.
-#include "case.h"
+#include "tests/stability/case.h"
 
 namespace stability {
 namespace {

@@ -1,4 +1,4 @@
-#include "edge_work.h"
+#include "tests/stability/edge_work.h"
 
 #include <algorithm>
 #include <map>

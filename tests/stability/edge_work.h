@@ -1,7 +1,7 @@
 // The work of the pressure at the free edge. Pressure pushes along the deformed normal; inside a
 // held rim that is the gradient of -p V, but at a free edge it differs from one by the force
 // (p / 6) a x b on both ends of each edge (a, b), seen from the first node at rest
-// (libmvs/physics/README.md). The potential that statistics tell leaves that force out, so its work
+// (libmvs/energy/README.md). The potential that statistics tell leaves that force out, so its work
 // has to be known before one can say that a step made energy.
 #pragma once
 

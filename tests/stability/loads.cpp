@@ -1,8 +1,8 @@
 // Pressure far out of range, turned over at each step; steps from 0.01 to 20 ms.
 #include <cstdio>
 
-#include "case.h"
-#include "valves.h"
+#include "tests/stability/case.h"
+#include "tests/stability/valves.h"
 
 namespace stability {
 namespace {

@@ -1,7 +1,7 @@
 // Meshes of every size, with slivers and tiny triangles; tissue a million times stiffer beside
 // soft.
-#include "case.h"
-#include "valves.h"
+#include "tests/stability/case.h"
+#include "tests/stability/valves.h"
 
 namespace stability {
 namespace {

@@ -13,9 +13,9 @@
 #include <ctime>
 #include <string>
 
-#include "case.h"
-#include "table.h"
-#include "valves.h"
+#include "tests/stability/case.h"
+#include "tests/stability/table.h"
+#include "tests/stability/valves.h"
 
 using namespace stability;
 

@@ -1,8 +1,8 @@
 // Starts that no closure would give: closed, inverted, crumpled, with one leaflet in the other.
 #include <random>
 
-#include "case.h"
-#include "valves.h"
+#include "tests/stability/case.h"
+#include "tests/stability/valves.h"
 
 namespace stability {
 namespace {

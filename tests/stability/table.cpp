@@ -1,11 +1,11 @@
-#include "table.h"
+#include "tests/stability/table.h"
 
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
 
-#include "known.h"
+#include "tests/stability/known.h"
 
 namespace stability {
 namespace {

@@ -2,7 +2,7 @@
 // m/s.
 #include <mvs/tool.hpp>
 
-#include "case.h"
+#include "tests/stability/case.h"
 
 namespace stability {
 namespace {

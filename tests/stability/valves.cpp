@@ -1,4 +1,4 @@
-#include "valves.h"
+#include "tests/stability/valves.h"
 
 #include <cstdio>
 #include <cstdlib>

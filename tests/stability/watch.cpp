@@ -1,4 +1,4 @@
-#include "watch.h"
+#include "tests/stability/watch.h"
 
 #include <algorithm>
 #include <cmath>

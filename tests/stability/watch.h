@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "crossings.h"
-#include "edge_work.h"
+#include "tests/stability/crossings.h"
+#include "tests/stability/edge_work.h"
 
 namespace stability {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "operated.h"
+#include "tests/surgery/operated.h"
 
 namespace mvs::core::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "operated.h"
 #include "surgery/sheet_map.h"
+#include "tests/surgery/operated.h"
 
 namespace mvs::core::test {
 namespace {

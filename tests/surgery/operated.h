@@ -8,10 +8,10 @@
 
 #include "anatomy/parametric.h"
 #include "base/error.h"
-#include "base/intersect.h"
+#include "geometry/intersect.h"
+#include "history/history.h"
 #include "measure/measure.h"
-#include "physics/solver.h"
-#include "surgery/history.h"
+#include "solve/solver.h"
 
 namespace mvs::core::test {
 

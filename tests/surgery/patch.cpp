@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 
 #include "measure/surface.h"
-#include "operated.h"
+#include "tests/surgery/operated.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;

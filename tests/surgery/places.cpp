@@ -1,7 +1,7 @@
 // Operations that only move what the heart holds: the annulus scaled, a papillary head displaced.
 #include <cmath>
 
-#include "operated.h"
+#include "tests/surgery/operated.h"
 
 namespace mvs::core::test {
 namespace {

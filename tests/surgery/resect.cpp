@@ -2,9 +2,9 @@
 #include <cstdlib>
 
 #include "measure/landmarks.h"
-#include "operated.h"
 #include "surgery/flat.h"
 #include "surgery/sheet_map.h"
+#include "tests/surgery/operated.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "operated.h"
 #include "surgery/ring_curve.h"
+#include "tests/surgery/operated.h"
 
 namespace mvs::core::test {
 namespace {

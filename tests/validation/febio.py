@@ -68,7 +68,7 @@ def one_by_one(base: Choice) -> tuple[Choice, ...]:
         replace(base, title="contact 0.6 mm", contact_thickness=0.6e-3),
         replace(base, title="contact 1.15 mm", contact_thickness=1.15e-3),
         replace(base, title="contact 1.3 mm", contact_thickness=1.3e-3),
-        # -B'(d / r) = p / kappa (libmvs/physics/README.md) at d = 1.15 mm under 120 mmHg
+        # -B'(d / r) = p / kappa (libmvs/energy/README.md) at d = 1.15 mm under 120 mmHg
         replace(base, title="contact 2 mm: gap 1.15 mm", contact_thickness=2e-3),
         replace(base, title="contact 1.3 mm, 370 kPa: gap 1.15 mm", contact_thickness=1.3e-3,
                 contact_stiffness=370e3),

@@ -1,13 +1,13 @@
 // Damped Newton: the exact Hessian with a shift that grows until the step does good.
-#include "balance.h"
+#include "tests/verification/balance.h"
 
 #include <mvs/sim.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "base/factor.h"
-#include "physics/nodes.h"
+#include "linalg/direct_solver.h"
+#include "solve/nodes.h"
 
 namespace mvs::core::verification {
 

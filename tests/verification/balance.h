@@ -2,11 +2,11 @@
 // term of the test, brought to rest by a plain damped Newton.
 #pragma once
 
-#include "../physics/bench.h"
-#include "physics/bending.h"
-#include "physics/chord.h"
-#include "physics/membrane.h"
-#include "physics/spring.h"
+#include "energy/bending.h"
+#include "energy/cable.h"
+#include "energy/membrane.h"
+#include "energy/spring.h"
+#include "tests/solve/bench.h"
 
 namespace mvs::core::verification {
 

@@ -17,9 +17,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "balance.h"
-#include "patch.h"
-#include "study.h"
+#include "tests/verification/balance.h"
+#include "tests/verification/patch.h"
+#include "tests/verification/study.h"
 
 namespace mvs::core::verification {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "patch.h"
-#include "physics/bending.h"
-#include "study.h"
+#include "energy/bending.h"
+#include "tests/verification/patch.h"
+#include "tests/verification/study.h"
 
 namespace mvs::core::verification {
 namespace {

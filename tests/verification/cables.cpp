@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "balance.h"
-#include "study.h"
+#include "tests/verification/balance.h"
+#include "tests/verification/study.h"
 
 namespace mvs::core::verification {
 namespace {

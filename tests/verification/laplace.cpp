@@ -6,8 +6,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "patch.h"
-#include "study.h"
+#include "tests/verification/patch.h"
+#include "tests/verification/study.h"
 
 namespace mvs::core::verification {
 namespace {

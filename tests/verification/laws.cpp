@@ -1,8 +1,8 @@
 // Every law through the assembled patch: uniaxial, equibiaxial, strip and simple shear.
 #include <cmath>
 
-#include "patch.h"
-#include "study.h"
+#include "tests/verification/patch.h"
+#include "tests/verification/study.h"
 
 namespace mvs::core::verification {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <iostream>
 
-#include "study.h"
+#include "tests/verification/study.h"
 
 using namespace mvs::core::verification;
 

@@ -1,12 +1,12 @@
 // The patch: mesh, maps, stress from the forces on its rim.
-#include "patch.h"
+#include "tests/verification/patch.h"
 
 #include <mvs/valve.h>
 
 #include <cmath>
 
-#include "physics/membrane.h"
-#include "physics/spring.h"
+#include "energy/membrane.h"
+#include "energy/spring.h"
 
 namespace mvs::core::verification {
 namespace {

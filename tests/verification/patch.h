@@ -1,9 +1,9 @@
 // A patch of tissue between a rim that is put somewhere: what the assembled triangles carry.
 #pragma once
 
-#include "../physics/bench.h"
 #include "model/membrane.h"
-#include "published.h"
+#include "tests/solve/bench.h"
+#include "tests/verification/published.h"
 
 namespace mvs::core::verification {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "balance.h"
-#include "patch.h"
-#include "study.h"
+#include "tests/verification/balance.h"
+#include "tests/verification/patch.h"
+#include "tests/verification/study.h"
 
 namespace mvs::core::verification {
 namespace {

@@ -1,5 +1,5 @@
 // The laws as they are printed.
-#include "published.h"
+#include "tests/verification/published.h"
 
 #include <mvs/valve.h>
 

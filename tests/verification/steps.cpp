@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "../physics/bench.h"
-#include "../unit/small_valve.h"
-#include "physics/potential.h"
-#include "physics/stepper.h"
-#include "published.h"
-#include "study.h"
+#include "energy/total_energy.h"
+#include "solve/dynamic/time_step.h"
+#include "tests/model/small_valve.h"
+#include "tests/solve/bench.h"
+#include "tests/verification/published.h"
+#include "tests/verification/study.h"
 
 namespace mvs::core::verification {
 namespace {

@@ -1,5 +1,5 @@
 // Orders, verdicts, tables.
-#include "study.h"
+#include "tests/verification/study.h"
 
 #include <cmath>
 #include <cstdio>

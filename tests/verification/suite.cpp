@@ -1,7 +1,7 @@
 // The studies as tests.
 #include <doctest/doctest.h>
 
-#include "study.h"
+#include "tests/verification/study.h"
 
 using namespace mvs::core::verification;
 

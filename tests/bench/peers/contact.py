@@ -1,6 +1,6 @@
 """Contact of the sheet with itself in NumPy: each vertex and the nearest point that faces it.
 
-Barrier or penalty of libmvs/physics/contact.h, without its sum over the sheet and its guard.
+Barrier or penalty of libmvs/energy/contact.h, without its sum over the sheet and its guard.
 """
 
 from __future__ import annotations

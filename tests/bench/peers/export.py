@@ -48,7 +48,7 @@ def areas(nodes: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 def sheet(triangles: np.ndarray, area: np.ndarray, thickness: np.ndarray,
           modulus: float) -> tuple[np.ndarray, ...]:
-    """Edges, volume beside each, hinges, their rigidity over area (libmvs/physics/bending.h)."""
+    """Edges, volume beside each, hinges, their rigidity over area (libmvs/energy/bending.h)."""
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     corner = np.concatenate([triangles[:, 2], triangles[:, 0], triangles[:, 1]])
     owner = np.tile(np.arange(len(triangles)), 3)

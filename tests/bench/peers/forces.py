@@ -1,6 +1,6 @@
 """The law of the valve written plainly in NumPy: energies and forces of every term.
 
-The same law as libmvs's springs (libmvs/physics/README.md), except contact: here a vertex feels the
+The same law as libmvs's springs (libmvs/energy/README.md), except contact: here a vertex feels the
 nearest facing point of the other sheet only, not the sum over all of it.
 """
 

@@ -94,7 +94,7 @@ def as_html(spreadings: list[Spreading], pictures: dict[str, bytes]) -> str:
         "time, with inertia, the annulus moved before, with or after it, from starts moved by up to 0.5 mm. Path 0 is the "
         "plain closure, whose figures stand everywhere else on this page; beside them here the "
         "least and the most over the paths at rest, and the standard deviation. It is the spread "
-        "over these paths, not the error of the model (libmvs/spread/README.md).</p>\n"
+        "over these paths, not the error of the model (libmvs/ensemble/README.md).</p>\n"
         f'<div class="row">{figures}</div>\n{_table(spreadings)}\n'
         + "".join(_paths(each) for each in spreadings)
     )

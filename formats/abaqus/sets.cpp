@@ -1,0 +1,162 @@
+// Sets and what names them: numbers, ranges, sets of sets, "instance.set".
+#include "formats/abaqus/sets.h"
+
+#include "formats/text/line.h"
+
+namespace mvs::core {
+namespace {
+
+using Numbers = std::map<uint64_t, uint32_t>;
+
+// A range of numbers beyond this is a mistake, not a set.
+constexpr uint64_t longest_range = uint64_t{1} << 24;
+
+// Takes "instance." off a name; says whether it stood there.
+bool strip_instance(std::string &label, const InpMesh &mesh) {
+  const size_t dot = label.rfind('.');
+  if (dot == std::string::npos || dot == 0) return false;
+  const std::string instance = label.substr(0, dot);
+  if (instance != mesh.instance && instance != mesh.part) return false;
+  label = label.substr(dot + 1);
+  return true;
+}
+
+// What a list calls its things, for sentences.
+struct Kind {
+  const char *thing;
+  const Numbers &numbers;
+  const InpSets &sets;
+  const std::set<uint64_t> *skipped;
+};
+
+std::vector<uint32_t> named(std::string_view word, int32_t line, const InpMesh &mesh,
+                            const Kind &kind) {
+  std::string label = inp_label(word);
+  uint64_t number = 0;
+  if (const InpSet *set = mesh.find_set(kind.sets, word)) return set->items;
+  strip_instance(label, mesh);
+  if (!parse_whole(label, number)) {
+    inp_fail(line, "%s is no set of %ss in the file", quoted(word).c_str(), kind.thing);
+  }
+  if (kind.skipped && kind.skipped->contains(number)) return {};
+  const auto place = kind.numbers.find(number);
+  if (place == kind.numbers.end()) {
+    inp_fail(line, "%s %llu is not in the file", kind.thing,
+             static_cast<unsigned long long>(number));
+  }
+  return {place->second};
+}
+
+Kind node_kind(const InpMesh &mesh) {
+  return {"node", mesh.node_of, mesh.node_sets, nullptr};
+}
+Kind element_kind(const InpMesh &mesh) {
+  return {"element", mesh.element_of, mesh.element_sets, &mesh.skipped};
+}
+
+// first, last, step: every number of it has to be there.
+void add_range(InpRow row, const InpMesh &mesh, const Kind &kind, std::vector<uint32_t> &items) {
+  const uint64_t first = row.whole("the first number of a range");
+  const uint64_t last = row.whole("the last number of a range");
+  const std::string_view word = row.word();
+  uint64_t step = 1;
+  if (!word.empty() && (!parse_whole(word, step) || step == 0)) {
+    inp_fail(row.line(), "%s is no step of a range", quoted(word).c_str());
+  }
+  if (last < first || last - first > longest_range || (last - first) % step != 0) {
+    inp_fail(row.line(), "from %llu to %llu in steps of %llu is no range",
+             static_cast<unsigned long long>(first), static_cast<unsigned long long>(last),
+             static_cast<unsigned long long>(step));
+  }
+  for (uint64_t number = first; number <= last; number += step) {
+    const std::vector<uint32_t> found = named(std::to_string(number), row.line(), mesh, kind);
+    items.insert(items.end(), found.begin(), found.end());
+    if (last - number < step) break;
+  }
+}
+
+// *NSET, ELSET=...: the nodes of a set of elements.
+void add_nodes_of(InpCard &card, const InpMesh &mesh, std::vector<uint32_t> &items) {
+  const auto elements = card.take("ELSET");
+  if (!elements) return;
+  for (const uint32_t e : mesh.named_elements(*elements, card.line)) {
+    const std::vector<uint32_t> &nodes = mesh.elements[e].nodes;
+    items.insert(items.end(), nodes.begin(), nodes.end());
+  }
+}
+
+void read_set(InpCard &card, const char *key, const std::string &level, const InpMesh &mesh,
+              const Kind &kind, InpSets &into) {
+  card.used = true;
+  card.need(key);
+  for (const char *plain : {"INTERNAL", "INSTANCE", "UNSORTED"}) card.take(plain);
+  const std::string_view name = *card.take(key);
+  const bool generate = card.take("GENERATE").has_value();
+  std::vector<uint32_t> items;
+  if (card.is("NSET")) add_nodes_of(card, mesh, items);
+  for (size_t k = 0; k < card.data.size(); ++k) {
+    InpRow row = card.row(k);
+    if (generate) {
+      add_range(row, mesh, kind, items);
+      continue;
+    }
+    while (!row.at_end()) {
+      const std::string_view word = row.word();
+      if (word.empty()) continue;
+      const std::vector<uint32_t> found = named(word, row.line(), mesh, kind);
+      items.insert(items.end(), found.begin(), found.end());
+      if (items.size() > longest_range) inp_fail(row.line(), "the set has too many members");
+    }
+  }
+  add_to_inp_set(into, level, name, card.line, items);
+}
+
+}  // namespace
+
+void add_to_inp_set(InpSets &sets, const std::string &level, std::string_view name, int32_t line,
+                    const std::vector<uint32_t> &items) {
+  InpSet &set = sets[level + inp_label(name)];
+  if (set.line == 0) {
+    set.name = std::string(name);
+    std::erase(set.name, '"');
+    set.line = line;
+  }
+  for (const uint32_t item : items) {
+    if (set.members.insert(item).second) set.items.push_back(item);
+  }
+}
+
+void read_inp_sets(std::vector<InpCard> &cards, InpMesh &mesh) {
+  std::string level;
+  for (InpCard &card : cards) {
+    if (card.is("ASSEMBLY")) level = "@";
+    if (card.is("INSTANCE")) level = "";
+    if (card.is("END INSTANCE")) level = "@";
+    if (card.is("END ASSEMBLY")) level = "";
+    if (card.is("NSET")) {
+      read_set(card, "NSET", level, mesh, node_kind(mesh), mesh.node_sets);
+    } else if (card.is("ELSET")) {
+      read_set(card, "ELSET", level, mesh, element_kind(mesh), mesh.element_sets);
+    }
+  }
+}
+
+// Without an instance before it, a set of the assembly comes first.
+const InpSet *InpMesh::find_set(const InpSets &sets, std::string_view word) const {
+  std::string label = inp_label(word);
+  if (!strip_instance(label, *this)) {
+    if (const auto found = sets.find("@" + label); found != sets.end()) return &found->second;
+  }
+  const auto found = sets.find(label);
+  return found == sets.end() ? nullptr : &found->second;
+}
+
+std::vector<uint32_t> InpMesh::named_nodes(std::string_view word, int32_t line) const {
+  return named(word, line, *this, node_kind(*this));
+}
+
+std::vector<uint32_t> InpMesh::named_elements(std::string_view word, int32_t line) const {
+  return named(word, line, *this, element_kind(*this));
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,132 @@
+// Whole files. Writing follows the order that survives a crash: a new file beside the target, its
+// bytes to the disk, rename over the target, the folder to the disk. Rename alone may leave an
+// empty file after a power loss.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <memory>
+
+#include "base/error.h"
+#include "formats/file/posix_file.h"
+#include "formats/formats.h"
+
+namespace mvs::core {
+namespace {
+
+using Status = struct stat;
+
+// A file's name that is unlinked at the end, unless the file was renamed.
+class Temporary {
+ public:
+  explicit Temporary(const std::string &path) : path_(path) {}
+  Temporary(const Temporary &) = delete;
+  Temporary &operator=(const Temporary &) = delete;
+  ~Temporary() {
+    if (!renamed_) ::unlink(path_.c_str());
+  }
+  void rename_to(const std::string &target) {
+    if (::rename(path_.c_str(), target.c_str()) != 0) fail_io("replace", target, errno);
+    renamed_ = true;
+  }
+
+ private:
+  const std::string &path_;
+  bool renamed_ = false;
+};
+
+// Opens a file of a new name in `folder`: O_EXCL sees to that, the umask to its mode.
+int open_new(const std::string &folder, std::string &path) {
+  constexpr int tries = 1000;
+  for (int k = 0; k < tries; ++k) {
+    path = folder + "/.mvs-" + std::to_string(::getpid()) + "-" + std::to_string(k) + ".tmp";
+    const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (number >= 0) return number;
+    if (errno != EEXIST) fail_io("write into folder", folder, errno);
+  }
+  fail_io("find a new name in folder", folder, EEXIST);
+}
+
+void write_all(const Descriptor &file, std::string_view bytes, const std::string &target) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_io("write", target, errno);
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+}
+
+// Where links lead to, so that the file is replaced and the link stays.
+std::string follow_links(const std::string &path) {
+  char *const resolved = ::realpath(path.c_str(), nullptr);
+  if (!resolved) return path;
+  const std::unique_ptr<char, decltype(&std::free)> keep(resolved, &std::free);
+  return resolved;
+}
+
+// Whether there is a file to be replaced; its status, if so.
+bool find_old(const std::string &target, Status &old) {
+  if (::stat(target.c_str(), &old) != 0) return false;
+  if (S_ISDIR(old.st_mode)) fail_io("write", target, EISDIR);
+  MVS_MUST(S_ISREG(old.st_mode), MVS_E_IO, "", "cannot write %s: it is a device or pipe, no file",
+           target.c_str());
+  if (::access(target.c_str(), W_OK) != 0) fail_io("write", target, errno);
+  return true;
+}
+
+// The size to read at first, or a failure for what is no file or too large.
+size_t size_to_read(const Descriptor &file, const std::string &path, size_t limit) {
+  Status status;
+  if (::fstat(file.number(), &status) != 0) fail_io("read", path, errno);
+  if (S_ISDIR(status.st_mode)) fail_io("read", path, EISDIR);
+  MVS_MUST(S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode), MVS_E_IO, "",
+           "cannot read %s: it is a device, no file", path.c_str());
+  const auto size = static_cast<uint64_t>(std::max<off_t>(status.st_size, 0));
+  MVS_MUST(size <= limit, MVS_E_MEMORY, "", "%s has %llu bytes, the limit is %zu", path.c_str(),
+           static_cast<unsigned long long>(size), limit);
+  return static_cast<size_t>(size);
+}
+
+}  // namespace
+
+std::string read_whole_file(const std::string &path, size_t limit) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) fail_io("open", path, errno);
+  constexpr size_t least = 64 * 1024;
+  std::string bytes(std::max(size_to_read(file, path, limit) + 1, least), '\0');
+  for (size_t filled = 0;;) {
+    const ssize_t got = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_io("read", path, errno);
+    filled += static_cast<size_t>(got);
+    MVS_MUST(filled <= limit, MVS_E_MEMORY, "", "%s has more than %zu bytes, the limit",
+             path.c_str(), limit);
+    if (got == 0) {
+      bytes.resize(filled);
+      return bytes;
+    }
+    if (filled == bytes.size()) bytes.resize(2 * bytes.size());
+  }
+}
+
+void write_whole_file(const std::string &path, std::string_view bytes) {
+  const std::string target = follow_links(path), folder = folder_of(target);
+  Status old;
+  const bool replaces = find_old(target, old);
+  std::string path_of_new;
+  Descriptor file(open_new(folder, path_of_new));
+  Temporary temporary(path_of_new);
+  write_all(file, bytes, target);
+  if (replaces && ::fchmod(file.number(), old.st_mode & 07777) != 0) {
+    fail_io("keep the mode of", target, errno);
+  }
+  if (::fsync(file.number()) != 0) fail_io("write", target, errno);
+  if (!file.close()) fail_io("write", target, errno);
+  temporary.rename_to(target);
+  sync_folder(folder);
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,96 @@
+// The reader of extended OBJ: what OBJ itself has is in obj_read.cpp, the #mvs lines are in
+// obj_records.cpp. Every index, number and name is checked where it stands, so that what leaves the
+// reader can at worst be no valve (make_model says that), but never out of bounds. Nothing is
+// allocated for a count that the file only claims.
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "formats/formats.h"
+#include "formats/obj/words.h"
+#include "formats/text/line.h"
+
+namespace mvs::core {
+
+class ObjReader {
+ public:
+  Loaded read(std::string_view text);
+
+ private:
+  void statement(std::string_view content, Line &line);
+  static void comment(std::string_view text, const Line &line);
+  void vertex(Line &line);
+  void group(Line &line);
+  void face(Line &line);
+  void segments(Line &line);
+
+  void record(Line &line);
+  void version(std::string_view word, Line &line);
+  void valve(Line &line);
+  void state(Line &line);
+  template <size_t k>
+  void waypoint(Line &line);
+  template <size_t k>
+  void waypoint_place(Line &line);
+  Waypoint &waypoint_of(size_t k) { return k == 0 ? out_.state.serving : out_.state.coming; }
+  void check_waypoints(const Line &last);
+  void leaflet(Line &line);
+  void scallop(Line &line);
+  void rest(Line &line);
+  void open(Line &line);
+  void loaded(Line &line);
+  void origin(Line &line);
+  void velocity(Line &line);
+  void annulus(Line &line);
+  void head(Line &line);
+  void ring(Line &line);
+  void ring_point(Line &line);
+  void curve(Line &line);
+  void curve_point(Line &line);
+  uint32_t curve_of(Fields &fields, const Line &line) const;
+  void thickness(Line &line);
+  void fibre(Line &line);
+  void chord(Line &line);
+  void end(Line &line);
+
+  void enter_group(const Line &line);
+  template <typename Item>
+  static void check_room(const SharedVector<Item> &items, const Line &line);
+  void check_complete(const Line &last) const;
+
+  // What attributes the last v, f and l line have got so far.
+  struct Given {
+    bool rest = false, open = false, loaded = false, origin = false, velocity = false;
+    bool thickness = false, chord = false;
+    std::array<bool, 2> place = {};  // of a waypoint
+  };
+  struct Counts {
+    uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
+  };
+
+  Loaded out_;
+  std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_;
+  std::string_view leaflet_word_, scallop_word_;  // of the group that faces are in
+  uint32_t leaflet_ = none, scallop_ = none;      // the same as indices, once a face needs them
+  size_t segments_in_line_ = 0;
+  Given given_;
+  Counts counts_;
+  bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
+  std::array<bool, 2> has_waypoint_ = {};
+};
+
+template <typename Item>
+void ObjReader::check_room(const SharedVector<Item> &items, const Line &line) {
+  constexpr size_t most = size_t{1} << 22;
+  if (items.size() < most) return;
+  line.fail("the limit is %zu vertices, triangles, segments or parts of one kind", most);
+}
+
+// x y z in mm.
+inline Vec3 read_place(Line &line) {
+  const double x = line.number(obj::mm), y = line.number(obj::mm), z = line.number(obj::mm);
+  return {x, y, z};
+}
+
+}  // namespace mvs::core

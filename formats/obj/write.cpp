@@ -1,0 +1,362 @@
+// Extended OBJ, written. The order is that of FORMAT.md; the same valve and state give the same
+// bytes everywhere.
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <span>
+
+#include "base/error.h"
+#include "formats/formats.h"
+#include "formats/obj/words.h"
+#include "formats/text/decimal.h"
+#include "formats/text/line.h"
+#include "model/chord_law.h"
+
+namespace mvs::core {
+namespace {
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+}
+
+bool same_bits(const Vec3 &a, const Vec3 &b) {
+  return same_bits(a[0], b[0]) && same_bits(a[1], b[1]) && same_bits(a[2], b[2]);
+}
+
+class ObjWriter {
+ public:
+  ObjWriter(const Valve &valve, const State &state);
+  std::string write();
+
+ private:
+  void header();
+  void waypoints();
+  void leaflets();
+  void nodes();
+  void annulus_and_heads();
+  void rings();
+  void curves();
+  void triangles();
+  void chords();
+  void end();
+
+  // Start a line `g `, `#mvs word`.
+  void group();
+  void record(std::string_view word);
+  void number(double value, int shift = 0);
+  void numbers(const Vec3 &values, int shift);
+  void key(std::string_view name) { out_.append(1, ' ').append(name).append(1, '='); }
+  void key_text(std::string_view name, std::string_view text);
+  void key_number(std::string_view name, double value, int shift = 0);
+  void key_whole(std::string_view name, uint64_t value);
+  template <typename Values>
+  void key_constants(std::span<const Constant> constants, const Values &values) {
+    for (size_t k = 0; k < constants.size(); ++k) key_number(constants[k].key, values[k]);
+  }
+  void key_choice(std::string_view name, std::span<const std::string_view> words, uint32_t index);
+  void vertices(std::initializer_list<uint32_t> nodes);
+
+  const Valve &valve_;
+  const State &state_;
+  std::array<const Waypoint *, 2> waypoints_{};  // null where there is none to write
+  std::string out_;
+  uint64_t groups_ = 0, records_ = 0;
+};
+
+// Where there are tools the file does not have the whole state, and steps from it begin anew.
+ObjWriter::ObjWriter(const Valve &valve, const State &state) : valve_(valve), state_(state) {
+  const auto can_be = [&](const Waypoint &waypoint) {
+    return waypoint.x.size() == valve.rest.size() && waypoint.tools.empty();
+  };
+  if (!state.tools.empty() || !can_be(state.serving)) return;
+  waypoints_[0] = &state.serving;
+  if (can_be(state.coming)) waypoints_[1] = &state.coming;
+}
+
+std::string ObjWriter::write() {
+  out_.reserve(512 + 256 * valve_.rest.size() + 128 * valve_.triangles.size());
+  header();
+  leaflets();
+  nodes();
+  annulus_and_heads();
+  rings();
+  curves();
+  triangles();
+  chords();
+  end();
+  return std::move(out_);
+}
+
+void ObjWriter::header() {
+  out_ += "# A heart valve by libmvs; formats/FORMAT.md says what the lines mean.\n# SPACE=LPS\n";
+  if (!state_.tools.empty())
+    out_ += "# The tools of this state are not kept here: save it as .h5\n";
+  record(std::to_string(waypoints_[0] ? obj::version : obj::version_at_rest));
+  out_ += " units=mm\n";
+  record("valve");
+  key_text("name", valve_.name);
+  key_whole("next_id", valve_.next_id);
+  key_number("density", valve_.density);
+  key_number("contact_thickness", valve_.contact_thickness, obj::mm);
+  key_number("contact_stiffness", valve_.contact_stiffness);
+  key_number("bending_scale", valve_.bending_scale);
+  out_ += '\n';
+  record("state");
+  key_number("time", state_.time);
+  key_whole("steps", state_.steps);
+  key_number("pressure", state_.load.pressure);
+  key_number("boundary_fraction", state_.load.boundary_fraction);
+  out_ += '\n';
+  waypoints();
+}
+
+void ObjWriter::waypoints() {
+  for (size_t k = 0; k < waypoints_.size(); ++k) {
+    if (!waypoints_[k]) continue;
+    record(obj::waypoints[k]);
+    key_number("pressure", waypoints_[k]->pressure);
+    key_number("dt", waypoints_[k]->dt);
+    key_number("damping", waypoints_[k]->damping);
+    key_whole("age", waypoints_[k]->age);
+    out_ += '\n';
+  }
+}
+
+void ObjWriter::leaflets() {
+  for (const Leaflet &leaflet : valve_.leaflets) {
+    record("leaflet");
+    key_text("name", leaflet.name);
+    key_whole("id", leaflet.id);
+    key_choice("law", obj::words_of(leaflet_laws()), leaflet.law - 1);
+    key_number("thickness", leaflet.thickness, obj::mm);
+    key_constants(find_leaflet_law(leaflet.law)->constants, leaflet.constants);
+    out_ += '\n';
+  }
+  for (const Scallop &scallop : valve_.scallops) {
+    record("scallop");
+    key_text("name", scallop.name);
+    key_whole("id", scallop.id);
+    key_text("leaflet", valve_.leaflets[scallop.leaflet].name);
+    out_ += '\n';
+  }
+}
+
+// Rest, open and loaded position, velocity, origin only where they are not what the line before
+// lets expect.
+void ObjWriter::nodes() {
+  const Vec3 still = Vec3::Zero();
+  for (size_t n = 0; n < valve_.rest.size(); ++n) {
+    const auto place = [&](const Vec3 &values) {
+      numbers(values, obj::mm);
+      out_ += '\n';
+    };
+    out_ += 'v';
+    place(state_.x[n]);
+    if (!same_bits(valve_.rest[n], state_.x[n])) {
+      record("rest");
+      place(valve_.rest[n]);
+    }
+    if (!same_bits(valve_.open[n], valve_.rest[n])) {
+      record("open");
+      place(valve_.open[n]);
+    }
+    if (!same_bits(valve_.loaded[n], valve_.rest[n])) {
+      record("loaded");
+      place(valve_.loaded[n]);
+    }
+    if (!same_bits(state_.v[n], still)) {
+      record("velocity");
+      place(state_.v[n]);
+    }
+    if (valve_.origin[n] != n) {
+      record("origin ");
+      out_ += valve_.origin[n] == none ? "new" : std::to_string(uint64_t{valve_.origin[n]} + 1);
+      out_ += '\n';
+    }
+    for (size_t k = 0; k < waypoints_.size(); ++k) {
+      if (!waypoints_[k]) continue;
+      record(obj::waypoint_places[k]);
+      place(waypoints_[k]->x[n]);
+    }
+  }
+}
+
+void ObjWriter::annulus_and_heads() {
+  constexpr size_t nodes_a_line = 16;
+  for (size_t k = 0; k < valve_.annulus.size(); ++k) {
+    if (k % nodes_a_line == 0) record("annulus");
+    vertices({valve_.annulus[k]});
+    if (k % nodes_a_line == nodes_a_line - 1 || k + 1 == valve_.annulus.size()) out_ += '\n';
+  }
+  for (const Head &head : valve_.heads) {
+    record("head");
+    key_text("name", head.name);
+    key_whole("id", head.id);
+    key_whole("node", uint64_t{head.node} + 1);
+    out_ += '\n';
+  }
+}
+
+void ObjWriter::rings() {
+  for (const Ring &ring : valve_.rings) {
+    record("ring");
+    key_text("name", ring.name);
+    key_whole("id", ring.id);
+    key_choice("kind", obj::ring_kinds, ring.kind - 1);
+    out_ += '\n';
+    for (const Vec3 &point : ring.curve) {
+      record("ring_point");
+      numbers(point, obj::mm);
+      out_ += '\n';
+    }
+  }
+}
+
+void ObjWriter::curves() {
+  for (const ChordCurve &curve : valve_.curves) {
+    record("curve");
+    key_text("name", curve.name);
+    key_whole("id", curve.id);
+    out_ += '\n';
+    for (const auto &[strain, stress] : curve.points) {
+      record("curve_point");
+      out_ += ' ';
+      number(strain);
+      out_ += ' ';
+      number(stress);
+      out_ += '\n';
+    }
+  }
+}
+
+void ObjWriter::triangles() {
+  uint32_t leaflet = none, scallop = none;
+  for (size_t t = 0; t < valve_.triangles.size(); ++t) {
+    if (valve_.triangle_leaflet[t] != leaflet || valve_.triangle_scallop[t] != scallop) {
+      leaflet = valve_.triangle_leaflet[t];
+      scallop = valve_.triangle_scallop[t];
+      group();
+      append_text(out_, valve_.leaflets[leaflet].name);
+      out_ += ' ';
+      append_text(out_, valve_.scallops[scallop].name);
+      out_ += '\n';
+    }
+    const Tri &triangle = valve_.triangles[t];
+    out_ += 'f';
+    vertices({triangle[0], triangle[1], triangle[2]});
+    out_ += '\n';
+    const double thickness = valve_.triangle_thickness[t];
+    if (!same_bits(thickness, valve_.leaflets[leaflet].thickness)) {
+      record("thickness");
+      out_ += ' ';
+      number(thickness, obj::mm);
+      out_ += '\n';
+    }
+    record("fibre");
+    numbers(valve_.triangle_fibre[t], 0);
+    out_ += '\n';
+  }
+}
+
+void ObjWriter::chords() {
+  if (!valve_.chords.empty()) {
+    group();
+    out_ += "chordae\n";
+  }
+  for (const Chord &chord : valve_.chords) {
+    out_ += 'l';
+    vertices({chord.a, chord.b});
+    out_ += '\n';
+    record("chord");
+    key_text("name", chord.name);
+    key_whole("id", chord.id);
+    key_choice("kind", obj::chord_kinds, chord.kind);
+    key_choice("law", obj::words_of(chord_laws()), chord.law - 1);
+    key_number("rest_length", chord.rest_length, obj::mm);
+    key_number("young", chord.young);
+    key_number("area", chord.area, obj::mm2);
+    if (chord.law == MVS_CHORD_TABLE) {
+      key_text("curve", valve_.curves[static_cast<size_t>(chord.constants[0])].name);
+    } else {
+      key_constants(find_chord_law(chord.law)->constants, chord.constants);
+    }
+    out_ += '\n';
+  }
+}
+
+void ObjWriter::end() {
+  record("end");
+  key_whole("v", valve_.rest.size());
+  key_whole("f", valve_.triangles.size());
+  key_whole("l", valve_.chords.size());
+  key_whole("g", groups_);
+  key_whole("mvs", records_);
+  out_ += '\n';
+}
+
+void ObjWriter::group() {
+  out_ += "g ";
+  ++groups_;
+}
+
+void ObjWriter::record(std::string_view word) {
+  out_.append("#mvs ").append(word);
+  ++records_;
+}
+
+void ObjWriter::number(double value, int shift) {
+  MVS_MUST(std::isfinite(value), MVS_E_DIVERGED, valve_.name,
+           "a number of the valve or its state is not finite: go back to an earlier state and save "
+           "that");
+  append_decimal(out_, value, shift);
+}
+
+void ObjWriter::numbers(const Vec3 &values, int shift) {
+  for (int k = 0; k < 3; ++k) {
+    out_ += ' ';
+    number(values[k], shift);
+  }
+}
+
+void ObjWriter::key_text(std::string_view name, std::string_view text) {
+  key(name);
+  append_text(out_, text);
+}
+
+void ObjWriter::key_number(std::string_view name, double value, int shift) {
+  key(name);
+  number(value, shift);
+}
+
+void ObjWriter::key_whole(std::string_view name, uint64_t value) {
+  key(name);
+  out_ += std::to_string(value);
+}
+
+void ObjWriter::key_choice(std::string_view name, std::span<const std::string_view> words,
+                           uint32_t index) {
+  MVS_MUST(index < words.size(), MVS_E_INTERNAL, std::string(name),
+           "the OBJ writer has no word for %.*s %u", static_cast<int>(name.size()), name.data(),
+           index);
+  key(name);
+  out_ += words[index];
+}
+
+void ObjWriter::vertices(std::initializer_list<uint32_t> nodes) {
+  for (const uint32_t node : nodes) {
+    char text[16];
+    out_.append(1, ' ').append(text, std::to_chars(text, text + sizeof text, node + 1).ptr);
+  }
+}
+
+}  // namespace
+
+std::string write_obj(const Model &model, const State &state) {
+  MVS_MUST(state.x.size() == model.node_count() && state.v.size() == model.node_count(),
+           MVS_E_INTERNAL, "state", "the state has %zu positions and %zu velocities for %zu nodes",
+           state.x.size(), state.v.size(), model.node_count());
+  return ObjWriter(model.valve, state).write();
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,69 @@
+// The plan as JSON: operations and what was done between them, to text and back.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/text/json.h"
+#include "history/history.h"
+
+namespace mvs::core {
+
+// Of the steps of a plan or a journal. 1 had no steps led by hands; up to 2 a chord kept its length
+// when it went to another head (formats/old_ops.h).
+inline constexpr unsigned plan_version = 3;
+
+// One step of a plan: a move, or an operation as it stands in the file.
+struct PlanStep {
+  std::optional<Move> move;
+  Json op;  // null for a move
+  uint64_t version = plan_version;
+  std::string group;      // "" for none
+  uint64_t group_id = 0;  // tells groups of one name apart
+};
+
+struct Plan {
+  std::string valve_hash, result_hash;  // 32 hexadecimal digits; "" where not told
+  std::vector<PlanStep> steps;
+};
+
+// "0123456789abcdef0123456789abcdef"
+std::string hash_text(const Picture &picture);
+
+// The steps that lead from the start of a history to its moment. `measures` is asked for what each
+// picture measures; it may be empty.
+using Measure = std::function<Json(const Picture &)>;
+Json plan_steps(const Moment &moment, const Measure &measure);
+
+// A whole plan.
+struct PlanText {
+  std::string author, notes;
+};
+std::string write_plan(const Moment &moment, const PlanText &text, const Measure &measure);
+
+// Throws MVS_E_FORMAT or MVS_E_VERSION with the step that is wrong.
+Plan read_plan(std::string_view text);
+
+// A record of a journal: steps with the version that they are of, and back; without one they are of
+// version 2, when records did not tell it.
+void put_steps(Json &record, Json steps);
+std::vector<PlanStep> read_steps(const Json &record);
+
+// The valve that a plan or journal belongs to.
+Json valve_json(const Picture &start);
+
+Json move_json(const Move &move);
+void add_moves(Json &steps, const Moves &moves);
+
+// An operation that was applied, with its title, time and group.
+Json entry_json(const Entry &entry);
+
+// An operation with the names of its parts in this model, and back. In `exact` replay a site is the
+// node or triangle that it was, else its anatomical place.
+Json op_json(const Operation &op, const Model &model);
+Operation read_op(const Json &json, const Model &model, bool exact);
+
+}  // namespace mvs::core

@@ -1,0 +1,20 @@
+// What was done with tools, as steps of a plan.
+#pragma once
+
+#include <optional>
+
+#include "formats/text/json.h"
+#include "history/history.h"
+
+namespace mvs::core {
+
+Json tool_json(const Move &move);
+
+// Steps led by hands: whose, and where they were, the options of the steps being the caller's.
+Json lead_json(const Move &move);
+Move read_lead(const Json &json);
+
+// Null where the step is of another kind; throws MVS_E_FORMAT with what is wrong.
+std::optional<Move> read_tool_step(const Json &json);
+
+}  // namespace mvs::core

@@ -1,0 +1,356 @@
+// Sessions, read. What was shared is shared again: each array, list, model and entry is made once,
+// by its number in the file.
+#include <mvs/tool.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+#include "base/error.h"
+#include "formats/formats.h"
+#include "formats/plan/old_ops.h"
+#include "formats/session/layout.h"
+#include "formats/session/pool.h"
+#include "history/tool_trajectory.h"
+
+namespace mvs::core {
+namespace {
+
+template <typename Thing>
+using Made = std::map<uint64_t, Thing>;
+
+class SessionReader {
+ public:
+  SessionReader(const H5Tree &tree, uint32_t version)
+      : version_(version),
+        words_(tree.at<uint64_t>("mvs/moment")),
+        parts_(tree, "mvs/parts"),
+        numbers_(tree, "mvs/numbers"),
+        indices_(tree, "mvs/indices"),
+        texts_(tree, "mvs/texts") {}
+
+  Moment read() {
+    Moment moment;
+    pass(*this, moment);
+    must_be_used_up();
+    return moment;
+  }
+
+  // what session_layout.h asks of an archive
+  uint32_t version() const { return version_; }
+  void word(uint64_t &number) { number = next(); }
+  void word(int64_t &number) { number = static_cast<int64_t>(next()); }
+  void word(uint32_t &number);
+  void choice(Move::Kind &kind);
+  void number(double &value);
+  void text(std::string &text);
+  template <typename Element>
+  void array(SharedVector<Element> &items);
+  template <typename Part>
+  void list(SharedVector<Part> &parts);
+  void model(ModelPtr &model);
+  template <typename Item>
+  void stack(Stack<Item> &items);
+  void check(const Picture &picture) const;
+  static void check(const Move &move);
+  void optional(std::shared_ptr<const Picture> &picture);
+  void optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
+
+ private:
+  uint64_t next() {
+    MVS_MUST(!words_.empty(), MVS_E_FORMAT, "mvs", "a part of the file ends too early");
+    const uint64_t word = words_.front();
+    words_ = words_.subspan(1);
+    return word;
+  }
+  // How many things follow, each of a word at least.
+  uint64_t count() {
+    const uint64_t number = next();
+    MVS_MUST(number <= words_.size(), MVS_E_FORMAT, "mvs", "a part of the file ends too early");
+    return number;
+  }
+  void must_be_used_up() const {
+    MVS_MUST(words_.empty(), MVS_E_FORMAT, "mvs", "a part of the file has words left over");
+  }
+
+  // The thing of the number that comes next: made by work(thing) from the words of that part, or
+  // made before.
+  template <typename Thing, typename Work>
+  const Thing &part(Made<Thing> &made, Work work) {
+    const uint64_t number = next();
+    const auto place = made.find(number);
+    if (place != made.end()) return place->second;
+    const std::span<const uint64_t> around = std::exchange(words_, parts_.at(number));
+    Thing thing{};
+    work(thing);
+    must_be_used_up();
+    words_ = around;
+    return made.emplace(number, std::move(thing)).first->second;
+  }
+  template <typename Thing>
+  Made<Thing> &made() {
+    return std::get<Made<Thing>>(made_);
+  }
+  template <typename Value>
+  std::span<const Value> values(uint64_t number) const;
+
+  void item(Move &move) { pass(*this, move); }
+  void item(std::shared_ptr<const Entry> &entry);
+  Operation operation();
+  void field(const OpField &f, char *at);
+
+  const uint32_t version_;
+  std::span<const uint64_t> words_;  // what is left of the part being read
+  const PoolReader<uint64_t> parts_;
+  const PoolReader<double> numbers_;
+  const PoolReader<uint32_t> indices_;
+  const PoolReader<uint8_t> texts_;
+  std::tuple<Made<SharedVector<Vec3>>, Made<SharedVector<Tri>>, Made<SharedVector<double>>,
+             Made<SharedVector<uint32_t>>, Made<SharedVector<Leaflet>>, Made<SharedVector<Scallop>>,
+             Made<SharedVector<Chord>>, Made<SharedVector<Head>>, Made<SharedVector<Ring>>,
+             Made<SharedVector<Tool>>, Made<SharedVector<ChordCurve>>,
+             Made<SharedVector<CurvePoint>>, Made<ModelPtr>, Made<Moves>, Made<Entries>,
+             Made<std::shared_ptr<const Entry>>>
+      made_;
+  ModelPtr last_model_;
+  // what the operation being read points to
+  std::vector<SharedVector<Vec3>> points_;
+  std::vector<std::unique_ptr<std::string>> names_;
+};
+
+void SessionReader::word(uint32_t &number) {
+  const uint64_t word = next();
+  MVS_MUST(word <= UINT32_MAX, MVS_E_FORMAT, "mvs", "a number of the file is too large");
+  number = static_cast<uint32_t>(word);
+}
+
+void SessionReader::choice(Move::Kind &kind) {
+  const uint64_t word = next();
+  MVS_MUST(word >= Move::load && word <= Move::lead, MVS_E_FORMAT, "mvs",
+           "the history of the file has a move of kind %llu, which there is not",
+           static_cast<unsigned long long>(word));
+  kind = static_cast<Move::Kind>(word);
+}
+
+void SessionReader::number(double &value) {
+  value = std::bit_cast<double>(next());
+  MVS_MUST(std::isfinite(value), MVS_E_FORMAT, "mvs", "a number of the file is not finite");
+}
+
+void SessionReader::text(std::string &text) {
+  const std::span<const uint8_t> bytes = texts_.at(next());
+  text.assign(bytes.begin(), bytes.end());
+}
+
+template <>
+std::span<const double> SessionReader::values(uint64_t number) const {
+  const std::span<const double> found = numbers_.at(number);
+  MVS_MUST(std::all_of(found.begin(), found.end(), [](double v) { return std::isfinite(v); }),
+           MVS_E_FORMAT, "mvs", "a number of the file is not finite");
+  return found;
+}
+template <>
+std::span<const uint32_t> SessionReader::values(uint64_t number) const {
+  return indices_.at(number);
+}
+
+template <typename Element>
+void SessionReader::array(SharedVector<Element> &items) {
+  constexpr size_t columns = Stored<Element>::columns;
+  const uint64_t number = next();
+  const auto place = made<SharedVector<Element>>().find(number);
+  if (place != made<SharedVector<Element>>().end()) {
+    items = place->second;
+    return;
+  }
+  const auto found = values<typename Stored<Element>::Value>(number);
+  MVS_MUST(found.size() % columns == 0, MVS_E_FORMAT, "mvs",
+           "an array of the file has %zu values, which are no rows of %zu", found.size(), columns);
+  std::vector<Element> elements(found.size() / columns);
+  for (size_t k = 0; k < found.size(); ++k) {
+    if constexpr (columns == 1) {
+      elements[k] = found[k];
+    } else {
+      elements[k / columns][k % columns] = found[k];
+    }
+  }
+  items = made<SharedVector<Element>>().emplace(number, std::move(elements)).first->second;
+}
+
+template <typename Part>
+void SessionReader::list(SharedVector<Part> &parts) {
+  parts = part(made<SharedVector<Part>>(), [&](SharedVector<Part> &all) {
+    std::vector<Part> read(count());
+    for (Part &one : read) pass(*this, one);
+    all = std::move(read);
+  });
+}
+
+void SessionReader::model(ModelPtr &model) {
+  model = part(made<ModelPtr>(), [&](ModelPtr &it) {
+    // what follows from the valve is shared with the last model, the valve with what was read
+    Model like = last_model_ ? *last_model_ : Model{};
+    pass(*this, like.valve);
+    it = make_model(like.valve, &like);
+    last_model_ = it;
+  });
+}
+
+void check_tools(const Model &model, const SharedVector<Tool> &tools) {
+  for (const Tool &tool : tools) {
+    const bool holds = tool.kind == MVS_TOOL_GRASP && tool.node < model.node_count() &&
+                       !model.topology.fixed[tool.node];
+    const bool pushes =
+        (tool.kind == MVS_TOOL_BALL || tool.kind == MVS_TOOL_ROD) && tool.node == none;
+    MVS_MUST((holds || pushes) && tool.stiffness > 0 && tool.max_force > 0, MVS_E_FORMAT, "state",
+             "a state of the file has a tool that cannot be");
+  }
+}
+
+// What make_model does not see: a state that fits its model.
+void SessionReader::check(const Picture &picture) const {
+  const State &state = picture.state;
+  const size_t n = picture.model->node_count();
+  MVS_MUST(state.x.size() == n && state.v.size() == n, MVS_E_FORMAT, "state",
+           "a state of the file has %zu positions and %zu velocities for %zu nodes", state.x.size(),
+           state.v.size(), n);
+  const double fraction = state.load.boundary_fraction;
+  MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
+           "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);
+  check_tools(*picture.model, state.tools);
+  for (const Waypoint *waypoint : {&state.serving, &state.coming}) {
+    size_t points = 0;
+    for (const Tool &tool : waypoint->tools) points += tool.points();
+    check_tools(*picture.model, waypoint->tools);
+    MVS_MUST(waypoint->x.empty() || waypoint->x.size() == n + points, MVS_E_FORMAT, "state",
+             "a state of the file was at a place with %zu positions for %zu nodes",
+             waypoint->x.size(), n + points);
+  }
+}
+
+void SessionReader::check(const Move &move) {
+  const bool is_of_tool = move.kind >= Move::tool_add && move.kind <= Move::tool_remove;
+  bool is_good = move.kind == Move::lead ? is_whole(move) : move.tool.size() == is_of_tool;
+  for (const Tool &tool : move.tool.get()) {
+    is_good = is_good && tool.kind >= MVS_TOOL_GRASP && tool.kind <= MVS_TOOL_ROD;
+  }
+  MVS_MUST(is_good, MVS_E_FORMAT, "history",
+           "the history of the file has a move whose tools and numbers do not agree");
+}
+
+template <typename Item>
+void SessionReader::stack(Stack<Item> &items) {
+  items = part(made<Stack<Item>>(), [&](Stack<Item> &all) {
+    for (uint64_t left = count(); left > 0; --left) {
+      Item one{};
+      item(one);
+      all = all.pushed(std::move(one));
+    }
+  });
+}
+
+void SessionReader::item(std::shared_ptr<const Entry> &entry) {
+  entry = part(made<std::shared_ptr<const Entry>>(), [&](std::shared_ptr<const Entry> &it) {
+    auto read = std::make_shared<Entry>(Entry{operation(), {}, 0, 0, {}, 0, {}, {}, {}});
+    pass_rest(*this, *read);
+    if (version_ < 5) read->op = keeping_length(read->op, *read->before.model);
+    it = std::move(read);
+  });
+}
+
+void SessionReader::optional(std::shared_ptr<const Picture> &picture) {
+  if (count() == 0) return;
+  auto read = std::make_shared<Picture>();
+  pass(*this, *read);
+  picture = std::move(read);
+}
+
+void SessionReader::optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints) {
+  std::vector<Checkpoint> read(count());
+  for (Checkpoint &checkpoint : read) pass(*this, checkpoint);
+  if (!read.empty()) {
+    checkpoints = std::make_shared<const std::vector<Checkpoint>>(std::move(read));
+  }
+}
+
+Operation SessionReader::operation() {
+  std::string name;
+  text(name);
+  const OpKind *const kind = find_op_kind(name);
+  MVS_MUST(kind, MVS_E_VERSION, "mvs",
+           "the history of the file has the operation %.63s, which this libmvs does not know: use "
+           "a newer one",
+           name.c_str());
+  std::vector<uint64_t> bytes((kind->size + 7) / 8);
+  char *const start = reinterpret_cast<char *>(bytes.data());
+  *reinterpret_cast<mvs_op *>(start) = {kind->size, kind->number};
+  points_.clear();
+  names_.clear();
+  for (uint64_t left = count(); left > 0; --left) {
+    text(name);
+    const uint64_t type = next();
+    const auto found = std::find_if(kind->fields.begin(), kind->fields.end(),
+                                    [&](const OpField &f) { return name == f.name; });
+    MVS_MUST(found != kind->fields.end() && found->type == type, MVS_E_VERSION, "mvs",
+             "the history of the file has a field %.63s of %s that this libmvs does not know: use "
+             "a newer one",
+             name.c_str(), kind->name);
+    field(*found, start + found->offset);
+  }
+  try {
+    return Operation(reinterpret_cast<const mvs_op *>(start));
+  } catch (const Error &error) {
+    fail(MVS_E_FORMAT, error.part, "the history of the file has an operation that cannot be: %s",
+         error.what());
+  }
+}
+
+void SessionReader::field(const OpField &f, char *at) {
+  switch (f.type) {
+    case MVS_FIELD_NUMBER:
+      return number(*reinterpret_cast<double *>(at));
+    case MVS_FIELD_COUNT:
+    case MVS_FIELD_CHOICE:
+      return word(*reinterpret_cast<uint32_t *>(at));
+    case MVS_FIELD_CHORD:
+    case MVS_FIELD_HEAD:
+    case MVS_FIELD_SCALLOP:
+      return word(*reinterpret_cast<mvs_id *>(at));
+    case MVS_FIELD_SITE: {
+      auto &site = *reinterpret_cast<mvs_site *>(at);
+      word(site.how);
+      word(site.index);
+      word(site.scallop);
+      for (double &u : site.u) number(u);
+      return;
+    }
+    case MVS_FIELD_POINT:
+      for (double &x : reinterpret_cast<mvs_point *>(at)->at) number(x);
+      return word(reinterpret_cast<mvs_point *>(at)->given);
+    case MVS_FIELD_VECTOR:
+      for (double &x : *reinterpret_cast<std::array<double, 3> *>(at)) number(x);
+      return;
+    case MVS_FIELD_POINTS: {
+      const SharedVector<Vec3> &points = points_.emplace_back();
+      array(points_.back());
+      if (points.empty()) return;
+      *reinterpret_cast<mvs_array *>(at) = {points.data(), points.size(), 3, MVS_F64, 0};
+      return;
+    }
+    default: {
+      const bool given = next() != 0;
+      text(*names_.emplace_back(std::make_unique<std::string>()));
+      if (given) *reinterpret_cast<const char **>(at) = names_.back()->c_str();
+    }
+  }
+}
+
+}  // namespace
+
+Moment read_session(std::string_view bytes) {
+  const H5Content content = read_h5(bytes, "mvs", session_version);
+  return SessionReader(content.tree, content.version).read();
+}
+
+}  // namespace mvs::core

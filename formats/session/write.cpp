@@ -1,0 +1,221 @@
+// Sessions, written. What is shared in memory is found by its address first, so that the content of
+// an array is looked at once however many levels have it.
+#include <bit>
+#include <cmath>
+
+#include "base/error.h"
+#include "formats/formats.h"
+#include "formats/session/layout.h"
+#include "formats/session/pool.h"
+#include "formats/vtk/polydata.h"
+
+namespace mvs::core {
+namespace {
+
+class SessionWriter {
+ public:
+  void write(const Moment &moment) { pass(*this, moment); }
+  void put_into(H5Tree &tree);
+
+  // what session_layout.h asks of an archive
+  static uint32_t version() { return session_version; }
+  void word(uint64_t number) { words_.push_back(number); }
+  void word(int64_t number) { word(static_cast<uint64_t>(number)); }
+  void word(uint32_t number) { word(uint64_t{number}); }
+  void choice(Move::Kind kind) { word(uint64_t{kind}); }
+  void number(double value);
+  void text(std::string_view text);
+  template <typename Element>
+  void array(const SharedVector<Element> &items);
+  template <typename Part>
+  void list(const SharedVector<Part> &parts);
+  void model(const ModelPtr &model);
+  template <typename Item>
+  void stack(const Stack<Item> &items);
+  void check(const Picture &) {}
+  void check(const Move &) {}
+  void optional(const std::shared_ptr<const Picture> &picture);
+  void optional(const std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
+
+ private:
+  // Words of their own, kept once; tells their number.
+  template <typename Work>
+  uint64_t part(Work work) {
+    std::vector<uint64_t> around;
+    around.swap(words_);
+    work();
+    around.swap(words_);
+    return parts_.add(around.data(), around.size());
+  }
+  // The same for what has an address: it is looked at the first time only.
+  template <typename Work>
+  void part_at(const void *address, Work work) {
+    const auto place = at_.find(address);
+    word(place != at_.end() ? place->second : at_.emplace(address, part(work)).first->second);
+  }
+
+  void item(const Move &move) { pass(*this, move); }
+  void item(const std::shared_ptr<const Entry> &entry);
+  void operation(const Operation &op);
+  void field(const Operation &op, const OpField &f);
+  void site(const mvs_site &site);
+
+  std::vector<uint64_t> words_;
+  PoolWriter<uint64_t> parts_;
+  PoolWriter<double> numbers_;
+  PoolWriter<uint32_t> indices_;
+  PoolWriter<uint8_t> texts_;
+  std::map<const void *, uint64_t> at_;
+  std::vector<SharedVector<Vec3>> points_;  // kept, so that no address is used twice
+};
+
+void SessionWriter::put_into(H5Tree &tree) {
+  tree.arrays["mvs/moment"] = {std::move(words_)};
+  parts_.put_into(tree, "mvs/parts");
+  numbers_.put_into(tree, "mvs/numbers");
+  indices_.put_into(tree, "mvs/indices");
+  texts_.put_into(tree, "mvs/texts");
+}
+
+void must_be_finite(double number) {
+  MVS_MUST(std::isfinite(number), MVS_E_DIVERGED, "",
+           "a number of the valve, its state or its history is not finite: go back to an earlier "
+           "state and save that");
+}
+
+void SessionWriter::number(double value) {
+  must_be_finite(value);
+  word(std::bit_cast<uint64_t>(value));
+}
+
+void SessionWriter::text(std::string_view text) {
+  word(texts_.add(reinterpret_cast<const uint8_t *>(text.data()), text.size()));
+}
+
+template <typename Element>
+void SessionWriter::array(const SharedVector<Element> &items) {
+  using Value = typename Stored<Element>::Value;
+  const auto place = at_.find(items.buffer());
+  if (place != at_.end()) return word(place->second);
+  std::vector<Value> values;
+  values.reserve(items.size() * Stored<Element>::columns);
+  for (const Element &item : items) {
+    if constexpr (Stored<Element>::columns == 1) {
+      values.push_back(item);
+    } else {
+      for (size_t k = 0; k < Stored<Element>::columns; ++k) values.push_back(item[k]);
+    }
+  }
+  uint64_t number = 0;
+  if constexpr (std::is_same_v<Value, double>) {
+    for (const double value : values) must_be_finite(value);
+    number = numbers_.add(values.data(), values.size());
+  } else {
+    number = indices_.add(values.data(), values.size());
+  }
+  if (items.buffer()) at_.emplace(items.buffer(), number);
+  word(number);
+}
+
+template <typename Part>
+void SessionWriter::list(const SharedVector<Part> &parts) {
+  const auto all = [&] {
+    word(uint64_t{parts.size()});
+    for (const Part &one : parts) pass(*this, one);
+  };
+  if (parts.buffer()) return part_at(parts.buffer(), all);
+  word(part(all));
+}
+
+void SessionWriter::model(const ModelPtr &model) {
+  part_at(model.get(), [&] { pass(*this, model->valve); });
+}
+
+template <typename Item>
+void SessionWriter::stack(const Stack<Item> &items) {
+  word(part([&] {
+    word(uint64_t{items.size()});
+    for (const Item *one : items.items()) item(*one);
+  }));
+}
+
+void SessionWriter::item(const std::shared_ptr<const Entry> &entry) {
+  part_at(entry.get(), [&] {
+    operation(entry->op);
+    pass_rest(*this, *entry);
+  });
+}
+
+void SessionWriter::optional(const std::shared_ptr<const Picture> &picture) {
+  word(uint64_t{picture != nullptr});
+  if (picture) pass(*this, *picture);
+}
+
+void SessionWriter::optional(const std::shared_ptr<const std::vector<Checkpoint>> &checkpoints) {
+  word(uint64_t{checkpoints ? checkpoints->size() : 0});
+  if (!checkpoints) return;
+  for (const Checkpoint &checkpoint : *checkpoints) pass(*this, checkpoint);
+}
+
+// By the names of ops.def, so that kinds and fields may be added.
+void SessionWriter::operation(const Operation &op) {
+  text(op.kind().name);
+  word(uint64_t{op.kind().fields.size()});
+  for (const OpField &f : op.kind().fields) {
+    text(f.name);
+    word(f.type);
+    field(op, f);
+  }
+}
+
+void SessionWriter::field(const Operation &op, const OpField &f) {
+  switch (f.type) {
+    case MVS_FIELD_NUMBER:
+      return number(op.field<double>(f));
+    case MVS_FIELD_COUNT:
+    case MVS_FIELD_CHOICE:
+      return word(op.field<uint32_t>(f));
+    case MVS_FIELD_CHORD:
+    case MVS_FIELD_HEAD:
+    case MVS_FIELD_SCALLOP:
+      return word(op.field<mvs_id>(f));
+    case MVS_FIELD_SITE:
+      return site(op.field<mvs_site>(f));
+    case MVS_FIELD_POINT:
+      for (const double at : op.field<mvs_point>(f).at) number(at);
+      return word(op.field<mvs_point>(f).given);
+    case MVS_FIELD_VECTOR:
+      for (const double at : op.field<std::array<double, 3>>(f)) number(at);
+      return;
+    case MVS_FIELD_POINTS:
+      return array(points_.emplace_back(points_of(op.field<mvs_array>(f))));
+    case MVS_FIELD_TEXT: {
+      const char *const given = op.field<const char *>(f);
+      word(uint64_t{given != nullptr});
+      return text(given ? given : std::string_view());
+    }
+    default:
+      fail(MVS_E_INTERNAL, f.name, "a session has no way to keep field %s", f.name);
+  }
+}
+
+void SessionWriter::site(const mvs_site &site) {
+  word(site.how);
+  word(site.index);
+  word(site.scallop);
+  for (const double u : site.u) number(u);
+}
+
+}  // namespace
+
+std::string write_session(const Moment &moment, const std::vector<VtpArray> &arrays) {
+  SessionWriter writer;
+  writer.write(moment);
+  H5Tree tree;
+  writer.put_into(tree);
+  const Picture &now = moment.picture;
+  add_vtk_hdf(tree, make_vtk_picture(*now.model, now.state, arrays));
+  return write_h5(tree, session_version);
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,132 @@
+#include "formats/vtk/polydata.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+
+namespace mvs::core {
+namespace {
+
+constexpr double mm = 1e3;
+
+std::vector<double> in_mm(const std::vector<Vec3> &places) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * places.size());
+  for (const Vec3 &place : places) {
+    numbers.insert(numbers.end(), {place[0] * mm, place[1] * mm, place[2] * mm});
+  }
+  return numbers;
+}
+
+template <typename Part>
+std::vector<std::string> names_of(const std::vector<Part> &parts) {
+  std::vector<std::string> names;
+  names.reserve(parts.size());
+  for (const Part &part : parts) names.push_back(part.name);
+  return names;
+}
+
+void add(std::vector<VtkArray> &to, const std::string &name, uint32_t components, H5Values values) {
+  to.push_back({name, components, std::move(values)});
+}
+
+void add_text(std::vector<VtkArray> &to, const std::string &name, const std::string &text) {
+  add(to, name, 1, std::vector<std::string>(1, text));
+}
+
+void add_number(std::vector<VtkArray> &to, const std::string &name, double number) {
+  add(to, name, 1, std::vector<double>(1, number));
+}
+
+// SPACE is what 3D Slicer looks for, TimeValue what ParaView does. (No lists in braces here: GCC 12
+// destroys what it has not made yet when an allocation fails in one.)
+void add_field_data(std::vector<VtkArray> &to, const Valve &valve, const State &state) {
+  add_text(to, "SPACE", "LPS");
+  add_text(to, "UNITS", "mm");
+  add_text(to, "name", valve.name);
+  add(to, "leaflet_names", 1, names_of<Leaflet>(valve.leaflets));
+  add(to, "scallop_names", 1, names_of<Scallop>(valve.scallops));
+  add(to, "chord_names", 1, names_of<Chord>(valve.chords));
+  add_number(to, "TimeValue", state.time);
+  add_number(to, "pressure_Pa", state.load.pressure);
+  add_number(to, "boundary_fraction", state.load.boundary_fraction);
+}
+
+// One value a chord, then one a triangle.
+template <typename Number, typename OfChord, typename OfTriangle>
+void add_cells(std::vector<VtkArray> &to, const Valve &valve, const char *name, OfChord of_chord,
+               OfTriangle of_triangle) {
+  std::vector<Number> values;
+  values.reserve(valve.chords.size() + valve.triangles.size());
+  for (const Chord &chord : valve.chords) values.push_back(static_cast<Number>(of_chord(chord)));
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    values.push_back(static_cast<Number>(of_triangle(t)));
+  }
+  add(to, name, 1, std::move(values));
+}
+
+void add_cell_data(std::vector<VtkArray> &to, const Valve &valve) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  const auto no_chord = [](const Chord &) { return -1; };
+  const auto no_triangle = [](size_t) { return -1; };
+  add_cells<int64_t>(
+      to, valve, "id", [](const Chord &c) { return c.id; },
+      [&](size_t t) { return valve.leaflets[valve.triangle_leaflet[t]].id; });
+  add_cells<int32_t>(to, valve, "leaflet", no_chord,
+                     [&](size_t t) { return valve.triangle_leaflet[t]; });
+  add_cells<int32_t>(to, valve, "scallop", no_chord,
+                     [&](size_t t) { return valve.triangle_scallop[t]; });
+  add_cells<int32_t>(
+      to, valve, "chord_kind", [](const Chord &c) { return c.kind; }, no_triangle);
+  add_cells<double>(
+      to, valve, "rest_length_mm", [](const Chord &c) { return c.rest_length * mm; },
+      [](size_t) { return nothing; });
+  add_cells<double>(
+      to, valve, "thickness_mm", [](const Chord &) { return nothing; },
+      [&](size_t t) { return valve.triangle_thickness[t] * mm; });
+}
+
+// The caller has triangles first, VTK has lines first.
+void add_given(VtkPicture &picture, const VtpArray &given) {
+  const size_t components = static_cast<size_t>(given.components);
+  const size_t rows =
+      given.on_points ? picture.points.size() / 3 : picture.triangles.count + picture.chords.count;
+  MVS_MUST(given.components > 0 && given.values.size() == rows * components, MVS_E_INTERNAL,
+           given.name, "array %s has %zu values for %zu rows of %d", given.name.c_str(),
+           given.values.size(), rows, given.components);
+  VtkArray array{given.name, static_cast<uint32_t>(components), given.values};
+  if (given.on_points) return picture.point_data.push_back(std::move(array));
+  auto &values = std::get<std::vector<double>>(array.values);
+  const auto middle = static_cast<ptrdiff_t>(picture.triangles.count * components);
+  std::rotate(values.begin(), values.begin() + middle, values.end());
+  picture.cell_data.push_back(std::move(array));
+}
+
+}  // namespace
+
+VtkPicture make_vtk_picture(const Model &model, const State &state,
+                            const std::vector<VtpArray> &arrays) {
+  const Valve &valve = model.valve;
+  MVS_MUST(state.x.size() == model.node_count(), MVS_E_INTERNAL, "state",
+           "the state has %zu positions for %zu nodes", state.x.size(), model.node_count());
+  VtkPicture picture;
+  picture.points = in_mm(state.x);
+  picture.chords = {valve.chords.size(), 2, {}};
+  for (const Chord &chord : valve.chords) {
+    picture.chords.nodes.insert(picture.chords.nodes.end(), {chord.a, chord.b});
+  }
+  picture.triangles = {valve.triangles.size(), 3, {}};
+  for (const Tri &triangle : valve.triangles) {
+    picture.triangles.nodes.insert(picture.triangles.nodes.end(), triangle.begin(), triangle.end());
+  }
+  add_field_data(picture.field_data, valve, state);
+  add(picture.point_data, "node_kind", 1, model.topology.node_kind.get());
+  add(picture.point_data, "rest_mm", 3, in_mm(valve.rest));
+  add_cell_data(picture.cell_data, valve);
+  for (const VtpArray &given : arrays) add_given(picture, given);
+  return picture;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,136 @@
+// VTK XML PolyData: chordae as lines, triangles as polygons, arrays as base64 of little- or
+// big-endian numbers behind a 64-bit length (VTK file formats, version 1.0 with header_type
+// UInt64).
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <string>
+
+#include "formats/text/base64.h"
+#include "formats/vtk/polydata.h"
+
+namespace mvs::core {
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&' || c == '<' || c == '>' || c == '"') {
+      out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+const char *type_name(double) {
+  return "Float64";
+}
+const char *type_name(int64_t) {
+  return "Int64";
+}
+const char *type_name(uint64_t) {
+  return "UInt64";
+}
+const char *type_name(int32_t) {
+  return "Int32";
+}
+const char *type_name(uint32_t) {
+  return "UInt32";
+}
+const char *type_name(uint8_t) {
+  return "UInt8";
+}
+
+class VtpWriter {
+ public:
+  std::string write(const VtkPicture &picture);
+
+ private:
+  void section(const char *name, const std::vector<VtkArray> &arrays);
+  void cells(const char *name, const VtkCells &cells);
+
+  template <typename Number>
+  void array(std::string_view name, size_t components, const std::vector<Number> &values);
+  // Strings are the codes of their bytes, each with a zero at its end.
+  void array(std::string_view name, size_t, const std::vector<std::string> &values);
+
+  std::string out_;
+  bool in_field_ = false;  // the one section whose arrays have lengths of their own
+};
+
+std::string VtpWriter::write(const VtkPicture &picture) {
+  out_ += "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"";
+  out_ += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+  out_ += "\" header_type=\"UInt64\">\n<PolyData>\n";
+  in_field_ = true;
+  section("FieldData", picture.field_data);
+  in_field_ = false;
+  out_ += "<Piece NumberOfPoints=\"" + std::to_string(picture.points.size() / 3) +
+          "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(picture.chords.count) +
+          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(picture.triangles.count) +
+          "\">\n";
+  section("PointData", picture.point_data);
+  section("CellData", picture.cell_data);
+  out_ += "<Points>\n";
+  array("Points", 3, picture.points);
+  out_ += "</Points>\n";
+  cells("Lines", picture.chords);
+  cells("Polys", picture.triangles);
+  out_ += "</Piece>\n</PolyData>\n</VTKFile>\n";
+  return std::move(out_);
+}
+
+void VtpWriter::section(const char *name, const std::vector<VtkArray> &arrays) {
+  out_.append("<").append(name).append(">\n");
+  for (const VtkArray &given : arrays) {
+    std::visit([&](const auto &values) { array(given.name, given.components, values); },
+               given.values);
+  }
+  out_.append("</").append(name).append(">\n");
+}
+
+void VtpWriter::cells(const char *name, const VtkCells &cells) {
+  std::vector<int64_t> ends;
+  ends.reserve(cells.count);
+  for (size_t k = 1; k <= cells.count; ++k) {
+    ends.push_back(static_cast<int64_t>(k * cells.nodes_each));
+  }
+  out_.append("<").append(name).append(">\n");
+  array("connectivity", 1, cells.nodes);
+  array("offsets", 1, ends);
+  out_.append("</").append(name).append(">\n");
+}
+
+template <typename Number>
+void VtpWriter::array(std::string_view name, size_t components, const std::vector<Number> &values) {
+  const uint64_t size = values.size() * sizeof(Number);
+  std::string bytes(sizeof size + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  out_.append("<DataArray type=\"").append(type_name(Number{})).append("\" Name=\"");
+  out_ += escaped(name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
+  if (in_field_) out_ += " NumberOfTuples=\"" + std::to_string(values.size() / components) + "\"";
+  out_ += " format=\"binary\">";
+  append_base64(out_, bytes);
+  out_ += "</DataArray>\n";
+}
+
+void VtpWriter::array(std::string_view name, size_t, const std::vector<std::string> &values) {
+  out_.append("<Array type=\"String\" Name=\"").append(name).append("\" NumberOfTuples=\"");
+  out_ += std::to_string(values.size()) + "\" format=\"ascii\">";
+  for (const std::string &value : values) {
+    for (const char c : value) out_ += std::to_string(static_cast<unsigned char>(c)) + " ";
+    out_ += "0 ";
+  }
+  out_ += "</Array>\n";
+}
+
+}  // namespace
+
+std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays) {
+  return VtpWriter().write(make_vtk_picture(model, state, arrays));
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,50 @@
+// The boundary: nothing that is thrown inside leaves through the C interface.
+#pragma once
+
+#include <mvs/base.h>
+
+#include <new>
+
+#include "base/error.h"
+#include "base/option_checks.h"
+
+namespace mvs::core {
+
+// Makes these the last failure of this thread, and returns the code. Allocates nothing.
+mvs_result record_failure(mvs_result code, int32_t line, const char *part,
+                          const char *message) noexcept;
+
+// The failure with the file it is about, if named, before its sentence.
+Error about_file(const Error &error, const std::string &path);
+
+// Runs `work` and turns what it throws into a result code and the last failure.
+template <typename Work>
+mvs_result guarded(Work &&work) noexcept {
+  try {
+    work();
+    return MVS_OK;
+  } catch (const Error &error) {
+    return record_failure(error.code, error.line, error.part.c_str(), error.what());
+  } catch (const std::bad_alloc &) {
+    return record_failure(MVS_E_MEMORY, 0, "",
+                          "out of memory: free some, or use a coarser valve; nothing was changed");
+  } catch (const std::exception &error) {
+    return record_failure(MVS_E_INTERNAL, 0, "", error.what());
+  } catch (...) {
+    return record_failure(MVS_E_INTERNAL, 0, "", "an unknown failure inside libmvs: report it");
+  }
+}
+
+// The same for work on a file: the failure says which one, "path: ..." or "path:line: ...".
+template <typename Work>
+mvs_result guarded_file(const char *path, Work &&work) noexcept {
+  return guarded([&] {
+    try {
+      work();
+    } catch (const Error &error) {
+      throw about_file(error, path);
+    }
+  });
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,18 @@
+// A call that changes a simulator: one at a time, its failures as result codes.
+#pragma once
+
+#include "api/structs.h"
+#include "session/simulator.h"
+
+namespace mvs::core {
+
+// Runs work(*sim) as the one call at work on a simulator.
+template <typename Work>
+mvs_result guarded_call(mvs_sim *sim, Work &&work) noexcept {
+  return guarded([&] {
+    const AtWork at_work(sim);
+    work(*sim);
+  });
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,49 @@
+// Checks of the caller's options, and values written to arrays of the caller.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "base/types.h"
+
+namespace mvs::core {
+
+// Throws MVS_E_ARGUMENT where a pointer that must be given is null.
+inline void must_point(const void *pointer, const char *what) {
+  MVS_MUST(pointer != nullptr, MVS_E_ARGUMENT, what, "%s is a null pointer", what);
+}
+
+// A nullable text.
+inline std::string text_or_empty(const char *text) {
+  return text ? text : "";
+}
+
+// Fields kept for later versions have to be zero, so that they can get a meaning.
+inline void must_be_zero(double value, const char *what) {
+  MVS_MUST(value == 0, MVS_E_ARGUMENT, what,
+           "%s is %g: this version has no meaning for it, leave 0", what, value);
+}
+
+inline double value_or(double value, double fallback) {
+  return value == 0 ? fallback : value;
+}
+
+inline void write(const Vec3 &from, double to[3]) {
+  std::copy(from.data(), from.data() + 3, to);
+}
+
+// As w x y z.
+inline void write(const Eigen::Quaterniond &from, double to[4]) {
+  to[0] = from.w();
+  std::copy(from.vec().data(), from.vec().data() + 3, to + 1);
+}
+
+// That an option is a number in its range; zero stays the default.
+inline void must_be_in(double value, double low, double high, const char *what) {
+  MVS_MUST(value == 0 || (value >= low && value <= high), MVS_E_ARGUMENT, what,
+           "%s is %g: it has to be 0 (the default) or %g to %g", what, value, low, high);
+}
+
+}  // namespace mvs::core

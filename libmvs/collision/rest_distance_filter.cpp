@@ -1,0 +1,40 @@
+// The exact distance at rest decides; spheres around the triangles settle most pairs.
+#include "collision/rest_distance_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/contact_params.h"
+#include "collision/pair_distance.h"
+
+namespace mvs::core {
+namespace {
+
+constexpr double rounding = 1e-9;  // relative, more than squares and roots are wrong by
+
+}  // namespace
+
+RestApart::RestApart(const Model &model) : model_(&model) {
+  const double needed = facing_rest_distance * model.valve.contact_thickness;
+  surely_near2_ = needed * needed * (1 - rounding);
+  const auto &x = model.valve.rest.get();
+  centre_.reserve(model.valve.triangles.size());
+  surely_apart2_.reserve(model.valve.triangles.size());
+  for (const auto &[i, j, k] : model.valve.triangles) {
+    const Vec3 centre = (x[i] + x[j] + x[k]) / 3;
+    double radius2 = 0;
+    for (const uint32_t corner : {i, j, k}) {
+      radius2 = std::max(radius2, (x[corner] - centre).squaredNorm());
+    }
+    const double clear = needed + std::sqrt(radius2);
+    centre_.push_back(centre);
+    surely_apart2_.push_back(clear * clear * (1 + rounding));
+  }
+}
+
+bool RestApart::is_apart(uint32_t vertex, uint32_t triangle) const {
+  return distance_of(model_->valve.rest, vertex, model_->valve.triangles[triangle]) >=
+         facing_rest_distance * model_->valve.contact_thickness;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,58 @@
+// One distance between parts of the sheet, or of it and an instrument, and what it does: the energy
+// strength * range * B((d - radius) / range) with its derivatives over the nodes of the distance.
+#pragma once
+
+#include <vector>
+
+#include "energy/hessian_assembler.h"
+#include "energy/term.h"
+#include "geometry/distance.h"
+
+namespace mvs::core {
+
+// The barrier with its first and second derivative.
+struct Barrier {
+  double value, first, second;
+};
+Barrier barrier(double s);
+// (1 - s)^3 scaled to push as the barrier does at s = 1/2.
+Barrier penalty(double s);
+
+// One distance and what it does: d = |sum_k weight_k x_k| over up to four nodes.
+struct ContactStencil {
+  std::array<uint32_t, 4> node;
+  std::array<double, 4> weight;
+  std::array<std::array<double, 4>, 2> slide;  // d(weight) along each direction it may slide in
+  uint32_t count;                              // nodes
+  uint32_t slides;                             // 0: point-point, 1: point-edge, 2: face or edges
+  Vec3 normal;                                 // unit, towards the first nodes
+  double distance;
+  double range;
+  double strength;  // kappa times an area, times c_p: may be negative
+  bool guard;
+  double radius = 0;  // of the instrument among its nodes: what counts is distance - radius
+
+  double gap() const { return distance - radius; }
+};
+
+// Stencils without distance, range and strength. Nodes of the second kind come after the first.
+ContactStencil point_point(uint32_t v, uint32_t a);
+ContactStencil point_edge(uint32_t v, uint32_t a, uint32_t b, double s);
+ContactStencil point_face(uint32_t v, const Tri &t, const std::array<double, 3> &weight);
+// Of a vertex and the feature of a triangle that is closest to it.
+ContactStencil vertex_triangle(uint32_t v, const Tri &t, const TrianglePoint &p);
+ContactStencil edge_edge(const Edge &e, const Edge &f, const SegmentPair &p);
+
+// Works out the distance at x; false if that is out of range.
+bool measure(const std::vector<Vec3> &x, ContactStencil &s);
+
+// Sums over stencils, at the positions where they were measured.
+double energy_of(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double));
+double add_gradient(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double),
+                    std::vector<Vec3> &g);
+// False if the pattern lacks a block; add_pairs() then gives what is needed.
+bool add_hessian(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double),
+                 const std::vector<Vec3> &x, Curvature curvature, System &system);
+void add_pairs(const std::vector<ContactStencil> &stencils, std::vector<Edge> &pairs);
+
+}  // namespace mvs::core

@@ -1,0 +1,44 @@
+// Bending: a torsion spring on every inner edge of the sheet.
+//
+// E = k (theta - theta0)^2 / 2 with k = D |e|^2 / (A1 + A2), all from the rest shape, and
+// D = E t^3 / (12 (1 - nu^2)), nu = 1/2, with the small-strain modulus of the leaflet. On a lattice
+// of equilateral triangles this k gives the energy D kappa^2 / 2 per area of a cylinder bent along
+// or across an edge direction exactly. Discrete shells: Grinspun et al., SCA 2003.
+#pragma once
+
+#include <vector>
+
+#include "energy/hessian_assembler.h"
+#include "energy/term.h"
+#include "model/model.h"
+
+namespace mvs::core {
+
+class BendingTerm {
+ public:
+  explicit BendingTerm(const Model &model);
+
+  bool empty() const { return hinges_.empty(); }
+  double energy(const std::vector<Vec3> &x) const;
+  double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  void add_pairs(std::vector<Edge> &pairs) const;
+
+ private:
+  struct Hinge {
+    std::array<uint32_t, 4> node;  // the edge, then the corners on both sides
+    double stiffness;              // N m
+    double rest_angle;             // rad
+  };
+  double gradient_of(size_t first, size_t last, const std::vector<Vec3> &x,
+                     std::vector<Vec3> &g) const;
+  void add_exact(const std::vector<Vec3> &x, System &system) const;
+  void add_projected(const std::vector<Vec3> &x, System &system) const;
+
+  std::vector<Hinge> hinges_;
+};
+
+// The angle between the two triangles of a hinge, 0 when flat, in (-pi, pi].
+double hinge_angle(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3);
+
+}  // namespace mvs::core

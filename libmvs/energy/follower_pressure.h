@@ -1,0 +1,52 @@
+// The ventricular pressure on the sheet, following the deformed normal.
+//
+// Each triangle pushes p A n / 3 on its corners. Away from the free edge that is the gradient of
+// -p V, V the volume swept by the sheet, for any prescribed boundary. At a free edge the follower
+// force has no potential: the difference, (p / 6) a x b on both ends of each free edge (a, b), is
+// kept as a constant force in the energy between calls of freeze(). Forces are always the true
+// ones; energy differences are exact to first order around the frozen shape.
+#pragma once
+
+#include <vector>
+
+#include "energy/hessian_assembler.h"
+#include "energy/term.h"
+#include "model/model.h"
+
+namespace mvs::core {
+
+class PressureTerm {
+ public:
+  explicit PressureTerm(const Model &model);
+
+  void set_pressure(double pressure) { pressure_ = pressure; }
+  // Without pressure nothing but freeze() costs anything.
+  bool empty() const { return pressure_ == 0; }
+  // Takes the shape whose free edge the energy is exact at. Call it before each line search.
+  void freeze(const std::vector<Vec3> &x);
+
+  double energy(const std::vector<Vec3> &x) const;
+  // Adds minus the follower force; returns energy(x).
+  double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
+  // The symmetric part of the derivative; indefinite by nature, so `projected` is the same.
+  void hessian(const std::vector<Vec3> &x, System &system) const;
+  // Adds to y the skew part of the derivative times v: what the free edge adds to the Hessian.
+  void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v, std::vector<Vec3> &y) const;
+  void add_pairs(std::vector<Edge> &pairs) const;
+
+ private:
+  struct FreeEdge {
+    uint32_t a, b;  // in the order of its triangle
+  };
+  struct Slope {
+    uint32_t i, j, left, right;  // d2E/dx_i dx_j from the corners opposite edge (i, j)
+  };
+  std::vector<Tri> triangles_;
+  std::vector<FreeEdge> free_edges_;
+  std::vector<Slope> slopes_;
+  std::vector<Vec3> frozen_;  // per free edge: the constant force over p
+  Vec3 origin_;
+  double pressure_ = 0;
+};
+
+}  // namespace mvs::core

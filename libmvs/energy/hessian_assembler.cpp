@@ -1,0 +1,193 @@
+// Numbering the rows of the system.
+#include "energy/hessian_assembler.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "linalg/direct_solver.h"
+#include "linalg/nested_dissection.h"
+
+namespace mvs::core {
+namespace {
+
+// Times the blocks that are needed: more are not kept from one pattern to the next.
+constexpr double most_kept = 1.25;
+
+// From here on nested dissection makes a factor cheaper than minimum degree does: a closure of
+// 1,700 vertices by 3 %, of 3,400 by 7, of 6,800 by 25, of 27,000 by 31.
+constexpr size_t dissected_rows = 1000;
+
+}  // namespace
+
+void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
+  slots_.clear();
+  if (!keeps_order_) number_rows(model, pairs);
+  take_rows(pairs);
+  keep_old_rows();
+  matrix.take_sorted(static_cast<uint32_t>(node_of.size()), rows_);
+}
+
+void System::set_pattern(const Model &model, const std::vector<Edge> &always,
+                         const std::vector<Edge> &beside) {
+  if (!keeps_order_) {
+    std::vector<Edge> pairs = always;
+    pairs.insert(pairs.end(), beside.begin(), beside.end());
+    number_rows(model, pairs);
+  }
+  if (always_of_.size() != always.size()) find_always(always);
+  take_rows(beside);
+  unite(always_);
+  keep_old_rows();
+  matrix.take_sorted(static_cast<uint32_t>(node_of.size()), rows_);
+  place_always();
+}
+
+// Sorted, and which of these each of the pairs is: good for as long as the order of the rows.
+void System::find_always(const std::vector<Edge> &pairs) {
+  take_rows(pairs);
+  always_ = rows_;
+  std::vector<uint32_t> start(node_of.size() + 1, 0);  // of what each row has
+  for (const Edge &p : always_) ++start[p[0] + 1];
+  for (size_t r = 0; r < node_of.size(); ++r) start[r + 1] += start[r];
+  always_of_.assign(pairs.size(), none);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const uint32_t r = row_of[pairs[k][0]], c = row_of[pairs[k][1]];
+    if (r == none || c == none) continue;
+    const Edge rows = {std::min(r, c), std::max(r, c)};
+    const auto at = std::lower_bound(always_.begin() + start[rows[0]],
+                                     always_.begin() + start[rows[0] + 1], rows);
+    always_of_[k] = static_cast<uint32_t>(at - always_.begin());
+  }
+}
+
+// Both they and the pattern ascend.
+void System::place_always() {
+  place_.resize(always_.size());
+  for (uint32_t i = 0, k = 0; i < always_.size(); ++i) {
+    const auto [c, r] = always_[i];
+    k = std::max(k, matrix.start[c]);
+    while (matrix.row[k] < r) ++k;
+    place_[i] = k;
+  }
+  slots_.resize(always_of_.size());
+  for (size_t k = 0; k < slots_.size(); ++k) {
+    slots_[k] = always_of_[k] == none ? none : place_[always_of_[k]];
+  }
+}
+
+// Adds to the pairs of rows what others, sorted as they are, have.
+void System::unite(const std::vector<Edge> &other) {
+  united_.clear();
+  make_room(united_, rows_.size() + other.size());
+  std::set_union(rows_.begin(), rows_.end(), other.begin(), other.end(),
+                 std::back_inserter(united_));
+  rows_.swap(united_);
+}
+
+// And what the pattern has, unless that has become too much.
+void System::keep_old_rows() {
+  if (!keeps_order_ || matrix.size() != node_of.size()) return;
+  const auto needed = most_kept * static_cast<double>(rows_.size());
+  old_.clear();
+  make_room(old_, matrix.row.size());
+  for (uint32_t c = 0; c < matrix.size(); ++c) {
+    for (uint32_t k = matrix.start[c] + 1; k < matrix.start[c + 1]; ++k) {
+      old_.push_back({c, matrix.row[k]});
+    }
+  }
+  unite(old_);
+  if (static_cast<double>(rows_.size()) > needed) rows_.swap(united_);
+}
+
+// Where its blocks are; false unless all are in the matrix.
+bool System::find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to) {
+  if (slots_.empty()) return false;
+  std::array<uint32_t, 4> row;
+  for (uint32_t a = 0; a < 4; ++a) row[a] = row_of[nodes[a]];
+  const uint32_t *slot = slots_.data() + first_ + k;
+  for (uint32_t a = 0, pair = 0; a < 4; ++a) {
+    if (row[a] == none) return false;
+    to.diagonal[a] = matrix.value[matrix.start[row[a]]].data();
+    for (uint32_t b = 0; b < a; ++b, ++pair) {
+      to.lower[pair] = row[a] > row[b];
+      to.pair[pair] = matrix.value[slot[pair]].data();
+    }
+  }
+  return true;
+}
+
+void System::add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
+                          double times) {
+  RankOne to;
+  if (find_rank_one(k, nodes, to)) {
+    mvs::core::add_rank_one(slope, times, to);
+    return;
+  }
+  for (uint32_t a = 0; a < 4; ++a) {
+    const Vec3 of_a = slope.node(a);
+    add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
+    for (uint32_t b = 0; b < a; ++b, ++k) {
+      add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
+    }
+  }
+}
+
+void System::set_order(const Model &model, const std::vector<uint32_t> &nodes) {
+  keeps_order_ = true;
+  node_of = nodes;
+  row_of.assign(model.node_count(), none);
+  for (uint32_t r = 0; r < node_of.size(); ++r) row_of[node_of[r]] = r;
+  always_of_.clear();
+  matrix.forget_pattern();
+}
+
+// The pairs of free nodes, by their rows.
+void System::take_rows(const std::vector<Edge> &pairs) {
+  rows_.clear();
+  for (const Edge &p : pairs) {
+    const uint32_t r = row_of[p[0]], c = row_of[p[1]];
+    if (r != none && c != none) rows_.push_back({r, c});
+  }
+  matrix.sort_pairs(static_cast<uint32_t>(node_of.size()), rows_);
+}
+
+// Of the nodes, coupled by pairs of their numbers in the list: the order that makes less work.
+std::vector<uint32_t> System::order_of(const std::vector<uint32_t> &nodes,
+                                       const std::vector<Edge> &pairs) const {
+  std::vector<uint32_t> order = fill_reducing_order(static_cast<uint32_t>(nodes.size()), pairs);
+  if (place == nullptr || nodes.size() < dissected_rows) return order;
+  std::vector<Vec3> places;
+  places.reserve(nodes.size());
+  for (const uint32_t i : nodes) places.push_back((*place)[i]);
+  std::vector<uint32_t> dissected = dissection_order(pairs, places);
+  return elimination_work(dissected, pairs) < elimination_work(order, pairs) ? dissected : order;
+}
+
+void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {
+  const auto n = static_cast<uint32_t>(model.node_count());
+  std::vector<uint32_t> free_index(n, none), free_nodes;
+  for (uint32_t i = 0; i < n; ++i) {
+    if (model.topology.fixed[i]) continue;
+    free_index[i] = static_cast<uint32_t>(free_nodes.size());
+    free_nodes.push_back(i);
+  }
+  std::vector<Edge> free_pairs;
+  free_pairs.reserve(pairs.size());
+  for (const Edge &p : pairs) {
+    if (free_index[p[0]] != none && free_index[p[1]] != none) {
+      free_pairs.push_back({free_index[p[0]], free_index[p[1]]});
+    }
+  }
+  const auto rows = static_cast<uint32_t>(free_nodes.size());
+  matrix.sort_pairs(rows, free_pairs);
+  const std::vector<uint32_t> order = order_of(free_nodes, free_pairs);
+  always_of_.clear();
+  row_of.assign(n, none);
+  node_of.resize(rows);
+  for (uint32_t k = 0; k < rows; ++k) {
+    node_of[k] = free_nodes[order[k]];
+    row_of[node_of[k]] = k;
+  }
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,118 @@
+// The linear system of one Newton iteration: blocks of the Hessian go in by node numbers.
+#pragma once
+
+#include <vector>
+
+#include "linalg/block_matrix.h"
+#include "linalg/outer_product.h"
+#include "model/model.h"
+
+namespace mvs::core {
+
+// Free nodes have a row, numbered in elimination order; prescribed nodes have none. What couples a
+// free node to a prescribed one that moves by a known amount goes to the right-hand side.
+class System {
+ public:
+  // Rows from the free nodes of a model; the pattern from pairs of nodes.
+  void set_pattern(const Model &model, const std::vector<Edge> &pairs);
+  // The same from pairs that it always has, and some beside; finds where the blocks of the former
+  // are.
+  void set_pattern(const Model &model, const std::vector<Edge> &always,
+                   const std::vector<Edge> &beside);
+  // Puts the free nodes in this order, which then stays whatever the pattern; that is to be set
+  // next. Another one with the same order keeps what it had, unless that has become much more than
+  // needed.
+  void set_order(const Model &model, const std::vector<uint32_t> &nodes);
+
+  // Whether the rows stay in the order they have when the pattern changes.
+  void keep_order(bool keep) { keeps_order_ = keep; }
+
+  void clear() {
+    matrix.clear();
+    boundary_force.assign(matrix.size(), Vec3::Zero());
+  }
+
+  // Adds block (i, j), i != j, and its transpose at (j, i). False if the pattern lacks it.
+  bool add(uint32_t i, uint32_t j, const Mat3 &block) {
+    const uint32_t r = row_of[i], c = row_of[j];
+    if (r == none || c == none) {
+      if (boundary_step != nullptr) couple(i, j, block);
+      return true;
+    }
+    const uint32_t slot = find(r, c);
+    if (slot == none) return false;
+    add_at(slot, r > c, block);
+    return true;
+  }
+
+  // Of the pairs that it always has, those of a term begin here.
+  void begin_term(size_t first) { first_ = first; }
+  // The same as add(i, j, block) for what is pair `k` of a term, one way or the other.
+  void add(size_t k, uint32_t i, uint32_t j, const Mat3 &block) {
+    if (slots_.empty()) {
+      add(i, j, block);
+      return;
+    }
+    const uint32_t slot = slots_[first_ + k];
+    if (slot != none) {
+      add_at(slot, row_of[i] > row_of[j], block);
+    } else if (boundary_step != nullptr) {
+      couple(i, j, block);
+    }
+  }
+
+  // Adds times * slope slope^T, the slope by four nodes, whose six pairs (1, 0), (2, 0), (2, 1) ...
+  // are `k` and those after it of a term.
+  void add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
+                    double times);
+
+  void add_diagonal(uint32_t i, const Mat3 &block) {
+    const uint32_t r = row_of[i];
+    if (r != none) matrix.value[matrix.start[r]] += block;
+  }
+
+  // Where the nodes lie; the order of many rows then goes by it, too.
+  const std::vector<Vec3> *place = nullptr;
+  BlockMatrix matrix;
+  std::vector<uint32_t> row_of;   // node -> row, none where prescribed
+  std::vector<uint32_t> node_of;  // row -> node
+  // While the boundary moves: the step of every node (zero where free), and -H_fb times it by rows.
+  const std::vector<Vec3> *boundary_step = nullptr;
+  std::vector<Vec3> boundary_force;
+
+ private:
+  uint32_t find(uint32_t r, uint32_t c) const {
+    return r > c ? matrix.find(r, c) : matrix.find(c, r);
+  }
+  void add_at(uint32_t slot, bool lower, const Mat3 &block) {
+    if (lower) {
+      matrix.value[slot] += block;
+    } else {
+      matrix.value[slot] += block.transpose();
+    }
+  }
+  bool find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to);
+  std::vector<uint32_t> order_of(const std::vector<uint32_t> &nodes,
+                                 const std::vector<Edge> &pairs) const;
+  void number_rows(const Model &model, const std::vector<Edge> &pairs);
+  void take_rows(const std::vector<Edge> &pairs);
+  void find_always(const std::vector<Edge> &pairs);
+  void place_always();
+  void unite(const std::vector<Edge> &other);
+  void keep_old_rows();
+  void couple(uint32_t i, uint32_t j, const Mat3 &block) {
+    if (row_of[i] != none) boundary_force[row_of[i]] -= block * (*boundary_step)[j];
+    if (row_of[j] != none) boundary_force[row_of[j]] -= block.transpose() * (*boundary_step)[i];
+  }
+
+  bool keeps_order_ = false;
+  // pairs of rows, while a pattern is made
+  std::vector<Edge> rows_, united_, old_;
+  // of the pairs that it always has: sorted, where each of these is in the matrix, and for each
+  // pair as it was given which of these it is, and where: none where a node has no row
+  std::vector<Edge> always_;
+  std::vector<uint32_t> place_, always_of_, slots_;
+  size_t first_ = 0;
+};
+
+}  // namespace mvs::core

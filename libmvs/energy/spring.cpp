@@ -1,0 +1,77 @@
+// The mass-spring sheet.
+#include "energy/spring.h"
+
+#include <mvs/valve.h>
+
+namespace mvs::core {
+
+SpringTerm::SpringTerm(const Model &model) {
+  const Valve &valve = model.valve;
+  for (const Leaflet &leaflet : valve.leaflets) laws_.emplace_back(leaflet.constants);
+  for (size_t e = 0; e < model.topology.edges.size(); ++e) {
+    const auto [i, j] = model.topology.edges[e];
+    if (model.topology.fixed[i] && model.topology.fixed[j]) continue;
+    for (const uint32_t t : model.topology.edge_triangles[e]) {
+      if (t == none) continue;
+      const uint32_t law = valve.triangle_leaflet[t];
+      if (valve.leaflets[law].law != MVS_LEAFLET_SPRING) continue;
+      const double volume = valve.triangle_thickness[t] * model.rest_area[t];
+      Spring *last = springs_.empty() ? nullptr : &springs_.back();
+      if (last != nullptr && last->i == i && last->j == j && last->law == law) {
+        last->volume += volume;
+      } else {
+        springs_.push_back({i, j, law, model.rest_length[e], volume});
+      }
+    }
+  }
+  for (Spring &s : springs_) {
+    s.per_length = 1 / s.length;
+    s.section = s.volume * s.per_length;
+  }
+}
+
+double SpringTerm::energy(const std::vector<Vec3> &x) const {
+  double sum = 0;
+  for (const Spring &s : springs_) {
+    const double e = (x[s.j] - x[s.i]).norm() / s.length - 1;
+    sum += s.volume * laws_[s.law].energy(e);
+  }
+  return sum;
+}
+
+double SpringTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+  double sum = 0;
+  for (const Spring &s : springs_) {
+    const Vec3 d = x[s.j] - x[s.i];
+    const double length = d.norm();
+    const double e = length / s.length - 1;
+    const Bilinear &law = laws_[s.law];
+    sum += s.volume * law.energy(e);
+    const double force = s.section * law.stress(e);
+    const Vec3 f = (force / length) * d;
+    g[s.i] -= f;
+    g[s.j] += f;
+  }
+  return sum;
+}
+
+void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+  for (const Spring &s : springs_) {
+    const Vec3 d = x[s.j] - x[s.i];
+    const double length = d.norm();
+    const double e = length / s.length - 1;
+    const Bilinear &law = laws_[s.law];
+    const double stiffness = s.section * s.per_length * law.tangent(e);
+    const double tension = s.section * law.stress(e), inverse = 1 / length;
+    const Mat3 block = axial_block(inverse * d, stiffness, inverse * tension, curvature);
+    system.add_diagonal(s.i, block);
+    system.add_diagonal(s.j, block);
+    system.add(static_cast<size_t>(&s - springs_.data()), s.i, s.j, -block);
+  }
+}
+
+void SpringTerm::add_pairs(std::vector<Edge> &pairs) const {
+  for (const Spring &s : springs_) pairs.push_back({s.i, s.j});
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,40 @@
+// The leaflet as a mass-spring sheet: the bilinear law with Van Gelder stiffness on every edge.
+//
+// An edge of rest length L0 between triangles of area A and thickness t carries the force
+// sigma(e) t A / L0 at strain e = L / L0 - 1, summed over its triangles: the spring constant
+// k = E t sum(A) / L0^2 of Van Gelder (J. Graphics Tools 3(2), 1998) with the law of Tenenholtz et
+// al. (2011).
+#pragma once
+
+#include <vector>
+
+#include "energy/hessian_assembler.h"
+#include "energy/term.h"
+#include "model/model.h"
+
+namespace mvs::core {
+
+class SpringTerm {
+ public:
+  explicit SpringTerm(const Model &model);
+
+  bool empty() const { return springs_.empty(); }
+  double energy(const std::vector<Vec3> &x) const;
+  // Adds dE/dx and returns E.
+  double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  void add_pairs(std::vector<Edge> &pairs) const;
+
+ private:
+  // One law on one edge: an edge between two leaflets has two.
+  struct Spring {
+    uint32_t i, j, law;
+    double length;                       // L0, m
+    double volume;                       // t A, m3
+    double per_length = 0, section = 0;  // 1 / L0, t A / L0
+  };
+  std::vector<Spring> springs_;
+  std::vector<Bilinear> laws_;
+};
+
+}  // namespace mvs::core

@@ -1,0 +1,145 @@
+// The sum of the terms.
+#include "energy/total_energy.h"
+
+namespace mvs::core {
+
+Potential::Potential(const Model &model, ContactLaw law)
+    : model_(&model),
+      spring_(model),
+      membrane_(model),
+      bending_(model),
+      chord_(model),
+      pressure_(model),
+      candidates_(model),
+      contact_(model, law),
+      instrument_(model) {
+  spring_.add_pairs(pairs_);
+  first_.membrane = pairs_.size();
+  membrane_.add_pairs(pairs_);
+  first_.bending = pairs_.size();
+  bending_.add_pairs(pairs_);
+  first_.chord = pairs_.size();
+  chord_.add_pairs(pairs_);
+  first_.pressure = pairs_.size();
+  pressure_.add_pairs(pairs_);
+}
+
+void Potential::set_tools(const std::vector<Tool> &tools) {
+  uint32_t points = 0;
+  for (const Tool &tool : tools) points += tool.points();
+  const uint32_t first = static_cast<uint32_t>(model_->node_count()) - points;
+  grasp_.set_tools(tools, first);
+  instrument_.bodies().set_tools(tools, first);
+}
+
+void Potential::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+                        Profile &profile) {
+  const PhaseTimer timer(profile, MVS_PHASE_BROAD);
+  ++profile.broad_phases;
+  candidates_.build(x, to, slack);
+  instrument_.bodies().prepare(x, to, slack);
+}
+
+void Potential::limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
+                           Profile &profile) {
+  const PhaseTimer timer(profile, MVS_PHASE_BROAD);
+  profile.broad_phases += bounds_.limit(*model_, x, slack, candidates_, dx, &instrument_.bodies());
+}
+
+uint32_t Potential::skipped() const {
+  uint32_t skipped = 0;
+  if (spring_.empty()) skipped |= MVS_SKIPPED_SPRINGS;
+  if (membrane_.empty()) skipped |= MVS_SKIPPED_MEMBRANE;
+  if (bending_.empty()) skipped |= MVS_SKIPPED_BENDING;
+  if (chord_.empty()) skipped |= MVS_SKIPPED_CHORDAE;
+  if (pressure_.empty()) skipped |= MVS_SKIPPED_PRESSURE;
+  if (!was_near_ && candidates_.empty()) skipped |= MVS_SKIPPED_CONTACT;
+  return skipped;
+}
+
+void Potential::collect(const std::vector<Vec3> &x) {
+  was_near_ = was_near_ || !candidates_.empty();
+  contact_.collect(x, candidates_);
+  instrument_.collect(x);
+}
+
+double Potential::energy(const std::vector<Vec3> &x) {
+  collect(x);
+  return spring_.energy(x) + membrane_.energy(x) + bending_.energy(x) + chord_.energy(x) +
+         instrument_.energy(x) + contact_.energy() + pressure_.energy(x) + grasp_.energy(x);
+}
+
+double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
+  pressure_.freeze(x);
+  const double sheet = sheet_gradient(x, g, profile);
+  return sheet + add_hands(x, g);
+}
+
+double Potential::sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g,
+                                 Profile &profile) {
+  {
+    const PhaseTimer timer(profile, MVS_PHASE_NARROW);
+    collect(x);
+  }
+  ++profile.passes;
+  const PhaseTimer timer(profile, MVS_PHASE_TERMS);
+  g.assign(x.size(), Vec3::Zero());
+  elastic_ = spring_.gradient(x, g);
+  elastic_ += membrane_.gradient(x, g);
+  elastic_ += bending_.gradient(x, g);
+  elastic_ += chord_.gradient(x, g);
+  elastic_ += instrument_.gradient(x, g);
+  elastic_ += contact_.gradient(g);
+  return elastic_ + pressure_.gradient(x, g);
+}
+
+double Potential::freeze(const std::vector<Vec3> &x) {
+  pressure_.freeze(x);
+  return elastic_ + pressure_.energy(x);
+}
+
+bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &system) {
+  system.clear();
+  // first what the pattern may lack: nothing is computed in vain
+  if (!contact_.hessian(x, curvature, system)) return false;
+  if (!instrument_.hessian(x, curvature, system)) return false;
+  system.begin_term(0);
+  spring_.hessian(x, curvature, system);
+  system.begin_term(first_.membrane);
+  membrane_.hessian(x, curvature, system);
+  system.begin_term(first_.bending);
+  bending_.hessian(x, curvature, system);
+  system.begin_term(first_.chord);
+  chord_.hessian(x, curvature, system);
+  system.begin_term(first_.pressure);
+  pressure_.hessian(x, system);
+  grasp_.hessian(x, system);
+  return true;
+}
+
+void Potential::set_pattern(System &system) {
+  wanted_.clear();
+  contact_.add_pairs(wanted_);
+  instrument_.add_pairs(wanted_);
+  system.set_pattern(*model_, pairs_, wanted_);
+}
+
+bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,
+                        Profile &profile) {
+  ++profile.passes;
+  if (!system.row_of.empty()) {
+    const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
+    if (fill(x, curvature, system)) return false;
+  }
+  // contact has come where the pattern has no room: a new pattern from what touches now
+  {
+    const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
+    ++profile.orderings;
+    set_pattern(system);
+  }
+  const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
+  fill(x, curvature, system);
+  return true;
+}
+
+}  // namespace mvs::core

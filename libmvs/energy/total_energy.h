@@ -1,0 +1,103 @@
+// All the terms a model has, as one potential: what every solver runs over.
+#pragma once
+
+#include <vector>
+
+#include "collision/broad_phase.h"
+#include "collision/step_limiter.h"
+#include "energy/bending.h"
+#include "energy/cable.h"
+#include "energy/contact.h"
+#include "energy/follower_pressure.h"
+#include "energy/grasp.h"
+#include "energy/instrument.h"
+#include "energy/membrane.h"
+#include "energy/profile.h"
+#include "energy/spring.h"
+
+namespace mvs::core {
+
+class Potential {
+ public:
+  explicit Potential(const Model &model, ContactLaw law = ContactLaw::barrier);
+
+  void set_pressure(double pressure) { pressure_.set_pressure(pressure); }
+  // The points of instruments are the last nodes (physics/tool_points.h).
+  void set_tools(const std::vector<Tool> &tools);
+
+  // See Candidates.
+  void keep_near(bool keep) { candidates_.keep_near(keep); }
+  void keep_near_at_once() { candidates_.keep_near_at_once(); }
+  // Makes contact known while each node stays within `slack` of its way from x to `to`.
+  void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+               Profile &profile);
+  // Shortens a step dx from x so that nothing passes through anything; contact is then known at x,
+  // at x + dx, and between.
+  void limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
+                  Profile &profile);
+  bool prepared_for(const std::vector<Vec3> &x) const {
+    return instrument_.bodies().is_prepared() && candidates_.valid_for(x);
+  }
+
+  // Forgets what was near, for skipped().
+  void begin_call() { was_near_ = false; }
+  // MVS_SKIPPED_* of the terms that no pass since begin_call() has computed.
+  uint32_t skipped() const;
+
+  // The energy at x, comparable between calls of gradient(); x must be prepared for.
+  double energy(const std::vector<Vec3> &x);
+  // Sets g = dE/dx and returns the energy; x must be prepared for.
+  double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile);
+
+  // The same in parts, for a step that tries a place and stays there. Without what hands do, and
+  // with an energy comparable with that at the last freeze():
+  double sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile);
+  // ... at the x of the last sheet_gradient(), whose energy it returns as gradient() would;
+  double freeze(const std::vector<Vec3> &x);
+  // ... and what hands do: all that changes when only they move.
+  double hands_energy(const std::vector<Vec3> &x) const { return grasp_.energy(x); }
+  double add_hands(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+    return grasp_.gradient(x, g);
+  }
+  // Fills the system with the Hessian at the x of the last gradient(). True if its pattern is new.
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system, Profile &profile);
+
+  // Adds what the Hessian leaves out because it is not symmetric: see PressureTerm::add_skew.
+  void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v,
+                std::vector<Vec3> &y) const {
+    pressure_.add_skew(x, v, y);
+  }
+
+  // Sets the pattern that the Hessian at the x of the last gradient() needs.
+  void set_pattern(System &system);
+  // Nodes that the terms whose pattern never changes couple.
+  const std::vector<Edge> &pairs() const { return pairs_; }
+  const Candidates &candidates() const { return candidates_; }
+  const ContactTerm &contact() const { return contact_; }
+  InstrumentTerm &instrument() { return instrument_; }
+
+ private:
+  void collect(const std::vector<Vec3> &x);
+  bool fill(const std::vector<Vec3> &x, Curvature curvature, System &system);
+
+  const Model *model_;
+  SpringTerm spring_;
+  MembraneTerm membrane_;
+  BendingTerm bending_;
+  ChordTerm chord_;
+  PressureTerm pressure_;
+  Candidates candidates_;
+  StepBounds bounds_;
+  ContactTerm contact_;
+  GraspTerm grasp_;
+  InstrumentTerm instrument_;
+  bool was_near_ = false;    // contact had pairs to look at
+  double elastic_ = 0;       // energy of the last sheet_gradient(), without that of the pressure
+  std::vector<Edge> pairs_;  // of the terms whose pattern never changes,
+  struct {
+    size_t membrane, bending, chord, pressure;
+  } first_;                   // where those of each begin, the springs' at 0
+  std::vector<Edge> wanted_;  // what touches, while a pattern is made
+};
+
+}  // namespace mvs::core

@@ -1,0 +1,148 @@
+#include "ensemble/loading_path.h"
+
+#include <mvs/spread.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "model/finite.h"
+#include "solve/nodes.h"
+#include "solve/static/mesh_hierarchy.h"
+
+namespace mvs::core {
+namespace {
+
+// Between increments the valve need not be at rest to the last digit: a tenth of the pressure's
+// force on a node of mean area, within as many iterations as a closure takes at most.
+constexpr double between_residual = 0.1;
+constexpr uint32_t between_iterations = 100;
+
+// A normal left ventricle raises its pressure by up to about 2,000 mmHg/s (a widely quoted figure):
+// 120 mmHg in 60 ms, in implicit steps of 1 ms.
+constexpr double ramp_time = 60e-3;
+constexpr uint32_t ramp_steps = 60;
+
+// A load on the way: passed in time by one step, or settled to.
+struct Stage {
+  Load load;
+  bool in_time;
+};
+
+std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to) {
+  std::vector<Stage> stages;
+  const bool together = path.order == MVS_SPREAD_TOGETHER;
+  const bool first = path.order == MVS_SPREAD_BOUNDARY_FIRST;
+  const bool moves = from.boundary_fraction != to.boundary_fraction;
+  const double held = first ? to.boundary_fraction : from.boundary_fraction;
+  if (first && moves) stages.push_back({{from.pressure, held}, false});
+  for (uint32_t k = 1; k <= path.increments; ++k) {
+    const double share = static_cast<double>(k) / path.increments;
+    const double travelled =
+        from.boundary_fraction + share * (to.boundary_fraction - from.boundary_fraction);
+    stages.push_back(
+        {{from.pressure + share * (to.pressure - from.pressure), together ? travelled : held},
+         path.ramp > 0});
+  }
+  // the last one is the load itself, to the bit, and is settled to
+  if (!stages.back().in_time && !(moves && path.order == MVS_SPREAD_PRESSURE_FIRST)) {
+    stages.pop_back();
+  }
+  stages.push_back({to, false});
+  return stages;
+}
+
+double force_between(const Model &model, const Load &load) {
+  return between_residual * std::abs(load.pressure) * mean_area(model);
+}
+
+// Goes from stage to stage, and counts what each of them took.
+class Walk {
+ public:
+  Walk(Solver &solver, const Model &model, Closing &closing, bool plain, const Progress &progress)
+      : solver_(solver), model_(model), closing_(closing), plain_(plain), progress_(progress) {}
+
+  void go(const std::vector<Stage> &stages, const SolveOptions &options, double dt) {
+    SolveOptions between = options, step;
+    between.residual = std::max(options.residual, force_between(model_, stages.back().load));
+    if (options.solver <= MVS_SOLVER_NEWTON) between.max_iterations = between_iterations;
+    step.dt = dt;
+    for (size_t k = 0; k < stages.size(); ++k) {
+      closing_.state.load = stages[k].load;
+      begun_ = static_cast<double>(k) / static_cast<double>(stages.size());
+      stage_ = 1 / static_cast<double>(stages.size());
+      const SolveStats before = closing_.stats;
+      closing_.stats =
+          stages[k].in_time ? pass(step) : settle(k + 1 == stages.size() ? options : between);
+      closing_.stats.add(before);
+    }
+  }
+
+ private:
+  SolveStats settle(const SolveOptions &how) {
+    const auto tell = [this](double share, double residual) {
+      return progress_(begun_ + share * stage_, residual);
+    };
+    const Progress told = progress_ ? Progress(tell) : Progress();
+    // the others are on this mesh all the way, so that what it can fold to is found
+    return plain_ ? settle_by_levels(solver_, model_, closing_.state, how, told)
+                  : solver_.settle(model_, closing_.state, how, told);
+  }
+
+  SolveStats pass(const SolveOptions &how) {
+    const SolveStats done = solver_.step(model_, closing_.state, how);
+    MVS_MUST(!progress_ || progress_(begun_, done.residual), MVS_E_CANCELLED, "spread",
+             "closing along paths was cancelled by the progress callback");
+    return done;
+  }
+
+  Solver &solver_;
+  const Model &model_;
+  Closing &closing_;
+  bool plain_;
+  const Progress &progress_;
+  double begun_ = 0, stage_ = 0;  // shares of the path: where the stage begins, how long it is
+};
+
+}  // namespace
+
+Path make_path(uint32_t number, const Disturbance &disturbance, uint64_t seed) {
+  // 5 and 3 have no common factor: fifteen combinations before one comes back; 0 is in time
+  static constexpr uint32_t increments[] = {1, 4, 2, 0, 8};
+  static constexpr uint32_t orders[] = {MVS_SPREAD_TOGETHER, MVS_SPREAD_BOUNDARY_FIRST,
+                                        MVS_SPREAD_PRESSURE_FIRST};
+  Path path;
+  path.plain = number == 0;
+  path.increments = increments[number % 5];
+  if (path.increments == 0) {
+    path.increments = ramp_steps;
+    path.ramp = ramp_time;
+  }
+  path.order = orders[number % 3];
+  if (!path.plain) path.disturbance = disturbance;
+  path.random = Random(seed, number);
+  return path;
+}
+
+Closing close_along(Solver &solver, const Model &model, const State &start, const Load &load,
+                    const SolveOptions &options, const Path &path, const Progress &progress) {
+  Closing closing;
+  State begun = start;
+  if (path.disturbance.longest > 0) {
+    closing.moved = disturb(model, begun.x.edit(), path.disturbance, path.random);
+  }
+  closing.state = begun;
+  try {
+    Walk(solver, model, closing, path.plain, progress)
+        .go(stages_of(path, start.load, load), options, path.ramp / path.increments);
+    must_be_finite(closing.state);
+  } catch (const Error &error) {
+    if (error.code != MVS_E_DIVERGED || path.plain) throw;
+    closing.diverged = true;
+    closing.state = begun;
+    closing.stats.converged = false;
+  }
+  return closing;
+}
+
+}  // namespace mvs::core

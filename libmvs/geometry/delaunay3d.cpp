@@ -1,0 +1,290 @@
+// Delaunay tetrahedra by insertion, in integers.
+#include "geometry/delaunay3d.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <tuple>
+
+#include "base/types.h"
+
+namespace mvs::core {
+namespace {
+
+__extension__ typedef __int128 Wide;
+using Step = std::array<int64_t, 3>;
+
+Step step(const LatticePoint &from, const LatticePoint &to) {
+  return {int64_t{to[0]} - from[0], int64_t{to[1]} - from[1], int64_t{to[2]} - from[2]};
+}
+
+// Six times the volume: below 3 * 2^61, so it fits.
+int64_t volume(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
+               const LatticePoint &d) {
+  const Step u = step(a, b), v = step(a, c), w = step(a, d);
+  return (u[0] * v[1] - u[1] * v[0]) * w[2] + (u[1] * v[2] - u[2] * v[1]) * w[0] +
+         (u[2] * v[0] - u[0] * v[2]) * w[1];
+}
+
+// Whether p is strictly inside the sphere through a, b, c, d, which have positive volume.
+bool in_sphere(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
+               const LatticePoint &d, const LatticePoint &p) {
+  const std::array<Step, 4> row = {step(p, a), step(p, b), step(p, c), step(p, d)};
+  const auto minor = [&](int i, int j) { return row[i][0] * row[j][1] - row[i][1] * row[j][0]; };
+  const int64_t ab = minor(0, 1), ac = minor(0, 2), ad = minor(0, 3);
+  const int64_t bc = minor(1, 2), bd = minor(1, 3), cd = minor(2, 3);
+  const int64_t abc = row[0][2] * bc - row[1][2] * ac + row[2][2] * ab;
+  const int64_t abd = row[0][2] * bd - row[1][2] * ad + row[3][2] * ab;
+  const int64_t acd = row[0][2] * cd - row[2][2] * ad + row[3][2] * ac;
+  const int64_t bcd = row[1][2] * cd - row[2][2] * bd + row[3][2] * bc;
+  const auto lift = [&](int i) {
+    return row[i][0] * row[i][0] + row[i][1] * row[i][1] + row[i][2] * row[i][2];
+  };
+  return Wide{lift(0)} * bcd - Wide{lift(1)} * acd + Wide{lift(2)} * abd - Wide{lift(3)} * abc > 0;
+}
+
+// Where a point is along the Z curve: the bits of its coordinates, interleaved.
+uint64_t z_order(const LatticePoint &p) {
+  uint64_t code = 0;
+  for (int bit = 20; bit >= 0; --bit) {
+    for (int k = 0; k < 3; ++k) code = code << 1 | ((p[k] >> bit) & 1);
+  }
+  return code;
+}
+
+// Half of the points come last, a quarter before them, and so on, by a fixed shuffle.
+std::vector<uint32_t> insertion_order(const std::vector<LatticePoint> &points) {
+  struct Key {
+    uint32_t round, point;
+    uint64_t z;
+  };
+  std::vector<Key> keys;
+  keys.reserve(points.size());
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    const uint32_t shuffled = (i + 1) * 0x9e3779b1u;
+    const uint32_t early = std::min(std::countl_zero(shuffled ^ (shuffled << 15)), 12);
+    keys.push_back({12 - early, i, z_order(points[i])});
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key &a, const Key &b) {
+    return std::tie(a.round, a.z, a.point) < std::tie(b.round, b.z, b.point);
+  });
+  std::vector<uint32_t> order;
+  for (const Key &key : keys) order.push_back(key.point);
+  return order;
+}
+
+// Pairs up the two new tetrahedra at each edge of the hole that a new point fills.
+class EdgeTable {
+ public:
+  struct Side {
+    uint64_t edge;
+    uint32_t tetrahedron, face;
+  };
+
+  void clear(size_t edges) { slots_.assign(std::bit_ceil(2 * edges + 1), Side{empty, 0, 0}); }
+  // The side that was put at this edge before; else puts this one and returns null.
+  const Side *match(uint32_t a, uint32_t b, uint32_t tetrahedron, uint32_t face) {
+    const uint64_t edge = uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    size_t slot = (edge * 0x9e3779b97f4a7c15u) >> 32;
+    for (;; ++slot) {
+      Side &side = slots_[slot & (slots_.size() - 1)];
+      if (side.edge == edge) return &side;
+      if (side.edge != empty) continue;
+      side = {edge, tetrahedron, face};
+      return nullptr;
+    }
+  }
+
+ private:
+  static constexpr uint64_t empty = UINT64_MAX;
+  std::vector<Side> slots_;
+};
+
+class Builder {
+ public:
+  explicit Builder(const std::vector<LatticePoint> &points);
+
+  // Returns the vertex that is in the place of `vertex`: itself, or an earlier one.
+  uint32_t insert(uint32_t vertex);
+  std::vector<Tetrahedron> finish();
+
+ private:
+  struct Facet {
+    std::array<uint32_t, 4> corner;  // the new vertex at `place`
+    uint32_t place;
+    uint32_t outside;  // the tetrahedron on the other side, or `none`
+  };
+
+  const LatticePoint &at(uint32_t vertex) const { return point_[vertex]; }
+  uint32_t locate(const LatticePoint &p);
+  void find_hole(uint32_t start, uint32_t vertex);
+  void fill_hole();
+  uint32_t vacancy();
+  void join_outside(const Facet &facet, uint32_t t);
+  void join_inside(const Facet &facet, uint32_t t);
+
+  std::vector<LatticePoint> point_;
+  std::vector<Tetrahedron> tetrahedra_;
+  std::vector<uint64_t> seen_;  // per tetrahedron: 2 * insertion, + 1 when its sphere is hit
+  uint64_t insertion_ = 0;
+  uint32_t last_ = 0;
+  std::vector<uint32_t> hole_, vacant_;
+  std::vector<Facet> facets_;
+  EdgeTable table_;
+};
+
+// The box, as six tetrahedra around its diagonal.
+Builder::Builder(const std::vector<LatticePoint> &points) : point_(points) {
+  const uint32_t first = static_cast<uint32_t>(points.size());
+  for (int k = 0; k < 8; ++k) {
+    point_.push_back(
+        {(k & 1) * lattice_size, (k >> 1 & 1) * lattice_size, (k >> 2 & 1) * lattice_size});
+  }
+  const std::array<uint32_t, 6> around = {1, 3, 2, 6, 4, 5};
+  for (uint32_t k = 0; k < 6; ++k) {
+    const uint32_t after = (k + 1) % 6, before = (k + 5) % 6;
+    // faces opposite the two ends of the diagonal lie on the box
+    tetrahedra_.push_back({{first, first + around[k], first + around[after], first + 7},
+                           {none, after, before, none}});
+  }
+  seen_.assign(tetrahedra_.size(), 0);
+}
+
+// Walks towards p through the face that hides it.
+uint32_t Builder::locate(const LatticePoint &p) {
+  uint32_t t = last_, came_from = none;
+  for (uint32_t turn = 0;; ++turn) {
+    const Tetrahedron &here = tetrahedra_[t];
+    uint32_t next = none;
+    for (uint32_t j = 0; j < 4 && next == none; ++j) {
+      const uint32_t k = (j + turn) % 4;  // turning keeps the walk out of circles
+      if (here.neighbour[k] == came_from || here.neighbour[k] == none) continue;
+      std::array<uint32_t, 4> c = here.corner;
+      const auto corner = [&](uint32_t i) -> const LatticePoint & { return i == k ? p : at(c[i]); };
+      if (volume(corner(0), corner(1), corner(2), corner(3)) < 0) next = here.neighbour[k];
+    }
+    if (next == none) return t;
+    came_from = t;
+    t = next;
+  }
+}
+
+// All tetrahedra whose sphere holds the vertex, and the faces around them.
+void Builder::find_hole(uint32_t start, uint32_t vertex) {
+  ++insertion_;
+  hole_.assign(1, start);
+  facets_.clear();
+  seen_[start] = 2 * insertion_ + 1;
+  for (size_t i = 0; i < hole_.size(); ++i) {
+    const Tetrahedron here = tetrahedra_[hole_[i]];
+    for (uint32_t k = 0; k < 4; ++k) {
+      const uint32_t n = here.neighbour[k];
+      if (n != none && seen_[n] < 2 * insertion_) {
+        const std::array<uint32_t, 4> &c = tetrahedra_[n].corner;
+        const bool hit = in_sphere(at(c[0]), at(c[1]), at(c[2]), at(c[3]), at(vertex));
+        seen_[n] = 2 * insertion_ + hit;
+        if (hit) hole_.push_back(n);
+      }
+      if (n != none && seen_[n] == 2 * insertion_ + 1) continue;
+      Facet facet{here.corner, k, n};
+      facet.corner[k] = vertex;
+      facets_.push_back(facet);
+    }
+  }
+}
+
+// A place for a new tetrahedron: one of the hole, as long as there are any.
+uint32_t Builder::vacancy() {
+  if (vacant_.empty()) {
+    tetrahedra_.emplace_back();
+    seen_.push_back(0);
+    return static_cast<uint32_t>(tetrahedra_.size() - 1);
+  }
+  const uint32_t t = vacant_.back();
+  vacant_.pop_back();
+  seen_[t] = 0;
+  return t;
+}
+
+// Joins the new tetrahedron of a facet to the old one outside.
+void Builder::join_outside(const Facet &facet, uint32_t t) {
+  tetrahedra_[t].neighbour[facet.place] = facet.outside;
+  if (facet.outside == none) return;
+  Tetrahedron &outside = tetrahedra_[facet.outside];
+  const auto is_shared = [&](uint32_t corner) {
+    return std::find(facet.corner.begin(), facet.corner.end(), corner) != facet.corner.end();
+  };
+  for (uint32_t k = 0; k < 4; ++k) {
+    if (!is_shared(outside.corner[k])) outside.neighbour[k] = t;
+  }
+}
+
+// Joins it to those new ones, over the edges of the facet, that are there already.
+void Builder::join_inside(const Facet &facet, uint32_t t) {
+  for (uint32_t k = 0; k < 4; ++k) {
+    if (k == facet.place) continue;
+    std::array<uint32_t, 2> edge;
+    size_t count = 0;
+    for (uint32_t j = 0; j < 4; ++j) {
+      if (j != k && j != facet.place) edge[count++] = facet.corner[j];
+    }
+    const EdgeTable::Side *other = table_.match(edge[0], edge[1], t, k);
+    if (other == nullptr) continue;
+    tetrahedra_[t].neighbour[k] = other->tetrahedron;
+    tetrahedra_[other->tetrahedron].neighbour[other->face] = t;
+  }
+}
+
+void Builder::fill_hole() {
+  vacant_.insert(vacant_.end(), hole_.begin(), hole_.end());
+  table_.clear(3 * facets_.size() / 2);
+  for (const Facet &facet : facets_) {
+    last_ = vacancy();
+    tetrahedra_[last_].corner = facet.corner;
+    join_outside(facet, last_);
+    join_inside(facet, last_);
+  }
+}
+
+uint32_t Builder::insert(uint32_t vertex) {
+  const uint32_t start = locate(at(vertex));
+  for (const uint32_t corner : tetrahedra_[start].corner) {
+    if (at(corner) == at(vertex)) return corner;
+  }
+  find_hole(start, vertex);
+  fill_hole();
+  return vertex;
+}
+
+// Drops the vacant places.
+std::vector<Tetrahedron> Builder::finish() {
+  std::vector<uint32_t> number(tetrahedra_.size(), 0);
+  for (const uint32_t t : vacant_) number[t] = none;
+  uint32_t count = 0;
+  for (uint32_t &n : number) {
+    if (n != none) n = count++;
+  }
+  std::vector<Tetrahedron> kept;
+  kept.reserve(count);
+  for (size_t t = 0; t < tetrahedra_.size(); ++t) {
+    if (number[t] == none) continue;
+    kept.push_back(tetrahedra_[t]);
+    for (uint32_t &n : kept.back().neighbour) {
+      if (n != none) n = number[n];
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+Delaunay delaunay(const std::vector<LatticePoint> &points) {
+  Builder builder(points);
+  Delaunay result;
+  result.stands_for.resize(points.size());
+  for (const uint32_t i : insertion_order(points)) result.stands_for[i] = builder.insert(i);
+  result.tetrahedra = builder.finish();
+  return result;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,182 @@
+// Exact crossing tests: floating-point filters first, expansions where they cannot tell.
+#include "geometry/intersect.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/box_tree.h"
+#include "geometry/predicates.h"
+
+namespace mvs::core {
+namespace {
+
+// Error bounds of the two determinants below relative to their permanents (Shewchuk 1997,
+// equations for ccwerrboundA and o3derrboundA), with epsilon = 2^-53.
+constexpr double epsilon = 0x1p-53;
+constexpr double orient2d_bound = (3 + 16 * epsilon) * epsilon;
+constexpr double orient3d_bound = (7 + 56 * epsilon) * epsilon;
+
+int sign_of(double value) {
+  return (value > 0) - (value < 0);
+}
+
+// The 2 x 2 determinant of exact differences.
+Expansion<16> exact_minor(const Expansion<2> &ax, const Expansion<2> &ay, const Expansion<2> &bx,
+                          const Expansion<2> &by) {
+  return ax * by + -(ay * bx);
+}
+
+int exact_orient3d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  std::array<std::array<Expansion<2>, 3>, 3> row;
+  for (int k = 0; k < 3; ++k) {
+    row[0][k] = exact_difference(b[k], a[k]);
+    row[1][k] = exact_difference(c[k], a[k]);
+    row[2][k] = exact_difference(d[k], a[k]);
+  }
+  const auto term = [&](int i, int j, int k) {
+    return exact_minor(row[0][i], row[0][j], row[1][i], row[1][j]) * row[2][k];
+  };
+  return (term(0, 1, 2) + term(1, 2, 0) + term(2, 0, 1)).sign();
+}
+
+// The sign of the area of triangle a b c seen along one axis, exact.
+int orient2d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, int axis) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const double left = (b[i] - a[i]) * (c[j] - a[j]), right = (b[j] - a[j]) * (c[i] - a[i]);
+  const double det = left - right;
+  if (std::abs(det) > orient2d_bound * (std::abs(left) + std::abs(right))) return sign_of(det);
+  return exact_minor(exact_difference(b[i], a[i]), exact_difference(b[j], a[j]),
+                     exact_difference(c[i], a[i]), exact_difference(c[j], a[j]))
+      .sign();
+}
+
+// Whether two segments meet, seen along one axis: each straddles the line of the other, and their
+// boxes touch, which decides where both lie on one line.
+bool segments_cross_seen_along(int axis, const Vec3 &p, const Vec3 &q, const Vec3 &a,
+                               const Vec3 &b) {
+  for (const int k : {(axis + 1) % 3, (axis + 2) % 3}) {
+    if (std::max(p[k], q[k]) < std::min(a[k], b[k])) return false;
+    if (std::max(a[k], b[k]) < std::min(p[k], q[k])) return false;
+  }
+  return orient2d_sign(p, q, a, axis) * orient2d_sign(p, q, b, axis) <= 0 &&
+         orient2d_sign(a, b, p, axis) * orient2d_sign(a, b, q, axis) <= 0;
+}
+
+// Segments of one plane meet exactly when they meet seen along all three axes: along one of them
+// the plane is seen without two of its points on top of each other, so the meeting is real.
+bool segments_cross(const Vec3 &p, const Vec3 &q, const Vec3 &a, const Vec3 &b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!segments_cross_seen_along(axis, p, q, a, b)) return false;
+  }
+  return orient3d_sign(p, q, a, b) == 0;
+}
+
+// Whether p, in the plane of triangle a b c, is inside it and not on its rim. Never in a flat one.
+bool strictly_inside(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int whole = orient2d_sign(a, b, c, axis);
+    if (whole == 0) continue;
+    return orient2d_sign(a, b, p, axis) == whole && orient2d_sign(b, c, p, axis) == whole &&
+           orient2d_sign(c, a, p, axis) == whole;
+  }
+  return false;
+}
+
+// Whether all corners of a triangle are strictly on one side of another's plane.
+bool is_on_one_side(const std::array<Vec3, 3> &triangle, const std::array<Vec3, 3> &plane) {
+  const int first = orient3d_sign(plane[0], plane[1], plane[2], triangle[0]);
+  return first != 0 && first == orient3d_sign(plane[0], plane[1], plane[2], triangle[1]) &&
+         first == orient3d_sign(plane[0], plane[1], plane[2], triangle[2]);
+}
+
+// Triangles a b c and a b d, or any two with the same plane and edge: the same side of the edge?
+bool is_folded_flat(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  if (orient3d_sign(a, b, c, d) != 0) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int side = orient2d_sign(a, b, c, axis);
+    if (side != 0) return side == orient2d_sign(a, b, d, axis);
+  }
+  return false;
+}
+
+// The corners of both triangles, the shared ones first and in the same order; how many are shared.
+uint32_t shared_first(Tri &s, Tri &t) {
+  uint32_t shared = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const auto same = std::find(t.begin() + shared, t.end(), s[i]);
+    if (same == t.end()) continue;
+    std::swap(s[shared], s[i]);
+    std::swap(t[shared], *same);
+    ++shared;
+  }
+  return shared;
+}
+
+bool pair_crosses(const std::vector<Vec3> &x, Tri s, Tri t) {
+  const uint32_t shared = shared_first(s, t);
+  const std::array<Vec3, 3> a = {x[s[0]], x[s[1]], x[s[2]]}, b = {x[t[0]], x[t[1]], x[t[2]]};
+  if (shared == 0) return triangles_cross(a, b);
+  if (shared >= 2) return is_folded_flat(a[0], a[1], a[2], b[2]);
+  return segment_crosses_triangle(a[1], a[2], b[0], b[1], b[2]) ||
+         segment_crosses_triangle(b[1], b[2], a[0], a[1], a[2]);
+}
+
+}  // namespace
+
+int orient3d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double xy = u.x() * v.y(), yx = u.y() * v.x();
+  const double yz = u.y() * v.z(), zy = u.z() * v.y();
+  const double zx = u.z() * v.x(), xz = u.x() * v.z();
+  const double det = (xy - yx) * w.z() + (yz - zy) * w.x() + (zx - xz) * w.y();
+  const double permanent = (std::abs(xy) + std::abs(yx)) * std::abs(w.z()) +
+                           (std::abs(yz) + std::abs(zy)) * std::abs(w.x()) +
+                           (std::abs(zx) + std::abs(xz)) * std::abs(w.y());
+  if (std::abs(det) > orient3d_bound * permanent) return sign_of(det);
+  return exact_orient3d_sign(a, b, c, d);
+}
+
+bool segment_crosses_triangle(const Vec3 &p, const Vec3 &q, const Vec3 &a, const Vec3 &b,
+                              const Vec3 &c) {
+  const int side_p = orient3d_sign(a, b, c, p), side_q = orient3d_sign(a, b, c, q);
+  if (side_p * side_q > 0) return false;
+  if (side_p == 0 && side_q == 0) {
+    return segments_cross(p, q, a, b) || segments_cross(p, q, b, c) || segments_cross(p, q, c, a) ||
+           strictly_inside(p, a, b, c);
+  }
+  // the line meets the plane in one point: on which side of each edge does it pass?
+  const int ab = orient3d_sign(p, q, a, b), bc = orient3d_sign(p, q, b, c);
+  if (ab * bc < 0) return false;
+  const int ca = orient3d_sign(p, q, c, a);
+  return ab * ca >= 0 && bc * ca >= 0;
+}
+
+bool triangles_cross(const std::array<Vec3, 3> &first, const std::array<Vec3, 3> &second) {
+  if (is_on_one_side(first, second) || is_on_one_side(second, first)) return false;
+  for (int k = 0; k < 3; ++k) {
+    const int after = (k + 1) % 3;
+    if (segment_crosses_triangle(first[k], first[after], second[0], second[1], second[2]) ||
+        segment_crosses_triangle(second[k], second[after], first[0], first[1], first[2])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
+                                     const std::vector<Tri> &triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const Tri &triangle : triangles) boxes.push_back(box_of(x, triangle));
+  const BoxTree tree(std::move(boxes));
+  std::vector<Edge> crossing;
+  for (uint32_t s = 0; s < triangles.size(); ++s) {
+    tree.for_touching(tree.boxes()[s], [&](uint32_t t) {
+      if (t > s && pair_crosses(x, triangles[s], triangles[t])) crossing.push_back({s, t});
+    });
+  }
+  std::sort(crossing.begin(), crossing.end());
+  return crossing;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,72 @@
+// Gate, ramp, fade, latch.
+#include "haptics/force_gate.h"
+
+#include <algorithm>
+
+namespace mvs::core {
+namespace {
+
+constexpr uint32_t quiet_ticks = 3;      // below the gate before a ramp begins
+constexpr double fades_back_slower = 4;  // than it fades away
+
+}  // namespace
+
+void Guard::start() {
+  phase_ = MVS_DEVICE_OFF;
+  cause_ = MVS_CAUSE_NONE;
+  armed_ = requests_->armed_.load(std::memory_order_relaxed);
+  requests_->cut_.store(MVS_CAUSE_NONE, std::memory_order_relaxed);
+}
+
+double Guard::share(const Facts &facts, const mvs_device_limits &limits) {
+  take_requests();
+  if (is_armed() && facts.cause != MVS_CAUSE_NONE) latch(facts.cause);
+  if (!is_armed()) return 0;
+  pass_gate(facts, limits);
+  fade(facts, limits);
+  if (phase_ == MVS_DEVICE_WAITING) return 0;
+  phase_ = fade_ < 1 ? MVS_DEVICE_FADED : ramp_ < 1 ? MVS_DEVICE_RAMPING : MVS_DEVICE_ON;
+  return ramp_ * fade_;
+}
+
+// What cuts comes after what arms, if both were asked for since the last tick.
+void Guard::take_requests() {
+  const uint32_t armed = requests_->armed_.load(std::memory_order_relaxed);
+  if (armed != armed_) {
+    armed_ = armed;
+    if (!is_armed()) {
+      phase_ = MVS_DEVICE_WAITING;
+      cause_ = MVS_CAUSE_NONE;
+      quiet_ = 0;
+    }
+  }
+  const uint32_t cut = requests_->cut_.exchange(MVS_CAUSE_NONE, std::memory_order_relaxed);
+  if (cut != MVS_CAUSE_NONE && phase_ != MVS_DEVICE_LATCHED) latch(cut);
+}
+
+void Guard::latch(uint32_t cause) {
+  phase_ = MVS_DEVICE_LATCHED;
+  cause_ = cause;
+  ramp_ = 0;
+}
+
+void Guard::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
+  if (phase_ == MVS_DEVICE_WAITING) {
+    quiet_ = facts.wanted < limits.gate ? quiet_ + 1 : 0;
+    if (quiet_ < quiet_ticks) return;
+    phase_ = MVS_DEVICE_RAMPING;
+    ramp_ = 0;
+    fade_ = 1;
+  }
+  ramp_ = std::min(1.0, ramp_ + facts.dt / limits.ramp_s);
+}
+
+void Guard::fade(const Facts &facts, const mvs_device_limits &limits) {
+  if (facts.may_feel) {
+    fade_ = std::min(1.0, fade_ + facts.dt / (fades_back_slower * limits.fade_s));
+  } else {
+    fade_ = std::max(0.0, fade_ - facts.dt / limits.fade_s);
+  }
+}
+
+}  // namespace mvs::core

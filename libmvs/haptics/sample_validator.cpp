@@ -1,0 +1,113 @@
+// Samples, distrusted.
+#include "haptics/sample_validator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mvs::core {
+namespace {
+
+constexpr double patience = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, without a new sample
+constexpr double farthest = 10;                             // m
+constexpr double jump = 5;                                  // times the speed limit, in one sample
+constexpr uint32_t fast_samples = 3;                        // above the speed limit in turn
+constexpr double velocity_filter = 5e-3;                    // s, of an estimated velocity
+constexpr double bounce = 10e-3;  // s, that contacts of a button may bounce
+
+bool is_number(double value, double most) {
+  return std::abs(value) <= most;  // false for NaN
+}
+
+}  // namespace
+
+void Watch::start() {
+  const DeviceTraits *const traits = traits_;
+  *this = Watch(*traits);
+}
+
+void Watch::take(const mvs_driver_state &sample, const mvs_device_limits &limits) {
+  cause_ = MVS_CAUSE_NONE;
+  flags_ = sample.flags;
+  if (!is_finite(sample)) {
+    dt_ = passed_ = 0;
+    return blame(MVS_CAUSE_NOT_FINITE);
+  }
+  take_time(sample);
+  if (sample.cause != MVS_CAUSE_NONE) blame(std::min<uint32_t>(sample.cause, 9));
+  if (!(flags_ & MVS_DRIVER_CALIBRATED)) blame(MVS_CAUSE_CALIBRATION);
+  if (traits_->has_deadman && !(flags_ & MVS_DRIVER_HELD)) blame(MVS_CAUSE_DEADMAN);
+  if (silent_ > patience) blame(MVS_CAUSE_WATCHDOG);
+  if (dt_ > 0 || !has_pose_) take_pose(sample, limits);
+}
+
+bool Watch::is_finite(const mvs_driver_state &sample) const {
+  double square = 0;
+  for (const double q : sample.orientation) square += q * q;
+  bool good = std::abs(square - 1) < 1e-3;
+  for (const double p : sample.position) good = good && is_number(p, farthest);
+  if (flags_ & MVS_DRIVER_VELOCITY) {
+    for (const double v : sample.velocity) good = good && is_number(v, 1e3);
+  }
+  return good;
+}
+
+// A clock that goes back, or stands still while samples come, is no clock.
+void Watch::take_time(const mvs_driver_state &sample) {
+  dt_ = passed_ = 0;
+  if (has_pose_ && sample.time_ns < time_ns_) {
+    time_ns_ = sample.time_ns;
+    return blame(MVS_CAUSE_WATCHDOG);
+  }
+  passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
+  time_ns_ = sample.time_ns;
+  // a clock that stands still says nothing about how long: then ticks do
+  silent_ += passed_ > 0 ? passed_ : 1 / traits_->info.rate;
+  if (has_pose_ && sample.sequence == sequence_) return;
+  sequence_ = sample.sequence;
+  dt_ = passed_ > 0 ? silent_ : 0;
+  if (silent_ > patience) blame(MVS_CAUSE_WATCHDOG);
+  silent_ = 0;
+}
+
+void Watch::take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits) {
+  const Vec3 before = pose_.position;
+  pose_.position = traits_->turn * Vec3::Map(sample.position) + traits_->shift;
+  const double *const q = sample.orientation;
+  pose_.orientation = traits_->turn_quaternion * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  pose_.gripper = std::isfinite(sample.gripper) ? sample.gripper : 0;
+  if (!has_pose_) {
+    has_pose_ = true;
+    return;
+  }
+  const Vec3 step = pose_.position - before;
+  // two samples that a busy computer handed over at once say nothing about speed
+  const double speed = step.norm() / std::max(dt_, 0.5 / traits_->info.rate);
+  fast_ = speed > limits.speed ? fast_ + 1 : 0;
+  if (speed > jump * limits.speed || fast_ >= fast_samples) blame(MVS_CAUSE_VELOCITY);
+  take_velocity(sample, step);
+}
+
+void Watch::take_velocity(const mvs_driver_state &sample, const Vec3 &step) {
+  if (flags_ & MVS_DRIVER_VELOCITY) {
+    pose_.velocity = traits_->turn * Vec3::Map(sample.velocity);
+  } else {
+    pose_.velocity += dt_ / (velocity_filter + dt_) * (step / dt_ - pose_.velocity);
+  }
+}
+
+bool Buttons::take(uint32_t raw, double dt) {
+  const uint32_t before = down();
+  if (first_) stuck_ = steady_ = raw;
+  first_ = false;
+  for (uint32_t b = 0; b < 32; ++b) {
+    const uint32_t bit = uint32_t{1} << b;
+    since_[b] = ((raw ^ steady_) & bit) ? since_[b] + dt : 0;
+    if (since_[b] < bounce) continue;
+    steady_ ^= bit;
+    stuck_ &= ~bit;
+    since_[b] = 0;
+  }
+  return down() != before;
+}
+
+}  // namespace mvs::core

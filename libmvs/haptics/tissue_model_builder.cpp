@@ -1,0 +1,72 @@
+// Local models of grasps, instruments and chordae.
+#include "haptics/tissue_model_builder.h"
+
+#include <mvs/tool.h>
+
+#include "model/chord_law.h"
+#include "model/model.h"
+
+namespace mvs::core {
+namespace {
+
+constexpr double same_place = 0.5e-3;   // m, within which a stiffness stays
+constexpr uint32_t refresh_calls = 32;  // a stiffness serves no more calls than this...
+constexpr uint32_t least_calls = 8;     // ...and, of one contact, no fewer
+
+}  // namespace
+
+Tissue TissueMaker::next(uint32_t kind) const {
+  Tissue tissue;
+  tissue.kind = kind;
+  tissue.contact = contact_;
+  return tissue;
+}
+
+void TissueMaker::refresh_stiffness(const Model &model, const State &state, const Tool &tool) {
+  const bool is_near = (tool.position - at_).norm() <= same_place;
+  const bool serves =
+      age_ > 0 && valve_ == model.serial && (is_near || age_ > refresh_calls - least_calls);
+  age_ = serves ? age_ - 1 : refresh_calls;
+  if (serves) return;
+  stiffness_ = feel_.stiffness(model, state, tool);
+  at_ = tool.position;
+  valve_ = model.serial;
+}
+
+// A ball or rod in the open has no stiffness: it only needs to know where tissue begins.
+Tissue TissueMaker::of_tool(const Model &model, const State &state, const Tool &tool) {
+  const bool grasp = tool.kind == MVS_TOOL_GRASP;
+  const Room room = grasp ? Room{0, Vec3::Zero()} : room_of(model, state.x, tool);
+  const bool touches = grasp || room.distance < tool_range(model);
+  Tissue tissue = next(grasp ? Tissue::held : touches ? Tissue::touched : Tissue::near);
+  tissue.origin = tool.position;
+  tissue.most = tool.max_force;
+  if (touches) {
+    refresh_stiffness(model, state, tool);
+    tissue.force = force_of(state, tool).force;
+    tissue.stiffness = stiffness_;
+    return tissue;
+  }
+  age_ = 0;
+  if (room.away.isZero(0)) return nothing();
+  tissue.normal = room.away;
+  tissue.gap = room.distance - tool_range(model);
+  tissue.stiffness = tool.stiffness * Mat3::Identity();
+  return tissue;
+}
+
+Tissue TissueMaker::of_chord(const Model &model, const State &state, const Chord &chord,
+                             const Vec3 &hand, double gain) const {
+  Tissue tissue = next(Tissue::pulled);
+  const Vec3 d = state.x[chord.a] - state.x[chord.b];
+  const double length = d.norm(), strain = length / chord.rest_length - 1;
+  tissue.origin = hand;
+  if (strain > 0) {
+    const double tension = chord.area * chord_response(model.valve, chord, strain).stress;
+    tissue.force = (gain * tension / length) * d;
+  }
+  tissue.most = tissue.force.norm();
+  return tissue;
+}
+
+}  // namespace mvs::core

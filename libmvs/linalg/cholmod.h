@@ -1,0 +1,17 @@
+// The CHOLMOD backend, and what both scalar backends need: blocks expanded to columns.
+#pragma once
+
+#include <mvs/sim.h>
+
+#include <memory>
+
+#include "linalg/direct_solver.h"
+
+namespace mvs::core {
+
+std::unique_ptr<Factor> make_cholmod_factor();
+
+// Writes the lower triangle as scalar columns: 3 n + 1 starts, 9 * blocks - 3 n rows and values.
+void expand_lower(const BlockMatrix &matrix, int *start, int *row, double *value);
+
+}  // namespace mvs::core

@@ -1,0 +1,107 @@
+// Choosing a factorisation, the elimination order, and the Eigen backend.
+#include "linalg/direct_solver.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+
+#include "base/error.h"
+#include "linalg/cholesky.h"
+#include "linalg/cholmod.h"
+
+namespace mvs::core {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+class EigenFactor final : public Factor {
+ public:
+  void analyse(const BlockMatrix &matrix) override {
+    expand(matrix, lower_);
+    ldlt_.analyzePattern(lower_);
+  }
+
+  bool factorise(const BlockMatrix &matrix) override {
+    expand(matrix, lower_);
+    ldlt_.factorize(lower_);
+    return ldlt_.info() == Eigen::Success && ldlt_.vectorD().allFinite() &&
+           ldlt_.vectorD().minCoeff() > 0;
+  }
+
+  void solve(std::vector<Vec3> &b) override {
+    Eigen::Map<Eigen::VectorXd> flat(b.data()->data(), static_cast<Eigen::Index>(3 * b.size()));
+    flat = ldlt_.solve(flat).eval();
+  }
+
+ private:
+  static void expand(const BlockMatrix &matrix, Sparse &lower) {
+    const auto n = static_cast<Eigen::Index>(3 * matrix.size());
+    lower.resize(n, n);
+    lower.resizeNonZeros(static_cast<Eigen::Index>(9 * matrix.row.size() - 3 * matrix.size()));
+    expand_lower(matrix, lower.outerIndexPtr(), lower.innerIndexPtr(), lower.valuePtr());
+  }
+
+  Sparse lower_;
+  Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt_;
+};
+
+}  // namespace
+
+void expand_lower(const BlockMatrix &matrix, int *start, int *row, double *value) {
+  int at = 0;
+  for (uint32_t c = 0; c < matrix.size(); ++c) {
+    for (int k = 0; k < 3; ++k) {
+      start[3 * c + k] = at;
+      for (uint32_t slot = matrix.start[c]; slot < matrix.start[c + 1]; ++slot) {
+        const Mat3 &block = matrix.value[slot];
+        const int first = slot == matrix.start[c] ? k : 0;  // of a diagonal block: below it
+        for (int r = first; r < 3; ++r, ++at) {
+          row[at] = static_cast<int>(3 * matrix.row[slot]) + r;
+          value[at] = block(r, k);
+        }
+      }
+    }
+  }
+  start[3 * matrix.size()] = at;
+}
+
+std::unique_ptr<Factor> make_factor(uint32_t backend) {
+  if (backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK) return make_block_factor();
+  if (backend == MVS_BACKEND_EIGEN) return std::make_unique<EigenFactor>();
+  MVS_MUST(backend == MVS_BACKEND_CHOLMOD, MVS_E_ARGUMENT, "backend",
+           "there is no factorisation number %u; use MVS_BACKEND_DEFAULT", backend);
+#ifdef MVS_HAVE_CHOLMOD
+  return make_cholmod_factor();
+#else
+  fail(MVS_E_UNSUPPORTED, "backend",
+       "this build of libmvs has no CHOLMOD; use MVS_BACKEND_DEFAULT or build with "
+       "-DMVS_CHOLMOD=ON");
+#endif
+}
+
+const char *factor_names() {
+#ifdef MVS_HAVE_CHOLMOD
+  return "block cholmod eigen";
+#else
+  return "block eigen";
+#endif
+}
+
+std::vector<uint32_t> fill_reducing_order(uint32_t n, const std::vector<Edge> &pairs) {
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(2 * pairs.size() + n);
+  for (const Edge &p : pairs) {
+    entries.emplace_back(static_cast<int>(p[0]), static_cast<int>(p[1]), 1.0);
+    entries.emplace_back(static_cast<int>(p[1]), static_cast<int>(p[0]), 1.0);
+  }
+  for (uint32_t i = 0; i < n; ++i)
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
+  Sparse graph(static_cast<int>(n), static_cast<int>(n));
+  graph.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  Eigen::AMDOrdering<int>()(graph, permutation);
+  std::vector<uint32_t> order(n);
+  for (uint32_t k = 0; k < n; ++k) order[k] = static_cast<uint32_t>(permutation.indices()[k]);
+  return order;
+}
+
+}  // namespace mvs::core

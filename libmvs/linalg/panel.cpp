@@ -1,0 +1,262 @@
+// The kernels: one tile held in registers, the loops over tiles, and the choice of the widest
+// vector that the processor has.
+#include "linalg/panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "base/simd.h"
+#include "base/simd_level.h"
+
+namespace mvs::core {
+namespace {
+
+constexpr size_t tile_columns = 6;
+constexpr size_t block_columns = 48;
+// A piece of this size is 96 kB: a part of the second-level cache.
+constexpr size_t piece_depth = 128, piece_rows = 96;
+
+// A tile of some columns: C -= A B^T, of B the rows that the columns of C have.
+template <typename V, size_t columns, bool from_zero = false, typename T = typename V::Number>
+MVS_INLINE void subtract_tile(T *c, size_t c_stride, const T *a, const T *b, size_t a_stride,
+                              size_t depth) {
+  constexpr size_t lanes = V::lanes, vectors = V::vectors;
+  typename V::Value sum[vectors][columns], of_a[vectors];
+  for (size_t j = 0; j < columns; ++j) {
+    for (size_t v = 0; v < vectors; ++v) {
+      if constexpr (from_zero) {
+        sum[v][j] = typename V::Value{};
+      } else {
+        load<V>(sum[v][j], c + j * c_stride + v * lanes);
+      }
+    }
+  }
+  for (size_t k = 0; k < depth; ++k, a += a_stride, b += a_stride) {
+    for (size_t v = 0; v < vectors; ++v) load<V>(of_a[v], a + v * lanes);
+    for (size_t j = 0; j < columns; ++j) {
+      for (size_t v = 0; v < vectors; ++v) sum[v][j] -= of_a[v] * b[j];
+    }
+  }
+  for (size_t j = 0; j < columns; ++j) {
+    for (size_t v = 0; v < vectors; ++v) store<V>(c + j * c_stride + v * lanes, sum[v][j]);
+  }
+}
+
+// What some columns of C lose, from row i on.
+template <size_t columns, typename T>
+struct Tile {
+  T value[columns * piece_rows];
+
+  // Calls visit(block of C, block here) for each of `rows` rows.
+  template <typename Visit>
+  MVS_INLINE void for_each(const PanelUpdate<T> &u, size_t i, size_t j, size_t rows,
+                           const Visit &visit) {
+    for (size_t q = 0; q < columns; ++q) {
+      T *column = u.c + (3 * u.row[(j + q) / 3] + q % 3) * u.c_stride;
+      for (size_t p = 0; p < rows; p += 3) {
+        visit(column + 3 * u.row[(i + p) / 3], value + q * piece_rows + p);
+      }
+    }
+  }
+};
+
+// Columns of C from j on.
+template <typename V, size_t columns, typename T = typename V::Number>
+MVS_INLINE void update_columns(const PanelUpdate<T> &u, size_t j) {
+  Tile<columns, T> tile;
+  constexpr bool exact = std::is_same_v<T, double>;
+  for (size_t i = j; i < u.m; i += piece_rows) {
+    const size_t rows = std::min(piece_rows, u.m - i);
+    if (exact) {
+      tile.for_each(u, i, j, rows, [](const T *c, T *here) {
+        here[0] = c[0];
+        here[1] = c[1];
+        here[2] = c[2];
+      });
+    }
+    for (size_t p = 0; p < rows; p += V::height) {
+      subtract_tile<V, columns, !exact>(tile.value + p, piece_rows, u.a + i + p, u.a + j,
+                                        u.a_stride, u.depth);
+    }
+    tile.for_each(u, i, j, rows, [](T *c, const T *here) {
+      c[0] = exact ? here[0] : c[0] + here[0];
+      c[1] = exact ? here[1] : c[1] + here[1];
+      c[2] = exact ? here[2] : c[2] + here[2];
+    });
+  }
+}
+
+// A piece of the depth at a time, so that A stays in the cache while its columns pass.
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void update(const PanelUpdate<T> &u) {
+  for (size_t k = 0; k < u.depth; k += piece_depth) {
+    PanelUpdate<T> piece = u;
+    piece.a += k * u.a_stride;
+    piece.depth = std::min(piece_depth, u.depth - k);
+    size_t j = 0;
+    for (; j + tile_columns <= u.n; j += tile_columns) update_columns<V, tile_columns>(piece, j);
+    if (j < u.n) update_columns<V, 3>(piece, j);
+  }
+}
+
+// Takes from columns first .. last of a panel what the columns left .. first to their left give.
+// Whole tiles: what is above the diagonal is nobody's.
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void subtract_left(T *panel, size_t height, size_t left, size_t first, size_t last) {
+  for (size_t k = left; k < first; k += piece_depth) {
+    const size_t depth = std::min(piece_depth, first - k);
+    const T *a = panel + k * height;
+    for (size_t top = first / panel_rows * panel_rows; top < height; top += piece_rows) {
+      const size_t bottom = std::min(top + piece_rows, height);
+      for (size_t j = first; j < last; j += tile_columns) {
+        T *c = panel + j * height;
+        for (size_t i = std::max(top, j / panel_rows * panel_rows); i < bottom; i += V::height) {
+          if (last - j >= tile_columns) {
+            subtract_tile<V, tile_columns>(c + i, height, a + i, a + j, height, depth);
+          } else {
+            subtract_tile<V, 3>(c + i, height, a + i, a + j, height, depth);
+          }
+        }
+      }
+    }
+  }
+}
+
+// The square on the diagonal of some columns by itself: L, and 1 / its diagonal.
+template <size_t columns, typename T>
+struct Square {
+  T l[columns][columns];  // [column][row]
+
+  MVS_INLINE bool factorise(const T *panel, size_t height, size_t first) {
+    for (size_t j = 0; j < columns; ++j) {
+      for (size_t i = j; i < columns; ++i) l[j][i] = panel[(first + j) * height + first + i];
+    }
+    for (size_t j = 0; j < columns; ++j) {
+      for (size_t k = 0; k < j; ++k) {
+        for (size_t i = j; i < columns; ++i) l[j][i] -= l[k][i] * l[k][j];
+      }
+      const T pivot = l[j][j];
+      if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+      l[j][j] = 1 / std::sqrt(pivot);
+      for (size_t i = j + 1; i < columns; ++i) l[j][i] *= l[j][j];
+    }
+    return true;
+  }
+};
+
+// Factorises some columns by themselves: their square, then all rows by it, those of the square
+// too, whose diagonal comes after them.
+template <typename V, size_t columns, typename T = typename V::Number>
+MVS_INLINE bool factorise_columns(T *panel, size_t height, size_t first) {
+  constexpr size_t lanes = V::lanes;
+  Square<columns, T> square;
+  if (!square.factorise(panel, height, first)) return false;
+  T *c = panel + first * height;
+  for (size_t i = first / panel_rows * panel_rows; i < height; i += lanes) {
+    typename V::Value of[columns];
+    for (size_t j = 0; j < columns; ++j) load<V>(of[j], c + j * height + i);
+    for (size_t j = 0; j < columns; ++j) {
+      for (size_t k = 0; k < j; ++k) of[j] -= of[k] * square.l[k][j];
+      of[j] *= square.l[j][j];
+    }
+    for (size_t j = 0; j < columns; ++j) store<V>(c + j * height + i, of[j]);
+  }
+  for (size_t j = 0; j < columns; ++j) c[j * height + first + j] = square.l[j][j];
+  return true;
+}
+
+// Inverts the squares of three columns on the diagonal: a solution has its three numbers without
+// one waiting for the other.
+MVS_INLINE void invert_squares(float *panel, size_t width, size_t height) {
+  for (size_t j = 0; j < width; j += 3) {
+    float *a = panel + j * height + j, *b = a + height, *c = b + height;
+    const float to_last = a[2] * a[0];
+    a[1] *= -a[0] * b[1];
+    a[2] = -(to_last + b[2] * a[1]) * c[2];
+    b[2] *= -b[1] * c[2];
+  }
+}
+
+// Blocks of columns, and tiles of columns in them.
+template <typename V, typename T = typename V::Number>
+MVS_INLINE bool factorise(T *panel, size_t width, size_t height) {
+  for (size_t block = 0; block < width; block += block_columns) {
+    const size_t end = std::min(block + block_columns, width);
+    subtract_left<V>(panel, height, 0, block, end);
+    for (size_t first = block; first < end; first += tile_columns) {
+      const size_t last = std::min(first + tile_columns, end);
+      subtract_left<V>(panel, height, block, first, last);
+      const bool positive = last - first == tile_columns
+                                ? factorise_columns<V, tile_columns>(panel, height, first)
+                                : factorise_columns<V, 3>(panel, height, first);
+      if (!positive) return false;
+    }
+  }
+  if constexpr (std::is_same_v<T, float>) invert_squares(panel, width, height);
+  return true;
+}
+
+template <typename T>
+struct Kernels {
+  void (*update)(const PanelUpdate<T> &);
+  bool (*factorise)(T *, size_t, size_t);
+};
+
+// The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+#define MVS_KERNELS(Name, ATTRIBUTE)                                                   \
+  template <typename V>                                                                \
+  struct Name {                                                                        \
+    using T = typename V::Number;                                                      \
+    ATTRIBUTE static void update(const PanelUpdate<T> &u) { mvs::core::update<V>(u); } \
+    ATTRIBUTE static bool factorise(T *p, size_t w, size_t h) {                        \
+      return mvs::core::factorise<V>(p, w, h);                                         \
+    }                                                                                  \
+    static Kernels<T> all() { return {&update, &factorise}; }                          \
+  }
+
+// NOLINTEND(bugprone-macro-parentheses)
+
+MVS_KERNELS(Plain, );
+#if defined(__x86_64__) && defined(__GNUC__)
+MVS_KERNELS(Wider, [[gnu::target("avx2")]]);
+MVS_KERNELS(Widest, [[gnu::target("avx512f")]]);
+#endif
+
+// A tile of floats has as many rows as one of doubles: panels of small valves are not high.
+template <typename T>
+Kernels<T> choose() {
+  constexpr size_t sse = 16 / sizeof(T);
+  constexpr bool narrow = sizeof(T) == 4;
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (simd_level() == SimdLevel::avx512) return Widest<Wide<T, 4 * sse, narrow ? 1 : 2>>::all();
+  if (simd_level() >= SimdLevel::avx2) return Wider<Wide<T, 2 * sse, narrow ? 1 : 2>>::all();
+#endif
+  return Plain<Wide<T, sse, 2>>::all();
+}
+
+template <typename T>
+const Kernels<T> &kernels() {
+  static const Kernels<T> chosen = choose<T>();
+  return chosen;
+}
+
+}  // namespace
+
+template <typename T>
+void update_panel(const PanelUpdate<T> &u) {
+  kernels<T>().update(u);
+}
+
+template <typename T>
+bool factorise_panel(T *panel, size_t width, size_t height) {
+  return kernels<T>().factorise(panel, width, height);
+}
+
+template void update_panel(const PanelUpdate<double> &);
+template void update_panel(const PanelUpdate<float> &);
+template bool factorise_panel(double *, size_t, size_t);
+template bool factorise_panel(float *, size_t, size_t);
+
+}  // namespace mvs::core

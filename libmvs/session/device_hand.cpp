@@ -1,0 +1,204 @@
+// The hand, from its button to its tool.
+#include "session/device_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/option_checks.h"
+#include "linalg/eigenvalues.h"
+#include "session/nearest.h"
+#include "session/tools.h"
+
+namespace mvs::core {
+void Hand::set_hand(const mvs_device_hand &given) {
+  MVS_MUST(given.mode <= MVS_HAND_DRAG, MVS_E_ARGUMENT, "hand.mode",
+           "hand.mode is %u: it has to be one of MVS_HAND_*", given.mode);
+  MVS_MUST(given.button < 32, MVS_E_ARGUMENT, "hand.button",
+           "hand.button is %u: it has to be 0 to 31", given.button);
+  must_be_zero(given.reserved, "hand.reserved");
+  must_be_in(given.gain, 1e-3, 1e3, "hand.gain");
+  const ToolSizes sizes =
+      read_tool_sizes({given.radius, given.length, given.stiffness, given.max_force}, "hand");
+  hand_ = given;
+  hand_.reach = read_reach(given.reach, 5e-3, "hand");
+  hand_.radius = sizes.radius;
+  hand_.length = sizes.length;
+  hand_.stiffness = sizes.stiffness;
+  hand_.max_force = sizes.max_force;
+  hand_.gain = value_or(given.gain, 1);
+  chord_ = hand_.chord;
+  changed_ = true;
+}
+
+// The hand's rod lies along the stylus, its handle towards the user.
+Vec3 Hand::axis() const {
+  return turn_ * Vec3::UnitZ();
+}
+
+const Tool *Hand::tool(const mvs_sim &sim) const {
+  for (const Tool &t : sim.picture().state.tools.get()) {
+    if (t.id == tool_) return &t;
+  }
+  return nullptr;
+}
+
+const Chord *Hand::chord(const mvs_sim &sim) const {
+  for (const Chord &c : sim.picture().model->valve.chords.get()) {
+    if (c.id == chord_) return &c;
+  }
+  return nullptr;
+}
+
+void Hand::begin(const ServoPicture &picture, double most) {
+  events_ = 0;
+  most_ = most;
+  place_ = view_.to_scene(picture.pose.position);
+  turn_ = view_.turned(picture.pose.orientation);
+}
+
+void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
+  const bool down = (event.buttons >> hand_.button & 1) != 0;
+  if (down == down_) return;
+  down_ = down;
+  events_ |= uint32_t{down ? MVS_EVENT_PRESSED : MVS_EVENT_RELEASED};
+  // where the hand was then, not where it is now
+  const Vec3 now = place_;
+  place_ = view_.to_scene(event.position);
+  down ? press(sim) : release(sim);
+  place_ = now;
+}
+
+void Hand::press(mvs_sim &sim) {
+  if (hand_.mode == MVS_HAND_GRASP && tool_ == 0) {
+    const bool found = add(sim, describe(MVS_TOOL_GRASP));
+    events_ |= uint32_t{found ? MVS_EVENT_GRASPED : MVS_EVENT_MISSED};
+  }
+  if (hand_.mode != MVS_HAND_FEEL && hand_.mode != MVS_HAND_DRAG) return;
+  if (hand_.chord == 0) choose_chord(sim);
+  const Chord *const chosen = chord(sim);
+  if (!chosen || hand_.mode == MVS_HAND_FEEL || tool_ != 0) return;
+  mvs_tool_desc desc = describe(MVS_TOOL_GRASP);
+  desc.by_node = 1;
+  desc.node = chosen->b;
+  if (add(sim, desc)) events_ |= MVS_EVENT_GRASPED;
+}
+
+void Hand::choose_chord(const mvs_sim &sim) {
+  const NearChord found = nearest_chord(sim.picture(), place_);
+  if (found.distance > hand_.reach) {
+    events_ |= MVS_EVENT_MISSED;
+    return;
+  }
+  chord_ = found.id;
+  events_ |= MVS_EVENT_CHOSEN;
+  maker_.begin_contact();
+}
+
+void Hand::release(mvs_sim &sim) {
+  const Tool *const held = tool(sim);
+  if (!held || held->kind != MVS_TOOL_GRASP) return;
+  if (hand_.mode == MVS_HAND_DRAG) {
+    drag_to_ = sim.picture().state.x[held->node];
+    events_ |= MVS_EVENT_DRAGGED;
+  }
+  let_go(sim);
+}
+
+void Hand::let_go(mvs_sim &sim) {
+  if (tool_ == 0) return;
+  if (tool(sim)) remove_tool_now(sim, tool_);
+  tool_ = 0;
+  events_ |= MVS_EVENT_LET_GO;
+  maker_.begin_contact();
+}
+
+// With the spring that the device can render through this view.
+mvs_tool_desc Hand::describe(uint32_t kind) const {
+  mvs_tool_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.kind = kind;
+  write(place_, desc.position);
+  if (kind == MVS_TOOL_ROD) {
+    write(axis(), desc.axis);
+    desc.length = hand_.length;
+  }
+  if (kind != MVS_TOOL_GRASP) desc.radius = hand_.radius;
+  desc.reach = hand_.reach;
+  desc.stiffness = std::max(1.0, std::min(hand_.stiffness, most_ / view_.stiffness_scale()));
+  desc.max_force = hand_.max_force;
+  return desc;
+}
+
+// False where the tool cannot be there.
+bool Hand::add(mvs_sim &sim, mvs_tool_desc desc) {
+  try {
+    tool_ = add_tool_now(sim, desc);
+  } catch (const Error &error) {
+    if (error.code != MVS_E_STATE && error.code != MVS_E_ARGUMENT) throw;
+    return false;
+  }
+  maker_.begin_contact();
+  return true;
+}
+
+void Hand::follow(mvs_sim &sim) {
+  if (changed_) let_go(sim);
+  if (changed_) maker_.begin_contact();
+  changed_ = false;
+  const Tool *held = tool(sim);
+  if (tool_ != 0 && !held) {
+    tool_ = 0;
+    events_ |= MVS_EVENT_LOST_TOOL;
+    maker_.begin_contact();
+  }
+  const bool pushes = hand_.mode == MVS_HAND_BALL || hand_.mode == MVS_HAND_ROD;
+  if (pushes && tool_ == 0) {
+    const uint32_t kind = hand_.mode == MVS_HAND_BALL ? MVS_TOOL_BALL : MVS_TOOL_ROD;
+    if (!add(sim, describe(kind))) events_ |= MVS_EVENT_BLOCKED;
+  } else if (held) {
+    Tool moved = *held;
+    moved.position = place_;
+    if (moved.kind == MVS_TOOL_ROD) moved.axis = axis();
+    sim.hands.post(moved, moved.kind == MVS_TOOL_ROD);
+  }
+}
+
+Tissue Hand::tissue(mvs_sim &sim) {
+  const Picture &now = sim.picture();
+  const Tool *const held = tool(sim);
+  const Chord *const felt = hand_.mode == MVS_HAND_FEEL ? chord(sim) : nullptr;
+  Tissue scene = maker_.nothing();
+  felt_ = Vec3::Zero();
+  if (held) {
+    scene = maker_.of_tool(*now.model, now.state, *held);
+  } else if (felt) {
+    scene = maker_.of_chord(*now.model, now.state, *felt, place_, hand_.gain);
+    felt_ = scene.force;
+  }
+  return view_.to_device(scene, most_);
+}
+
+mvs_device_report Hand::report(const mvs_sim &sim, const Tissue &tissue, bool latched) const {
+  mvs_device_report out = {};
+  const Picture &now = sim.picture();
+  out.events = events_;
+  if (latched) out.events |= MVS_EVENT_LATCHED;
+  out.tool = tool_;
+  out.chord = chord_;
+  const NearChord near_chord = nearest_chord(now, place_);
+  out.near_chord = near_chord.id;
+  out.near_chord_distance = near_chord.distance;
+  const NearNode near_node = nearest_node(now, place_);
+  out.near_node = near_node.node;
+  out.near_node_distance = near_node.distance;
+  const Tool *const held = tool(sim);
+  out.node = held ? held->node : none;
+  write(place_, out.position);
+  write(held ? force_of(now.state, *held).force : felt_, out.force);
+  out.stiffness = largest_eigenvalue(tissue.stiffness);
+  write(drag_to_, out.drag_to);
+  return out;
+}
+
+}  // namespace mvs::core

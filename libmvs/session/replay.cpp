@@ -1,0 +1,133 @@
+// Steps of a plan: moves by the solver, operations as any other.
+#include "session/replay.h"
+
+#include "base/error.h"
+#include "formats/plan/old_ops.h"
+#include "history/tool_trajectory.h"
+#include "session/commit.h"
+#include "session/recorded_event.h"
+#include "solve/static/mesh_hierarchy.h"
+
+namespace mvs::core {
+namespace {
+
+// Takes the steps of a move. The host is asked after the first and every 64th one more.
+class Stepping {
+ public:
+  Stepping(mvs_sim &sim, const Move &move) : sim_(sim), move_(move), progress_(sim.progress()) {}
+
+  void on(const Model &model, State &state, uint64_t count) {
+    for (uint64_t k = 0; k < count; ++k) {
+      const SolveStats found = sim_.solver.step(model, state, options_of(move_));
+      ++taken_;
+      const double share = static_cast<double>(taken_) / static_cast<double>(move_.count);
+      MVS_MUST(!progress_ || taken_ % 64 != 1 || progress_(share, found.residual), MVS_E_CANCELLED,
+               "step", "stepping was cancelled by the progress callback; the valve is as before");
+    }
+  }
+
+ private:
+  mvs_sim &sim_;
+  const Move &move_;
+  const Progress progress_;
+  uint64_t taken_ = 0;
+};
+
+Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
+  const Model &model = *now.picture.model;
+  State state = now.picture.state;
+  if (move.kind == Move::settle) {
+    settle_by_levels(sim.solver, model, state, options_of(move), sim.progress());
+  } else if (move.kind == Move::step) {
+    Stepping(sim, move).on(model, state, move.count);
+  } else if (move.kind == Move::lead) {
+    Stepping stepping(sim, move);
+    for (size_t row = 0; row < move.pace.size(); ++row) {
+      take_row(state, move, row);
+      stepping.on(model, state, move.pace.get()[row]);
+    }
+  } else {
+    take_move(model, state, move);
+  }
+  return after_move(now, std::move(state), move);
+}
+
+// The names of the chordae with a flag.
+Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
+  Json names = Json::array();
+  for (size_t c = 0; c < snapshot.chords().flags.size(); ++c) {
+    if (snapshot.chords().flags[c] & flag) names.add(snapshot.model->valve.chords[c].name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void Replay::operate(const PlanStep &step) {
+  const Model &model = *now.picture.model;
+  const Operation told = read_op(step.op, model, exact_);
+  const Operation op = step.version > 2 ? told : keeping_length(told, model);
+  const bool goes_on = step.group == group_ && step.group_id == group_id_;
+  if (!step.group.empty() && !goes_on) number_ = now.timeline.next_group++;
+  now = after_op(now, op, step.group.empty() ? Group{} : Group{number_, step.group}, now_ms());
+  group_ = step.group;
+  group_id_ = step.group_id;
+}
+
+// Tools are called otherwise here where there were some before the plan: those that it adds get the
+// next numbers, and what it does with them is done with these, not with tools that were there.
+void Replay::move(Move step) {
+  const Id added = step.kind == Move::tool_add ? step.tool.get()[0].id : 0;
+  const Id next = first_tool_id + now.picture.state.tools_made;
+  if (added != 0) tools_[added] = next;
+  for (size_t k = 0; k < step.tool.size(); ++k) {
+    const auto known = tools_.find(step.tool.get()[k].id);
+    if (known != tools_.end() && known->first != known->second) step.tool[k].id = known->second;
+  }
+  now = take_(now, step);
+}
+
+void Replay::go(const std::vector<PlanStep> &steps) {
+  for (size_t k = 0; k < steps.size(); ++k) {
+    const PlanStep &step = steps[k];
+    if (step.move && !take_) continue;
+    const std::string word = step.move ? "" : step.op["do"].text() + ": ";
+    try {
+      if (step.move) {
+        move(*step.move);
+      } else {
+        operate(step);
+      }
+    } catch (const Error &error) {
+      const bool named = std::string_view(error.what()).starts_with(word);
+      fail(error.code, error.part, "step %zu of the plan: %s%s", k + 1, named ? "" : word.c_str(),
+           error.what());
+    }
+  }
+}
+
+TakeMove moves_of(mvs_sim &sim) {
+  return [&sim](const Moment &now, const Move &move) { return moved(sim, now, move); };
+}
+
+Json plan_measures(const Picture &picture) {
+  const SnapshotPtr snapshot = make_snapshot({picture, {}});
+  const mvs_measures &m = snapshot->measures();
+  Json json;
+  json.set("regurgitant_orifice_area_m2", m.regurgitant_orifice_area);
+  json.set("coaptation_area_m2", m.coaptation_area);
+  json.set("coaptation_height_m", m.coaptation_height);
+  json.set("coaptation_length_mean_m", m.coaptation_length_mean);
+  json.set("tenting_height_m", m.tenting_height);
+  json.set("billow_height_m", m.billow_height);
+  json.set("annulus_ap_m", m.annulus_ap);
+  json.set("annulus_cc_m", m.annulus_cc);
+  json.set("max_chord_strain", m.max_chord_strain);
+  json.set("max_chord_tension_N", m.max_chord_tension);
+  json.set("chords_over_strain", flagged(*snapshot.get(), MVS_CHORD_OVER_STRAIN));
+  json.set("chords_over_tension", flagged(*snapshot.get(), MVS_CHORD_OVER_TENSION));
+  json.set("intersections", m.intersections);
+  return json;
+}
+
+}  // namespace mvs::core

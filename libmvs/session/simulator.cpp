@@ -1,0 +1,93 @@
+// The simulator: its present snapshot, its log, the replacement of its valve.
+#include "session/simulator.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "base/option_checks.h"
+#include "session/mesh_warnings.h"
+#include "session/unit_warnings.h"
+
+using namespace mvs::core;
+
+SnapshotPtr mvs_sim::present() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  must_have_valve();
+  if (present_) return present_;
+  if (stepped_.count > 0) now_.timeline.moves = with_move(now_.timeline.moves, stepped_);
+  stepped_.count = 0;
+  present_ = make_snapshot(now_);
+  return present_;
+}
+
+const Picture &mvs_sim::picture() const {
+  must_have_valve();
+  return now_.picture;
+}
+
+void mvs_sim::replace(SnapshotPtr next) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  now_ = next->moment;
+  stepped_.count = 0;
+  present_.swap(next);
+}
+
+Load mvs_sim::load() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  must_have_valve();
+  return now_.picture.state.load;
+}
+
+void mvs_sim::must_have_valve() const {
+  MVS_MUST(now_.picture.model, MVS_E_STATE, "sim",
+           "the simulator has no valve yet: set, generate or load one first");
+}
+
+void mvs_sim::log(int32_t level, const char *pattern, ...) const {
+  if (!desc.log) return;
+  char text[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  desc.log(desc.user, level, text);
+}
+
+Progress mvs_sim::progress() const {
+  if (!desc.progress) return {};
+  return [this](double share, double residual) {
+    return desc.progress(desc.user, share, residual) == 0;
+  };
+}
+
+namespace mvs::core {
+
+AtWork::AtWork(mvs_sim *sim) : sim_(sim) {
+  must_point(sim, "sim");
+  MVS_MUST(!sim->at_work.exchange(true), MVS_E_STATE, "sim",
+           "the simulator is at work in another call: wait for it, and do not call back into it");
+}
+
+void must_be_no_group(const mvs_sim &sim, const char *call) {
+  MVS_MUST(sim.group.number == 0, MVS_E_STATE, "group",
+           "%s: the group \"%.63s\" is open: call mvs_end_group first", call,
+           sim.group.name.c_str());
+}
+
+void replace_valve(mvs_sim &sim, Moment moment) {
+  const ModelPtr held = moment.picture.model;
+  sim.replace(make_snapshot(std::move(moment)));
+  sim.group = {};
+  sim.hands.forget();
+  if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: there is a new valve");
+  sim.journal.reset();
+  sim.stats.reset();
+  sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",
+          held->valve.name.c_str(), held->node_count(), held->valve.triangles.size(),
+          held->valve.chords.size());
+  log_mesh(sim, *held);
+  log_units(sim, *held);
+  log_pressure(sim, sim.load().pressure);
+}
+
+}  // namespace mvs::core

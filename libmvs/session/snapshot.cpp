@@ -1,0 +1,123 @@
+// What a snapshot works out, each part once.
+#include "session/snapshot.h"
+#include "geometry/intersect.h"
+
+namespace {
+
+using namespace mvs::core;
+
+Tables make_tables(const Model &model) {
+  const Valve &valve = model.valve;
+  Tables tables;
+  for (const Chord &chord : valve.chords) {
+    tables.chord_nodes.push_back({chord.a, chord.b});
+    tables.chord_kind.push_back(chord.kind);
+    tables.chord_id.push_back(chord.id);
+    tables.chord_rest_length.push_back(chord.rest_length);
+    tables.chord_young.push_back(chord.young);
+    tables.chord_area.push_back(chord.area);
+    tables.chord_law.push_back(chord.law);
+    tables.chord_constants.push_back(chord.constants);
+  }
+  for (const Head &head : valve.heads) tables.head_nodes.push_back(head.node);
+  tables.ring_start = {0};
+  for (const Ring &ring : valve.rings) {
+    tables.ring_kind.push_back(ring.kind);
+    tables.ring_id.push_back(ring.id);
+    tables.ring_points.insert(tables.ring_points.end(), ring.curve.begin(), ring.curve.end());
+    tables.ring_start.push_back(static_cast<uint32_t>(tables.ring_points.size()));
+  }
+  tables.curve_start = {0};
+  for (const ChordCurve &curve : valve.curves) {
+    tables.curve_points.insert(tables.curve_points.end(), curve.points.begin(), curve.points.end());
+    tables.curve_start.push_back(static_cast<uint32_t>(tables.curve_points.size()));
+  }
+  for (const Leaflet &leaflet : valve.leaflets) {
+    tables.leaflet_law.push_back(leaflet.law);
+    auto &row = tables.leaflet_constants.emplace_back();
+    row[0] = leaflet.thickness;
+    std::copy(leaflet.constants.begin(), leaflet.constants.end(), row.begin() + 1);
+  }
+  for (const std::vector<uint32_t> &loop : model.topology.free_edges) {
+    tables.free_edge_nodes.insert(tables.free_edge_nodes.end(), loop.begin(), loop.end());
+  }
+  tables.valve_constants = {valve.density, valve.contact_thickness, valve.contact_stiffness,
+                            valve.bending_scale};
+  return tables;
+}
+
+void add_annulus(const mvs_snapshot &s, mvs_measures &m) {
+  const AnnulusMeasures annulus = measure_annulus(*s.model, s.state.x);
+  m.annulus_ap = annulus.ap;
+  m.annulus_cc = annulus.cc;
+  m.annulus_perimeter = annulus.perimeter;
+  m.annulus_area_3d = annulus.area_3d;
+  m.annulus_area = annulus.area;
+  m.annulus_saddle_height = annulus.saddle_height;
+  m.annulus_nonplanar_angle = annulus.nonplanar_angle;
+}
+
+void add_doming(const mvs_snapshot &s, mvs_measures &m) {
+  const Doming doming = measure_doming(*s.model, s.state.x);
+  m.tenting_height = doming.tenting_height;
+  m.tenting_area = doming.tenting_area;
+  m.tenting_volume = doming.tenting_volume;
+  m.billow_height = doming.billow_height;
+  m.billow_volume = doming.billow_volume;
+}
+
+void add_closure(const mvs_snapshot &s, mvs_measures &m) {
+  m.intersections =
+      static_cast<uint32_t>(find_intersections(s.state.x, s.model->valve.triangles).size());
+  m.regurgitant_orifice_area = s.orifice().area;
+  m.coaptation_area = s.coaptation().area;
+  m.coaptation_length_mean = s.coaptation().length_mean;
+  m.coaptation_length_min = s.coaptation().length_min;
+  m.coaptation_length_max = s.coaptation().length_max;
+  m.coaptation_height = s.coaptation().height;
+  m.coaptation_depth = s.coaptation().depth;
+}
+
+void add_strength(const mvs_snapshot &s, mvs_measures &m) {
+  m.max_chord_strain = s.chords().max_strain;
+  m.max_chord_tension = s.chords().max_tension;
+  m.chords_over_strain = s.chords().over_strain;
+  m.chords_over_tension = s.chords().over_tension;
+  m.max_leaflet_strain = s.strain().max_strain;
+  m.max_leaflet_stress = s.strain().max_stress;
+  m.leaflet_area = s.strain().leaflet_area;
+}
+
+mvs_measures make_measures(const mvs_snapshot &snapshot) {
+  mvs_measures measures = {};
+  measures.struct_size = sizeof measures;
+  add_closure(snapshot, measures);
+  add_doming(snapshot, measures);
+  add_annulus(snapshot, measures);
+  add_strength(snapshot, measures);
+  return measures;
+}
+
+}  // namespace
+
+const Forces &mvs_snapshot::forces() const {
+  return forces_.get([this] { return evaluate_forces(*model, state); });
+}
+const Coaptation &mvs_snapshot::coaptation() const {
+  return coaptation_.get([this] { return measure_coaptation(*model, state.x); });
+}
+const Strain &mvs_snapshot::strain() const {
+  return strain_.get([this] { return measure_strain(*model, state.x); });
+}
+const ChordMeasures &mvs_snapshot::chords() const {
+  return chords_.get([this] { return measure_chords(*model, state.x); });
+}
+const Orifice &mvs_snapshot::orifice() const {
+  return orifice_.get([this] { return measure_orifice(*model, state.x); });
+}
+const Tables &mvs_snapshot::tables() const {
+  return tables_.get([this] { return make_tables(*model); });
+}
+const mvs_measures &mvs_snapshot::measures() const {
+  return measures_.get([this] { return make_measures(*this); });
+}

@@ -1,0 +1,124 @@
+// The snapshot behind mvs_snapshot: a model, a state, and what has been worked out from them.
+#pragma once
+
+#include <mvs/snapshot.h>
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "energy/forces.h"
+#include "history/history.h"
+#include "measure/measure.h"
+#include "model/model.h"
+
+namespace mvs::core {
+
+// A value that the first one to ask for works out, whichever thread that is. A failure is not
+// kept: the next one to ask tries again.
+template <typename Value>
+class Lazy {
+ public:
+  template <typename Make>
+  const Value &get(Make make) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!value_) value_.emplace(make());
+    return *value_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::optional<Value> value_;
+};
+
+// Fields of parts, gathered into arrays for views.
+struct Tables {
+  std::vector<Edge> chord_nodes;
+  std::vector<uint32_t> chord_kind, head_nodes, leaflet_law, free_edge_nodes;
+  std::vector<uint32_t> ring_start, ring_kind, chord_law, curve_start;
+  std::vector<Vec3> ring_points;
+  std::vector<CurvePoint> curve_points;
+  std::vector<Chord::Constants> chord_constants;
+  std::vector<Id> chord_id, ring_id;
+  std::vector<double> chord_rest_length, chord_young, chord_area;
+  std::vector<std::array<double, 9>> leaflet_constants;
+  std::array<double, 4> valve_constants;
+};
+
+}  // namespace mvs::core
+
+// Immutable but for the count of references and the values that are worked out once.
+struct mvs_snapshot {
+  explicit mvs_snapshot(mvs::core::Moment moment_in)
+      : moment(std::move(moment_in)), model(moment.picture.model), state(moment.picture.state) {}
+
+  const mvs::core::Forces &forces() const;
+  const mvs::core::Coaptation &coaptation() const;
+  const mvs::core::Strain &strain() const;
+  const mvs::core::ChordMeasures &chords() const;
+  const mvs::core::Orifice &orifice() const;
+  const mvs::core::Tables &tables() const;
+  const mvs_measures &measures() const;
+
+  const mvs::core::Moment moment;
+  const mvs::core::ModelPtr &model;
+  const mvs::core::State &state;
+  void retain() const { references_.fetch_add(1, std::memory_order_relaxed); }
+  void release() const {
+    if (references_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+  }
+
+ private:
+  ~mvs_snapshot() = default;
+
+  mutable std::atomic<uint32_t> references_{1};
+  mvs::core::Lazy<mvs::core::Forces> forces_;
+  mvs::core::Lazy<mvs::core::Coaptation> coaptation_;
+  mvs::core::Lazy<mvs::core::Strain> strain_;
+  mvs::core::Lazy<mvs::core::ChordMeasures> chords_;
+  mvs::core::Lazy<mvs::core::Orifice> orifice_;
+  mvs::core::Lazy<mvs::core::Tables> tables_;
+  mvs::core::Lazy<mvs_measures> measures_;
+};
+
+namespace mvs::core {
+
+// Holds one reference to a snapshot.
+class SnapshotPtr {
+ public:
+  SnapshotPtr() = default;
+  // Takes over a reference that the caller holds.
+  explicit SnapshotPtr(const mvs_snapshot *held) : held_(held) {}
+  SnapshotPtr(const SnapshotPtr &other) : held_(other.held_) {
+    if (held_) held_->retain();
+  }
+  SnapshotPtr(SnapshotPtr &&other) noexcept : held_(std::exchange(other.held_, nullptr)) {}
+  SnapshotPtr &operator=(SnapshotPtr other) noexcept {
+    std::swap(held_, other.held_);
+    return *this;
+  }
+  void swap(SnapshotPtr &other) noexcept { std::swap(held_, other.held_); }
+  ~SnapshotPtr() {
+    if (held_) held_->release();
+  }
+
+  const mvs_snapshot *get() const { return held_; }
+  const mvs_snapshot *operator->() const { return held_; }
+  explicit operator bool() const { return held_ != nullptr; }
+  // Hands the reference over to the caller.
+  const mvs_snapshot *release() { return std::exchange(held_, nullptr); }
+
+ private:
+  const mvs_snapshot *held_ = nullptr;
+};
+
+inline SnapshotPtr make_snapshot(Moment moment) {
+  return SnapshotPtr(new mvs_snapshot(std::move(moment)));
+}
+
+inline mvs_load_case public_load(const Load &load) {
+  return {sizeof(mvs_load_case), 0, load.pressure, load.boundary_fraction};
+}
+
+}  // namespace mvs::core

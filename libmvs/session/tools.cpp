@@ -1,0 +1,108 @@
+// Tools: read from the caller's description, added, removed.
+#include "session/tools.h"
+
+#include <cmath>
+
+#include "base/option_checks.h"
+#include "session/nearest.h"
+#include "session/recorded_event.h"
+
+namespace mvs::core {
+namespace {
+
+// Farther away than any heart is from its origin: the unit is wrong.
+constexpr double farthest = 10;
+
+uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach) {
+  const NearNode nearest = nearest_node(now.moment.picture, place);
+  MVS_MUST(nearest.distance <= reach, MVS_E_ARGUMENT, "desc.position",
+           "no free vertex of a leaflet lies within %g mm of the hand: bring it nearer, or give a "
+           "larger reach",
+           1e3 * reach);
+  return nearest.node;
+}
+
+void check_numbers(const mvs_tool_desc &desc) {
+  MVS_MUST(desc.kind >= MVS_TOOL_GRASP && desc.kind <= MVS_TOOL_ROD, MVS_E_ARGUMENT, "desc.kind",
+           "desc.kind is %u: it has to be one of MVS_TOOL_*", desc.kind);
+  MVS_MUST(desc.by_node <= 1, MVS_E_ARGUMENT, "desc.by_node",
+           "desc.by_node is %u: it has to be 0 or 1", desc.by_node);
+}
+
+Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
+  check_numbers(desc);
+  Tool tool;
+  tool.kind = desc.kind;
+  tool.position = read_place(desc.position, "desc.position");
+  const ToolSizes sizes =
+      read_tool_sizes({desc.radius, desc.length, desc.stiffness, desc.max_force}, "desc");
+  const double reach = read_reach(desc.reach, 2e-3, "desc");
+  tool.stiffness = sizes.stiffness;
+  tool.max_force = sizes.max_force;
+  if (desc.kind == MVS_TOOL_GRASP) {
+    tool.node = desc.by_node ? desc.node : node_in_reach(now, tool.position, reach);
+    return tool;
+  }
+  tool.radius = sizes.radius;
+  if (desc.kind == MVS_TOOL_BALL) return tool;
+  tool.length = sizes.length;
+  const bool is_given = desc.axis[0] != 0 || desc.axis[1] != 0 || desc.axis[2] != 0;
+  tool.axis = is_given ? read_axis(desc.axis, "desc.axis") : Vec3::UnitZ();
+  return tool;
+}
+
+void take_at_once(mvs_sim &sim, const Move &move) {
+  const SnapshotPtr before = sim.present();
+  State state = before->state;
+  take_move(*before->model, state, move);
+  sim.replace(make_snapshot(after_move(before->moment, std::move(state), move)));
+  sim.make_ready();
+}
+
+}  // namespace
+
+Vec3 read_place(const double given[3], const char *what) {
+  Vec3 place(given[0], given[1], given[2]);
+  MVS_MUST((place.cwiseAbs().array() <= farthest).all(), MVS_E_ARGUMENT, what,
+           "%s is (%g, %g, %g) m: each has to be a number within %g", what, place.x(), place.y(),
+           place.z(), farthest);
+  return place;
+}
+
+Vec3 read_axis(const double given[3], const char *what) {
+  const Vec3 axis(given[0], given[1], given[2]);
+  const double length = axis.stableNorm();
+  MVS_MUST(std::isfinite(length) && length > 0, MVS_E_ARGUMENT, what,
+           "%s is (%g, %g, %g): it has to be a direction", what, axis.x(), axis.y(), axis.z());
+  return axis / length;
+}
+
+ToolSizes read_tool_sizes(const ToolSizes &given, const std::string &of) {
+  must_be_in(given.radius, 1e-4, 0.02, (of + ".radius").c_str());
+  must_be_in(given.length, 1e-3, 0.3, (of + ".length").c_str());
+  must_be_in(given.stiffness, 1, 1e5, (of + ".stiffness").c_str());
+  must_be_in(given.max_force, 1e-3, 100, (of + ".max_force").c_str());
+  return {value_or(given.radius, 2e-3), value_or(given.length, 40e-3),
+          value_or(given.stiffness, 200), value_or(given.max_force, 5)};
+}
+
+double read_reach(double given, double fallback, const std::string &of) {
+  must_be_in(given, 1e-6, 1, (of + ".reach").c_str());
+  return value_or(given, fallback);
+}
+
+Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc) {
+  const SnapshotPtr before = sim.present();
+  Tool added = read_tool(*before.get(), desc);
+  added.id = first_tool_id + before->state.tools_made;
+  take_at_once(sim, move_of(Move::tool_add, added));
+  return added.id;
+}
+
+void remove_tool_now(mvs_sim &sim, Id id) {
+  Tool removed;
+  removed.id = id;
+  take_at_once(sim, move_of(Move::tool_remove, removed));
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,191 @@
+// Numbers in a wrong unit, told by what they would mean under systolic pressure.
+#include "session/unit_warnings.h"
+
+#include <mvs/sim.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "base/error.h"
+#include "model/chord_law.h"
+
+namespace mvs::core {
+namespace {
+
+// kPa given as Pa are a thousandth, MPa less: a law with a hundredth of what its paper found is
+// told. The papers of one law lie within a factor of 10.
+constexpr double little = 0.01;
+// Leaflets live with strains of 0.1 to 0.4 (tests/validation). The default of the softest law here,
+// neo-Hookean on 0.4 mm, would go to 7 times its length; fixed pericardium (50 MPa) gives 0.002.
+constexpr double longest_stretch = 10, least_strain = 1e-3;
+// Softer than this, the default a hundredth, contact carries the pressure of systole only where
+// leaflets lie within a hundredth of its thickness (libmvs/energy/README.md).
+constexpr double softest_contact = 200;
+
+// What follows from the area of the leaflets, that of a disc: half its radius is about the radius
+// of curvature of a closed leaflet.
+struct Scale {
+  double area, curvature;
+  explicit Scale(const Model &model)
+      : area(std::accumulate(model.rest_area.begin(), model.rest_area.end(), 0.0)),
+        curvature(0.5 * std::sqrt(area / std::acos(-1.0))) {}
+  // Laplace's law of a sphere, N/m
+  double membrane_tension() const { return 0.5 * MVS_SYSTOLE_PA * curvature; }
+};
+
+// Nominal stress of a sheet that is stretched alike in both directions, Pa.
+double equibiaxial_stress(const LeafletLaw &law, const Constants &constants, double stretch) {
+  if (!law.response) return Bilinear(constants).stress(stretch - 1);
+  const double l2 = stretch * stretch, l4 = l2 * l2;
+  const Response r = law.response(constants, 2 * l2 + 1 / l4, l2);
+  return r.w1 * (2 * stretch - 2 / (l4 * stretch)) + r.w4 * stretch;
+}
+
+// The first constant in Pa of which there is too little; null: none.
+const Constant *too_small(const LeafletLaw &law, const Constants &constants, double &value) {
+  for (size_t k = 0; k < law.constants.size(); ++k) {
+    const Constant &c = law.constants[k];
+    value = constants[k];
+    if (*c.unit && value < little * c.fallback) return &c;
+  }
+  return nullptr;
+}
+
+void log_leaflet(const mvs_sim &sim, const Leaflet &leaflet, const Scale &scale) {
+  const LeafletLaw &law = *find_leaflet_law(leaflet.law);
+  const auto stress = [&](double stretch) {
+    return equibiaxial_stress(law, leaflet.constants, stretch);
+  };
+  const double needed = scale.membrane_tension() / leaflet.thickness;
+  double value = 0;
+  if (const Constant *c = too_small(law, leaflet.constants, value)) {
+    sim.log(MVS_LOG_WARNING,
+            "leaflet %s has %s %g Pa, tissue about %g: looks like kPa or MPa given as Pa",
+            leaflet.name.c_str(), c->what, value, c->fallback);
+  } else if (stress(longest_stretch) < needed) {
+    sim.log(
+        MVS_LOG_WARNING,
+        "leaflet %s would stretch to over %g times its length under 120 mmHg: looks like moduli "
+        "in kPa or MPa given as Pa",
+        leaflet.name.c_str(), longest_stretch);
+  } else if (stress(1 + least_strain) > needed) {
+    sim.log(MVS_LOG_WARNING,
+            "leaflet %s would stretch by less than %g %% under 120 mmHg, tissue does by 10 to 40: "
+            "moduli are in Pa",
+            leaflet.name.c_str(), 100 * least_strain);
+  }
+  const double thickest = scale.curvature / 3, thinnest = scale.curvature / 300;
+  if (leaflet.thickness >= thinnest && leaflet.thickness <= thickest) return;
+  sim.log(MVS_LOG_WARNING,
+          "leaflet %s is %.3g mm thick, which is %s for a valve of this size (%.3g to %.3g mm): "
+          "thickness is in m",
+          leaflet.name.c_str(), 1e3 * leaflet.thickness,
+          leaflet.thickness > thickest ? "too much" : "little", 1e3 * thinnest, 1e3 * thickest);
+}
+
+// What is told of chordae: the first by its name, and how many.
+struct Told {
+  size_t count = 0;
+  std::string first;
+  void add(const Chord &chord, const std::string &sentence) {
+    if (count++ == 0) first = "chord " + chord.name + " " + sentence;
+  }
+  void log(const mvs_sim &sim) const {
+    if (count == 0) return;
+    sim.log(MVS_LOG_WARNING, "%s (%zu of them)", first.c_str(), count);
+  }
+};
+
+size_t leaflet_ends(const Model &model) {
+  size_t ends = 0;
+  for (const Chord &chord : model.valve.chords) {
+    for (const uint32_t node : {chord.a, chord.b}) {
+      ends += model.topology.node_kind[node] != MVS_NODE_IS_BRANCH &&
+              model.topology.node_kind[node] != MVS_NODE_IS_HEAD;
+    }
+  }
+  return ends;
+}
+
+// A chord that gives way to its share of the pressure, or of a stress that no tissue lacks (the
+// softest natural chordae have a modulus of 10 MPa; half again as long they bear far more than
+// 50 kPa), and one as stiff as steel wire of 0.4 mm.
+void judge_stiffness(const Valve &valve, const Chord &chord, double share, Told &soft,
+                     Told &stiff) {
+  const double stress = chord_response(valve, chord, 0.5).stress;
+  const double doubled = chord_tension(valve, chord, 1),
+               slightly = chord_tension(valve, chord, 0.01);
+  if (doubled < share) {
+    soft.add(chord, format("bears %.3g N at twice its length, its share of the systolic force is "
+                           "%.3g N: looks like a modulus in kPa or MPa given as Pa",
+                           doubled, share));
+  } else if (stress < 50e3) {
+    soft.add(chord, format("bears %.3g kPa at half again its length, tissue bears MPa: looks like "
+                           "a modulus in kPa or MPa given as Pa",
+                           1e-3 * stress));
+  } else if (slightly > 200) {
+    stiff.add(chord, format("bears %.3g N at a strain of 1 %%, as steel wire does: young is in Pa, "
+                            "area in m2",
+                            slightly));
+  }
+}
+
+// Where leaflets hang below the heads in the open valve, chordae are up to 8 times as long there as
+// at rest; 0.98 for 98 % of the distance is some 50 times too long.
+void judge_length(const Valve &valve, const Chord &chord, Told &lengths) {
+  constexpr double shorter = 20, longer = 10;
+  const double distance = (valve.rest[chord.a] - valve.rest[chord.b]).norm();
+  if (distance <= shorter * chord.rest_length && chord.rest_length <= longer * distance) return;
+  lengths.add(chord, format("is %.3g mm long at rest, and its ends lie %.3g mm apart: rest_length "
+                            "is in m, not a share of the distance",
+                            1e3 * chord.rest_length, 1e3 * distance));
+}
+
+void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale) {
+  const Valve &valve = model.valve;
+  const size_t ends = leaflet_ends(model);
+  if (ends == 0) return;
+  // the annulus spans about half the area of the leaflets
+  const double share = 0.5 * MVS_SYSTOLE_PA * scale.area / static_cast<double>(ends);
+  Told soft, stiff, lengths;
+  for (const Chord &chord : valve.chords) {
+    if (chord.kind == MVS_CHORD_SUTURE) continue;  // the library's own
+    judge_stiffness(valve, chord, share, soft, stiff);
+    judge_length(valve, chord, lengths);
+  }
+  soft.log(sim);
+  stiff.log(sim);
+  lengths.log(sim);
+}
+
+}  // namespace
+
+void log_units(const mvs_sim &sim, const Model &model) {
+  const Scale scale(model);
+  const double contact = model.valve.contact_stiffness;
+  if (contact < softest_contact) {
+    sim.log(MVS_LOG_WARNING,
+            "the contact stiffness is %g Pa, the default 20000: looks like kPa given as Pa",
+            contact);
+  }
+  for (const Leaflet &leaflet : model.valve.leaflets) log_leaflet(sim, leaflet, scale);
+  log_chords(sim, model, scale);
+}
+
+// A pressure that rises step by step passes these, but hardly as whole numbers.
+void log_pressure(const mvs_sim &sim, double pressure) {
+  constexpr double mmhg = MVS_SYSTOLE_PA / 120, most = 100e3;
+  const double size = std::abs(pressure);
+  if (size >= 20 && size <= 300 && size == std::floor(size)) {
+    sim.log(MVS_LOG_WARNING,
+            "a pressure of %g Pa is %.2g mmHg: looks like mmHg given as Pa; %g mmHg are %.8g Pa",
+            pressure, pressure / mmhg, pressure, pressure * mmhg);
+  } else if (size > most) {
+    sim.log(MVS_LOG_WARNING,
+            "a pressure of %g Pa is %.4g mmHg: looks like Pa taken for mmHg; pressures are in Pa",
+            pressure, pressure / mmhg);
+  }
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,105 @@
+#include "solve/dynamic/cached_preconditioner.h"
+
+#include "solve/nodes.h"
+
+namespace mvs::core {
+KeptFactor::KeptFactor(const Model &model, std::unique_ptr<Factor> factor)
+    : model_(&model), factor_(std::move(factor)) {}
+
+bool KeptFactor::is_of(const Waypoint &place, uint32_t done) const {
+  const bool same_place = place_.x.buffer() == place.x.buffer() || same_bits(place_.x, place.x);
+  return done_ >= done && same_place && place_.tools == place.tools &&
+         place_.pressure == place.pressure && place_.dt == place.dt &&
+         place_.damping == place.damping;
+}
+
+// Blocks that are zero stay out: what a pattern has kept of earlier contact may not show.
+void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
+                      const std::vector<uint32_t> *order) {
+  place_ = place;
+  done_ = 0;
+  has_order_ = order != nullptr;
+  if (has_order_) {
+    take_in_order(matrix, *order);
+  } else {
+    take_blocks(matrix);
+  }
+}
+
+void KeptFactor::take_in_order(const StepMatrix &matrix, const std::vector<uint32_t> &order) {
+  system_.set_order(*model_, order);
+  row_.resize(matrix.size());
+  for (uint32_t r = 0; r < matrix.size(); ++r) row_[r] = system_.row_of[matrix.node(r)];
+  permutation_.permute(matrix.blocks(), row_, system_.matrix);
+}
+
+void KeptFactor::take_blocks(const StepMatrix &matrix) {
+  const BlockMatrix &m = matrix.blocks();
+  nodes_.clear();
+  pairs_.clear();
+  blocks_.clear();
+  diagonal_.clear();
+  make_room(pairs_, m.value.size());
+  make_room(blocks_, m.value.size());
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    nodes_.push_back(matrix.node(c));
+    diagonal_.push_back(m.value[m.start[c]]);
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      if (m.value[k].isZero(0)) continue;
+      pairs_.push_back({matrix.node(m.row[k]), nodes_.back()});
+      blocks_.push_back(m.value[k]);
+    }
+  }
+}
+
+// Rows in the order that suits the pattern.
+void KeptFactor::find_order() {
+  system_.set_pattern(*model_, pairs_);
+  for (size_t k = 0; k < pairs_.size(); ++k) system_.add(pairs_[k][0], pairs_[k][1], blocks_[k]);
+  row_.resize(nodes_.size());
+  for (size_t r = 0; r < nodes_.size(); ++r) {
+    system_.add_diagonal(nodes_[r], diagonal_[r]);
+    row_[r] = system_.row_of[nodes_[r]];
+  }
+}
+
+void KeptFactor::analyse() {
+  if (!has_order_) find_order();
+  factor_->analyse(system_.matrix);
+}
+
+bool KeptFactor::factorise_part(uint32_t part) {
+  if (part < done_) return true;
+  done_ = part + 1;
+  if (part == 0) {
+    analyse();
+    return true;
+  }
+  const bool positive = factor_->factorise_part(system_.matrix, part - 1, parts - 1);
+  if (!positive) place_ = {};
+  return positive;
+}
+
+bool KeptFactor::factorise() {
+  if (done_ == 0) analyse();
+  const bool positive = factor_->factorise(system_.matrix);
+  done_ = parts;
+  if (!positive) place_ = {};
+  return positive;
+}
+
+void KeptFactor::add_mass(const StepMatrix &matrix, double times) {
+  for (uint32_t r = 0; r < matrix.size(); ++r) {
+    system_.add_diagonal(matrix.node(r), Mat3::Identity() * (times * matrix.mass(r)));
+  }
+}
+
+void KeptFactor::solve(const std::vector<Vec3> &r, std::vector<Vec3> &z) {
+  turned_.resize(r.size());
+  for (size_t k = 0; k < r.size(); ++k) turned_[row_[k]] = r[k];
+  factor_->solve(turned_);
+  z.resize(r.size());
+  for (size_t k = 0; k < r.size(); ++k) z[k] = turned_[row_[k]];
+}
+
+}  // namespace mvs::core

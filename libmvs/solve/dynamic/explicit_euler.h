@@ -1,0 +1,26 @@
+// Symplectic Euler: v += dt (f / m - c v), x += dt v, with a soft vertex-triangle penalty as
+// contact (Tenenholtz et al. 2011). Nothing guards it against crossings or large steps: it is the
+// baseline.
+#pragma once
+
+#include "energy/total_energy.h"
+#include "solve/dynamic/time_step.h"
+#include "solve/solver.h"
+
+namespace mvs::core {
+
+class ExplicitStepper {
+ public:
+  explicit ExplicitStepper(const Model &model);
+  void step(State &state, const StepOptions &how, SolveStats &stats);
+  // See Potential.
+  void begin_call() { potential_.begin_call(); }
+  uint32_t skipped() const { return potential_.skipped(); }
+
+ private:
+  const Model *model_;
+  Potential potential_;
+  std::vector<Vec3> g_, boundary_;
+};
+
+}  // namespace mvs::core

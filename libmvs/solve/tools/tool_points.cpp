@@ -1,0 +1,73 @@
+// Adding nodes for the points of instruments.
+#include "solve/tools/tool_points.h"
+
+#include <mvs/snapshot.h>
+
+namespace mvs::core {
+namespace {
+
+// Without it the implicit step could not move what no spring holds. At 1 kHz it is a twentieth of
+// the default spring of a hand; an instrument without its own inertia follows the hand at once.
+constexpr double point_mass = 1e-5;  // kg
+
+void add_row(Rows &rows) {
+  rows.start.push_back(rows.start.get().back());
+}
+
+void add_node(Model &model) {
+  Valve &valve = model.valve;
+  for (SharedVector<Vec3> *places : {&valve.rest, &valve.open, &valve.loaded}) {
+    places->push_back(Vec3::Zero());
+  }
+  valve.origin.push_back(none);
+  model.vertex_area.push_back(0);
+  model.node_mass.push_back(point_mass);
+  model.topology.node_kind.push_back(MVS_NODE_IS_BRANCH);
+  model.topology.fixed.push_back(0);
+  add_row(model.topology.node_triangles);
+  add_row(model.topology.node_chords);
+}
+
+}  // namespace
+
+uint32_t tool_points(const State &state) {
+  uint32_t points = 0;
+  for (const Tool &tool : state.tools.get()) points += tool.points();
+  return points;
+}
+
+const Model &ToolPoints::extend(const Model &model, uint32_t points) {
+  if (points == 0) return model;
+  // below 2^48 models there are, and at most 128 points; a model made without a number has 0
+  const uint64_t serial = model.serial | uint64_t{points} << 48;
+  if (model.serial != 0 && serial == serial_) return model_;
+  serial_ = 0;  // until all is there
+  model_ = model;
+  for (uint32_t k = 0; k < points; ++k) add_node(model_);
+  model_.serial = serial_ = serial;
+  return model_;
+}
+
+State ToolPoints::extended(const State &state) {
+  State more = state;
+  for (const Tool &tool : state.tools.get()) {
+    for (uint32_t k = 0; k < tool.points(); ++k) {
+      more.x.push_back(tool.proxy[k]);
+      more.v.push_back(Vec3::Zero());
+    }
+  }
+  return more;
+}
+
+void ToolPoints::take_back(State extended, State &state) {
+  const size_t nodes = state.x.size();
+  size_t node = nodes;
+  for (Tool &tool : extended.tools) {
+    for (uint32_t k = 0; k < tool.points(); ++k) tool.proxy[k] = extended.x.get()[node++];
+  }
+  extended.x.resize(nodes);
+  extended.v.resize(nodes);
+  state = std::move(extended);
+}
+
+}  // namespace mvs::core

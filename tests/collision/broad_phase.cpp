@@ -1,0 +1,471 @@
+// Which pairs come up, against all pairs.
+#include "collision/broad_phase.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <bit>
+#include <initializer_list>
+
+#include "energy/contact.h"
+#include "geometry/distance_batch.h"
+#include "geometry/swept_bvh.h"
+#include "tests/collision/pairs.h"
+#include "tests/short_run.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+bool share(const Edge &e, const Edge &f) {
+  return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
+}
+
+template <typename Visit>
+void for_edge_pairs(const Model &model, Visit &&visit) {
+  const auto &edges = model.topology.edges;
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    for (uint32_t j = i + 1; j < edges.size(); ++j) {
+      if (!share(edges[i], edges[j])) visit(i, j);
+    }
+  }
+}
+
+// What Candidates says of the ways of nodes, once more.
+struct Ways {
+  const Positions &x, &to;
+  double slack;
+  Pace pace;
+
+  Vec3 half(uint32_t i) const { return 0.5 * (to[i] - x[i]); }
+  Positions middle() const { return moved(x, 0.5, moved(to, -1, x)); }
+  double nearer(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b) const {
+    double together = 0, of_a = 0, of_b = 0;
+    for (const uint32_t i : a) {
+      of_a = std::max(of_a, half(i).norm());
+      for (const uint32_t j : b) {
+        of_b = std::max(of_b, half(j).norm());
+        together = std::max(together, (half(i) - half(j)).norm());
+      }
+    }
+    return 2 * slack + (pace == Pace::together ? together : of_a + of_b);
+  }
+  bool boxes_part(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b,
+                  double margin) const {
+    return apart(Way::of(a, x, to, pace), Way::of(b, x, to, pace), margin + 2 * slack);
+  }
+};
+
+// Whether the lists are what brute force finds on these ways, in their order.
+void check_pairs(const Model &model, const Candidates &candidates, const Ways &ways) {
+  const double r = model.valve.contact_thickness;
+  const Positions middle = ways.middle();
+  const auto &guarded = candidates.guarded(), &faced = candidates.facing();
+  const auto &list = candidates.guarded_edges();
+  size_t k = 0, facing = 0, pairs = 0;
+  bool same = true;
+  for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+    const Tri &tri = model.valve.triangles[t];
+    const std::vector<uint32_t> corners(tri.begin(), tri.end());
+    const double least = distance(middle, v, tri) - ways.nearer({v}, corners);
+    if (least > r) return;
+    const double rest = distance(model.valve.rest, v, tri), guard = guard_range(r, rest);
+    const bool faces = rest >= facing_rest_distance * r;
+    if (faces && !ways.boxes_part({v}, corners, r)) {
+      same =
+          same && facing < faced.size() && faced[facing].vertex == v && faced[facing].triangle == t;
+      ++facing;
+    }
+    if (least > guard || ways.boxes_part({v}, corners, faces ? r : guard_share * r)) return;
+    same = same && k < guarded.size() && guarded[k].vertex == v && guarded[k].triangle == t &&
+           guarded[k].guard == guard;
+    ++k;
+  });
+  for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
+    const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
+    const std::vector<uint32_t> a(e.begin(), e.end()), b(f.begin(), f.end());
+    const double least = distance(middle, e, f) - ways.nearer(a, b);
+    if (least > guard_share * r) return;
+    const double guard = guard_range(r, distance(model.valve.rest, e, f));
+    if (least > guard || ways.boxes_part(a, b, guard_share * r)) return;
+    same = same && pairs < list.size() && list[pairs].first == i && list[pairs].second == j &&
+           list[pairs].guard == guard;
+    ++pairs;
+  });
+  CHECK(same);
+  CHECK(facing == faced.size());
+  CHECK(k == guarded.size());
+  CHECK(pairs == list.size());
+}
+
+}  // namespace
+
+namespace {
+
+NarrowCorner narrow_corner(const Vec3 &p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0};
+}
+
+template <typename Nodes>
+NarrowWay narrow_way(const Nodes &nodes, const Ways &ways) {
+  NarrowWay way;
+  for (const uint32_t i : nodes) {
+    way.add(NarrowPlace{narrow_corner(ways.x[i]), narrow_corner(ways.to[i])});
+  }
+  if (ways.pace == Pace::each_for_itself) way.join_ends();
+  return way;
+}
+
+double farthest(const Ways &ways) {
+  double most = 0;
+  for (const Positions *places : {&ways.x, &ways.to}) {
+    for (const Vec3 &p : *places) most = std::max(most, p.cwiseAbs().maxCoeff());
+  }
+  return most;
+}
+
+// n triangles anywhere in a cube, each on its way.
+struct Scattered {
+  Positions x, to;
+  std::vector<Tri> triangles;
+
+  Scattered(uint32_t n, Random &random) : x(random.vectors(size_t{3} * n, 1)) {
+    for (uint32_t t = 0; t < n; ++t) triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    for (uint32_t i = 0; i < x.size(); ++i) x[i] = x[i - i % 3] + random.vector(0.1);
+    to = moved(x, 1, random.vectors(x.size(), 0.2));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
+  Random random(1);
+  for (const uint32_t n : {0u, 1u, 2u, 60u, 200u}) {
+    const Scattered sheet(n, random);
+    MovingTree tree(sheet.x, sheet.triangles);
+    const auto &start = tree.block_start();
+    std::vector<uint32_t> block_of(n);
+    std::vector<uint8_t> still(tree.block_count());
+    for (uint32_t b = 0; b < tree.block_count(); ++b) {
+      CHECK(start[b + 1] - start[b] <= WayLanes::count);
+      still[b] = b % 3 == 0;
+      for (uint32_t k = start[b]; k < start[b + 1]; ++k) block_of[tree.triangles()[k]] = b;
+    }
+    for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+      const Ways ways = {sheet.x, sheet.to, 0, pace};
+      std::vector<NarrowWay> blocks(tree.block_count());
+      for (uint32_t t = 0; t < n; ++t) {
+        blocks[block_of[t]].add(narrow_way(sheet.triangles[t], ways));
+      }
+      tree.place(blocks, still);
+      std::vector<Edge> found;
+      tree.for_near_blocks(narrow_margin(0.05, farthest(ways)), [&](uint32_t a, uint32_t b) {
+        CHECK_FALSE((still[a] && still[b]));
+        found.push_back({std::min(a, b), std::max(a, b)});
+      });
+      std::sort(found.begin(), found.end());
+      CHECK(std::adjacent_find(found.begin(), found.end()) == found.end());
+      bool all = true;
+      for (uint32_t a = 0; a < n; ++a) {
+        for (uint32_t b = a + 1; b < n; ++b) {
+          const Edge pair = {std::min(block_of[a], block_of[b]),
+                             std::max(block_of[a], block_of[b])};
+          if ((still[pair[0]] && still[pair[1]]) ||
+              apart(Way::of(sheet.triangles[a], sheet.x, sheet.to, pace),
+                    Way::of(sheet.triangles[b], sheet.x, sheet.to, pace), 0.05)) {
+            continue;
+          }
+          all = all && std::binary_search(found.begin(), found.end(), pair);
+        }
+      }
+      CHECK(all);
+    }
+  }
+}
+
+// All that are near, and none that single precision can tell to be farther; empty lanes are near
+// nothing.
+TEST_CASE("lanes_are_near_as_their_ways_are") {
+  Random random(6);
+  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+    size_t found = 0;
+    for (int round = 0; round < 200; ++round) {
+      const Scattered sheet(13, random);
+      const Ways ways = {sheet.x, sheet.to, 0, pace};
+      const double margin = random(0, 0.5);
+      WayLanes here, there;
+      NarrowWay box;
+      for (uint32_t t = 0; t < 13; ++t) {
+        const NarrowWay way = narrow_way(sheet.triangles[t], ways);
+        (t < 8 ? here : there).set(t < 8 ? t : t - 8, way);
+        if (t >= 8) box.add(way);
+      }
+      NearLanes near;
+      const float wide = narrow_margin(margin, farthest(ways));
+      const uint32_t of = find_near(here, box, wide);
+      const uint32_t some = find_near(here, of, there, wide, near);
+      CHECK((some & ~of) == 0);
+      for (uint32_t i = 0; i < 8; ++i) {
+        const uint32_t bits = (some >> i & 1) != 0 ? near[i] : 0;
+        CHECK(bits < 32);
+        CHECK(((some >> i & 1) != 0) == (bits != 0));
+        for (uint32_t j = 0; j < 5; ++j) {
+          const Way a = Way::of(sheet.triangles[i], sheet.x, sheet.to, pace);
+          const Way b = Way::of(sheet.triangles[8 + j], sheet.x, sheet.to, pace);
+          const bool is_near = (bits >> j & 1) != 0;
+          if (!apart(a, b, margin)) CHECK(is_near);
+          if (is_near) CHECK_FALSE(apart(a, b, margin + 2e-6));
+          found += is_near;
+        }
+      }
+    }
+    CHECK(found > 500);
+  }
+}
+
+// Anywhere, on each other, in one plane, parallel, without a length.
+TEST_CASE("distances_side_by_side_are_to_the_bit_those_one_by_one") {
+  Random random(9);
+  const auto same = [](double a, double b) {
+    return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+  };
+  bool all = true;
+  PairRows rows;
+  for (int round = 0; round < 400; ++round) {
+    std::array<std::array<Vec3, 4>, PairRows::most> pair;
+    const uint32_t count = 1 + static_cast<uint32_t>(round) % PairRows::most;
+    for (uint32_t k = 0; k < count; ++k) {
+      auto &[p, a, b, c] = pair[k];
+      for (Vec3 &q : pair[k]) q = Vec3(0.01, 0.02, 0.03) + random.vector(1e-3);
+      if (k % 8 == 1) c = p + (b - a);
+      if (k % 8 == 2) c = p + 2 * (a - p);
+      if (k % 8 == 3) a = b;
+      if (k % 8 == 4) c = b = a;
+      if (k % 8 == 5) p = 0.25 * a + 0.25 * b + 0.5 * c;
+      if (k % 8 == 6) c = a + 0.5 * (b - a);
+      if (k % 8 == 7) p = a;
+      for (uint32_t i = 0; i < 4; ++i) rows.set(k, i, pair[k][i]);
+    }
+    measure_triangles(rows, count);
+    for (uint32_t k = 0; k < count; ++k) {
+      const auto &[p, a, b, c] = pair[k];
+      all = all && same(rows.distance2[k], closest_on_triangle(p, a, b, c).distance2);
+    }
+    measure_segments(rows, count);
+    for (uint32_t k = 0; k < count; ++k) {
+      const auto &[p, a, b, c] = pair[k];
+      all = all && same(rows.distance2[k], closest_of_segments(p, a, b, c).distance2);
+    }
+    for (const uint32_t split : {1u, 2u}) {
+      measure_farthest(rows, count, split);
+      for (uint32_t k = 0; k < count; ++k) {
+        double most = 0;
+        for (uint32_t i = 0; i < split; ++i) {
+          for (uint32_t j = split; j < 4; ++j) {
+            most = std::max(most, (pair[k][i] - pair[k][j]).squaredNorm());
+          }
+        }
+        all = all && same(rows.distance2[k], most);
+      }
+    }
+  }
+  CHECK(all);
+}
+
+TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {
+  const Plates plates = plates_for_steps();
+  Random random(2);
+  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+    const Positions x = wavy(plates, random);
+    const Positions to = moved(x, 1, random.vectors(x.size(), 0.4e-3));
+    Candidates candidates(plates.model);
+    candidates.build(x, to, 0.05e-3, pace);
+    check_pairs(plates.model, candidates, {x, to, 0.05e-3, pace});
+    CHECK(candidates.facing().size() > 30);
+    CHECK(candidates.guarded().size() > 30);
+    CHECK(candidates.guarded_edges().size() > 30);
+  }
+}
+
+// Pairs are kept from one list to the next, and which of them are looked at again depends on all
+// that went before: nothing of it may show, however the sheet moves and wherever it is cut.
+void check_on_the_way(const Plates &plates, bool keep_near) {
+  Random random(8);
+  Candidates candidates(plates.model);
+  candidates.keep_near(keep_near);
+  Positions x = wavy(plates, random);
+  std::vector<size_t> found;
+  const int every = short_run() ? 11 : 1;  // every kind of round all the same
+  for (int round = 0; round < 96; ++round) {
+    const Pace pace = round % 5 == 4 ? Pace::each_for_itself : Pace::together;
+    const double slack = round % 7 == 6 ? 0.1e-3 : 0.02e-3;
+    // slow, plate against plate, with a few fast ones, a part of the sheet, all of it fast, not at
+    // all
+    const int kind = (round / 8) % 6;
+    const Vec3 drift = random.vector(kind == 4 ? 0.4e-3 : 0.03e-3);
+    Positions step(x.size(), Vec3::Zero());
+    for (size_t i = 0; i < x.size(); ++i) {
+      if (kind == 5 || (kind == 3 && i % 81 > 20)) continue;
+      step[i] = drift + random.vector(0.02e-3);
+      if (kind == 1) step[i] = Vec3(0, 0, (i < x.size() / 2) == (round > 48) ? 0.1e-3 : -0.1e-3);
+      if (kind == 2 && i % 40 == 0) step[i] += random.vector(0.6e-3);
+    }
+    Positions to = moved(x, 1, step);
+    candidates.build(x, to, slack, pace);
+    CAPTURE(round);
+    if (round % every == 0) check_pairs(plates.model, candidates, {x, to, slack, pace});
+    for (size_t i = 0; i < x.size(); i += 13) to[i] = x[i] + random(0, 1) * step[i];
+    candidates.build(x, to, slack, pace);
+    if (round % every == 0) check_pairs(plates.model, candidates, {x, to, slack, pace});
+    found.push_back(candidates.guarded().size() + candidates.guarded_edges().size());
+    // some of the way, as a step that was cut
+    x = moved(x, random(0.3, 1), step);
+  }
+  std::sort(found.begin(), found.end());
+  CHECK(std::unique(found.begin(), found.end()) - found.begin() > 20);
+}
+
+TEST_CASE("candidates_are_the_same_however_the_sheet_came_there") {
+  const Plates plates = plates_for_steps();
+  check_on_the_way(plates, true);
+  check_on_the_way(plates, false);
+}
+
+// So fine that what is near at rest has shorter guards, and nothing of it is round.
+TEST_CASE("candidates_of_a_fine_mesh_are_the_same_however_it_came_there") {
+  const Plates plates = two_plates(8, 3e-3, 3e-3, false, [](Valve &valve) {
+    Random random(3);
+    for (auto &place : valve.rest.edit()) place += random.vector(0.03e-3);
+  });
+  check_on_the_way(plates, true);
+  check_on_the_way(plates, false);
+}
+
+// No block of one plate is near the other when what is kept is made; all come near on the way, a
+// third of the skins a step.
+TEST_CASE("what_comes_from_afar_is_found") {
+  const Plates plates = plates_for_steps();
+  Random random(5);
+  Candidates candidates(plates.model);
+  Positions x = wavy(plates, random);
+  const Vec3 step(0.03e-3, 0, -0.1e-3);
+  for (size_t i = x.size() / 2; i < x.size(); ++i) x[i] -= 60 * step;
+  size_t first = 0;
+  for (int k = 0; k < 60; ++k) {
+    Positions to = x;
+    for (size_t i = x.size() / 2; i < x.size(); ++i) to[i] += step;
+    candidates.build(x, to, 0.02e-3);
+    if (k == 0) first = candidates.facing().size();
+    CAPTURE(k);
+    if (k % 6 == 5) check_pairs(plates.model, candidates, {x, to, 0.02e-3, Pace::together});
+    x = to;
+  }
+  CHECK(candidates.facing().size() > first + 30);
+}
+
+TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  const double r = model.valve.contact_thickness, slack = 0.05e-3;
+  Random random(12);
+  size_t met = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Pace pace = round % 2 == 0 ? Pace::together : Pace::each_for_itself;
+    const Positions x = wavy(plates, random);
+    const Positions step = random.vectors(x.size(), 1e-3);
+    Candidates candidates(model);
+    candidates.build(x, moved(x, 1, step), slack, pace);
+    // anywhere on the way, all together or each node for itself
+    Positions y = x;
+    const double common = random(0, 1);
+    // least squares find the share to a few percent of the slack, hence the nine tenths
+    for (size_t i = 0; i < y.size(); ++i) {
+      const double share = pace == Pace::together ? common : random(0, 1);
+      y[i] += share * step[i] + random.vector(0.9 * slack / std::sqrt(3.0));
+    }
+    REQUIRE(candidates.valid_for(y));
+    const auto &guarded = candidates.guarded(), &faced = candidates.facing();
+    const auto listed = [](const std::vector<VertexTriangle> &list, uint32_t v, uint32_t t) {
+      return std::any_of(list.begin(), list.end(),
+                         [&](const VertexTriangle &c) { return c.vertex == v && c.triangle == t; });
+    };
+    bool all = true;
+    for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+      const double now = distance(y, v, model.valve.triangles[t]);
+      if (now >= r) return;
+      const double rest = distance(model.valve.rest, v, model.valve.triangles[t]);
+      if (rest >= facing_rest_distance * r) all = all && listed(faced, v, t);
+      if (now >= guard_range(r, rest)) return;
+      ++met;
+      all = all && listed(guarded, v, t);
+    });
+    for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
+      const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
+      const double now = distance(y, e, f);
+      if (now >= guard_share * r || now >= guard_range(r, distance(model.valve.rest, e, f))) return;
+      ++met;
+      const auto &list = candidates.guarded_edges();
+      all = all && std::any_of(list.begin(), list.end(),
+                               [&](const EdgeEdge &c) { return c.first == i && c.second == j; });
+    });
+    CHECK(all);
+  }
+  CHECK(met > 1000);
+}
+
+TEST_CASE("candidates_know_how_far_they_hold") {
+  const Plates plates = plates_for_steps();
+  Random random(3);
+  const Positions x = wavy(plates, random);
+  Candidates candidates(plates.model);
+  CHECK_FALSE(candidates.valid_for(x));
+  Positions to = x;
+  to[6].z() += 1e-3;
+  to[7].z() += 1e-3;
+  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+    candidates.build(x, to, 1e-4, pace);
+    Positions y = x;
+    CHECK(candidates.valid_for(y));
+    y[5].x() += 0.99e-4;
+    y[6].z() += 0.7e-3;
+    y[7].z() += 0.7e-3;
+    y[6].x() += 0.99e-4;
+    CHECK(candidates.valid_for(y));
+    y[5].x() += 0.02e-4;
+    CHECK_FALSE(candidates.valid_for(y));
+    y[5] = x[5];
+    y[6].x() += 0.02e-4;
+    CHECK_FALSE(candidates.valid_for(y));
+    // one node ahead of the other by more than the slack either way
+    y[6] = to[6];
+    CHECK(candidates.valid_for(y) == (pace == Pace::each_for_itself));
+  }
+}
+
+// As a step is cut, then shortened as a whole.
+TEST_CASE("candidates_recall_the_first_way_from_a_place") {
+  const Plates plates = plates_for_steps();
+  Random random(77);
+  const Positions x = wavy(plates, random), step = random.vectors(x.size(), 0.3e-3);
+  const Positions to = moved(x, 1, step), some_way = moved(x, 0.25, step);
+  const double slack = 0.02e-3;
+  Positions cut = to;
+  for (size_t i = 0; i < cut.size(); i += 13) cut[i] = x[i];
+  Candidates candidates(plates.model);
+  candidates.build(x, x, slack);  // of no way
+  candidates.build(x, to, slack);
+  CHECK_FALSE(candidates.recall(x, some_way));  // there are no others
+  candidates.build(x, cut, slack);
+  CHECK_FALSE(candidates.recall(to, to));
+  CHECK_FALSE(candidates.recall(x, moved(some_way, 1, random.vectors(x.size(), 0.1e-3))));
+  CHECK(candidates.valid_for(cut));
+  CHECK_FALSE(candidates.valid_for(some_way));
+  REQUIRE(candidates.recall(x, some_way));
+  CHECK(candidates.valid_for(some_way));
+  CHECK(candidates.valid_for(to));
+  check_pairs(plates.model, candidates, {x, to, slack, Pace::together});
+  // what is looked for from there is all there is
+  candidates.build(x, cut, slack);
+  check_pairs(plates.model, candidates, {x, cut, slack, Pace::together});
+}

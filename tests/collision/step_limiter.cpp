@@ -1,0 +1,186 @@
+// Steps that never lead through a sheet.
+#include "collision/step_limiter.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "energy/contact.h"
+#include "geometry/intersect.h"
+#include "tests/collision/pairs.h"
+#include "tests/model/small_valve.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+// What a step may never do, whatever it was: cross, or use up a pair.
+void check_motion(const Model &model, const Candidates &candidates, const Positions &x,
+                  const Positions &dx) {
+  for (const double share : {0.2, 0.5, 0.7, 0.9, 1.0}) {
+    const Positions y = moved(x, share, dx);
+    CHECK(find_intersections(y, model.valve.triangles).empty());
+    double least = 1;
+    for (const VertexTriangle &c : candidates.guarded()) {
+      const Tri &t = model.valve.triangles[c.triangle];
+      least = std::min(least, distance(y, c.vertex, t) / distance(x, c.vertex, t));
+    }
+    for (const EdgeEdge &c : candidates.guarded_edges()) {
+      const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
+      least = std::min(least, distance(y, e, f) / distance(x, e, f));
+    }
+    CHECK(least > 0.1 * (1 - 1e-9));  // rounding of a distance
+  }
+}
+
+// Where the upper plate ends that is pressed down for as long as it takes.
+Positions pressed(const Plates &plates, Positions x) {
+  for (int round = 0; round < 60; ++round) {
+    Positions dx(x.size(), Vec3::Zero());
+    for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -1e-3};
+    Candidates candidates(plates.model);
+    StepBounds().limit(plates.model, x, 0, candidates, dx);
+    x = moved(x, 1, dx);
+  }
+  return x;
+}
+
+double nearest(const Model &model, const Positions &x) {
+  double least = 1;
+  for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
+    least = std::min(least, distance(x, v, model.valve.triangles[t]));
+  });
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("no_step_however_wild_leads_through_a_sheet") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  int cut = 0, wild = 0;
+  for (uint64_t seed = 1; seed <= 24; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const Positions x = wavy(plates, random);
+    if (!find_intersections(x, model.valve.triangles).empty()) continue;
+    Positions dx = random.vectors(x.size(), seed % 2 == 0 ? 2e-3 : 0.3e-3);
+    // half of them press the plates through each other as a whole
+    for (size_t i = 0; seed % 4 < 2 && i < dx.size(); ++i) {
+      dx[i].z() += i < plates.upper ? 1e-3 : -1e-3;
+    }
+    const Positions wanted = dx;
+    Candidates candidates(model);
+    wild += !find_intersections(moved(x, 1, dx), model.valve.triangles).empty();
+    StepBounds().limit(model, x, 0, candidates, dx);
+    CHECK(largest(dx) > 0);
+    cut += farthest(dx, wanted) > 0;
+    check_motion(model, candidates, x, dx);
+  }
+  // the steps were such that something had to be done
+  CHECK(wild > 12);
+  CHECK(cut >= wild);
+}
+
+TEST_CASE("a_crumpling_valve_never_crosses_itself") {
+  const ModelPtr model = make_model(small_valve());
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random(seed);
+    Positions x = model->valve.rest;
+    for (int step = 0; step < 12; ++step) {
+      Positions dx = random.vectors(x.size(), 1.5e-3);
+      for (size_t i = 0; i < x.size(); ++i) {
+        dx[i].head<2>() -= 0.15 * x[i].head<2>();  // towards the axis
+        if (model->topology.fixed[i]) dx[i].setZero();
+      }
+      Candidates candidates(*model);
+      StepBounds().limit(*model, x, 0, candidates, dx);
+      check_motion(*model, candidates, x, dx);
+      x = moved(x, 1, dx);
+    }
+  }
+}
+
+TEST_CASE("a_step_is_only_shortened_and_only_where_sheets_meet") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  // the plates meet at one corner and are 3 mm apart at the other
+  Positions x = model.valve.rest;
+  for (size_t i = plates.upper; i < x.size(); ++i) x[i].z() = 0.3e-3 + 0.25 * x[i].x();
+  Positions dx(x.size(), Vec3::Zero());
+  for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -0.8e-3};
+  const Positions wanted = dx;
+  Candidates candidates(model);
+  StepBounds().limit(model, x, 0, candidates, dx);
+  CHECK(dx[plates.upper].norm() < 0.5 * wanted[plates.upper].norm());
+  check_motion(model, candidates, x, dx);
+  int uncut = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    // each node keeps its direction: this is a straight line down
+    CHECK(dx[i].head<2>().norm() == 0);
+    CHECK(dx[i].norm() <= wanted[i].norm());
+    if (i < plates.upper || x[i].x() < 6e-3) continue;
+    // 1.8 mm apart and more: 0.8 mm is below nine tenths of that
+    CHECK(dx[i] == wanted[i]);
+    ++uncut;
+  }
+  CHECK(uncut > 20);
+}
+
+TEST_CASE("a_step_away_from_each_other_is_not_cut") {
+  const Plates plates = plates_for_steps();
+  const Positions x = plates.at(0.1e-3);
+  Positions dx(x.size(), Vec3::Zero());
+  for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, 1e-3};
+  Candidates candidates(plates.model);
+  candidates.build(x, moved(x, 1, dx), 0);
+  CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
+}
+
+TEST_CASE("sheets_that_move_together_are_not_held_back") {
+  const Plates plates = plates_for_steps();
+  const Positions x = plates.at(0.1e-3);
+  // a hundred times their distance, the same way
+  Positions dx(x.size(), Vec3(0, 0, 10e-3));
+  const Positions wanted = dx;
+  Candidates candidates(plates.model);
+  candidates.build(x, moved(x, 1, dx), 0);
+  CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
+  CHECK(farthest(dx, wanted) == 0);
+}
+
+// Seven orders of magnitude above rounding, pressed together for as long as it takes.
+TEST_CASE("pressed_together_again_and_again_nothing_comes_to_distance_zero") {
+  const Plates plates = plates_for_steps();
+  const Positions x = pressed(plates, plates.at(0.1e-3));
+  CHECK(nearest(plates.model, x) >= 1e-10);
+  CHECK(find_intersections(x, plates.model.valve.triangles).empty());
+}
+
+// Where a pair of edges is stopped its guard bears more than all the pressure on a valve, 120 mmHg
+// on 7 cm2: nothing that presses tissue together presses more, and so there is a balance.
+TEST_CASE("a_guard_has_the_room_to_bear_whatever_presses") {
+  const Plates plates = plates_for_steps();
+  const Model &model = plates.model;
+  const double range = guard_range(model.valve.contact_thickness, 1);
+  const double least = nearest(model, pressed(plates, plates.at(0.1e-3)));
+  // the strength of two edges in contact.cpp, each with a third of two triangles
+  double area = 0;
+  for (const double of_triangle : model.rest_area) area += of_triangle;
+  const double edge_area = area / static_cast<double>(model.topology.edges.size());
+  const double strength = 0.25 * model.valve.contact_stiffness * 2 * edge_area;
+  CHECK(-strength * barrier(least / range).first > 120 * 133.322 * 7e-4);
+}
+
+// Parts of a needle a thousandth of the contact thickness apart: stopped before its guard pushes, a
+// pair would never be in balance.
+TEST_CASE("what_lies_close_at_rest_is_stopped_by_its_guard_and_not_before") {
+  const double apart = 1e-6;
+  const Plates plates = two_plates(8, 10e-3, apart, false, [](Valve &) {});
+  const Positions x = pressed(plates, plates.at(10 * apart));
+  const double range = guard_range(plates.model.valve.contact_thickness, apart);
+  CHECK(nearest(plates.model, x) < 0.01 * range);  // a barrier pushes a hundred times as there
+  CHECK(nearest(plates.model, x) > 0);
+  CHECK(find_intersections(x, plates.model.valve.triangles).empty());
+}

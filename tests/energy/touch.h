@@ -1,0 +1,45 @@
+// Contact without anything else, for the tests of it.
+#pragma once
+
+#include "energy/contact.h"
+#include "tests/solve/bench.h"
+
+namespace mvs::core::test {
+
+// Contact alone, as functions of the positions near `around`.
+class Touch {
+ public:
+  Touch(const Model &model, const Positions &around, double reach,
+        ContactLaw law = ContactLaw::barrier)
+      : model_(&model), candidates_(model), term_(model, law) {
+    candidates_.build(around, around, reach);
+  }
+  double energy(const Positions &x) {
+    term_.collect(x, candidates_);
+    return term_.energy();
+  }
+  Positions gradient(const Positions &x) {
+    term_.collect(x, candidates_);
+    Positions g(x.size(), Vec3::Zero());
+    term_.gradient(g);
+    return g;
+  }
+  Eigen::MatrixXd hessian(const Positions &x, Curvature curvature) {
+    term_.collect(x, candidates_);
+    System system;
+    std::vector<Edge> pairs;
+    term_.add_pairs(pairs);
+    system.set_pattern(*model_, pairs);
+    system.clear();
+    CHECK(term_.hessian(x, curvature, system));
+    return dense(system);
+  }
+  const std::vector<ContactStencil> &stencils() const { return term_.stencils(); }
+
+ private:
+  const Model *model_;
+  Candidates candidates_;
+  ContactTerm term_;
+};
+
+}  // namespace mvs::core::test

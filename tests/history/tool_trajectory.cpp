@@ -1,0 +1,154 @@
+// Steps that hands lead: kept in runs, and still every step finds each hand where it was.
+#include "history/tool_trajectory.h"
+
+#include <doctest/doctest.h>
+#include <mvs/tool.h>
+
+#include <map>
+#include <random>
+
+using namespace mvs::core;
+
+namespace {
+
+using Random = std::mt19937;
+
+constexpr Id grasp_id = first_tool_id, rod_id = first_tool_id + 1, ball_id = first_tool_id + 2;
+
+Move hand(Id id, uint32_t kind, Random &random) {
+  std::uniform_real_distribution<double> at(-0.05, 0.05);
+  Tool tool;
+  tool.id = id;
+  tool.kind = kind;
+  tool.position = Vec3(at(random), at(random), at(random));
+  if (kind == MVS_TOOL_ROD) tool.axis = Vec3(at(random), at(random), 1).normalized();
+  Move move;
+  move.kind = Move::tool_move;
+  move.tool = {tool};
+  return move;
+}
+
+Move one_step(double dt) {
+  Move step;
+  step.kind = Move::step;
+  step.dt = dt;
+  return step;
+}
+
+// Where each hand is and how long the step is, step by step.
+struct Seen {
+  double dt;
+  std::map<Id, std::pair<Vec3, Vec3>> hands;
+  bool operator==(const Seen &) const = default;
+};
+
+class Follower {
+ public:
+  void hand(const Tool &tool) { hands_[tool.id] = {tool.position, tool.axis}; }
+  void step(double dt, uint64_t count) {
+    for (uint64_t k = 0; k < count; ++k) seen.push_back({dt, hands_});
+  }
+  void take(const Move &move) {
+    if (move.kind == Move::step) return step(move.dt, move.count);
+    REQUIRE(move.kind == Move::lead);
+    REQUIRE(is_whole(move));
+    State state;
+    for (const Tool &tool : move.tool.get()) state.tools.push_back(tool);
+    for (size_t row = 0; row < move.pace.size(); ++row) {
+      take_row(state, move, row);
+      for (const Tool &tool : state.tools.get()) hand(tool);
+      step(move.dt, move.pace.get()[row]);
+    }
+  }
+  std::vector<Seen> seen;
+
+ private:
+  std::map<Id, std::pair<Vec3, Vec3>> hands_;
+};
+
+// What a hand does for a while: which tools move before the next step.
+std::vector<Move> some_hands(Random &random, uint32_t which) {
+  std::vector<Move> hands;
+  if (which & 1) hands.push_back(hand(grasp_id, MVS_TOOL_GRASP, random));
+  if (which & 2) hands.push_back(hand(rod_id, MVS_TOOL_ROD, random));
+  if (which & 4) hands.push_back(hand(ball_id, MVS_TOOL_BALL, random));
+  return hands;
+}
+
+size_t runs(const Moves &moves) {
+  return moves.size();
+}
+
+}  // namespace
+
+TEST_CASE("every_led_step_finds_each_hand_where_it_was") {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    Follower direct, kept;
+    Moves moves;
+    for (int k = 0; k < 500; ++k) {
+      const double dt = random() % 100 == 0 ? 2e-3 : 1e-3;
+      const std::vector<Move> hands = some_hands(random, random() % 4 ? random() % 8 : 1);
+      Move next = hands.empty() ? one_step(dt) : lead_of(hands, one_step(dt));
+      moves = with_move(moves, next);
+      for (const Move &move : hands) direct.hand(move.tool.get()[0]);
+      direct.step(dt, 1);
+    }
+    for (const Move *move : moves.items()) kept.take(*move);
+    CHECK(direct.seen == kept.seen);
+  }
+}
+
+TEST_CASE("a_run_goes_on_however_it_was_put_together") {
+  // looked at after every step, never, or at odd times: the same moves
+  for (const int every : {1, 7, 1000000}) {
+    CAPTURE(every);
+    Random random(3);
+    Moves moves, plain;
+    Move kept;
+    kept.count = 0;
+    for (int k = 0; k < 700; ++k) {
+      const bool moves_on = k % 3 != 1;
+      const auto hands = moves_on ? some_hands(random, 3) : std::vector<Move>();
+      Move next = hands.empty() ? one_step(1e-3) : lead_of(hands, one_step(1e-3));
+      plain = with_move(plain, next);
+      if (kept.count > 0) take_on(kept, next);
+      if (next.count > 0) {
+        if (kept.count > 0) moves = with_move(moves, kept);
+        kept = next;
+      }
+      if (k % every == 0) {
+        moves = with_move(moves, kept);
+        kept = Move();
+        kept.count = 0;
+      }
+    }
+    if (kept.count > 0) moves = with_move(moves, kept);
+    REQUIRE(runs(moves) == runs(plain));
+    for (size_t k = 0; k < runs(moves); ++k) CHECK(*moves.items()[k] == *plain.items()[k]);
+  }
+}
+
+TEST_CASE("hands_that_move_in_turn_make_one_run") {
+  Random random(1);
+  Moves moves;
+  for (int k = 0; k < 200; ++k) {
+    moves = with_move(moves, lead_of(some_hands(random, k % 2 ? 1 : 4), one_step(1e-3)));
+  }
+  // a step of the hand that came first, a whole run of both; and again, for the 71 that are left
+  CHECK(runs(moves) == 4);
+}
+
+TEST_CASE("a_hand_that_rests_costs_nothing") {
+  Random random(1);
+  Moves moves;
+  moves = with_move(moves, lead_of(some_hands(random, 1), one_step(1e-3)));
+  for (int k = 0; k < 100000; ++k) moves = with_move(moves, one_step(1e-3));
+  REQUIRE(runs(moves) == 1);
+  CHECK(moves.top().pace.size() == 1);
+  CHECK(moves.top().count == 100001);
+  // other steps are another move
+  moves = with_move(moves, one_step(2e-3));
+  CHECK(runs(moves) == 2);
+}

@@ -1,0 +1,350 @@
+// Sparse factors, the elimination order and GMRES against dense algebra.
+#include "linalg/direct_solver.h"
+#include "linalg/cholesky.h"
+#include "linalg/nested_dissection.h"
+#include "linalg/spmv.h"
+
+#include <mvs/sim.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "linalg/gmres.h"
+#include "linalg/mixed_precision.h"
+#include "tests/solve/bench.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+std::vector<uint32_t> backends() {
+  std::vector<uint32_t> list{MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN};
+  if (std::string(factor_names()).find("cholmod") != std::string::npos) {
+    list.push_back(MVS_BACKEND_CHOLMOD);
+  }
+  return list;
+}
+
+std::vector<Edge> random_pairs(Random &random, uint32_t n, size_t count) {
+  std::vector<Edge> pairs;
+  while (pairs.size() < count) {
+    const auto i = static_cast<uint32_t>(random(0, n)), j = static_cast<uint32_t>(random(0, n));
+    if (i != j) pairs.push_back({i, j});
+  }
+  return pairs;
+}
+
+// Random blocks; the diagonal outweighs its row, so that the matrix is positive definite.
+BlockMatrix random_matrix(Random &random, uint32_t n, size_t pairs) {
+  BlockMatrix m;
+  m.set_pattern(n, random_pairs(random, n, pairs));
+  std::vector<double> weight(n, 1.0);
+  for (uint32_t c = 0; c < n; ++c) {
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      for (int i = 0; i < 9; ++i) m.value[k](i) = random(-1, 1);
+      weight[c] += 3;
+      weight[m.row[k]] += 3;
+    }
+  }
+  for (uint32_t c = 0; c < n; ++c) {
+    Mat3 &d = m.value[m.start[c]];
+    for (int i = 0; i < 9; ++i) d(i) = random(-0.2, 0.2);
+    d = (d + d.transpose()).eval() + weight[c] * Mat3::Identity();
+  }
+  return m;
+}
+
+Eigen::MatrixXd dense(const BlockMatrix &m) {
+  const Eigen::Index n = 3 * m.size();
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    for (uint32_t k = m.start[c]; k < m.start[c + 1]; ++k) {
+      full.block<3, 3>(3 * m.row[k], 3 * c) = m.value[k];
+      full.block<3, 3>(3 * c, 3 * m.row[k]) = m.value[k].transpose();
+    }
+  }
+  return full;
+}
+
+// With what rounding leaves of a well-conditioned system of a few hundred rows.
+struct NamedFactor {
+  std::string name;
+  std::unique_ptr<Factor> factor;
+  double rounding;
+};
+
+std::vector<NamedFactor> all_factors() {
+  std::vector<NamedFactor> all;
+  for (const uint32_t backend : backends()) {
+    all.push_back({"backend " + std::to_string(backend), make_factor(backend), 1e-12});
+  }
+  all.push_back({"narrow", make_narrow_factor(), 1e-4});
+  // what is left of the residual, and as much more as the norms of residual and solution differ
+  all.push_back({"refined", make_refined_factor(), 1e-6});
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("every_factor_solves_as_dense_algebra_does") {
+  Random random(1);
+  for (const NamedFactor &kind : all_factors()) {
+    CAPTURE(kind.name);
+    Factor *factor = kind.factor.get();
+    for (const uint32_t n : {1u, 2u, 7u, 40u, 90u}) {
+      const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 3 * n);
+      factor->analyse(m);
+      REQUIRE(factor->factorise(m));
+      const Positions b = random.vectors(n, 1);
+      Positions x = b;
+      factor->solve(x);
+      const Eigen::VectorXd expected = dense(m).ldlt().solve(flat(b));
+      // rounding of a well-conditioned matrix of at most 270 rows
+      CHECK((flat(x) - expected).norm() < kind.rounding * expected.norm());
+    }
+  }
+}
+
+TEST_CASE("products_are_those_of_dense_algebra") {
+  Random random(11);
+  BlockProduct product;
+  for (const uint32_t n : {1u, 2u, 7u, 90u}) {
+    const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 3 * n);
+    const Positions x = random.vectors(n, 1);
+    Positions y;
+    product.multiply(m, x, y);
+    const Eigen::VectorXd expected = dense(m).selfadjointView<Eigen::Lower>() * flat(x);
+    // rounding of sums of some ten products
+    CHECK((flat(y) - expected).norm() <= 1e-15 * dense(m).norm() * flat(x).norm());
+  }
+}
+
+TEST_CASE("a_factor_takes_new_values_on_its_pattern") {
+  Random random(2);
+  for (const NamedFactor &kind : all_factors()) {
+    CAPTURE(kind.name);
+    Factor *factor = kind.factor.get();
+    BlockMatrix m = random_matrix(random, 30, 80);
+    factor->analyse(m);
+    REQUIRE(factor->factorise(m));
+    for (uint32_t c = 0; c < m.size(); ++c) m.value[m.start[c]] *= 3;
+    REQUIRE(factor->factorise(m));
+    const Positions b = random.vectors(30, 1);
+    Positions x = b;
+    factor->solve(x);
+    // the residual of a well-conditioned solve: rounding
+    CHECK((dense(m) * flat(x) - flat(b)).norm() < kind.rounding * flat(b).norm());
+  }
+}
+
+// So a pattern may be kept while contact comes and goes.
+TEST_CASE("zeros_in_the_pattern_change_no_bit_of_the_block_factor") {
+  Random random(7);
+  for (const uint32_t n : {5u, 40u, 200u}) {
+    const BlockMatrix m = random_matrix(random, n, 3 * n);
+    std::vector<Edge> pairs = random_pairs(random, n, 4 * n);
+    for (uint32_t c = 0; c < n; ++c) {
+      for (uint32_t k = m.start[c]; k < m.start[c + 1]; ++k) pairs.push_back({c, m.row[k]});
+    }
+    BlockMatrix wider;
+    wider.set_pattern(n, pairs);
+    REQUIRE(wider.row.size() > m.row.size());
+    for (uint32_t c = 0; c < n; ++c) {
+      for (uint32_t k = m.start[c]; k < m.start[c + 1]; ++k) {
+        wider.value[wider.find(m.row[k], c)] = m.value[k];
+      }
+    }
+    const Positions b = random.vectors(n, 1);
+    Positions x = b, y = b;
+    const std::unique_ptr<Factor> factor = make_factor(MVS_BACKEND_BLOCK);
+    factor->analyse(m);
+    REQUIRE(factor->factorise(m));
+    factor->solve(x);
+    factor->analyse(wider);
+    REQUIRE(factor->factorise(wider));
+    factor->solve(y);
+    CHECK((flat(x) - flat(y)).cwiseAbs().maxCoeff() == 0);
+  }
+}
+
+TEST_CASE("every_factor_refuses_what_is_not_positive_definite") {
+  Random random(3);
+  for (const NamedFactor &kind : all_factors()) {
+    CAPTURE(kind.name);
+    Factor *factor = kind.factor.get();
+    const BlockMatrix good = random_matrix(random, 30, 80);
+    factor->analyse(good);
+    for (const uint32_t row : {0u, 11u, 29u}) {
+      BlockMatrix bad = good;
+      bad.value[bad.start[row]](1, 1) = -1;  // a negative diagonal is no positive definite matrix
+      CHECK_FALSE(factor->factorise(bad));
+      bad.value[bad.start[row]](1, 1) = std::numeric_limits<double>::quiet_NaN();
+      CHECK_FALSE(factor->factorise(bad));
+    }
+    // indefinite although every diagonal entry is positive
+    BlockMatrix hidden = good;
+    for (uint32_t k = hidden.start[0] + 1; k < hidden.start[1]; ++k) hidden.value[k] *= 1e3;
+    REQUIRE(dense(hidden).selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() < 0);
+    CHECK_FALSE(factor->factorise(hidden));
+    CHECK(factor->factorise(good));  // and is usable again afterwards
+  }
+}
+
+TEST_CASE("a_factor_made_in_parts_has_the_same_bits") {
+  Random random(9);
+  const BlockMatrix m = random_matrix(random, 150, 600);
+  const Positions b = random.vectors(150, 1);
+  for (const auto make : {make_block_factor, make_narrow_factor}) {
+    const std::unique_ptr<Factor> whole = make(), parts = make();
+    whole->analyse(m);
+    parts->analyse(m);
+    REQUIRE(whole->factorise(m));
+    for (uint32_t part = 0; part < 5; ++part) REQUIRE(parts->factorise_part(m, part, 5));
+    Positions x = b, y = b;
+    whole->solve(x);
+    parts->solve(y);
+    CHECK(x == y);
+  }
+}
+
+// What is left to double precision, and that it is: two nodes held together a thousand million
+// times as firmly as in their place.
+TEST_CASE("what_single_precision_cannot_do_is_done_in_double") {
+  BlockMatrix m;
+  m.set_pattern(2, {{0, 1}});
+  m.value = {Mat3::Identity() * (1e9 + 1), Mat3::Identity() * -1e9, Mat3::Identity() * (1e9 + 1)};
+  const Positions b = {Vec3(1, 2, 3), Vec3(0, 0, 0)};
+  const auto error = [&](const std::unique_ptr<Factor> &factor) {
+    factor->analyse(m);
+    if (!factor->factorise(m)) return 1.0;
+    Positions x = b;
+    factor->solve(x);
+    return (x[0] - 0.5 * b[0]).norm() / b[0].norm();
+  };
+  CHECK(error(make_block_factor()) < 1e-6);  // 1e9 times rounding
+  CHECK(error(make_narrow_factor()) > 0.1);
+  CHECK(error(make_refined_factor()) < 1e-6);
+}
+
+// Along a chain of which each node moves a tenth as much as the one before. Subnormal numbers take
+// some processors a hundred times as long.
+TEST_CASE("single_precision_leaves_no_subnormal_numbers_and_the_rounding_as_it_was") {
+  constexpr uint32_t n = 60;
+  std::vector<Edge> pairs;
+  for (uint32_t k = 1; k < n; ++k) pairs.push_back({k - 1, k});
+  BlockMatrix m;
+  m.set_pattern(n, pairs);
+  for (uint32_t c = 0; c < n; ++c) {
+    for (uint32_t k = m.start[c]; k < m.start[c + 1]; ++k) {
+      m.value[k] = Mat3::Identity() * (k == m.start[c] ? 10.1 : -1.0);
+    }
+  }
+  const std::unique_ptr<Factor> factor = make_narrow_factor();
+  factor->analyse(m);
+  REQUIRE(factor->factorise(m));
+  Positions x(n, Vec3::Zero());
+  x[0] = Vec3(1, 1, 1);
+  factor->solve(x);
+  CHECK(std::abs(x[30][0] / x[29][0] - 0.1) < 1e-3);
+  for (const Vec3 &xi : x) CHECK(std::fpclassify(static_cast<float>(xi[0])) != FP_SUBNORMAL);
+  volatile float tiny = std::numeric_limits<float>::min();
+  CHECK(tiny / 2 > 0);
+}
+
+TEST_CASE("an_unknown_backend_is_refused") {
+  CHECK_THROWS_AS(make_factor(99), Error);
+}
+
+// A sheet of 40 by 20 nodes, its edges told twice: its separator has 20 nodes, the last of the
+// order, and nothing joins what they separate.
+TEST_CASE("nested_dissection_separates_a_sheet_by_its_shorter_way") {
+  constexpr uint32_t wide = 40, high = 20;
+  std::vector<Edge> pairs;
+  std::vector<Vec3> place;
+  for (uint32_t i = 0; i < wide * high; ++i) {
+    place.emplace_back(i % wide, i / wide, 0);
+    if (i % wide > 0) pairs.insert(pairs.end(), {{i - 1, i}, {i, i - 1}});
+    if (i >= wide) pairs.push_back({i, i - wide});
+  }
+  const std::vector<uint32_t> order = dissection_order(pairs, place);
+  std::vector<uint32_t> rank(order.size(), none);
+  for (uint32_t k = 0; k < order.size(); ++k) rank[order[k]] = k;
+  CHECK(std::find(rank.begin(), rank.end(), none) == rank.end());
+  const uint32_t separated = wide * high - high;
+  const auto on_the_left = [&](uint32_t k) { return order[k] % wide < wide / 2; };
+  uint32_t of_first = 0;
+  while (of_first < separated && on_the_left(of_first) == on_the_left(0)) ++of_first;
+  CHECK(of_first >= separated / 2 - high);
+  for (const Edge &p : pairs) {
+    if (std::max(rank[p[0]], rank[p[1]]) >= separated) continue;
+    CHECK((rank[p[0]] < of_first) == (rank[p[1]] < of_first));
+  }
+}
+
+// A path that is eliminated from its ends leaves two numbers in each column but the last; a star
+// whose middle goes first leaves all.
+TEST_CASE("the_work_of_an_elimination_is_counted") {
+  CHECK(elimination_work({0, 1, 2, 3}, {{0, 1}, {1, 2}, {3, 2}, {1, 0}}) == 4 + 4 + 4 + 1);
+  CHECK(elimination_work({0, 1, 2, 3}, {{0, 1}, {0, 2}, {0, 3}}) == 16 + 9 + 4 + 1);
+  CHECK(elimination_work({3, 2, 1, 0}, {{0, 1}, {0, 2}, {0, 3}}) == 4 + 4 + 4 + 1);
+}
+
+TEST_CASE("a_fill_reducing_order_is_a_permutation") {
+  Random random(4);
+  for (const uint32_t n : {1u, 5u, 64u, 300u}) {
+    std::vector<uint32_t> order =
+        fill_reducing_order(n, random_pairs(random, n, n < 2 ? 0 : 4 * n));
+    std::sort(order.begin(), order.end());
+    REQUIRE(order.size() == n);
+    for (uint32_t k = 0; k < n; ++k) CHECK(order[k] == k);
+  }
+}
+
+TEST_CASE("gmres_solves_an_unsymmetric_system") {
+  Random random(5);
+  const uint32_t n = 20;
+  // the identity and something small beside it, as a factorisation leaves it
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(3 * n, 3 * n);
+  for (Eigen::Index i = 0; i < a.size(); ++i) a(i) += random(-0.1, 0.1);
+  const auto apply = [&](const Positions &v) {
+    const Eigen::VectorXd y = a * flat(v);
+    Positions result(n);
+    for (uint32_t i = 0; i < n; ++i) result[i] = y.segment<3>(3 * i);
+    return result;
+  };
+  const Positions b = random.vectors(n, 1);
+  for (const double tolerance : {1e-3, 1e-10}) {
+    Positions x = b;
+    const double reached = gmres(apply, x, 60, tolerance);
+    CHECK(reached <= tolerance);
+    // what it says it has reached is what it has reached, to rounding
+    const double residual = (a * flat(x) - flat(b)).norm() / flat(b).norm();
+    CHECK(residual == doctest::Approx(reached).epsilon(1e-6).scale(1e-6));
+  }
+  Positions zero(n, Vec3::Zero());
+  CHECK(gmres(apply, zero, 60, 1e-10) == 0);
+  CHECK(largest(zero) == 0);
+}
+
+TEST_CASE("gmres_stops_at_its_limit_and_says_how_far_it_got") {
+  Random random(6);
+  Eigen::MatrixXd a(60, 60);
+  for (Eigen::Index i = 0; i < a.size(); ++i) a(i) = random(-1, 1);
+  const auto apply = [&](const Positions &v) {
+    const Eigen::VectorXd y = a * flat(v);
+    Positions result(20);
+    for (uint32_t i = 0; i < 20; ++i) result[i] = y.segment<3>(3 * i);
+    return result;
+  };
+  const Positions b = random.vectors(20, 1);
+  Positions x = b;
+  const double reached = gmres(apply, x, 5, 1e-10);
+  CHECK(reached > 1e-10);
+  CHECK(reached <= 1);
+  CHECK((a * flat(x) - flat(b)).norm() == about(reached * flat(b).norm(), 1e-9));
+}

@@ -1,0 +1,321 @@
+// Conjugate gradients around a factor, factors made in parts, and live steps that go on with one
+// made earlier.
+#include <doctest/doctest.h>
+
+#include <mvs/sim.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "anatomy/parametric.h"
+#include "linalg/direct_solver.h"
+#include "linalg/pcg.h"
+#include "linalg/spmv.h"
+#include "solve/dynamic/cached_preconditioner.h"
+#include "tests/solve/bench.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+Positions rows_of(const Eigen::VectorXd &v) {
+  Positions rows(static_cast<size_t>(v.size() / 3));
+  for (size_t i = 0; i < rows.size(); ++i) rows[i] = v.segment<3>(3 * static_cast<Eigen::Index>(i));
+  return rows;
+}
+
+// 1, base, base squared and so on.
+Eigen::VectorXd powers_of(double base) {
+  Eigen::VectorXd values(30);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values[i] = std::pow(base, static_cast<double>(i));
+  }
+  return values;
+}
+
+// Symmetric, with these eigenvalues.
+Eigen::MatrixXd with_spectrum(Random &random, const Eigen::VectorXd &values) {
+  Eigen::MatrixXd any(values.size(), values.size());
+  for (Eigen::Index i = 0; i < any.size(); ++i) any(i) = random(-1, 1);
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(any).householderQ();
+  return q * values.asDiagonal() * q.transpose();
+}
+
+PcgResult solve(const Eigen::MatrixXd &a, const Positions &b, Positions &x, const PcgGoal &goal) {
+  Pcg pcg;
+  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(a * flat(v)); };
+  const auto none_there = [](const Positions &r, Positions &z) { z = r; };
+  return pcg.solve(multiply, none_there, b, x, goal);
+}
+
+ModelPtr a_valve() {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = 200;
+  return make_model(make_parametric_valve(desc));
+}
+
+// Closed, then pulsing: always in motion.
+void pulse(State &state, int step) {
+  state.load.pressure = MVS_SYSTOLE_PA * (0.9 + 0.1 * std::cos(0.05 * step));
+}
+
+}  // namespace
+
+// As many iterations as there are different eigenvalues, in exact arithmetic (Hestenes & Stiefel).
+TEST_CASE("conjugate_gradients_end_after_as_many_iterations_as_eigenvalues") {
+  Random random(11);
+  Eigen::VectorXd values(30);
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = 1.0 + static_cast<double>(i % 3);
+  const Eigen::MatrixXd a = with_spectrum(random, values);
+  const Positions b = random.vectors(10, 1);
+  Positions x;
+  const PcgResult two = solve(a, b, x, {1e-12, 2});
+  CHECK(two.iterations == 2);
+  CHECK(two.error > 1e-6);
+  const PcgResult three = solve(a, b, x, {1e-12, 30});
+  CHECK(three.iterations == 3);
+  // rounding of thirty sums
+  CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
+}
+
+TEST_CASE("what_conjugate_gradients_say_is_left_is_left") {
+  Random random(12);
+  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.4));
+  const Positions b = random.vectors(10, 1);
+  for (const uint32_t most : {1u, 4u, 9u}) {
+    Positions x;
+    const PcgResult result = solve(a, b, x, {1e-12, most});
+    const double left = (a * flat(x) - flat(b)).norm() / flat(b).norm();
+    CHECK(result.iterations == most);
+    CHECK(result.error == doctest::Approx(left).epsilon(1e-8));
+    CHECK(flat(b).dot(flat(x)) > 0);  // downhill
+  }
+}
+
+// With an exact preconditioner what is left after the guess is known, and one iteration takes it.
+TEST_CASE("conjugate_gradients_begin_with_a_guess_that_leads_downhill") {
+  Random random(16);
+  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.4));
+  const Eigen::LLT<Eigen::MatrixXd> exact(a);
+  const Positions b = random.vectors(10, 1);
+  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(a * flat(v)); };
+  const auto precondition = [&](const Positions &r, Positions &z) {
+    z = rows_of(exact.solve(flat(r)));
+  };
+  const double size = std::sqrt(flat(b).dot(exact.solve(flat(b))));
+  Pcg pcg;
+  Positions x;
+  const Positions solution = rows_of(0.3 * exact.solve(flat(b)));
+  for (const Positions &guess : {solution, random.vectors(10, 1), rows_of(-flat(solution))}) {
+    const PcgResult result = pcg.solve(multiply, precondition, b, guess, x, {1e-3, 0});
+    const Eigen::VectorXd left = flat(b) - a * flat(x);
+    CHECK(flat(b).dot(flat(x)) >= 0);
+    // what is lost where nearly all of b is taken off
+    CHECK(std::abs(result.error - std::sqrt(left.dot(exact.solve(left))) / size) <= 1e-7);
+  }
+  CHECK(flat(x).isZero(0));  // nothing of one that leads uphill
+  // the step that nothing asks for brings back what the guess lacks
+  CHECK(pcg.solve(multiply, precondition, b, solution, x, {0.9, 9}).iterations == 1);
+  CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
+}
+
+TEST_CASE("conjugate_gradients_give_up_what_they_cannot_reach") {
+  Random random(14);
+  const Eigen::MatrixXd a = with_spectrum(random, powers_of(2.0));
+  const Positions b = random.vectors(10, 1);
+  Positions x;
+  const PcgResult given_up = solve(a, b, x, {1e-3, 8, 0.1});
+  CHECK(given_up.iterations == 2);
+  CHECK(given_up.error > 0.1);
+  CHECK(solve(a, b, x, {1e-3, 8}).iterations == 8);
+}
+
+TEST_CASE("conjugate_gradients_that_take_long_end_with_less") {
+  Random random(15);
+  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.1));
+  const Positions b = random.vectors(10, 1);
+  Positions x;
+  const uint32_t all = solve(a, b, x, {1e-3, 30}).iterations;
+  REQUIRE(all > 6);
+  PcgGoal goal{1e-3, 30};
+  goal.patience = 4;
+  goal.enough = 0.9;
+  const PcgResult impatient = solve(a, b, x, goal);
+  CHECK(impatient.iterations == 4);
+  CHECK(impatient.error <= 0.9);
+  goal.enough = 0.1;
+  const PcgResult later = solve(a, b, x, goal);
+  CHECK(later.iterations > 4);
+  CHECK(later.iterations < all);
+  CHECK(later.error <= 0.1);
+  goal.patience = all;  // what comes to its goal before
+  CHECK(solve(a, b, x, goal).iterations == all);
+}
+
+TEST_CASE("conjugate_gradients_stop_where_the_matrix_is_not_positive_definite") {
+  Random random(13);
+  Eigen::VectorXd values = Eigen::VectorXd::Ones(30);
+  values[0] = -5;
+  const Positions b = random.vectors(10, 1);
+  Positions x;
+  const PcgResult result = solve(with_spectrum(random, values), b, x, {1e-10, 30});
+  CHECK(result.iterations < 30);
+  CHECK(result.error > 1e-10);
+  CHECK(flat(b).dot(flat(x)) >= 0);
+  const PcgResult nothing =
+      solve(with_spectrum(random, values), Positions(10, Vec3::Zero()), x, {0, 9});
+  CHECK(nothing.error == 0);
+  CHECK(largest(x) == 0);
+}
+
+// A factor in parts is the factor.
+TEST_CASE("parts_of_a_factor_give_its_bits") {
+  const ModelPtr model = a_valve();
+  State state = closed(*model);
+  Potential potential(*model);
+  Profile profile{};
+  Positions g;
+  potential.set_pressure(state.load.pressure);
+  potential.prepare(state.x, state.x, 0, profile);
+  potential.gradient(state.x, g, profile);
+  StepMatrix matrix(*model);
+  matrix.assemble(potential, state.x, {1e-3, 0, 64, true}, nullptr, profile);
+  for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN}) {
+    CAPTURE(backend);
+    KeptFactor whole(*model, make_factor(backend)), parts(*model, make_factor(backend));
+    const Waypoint place{state.x, {}, state.load.pressure, 1e-3, 0, 0};
+    whole.take(matrix, place, nullptr);
+    parts.take(matrix, place, nullptr);
+    REQUIRE(whole.factorise());
+    for (uint32_t part = 0; part < KeptFactor::parts; ++part) {
+      CHECK(!parts.is_of(place, KeptFactor::parts));
+      REQUIRE(parts.factorise_part(part));
+      REQUIRE(parts.factorise_part(0));  // what is done stays
+    }
+    CHECK(parts.is_of(place, KeptFactor::parts));
+    Positions rows(matrix.size()), x, y, back;
+    for (size_t r = 0; r < rows.size(); ++r) rows[r] = g[matrix.node(static_cast<uint32_t>(r))];
+    rows[3] = Vec3(1e-3, -2e-3, 3e-3);
+    whole.solve(rows, x);
+    parts.solve(rows, y);
+    CHECK(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)) == 0);
+    // and of the matrix that products are of
+    BlockProduct().multiply(matrix.blocks(), x, back);
+    for (size_t r = 0; r < rows.size(); ++r) back[r] -= rows[r];
+    CHECK(largest(back) <= 1e-9 * largest(rows));  // its condition times rounding
+  }
+}
+
+// Beside a step that factorises its own matrix, at the same state.
+TEST_CASE("an_earlier_factor_serves_within_its_tolerance") {
+  const ModelPtr model = a_valve();
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT), direct(MVS_BACKEND_DEFAULT);
+  uint32_t served = 0, whole = 0;
+  for (int k = 0; k < 200; ++k) {
+    if (k % 4 == 0) pulse(state, k);
+    State alone = state;
+    alone.forget_way();
+    const State before = state;
+    const SolveStats stats = solver.step(*model, state, {});
+    const SolveStats exact = direct.step(*model, alone, {});
+    if ((exact.skipped & MVS_SKIPPED_STEP) != 0) continue;
+    CHECK(exact.factorisations > 0);
+    whole += stats.factorisations;
+    served += (stats.skipped & MVS_SKIPPED_FACTOR) != 0;
+    if (stats.lowered != 0 || exact.lowered != 0) continue;
+    double far = 0, off = 0;
+    for (size_t i = 0; i < state.x.size(); ++i) {
+      far = std::max(far, (alone.x.get()[i] - before.x.get()[i]).norm());
+      off = std::max(off, (alone.x.get()[i] - state.x.get()[i]).norm());
+    }
+    // 2 % of the residual at most, in the norm of the factor; of the longest way, with what step
+    // bounds make of it
+    CHECK(off <= 0.05 * far);
+  }
+  CHECK(served > 100);
+  CHECK(whole < 40);
+}
+
+TEST_CASE("a_valve_that_wakes_makes_no_factor") {
+  const ModelPtr model = a_valve();
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  state.load.pressure *= 0.95;
+  bool asleep = false;
+  for (int k = 0; k < 2000 && !asleep; ++k) {
+    asleep = (solver.step(*model, state, {}).skipped & MVS_SKIPPED_STEP) != 0;
+  }
+  REQUIRE(asleep);
+  CHECK(!state.serving.x.empty());
+  state.load.pressure *= 1.01;
+  const SolveStats stats = solver.step(*model, state, {});
+  CHECK((stats.skipped & MVS_SKIPPED_STEP) == 0);
+  CHECK(stats.factorisations == 0);
+}
+
+TEST_CASE("a_valve_that_was_settled_has_no_waypoints") {
+  const ModelPtr model = a_valve();
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  state.load.pressure *= 0.95;
+  for (int k = 0; k < 5; ++k) solver.step(*model, state, {});
+  CHECK(!state.serving.x.empty());
+  SUBCASE("settled") {
+    solver.settle(*model, state, {}, {});
+  }
+  SUBCASE("another step in time") {
+    SolveOptions how;
+    how.solver = MVS_SOLVER_EXPLICIT;
+    solver.step(*model, state, how);
+  }
+  CHECK(state.serving.x.empty());
+  CHECK(state.coming.x.empty());
+}
+
+// A state may come from anywhere: forwards, backwards, with a factor half made.
+TEST_CASE("going_back_and_forth_changes_no_bit") {
+  const ModelPtr model = a_valve();
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  std::vector<State> states;
+  for (int k = 0; k < 40; ++k) {
+    if (k % 4 == 0) pulse(state, 5 * k);
+    states.push_back(state);
+    solver.step(*model, state, {});
+  }
+  const auto same = [](const State &a, const State &b) {
+    return std::memcmp(a.x.data(), b.x.data(), a.x.size() * sizeof(Vec3)) == 0 &&
+           a.serving.age == b.serving.age && a.coming.age == b.coming.age;
+  };
+  for (const int from : {30, 3, 21, 22, 8, 36, 20}) {
+    State again = states[from];
+    for (int k = from; k < from + 3; ++k) {
+      again.load = states[k].load;
+      solver.step(*model, again, {});
+      State told = states[k + 1];
+      REQUIRE(same(again, told));
+    }
+  }
+}
+
+// As a file may say.
+TEST_CASE("a_factor_with_more_parts_than_there_are_is_left_out") {
+  const ModelPtr model = a_valve();
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  state.load.pressure *= 0.9;
+  solver.step(*model, state, {});
+  REQUIRE(!state.serving.x.empty());
+  for (const uint32_t age : {KeptFactor::parts + 1, UINT32_MAX}) {
+    State other = state;
+    other.coming = other.serving;
+    other.coming.age = age;
+    solver.step(*model, other, {});
+    CHECK(other.coming.age <= KeptFactor::parts);
+  }
+}

@@ -1,0 +1,124 @@
+// Tenting and billow against closed forms.
+#include "measure/tenting_billow.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/measure/shapes.h"
+
+namespace mvs::core::test {
+namespace {
+
+constexpr double radius = 18e-3, depth = 5e-3;
+
+// The polygon of 96 sides loses 0.07 % of the circle, the rings of 0.7 mm 0.1 % of the bowl's
+// volume, and the pinhole of 0.05 mm nothing.
+constexpr double meshed = 3e-3;
+
+Sheet bowl(double height, double saddle = 0) {
+  Sheet sheet = disc(radius, 0.05e-3, [=](double x, double y) {
+    const double r2 = (x * x + y * y) / (radius * radius);
+    return height * (1 - r2) + 0.5 * saddle * (x * x - y * y) / (radius * radius);
+  });
+  sheet.around = 96;
+  sheet.rings = 26;
+  return sheet;
+}
+
+Doming doming_of(const Sheet &sheet) {
+  const ModelPtr model = model_of(sheet);
+  return measure_doming(*model, model->valve.rest);
+}
+
+}  // namespace
+
+TEST_CASE("a_bowl_tents_by_its_paraboloid") {
+  const Doming doming = doming_of(bowl(-depth));
+  // the lowest cell is 0.1 mm off the axis, and the ball sinks 0.004 mm into the pinhole
+  CHECK(doming.tenting_height == about(depth, 2e-3));
+  CHECK(doming.tenting_area == about(4.0 / 3 * radius * depth, meshed));
+  CHECK(doming.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
+  CHECK(doming.billow_height == 0);
+  CHECK(doming.billow_volume == 0);
+}
+
+TEST_CASE("a_dome_billows_by_its_paraboloid") {
+  const Doming doming = doming_of(bowl(depth));
+  CHECK(doming.billow_height == about(depth, 1e-3));
+  CHECK(doming.billow_volume == about(0.5 * pi * radius * radius * depth, meshed));
+  CHECK(doming.tenting_height == 0);
+  CHECK(doming.tenting_area == 0);
+  CHECK(doming.tenting_volume == 0);
+}
+
+TEST_CASE("a_sheet_on_its_saddle_neither_tents_nor_billows") {
+  const Doming doming = doming_of(bowl(0, 6e-3));
+  // 24 rings of elements follow the saddle to 1 um where it is steepest
+  CHECK(doming.billow_height < 5e-6);
+  CHECK(doming.tenting_volume < 5e-6 * pi * radius * radius);
+  CHECK(doming.billow_volume < 5e-6 * pi * radius * radius);
+}
+
+TEST_CASE("volumes_are_counted_from_the_saddle_not_from_the_plane") {
+  const Doming doming = doming_of(bowl(-depth, 6e-3));
+  CHECK(doming.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
+  CHECK(doming.tenting_area == about(4.0 / 3 * radius * depth, meshed));
+  CHECK(doming.billow_height < 5e-6);
+}
+
+TEST_CASE("half_a_valve_can_tent_while_the_other_billows") {
+  Sheet sheet = disc(radius, 0.05e-3, [](double x, double y) {
+    return depth * x / radius * (1 - (x * x + y * y) / (radius * radius));
+  });
+  sheet.around = 96;
+  sheet.rings = 26;
+  const Doming doming = doming_of(sheet);
+  CHECK(doming.billow_volume == about(4.0 / 15 * depth * radius * radius, meshed));
+  CHECK(doming.tenting_volume == about(4.0 / 15 * depth * radius * radius, meshed));
+  const double highest = depth * 2 / (3 * std::sqrt(3.0));
+  CHECK(doming.billow_height == about(highest, 1e-3));  // nodes every 0.7 mm see the flat top
+  CHECK(doming.tenting_height == about(highest, 1e-3));
+}
+
+TEST_CASE("what_hangs_below_the_coaptation_line_does_not_tent") {
+  const auto closed = [](double wall) {
+    Sheet sheet;
+    sheet.around = 96;
+    sheet.rings = 24;
+    sheet.at = [=](double angle, double s) -> Vec3 {
+      const Vec3 rim(14e-3 * std::cos(angle), 18e-3 * std::sin(angle), 0);
+      const double side = std::clamp(1e3 * std::cos(angle), -1.0, 1.0);
+      const Vec3 line(0.25e-3 * side, 14e-3 * std::sin(angle), -4e-3);
+      const double belly = std::min(1.0, 2 * s), down = std::max(0.0, 2 * s - 1) * wall;
+      return (1 - belly) * rim + belly * line - Vec3(0, 0, down);
+    };
+    return sheet;
+  };
+  const Doming little = doming_of(closed(2e-3)), lot = doming_of(closed(9e-3));
+  // the ball of 0.6 mm sinks 0.13 mm into the gap of 0.5 mm between their upper edges; cells of
+  // 0.11 mm see that to 0.1 mm
+  for (const double height : {little.tenting_height, lot.tenting_height}) {
+    CHECK(height > 4.03e-3);
+    CHECK(height < 4.14e-3);
+  }
+  CHECK(lot.tenting_volume == about(little.tenting_volume, 2e-3));
+  CHECK(lot.tenting_area == about(0.5 * 28e-3 * 4e-3, 0.02));  // a triangle, but for the gap
+}
+
+TEST_CASE("doming_survives_motion_and_renumbering") {
+  const Valve valve = valve_of(bowl(-depth, 6e-3));
+  const ModelPtr model = make_model(valve);
+  const Doming still = measure_doming(*model, valve.rest);
+  const auto check_same = [&](const Doming &other) {
+    // rounding of 0.3 m against heights of 5 mm; a cell on the very rim is 1e-8 of the volume
+    CHECK(other.tenting_height == about(still.tenting_height, 1e-8));
+    CHECK(other.tenting_area == about(still.tenting_area, 1e-8));
+    CHECK(other.tenting_volume == about(still.tenting_volume, 1e-6));
+  };
+  check_same(measure_doming(*model, moved(valve.rest, some_rigid_motion())));
+  const Renumbered other = renumbered(valve);
+  check_same(measure_doming(*other.model, other(valve.rest)));
+}
+
+}  // namespace mvs::core::test

@@ -1,0 +1,176 @@
+// The live step: the same bits from any solver, bounded by its budget, asleep at rest.
+#include <doctest/doctest.h>
+
+#include <mvs/sim.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "anatomy/parametric.h"
+#include "geometry/intersect.h"
+#include "solve/dynamic/implicit_euler.h"
+#include "tests/solve/bench.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+constexpr double systole = MVS_SYSTOLE_PA;
+
+ModelPtr small_parametric() {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = 200;
+  desc.annulus_contraction = 0.9;
+  return make_model(make_parametric_valve(desc));
+}
+
+// The leaflets part and meet again.
+void beat(State &state, int step) {
+  state.load.pressure = systole * (0.55 + 0.45 * std::cos(0.1 * step));
+}
+
+bool same(const Positions &a, const Positions &b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+bool same(const State &a, const State &b) {
+  return same(a.x.get(), b.x.get()) && same(a.v.get(), b.v.get()) && a.steps == b.steps;
+}
+
+}  // namespace
+
+// What a solver keeps (pattern, candidates, forces) never shows: one that has seen contact come and
+// go, and one that begins in the middle, go on alike.
+TEST_CASE("steps_under_a_changing_load_have_the_same_bits_from_any_state") {
+  const ModelPtr model = small_parametric();
+  for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN}) {
+    CAPTURE(backend);
+    State state = closed(*model);
+    Solver one(backend);
+    for (int k = 0; k < 120; ++k) {
+      if (k % 4 == 0) beat(state, k);
+      if (k % 40 == 20) {
+        State other = state;
+        Solver fresh(backend);
+        State ahead = state;
+        for (int j = 0; j < 15; ++j) {
+          fresh.step(*model, other, {});
+          one.step(*model, ahead, {});
+          REQUIRE(same(other, ahead));
+        }
+      }
+      one.step(*model, state, {});
+    }
+  }
+}
+
+TEST_CASE("a_short_budget_lowers_accuracy_and_says_so_never_safety") {
+  const ModelPtr model = small_parametric();
+  for (const uint32_t budget : {4u, 5u, 8u, 64u}) {
+    CAPTURE(budget);
+    State state = initial_state(*model);
+    state.load = {systole, 1};
+    SolveOptions options;
+    options.budget = budget;
+    Solver solver(MVS_BACKEND_DEFAULT);
+    uint32_t lowered = 0;
+    for (int k = 0; k < 150; ++k) {
+      const SolveStats stats = solver.step(*model, state, options);
+      lowered |= stats.lowered;
+      // matrix, factors and energies, and the forces before the first step
+      REQUIRE(stats.work.passes + stats.factorisations <= budget + 1);
+      REQUIRE(std::isfinite(stats.residual));
+      if (k % 10 == 0) REQUIRE(find_intersections(state.x, model->valve.triangles).empty());
+    }
+    if (budget == 4) CHECK(lowered != 0);
+    if (budget == 64) CHECK(lowered == 0);
+  }
+}
+
+// A disc has no free edge: its energy is one number, and what a step makes can be told.
+TEST_CASE("a_short_budget_makes_no_energy") {
+  const Model disc = clamped_disc(5, 12e-3, [](Valve &) {});
+  for (const uint32_t budget : {4u, 6u}) {
+    State state = initial_state(disc);
+    state.load.pressure = systole;
+    SolveOptions options;
+    options.budget = budget;
+    options.dt = 5e-3;
+    Solver solver(MVS_BACKEND_DEFAULT);
+    double before = total_energy(disc, state), scale = std::abs(before);
+    for (int k = 0; k < 60; ++k) {
+      solver.step(disc, state, options);
+      const double after = total_energy(disc, state);
+      scale = std::max(scale, std::abs(after));
+      // rounding of sums of some hundred terms
+      REQUIRE(after <= before + 1e-11 * scale);
+      before = after;
+    }
+  }
+}
+
+TEST_CASE("a_valve_at_rest_sleeps_until_something_changes") {
+  const ModelPtr model = small_parametric();
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  const State before = state;
+  for (int k = 0; k < 3; ++k) {
+    const SolveStats stats = solver.step(*model, state, {});
+    CHECK((stats.skipped & MVS_SKIPPED_STEP) != 0);
+    CHECK(stats.factorisations == 0);
+    CHECK(stats.residual <= rest_force(state.load));
+  }
+  CHECK(state.x == before.x);
+  CHECK(state.steps == 3);
+  SUBCASE("the load") {
+    state.load.pressure *= 0.99;
+  }
+  SUBCASE("the boundary") {
+    state.load.boundary_fraction = 0.99;
+  }
+  SUBCASE("a position") {
+    state.x[60].z() += 1e-5;
+  }
+  SUBCASE("a velocity") {
+    const auto node = static_cast<size_t>(
+        std::find(model->topology.fixed.begin(), model->topology.fixed.end(), 0) -
+        model->topology.fixed.begin());
+    state.v[node].z() = 0.1;
+  }
+  CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_STEP) == 0);
+}
+
+// The tolerance follows the load: what a little pressure moves does not sleep.
+TEST_CASE("an_unloaded_valve_rests_only_without_forces") {
+  CHECK(rest_force({0, 0}) == about(1e-9, 1e-9));
+  CHECK(rest_force({systole, 1}) >= 1e-5);
+  CHECK(rest_force({-systole, 1}) == rest_force({systole, 1}));
+  CHECK(rest_force({10 * systole, 1}) == rest_force({systole, 1}));
+}
+
+// Steps of 20 ms go farther than any node may: cut node by node they lead uphill, where a valve
+// that takes none of them would hang for ever.
+TEST_CASE("a_valve_out_of_balance_does_not_stand_still") {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = 425;
+  const ModelPtr model = make_model(make_parametric_valve(desc));
+  State state = closed(*model);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  SolveOptions options;
+  options.dt = 20e-3;
+  for (const double pressure : {0.0, systole}) {
+    state.load.pressure = pressure;
+    for (int k = 0; k < 100; ++k) {
+      const State before = state;
+      const SolveStats stats = solver.step(*model, state, options);
+      CAPTURE(pressure);
+      CAPTURE(k);
+      const bool rests = stats.residual <= rest_force(state.load);
+      CHECK((rests || !same(before.x.get(), state.x.get())));
+    }
+  }
+}

@@ -1,0 +1,76 @@
+// A piece of a closed valve feels what the whole feels, and settles without crossing the rest.
+#include "solve/static/local_subproblem.h"
+
+#include <doctest/doctest.h>
+#include <mvs/sim.h>
+
+#include "anatomy/parametric.h"
+#include "energy/total_energy.h"
+#include "geometry/intersect.h"
+#include "solve/solver.h"
+#include "tests/solve/bench.h"
+
+namespace mvs::core::test {
+namespace {
+
+std::vector<Vec3> gradient(const Model &model, const std::vector<Vec3> &x) {
+  Potential potential(model);
+  Profile profile{};
+  std::vector<Vec3> g;
+  potential.set_pressure(MVS_SYSTOLE_PA);
+  potential.prepare(x, x, 0, profile);
+  potential.gradient(x, g, profile);
+  return g;
+}
+
+}  // namespace
+
+TEST_CASE("free_nodes_of_a_piece_feel_what_they_feel_in_the_whole_valve") {
+  const ModelPtr model = make_model(make_parametric_valve({}));
+  State state = closed(*model);
+  std::vector<Vec3> x = state.x.get();
+  const uint32_t place = model->valve.chords[3].b;
+  const Region region = cut_out(*model, x, {place}, {8e-3, x.size(), 2e-3});
+  REQUIRE(region.node.size() < x.size());
+  // as far as the leash allows, so that what lies beyond the piece could come into reach
+  size_t free = 0;
+  for (size_t k = 0; k < region.node.size(); ++k) {
+    if (region.model.topology.fixed[k]) continue;
+    x[region.node[k]] += Vec3(0, 1.2e-3, k % 2 == 0 ? 1e-3 : -1e-3);
+    ++free;
+  }
+  CHECK(free > 20);
+  std::vector<Vec3> piece_x;
+  for (const uint32_t i : region.node) piece_x.push_back(x[i]);
+  const std::vector<Vec3> whole = gradient(*model, x), piece = gradient(region.model, piece_x);
+  double largest = 0, difference = 0;
+  for (size_t k = 0; k < region.node.size(); ++k) {
+    if (region.model.topology.fixed[k]) continue;
+    largest = std::max(largest, whole[region.node[k]].norm());
+    difference = std::max(difference, (whole[region.node[k]] - piece[k]).norm());
+  }
+  CHECK(largest > 0.1);
+  // the same sums in another order and about another origin: rounding
+  CHECK(difference < 1e-10 * largest);
+}
+
+TEST_CASE("a_closed_valve_comes_to_rest_after_a_chord_is_cut_or_tightened_with_nothing_crossing") {
+  Valve valve = make_parametric_valve({});
+  const State before = closed(*make_model(valve));
+  for (const double factor : {0.75, 50.0}) {  // so long a chord pulls at nothing
+    CAPTURE(factor);
+    Valve changed = valve;
+    changed.chords[3].rest_length *= factor;
+    const ModelPtr model = make_model(changed);
+    State first = before, again = before;
+    Solver solver(MVS_BACKEND_DEFAULT), used(MVS_BACKEND_DEFAULT);
+    State open = initial_state(*model);
+    used.settle(*model, open, {}, {});
+    CHECK(solver.settle(*model, first, {}, {}).converged);
+    used.settle(*model, again, {}, {});
+    CHECK(find_intersections(first.x, model->valve.triangles).empty());
+    CHECK(hash_of(*model, first) == hash_of(*model, again));
+  }
+}
+
+}  // namespace mvs::core::test

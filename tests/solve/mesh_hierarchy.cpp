@@ -1,0 +1,95 @@
+// Closing over coarser meshes: the same shape for less work, and the plain closure where it would
+// not pay.
+#include "solve/static/mesh_hierarchy.h"
+
+#include <doctest/doctest.h>
+#include <mvs/sim.h>
+
+#include "anatomy/parametric.h"
+#include "base/error.h"
+#include "geometry/intersect.h"
+
+using namespace mvs::core;
+
+namespace {
+
+ModelPtr valve_of(uint32_t vertices) {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = vertices;
+  return make_model(make_parametric_valve(desc));
+}
+
+State loaded(const Model &model) {
+  State state = initial_state(model);
+  state.load = {MVS_SYSTOLE_PA, 1};
+  return state;
+}
+
+double farthest(const State &a, const State &b) {
+  double most = 0;
+  for (size_t i = 0; i < a.x.size(); ++i) most = std::max(most, (a.x[i] - b.x[i]).norm());
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_iterations") {
+  const ModelPtr model = valve_of(1700);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  State plain = loaded(*model), levels = plain, again = plain;
+  const SolveStats direct = solver.settle(*model, plain, {}, {});
+  const SolveStats stats = settle_by_levels(solver, *model, levels, {}, {});
+  CHECK(stats.converged);
+  CHECK(stats.residual <= 1e-5);
+  CHECK(stats.iterations < direct.iterations);
+  CHECK(stats.factorisations > stats.iterations);  // those of the coarse mesh are counted
+  CHECK(find_intersections(levels.x, model->valve.triangles).empty());
+  // this valve has one closed shape; forces of 1e-5 N move its softest nodes by micrometres
+  CHECK(farthest(plain, levels) < 0.01e-3);
+  CHECK(levels.load.pressure == MVS_SYSTOLE_PA);
+  Solver other(MVS_BACKEND_DEFAULT);
+  settle_by_levels(other, *model, again, {}, {});
+  CHECK(hash_of(*model, again) == hash_of(*model, levels));
+}
+
+TEST_CASE("a_small_valve_and_one_near_rest_are_settled_as_they_are") {
+  Solver solver(MVS_BACKEND_DEFAULT);
+  for (const uint32_t vertices : {425u, 1700u}) {
+    const ModelPtr model = valve_of(vertices);
+    State plain = loaded(*model);
+    if (vertices > cascade_vertices) {
+      solver.settle(*model, plain, {}, {});
+      plain.load.pressure *= 1.02;
+      CHECK_FALSE(far_from_rest(*model, plain));
+    }
+    State levels = plain;
+    solver.settle(*model, plain, {}, {});
+    settle_by_levels(solver, *model, levels, {}, {});
+    CHECK(hash_of(*model, plain) == hash_of(*model, levels));
+  }
+}
+
+TEST_CASE("progress_goes_up_over_the_levels_and_can_cancel") {
+  const ModelPtr model = valve_of(1300);
+  Solver solver(MVS_BACKEND_DEFAULT);
+  State state = loaded(*model);
+  double last = 0;
+  int calls = 0;
+  settle_by_levels(solver, *model, state, {}, [&](double share, double) {
+    CHECK(share >= last);
+    CHECK(share <= 1);
+    last = share;
+    ++calls;
+    return true;
+  });
+  CHECK(calls > 20);
+  for (const int most : {2, calls - 3}) {
+    State stopped = loaded(*model);
+    int told = 0;
+    CHECK_THROWS_AS(settle_by_levels(solver, *model, stopped, {},
+                                     [&](double, double) { return ++told < most; }),
+                    Error);
+    CHECK(told == most);
+  }
+}

@@ -1,0 +1,288 @@
+// The static closure: it comes to rest, says so truthfully, and depends on nothing it should not.
+#include <doctest/doctest.h>
+
+#include <mvs/sim.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "energy/forces.h"
+#include "geometry/intersect.h"
+#include "model/check.h"
+#include "tests/model/real_valves.h"
+#include "tests/model/small_valve.h"
+#include "tests/solve/bench.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+constexpr double systole = MVS_SYSTOLE_PA;
+
+// The largest force on a node that is free to move, found anew from the state alone.
+double residual_of(const Model &model, const State &state) {
+  const Forces forces = evaluate_forces(model, state);
+  double most = 0;
+  for (size_t i = 0; i < state.x.size(); ++i) {
+    if (!model.topology.fixed[i]) most = std::max(most, forces.total[i].norm());
+  }
+  return most;
+}
+
+// At rest, honestly so, and nowhere through itself.
+void check_rest(const Model &model, const Settled &settled, double tolerance) {
+  CHECK(settled.stats.converged);
+  CHECK(settled.stats.residual <= tolerance);
+  // the same sums over the same numbers; near rest they cancel, forces themselves are below 1 N
+  CHECK(residual_of(model, settled.state) ==
+        doctest::Approx(settled.stats.residual).epsilon(1e-12).scale(1));
+  CHECK(find_intersections(settled.state.x, model.valve.triangles).empty());
+  CHECK(largest(settled.state.v) == 0);
+}
+
+Valve moving_valve() {
+  Valve valve = small_valve();
+  valve.loaded = valve.rest;
+  for (const uint32_t node : valve.annulus) {
+    valve.loaded[node].x() *= 0.92;
+    valve.loaded[node].z() -= 1e-3;
+  }
+  for (const Head &head : valve.heads) valve.loaded[head.node].z() += 2e-3;
+  return valve;
+}
+
+Model soft_disc(uint32_t rings) {
+  return clamped_disc(rings, 12e-3, [](Valve &) {});
+}
+
+bool same_bits(const State &a, const State &b) {
+  return a.x == b.x && a.v == b.v && a.time == b.time && a.steps == b.steps;
+}
+
+}  // namespace
+
+TEST_CASE("a_valve_comes_to_rest_at_any_pressure_without_crossing_itself") {
+  const ModelPtr model = make_model(moving_valve());
+  for (const double pressure : {0.0, 500.0, 4e3, systole, 30e3}) {
+    CAPTURE(pressure);
+    const Settled settled = settle(*model, pressure, 1);
+    check_rest(*model, settled, 1e-5);
+    for (uint32_t i = 0; i < model->node_count(); ++i) {
+      // the boundary is where it was sent, to the bit
+      if (model->topology.fixed[i]) CHECK(settled.state.x[i] == model->target(i, 1));
+    }
+  }
+}
+
+TEST_CASE("reactions_carry_what_the_pressure_pushes") {
+  const ModelPtr model = make_model(moving_valve());
+  const Settled settled = settle(*model, systole, 1);
+  REQUIRE(settled.stats.converged);
+  const Forces forces = evaluate_forces(*model, settled.state);
+  // the force of the pressure itself, from the triangles
+  Vec3 pushed = Vec3::Zero(), reaction = Vec3::Zero(), contact = Vec3::Zero();
+  const auto &x = settled.state.x;
+  for (const Tri &t : model->valve.triangles) {
+    const Vec3 a = x[t[1]] - x[t[0]], b = x[t[2]] - x[t[0]];
+    pushed += 0.5 * systole *
+              Vec3(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+                   a.x() * b.y() - a.y() * b.x());
+  }
+  for (size_t i = 0; i < x.size(); ++i) {
+    if (model->topology.fixed[i]) reaction += forces.total[i];
+    contact += forces.contact[i];
+  }
+  // total forces on prescribed nodes are what the heart holds against; 66 nodes out of balance by
+  // up to 1e-5 N each
+  CHECK((reaction - pushed).norm() < 66 * 1e-5);
+  CHECK(pushed.norm() > 1);
+  CHECK(contact.norm() < 1e-12);  // contact pushes both sides alike: rounding
+}
+
+TEST_CASE("clamped_membranes_flat_or_domed_come_to_rest") {
+  for (const double pressure : {10.0, 1e3, systole}) {
+    CAPTURE(pressure);
+    const Model flat = soft_disc(8);
+    check_rest(flat, settle(flat, pressure), 1e-5);
+    const Model domed = clamped_disc(8, 12e-3, [](Valve &v) {
+      for (Vec3 &p : v.rest) p.z() = 30 * (144e-6 - p.squaredNorm());
+    });
+    check_rest(domed, settle(domed, pressure), 1e-5);
+  }
+}
+
+TEST_CASE("a_tighter_tolerance_is_reached") {
+  const Model model = soft_disc(6);
+  SolveOptions options;
+  options.residual = 1e-10;
+  check_rest(model, settle(model, systole, 0, options), 1e-10);
+}
+
+TEST_CASE("what_did_not_converge_is_reported_so") {
+  const ModelPtr model = make_model(moving_valve());
+  SolveOptions options;
+  options.max_iterations = 3;
+  const Settled settled = settle(*model, systole, 1, options);
+  CHECK_FALSE(settled.stats.converged);
+  CHECK(settled.stats.iterations == 3);
+  CHECK(settled.stats.residual > 1e-5);
+}
+
+TEST_CASE("a_valve_at_rest_stays_where_it_is") {
+  const ModelPtr model = make_model(small_valve());
+  const Settled settled = settle(*model, 0);
+  CHECK(settled.stats.converged);
+  CHECK(settled.stats.iterations == 0);
+  CHECK(settled.state.x == model->valve.rest);
+}
+
+TEST_CASE("a_settled_valve_settles_again_at_once") {
+  const ModelPtr model = make_model(moving_valve());
+  const Settled once = settle(*model, systole, 1);
+  REQUIRE(once.stats.converged);
+  const Settled twice = settle(*model, once.state);
+  CHECK(twice.stats.converged);
+  CHECK(twice.stats.iterations == 0);
+  CHECK(twice.state.x == once.state.x);
+}
+
+TEST_CASE("a_rigid_motion_of_the_membrane_moves_the_result_with_it") {
+  const Motion motion = some_motion();
+  const Model here = soft_disc(6);
+  const Model there = clamped_disc(6, 12e-3, [&](Valve &v) { v.rest = motion(v.rest); });
+  SolveOptions options;
+  options.residual = 1e-9;
+  const Settled a = settle(here, systole, 0, options), b = settle(there, systole, 0, options);
+  REQUIRE(a.stats.converged);
+  REQUIRE(b.stats.converged);
+  // 1e-9 N over the softest stiffness of the stretched sheet, p h = 16 kPa * 2 mm = 32 N/m
+  CHECK(farthest(motion(a.state.x), b.state.x) < 1e-9);
+}
+
+TEST_CASE("a_rigid_motion_of_the_valve_moves_the_result_with_it") {
+  const Motion motion = some_motion();
+  Valve valve = moving_valve(), turned = valve;
+  turned.rest = motion(valve.rest);
+  turned.loaded = motion(valve.loaded);
+  const ModelPtr here = make_model(valve), there = make_model(turned);
+  // at this pressure the valve does not fold, so that there is one equilibrium
+  SolveOptions options;
+  options.residual = 1e-9;
+  const Settled a = settle(*here, 500, 1, options), b = settle(*there, 500, 1, options);
+  REQUIRE(a.stats.converged);
+  REQUIRE(b.stats.converged);
+  // 1e-9 N over the softest mode, the free edge swinging on its chordae: p h = 500 Pa * 5 mm
+  CHECK(farthest(motion(a.state.x), b.state.x) < 1e-8);
+}
+
+TEST_CASE("two_runs_give_the_same_bits_and_a_used_solver_gives_them_too") {
+  const ModelPtr model = make_model(moving_valve());
+  const Model other = soft_disc(3);
+  for (const uint32_t kind : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+    CAPTURE(kind);
+    SolveOptions options;
+    options.solver = kind;
+    options.max_iterations = kind == MVS_SOLVER_NEWTON ? 0 : 60;
+    const auto run = [&](Solver &solver) {
+      State state = initial_state(*model);
+      state.load = {systole, 1};
+      solver.settle(*model, state, options, {});
+      return state;
+    };
+    Solver fresh(MVS_BACKEND_DEFAULT), used(MVS_BACKEND_DEFAULT);
+    State warm = initial_state(other);
+    warm.load.pressure = 100;
+    used.step(other, warm, {});
+    used.settle(other, warm, {}, {});
+    State stepped = initial_state(*model);
+    stepped.load = {systole, 1};
+    used.step(*model, stepped, {});
+    const State first = run(fresh), second = run(fresh), third = run(used);
+    CHECK(same_bits(first, second));
+    CHECK(same_bits(first, third));
+  }
+}
+
+TEST_CASE("backends_reach_the_same_equilibrium") {
+  const Model model = soft_disc(6);
+  SolveOptions options;
+  options.residual = 1e-9;
+  Positions first;
+  for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN, MVS_BACKEND_CHOLMOD}) {
+    CAPTURE(backend);
+    State state = initial_state(model);
+    state.load.pressure = systole;
+    try {
+      Solver solver(backend);
+      REQUIRE(solver.settle(model, state, options, {}).converged);
+    } catch (const Error &error) {
+      CHECK(error.code == MVS_E_UNSUPPORTED);
+      continue;
+    }
+    if (first.empty()) first = state.x;
+    // 1e-9 N over p h, as above
+    CHECK(farthest(first, state.x) < 1e-9);
+  }
+}
+
+TEST_CASE("progress_is_told_and_can_cancel") {
+  const ModelPtr model = make_model(moving_valve());
+  for (const uint32_t kind : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+    CAPTURE(kind);
+    SolveOptions options;
+    options.solver = kind;
+    options.residual = 1e-14;  // not reached before the third call
+    State state = initial_state(*model);
+    state.load = {systole, 1};
+    Solver solver(MVS_BACKEND_DEFAULT);
+    int calls = 0;
+    bool sound = true;
+    try {
+      solver.settle(*model, state, options, [&](double share, double residual) {
+        sound = sound && share >= 0 && share <= 1 && std::isfinite(residual);
+        return ++calls < 3;
+      });
+      FAIL("was not cancelled");
+    } catch (const Error &error) {
+      CHECK(error.code == MVS_E_CANCELLED);
+    }
+    CHECK(calls == 3);
+    CHECK(sound);
+  }
+}
+
+TEST_CASE("numbers_out_of_range_are_refused_not_returned") {
+  const ModelPtr model = make_model(small_valve());
+  State state = initial_state(*model);
+  state.x[40] = state.x[41];  // two nodes in one place have no direction between them
+  Solver solver(MVS_BACKEND_DEFAULT);
+  try {
+    solver.settle(*model, state, {}, {});
+    FAIL("took coincident nodes");
+  } catch (const Error &error) {
+    CHECK(error.code == MVS_E_DIVERGED);
+  }
+}
+
+TEST_CASE("the_valve_that_took_febio_107_seconds_closes") {
+  const nlohmann::json json = read_real_valve("febio/V1_healthy_468.json");
+  if (json.is_null()) {
+    MESSAGE("skipped: no febio/V1_healthy_468.json in MVS_TEST_DATA or ../shared/data");
+    return;
+  }
+  Valve valve = febio_valve(json);
+  orient(valve);
+  valve.loaded = valve.rest;
+  for (size_t k = 0; k < valve.annulus.size(); ++k) {
+    valve.loaded[valve.annulus[k]] = in_metres(json["annulus_loaded"][k]);
+  }
+  for (size_t k = 0; k < valve.heads.size(); ++k) {
+    valve.loaded[valve.heads[k].node] = in_metres(json["papillary_loaded"][k]);
+  }
+  const ModelPtr model = make_model(valve);
+  const Settled settled = settle(*model, systole, 1);
+  check_rest(*model, settled, 1e-5);
+  CHECK(settled.stats.contact_pairs > 100);
+  MESSAGE(settled.stats.iterations << " iterations, " << settled.stats.wall_s << " s");
+}

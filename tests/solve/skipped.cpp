@@ -1,0 +1,107 @@
+// What mvs_stats says was never computed: each term there and not.
+#include <doctest/doctest.h>
+
+#include <mvs/sim.h>
+#include <mvs/valve.h>
+
+#include <functional>
+
+#include "anatomy/parametric.h"
+#include "energy/follower_pressure.h"
+#include "model/law.h"
+#include "tests/solve/bench.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+constexpr uint32_t terms = MVS_SKIPPED_SPRINGS | MVS_SKIPPED_MEMBRANE | MVS_SKIPPED_BENDING |
+                           MVS_SKIPPED_CHORDAE | MVS_SKIPPED_PRESSURE;
+
+ModelPtr valve(const std::function<void(Valve &)> &change = {}) {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = 200;
+  Valve made = make_parametric_valve(desc);
+  if (change) change(made);
+  return make_model(std::move(made));
+}
+
+void to_membrane(Valve &valve) {
+  for (size_t k = 0; k < valve.leaflets.size(); ++k) {
+    valve.leaflets[k].law = MVS_LEAFLET_BILINEAR;
+    valve.leaflets[k].constants =
+        default_constants(find_leaflet_law(MVS_LEAFLET_BILINEAR)->constants);
+  }
+}
+
+// The same of settling by any solver and of a step.
+void check_skipped(const Model &model, const Load &load, uint32_t expected) {
+  State state = initial_state(model);
+  state.load = load;
+  SolveOptions options;
+  options.max_iterations = 40;
+  for (const uint32_t solver : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+    CAPTURE(solver);
+    options.solver = solver;
+    CHECK((settle(model, state, options).stats.skipped & terms) == expected);
+    if (solver == MVS_SOLVER_NEWTON) continue;
+    State stepped = state;
+    CHECK((Solver(MVS_BACKEND_DEFAULT).step(model, stepped, options).skipped & terms) == expected);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a_term_that_the_scene_lacks_is_told_as_skipped") {
+  const Load load = {100, 0};
+  check_skipped(*valve(), load, MVS_SKIPPED_MEMBRANE);
+  check_skipped(*valve(to_membrane), load, MVS_SKIPPED_SPRINGS);
+  check_skipped(*valve([](Valve &v) { v.bending_scale = 0; }), load,
+                MVS_SKIPPED_MEMBRANE | MVS_SKIPPED_BENDING);
+  check_skipped(clamped_disc(5, 12e-3, [](Valve &) {}), load,
+                MVS_SKIPPED_MEMBRANE | MVS_SKIPPED_CHORDAE);
+  check_skipped(*valve(), {0, 0}, MVS_SKIPPED_MEMBRANE | MVS_SKIPPED_PRESSURE);
+}
+
+TEST_CASE("contact_is_told_as_skipped_unless_something_came_near_in_the_call") {
+  const ModelPtr model = valve();
+  State state = initial_state(*model);
+  state.load = {MVS_SYSTOLE_PA, 1};
+  Solver solver(MVS_BACKEND_DEFAULT);
+  CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_CONTACT) != 0);
+  CHECK((solver.settle(*model, state, {}, {}).skipped & MVS_SKIPPED_CONTACT) == 0);
+  // awake or asleep: what is near stays looked for
+  CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_CONTACT) == 0);
+  // each call speaks for itself
+  state = initial_state(*model);
+  CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_CONTACT) != 0);
+}
+
+// Without pressure the term gives nothing, as one with pressure gives it in the limit.
+TEST_CASE("no_pressure_is_no_force_no_energy_and_no_stiffness") {
+  const ModelPtr model = valve();
+  const Positions x = model->valve.rest;
+  PressureTerm term(*model);
+  System system;
+  std::vector<Edge> pairs;
+  term.add_pairs(pairs);
+  system.set_pattern(*model, pairs);
+  for (const double pressure : {0.0, 1.0, 0.0}) {
+    CAPTURE(pressure);
+    term.set_pressure(pressure);
+    term.freeze(x);
+    Positions g(x.size(), Vec3::Zero()), y = g;
+    system.clear();
+    const double energy = term.gradient(x, g);
+    term.hessian(x, system);
+    term.add_skew(x, x, y);
+    const bool unloaded = pressure == 0;
+    CHECK(energy == term.energy(x));
+    CHECK((energy == 0) == unloaded);
+    CHECK((largest(g) == 0) == unloaded);
+    CHECK((largest(y) == 0) == unloaded);
+    CHECK((dense(system).norm() == 0) == unloaded);
+  }
+}
