@@ -53,8 +53,8 @@ std::string write_vtp(const Model &model, const State &state, const std::vector<
 // HDF5: a valve with its state and all of its history, and the present for VTK in the same file,
 // with `arrays` as above. What levels of the history share is shared in the file and again when
 // read. MVS_E_UNSUPPORTED in a build without HDF5.
-std::string write_session(const Moment &moment, const std::vector<VtpArray> &arrays);
-Moment read_session(std::string_view bytes);
+std::string write_session(const Snapshot &snapshot, const std::vector<VtpArray> &arrays);
+Snapshot read_session(std::string_view bytes);
 
 // Reads a file or pipe of at most `limit` bytes.
 std::string read_whole_file(const std::string &path, size_t limit = max_file_bytes);

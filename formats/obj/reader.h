@@ -33,7 +33,9 @@ class ObjReader {
   void waypoint(Line &line);
   template <size_t k>
   void waypoint_place(Line &line);
-  Waypoint &waypoint_of(size_t k) { return k == 0 ? out_.state.serving : out_.state.coming; }
+  PreconditionerKey &waypoint_of(size_t k) {
+    return k == 0 ? out_.state.serving : out_.state.coming;
+  }
   void check_waypoints(const Line &last);
   void leaflet(Line &line);
   void scallop(Line &line);
@@ -56,7 +58,7 @@ class ObjReader {
 
   void enter_group(const Line &line);
   template <typename Item>
-  static void check_room(const SharedVector<Item> &items, const Line &line);
+  static void check_room(const CowVector<Item> &items, const Line &line);
   void check_complete(const Line &last) const;
 
   // What attributes the last v, f and l line have got so far.
@@ -81,7 +83,7 @@ class ObjReader {
 };
 
 template <typename Item>
-void ObjReader::check_room(const SharedVector<Item> &items, const Line &line) {
+void ObjReader::check_room(const CowVector<Item> &items, const Line &line) {
   constexpr size_t most = size_t{1} << 22;
   if (items.size() < most) return;
   line.fail("the limit is %zu vertices, triangles, segments or parts of one kind", most);

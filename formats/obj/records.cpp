@@ -120,7 +120,7 @@ void ObjReader::state(Line &line) {
 template <size_t k>
 void ObjReader::waypoint(Line &line) {
   once(has_waypoint_[k], k == 0 ? "#mvs serving" : "#mvs coming", line);
-  Waypoint &waypoint = waypoint_of(k);
+  PreconditionerKey &waypoint = waypoint_of(k);
   uint64_t age = 0;
   Fields fields(line);
   fields.need(fields.number("pressure", waypoint.pressure), "pressure");
@@ -136,7 +136,7 @@ template <size_t k>
 void ObjReader::waypoint_place(Line &line) {
   follows("v", counts_.vertices > 0, line);
   once(given_.place[k], "the place of this vertex", line);
-  SharedVector<Vec3> &x = waypoint_of(k).x;
+  CowVector<Vec3> &x = waypoint_of(k).x;
   if (x.size() + 1 != counts_.vertices) line.fail("a vertex above has no such place");
   x.push_back(read_place(line));
   line.end();

@@ -59,14 +59,14 @@ class ObjWriter {
 
   const Valve &valve_;
   const State &state_;
-  std::array<const Waypoint *, 2> waypoints_{};  // null where there is none to write
+  std::array<const PreconditionerKey *, 2> waypoints_{};  // null where there is none to write
   std::string out_;
   uint64_t groups_ = 0, records_ = 0;
 };
 
 // Where there are tools the file does not have the whole state, and steps from it begin anew.
 ObjWriter::ObjWriter(const Valve &valve, const State &state) : valve_(valve), state_(state) {
-  const auto can_be = [&](const Waypoint &waypoint) {
+  const auto can_be = [&](const PreconditionerKey &waypoint) {
     return waypoint.x.size() == valve.rest.size() && waypoint.tools.empty();
   };
   if (!state.tools.empty() || !can_be(state.serving)) return;

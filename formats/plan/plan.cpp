@@ -73,16 +73,16 @@ void check_keys(const Json &json, std::initializer_list<std::string_view> known)
   }
 }
 
-void read_stepping(const Json &json, Move &move) {
+void read_stepping(const Json &json, RecordedEvent &move) {
   move.solver = solver_at(json);
   move.dt = number_at(json, "dt_s");
   move.damping = number_at(json, "damping_1/s");
   move.budget = static_cast<uint32_t>(whole_at(json, "budget", 0, UINT32_MAX));
 }
 
-std::optional<Move> read_move(const Json &json) {
+std::optional<RecordedEvent> read_move(const Json &json) {
   const std::string word = json["do"].text();
-  Move move;
+  RecordedEvent move;
   if (word == "load") {
     check_keys(json, {"do", "pressure_Pa", "boundary_fraction"});
     move.pressure = number_at(json, "pressure_Pa");
@@ -99,13 +99,13 @@ std::optional<Move> read_move(const Json &json) {
   if (word != "settle" && word != "step") return read_tool_step(json);
   check_keys(json, {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s",
                     "budget"});
-  move.kind = word == "settle" ? Move::settle : Move::step;
-  MVS_MUST(move.kind == Move::step || !json.has("count"), MVS_E_FORMAT, "plan",
+  move.kind = word == "settle" ? RecordedEvent::settle : RecordedEvent::step;
+  MVS_MUST(move.kind == RecordedEvent::step || !json.has("count"), MVS_E_FORMAT, "plan",
            "settle has no field \"count\": settled once is settled");
-  move.count = whole_at(json, "count", 1, Move::most_count);
+  move.count = whole_at(json, "count", 1, RecordedEvent::most_count);
   move.max_iterations = static_cast<uint32_t>(whole_at(json, "max_iterations", 0, UINT32_MAX));
   move.residual = number_at(json, "residual_N");
-  MVS_MUST(move.kind == Move::step || !json.has("budget"), MVS_E_FORMAT, "plan",
+  MVS_MUST(move.kind == RecordedEvent::step || !json.has("budget"), MVS_E_FORMAT, "plan",
            "settle has no field \"budget\": it goes on until the valve is at rest");
   read_stepping(json, move);
   return move;
@@ -171,28 +171,28 @@ std::string hash_at(const Json &json, const char *part) {
 
 }  // namespace
 
-std::string hash_text(const Picture &picture) {
-  const auto hash = hash_of(*picture.model, picture.state);
+std::string hash_text(const ModelState &current) {
+  const auto hash = hash_of(*current.model, current.state);
   return format("%016llx%016llx", static_cast<unsigned long long>(hash[0]),
                 static_cast<unsigned long long>(hash[1]));
 }
 
-Json valve_json(const Picture &start) {
+Json valve_json(const ModelState &start) {
   return Json::object({{"name", start.model->valve.name}, {"hash", hash_text(start)}});
 }
 
-Json move_json(const Move &move) {
+Json move_json(const RecordedEvent &move) {
   Json json;
-  if (move.kind == Move::load) {
+  if (move.kind == RecordedEvent::load) {
     json.set("do", "load");
     json.set("pressure_Pa", move.pressure);
     json.set("boundary_fraction", move.boundary_fraction);
     return json;
   }
-  const bool is_led = move.kind == Move::lead;
+  const bool is_led = move.kind == RecordedEvent::lead;
   if (!move.tool.empty() && !is_led) return tool_json(move);
   if (is_led) json = lead_json(move);
-  if (!is_led) json.set("do", move.kind == Move::settle ? "settle" : "step");
+  if (!is_led) json.set("do", move.kind == RecordedEvent::settle ? "settle" : "step");
   if (!is_led && move.count != 1) json.set("count", move.count);
   if (move.solver != 0) json.set("solver", solver_word(move.solver));
   if (move.max_iterations != 0) json.set("max_iterations", move.max_iterations);
@@ -203,7 +203,7 @@ Json move_json(const Move &move) {
   return json;
 }
 
-Json entry_json(const Entry &entry) {
+Json entry_json(const HistoryEntry &entry) {
   Json json = op_json(entry.op, *entry.before.model);
   json.set("title", entry.title);
   if (entry.time_ms != 0) json.set("time", time_text(entry.time_ms));
@@ -213,40 +213,40 @@ Json entry_json(const Entry &entry) {
   return json;
 }
 
-void add_moves(Json &steps, const Moves &moves) {
-  for (const Move *move : moves.items()) steps.add(move_json(*move));
+void add_moves(Json &steps, const RecordedEvents &moves) {
+  for (const RecordedEvent *move : moves.items()) steps.add(move_json(*move));
 }
 
-Json plan_steps(const Moment &moment, const Measure &measure) {
+Json plan_steps(const Snapshot &snapshot, const Measure &measure) {
   Json steps = Json::array();
-  const auto entries = moment.timeline.past.items();
+  const auto entries = snapshot.history.past.items();
   for (size_t k = 0; k < entries.size(); ++k) {
-    const Entry &entry = **entries[k];
+    const HistoryEntry &entry = **entries[k];
     add_moves(steps, entry.moves);
     Json json = entry_json(entry);
     if (measure) {
       json.set("before", measure(entry.before));
       // what it led to is seen just before the next operation, when the valve has settled
       json.set("after",
-               measure(k + 1 < entries.size() ? (*entries[k + 1])->before : moment.picture));
+               measure(k + 1 < entries.size() ? (*entries[k + 1])->before : snapshot.current));
     }
     steps.add(std::move(json));
   }
-  add_moves(steps, moment.timeline.moves);
+  add_moves(steps, snapshot.history.moves);
   return steps;
 }
 
-std::string write_plan(const Moment &moment, const PlanText &text, const Measure &measure) {
+std::string write_plan(const Snapshot &snapshot, const PlanText &text, const Measure &measure) {
   Json json;
   json.set("format", format_name);
   json.set("version", plan_version);
   json.set("libmvs", version_text());
   json.set("units", "SI: m, N, Pa, s");
-  json.set("valve", valve_json(*start_of(moment)));
+  json.set("valve", valve_json(*start_of(snapshot)));
   if (!text.author.empty()) json.set("author", text.author);
   if (!text.notes.empty()) json.set("notes", text.notes);
-  json.set("steps", plan_steps(moment, measure));
-  json.set("result", Json::object({{"hash", hash_text(moment.picture)}}));
+  json.set("steps", plan_steps(snapshot, measure));
+  json.set("result", Json::object({{"hash", hash_text(snapshot.current)}}));
   return json.page() + "\n";
 }
 

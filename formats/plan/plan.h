@@ -18,7 +18,7 @@ inline constexpr unsigned plan_version = 3;
 
 // One step of a plan: a move, or an operation as it stands in the file.
 struct PlanStep {
-  std::optional<Move> move;
+  std::optional<RecordedEvent> move;
   Json op;  // null for a move
   uint64_t version = plan_version;
   std::string group;      // "" for none
@@ -31,18 +31,18 @@ struct Plan {
 };
 
 // "0123456789abcdef0123456789abcdef"
-std::string hash_text(const Picture &picture);
+std::string hash_text(const ModelState &current);
 
 // The steps that lead from the start of a history to its moment. `measures` is asked for what each
 // picture measures; it may be empty.
-using Measure = std::function<Json(const Picture &)>;
-Json plan_steps(const Moment &moment, const Measure &measure);
+using Measure = std::function<Json(const ModelState &)>;
+Json plan_steps(const Snapshot &snapshot, const Measure &measure);
 
 // A whole plan.
 struct PlanText {
   std::string author, notes;
 };
-std::string write_plan(const Moment &moment, const PlanText &text, const Measure &measure);
+std::string write_plan(const Snapshot &snapshot, const PlanText &text, const Measure &measure);
 
 // Throws MVS_E_FORMAT or MVS_E_VERSION with the step that is wrong.
 Plan read_plan(std::string_view text);
@@ -53,13 +53,13 @@ void put_steps(Json &record, Json steps);
 std::vector<PlanStep> read_steps(const Json &record);
 
 // The valve that a plan or journal belongs to.
-Json valve_json(const Picture &start);
+Json valve_json(const ModelState &start);
 
-Json move_json(const Move &move);
-void add_moves(Json &steps, const Moves &moves);
+Json move_json(const RecordedEvent &move);
+void add_moves(Json &steps, const RecordedEvents &moves);
 
 // An operation that was applied, with its title, time and group.
-Json entry_json(const Entry &entry);
+Json entry_json(const HistoryEntry &entry);
 
 // An operation with the names of its parts in this model, and back. In `exact` replay a site is the
 // node or triangle that it was, else its anatomical place.

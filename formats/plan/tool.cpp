@@ -125,18 +125,18 @@ void read_added(const Json &json, Tool &tool) {
 
 }  // namespace
 
-Json tool_json(const Move &move) {
+Json tool_json(const RecordedEvent &move) {
   const Tool &tool = move.tool[0];
   Json json;
-  json.set("do", move.kind == Move::tool_add    ? "tool_add"
-                 : move.kind == Move::tool_move ? "tool_move"
-                                                : "tool_remove");
+  json.set("do", move.kind == RecordedEvent::tool_add    ? "tool_add"
+                 : move.kind == RecordedEvent::tool_move ? "tool_move"
+                                                         : "tool_remove");
   json.set("tool", tool.id);
-  if (move.kind == Move::tool_remove) return json;
-  if (move.kind == Move::tool_add) json.set("kind", kinds[tool.kind - 1]);
+  if (move.kind == RecordedEvent::tool_remove) return json;
+  if (move.kind == RecordedEvent::tool_add) json.set("kind", kinds[tool.kind - 1]);
   json.set("position_m", vector_json(tool.position));
   if (tool.kind == MVS_TOOL_ROD) json.set("axis", vector_json(tool.axis));
-  if (move.kind == Move::tool_move) return json;
+  if (move.kind == RecordedEvent::tool_move) return json;
   if (tool.kind == MVS_TOOL_GRASP) json.set("node", tool.node);
   if (tool.kind != MVS_TOOL_GRASP) json.set("radius_m", tool.radius);
   if (tool.kind == MVS_TOOL_ROD) json.set("length_m", tool.length);
@@ -145,7 +145,7 @@ Json tool_json(const Move &move) {
   return json;
 }
 
-Json lead_json(const Move &move) {
+Json lead_json(const RecordedEvent &move) {
   Json json, hands = Json::array();
   for (const Tool &tool : move.tool.get()) {
     hands.add(Json::object({{"tool", tool.id}, {"kind", kinds[tool.kind - 1]}}));
@@ -162,9 +162,9 @@ Json lead_json(const Move &move) {
   return json;
 }
 
-Move read_lead(const Json &json) {
-  Move move;
-  move.kind = Move::lead;
+RecordedEvent read_lead(const Json &json) {
+  RecordedEvent move;
+  move.kind = RecordedEvent::lead;
   move.tool = read_hands(json);
   move.way = read_way(json);
   const size_t rows = move.way.size() / std::max<size_t>(1, places_in_row(move));
@@ -177,19 +177,19 @@ Move read_lead(const Json &json) {
   return move;
 }
 
-std::optional<Move> read_tool_step(const Json &json) {
+std::optional<RecordedEvent> read_tool_step(const Json &json) {
   const std::string &word = json["do"].text();
-  Move move;
+  RecordedEvent move;
   Tool tool;
   if (word == "tool_add") {
-    move.kind = Move::tool_add;
+    move.kind = RecordedEvent::tool_add;
     read_added(json, tool);
   } else if (word == "tool_move") {
-    move.kind = Move::tool_move;
+    move.kind = RecordedEvent::tool_move;
     check_keys(json, {"tool", "position_m", "axis"});
     read_hand(json, tool);
   } else if (word == "tool_remove") {
-    move.kind = Move::tool_remove;
+    move.kind = RecordedEvent::tool_remove;
     check_keys(json, {"tool"});
   } else {
     return {};

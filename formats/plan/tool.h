@@ -8,13 +8,13 @@
 
 namespace mvs::core {
 
-Json tool_json(const Move &move);
+Json tool_json(const RecordedEvent &move);
 
 // Steps led by hands: whose, and where they were, the options of the steps being the caller's.
-Json lead_json(const Move &move);
-Move read_lead(const Json &json);
+Json lead_json(const RecordedEvent &move);
+RecordedEvent read_lead(const Json &json);
 
 // Null where the step is of another kind; throws MVS_E_FORMAT with what is wrong.
-std::optional<Move> read_tool_step(const Json &json);
+std::optional<RecordedEvent> read_tool_step(const Json &json);
 
 }  // namespace mvs::core

@@ -111,7 +111,7 @@ void pass(Archive &a, Is<Tool> auto &tool) {
 }
 
 template <typename Archive>
-void pass(Archive &a, Is<Waypoint> auto &waypoint) {
+void pass(Archive &a, Is<PreconditionerKey> auto &waypoint) {
   a.array(waypoint.x);
   if (waypoint.x.empty()) return;
   a.list(waypoint.tools);
@@ -138,14 +138,14 @@ void pass(Archive &a, Is<State> auto &state) {
 }
 
 template <typename Archive>
-void pass(Archive &a, Is<Picture> auto &picture) {
-  a.model(picture.model);
-  pass(a, picture.state);
-  a.check(picture);
+void pass(Archive &a, Is<ModelState> auto &current) {
+  a.model(current.model);
+  pass(a, current.state);
+  a.check(current);
 }
 
 template <typename Archive>
-void pass(Archive &a, Is<Move> auto &move) {
+void pass(Archive &a, Is<RecordedEvent> auto &move) {
   a.choice(move.kind);
   a.word(move.solver);
   a.word(move.max_iterations);
@@ -168,7 +168,7 @@ void pass(Archive &a, Is<Move> auto &move) {
 
 // Behind the operation of an entry, which cannot be made empty and filled.
 template <typename Archive>
-void pass_rest(Archive &a, Is<Entry> auto &entry) {
+void pass_rest(Archive &a, Is<HistoryEntry> auto &entry) {
   a.text(entry.title);
   a.word(entry.made);
   a.word(entry.group);
@@ -189,14 +189,14 @@ void pass(Archive &a, Is<Checkpoint> auto &checkpoint) {
 }
 
 template <typename Archive>
-void pass(Archive &a, Is<Moment> auto &moment) {
-  pass(a, moment.picture);
-  a.optional(moment.timeline.start);
-  a.stack(moment.timeline.past);
-  a.stack(moment.timeline.future);
-  a.stack(moment.timeline.moves);
-  a.optional(moment.timeline.checkpoints);
-  a.word(moment.timeline.next_group);
+void pass(Archive &a, Is<Snapshot> auto &snapshot) {
+  pass(a, snapshot.current);
+  a.optional(snapshot.history.start);
+  a.stack(snapshot.history.past);
+  a.stack(snapshot.history.future);
+  a.stack(snapshot.history.moves);
+  a.optional(snapshot.history.checkpoints);
+  a.word(snapshot.history.next_group);
 }
 
 }  // namespace mvs::core

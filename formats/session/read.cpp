@@ -30,11 +30,11 @@ class SessionReader {
         indices_(tree, "mvs/indices"),
         texts_(tree, "mvs/texts") {}
 
-  Moment read() {
-    Moment moment;
-    pass(*this, moment);
+  Snapshot read() {
+    Snapshot snapshot;
+    pass(*this, snapshot);
     must_be_used_up();
-    return moment;
+    return snapshot;
   }
 
   // what session_layout.h asks of an archive
@@ -42,19 +42,19 @@ class SessionReader {
   void word(uint64_t &number) { number = next(); }
   void word(int64_t &number) { number = static_cast<int64_t>(next()); }
   void word(uint32_t &number);
-  void choice(Move::Kind &kind);
+  void choice(RecordedEvent::Kind &kind);
   void number(double &value);
   void text(std::string &text);
   template <typename Element>
-  void array(SharedVector<Element> &items);
+  void array(CowVector<Element> &items);
   template <typename Part>
-  void list(SharedVector<Part> &parts);
+  void list(CowVector<Part> &parts);
   void model(ModelPtr &model);
   template <typename Item>
-  void stack(Stack<Item> &items);
-  void check(const Picture &picture) const;
-  static void check(const Move &move);
-  void optional(std::shared_ptr<const Picture> &picture);
+  void stack(PersistentList<Item> &items);
+  void check(const ModelState &current) const;
+  static void check(const RecordedEvent &move);
+  void optional(std::shared_ptr<const ModelState> &current);
   void optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
 
  private:
@@ -95,8 +95,8 @@ class SessionReader {
   template <typename Value>
   std::span<const Value> values(uint64_t number) const;
 
-  void item(Move &move) { pass(*this, move); }
-  void item(std::shared_ptr<const Entry> &entry);
+  void item(RecordedEvent &move) { pass(*this, move); }
+  void item(std::shared_ptr<const HistoryEntry> &entry);
   Operation operation();
   void field(const OpField &f, char *at);
 
@@ -106,16 +106,16 @@ class SessionReader {
   const PoolReader<double> numbers_;
   const PoolReader<uint32_t> indices_;
   const PoolReader<uint8_t> texts_;
-  std::tuple<Made<SharedVector<Vec3>>, Made<SharedVector<Tri>>, Made<SharedVector<double>>,
-             Made<SharedVector<uint32_t>>, Made<SharedVector<Leaflet>>, Made<SharedVector<Scallop>>,
-             Made<SharedVector<Chord>>, Made<SharedVector<Head>>, Made<SharedVector<Ring>>,
-             Made<SharedVector<Tool>>, Made<SharedVector<ChordCurve>>,
-             Made<SharedVector<CurvePoint>>, Made<ModelPtr>, Made<Moves>, Made<Entries>,
-             Made<std::shared_ptr<const Entry>>>
+  std::tuple<Made<CowVector<Vec3>>, Made<CowVector<Tri>>, Made<CowVector<double>>,
+             Made<CowVector<uint32_t>>, Made<CowVector<Leaflet>>, Made<CowVector<Scallop>>,
+             Made<CowVector<Chord>>, Made<CowVector<Head>>, Made<CowVector<Ring>>,
+             Made<CowVector<Tool>>, Made<CowVector<ChordCurve>>, Made<CowVector<CurvePoint>>,
+             Made<ModelPtr>, Made<RecordedEvents>, Made<HistoryEntries>,
+             Made<std::shared_ptr<const HistoryEntry>>>
       made_;
   ModelPtr last_model_;
   // what the operation being read points to
-  std::vector<SharedVector<Vec3>> points_;
+  std::vector<CowVector<Vec3>> points_;
   std::vector<std::unique_ptr<std::string>> names_;
 };
 
@@ -125,12 +125,12 @@ void SessionReader::word(uint32_t &number) {
   number = static_cast<uint32_t>(word);
 }
 
-void SessionReader::choice(Move::Kind &kind) {
+void SessionReader::choice(RecordedEvent::Kind &kind) {
   const uint64_t word = next();
-  MVS_MUST(word >= Move::load && word <= Move::lead, MVS_E_FORMAT, "mvs",
+  MVS_MUST(word >= RecordedEvent::load && word <= RecordedEvent::lead, MVS_E_FORMAT, "mvs",
            "the history of the file has a move of kind %llu, which there is not",
            static_cast<unsigned long long>(word));
-  kind = static_cast<Move::Kind>(word);
+  kind = static_cast<RecordedEvent::Kind>(word);
 }
 
 void SessionReader::number(double &value) {
@@ -156,11 +156,11 @@ std::span<const uint32_t> SessionReader::values(uint64_t number) const {
 }
 
 template <typename Element>
-void SessionReader::array(SharedVector<Element> &items) {
+void SessionReader::array(CowVector<Element> &items) {
   constexpr size_t columns = Stored<Element>::columns;
   const uint64_t number = next();
-  const auto place = made<SharedVector<Element>>().find(number);
-  if (place != made<SharedVector<Element>>().end()) {
+  const auto place = made<CowVector<Element>>().find(number);
+  if (place != made<CowVector<Element>>().end()) {
     items = place->second;
     return;
   }
@@ -175,12 +175,12 @@ void SessionReader::array(SharedVector<Element> &items) {
       elements[k / columns][k % columns] = found[k];
     }
   }
-  items = made<SharedVector<Element>>().emplace(number, std::move(elements)).first->second;
+  items = made<CowVector<Element>>().emplace(number, std::move(elements)).first->second;
 }
 
 template <typename Part>
-void SessionReader::list(SharedVector<Part> &parts) {
-  parts = part(made<SharedVector<Part>>(), [&](SharedVector<Part> &all) {
+void SessionReader::list(CowVector<Part> &parts) {
+  parts = part(made<CowVector<Part>>(), [&](CowVector<Part> &all) {
     std::vector<Part> read(count());
     for (Part &one : read) pass(*this, one);
     all = std::move(read);
@@ -197,7 +197,7 @@ void SessionReader::model(ModelPtr &model) {
   });
 }
 
-void check_tools(const Model &model, const SharedVector<Tool> &tools) {
+void check_tools(const Model &model, const CowVector<Tool> &tools) {
   for (const Tool &tool : tools) {
     const bool holds = tool.kind == MVS_TOOL_GRASP && tool.node < model.node_count() &&
                        !model.topology.fixed[tool.node];
@@ -209,29 +209,30 @@ void check_tools(const Model &model, const SharedVector<Tool> &tools) {
 }
 
 // What make_model does not see: a state that fits its model.
-void SessionReader::check(const Picture &picture) const {
-  const State &state = picture.state;
-  const size_t n = picture.model->node_count();
+void SessionReader::check(const ModelState &current) const {
+  const State &state = current.state;
+  const size_t n = current.model->node_count();
   MVS_MUST(state.x.size() == n && state.v.size() == n, MVS_E_FORMAT, "state",
            "a state of the file has %zu positions and %zu velocities for %zu nodes", state.x.size(),
            state.v.size(), n);
   const double fraction = state.load.boundary_fraction;
   MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
            "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);
-  check_tools(*picture.model, state.tools);
-  for (const Waypoint *waypoint : {&state.serving, &state.coming}) {
+  check_tools(*current.model, state.tools);
+  for (const PreconditionerKey *waypoint : {&state.serving, &state.coming}) {
     size_t points = 0;
     for (const Tool &tool : waypoint->tools) points += tool.points();
-    check_tools(*picture.model, waypoint->tools);
+    check_tools(*current.model, waypoint->tools);
     MVS_MUST(waypoint->x.empty() || waypoint->x.size() == n + points, MVS_E_FORMAT, "state",
              "a state of the file was at a place with %zu positions for %zu nodes",
              waypoint->x.size(), n + points);
   }
 }
 
-void SessionReader::check(const Move &move) {
-  const bool is_of_tool = move.kind >= Move::tool_add && move.kind <= Move::tool_remove;
-  bool is_good = move.kind == Move::lead ? is_whole(move) : move.tool.size() == is_of_tool;
+void SessionReader::check(const RecordedEvent &move) {
+  const bool is_of_tool =
+      move.kind >= RecordedEvent::tool_add && move.kind <= RecordedEvent::tool_remove;
+  bool is_good = move.kind == RecordedEvent::lead ? is_whole(move) : move.tool.size() == is_of_tool;
   for (const Tool &tool : move.tool.get()) {
     is_good = is_good && tool.kind >= MVS_TOOL_GRASP && tool.kind <= MVS_TOOL_ROD;
   }
@@ -240,8 +241,8 @@ void SessionReader::check(const Move &move) {
 }
 
 template <typename Item>
-void SessionReader::stack(Stack<Item> &items) {
-  items = part(made<Stack<Item>>(), [&](Stack<Item> &all) {
+void SessionReader::stack(PersistentList<Item> &items) {
+  items = part(made<PersistentList<Item>>(), [&](PersistentList<Item> &all) {
     for (uint64_t left = count(); left > 0; --left) {
       Item one{};
       item(one);
@@ -250,20 +251,22 @@ void SessionReader::stack(Stack<Item> &items) {
   });
 }
 
-void SessionReader::item(std::shared_ptr<const Entry> &entry) {
-  entry = part(made<std::shared_ptr<const Entry>>(), [&](std::shared_ptr<const Entry> &it) {
-    auto read = std::make_shared<Entry>(Entry{operation(), {}, 0, 0, {}, 0, {}, {}, {}});
-    pass_rest(*this, *read);
-    if (version_ < 5) read->op = keeping_length(read->op, *read->before.model);
-    it = std::move(read);
-  });
+void SessionReader::item(std::shared_ptr<const HistoryEntry> &entry) {
+  entry = part(
+      made<std::shared_ptr<const HistoryEntry>>(), [&](std::shared_ptr<const HistoryEntry> &it) {
+        auto read =
+            std::make_shared<HistoryEntry>(HistoryEntry{operation(), {}, 0, 0, {}, 0, {}, {}, {}});
+        pass_rest(*this, *read);
+        if (version_ < 5) read->op = keeping_length(read->op, *read->before.model);
+        it = std::move(read);
+      });
 }
 
-void SessionReader::optional(std::shared_ptr<const Picture> &picture) {
+void SessionReader::optional(std::shared_ptr<const ModelState> &current) {
   if (count() == 0) return;
-  auto read = std::make_shared<Picture>();
+  auto read = std::make_shared<ModelState>();
   pass(*this, *read);
-  picture = std::move(read);
+  current = std::move(read);
 }
 
 void SessionReader::optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints) {
@@ -332,7 +335,7 @@ void SessionReader::field(const OpField &f, char *at) {
       for (double &x : *reinterpret_cast<std::array<double, 3> *>(at)) number(x);
       return;
     case MVS_FIELD_POINTS: {
-      const SharedVector<Vec3> &points = points_.emplace_back();
+      const CowVector<Vec3> &points = points_.emplace_back();
       array(points_.back());
       if (points.empty()) return;
       *reinterpret_cast<mvs_array *>(at) = {points.data(), points.size(), 3, MVS_F64, 0};
@@ -348,7 +351,7 @@ void SessionReader::field(const OpField &f, char *at) {
 
 }  // namespace
 
-Moment read_session(std::string_view bytes) {
+Snapshot read_session(std::string_view bytes) {
   const H5Content content = read_h5(bytes, "mvs", session_version);
   return SessionReader(content.tree, content.version).read();
 }

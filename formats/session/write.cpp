@@ -14,7 +14,7 @@ namespace {
 
 class SessionWriter {
  public:
-  void write(const Moment &moment) { pass(*this, moment); }
+  void write(const Snapshot &snapshot) { pass(*this, snapshot); }
   void put_into(H5Tree &tree);
 
   // what session_layout.h asks of an archive
@@ -22,19 +22,19 @@ class SessionWriter {
   void word(uint64_t number) { words_.push_back(number); }
   void word(int64_t number) { word(static_cast<uint64_t>(number)); }
   void word(uint32_t number) { word(uint64_t{number}); }
-  void choice(Move::Kind kind) { word(uint64_t{kind}); }
+  void choice(RecordedEvent::Kind kind) { word(uint64_t{kind}); }
   void number(double value);
   void text(std::string_view text);
   template <typename Element>
-  void array(const SharedVector<Element> &items);
+  void array(const CowVector<Element> &items);
   template <typename Part>
-  void list(const SharedVector<Part> &parts);
+  void list(const CowVector<Part> &parts);
   void model(const ModelPtr &model);
   template <typename Item>
-  void stack(const Stack<Item> &items);
-  void check(const Picture &) {}
-  void check(const Move &) {}
-  void optional(const std::shared_ptr<const Picture> &picture);
+  void stack(const PersistentList<Item> &items);
+  void check(const ModelState &) {}
+  void check(const RecordedEvent &) {}
+  void optional(const std::shared_ptr<const ModelState> &current);
   void optional(const std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
 
  private:
@@ -54,8 +54,8 @@ class SessionWriter {
     word(place != at_.end() ? place->second : at_.emplace(address, part(work)).first->second);
   }
 
-  void item(const Move &move) { pass(*this, move); }
-  void item(const std::shared_ptr<const Entry> &entry);
+  void item(const RecordedEvent &move) { pass(*this, move); }
+  void item(const std::shared_ptr<const HistoryEntry> &entry);
   void operation(const Operation &op);
   void field(const Operation &op, const OpField &f);
   void site(const mvs_site &site);
@@ -66,7 +66,7 @@ class SessionWriter {
   PoolWriter<uint32_t> indices_;
   PoolWriter<uint8_t> texts_;
   std::map<const void *, uint64_t> at_;
-  std::vector<SharedVector<Vec3>> points_;  // kept, so that no address is used twice
+  std::vector<CowVector<Vec3>> points_;  // kept, so that no address is used twice
 };
 
 void SessionWriter::put_into(H5Tree &tree) {
@@ -93,7 +93,7 @@ void SessionWriter::text(std::string_view text) {
 }
 
 template <typename Element>
-void SessionWriter::array(const SharedVector<Element> &items) {
+void SessionWriter::array(const CowVector<Element> &items) {
   using Value = typename Stored<Element>::Value;
   const auto place = at_.find(items.buffer());
   if (place != at_.end()) return word(place->second);
@@ -118,7 +118,7 @@ void SessionWriter::array(const SharedVector<Element> &items) {
 }
 
 template <typename Part>
-void SessionWriter::list(const SharedVector<Part> &parts) {
+void SessionWriter::list(const CowVector<Part> &parts) {
   const auto all = [&] {
     word(uint64_t{parts.size()});
     for (const Part &one : parts) pass(*this, one);
@@ -132,23 +132,23 @@ void SessionWriter::model(const ModelPtr &model) {
 }
 
 template <typename Item>
-void SessionWriter::stack(const Stack<Item> &items) {
+void SessionWriter::stack(const PersistentList<Item> &items) {
   word(part([&] {
     word(uint64_t{items.size()});
     for (const Item *one : items.items()) item(*one);
   }));
 }
 
-void SessionWriter::item(const std::shared_ptr<const Entry> &entry) {
+void SessionWriter::item(const std::shared_ptr<const HistoryEntry> &entry) {
   part_at(entry.get(), [&] {
     operation(entry->op);
     pass_rest(*this, *entry);
   });
 }
 
-void SessionWriter::optional(const std::shared_ptr<const Picture> &picture) {
-  word(uint64_t{picture != nullptr});
-  if (picture) pass(*this, *picture);
+void SessionWriter::optional(const std::shared_ptr<const ModelState> &current) {
+  word(uint64_t{current != nullptr});
+  if (current) pass(*this, *current);
 }
 
 void SessionWriter::optional(const std::shared_ptr<const std::vector<Checkpoint>> &checkpoints) {
@@ -208,12 +208,12 @@ void SessionWriter::site(const mvs_site &site) {
 
 }  // namespace
 
-std::string write_session(const Moment &moment, const std::vector<VtpArray> &arrays) {
+std::string write_session(const Snapshot &snapshot, const std::vector<VtpArray> &arrays) {
   SessionWriter writer;
-  writer.write(moment);
+  writer.write(snapshot);
   H5Tree tree;
   writer.put_into(tree);
-  const Picture &now = moment.picture;
+  const ModelState &now = snapshot.current;
   add_vtk_hdf(tree, make_vtk_picture(*now.model, now.state, arrays));
   return write_h5(tree, session_version);
 }

@@ -89,19 +89,19 @@ void add_cell_data(std::vector<VtkArray> &to, const Valve &valve) {
 }
 
 // The caller has triangles first, VTK has lines first.
-void add_given(VtkPicture &picture, const VtpArray &given) {
+void add_given(VtkPicture &current, const VtpArray &given) {
   const size_t components = static_cast<size_t>(given.components);
   const size_t rows =
-      given.on_points ? picture.points.size() / 3 : picture.triangles.count + picture.chords.count;
+      given.on_points ? current.points.size() / 3 : current.triangles.count + current.chords.count;
   MVS_MUST(given.components > 0 && given.values.size() == rows * components, MVS_E_INTERNAL,
            given.name, "array %s has %zu values for %zu rows of %d", given.name.c_str(),
            given.values.size(), rows, given.components);
   VtkArray array{given.name, static_cast<uint32_t>(components), given.values};
-  if (given.on_points) return picture.point_data.push_back(std::move(array));
+  if (given.on_points) return current.point_data.push_back(std::move(array));
   auto &values = std::get<std::vector<double>>(array.values);
-  const auto middle = static_cast<ptrdiff_t>(picture.triangles.count * components);
+  const auto middle = static_cast<ptrdiff_t>(current.triangles.count * components);
   std::rotate(values.begin(), values.begin() + middle, values.end());
-  picture.cell_data.push_back(std::move(array));
+  current.cell_data.push_back(std::move(array));
 }
 
 }  // namespace
@@ -111,22 +111,22 @@ VtkPicture make_vtk_picture(const Model &model, const State &state,
   const Valve &valve = model.valve;
   MVS_MUST(state.x.size() == model.node_count(), MVS_E_INTERNAL, "state",
            "the state has %zu positions for %zu nodes", state.x.size(), model.node_count());
-  VtkPicture picture;
-  picture.points = in_mm(state.x);
-  picture.chords = {valve.chords.size(), 2, {}};
+  VtkPicture current;
+  current.points = in_mm(state.x);
+  current.chords = {valve.chords.size(), 2, {}};
   for (const Chord &chord : valve.chords) {
-    picture.chords.nodes.insert(picture.chords.nodes.end(), {chord.a, chord.b});
+    current.chords.nodes.insert(current.chords.nodes.end(), {chord.a, chord.b});
   }
-  picture.triangles = {valve.triangles.size(), 3, {}};
+  current.triangles = {valve.triangles.size(), 3, {}};
   for (const Tri &triangle : valve.triangles) {
-    picture.triangles.nodes.insert(picture.triangles.nodes.end(), triangle.begin(), triangle.end());
+    current.triangles.nodes.insert(current.triangles.nodes.end(), triangle.begin(), triangle.end());
   }
-  add_field_data(picture.field_data, valve, state);
-  add(picture.point_data, "node_kind", 1, model.topology.node_kind.get());
-  add(picture.point_data, "rest_mm", 3, in_mm(valve.rest));
-  add_cell_data(picture.cell_data, valve);
-  for (const VtpArray &given : arrays) add_given(picture, given);
-  return picture;
+  add_field_data(current.field_data, valve, state);
+  add(current.point_data, "node_kind", 1, model.topology.node_kind.get());
+  add(current.point_data, "rest_mm", 3, in_mm(valve.rest));
+  add_cell_data(current.cell_data, valve);
+  for (const VtpArray &given : arrays) add_given(current, given);
+  return current;
 }
 
 }  // namespace mvs::core

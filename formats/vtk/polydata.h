@@ -30,6 +30,6 @@ VtkPicture make_vtk_picture(const Model &model, const State &state,
                             const std::vector<VtpArray> &arrays);
 
 // The same as group VTKHDF of an HDF5 file (VTK HDF file format, version 2.1).
-void add_vtk_hdf(H5Tree &tree, VtkPicture picture);
+void add_vtk_hdf(H5Tree &tree, VtkPicture current);
 
 }  // namespace mvs::core

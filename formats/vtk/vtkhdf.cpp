@@ -34,19 +34,19 @@ void add_arrays(H5Tree &tree, const std::string &path, std::vector<VtkArray> arr
 
 }  // namespace
 
-void add_vtk_hdf(H5Tree &tree, VtkPicture picture) {
+void add_vtk_hdf(H5Tree &tree, VtkPicture current) {
   const std::string group = "VTKHDF";
   tree.attributes[{group, "Version"}] = {"", {2, 1}};
   tree.attributes[{group, "Type"}] = {"PolyData"};
-  tree.arrays[group + "/NumberOfPoints"] = {one(picture.points.size() / 3)};
-  tree.arrays[group + "/Points"] = {std::move(picture.points), 3};
+  tree.arrays[group + "/NumberOfPoints"] = {one(current.points.size() / 3)};
+  tree.arrays[group + "/Points"] = {std::move(current.points), 3};
   add_cells(tree, group + "/Vertices", {});
-  add_cells(tree, group + "/Lines", std::move(picture.chords));
-  add_cells(tree, group + "/Polygons", std::move(picture.triangles));
+  add_cells(tree, group + "/Lines", std::move(current.chords));
+  add_cells(tree, group + "/Polygons", std::move(current.triangles));
   add_cells(tree, group + "/Strips", {});
-  add_arrays(tree, group + "/FieldData", std::move(picture.field_data));
-  add_arrays(tree, group + "/PointData", std::move(picture.point_data));
-  add_arrays(tree, group + "/CellData", std::move(picture.cell_data));
+  add_arrays(tree, group + "/FieldData", std::move(current.field_data));
+  add_arrays(tree, group + "/PointData", std::move(current.point_data));
+  add_arrays(tree, group + "/CellData", std::move(current.cell_data));
 }
 
 }  // namespace mvs::core

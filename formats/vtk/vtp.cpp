@@ -45,7 +45,7 @@ const char *type_name(uint8_t) {
 
 class VtpWriter {
  public:
-  std::string write(const VtkPicture &picture);
+  std::string write(const VtkPicture &current);
 
  private:
   void section(const char *name, const std::vector<VtkArray> &arrays);
@@ -60,24 +60,24 @@ class VtpWriter {
   bool in_field_ = false;  // the one section whose arrays have lengths of their own
 };
 
-std::string VtpWriter::write(const VtkPicture &picture) {
+std::string VtpWriter::write(const VtkPicture &current) {
   out_ += "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"";
   out_ += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   out_ += "\" header_type=\"UInt64\">\n<PolyData>\n";
   in_field_ = true;
-  section("FieldData", picture.field_data);
+  section("FieldData", current.field_data);
   in_field_ = false;
-  out_ += "<Piece NumberOfPoints=\"" + std::to_string(picture.points.size() / 3) +
-          "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(picture.chords.count) +
-          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(picture.triangles.count) +
+  out_ += "<Piece NumberOfPoints=\"" + std::to_string(current.points.size() / 3) +
+          "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(current.chords.count) +
+          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(current.triangles.count) +
           "\">\n";
-  section("PointData", picture.point_data);
-  section("CellData", picture.cell_data);
+  section("PointData", current.point_data);
+  section("CellData", current.cell_data);
   out_ += "<Points>\n";
-  array("Points", 3, picture.points);
+  array("Points", 3, current.points);
   out_ += "</Points>\n";
-  cells("Lines", picture.chords);
-  cells("Polys", picture.triangles);
+  cells("Lines", current.chords);
+  cells("Polys", current.triangles);
   out_ += "</Piece>\n</PolyData>\n</VTKFile>\n";
   return std::move(out_);
 }

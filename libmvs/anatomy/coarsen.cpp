@@ -187,7 +187,7 @@ std::vector<uint32_t> nodes_left(const Model &model, const LiveSheet &sheet) {
 }
 
 template <typename T>
-SharedVector<T> rows(const SharedVector<T> &all, const std::vector<uint32_t> &which) {
+CowVector<T> rows(const CowVector<T> &all, const std::vector<uint32_t> &which) {
   std::vector<T> some;
   some.reserve(which.size());
   for (const uint32_t k : which) some.push_back(all[k]);
@@ -203,11 +203,11 @@ Valve valve_left(const Model &model, const Coarsener &work, const std::vector<ui
     if (!LiveSheet::is_gone(work.sheet().triangle(t))) triangles.push_back(t);
   }
   Valve valve = fine;
-  for (SharedVector<Vec3> *places : {&valve.rest, &valve.open, &valve.loaded}) {
+  for (CowVector<Vec3> *places : {&valve.rest, &valve.open, &valve.loaded}) {
     *places = rows(*places, nodes);
   }
   valve.origin = rows(fine.origin, nodes);
-  valve.triangles = rows(SharedVector<Tri>(work.sheet().triangles()), triangles);
+  valve.triangles = rows(CowVector<Tri>(work.sheet().triangles()), triangles);
   valve.triangle_leaflet = rows(fine.triangle_leaflet, triangles);
   valve.triangle_scallop = rows(fine.triangle_scallop, triangles);
   valve.triangle_thickness = rows(fine.triangle_thickness, triangles);

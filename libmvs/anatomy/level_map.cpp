@@ -160,7 +160,7 @@ State to_fine(const LevelMap &map, const Model &coarse, const Model &fine, const
   made.x.clear();
   made.v.clear();
   made.tools.clear();
-  made.forget_way();
+  made.drop_cache();
   for (uint32_t n = 0; n < map.place.size(); ++n) {
     const LevelPlace &place = map.place[n];
     Vec3 x = mean(place, state.x), v = mean(place, state.v);
@@ -184,7 +184,7 @@ State to_coarse(const LevelMap &map, const State &state) {
   made.x.clear();
   made.v.clear();
   made.tools.clear();
-  made.forget_way();
+  made.drop_cache();
   for (const uint32_t node : map.fine_of_coarse) {
     made.x.push_back(state.x.get()[node]);
     made.v.push_back(state.v.get()[node]);

@@ -14,7 +14,7 @@
 using namespace mvs::core;
 
 struct mvs_device {
-  mvs_device(const mvs_device_desc &desc, Plug::Log log) : device(desc, std::move(log)) {
+  mvs_device(const mvs_device_desc &desc, DriverPlugin::Log log) : device(desc, std::move(log)) {
     hand.set_hand({});
   }
   mutable Device device;
@@ -25,7 +25,7 @@ struct mvs_device {
 
 namespace {
 
-Plug::Log log_of(const mvs_device_desc &desc) {
+DriverPlugin::Log log_of(const mvs_device_desc &desc) {
   if (!desc.log) return {};
   return [log = desc.log, user = desc.user](int32_t level, const char *text) {
     log(user, level, text);
@@ -49,7 +49,7 @@ mvs_device_desc read_device(const mvs_device_desc *given) {
   return desc;
 }
 
-mvs_device_state public_state(const ServoPicture &now, const DeviceView &view) {
+mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
   mvs_device_state out = {};
   out.phase = now.phase;
   out.cause = now.cause;
@@ -74,7 +74,7 @@ mvs_device_state public_state(const ServoPicture &now, const DeviceView &view) {
 
 // Hand to valve, then valve to hand; what the hand points at is looked for where somebody asks.
 void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
-  const ServoPicture now = d.device.picture();
+  const ServoStatus now = d.device.status();
   ServoLinks &links = d.device.links();
   d.hand.begin(now, d.device.limits().stiffness);
   ButtonEvent event;
@@ -84,7 +84,7 @@ void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   } else {
     d.hand.follow(sim);
   }
-  const Tissue tissue = d.hand.tissue(sim);
+  const TissueModel tissue = d.hand.tissue(sim);
   links.tissue.post(tissue);
   const bool is_latched = now.phase == MVS_DEVICE_LATCHED, was_latched = d.latched;
   d.latched = is_latched;
@@ -110,7 +110,7 @@ mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_f
   return guarded([&] {
     must_point(driver, "driver");
     MVS_MUST(found, MVS_E_ARGUMENT, "found", "found is a null pointer");
-    const auto plug = Plug::load(driver, text_or_empty(options), {});
+    const auto plug = DriverPlugin::load(driver, text_or_empty(options), {});
     struct Names {
       std::vector<std::pair<std::string, std::string>> rows;
     };
@@ -230,7 +230,7 @@ mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *
 mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state) {
   return guarded_device(device, [&](mvs_device &d) {
     checked_struct_size(state, "state");
-    const ServoPicture now = d.device.picture();
+    const ServoStatus now = d.device.status();
     const std::lock_guard<std::mutex> lock(d.viewing);
     write_struct(state, public_state(now, d.hand.view()), "state");
   });

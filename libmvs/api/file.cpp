@@ -94,7 +94,7 @@ std::string written(const mvs_snapshot &s, uint32_t format_given) {
            "Abaqus input is read, not written: save as .obj, .h5 or .feb");
   if (format_given == MVS_FORMAT_FEB) return write_feb(*s.model, s.state);
   if (format_given == MVS_FORMAT_VTP) return write_vtp(*s.model, s.state, result_arrays(s));
-  if (format_given == MVS_FORMAT_H5) return write_session(s.moment, result_arrays(s));
+  if (format_given == MVS_FORMAT_H5) return write_session(s.value, result_arrays(s));
   return write_obj(*s.model, s.state);
 }
 

@@ -18,12 +18,12 @@ void copy_text(char (&to)[size], const std::string &from) {
 }
 
 // Entry `index`, those done first; the next to be redone is the first of those undone.
-const Entry &entry_at(const Timeline &timeline, uint32_t index) {
-  const size_t done = timeline.past.size(), count = done + timeline.future.size();
+const HistoryEntry &entry_at(const History &history, uint32_t index) {
+  const size_t done = history.past.size(), count = done + history.future.size();
   MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but the history has %zu entries",
            index, count);
-  if (index < done) return **timeline.past.items()[index];
-  return **timeline.future.items()[count - 1 - index];
+  if (index < done) return **history.past.items()[index];
+  return **history.future.items()[count - 1 - index];
 }
 
 const OpKind &kind_at(uint32_t index) {
@@ -39,11 +39,11 @@ extern "C" {
 mvs_result mvs_snapshot_history(const mvs_snapshot *snapshot, mvs_history *history) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
-    const Timeline &timeline = snapshot->moment.timeline;
+    const History &found = snapshot->value.history;
     mvs_history out = {};
-    out.done = static_cast<uint32_t>(timeline.past.size());
-    out.undone = static_cast<uint32_t>(timeline.future.size());
-    if (timeline.checkpoints) out.checkpoints = static_cast<uint32_t>(timeline.checkpoints->size());
+    out.done = static_cast<uint32_t>(found.past.size());
+    out.undone = static_cast<uint32_t>(found.future.size());
+    if (found.checkpoints) out.checkpoints = static_cast<uint32_t>(found.checkpoints->size());
     write_struct(history, out, "history");
   });
 }
@@ -52,7 +52,7 @@ mvs_result mvs_snapshot_history_entry(const mvs_snapshot *snapshot, uint32_t ind
                                       mvs_history_entry *entry) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
-    const Entry &found = entry_at(snapshot->moment.timeline, index);
+    const HistoryEntry &found = entry_at(snapshot->value.history, index);
     mvs_history_entry out = {};
     out.kind = found.op.kind().number;
     out.group = found.group;
@@ -64,8 +64,8 @@ mvs_result mvs_snapshot_history_entry(const mvs_snapshot *snapshot, uint32_t ind
 }
 
 const char *mvs_snapshot_checkpoint(const mvs_snapshot *snapshot, uint32_t index) {
-  if (!snapshot || !snapshot->moment.timeline.checkpoints) return nullptr;
-  const std::vector<Checkpoint> &list = *snapshot->moment.timeline.checkpoints;
+  if (!snapshot || !snapshot->value.history.checkpoints) return nullptr;
+  const std::vector<Checkpoint> &list = *snapshot->value.history.checkpoints;
   return index < list.size() ? list[index].name.c_str() : nullptr;
 }
 

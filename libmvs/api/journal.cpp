@@ -31,21 +31,21 @@ std::vector<PlanStep> steps_at(const Json &json) {
 }
 
 // Back to right after the last operation: a record tells all moves since then.
-void rewind_moves(Moment &now) {
-  const Picture at = now.timeline.past.empty() ? *start_of(now) : now.timeline.past.top()->after;
-  now.picture = at;
-  now.timeline.moves = {};
+void rewind_moves(Snapshot &now) {
+  const ModelState at = now.history.past.empty() ? *start_of(now) : now.history.past.top()->after;
+  now.current = at;
+  now.history.moves = {};
 }
 
 // Every checkpoint by the steps that led to it, then the steps to where the snapshot was.
 void restart(Replay &replay, const Json &record) {
   Replay there({*start_of(replay.now), {}}, replay);
   for (const Json &checkpoint : record["checkpoints"].items()) {
-    there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
+    there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.history.checkpoints, 1}};
     there.go(steps_at(checkpoint));
     there.now = with_checkpoint(there.now, text_at(checkpoint, "name"));
   }
-  there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.timeline.checkpoints, 1}};
+  there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.history.checkpoints, 1}};
   there.go(steps_at(record));
   replay.now = std::move(there.now);
 }
@@ -73,7 +73,7 @@ void redo(Replay &replay, const Json &record) {
   }
 }
 
-void check_beginning(const Json &first, const Picture &present) {
+void check_beginning(const Json &first, const ModelState &present) {
   MVS_MUST(text_at(first, "do") == "begin" && first.has("valve"), MVS_E_FORMAT, "journal",
            "the journal does not begin with its valve");
   const std::string wanted = text_at(first["valve"], "hash"), found = hash_text(present);
@@ -93,7 +93,7 @@ mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
     MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",
              s.journal->path().c_str());
     const SnapshotPtr present = s.present();
-    const std::string first = begun_record(present->moment).line();
+    const std::string first = begun_record(present->value).line();
     auto journal = std::make_unique<Journal>(Journal::create(path));
     journal->append(first);
     s.journal = std::move(journal);
@@ -116,14 +116,14 @@ mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *repla
     const SnapshotPtr present = s.present();
     const JournalRecords records = read_journal(read_whole_file(path));
     const Json first = parsed(records.texts[0], 1);
-    check_beginning(first, present->moment.picture);
-    Replay steps({present->moment.picture, {}}, true, moves_of(s));
+    check_beginning(first, present->value.current);
+    Replay steps({present->value.current, {}}, true, moves_of(s));
     steps.go(steps_at(first));
     for (size_t k = 1; k < records.texts.size(); ++k) {
       redo(steps, parsed(records.texts[k], k + 1));
     }
     mvs_replay how = {};
-    how.operations = static_cast<uint32_t>(steps.now.timeline.past.size());
+    how.operations = static_cast<uint32_t>(steps.now.history.past.size());
     how.same_valve = how.same_result = 1;
     SnapshotPtr next = make_snapshot(std::move(steps.now));
     s.journal = std::make_unique<Journal>(Journal::go_on(path, records.bytes));

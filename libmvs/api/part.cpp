@@ -50,7 +50,7 @@ void with_parts(const mvs_snapshot *snapshot, uint32_t kind, Use use) {
 }
 
 template <typename Part>
-mvs_part public_part(const SharedVector<Part> &parts, uint32_t kind, uint32_t index) {
+mvs_part public_part(const CowVector<Part> &parts, uint32_t kind, uint32_t index) {
   mvs_part out = {};
   out.id = parts[index].id;
   out.kind = kind;

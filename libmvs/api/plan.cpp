@@ -15,15 +15,15 @@ std::string plan_text(const mvs_snapshot *snapshot, const mvs_plan_options *give
   const mvs_plan_options options = read_struct_or_default(given, "options");
   MVS_MUST(options.measures <= 1, MVS_E_ARGUMENT, "options.measures",
            "options.measures is %u: it has to be 0 or 1", options.measures);
-  return write_plan(snapshot->moment, {text_or_empty(options.author), text_or_empty(options.notes)},
+  return write_plan(snapshot->value, {text_or_empty(options.author), text_or_empty(options.notes)},
                     options.measures ? plan_measures : Measure());
 }
 
-mvs_replay replay_of(const Plan &plan, const Moment &from, const Moment &to) {
+mvs_replay replay_of(const Plan &plan, const Snapshot &from, const Snapshot &to) {
   mvs_replay replay = {};
-  replay.operations = static_cast<uint32_t>(to.timeline.past.size() - from.timeline.past.size());
-  replay.same_valve = plan.valve_hash == hash_text(from.picture) ? 1 : 0;
-  replay.same_result = plan.result_hash == hash_text(to.picture) ? 1 : 0;
+  replay.operations = static_cast<uint32_t>(to.history.past.size() - from.history.past.size());
+  replay.same_valve = plan.valve_hash == hash_text(from.current) ? 1 : 0;
+  replay.same_result = plan.result_hash == hash_text(to.current) ? 1 : 0;
   return replay;
 }
 
@@ -55,13 +55,13 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
     const SnapshotPtr before = s.present();
     if (replay) checked_struct_size(replay, "replay");
     const Plan plan = read_given(data, size);
-    const bool exact = plan.valve_hash == hash_text(before->moment.picture);
+    const bool exact = plan.valve_hash == hash_text(before->value.current);
     must_be_no_group(s, "replay");
-    Replay steps(before->moment, exact, moves_of(s));
+    Replay steps(before->value, exact, moves_of(s));
     steps.go(plan.steps);
-    const mvs_replay how = replay_of(plan, before->moment, steps.now);
+    const mvs_replay how = replay_of(plan, before->value, steps.now);
     commit(s, std::move(steps.now),
-           [&](const Moment &after) { return steps_record(before->moment, after); });
+           [&](const Snapshot &after) { return steps_record(before->value, after); });
     if (replay) write_struct(replay, how, "replay");
   });
 }
@@ -72,10 +72,10 @@ mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size, m
     if (replay) checked_struct_size(replay, "replay");
     const SnapshotPtr before = sim->present();
     const Plan plan = read_given(data, size);
-    const bool exact = plan.valve_hash == hash_text(before->moment.picture);
-    Replay steps(before->moment, exact, {});
+    const bool exact = plan.valve_hash == hash_text(before->value.current);
+    Replay steps(before->value, exact, {});
     steps.go(plan.steps);
-    if (replay) write_struct(replay, replay_of(plan, before->moment, steps.now), "replay");
+    if (replay) write_struct(replay, replay_of(plan, before->value, steps.now), "replay");
   });
 }
 

@@ -70,7 +70,7 @@ mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot) {
   return guarded_call(sim, [&](mvs_sim &s) {
     must_point(snapshot, "snapshot");
     must_be_no_group(s, "restore");
-    restart_journal(s, snapshot->moment);
+    restart_journal(s, snapshot->value);
     mvs_snapshot_retain(snapshot);
     s.replace(SnapshotPtr(snapshot));
     s.hands.forget();

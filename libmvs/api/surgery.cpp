@@ -25,17 +25,17 @@ mvs_result mvs_check_op(const mvs_sim *sim, const mvs_op *op) {
   return guarded([&] {
     must_point(sim, "sim");
     const SnapshotPtr present = sim->present();
-    perform(present->moment.picture, Operation(op));
+    perform(present->value.current, Operation(op));
   });
 }
 
 mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
   return guarded_call(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
-    Moment after = after_op(before->moment, Operation(op), s.group, now_ms());
-    const std::shared_ptr<const Entry> entry = after.timeline.past.top();
+    Snapshot after = after_op(before->value, Operation(op), s.group, now_ms());
+    const std::shared_ptr<const HistoryEntry> entry = after.history.past.top();
     commit(s, std::move(after),
-           [&](const Moment &next) { return steps_record(before->moment, next); });
+           [&](const Snapshot &next) { return steps_record(before->value, next); });
     if (s.group.number == 0) s.make_ready();
     if (made) *made = entry->made;
     s.log(MVS_LOG_INFO, "%s", entry->title.c_str());
@@ -46,7 +46,7 @@ mvs_result mvs_undo(mvs_sim *sim) {
   return guarded_call(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "undo");
-    commit(s, undone(before->moment), [](const Moment &) { return word_record("undo"); });
+    commit(s, undone(before->value), [](const Snapshot &) { return word_record("undo"); });
   });
 }
 
@@ -54,7 +54,7 @@ mvs_result mvs_redo(mvs_sim *sim) {
   return guarded_call(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "redo");
-    commit(s, redone(before->moment), [](const Moment &) { return word_record("redo"); });
+    commit(s, redone(before->value), [](const Snapshot &) { return word_record("redo"); });
   });
 }
 
@@ -62,10 +62,10 @@ mvs_result mvs_begin_group(mvs_sim *sim, const char *name) {
   return guarded_call(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "begin_group");
-    Group group{before->moment.timeline.next_group, checked_name(name, "group")};
-    Moment moment = before->moment;
-    ++moment.timeline.next_group;
-    s.replace(make_snapshot(std::move(moment)));
+    Group group{before->value.history.next_group, checked_name(name, "group")};
+    Snapshot snapshot = before->value;
+    ++snapshot.history.next_group;
+    s.replace(make_snapshot(std::move(snapshot)));
     s.group = std::move(group);
   });
 }
@@ -82,8 +82,8 @@ mvs_result mvs_set_checkpoint(mvs_sim *sim, const char *name) {
   return guarded_call(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     const std::string text = checked_name(name, "checkpoint");
-    commit(s, with_checkpoint(before->moment, text), [&](const Moment &after) {
-      return named_record("checkpoint", text, after.timeline.moves);
+    commit(s, with_checkpoint(before->value, text), [&](const Snapshot &after) {
+      return named_record("checkpoint", text, after.history.moves);
     });
   });
 }
@@ -93,8 +93,8 @@ mvs_result mvs_restore_checkpoint(mvs_sim *sim, const char *name) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "restore_checkpoint");
     const std::string text = checked_name(name, "checkpoint");
-    commit(s, at_checkpoint(before->moment, text),
-           [&](const Moment &) { return named_record("restore_checkpoint", text, {}); });
+    commit(s, at_checkpoint(before->value, text),
+           [&](const Snapshot &) { return named_record("restore_checkpoint", text, {}); });
   });
 }
 

@@ -64,7 +64,7 @@ Kernel choose() {
 
 }  // namespace
 
-void arc_tangents(const double *y, const double *x, double *angle, size_t n) {
+void atan2_batch(const double *y, const double *x, double *angle, size_t n) {
   static const Kernel kernel = choose();
   kernel(y, x, angle, n);
 }

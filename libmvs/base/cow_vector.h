@@ -15,23 +15,23 @@ namespace mvs::core {
 // Read through a const reference where it matters: a non-const operator[] or begin() counts as a
 // change. Copies may live in different threads, one object belongs to one thread at a time.
 template <typename T>
-class SharedVector {
+class CowVector {
  public:
   using value_type = T;
   using Vector = std::vector<T>;
 
-  SharedVector() = default;
-  SharedVector(Vector items) : block_(items.empty() ? nullptr : new Block(std::move(items))) {}
-  SharedVector(std::initializer_list<T> items) : SharedVector(Vector(items)) {}
-  SharedVector(const SharedVector &other) : block_(other.block_) {
+  CowVector() = default;
+  CowVector(Vector items) : block_(items.empty() ? nullptr : new Block(std::move(items))) {}
+  CowVector(std::initializer_list<T> items) : CowVector(Vector(items)) {}
+  CowVector(const CowVector &other) : block_(other.block_) {
     if (block_) block_->owners.fetch_add(1, std::memory_order_relaxed);
   }
-  SharedVector(SharedVector &&other) noexcept : block_(std::exchange(other.block_, nullptr)) {}
-  SharedVector &operator=(SharedVector other) noexcept {
+  CowVector(CowVector &&other) noexcept : block_(std::exchange(other.block_, nullptr)) {}
+  CowVector &operator=(CowVector other) noexcept {
     std::swap(block_, other.block_);
     return *this;
   }
-  ~SharedVector() { drop(); }
+  ~CowVector() { drop(); }
 
   const Vector &get() const { return block_ ? block_->items : nothing(); }
   operator const Vector &() const { return get(); }
@@ -70,7 +70,7 @@ class SharedVector {
   void assign(Iterator first, Iterator last) {
     edit().assign(first, last);
   }
-  void clear() { *this = SharedVector(); }
+  void clear() { *this = CowVector(); }
   void pop_back() { edit().pop_back(); }
   template <typename... Arguments>
   auto insert(Arguments &&...arguments) {
@@ -82,7 +82,7 @@ class SharedVector {
   }
 
   // Takes over the buffer of `other` if it holds the same, bit for bit; says whether it does.
-  bool share_with(const SharedVector &other) {
+  bool share_with(const CowVector &other) {
     if (block_ == other.block_) return true;
     if (!same_bits(get(), other.get())) return false;
     *this = other;
@@ -93,7 +93,7 @@ class SharedVector {
   // Where the buffer is: equal for those that share it, null for an empty one.
   const void *buffer() const { return block_; }
 
-  friend bool operator==(const SharedVector &a, const SharedVector &b) {
+  friend bool operator==(const CowVector &a, const CowVector &b) {
     return a.block_ == b.block_ || a.get() == b.get();
   }
 

@@ -14,24 +14,24 @@
 namespace mvs::core {
 
 #if defined(__SSE2__) || defined(_M_X64)
-class FlushTiny {
+class FlushDenormals {
  public:
-  FlushTiny() { _mm_setcsr(before_ | results_and_operands); }
-  ~FlushTiny() { _mm_setcsr(before_); }
-  FlushTiny(const FlushTiny &) = delete;
-  FlushTiny &operator=(const FlushTiny &) = delete;
+  FlushDenormals() { _mm_setcsr(before_ | results_and_operands); }
+  ~FlushDenormals() { _mm_setcsr(before_); }
+  FlushDenormals(const FlushDenormals &) = delete;
+  FlushDenormals &operator=(const FlushDenormals &) = delete;
 
  private:
   static constexpr unsigned results_and_operands = 0x8040;
   const unsigned before_ = _mm_getcsr();
 };
 #elif defined(__aarch64__) && defined(__GNUC__)
-class FlushTiny {
+class FlushDenormals {
  public:
-  FlushTiny() { set(before_ | results_and_operands); }
-  ~FlushTiny() { set(before_); }
-  FlushTiny(const FlushTiny &) = delete;
-  FlushTiny &operator=(const FlushTiny &) = delete;
+  FlushDenormals() { set(before_ | results_and_operands); }
+  ~FlushDenormals() { set(before_); }
+  FlushDenormals(const FlushDenormals &) = delete;
+  FlushDenormals &operator=(const FlushDenormals &) = delete;
 
  private:
   static constexpr uint64_t results_and_operands = uint64_t{1} << 24;
@@ -44,10 +44,10 @@ class FlushTiny {
   const uint64_t before_ = get();
 };
 #else
-class FlushTiny {
+class FlushDenormals {
  public:
-  FlushTiny() {}  // not constexpr, nor trivial: nobody warns of it as unused
-  ~FlushTiny() {}
+  FlushDenormals() {}  // not constexpr, nor trivial: nobody warns of it as unused
+  ~FlushDenormals() {}
 };
 #endif
 

@@ -19,22 +19,23 @@ constexpr size_t few_pairs = 32;
 
 }  // namespace
 
-Candidates::Candidates(const Model &model)
+BroadPhase::BroadPhase(const Model &model)
     : model_(&model),
       thickness_(model.valve.contact_thickness),
-      apart_at_rest_(model),
+      rest_distance_filter_(model),
       tree_(model.valve.rest, model.valve.triangles),
       parts_(model, tree_),
-      lanes_(model, tree_, parts_, facing_rest_distance * thickness_) {
+      lanes_(model, tree_, parts_, contact_rest_distance * thickness_) {
   // more than a closed valve has, so that a live step seldom allocates
   const size_t triangles = model.valve.triangles.size(), edges = model.topology.edges.size();
-  for (auto *pairs : {&facing_, &guarded_, &sorted_, &kept_.facing, &kept_.guarded}) {
+  for (auto *pairs :
+       {&contact_candidates_, &barrier_candidates_, &sorted_, &kept_.facing, &kept_.guarded}) {
     pairs->reserve(16 * parts_.vertices().size());
   }
-  for (auto *pairs : {&guarded_edges_, &kept_.edges}) pairs->reserve(4 * edges);
+  for (auto *pairs : {&barrier_edge_candidates_, &kept_.edges}) pairs->reserve(4 * edges);
   for (auto *places : {&kept_.from, &kept_.to, &kept_.half}) places->reserve(model.node_count());
   for (auto *pairs : {&found_triangles_, &found_edges_}) {
-    pairs->reserve(enough_found + 2 * SheetLanes::most_pairs);
+    pairs->reserve(enough_found + 2 * LeafSoA::most_pairs);
   }
   triangle_changed_.resize(triangles);
   still_.assign(triangles, 0);
@@ -51,7 +52,7 @@ Candidates::Candidates(const Model &model)
 }
 
 // The share of their ways at which nodes that go together are nearest to x.
-double Candidates::share_of(const std::vector<Vec3> &x) const {
+double BroadPhase::share_of(const std::vector<Vec3> &x) const {
   double along = 0, square = 0;
   for (size_t i = 0; i < x.size(); ++i) {
     along += half_[i].dot(x[i] - from_[i]);
@@ -60,7 +61,7 @@ double Candidates::share_of(const std::vector<Vec3> &x) const {
   return square > 0 ? std::clamp(0.5 * along / square, 0.0, 1.0) : 0.0;
 }
 
-bool Candidates::valid_for(const std::vector<Vec3> &x) const {
+bool BroadPhase::valid_for(const std::vector<Vec3> &x) const {
   if (from_.size() != x.size()) return false;
   const double share = for_itself() ? 0 : share_of(x);
   for (size_t i = 0; i < x.size(); ++i) {
@@ -71,8 +72,8 @@ bool Candidates::valid_for(const std::vector<Vec3> &x) const {
   return true;
 }
 
-void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
-                       Pace pace) {
+void BroadPhase::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+                       StepMotion pace) {
   const bool begins = from_ != x || to_ == from_;
   if (!begins && first_) keep_first();
   first_ = begins;
@@ -88,44 +89,44 @@ void Candidates::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
     half_[i] = 0.5 * (to[i] - x[i]);
   }
   find_still();
-  if (keeps_near_ && !near_) near_.emplace(*model_, parts_, lanes_, apart_at_rest_, tree_);
+  if (keeps_near_ && !near_) near_.emplace(*model_, parts_, lanes_, rest_distance_filter_, tree_);
   if (keeps_near_ && lists_++ >= lists_alone &&
       near_->follow({from_, to_, middle_, half_, slack, pace})) {
     choose();
   } else {
     search();
   }
-  sort_pairs(facing_);
-  sort_pairs(guarded_);
+  sort_pairs(contact_candidates_);
+  sort_pairs(barrier_candidates_);
   sort_edges();
 }
 
 // Before others take their place.
-void Candidates::keep_first() {
+void BroadPhase::keep_first() {
   kept_.from = from_;
   kept_.to = to_;
   kept_.half = half_;
   kept_.slack = slack_;
   kept_.pace = pace_;
-  kept_.facing = facing_;
-  kept_.guarded = guarded_;
-  kept_.edges = guarded_edges_;
+  kept_.facing = contact_candidates_;
+  kept_.guarded = barrier_candidates_;
+  kept_.edges = barrier_edge_candidates_;
   kept_.first = true;
 }
 
-void Candidates::exchange() {
+void BroadPhase::exchange() {
   from_.swap(kept_.from);
   to_.swap(kept_.to);
   half_.swap(kept_.half);
   std::swap(slack_, kept_.slack);
   std::swap(pace_, kept_.pace);
-  facing_.swap(kept_.facing);
-  guarded_.swap(kept_.guarded);
-  guarded_edges_.swap(kept_.edges);
+  contact_candidates_.swap(kept_.facing);
+  barrier_candidates_.swap(kept_.guarded);
+  barrier_edge_candidates_.swap(kept_.edges);
   std::swap(first_, kept_.first);
 }
 
-bool Candidates::recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to) {
+bool BroadPhase::recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to) {
   if (!kept_.first || kept_.from != x) return false;
   exchange();
   if (valid_for(x) && valid_for(to)) return true;
@@ -135,8 +136,8 @@ bool Candidates::recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to)
 
 // Marks the nodes that another way leads elsewhere than that of the last lists. True if these were
 // made for the same places and most nodes go as they did.
-bool Candidates::find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
-                              Pace pace) {
+bool BroadPhase::find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+                              StepMotion pace) {
   if (from_ != x || slack != slack_ || pace != pace_) return false;
   changed_.resize(x.size());
   size_t changed = 0;
@@ -145,17 +146,17 @@ bool Candidates::find_changed(const std::vector<Vec3> &x, const std::vector<Vec3
 }
 
 // From what is kept: what search() would find.
-void Candidates::choose() {
+void BroadPhase::choose() {
   forget_changed();
-  for (const NearBlocks &blocks : near_->blocks()) {
+  for (const VerletBlocks &blocks : near_->blocks()) {
     if (skip_block_[blocks.a] && skip_block_[blocks.b]) continue;
     const double reach = blocks.used + blocks.reach;
     for (uint32_t k = blocks.first_triangle; k < blocks.last_triangle; ++k) {
-      const NearTriangle &p = near_->triangles()[k];
+      const VerletTriangle &p = near_->triangles()[k];
       if (p.over <= reach) choose(p, blocks);
     }
     for (uint32_t k = blocks.first_edge; k < blocks.last_edge; ++k) {
-      const NearEdges &p = near_->edges()[k];
+      const VerletEdges &p = near_->edges()[k];
       if (p.over <= reach) found_edges_.push_back({p.first, p.second});
     }
     if (found_triangles_.size() >= enough_found) take_triangles();
@@ -166,23 +167,23 @@ void Candidates::choose() {
 }
 
 // Of what has hardly moved since it was looked at, that is enough to know.
-void Candidates::choose(const NearTriangle &p, const NearBlocks &blocks) {
+void BroadPhase::choose(const VerletTriangle &p, const VerletBlocks &blocks) {
   const bool surely_faces = p.faces && p.over + blocks.used <= 2 * slack_;
-  const double over_guard = p.over + thickness_ - guard_share * thickness_;
+  const double over_guard = p.over + thickness_ - barrier_share * thickness_;
   if (!surely_faces || !(over_guard > blocks.used + blocks.reach)) {
     found_triangles_.push_back({p.vertex, p.triangle});
   } else if (concerns(p.vertex, p.triangle)) {
-    facing_.push_back({p.vertex, p.triangle, 0});
+    contact_candidates_.push_back({p.vertex, p.triangle, 0});
   }
 }
 
 // What changed nodes have no part in stays as it was found.
-void Candidates::search() {
+void BroadPhase::search() {
   forget_changed();
   lanes_.begin(from_, to_, pace_);
   tree_.place(lanes_.place_all(), skip_block_);
   const float facing = lanes_.margin(thickness_ + 2 * slack_);
-  const float guard = lanes_.margin(guard_share * thickness_ + 2 * slack_);
+  const float guard = lanes_.margin(barrier_share * thickness_ + 2 * slack_);
   tree_.for_near_blocks(facing, [&](uint32_t a, uint32_t b) {
     lanes_.meet(a, b, facing, guard, found_triangles_, found_edges_);
     if (found_triangles_.size() >= enough_found) take_triangles();
@@ -192,12 +193,12 @@ void Candidates::search() {
   take_edges();
 }
 
-void Candidates::forget_changed() {
+void BroadPhase::forget_changed() {
   skip_block_.assign(tree_.block_count(), 0);
   if (!little_) {
-    facing_.clear();
-    guarded_.clear();
-    guarded_edges_.clear();
+    contact_candidates_.clear();
+    barrier_candidates_.clear();
+    barrier_edge_candidates_.clear();
   } else {
     const auto &triangles = model_->valve.triangles.get();
     for (uint32_t t = 0; t < triangles.size(); ++t) {
@@ -217,29 +218,29 @@ void Candidates::forget_changed() {
   }
 }
 
-void Candidates::forget() {
-  for (auto *pairs : {&facing_, &guarded_}) {
+void BroadPhase::forget() {
+  for (auto *pairs : {&contact_candidates_, &barrier_candidates_}) {
     std::erase_if(*pairs, [&](const VertexTriangle &p) {
       return changed_[p.vertex] || triangle_changed_[p.triangle];
     });
   }
-  std::erase_if(guarded_edges_,
+  std::erase_if(barrier_edge_candidates_,
                 [&](const EdgeEdge &p) { return edge_changed(p.first) || edge_changed(p.second); });
 }
 
-bool Candidates::edge_changed(uint32_t edge) const {
+bool BroadPhase::edge_changed(uint32_t edge) const {
   const Edge &e = model_->topology.edges[edge];
   return changed_[e[0]] || changed_[e[1]];
 }
 
 // What is prescribed to stay where it is.
-bool Candidates::stays(uint32_t node) const {
+bool BroadPhase::stays(uint32_t node) const {
   const Valve &valve = model_->valve;
   return model_->topology.fixed[node] && from_[node] == valve.open[node] &&
          valve.open[node] == valve.loaded[node];
 }
 
-void Candidates::find_still() {
+void BroadPhase::find_still() {
   any_still_ = false;
   for (const uint32_t t : held_) {
     const auto [i, j, k] = model_->valve.triangles[t];
@@ -252,7 +253,7 @@ void Candidates::find_still() {
 // come. On common shares only what the nodes move against each other counts, and the difference of
 // two convex combinations is one of differences.
 template <typename A, typename B>
-double Candidates::reach(const A &a, const B &b) const {
+double BroadPhase::reach(const A &a, const B &b) const {
   double together2 = 0, of_a2 = 0, of_b2 = 0;
   for (const uint32_t i : a) {
     of_a2 = std::max(of_a2, half_[i].squaredNorm());
@@ -265,19 +266,19 @@ double Candidates::reach(const A &a, const B &b) const {
 }
 
 // Nothing is between two things that stay, nor to look for between those that go as they did.
-bool Candidates::concerns(uint32_t vertex, uint32_t triangle) const {
+bool BroadPhase::concerns(uint32_t vertex, uint32_t triangle) const {
   if (any_still_ && still_[triangle] && stays(vertex)) return false;
   return !little_ || changed_[vertex] || triangle_changed_[triangle];
 }
 
-bool Candidates::concerns(const Edge &pair) const {
+bool BroadPhase::concerns(const Edge &pair) const {
   if (any_still_ && still_[parts_.owner_of(pair[0])] && still_[parts_.owner_of(pair[1])]) {
     return false;
   }
   return !little_ || edge_changed(pair[0]) || edge_changed(pair[1]);
 }
 
-void Candidates::take_triangles() {
+void BroadPhase::take_triangles() {
   const auto &triangles = model_->valve.triangles.get();
   if (any_still_ || little_) {
     std::erase_if(found_triangles_, [&](const Edge &p) { return !concerns(p[0], p[1]); });
@@ -302,24 +303,24 @@ void Candidates::take_triangles() {
 // What is apart at rest faces; what is near enough is guarded, whatever it was at rest. Boxes
 // around the ends of two ways are no farther apart than the ways are in the middle and come nearer
 // until there.
-void Candidates::take(uint32_t vertex, uint32_t triangle, double middle, double near) {
+void BroadPhase::take(uint32_t vertex, uint32_t triangle, double middle, double near) {
   const double distance = middle - near;
   if (!(distance <= thickness_)) return;
-  const bool faces = apart_at_rest_(vertex, triangle);
-  const double longest = guard_share * thickness_;
+  const bool faces = rest_distance_filter_(vertex, triangle);
+  const double longest = barrier_share * thickness_;
   if (!faces && distance > longest) return;
   const Tri &t = model_->valve.triangles[triangle];
   const double margin = (faces ? thickness_ : longest) + 2 * slack_;
   const bool surely_near = middle + near - 2 * slack_ < margin * (1 - 1e-9);
   if (!surely_near && apart(way_of(std::array<uint32_t, 1>{vertex}), way_of(t), margin)) return;
-  if (faces) facing_.push_back({vertex, triangle, 0});
+  if (faces) contact_candidates_.push_back({vertex, triangle, 0});
   if (distance > longest) return;
-  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, vertex, t));
-  if (distance <= guard) guarded_.push_back({vertex, triangle, guard});
+  const double guard = barrier_range(thickness_, distance_of(model_->valve.rest, vertex, t));
+  if (distance <= guard) barrier_candidates_.push_back({vertex, triangle, guard});
 }
 
 // By vertex in linear time; the few of each by triangle.
-void Candidates::sort_pairs(std::vector<VertexTriangle> &pairs) {
+void BroadPhase::sort_pairs(std::vector<VertexTriangle> &pairs) {
   if (pairs.size() < few_pairs) {
     std::sort(pairs.begin(), pairs.end(), [](const VertexTriangle &p, const VertexTriangle &q) {
       return p.vertex != q.vertex ? p.vertex < q.vertex : p.triangle < q.triangle;
@@ -342,13 +343,14 @@ void Candidates::sort_pairs(std::vector<VertexTriangle> &pairs) {
   }
 }
 
-void Candidates::sort_edges() {
-  std::sort(guarded_edges_.begin(), guarded_edges_.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
-    return p.first != q.first ? p.first < q.first : p.second < q.second;
-  });
+void BroadPhase::sort_edges() {
+  std::sort(barrier_edge_candidates_.begin(), barrier_edge_candidates_.end(),
+            [](const EdgeEdge &p, const EdgeEdge &q) {
+              return p.first != q.first ? p.first < q.first : p.second < q.second;
+            });
 }
 
-void Candidates::take_edges() {
+void BroadPhase::take_edges() {
   const auto &edges = model_->topology.edges.get();
   if (any_still_ || little_) {
     std::erase_if(found_edges_, [&](const Edge &p) { return !concerns(p); });
@@ -369,13 +371,13 @@ void Candidates::take_edges() {
   found_edges_.clear();
 }
 
-void Candidates::take_edge_pair(uint32_t i, uint32_t j, double distance) {
-  const double longest = guard_share * thickness_;
+void BroadPhase::take_edge_pair(uint32_t i, uint32_t j, double distance) {
+  const double longest = barrier_share * thickness_;
   if (!(distance <= longest)) return;
   const Edge &e = model_->topology.edges[i], &f = model_->topology.edges[j];
-  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));
+  const double guard = barrier_range(thickness_, distance_of(model_->valve.rest, e, f));
   if (distance > guard || apart(way_of(e), way_of(f), longest + 2 * slack_)) return;
-  guarded_edges_.push_back({i, j, guard});
+  barrier_edge_candidates_.push_back({i, j, guard});
 }
 
 }  // namespace mvs::core

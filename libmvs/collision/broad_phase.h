@@ -33,11 +33,11 @@ struct EdgeEdge {
   double guard;            // m
 };
 
-class Candidates {
+class BroadPhase {
  public:
-  explicit Candidates(const Model &model);
-  Candidates(const Candidates &) = delete;
-  Candidates &operator=(const Candidates &) = delete;
+  explicit BroadPhase(const Model &model);
+  BroadPhase(const BroadPhase &) = delete;
+  BroadPhase &operator=(const BroadPhase &) = delete;
 
   // Whether what is near is kept from one list to the next, which pays in live steps; the lists are
   // the same.
@@ -46,20 +46,23 @@ class Candidates {
   void keep_near_at_once() { lists_ = std::max(lists_, lists_alone); }
   // Makes the lists for nodes on their way from x to `to`.
   void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
-             Pace pace = Pace::together);
+             StepMotion pace = StepMotion::together);
   // Goes back to the first lists made where the last ones were, if they hold for x and `to`: a step
   // that is shortened as a whole after its cuts needs no lists of its own.
   bool recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to);
   // Whether each node is on its way, and all at the same share of it if they go together. What is
   // true of two places is true of the straight way between them.
   bool valid_for(const std::vector<Vec3> &x) const;
-  bool for_itself() const { return pace_ == Pace::each_for_itself; }
+  bool for_itself() const { return pace_ == StepMotion::independent; }
 
-  bool empty() const { return facing_.empty() && guarded_.empty() && guarded_edges_.empty(); }
+  bool empty() const {
+    return contact_candidates_.empty() && barrier_candidates_.empty() &&
+           barrier_edge_candidates_.empty();
+  }
   // Sorted by vertex, then triangle; edges by first, then second.
-  const std::vector<VertexTriangle> &facing() const { return facing_; }
-  const std::vector<VertexTriangle> &guarded() const { return guarded_; }
-  const std::vector<EdgeEdge> &guarded_edges() const { return guarded_edges_; }
+  const std::vector<VertexTriangle> &contact_candidates() const { return contact_candidates_; }
+  const std::vector<VertexTriangle> &barrier_candidates() const { return barrier_candidates_; }
+  const std::vector<EdgeEdge> &barrier_edge_candidates() const { return barrier_edge_candidates_; }
 
  private:
   void keep_first();
@@ -68,13 +71,13 @@ class Candidates {
   bool stays(uint32_t node) const;
   void find_still();
   template <typename Nodes>
-  Way way_of(const Nodes &nodes) const {
-    return Way::of(nodes, from_, to_, pace_);
+  SweptAabb way_of(const Nodes &nodes) const {
+    return SweptAabb::of(nodes, from_, to_, pace_);
   }
   void choose();
-  void choose(const NearTriangle &pair, const NearBlocks &blocks);
+  void choose(const VerletTriangle &pair, const VerletBlocks &blocks);
   bool find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
-                    Pace pace);
+                    StepMotion pace);
   void search();
   void forget_changed();
   void forget();
@@ -92,19 +95,19 @@ class Candidates {
 
   const Model *model_;
   double thickness_;
-  RestApart apart_at_rest_;
-  MovingTree tree_;
-  SheetParts parts_;
-  SheetLanes lanes_;
+  RestDistanceFilter rest_distance_filter_;
+  SweptBvh tree_;
+  LeafParts parts_;
+  LeafSoA lanes_;
   std::vector<Vec3> from_, to_;         // of each node
   std::vector<Vec3> middle_, half_;     // of its way; from there to the end
   std::vector<VertexTriangle> sorted_;  // while pairs are sorted, with how many each vertex has
   std::vector<uint32_t> count_;
   // What is to be measured: pairs that the lanes have found, and some of them side by side.
   std::vector<Edge> found_triangles_, found_edges_;
-  PairRows place_, motion_;
+  DistanceBatch place_, motion_;
   double slack_ = 0;
-  Pace pace_ = Pace::together;
+  StepMotion pace_ = StepMotion::together;
   // Nodes and triangles that go elsewhere than when the lists were last made; triangles between two
   // of which there is nothing to look for.
   std::vector<uint8_t> changed_, triangle_changed_, skip_block_;
@@ -113,14 +116,14 @@ class Candidates {
   std::vector<uint32_t> held_;
   std::vector<uint8_t> still_;
   bool any_still_ = false;
-  std::vector<VertexTriangle> facing_, guarded_;
-  std::vector<EdgeEdge> guarded_edges_;
+  std::vector<VertexTriangle> contact_candidates_, barrier_candidates_;
+  std::vector<EdgeEdge> barrier_edge_candidates_;
   bool first_ = false;  // lists of a way from this place
   // Those before the present ones, where that place had other ones first.
   struct {
     std::vector<Vec3> from, to, half;
     double slack = 0;
-    Pace pace = Pace::together;
+    StepMotion pace = StepMotion::together;
     std::vector<VertexTriangle> facing, guarded;
     std::vector<EdgeEdge> edges;
     bool first = false;
@@ -130,7 +133,7 @@ class Candidates {
   // one does not need it, and the first step is dear enough.
   static constexpr uint64_t lists_alone = 2;
   uint64_t lists_ = 0;
-  std::optional<NearPairs> near_;
+  std::optional<VerletList> near_;
 };
 
 }  // namespace mvs::core

@@ -2,7 +2,7 @@
 
 namespace mvs::core {
 
-SheetParts::SheetParts(const Model &model, const MovingTree &tree)
+LeafParts::LeafParts(const Model &model, const SweptBvh &tree)
     : vertex_start_{0}, edge_start_{0}, owner_(model.topology.edges.size(), none) {
   std::vector<uint8_t> taken(model.node_count(), 0);
   const auto &start = tree.block_start();

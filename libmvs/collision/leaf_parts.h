@@ -11,9 +11,9 @@
 
 namespace mvs::core {
 
-class SheetParts {
+class LeafParts {
  public:
-  SheetParts(const Model &model, const MovingTree &tree);
+  LeafParts(const Model &model, const SweptBvh &tree);
 
   // By blocks.
   const std::vector<uint32_t> &vertices() const { return vertex_; }

@@ -11,19 +11,19 @@ double farthest_of(const Vec3 &p, double farthest) {
   return std::max(farthest, p.cwiseAbs().maxCoeff());
 }
 
-NarrowCorner narrow_corner(const Vec3 &p) {
+CornerF to_corner(const Vec3 &p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0};
 }
 
 // Bit k: lane k of one of some is the same as one of the values.
 template <size_t some, size_t values>
-uint32_t lanes_with(const std::array<std::array<int32_t, WayLanes::count>, some> &lanes,
+uint32_t lanes_with(const std::array<std::array<int32_t, SweptAabb8::count>, some> &lanes,
                     const std::array<int32_t, values> &value) {
   uint32_t bits = 0;
-  for (uint32_t k = 0; k < WayLanes::count; k += few) {
-    FewAnswers same = {};
+  for (uint32_t k = 0; k < SweptAabb8::count; k += simd_width) {
+    SimdMask same = {};
     for (const auto &one : lanes) {
-      for (const int32_t v : value) same |= take_few(&one[k]) == v;
+      for (const int32_t v : value) same |= load_simd(&one[k]) == v;
     }
     bits |= bits_of(same) << k;
   }
@@ -33,19 +33,18 @@ uint32_t lanes_with(const std::array<std::array<int32_t, WayLanes::count>, some>
 // Calls visit(first, count) for eight after eight of some, the rest last.
 template <typename Items, typename Visit>
 void by_eight(const Items &items, Visit &&visit) {
-  for (size_t k = 0; k < items.size(); k += WayLanes::count) {
-    visit(k, std::min<size_t>(WayLanes::count, items.size() - k));
+  for (size_t k = 0; k < items.size(); k += SweptAabb8::count) {
+    visit(k, std::min<size_t>(SweptAabb8::count, items.size() - k));
   }
 }
 
 }  // namespace
 
-SheetLanes::SheetLanes(const Model &model, const MovingTree &tree, const SheetParts &parts,
-                       double apart)
+LeafSoA::LeafSoA(const Model &model, const SweptBvh &tree, const LeafParts &parts, double apart)
     : model_(&model), vertex_start_{0}, edge_start_{0} {
   double farthest = 0;
   for (const uint32_t v : parts.vertices()) farthest = farthest_of(model.valve.rest[v], farthest);
-  rest_margin_ = narrow_margin(apart, farthest);
+  rest_margin_ = float_margin(apart, farthest);
   // of a difference of two places, and its square and sum
   const double near = apart * (1 - 1e-5) - 8 * 0x1p-24 * farthest;
   surely_near2_ = static_cast<float>(near > 0 ? near * near : 0);
@@ -54,11 +53,11 @@ SheetLanes::SheetLanes(const Model &model, const MovingTree &tree, const SheetPa
   for (uint32_t block = 0; block < tree.block_count(); ++block) add_block(block, tree, parts);
   way_.resize(tree.block_count());
   placed_.assign(tree.block_count(), 0);
-  begin(model.valve.rest, model.valve.rest, Pace::together);
+  begin(model.valve.rest, model.valve.rest, StepMotion::together);
   rest_ = place_all();
 }
 
-void SheetLanes::add_block(uint32_t block, const MovingTree &tree, const SheetParts &parts) {
+void LeafSoA::add_block(uint32_t block, const SweptBvh &tree, const LeafParts &parts) {
   const auto &rest = model_->valve.rest.get();
   Triangles &own = triangles_[block];
   own.id.fill(none);
@@ -101,7 +100,7 @@ void SheetLanes::add_block(uint32_t block, const MovingTree &tree, const SheetPa
   edge_start_.push_back(static_cast<uint32_t>(edges_.size()));
 }
 
-void SheetLanes::begin(const std::vector<Vec3> &from, const std::vector<Vec3> &to, Pace pace) {
+void LeafSoA::begin(const std::vector<Vec3> &from, const std::vector<Vec3> &to, StepMotion pace) {
   ++round_;
   pace_ = pace;
   farthest_ = 0;
@@ -109,54 +108,54 @@ void SheetLanes::begin(const std::vector<Vec3> &from, const std::vector<Vec3> &t
     for (const uint32_t v : eight.id) {
       if (v == none) break;
       farthest_ = farthest_of(to[v], farthest_of(from[v], farthest_));
-      node_[v] = {narrow_corner(from[v]), narrow_corner(to[v])};
+      node_[v] = {to_corner(from[v]), to_corner(to[v])};
     }
   }
 }
 
-const std::vector<NarrowWay> &SheetLanes::place_all() {
+const std::vector<SweptAabbF> &LeafSoA::place_all() {
   for (uint32_t block = 0; block < way_.size(); ++block) place(block);
   return way_;
 }
 
-const std::vector<NarrowWay> &SheetLanes::place_boxes() {
+const std::vector<SweptAabbF> &LeafSoA::place_boxes() {
   for (size_t block = 0; block < way_.size(); ++block) {
     way_[block] = {};
     for (const uint32_t t : triangles_[block].id) {
       if (t == none) break;
       for (const uint32_t i : model_->valve.triangles[t]) way_[block].add(node_[i]);
     }
-    if (pace_ == Pace::each_for_itself) way_[block].join_ends();
+    if (pace_ == StepMotion::independent) way_[block].join_ends();
   }
   return way_;
 }
 
 template <typename Nodes>
-NarrowWay SheetLanes::narrow(const Nodes &nodes) const {
-  NarrowWay way;
+SweptAabbF LeafSoA::narrow(const Nodes &nodes) const {
+  SweptAabbF way;
   for (const uint32_t i : nodes) way.add(node_[i]);
-  if (pace_ == Pace::each_for_itself) way.join_ends();
+  if (pace_ == StepMotion::independent) way.join_ends();
   return way;
 }
 
-void SheetLanes::place_block(uint32_t block) {
+void LeafSoA::place_block(uint32_t block) {
   placed_[block] = round_;
   Triangles &own = triangles_[block];
-  NarrowWay &all = way_[block] = {};
-  for (uint32_t lane = 0; lane < WayLanes::count && own.id[lane] != none; ++lane) {
-    const NarrowWay way = narrow(model_->valve.triangles[own.id[lane]]);
+  SweptAabbF &all = way_[block] = {};
+  for (uint32_t lane = 0; lane < SweptAabb8::count && own.id[lane] != none; ++lane) {
+    const SweptAabbF way = narrow(model_->valve.triangles[own.id[lane]]);
     own.way.set(lane, way);
     all.add(way);
   }
   for (uint32_t k = vertex_start_[block]; k < vertex_start_[block + 1]; ++k) {
     Vertices &eight = vertices_[k];
-    for (uint32_t lane = 0; lane < WayLanes::count && eight.id[lane] != none; ++lane) {
+    for (uint32_t lane = 0; lane < SweptAabb8::count && eight.id[lane] != none; ++lane) {
       eight.way.set(lane, narrow(std::array<uint32_t, 1>{eight.id[lane]}));
     }
   }
   for (uint32_t k = edge_start_[block]; k < edge_start_[block + 1]; ++k) {
     Edges &eight = edges_[k];
-    for (uint32_t lane = 0; lane < WayLanes::count && eight.id[lane] != none; ++lane) {
+    for (uint32_t lane = 0; lane < SweptAabb8::count && eight.id[lane] != none; ++lane) {
       eight.way.set(lane, narrow(model_->topology.edges[eight.id[lane]]));
     }
   }
@@ -164,8 +163,8 @@ void SheetLanes::place_block(uint32_t block) {
 
 // Where all of two blocks was surely apart at rest, as leaflets are, what is within a guard faces,
 // too.
-void SheetLanes::meet(uint32_t a, uint32_t b, float facing, float guard,
-                      std::vector<Edge> &triangles, std::vector<Edge> &edges) const {
+void LeafSoA::meet(uint32_t a, uint32_t b, float facing, float guard, std::vector<Edge> &triangles,
+                   std::vector<Edge> &edges) const {
   const bool within_guard = !surely_apart(way_[a], way_[b], guard);
   const bool asks_guard = within_guard && !surely_apart(rest_[a], rest_[b], rest_margin_);
   const float *closer = asks_guard ? &guard : nullptr;
@@ -174,17 +173,17 @@ void SheetLanes::meet(uint32_t a, uint32_t b, float facing, float guard,
   if (within_guard) near_edges(a, b, guard, edges);
 }
 
-void SheetLanes::near_vertices(uint32_t of, uint32_t in, float facing, const float *guard,
-                               std::vector<Edge> &pairs) const {
+void LeafSoA::near_vertices(uint32_t of, uint32_t in, float facing, const float *guard,
+                            std::vector<Edge> &pairs) const {
   for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
     near_vertices(vertices_[k], in, facing, guard, pairs);
   }
 }
 
-void SheetLanes::near_vertices(const Vertices &of, uint32_t in, float facing, const float *guard,
-                               std::vector<Edge> &pairs) const {
+void LeafSoA::near_vertices(const Vertices &of, uint32_t in, float facing, const float *guard,
+                            std::vector<Edge> &pairs) const {
   const Triangles &there = triangles_[in];
-  NearLanes near, close;
+  LaneMasks near, close;
   uint32_t some = find_near(of.way, way_[in], facing);
   if (some == 0) return;
   some = find_near(of.way, some, there.way, facing, near);
@@ -200,7 +199,7 @@ void SheetLanes::near_vertices(const Vertices &of, uint32_t in, float facing, co
   }
 }
 
-void SheetLanes::near_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const {
+void LeafSoA::near_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const {
   for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
     const uint32_t of = find_near(edges_[k].way, way_[b], margin);
     if (of == 0) continue;
@@ -211,9 +210,9 @@ void SheetLanes::near_edges(uint32_t a, uint32_t b, float margin, std::vector<Ed
 }
 
 // Of the lanes `of` of one; with itself, each pair comes once.
-void SheetLanes::near_edges(const Edges &here, uint32_t of, const Edges &there, float margin,
-                            std::vector<Edge> &pairs) {
-  NearLanes near;
+void LeafSoA::near_edges(const Edges &here, uint32_t of, const Edges &there, float margin,
+                         std::vector<Edge> &pairs) {
+  LaneMasks near;
   for (uint32_t some = find_near(here.way, of, there.way, margin, near); some != 0;
        some &= some - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(some));
@@ -226,21 +225,21 @@ void SheetLanes::near_edges(const Edges &here, uint32_t of, const Edges &there, 
   }
 }
 
-uint32_t SheetLanes::with_corner(const Triangles &triangles, uint32_t vertex) {
+uint32_t LeafSoA::with_corner(const Triangles &triangles, uint32_t vertex) {
   return lanes_with<3, 1>(triangles.corner, {static_cast<int32_t>(vertex)});
 }
 
-uint32_t SheetLanes::sharing(const Edges &edges, const Edges &of, uint32_t lane) {
+uint32_t LeafSoA::sharing(const Edges &edges, const Edges &of, uint32_t lane) {
   return lanes_with<2, 2>(edges.end, {of.end[0][lane], of.end[1][lane]});
 }
 
 // The lanes that are not surely near at rest.
-uint32_t SheetLanes::maybe_apart(const Vertices &of, uint32_t lane, const Triangles &in) const {
+uint32_t LeafSoA::maybe_apart(const Vertices &of, uint32_t lane, const Triangles &in) const {
   uint32_t bits = 0;
-  for (uint32_t k = 0; k < WayLanes::count; k += few) {
-    const FewNumbers x = take_few(&in.centre[0][k]) - of.rest[0][lane];
-    const FewNumbers y = take_few(&in.centre[1][k]) - of.rest[1][lane];
-    const FewNumbers z = take_few(&in.centre[2][k]) - of.rest[2][lane];
+  for (uint32_t k = 0; k < SweptAabb8::count; k += simd_width) {
+    const SimdFloat x = load_simd(&in.centre[0][k]) - of.rest[0][lane];
+    const SimdFloat y = load_simd(&in.centre[1][k]) - of.rest[1][lane];
+    const SimdFloat z = load_simd(&in.centre[2][k]) - of.rest[2][lane];
     bits |= bits_of(x * x + y * y + z * z >= surely_near2_) << k;
   }
   return bits;

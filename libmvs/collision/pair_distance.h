@@ -30,13 +30,13 @@ inline double distance_of(const std::vector<Vec3> &x, const Edge &e, const Edge 
 }
 
 // The same pairs, to be measured many at a time.
-inline void set_pair(PairRows &rows, uint32_t pair, const std::vector<Vec3> &x, uint32_t v,
+inline void set_pair(DistanceBatch &rows, uint32_t pair, const std::vector<Vec3> &x, uint32_t v,
                      const Tri &t) {
   rows.set(pair, 0, x[v]);
   for (uint32_t k = 0; k < 3; ++k) rows.set(pair, k + 1, x[t[k]]);
 }
 
-inline void set_pair(PairRows &rows, uint32_t pair, const std::vector<Vec3> &x, const Edge &e,
+inline void set_pair(DistanceBatch &rows, uint32_t pair, const std::vector<Vec3> &x, const Edge &e,
                      const Edge &f) {
   for (uint32_t k = 0; k < 2; ++k) {
     rows.set(pair, k, x[e[k]]);
@@ -47,8 +47,8 @@ inline void set_pair(PairRows &rows, uint32_t pair, const std::vector<Vec3> &x, 
 // As many pairs at a time as rows hold: work(the first of them, their number).
 template <typename Work>
 void for_rows(const std::vector<Edge> &pairs, Work &&work) {
-  for (size_t first = 0; first < pairs.size(); first += PairRows::most) {
-    const size_t count = std::min<size_t>(PairRows::most, pairs.size() - first);
+  for (size_t first = 0; first < pairs.size(); first += DistanceBatch::most) {
+    const size_t count = std::min<size_t>(DistanceBatch::most, pairs.size() - first);
     work(pairs.data() + first, static_cast<uint32_t>(count));
   }
 }

@@ -14,8 +14,8 @@ constexpr double rounding = 1e-9;  // relative, more than squares and roots are 
 
 }  // namespace
 
-RestApart::RestApart(const Model &model) : model_(&model) {
-  const double needed = facing_rest_distance * model.valve.contact_thickness;
+RestDistanceFilter::RestDistanceFilter(const Model &model) : model_(&model) {
+  const double needed = contact_rest_distance * model.valve.contact_thickness;
   surely_near2_ = needed * needed * (1 - rounding);
   const auto &x = model.valve.rest.get();
   centre_.reserve(model.valve.triangles.size());
@@ -32,9 +32,9 @@ RestApart::RestApart(const Model &model) : model_(&model) {
   }
 }
 
-bool RestApart::is_apart(uint32_t vertex, uint32_t triangle) const {
+bool RestDistanceFilter::is_apart(uint32_t vertex, uint32_t triangle) const {
   return distance_of(model_->valve.rest, vertex, model_->valve.triangles[triangle]) >=
-         facing_rest_distance * model_->valve.contact_thickness;
+         contact_rest_distance * model_->valve.contact_thickness;
 }
 
 }  // namespace mvs::core

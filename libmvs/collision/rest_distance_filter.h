@@ -7,10 +7,10 @@
 
 namespace mvs::core {
 
-class RestApart {
+class RestDistanceFilter {
  public:
   // The model is there as long as this.
-  explicit RestApart(const Model &model);
+  explicit RestDistanceFilter(const Model &model);
 
   bool operator()(uint32_t vertex, uint32_t triangle) const {
     const double centre2 = (model_->valve.rest[vertex] - centre_[triangle]).squaredNorm();

@@ -33,30 +33,31 @@ double closest_of_guard(double range) {
 
 }  // namespace
 
-uint32_t StepBounds::limit(const Model &model, const std::vector<Vec3> &x, double slack,
-                           Candidates &candidates, std::vector<Vec3> &dx, InstrumentBodies *tools) {
+uint32_t StepLimiter::limit(const Model &model, const std::vector<Vec3> &x, double slack,
+                            BroadPhase &broad_phase, std::vector<Vec3> &dx,
+                            InstrumentBodies *tools) {
   static const std::vector<ToolPair> no_pairs;
   for (uint32_t lists = 0;;) {
     to_.resize(x.size());
     for (size_t i = 0; i < x.size(); ++i) to_[i] = x[i] + dx[i];
     const bool is_new = tools && !tools->is_prepared();
-    if (is_new || !candidates.valid_for(x) || !candidates.valid_for(to_)) {
-      if (is_new || !candidates.recall(x, to_)) {
-        candidates.build(x, to_, slack,
-                         lists < lists_together ? Pace::together : Pace::each_for_itself);
+    if (is_new || !broad_phase.valid_for(x) || !broad_phase.valid_for(to_)) {
+      if (is_new || !broad_phase.recall(x, to_)) {
+        broad_phase.build(x, to_, slack,
+                          lists < lists_together ? StepMotion::together : StepMotion::independent);
         ++lists;
       }
       if (tools) tools->prepare(x, to_, slack);
     }
     const auto &apart = tools ? tools->pairs_to_part(x) : no_pairs;
-    if (limit(model, x, candidates, dx, apart) == 1 || candidates.for_itself()) return lists;
+    if (limit(model, x, broad_phase, dx, apart) == 1 || broad_phase.for_itself()) return lists;
   }
 }
 
-double StepBounds::limit(const Model &model, const std::vector<Vec3> &x,
-                         const Candidates &candidates, std::vector<Vec3> &dx,
-                         const std::vector<ToolPair> &tools) {
-  take_pairs(model, x, candidates, dx);
+double StepLimiter::limit(const Model &model, const std::vector<Vec3> &x,
+                          const BroadPhase &broad_phase, std::vector<Vec3> &dx,
+                          const std::vector<ToolPair> &tools) {
+  take_pairs(model, x, broad_phase, dx);
   for (const ToolPair &p : tools) keep(p, p.radius + closest_to_tool, dx);
   if (pairs_.empty()) return 1;
   scale_.assign(dx.size(), 1.0);
@@ -78,7 +79,7 @@ double StepBounds::limit(const Model &model, const std::vector<Vec3> &x,
 }
 
 // Keeps a pair if its nodes move far enough to matter.
-void StepBounds::keep(const ToolPair &pair, double least, const std::vector<Vec3> &dx) {
+void StepLimiter::keep(const ToolPair &pair, double least, const std::vector<Vec3> &dx) {
   const double length = pair.apart.norm();
   const double room = usable * std::max(0.0, length - least);
   double near = 0, far = 0;
@@ -90,18 +91,18 @@ void StepBounds::keep(const ToolPair &pair, double least, const std::vector<Vec3
   pairs_.push_back({pair.node, pair.with, pair.split, pair.apart / length, room});
 }
 
-void StepBounds::take_pairs(const Model &model, const std::vector<Vec3> &x,
-                            const Candidates &candidates, const std::vector<Vec3> &dx) {
+void StepLimiter::take_pairs(const Model &model, const std::vector<Vec3> &x,
+                             const BroadPhase &broad_phase, const std::vector<Vec3> &dx) {
   pairs_.clear();
   pairs_.reserve(model.node_count());  // rarely more, so that a live step seldom allocates
-  for (const VertexTriangle &c : candidates.guarded()) {
+  for (const VertexTriangle &c : broad_phase.barrier_candidates()) {
     const Tri &t = model.valve.triangles[c.triangle];
     const auto p = closest_on_triangle(x[c.vertex], x[t[0]], x[t[1]], x[t[2]]);
     const Vec3 q = p.weight[0] * x[t[0]] + p.weight[1] * x[t[1]] + p.weight[2] * x[t[2]];
     const std::array<uint32_t, 4> node = {c.vertex, t[0], t[1], t[2]};
     keep({node, node, 1, x[c.vertex] - q, 0}, closest_of_guard(c.guard), dx);
   }
-  for (const EdgeEdge &c : candidates.guarded_edges()) {
+  for (const EdgeEdge &c : broad_phase.barrier_edge_candidates()) {
     const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
     const auto p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
     const Vec3 r = x[e[0]] + p.s * (x[e[1]] - x[e[0]]) - x[f[0]] - p.t * (x[f[1]] - x[f[0]]);
@@ -110,7 +111,7 @@ void StepBounds::take_pairs(const Model &model, const std::vector<Vec3> &x,
   }
 }
 
-bool StepBounds::cut(const Pair &pair, const std::vector<Vec3> &dx) {
+bool StepLimiter::cut(const Pair &pair, const std::vector<Vec3> &dx) {
   std::array<double, 4> approach;
   std::array<double, 2> side{-1e300, -1e300};
   for (uint32_t k = 0; k < 4; ++k) {

@@ -29,7 +29,7 @@ constexpr uint32_t calm_rounds = 2;
 // Of the contact thickness: more than distances are wrong by, of near parallel edges too.
 constexpr double rounding = 1e-5;
 
-double gap_of(const NarrowWay &a, const NarrowWay &b) {
+double gap_of(const SweptAabbF &a, const SweptAabbF &b) {
   double sum = 0;
   for (size_t k = 0; k < 3; ++k) {
     const double above = a.start_low[k] - b.start_high[k], below = b.start_low[k] - a.start_high[k];
@@ -41,15 +41,15 @@ double gap_of(const NarrowWay &a, const NarrowWay &b) {
 
 }  // namespace
 
-NearPairs::NearPairs(const Model &model, const SheetParts &parts, SheetLanes &lanes,
-                     const RestApart &apart_at_rest, MovingTree &tree)
+VerletList::VerletList(const Model &model, const LeafParts &parts, LeafSoA &lanes,
+                       const RestDistanceFilter &rest_distance_filter, SweptBvh &tree)
     : model_(&model),
       parts_(&parts),
       lanes_(&lanes),
-      apart_at_rest_(&apart_at_rest),
+      rest_distance_filter_(&rest_distance_filter),
       tree_(&tree),
       thickness_(model.valve.contact_thickness),
-      guard_(guard_share * thickness_),
+      guard_(barrier_share * thickness_),
       skin_(skin * thickness_) {
   place_nodes();
   const size_t count = tree.block_count(), edges = model.topology.edges.size();
@@ -67,10 +67,10 @@ NearPairs::NearPairs(const Model &model, const SheetParts &parts, SheetLanes &la
   for (auto *pairs : {&blocks_, &old_blocks_}) pairs->reserve(24 * count);
   found_.reserve(24 * count);
   worn_.reserve(24 * count);
-  for (auto *pairs : {&found_triangles_, &found_edges_}) pairs->reserve(2 * SheetLanes::most_pairs);
+  for (auto *pairs : {&found_triangles_, &found_edges_}) pairs->reserve(2 * LeafSoA::most_pairs);
 }
 
-void NearPairs::place_nodes() {
+void VerletList::place_nodes() {
   const auto &start = tree_->block_start();
   std::vector<uint32_t> last(model_->node_count(), none);
   node_start_ = {0};
@@ -85,7 +85,7 @@ void NearPairs::place_nodes() {
   }
 }
 
-bool NearPairs::follow(const NodeWays &ways) {
+bool VerletList::follow(const NodeWays &ways) {
   if (!move(ways) || is_wild()) return false;
   if (!holds(ways)) find_blocks(ways);
   if (find_used(ways)) look_again();
@@ -93,7 +93,7 @@ bool NearPairs::follow(const NodeWays &ways) {
 }
 
 // How each block has moved since the last round, and will on the way ahead.
-bool NearPairs::move(const NodeWays &ways) {
+bool VerletList::move(const NodeWays &ways) {
   if (middle_.empty()) middle_ = ways.middle;
   step_.resize(middle_.size());
   for (const uint32_t i : parts_->vertices()) {
@@ -118,7 +118,7 @@ bool NearPairs::move(const NodeWays &ways) {
 
 // Whether blocks are torn about so much that each would be looked at again on every way; until they
 // are half as many, so that not all are looked at in between.
-bool NearPairs::is_wild() {
+bool VerletList::is_wild() {
   const auto count = std::count_if(half_.begin(), half_.end(), [&](const Motion &half) {
     return half.beside > wild * thickness_;
   });
@@ -129,7 +129,7 @@ bool NearPairs::is_wild() {
   return wild_;
 }
 
-NearPairs::Motion NearPairs::motion_of(uint32_t block, const std::vector<Vec3> &nodes) const {
+VerletList::Motion VerletList::motion_of(uint32_t block, const std::vector<Vec3> &nodes) const {
   const uint32_t first = node_start_[block], last = node_start_[block + 1];
   Vec3 low = nodes[node_[first]], high = low;
   for (uint32_t k = first + 1; k < last; ++k) {
@@ -145,8 +145,8 @@ NearPairs::Motion NearPairs::motion_of(uint32_t block, const std::vector<Vec3> &
 }
 
 // Whether no other blocks than those found have come near enough to each other to act.
-bool NearPairs::holds(const NodeWays &ways) const {
-  if (from_.empty() || (pace_ != ways.pace && pace_ != Pace::each_for_itself)) return false;
+bool VerletList::holds(const NodeWays &ways) const {
+  if (from_.empty() || (pace_ != ways.pace && pace_ != StepMotion::independent)) return false;
   const double needed = thickness_ * (1 + rounding) + 2 * ways.slack;
   if (!(needed <= margin_)) return false;
   const double most = 0.25 * (margin_ - needed) * (margin_ - needed);
@@ -157,7 +157,7 @@ bool NearPairs::holds(const NodeWays &ways) const {
   return true;
 }
 
-void NearPairs::find_blocks(const NodeWays &ways) {
+void VerletList::find_blocks(const NodeWays &ways) {
   from_ = ways.from;
   to_ = ways.to;
   pace_ = ways.pace;
@@ -172,7 +172,7 @@ void NearPairs::find_blocks(const NodeWays &ways) {
 }
 
 // What is known of blocks that are still near is kept: by the rows of the lower ones.
-void NearPairs::keep_blocks() {
+void VerletList::keep_blocks() {
   row_start_.swap(old_row_start_);
   blocks_.swap(old_blocks_);
   row_start_.assign(where_.size() + 1, 0);
@@ -195,9 +195,9 @@ void NearPairs::keep_blocks() {
 }
 
 // What blocks have used of their skins. True if one has to be looked at.
-bool NearPairs::find_used(const NodeWays &ways) {
+bool VerletList::find_used(const NodeWays &ways) {
   const double error = rounding * thickness_;
-  for (size_t block = 0; ways.pace == Pace::each_for_itself && block < half_.size(); ++block) {
+  for (size_t block = 0; ways.pace == StepMotion::independent && block < half_.size(); ++block) {
     longest_half_[block] = half_[block].common.norm() + half_[block].beside;
   }
   worn_.assign(blocks_.size(), 0);
@@ -205,10 +205,10 @@ bool NearPairs::find_used(const NodeWays &ways) {
   const size_t turn = round_ % turns * blocks_.size() / turns;
   const size_t next_turn = (round_ % turns + 1) * blocks_.size() / turns;
   for (size_t k = 0; k < blocks_.size(); ++k) {
-    NearBlocks &p = blocks_[k];
+    VerletBlocks &p = blocks_[k];
     const Motion &a = gone_[p.a], &b = gone_[p.b], &to_a = half_[p.a], &to_b = half_[p.b];
     p.reach = 2 * ways.slack + error +
-              (ways.pace == Pace::each_for_itself
+              (ways.pace == StepMotion::independent
                    ? longest_half_[p.a] + longest_half_[p.b]
                    : (to_a.common - to_b.common).norm() + to_a.beside + to_b.beside);
     p.used = error + (a.common - b.common - p.between).norm() + (a.beside + b.beside - p.beside);
@@ -219,14 +219,14 @@ bool NearPairs::find_used(const NodeWays &ways) {
   return any;
 }
 
-void NearPairs::look_again() {
-  lanes_->begin(middle_, middle_, Pace::together);
+void VerletList::look_again() {
+  lanes_->begin(middle_, middle_, StepMotion::together);
   triangles_.swap(old_triangles_);
   edges_.swap(old_edges_);
   triangles_.clear();
   edges_.clear();
   for (size_t k = 0; k < blocks_.size(); ++k) {
-    NearBlocks &p = blocks_[k];
+    VerletBlocks &p = blocks_[k];
     const auto first_triangle = static_cast<uint32_t>(triangles_.size());
     const auto first_edge = static_cast<uint32_t>(edges_.size());
     if (worn_[k]) {
@@ -244,7 +244,7 @@ void NearPairs::look_again() {
   }
 }
 
-void NearPairs::look(NearBlocks &p) {
+void VerletList::look(VerletBlocks &p) {
   p.between = gone_[p.a].common - gone_[p.b].common;
   p.beside = gone_[p.a].beside + gone_[p.b].beside;
   p.used = rounding * thickness_;
@@ -263,7 +263,7 @@ void NearPairs::look(NearBlocks &p) {
   take_edges(p);
 }
 
-void NearPairs::take_triangles(const NearBlocks &p) {
+void VerletList::take_triangles(const VerletBlocks &p) {
   const auto &triangles = model_->valve.triangles.get();
   for_rows(found_triangles_, [&](const Edge *pair, uint32_t count) {
     for (uint32_t k = 0; k < count; ++k) {
@@ -277,22 +277,22 @@ void NearPairs::take_triangles(const NearBlocks &p) {
   found_triangles_.clear();
 }
 
-void NearPairs::take(const NearBlocks &p, uint32_t vertex, uint32_t triangle, double distance) {
+void VerletList::take(const VerletBlocks &p, uint32_t vertex, uint32_t triangle, double distance) {
   const double over = distance - thickness_;
   if (over > p.skin) return;
-  if ((*apart_at_rest_)(vertex, triangle)) {
+  if ((*rest_distance_filter_)(vertex, triangle)) {
     triangles_.push_back({vertex, triangle, guard_, over, true});
     return;
   }
   if (distance > guard_ + p.skin) return;
   const Tri &t = model_->valve.triangles[triangle];
-  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, vertex, t));
+  const double guard = barrier_range(thickness_, distance_of(model_->valve.rest, vertex, t));
   if (distance <= guard + p.skin) {
     triangles_.push_back({vertex, triangle, guard, distance - guard, false});
   }
 }
 
-void NearPairs::take_edges(const NearBlocks &p) {
+void VerletList::take_edges(const VerletBlocks &p) {
   const auto &edges = model_->topology.edges.get();
   for_rows(found_edges_, [&](const Edge *pair, uint32_t count) {
     for (uint32_t k = 0; k < count; ++k) {
@@ -307,10 +307,10 @@ void NearPairs::take_edges(const NearBlocks &p) {
 }
 
 // The lower one first: the rounding of their distance depends on it.
-void NearPairs::take_edge_pair(const NearBlocks &p, uint32_t i, uint32_t j, double distance) {
+void VerletList::take_edge_pair(const VerletBlocks &p, uint32_t i, uint32_t j, double distance) {
   if (distance > guard_ + p.skin) return;
   const Edge &e = model_->topology.edges[i], &f = model_->topology.edges[j];
-  const double guard = guard_range(thickness_, distance_of(model_->valve.rest, e, f));
+  const double guard = barrier_range(thickness_, distance_of(model_->valve.rest, e, f));
   if (distance <= guard + p.skin) edges_.push_back({i, j, guard, distance - guard});
 }
 

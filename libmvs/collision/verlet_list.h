@@ -26,14 +26,14 @@
 namespace mvs::core {
 
 // `over`: m, how much farther apart it was than the longest distance at which it acts.
-struct NearTriangle {
+struct VerletTriangle {
   uint32_t vertex, triangle;
   double guard;  // m, range of the guard
   double over;
   bool faces;  // apart in the rest shape
 };
 
-struct NearEdges {
+struct VerletEdges {
   uint32_t first, second;  // edges, first < second
   double guard;            // m
   double over;
@@ -42,7 +42,7 @@ struct NearEdges {
 // The pairs between two blocks, from the first to before the last. No distance between two things
 // of theirs has changed by more than `used` since they were looked at, and none falls by more than
 // `reach` below that in the middle of the way, slack included.
-struct NearBlocks {
+struct VerletBlocks {
   uint32_t a = 0, b = 0;
   double used = 0, reach = 0;
   uint32_t first_triangle = 0, last_triangle = 0, first_edge = 0, last_edge = 0;
@@ -55,22 +55,22 @@ struct NearBlocks {
 struct NodeWays {
   const std::vector<Vec3> &from, &to, &middle, &half;  // half: from the middle to the end
   double slack;
-  Pace pace;
+  StepMotion pace;
 };
 
-class NearPairs {
+class VerletList {
  public:
   // All of the same model, and there as long as this.
-  NearPairs(const Model &model, const SheetParts &parts, SheetLanes &lanes,
-            const RestApart &apart_at_rest, MovingTree &tree);
+  VerletList(const Model &model, const LeafParts &parts, LeafSoA &lanes,
+             const RestDistanceFilter &rest_distance_filter, SweptBvh &tree);
 
   // Makes the lists hold every pair that could act on these ways. False if the sheet moves too
   // wildly for lists to be worth it.
   bool follow(const NodeWays &ways);
 
-  const std::vector<NearBlocks> &blocks() const { return blocks_; }
-  const std::vector<NearTriangle> &triangles() const { return triangles_; }
-  const std::vector<NearEdges> &edges() const { return edges_; }
+  const std::vector<VerletBlocks> &blocks() const { return blocks_; }
+  const std::vector<VerletTriangle> &triangles() const { return triangles_; }
+  const std::vector<VerletEdges> &edges() const { return edges_; }
 
  private:
   // How a block moves: what its nodes have in common, and how far any of them is off that.
@@ -88,17 +88,17 @@ class NearPairs {
   void keep_blocks();
   bool find_used(const NodeWays &ways);
   void look_again();
-  void look(NearBlocks &blocks);
-  void take_triangles(const NearBlocks &blocks);
-  void take(const NearBlocks &blocks, uint32_t vertex, uint32_t triangle, double distance);
-  void take_edges(const NearBlocks &blocks);
-  void take_edge_pair(const NearBlocks &blocks, uint32_t i, uint32_t j, double distance);
+  void look(VerletBlocks &blocks);
+  void take_triangles(const VerletBlocks &blocks);
+  void take(const VerletBlocks &blocks, uint32_t vertex, uint32_t triangle, double distance);
+  void take_edges(const VerletBlocks &blocks);
+  void take_edge_pair(const VerletBlocks &blocks, uint32_t i, uint32_t j, double distance);
 
   const Model *model_;
-  const SheetParts *parts_;
-  SheetLanes *lanes_;
-  const RestApart *apart_at_rest_;
-  MovingTree *tree_;
+  const LeafParts *parts_;
+  LeafSoA *lanes_;
+  const RestDistanceFilter *rest_distance_filter_;
+  SweptBvh *tree_;
   double thickness_, guard_, skin_;
   std::vector<uint32_t> node_start_, node_;  // of the triangles of each block
   std::vector<Vec3> middle_, step_;  // of each node in this round; how far that is from the last
@@ -109,17 +109,17 @@ class NearPairs {
   uint64_t round_ = 0;
   // The ways for which blocks_ are all that come within a margin of each other.
   std::vector<Vec3> from_, to_;
-  Pace pace_ = Pace::together;
+  StepMotion pace_ = StepMotion::together;
   double margin_ = 0;
   std::vector<uint8_t> still_;  // no block, for the tree
   std::vector<Edge> found_;     // pairs of blocks, the lower one first
   std::vector<uint32_t> row_start_, old_row_start_, where_;
-  std::vector<NearBlocks> blocks_, old_blocks_;
+  std::vector<VerletBlocks> blocks_, old_blocks_;
   std::vector<uint8_t> worn_;
-  std::vector<NearTriangle> triangles_, old_triangles_;
-  std::vector<NearEdges> edges_, old_edges_;
+  std::vector<VerletTriangle> triangles_, old_triangles_;
+  std::vector<VerletEdges> edges_, old_edges_;
   std::vector<Edge> found_triangles_, found_edges_;  // of the blocks at hand
-  PairRows rows_;
+  DistanceBatch rows_;
 };
 
 }  // namespace mvs::core

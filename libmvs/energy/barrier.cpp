@@ -21,15 +21,15 @@ Barrier penalty(double s) {
   return {scale * q * q * q, -3 * scale * q * q, 6 * scale * q};
 }
 
-ContactStencil point_point(uint32_t v, uint32_t a) {
+ContactPair point_point(uint32_t v, uint32_t a) {
   return {{v, a, none, none}, {1, -1, 0, 0}, {}, 2, 0, {}, 0, 0, 0, false};
 }
 
-ContactStencil point_edge(uint32_t v, uint32_t a, uint32_t b, double s) {
+ContactPair point_edge(uint32_t v, uint32_t a, uint32_t b, double s) {
   return {{v, a, b, none}, {1, s - 1, -s, 0}, {{{0, 1, -1, 0}, {}}}, 3, 1, {}, 0, 0, 0, false};
 }
 
-ContactStencil point_face(uint32_t v, const Tri &t, const std::array<double, 3> &w) {
+ContactPair point_face(uint32_t v, const Tri &t, const std::array<double, 3> &w) {
   return {{v, t[0], t[1], t[2]},
           {1, -w[0], -w[1], -w[2]},
           {{{0, 1, -1, 0}, {0, 1, 0, -1}}},
@@ -42,22 +42,22 @@ ContactStencil point_face(uint32_t v, const Tri &t, const std::array<double, 3> 
           false};
 }
 
-ContactStencil vertex_triangle(uint32_t v, const Tri &t, const TrianglePoint &p) {
+ContactPair vertex_triangle(uint32_t v, const Tri &t, const TrianglePoint &p) {
   if (p.feature < 3) return point_point(v, t[p.feature]);
   if (p.feature == 6) return point_face(v, t, p.weight);
   const uint32_t k = p.feature - 3, l = (k + 1) % 3;
   return point_edge(v, t[k], t[l], p.weight[l]);
 }
 
-ContactStencil edge_edge(const Edge &e, const Edge &f, const SegmentPair &p) {
-  ContactStencil c{
+ContactPair edge_edge(const Edge &e, const Edge &f, const SegmentPair &p) {
+  ContactPair c{
       {e[0], e[1], f[0], f[1]}, {1 - p.s, p.s, p.t - 1, -p.t}, {}, 4, 0, {}, 0, 0, 0, true};
   if (p.s > 0 && p.s < 1) c.slide[c.slides++] = {-1, 1, 0, 0};
   if (p.t > 0 && p.t < 1) c.slide[c.slides++] = {0, 0, 1, -1};
   return c;
 }
 
-bool measure(const std::vector<Vec3> &x, ContactStencil &s) {
+bool measure(const std::vector<Vec3> &x, ContactPair &s) {
   Vec3 r = Vec3::Zero();
   for (uint32_t k = 0; k < s.count; ++k) r += s.weight[k] * x[s.node[k]];
   s.distance = r.norm();
@@ -66,18 +66,18 @@ bool measure(const std::vector<Vec3> &x, ContactStencil &s) {
   return true;
 }
 
-double energy_of(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double)) {
+double energy_of(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double)) {
   double sum = 0;
-  for (const ContactStencil &s : stencils) {
+  for (const ContactPair &s : contact_pairs) {
     sum += s.strength * s.range * curve(s.gap() / s.range).value;
   }
   return sum;
 }
 
-double add_gradient(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double),
+double add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
                     std::vector<Vec3> &g) {
   double sum = 0;
-  for (const ContactStencil &s : stencils) {
+  for (const ContactPair &s : contact_pairs) {
     const Barrier b = curve(s.gap() / s.range);
     sum += s.strength * s.range * b.value;
     const Vec3 f = s.strength * b.first * s.normal;
@@ -96,7 +96,7 @@ namespace {
 // The projected one keeps E'' n n^T, which is positive where E'' is, and leaves the rest.
 class StencilHessian {
  public:
-  StencilHessian(const ContactStencil &s, double second, double c, const std::vector<Vec3> &x)
+  StencilHessian(const ContactPair &s, double second, double c, const std::vector<Vec3> &x)
       : stencil_(s), c_(c) {
     const Vec3 &n = s.normal;
     along_ = (second - c) * n * n.transpose();
@@ -133,7 +133,7 @@ class StencilHessian {
     inverse_ = gram.inverse();
   }
 
-  const ContactStencil &stencil_;
+  const ContactPair &stencil_;
   double c_;
   Mat3 along_;
   uint32_t slides_ = 0;
@@ -143,10 +143,10 @@ class StencilHessian {
 
 }  // namespace
 
-bool add_hessian(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double),
-                 const std::vector<Vec3> &x, Curvature curvature, System &system) {
+bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
+                 const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) {
   bool complete = true;
-  for (const ContactStencil &s : stencils) {
+  for (const ContactPair &s : contact_pairs) {
     const Barrier b = curve(s.gap() / s.range);
     const double second = s.strength / s.range * b.second;
     const bool exact = curvature == Curvature::exact;
@@ -162,8 +162,8 @@ bool add_hessian(const std::vector<ContactStencil> &stencils, Barrier (*curve)(d
   return complete;
 }
 
-void add_pairs(const std::vector<ContactStencil> &stencils, std::vector<Edge> &pairs) {
-  for (const ContactStencil &s : stencils) {
+void add_pairs(const std::vector<ContactPair> &contact_pairs, std::vector<Edge> &pairs) {
+  for (const ContactPair &s : contact_pairs) {
     for (uint32_t k = 0; k < s.count; ++k) {
       for (uint32_t l = 0; l < k; ++l) pairs.push_back({s.node[k], s.node[l]});
     }

@@ -19,7 +19,7 @@ Barrier barrier(double s);
 Barrier penalty(double s);
 
 // One distance and what it does: d = |sum_k weight_k x_k| over up to four nodes.
-struct ContactStencil {
+struct ContactPair {
   std::array<uint32_t, 4> node;
   std::array<double, 4> weight;
   std::array<std::array<double, 4>, 2> slide;  // d(weight) along each direction it may slide in
@@ -36,23 +36,23 @@ struct ContactStencil {
 };
 
 // Stencils without distance, range and strength. Nodes of the second kind come after the first.
-ContactStencil point_point(uint32_t v, uint32_t a);
-ContactStencil point_edge(uint32_t v, uint32_t a, uint32_t b, double s);
-ContactStencil point_face(uint32_t v, const Tri &t, const std::array<double, 3> &weight);
+ContactPair point_point(uint32_t v, uint32_t a);
+ContactPair point_edge(uint32_t v, uint32_t a, uint32_t b, double s);
+ContactPair point_face(uint32_t v, const Tri &t, const std::array<double, 3> &weight);
 // Of a vertex and the feature of a triangle that is closest to it.
-ContactStencil vertex_triangle(uint32_t v, const Tri &t, const TrianglePoint &p);
-ContactStencil edge_edge(const Edge &e, const Edge &f, const SegmentPair &p);
+ContactPair vertex_triangle(uint32_t v, const Tri &t, const TrianglePoint &p);
+ContactPair edge_edge(const Edge &e, const Edge &f, const SegmentPair &p);
 
 // Works out the distance at x; false if that is out of range.
-bool measure(const std::vector<Vec3> &x, ContactStencil &s);
+bool measure(const std::vector<Vec3> &x, ContactPair &s);
 
 // Sums over stencils, at the positions where they were measured.
-double energy_of(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double));
-double add_gradient(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double),
+double energy_of(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double));
+double add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
                     std::vector<Vec3> &g);
 // False if the pattern lacks a block; add_pairs() then gives what is needed.
-bool add_hessian(const std::vector<ContactStencil> &stencils, Barrier (*curve)(double),
-                 const std::vector<Vec3> &x, Curvature curvature, System &system);
-void add_pairs(const std::vector<ContactStencil> &stencils, std::vector<Edge> &pairs);
+bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
+                 const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system);
+void add_pairs(const std::vector<ContactPair> &contact_pairs, std::vector<Edge> &pairs);
 
 }  // namespace mvs::core

@@ -118,7 +118,7 @@ double hinge_angle(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x
   const Fold fold(x0, x1, x2, x3);
   const double sine = fold.sine(), cosine = fold.cosine();
   double angle = 0;
-  arc_tangents(&sine, &cosine, &angle, 1);
+  atan2_batch(&sine, &cosine, &angle, 1);
   return angle;
 }
 
@@ -177,7 +177,7 @@ double BendingTerm::gradient_of(size_t first, size_t last, const std::vector<Vec
     cosine[k - first] = fold.cosine();
     fold.slopes(slope[k - first]);
   }
-  arc_tangents(sine.data(), cosine.data(), angle.data(), last - first);
+  atan2_batch(sine.data(), cosine.data(), angle.data(), last - first);
   double sum = 0;
   for (size_t k = first; k < last; ++k) {
     const Hinge &h = hinges_[k];
@@ -188,7 +188,8 @@ double BendingTerm::gradient_of(size_t first, size_t last, const std::vector<Vec
   return sum;
 }
 
-void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                          HessianAssembler &system) const {
   if (curvature == Curvature::exact) {
     add_exact(x, system);
   } else {
@@ -196,7 +197,7 @@ void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syste
   }
 }
 
-void BendingTerm::add_exact(const std::vector<Vec3> &x, System &system) const {
+void BendingTerm::add_exact(const std::vector<Vec3> &x, HessianAssembler &system) const {
   Hessian exact;
   size_t pair = 0;
   for (const Hinge &h : hinges_) {
@@ -220,12 +221,12 @@ void BendingTerm::add_exact(const std::vector<Vec3> &x, System &system) const {
   }
 }
 
-void BendingTerm::add_projected(const std::vector<Vec3> &x, System &system) const {
+void BendingTerm::add_projected(const std::vector<Vec3> &x, HessianAssembler &system) const {
   Slope slope;
   size_t pair = 0;
   for (const Hinge &h : hinges_) {
     Fold(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]).slopes(slope);
-    system.add_rank_one(pair, h.node, slope, h.stiffness);
+    system.add_outer_product(pair, h.node, slope, h.stiffness);
     pair += 6;
   }
 }

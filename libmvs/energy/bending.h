@@ -21,7 +21,7 @@ class BendingTerm {
   bool empty() const { return hinges_.empty(); }
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:
@@ -32,8 +32,8 @@ class BendingTerm {
   };
   double gradient_of(size_t first, size_t last, const std::vector<Vec3> &x,
                      std::vector<Vec3> &g) const;
-  void add_exact(const std::vector<Vec3> &x, System &system) const;
-  void add_projected(const std::vector<Vec3> &x, System &system) const;
+  void add_exact(const std::vector<Vec3> &x, HessianAssembler &system) const;
+  void add_projected(const std::vector<Vec3> &x, HessianAssembler &system) const;
 
   std::vector<Hinge> hinges_;
 };

@@ -5,9 +5,9 @@
 
 namespace mvs::core {
 
-ChordTerm::ChordTerm(const Model &model) : valve_(&model.valve) {}
+CableTerm::CableTerm(const Model &model) : valve_(&model.valve) {}
 
-double ChordTerm::energy(const std::vector<Vec3> &x) const {
+double CableTerm::energy(const std::vector<Vec3> &x) const {
   double sum = 0;
   for (const Chord &c : valve_->chords) {
     const double e = (x[c.b] - x[c.a]).norm() / c.rest_length - 1;
@@ -16,7 +16,7 @@ double ChordTerm::energy(const std::vector<Vec3> &x) const {
   return sum;
 }
 
-double ChordTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+double CableTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
   double sum = 0;
   for (const Chord &c : valve_->chords) {
     const Vec3 d = x[c.b] - x[c.a];
@@ -32,7 +32,8 @@ double ChordTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) con
   return sum;
 }
 
-void ChordTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+void CableTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                        HessianAssembler &system) const {
   for (const Chord &c : valve_->chords) {
     const Vec3 d = x[c.b] - x[c.a];
     const double length = d.norm();
@@ -47,7 +48,7 @@ void ChordTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System 
   }
 }
 
-void ChordTerm::add_pairs(std::vector<Edge> &pairs) const {
+void CableTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Chord &c : valve_->chords) pairs.push_back({c.a, c.b});
 }
 

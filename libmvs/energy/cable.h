@@ -9,14 +9,14 @@
 
 namespace mvs::core {
 
-class ChordTerm {
+class CableTerm {
  public:
-  explicit ChordTerm(const Model &model);
+  explicit CableTerm(const Model &model);
 
   bool empty() const { return valve_->chords.empty(); }
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:

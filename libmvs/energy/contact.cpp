@@ -10,7 +10,7 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
       law_(law),
       curve_(law == ContactLaw::barrier ? barrier : penalty) {
   // more than a closed valve has, so that a live step seldom allocates
-  stencils_.reserve(model.node_count());
+  contact_pairs_.reserve(model.node_count());
   edges_.touched.reserve(256);
   corners_.touched.reserve(256);
   edges_.count.assign(model.topology.edges.size(), 0);
@@ -31,9 +31,9 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
   }
 }
 
-void ContactTerm::collect(const std::vector<Vec3> &x, const Candidates &candidates) {
-  stencils_.clear();
-  const auto &list = candidates.facing();
+void ContactTerm::collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase) {
+  contact_pairs_.clear();
+  const auto &list = broad_phase.contact_candidates();
   for (size_t first = 0; first < list.size();) {
     size_t last = first;
     while (last < list.size() && list[last].vertex == list[first].vertex) ++last;
@@ -41,12 +41,12 @@ void ContactTerm::collect(const std::vector<Vec3> &x, const Candidates &candidat
     first = last;
   }
   if (law_ == ContactLaw::penalty) return;
-  for (const VertexTriangle &pair : candidates.guarded()) {
+  for (const VertexTriangle &pair : broad_phase.barrier_candidates()) {
     const double strength = 0.5 * stiffness_ * model_->vertex_area[pair.vertex];
     add_vertex_triangle(x, pair.vertex, model_->valve.triangles[pair.triangle], pair.guard,
                         strength, true);
   }
-  for (const EdgeEdge &pair : candidates.guarded_edges()) add_guard(x, pair);
+  for (const EdgeEdge &pair : broad_phase.barrier_edge_candidates()) add_guard(x, pair);
 }
 
 bool ContactTerm::Tally::meet(uint32_t index) {
@@ -88,7 +88,7 @@ void ContactTerm::tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangl
   } else if (p.feature < 6) {
     ++edges_.count[edges[p.feature - 3]];
   } else {
-    ContactStencil s = point_face(v, t, p.weight);
+    ContactPair s = point_face(v, t, p.weight);
     s.range = thickness_;
     s.strength = 0.5 * stiffness_ * model_->vertex_area[v];
     finish(x, s);
@@ -105,17 +105,17 @@ void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v) {
       continue;
     }
     if (edges_.count[index] == 0) continue;
-    ContactStencil stencil = point_edge(v, e[0], e[1], s);
-    stencil.range = thickness_;
-    stencil.strength = strength * edges_.count[index];
-    finish(x, stencil);
+    ContactPair contact_pair = point_edge(v, e[0], e[1], s);
+    contact_pair.range = thickness_;
+    contact_pair.strength = strength * edges_.count[index];
+    finish(x, contact_pair);
   }
   for (const uint32_t corner : corners_.touched) {
     if (corners_.count[corner] == 0) continue;
-    ContactStencil stencil = point_point(v, corner);
-    stencil.range = thickness_;
-    stencil.strength = strength * corners_.count[corner];
-    finish(x, stencil);
+    ContactPair contact_pair = point_point(v, corner);
+    contact_pair.range = thickness_;
+    contact_pair.strength = strength * corners_.count[corner];
+    finish(x, contact_pair);
   }
   edges_.clear();
   corners_.clear();
@@ -123,7 +123,7 @@ void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v) {
 
 void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t,
                                       double range, double strength, bool guard) {
-  ContactStencil s = vertex_triangle(v, t, closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]));
+  ContactPair s = vertex_triangle(v, t, closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]));
   s.range = range;
   s.strength = strength;
   s.guard = guard;
@@ -134,30 +134,31 @@ void ContactTerm::add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair) {
   const Edge &e = model_->topology.edges[pair.first], &f = model_->topology.edges[pair.second];
   const SegmentPair p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
   if (p.distance2 >= pair.guard * pair.guard) return;
-  ContactStencil s = edge_edge(e, f, p);
+  ContactPair s = edge_edge(e, f, p);
   s.range = pair.guard;
   s.strength = 0.25 * stiffness_ * (edge_area_[pair.first] + edge_area_[pair.second]);
   finish(x, s);
 }
 
-void ContactTerm::finish(const std::vector<Vec3> &x, ContactStencil s) {
-  if (measure(x, s)) stencils_.push_back(s);
+void ContactTerm::finish(const std::vector<Vec3> &x, ContactPair s) {
+  if (measure(x, s)) contact_pairs_.push_back(s);
 }
 
 double ContactTerm::energy() const {
-  return energy_of(stencils_, curve_);
+  return energy_of(contact_pairs_, curve_);
 }
 
 double ContactTerm::gradient(std::vector<Vec3> &g) const {
-  return add_gradient(stencils_, curve_, g);
+  return add_gradient(contact_pairs_, curve_, g);
 }
 
-bool ContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
-  return add_hessian(stencils_, curve_, x, curvature, system);
+bool ContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                          HessianAssembler &system) const {
+  return add_hessian(contact_pairs_, curve_, x, curvature, system);
 }
 
 void ContactTerm::add_pairs(std::vector<Edge> &pairs) const {
-  mvs::core::add_pairs(stencils_, pairs);
+  mvs::core::add_pairs(contact_pairs_, pairs);
 }
 
 }  // namespace mvs::core

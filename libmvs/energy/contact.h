@@ -35,15 +35,15 @@ class ContactTerm {
  public:
   explicit ContactTerm(const Model &model, ContactLaw law = ContactLaw::barrier);
 
-  // Finds what touches at x; `candidates` must be valid there.
-  void collect(const std::vector<Vec3> &x, const Candidates &candidates);
-  const std::vector<ContactStencil> &stencils() const { return stencils_; }
+  // Finds what touches at x; `broad_phase` must be valid there.
+  void collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase);
+  const std::vector<ContactPair> &contact_pairs() const { return contact_pairs_; }
 
   // All three speak of the last collect().
   double energy() const;
   double gradient(std::vector<Vec3> &g) const;
   // False if the pattern lacks a block; add_pairs() then gives what is needed.
-  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:
@@ -62,7 +62,7 @@ class ContactTerm {
   void add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair);
   void add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t, double range,
                            double strength, bool guard);
-  void finish(const std::vector<Vec3> &x, ContactStencil s);
+  void finish(const std::vector<Vec3> &x, ContactPair s);
 
   const Model *model_;
   double thickness_, stiffness_;
@@ -71,7 +71,7 @@ class ContactTerm {
   std::vector<double> edge_area_;
   std::vector<int> edge_share_, corner_share_;  // c_p: -1 and +1 inside the sheet, 0 on its rims
   Tally edges_, corners_;
-  std::vector<ContactStencil> stencils_;
+  std::vector<ContactPair> contact_pairs_;
 };
 
 }  // namespace mvs::core

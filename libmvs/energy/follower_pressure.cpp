@@ -20,7 +20,7 @@ bool has_directed(const Tri &t, uint32_t i, uint32_t j) {
 
 }  // namespace
 
-PressureTerm::PressureTerm(const Model &model) : triangles_(model.valve.triangles) {
+FollowerPressureTerm::FollowerPressureTerm(const Model &model) : triangles_(model.valve.triangles) {
   const Topology &topology = model.topology;
   origin_ = model.valve.rest.empty() ? Vec3::Zero() : model.valve.rest[0];
   for (size_t e = 0; e < topology.edges.size(); ++e) {
@@ -37,14 +37,14 @@ PressureTerm::PressureTerm(const Model &model) : triangles_(model.valve.triangle
   frozen_.assign(free_edges_.size(), Vec3::Zero());
 }
 
-void PressureTerm::freeze(const std::vector<Vec3> &x) {
+void FollowerPressureTerm::freeze(const std::vector<Vec3> &x) {
   for (size_t k = 0; k < free_edges_.size(); ++k) {
     const auto [a, b] = free_edges_[k];
     frozen_[k] = (x[a] - origin_).cross(x[b] - origin_) / 6;
   }
 }
 
-double PressureTerm::energy(const std::vector<Vec3> &x) const {
+double FollowerPressureTerm::energy(const std::vector<Vec3> &x) const {
   if (empty()) return 0;
   double volume = 0;
   for (const Tri &t : triangles_) {
@@ -58,7 +58,7 @@ double PressureTerm::energy(const std::vector<Vec3> &x) const {
   return -pressure_ * volume;
 }
 
-double PressureTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+double FollowerPressureTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
   if (empty()) return 0;
   for (const Tri &t : triangles_) {
     const Vec3 f = (pressure_ / 6) * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
@@ -70,7 +70,7 @@ double PressureTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) 
 // Force p N / 6 on each corner, N = e2 x (-e1), dN = sum_k [e_k]x dx_k with e_k the edge opposite
 // corner k. The symmetric part for the corners (i, j) of one triangle is
 // -p / 12 [x_i + x_j - 2 x_k]x, and zero on the diagonal.
-void PressureTerm::hessian(const std::vector<Vec3> &x, System &system) const {
+void FollowerPressureTerm::hessian(const std::vector<Vec3> &x, HessianAssembler &system) const {
   if (empty()) return;
   for (const Slope &s : slopes_) {
     const Vec3 arm = s.right == none ? Vec3(x[s.i] + x[s.j] - 2 * x[s.left])
@@ -81,8 +81,8 @@ void PressureTerm::hessian(const std::vector<Vec3> &x, System &system) const {
 }
 
 // The derivative of the force (p / 6) a x b on both ends of a free edge, less its symmetric part.
-void PressureTerm::add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v,
-                            std::vector<Vec3> &y) const {
+void FollowerPressureTerm::add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v,
+                                    std::vector<Vec3> &y) const {
   if (empty()) return;
   const double p = pressure_ / 12;
   for (const auto &[a, b] : free_edges_) {
@@ -92,7 +92,7 @@ void PressureTerm::add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> 
   }
 }
 
-void PressureTerm::add_pairs(std::vector<Edge> &pairs) const {
+void FollowerPressureTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Slope &s : slopes_) pairs.push_back({s.i, s.j});
 }
 

@@ -15,9 +15,9 @@
 
 namespace mvs::core {
 
-class PressureTerm {
+class FollowerPressureTerm {
  public:
-  explicit PressureTerm(const Model &model);
+  explicit FollowerPressureTerm(const Model &model);
 
   void set_pressure(double pressure) { pressure_ = pressure; }
   // Without pressure nothing but freeze() costs anything.
@@ -29,7 +29,7 @@ class PressureTerm {
   // Adds minus the follower force; returns energy(x).
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
   // The symmetric part of the derivative; indefinite by nature, so `projected` is the same.
-  void hessian(const std::vector<Vec3> &x, System &system) const;
+  void hessian(const std::vector<Vec3> &x, HessianAssembler &system) const;
   // Adds to y the skew part of the derivative times v: what the free edge adds to the Hessian.
   void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v, std::vector<Vec3> &y) const;
   void add_pairs(std::vector<Edge> &pairs) const;

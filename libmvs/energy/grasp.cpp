@@ -48,7 +48,7 @@ double GraspTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) con
   return energy(x);
 }
 
-void GraspTerm::hessian(const std::vector<Vec3> &x, System &system) const {
+void GraspTerm::hessian(const std::vector<Vec3> &x, HessianAssembler &system) const {
   for (const Hold &h : holds_) system.add_diagonal(h.node, hold_block(h, x[h.node]));
 }
 

@@ -35,7 +35,7 @@ class GraspTerm {
 
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  void hessian(const std::vector<Vec3> &x, System &system) const;
+  void hessian(const std::vector<Vec3> &x, HessianAssembler &system) const;
 
  private:
   std::vector<Hold> holds_;

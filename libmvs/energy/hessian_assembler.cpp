@@ -19,7 +19,7 @@ constexpr size_t dissected_rows = 1000;
 
 }  // namespace
 
-void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
+void HessianAssembler::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
   slots_.clear();
   if (!keeps_order_) number_rows(model, pairs);
   take_rows(pairs);
@@ -27,8 +27,8 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
   matrix.take_sorted(static_cast<uint32_t>(node_of.size()), rows_);
 }
 
-void System::set_pattern(const Model &model, const std::vector<Edge> &always,
-                         const std::vector<Edge> &beside) {
+void HessianAssembler::set_pattern(const Model &model, const std::vector<Edge> &always,
+                                   const std::vector<Edge> &beside) {
   if (!keeps_order_) {
     std::vector<Edge> pairs = always;
     pairs.insert(pairs.end(), beside.begin(), beside.end());
@@ -43,7 +43,7 @@ void System::set_pattern(const Model &model, const std::vector<Edge> &always,
 }
 
 // Sorted, and which of these each of the pairs is: good for as long as the order of the rows.
-void System::find_always(const std::vector<Edge> &pairs) {
+void HessianAssembler::find_always(const std::vector<Edge> &pairs) {
   take_rows(pairs);
   always_ = rows_;
   std::vector<uint32_t> start(node_of.size() + 1, 0);  // of what each row has
@@ -61,7 +61,7 @@ void System::find_always(const std::vector<Edge> &pairs) {
 }
 
 // Both they and the pattern ascend.
-void System::place_always() {
+void HessianAssembler::place_always() {
   place_.resize(always_.size());
   for (uint32_t i = 0, k = 0; i < always_.size(); ++i) {
     const auto [c, r] = always_[i];
@@ -76,7 +76,7 @@ void System::place_always() {
 }
 
 // Adds to the pairs of rows what others, sorted as they are, have.
-void System::unite(const std::vector<Edge> &other) {
+void HessianAssembler::unite(const std::vector<Edge> &other) {
   united_.clear();
   make_room(united_, rows_.size() + other.size());
   std::set_union(rows_.begin(), rows_.end(), other.begin(), other.end(),
@@ -85,7 +85,7 @@ void System::unite(const std::vector<Edge> &other) {
 }
 
 // And what the pattern has, unless that has become too much.
-void System::keep_old_rows() {
+void HessianAssembler::keep_old_rows() {
   if (!keeps_order_ || matrix.size() != node_of.size()) return;
   const auto needed = most_kept * static_cast<double>(rows_.size());
   old_.clear();
@@ -100,7 +100,8 @@ void System::keep_old_rows() {
 }
 
 // Where its blocks are; false unless all are in the matrix.
-bool System::find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to) {
+bool HessianAssembler::find_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
+                                          OuterProductTarget &to) {
   if (slots_.empty()) return false;
   std::array<uint32_t, 4> row;
   for (uint32_t a = 0; a < 4; ++a) row[a] = row_of[nodes[a]];
@@ -116,11 +117,11 @@ bool System::find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankO
   return true;
 }
 
-void System::add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
-                          double times) {
-  RankOne to;
-  if (find_rank_one(k, nodes, to)) {
-    mvs::core::add_rank_one(slope, times, to);
+void HessianAssembler::add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
+                                         const Slope &slope, double times) {
+  OuterProductTarget to;
+  if (find_outer_product(k, nodes, to)) {
+    mvs::core::add_outer_product(slope, times, to);
     return;
   }
   for (uint32_t a = 0; a < 4; ++a) {
@@ -132,7 +133,7 @@ void System::add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const 
   }
 }
 
-void System::set_order(const Model &model, const std::vector<uint32_t> &nodes) {
+void HessianAssembler::set_order(const Model &model, const std::vector<uint32_t> &nodes) {
   keeps_order_ = true;
   node_of = nodes;
   row_of.assign(model.node_count(), none);
@@ -142,7 +143,7 @@ void System::set_order(const Model &model, const std::vector<uint32_t> &nodes) {
 }
 
 // The pairs of free nodes, by their rows.
-void System::take_rows(const std::vector<Edge> &pairs) {
+void HessianAssembler::take_rows(const std::vector<Edge> &pairs) {
   rows_.clear();
   for (const Edge &p : pairs) {
     const uint32_t r = row_of[p[0]], c = row_of[p[1]];
@@ -152,18 +153,18 @@ void System::take_rows(const std::vector<Edge> &pairs) {
 }
 
 // Of the nodes, coupled by pairs of their numbers in the list: the order that makes less work.
-std::vector<uint32_t> System::order_of(const std::vector<uint32_t> &nodes,
-                                       const std::vector<Edge> &pairs) const {
+std::vector<uint32_t> HessianAssembler::order_of(const std::vector<uint32_t> &nodes,
+                                                 const std::vector<Edge> &pairs) const {
   std::vector<uint32_t> order = fill_reducing_order(static_cast<uint32_t>(nodes.size()), pairs);
   if (place == nullptr || nodes.size() < dissected_rows) return order;
   std::vector<Vec3> places;
   places.reserve(nodes.size());
   for (const uint32_t i : nodes) places.push_back((*place)[i]);
-  std::vector<uint32_t> dissected = dissection_order(pairs, places);
+  std::vector<uint32_t> dissected = nested_dissection_order(pairs, places);
   return elimination_work(dissected, pairs) < elimination_work(order, pairs) ? dissected : order;
 }
 
-void System::number_rows(const Model &model, const std::vector<Edge> &pairs) {
+void HessianAssembler::number_rows(const Model &model, const std::vector<Edge> &pairs) {
   const auto n = static_cast<uint32_t>(model.node_count());
   std::vector<uint32_t> free_index(n, none), free_nodes;
   for (uint32_t i = 0; i < n; ++i) {

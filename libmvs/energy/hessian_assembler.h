@@ -11,7 +11,7 @@ namespace mvs::core {
 
 // Free nodes have a row, numbered in elimination order; prescribed nodes have none. What couples a
 // free node to a prescribed one that moves by a known amount goes to the right-hand side.
-class System {
+class HessianAssembler {
  public:
   // Rows from the free nodes of a model; the pattern from pairs of nodes.
   void set_pattern(const Model &model, const std::vector<Edge> &pairs);
@@ -63,8 +63,8 @@ class System {
 
   // Adds times * slope slope^T, the slope by four nodes, whose six pairs (1, 0), (2, 0), (2, 1) ...
   // are `k` and those after it of a term.
-  void add_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
-                    double times);
+  void add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
+                         double times);
 
   void add_diagonal(uint32_t i, const Mat3 &block) {
     const uint32_t r = row_of[i];
@@ -91,7 +91,7 @@ class System {
       matrix.value[slot] += block.transpose();
     }
   }
-  bool find_rank_one(size_t k, const std::array<uint32_t, 4> &nodes, RankOne &to);
+  bool find_outer_product(size_t k, const std::array<uint32_t, 4> &nodes, OuterProductTarget &to);
   std::vector<uint32_t> order_of(const std::vector<uint32_t> &nodes,
                                  const std::vector<Edge> &pairs) const;
   void number_rows(const Model &model, const std::vector<Edge> &pairs);

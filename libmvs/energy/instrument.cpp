@@ -15,7 +15,7 @@ constexpr double axial_stiffness = 2e4;  // N/m
 }  // namespace
 
 void InstrumentTerm::collect(const std::vector<Vec3> &x) {
-  stencils_.clear();
+  contact_pairs_.clear();
   for (const InstrumentBody &body : bodies_.all()) {
     for (const uint32_t v : body.vertices) take_vertex(x, body, v);
     for (const uint32_t t : body.triangles) take_triangle(x, body, t);
@@ -28,9 +28,9 @@ void InstrumentTerm::take_vertex(const std::vector<Vec3> &x, const InstrumentBod
                                  uint32_t v) {
   const auto &[a, b] = body.point;
   const double s = closest_on_segment(x[v], x[a], x[b]).s;
-  const ContactStencil stencil =
+  const ContactPair contact_pair =
       s > 0 && s < 1 ? point_edge(v, a, b, s) : point_point(v, s > 0 ? b : a);
-  finish(x, body, stencil, tool_range(*model_), model_->vertex_area[v], false);
+  finish(x, body, contact_pair, tool_range(*model_), model_->vertex_area[v], false);
 }
 
 void InstrumentTerm::take_triangle(const std::vector<Vec3> &x, const InstrumentBody &body,
@@ -39,7 +39,7 @@ void InstrumentTerm::take_triangle(const std::vector<Vec3> &x, const InstrumentB
   for (uint32_t k = 0; k < (body.is_rod() ? 2u : 1u); ++k) {
     const uint32_t v = body.point[k];
     const TrianglePoint p = closest_on_triangle(x[v], x[tri[0]], x[tri[1]], x[tri[2]]);
-    finish(x, body, vertex_triangle(v, tri, p), guard_share * model_->valve.contact_thickness,
+    finish(x, body, vertex_triangle(v, tri, p), barrier_share * model_->valve.contact_thickness,
            model_->rest_area[t] / 3, true);
   }
 }
@@ -51,21 +51,21 @@ void InstrumentTerm::take_edge(const std::vector<Vec3> &x, const InstrumentBody 
   for (const uint32_t t : model_->topology.edge_triangles[e]) {
     if (t != none) area += model_->rest_area[t] / 3;
   }
-  finish(x, body, edge_edge(rod, edge, p), guard_share * model_->valve.contact_thickness, area,
+  finish(x, body, edge_edge(rod, edge, p), barrier_share * model_->valve.contact_thickness, area,
          true);
 }
 
-void InstrumentTerm::finish(const std::vector<Vec3> &x, const InstrumentBody &body,
-                            ContactStencil s, double range, double area, bool guard) {
+void InstrumentTerm::finish(const std::vector<Vec3> &x, const InstrumentBody &body, ContactPair s,
+                            double range, double area, bool guard) {
   s.range = range;
   s.strength = (guard ? 0.5 : 1) * model_->valve.contact_stiffness * area;
   s.guard = guard;
   s.radius = body.tool.radius;
-  if (measure(x, s)) stencils_.push_back(s);
+  if (measure(x, s)) contact_pairs_.push_back(s);
 }
 
 double InstrumentTerm::energy(const std::vector<Vec3> &x) const {
-  double sum = energy_of(stencils_, barrier);
+  double sum = energy_of(contact_pairs_, barrier);
   for (const InstrumentBody &body : bodies_.all()) {
     if (!body.is_rod()) continue;
     const double longer = (x[body.point[1]] - x[body.point[0]]).norm() - body.tool.length;
@@ -75,7 +75,7 @@ double InstrumentTerm::energy(const std::vector<Vec3> &x) const {
 }
 
 double InstrumentTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
-  add_gradient(stencils_, barrier, g);
+  add_gradient(contact_pairs_, barrier, g);
   for (const InstrumentBody &body : bodies_.all()) {
     if (!body.is_rod()) continue;
     const Vec3 d = x[body.point[1]] - x[body.point[0]];
@@ -87,8 +87,8 @@ double InstrumentTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g
 }
 
 bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
-                             System &system) const {
-  bool complete = add_hessian(stencils_, barrier, x, curvature, system);
+                             HessianAssembler &system) const {
+  bool complete = add_hessian(contact_pairs_, barrier, x, curvature, system);
   for (const InstrumentBody &body : bodies_.all()) {
     if (!body.is_rod()) continue;
     const auto &[a, b] = body.point;
@@ -104,7 +104,7 @@ bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
 }
 
 void InstrumentTerm::add_pairs(std::vector<Edge> &pairs) const {
-  mvs::core::add_pairs(stencils_, pairs);
+  mvs::core::add_pairs(contact_pairs_, pairs);
   for (const InstrumentBody &body : bodies_.all()) {
     if (body.is_rod()) pairs.push_back(body.point);
   }

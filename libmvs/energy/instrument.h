@@ -28,24 +28,24 @@ class InstrumentTerm {
   bool empty() const { return bodies_.all().empty(); }
 
   void collect(const std::vector<Vec3> &x);
-  const std::vector<ContactStencil> &stencils() const { return stencils_; }
+  const std::vector<ContactPair> &contact_pairs() const { return contact_pairs_; }
 
   // These speak of the last collect().
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:
   void take_vertex(const std::vector<Vec3> &x, const InstrumentBody &body, uint32_t v);
   void take_triangle(const std::vector<Vec3> &x, const InstrumentBody &body, uint32_t t);
   void take_edge(const std::vector<Vec3> &x, const InstrumentBody &body, uint32_t e);
-  void finish(const std::vector<Vec3> &x, const InstrumentBody &body, ContactStencil s,
-              double range, double area, bool guard);
+  void finish(const std::vector<Vec3> &x, const InstrumentBody &body, ContactPair s, double range,
+              double area, bool guard);
 
   const Model *model_;
   InstrumentBodies bodies_;
-  std::vector<ContactStencil> stencils_;
+  std::vector<ContactPair> contact_pairs_;
 };
 
 }  // namespace mvs::core

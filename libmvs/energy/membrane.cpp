@@ -131,7 +131,8 @@ struct Outer {
 //     d2E / dx_k dx_l = t A sum_pq w_kp w_lq d2W / df_p df_q,
 // and the stress adds (w_k . S w_l) I, S its form. A shift of all three corners changes nothing:
 // that gives the rows of corner 0.
-void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                           HessianAssembler &system) const {
   size_t pair = 0;
   for (const Triangle &t : triangles_) {
     const Deformed d = deform(t, x);

@@ -28,7 +28,7 @@ class MembraneTerm {
   double energy(const std::vector<Vec3> &x) const;
   // Adds dE/dx and returns E.
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:

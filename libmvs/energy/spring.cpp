@@ -55,7 +55,8 @@ double SpringTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) co
   return sum;
 }
 
-void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                         HessianAssembler &system) const {
   for (const Spring &s : springs_) {
     const Vec3 d = x[s.j] - x[s.i];
     const double length = d.norm();

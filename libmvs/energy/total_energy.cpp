@@ -3,14 +3,14 @@
 
 namespace mvs::core {
 
-Potential::Potential(const Model &model, ContactLaw law)
+TotalEnergy::TotalEnergy(const Model &model, ContactLaw law)
     : model_(&model),
       spring_(model),
       membrane_(model),
       bending_(model),
       chord_(model),
       pressure_(model),
-      candidates_(model),
+      broad_phase_(model),
       contact_(model, law),
       instrument_(model) {
   spring_.add_pairs(pairs_);
@@ -24,7 +24,7 @@ Potential::Potential(const Model &model, ContactLaw law)
   pressure_.add_pairs(pairs_);
 }
 
-void Potential::set_tools(const std::vector<Tool> &tools) {
+void TotalEnergy::set_tools(const std::vector<Tool> &tools) {
   uint32_t points = 0;
   for (const Tool &tool : tools) points += tool.points();
   const uint32_t first = static_cast<uint32_t>(model_->node_count()) - points;
@@ -32,51 +32,52 @@ void Potential::set_tools(const std::vector<Tool> &tools) {
   instrument_.bodies().set_tools(tools, first);
 }
 
-void Potential::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
-                        Profile &profile) {
+void TotalEnergy::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+                          Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_BROAD);
   ++profile.broad_phases;
-  candidates_.build(x, to, slack);
+  broad_phase_.build(x, to, slack);
   instrument_.bodies().prepare(x, to, slack);
 }
 
-void Potential::limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
-                           Profile &profile) {
+void TotalEnergy::limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
+                             Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_BROAD);
-  profile.broad_phases += bounds_.limit(*model_, x, slack, candidates_, dx, &instrument_.bodies());
+  profile.broad_phases +=
+      step_limiter_.limit(*model_, x, slack, broad_phase_, dx, &instrument_.bodies());
 }
 
-uint32_t Potential::skipped() const {
+uint32_t TotalEnergy::skipped() const {
   uint32_t skipped = 0;
   if (spring_.empty()) skipped |= MVS_SKIPPED_SPRINGS;
   if (membrane_.empty()) skipped |= MVS_SKIPPED_MEMBRANE;
   if (bending_.empty()) skipped |= MVS_SKIPPED_BENDING;
   if (chord_.empty()) skipped |= MVS_SKIPPED_CHORDAE;
   if (pressure_.empty()) skipped |= MVS_SKIPPED_PRESSURE;
-  if (!was_near_ && candidates_.empty()) skipped |= MVS_SKIPPED_CONTACT;
+  if (!was_near_ && broad_phase_.empty()) skipped |= MVS_SKIPPED_CONTACT;
   return skipped;
 }
 
-void Potential::collect(const std::vector<Vec3> &x) {
-  was_near_ = was_near_ || !candidates_.empty();
-  contact_.collect(x, candidates_);
+void TotalEnergy::collect(const std::vector<Vec3> &x) {
+  was_near_ = was_near_ || !broad_phase_.empty();
+  contact_.collect(x, broad_phase_);
   instrument_.collect(x);
 }
 
-double Potential::energy(const std::vector<Vec3> &x) {
+double TotalEnergy::energy(const std::vector<Vec3> &x) {
   collect(x);
   return spring_.energy(x) + membrane_.energy(x) + bending_.energy(x) + chord_.energy(x) +
          instrument_.energy(x) + contact_.energy() + pressure_.energy(x) + grasp_.energy(x);
 }
 
-double Potential::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
+double TotalEnergy::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile) {
   pressure_.freeze(x);
   const double sheet = sheet_gradient(x, g, profile);
   return sheet + add_hands(x, g);
 }
 
-double Potential::sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g,
-                                 Profile &profile) {
+double TotalEnergy::sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g,
+                                   Profile &profile) {
   {
     const PhaseTimer timer(profile, MVS_PHASE_NARROW);
     collect(x);
@@ -93,12 +94,12 @@ double Potential::sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &
   return elastic_ + pressure_.gradient(x, g);
 }
 
-double Potential::freeze(const std::vector<Vec3> &x) {
+double TotalEnergy::freeze(const std::vector<Vec3> &x) {
   pressure_.freeze(x);
   return elastic_ + pressure_.energy(x);
 }
 
-bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &system) {
+bool TotalEnergy::fill(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) {
   system.clear();
   // first what the pattern may lack: nothing is computed in vain
   if (!contact_.hessian(x, curvature, system)) return false;
@@ -117,15 +118,15 @@ bool Potential::fill(const std::vector<Vec3> &x, Curvature curvature, System &sy
   return true;
 }
 
-void Potential::set_pattern(System &system) {
+void TotalEnergy::set_pattern(HessianAssembler &system) {
   wanted_.clear();
   contact_.add_pairs(wanted_);
   instrument_.add_pairs(wanted_);
   system.set_pattern(*model_, pairs_, wanted_);
 }
 
-bool Potential::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system,
-                        Profile &profile) {
+bool TotalEnergy::hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system,
+                          Profile &profile) {
   ++profile.passes;
   if (!system.row_of.empty()) {
     const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);

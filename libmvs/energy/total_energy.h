@@ -17,17 +17,17 @@
 
 namespace mvs::core {
 
-class Potential {
+class TotalEnergy {
  public:
-  explicit Potential(const Model &model, ContactLaw law = ContactLaw::barrier);
+  explicit TotalEnergy(const Model &model, ContactLaw law = ContactLaw::barrier);
 
   void set_pressure(double pressure) { pressure_.set_pressure(pressure); }
   // The points of instruments are the last nodes (physics/tool_points.h).
   void set_tools(const std::vector<Tool> &tools);
 
   // See Candidates.
-  void keep_near(bool keep) { candidates_.keep_near(keep); }
-  void keep_near_at_once() { candidates_.keep_near_at_once(); }
+  void keep_near(bool keep) { broad_phase_.keep_near(keep); }
+  void keep_near_at_once() { broad_phase_.keep_near_at_once(); }
   // Makes contact known while each node stays within `slack` of its way from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                Profile &profile);
@@ -36,7 +36,7 @@ class Potential {
   void limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
                   Profile &profile);
   bool prepared_for(const std::vector<Vec3> &x) const {
-    return instrument_.bodies().is_prepared() && candidates_.valid_for(x);
+    return instrument_.bodies().is_prepared() && broad_phase_.valid_for(x);
   }
 
   // Forgets what was near, for skipped().
@@ -60,7 +60,8 @@ class Potential {
     return grasp_.gradient(x, g);
   }
   // Fills the system with the Hessian at the x of the last gradient(). True if its pattern is new.
-  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system, Profile &profile);
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system,
+               Profile &profile);
 
   // Adds what the Hessian leaves out because it is not symmetric: see PressureTerm::add_skew.
   void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v,
@@ -69,25 +70,25 @@ class Potential {
   }
 
   // Sets the pattern that the Hessian at the x of the last gradient() needs.
-  void set_pattern(System &system);
+  void set_pattern(HessianAssembler &system);
   // Nodes that the terms whose pattern never changes couple.
   const std::vector<Edge> &pairs() const { return pairs_; }
-  const Candidates &candidates() const { return candidates_; }
+  const BroadPhase &broad_phase() const { return broad_phase_; }
   const ContactTerm &contact() const { return contact_; }
   InstrumentTerm &instrument() { return instrument_; }
 
  private:
   void collect(const std::vector<Vec3> &x);
-  bool fill(const std::vector<Vec3> &x, Curvature curvature, System &system);
+  bool fill(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system);
 
   const Model *model_;
   SpringTerm spring_;
   MembraneTerm membrane_;
   BendingTerm bending_;
-  ChordTerm chord_;
-  PressureTerm pressure_;
-  Candidates candidates_;
-  StepBounds bounds_;
+  CableTerm chord_;
+  FollowerPressureTerm pressure_;
+  BroadPhase broad_phase_;
+  StepLimiter step_limiter_;
   ContactTerm contact_;
   GraspTerm grasp_;
   InstrumentTerm instrument_;

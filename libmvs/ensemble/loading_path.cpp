@@ -85,7 +85,7 @@ class Walk {
     };
     const Progress told = progress_ ? Progress(tell) : Progress();
     // the others are on this mesh all the way, so that what it can fold to is found
-    return plain_ ? settle_by_levels(solver_, model_, closing_.state, how, told)
+    return plain_ ? settle_with_mesh_hierarchy(solver_, model_, closing_.state, how, told)
                   : solver_.settle(model_, closing_.state, how, told);
   }
 

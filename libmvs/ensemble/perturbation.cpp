@@ -65,8 +65,8 @@ double disturb(const Model &model, std::vector<Vec3> &x, const Disturbance &how,
   const double farthest = longest(dx);
   if (how.longest <= 0 || farthest == 0) return 0;
   for (Vec3 &d : dx) d *= how.longest / farthest;
-  Candidates candidates(model);
-  StepBounds().limit(model, x, 0, candidates, dx);
+  BroadPhase candidates(model);
+  StepLimiter().limit(model, x, 0, candidates, dx);
   for (size_t i = 0; i < x.size(); ++i) x[i] += dx[i];
   return longest(dx);
 }

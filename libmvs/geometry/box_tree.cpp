@@ -18,13 +18,13 @@ Box box_of(const std::vector<Vec3> &x, const Tri &triangle) {
   return box;
 }
 
-BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), items_(boxes_.size()) {
+AabbTree::AabbTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), items_(boxes_.size()) {
   std::iota(items_.begin(), items_.end(), 0u);
   nodes_.reserve(boxes_.size());
   if (!items_.empty()) build(0, static_cast<uint32_t>(items_.size()));
 }
 
-void BoxTree::build(uint32_t first, uint32_t last) {
+void AabbTree::build(uint32_t first, uint32_t last) {
   const size_t self = nodes_.size();
   nodes_.emplace_back();
   Box box, centres;

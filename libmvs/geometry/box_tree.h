@@ -27,9 +27,9 @@ Box box_of(const std::vector<Vec3> &x, const Tri &triangle);
 
 // Built by halving at the median of the longest side: n log n for any distribution of sizes, and
 // the same tree on every machine.
-class BoxTree {
+class AabbTree {
  public:
-  explicit BoxTree(std::vector<Box> boxes);
+  explicit AabbTree(std::vector<Box> boxes);
 
   const std::vector<Box> &boxes() const { return boxes_; }
 

@@ -10,7 +10,7 @@ namespace {
 struct Builder {
   std::vector<Vec3> centre;
   std::vector<uint32_t> items;
-  std::vector<SheetBranch> nodes;
+  std::vector<BvhNode> nodes;
   uint32_t block;
 
   // The part of the tree over items first .. last, triangles in their places.
@@ -40,8 +40,8 @@ struct Builder {
 
 }  // namespace
 
-SheetTree sheet_tree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles,
-                     uint32_t block) {
+BvhTopology make_bvh_topology(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles,
+                              uint32_t block) {
   if (triangles.empty()) return {};
   Builder builder;
   builder.block = block;

@@ -9,20 +9,20 @@
 namespace mvs::core {
 
 // In depth-first order: the left child follows its parent.
-struct SheetBranch {
+struct BvhNode {
   uint32_t right;  // child, or none in a leaf
   uint32_t after;  // the first branch that is not below it
   uint32_t first;  // of its triangles, by their places in the order of the tree
 };
 
-struct SheetTree {
-  std::vector<SheetBranch> branches;
+struct BvhTopology {
+  std::vector<BvhNode> branches;
   std::vector<uint32_t> order;  // of the triangles
 };
 
 // n log n, and the same on every machine; empty without triangles. All leaves but the last have
 // `block` triangles.
-SheetTree sheet_tree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles,
-                     uint32_t block);
+BvhTopology make_bvh_topology(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles,
+                              uint32_t block);
 
 }  // namespace mvs::core

@@ -47,12 +47,12 @@ struct Kernel {
   MVS_INLINE static void take(const double &from, Value &to) {
     to = *reinterpret_cast<const typename V::Lying *>(&from);
   }
-  MVS_INLINE static void load(const PairRows &rows, uint32_t point, uint32_t pair, Point &p) {
+  MVS_INLINE static void load(const DistanceBatch &rows, uint32_t point, uint32_t pair, Point &p) {
     take(rows.at[3 * point][pair], p.x);
     take(rows.at[3 * point + 1][pair], p.y);
     take(rows.at[3 * point + 2][pair], p.z);
   }
-  MVS_INLINE static void store(const Value &square, PairRows &rows, uint32_t pair) {
+  MVS_INLINE static void store(const Value &square, DistanceBatch &rows, uint32_t pair) {
     *reinterpret_cast<typename V::Lying *>(&rows.distance2[pair]) = square;
   }
   MVS_INLINE static void subtract(const Point &a, const Point &b, Point &difference) {
@@ -85,7 +85,7 @@ struct Kernel {
   }
 
   // From the last case to the first, which decides.
-  MVS_INLINE static void triangle(PairRows &rows, uint32_t pair) {
+  MVS_INLINE static void triangle(DistanceBatch &rows, uint32_t pair) {
     Point p, a, b, c, ab, ac, bc, ap, bp, cp;
     load(rows, 0, pair, p);
     load(rows, 1, pair, a);
@@ -134,7 +134,7 @@ struct Kernel {
     s = a > zero ? s : zero;
   }
 
-  MVS_INLINE static void segments(PairRows &rows, uint32_t pair) {
+  MVS_INLINE static void segments(DistanceBatch &rows, uint32_t pair) {
     Point p0, p1, q0, q1, d1, d2, r;
     load(rows, 0, pair, p0);
     load(rows, 1, pair, p1);
@@ -168,7 +168,7 @@ struct Kernel {
     store(square, rows, pair);
   }
 
-  MVS_INLINE static void farthest(PairRows &rows, uint32_t pair, uint32_t split) {
+  MVS_INLINE static void farthest(DistanceBatch &rows, uint32_t pair, uint32_t split) {
     Value most = {}, square;
     for (uint32_t i = 0; i < split; ++i) {
       Point a, b, difference;
@@ -185,9 +185,9 @@ struct Kernel {
 };
 
 struct Kernels {
-  void (*triangles)(PairRows &, uint32_t);
-  void (*segments)(PairRows &, uint32_t);
-  void (*farthest)(PairRows &, uint32_t, uint32_t);
+  void (*triangles)(DistanceBatch &, uint32_t);
+  void (*segments)(DistanceBatch &, uint32_t);
+  void (*farthest)(DistanceBatch &, uint32_t, uint32_t);
 };
 
 // The loops compiled for a target with V its vectors. Attributes cannot be in parentheses.
@@ -195,13 +195,13 @@ struct Kernels {
 #define MVS_KERNELS(Name, ATTRIBUTE)                                                           \
   template <typename V>                                                                        \
   struct Name {                                                                                \
-    ATTRIBUTE static void triangles(PairRows &rows, uint32_t count) {                          \
+    ATTRIBUTE static void triangles(DistanceBatch &rows, uint32_t count) {                     \
       for (uint32_t pair = 0; pair < count; pair += V::lanes) Kernel<V>::triangle(rows, pair); \
     }                                                                                          \
-    ATTRIBUTE static void segments(PairRows &rows, uint32_t count) {                           \
+    ATTRIBUTE static void segments(DistanceBatch &rows, uint32_t count) {                      \
       for (uint32_t pair = 0; pair < count; pair += V::lanes) Kernel<V>::segments(rows, pair); \
     }                                                                                          \
-    ATTRIBUTE static void farthest(PairRows &rows, uint32_t count, uint32_t split) {           \
+    ATTRIBUTE static void farthest(DistanceBatch &rows, uint32_t count, uint32_t split) {      \
       for (uint32_t pair = 0; pair < count; pair += V::lanes) {                                \
         if (split == 1) {                                                                      \
           Kernel<V>::farthest(rows, pair, 1);                                                  \
@@ -234,15 +234,15 @@ const Kernels &kernels() {
 
 }  // namespace
 
-void measure_triangles(PairRows &rows, uint32_t count) {
+void measure_triangles(DistanceBatch &rows, uint32_t count) {
   kernels().triangles(rows, count);
 }
 
-void measure_segments(PairRows &rows, uint32_t count) {
+void measure_segments(DistanceBatch &rows, uint32_t count) {
   kernels().segments(rows, count);
 }
 
-void measure_farthest(PairRows &rows, uint32_t count, uint32_t split) {
+void measure_farthest(DistanceBatch &rows, uint32_t count, uint32_t split) {
   kernels().farthest(rows, count, split);
 }
 

@@ -6,7 +6,7 @@
 namespace mvs::core {
 
 // Pairs side by side, each of four points: a point and a triangle, or two segments.
-struct PairRows {
+struct DistanceBatch {
   static constexpr uint32_t most = 64;
   using Row = std::array<double, most>;
 
@@ -19,10 +19,10 @@ struct PairRows {
 };
 
 // The first `count` pairs: closest_on_triangle() of the first point and the others.
-void measure_triangles(PairRows &rows, uint32_t count);
+void measure_triangles(DistanceBatch &rows, uint32_t count);
 // closest_of_segments() of the first two points and the others.
-void measure_segments(PairRows &rows, uint32_t count);
+void measure_segments(DistanceBatch &rows, uint32_t count);
 // The farthest from any of the first `split` points to any of the others.
-void measure_farthest(PairRows &rows, uint32_t count, uint32_t split);
+void measure_farthest(DistanceBatch &rows, uint32_t count, uint32_t split);
 
 }  // namespace mvs::core

@@ -168,7 +168,7 @@ std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
   for (const Tri &triangle : triangles) boxes.push_back(box_of(x, triangle));
-  const BoxTree tree(std::move(boxes));
+  const AabbTree tree(std::move(boxes));
   std::vector<Edge> crossing;
   for (uint32_t s = 0; s < triangles.size(); ++s) {
     tree.for_touching(tree.boxes()[s], [&](uint32_t t) {

@@ -36,8 +36,8 @@ struct Four {
 template <typename V>
 MVS_INLINE uint32_t all_bits_of(const typename V::Answers &answers) {
   uint32_t bits = 0;
-  for (uint32_t first = 0; first < V::lanes; first += few) {
-    FewAnswers part;
+  for (uint32_t first = 0; first < V::lanes; first += simd_width) {
+    SimdMask part;
     std::memcpy(&part, reinterpret_cast<const char *>(&answers) + 4 * first, sizeof part);
     bits |= bits_of(part) << first;
   }
@@ -56,7 +56,7 @@ MVS_INLINE void take(typename V::Value &to, const float *from, float margin) {
 }
 
 template <typename V>
-MVS_INLINE void widen(const WayLanes &lanes, uint32_t first, float margin, Widened<V> &to) {
+MVS_INLINE void widen(const SweptAabb8 &lanes, uint32_t first, float margin, Widened<V> &to) {
   for (uint32_t k = 0; k < 3; ++k) {
     take<V>(to.start_low[k], &lanes.start_low[k][first], -margin);
     take<V>(to.start_high[k], &lanes.start_high[k][first], margin);
@@ -75,7 +75,7 @@ MVS_INLINE void part(const Widened<V> &there, uint32_t k, float start_low, float
 
 // Bits of the lanes that are near one way.
 template <typename V>
-MVS_INLINE uint32_t near_box(const Widened<V> &there, const NarrowWay &way) {
+MVS_INLINE uint32_t near_box(const Widened<V> &there, const SweptAabbF &way) {
   typename V::Answers apart = {};
   for (uint32_t k = 0; k < 3; ++k) {
     part<V>(there, k, way.start_low[k], way.start_high[k], way.end_low[k], way.end_high[k], apart);
@@ -84,7 +84,7 @@ MVS_INLINE uint32_t near_box(const Widened<V> &there, const NarrowWay &way) {
 }
 
 template <typename V>
-MVS_INLINE uint32_t near_lane(const Widened<V> &there, const WayLanes &here, uint32_t i) {
+MVS_INLINE uint32_t near_lane(const Widened<V> &there, const SweptAabb8 &here, uint32_t i) {
   typename V::Answers apart = {};
   for (uint32_t k = 0; k < 3; ++k) {
     part<V>(there, k, here.start_low[k][i], here.start_high[k][i], here.end_low[k][i],
@@ -94,10 +94,10 @@ MVS_INLINE uint32_t near_lane(const Widened<V> &there, const WayLanes &here, uin
 }
 
 template <typename V>
-MVS_INLINE uint32_t near_box_with(const WayLanes &lanes, const NarrowWay &box, float margin) {
+MVS_INLINE uint32_t near_box_with(const SweptAabb8 &lanes, const SweptAabbF &box, float margin) {
   Widened<V> wide;
   uint32_t bits = 0;
-  for (uint32_t first = 0; first < WayLanes::count; first += V::lanes) {
+  for (uint32_t first = 0; first < SweptAabb8::count; first += V::lanes) {
     widen<V>(lanes, first, margin, wide);
     bits |= near_box<V>(wide, box) << first;
   }
@@ -105,11 +105,11 @@ MVS_INLINE uint32_t near_box_with(const WayLanes &lanes, const NarrowWay &box, f
 }
 
 template <typename V>
-MVS_INLINE uint32_t near_lanes_with(const WayLanes &here, uint32_t of, const WayLanes &there,
-                                    float margin, NearLanes &near) {
+MVS_INLINE uint32_t near_lanes_with(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there,
+                                    float margin, LaneMasks &near) {
   Widened<V> lanes;
   uint32_t some = 0;
-  for (uint32_t first = 0; first < WayLanes::count; first += V::lanes) {
+  for (uint32_t first = 0; first < SweptAabb8::count; first += V::lanes) {
     widen<V>(there, first, margin, lanes);
     for (uint32_t left = of; left != 0; left &= left - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(left));
@@ -122,19 +122,20 @@ MVS_INLINE uint32_t near_lanes_with(const WayLanes &here, uint32_t of, const Way
 }
 
 struct Kernels {
-  uint32_t (*box)(const WayLanes &, const NarrowWay &, float);
-  uint32_t (*lanes)(const WayLanes &, uint32_t, const WayLanes &, float, NearLanes &);
+  uint32_t (*box)(const SweptAabb8 &, const SweptAabbF &, float);
+  uint32_t (*lanes)(const SweptAabb8 &, uint32_t, const SweptAabb8 &, float, LaneMasks &);
 };
 
 // The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
 #define MVS_KERNELS(Name, V, ATTRIBUTE)                                                           \
   struct Name {                                                                                   \
-    ATTRIBUTE static uint32_t box(const WayLanes &lanes, const NarrowWay &around, float margin) { \
+    ATTRIBUTE static uint32_t box(const SweptAabb8 &lanes, const SweptAabbF &around,              \
+                                  float margin) {                                                 \
       return near_box_with<V>(lanes, around, margin);                                             \
     }                                                                                             \
-    ATTRIBUTE static uint32_t lanes(const WayLanes &here, uint32_t of, const WayLanes &there,     \
-                                    float margin, NearLanes &near) {                              \
+    ATTRIBUTE static uint32_t lanes(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there, \
+                                    float margin, LaneMasks &near) {                              \
       return near_lanes_with<V>(here, of, there, margin, near);                                   \
     }                                                                                             \
   }
@@ -160,7 +161,7 @@ const Kernels &kernels() {
 
 }  // namespace
 
-void WayLanes::clear() {
+void SweptAabb8::clear() {
   for (uint32_t k = 0; k < 3; ++k) {
     start_low[k].fill(HUGE_VALF);
     start_high[k].fill(-HUGE_VALF);
@@ -169,12 +170,12 @@ void WayLanes::clear() {
   end_high = start_high;
 }
 
-uint32_t find_near(const WayLanes &lanes, const NarrowWay &box, float margin) {
+uint32_t find_near(const SweptAabb8 &lanes, const SweptAabbF &box, float margin) {
   return kernels().box(lanes, box, margin);
 }
 
-uint32_t find_near(const WayLanes &here, uint32_t of, const WayLanes &there, float margin,
-                   NearLanes &near) {
+uint32_t find_near(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there, float margin,
+                   LaneMasks &near) {
   return kernels().lanes(here, of, there, margin, near);
 }
 

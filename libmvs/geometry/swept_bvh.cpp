@@ -6,9 +6,9 @@
 #include "geometry/bvh_topology.h"
 
 namespace mvs::core {
-MovingTree::MovingTree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles) {
-  SheetTree tree = sheet_tree(shape, triangles, WayLanes::count);
-  for (const SheetBranch &branch : tree.branches) {
+SweptBvh::SweptBvh(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles) {
+  BvhTopology tree = make_bvh_topology(shape, triangles, SweptAabb8::count);
+  for (const BvhNode &branch : tree.branches) {
     const auto block = static_cast<uint32_t>(block_start_.size());
     nodes_.push_back({{}, false, branch.right, branch.after, block});
     if (branch.right == none) block_start_.push_back(branch.first);
@@ -18,7 +18,7 @@ MovingTree::MovingTree(const std::vector<Vec3> &shape, const std::vector<Tri> &t
 }
 
 // Children come after their parents, so that the boxes grow from the back.
-void MovingTree::place(const std::vector<NarrowWay> &blocks, const std::vector<uint8_t> &still) {
+void SweptBvh::place(const std::vector<SweptAabbF> &blocks, const std::vector<uint8_t> &still) {
   for (size_t i = nodes_.size(); i-- > 0;) {
     Node &node = nodes_[i];
     if (node.right == none) {

@@ -15,9 +15,9 @@
 
 namespace mvs::core {
 
-class MovingTree {
+class SweptBvh {
  public:
-  MovingTree(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles);
+  SweptBvh(const std::vector<Vec3> &shape, const std::vector<Tri> &triangles);
 
   // The triangles by blocks, block b from block_start()[b] on.
   const std::vector<uint32_t> &triangles() const { return order_; }
@@ -25,7 +25,7 @@ class MovingTree {
   uint32_t block_count() const { return static_cast<uint32_t>(block_start_.size() - 1); }
 
   // Where each block goes. Blocks of `still` do not move: nothing is sought between two of them.
-  void place(const std::vector<NarrowWay> &blocks, const std::vector<uint8_t> &still);
+  void place(const std::vector<SweptAabbF> &blocks, const std::vector<uint8_t> &still);
   // Calls visit(a, b) once for each pair of blocks that are not apart by a margin of
   // narrow_margin(), a block and itself included, in an order that depends on the shapes alone.
   template <typename Visit>
@@ -36,7 +36,7 @@ class MovingTree {
  private:
   // In depth-first order: the left child follows its parent.
   struct Node {
-    NarrowWay way;
+    SweptAabbF way;
     bool still;
     uint32_t right;  // child, or none in a leaf
     uint32_t after;  // the first node that is not below it

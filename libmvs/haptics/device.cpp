@@ -38,12 +38,13 @@ const char *sentence_of(uint32_t cause) {
 
 }  // namespace
 
-Device::Device(const mvs_device_desc &desc, Plug::Log log) : core_(std::make_shared<Core>()) {
-  core_->plug = Plug::load(desc.driver, desc.options ? desc.options : "", std::move(log));
+Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
+    : core_(std::make_shared<Core>()) {
+  core_->plug = DriverPlugin::load(desc.driver, desc.options ? desc.options : "", std::move(log));
   core_->clock = desc.clock;
   const std::string name = desc.device ? desc.device : "";
   const auto &core = core_;
-  Plug &plug = *core_->plug;
+  DriverPlugin &plug = *core_->plug;
   MVS_MUST(desc.clock == MVS_CLOCK_REAL || plug.api().read, MVS_E_UNSUPPORTED, plug.name(),
            "the driver %s has a clock of its own: it cannot be turned by hand",
            plug.name().c_str());
@@ -100,7 +101,7 @@ void Device::start() {
            "%s: its driver has not come back from its loop: unplug the device, and start anew",
            core_->plug->name().c_str());
   const auto &core = core_;
-  Plug &plug = *core_->plug;
+  DriverPlugin &plug = *core_->plug;
   if (plug.api().calibrate) {
     plug.call("calibrate", core_->handle,
               [core](const mvs_driver_api &api) { return api.calibrate(core->handle); });
@@ -127,7 +128,7 @@ void Device::stop() {
   if (!started_) return;
   started_ = false;
   core_->stopping = true;
-  Plug &plug = *core_->plug;
+  DriverPlugin &plug = *core_->plug;
   plug.ask("stop", core_->handle,
            [core = core_](const mvs_driver_api &api) { return api.stop(core->handle); });
   forget_from_crashes(core_->handle);
@@ -144,7 +145,7 @@ void Device::must_be_started(const char *call) const {
 
 void Device::arm() {
   must_be_started("arm");
-  const ServoPicture now = picture();
+  const ServoStatus now = status();
   {
     const std::lock_guard<std::mutex> lock(core_->mutex);
     MVS_MUST(core_->lost.empty(), MVS_E_DEVICE, core_->plug->name(),
@@ -177,10 +178,10 @@ void Device::advance(double seconds) {
   }
 }
 
-ServoPicture Device::picture() {
+ServoStatus Device::status() {
   const std::lock_guard<std::mutex> lock(reading_);
-  core_->links->picture.refresh();
-  ServoPicture now = core_->links->picture.get();
+  core_->links->status.refresh();
+  ServoStatus now = core_->links->status.get();
   if (!started_) now.phase = MVS_DEVICE_STOPPED;
   if (!started_ || core_->clock == MVS_CLOCK_VIRTUAL) return now;
   const double quiet =

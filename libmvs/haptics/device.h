@@ -12,7 +12,7 @@ namespace mvs::core {
 
 class Device {
  public:
-  Device(const mvs_device_desc &desc, Plug::Log log);
+  Device(const mvs_device_desc &desc, DriverPlugin::Log log);
   ~Device();
   Device(const Device &) = delete;
   Device &operator=(const Device &) = delete;
@@ -28,7 +28,7 @@ class Device {
   void advance(double seconds);
 
   // The servo as it is now, from any thread.
-  ServoPicture picture();
+  ServoStatus status();
   // By one thread.
   ServoLinks &links();
   bool is_started() const { return started_; }
@@ -40,7 +40,7 @@ class Device {
 
   std::shared_ptr<Core> core_;  // shared with a thread that may hang
   mvs_device_limits limits_ = {};
-  std::mutex reading_;  // of the picture
+  std::mutex reading_;  // of the status
   std::atomic<bool> started_{false};
 };
 

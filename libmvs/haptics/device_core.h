@@ -17,7 +17,7 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   bool is_running();
   void close();
 
-  std::shared_ptr<Plug> plug;
+  std::shared_ptr<DriverPlugin> plug;
   mvs_driver_device *handle = nullptr;
   DeviceTraits traits;
   uint32_t clock = MVS_CLOCK_REAL;

@@ -99,14 +99,15 @@ std::vector<DriverFile> installed_drivers() {
   return found;
 }
 
-std::shared_ptr<Plug> Plug::load(const std::string &driver, const std::string &options, Log log) {
+std::shared_ptr<DriverPlugin> DriverPlugin::load(const std::string &driver,
+                                                 const std::string &options, Log log) {
   const std::string path = path_of(driver);
   must_be_trusted(path);
-  std::shared_ptr<Plug> plug(new Plug);
+  std::shared_ptr<DriverPlugin> plug(new DriverPlugin);
   plug->options_ = read_options(options);
   plug->log_ = std::move(log);
   plug->host_ = {sizeof(mvs_driver_host), MVS_DRIVER_VERSION, MVS_DRIVER_VERSION, 0, plug.get(),
-                 &Plug::option,           &Plug::log};
+                 &DriverPlugin::option,   &DriverPlugin::log};
   plug->name_ = std::filesystem::path(path).stem();
   plug->negotiate(path);
   for (const auto &[key, value] : plug->options_) {
@@ -121,7 +122,7 @@ std::shared_ptr<Plug> Plug::load(const std::string &driver, const std::string &o
 }
 
 // In a struct with room behind it, so that a driver that writes too much is found out.
-void Plug::negotiate(const std::string &path) {
+void DriverPlugin::negotiate(const std::string &path) {
   struct Room {
     mvs_driver_api api = {};
     std::array<unsigned char, 256> behind;
@@ -160,7 +161,7 @@ void Plug::negotiate(const std::string &path) {
   check(path, sizeof(mvs_driver_api));
 }
 
-void Plug::check(const std::string &path, uint32_t room) const {
+void DriverPlugin::check(const std::string &path, uint32_t room) const {
   MVS_MUST(api_.version == MVS_DRIVER_VERSION, MVS_E_VERSION, name_,
            "the driver %s says that it speaks version %u of the interface, which it was not "
            "offered: get one that was made for version %u",
@@ -182,20 +183,20 @@ void Plug::check(const std::string &path, uint32_t room) const {
            path.c_str(), missing);
 }
 
-const char *Plug::option(void *host, const char *key) {
+const char *DriverPlugin::option(void *host, const char *key) {
   if (!host || !key) return nullptr;
-  const auto &options = static_cast<Plug *>(host)->options_;
+  const auto &options = static_cast<DriverPlugin *>(host)->options_;
   const auto found = options.find(key);
   return found == options.end() ? nullptr : found->second.c_str();
 }
 
-void Plug::log(void *host, const char *sentence) {
+void DriverPlugin::log(void *host, const char *sentence) {
   if (host && sentence) {
-    if (const Log &to = static_cast<Plug *>(host)->log_) to(MVS_LOG_INFO, sentence);
+    if (const Log &to = static_cast<DriverPlugin *>(host)->log_) to(MVS_LOG_INFO, sentence);
   }
 }
 
-Plug::Answer Plug::ask(const char *what, mvs_driver_device *device, Work work) {
+DriverPlugin::Answer DriverPlugin::ask(const char *what, mvs_driver_device *device, Work work) {
   const auto answer = std::make_shared<Answer>();
   const bool came_back = worker_.run(
       [answer, device, work = std::move(work), self = shared_from_this()] {
@@ -211,7 +212,7 @@ Plug::Answer Plug::ask(const char *what, mvs_driver_device *device, Work work) {
       format("the driver does not come back from %s(): unplug the device, and start anew", what)};
 }
 
-void Plug::call(const char *what, mvs_driver_device *device, Work work) {
+void DriverPlugin::call(const char *what, mvs_driver_device *device, Work work) {
   const Answer answer = ask(what, device, std::move(work));
   if (answer.code >= 0) return;
   fail(result_of_driver(answer.code), name_, "%s: %s", name_.c_str(), answer.sentence.c_str());

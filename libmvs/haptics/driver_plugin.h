@@ -22,12 +22,13 @@ struct DriverFile {
 // The drivers in the folder beside the library, by name.
 std::vector<DriverFile> installed_drivers();
 
-class Plug : public std::enable_shared_from_this<Plug> {
+class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
  public:
   using Log = std::function<void(int32_t level, const char *text)>;
 
   // `driver` is a name in that folder or an absolute path; options are "key=value" lines. Throws.
-  static std::shared_ptr<Plug> load(const std::string &driver, const std::string &options, Log log);
+  static std::shared_ptr<DriverPlugin> load(const std::string &driver, const std::string &options,
+                                            Log log);
 
   const mvs_driver_api &api() const { return api_; }
   const std::string &name() const { return name_; }
@@ -45,7 +46,7 @@ class Plug : public std::enable_shared_from_this<Plug> {
   void call(const char *what, mvs_driver_device *device, Work work);
 
  private:
-  Plug() = default;
+  DriverPlugin() = default;
   void negotiate(const std::string &path);
   void check(const std::string &path, uint32_t room) const;
   static const char *option(void *host, const char *key);

@@ -14,7 +14,7 @@ void EnergyObserver::take_step(const Vec3 &step, const std::array<Vec3, 2> &told
 
 // The old model said that it worked W_old on the way from its origin to here. The simulation worked
 // between the two origins, the new model from there to here.
-void EnergyObserver::take_model(const Tissue &before, const Tissue &now, const Vec3 &hand,
+void EnergyObserver::take_model(const TissueModel &before, const TissueModel &now, const Vec3 &hand,
                                 double share) {
   const double simulated = 0.5 * (before.force + now.force).dot(now.origin - before.origin);
   const double made = work_to(before, hand) - simulated - work_to(now, hand);

@@ -23,7 +23,8 @@ class EnergyObserver {
   void take_step(const Vec3 &step, const std::array<Vec3, 2> &told, const Vec3 &before,
                  const Vec3 &now);
   // Another model of the same contact, with the hand at `hand`; `share` of the force is rendered.
-  void take_model(const Tissue &before, const Tissue &now, const Vec3 &hand, double share);
+  void take_model(const TissueModel &before, const TissueModel &now, const Vec3 &hand,
+                  double share);
   void forget() { energy_ = 0; }
 
   // The force that takes out what there is too much of, from a hand at this velocity, within `most`

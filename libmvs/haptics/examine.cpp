@@ -16,7 +16,7 @@ std::string text_of(const char *text) {
   return text ? text : "";
 }
 
-Findings findings_of(const std::shared_ptr<Plug> &plug) {
+Findings findings_of(const std::shared_ptr<DriverPlugin> &plug) {
   Findings first = {{good, "driver", plug->api().about ? plug->api().about : plug->name()}};
   if (!plug->api().doctor) return first;
   // kept by the call: a driver that does not come back may go on writing
@@ -33,14 +33,16 @@ Findings findings_of(const std::shared_ptr<Plug> &plug) {
 }
 
 // Why nobody is here whom the driver could examine; "" where somebody is.
-std::string absence(const std::shared_ptr<Plug> &plug) {
+std::string absence(const std::shared_ptr<DriverPlugin> &plug) {
   if (!plug->api().list) return "";
   const auto count = std::make_shared<size_t>(0);
-  const Plug::Answer answer = plug->ask("list", nullptr, [count, plug](const mvs_driver_api &api) {
-    return api.list(
-        plug->host(), [](void *to, const char *, const char *) { ++*static_cast<size_t *>(to); },
-        count.get());
-  });
+  const DriverPlugin::Answer answer =
+      plug->ask("list", nullptr, [count, plug](const mvs_driver_api &api) {
+        return api.list(
+            plug->host(),
+            [](void *to, const char *, const char *) { ++*static_cast<size_t *>(to); },
+            count.get());
+      });
   if (answer.code == MVS_DRIVER_E_LIBRARY) return "not installed: " + answer.sentence;
   if (answer.code == MVS_DRIVER_E_ABSENT) return "no device: " + answer.sentence;
   return answer.code >= 0 && *count == 0 ? "it finds no device" : "";
@@ -49,7 +51,7 @@ std::string absence(const std::shared_ptr<Plug> &plug) {
 // A driver that cannot be asked is a finding too.
 Findings examine_installed(const std::string &path) {
   try {
-    const auto plug = Plug::load(path, "", {});
+    const auto plug = DriverPlugin::load(path, "", {});
     const std::string why = absence(plug);
     if (!why.empty()) return {{note, "driver", why}};
     return findings_of(plug);
@@ -61,7 +63,7 @@ Findings examine_installed(const std::string &path) {
 }  // namespace
 
 Findings examine(const std::string &driver, const std::string &options) {
-  return findings_of(Plug::load(driver, options, {}));
+  return findings_of(DriverPlugin::load(driver, options, {}));
 }
 
 Findings examine_all() {

@@ -11,14 +11,14 @@ constexpr double fades_back_slower = 4;  // than it fades away
 
 }  // namespace
 
-void Guard::start() {
+void ForceGate::start() {
   phase_ = MVS_DEVICE_OFF;
   cause_ = MVS_CAUSE_NONE;
   armed_ = requests_->armed_.load(std::memory_order_relaxed);
   requests_->cut_.store(MVS_CAUSE_NONE, std::memory_order_relaxed);
 }
 
-double Guard::share(const Facts &facts, const mvs_device_limits &limits) {
+double ForceGate::share(const Facts &facts, const mvs_device_limits &limits) {
   take_requests();
   if (is_armed() && facts.cause != MVS_CAUSE_NONE) latch(facts.cause);
   if (!is_armed()) return 0;
@@ -30,7 +30,7 @@ double Guard::share(const Facts &facts, const mvs_device_limits &limits) {
 }
 
 // What cuts comes after what arms, if both were asked for since the last tick.
-void Guard::take_requests() {
+void ForceGate::take_requests() {
   const uint32_t armed = requests_->armed_.load(std::memory_order_relaxed);
   if (armed != armed_) {
     armed_ = armed;
@@ -44,13 +44,13 @@ void Guard::take_requests() {
   if (cut != MVS_CAUSE_NONE && phase_ != MVS_DEVICE_LATCHED) latch(cut);
 }
 
-void Guard::latch(uint32_t cause) {
+void ForceGate::latch(uint32_t cause) {
   phase_ = MVS_DEVICE_LATCHED;
   cause_ = cause;
   ramp_ = 0;
 }
 
-void Guard::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
+void ForceGate::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
   if (phase_ == MVS_DEVICE_WAITING) {
     quiet_ = facts.wanted < limits.gate ? quiet_ + 1 : 0;
     if (quiet_ < quiet_ticks) return;
@@ -61,7 +61,7 @@ void Guard::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
   ramp_ = std::min(1.0, ramp_ + facts.dt / limits.ramp_s);
 }
 
-void Guard::fade(const Facts &facts, const mvs_device_limits &limits) {
+void ForceGate::fade(const Facts &facts, const mvs_device_limits &limits) {
   if (facts.may_feel) {
     fade_ = std::min(1.0, fade_ + facts.dt / (fades_back_slower * limits.fade_s));
   } else {

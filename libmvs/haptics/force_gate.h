@@ -23,13 +23,13 @@ class Requests {
   void cut(uint32_t cause) { cut_.store(cause, std::memory_order_relaxed); }
 
  private:
-  friend class Guard;
+  friend class ForceGate;
   std::atomic<uint32_t> armed_{0}, cut_{MVS_CAUSE_NONE};
 };
 
-class Guard {
+class ForceGate {
  public:
-  explicit Guard(Requests &requests) : requests_(&requests) {}
+  explicit ForceGate(Requests &requests) : requests_(&requests) {}
 
   // Takes in a tick, and says which share of the force the hand may feel.
   double share(const Facts &facts, const mvs_device_limits &limits);

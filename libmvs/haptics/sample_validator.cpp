@@ -20,27 +20,27 @@ bool is_number(double value, double most) {
 
 }  // namespace
 
-void Watch::start() {
+void SampleValidator::start() {
   const DeviceTraits *const traits = traits_;
-  *this = Watch(*traits);
+  *this = SampleValidator(*traits);
 }
 
-void Watch::take(const mvs_driver_state &sample, const mvs_device_limits &limits) {
+void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limits &limits) {
   cause_ = MVS_CAUSE_NONE;
   flags_ = sample.flags;
   if (!is_finite(sample)) {
     dt_ = passed_ = 0;
-    return blame(MVS_CAUSE_NOT_FINITE);
+    return latch_cause(MVS_CAUSE_NOT_FINITE);
   }
   take_time(sample);
-  if (sample.cause != MVS_CAUSE_NONE) blame(std::min<uint32_t>(sample.cause, 9));
-  if (!(flags_ & MVS_DRIVER_CALIBRATED)) blame(MVS_CAUSE_CALIBRATION);
-  if (traits_->has_deadman && !(flags_ & MVS_DRIVER_HELD)) blame(MVS_CAUSE_DEADMAN);
-  if (silent_ > patience) blame(MVS_CAUSE_WATCHDOG);
+  if (sample.cause != MVS_CAUSE_NONE) latch_cause(std::min<uint32_t>(sample.cause, 9));
+  if (!(flags_ & MVS_DRIVER_CALIBRATED)) latch_cause(MVS_CAUSE_CALIBRATION);
+  if (traits_->has_deadman && !(flags_ & MVS_DRIVER_HELD)) latch_cause(MVS_CAUSE_DEADMAN);
+  if (silent_ > patience) latch_cause(MVS_CAUSE_WATCHDOG);
   if (dt_ > 0 || !has_pose_) take_pose(sample, limits);
 }
 
-bool Watch::is_finite(const mvs_driver_state &sample) const {
+bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
   double square = 0;
   for (const double q : sample.orientation) square += q * q;
   bool good = std::abs(square - 1) < 1e-3;
@@ -52,11 +52,11 @@ bool Watch::is_finite(const mvs_driver_state &sample) const {
 }
 
 // A clock that goes back, or stands still while samples come, is no clock.
-void Watch::take_time(const mvs_driver_state &sample) {
+void SampleValidator::take_time(const mvs_driver_state &sample) {
   dt_ = passed_ = 0;
   if (has_pose_ && sample.time_ns < time_ns_) {
     time_ns_ = sample.time_ns;
-    return blame(MVS_CAUSE_WATCHDOG);
+    return latch_cause(MVS_CAUSE_WATCHDOG);
   }
   passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
@@ -65,11 +65,11 @@ void Watch::take_time(const mvs_driver_state &sample) {
   if (has_pose_ && sample.sequence == sequence_) return;
   sequence_ = sample.sequence;
   dt_ = passed_ > 0 ? silent_ : 0;
-  if (silent_ > patience) blame(MVS_CAUSE_WATCHDOG);
+  if (silent_ > patience) latch_cause(MVS_CAUSE_WATCHDOG);
   silent_ = 0;
 }
 
-void Watch::take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits) {
+void SampleValidator::take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits) {
   const Vec3 before = pose_.position;
   pose_.position = traits_->turn * Vec3::Map(sample.position) + traits_->shift;
   const double *const q = sample.orientation;
@@ -83,11 +83,11 @@ void Watch::take_pose(const mvs_driver_state &sample, const mvs_device_limits &l
   // two samples that a busy computer handed over at once say nothing about speed
   const double speed = step.norm() / std::max(dt_, 0.5 / traits_->info.rate);
   fast_ = speed > limits.speed ? fast_ + 1 : 0;
-  if (speed > jump * limits.speed || fast_ >= fast_samples) blame(MVS_CAUSE_VELOCITY);
+  if (speed > jump * limits.speed || fast_ >= fast_samples) latch_cause(MVS_CAUSE_VELOCITY);
   take_velocity(sample, step);
 }
 
-void Watch::take_velocity(const mvs_driver_state &sample, const Vec3 &step) {
+void SampleValidator::take_velocity(const mvs_driver_state &sample, const Vec3 &step) {
   if (flags_ & MVS_DRIVER_VELOCITY) {
     pose_.velocity = traits_->turn * Vec3::Map(sample.velocity);
   } else {

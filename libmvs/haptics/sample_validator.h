@@ -5,9 +5,9 @@
 
 namespace mvs::core {
 
-class Watch {
+class SampleValidator {
  public:
-  explicit Watch(const DeviceTraits &traits) : traits_(&traits) {}
+  explicit SampleValidator(const DeviceTraits &traits) : traits_(&traits) {}
 
   // Takes in a sample; the pose is in the frame of the device, dt since the last new sample.
   void take(const mvs_driver_state &sample, const mvs_device_limits &limits);
@@ -28,7 +28,7 @@ class Watch {
   void take_time(const mvs_driver_state &sample);
   void take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits);
   void take_velocity(const mvs_driver_state &sample, const Vec3 &step);
-  void blame(uint32_t cause) {
+  void latch_cause(uint32_t cause) {
     if (cause_ == MVS_CAUSE_NONE) cause_ = cause;
   }
 

@@ -16,9 +16,9 @@ namespace mvs::core {
 
 // What other threads share with the servo.
 struct ServoLinks {
-  Mailbox<Tissue> tissue;                // from the simulation
+  Mailbox<TissueModel> tissue;           // from the simulation
   Mailbox<mvs_device_limits> limits;     // from the application
-  Mailbox<ServoPicture> picture;         // to whoever looks
+  Mailbox<ServoStatus> status;           // to whoever looks
   Queue<ButtonEvent, 256> buttons;       // to the simulation
   Trace<mvs_device_sample, 8192> trace;  // to the application
   Requests requests;
@@ -50,19 +50,19 @@ class Servo {
   const DeviceTraits *traits_;
   mvs_device_limits limits_;
   ServoLinks *links_;
-  Watch watch_;
+  SampleValidator validator_;
   Buttons buttons_;
-  Guard guard_;
+  ForceGate gate_;
   HeatBudget heat_;
   EnergyObserver energy_;
-  Tissue tissue_;
+  TissueModel tissue_;
   Vec3 field_ = Vec3::Zero();   // what tissue and wall give at the last sample, as it is rendered
   Vec3 force_ = Vec3::Zero();   // what the motors were told last
   Vec3 before_ = Vec3::Zero();  // and before that
   Vec3 at_ = Vec3::Zero();      // where the hand was at the last tick
   double share_ = 0;
   uint32_t bits_ = 0;  // MVS_LIMITED_*
-  ServoPicture picture_;
+  ServoStatus status_;
   double servo_s_ = 0;
 };
 

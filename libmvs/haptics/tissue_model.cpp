@@ -11,28 +11,28 @@ Vec3 shortened(const Vec3 &force, double most) {
 
 }  // namespace
 
-Vec3 force_at(const Tissue &t, const Vec3 &hand) {
+Vec3 force_at(const TissueModel &t, const Vec3 &hand) {
   const Vec3 away = hand - t.origin;
   switch (t.kind) {
-    case Tissue::held:
+    case TissueModel::held:
       return shortened(t.force - t.stiffness * away, t.most);
-    case Tissue::touched: {
+    case TissueModel::touched: {
       const Vec3 force = t.force - t.stiffness * away;
       return force.dot(t.force) > 0 ? shortened(force, t.most) : Vec3::Zero();
     }
-    case Tissue::near: {
+    case TissueModel::near: {
       const double depth = -t.normal.dot(away) - t.gap;
       if (!(depth > 0)) return Vec3::Zero();
       return shortened(t.stiffness * t.normal * depth, t.most);
     }
-    case Tissue::pulled:
+    case TissueModel::pulled:
       return shortened(t.force, t.most);
     default:
       return Vec3::Zero();
   }
 }
 
-double work_to(const Tissue &t, const Vec3 &hand) {
+double work_to(const TissueModel &t, const Vec3 &hand) {
   return 0.5 * (force_at(t, t.origin) + force_at(t, hand)).dot(hand - t.origin);
 }
 

@@ -10,7 +10,7 @@
 
 namespace mvs::core {
 
-struct Tissue {
+struct TissueModel {
   enum Kind : uint32_t {
     free,     // nothing to feel
     held,     // pulls in every direction
@@ -28,10 +28,10 @@ struct Tissue {
 };
 
 // The force on a hand.
-Vec3 force_at(const Tissue &tissue, const Vec3 &hand);
+Vec3 force_at(const TissueModel &tissue, const Vec3 &hand);
 
 // The work on a hand that goes straight from the origin to `hand`, by the trapezoidal rule: exact
 // where the force is linear.
-double work_to(const Tissue &tissue, const Vec3 &hand);
+double work_to(const TissueModel &tissue, const Vec3 &hand);
 
 }  // namespace mvs::core

@@ -15,14 +15,15 @@ constexpr uint32_t least_calls = 8;     // ...and, of one contact, no fewer
 
 }  // namespace
 
-Tissue TissueMaker::next(uint32_t kind) const {
-  Tissue tissue;
+TissueModel TissueModelBuilder::next(uint32_t kind) const {
+  TissueModel tissue;
   tissue.kind = kind;
   tissue.contact = contact_;
   return tissue;
 }
 
-void TissueMaker::refresh_stiffness(const Model &model, const State &state, const Tool &tool) {
+void TissueModelBuilder::refresh_stiffness(const Model &model, const State &state,
+                                           const Tool &tool) {
   const bool is_near = (tool.position - at_).norm() <= same_place;
   const bool serves =
       age_ > 0 && valve_ == model.serial && (is_near || age_ > refresh_calls - least_calls);
@@ -34,11 +35,13 @@ void TissueMaker::refresh_stiffness(const Model &model, const State &state, cons
 }
 
 // A ball or rod in the open has no stiffness: it only needs to know where tissue begins.
-Tissue TissueMaker::of_tool(const Model &model, const State &state, const Tool &tool) {
+TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, const Tool &tool) {
   const bool grasp = tool.kind == MVS_TOOL_GRASP;
   const Room room = grasp ? Room{0, Vec3::Zero()} : room_of(model, state.x, tool);
   const bool touches = grasp || room.distance < tool_range(model);
-  Tissue tissue = next(grasp ? Tissue::held : touches ? Tissue::touched : Tissue::near);
+  TissueModel tissue = next(grasp     ? TissueModel::held
+                            : touches ? TissueModel::touched
+                                      : TissueModel::near);
   tissue.origin = tool.position;
   tissue.most = tool.max_force;
   if (touches) {
@@ -55,9 +58,9 @@ Tissue TissueMaker::of_tool(const Model &model, const State &state, const Tool &
   return tissue;
 }
 
-Tissue TissueMaker::of_chord(const Model &model, const State &state, const Chord &chord,
-                             const Vec3 &hand, double gain) const {
-  Tissue tissue = next(Tissue::pulled);
+TissueModel TissueModelBuilder::of_chord(const Model &model, const State &state, const Chord &chord,
+                                         const Vec3 &hand, double gain) const {
+  TissueModel tissue = next(TissueModel::pulled);
   const Vec3 d = state.x[chord.a] - state.x[chord.b];
   const double length = d.norm(), strain = length / chord.rest_length - 1;
   tissue.origin = hand;

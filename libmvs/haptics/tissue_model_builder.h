@@ -8,21 +8,21 @@ namespace mvs::core {
 
 // Follows one tool. Force and place are new each time; the stiffness, which costs a factorisation
 // and changes slowly, is worked out again when the tool has moved or enough time has gone.
-class TissueMaker {
+class TissueModelBuilder {
  public:
   // Another tool, or none.
   void begin_contact() {
     ++contact_;
     age_ = 0;
   }
-  Tissue nothing() const { return next(Tissue::free); }
-  Tissue of_tool(const Model &model, const State &state, const Tool &tool);
+  TissueModel nothing() const { return next(TissueModel::free); }
+  TissueModel of_tool(const Model &model, const State &state, const Tool &tool);
   // The tension of a chord, `gain` times, as its leaflet end feels it.
-  Tissue of_chord(const Model &model, const State &state, const Chord &chord, const Vec3 &hand,
-                  double gain) const;
+  TissueModel of_chord(const Model &model, const State &state, const Chord &chord, const Vec3 &hand,
+                       double gain) const;
 
  private:
-  Tissue next(uint32_t kind) const;
+  TissueModel next(uint32_t kind) const;
   void refresh_stiffness(const Model &model, const State &state, const Tool &tool);
 
   uint64_t contact_ = 0;

@@ -14,7 +14,7 @@
 namespace mvs::core {
 
 // What changes a state between two operations, so that a plan can be replayed to the same bits.
-struct Move {
+struct RecordedEvent {
   enum Kind : uint32_t {
     load = 1,
     settle = 2,
@@ -33,75 +33,76 @@ struct Move {
   double residual = 0, dt = 0, damping = 0;    // N, s, 1/s
   // One, of what is done with it: as added; its hand; its id. Of lead: all that are led, by id and
   // kind.
-  SharedVector<Tool> tool;
-  SharedVector<Vec3> way;       // of lead, in rows: where the hands of all of them are,
-  SharedVector<uint32_t> pace;  // and how many steps follow
+  CowVector<Tool> tool;
+  CowVector<Vec3> way;       // of lead, in rows: where the hands of all of them are,
+  CowVector<uint32_t> pace;  // and how many steps follow
 
-  bool operator==(const Move &) const = default;
+  bool operator==(const RecordedEvent &) const = default;
 };
-using Moves = Stack<Move>;
+using RecordedEvents = PersistentList<RecordedEvent>;
 
 // With one more move; equal steps are counted together, steps that hands lead become one run, and a
 // load or a hand that moves on before anything has followed it is replaced.
-Moves with_move(const Moves &moves, Move move);
+RecordedEvents with_move(const RecordedEvents &moves, RecordedEvent move);
 
 // One operation that was applied.
-struct Entry {
+struct HistoryEntry {
   Operation op;
   std::string title;  // for a menu
   Id made = 0;
   uint64_t group = 0;      // 0: none
   std::string group_name;  // "" for none
   int64_t time_ms = 0;     // when, since 1970 UTC
-  Moves moves;             // since the operation before it
-  Picture before, after;
+  RecordedEvents moves;    // since the operation before it
+  ModelState before, after;
 };
-using Entries = Stack<std::shared_ptr<const Entry>>;
+using HistoryEntries = PersistentList<std::shared_ptr<const HistoryEntry>>;
 
 // A place to come back to.
 struct Checkpoint {
   std::string name;
-  Picture at;
-  Entries past, future;
-  Moves moves;
+  ModelState at;
+  HistoryEntries past, future;
+  RecordedEvents moves;
 };
 
-struct Timeline {
-  std::shared_ptr<const Picture> start;  // the valve as it was set; null: it is this picture
-  Entries past;                          // the last operation on top
-  Entries future;                        // undone; the next to be redone on top
-  Moves moves;                           // since the last operation
+struct History {
+  std::shared_ptr<const ModelState> start;  // the valve as it was set; null: it is this picture
+  HistoryEntries past;                      // the last operation on top
+  HistoryEntries future;                    // undone; the next to be redone on top
+  RecordedEvents moves;                     // since the last operation
   std::shared_ptr<const std::vector<Checkpoint>> checkpoints;  // null: none
   uint64_t next_group = 1;
 };
 
 // A picture with the history up to it.
-struct Moment {
-  Picture picture;
-  Timeline timeline;
+struct Snapshot {
+  ModelState current;
+  History history;
 };
 
 // The valve as it was set, where the history begins.
-std::shared_ptr<const Picture> start_of(const Moment &moment);
+std::shared_ptr<const ModelState> start_of(const Snapshot &snapshot);
 
 // The moment after a move, which led to `state`; throws MVS_E_DIVERGED where a position is no
 // number. What the state has in common with the one before is shared.
-Moment after_move(const Moment &now, State state, const Move &move);
+Snapshot after_move(const Snapshot &now, State state, const RecordedEvent &move);
 // The same where other moves came first.
-Moment after_move(const Moment &now, State state, const std::vector<Move> &first, const Move &move);
+Snapshot after_move(const Snapshot &now, State state, const std::vector<RecordedEvent> &first,
+                    const RecordedEvent &move);
 
 // What a load or a move of a tool does to a state; throws where it cannot be done.
-void take_move(const Model &model, State &state, const Move &move);
+void take_move(const Model &model, State &state, const RecordedEvent &move);
 
 // These give the moment after; they throw MVS_E_STATE or MVS_E_ID where there is nothing to go to.
 struct Group {
   uint64_t number = 0;
   std::string name;
 };
-Moment after_op(const Moment &now, const Operation &op, const Group &group, int64_t time_ms);
-Moment undone(const Moment &now);
-Moment redone(const Moment &now);
-Moment with_checkpoint(const Moment &now, const std::string &name);
-Moment at_checkpoint(const Moment &now, const std::string &name);
+Snapshot after_op(const Snapshot &now, const Operation &op, const Group &group, int64_t time_ms);
+Snapshot undone(const Snapshot &now);
+Snapshot redone(const Snapshot &now);
+Snapshot with_checkpoint(const Snapshot &now, const std::string &name);
+Snapshot at_checkpoint(const Snapshot &now, const std::string &name);
 
 }  // namespace mvs::core

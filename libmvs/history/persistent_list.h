@@ -8,16 +8,16 @@
 namespace mvs::core {
 
 template <typename T>
-class Stack {
+class PersistentList {
  public:
   bool empty() const { return cell_ == nullptr; }
   size_t size() const { return cell_ ? cell_->size : 0; }
   const T &top() const { return cell_->value; }
   // Without its top.
-  Stack popped() const { return Stack(cell_->below); }
+  PersistentList popped() const { return PersistentList(cell_->below); }
   // With one more on top.
-  Stack pushed(T value) const {
-    return Stack(std::make_shared<Cell>(std::move(value), cell_, size() + 1));
+  PersistentList pushed(T value) const {
+    return PersistentList(std::make_shared<Cell>(std::move(value), cell_, size() + 1));
   }
   // All, from the bottom to the top; valid while this stack is.
   std::vector<const T *> items() const {
@@ -27,7 +27,7 @@ class Stack {
     return all;
   }
 
-  Stack() = default;
+  PersistentList() = default;
 
  private:
   struct Cell {
@@ -45,7 +45,7 @@ class Stack {
     size_t size;
   };
 
-  explicit Stack(std::shared_ptr<Cell> cell) : cell_(std::move(cell)) {}
+  explicit PersistentList(std::shared_ptr<Cell> cell) : cell_(std::move(cell)) {}
 
   std::shared_ptr<Cell> cell_;
 };

@@ -12,13 +12,13 @@ namespace {
 // each is little beside so many rows.
 constexpr size_t most_rows = 128;
 
-bool is_stepped_alike(const Move &a, const Move &b) {
+bool is_stepped_alike(const RecordedEvent &a, const RecordedEvent &b) {
   return a.solver == b.solver && a.dt == b.dt && a.damping == b.damping && a.budget == b.budget &&
          a.max_iterations == b.max_iterations && a.residual == b.residual;
 }
 
 // Where the places of a tool begin in the rows of a lead; those of one row where it has none.
-size_t place_of(const Move &lead, Id tool) {
+size_t place_of(const RecordedEvent &lead, Id tool) {
   size_t place = 0;
   for (const Tool &has : lead.tool.get()) {
     if (has.id == tool) break;
@@ -27,19 +27,19 @@ size_t place_of(const Move &lead, Id tool) {
   return place;
 }
 
-bool leads(const Move &lead, Id tool) {
+bool leads(const RecordedEvent &lead, Id tool) {
   const std::vector<Tool> &tools = lead.tool;
   return std::any_of(tools.begin(), tools.end(), [&](const Tool &t) { return t.id == tool; });
 }
 
-bool covers(const Move &lead, const Move &more) {
+bool covers(const RecordedEvent &lead, const RecordedEvent &more) {
   const std::vector<Tool> &tools = more.tool;
   return std::all_of(tools.begin(), tools.end(), [&](const Tool &t) { return leads(lead, t.id); });
 }
 
 // Room for one more row, without more than a whole run will need.
 template <typename Item>
-std::vector<Item> &with_room(SharedVector<Item> &items, size_t more, size_t most) {
+std::vector<Item> &with_room(CowVector<Item> &items, size_t more, size_t most) {
   std::vector<Item> &all = items.edit();
   const size_t needed = all.size() + more;
   if (all.capacity() < needed) all.reserve(std::max(needed, std::min(2 * needed, most)));
@@ -47,7 +47,7 @@ std::vector<Item> &with_room(SharedVector<Item> &items, size_t more, size_t most
 }
 
 // Adds one row of `from`; hands that it does not have stay where they were in the last row.
-void add_row(Move &run, const Move &from, size_t row) {
+void add_row(RecordedEvent &run, const RecordedEvent &from, size_t row) {
   const size_t width = places_in_row(run), start = run.way.size();
   std::vector<Vec3> &way = with_room(run.way, width, most_rows * width);
   with_room(run.pace, 1, most_rows).push_back(from.pace.get()[row]);
@@ -67,13 +67,13 @@ void drop_front(std::vector<Item> &items, size_t count) {
   items.erase(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-void take_rows(Move &run, Move &more) {
+void take_rows(RecordedEvent &run, RecordedEvent &more) {
   const size_t room = most_rows - std::min(most_rows, run.pace.size());
   const size_t rows = std::min(room, more.pace.size()), width = places_in_row(more);
   if (rows == 0 || !covers(run, more)) return;
   std::vector<Vec3> &left = more.way.edit();
   std::vector<uint32_t> &paces = more.pace.edit();
-  Move longer = run;
+  RecordedEvent longer = run;
   for (size_t row = 0; row < rows; ++row) {
     add_row(rows == 1 ? run : longer, more, row);
     more.count -= paces[row];
@@ -95,18 +95,18 @@ size_t places_of(const Tool &tool) {
   return tool.kind == MVS_TOOL_ROD ? 2 : 1;
 }
 
-size_t places_in_row(const Move &lead) {
+size_t places_in_row(const RecordedEvent &lead) {
   size_t places = 0;
   for (const Tool &tool : lead.tool.get()) places += places_of(tool);
   return places;
 }
 
-Move lead_of(const std::vector<Move> &hands, const Move &step) {
-  Move lead = step;
-  lead.kind = Move::lead;
+RecordedEvent lead_of(const std::vector<RecordedEvent> &hands, const RecordedEvent &step) {
+  RecordedEvent lead = step;
+  lead.kind = RecordedEvent::lead;
   std::vector<Tool> tools;
   std::vector<Vec3> way;
-  for (const Move &hand : hands) {
+  for (const RecordedEvent &hand : hands) {
     const Tool &moved = hand.tool.get()[0];
     Tool tool;
     tool.id = moved.id;
@@ -121,13 +121,13 @@ Move lead_of(const std::vector<Move> &hands, const Move &step) {
   return lead;
 }
 
-void take_on(Move &run, Move &more) {
+void take_on(RecordedEvent &run, RecordedEvent &more) {
   if (!is_stepped_alike(run, more)) return;
-  if (run.kind == Move::step && more.kind == Move::step) {
-    take_steps(run.count, more.count, Move::most_count);
-  } else if (run.kind == Move::lead && more.kind == Move::lead) {
+  if (run.kind == RecordedEvent::step && more.kind == RecordedEvent::step) {
+    take_steps(run.count, more.count, RecordedEvent::most_count);
+  } else if (run.kind == RecordedEvent::lead && more.kind == RecordedEvent::lead) {
     take_rows(run, more);
-  } else if (run.kind == Move::lead && more.kind == Move::step) {
+  } else if (run.kind == RecordedEvent::lead && more.kind == RecordedEvent::step) {
     uint64_t last = run.pace.get().back();
     const uint64_t before = last;
     std::vector<uint32_t> &pace = run.pace.edit();
@@ -137,11 +137,11 @@ void take_on(Move &run, Move &more) {
   }
 }
 
-Move widened(const Move &last, Move lead) {
-  const bool goes_on = last.kind == Move::lead && lead.kind == Move::lead &&
+RecordedEvent widened(const RecordedEvent &last, RecordedEvent lead) {
+  const bool goes_on = last.kind == RecordedEvent::lead && lead.kind == RecordedEvent::lead &&
                        is_stepped_alike(last, lead) && last.pace.size() < most_rows;
   if (!goes_on) return lead;
-  Move wide = last;
+  RecordedEvent wide = last;
   const size_t width = places_in_row(last), places = places_in_row(lead);
   std::vector<Vec3> held(last.way.end() - static_cast<std::ptrdiff_t>(width), last.way.end());
   for (const Tool &tool : lead.tool.get()) {
@@ -159,7 +159,7 @@ Move widened(const Move &last, Move lead) {
   return wide;
 }
 
-bool is_whole(const Move &lead) {
+bool is_whole(const RecordedEvent &lead) {
   uint64_t steps = 0;
   for (const uint32_t pace : lead.pace.get()) {
     if (pace == 0) return false;
@@ -171,7 +171,7 @@ bool is_whole(const Move &lead) {
          lead.way.size() == lead.pace.size() * places_in_row(lead);
 }
 
-void take_row(State &state, const Move &lead, size_t row) {
+void take_row(State &state, const RecordedEvent &lead, size_t row) {
   const Vec3 *place = lead.way.get().data() + row * places_in_row(lead);
   for (const Tool &tool : lead.tool.get()) {
     const bool is_rod = places_of(tool) == 2;

@@ -20,11 +20,11 @@ struct Rounding {
   Rounding() {}  // not trivial: nobody warns of one that is not used
 };
 template <>
-struct Rounding<float> : FlushTiny {};
+struct Rounding<float> : FlushDenormals {};
 
 // Panels of T: double, or float where something else makes good what it rounds.
 template <typename T>
-class BlockFactor final : public Factor {
+class BlockFactor final : public DirectSolver {
  public:
   void analyse(const BlockMatrix &matrix) override;
   bool factorise(const BlockMatrix &matrix) override { return factorise_part(matrix, 0, 1); }
@@ -203,11 +203,11 @@ void BlockFactor<T>::solve(std::vector<Vec3> &b) {
 
 }  // namespace
 
-std::unique_ptr<Factor> make_block_factor() {
+std::unique_ptr<DirectSolver> make_block_factor() {
   return std::make_unique<BlockFactor<double>>();
 }
 
-std::unique_ptr<Factor> make_narrow_factor() {
+std::unique_ptr<DirectSolver> make_narrow_factor() {
   return std::make_unique<BlockFactor<float>>();
 }
 

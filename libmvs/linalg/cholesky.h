@@ -7,10 +7,10 @@
 
 namespace mvs::core {
 
-std::unique_ptr<Factor> make_block_factor();
+std::unique_ptr<DirectSolver> make_block_factor();
 
 // The same in single precision, for half of the memory and of the time: a preconditioner. Its
 // factorisation fails where rounding alone makes a matrix indefinite, so of condition 1e7 or so.
-std::unique_ptr<Factor> make_narrow_factor();
+std::unique_ptr<DirectSolver> make_narrow_factor();
 
 }  // namespace mvs::core

@@ -12,7 +12,7 @@
 namespace mvs::core {
 namespace {
 
-class CholmodFactor final : public Factor {
+class CholmodFactor final : public DirectSolver {
  public:
   CholmodFactor() {
     cholmod_start(&common_);
@@ -99,7 +99,7 @@ class CholmodFactor final : public Factor {
 
 }  // namespace
 
-std::unique_ptr<Factor> make_cholmod_factor() {
+std::unique_ptr<DirectSolver> make_cholmod_solver() {
   return std::make_unique<CholmodFactor>();
 }
 

@@ -9,7 +9,7 @@
 
 namespace mvs::core {
 
-std::unique_ptr<Factor> make_cholmod_factor();
+std::unique_ptr<DirectSolver> make_cholmod_solver();
 
 // Writes the lower triangle as scalar columns: 3 n + 1 starts, 9 * blocks - 3 n rows and values.
 void expand_lower(const BlockMatrix &matrix, int *start, int *row, double *value);

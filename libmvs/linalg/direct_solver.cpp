@@ -13,7 +13,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-class EigenFactor final : public Factor {
+class EigenFactor final : public DirectSolver {
  public:
   void analyse(const BlockMatrix &matrix) override {
     expand(matrix, lower_);
@@ -64,13 +64,13 @@ void expand_lower(const BlockMatrix &matrix, int *start, int *row, double *value
   start[3 * matrix.size()] = at;
 }
 
-std::unique_ptr<Factor> make_factor(uint32_t backend) {
+std::unique_ptr<DirectSolver> make_direct_solver(uint32_t backend) {
   if (backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK) return make_block_factor();
   if (backend == MVS_BACKEND_EIGEN) return std::make_unique<EigenFactor>();
   MVS_MUST(backend == MVS_BACKEND_CHOLMOD, MVS_E_ARGUMENT, "backend",
            "there is no factorisation number %u; use MVS_BACKEND_DEFAULT", backend);
 #ifdef MVS_HAVE_CHOLMOD
-  return make_cholmod_factor();
+  return make_cholmod_solver();
 #else
   fail(MVS_E_UNSUPPORTED, "backend",
        "this build of libmvs has no CHOLMOD; use MVS_BACKEND_DEFAULT or build with "

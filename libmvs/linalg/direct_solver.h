@@ -8,9 +8,9 @@
 
 namespace mvs::core {
 
-class Factor {
+class DirectSolver {
  public:
-  virtual ~Factor() = default;
+  virtual ~DirectSolver() = default;
   // Takes the pattern in; call it again when the pattern changes. The rows are expected in a
   // fill-reducing order already (see fill_reducing_order).
   virtual void analyse(const BlockMatrix &matrix) = 0;
@@ -28,7 +28,7 @@ class Factor {
 };
 
 // A factorisation of the named MVS_BACKEND_*; throws MVS_E_UNSUPPORTED if this build lacks it.
-std::unique_ptr<Factor> make_factor(uint32_t backend);
+std::unique_ptr<DirectSolver> make_direct_solver(uint32_t backend);
 
 // The backends of this build by name, separated by spaces.
 const char *factor_names();

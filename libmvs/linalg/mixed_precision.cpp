@@ -13,7 +13,7 @@ constexpr double tolerance = 1e-7;
 // A factor in double precision costs as much as some ten.
 constexpr uint32_t most_iterations = 8;
 
-class RefinedFactor final : public Factor {
+class MixedPrecisionCholesky final : public DirectSolver {
  public:
   void analyse(const BlockMatrix &matrix) override;
   bool factorise(const BlockMatrix &matrix) override;
@@ -23,34 +23,34 @@ class RefinedFactor final : public Factor {
  private:
   bool factorise_exactly();
 
-  std::unique_ptr<Factor> narrow_ = make_narrow_factor(), exact_ = make_block_factor();
+  std::unique_ptr<DirectSolver> narrow_ = make_narrow_factor(), exact_ = make_block_factor();
   BlockMatrix matrix_;
   bool is_exact_ = false, is_analysed_ = false;  // the exact one
   uint32_t iterations_ = 0;
   Pcg pcg_;
-  BlockProduct product_;
+  BlockSpmv product_;
   std::vector<Vec3> solution_;
 };
 
-void RefinedFactor::analyse(const BlockMatrix &matrix) {
+void MixedPrecisionCholesky::analyse(const BlockMatrix &matrix) {
   narrow_->analyse(matrix);
   is_analysed_ = false;
 }
 
-bool RefinedFactor::factorise(const BlockMatrix &matrix) {
+bool MixedPrecisionCholesky::factorise(const BlockMatrix &matrix) {
   matrix_ = matrix;
   is_exact_ = false;
   return narrow_->factorise(matrix_) || factorise_exactly();
 }
 
-bool RefinedFactor::factorise_exactly() {
+bool MixedPrecisionCholesky::factorise_exactly() {
   if (!is_analysed_) exact_->analyse(matrix_);
   is_analysed_ = true;
   return is_exact_ = exact_->factorise(matrix_);
 }
 
 // What has no exact factor is indefinite by a hair: an iterate does there, as it leads downhill.
-void RefinedFactor::solve(std::vector<Vec3> &b) {
+void MixedPrecisionCholesky::solve(std::vector<Vec3> &b) {
   iterations_ = 0;
   if (!is_exact_) {
     const auto multiply = [&](const std::vector<Vec3> &v, std::vector<Vec3> &y) {
@@ -73,8 +73,8 @@ void RefinedFactor::solve(std::vector<Vec3> &b) {
 
 }  // namespace
 
-std::unique_ptr<Factor> make_refined_factor() {
-  return std::make_unique<RefinedFactor>();
+std::unique_ptr<DirectSolver> make_mixed_precision_cholesky() {
+  return std::make_unique<MixedPrecisionCholesky>();
 }
 
 }  // namespace mvs::core

@@ -13,6 +13,6 @@
 
 namespace mvs::core {
 
-std::unique_ptr<Factor> make_refined_factor();
+std::unique_ptr<DirectSolver> make_mixed_precision_cholesky();
 
 }  // namespace mvs::core

@@ -189,8 +189,8 @@ void Dissection::order_part(size_t begin, size_t end) {
 
 }  // namespace
 
-std::vector<uint32_t> dissection_order(const std::vector<Edge> &pairs,
-                                       const std::vector<Vec3> &place) {
+std::vector<uint32_t> nested_dissection_order(const std::vector<Edge> &pairs,
+                                              const std::vector<Vec3> &place) {
   return Dissection(pairs, place).order();
 }
 

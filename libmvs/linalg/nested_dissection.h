@@ -15,8 +15,8 @@
 namespace mvs::core {
 
 // order[k] is the node eliminated k-th; pairs of nodes may come more than once.
-std::vector<uint32_t> dissection_order(const std::vector<Edge> &pairs,
-                                       const std::vector<Vec3> &place);
+std::vector<uint32_t> nested_dissection_order(const std::vector<Edge> &pairs,
+                                              const std::vector<Vec3> &place);
 
 // Products of blocks, about, that a factorisation in this order has: the sum of the squares of its
 // columns (counted as in Davis, ACM Trans. Math. Softw. 31, 2005).

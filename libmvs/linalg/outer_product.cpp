@@ -46,8 +46,8 @@ MVS_INLINE void add_block(double *block, const Spread &a, const Spread &b, doubl
   block[8] = last;
 }
 
-MVS_INLINE void add_pair(const RankOne &to, size_t pair, const Spread &a, const Spread &b,
-                         double times) {
+MVS_INLINE void add_pair(const OuterProductTarget &to, size_t pair, const Spread &a,
+                         const Spread &b, double times) {
   if (to.lower[pair]) {
     add_block(to.pair[pair], a, b, times);
   } else {
@@ -55,7 +55,7 @@ MVS_INLINE void add_pair(const RankOne &to, size_t pair, const Spread &a, const 
   }
 }
 
-MVS_INLINE void add(const Slope &slope, double times, const RankOne &to) {
+MVS_INLINE void add(const Slope &slope, double times, const OuterProductTarget &to) {
   const double *s = slope.number.data();
   const Spread n0(s), n1(s + 3), n2(s + 6), n3(s + 9);
   add_block(to.diagonal[0], n0, n0, times);
@@ -72,7 +72,7 @@ MVS_INLINE void add(const Slope &slope, double times, const RankOne &to) {
 
 #else
 
-void add(const Slope &slope, double times, const RankOne &to) {
+void add(const Slope &slope, double times, const OuterProductTarget &to) {
   const auto add_block = [&](double *block, uint32_t a, uint32_t b) {
     Eigen::Map<Mat3>(block) += times * (slope.node(a) * slope.node(b).transpose());
   };
@@ -86,17 +86,18 @@ void add(const Slope &slope, double times, const RankOne &to) {
 
 #endif
 
-void add_plain(const Slope &slope, double times, const RankOne &to) {
+void add_plain(const Slope &slope, double times, const OuterProductTarget &to) {
   add(slope, times, to);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] void add_wider(const Slope &slope, double times, const RankOne &to) {
+[[gnu::target("avx2")]] void add_wider(const Slope &slope, double times,
+                                       const OuterProductTarget &to) {
   add(slope, times, to);
 }
 #endif
 
-using Kernel = void (*)(const Slope &, double, const RankOne &);
+using Kernel = void (*)(const Slope &, double, const OuterProductTarget &);
 
 Kernel choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -107,7 +108,7 @@ Kernel choose() {
 
 }  // namespace
 
-void add_rank_one(const Slope &slope, double times, const RankOne &to) {
+void add_outer_product(const Slope &slope, double times, const OuterProductTarget &to) {
   static const Kernel kernel = choose();
   kernel(slope, times, to);
 }

@@ -18,13 +18,13 @@ struct Slope {
 
 // The blocks of four nodes and of their pairs (1, 0), (2, 0), (2, 1) ...; whether the row of a
 // block is the first of the pair.
-struct RankOne {
+struct OuterProductTarget {
   std::array<double *, 4> diagonal;
   std::array<double *, 6> pair;
   std::array<bool, 6> lower;
 };
 
 // Adds times * slope slope^T. The bits are the same on every processor, and in either triangle.
-void add_rank_one(const Slope &slope, double times, const RankOne &to);
+void add_outer_product(const Slope &slope, double times, const OuterProductTarget &to);
 
 }  // namespace mvs::core

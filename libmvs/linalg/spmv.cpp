@@ -83,8 +83,7 @@ Kernel choose() {
 
 }  // namespace
 
-void BlockProduct::multiply(const BlockMatrix &a, const std::vector<Vec3> &v,
-                            std::vector<Vec3> &y) {
+void BlockSpmv::multiply(const BlockMatrix &a, const std::vector<Vec3> &v, std::vector<Vec3> &y) {
   static const Kernel kernel = choose();
   const uint32_t n = a.size();
   y.resize(v.size());

@@ -7,7 +7,7 @@ namespace mvs::core {
 
 // Keeps the memory that a product takes. The bits are the same on every processor, and entries that
 // are zero change none but signs of zeros.
-class BlockProduct {
+class BlockSpmv {
  public:
   // y = A v
   void multiply(const BlockMatrix &a, const std::vector<Vec3> &v, std::vector<Vec3> &y);

@@ -37,7 +37,7 @@ void for_each_element(size_t sides, Visit visit) {
 
 }  // namespace
 
-Span::Span(const Frame &frame, const std::vector<Vec3> &rim) {
+AnnulusSurface::AnnulusSurface(const Frame &frame, const std::vector<Vec3> &rim) {
   double turn = 0;
   for (const Vec3 &p : rim) rim_.push_back(frame.local(p));
   for (size_t k = 0; k < sides(); ++k) turn += cross(rim_[k], rim_[(k + 1) % sides()]);
@@ -45,17 +45,17 @@ Span::Span(const Frame &frame, const std::vector<Vec3> &rim) {
   solve();
 }
 
-size_t Span::index(size_t ring, size_t k) const {
+size_t AnnulusSurface::index(size_t ring, size_t k) const {
   return ring == 0 ? 0 : 1 + (ring - 1) * sides() + k % sides();
 }
 
-Vec3 Span::point(size_t ring, size_t k) const {
+Vec3 AnnulusSurface::point(size_t ring, size_t k) const {
   const double s = static_cast<double>(ring) / rings;
   const Vec3 &rim = rim_[k % sides()];
   return {s * rim[0], s * rim[1], height_[index(ring, k)]};
 }
 
-void Span::solve() {
+void AnnulusSurface::solve() {
   const size_t unknowns = index(rings, 0);
   height_.assign(unknowns + sides(), 0);
   for (size_t k = 0; k < sides(); ++k) height_[index(rings, k)] = rim_[k][2];
@@ -90,7 +90,7 @@ void Span::solve() {
   std::copy(solution.begin(), solution.end(), height_.begin());
 }
 
-double Span::height(double u, double v) const {
+double AnnulusSurface::height(double u, double v) const {
   const Vec3 p(u, v, 0);
   for (size_t k = 0; k < sides(); ++k) {
     const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
@@ -109,7 +109,7 @@ double Span::height(double u, double v) const {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-double Span::area() const {
+double AnnulusSurface::area() const {
   double sum = 0;
   for_each_element(sides(), [&](const auto &corner, double share) {
     const Vec3 a = point(corner[0][0], corner[0][1]);

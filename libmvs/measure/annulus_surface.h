@@ -10,9 +10,9 @@ namespace mvs::core {
 // Heights above the annulus plane that solve Laplace's equation over the projection of the annulus
 // and equal it on the rim, by linear finite elements on rings that shrink towards the centre. The
 // projection must be star-shaped about the frame's origin, as any annulus is.
-class Span {
+class AnnulusSurface {
  public:
-  Span(const Frame &frame, const std::vector<Vec3> &rim);
+  AnnulusSurface(const Frame &frame, const std::vector<Vec3> &rim);
 
   // The height in m at a point of the annulus plane (AP, CC); NaN outside the annulus.
   double height(double u, double v) const;

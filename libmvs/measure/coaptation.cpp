@@ -63,7 +63,7 @@ size_t parts_of(const Tri &triangle, const std::vector<Vec3> &x, double reach) {
 
 // Finds the coapted samples of all triangles and fills `share`.
 std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
-                            const Opposite &opposite, const Frame &frame,
+                            const FacingSurface &opposite, const Frame &frame,
                             std::vector<double> &share) {
   const Valve &valve = model.valve;
   std::vector<Coapted> samples;
@@ -181,7 +181,7 @@ void measure_central_plane(const std::vector<Coapted> &samples, const Frame &fra
 
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x) {
   const Surface surface = surface_of(model.valve.triangles, x);
-  const Opposite opposite(model, x, surface);
+  const FacingSurface opposite(model, x, surface);
   const Frame frame = valve_frame(model, x);
   Coaptation coaptation;
   for (uint32_t node = 0; node < x.size(); ++node) {

@@ -39,7 +39,7 @@ bool share_a_node(const Tri &l, const Tri &r) {
 
 }  // namespace
 
-Opposite::Opposite(const Model &model, const std::vector<Vec3> &x, const Surface &surface)
+FacingSurface::FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface)
     : model_(model),
       x_(x),
       surface_(surface),
@@ -47,7 +47,7 @@ Opposite::Opposite(const Model &model, const std::vector<Vec3> &x, const Surface
       border_(find_borders(model)),
       reach_(model.valve.contact_thickness) {}
 
-Vec3 Opposite::normal_at(uint32_t triangle, const std::array<double, 3> &weight) const {
+Vec3 FacingSurface::normal_at(uint32_t triangle, const std::array<double, 3> &weight) const {
   Vec3 normal = Vec3::Zero();
   for (size_t k = 0; k < 3; ++k) {
     normal += weight[k] * surface_.node_normal[model_.valve.triangles[triangle][k]];
@@ -55,17 +55,17 @@ Vec3 Opposite::normal_at(uint32_t triangle, const std::array<double, 3> &weight)
   return normal.normalized();
 }
 
-Partner Opposite::of_node(uint32_t node) const {
+Partner FacingSurface::of_node(uint32_t node) const {
   return find(x_[node], surface_.node_normal[node], {node, node, node});
 }
 
-Partner Opposite::of_point(uint32_t triangle, const Vec3 &p) const {
+Partner FacingSurface::of_point(uint32_t triangle, const Vec3 &p) const {
   return find(p, surface_.normal[triangle], model_.valve.triangles[triangle]);
 }
 
 // Nearer tissue of which only the border is near hides what lies behind it: it is remembered as a
 // limit without a partner.
-Partner Opposite::find(const Vec3 &p, const Vec3 &normal, const Tri &own) const {
+Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) const {
   Partner partner;
   double limit2 = reach_ * reach_;
   tree_.visit_near(p, limit2, [&](uint32_t t) {

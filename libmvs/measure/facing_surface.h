@@ -21,9 +21,9 @@ struct Partner {
 // in front of the other, normals more than 120 degrees apart. Tissue beyond the other's border is
 // not in front of it. Any two pieces can face each other that share no node: those of two leaflets,
 // or those of one leaflet on the two sides of a cleft.
-class Opposite {
+class FacingSurface {
  public:
-  Opposite(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
+  FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
 
   double reach() const { return reach_; }  // m: the contact thickness
   Partner of_node(uint32_t node) const;

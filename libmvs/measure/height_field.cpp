@@ -15,19 +15,20 @@ double cross(const Vec3 &a, const Vec3 &b) {
 
 }  // namespace
 
-Relief::Relief(const Frame &frame, const std::vector<Tri> &triangles, const std::vector<Vec3> &x)
+HeightField::HeightField(const Frame &frame, const std::vector<Tri> &triangles,
+                         const std::vector<Vec3> &x)
     : triangles_(triangles) {
   x_.reserve(x.size());
   for (const Vec3 &p : x) x_.push_back(frame.local(p));
   list_triangles();
 }
 
-size_t Relief::cell(size_t axis, double value) const {
+size_t HeightField::cell(size_t axis, double value) const {
   const double place = std::floor((value - low_[axis]) / step_[axis]);
   return static_cast<size_t>(std::clamp(place, 0.0, static_cast<double>(cells_ - 1)));
 }
 
-void Relief::list_triangles() {
+void HeightField::list_triangles() {
   std::array<double, 2> high = {-HUGE_VAL, -HUGE_VAL};
   low_ = {HUGE_VAL, HUGE_VAL};
   for (const Tri &triangle : triangles_) {
@@ -61,7 +62,7 @@ void Relief::list_triangles() {
   }
 }
 
-Relief::Top Relief::top(double u, double v) const {
+HeightField::Top HeightField::top(double u, double v) const {
   const size_t c = cell(0, u) * cells_ + cell(1, v);
   Top top;
   for (uint32_t i = rows_.start[c]; i < rows_.start[c + 1]; ++i) {

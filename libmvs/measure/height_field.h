@@ -7,9 +7,9 @@
 
 namespace mvs::core {
 
-class Relief {
+class HeightField {
  public:
-  Relief(const Frame &frame, const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+  HeightField(const Frame &frame, const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
 
   struct Top {
     uint32_t triangle = none;  // none where no leaflet is

@@ -40,14 +40,14 @@ Raster empty_raster(const Loop &annulus, const Frame &frame) {
   return {low[0], low[1], cell[0], cell[1], {}, {}};
 }
 
-void draw(const Span &span, const Relief &relief, Raster &raster) {
+void draw(const AnnulusSurface &span, const HeightField &relief, Raster &raster) {
   for (int row = 0; row < cells_across; ++row) {
     const double v = raster.low_v + (row + 0.5) * raster.height;
     for (int column = 0; column < cells_across; ++column) {
       const double u = raster.low_u + (column + 0.5) * raster.width;
       raster.span.push_back(span.height(u, v));
-      const Relief::Top top =
-          raster.inside(raster.span.size() - 1) ? relief.top(u, v) : Relief::Top();
+      const HeightField::Top top =
+          raster.inside(raster.span.size() - 1) ? relief.top(u, v) : HeightField::Top();
       raster.leaflet.push_back(top.triangle != none ? top.height : -HUGE_VAL);
     }
   }
@@ -142,7 +142,7 @@ double central_area_below(const Raster &raster) {
   return (1 - share) * area_below(raster, row) + share * area_below(raster, row + 1);
 }
 
-double highest_over(const Span &span, const Frame &frame, const Model &model,
+double highest_over(const AnnulusSurface &span, const Frame &frame, const Model &model,
                     const std::vector<Vec3> &x) {
   double highest = 0;
   for (const Tri &triangle : model.valve.triangles) {
@@ -157,17 +157,17 @@ double highest_over(const Span &span, const Frame &frame, const Model &model,
 
 }  // namespace
 
-Doming measure_doming(const Model &model, const std::vector<Vec3> &x) {
+TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3> &x) {
   const Loop annulus(model.valve.annulus, x);
   const Frame frame = valve_frame(model, x);
-  const Span span(frame, annulus.points());
+  const AnnulusSurface span(frame, annulus.points());
   Raster raster = empty_raster(annulus, frame);
-  draw(span, Relief(frame, model.valve.triangles, x), raster);
+  draw(span, HeightField(frame, model.valve.triangles, x), raster);
   const double radius = 0.5 * model.valve.contact_thickness;
   raster.leaflet = roll(raster, roll(raster, raster.leaflet, radius, 1), radius, -1);
   fill_holes(raster);
 
-  Doming doming;
+  TentingBillow doming;
   const double cell = raster.width * raster.height;
   for (size_t c = 0; c < raster.leaflet.size(); ++c) {
     if (!raster.inside(c)) continue;

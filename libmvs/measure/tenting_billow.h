@@ -7,10 +7,10 @@
 
 namespace mvs::core {
 
-struct Doming {
+struct TentingBillow {
   double tenting_height = 0, tenting_area = 0, tenting_volume = 0, billow_height = 0,
          billow_volume = 0;
 };
-Doming measure_doming(const Model &model, const std::vector<Vec3> &x);
+TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3> &x);
 
 }  // namespace mvs::core

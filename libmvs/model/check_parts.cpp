@@ -16,7 +16,7 @@ namespace {
 constexpr size_t name_limit = sizeof(mvs_part::name) - 1;
 
 template <typename Part>
-void check_names(const SharedVector<Part> &parts, const char *kind, bool needed, Faults &faults) {
+void check_names(const CowVector<Part> &parts, const char *kind, bool needed, Faults &faults) {
   std::map<std::string, size_t> seen;
   for (size_t k = 0; k < parts.size(); ++k) {
     const std::string &name = parts[k].name;
@@ -40,8 +40,7 @@ void check_names(const SharedVector<Part> &parts, const char *kind, bool needed,
 }
 
 template <typename Part>
-void check_ids(const SharedVector<Part> &parts, const char *kind, std::set<Id> &seen,
-               Faults &faults) {
+void check_ids(const CowVector<Part> &parts, const char *kind, std::set<Id> &seen, Faults &faults) {
   // room for every id that is still to be given
   constexpr Id id_limit = Id{1} << 62;
   for (size_t k = 0; k < parts.size(); ++k) {

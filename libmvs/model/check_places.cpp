@@ -76,7 +76,7 @@ std::vector<uint32_t> held_nodes(const Valve &valve) {
   return held;
 }
 
-void check_held(const Valve &valve, const SharedVector<Vec3> &places, const char *which,
+void check_held(const Valve &valve, const CowVector<Vec3> &places, const char *which,
                 const Extent &extent, Faults &faults) {
   if (places.empty()) return;
   for (const uint32_t node : held_nodes(valve)) {

@@ -58,7 +58,7 @@ Axial bounded_ogden(const Chord::Constants &c, double e) {
           at.slope};
 }
 
-Axial table(const SharedVector<CurvePoint> &points, double e) {
+Axial table(const CowVector<CurvePoint> &points, double e) {
   Axial at;
   for (size_t k = 0; k + 1 < points.size() && e > points[k][0]; ++k) {
     const auto [from_strain, from_stress] = points[k];

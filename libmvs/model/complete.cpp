@@ -13,7 +13,7 @@ namespace mvs::core {
 namespace {
 
 // Only where prescribed nodes are means something.
-void complete_places(const Valve &valve, SharedVector<Vec3> &places) {
+void complete_places(const Valve &valve, CowVector<Vec3> &places) {
   std::vector<Vec3> complete = valve.rest;
   if (!places.empty()) {
     for (const uint32_t node : valve.annulus) complete[node] = std::as_const(places)[node];
@@ -45,12 +45,12 @@ void complete_scallops(Valve &valve) {
 }
 
 template <typename Part>
-void raise_next_id(const SharedVector<Part> &parts, Id &next_id) {
+void raise_next_id(const CowVector<Part> &parts, Id &next_id) {
   for (const Part &part : parts) next_id = std::max(next_id, part.id + 1);
 }
 
 template <typename Part>
-void give_ids(SharedVector<Part> &parts, Id &next_id) {
+void give_ids(CowVector<Part> &parts, Id &next_id) {
   for (size_t k = 0; k < parts.size(); ++k) {
     if (std::as_const(parts)[k].id == 0) parts[k].id = next_id++;
   }
@@ -72,7 +72,7 @@ void complete_ids(Valve &valve) {
 }
 
 template <typename Part>
-std::set<std::string> names_of(const SharedVector<Part> &parts) {
+std::set<std::string> names_of(const CowVector<Part> &parts) {
   std::set<std::string> names;
   for (const Part &part : parts) names.insert(part.name);
   return names;

@@ -12,7 +12,7 @@ namespace mvs::core {
 
 // Row r holds items[start[r] .. start[r + 1]).
 struct Rows {
-  SharedVector<uint32_t> start, items;
+  CowVector<uint32_t> start, items;
 
   std::span<const uint32_t> operator[](size_t row) const {
     return {items.data() + start[row], items.data() + start[row + 1]};

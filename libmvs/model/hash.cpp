@@ -44,7 +44,7 @@ void add(Hash &hash, const Head &head) {
 }
 
 template <typename Item>
-void add(Hash &hash, const SharedVector<Item> &items);
+void add(Hash &hash, const CowVector<Item> &items);
 void add(Hash &hash, const Ring &ring) {
   hash.add(ring.id);
   hash.add(ring.name);
@@ -71,7 +71,7 @@ void add(Hash &hash, const Tool &tool) {
   for (const Vec3 &v : {tool.position, tool.axis, tool.proxy[0], tool.proxy[1]}) add(hash, v);
 }
 
-void add(Hash &hash, const Waypoint &waypoint) {
+void add(Hash &hash, const PreconditionerKey &waypoint) {
   add(hash, waypoint.x);
   add(hash, waypoint.tools);
   for (const double number : {waypoint.pressure, waypoint.dt, waypoint.damping}) hash.add(number);
@@ -79,7 +79,7 @@ void add(Hash &hash, const Waypoint &waypoint) {
 }
 
 template <typename Item>
-void add(Hash &hash, const SharedVector<Item> &items) {
+void add(Hash &hash, const CowVector<Item> &items) {
   hash.add(uint64_t{items.size()});
   for (const Item &item : items) add(hash, item);
 }

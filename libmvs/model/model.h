@@ -14,10 +14,10 @@ namespace mvs::core {
 struct Model {
   Valve valve;
   Topology topology;
-  SharedVector<double> rest_area;    // m2 per triangle
-  SharedVector<double> rest_length;  // m per edge
-  SharedVector<double> vertex_area;  // m2 per node: a third of its rest triangles
-  SharedVector<double> node_mass;    // kg: lumped from triangles and chordae
+  CowVector<double> rest_area;    // m2 per triangle
+  CowVector<double> rest_length;  // m per edge
+  CowVector<double> vertex_area;  // m2 per node: a third of its rest triangles
+  CowVector<double> node_mass;    // kg: lumped from triangles and chordae
   uint64_t serial = 0;  // of this process: tells a new model from one that lay at its address
 
   size_t node_count() const { return valve.rest.size(); }
@@ -36,31 +36,31 @@ struct Load {
 
 // A place on the way whose matrix a live step has a factor of: it serves the steps that follow as
 // preconditioner (physics/kept_factor.h), so that it is an input of theirs.
-struct Waypoint {
-  SharedVector<Vec3> x;      // m, the points of its tools behind the nodes; empty: there is none
-  SharedVector<Tool> tools;  // at that time
-  double pressure = 0;       // Pa
-  double dt = 0;             // s, and
-  double damping = 0;        // 1/s, of the mass in the matrix
-  uint32_t age = 0;          // steps in which it was worked on or served
+struct PreconditionerKey {
+  CowVector<Vec3> x;      // m, the points of its tools behind the nodes; empty: there is none
+  CowVector<Tool> tools;  // at that time
+  double pressure = 0;    // Pa
+  double dt = 0;          // s, and
+  double damping = 0;     // 1/s, of the mass in the matrix
+  uint32_t age = 0;       // steps in which it was worked on or served
 };
 
 // Every input of the next step.
 struct State {
-  SharedVector<Vec3> x;  // m
-  SharedVector<Vec3> v;  // m/s
-  double time = 0;       // s
+  CowVector<Vec3> x;  // m
+  CowVector<Vec3> v;  // m/s
+  double time = 0;    // s
   uint64_t steps = 0;
   Load load;
-  SharedVector<Tool> tools;  // in the order in which they were added
-  uint64_t tools_made = 0;   // so far; no id is given twice
-  Waypoint serving, coming;  // while it moves in live steps; a valve at rest has none
+  CowVector<Tool> tools;              // in the order in which they were added
+  uint64_t tools_made = 0;            // so far; no id is given twice
+  PreconditionerKey serving, coming;  // while it moves in live steps; a valve at rest has none
 
-  void forget_way() { serving = coming = {}; }
+  void drop_cache() { serving = coming = {}; }
 };
 
 // A model and a state of it.
-struct Picture {
+struct ModelState {
   ModelPtr model;
   State state;
 };

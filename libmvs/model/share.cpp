@@ -55,8 +55,8 @@ void share(Model &model, const Model &other) {
 void share(State &state, const State &other) {
   state.x.share_with(other.x);
   state.v.share_with(other.v);
-  for (Waypoint *to : {&state.serving, &state.coming}) {
-    for (const Waypoint *from : {&other.serving, &other.coming}) to->x.share_with(from->x);
+  for (PreconditionerKey *to : {&state.serving, &state.coming}) {
+    for (const PreconditionerKey *from : {&other.serving, &other.coming}) to->x.share_with(from->x);
   }
 }
 

@@ -9,16 +9,16 @@
 namespace mvs::core {
 
 struct Topology {
-  SharedVector<Edge> edges;           // smaller node first, sorted
-  SharedVector<Edge> edge_triangles;  // one or two adjacent triangles; `none` in the second place
-  SharedVector<Tri> triangle_edges;   // edge k of a triangle joins its corners k and k + 1
-  SharedVector<std::array<uint32_t, 4>> hinges;  // edge nodes i j, then the opposite corners
-  SharedVector<uint32_t> hinge_edge;
-  Rows node_triangles;                             // triangles around each node, ascending
-  Rows node_chords;                                // chord segments at each node, ascending
-  SharedVector<uint8_t> node_kind;                 // MVS_NODE_IS_*
-  SharedVector<uint8_t> fixed;                     // 1: prescribed (annulus, head)
-  SharedVector<std::vector<uint32_t>> free_edges;  // the other boundary loops, in order
+  CowVector<Edge> edges;           // smaller node first, sorted
+  CowVector<Edge> edge_triangles;  // one or two adjacent triangles; `none` in the second place
+  CowVector<Tri> triangle_edges;   // edge k of a triangle joins its corners k and k + 1
+  CowVector<std::array<uint32_t, 4>> hinges;  // edge nodes i j, then the opposite corners
+  CowVector<uint32_t> hinge_edge;
+  Rows node_triangles;                          // triangles around each node, ascending
+  Rows node_chords;                             // chord segments at each node, ascending
+  CowVector<uint8_t> node_kind;                 // MVS_NODE_IS_*
+  CowVector<uint8_t> fixed;                     // 1: prescribed (annulus, head)
+  CowVector<std::vector<uint32_t>> free_edges;  // the other boundary loops, in order
 };
 
 Topology make_topology(const Valve &valve);

@@ -49,7 +49,7 @@ using CurvePoint = std::array<double, 2>;  // engineering strain, nominal stress
 struct ChordCurve {
   Id id = 0;
   std::string name;
-  SharedVector<CurvePoint> points;
+  CowVector<CurvePoint> points;
 
   bool operator==(const ChordCurve &) const = default;
 };
@@ -67,8 +67,8 @@ struct Head {
 struct Ring {
   Id id = 0;
   std::string name;
-  uint32_t kind = 1;         // MVS_RING_*
-  SharedVector<Vec3> curve;  // m, closed for a ring, open for a band
+  uint32_t kind = 1;      // MVS_RING_*
+  CowVector<Vec3> curve;  // m, closed for a ring, open for a band
 
   bool operator==(const Ring &) const = default;
 };
@@ -77,22 +77,22 @@ struct Ring {
 // Copies share their arrays, so that a valve after an operation costs what the operation changed.
 struct Valve {
   std::string name = "valve";
-  SharedVector<Vec3> rest;        // unloaded: the rest shape of the sheet
-  SharedVector<Vec3> open;        // where prescribed nodes are without load; equals rest elsewhere
-  SharedVector<Vec3> loaded;      // where prescribed nodes go under load; equals rest elsewhere
-  SharedVector<uint32_t> origin;  // index before operations, levels changed the nodes; none: new
-  SharedVector<Tri> triangles;
-  SharedVector<uint32_t> triangle_leaflet;
-  SharedVector<uint32_t> triangle_scallop;
-  SharedVector<double> triangle_thickness;
-  SharedVector<Vec3> triangle_fibre;  // unit, in the rest triangle's plane
-  SharedVector<uint32_t> annulus;     // closed loop, in order
-  SharedVector<Leaflet> leaflets;
-  SharedVector<Scallop> scallops;
-  SharedVector<Chord> chords;
-  SharedVector<Head> heads;
-  SharedVector<Ring> rings;
-  SharedVector<ChordCurve> curves;
+  CowVector<Vec3> rest;        // unloaded: the rest shape of the sheet
+  CowVector<Vec3> open;        // where prescribed nodes are without load; equals rest elsewhere
+  CowVector<Vec3> loaded;      // where prescribed nodes go under load; equals rest elsewhere
+  CowVector<uint32_t> origin;  // index before operations, levels changed the nodes; none: new
+  CowVector<Tri> triangles;
+  CowVector<uint32_t> triangle_leaflet;
+  CowVector<uint32_t> triangle_scallop;
+  CowVector<double> triangle_thickness;
+  CowVector<Vec3> triangle_fibre;  // unit, in the rest triangle's plane
+  CowVector<uint32_t> annulus;     // closed loop, in order
+  CowVector<Leaflet> leaflets;
+  CowVector<Scallop> scallops;
+  CowVector<Chord> chords;
+  CowVector<Head> heads;
+  CowVector<Ring> rings;
+  CowVector<ChordCurve> curves;
   double density = 1060;            // kg/m3
   double contact_thickness = 1e-3;  // m, of a leaflet
   double contact_stiffness = 20e3;  // Pa

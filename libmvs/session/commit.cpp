@@ -9,27 +9,27 @@ int64_t now_ms() {
   return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-void commit(mvs_sim &sim, Moment after, const Record &record) {
+void commit(mvs_sim &sim, Snapshot after, const Record &record) {
   SnapshotPtr next = make_snapshot(std::move(after));
-  if (sim.journal) sim.journal->append(record(next->moment).line());
+  if (sim.journal) sim.journal->append(record(next->value).line());
   sim.replace(std::move(next));
 }
 
 namespace {
 
-const std::vector<Checkpoint> &checkpoints_of(const Moment &moment) {
+const std::vector<Checkpoint> &checkpoints_of(const Snapshot &snapshot) {
   static const std::vector<Checkpoint> none_there;
-  return moment.timeline.checkpoints ? *moment.timeline.checkpoints : none_there;
+  return snapshot.history.checkpoints ? *snapshot.history.checkpoints : none_there;
 }
 
-Json restart_record(const Moment &moment) {
+Json restart_record(const Snapshot &snapshot) {
   Json json = word_record("restart");
-  put_steps(json, plan_steps(moment, {}));
+  put_steps(json, plan_steps(snapshot, {}));
   Json list = Json::array();
-  for (const Checkpoint &c : checkpoints_of(moment)) {
-    Moment there{c.at, moment.timeline};
-    there.timeline.past = c.past;
-    there.timeline.moves = c.moves;
+  for (const Checkpoint &c : checkpoints_of(snapshot)) {
+    Snapshot there{c.at, snapshot.history};
+    there.history.past = c.past;
+    there.history.moves = c.moves;
     Json one = Json::object({{"name", c.name}});
     put_steps(one, plan_steps(there, {}));
     list.add(std::move(one));
@@ -40,9 +40,9 @@ Json restart_record(const Moment &moment) {
 
 }  // namespace
 
-void restart_journal(mvs_sim &sim, const Moment &restored) {
+void restart_journal(mvs_sim &sim, const Snapshot &restored) {
   if (!sim.journal) return;
-  if (hash_text(*start_of(restored)) == hash_text(*start_of(sim.present()->moment))) {
+  if (hash_text(*start_of(restored)) == hash_text(*start_of(sim.present()->value))) {
     sim.journal->append(restart_record(restored).line());
     return;
   }
@@ -50,25 +50,25 @@ void restart_journal(mvs_sim &sim, const Moment &restored) {
   sim.log(MVS_LOG_WARNING, "the journal ends: the snapshot restored is of another valve");
 }
 
-Json begun_record(const Moment &moment) {
+Json begun_record(const Snapshot &snapshot) {
   Json json;
   json.set("do", "begin");
   json.set("journal", uint64_t{1});
-  json.set("valve", valve_json(*start_of(moment)));
-  put_steps(json, plan_steps(moment, {}));
+  json.set("valve", valve_json(*start_of(snapshot)));
+  put_steps(json, plan_steps(snapshot, {}));
   return json;
 }
 
-Json steps_record(const Moment &before, const Moment &after) {
+Json steps_record(const Snapshot &before, const Snapshot &after) {
   Json json;
   json.set("do", "apply");
   Json steps = Json::array();
-  const auto entries = after.timeline.past.items();
-  for (size_t k = before.timeline.past.size(); k < entries.size(); ++k) {
+  const auto entries = after.history.past.items();
+  for (size_t k = before.history.past.size(); k < entries.size(); ++k) {
     add_moves(steps, (*entries[k])->moves);
     steps.add(entry_json(**entries[k]));
   }
-  add_moves(steps, after.timeline.moves);
+  add_moves(steps, after.history.moves);
   put_steps(json, std::move(steps));
   return json;
 }
@@ -79,7 +79,7 @@ Json word_record(const char *word) {
   return json;
 }
 
-Json named_record(const char *word, const std::string &name, const Moves &moves) {
+Json named_record(const char *word, const std::string &name, const RecordedEvents &moves) {
   Json json = word_record(word);
   json.set("name", name);
   Json steps = Json::array();

@@ -11,17 +11,18 @@ int64_t now_ms();
 
 // Makes `after` the present. Its record goes into the journal, if there is one, before anything
 // counts; it is asked for only then.
-using Record = std::function<Json(const Moment &after)>;
-void commit(mvs_sim &sim, Moment after, const Record &record);
+using Record = std::function<Json(const Snapshot &after)>;
+void commit(mvs_sim &sim, Snapshot after, const Record &record);
 
 // Writes into the journal, if there is one, that a snapshot is restored. A snapshot of another
 // valve ends it.
-void restart_journal(mvs_sim &sim, const Moment &restored);
+void restart_journal(mvs_sim &sim, const Snapshot &restored);
 
 // The records of a journal.
-Json begun_record(const Moment &moment);                       // its first
-Json steps_record(const Moment &before, const Moment &after);  // operations applied since `before`
-Json word_record(const char *word);                            // undo, redo
-Json named_record(const char *word, const std::string &name, const Moves &moves);
+Json begun_record(const Snapshot &snapshot);  // its first
+Json steps_record(const Snapshot &before,
+                  const Snapshot &after);  // operations applied since `before`
+Json word_record(const char *word);        // undo, redo
+Json named_record(const char *word, const std::string &name, const RecordedEvents &moves);
 
 }  // namespace mvs::core

@@ -37,24 +37,24 @@ Vec3 Hand::axis() const {
 }
 
 const Tool *Hand::tool(const mvs_sim &sim) const {
-  for (const Tool &t : sim.picture().state.tools.get()) {
+  for (const Tool &t : sim.current().state.tools.get()) {
     if (t.id == tool_) return &t;
   }
   return nullptr;
 }
 
 const Chord *Hand::chord(const mvs_sim &sim) const {
-  for (const Chord &c : sim.picture().model->valve.chords.get()) {
+  for (const Chord &c : sim.current().model->valve.chords.get()) {
     if (c.id == chord_) return &c;
   }
   return nullptr;
 }
 
-void Hand::begin(const ServoPicture &picture, double most) {
+void Hand::begin(const ServoStatus &current, double most) {
   events_ = 0;
   most_ = most;
-  place_ = view_.to_scene(picture.pose.position);
-  turn_ = view_.turned(picture.pose.orientation);
+  place_ = view_.to_scene(current.pose.position);
+  turn_ = view_.turned(current.pose.orientation);
 }
 
 void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
@@ -85,7 +85,7 @@ void Hand::press(mvs_sim &sim) {
 }
 
 void Hand::choose_chord(const mvs_sim &sim) {
-  const NearChord found = nearest_chord(sim.picture(), place_);
+  const NearChord found = nearest_chord(sim.current(), place_);
   if (found.distance > hand_.reach) {
     events_ |= MVS_EVENT_MISSED;
     return;
@@ -99,7 +99,7 @@ void Hand::release(mvs_sim &sim) {
   const Tool *const held = tool(sim);
   if (!held || held->kind != MVS_TOOL_GRASP) return;
   if (hand_.mode == MVS_HAND_DRAG) {
-    drag_to_ = sim.picture().state.x[held->node];
+    drag_to_ = sim.current().state.x[held->node];
     events_ |= MVS_EVENT_DRAGGED;
   }
   let_go(sim);
@@ -164,11 +164,11 @@ void Hand::follow(mvs_sim &sim) {
   }
 }
 
-Tissue Hand::tissue(mvs_sim &sim) {
-  const Picture &now = sim.picture();
+TissueModel Hand::tissue(mvs_sim &sim) {
+  const ModelState &now = sim.current();
   const Tool *const held = tool(sim);
   const Chord *const felt = hand_.mode == MVS_HAND_FEEL ? chord(sim) : nullptr;
-  Tissue scene = maker_.nothing();
+  TissueModel scene = maker_.nothing();
   felt_ = Vec3::Zero();
   if (held) {
     scene = maker_.of_tool(*now.model, now.state, *held);
@@ -179,9 +179,9 @@ Tissue Hand::tissue(mvs_sim &sim) {
   return view_.to_device(scene, most_);
 }
 
-mvs_device_report Hand::report(const mvs_sim &sim, const Tissue &tissue, bool latched) const {
+mvs_device_report Hand::report(const mvs_sim &sim, const TissueModel &tissue, bool latched) const {
   mvs_device_report out = {};
-  const Picture &now = sim.picture();
+  const ModelState &now = sim.current();
   out.events = events_;
   if (latched) out.events |= MVS_EVENT_LATCHED;
   out.tool = tool_;

@@ -22,15 +22,15 @@ class Hand {
   const DeviceView &view() const { return view_; }
 
   // The hand is at this pose of the device; before anything else of a sync. `most` N/m.
-  void begin(const ServoPicture &picture, double most);
+  void begin(const ServoStatus &current, double most);
   void take_button(const ButtonEvent &event, mvs_sim &sim);
   // Follows the hand, with its tool or without one.
   void follow(mvs_sim &sim);
   // Lets go of everything.
   void let_go(mvs_sim &sim);
   // The tissue for the servo, in the frame of the device.
-  Tissue tissue(mvs_sim &sim);
-  mvs_device_report report(const mvs_sim &sim, const Tissue &tissue, bool latched) const;
+  TissueModel tissue(mvs_sim &sim);
+  mvs_device_report report(const mvs_sim &sim, const TissueModel &tissue, bool latched) const;
 
  private:
   const Tool *tool(const mvs_sim &sim) const;
@@ -44,7 +44,7 @@ class Hand {
 
   DeviceView view_;
   mvs_device_hand hand_ = {};
-  TissueMaker maker_;
+  TissueModelBuilder maker_;
   Vec3 place_ = Vec3::Zero();  // in the scene
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
   double most_ = 0;  // N/m

@@ -42,9 +42,9 @@ mvs_device_view DeviceView::told() const {
   return out;
 }
 
-Tissue DeviceView::to_device(const Tissue &scene, double most) const {
+TissueModel DeviceView::to_device(const TissueModel &scene, double most) const {
   const Mat3 turn = rotation_.toRotationMatrix();
-  Tissue out = scene;
+  TissueModel out = scene;
   out.origin = to_device(scene.origin);
   out.force = force_scale_ * (turn.transpose() * scene.force);
   const Mat3 felt = stiffness_scale() * (turn.transpose() * scene.stiffness * turn);

@@ -25,7 +25,7 @@ class DeviceView {
   // N/m of the device for each N/m in the scene.
   double stiffness_scale() const { return scale_ * force_scale_; }
   // A model in the scene, as the device is to render it; no stiffer than `most` N/m of the device.
-  Tissue to_device(const Tissue &scene, double most) const;
+  TissueModel to_device(const TissueModel &scene, double most) const;
 
  private:
   Vec3 origin_ = Vec3::Zero();

@@ -19,7 +19,7 @@ const Tool *tool_in(const State &state, Id id) {
 
 }  // namespace
 
-void Hands::post(const Tool &hand, bool has_axis) {
+void HandTargets::post(const Tool &hand, bool has_axis) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (Tool &posted : posted_) {
     if (posted.id != hand.id) continue;
@@ -30,19 +30,19 @@ void Hands::post(const Tool &hand, bool has_axis) {
   posted_.push_back(hand);
 }
 
-std::vector<Move> Hands::take(State &state) const {
+std::vector<RecordedEvent> HandTargets::take(State &state) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<Move> taken;
+  std::vector<RecordedEvent> taken;
   for (const Tool &hand : posted_) {
     const Tool *const tool = tool_in(state, hand.id);
     if (!tool || same_hand(*tool, hand)) continue;
     move_tool(state, hand.id, hand.position, hand.axis);
-    taken.push_back(move_of(Move::tool_move, hand));
+    taken.push_back(move_of(RecordedEvent::tool_move, hand));
   }
   return taken;
 }
 
-void Hands::done(const State &state) {
+void HandTargets::done(const State &state) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::erase_if(posted_, [&](const Tool &hand) {
     const Tool *const tool = tool_in(state, hand.id);
@@ -50,7 +50,7 @@ void Hands::done(const State &state) {
   });
 }
 
-void Hands::forget() {
+void HandTargets::forget() {
   const std::lock_guard<std::mutex> lock(mutex_);
   posted_.clear();
 }

@@ -9,14 +9,14 @@
 
 namespace mvs::core {
 
-class Hands {
+class HandTargets {
  public:
   // Replaces what the hand of this tool wanted before; without an axis that one stays.
   void post(const Tool &hand, bool has_axis);
 
   // Moves the tools of a state to their hands; the moves that this takes. Hands whose tool the
   // state lacks are left out.
-  std::vector<Move> take(State &state) const;
+  std::vector<RecordedEvent> take(State &state) const;
   // Forgets the hands that a state has followed, unless they have moved on meanwhile, and those
   // whose tool it lacks.
   void done(const State &state);

@@ -9,26 +9,26 @@ using namespace mvs::core;
 void mvs_sim::step(const SolveOptions &how) {
   must_have_valve();
   begin_step();
-  const std::vector<Move> moved = hands.take(next_);
-  const SolveStats found = solver.step(*now_.picture.model, next_, how);
+  const std::vector<RecordedEvent> moved = hands.take(next_);
+  const SolveStats found = solver.step(*now_.current.model, next_, how);
   must_be_finite(next_);
   SnapshotPtr before;  // let go of outside the lock
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!now_.timeline.start) now_.timeline.start = start_of(now_);
-    record_step(moved, move_of(Move::step, how));
-    std::swap(now_.picture.state, next_);
+    if (!now_.history.start) now_.history.start = start_of(now_);
+    record_step(moved, move_of(RecordedEvent::step, how));
+    std::swap(now_.current.state, next_);
     present_.swap(before);
   }
-  hands.done(now_.picture.state);
+  hands.done(now_.current.state);
   stats = found;
 }
 
 // A copy of the present state in the memory of the one before it. Who holds a snapshot of that
 // keeps its memory, and there will be new.
 void mvs_sim::begin_step() {
-  const State &now = now_.picture.state;
-  SharedVector<Vec3> x = std::move(next_.x), v = std::move(next_.v);
+  const State &now = now_.current.state;
+  CowVector<Vec3> x = std::move(next_.x), v = std::move(next_.v);
   x.edit() = now.x.get();
   v.edit() = now.v.get();
   next_ = now;
@@ -38,10 +38,11 @@ void mvs_sim::begin_step() {
 
 // Steps are counted, those that hands lead put into one run; they go into the history when somebody
 // looks or others follow.
-void mvs_sim::record_step(const std::vector<Move> &moved, const Move &step) const {
-  Move next = moved.empty() ? step : lead_of(moved, step);
+void mvs_sim::record_step(const std::vector<RecordedEvent> &moved,
+                          const RecordedEvent &step) const {
+  RecordedEvent next = moved.empty() ? step : lead_of(moved, step);
   if (stepped_.count > 0) take_on(stepped_, next);
   if (next.count == 0) return;
-  if (stepped_.count > 0) now_.timeline.moves = with_move(now_.timeline.moves, stepped_);
+  if (stepped_.count > 0) now_.history.moves = with_move(now_.history.moves, stepped_);
   stepped_ = std::move(next);
 }

@@ -77,7 +77,7 @@ void log_mesh(const mvs_sim &sim, const Model &model) {
   sim.log(MVS_LOG_INFO,
           "%td of %zu edges are shorter than the contact thickness of %.3g m: places of the sheet "
           "nearer to each other than %.3g m at rest do not touch, they are only kept apart",
-          thin, model.topology.edges.size(), r, facing_rest_distance * r);
+          thin, model.topology.edges.size(), r, contact_rest_distance * r);
 }
 
 }  // namespace mvs::core

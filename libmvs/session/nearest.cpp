@@ -10,7 +10,7 @@
 
 namespace mvs::core {
 
-NearChord nearest_chord(const Picture &now, const Vec3 &place) {
+NearChord nearest_chord(const ModelState &now, const Vec3 &place) {
   NearChord found = {0, std::numeric_limits<double>::infinity()};
   const std::vector<Vec3> &x = now.state.x;
   for (const Chord &c : now.model->valve.chords.get()) {
@@ -20,7 +20,7 @@ NearChord nearest_chord(const Picture &now, const Vec3 &place) {
   return found;
 }
 
-NearNode nearest_node(const Picture &now, const Vec3 &place) {
+NearNode nearest_node(const ModelState &now, const Vec3 &place) {
   NearNode found = {none, std::numeric_limits<double>::infinity()};
   const std::vector<Vec3> &x = now.state.x;
   for (uint32_t i = 0; i < x.size(); ++i) {

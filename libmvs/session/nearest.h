@@ -9,13 +9,13 @@ struct NearChord {
   Id id = 0;
   double distance;  // m; infinity without chordae
 };
-NearChord nearest_chord(const Picture &now, const Vec3 &place);
+NearChord nearest_chord(const ModelState &now, const Vec3 &place);
 
 // Of the free vertices of the leaflets.
 struct NearNode {
   uint32_t node = none;
   double distance;  // m; infinity without any
 };
-NearNode nearest_node(const Picture &now, const Vec3 &place);
+NearNode nearest_node(const ModelState &now, const Vec3 &place);
 
 }  // namespace mvs::core

@@ -6,8 +6,8 @@
 
 namespace mvs::core {
 
-inline Move move_of(Move::Kind kind, const SolveOptions &how) {
-  Move move;
+inline RecordedEvent move_of(RecordedEvent::Kind kind, const SolveOptions &how) {
+  RecordedEvent move;
   move.kind = kind;
   move.solver = how.solver;
   move.max_iterations = how.max_iterations;
@@ -18,20 +18,20 @@ inline Move move_of(Move::Kind kind, const SolveOptions &how) {
   return move;
 }
 
-inline SolveOptions options_of(const Move &move) {
+inline SolveOptions options_of(const RecordedEvent &move) {
   return {move.solver, move.max_iterations, move.residual, move.dt, move.damping, move.budget};
 }
 
-inline Move move_of(const Load &load) {
-  Move move;
+inline RecordedEvent move_of(const Load &load) {
+  RecordedEvent move;
   move.pressure = load.pressure;
   move.boundary_fraction = load.boundary_fraction;
   return move;
 }
 
 // What is done with a tool.
-inline Move move_of(Move::Kind kind, const Tool &tool) {
-  Move move;
+inline RecordedEvent move_of(RecordedEvent::Kind kind, const Tool &tool) {
+  RecordedEvent move;
   move.kind = kind;
   move.tool = {tool};
   return move;

@@ -14,7 +14,8 @@ namespace {
 // Takes the steps of a move. The host is asked after the first and every 64th one more.
 class Stepping {
  public:
-  Stepping(mvs_sim &sim, const Move &move) : sim_(sim), move_(move), progress_(sim.progress()) {}
+  Stepping(mvs_sim &sim, const RecordedEvent &move)
+      : sim_(sim), move_(move), progress_(sim.progress()) {}
 
   void on(const Model &model, State &state, uint64_t count) {
     for (uint64_t k = 0; k < count; ++k) {
@@ -28,19 +29,19 @@ class Stepping {
 
  private:
   mvs_sim &sim_;
-  const Move &move_;
+  const RecordedEvent &move_;
   const Progress progress_;
   uint64_t taken_ = 0;
 };
 
-Moment moved(mvs_sim &sim, const Moment &now, const Move &move) {
-  const Model &model = *now.picture.model;
-  State state = now.picture.state;
-  if (move.kind == Move::settle) {
-    settle_by_levels(sim.solver, model, state, options_of(move), sim.progress());
-  } else if (move.kind == Move::step) {
+Snapshot moved(mvs_sim &sim, const Snapshot &now, const RecordedEvent &move) {
+  const Model &model = *now.current.model;
+  State state = now.current.state;
+  if (move.kind == RecordedEvent::settle) {
+    settle_with_mesh_hierarchy(sim.solver, model, state, options_of(move), sim.progress());
+  } else if (move.kind == RecordedEvent::step) {
     Stepping(sim, move).on(model, state, move.count);
-  } else if (move.kind == Move::lead) {
+  } else if (move.kind == RecordedEvent::lead) {
     Stepping stepping(sim, move);
     for (size_t row = 0; row < move.pace.size(); ++row) {
       take_row(state, move, row);
@@ -64,11 +65,11 @@ Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
 }  // namespace
 
 void Replay::operate(const PlanStep &step) {
-  const Model &model = *now.picture.model;
+  const Model &model = *now.current.model;
   const Operation told = read_op(step.op, model, exact_);
   const Operation op = step.version > 2 ? told : keeping_length(told, model);
   const bool goes_on = step.group == group_ && step.group_id == group_id_;
-  if (!step.group.empty() && !goes_on) number_ = now.timeline.next_group++;
+  if (!step.group.empty() && !goes_on) number_ = now.history.next_group++;
   now = after_op(now, op, step.group.empty() ? Group{} : Group{number_, step.group}, now_ms());
   group_ = step.group;
   group_id_ = step.group_id;
@@ -76,9 +77,9 @@ void Replay::operate(const PlanStep &step) {
 
 // Tools are called otherwise here where there were some before the plan: those that it adds get the
 // next numbers, and what it does with them is done with these, not with tools that were there.
-void Replay::move(Move step) {
-  const Id added = step.kind == Move::tool_add ? step.tool.get()[0].id : 0;
-  const Id next = first_tool_id + now.picture.state.tools_made;
+void Replay::move(RecordedEvent step) {
+  const Id added = step.kind == RecordedEvent::tool_add ? step.tool.get()[0].id : 0;
+  const Id next = first_tool_id + now.current.state.tools_made;
   if (added != 0) tools_[added] = next;
   for (size_t k = 0; k < step.tool.size(); ++k) {
     const auto known = tools_.find(step.tool.get()[k].id);
@@ -107,11 +108,11 @@ void Replay::go(const std::vector<PlanStep> &steps) {
 }
 
 TakeMove moves_of(mvs_sim &sim) {
-  return [&sim](const Moment &now, const Move &move) { return moved(sim, now, move); };
+  return [&sim](const Snapshot &now, const RecordedEvent &move) { return moved(sim, now, move); };
 }
 
-Json plan_measures(const Picture &picture) {
-  const SnapshotPtr snapshot = make_snapshot({picture, {}});
+Json plan_measures(const ModelState &current) {
+  const SnapshotPtr snapshot = make_snapshot({current, {}});
   const mvs_measures &m = snapshot->measures();
   Json json;
   json.set("regurgitant_orifice_area_m2", m.regurgitant_orifice_area);

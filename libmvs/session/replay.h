@@ -9,25 +9,25 @@
 namespace mvs::core {
 
 // Takes one move; empty: moves are left out.
-using TakeMove = std::function<Moment(const Moment &, const Move &)>;
+using TakeMove = std::function<Snapshot(const Snapshot &, const RecordedEvent &)>;
 
 class Replay {
  public:
   // In `exact` replay sites are the nodes and triangles that they were.
-  Replay(Moment start, bool exact, TakeMove take)
+  Replay(Snapshot start, bool exact, TakeMove take)
       : now(std::move(start)), exact_(exact), take_(std::move(take)) {}
   // From another moment in the way of another one.
-  Replay(Moment start, const Replay &like)
+  Replay(Snapshot start, const Replay &like)
       : now(std::move(start)), exact_(like.exact_), take_(like.take_) {}
 
   // Goes on by these steps; throws with the number of the one that cannot be done.
   void go(const std::vector<PlanStep> &steps);
 
-  Moment now;
+  Snapshot now;
 
  private:
   void operate(const PlanStep &step);
-  void move(Move step);
+  void move(RecordedEvent step);
 
   bool exact_;
   TakeMove take_;
@@ -40,6 +40,6 @@ class Replay {
 TakeMove moves_of(mvs_sim &sim);
 
 // What measures of a picture a plan tells.
-Json plan_measures(const Picture &picture);
+Json plan_measures(const ModelState &current);
 
 }  // namespace mvs::core

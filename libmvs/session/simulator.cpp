@@ -14,20 +14,20 @@ SnapshotPtr mvs_sim::present() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   must_have_valve();
   if (present_) return present_;
-  if (stepped_.count > 0) now_.timeline.moves = with_move(now_.timeline.moves, stepped_);
+  if (stepped_.count > 0) now_.history.moves = with_move(now_.history.moves, stepped_);
   stepped_.count = 0;
   present_ = make_snapshot(now_);
   return present_;
 }
 
-const Picture &mvs_sim::picture() const {
+const ModelState &mvs_sim::current() const {
   must_have_valve();
-  return now_.picture;
+  return now_.current;
 }
 
 void mvs_sim::replace(SnapshotPtr next) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  now_ = next->moment;
+  now_ = next->value;
   stepped_.count = 0;
   present_.swap(next);
 }
@@ -35,11 +35,11 @@ void mvs_sim::replace(SnapshotPtr next) {
 Load mvs_sim::load() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   must_have_valve();
-  return now_.picture.state.load;
+  return now_.current.state.load;
 }
 
 void mvs_sim::must_have_valve() const {
-  MVS_MUST(now_.picture.model, MVS_E_STATE, "sim",
+  MVS_MUST(now_.current.model, MVS_E_STATE, "sim",
            "the simulator has no valve yet: set, generate or load one first");
 }
 
@@ -74,9 +74,9 @@ void must_be_no_group(const mvs_sim &sim, const char *call) {
            sim.group.name.c_str());
 }
 
-void replace_valve(mvs_sim &sim, Moment moment) {
-  const ModelPtr held = moment.picture.model;
-  sim.replace(make_snapshot(std::move(moment)));
+void replace_valve(mvs_sim &sim, Snapshot snapshot) {
+  const ModelPtr held = snapshot.current.model;
+  sim.replace(make_snapshot(std::move(snapshot)));
   sim.group = {};
   sim.hands.forget();
   if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: there is a new valve");

@@ -24,14 +24,14 @@ struct mvs_sim {
   // The present snapshot; throws MVS_E_STATE before there is a valve. From any thread.
   mvs::core::SnapshotPtr present() const;
   // The same for the call at work, without making one.
-  const mvs::core::Picture &picture() const;
+  const mvs::core::ModelState &current() const;
   void replace(mvs::core::SnapshotPtr next);
   mvs::core::Load load() const;
   // One step in time of the present valve.
   void step(const mvs::core::SolveOptions &how);
   // What the next step would do because of another valve or other tools, if steps are taken at all:
   // work of the call that changed them.
-  void make_ready() { solver.make_ready(*now_.picture.model, now_.picture.state); }
+  void make_ready() { solver.make_ready(*now_.current.model, now_.current.state); }
 
   // One line to the host.
   [[gnu::format(printf, 3, 4)]] void log(int32_t level, const char *pattern, ...) const;
@@ -43,19 +43,20 @@ struct mvs_sim {
   std::optional<mvs::core::SolveStats> stats;
   mvs::core::Group group;                       // number 0: none is open
   std::unique_ptr<mvs::core::Journal> journal;  // null: none
-  mvs::core::Hands hands;                       // from any thread
+  mvs::core::HandTargets hands;                 // from any thread
   std::atomic<bool> at_work{false};
 
  private:
   void must_have_valve() const;
   void begin_step();
-  void record_step(const std::vector<mvs::core::Move> &moved, const mvs::core::Move &step) const;
+  void record_step(const std::vector<mvs::core::RecordedEvent> &moved,
+                   const mvs::core::RecordedEvent &step) const;
 
-  mutable std::mutex mutex_;                // of the next three
-  mutable mvs::core::Moment now_;           // no model: no valve yet
-  mutable mvs::core::Move stepped_;         // steps that the moves of now_ lack; of count 0: none
-  mutable mvs::core::SnapshotPtr present_;  // of now_; null: nobody has asked since the last step
-  mvs::core::State next_;                   // where a step works, in memory of the state before
+  mutable std::mutex mutex_;                  // of the next three
+  mutable mvs::core::Snapshot now_;           // no model: no valve yet
+  mutable mvs::core::RecordedEvent stepped_;  // steps that the moves of now_ lack; of count 0: none
+  mutable mvs::core::SnapshotPtr present_;    // of now_; null: nobody has asked since the last step
+  mvs::core::State next_;                     // where a step works, in memory of the state before
 };
 
 namespace mvs::core {
@@ -76,6 +77,6 @@ class AtWork {
 void must_be_no_group(const mvs_sim &sim, const char *call);
 
 // Makes a valve with its state and history the present of a simulator.
-void replace_valve(mvs_sim &sim, Moment moment);
+void replace_valve(mvs_sim &sim, Snapshot snapshot);
 
 }  // namespace mvs::core

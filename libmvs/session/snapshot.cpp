@@ -57,8 +57,8 @@ void add_annulus(const mvs_snapshot &s, mvs_measures &m) {
   m.annulus_nonplanar_angle = annulus.nonplanar_angle;
 }
 
-void add_doming(const mvs_snapshot &s, mvs_measures &m) {
-  const Doming doming = measure_doming(*s.model, s.state.x);
+void add_tenting_billow(const mvs_snapshot &s, mvs_measures &m) {
+  const TentingBillow doming = measure_tenting_billow(*s.model, s.state.x);
   m.tenting_height = doming.tenting_height;
   m.tenting_area = doming.tenting_area;
   m.tenting_volume = doming.tenting_volume;
@@ -92,7 +92,7 @@ mvs_measures make_measures(const mvs_snapshot &snapshot) {
   mvs_measures measures = {};
   measures.struct_size = sizeof measures;
   add_closure(snapshot, measures);
-  add_doming(snapshot, measures);
+  add_tenting_billow(snapshot, measures);
   add_annulus(snapshot, measures);
   add_strength(snapshot, measures);
   return measures;

@@ -50,8 +50,8 @@ struct Tables {
 
 // Immutable but for the count of references and the values that are worked out once.
 struct mvs_snapshot {
-  explicit mvs_snapshot(mvs::core::Moment moment_in)
-      : moment(std::move(moment_in)), model(moment.picture.model), state(moment.picture.state) {}
+  explicit mvs_snapshot(mvs::core::Snapshot value_in)
+      : value(std::move(value_in)), model(value.current.model), state(value.current.state) {}
 
   const mvs::core::Forces &forces() const;
   const mvs::core::Coaptation &coaptation() const;
@@ -61,7 +61,7 @@ struct mvs_snapshot {
   const mvs::core::Tables &tables() const;
   const mvs_measures &measures() const;
 
-  const mvs::core::Moment moment;
+  const mvs::core::Snapshot value;
   const mvs::core::ModelPtr &model;
   const mvs::core::State &state;
   void retain() const { references_.fetch_add(1, std::memory_order_relaxed); }
@@ -113,8 +113,8 @@ class SnapshotPtr {
   const mvs_snapshot *held_ = nullptr;
 };
 
-inline SnapshotPtr make_snapshot(Moment moment) {
-  return SnapshotPtr(new mvs_snapshot(std::move(moment)));
+inline SnapshotPtr make_snapshot(Snapshot snapshot) {
+  return SnapshotPtr(new mvs_snapshot(std::move(snapshot)));
 }
 
 inline mvs_load_case public_load(const Load &load) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double farthest = 10;
 
 uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach) {
-  const NearNode nearest = nearest_node(now.moment.picture, place);
+  const NearNode nearest = nearest_node(now.value.current, place);
   MVS_MUST(nearest.distance <= reach, MVS_E_ARGUMENT, "desc.position",
            "no free vertex of a leaflet lies within %g mm of the hand: bring it nearer, or give a "
            "larger reach",
@@ -51,11 +51,11 @@ Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
   return tool;
 }
 
-void take_at_once(mvs_sim &sim, const Move &move) {
+void take_at_once(mvs_sim &sim, const RecordedEvent &move) {
   const SnapshotPtr before = sim.present();
   State state = before->state;
   take_move(*before->model, state, move);
-  sim.replace(make_snapshot(after_move(before->moment, std::move(state), move)));
+  sim.replace(make_snapshot(after_move(before->value, std::move(state), move)));
   sim.make_ready();
 }
 
@@ -95,14 +95,14 @@ Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc) {
   const SnapshotPtr before = sim.present();
   Tool added = read_tool(*before.get(), desc);
   added.id = first_tool_id + before->state.tools_made;
-  take_at_once(sim, move_of(Move::tool_add, added));
+  take_at_once(sim, move_of(RecordedEvent::tool_add, added));
   return added.id;
 }
 
 void remove_tool_now(mvs_sim &sim, Id id) {
   Tool removed;
   removed.id = id;
-  take_at_once(sim, move_of(Move::tool_remove, removed));
+  take_at_once(sim, move_of(RecordedEvent::tool_remove, removed));
 }
 
 }  // namespace mvs::core

@@ -94,8 +94,9 @@ void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveSta
   stats.skipped |= stepper.skipped();
 }
 
-std::unique_ptr<Factor> make_newton_factor(uint32_t backend) {
-  return backend == MVS_BACKEND_DEFAULT ? make_refined_factor() : make_factor(backend);
+std::unique_ptr<DirectSolver> make_newton_factor(uint32_t backend) {
+  return backend == MVS_BACKEND_DEFAULT ? make_mixed_precision_cholesky()
+                                        : make_direct_solver(backend);
 }
 
 }  // namespace
@@ -104,13 +105,13 @@ std::unique_ptr<Factor> make_newton_factor(uint32_t backend) {
 struct Solver::Work {
   explicit Work(uint32_t backend_in) : backend(backend_in), factor(make_newton_factor(backend)) {}
 
-  ImplicitStepper &implicit_for(const Model &model) {
+  ImplicitEuler &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();
     implicit_model = model.serial;
     if (!implicit) implicit.emplace(model, backend);
     return *implicit;
   }
-  ExplicitStepper &explicit_for(const Model &model) {
+  ExplicitEuler &explicit_for(const Model &model) {
     if (explicit_model != model.serial) explicit_.reset();
     explicit_model = model.serial;
     if (!explicit_) explicit_.emplace(model);
@@ -119,9 +120,9 @@ struct Solver::Work {
 
   const uint32_t backend;
   ToolPoints tool_points;
-  std::unique_ptr<Factor> factor;  // of settling
-  std::optional<ImplicitStepper> implicit;
-  std::optional<ExplicitStepper> explicit_;
+  std::unique_ptr<DirectSolver> factor;  // of settling
+  std::optional<ImplicitEuler> implicit;
+  std::optional<ExplicitEuler> explicit_;
   StepOptions how{};                                // of the last implicit step
   uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
 };
@@ -165,21 +166,21 @@ SolveStats Solver::step(const Model &model, State &state, const SolveOptions &op
 SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOptions &options,
                                 const Progress &progress) {
   SolveStats stats;
-  state.forget_way();
+  state.drop_cache();
   if (options.solver == MVS_SOLVER_IMPLICIT) {
-    ImplicitStepper stepper(model, work_->backend);
+    ImplicitEuler stepper(model, work_->backend);
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
     stats = settle_in_time(model, state, options, progress, step);
     stats.skipped = stepper.skipped();
   } else if (options.solver == MVS_SOLVER_EXPLICIT) {
-    ExplicitStepper stepper(model);
+    ExplicitEuler stepper(model);
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
     stats = settle_in_time(model, state, options, progress, step);
     stats.skipped = stepper.skipped();
   } else {
     stats = Newton(model, *work_->factor).settle(state, options, progress);
   }
-  state.forget_way();
+  state.drop_cache();
   stats.skipped |= never_done(stats.work);
   return stats;
 }
@@ -189,7 +190,7 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
   const StepOptions how = defaults(options);
   SolveStats stats;
   if (options.solver == MVS_SOLVER_EXPLICIT) {
-    state.forget_way();
+    state.drop_cache();
     step_alone(work_->explicit_for(model), state, how, stats);
   } else {
     work_->how = how;
@@ -224,16 +225,16 @@ Forces evaluate_forces(const Model &valve, const State &valve_state) {
   ToolPoints points;
   const Model &model = points.extend(valve, tool_points(valve_state));
   const State state = ToolPoints::extended(valve_state);
-  Potential potential(model);
+  TotalEnergy total_energy(model);
   Profile profile;
-  potential.keep_near(false);
-  potential.set_pressure(state.load.pressure);
-  potential.set_tools(state.tools);
-  potential.prepare(state.x, state.x, 0, profile);
+  total_energy.keep_near(false);
+  total_energy.set_pressure(state.load.pressure);
+  total_energy.set_tools(state.tools);
+  total_energy.prepare(state.x, state.x, 0, profile);
   Forces forces;
-  forces.energy = potential.gradient(state.x, forces.total, profile);
+  forces.energy = total_energy.gradient(state.x, forces.total, profile);
   forces.contact.assign(state.x.size(), Vec3::Zero());
-  potential.contact().gradient(forces.contact);
+  total_energy.contact().gradient(forces.contact);
   for (Vec3 &f : forces.total) f = -f;
   for (Vec3 &f : forces.contact) f = -f;
   forces.total.resize(valve_state.x.size());

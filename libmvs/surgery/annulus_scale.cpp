@@ -7,7 +7,7 @@ namespace mvs::core {
 namespace {
 
 // Scales where the annulus is held, about its centroid and along its axes there.
-void scale(const Surgery &s, const Vec3 &along, SharedVector<Vec3> &places) {
+void scale(const Surgery &s, const Vec3 &along, CowVector<Vec3> &places) {
   const Frame frame = valve_frame(s.before, places);
   for (const uint32_t node : s.valve.annulus.get()) {
     const Vec3 local = frame.local(places[node]).cwiseProduct(along);

@@ -250,7 +250,7 @@ void remove_loose_chords(Valve &valve, const std::vector<uint8_t> &gone) {
 }
 
 template <typename T>
-void keep(SharedVector<T> &rows, const std::vector<uint8_t> &gone) {
+void keep(CowVector<T> &rows, const std::vector<uint8_t> &gone) {
   std::vector<T> kept;
   for (size_t t = 0; t < gone.size(); ++t) {
     if (!gone[t]) kept.push_back(rows.get()[t]);

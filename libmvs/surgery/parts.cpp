@@ -7,7 +7,7 @@ namespace mvs::core {
 namespace {
 
 template <typename Part>
-uint32_t index_of(const SharedVector<Part> &parts, Id id) {
+uint32_t index_of(const CowVector<Part> &parts, Id id) {
   for (uint32_t k = 0; k < parts.size(); ++k) {
     if (parts[k].id == id) return k;
   }
@@ -26,7 +26,7 @@ std::string what_is(const Valve &valve, Id id) {
 }
 
 template <typename Part>
-uint32_t find(const Surgery &s, const SharedVector<Part> &parts, Id id, const char *kind) {
+uint32_t find(const Surgery &s, const CowVector<Part> &parts, Id id, const char *kind) {
   const uint32_t k = index_of(parts, id);
   if (k != none) return k;
   const std::string other = what_is(s.valve, id);
@@ -51,7 +51,7 @@ std::vector<uint32_t> new_numbers(const std::vector<uint8_t> &gone) {
 }
 
 template <typename T>
-void keep(SharedVector<T> &rows, const std::vector<uint8_t> &gone) {
+void keep(CowVector<T> &rows, const std::vector<uint8_t> &gone) {
   std::vector<T> kept;
   for (size_t n = 0; n < gone.size(); ++n) {
     if (!gone[n]) kept.push_back(rows.get()[n]);
@@ -100,8 +100,7 @@ uint32_t Surgery::add_node(const std::vector<uint32_t> &nodes, const std::vector
 void remove_nodes(Surgery &s, const std::vector<uint8_t> &gone) {
   const std::vector<uint32_t> number = new_numbers(gone);
   Valve &valve = s.valve;
-  for (SharedVector<Vec3> *rows :
-       {&valve.rest, &valve.open, &valve.loaded, &s.state.x, &s.state.v}) {
+  for (CowVector<Vec3> *rows : {&valve.rest, &valve.open, &valve.loaded, &s.state.x, &s.state.v}) {
     keep(*rows, gone);
   }
   keep(valve.origin, gone);

@@ -46,21 +46,21 @@ ModelPtr checked_model(Surgery &s) {
 
 }  // namespace
 
-Operated perform(const Picture &before, const Operation &op) {
+Operated perform(const ModelState &before, const Operation &op) {
   Surgery s{*before.model, before.model->valve, before.state, op.kind().name};
   check_parts(s, op);
   dispatch(s, op);
   Operated done;
   done.made = s.made;
   done.title = std::move(s.title);
-  done.picture.state = std::move(s.state);
-  done.picture.model = checked_model(s);
-  done.picture.state.forget_way();
-  drop_lost_tools(*done.picture.model, done.picture.state);
-  share(done.picture.state, before.state);
-  MVS_MUST(done.picture.state.x.size() == done.picture.model->node_count(), MVS_E_INTERNAL,
+  done.current.state = std::move(s.state);
+  done.current.model = checked_model(s);
+  done.current.state.drop_cache();
+  drop_lost_tools(*done.current.model, done.current.state);
+  share(done.current.state, before.state);
+  MVS_MUST(done.current.state.x.size() == done.current.model->node_count(), MVS_E_INTERNAL,
            op.kind().name, "%s left %zu positions for %zu nodes", op.kind().name,
-           done.picture.state.x.size(), done.picture.model->node_count());
+           done.current.state.x.size(), done.current.model->node_count());
   return done;
 }
 

@@ -10,12 +10,12 @@ namespace mvs::core {
 
 // What an operation did.
 struct Operated {
-  Picture picture;
+  ModelState current;
   Id made = 0;
   std::string title;
 };
 
 // Applies an operation to a picture; throws and leaves it as it is if that cannot be done.
-Operated perform(const Picture &before, const Operation &op);
+Operated perform(const ModelState &before, const Operation &op);
 
 }  // namespace mvs::core

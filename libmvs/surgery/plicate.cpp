@@ -100,7 +100,7 @@ std::vector<Vec3> drawn(const std::vector<Vec3> &curve, double share) {
 }
 
 // The nodes' places: each edge its share of what is left of the length.
-void gather(const Surgery &s, const Stretch &stretch, SharedVector<Vec3> &places) {
+void gather(const Surgery &s, const Stretch &stretch, CowVector<Vec3> &places) {
   std::vector<Vec3> curve;
   for (const uint32_t node : stretch.nodes) curve.push_back(places.get()[node]);
   std::vector<double> arc = {0};

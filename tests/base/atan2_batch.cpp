@@ -20,7 +20,7 @@ TEST_CASE("arc_tangents_are_those_of_the_standard_library") {
     }
   }
   std::vector<double> angle(y.size());
-  arc_tangents(y.data(), x.data(), angle.data(), y.size());
+  atan2_batch(y.data(), x.data(), angle.data(), y.size());
   for (size_t k = 0; k < y.size(); ++k) {
     const double expected = std::atan2(y[k], x[k]);
     // two roundings of the result
@@ -31,7 +31,7 @@ TEST_CASE("arc_tangents_are_those_of_the_standard_library") {
 TEST_CASE("arc_tangents_hold_on_the_axes") {
   const std::vector<double> y = {0, 0, 1, -1, 0}, x = {1, -1, 0, 0, 0};
   std::vector<double> angle(5);
-  arc_tangents(y.data(), x.data(), angle.data(), 5);
+  atan2_batch(y.data(), x.data(), angle.data(), 5);
   constexpr double pi = std::numbers::pi;
   CHECK(angle == std::vector<double>{0, pi, pi / 2, -pi / 2, 0});
 }
@@ -43,10 +43,10 @@ TEST_CASE("an_arc_tangent_has_the_same_bits_alone_and_among_others") {
     x.push_back(std::cos(0.37 * k) * (1 + k % 7));
   }
   std::vector<double> angle(y.size());
-  arc_tangents(y.data(), x.data(), angle.data(), y.size());
+  atan2_batch(y.data(), x.data(), angle.data(), y.size());
   for (size_t k = 0; k < y.size(); ++k) {
     double alone = 0;
-    arc_tangents(&y[k], &x[k], &alone, 1);
+    atan2_batch(&y[k], &x[k], &alone, 1);
     CHECK(alone == angle[k]);
   }
 }

@@ -35,11 +35,11 @@ WORK = {
     "measure": "mvs_snapshot_measure",
     "save": "mvs_save_file",
     "load": "mvs_load_file",
-    "of these: gradients": "mvs::core::Potential::gradient(",
-    "of these: Hessians": "mvs::core::Potential::hessian(",
-    "of these: broad phase": "mvs::core::Candidates::build(",
+    "of these: gradients": "mvs::core::TotalEnergy::gradient(",
+    "of these: Hessians": "mvs::core::TotalEnergy::hessian(",
+    "of these: broad phase": "mvs::core::BroadPhase::build(",
     "of these: narrow phase": "mvs::core::ContactTerm::collect(",
-    "of these: chordae": "mvs::core::ChordTerm::",
+    "of these: chordae": "mvs::core::CableTerm::",
     "of these: membrane": "mvs::core::MembraneTerm::",
 }
 """What is counted, and the function (or the start of the functions) that does it."""

@@ -66,26 +66,27 @@ double close(const Options &options, const Model &model, State &state) {
     how.residual = options.residual;
     Solver solver(MVS_BACKEND_DEFAULT);
     SolveStats stats;
-    cpu_s.push_back(
-        bench::timed([&] { stats = settle_by_levels(solver, model, state, how, {}); }).cpu);
+    cpu_s.push_back(bench::timed([&] {
+                      stats = settle_with_mesh_hierarchy(solver, model, state, how, {});
+                    }).cpu);
     if (!stats.converged) std::printf("not at rest: %.1e N\n", stats.residual);
   }
   return bench::median(cpu_s);
 }
 
-std::vector<Vec3> nodes_of(const SharedVector<Vec3> &x) {
+std::vector<Vec3> nodes_of(const CowVector<Vec3> &x) {
   return {x.begin(), x.end()};
 }
 
 // The system of the open valve, where nothing touches.
-System free_system(const Model &model) {
-  Potential potential(model);
+HessianAssembler free_system(const Model &model) {
+  TotalEnergy total_energy(model);
   Profile profile;
-  System system;
+  HessianAssembler system;
   std::vector<Vec3> x = nodes_of(model.valve.rest), g;
-  potential.prepare(x, x, 0, profile);
-  potential.gradient(x, g, profile);
-  potential.hessian(x, Curvature::projected, system, profile);
+  total_energy.prepare(x, x, 0, profile);
+  total_energy.gradient(x, g, profile);
+  total_energy.hessian(x, Curvature::projected, system, profile);
   BlockMatrix &matrix = system.matrix;
   double largest = 0;
   for (uint32_t r = 0; r < matrix.size(); ++r)
@@ -107,7 +108,7 @@ std::vector<Edge> pairs_of(const BlockMatrix &matrix) {
 void add_factor(const Options &options, const BlockMatrix &matrix, const std::string &name,
                 uint32_t backend, std::vector<Unit> &units) {
   if (std::string(factor_names()).find(name) == std::string::npos) return;
-  const auto factor = make_factor(backend);
+  const auto factor = make_direct_solver(backend);
   units.push_back(
       {name + " analysis", bench::fastest(options.rounds, [&] { factor->analyse(matrix); })});
   bool definite = true;
@@ -136,25 +137,25 @@ void add_system(const Options &options, const Model &model, std::vector<Unit> &u
 
 void add_passes(const Options &options, const Model &model, const State &closed,
                 std::vector<Unit> &units) {
-  Potential potential(model);
-  potential.set_pressure(MVS_SYSTOLE_PA);
+  TotalEnergy total_energy(model);
+  total_energy.set_pressure(MVS_SYSTOLE_PA);
   Profile profile;
-  System system;
+  HessianAssembler system;
   std::vector<Vec3> x = nodes_of(closed.x), g;
   const double slack = 0.02 * model.valve.contact_thickness;  // as in mvs_settle
-  Candidates pairs(model);
+  BroadPhase pairs(model);
   units.push_back(
       {"broad phase", bench::fastest(options.rounds, [&] { pairs.build(x, x, slack); })});
   ContactTerm contact(model);
   units.push_back(
       {"narrow phase", bench::fastest(options.rounds, [&] { contact.collect(x, pairs); })});
-  potential.prepare(x, x, slack, profile);
-  units.push_back({"energy", bench::fastest(options.rounds, [&] { potential.energy(x); })});
+  total_energy.prepare(x, x, slack, profile);
+  units.push_back({"energy", bench::fastest(options.rounds, [&] { total_energy.energy(x); })});
   units.push_back(
-      {"gradient", bench::fastest(options.rounds, [&] { potential.gradient(x, g, profile); })});
-  potential.hessian(x, Curvature::projected, system, profile);
+      {"gradient", bench::fastest(options.rounds, [&] { total_energy.gradient(x, g, profile); })});
+  total_energy.hessian(x, Curvature::projected, system, profile);
   units.push_back({"Hessian, assembled", bench::fastest(options.rounds, [&] {
-                     potential.hessian(x, Curvature::projected, system, profile);
+                     total_energy.hessian(x, Curvature::projected, system, profile);
                    })});
 }
 

@@ -35,7 +35,8 @@ mvs_site site_in(const Valve &v, const std::string &scallop, double along, doubl
 }
 
 Operation chord_length(const std::string &name, double factor) {
-  return {"chord_length", name + " " + std::to_string(factor).substr(0, 4), [=](const Picture &p) {
+  return {"chord_length", name + " " + std::to_string(factor).substr(0, 4),
+          [=](const ModelState &p) {
             auto op = op_of<mvs_op_chord_length>(MVS_OP_CHORD_LENGTH);
             op.chord = id_of(p.model->valve.chords.get(), name);
             op.factor = factor;
@@ -44,7 +45,7 @@ Operation chord_length(const std::string &name, double factor) {
 }
 
 Operation chord_remove(const std::string &name) {
-  return {"chord_remove", name, [=](const Picture &p) {
+  return {"chord_remove", name, [=](const ModelState &p) {
             auto op = op_of<mvs_op_chord_remove>(MVS_OP_CHORD_REMOVE);
             op.chord = id_of(p.model->valve.chords.get(), name);
             return perform(p, mvs::core::Operation(&op.op));
@@ -54,7 +55,7 @@ Operation chord_remove(const std::string &name) {
 // To a place on a leaflet, from the first head or the second.
 template <typename Op>
 Operation tie(uint32_t kind, const char *name, const std::string &scallop, int head) {
-  return {name, scallop, [=](const Picture &p) {
+  return {name, scallop, [=](const ModelState &p) {
             auto op = op_of<Op>(kind);
             op.head = p.model->valve.heads[head].id;
             op.site = site_in(p.model->valve, scallop, 0.5, 0.85);
@@ -63,7 +64,7 @@ Operation tie(uint32_t kind, const char *name, const std::string &scallop, int h
 }
 
 Operation chord_transfer(const std::string &name, const std::string &scallop) {
-  return {"chord_transfer", name + " to " + scallop, [=](const Picture &p) {
+  return {"chord_transfer", name + " to " + scallop, [=](const ModelState &p) {
             auto op = op_of<mvs_op_chord_transfer>(MVS_OP_CHORD_TRANSFER);
             op.chord = id_of(p.model->valve.chords.get(), name);
             op.site = site_in(p.model->valve, scallop, 0.5, 0.85);
@@ -72,7 +73,7 @@ Operation chord_transfer(const std::string &name, const std::string &scallop) {
 }
 
 Operation annulus_scale(const std::string &name, double factor, double ap) {
-  return {"annulus_scale", name, [=](const Picture &p) {
+  return {"annulus_scale", name, [=](const ModelState &p) {
             auto op = op_of<mvs_op_annulus_scale>(MVS_OP_ANNULUS_SCALE);
             op.factor = factor;
             op.ap = ap;
@@ -81,7 +82,7 @@ Operation annulus_scale(const std::string &name, double factor, double ap) {
 }
 
 Operation head_move(const std::string &name, int head, double z) {
-  return {"head_move", name, [=](const Picture &p) {
+  return {"head_move", name, [=](const ModelState &p) {
             auto op = op_of<mvs_op_head_move>(MVS_OP_HEAD_MOVE);
             op.head = p.model->valve.heads[head].id;
             op.by[2] = z;
@@ -93,7 +94,7 @@ Operation head_move(const std::string &name, int head, double z) {
 template <typename Op>
 Operation with(uint32_t kind, const char *kind_name, const std::string &name, double Op::*field,
                double value) {
-  return {kind_name, name, [=](const Picture &p) {
+  return {kind_name, name, [=](const ModelState &p) {
             auto op = op_of<Op>(kind);
             op.*field = value;
             return perform(p, mvs::core::Operation(&op.op));
@@ -101,7 +102,7 @@ Operation with(uint32_t kind, const char *kind_name, const std::string &name, do
 }
 
 Operation patch(const std::string &scallop) {
-  return {"patch", scallop, [=](const Picture &p) {
+  return {"patch", scallop, [=](const ModelState &p) {
             auto op = op_of<mvs_op_patch>(MVS_OP_PATCH);
             op.site = site_in(p.model->valve, scallop, 0.5, 0.5);
             return perform(p, mvs::core::Operation(&op.op));

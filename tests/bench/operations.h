@@ -11,7 +11,7 @@ namespace bench {
 
 struct Operation {
   std::string kind, name;
-  std::function<mvs::core::Operated(const mvs::core::Picture &closed)> apply;
+  std::function<mvs::core::Operated(const mvs::core::ModelState &closed)> apply;
 };
 
 // Every kind of operation on the shipped valve, chordae and sites by their names.

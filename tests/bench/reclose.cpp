@@ -75,7 +75,9 @@ Run close(const Options &options, const Model &model, const State &from) {
     run.state.load = {MVS_SYSTOLE_PA, 1};
     // a new solver each time, so that no run warms up the next
     Solver solver(MVS_BACKEND_DEFAULT);
-    const auto settle = [&] { run.stats = settle_by_levels(solver, model, run.state, {}, {}); };
+    const auto settle = [&] {
+      run.stats = settle_with_mesh_hierarchy(solver, model, run.state, {}, {});
+    };
     run.cpu_s.push_back(bench::timed(settle).cpu);
   }
   return run;
@@ -100,9 +102,9 @@ void measure_distance(const State &a, const State &b, Row &row) {
   row.rms_mm = std::sqrt(sum / static_cast<double>(a.x.size())) * 1e3;
 }
 
-Row compare(const Options &options, const std::string &scene, const Picture &closed,
+Row compare(const Options &options, const std::string &scene, const ModelState &closed,
             const bench::Operation &operation, bench::Table &table) {
-  const Picture changed = operation.apply(closed).picture;
+  const ModelState changed = operation.apply(closed).current;
   const ModelPtr &model = changed.model;
   const Run open = close(options, *model, initial_state(*model));
   const Run again = close(options, *model, changed.state);
@@ -167,7 +169,7 @@ int run(int argc, char **argv) {
   std::vector<Row> rows;
   for (const std::string &scene : options.scenes) {
     const ModelPtr model = make_model(make_scene(scenes.at(scene)));
-    const Picture closed{model, close(options, *model, initial_state(*model)).state};
+    const ModelState closed{model, close(options, *model, initial_state(*model)).state};
     for (const bench::Operation &operation : bench::operations()) {
       if (!options.only.empty() && options.only != operation.kind) continue;
       rows.push_back(compare(options, scene, closed, operation, table));

@@ -53,26 +53,26 @@ ModelPtr scene(const Options &options, const Change &change) {
   return make_model(std::move(valve));
 }
 
-std::vector<Vec3> nodes_of(const SharedVector<Vec3> &x) {
+std::vector<Vec3> nodes_of(const CowVector<Vec3> &x) {
   return {x.begin(), x.end()};
 }
 
 // A system with room for every term of a model at x.
-System room_for(const Model &model, const std::vector<Vec3> &x) {
-  Potential potential(model);
+HessianAssembler room_for(const Model &model, const std::vector<Vec3> &x) {
+  TotalEnergy total_energy(model);
   Profile profile;
-  System system;
+  HessianAssembler system;
   std::vector<Vec3> g;
-  potential.prepare(x, x, 0, profile);
-  potential.gradient(x, g, profile);
-  potential.hessian(x, Curvature::projected, system, profile);
+  total_energy.prepare(x, x, 0, profile);
+  total_energy.gradient(x, g, profile);
+  total_energy.hessian(x, Curvature::projected, system, profile);
   return system;
 }
 
 // The same where one term alone finds its slots.
 template <typename Term>
-System room_for(const Model &model, const std::vector<Vec3> &x, const Term &term) {
-  System system = room_for(model, x);
+HessianAssembler room_for(const Model &model, const std::vector<Vec3> &x, const Term &term) {
+  HessianAssembler system = room_for(model, x);
   std::vector<Edge> pairs, all;
   term.add_pairs(pairs);
   const BlockMatrix &m = system.matrix;
@@ -89,7 +89,7 @@ System room_for(const Model &model, const std::vector<Vec3> &x, const Term &term
 template <typename Term>
 double term_cost(const Options &options, const Model &model, const Term &term,
                  const std::vector<Vec3> &x) {
-  System system = room_for(model, x, term);
+  HessianAssembler system = room_for(model, x, term);
   std::vector<Vec3> g(x.size(), Vec3::Zero());
   double sum = 0;
   return bench::fastest(options.rounds, [&] {
@@ -100,8 +100,8 @@ double term_cost(const Options &options, const Model &model, const Term &term,
 
 double pressure_cost(const Options &options, const Model &model, double pressure,
                      const std::vector<Vec3> &x) {
-  PressureTerm term(model);
-  System system = room_for(model, x, term);
+  FollowerPressureTerm term(model);
+  HessianAssembler system = room_for(model, x, term);
   std::vector<Vec3> g(x.size(), Vec3::Zero());
   term.set_pressure(pressure);
   double sum = 0;
@@ -119,12 +119,12 @@ struct ContactCost {
 
 ContactCost contact_cost(const Options &options, const Model &model, const std::vector<Vec3> &x) {
   const double slack = 0.1 * model.valve.contact_thickness;
-  Candidates pairs(model);
+  BroadPhase pairs(model);
   ContactTerm contact(model);
   ContactCost cost = {};
   cost.broad = bench::fastest(options.rounds, [&] { pairs.build(x, x, slack); });
   cost.narrow = bench::fastest(options.rounds, [&] { contact.collect(x, pairs); });
-  System system = room_for(model, x);
+  HessianAssembler system = room_for(model, x);
   std::vector<Vec3> g(x.size(), Vec3::Zero());
   double sum = 0;
   cost.terms = bench::fastest(options.rounds, [&] {
@@ -140,7 +140,7 @@ struct Scenes {
   explicit Scenes(const Options &options)
       : full(scene(options, {})),
         membrane(scene(options, to_membrane)),
-        no_chordae(scene(options, [](Valve &v) { v.chords = SharedVector<Chord>(); })),
+        no_chordae(scene(options, [](Valve &v) { v.chords = CowVector<Chord>(); })),
         no_bending(scene(options, [](Valve &v) { v.bending_scale = 0; })) {}
 };
 
@@ -171,8 +171,8 @@ void tell_terms(const Options &options, const Scenes &s, bench::Table &table) {
        cost(*s.full, MembraneTerm(*s.full)));
   tell(table, "bending", cost(*s.full, BendingTerm(*s.full)),
        cost(*s.no_bending, BendingTerm(*s.no_bending)));
-  tell(table, "chordae", cost(*s.full, ChordTerm(*s.full)),
-       cost(*s.no_chordae, ChordTerm(*s.no_chordae)));
+  tell(table, "chordae", cost(*s.full, CableTerm(*s.full)),
+       cost(*s.no_chordae, CableTerm(*s.no_chordae)));
   tell(table, "pressure", pressure_cost(options, *s.full, MVS_SYSTOLE_PA, x),
        pressure_cost(options, *s.full, 0, x));
   const ContactCost on = contact_cost(options, *s.full, x);

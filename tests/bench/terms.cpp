@@ -42,15 +42,15 @@ struct Bench {
   ModelPtr model;
   SpringTerm spring;
   MembraneTerm membrane;
-  Potential potential;
+  TotalEnergy total_energy;
   std::vector<Vec3> x = {}, g = {};
-  System system = {};
+  HessianAssembler system = {};
   std::vector<double> energy = {}, gradient = {}, hessian = {}, assembly = {}, whole = {};
   Profile profile = {};
   double sum = 0;  // of all energies, so that none is left out
 
   Bench(const std::string &name, const ModelPtr &of)
-      : law(name), model(of), spring(*of), membrane(*of), potential(*of) {
+      : law(name), model(of), spring(*of), membrane(*of), total_energy(*of) {
     x = of->valve.rest;
     for (size_t i = 0; i < x.size(); ++i) {
       const double at = static_cast<double>(i);
@@ -67,9 +67,9 @@ struct Bench {
   }
 
   void begin() {
-    potential.prepare(x, x, 1e-4, profile);
-    potential.gradient(x, g, profile);
-    potential.hessian(x, Curvature::projected, system, profile);
+    total_energy.prepare(x, x, 1e-4, profile);
+    total_energy.gradient(x, g, profile);
+    total_energy.hessian(x, Curvature::projected, system, profile);
   }
 
   void round() {
@@ -86,8 +86,8 @@ struct Bench {
     }));
     assembly.push_back(gradient.back() + hessian.back());
     whole.push_back(seconds([&] {
-      sum += potential.gradient(x, g, profile);
-      potential.hessian(x, Curvature::projected, system, profile);
+      sum += total_energy.gradient(x, g, profile);
+      total_energy.hessian(x, Curvature::projected, system, profile);
     }));
   }
 };

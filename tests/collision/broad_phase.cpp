@@ -36,7 +36,7 @@ void for_edge_pairs(const Model &model, Visit &&visit) {
 struct Ways {
   const Positions &x, &to;
   double slack;
-  Pace pace;
+  StepMotion pace;
 
   Vec3 half(uint32_t i) const { return 0.5 * (to[i] - x[i]); }
   Positions middle() const { return moved(x, 0.5, moved(to, -1, x)); }
@@ -49,20 +49,20 @@ struct Ways {
         together = std::max(together, (half(i) - half(j)).norm());
       }
     }
-    return 2 * slack + (pace == Pace::together ? together : of_a + of_b);
+    return 2 * slack + (pace == StepMotion::together ? together : of_a + of_b);
   }
   bool boxes_part(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b,
                   double margin) const {
-    return apart(Way::of(a, x, to, pace), Way::of(b, x, to, pace), margin + 2 * slack);
+    return apart(SweptAabb::of(a, x, to, pace), SweptAabb::of(b, x, to, pace), margin + 2 * slack);
   }
 };
 
 // Whether the lists are what brute force finds on these ways, in their order.
-void check_pairs(const Model &model, const Candidates &candidates, const Ways &ways) {
+void check_pairs(const Model &model, const BroadPhase &broad_phase, const Ways &ways) {
   const double r = model.valve.contact_thickness;
   const Positions middle = ways.middle();
-  const auto &guarded = candidates.guarded(), &faced = candidates.facing();
-  const auto &list = candidates.guarded_edges();
+  const auto &guarded = broad_phase.barrier_candidates(), &faced = broad_phase.contact_candidates();
+  const auto &list = broad_phase.barrier_edge_candidates();
   size_t k = 0, facing = 0, pairs = 0;
   bool same = true;
   for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
@@ -70,14 +70,14 @@ void check_pairs(const Model &model, const Candidates &candidates, const Ways &w
     const std::vector<uint32_t> corners(tri.begin(), tri.end());
     const double least = distance(middle, v, tri) - ways.nearer({v}, corners);
     if (least > r) return;
-    const double rest = distance(model.valve.rest, v, tri), guard = guard_range(r, rest);
-    const bool faces = rest >= facing_rest_distance * r;
+    const double rest = distance(model.valve.rest, v, tri), guard = barrier_range(r, rest);
+    const bool faces = rest >= contact_rest_distance * r;
     if (faces && !ways.boxes_part({v}, corners, r)) {
       same =
           same && facing < faced.size() && faced[facing].vertex == v && faced[facing].triangle == t;
       ++facing;
     }
-    if (least > guard || ways.boxes_part({v}, corners, faces ? r : guard_share * r)) return;
+    if (least > guard || ways.boxes_part({v}, corners, faces ? r : barrier_share * r)) return;
     same = same && k < guarded.size() && guarded[k].vertex == v && guarded[k].triangle == t &&
            guarded[k].guard == guard;
     ++k;
@@ -86,9 +86,9 @@ void check_pairs(const Model &model, const Candidates &candidates, const Ways &w
     const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
     const std::vector<uint32_t> a(e.begin(), e.end()), b(f.begin(), f.end());
     const double least = distance(middle, e, f) - ways.nearer(a, b);
-    if (least > guard_share * r) return;
-    const double guard = guard_range(r, distance(model.valve.rest, e, f));
-    if (least > guard || ways.boxes_part(a, b, guard_share * r)) return;
+    if (least > barrier_share * r) return;
+    const double guard = barrier_range(r, distance(model.valve.rest, e, f));
+    if (least > guard || ways.boxes_part(a, b, barrier_share * r)) return;
     same = same && pairs < list.size() && list[pairs].first == i && list[pairs].second == j &&
            list[pairs].guard == guard;
     ++pairs;
@@ -103,17 +103,17 @@ void check_pairs(const Model &model, const Candidates &candidates, const Ways &w
 
 namespace {
 
-NarrowCorner narrow_corner(const Vec3 &p) {
+CornerF to_corner(const Vec3 &p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0};
 }
 
 template <typename Nodes>
-NarrowWay narrow_way(const Nodes &nodes, const Ways &ways) {
-  NarrowWay way;
+SweptAabbF narrow_way(const Nodes &nodes, const Ways &ways) {
+  SweptAabbF way;
   for (const uint32_t i : nodes) {
-    way.add(NarrowPlace{narrow_corner(ways.x[i]), narrow_corner(ways.to[i])});
+    way.add(SweptPointF{to_corner(ways.x[i]), to_corner(ways.to[i])});
   }
-  if (ways.pace == Pace::each_for_itself) way.join_ends();
+  if (ways.pace == StepMotion::independent) way.join_ends();
   return way;
 }
 
@@ -143,24 +143,24 @@ TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
   Random random(1);
   for (const uint32_t n : {0u, 1u, 2u, 60u, 200u}) {
     const Scattered sheet(n, random);
-    MovingTree tree(sheet.x, sheet.triangles);
+    SweptBvh tree(sheet.x, sheet.triangles);
     const auto &start = tree.block_start();
     std::vector<uint32_t> block_of(n);
     std::vector<uint8_t> still(tree.block_count());
     for (uint32_t b = 0; b < tree.block_count(); ++b) {
-      CHECK(start[b + 1] - start[b] <= WayLanes::count);
+      CHECK(start[b + 1] - start[b] <= SweptAabb8::count);
       still[b] = b % 3 == 0;
       for (uint32_t k = start[b]; k < start[b + 1]; ++k) block_of[tree.triangles()[k]] = b;
     }
-    for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+    for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
       const Ways ways = {sheet.x, sheet.to, 0, pace};
-      std::vector<NarrowWay> blocks(tree.block_count());
+      std::vector<SweptAabbF> blocks(tree.block_count());
       for (uint32_t t = 0; t < n; ++t) {
         blocks[block_of[t]].add(narrow_way(sheet.triangles[t], ways));
       }
       tree.place(blocks, still);
       std::vector<Edge> found;
-      tree.for_near_blocks(narrow_margin(0.05, farthest(ways)), [&](uint32_t a, uint32_t b) {
+      tree.for_near_blocks(float_margin(0.05, farthest(ways)), [&](uint32_t a, uint32_t b) {
         CHECK_FALSE((still[a] && still[b]));
         found.push_back({std::min(a, b), std::max(a, b)});
       });
@@ -172,8 +172,8 @@ TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
           const Edge pair = {std::min(block_of[a], block_of[b]),
                              std::max(block_of[a], block_of[b])};
           if ((still[pair[0]] && still[pair[1]]) ||
-              apart(Way::of(sheet.triangles[a], sheet.x, sheet.to, pace),
-                    Way::of(sheet.triangles[b], sheet.x, sheet.to, pace), 0.05)) {
+              apart(SweptAabb::of(sheet.triangles[a], sheet.x, sheet.to, pace),
+                    SweptAabb::of(sheet.triangles[b], sheet.x, sheet.to, pace), 0.05)) {
             continue;
           }
           all = all && std::binary_search(found.begin(), found.end(), pair);
@@ -188,21 +188,21 @@ TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
 // nothing.
 TEST_CASE("lanes_are_near_as_their_ways_are") {
   Random random(6);
-  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+  for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
     size_t found = 0;
     for (int round = 0; round < 200; ++round) {
       const Scattered sheet(13, random);
       const Ways ways = {sheet.x, sheet.to, 0, pace};
       const double margin = random(0, 0.5);
-      WayLanes here, there;
-      NarrowWay box;
+      SweptAabb8 here, there;
+      SweptAabbF box;
       for (uint32_t t = 0; t < 13; ++t) {
-        const NarrowWay way = narrow_way(sheet.triangles[t], ways);
+        const SweptAabbF way = narrow_way(sheet.triangles[t], ways);
         (t < 8 ? here : there).set(t < 8 ? t : t - 8, way);
         if (t >= 8) box.add(way);
       }
-      NearLanes near;
-      const float wide = narrow_margin(margin, farthest(ways));
+      LaneMasks near;
+      const float wide = float_margin(margin, farthest(ways));
       const uint32_t of = find_near(here, box, wide);
       const uint32_t some = find_near(here, of, there, wide, near);
       CHECK((some & ~of) == 0);
@@ -211,8 +211,8 @@ TEST_CASE("lanes_are_near_as_their_ways_are") {
         CHECK(bits < 32);
         CHECK(((some >> i & 1) != 0) == (bits != 0));
         for (uint32_t j = 0; j < 5; ++j) {
-          const Way a = Way::of(sheet.triangles[i], sheet.x, sheet.to, pace);
-          const Way b = Way::of(sheet.triangles[8 + j], sheet.x, sheet.to, pace);
+          const SweptAabb a = SweptAabb::of(sheet.triangles[i], sheet.x, sheet.to, pace);
+          const SweptAabb b = SweptAabb::of(sheet.triangles[8 + j], sheet.x, sheet.to, pace);
           const bool is_near = (bits >> j & 1) != 0;
           if (!apart(a, b, margin)) CHECK(is_near);
           if (is_near) CHECK_FALSE(apart(a, b, margin + 2e-6));
@@ -231,10 +231,10 @@ TEST_CASE("distances_side_by_side_are_to_the_bit_those_one_by_one") {
     return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
   };
   bool all = true;
-  PairRows rows;
+  DistanceBatch rows;
   for (int round = 0; round < 400; ++round) {
-    std::array<std::array<Vec3, 4>, PairRows::most> pair;
-    const uint32_t count = 1 + static_cast<uint32_t>(round) % PairRows::most;
+    std::array<std::array<Vec3, 4>, DistanceBatch::most> pair;
+    const uint32_t count = 1 + static_cast<uint32_t>(round) % DistanceBatch::most;
     for (uint32_t k = 0; k < count; ++k) {
       auto &[p, a, b, c] = pair[k];
       for (Vec3 &q : pair[k]) q = Vec3(0.01, 0.02, 0.03) + random.vector(1e-3);
@@ -276,15 +276,15 @@ TEST_CASE("distances_side_by_side_are_to_the_bit_those_one_by_one") {
 TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {
   const Plates plates = plates_for_steps();
   Random random(2);
-  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+  for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
     const Positions x = wavy(plates, random);
     const Positions to = moved(x, 1, random.vectors(x.size(), 0.4e-3));
-    Candidates candidates(plates.model);
+    BroadPhase candidates(plates.model);
     candidates.build(x, to, 0.05e-3, pace);
     check_pairs(plates.model, candidates, {x, to, 0.05e-3, pace});
-    CHECK(candidates.facing().size() > 30);
-    CHECK(candidates.guarded().size() > 30);
-    CHECK(candidates.guarded_edges().size() > 30);
+    CHECK(candidates.contact_candidates().size() > 30);
+    CHECK(candidates.barrier_candidates().size() > 30);
+    CHECK(candidates.barrier_edge_candidates().size() > 30);
   }
 }
 
@@ -292,13 +292,13 @@ TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {
 // that went before: nothing of it may show, however the sheet moves and wherever it is cut.
 void check_on_the_way(const Plates &plates, bool keep_near) {
   Random random(8);
-  Candidates candidates(plates.model);
+  BroadPhase candidates(plates.model);
   candidates.keep_near(keep_near);
   Positions x = wavy(plates, random);
   std::vector<size_t> found;
   const int every = short_run() ? 11 : 1;  // every kind of round all the same
   for (int round = 0; round < 96; ++round) {
-    const Pace pace = round % 5 == 4 ? Pace::each_for_itself : Pace::together;
+    const StepMotion pace = round % 5 == 4 ? StepMotion::independent : StepMotion::together;
     const double slack = round % 7 == 6 ? 0.1e-3 : 0.02e-3;
     // slow, plate against plate, with a few fast ones, a part of the sheet, all of it fast, not at
     // all
@@ -318,7 +318,8 @@ void check_on_the_way(const Plates &plates, bool keep_near) {
     for (size_t i = 0; i < x.size(); i += 13) to[i] = x[i] + random(0, 1) * step[i];
     candidates.build(x, to, slack, pace);
     if (round % every == 0) check_pairs(plates.model, candidates, {x, to, slack, pace});
-    found.push_back(candidates.guarded().size() + candidates.guarded_edges().size());
+    found.push_back(candidates.barrier_candidates().size() +
+                    candidates.barrier_edge_candidates().size());
     // some of the way, as a step that was cut
     x = moved(x, random(0.3, 1), step);
   }
@@ -347,7 +348,7 @@ TEST_CASE("candidates_of_a_fine_mesh_are_the_same_however_it_came_there") {
 TEST_CASE("what_comes_from_afar_is_found") {
   const Plates plates = plates_for_steps();
   Random random(5);
-  Candidates candidates(plates.model);
+  BroadPhase candidates(plates.model);
   Positions x = wavy(plates, random);
   const Vec3 step(0.03e-3, 0, -0.1e-3);
   for (size_t i = x.size() / 2; i < x.size(); ++i) x[i] -= 60 * step;
@@ -356,12 +357,12 @@ TEST_CASE("what_comes_from_afar_is_found") {
     Positions to = x;
     for (size_t i = x.size() / 2; i < x.size(); ++i) to[i] += step;
     candidates.build(x, to, 0.02e-3);
-    if (k == 0) first = candidates.facing().size();
+    if (k == 0) first = candidates.contact_candidates().size();
     CAPTURE(k);
-    if (k % 6 == 5) check_pairs(plates.model, candidates, {x, to, 0.02e-3, Pace::together});
+    if (k % 6 == 5) check_pairs(plates.model, candidates, {x, to, 0.02e-3, StepMotion::together});
     x = to;
   }
-  CHECK(candidates.facing().size() > first + 30);
+  CHECK(candidates.contact_candidates().size() > first + 30);
 }
 
 TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
@@ -371,21 +372,21 @@ TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
   Random random(12);
   size_t met = 0;
   for (int round = 0; round < 20; ++round) {
-    const Pace pace = round % 2 == 0 ? Pace::together : Pace::each_for_itself;
+    const StepMotion pace = round % 2 == 0 ? StepMotion::together : StepMotion::independent;
     const Positions x = wavy(plates, random);
     const Positions step = random.vectors(x.size(), 1e-3);
-    Candidates candidates(model);
+    BroadPhase candidates(model);
     candidates.build(x, moved(x, 1, step), slack, pace);
     // anywhere on the way, all together or each node for itself
     Positions y = x;
     const double common = random(0, 1);
     // least squares find the share to a few percent of the slack, hence the nine tenths
     for (size_t i = 0; i < y.size(); ++i) {
-      const double share = pace == Pace::together ? common : random(0, 1);
+      const double share = pace == StepMotion::together ? common : random(0, 1);
       y[i] += share * step[i] + random.vector(0.9 * slack / std::sqrt(3.0));
     }
     REQUIRE(candidates.valid_for(y));
-    const auto &guarded = candidates.guarded(), &faced = candidates.facing();
+    const auto &guarded = candidates.barrier_candidates(), &faced = candidates.contact_candidates();
     const auto listed = [](const std::vector<VertexTriangle> &list, uint32_t v, uint32_t t) {
       return std::any_of(list.begin(), list.end(),
                          [&](const VertexTriangle &c) { return c.vertex == v && c.triangle == t; });
@@ -395,17 +396,18 @@ TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
       const double now = distance(y, v, model.valve.triangles[t]);
       if (now >= r) return;
       const double rest = distance(model.valve.rest, v, model.valve.triangles[t]);
-      if (rest >= facing_rest_distance * r) all = all && listed(faced, v, t);
-      if (now >= guard_range(r, rest)) return;
+      if (rest >= contact_rest_distance * r) all = all && listed(faced, v, t);
+      if (now >= barrier_range(r, rest)) return;
       ++met;
       all = all && listed(guarded, v, t);
     });
     for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
       const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
       const double now = distance(y, e, f);
-      if (now >= guard_share * r || now >= guard_range(r, distance(model.valve.rest, e, f))) return;
+      if (now >= barrier_share * r || now >= barrier_range(r, distance(model.valve.rest, e, f)))
+        return;
       ++met;
-      const auto &list = candidates.guarded_edges();
+      const auto &list = candidates.barrier_edge_candidates();
       all = all && std::any_of(list.begin(), list.end(),
                                [&](const EdgeEdge &c) { return c.first == i && c.second == j; });
     });
@@ -418,12 +420,12 @@ TEST_CASE("candidates_know_how_far_they_hold") {
   const Plates plates = plates_for_steps();
   Random random(3);
   const Positions x = wavy(plates, random);
-  Candidates candidates(plates.model);
+  BroadPhase candidates(plates.model);
   CHECK_FALSE(candidates.valid_for(x));
   Positions to = x;
   to[6].z() += 1e-3;
   to[7].z() += 1e-3;
-  for (const Pace pace : {Pace::together, Pace::each_for_itself}) {
+  for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
     candidates.build(x, to, 1e-4, pace);
     Positions y = x;
     CHECK(candidates.valid_for(y));
@@ -439,7 +441,7 @@ TEST_CASE("candidates_know_how_far_they_hold") {
     CHECK_FALSE(candidates.valid_for(y));
     // one node ahead of the other by more than the slack either way
     y[6] = to[6];
-    CHECK(candidates.valid_for(y) == (pace == Pace::each_for_itself));
+    CHECK(candidates.valid_for(y) == (pace == StepMotion::independent));
   }
 }
 
@@ -452,7 +454,7 @@ TEST_CASE("candidates_recall_the_first_way_from_a_place") {
   const double slack = 0.02e-3;
   Positions cut = to;
   for (size_t i = 0; i < cut.size(); i += 13) cut[i] = x[i];
-  Candidates candidates(plates.model);
+  BroadPhase candidates(plates.model);
   candidates.build(x, x, slack);  // of no way
   candidates.build(x, to, slack);
   CHECK_FALSE(candidates.recall(x, some_way));  // there are no others
@@ -464,8 +466,8 @@ TEST_CASE("candidates_recall_the_first_way_from_a_place") {
   REQUIRE(candidates.recall(x, some_way));
   CHECK(candidates.valid_for(some_way));
   CHECK(candidates.valid_for(to));
-  check_pairs(plates.model, candidates, {x, to, slack, Pace::together});
+  check_pairs(plates.model, candidates, {x, to, slack, StepMotion::together});
   // what is looked for from there is all there is
   candidates.build(x, cut, slack);
-  check_pairs(plates.model, candidates, {x, cut, slack, Pace::together});
+  check_pairs(plates.model, candidates, {x, cut, slack, StepMotion::together});
 }

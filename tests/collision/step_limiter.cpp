@@ -16,17 +16,17 @@ using namespace mvs::core::test;
 namespace {
 
 // What a step may never do, whatever it was: cross, or use up a pair.
-void check_motion(const Model &model, const Candidates &candidates, const Positions &x,
+void check_motion(const Model &model, const BroadPhase &broad_phase, const Positions &x,
                   const Positions &dx) {
   for (const double share : {0.2, 0.5, 0.7, 0.9, 1.0}) {
     const Positions y = moved(x, share, dx);
     CHECK(find_intersections(y, model.valve.triangles).empty());
     double least = 1;
-    for (const VertexTriangle &c : candidates.guarded()) {
+    for (const VertexTriangle &c : broad_phase.barrier_candidates()) {
       const Tri &t = model.valve.triangles[c.triangle];
       least = std::min(least, distance(y, c.vertex, t) / distance(x, c.vertex, t));
     }
-    for (const EdgeEdge &c : candidates.guarded_edges()) {
+    for (const EdgeEdge &c : broad_phase.barrier_edge_candidates()) {
       const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
       least = std::min(least, distance(y, e, f) / distance(x, e, f));
     }
@@ -39,8 +39,8 @@ Positions pressed(const Plates &plates, Positions x) {
   for (int round = 0; round < 60; ++round) {
     Positions dx(x.size(), Vec3::Zero());
     for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -1e-3};
-    Candidates candidates(plates.model);
-    StepBounds().limit(plates.model, x, 0, candidates, dx);
+    BroadPhase broad_phase(plates.model);
+    StepLimiter().limit(plates.model, x, 0, broad_phase, dx);
     x = moved(x, 1, dx);
   }
   return x;
@@ -71,12 +71,12 @@ TEST_CASE("no_step_however_wild_leads_through_a_sheet") {
       dx[i].z() += i < plates.upper ? 1e-3 : -1e-3;
     }
     const Positions wanted = dx;
-    Candidates candidates(model);
+    BroadPhase broad_phase(model);
     wild += !find_intersections(moved(x, 1, dx), model.valve.triangles).empty();
-    StepBounds().limit(model, x, 0, candidates, dx);
+    StepLimiter().limit(model, x, 0, broad_phase, dx);
     CHECK(largest(dx) > 0);
     cut += farthest(dx, wanted) > 0;
-    check_motion(model, candidates, x, dx);
+    check_motion(model, broad_phase, x, dx);
   }
   // the steps were such that something had to be done
   CHECK(wild > 12);
@@ -94,9 +94,9 @@ TEST_CASE("a_crumpling_valve_never_crosses_itself") {
         dx[i].head<2>() -= 0.15 * x[i].head<2>();  // towards the axis
         if (model->topology.fixed[i]) dx[i].setZero();
       }
-      Candidates candidates(*model);
-      StepBounds().limit(*model, x, 0, candidates, dx);
-      check_motion(*model, candidates, x, dx);
+      BroadPhase broad_phase(*model);
+      StepLimiter().limit(*model, x, 0, broad_phase, dx);
+      check_motion(*model, broad_phase, x, dx);
       x = moved(x, 1, dx);
     }
   }
@@ -111,10 +111,10 @@ TEST_CASE("a_step_is_only_shortened_and_only_where_sheets_meet") {
   Positions dx(x.size(), Vec3::Zero());
   for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, -0.8e-3};
   const Positions wanted = dx;
-  Candidates candidates(model);
-  StepBounds().limit(model, x, 0, candidates, dx);
+  BroadPhase broad_phase(model);
+  StepLimiter().limit(model, x, 0, broad_phase, dx);
   CHECK(dx[plates.upper].norm() < 0.5 * wanted[plates.upper].norm());
-  check_motion(model, candidates, x, dx);
+  check_motion(model, broad_phase, x, dx);
   int uncut = 0;
   for (size_t i = 0; i < x.size(); ++i) {
     // each node keeps its direction: this is a straight line down
@@ -133,9 +133,9 @@ TEST_CASE("a_step_away_from_each_other_is_not_cut") {
   const Positions x = plates.at(0.1e-3);
   Positions dx(x.size(), Vec3::Zero());
   for (size_t i = plates.upper; i < x.size(); ++i) dx[i] = {0, 0, 1e-3};
-  Candidates candidates(plates.model);
-  candidates.build(x, moved(x, 1, dx), 0);
-  CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
+  BroadPhase broad_phase(plates.model);
+  broad_phase.build(x, moved(x, 1, dx), 0);
+  CHECK(StepLimiter().limit(plates.model, x, broad_phase, dx) == 1);
 }
 
 TEST_CASE("sheets_that_move_together_are_not_held_back") {
@@ -144,9 +144,9 @@ TEST_CASE("sheets_that_move_together_are_not_held_back") {
   // a hundred times their distance, the same way
   Positions dx(x.size(), Vec3(0, 0, 10e-3));
   const Positions wanted = dx;
-  Candidates candidates(plates.model);
-  candidates.build(x, moved(x, 1, dx), 0);
-  CHECK(StepBounds().limit(plates.model, x, candidates, dx) == 1);
+  BroadPhase broad_phase(plates.model);
+  broad_phase.build(x, moved(x, 1, dx), 0);
+  CHECK(StepLimiter().limit(plates.model, x, broad_phase, dx) == 1);
   CHECK(farthest(dx, wanted) == 0);
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("pressed_together_again_and_again_nothing_comes_to_distance_zero") {
 TEST_CASE("a_guard_has_the_room_to_bear_whatever_presses") {
   const Plates plates = plates_for_steps();
   const Model &model = plates.model;
-  const double range = guard_range(model.valve.contact_thickness, 1);
+  const double range = barrier_range(model.valve.contact_thickness, 1);
   const double least = nearest(model, pressed(plates, plates.at(0.1e-3)));
   // the strength of two edges in contact.cpp, each with a third of two triangles
   double area = 0;
@@ -179,7 +179,7 @@ TEST_CASE("what_lies_close_at_rest_is_stopped_by_its_guard_and_not_before") {
   const double apart = 1e-6;
   const Plates plates = two_plates(8, 10e-3, apart, false, [](Valve &) {});
   const Positions x = pressed(plates, plates.at(10 * apart));
-  const double range = guard_range(plates.model.valve.contact_thickness, apart);
+  const double range = barrier_range(plates.model.valve.contact_thickness, apart);
   CHECK(nearest(plates.model, x) < 0.01 * range);  // a barrier pushes a hundred times as there
   CHECK(nearest(plates.model, x) > 0);
   CHECK(find_intersections(x, plates.model.valve.triangles).empty());

@@ -71,7 +71,7 @@ TEST_CASE("contact_has_the_derivatives_of_its_energy") {
     const Positions x = rough(plates, seed);
     Touch touch(plates.model, x, 1e-5);
     const Positions g = touch.gradient(x);
-    for (const ContactStencil &s : touch.stencils()) {
+    for (const ContactPair &s : touch.contact_pairs()) {
       ++slides[s.slides];
       guards += s.guard;
       edge_edges += s.weight[1] > 0;
@@ -111,17 +111,17 @@ TEST_CASE("contact_moves_with_the_sheets_and_has_no_resultant") {
   const Positions moved = motion(x);
   Touch here(plates.model, x, 0), there(plates.model, moved, 0);
   Positions g = here.gradient(x);
-  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+  Vec3 sum = Vec3::Zero(), snapshot = Vec3::Zero();
   for (size_t i = 0; i < x.size(); ++i) {
     sum += g[i];
-    moment += x[i].cross(g[i]);
+    snapshot += x[i].cross(g[i]);
     g[i] = motion.turn * g[i];
   }
   // 1e-16 of 0.3 m over the nearest distance of 1e-4 m
   CHECK(farthest(g, there.gradient(moved)) < 1e-10 * largest(g));
   CHECK(there.energy(moved) == about(here.energy(x), 1e-10));
   CHECK(sum.norm() < 1e-12 * largest(g));
-  CHECK(moment.norm() < 1e-12 * 0.02 * largest(g));
+  CHECK(snapshot.norm() < 1e-12 * 0.02 * largest(g));
 }
 
 TEST_CASE("contact_pressure_between_plates_follows_the_gap_at_any_resolution") {

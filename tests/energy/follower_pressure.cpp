@@ -23,7 +23,7 @@ Model octahedron() {
 
 TEST_CASE("pressure_has_the_derivatives_of_its_force_also_at_the_free_edge") {
   const Model model = free_valve();
-  PressureTerm term(model);
+  FollowerPressureTerm term(model);
   term.set_pressure(16e3);
   const Gradient gradient = [&](const Positions &y) {
     Positions g(y.size(), Vec3::Zero());
@@ -39,7 +39,7 @@ TEST_CASE("pressure_has_the_derivatives_of_its_force_also_at_the_free_edge") {
         differences([&](const Positions &y) { return term.energy(y); }, x, 1e-6);
     CHECK(farthest(g, found) < 1e-7 * largest(g));
 
-    System system;
+    HessianAssembler system;
     std::vector<Edge> pairs;
     term.add_pairs(pairs);
     system.set_pattern(model, pairs);
@@ -64,7 +64,7 @@ TEST_CASE("pressure_has_the_derivatives_of_its_force_also_at_the_free_edge") {
 
 TEST_CASE("pressure_inside_a_prescribed_rim_has_a_potential") {
   const Model model = clamped_disc(4, 0.01, [](Valve &) {});
-  PressureTerm term(model);
+  FollowerPressureTerm term(model);
   term.set_pressure(1e3);
   Random random(3);
   Positions x = model.valve.rest, y(x.size(), Vec3::Zero());
@@ -75,7 +75,7 @@ TEST_CASE("pressure_inside_a_prescribed_rim_has_a_potential") {
 
 TEST_CASE("pressure_on_a_closed_surface_has_no_resultant") {
   const Model model = octahedron();
-  PressureTerm term(model);
+  FollowerPressureTerm term(model);
   term.set_pressure(16e3);
   Random random(6);
   Positions x = model.valve.rest;
@@ -89,7 +89,7 @@ TEST_CASE("pressure_on_a_closed_surface_has_no_resultant") {
 
 TEST_CASE("pressure_on_a_cap_pushes_with_its_projected_area") {
   const Model model = clamped_disc(6, 0.012, [](Valve &) {});
-  PressureTerm term(model);
+  FollowerPressureTerm term(model);
   term.set_pressure(16e3);
   Positions x = model.valve.rest;
   for (Vec3 &p : x) p.z() = 50 * (0.012 * 0.012 - p.squaredNorm());

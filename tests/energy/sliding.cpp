@@ -50,7 +50,7 @@ Felt felt_by_probe(const Facing &sheet, const Vec3 &p) {
   Touch touch(sheet.model, x, 0);
   touch.energy(x);
   Felt felt;
-  for (const ContactStencil &s : touch.stencils()) {
+  for (const ContactPair &s : touch.contact_pairs()) {
     if (s.node[0] != sheet.probe || s.guard) continue;
     const Barrier b = barrier(s.distance / s.range);
     felt.energy += s.strength * s.range * b.value;

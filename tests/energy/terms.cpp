@@ -103,7 +103,7 @@ TEST_CASE("chordae_have_the_derivatives_of_their_energy_in_every_law") {
       valve.chords[c].constants = constants;
     }
     const Model model = model_of_sheet(valve, {});
-    check_term(model, ChordTerm(model));
+    check_term(model, CableTerm(model));
   }
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("inner_forces_have_no_resultant") {
     Positions g(x.size(), Vec3::Zero());
     if (term == 0) SpringTerm(model).gradient(x, g);
     if (term == 1) BendingTerm(model).gradient(x, g);
-    if (term == 2) ChordTerm(model).gradient(x, g);
+    if (term == 2) CableTerm(model).gradient(x, g);
     if (term == 3) MembraneTerm(sheet).gradient(x, g);
     // rounding of a sum of some hundred forces; arms are below 0.03 m
     CHECK(sum_of(g).norm() < 1e-13 * largest(g));
@@ -130,7 +130,7 @@ TEST_CASE("nothing_pulls_in_the_rest_shape") {
   Positions g(x.size(), Vec3::Zero());
   SpringTerm(model).gradient(x, g);
   BendingTerm(model).gradient(x, g);
-  ChordTerm(model).gradient(x, g);
+  CableTerm(model).gradient(x, g);
   for (const LeafletLaw &law : leaflet_laws()) {
     if (law.response) MembraneTerm(free_membrane(law)).gradient(x, g);
   }
@@ -170,7 +170,7 @@ TEST_CASE("a_chord_pulls_with_ea_times_strain_and_never_pushes") {
   chord.b = 1;
   valve.chords = {chord};
   const Model model = model_of_sheet(valve, {0});
-  const ChordTerm term(model);
+  const CableTerm term(model);
   for (const double strain : {0.01, 0.05, 0.2}) {
     Positions g(2, Vec3::Zero());
     const double energy = term.gradient({Vec3::Zero(), Vec3(0, 0, 20e-3 * (1 + strain))}, g);
@@ -187,28 +187,28 @@ TEST_CASE("a_chord_pulls_with_ea_times_strain_and_never_pushes") {
 
 TEST_CASE("the_whole_potential_has_the_derivatives_of_its_energy") {
   const Model model = free_valve();
-  Potential potential(model);
-  potential.set_pressure(16e3);
+  TotalEnergy total_energy(model);
+  total_energy.set_pressure(16e3);
   const Positions x = crumpled(model, 7);
   Profile profile{};
-  potential.prepare(x, x, 1e-4, profile);
-  System system;
+  total_energy.prepare(x, x, 1e-4, profile);
+  HessianAssembler system;
   Positions g;
   const Gradient gradient = [&](const Positions &y) {
-    potential.gradient(y, g, profile);
+    total_energy.gradient(y, g, profile);
     return g;
   };
   const Positions at_x = gradient(x);
-  potential.hessian(x, Curvature::exact, system, profile);
+  total_energy.hessian(x, Curvature::exact, system, profile);
   const Eigen::MatrixXd h = dense(system);
   const Positions found =
-      differences([&](const Positions &y) { return potential.energy(y); }, x, 1e-7);
+      differences([&](const Positions &y) { return total_energy.energy(y); }, x, 1e-7);
   // as for the terms
   CHECK(farthest(at_x, found) < 1e-6 * largest(at_x));
   Random random(8);
   const Positions v = random.vectors(x.size(), 1);
   Positions skew(x.size(), Vec3::Zero()), after = x, before = x;
-  potential.add_skew(x, v, skew);
+  total_energy.add_skew(x, v, skew);
   for (size_t i = 0; i < x.size(); ++i) {
     after[i] += 1e-7 * v[i];
     before[i] -= 1e-7 * v[i];
@@ -226,15 +226,15 @@ TEST_CASE("a_moving_boundary_pulls_through_the_blocks_it_has_no_rows_for") {
   Random random(10);
   Positions step(x.size(), Vec3::Zero());
   for (const uint32_t node : fixed) step[node] = random.vector(1e-3);
-  const auto assemble = [&x](const Model &m, System &system) {
-    Potential potential(m);
+  const auto assemble = [&x](const Model &m, HessianAssembler &system) {
+    TotalEnergy total_energy(m);
     Profile profile{};
     Positions g;
-    potential.prepare(x, x, 1e-4, profile);
-    potential.gradient(x, g, profile);
-    potential.hessian(x, Curvature::projected, system, profile);
+    total_energy.prepare(x, x, 1e-4, profile);
+    total_energy.gradient(x, g, profile);
+    total_energy.hessian(x, Curvature::projected, system, profile);
   };
-  System all, some;
+  HessianAssembler all, some;
   assemble(whole, all);
   some.boundary_step = &step;
   assemble(model, some);

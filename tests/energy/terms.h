@@ -31,7 +31,7 @@ Probe probe_of(const Model &model, const Term &term) {
     return g;
   };
   probe.hessian = [&model, &term](const Positions &x, Curvature curvature) {
-    System system;
+    HessianAssembler system;
     std::vector<Edge> pairs;
     term.add_pairs(pairs);
     system.set_pattern(model, pairs);

@@ -11,22 +11,22 @@ class Touch {
  public:
   Touch(const Model &model, const Positions &around, double reach,
         ContactLaw law = ContactLaw::barrier)
-      : model_(&model), candidates_(model), term_(model, law) {
-    candidates_.build(around, around, reach);
+      : model_(&model), broad_phase_(model), term_(model, law) {
+    broad_phase_.build(around, around, reach);
   }
   double energy(const Positions &x) {
-    term_.collect(x, candidates_);
+    term_.collect(x, broad_phase_);
     return term_.energy();
   }
   Positions gradient(const Positions &x) {
-    term_.collect(x, candidates_);
+    term_.collect(x, broad_phase_);
     Positions g(x.size(), Vec3::Zero());
     term_.gradient(g);
     return g;
   }
   Eigen::MatrixXd hessian(const Positions &x, Curvature curvature) {
-    term_.collect(x, candidates_);
-    System system;
+    term_.collect(x, broad_phase_);
+    HessianAssembler system;
     std::vector<Edge> pairs;
     term_.add_pairs(pairs);
     system.set_pattern(*model_, pairs);
@@ -34,11 +34,11 @@ class Touch {
     CHECK(term_.hessian(x, curvature, system));
     return dense(system);
   }
-  const std::vector<ContactStencil> &stencils() const { return term_.stencils(); }
+  const std::vector<ContactPair> &contact_pairs() const { return term_.contact_pairs(); }
 
  private:
   const Model *model_;
-  Candidates candidates_;
+  BroadPhase broad_phase_;
   ContactTerm term_;
 };
 

@@ -18,7 +18,7 @@ bool same_bits(std::initializer_list<double> a, std::initializer_list<double> b)
 }
 
 template <typename Part, typename Same>
-bool same_parts(const SharedVector<Part> &a, const SharedVector<Part> &b, Same same) {
+bool same_parts(const CowVector<Part> &a, const CowVector<Part> &b, Same same) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const Part &p, const Part &q) {
     return p.id == q.id && p.name == q.name && same(p, q);
   });

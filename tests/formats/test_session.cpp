@@ -16,45 +16,45 @@ namespace {
 
 using Hash128 = std::array<uint64_t, 2>;
 
-Hash128 hash_of(const Picture &picture) {
-  return mvs::core::hash_of(*picture.model, picture.state);
+Hash128 hash_of(const ModelState &current) {
+  return mvs::core::hash_of(*current.model, current.state);
 }
 
 template <typename Struct>
-Moment with_op(const Moment &now, Struct op, uint32_t kind, const Group &group = {}) {
+Snapshot with_op(const Snapshot &now, Struct op, uint32_t kind, const Group &group = {}) {
   op.op = {sizeof op, kind};
   return after_op(now, Operation(&op.op), group, 1700000000000 + static_cast<int64_t>(kind));
 }
 
 // Time goes on: other positions, a move in the history.
-Moment stepped(const Moment &now, uint64_t steps) {
-  Moment moment = now;
-  State &state = moment.picture.state;
+Snapshot stepped(const Snapshot &now, uint64_t steps) {
+  Snapshot snapshot = now;
+  State &state = snapshot.current.state;
   for (Vec3 &x : state.x) x += Vec3(1e-6, 2e-6, -1e-6) * static_cast<double>(steps);
   state.steps += steps;
   state.time += 1e-3 * static_cast<double>(steps);
-  Move move;
-  move.kind = Move::step;
+  RecordedEvent move;
+  move.kind = RecordedEvent::step;
   move.dt = 1e-3;
   move.budget = 32;
   for (uint64_t k = 0; k < steps; ++k) {
-    moment.timeline.moves = with_move(moment.timeline.moves, move);
+    snapshot.history.moves = with_move(snapshot.history.moves, move);
   }
-  return moment;
+  return snapshot;
 }
 
-Moment loaded(const Moment &now, double pressure) {
-  Moment moment = now;
-  moment.picture.state.load = {pressure, 1};
-  Move move;
+Snapshot loaded(const Snapshot &now, double pressure) {
+  Snapshot snapshot = now;
+  snapshot.current.state.load = {pressure, 1};
+  RecordedEvent move;
   move.pressure = pressure;
   move.boundary_fraction = 1;
-  moment.timeline.moves = with_move(moment.timeline.moves, move);
-  return moment;
+  snapshot.history.moves = with_move(snapshot.history.moves, move);
+  return snapshot;
 }
 
 // A round ring of 28 mm.
-Moment with_ring(const Moment &now) {
+Snapshot with_ring(const Snapshot &now) {
   std::vector<Vec3> curve;
   for (int k = 0; k < 24; ++k) {
     const double angle = k * std::acos(-1.0) / 12;
@@ -65,20 +65,20 @@ Moment with_ring(const Moment &now) {
   return with_op(now, ring, MVS_OP_RING);
 }
 
-Moment start() {
+Snapshot start() {
   Pair pair = moving_valve();
   return {{std::make_shared<const Model>(pair.model), pair.state}, {}};
 }
 
 // Operations with fields of many types, a group, checkpoints, something undone.
-Moment a_session() {
-  const Moment first = start();
-  const Valve &valve = first.picture.model->valve;
+Snapshot a_session() {
+  const Snapshot first = start();
+  const Valve &valve = first.current.model->valve;
   const Id chord = valve.chords[1].id, head = valve.heads[0].id;
-  Moment now = loaded(stepped(first, 3), 16e3);
+  Snapshot now = loaded(stepped(first, 3), 16e3);
   now = with_op(now, mvs_op_chord_length{{}, chord, 0, 0.75, {}}, MVS_OP_CHORD_LENGTH);
   now = with_checkpoint(stepped(now, 2), "short chord");
-  const Group group{now.timeline.next_group++, "two at once"};
+  const Group group{now.history.next_group++, "two at once"};
   now = with_op(now, mvs_op_annulus_scale{{}, 0.95, 0, 1.1}, MVS_OP_ANNULUS_SCALE, group);
   now =
       with_op(now, mvs_op_head_move{{}, head, {1e-3, -2e-3, 5e-4}, 0, 0}, MVS_OP_HEAD_MOVE, group);
@@ -93,7 +93,7 @@ Moment a_session() {
   return undone(undone(undone(stepped(now, 4))));
 }
 
-std::vector<Hash128> hashes(const Entries &entries) {
+std::vector<Hash128> hashes(const HistoryEntries &entries) {
   std::vector<Hash128> all;
   for (const auto *entry : entries.items()) {
     all.push_back(hash_of((*entry)->before));
@@ -102,10 +102,10 @@ std::vector<Hash128> hashes(const Entries &entries) {
   return all;
 }
 
-std::vector<std::string> titles(const Entries &entries) {
+std::vector<std::string> titles(const HistoryEntries &entries) {
   std::vector<std::string> all;
   for (const auto *entry : entries.items()) {
-    const Entry &e = **entry;
+    const HistoryEntry &e = **entry;
     all.push_back(e.title + "|" + e.group_name + "|" + std::to_string(e.group) + "|" +
                   std::to_string(e.made) + "|" + std::to_string(e.time_ms) + "|" +
                   std::to_string(e.moves.size()));
@@ -132,57 +132,56 @@ std::string with_word(H5Tree tree, const char *array, size_t at, uint64_t word) 
 }  // namespace
 
 TEST_CASE("a_session_comes_back_to_the_bit") {
-  const Moment now = a_session();
+  const Snapshot now = a_session();
   const std::string bytes = write_session(now, {});
-  const Moment again = read_session(bytes);
-  CHECK(hash_of(again.picture) == hash_of(now.picture));
-  REQUIRE(again.timeline.start);
-  CHECK(hash_of(*again.timeline.start) == hash_of(*now.timeline.start));
-  REQUIRE(now.timeline.past.size() == 3);
-  REQUIRE(now.timeline.future.size() == 3);
-  CHECK(hashes(again.timeline.past) == hashes(now.timeline.past));
-  CHECK(hashes(again.timeline.future) == hashes(now.timeline.future));
-  CHECK(titles(again.timeline.past) == titles(now.timeline.past));
-  CHECK(titles(again.timeline.future) == titles(now.timeline.future));
-  CHECK(again.timeline.next_group == now.timeline.next_group);
-  CHECK(again.timeline.moves.size() == now.timeline.moves.size());
-  REQUIRE(again.timeline.checkpoints);
-  REQUIRE(again.timeline.checkpoints->size() == 2);
-  CHECK(again.timeline.checkpoints->at(0).name == "short chord");
-  CHECK(hash_of(again.timeline.checkpoints->at(1).at) ==
-        hash_of(now.timeline.checkpoints->at(1).at));
+  const Snapshot again = read_session(bytes);
+  CHECK(hash_of(again.current) == hash_of(now.current));
+  REQUIRE(again.history.start);
+  CHECK(hash_of(*again.history.start) == hash_of(*now.history.start));
+  REQUIRE(now.history.past.size() == 3);
+  REQUIRE(now.history.future.size() == 3);
+  CHECK(hashes(again.history.past) == hashes(now.history.past));
+  CHECK(hashes(again.history.future) == hashes(now.history.future));
+  CHECK(titles(again.history.past) == titles(now.history.past));
+  CHECK(titles(again.history.future) == titles(now.history.future));
+  CHECK(again.history.next_group == now.history.next_group);
+  CHECK(again.history.moves.size() == now.history.moves.size());
+  REQUIRE(again.history.checkpoints);
+  REQUIRE(again.history.checkpoints->size() == 2);
+  CHECK(again.history.checkpoints->at(0).name == "short chord");
+  CHECK(hash_of(again.history.checkpoints->at(1).at) == hash_of(now.history.checkpoints->at(1).at));
   // whatever else there is would change the bytes
   CHECK(write_session(again, {}) == bytes);
 }
 
 TEST_CASE("a_loaded_session_goes_on_as_the_saved_one") {
-  Moment now = a_session(), again = read_session(write_session(now, {}));
-  const mvs_op_chord_remove op = {{}, now.picture.model->valve.chords[5].id};
-  CHECK(hash_of(with_op(again, op, MVS_OP_CHORD_REMOVE).picture) ==
-        hash_of(with_op(now, op, MVS_OP_CHORD_REMOVE).picture));
-  while (!now.timeline.future.empty()) {
+  Snapshot now = a_session(), again = read_session(write_session(now, {}));
+  const mvs_op_chord_remove op = {{}, now.current.model->valve.chords[5].id};
+  CHECK(hash_of(with_op(again, op, MVS_OP_CHORD_REMOVE).current) ==
+        hash_of(with_op(now, op, MVS_OP_CHORD_REMOVE).current));
+  while (!now.history.future.empty()) {
     now = redone(now);
     again = redone(again);
-    CHECK(hash_of(again.picture) == hash_of(now.picture));
+    CHECK(hash_of(again.current) == hash_of(now.current));
   }
   for (const char *name : {"short chord", ""}) {
-    CHECK(hash_of(at_checkpoint(again, name).picture) == hash_of(at_checkpoint(now, name).picture));
+    CHECK(hash_of(at_checkpoint(again, name).current) == hash_of(at_checkpoint(now, name).current));
   }
-  while (!now.timeline.past.empty()) {
+  while (!now.history.past.empty()) {
     now = undone(now);
     again = undone(again);
-    CHECK(hash_of(again.picture) == hash_of(now.picture));
+    CHECK(hash_of(again.current) == hash_of(now.current));
   }
-  CHECK(again.timeline.past.empty());
+  CHECK(again.history.past.empty());
 }
 
 TEST_CASE("a_valve_without_history_is_a_session") {
-  const Moment again = read_session(write_session(start(), {}));
-  CHECK(hash_of(again.picture) == hash_of(start().picture));
-  CHECK(again.timeline.past.empty());
-  CHECK(again.timeline.future.empty());
-  CHECK(!again.timeline.start);
-  CHECK(!again.timeline.checkpoints);
+  const Snapshot again = read_session(write_session(start(), {}));
+  CHECK(hash_of(again.current) == hash_of(start().current));
+  CHECK(again.history.past.empty());
+  CHECK(again.history.future.empty());
+  CHECK(!again.history.start);
+  CHECK(!again.history.checkpoints);
 }
 
 // session_v1.h5 is a_session() as version 1 of the format first wrote it. What it has to hold is in
@@ -193,68 +192,69 @@ TEST_CASE("a_file_of_version_1_is_read_as_ever") {
     const Pair pair = complete(read_obj(read_whole_file(data + name)));
     return mvs::core::hash_of(pair.model, pair.state);
   };
-  Moment now = read_session(read_whole_file(data + ".h5"));
-  CHECK(hash_of(now.picture) == told("_present.obj"));
-  CHECK(now.timeline.future.size() == 3);
-  CHECK(hash_of(redone(redone(redone(now))).picture) == hash_of(at_checkpoint(now, "").picture));
-  REQUIRE(now.timeline.past.size() == 3);
-  const Operation &op = now.timeline.past.items()[0][0]->op;
+  Snapshot now = read_session(read_whole_file(data + ".h5"));
+  CHECK(hash_of(now.current) == told("_present.obj"));
+  CHECK(now.history.future.size() == 3);
+  CHECK(hash_of(redone(redone(redone(now))).current) == hash_of(at_checkpoint(now, "").current));
+  REQUIRE(now.history.past.size() == 3);
+  const Operation &op = now.history.past.items()[0][0]->op;
   REQUIRE(op.kind().number == MVS_OP_CHORD_LENGTH);
   CHECK(op.as<mvs_op_chord_length>().factor == 0.75);
-  while (!now.timeline.past.empty()) now = undone(now);
-  CHECK(hash_of(now.picture) == told("_undone.obj"));
+  while (!now.history.past.empty()) now = undone(now);
+  CHECK(hash_of(now.current) == told("_undone.obj"));
 }
 
 // session_v2.h5 is the same session as version 2 of the format wrote it.
 TEST_CASE("a_file_of_version_2_is_read_as_ever") {
   const std::string data = MVS_SOURCE_DIR "/tests/formats/data/session_v";
-  Moment now = read_session(read_whole_file(data + "2.h5"));
-  const Moment first = read_session(read_whole_file(data + "1.h5"));
-  CHECK(hash_of(now.picture) == hash_of(first.picture));
-  CHECK(now.timeline.future.size() == 3);
-  CHECK(now.timeline.moves.size() == first.timeline.moves.size());
-  CHECK(now.picture.state.tools.empty());
-  CHECK(hash_of(at_checkpoint(now, "").picture) == hash_of(at_checkpoint(first, "").picture));
+  Snapshot now = read_session(read_whole_file(data + "2.h5"));
+  const Snapshot first = read_session(read_whole_file(data + "1.h5"));
+  CHECK(hash_of(now.current) == hash_of(first.current));
+  CHECK(now.history.future.size() == 3);
+  CHECK(now.history.moves.size() == first.history.moves.size());
+  CHECK(now.current.state.tools.empty());
+  CHECK(hash_of(at_checkpoint(now, "").current) == hash_of(at_checkpoint(first, "").current));
 }
 
 // session_v3.h5 goes on from there: a grasp moved and stepped twice, a ball taken out again.
 TEST_CASE("a_file_of_version_3_is_read_as_ever") {
   const std::string data = MVS_SOURCE_DIR "/tests/formats/data/session_v";
-  const Moment now = read_session(read_whole_file(data + "3.h5"));
-  const Moment first = read_session(read_whole_file(data + "2.h5"));
-  REQUIRE(now.picture.state.tools.size() == 1);
-  CHECK(now.picture.state.tools_made == 2);
-  CHECK(now.picture.state.steps == first.picture.state.steps + 2);
-  std::vector<Move::Kind> kinds;
-  const std::vector<const Move *> moves = now.timeline.moves.items();
-  for (size_t k = first.timeline.moves.size(); k < moves.size(); ++k) {
+  const Snapshot now = read_session(read_whole_file(data + "3.h5"));
+  const Snapshot first = read_session(read_whole_file(data + "2.h5"));
+  REQUIRE(now.current.state.tools.size() == 1);
+  CHECK(now.current.state.tools_made == 2);
+  CHECK(now.current.state.steps == first.current.state.steps + 2);
+  std::vector<RecordedEvent::Kind> kinds;
+  const std::vector<const RecordedEvent *> moves = now.history.moves.items();
+  for (size_t k = first.history.moves.size(); k < moves.size(); ++k) {
     kinds.push_back(moves[k]->kind);
   }
-  using Kinds = std::vector<Move::Kind>;
-  CHECK(kinds == Kinds{Move::tool_add, Move::tool_add, Move::tool_move, Move::step, Move::tool_move,
-                       Move::step, Move::tool_remove});
+  using Kinds = std::vector<RecordedEvent::Kind>;
+  CHECK(kinds == Kinds{RecordedEvent::tool_add, RecordedEvent::tool_add, RecordedEvent::tool_move,
+                       RecordedEvent::step, RecordedEvent::tool_move, RecordedEvent::step,
+                       RecordedEvent::tool_remove});
 }
 
 // session_v4.h5 is a parametric valve of which P2/1 was tied to AL1 without a length: then it kept
 // its own, and a plan of it has to say so.
 TEST_CASE("a_file_of_version_4_is_read_as_ever") {
   const std::string data = MVS_SOURCE_DIR "/tests/formats/data/session_v4.h5";
-  const Moment now = read_session(read_whole_file(data));
-  REQUIRE(now.timeline.past.size() == 1);
-  const auto op = now.timeline.past.items()[0][0]->op.as<mvs_op_chord_transfer>();
+  const Snapshot now = read_session(read_whole_file(data));
+  REQUIRE(now.history.past.size() == 1);
+  const auto op = now.history.past.items()[0][0]->op.as<mvs_op_chord_transfer>();
   CHECK(op.end == MVS_END_HEAD);
-  const std::vector<Chord> &chords = now.picture.model->valve.chords;
+  const std::vector<Chord> &chords = now.current.model->valve.chords;
   const auto chord = std::find_if(chords.begin(), chords.end(),
                                   [&](const Chord &one) { return one.id == op.chord; });
   REQUIRE(chord != chords.end());
   CHECK(op.length == chord->rest_length);
-  const Moment again = after_op(undone(now), Operation(&op.op), {}, 0);
-  CHECK(hash_of(again.picture) == hash_of(now.picture));
+  const Snapshot again = after_op(undone(now), Operation(&op.op), {}, 0);
+  CHECK(hash_of(again.current) == hash_of(now.current));
 }
 
 TEST_CASE("what_live_steps_go_on_from_is_part_of_a_session") {
-  Moment now = start();
-  State &state = now.picture.state;
+  Snapshot now = start();
+  State &state = now.current.state;
   Tool ball;
   ball.id = 7;
   ball.kind = MVS_TOOL_BALL;
@@ -263,24 +263,24 @@ TEST_CASE("what_live_steps_go_on_from_is_part_of_a_session") {
   state.serving = {state.x, {}, 12e3, 1e-3, 0, 9};
   state.coming = {state.x, {ball}, 13e3, 1e-3, 0, 2};
   state.coming.x.push_back(Vec3(1, 2, 3));
-  const Moment again = read_session(write_session(now, {}));
-  CHECK(hash_of(again.picture) == hash_of(now.picture));
-  CHECK(again.picture.state.serving.x.buffer() == again.picture.state.x.buffer());
+  const Snapshot again = read_session(write_session(now, {}));
+  CHECK(hash_of(again.current) == hash_of(now.current));
+  CHECK(again.current.state.serving.x.buffer() == again.current.state.x.buffer());
   state.coming.x.push_back(Vec3(1, 2, 3));
   CHECK(outcome(write_session(now, {})) == MVS_E_FORMAT);
 }
 
 TEST_CASE("what_levels_share_is_shared_again") {
-  const Moment again = read_session(write_session(a_session(), {}));
+  const Snapshot again = read_session(write_session(a_session(), {}));
   std::set<const void *> triangles, rests, topologies;
   std::set<const Model *> models;
-  for (const Entries &entries : {again.timeline.past, again.timeline.future}) {
+  for (const HistoryEntries &entries : {again.history.past, again.history.future}) {
     for (const auto *entry : entries.items()) {
-      for (const Picture *picture : {&(*entry)->before, &(*entry)->after}) {
-        models.insert(picture->model.get());
-        triangles.insert(picture->model->valve.triangles.buffer());
-        rests.insert(picture->model->valve.rest.buffer());
-        topologies.insert(picture->model->topology.edges.buffer());
+      for (const ModelState *current : {&(*entry)->before, &(*entry)->after}) {
+        models.insert(current->model.get());
+        triangles.insert(current->model->valve.triangles.buffer());
+        rests.insert(current->model->valve.rest.buffer());
+        topologies.insert(current->model->topology.edges.buffer());
       }
     }
   }
@@ -288,14 +288,14 @@ TEST_CASE("what_levels_share_is_shared_again") {
   CHECK(triangles.size() == 1);
   CHECK(topologies.size() == 1);
   CHECK(rests.size() == 1);
-  const auto entries = again.timeline.past.items();
+  const auto entries = again.history.past.items();
   CHECK((*entries[0])->after.model == (*entries[1])->before.model);
-  CHECK(again.picture.model == (*entries.back())->after.model);
+  CHECK(again.current.model == (*entries.back())->after.model);
 }
 
 TEST_CASE("a_level_costs_what_it_changed") {
-  Moment now = start();
-  const Id chord = now.picture.model->valve.chords[1].id;
+  Snapshot now = start();
+  const Id chord = now.current.model->valve.chords[1].id;
   const size_t empty = write_session(now, {}).size();
   constexpr size_t levels = 100;
   for (size_t k = 0; k < levels; ++k) {
@@ -308,13 +308,13 @@ TEST_CASE("a_level_costs_what_it_changed") {
   // there are waypoints, a model, its 12 chords and the operation in words: 2018; positions would
   // be 3264 bytes
   CHECK(each < 2032);
-  CHECK(hash_of(read_session(write_session(now, {})).timeline.past.items()[7][0]->after) ==
-        hash_of(now.timeline.past.items()[7][0]->after));
+  CHECK(hash_of(read_session(write_session(now, {})).history.past.items()[7][0]->after) ==
+        hash_of(now.history.past.items()[7][0]->after));
 }
 
 TEST_CASE("numbers_that_are_none_are_not_saved") {
-  Moment now = start();
-  now.picture.state.x[5][1] = std::numeric_limits<double>::quiet_NaN();
+  Snapshot now = start();
+  now.current.state.x[5][1] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(write_session(now, {}), doctest::Contains("go back to an earlier state"));
 }
 

@@ -109,8 +109,8 @@ namespace {
 // largest force there.
 double error_within(double reach, const State &state, Id id) {
   const Tool tool = tool_of(state, id, "test");
-  TissueMaker maker;
-  const Tissue tissue = maker.of_tool(*valve().model, state, tool);
+  TissueModelBuilder maker;
+  const TissueModel tissue = maker.of_tool(*valve().model, state, tool);
   double error = 0, size = tissue.force.norm();
   for (const Vec3 &direction : directions()) {
     const Vec3 hand = tool.position + reach * direction;

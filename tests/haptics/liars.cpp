@@ -88,7 +88,7 @@ TEST_CASE("a loop that hangs is noticed, latched, and left behind") {
   Device device(desc_of(path, MVS_CLOCK_REAL), {});
   device.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
-  const ServoPicture now = device.picture();
+  const ServoStatus now = device.status();
   CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
   CHECK_EQ(now.cause, MVS_CAUSE_WATCHDOG);
   CHECK_THROWS_AS(device.arm(), Error);
@@ -102,7 +102,7 @@ TEST_CASE("a loop that ends by itself is a lost device") {
   Device device(desc_of(path, MVS_CLOCK_REAL), {});
   device.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  CHECK_EQ(device.picture().cause, MVS_CAUSE_UNPLUGGED);
+  CHECK_EQ(device.status().cause, MVS_CAUSE_UNPLUGGED);
   CHECK_THROWS_AS(device.arm(), Error);
   device.stop();
 }
@@ -113,7 +113,7 @@ TEST_CASE("samples of garbage move nothing") {
   device.start();
   device.advance(0.1);
   CHECK_THROWS_AS(device.arm(), Error);
-  const ServoPicture now = device.picture();
+  const ServoStatus now = device.status();
   CHECK(now.pose.position.isZero(0));
   CHECK(now.force.isZero(0));
 }

@@ -16,12 +16,12 @@ class Loop {
   }
 
   Device &device() { return device_; }
-  ServoPicture run(double seconds) {
+  ServoStatus run(double seconds) {
     device_.advance(seconds);
-    return device_.picture();
+    return device_.status();
   }
-  ServoPicture run_stopped() { return device_.picture(); }
-  void post(const Tissue &tissue) { device_.links().tissue.post(tissue); }
+  ServoStatus run_stopped() { return device_.status(); }
+  void post(const TissueModel &tissue) { device_.links().tissue.post(tissue); }
   // Forces on: the gate and the ramp behind it.
   void arm() {
     device_.advance(5e-3);
@@ -50,9 +50,9 @@ class Loop {
 };
 
 // A spring to a place, as a grasp of something that does not move.
-inline Tissue spring(double stiffness, const Vec3 &to = Vec3::Zero()) {
-  Tissue tissue;
-  tissue.kind = Tissue::held;
+inline TissueModel spring(double stiffness, const Vec3 &to = Vec3::Zero()) {
+  TissueModel tissue;
+  tissue.kind = TissueModel::held;
   tissue.contact = 1;
   tissue.origin = to;
   tissue.stiffness = stiffness * Mat3::Identity();

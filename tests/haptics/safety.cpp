@@ -27,7 +27,7 @@ bool can_arm(Loop &loop) {
   }
 }
 
-void check_felt(const ServoPicture &now) {
+void check_felt(const ServoStatus &now) {
   CHECK_EQ(now.phase, MVS_DEVICE_ON);
   CHECK_LT(now.force.x(), -0.05);
 }
@@ -57,11 +57,11 @@ TEST_CASE("every fault of the list latches forces off, and only an arm brings th
     loop.arm();
     loop.post(spring(200));
     check_felt(loop.run(0.9));
-    const ServoPicture during = loop.run(0.4);
+    const ServoStatus during = loop.run(0.4);
     CHECK_EQ(during.phase, MVS_DEVICE_LATCHED);
     CHECK_EQ(during.cause, fault.cause);
     CHECK(during.force.isZero(0));
-    const ServoPicture after = loop.run(0.5);
+    const ServoStatus after = loop.run(0.5);
     CHECK_EQ(after.phase, MVS_DEVICE_LATCHED);
     CHECK_EQ(after.cause, fault.cause);
     CHECK(after.force.isZero(0));
@@ -89,7 +89,7 @@ TEST_CASE("saturated motors are told, and nothing else happens") {
   Loop loop(std::string(at_rest) + "fault=saturated\nfault_at=0.1");
   loop.arm();
   loop.post(spring(200));
-  const ServoPicture now = loop.run(0.5);
+  const ServoStatus now = loop.run(0.5);
   check_felt(now);
   CHECK((now.flags & MVS_DRIVER_SATURATED) != 0);
 }
@@ -129,14 +129,14 @@ TEST_CASE("forces wait behind the gate, then come up along the ramp") {
   loop.device().set_limits(limits);
   loop.post(spring(200));  // 0.4 N at 2 mm, above the gate of 0.2
   loop.device().arm();
-  const ServoPicture waiting = loop.run(0.5);
+  const ServoStatus waiting = loop.run(0.5);
   CHECK_EQ(waiting.phase, MVS_DEVICE_WAITING);
   CHECK(waiting.force.isZero(0));
   loop.post(spring(80));
   loop.run(0.01);
   double before = 0;
   for (int k = 0; k < 48; ++k) {
-    const ServoPicture now = loop.run(0.01);
+    const ServoStatus now = loop.run(0.01);
     const double force = now.force.norm();
     CHECK_EQ(now.phase, MVS_DEVICE_RAMPING);
     // a fiftieth of the force each 10 ms, and what the hand moves meanwhile
@@ -156,8 +156,8 @@ TEST_CASE("a force is clamped to what the user allows, and changes no faster tha
   limits.ramp_s = 0.01;
   limits.stale_s = 10;
   loop.device().set_limits(limits);
-  Tissue pull;
-  pull.kind = Tissue::pulled;
+  TissueModel pull;
+  pull.kind = TissueModel::pulled;
   pull.contact = 1;
   pull.force = Vec3(0, 50, 0);
   pull.most = 100;
@@ -165,7 +165,7 @@ TEST_CASE("a force is clamped to what the user allows, and changes no faster tha
   Vec3 before = Vec3::Zero();
   uint32_t limited = 0;
   for (int k = 0; k < 400; ++k) {
-    const ServoPicture now = loop.run(1e-3);
+    const ServoStatus now = loop.run(1e-3);
     CHECK_LE((now.force - before).norm(), 2e-3 * (1 + 1e-9));
     CHECK_LE(now.force.norm(), 0.3 * (1 + 1e-9));
     before = now.force;
@@ -185,8 +185,8 @@ TEST_CASE("motors are not asked for more than they bear") {
   limits.stale_s = 10;
   limits.speed = 100;
   loop.device().set_limits(limits);
-  Tissue pull;
-  pull.kind = Tissue::pulled;
+  TissueModel pull;
+  pull.kind = TissueModel::pulled;
   pull.contact = 1;
   pull.force = Vec3(-10, 0, 0);
   pull.most = 100;
@@ -194,7 +194,7 @@ TEST_CASE("motors are not asked for more than they bear") {
   const double at_first = loop.run(0.03).force.norm();
   CHECK_GT(at_first, 2.5);
   // where the limit and the mean square of the force meet: the continuous force, 0.88 N
-  ServoPicture hot;
+  ServoStatus hot;
   for (int k = 0; k < 4; ++k) {
     loop.post(pull);
     hot = loop.run(5);
@@ -212,7 +212,7 @@ TEST_CASE("forces fade when the simulation stands still, and come back with it")
   loop.device().set_limits(limits);  // stale after 0.1 s, faded after 0.05 more
   loop.post(spring(200));
   check_felt(loop.run(0.09));
-  const ServoPicture fading = loop.run(0.03);
+  const ServoStatus fading = loop.run(0.03);
   CHECK_EQ(fading.phase, MVS_DEVICE_FADED);
   CHECK_GT(fading.force.norm(), 0);
   CHECK(loop.run(0.1).force.isZero(1e-12));
@@ -231,14 +231,14 @@ TEST_CASE("a tissue that is no number latches, and never reaches the motors") {
     loop.arm();
     loop.post(spring(200));
     check_felt(loop.run(0.1));
-    Tissue wrong = spring(200);
+    TissueModel wrong = spring(200);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     if (where == 0) wrong.force.x() = nan;
     if (where == 1) wrong.stiffness(1, 2) = std::numeric_limits<double>::infinity();
     if (where == 2) wrong.origin.z() = nan;
     if (where == 3) wrong.most = nan;
     loop.post(wrong);
-    const ServoPicture now = loop.run(0.01);
+    const ServoStatus now = loop.run(0.01);
     CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
     CHECK_EQ(now.cause, MVS_CAUSE_NOT_FINITE);
     CHECK(now.force.isZero(0));
@@ -251,7 +251,7 @@ TEST_CASE("the application's cut works from anywhere, and a stop and start does 
   loop.post(spring(200));
   check_felt(loop.run(0.1));
   loop.device().cut();
-  const ServoPicture now = loop.run(1e-3);
+  const ServoStatus now = loop.run(1e-3);
   CHECK_EQ(now.cause, MVS_CAUSE_SOFTWARE);
   CHECK(now.force.isZero(0));
   loop.device().stop();
@@ -264,7 +264,7 @@ TEST_CASE("the application's cut works from anywhere, and a stop and start does 
 TEST_CASE("the edge of the workspace pushes back, before the device's own stop") {
   Loop loop("device=touch\nfrom=0.06,0,0\ntarget=0.09,0,0\nresolution=0");
   loop.arm();
-  const ServoPicture now = loop.run(0.5);
+  const ServoStatus now = loop.run(0.5);
   CHECK_GT(now.pose.position.x(), 0.07);
   CHECK_LT(now.force.x(), -0.1);
 }

@@ -91,8 +91,8 @@ TEST_CASE("a hand that swings into the stiffest wall gets no work from it") {
                 "\namplitude=0.005,0,0\nfrequency=" + std::to_string(frequency));
       const double stiffness = loop.device().info().max_stiffness;
       loop.arm();
-      Tissue wall = spring(stiffness);
-      wall.kind = Tissue::near;
+      TissueModel wall = spring(stiffness);
+      wall.kind = TissueModel::near;
       wall.normal = Vec3::UnitX();
       loop.post(wall);
       Work work;
@@ -132,7 +132,7 @@ TEST_CASE("models that come late keep a grasp stable") {
     double first = 0, last = 0;
     for (int k = 0; k < 300; ++k) {
       const Vec3 hand = loop.run(0).pose.position;
-      Tissue model = spring(stiffness, hand);
+      TissueModel model = spring(stiffness, hand);
       model.force = -stiffness * hand;
       loop.post(model);
       for (int tick = 0; tick < 10; ++tick) {

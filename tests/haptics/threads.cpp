@@ -36,12 +36,12 @@ TEST_CASE("a servo, a simulation, a window and an emergency stop share a device"
   desc.options = "device=touch\namplitude=0.005,0,0\nfrequency=2";
   Device device(desc, {});
   device.start();
-  while (device.picture().ticks < 20) std::this_thread::sleep_for(milliseconds(1));
+  while (device.status().ticks < 20) std::this_thread::sleep_for(milliseconds(1));
   device.arm();
   std::atomic<bool> over{false};
   std::thread looks([&] {
     while (!over) {
-      (void)device.picture();
+      (void)device.status();
       (void)device.info();
     }
   });
@@ -56,7 +56,7 @@ TEST_CASE("a servo, a simulation, a window and an emergency stop share a device"
   over = true;
   looks.join();
   cuts.join();
-  const ServoPicture now = device.picture();
+  const ServoStatus now = device.status();
   CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
   CHECK(now.force.isZero(0));
   CHECK_GT(now.ticks, 100);

@@ -15,22 +15,22 @@ using Random = std::mt19937;
 
 constexpr Id grasp_id = first_tool_id, rod_id = first_tool_id + 1, ball_id = first_tool_id + 2;
 
-Move hand(Id id, uint32_t kind, Random &random) {
+RecordedEvent hand(Id id, uint32_t kind, Random &random) {
   std::uniform_real_distribution<double> at(-0.05, 0.05);
   Tool tool;
   tool.id = id;
   tool.kind = kind;
   tool.position = Vec3(at(random), at(random), at(random));
   if (kind == MVS_TOOL_ROD) tool.axis = Vec3(at(random), at(random), 1).normalized();
-  Move move;
-  move.kind = Move::tool_move;
+  RecordedEvent move;
+  move.kind = RecordedEvent::tool_move;
   move.tool = {tool};
   return move;
 }
 
-Move one_step(double dt) {
-  Move step;
-  step.kind = Move::step;
+RecordedEvent one_step(double dt) {
+  RecordedEvent step;
+  step.kind = RecordedEvent::step;
   step.dt = dt;
   return step;
 }
@@ -48,9 +48,9 @@ class Follower {
   void step(double dt, uint64_t count) {
     for (uint64_t k = 0; k < count; ++k) seen.push_back({dt, hands_});
   }
-  void take(const Move &move) {
-    if (move.kind == Move::step) return step(move.dt, move.count);
-    REQUIRE(move.kind == Move::lead);
+  void take(const RecordedEvent &move) {
+    if (move.kind == RecordedEvent::step) return step(move.dt, move.count);
+    REQUIRE(move.kind == RecordedEvent::lead);
     REQUIRE(is_whole(move));
     State state;
     for (const Tool &tool : move.tool.get()) state.tools.push_back(tool);
@@ -67,15 +67,15 @@ class Follower {
 };
 
 // What a hand does for a while: which tools move before the next step.
-std::vector<Move> some_hands(Random &random, uint32_t which) {
-  std::vector<Move> hands;
+std::vector<RecordedEvent> some_hands(Random &random, uint32_t which) {
+  std::vector<RecordedEvent> hands;
   if (which & 1) hands.push_back(hand(grasp_id, MVS_TOOL_GRASP, random));
   if (which & 2) hands.push_back(hand(rod_id, MVS_TOOL_ROD, random));
   if (which & 4) hands.push_back(hand(ball_id, MVS_TOOL_BALL, random));
   return hands;
 }
 
-size_t runs(const Moves &moves) {
+size_t runs(const RecordedEvents &moves) {
   return moves.size();
 }
 
@@ -86,16 +86,16 @@ TEST_CASE("every_led_step_finds_each_hand_where_it_was") {
     CAPTURE(seed);
     Random random(seed);
     Follower direct, kept;
-    Moves moves;
+    RecordedEvents moves;
     for (int k = 0; k < 500; ++k) {
       const double dt = random() % 100 == 0 ? 2e-3 : 1e-3;
-      const std::vector<Move> hands = some_hands(random, random() % 4 ? random() % 8 : 1);
-      Move next = hands.empty() ? one_step(dt) : lead_of(hands, one_step(dt));
+      const std::vector<RecordedEvent> hands = some_hands(random, random() % 4 ? random() % 8 : 1);
+      RecordedEvent next = hands.empty() ? one_step(dt) : lead_of(hands, one_step(dt));
       moves = with_move(moves, next);
-      for (const Move &move : hands) direct.hand(move.tool.get()[0]);
+      for (const RecordedEvent &move : hands) direct.hand(move.tool.get()[0]);
       direct.step(dt, 1);
     }
-    for (const Move *move : moves.items()) kept.take(*move);
+    for (const RecordedEvent *move : moves.items()) kept.take(*move);
     CHECK(direct.seen == kept.seen);
   }
 }
@@ -105,13 +105,13 @@ TEST_CASE("a_run_goes_on_however_it_was_put_together") {
   for (const int every : {1, 7, 1000000}) {
     CAPTURE(every);
     Random random(3);
-    Moves moves, plain;
-    Move kept;
+    RecordedEvents moves, plain;
+    RecordedEvent kept;
     kept.count = 0;
     for (int k = 0; k < 700; ++k) {
       const bool moves_on = k % 3 != 1;
-      const auto hands = moves_on ? some_hands(random, 3) : std::vector<Move>();
-      Move next = hands.empty() ? one_step(1e-3) : lead_of(hands, one_step(1e-3));
+      const auto hands = moves_on ? some_hands(random, 3) : std::vector<RecordedEvent>();
+      RecordedEvent next = hands.empty() ? one_step(1e-3) : lead_of(hands, one_step(1e-3));
       plain = with_move(plain, next);
       if (kept.count > 0) take_on(kept, next);
       if (next.count > 0) {
@@ -120,7 +120,7 @@ TEST_CASE("a_run_goes_on_however_it_was_put_together") {
       }
       if (k % every == 0) {
         moves = with_move(moves, kept);
-        kept = Move();
+        kept = RecordedEvent();
         kept.count = 0;
       }
     }
@@ -132,7 +132,7 @@ TEST_CASE("a_run_goes_on_however_it_was_put_together") {
 
 TEST_CASE("hands_that_move_in_turn_make_one_run") {
   Random random(1);
-  Moves moves;
+  RecordedEvents moves;
   for (int k = 0; k < 200; ++k) {
     moves = with_move(moves, lead_of(some_hands(random, k % 2 ? 1 : 4), one_step(1e-3)));
   }
@@ -142,7 +142,7 @@ TEST_CASE("hands_that_move_in_turn_make_one_run") {
 
 TEST_CASE("a_hand_that_rests_costs_nothing") {
   Random random(1);
-  Moves moves;
+  RecordedEvents moves;
   moves = with_move(moves, lead_of(some_hands(random, 1), one_step(1e-3)));
   for (int k = 0; k < 100000; ++k) moves = with_move(moves, one_step(1e-3));
   REQUIRE(runs(moves) == 1);

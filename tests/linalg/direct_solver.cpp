@@ -74,18 +74,18 @@ Eigen::MatrixXd dense(const BlockMatrix &m) {
 // With what rounding leaves of a well-conditioned system of a few hundred rows.
 struct NamedFactor {
   std::string name;
-  std::unique_ptr<Factor> factor;
+  std::unique_ptr<DirectSolver> factor;
   double rounding;
 };
 
 std::vector<NamedFactor> all_factors() {
   std::vector<NamedFactor> all;
   for (const uint32_t backend : backends()) {
-    all.push_back({"backend " + std::to_string(backend), make_factor(backend), 1e-12});
+    all.push_back({"backend " + std::to_string(backend), make_direct_solver(backend), 1e-12});
   }
   all.push_back({"narrow", make_narrow_factor(), 1e-4});
   // what is left of the residual, and as much more as the norms of residual and solution differ
-  all.push_back({"refined", make_refined_factor(), 1e-6});
+  all.push_back({"refined", make_mixed_precision_cholesky(), 1e-6});
   return all;
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("every_factor_solves_as_dense_algebra_does") {
   Random random(1);
   for (const NamedFactor &kind : all_factors()) {
     CAPTURE(kind.name);
-    Factor *factor = kind.factor.get();
+    DirectSolver *factor = kind.factor.get();
     for (const uint32_t n : {1u, 2u, 7u, 40u, 90u}) {
       const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 3 * n);
       factor->analyse(m);
@@ -112,7 +112,7 @@ TEST_CASE("every_factor_solves_as_dense_algebra_does") {
 
 TEST_CASE("products_are_those_of_dense_algebra") {
   Random random(11);
-  BlockProduct product;
+  BlockSpmv product;
   for (const uint32_t n : {1u, 2u, 7u, 90u}) {
     const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 3 * n);
     const Positions x = random.vectors(n, 1);
@@ -128,7 +128,7 @@ TEST_CASE("a_factor_takes_new_values_on_its_pattern") {
   Random random(2);
   for (const NamedFactor &kind : all_factors()) {
     CAPTURE(kind.name);
-    Factor *factor = kind.factor.get();
+    DirectSolver *factor = kind.factor.get();
     BlockMatrix m = random_matrix(random, 30, 80);
     factor->analyse(m);
     REQUIRE(factor->factorise(m));
@@ -161,7 +161,7 @@ TEST_CASE("zeros_in_the_pattern_change_no_bit_of_the_block_factor") {
     }
     const Positions b = random.vectors(n, 1);
     Positions x = b, y = b;
-    const std::unique_ptr<Factor> factor = make_factor(MVS_BACKEND_BLOCK);
+    const std::unique_ptr<DirectSolver> factor = make_direct_solver(MVS_BACKEND_BLOCK);
     factor->analyse(m);
     REQUIRE(factor->factorise(m));
     factor->solve(x);
@@ -176,7 +176,7 @@ TEST_CASE("every_factor_refuses_what_is_not_positive_definite") {
   Random random(3);
   for (const NamedFactor &kind : all_factors()) {
     CAPTURE(kind.name);
-    Factor *factor = kind.factor.get();
+    DirectSolver *factor = kind.factor.get();
     const BlockMatrix good = random_matrix(random, 30, 80);
     factor->analyse(good);
     for (const uint32_t row : {0u, 11u, 29u}) {
@@ -200,7 +200,7 @@ TEST_CASE("a_factor_made_in_parts_has_the_same_bits") {
   const BlockMatrix m = random_matrix(random, 150, 600);
   const Positions b = random.vectors(150, 1);
   for (const auto make : {make_block_factor, make_narrow_factor}) {
-    const std::unique_ptr<Factor> whole = make(), parts = make();
+    const std::unique_ptr<DirectSolver> whole = make(), parts = make();
     whole->analyse(m);
     parts->analyse(m);
     REQUIRE(whole->factorise(m));
@@ -219,7 +219,7 @@ TEST_CASE("what_single_precision_cannot_do_is_done_in_double") {
   m.set_pattern(2, {{0, 1}});
   m.value = {Mat3::Identity() * (1e9 + 1), Mat3::Identity() * -1e9, Mat3::Identity() * (1e9 + 1)};
   const Positions b = {Vec3(1, 2, 3), Vec3(0, 0, 0)};
-  const auto error = [&](const std::unique_ptr<Factor> &factor) {
+  const auto error = [&](const std::unique_ptr<DirectSolver> &factor) {
     factor->analyse(m);
     if (!factor->factorise(m)) return 1.0;
     Positions x = b;
@@ -228,7 +228,7 @@ TEST_CASE("what_single_precision_cannot_do_is_done_in_double") {
   };
   CHECK(error(make_block_factor()) < 1e-6);  // 1e9 times rounding
   CHECK(error(make_narrow_factor()) > 0.1);
-  CHECK(error(make_refined_factor()) < 1e-6);
+  CHECK(error(make_mixed_precision_cholesky()) < 1e-6);
 }
 
 // Along a chain of which each node moves a tenth as much as the one before. Subnormal numbers take
@@ -244,7 +244,7 @@ TEST_CASE("single_precision_leaves_no_subnormal_numbers_and_the_rounding_as_it_w
       m.value[k] = Mat3::Identity() * (k == m.start[c] ? 10.1 : -1.0);
     }
   }
-  const std::unique_ptr<Factor> factor = make_narrow_factor();
+  const std::unique_ptr<DirectSolver> factor = make_narrow_factor();
   factor->analyse(m);
   REQUIRE(factor->factorise(m));
   Positions x(n, Vec3::Zero());
@@ -257,7 +257,7 @@ TEST_CASE("single_precision_leaves_no_subnormal_numbers_and_the_rounding_as_it_w
 }
 
 TEST_CASE("an_unknown_backend_is_refused") {
-  CHECK_THROWS_AS(make_factor(99), Error);
+  CHECK_THROWS_AS(make_direct_solver(99), Error);
 }
 
 // A sheet of 40 by 20 nodes, its edges told twice: its separator has 20 nodes, the last of the
@@ -271,7 +271,7 @@ TEST_CASE("nested_dissection_separates_a_sheet_by_its_shorter_way") {
     if (i % wide > 0) pairs.insert(pairs.end(), {{i - 1, i}, {i, i - 1}});
     if (i >= wide) pairs.push_back({i, i - wide});
   }
-  const std::vector<uint32_t> order = dissection_order(pairs, place);
+  const std::vector<uint32_t> order = nested_dissection_order(pairs, place);
   std::vector<uint32_t> rank(order.size(), none);
   for (uint32_t k = 0; k < order.size(); ++k) rank[order[k]] = k;
   CHECK(std::find(rank.begin(), rank.end(), none) == rank.end());

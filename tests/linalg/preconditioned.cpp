@@ -176,27 +176,28 @@ TEST_CASE("conjugate_gradients_stop_where_the_matrix_is_not_positive_definite") 
 TEST_CASE("parts_of_a_factor_give_its_bits") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
-  Potential potential(*model);
+  TotalEnergy total_energy(*model);
   Profile profile{};
   Positions g;
-  potential.set_pressure(state.load.pressure);
-  potential.prepare(state.x, state.x, 0, profile);
-  potential.gradient(state.x, g, profile);
+  total_energy.set_pressure(state.load.pressure);
+  total_energy.prepare(state.x, state.x, 0, profile);
+  total_energy.gradient(state.x, g, profile);
   StepMatrix matrix(*model);
-  matrix.assemble(potential, state.x, {1e-3, 0, 64, true}, nullptr, profile);
+  matrix.assemble(total_energy, state.x, {1e-3, 0, 64, true}, nullptr, profile);
   for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN}) {
     CAPTURE(backend);
-    KeptFactor whole(*model, make_factor(backend)), parts(*model, make_factor(backend));
-    const Waypoint place{state.x, {}, state.load.pressure, 1e-3, 0, 0};
+    CachedPreconditioner whole(*model, make_direct_solver(backend)),
+        parts(*model, make_direct_solver(backend));
+    const PreconditionerKey place{state.x, {}, state.load.pressure, 1e-3, 0, 0};
     whole.take(matrix, place, nullptr);
     parts.take(matrix, place, nullptr);
     REQUIRE(whole.factorise());
-    for (uint32_t part = 0; part < KeptFactor::parts; ++part) {
-      CHECK(!parts.is_of(place, KeptFactor::parts));
+    for (uint32_t part = 0; part < CachedPreconditioner::parts; ++part) {
+      CHECK(!parts.is_of(place, CachedPreconditioner::parts));
       REQUIRE(parts.factorise_part(part));
       REQUIRE(parts.factorise_part(0));  // what is done stays
     }
-    CHECK(parts.is_of(place, KeptFactor::parts));
+    CHECK(parts.is_of(place, CachedPreconditioner::parts));
     Positions rows(matrix.size()), x, y, back;
     for (size_t r = 0; r < rows.size(); ++r) rows[r] = g[matrix.node(static_cast<uint32_t>(r))];
     rows[3] = Vec3(1e-3, -2e-3, 3e-3);
@@ -204,7 +205,7 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
     parts.solve(rows, y);
     CHECK(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)) == 0);
     // and of the matrix that products are of
-    BlockProduct().multiply(matrix.blocks(), x, back);
+    BlockSpmv().multiply(matrix.blocks(), x, back);
     for (size_t r = 0; r < rows.size(); ++r) back[r] -= rows[r];
     CHECK(largest(back) <= 1e-9 * largest(rows));  // its condition times rounding
   }
@@ -219,7 +220,7 @@ TEST_CASE("an_earlier_factor_serves_within_its_tolerance") {
   for (int k = 0; k < 200; ++k) {
     if (k % 4 == 0) pulse(state, k);
     State alone = state;
-    alone.forget_way();
+    alone.drop_cache();
     const State before = state;
     const SolveStats stats = solver.step(*model, state, {});
     const SolveStats exact = direct.step(*model, alone, {});
@@ -311,11 +312,11 @@ TEST_CASE("a_factor_with_more_parts_than_there_are_is_left_out") {
   state.load.pressure *= 0.9;
   solver.step(*model, state, {});
   REQUIRE(!state.serving.x.empty());
-  for (const uint32_t age : {KeptFactor::parts + 1, UINT32_MAX}) {
+  for (const uint32_t age : {CachedPreconditioner::parts + 1, UINT32_MAX}) {
     State other = state;
     other.coming = other.serving;
     other.coming.age = age;
     solver.step(*model, other, {});
-    CHECK(other.coming.age <= KeptFactor::parts);
+    CHECK(other.coming.age <= CachedPreconditioner::parts);
   }
 }

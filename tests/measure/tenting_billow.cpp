@@ -26,15 +26,15 @@ Sheet bowl(double height, double saddle = 0) {
   return sheet;
 }
 
-Doming doming_of(const Sheet &sheet) {
+TentingBillow doming_of(const Sheet &sheet) {
   const ModelPtr model = model_of(sheet);
-  return measure_doming(*model, model->valve.rest);
+  return measure_tenting_billow(*model, model->valve.rest);
 }
 
 }  // namespace
 
 TEST_CASE("a_bowl_tents_by_its_paraboloid") {
-  const Doming doming = doming_of(bowl(-depth));
+  const TentingBillow doming = doming_of(bowl(-depth));
   // the lowest cell is 0.1 mm off the axis, and the ball sinks 0.004 mm into the pinhole
   CHECK(doming.tenting_height == about(depth, 2e-3));
   CHECK(doming.tenting_area == about(4.0 / 3 * radius * depth, meshed));
@@ -44,7 +44,7 @@ TEST_CASE("a_bowl_tents_by_its_paraboloid") {
 }
 
 TEST_CASE("a_dome_billows_by_its_paraboloid") {
-  const Doming doming = doming_of(bowl(depth));
+  const TentingBillow doming = doming_of(bowl(depth));
   CHECK(doming.billow_height == about(depth, 1e-3));
   CHECK(doming.billow_volume == about(0.5 * pi * radius * radius * depth, meshed));
   CHECK(doming.tenting_height == 0);
@@ -53,7 +53,7 @@ TEST_CASE("a_dome_billows_by_its_paraboloid") {
 }
 
 TEST_CASE("a_sheet_on_its_saddle_neither_tents_nor_billows") {
-  const Doming doming = doming_of(bowl(0, 6e-3));
+  const TentingBillow doming = doming_of(bowl(0, 6e-3));
   // 24 rings of elements follow the saddle to 1 um where it is steepest
   CHECK(doming.billow_height < 5e-6);
   CHECK(doming.tenting_volume < 5e-6 * pi * radius * radius);
@@ -61,7 +61,7 @@ TEST_CASE("a_sheet_on_its_saddle_neither_tents_nor_billows") {
 }
 
 TEST_CASE("volumes_are_counted_from_the_saddle_not_from_the_plane") {
-  const Doming doming = doming_of(bowl(-depth, 6e-3));
+  const TentingBillow doming = doming_of(bowl(-depth, 6e-3));
   CHECK(doming.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
   CHECK(doming.tenting_area == about(4.0 / 3 * radius * depth, meshed));
   CHECK(doming.billow_height < 5e-6);
@@ -73,7 +73,7 @@ TEST_CASE("half_a_valve_can_tent_while_the_other_billows") {
   });
   sheet.around = 96;
   sheet.rings = 26;
-  const Doming doming = doming_of(sheet);
+  const TentingBillow doming = doming_of(sheet);
   CHECK(doming.billow_volume == about(4.0 / 15 * depth * radius * radius, meshed));
   CHECK(doming.tenting_volume == about(4.0 / 15 * depth * radius * radius, meshed));
   const double highest = depth * 2 / (3 * std::sqrt(3.0));
@@ -95,7 +95,7 @@ TEST_CASE("what_hangs_below_the_coaptation_line_does_not_tent") {
     };
     return sheet;
   };
-  const Doming little = doming_of(closed(2e-3)), lot = doming_of(closed(9e-3));
+  const TentingBillow little = doming_of(closed(2e-3)), lot = doming_of(closed(9e-3));
   // the ball of 0.6 mm sinks 0.13 mm into the gap of 0.5 mm between their upper edges; cells of
   // 0.11 mm see that to 0.1 mm
   for (const double height : {little.tenting_height, lot.tenting_height}) {
@@ -109,16 +109,16 @@ TEST_CASE("what_hangs_below_the_coaptation_line_does_not_tent") {
 TEST_CASE("doming_survives_motion_and_renumbering") {
   const Valve valve = valve_of(bowl(-depth, 6e-3));
   const ModelPtr model = make_model(valve);
-  const Doming still = measure_doming(*model, valve.rest);
-  const auto check_same = [&](const Doming &other) {
+  const TentingBillow still = measure_tenting_billow(*model, valve.rest);
+  const auto check_same = [&](const TentingBillow &other) {
     // rounding of 0.3 m against heights of 5 mm; a cell on the very rim is 1e-8 of the volume
     CHECK(other.tenting_height == about(still.tenting_height, 1e-8));
     CHECK(other.tenting_area == about(still.tenting_area, 1e-8));
     CHECK(other.tenting_volume == about(still.tenting_volume, 1e-6));
   };
-  check_same(measure_doming(*model, moved(valve.rest, some_rigid_motion())));
+  check_same(measure_tenting_billow(*model, moved(valve.rest, some_rigid_motion())));
   const Renumbered other = renumbered(valve);
-  check_same(measure_doming(*other.model, other(valve.rest)));
+  check_same(measure_tenting_billow(*other.model, other(valve.rest)));
 }
 
 }  // namespace mvs::core::test

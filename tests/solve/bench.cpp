@@ -229,7 +229,7 @@ Eigen::MatrixXd differences(const Gradient &gradient, Positions x, double h) {
   return result;
 }
 
-Eigen::MatrixXd dense(const System &system) {
+Eigen::MatrixXd dense(const HessianAssembler &system) {
   const auto n = static_cast<Eigen::Index>(3 * system.row_of.size());
   const BlockMatrix &m = system.matrix;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
@@ -262,12 +262,12 @@ double farthest(const Positions &x, const Positions &y) {
 }
 
 double total_energy(const Model &model, const State &state) {
-  Potential potential(model);
+  TotalEnergy total_energy(model);
   Profile profile{};
   Positions g;
-  potential.set_pressure(state.load.pressure);
-  potential.prepare(state.x, state.x, 0, profile);
-  return potential.gradient(state.x, g, profile) + kinetic_energy(model, state.v);
+  total_energy.set_pressure(state.load.pressure);
+  total_energy.prepare(state.x, state.x, 0, profile);
+  return total_energy.gradient(state.x, g, profile) + kinetic_energy(model, state.v);
 }
 
 Settled settle(const Model &model, const State &from, const SolveOptions &options) {

@@ -91,7 +91,7 @@ Positions differences(const std::function<double(const Positions &)> &energy, Po
 Eigen::MatrixXd differences(const Gradient &gradient, Positions x, double h);
 
 // A system in the order of the nodes; prescribed nodes have rows of zeros.
-Eigen::MatrixXd dense(const System &system);
+Eigen::MatrixXd dense(const HessianAssembler &system);
 Eigen::VectorXd flat(const Positions &x);
 double largest(const Positions &x);
 double farthest(const Positions &x, const Positions &y);

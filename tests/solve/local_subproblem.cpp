@@ -14,12 +14,12 @@ namespace mvs::core::test {
 namespace {
 
 std::vector<Vec3> gradient(const Model &model, const std::vector<Vec3> &x) {
-  Potential potential(model);
+  TotalEnergy total_energy(model);
   Profile profile{};
   std::vector<Vec3> g;
-  potential.set_pressure(MVS_SYSTOLE_PA);
-  potential.prepare(x, x, 0, profile);
-  potential.gradient(x, g, profile);
+  total_energy.set_pressure(MVS_SYSTOLE_PA);
+  total_energy.prepare(x, x, 0, profile);
+  total_energy.gradient(x, g, profile);
   return g;
 }
 
@@ -30,7 +30,7 @@ TEST_CASE("free_nodes_of_a_piece_feel_what_they_feel_in_the_whole_valve") {
   State state = closed(*model);
   std::vector<Vec3> x = state.x.get();
   const uint32_t place = model->valve.chords[3].b;
-  const Region region = cut_out(*model, x, {place}, {8e-3, x.size(), 2e-3});
+  const LocalSubproblem region = cut_out(*model, x, {place}, {8e-3, x.size(), 2e-3});
   REQUIRE(region.node.size() < x.size());
   // as far as the leash allows, so that what lies beyond the piece could come into reach
   size_t free = 0;

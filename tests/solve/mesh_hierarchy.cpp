@@ -39,7 +39,7 @@ TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_itera
   Solver solver(MVS_BACKEND_DEFAULT);
   State plain = loaded(*model), levels = plain, again = plain;
   const SolveStats direct = solver.settle(*model, plain, {}, {});
-  const SolveStats stats = settle_by_levels(solver, *model, levels, {}, {});
+  const SolveStats stats = settle_with_mesh_hierarchy(solver, *model, levels, {}, {});
   CHECK(stats.converged);
   CHECK(stats.residual <= 1e-5);
   CHECK(stats.iterations < direct.iterations);
@@ -49,7 +49,7 @@ TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_itera
   CHECK(farthest(plain, levels) < 0.01e-3);
   CHECK(levels.load.pressure == MVS_SYSTOLE_PA);
   Solver other(MVS_BACKEND_DEFAULT);
-  settle_by_levels(other, *model, again, {}, {});
+  settle_with_mesh_hierarchy(other, *model, again, {}, {});
   CHECK(hash_of(*model, again) == hash_of(*model, levels));
 }
 
@@ -58,14 +58,14 @@ TEST_CASE("a_small_valve_and_one_near_rest_are_settled_as_they_are") {
   for (const uint32_t vertices : {425u, 1700u}) {
     const ModelPtr model = valve_of(vertices);
     State plain = loaded(*model);
-    if (vertices > cascade_vertices) {
+    if (vertices > hierarchy_vertices) {
       solver.settle(*model, plain, {}, {});
       plain.load.pressure *= 1.02;
       CHECK_FALSE(far_from_rest(*model, plain));
     }
     State levels = plain;
     solver.settle(*model, plain, {}, {});
-    settle_by_levels(solver, *model, levels, {}, {});
+    settle_with_mesh_hierarchy(solver, *model, levels, {}, {});
     CHECK(hash_of(*model, plain) == hash_of(*model, levels));
   }
 }
@@ -76,7 +76,7 @@ TEST_CASE("progress_goes_up_over_the_levels_and_can_cancel") {
   State state = loaded(*model);
   double last = 0;
   int calls = 0;
-  settle_by_levels(solver, *model, state, {}, [&](double share, double) {
+  settle_with_mesh_hierarchy(solver, *model, state, {}, [&](double share, double) {
     CHECK(share >= last);
     CHECK(share <= 1);
     last = share;
@@ -87,8 +87,8 @@ TEST_CASE("progress_goes_up_over_the_levels_and_can_cancel") {
   for (const int most : {2, calls - 3}) {
     State stopped = loaded(*model);
     int told = 0;
-    CHECK_THROWS_AS(settle_by_levels(solver, *model, stopped, {},
-                                     [&](double, double) { return ++told < most; }),
+    CHECK_THROWS_AS(settle_with_mesh_hierarchy(solver, *model, stopped, {},
+                                               [&](double, double) { return ++told < most; }),
                     Error);
     CHECK(told == most);
   }

@@ -83,8 +83,8 @@ TEST_CASE("contact_is_told_as_skipped_unless_something_came_near_in_the_call") {
 TEST_CASE("no_pressure_is_no_force_no_energy_and_no_stiffness") {
   const ModelPtr model = valve();
   const Positions x = model->valve.rest;
-  PressureTerm term(*model);
-  System system;
+  FollowerPressureTerm term(*model);
+  HessianAssembler system;
   std::vector<Edge> pairs;
   term.add_pairs(pairs);
   system.set_pattern(*model, pairs);

@@ -73,7 +73,7 @@ TEST_CASE("a_grasp_is_the_gradient_of_its_energy_and_its_slope_that_of_the_gradi
   // differences over 1e-6 m of springs some mm long
   const Positions x = state.x.get();
   CHECK(farthest(differences(energy, x, 1e-6), gradient(x)) <= 1e-7 * largest(gradient(x)));
-  System system;
+  HessianAssembler system;
   system.set_pattern(model, {});
   system.clear();
   term.hessian(x, system);
@@ -139,7 +139,7 @@ TEST_CASE("a_pull_of_50_mm_in_one_step_never_has_more_than_its_force_and_lets_go
 TEST_CASE("turned_with_the_valve_a_hand_does_the_same") {
   const Motion motion = some_motion();
   Valve turned = small_valve();
-  for (SharedVector<Vec3> *places : {&turned.rest, &turned.open, &turned.loaded}) {
+  for (CowVector<Vec3> *places : {&turned.rest, &turned.open, &turned.loaded}) {
     for (Vec3 &p : *places) p = motion(p);
   }
   const uint32_t node = 3 * small_segments + 5;

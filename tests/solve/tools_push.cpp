@@ -100,7 +100,7 @@ TEST_CASE("what_pushes_is_the_gradient_of_its_energy_and_its_slope_that_of_the_g
   term.bodies().set_tools(state.tools, static_cast<uint32_t>(valve->node_count()));
   term.bodies().prepare(extended.x, extended.x, 1e-4);
   term.collect(extended.x);
-  REQUIRE(term.stencils().size() >= 10);
+  REQUIRE(term.contact_pairs().size() >= 10);
   const auto energy = [&](const Positions &x) {
     term.collect(x);
     return term.energy(x);
@@ -115,7 +115,7 @@ TEST_CASE("what_pushes_is_the_gradient_of_its_energy_and_its_slope_that_of_the_g
   // the barrier bends within a tenth of the thickness: differences over 1e-5 of that
   const double h = 1e-9;
   CHECK(farthest(differences(energy, x, h), gradient(x)) <= 1e-5 * largest(gradient(x)));
-  System system;
+  HessianAssembler system;
   std::vector<Edge> pairs;
   term.collect(x);
   term.add_pairs(pairs);

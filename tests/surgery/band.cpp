@@ -22,19 +22,19 @@ double length_of(const std::vector<Vec3> &points) {
 }
 
 const std::vector<Vec3> &curve_of(const Operated &done) {
-  return done.picture.model->valve.rings[0].curve;
+  return done.current.model->valve.rings[0].curve;
 }
 
 }  // namespace
 
 TEST_CASE("a_band_has_its_length_and_its_ends_stay_at_the_trigones") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Operated full = apply(before, band(0, 1)), done = apply(before, band(70 * mm, 0));
   const std::vector<Vec3> &was = curve_of(full), &is = curve_of(done);
   CHECK(length_of(is) == doctest::Approx(70 * mm).scale(0).epsilon(1e-12));
   CHECK(is.front() == was.front());
   CHECK(is.back() == was.back());
-  const Valve &valve = done.picture.model->valve;
+  const Valve &valve = done.current.model->valve;
   CHECK(valve.rings[0].kind == MVS_RING_BAND);
   CHECK(valve.rings[0].id == done.made);
   CHECK(valve.rings[0].name == "band");
@@ -50,18 +50,18 @@ TEST_CASE("a_band_has_its_length_and_its_ends_stay_at_the_trigones") {
 }
 
 TEST_CASE("a_band_of_factor_1_moves_nothing") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Valve &a = before.model->valve;
-  const Picture after = apply(before, band(0, 1)).picture;
+  const ModelState after = apply(before, band(0, 1)).current;
   for (const uint32_t node : a.annulus) {
     CHECK((after.model->valve.loaded[node] - a.loaded[node]).norm() < 1e-15);
   }
 }
 
 TEST_CASE("only_the_posterior_annulus_moves_open_as_loaded_towards_the_trigones") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Operated done = apply(before, band(0, 0.8));
-  const Valve &a = before.model->valve, &b = done.picture.model->valve;
+  const Valve &a = before.model->valve, &b = done.current.model->valve;
   const std::vector<Vec3> &curve = curve_of(done);
   const Vec3 middle = 0.5 * (curve.front() + curve.back());
   const Frame frame = valve_frame(*before.model, a.loaded);
@@ -84,17 +84,17 @@ TEST_CASE("a_band_takes_the_place_of_a_ring") {
   const Operated first = apply(shipped(), ring);
   auto op = band(0, 0.95);
   op.name = "C band";
-  const Operated second = apply(first.picture, op);
-  REQUIRE(second.picture.model->valve.rings.size() == 1);
-  CHECK(second.picture.model->valve.rings[0].name == "C band");
+  const Operated second = apply(first.current, op);
+  REQUIRE(second.current.model->valve.rings.size() == 1);
+  CHECK(second.current.model->valve.rings[0].name == "C band");
 }
 
 TEST_CASE("the_valve_closes_with_a_band_sewn_open_or_closed") {
   for (const double factor : {0.9, 0.8, 0.6}) {
     CAPTURE(factor);
     const Closed healthy = close(shipped());
-    for (const Picture &picture : {shipped(), Picture{healthy.model, healthy.state}}) {
-      const Closed closed = close(apply(picture, band(0, factor)).picture);
+    for (const ModelState &current : {shipped(), ModelState{healthy.model, healthy.state}}) {
+      const Closed closed = close(apply(current, band(0, factor)).current);
       CHECK(closed.stats.converged);
       CHECK(intersections(closed) == 0);
     }
@@ -102,7 +102,7 @@ TEST_CASE("the_valve_closes_with_a_band_sewn_open_or_closed") {
 }
 
 TEST_CASE("lengths_that_no_band_can_have_are_said") {
-  const Picture valve = shipped();
+  const ModelState valve = shipped();
   refused(valve, band(0, 0), MVS_E_ARGUMENT, "either a length or a factor");
   refused(valve, band(70 * mm, 0.9), MVS_E_ARGUMENT, "either a length or a factor");
   refused(valve, band(90 * mm, 0), MVS_E_OP, "a band shortens it");

@@ -38,7 +38,7 @@ std::vector<uint8_t> nodes_of_leaflet(const Model &model, const std::string &nam
 }
 
 // A small, thin, dilated valve with long leaflets, as a membrane that follows the springs' curve.
-Picture creased_by_a_clip() {
+ModelState creased_by_a_clip() {
   mvs_parametric_desc desc = of_size(300);
   desc.chords = 267;
   desc.branching = 1;
@@ -83,19 +83,19 @@ size_t openings(const Orifice &orifice) {
 }
 
 // The open valve at rest.
-std::vector<Vec3> opened(const Picture &picture) {
-  State state = picture.state;
+std::vector<Vec3> opened(const ModelState &current) {
+  State state = current.state;
   Solver solver(0);
-  CHECK(solver.settle(*picture.model, state, {}, {}).converged);
+  CHECK(solver.settle(*current.model, state, {}, {}).converged);
   return state.x;
 }
 
 }  // namespace
 
 TEST_CASE("a_clip_joins_facing_places_of_the_two_leaflets_in_rows") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Operated done = apply(before, clip());
-  const Model &model = *done.picture.model;
+  const Model &model = *done.current.model;
   const std::vector<Chord> list = stitches(model);
   // 5 mm along the edge and 4 mm into the leaflets, 2 mm apart: three rows of three
   REQUIRE(list.size() == 9);
@@ -119,21 +119,21 @@ TEST_CASE("a_clip_joins_facing_places_of_the_two_leaflets_in_rows") {
 }
 
 TEST_CASE("the_number_of_stitches_does_not_hang_on_the_mesh") {
-  CHECK(stitches(*apply(shipped(of_size(1700)), clip()).picture.model).size() == 9);
+  CHECK(stitches(*apply(shipped(of_size(1700)), clip()).current.model).size() == 9);
   auto op = clip();
   op.width = 1 * mm;
   op.reach = 0.5 * mm;
-  CHECK(stitches(*apply(shipped(), op).picture.model).size() == 1);
+  CHECK(stitches(*apply(shipped(), op).current.model).size() == 1);
 }
 
 TEST_CASE("a_clip_goes_where_its_position_says") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const SheetMap map(*before.model);
   for (const double position : {-0.8, 0.0, 0.8}) {
     CAPTURE(position);
     auto op = clip();
     op.position = position;
-    const ModelPtr held = apply(before, op).picture.model;
+    const ModelPtr held = apply(before, op).current.model;
     const Model &model = *held;
     const Chord middle = stitches(model)[0];
     const std::vector<Scallop> &scallops = model.valve.scallops;
@@ -151,7 +151,7 @@ TEST_CASE("joined_places_stay_together_and_the_valve_closes") {
     CAPTURE(width);
     auto op = clip();
     op.width = width;
-    const Closed closed = close(apply(shipped(), op).picture);
+    const Closed closed = close(apply(shipped(), op).current);
     CHECK(closed.stats.converged);
     CHECK(intersections(closed) == 0);
     CHECK(measure_orifice(*closed.model, closed.state.x).area == 0);
@@ -165,31 +165,31 @@ TEST_CASE("joined_places_stay_together_and_the_valve_closes") {
 // The clip presses two edges of a crease together with more than the newton that their guard bore
 // where pairs were stopped at a micrometre: 1000 iterations, and 0.27 N were left.
 TEST_CASE("a_clip_that_creases_a_leaflet_comes_to_rest") {
-  const Closed closed = close(apply(creased_by_a_clip(), clip()).picture);
+  const Closed closed = close(apply(creased_by_a_clip(), clip()).current);
   MESSAGE(closed.stats.iterations << " iterations");
   CHECK(closed.stats.converged);
   CHECK(intersections(closed) == 0);
 }
 
 TEST_CASE("a_clip_is_set_on_the_open_valve_whatever_the_valve_does") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Closed healthy = close(before);
-  const Closed from_open = close(apply(before, clip()).picture);
-  const Closed from_closed = close(apply(Picture{healthy.model, healthy.state}, clip()).picture);
+  const Closed from_open = close(apply(before, clip()).current);
+  const Closed from_closed = close(apply(ModelState{healthy.model, healthy.state}, clip()).current);
   CHECK(from_open.state.x.get() == from_closed.state.x.get());
 }
 
 TEST_CASE("a_closed_valve_with_a_clip_takes_a_ring_and_closes_again") {
-  const Closed clipped = close(apply(shipped(), clip()).picture);
+  const Closed clipped = close(apply(shipped(), clip()).current);
   auto ring = op_of<mvs_op_ring>(MVS_OP_RING);
   ring.size = 32 * mm;
-  const Closed closed = close(apply(Picture{clipped.model, clipped.state}, ring).picture);
+  const Closed closed = close(apply(ModelState{clipped.model, clipped.state}, ring).current);
   CHECK(closed.stats.converged);
   CHECK(intersections(closed) == 0);
 }
 
 TEST_CASE("a_clip_makes_two_orifices_of_one") {
-  const Picture before = shipped(), after = apply(before, clip()).picture;
+  const ModelState before = shipped(), after = apply(before, clip()).current;
   const Orifice one = measure_orifice(*before.model, opened(before));
   const Orifice two = measure_orifice(*after.model, opened(after));
   MESSAGE("open valve: " << 1e6 * one.area << " mm2, with a clip " << 1e6 * two.area << " mm2");
@@ -204,16 +204,16 @@ TEST_CASE("a_second_clip_has_a_name_of_its_own") {
   op.width = 2 * mm;
   const Operated first = apply(shipped(), op);
   op.position = 0.7;
-  const Operated second = apply(first.picture, op);
-  CHECK(stitches(*second.picture.model).back().name.starts_with("clip2"));
+  const Operated second = apply(first.current, op);
+  CHECK(stitches(*second.current.model).back().name.starts_with("clip2"));
   op.name = "clip2";
-  refused(second.picture, op, MVS_E_OP, "named clip2 already");
+  refused(second.current, op, MVS_E_OP, "named clip2 already");
   op.name = "again";
-  refused(second.picture, op, MVS_E_OP, "joins these two places already");
+  refused(second.current, op, MVS_E_OP, "joins these two places already");
 }
 
 TEST_CASE("what_cannot_be_clipped_is_said") {
-  const Picture valve = shipped();
+  const ModelState valve = shipped();
   const Valve &parts = valve.model->valve;
   auto op = clip();
   op.posterior = parts.scallops[0].id;

@@ -18,7 +18,7 @@ namespace mvs::core::test {
 inline constexpr double mm = 1e-3;
 
 // The valve that mvs_generate_valve makes, at rest.
-inline Picture shipped(const mvs_parametric_desc &desc = {}) {
+inline ModelState shipped(const mvs_parametric_desc &desc = {}) {
   const ModelPtr model = make_model(make_parametric_valve(desc));
   return {model, initial_state(*model)};
 }
@@ -31,13 +31,13 @@ Op op_of(uint32_t kind) {
 }
 
 template <typename Op>
-Operated apply(const Picture &before, const Op &op) {
+Operated apply(const ModelState &before, const Op &op) {
   return perform(before, Operation(&op.op));
 }
 
 // Fails with this code, and with a sentence in which `word` occurs.
 template <typename Op>
-void refused(const Picture &before, const Op &op, mvs_result code, const std::string &word) {
+void refused(const ModelState &before, const Op &op, mvs_result code, const std::string &word) {
   CAPTURE(word);
   try {
     apply(before, op);
@@ -57,8 +57,8 @@ struct Closed {
 };
 
 // At rest under 120 mmHg.
-inline Closed close(const Picture &picture) {
-  Closed closed{picture.model, picture.state, {}};
+inline Closed close(const ModelState &current) {
+  Closed closed{current.model, current.state, {}};
   closed.state.load = {120 * 133.322, 1};
   Solver solver(0);
   closed.stats = solver.settle(*closed.model, closed.state, {}, {});

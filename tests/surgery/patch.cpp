@@ -9,7 +9,8 @@ using namespace mvs::core::test;
 
 namespace {
 
-mvs_op_patch patch_on(const Picture &p, const std::string &scallop, double along, double height) {
+mvs_op_patch patch_on(const ModelState &p, const std::string &scallop, double along,
+                      double height) {
   auto op = op_of<mvs_op_patch>(MVS_OP_PATCH);
   op.site.how = MVS_SITE_ANATOMICAL;
   for (const Scallop &s : p.model->valve.scallops) {
@@ -23,13 +24,13 @@ mvs_op_patch patch_on(const Picture &p, const std::string &scallop, double along
 }  // namespace
 
 TEST_CASE("a_patch_has_the_area_and_thickness_asked_for_and_the_rest_stays") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   for (const double factor : {1.05, 1.3, 2.5}) {
     CAPTURE(factor);
     auto op = patch_on(before, "A2", 0.5, 0.5);
     op.area_factor = factor;
     op.thickness = 0.5 * mm;
-    const Picture after = apply(before, op).picture;
+    const ModelState after = apply(before, op).current;
     const Model &old = *before.model, &now = *after.model;
     CHECK(now.valve.triangles == old.valve.triangles);
     CHECK(after.state.x == before.state.x);
@@ -56,14 +57,14 @@ TEST_CASE("a_patch_has_the_area_and_thickness_asked_for_and_the_rest_stays") {
 }
 
 TEST_CASE("a_valve_with_a_patch_closes_and_coapts_more") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Closed plain = close(before);
   const double area = measure_coaptation(*plain.model, plain.state.x).area;
   for (const char *scallop : {"A2", "P2"}) {
     CAPTURE(scallop);
     auto op = patch_on(before, scallop, 0.5, 0.5);
     if (*scallop == 'P') op.width = 10 * mm;
-    const Closed patched = close(apply(before, op).picture);
+    const Closed patched = close(apply(before, op).current);
     CHECK(patched.stats.converged);
     CHECK(intersections(patched) == 0);
     CHECK(measure_orifice(*patched.model, patched.state.x).area == 0);
@@ -72,7 +73,7 @@ TEST_CASE("a_valve_with_a_patch_closes_and_coapts_more") {
 }
 
 TEST_CASE("where_no_patch_can_be_is_said") {
-  const Picture p = shipped();
+  const ModelState p = shipped();
   refused(p, patch_on(p, "A2", 0.5, 0.1), MVS_E_OP, "reach the annulus");
   refused(p, patch_on(p, "A2", 0.5, 0.9), MVS_E_OP, "reach the free edge");
   auto op = patch_on(p, "P1", 0.9, 0.5);

@@ -14,11 +14,11 @@ mvs_op_annulus_scale scaled(double factor, double ap, double cc) {
   return op;
 }
 
-AnnulusMeasures loaded_annulus(const Picture &picture) {
-  return measure_annulus(*picture.model, picture.model->valve.loaded);
+AnnulusMeasures loaded_annulus(const ModelState &current) {
+  return measure_annulus(*current.model, current.model->valve.loaded);
 }
 
-void tissue_is_untouched(const Picture &before, const Picture &after) {
+void tissue_is_untouched(const ModelState &before, const ModelState &after) {
   const Valve &a = before.model->valve, &b = after.model->valve;
   CHECK(a.rest.get() == b.rest.get());
   CHECK(a.triangles.get() == b.triangles.get());
@@ -30,11 +30,11 @@ void tissue_is_untouched(const Picture &before, const Picture &after) {
 }  // namespace
 
 TEST_CASE("a_scaled_annulus_has_the_square_of_the_factor_in_area_and_the_tissue_stays") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const AnnulusMeasures was = loaded_annulus(before);
   for (const double factor : {0.25, 0.8, 1.15}) {
     CAPTURE(factor);
-    const Picture after = apply(before, scaled(factor, 0, 0)).picture;
+    const ModelState after = apply(before, scaled(factor, 0, 0)).current;
     const AnnulusMeasures is = loaded_annulus(after);
     // rounding
     CHECK(is.area == doctest::Approx(factor * factor * was.area).scale(0).epsilon(1e-12));
@@ -45,9 +45,9 @@ TEST_CASE("a_scaled_annulus_has_the_square_of_the_factor_in_area_and_the_tissue_
 }
 
 TEST_CASE("an_annulus_is_scaled_along_its_axes_open_and_loaded") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Operated done = apply(before, scaled(0, 0.8, 1.1));
-  const Valve &a = before.model->valve, &b = done.picture.model->valve;
+  const Valve &a = before.model->valve, &b = done.current.model->valve;
   const Frame loaded = valve_frame(*before.model, a.loaded),
               open = valve_frame(*before.model, a.open);
   for (const uint32_t node : a.annulus) {
@@ -57,12 +57,12 @@ TEST_CASE("an_annulus_is_scaled_along_its_axes_open_and_loaded") {
     CHECK((is - loaded.local(a.loaded[node]).cwiseProduct(factors)).norm() < 1e-15);
     CHECK((is_open - open.local(a.open[node]).cwiseProduct(factors)).norm() < 1e-15);
   }
-  tissue_is_untouched(before, done.picture);
+  tissue_is_untouched(before, done.current);
   CHECK(done.title == "Scale the annulus to 80 % (AP) and 110 % (CC)");
 }
 
 TEST_CASE("a_head_moves_along_the_axes_of_the_world_or_of_the_valve") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Head head = before.model->valve.heads[1];
   auto op = op_of<mvs_op_head_move>(MVS_OP_HEAD_MOVE);
   op.head = head.id;
@@ -71,7 +71,7 @@ TEST_CASE("a_head_moves_along_the_axes_of_the_world_or_of_the_valve") {
   for (const uint32_t frame : {0u, 1u}) {
     CAPTURE(frame);
     op.frame = frame;
-    const Picture after = apply(before, op).picture;
+    const ModelState after = apply(before, op).current;
     const Frame axes = valve_frame(*before.model, before.model->valve.loaded);
     const Vec3 by = frame == 0 ? Vec3(3 * mm, 0, -1 * mm)
                                : Vec3(3 * mm * axes.axes.row(0) - 1 * mm * axes.axes.row(2));
@@ -90,14 +90,14 @@ TEST_CASE("a_head_moves_along_the_axes_of_the_world_or_of_the_valve") {
 }
 
 TEST_CASE("the_valve_closes_with_a_scaled_annulus_and_with_a_moved_head") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   auto head = op_of<mvs_op_head_move>(MVS_OP_HEAD_MOVE);
   head.head = before.model->valve.heads[0].id;
   head.by[2] = -3 * mm;
-  for (const Picture &picture :
-       {apply(before, scaled(0.9, 0, 0)).picture, apply(before, scaled(1.15, 0, 0)).picture,
-        apply(before, scaled(0.25, 0, 0)).picture, apply(before, head).picture}) {
-    const Closed closed = close(picture);
+  for (const ModelState &current :
+       {apply(before, scaled(0.9, 0, 0)).current, apply(before, scaled(1.15, 0, 0)).current,
+        apply(before, scaled(0.25, 0, 0)).current, apply(before, head).current}) {
+    const Closed closed = close(current);
     CHECK(closed.stats.converged);
     CHECK(intersections(closed) == 0);
   }

@@ -20,7 +20,7 @@ mvs_op_resect resection(double width, double base_width, double depth, double po
   return op;
 }
 
-Picture fine_valve() {
+ModelState fine_valve() {
   mvs_parametric_desc desc = {};
   desc.struct_size = sizeof desc;
   desc.vertices = 6800;
@@ -53,7 +53,7 @@ uint32_t scallop_named(const Valve &valve, const std::string &name) {
 }
 
 // Where a place of a scallop is now.
-Vec3 place_on(const Picture &p, const std::string &scallop, double along, double height) {
+Vec3 place_on(const ModelState &p, const std::string &scallop, double along, double height) {
   const Surgery s{*p.model, p.model->valve, p.state, "test"};
   const Id id = p.model->valve.scallops[scallop_named(p.model->valve, scallop)].id;
   const SheetPoint at = locate(s, {MVS_SITE_ANATOMICAL, 0, id, {along, height, 0}});
@@ -64,7 +64,7 @@ Vec3 place_on(const Picture &p, const std::string &scallop, double along, double
   return sum;
 }
 
-std::vector<Vec3> notch(const Picture &p) {
+std::vector<Vec3> notch(const ModelState &p) {
   return {place_on(p, "P2", 0.3, 1), place_on(p, "P2", 0.45, 0.4), place_on(p, "P2", 0.6, 0.4),
           place_on(p, "P2", 0.7, 1)};
 }
@@ -86,13 +86,13 @@ double widest_gap(const Closed &closed) {
 }  // namespace
 
 TEST_CASE("a_resected_valve_comes_to_rest_sewn_and_sealed") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const std::vector<Vec3> points = notch(before);
   for (const mvs_op_resect &op : {resection(0, 0, 0), resection(8 * mm, 6 * mm, 10 * mm),
                                   resection(12 * mm, 0, 0), along_outline(points)}) {
     CAPTURE(op.width);
     CAPTURE(op.base_width);
-    const Closed closed = close(apply(before, op).picture);
+    const Closed closed = close(apply(before, op).current);
     CHECK(closed.stats.converged);
     CHECK(intersections(closed) == 0);
     CHECK(sutures_of(closed.model->valve).size() >= 5);
@@ -103,7 +103,7 @@ TEST_CASE("a_resected_valve_comes_to_rest_sewn_and_sealed") {
 }
 
 TEST_CASE("it_is_the_sutures_that_seal_the_gap") {
-  Picture cut = apply(shipped(), resection(0, 0, 0)).picture;
+  ModelState cut = apply(shipped(), resection(0, 0, 0)).current;
   Valve valve = cut.model->valve;
   std::vector<Chord> chords = valve.chords;
   std::erase_if(chords, [](const Chord &c) { return c.kind == MVS_CHORD_SUTURE; });
@@ -116,8 +116,8 @@ TEST_CASE("it_is_the_sutures_that_seal_the_gap") {
 }
 
 TEST_CASE("what_stays_is_as_it_was") {
-  const Picture before = shipped();
-  const Picture after = apply(before, resection(0, 0, 0)).picture;
+  const ModelState before = shipped();
+  const ModelState after = apply(before, resection(0, 0, 0)).current;
   const Valve &old = before.model->valve, &now = after.model->valve;
   size_t added = 0;
   for (size_t n = 0; n < now.rest.size(); ++n) {
@@ -154,10 +154,10 @@ TEST_CASE("what_stays_is_as_it_was") {
 }
 
 TEST_CASE("the_piece_has_the_size_that_was_asked_for") {
-  const Picture before = fine_valve();
+  const ModelState before = fine_valve();
   const double edge = 0.5 * mm;  // of this mesh, about
   for (const double base : {0.0, 5 * mm}) {
-    const Picture after = apply(before, resection(9 * mm, base, 8 * mm)).picture;
+    const ModelState after = apply(before, resection(9 * mm, base, 8 * mm)).current;
     const double cut = area_of(*before.model) - area_of(*after.model);
     const double wanted = 0.5 * (9 * mm + base) * 8 * mm;
     // a node is cut through that lies a fifth of an edge beside one of the two sides, on the
@@ -173,8 +173,8 @@ TEST_CASE("the_piece_has_the_size_that_was_asked_for") {
 }
 
 TEST_CASE("a_quadrangle_gathers_the_posterior_annulus_by_its_base") {
-  const Picture before = shipped();
-  const Picture after = apply(before, resection(8 * mm, 6 * mm, 10 * mm)).picture;
+  const ModelState before = shipped();
+  const ModelState after = apply(before, resection(8 * mm, 6 * mm, 10 * mm)).current;
   const Valve &old = before.model->valve, &now = after.model->valve;
   // nodes are placed along the new curve by arc length, their chords are shorter by parts of 1 %
   CHECK(std::abs(perimeter(old, old.open) - perimeter(now, now.open) - 6 * mm) < 0.4 * mm);
@@ -192,11 +192,11 @@ TEST_CASE("a_quadrangle_gathers_the_posterior_annulus_by_its_base") {
 }
 
 TEST_CASE("an_outline_means_the_same_tissue_on_an_open_and_a_closed_valve") {
-  const Picture open = shipped();
+  const ModelState open = shipped();
   const Closed closed = close(open);
-  const Picture shut{closed.model, closed.state};
-  const Picture a = apply(open, along_outline(notch(open))).picture;
-  const Picture b = apply(shut, along_outline(notch(shut))).picture;
+  const ModelState shut{closed.model, closed.state};
+  const ModelState a = apply(open, along_outline(notch(open))).current;
+  const ModelState b = apply(shut, along_outline(notch(shut))).current;
   REQUIRE(a.model->node_count() == b.model->node_count());
   for (size_t n = 0; n < a.model->node_count(); ++n) {
     // the flat points come by way of other triangles' weights: rounding
@@ -205,7 +205,7 @@ TEST_CASE("an_outline_means_the_same_tissue_on_an_open_and_a_closed_valve") {
 }
 
 TEST_CASE("what_cannot_be_resected_is_said") {
-  const Picture p = shipped();
+  const ModelState p = shipped();
   const auto &valve = p.model->valve;
   refused(p, resection(20 * mm, 0, 0), MVS_E_OP, "free edge of P2 is");
   refused(p, resection(8 * mm, 10 * mm, 0), MVS_E_OP, "wider than the 8.0 mm");
@@ -232,7 +232,7 @@ TEST_CASE("what_cannot_be_resected_is_said") {
 }
 
 TEST_CASE("pieces_that_cannot_come_out_in_one_are_refused") {
-  const Picture p = fine_valve();
+  const ModelState p = fine_valve();
   const auto drawn = [&](const std::vector<std::array<double, 2>> &places) {
     std::vector<Vec3> points;
     for (const auto &[along, height] : places) points.push_back(place_on(p, "P2", along, height));
@@ -260,7 +260,7 @@ TEST_CASE("pieces_that_cannot_come_out_in_one_are_refused") {
   refused(p, along_outline(points), MVS_E_OP, "two pieces");
   // across the notch of an earlier one
   points = drawn({{0.2, 1}, {0.2, 0.6}, {0.8, 0.6}, {0.8, 1}});
-  const Picture cut = apply(p, resection(5 * mm, 0, 10 * mm)).picture;
+  const ModelState cut = apply(p, resection(5 * mm, 0, 10 * mm)).current;
   refused(cut, along_outline(points), MVS_E_OP, "two pieces");
 }
 
@@ -268,7 +268,7 @@ TEST_CASE("what_is_narrower_than_the_mesh_is_cut_or_refused_as_such") {
   mvs_parametric_desc coarse = {};
   coarse.struct_size = sizeof coarse;
   coarse.vertices = 200;
-  const Picture p = shipped(coarse);
+  const ModelState p = shipped(coarse);
   size_t empty = 0, holes = 0;
   for (int k = 0; k < 40; ++k) {
     try {
@@ -286,7 +286,7 @@ TEST_CASE("what_is_narrower_than_the_mesh_is_cut_or_refused_as_such") {
 }
 
 TEST_CASE("a_scallop_is_not_taken_out_whole") {
-  Picture p = shipped();
+  ModelState p = shipped();
   Valve valve = p.model->valve;
   const SheetMap map(*p.model);
   const uint32_t p2 = scallop_named(valve, "P2");
@@ -306,16 +306,16 @@ TEST_CASE("a_scallop_is_not_taken_out_whole") {
 TEST_CASE("after_a_ring_only_triangles_can_be_cut") {
   auto ring = op_of<mvs_op_ring>(MVS_OP_RING);
   ring.size = 34 * mm;
-  const Picture p = apply(shipped(), ring).picture;
+  const ModelState p = apply(shipped(), ring).current;
   refused(p, resection(8 * mm, 6 * mm, 0), MVS_E_OP, "ring ring holds the annulus");
-  CHECK(close(apply(p, resection(8 * mm, 0, 0)).picture).stats.converged);
+  CHECK(close(apply(p, resection(8 * mm, 0, 0)).current).stats.converged);
 }
 
 // Each of many pieces is cut into a valve, or refused in words of its own.
 TEST_CASE("any_piece_is_cut_or_refused") {
   const char *lengthy = std::getenv("MVS_TEST_LONG");
   const uint32_t pieces = lengthy && *lengthy ? 300 : 90;
-  std::vector<Picture> valves;
+  std::vector<ModelState> valves;
   for (const uint32_t vertices : {425u, 200u, 900u}) {
     mvs_parametric_desc desc = {};
     desc.struct_size = sizeof desc;
@@ -329,14 +329,14 @@ TEST_CASE("any_piece_is_cut_or_refused") {
     const double u = std::fmod(0.5 + 0.8191725133961645 * k, 1);
     const double v = std::fmod(0.5 + 0.6710436067037893 * k, 1);
     const double w = std::fmod(0.5 + 0.5497004779019703 * k, 1);
-    Picture p = valves[k % 3];
+    ModelState p = valves[k % 3];
     auto op = resection((1 + 13 * u) * mm, k % 2 ? 0.7 * (1 + 13 * u) * mm : 0, (2 + 11 * v) * mm,
                         2 * w - 1);
     const char *names[] = {"P1", "P2", "P3", "A2"};
     op.scallop = p.model->valve.scallops[scallop_named(p.model->valve, names[k % 4])].id;
     for (int round = 0; round < 2; ++round) {
       try {
-        p = apply(p, op).picture;
+        p = apply(p, op).current;
         ++(round == 0 ? cut : again);
       } catch (const Error &fault) {
         const std::string said = fault.what();
@@ -352,8 +352,8 @@ TEST_CASE("any_piece_is_cut_or_refused") {
 }
 
 TEST_CASE("a_seam_is_no_free_edge_to_anatomical_sites") {
-  const Picture before = shipped();
-  const Picture after = apply(before, resection(0, 0, 0)).picture;
+  const ModelState before = shipped();
+  const ModelState after = apply(before, resection(0, 0, 0)).current;
   const SheetMap old(*before.model), now(*after.model);
   double most = 0, highest = 0;
   for (uint32_t n = 0; n < after.model->node_count(); ++n) {
@@ -371,7 +371,7 @@ TEST_CASE("a_seam_is_no_free_edge_to_anatomical_sites") {
 }
 
 TEST_CASE("a_leaflet_laid_flat_keeps_its_lengths") {
-  const Picture p = fine_valve();
+  const ModelState p = fine_valve();
   const Model &model = *p.model;
   const Surgery s{model, model.valve, p.state, "test"};
   const uint32_t p2 = scallop_named(model.valve, "P2");

@@ -86,9 +86,9 @@ TEST_CASE("the_parametric_ring_has_the_measures_of_a_physio_34") {
 }
 
 TEST_CASE("a_ring_holds_the_annulus_on_its_curve_open_and_loaded") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Operated done = apply(before, sized(34 * mm));
-  const Valve &valve = done.picture.model->valve;
+  const Valve &valve = done.current.model->valve;
   REQUIRE(valve.rings.size() == 1);
   CHECK(valve.rings[0].id == done.made);
   CHECK(valve.rings[0].name == "ring");
@@ -104,9 +104,9 @@ TEST_CASE("a_ring_holds_the_annulus_on_its_curve_open_and_loaded") {
 }
 
 TEST_CASE("annulus_nodes_keep_their_share_of_the_length_from_a") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Operated done = apply(before, sized(32 * mm));
-  const Model &model = *done.picture.model;
+  const Model &model = *done.current.model;
   const std::vector<uint32_t> &nodes = model.valve.annulus;
   const Loop old_loop(nodes, before.model->valve.loaded), ring(nodes, model.valve.loaded);
   for (size_t k = 0; k < nodes.size(); ++k) {
@@ -119,7 +119,7 @@ TEST_CASE("annulus_nodes_keep_their_share_of_the_length_from_a") {
 
 TEST_CASE("a_points_to_a") {
   const Operated done = apply(shipped(), sized(34 * mm));
-  const Model &model = *done.picture.model;
+  const Model &model = *done.current.model;
   const Landmarks marks = find_landmarks(model, Loop(model.valve.annulus, model.valve.loaded));
   const std::vector<Vec3> &curve = model.valve.rings[0].curve;
   // the ring starts at its A point; the landmark lies on a side of the polygon, 1.8 mm long
@@ -130,27 +130,27 @@ TEST_CASE("a_points_to_a") {
 }
 
 TEST_CASE("frame_winding_and_start_of_a_curve_do_not_matter") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const std::vector<Vec3> curve = skew_ring(200);
-  const Valve straight = apply(before, along(curve)).picture.model->valve;
+  const Valve straight = apply(before, along(curve)).current.model->valve;
   std::vector<Vec3> other = moved(curve);
   std::rotate(other.begin(), other.begin() + 57, other.end());
   // the search stops at 1e-9 of the length, where the sum of squares is flat: 1e-4 mm
-  CHECK(largest_difference(straight, apply(before, along(other)).picture.model->valve) < 1e-7);
+  CHECK(largest_difference(straight, apply(before, along(other)).current.model->valve) < 1e-7);
   std::reverse(other.begin(), other.end());
-  CHECK(largest_difference(straight, apply(before, along(other)).picture.model->valve) < 1e-7);
+  CHECK(largest_difference(straight, apply(before, along(other)).current.model->valve) < 1e-7);
 }
 
 TEST_CASE("the_best_fit_finds_the_annulus_itself") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const Valve &valve = before.model->valve;
   const Loop annulus(valve.annulus, valve.loaded);
-  const Valve after = apply(before, along(moved(annulus.points()))).picture.model->valve;
+  const Valve after = apply(before, along(moved(annulus.points()))).current.model->valve;
   CHECK(largest_difference(valve, after) < 1e-7);
 }
 
 TEST_CASE("landmarks_place_a_ring") {
-  const Picture before = shipped();
+  const ModelState before = shipped();
   const std::vector<Vec3> curve = skew_ring(100), far = moved(curve);
   const std::vector<Vec3> from = {far[0], far[30], far[60]};
   const std::vector<Vec3> to = {curve[0], curve[30], curve[60]};
@@ -158,7 +158,7 @@ TEST_CASE("landmarks_place_a_ring") {
   op.landmarks = array_of(from);
   op.landmarks_at = array_of(to);
   const Operated done = apply(before, op);
-  for (const Vec3 &p : done.picture.model->valve.rings[0].curve) {
+  for (const Vec3 &p : done.current.model->valve.rings[0].curve) {
     CHECK(distance_to_curve(p, curve) < 1e-12);
   }
 }
@@ -167,8 +167,8 @@ TEST_CASE("a_new_ring_replaces_the_old_one") {
   const Operated first = apply(shipped(), sized(36 * mm));
   auto op = sized(32 * mm);
   op.name = "smaller";
-  const Operated second = apply(first.picture, op);
-  const Valve &valve = second.picture.model->valve;
+  const Operated second = apply(first.current, op);
+  const Valve &valve = second.current.model->valve;
   REQUIRE(valve.rings.size() == 1);
   CHECK(valve.rings[0].name == "smaller");
   CHECK(second.made != first.made);
@@ -178,8 +178,8 @@ TEST_CASE("the_valve_closes_with_any_ring_that_is_in_use") {
   const Closed healthy = close(shipped());
   for (const double size : {26 * mm, 30 * mm, 34 * mm, 40 * mm}) {
     CAPTURE(size);
-    for (const Picture &picture : {shipped(), Picture{healthy.model, healthy.state}}) {
-      const Closed closed = close(apply(picture, sized(size)).picture);
+    for (const ModelState &current : {shipped(), ModelState{healthy.model, healthy.state}}) {
+      const Closed closed = close(apply(current, sized(size)).current);
       CHECK(closed.stats.converged);
       CHECK(intersections(closed) == 0);
       const Valve &valve = closed.model->valve;
@@ -189,7 +189,7 @@ TEST_CASE("the_valve_closes_with_any_ring_that_is_in_use") {
 }
 
 TEST_CASE("what_is_no_ring_is_said") {
-  const Picture valve = shipped();
+  const ModelState valve = shipped();
   const auto none_given = op_of<mvs_op_ring>(MVS_OP_RING);
   refused(valve, none_given, MVS_E_ARGUMENT, "give a curve, or the size");
   const std::vector<Vec3> curve = skew_ring(40);
@@ -222,7 +222,7 @@ TEST_CASE("what_is_no_ring_is_said") {
 }
 
 TEST_CASE("landmarks_that_place_nothing_are_said") {
-  const Picture valve = shipped();
+  const ModelState valve = shipped();
   const std::vector<Vec3> curve = skew_ring(40), line = {curve[0], 2 * curve[0], 3 * curve[0]};
   const std::vector<Vec3> three = {curve[0], curve[3], curve[20]};
   const std::vector<Vec3> swapped = {curve[3], curve[20], curve[0]};

@@ -14,8 +14,8 @@ namespace mvs::core::verification {
 struct Balance::Newton {
   const Balance &of;
   const Positions &load;
-  std::unique_ptr<Factor> factor = make_factor(MVS_BACKEND_BLOCK);
-  System system = {};
+  std::unique_ptr<DirectSolver> factor = make_direct_solver(MVS_BACKEND_BLOCK);
+  HessianAssembler system = {};
   Positions x = {}, g = {};
   double energy = 0, residual = 0, shift = 0;
 

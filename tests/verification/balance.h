@@ -31,7 +31,7 @@ class Balance {
   SpringTerm spring_;
   MembraneTerm membrane_;
   BendingTerm bending_;
-  ChordTerm chord_;
+  CableTerm chord_;
 };
 
 }  // namespace mvs::core::verification

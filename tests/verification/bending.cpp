@@ -218,7 +218,7 @@ class Cylinder {
   Positions load_;
   MembraneTerm membrane_;
   BendingTerm bending_;
-  System system_;
+  HessianAssembler system_;
 };
 
 Study study_of(const std::string &name, const std::string &title) {

@@ -69,7 +69,7 @@ double lowest(const Positions &x) {
 
 double pull(const Chain &chain, const Positions &x) {
   Positions g(x.size(), Vec3::Zero());
-  ChordTerm(chain.model).gradient(x, g);
+  CableTerm(chain.model).gradient(x, g);
   return std::abs(g[0].x());
 }
 

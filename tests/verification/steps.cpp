@@ -119,7 +119,7 @@ Flight flight(uint32_t kind, double dt, bool anew = false) {
   f.spin_before = angular_momentum(model, state);
   const auto steps = std::lround(duration / dt);
   for (long k = 0; k < steps; ++k) {
-    if (anew) state.forget_way();
+    if (anew) state.drop_cache();
     solver.step(model, state, options);
   }
   f.after = momentum(model, state);

@@ -3,10 +3,10 @@
 #include "solve/nodes.h"
 
 namespace mvs::core {
-KeptFactor::KeptFactor(const Model &model, std::unique_ptr<Factor> factor)
+CachedPreconditioner::CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor)
     : model_(&model), factor_(std::move(factor)) {}
 
-bool KeptFactor::is_of(const Waypoint &place, uint32_t done) const {
+bool CachedPreconditioner::is_of(const PreconditionerKey &place, uint32_t done) const {
   const bool same_place = place_.x.buffer() == place.x.buffer() || same_bits(place_.x, place.x);
   return done_ >= done && same_place && place_.tools == place.tools &&
          place_.pressure == place.pressure && place_.dt == place.dt &&
@@ -14,8 +14,8 @@ bool KeptFactor::is_of(const Waypoint &place, uint32_t done) const {
 }
 
 // Blocks that are zero stay out: what a pattern has kept of earlier contact may not show.
-void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
-                      const std::vector<uint32_t> *order) {
+void CachedPreconditioner::take(const StepMatrix &matrix, const PreconditionerKey &place,
+                                const std::vector<uint32_t> *order) {
   place_ = place;
   done_ = 0;
   has_order_ = order != nullptr;
@@ -26,14 +26,15 @@ void KeptFactor::take(const StepMatrix &matrix, const Waypoint &place,
   }
 }
 
-void KeptFactor::take_in_order(const StepMatrix &matrix, const std::vector<uint32_t> &order) {
+void CachedPreconditioner::take_in_order(const StepMatrix &matrix,
+                                         const std::vector<uint32_t> &order) {
   system_.set_order(*model_, order);
   row_.resize(matrix.size());
   for (uint32_t r = 0; r < matrix.size(); ++r) row_[r] = system_.row_of[matrix.node(r)];
   permutation_.permute(matrix.blocks(), row_, system_.matrix);
 }
 
-void KeptFactor::take_blocks(const StepMatrix &matrix) {
+void CachedPreconditioner::take_blocks(const StepMatrix &matrix) {
   const BlockMatrix &m = matrix.blocks();
   nodes_.clear();
   pairs_.clear();
@@ -53,7 +54,7 @@ void KeptFactor::take_blocks(const StepMatrix &matrix) {
 }
 
 // Rows in the order that suits the pattern.
-void KeptFactor::find_order() {
+void CachedPreconditioner::find_order() {
   system_.set_pattern(*model_, pairs_);
   for (size_t k = 0; k < pairs_.size(); ++k) system_.add(pairs_[k][0], pairs_[k][1], blocks_[k]);
   row_.resize(nodes_.size());
@@ -63,12 +64,12 @@ void KeptFactor::find_order() {
   }
 }
 
-void KeptFactor::analyse() {
+void CachedPreconditioner::analyse() {
   if (!has_order_) find_order();
   factor_->analyse(system_.matrix);
 }
 
-bool KeptFactor::factorise_part(uint32_t part) {
+bool CachedPreconditioner::factorise_part(uint32_t part) {
   if (part < done_) return true;
   done_ = part + 1;
   if (part == 0) {
@@ -80,7 +81,7 @@ bool KeptFactor::factorise_part(uint32_t part) {
   return positive;
 }
 
-bool KeptFactor::factorise() {
+bool CachedPreconditioner::factorise() {
   if (done_ == 0) analyse();
   const bool positive = factor_->factorise(system_.matrix);
   done_ = parts;
@@ -88,13 +89,13 @@ bool KeptFactor::factorise() {
   return positive;
 }
 
-void KeptFactor::add_mass(const StepMatrix &matrix, double times) {
+void CachedPreconditioner::add_mass(const StepMatrix &matrix, double times) {
   for (uint32_t r = 0; r < matrix.size(); ++r) {
     system_.add_diagonal(matrix.node(r), Mat3::Identity() * (times * matrix.mass(r)));
   }
 }
 
-void KeptFactor::solve(const std::vector<Vec3> &r, std::vector<Vec3> &z) {
+void CachedPreconditioner::solve(const std::vector<Vec3> &r, std::vector<Vec3> &z) {
   turned_.resize(r.size());
   for (size_t k = 0; k < r.size(); ++k) turned_[row_[k]] = r[k];
   factor_->solve(turned_);

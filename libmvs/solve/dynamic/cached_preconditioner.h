@@ -10,18 +10,19 @@
 
 namespace mvs::core {
 
-class KeptFactor {
+class CachedPreconditioner {
  public:
   // Parts of about the same work in which a factor is made beside the steps that another serves:
   // first the pattern, then the numbers.
   static constexpr uint32_t parts = 3;
 
-  KeptFactor(const Model &model, std::unique_ptr<Factor> factor);
+  CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor);
 
   // Whether it is of this place, with so many parts of it done at least.
-  bool is_of(const Waypoint &place, uint32_t done) const;
+  bool is_of(const PreconditionerKey &place, uint32_t done) const;
   // Copies a matrix, of this place, in an order of elimination; without one it finds its own.
-  void take(const StepMatrix &matrix, const Waypoint &place, const std::vector<uint32_t> *order);
+  void take(const StepMatrix &matrix, const PreconditionerKey &place,
+            const std::vector<uint32_t> *order);
   // The next part, unless it is done; all that is left. False, and of no place any more, if the
   // matrix is not positive definite.
   bool factorise_part(uint32_t part);
@@ -39,9 +40,9 @@ class KeptFactor {
   void analyse();
 
   const Model *model_;
-  std::unique_ptr<Factor> factor_;
-  System system_;
-  Waypoint place_;
+  std::unique_ptr<DirectSolver> factor_;
+  HessianAssembler system_;
+  PreconditionerKey place_;
   uint32_t done_ = 0;          // parts
   std::vector<uint32_t> row_;  // of a StepMatrix -> here
   BlockPermutation permutation_;

@@ -5,7 +5,7 @@
 
 namespace mvs::core {
 
-ContactOrder::ContactOrder(const Model &model, const std::vector<Edge> &pairs) {
+ContactOrdering::ContactOrdering(const Model &model, const std::vector<Edge> &pairs) {
   make_patches(model);
   const size_t patches = patch_start_.size() - 1;
   words_ = (patches + 63) / 64;
@@ -18,7 +18,7 @@ ContactOrder::ContactOrder(const Model &model, const std::vector<Edge> &pairs) {
 
 // A node that has no patch yet, and those of its neighbours along edges and chordae that have none.
 // Smaller patches cost more and fill no less (measured with at most three nodes).
-void ContactOrder::make_patches(const Model &model) {
+void ContactOrdering::make_patches(const Model &model) {
   const auto n = static_cast<uint32_t>(model.node_count());
   std::vector<std::vector<uint32_t>> around(n);
   const auto join = [&](uint32_t i, uint32_t j) {
@@ -43,14 +43,14 @@ void ContactOrder::make_patches(const Model &model) {
   }
 }
 
-void ContactOrder::couple(Bits &bits, uint32_t node_a, uint32_t node_b) const {
+void ContactOrdering::couple(Bits &bits, uint32_t node_a, uint32_t node_b) const {
   const uint32_t a = patch_of_[node_a], b = patch_of_[node_b];
   if (a != none && b != none && a != b) set(bits, a, b);
 }
 
-bool ContactOrder::update(const std::vector<ContactStencil> &stencils) {
+bool ContactOrdering::update(const std::vector<ContactPair> &contact_pairs) {
   std::fill(touching_.begin(), touching_.end(), 0);
-  for (const ContactStencil &s : stencils) {
+  for (const ContactPair &s : contact_pairs) {
     for (uint32_t k = 0; k < s.count; ++k) {
       for (uint32_t l = 0; l < k; ++l) couple(touching_, s.node[k], s.node[l]);
     }
@@ -62,7 +62,7 @@ bool ContactOrder::update(const std::vector<ContactStencil> &stencils) {
 }
 
 template <typename Visit>
-void ContactOrder::for_each(const Word *bits, Visit &&visit) const {
+void ContactOrdering::for_each(const Word *bits, Visit &&visit) const {
   for (size_t w = 0; w < words_; ++w) {
     for (Word left = bits[w]; left != 0; left &= left - 1) {
       visit(static_cast<uint32_t>(64 * w) + static_cast<uint32_t>(std::countr_zero(left)));
@@ -70,7 +70,7 @@ void ContactOrder::for_each(const Word *bits, Visit &&visit) const {
   }
 }
 
-uint32_t ContactOrder::degree(uint32_t patch) const {
+uint32_t ContactOrdering::degree(uint32_t patch) const {
   uint32_t sum = 0;
   for_each(&graph_[patch * words_],
            [&](uint32_t p) { sum += patch_start_[p + 1] - patch_start_[p]; });
@@ -78,7 +78,7 @@ uint32_t ContactOrder::degree(uint32_t patch) const {
 }
 
 // What was next to the patch is now next to each other.
-void ContactOrder::eliminate(uint32_t patch) {
+void ContactOrdering::eliminate(uint32_t patch) {
   const Word *gone = &graph_[patch * words_];
   for_each(gone, [&](uint32_t p) {
     Word *row = &graph_[p * words_];
@@ -92,7 +92,7 @@ void ContactOrder::eliminate(uint32_t patch) {
                 patch_node_.begin() + patch_start_[patch + 1]);
 }
 
-void ContactOrder::find_order() {
+void ContactOrdering::find_order() {
   const auto patches = static_cast<uint32_t>(degree_.size());
   for (size_t w = 0; w < graph_.size(); ++w) graph_[w] = model_[w] | touched_[w];
   for (uint32_t p = 0; p < patches; ++p) degree_[p] = degree(p);

@@ -13,13 +13,13 @@
 
 namespace mvs::core {
 
-class ContactOrder {
+class ContactOrdering {
  public:
   // `pairs` of nodes that the terms of the model couple.
-  ContactOrder(const Model &model, const std::vector<Edge> &pairs);
+  ContactOrdering(const Model &model, const std::vector<Edge> &pairs);
 
   // Takes in what touches; true if the order is another one than before, or the first.
-  bool update(const std::vector<ContactStencil> &stencils);
+  bool update(const std::vector<ContactPair> &contact_pairs);
   // The free nodes in the order of their elimination.
   const std::vector<uint32_t> &nodes() const { return nodes_; }
 

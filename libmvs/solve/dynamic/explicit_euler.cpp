@@ -12,17 +12,17 @@ constexpr double farthest_step = 1;  // m; beyond it a step has blown up
 
 }  // namespace
 
-ExplicitStepper::ExplicitStepper(const Model &model)
-    : model_(&model), potential_(model, ContactLaw::penalty) {}
+ExplicitEuler::ExplicitEuler(const Model &model)
+    : model_(&model), total_energy_(model, ContactLaw::penalty) {}
 
-void ExplicitStepper::step(State &state, const StepOptions &how, SolveStats &stats) {
+void ExplicitEuler::step(State &state, const StepOptions &how, SolveStats &stats) {
   std::vector<Vec3> &x = state.x.edit(), &v = state.v.edit();
-  potential_.set_pressure(state.load.pressure);
-  potential_.set_tools(state.tools.get());
-  if (!potential_.prepared_for(x)) {
-    potential_.prepare(x, x, 0.5 * model_->valve.contact_thickness, stats.work);
+  total_energy_.set_pressure(state.load.pressure);
+  total_energy_.set_tools(state.tools.get());
+  if (!total_energy_.prepared_for(x)) {
+    total_energy_.prepare(x, x, 0.5 * model_->valve.contact_thickness, stats.work);
   }
-  stats.energy = potential_.gradient(x, g_, stats.work);
+  stats.energy = total_energy_.gradient(x, g_, stats.work);
   stats.residual = largest_free(*model_, g_);
   advance_boundary(*model_, state, how.dt, boundary_);
   bool sane = std::isfinite(stats.residual);
@@ -39,7 +39,7 @@ void ExplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
   MVS_MUST(sane, MVS_E_DIVERGED, "step",
            "the explicit solver blew up: its time step is too large for this valve");
   stats.kinetic = kinetic_energy(*model_, v);
-  stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
+  stats.contact_pairs = static_cast<uint32_t>(total_energy_.contact().contact_pairs().size());
 }
 
 }  // namespace mvs::core

@@ -9,17 +9,17 @@
 
 namespace mvs::core {
 
-class ExplicitStepper {
+class ExplicitEuler {
  public:
-  explicit ExplicitStepper(const Model &model);
+  explicit ExplicitEuler(const Model &model);
   void step(State &state, const StepOptions &how, SolveStats &stats);
   // See Potential.
-  void begin_call() { potential_.begin_call(); }
-  uint32_t skipped() const { return potential_.skipped(); }
+  void begin_call() { total_energy_.begin_call(); }
+  uint32_t skipped() const { return total_energy_.skipped(); }
 
  private:
   const Model *model_;
-  Potential potential_;
+  TotalEnergy total_energy_;
   std::vector<Vec3> g_, boundary_;
 };
 

@@ -48,28 +48,28 @@ double rest_force(const Load &load) {
   return std::min(1.0001e-5, 1e-9 + 1e-5 / MVS_SYSTOLE_PA * std::abs(load.pressure));
 }
 
-ImplicitStepper::ImplicitStepper(const Model &model, uint32_t backend)
+ImplicitEuler::ImplicitEuler(const Model &model, uint32_t backend)
     : model_(&model),
-      potential_(model),
+      total_energy_(model),
       matrix_(model),
-      solver_(model, potential_, backend),
+      solver_(model, total_energy_, backend),
       slack_(0.1 * model.valve.contact_thickness) {
   // no memory is asked for once warm, also if the boundary moves only then
   alone_x_.reserve(model.node_count());
   alone_g_.reserve(model.node_count());
 }
 
-void ImplicitStepper::make_ready(State &state, const StepOptions &how) {
+void ImplicitEuler::make_ready(State &state, const StepOptions &how) {
   SolveStats unseen;
-  potential_.keep_near_at_once();
+  total_energy_.keep_near_at_once();
   resume(state, how);
   begin(state, how, unseen);
   if (how.may_sleep && is_at_rest(state, how)) return;
-  matrix_.assemble(potential_, x_, how, nullptr, unseen.work);
+  matrix_.assemble(total_energy_, x_, how, nullptr, unseen.work);
   solver_.make_ready(matrix_, here(state, how), x_, state);
 }
 
-void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &stats) {
+void ImplicitEuler::step(State &state, const StepOptions &how, SolveStats &stats) {
   resume(state, how);
   begin(state, how, stats);
   if (how.may_sleep && is_at_rest(state, how)) {
@@ -89,7 +89,7 @@ void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
     x_.swap(next_x_);
     v_.swap(next_v_);
     sheet_g_.swap(next_g_);
-    sheet_energy_ = potential_.freeze(x_);
+    sheet_energy_ = total_energy_.freeze(x_);
     sum_up();
   } else {
     stand();
@@ -101,31 +101,33 @@ void ImplicitStepper::step(State &state, const StepOptions &how, SolveStats &sta
 }
 
 // A solver that has not made the steps before makes the factors that they have left.
-void ImplicitStepper::resume(State &state, const StepOptions &how) {
-  solver_.resume(state, how, matrix_,
-                 [&](const Waypoint &place, StepMatrix &matrix) { look(place, how, matrix); });
+void ImplicitEuler::resume(State &state, const StepOptions &how) {
+  solver_.resume(state, how, matrix_, [&](const PreconditionerKey &place, StepMatrix &matrix) {
+    look(place, how, matrix);
+  });
 }
 
-void ImplicitStepper::look(const Waypoint &place, const StepOptions &how, StepMatrix &matrix) {
+void ImplicitEuler::look(const PreconditionerKey &place, const StepOptions &how,
+                         StepMatrix &matrix) {
   evaluated_ = false;
   Profile unseen{};
-  potential_.set_pressure(place.pressure);
-  potential_.set_tools(place.tools);
-  potential_.prepare(place.x, place.x, slack_, unseen);
-  potential_.sheet_gradient(place.x, next_g_, unseen);
-  matrix.assemble(potential_, place.x, how, nullptr, unseen);
+  total_energy_.set_pressure(place.pressure);
+  total_energy_.set_tools(place.tools);
+  total_energy_.prepare(place.x, place.x, slack_, unseen);
+  total_energy_.sheet_gradient(place.x, next_g_, unseen);
+  matrix.assemble(total_energy_, place.x, how, nullptr, unseen);
 }
 
 // Forces of the step before are those of this one, where it goes on from there.
-void ImplicitStepper::begin(const State &state, const StepOptions &how, SolveStats &stats) {
+void ImplicitEuler::begin(const State &state, const StepOptions &how, SolveStats &stats) {
   left_ = how.budget;
   evaluated_ = evaluated_ && state.load.pressure == load_.pressure &&
                pushes(state.tools, pushing_) && same_bits(x_, state.x);
   load_ = state.load;
   x_ = state.x.get();
   v_ = state.v.get();
-  potential_.set_pressure(load_.pressure);
-  potential_.set_tools(state.tools);
+  total_energy_.set_pressure(load_.pressure);
+  total_energy_.set_tools(state.tools);
   travels_ = advance_boundary(*model_, state, how.dt, boundary_);
   if (evaluated_) {
     sum_up();
@@ -142,24 +144,24 @@ void ImplicitStepper::begin(const State &state, const StepOptions &how, SolveSta
 // Whether the sheet is to give way before the boundary goes on: where forces are so large, tissue
 // that stiffens exponentially is stretched as far as it can be. Not for good, for what is stuck may
 // need the boundary to get free.
-bool ImplicitStepper::is_overstretched(const State &state) const {
+bool ImplicitEuler::is_overstretched(const State &state) const {
   return residual_ > overstretched * scale_of(state.load) * mean_area(*model_) &&
          state.steps % steps_to_wait != 0;
 }
 
-void ImplicitStepper::evaluate(SolveStats &stats) {
+void ImplicitEuler::evaluate(SolveStats &stats) {
   evaluated_ = false;
-  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats.work);
-  potential_.sheet_gradient(x_, sheet_g_, stats.work);
-  sheet_energy_ = potential_.freeze(x_);
+  if (!total_energy_.prepared_for(x_)) total_energy_.prepare(x_, x_, slack_, stats.work);
+  total_energy_.sheet_gradient(x_, sheet_g_, stats.work);
+  sheet_energy_ = total_energy_.freeze(x_);
   sum_up();
 }
 
 // Hands may move while the sheet stays.
-void ImplicitStepper::sum_up() {
+void ImplicitEuler::sum_up() {
   evaluated_ = false;
   g_ = sheet_g_;
-  energy_ = sheet_energy_ + potential_.add_hands(x_, g_);
+  energy_ = sheet_energy_ + total_energy_.add_hands(x_, g_);
   residual_ = largest_free(*model_, g_);
   MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "step",
            "the forces are not finite: nodes coincide or the material is too stiff");
@@ -168,7 +170,7 @@ void ImplicitStepper::sum_up() {
 
 // Whether nothing drives the valve: neither out-of-balance forces, nor, in the same unit, what is
 // left of its motion.
-bool ImplicitStepper::is_at_rest(const State &state, const StepOptions &how) const {
+bool ImplicitEuler::is_at_rest(const State &state, const StepOptions &how) const {
   const double most = rest_force(state.load);
   if (travels_ || residual_ > most) return false;
   for (size_t i = 0; i < v_.size(); ++i) {
@@ -178,8 +180,8 @@ bool ImplicitStepper::is_at_rest(const State &state, const StepOptions &how) con
   return true;
 }
 
-void ImplicitStepper::solve(State &state, const StepOptions &how, SolveStats &stats) {
-  matrix_.assemble(potential_, x_, how, travels_ ? &boundary_ : nullptr, stats.work);
+void ImplicitEuler::solve(State &state, const StepOptions &how, SolveStats &stats) {
+  matrix_.assemble(total_energy_, x_, how, travels_ ? &boundary_ : nullptr, stats.work);
   --left_;
   rows_.resize(matrix_.size());
   for (uint32_t r = 0; r < matrix_.size(); ++r) {
@@ -189,15 +191,15 @@ void ImplicitStepper::solve(State &state, const StepOptions &how, SolveStats &st
   solver_.solve(matrix_, here(state, how), x_, state, rows_, left_, stats);
 }
 
-Waypoint ImplicitStepper::here(const State &state, const StepOptions &how) const {
+PreconditionerKey ImplicitEuler::here(const State &state, const StepOptions &how) const {
   return {{}, state.tools, load_.pressure, how.dt, how.damping, 0};
 }
 
-void ImplicitStepper::limit(SolveStats &stats) {
+void ImplicitEuler::limit(SolveStats &stats) {
   step_ = boundary_;
   for (size_t r = 0; r < rows_.size(); ++r)
     step_[matrix_.node(static_cast<uint32_t>(r))] = rows_[r];
-  potential_.instrument().bodies().shorten(step_, longest_step);
+  total_energy_.instrument().bodies().shorten(step_, longest_step);
   double farthest = 0;
   for (size_t i = 0; i < x_.size(); ++i) {
     const double length = step_[i].norm();
@@ -209,10 +211,10 @@ void ImplicitStepper::limit(SolveStats &stats) {
   const double quick = slow * model_->valve.contact_thickness;
   // what moves needs another list in the next step anyway: the shortest one will do
   list_slack_ = farthest > quick ? quick : slack_;
-  if (farthest > quick || !potential_.prepared_for(next_x_) || !potential_.prepared_for(x_)) {
-    potential_.prepare(x_, next_x_, list_slack_, stats.work);
+  if (farthest > quick || !total_energy_.prepared_for(next_x_) || !total_energy_.prepared_for(x_)) {
+    total_energy_.prepare(x_, next_x_, list_slack_, stats.work);
   }
-  potential_.limit_step(x_, list_slack_, step_, stats.work);
+  total_energy_.limit_step(x_, list_slack_, step_, stats.work);
 }
 
 // Goes a share of the step that makes no energy: it may come from the pressure (part of the
@@ -220,7 +222,7 @@ void ImplicitStepper::limit(SolveStats &stats) {
 // much, the parabola of its slope, its start and its end tells how much may do. Where that is next
 // to nothing, the cuts have left a step across the slope: a ball that was drawn back stuck in the
 // tissue as long as such steps were followed.
-bool ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
+bool ImplicitEuler::go(const StepOptions &how, SolveStats &stats) {
   double share = 1, slope = 0;
   boundary_made_ = -1;
   for (size_t i = 0; i < x_.size(); ++i) slope += g_[i].dot(step_[i]);
@@ -239,7 +241,7 @@ bool ImplicitStepper::go(const StepOptions &how, SolveStats &stats) {
 }
 
 // Shortened as a whole the step leads downhill, and the shorter it is, the less of it is cut.
-bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
+bool ImplicitEuler::go_less(const StepOptions &how, SolveStats &stats) {
   double farthest = longest_step;
   for (const Vec3 &row : rows_) farthest = std::max(farthest, row.norm());
   double share = longest_step / farthest;
@@ -248,7 +250,7 @@ bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
     step_ = boundary_;
     for (size_t r = 0; r < rows_.size(); ++r)
       step_[matrix_.node(static_cast<uint32_t>(r))] = share * rows_[r];
-    potential_.limit_step(x_, list_slack_, step_, stats.work);
+    total_energy_.limit_step(x_, list_slack_, step_, stats.work);
     if (goes(1, how.dt, stats) <= 0) return true;
   }
   return travels_;  // the last one hardly differs from what the boundary does alone
@@ -257,12 +259,12 @@ bool ImplicitStepper::go_less(const StepOptions &how, SolveStats &stats) {
 // The energy that a share of the step makes beyond rounding, and beyond what a boundary on its way
 // would make alone, at most 0 if it may be gone; where it leads is in next_x_ and next_v_, the
 // forces there in next_g_.
-double ImplicitStepper::goes(double share, double dt, SolveStats &stats) {
+double ImplicitEuler::goes(double share, double dt, SolveStats &stats) {
   const double before = energy_ + kinetic_energy(*model_, v_);
   place(share, dt);
   --left_;
-  const double after = potential_.sheet_gradient(next_x_, next_g_, stats.work) +
-                       potential_.hands_energy(next_x_) + kinetic_;
+  const double after = total_energy_.sheet_gradient(next_x_, next_g_, stats.work) +
+                       total_energy_.hands_energy(next_x_) + kinetic_;
   const double made = after - before - 1e-12 * std::abs(before);
   if (!travels_ || made <= 0) return made;
   if (boundary_made_ < 0) {
@@ -270,23 +272,23 @@ double ImplicitStepper::goes(double share, double dt, SolveStats &stats) {
     left_ -= 2;
     boundary_made_ = boundary_alone(stats);
     // what is known of a place is to be of this one again
-    potential_.sheet_gradient(next_x_, next_g_, stats.work);
+    total_energy_.sheet_gradient(next_x_, next_g_, stats.work);
   }
   return made - boundary_made_;
 }
 
 // The energy that the step of the boundary makes where nothing gives way to it.
-double ImplicitStepper::boundary_alone(SolveStats &stats) {
+double ImplicitEuler::boundary_alone(SolveStats &stats) {
   alone_x_ = x_;
   for (size_t i = 0; i < x_.size(); ++i) {
     if (model_->topology.fixed[i]) alone_x_[i] += boundary_[i];
   }
-  const double energy =
-      potential_.sheet_gradient(alone_x_, alone_g_, stats.work) + potential_.hands_energy(alone_x_);
+  const double energy = total_energy_.sheet_gradient(alone_x_, alone_g_, stats.work) +
+                        total_energy_.hands_energy(alone_x_);
   return std::max(energy - energy_, 0.0);
 }
 
-void ImplicitStepper::place(double share, double dt) {
+void ImplicitEuler::place(double share, double dt) {
   next_x_.resize(x_.size());
   next_v_.resize(x_.size());
   for (size_t i = 0; i < x_.size(); ++i) {
@@ -297,13 +299,13 @@ void ImplicitStepper::place(double share, double dt) {
   if (share == 1) arrive();
 }
 
-void ImplicitStepper::stand() {
+void ImplicitEuler::stand() {
   std::fill(v_.begin(), v_.end(), Vec3::Zero());
   kinetic_ = 0;
 }
 
 // A boundary that has come to its target is there to the bit.
-void ImplicitStepper::arrive() {
+void ImplicitEuler::arrive() {
   for (uint32_t i = 0; i < x_.size(); ++i) {
     if (!model_->topology.fixed[i] || step_[i] != boundary_[i]) continue;
     const Vec3 target = model_->target(i, load_.boundary_fraction);
@@ -311,11 +313,11 @@ void ImplicitStepper::arrive() {
   }
 }
 
-void ImplicitStepper::report(SolveStats &stats) const {
+void ImplicitEuler::report(SolveStats &stats) const {
   stats.residual = residual_;
   stats.energy = energy_;
   stats.kinetic = kinetic_;
-  stats.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
+  stats.contact_pairs = static_cast<uint32_t>(total_energy_.contact().contact_pairs().size());
 }
 
 }  // namespace mvs::core

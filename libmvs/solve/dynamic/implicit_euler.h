@@ -26,26 +26,26 @@ namespace mvs::core {
 // residual of mvs_settle at systole, and as much less as the pressure is.
 double rest_force(const Load &load);
 
-class ImplicitStepper {
+class ImplicitEuler {
  public:
-  ImplicitStepper(const Model &model, uint32_t backend);
+  ImplicitEuler(const Model &model, uint32_t backend);
   // What the first step from a state would do for those after it: memory, what is near, forces and
   // the factor. Of the state it may take waypoints that fit no more, as a step does.
   void make_ready(State &state, const StepOptions &how);
   void step(State &state, const StepOptions &how, SolveStats &stats);
   // See Potential.
-  void begin_call() { potential_.begin_call(); }
-  uint32_t skipped() const { return potential_.skipped(); }
+  void begin_call() { total_energy_.begin_call(); }
+  uint32_t skipped() const { return total_energy_.skipped(); }
 
  private:
   void resume(State &state, const StepOptions &how);
-  void look(const Waypoint &place, const StepOptions &how, StepMatrix &matrix);
+  void look(const PreconditionerKey &place, const StepOptions &how, StepMatrix &matrix);
   void begin(const State &state, const StepOptions &how, SolveStats &stats);
   void evaluate(SolveStats &stats);
   void sum_up();
   bool is_at_rest(const State &state, const StepOptions &how) const;
   void solve(State &state, const StepOptions &how, SolveStats &stats);
-  Waypoint here(const State &state, const StepOptions &how) const;
+  PreconditionerKey here(const State &state, const StepOptions &how) const;
   void limit(SolveStats &stats);
   bool go(const StepOptions &how, SolveStats &stats);
   bool go_less(const StepOptions &how, SolveStats &stats);
@@ -58,7 +58,7 @@ class ImplicitStepper {
   void report(SolveStats &stats) const;
 
   const Model *model_;
-  Potential potential_;
+  TotalEnergy total_energy_;
   StepMatrix matrix_;
   StepSolver solver_;
   // positions and velocities at the start, and at the end

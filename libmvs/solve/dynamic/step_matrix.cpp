@@ -11,11 +11,12 @@ StepMatrix::StepMatrix(const Model &model) : model_(&model) {
   mass_.resize(nodes.size());
 }
 
-void StepMatrix::assemble(Potential &potential, const std::vector<Vec3> &x, const StepOptions &how,
-                          const std::vector<Vec3> *boundary, Profile &profile) {
-  if (system_.matrix.size() != size()) potential.set_pattern(system_);
+void StepMatrix::assemble(TotalEnergy &total_energy, const std::vector<Vec3> &x,
+                          const StepOptions &how, const std::vector<Vec3> *boundary,
+                          Profile &profile) {
+  if (system_.matrix.size() != size()) total_energy.set_pattern(system_);
   system_.boundary_step = boundary;
-  potential.hessian(x, Curvature::projected, system_, profile);
+  total_energy.hessian(x, Curvature::projected, system_, profile);
   system_.boundary_step = nullptr;
   const double per_mass = 1 / (how.dt * how.dt) + how.damping / how.dt;
   for (uint32_t r = 0; r < size(); ++r) {

@@ -13,7 +13,7 @@ class StepMatrix {
 
   // Takes in the projected Hessian at x, the place of the potential's last gradient. `boundary` is
   // the step of the prescribed nodes, null if they stay.
-  void assemble(Potential &potential, const std::vector<Vec3> &x, const StepOptions &how,
+  void assemble(TotalEnergy &total_energy, const std::vector<Vec3> &x, const StepOptions &how,
                 const std::vector<Vec3> *boundary, Profile &profile);
   uint32_t size() const { return static_cast<uint32_t>(mass_.size()); }
   uint32_t node(uint32_t row) const { return system_.node_of[row]; }
@@ -29,7 +29,7 @@ class StepMatrix {
 
  private:
   const Model *model_;
-  System system_;
+  HessianAssembler system_;
   std::vector<double> mass_, bound_;
 };
 

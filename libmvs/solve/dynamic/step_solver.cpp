@@ -27,54 +27,54 @@ bool is_our_own(uint32_t backend) {
   return backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK;
 }
 
-std::unique_ptr<Factor> make_preconditioner(uint32_t backend) {
-  return backend == MVS_BACKEND_DEFAULT ? make_narrow_factor() : make_factor(backend);
+std::unique_ptr<DirectSolver> make_preconditioner(uint32_t backend) {
+  return backend == MVS_BACKEND_DEFAULT ? make_narrow_factor() : make_direct_solver(backend);
 }
 
 }  // namespace
 
-StepSolver::StepSolver(const Model &model, const Potential &potential, uint32_t backend)
-    : potential_(&potential),
+StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, uint32_t backend)
+    : total_energy_(&total_energy),
       first_(model, make_preconditioner(backend)),
       second_(model, make_preconditioner(backend)),
-      exact_(model, make_factor(backend)) {
+      exact_(model, make_direct_solver(backend)) {
   // other backends do best with the order that each matrix of its own gives
-  if (is_our_own(backend)) order_.emplace(model, potential.pairs());
+  if (is_our_own(backend)) order_.emplace(model, total_energy.pairs());
 }
 
 void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,
                         const Look &look) {
-  for (Waypoint *place : {&state.serving, &state.coming}) {
+  for (PreconditionerKey *place : {&state.serving, &state.coming}) {
     const bool fits =
         place->x.size() == state.x.size() && place->dt == how.dt && place->damping == how.damping;
     if (!fits) *place = {};
   }
-  if (state.serving.x.empty()) return state.forget_way();
+  if (state.serving.x.empty()) return state.drop_cache();
   // a file may say anything
-  if (state.coming.age > KeptFactor::parts) state.coming = {};
-  const uint32_t all = KeptFactor::parts, some = state.coming.age;
+  if (state.coming.age > CachedPreconditioner::parts) state.coming = {};
+  const uint32_t all = CachedPreconditioner::parts, some = state.coming.age;
   if (coming_->is_of(state.serving, all)) std::swap(serving_, coming_);
   if (!serving_->is_of(state.serving, all) &&
       !remake(state.serving, all, *serving_, matrix, look)) {
-    return state.forget_way();
+    return state.drop_cache();
   }
   if (state.coming.x.empty() || coming_->is_of(state.coming, some)) return;
   if (!remake(state.coming, some, *coming_, matrix, look)) state.coming = {};
 }
 
-void StepSolver::make_ready(const StepMatrix &matrix, const Waypoint &here,
+void StepSolver::make_ready(const StepMatrix &matrix, const PreconditionerKey &here,
                             const std::vector<Vec3> &x, const State &state) {
   if (!state.serving.x.empty()) return;
   Profile unseen{};
-  const Waypoint place = with_place(here, x);
-  for (KeptFactor *factor : {coming_, serving_}) {
+  const PreconditionerKey place = with_place(here, x);
+  for (CachedPreconditioner *factor : {coming_, serving_}) {
     take(matrix, place, *factor, unseen);
     factor->factorise();
   }
 }
 
-bool StepSolver::remake(const Waypoint &place, uint32_t parts, KeptFactor &factor,
-                        StepMatrix &matrix, const Look &look) {
+bool StepSolver::remake(const PreconditionerKey &place, uint32_t parts,
+                        CachedPreconditioner &factor, StepMatrix &matrix, const Look &look) {
   look(place, matrix);
   Profile unseen{};
   take(matrix, place, factor, unseen);
@@ -84,17 +84,18 @@ bool StepSolver::remake(const Waypoint &place, uint32_t parts, KeptFactor &facto
   return true;
 }
 
-void StepSolver::take(const StepMatrix &matrix, const Waypoint &place, KeptFactor &factor,
-                      Profile &profile) {
+void StepSolver::take(const StepMatrix &matrix, const PreconditionerKey &place,
+                      CachedPreconditioner &factor, Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
   ++profile.orderings;
-  if (order_) order_->update(potential_->contact().stencils());
+  if (order_) order_->update(total_energy_->contact().contact_pairs());
   factor.take(matrix, place, order_ ? &order_->nodes() : nullptr);
 }
 
-void StepSolver::solve(StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
-                       State &state, std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats) {
-  if (state.coming.age == KeptFactor::parts) {
+void StepSolver::solve(StepMatrix &matrix, const PreconditionerKey &here,
+                       const std::vector<Vec3> &x, State &state, std::vector<Vec3> &rows,
+                       uint32_t &left, SolveStats &stats) {
+  if (state.coming.age == CachedPreconditioner::parts) {
     std::swap(serving_, coming_);
     state.serving = std::exchange(state.coming, {});
   }
@@ -141,7 +142,7 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
 }
 
 // Begins the next factor, or does a part of it.
-void StepSolver::work_ahead(const StepMatrix &matrix, const Waypoint &here,
+void StepSolver::work_ahead(const StepMatrix &matrix, const PreconditionerKey &here,
                             const std::vector<Vec3> &x, State &state, uint32_t &left,
                             SolveStats &stats) {
   if (state.coming.x.empty()) {
@@ -154,22 +155,22 @@ void StepSolver::work_ahead(const StepMatrix &matrix, const Waypoint &here,
     --left;
     if (!coming_->factorise_part(state.coming.age)) {
       state.coming = {};
-    } else if (++state.coming.age == KeptFactor::parts) {
+    } else if (++state.coming.age == CachedPreconditioner::parts) {
       ++stats.factorisations;
     }
   }
 }
 
 // False where the budget ends before.
-bool StepSolver::factorise_here(const StepMatrix &matrix, const Waypoint &here,
+bool StepSolver::factorise_here(const StepMatrix &matrix, const PreconditionerKey &here,
                                 const std::vector<Vec3> &x, State &state, std::vector<Vec3> &rows,
                                 uint32_t &left, SolveStats &stats) {
-  state.forget_way();
+  state.drop_cache();
   if (left <= closing) return false;
   guess_.clear();  // a factor of this very matrix needs none
-  const Waypoint place = with_place(here, x);
+  const PreconditionerKey place = with_place(here, x);
   --left;  // of any solver, whether its factor is ready or not
-  bool positive = serving_->is_of(place, KeptFactor::parts);
+  bool positive = serving_->is_of(place, CachedPreconditioner::parts);
   if (!positive) {
     take(matrix, place, *serving_, stats.work);
     const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
@@ -186,7 +187,7 @@ bool StepSolver::factorise_here(const StepMatrix &matrix, const Waypoint &here,
 
 // In double precision where single does not do, and with more mass where the pressure makes the
 // matrix indefinite: a smaller step in disguise. This factor serves no other step.
-bool StepSolver::solve_exactly(const StepMatrix &matrix, const Waypoint &place,
+bool StepSolver::solve_exactly(const StepMatrix &matrix, const PreconditionerKey &place,
                                std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats) {
   take(matrix, place, exact_, stats.work);
   double times = 1;
@@ -209,16 +210,18 @@ bool StepSolver::solve_exactly(const StepMatrix &matrix, const Waypoint &place,
   return false;
 }
 
-void StepSolver::solve_with(KeptFactor &factor, std::vector<Vec3> &rows, SolveStats &stats) {
+void StepSolver::solve_with(CachedPreconditioner &factor, std::vector<Vec3> &rows,
+                            SolveStats &stats) {
   const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
   factor.solve(rows, solution_);
   rows.swap(solution_);
 }
 
-Waypoint StepSolver::with_place(const Waypoint &here, const std::vector<Vec3> &x) {
-  Waypoint place = here;
+PreconditionerKey StepSolver::with_place(const PreconditionerKey &here,
+                                         const std::vector<Vec3> &x) {
+  PreconditionerKey place = here;
   auto free = std::find_if(places_.begin(), places_.end(),
-                           [](const SharedVector<Vec3> &p) { return p.is_alone(); });
+                           [](const CowVector<Vec3> &p) { return p.is_alone(); });
   // snapshots that somebody holds keep their memory
   if (free == places_.end()) *(free = places_.begin()) = {};
   free->edit() = x;

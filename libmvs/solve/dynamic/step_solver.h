@@ -23,53 +23,55 @@ namespace mvs::core {
 class StepSolver {
  public:
   // Assembles the matrix at a place where the valve was.
-  using Look = std::function<void(const Waypoint &, StepMatrix &)>;
+  using Look = std::function<void(const PreconditionerKey &, StepMatrix &)>;
 
-  StepSolver(const Model &model, const Potential &potential, uint32_t backend);
+  StepSolver(const Model &model, const TotalEnergy &total_energy, uint32_t backend);
 
   // Sees that the factors of the state's waypoints are there; those that fit neither the valve nor
   // the step are taken out of it.
   void resume(State &state, const StepOptions &how, StepMatrix &matrix, const Look &look);
   // Makes the factor that the next step from here will ask for, if it has none, and has memory for
   // the one to come.
-  void make_ready(const StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
-                  const State &state);
+  void make_ready(const StepMatrix &matrix, const PreconditionerKey &here,
+                  const std::vector<Vec3> &x, const State &state);
   // Turns right-hand sides into a solution for the matrix, which is that of `here`, at x. May use
   // up what is `left` of the budget but the last `closing` units.
-  void solve(StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x, State &state,
-             std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats);
+  void solve(StepMatrix &matrix, const PreconditionerKey &here, const std::vector<Vec3> &x,
+             State &state, std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats);
 
   // Of the budget, what is over after the system: a place to try, and the forces where the valve
   // stays.
   static constexpr uint32_t closing = 2;
 
  private:
-  bool remake(const Waypoint &place, uint32_t parts, KeptFactor &factor, StepMatrix &matrix,
-              const Look &look);
-  void take(const StepMatrix &matrix, const Waypoint &place, KeptFactor &factor, Profile &profile);
+  bool remake(const PreconditionerKey &place, uint32_t parts, CachedPreconditioner &factor,
+              StepMatrix &matrix, const Look &look);
+  void take(const StepMatrix &matrix, const PreconditionerKey &place, CachedPreconditioner &factor,
+            Profile &profile);
   void guess(const StepMatrix &matrix, double dt, const std::vector<Vec3> &v);
   bool iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint32_t &left,
                SolveStats &stats);
-  void work_ahead(const StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
-                  State &state, uint32_t &left, SolveStats &stats);
-  bool factorise_here(const StepMatrix &matrix, const Waypoint &here, const std::vector<Vec3> &x,
-                      State &state, std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats);
-  bool solve_exactly(const StepMatrix &matrix, const Waypoint &place, std::vector<Vec3> &rows,
-                     uint32_t &left, SolveStats &stats);
-  void solve_with(KeptFactor &factor, std::vector<Vec3> &rows, SolveStats &stats);
-  Waypoint with_place(const Waypoint &here, const std::vector<Vec3> &x);
+  void work_ahead(const StepMatrix &matrix, const PreconditionerKey &here,
+                  const std::vector<Vec3> &x, State &state, uint32_t &left, SolveStats &stats);
+  bool factorise_here(const StepMatrix &matrix, const PreconditionerKey &here,
+                      const std::vector<Vec3> &x, State &state, std::vector<Vec3> &rows,
+                      uint32_t &left, SolveStats &stats);
+  bool solve_exactly(const StepMatrix &matrix, const PreconditionerKey &place,
+                     std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats);
+  void solve_with(CachedPreconditioner &factor, std::vector<Vec3> &rows, SolveStats &stats);
+  PreconditionerKey with_place(const PreconditionerKey &here, const std::vector<Vec3> &x);
 
-  const Potential *potential_;
-  std::optional<ContactOrder> order_;  // none: backends find their own
-  KeptFactor first_, second_;
-  KeptFactor *serving_ = &first_, *coming_ = &second_;
-  KeptFactor exact_;
+  const TotalEnergy *total_energy_;
+  std::optional<ContactOrdering> order_;  // none: backends find their own
+  CachedPreconditioner first_, second_;
+  CachedPreconditioner *serving_ = &first_, *coming_ = &second_;
+  CachedPreconditioner exact_;
   Pcg pcg_;
-  BlockProduct product_;
+  BlockSpmv product_;
   std::vector<Vec3> guess_, solution_;
   uint32_t iterations_ = 0;  // of this step
   // Memory for places: what two states and two factors may hold, and one more.
-  std::array<SharedVector<Vec3>, 7> places_;
+  std::array<CowVector<Vec3>, 7> places_;
 };
 
 }  // namespace mvs::core

@@ -133,14 +133,14 @@ void add_triangles(const Model &whole, const std::vector<uint8_t> &taken, const 
 
 }  // namespace
 
-Region cut_out(const Model &whole, const std::vector<Vec3> &x, const std::vector<uint32_t> &places,
-               const Extent &extent) {
+LocalSubproblem cut_out(const Model &whole, const std::vector<Vec3> &x,
+                        const std::vector<uint32_t> &places, const Extent &extent) {
   const std::vector<uint8_t> free = free_nodes(whole, x, places, extent);
   // what is left out stays; it is felt from one thickness on, and edges have to be seen whole
   const double distance = extent.leash + 1.5 * whole.valve.contact_thickness;
   const std::vector<uint8_t> taken = taken_triangles(whole, x, free, distance);
   const Numbering index = number(whole, free, taken);
-  Region region{{}, index.node};
+  LocalSubproblem region{{}, index.node};
   Model &piece = region.model;
   copy_constants(whole.valve, piece.valve);
   add_triangles(whole, taken, index, piece);

@@ -12,7 +12,7 @@
 
 namespace mvs::core {
 
-struct Region {
+struct LocalSubproblem {
   Model model;                 // what the potential needs of it; no names, masses or fibres
   std::vector<uint32_t> node;  // node of the whole valve by node of the piece
 };
@@ -24,7 +24,7 @@ struct Extent {
 };
 
 // Distances are those of the present shape, so that what touches goes along.
-Region cut_out(const Model &whole, const std::vector<Vec3> &x, const std::vector<uint32_t> &places,
-               const Extent &extent);
+LocalSubproblem cut_out(const Model &whole, const std::vector<Vec3> &x,
+                        const std::vector<uint32_t> &places, const Extent &extent);
 
 }  // namespace mvs::core

@@ -61,8 +61,8 @@ std::optional<State> start_from(Solver &solver, Level &level, const Model &model
   const auto tell = [&](double share, double residual) {
     return progress(coarse_share * share, residual);
   };
-  spent = settle_by_levels(solver, *level.model, level.state, coarse,
-                           progress ? Progress(tell) : Progress());
+  spent = settle_with_mesh_hierarchy(solver, *level.model, level.state, coarse,
+                                     progress ? Progress(tell) : Progress());
   State start = transferred(*level.model, level.state, model);
   if (!find_intersections(start.x, model.valve.triangles).empty()) return {};
   start.time = state.time;
@@ -73,13 +73,13 @@ std::optional<State> start_from(Solver &solver, Level &level, const Model &model
 
 }  // namespace
 
-SolveStats settle_by_levels(Solver &solver, const Model &model, State &state,
-                            const SolveOptions &options, const Progress &progress) {
+SolveStats settle_with_mesh_hierarchy(Solver &solver, const Model &model, State &state,
+                                      const SolveOptions &options, const Progress &progress) {
   const size_t vertices = sheet_vertices(model);
   SolveStats spent;
   Progress remaining = progress;
-  if (options.solver <= MVS_SOLVER_NEWTON && vertices >= cascade_vertices && state.tools.empty() &&
-      far_from_rest(model, state)) {
+  if (options.solver <= MVS_SOLVER_NEWTON && vertices >= hierarchy_vertices &&
+      state.tools.empty() && far_from_rest(model, state)) {
     if (std::optional<Level> level = coarser(model, state, vertices)) {
       if (auto start = start_from(solver, *level, model, state, options, progress, spent)) {
         state = std::move(*start);

@@ -16,9 +16,9 @@ namespace mvs::core {
 // least cascade_vertices of the sheet, if the valve is far from rest, without tools on it, and if
 // what comes from the coarse mesh crosses nothing. The count of iterations is that of the mesh
 // itself; factorisations, passes and times are those of all.
-SolveStats settle_by_levels(Solver &solver, const Model &model, State &state,
-                            const SolveOptions &options, const Progress &progress);
+SolveStats settle_with_mesh_hierarchy(Solver &solver, const Model &model, State &state,
+                                      const SolveOptions &options, const Progress &progress);
 
-inline constexpr size_t cascade_vertices = 1200;
+inline constexpr size_t hierarchy_vertices = 1200;
 
 }  // namespace mvs::core

@@ -83,8 +83,8 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
   state.v.assign(x_.size(), Vec3::Zero());
   stats_.residual = residual_;
   stats_.energy = energy_;
-  stats_.contact_pairs = static_cast<uint32_t>(potential_.contact().stencils().size());
-  stats_.skipped |= potential_.skipped();
+  stats_.contact_pairs = static_cast<uint32_t>(total_energy_.contact().contact_pairs().size());
+  stats_.skipped |= total_energy_.skipped();
   stats_.wall_s = seconds_now() - start;
   return stats_;
 }
@@ -94,8 +94,8 @@ void Newton::begin(const State &state) {
   x_ = state.x;
   trial_.resize(x_.size());
   fraction_ = state.load.boundary_fraction;
-  potential_.set_pressure(state.load.pressure);
-  potential_.set_tools(state.tools);
+  total_energy_.set_pressure(state.load.pressure);
+  total_energy_.set_tools(state.tools);
   const double pressure = scale_of(state.load), area = mean_area(*model_);
   shift_scale_.clear();
   for (const double a : model_->vertex_area) {
@@ -122,7 +122,7 @@ void Newton::settle_disturbed(const Load &load) {
   const auto nodes = static_cast<double>(x_.size());
   if (places.empty() || static_cast<double>(places.size()) > many_disturbed * nodes) return;
   const auto most = static_cast<size_t>(piece_share * nodes);
-  const Region region = cut_out(*model_, x_, places, {piece_radius, most, piece_leash});
+  const LocalSubproblem region = cut_out(*model_, x_, places, {piece_radius, most, piece_leash});
   State piece;
   for (const uint32_t i : region.node) piece.x.push_back(x_[i]);
   piece.load = load;
@@ -140,8 +140,8 @@ void Newton::settle_disturbed(const Load &load) {
 }
 
 void Newton::evaluate() {
-  if (!potential_.prepared_for(x_)) potential_.prepare(x_, x_, slack_, stats_.work);
-  energy_ = potential_.gradient(x_, g_, stats_.work);
+  if (!total_energy_.prepared_for(x_)) total_energy_.prepare(x_, x_, slack_, stats_.work);
+  energy_ = total_energy_.gradient(x_, g_, stats_.work);
   residual_ = largest_free(*model_, g_);
   MVS_MUST(std::isfinite(energy_) && std::isfinite(residual_), MVS_E_DIVERGED, "settle",
            "the forces are not finite: nodes coincide or the material is too stiff; check the "
@@ -220,7 +220,7 @@ void Newton::move_boundary() {
 void Newton::limit_step() {
   far_ = 0;
   step_ = full_;
-  potential_.instrument().bodies().shorten(step_, longest_step);
+  total_energy_.instrument().bodies().shorten(step_, longest_step);
   for (Vec3 &d : step_) {
     const double length = d.norm();
     if (length > 1.5 * longest_step) far_ += 1 / static_cast<double>(step_.size());
@@ -231,7 +231,7 @@ void Newton::limit_step() {
     step_[i].setZero();
     held_ = true;
   }
-  potential_.limit_step(x_, slack_, step_, stats_.work);
+  total_energy_.limit_step(x_, slack_, step_, stats_.work);
 }
 
 bool Newton::try_force() {
@@ -242,7 +242,7 @@ bool Newton::try_force() {
   double share = 1;
   for (int trial = 0; trial < 5; ++trial) {
     for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + share * step_[i];
-    potential_.gradient(trial_, g_, inside);
+    total_energy_.gradient(trial_, g_, inside);
     ++stats_.work.passes;
     if (free_norm() <= (1 - 0.1 * share) * before) {
       x_.swap(trial_);

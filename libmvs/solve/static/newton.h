@@ -22,8 +22,9 @@ inline constexpr double least_shift = 1e-4;
 
 class Newton {
  public:
-  Newton(const Model &model, Factor &factor) : model_(&model), factor_(&factor), potential_(model) {
-    potential_.keep_near(false);
+  Newton(const Model &model, DirectSolver &factor)
+      : model_(&model), factor_(&factor), total_energy_(model) {
+    total_energy_.keep_near(false);
     system_.place = &x_;
   }
 
@@ -64,9 +65,9 @@ class Newton {
   };
 
   const Model *model_;
-  Factor *factor_;
-  Potential potential_;
-  System system_;
+  DirectSolver *factor_;
+  TotalEnergy total_energy_;
+  HessianAssembler system_;
   SolveStats stats_;
 
   std::vector<Vec3> x_, trial_, g_;    // positions, positions tried, dE/dx

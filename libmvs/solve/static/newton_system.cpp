@@ -17,7 +17,7 @@ constexpr uint32_t patterns_per_order = 6;
 
 void Newton::assemble(Curvature curvature) {
   curvature_ = curvature;
-  if (potential_.hessian(x_, curvature, system_, stats_.work)) {
+  if (total_energy_.hessian(x_, curvature, system_, stats_.work)) {
     system_.keep_order(++patterns_ % patterns_per_order != 0);
     const PhaseTimer timer(stats_.work, MVS_PHASE_ORDERING);
     factor_->analyse(system_.matrix);
@@ -73,7 +73,7 @@ void Newton::include_skew(bool with_shift) {
     trial_.assign(x_.size(), Vec3::Zero());
     for (size_t r = 0; r < v.size(); ++r) trial_[system_.node_of[r]] = v[r];
     step_.assign(x_.size(), Vec3::Zero());
-    potential_.add_skew(x_, trial_, step_);
+    total_energy_.add_skew(x_, trial_, step_);
     std::vector<Vec3> y(v.size());
     for (size_t r = 0; r < v.size(); ++r) {
       const uint32_t i = system_.node_of[r];

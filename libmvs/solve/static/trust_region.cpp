@@ -122,7 +122,7 @@ double Newton::try_step(double &foretold) {
   ++stats_.work.passes;
   foretold = slope() + 0.5 * curvature_along();
   for (size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + step_[i];
-  return potential_.energy(trial_) - energy_;
+  return total_energy_.energy(trial_) - energy_;
 }
 
 double Newton::slope() const {

@@ -16,7 +16,7 @@ void add_row(Rows &rows) {
 
 void add_node(Model &model) {
   Valve &valve = model.valve;
-  for (SharedVector<Vec3> *places : {&valve.rest, &valve.open, &valve.loaded}) {
+  for (CowVector<Vec3> *places : {&valve.rest, &valve.open, &valve.loaded}) {
     places->push_back(Vec3::Zero());
   }
   valve.origin.push_back(none);

@@ -50,26 +50,26 @@ ToolForce force_of(const State &state, const Tool &tool) {
 
 void ToolFeel::take_model(const Model &model) {
   model_ = &model;
-  if (potential_ && serial_ == model.serial) return;
+  if (total_energy_ && serial_ == model.serial) return;
   serial_ = model.serial;
-  potential_.emplace(model);
+  total_energy_.emplace(model);
   system_ = {};
-  if (!factor_) factor_ = make_factor(backend_);
+  if (!factor_) factor_ = make_direct_solver(backend_);
 }
 
 void ToolFeel::factorise(const State &state) {
-  potential_->set_pressure(state.load.pressure);
-  potential_->set_tools(state.tools);
-  if (!potential_->prepared_for(state.x)) {
-    potential_->prepare(state.x, state.x, 0.1 * model_->valve.contact_thickness, profile_);
+  total_energy_->set_pressure(state.load.pressure);
+  total_energy_->set_tools(state.tools);
+  if (!total_energy_->prepared_for(state.x)) {
+    total_energy_->prepare(state.x, state.x, 0.1 * model_->valve.contact_thickness, profile_);
   }
-  potential_->gradient(state.x, g_, profile_);
+  total_energy_->gradient(state.x, g_, profile_);
   for (const Curvature curvature : {Curvature::exact, Curvature::projected}) {
     if (curvature == Curvature::exact && exact_fails_ > 0) {
       --exact_fails_;
       continue;
     }
-    if (potential_->hessian(state.x, curvature, system_, profile_)) {
+    if (total_energy_->hessian(state.x, curvature, system_, profile_)) {
       system_.keep_order(++patterns_ % patterns_per_order != 0);
       factor_->analyse(system_.matrix);
     }
@@ -79,7 +79,7 @@ void ToolFeel::factorise(const State &state) {
   double more = 1;
   while (more < 1e18) {
     more *= 4;
-    potential_->hessian(state.x, Curvature::projected, system_, profile_);
+    total_energy_->hessian(state.x, Curvature::projected, system_, profile_);
     if (try_factorise(more)) return;
   }
   fail(MVS_E_DIVERGED, "tool", "the stiffness of the valve is not finite; check the materials");

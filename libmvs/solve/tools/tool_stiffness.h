@@ -37,9 +37,9 @@ class ToolFeel {
   ToolPoints points_;
   const Model *model_ = nullptr;
   uint64_t serial_ = 0;
-  std::unique_ptr<Factor> factor_;
-  std::optional<Potential> potential_;
-  System system_;
+  std::unique_ptr<DirectSolver> factor_;
+  std::optional<TotalEnergy> total_energy_;
+  HessianAssembler system_;
   Profile profile_;
   uint32_t patterns_ = 0;     // of the matrix so far
   uint32_t exact_fails_ = 0;  // calls to come that do not try the exact curvature
