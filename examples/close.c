@@ -54,12 +54,12 @@ static void print_tightest_chord(const mvs_snapshot *valve) {
   uint32_t tightest = 0;
   uint64_t i;
   const double *newton;
-  must(mvs_snapshot_view(valve, MVS_CHORD_TENSION, &tension));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_CHORD_TENSION, &tension));
   newton = tension.data;
   for (i = 1; i < tension.count; ++i) {
     if (newton[i] > newton[tightest]) tightest = (uint32_t)i;
   }
-  must(mvs_snapshot_part(valve, MVS_PART_CHORD, tightest, &chord));
+  must(mvs_snapshot_get_part(valve, MVS_PART_CHORD, tightest, &chord));
   printf("tightest chord: %s, %.2f N\n", chord.name, newton[tightest]);
 }
 

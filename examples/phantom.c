@@ -122,10 +122,10 @@ static void show(void) {
   what.strain = strain;
   what.chord = chosen;
   what.tool.struct_size = sizeof what.tool;
-  if (hand.tool) mvs_tool_get(sim, hand.tool, &what.tool);
+  if (hand.tool) mvs_get_tool(sim, hand.tool, &what.tool);
   memcpy(what.hand, hand.position, sizeof what.hand);
   memcpy(what.force, hand.force, sizeof what.force);
-  must(mvs_snapshot_view(valve, MVS_NODE_POSITION, &nodes));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_NODE_POSITION, &nodes));
   if (hand.near_node < nodes.count) what.marked = (const double *)nodes.data + 3 * hand.near_node;
   orifice_look(valve, !window);
   orifice_area(&what.orifice);
@@ -164,7 +164,7 @@ static void lay_over_valve(void) {
   const double x = e.right[0], y = e.back[1], z = -e.up[2];
   mvs_device_view view = {0};
   double frame[12];
-  must(mvs_snapshot_frame(valve, frame));
+  must(mvs_snapshot_get_frame(valve, frame));
   mvs_snapshot_release(valve);
   view.struct_size = sizeof view;
   view.scale = option.scale;
@@ -237,7 +237,7 @@ static void turn_once(void) {
 static void tell_end(double before) {
   const mvs_snapshot *const valve = present();
   uint64_t hash[2];
-  must(mvs_snapshot_hash(valve, hash));
+  must(mvs_snapshot_get_hash(valve, hash));
   mvs_snapshot_release(valve);
   printf("peak force %.2f N, orifice %.1f mm2 before, %.1f after, %d frames, hash %016llx%016llx\n",
          strongest, before, 1e6 * orifice_now(sim, 1), frames, (unsigned long long)hash[0],
@@ -248,7 +248,7 @@ int main(int argc, char **argv) {
   const char *no_window = "";
   double before;
   read_options(argc, argv);
-  must(mvs_device_guard_crashes(1));
+  must(mvs_device_handle_signals(1));
   atexit(put_down);
   open_valve();
   before = 1e6 * orifice_now(sim, 1);
@@ -258,7 +258,7 @@ int main(int argc, char **argv) {
   window = no_window == NULL;
   if (window) help();
   open_device();
-  set_mode(MVS_HAND_GRASP, 0);
+  set_mode(MVS_HAND_MODE_GRASP, 0);
   while (!ended) turn_once();
   put_down();
   tell_end(before);

@@ -43,17 +43,17 @@ static void find_struts(mvs_id strut[2], mvs_id head[2]) {
   mvs_view kinds, nodes, heads;
   uint32_t c, h;
   mvs_part part;
-  must(mvs_snapshot_view(valve, MVS_CHORD_KIND, &kinds));
-  must(mvs_snapshot_view(valve, MVS_CHORD_NODES, &nodes));
-  must(mvs_snapshot_view(valve, MVS_HEAD_NODES, &heads));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_CHORD_KIND, &kinds));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_CHORD_NODES, &nodes));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_HEAD_NODES, &heads));
   for (c = 0; c < kinds.count; ++c) {
     const int side = strut[0] != 0;
-    if (((const uint32_t *)kinds.data)[c] != MVS_CHORD_STRUT) continue;
-    must(mvs_snapshot_part(valve, MVS_PART_CHORD, c, &part));
+    if (((const uint32_t *)kinds.data)[c] != MVS_CHORD_KIND_STRUT) continue;
+    must(mvs_snapshot_get_part(valve, MVS_PART_CHORD, c, &part));
     strut[side] = part.id;
     for (h = 0; h < heads.count; ++h) {
       if (((const uint32_t *)heads.data)[h] != ((const uint32_t *)nodes.data)[2 * c]) continue;
-      must(mvs_snapshot_part(valve, MVS_PART_HEAD, h, &part));
+      must(mvs_snapshot_get_part(valve, MVS_PART_HEAD, h, &part));
       head[side] = part.id;
     }
   }
@@ -78,7 +78,7 @@ static void tie_chord(mvs_id head, double along) {
   mvs_op_chord_add op = {{sizeof op, MVS_OP_CHORD_ADD}, 0, {0}, 0, 0, 0, 0, 0, NULL};
   const mvs_snapshot *valve = present();
   mvs_part a2;
-  must(mvs_snapshot_find(valve, MVS_PART_SCALLOP, "A2", &a2));
+  must(mvs_snapshot_find_part(valve, MVS_PART_SCALLOP, "A2", &a2));
   mvs_snapshot_release(valve);
   op.head = head;
   op.site.how = MVS_SITE_ANATOMICAL;

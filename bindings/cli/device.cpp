@@ -76,11 +76,11 @@ std::string lines_of(const std::vector<std::string> &options) {
 // The guard second: its handler ends in the one that was there before.
 Interruptions::Interruptions() : old_handler_(std::signal(SIGINT, on_interrupt)) {
   interrupted = 0;
-  mvs::must(mvs_device_guard_crashes(1));
+  mvs::must(mvs_device_handle_signals(1));
 }
 
 Interruptions::~Interruptions() {
-  mvs_device_guard_crashes(0);
+  mvs_device_handle_signals(0);
   std::signal(SIGINT, old_handler_);
 }
 
@@ -112,7 +112,7 @@ std::vector<mvs_device_sample> Session::pass(double seconds) {
 }
 
 bool Session::is_over() const {
-  return is_interrupted() || device_.state().phase == MVS_DEVICE_LATCHED;
+  return is_interrupted() || device_.state().phase == MVS_DEVICE_PHASE_LATCHED;
 }
 
 Cause cause_of(uint32_t cause) {

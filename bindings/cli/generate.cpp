@@ -75,7 +75,7 @@ void run(const Options &options, const Console &console) {
   const mvs::Snapshot valve = make_valve(options);
   valve.save(options.out);
   const Size size = size_of(valve);
-  const Json object = {{"file", options.out},       {"name", mvs_snapshot_name(valve.get())},
+  const Json object = {{"file", options.out},       {"name", mvs_snapshot_get_name(valve.get())},
                        {"vertices", size.vertices}, {"faces", size.faces},
                        {"chords", size.chords},     {"heads", size.heads},
                        {"hash", hash_of(valve)}};

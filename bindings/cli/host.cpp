@@ -25,14 +25,14 @@ mvs::Snapshot load(const std::string &path) {
 
 Size size_of(const mvs::Snapshot &valve) {
   Size size;
-  for (const uint8_t kind : valve.view<uint8_t>(MVS_NODE_KIND)) {
-    size.vertices += kind == MVS_NODE_IS_LEAFLET || kind == MVS_NODE_IS_ANNULUS;
-    size.branches += kind == MVS_NODE_IS_BRANCH;
+  for (const uint8_t kind : valve.view<uint8_t>(MVS_ARRAY_NODE_KIND)) {
+    size.vertices += kind == MVS_NODE_KIND_LEAFLET || kind == MVS_NODE_KIND_ANNULUS;
+    size.branches += kind == MVS_NODE_KIND_BRANCH;
   }
-  size.faces = valve.view<uint32_t>(MVS_TRIANGLE_NODES).rows();
-  size.chords = valve.view<uint32_t>(MVS_CHORD_NODES).rows();
-  size.heads = valve.view<uint32_t>(MVS_HEAD_NODES).rows();
-  size.annulus = valve.view<uint32_t>(MVS_ANNULUS_NODES).rows();
+  size.faces = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES).rows();
+  size.chords = valve.view<uint32_t>(MVS_ARRAY_CHORD_NODES).rows();
+  size.heads = valve.view<uint32_t>(MVS_ARRAY_HEAD_NODES).rows();
+  size.annulus = valve.view<uint32_t>(MVS_ARRAY_ANNULUS_NODES).rows();
   return size;
 }
 

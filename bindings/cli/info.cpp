@@ -16,10 +16,10 @@ struct ChordGroup {
   double shortest = 1e300, longest = 0;  // rest length, m
 };
 
-// By kind, in the order of MVS_CHORD_*.
+// By kind, in the order of MVS_CHORD_KIND_*.
 std::map<uint32_t, ChordGroup> chord_groups(const mvs::Snapshot &valve) {
-  const auto kind = valve.view<uint32_t>(MVS_CHORD_KIND);
-  const auto length = valve.view<double>(MVS_CHORD_REST_LENGTH);
+  const auto kind = valve.view<uint32_t>(MVS_ARRAY_CHORD_KIND);
+  const auto length = valve.view<double>(MVS_ARRAY_CHORD_REST_LENGTH);
   std::map<uint32_t, ChordGroup> groups;
   for (size_t c = 0; c < kind.rows(); ++c) {
     ChordGroup &group = groups[*kind.row(c)];
@@ -52,8 +52,8 @@ struct Info {
 };
 
 std::vector<size_t> chords_of_heads(const mvs::Snapshot &valve) {
-  const auto head_nodes = valve.view<uint32_t>(MVS_HEAD_NODES);
-  const auto chord_nodes = valve.view<uint32_t>(MVS_CHORD_NODES);
+  const auto head_nodes = valve.view<uint32_t>(MVS_ARRAY_HEAD_NODES);
+  const auto chord_nodes = valve.view<uint32_t>(MVS_ARRAY_CHORD_NODES);
   std::vector<size_t> count;
   for (const uint32_t node : head_nodes) {
     count.push_back(static_cast<size_t>(std::count(chord_nodes.begin(), chord_nodes.end(), node)));
@@ -66,8 +66,10 @@ Info gather(const mvs::Snapshot &valve) {
   info.leaflets = valve.parts(MVS_PART_LEAFLET);
   info.scallops = valve.parts(MVS_PART_SCALLOP);
   info.heads = valve.parts(MVS_PART_HEAD);
-  info.leaflet_faces = tally(valve.view<uint32_t>(MVS_TRIANGLE_LEAFLET), info.leaflets.size());
-  info.scallop_faces = tally(valve.view<uint32_t>(MVS_TRIANGLE_SCALLOP), info.scallops.size());
+  info.leaflet_faces =
+      tally(valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_LEAFLET), info.leaflets.size());
+  info.scallop_faces =
+      tally(valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_SCALLOP), info.scallops.size());
   info.head_chords = chords_of_heads(valve);
   info.chords = chord_groups(valve);
   info.size = size_of(valve);

@@ -223,7 +223,7 @@ mvs_site OpText::site_of(const std::string &given, const mvs::Snapshot &valve) c
 void OpText::set_points(const mvs_field_info &field, const std::string &given) {
   points_.push_back(read_points_file(given));
   for (std::array<double, 3> &point : points_.back()) point = si(field, point);
-  put(field, mvs_array{points_.back().data(), points_.back().size(), 3, MVS_F64, 0});
+  put(field, mvs_array{points_.back().data(), points_.back().size(), 3, MVS_TYPE_F64, 0});
 }
 
 }  // namespace cli

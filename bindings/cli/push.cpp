@@ -51,7 +51,7 @@ class ChordPull {
   void ask(double force) {
     const double gain = force / chord_.tension;
     mvs_device_hand hand = {};
-    hand.mode = gain < least_gain ? MVS_HAND_LOOK : MVS_HAND_FEEL;
+    hand.mode = gain < least_gain ? MVS_HAND_MODE_LOOK : MVS_HAND_MODE_FEEL;
     hand.chord = chord_.id;
     hand.gain = gain < least_gain ? 0 : gain;
     device_.set_hand(hand);
@@ -90,7 +90,7 @@ std::vector<mvs_device_sample> Pusher::pass(double force) {
     fail(MVS_E_CANCELLED, "force", "stopped by Ctrl-C; forces are off");
   }
   const mvs_device_state state = session_.device().state();
-  if (state.phase == MVS_DEVICE_LATCHED) {
+  if (state.phase == MVS_DEVICE_PHASE_LATCHED) {
     fail(MVS_E_DEVICE, "force",
          text("forces latched off (%s): %s", cause_of(state.cause).name,
               cause_of(state.cause).sentence));
@@ -102,7 +102,7 @@ std::vector<mvs_device_sample> Pusher::pass(double force) {
 void Pusher::begin() {
   session_.device().arm();
   const double begun = session_.elapsed();
-  while (session_.device().state().phase != MVS_DEVICE_ON) {
+  while (session_.device().state().phase != MVS_DEVICE_PHASE_ON) {
     pass(0);
     if (session_.elapsed() - begun < patience) continue;
     fail(MVS_E_DEVICE, "force",
@@ -150,7 +150,7 @@ Push Pusher::push(const std::string &direction, const Vector &axis, double force
     if (t < rise + settled || t > rise + top - look) continue;
     at_top.take(samples, axis);
     const uint32_t flags = session_.device().state().flags;
-    made.motors_on = made.motors_on && (flags & MVS_DRIVER_FORCE_ON) != 0;
+    made.motors_on = made.motors_on && (flags & MVS_DRIVER_FLAG_FORCE_ON) != 0;
   }
   made.told_N = at_top.along / static_cast<double>(std::max<size_t>(1, at_top.ticks));
   made.across_N = at_top.across;
@@ -167,12 +167,12 @@ TautChord taut_chord() {
   found.sim.set_load(120 * pa_per_mmhg);
   found.sim.settle();
   const mvs::Snapshot valve = found.sim.snapshot();
-  const auto tensions = valve.view<double>(MVS_CHORD_TENSION);
+  const auto tensions = valve.view<double>(MVS_ARRAY_CHORD_TENSION);
   const auto tautest = std::max_element(tensions.begin(), tensions.end()) - tensions.begin();
   found.tension = tensions.begin()[tautest];
-  found.id = valve.view<uint64_t>(MVS_CHORD_ID).begin()[tautest];
-  const uint32_t *const ends = valve.view<uint32_t>(MVS_CHORD_NODES).row(tautest);
-  const auto nodes = valve.view<double>(MVS_NODE_POSITION);
+  found.id = valve.view<uint64_t>(MVS_ARRAY_CHORD_ID).begin()[tautest];
+  const uint32_t *const ends = valve.view<uint32_t>(MVS_ARRAY_CHORD_NODES).row(tautest);
+  const auto nodes = valve.view<double>(MVS_ARRAY_NODE_POSITION);
   for (int k = 0; k < 3; ++k) found.pull[k] = nodes.row(ends[0])[k] - nodes.row(ends[1])[k];
   const double length = std::sqrt(dot(found.pull, found.pull.data()));
   for (double &p : found.pull) p /= length;

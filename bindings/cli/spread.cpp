@@ -7,9 +7,9 @@ namespace {
 
 const char *order_name(uint32_t order) {
   switch (order) {
-    case MVS_SPREAD_BOUNDARY_FIRST:
+    case MVS_ENSEMBLE_ORDER_BOUNDARY_FIRST:
       return "boundary first";
-    case MVS_SPREAD_PRESSURE_FIRST:
+    case MVS_ENSEMBLE_ORDER_PRESSURE_FIRST:
       return "pressure first";
     default:
       return "together";
@@ -17,13 +17,14 @@ const char *order_name(uint32_t order) {
 }
 
 Statistics statistics_of(const mvs::Spread &spread) {
-  return {spread.measure(MVS_SPREAD_MEAN), spread.measure(MVS_SPREAD_MIN),
-          spread.measure(MVS_SPREAD_MAX), spread.measure(MVS_SPREAD_DEVIATION),
-          spread.measure(MVS_SPREAD_COUNT)};
+  return {spread.measure(MVS_ENSEMBLE_STATISTIC_MEAN), spread.measure(MVS_ENSEMBLE_STATISTIC_MIN),
+          spread.measure(MVS_ENSEMBLE_STATISTIC_MAX),
+          spread.measure(MVS_ENSEMBLE_STATISTIC_DEVIATION),
+          spread.measure(MVS_ENSEMBLE_STATISTIC_COUNT)};
 }
 
 Json path_json(const mvs::Spread &spread, uint32_t number) {
-  const mvs_spread_path path = spread.path(number);
+  const mvs_ensemble_member path = spread.path(number);
   const mvs_stats stats = spread.stats(number);
   const mvs::Snapshot closed = spread.snapshot(number);
   const mvs_measures measures = closed.measure();
@@ -49,7 +50,7 @@ Json path_json(const mvs::Spread &spread, uint32_t number) {
 }
 
 std::string summary_text(const mvs::Spread &spread) {
-  const mvs_spread_summary all = spread.summary();
+  const mvs_ensemble_summary all = spread.summary();
   std::string told = text("%u of %u paths at rest, %u %s", all.converged, all.paths, all.equilibria,
                           all.equilibria == 1 ? "equilibrium" : "equilibria");
   if (all.converged > 0)
@@ -62,7 +63,7 @@ std::string summary_text(const mvs::Spread &spread) {
 }
 
 std::string path_text(const mvs::Spread &spread, uint32_t number) {
-  const mvs_spread_path path = spread.path(number);
+  const mvs_ensemble_member path = spread.path(number);
   const mvs_stats stats = spread.stats(number);
   const std::string where = path.converged  ? std::to_string(path.equilibrium)
                             : path.diverged ? "diverged"
@@ -98,7 +99,7 @@ mvs::Spread spread_of(const mvs::Snapshot &start, double pressure_mmhg,
   mvs_load_case load = {};
   load.pressure = pressure_mmhg * pa_per_mmhg;
   load.boundary_fraction = 1;
-  mvs_spread_options how = {};
+  mvs_ensemble_options how = {};
   how.paths = options.paths;
   how.backend = backend;
   how.seed = options.seed;
@@ -109,7 +110,7 @@ mvs::Spread spread_of(const mvs::Snapshot &start, double pressure_mmhg,
 }
 
 Json spread_json(const mvs::Spread &spread, const SpreadOptions &options) {
-  const mvs_spread_summary all = spread.summary();
+  const mvs_ensemble_summary all = spread.summary();
   Json paths = Json::array();
   for (uint32_t k = 0; k < all.paths; ++k) paths.push_back(path_json(spread, k));
   return {{"paths", all.paths},

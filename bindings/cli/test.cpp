@@ -61,7 +61,7 @@ Json rate_of(const Tested &tested, const Ticks &ticks) {
 
 Json tested_json(const Options &options, const Tested &tested, const Ticks &ticks) {
   const mvs_device_state &state = tested.state;
-  const bool latched = state.phase == MVS_DEVICE_LATCHED;
+  const bool latched = state.phase == MVS_DEVICE_PHASE_LATCHED;
   Json json = {{"device", info_json(tested.info)},
                {"clock", options.device.is_virtual ? "virtual" : "real"},
                {"realtime", tested.info.realtime != 0},
@@ -89,7 +89,7 @@ std::string tested_text(const Options &options, const Tested &tested, const Tick
   told += text("  %zu ticks in %.3f s, %llu late; %s\n", ticks.count(), ticks.seconds(),
                static_cast<unsigned long long>(state.late), clock_text(options, tested));
   told += ticks.told() + pushes_text(tested.pushes);
-  if (state.phase == MVS_DEVICE_LATCHED) {
+  if (state.phase == MVS_DEVICE_PHASE_LATCHED) {
     told += text("  forces latched off (%s): %s\n", cause_of(state.cause).name,
                  cause_of(state.cause).sentence);
   }
@@ -99,7 +99,7 @@ std::string tested_text(const Options &options, const Tested &tested, const Tick
 
 // A recording may be over; all else that ends a device that nobody armed is a fault of it.
 bool is_fault(const mvs_device_state &state) {
-  return state.phase == MVS_DEVICE_LATCHED && state.cause != MVS_CAUSE_SOFTWARE;
+  return state.phase == MVS_DEVICE_PHASE_LATCHED && state.cause != MVS_CAUSE_SOFTWARE;
 }
 
 void run(const Options &options, Console &console) {

@@ -8,17 +8,17 @@
 namespace cli {
 namespace {
 
-// In the order of MVS_LEAFLET_*, from 1.
+// In the order of MVS_LEAFLET_LAW_*, from 1.
 std::vector<std::string> known_laws() {
   std::vector<std::string> words;
   mvs_law law = {};
   law.struct_size = sizeof law;
-  for (uint32_t k = 1; mvs_leaflet_law(k, &law) == MVS_OK; ++k) words.emplace_back(law.word);
+  for (uint32_t k = 1; mvs_get_leaflet_law(k, &law) == MVS_OK; ++k) words.emplace_back(law.word);
   return words;
 }
 
 std::vector<uint32_t> law_numbers(const mvs::Snapshot &valve) {
-  const auto view = valve.view<uint32_t>(MVS_LEAFLET_LAW);
+  const auto view = valve.view<uint32_t>(MVS_ARRAY_LEAFLET_LAW);
   return {view.data(), view.data() + view.rows()};
 }
 
@@ -47,8 +47,8 @@ void set_tissue(mvs::Sim &sim, const std::string &choice) {
     if (choice != "membrane") {
       tissue.law =
           static_cast<uint32_t>(std::find(laws.begin(), laws.end(), choice) - laws.begin()) + 1;
-    } else if (now[l] == MVS_LEAFLET_SPRING) {
-      tissue.law = MVS_LEAFLET_BILINEAR;
+    } else if (now[l] == MVS_LEAFLET_LAW_SPRING) {
+      tissue.law = MVS_LEAFLET_LAW_BILINEAR;
     } else {
       continue;
     }

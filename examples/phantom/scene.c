@@ -42,8 +42,8 @@ static double unit(double v[3]) {
 eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double distance) {
   double f[12], towards_user[3] = {0, 0, 0};
   eye e;
-  must(mvs_snapshot_frame(valve, f)); /* rows: middle, AP, CC, the axis into the atrium */
-  along(f, -6e-3, f + 9, e.middle);   /* the chordae are to be seen as well */
+  must(mvs_snapshot_get_frame(valve, f)); /* rows: middle, AP, CC, the axis into the atrium */
+  along(f, -6e-3, f + 9, e.middle);       /* the chordae are to be seen as well */
   along(towards_user, -cos(turn), f + 3, towards_user);
   along(towards_user, sin(turn), f + 6, towards_user);
   memset(e.back, 0, sizeof e.back);
@@ -98,7 +98,7 @@ static double lit(const eye *from, const double normal[3]) {
 
 static mvs_view view(const mvs_snapshot *valve, uint32_t which) {
   mvs_view v;
-  must(mvs_snapshot_view(valve, which, &v));
+  must(mvs_snapshot_get_array(valve, which, &v));
   return v;
 }
 
@@ -168,10 +168,11 @@ static void add_ball(scene *out, const eye *from, const double middle[3], double
 }
 
 static void show_leaflets(scene *out, const mvs_snapshot *valve, const eye *from, int strain) {
-  const mvs_view nodes = view(valve, MVS_NODE_POSITION), faces = view(valve, MVS_TRIANGLE_NODES);
-  const double *x = nodes.data, *stretch = view(valve, MVS_TRIANGLE_STRETCH).data;
-  const uint32_t *t = faces.data, *leaflet = view(valve, MVS_TRIANGLE_LEAFLET).data;
-  const uint32_t *scallop = view(valve, MVS_TRIANGLE_SCALLOP).data;
+  const mvs_view nodes = view(valve, MVS_ARRAY_NODE_POSITION),
+                 faces = view(valve, MVS_ARRAY_TRIANGLE_NODES);
+  const double *x = nodes.data, *stretch = view(valve, MVS_ARRAY_TRIANGLE_STRETCH).data;
+  const uint32_t *t = faces.data, *leaflet = view(valve, MVS_ARRAY_TRIANGLE_LEAFLET).data;
+  const uint32_t *scallop = view(valve, MVS_ARRAY_TRIANGLE_SCALLOP).data;
   /* of a node: the sums of its triangles' normals and strains, and their number */
   double(*sum)[5] = calloc(nodes.count, sizeof *sum);
   uint64_t i;
@@ -204,11 +205,11 @@ static void show_leaflets(scene *out, const mvs_snapshot *valve, const eye *from
 /* The chosen one stands out; slack ones have no colour of strain. */
 static void show_chordae(scene *out, const mvs_snapshot *valve, const eye *from,
                          const sight *what) {
-  const double *x = view(valve, MVS_NODE_POSITION).data;
-  const mvs_view ends = view(valve, MVS_CHORD_NODES);
+  const double *x = view(valve, MVS_ARRAY_NODE_POSITION).data;
+  const mvs_view ends = view(valve, MVS_ARRAY_CHORD_NODES);
   const uint32_t *nodes = ends.data;
-  const mvs_id *id = view(valve, MVS_CHORD_ID).data;
-  const double *strain = view(valve, MVS_CHORD_STRAIN).data;
+  const mvs_id *id = view(valve, MVS_ARRAY_CHORD_ID).data;
+  const double *strain = view(valve, MVS_ARRAY_CHORD_STRAIN).data;
   uint64_t i;
   for (i = 0; i < ends.count; ++i) {
     const int stands_out = id[i] == what->chord;
@@ -221,8 +222,9 @@ static void show_chordae(scene *out, const mvs_snapshot *valve, const eye *from,
 }
 
 static void show_annulus_and_heads(scene *out, const mvs_snapshot *valve, const eye *from) {
-  const double *x = view(valve, MVS_NODE_POSITION).data;
-  const mvs_view loop = view(valve, MVS_ANNULUS_NODES), heads = view(valve, MVS_HEAD_NODES);
+  const double *x = view(valve, MVS_ARRAY_NODE_POSITION).data;
+  const mvs_view loop = view(valve, MVS_ARRAY_ANNULUS_NODES),
+                 heads = view(valve, MVS_ARRAY_HEAD_NODES);
   const uint32_t *a = loop.data, *h = heads.data;
   uint64_t i;
   for (i = 0; i < loop.count; ++i) {
@@ -232,8 +234,8 @@ static void show_annulus_and_heads(scene *out, const mvs_snapshot *valve, const 
 }
 
 static void show_orifice(scene *out, const mvs_snapshot *measured) {
-  const mvs_view faces = view(measured, MVS_ORIFICE_TRIANGLES);
-  const double *x = view(measured, MVS_ORIFICE_VERTICES).data;
+  const mvs_view faces = view(measured, MVS_ARRAY_ORIFICE_TRIANGLES);
+  const double *x = view(measured, MVS_ARRAY_ORIFICE_VERTICES).data;
   const uint32_t *face = faces.data;
   uint64_t i;
   for (i = 0; i < 3 * faces.count; ++i) add_corner(out, x + 3 * face[i], hole, 1);
@@ -244,7 +246,7 @@ static void show_instrument(scene *out, const eye *from, const sight *what) {
   const double tip[2] = {1.0e-3, 0}, strength = sqrt(dot(what->force, what->force));
   double beside[3], shaft[3], end[3];
   if (what->marked) add_ball(out, from, what->marked, 0.5e-3, chosen);
-  if (what->tool.kind == MVS_TOOL_ROD) {
+  if (what->tool.kind == MVS_TOOL_KIND_ROD) {
     along(what->tool.proxy, what->tool.length, what->tool.proxy_axis, end);
     add_line(out, from, what->tool.proxy, end, what->tool.radius, steel);
   }

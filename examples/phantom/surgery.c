@@ -43,15 +43,15 @@ static mvs_id nearest_head(const mvs_snapshot *valve, uint32_t node) {
   const uint32_t *at;
   mvs_part part = {0};
   uint32_t i, best = 0;
-  must(mvs_snapshot_view(valve, MVS_NODE_POSITION, &place));
-  must(mvs_snapshot_view(valve, MVS_HEAD_NODES, &heads));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_NODE_POSITION, &place));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_HEAD_NODES, &heads));
   x = place.data;
   at = heads.data;
   for (i = 1; i < heads.count; ++i) {
     if (distance2(x + 3 * at[i], x + 3 * node) < distance2(x + 3 * at[best], x + 3 * node))
       best = i;
   }
-  if (heads.count > 0) must(mvs_snapshot_part(valve, MVS_PART_HEAD, best, &part));
+  if (heads.count > 0) must(mvs_snapshot_get_part(valve, MVS_PART_HEAD, best, &part));
   return part.id;
 }
 
@@ -158,8 +158,8 @@ static const char *title(mvs_sim *sim) {
   history.struct_size = sizeof history;
   entry.struct_size = sizeof entry;
   must(mvs_get_snapshot(sim, &valve));
-  must(mvs_snapshot_history(valve, &history));
-  must(mvs_snapshot_history_entry(valve, history.done - 1, &entry));
+  must(mvs_snapshot_get_history(valve, &history));
+  must(mvs_snapshot_get_history_entry(valve, history.done - 1, &entry));
   mvs_snapshot_release(valve);
   return entry.title;
 }

@@ -31,14 +31,14 @@ static const char *scallop_of(mvs_sim *sim, uint32_t node, mvs_part *part) {
   const uint32_t *nodes, *scallop;
   uint64_t i;
   must(mvs_get_snapshot(sim, &valve));
-  must(mvs_snapshot_view(valve, MVS_TRIANGLE_NODES, &triangles));
-  must(mvs_snapshot_view(valve, MVS_TRIANGLE_SCALLOP, &scallops));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_TRIANGLE_NODES, &triangles));
+  must(mvs_snapshot_get_array(valve, MVS_ARRAY_TRIANGLE_SCALLOP, &scallops));
   nodes = triangles.data;
   scallop = scallops.data;
   strcpy(part->name, "no leaflet");
   for (i = 0; i < 3 * triangles.count && nodes[i] != node; ++i) continue;
   if (i < 3 * triangles.count) {
-    must(mvs_snapshot_part(valve, MVS_PART_SCALLOP, scallop[i / 3], part));
+    must(mvs_snapshot_get_part(valve, MVS_PART_SCALLOP, scallop[i / 3], part));
   }
   mvs_snapshot_release(valve);
   return part->name;
@@ -48,9 +48,9 @@ const char *chord_name(mvs_sim *sim, mvs_id id, mvs_part *part) {
   const mvs_snapshot *valve;
   uint32_t count, i;
   must(mvs_get_snapshot(sim, &valve));
-  must(mvs_snapshot_part_count(valve, MVS_PART_CHORD, &count));
+  must(mvs_snapshot_get_part_count(valve, MVS_PART_CHORD, &count));
   for (i = 0, part->id = 0; i < count && part->id != id; ++i) {
-    must(mvs_snapshot_part(valve, MVS_PART_CHORD, i, part));
+    must(mvs_snapshot_get_part(valve, MVS_PART_CHORD, i, part));
   }
   mvs_snapshot_release(valve);
   if (part->id != id || id == 0) strcpy(part->name, "none");
@@ -109,6 +109,6 @@ void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_d
   snprintf(text, size, "%s | orifice %.1f mm2 | %.2f N, felt %.2f N | forces %s%s%s",
            mode_name(mode), 1e6 * orifice_area(NULL), length_of(hand->force), length_of(now->force),
            now->phase < 7 ? phases[now->phase] : "",
-           now->phase == MVS_DEVICE_LATCHED ? cause_name(now->cause) : "",
+           now->phase == MVS_DEVICE_PHASE_LATCHED ? cause_name(now->cause) : "",
            strain ? " | strain 0 to 50 %, of chordae 0 to 5 %" : "");
 }

@@ -122,8 +122,8 @@ void Builder::add_fibres() {
 }
 
 uint32_t kind_of(const InpCable &cable, const InpSheet &sheet) {
-  if (!sheet.holds[cable.b]) return MVS_CHORD_TRUNK;
-  return sheet.in_free_edge[cable.b] ? MVS_CHORD_MARGINAL : MVS_CHORD_ROUGH_ZONE;
+  if (!sheet.holds[cable.b]) return MVS_CHORD_KIND_TRUNK;
+  return sheet.in_free_edge[cable.b] ? MVS_CHORD_KIND_MARGINAL : MVS_CHORD_KIND_ROUGH_ZONE;
 }
 
 void Builder::add_chordae() {

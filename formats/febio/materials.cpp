@@ -24,22 +24,22 @@ std::string energy(const Leaflet &leaflet, const std::string &i1, const std::str
   const auto plain = [&](size_t k) { return feb_plain(c[k]); };
   const std::string over = "(" + i1 + "-3)";
   switch (leaflet.law) {
-    case MVS_LEAFLET_BILINEAR: {
+    case MVS_LEAFLET_LAW_BILINEAR: {
       const std::string x = "(" + i1 + "-" + plain(2) + ")", s2 = feb_plain(c[3] * c[3]);
       const std::string root = "sqrt(" + x + "^2+" + s2 + ")";
       return stress(0) + "*" + over + "+" + feb_plain(c[1] * kpa / 4) + "*(" + x + "^2+" + x + "*" +
              root + "+" + s2 + "*ln(" + x + "+" + root + "))";
     }
-    case MVS_LEAFLET_FUNG:
+    case MVS_LEAFLET_LAW_FUNG:
       return feb_plain(c[0] * kpa / 2) + "*" + over + "+" + feb_plain(c[1] * kpa / 2) + "*(exp(" +
              plain(2) + "*" + over + "^2)-1)";
-    case MVS_LEAFLET_MAY_NEWMAN_YIN:
+    case MVS_LEAFLET_LAW_MAY_NEWMAN_YIN:
       return stress(0) + "*(exp(" + plain(1) + "*" + over + "^2+" + plain(2) + "*(sqrt(" + i4 +
              ")-1)^4)-1)";
-    case MVS_LEAFLET_PROT:
+    case MVS_LEAFLET_LAW_PROT:
       return stress(0) + "*(exp(" + plain(1) + "*" + over + "^2+" + plain(2) + "*(" + i4 +
              "-1)^2)-1)";
-    case MVS_LEAFLET_NEO_HOOKEAN:
+    case MVS_LEAFLET_LAW_NEO_HOOKEAN:
       return feb_plain(c[0] * kpa / 2) + "*" + over;
     default:
       fail(MVS_E_UNSUPPORTED, "leaflet " + leaflet.name,
@@ -72,9 +72,9 @@ void write_leaflet(const Valve &valve, const FebDomain &domain, size_t k, FebTex
 // Strains between which straight lines follow the law of a chord: its own corners, or, where it is
 // curved, 64 steps up to 50 N, far above what a chord bears.
 std::vector<double> corners_of(const Valve &valve, const Chord &chord) {
-  if (chord.law == MVS_CHORD_LINEAR) return {0, 0.1};
-  if (chord.law == MVS_CHORD_BILINEAR) return {0, chord.constants[0], chord.constants[0] + 0.1};
-  if (chord.law == MVS_CHORD_TABLE) {
+  if (chord.law == MVS_CHORD_LAW_LINEAR) return {0, 0.1};
+  if (chord.law == MVS_CHORD_LAW_BILINEAR) return {0, chord.constants[0], chord.constants[0] + 0.1};
+  if (chord.law == MVS_CHORD_LAW_TABLE) {
     std::vector<double> strains;
     const ChordCurve &curve = valve.curves[static_cast<size_t>(chord.constants[0])];
     for (const CurvePoint &point : curve.points) strains.push_back(point[0]);
@@ -122,7 +122,7 @@ void write_spring(const Valve &valve, size_t c, FebText &out) {
 }  // namespace
 
 bool feb_has_fibres(uint32_t law) {
-  return law == MVS_LEAFLET_MAY_NEWMAN_YIN || law == MVS_LEAFLET_PROT;
+  return law == MVS_LEAFLET_LAW_MAY_NEWMAN_YIN || law == MVS_LEAFLET_LAW_PROT;
 }
 
 void write_feb_materials(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out) {

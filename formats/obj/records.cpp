@@ -359,7 +359,7 @@ void ObjReader::chord(Line &line) {
   fields.number("rest_length", chord.rest_length, obj::mm);
   fields.number("young", chord.young);
   fields.number("area", chord.area, obj::mm2);
-  if (chord.law == MVS_CHORD_TABLE) {
+  if (chord.law == MVS_CHORD_LAW_TABLE) {
     chord.constants[0] = curve_of(fields, line);
   } else {
     read_constants(fields, find_chord_law(chord.law)->constants, chord.constants);

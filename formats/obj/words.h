@@ -14,7 +14,8 @@ inline constexpr unsigned version = 4, version_at_rest = 3;
 // Lengths are mm in the file and m in memory; areas go with the square.
 inline constexpr int mm = 3, mm2 = 6;
 
-// Indices are MVS_LEAFLET_*, MVS_CHORD_*, MVS_RING_*, less one where those start at 1.
+// Indices are MVS_LEAFLET_LAW_*, MVS_CHORD_KIND_*, MVS_RING_KIND_*, less one where those start
+// at 1.
 inline constexpr std::array<std::string_view, 8> chord_kinds = {
     "other", "marginal", "rough_zone", "strut", "basal", "commissural", "trunk", "suture"};
 // Words of the laws, in the order of their numbers less one.

@@ -276,7 +276,7 @@ void ObjWriter::chords() {
     key_number("rest_length", chord.rest_length, obj::mm);
     key_number("young", chord.young);
     key_number("area", chord.area, obj::mm2);
-    if (chord.law == MVS_CHORD_TABLE) {
+    if (chord.law == MVS_CHORD_LAW_TABLE) {
       key_text("curve", valve_.curves[static_cast<size_t>(chord.constants[0])].name);
     } else {
       key_constants(find_chord_law(chord.law)->constants, chord.constants);

@@ -215,7 +215,7 @@ mvs_array OpReader::points(const OpField &f, const Json &json) {
   auto list = std::make_unique<std::vector<Vec3>>();
   for (const Json &one : json.items()) list->push_back(point(f, one));
   points_.push_back(std::move(list));
-  return {points_.back()->data(), points_.back()->size(), 3, MVS_F64, 0};
+  return {points_.back()->data(), points_.back()->size(), 3, MVS_TYPE_F64, 0};
 }
 
 void OpReader::read(const OpField &f, const Json &json) {

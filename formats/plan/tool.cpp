@@ -113,12 +113,12 @@ void read_added(const Json &json, Tool &tool) {
   read_hand(json, tool);
   tool.stiffness = positive_at(json, "stiffness_N/m");
   tool.max_force = positive_at(json, "max_force_N");
-  if (tool.kind == MVS_TOOL_GRASP) {
+  if (tool.kind == MVS_TOOL_KIND_GRASP) {
     tool.node = static_cast<uint32_t>(std::min<uint64_t>(whole_at(json, "node"), none - 1));
     return;
   }
   tool.radius = positive_at(json, "radius_m");
-  if (tool.kind != MVS_TOOL_ROD) return;
+  if (tool.kind != MVS_TOOL_KIND_ROD) return;
   tool.length = positive_at(json, "length_m");
   MVS_MUST(json.has("axis"), MVS_E_FORMAT, "plan", "a rod has to have an axis");
 }
@@ -135,11 +135,11 @@ Json tool_json(const RecordedEvent &move) {
   if (move.kind == RecordedEvent::tool_remove) return json;
   if (move.kind == RecordedEvent::tool_add) json.set("kind", kinds[tool.kind - 1]);
   json.set("position_m", vector_json(tool.position));
-  if (tool.kind == MVS_TOOL_ROD) json.set("axis", vector_json(tool.axis));
+  if (tool.kind == MVS_TOOL_KIND_ROD) json.set("axis", vector_json(tool.axis));
   if (move.kind == RecordedEvent::tool_move) return json;
-  if (tool.kind == MVS_TOOL_GRASP) json.set("node", tool.node);
-  if (tool.kind != MVS_TOOL_GRASP) json.set("radius_m", tool.radius);
-  if (tool.kind == MVS_TOOL_ROD) json.set("length_m", tool.length);
+  if (tool.kind == MVS_TOOL_KIND_GRASP) json.set("node", tool.node);
+  if (tool.kind != MVS_TOOL_KIND_GRASP) json.set("radius_m", tool.radius);
+  if (tool.kind == MVS_TOOL_KIND_ROD) json.set("length_m", tool.length);
   json.set("stiffness_N/m", tool.stiffness);
   json.set("max_force_N", tool.max_force);
   return json;

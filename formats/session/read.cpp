@@ -199,10 +199,10 @@ void SessionReader::model(ModelPtr &model) {
 
 void check_tools(const Model &model, const CowVector<Tool> &tools) {
   for (const Tool &tool : tools) {
-    const bool holds = tool.kind == MVS_TOOL_GRASP && tool.node < model.node_count() &&
+    const bool holds = tool.kind == MVS_TOOL_KIND_GRASP && tool.node < model.node_count() &&
                        !model.topology.fixed[tool.node];
     const bool pushes =
-        (tool.kind == MVS_TOOL_BALL || tool.kind == MVS_TOOL_ROD) && tool.node == none;
+        (tool.kind == MVS_TOOL_KIND_BALL || tool.kind == MVS_TOOL_KIND_ROD) && tool.node == none;
     MVS_MUST((holds || pushes) && tool.stiffness > 0 && tool.max_force > 0, MVS_E_FORMAT, "state",
              "a state of the file has a tool that cannot be");
   }
@@ -234,7 +234,7 @@ void SessionReader::check(const RecordedEvent &move) {
       move.kind >= RecordedEvent::tool_add && move.kind <= RecordedEvent::tool_remove;
   bool is_good = move.kind == RecordedEvent::lead ? is_whole(move) : move.tool.size() == is_of_tool;
   for (const Tool &tool : move.tool.get()) {
-    is_good = is_good && tool.kind >= MVS_TOOL_GRASP && tool.kind <= MVS_TOOL_ROD;
+    is_good = is_good && tool.kind >= MVS_TOOL_KIND_GRASP && tool.kind <= MVS_TOOL_KIND_ROD;
   }
   MVS_MUST(is_good, MVS_E_FORMAT, "history",
            "the history of the file has a move whose tools and numbers do not agree");
@@ -338,7 +338,7 @@ void SessionReader::field(const OpField &f, char *at) {
       const CowVector<Vec3> &points = points_.emplace_back();
       array(points_.back());
       if (points.empty()) return;
-      *reinterpret_cast<mvs_array *>(at) = {points.data(), points.size(), 3, MVS_F64, 0};
+      *reinterpret_cast<mvs_array *>(at) = {points.data(), points.size(), 3, MVS_TYPE_F64, 0};
       return;
     }
     default: {

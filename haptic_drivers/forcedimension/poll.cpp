@@ -72,9 +72,9 @@ void read_status(mvs_driver_device &device) {
 
 uint32_t flags(const mvs_driver_device &device, bool has_velocity) {
   const bool on = device.on && device.status[kForce];
-  return (device.status[kReset] ? 0 : MVS_DRIVER_CALIBRATED) |
-         (has_velocity ? MVS_DRIVER_VELOCITY : 0) | (on ? MVS_DRIVER_FORCE_ON : 0) |
-         (device.saturated ? MVS_DRIVER_SATURATED : 0);
+  return (device.status[kReset] ? 0 : MVS_DRIVER_FLAG_CALIBRATED) |
+         (has_velocity ? MVS_DRIVER_FLAG_VELOCITY : 0) | (on ? MVS_DRIVER_FLAG_FORCE_ON : 0) |
+         (device.saturated ? MVS_DRIVER_FLAG_SATURATED : 0);
 }
 
 int32_t say(mvs_driver_device &device, int32_t code, const char *what) {

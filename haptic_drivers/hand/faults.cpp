@@ -68,7 +68,7 @@ void spoil(const Faults &faults, double time, const mvs_driver_state &before,
       break;
     case Fault::kInfVelocity:
       state.velocity[1] = std::numeric_limits<double>::infinity();
-      state.flags |= MVS_DRIVER_VELOCITY;
+      state.flags |= MVS_DRIVER_FLAG_VELOCITY;
       break;
     case Fault::kJump:
       state.position[0] += kJump;
@@ -83,17 +83,17 @@ void spoil(const Faults &faults, double time, const mvs_driver_state &before,
       state.buttons = (state.buttons & ~1u) | (state.sequence & 1);
       break;
     case Fault::kUncalibrated:
-      state.flags &= ~uint32_t(MVS_DRIVER_CALIBRATED);
+      state.flags &= ~uint32_t(MVS_DRIVER_FLAG_CALIBRATED);
       break;
     case Fault::kHot:
-      state.flags |= MVS_DRIVER_WARM;
+      state.flags |= MVS_DRIVER_FLAG_WARM;
       state.cause = MVS_CAUSE_THERMAL;
       break;
     case Fault::kSaturated:
-      state.flags |= MVS_DRIVER_SATURATED;
+      state.flags |= MVS_DRIVER_FLAG_SATURATED;
       break;
     case Fault::kDeadman:
-      state.flags &= ~uint32_t(MVS_DRIVER_HELD);
+      state.flags &= ~uint32_t(MVS_DRIVER_FLAG_HELD);
       break;
     case Fault::kClockBack:
       state.time_ns -= std::min(state.time_ns, kBack);

@@ -158,12 +158,12 @@ double encoded(double position, double resolution) {
 mvs_driver_state state_of(const mvs_driver_device &device) {
   const hand::Settings &settings = device.settings;
   mvs_driver_state state = {};
-  state.flags = MVS_DRIVER_CALIBRATED;
-  if (settings.tells_velocity) state.flags |= MVS_DRIVER_VELOCITY;
-  if (settings.faults.kind == Fault::kDeadman) state.flags |= MVS_DRIVER_HELD;
+  state.flags = MVS_DRIVER_FLAG_CALIBRATED;
+  if (settings.tells_velocity) state.flags |= MVS_DRIVER_FLAG_VELOCITY;
+  if (settings.faults.kind == Fault::kDeadman) state.flags |= MVS_DRIVER_FLAG_HELD;
   const bool on = device.running && device.on && !settings.faults.limp(script_time(device));
-  if (on) state.flags |= MVS_DRIVER_FORCE_ON;
-  if (on && device.motors.saturated()) state.flags |= MVS_DRIVER_SATURATED;
+  if (on) state.flags |= MVS_DRIVER_FLAG_FORCE_ON;
+  if (on && device.motors.saturated()) state.flags |= MVS_DRIVER_FLAG_SATURATED;
   state.time_ns = device.now_ns;
   state.sequence = device.last.sequence + 1;
   for (int k = 0; k < 3; ++k)

@@ -199,9 +199,9 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *wante
     return say(*device, MVS_DRIVER_E_LOST,
                "no state came in time: the service is silent, or this machine too busy");
   mvs_driver_state state = {};
-  if (hand.calibrated) state.flags |= MVS_DRIVER_CALIBRATED;
-  if (hand.has_velocity) state.flags |= MVS_DRIVER_VELOCITY;
-  if (sample.force_on) state.flags |= MVS_DRIVER_FORCE_ON;
+  if (hand.calibrated) state.flags |= MVS_DRIVER_FLAG_CALIBRATED;
+  if (hand.has_velocity) state.flags |= MVS_DRIVER_FLAG_VELOCITY;
+  if (sample.force_on) state.flags |= MVS_DRIVER_FLAG_FORCE_ON;
   state.time_ns = now_ns > age ? now_ns - age : 0;
   state.sequence = sample.sequence;
   std::copy_n(hand.position, 3, state.position);

@@ -112,10 +112,11 @@ uint32_t flags(const mvs_driver_device &device) {
   unsigned char parked = 0;
   if (device.has_inkwell) hd().get_booleans(kInkwell, &parked);
   const bool on = loop.quiet == 0 && !loop.panicked && hd().is_enabled(kForceOutput);
-  return (loop.calibrated ? MVS_DRIVER_CALIBRATED : 0) |
-         (device.has_velocity ? MVS_DRIVER_VELOCITY : 0) | (on ? MVS_DRIVER_FORCE_ON : 0) |
-         (loop.saturated ? MVS_DRIVER_SATURATED : 0) | (parked ? MVS_DRIVER_PARKED : 0) |
-         (loop.warm || loop.cause == MVS_CAUSE_THERMAL ? MVS_DRIVER_WARM : 0);
+  return (loop.calibrated ? MVS_DRIVER_FLAG_CALIBRATED : 0) |
+         (device.has_velocity ? MVS_DRIVER_FLAG_VELOCITY : 0) |
+         (on ? MVS_DRIVER_FLAG_FORCE_ON : 0) | (loop.saturated ? MVS_DRIVER_FLAG_SATURATED : 0) |
+         (parked ? MVS_DRIVER_FLAG_PARKED : 0) |
+         (loop.warm || loop.cause == MVS_CAUSE_THERMAL ? MVS_DRIVER_FLAG_WARM : 0);
 }
 
 void read(mvs_driver_device &device, mvs_driver_state &state) {

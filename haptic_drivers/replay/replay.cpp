@@ -98,9 +98,9 @@ int32_t start(mvs_driver_device *device) {
 
 mvs_driver_state state_of(const mvs_driver_device &device) {
   mvs_driver_state state = {};
-  state.flags = MVS_DRIVER_CALIBRATED | MVS_DRIVER_VELOCITY;
-  if (device.motors) state.flags |= MVS_DRIVER_FORCE_ON;
-  if (device.saturated) state.flags |= MVS_DRIVER_SATURATED;
+  state.flags = MVS_DRIVER_FLAG_CALIBRATED | MVS_DRIVER_FLAG_VELOCITY;
+  if (device.motors) state.flags |= MVS_DRIVER_FLAG_FORCE_ON;
+  if (device.saturated) state.flags |= MVS_DRIVER_FLAG_SATURATED;
   state.time_ns = device.now_ns;
   state.sequence = device.sequence;
   for (int k = 0; k < 3; ++k) state.position[k] = device.sample.position[k];

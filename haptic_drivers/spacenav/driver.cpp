@@ -162,7 +162,7 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *wante
   const int32_t result = listen(*device);
   if (result != MVS_DRIVER_OK) return result;
   mvs_driver_state state = {};
-  state.flags = MVS_DRIVER_CALIBRATED | MVS_DRIVER_VELOCITY;
+  state.flags = MVS_DRIVER_FLAG_CALIBRATED | MVS_DRIVER_FLAG_VELOCITY;
   state.time_ns = now_ns;
   state.sequence = device->sequence += anew ? 1 : 0;
   std::copy_n(device->puck.position(), 3, state.position);

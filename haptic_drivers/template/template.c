@@ -56,7 +56,7 @@ static int32_t hardware_read(mvs_driver_device *device, mvs_driver_state *state)
   (void)device;
   state->position[0] = state->position[1] = state->position[2] = 0;
   state->orientation[0] = 1; /* a unit quaternion, also of a device that does not turn */
-  state->flags = MVS_DRIVER_CALIBRATED;
+  state->flags = MVS_DRIVER_FLAG_CALIBRATED;
   return MVS_DRIVER_OK;
 }
 
@@ -178,7 +178,7 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
   full.sequence = device->sequence;
   full.time_ns = device->time_ns;
   if (device->force.on && __atomic_load_n(&device->motors, __ATOMIC_SEQ_CST))
-    full.flags |= MVS_DRIVER_FORCE_ON;
+    full.flags |= MVS_DRIVER_FLAG_FORCE_ON;
   give(&full, sizeof full, state);
   return MVS_DRIVER_OK;
 }

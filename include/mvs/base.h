@@ -38,7 +38,7 @@ extern "C" {
  * mvs_last_error(). After a failure the simulator is bit for bit as before the call, and outputs
  * are as the caller left them. */
 typedef int32_t mvs_result;
-enum {
+enum mvs_result_e {
   MVS_OK = 0,
   MVS_E_ARGUMENT = -1,     /* a null pointer, a size, a range: the caller's value is wrong */
   MVS_E_ID = -2,           /* no part of the valve has this id, or it is of another kind */
@@ -81,7 +81,14 @@ MVS_API const char *mvs_features(void);
 typedef uint64_t mvs_id;
 
 /* Element types of arrays. */
-enum { MVS_F64 = 1, MVS_F32 = 2, MVS_U32 = 3, MVS_U64 = 4, MVS_U8 = 5 };
+enum mvs_type_e {
+  MVS_TYPE_F64 = 1,
+  MVS_TYPE_F32 = 2,
+  MVS_TYPE_U32 = 3,
+  MVS_TYPE_U64 = 4,
+  MVS_TYPE_U8 = 5
+};
+typedef uint32_t mvs_type;
 
 /* An array of the caller: `count` elements of `components` values of `type`, the elements
  * `stride` bytes apart (0: packed), at any alignment. All zero: not given. Read during the call

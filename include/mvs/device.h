@@ -47,10 +47,11 @@ MVS_API mvs_result mvs_device_doctor(const char *driver, const char *options,
                                      mvs_driver_finding finding, void *user);
 
 /* Clocks. */
-enum {
+enum mvs_clock_e {
   MVS_CLOCK_REAL = 0,   /* the device's own, or a thread of the library's at its rate */
   MVS_CLOCK_VIRTUAL = 1 /* mvs_device_advance turns it: for tests and unattended sessions */
 };
+typedef uint32_t mvs_clock;
 
 /* Which device. */
 typedef struct mvs_device_desc {
@@ -123,19 +124,20 @@ MVS_API mvs_result mvs_device_set_view(mvs_device *device, const mvs_device_view
 MVS_API mvs_result mvs_device_get_view(const mvs_device *device, mvs_device_view *view);
 
 /* What the hand does. */
-enum {
-  MVS_HAND_LOOK = 0,  /* points at nodes and chordae, feels nothing */
-  MVS_HAND_GRASP = 1, /* the button takes the nearest node, drags it, lets it go */
-  MVS_HAND_BALL = 2,  /* pushes tissue with a ball */
-  MVS_HAND_ROD = 3,   /* pushes with a rod along the stylus */
-  MVS_HAND_FEEL = 4,  /* feels the tension of `chord` */
-  MVS_HAND_DRAG = 5   /* the button takes the leaflet end of `chord`, to set its length */
+enum mvs_hand_mode_e {
+  MVS_HAND_MODE_LOOK = 0,  /* points at nodes and chordae, feels nothing */
+  MVS_HAND_MODE_GRASP = 1, /* the button takes the nearest node, drags it, lets it go */
+  MVS_HAND_MODE_BALL = 2,  /* pushes tissue with a ball */
+  MVS_HAND_MODE_ROD = 3,   /* pushes with a rod along the stylus */
+  MVS_HAND_MODE_FEEL = 4,  /* feels the tension of `chord` */
+  MVS_HAND_MODE_DRAG = 5   /* the button takes the leaflet end of `chord`, to set its length */
 };
+typedef uint32_t mvs_hand_mode;
 
 /* The hand's tool. Zero fields take the defaults in brackets. */
 typedef struct mvs_device_hand {
   uint32_t struct_size;
-  uint32_t mode;   /* MVS_HAND_* */
+  uint32_t mode;   /* MVS_HAND_MODE_* */
   mvs_id chord;    /* to feel or drag [the nearest one when the button goes down] */
   uint32_t button; /* that grasps, 0 the first */
   uint32_t reserved;
@@ -167,7 +169,7 @@ MVS_API mvs_result mvs_device_cut(mvs_device *device);
 MVS_API mvs_result mvs_device_advance(mvs_device *device, double seconds);
 
 /* What happened in mvs_device_sync: bits of mvs_device_report.events. */
-enum {
+enum mvs_event_flags_e {
   MVS_EVENT_PRESSED = 1 << 0, /* the hand's button */
   MVS_EVENT_RELEASED = 1 << 1,
   MVS_EVENT_GRASPED = 1 << 2, /* `tool` holds `node` */
@@ -180,6 +182,7 @@ enum {
   MVS_EVENT_BLOCKED = 1 << 8,   /* a ball or rod would lie in tissue: move away to let it in */
   MVS_EVENT_LATCHED = 1 << 9    /* forces went off: see mvs_device_state.cause */
 };
+typedef uint32_t mvs_event_flags;
 
 /* What the hand points at and did. */
 typedef struct mvs_device_report {
@@ -203,18 +206,20 @@ typedef struct mvs_device_report {
 MVS_API mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *report);
 
 /* Where forces stand. */
-enum {
-  MVS_DEVICE_STOPPED = 0,
-  MVS_DEVICE_OFF = 1,     /* started, not armed */
-  MVS_DEVICE_WAITING = 2, /* armed; the force of the tissue is above the gate: move the hand away */
-  MVS_DEVICE_RAMPING = 3,
-  MVS_DEVICE_ON = 4,
-  MVS_DEVICE_FADED = 5,  /* the simulation stands still */
-  MVS_DEVICE_LATCHED = 6 /* see `cause` */
+enum mvs_device_phase_e {
+  MVS_DEVICE_PHASE_STOPPED = 0,
+  MVS_DEVICE_PHASE_OFF = 1, /* started, not armed */
+  MVS_DEVICE_PHASE_WAITING =
+      2, /* armed; the force of the tissue is above the gate: move the hand away */
+  MVS_DEVICE_PHASE_RAMPING = 3,
+  MVS_DEVICE_PHASE_ON = 4,
+  MVS_DEVICE_PHASE_FADED = 5,  /* the simulation stands still */
+  MVS_DEVICE_PHASE_LATCHED = 6 /* see `cause` */
 };
+typedef uint32_t mvs_device_phase;
 
 /* What was done to the last force: bits of mvs_device_state.limited. */
-enum {
+enum mvs_limited_flags_e {
   MVS_LIMITED_FORCE = 1 << 0,      /* clamped */
   MVS_LIMITED_CONTINUOUS = 1 << 1, /* clamped so that the motors stay cool */
   MVS_LIMITED_SLEW = 1 << 2,
@@ -222,11 +227,12 @@ enum {
   MVS_LIMITED_WALL = 1 << 4,   /* the wall of the workspace pushed */
   MVS_LIMITED_NUMBER = 1 << 5  /* a force was no number, and became zero */
 };
+typedef uint32_t mvs_limited_flags;
 
 /* The servo as it is now. */
 typedef struct mvs_device_state {
   uint32_t struct_size;
-  uint32_t phase;        /* MVS_DEVICE_* */
+  uint32_t phase;        /* MVS_DEVICE_PHASE_* */
   uint32_t cause;        /* MVS_CAUSE_*, of a latch */
   uint32_t flags;        /* MVS_DRIVER_*, of the driver */
   uint32_t limited;      /* MVS_LIMITED_* */
@@ -267,7 +273,7 @@ MVS_API mvs_result mvs_device_trace(mvs_device *device, mvs_device_sample *sampl
 /* With 1, zero force to every open device when the process gets a fatal signal (SIGSEGV, SIGBUS,
  * SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT), then on to the handler that was there; with 0, takes
  * that back. The library installs no handler unless asked. */
-MVS_API mvs_result mvs_device_guard_crashes(uint32_t on);
+MVS_API mvs_result mvs_device_handle_signals(uint32_t on);
 
 #ifdef __cplusplus
 }

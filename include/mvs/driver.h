@@ -38,7 +38,7 @@ extern "C" {
 #define MVS_DRIVER_PATIENCE_MS 100u
 
 /* What a function returns. */
-enum {
+enum mvs_driver_result_e {
   MVS_DRIVER_OK = 0,
   MVS_DRIVER_STOP = 1,           /* of the servo only: leave run() now */
   MVS_DRIVER_E_ABSENT = -1,      /* no such device is there */
@@ -55,9 +55,10 @@ enum {
   MVS_DRIVER_E_UNSUPPORTED = -12,
   MVS_DRIVER_E_INTERNAL = -13
 };
+typedef int32_t mvs_driver_result;
 
 /* Why forces are off; the numbers of mvs_driver_state.cause, and those of libmvs' own latch. */
-enum {
+enum mvs_cause_e {
   MVS_CAUSE_NONE = 0,
   MVS_CAUSE_BUTTON = 1,     /* the user switched them off at the device */
   MVS_CAUSE_VELOCITY = 2,   /* it moves too fast, or jumped */
@@ -69,6 +70,7 @@ enum {
   MVS_CAUSE_THERMAL = 8,    /* the motors are too warm */
   MVS_CAUSE_CALIBRATION = 9 /* where it is cannot be trusted */
 };
+typedef uint32_t mvs_cause;
 
 /* What a device is. Zero of a number means that the device does not say: libmvs then takes the
  * limits of the weakest device that it knows. */
@@ -78,7 +80,7 @@ typedef struct mvs_driver_info {
   uint32_t freedoms_out; /* 0: no force; 3: force; 6: torque too */
   uint32_t buttons;      /* how many there are, at most 32 */
   uint32_t has_gripper;
-  uint32_t has_deadman;                      /* 1: MVS_DRIVER_HELD is told */
+  uint32_t has_deadman;                      /* 1: MVS_DRIVER_FLAG_HELD is told */
   double workspace_min[3], workspace_max[3]; /* m, the corners of the box that the hand can reach,
                                                 in the device's axes */
   double peak_force;                         /* N */
@@ -96,15 +98,16 @@ typedef struct mvs_driver_info {
 } mvs_driver_info;
 
 /* Bits of mvs_driver_state.flags. */
-enum {
-  MVS_DRIVER_CALIBRATED = 1 << 0, /* the pose can be trusted */
-  MVS_DRIVER_VELOCITY = 1 << 1,   /* `velocity` is measured; without it libmvs estimates one */
-  MVS_DRIVER_FORCE_ON = 1 << 2,   /* the motors follow what is written */
-  MVS_DRIVER_SATURATED = 1 << 3,  /* the last force was more than the motors could */
-  MVS_DRIVER_HELD = 1 << 4,       /* the dead-man's switch is held */
-  MVS_DRIVER_PARKED = 1 << 5,     /* the stylus is in its holder */
-  MVS_DRIVER_WARM = 1 << 6        /* a warning: the motors grow too warm */
+enum mvs_driver_flags_e {
+  MVS_DRIVER_FLAG_CALIBRATED = 1 << 0, /* the pose can be trusted */
+  MVS_DRIVER_FLAG_VELOCITY = 1 << 1,   /* `velocity` is measured; without it libmvs estimates one */
+  MVS_DRIVER_FLAG_FORCE_ON = 1 << 2,   /* the motors follow what is written */
+  MVS_DRIVER_FLAG_SATURATED = 1 << 3,  /* the last force was more than the motors could */
+  MVS_DRIVER_FLAG_HELD = 1 << 4,       /* the dead-man's switch is held */
+  MVS_DRIVER_FLAG_PARKED = 1 << 5,     /* the stylus is in its holder */
+  MVS_DRIVER_FLAG_WARM = 1 << 6        /* a warning: the motors grow too warm */
 };
+typedef uint32_t mvs_driver_flags;
 
 /* Where the hand is. */
 typedef struct mvs_driver_state {

@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-enum {
+enum mvs_format_e {
   MVS_FORMAT_AUTO = 0,
   MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round trip */
   MVS_FORMAT_VTP = 2, /* VTK XML PolyData, write only: for ParaView and Slicer */
@@ -26,6 +26,7 @@ enum {
   MVS_FORMAT_FEB = 5  /* FEBio 4.0 model, write only: a valve at rest, to be closed there under the
                          load of the snapshot. MVS_E_UNSUPPORTED where FEBio lacks the law */
 };
+typedef uint32_t mvs_format;
 
 /* Replaces the valve and state of a simulator by those of a file, and its history by that of an
  * HDF5 file, by an empty one else. The sentence of a failure begins

@@ -1,9 +1,9 @@
 /* Mesh levels of one valve: finer ones, coarser ones, and states carried between them.
  *
  * The vertices of a coarser level are vertices of the finer one, at the same rest places bit for
- * bit, so that results of two levels can be compared node by node. MVS_NODE_ORIGIN tells which: as
- * after an operation it is the node's index in the valve that was set, generated or loaded, and
- * UINT32_MAX for a node that refinement added.
+ * bit, so that results of two levels can be compared node by node. MVS_ARRAY_NODE_ORIGIN tells
+ * which: as after an operation it is the node's index in the valve that was set, generated or
+ * loaded, and UINT32_MAX for a node that refinement added.
  *
  * The rest shape of a refined valve is the same surface of flat triangles: two closures differ by
  * what the mesh does to the solution, not by another shape. */

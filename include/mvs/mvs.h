@@ -4,13 +4,13 @@
 
 #include "base.h"
 #include "device.h"
+#include "ensemble.h"
 #include "file.h"
 #include "levels.h"
 #include "op.h"
 #include "plan.h"
 #include "sim.h"
 #include "snapshot.h"
-#include "spread.h"
 #include "tool.h"
 #include "valve.h"
 

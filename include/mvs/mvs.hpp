@@ -8,9 +8,9 @@
 #include <mvs/mvs.h>
 #include <mvs/base.hpp>
 #include <mvs/device.hpp>
+#include <mvs/ensemble.hpp>
 #include <mvs/op.hpp>
 #include <mvs/snapshot.hpp>
-#include <mvs/spread.hpp>
 #include <mvs/tool.hpp>
 
 #include <array>
@@ -160,21 +160,21 @@ class Sim {
   mvs_id add_tool(mvs_tool_desc desc) {
     desc.struct_size = sizeof desc;
     mvs_id tool = 0;
-    must(mvs_tool_add(sim_, &desc, &tool));
+    must(mvs_add_tool(sim_, &desc, &tool));
     return tool;
   }
   // From any thread.
   void move_tool(mvs_id tool, const std::array<double, 3> &position) {
-    must(mvs_tool_move(sim_, tool, position.data(), nullptr));
+    must(mvs_move_tool(sim_, tool, position.data(), nullptr));
   }
   void move_tool(mvs_id tool, const std::array<double, 3> &position,
                  const std::array<double, 3> &axis) {
-    must(mvs_tool_move(sim_, tool, position.data(), axis.data()));
+    must(mvs_move_tool(sim_, tool, position.data(), axis.data()));
   }
-  void remove_tool(mvs_id tool) { must(mvs_tool_remove(sim_, tool)); }
+  void remove_tool(mvs_id tool) { must(mvs_remove_tool(sim_, tool)); }
   mvs_tool_state tool(mvs_id tool) const {
     mvs_tool_state state = sized<mvs_tool_state>();
-    must(mvs_tool_get(sim_, tool, &state));
+    must(mvs_get_tool(sim_, tool, &state));
     return state;
   }
 

@@ -19,7 +19,7 @@ extern "C" {
 #endif
 
 /* Kinds of operations. Numbers are never reused. */
-enum {
+enum mvs_op_kind_e {
   MVS_OP_CHORD_LENGTH = 1,
   MVS_OP_CHORD_REMOVE = 2,
   MVS_OP_CHORD_ADD = 3,
@@ -33,6 +33,7 @@ enum {
   MVS_OP_RESECT = 11,
   MVS_OP_PATCH = 12
 };
+typedef uint32_t mvs_op_kind;
 
 /* What every operation begins with. */
 typedef struct mvs_op {
@@ -48,13 +49,14 @@ typedef struct mvs_point {
 } mvs_point;
 
 /* How a place on a leaflet is told. */
-enum {
+enum mvs_site_kind_e {
   MVS_SITE_NONE = 0,
   MVS_SITE_NODE = 1,      /* node `index` */
   MVS_SITE_TRIANGLE = 2,  /* in triangle `index`, barycentric coordinates u, sum 1 */
   MVS_SITE_ANATOMICAL = 3 /* in a scallop: u[0] along it, 0 at its end towards the negative CC axis
                              to 1 at the other; u[1] from annulus, 0, to free edge, 1 */
 };
+typedef uint32_t mvs_site_kind;
 
 /* A place on a leaflet. */
 typedef struct mvs_site {
@@ -90,13 +92,14 @@ typedef struct mvs_op_chord_add {
                     where it has none, its distance] */
   double young;  /* Pa [40e6] */
   double area;   /* m2 [pi/4 * (1 mm)^2] */
-  uint32_t type; /* MVS_CHORD_* but trunk and suture [other] */
+  uint32_t type; /* MVS_CHORD_KIND_* but trunk and suture [other] */
   uint32_t reserved;
   const char *name; /* null: made by the library, "P2/9" */
 } mvs_op_chord_add;
 
 /* Ends of a chord. */
-enum { MVS_END_LEAFLET = 1, MVS_END_HEAD = 2 };
+enum mvs_chord_end_e { MVS_CHORD_END_LEAFLET = 1, MVS_CHORD_END_HEAD = 2 };
+typedef uint32_t mvs_chord_end;
 
 /* Moves one end of a chord to another place of a leaflet, or to another papillary head. At a
  * leaflet it is sewn on as long as it is. At a head it is cut off and tied anew, at a length that
@@ -104,7 +107,7 @@ enum { MVS_END_LEAFLET = 1, MVS_END_HEAD = 2 };
 typedef struct mvs_op_chord_transfer {
   mvs_op op;
   mvs_id chord;
-  uint32_t end; /* MVS_END_* [leaflet] */
+  uint32_t end; /* MVS_CHORD_END_* [leaflet] */
   uint32_t reserved;
   mvs_site site; /* where to, for the leaflet end */
   mvs_id head;   /* where to, for the head end */
@@ -163,8 +166,9 @@ typedef struct mvs_op_neochord {
 typedef struct mvs_op_head_move {
   mvs_op op;
   mvs_id head;
-  double by[3];   /* m, along x, y, z; or along AP, CC and the axis into the atrium */
-  uint32_t frame; /* 0: the axes of the coordinates; 1: those of the valve (mvs_snapshot_frame) */
+  double by[3]; /* m, along x, y, z; or along AP, CC and the axis into the atrium */
+  uint32_t
+      frame; /* 0: the axes of the coordinates; 1: those of the valve (mvs_snapshot_get_frame) */
   uint32_t reserved;
 } mvs_op_head_move;
 
@@ -243,7 +247,7 @@ typedef struct mvs_history {
   uint32_t checkpoints;
 } mvs_history;
 
-MVS_API mvs_result mvs_snapshot_history(const mvs_snapshot *snapshot, mvs_history *history);
+MVS_API mvs_result mvs_snapshot_get_history(const mvs_snapshot *snapshot, mvs_history *history);
 
 /* One operation of a history. */
 typedef struct mvs_history_entry {
@@ -257,14 +261,14 @@ typedef struct mvs_history_entry {
 
 /* Entry `index` of a history: 0 to done - 1 from the first to the last operation, then those undone
  * in the order in which they would be redone. */
-MVS_API mvs_result mvs_snapshot_history_entry(const mvs_snapshot *snapshot, uint32_t index,
-                                              mvs_history_entry *entry);
+MVS_API mvs_result mvs_snapshot_get_history_entry(const mvs_snapshot *snapshot, uint32_t index,
+                                                  mvs_history_entry *entry);
 
 /* The name of a checkpoint; valid while the snapshot is held. Null past the last one. */
-MVS_API const char *mvs_snapshot_checkpoint(const mvs_snapshot *snapshot, uint32_t index);
+MVS_API const char *mvs_snapshot_get_checkpoint(const mvs_snapshot *snapshot, uint32_t index);
 
 /* Types of the fields of operations. */
-enum {
+enum mvs_field_type_e {
   MVS_FIELD_NUMBER = 1,  /* double */
   MVS_FIELD_COUNT = 2,   /* uint32_t */
   MVS_FIELD_CHOICE = 3,  /* uint32_t, one of `choices` */
@@ -277,6 +281,7 @@ enum {
   MVS_FIELD_POINTS = 10, /* mvs_array, F64, k x 3 */
   MVS_FIELD_TEXT = 11    /* const char * */
 };
+typedef uint32_t mvs_field_type;
 
 /* A kind of operation, for dialogs, bindings and scripts. All texts are static. */
 typedef struct mvs_op_info {
@@ -302,13 +307,13 @@ typedef struct mvs_field_info {
 } mvs_field_info;
 
 /* How many kinds of operations this library has. */
-MVS_API uint32_t mvs_op_count(void);
+MVS_API uint32_t mvs_get_op_count(void);
 
 /* The index-th kind, in the order of their numbers. */
-MVS_API mvs_result mvs_op_describe(uint32_t index, mvs_op_info *info);
+MVS_API mvs_result mvs_get_op_info(uint32_t index, mvs_op_info *info);
 
 /* Field `field` of the index-th kind. */
-MVS_API mvs_result mvs_op_describe_field(uint32_t index, uint32_t field, mvs_field_info *info);
+MVS_API mvs_result mvs_get_op_field(uint32_t index, uint32_t field, mvs_field_info *info);
 
 #ifdef __cplusplus
 }

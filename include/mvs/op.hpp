@@ -51,12 +51,12 @@ struct OpKind {
 // All kinds that the library in use has, in the order of their numbers.
 inline std::vector<OpKind> op_kinds() {
   std::vector<OpKind> kinds;
-  for (std::uint32_t k = 0; k < mvs_op_count(); ++k) {
+  for (std::uint32_t k = 0; k < mvs_get_op_count(); ++k) {
     OpKind kind = {sized<mvs_op_info>(), {}};
-    must(mvs_op_describe(k, &kind.info));
+    must(mvs_get_op_info(k, &kind.info));
     kind.fields.assign(kind.info.fields, sized<mvs_field_info>());
     for (std::uint32_t f = 0; f < kind.info.fields; ++f) {
-      must(mvs_op_describe_field(k, f, &kind.fields[f]));
+      must(mvs_get_op_field(k, f, &kind.fields[f]));
     }
     kinds.push_back(std::move(kind));
   }

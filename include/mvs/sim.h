@@ -16,16 +16,23 @@ extern "C" {
 typedef struct mvs_sim mvs_sim;
 
 /* Logging levels. Failures are not logged: they are returned. */
-enum { MVS_LOG_ERROR = 1, MVS_LOG_WARNING = 2, MVS_LOG_INFO = 3, MVS_LOG_DEBUG = 4 };
+enum mvs_log_level_e {
+  MVS_LOG_ERROR = 1,
+  MVS_LOG_WARNING = 2,
+  MVS_LOG_INFO = 3,
+  MVS_LOG_DEBUG = 4
+};
+typedef uint32_t mvs_log_level;
 
 /* Sparse factorisations. */
-enum {
+enum mvs_backend_e {
   MVS_BACKEND_DEFAULT = 0, /* MVS_BACKEND_BLOCK in single precision where conjugate gradients make
                               good what that rounds: the fastest */
   MVS_BACKEND_CHOLMOD = 1, /* SuiteSparse CHOLMOD, simplicial LDL^T */
   MVS_BACKEND_EIGEN = 2,   /* Eigen SimplicialLDLT */
   MVS_BACKEND_BLOCK = 3    /* the library's own Cholesky on 3x3 blocks, in double precision */
 };
+typedef uint32_t mvs_backend;
 
 /* How a simulator is made. A null pointer or all zeros are the defaults. */
 typedef struct mvs_sim_desc {
@@ -67,7 +74,7 @@ MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fau
 
 /* Gives a leaflet, or all of them where `leaflet` is 0, another tissue: law, thickness and
  * constants of `tissue`, its name null and its id 0. A thickness of 0 leaves it, another one scales
- * that of each triangle. Constants of 0 take the law's defaults; MVS_LEAFLET_BILINEAR without
+ * that of each triangle. Constants of 0 take the law's defaults; MVS_LEAFLET_LAW_BILINEAR without
  * constants, on a leaflet of springs, becomes the membrane that follows the curve of those springs.
  * Shape, chordae and load stay; the history is emptied, as no operation can be undone into another
  * tissue. */
@@ -93,11 +100,12 @@ MVS_API mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load);
 MVS_API mvs_result mvs_get_load(const mvs_sim *sim, mvs_load_case *load);
 
 /* Solvers. */
-enum {
+enum mvs_solver_e {
   MVS_SOLVER_NEWTON = 1,   /* static equilibrium: projected Newton on the potential (mvs_settle) */
   MVS_SOLVER_IMPLICIT = 2, /* backward Euler, a bounded amount of work a step */
   MVS_SOLVER_EXPLICIT = 3  /* symplectic Euler with penalty contact: the founding paper's method */
 };
+typedef uint32_t mvs_solver;
 
 /* How to settle. Zero fields take the defaults in brackets. */
 typedef struct mvs_settle_options {
@@ -111,7 +119,7 @@ typedef struct mvs_settle_options {
 } mvs_settle_options;
 
 /* Phases of the work, as indices of mvs_stats.phase_s. */
-enum {
+enum mvs_phase_e {
   MVS_PHASE_TERMS = 0,    /* energy, gradient and Hessian blocks of the terms */
   MVS_PHASE_BROAD = 1,    /* candidate pairs, and how they bound a step */
   MVS_PHASE_NARROW = 2,   /* distances */
@@ -123,10 +131,11 @@ enum {
                                 count as terms, as forces come with them */
   MVS_PHASE_COUNT = 8
 };
+typedef uint32_t mvs_phase;
 
 /* What a settle or step did not compute, because nothing needed it: bits of mvs_stats.skipped. None
  * of it changes a result. */
-enum {
+enum mvs_skipped_flags_e {
   MVS_SKIPPED_SPRINGS = 1 << 0, /* the first seven: the scene has none, or no load on it */
   MVS_SKIPPED_MEMBRANE = 1 << 1,
   MVS_SKIPPED_BENDING = 1 << 2,
@@ -139,13 +148,15 @@ enum {
   MVS_SKIPPED_FACTOR = 1 << 9,   /* an earlier factorisation served as preconditioner */
   MVS_SKIPPED_STEP = 1 << 10     /* at rest, and nothing changed: only time went on */
 };
+typedef uint32_t mvs_skipped_flags;
 
 /* What a step gave up to stay within its budget, in this order: bits of mvs_stats.lowered. Bounds
  * against crossing and the bound on energy are never given up. */
-enum {
+enum mvs_lowered_flags_e {
   MVS_LOWERED_LINEAR = 1 << 0, /* the linear system was solved less accurately */
   MVS_LOWERED_STEP = 1 << 1    /* the nodes went a part of their way, or none of it */
 };
+typedef uint32_t mvs_lowered_flags;
 
 /* How the last settle or step went. */
 typedef struct mvs_stats {

@@ -27,80 +27,84 @@ MVS_API mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot);
 
 /* 128 bits over the meaning of model and state, names and numbers in order: equal for equal inputs
  * of the next step. The hash of one snapshot may differ between versions of the library. */
-MVS_API mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash[2]);
+MVS_API mvs_result mvs_snapshot_get_hash(const mvs_snapshot *snapshot, uint64_t hash[2]);
 
 /* The arrays of a snapshot: n nodes, m triangles, e edges, c chord segments, h heads.
  * With the parts they are all that mvs_set_valve takes: a valve can be edited and set again. */
-enum {
-  MVS_NODE_POSITION = 1,       /* F64 n x 3, m */
-  MVS_NODE_REST = 2,           /* F64 n x 3, m: the unloaded valve */
-  MVS_NODE_LOADED = 3,         /* F64 n x 3, m: targets of prescribed nodes under load */
-  MVS_NODE_VELOCITY = 4,       /* F64 n x 3, m/s */
-  MVS_NODE_KIND = 5,           /* U8 n: MVS_NODE_IS_* */
-  MVS_NODE_FORCE = 6,          /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
-  MVS_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
-  MVS_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet; infinity: none */
-  MVS_NODE_OPEN = 9,           /* F64 n x 3, m: where prescribed nodes are without load */
-  MVS_NODE_ORIGIN = 10,        /* U32 n: the node's index before any operation, refinement or
+enum mvs_array_kind_e {
+  MVS_ARRAY_NODE_POSITION = 1, /* F64 n x 3, m */
+  MVS_ARRAY_NODE_REST = 2,     /* F64 n x 3, m: the unloaded valve */
+  MVS_ARRAY_NODE_LOADED = 3,   /* F64 n x 3, m: targets of prescribed nodes under load */
+  MVS_ARRAY_NODE_VELOCITY = 4, /* F64 n x 3, m/s */
+  MVS_ARRAY_NODE_KIND = 5,     /* U8 n: MVS_NODE_KIND_* */
+  MVS_ARRAY_NODE_FORCE = 6,    /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
+  MVS_ARRAY_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
+  MVS_ARRAY_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet; infinity: none */
+  MVS_ARRAY_NODE_OPEN = 9,           /* F64 n x 3, m: where prescribed nodes are without load */
+  MVS_ARRAY_NODE_ORIGIN = 10,        /* U32 n: the node's index before any operation, refinement or
                                   coarsening added or removed nodes; UINT32_MAX for a new one */
-  MVS_TRIANGLE_NODES = 20,     /* U32 m x 3 */
-  MVS_TRIANGLE_LEAFLET = 21,   /* U32 m */
-  MVS_TRIANGLE_SCALLOP = 22,   /* U32 m */
-  MVS_TRIANGLE_THICKNESS = 23, /* F64 m, m */
-  MVS_TRIANGLE_FIBRE = 24,     /* F64 m x 3, unit */
-  MVS_TRIANGLE_STRETCH = 25,   /* F64 m x 2: principal stretches, larger first */
-  MVS_TRIANGLE_STRESS = 26,    /* F64 m x 2, Pa: principal Cauchy stresses, larger first */
-  MVS_TRIANGLE_COAPTED = 27,   /* F64 m: share of the triangle that faces another leaflet */
-  MVS_LEAFLET_LAW = 30,        /* U32 l, a row a leaflet: MVS_LEAFLET_* */
-  MVS_LEAFLET_CONSTANTS = 31,  /* F64 l x 9: thickness in m, then the constants of the law */
-  MVS_ANNULUS_NODES = 40,      /* U32 k, in order */
-  MVS_FREE_EDGE_NODES = 41,    /* U32, in order */
-  MVS_CHORD_NODES = 50,        /* U32 c x 2 */
-  MVS_CHORD_REST_LENGTH = 51,  /* F64 c, m */
-  MVS_CHORD_KIND = 52,         /* U32 c: MVS_CHORD_* */
-  MVS_CHORD_STRAIN = 53,       /* F64 c: (L - L0) / L0, negative when slack */
-  MVS_CHORD_TENSION = 54,      /* F64 c, N */
-  MVS_CHORD_ID = 55,           /* U64 c */
-  MVS_CHORD_YOUNG = 56,        /* F64 c, Pa */
-  MVS_CHORD_AREA = 57,         /* F64 c, m2 */
-  MVS_CHORD_FLAGS = 58,        /* U8 c: MVS_CHORD_OVER_* */
-  MVS_CHORD_LAW = 59,          /* U32 c: the laws MVS_CHORD_* */
-  MVS_HEAD_NODES = 60,         /* U32 h */
-  MVS_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
-  MVS_CHORD_CONSTANTS = 62,    /* F64 c x 6: of the law */
-  MVS_RING_POINTS = 65,        /* F64 x 3, m: the points of all rings, one after the other */
-  MVS_RING_START = 66,         /* U32 r + 1: where each ring's points start, and their number */
-  MVS_RING_KIND = 67,          /* U32 r: MVS_RING_* */
-  MVS_RING_ID = 68,            /* U64 r */
-  MVS_CURVE_POINTS = 75,       /* F64 x 2: strain, nominal stress in Pa; of all curves in turn */
-  MVS_CURVE_START = 76,        /* U32 k + 1: where each curve's points start, and their number */
-  MVS_ORIFICE_VERTICES = 70,   /* F64 x 3, m: the smallest opening, as triangles */
-  MVS_ORIFICE_TRIANGLES = 71,  /* U32 x 3 into MVS_ORIFICE_VERTICES */
-  MVS_VALVE_CONSTANTS = 80,    /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
-                                  Pa; bending scale, 0 for none */
-  MVS_STATE_TIME = 81          /* F64 1, s: simulated time since the valve was set */
+  MVS_ARRAY_TRIANGLE_NODES = 20,     /* U32 m x 3 */
+  MVS_ARRAY_TRIANGLE_LEAFLET = 21,   /* U32 m */
+  MVS_ARRAY_TRIANGLE_SCALLOP = 22,   /* U32 m */
+  MVS_ARRAY_TRIANGLE_THICKNESS = 23, /* F64 m, m */
+  MVS_ARRAY_TRIANGLE_FIBRE = 24,     /* F64 m x 3, unit */
+  MVS_ARRAY_TRIANGLE_STRETCH = 25,   /* F64 m x 2: principal stretches, larger first */
+  MVS_ARRAY_TRIANGLE_STRESS = 26,    /* F64 m x 2, Pa: principal Cauchy stresses, larger first */
+  MVS_ARRAY_TRIANGLE_COAPTED = 27,   /* F64 m: share of the triangle that faces another leaflet */
+  MVS_ARRAY_LEAFLET_LAW = 30,        /* U32 l, a row a leaflet: MVS_LEAFLET_LAW_* */
+  MVS_ARRAY_LEAFLET_CONSTANTS = 31,  /* F64 l x 9: thickness in m, then the constants of the law */
+  MVS_ARRAY_ANNULUS_NODES = 40,      /* U32 k, in order */
+  MVS_ARRAY_FREE_EDGE_NODES = 41,    /* U32, in order */
+  MVS_ARRAY_CHORD_NODES = 50,        /* U32 c x 2 */
+  MVS_ARRAY_CHORD_REST_LENGTH = 51,  /* F64 c, m */
+  MVS_ARRAY_CHORD_KIND = 52,         /* U32 c: MVS_CHORD_KIND_* */
+  MVS_ARRAY_CHORD_STRAIN = 53,       /* F64 c: (L - L0) / L0, negative when slack */
+  MVS_ARRAY_CHORD_TENSION = 54,      /* F64 c, N */
+  MVS_ARRAY_CHORD_ID = 55,           /* U64 c */
+  MVS_ARRAY_CHORD_YOUNG = 56,        /* F64 c, Pa */
+  MVS_ARRAY_CHORD_AREA = 57,         /* F64 c, m2 */
+  MVS_ARRAY_CHORD_FLAGS = 58,        /* U8 c: MVS_CHORD_FLAG_OVER_* */
+  MVS_ARRAY_CHORD_LAW = 59,          /* U32 c: the laws MVS_CHORD_KIND_* */
+  MVS_ARRAY_HEAD_NODES = 60,         /* U32 h */
+  MVS_ARRAY_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
+  MVS_ARRAY_CHORD_CONSTANTS = 62,    /* F64 c x 6: of the law */
+  MVS_ARRAY_RING_POINTS = 65,        /* F64 x 3, m: the points of all rings, one after the other */
+  MVS_ARRAY_RING_START = 66,   /* U32 r + 1: where each ring's points start, and their number */
+  MVS_ARRAY_RING_KIND = 67,    /* U32 r: MVS_RING_KIND_* */
+  MVS_ARRAY_RING_ID = 68,      /* U64 r */
+  MVS_ARRAY_CURVE_POINTS = 75, /* F64 x 2: strain, nominal stress in Pa; of all curves in turn */
+  MVS_ARRAY_CURVE_START = 76,  /* U32 k + 1: where each curve's points start, and their number */
+  MVS_ARRAY_ORIFICE_VERTICES = 70,  /* F64 x 3, m: the smallest opening, as triangles */
+  MVS_ARRAY_ORIFICE_TRIANGLES = 71, /* U32 x 3 into MVS_ARRAY_ORIFICE_VERTICES */
+  MVS_ARRAY_VALVE_CONSTANTS = 80, /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
+                               Pa; bending scale, 0 for none */
+  MVS_ARRAY_STATE_TIME = 81       /* F64 1, s: simulated time since the valve was set */
 };
+typedef uint32_t mvs_array_kind;
 
-/* Values of MVS_NODE_KIND. */
-enum {
-  MVS_NODE_IS_LEAFLET = 0, /* free vertex of the sheet */
-  MVS_NODE_IS_ANNULUS = 1, /* vertex of the sheet, prescribed */
-  MVS_NODE_IS_BRANCH = 2,  /* free branch point of chordae */
-  MVS_NODE_IS_HEAD = 3     /* papillary head, prescribed */
+/* Values of MVS_ARRAY_NODE_KIND. */
+enum mvs_node_kind_e {
+  MVS_NODE_KIND_LEAFLET = 0, /* free vertex of the sheet */
+  MVS_NODE_KIND_ANNULUS = 1, /* vertex of the sheet, prescribed */
+  MVS_NODE_KIND_BRANCH = 2,  /* free branch point of chordae */
+  MVS_NODE_KIND_HEAD = 3     /* papillary head, prescribed */
 };
+typedef uint32_t mvs_node_kind;
 
-/* Bits of MVS_CHORD_FLAGS. */
-enum {
-  MVS_CHORD_OVER_STRAIN = 1, /* strained beyond the limit of its kind */
-  MVS_CHORD_OVER_TENSION = 2 /* carries more than the limit of its kind */
+/* Bits of MVS_ARRAY_CHORD_FLAGS. */
+enum mvs_chord_flags_e {
+  MVS_CHORD_FLAG_OVER_STRAIN = 1, /* strained beyond the limit of its kind */
+  MVS_CHORD_FLAG_OVER_TENSION = 2 /* carries more than the limit of its kind */
 };
+typedef uint32_t mvs_chord_flags;
 
 /* Shows one array, zero-copy, valid while the snapshot is held. Forces, strains, coaptation and the
  * orifice are worked out at the first call that needs them. */
-MVS_API mvs_result mvs_snapshot_view(const mvs_snapshot *snapshot, uint32_t which, mvs_view *view);
+MVS_API mvs_result mvs_snapshot_get_array(const mvs_snapshot *snapshot, uint32_t which,
+                                          mvs_view *view);
 
 /* Kinds of named parts. */
-enum {
+enum mvs_part_kind_e {
   MVS_PART_LEAFLET = 1,
   MVS_PART_SCALLOP = 2,
   MVS_PART_CHORD = 3,
@@ -108,6 +112,7 @@ enum {
   MVS_PART_RING = 5,
   MVS_PART_CURVE = 6
 };
+typedef uint32_t mvs_part_kind;
 
 /* A named part of the valve. Names are unique within their kind, of at most 63 bytes. */
 typedef struct mvs_part {
@@ -118,22 +123,22 @@ typedef struct mvs_part {
 } mvs_part;
 
 /* How many parts of a kind there are. */
-MVS_API mvs_result mvs_snapshot_part_count(const mvs_snapshot *snapshot, uint32_t kind,
-                                           uint32_t *count);
+MVS_API mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, uint32_t kind,
+                                               uint32_t *count);
 
 /* The index-th part of a kind. */
-MVS_API mvs_result mvs_snapshot_part(const mvs_snapshot *snapshot, uint32_t kind, uint32_t index,
-                                     mvs_part *part);
+MVS_API mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, uint32_t kind,
+                                         uint32_t index, mvs_part *part);
 
 /* The part of a kind with this name; MVS_E_ID if there is none. */
-MVS_API mvs_result mvs_snapshot_find(const mvs_snapshot *snapshot, uint32_t kind, const char *name,
-                                     mvs_part *part);
+MVS_API mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, uint32_t kind,
+                                          const char *name, mvs_part *part);
 
 /* The name of the valve; valid while the snapshot is held. Never null; "" for a null snapshot. */
-MVS_API const char *mvs_snapshot_name(const mvs_snapshot *snapshot);
+MVS_API const char *mvs_snapshot_get_name(const mvs_snapshot *snapshot);
 
 /* The load of the snapshot. */
-MVS_API mvs_result mvs_snapshot_load(const mvs_snapshot *snapshot, mvs_load_case *load);
+MVS_API mvs_result mvs_snapshot_get_load(const mvs_snapshot *snapshot, mvs_load_case *load);
 
 /* What the valve measures. Definitions and sources: libmvs/measure/README.md. SI units. */
 typedef struct mvs_measures {
@@ -167,10 +172,10 @@ typedef struct mvs_measures {
   uint32_t chords_over_tension;    /* chordae that carry more than the limit of their kind */
 } mvs_measures;
 
-/* The range in which chordae of a kind work (MVS_CHORD_*): strain and tension in N; infinite for
- * sutures. Not where they rupture: a chord beyond it asks for a look. Sources:
+/* The range in which chordae of a kind work (MVS_CHORD_KIND_*): strain and tension in N; infinite
+ * for sutures. Not where they rupture: a chord beyond it asks for a look. Sources:
  * libmvs/measure/README.md. */
-MVS_API mvs_result mvs_chord_limits(uint32_t kind, double *strain, double *tension);
+MVS_API mvs_result mvs_get_chord_limits(uint32_t kind, double *strain, double *tension);
 
 /* Measures a snapshot. The first call on a snapshot does the work, later ones return what it
  * found. */
@@ -200,7 +205,7 @@ MVS_API mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const doub
 
 /* The valve's own frame in m: rows are origin (annulus centroid), AP axis (towards the anterior
  * leaflet), CC axis, and the axis into the atrium; right-handed, unit vectors. */
-MVS_API mvs_result mvs_snapshot_frame(const mvs_snapshot *snapshot, double frame[12]);
+MVS_API mvs_result mvs_snapshot_get_frame(const mvs_snapshot *snapshot, double frame[12]);
 
 #ifdef __cplusplus
 }

@@ -14,24 +14,24 @@
 
 namespace mvs {
 
-// The element type of a view, as MVS_F64 ...
+// The element type of a view, as MVS_TYPE_F64 ...
 template <typename Value>
 struct TypeOf;
 template <>
 struct TypeOf<double> {
-  static constexpr std::uint32_t value = MVS_F64;
+  static constexpr std::uint32_t value = MVS_TYPE_F64;
 };
 template <>
 struct TypeOf<std::uint32_t> {
-  static constexpr std::uint32_t value = MVS_U32;
+  static constexpr std::uint32_t value = MVS_TYPE_U32;
 };
 template <>
 struct TypeOf<std::uint64_t> {
-  static constexpr std::uint32_t value = MVS_U64;
+  static constexpr std::uint32_t value = MVS_TYPE_U64;
 };
 template <>
 struct TypeOf<std::uint8_t> {
-  static constexpr std::uint32_t value = MVS_U8;
+  static constexpr std::uint32_t value = MVS_TYPE_U8;
 };
 
 // Rows of one array of a snapshot; valid while the snapshot is held.
@@ -72,19 +72,19 @@ class Snapshot {
   ~Snapshot() { mvs_snapshot_release(held_); }
 
   const mvs_snapshot *get() const { return held_; }
-  std::string name() const { return mvs_snapshot_name(held_); }
+  std::string name() const { return mvs_snapshot_get_name(held_); }
 
   std::array<std::uint64_t, 2> hash() const {
     std::array<std::uint64_t, 2> value = {};
-    must(mvs_snapshot_hash(held_, value.data()));
+    must(mvs_snapshot_get_hash(held_, value.data()));
     return value;
   }
 
-  // The array MVS_NODE_POSITION ...; throws std::invalid_argument if it is not of `Value`.
+  // The array MVS_ARRAY_NODE_POSITION ...; throws std::invalid_argument if it is not of `Value`.
   template <typename Value>
   View<Value> view(std::uint32_t which) const {
     mvs_view found = {};
-    must(mvs_snapshot_view(held_, which, &found));
+    must(mvs_snapshot_get_array(held_, which, &found));
     if (found.type != TypeOf<Value>::value) {
       throw std::invalid_argument("this array of the snapshot has another element type");
     }
@@ -93,35 +93,36 @@ class Snapshot {
 
   std::vector<mvs_part> parts(std::uint32_t kind) const {
     std::uint32_t count = 0;
-    must(mvs_snapshot_part_count(held_, kind, &count));
+    must(mvs_snapshot_get_part_count(held_, kind, &count));
     std::vector<mvs_part> found(count);
-    for (std::uint32_t k = 0; k < count; ++k) must(mvs_snapshot_part(held_, kind, k, &found[k]));
+    for (std::uint32_t k = 0; k < count; ++k)
+      must(mvs_snapshot_get_part(held_, kind, k, &found[k]));
     return found;
   }
 
   mvs_part find(std::uint32_t kind, const std::string &name) const {
     mvs_part part = {};
-    must(mvs_snapshot_find(held_, kind, name.c_str(), &part));
+    must(mvs_snapshot_find_part(held_, kind, name.c_str(), &part));
     return part;
   }
 
   mvs_load_case load() const {
     mvs_load_case load = sized<mvs_load_case>();
-    must(mvs_snapshot_load(held_, &load));
+    must(mvs_snapshot_get_load(held_, &load));
     return load;
   }
 
   History history() const {
     mvs_history size = sized<mvs_history>();
-    must(mvs_snapshot_history(held_, &size));
+    must(mvs_snapshot_get_history(held_, &size));
     History found;
     for (std::uint32_t k = 0; k < size.done + size.undone; ++k) {
       mvs_history_entry entry = sized<mvs_history_entry>();
-      must(mvs_snapshot_history_entry(held_, k, &entry));
+      must(mvs_snapshot_get_history_entry(held_, k, &entry));
       (k < size.done ? found.done : found.undone).push_back(entry);
     }
     for (std::uint32_t k = 0; k < size.checkpoints; ++k) {
-      found.checkpoints.emplace_back(mvs_snapshot_checkpoint(held_, k));
+      found.checkpoints.emplace_back(mvs_snapshot_get_checkpoint(held_, k));
     }
     return found;
   }
@@ -151,7 +152,7 @@ class Snapshot {
 
   std::array<double, 12> frame() const {
     std::array<double, 12> value = {};
-    must(mvs_snapshot_frame(held_, value.data()));
+    must(mvs_snapshot_get_frame(held_, value.data()));
     return value;
   }
 

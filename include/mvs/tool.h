@@ -20,16 +20,17 @@ extern "C" {
 #endif
 
 /* Kinds of tools. */
-enum {
-  MVS_TOOL_GRASP = 1, /* holds a node */
-  MVS_TOOL_BALL = 2,  /* pushes with a ball */
-  MVS_TOOL_ROD = 3    /* pushes with a rod of round ends, from its tip along its axis */
+enum mvs_tool_kind_e {
+  MVS_TOOL_KIND_GRASP = 1, /* holds a node */
+  MVS_TOOL_KIND_BALL = 2,  /* pushes with a ball */
+  MVS_TOOL_KIND_ROD = 3    /* pushes with a rod of round ends, from its tip along its axis */
 };
+typedef uint32_t mvs_tool_kind;
 
 /* A new tool. Zero fields take the defaults in brackets; a kind and a position must be given. */
 typedef struct mvs_tool_desc {
   uint32_t struct_size;
-  uint32_t kind;      /* MVS_TOOL_* */
+  uint32_t kind;      /* MVS_TOOL_KIND_* */
   double position[3]; /* m, of the hand: middle of the ball, of the tip's round end, of the grip */
   double axis[3];     /* of a rod, from its tip to its handle, any length [0, 0, 1] */
   double radius;      /* m, of a ball or rod; 1e-4 to 0.02 [2e-3] */
@@ -43,13 +44,13 @@ typedef struct mvs_tool_desc {
 } mvs_tool_desc;
 
 /* The most tools that a valve can have at a time. */
-#define MVS_TOOL_LIMIT 64
+#define MVS_MAX_TOOLS 64
 
 /* Adds a tool to the state; *tool is its id, which no other tool of this valve ever gets. A grasp
  * starts with its spring as the hand and the node lie. MVS_E_ARGUMENT where a value is out of its
  * range, or nothing is in reach; MVS_E_STATE where a ball or rod would lie in tissue, or there are
  * too many. */
-MVS_API mvs_result mvs_tool_add(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool);
+MVS_API mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool);
 
 /* Moves the hand of a tool. The next mvs_settle or mvs_step begins with the last such move of each
  * tool; until then snapshots have the tool where it was. From any thread, also while the simulator
@@ -58,11 +59,11 @@ MVS_API mvs_result mvs_tool_add(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id 
  * and with the valve.
  * What hands did stays in the history, so that plans can do it again: 30 bytes of memory for each
  * step of a hand that moved (27 MB an hour at 250 a second), 33 in a plan; none while it rests. */
-MVS_API mvs_result mvs_tool_move(mvs_sim *sim, mvs_id tool, const double position[3],
+MVS_API mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
                                  const double axis[3]);
 
 /* Takes a tool out of the state: lets go of what it holds. */
-MVS_API mvs_result mvs_tool_remove(mvs_sim *sim, mvs_id tool);
+MVS_API mvs_result mvs_remove_tool(mvs_sim *sim, mvs_id tool);
 
 /* A tool as it is in a snapshot. */
 typedef struct mvs_tool_state {
@@ -83,12 +84,12 @@ typedef struct mvs_tool_state {
 } mvs_tool_state;
 
 /* A tool of the present snapshot by its id, from any thread; MVS_E_ID if it is not there. */
-MVS_API mvs_result mvs_tool_get(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state);
+MVS_API mvs_result mvs_get_tool(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state);
 
 /* The tools of a snapshot, in the order in which they were added. */
-MVS_API mvs_result mvs_snapshot_tool_count(const mvs_snapshot *snapshot, uint32_t *count);
-MVS_API mvs_result mvs_snapshot_tool(const mvs_snapshot *snapshot, uint32_t index,
-                                     mvs_tool_state *state);
+MVS_API mvs_result mvs_snapshot_get_tool_count(const mvs_snapshot *snapshot, uint32_t *count);
+MVS_API mvs_result mvs_snapshot_get_tool(const mvs_snapshot *snapshot, uint32_t index,
+                                         mvs_tool_state *state);
 
 #ifdef __cplusplus
 }

@@ -14,9 +14,10 @@ namespace mvs {
 // The tools of a snapshot, in the order in which they were added.
 inline std::vector<mvs_tool_state> tools_of(const Snapshot &snapshot) {
   std::uint32_t count = 0;
-  must(mvs_snapshot_tool_count(snapshot.get(), &count));
+  must(mvs_snapshot_get_tool_count(snapshot.get(), &count));
   std::vector<mvs_tool_state> found(count, sized<mvs_tool_state>());
-  for (std::uint32_t k = 0; k < count; ++k) must(mvs_snapshot_tool(snapshot.get(), k, &found[k]));
+  for (std::uint32_t k = 0; k < count; ++k)
+    must(mvs_snapshot_get_tool(snapshot.get(), k, &found[k]));
   return found;
 }
 

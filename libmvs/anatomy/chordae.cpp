@@ -37,7 +37,7 @@ void name_commissural(const Shape &shape, double v, Row &row) {
   for (Spot &spot : row) {
     const double from = std::min(spot.place.theta, Shape::commissure);
     const double to = std::max(spot.place.theta, Shape::commissure);
-    if (ArcLength(shape, v, from, to).total() < reach) spot.kind = MVS_CHORD_COMMISSURAL;
+    if (ArcLength(shape, v, from, to).total() < reach) spot.kind = MVS_CHORD_KIND_COMMISSURAL;
   }
 }
 
@@ -50,10 +50,10 @@ std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
   const uint32_t edge = count - basal - rough - 1;
   constexpr double rough_v = 0.75, strut_v = 0.38, basal_v = 0.35;
   std::vector<Row> rows = {
-      even_row(shape, 1, 0, pi, edge, MVS_CHORD_MARGINAL),
-      even_row(shape, rough_v, 0, pi, rough, MVS_CHORD_ROUGH_ZONE),
-      {{{0.4 * Shape::commissure, strut_v}, MVS_CHORD_STRUT}},
-      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, MVS_CHORD_BASAL)};
+      even_row(shape, 1, 0, pi, edge, MVS_CHORD_KIND_MARGINAL),
+      even_row(shape, rough_v, 0, pi, rough, MVS_CHORD_KIND_ROUGH_ZONE),
+      {{{0.4 * Shape::commissure, strut_v}, MVS_CHORD_KIND_STRUT}},
+      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, MVS_CHORD_KIND_BASAL)};
   name_commissural(shape, 1, rows[0]);
   name_commissural(shape, rough_v, rows[1]);
   return rows;

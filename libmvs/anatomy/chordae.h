@@ -11,7 +11,7 @@ namespace mvs::core {
 // A vertex of the half sheet that a chord holds, and why.
 struct Attachment {
   uint32_t vertex;
-  uint32_t kind;  // MVS_CHORD_*
+  uint32_t kind;  // MVS_CHORD_KIND_*
   uint32_t tip;   // of its papillary muscle
 };
 

@@ -42,7 +42,7 @@ CoarseChordae::CoarseChordae(const Model &model)
 
 bool CoarseChordae::sewn(uint32_t vertex) const {
   return std::any_of(at_[vertex].begin(), at_[vertex].end(),
-                     [&](uint32_t c) { return chords_[c].kind == MVS_CHORD_SUTURE; });
+                     [&](uint32_t c) { return chords_[c].kind == MVS_CHORD_KIND_SUTURE; });
 }
 
 // The rest length of a chord whose leaflet end goes to another vertex.

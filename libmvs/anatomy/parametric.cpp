@@ -127,7 +127,7 @@ class Builder {
       from_closed = tip + trunk_share * (closed - tip);
       const uint32_t trunk_end = static_cast<uint32_t>(valve_.rest.size());
       valve_.rest.push_back(medial ? node : mirrored(node));
-      add_chord(from, trunk_end, MVS_CHORD_TRUNK, (from_closed - tip).norm(),
+      add_chord(from, trunk_end, MVS_CHORD_KIND_TRUNK, (from_closed - tip).norm(),
                 scallop_of(tree[tree.size() / 2], medial));
       from = trunk_end;
     }

@@ -79,14 +79,14 @@ void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   d.hand.begin(now, d.device.limits().stiffness);
   ButtonEvent event;
   while (links.buttons.pop(event)) d.hand.take_button(event, sim);
-  if (now.phase == MVS_DEVICE_STOPPED) {
+  if (now.phase == MVS_DEVICE_PHASE_STOPPED) {
     d.hand.let_go(sim);
   } else {
     d.hand.follow(sim);
   }
   const TissueModel tissue = d.hand.tissue(sim);
   links.tissue.post(tissue);
-  const bool is_latched = now.phase == MVS_DEVICE_LATCHED, was_latched = d.latched;
+  const bool is_latched = now.phase == MVS_DEVICE_PHASE_LATCHED, was_latched = d.latched;
   d.latched = is_latched;
   if (report)
     write_struct(report, d.hand.report(sim, tissue, is_latched && !was_latched), "report");
@@ -248,7 +248,7 @@ mvs_result mvs_device_trace(mvs_device *device, mvs_device_sample *samples, uint
   });
 }
 
-mvs_result mvs_device_guard_crashes(uint32_t on) {
+mvs_result mvs_device_handle_signals(uint32_t on) {
   return guarded([&] {
     MVS_MUST(on <= 1, MVS_E_ARGUMENT, "on", "on is %u: it has to be 0 or 1", on);
     watch_for_crashes(on == 1);

@@ -1,5 +1,5 @@
 // Closing a valve along several paths: run, keep, show.
-#include <mvs/spread.h>
+#include <mvs/ensemble.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,13 @@
 
 using namespace mvs::core;
 
-struct mvs_spread {
+struct mvs_ensemble {
   std::vector<SnapshotPtr> snapshots;
-  std::vector<mvs_spread_path> paths;
+  std::vector<mvs_ensemble_member> paths;
   std::vector<mvs_stats> stats;
-  mvs_spread_summary summary = {};
-  std::vector<double> pairs, nodes;  // MVS_SPREAD_PAIRS, MVS_SPREAD_NODE
+  mvs_ensemble_summary summary = {};
+  std::vector<double> pairs,
+      nodes;  // MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION
   Lazy<Statistics> statistics;
 };
 
@@ -28,13 +29,13 @@ namespace {
 
 constexpr uint32_t most_paths = 1000;
 
-mvs_spread_options read_options(const mvs_spread_options *given) {
-  mvs_spread_options options = read_struct_or_default(given, "options");
+mvs_ensemble_options read_options(const mvs_ensemble_options *given) {
+  mvs_ensemble_options options = read_struct_or_default(given, "options");
   MVS_MUST(options.paths <= most_paths, MVS_E_ARGUMENT, "options.paths",
            "options.paths is %u: it has to be 0 (the default, 8) or 1 to %u", options.paths,
            most_paths);
-  MVS_MUST(options.from <= MVS_SPREAD_FROM_START, MVS_E_ARGUMENT, "options.from",
-           "options.from is %u: it has to be one of MVS_SPREAD_FROM_*, or 0", options.from);
+  MVS_MUST(options.from <= MVS_ENSEMBLE_START_SNAPSHOT, MVS_E_ARGUMENT, "options.from",
+           "options.from is %u: it has to be one of MVS_ENSEMBLE_START_*, or 0", options.from);
   MVS_MUST(options.backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, "options.backend",
            "options.backend is %u: it has to be one of MVS_BACKEND_*", options.backend);
   MVS_MUST(
@@ -45,7 +46,7 @@ mvs_spread_options read_options(const mvs_spread_options *given) {
   must_be_in(options.wavelength, 1e-4, 1, "options.wavelength");
   must_be_in(options.same, 0, 1, "options.same");
   if (options.paths == 0) options.paths = 8;
-  if (options.from == 0) options.from = MVS_SPREAD_FROM_REST;
+  if (options.from == 0) options.from = MVS_ENSEMBLE_START_REST;
   if (options.perturbation == 0) options.perturbation = 0.5e-3;
   if (options.wavelength == 0) options.wavelength = 5e-3;
   if (options.same == 0) options.same = 0.1e-3;
@@ -57,11 +58,11 @@ struct Task {
   const mvs_snapshot &start;
   Load load;
   SolveOptions solve;
-  mvs_spread_options options;
+  mvs_ensemble_options options;
 };
 
 // The progress of one path within that of all.
-Progress progress_of(const mvs_spread_options &options, uint32_t number) {
+Progress progress_of(const mvs_ensemble_options &options, uint32_t number) {
   if (!options.progress) return {};
   return [&options, number](double share, double residual) {
     return options.progress(options.user, (number + share) / options.paths, residual) == 0;
@@ -82,15 +83,15 @@ SnapshotPtr snapshot_of(const Task &task, State state, bool plain) {
   return make_snapshot({{task.start.model, std::move(state)}, {}});
 }
 
-void close_path(const Task &task, uint32_t number, Solver &solver, mvs_spread &spread) {
+void close_path(const Task &task, uint32_t number, Solver &solver, mvs_ensemble &spread) {
   const Model &model = *task.start.model;
-  const mvs_spread_options &options = task.options;
-  const bool plain = number == 0, from_start = plain || options.from == MVS_SPREAD_FROM_START;
+  const mvs_ensemble_options &options = task.options;
+  const bool plain = number == 0, from_start = plain || options.from == MVS_ENSEMBLE_START_SNAPSHOT;
   const Path path =
       make_path(number, {std::max(options.perturbation, 0.0), options.wavelength}, options.seed);
   Closing closing = close_along(solver, model, from_start ? task.start.state : initial_state(model),
                                 task.load, task.solve, path, progress_of(options, number));
-  mvs_spread_path &told = spread.paths[number];
+  mvs_ensemble_member &told = spread.paths[number];
   told.struct_size = sizeof told;
   told.converged = closing.stats.converged ? 1 : 0;
   told.increments = path.increments;
@@ -102,12 +103,12 @@ void close_path(const Task &task, uint32_t number, Solver &solver, mvs_spread &s
   spread.snapshots[number] = snapshot_of(task, std::move(closing.state), plain);
 }
 
-const Shape &shape(const mvs_spread &spread, size_t path) {
+const Shape &shape(const mvs_ensemble &spread, size_t path) {
   return spread.snapshots[path]->state.x.get();
 }
 
 // Node to node, every path with every other, and the equilibria among them.
-void compare_nodes(const Model &model, double same, mvs_spread &spread) {
+void compare_nodes(const Model &model, double same, mvs_ensemble &spread) {
   const size_t size = spread.paths.size();
   std::vector<uint8_t> at_rest(size);
   std::vector<const Shape *> shapes;
@@ -142,10 +143,10 @@ void compare_nodes(const Model &model, double same, mvs_spread &spread) {
 }
 
 // Surface distances from path 0.
-void compare_surfaces(const Model &model, mvs_spread &spread) {
+void compare_surfaces(const Model &model, mvs_ensemble &spread) {
   double squares = 0, others = 0;
   for (size_t k = 1; k < spread.paths.size(); ++k) {
-    mvs_spread_path &path = spread.paths[k];
+    mvs_ensemble_member &path = spread.paths[k];
     const Comparison found = compare_shapes(model, shape(spread, 0), model, shape(spread, k));
     path.surface_rms = found.surface_rms;
     path.surface_max = found.surface_max;
@@ -157,8 +158,8 @@ void compare_surfaces(const Model &model, mvs_spread &spread) {
   if (others > 0) spread.summary.surface_rms = std::sqrt(squares / others);
 }
 
-void summarise(mvs_spread &spread) {
-  mvs_spread_summary &summary = spread.summary;
+void summarise(mvs_ensemble &spread) {
+  mvs_ensemble_summary &summary = spread.summary;
   summary.struct_size = sizeof summary;
   summary.paths = static_cast<uint32_t>(spread.paths.size());
   summary.lowest = none;
@@ -171,8 +172,8 @@ void summarise(mvs_spread &spread) {
   }
 }
 
-std::unique_ptr<mvs_spread> run(const Task &task) {
-  auto spread = std::make_unique<mvs_spread>();
+std::unique_ptr<mvs_ensemble> run(const Task &task) {
+  auto spread = std::make_unique<mvs_ensemble>();
   const uint32_t size = task.options.paths;
   spread->snapshots.resize(size);
   spread->paths.resize(size);
@@ -186,13 +187,13 @@ std::unique_ptr<mvs_spread> run(const Task &task) {
   return spread;
 }
 
-void must_have_path(const mvs_spread *spread, uint32_t path) {
+void must_have_path(const mvs_ensemble *spread, uint32_t path) {
   must_point(spread, "spread");
   MVS_MUST(path < spread->paths.size(), MVS_E_ARGUMENT, "path",
            "path is %u: the spread has paths 0 to %zu", path, spread->paths.size() - 1);
 }
 
-Statistics make_statistics(const mvs_spread &spread) {
+Statistics make_statistics(const mvs_ensemble &spread) {
   std::vector<const mvs_measures *> measures;
   for (size_t k = 0; k < spread.paths.size(); ++k) {
     if (spread.paths[k].converged) measures.push_back(&spread.snapshots[k]->measures());
@@ -204,9 +205,9 @@ Statistics make_statistics(const mvs_spread &spread) {
 
 extern "C" {
 
-mvs_result mvs_spread_run(const mvs_snapshot *start, const mvs_load_case *load,
-                          const mvs_settle_options *settle, const mvs_spread_options *options,
-                          mvs_spread **spread) {
+mvs_result mvs_ensemble_run(const mvs_snapshot *start, const mvs_load_case *load,
+                            const mvs_settle_options *settle, const mvs_ensemble_options *options,
+                            mvs_ensemble **spread) {
   return guarded([&] {
     must_point(start, "start");
     must_point(spread, "spread");
@@ -216,33 +217,35 @@ mvs_result mvs_spread_run(const mvs_snapshot *start, const mvs_load_case *load,
   });
 }
 
-void mvs_spread_release(mvs_spread *spread) {
+void mvs_ensemble_release(mvs_ensemble *spread) {
   delete spread;
 }
 
-mvs_result mvs_spread_summarise(const mvs_spread *spread, mvs_spread_summary *summary) {
+mvs_result mvs_ensemble_get_summary(const mvs_ensemble *spread, mvs_ensemble_summary *summary) {
   return guarded([&] {
     must_point(spread, "spread");
     write_struct(summary, spread->summary, "summary");
   });
 }
 
-mvs_result mvs_spread_get_path(const mvs_spread *spread, uint32_t path, mvs_spread_path *found) {
+mvs_result mvs_ensemble_get_member(const mvs_ensemble *spread, uint32_t path,
+                                   mvs_ensemble_member *found) {
   return guarded([&] {
     must_have_path(spread, path);
     write_struct(found, spread->paths[path], "found");
   });
 }
 
-mvs_result mvs_spread_stats(const mvs_spread *spread, uint32_t path, mvs_stats *stats) {
+mvs_result mvs_ensemble_get_member_stats(const mvs_ensemble *spread, uint32_t path,
+                                         mvs_stats *stats) {
   return guarded([&] {
     must_have_path(spread, path);
     write_struct(stats, spread->stats[path], "stats");
   });
 }
 
-mvs_result mvs_spread_snapshot(const mvs_spread *spread, uint32_t path,
-                               const mvs_snapshot **snapshot) {
+mvs_result mvs_ensemble_get_member_snapshot(const mvs_ensemble *spread, uint32_t path,
+                                            const mvs_snapshot **snapshot) {
   return guarded([&] {
     must_have_path(spread, path);
     must_point(snapshot, "snapshot");
@@ -250,29 +253,36 @@ mvs_result mvs_spread_snapshot(const mvs_spread *spread, uint32_t path,
   });
 }
 
-mvs_result mvs_spread_measure(const mvs_spread *spread, uint32_t statistic,
-                              mvs_measures *measures) {
+mvs_result mvs_ensemble_measure(const mvs_ensemble *spread, uint32_t statistic,
+                                mvs_measures *measures) {
   return guarded([&] {
     must_point(spread, "spread");
-    MVS_MUST(
-        statistic >= MVS_SPREAD_MEAN && statistic <= MVS_SPREAD_COUNT, MVS_E_ARGUMENT, "statistic",
-        "statistic is %u: it has to be one of MVS_SPREAD_MEAN ... MVS_SPREAD_COUNT", statistic);
+    MVS_MUST(statistic >= MVS_ENSEMBLE_STATISTIC_MEAN && statistic <= MVS_ENSEMBLE_STATISTIC_COUNT,
+             MVS_E_ARGUMENT, "statistic",
+             "statistic is %u: it has to be one of MVS_ENSEMBLE_STATISTIC_MEAN ... "
+             "MVS_ENSEMBLE_STATISTIC_COUNT",
+             statistic);
     checked_struct_size(measures, "measures");
     const Statistics &found = spread->statistics.get([&] { return make_statistics(*spread); });
     write_struct(measures, found[statistic - 1], "measures");
   });
 }
 
-mvs_result mvs_spread_view(const mvs_spread *spread, uint32_t which, mvs_view *view) {
+mvs_result mvs_ensemble_get_array(const mvs_ensemble *spread, uint32_t which, mvs_view *view) {
   return guarded([&] {
     must_point(spread, "spread");
     must_point(view, "view");
-    MVS_MUST(which == MVS_SPREAD_NODE || which == MVS_SPREAD_PAIRS, MVS_E_ARGUMENT, "which",
-             "which is %u: it has to be MVS_SPREAD_NODE or MVS_SPREAD_PAIRS", which);
-    const bool nodes = which == MVS_SPREAD_NODE;
+    MVS_MUST(
+        which == MVS_ENSEMBLE_ARRAY_NODE_DEVIATION || which == MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE,
+        MVS_E_ARGUMENT, "which",
+        "which is %u: it has to be MVS_ENSEMBLE_ARRAY_NODE_DEVIATION or "
+        "MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE",
+        which);
+    const bool nodes = which == MVS_ENSEMBLE_ARRAY_NODE_DEVIATION;
     const auto columns = nodes ? 1 : static_cast<uint32_t>(spread->paths.size());
     const std::vector<double> &values = nodes ? spread->nodes : spread->pairs;
-    *view = {values.data(), values.size() / columns, columns, MVS_F64, columns * sizeof(double)};
+    *view = {values.data(), values.size() / columns, columns, MVS_TYPE_F64,
+             columns * sizeof(double)};
   });
 }
 

@@ -36,7 +36,7 @@ const OpKind &kind_at(uint32_t index) {
 
 extern "C" {
 
-mvs_result mvs_snapshot_history(const mvs_snapshot *snapshot, mvs_history *history) {
+mvs_result mvs_snapshot_get_history(const mvs_snapshot *snapshot, mvs_history *history) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     const History &found = snapshot->value.history;
@@ -48,8 +48,8 @@ mvs_result mvs_snapshot_history(const mvs_snapshot *snapshot, mvs_history *histo
   });
 }
 
-mvs_result mvs_snapshot_history_entry(const mvs_snapshot *snapshot, uint32_t index,
-                                      mvs_history_entry *entry) {
+mvs_result mvs_snapshot_get_history_entry(const mvs_snapshot *snapshot, uint32_t index,
+                                          mvs_history_entry *entry) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     const HistoryEntry &found = entry_at(snapshot->value.history, index);
@@ -63,17 +63,17 @@ mvs_result mvs_snapshot_history_entry(const mvs_snapshot *snapshot, uint32_t ind
   });
 }
 
-const char *mvs_snapshot_checkpoint(const mvs_snapshot *snapshot, uint32_t index) {
+const char *mvs_snapshot_get_checkpoint(const mvs_snapshot *snapshot, uint32_t index) {
   if (!snapshot || !snapshot->value.history.checkpoints) return nullptr;
   const std::vector<Checkpoint> &list = *snapshot->value.history.checkpoints;
   return index < list.size() ? list[index].name.c_str() : nullptr;
 }
 
-uint32_t mvs_op_count(void) {
+uint32_t mvs_get_op_count(void) {
   return static_cast<uint32_t>(op_kinds().size());
 }
 
-mvs_result mvs_op_describe(uint32_t index, mvs_op_info *info) {
+mvs_result mvs_get_op_info(uint32_t index, mvs_op_info *info) {
   return guarded([&] {
     const OpKind &kind = kind_at(index);
     mvs_op_info out = {};
@@ -86,7 +86,7 @@ mvs_result mvs_op_describe(uint32_t index, mvs_op_info *info) {
   });
 }
 
-mvs_result mvs_op_describe_field(uint32_t index, uint32_t field, mvs_field_info *info) {
+mvs_result mvs_get_op_field(uint32_t index, uint32_t field, mvs_field_info *info) {
   return guarded([&] {
     const OpKind &kind = kind_at(index);
     MVS_MUST(field < kind.fields.size(), MVS_E_ARGUMENT, "field",

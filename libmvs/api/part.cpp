@@ -64,7 +64,8 @@ mvs_part public_part(const CowVector<Part> &parts, uint32_t kind, uint32_t index
 
 extern "C" {
 
-mvs_result mvs_snapshot_part_count(const mvs_snapshot *snapshot, uint32_t kind, uint32_t *count) {
+mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, uint32_t kind,
+                                       uint32_t *count) {
   return guarded([&] {
     must_point(count, "count");
     with_parts(snapshot, kind,
@@ -72,8 +73,8 @@ mvs_result mvs_snapshot_part_count(const mvs_snapshot *snapshot, uint32_t kind, 
   });
 }
 
-mvs_result mvs_snapshot_part(const mvs_snapshot *snapshot, uint32_t kind, uint32_t index,
-                             mvs_part *part) {
+mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, uint32_t kind, uint32_t index,
+                                 mvs_part *part) {
   return guarded([&] {
     must_point(part, "part");
     with_parts(snapshot, kind, [&](const auto &parts) {
@@ -85,8 +86,8 @@ mvs_result mvs_snapshot_part(const mvs_snapshot *snapshot, uint32_t kind, uint32
   });
 }
 
-mvs_result mvs_snapshot_find(const mvs_snapshot *snapshot, uint32_t kind, const char *name,
-                             mvs_part *part) {
+mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, uint32_t kind, const char *name,
+                                  mvs_part *part) {
   return guarded([&] {
     must_point(name, "name");
     must_point(part, "part");

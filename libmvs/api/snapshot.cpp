@@ -43,7 +43,7 @@ void mvs_snapshot_release(const mvs_snapshot *snapshot) {
   if (snapshot) snapshot->release();
 }
 
-mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash[2]) {
+mvs_result mvs_snapshot_get_hash(const mvs_snapshot *snapshot, uint64_t hash[2]) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     must_point(hash, "hash");
@@ -52,11 +52,11 @@ mvs_result mvs_snapshot_hash(const mvs_snapshot *snapshot, uint64_t hash[2]) {
   });
 }
 
-const char *mvs_snapshot_name(const mvs_snapshot *snapshot) {
+const char *mvs_snapshot_get_name(const mvs_snapshot *snapshot) {
   return snapshot ? snapshot->model->valve.name.c_str() : "";
 }
 
-mvs_result mvs_snapshot_load(const mvs_snapshot *snapshot, mvs_load_case *load) {
+mvs_result mvs_snapshot_get_load(const mvs_snapshot *snapshot, mvs_load_case *load) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     write_struct(load, public_load(snapshot->state.load), "load");
@@ -99,7 +99,7 @@ mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const double point
   });
 }
 
-mvs_result mvs_snapshot_frame(const mvs_snapshot *snapshot, double frame[12]) {
+mvs_result mvs_snapshot_get_frame(const mvs_snapshot *snapshot, double frame[12]) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     must_point(frame, "frame");
@@ -111,12 +111,12 @@ mvs_result mvs_snapshot_frame(const mvs_snapshot *snapshot, double frame[12]) {
   });
 }
 
-mvs_result mvs_chord_limits(uint32_t kind, double *strain, double *tension) {
+mvs_result mvs_get_chord_limits(uint32_t kind, double *strain, double *tension) {
   return guarded([&] {
     must_point(strain, "strain");
     must_point(tension, "tension");
-    MVS_MUST(kind <= MVS_CHORD_SUTURE, MVS_E_ARGUMENT, "kind",
-             "kind is %u: it has to be one of MVS_CHORD_*", kind);
+    MVS_MUST(kind <= MVS_CHORD_KIND_SUTURE, MVS_E_ARGUMENT, "kind",
+             "kind is %u: it has to be one of MVS_CHORD_KIND_*", kind);
     const ChordLimits limits = chord_limits(kind);
     *strain = limits.strain;
     *tension = limits.tension;

@@ -25,11 +25,11 @@ void describe(const Law *law, uint32_t number, const char *kind, mvs_law *descri
 
 extern "C" {
 
-mvs_result mvs_leaflet_law(uint32_t law, mvs_law *description) {
+mvs_result mvs_get_leaflet_law(uint32_t law, mvs_law *description) {
   return guarded([&] { describe(find_leaflet_law(law), law, "leaflets", description); });
 }
 
-mvs_result mvs_chord_law(uint32_t law, mvs_law *description) {
+mvs_result mvs_get_chord_law(uint32_t law, mvs_law *description) {
   return guarded([&] { describe(find_chord_law(law), law, "chordae", description); });
 }
 

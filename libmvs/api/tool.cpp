@@ -24,13 +24,13 @@ mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
   out.stiffness = tool.stiffness;
   out.max_force = tool.max_force;
   out.node = tool.node;
-  if (tool.kind == MVS_TOOL_GRASP) {
+  if (tool.kind == MVS_TOOL_KIND_GRASP) {
     write(state.x[tool.node], out.proxy);
     out.touching = 1;
     return out;
   }
   write(tool.proxy[0], out.proxy);
-  if (tool.kind == MVS_TOOL_ROD) {
+  if (tool.kind == MVS_TOOL_KIND_ROD) {
     write((tool.proxy[1] - tool.proxy[0]).normalized(), out.proxy_axis);
   }
   out.distance = clearance(*snapshot.model, state.x, tool);
@@ -42,30 +42,30 @@ mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
 
 extern "C" {
 
-mvs_result mvs_tool_add(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
+mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
   return guarded_call(sim, [&](mvs_sim &s) {
     must_point(tool, "tool");
     *tool = add_tool_now(s, read_struct(desc, "desc"));
   });
 }
 
-mvs_result mvs_tool_move(mvs_sim *sim, mvs_id tool, const double position[3],
+mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
                          const double axis[3]) {
   return guarded([&] {
     must_point(sim, "sim");
     must_point(position, "position");
     Tool moved = tool_of(sim->present()->state, tool, "move");
     moved.position = read_place(position, "position");
-    if (axis && moved.kind == MVS_TOOL_ROD) moved.axis = read_axis(axis, "axis");
+    if (axis && moved.kind == MVS_TOOL_KIND_ROD) moved.axis = read_axis(axis, "axis");
     sim->hands.post(moved, axis != nullptr);
   });
 }
 
-mvs_result mvs_tool_remove(mvs_sim *sim, mvs_id tool) {
+mvs_result mvs_remove_tool(mvs_sim *sim, mvs_id tool) {
   return guarded_call(sim, [&](mvs_sim &s) { remove_tool_now(s, tool); });
 }
 
-mvs_result mvs_tool_get(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state) {
+mvs_result mvs_get_tool(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state) {
   return guarded([&] {
     must_point(sim, "sim");
     checked_struct_size(state, "state");
@@ -74,7 +74,7 @@ mvs_result mvs_tool_get(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state) 
   });
 }
 
-mvs_result mvs_snapshot_tool_count(const mvs_snapshot *snapshot, uint32_t *count) {
+mvs_result mvs_snapshot_get_tool_count(const mvs_snapshot *snapshot, uint32_t *count) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     must_point(count, "count");
@@ -82,7 +82,8 @@ mvs_result mvs_snapshot_tool_count(const mvs_snapshot *snapshot, uint32_t *count
   });
 }
 
-mvs_result mvs_snapshot_tool(const mvs_snapshot *snapshot, uint32_t index, mvs_tool_state *state) {
+mvs_result mvs_snapshot_get_tool(const mvs_snapshot *snapshot, uint32_t index,
+                                 mvs_tool_state *state) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     checked_struct_size(state, "state");

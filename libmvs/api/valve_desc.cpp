@@ -100,7 +100,7 @@ void read_rings(const mvs_valve_desc &desc, Valve &valve) {
   for (uint32_t r = 0; r < desc.ring_count; ++r) {
     const mvs_ring_desc &given = desc.rings[r];
     must_be_zero(given.reserved, "rings[].reserved");
-    Ring ring{given.id, text_or_empty(given.name), MVS_RING_RIGID, {}};
+    Ring ring{given.id, text_or_empty(given.name), MVS_RING_KIND_RIGID, {}};
     if (given.kind != 0) ring.kind = given.kind;
     ring.curve = read_points(given.curve, "rings[].curve");
     valve.rings.push_back(std::move(ring));
@@ -128,7 +128,7 @@ void read_constants(const mvs_valve_desc &desc, Valve &valve) {
 
 Described read_valve_desc(const mvs_valve_desc *given) {
   const mvs_valve_desc desc = read_struct(given, "valve");
-  MVS_MUST((desc.flags & ~uint32_t{MVS_VALVE_ORIENT}) == 0, MVS_E_ARGUMENT, "valve.flags",
+  MVS_MUST((desc.flags & ~uint32_t{MVS_VALVE_FLAG_ORIENT}) == 0, MVS_E_ARGUMENT, "valve.flags",
            "valve.flags is %u: it has bits that this version does not know", desc.flags);
   Described described;
   read_nodes_and_triangles(desc, described);
@@ -139,7 +139,7 @@ Described read_valve_desc(const mvs_valve_desc *given) {
   read_rings(desc, described.valve);
   read_curves(desc, described.valve);
   read_constants(desc, described.valve);
-  if (desc.flags & MVS_VALVE_ORIENT) orient(described.valve);
+  if (desc.flags & MVS_VALVE_FLAG_ORIENT) orient(described.valve);
   return described;
 }
 
@@ -150,8 +150,8 @@ void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue) {
       "tissue.name and tissue.id have to be empty: a tissue has none, the leaflet keeps its own");
   const bool bare = std::all_of(std::begin(tissue.constants), std::end(tissue.constants),
                                 [](double constant) { return constant == 0; });
-  const uint32_t law = tissue.law == 0 ? uint32_t{MVS_LEAFLET_SPRING} : tissue.law;
-  if (bare && law == MVS_LEAFLET_BILINEAR && leaflet.law == MVS_LEAFLET_SPRING) {
+  const uint32_t law = tissue.law == 0 ? uint32_t{MVS_LEAFLET_LAW_SPRING} : tissue.law;
+  if (bare && law == MVS_LEAFLET_LAW_BILINEAR && leaflet.law == MVS_LEAFLET_LAW_SPRING) {
     leaflet.constants = membrane_like(Bilinear(leaflet.constants));
   } else {
     read_law_constants(find_leaflet_law(law), tissue.constants, leaflet.constants);

@@ -11,27 +11,27 @@ mvs_view view_of(const void *data, size_t count, uint32_t components, uint32_t t
   return {data, count, components, type, components * value_size};
 }
 mvs_view view_of(const std::vector<Vec3> &v) {
-  return view_of(v.data(), v.size(), 3, MVS_F64, 8);
+  return view_of(v.data(), v.size(), 3, MVS_TYPE_F64, 8);
 }
 mvs_view view_of(const std::vector<double> &v) {
-  return view_of(v.data(), v.size(), 1, MVS_F64, 8);
+  return view_of(v.data(), v.size(), 1, MVS_TYPE_F64, 8);
 }
 template <size_t components>
 mvs_view view_of(const std::vector<std::array<double, components>> &v) {
-  return view_of(v.data(), v.size(), components, MVS_F64, 8);
+  return view_of(v.data(), v.size(), components, MVS_TYPE_F64, 8);
 }
 template <size_t components>
 mvs_view view_of(const std::vector<std::array<uint32_t, components>> &v) {
-  return view_of(v.data(), v.size(), components, MVS_U32, 4);
+  return view_of(v.data(), v.size(), components, MVS_TYPE_U32, 4);
 }
 mvs_view view_of(const std::vector<uint32_t> &v) {
-  return view_of(v.data(), v.size(), 1, MVS_U32, 4);
+  return view_of(v.data(), v.size(), 1, MVS_TYPE_U32, 4);
 }
 mvs_view view_of(const std::vector<uint64_t> &v) {
-  return view_of(v.data(), v.size(), 1, MVS_U64, 8);
+  return view_of(v.data(), v.size(), 1, MVS_TYPE_U64, 8);
 }
 mvs_view view_of(const std::vector<uint8_t> &v) {
-  return view_of(v.data(), v.size(), 1, MVS_U8, 1);
+  return view_of(v.data(), v.size(), 1, MVS_TYPE_U8, 1);
 }
 
 // Null for a number that names no array of its group.
@@ -39,25 +39,25 @@ using Viewed = std::optional<mvs_view>;
 
 Viewed node_view(const mvs_snapshot &s, uint32_t which) {
   switch (which) {
-    case MVS_NODE_POSITION:
+    case MVS_ARRAY_NODE_POSITION:
       return view_of(s.state.x);
-    case MVS_NODE_REST:
+    case MVS_ARRAY_NODE_REST:
       return view_of(s.model->valve.rest);
-    case MVS_NODE_OPEN:
+    case MVS_ARRAY_NODE_OPEN:
       return view_of(s.model->valve.open);
-    case MVS_NODE_ORIGIN:
+    case MVS_ARRAY_NODE_ORIGIN:
       return view_of(s.model->valve.origin);
-    case MVS_NODE_LOADED:
+    case MVS_ARRAY_NODE_LOADED:
       return view_of(s.model->valve.loaded);
-    case MVS_NODE_VELOCITY:
+    case MVS_ARRAY_NODE_VELOCITY:
       return view_of(s.state.v);
-    case MVS_NODE_KIND:
+    case MVS_ARRAY_NODE_KIND:
       return view_of(s.model->topology.node_kind);
-    case MVS_NODE_FORCE:
+    case MVS_ARRAY_NODE_FORCE:
       return view_of(s.forces().total);
-    case MVS_NODE_CONTACT_FORCE:
+    case MVS_ARRAY_NODE_CONTACT_FORCE:
       return view_of(s.forces().contact);
-    case MVS_NODE_COAPTATION:
+    case MVS_ARRAY_NODE_COAPTATION:
       return view_of(s.coaptation().distance);
     default:
       return {};
@@ -67,21 +67,21 @@ Viewed node_view(const mvs_snapshot &s, uint32_t which) {
 Viewed triangle_view(const mvs_snapshot &s, uint32_t which) {
   const Valve &valve = s.model->valve;
   switch (which) {
-    case MVS_TRIANGLE_NODES:
+    case MVS_ARRAY_TRIANGLE_NODES:
       return view_of(valve.triangles.get());
-    case MVS_TRIANGLE_LEAFLET:
+    case MVS_ARRAY_TRIANGLE_LEAFLET:
       return view_of(valve.triangle_leaflet);
-    case MVS_TRIANGLE_SCALLOP:
+    case MVS_ARRAY_TRIANGLE_SCALLOP:
       return view_of(valve.triangle_scallop);
-    case MVS_TRIANGLE_THICKNESS:
+    case MVS_ARRAY_TRIANGLE_THICKNESS:
       return view_of(valve.triangle_thickness);
-    case MVS_TRIANGLE_FIBRE:
+    case MVS_ARRAY_TRIANGLE_FIBRE:
       return view_of(valve.triangle_fibre);
-    case MVS_TRIANGLE_STRETCH:
+    case MVS_ARRAY_TRIANGLE_STRETCH:
       return view_of(s.strain().stretch);
-    case MVS_TRIANGLE_STRESS:
+    case MVS_ARRAY_TRIANGLE_STRESS:
       return view_of(s.strain().stress);
-    case MVS_TRIANGLE_COAPTED:
+    case MVS_ARRAY_TRIANGLE_COAPTED:
       return view_of(s.coaptation().share);
     default:
       return {};
@@ -90,27 +90,27 @@ Viewed triangle_view(const mvs_snapshot &s, uint32_t which) {
 
 Viewed chord_view(const mvs_snapshot &s, uint32_t which) {
   switch (which) {
-    case MVS_CHORD_NODES:
+    case MVS_ARRAY_CHORD_NODES:
       return view_of(s.tables().chord_nodes);
-    case MVS_CHORD_REST_LENGTH:
+    case MVS_ARRAY_CHORD_REST_LENGTH:
       return view_of(s.tables().chord_rest_length);
-    case MVS_CHORD_KIND:
+    case MVS_ARRAY_CHORD_KIND:
       return view_of(s.tables().chord_kind);
-    case MVS_CHORD_STRAIN:
+    case MVS_ARRAY_CHORD_STRAIN:
       return view_of(s.chords().strain);
-    case MVS_CHORD_TENSION:
+    case MVS_ARRAY_CHORD_TENSION:
       return view_of(s.chords().tension);
-    case MVS_CHORD_ID:
+    case MVS_ARRAY_CHORD_ID:
       return view_of(s.tables().chord_id);
-    case MVS_CHORD_YOUNG:
+    case MVS_ARRAY_CHORD_YOUNG:
       return view_of(s.tables().chord_young);
-    case MVS_CHORD_AREA:
+    case MVS_ARRAY_CHORD_AREA:
       return view_of(s.tables().chord_area);
-    case MVS_CHORD_FLAGS:
+    case MVS_ARRAY_CHORD_FLAGS:
       return view_of(s.chords().flags);
-    case MVS_CHORD_LAW:
+    case MVS_ARRAY_CHORD_LAW:
       return view_of(s.tables().chord_law);
-    case MVS_CHORD_CONSTANTS:
+    case MVS_ARRAY_CHORD_CONSTANTS:
       return view_of(s.tables().chord_constants);
     default:
       return {};
@@ -119,38 +119,38 @@ Viewed chord_view(const mvs_snapshot &s, uint32_t which) {
 
 Viewed other_view(const mvs_snapshot &s, uint32_t which) {
   switch (which) {
-    case MVS_LEAFLET_LAW:
+    case MVS_ARRAY_LEAFLET_LAW:
       return view_of(s.tables().leaflet_law);
-    case MVS_LEAFLET_CONSTANTS:
+    case MVS_ARRAY_LEAFLET_CONSTANTS:
       return view_of(s.tables().leaflet_constants);
-    case MVS_ANNULUS_NODES:
+    case MVS_ARRAY_ANNULUS_NODES:
       return view_of(s.model->valve.annulus);
-    case MVS_FREE_EDGE_NODES:
+    case MVS_ARRAY_FREE_EDGE_NODES:
       return view_of(s.tables().free_edge_nodes);
-    case MVS_HEAD_NODES:
+    case MVS_ARRAY_HEAD_NODES:
       return view_of(s.tables().head_nodes);
-    case MVS_HEAD_FORCE:
+    case MVS_ARRAY_HEAD_FORCE:
       return view_of(s.chords().head_force);
-    case MVS_CURVE_POINTS:
+    case MVS_ARRAY_CURVE_POINTS:
       return view_of(s.tables().curve_points);
-    case MVS_CURVE_START:
+    case MVS_ARRAY_CURVE_START:
       return view_of(s.tables().curve_start);
-    case MVS_RING_POINTS:
+    case MVS_ARRAY_RING_POINTS:
       return view_of(s.tables().ring_points);
-    case MVS_RING_START:
+    case MVS_ARRAY_RING_START:
       return view_of(s.tables().ring_start);
-    case MVS_RING_KIND:
+    case MVS_ARRAY_RING_KIND:
       return view_of(s.tables().ring_kind);
-    case MVS_RING_ID:
+    case MVS_ARRAY_RING_ID:
       return view_of(s.tables().ring_id);
-    case MVS_ORIFICE_VERTICES:
+    case MVS_ARRAY_ORIFICE_VERTICES:
       return view_of(s.orifice().vertices);
-    case MVS_ORIFICE_TRIANGLES:
+    case MVS_ARRAY_ORIFICE_TRIANGLES:
       return view_of(s.orifice().triangles);
-    case MVS_VALVE_CONSTANTS:
-      return view_of(s.tables().valve_constants.data(), 4, 1, MVS_F64, 8);
-    case MVS_STATE_TIME:
-      return view_of(&s.state.time, 1, 1, MVS_F64, 8);
+    case MVS_ARRAY_VALVE_CONSTANTS:
+      return view_of(s.tables().valve_constants.data(), 4, 1, MVS_TYPE_F64, 8);
+    case MVS_ARRAY_STATE_TIME:
+      return view_of(&s.state.time, 1, 1, MVS_TYPE_F64, 8);
     default:
       return {};
   }
@@ -158,8 +158,8 @@ Viewed other_view(const mvs_snapshot &s, uint32_t which) {
 
 }  // namespace
 
-extern "C" mvs_result mvs_snapshot_view(const mvs_snapshot *snapshot, uint32_t which,
-                                        mvs_view *view) {
+extern "C" mvs_result mvs_snapshot_get_array(const mvs_snapshot *snapshot, uint32_t which,
+                                             mvs_view *view) {
   return guarded([&] {
     must_point(snapshot, "snapshot");
     must_point(view, "view");

@@ -13,16 +13,16 @@ constexpr uint64_t stride_limit = uint64_t{1} << 20;
 
 const char *type_name(uint32_t type) {
   switch (type) {
-    case MVS_F64:
-      return "MVS_F64";
-    case MVS_F32:
-      return "MVS_F32";
-    case MVS_U32:
-      return "MVS_U32";
-    case MVS_U64:
-      return "MVS_U64";
-    case MVS_U8:
-      return "MVS_U8";
+    case MVS_TYPE_F64:
+      return "MVS_TYPE_F64";
+    case MVS_TYPE_F32:
+      return "MVS_TYPE_F32";
+    case MVS_TYPE_U32:
+      return "MVS_TYPE_U32";
+    case MVS_TYPE_U64:
+      return "MVS_TYPE_U64";
+    case MVS_TYPE_U8:
+      return "MVS_TYPE_U8";
     default:
       return "no type";
   }
@@ -58,10 +58,10 @@ void for_each_value(const mvs_array &array, Take take) {
 template <typename Take>
 void for_each_real(const mvs_array &array, uint32_t components, const char *what, Take take) {
   if (!is_given(array)) return;
-  MVS_MUST(array.type == MVS_F64 || array.type == MVS_F32, MVS_E_ARGUMENT, what,
-           "%s is of %s, it has to be MVS_F64 or MVS_F32", what, type_name(array.type));
-  check_layout(array, components, array.type == MVS_F64 ? 8 : 4, what);
-  if (array.type == MVS_F64) {
+  MVS_MUST(array.type == MVS_TYPE_F64 || array.type == MVS_TYPE_F32, MVS_E_ARGUMENT, what,
+           "%s is of %s, it has to be MVS_TYPE_F64 or MVS_TYPE_F32", what, type_name(array.type));
+  check_layout(array, components, array.type == MVS_TYPE_F64 ? 8 : 4, what);
+  if (array.type == MVS_TYPE_F64) {
     for_each_value<double>(array, take);
   } else {
     for_each_value<float>(array, take);
@@ -71,8 +71,8 @@ void for_each_real(const mvs_array &array, uint32_t components, const char *what
 template <typename Take>
 void for_each_index(const mvs_array &array, uint32_t components, const char *what, Take take) {
   if (!is_given(array)) return;
-  MVS_MUST(array.type == MVS_U32, MVS_E_ARGUMENT, what, "%s is of %s, it has to be MVS_U32", what,
-           type_name(array.type));
+  MVS_MUST(array.type == MVS_TYPE_U32, MVS_E_ARGUMENT, what,
+           "%s is of %s, it has to be MVS_TYPE_U32", what, type_name(array.type));
   check_layout(array, components, 4, what);
   for_each_value<uint32_t>(array, take);
 }

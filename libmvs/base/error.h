@@ -32,7 +32,7 @@ class Error : public std::runtime_error {
 }  // namespace mvs::core
 
 // Throws unless `condition` holds; the sentence names the part and what to do.
-#define MVS_MUST(condition, code, part, ...)                \
-  do {                                                      \
+#define MVS_MUST(condition, code, part, ...)                      \
+  do {                                                            \
     if (!(condition)) ::mvs::core::fail(code, part, __VA_ARGS__); \
   } while (false)

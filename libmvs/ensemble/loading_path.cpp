@@ -1,6 +1,6 @@
 #include "ensemble/loading_path.h"
 
-#include <mvs/spread.h>
+#include <mvs/ensemble.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,8 @@ struct Stage {
 
 std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to) {
   std::vector<Stage> stages;
-  const bool together = path.order == MVS_SPREAD_TOGETHER;
-  const bool first = path.order == MVS_SPREAD_BOUNDARY_FIRST;
+  const bool together = path.order == MVS_ENSEMBLE_ORDER_TOGETHER;
+  const bool first = path.order == MVS_ENSEMBLE_ORDER_BOUNDARY_FIRST;
   const bool moves = from.boundary_fraction != to.boundary_fraction;
   const double held = first ? to.boundary_fraction : from.boundary_fraction;
   if (first && moves) stages.push_back({{from.pressure, held}, false});
@@ -45,7 +45,7 @@ std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to)
          path.ramp > 0});
   }
   // the last one is the load itself, to the bit, and is settled to
-  if (!stages.back().in_time && !(moves && path.order == MVS_SPREAD_PRESSURE_FIRST)) {
+  if (!stages.back().in_time && !(moves && path.order == MVS_ENSEMBLE_ORDER_PRESSURE_FIRST)) {
     stages.pop_back();
   }
   stages.push_back({to, false});
@@ -109,8 +109,9 @@ class Walk {
 Path make_path(uint32_t number, const Disturbance &disturbance, uint64_t seed) {
   // 5 and 3 have no common factor: fifteen combinations before one comes back; 0 is in time
   static constexpr uint32_t increments[] = {1, 4, 2, 0, 8};
-  static constexpr uint32_t orders[] = {MVS_SPREAD_TOGETHER, MVS_SPREAD_BOUNDARY_FIRST,
-                                        MVS_SPREAD_PRESSURE_FIRST};
+  static constexpr uint32_t orders[] = {MVS_ENSEMBLE_ORDER_TOGETHER,
+                                        MVS_ENSEMBLE_ORDER_BOUNDARY_FIRST,
+                                        MVS_ENSEMBLE_ORDER_PRESSURE_FIRST};
   Path path;
   path.plain = number == 0;
   path.increments = increments[number % 5];

@@ -9,7 +9,7 @@ namespace mvs::core {
 struct Path {
   uint32_t increments = 1;  // equal steps of the pressure
   double ramp = 0;          // s: the pressure comes in time, with inertia; 0: at rest between steps
-  uint32_t order = 0;       // MVS_SPREAD_TOGETHER ...
+  uint32_t order = 0;       // MVS_ENSEMBLE_ORDER_TOGETHER ...
   Disturbance disturbance;
   Random random{0, 0};
   bool plain = false;  // the plain closure: numbers out of range are a failure of the whole

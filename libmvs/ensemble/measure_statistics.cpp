@@ -1,6 +1,6 @@
 #include "ensemble/measure_statistics.h"
 
-#include <mvs/spread.h>
+#include <mvs/ensemble.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,23 +48,24 @@ using Row = std::array<double, 5>;
 // NaN stands for a figure that a valve does not have.
 Row row_of(const std::vector<double> &values) {
   Row row = {missing, missing, missing, missing, 0};
-  double &count = row[MVS_SPREAD_COUNT - 1];
+  double &count = row[MVS_ENSEMBLE_STATISTIC_COUNT - 1];
   double sum = 0, first = 0;
   for (const double v : values) {
     if (std::isnan(v)) continue;
-    if (count == 0) first = row[MVS_SPREAD_MIN - 1] = row[MVS_SPREAD_MAX - 1] = v;
-    row[MVS_SPREAD_MIN - 1] = std::min(row[MVS_SPREAD_MIN - 1], v);
-    row[MVS_SPREAD_MAX - 1] = std::max(row[MVS_SPREAD_MAX - 1], v);
+    if (count == 0)
+      first = row[MVS_ENSEMBLE_STATISTIC_MIN - 1] = row[MVS_ENSEMBLE_STATISTIC_MAX - 1] = v;
+    row[MVS_ENSEMBLE_STATISTIC_MIN - 1] = std::min(row[MVS_ENSEMBLE_STATISTIC_MIN - 1], v);
+    row[MVS_ENSEMBLE_STATISTIC_MAX - 1] = std::max(row[MVS_ENSEMBLE_STATISTIC_MAX - 1], v);
     // from the first one, so that equal values have exactly that mean and no deviation
     sum += v - first;
     ++count;
   }
   if (count == 0) return row;
   const double mean = first + sum / count;
-  row[MVS_SPREAD_MEAN - 1] = mean;
+  row[MVS_ENSEMBLE_STATISTIC_MEAN - 1] = mean;
   double squares = 0;
   for (const double v : values) squares += std::isnan(v) ? 0 : (v - mean) * (v - mean);
-  if (count > 1) row[MVS_SPREAD_DEVIATION - 1] = std::sqrt(squares / (count - 1));
+  if (count > 1) row[MVS_ENSEMBLE_STATISTIC_DEVIATION - 1] = std::sqrt(squares / (count - 1));
   return row;
 }
 

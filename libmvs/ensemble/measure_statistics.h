@@ -8,7 +8,7 @@
 
 namespace mvs::core {
 
-// As MVS_SPREAD_MEAN ... MVS_SPREAD_COUNT, in that order.
+// As MVS_ENSEMBLE_STATISTIC_MEAN ... MVS_ENSEMBLE_STATISTIC_COUNT, in that order.
 using Statistics = std::array<mvs_measures, 5>;
 
 Statistics statistics_of(const std::vector<const mvs_measures *> &valves);

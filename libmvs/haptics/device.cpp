@@ -182,13 +182,13 @@ ServoStatus Device::status() {
   const std::lock_guard<std::mutex> lock(reading_);
   core_->links->status.refresh();
   ServoStatus now = core_->links->status.get();
-  if (!started_) now.phase = MVS_DEVICE_STOPPED;
+  if (!started_) now.phase = MVS_DEVICE_PHASE_STOPPED;
   if (!started_ || core_->clock == MVS_CLOCK_VIRTUAL) return now;
   const double quiet =
       1e-9 * static_cast<double>(static_cast<int64_t>(clock_ns()) - core_->last_tick_ns.load());
   if (quiet > silence && now.device_cause == MVS_CAUSE_NONE) {
     core_->links->requests.cut(MVS_CAUSE_WATCHDOG);
-    now.phase = MVS_DEVICE_LATCHED;
+    now.phase = MVS_DEVICE_PHASE_LATCHED;
     now.cause = now.device_cause = MVS_CAUSE_WATCHDOG;
   }
   return now;

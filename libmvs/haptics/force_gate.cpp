@@ -12,7 +12,7 @@ constexpr double fades_back_slower = 4;  // than it fades away
 }  // namespace
 
 void ForceGate::start() {
-  phase_ = MVS_DEVICE_OFF;
+  phase_ = MVS_DEVICE_PHASE_OFF;
   cause_ = MVS_CAUSE_NONE;
   armed_ = requests_->armed_.load(std::memory_order_relaxed);
   requests_->cut_.store(MVS_CAUSE_NONE, std::memory_order_relaxed);
@@ -24,8 +24,10 @@ double ForceGate::share(const Facts &facts, const mvs_device_limits &limits) {
   if (!is_armed()) return 0;
   pass_gate(facts, limits);
   fade(facts, limits);
-  if (phase_ == MVS_DEVICE_WAITING) return 0;
-  phase_ = fade_ < 1 ? MVS_DEVICE_FADED : ramp_ < 1 ? MVS_DEVICE_RAMPING : MVS_DEVICE_ON;
+  if (phase_ == MVS_DEVICE_PHASE_WAITING) return 0;
+  phase_ = fade_ < 1   ? MVS_DEVICE_PHASE_FADED
+           : ramp_ < 1 ? MVS_DEVICE_PHASE_RAMPING
+                       : MVS_DEVICE_PHASE_ON;
   return ramp_ * fade_;
 }
 
@@ -35,26 +37,26 @@ void ForceGate::take_requests() {
   if (armed != armed_) {
     armed_ = armed;
     if (!is_armed()) {
-      phase_ = MVS_DEVICE_WAITING;
+      phase_ = MVS_DEVICE_PHASE_WAITING;
       cause_ = MVS_CAUSE_NONE;
       quiet_ = 0;
     }
   }
   const uint32_t cut = requests_->cut_.exchange(MVS_CAUSE_NONE, std::memory_order_relaxed);
-  if (cut != MVS_CAUSE_NONE && phase_ != MVS_DEVICE_LATCHED) latch(cut);
+  if (cut != MVS_CAUSE_NONE && phase_ != MVS_DEVICE_PHASE_LATCHED) latch(cut);
 }
 
 void ForceGate::latch(uint32_t cause) {
-  phase_ = MVS_DEVICE_LATCHED;
+  phase_ = MVS_DEVICE_PHASE_LATCHED;
   cause_ = cause;
   ramp_ = 0;
 }
 
 void ForceGate::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
-  if (phase_ == MVS_DEVICE_WAITING) {
+  if (phase_ == MVS_DEVICE_PHASE_WAITING) {
     quiet_ = facts.wanted < limits.gate ? quiet_ + 1 : 0;
     if (quiet_ < quiet_ticks) return;
-    phase_ = MVS_DEVICE_RAMPING;
+    phase_ = MVS_DEVICE_PHASE_RAMPING;
     ramp_ = 0;
     fade_ = 1;
   }

@@ -37,7 +37,9 @@ class ForceGate {
 
   uint32_t phase() const { return phase_; }
   uint32_t cause() const { return cause_; }
-  bool is_armed() const { return phase_ >= MVS_DEVICE_WAITING && phase_ != MVS_DEVICE_LATCHED; }
+  bool is_armed() const {
+    return phase_ >= MVS_DEVICE_PHASE_WAITING && phase_ != MVS_DEVICE_PHASE_LATCHED;
+  }
 
  private:
   void take_requests();
@@ -46,7 +48,7 @@ class ForceGate {
   void fade(const Facts &facts, const mvs_device_limits &limits);
 
   Requests *requests_;
-  uint32_t phase_ = MVS_DEVICE_STOPPED, cause_ = MVS_CAUSE_NONE, armed_ = 0;
+  uint32_t phase_ = MVS_DEVICE_PHASE_STOPPED, cause_ = MVS_CAUSE_NONE, armed_ = 0;
   uint32_t quiet_ = 0;  // ticks below the gate
   double ramp_ = 0, fade_ = 1;
 };

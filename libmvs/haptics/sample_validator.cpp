@@ -34,8 +34,8 @@ void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limi
   }
   take_time(sample);
   if (sample.cause != MVS_CAUSE_NONE) latch_cause(std::min<uint32_t>(sample.cause, 9));
-  if (!(flags_ & MVS_DRIVER_CALIBRATED)) latch_cause(MVS_CAUSE_CALIBRATION);
-  if (traits_->has_deadman && !(flags_ & MVS_DRIVER_HELD)) latch_cause(MVS_CAUSE_DEADMAN);
+  if (!(flags_ & MVS_DRIVER_FLAG_CALIBRATED)) latch_cause(MVS_CAUSE_CALIBRATION);
+  if (traits_->has_deadman && !(flags_ & MVS_DRIVER_FLAG_HELD)) latch_cause(MVS_CAUSE_DEADMAN);
   if (silent_ > patience) latch_cause(MVS_CAUSE_WATCHDOG);
   if (dt_ > 0 || !has_pose_) take_pose(sample, limits);
 }
@@ -45,7 +45,7 @@ bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
   for (const double q : sample.orientation) square += q * q;
   bool good = std::abs(square - 1) < 1e-3;
   for (const double p : sample.position) good = good && is_number(p, farthest);
-  if (flags_ & MVS_DRIVER_VELOCITY) {
+  if (flags_ & MVS_DRIVER_FLAG_VELOCITY) {
     for (const double v : sample.velocity) good = good && is_number(v, 1e3);
   }
   return good;
@@ -88,7 +88,7 @@ void SampleValidator::take_pose(const mvs_driver_state &sample, const mvs_device
 }
 
 void SampleValidator::take_velocity(const mvs_driver_state &sample, const Vec3 &step) {
-  if (flags_ & MVS_DRIVER_VELOCITY) {
+  if (flags_ & MVS_DRIVER_FLAG_VELOCITY) {
     pose_.velocity = traits_->turn * Vec3::Map(sample.velocity);
   } else {
     pose_.velocity += dt_ / (velocity_filter + dt_) * (step / dt_ - pose_.velocity);

@@ -20,7 +20,7 @@ class SampleValidator {
   // Since the last sample, new or not.
   double passed() const { return passed_; }
   uint32_t cause() const { return cause_; }
-  bool is_parked() const { return (flags_ & MVS_DRIVER_PARKED) != 0; }
+  bool is_parked() const { return (flags_ & MVS_DRIVER_FLAG_PARKED) != 0; }
   uint32_t flags() const { return flags_; }
 
  private:

@@ -101,7 +101,7 @@ Vec3 Servo::wanted() const {
 
 // What the motors may be asked for, of the field.
 Vec3 Servo::rendered(const Vec3 &given, uint32_t &bits) const {
-  const bool is_warm = (validator_.flags() & MVS_DRIVER_WARM) != 0;
+  const bool is_warm = (validator_.flags() & MVS_DRIVER_FLAG_WARM) != 0;
   const Vec3 force = clamped(share_ * given, limits_.force, MVS_LIMITED_FORCE, bits);
   return clamped(force, heat_.most(limits_, is_warm), MVS_LIMITED_CONTINUOUS, bits);
 }

@@ -41,7 +41,7 @@ struct ButtonEvent {
 
 // The servo after a tick.
 struct ServoStatus {
-  uint32_t phase = MVS_DEVICE_STOPPED, cause = MVS_CAUSE_NONE, device_cause = MVS_CAUSE_NONE;
+  uint32_t phase = MVS_DEVICE_PHASE_STOPPED, cause = MVS_CAUSE_NONE, device_cause = MVS_CAUSE_NONE;
   uint32_t flags = 0, limited = 0, buttons = 0;
   HandPose pose;
   Vec3 force = Vec3::Zero();

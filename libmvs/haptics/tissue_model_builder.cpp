@@ -36,7 +36,7 @@ void TissueModelBuilder::refresh_stiffness(const Model &model, const State &stat
 
 // A ball or rod in the open has no stiffness: it only needs to know where tissue begins.
 TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, const Tool &tool) {
-  const bool grasp = tool.kind == MVS_TOOL_GRASP;
+  const bool grasp = tool.kind == MVS_TOOL_KIND_GRASP;
   const Room room = grasp ? Room{0, Vec3::Zero()} : room_of(model, state.x, tool);
   const bool touches = grasp || room.distance < tool_range(model);
   TissueModel tissue = next(grasp     ? TissueModel::held

@@ -92,7 +92,7 @@ void take_steps(uint64_t &count, uint64_t &from, uint64_t most) {
 }  // namespace
 
 size_t places_of(const Tool &tool) {
-  return tool.kind == MVS_TOOL_ROD ? 2 : 1;
+  return tool.kind == MVS_TOOL_KIND_ROD ? 2 : 1;
 }
 
 size_t places_in_row(const RecordedEvent &lead) {

@@ -28,8 +28,8 @@ Vec3 pull_on(uint32_t node, const Model &model, const std::vector<Vec3> &x,
 uint8_t flags_of(const Chord &chord, double strain, double tension) {
   const ChordLimits limits = chord_limits(chord.kind);
   uint8_t flags = 0;
-  if (strain > limits.strain) flags |= MVS_CHORD_OVER_STRAIN;
-  if (tension > limits.tension) flags |= MVS_CHORD_OVER_TENSION;
+  if (strain > limits.strain) flags |= MVS_CHORD_FLAG_OVER_STRAIN;
+  if (tension > limits.tension) flags |= MVS_CHORD_FLAG_OVER_TENSION;
   return flags;
 }
 
@@ -39,9 +39,9 @@ ChordLimits chord_limits(uint32_t kind) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   // working strain 4.3 +- 3.4 %: mean and two standard deviations
   constexpr double strain = 0.111;
-  if (kind == MVS_CHORD_SUTURE) return {infinite, infinite};
+  if (kind == MVS_CHORD_KIND_SUTURE) return {infinite, infinite};
   // twice what chordae carry at work: strut about 1 N, others up to 0.4 N; a trunk carries several
-  if (kind == MVS_CHORD_STRUT || kind == MVS_CHORD_TRUNK) return {strain, 2.0};
+  if (kind == MVS_CHORD_KIND_STRUT || kind == MVS_CHORD_KIND_TRUNK) return {strain, 2.0};
   return {strain, 0.8};
 }
 
@@ -54,8 +54,8 @@ ChordMeasures measure_chords(const Model &model, const std::vector<Vec3> &x) {
     measures.strain.push_back(strain);
     measures.tension.push_back(tension);
     measures.flags.push_back(flags_of(chord, strain, tension));
-    measures.over_strain += (measures.flags.back() & MVS_CHORD_OVER_STRAIN) != 0;
-    measures.over_tension += (measures.flags.back() & MVS_CHORD_OVER_TENSION) != 0;
+    measures.over_strain += (measures.flags.back() & MVS_CHORD_FLAG_OVER_STRAIN) != 0;
+    measures.over_tension += (measures.flags.back() & MVS_CHORD_FLAG_OVER_TENSION) != 0;
     measures.max_strain = std::max(measures.max_strain, strain);
     measures.max_tension = std::max(measures.max_tension, tension);
   }

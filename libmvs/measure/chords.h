@@ -11,11 +11,11 @@ namespace mvs::core {
 struct ChordLimits {
   double strain, tension;  // 1, N
 };
-ChordLimits chord_limits(uint32_t kind);  // MVS_CHORD_*
+ChordLimits chord_limits(uint32_t kind);  // MVS_CHORD_KIND_*
 
 struct ChordMeasures {
   std::vector<double> strain, tension;         // per chord
-  std::vector<uint8_t> flags;                  // per chord: MVS_CHORD_OVER_*
+  std::vector<uint8_t> flags;                  // per chord: MVS_CHORD_FLAG_OVER_*
   uint32_t over_strain = 0, over_tension = 0;  // how many chordae
   std::vector<Vec3> head_force;                // N, per head
   double max_strain = 0, max_tension = 0;

@@ -43,10 +43,10 @@ void check_chord(const Valve &valve, const std::vector<uint8_t> &role, size_t c,
     faults.add(part, "%s leads from node %u to itself", part.c_str(), chord.a);
   } else if (role[chord.a] == role_head && role[chord.b] == role_head) {
     faults.add(part, "%s joins two papillary heads: it has to lead to the sheet", part.c_str());
-  } else if (chord.kind == MVS_CHORD_SUTURE &&
+  } else if (chord.kind == MVS_CHORD_KIND_SUTURE &&
              (role[chord.a] != role_sheet || role[chord.b] != role_sheet)) {
     faults.add(part, "%s is a suture: it has to join two nodes of the sheet", part.c_str());
-  } else if (chord.kind != MVS_CHORD_SUTURE && role[chord.a] == role_sheet &&
+  } else if (chord.kind != MVS_CHORD_KIND_SUTURE && role[chord.a] == role_sheet &&
              role[chord.b] == role_sheet) {
     faults.add(part, "%s joins two nodes of the sheet: it has to lead to a papillary head",
                part.c_str());

@@ -161,8 +161,8 @@ void check_chord(const Valve &valve, size_t k, Faults &faults) {
   const Chord &chord = valve.chords[k];
   const std::string part = chord.name.empty() ? format("chord %zu", k) : "chord " + chord.name;
   check_law(part, chord.law, find_chord_law(chord.law), chord.constants, faults);
-  if (chord.law == MVS_CHORD_OGDEN) check_ogden(part, valve, chord, faults);
-  if (chord.kind > MVS_CHORD_SUTURE) {
+  if (chord.law == MVS_CHORD_LAW_OGDEN) check_ogden(part, valve, chord, faults);
+  if (chord.kind > MVS_CHORD_KIND_SUTURE) {
     faults.add(part, "%s is of kind %u, which this library does not know", part.c_str(),
                chord.kind);
   }
@@ -210,7 +210,7 @@ void check_parts(const Valve &valve, Faults &faults) {
   check_valve(valve, faults);
   for (size_t k = 0; k < valve.rings.size(); ++k) {
     const Ring &ring = valve.rings[k];
-    if (ring.kind == MVS_RING_RIGID || ring.kind == MVS_RING_BAND) continue;
+    if (ring.kind == MVS_RING_KIND_RIGID || ring.kind == MVS_RING_KIND_BAND) continue;
     faults.add("ring " + ring.name, "ring %s is of kind %u, which this library does not know",
                ring.name.c_str(), ring.kind);
   }

@@ -82,10 +82,11 @@ constexpr Constant ogden_constants[] = {
     {"mu3", "constant mu3", "Pa", 0, -mu, mu}, {"alpha3", "constant alpha3", "", 0, -alpha, alpha}};
 constexpr Constant table_constants[] = {{"curve", "curve", "", 0, 0, 4294967294.0}};
 
-constexpr ChordLaw laws[] = {{MVS_CHORD_LINEAR, "linear", "linear cable", {}},
-                             {MVS_CHORD_BILINEAR, "bilinear", "bilinear cable", bilinear_constants},
-                             {MVS_CHORD_OGDEN, "ogden", "Ogden", ogden_constants},
-                             {MVS_CHORD_TABLE, "table", "measured curve", table_constants}};
+constexpr ChordLaw laws[] = {
+    {MVS_CHORD_LAW_LINEAR, "linear", "linear cable", {}},
+    {MVS_CHORD_LAW_BILINEAR, "bilinear", "bilinear cable", bilinear_constants},
+    {MVS_CHORD_LAW_OGDEN, "ogden", "Ogden", ogden_constants},
+    {MVS_CHORD_LAW_TABLE, "table", "measured curve", table_constants}};
 
 }  // namespace
 
@@ -104,11 +105,11 @@ Axial chord_response(const Valve &valve, const Chord &chord, double strain) {
   if (strain <= 0) return {};
   const auto &c = chord.constants;
   switch (chord.law) {
-    case MVS_CHORD_BILINEAR:
+    case MVS_CHORD_LAW_BILINEAR:
       return bilinear(chord.young, c[0], c[1], strain);
-    case MVS_CHORD_OGDEN:
+    case MVS_CHORD_LAW_OGDEN:
       return bounded_ogden(c, strain);
-    case MVS_CHORD_TABLE:
+    case MVS_CHORD_LAW_TABLE:
       return table(valve.curves[static_cast<size_t>(c[0])].points, strain);
     default:
       return linear(chord.young, strain);

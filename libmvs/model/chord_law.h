@@ -13,7 +13,7 @@ struct Axial {
 };
 
 struct ChordLaw {
-  uint32_t id;  // MVS_CHORD_*
+  uint32_t id;  // MVS_CHORD_KIND_*
   const char *word, *name;
   std::span<const Constant> constants;
 };

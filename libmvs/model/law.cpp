@@ -102,13 +102,13 @@ constexpr Constant prot_constants[] = {{"c0", "constant c0", "Pa", 52, soft, har
 constexpr Constant neo_hookean_constants[] = {{"mu", "shear modulus", "Pa", 1e5 / 3, soft, hard}};
 
 constexpr LeafletLaw laws[] = {
-    {MVS_LEAFLET_SPRING, "spring", "bilinear springs", spring_constants, nullptr},
-    {MVS_LEAFLET_BILINEAR, "bilinear", "bilinear membrane", bilinear_constants, bilinear},
-    {MVS_LEAFLET_FUNG, "fung", "Fung-type membrane", fung_constants, fung},
-    {MVS_LEAFLET_MAY_NEWMAN_YIN, "may_newman_yin", "May-Newman and Yin", may_newman_constants,
+    {MVS_LEAFLET_LAW_SPRING, "spring", "bilinear springs", spring_constants, nullptr},
+    {MVS_LEAFLET_LAW_BILINEAR, "bilinear", "bilinear membrane", bilinear_constants, bilinear},
+    {MVS_LEAFLET_LAW_FUNG, "fung", "Fung-type membrane", fung_constants, fung},
+    {MVS_LEAFLET_LAW_MAY_NEWMAN_YIN, "may_newman_yin", "May-Newman and Yin", may_newman_constants,
      may_newman_yin},
-    {MVS_LEAFLET_PROT, "prot", "Prot", prot_constants, prot},
-    {MVS_LEAFLET_NEO_HOOKEAN, "neo_hookean", "neo-Hookean membrane", neo_hookean_constants,
+    {MVS_LEAFLET_LAW_PROT, "prot", "Prot", prot_constants, prot},
+    {MVS_LEAFLET_LAW_NEO_HOOKEAN, "neo_hookean", "neo-Hookean membrane", neo_hookean_constants,
      neo_hookean}};
 
 }  // namespace

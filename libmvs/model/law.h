@@ -27,7 +27,7 @@ struct Response {
 };
 
 struct LeafletLaw {
-  uint32_t id;  // MVS_LEAFLET_*
+  uint32_t id;  // MVS_LEAFLET_LAW_*
   const char *word;
   const char *name;
   std::span<const Constant> constants;

@@ -83,11 +83,11 @@ Room room_of(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
 }
 
 Id add_tool(const Model &model, State &state, Tool tool) {
-  MVS_MUST(state.tools.size() < MVS_TOOL_LIMIT, MVS_E_STATE, "tool",
-           "there are %u tools already, as many as there can be: remove one first", MVS_TOOL_LIMIT);
+  MVS_MUST(state.tools.size() < MVS_MAX_TOOLS, MVS_E_STATE, "tool",
+           "there are %u tools already, as many as there can be: remove one first", MVS_MAX_TOOLS);
   tool.id = first_tool_id + state.tools_made;
   tool.proxy = {tool.target(0), tool.target(1)};
-  if (tool.kind == MVS_TOOL_GRASP) {
+  if (tool.kind == MVS_TOOL_KIND_GRASP) {
     check_node(model, tool.node);
   } else {
     const double room = clearance(model, state.x, tool);
@@ -138,7 +138,8 @@ void renumber_grasps(State &state, const std::vector<uint32_t> &number) {
 void drop_lost_tools(const Model &model, State &state) {
   if (state.tools.empty()) return;
   std::erase_if(state.tools.edit(), [&](const Tool &tool) {
-    if (tool.kind == MVS_TOOL_GRASP) return tool.node == none || model.topology.fixed[tool.node];
+    if (tool.kind == MVS_TOOL_KIND_GRASP)
+      return tool.node == none || model.topology.fixed[tool.node];
     return clearance(model, state.x, tool) <= 0;
   });
 }

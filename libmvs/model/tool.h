@@ -12,7 +12,7 @@ struct State;
 
 struct Tool {
   Id id = 0;
-  uint32_t kind = 1;                                  // MVS_TOOL_*
+  uint32_t kind = 1;                                  // MVS_TOOL_KIND_*
   uint32_t node = none;                               // held by a grasp
   double radius = 0, length = 0;                      // m, of what pushes
   double stiffness = 0;                               // N/m

@@ -40,16 +40,16 @@ void add_hinges(const std::vector<Tri> &triangles, Topology &topology) {
 
 void add_kinds(const Valve &valve, Topology &topology) {
   const size_t n = valve.rest.size();
-  topology.node_kind.assign(n, MVS_NODE_IS_BRANCH);
+  topology.node_kind.assign(n, MVS_NODE_KIND_BRANCH);
   topology.fixed.assign(n, 0);
   for (const Tri &triangle : valve.triangles) {
-    for (const uint32_t node : triangle) topology.node_kind[node] = MVS_NODE_IS_LEAFLET;
+    for (const uint32_t node : triangle) topology.node_kind[node] = MVS_NODE_KIND_LEAFLET;
   }
-  for (const uint32_t node : valve.annulus) topology.node_kind[node] = MVS_NODE_IS_ANNULUS;
-  for (const Head &head : valve.heads) topology.node_kind[head.node] = MVS_NODE_IS_HEAD;
+  for (const uint32_t node : valve.annulus) topology.node_kind[node] = MVS_NODE_KIND_ANNULUS;
+  for (const Head &head : valve.heads) topology.node_kind[head.node] = MVS_NODE_KIND_HEAD;
   for (size_t node = 0; node < n; ++node) {
-    topology.fixed[node] = topology.node_kind[node] == MVS_NODE_IS_ANNULUS ||
-                           topology.node_kind[node] == MVS_NODE_IS_HEAD;
+    topology.fixed[node] = topology.node_kind[node] == MVS_NODE_KIND_ANNULUS ||
+                           topology.node_kind[node] == MVS_NODE_KIND_HEAD;
   }
 }
 

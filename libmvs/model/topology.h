@@ -16,7 +16,7 @@ struct Topology {
   CowVector<uint32_t> hinge_edge;
   Rows node_triangles;                          // triangles around each node, ascending
   Rows node_chords;                             // chord segments at each node, ascending
-  CowVector<uint8_t> node_kind;                 // MVS_NODE_IS_*
+  CowVector<uint8_t> node_kind;                 // MVS_NODE_KIND_*
   CowVector<uint8_t> fixed;                     // 1: prescribed (annulus, head)
   CowVector<std::vector<uint32_t>> free_edges;  // the other boundary loops, in order
 };

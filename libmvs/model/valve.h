@@ -12,7 +12,7 @@ namespace mvs::core {
 struct Leaflet {
   Id id = 0;
   std::string name;
-  uint32_t law = 1;  // MVS_LEAFLET_*
+  uint32_t law = 1;  // MVS_LEAFLET_LAW_*
   double thickness = 1e-3;
   Constants constants = {100e3, 6e6, 0.25};  // of the law; what it does not use is 0
 
@@ -32,8 +32,8 @@ struct Chord {
   std::string name;
   uint32_t a = none;                   // nearer the papillary head
   uint32_t b = none;                   // nearer the leaflet
-  uint32_t kind = 0;                   // MVS_CHORD_MARGINAL ...
-  uint32_t law = 1;                    // MVS_CHORD_LINEAR ...
+  uint32_t kind = 0;                   // MVS_CHORD_KIND_MARGINAL ...
+  uint32_t law = 1;                    // MVS_CHORD_LAW_LINEAR ...
   double rest_length = 0;              // m
   double young = 40e6;                 // Pa
   double area = 7.853981633974483e-7;  // m2, diameter 1 mm
@@ -67,7 +67,7 @@ struct Head {
 struct Ring {
   Id id = 0;
   std::string name;
-  uint32_t kind = 1;      // MVS_RING_*
+  uint32_t kind = 1;      // MVS_RING_KIND_*
   CowVector<Vec3> curve;  // m, closed for a ring, open for a band
 
   bool operator==(const Ring &) const = default;

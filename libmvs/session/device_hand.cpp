@@ -12,8 +12,8 @@
 
 namespace mvs::core {
 void Hand::set_hand(const mvs_device_hand &given) {
-  MVS_MUST(given.mode <= MVS_HAND_DRAG, MVS_E_ARGUMENT, "hand.mode",
-           "hand.mode is %u: it has to be one of MVS_HAND_*", given.mode);
+  MVS_MUST(given.mode <= MVS_HAND_MODE_DRAG, MVS_E_ARGUMENT, "hand.mode",
+           "hand.mode is %u: it has to be one of MVS_HAND_MODE_*", given.mode);
   MVS_MUST(given.button < 32, MVS_E_ARGUMENT, "hand.button",
            "hand.button is %u: it has to be 0 to 31", given.button);
   must_be_zero(given.reserved, "hand.reserved");
@@ -70,15 +70,15 @@ void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
 }
 
 void Hand::press(mvs_sim &sim) {
-  if (hand_.mode == MVS_HAND_GRASP && tool_ == 0) {
-    const bool found = add(sim, describe(MVS_TOOL_GRASP));
+  if (hand_.mode == MVS_HAND_MODE_GRASP && tool_ == 0) {
+    const bool found = add(sim, describe(MVS_TOOL_KIND_GRASP));
     events_ |= uint32_t{found ? MVS_EVENT_GRASPED : MVS_EVENT_MISSED};
   }
-  if (hand_.mode != MVS_HAND_FEEL && hand_.mode != MVS_HAND_DRAG) return;
+  if (hand_.mode != MVS_HAND_MODE_FEEL && hand_.mode != MVS_HAND_MODE_DRAG) return;
   if (hand_.chord == 0) choose_chord(sim);
   const Chord *const chosen = chord(sim);
-  if (!chosen || hand_.mode == MVS_HAND_FEEL || tool_ != 0) return;
-  mvs_tool_desc desc = describe(MVS_TOOL_GRASP);
+  if (!chosen || hand_.mode == MVS_HAND_MODE_FEEL || tool_ != 0) return;
+  mvs_tool_desc desc = describe(MVS_TOOL_KIND_GRASP);
   desc.by_node = 1;
   desc.node = chosen->b;
   if (add(sim, desc)) events_ |= MVS_EVENT_GRASPED;
@@ -97,8 +97,8 @@ void Hand::choose_chord(const mvs_sim &sim) {
 
 void Hand::release(mvs_sim &sim) {
   const Tool *const held = tool(sim);
-  if (!held || held->kind != MVS_TOOL_GRASP) return;
-  if (hand_.mode == MVS_HAND_DRAG) {
+  if (!held || held->kind != MVS_TOOL_KIND_GRASP) return;
+  if (hand_.mode == MVS_HAND_MODE_DRAG) {
     drag_to_ = sim.current().state.x[held->node];
     events_ |= MVS_EVENT_DRAGGED;
   }
@@ -119,11 +119,11 @@ mvs_tool_desc Hand::describe(uint32_t kind) const {
   desc.struct_size = sizeof desc;
   desc.kind = kind;
   write(place_, desc.position);
-  if (kind == MVS_TOOL_ROD) {
+  if (kind == MVS_TOOL_KIND_ROD) {
     write(axis(), desc.axis);
     desc.length = hand_.length;
   }
-  if (kind != MVS_TOOL_GRASP) desc.radius = hand_.radius;
+  if (kind != MVS_TOOL_KIND_GRASP) desc.radius = hand_.radius;
   desc.reach = hand_.reach;
   desc.stiffness = std::max(1.0, std::min(hand_.stiffness, most_ / view_.stiffness_scale()));
   desc.max_force = hand_.max_force;
@@ -152,22 +152,22 @@ void Hand::follow(mvs_sim &sim) {
     events_ |= MVS_EVENT_LOST_TOOL;
     maker_.begin_contact();
   }
-  const bool pushes = hand_.mode == MVS_HAND_BALL || hand_.mode == MVS_HAND_ROD;
+  const bool pushes = hand_.mode == MVS_HAND_MODE_BALL || hand_.mode == MVS_HAND_MODE_ROD;
   if (pushes && tool_ == 0) {
-    const uint32_t kind = hand_.mode == MVS_HAND_BALL ? MVS_TOOL_BALL : MVS_TOOL_ROD;
+    const uint32_t kind = hand_.mode == MVS_HAND_MODE_BALL ? MVS_TOOL_KIND_BALL : MVS_TOOL_KIND_ROD;
     if (!add(sim, describe(kind))) events_ |= MVS_EVENT_BLOCKED;
   } else if (held) {
     Tool moved = *held;
     moved.position = place_;
-    if (moved.kind == MVS_TOOL_ROD) moved.axis = axis();
-    sim.hands.post(moved, moved.kind == MVS_TOOL_ROD);
+    if (moved.kind == MVS_TOOL_KIND_ROD) moved.axis = axis();
+    sim.hands.post(moved, moved.kind == MVS_TOOL_KIND_ROD);
   }
 }
 
 TissueModel Hand::tissue(mvs_sim &sim) {
   const ModelState &now = sim.current();
   const Tool *const held = tool(sim);
-  const Chord *const felt = hand_.mode == MVS_HAND_FEEL ? chord(sim) : nullptr;
+  const Chord *const felt = hand_.mode == MVS_HAND_MODE_FEEL ? chord(sim) : nullptr;
   TissueModel scene = maker_.nothing();
   felt_ = Vec3::Zero();
   if (held) {

@@ -24,7 +24,7 @@ NearNode nearest_node(const ModelState &now, const Vec3 &place) {
   NearNode found = {none, std::numeric_limits<double>::infinity()};
   const std::vector<Vec3> &x = now.state.x;
   for (uint32_t i = 0; i < x.size(); ++i) {
-    if (now.model->topology.node_kind[i] != MVS_NODE_IS_LEAFLET) continue;
+    if (now.model->topology.node_kind[i] != MVS_NODE_KIND_LEAFLET) continue;
     const double distance = (x[i] - place).norm();
     if (distance < found.distance) found = {i, distance};
   }

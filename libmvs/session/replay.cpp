@@ -125,8 +125,8 @@ Json plan_measures(const ModelState &current) {
   json.set("annulus_cc_m", m.annulus_cc);
   json.set("max_chord_strain", m.max_chord_strain);
   json.set("max_chord_tension_N", m.max_chord_tension);
-  json.set("chords_over_strain", flagged(*snapshot.get(), MVS_CHORD_OVER_STRAIN));
-  json.set("chords_over_tension", flagged(*snapshot.get(), MVS_CHORD_OVER_TENSION));
+  json.set("chords_over_strain", flagged(*snapshot.get(), MVS_CHORD_FLAG_OVER_STRAIN));
+  json.set("chords_over_tension", flagged(*snapshot.get(), MVS_CHORD_FLAG_OVER_TENSION));
   json.set("intersections", m.intersections);
   return json;
 }

@@ -101,8 +101,8 @@ size_t leaflet_ends(const Model &model) {
   size_t ends = 0;
   for (const Chord &chord : model.valve.chords) {
     for (const uint32_t node : {chord.a, chord.b}) {
-      ends += model.topology.node_kind[node] != MVS_NODE_IS_BRANCH &&
-              model.topology.node_kind[node] != MVS_NODE_IS_HEAD;
+      ends += model.topology.node_kind[node] != MVS_NODE_KIND_BRANCH &&
+              model.topology.node_kind[node] != MVS_NODE_KIND_HEAD;
     }
   }
   return ends;
@@ -150,7 +150,7 @@ void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale) {
   const double share = 0.5 * MVS_SYSTOLE_PA * scale.area / static_cast<double>(ends);
   Told soft, stiff, lengths;
   for (const Chord &chord : valve.chords) {
-    if (chord.kind == MVS_CHORD_SUTURE) continue;  // the library's own
+    if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;  // the library's own
     judge_stiffness(valve, chord, share, soft, stiff);
     judge_length(valve, chord, lengths);
   }

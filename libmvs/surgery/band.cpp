@@ -125,7 +125,7 @@ void operate(Surgery &s, const mvs_op_band &op) {
   Ring part;
   part.id = s.made = s.new_id();
   part.name = op.name && *op.name ? op.name : "band";
-  part.kind = MVS_RING_BAND;
+  part.kind = MVS_RING_KIND_BAND;
   part.curve = std::move(placed);
   s.title = format("Sew in %s, %.1f mm, %.0f %% of the posterior annulus", part.name.c_str(),
                    1e3 * length, 100 * length / present);

@@ -52,7 +52,7 @@ void operate(Surgery &s, const mvs_op_neochord &op) {
   const uint32_t strands = op.strands != 0 ? op.strands : 2;
   const double area = strands * std::numbers::pi / 4 * diameter * diameter;
   tie(s, {op.head, op.site, op.length, op.young != 0 ? op.young : ptfe_young, area,
-          MVS_CHORD_MARGINAL, op.name});
+          MVS_CHORD_KIND_MARGINAL, op.name});
   s.title = "Add neochord, " + s.title;
 }
 

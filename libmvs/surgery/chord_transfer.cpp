@@ -8,7 +8,7 @@ namespace {
 
 bool is_sheet(const Model &model, uint32_t node) {
   const uint8_t kind = model.topology.node_kind[node];
-  return kind == MVS_NODE_IS_LEAFLET || kind == MVS_NODE_IS_ANNULUS;
+  return kind == MVS_NODE_KIND_LEAFLET || kind == MVS_NODE_KIND_ANNULUS;
 }
 
 uint32_t new_leaflet_end(Surgery &s, const Chord &chord, const mvs_site &site) {
@@ -38,7 +38,7 @@ void operate(Surgery &s, const mvs_op_chord_transfer &op) {
   MVS_MUST(op.reserved == 0, MVS_E_ARGUMENT, "chord_transfer", "chord_transfer.reserved is not 0");
   const uint32_t index = chord_of(s, op.chord);
   Chord chord = s.valve.chords.get()[index];
-  if (op.end == MVS_END_HEAD) {
+  if (op.end == MVS_CHORD_END_HEAD) {
     go_to_head(s, chord, op.head, op.length);
   } else {
     chord.b = new_leaflet_end(s, chord, op.site);
@@ -46,7 +46,7 @@ void operate(Surgery &s, const mvs_op_chord_transfer &op) {
   must_not_be_tied(s, chord.a, chord.b);
   if (op.length != 0) chord.rest_length = op.length;
   s.title = format("Transfer the %s end of chord %s, %.1f mm",
-                   op.end == MVS_END_HEAD ? "head" : "leaflet", chord.name.c_str(),
+                   op.end == MVS_CHORD_END_HEAD ? "head" : "leaflet", chord.name.c_str(),
                    1e3 * chord.rest_length);
   s.valve.chords[index] = std::move(chord);
   prune_chords(s);

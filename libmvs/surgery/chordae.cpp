@@ -15,11 +15,11 @@ Rows chords_at_nodes(const Valve &valve) {
 }
 
 std::vector<uint8_t> kinds_of_nodes(const Valve &valve) {
-  std::vector<uint8_t> kind(valve.rest.size(), MVS_NODE_IS_BRANCH);
+  std::vector<uint8_t> kind(valve.rest.size(), MVS_NODE_KIND_BRANCH);
   for (const Tri &triangle : valve.triangles) {
-    for (const uint32_t node : triangle) kind[node] = MVS_NODE_IS_LEAFLET;
+    for (const uint32_t node : triangle) kind[node] = MVS_NODE_KIND_LEAFLET;
   }
-  for (const Head &head : valve.heads) kind[head.node] = MVS_NODE_IS_HEAD;
+  for (const Head &head : valve.heads) kind[head.node] = MVS_NODE_KIND_HEAD;
   return kind;
 }
 
@@ -29,7 +29,7 @@ std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_a
   std::vector<uint8_t> reached(valve.chords.size(), 0);
   std::vector<uint32_t> queue;
   for (uint32_t n = 0; n < kind.size(); ++n) {
-    if (kind[n] == MVS_NODE_IS_HEAD) queue.push_back(n);
+    if (kind[n] == MVS_NODE_KIND_HEAD) queue.push_back(n);
   }
   std::vector<uint8_t> seen(kind.size(), 0);
   for (size_t q = 0; q < queue.size(); ++q) {
@@ -37,7 +37,7 @@ std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_a
       reached[c] = 1;
       const Chord &chord = valve.chords.get()[c];
       const uint32_t other = chord.a == queue[q] ? chord.b : chord.a;
-      if (kind[other] != MVS_NODE_IS_BRANCH || seen[other]) continue;
+      if (kind[other] != MVS_NODE_KIND_BRANCH || seen[other]) continue;
       seen[other] = 1;
       queue.push_back(other);
     }
@@ -64,10 +64,10 @@ bool prune_once(Valve &valve) {
   bool changed = false;
   for (size_t c = 0; c < kept.size(); ++c) {
     const Chord &chord = valve.chords.get()[c];
-    if (chord.kind == MVS_CHORD_SUTURE) continue;
+    if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;
     bool in_the_air = false;
     for (const uint32_t node : {chord.a, chord.b}) {
-      in_the_air |= kind[node] == MVS_NODE_IS_BRANCH && chords_at[node].size() == 1;
+      in_the_air |= kind[node] == MVS_NODE_KIND_BRANCH && chords_at[node].size() == 1;
     }
     kept[c] = from_head[c] && !in_the_air;
     changed |= !kept[c];
@@ -85,15 +85,15 @@ std::vector<double> reach_of(const Valve &valve, uint32_t head_node) {
   for (size_t q = 0; q < queue.size(); ++q) {
     for (const uint32_t c : chords_at[queue[q]]) {
       const Chord &chord = valve.chords.get()[c];
-      if (chord.kind == MVS_CHORD_SUTURE) continue;
+      if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;
       const uint32_t other = chord.a == queue[q] ? chord.b : chord.a;
-      if (length[other] > 0 || kind[other] == MVS_NODE_IS_HEAD) continue;
+      if (length[other] > 0 || kind[other] == MVS_NODE_KIND_HEAD) continue;
       length[other] = length[queue[q]] + chord.rest_length;
-      if (kind[other] == MVS_NODE_IS_BRANCH) queue.push_back(other);
+      if (kind[other] == MVS_NODE_KIND_BRANCH) queue.push_back(other);
     }
   }
   for (size_t n = 0; n < length.size(); ++n) {
-    if (kind[n] != MVS_NODE_IS_LEAFLET) length[n] = 0;
+    if (kind[n] != MVS_NODE_KIND_LEAFLET) length[n] = 0;
   }
   return length;
 }
@@ -108,7 +108,7 @@ void prune_chords(Surgery &s) {
   std::vector<uint8_t> gone(kind.size(), 0);
   bool any = false;
   for (size_t n = 0; n < gone.size(); ++n) {
-    gone[n] = kind[n] == MVS_NODE_IS_BRANCH && chords_at[n].empty();
+    gone[n] = kind[n] == MVS_NODE_KIND_BRANCH && chords_at[n].empty();
     any |= gone[n] != 0;
   }
   if (any) remove_nodes(s, gone);

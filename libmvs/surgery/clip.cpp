@@ -96,7 +96,7 @@ void sew(Surgery &s, const std::vector<Pair> &pairs, const std::string &name) {
     suture.name = k == 0 ? name : name + "/" + std::to_string(k + 1);
     suture.a = pairs[k].a;
     suture.b = pairs[k].b;
-    suture.kind = MVS_CHORD_SUTURE;
+    suture.kind = MVS_CHORD_KIND_SUTURE;
     suture.rest_length = s.valve.contact_thickness;
     suture.young = suture_young;
     suture.area = std::numbers::pi / 4 * suture_diameter * suture_diameter;

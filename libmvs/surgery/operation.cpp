@@ -146,7 +146,7 @@ void Operation::own(Owned &owned, const OpField &f) {
         std::make_unique<std::vector<Vec3>>(read_points(array, name_of(*owned.kind, f).c_str()));
     check_points(*owned.kind, f, *points);
     array = {points->empty() ? nullptr : points->data(), points->size(), points->empty() ? 0u : 3u,
-             points->empty() ? 0u : uint32_t{MVS_F64}, 0};
+             points->empty() ? 0u : uint32_t{MVS_TYPE_F64}, 0};
     owned.points.push_back(std::move(points));
   } else if (f.type == MVS_FIELD_TEXT) {
     auto &text = *reinterpret_cast<const char **>(at);

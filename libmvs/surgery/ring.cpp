@@ -126,7 +126,7 @@ void operate(Surgery &s, const mvs_op_ring &op) {
   Ring part;
   part.id = s.made = s.new_id();
   part.name = op.name && *op.name ? op.name : "ring";
-  part.kind = MVS_RING_RIGID;
+  part.kind = MVS_RING_KIND_RIGID;
   std::vector<Vec3> points = curve;
   for (Vec3 &p : points) p = fit.motion(p);
   part.curve = std::move(points);

@@ -90,7 +90,7 @@ uint32_t sew(Surgery &s, const CutLine &line, size_t turn, const std::string &na
     suture.name = free_name(s.valve, name, number);
     suture.a = a.node[k];
     suture.b = b.node[k];
-    suture.kind = MVS_CHORD_SUTURE;
+    suture.kind = MVS_CHORD_KIND_SUTURE;
     suture.rest_length = suture_length * s.valve.contact_thickness;
     suture.young = suture_young;
     suture.area = suture_area;

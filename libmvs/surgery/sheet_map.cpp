@@ -29,7 +29,7 @@ std::vector<Tie> seams(const Model &model, std::vector<uint8_t> &inside) {
   const auto suture = [&](uint32_t a, uint32_t b) {
     for (const uint32_t c : model.topology.node_chords[a]) {
       const bool same = chords[c].a == b || chords[c].b == b;
-      if (same && chords[c].kind == MVS_CHORD_SUTURE) return c;
+      if (same && chords[c].kind == MVS_CHORD_KIND_SUTURE) return c;
     }
     return none;
   };

@@ -41,15 +41,15 @@ void views_know_their_type() {
   mvs::Sim sim;
   sim.generate();
   const mvs::Snapshot snapshot = sim.snapshot();
-  const mvs::View<double> x = snapshot.view<double>(MVS_NODE_POSITION);
+  const mvs::View<double> x = snapshot.view<double>(MVS_ARRAY_NODE_POSITION);
   check(x.rows() > 0 && x.components() == 3, "positions are rows of three");
   check(x.end() - x.begin() == static_cast<std::ptrdiff_t>(3 * x.rows()), "all of them");
   check(x.row(1) == x.data() + 3, "packed");
-  check(snapshot.view<std::uint32_t>(MVS_TRIANGLE_NODES).rows() > 0, "triangles");
-  check(snapshot.view<std::uint8_t>(MVS_NODE_KIND).rows() == x.rows(), "kinds");
-  check(snapshot.view<std::uint64_t>(MVS_CHORD_ID).rows() > 0, "ids");
+  check(snapshot.view<std::uint32_t>(MVS_ARRAY_TRIANGLE_NODES).rows() > 0, "triangles");
+  check(snapshot.view<std::uint8_t>(MVS_ARRAY_NODE_KIND).rows() == x.rows(), "kinds");
+  check(snapshot.view<std::uint64_t>(MVS_ARRAY_CHORD_ID).rows() > 0, "ids");
   try {
-    snapshot.view<double>(MVS_TRIANGLE_NODES);
+    snapshot.view<double>(MVS_ARRAY_TRIANGLE_NODES);
     check(false, "an index is no double");
   } catch (const std::invalid_argument &) {
   }
@@ -59,7 +59,7 @@ void tools_are_added_moved_told_and_removed() {
   mvs::Sim sim;
   sim.generate();
   mvs_tool_desc ball = {};
-  ball.kind = MVS_TOOL_BALL;
+  ball.kind = MVS_TOOL_KIND_BALL;
   ball.position[2] = 0.05;
   const mvs_id tool = sim.add_tool(ball);
   sim.move_tool(tool, {0, 0, 0.049});
@@ -183,7 +183,7 @@ void operations_are_applied_undone_and_listed() {
 
 void kinds_of_operations_describe_themselves() {
   const std::vector<mvs::OpKind> kinds = mvs::op_kinds();
-  check(kinds.size() == mvs_op_count() && kinds.size() >= 7, "all kinds");
+  check(kinds.size() == mvs_get_op_count() && kinds.size() >= 7, "all kinds");
   check(std::string(kinds[0].info.name) == "chord_length", "in order");
   check(std::string(kinds[0].fields.at(0).name) == "chord", "with their fields");
 }

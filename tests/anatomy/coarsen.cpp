@@ -186,7 +186,7 @@ TEST_CASE("a_suture_keeps_its_vertices") {
   Chord suture;
   suture.a = edge[3];
   suture.b = edge[edge.size() - 5];
-  suture.kind = MVS_CHORD_SUTURE;
+  suture.kind = MVS_CHORD_KIND_SUTURE;
   suture.name = "stitch";
   valve.chords.push_back(suture);
   const ModelPtr fine = make_model(valve);

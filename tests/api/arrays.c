@@ -59,7 +59,7 @@ static void single_precision_is_widened(void) {
     }
   }
   hash128 twice = hash_of_valve(&f.desc);
-  f.desc.nodes = packed(single, FUNNEL_NODES, 3, MVS_F32);
+  f.desc.nodes = packed(single, FUNNEL_NODES, 3, MVS_TYPE_F32);
   CHECK(same_hash(twice, hash_of_valve(&f.desc)));
 }
 
@@ -70,7 +70,7 @@ static void given_defaults_are_the_defaults(void) {
   hash128 before = hash_of_valve(&f.desc);
   for (int t = 0; t < FUNNEL_TRIANGLES; ++t) thickness[t] = 1e-3;
   const char *scallops[2] = {"A", "P"};
-  f.desc.triangle_thickness = packed(thickness, FUNNEL_TRIANGLES, 1, MVS_F64);
+  f.desc.triangle_thickness = packed(thickness, FUNNEL_TRIANGLES, 1, MVS_TYPE_F64);
   f.desc.triangle_scallop = f.desc.triangle_leaflet;
   f.desc.scallops = scallops;
   f.desc.scallop_count = 2;
@@ -81,7 +81,7 @@ static void given_defaults_are_the_defaults(void) {
   f.desc.contact_stiffness = 20e3;
   f.desc.bending_scale = 1;
   for (int l = 0; l < 2; ++l) {
-    f.leaflets[l].law = MVS_LEAFLET_SPRING;
+    f.leaflets[l].law = MVS_LEAFLET_LAW_SPRING;
     f.leaflets[l].thickness = 1e-3;
     f.leaflets[l].constants[0] = 100e3;
     f.leaflets[l].constants[1] = 6e6;
@@ -91,7 +91,7 @@ static void given_defaults_are_the_defaults(void) {
   const mvs_id scallop_ids[2] = {3, 4};
   f.desc.scallop_ids = scallop_ids;
   for (int c = 0; c < FUNNEL_CHORDS; ++c) {
-    f.chords[c].law = MVS_CHORD_LINEAR;
+    f.chords[c].law = MVS_CHORD_LAW_LINEAR;
     f.chords[c].young = 40e6;
     f.chords[c].area = 7.853981633974483e-7;
   }
@@ -107,8 +107,8 @@ static void what_is_given_is_kept(void) {
   memcpy(now, f.nodes, sizeof now);
   now[FUNNEL_SHEET - 1][2] -= 1e-3;
   for (int t = 0; t < FUNNEL_TRIANGLES; ++t) fibre[t][2] = -1;
-  f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_F64);
-  f.desc.triangle_fibre = packed(fibre, FUNNEL_TRIANGLES, 3, MVS_F64);
+  f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_TYPE_F64);
+  f.desc.triangle_fibre = packed(fibre, FUNNEL_TRIANGLES, 3, MVS_TYPE_F64);
   f.desc.bending_scale = -1;
   f.chords[3].rest_length = 12e-3;
   f.chords[3].name = "strut, left";
@@ -120,17 +120,17 @@ static void what_is_given_is_kept(void) {
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_set_valve(sim, &f.desc));
   MUST(mvs_get_snapshot(sim, &snapshot));
-  MUST(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &view));
   CHECK(memcmp(view.data, now, sizeof now) == 0);
-  MUST(mvs_snapshot_view(snapshot, MVS_NODE_REST, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_REST, &view));
   CHECK(memcmp(view.data, f.nodes, sizeof f.nodes) == 0);
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_REST_LENGTH, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_REST_LENGTH, &view));
   CHECK(((const double *)view.data)[3] == 12e-3);
-  MUST(mvs_snapshot_view(snapshot, MVS_VALVE_CONSTANTS, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_VALVE_CONSTANTS, &view));
   CHECK(((const double *)view.data)[3] == 0);
-  MUST(mvs_snapshot_view(snapshot, MVS_TRIANGLE_FIBRE, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_TRIANGLE_FIBRE, &view));
   CHECK(((const double *)view.data)[2] < -0.9); /* the walls of the funnel lean by 18 degrees */
-  MUST(mvs_snapshot_find(snapshot, MVS_PART_CHORD, "strut, left", &part));
+  MUST(mvs_snapshot_find_part(snapshot, MVS_PART_CHORD, "strut, left", &part));
   CHECK(part.id == 77 && part.index == 3 && part.kind == MVS_PART_CHORD);
   mvs_snapshot_release(snapshot);
   mvs_destroy(sim);
@@ -149,7 +149,7 @@ static void the_orient_flag_turns_a_flipped_valve(void) {
   MUST(mvs_create(NULL, &sim));
   MUST_FAIL(mvs_set_valve(sim, &f.desc), MVS_E_OP, "faces the ventricle");
   mvs_destroy(sim);
-  f.desc.flags = MVS_VALVE_ORIENT;
+  f.desc.flags = MVS_VALVE_FLAG_ORIENT;
   CHECK(same_hash(before, hash_of_valve(&f.desc)));
 }
 

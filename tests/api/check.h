@@ -51,7 +51,7 @@ typedef struct hash128 {
 
 static inline hash128 snapshot_hash(const mvs_snapshot *snapshot) {
   hash128 hash = {{0, 0}};
-  CHECK(mvs_snapshot_hash(snapshot, hash.word) == MVS_OK);
+  CHECK(mvs_snapshot_get_hash(snapshot, hash.word) == MVS_OK);
   return hash;
 }
 

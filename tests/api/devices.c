@@ -68,7 +68,7 @@ static mvs_device_report turn_until(mvs_device *device, uint32_t event, int most
 
 /* Plays the grasp to its end; the hash of where the valve is then. */
 static hash128 play_the_grasp(double *most) {
-  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_GRASP);
+  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   uint32_t events = 0, node = UINT32_MAX;
   double before = 0;
   *most = 0;
@@ -101,13 +101,13 @@ static void a_grasp_pulls_and_lets_go_and_is_the_same_each_time(void) {
 }
 
 static void the_force_is_that_of_the_tool_in_the_valve(void) {
-  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_GRASP);
+  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   turn_until(device, MVS_EVENT_GRASPED, 400);
   for (int k = 0; k < 180; ++k) turn(device);
   const mvs_device_report report = turn(device);
   mvs_tool_state tool = {.struct_size = sizeof tool};
-  MUST(mvs_tool_get(sim, report.tool, &tool));
-  CHECK(tool.kind == MVS_TOOL_GRASP && tool.node == report.node);
+  MUST(mvs_get_tool(sim, report.tool, &tool));
+  CHECK(tool.kind == MVS_TOOL_KIND_GRASP && tool.node == report.node);
   const mvs_device_state state = state_of(device);
   /* scene y is the device's -z, scene z its y; the hand moves little in the last 10 ms */
   const double turned[3] = {report.force[0], report.force[2], -report.force[1]};
@@ -117,7 +117,7 @@ static void the_force_is_that_of_the_tool_in_the_valve(void) {
 }
 
 static void an_undo_while_something_is_held_lets_it_go(void) {
-  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_GRASP);
+  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   const mvs_snapshot *before = present();
   turn_until(device, MVS_EVENT_GRASPED, 400);
   for (int k = 0; k < 150; ++k) turn(device);
@@ -128,14 +128,14 @@ static void an_undo_while_something_is_held_lets_it_go(void) {
   CHECK(report.tool == 0);
   for (int k = 0; k < 20; ++k) turn(device);
   CHECK(length(state_of(device).force) < 1e-9);
-  CHECK(state_of(device).phase == MVS_DEVICE_ON);
+  CHECK(state_of(device).phase == MVS_DEVICE_PHASE_ON);
   mvs_snapshot_release(before);
   mvs_device_close(device);
 }
 
 static void another_valve_under_the_hand_is_another_hand(void) {
   mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
-  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_GRASP);
+  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   turn_until(device, MVS_EVENT_GRASPED, 400);
   MUST(mvs_generate_valve(sim, &small));
   CHECK(turn(device).events == MVS_EVENT_LOST_TOOL);
@@ -143,7 +143,7 @@ static void another_valve_under_the_hand_is_another_hand(void) {
 }
 
 static void a_ball_pushes_and_is_taken_away_with_its_mode(void) {
-  mvs_device *device = opened("push_p2.txt", MVS_HAND_BALL);
+  mvs_device *device = opened("push_p2.txt", MVS_HAND_MODE_BALL);
   double most = 0;
   mvs_id tool = 0;
   for (int k = 0; k < 400; ++k) {
@@ -153,22 +153,22 @@ static void a_ball_pushes_and_is_taken_away_with_its_mode(void) {
   }
   CHECK(tool != 0);
   CHECK(most > 0.05);
-  mvs_device_hand look = {.struct_size = sizeof look, .mode = MVS_HAND_LOOK};
+  mvs_device_hand look = {.struct_size = sizeof look, .mode = MVS_HAND_MODE_LOOK};
   mvs_tool_state state = {.struct_size = sizeof state};
   MUST(mvs_device_set_hand(device, &look));
   CHECK(turn(device).events & MVS_EVENT_LET_GO);
-  CHECK(mvs_tool_get(sim, tool, &state) == MVS_E_ID);
+  CHECK(mvs_get_tool(sim, tool, &state) == MVS_E_ID);
   mvs_device_close(device);
 }
 
 static void a_stopped_device_lets_go(void) {
-  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_GRASP);
+  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   turn_until(device, MVS_EVENT_GRASPED, 400);
   MUST(mvs_device_stop(device));
   mvs_device_report report = {.struct_size = sizeof report};
   MUST(mvs_device_sync(device, sim, &report));
   CHECK(report.events & MVS_EVENT_LET_GO);
-  CHECK(state_of(device).phase == MVS_DEVICE_STOPPED);
+  CHECK(state_of(device).phase == MVS_DEVICE_PHASE_STOPPED);
   mvs_device_close(device);
 }
 
@@ -178,8 +178,8 @@ static mvs_part tautest_chord(double *most) {
   mvs_view tension, id;
   uint32_t tautest = 0;
   const mvs_snapshot *snapshot = present();
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_TENSION, &tension));
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_ID, &id));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_TENSION, &tension));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_ID, &id));
   const double *const t = tension.data;
   for (uint32_t k = 1; k < tension.count; ++k) {
     if (t[k] > t[tautest]) tautest = k;
@@ -191,11 +191,11 @@ static mvs_part tautest_chord(double *most) {
 }
 
 static void a_chord_is_felt_as_it_pulls(void) {
-  mvs_device *device = opened("circle.txt", MVS_HAND_FEEL);
+  mvs_device *device = opened("circle.txt", MVS_HAND_MODE_FEEL);
   double tension = 0;
   const mvs_part chord = tautest_chord(&tension);
   mvs_device_hand feel = {
-      .struct_size = sizeof feel, .mode = MVS_HAND_FEEL, .chord = chord.id, .gain = 0.2};
+      .struct_size = sizeof feel, .mode = MVS_HAND_MODE_FEEL, .chord = chord.id, .gain = 0.2};
   mvs_device_limits limits = {.struct_size = sizeof limits, .gate = 10};
   MUST(mvs_device_set_hand(device, &feel));
   MUST(mvs_device_set_limits(device, &limits));
@@ -208,10 +208,11 @@ static void a_chord_is_felt_as_it_pulls(void) {
 }
 
 static void a_chord_is_dragged_to_a_new_length(void) {
-  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_DRAG);
+  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_DRAG);
   double tension = 0;
   const mvs_part chord = tautest_chord(&tension);
-  mvs_device_hand drag = {.struct_size = sizeof drag, .mode = MVS_HAND_DRAG, .chord = chord.id};
+  mvs_device_hand drag = {
+      .struct_size = sizeof drag, .mode = MVS_HAND_MODE_DRAG, .chord = chord.id};
   MUST(mvs_device_set_hand(device, &drag));
   turn_until(device, MVS_EVENT_GRASPED, 400);
   const mvs_device_report report = turn_until(device, MVS_EVENT_DRAGGED, 500);
@@ -235,7 +236,7 @@ static void what_makes_no_sense_is_refused(void) {
   CHECK(mvs_device_open(&desc, &device) == MVS_E_ARGUMENT);
   CHECK(mvs_device_open(NULL, &device) == MVS_E_ARGUMENT);
   CHECK(device == NULL);
-  device = opened("circle.txt", MVS_HAND_LOOK);
+  device = opened("circle.txt", MVS_HAND_MODE_LOOK);
   mvs_device_limits limits = {.struct_size = sizeof limits, .force = -1};
   mvs_device_view view = {.struct_size = sizeof view, .scale = 1e9};
   mvs_device_hand hand = {.struct_size = sizeof hand, .mode = 77};
@@ -253,7 +254,7 @@ static void what_makes_no_sense_is_refused(void) {
 }
 
 static void limits_can_only_be_lowered(void) {
-  mvs_device *device = opened("circle.txt", MVS_HAND_LOOK);
+  mvs_device *device = opened("circle.txt", MVS_HAND_MODE_LOOK);
   mvs_device_info info = {.struct_size = sizeof info};
   mvs_device_limits limits = {.struct_size = sizeof limits, .force = 100, .stiffness = 1e5};
   MUST(mvs_device_get_info(device, &info));
@@ -269,7 +270,7 @@ static void limits_can_only_be_lowered(void) {
 }
 
 static void a_trace_has_every_tick(void) {
-  mvs_device *device = opened("circle.txt", MVS_HAND_LOOK);
+  mvs_device *device = opened("circle.txt", MVS_HAND_MODE_LOOK);
   mvs_device_sample rows[64];
   uint32_t count = 0;
   uint64_t lost = 0;

@@ -52,19 +52,23 @@ static void null_pointers(void) {
   REFUSED(mvs_get_snapshot(sim, NULL), MVS_E_ARGUMENT, "snapshot is a null pointer");
   REFUSED(mvs_restore(NULL, snapshot), MVS_E_ARGUMENT, "sim is a null pointer");
   REFUSED(mvs_restore(sim, NULL), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_hash(NULL, hash), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_hash(snapshot, NULL), MVS_E_ARGUMENT, "hash is a null pointer");
-  REFUSED(mvs_snapshot_view(NULL, 1, &view), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_view(snapshot, 1, NULL), MVS_E_ARGUMENT, "view is a null pointer");
-  REFUSED(mvs_snapshot_part_count(NULL, 1, &count), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_part_count(snapshot, 1, NULL), MVS_E_ARGUMENT, "count is a null pointer");
-  REFUSED(mvs_snapshot_part(NULL, 1, 0, &part), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_part(snapshot, 1, 0, NULL), MVS_E_ARGUMENT, "part is a null pointer");
-  REFUSED(mvs_snapshot_find(NULL, 1, "A", &part), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_find(snapshot, 1, NULL, &part), MVS_E_ARGUMENT, "name is a null pointer");
-  REFUSED(mvs_snapshot_find(snapshot, 1, "A", NULL), MVS_E_ARGUMENT, "part is a null pointer");
-  REFUSED(mvs_snapshot_load(NULL, &load), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_load(snapshot, NULL), MVS_E_ARGUMENT, "load is a null pointer");
+  REFUSED(mvs_snapshot_get_hash(NULL, hash), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_get_hash(snapshot, NULL), MVS_E_ARGUMENT, "hash is a null pointer");
+  REFUSED(mvs_snapshot_get_array(NULL, 1, &view), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_get_array(snapshot, 1, NULL), MVS_E_ARGUMENT, "view is a null pointer");
+  REFUSED(mvs_snapshot_get_part_count(NULL, 1, &count), MVS_E_ARGUMENT,
+          "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_get_part_count(snapshot, 1, NULL), MVS_E_ARGUMENT,
+          "count is a null pointer");
+  REFUSED(mvs_snapshot_get_part(NULL, 1, 0, &part), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_get_part(snapshot, 1, 0, NULL), MVS_E_ARGUMENT, "part is a null pointer");
+  REFUSED(mvs_snapshot_find_part(NULL, 1, "A", &part), MVS_E_ARGUMENT,
+          "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_find_part(snapshot, 1, NULL, &part), MVS_E_ARGUMENT,
+          "name is a null pointer");
+  REFUSED(mvs_snapshot_find_part(snapshot, 1, "A", NULL), MVS_E_ARGUMENT, "part is a null pointer");
+  REFUSED(mvs_snapshot_get_load(NULL, &load), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_get_load(snapshot, NULL), MVS_E_ARGUMENT, "load is a null pointer");
   REFUSED(mvs_snapshot_measure(NULL, &measures), MVS_E_ARGUMENT, "snapshot is a null pointer");
   REFUSED(mvs_snapshot_measure(snapshot, NULL), MVS_E_ARGUMENT, "measures is a null pointer");
   REFUSED(mvs_snapshot_compare(NULL, snapshot, &comparison), MVS_E_ARGUMENT, "a is a null");
@@ -75,8 +79,8 @@ static void null_pointers(void) {
   REFUSED(mvs_snapshot_section(snapshot, up, NULL, NULL, 0, &size), MVS_E_ARGUMENT, "normal is a");
   REFUSED(mvs_snapshot_section(snapshot, up, up, NULL, 1, &size), MVS_E_ARGUMENT, "points is a");
   REFUSED(mvs_snapshot_section(snapshot, up, up, NULL, 0, NULL), MVS_E_ARGUMENT, "count is a");
-  REFUSED(mvs_snapshot_frame(NULL, frame), MVS_E_ARGUMENT, "snapshot is a null pointer");
-  REFUSED(mvs_snapshot_frame(snapshot, NULL), MVS_E_ARGUMENT, "frame is a null pointer");
+  REFUSED(mvs_snapshot_get_frame(NULL, frame), MVS_E_ARGUMENT, "snapshot is a null pointer");
+  REFUSED(mvs_snapshot_get_frame(snapshot, NULL), MVS_E_ARGUMENT, "frame is a null pointer");
   REFUSED(mvs_load_file(NULL, "a.obj", 0), MVS_E_ARGUMENT, "sim is a null pointer");
   REFUSED(mvs_load_file(sim, NULL, 0), MVS_E_ARGUMENT, "path is a null pointer");
   REFUSED(mvs_load_memory(NULL, "", 0, 0), MVS_E_ARGUMENT, "sim is a null pointer");
@@ -165,15 +169,17 @@ static void arrays_that_cannot_be_read(void) {
   REFUSED_VALVE(f.desc.flags = 2, MVS_E_ARGUMENT, "valve.flags is 2");
   REFUSED_VALVE(f.desc.nodes.data = NULL, MVS_E_ARGUMENT, "nodes has 66 entries but is a null");
   REFUSED_VALVE(f.desc.nodes.components = 2, MVS_E_ARGUMENT, "nodes has 2 components");
-  REFUSED_VALVE(f.desc.nodes.type = MVS_U32, MVS_E_ARGUMENT, "nodes is of MVS_U32");
-  REFUSED_VALVE(f.desc.nodes.type = MVS_U64, MVS_E_ARGUMENT, "nodes is of MVS_U64");
-  REFUSED_VALVE(f.desc.nodes.type = MVS_U8, MVS_E_ARGUMENT, "nodes is of MVS_U8");
+  REFUSED_VALVE(f.desc.nodes.type = MVS_TYPE_U32, MVS_E_ARGUMENT, "nodes is of MVS_TYPE_U32");
+  REFUSED_VALVE(f.desc.nodes.type = MVS_TYPE_U64, MVS_E_ARGUMENT, "nodes is of MVS_TYPE_U64");
+  REFUSED_VALVE(f.desc.nodes.type = MVS_TYPE_U8, MVS_E_ARGUMENT, "nodes is of MVS_TYPE_U8");
   REFUSED_VALVE(f.desc.nodes.type = 99, MVS_E_ARGUMENT, "nodes is of no type");
   REFUSED_VALVE(f.desc.nodes.stride = 23, MVS_E_ARGUMENT, "nodes has a stride of 23");
   REFUSED_VALVE(f.desc.nodes.stride = UINT64_MAX, MVS_E_ARGUMENT, "nodes has a stride");
   REFUSED_VALVE(f.desc.nodes.count = UINT64_MAX, MVS_E_MEMORY, "the limit is");
-  REFUSED_VALVE(f.desc.triangles.type = MVS_F64, MVS_E_ARGUMENT, "triangles is of MVS_F64");
-  REFUSED_VALVE(f.desc.triangles.type = MVS_F32, MVS_E_ARGUMENT, "triangles is of MVS_F32");
+  REFUSED_VALVE(f.desc.triangles.type = MVS_TYPE_F64, MVS_E_ARGUMENT,
+                "triangles is of MVS_TYPE_F64");
+  REFUSED_VALVE(f.desc.triangles.type = MVS_TYPE_F32, MVS_E_ARGUMENT,
+                "triangles is of MVS_TYPE_F32");
   REFUSED_VALVE(f.desc.annulus.components = 3, MVS_E_ARGUMENT, "annulus has 3 components");
   REFUSED_VALVE(f.desc.nodes_now = f.desc.nodes;
                 f.desc.nodes_now.count = 5, MVS_E_ARGUMENT, "nodes_now has 5 rows");
@@ -192,10 +198,10 @@ static void start_positions_that_are_none(void) {
   static double now[FUNNEL_NODES][3];
   memcpy(now, f.nodes, sizeof now);
   now[7][1] = NAN;
-  REFUSED_VALVE(f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_F64), MVS_E_ARGUMENT,
+  REFUSED_VALVE(f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_TYPE_F64), MVS_E_ARGUMENT,
                 "node 7 of nodes_now");
   now[7][1] = 5;
-  REFUSED_VALVE(f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_F64), MVS_E_ARGUMENT,
+  REFUSED_VALVE(f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_TYPE_F64), MVS_E_ARGUMENT,
                 "node 7 of nodes_now");
 }
 
@@ -214,10 +220,10 @@ static void what_is_no_valve(void) {
   const char *scallops[2] = {"all", "none"};
   static uint32_t zeros[FUNNEL_TRIANGLES];
   REFUSED_VALVE(f.desc.scallops = scallops; f.desc.scallop_count = 2;
-                f.desc.triangle_scallop = packed(zeros, FUNNEL_TRIANGLES, 1, MVS_U32), MVS_E_OP,
-                "scallop none has no triangle");
-  REFUSED_VALVE(f.desc.triangle_scallop = packed(zeros, FUNNEL_TRIANGLES, 1, MVS_U32), MVS_E_OP,
-                "names scallop 0");
+                f.desc.triangle_scallop = packed(zeros, FUNNEL_TRIANGLES, 1, MVS_TYPE_U32),
+                MVS_E_OP, "scallop none has no triangle");
+  REFUSED_VALVE(f.desc.triangle_scallop = packed(zeros, FUNNEL_TRIANGLES, 1, MVS_TYPE_U32),
+                MVS_E_OP, "names scallop 0");
 }
 
 typedef struct told {
@@ -256,13 +262,13 @@ static void parts_and_arrays_that_are_not_there(void) {
   mvs_part part;
   mvs_view view;
   uint32_t count = 0;
-  REFUSED(mvs_snapshot_view(snapshot, 0, &view), MVS_E_ARGUMENT, "which is 0");
-  REFUSED(mvs_snapshot_view(snapshot, 9999, &view), MVS_E_ARGUMENT, "which is 9999");
-  REFUSED(mvs_snapshot_part_count(snapshot, 7, &count), MVS_E_ARGUMENT, "kind is 7");
-  REFUSED(mvs_snapshot_part(snapshot, 0, 0, &part), MVS_E_ARGUMENT, "kind is 0");
+  REFUSED(mvs_snapshot_get_array(snapshot, 0, &view), MVS_E_ARGUMENT, "which is 0");
+  REFUSED(mvs_snapshot_get_array(snapshot, 9999, &view), MVS_E_ARGUMENT, "which is 9999");
+  REFUSED(mvs_snapshot_get_part_count(snapshot, 7, &count), MVS_E_ARGUMENT, "kind is 7");
+  REFUSED(mvs_snapshot_get_part(snapshot, 0, 0, &part), MVS_E_ARGUMENT, "kind is 0");
   for (uint32_t kind = 1; kind <= 5; ++kind) {
-    REFUSED(mvs_snapshot_part(snapshot, kind, 1000, &part), MVS_E_ARGUMENT, "index is 1000");
-    REFUSED(mvs_snapshot_find(snapshot, kind, "Q9", &part), MVS_E_ID, "named \"Q9\"");
+    REFUSED(mvs_snapshot_get_part(snapshot, kind, 1000, &part), MVS_E_ARGUMENT, "index is 1000");
+    REFUSED(mvs_snapshot_find_part(snapshot, kind, "Q9", &part), MVS_E_ID, "named \"Q9\"");
   }
   double up[3] = {0, 0, 1}, zero[3] = {0, 0, 0}, nan[3] = {0, NAN, 0};
   uint64_t points = 0;
@@ -290,15 +296,15 @@ static void an_empty_simulator_says_so(void) {
 static void an_error_stays_until_the_next_and_fits_its_room(void) {
   char name[2000];
   mvs_part part;
-  MUST_FAIL(mvs_snapshot_find(snapshot, 1, "one", &part), MVS_E_ID, "one");
-  MUST(mvs_snapshot_find(snapshot, 1, "A", &part));
+  MUST_FAIL(mvs_snapshot_find_part(snapshot, 1, "one", &part), MVS_E_ID, "one");
+  MUST(mvs_snapshot_find_part(snapshot, 1, "A", &part));
   CHECK(mvs_last_error()->code == MVS_E_ID);
   CHECK(strcmp(mvs_last_error()->part, "one") == 0);
   /* a part that does not fit is cut before, not within, a character of two bytes */
   memset(name, 'x', sizeof name);
   memcpy(name + 62, "\xc3\xa4", 2);
   name[sizeof name - 1] = 0;
-  MUST_FAIL(mvs_snapshot_find(snapshot, 1, name, &part), MVS_E_ID, "named");
+  MUST_FAIL(mvs_snapshot_find_part(snapshot, 1, name, &part), MVS_E_ID, "named");
   CHECK(strlen(mvs_last_error()->part) == 62);
 }
 

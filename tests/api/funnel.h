@@ -63,7 +63,7 @@ static inline void funnel_chords(funnel *f) {
       uint32_t s = (h * FUNNEL_SEGMENTS / 2 + FUNNEL_SEGMENTS + k - 2) % FUNNEL_SEGMENTS;
       chord->node_a = node;
       chord->node_b = FUNNEL_SHEET - FUNNEL_SEGMENTS + s;
-      chord->kind = MVS_CHORD_MARGINAL;
+      chord->kind = MVS_CHORD_KIND_MARGINAL;
     }
   }
 }
@@ -77,10 +77,10 @@ static inline void make_funnel(funnel *f) {
   f->leaflets[1].name = "P";
   f->desc.struct_size = sizeof f->desc;
   f->desc.name = "funnel";
-  f->desc.nodes = packed(f->nodes, FUNNEL_NODES, 3, MVS_F64);
-  f->desc.triangles = packed(f->triangles, FUNNEL_TRIANGLES, 3, MVS_U32);
-  f->desc.triangle_leaflet = packed(f->leaflet, FUNNEL_TRIANGLES, 1, MVS_U32);
-  f->desc.annulus = packed(f->annulus, FUNNEL_SEGMENTS, 1, MVS_U32);
+  f->desc.nodes = packed(f->nodes, FUNNEL_NODES, 3, MVS_TYPE_F64);
+  f->desc.triangles = packed(f->triangles, FUNNEL_TRIANGLES, 3, MVS_TYPE_U32);
+  f->desc.triangle_leaflet = packed(f->leaflet, FUNNEL_TRIANGLES, 1, MVS_TYPE_U32);
+  f->desc.annulus = packed(f->annulus, FUNNEL_SEGMENTS, 1, MVS_TYPE_U32);
   f->desc.leaflets = f->leaflets;
   f->desc.leaflet_count = 2;
   f->desc.chords = f->chords;

@@ -16,8 +16,8 @@ static uint32_t place(mvs_sim *sim, uint32_t k, double at[3]) {
   const mvs_snapshot *snapshot = NULL;
   mvs_view edge, x;
   MUST(mvs_get_snapshot(sim, &snapshot));
-  MUST(mvs_snapshot_view(snapshot, MVS_FREE_EDGE_NODES, &edge));
-  MUST(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &x));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_FREE_EDGE_NODES, &edge));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &x));
   const uint32_t node = ((const uint32_t *)edge.data)[k];
   memcpy(at, (const double *)x.data + 3 * node, 3 * sizeof *at);
   mvs_snapshot_release(snapshot);
@@ -25,25 +25,25 @@ static uint32_t place(mvs_sim *sim, uint32_t k, double at[3]) {
 }
 
 static mvs_id grasp(mvs_sim *sim, uint32_t k, double at[3]) {
-  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_GRASP, .by_node = 1};
+  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_KIND_GRASP, .by_node = 1};
   mvs_id tool = 0;
   desc.node = place(sim, k, at);
   memcpy(desc.position, at, sizeof desc.position);
-  MUST(mvs_tool_add(sim, &desc, &tool));
+  MUST(mvs_add_tool(sim, &desc, &tool));
   return tool;
 }
 
 static mvs_id rod(mvs_sim *sim, const double at[3]) {
-  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_ROD};
+  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_KIND_ROD};
   mvs_id tool = 0;
   memcpy(desc.position, at, sizeof desc.position);
-  MUST(mvs_tool_add(sim, &desc, &tool));
+  MUST(mvs_add_tool(sim, &desc, &tool));
   return tool;
 }
 
 static mvs_tool_state state_of(mvs_sim *sim, mvs_id tool) {
   mvs_tool_state state = {.struct_size = sizeof state};
-  MUST(mvs_tool_get(sim, tool, &state));
+  MUST(mvs_get_tool(sim, tool, &state));
   return state;
 }
 
@@ -55,7 +55,7 @@ static uint32_t tools_in(mvs_sim *sim) {
   const mvs_snapshot *snapshot = NULL;
   uint32_t count = 0;
   MUST(mvs_get_snapshot(sim, &snapshot));
-  MUST(mvs_snapshot_tool_count(snapshot, &count));
+  MUST(mvs_snapshot_get_tool_count(snapshot, &count));
   mvs_snapshot_release(snapshot);
   return count;
 }
@@ -87,11 +87,11 @@ static void work(mvs_sim *sim) {
     at[2] += 1e-5;
     tip[2] -= 1e-5;
     axis[0] = 1e-3 * k;
-    if (k % 3 != 1) MUST(mvs_tool_move(sim, held, at, NULL));
-    if (k % 4 != 2) MUST(mvs_tool_move(sim, pushing, tip, axis));
+    if (k % 3 != 1) MUST(mvs_move_tool(sim, held, at, NULL));
+    if (k % 4 != 2) MUST(mvs_move_tool(sim, pushing, tip, axis));
     MUST(mvs_step(sim, k == 100 ? &longer : NULL));
   }
-  MUST(mvs_tool_remove(sim, pushing));
+  MUST(mvs_remove_tool(sim, pushing));
   for (int k = 0; k < 5; ++k) MUST(mvs_step(sim, NULL));
 }
 
@@ -118,8 +118,8 @@ static void looking_on_changes_no_plan(void) {
   const mvs_id tool = grasp(sim, 0, at), seen = grasp(watched, 0, same);
   for (int k = 0; k < 300; ++k) {
     at[2] += 1e-5;
-    MUST(mvs_tool_move(sim, tool, at, NULL));
-    MUST(mvs_tool_move(watched, seen, at, NULL));
+    MUST(mvs_move_tool(sim, tool, at, NULL));
+    MUST(mvs_move_tool(watched, seen, at, NULL));
     MUST(mvs_step(sim, NULL));
     MUST(mvs_step(watched, NULL));
     if (k % 7 == 0) state_of(watched, seen);

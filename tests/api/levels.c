@@ -14,7 +14,7 @@ static const mvs_snapshot *present(mvs_sim *of) {
 
 static mvs_view view(const mvs_snapshot *snapshot, uint32_t which) {
   mvs_view found = {0};
-  MUST(mvs_snapshot_view(snapshot, which, &found));
+  MUST(mvs_snapshot_get_array(snapshot, which, &found));
   return found;
 }
 
@@ -35,9 +35,10 @@ static void refining_keeps_old_nodes_and_tells_new_ones(void) {
   const mvs_snapshot *before = present(sim);
   MUST(mvs_refine_valve(sim));
   const mvs_snapshot *after = present(sim);
-  mvs_view old = view(before, MVS_NODE_POSITION), made = view(after, MVS_NODE_POSITION);
-  const uint32_t *origin = view(after, MVS_NODE_ORIGIN).data;
-  CHECK(view(after, MVS_TRIANGLE_NODES).count == 4 * view(before, MVS_TRIANGLE_NODES).count);
+  mvs_view old = view(before, MVS_ARRAY_NODE_POSITION), made = view(after, MVS_ARRAY_NODE_POSITION);
+  const uint32_t *origin = view(after, MVS_ARRAY_NODE_ORIGIN).data;
+  CHECK(view(after, MVS_ARRAY_TRIANGLE_NODES).count ==
+        4 * view(before, MVS_ARRAY_TRIANGLE_NODES).count);
   CHECK(memcmp(old.data, made.data, old.count * 3 * sizeof(double)) == 0);
   for (uint64_t n = 0; n < made.count; ++n) {
     CHECK(origin[n] == (n < old.count ? (uint32_t)n : UINT32_MAX));
@@ -55,8 +56,8 @@ static void coarsening_says_what_it_did_and_where_nodes_are_from(void) {
   CHECK(made.vertices == 150 && made.vertices_before > 270 && made.worst_quality > 0.2);
   CHECK(made.surface_max > made.surface_rms && made.surface_rms > 0);
   const mvs_snapshot *coarse = present(sim);
-  mvs_view rest = view(coarse, MVS_NODE_REST), origin = view(coarse, MVS_NODE_ORIGIN);
-  const double *fine_rest = view(fine, MVS_NODE_REST).data;
+  mvs_view rest = view(coarse, MVS_ARRAY_NODE_REST), origin = view(coarse, MVS_ARRAY_NODE_ORIGIN);
+  const double *fine_rest = view(fine, MVS_ARRAY_NODE_REST).data;
   for (uint64_t n = 0; n < rest.count; ++n) {
     const uint32_t from = ((const uint32_t *)origin.data)[n];
     CHECK(memcmp((const double *)rest.data + 3 * n, fine_rest + (size_t)3 * from,

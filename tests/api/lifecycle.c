@@ -73,9 +73,9 @@ static void a_snapshot_outlives_its_simulator(void) {
   mvs_snapshot_release(snapshot);
   CHECK(same_hash(before, snapshot_hash(snapshot)));
   mvs_view view;
-  MUST(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &view));
   CHECK(((const double *)view.data)[0] == 15e-3);
-  CHECK(strcmp(mvs_snapshot_name(snapshot), "funnel") == 0);
+  CHECK(strcmp(mvs_snapshot_get_name(snapshot), "funnel") == 0);
   mvs_snapshot_release(snapshot);
 }
 
@@ -107,10 +107,10 @@ static void load_and_time_are_part_of_the_state(void) {
   MUST(mvs_step(sim, &explicit_step));
   const mvs_snapshot *snapshot = present(sim);
   read.pressure = 0;
-  MUST(mvs_snapshot_load(snapshot, &read));
+  MUST(mvs_snapshot_get_load(snapshot, &read));
   CHECK(read.pressure == load.pressure);
   mvs_view time;
-  MUST(mvs_snapshot_view(snapshot, MVS_STATE_TIME, &time));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_STATE_TIME, &time));
   CHECK(time.count == 1 && fabs(((const double *)time.data)[0] - 2e-5) < 1e-19); /* one rounding */
   mvs_snapshot_release(snapshot);
   mvs_stats stats = {.struct_size = sizeof stats};
@@ -156,7 +156,7 @@ static void null_is_accepted_where_it_is_said(void) {
   mvs_destroy(NULL);
   mvs_snapshot_retain(NULL);
   mvs_snapshot_release(NULL);
-  CHECK(strcmp(mvs_snapshot_name(NULL), "") == 0);
+  CHECK(strcmp(mvs_snapshot_get_name(NULL), "") == 0);
 }
 
 static void the_library_tells_its_version_and_names(void) {

@@ -16,7 +16,7 @@ static const mvs_snapshot *present(void) {
 static mvs_id id_of(uint32_t kind, const char *name) {
   const mvs_snapshot *snapshot = present();
   mvs_part part = {0};
-  MUST(mvs_snapshot_find(snapshot, kind, name, &part));
+  MUST(mvs_snapshot_find_part(snapshot, kind, name, &part));
   mvs_snapshot_release(snapshot);
   return part.id;
 }
@@ -24,7 +24,7 @@ static mvs_id id_of(uint32_t kind, const char *name) {
 static mvs_history history(void) {
   const mvs_snapshot *snapshot = present();
   mvs_history found = {.struct_size = sizeof found};
-  MUST(mvs_snapshot_history(snapshot, &found));
+  MUST(mvs_snapshot_get_history(snapshot, &found));
   mvs_snapshot_release(snapshot);
   return found;
 }
@@ -81,7 +81,7 @@ static int make_examples(example *out) {
   out[n++].transfer =
       (mvs_op_chord_transfer){.op = {sizeof(mvs_op_chord_transfer), MVS_OP_CHORD_TRANSFER},
                               .chord = id_of(MVS_PART_CHORD, "A1/2"),
-                              .end = MVS_END_HEAD,
+                              .end = MVS_CHORD_END_HEAD,
                               .head = other};
   out[n++].scale =
       (mvs_op_annulus_scale){{sizeof(mvs_op_annulus_scale), MVS_OP_ANNULUS_SCALE}, 0.95, 0, 0};
@@ -165,12 +165,13 @@ static void groups_go_together(void) {
   mvs_history_entry entry[3] = {{.struct_size = sizeof entry[0]},
                                 {.struct_size = sizeof entry[0]},
                                 {.struct_size = sizeof entry[0]}};
-  for (uint32_t k = 0; k < 3; ++k) MUST(mvs_snapshot_history_entry(snapshot, k, &entry[k]));
+  for (uint32_t k = 0; k < 3; ++k) MUST(mvs_snapshot_get_history_entry(snapshot, k, &entry[k]));
   CHECK(entry[0].group != 0 && entry[0].group == entry[1].group && entry[2].group == 0);
   CHECK(strcmp(entry[0].in_group, "repair of P2") == 0);
   CHECK(strstr(entry[0].title, "Shorten chord P2/3") != NULL);
   CHECK(entry[1].kind == MVS_OP_CHORD_ADD && entry[1].made != 0);
-  MUST_FAIL(mvs_snapshot_history_entry(snapshot, 3, &entry[0]), MVS_E_ARGUMENT, "has 3 entries");
+  MUST_FAIL(mvs_snapshot_get_history_entry(snapshot, 3, &entry[0]), MVS_E_ARGUMENT,
+            "has 3 entries");
   mvs_snapshot_release(snapshot);
   MUST(mvs_undo(sim));
   CHECK(same_hash(after, sim_hash(sim)));
@@ -194,8 +195,8 @@ static void checkpoints_are_places_to_come_back_to(void) {
   CHECK(same_hash(kept, sim_hash(sim)));
   CHECK(history().done == 1 && history().undone == 0 && history().checkpoints == 1);
   const mvs_snapshot *snapshot = present();
-  CHECK(strcmp(mvs_snapshot_checkpoint(snapshot, 0), "shortened") == 0);
-  CHECK(mvs_snapshot_checkpoint(snapshot, 1) == NULL);
+  CHECK(strcmp(mvs_snapshot_get_checkpoint(snapshot, 0), "shortened") == 0);
+  CHECK(mvs_snapshot_get_checkpoint(snapshot, 1) == NULL);
   mvs_snapshot_release(snapshot);
   MUST_FAIL(mvs_restore_checkpoint(sim, "none"), MVS_E_ID, "no checkpoint named \"none\"");
   MUST_FAIL(mvs_set_checkpoint(sim, ""), MVS_E_ARGUMENT, "1 to 63 bytes");
@@ -254,17 +255,17 @@ static void what_cannot_be_done_is_said(void) {
   REFUSED(add, MVS_E_ARGUMENT, "sum up to 0.6");
   const mvs_snapshot *snapshot = present();
   mvs_view view;
-  MUST(mvs_snapshot_view(snapshot, MVS_ANNULUS_NODES, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_ANNULUS_NODES, &view));
   add.site = (mvs_site){MVS_SITE_NODE, *(const uint32_t *)view.data, 0, {0}};
   REFUSED(add, MVS_E_OP, "on the annulus");
-  MUST(mvs_snapshot_view(snapshot, MVS_HEAD_NODES, &view));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_HEAD_NODES, &view));
   add.site.index = *(const uint32_t *)view.data;
   REFUSED(add, MVS_E_OP, "no vertex of a leaflet");
   mvs_snapshot_release(snapshot);
   mvs_op_chord_transfer transfer = list[3].transfer;
   transfer.site.how = MVS_SITE_NONE;
   REFUSED(transfer, MVS_E_ARGUMENT, "needs a site");
-  transfer.end = MVS_END_HEAD;
+  transfer.end = MVS_CHORD_END_HEAD;
   REFUSED(transfer, MVS_E_ID, "needs a papillary head");
   mvs_op_annulus_scale scale = list[5].scale;
   scale.factor = 0;
@@ -283,16 +284,16 @@ static void a_dragged_chord_has_the_length_to_there(void) {
   const mvs_snapshot *snapshot = present();
   mvs_part part;
   mvs_view nodes, x, lengths;
-  MUST(mvs_snapshot_find(snapshot, MVS_PART_CHORD, "P2/3", &part));
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_NODES, &nodes));
-  MUST(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &x));
+  MUST(mvs_snapshot_find_part(snapshot, MVS_PART_CHORD, "P2/3", &part));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_NODES, &nodes));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &x));
   const uint32_t *ends = (const uint32_t *)nodes.data + 2 * part.index;
   const double *from = (const double *)x.data + 3 * ends[0];
   for (int k = 0; k < 3; ++k) drag.drag_to.at[k] = from[k] + (k == 2 ? 0.017 : 0);
   mvs_snapshot_release(snapshot);
   MUST(mvs_apply_op(sim, &drag.op, NULL));
   snapshot = present();
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_REST_LENGTH, &lengths));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_REST_LENGTH, &lengths));
   /* the chord was slack or unstretched in the open valve; rounding of a few sums */
   CHECK(fabs(((const double *)lengths.data)[part.index] - 0.017) < 1e-9);
   mvs_snapshot_release(snapshot);
@@ -308,9 +309,9 @@ static seen_chord see(const char *chord) {
   const mvs_snapshot *snapshot = present();
   mvs_part part;
   mvs_view lengths, nodes;
-  MUST(mvs_snapshot_find(snapshot, MVS_PART_CHORD, chord, &part));
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_REST_LENGTH, &lengths));
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_NODES, &nodes));
+  MUST(mvs_snapshot_find_part(snapshot, MVS_PART_CHORD, chord, &part));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_REST_LENGTH, &lengths));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_NODES, &nodes));
   const seen_chord seen = {((const double *)lengths.data)[part.index],
                            ((const uint32_t *)nodes.data)[2 * part.index + 1]};
   mvs_snapshot_release(snapshot);
@@ -323,7 +324,7 @@ static void a_chord_tied_to_another_head_gets_the_length_of_a_new_one(void) {
   new_valve();
   mvs_op_chord_transfer transfer = {.op = {sizeof transfer, MVS_OP_CHORD_TRANSFER},
                                     .chord = id_of(MVS_PART_CHORD, "A1/2"),
-                                    .end = MVS_END_HEAD,
+                                    .end = MVS_CHORD_END_HEAD,
                                     .head = id_of(MVS_PART_HEAD, "PM3")};
   mvs_op_chord_add add = {.op = {sizeof add, MVS_OP_CHORD_ADD},
                           .head = transfer.head,
@@ -342,7 +343,7 @@ static void a_chord_tied_to_another_head_gets_the_length_of_a_new_one(void) {
   CHECK(see("A1/2").length == 0.019);
   MUST(mvs_undo(sim));
   transfer.length = 0;
-  transfer.end = MVS_END_LEAFLET;
+  transfer.end = MVS_CHORD_END_LEAFLET;
   transfer.site = on_scallop("A2", 0.3, 0.9);
   MUST(mvs_apply_op(sim, &transfer.op, NULL));
   CHECK(see("A1/2").length == kept);
@@ -350,23 +351,23 @@ static void a_chord_tied_to_another_head_gets_the_length_of_a_new_one(void) {
 
 /* Every field that a struct has is described where it lies. */
 static void operations_describe_themselves(void) {
-  CHECK(mvs_op_count() >= 7);
-  for (uint32_t k = 0; k < mvs_op_count(); ++k) {
+  CHECK(mvs_get_op_count() >= 7);
+  for (uint32_t k = 0; k < mvs_get_op_count(); ++k) {
     mvs_op_info info = {.struct_size = sizeof info};
-    MUST(mvs_op_describe(k, &info));
+    MUST(mvs_get_op_info(k, &info));
     CHECK(info.fields > 0 && info.size > sizeof(mvs_op) && *info.help);
     uint32_t end = sizeof(mvs_op);
     for (uint32_t f = 0; f < info.fields; ++f) {
       mvs_field_info field = {.struct_size = sizeof field};
-      MUST(mvs_op_describe_field(k, f, &field));
+      MUST(mvs_get_op_field(k, f, &field));
       CHECK(field.offset >= end && field.offset < info.size && *field.help);
       end = field.offset + 4;
     }
     mvs_field_info none = {.struct_size = sizeof none};
-    MUST_FAIL(mvs_op_describe_field(k, info.fields, &none), MVS_E_ARGUMENT, "fields");
+    MUST_FAIL(mvs_get_op_field(k, info.fields, &none), MVS_E_ARGUMENT, "fields");
   }
   mvs_op_info none = {.struct_size = sizeof none};
-  MUST_FAIL(mvs_op_describe(mvs_op_count(), &none), MVS_E_ARGUMENT, "kinds of operations");
+  MUST_FAIL(mvs_get_op_info(mvs_get_op_count(), &none), MVS_E_ARGUMENT, "kinds of operations");
 }
 
 int main(void) {

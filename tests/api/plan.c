@@ -12,7 +12,7 @@ static mvs_id named(mvs_sim *sim, uint32_t kind, const char *name) {
   const mvs_snapshot *snapshot = NULL;
   mvs_part part = {0};
   MUST(mvs_get_snapshot(sim, &snapshot));
-  MUST(mvs_snapshot_find(snapshot, kind, name, &part));
+  MUST(mvs_snapshot_find_part(snapshot, kind, name, &part));
   mvs_snapshot_release(snapshot);
   return part.id;
 }
@@ -271,14 +271,14 @@ static void a_plan_of_version_2_is_replayed_as_ever(void) {
       "\"steps\":[{\"do\":\"chord_transfer\",\"chord\":\"A1/"
       "2\",\"end\":\"head\",\"head\":\"PM3\"}]}";
   mvs_sim *sim = new_valve(0), *old = new_valve(0), *now = new_valve(0);
-  mvs_op_chord_transfer op = {.op = {sizeof op, MVS_OP_CHORD_TRANSFER}, .end = MVS_END_HEAD};
+  mvs_op_chord_transfer op = {.op = {sizeof op, MVS_OP_CHORD_TRANSFER}, .end = MVS_CHORD_END_HEAD};
   const mvs_snapshot *snapshot = NULL;
   mvs_part chord = {0};
   mvs_view lengths = {0};
   char text[256];
   MUST(mvs_get_snapshot(sim, &snapshot));
-  MUST(mvs_snapshot_find(snapshot, MVS_PART_CHORD, "A1/2", &chord));
-  MUST(mvs_snapshot_view(snapshot, MVS_CHORD_REST_LENGTH, &lengths));
+  MUST(mvs_snapshot_find_part(snapshot, MVS_PART_CHORD, "A1/2", &chord));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_REST_LENGTH, &lengths));
   op.chord = chord.id;
   op.head = named(sim, MVS_PART_HEAD, "PM3");
   op.length = ((const double *)lengths.data)[chord.index];

@@ -19,7 +19,7 @@ static void close_valve(void) {
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, NULL));
   MUST(mvs_get_snapshot(sim, &closed));
-  MUST(mvs_snapshot_frame(closed, frame));
+  MUST(mvs_snapshot_get_frame(closed, frame));
 }
 
 /* So far along AP and CC from the middle of the annulus, and up into the atrium. */
@@ -39,7 +39,7 @@ static double height(const double at[3]) {
 static int steps_stuck(const push *p) {
   const double top = 10e-3;
   const int down = (int)lround(p->depth / p->each);
-  mvs_tool_desc ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_BALL};
+  mvs_tool_desc ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_KIND_BALL};
   const mvs_step_options step = {.struct_size = sizeof step, .dt = p->dt};
   mvs_id tool = 0;
   int stuck = 0, most = 0;
@@ -47,15 +47,15 @@ static int steps_stuck(const push *p) {
   ball.stiffness = p->stiffness;
   place(p, top, ball.position);
   MUST(mvs_restore(sim, closed));
-  MUST(mvs_tool_add(sim, &ball, &tool));
+  MUST(mvs_add_tool(sim, &ball, &tool));
   for (int k = 1; k <= 2 * down; ++k) {
     mvs_tool_state state = {.struct_size = sizeof state};
     const double hand = top - p->each * (k <= down ? k : 2 * down - k);
     double at[3];
     place(p, hand, at);
-    MUST(mvs_tool_move(sim, tool, at, NULL));
+    MUST(mvs_move_tool(sim, tool, at, NULL));
     MUST(mvs_step(sim, &step));
-    MUST(mvs_tool_get(sim, tool, &state));
+    MUST(mvs_get_tool(sim, tool, &state));
     const double now = height(state.proxy);
     /* above it by more than lets a ball rest on tissue, and still it went less than a tenth of what
      * the hand did */
@@ -92,10 +92,10 @@ static hash128 pushed(mvs_sim *by, mvs_tool_desc tool) {
   place(&p, 10e-3, tool.position);
   place(&p, 10e-3 - p.depth, down);
   MUST(mvs_restore(by, closed));
-  MUST(mvs_tool_add(by, &tool, &id));
-  MUST(mvs_tool_move(by, id, down, NULL));
+  MUST(mvs_add_tool(by, &tool, &id));
+  MUST(mvs_move_tool(by, id, down, NULL));
   for (int k = 0; k < 15; ++k) MUST(mvs_step(by, NULL));
-  MUST(mvs_tool_get(by, id, &state));
+  MUST(mvs_get_tool(by, id, &state));
   CHECK(state.touching == 1);
   return sim_hash(by);
 }
@@ -104,13 +104,16 @@ static hash128 pushed(mvs_sim *by, mvs_tool_desc tool) {
  * forget how large that was. */
 static void a_tool_with_the_id_of_another_is_its_own(void) {
   static const mvs_tool_desc first[] = {
-      {.struct_size = sizeof *first, .kind = MVS_TOOL_BALL, .radius = 2e-3},
-      {.struct_size = sizeof *first, .kind = MVS_TOOL_ROD, .axis = {0, 0, 1}, .length = 10e-3}};
+      {.struct_size = sizeof *first, .kind = MVS_TOOL_KIND_BALL, .radius = 2e-3},
+      {.struct_size = sizeof *first,
+       .kind = MVS_TOOL_KIND_ROD,
+       .axis = {0, 0, 1},
+       .length = 10e-3}};
   for (size_t k = 0; k < 2; ++k) {
     mvs_tool_desc second = first[k];
     mvs_sim *fresh = NULL;
-    if (second.kind == MVS_TOOL_BALL) second.radius = 3e-3;
-    if (second.kind == MVS_TOOL_ROD) second.length = 15e-3;
+    if (second.kind == MVS_TOOL_KIND_BALL) second.radius = 3e-3;
+    if (second.kind == MVS_TOOL_KIND_ROD) second.length = 15e-3;
     MUST(mvs_create(NULL, &fresh));
     const hash128 wanted = pushed(fresh, second);
     CHECK(!same_hash(pushed(sim, first[k]), wanted));

@@ -14,7 +14,7 @@ static mvs_stats step(mvs_sim *of) {
 
 static void shorten(const char *name) {
   mvs_part chord = {0};
-  MUST(mvs_snapshot_find(closed, MVS_PART_CHORD, name, &chord));
+  MUST(mvs_snapshot_find_part(closed, MVS_PART_CHORD, name, &chord));
   mvs_op_chord_length op = {{sizeof op, MVS_OP_CHORD_LENGTH}, .chord = chord.id, .factor = 0.85};
   MUST(mvs_apply_op(sim, &op.op, NULL));
 }
@@ -31,11 +31,11 @@ static void shorten_two_as_one(void) {
 }
 
 static void shorten_and_lay_a_ball(void) {
-  mvs_tool_desc ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_BALL};
+  mvs_tool_desc ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_KIND_BALL};
   mvs_id tool = 0;
   shorten("P2/1");
   ball.position[2] = 0.05;
-  MUST(mvs_tool_add(sim, &ball, &tool));
+  MUST(mvs_add_tool(sim, &ball, &tool));
 }
 
 /* A simulator that begins there has everything to make in its first step. */

@@ -14,7 +14,7 @@ static const mvs_snapshot *present(mvs_sim *of) {
 static mvs_id id_of(uint32_t kind, const char *name) {
   const mvs_snapshot *snapshot = present(sim);
   mvs_part part = {0};
-  MUST(mvs_snapshot_find(snapshot, kind, name, &part));
+  MUST(mvs_snapshot_find_part(snapshot, kind, name, &part));
   mvs_snapshot_release(snapshot);
   return part.id;
 }
@@ -119,17 +119,17 @@ static void the_history_is_listed_as_before(void) {
   mvs_sim *other = saved_and_loaded(sim);
   const mvs_snapshot *a = present(sim), *b = present(other);
   mvs_history history = {.struct_size = sizeof history}, again = {.struct_size = sizeof again};
-  MUST(mvs_snapshot_history(a, &history));
-  MUST(mvs_snapshot_history(b, &again));
+  MUST(mvs_snapshot_get_history(a, &history));
+  MUST(mvs_snapshot_get_history(b, &again));
   CHECK(history.done == 3 && history.undone == 1 && history.checkpoints == 1);
   CHECK(memcmp(&history, &again, sizeof history) == 0);
   for (uint32_t k = 0; k < 4; ++k) {
     mvs_history_entry x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
-    MUST(mvs_snapshot_history_entry(a, k, &x));
-    MUST(mvs_snapshot_history_entry(b, k, &y));
+    MUST(mvs_snapshot_get_history_entry(a, k, &x));
+    MUST(mvs_snapshot_get_history_entry(b, k, &y));
     CHECK(memcmp(&x, &y, sizeof x) == 0);
   }
-  CHECK(strcmp(mvs_snapshot_checkpoint(b, 0), "one") == 0);
+  CHECK(strcmp(mvs_snapshot_get_checkpoint(b, 0), "one") == 0);
   mvs_snapshot_release(a);
   mvs_snapshot_release(b);
   mvs_destroy(other);

@@ -65,7 +65,7 @@ static void a_size_that_was_not_set_is_refused(void) {
     MUST(mvs_get_snapshot(sim, &snapshot));
     MUST_FAIL(mvs_set_load(sim, &load), MVS_E_ARGUMENT, "load.struct_size");
     MUST_FAIL(mvs_get_load(sim, &load), MVS_E_ARGUMENT, "load.struct_size");
-    MUST_FAIL(mvs_snapshot_load(snapshot, &load), MVS_E_ARGUMENT, "load.struct_size");
+    MUST_FAIL(mvs_snapshot_get_load(snapshot, &load), MVS_E_ARGUMENT, "load.struct_size");
     MUST_FAIL(mvs_set_valve(sim, &f.desc), MVS_E_ARGUMENT, "valve.struct_size");
     MUST_FAIL(mvs_create(&desc, &other), MVS_E_ARGUMENT, "desc.struct_size");
     MUST_FAIL(mvs_generate_valve(sim, &parametric), MVS_E_ARGUMENT, "desc.struct_size");

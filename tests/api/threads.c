@@ -17,17 +17,18 @@ typedef struct reader {
 } reader;
 
 static void *read_one(void *user) {
-  const uint32_t which[3] = {MVS_NODE_FORCE, MVS_TRIANGLE_STRESS, MVS_ORIFICE_VERTICES};
+  const uint32_t which[3] = {MVS_ARRAY_NODE_FORCE, MVS_ARRAY_TRIANGLE_STRESS,
+                             MVS_ARRAY_ORIFICE_VERTICES};
   reader *r = user;
   mvs_snapshot_retain(r->snapshot);
   r->measures.struct_size = sizeof r->measures;
   r->bad |= mvs_snapshot_measure(r->snapshot, &r->measures) != MVS_OK;
   for (int k = 0; k < 3; ++k) {
     mvs_view view = {0};
-    r->bad |= mvs_snapshot_view(r->snapshot, which[k], &view) != MVS_OK;
+    r->bad |= mvs_snapshot_get_array(r->snapshot, which[k], &view) != MVS_OK;
     r->data[k] = view.data;
   }
-  r->bad |= mvs_snapshot_hash(r->snapshot, r->hash.word) != MVS_OK;
+  r->bad |= mvs_snapshot_get_hash(r->snapshot, r->hash.word) != MVS_OK;
   mvs_snapshot_release(r->snapshot);
   return NULL;
 }
@@ -37,12 +38,12 @@ static void *read_latest(void *user) {
   for (int k = 0; k < ROUNDS; ++k) {
     mvs_view view = {0};
     r->bad |= mvs_get_snapshot(r->sim, &r->snapshot) != MVS_OK;
-    r->bad |= mvs_snapshot_view(r->snapshot, MVS_NODE_POSITION, &view) != MVS_OK;
+    r->bad |= mvs_snapshot_get_array(r->snapshot, MVS_ARRAY_NODE_POSITION, &view) != MVS_OK;
     r->bad |= view.count != FUNNEL_NODES;
-    r->bad |= mvs_snapshot_view(r->snapshot, MVS_CHORD_TENSION, &view) != MVS_OK;
+    r->bad |= mvs_snapshot_get_array(r->snapshot, MVS_ARRAY_CHORD_TENSION, &view) != MVS_OK;
     mvs_snapshot_release(r->snapshot);
     /* a failure here is nobody else's */
-    r->bad |= mvs_snapshot_hash(NULL, r->hash.word) != MVS_E_ARGUMENT;
+    r->bad |= mvs_snapshot_get_hash(NULL, r->hash.word) != MVS_E_ARGUMENT;
     r->bad |= mvs_last_error()->code != MVS_E_ARGUMENT;
   }
   return NULL;

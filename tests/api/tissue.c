@@ -15,7 +15,7 @@ static const mvs_snapshot *present(void) {
 
 static const void *data_of(const mvs_snapshot *snapshot, uint32_t which) {
   mvs_view view = {0};
-  MUST(mvs_snapshot_view(snapshot, which, &view));
+  MUST(mvs_snapshot_get_array(snapshot, which, &view));
   return view.data;
 }
 
@@ -47,23 +47,23 @@ static void one_leaflet_changes_and_the_other_stays(void) {
   start();
   const mvs_snapshot *before = present();
   mvs_part leaflet = {0};
-  MUST(mvs_snapshot_part(before, MVS_PART_LEAFLET, 1, &leaflet));
+  MUST(mvs_snapshot_get_part(before, MVS_PART_LEAFLET, 1, &leaflet));
   mvs_leaflet_desc tissue = {0};
-  tissue.law = MVS_LEAFLET_FUNG;
+  tissue.law = MVS_LEAFLET_LAW_FUNG;
   tissue.thickness = 0.5e-3;
   tissue.constants[2] = 5;
   MUST(mvs_set_leaflet(sim, leaflet.id, &tissue));
   const mvs_snapshot *after = present();
-  const uint32_t *law = data_of(after, MVS_LEAFLET_LAW);
-  CHECK(law[0] == MVS_LEAFLET_SPRING && law[1] == MVS_LEAFLET_FUNG);
-  const double *constants = data_of(after, MVS_LEAFLET_CONSTANTS);
+  const uint32_t *law = data_of(after, MVS_ARRAY_LEAFLET_LAW);
+  CHECK(law[0] == MVS_LEAFLET_LAW_SPRING && law[1] == MVS_LEAFLET_LAW_FUNG);
+  const double *constants = data_of(after, MVS_ARRAY_LEAFLET_CONSTANTS);
   CHECK(constants[9] == 0.5e-3 && constants[10] == 1e3 && constants[11] == 124);
   CHECK(constants[12] == 5);
-  const double *thick = data_of(after, MVS_TRIANGLE_THICKNESS);
-  const double *thick_before = data_of(before, MVS_TRIANGLE_THICKNESS);
-  const uint32_t *of = data_of(after, MVS_TRIANGLE_LEAFLET);
+  const double *thick = data_of(after, MVS_ARRAY_TRIANGLE_THICKNESS);
+  const double *thick_before = data_of(before, MVS_ARRAY_TRIANGLE_THICKNESS);
+  const uint32_t *of = data_of(after, MVS_ARRAY_TRIANGLE_LEAFLET);
   mvs_view triangles = {0};
-  MUST(mvs_snapshot_view(after, MVS_TRIANGLE_LEAFLET, &triangles));
+  MUST(mvs_snapshot_get_array(after, MVS_ARRAY_TRIANGLE_LEAFLET, &triangles));
   for (uint64_t t = 0; t < triangles.count; ++t) {
     CHECK(thick[t] == (of[t] == 1 ? 0.5 : 1.0) * thick_before[t]);
   }
@@ -74,10 +74,10 @@ static void one_leaflet_changes_and_the_other_stays(void) {
 static void springs_become_the_membrane_of_their_curve(void) {
   start();
   mvs_leaflet_desc tissue = {0};
-  tissue.law = MVS_LEAFLET_BILINEAR;
+  tissue.law = MVS_LEAFLET_LAW_BILINEAR;
   MUST(mvs_set_leaflet(sim, 0, &tissue));
   const mvs_snapshot *after = present();
-  const double *constants = data_of(after, MVS_LEAFLET_CONSTANTS);
+  const double *constants = data_of(after, MVS_ARRAY_LEAFLET_CONSTANTS);
   /* the fit of the header; rounding of products */
   const double fit[4] = {18.49e3, 3146e3, 3.1611, 0.006};
   for (int k = 0; k < 4; ++k) CHECK(fabs(constants[1 + k] - fit[k]) < 1e-12 * fit[k]);
@@ -85,8 +85,8 @@ static void springs_become_the_membrane_of_their_curve(void) {
 }
 
 static void a_valve_closes_in_every_law_of_tissue(void) {
-  const uint32_t laws[] = {MVS_LEAFLET_SPRING, MVS_LEAFLET_BILINEAR, MVS_LEAFLET_FUNG,
-                           MVS_LEAFLET_MAY_NEWMAN_YIN, MVS_LEAFLET_PROT};
+  const uint32_t laws[] = {MVS_LEAFLET_LAW_SPRING, MVS_LEAFLET_LAW_BILINEAR, MVS_LEAFLET_LAW_FUNG,
+                           MVS_LEAFLET_LAW_MAY_NEWMAN_YIN, MVS_LEAFLET_LAW_PROT};
   double strain[5];
   for (int k = 0; k < 5; ++k) {
     start();
@@ -103,11 +103,11 @@ static void what_is_no_tissue_changes_nothing(void) {
   start();
   const mvs_snapshot *before = present();
   uint64_t hash[2], now[2];
-  MUST(mvs_snapshot_hash(before, hash));
+  MUST(mvs_snapshot_get_hash(before, hash));
   mvs_leaflet_desc tissue = {0};
   tissue.law = 77;
   MUST_FAIL(mvs_set_leaflet(sim, 0, &tissue), MVS_E_OP, "follows law 77");
-  tissue.law = MVS_LEAFLET_PROT;
+  tissue.law = MVS_LEAFLET_LAW_PROT;
   tissue.constants[0] = -1;
   MUST_FAIL(mvs_set_leaflet(sim, 0, &tissue), MVS_E_OP, "constant c0 -1 Pa");
   tissue.constants[0] = 0;
@@ -124,7 +124,7 @@ static void what_is_no_tissue_changes_nothing(void) {
   MUST_FAIL(mvs_set_leaflet(sim, 0, NULL), MVS_E_ARGUMENT, "tissue");
   MUST_FAIL(mvs_set_leaflet(NULL, 0, &tissue), MVS_E_ARGUMENT, "sim");
   const mvs_snapshot *after = present();
-  MUST(mvs_snapshot_hash(after, now));
+  MUST(mvs_snapshot_get_hash(after, now));
   CHECK(now[0] == hash[0] && now[1] == hash[1]);
   mvs_snapshot_release(before);
   mvs_snapshot_release(after);
@@ -133,16 +133,16 @@ static void what_is_no_tissue_changes_nothing(void) {
 static void laws_say_what_they_are(void) {
   mvs_law law = {0};
   law.struct_size = sizeof law;
-  MUST(mvs_leaflet_law(MVS_LEAFLET_FUNG, &law));
+  MUST(mvs_get_leaflet_law(MVS_LEAFLET_LAW_FUNG, &law));
   CHECK(strcmp(law.word, "fung") == 0 && law.constant_count == 3);
   CHECK(strcmp(law.constants[1].key, "c1") == 0 && strcmp(law.constants[1].unit, "Pa") == 0);
   CHECK(law.constants[1].fallback == 124 && law.constants[1].low > 0);
-  MUST(mvs_chord_law(MVS_CHORD_BILINEAR, &law));
+  MUST(mvs_get_chord_law(MVS_CHORD_LAW_BILINEAR, &law));
   CHECK(strcmp(law.word, "bilinear") == 0 && law.constants[0].fallback == 0.05);
   CHECK(law.struct_size == sizeof law);
-  MUST_FAIL(mvs_leaflet_law(0, &law), MVS_E_ARGUMENT, "no law 0 of leaflets");
-  MUST_FAIL(mvs_chord_law(5, &law), MVS_E_ARGUMENT, "no law 5 of chordae");
-  MUST_FAIL(mvs_leaflet_law(1, NULL), MVS_E_ARGUMENT, "description");
+  MUST_FAIL(mvs_get_leaflet_law(0, &law), MVS_E_ARGUMENT, "no law 0 of leaflets");
+  MUST_FAIL(mvs_get_chord_law(5, &law), MVS_E_ARGUMENT, "no law 5 of chordae");
+  MUST_FAIL(mvs_get_leaflet_law(1, NULL), MVS_E_ARGUMENT, "description");
 }
 
 int main(void) {

@@ -25,22 +25,22 @@ static void start(uint32_t *node, double at[3]) {
   MUST(mvs_generate_valve(sim, &small));
   MUST(mvs_set_load(sim, &load));
   const mvs_snapshot *snapshot = present(sim);
-  MUST(mvs_snapshot_view(snapshot, MVS_FREE_EDGE_NODES, &edge));
-  MUST(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &x));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_FREE_EDGE_NODES, &edge));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &x));
   *node = ((const uint32_t *)edge.data)[0];
   memcpy(at, (const double *)x.data + 3 * *node, 3 * sizeof *at);
   mvs_snapshot_release(snapshot);
 }
 
 static mvs_tool_desc grasp_at(const double at[3]) {
-  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_GRASP};
+  mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_KIND_GRASP};
   memcpy(desc.position, at, sizeof desc.position);
   return desc;
 }
 
 static mvs_tool_state state_of(mvs_sim *of, mvs_id tool) {
   mvs_tool_state state = {.struct_size = sizeof state};
-  MUST(mvs_tool_get(of, tool, &state));
+  MUST(mvs_get_tool(of, tool, &state));
   return state;
 }
 
@@ -52,9 +52,10 @@ static void a_grasp_takes_the_nearest_vertex_and_is_moved_and_let_go(void) {
   const hash128 before = sim_hash(sim);
   at[2] += 1e-4;
   mvs_tool_desc desc = grasp_at(at);
-  MUST(mvs_tool_add(sim, &desc, &tool));
+  MUST(mvs_add_tool(sim, &desc, &tool));
   mvs_tool_state held = state_of(sim, tool);
-  CHECK(held.id == tool && held.kind == MVS_TOOL_GRASP && held.node == node && held.touching == 1);
+  CHECK(held.id == tool && held.kind == MVS_TOOL_KIND_GRASP && held.node == node &&
+        held.touching == 1);
   CHECK(held.stiffness == 200 && held.max_force == 5);
   CHECK(fabs(held.force[2] + 200 * 1e-4) < 1e-12); /* the spring as it lies, down on the hand */
   CHECK(!same_hash(before, sim_hash(sim)));
@@ -62,23 +63,23 @@ static void a_grasp_takes_the_nearest_vertex_and_is_moved_and_let_go(void) {
   /* a move is nothing until a step begins with it */
   const hash128 added = sim_hash(sim);
   at[2] += 3e-3;
-  MUST(mvs_tool_move(sim, tool, at, NULL));
+  MUST(mvs_move_tool(sim, tool, at, NULL));
   CHECK(same_hash(added, sim_hash(sim)));
   steps(sim, 20);
   held = state_of(sim, tool);
   CHECK(held.position[2] == at[2]);
   CHECK(held.force[2] < -0.01 && held.proxy[2] > at[2] - 3.1e-3);
 
-  MUST(mvs_tool_remove(sim, tool));
+  MUST(mvs_remove_tool(sim, tool));
   const mvs_snapshot *snapshot = present(sim);
-  MUST(mvs_snapshot_tool_count(snapshot, &count));
+  MUST(mvs_snapshot_get_tool_count(snapshot, &count));
   CHECK(count == 0);
-  MUST_FAIL(mvs_snapshot_tool(snapshot, 0, &held), MVS_E_ARGUMENT, "has 0 tools");
+  MUST_FAIL(mvs_snapshot_get_tool(snapshot, 0, &held), MVS_E_ARGUMENT, "has 0 tools");
   mvs_snapshot_release(snapshot);
-  MUST_FAIL(mvs_tool_get(sim, tool, &held), MVS_E_ID, "is not there");
-  MUST_FAIL(mvs_tool_move(sim, tool, at, NULL), MVS_E_ID, "is not there");
-  MUST_FAIL(mvs_tool_remove(sim, tool), MVS_E_ID, "is not there");
-  MUST_FAIL(mvs_tool_remove(sim, 17), MVS_E_ID, "not that of a tool");
+  MUST_FAIL(mvs_get_tool(sim, tool, &held), MVS_E_ID, "is not there");
+  MUST_FAIL(mvs_move_tool(sim, tool, at, NULL), MVS_E_ID, "is not there");
+  MUST_FAIL(mvs_remove_tool(sim, tool), MVS_E_ID, "is not there");
+  MUST_FAIL(mvs_remove_tool(sim, 17), MVS_E_ID, "not that of a tool");
 }
 
 static void what_cannot_be_is_refused_and_changes_nothing(void) {
@@ -88,14 +89,14 @@ static void what_cannot_be_is_refused_and_changes_nothing(void) {
   start(&node, at);
   const hash128 before = sim_hash(sim);
   mvs_tool_desc good = grasp_at(at), bad = good;
-  MUST_FAIL(mvs_tool_add(NULL, &good, &tool), MVS_E_ARGUMENT, "null");
-  MUST_FAIL(mvs_tool_add(sim, NULL, &tool), MVS_E_ARGUMENT, "null");
-  MUST_FAIL(mvs_tool_add(sim, &good, NULL), MVS_E_ARGUMENT, "null");
+  MUST_FAIL(mvs_add_tool(NULL, &good, &tool), MVS_E_ARGUMENT, "null");
+  MUST_FAIL(mvs_add_tool(sim, NULL, &tool), MVS_E_ARGUMENT, "null");
+  MUST_FAIL(mvs_add_tool(sim, &good, NULL), MVS_E_ARGUMENT, "null");
 #define REFUSED(field, value, code, word)                    \
   do {                                                       \
     bad = good;                                              \
     bad.field = (value);                                     \
-    MUST_FAIL(mvs_tool_add(sim, &bad, &tool), (code), word); \
+    MUST_FAIL(mvs_add_tool(sim, &bad, &tool), (code), word); \
   } while (0)
   REFUSED(struct_size, 0, MVS_E_ARGUMENT, "struct_size");
   REFUSED(kind, 0, MVS_E_ARGUMENT, "MVS_TOOL_");
@@ -111,24 +112,24 @@ static void what_cannot_be_is_refused_and_changes_nothing(void) {
   REFUSED(by_node, 2, MVS_E_ARGUMENT, "desc.by_node");
   good.by_node = 1;
   REFUSED(node, 100000, MVS_E_ARGUMENT, "nodes");
-  REFUSED(kind, MVS_TOOL_BALL, MVS_E_STATE, "would lie in leaflet tissue");
-  REFUSED(kind, MVS_TOOL_ROD, MVS_E_STATE, "would lie in leaflet tissue");
+  REFUSED(kind, MVS_TOOL_KIND_BALL, MVS_E_STATE, "would lie in leaflet tissue");
+  REFUSED(kind, MVS_TOOL_KIND_ROD, MVS_E_STATE, "would lie in leaflet tissue");
   bad = good;
-  bad.kind = MVS_TOOL_ROD;
+  bad.kind = MVS_TOOL_KIND_ROD;
   bad.axis[0] = NAN;
-  MUST_FAIL(mvs_tool_add(sim, &bad, &tool), MVS_E_ARGUMENT, "direction");
+  MUST_FAIL(mvs_add_tool(sim, &bad, &tool), MVS_E_ARGUMENT, "direction");
   CHECK(tool == 0);
   CHECK(same_hash(before, sim_hash(sim)));
   bad.axis[0] = 0;
   bad.position[2] = 0.06;
-  MUST(mvs_tool_add(sim, &bad, &tool));
-  MUST_FAIL(mvs_tool_move(sim, tool, NULL, NULL), MVS_E_ARGUMENT, "null");
-  MUST_FAIL(mvs_tool_move(sim, tool, nowhere, NULL), MVS_E_ARGUMENT, "within 10");
-  MUST_FAIL(mvs_tool_move(sim, tool, at, flat), MVS_E_ARGUMENT, "direction");
+  MUST(mvs_add_tool(sim, &bad, &tool));
+  MUST_FAIL(mvs_move_tool(sim, tool, NULL, NULL), MVS_E_ARGUMENT, "null");
+  MUST_FAIL(mvs_move_tool(sim, tool, nowhere, NULL), MVS_E_ARGUMENT, "within 10");
+  MUST_FAIL(mvs_move_tool(sim, tool, at, flat), MVS_E_ARGUMENT, "direction");
   const mvs_step_options explicitly = {sizeof explicitly, MVS_SOLVER_EXPLICIT, 0, 0, 0, 0};
   MUST_FAIL(mvs_step(sim, &explicitly), MVS_E_UNSUPPORTED, "explicit solver");
-  for (int k = 1; k < MVS_TOOL_LIMIT; ++k) MUST(mvs_tool_add(sim, &bad, &tool));
-  MUST_FAIL(mvs_tool_add(sim, &bad, &tool), MVS_E_STATE, "there are 64 tools");
+  for (int k = 1; k < MVS_MAX_TOOLS; ++k) MUST(mvs_add_tool(sim, &bad, &tool));
+  MUST_FAIL(mvs_add_tool(sim, &bad, &tool), MVS_E_STATE, "there are 64 tools");
 }
 
 static void a_node_of_the_annulus_cannot_be_held(void) {
@@ -138,11 +139,11 @@ static void a_node_of_the_annulus_cannot_be_held(void) {
   mvs_id tool = 0;
   start(&node, at);
   const mvs_snapshot *snapshot = present(sim);
-  MUST(mvs_snapshot_view(snapshot, MVS_ANNULUS_NODES, &annulus));
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_ANNULUS_NODES, &annulus));
   mvs_tool_desc desc = grasp_at(at);
   desc.by_node = 1;
   desc.node = ((const uint32_t *)annulus.data)[0];
-  MUST_FAIL(mvs_tool_add(sim, &desc, &tool), MVS_E_ARGUMENT, "only free nodes");
+  MUST_FAIL(mvs_add_tool(sim, &desc, &tool), MVS_E_ARGUMENT, "only free nodes");
   mvs_snapshot_release(snapshot);
 }
 
@@ -151,15 +152,16 @@ static void make_work(mvs_id tools[2]) {
   uint32_t node;
   double at[3];
   start(&node, at);
-  mvs_tool_desc grasp = grasp_at(at), ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_BALL};
+  mvs_tool_desc grasp = grasp_at(at),
+                ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_KIND_BALL};
   ball.position[2] = 0.02;
-  MUST(mvs_tool_add(sim, &grasp, &tools[0]));
-  MUST(mvs_tool_add(sim, &ball, &tools[1]));
+  MUST(mvs_add_tool(sim, &grasp, &tools[0]));
+  MUST(mvs_add_tool(sim, &ball, &tools[1]));
   for (int k = 0; k < 10; ++k) {
     at[2] += 2e-4;
     ball.position[2] -= 1e-3;
-    MUST(mvs_tool_move(sim, tools[0], at, NULL));
-    MUST(mvs_tool_move(sim, tools[1], ball.position, NULL));
+    MUST(mvs_move_tool(sim, tools[0], at, NULL));
+    MUST(mvs_move_tool(sim, tools[1], ball.position, NULL));
     steps(sim, 1);
   }
 }
@@ -172,15 +174,15 @@ static void undo_and_restore_bring_tools_back(void) {
   mvs_op_annulus_scale smaller = {{sizeof smaller, MVS_OP_ANNULUS_SCALE}, 0.97, 0, 0};
   MUST(mvs_apply_op(sim, &smaller.op, NULL));
   CHECK(state_of(sim, tools[0]).id == tools[0]); /* an operation lets go of nothing that stays */
-  MUST(mvs_tool_remove(sim, tools[0]));
-  MUST(mvs_tool_remove(sim, tools[1]));
+  MUST(mvs_remove_tool(sim, tools[0]));
+  MUST(mvs_remove_tool(sim, tools[1]));
   MUST(mvs_undo(sim));
   CHECK(same_hash(worked, sim_hash(sim)));
-  CHECK(state_of(sim, tools[1]).kind == MVS_TOOL_BALL);
+  CHECK(state_of(sim, tools[1]).kind == MVS_TOOL_KIND_BALL);
   steps(sim, 5);
   const hash128 on = sim_hash(sim);
   const double away[3] = {0, 0, 0.05};
-  MUST(mvs_tool_move(sim, tools[1], away, NULL));
+  MUST(mvs_move_tool(sim, tools[1], away, NULL));
   MUST(mvs_restore(sim, then)); /* forgets the move */
   CHECK(same_hash(worked, sim_hash(sim)));
   steps(sim, 5);
@@ -209,7 +211,7 @@ static void an_obj_file_is_without_tools(void) {
   make_work(tools);
   mvs_sim *other = saved_and_loaded(MVS_FORMAT_OBJ);
   const mvs_snapshot *snapshot = present(other);
-  MUST(mvs_snapshot_tool_count(snapshot, &count));
+  MUST(mvs_snapshot_get_tool_count(snapshot, &count));
   CHECK(count == 0);
   mvs_snapshot_release(snapshot);
   mvs_destroy(other);
@@ -235,14 +237,14 @@ static void a_plan_does_with_tools_what_was_done(void) {
   mvs_op_annulus_scale smaller = {{sizeof smaller, MVS_OP_ANNULUS_SCALE}, 0.97, 0, 0};
   mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
   const double axis[3] = {0, 1, 1}, up[3] = {0, 0, 0.03};
-  mvs_tool_desc rod = {.struct_size = sizeof rod, .kind = MVS_TOOL_ROD};
+  mvs_tool_desc rod = {.struct_size = sizeof rod, .kind = MVS_TOOL_KIND_ROD};
   mvs_id third = 0;
   make_work(tools);
   MUST(mvs_apply_op(sim, &smaller.op, NULL));
-  MUST(mvs_tool_remove(sim, tools[0]));
+  MUST(mvs_remove_tool(sim, tools[0]));
   rod.position[2] = 0.04;
-  MUST(mvs_tool_add(sim, &rod, &third));
-  MUST(mvs_tool_move(sim, third, up, axis));
+  MUST(mvs_add_tool(sim, &rod, &third));
+  MUST(mvs_move_tool(sim, third, up, axis));
   steps(sim, 3);
   const hash128 done = sim_hash(sim);
   const mvs_snapshot *snapshot = present(sim);
@@ -269,7 +271,7 @@ static void *move_on(void *user) {
   hand *h = user;
   for (int k = 0; k < 2000; ++k) {
     h->at[2] += 1e-6;
-    h->bad |= mvs_tool_move(sim, h->tool, h->at, NULL) != MVS_OK;
+    h->bad |= mvs_move_tool(sim, h->tool, h->at, NULL) != MVS_OK;
   }
   return NULL;
 }
@@ -280,7 +282,7 @@ static void a_hand_moves_from_another_thread(void) {
   hand h = {0, {0, 0, 0}, 0};
   start(&node, h.at);
   mvs_tool_desc desc = grasp_at(h.at);
-  MUST(mvs_tool_add(sim, &desc, &h.tool));
+  MUST(mvs_add_tool(sim, &desc, &h.tool));
   if (pthread_create(&thread, NULL, move_on, &h)) exit(2);
   steps(sim, 10);
   pthread_join(thread, NULL);
@@ -295,10 +297,10 @@ static void a_failed_settle_keeps_what_the_hand_wants(void) {
   mvs_id tool = 0;
   start(&node, at);
   mvs_tool_desc desc = grasp_at(at);
-  MUST(mvs_tool_add(sim, &desc, &tool));
+  MUST(mvs_add_tool(sim, &desc, &tool));
   const hash128 before = sim_hash(sim);
   at[2] += 1e-3;
-  MUST(mvs_tool_move(sim, tool, at, NULL));
+  MUST(mvs_move_tool(sim, tool, at, NULL));
   const mvs_step_options wrong = {sizeof wrong, MVS_SOLVER_EXPLICIT, 0.5, 0, 0, 0};
   MUST_FAIL(mvs_step(sim, &wrong), MVS_E_DIVERGED, "blew up");
   CHECK(same_hash(before, sim_hash(sim)));

@@ -52,7 +52,7 @@ static mvs_result tissue(uint32_t law, double first, double second) {
 static void what_tissue_is_like_is_not_warned_of(void) {
   mvs_law law = {.struct_size = sizeof law};
   WARNS(mvs_generate_valve(sim, NULL), 0, "");
-  for (uint32_t number = 1; mvs_leaflet_law(number, &law) == MVS_OK; ++number) {
+  for (uint32_t number = 1; mvs_get_leaflet_law(number, &law) == MVS_OK; ++number) {
     WARNS(tissue(number, 0, 0), 0, "");
   }
   CHANGED((void)0, 0, "");
@@ -74,9 +74,9 @@ static void moduli_in_kpa_are_warned_of(void) {
   CHANGED(f.leaflets[0].constants[0] = 100, 1, "has low modulus 100 Pa, tissue about 100000");
   CHANGED(f.desc.contact_stiffness = 20, 1, "contact stiffness is 20 Pa");
   MUST(mvs_generate_valve(sim, NULL));
-  WARNS(tissue(MVS_LEAFLET_PROT, 0.052, 0), 2, "leaflet P has constant c0 0.052 Pa");
-  WARNS(tissue(MVS_LEAFLET_NEO_HOOKEAN, 1000, 0), 2, "over 10 times its length");
-  WARNS(tissue(MVS_LEAFLET_NEO_HOOKEAN, 33e9, 0), 2, "by less than 0.1 %");
+  WARNS(tissue(MVS_LEAFLET_LAW_PROT, 0.052, 0), 2, "leaflet P has constant c0 0.052 Pa");
+  WARNS(tissue(MVS_LEAFLET_LAW_NEO_HOOKEAN, 1000, 0), 2, "over 10 times its length");
+  WARNS(tissue(MVS_LEAFLET_LAW_NEO_HOOKEAN, 33e9, 0), 2, "by less than 0.1 %");
 }
 
 static void lengths_in_other_units_are_warned_of(void) {

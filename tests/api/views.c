@@ -13,51 +13,51 @@ typedef struct expected {
 #define ANY UINT64_MAX
 
 static const expected arrays[] = {
-    {MVS_NODE_POSITION, 3, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_REST, 3, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_LOADED, 3, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_VELOCITY, 3, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_KIND, 1, MVS_U8, FUNNEL_NODES},
-    {MVS_NODE_FORCE, 3, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_CONTACT_FORCE, 3, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_COAPTATION, 1, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_OPEN, 3, MVS_F64, FUNNEL_NODES},
-    {MVS_NODE_ORIGIN, 1, MVS_U32, FUNNEL_NODES},
-    {MVS_TRIANGLE_NODES, 3, MVS_U32, FUNNEL_TRIANGLES},
-    {MVS_TRIANGLE_LEAFLET, 1, MVS_U32, FUNNEL_TRIANGLES},
-    {MVS_TRIANGLE_SCALLOP, 1, MVS_U32, FUNNEL_TRIANGLES},
-    {MVS_TRIANGLE_THICKNESS, 1, MVS_F64, FUNNEL_TRIANGLES},
-    {MVS_TRIANGLE_FIBRE, 3, MVS_F64, FUNNEL_TRIANGLES},
-    {MVS_TRIANGLE_STRETCH, 2, MVS_F64, FUNNEL_TRIANGLES},
-    {MVS_TRIANGLE_STRESS, 2, MVS_F64, FUNNEL_TRIANGLES},
-    {MVS_TRIANGLE_COAPTED, 1, MVS_F64, FUNNEL_TRIANGLES},
-    {MVS_LEAFLET_LAW, 1, MVS_U32, 2},
-    {MVS_LEAFLET_CONSTANTS, 9, MVS_F64, 2},
-    {MVS_ANNULUS_NODES, 1, MVS_U32, FUNNEL_SEGMENTS},
-    {MVS_FREE_EDGE_NODES, 1, MVS_U32, FUNNEL_SEGMENTS},
-    {MVS_CHORD_NODES, 2, MVS_U32, FUNNEL_CHORDS},
-    {MVS_CHORD_REST_LENGTH, 1, MVS_F64, FUNNEL_CHORDS},
-    {MVS_CHORD_KIND, 1, MVS_U32, FUNNEL_CHORDS},
-    {MVS_CHORD_STRAIN, 1, MVS_F64, FUNNEL_CHORDS},
-    {MVS_CHORD_TENSION, 1, MVS_F64, FUNNEL_CHORDS},
-    {MVS_CHORD_ID, 1, MVS_U64, FUNNEL_CHORDS},
-    {MVS_CHORD_YOUNG, 1, MVS_F64, FUNNEL_CHORDS},
-    {MVS_CHORD_AREA, 1, MVS_F64, FUNNEL_CHORDS},
-    {MVS_CHORD_FLAGS, 1, MVS_U8, FUNNEL_CHORDS},
-    {MVS_CHORD_LAW, 1, MVS_U32, FUNNEL_CHORDS},
-    {MVS_HEAD_NODES, 1, MVS_U32, 2},
-    {MVS_HEAD_FORCE, 3, MVS_F64, 2},
-    {MVS_CHORD_CONSTANTS, 6, MVS_F64, FUNNEL_CHORDS},
-    {MVS_RING_POINTS, 3, MVS_F64, 0},
-    {MVS_RING_START, 1, MVS_U32, 1},
-    {MVS_RING_KIND, 1, MVS_U32, 0},
-    {MVS_RING_ID, 1, MVS_U64, 0},
-    {MVS_ORIFICE_VERTICES, 3, MVS_F64, ANY},
-    {MVS_ORIFICE_TRIANGLES, 3, MVS_U32, ANY},
-    {MVS_CURVE_POINTS, 2, MVS_F64, 0},
-    {MVS_CURVE_START, 1, MVS_U32, 1},
-    {MVS_VALVE_CONSTANTS, 1, MVS_F64, 4},
-    {MVS_STATE_TIME, 1, MVS_F64, 1},
+    {MVS_ARRAY_NODE_POSITION, 3, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_REST, 3, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_LOADED, 3, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_VELOCITY, 3, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_KIND, 1, MVS_TYPE_U8, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_FORCE, 3, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_CONTACT_FORCE, 3, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_COAPTATION, 1, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_OPEN, 3, MVS_TYPE_F64, FUNNEL_NODES},
+    {MVS_ARRAY_NODE_ORIGIN, 1, MVS_TYPE_U32, FUNNEL_NODES},
+    {MVS_ARRAY_TRIANGLE_NODES, 3, MVS_TYPE_U32, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_TRIANGLE_LEAFLET, 1, MVS_TYPE_U32, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_TRIANGLE_SCALLOP, 1, MVS_TYPE_U32, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_TRIANGLE_THICKNESS, 1, MVS_TYPE_F64, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_TRIANGLE_FIBRE, 3, MVS_TYPE_F64, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_TRIANGLE_STRETCH, 2, MVS_TYPE_F64, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_TRIANGLE_STRESS, 2, MVS_TYPE_F64, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_TRIANGLE_COAPTED, 1, MVS_TYPE_F64, FUNNEL_TRIANGLES},
+    {MVS_ARRAY_LEAFLET_LAW, 1, MVS_TYPE_U32, 2},
+    {MVS_ARRAY_LEAFLET_CONSTANTS, 9, MVS_TYPE_F64, 2},
+    {MVS_ARRAY_ANNULUS_NODES, 1, MVS_TYPE_U32, FUNNEL_SEGMENTS},
+    {MVS_ARRAY_FREE_EDGE_NODES, 1, MVS_TYPE_U32, FUNNEL_SEGMENTS},
+    {MVS_ARRAY_CHORD_NODES, 2, MVS_TYPE_U32, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_REST_LENGTH, 1, MVS_TYPE_F64, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_KIND, 1, MVS_TYPE_U32, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_STRAIN, 1, MVS_TYPE_F64, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_TENSION, 1, MVS_TYPE_F64, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_ID, 1, MVS_TYPE_U64, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_YOUNG, 1, MVS_TYPE_F64, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_AREA, 1, MVS_TYPE_F64, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_FLAGS, 1, MVS_TYPE_U8, FUNNEL_CHORDS},
+    {MVS_ARRAY_CHORD_LAW, 1, MVS_TYPE_U32, FUNNEL_CHORDS},
+    {MVS_ARRAY_HEAD_NODES, 1, MVS_TYPE_U32, 2},
+    {MVS_ARRAY_HEAD_FORCE, 3, MVS_TYPE_F64, 2},
+    {MVS_ARRAY_CHORD_CONSTANTS, 6, MVS_TYPE_F64, FUNNEL_CHORDS},
+    {MVS_ARRAY_RING_POINTS, 3, MVS_TYPE_F64, 0},
+    {MVS_ARRAY_RING_START, 1, MVS_TYPE_U32, 1},
+    {MVS_ARRAY_RING_KIND, 1, MVS_TYPE_U32, 0},
+    {MVS_ARRAY_RING_ID, 1, MVS_TYPE_U64, 0},
+    {MVS_ARRAY_ORIFICE_VERTICES, 3, MVS_TYPE_F64, ANY},
+    {MVS_ARRAY_ORIFICE_TRIANGLES, 3, MVS_TYPE_U32, ANY},
+    {MVS_ARRAY_CURVE_POINTS, 2, MVS_TYPE_F64, 0},
+    {MVS_ARRAY_CURVE_START, 1, MVS_TYPE_U32, 1},
+    {MVS_ARRAY_VALVE_CONSTANTS, 1, MVS_TYPE_F64, 4},
+    {MVS_ARRAY_STATE_TIME, 1, MVS_TYPE_F64, 1},
 };
 
 static funnel f;
@@ -65,7 +65,7 @@ static const mvs_snapshot *snapshot;
 
 static mvs_view view_of(uint32_t which) {
   mvs_view view = {0};
-  MUST(mvs_snapshot_view(snapshot, which, &view));
+  MUST(mvs_snapshot_get_array(snapshot, which, &view));
   return view;
 }
 
@@ -91,39 +91,41 @@ static void every_number_between_names_an_array_or_none(void) {
     mvs_view view;
     int known = next < sizeof arrays / sizeof *arrays && arrays[next].which == which;
     if (known) ++next;
-    CHECK((mvs_snapshot_view(snapshot, which, &view) == MVS_OK) == known);
+    CHECK((mvs_snapshot_get_array(snapshot, which, &view) == MVS_OK) == known);
   }
 }
 
 static void arrays_show_what_was_set(void) {
-  CHECK(memcmp(view_of(MVS_NODE_POSITION).data, f.nodes, sizeof f.nodes) == 0);
-  CHECK(memcmp(view_of(MVS_TRIANGLE_NODES).data, f.triangles, sizeof f.triangles) == 0);
-  CHECK(memcmp(view_of(MVS_TRIANGLE_LEAFLET).data, f.leaflet, sizeof f.leaflet) == 0);
-  CHECK(memcmp(view_of(MVS_ANNULUS_NODES).data, f.annulus, sizeof f.annulus) == 0);
-  const uint32_t *ends = view_of(MVS_CHORD_NODES).data, *kind = view_of(MVS_CHORD_KIND).data;
+  CHECK(memcmp(view_of(MVS_ARRAY_NODE_POSITION).data, f.nodes, sizeof f.nodes) == 0);
+  CHECK(memcmp(view_of(MVS_ARRAY_TRIANGLE_NODES).data, f.triangles, sizeof f.triangles) == 0);
+  CHECK(memcmp(view_of(MVS_ARRAY_TRIANGLE_LEAFLET).data, f.leaflet, sizeof f.leaflet) == 0);
+  CHECK(memcmp(view_of(MVS_ARRAY_ANNULUS_NODES).data, f.annulus, sizeof f.annulus) == 0);
+  const uint32_t *ends = view_of(MVS_ARRAY_CHORD_NODES).data,
+                 *kind = view_of(MVS_ARRAY_CHORD_KIND).data;
   for (int c = 0; c < FUNNEL_CHORDS; ++c) {
     CHECK(ends[2 * c] == f.chords[c].node_a && ends[2 * c + 1] == f.chords[c].node_b);
     CHECK(kind[c] == f.chords[c].kind);
   }
-  const double *constants = view_of(MVS_LEAFLET_CONSTANTS).data;
+  const double *constants = view_of(MVS_ARRAY_LEAFLET_CONSTANTS).data;
   CHECK(constants[0] == 1e-3 && constants[1] == 100e3 && constants[2] == 6e6);
   CHECK(constants[3] == 0.25 && constants[4] == 0);
-  const uint8_t *node_kind = view_of(MVS_NODE_KIND).data;
-  CHECK(node_kind[0] == MVS_NODE_IS_ANNULUS && node_kind[FUNNEL_SEGMENTS] == MVS_NODE_IS_LEAFLET);
-  CHECK(node_kind[FUNNEL_SHEET] == MVS_NODE_IS_HEAD);
+  const uint8_t *node_kind = view_of(MVS_ARRAY_NODE_KIND).data;
+  CHECK(node_kind[0] == MVS_NODE_KIND_ANNULUS &&
+        node_kind[FUNNEL_SEGMENTS] == MVS_NODE_KIND_LEAFLET);
+  CHECK(node_kind[FUNNEL_SHEET] == MVS_NODE_KIND_HEAD);
 }
 
 static void parts_are_found_by_index_and_name(void) {
   const uint32_t counts[5] = {0, 2, 2, FUNNEL_CHORDS, 2};
   for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_HEAD; ++kind) {
     uint32_t count = 0;
-    MUST(mvs_snapshot_part_count(snapshot, kind, &count));
+    MUST(mvs_snapshot_get_part_count(snapshot, kind, &count));
     CHECK(count == counts[kind]);
     for (uint32_t k = 0; k < count; ++k) {
       mvs_part part, found;
-      MUST(mvs_snapshot_part(snapshot, kind, k, &part));
+      MUST(mvs_snapshot_get_part(snapshot, kind, k, &part));
       CHECK(part.index == k && part.kind == kind && part.id != 0 && part.name[0] != 0);
-      MUST(mvs_snapshot_find(snapshot, kind, part.name, &found));
+      MUST(mvs_snapshot_find_part(snapshot, kind, part.name, &found));
       CHECK(memcmp(&part, &found, sizeof part) == 0);
     }
   }
@@ -144,7 +146,7 @@ static void measures_of_the_open_funnel(void) {
 
 static void the_frame_points_into_the_atrium(void) {
   double frame[12];
-  MUST(mvs_snapshot_frame(snapshot, frame));
+  MUST(mvs_snapshot_get_frame(snapshot, frame));
   for (int k = 0; k < 3; ++k) CHECK(fabs(frame[k]) < 1e-12);
   CHECK(fabs(frame[11] - 1) < 1e-12);
   for (int a = 1; a < 4; ++a) {

@@ -7,9 +7,9 @@ namespace bench {
 namespace {
 
 size_t leaflet_vertices(const mvs::Snapshot &valve) {
-  const auto kinds = valve.view<uint8_t>(MVS_NODE_KIND);
+  const auto kinds = valve.view<uint8_t>(MVS_ARRAY_NODE_KIND);
   return static_cast<size_t>(std::count_if(kinds.begin(), kinds.end(), [](uint8_t kind) {
-    return kind == MVS_NODE_IS_LEAFLET || kind == MVS_NODE_IS_ANNULUS;
+    return kind == MVS_NODE_KIND_LEAFLET || kind == MVS_NODE_KIND_ANNULUS;
   }));
 }
 
@@ -19,7 +19,7 @@ void make(mvs::Sim &sim, const Case &of) {
   sim.generate(valve);
   if (of.leaflet == "membrane") {
     mvs_leaflet_desc tissue = {};
-    tissue.law = MVS_LEAFLET_BILINEAR;
+    tissue.law = MVS_LEAFLET_LAW_BILINEAR;
     sim.set_leaflet(tissue);
   }
   sim.set_load(MVS_SYSTOLE_PA);

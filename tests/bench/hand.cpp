@@ -27,14 +27,14 @@ double in_use() {
 
 mvs_id add_grasp(mvs::Sim &sim, uint32_t node) {
   mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
-  desc.kind = MVS_TOOL_GRASP;
+  desc.kind = MVS_TOOL_KIND_GRASP;
   desc.by_node = 1;
   desc.node = node;
   const mvs::Snapshot valve = sim.snapshot();
-  const double *at = valve.view<double>(MVS_NODE_POSITION).row(node);
+  const double *at = valve.view<double>(MVS_ARRAY_NODE_POSITION).row(node);
   std::memcpy(desc.position, at, sizeof desc.position);
   mvs_id tool = 0;
-  mvs::must(mvs_tool_add(sim.get(), &desc, &tool));
+  mvs::must(mvs_add_tool(sim.get(), &desc, &tool));
   return tool;
 }
 
@@ -45,11 +45,11 @@ struct Hand {
 
 std::vector<Hand> take_hold(mvs::Sim &sim, size_t count) {
   const mvs::Snapshot valve = sim.snapshot();
-  const auto edge = valve.view<uint32_t>(MVS_FREE_EDGE_NODES);
+  const auto edge = valve.view<uint32_t>(MVS_ARRAY_FREE_EDGE_NODES);
   std::vector<Hand> hands;
   for (size_t k = 0; k < count; ++k) {
     const uint32_t node = edge.data()[k * edge.rows() / count];
-    const double *at = valve.view<double>(MVS_NODE_POSITION).row(node);
+    const double *at = valve.view<double>(MVS_ARRAY_NODE_POSITION).row(node);
     hands.push_back({add_grasp(sim, node), {at[0], at[1], at[2]}});
   }
   return hands;
@@ -60,7 +60,7 @@ void move(mvs::Sim &sim, const std::vector<Hand> &hands, int step) {
     std::array<double, 3> at = hand.from;
     at[2] += 1e-3 * std::sin(0.01 * step);
     at[0] += 1e-3 * std::sin(0.013 * step);
-    mvs::must(mvs_tool_move(sim.get(), hand.tool, at.data(), nullptr));
+    mvs::must(mvs_move_tool(sim.get(), hand.tool, at.data(), nullptr));
   }
 }
 

@@ -47,9 +47,9 @@ ModelPtr make_scene(const Options &options, const std::string &scene) {
   desc.vertices = bench::scene_vertices.at(scene);
   Valve valve = make_parametric_valve(desc);
   for (size_t k = 0; options.leaflet == "membrane" && k < valve.leaflets.size(); ++k) {
-    valve.leaflets[k].law = MVS_LEAFLET_BILINEAR;
+    valve.leaflets[k].law = MVS_LEAFLET_LAW_BILINEAR;
     for (const LeafletLaw &law : leaflet_laws()) {
-      if (law.id == MVS_LEAFLET_BILINEAR)
+      if (law.id == MVS_LEAFLET_LAW_BILINEAR)
         valve.leaflets[k].constants = default_constants(law.constants);
     }
   }

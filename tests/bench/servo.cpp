@@ -49,8 +49,8 @@ std::array<double, 3> highest_edge(mvs_sim *sim) {
   const mvs_snapshot *snapshot = nullptr;
   mvs::must(mvs_get_snapshot(sim, &snapshot));
   mvs_view edge = {}, x = {};
-  mvs::must(mvs_snapshot_view(snapshot, MVS_FREE_EDGE_NODES, &edge));
-  mvs::must(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &x));
+  mvs::must(mvs_snapshot_get_array(snapshot, MVS_ARRAY_FREE_EDGE_NODES, &edge));
+  mvs::must(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &x));
   const auto *const nodes = static_cast<const uint32_t *>(edge.data);
   const auto *const places = static_cast<const double *>(x.data);
   std::array<double, 3> best = {0, 0, -1};
@@ -123,7 +123,7 @@ class Scene {
     std::copy(at.begin(), at.end(), view.origin);
     mvs_device_hand hand = {};
     hand.struct_size = sizeof hand;
-    hand.mode = MVS_HAND_GRASP;
+    hand.mode = MVS_HAND_MODE_GRASP;
     hand.reach = 0.02;
     mvs::must(mvs_device_open(&desc, &device_));
     mvs::must(mvs_device_set_view(device_, &view));

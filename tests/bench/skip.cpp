@@ -36,9 +36,9 @@ using Change = std::function<void(Valve &)>;
 
 void to_membrane(Valve &valve) {
   for (size_t k = 0; k < valve.leaflets.size(); ++k) {
-    valve.leaflets[k].law = MVS_LEAFLET_BILINEAR;
+    valve.leaflets[k].law = MVS_LEAFLET_LAW_BILINEAR;
     for (const LeafletLaw &law : leaflet_laws()) {
-      if (law.id == MVS_LEAFLET_BILINEAR)
+      if (law.id == MVS_LEAFLET_LAW_BILINEAR)
         valve.leaflets[k].constants = default_constants(law.constants);
     }
   }

@@ -43,10 +43,10 @@ void sew_ring(mvs::Sim &sim) {
 // The one that carries most: a slack one would leave the valve asleep.
 void cut_chord(mvs::Sim &sim) {
   const mvs::Snapshot valve = sim.snapshot();
-  const auto tension = valve.view<double>(MVS_CHORD_TENSION);
+  const auto tension = valve.view<double>(MVS_ARRAY_CHORD_TENSION);
   const auto tautest = std::max_element(tension.begin(), tension.end()) - tension.begin();
   mvs_op_chord_remove op = {};
-  op.chord = *valve.view<mvs_id>(MVS_CHORD_ID).row(static_cast<size_t>(tautest));
+  op.chord = *valve.view<mvs_id>(MVS_ARRAY_CHORD_ID).row(static_cast<size_t>(tautest));
   sim.apply(op);
 }
 
@@ -66,14 +66,14 @@ Point along(const Point &from, double way, const Point &axis) {
 // The free vertices of a scallop.
 std::vector<uint32_t> vertices_of(const mvs::Snapshot &valve, const std::string &scallop) {
   const uint32_t wanted = valve.find(MVS_PART_SCALLOP, scallop).index;
-  const auto scallops = valve.view<uint32_t>(MVS_TRIANGLE_SCALLOP);
-  const auto triangles = valve.view<uint32_t>(MVS_TRIANGLE_NODES);
-  const auto kinds = valve.view<uint8_t>(MVS_NODE_KIND);
+  const auto scallops = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_SCALLOP);
+  const auto triangles = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
+  const auto kinds = valve.view<uint8_t>(MVS_ARRAY_NODE_KIND);
   std::vector<uint32_t> found;
   for (size_t t = 0; t < triangles.rows(); ++t) {
     if (*scallops.row(t) != wanted) continue;
     for (const uint32_t *n = triangles.row(t); n != triangles.row(t) + 3; ++n) {
-      if (*kinds.row(*n) == MVS_NODE_IS_LEAFLET) found.push_back(*n);
+      if (*kinds.row(*n) == MVS_NODE_KIND_LEAFLET) found.push_back(*n);
     }
   }
   std::sort(found.begin(), found.end());
@@ -82,7 +82,7 @@ std::vector<uint32_t> vertices_of(const mvs::Snapshot &valve, const std::string 
 }
 
 Point place_of(const mvs::Snapshot &valve, uint32_t node) {
-  const double *x = valve.view<double>(MVS_NODE_POSITION).row(node);
+  const double *x = valve.view<double>(MVS_ARRAY_NODE_POSITION).row(node);
   return {x[0], x[1], x[2]};
 }
 
@@ -102,7 +102,7 @@ uint32_t middle_one(const mvs::Snapshot &valve, const std::vector<uint32_t> &nod
 }
 
 std::vector<uint32_t> on_free_edge(const mvs::Snapshot &valve, const std::vector<uint32_t> &nodes) {
-  const auto edge = valve.view<uint32_t>(MVS_FREE_EDGE_NODES);
+  const auto edge = valve.view<uint32_t>(MVS_ARRAY_FREE_EDGE_NODES);
   std::vector<uint32_t> found;
   for (const uint32_t n : nodes) {
     if (std::find(edge.begin(), edge.end(), n) != edge.end()) found.push_back(n);
@@ -117,19 +117,19 @@ struct Hand {
 
   void add(mvs::Sim &sim, mvs_tool_desc desc) {
     std::copy(start.begin(), start.end(), desc.position);
-    mvs::must(mvs_tool_add(sim.get(), &desc, &tool));
+    mvs::must(mvs_add_tool(sim.get(), &desc, &tool));
   }
   void move(mvs::Sim &sim, double way) const {
     const Point to = along(start, way, up);
-    mvs::must(mvs_tool_move(sim.get(), tool, to.data(), nullptr));
+    mvs::must(mvs_move_tool(sim.get(), tool, to.data(), nullptr));
   }
-  void remove(mvs::Sim &sim) const { mvs::must(mvs_tool_remove(sim.get(), tool)); }
+  void remove(mvs::Sim &sim) const { mvs::must(mvs_remove_tool(sim.get(), tool)); }
 };
 
 void grasp(mvs::Sim &sim, Hand &hand) {
   const mvs::Snapshot valve = sim.snapshot();
   mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
-  desc.kind = MVS_TOOL_GRASP;
+  desc.kind = MVS_TOOL_KIND_GRASP;
   desc.by_node = 1;
   desc.node = middle_one(valve, on_free_edge(valve, vertices_of(valve, "A2")));
   hand.start = place_of(valve, desc.node);
@@ -147,7 +147,7 @@ Done pull(mvs::Sim &sim, const Hand &hand, double share) {
 void lay_ball(mvs::Sim &sim, Hand &hand) {
   const mvs::Snapshot valve = sim.snapshot();
   mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
-  desc.kind = MVS_TOOL_BALL;
+  desc.kind = MVS_TOOL_KIND_BALL;
   const uint32_t node = middle_one(valve, vertices_of(valve, "P2"));
   hand.up = upwards(valve);
   hand.start = along(place_of(valve, node), above, hand.up);

@@ -11,11 +11,11 @@ namespace {
 constexpr double bound = 1e-9;
 
 bool held_nodes_stayed(const mvs::Snapshot &now, const std::vector<double> &before) {
-  const auto kinds = now.view<uint8_t>(MVS_NODE_KIND);
-  const double *x = now.view<double>(MVS_NODE_POSITION).data();
+  const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const double *x = now.view<double>(MVS_ARRAY_NODE_POSITION).data();
   for (size_t n = 0; n < kinds.rows(); ++n) {
     const uint8_t kind = kinds.data()[n];
-    if (kind != MVS_NODE_IS_ANNULUS && kind != MVS_NODE_IS_HEAD) continue;
+    if (kind != MVS_NODE_KIND_ANNULUS && kind != MVS_NODE_KIND_HEAD) continue;
     for (size_t k = 3 * n; k < 3 * n + 3; ++k) {
       if (x[k] != before[k]) return false;
     }
@@ -27,19 +27,19 @@ bool held_nodes_stayed(const mvs::Snapshot &now, const std::vector<double> &befo
 
 size_t StepWatch::crossings(const mvs::Sim &sim) {
   const mvs::Snapshot now = sim.snapshot();
-  const auto x = now.view<double>(MVS_NODE_POSITION);
-  const auto triangles = now.view<uint32_t>(MVS_TRIANGLE_NODES);
+  const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
+  const auto triangles = now.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
   return stability::crossings(x.data(), x.rows(), triangles.data(), triangles.rows()).size();
 }
 
 double StepWatch::quiet(const mvs::Sim &sim, double dt, double least) {
   const mvs::Snapshot now = sim.snapshot();
-  const auto kinds = now.view<uint8_t>(MVS_NODE_KIND);
-  const double *v = now.view<double>(MVS_NODE_VELOCITY).data();
+  const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const double *v = now.view<double>(MVS_ARRAY_NODE_VELOCITY).data();
   size_t free = 0, quiet = 0;
   for (size_t n = 0; n < kinds.rows(); ++n, v += 3) {
     const uint8_t kind = kinds.data()[n];
-    if (kind == MVS_NODE_IS_ANNULUS || kind == MVS_NODE_IS_HEAD) continue;
+    if (kind == MVS_NODE_KIND_ANNULUS || kind == MVS_NODE_KIND_HEAD) continue;
     ++free;
     quiet += dt * std::hypot(v[0], v[1], v[2]) < least;
   }
@@ -50,7 +50,7 @@ double StepWatch::quiet(const mvs::Sim &sim, double dt, double least) {
 // from the shapes before and after.
 bool StepWatch::makes_energy(const mvs::Sim &sim, const mvs_stats &stats) {
   const mvs::Snapshot now = sim.snapshot();
-  const auto x = now.view<double>(MVS_NODE_POSITION);
+  const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
   if (!edge_work_) edge_work_.emplace(now);
   const double energy = stats.energy + stats.kinetic;
   bool made = false;

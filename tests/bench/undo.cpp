@@ -57,7 +57,7 @@ int main(int argc, char **argv) {
   sim.set_load(MVS_SYSTOLE_PA);
   sim.settle();
   const std::vector<mvs_part> chords = sim.snapshot().parts(MVS_PART_CHORD);
-  const size_t nodes = sim.snapshot().view<double>(MVS_NODE_POSITION).rows();
+  const size_t nodes = sim.snapshot().view<double>(MVS_ARRAY_NODE_POSITION).rows();
   std::vector<double> step, apply, undo, redo;
   std::array<uint64_t, 2> first = {};
   const double before = resident();

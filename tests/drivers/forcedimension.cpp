@@ -139,7 +139,8 @@ TEST_CASE("forcedimension_samples_are_those_of_the_device") {
   CHECK(std::abs(state.orientation[1] - std::sqrt(0.5)) < kRounding);
   CHECK(state.gripper == 0.5);
   CHECK(state.buttons == 1);
-  CHECK(state.flags == (MVS_DRIVER_CALIBRATED | MVS_DRIVER_VELOCITY | MVS_DRIVER_FORCE_ON));
+  CHECK(state.flags ==
+        (MVS_DRIVER_FLAG_CALIBRATED | MVS_DRIVER_FLAG_VELOCITY | MVS_DRIVER_FLAG_FORCE_ON));
   CHECK(state.cause == MVS_CAUSE_NONE);
 }
 
@@ -179,9 +180,9 @@ TEST_CASE("forcedimension_saturated_motors_are_a_success_and_told") {
   REQUIRE(bench.tick(3, 0, 0) == MVS_DRIVER_OK);
   CHECK(bench.given()[0] == doctest::Approx(1));
   REQUIRE(bench.tick(0.5, 0, 0) == MVS_DRIVER_OK);
-  CHECK((bench.state.flags & MVS_DRIVER_SATURATED) != 0);
+  CHECK((bench.state.flags & MVS_DRIVER_FLAG_SATURATED) != 0);
   REQUIRE(bench.tick(0.5, 0, 0) == MVS_DRIVER_OK);
-  CHECK((bench.state.flags & MVS_DRIVER_SATURATED) == 0);
+  CHECK((bench.state.flags & MVS_DRIVER_FLAG_SATURATED) == 0);
 }
 
 TEST_CASE("forcedimension_not_a_number_is_read_and_never_written") {
@@ -232,17 +233,17 @@ TEST_CASE("forcedimension_tells_why_the_device_took_its_forces_off") {
     bench.in.cause = dhd_cause;
     bench.start();
     REQUIRE(bench.ticks(200) == MVS_DRIVER_OK);
-    CHECK((bench.state.flags & MVS_DRIVER_FORCE_ON) != 0);
+    CHECK((bench.state.flags & MVS_DRIVER_FLAG_FORCE_ON) != 0);
     REQUIRE(bench.ticks(20) == MVS_DRIVER_OK);
     CHECK(bench.state.cause == causes[dhd_cause - 1]);
-    CHECK((bench.state.flags & MVS_DRIVER_FORCE_ON) == 0);
+    CHECK((bench.state.flags & MVS_DRIVER_FLAG_FORCE_ON) == 0);
     CHECK(bench.in.enables[0] == 1);
     // only who gives the forces up and wants them again gets them back
     REQUIRE(bench.tick(0, 0, 0, false) == MVS_DRIVER_OK);
     REQUIRE(bench.ticks(20) == MVS_DRIVER_OK);
     CHECK(bench.in.enables[0] == 2);
     CHECK(bench.state.cause == MVS_CAUSE_NONE);
-    CHECK((bench.state.flags & MVS_DRIVER_FORCE_ON) != 0);
+    CHECK((bench.state.flags & MVS_DRIVER_FLAG_FORCE_ON) != 0);
   }
 }
 
@@ -254,7 +255,7 @@ TEST_CASE("forcedimension_forces_that_are_slow_to_come_on_were_not_taken_off") {
     REQUIRE(bench.tick(1, 0, 0, i % 100 > 10) == MVS_DRIVER_OK);
     CHECK(bench.state.cause == MVS_CAUSE_NONE);
   }
-  CHECK((bench.state.flags & MVS_DRIVER_FORCE_ON) != 0);
+  CHECK((bench.state.flags & MVS_DRIVER_FLAG_FORCE_ON) != 0);
 }
 
 TEST_CASE("forcedimension_off_is_no_force_and_then_the_brakes") {

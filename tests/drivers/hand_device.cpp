@@ -22,9 +22,9 @@ struct Oddities {
     jump = std::abs(s.position[0]) > 0.04;
     silent = s.sequence == before.sequence;
     button = (s.buttons & 1) != 0;
-    uncalibrated = (s.flags & MVS_DRIVER_CALIBRATED) == 0;
-    saturated = (s.flags & MVS_DRIVER_SATURATED) != 0;
-    off = (s.flags & MVS_DRIVER_FORCE_ON) == 0;
+    uncalibrated = (s.flags & MVS_DRIVER_FLAG_CALIBRATED) == 0;
+    saturated = (s.flags & MVS_DRIVER_FLAG_SATURATED) != 0;
+    off = (s.flags & MVS_DRIVER_FLAG_FORCE_ON) == 0;
     clock_back = s.time_ns + 1000000000 == now;
     clock_jump = s.time_ns == now + 10000000000;
     cause = s.cause;
@@ -89,7 +89,7 @@ TEST_CASE("a_deadmans_switch_is_held_until_it_is_let_go") {
   Hand hand(with_fault("deadman", "0.05"));
   CHECK_EQ(hand.plug.info().has_deadman, 1);
   for (int ms = 1; ms <= 200; ++ms) {
-    const bool held = (hand.tick().flags & MVS_DRIVER_HELD) != 0;
+    const bool held = (hand.tick().flags & MVS_DRIVER_FLAG_HELD) != 0;
     CHECK_EQ(held, ms < 100 || ms >= 150);
   }
 }
@@ -177,7 +177,7 @@ TEST_CASE("a_position_is_a_whole_number_of_the_encoders_steps") {
       most = std::max(most, error);
     }
     CHECK_EQ(rough.state.velocity[0], 0);  // not measured, and not said to be
-    CHECK_EQ(rough.state.flags & MVS_DRIVER_VELOCITY, 0);
+    CHECK_EQ(rough.state.flags & MVS_DRIVER_FLAG_VELOCITY, 0);
   }
   CHECK_GT(most, 0.00004);
 }
@@ -192,11 +192,11 @@ TEST_CASE("motors_give_no_more_than_they_can") {
   // 3 N along (3, 4, 0) / 5 on 1 kg for 1 s
   CHECK(std::abs(hand.state.position[0] - 0.9) < 1e-12);
   CHECK(std::abs(hand.state.position[1] - 1.2) < 1e-12);
-  CHECK((hand.state.flags & MVS_DRIVER_SATURATED) != 0);
+  CHECK((hand.state.flags & MVS_DRIVER_FLAG_SATURATED) != 0);
   hand.plug.write(0, 3, 0);
-  CHECK_EQ(hand.tick().flags & MVS_DRIVER_SATURATED, 0);
+  CHECK_EQ(hand.tick().flags & MVS_DRIVER_FLAG_SATURATED, 0);
   hand.plug.write(0, 3.001, 0);
-  CHECK_NE(hand.tick().flags & MVS_DRIVER_SATURATED, 0);
+  CHECK_NE(hand.tick().flags & MVS_DRIVER_FLAG_SATURATED, 0);
 }
 
 TEST_CASE("motors_that_the_device_switched_off_are_not_felt") {
@@ -215,7 +215,7 @@ TEST_CASE("a_force_that_is_no_number_moves_nothing_and_is_told_of") {
     CHECK_EQ(hand.plug.write(0, bad, 0), MVS_DRIVER_E_FAULT);
     CHECK(contains(hand.plug.error(), "not finite"));
     CHECK_EQ(hand.tick().position[1], 0);
-    CHECK_EQ(hand.state.flags & MVS_DRIVER_FORCE_ON, 0);
+    CHECK_EQ(hand.state.flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
   }
 }
 

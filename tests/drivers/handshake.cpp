@@ -159,7 +159,7 @@ TEST_CASE("forces_are_on_between_start_and_stop_only") {
       mvs_driver_state state;
       CHECK_EQ(plug.write(0, 1, 0), MVS_DRIVER_OK);
       CHECK_EQ(plug.read(now += 1000000, state), MVS_DRIVER_OK);
-      return (state.flags & MVS_DRIVER_FORCE_ON) != 0;
+      return (state.flags & MVS_DRIVER_FLAG_FORCE_ON) != 0;
     };
     CHECK_FALSE(on());
     CHECK_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
@@ -191,6 +191,6 @@ TEST_CASE("stop_may_come_while_the_device_is_read") {
     }
     other.join();
     CHECK_EQ(plug.read(2000000000, state), MVS_DRIVER_OK);
-    CHECK_EQ(state.flags & MVS_DRIVER_FORCE_ON, 0);
+    CHECK_EQ(state.flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
   }
 }

@@ -38,7 +38,7 @@ TEST_CASE("haply: a state is read, on the clock of the host") {
   CHECK_EQ(state.orientation[0], 0.8);
   CHECK_EQ(state.orientation[3], -0.6);
   CHECK_EQ(state.buttons, 5);
-  CHECK_EQ(state.flags, MVS_DRIVER_CALIBRATED | MVS_DRIVER_VELOCITY);
+  CHECK_EQ(state.flags, MVS_DRIVER_FLAG_CALIBRATED | MVS_DRIVER_FLAG_VELOCITY);
   CHECK(state.time_ns <= uint64_t{1} << 60);
   CHECK(state.time_ns + 2000000000 > uint64_t{1} << 60);
   const uint64_t sequence = state.sequence;
@@ -110,8 +110,9 @@ TEST_CASE("haply: no force before start, after stop, when off, at panic, at the 
   CHECK(zero_again());  // what was written before does not count
   REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(pushed());
-  CHECK(eventually(
-      [&] { return plug.read(0, state) == MVS_DRIVER_OK && (state.flags & MVS_DRIVER_FORCE_ON); }));
+  CHECK(eventually([&] {
+    return plug.read(0, state) == MVS_DRIVER_OK && (state.flags & MVS_DRIVER_FLAG_FORCE_ON);
+  }));
   REQUIRE_EQ(plug.write(2, 0, 0, false), MVS_DRIVER_OK);
   CHECK(zero_again());
   REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
@@ -200,8 +201,8 @@ TEST_CASE("haply: a device that is unplugged is lost; a grip that goes lets go")
   scene = 1;
   CHECK(eventually([&] { return plug.read(0, state) == MVS_DRIVER_OK && state.buttons == 0; }));
   CHECK_EQ(state.orientation[0], 0.8);  // the last one
-  CHECK((state.flags & MVS_DRIVER_CALIBRATED) != 0);
-  CHECK((state.flags & MVS_DRIVER_VELOCITY) == 0);
+  CHECK((state.flags & MVS_DRIVER_FLAG_CALIBRATED) != 0);
+  CHECK((state.flags & MVS_DRIVER_FLAG_VELOCITY) == 0);
   scene = 2;
   CHECK(eventually([&] { return plug.read(0, state) == MVS_DRIVER_E_LOST; }));
 }
@@ -217,7 +218,7 @@ TEST_CASE("haply: an uncalibrated device says so") {
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
   mvs_driver_state state;
   REQUIRE_EQ(plug.read(0, state), MVS_DRIVER_OK);
-  CHECK((state.flags & MVS_DRIVER_CALIBRATED) == 0);
+  CHECK((state.flags & MVS_DRIVER_FLAG_CALIBRATED) == 0);
   CHECK_EQ(plug.api.calibrate(plug.device), MVS_DRIVER_E_CALIBRATION);
   CHECK(has(plug.error(), "rest"));
   int faults = 0;

@@ -157,8 +157,8 @@ TEST_CASE("phantom_samples_are_in_metres_and_turn_with_the_stylus") {
   CHECK(std::abs(half.orientation[0]) < kRounding);
   CHECK(std::abs(std::abs(half.orientation[3]) - 1) < kRounding);
   CHECK(quarter.buttons == 2);
-  const uint32_t wanted =
-      MVS_DRIVER_CALIBRATED | MVS_DRIVER_VELOCITY | MVS_DRIVER_FORCE_ON | MVS_DRIVER_PARKED;
+  const uint32_t wanted = MVS_DRIVER_FLAG_CALIBRATED | MVS_DRIVER_FLAG_VELOCITY |
+                          MVS_DRIVER_FLAG_FORCE_ON | MVS_DRIVER_FLAG_PARKED;
   CHECK(quarter.flags == wanted);
   for (size_t i = 1; i < hand.seen.size(); ++i)
     CHECK(hand.seen[i].time_ns >= hand.seen[i - 1].time_ns);
@@ -280,8 +280,8 @@ TEST_CASE("phantom_warnings_take_the_force_off_for_a_while") {
     long code, quiet;
     uint32_t cause, flag;
   };
-  for (const Case &one : {Case{0x200, 1000, MVS_CAUSE_THERMAL, MVS_DRIVER_WARM},
-                          Case{0x201, 100, MVS_CAUSE_NONE, MVS_DRIVER_SATURATED},
+  for (const Case &one : {Case{0x200, 1000, MVS_CAUSE_THERMAL, MVS_DRIVER_FLAG_WARM},
+                          Case{0x201, 100, MVS_CAUSE_NONE, MVS_DRIVER_FLAG_SATURATED},
                           Case{0x203, 100, MVS_CAUSE_VELOCITY, 0}}) {
     CAPTURE(one.code);
     Bench bench;
@@ -293,11 +293,11 @@ TEST_CASE("phantom_warnings_take_the_force_off_for_a_while") {
     CHECK(!bench.was_zero(0, 199));
     CHECK(hand.seen[200].cause == one.cause);
     CHECK((hand.seen[200].flags & one.flag) == one.flag);
-    CHECK((hand.seen[200].flags & MVS_DRIVER_FORCE_ON) == 0);
+    CHECK((hand.seen[200].flags & MVS_DRIVER_FLAG_FORCE_ON) == 0);
     for (long frame = 200; frame < 200 + one.quiet; ++frame) CHECK(bench.was_zero(0, frame));
     CHECK(!bench.was_zero(0, 200 + one.quiet));
     CHECK(hand.seen[200 + one.quiet].cause == MVS_CAUSE_NONE);
-    CHECK((hand.seen[200 + one.quiet].flags & MVS_DRIVER_FORCE_ON) != 0);
+    CHECK((hand.seen[200 + one.quiet].flags & MVS_DRIVER_FLAG_FORCE_ON) != 0);
   }
 }
 
@@ -307,7 +307,7 @@ TEST_CASE("phantom_warm_motors_are_told_before_they_are_too_warm") {
   bench.start();
   Hand hand{10};
   REQUIRE(hand.run(bench.plug) == MVS_DRIVER_OK);
-  CHECK((hand.seen[5].flags & MVS_DRIVER_WARM) != 0);
+  CHECK((hand.seen[5].flags & MVS_DRIVER_FLAG_WARM) != 0);
   CHECK(hand.seen[5].cause == MVS_CAUSE_NONE);
   CHECK(!bench.was_zero(0, 5));
 }

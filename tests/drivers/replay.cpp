@@ -88,7 +88,7 @@ TEST_CASE("a_recording_is_straight_between_its_samples") {
   const mvs_driver_state early = at(plug, 100.005);
   CHECK(std::abs(early.position[0] - 0.015) < tolerance);
   CHECK(std::abs(early.velocity[0] - 1) < tolerance);
-  CHECK((early.flags & MVS_DRIVER_VELOCITY) != 0);
+  CHECK((early.flags & MVS_DRIVER_FLAG_VELOCITY) != 0);
   CHECK_EQ(early.buttons, 0);
   CHECK(std::abs(early.gripper - 0.1) < tolerance);
   // an eighth of a turn: the file has the quarter with the other sign, which is the same turn
@@ -189,11 +189,11 @@ TEST_CASE("a_force_beyond_the_device_saturates_and_one_that_is_none_is_refused")
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
   plug.api.start(plug.device);
   CHECK_EQ(plug.write(0, 3.5, 0), MVS_DRIVER_OK);
-  CHECK_EQ(at(plug, 1).flags & MVS_DRIVER_SATURATED, 0);
+  CHECK_EQ(at(plug, 1).flags & MVS_DRIVER_FLAG_SATURATED, 0);
   CHECK_EQ(plug.write(0, 3.6, 0), MVS_DRIVER_OK);
-  CHECK((at(plug, 2).flags & MVS_DRIVER_SATURATED) != 0);
+  CHECK((at(plug, 2).flags & MVS_DRIVER_FLAG_SATURATED) != 0);
   CHECK_EQ(plug.write(0, std::nan(""), 0), MVS_DRIVER_E_FAULT);
-  CHECK_EQ(at(plug, 3).flags & MVS_DRIVER_FORCE_ON, 0);
+  CHECK_EQ(at(plug, 3).flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
 }
 
 TEST_CASE("a_recording_that_is_none_is_refused_with_its_line") {

@@ -19,7 +19,7 @@ TEST_CASE("the_template_is_a_device_at_rest") {
     REQUIRE_EQ(plug.read(n * 1000000, state), MVS_DRIVER_OK);
     REQUIRE_EQ(plug.write(0.5, 0, 0), MVS_DRIVER_OK);
     CHECK_EQ(state.sequence, n);
-    CHECK((state.flags & MVS_DRIVER_CALIBRATED) != 0);
+    CHECK((state.flags & MVS_DRIVER_FLAG_CALIBRATED) != 0);
     for (int k = 0; k < 3; ++k) {
       CHECK_EQ(state.position[k], 0.5 * (info.workspace_min[k] + info.workspace_max[k]));
       CHECK_EQ(state.velocity[k], 0);

@@ -101,7 +101,7 @@ void fail_each_allocation(const Call &call) {
 
 mvs_result view(const Scene &scene, uint32_t which) {
   mvs_view found;
-  return mvs_snapshot_view(scene.snapshot, which, &found);
+  return mvs_snapshot_get_array(scene.snapshot, which, &found);
 }
 
 mvs_result save(const Scene &scene, uint32_t format) {
@@ -153,11 +153,11 @@ std::vector<Call> calls() {
 
 std::vector<Call> calls_of_snapshots() {
   return {
-      {"forces", [](Scene &s) { return view(s, MVS_NODE_FORCE); }},
-      {"tables", [](Scene &s) { return view(s, MVS_CHORD_NODES); }},
-      {"coaptation", [](Scene &s) { return view(s, MVS_NODE_COAPTATION); }},
-      {"strain", [](Scene &s) { return view(s, MVS_TRIANGLE_STRESS); }},
-      {"chords", [](Scene &s) { return view(s, MVS_CHORD_TENSION); }},
+      {"forces", [](Scene &s) { return view(s, MVS_ARRAY_NODE_FORCE); }},
+      {"tables", [](Scene &s) { return view(s, MVS_ARRAY_CHORD_NODES); }},
+      {"coaptation", [](Scene &s) { return view(s, MVS_ARRAY_NODE_COAPTATION); }},
+      {"strain", [](Scene &s) { return view(s, MVS_ARRAY_TRIANGLE_STRESS); }},
+      {"chords", [](Scene &s) { return view(s, MVS_ARRAY_CHORD_TENSION); }},
       {"measure",
        [](Scene &s) {
          mvs_measures measures = {};
@@ -172,19 +172,20 @@ std::vector<Call> calls_of_snapshots() {
        }},
       {"spread",
        [](Scene &s) {
-         mvs_spread *spread = nullptr;
+         mvs_ensemble *spread = nullptr;
          const mvs_load_case load = light_load();
          mvs_settle_options settle = {};
          settle.struct_size = sizeof settle;
          settle.max_iterations = 1;
-         mvs_spread_options options = {};
+         mvs_ensemble_options options = {};
          options.struct_size = sizeof options;
          options.paths = 2;
          mvs_measures mean = {};
          mean.struct_size = sizeof mean;
-         mvs_result result = mvs_spread_run(s.snapshot, &load, &settle, &options, &spread);
-         if (result == MVS_OK) result = mvs_spread_measure(spread, MVS_SPREAD_MEAN, &mean);
-         mvs_spread_release(spread);
+         mvs_result result = mvs_ensemble_run(s.snapshot, &load, &settle, &options, &spread);
+         if (result == MVS_OK)
+           result = mvs_ensemble_measure(spread, MVS_ENSEMBLE_STATISTIC_MEAN, &mean);
+         mvs_ensemble_release(spread);
          return result;
        }},
       {"section",
@@ -196,7 +197,7 @@ std::vector<Call> calls_of_snapshots() {
       {"frame",
        [](Scene &s) {
          double frame[12];
-         return mvs_snapshot_frame(s.snapshot, frame);
+         return mvs_snapshot_get_frame(s.snapshot, frame);
        }},
       {"save obj", [](Scene &s) { return save(s, MVS_FORMAT_OBJ); }},
       {"save vtp", [](Scene &s) { return save(s, MVS_FORMAT_VTP); }},
@@ -205,7 +206,7 @@ std::vector<Call> calls_of_snapshots() {
 
 mvs_id first_part(const Scene &s, uint32_t kind) {
   mvs_part part = {};
-  MUST(mvs_snapshot_part(s.snapshot, kind, 0, &part));
+  MUST(mvs_snapshot_get_part(s.snapshot, kind, 0, &part));
   return part.id;
 }
 

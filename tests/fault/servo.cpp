@@ -24,7 +24,7 @@ struct Scene {
     desc.options = options;
     mvs_device_hand hand = {};
     hand.struct_size = sizeof hand;
-    hand.mode = MVS_HAND_GRASP;
+    hand.mode = MVS_HAND_MODE_GRASP;
     hand.reach = 0.05;
     MUST(mvs_device_open(&desc, &device));
     MUST(mvs_device_set_hand(device, &hand));
@@ -87,9 +87,9 @@ void ticks_call_no_system() {
 
 int main() {
 #if HAS_OWN_MALLOC
-  ticks_allocate_nothing(grasping, MVS_DEVICE_ON);
-  ticks_allocate_nothing("fault=nan_position\nfault_at=0.5", MVS_DEVICE_LATCHED);
-  ticks_allocate_nothing("fault=jump\nfault_at=0.5", MVS_DEVICE_LATCHED);
+  ticks_allocate_nothing(grasping, MVS_DEVICE_PHASE_ON);
+  ticks_allocate_nothing("fault=nan_position\nfault_at=0.5", MVS_DEVICE_PHASE_LATCHED);
+  ticks_allocate_nothing("fault=jump\nfault_at=0.5", MVS_DEVICE_PHASE_LATCHED);
 #endif
 #if HAS_SECCOMP
   ticks_call_no_system();

@@ -48,8 +48,9 @@ inline Pair in_motion(Valve valve) {
   valve.open[valve.annulus[0]] += Vec3(1e-4, 0, 0);
   valve.origin.resize(valve.rest.size(), 3u);
   valve.origin.back() = none;
-  valve.rings.push_back({0, "ring 1", MVS_RING_RIGID, {Vec3(0, 1e-3, 2e-3), Vec3(1e-3, 0, 0)}});
-  valve.rings.push_back({0, "band", MVS_RING_BAND, {}});
+  valve.rings.push_back(
+      {0, "ring 1", MVS_RING_KIND_RIGID, {Vec3(0, 1e-3, 2e-3), Vec3(1e-3, 0, 0)}});
+  valve.rings.push_back({0, "band", MVS_RING_KIND_BAND, {}});
   valve.scallops = {{0, "A2", 0}, {0, "P1", 1}, {0, "P3", 1}};
   valve.triangle_scallop.clear();
   valve.triangle_thickness.clear();
@@ -169,12 +170,12 @@ inline void draw_chords(RandomBits &random, uint32_t n, Valve &valve) {
   for (Chord &chord : valve.chords) {
     chord.a = random.below(n);
     chord.b = random.below(n);
-    chord.kind = random.below(MVS_CHORD_TRUNK + 1);
+    chord.kind = random.below(MVS_CHORD_KIND_TRUNK + 1);
     chord.rest_length = random.number();
     chord.young = random.number();
     chord.area = random.number();
-    chord.law = 1 + random.below(MVS_CHORD_TABLE);
-    if (chord.law == MVS_CHORD_TABLE) {
+    chord.law = 1 + random.below(MVS_CHORD_LAW_TABLE);
+    if (chord.law == MVS_CHORD_LAW_TABLE) {
       chord.constants[0] = random.below(static_cast<uint32_t>(valve.curves.size()));
     } else {
       const size_t known = find_chord_law(chord.law)->constants.size();

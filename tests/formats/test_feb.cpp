@@ -160,8 +160,9 @@ TEST_CASE("feb_counts_are_those_of_the_valve") {
 }
 
 TEST_CASE("feb_energies_are_those_of_the_laws") {
-  for (const uint32_t law : {MVS_LEAFLET_BILINEAR, MVS_LEAFLET_FUNG, MVS_LEAFLET_MAY_NEWMAN_YIN,
-                             MVS_LEAFLET_PROT, MVS_LEAFLET_NEO_HOOKEAN}) {
+  for (const uint32_t law :
+       {MVS_LEAFLET_LAW_BILINEAR, MVS_LEAFLET_LAW_FUNG, MVS_LEAFLET_LAW_MAY_NEWMAN_YIN,
+        MVS_LEAFLET_LAW_PROT, MVS_LEAFLET_LAW_NEO_HOOKEAN}) {
     CAPTURE(law);
     const Valve valve = toy_of(law);
     const std::string w = inside(feb_of(valve), "W");
@@ -193,7 +194,7 @@ TEST_CASE("feb_springs_are_the_chords_with_their_slack") {
       const double elongation = chord.rest_length * (1 + strain) - distance;
       const double tension = strain <= 0 ? 0 : chord_tension(valve, chord, strain) * 1e3;
       // chords of the curve between 64 points lie above it by under 1 % of a steep exponential
-      const double close = chord.law == MVS_CHORD_LINEAR ? 1e-9 : 2e-2;
+      const double close = chord.law == MVS_CHORD_LAW_LINEAR ? 1e-9 : 2e-2;
       CHECK(std::abs(interpolated(points, elongation * 1e3) - tension) <=
             close * tension + 1e-9 * valve.chords[0].area * 1e12);
     }
@@ -218,7 +219,7 @@ TEST_CASE("feb_names_are_escaped") {
 }
 
 TEST_CASE("feb_has_no_springs_for_leaflets") {
-  const Valve valve = toy_of(MVS_LEAFLET_SPRING);
+  const Valve valve = toy_of(MVS_LEAFLET_LAW_SPRING);
   const ModelPtr model = make_model(valve);
   try {
     write_feb(*model, initial_state(*model));

@@ -61,7 +61,7 @@ Snapshot with_ring(const Snapshot &now) {
     curve.push_back({14e-3 * std::cos(angle), 14e-3 * std::sin(angle), 0});
   }
   mvs_op_ring ring = {};
-  ring.curve = {curve.data(), curve.size(), 3, MVS_F64, 0};
+  ring.curve = {curve.data(), curve.size(), 3, MVS_TYPE_F64, 0};
   return with_op(now, ring, MVS_OP_RING);
 }
 
@@ -242,7 +242,7 @@ TEST_CASE("a_file_of_version_4_is_read_as_ever") {
   const Snapshot now = read_session(read_whole_file(data));
   REQUIRE(now.history.past.size() == 1);
   const auto op = now.history.past.items()[0][0]->op.as<mvs_op_chord_transfer>();
-  CHECK(op.end == MVS_END_HEAD);
+  CHECK(op.end == MVS_CHORD_END_HEAD);
   const std::vector<Chord> &chords = now.current.model->valve.chords;
   const auto chord = std::find_if(chords.begin(), chords.end(),
                                   [&](const Chord &one) { return one.id == op.chord; });
@@ -257,7 +257,7 @@ TEST_CASE("what_live_steps_go_on_from_is_part_of_a_session") {
   State &state = now.current.state;
   Tool ball;
   ball.id = 7;
-  ball.kind = MVS_TOOL_BALL;
+  ball.kind = MVS_TOOL_KIND_BALL;
   ball.node = none;
   ball.radius = ball.stiffness = ball.max_force = 1;
   state.serving = {state.x, {}, 12e3, 1e-3, 0, 9};

@@ -65,7 +65,7 @@ class Script {
 
   mvs_history history() const {
     mvs_history out = mvs::sized<mvs_history>();
-    mvs::must(mvs_snapshot_history(sim_.snapshot().get(), &out));
+    mvs::must(mvs_snapshot_get_history(sim_.snapshot().get(), &out));
     return out;
   }
 
@@ -169,7 +169,7 @@ class Script {
     if (bytes_.below(2)) desc.stiffness = 200 * bytes_.between(0, 10);
     const Hash before = hash();
     mvs_id tool = 0;
-    const mvs_result added = mvs_tool_add(sim_.get(), &desc, &tool);
+    const mvs_result added = mvs_add_tool(sim_.get(), &desc, &tool);
     had_tools_ = had_tools_ || added == MVS_OK;
     if (added == MVS_OK) return;
     demand(added == MVS_E_ARGUMENT || added == MVS_E_STATE, mvs_last_error()->message);
@@ -188,14 +188,14 @@ class Script {
     const mvs_id tool = some_tool();
     mvs_tool_state state = mvs::sized<mvs_tool_state>();
     std::array<double, 3> to = place();
-    const bool is_there = mvs_tool_get(sim_.get(), tool, &state) == MVS_OK;
+    const bool is_there = mvs_get_tool(sim_.get(), tool, &state) == MVS_OK;
     if (is_there && bytes_.below(4) != 0) {
       for (size_t k = 0; k < 3; ++k) to[k] = state.position[k] + 0.05 * to[k];
     }
     const std::array<double, 3> axis = place();
     const Hash before = hash();
     const mvs_result moved =
-        mvs_tool_move(sim_.get(), tool, to.data(), bytes_.below(2) ? axis.data() : nullptr);
+        mvs_move_tool(sim_.get(), tool, to.data(), bytes_.below(2) ? axis.data() : nullptr);
     demand(moved == (is_there ? MVS_OK : MVS_E_ID), mvs_last_error()->message);
     demand(hash() == before, "a hand moved a tool before a step began");
   }
@@ -203,9 +203,9 @@ class Script {
   void remove_tool() {
     const mvs_id tool = some_tool();
     mvs_tool_state state = mvs::sized<mvs_tool_state>();
-    const bool is_there = mvs_tool_get(sim_.get(), tool, &state) == MVS_OK;
+    const bool is_there = mvs_get_tool(sim_.get(), tool, &state) == MVS_OK;
     const Hash before = hash();
-    const mvs_result removed = mvs_tool_remove(sim_.get(), tool);
+    const mvs_result removed = mvs_remove_tool(sim_.get(), tool);
     demand(removed == (is_there ? MVS_OK : MVS_E_ID), mvs_last_error()->message);
     demand(is_there != (hash() == before), "a tool was not removed, or none changed something");
   }
@@ -230,14 +230,14 @@ class Script {
     demand(std::includes(before.begin(), before.end(), after.begin(), after.end()),
            "a move made triangles cross");
     for (const mvs_tool_state &tool : tools()) {
-      demand(tool.kind == MVS_TOOL_GRASP || tool.distance > 0, "a tool lies in tissue");
+      demand(tool.kind == MVS_TOOL_KIND_GRASP || tool.distance > 0, "a tool lies in tissue");
     }
   }
 
   std::vector<stability::Pair> crossing() const {
     const mvs::Snapshot now = sim_.snapshot();
-    const auto x = now.view<double>(MVS_NODE_POSITION);
-    const auto triangles = now.view<uint32_t>(MVS_TRIANGLE_NODES);
+    const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
+    const auto triangles = now.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
     demand(std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); }),
            "a place is no number");
     return stability::crossings(x.data(), x.rows(), triangles.data(), triangles.rows());

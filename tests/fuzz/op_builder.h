@@ -37,14 +37,14 @@ class Builder {
   Builder(const mvs::Snapshot &valve, Bytes &bytes) : valve_(valve), bytes_(bytes) {}
 
   const mvs_op *build() {
-    const uint32_t index = bytes_.below(mvs_op_count());
+    const uint32_t index = bytes_.below(mvs_get_op_count());
     mvs_op_info info = mvs::sized<mvs_op_info>();
-    mvs::must(mvs_op_describe(index, &info));
+    mvs::must(mvs_get_op_info(index, &info));
     words_.assign((info.size + 7) / 8, 0);
     put(mvs_op{info.size, info.kind}, 0);
     for (uint32_t f = 0; f < info.fields; ++f) {
       mvs_field_info field = mvs::sized<mvs_field_info>();
-      mvs::must(mvs_op_describe_field(index, f, &field));
+      mvs::must(mvs_get_op_field(index, f, &field));
       // what may be left out is left out half the time
       if (field.required || bytes_.below(2)) fill(field);
     }
@@ -116,8 +116,9 @@ class Builder {
         for (uint32_t k = 3 * bytes_.below(12); k > 0; --k) {
           points_.back()->push_back(bytes_.between(-0.02, 0.02));
         }
-        return put(mvs_array{points_.back()->data(), points_.back()->size() / 3, 3, MVS_F64, 0},
-                   f.offset);
+        return put(
+            mvs_array{points_.back()->data(), points_.back()->size() / 3, 3, MVS_TYPE_F64, 0},
+            f.offset);
       default:
         return put(bytes_.below(2) ? "a name" : "another", f.offset);
     }

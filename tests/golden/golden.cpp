@@ -36,8 +36,8 @@ std::string digest(const void *data, size_t size) {
 
 std::string digest_of_array(const mvs_snapshot *snapshot, uint32_t which) {
   mvs_view view;
-  golden::check(mvs_snapshot_view(snapshot, which, &view));
-  const size_t width = view.type == MVS_F64 ? 8 : 4;
+  golden::check(mvs_snapshot_get_array(snapshot, which, &view));
+  const size_t width = view.type == MVS_TYPE_F64 ? 8 : 4;
   return digest(view.data, view.count * view.components * width);
 }
 
@@ -54,12 +54,12 @@ const std::vector<std::string> columns = {"position", "velocity", "force",   "st
                                           "contact",  "tension",  "measures"};
 
 Row row_of(const mvs_snapshot *snapshot) {
-  return {digest_of_array(snapshot, MVS_NODE_POSITION),
-          digest_of_array(snapshot, MVS_NODE_VELOCITY),
-          digest_of_array(snapshot, MVS_NODE_FORCE),
-          digest_of_array(snapshot, MVS_TRIANGLE_STRESS),
-          digest_of_array(snapshot, MVS_NODE_CONTACT_FORCE),
-          digest_of_array(snapshot, MVS_CHORD_TENSION),
+  return {digest_of_array(snapshot, MVS_ARRAY_NODE_POSITION),
+          digest_of_array(snapshot, MVS_ARRAY_NODE_VELOCITY),
+          digest_of_array(snapshot, MVS_ARRAY_NODE_FORCE),
+          digest_of_array(snapshot, MVS_ARRAY_TRIANGLE_STRESS),
+          digest_of_array(snapshot, MVS_ARRAY_NODE_CONTACT_FORCE),
+          digest_of_array(snapshot, MVS_ARRAY_CHORD_TENSION),
           digest_of_measures(snapshot)};
 }
 

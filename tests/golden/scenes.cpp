@@ -19,7 +19,7 @@ Struct sized() {
 // A simulator with a parametric valve.
 class Sim {
  public:
-  explicit Sim(uint32_t vertices, uint32_t law = MVS_LEAFLET_SPRING, uint32_t branching = 0) {
+  explicit Sim(uint32_t vertices, uint32_t law = MVS_LEAFLET_LAW_SPRING, uint32_t branching = 0) {
     check(mvs_create(nullptr, &sim_));
     auto desc = sized<mvs_parametric_desc>();
     desc.vertices = vertices;
@@ -27,7 +27,7 @@ class Sim {
     check(mvs_generate_valve(sim_, &desc));
     mvs_leaflet_desc tissue = {};
     tissue.law = law;
-    if (law != MVS_LEAFLET_SPRING) check(mvs_set_leaflet(sim_, 0, &tissue));
+    if (law != MVS_LEAFLET_LAW_SPRING) check(mvs_set_leaflet(sim_, 0, &tissue));
   }
   Sim(const Sim &) = delete;
   Sim &operator=(const Sim &) = delete;
@@ -60,7 +60,7 @@ class Sim {
     const mvs_snapshot *snapshot = nullptr;
     mvs_part part;
     check(mvs_get_snapshot(sim_, &snapshot));
-    check(mvs_snapshot_find(snapshot, kind, name, &part));
+    check(mvs_snapshot_find_part(snapshot, kind, name, &part));
     mvs_snapshot_release(snapshot);
     return part;
   }
@@ -69,7 +69,7 @@ class Sim {
     const mvs_snapshot *snapshot = nullptr;
     mvs_view view;
     check(mvs_get_snapshot(sim_, &snapshot));
-    check(mvs_snapshot_view(snapshot, MVS_NODE_POSITION, &view));
+    check(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &view));
     std::memcpy(p, static_cast<const double *>(view.data) + 3 * size_t{node}, 3 * sizeof *p);
     mvs_snapshot_release(snapshot);
   }
@@ -84,13 +84,13 @@ void close_valves(const Record &record) {
   const struct {
     const char *name;
     uint32_t vertices, law, branching;
-  } cases[] = {{"close S spring", small, MVS_LEAFLET_SPRING, 0},
-               {"close S bilinear", small, MVS_LEAFLET_BILINEAR, 0},
-               {"close S may_newman_yin", small, MVS_LEAFLET_MAY_NEWMAN_YIN, 0},
-               {"close S fung branching", small, MVS_LEAFLET_FUNG, 1},
-               {"close M spring", medium, MVS_LEAFLET_SPRING, 0},
-               {"close M bilinear", medium, MVS_LEAFLET_BILINEAR, 0},
-               {"close M prot", medium, MVS_LEAFLET_PROT, 0}};
+  } cases[] = {{"close S spring", small, MVS_LEAFLET_LAW_SPRING, 0},
+               {"close S bilinear", small, MVS_LEAFLET_LAW_BILINEAR, 0},
+               {"close S may_newman_yin", small, MVS_LEAFLET_LAW_MAY_NEWMAN_YIN, 0},
+               {"close S fung branching", small, MVS_LEAFLET_LAW_FUNG, 1},
+               {"close M spring", medium, MVS_LEAFLET_LAW_SPRING, 0},
+               {"close M bilinear", medium, MVS_LEAFLET_LAW_BILINEAR, 0},
+               {"close M prot", medium, MVS_LEAFLET_LAW_PROT, 0}};
   for (const auto &c : cases) {
     Sim sim(c.vertices, c.law, c.branching);
     sim.load();
@@ -117,10 +117,10 @@ mvs_id add_tool(const Sim &sim, uint32_t kind, uint32_t node, const double *at) 
   auto desc = sized<mvs_tool_desc>();
   desc.kind = kind;
   std::memcpy(desc.position, at, sizeof desc.position);
-  desc.by_node = kind == MVS_TOOL_GRASP;
+  desc.by_node = kind == MVS_TOOL_KIND_GRASP;
   desc.node = node;
   mvs_id id = 0;
-  check(mvs_tool_add(sim, &desc, &id));
+  check(mvs_add_tool(sim, &desc, &id));
   return id;
 }
 
@@ -130,7 +130,7 @@ void lead(Sim &sim, mvs_id tool, const double *from, const double *towards) {
   std::memcpy(at, from, sizeof at);
   for (int k = 0; k < 200; ++k) {
     for (int c = 0; c < 3; ++c) at[c] += 20e-6 * towards[c];
-    check(mvs_tool_move(sim, tool, at, nullptr));
+    check(mvs_move_tool(sim, tool, at, nullptr));
     sim.step(1);
   }
 }
@@ -140,10 +140,11 @@ void lead_hands(const Record &record) {
     const char *name;
     uint32_t law, kind;
     double towards[3];
-  } cases[] = {{"200 steps grasp spring", MVS_LEAFLET_SPRING, MVS_TOOL_GRASP, {0.3, 0.2, 0.9}},
-               {"200 steps grasp bilinear", MVS_LEAFLET_BILINEAR, MVS_TOOL_GRASP, {0.1, -0.6, 0.7}},
-               {"200 steps ball spring", MVS_LEAFLET_SPRING, MVS_TOOL_BALL, {0.1, 0.1, -1}},
-               {"200 steps rod prot", MVS_LEAFLET_PROT, MVS_TOOL_ROD, {0.1, 0, -1}}};
+  } cases[] = {
+      {"200 steps grasp spring", MVS_LEAFLET_LAW_SPRING, MVS_TOOL_KIND_GRASP, {0.3, 0.2, 0.9}},
+      {"200 steps grasp bilinear", MVS_LEAFLET_LAW_BILINEAR, MVS_TOOL_KIND_GRASP, {0.1, -0.6, 0.7}},
+      {"200 steps ball spring", MVS_LEAFLET_LAW_SPRING, MVS_TOOL_KIND_BALL, {0.1, 0.1, -1}},
+      {"200 steps rod prot", MVS_LEAFLET_LAW_PROT, MVS_TOOL_KIND_ROD, {0.1, 0, -1}}};
   for (const auto &c : cases) {
     Sim sim(small, c.law);
     sim.load();
@@ -151,7 +152,7 @@ void lead_hands(const Record &record) {
     double at[3];
     const uint32_t node = 200;
     sim.node_position(node, at);
-    if (c.kind != MVS_TOOL_GRASP) at[2] += 6e-3;
+    if (c.kind != MVS_TOOL_KIND_GRASP) at[2] += 6e-3;
     lead(sim, add_tool(sim, c.kind, node, at), at, c.towards);
     sim.record(record, c.name);
   }
@@ -218,7 +219,7 @@ std::vector<OpCase> op_cases() {
       op_case<mvs_op_chord_transfer>("chord_transfer head", MVS_OP_CHORD_TRANSFER,
                                      [=](const Sim &sim, auto &op) {
                                        op.chord = chord(sim, "A2/2");
-                                       op.end = MVS_END_HEAD;
+                                       op.end = MVS_CHORD_END_HEAD;
                                        op.head = head(sim, "PM2");
                                      }),
       op_case<mvs_op_annulus_scale>("annulus_scale", MVS_OP_ANNULUS_SCALE,
@@ -265,7 +266,7 @@ void operate(const Record &record) {
     check(mvs_undo(sim));
   }
   sim.record(record, "op all undone");
-  Sim membrane(small, MVS_LEAFLET_BILINEAR);
+  Sim membrane(small, MVS_LEAFLET_LAW_BILINEAR);
   membrane.load();
   membrane.settle();
   for (const OpCase &c : op_cases()) {
@@ -286,9 +287,9 @@ void replay(const Record &record) {
   double at[3];
   sim.node_position(150, at);
   const double up[3] = {0, 0, 1};
-  const mvs_id tool = add_tool(sim, MVS_TOOL_GRASP, 150, at);
+  const mvs_id tool = add_tool(sim, MVS_TOOL_KIND_GRASP, 150, at);
   lead(sim, tool, at, up);
-  check(mvs_tool_remove(sim, tool));
+  check(mvs_remove_tool(sim, tool));
   op_cases()[6].apply(sim);
   sim.settle();
   sim.record(record, "plan recorded");
@@ -321,20 +322,20 @@ void levels(const Record &record) {
 void paths(const Record &record) {
   Sim sim(small);
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
-  auto options = sized<mvs_spread_options>();
+  auto options = sized<mvs_ensemble_options>();
   options.paths = 4;
   const mvs_snapshot *start = nullptr;
   check(mvs_get_snapshot(sim, &start));
-  mvs_spread *spread = nullptr;
-  check(mvs_spread_run(start, &systole, nullptr, &options, &spread));
+  mvs_ensemble *spread = nullptr;
+  check(mvs_ensemble_run(start, &systole, nullptr, &options, &spread));
   mvs_snapshot_release(start);
   for (uint32_t k = 0; k < options.paths; ++k) {
     const mvs_snapshot *snapshot = nullptr;
-    check(mvs_spread_snapshot(spread, k, &snapshot));
+    check(mvs_ensemble_get_member_snapshot(spread, k, &snapshot));
     record("path " + std::to_string(k), snapshot);
     mvs_snapshot_release(snapshot);
   }
-  mvs_spread_release(spread);
+  mvs_ensemble_release(spread);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ const Valve425 &valve() {
 // A grasp of a node, with the hand pulled away from it.
 Id hold(State &state, uint32_t node, const Vec3 &pull, double stiffness) {
   Tool tool;
-  tool.kind = MVS_TOOL_GRASP;
+  tool.kind = MVS_TOOL_KIND_GRASP;
   tool.node = node;
   tool.position = state.x.get()[node] + pull;
   tool.stiffness = stiffness;
@@ -74,7 +74,7 @@ std::vector<uint32_t> some_nodes(size_t count) {
   std::vector<uint32_t> free, some;
   const auto &kind = valve().model->topology.node_kind.get();
   for (uint32_t i = 0; i < kind.size(); ++i) {
-    if (kind[i] == MVS_NODE_IS_LEAFLET) free.push_back(i);
+    if (kind[i] == MVS_NODE_KIND_LEAFLET) free.push_back(i);
   }
   for (size_t k = 0; k < count; ++k) some.push_back(free[(2 * k + 1) * free.size() / (2 * count)]);
   return some;
@@ -147,7 +147,7 @@ TEST_CASE(
     CAPTURE(node);
     State state = valve().closed;
     Tool ball;
-    ball.kind = MVS_TOOL_BALL;
+    ball.kind = MVS_TOOL_KIND_BALL;
     ball.radius = 2e-3;
     ball.stiffness = 200;
     ball.max_force = 5;

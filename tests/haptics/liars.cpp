@@ -89,7 +89,7 @@ TEST_CASE("a loop that hangs is noticed, latched, and left behind") {
   device.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
   const ServoStatus now = device.status();
-  CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
+  CHECK_EQ(now.phase, MVS_DEVICE_PHASE_LATCHED);
   CHECK_EQ(now.cause, MVS_CAUSE_WATCHDOG);
   CHECK_THROWS_AS(device.arm(), Error);
   CHECK_THROWS_AS(device.stop(), Error);

@@ -28,7 +28,7 @@ bool can_arm(Loop &loop) {
 }
 
 void check_felt(const ServoStatus &now) {
-  CHECK_EQ(now.phase, MVS_DEVICE_ON);
+  CHECK_EQ(now.phase, MVS_DEVICE_PHASE_ON);
   CHECK_LT(now.force.x(), -0.05);
 }
 
@@ -58,11 +58,11 @@ TEST_CASE("every fault of the list latches forces off, and only an arm brings th
     loop.post(spring(200));
     check_felt(loop.run(0.9));
     const ServoStatus during = loop.run(0.4);
-    CHECK_EQ(during.phase, MVS_DEVICE_LATCHED);
+    CHECK_EQ(during.phase, MVS_DEVICE_PHASE_LATCHED);
     CHECK_EQ(during.cause, fault.cause);
     CHECK(during.force.isZero(0));
     const ServoStatus after = loop.run(0.5);
-    CHECK_EQ(after.phase, MVS_DEVICE_LATCHED);
+    CHECK_EQ(after.phase, MVS_DEVICE_PHASE_LATCHED);
     CHECK_EQ(after.cause, fault.cause);
     CHECK(after.force.isZero(0));
     CHECK_EQ(can_arm(loop), fault.passes);
@@ -91,7 +91,7 @@ TEST_CASE("saturated motors are told, and nothing else happens") {
   loop.post(spring(200));
   const ServoStatus now = loop.run(0.5);
   check_felt(now);
-  CHECK((now.flags & MVS_DRIVER_SATURATED) != 0);
+  CHECK((now.flags & MVS_DRIVER_FLAG_SATURATED) != 0);
 }
 
 TEST_CASE("a button that is stuck from the start is no press, one that bounces changes nothing") {
@@ -130,7 +130,7 @@ TEST_CASE("forces wait behind the gate, then come up along the ramp") {
   loop.post(spring(200));  // 0.4 N at 2 mm, above the gate of 0.2
   loop.device().arm();
   const ServoStatus waiting = loop.run(0.5);
-  CHECK_EQ(waiting.phase, MVS_DEVICE_WAITING);
+  CHECK_EQ(waiting.phase, MVS_DEVICE_PHASE_WAITING);
   CHECK(waiting.force.isZero(0));
   loop.post(spring(80));
   loop.run(0.01);
@@ -138,13 +138,13 @@ TEST_CASE("forces wait behind the gate, then come up along the ramp") {
   for (int k = 0; k < 48; ++k) {
     const ServoStatus now = loop.run(0.01);
     const double force = now.force.norm();
-    CHECK_EQ(now.phase, MVS_DEVICE_RAMPING);
+    CHECK_EQ(now.phase, MVS_DEVICE_PHASE_RAMPING);
     // a fiftieth of the force each 10 ms, and what the hand moves meanwhile
     CHECK_GT(force, before);
     CHECK_LT(force - before, 2.0 / 50 * 80 * 0.002);
     before = force;
   }
-  CHECK_EQ(loop.run(0.05).phase, MVS_DEVICE_ON);
+  CHECK_EQ(loop.run(0.05).phase, MVS_DEVICE_PHASE_ON);
 }
 
 TEST_CASE("a force is clamped to what the user allows, and changes no faster than that") {
@@ -213,7 +213,7 @@ TEST_CASE("forces fade when the simulation stands still, and come back with it")
   loop.post(spring(200));
   check_felt(loop.run(0.09));
   const ServoStatus fading = loop.run(0.03);
-  CHECK_EQ(fading.phase, MVS_DEVICE_FADED);
+  CHECK_EQ(fading.phase, MVS_DEVICE_PHASE_FADED);
   CHECK_GT(fading.force.norm(), 0);
   CHECK(loop.run(0.1).force.isZero(1e-12));
   loop.post(spring(200));
@@ -239,7 +239,7 @@ TEST_CASE("a tissue that is no number latches, and never reaches the motors") {
     if (where == 3) wrong.most = nan;
     loop.post(wrong);
     const ServoStatus now = loop.run(0.01);
-    CHECK_EQ(now.phase, MVS_DEVICE_LATCHED);
+    CHECK_EQ(now.phase, MVS_DEVICE_PHASE_LATCHED);
     CHECK_EQ(now.cause, MVS_CAUSE_NOT_FINITE);
     CHECK(now.force.isZero(0));
   }
@@ -255,10 +255,10 @@ TEST_CASE("the application's cut works from anywhere, and a stop and start does 
   CHECK_EQ(now.cause, MVS_CAUSE_SOFTWARE);
   CHECK(now.force.isZero(0));
   loop.device().stop();
-  CHECK_EQ(loop.run_stopped().phase, MVS_DEVICE_STOPPED);
+  CHECK_EQ(loop.run_stopped().phase, MVS_DEVICE_PHASE_STOPPED);
   loop.device().start();
   CHECK(loop.run(0.1).force.isZero(0));
-  CHECK_EQ(loop.run(0).phase, MVS_DEVICE_OFF);
+  CHECK_EQ(loop.run(0).phase, MVS_DEVICE_PHASE_OFF);
 }
 
 TEST_CASE("the edge of the workspace pushes back, before the device's own stop") {

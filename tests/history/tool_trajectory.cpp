@@ -21,7 +21,7 @@ RecordedEvent hand(Id id, uint32_t kind, Random &random) {
   tool.id = id;
   tool.kind = kind;
   tool.position = Vec3(at(random), at(random), at(random));
-  if (kind == MVS_TOOL_ROD) tool.axis = Vec3(at(random), at(random), 1).normalized();
+  if (kind == MVS_TOOL_KIND_ROD) tool.axis = Vec3(at(random), at(random), 1).normalized();
   RecordedEvent move;
   move.kind = RecordedEvent::tool_move;
   move.tool = {tool};
@@ -69,9 +69,9 @@ class Follower {
 // What a hand does for a while: which tools move before the next step.
 std::vector<RecordedEvent> some_hands(Random &random, uint32_t which) {
   std::vector<RecordedEvent> hands;
-  if (which & 1) hands.push_back(hand(grasp_id, MVS_TOOL_GRASP, random));
-  if (which & 2) hands.push_back(hand(rod_id, MVS_TOOL_ROD, random));
-  if (which & 4) hands.push_back(hand(ball_id, MVS_TOOL_BALL, random));
+  if (which & 1) hands.push_back(hand(grasp_id, MVS_TOOL_KIND_GRASP, random));
+  if (which & 2) hands.push_back(hand(rod_id, MVS_TOOL_KIND_ROD, random));
+  if (which & 4) hands.push_back(hand(ball_id, MVS_TOOL_KIND_BALL, random));
   return hands;
 }
 

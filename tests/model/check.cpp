@@ -276,20 +276,20 @@ TEST_CASE("materials_that_cannot_be_are_named") {
   check_fault("follows law 7", 1, [](Valve &v) { v.leaflets[0].law = 7; });
   check_fault("its law (spring) has only 3", 1, [](Valve &v) { v.leaflets[0].constants[3] = 1; });
   check_fault("constant c2", 1, [](Valve &v) {
-    v.leaflets[0].law = MVS_LEAFLET_FUNG;
+    v.leaflets[0].law = MVS_LEAFLET_LAW_FUNG;
     v.leaflets[0].constants = {1e3, 124, -4.6};
   });
   check_fault("follows law 5", 1, [](Valve &v) { v.chords[2].law = 5; });
   check_fault("give both, or neither", 1, [](Valve &v) {
-    v.chords[2].law = MVS_CHORD_OGDEN;
+    v.chords[2].law = MVS_CHORD_LAW_OGDEN;
     v.chords[2].constants = {1e6, 10, 1e6, 0, 0, 0};
   });
   check_fault("gets softer than nothing", 1, [](Valve &v) {
-    v.chords[2].law = MVS_CHORD_OGDEN;
+    v.chords[2].law = MVS_CHORD_LAW_OGDEN;
     v.chords[2].constants = {-1e6, 10, 0, 0, 0, 0};
   });
   check_fault("names curve 1, but there are 1", 1, [](Valve &v) {
-    v.chords[2].law = MVS_CHORD_TABLE;
+    v.chords[2].law = MVS_CHORD_LAW_TABLE;
     v.chords[2].constants = {1};
     v.curves = {{0, "c", {{0, 0}, {0.1, 1e6}}}};
   });

@@ -53,12 +53,12 @@ inline Valve small_valve() {
       made.kind = kind;
       valve.chords.push_back(made);
     };
-    chord(head, head + 1, MVS_CHORD_TRUNK);
+    chord(head, head + 1, MVS_CHORD_KIND_TRUNK);
     const uint32_t s = h == 0 ? 0 : small_segments / 2;
-    chord(head + 1, edge + s, MVS_CHORD_MARGINAL);
-    chord(head + 1, edge - small_segments + s, MVS_CHORD_ROUGH_ZONE);
+    chord(head + 1, edge + s, MVS_CHORD_KIND_MARGINAL);
+    chord(head + 1, edge - small_segments + s, MVS_CHORD_KIND_ROUGH_ZONE);
     for (const uint32_t off : {2u, 4u, small_segments - 2u}) {
-      chord(head, edge + (s + off) % small_segments, MVS_CHORD_MARGINAL);
+      chord(head, edge + (s + off) % small_segments, MVS_CHORD_KIND_MARGINAL);
     }
   }
   return valve;

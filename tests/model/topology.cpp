@@ -81,12 +81,12 @@ TEST_CASE("nodes_are_of_their_kind_and_prescribed_where_the_heart_holds_them") {
   const Topology topology = make_topology(valve);
   const uint32_t sheet = small_rows * small_segments;
   for (uint32_t n = 0; n < valve.rest.size(); ++n) {
-    const int kind = n < small_segments ? MVS_NODE_IS_ANNULUS
-                     : n < sheet        ? MVS_NODE_IS_LEAFLET
-                     : n % 2 == 0       ? MVS_NODE_IS_HEAD
-                                        : MVS_NODE_IS_BRANCH;
+    const int kind = n < small_segments ? MVS_NODE_KIND_ANNULUS
+                     : n < sheet        ? MVS_NODE_KIND_LEAFLET
+                     : n % 2 == 0       ? MVS_NODE_KIND_HEAD
+                                        : MVS_NODE_KIND_BRANCH;
     CHECK(topology.node_kind[n] == kind);
-    CHECK(topology.fixed[n] == (kind == MVS_NODE_IS_ANNULUS || kind == MVS_NODE_IS_HEAD));
+    CHECK(topology.fixed[n] == (kind == MVS_NODE_KIND_ANNULUS || kind == MVS_NODE_KIND_HEAD));
   }
 }
 

@@ -30,9 +30,9 @@ ModelPtr valve(const std::function<void(Valve &)> &change = {}) {
 
 void to_membrane(Valve &valve) {
   for (size_t k = 0; k < valve.leaflets.size(); ++k) {
-    valve.leaflets[k].law = MVS_LEAFLET_BILINEAR;
+    valve.leaflets[k].law = MVS_LEAFLET_LAW_BILINEAR;
     valve.leaflets[k].constants =
-        default_constants(find_leaflet_law(MVS_LEAFLET_BILINEAR)->constants);
+        default_constants(find_leaflet_law(MVS_LEAFLET_LAW_BILINEAR)->constants);
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 Tool grasp(uint32_t node, const Vec3 &hand, double stiffness = 200, double force = 5) {
   Tool tool;
-  tool.kind = MVS_TOOL_GRASP;
+  tool.kind = MVS_TOOL_KIND_GRASP;
   tool.node = node;
   tool.position = hand;
   tool.stiffness = stiffness;

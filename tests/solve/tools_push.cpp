@@ -22,7 +22,7 @@ namespace {
 
 Tool ball(const Vec3 &at, double radius, double stiffness = 200, double force = 2) {
   Tool tool;
-  tool.kind = MVS_TOOL_BALL;
+  tool.kind = MVS_TOOL_KIND_BALL;
   tool.position = at;
   tool.radius = radius;
   tool.stiffness = stiffness;
@@ -32,7 +32,7 @@ Tool ball(const Vec3 &at, double radius, double stiffness = 200, double force = 
 
 Tool rod(const Vec3 &tip, const Vec3 &axis, double radius, double length) {
   Tool tool = ball(tip, radius);
-  tool.kind = MVS_TOOL_ROD;
+  tool.kind = MVS_TOOL_KIND_ROD;
   tool.axis = axis.normalized();
   tool.length = length;
   return tool;

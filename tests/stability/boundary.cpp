@@ -57,9 +57,9 @@ void ring_upside_down(Watch &watch) {
     }
   }
   mvs_op_ring op = {};
-  op.curve = {curve.data(), curve.size() / 3, 3, MVS_F64, 0};
-  op.landmarks = {marks.data(), marks.size() / 3, 3, MVS_F64, 0};
-  op.landmarks_at = {marks_at.data(), marks_at.size() / 3, 3, MVS_F64, 0};
+  op.curve = {curve.data(), curve.size() / 3, 3, MVS_TYPE_F64, 0};
+  op.landmarks = {marks.data(), marks.size() / 3, 3, MVS_TYPE_F64, 0};
+  op.landmarks_at = {marks_at.data(), marks_at.size() / 3, 3, MVS_TYPE_F64, 0};
   watch.operate(op, MVS_OP_RING);
   watch.rest();
 }

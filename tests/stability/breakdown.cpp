@@ -67,20 +67,21 @@ void operate(mvs::Sim &sim, const Run &run) {
 
 // m, the longest way of a held node to where it has to be.
 double way_of_boundary(const mvs::Snapshot &now) {
-  const auto kinds = now.view<uint8_t>(MVS_NODE_KIND);
-  const auto x = now.view<double>(MVS_NODE_POSITION), goal = now.view<double>(MVS_NODE_LOADED);
+  const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION),
+             goal = now.view<double>(MVS_ARRAY_NODE_LOADED);
   double most = 0;
   for (size_t n = 0; n < kinds.rows(); ++n) {
     const double *a = x.row(n), *b = goal.row(n);
-    if (kinds.data()[n] != MVS_NODE_IS_ANNULUS && kinds.data()[n] != MVS_NODE_IS_HEAD) continue;
+    if (kinds.data()[n] != MVS_NODE_KIND_ANNULUS && kinds.data()[n] != MVS_NODE_KIND_HEAD) continue;
     most = std::max(most, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
   }
   return most;
 }
 
 std::vector<Pair> crossings_of(const mvs::Snapshot &now) {
-  const auto x = now.view<double>(MVS_NODE_POSITION);
-  const auto triangles = now.view<uint32_t>(MVS_TRIANGLE_NODES);
+  const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
+  const auto triangles = now.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
   return crossings(x.data(), x.rows(), triangles.data(), triangles.rows());
 }
 
@@ -107,7 +108,7 @@ class Ledger {
     const double mean = 0.5 * (kinetic_ + stats.kinetic);
     const double energy = stats.energy + (is_explicit_ ? mean : stats.kinetic);
     const std::vector<double> before = x_;
-    const auto x = now.view<double>(MVS_NODE_POSITION);
+    const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
     x_.assign(x.begin(), x.end());
     const double pressure = now.load().pressure;
     const bool known = !before.empty();

@@ -6,9 +6,9 @@
 namespace stability {
 
 EdgeWork::EdgeWork(const mvs::Snapshot &valve) {
-  const auto kinds = valve.view<uint8_t>(MVS_NODE_KIND);
-  const auto triangles = valve.view<uint32_t>(MVS_TRIANGLE_NODES);
-  const double *rest = valve.view<double>(MVS_NODE_REST).row(0);
+  const auto kinds = valve.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const auto triangles = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
+  const double *rest = valve.view<double>(MVS_ARRAY_NODE_REST).row(0);
   origin_ = {rest[0], rest[1], rest[2]};
   std::map<std::array<uint32_t, 2>, int> sides;
   for (size_t t = 0; t < triangles.rows(); ++t) {
@@ -21,7 +21,7 @@ EdgeWork::EdgeWork(const mvs::Snapshot &valve) {
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = triangles.row(t)[k], b = triangles.row(t)[(k + 1) % 3];
       const bool held =
-          kinds.data()[a] == MVS_NODE_IS_ANNULUS && kinds.data()[b] == MVS_NODE_IS_ANNULUS;
+          kinds.data()[a] == MVS_NODE_KIND_ANNULUS && kinds.data()[b] == MVS_NODE_KIND_ANNULUS;
       if (sides[{std::min(a, b), std::max(a, b)}] == 1 && !held) edges_.push_back({a, b});
     }
   }

@@ -31,15 +31,15 @@ void close(Watch &watch) {
 // The first of each pair of free neighbours, no two pairs in touch, every 20th vertex or so: moved
 // onto the second but for a share of the edge, which leaves two slivers and tiny triangles around.
 std::vector<std::array<uint32_t, 2>> pairs_of(const mvs::Snapshot &valve) {
-  const auto kinds = valve.view<uint8_t>(MVS_NODE_KIND);
-  const auto triangles = valve.view<uint32_t>(MVS_TRIANGLE_NODES);
+  const auto kinds = valve.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const auto triangles = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
   std::vector<uint8_t> near(kinds.rows(), 0);
   std::vector<std::array<uint32_t, 2>> pairs;
   for (size_t t = 0; t < triangles.rows(); t += 20) {
     const uint32_t *corner = triangles.row(t);
     bool good = true;
     for (size_t k = 0; k < 3; ++k) {
-      good = good && !near[corner[k]] && kinds.data()[corner[k]] == MVS_NODE_IS_LEAFLET;
+      good = good && !near[corner[k]] && kinds.data()[corner[k]] == MVS_NODE_KIND_LEAFLET;
     }
     if (!good) continue;
     for (size_t k = 0; k < 3; ++k) near[corner[k]] = 1;
@@ -55,7 +55,7 @@ auto shortened(double share) {
     make_valve(sim, name);
     const mvs::Snapshot valve = sim.snapshot();
     const auto pairs = pairs_of(valve);
-    const auto rest = valve.view<double>(MVS_NODE_REST);
+    const auto rest = valve.view<double>(MVS_ARRAY_NODE_REST);
     const auto move = [&](size_t n, uint8_t, Point at) {
       for (const auto &[a, b] : pairs) {
         for (size_t k = 0; k < 3 && n == a; ++k) at[k] += (1 - share) * (rest.row(b)[k] - at[k]);
@@ -77,7 +77,7 @@ void stiff_beside_soft(Watch &watch, const std::string &name) {
   for (const mvs_part &leaflet : leaflets) {
     const double scale = leaflet.index == 0 ? 1 : 1e6;
     mvs_leaflet_desc tissue = {};
-    tissue.law = MVS_LEAFLET_SPRING;
+    tissue.law = MVS_LEAFLET_LAW_SPRING;
     tissue.constants[0] = 1e3 * scale;
     tissue.constants[1] = 6e4 * scale;
     tissue.constants[2] = 0.25;

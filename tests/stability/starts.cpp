@@ -10,7 +10,7 @@ namespace {
 using Point = std::array<double, 3>;
 
 bool is_free(uint8_t kind) {
-  return kind == MVS_NODE_IS_LEAFLET || kind == MVS_NODE_IS_BRANCH;
+  return kind == MVS_NODE_KIND_LEAFLET || kind == MVS_NODE_KIND_BRANCH;
 }
 
 void close(Watch &watch) {

@@ -32,11 +32,11 @@ std::vector<double> points_of(const nlohmann::json &mm) {
 }
 
 mvs_array rows(const std::vector<double> &x) {
-  return {x.data(), x.size() / 3, 3, MVS_F64, 0};
+  return {x.data(), x.size() / 3, 3, MVS_TYPE_F64, 0};
 }
 
 mvs_array indices(const std::vector<uint32_t> &v, uint32_t components) {
-  return {v.data(), v.size() / components, components, MVS_U32, 0};
+  return {v.data(), v.size() / components, components, MVS_TYPE_U32, 0};
 }
 
 // One leaflet sheet with the library's own tissue, as designed to hang under 120 mmHg.
@@ -61,7 +61,7 @@ void make_n32(mvs::Sim &sim) {
   mvs_leaflet_desc sheet = {};
   sheet.name = "sheet";
   mvs_valve_desc valve = {};
-  valve.flags = MVS_VALVE_ORIENT;
+  valve.flags = MVS_VALVE_FLAG_ORIENT;
   valve.nodes = rows(nodes);
   valve.nodes_loaded = rows(loaded);
   valve.triangles = indices(triangles, 3);
@@ -118,9 +118,9 @@ const mvs::Snapshot &closed_valve(const std::string &name) {
 
 mvs_result set_displaced(mvs::Sim &sim, const mvs::Snapshot &from, Places which,
                          const Displacement &displaced) {
-  const auto kinds = from.view<uint8_t>(MVS_NODE_KIND);
-  const auto now = from.view<double>(MVS_NODE_POSITION);
-  const auto rest = from.view<double>(MVS_NODE_REST);
+  const auto kinds = from.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const auto now = from.view<double>(MVS_ARRAY_NODE_POSITION);
+  const auto rest = from.view<double>(MVS_ARRAY_NODE_REST);
   std::istringstream in(from.save_memory());
   std::string out, line;
   size_t n = 0, statements = 0;

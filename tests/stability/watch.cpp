@@ -20,12 +20,12 @@ constexpr double tolerance = 1e-5;  // N, the library's own
 constexpr double arrival = 1e-9;    // m
 
 std::vector<double> positions(const mvs::Snapshot &now) {
-  const auto x = now.view<double>(MVS_NODE_POSITION);
+  const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
   return {x.begin(), x.end()};
 }
 
 bool is_held(uint8_t kind) {
-  return kind == MVS_NODE_IS_ANNULUS || kind == MVS_NODE_IS_HEAD;
+  return kind == MVS_NODE_KIND_ANNULUS || kind == MVS_NODE_KIND_HEAD;
 }
 
 double farthest(const std::vector<double> &from, const mvs::View<double> &to) {
@@ -42,8 +42,8 @@ bool all_finite(const mvs::View<double> &rows) {
 }
 
 bool held_nodes_stayed(const mvs::Snapshot &now, const std::vector<double> &before) {
-  const auto kinds = now.view<uint8_t>(MVS_NODE_KIND);
-  const double *x = now.view<double>(MVS_NODE_POSITION).data();
+  const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const double *x = now.view<double>(MVS_ARRAY_NODE_POSITION).data();
   for (size_t n = 0; n < kinds.rows(); ++n) {
     if (!is_held(kinds.data()[n])) continue;
     for (size_t k = 3 * n; k < 3 * n + 3; ++k) {
@@ -55,8 +55,8 @@ bool held_nodes_stayed(const mvs::Snapshot &now, const std::vector<double> &befo
 
 // The largest out-of-balance force on a free node, N, as the snapshot tells it.
 double residual_of(const mvs::Snapshot &now) {
-  const auto kinds = now.view<uint8_t>(MVS_NODE_KIND);
-  const auto force = now.view<double>(MVS_NODE_FORCE);
+  const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const auto force = now.view<double>(MVS_ARRAY_NODE_FORCE);
   double most = 0;
   for (size_t n = 0; n < kinds.rows(); ++n) {
     const double *f = force.row(n);
@@ -72,7 +72,7 @@ bool is_residual(double told, double of_nodes, const mvs::Snapshot &now) {
   bool may_be_more = false;
   double most = of_nodes;
   for (const mvs_tool_state &tool : mvs::tools_of(now)) {
-    if (tool.kind == MVS_TOOL_GRASP) continue;  // a force like any other on the node it holds
+    if (tool.kind == MVS_TOOL_KIND_GRASP) continue;  // a force like any other on the node it holds
     const double *f = tool.force;
     if (tool.touching == 0) most = std::max(most, std::hypot(f[0], f[1], f[2]));
     may_be_more = may_be_more || tool.touching == 1;
@@ -82,10 +82,10 @@ bool is_residual(double told, double of_nodes, const mvs::Snapshot &now) {
 }
 
 bool boundary_is_there(const mvs::Snapshot &now) {
-  const auto kinds = now.view<uint8_t>(MVS_NODE_KIND);
-  const double *x = now.view<double>(MVS_NODE_POSITION).data();
-  const double *open = now.view<double>(MVS_NODE_OPEN).data();
-  const double *loaded = now.view<double>(MVS_NODE_LOADED).data();
+  const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const double *x = now.view<double>(MVS_ARRAY_NODE_POSITION).data();
+  const double *open = now.view<double>(MVS_ARRAY_NODE_OPEN).data();
+  const double *loaded = now.view<double>(MVS_ARRAY_NODE_LOADED).data();
   const double share = now.load().boundary_fraction;
   for (size_t n = 0; n < kinds.rows(); ++n) {
     if (!is_held(kinds.data()[n])) continue;
@@ -119,7 +119,7 @@ void Watch::begin() {
 void Watch::look_again() {
   const mvs::Snapshot now = sim_.snapshot();
   x_ = positions(now);
-  const auto triangles = now.view<uint32_t>(MVS_TRIANGLE_NODES);
+  const auto triangles = now.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
   crossing_ = crossings(x_.data(), x_.size() / 3, triangles.data(), triangles.rows());
   energy_is_known_ = false;
 }
@@ -184,7 +184,7 @@ void Watch::settle(uint32_t solver, uint32_t iterations) {
   mvs_stats stats = mvs::sized<mvs_stats>();
   if (!attempt(mvs_settle(sim_.get(), &options, &stats))) return refuse("settle", before);
   const mvs::Snapshot now = sim_.snapshot();
-  const auto x = now.view<double>(MVS_NODE_POSITION);
+  const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
   if (std::isfinite(energy) && !tool_has_changed_ && held_nodes_stayed(now, x_) &&
       farthest(x_, x) < near) {
     const double work = now.load().pressure * EdgeWork(now).followed(x_.data(), x.data());
@@ -211,8 +211,9 @@ bool Watch::step(double dt) {
   const mvs::Snapshot now = sim_.snapshot();
   const double energy = stats.energy + stats.kinetic;
   if (energy_is_known_ && held_nodes_stayed(now, x_)) {
-    const double work = now.load().pressure *
-                        EdgeWork(now).held(x_.data(), now.view<double>(MVS_NODE_POSITION).data());
+    const double work =
+        now.load().pressure *
+        EdgeWork(now).held(x_.data(), now.view<double>(MVS_ARRAY_NODE_POSITION).data());
     const double scale = std::abs(stats.energy) + std::abs(energy_) + stats.kinetic;
     const double made = (energy - energy_ - work) / scale;
     verdict_.made = std::max(verdict_.made, made);
@@ -229,8 +230,8 @@ void Watch::look(const mvs_stats &stats) {
   ++verdict_.moves;
   tool_has_changed_ = false;
   const mvs::Snapshot now = sim_.snapshot();
-  demand(all_finite(now.view<double>(MVS_NODE_POSITION)) &&
-             all_finite(now.view<double>(MVS_NODE_VELOCITY)) && std::isfinite(stats.energy) &&
+  demand(all_finite(now.view<double>(MVS_ARRAY_NODE_POSITION)) &&
+             all_finite(now.view<double>(MVS_ARRAY_NODE_VELOCITY)) && std::isfinite(stats.energy) &&
              std::isfinite(stats.kinetic) && std::isfinite(stats.residual),
          "not finite");
   verdict_.residual = residual_of(now);
@@ -243,8 +244,8 @@ void Watch::look(const mvs_stats &stats) {
 }
 
 void Watch::compare_crossings(const mvs::Snapshot &now) {
-  const auto x = now.view<double>(MVS_NODE_POSITION);
-  const auto triangles = now.view<uint32_t>(MVS_TRIANGLE_NODES);
+  const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
+  const auto triangles = now.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
   std::vector<Pair> found = crossings(x.data(), x.rows(), triangles.data(), triangles.rows());
   std::vector<Pair> fresh;
   std::set_difference(found.begin(), found.end(), crossing_.begin(), crossing_.end(),

@@ -23,7 +23,7 @@ mvs_parametric_desc of_size(uint32_t vertices) {
 std::vector<Chord> stitches(const Model &model) {
   std::vector<Chord> found;
   for (const Chord &chord : model.valve.chords.get()) {
-    if (chord.kind == MVS_CHORD_SUTURE) found.push_back(chord);
+    if (chord.kind == MVS_CHORD_KIND_SUTURE) found.push_back(chord);
   }
   return found;
 }
@@ -58,7 +58,7 @@ ModelState creased_by_a_clip() {
   desc.coaptation_depth = 5.7 * mm;
   Valve valve = make_parametric_valve(desc);
   for (Leaflet &leaflet : valve.leaflets.edit()) {
-    leaflet.law = MVS_LEAFLET_BILINEAR;
+    leaflet.law = MVS_LEAFLET_LAW_BILINEAR;
     leaflet.constants = membrane_like(Bilinear(leaflet.constants));
   }
   const ModelPtr model = make_model(std::move(valve));

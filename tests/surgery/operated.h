@@ -70,7 +70,7 @@ inline size_t intersections(const Closed &closed) {
 }
 
 inline mvs_array array_of(const std::vector<Vec3> &points) {
-  return {points.data(), points.size(), 3, MVS_F64, 0};
+  return {points.data(), points.size(), 3, MVS_TYPE_F64, 0};
 }
 
 }  // namespace mvs::core::test

@@ -83,7 +83,7 @@ Strip strip_of(uint32_t cells, uint32_t rows, double thickness, double disturbed
   const double spacing = length / (rows - 0.5), edge = spacing / std::sqrt(0.75);
   Valve valve;
   valve.leaflets.resize(1);
-  valve.leaflets[0].law = MVS_LEAFLET_NEO_HOOKEAN;
+  valve.leaflets[0].law = MVS_LEAFLET_LAW_NEO_HOOKEAN;
   valve.leaflets[0].constants = {young / 3};
   valve.leaflets[0].thickness = thickness;
   test::Random random(11);

@@ -33,7 +33,7 @@ double mean_edge(const Model &model) {
 }
 
 Patch::Patch(const Published &law, uint32_t cells)
-    : Patch(law, cells, law.law == MVS_LEAFLET_SPRING ? equilateral : irregular) {}
+    : Patch(law, cells, law.law == MVS_LEAFLET_LAW_SPRING ? equilateral : irregular) {}
 
 Patch::Patch(const Published &law, uint32_t cells, Mesh mesh) {
   const bool even = mesh == equilateral;

@@ -5,15 +5,15 @@ namespace {
 
 py::dtype dtype_of(uint32_t type) {
   switch (type) {
-    case MVS_F64:
+    case MVS_TYPE_F64:
       return py::dtype::of<double>();
-    case MVS_F32:
+    case MVS_TYPE_F32:
       return py::dtype::of<float>();
-    case MVS_U32:
+    case MVS_TYPE_U32:
       return py::dtype::of<uint32_t>();
-    case MVS_U64:
+    case MVS_TYPE_U64:
       return py::dtype::of<uint64_t>();
-    case MVS_U8:
+    case MVS_TYPE_U8:
       return py::dtype::of<uint8_t>();
     default:
       refuse(MVS_E_INTERNAL, "", "the library shows an array of an unknown type");
@@ -89,7 +89,8 @@ mvs_array described(const py::array &array, std::vector<py::array> &kept) {
   description.data = used.data();
   description.count = static_cast<uint64_t>(used.shape(0));
   description.components = used.ndim() > 1 ? static_cast<uint32_t>(used.shape(1)) : 1;
-  description.type = type_among(used, {MVS_F64, MVS_F32, MVS_U32, MVS_U64, MVS_U8});
+  description.type =
+      type_among(used, {MVS_TYPE_F64, MVS_TYPE_F32, MVS_TYPE_U32, MVS_TYPE_U64, MVS_TYPE_U8});
   description.stride = static_cast<uint64_t>(used.strides(0));
   return description;
 }

@@ -17,7 +17,7 @@ py::array array_of(const mvs_view &view, const py::object &owner);
 struct Wanted {
   const char *name;
   uint32_t components;
-  std::vector<uint32_t> types;  // MVS_F64 ...
+  std::vector<uint32_t> types;  // MVS_TYPE_F64 ...
 };
 
 // The array an argument is, checked for dtype and shape; raises ArgumentError otherwise. Never

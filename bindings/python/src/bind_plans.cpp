@@ -72,7 +72,7 @@ py::object recover_journal(Simulator &self, const Path &path, py::object progres
 
 py::object limits_of(uint32_t kind) {
   double strain = 0, tension = 0;
-  must(mvs_chord_limits(kind, &strain, &tension));
+  must(mvs_get_chord_limits(kind, &strain, &tension));
   return chord_limits_value(strain, tension);
 }
 

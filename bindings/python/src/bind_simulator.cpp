@@ -38,7 +38,7 @@ py::list check_valve(const py::args &args, const py::kwargs &kwargs) {
   return list;
 }
 
-// MVS_LEAFLET_* from a mvs.LeafletLaw, its number or its name in small letters.
+// MVS_LEAFLET_LAW_* from a mvs.LeafletLaw, its number or its name in small letters.
 uint32_t law_of(const py::object &law) {
   if (!py::isinstance<py::str>(law)) return law.cast<uint32_t>();
   const std::string wanted = law.cast<std::string>();

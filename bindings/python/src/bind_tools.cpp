@@ -11,9 +11,9 @@ using Number = std::optional<double>;
 using Place = std::array<double, 3>;
 
 uint32_t kind_of(const std::string &name) {
-  if (name == "grasp") return MVS_TOOL_GRASP;
-  if (name == "ball") return MVS_TOOL_BALL;
-  if (name == "rod") return MVS_TOOL_ROD;
+  if (name == "grasp") return MVS_TOOL_KIND_GRASP;
+  if (name == "ball") return MVS_TOOL_KIND_BALL;
+  if (name == "rod") return MVS_TOOL_KIND_ROD;
   refuse(MVS_E_ARGUMENT, "kind",
          "kind: \"grasp\", \"ball\" or \"rod\" is needed, not \"" + name + "\"");
 }

@@ -28,11 +28,12 @@ py::object law_value(Describe describe, uint32_t number) {
 
 void bind_laws(py::module_ &module) {
   module.def(
-      "leaflet_law", [](uint32_t law) { return law_value(&mvs_leaflet_law, law); }, py::arg("law"),
+      "leaflet_law", [](uint32_t law) { return law_value(&mvs_get_leaflet_law, law); },
+      py::arg("law"),
       "What a LeafletLaw says of itself (mvs.Law): its constants, units, defaults and ranges. "
       "ArgumentError for a law that there is not.");
   module.def(
-      "chord_law", [](uint32_t law) { return law_value(&mvs_chord_law, law); }, py::arg("law"),
+      "chord_law", [](uint32_t law) { return law_value(&mvs_get_chord_law, law); }, py::arg("law"),
       "What a ChordLaw says of itself (mvs.Law). ArgumentError for a law that there is not.");
 }
 

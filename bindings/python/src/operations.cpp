@@ -13,7 +13,7 @@ using Triple = std::array<double, 3>;
 py::dict field_of(uint32_t kind, uint32_t index) {
   mvs_field_info info{};
   info.struct_size = sizeof info;
-  must(mvs_op_describe_field(kind, index, &info));
+  must(mvs_get_op_field(kind, index, &info));
   py::dict field;
   field["name"] = info.name;
   field["type"] = info.type;
@@ -72,7 +72,8 @@ void OpStruct::write(uint32_t type, uint32_t offset, const py::object &value) {
       return;
     }
     case MVS_FIELD_POINTS:
-      at<mvs_array>(offset) = described(array_argument(value, {"points", 3, {MVS_F64}}), kept_);
+      at<mvs_array>(offset) =
+          described(array_argument(value, {"points", 3, {MVS_TYPE_F64}}), kept_);
       return;
     case MVS_FIELD_TEXT:
       texts_.push_back(value.cast<std::string>());
@@ -85,10 +86,10 @@ void OpStruct::write(uint32_t type, uint32_t offset, const py::object &value) {
 
 py::list op_kinds() {
   py::list kinds;
-  for (uint32_t k = 0; k < mvs_op_count(); ++k) {
+  for (uint32_t k = 0; k < mvs_get_op_count(); ++k) {
     mvs_op_info info{};
     info.struct_size = sizeof info;
-    must(mvs_op_describe(k, &info));
+    must(mvs_get_op_info(k, &info));
     py::list fields;
     for (uint32_t f = 0; f < info.fields; ++f) fields.append(field_of(k, f));
     py::dict kind;

@@ -30,7 +30,7 @@ class OpStruct {
   std::list<std::string> texts_;
 };
 
-// What mvs_op_describe tells, as a list of dictionaries.
+// What mvs_get_op_info tells, as a list of dictionaries.
 py::list op_kinds();
 
 }  // namespace mvs_python

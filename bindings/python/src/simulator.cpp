@@ -137,7 +137,7 @@ void Simulator::generate(const mvs_parametric_desc &dimensions) {
 void Simulator::set_leaflet(const std::optional<std::string> &name,
                             const mvs_leaflet_desc &tissue) {
   mvs_part part{};
-  if (name) must(mvs_snapshot_find(snapshot()->get(), MVS_PART_LEAFLET, name->c_str(), &part));
+  if (name) must(mvs_snapshot_find_part(snapshot()->get(), MVS_PART_LEAFLET, name->c_str(), &part));
   call([&] { return mvs_set_leaflet(sim_, part.id, &tissue); });
 }
 
@@ -219,22 +219,22 @@ std::unique_ptr<Snapshot> Simulator::snapshot() {
 
 mvs_id Simulator::add_tool(const mvs_tool_desc &desc) {
   mvs_id tool = 0;
-  call([&] { return mvs_tool_add(sim_, &desc, &tool); });
+  call([&] { return mvs_add_tool(sim_, &desc, &tool); });
   return tool;
 }
 
 void Simulator::move_tool(mvs_id tool, const double position[3], const double *axis) {
-  look([&] { return mvs_tool_move(sim_, tool, position, axis); });
+  look([&] { return mvs_move_tool(sim_, tool, position, axis); });
 }
 
 void Simulator::remove_tool(mvs_id tool) {
-  call([&] { return mvs_tool_remove(sim_, tool); });
+  call([&] { return mvs_remove_tool(sim_, tool); });
 }
 
 mvs_tool_state Simulator::tool(mvs_id tool) {
   mvs_tool_state state{};
   state.struct_size = sizeof state;
-  look([&] { return mvs_tool_get(sim_, tool, &state); });
+  look([&] { return mvs_get_tool(sim_, tool, &state); });
   return state;
 }
 

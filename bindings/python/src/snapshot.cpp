@@ -17,13 +17,13 @@ namespace {
 py::array view(const py::object &self, uint32_t which) {
   const Snapshot &snapshot = self.cast<const Snapshot &>();
   mvs_view found{};
-  release_and([&] { return mvs_snapshot_view(snapshot.get(), which, &found); });
+  release_and([&] { return mvs_snapshot_get_array(snapshot.get(), which, &found); });
   return array_of(found, self);
 }
 
 std::string hash(const Snapshot &snapshot) {
   uint64_t bits[2];
-  release_and([&] { return mvs_snapshot_hash(snapshot.get(), bits); });
+  release_and([&] { return mvs_snapshot_get_hash(snapshot.get(), bits); });
   char text[33];
   std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(bits[0]),
                 static_cast<unsigned long long>(bits[1]));
@@ -33,7 +33,7 @@ std::string hash(const Snapshot &snapshot) {
 py::object load_case(const Snapshot &snapshot) {
   mvs_load_case load{};
   load.struct_size = sizeof load;
-  must(mvs_snapshot_load(snapshot.get(), &load));
+  must(mvs_snapshot_get_load(snapshot.get(), &load));
   return load_value(load);
 }
 
@@ -46,7 +46,7 @@ py::object measures(const Snapshot &snapshot) {
 
 py::object frame(const Snapshot &snapshot) {
   double rows[12];
-  release_and([&] { return mvs_snapshot_frame(snapshot.get(), rows); });
+  release_and([&] { return mvs_snapshot_get_frame(snapshot.get(), rows); });
   return frame_value(rows);
 }
 
@@ -61,10 +61,10 @@ py::tuple parts(const Snapshot &snapshot) {
   py::list all;
   for (uint32_t kind = MVS_PART_LEAFLET; kind <= MVS_PART_CURVE; ++kind) {
     uint32_t count = 0;
-    must(mvs_snapshot_part_count(snapshot.get(), kind, &count));
+    must(mvs_snapshot_get_part_count(snapshot.get(), kind, &count));
     for (uint32_t index = 0; index < count; ++index) {
       mvs_part part{};
-      must(mvs_snapshot_part(snapshot.get(), kind, index, &part));
+      must(mvs_snapshot_get_part(snapshot.get(), kind, index, &part));
       all.append(part_value(part));
     }
   }
@@ -73,18 +73,18 @@ py::tuple parts(const Snapshot &snapshot) {
 
 py::object find(const Snapshot &snapshot, uint32_t kind, const std::string &name) {
   mvs_part part{};
-  must(mvs_snapshot_find(snapshot.get(), kind, name.c_str(), &part));
+  must(mvs_snapshot_find_part(snapshot.get(), kind, name.c_str(), &part));
   return part_value(part);
 }
 
 py::tuple tools(const Snapshot &snapshot) {
   uint32_t count = 0;
-  must(mvs_snapshot_tool_count(snapshot.get(), &count));
+  must(mvs_snapshot_get_tool_count(snapshot.get(), &count));
   py::tuple found(count);
   for (uint32_t k = 0; k < count; ++k) {
     mvs_tool_state state{};
     state.struct_size = sizeof state;
-    must(mvs_snapshot_tool(snapshot.get(), k, &state));
+    must(mvs_snapshot_get_tool(snapshot.get(), k, &state));
     found[k] = tool_value(state);
   }
   return found;
@@ -93,12 +93,12 @@ py::tuple tools(const Snapshot &snapshot) {
 py::tuple history(const Snapshot &snapshot) {
   mvs_history size{};
   size.struct_size = sizeof size;
-  must(mvs_snapshot_history(snapshot.get(), &size));
+  must(mvs_snapshot_get_history(snapshot.get(), &size));
   py::list entries;
   for (uint32_t k = 0; k < size.done + size.undone; ++k) {
     mvs_history_entry entry{};
     entry.struct_size = sizeof entry;
-    must(mvs_snapshot_history_entry(snapshot.get(), k, &entry));
+    must(mvs_snapshot_get_history_entry(snapshot.get(), k, &entry));
     entries.append(history_value(entry, k < size.done));
   }
   return py::tuple(entries);
@@ -106,7 +106,7 @@ py::tuple history(const Snapshot &snapshot) {
 
 py::tuple checkpoints(const Snapshot &snapshot) {
   py::list names;
-  for (uint32_t k = 0; const char *name = mvs_snapshot_checkpoint(snapshot.get(), k); ++k) {
+  for (uint32_t k = 0; const char *name = mvs_snapshot_get_checkpoint(snapshot.get(), k); ++k) {
     names.append(name);
   }
   return py::tuple(names);
@@ -147,7 +147,7 @@ py::bytes to_bytes(const Snapshot &snapshot, const std::string &format) {
 }
 
 std::string text(const Snapshot &snapshot) {
-  return std::string("<mvs.Snapshot \"") + mvs_snapshot_name(snapshot.get()) + "\" " +
+  return std::string("<mvs.Snapshot \"") + mvs_snapshot_get_name(snapshot.get()) + "\" " +
          hash(snapshot) + ">";
 }
 
@@ -176,7 +176,8 @@ void bind_snapshot(py::module_ &module) {
         entry.name, [which](const py::object &self) { return view(self, which); }, entry.doc);
   }
   type.def_property_readonly(
-      "name", [](const Snapshot &s) { return mvs_snapshot_name(s.get()); }, "Name of the valve.");
+      "name", [](const Snapshot &s) { return mvs_snapshot_get_name(s.get()); },
+      "Name of the valve.");
   type.def_property_readonly("hash", &hash,
                              "128 bits over the meaning of model and state, in hexadecimal: equal "
                              "for equal inputs of the next step.");

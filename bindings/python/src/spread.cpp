@@ -33,10 +33,10 @@ struct Watch {
   }
 };
 
-mvs_spread_summary summary_of(const Spread &self) {
-  mvs_spread_summary found{};
+mvs_ensemble_summary summary_of(const Spread &self) {
+  mvs_ensemble_summary found{};
   found.struct_size = sizeof found;
-  must(mvs_spread_summarise(self.get(), &found));
+  must(mvs_ensemble_get_summary(self.get(), &found));
   return found;
 }
 
@@ -53,21 +53,21 @@ std::unique_ptr<Spread> spread(const Snapshot &start, double pressure, double bo
   settle.max_iterations = max_iterations.value_or(0);
   settle.residual = residual.value_or(0);
   Watch watch{std::move(progress), nullptr};
-  mvs_spread_options options{};
+  mvs_ensemble_options options{};
   options.struct_size = sizeof options;
   options.paths = paths;
-  options.from = from_start ? MVS_SPREAD_FROM_START : MVS_SPREAD_FROM_REST;
+  options.from = from_start ? MVS_ENSEMBLE_START_SNAPSHOT : MVS_ENSEMBLE_START_REST;
   options.seed = seed;
   options.perturbation = perturbation == 0.0 ? -1 : perturbation.value_or(0);
   options.wavelength = wavelength.value_or(0);
   options.same = same.value_or(0);
   options.progress = &Watch::callback;
   options.user = &watch;
-  mvs_spread *made = nullptr;
+  mvs_ensemble *made = nullptr;
   Outcome outcome;
   {
     py::gil_scoped_release released;
-    outcome = outcome_of(mvs_spread_run(start.get(), &load, &settle, &options, &made));
+    outcome = outcome_of(mvs_ensemble_run(start.get(), &load, &settle, &options, &made));
   }
   if (watch.raised) std::rethrow_exception(watch.raised);
   must(outcome);
@@ -77,12 +77,12 @@ std::unique_ptr<Spread> spread(const Snapshot &start, double pressure, double bo
 py::tuple paths(const Spread &self) {
   py::list all;
   for (uint32_t k = 0; k < summary_of(self).paths; ++k) {
-    mvs_spread_path path{};
+    mvs_ensemble_member path{};
     mvs_stats stats{};
     path.struct_size = sizeof path;
     stats.struct_size = sizeof stats;
-    must(mvs_spread_get_path(self.get(), k, &path));
-    must(mvs_spread_stats(self.get(), k, &stats));
+    must(mvs_ensemble_get_member(self.get(), k, &path));
+    must(mvs_ensemble_get_member_stats(self.get(), k, &stats));
     all.append(spread_path_value(path, stats));
   }
   return py::tuple(all);
@@ -90,20 +90,20 @@ py::tuple paths(const Spread &self) {
 
 std::unique_ptr<Snapshot> snapshot(const Spread &self, uint32_t path) {
   const mvs_snapshot *taken = nullptr;
-  must(mvs_spread_snapshot(self.get(), path, &taken));
+  must(mvs_ensemble_get_member_snapshot(self.get(), path, &taken));
   return std::make_unique<Snapshot>(taken);
 }
 
 py::object measure(const Spread &self, uint32_t statistic) {
   mvs_measures found{};
   found.struct_size = sizeof found;
-  release_and([&] { return mvs_spread_measure(self.get(), statistic, &found); });
+  release_and([&] { return mvs_ensemble_measure(self.get(), statistic, &found); });
   return measures_value(found);
 }
 
 py::array view(const py::object &self, uint32_t which) {
   mvs_view found{};
-  must(mvs_spread_view(self.cast<const Spread &>().get(), which, &found));
+  must(mvs_ensemble_get_array(self.cast<const Spread &>().get(), which, &found));
   return array_of(found, self);
 }
 
@@ -114,15 +114,17 @@ void bind_statistics(py::class_<Spread> &type) {
     const char *doc;
   };
   static constexpr Statistic statistics[] = {
-      {"mean", MVS_SPREAD_MEAN,
+      {"mean", MVS_ENSEMBLE_STATISTIC_MEAN,
        "Mean of every figure over the paths at rest (mvs.Measures, SI units); NaN where none has "
        "it; counts are rounded."},
-      {"min", MVS_SPREAD_MIN, "The least of every figure over the paths at rest (mvs.Measures)."},
-      {"max", MVS_SPREAD_MAX, "The most of every figure over the paths at rest (mvs.Measures)."},
-      {"deviation", MVS_SPREAD_DEVIATION,
+      {"min", MVS_ENSEMBLE_STATISTIC_MIN,
+       "The least of every figure over the paths at rest (mvs.Measures)."},
+      {"max", MVS_ENSEMBLE_STATISTIC_MAX,
+       "The most of every figure over the paths at rest (mvs.Measures)."},
+      {"deviation", MVS_ENSEMBLE_STATISTIC_DEVIATION,
        "Standard deviation of every figure over the paths at rest as a sample (mvs.Measures); NaN "
        "for fewer than two."},
-      {"count", MVS_SPREAD_COUNT,
+      {"count", MVS_ENSEMBLE_STATISTIC_COUNT,
        "How many paths at rest have each figure (mvs.Measures, of numbers without units)."}};
   for (const Statistic &statistic : statistics) {
     type.def_property_readonly(
@@ -148,12 +150,13 @@ void bind_spread(py::module_ &module, py::class_<Snapshot> &type) {
            "The closed valve of a path (mvs.Snapshot); ArgumentError if there is no such path.");
   bind_statistics(made);
   made.def_property_readonly(
-      "node_spread", [](const py::object &self) { return view(self, MVS_SPREAD_NODE); },
+      "node_spread",
+      [](const py::object &self) { return view(self, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION); },
       "(n,) float64, m: RMS distance of each node from its mean place over the paths at rest.");
   made.def_property_readonly(
       "pairs",
       [](const py::object &self) {
-        const py::array rows = view(self, MVS_SPREAD_PAIRS);
+        const py::array rows = view(self, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE);
         return rows.attr("reshape")(rows.shape(0), rows.shape(0));
       },
       "(p, p) float64, m: node RMS between the shapes of every two paths, at rest or not.");

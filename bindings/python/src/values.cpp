@@ -182,7 +182,7 @@ py::object tool_value(const mvs_tool_state &s) {
   return make("Tool", fields);
 }
 
-py::object spread_summary_value(const mvs_spread_summary &s) {
+py::object spread_summary_value(const mvs_ensemble_summary &s) {
   py::dict fields;
   FIELD(paths);
   FIELD(converged);
@@ -195,7 +195,7 @@ py::object spread_summary_value(const mvs_spread_summary &s) {
   return make("SpreadSummary", fields);
 }
 
-py::object spread_path_value(const mvs_spread_path &s, const mvs_stats &stats) {
+py::object spread_path_value(const mvs_ensemble_member &s, const mvs_stats &stats) {
   py::dict fields;
   fields["converged"] = s.converged != 0;
   fields["diverged"] = s.diverged != 0;

@@ -28,7 +28,7 @@ std::vector<double> rows_of_six(const py::object &valve, const char *name, const
   const py::object given = valve.attr(name);
   std::vector<double> values(6 * rows);
   if (given.is_none()) return values;
-  const py::array_t<double> table(array_argument(given, {name, 6, {MVS_F64}}));
+  const py::array_t<double> table(array_argument(given, {name, 6, {MVS_TYPE_F64}}));
   const auto at = table.unchecked<2>();
   if (static_cast<size_t>(at.shape(0)) != rows) {
     refuse(MVS_E_ARGUMENT, name,
@@ -49,7 +49,7 @@ ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
   desc_.struct_size = sizeof desc_;
   name_ = py::str(valve_.attr("name"));
   desc_.name = name_.c_str();
-  if (valve_.attr("orient").cast<bool>()) desc_.flags |= MVS_VALVE_ORIENT;
+  if (valve_.attr("orient").cast<bool>()) desc_.flags |= MVS_VALVE_FLAG_ORIENT;
   read_arrays();
   read_leaflets();
   read_scallops();
@@ -68,20 +68,20 @@ mvs_array ValveArguments::array(const char *name, uint32_t components,
 }
 
 void ValveArguments::read_arrays() {
-  desc_.nodes = array("nodes", 3, {MVS_F64, MVS_F32});
-  desc_.nodes_loaded = array("nodes_loaded", 3, {MVS_F64, MVS_F32});
-  desc_.nodes_now = array("nodes_now", 3, {MVS_F64, MVS_F32});
-  desc_.nodes_open = array("nodes_open", 3, {MVS_F64, MVS_F32});
-  desc_.node_origin = array("node_origin", 1, {MVS_U32});
-  desc_.triangles = array("triangles", 3, {MVS_U32});
-  desc_.triangle_leaflet = array("triangle_leaflet", 1, {MVS_U32});
-  desc_.triangle_scallop = array("triangle_scallop", 1, {MVS_U32});
-  desc_.triangle_thickness = array("triangle_thickness", 1, {MVS_F64});
-  desc_.triangle_fibre = array("triangle_fibre", 3, {MVS_F64});
-  desc_.annulus = array("annulus", 1, {MVS_U32});
+  desc_.nodes = array("nodes", 3, {MVS_TYPE_F64, MVS_TYPE_F32});
+  desc_.nodes_loaded = array("nodes_loaded", 3, {MVS_TYPE_F64, MVS_TYPE_F32});
+  desc_.nodes_now = array("nodes_now", 3, {MVS_TYPE_F64, MVS_TYPE_F32});
+  desc_.nodes_open = array("nodes_open", 3, {MVS_TYPE_F64, MVS_TYPE_F32});
+  desc_.node_origin = array("node_origin", 1, {MVS_TYPE_U32});
+  desc_.triangles = array("triangles", 3, {MVS_TYPE_U32});
+  desc_.triangle_leaflet = array("triangle_leaflet", 1, {MVS_TYPE_U32});
+  desc_.triangle_scallop = array("triangle_scallop", 1, {MVS_TYPE_U32});
+  desc_.triangle_thickness = array("triangle_thickness", 1, {MVS_TYPE_F64});
+  desc_.triangle_fibre = array("triangle_fibre", 3, {MVS_TYPE_F64});
+  desc_.annulus = array("annulus", 1, {MVS_TYPE_U32});
   if (!desc_.triangle_leaflet.data) {
     first_leaflet_.assign(desc_.triangles.count, 0);
-    desc_.triangle_leaflet = {first_leaflet_.data(), first_leaflet_.size(), 1, MVS_U32, 0};
+    desc_.triangle_leaflet = {first_leaflet_.data(), first_leaflet_.size(), 1, MVS_TYPE_U32, 0};
   }
 }
 
@@ -112,7 +112,8 @@ void ValveArguments::read_scallops() {
   if (valve_.attr("scallops").is_none()) return;
   scallop_names_ = valve_.attr("scallops").cast<std::vector<std::string>>();
   for (const std::string &name : scallop_names_) scallops_.push_back(name.c_str());
-  scallop_ids_ = column<mvs_id>(valve_, "scallop_id", MVS_U64, "scallops", scallop_names_.size());
+  scallop_ids_ =
+      column<mvs_id>(valve_, "scallop_id", MVS_TYPE_U64, "scallops", scallop_names_.size());
   desc_.scallops = scallops_.data();
   desc_.scallop_ids = scallop_ids_.data();
   desc_.scallop_count = static_cast<uint32_t>(scallops_.size());
@@ -121,16 +122,16 @@ void ValveArguments::read_scallops() {
 void ValveArguments::read_chords() {
   const py::object nodes = valve_.attr("chord_nodes");
   if (nodes.is_none()) return;
-  const py::array_t<uint32_t> pairs(array_argument(nodes, {"chord_nodes", 2, {MVS_U32}}));
+  const py::array_t<uint32_t> pairs(array_argument(nodes, {"chord_nodes", 2, {MVS_TYPE_U32}}));
   const auto node = pairs.unchecked<2>();
   const size_t count = static_cast<size_t>(node.shape(0));
   const char *of = "chord_nodes";
-  const auto length = column<double>(valve_, "chord_rest_length", MVS_F64, of, count);
-  const auto kind = column<uint32_t>(valve_, "chord_kind", MVS_U32, of, count);
-  const auto young = column<double>(valve_, "chord_young", MVS_F64, of, count);
-  const auto area = column<double>(valve_, "chord_area", MVS_F64, of, count);
-  const auto id = column<mvs_id>(valve_, "chord_id", MVS_U64, of, count);
-  const auto law = column<uint32_t>(valve_, "chord_law", MVS_U32, of, count);
+  const auto length = column<double>(valve_, "chord_rest_length", MVS_TYPE_F64, of, count);
+  const auto kind = column<uint32_t>(valve_, "chord_kind", MVS_TYPE_U32, of, count);
+  const auto young = column<double>(valve_, "chord_young", MVS_TYPE_F64, of, count);
+  const auto area = column<double>(valve_, "chord_area", MVS_TYPE_F64, of, count);
+  const auto id = column<mvs_id>(valve_, "chord_id", MVS_TYPE_U64, of, count);
+  const auto law = column<uint32_t>(valve_, "chord_law", MVS_TYPE_U32, of, count);
   const auto constants = rows_of_six(valve_, "chord_constants", of, count);
   chord_names_ = names("chord_names", count);
   for (size_t c = 0; c < count; ++c) {
@@ -153,8 +154,9 @@ void ValveArguments::read_chords() {
 }
 
 void ValveArguments::read_heads() {
-  const auto nodes = values_of<uint32_t>(valve_.attr("head_nodes"), {"head_nodes", 1, {MVS_U32}});
-  const auto id = column<mvs_id>(valve_, "head_id", MVS_U64, "head_nodes", nodes.size());
+  const auto nodes =
+      values_of<uint32_t>(valve_.attr("head_nodes"), {"head_nodes", 1, {MVS_TYPE_U32}});
+  const auto id = column<mvs_id>(valve_, "head_id", MVS_TYPE_U64, "head_nodes", nodes.size());
   head_names_ = names("head_names", nodes.size());
   for (size_t h = 0; h < nodes.size(); ++h) {
     mvs_head_desc head{};
@@ -176,7 +178,7 @@ void ValveArguments::read_rings() {
     desc.name = ring_names_.back().c_str();
     desc.id = ring.attr("id").cast<mvs_id>();
     desc.kind = ring.attr("kind").cast<uint32_t>();
-    const Wanted wanted{"rings", 3, {MVS_F64, MVS_F32}};
+    const Wanted wanted{"rings", 3, {MVS_TYPE_F64, MVS_TYPE_F32}};
     desc.curve = described(array_argument(ring.attr("curve"), wanted), kept_);
     rings_.push_back(desc);
   }
@@ -192,7 +194,7 @@ void ValveArguments::read_curves() {
     mvs_curve_desc desc{};
     desc.name = curve_names_.back().c_str();
     desc.id = curve.attr("id").cast<mvs_id>();
-    const Wanted wanted{"curves", 2, {MVS_F64, MVS_F32}};
+    const Wanted wanted{"curves", 2, {MVS_TYPE_F64, MVS_TYPE_F32}};
     desc.points = described(array_argument(curve.attr("points"), wanted), kept_);
     curves_.push_back(desc);
   }

@@ -22,7 +22,7 @@ void add_node(Model &model) {
   valve.origin.push_back(none);
   model.vertex_area.push_back(0);
   model.node_mass.push_back(point_mass);
-  model.topology.node_kind.push_back(MVS_NODE_IS_BRANCH);
+  model.topology.node_kind.push_back(MVS_NODE_KIND_BRANCH);
   model.topology.fixed.push_back(0);
   add_row(model.topology.node_triangles);
   add_row(model.topology.node_chords);

@@ -21,12 +21,12 @@ constexpr double quasi_static = 0.1;  // s
 constexpr uint32_t patterns_per_order = 20, wait_after_failure = 8;
 
 uint32_t springs_of(const Tool &tool) {
-  return tool.kind == MVS_TOOL_ROD ? 2 : 1;
+  return tool.kind == MVS_TOOL_KIND_ROD ? 2 : 1;
 }
 
 // The nodes that the hand leads, in a state with nodes for points.
 uint32_t led_node(const State &state, size_t nodes, const Tool &tool, uint32_t k) {
-  if (tool.kind == MVS_TOOL_GRASP) return tool.node;
+  if (tool.kind == MVS_TOOL_KIND_GRASP) return tool.node;
   auto node = static_cast<uint32_t>(nodes);
   for (const Tool &other : state.tools.get()) {
     if (other.id == tool.id) break;
@@ -40,7 +40,7 @@ uint32_t led_node(const State &state, size_t nodes, const Tool &tool, uint32_t k
 ToolForce force_of(const State &state, const Tool &tool) {
   ToolForce sum;
   for (uint32_t k = 0; k < springs_of(tool); ++k) {
-    const Vec3 at = tool.kind == MVS_TOOL_GRASP ? state.x[tool.node] : tool.proxy[k];
+    const Vec3 at = tool.kind == MVS_TOOL_KIND_GRASP ? state.x[tool.node] : tool.proxy[k];
     const Vec3 back = -pull(hold_of(tool, k, 0), at);
     sum.force += back;
     sum.torque += (tool.target(k) - tool.position).cross(back);

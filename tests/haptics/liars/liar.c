@@ -59,7 +59,7 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
 #ifdef LIE_LOOP_HANGS
   if (device->sequence > 10) pause();
 #endif
-  state->flags = MVS_DRIVER_CALIBRATED;
+  state->flags = MVS_DRIVER_FLAG_CALIBRATED;
   state->time_ns = now_ns;
   state->sequence = ++device->sequence;
   state->orientation[0] = 1;

@@ -22,26 +22,26 @@ static const mvs_snapshot *snapshot_of(mvs_sim *sim) {
   return snapshot;
 }
 
-static mvs_spread_options options_of(uint32_t paths, uint64_t seed) {
-  mvs_spread_options options = {.struct_size = sizeof options, .paths = paths, .seed = seed};
+static mvs_ensemble_options options_of(uint32_t paths, uint64_t seed) {
+  mvs_ensemble_options options = {.struct_size = sizeof options, .paths = paths, .seed = seed};
   return options;
 }
 
-static mvs_spread *run(const mvs_snapshot *start, mvs_spread_options options) {
-  mvs_spread *spread = NULL;
-  MUST(mvs_spread_run(start, &systole, NULL, &options, &spread));
+static mvs_ensemble *run(const mvs_snapshot *start, mvs_ensemble_options options) {
+  mvs_ensemble *spread = NULL;
+  MUST(mvs_ensemble_run(start, &systole, NULL, &options, &spread));
   return spread;
 }
 
-static hash128 path_hash(const mvs_spread *spread, uint32_t path) {
+static hash128 path_hash(const mvs_ensemble *spread, uint32_t path) {
   const mvs_snapshot *snapshot = NULL;
-  MUST(mvs_spread_snapshot(spread, path, &snapshot));
+  MUST(mvs_ensemble_get_member_snapshot(spread, path, &snapshot));
   hash128 hash = snapshot_hash(snapshot);
   mvs_snapshot_release(snapshot);
   return hash;
 }
 
-static void path_0_is_the_plain_closure(const mvs_spread *spread, mvs_sim *sim) {
+static void path_0_is_the_plain_closure(const mvs_ensemble *spread, mvs_sim *sim) {
   mvs_stats plain = {.struct_size = sizeof plain}, told = plain;
   hash128 before = sim_hash(sim);
   const mvs_snapshot *start = snapshot_of(sim), *closed = NULL;
@@ -49,14 +49,14 @@ static void path_0_is_the_plain_closure(const mvs_spread *spread, mvs_sim *sim) 
   MUST(mvs_settle(sim, NULL, &plain));
   CHECK(!same_hash(before, sim_hash(sim)));
   CHECK(same_hash(path_hash(spread, 0), sim_hash(sim)));
-  MUST(mvs_spread_stats(spread, 0, &told));
+  MUST(mvs_ensemble_get_member_stats(spread, 0, &told));
   CHECK(told.converged == 1 && told.iterations == plain.iterations);
   CHECK(told.energy == plain.energy && told.residual == plain.residual);
   /* its plan leads there too, so that it can stand in for the simulator's */
   mvs_replay replay = {.struct_size = sizeof replay};
   static char text[65536];
   uint64_t size = 0;
-  MUST(mvs_spread_snapshot(spread, 0, &closed));
+  MUST(mvs_ensemble_get_member_snapshot(spread, 0, &closed));
   MUST(mvs_write_plan(closed, NULL, text, sizeof text, &size));
   MUST(mvs_restore(sim, start));
   MUST(mvs_replay_plan(sim, text, size, &replay));
@@ -67,41 +67,42 @@ static void path_0_is_the_plain_closure(const mvs_spread *spread, mvs_sim *sim) 
 }
 
 /* Whatever ran before: the same seed gives the same bits, more paths do not change the first. */
-static void same_seed_same_bits(const mvs_snapshot *start, const mvs_spread *spread) {
-  mvs_spread *other = run(start, options_of(3, 5)), *again = run(start, options_of(2, 0));
+static void same_seed_same_bits(const mvs_snapshot *start, const mvs_ensemble *spread) {
+  mvs_ensemble *other = run(start, options_of(3, 5)), *again = run(start, options_of(2, 0));
   for (uint32_t k = 0; k < 2; ++k) CHECK(same_hash(path_hash(spread, k), path_hash(again, k)));
   CHECK(same_hash(path_hash(spread, 0), path_hash(other, 0)));
-  mvs_spread_path path = {.struct_size = sizeof path}, moved = path;
-  MUST(mvs_spread_get_path(spread, 2, &path));
-  MUST(mvs_spread_get_path(other, 2, &moved));
+  mvs_ensemble_member path = {.struct_size = sizeof path}, moved = path;
+  MUST(mvs_ensemble_get_member(spread, 2, &path));
+  MUST(mvs_ensemble_get_member(other, 2, &moved));
   /* another seed is another disturbance; where it leads may be the same fold */
   CHECK(!same_hash(path_hash(spread, 2), path_hash(other, 2)));
   CHECK(path.perturbation > 0 && moved.perturbation > 0);
-  mvs_spread_release(other);
-  mvs_spread_release(again);
+  mvs_ensemble_release(other);
+  mvs_ensemble_release(again);
 }
 
 static double number_at(const mvs_view *view, uint64_t row, uint32_t column) {
   return ((const double *)view->data)[row * view->components + column];
 }
 
-static void paths_are_told(const mvs_spread *spread, uint32_t count) {
-  mvs_spread_summary all = {.struct_size = sizeof all};
+static void paths_are_told(const mvs_ensemble *spread, uint32_t count) {
+  mvs_ensemble_summary all = {.struct_size = sizeof all};
   mvs_view pairs = {0};
-  MUST(mvs_spread_summarise(spread, &all));
-  MUST(mvs_spread_view(spread, MVS_SPREAD_PAIRS, &pairs));
+  MUST(mvs_ensemble_get_summary(spread, &all));
+  MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, &pairs));
   CHECK(all.paths == count && all.converged == count && all.lowest < count);
-  CHECK(pairs.count == count && pairs.components == count && pairs.type == MVS_F64);
+  CHECK(pairs.count == count && pairs.components == count && pairs.type == MVS_TYPE_F64);
   double lowest = INFINITY, squares = 0;
   uint32_t at = 0, equilibria = 0;
   for (uint32_t k = 0; k < count; ++k) {
-    mvs_spread_path path = {.struct_size = sizeof path};
+    mvs_ensemble_member path = {.struct_size = sizeof path};
     mvs_stats stats = {.struct_size = sizeof stats};
-    MUST(mvs_spread_get_path(spread, k, &path));
-    MUST(mvs_spread_stats(spread, k, &stats));
+    MUST(mvs_ensemble_get_member(spread, k, &path));
+    MUST(mvs_ensemble_get_member_stats(spread, k, &stats));
     CHECK(path.converged == 1 && path.diverged == 0 && path.increments >= 1);
     CHECK((path.ramp > 0) == (k == 3));
-    CHECK(path.order >= MVS_SPREAD_TOGETHER && path.order <= MVS_SPREAD_PRESSURE_FIRST);
+    CHECK(path.order >= MVS_ENSEMBLE_ORDER_TOGETHER &&
+          path.order <= MVS_ENSEMBLE_ORDER_PRESSURE_FIRST);
     /* the default, 0.5 mm, but for rounding; cut where sheets would meet */
     CHECK(k == 0 ? path.perturbation == 0 : path.perturbation > 0);
     CHECK(path.perturbation <= 0.5e-3 * (1 + 1e-12));
@@ -118,16 +119,16 @@ static void paths_are_told(const mvs_spread *spread, uint32_t count) {
 }
 
 /* Mean, range and deviation are those of the measures that the paths' own snapshots show. */
-static void statistics_are_those_of_the_paths(const mvs_spread *spread, uint32_t count) {
+static void statistics_are_those_of_the_paths(const mvs_ensemble *spread, uint32_t count) {
   mvs_measures of[5], each = {.struct_size = sizeof each};
   for (uint32_t s = 0; s < 5; ++s) {
     of[s].struct_size = sizeof of[s];
-    MUST(mvs_spread_measure(spread, s + 1, &of[s]));
+    MUST(mvs_ensemble_measure(spread, s + 1, &of[s]));
   }
   double sum = 0, squares = 0, least = INFINITY, most = 0;
   for (uint32_t k = 0; k < count; ++k) {
     const mvs_snapshot *snapshot = NULL;
-    MUST(mvs_spread_snapshot(spread, k, &snapshot));
+    MUST(mvs_ensemble_get_member_snapshot(spread, k, &snapshot));
     MUST(mvs_snapshot_measure(snapshot, &each));
     mvs_snapshot_release(snapshot);
     sum += each.coaptation_area;
@@ -146,18 +147,18 @@ static void statistics_are_those_of_the_paths(const mvs_spread *spread, uint32_t
 
 /* The picture: nothing where nodes are held, and its squares those of the pairs. For n shapes the
  * mean square from the mean is half the mean square between two picked with replacement. */
-static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_spread *spread) {
+static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_ensemble *spread) {
   mvs_view nodes = {0}, kind = {0}, pairs = {0};
-  MUST(mvs_spread_view(spread, MVS_SPREAD_NODE, &nodes));
-  MUST(mvs_spread_view(spread, MVS_SPREAD_PAIRS, &pairs));
-  MUST(mvs_snapshot_view(start, MVS_NODE_KIND, &kind));
+  MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION, &nodes));
+  MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, &pairs));
+  MUST(mvs_snapshot_get_array(start, MVS_ARRAY_NODE_KIND, &kind));
   CHECK(nodes.count == kind.count && nodes.components == 1);
   double squares = 0, between = 0, sheet = 0;
   for (uint64_t k = 0; k < nodes.count; ++k) {
     uint8_t what = ((const uint8_t *)kind.data)[k];
     double spread_here = number_at(&nodes, k, 0);
-    if (what == MVS_NODE_IS_ANNULUS || what == MVS_NODE_IS_HEAD) CHECK(spread_here == 0);
-    if (what > MVS_NODE_IS_ANNULUS) continue;
+    if (what == MVS_NODE_KIND_ANNULUS || what == MVS_NODE_KIND_HEAD) CHECK(spread_here == 0);
+    if (what > MVS_NODE_KIND_ANNULUS) continue;
     squares += spread_here * spread_here;
     sheet += 1;
   }
@@ -185,44 +186,44 @@ static int32_t take_progress(void *user, double share, double residual) {
 
 static void it_is_told_how_far_it_is_and_can_be_stopped(const mvs_snapshot *start) {
   host h = {0};
-  mvs_spread_options options = options_of(2, 0);
+  mvs_ensemble_options options = options_of(2, 0);
   options.progress = take_progress;
   options.user = &h;
-  mvs_spread *spread = run(start, options), *kept = NULL;
+  mvs_ensemble *spread = run(start, options), *kept = NULL;
   CHECK(h.calls > 10 && !h.share_fell && h.share > 0.5);
-  mvs_spread_release(spread);
+  mvs_ensemble_release(spread);
   /* in the second path: the last call but one */
   h = (host){.stop_at = h.calls - 1};
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &kept), MVS_E_CANCELLED, "cancelled");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &kept), MVS_E_CANCELLED, "cancelled");
   CHECK(kept == NULL);
 }
 
 static void paths_not_at_rest_are_not_mixed_in(const mvs_snapshot *start) {
   mvs_settle_options one = {.struct_size = sizeof one, .max_iterations = 1};
-  mvs_spread_options options = options_of(2, 0);
-  mvs_spread *spread = NULL;
-  MUST(mvs_spread_run(start, &systole, &one, &options, &spread));
-  mvs_spread_summary all = {.struct_size = sizeof all};
-  mvs_spread_path path = {.struct_size = sizeof path};
+  mvs_ensemble_options options = options_of(2, 0);
+  mvs_ensemble *spread = NULL;
+  MUST(mvs_ensemble_run(start, &systole, &one, &options, &spread));
+  mvs_ensemble_summary all = {.struct_size = sizeof all};
+  mvs_ensemble_member path = {.struct_size = sizeof path};
   mvs_measures mean = {.struct_size = sizeof mean}, count = mean;
-  MUST(mvs_spread_summarise(spread, &all));
-  MUST(mvs_spread_get_path(spread, 1, &path));
-  MUST(mvs_spread_measure(spread, MVS_SPREAD_MEAN, &mean));
-  MUST(mvs_spread_measure(spread, MVS_SPREAD_COUNT, &count));
+  MUST(mvs_ensemble_get_summary(spread, &all));
+  MUST(mvs_ensemble_get_member(spread, 1, &path));
+  MUST(mvs_ensemble_measure(spread, MVS_ENSEMBLE_STATISTIC_MEAN, &mean));
+  MUST(mvs_ensemble_measure(spread, MVS_ENSEMBLE_STATISTIC_COUNT, &count));
   CHECK(all.converged == 0 && all.equilibria == 0 && all.lowest == UINT32_MAX);
   CHECK(all.node_rms == 0 && path.converged == 0 && path.equilibrium == UINT32_MAX);
   CHECK(path.node_rms > 0); /* still told, of the path itself */
   CHECK(isnan(mean.annulus_ap) && count.annulus_ap == 0);
-  mvs_spread_release(spread);
+  mvs_ensemble_release(spread);
 }
 
 /* From a closed valve: as it lies, the fold is found again; from rest, the plain closure is. */
 static void a_closed_valve_is_opened_again(mvs_sim *sim) {
-  mvs_spread_summary near_it = {.struct_size = sizeof near_it};
-  mvs_spread_path path = {.struct_size = sizeof path};
+  mvs_ensemble_summary near_it = {.struct_size = sizeof near_it};
+  mvs_ensemble_member path = {.struct_size = sizeof path};
   const mvs_snapshot *open = snapshot_of(sim);
-  mvs_spread_options options = options_of(2, 0);
-  mvs_spread *from_open = run(open, options), *from_rest, *from_start;
+  mvs_ensemble_options options = options_of(2, 0);
+  mvs_ensemble *from_open = run(open, options), *from_rest, *from_start;
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, NULL));
   const mvs_snapshot *closed = snapshot_of(sim);
@@ -230,71 +231,73 @@ static void a_closed_valve_is_opened_again(mvs_sim *sim) {
   /* the closed valve settles again at once, and the other path is the one from the open valve */
   CHECK(same_hash(path_hash(from_rest, 0), snapshot_hash(closed)));
   CHECK(same_hash(path_hash(from_rest, 1), path_hash(from_open, 1)));
-  options.from = MVS_SPREAD_FROM_START;
+  options.from = MVS_ENSEMBLE_START_SNAPSHOT;
   from_start = run(closed, options);
-  MUST(mvs_spread_summarise(from_start, &near_it));
-  MUST(mvs_spread_get_path(from_start, 1, &path));
+  MUST(mvs_ensemble_get_summary(from_start, &near_it));
+  MUST(mvs_ensemble_get_member(from_start, 1, &path));
   CHECK(near_it.converged == 2 && path.perturbation > 0);
   CHECK(!same_hash(path_hash(from_start, 1), path_hash(from_rest, 1)));
   MUST(mvs_restore(sim, open));
   mvs_snapshot_release(open);
   mvs_snapshot_release(closed);
-  mvs_spread_release(from_open);
-  mvs_spread_release(from_rest);
-  mvs_spread_release(from_start);
+  mvs_ensemble_release(from_open);
+  mvs_ensemble_release(from_rest);
+  mvs_ensemble_release(from_start);
 }
 
 static void bad_options_are_refused(const mvs_snapshot *start) {
-  mvs_spread *spread = NULL;
-  mvs_spread_options options = options_of(1001, 0);
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "1 to 1000");
+  mvs_ensemble *spread = NULL;
+  mvs_ensemble_options options = options_of(1001, 0);
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
+            "1 to 1000");
   options = options_of(2, 0);
   options.perturbation = 1;
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
   options.perturbation = NAN;
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
   options = options_of(2, 0);
   options.wavelength = 1e-6;
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "wavelength");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
+            "wavelength");
   options = options_of(2, 0);
   options.same = -1;
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "same");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "same");
   options = options_of(2, 0);
   options.from = 3;
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "FROM");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "ENSEMBLE_START");
   options = options_of(2, 0);
   options.backend = 9;
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "BACKEND");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "BACKEND");
   mvs_load_case load = systole;
   load.pressure = 1e9;
-  MUST_FAIL(mvs_spread_run(start, &load, NULL, NULL, &spread), MVS_E_ARGUMENT, "pressure");
-  MUST_FAIL(mvs_spread_run(NULL, &systole, NULL, NULL, &spread), MVS_E_ARGUMENT, "start");
-  MUST_FAIL(mvs_spread_run(start, NULL, NULL, NULL, &spread), MVS_E_ARGUMENT, "load");
-  MUST_FAIL(mvs_spread_run(start, &systole, NULL, NULL, NULL), MVS_E_ARGUMENT, "spread");
+  MUST_FAIL(mvs_ensemble_run(start, &load, NULL, NULL, &spread), MVS_E_ARGUMENT, "pressure");
+  MUST_FAIL(mvs_ensemble_run(NULL, &systole, NULL, NULL, &spread), MVS_E_ARGUMENT, "start");
+  MUST_FAIL(mvs_ensemble_run(start, NULL, NULL, NULL, &spread), MVS_E_ARGUMENT, "load");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, NULL, NULL), MVS_E_ARGUMENT, "spread");
   CHECK(spread == NULL);
 }
 
-static void bad_questions_are_refused(const mvs_spread *spread) {
-  mvs_spread_path path = {.struct_size = sizeof path};
+static void bad_questions_are_refused(const mvs_ensemble *spread) {
+  mvs_ensemble_member path = {.struct_size = sizeof path};
   mvs_measures measures = {.struct_size = sizeof measures};
   mvs_stats stats = {.struct_size = sizeof stats};
   const mvs_snapshot *snapshot = NULL;
   mvs_view view;
-  MUST_FAIL(mvs_spread_get_path(spread, PATHS, &path), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_spread_stats(spread, PATHS, &stats), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_spread_snapshot(spread, PATHS, &snapshot), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_spread_measure(spread, 0, &measures), MVS_E_ARGUMENT, "statistic");
-  MUST_FAIL(mvs_spread_measure(spread, 6, &measures), MVS_E_ARGUMENT, "statistic");
-  MUST_FAIL(mvs_spread_view(spread, 3, &view), MVS_E_ARGUMENT, "which");
-  MUST_FAIL(mvs_spread_summarise(NULL, NULL), MVS_E_ARGUMENT, "spread");
-  mvs_spread_release(NULL);
+  MUST_FAIL(mvs_ensemble_get_member(spread, PATHS, &path), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_ensemble_get_member_stats(spread, PATHS, &stats), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_ensemble_get_member_snapshot(spread, PATHS, &snapshot), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_ensemble_measure(spread, 0, &measures), MVS_E_ARGUMENT, "statistic");
+  MUST_FAIL(mvs_ensemble_measure(spread, 6, &measures), MVS_E_ARGUMENT, "statistic");
+  MUST_FAIL(mvs_ensemble_get_array(spread, 3, &view), MVS_E_ARGUMENT, "which");
+  MUST_FAIL(mvs_ensemble_get_summary(NULL, NULL), MVS_E_ARGUMENT, "spread");
+  mvs_ensemble_release(NULL);
 }
 
 int main(void) {
   mvs_sim *sim = thin_valve();
   const mvs_snapshot *start = snapshot_of(sim);
   hash128 before = snapshot_hash(start);
-  mvs_spread *spread = run(start, options_of(PATHS, 0));
+  mvs_ensemble *spread = run(start, options_of(PATHS, 0));
   CHECK(same_hash(before, snapshot_hash(start)) && same_hash(before, sim_hash(sim)));
   path_0_is_the_plain_closure(spread, sim);
   same_seed_same_bits(start, spread);
@@ -306,7 +309,7 @@ int main(void) {
   a_closed_valve_is_opened_again(sim);
   bad_options_are_refused(start);
   bad_questions_are_refused(spread);
-  mvs_spread_release(spread);
+  mvs_ensemble_release(spread);
   mvs_snapshot_release(start);
   mvs_destroy(sim);
   return finish("paths");
