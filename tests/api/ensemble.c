@@ -264,7 +264,8 @@ static void bad_options_are_refused(const mvs_snapshot *start) {
   MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "same");
   options = options_of(2, 0);
   options.from = 3;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "ENSEMBLE_START");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
+            "ENSEMBLE_START");
   options = options_of(2, 0);
   options.backend = 9;
   MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "BACKEND");
