@@ -313,5 +313,5 @@ int main(void) {
   mvs_ensemble_release(spread);
   mvs_snapshot_release(start);
   mvs_destroy(sim);
-  return finish("paths");
+  return finish("ensemble_run");
 }
