@@ -151,7 +151,7 @@ static void open_valve(void) {
   must(mvs_settle(sim, NULL, NULL));
 }
 
-static void log_driver(void *user, int32_t level, const char *text) {
+static void log_driver(void *user, mvs_log_level level, const char *text) {
   (void)user;
   (void)level;
   fprintf(stderr, "%s: %s\n", option.driver, text);

@@ -27,7 +27,7 @@ std::string write_obj(const Model &model, const State &state);
 // with set. MVS_E_FORMAT with the line. What the file has and a valve has not is in the notes, and
 // what had to be chosen.
 struct Note {
-  int32_t level;  // MVS_LOG_WARNING: left out or chosen; MVS_LOG_INFO: a count
+  mvs_log_level level;  // MVS_LOG_WARNING: left out or chosen; MVS_LOG_INFO: a count
   std::string text;
 };
 struct Imported {

@@ -16,7 +16,7 @@ void on_interrupt(int) {
   interrupted = 1;
 }
 
-void warn(void *, int32_t level, const char *text) {
+void warn(void *, mvs_log_level level, const char *text) {
   if (level <= MVS_LOG_WARNING) std::fprintf(stderr, "mvs: %s\n", text);
 }
 

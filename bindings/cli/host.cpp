@@ -6,7 +6,7 @@
 namespace cli {
 namespace {
 
-void log_to_stderr(void *, int32_t level, const char *text) {
+void log_to_stderr(void *, mvs_log_level level, const char *text) {
   if (level <= MVS_LOG_WARNING) std::fprintf(stderr, "mvs: %s\n", text);
 }
 

@@ -1,16 +1,29 @@
-/* What every other header stands on: export macro, results, errors, ids and array descriptions.
+/* Conventions and basic types of all headers: export macro, results, errors, ids, arrays.
  *
- * Units are SI everywhere (m, kg, s, N, Pa, rad). Text is UTF-8. A pointer must not be null unless
- * its function says nullable; null gives MVS_E_ARGUMENT, never a crash.
+ * Units are SI (m, kg, s, N, Pa, rad). Text is UTF-8. Pointers must not be null unless the function
+ * says nullable; a null pointer gives MVS_E_ARGUMENT, never a crash.
  *
- * Structs that may grow start with `struct_size`, set by the caller to sizeof the struct, for input
- * and output alike; they grow only at their end. Of an input, a field left zero takes its default,
- * and what an older program does not have counts as zero; what a newer program sets and this
- * library does not know gives MVS_E_VERSION. An output is filled as far as the caller's reaches.
- * Fields named `reserved` must be zero.
+ * Structs that may grow start with `struct_size`, which the caller sets to sizeof the struct, for
+ * input and output alike. They grow only at their end. Fields that an older program does not have
+ * count as zero. A newer program that sets a field unknown to this library gets MVS_E_VERSION. An
+ * output is filled as far as the caller's struct extends. Structs that are elements of a caller's
+ * array have no struct_size: their stride in bytes is given beside the array, sizeof the struct,
+ * and the same rules hold for each element.
  *
- * Callbacks of the host run on the thread of the call that they belong to; they must return, not
- * throw or jump out. */
+ * One way to leave a field out: zero. A zero field takes the default in brackets. Where zero is
+ * itself a value, a flag states it. Fields named `reserved` must be zero.
+ *
+ * One way to enumerate: a count, and a get function with an index from 0 to count - 1. Functions
+ * that search or check (mvs_check_valve, mvs_device_list, mvs_device_doctor) report their findings
+ * through a callback while they run.
+ *
+ * One way to return arrays: stored arrays as a mvs_view, zero-copy; computed arrays as (data,
+ * capacity, &count): the function writes at most `capacity` elements and stores the number that
+ * exists in *count. `data` is nullable if `capacity` is 0.
+ *
+ * Enumerations are named enum mvs_x_e with a typedef mvs_x of fixed width for fields and
+ * parameters. Callbacks run on the thread of the call that they belong to. They must return, not
+ * throw or longjmp. */
 #ifndef MVS_BASE_H
 #define MVS_BASE_H
 
@@ -34,50 +47,51 @@
 extern "C" {
 #endif
 
-/* What a fallible function returns: MVS_OK, or a negative code; the sentence is in
- * mvs_last_error(). After a failure the simulator is bit for bit as before the call, and outputs
- * are as the caller left them. */
+/* The result of a function that can fail: MVS_OK or a negative code; mvs_last_error() returns the
+ * sentence. After a failure the simulator is bit for bit as before the call and outputs are
+ * unchanged. */
 typedef int32_t mvs_result;
 enum mvs_result_e {
   MVS_OK = 0,
-  MVS_E_ARGUMENT = -1,     /* a null pointer, a size, a range: the caller's value is wrong */
-  MVS_E_ID = -2,           /* no part of the valve has this id, or it is of another kind */
-  MVS_E_STATE = -3,        /* the call does not fit the simulator's state, e.g. no valve yet */
-  MVS_E_OP = -4,           /* a surgical operation, or a valve, that cannot be */
-  MVS_E_DIVERGED = -5,     /* the numbers left the range in which they mean something */
-  MVS_E_FORMAT = -6,       /* a file that is not what it should be; the error has its line */
+  MVS_E_ARGUMENT = -1,     /* a null pointer, or a value out of its range */
+  MVS_E_ID = -2,           /* the valve has no part of this kind with this id */
+  MVS_E_STATE = -3,        /* the simulator's state forbids the call, e.g. no valve is set */
+  MVS_E_OP = -4,           /* an impossible surgical operation, or an invalid valve */
+  MVS_E_DIVERGED = -5,     /* the solution diverged: numbers left their valid range */
+  MVS_E_FORMAT = -6,       /* a malformed file; mvs_error.line is the line */
   MVS_E_VERSION = -7,      /* a file, struct or driver of a version this library does not know */
   MVS_E_IO = -8,           /* the operating system refused to read or write */
-  MVS_E_DEVICE = -9,       /* a haptic device or its driver */
+  MVS_E_DEVICE = -9,       /* a haptic device or its driver failed */
   MVS_E_MEMORY = -10,      /* out of memory, or above a stated limit */
-  MVS_E_UNSUPPORTED = -11, /* this build lacks the part asked for */
-  MVS_E_INTERNAL = -12,    /* a fault of the library itself: please report it */
-  MVS_E_CANCELLED = -13    /* the progress callback asked to stop */
+  MVS_E_UNSUPPORTED = -11, /* this build lacks the requested part */
+  MVS_E_INTERNAL = -12,    /* a defect of the library: please report it */
+  MVS_E_CANCELLED = -13    /* the progress callback cancelled the call */
 };
 
-/* A failure in words. Texts end with a zero byte and are cut to fit. */
+/* A failure in words. Texts are zero-terminated and truncated to fit. */
 typedef struct mvs_error {
   mvs_result code;
-  int32_t line;      /* 1-based line of the file being read, 0 if there is none */
-  char part[64];     /* the part it is about ("triangle 17", "chord P2/3"), or "" */
-  char message[432]; /* one sentence: what is wrong, and what to do */
+  int32_t line;      /* 1-based line of the file being read, 0 without a file */
+  char part[64];     /* the part concerned ("triangle 17", "chord P2/3"), or "" */
+  char message[432]; /* one sentence: the fault and the remedy */
 } mvs_error;
 
-/* The last failure on the calling thread, of any simulator; a success leaves it as it is. Valid
- * until the thread's next failing call or end. Never null: before any failure its code is MVS_OK.
- */
+/* Returns the last failure on the calling thread, of any simulator; a success does not change it.
+ * Valid until the thread's next failing call or its end. Never null: before any failure the code is
+ * MVS_OK. */
 MVS_API const mvs_error *mvs_last_error(void);
 
-/* The name of a result code, "MVS_E_FORMAT"; "MVS_E_UNKNOWN" for a number that is none. Static. */
+/* Returns the name of a result code, "MVS_E_FORMAT"; "MVS_E_UNKNOWN" for an undefined number.
+ * Static. */
 MVS_API const char *mvs_result_name(mvs_result code);
 
-/* The version of the library in use, 10000 * major + 100 * minor + patch. */
+/* Returns the version of the loaded library, 10000 * major + 100 * minor + patch. */
 MVS_API uint32_t mvs_version(void);
 
-/* The names of the optional parts this build has, separated by spaces: "cholmod hdf5". Static. */
+/* Returns the optional parts of this build, separated by spaces: "cholmod hdf5". Static. */
 MVS_API const char *mvs_features(void);
 
-/* Names a part of the valve for its whole life: survives undo, save and load. Zero is none. */
+/* Identifies a part of the valve across undo, save and load. Zero: no part. */
 typedef uint64_t mvs_id;
 
 /* Element types of arrays. */
@@ -90,26 +104,69 @@ enum mvs_type_e {
 };
 typedef uint32_t mvs_type;
 
-/* An array of the caller: `count` elements of `components` values of `type`, the elements
- * `stride` bytes apart (0: packed), at any alignment. All zero: not given. Read during the call
- * only. */
+/* An array of the caller: `count` elements of `components` values of `type`, `stride` bytes apart
+ * (0: packed), at any alignment. All zero: left out. Read during the call only. */
 typedef struct mvs_array {
   const void *data;
   uint64_t count;
   uint32_t components;
-  uint32_t type;
+  mvs_type type;
   uint64_t stride;
 } mvs_array;
 
-/* An array of the library, read-only, packed (`stride` says how far apart elements are, for those
- * who want it); valid while its snapshot is held. `data` may be null where `count` is 0. */
+/* A read-only array of the library; `stride` is the distance of elements in bytes. Valid while its
+ * owner (snapshot or ensemble) is held. `data` may be null where `count` is 0. */
 typedef struct mvs_view {
   const void *data;
   uint64_t count;
   uint32_t components;
-  uint32_t type;
+  mvs_type type;
   uint64_t stride;
 } mvs_view;
+
+/* Types of described fields; those from CHORD on belong to operations (op.h). */
+enum mvs_field_type_e {
+  MVS_FIELD_NUMBER = 1,  /* double */
+  MVS_FIELD_COUNT = 2,   /* uint32_t */
+  MVS_FIELD_CHOICE = 3,  /* uint32_t, one of `choices` */
+  MVS_FIELD_CHORD = 4,   /* mvs_id */
+  MVS_FIELD_HEAD = 5,    /* mvs_id */
+  MVS_FIELD_SCALLOP = 6, /* mvs_id */
+  MVS_FIELD_SITE = 7,    /* mvs_site */
+  MVS_FIELD_POINT = 8,   /* mvs_point */
+  MVS_FIELD_VECTOR = 9,  /* double[3] */
+  MVS_FIELD_POINTS = 10, /* mvs_array, F64, k x 3 */
+  MVS_FIELD_TEXT = 11    /* const char * */
+};
+typedef uint32_t mvs_field_type;
+
+/* Description of a field of a struct, for bindings, dialogs and scripts. Texts are static. */
+typedef struct mvs_field_info {
+  uint32_t struct_size;
+  mvs_field_type type; /* MVS_FIELD_* */
+  uint32_t offset;     /* bytes into the struct */
+  uint32_t required;   /* 1: it has no default */
+  double low, high;    /* range of numbers and counts other than 0, in SI units */
+  const char *name;
+  const char *label; /* for people: "Coaptation area" */
+  const char *unit;  /* "m", "Pa", "m2", or "" */
+  const char *help;
+  const char *choices; /* "none=0 leaflet=1 head=2", or "" */
+} mvs_field_info;
+
+/* Structs of results whose fields the library describes. */
+enum mvs_struct_e {
+  MVS_STRUCT_MEASURES = 1, /* mvs_measures */
+  MVS_STRUCT_STATS = 2,    /* mvs_stats */
+  MVS_STRUCT_PROFILE = 3   /* mvs_profile; fields of its array phase_s are listed one by one */
+};
+typedef uint32_t mvs_struct;
+
+/* Fields of a struct of results in the order of the struct. Offset and type of a field are enough
+ * to read it: MVS_FIELD_NUMBER is a double, MVS_FIELD_COUNT a uint32_t. The count is 0 for an
+ * unknown struct. */
+MVS_API uint32_t mvs_get_field_count(mvs_struct which);
+MVS_API mvs_result mvs_get_field(mvs_struct which, uint32_t index, mvs_field_info *field);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,4 @@
-// What the handles of mvs.hpp rest on: failures as exceptions, structs with their size.
+// Basis of the C++ wrappers: failures as exceptions, structs with their size.
 #ifndef MVS_BASE_HPP
 #define MVS_BASE_HPP
 
@@ -34,7 +34,7 @@ inline void must(mvs_result result) {
   if (result != MVS_OK) throw Error(*mvs_last_error());
 }
 
-// A struct of the C interface, zero but for its size.
+// Returns a zeroed struct of the C interface with its struct_size.
 template <typename Struct>
 Struct sized() {
   Struct made = {};

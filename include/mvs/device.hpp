@@ -12,34 +12,36 @@
 
 namespace mvs {
 
-// A driver that is installed.
+// An installed driver.
 struct Driver {
   std::string name, path;
 };
 
-// A device that a driver finds: the name that mvs_device_desc takes, and what it is.
+// A connected device: its name for mvs_device_desc, and its model.
 struct FoundDevice {
   std::string name, model;
 };
 
-// One check of a driver's doctor; `verdict` is 1 good, 0 a fault, -1 a warning, 2 a note.
+// One check of a driver's doctor; `verdict` is 1 passed, 0 a fault, -1 a warning, 2 a note.
 struct Finding {
   std::int32_t verdict;
   std::string check, sentence;
 };
 
-// The drivers in the folder beside the library.
+// Returns the drivers in the folder beside the library.
 inline std::vector<Driver> drivers() {
+  std::uint32_t count = 0;
+  must(mvs_get_driver_count(&count));
   std::vector<Driver> found;
-  must(mvs_driver_each(
-      [](void *to, const char *name, const char *path) {
-        static_cast<std::vector<Driver> *>(to)->push_back({name, path});
-      },
-      &found));
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const char *name = nullptr, *path = nullptr;
+    must(mvs_get_driver(k, &name, &path));
+    found.push_back({name, path});
+  }
   return found;
 }
 
-// The devices that a driver finds; `options` are "key=value" lines.
+// Returns the devices that a driver finds; `options` are "key=value" lines.
 inline std::vector<FoundDevice> devices_of(const std::string &driver,
                                            const std::string &options = "") {
   std::vector<FoundDevice> found;
@@ -52,7 +54,7 @@ inline std::vector<FoundDevice> devices_of(const std::string &driver,
   return found;
 }
 
-// All that a driver's doctor says; "": that of every driver which finds a device.
+// Returns all checks of a driver's doctor; "": of every installed driver.
 inline std::vector<Finding> findings_of(const std::string &driver = "",
                                         const std::string &options = "") {
   std::vector<Finding> found;
@@ -65,7 +67,7 @@ inline std::vector<Finding> findings_of(const std::string &driver = "",
   return found;
 }
 
-// An open device, owned; it stops when it goes.
+// An open device, owned; its destructor stops it.
 class Device {
  public:
   explicit Device(mvs_device_desc desc) {
@@ -126,7 +128,7 @@ class Device {
   void cut() { must(mvs_device_cut(device_)); }
   void advance(double seconds) { must(mvs_device_advance(device_, seconds)); }
 
-  // Before each step of the simulator; mvs::Sim::get() is one.
+  // To be called before each step of the simulator, mvs::Sim::get().
   mvs_device_report sync(mvs_sim *sim) {
     mvs_device_report report = sized<mvs_device_report>();
     must(mvs_device_sync(device_, sim, &report));
@@ -140,13 +142,12 @@ class Device {
     return state;
   }
 
-  // The ticks since the last call; adds to `lost` how many nobody fetched in time.
-  std::vector<mvs_device_sample> trace(std::uint64_t &lost) {
+  // Takes the ticks since the last call; adds the number of ticks lost by overflow to `lost`.
+  std::vector<mvs_device_sample> take_samples(std::uint64_t &lost) {
     std::vector<mvs_device_sample> samples(8192);
-    std::uint32_t count = 0;
-    std::uint64_t missed = 0;
-    must(mvs_device_trace(device_, samples.data(), static_cast<std::uint32_t>(samples.size()),
-                          &count, &missed));
+    std::uint64_t count = 0, missed = 0;
+    must(mvs_device_take_samples(device_, samples.data(), sizeof samples[0], samples.size(), &count,
+                                 &missed));
     lost += missed;
     samples.resize(count);
     return samples;

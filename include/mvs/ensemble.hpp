@@ -1,4 +1,4 @@
-// Closing along several paths for C++17. Part of mvs/mvs.hpp.
+// Ensembles for C++17. Part of mvs/experimental.hpp.
 #ifndef MVS_ENSEMBLE_HPP
 #define MVS_ENSEMBLE_HPP
 
@@ -10,24 +10,24 @@
 
 namespace mvs {
 
-// What a valve closes to along several paths; mvs/ensemble.h says what it means.
-class Spread {
+// An ensemble of closures of one valve, owned; mvs/ensemble.h defines it.
+class Ensemble {
  public:
-  Spread(const Snapshot &start, mvs_load_case load, mvs_settle_options settle = {},
-         mvs_ensemble_options options = {}) {
+  Ensemble(const Snapshot &start, mvs_load_case load, mvs_settle_options settle = {},
+           mvs_ensemble_options options = {}) {
     load.struct_size = sizeof load;
     settle.struct_size = sizeof settle;
     options.struct_size = sizeof options;
     must(mvs_ensemble_run(start.get(), &load, &settle, &options, &held_));
   }
-  Spread(Spread &&other) noexcept : held_(std::exchange(other.held_, nullptr)) {}
-  Spread &operator=(Spread &&other) noexcept {
+  Ensemble(Ensemble &&other) noexcept : held_(std::exchange(other.held_, nullptr)) {}
+  Ensemble &operator=(Ensemble &&other) noexcept {
     std::swap(held_, other.held_);
     return *this;
   }
-  Spread(const Spread &) = delete;
-  Spread &operator=(const Spread &) = delete;
-  ~Spread() { mvs_ensemble_release(held_); }
+  Ensemble(const Ensemble &) = delete;
+  Ensemble &operator=(const Ensemble &) = delete;
+  ~Ensemble() { mvs_ensemble_release(held_); }
 
   const mvs_ensemble *get() const { return held_; }
 
@@ -37,34 +37,39 @@ class Spread {
     return summary;
   }
 
-  mvs_ensemble_member path(std::uint32_t path) const {
+  mvs_ensemble_member member(std::uint32_t index) const {
     mvs_ensemble_member found = sized<mvs_ensemble_member>();
-    must(mvs_ensemble_get_member(held_, path, &found));
+    must(mvs_ensemble_get_member(held_, index, &found));
     return found;
   }
 
-  mvs_stats stats(std::uint32_t path) const {
+  mvs_stats stats(std::uint32_t index) const {
     mvs_stats stats = sized<mvs_stats>();
-    must(mvs_ensemble_get_member_stats(held_, path, &stats));
+    must(mvs_ensemble_get_member_stats(held_, index, &stats));
     return stats;
   }
 
-  Snapshot snapshot(std::uint32_t path) const {
+  mvs_profile profile(std::uint32_t index) const {
+    mvs_profile profile = sized<mvs_profile>();
+    must(mvs_ensemble_get_member_profile(held_, index, &profile));
+    return profile;
+  }
+
+  Snapshot snapshot(std::uint32_t index) const {
     const mvs_snapshot *held = nullptr;
-    must(mvs_ensemble_get_member_snapshot(held_, path, &held));
+    must(mvs_ensemble_get_member_snapshot(held_, index, &held));
     return Snapshot(held);
   }
 
-  // MVS_ENSEMBLE_STATISTIC_MEAN ... of every figure.
-  mvs_measures measure(std::uint32_t statistic) const {
+  // Returns the statistic MVS_ENSEMBLE_STATISTIC_* of every figure.
+  mvs_measures measure(mvs_ensemble_statistic statistic) const {
     mvs_measures measures = sized<mvs_measures>();
     must(mvs_ensemble_measure(held_, statistic, &measures));
     return measures;
   }
 
-  // The array MVS_ENSEMBLE_ARRAY_NODE_DEVIATION or MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, valid while
-  // the spread lives.
-  View<double> view(std::uint32_t which) const {
+  // Returns the array MVS_ENSEMBLE_ARRAY_*, valid while the ensemble lives.
+  View<double> view(mvs_ensemble_array which) const {
     mvs_view found = {};
     must(mvs_ensemble_get_array(held_, which, &found));
     return View<double>(found);

@@ -1,12 +1,10 @@
-/* All of libmvs in plain C. */
+/* The stable interface of libmvs in C; experimental.h has the rest. */
 #ifndef MVS_MVS_H
 #define MVS_MVS_H
 
 #include "base.h"
 #include "device.h"
-#include "ensemble.h"
 #include "file.h"
-#include "levels.h"
 #include "op.h"
 #include "plan.h"
 #include "sim.h"

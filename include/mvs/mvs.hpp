@@ -1,14 +1,13 @@
-// libmvs for C++17, header only: handles that free themselves, failures as exceptions.
+// libmvs for C++17, header only: owning handles, failures as exceptions.
 //
-// Everything here is a thin cover of the C interface, whose headers are the manual. Structs are
-// those of C; functions fill in struct_size themselves.
+// A thin wrapper of the C interface, whose headers are the manual. Structs are those of C;
+// functions set struct_size themselves. mvs/experimental.hpp wraps mvs/experimental.h.
 #ifndef MVS_MVS_HPP
 #define MVS_MVS_HPP
 
 #include <mvs/mvs.h>
 #include <mvs/base.hpp>
 #include <mvs/device.hpp>
-#include <mvs/ensemble.hpp>
 #include <mvs/op.hpp>
 #include <mvs/snapshot.hpp>
 #include <mvs/tool.hpp>
@@ -38,12 +37,18 @@ class Sim {
 
   mvs_sim *get() const { return sim_; }
 
+  // Sets the strides of the arrays of structs as well.
   void set_valve(mvs_valve_desc valve) {
     valve.struct_size = sizeof valve;
+    valve.leaflet_stride = sizeof(mvs_leaflet_desc);
+    valve.chord_stride = sizeof(mvs_chord_desc);
+    valve.head_stride = sizeof(mvs_head_desc);
+    valve.ring_stride = sizeof(mvs_ring_desc);
+    valve.curve_stride = sizeof(mvs_curve_desc);
     must(mvs_set_valve(sim_, &valve));
   }
 
-  // leaflet 0: all of them
+  // leaflet 0: all leaflets
   void set_leaflet(const mvs_leaflet_desc &tissue, mvs_id leaflet = 0) {
     must(mvs_set_leaflet(sim_, leaflet, &tissue));
   }
@@ -52,24 +57,11 @@ class Sim {
     must(mvs_generate_valve(sim_, &desc));
   }
 
-  void refine() { must(mvs_refine_valve(sim_)); }
-
-  // By vertices or by edge; what it did.
-  mvs_coarsening coarsen(mvs_coarsen_options options) {
-    options.struct_size = sizeof options;
-    mvs_coarsening made = sized<mvs_coarsening>();
-    must(mvs_coarsen_valve(sim_, &options, &made));
-    return made;
-  }
-
-  // The state of a coarser or finer level of this valve.
-  void transfer_state(const Snapshot &from) { must(mvs_transfer_state(sim_, from.get())); }
-
-  void load_file(const std::string &path, std::uint32_t format = MVS_FORMAT_AUTO) {
+  void load_file(const std::string &path, mvs_format format = MVS_FORMAT_AUTO) {
     must(mvs_load_file(sim_, path.c_str(), format));
   }
 
-  void load_memory(const std::string &bytes, std::uint32_t format = MVS_FORMAT_AUTO) {
+  void load_memory(const std::string &bytes, mvs_format format = MVS_FORMAT_AUTO) {
     must(mvs_load_memory(sim_, bytes.data(), bytes.size(), format));
   }
 
@@ -86,7 +78,7 @@ class Sim {
     return load;
   }
 
-  // Not converged is no failure: look at the result's `converged`.
+  // Does not throw without convergence: check `converged` of the result.
   mvs_stats settle(mvs_settle_options options = {}) {
     options.struct_size = sizeof options;
     mvs_stats stats = sized<mvs_stats>();
@@ -135,17 +127,17 @@ class Sim {
 
   void restore(const Snapshot &snapshot) { must(mvs_restore(sim_, snapshot.get())); }
 
-  // Throws what apply would throw; changes nothing.
+  // Throws the error that apply would throw; changes nothing.
   void check(const mvs_op *op) const { must(mvs_check_op(sim_, op)); }
 
-  // Applies an operation; the id of what it made, 0 for nothing.
+  // Applies an operation; returns the id of the part that it made, 0: it made no part.
   mvs_id apply(const mvs_op *op) {
     mvs_id made = 0;
     must(mvs_apply_op(sim_, op, &made));
     return made;
   }
 
-  // The same for a struct mvs_op_*, whose size and kind need not be set.
+  // The same for a struct mvs_op_*; sets its size and kind.
   template <typename Op, std::uint32_t kind = KindOf<Op>::value>
   void check(Op op) const {
     op.op = {sizeof(Op), kind};

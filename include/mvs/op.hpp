@@ -1,4 +1,4 @@
-// The kinds of operations in C++: which number a struct has, and what the library tells of each.
+// Operations in C++: the kind of each struct, and the library's description of all kinds.
 #ifndef MVS_OP_HPP
 #define MVS_OP_HPP
 
@@ -48,7 +48,7 @@ struct OpKind {
   std::vector<mvs_field_info> fields;
 };
 
-// All kinds that the library in use has, in the order of their numbers.
+// Returns all kinds of the loaded library in the order of their numbers.
 inline std::vector<OpKind> op_kinds() {
   std::vector<OpKind> kinds;
   for (std::uint32_t k = 0; k < mvs_get_op_count(); ++k) {

@@ -1,7 +1,7 @@
-/* Snapshots: immutable pictures of a valve and its state, for looking, measuring and going back.
+/* Snapshots: immutable copies of a valve, its state and history, to read, measure and restore.
  *
- * A snapshot is reference counted and lives on when its simulator is gone. Every function here that
- * takes a const mvs_snapshot * may be called from any thread. */
+ * A snapshot is reference counted and stays valid after its simulator is destroyed. Functions of a
+ * const mvs_snapshot * may be called from any thread. */
 #ifndef MVS_SNAPSHOT_H
 #define MVS_SNAPSHOT_H
 
@@ -14,23 +14,23 @@ extern "C" {
 
 typedef struct mvs_snapshot mvs_snapshot;
 
-/* The valve and state after the last finished call; release it with mvs_snapshot_release. From any
- * thread, also while the simulator is at work. Costs nothing: no array is copied. */
+/* Returns the valve and state after the last finished call; release it with mvs_snapshot_release.
+ * From any thread, also during a call on the simulator. No array is copied. */
 MVS_API mvs_result mvs_get_snapshot(mvs_sim *sim, const mvs_snapshot **snapshot);
 
-/* Adds or drops a reference. Both accept null. */
+/* Add and drop a reference. `snapshot` is nullable. */
 MVS_API void mvs_snapshot_retain(const mvs_snapshot *snapshot);
 MVS_API void mvs_snapshot_release(const mvs_snapshot *snapshot);
 
-/* Puts a simulator back to a snapshot, of this simulator or of another one, bit for bit. */
+/* Restores a simulator to a snapshot of this or another simulator, bit for bit. */
 MVS_API mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot);
 
-/* 128 bits over the meaning of model and state, names and numbers in order: equal for equal inputs
- * of the next step. The hash of one snapshot may differ between versions of the library. */
+/* Returns a 128-bit hash of model and state: equal for equal inputs of the next step. The hash of a
+ * snapshot may differ between versions of the library. */
 MVS_API mvs_result mvs_snapshot_get_hash(const mvs_snapshot *snapshot, uint64_t hash[2]);
 
-/* The arrays of a snapshot: n nodes, m triangles, e edges, c chord segments, h heads.
- * With the parts they are all that mvs_set_valve takes: a valve can be edited and set again. */
+/* Arrays of a snapshot: n nodes, m triangles, l leaflets, c chord segments, h heads, r rings, k
+ * curves. Together with the parts they hold everything that mvs_set_valve takes. */
 enum mvs_array_kind_e {
   MVS_ARRAY_NODE_POSITION = 1, /* F64 n x 3, m */
   MVS_ARRAY_NODE_REST = 2,     /* F64 n x 3, m: the unloaded valve */
@@ -38,11 +38,12 @@ enum mvs_array_kind_e {
   MVS_ARRAY_NODE_VELOCITY = 4, /* F64 n x 3, m/s */
   MVS_ARRAY_NODE_KIND = 5,     /* U8 n: MVS_NODE_KIND_* */
   MVS_ARRAY_NODE_FORCE = 6,    /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
-  MVS_ARRAY_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
-  MVS_ARRAY_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet; infinity: none */
-  MVS_ARRAY_NODE_OPEN = 9,           /* F64 n x 3, m: where prescribed nodes are without load */
-  MVS_ARRAY_NODE_ORIGIN = 10,        /* U32 n: the node's index before any operation, refinement or
-                                  coarsening added or removed nodes; UINT32_MAX for a new one */
+  MVS_ARRAY_NODE_CONTACT_FORCE = 7, /* F64 n x 3, N */
+  MVS_ARRAY_NODE_COAPTATION =
+      8,                      /* F64 n, m: distance to the facing leaflet; infinity without one */
+  MVS_ARRAY_NODE_OPEN = 9,    /* F64 n x 3, m: unloaded targets of prescribed nodes */
+  MVS_ARRAY_NODE_ORIGIN = 10, /* U32 n: the node's index before any operation, refinement or
+                           coarsening added or removed nodes; UINT32_MAX for a new one */
   MVS_ARRAY_TRIANGLE_NODES = 20,     /* U32 m x 3 */
   MVS_ARRAY_TRIANGLE_LEAFLET = 21,   /* U32 m */
   MVS_ARRAY_TRIANGLE_SCALLOP = 22,   /* U32 m */
@@ -64,20 +65,20 @@ enum mvs_array_kind_e {
   MVS_ARRAY_CHORD_YOUNG = 56,        /* F64 c, Pa */
   MVS_ARRAY_CHORD_AREA = 57,         /* F64 c, m2 */
   MVS_ARRAY_CHORD_FLAGS = 58,        /* U8 c: MVS_CHORD_FLAG_OVER_* */
-  MVS_ARRAY_CHORD_LAW = 59,          /* U32 c: the laws MVS_CHORD_KIND_* */
+  MVS_ARRAY_CHORD_LAW = 59,          /* U32 c: MVS_CHORD_LAW_* */
   MVS_ARRAY_HEAD_NODES = 60,         /* U32 h */
   MVS_ARRAY_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
   MVS_ARRAY_CHORD_CONSTANTS = 62,    /* F64 c x 6: of the law */
   MVS_ARRAY_RING_POINTS = 65,        /* F64 x 3, m: the points of all rings, one after the other */
-  MVS_ARRAY_RING_START = 66,   /* U32 r + 1: where each ring's points start, and their number */
+  MVS_ARRAY_RING_START = 66,   /* U32 r + 1: first row of each ring's points, then their number */
   MVS_ARRAY_RING_KIND = 67,    /* U32 r: MVS_RING_KIND_* */
   MVS_ARRAY_RING_ID = 68,      /* U64 r */
   MVS_ARRAY_CURVE_POINTS = 75, /* F64 x 2: strain, nominal stress in Pa; of all curves in turn */
-  MVS_ARRAY_CURVE_START = 76,  /* U32 k + 1: where each curve's points start, and their number */
+  MVS_ARRAY_CURVE_START = 76,  /* U32 k + 1: first row of each curve's points, then their number */
   MVS_ARRAY_ORIFICE_VERTICES = 70,  /* F64 x 3, m: the smallest opening, as triangles */
   MVS_ARRAY_ORIFICE_TRIANGLES = 71, /* U32 x 3 into MVS_ARRAY_ORIFICE_VERTICES */
   MVS_ARRAY_VALVE_CONSTANTS = 80, /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
-                               Pa; bending scale, 0 for none */
+                               Pa; bending scale, 0: no bending */
   MVS_ARRAY_STATE_TIME = 81       /* F64 1, s: simulated time since the valve was set */
 };
 typedef uint32_t mvs_array_kind;
@@ -98,9 +99,9 @@ enum mvs_chord_flags_e {
 };
 typedef uint32_t mvs_chord_flags;
 
-/* Shows one array, zero-copy, valid while the snapshot is held. Forces, strains, coaptation and the
- * orifice are worked out at the first call that needs them. */
-MVS_API mvs_result mvs_snapshot_get_array(const mvs_snapshot *snapshot, uint32_t which,
+/* Returns a view of one array, zero-copy, valid while the snapshot is held. Forces, strains,
+ * coaptation and orifice are computed at the first call that needs them. */
+MVS_API mvs_result mvs_snapshot_get_array(const mvs_snapshot *snapshot, mvs_array_kind which,
                                           mvs_view *view);
 
 /* Kinds of named parts. */
@@ -117,30 +118,32 @@ typedef uint32_t mvs_part_kind;
 /* A named part of the valve. Names are unique within their kind, of at most 63 bytes. */
 typedef struct mvs_part {
   mvs_id id;
-  uint32_t kind;  /* MVS_PART_* */
-  uint32_t index; /* row in the arrays of its kind */
+  mvs_part_kind kind; /* MVS_PART_* */
+  uint32_t index;     /* row in the arrays of its kind */
   char name[64];
 } mvs_part;
 
-/* How many parts of a kind there are. */
-MVS_API mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, uint32_t kind,
+/* Returns the number of parts of a kind. */
+MVS_API mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, mvs_part_kind kind,
                                                uint32_t *count);
 
-/* The index-th part of a kind. */
-MVS_API mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, uint32_t kind,
+/* Returns part `index` of a kind. */
+MVS_API mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, mvs_part_kind kind,
                                          uint32_t index, mvs_part *part);
 
-/* The part of a kind with this name; MVS_E_ID if there is none. */
-MVS_API mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, uint32_t kind,
+/* Finds the part of a kind with this name; MVS_E_ID if the valve has no such part. */
+MVS_API mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, mvs_part_kind kind,
                                           const char *name, mvs_part *part);
 
-/* The name of the valve; valid while the snapshot is held. Never null; "" for a null snapshot. */
+/* Returns the name of the valve, valid while the snapshot is held. Never null; "" for a null
+ * snapshot. */
 MVS_API const char *mvs_snapshot_get_name(const mvs_snapshot *snapshot);
 
-/* The load of the snapshot. */
+/* Reads the load of the snapshot. */
 MVS_API mvs_result mvs_snapshot_get_load(const mvs_snapshot *snapshot, mvs_load_case *load);
 
-/* What the valve measures. Definitions and sources: libmvs/measure/README.md. SI units. */
+/* Measures of a valve (fields: MVS_STRUCT_MEASURES). Definitions and sources:
+ * libmvs/measure/README.md. */
 typedef struct mvs_measures {
   uint32_t struct_size;
   uint32_t intersections;          /* pairs of triangles that cross (exact test) */
@@ -159,11 +162,11 @@ typedef struct mvs_measures {
   double annulus_ap;               /* m */
   double annulus_cc;               /* m */
   double annulus_perimeter;        /* m */
-  double annulus_area_3d;          /* m2, of the surface spanning it */
+  double annulus_area_3d;          /* m2, of the surface that spans it */
   double annulus_area;             /* m2, projected on its plane */
   double annulus_saddle_height;    /* m */
   double annulus_nonplanar_angle;  /* rad */
-  double max_chord_strain;         /* engineering, 0 when all are slack */
+  double max_chord_strain;         /* engineering strain, 0 when all chordae are slack */
   double max_chord_tension;        /* N */
   double max_leaflet_strain;       /* largest principal engineering strain */
   double max_leaflet_stress;       /* Pa, largest principal Cauchy stress */
@@ -172,16 +175,15 @@ typedef struct mvs_measures {
   uint32_t chords_over_tension;    /* chordae that carry more than the limit of their kind */
 } mvs_measures;
 
-/* The range in which chordae of a kind work (MVS_CHORD_KIND_*): strain and tension in N; infinite
- * for sutures. Not where they rupture: a chord beyond it asks for a look. Sources:
+/* Returns the working range of chordae of a kind: largest strain and tension in N; infinite for
+ * sutures. Chordae rupture beyond this range; a chord outside it deserves inspection. Sources:
  * libmvs/measure/README.md. */
-MVS_API mvs_result mvs_get_chord_limits(uint32_t kind, double *strain, double *tension);
+MVS_API mvs_result mvs_get_chord_limits(mvs_chord_kind kind, double *strain, double *tension);
 
-/* Measures a snapshot. The first call on a snapshot does the work, later ones return what it
- * found. */
+/* Measures a snapshot. The first call computes the measures, later calls return the same ones. */
 MVS_API mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *measures);
 
-/* How far two shapes are apart, in m. Node figures are NaN where the meshes do not match. */
+/* Distances between two shapes, in m. Node figures are NaN where the meshes do not match. */
 typedef struct mvs_comparison {
   uint32_t struct_size;
   uint32_t same_mesh;                              /* 1: node-to-node figures exist */
@@ -196,15 +198,16 @@ typedef struct mvs_comparison {
 MVS_API mvs_result mvs_snapshot_compare(const mvs_snapshot *a, const mvs_snapshot *b,
                                         mvs_comparison *comparison);
 
-/* A planar cut of the leaflets: segments as F64 pairs of points (count = 2 x segments), in m.
- * Writes at most `capacity` points, and their true number to *count; `points` is nullable if
- * `capacity` is 0. The normal may have any length but 0. */
+/* Intersects the leaflets with a plane: segments as pairs of points, 3 doubles each, in m. Writes
+ * at most `capacity` points and stores their number, 2 x segments, in *count. The normal may have
+ * any length but 0. */
 MVS_API mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const double point[3],
                                         const double normal[3], double *points, uint64_t capacity,
                                         uint64_t *count);
 
-/* The valve's own frame in m: rows are origin (annulus centroid), AP axis (towards the anterior
- * leaflet), CC axis, and the axis into the atrium; right-handed, unit vectors. */
+/* Returns the anatomical frame of the valve: rows are the origin in m (annulus centroid), the AP
+ * axis (towards the anterior leaflet), the CC axis and the axis into the atrium; right-handed, unit
+ * vectors. */
 MVS_API mvs_result mvs_snapshot_get_frame(const mvs_snapshot *snapshot, double frame[12]);
 
 #ifdef __cplusplus

@@ -82,7 +82,7 @@ class Snapshot {
 
   // The array MVS_ARRAY_NODE_POSITION ...; throws std::invalid_argument if it is not of `Value`.
   template <typename Value>
-  View<Value> view(std::uint32_t which) const {
+  View<Value> view(mvs_array_kind which) const {
     mvs_view found = {};
     must(mvs_snapshot_get_array(held_, which, &found));
     if (found.type != TypeOf<Value>::value) {
@@ -91,7 +91,7 @@ class Snapshot {
     return View<Value>(found);
   }
 
-  std::vector<mvs_part> parts(std::uint32_t kind) const {
+  std::vector<mvs_part> parts(mvs_part_kind kind) const {
     std::uint32_t count = 0;
     must(mvs_snapshot_get_part_count(held_, kind, &count));
     std::vector<mvs_part> found(count);
@@ -100,7 +100,7 @@ class Snapshot {
     return found;
   }
 
-  mvs_part find(std::uint32_t kind, const std::string &name) const {
+  mvs_part find(mvs_part_kind kind, const std::string &name) const {
     mvs_part part = {};
     must(mvs_snapshot_find_part(held_, kind, name.c_str(), &part));
     return part;
@@ -122,7 +122,9 @@ class Snapshot {
       (k < size.done ? found.done : found.undone).push_back(entry);
     }
     for (std::uint32_t k = 0; k < size.checkpoints; ++k) {
-      found.checkpoints.emplace_back(mvs_snapshot_get_checkpoint(held_, k));
+      const char *name = nullptr;
+      must(mvs_snapshot_get_checkpoint(held_, k, &name));
+      found.checkpoints.emplace_back(name);
     }
     return found;
   }

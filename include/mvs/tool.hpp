@@ -11,7 +11,7 @@
 
 namespace mvs {
 
-// The tools of a snapshot, in the order in which they were added.
+// Returns the tools of a snapshot in the order of their addition.
 inline std::vector<mvs_tool_state> tools_of(const Snapshot &snapshot) {
   std::uint32_t count = 0;
   must(mvs_snapshot_get_tool_count(snapshot.get(), &count));

@@ -27,10 +27,13 @@ namespace {
 
 DriverPlugin::Log log_of(const mvs_device_desc &desc) {
   if (!desc.log) return {};
-  return [log = desc.log, user = desc.user](int32_t level, const char *text) {
+  return [log = desc.log, user = desc.user](mvs_log_level level, const char *text) {
     log(user, level, text);
   };
 }
+
+// Drivers that the calling thread's last mvs_get_driver_count found.
+thread_local std::vector<DriverFile> listed_drivers;
 
 template <typename Work>
 mvs_result guarded_device(mvs_device *device, Work &&work) noexcept {
@@ -96,12 +99,23 @@ void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
 
 extern "C" {
 
-mvs_result mvs_driver_each(mvs_driver_fn each, void *user) {
+mvs_result mvs_get_driver_count(uint32_t *count) {
   return guarded([&] {
-    MVS_MUST(each, MVS_E_ARGUMENT, "each", "each is a null pointer");
-    for (const DriverFile &file : installed_drivers()) {
-      each(user, file.name.c_str(), file.path.c_str());
-    }
+    must_point(count, "count");
+    listed_drivers = installed_drivers();
+    *count = static_cast<uint32_t>(listed_drivers.size());
+  });
+}
+
+mvs_result mvs_get_driver(uint32_t index, const char **name, const char **path) {
+  return guarded([&] {
+    must_point(name, "name");
+    must_point(path, "path");
+    MVS_MUST(index < listed_drivers.size(), MVS_E_ARGUMENT, "index",
+             "index is %u, but mvs_get_driver_count found %zu drivers on this thread", index,
+             listed_drivers.size());
+    *name = listed_drivers[index].name.c_str();
+    *path = listed_drivers[index].path.c_str();
   });
 }
 
@@ -236,15 +250,21 @@ mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state) {
   });
 }
 
-mvs_result mvs_device_trace(mvs_device *device, mvs_device_sample *samples, uint32_t capacity,
-                            uint32_t *count, uint64_t *lost) {
+mvs_result mvs_device_take_samples(mvs_device *device, mvs_device_sample *samples, uint32_t stride,
+                                   uint64_t capacity, uint64_t *count, uint64_t *lost) {
   return guarded_device(device, [&](mvs_device &d) {
     if (capacity > 0) must_point(samples, "samples");
     must_point(count, "count");
     must_point(lost, "lost");
-    *count = 0;
-    *lost = 0;
-    while (*count < capacity && d.device.links().trace.pop(samples[*count], *lost)) ++*count;
+    MVS_MUST(stride >= 8 && stride <= struct_size_limit && stride % 8 == 0, MVS_E_ARGUMENT,
+             "stride", "stride is %u: set it to sizeof(mvs_device_sample)", stride);
+    uint64_t taken = 0, missed = 0;
+    mvs_device_sample sample;
+    while (taken < capacity && d.device.links().trace.pop(sample, missed)) {
+      write_element(samples, taken++, stride, sample);
+    }
+    *count = taken;
+    *lost = missed;
   });
 }
 

@@ -63,10 +63,17 @@ mvs_result mvs_snapshot_get_history_entry(const mvs_snapshot *snapshot, uint32_t
   });
 }
 
-const char *mvs_snapshot_get_checkpoint(const mvs_snapshot *snapshot, uint32_t index) {
-  if (!snapshot || !snapshot->value.history.checkpoints) return nullptr;
-  const std::vector<Checkpoint> &list = *snapshot->value.history.checkpoints;
-  return index < list.size() ? list[index].name.c_str() : nullptr;
+mvs_result mvs_snapshot_get_checkpoint(const mvs_snapshot *snapshot, uint32_t index,
+                                       const char **name) {
+  return guarded([&] {
+    must_point(snapshot, "snapshot");
+    must_point(name, "name");
+    const auto &list = snapshot->value.history.checkpoints;
+    const size_t count = list ? list->size() : 0;
+    MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but there are %zu checkpoints",
+             index, count);
+    *name = (*list)[index].name.c_str();
+  });
 }
 
 uint32_t mvs_get_op_count(void) {
@@ -99,6 +106,7 @@ mvs_result mvs_get_op_field(uint32_t index, uint32_t field, mvs_field_info *info
     out.low = f.low;
     out.high = f.high;
     out.name = f.name;
+    out.label = f.name;
     out.unit = f.unit;
     out.help = f.help;
     out.choices = f.choices;

@@ -46,21 +46,27 @@ mvs_stats public_stats(const SolveStats &from) {
   stats.struct_size = sizeof stats;
   stats.converged = from.converged ? 1 : 0;
   stats.iterations = from.iterations;
-  stats.factorisations = from.factorisations;
   stats.contact_pairs = from.contact_pairs;
-  stats.shifted = from.shifted;
+  stats.lowered = from.lowered;
   stats.residual = from.residual;
   stats.energy = from.energy;
   stats.kinetic = from.kinetic;
   stats.wall_s = from.wall_s;
-  std::copy(from.work.seconds.begin(), from.work.seconds.end(), stats.phase_s);
-  stats.skipped = from.skipped;
-  stats.lowered = from.lowered;
-  stats.broad_phases = from.work.broad_phases;
-  stats.orderings = from.work.orderings;
-  stats.linear_iterations = from.work.linear_iterations;
-  stats.passes = from.work.passes;
   return stats;
+}
+
+mvs_profile public_profile(const SolveStats &from) {
+  mvs_profile profile = {};
+  profile.struct_size = sizeof profile;
+  profile.skipped = from.skipped;
+  profile.factorisations = from.factorisations;
+  profile.shifted = from.shifted;
+  profile.broad_phases = from.work.broad_phases;
+  profile.orderings = from.work.orderings;
+  profile.linear_iterations = from.work.linear_iterations;
+  profile.passes = from.work.passes;
+  std::copy(from.work.seconds.begin(), from.work.seconds.end(), profile.phase_s);
+  return profile;
 }
 
 }  // namespace mvs::core
@@ -95,6 +101,13 @@ void go_on(mvs_sim &sim, const SnapshotPtr &before, State state,
   sim.replace(make_snapshot(after_move(before->value, std::move(state), hands, move)));
   sim.hands.done(sim.present()->state);
   sim.stats = stats;
+}
+
+const SolveStats &last_stats(const mvs_sim *sim) {
+  must_point(sim, "sim");
+  MVS_MUST(sim->stats, MVS_E_STATE, "sim",
+           "the simulator has no statistics: this valve was neither settled nor stepped");
+  return *sim->stats;
 }
 
 void log_settled(const mvs_sim &sim, const SolveStats &stats) {
@@ -146,13 +159,11 @@ mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
 }
 
 mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats) {
-  return guarded([&] {
-    must_point(sim, "sim");
-    checked_struct_size(stats, "stats");
-    MVS_MUST(sim->stats, MVS_E_STATE, "sim",
-             "the simulator has no statistics: this valve was neither settled nor stepped");
-    write_struct(stats, public_stats(*sim->stats), "stats");
-  });
+  return guarded([&] { write_struct(stats, public_stats(last_stats(sim)), "stats"); });
+}
+
+mvs_result mvs_get_profile(const mvs_sim *sim, mvs_profile *profile) {
+  return guarded([&] { write_struct(profile, public_profile(last_stats(sim)), "profile"); });
 }
 
 }  // extern "C"

@@ -1,7 +1,7 @@
 // What loads and solver options mean, for every call that settles.
 #pragma once
 
-#include <mvs/sim.h>
+#include <mvs/profile.h>
 
 #include "solve/solver.h"
 
@@ -12,5 +12,6 @@ Load read_load(const mvs_load_case *given);
 SolveOptions read_options(const mvs_settle_options *given);
 
 mvs_stats public_stats(const SolveStats &from);
+mvs_profile public_profile(const SolveStats &from);
 
 }  // namespace mvs::core

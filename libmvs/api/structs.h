@@ -59,6 +59,33 @@ void write_struct(Struct *to, const Struct &value, const char *what) {
   std::memset(bytes + common, 0, size - common);
 }
 
+// Reads element `index` of a caller's array whose elements are `stride` bytes apart, by the same
+// rules: bytes beyond the caller's element count as zero, bytes beyond this library's must be zero.
+template <typename Struct>
+Struct read_element(const Struct *list, uint32_t index, uint32_t stride, const char *what) {
+  MVS_MUST(stride >= 8 && stride <= struct_size_limit && stride % 4 == 0, MVS_E_ARGUMENT, what,
+           "the stride of %s is %u: set it to sizeof its struct", what, stride);
+  const char *bytes = reinterpret_cast<const char *>(list) + size_t{index} * stride;
+  for (size_t k = sizeof(Struct); k < stride; ++k) {
+    MVS_MUST(bytes[k] == 0, MVS_E_VERSION, what,
+             "%s[%u] has a field at byte %zu that this version of libmvs does not know: update "
+             "libmvs, or leave the field zero",
+             what, index, k);
+  }
+  Struct known = {};
+  std::memcpy(&known, bytes, std::min<size_t>(stride, sizeof(Struct)));
+  return known;
+}
+
+// Fills element `index` of a caller's array whose elements are `stride` bytes apart.
+template <typename Struct>
+void write_element(Struct *list, uint64_t index, uint32_t stride, const Struct &value) {
+  char *bytes = reinterpret_cast<char *>(list) + index * stride;
+  const size_t common = std::min<size_t>(stride, sizeof(Struct));
+  std::memcpy(bytes, &value, common);
+  std::memset(bytes + common, 0, stride - common);
+}
+
 // Hands the bytes that make() gives to the caller's memory, as far as it reaches, and their true
 // number to *size.
 template <typename Make>

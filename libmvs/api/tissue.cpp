@@ -1,4 +1,4 @@
-// Another tissue for a leaflet, and what laws say of themselves.
+// Changes the tissue of a leaflet; enumerates the constitutive laws.
 #include "api/sim_call.h"
 #include "api/structs.h"
 #include "api/valve_desc.h"
@@ -10,27 +10,37 @@ using namespace mvs::core;
 namespace {
 
 template <typename Law>
-void describe(const Law *law, uint32_t number, const char *kind, mvs_law *description) {
-  MVS_MUST(law, MVS_E_ARGUMENT, "law", "there is no law %u of %s", number, kind);
+void describe(std::span<const Law> laws, uint32_t index, mvs_law *law) {
+  MVS_MUST(index < laws.size(), MVS_E_ARGUMENT, "index", "index is %u, but there are %zu laws",
+           index, laws.size());
   mvs_law out = {};
-  out.word = law->word;
-  out.name = law->name;
-  for (const Constant &c : law->constants) {
+  out.number = laws[index].id;
+  out.word = laws[index].word;
+  out.name = laws[index].name;
+  for (const Constant &c : laws[index].constants) {
     out.constants[out.constant_count++] = {c.key, c.unit, c.fallback, c.low, c.high};
   }
-  write_struct(description, out, "description");
+  write_struct(law, out, "law");
 }
 
 }  // namespace
 
 extern "C" {
 
-mvs_result mvs_get_leaflet_law(uint32_t law, mvs_law *description) {
-  return guarded([&] { describe(find_leaflet_law(law), law, "leaflets", description); });
+uint32_t mvs_get_leaflet_law_count(void) {
+  return static_cast<uint32_t>(leaflet_laws().size());
 }
 
-mvs_result mvs_get_chord_law(uint32_t law, mvs_law *description) {
-  return guarded([&] { describe(find_chord_law(law), law, "chordae", description); });
+mvs_result mvs_get_leaflet_law(uint32_t index, mvs_law *law) {
+  return guarded([&] { describe(leaflet_laws(), index, law); });
+}
+
+uint32_t mvs_get_chord_law_count(void) {
+  return static_cast<uint32_t>(chord_laws().size());
+}
+
+mvs_result mvs_get_chord_law(uint32_t index, mvs_law *law) {
+  return guarded([&] { describe(chord_laws(), index, law); });
 }
 
 mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue) {

@@ -40,7 +40,7 @@ void read_law_constants(const Law *law, const double *given, Values &values) {
 void read_leaflets(const mvs_valve_desc &desc, Valve &valve) {
   check_list(desc.leaflets, desc.leaflet_count, "leaflets");
   for (uint32_t l = 0; l < desc.leaflet_count; ++l) {
-    const mvs_leaflet_desc &given = desc.leaflets[l];
+    const mvs_leaflet_desc given = read_element(desc.leaflets, l, desc.leaflet_stride, "leaflets");
     must_be_zero(given.reserved, "leaflets[].reserved");
     Leaflet leaflet;
     leaflet.id = given.id;
@@ -70,7 +70,7 @@ void read_scallops(const mvs_valve_desc &desc, Valve &valve) {
 void read_chords(const mvs_valve_desc &desc, Valve &valve) {
   check_list(desc.chords, desc.chord_count, "chords");
   for (uint32_t c = 0; c < desc.chord_count; ++c) {
-    const mvs_chord_desc &given = desc.chords[c];
+    const mvs_chord_desc given = read_element(desc.chords, c, desc.chord_stride, "chords");
     Chord chord;
     chord.id = given.id;
     chord.name = text_or_empty(given.name);
@@ -89,7 +89,7 @@ void read_chords(const mvs_valve_desc &desc, Valve &valve) {
 void read_heads(const mvs_valve_desc &desc, Valve &valve) {
   check_list(desc.heads, desc.head_count, "heads");
   for (uint32_t h = 0; h < desc.head_count; ++h) {
-    const mvs_head_desc &given = desc.heads[h];
+    const mvs_head_desc given = read_element(desc.heads, h, desc.head_stride, "heads");
     must_be_zero(given.reserved, "heads[].reserved");
     valve.heads.push_back({given.id, text_or_empty(given.name), given.node});
   }
@@ -98,7 +98,7 @@ void read_heads(const mvs_valve_desc &desc, Valve &valve) {
 void read_rings(const mvs_valve_desc &desc, Valve &valve) {
   check_list(desc.rings, desc.ring_count, "rings");
   for (uint32_t r = 0; r < desc.ring_count; ++r) {
-    const mvs_ring_desc &given = desc.rings[r];
+    const mvs_ring_desc given = read_element(desc.rings, r, desc.ring_stride, "rings");
     must_be_zero(given.reserved, "rings[].reserved");
     Ring ring{given.id, text_or_empty(given.name), MVS_RING_KIND_RIGID, {}};
     if (given.kind != 0) ring.kind = given.kind;
@@ -110,7 +110,7 @@ void read_rings(const mvs_valve_desc &desc, Valve &valve) {
 void read_curves(const mvs_valve_desc &desc, Valve &valve) {
   check_list(desc.curves, desc.curve_count, "curves");
   for (uint32_t c = 0; c < desc.curve_count; ++c) {
-    const mvs_curve_desc &given = desc.curves[c];
+    const mvs_curve_desc given = read_element(desc.curves, c, desc.curve_stride, "curves");
     valve.curves.push_back(
         {given.id, text_or_empty(given.name), read_pairs(given.points, "curves[].points")});
   }
@@ -121,15 +121,21 @@ void read_constants(const mvs_valve_desc &desc, Valve &valve) {
   valve.density = or_default(desc.density, valve.density);
   valve.contact_thickness = or_default(desc.contact_thickness, valve.contact_thickness);
   valve.contact_stiffness = or_default(desc.contact_stiffness, valve.contact_stiffness);
-  valve.bending_scale = desc.bending_scale < 0 ? 0 : or_default(desc.bending_scale, 1);
+  const bool no_bending = (desc.flags & MVS_VALVE_FLAG_NO_BENDING) != 0;
+  MVS_MUST(!no_bending || desc.bending_scale == 0, MVS_E_ARGUMENT, "valve.bending_scale",
+           "valve.bending_scale is %g: it has to be 0 with MVS_VALVE_FLAG_NO_BENDING",
+           desc.bending_scale);
+  valve.bending_scale = no_bending ? 0 : or_default(desc.bending_scale, 1);
 }
 
 }  // namespace
 
 Described read_valve_desc(const mvs_valve_desc *given) {
   const mvs_valve_desc desc = read_struct(given, "valve");
-  MVS_MUST((desc.flags & ~uint32_t{MVS_VALVE_FLAG_ORIENT}) == 0, MVS_E_ARGUMENT, "valve.flags",
+  constexpr uint32_t known_flags = MVS_VALVE_FLAG_ORIENT | MVS_VALVE_FLAG_NO_BENDING;
+  MVS_MUST((desc.flags & ~known_flags) == 0, MVS_E_ARGUMENT, "valve.flags",
            "valve.flags is %u: it has bits that this version does not know", desc.flags);
+  must_be_zero(desc.reserved, "valve.reserved");
   Described described;
   read_nodes_and_triangles(desc, described);
   read_leaflets(desc, described.valve);

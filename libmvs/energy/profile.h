@@ -1,7 +1,7 @@
 // Where the work of a solver goes.
 #pragma once
 
-#include <mvs/sim.h>
+#include <mvs/profile.h>
 
 #include <array>
 #include <chrono>

@@ -6,40 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/struct_fields.h"
+
 namespace mvs::core {
 namespace {
-
-using M = mvs_measures;
-
-constexpr double M::*figures[] = {&M::regurgitant_orifice_area,
-                                  &M::coaptation_area,
-                                  &M::coaptation_length_mean,
-                                  &M::coaptation_length_min,
-                                  &M::coaptation_length_max,
-                                  &M::coaptation_height,
-                                  &M::coaptation_depth,
-                                  &M::tenting_height,
-                                  &M::tenting_area,
-                                  &M::tenting_volume,
-                                  &M::billow_height,
-                                  &M::billow_volume,
-                                  &M::annulus_ap,
-                                  &M::annulus_cc,
-                                  &M::annulus_perimeter,
-                                  &M::annulus_area_3d,
-                                  &M::annulus_area,
-                                  &M::annulus_saddle_height,
-                                  &M::annulus_nonplanar_angle,
-                                  &M::max_chord_strain,
-                                  &M::max_chord_tension,
-                                  &M::max_leaflet_strain,
-                                  &M::max_leaflet_stress,
-                                  &M::leaflet_area};
-constexpr uint32_t M::*counts[] = {&M::intersections, &M::chords_over_strain,
-                                   &M::chords_over_tension};
-static_assert(sizeof(M) == sizeof(uint32_t) + sizeof figures / sizeof figures[0] * sizeof(double) +
-                               sizeof counts / sizeof counts[0] * sizeof(uint32_t),
-              "every field but struct_size is in one of the two lists");
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
@@ -69,25 +39,20 @@ Row row_of(const std::vector<double> &values) {
   return row;
 }
 
-uint32_t whole(double value) {
-  return std::isnan(value) ? 0 : static_cast<uint32_t>(std::lround(value));
-}
-
 }  // namespace
 
 Statistics statistics_of(const std::vector<const mvs_measures *> &valves) {
   Statistics statistics = {};
   std::vector<double> values(valves.size());
   for (mvs_measures &m : statistics) m.struct_size = sizeof m;
-  for (double M::*figure : figures) {
-    for (size_t k = 0; k < valves.size(); ++k) values[k] = valves[k]->*figure;
+  for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
+    for (size_t k = 0; k < valves.size(); ++k) values[k] = read_field(valves[k], field);
     const Row row = row_of(values);
-    for (size_t s = 0; s < row.size(); ++s) statistics[s].*figure = row[s];
-  }
-  for (uint32_t M::*count : counts) {
-    for (size_t k = 0; k < valves.size(); ++k) values[k] = valves[k]->*count;
-    const Row row = row_of(values);
-    for (size_t s = 0; s < row.size(); ++s) statistics[s].*count = whole(row[s]);
+    const bool count = field.type == MVS_FIELD_COUNT;
+    for (size_t s = 0; s < row.size(); ++s) {
+      const double whole = std::isnan(row[s]) ? 0 : std::round(row[s]);
+      write_field(&statistics[s], field, count ? whole : row[s]);
+    }
   }
   return statistics;
 }

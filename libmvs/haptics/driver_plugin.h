@@ -24,7 +24,7 @@ std::vector<DriverFile> installed_drivers();
 
 class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
  public:
-  using Log = std::function<void(int32_t level, const char *text)>;
+  using Log = std::function<void(mvs_log_level level, const char *text)>;
 
   // `driver` is a name in that folder or an absolute path; options are "key=value" lines. Throws.
   static std::shared_ptr<DriverPlugin> load(const std::string &driver, const std::string &options,

@@ -2,6 +2,7 @@
 #include "session/replay.h"
 
 #include "base/error.h"
+#include "base/struct_fields.h"
 #include "formats/plan/old_ops.h"
 #include "history/tool_trajectory.h"
 #include "session/commit.h"
@@ -115,16 +116,11 @@ Json plan_measures(const ModelState &current) {
   const SnapshotPtr snapshot = make_snapshot({current, {}});
   const mvs_measures &m = snapshot->measures();
   Json json;
-  json.set("regurgitant_orifice_area_m2", m.regurgitant_orifice_area);
-  json.set("coaptation_area_m2", m.coaptation_area);
-  json.set("coaptation_height_m", m.coaptation_height);
-  json.set("coaptation_length_mean_m", m.coaptation_length_mean);
-  json.set("tenting_height_m", m.tenting_height);
-  json.set("billow_height_m", m.billow_height);
-  json.set("annulus_ap_m", m.annulus_ap);
-  json.set("annulus_cc_m", m.annulus_cc);
-  json.set("max_chord_strain", m.max_chord_strain);
-  json.set("max_chord_tension_N", m.max_chord_tension);
+  for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
+    if (field.type != MVS_FIELD_NUMBER) continue;
+    const std::string unit = *field.unit ? std::string("_") + field.unit : "";
+    json.set(field.name + unit, read_field(&m, field));
+  }
   json.set("chords_over_strain", flagged(*snapshot.get(), MVS_CHORD_FLAG_OVER_STRAIN));
   json.set("chords_over_tension", flagged(*snapshot.get(), MVS_CHORD_FLAG_OVER_TENSION));
   json.set("intersections", m.intersections);

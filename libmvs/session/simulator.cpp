@@ -43,7 +43,7 @@ void mvs_sim::must_have_valve() const {
            "the simulator has no valve yet: set, generate or load one first");
 }
 
-void mvs_sim::log(int32_t level, const char *pattern, ...) const {
+void mvs_sim::log(mvs_log_level level, const char *pattern, ...) const {
   if (!desc.log) return;
   char text[512];
   va_list arguments;

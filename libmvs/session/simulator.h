@@ -34,7 +34,7 @@ struct mvs_sim {
   void make_ready() { solver.make_ready(*now_.current.model, now_.current.state); }
 
   // One line to the host.
-  [[gnu::format(printf, 3, 4)]] void log(int32_t level, const char *pattern, ...) const;
+  [[gnu::format(printf, 3, 4)]] void log(mvs_log_level level, const char *pattern, ...) const;
   // The host's progress callback; empty where there is none.
   mvs::core::Progress progress() const;
 

@@ -10,7 +10,7 @@ typedef struct host {
   int share_fell, reentered, seen;
 } host;
 
-static void take_line(void *user, int32_t level, const char *text) {
+static void take_line(void *user, mvs_log_level level, const char *text) {
   host *h = user;
   ++h->lines;
   h->warnings += level == MVS_LOG_WARNING;

@@ -7,7 +7,7 @@ typedef struct host {
   int warnings;
 } host;
 
-static void take_line(void *user, int32_t level, const char *text) {
+static void take_line(void *user, mvs_log_level level, const char *text) {
   host *h = user;
   if (level != MVS_LOG_WARNING) return;
   ++h->warnings;

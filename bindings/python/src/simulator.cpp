@@ -80,7 +80,7 @@ int32_t Simulator::on_progress(void *user, double share, double residual) {
 }
 
 // Nobody would see what the library warns of if it went only to a log that nobody set.
-void Simulator::on_log(void *user, int32_t level, const char *text) {
+void Simulator::on_log(void *user, mvs_log_level level, const char *text) {
   auto &self = *static_cast<Simulator *>(user);
   const bool is_heard = !self.log_.is_none();
   // who has nothing to say does not wait for the interpreter

@@ -74,7 +74,7 @@ class Simulator {
   void must_not_be_called_back() const;
   void free_now();
   static int32_t on_progress(void *user, double share, double residual);
-  static void on_log(void *user, int32_t level, const char *text);
+  static void on_log(void *user, mvs_log_level level, const char *text);
 
   mvs_sim *sim_ = nullptr;
   py::object log_, progress_;

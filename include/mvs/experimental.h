@@ -1,0 +1,13 @@
+/* Experimental interface: ensembles, mesh levels and the profile of the solver.
+ *
+ * Everything else in include/mvs is stable. The functions and structs of this header, of ensemble.h
+ * and of levels.h may change in any version; mvs.h does not include them. */
+#ifndef MVS_EXPERIMENTAL_H
+#define MVS_EXPERIMENTAL_H
+
+#include "base.h"
+#include "ensemble.h"
+#include "levels.h"
+#include "profile.h"
+
+#endif

@@ -1,0 +1,36 @@
+// The experimental interface for C++17: ensembles, mesh levels, solver profile; may change.
+#ifndef MVS_EXPERIMENTAL_HPP
+#define MVS_EXPERIMENTAL_HPP
+
+#include <mvs/experimental.h>
+#include <mvs/ensemble.hpp>
+#include <mvs/mvs.hpp>
+
+namespace mvs {
+
+inline void refine(Sim &sim) {
+  must(mvs_refine_valve(sim.get()));
+}
+
+// By vertices or by edge; returns the changes.
+inline mvs_coarsening coarsen(Sim &sim, mvs_coarsen_options options) {
+  options.struct_size = sizeof options;
+  mvs_coarsening made = sized<mvs_coarsening>();
+  must(mvs_coarsen_valve(sim.get(), &options, &made));
+  return made;
+}
+
+// Transfers the state of a coarser or finer level of this valve.
+inline void transfer_state(Sim &sim, const Snapshot &from) {
+  must(mvs_transfer_state(sim.get(), from.get()));
+}
+
+inline mvs_profile profile_of(const Sim &sim) {
+  mvs_profile profile = sized<mvs_profile>();
+  must(mvs_get_profile(sim.get(), &profile));
+  return profile;
+}
+
+}  // namespace mvs
+
+#endif

@@ -1,0 +1,82 @@
+// structs.def as tables; the compiler checks that every field of each struct has its row.
+#include "base/struct_fields.h"
+
+#include <mvs/profile.h>
+#include <mvs/snapshot.h>
+
+#include <cstddef>
+#include <type_traits>
+
+namespace mvs::core {
+namespace {
+
+constexpr size_t size_of(uint32_t type) {
+  return type == MVS_FIELD_COUNT ? sizeof(uint32_t) : sizeof(double);
+}
+
+constexpr mvs_field_info row(uint32_t type, size_t offset, const char *name, const char *unit,
+                             const char *label, const char *help) {
+  mvs_field_info field = {};
+  field.struct_size = sizeof field;
+  field.type = type;
+  field.offset = static_cast<uint32_t>(offset);
+  field.name = name;
+  field.label = label;
+  field.unit = unit;
+  field.help = help;
+  field.choices = "";
+  return field;
+}
+
+#define MEASURE(TYPE, name, unit, label, help) \
+  row(MVS_FIELD_##TYPE, offsetof(mvs_measures, name), #name, unit, label, help),
+constexpr mvs_field_info measures_fields[] = {
+#include "base/structs.def"
+};
+#define STAT(TYPE, name, unit, help) \
+  row(MVS_FIELD_##TYPE, offsetof(mvs_stats, name), #name, unit, #name, help),
+constexpr mvs_field_info stats_fields[] = {
+#include "base/structs.def"
+};
+#define PROFILE(TYPE, name, member, unit, help) \
+  row(MVS_FIELD_##TYPE, offsetof(mvs_profile, member), #name, unit, #name, help),
+constexpr mvs_field_info profile_fields[] = {
+#include "base/structs.def"
+};
+
+// Whether rows lie one after the other from behind struct_size to `size`, but for a reserved
+// uint32_t.
+template <size_t count>
+constexpr bool covers(const mvs_field_info (&fields)[count], size_t size) {
+  size_t end = sizeof(uint32_t);
+  for (const mvs_field_info &field : fields) {
+    if (field.offset < end || field.offset > end + sizeof(uint32_t)) return false;
+    end = field.offset + size_of(field.type);
+  }
+  return end == size;
+}
+static_assert(covers(measures_fields, sizeof(mvs_measures)));
+static_assert(covers(stats_fields, sizeof(mvs_stats)));
+static_assert(covers(profile_fields, sizeof(mvs_profile)));
+
+// The type of each row is that of its field.
+#define MEASURE(TYPE, name, unit, label, help)     \
+  static_assert(                                   \
+      std::is_same_v<decltype(mvs_measures::name), \
+                     std::conditional_t<MVS_FIELD_##TYPE == MVS_FIELD_COUNT, uint32_t, double>>);
+#define STAT(TYPE, name, unit, help)            \
+  static_assert(                                \
+      std::is_same_v<decltype(mvs_stats::name), \
+                     std::conditional_t<MVS_FIELD_##TYPE == MVS_FIELD_COUNT, uint32_t, double>>);
+#include "base/structs.def"
+
+}  // namespace
+
+std::span<const mvs_field_info> struct_fields(mvs_struct which) {
+  if (which == MVS_STRUCT_MEASURES) return measures_fields;
+  if (which == MVS_STRUCT_STATS) return stats_fields;
+  if (which == MVS_STRUCT_PROFILE) return profile_fields;
+  return {};
+}
+
+}  // namespace mvs::core
