@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "commands.h"
+#include "ensemble.h"
 #include "pressure.h"
 #include "readouts.h"
 #include "reference.h"
-#include "spread.h"
 #include "tissue.h"
 
 namespace cli {
@@ -26,14 +26,14 @@ struct Options {
   std::string leaflet = "file", solver = "newton", backend = "default";
   std::optional<double> pressure_mmhg;
   mvs_settle_options settle = {};
-  SpreadOptions spread;
+  EnsembleOptions ensemble;
 };
 
 struct Closed {
   mvs::Snapshot valve;
   mvs_stats stats;
-  std::optional<mvs::Spread> spread;  // with --paths: then the valve is that of path 0
-  std::optional<Errors> errors;       // with --reference
+  std::optional<Ensemble> ensemble;  // with --members; `valve` is then that of member 0
+  std::optional<Errors> errors;      // with --reference
   double pressure_mmhg = 0;
 };
 
@@ -46,10 +46,10 @@ Closed close_valve(const Options &options, const Console &console) {
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
   mvs_settle_options settle = options.settle;
   settle.solver = solvers.at(options.solver);
-  if (options.spread.paths > 0) {
-    mvs::Spread spread =
-        spread_of(sim.snapshot(), pressure_mmhg, settle, options.spread, desc.backend, progress);
-    return {spread.snapshot(0), spread.stats(0), std::move(spread), {}, pressure_mmhg};
+  if (options.ensemble.members > 0) {
+    Ensemble ensemble = run_ensemble(sim.snapshot(), pressure_mmhg, settle, options.ensemble,
+                                     desc.backend, progress);
+    return {ensemble.snapshot(0), ensemble.stats(0), std::move(ensemble), {}, pressure_mmhg};
   }
   sim.set_load(pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle(settle);
@@ -91,7 +91,7 @@ Json result_json(const Options &options, const Closed &closed, const mvs_measure
                {"intersections", measures.intersections},
                {"hash", hash_of(closed.valve)},
                {"measures", measures_json(measures)}};
-  if (closed.spread) json["spread"] = spread_json(*closed.spread, options.spread);
+  if (closed.ensemble) json["ensemble"] = ensemble_json(*closed.ensemble, options.ensemble);
   if (closed.errors) json["reference"] = errors_json(*closed.errors);
   return json;
 }
@@ -102,7 +102,7 @@ std::string result_text(const Options &options, const Closed &closed,
   return text("%s: %s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
               options.in.c_str(), stats.converged ? "at rest" : "NOT at rest", closed.pressure_mmhg,
               stats.wall_s, stats.iterations, stats.residual) +
-         (closed.spread ? spread_text(*closed.spread) : measures_text(measures)) +
+         (closed.ensemble ? ensemble_text(*closed.ensemble) : measures_text(measures)) +
          (closed.errors ? errors_text(*closed.errors) : "");
 }
 
@@ -112,8 +112,8 @@ void run(const Options &options, const Console &console) {
   if (!options.reference.empty()) reference = load(options.reference);
   Closed closed = close_valve(options, console);
   if (reference) {
-    const mvs::Spread *spread = closed.spread ? &*closed.spread : nullptr;
-    closed.errors = errors_from(options.reference, *reference, closed.valve, spread);
+    const Ensemble *ensemble = closed.ensemble ? &*closed.ensemble : nullptr;
+    closed.errors = errors_from(options.reference, *reference, closed.valve, ensemble);
   }
   const mvs_measures measures = closed.valve.measure();
   if (!options.out.empty()) closed.valve.save(options.out);
@@ -163,7 +163,7 @@ void add_close(CLI::App &app, Console &console) {
       ->check(CLI::PositiveNumber);
   command->add_option("--reference", options->reference,
                       "tell how far the closed valve is from the shape of this file");
-  add_spread_options(*command, options->spread);
+  add_ensemble_options(*command, options->ensemble);
   command->add_flag("--progress", console.progress,
                     "show progress on stderr although it is no terminal");
   command->callback([options, &console] { run(*options, console); });

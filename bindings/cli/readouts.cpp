@@ -140,7 +140,7 @@ Json statistics_json(const Statistics &of) {
                            {"min", number(of.min)},
                            {"max", number(of.max)},
                            {"deviation", number(of.deviation)},
-                           {"paths", static_cast<uint32_t>(of.count.*readout.value)}};
+                           {"members", static_cast<uint32_t>(of.count.*readout.value)}};
   }
   for (const Count &count : counts) {
     object[count.key] = {{"min", of.min.*count.value}, {"max", of.max.*count.value}};

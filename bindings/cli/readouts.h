@@ -17,12 +17,12 @@ std::string measures_text(const mvs_measures &measures);
 // Two of them side by side.
 std::string measures_text(const mvs_measures &before, const mvs_measures &after);
 
-// Statistics of the closures of one valve, as mvs::Spread::measure gives them.
+// Statistics of the members of an ensemble (mvs_ensemble_measure).
 struct Statistics {
   mvs_measures mean, min, max, deviation, count;
 };
 
-// Of every read-out {"mean": ..., "min": ..., "max": ..., "deviation": ..., "paths": ...}; counts
+// Of every read-out {"mean": ..., "min": ..., "max": ..., "deviation": ..., "members": ...}; counts
 // are whole numbers and have the range only.
 Json statistics_json(const Statistics &statistics);
 

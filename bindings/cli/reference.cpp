@@ -24,7 +24,7 @@ constexpr Distance distances[] = {
     {"surface_max_registered_mm", "Surfaces registered, most", &C::surface_max_registered},
 };
 
-// The least and the most over the paths, m.
+// The minimum and the maximum over the members, m.
 std::pair<double, double> range_of(const Errors &errors, const Distance &distance) {
   double least = errors.at_rest[0].*distance.value, most = least;
   for (const mvs_comparison &c : errors.at_rest) {
@@ -41,12 +41,12 @@ Json mm(double metres) {
 }  // namespace
 
 Errors errors_from(const std::string &file, const mvs::Snapshot &reference,
-                   const mvs::Snapshot &closed, const mvs::Spread *spread) {
+                   const mvs::Snapshot &closed, const Ensemble *ensemble) {
   Errors errors = {file, closed.compare(reference), {}};
-  const uint32_t paths = spread ? spread->summary().paths : 0;
-  for (uint32_t k = 0; k < paths; ++k) {
-    if (!spread->path(k).converged) continue;
-    errors.at_rest.push_back(spread->snapshot(k).compare(reference));
+  const uint32_t members = ensemble ? ensemble->summary().paths : 0;
+  for (uint32_t k = 0; k < members; ++k) {
+    if (!ensemble->path(k).converged) continue;
+    errors.at_rest.push_back(ensemble->snapshot(k).compare(reference));
   }
   return errors;
 }
@@ -55,12 +55,12 @@ Json errors_json(const Errors &errors) {
   Json json = {{"file", errors.file}, {"same_mesh", errors.plain.same_mesh != 0}};
   for (const Distance &distance : distances) json[distance.key] = mm(errors.plain.*distance.value);
   if (errors.at_rest.empty()) return json;
-  Json over = {{"paths", errors.at_rest.size()}};
+  Json over = {{"members", errors.at_rest.size()}};
   for (const Distance &distance : distances) {
     const auto [least, most] = range_of(errors, distance);
     over[distance.key] = {{"min", mm(least)}, {"max", mm(most)}};
   }
-  json["spread"] = over;
+  json["ensemble"] = over;
   return json;
 }
 
@@ -72,7 +72,7 @@ std::string errors_text(const Errors &errors) {
     table += text("  %-30s%10.3f", distance.label, value * 1e3);
     if (!errors.at_rest.empty()) {
       const auto [least, most] = range_of(errors, distance);
-      table += text("  (%.3f to %.3f over %zu paths at rest)", least * 1e3, most * 1e3,
+      table += text("  (%.3f to %.3f over %zu members at rest)", least * 1e3, most * 1e3,
                     errors.at_rest.size());
     }
     table += '\n';

@@ -1,9 +1,10 @@
-// `mvs close --reference`: how far a closed valve is from another shape of it, on every path.
+// `mvs close --reference`: distances of a closed valve, and of every member of an
+// ensemble, from a reference shape.
 #pragma once
 
 #include <vector>
 
-#include "console.h"
+#include "ensemble.h"
 
 namespace cli {
 
@@ -14,9 +15,9 @@ struct Errors {
   std::vector<mvs_comparison> at_rest;  // empty: one closure only
 };
 
-// `reference` is the valve of `file`; `spread` is null for one closure.
+// `reference` is the valve of `file`; `ensemble` is null for one closure.
 Errors errors_from(const std::string &file, const mvs::Snapshot &reference,
-                   const mvs::Snapshot &closed, const mvs::Spread *spread);
+                   const mvs::Snapshot &closed, const Ensemble *ensemble);
 
 Json errors_json(const Errors &errors);
 std::string errors_text(const Errors &errors);

@@ -87,8 +87,8 @@ class Goal:
         self.opened, self.pressure = opened, pressure
         self.shapes = [close(opened, pressure, residual=1e-7)[0]]
         if paths > 1:
-            spread = opened.spread(pressure, paths=paths)
-            self.shapes += [spread.snapshot(k) for k, path in enumerate(spread.paths)
+            ensemble = opened.ensemble(pressure, members=paths)
+            self.shapes += [ensemble.snapshot(k) for k, path in enumerate(ensemble.members)
                             if k and path.converged]
         kind = opened.node_kind
         self.sheet = (kind == mvs.NodeKind.LEAFLET) | (kind == mvs.NodeKind.ANNULUS)

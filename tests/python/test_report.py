@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("pyvista")
 pytest.importorskip("matplotlib")
 
-from mvs.report import cases, gallery, geometry, page, spread, table  # noqa: E402
+from mvs.report import cases, ensemble, gallery, geometry, page, table  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -82,17 +82,17 @@ def test_unrolled_leaflets_hang_from_the_annulus(opened):
     assert left < right
 
 
-def test_the_spread_has_a_picture_and_every_figure(case):
+def test_the_ensemble_has_a_picture_and_every_figure(case):
     import matplotlib.image
 
-    each = spread.Spreading("thin", "Thin <valve>", case.opened.spread(mvs.SYSTOLE_PA, paths=2))
-    png = spread.picture_of(each, 50.0)
+    each = ensemble.Run("thin", "Thin <valve>", case.opened.ensemble(mvs.SYSTOLE_PA, members=2))
+    png = ensemble.picture_of(each, 50.0)
     image = matplotlib.image.imread(io.BytesIO(png))
     # as the other maps: the sheets cover far more than a tenth
     assert (image[..., :3] < 0.9).any(axis=2).mean() > 0.1
-    text = spread.as_html([each], {"thin": png})
+    text = ensemble.as_html([each], {"thin": png})
     assert text.count("data:image/png;base64,") == 1
-    assert "2 of 2 paths at rest" in text and "2 of 2 paths at rest" in spread.as_text([each])
+    assert "2 of 2 members at rest" in text and "2 of 2 members at rest" in ensemble.as_text([each])
     assert "Thin &lt;valve&gt;" in text and "<valve>" not in text
     for row in table.ROWS:
         assert f"<tr><th>{row.label}</th><td>{table.value(row, case.closed.measures)}</td>" in text

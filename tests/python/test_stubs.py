@@ -17,8 +17,8 @@ def test_stubs_match_the_module(tmp_path):
                 r"mvs\._core\.check_valve",
                 r"mvs\._core\.Simulator\.set_valve",
                 r"mvs\._core\.(Device|Simulator)\.__exit__",
-                r"mvs\._core\.(Device|Simulator|Snapshot|Spread)",
-                r"mvs\._core\.(Snapshot|Spread)\.__init__",
+                r"mvs\._core\.(Device|Ensemble|Simulator|Snapshot)",
+                r"mvs\._core\.(Ensemble|Snapshot)\.__init__",
                 "",
             ]
         )
@@ -50,7 +50,7 @@ def test_everything_public_is_documented():
         thing = getattr(mvs, name)
         if callable(thing):
             assert thing.__doc__, name
-    for kind in (mvs.Device, mvs.Snapshot, mvs.Simulator, mvs.Spread):
+    for kind in (mvs.Device, mvs.Snapshot, mvs.Simulator, mvs.Ensemble):
         for name, member in vars(kind).items():
             if not name.startswith("_"):
                 assert member.__doc__, f"{kind.__name__}.{name}"

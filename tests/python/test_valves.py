@@ -30,7 +30,7 @@ def test_a_valve_can_be_given_as_keywords(opened, valve):
         assert sim.snapshot().hash == opened.hash
 
 
-def spread(array):
+def every_second(array):
     """The same values as every second row and column of a larger array."""
     wide = np.zeros(tuple(2 * n for n in array.shape), dtype=array.dtype)
     wide[tuple(slice(None, None, 2) for _ in array.shape)] = array
@@ -57,7 +57,7 @@ def unaligned(array):
 
 LAYOUTS = {
     "columns first": np.asfortranarray,
-    "every second": spread,
+    "every second": every_second,
     "padded rows": padded_rows,
     "backwards": lambda a: a[::-1].copy()[::-1],
     "unaligned": unaligned,

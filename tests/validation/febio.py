@@ -234,16 +234,16 @@ HEAD = (
 
 def spread_of(result: Result, paths: int) -> str:
     """The same errors over the closures along several paths: how much of them is fold."""
-    spread = result.opened.spread(mvs.SYSTOLE_PA, paths=paths)
-    at_rest = [k for k, path in enumerate(spread.paths) if path.converged]
-    errors = [spread.snapshot(k).compare(result.target) for k in at_rest]
+    ensemble = result.opened.ensemble(mvs.SYSTOLE_PA, members=paths)
+    at_rest = [k for k, path in enumerate(ensemble.members) if path.converged]
+    errors = [ensemble.snapshot(k).compare(result.target) for k in at_rest]
     figures = [f"{each.surface_rms * 1e3:.2f}" for each in errors]
-    orders = [spread.paths[k].order.name.lower().replace("_", " ") for k in at_rest]
+    orders = [ensemble.members[k].order.name.lower().replace("_", " ") for k in at_rest]
     return (
         f"{result.choice.title}: surface RMS by path, mm: "
         + ", ".join(f"{figure} ({order})" for figure, order in zip(figures, orders))
-        + f"; {spread.summary.equilibria} equilibria, nodes apart by "
-        f"{spread.summary.node_max * 1e3:.2f} mm at most"
+        + f"; {ensemble.summary.equilibria} equilibria, nodes apart by "
+        f"{ensemble.summary.node_max * 1e3:.2f} mm at most"
     )
 
 

@@ -150,21 +150,21 @@ def close(path: Path, tissue: Tissue = TISSUES[0]) -> Result:
 
 def spread_of(result: Result, paths: int) -> str:
     """The same errors over the closures along several paths: how much of them is fold."""
-    spread = result.opened.spread(mvs.SYSTOLE_PA, paths=paths)
-    at_rest = [k for k, path in enumerate(spread.paths) if path.converged]
-    errors = [spread.snapshot(k).compare(result.target) for k in at_rest]
+    ensemble = result.opened.ensemble(mvs.SYSTOLE_PA, members=paths)
+    at_rest = [k for k, path in enumerate(ensemble.members) if path.converged]
+    errors = [ensemble.snapshot(k).compare(result.target) for k in at_rest]
 
     def over(figures: list[float]) -> str:
         return f"{min(figures):.2f} to {max(figures):.2f}"
 
     return (
-        f"  over {len(at_rest)} of {paths} paths at rest, {spread.summary.equilibria} equilibria "
-        f"apart by {spread.summary.node_max * 1e3:.2f} at most: "
+        f"  over {len(at_rest)} of {paths} paths at rest, {ensemble.summary.equilibria} equilibria "
+        f"apart by {ensemble.summary.node_max * 1e3:.2f} at most: "
         f"node to node {over([e.node_rms * 1e3 for e in errors])}, "
         f"{over([e.node_max * 1e3 for e in errors])}; "
         f"surface {over([e.surface_rms * 1e3 for e in errors])}, "
         f"{over([e.surface_max * 1e3 for e in errors])}; orifice "
-        f"{over([m.regurgitant_orifice_area * 1e6 for m in (spread.min, spread.max)])} mm2"
+        f"{over([m.regurgitant_orifice_area * 1e6 for m in (ensemble.min, ensemble.max)])} mm2"
     )
 
 

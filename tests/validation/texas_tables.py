@@ -101,16 +101,16 @@ class Study:
     def spread(self) -> Iterator[Row]:
         """Closures along several paths: the error of each beside how far they are apart."""
         opened = open_valve(self.folder, PART_LEVEL)
-        spread = opened.spread(PRESSURE, paths=self.paths)
-        for k, path in enumerate(spread.paths):
+        ensemble = opened.ensemble(PRESSURE, members=self.paths)
+        for k, path in enumerate(ensemble.members):
             row: Row = {"path": k, "at rest": "yes" if path.converged else "no",
                         "from path 0, RMS": path.node_rms * MM,
                         "from path 0, max": path.node_max * MM}
             if path.converged:
-                row |= error_columns(errors_of(spread.snapshot(k), self.frame))
+                row |= error_columns(errors_of(ensemble.snapshot(k), self.frame))
             yield row
-        summary = spread.summary
-        yield {"path": "any two", "at rest": f"{summary.converged} of {summary.paths}",
+        summary = ensemble.summary
+        yield {"path": "any two", "at rest": f"{summary.converged} of {summary.members}",
                "from path 0, RMS": summary.node_rms * MM,
                "from path 0, max": summary.node_max * MM}
 

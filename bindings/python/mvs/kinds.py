@@ -80,8 +80,8 @@ class ChordLaw(IntEnum):
     TABLE = 4
 
 
-class SpreadOrder(IntEnum):
-    """When the boundary goes where the load wants it: with the pressure, before or after it."""
+class EnsembleOrder(IntEnum):
+    """Order of boundary motion and pressure: together, boundary first, or pressure first."""
 
     TOGETHER = 1
     BOUNDARY_FIRST = 2

@@ -17,11 +17,11 @@ from .kinds import (
     SYSTOLE_PA,
     ChordKind,
     ChordLaw,
+    EnsembleOrder,
     LeafletLaw,
     NodeKind,
     PartKind,
     RingKind,
-    SpreadOrder,
     ToolKind,
 )
 
@@ -34,6 +34,9 @@ __all__ = [
     "Coarsening",
     "Comparison",
     "Curve",
+    "EnsembleMember",
+    "EnsembleOrder",
+    "EnsembleSummary",
     "Fault",
     "Frame",
     "HistoryEntry",
@@ -49,9 +52,6 @@ __all__ = [
     "Replay",
     "Ring",
     "RingKind",
-    "SpreadOrder",
-    "SpreadPath",
-    "SpreadSummary",
     "Stats",
     "Tool",
     "ToolKind",
@@ -237,34 +237,34 @@ class Comparison:
 
 
 @dataclasses.dataclass(frozen=True)
-class SpreadSummary:
-    """What all paths of a spread show together. Shapes are over the paths at rest, as they lie."""
+class EnsembleSummary:
+    """Distances over all members of an ensemble at rest; shapes are compared without registration."""
 
-    paths: Annotated[int, "1", "closures, the plain one included"]
-    converged: Annotated[int, "1", "paths at rest"]
+    members: Annotated[int, "1", "closures, the plain one included"]
+    converged: Annotated[int, "1", "members at rest"]
     equilibria: Annotated[int, "1", "distinct shapes among them"]
-    lowest: Annotated[Optional[int], "1", "the path at rest of the lowest potential; None: none is"]
-    node_rms: Annotated[float, "m", "node to node, RMS over all pairs of paths"]
-    node_max: Annotated[float, "m", "the farthest any node is apart in any two paths"]
-    surface_rms: Annotated[float, "m", "surface distance from path 0, RMS over the other paths"]
-    surface_max: Annotated[float, "m", "the largest distance from the surface of path 0"]
+    lowest: Annotated[Optional[int], "1", "member at rest of lowest potential; None: no member rests"]
+    node_rms: Annotated[float, "m", "node to node, RMS over all pairs of members"]
+    node_max: Annotated[float, "m", "largest distance of a node between any two members"]
+    surface_rms: Annotated[float, "m", "surface distance from member 0, RMS over the others"]
+    surface_max: Annotated[float, "m", "the largest distance from the surface of member 0"]
 
 
 @dataclasses.dataclass(frozen=True)
-class SpreadPath:
-    """One path of a spread: how it closed, and how far from path 0 it ended."""
+class EnsembleMember:
+    """One member of an ensemble: its loading path, and its distance from member 0 at the end."""
 
-    converged: Annotated[bool, "1", "at rest; only then it counts in the statistics"]
-    diverged: Annotated[bool, "1", "it left the range of numbers; its snapshot is where it began"]
-    increments: Annotated[int, "1", "equal steps in which the pressure came"]
-    order: Annotated[SpreadOrder, "1", "when the boundary moved"]
+    converged: Annotated[bool, "1", "at rest; the statistics use only such members"]
+    diverged: Annotated[bool, "1", "left the range of numbers; its snapshot is its start"]
+    increments: Annotated[int, "1", "equal steps in which the pressure is applied"]
+    order: Annotated[EnsembleOrder, "1", "order of boundary motion and pressure"]
     equilibrium: Annotated[Optional[int], "1", "number of its shape; None: not at rest"]
-    perturbation: Annotated[float, "m", "the longest way a node of its start was moved"]
-    node_rms: Annotated[float, "m", "node to node from path 0, RMS"]
-    node_max: Annotated[float, "m", "node to node from path 0, largest"]
-    surface_rms: Annotated[float, "m", "symmetric surface distance from path 0, RMS"]
-    surface_max: Annotated[float, "m", "symmetric surface distance from path 0, largest"]
-    ramp: Annotated[float, "s", "time in which the pressure came, with inertia; 0: at rest between"]
+    perturbation: Annotated[float, "m", "largest displacement of a node of its start"]
+    node_rms: Annotated[float, "m", "node to node from member 0, RMS"]
+    node_max: Annotated[float, "m", "node to node from member 0, largest"]
+    surface_rms: Annotated[float, "m", "symmetric surface distance from member 0, RMS"]
+    surface_max: Annotated[float, "m", "symmetric surface distance from member 0, largest"]
+    ramp: Annotated[float, "s", "time of a dynamic pressure ramp; 0: static increments"]
     stats: Annotated[Stats, "1", "counts and times over all increments, the rest at the end"]
 
 

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "arrays.h"
-#include "spread.h"
+#include "ensemble.h"
 #include "values.h"
 #include "views.h"
 
@@ -212,7 +212,7 @@ void bind_snapshot(py::module_ &module) {
   type.def("to_bytes", &to_bytes, py::kw_only(), py::arg("format") = "obj",
            "The bytes that save would write.");
   bind_plan_writing(type);
-  bind_spread(module, type);
+  bind_ensemble(module, type);
   type.def("__repr__", &text);
 }
 

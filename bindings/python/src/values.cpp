@@ -182,9 +182,9 @@ py::object tool_value(const mvs_tool_state &s) {
   return make("Tool", fields);
 }
 
-py::object spread_summary_value(const mvs_ensemble_summary &s) {
+py::object ensemble_summary_value(const mvs_ensemble_summary &s) {
   py::dict fields;
-  FIELD(paths);
+  fields["members"] = s.paths;
   FIELD(converged);
   FIELD(equilibria);
   fields["lowest"] = s.lowest == UINT32_MAX ? py::object(py::none()) : py::int_(s.lowest);
@@ -192,15 +192,15 @@ py::object spread_summary_value(const mvs_ensemble_summary &s) {
   FIELD(node_max);
   FIELD(surface_rms);
   FIELD(surface_max);
-  return make("SpreadSummary", fields);
+  return make("EnsembleSummary", fields);
 }
 
-py::object spread_path_value(const mvs_ensemble_member &s, const mvs_stats &stats) {
+py::object ensemble_member_value(const mvs_ensemble_member &s, const mvs_stats &stats) {
   py::dict fields;
   fields["converged"] = s.converged != 0;
   fields["diverged"] = s.diverged != 0;
   FIELD(increments);
-  fields["order"] = py::module_::import("mvs.values").attr("SpreadOrder")(s.order);
+  fields["order"] = py::module_::import("mvs.values").attr("EnsembleOrder")(s.order);
   fields["equilibrium"] =
       s.equilibrium == UINT32_MAX ? py::object(py::none()) : py::int_(s.equilibrium);
   FIELD(perturbation);
@@ -210,7 +210,7 @@ py::object spread_path_value(const mvs_ensemble_member &s, const mvs_stats &stat
   FIELD(surface_max);
   FIELD(ramp);
   fields["stats"] = stats_value(stats);
-  return make("SpreadPath", fields);
+  return make("EnsembleMember", fields);
 }
 
 }  // namespace mvs_python

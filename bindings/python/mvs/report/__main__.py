@@ -10,7 +10,7 @@ from pathlib import Path
 import mvs
 from mvs import study
 
-from . import operations, repairs, spread
+from . import ensemble, operations, repairs
 from .cases import Case, from_file, leaking, shipped, verdict
 from .table import as_text
 
@@ -25,8 +25,8 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to write")
     parser.add_argument("--pressure", type=float, metavar="MMHG",
                         help="[that of the load in a FILE; 120 if there is none]")
-    parser.add_argument("--paths", type=int, default=8, metavar="N",
-                        help="closures of each valve, for their spread; 0: no such chapter [8]")
+    parser.add_argument("--members", type=int, default=8, metavar="N",
+                        help="closures in the ensemble of each valve; 0: no such chapter [8]")
     parser.add_argument("--no-pictures", action="store_true", help="only the table")
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="more valves (.obj)")
     return parser.parse_args()
@@ -83,22 +83,22 @@ def _operations(folder: Path, with_pictures: bool, pressure_pa: float) -> str:
     return operations.as_html(shown, pictures)
 
 
-def _spread(cases: list[Case], folder: Path, with_pictures: bool, paths: int, pa: float) -> str:
-    """Closes every valve along several paths, prints the spread, and returns its chapter."""
-    spreadings = []
-    for each in spread.run(cases, paths, pa):
-        spreadings.append(each)
-        print(f"Spread, {each.title}: {spread.verdict(each)}", file=sys.stderr)
-    print(f"\n{spread.as_text(spreadings)}")
+def _ensembles(cases: list[Case], folder: Path, with_pictures: bool, members: int, pa: float) -> str:
+    """Closes an ensemble of every valve, prints the distances, and returns the chapter."""
+    runs = []
+    for each in ensemble.run(cases, members, pa):
+        runs.append(each)
+        print(f"Ensemble, {each.title}: {ensemble.verdict(each)}", file=sys.stderr)
+    print(f"\n{ensemble.as_text(runs)}")
     pictures = {}
     if with_pictures:
         from .gallery import common_scales
 
         width = common_scales(cases).atrium_mm
-        for each in spreadings:
-            png = pictures[each.key] = spread.picture_of(each, width)
-            (folder / "pictures" / f"{each.key}-spread.png").write_bytes(png)
-    return spread.as_html(spreadings, pictures)
+        for each in runs:
+            png = pictures[each.key] = ensemble.picture_of(each, width)
+            (folder / "pictures" / f"{each.key}-ensemble.png").write_bytes(png)
+    return ensemble.as_html(runs, pictures)
 
 
 def main() -> int:
@@ -116,9 +116,9 @@ def main() -> int:
         page = arguments.out / "report.html"
         chapter = _study(arguments.out, not arguments.no_pictures)
         chapter += _operations(arguments.out, not arguments.no_pictures, pressure)
-        if arguments.paths > 0:
-            chapter += _spread(
-                cases, arguments.out, not arguments.no_pictures, arguments.paths, pressure
+        if arguments.members > 0:
+            chapter += _ensembles(
+                cases, arguments.out, not arguments.no_pictures, arguments.members, pressure
             )
         page.write_text(build(cases, pictures, chapter), encoding="utf-8")
         print(f"wrote {page}", file=sys.stderr)

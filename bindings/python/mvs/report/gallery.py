@@ -37,8 +37,8 @@ CAPTIONS = {
     "closed-atrium": "Closed under systolic pressure, from the atrium; an orifice would be red.",
     "closed-chordae": "Closed, from the posterior side and below: tension of the chordae.",
     "coaptation": "Coaptation: how far each leaflet is from the one it faces. Below, the leaflets "
-    "cut at a commissure and spread flat.",
-    "strain": "Largest principal strain of the leaflets, from the atrium and spread flat.",
+    "cut at a commissure and unrolled.",
+    "strain": "Largest principal strain of the leaflets, from the atrium and unrolled.",
     "section": "Central anteroposterior cross-section: open, and closed with each sheet drawn as "
     "thick as the distance at which leaflets touch.",
 }

@@ -88,7 +88,7 @@ class Drawing:
 
 @dataclass(eq=False)
 class Unrolled:
-    """The leaflets cut at a commissure and spread flat, in mm.
+    """The leaflets cut at a commissure and unrolled into a plane, in mm.
 
     Across: position along the annulus; down: distance from the annulus along the sheet at rest.
     """
@@ -102,7 +102,8 @@ class Unrolled:
 
 
 def unroll(drawing: Drawing) -> Unrolled:
-    """Spreads the open valve flat: an angle harmonic over the sheet, and the way to the annulus."""
+    """Unrolls the open valve by an angle that is harmonic over the sheet and the geodesic distance
+    from the annulus."""
     snapshot = drawing.snapshot
     edges = edges_of(drawing.triangles)
     loop = snapshot.annulus_nodes.astype(np.int64)
@@ -116,8 +117,8 @@ def unroll(drawing: Drawing) -> Unrolled:
     across = np.mod(np.angle(turn) / (2 * np.pi) - _seam(drawing, along, loop), 1.0) * width
     if _runs_backwards(drawing, across, width):
         across = width - across
-    spread = across[drawing.triangles]
-    whole = np.ptp(spread, axis=1) < width / 2
+    corners = across[drawing.triangles]
+    whole = np.ptp(corners, axis=1) < width / 2
     return Unrolled(across, down, drawing.triangles[whole], np.flatnonzero(whole), width)
 
 

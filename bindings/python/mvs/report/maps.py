@@ -1,4 +1,4 @@
-"""Colour maps on the leaflets, from the atrium and spread flat, and the central cross-section."""
+"""Colour maps on the leaflets, from the atrium and unrolled, and the central cross-section."""
 
 from __future__ import annotations
 
@@ -47,15 +47,15 @@ def strain_map(drawing: Drawing, width: float, high: float) -> bytes:
     return _map(drawing, colours, "largest principal strain, %", width, faces=strain)
 
 
-SPREAD_LIMIT = 0.5
-"""mm: the end of the colour scale of the spread"""
+DEVIATION_LIMIT = 0.5
+"""mm: the end of the colour scale of the deviation"""
 
 
-def spread_map(drawing: Drawing, spread: NDArray[np.float64], width: float) -> bytes:
-    """How far the nodes of a valve spread over several closures, in mm."""
+def deviation_map(drawing: Drawing, deviation: NDArray[np.float64], width: float) -> bytes:
+    """RMS distance of each node from its mean position over an ensemble, in mm."""
     shades = matplotlib.colormaps["YlOrRd"].with_extremes(over="#3d0014")
-    colours = Colours(spread, 0.0, SPREAD_LIMIT, shades, above="#3d0014")
-    text = "RMS distance of a node from its mean place over the paths, mm"
+    colours = Colours(deviation, 0.0, DEVIATION_LIMIT, shades, above="#3d0014")
+    text = "RMS distance of a node from its mean position over the members, mm"
     return _map(drawing, colours, text, width, extend="max")
 
 

@@ -204,8 +204,8 @@ class Scene:
         """Papillary muscles: one body under each cluster of heads, its tips where chordae start."""
         for cluster in _clusters(self.drawing.heads, 9.0):
             tip = cluster.mean(axis=0)
-            length, spread = 14.0, max(3.0, 1.5 + np.linalg.norm(cluster - tip, axis=1).max())
-            body = pyvista.ParametricEllipsoid(spread, spread, length / 2)
+            length, width = 14.0, max(3.0, 1.5 + np.linalg.norm(cluster - tip, axis=1).max())
+            body = pyvista.ParametricEllipsoid(width, width, length / 2)
             body = body.translate(tip - [0, 0, length / 2 - 0.4])
             self.plotter.add_mesh(body, color=HEAD, smooth_shading=True, ambient=0.2, specular=0.25)
             for point in cluster:

@@ -1,6 +1,6 @@
-"""The table of libmvs/ensemble/README.md: how far the closures of some valves lie apart.
+"""The table of libmvs/ensemble/README.md: distances between the closures of some valves.
 
-Usage: MVS_COMMAND=build/release/bin/mvs python3 tests/bench/spread.py [PATHS]      [8]
+Usage: MVS_COMMAND=build/release/bin/mvs python3 tests/bench/ensemble.py [MEMBERS]    [8]
 """
 import json
 import os
@@ -35,8 +35,8 @@ def run(*arguments, cwd):
 
 
 def figure(found, key):
-    """Value of the plain closure (least to most over the paths)."""
-    value, over = found["measures"][key], found["spread"]["measures"][key]
+    """Value of the plain closure (minimum to maximum over the members)."""
+    value, over = found["measures"][key], found["ensemble"]["measures"][key]
     if value is None:
         return "none"
     digits = 0 if value >= 100 else 2
@@ -44,31 +44,31 @@ def figure(found, key):
 
 
 def row(title, found):
-    spread = found["spread"]
+    ensemble = found["ensemble"]
     energies = {}
-    for closure in spread["closures"]:
+    for closure in ensemble["closures"]:
         if closure["converged"]:
             energies.setdefault(closure["equilibrium"], closure["energy_J"] * 1e3)
-    seconds = sum(closure["wall_s"] for closure in spread["closures"])
-    cells = [title, f"{spread['converged']} of {spread['paths']}", spread["equilibria"],
+    seconds = sum(closure["wall_s"] for closure in ensemble["closures"])
+    cells = [title, f"{ensemble['converged']} of {ensemble['members']}", ensemble["equilibria"],
              ", ".join(f"{e:.3f}" for e in energies.values()),
-             f"{spread['node_rms_mm']:.3f} / {spread['node_max_mm']:.2f}",
-             f"{spread['surface_rms_mm']:.3f} / {spread['surface_max_mm']:.2f}",
+             f"{ensemble['node_rms_mm']:.3f} / {ensemble['node_max_mm']:.2f}",
+             f"{ensemble['surface_rms_mm']:.3f} / {ensemble['surface_max_mm']:.2f}",
              *(figure(found, key) for key in FIGURES), f"{seconds:.1f}"]
     return "| " + " | ".join(map(str, cells)) + " |"
 
 
 def main():
-    paths = sys.argv[1] if len(sys.argv) > 1 else "8"
-    heads = ["valve", "paths at rest", "equilibria", "their energies, mJ",
-             "between paths, node RMS / max, mm", "from path 0, surface RMS / max, mm",
+    members = sys.argv[1] if len(sys.argv) > 1 else "8"
+    heads = ["valve", "members at rest", "equilibria", "their energies, mJ",
+             "between members, node RMS / max, mm", "from member 0, surface RMS / max, mm",
              "orifice, mm2", "coaptation area, mm2", "coaptation height, mm", "chord tension, N",
              "leaflet stress, kPa", "s"]
     print("| " + " | ".join(heads) + " |\n|" + "---|" * len(heads))
     with tempfile.TemporaryDirectory() as folder:
         for title, options in VALVES.items():
             run("generate", "-o", "valve.obj", *options, cwd=folder)
-            print(row(title, run("close", "valve.obj", "--paths", paths, cwd=folder)), flush=True)
+            print(row(title, run("close", "valve.obj", "--members", members, cwd=folder)), flush=True)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,184 @@
+#include "ensemble.h"
+
+#include <pybind11/stl.h>
+
+#include <exception>
+#include <optional>
+
+#include "arrays.h"
+#include "values.h"
+
+namespace mvs_python {
+namespace {
+
+using Number = std::optional<double>;
+using Count = std::optional<uint32_t>;
+
+// Progress callback of one run: checks for Ctrl-C and calls the caller's function.
+struct ProgressCall {
+  py::object progress;
+  std::exception_ptr raised;
+
+  static int32_t callback(void *user, double share, double residual) {
+    auto &self = *static_cast<ProgressCall *>(user);
+    py::gil_scoped_acquire held;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (self.progress.is_none()) return 0;
+      return py::bool_(self.progress(share, residual)) ? 1 : 0;
+    } catch (...) {
+      self.raised = std::current_exception();
+      return 1;
+    }
+  }
+};
+
+mvs_ensemble_summary summary_of(const Ensemble &self) {
+  mvs_ensemble_summary found{};
+  found.struct_size = sizeof found;
+  must(mvs_ensemble_get_summary(self.get(), &found));
+  return found;
+}
+
+std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
+                                       double boundary_fraction, uint32_t members, uint64_t seed,
+                                       Number perturbation, Number wavelength, Number same,
+                                       bool from_start, const std::string &solver,
+                                       Count max_iterations, Number residual, py::object progress) {
+  if (members == 0) refuse(MVS_E_ARGUMENT, "members", "members: 1 to 1000 are needed, not 0");
+  const mvs_load_case load{sizeof load, 0, pressure, boundary_fraction};
+  mvs_settle_options settle{};
+  settle.struct_size = sizeof settle;
+  settle.solver = solver_of(solver);
+  settle.max_iterations = max_iterations.value_or(0);
+  settle.residual = residual.value_or(0);
+  ProgressCall call{std::move(progress), nullptr};
+  mvs_ensemble_options options{};
+  options.struct_size = sizeof options;
+  options.paths = members;
+  options.from = from_start ? MVS_ENSEMBLE_START_SNAPSHOT : MVS_ENSEMBLE_START_REST;
+  options.seed = seed;
+  options.perturbation = perturbation == 0.0 ? -1 : perturbation.value_or(0);
+  options.wavelength = wavelength.value_or(0);
+  options.same = same.value_or(0);
+  options.progress = &ProgressCall::callback;
+  options.user = &call;
+  mvs_ensemble *made = nullptr;
+  Outcome outcome;
+  {
+    py::gil_scoped_release released;
+    outcome = outcome_of(mvs_ensemble_run(start.get(), &load, &settle, &options, &made));
+  }
+  if (call.raised) std::rethrow_exception(call.raised);
+  must(outcome);
+  return std::make_unique<Ensemble>(made);
+}
+
+py::tuple members(const Ensemble &self) {
+  py::list all;
+  for (uint32_t k = 0; k < summary_of(self).paths; ++k) {
+    mvs_ensemble_member member{};
+    mvs_stats stats{};
+    member.struct_size = sizeof member;
+    stats.struct_size = sizeof stats;
+    must(mvs_ensemble_get_member(self.get(), k, &member));
+    must(mvs_ensemble_get_member_stats(self.get(), k, &stats));
+    all.append(ensemble_member_value(member, stats));
+  }
+  return py::tuple(all);
+}
+
+std::unique_ptr<Snapshot> snapshot(const Ensemble &self, uint32_t member) {
+  const mvs_snapshot *taken = nullptr;
+  must(mvs_ensemble_get_member_snapshot(self.get(), member, &taken));
+  return std::make_unique<Snapshot>(taken);
+}
+
+py::object measure(const Ensemble &self, uint32_t statistic) {
+  mvs_measures found{};
+  found.struct_size = sizeof found;
+  release_and([&] { return mvs_ensemble_measure(self.get(), statistic, &found); });
+  return measures_value(found);
+}
+
+py::array view(const py::object &self, uint32_t which) {
+  mvs_view found{};
+  must(mvs_ensemble_get_array(self.cast<const Ensemble &>().get(), which, &found));
+  return array_of(found, self);
+}
+
+void bind_statistics(py::class_<Ensemble> &type) {
+  struct Statistic {
+    const char *name;
+    uint32_t which;
+    const char *doc;
+  };
+  static constexpr Statistic statistics[] = {
+      {"mean", MVS_ENSEMBLE_STATISTIC_MEAN,
+       "Mean of every measure over the members at rest (mvs.Measures, SI units); NaN where no "
+       "member has it; counts are rounded."},
+      {"min", MVS_ENSEMBLE_STATISTIC_MIN,
+       "Minimum of every measure over the members at rest (mvs.Measures)."},
+      {"max", MVS_ENSEMBLE_STATISTIC_MAX,
+       "Maximum of every measure over the members at rest (mvs.Measures)."},
+      {"deviation", MVS_ENSEMBLE_STATISTIC_DEVIATION,
+       "Sample standard deviation of every measure over the members at rest (mvs.Measures); NaN "
+       "for fewer than two."},
+      {"count", MVS_ENSEMBLE_STATISTIC_COUNT,
+       "Number of members at rest that have each measure (mvs.Measures, of numbers without "
+       "units)."}};
+  for (const Statistic &statistic : statistics) {
+    type.def_property_readonly(
+        statistic.name,
+        [which = statistic.which](const Ensemble &self) { return measure(self, which); },
+        statistic.doc);
+  }
+}
+
+}  // namespace
+
+void bind_ensemble(py::module_ &module, py::class_<Snapshot> &type) {
+  py::class_<Ensemble> made(
+      module, "Ensemble",
+      "The closures of one valve along several paths (Snapshot.ensemble); member 0 is the plain "
+      "closure. Arrays are read-only and stay valid after the ensemble is freed.");
+  made.def("__len__", [](const Ensemble &self) { return summary_of(self).paths; });
+  made.def_property_readonly(
+      "summary", [](const Ensemble &self) { return ensemble_summary_value(summary_of(self)); },
+      "Distances over all members (mvs.EnsembleSummary).");
+  made.def_property_readonly("members", &members, "Every member (tuple of mvs.EnsembleMember).");
+  made.def(
+      "snapshot", &snapshot, py::arg("member"),
+      "The closed valve of a member (mvs.Snapshot); ArgumentError if there is no such member.");
+  bind_statistics(made);
+  made.def_property_readonly(
+      "node_deviation",
+      [](const py::object &self) { return view(self, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION); },
+      "(n,) float64, m: RMS distance of each node from its mean position over the members at "
+      "rest.");
+  made.def_property_readonly(
+      "pair_distance",
+      [](const py::object &self) {
+        const py::array rows = view(self, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE);
+        return rows.attr("reshape")(rows.shape(0), rows.shape(0));
+      },
+      "(p, p) float64, m: node RMS between the shapes of every two members, at rest or not.");
+  type.def("ensemble", &run_ensemble, py::arg("pressure_pa"), py::arg("boundary_fraction") = 1.0,
+           py::kw_only(), py::arg("members") = 8, py::arg("seed") = 0,
+           py::arg("perturbation") = py::none(), py::arg("wavelength") = py::none(),
+           py::arg("same") = py::none(), py::arg("from_start") = false,
+           py::arg("solver") = "newton", py::arg("max_iterations") = py::none(),
+           py::arg("residual") = py::none(), py::arg("progress") = py::none(),
+           "Closes the valve along several paths and returns mvs.Ensemble: slack tissue can fold "
+           "in several ways, and the members show the range of shapes and measures. Member 0 is "
+           "the plain closure, with the same bits; the same arguments give the same bits."
+           "\n\npressure_pa, boundary_fraction: the load, as for Simulator.set_load\nmembers: "
+           "number of closures, the plain one included\nseed: of the perturbations\nperturbation: "
+           "m, largest displacement of a node of the start [0.5e-3]; 0: no perturbation"
+           "\nwavelength: m, shortest wavelength of a perturbation [5e-3]\nsame: m, two shapes are "
+           "one equilibrium if no node is farther apart [0.1e-3]\nfrom_start: members after the "
+           "first start from the shape of the snapshot instead of the rest shape\nsolver, "
+           "max_iterations, residual, progress: as for Simulator.settle");
+}
+
+}  // namespace mvs_python
