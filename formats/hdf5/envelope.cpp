@@ -67,7 +67,7 @@ void seal(std::string &bytes, uint32_t version) {
   std::copy(digest.begin(), digest.end(), bytes.begin() + digest_at);
 }
 
-uint32_t check_seal(std::string_view bytes, uint32_t newest) {
+void check_seal(std::string_view bytes, uint32_t version) {
   if (!bytes.starts_with(magic)) refuse_foreign(bytes);
   MVS_MUST(bytes.size() > envelope_bytes, MVS_E_FORMAT, "",
            "the file was cut after %zu bytes: take the last whole copy", bytes.size());
@@ -81,13 +81,11 @@ uint32_t check_seal(std::string_view bytes, uint32_t newest) {
            static_cast<unsigned long long>(there - told));
   MVS_MUST(bytes.substr(digest_at, people_at - digest_at) == digest_of(bytes), MVS_E_FORMAT, "",
            "the file is damaged, its checksum does not fit: take the last whole copy");
-  const auto version = static_cast<uint32_t>(get(&bytes[version_at], 4));
-  MVS_MUST(version <= newest, MVS_E_VERSION, "",
-           "the file has version %u, this library reads up to %u: use a newer libmvs", version,
-           newest);
-  MVS_MUST(version > 0 && get(&bytes[header_at], 4) == envelope_bytes, MVS_E_FORMAT, "",
-           "the file has version %u, which no libmvs ever wrote", version);
-  return version;
+  const auto found = static_cast<uint32_t>(get(&bytes[version_at], 4));
+  MVS_MUST(found == version, MVS_E_VERSION, "",
+           "the file has version %u, this libmvs reads version %u", found, version);
+  MVS_MUST(get(&bytes[header_at], 4) == envelope_bytes, MVS_E_FORMAT, "",
+           "the header of the file does not have %zu bytes", envelope_bytes);
 }
 
 }  // namespace mvs::core

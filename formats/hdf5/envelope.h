@@ -8,7 +8,7 @@
 //  12  512, 32 bits                  512  HDF5
 //  16  bytes after 512, 64 bits            numbers are little-endian
 //
-// This much is the same in every version to come.
+// A later version keeps this layout.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ inline constexpr size_t envelope_bytes = 512;
 // Fills the first 512 of `bytes`, which are there for it.
 void seal(std::string &bytes, uint32_t version);
 
-// Checks all that the envelope promises and returns the version, at most `newest`. Throws
-// MVS_E_FORMAT for what is foreign, cut or damaged, MVS_E_VERSION for what is whole and newer.
-uint32_t check_seal(std::string_view bytes, uint32_t newest);
+// Checks length, checksum and version. Throws MVS_E_FORMAT for a foreign, cut or damaged file,
+// MVS_E_VERSION for a whole file of another version.
+void check_seal(std::string_view bytes, uint32_t version);
 
 }  // namespace mvs::core

@@ -152,13 +152,13 @@ class Reader {
 
 }  // namespace
 
-H5Content read_h5(std::string_view bytes, const std::string &group, uint32_t newest) {
-  const uint32_t version = check_seal(bytes, newest);
+H5Tree read_h5(std::string_view bytes, const std::string &group, uint32_t version) {
+  check_seal(bytes, version);
   const Conversation conversation;
   const File file = open_image(bytes);
   Reader reader(bytes.size());
   reader.root_member(file.id(), group);
-  return {std::move(reader.tree), version};
+  return std::move(reader.tree);
 }
 
 }  // namespace mvs::core

@@ -30,7 +30,7 @@ std::string write_h5(const H5Tree &, uint32_t) {
   fail(MVS_E_UNSUPPORTED, "format", without);
 }
 
-H5Content read_h5(std::string_view, const std::string &, uint32_t) {
+H5Tree read_h5(std::string_view, const std::string &, uint32_t) {
   fail(MVS_E_UNSUPPORTED, "format", without);
 }
 

@@ -57,11 +57,8 @@ struct H5Tree {
 // The whole file, envelope and all. MVS_E_UNSUPPORTED in a build without HDF5.
 std::string write_h5(const H5Tree &tree, uint32_t version);
 
-// What a file holds below one group of its root, as "group/...".
-struct H5Content {
-  H5Tree tree;
-  uint32_t version;
-};
-H5Content read_h5(std::string_view bytes, const std::string &group, uint32_t newest);
+// Reads the arrays of one group of the root, with paths "group/...". A file of another version is
+// refused with MVS_E_VERSION.
+H5Tree read_h5(std::string_view bytes, const std::string &group, uint32_t version);
 
 }  // namespace mvs::core

@@ -144,7 +144,7 @@ void ObjReader::check_complete(const Line &last) const {
       "units=mm`, `#mvs leaflet name=A`, `#mvs annulus 1 2 ...`, `#mvs head node=N`, chordae as `l "
       "HEAD LEAFLET`, groups `g A` and `#mvs end` as in formats/FORMAT.md",
       static_cast<unsigned long long>(counts_.vertices),
-      static_cast<unsigned long long>(counts_.faces), obj::version_at_rest);
+      static_cast<unsigned long long>(counts_.faces), obj::version);
 }
 
 Loaded read_obj(std::string_view text) {

@@ -67,14 +67,13 @@ void ObjReader::record(Line &line) {
 // `#mvs 1 units=mm`, the first record.
 void ObjReader::version(std::string_view word, Line &line) {
   uint64_t number = 0;
-  if (!parse_whole(word, number) || number == 0) {
-    line.fail("the first #mvs line has to be `#mvs %u units=mm`, not #mvs %s", obj::version_at_rest,
+  if (!parse_whole(word, number)) {
+    line.fail("the first #mvs line has to be `#mvs %u units=mm`, not #mvs %s", obj::version,
               quoted(word).c_str());
   }
-  if (number > obj::version) {
+  if (number != obj::version) {
     throw Error(MVS_E_VERSION, "",
-                format("the file is of version %s, this library reads up to version %u: use a "
-                       "newer libmvs",
+                format("the file has version %s, this libmvs reads version %u",
                        quoted(word).c_str(), obj::version),
                 line.number_of_line());
   }

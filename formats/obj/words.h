@@ -7,9 +7,8 @@
 
 namespace mvs::core::obj {
 
-// The newest version that this library reads. It writes the oldest that has all there is to write:
-// only a valve in motion needs version 4.
-inline constexpr unsigned version = 4, version_at_rest = 3;
+// The version of the format. A file of another version is refused.
+inline constexpr unsigned version = 1;
 
 // Lengths are mm in the file and m in memory; areas go with the square.
 inline constexpr int mm = 3, mm2 = 6;

@@ -92,7 +92,7 @@ void ObjWriter::header() {
   out_ += "# A heart valve by libmvs; formats/FORMAT.md says what the lines mean.\n# SPACE=LPS\n";
   if (!state_.tools.empty())
     out_ += "# The tools of this state are not kept here: save it as .h5\n";
-  record(std::to_string(waypoints_[0] ? obj::version : obj::version_at_rest));
+  record(std::to_string(obj::version));
   out_ += " units=mm\n";
   record("valve");
   key_text("name", valve_.name);

@@ -115,11 +115,10 @@ std::string version_text() {
   return format("%d.%d.%d", MVS_VERSION_MAJOR, MVS_VERSION_MINOR, MVS_VERSION_PATCH);
 }
 
-PlanStep read_step(const Json &json, uint64_t version) {
+PlanStep read_step(const Json &json) {
   MVS_MUST(json.is_object() && json.has("do") && json["do"].is_text(), MVS_E_FORMAT, "plan",
            "a step has to be an object with a \"do\"");
   PlanStep step;
-  step.version = version;
   step.move = read_move(json);
   if (step.move) return step;
   step.op = json;
@@ -136,31 +135,9 @@ Json parse(std::string_view text) {
   return Json::parse(text);
 }
 
-uint64_t version_of_plan(const Json &json, uint64_t fallback) {
-  const uint64_t version = whole_at(json, "version", fallback, UINT64_MAX);
-  MVS_MUST(version >= 1, MVS_E_FORMAT, "plan", "the plan has no version");
-  MVS_MUST(version <= plan_version, MVS_E_VERSION, "plan",
-           "the plan is of version %llu, this library reads up to %u: use a newer libmvs",
-           static_cast<unsigned long long>(version), plan_version);
-  return version;
-}
-
 void check_format(const Json &json) {
   MVS_MUST(json.is_object() && json.has("format") && json["format"].text() == format_name,
            MVS_E_FORMAT, "plan", "this is not a plan: it lacks \"format\": \"%s\"", format_name);
-}
-
-std::vector<PlanStep> steps_of(const Json &steps, uint64_t version) {
-  MVS_MUST(steps.is_array(), MVS_E_FORMAT, "plan", "\"steps\" has to be a list");
-  std::vector<PlanStep> out;
-  for (size_t k = 0; k < steps.items().size(); ++k) {
-    try {
-      out.push_back(read_step(steps.items()[k], version));
-    } catch (const Error &error) {
-      fail(error.code, format("step %zu", k + 1), "step %zu: %s", k + 1, error.what());
-    }
-  }
-  return out;
 }
 
 std::string hash_at(const Json &json, const char *part) {
@@ -250,21 +227,34 @@ std::string write_plan(const Snapshot &snapshot, const PlanText &text, const Mea
   return json.page() + "\n";
 }
 
-void put_steps(Json &record, Json steps) {
-  record.set("version", plan_version);
-  record.set("steps", std::move(steps));
+void check_plan_version(const Json &json, const char *what) {
+  MVS_MUST(json.has("version"), MVS_E_FORMAT, what, "the %s has no version", what);
+  const uint64_t version = whole_at(json, "version", 0, UINT64_MAX);
+  MVS_MUST(version == plan_version, MVS_E_VERSION, what,
+           "the %s has version %llu, this libmvs reads version %u", what,
+           static_cast<unsigned long long>(version), plan_version);
 }
 
 std::vector<PlanStep> read_steps(const Json &record) {
-  return steps_of(record["steps"], version_of_plan(record, 2));
+  const Json &steps = record["steps"];
+  MVS_MUST(steps.is_array(), MVS_E_FORMAT, "plan", "\"steps\" has to be a list");
+  std::vector<PlanStep> out;
+  for (size_t k = 0; k < steps.items().size(); ++k) {
+    try {
+      out.push_back(read_step(steps.items()[k]));
+    } catch (const Error &error) {
+      fail(error.code, format("step %zu", k + 1), "step %zu: %s", k + 1, error.what());
+    }
+  }
+  return out;
 }
 
 Plan read_plan(std::string_view text) {
   const Json json = parse(text);
   check_format(json);
-  const uint64_t version = version_of_plan(json, 0);
+  check_plan_version(json, "plan");
   MVS_MUST(json.has("steps"), MVS_E_FORMAT, "plan", "the plan has no \"steps\"");
-  return {hash_at(json, "valve"), hash_at(json, "result"), steps_of(json["steps"], version)};
+  return {hash_at(json, "valve"), hash_at(json, "result"), read_steps(json)};
 }
 
 }  // namespace mvs::core

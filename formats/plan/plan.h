@@ -12,15 +12,13 @@
 
 namespace mvs::core {
 
-// Of the steps of a plan or a journal. 1 had no steps led by hands; up to 2 a chord kept its length
-// when it went to another head (formats/old_ops.h).
-inline constexpr unsigned plan_version = 3;
+// The version of plans and journals. A file of another version is refused.
+inline constexpr unsigned plan_version = 1;
 
 // One step of a plan: a move, or an operation as it stands in the file.
 struct PlanStep {
   std::optional<RecordedEvent> move;
-  Json op;  // null for a move
-  uint64_t version = plan_version;
+  Json op;                // null for a move
   std::string group;      // "" for none
   uint64_t group_id = 0;  // tells groups of one name apart
 };
@@ -47,9 +45,11 @@ std::string write_plan(const Snapshot &snapshot, const PlanText &text, const Mea
 // Throws MVS_E_FORMAT or MVS_E_VERSION with the step that is wrong.
 Plan read_plan(std::string_view text);
 
-// A record of a journal: steps with the version that they are of, and back; without one they are of
-// version 2, when records did not tell it.
-void put_steps(Json &record, Json steps);
+// Throws MVS_E_FORMAT if a plan or the first record of a journal has no version, MVS_E_VERSION if
+// it has another one.
+void check_plan_version(const Json &json, const char *what);
+
+// The steps of a plan or of a record of a journal; throws MVS_E_FORMAT with the step that is wrong.
 std::vector<PlanStep> read_steps(const Json &record);
 
 // The valve that a plan or journal belongs to.

@@ -8,10 +8,8 @@
 
 namespace mvs::core {
 
-// Version 1 had springs with three constants, linear chordae and no curves; up to version 2 there
-// were no tools, and steps had no budget; up to version 3 no steps were led, and a step left
-// nothing to the next; up to version 4 a chord kept its length when it went to another head.
-inline constexpr uint32_t session_version = 5;
+// A file of another version is refused.
+inline constexpr uint32_t session_version = 1;
 
 template <typename T, typename Plain>
 concept Is = std::same_as<std::remove_const_t<T>, Plain>;
@@ -22,8 +20,7 @@ void pass(Archive &a, Is<Leaflet> auto &leaflet) {
   a.text(leaflet.name);
   a.word(leaflet.law);
   a.number(leaflet.thickness);
-  const size_t known = a.version() == 1 ? 3 : leaflet.constants.size();
-  for (size_t k = 0; k < known; ++k) a.number(leaflet.constants[k]);
+  for (auto &constant : leaflet.constants) a.number(constant);
 }
 
 template <typename Archive>
@@ -44,7 +41,6 @@ void pass(Archive &a, Is<Chord> auto &chord) {
   a.number(chord.rest_length);
   a.number(chord.young);
   a.number(chord.area);
-  if (a.version() == 1) return;
   for (auto &constant : chord.constants) a.number(constant);
 }
 
@@ -93,7 +89,7 @@ void pass(Archive &a, Is<Valve> auto &valve) {
   a.list(valve.chords);
   a.list(valve.heads);
   a.list(valve.rings);
-  if (a.version() > 1) a.list(valve.curves);
+  a.list(valve.curves);
 }
 
 template <typename Archive>
@@ -129,10 +125,8 @@ void pass(Archive &a, Is<State> auto &state) {
   a.word(state.steps);
   a.number(state.load.pressure);
   a.number(state.load.boundary_fraction);
-  if (a.version() < 3) return;
   a.list(state.tools);
   a.word(state.tools_made);
-  if (a.version() < 4) return;
   pass(a, state.serving);
   if (!state.serving.x.empty()) pass(a, state.coming);
 }
@@ -155,14 +149,10 @@ void pass(Archive &a, Is<RecordedEvent> auto &move) {
   a.number(move.residual);
   a.number(move.dt);
   a.number(move.damping);
-  if (a.version() > 2) {
-    a.word(move.budget);
-    a.list(move.tool);
-  }
-  if (a.version() > 3) {
-    a.array(move.way);
-    a.array(move.pace);
-  }
+  a.word(move.budget);
+  a.list(move.tool);
+  a.array(move.way);
+  a.array(move.pace);
   a.check(move);
 }
 

@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "formats/formats.h"
-#include "formats/plan/old_ops.h"
 #include "formats/session/layout.h"
 #include "formats/session/pool.h"
 #include "history/tool_trajectory.h"
@@ -22,9 +21,8 @@ using Made = std::map<uint64_t, Thing>;
 
 class SessionReader {
  public:
-  SessionReader(const H5Tree &tree, uint32_t version)
-      : version_(version),
-        words_(tree.at<uint64_t>("mvs/moment")),
+  explicit SessionReader(const H5Tree &tree)
+      : words_(tree.at<uint64_t>("mvs/moment")),
         parts_(tree, "mvs/parts"),
         numbers_(tree, "mvs/numbers"),
         indices_(tree, "mvs/indices"),
@@ -38,7 +36,6 @@ class SessionReader {
   }
 
   // what session_layout.h asks of an archive
-  uint32_t version() const { return version_; }
   void word(uint64_t &number) { number = next(); }
   void word(int64_t &number) { number = static_cast<int64_t>(next()); }
   void word(uint32_t &number);
@@ -100,7 +97,6 @@ class SessionReader {
   Operation operation();
   void field(const OpField &f, char *at);
 
-  const uint32_t version_;
   std::span<const uint64_t> words_;  // what is left of the part being read
   const PoolReader<uint64_t> parts_;
   const PoolReader<double> numbers_;
@@ -257,7 +253,6 @@ void SessionReader::item(std::shared_ptr<const HistoryEntry> &entry) {
         auto read =
             std::make_shared<HistoryEntry>(HistoryEntry{operation(), {}, 0, 0, {}, 0, {}, {}, {}});
         pass_rest(*this, *read);
-        if (version_ < 5) read->op = keeping_length(read->op, *read->before.model);
         it = std::move(read);
       });
 }
@@ -282,8 +277,7 @@ Operation SessionReader::operation() {
   text(name);
   const OpKind *const kind = find_op_kind(name);
   MVS_MUST(kind, MVS_E_VERSION, "mvs",
-           "the history of the file has the operation %.63s, which this libmvs does not know: use "
-           "a newer one",
+           "the history of the file has the operation %.63s, which this libmvs does not know",
            name.c_str());
   std::vector<uint64_t> bytes((kind->size + 7) / 8);
   char *const start = reinterpret_cast<char *>(bytes.data());
@@ -296,8 +290,7 @@ Operation SessionReader::operation() {
     const auto found = std::find_if(kind->fields.begin(), kind->fields.end(),
                                     [&](const OpField &f) { return name == f.name; });
     MVS_MUST(found != kind->fields.end() && found->type == type, MVS_E_VERSION, "mvs",
-             "the history of the file has a field %.63s of %s that this libmvs does not know: use "
-             "a newer one",
+             "the history of the file has a field %.63s of %s that this libmvs does not know",
              name.c_str(), kind->name);
     field(*found, start + found->offset);
   }
@@ -352,8 +345,8 @@ void SessionReader::field(const OpField &f, char *at) {
 }  // namespace
 
 Snapshot read_session(std::string_view bytes) {
-  const H5Content content = read_h5(bytes, "mvs", session_version);
-  return SessionReader(content.tree, content.version).read();
+  const H5Tree tree = read_h5(bytes, "mvs", session_version);
+  return SessionReader(tree).read();
 }
 
 }  // namespace mvs::core

@@ -18,7 +18,6 @@ class SessionWriter {
   void put_into(H5Tree &tree);
 
   // what session_layout.h asks of an archive
-  static uint32_t version() { return session_version; }
   void word(uint64_t number) { words_.push_back(number); }
   void word(int64_t number) { word(static_cast<uint64_t>(number)); }
   void word(uint32_t number) { word(uint64_t{number}); }

@@ -68,14 +68,14 @@ void redo(Replay &replay, const Json &record) {
     replay.now = at_checkpoint(replay.now, text_at(record, "name"));
   } else {
     MVS_MUST(word == "apply", MVS_E_VERSION, "journal",
-             "the journal has a record \"%.40s\", which this version of libmvs does not know",
-             word.c_str());
+             "the journal has a record \"%.40s\", which this libmvs does not know", word.c_str());
   }
 }
 
 void check_beginning(const Json &first, const ModelState &present) {
   MVS_MUST(text_at(first, "do") == "begin" && first.has("valve"), MVS_E_FORMAT, "journal",
            "the journal does not begin with its valve");
+  check_plan_version(first, "journal");
   const std::string wanted = text_at(first["valve"], "hash"), found = hash_text(present);
   MVS_MUST(wanted == found, MVS_E_STATE, "journal",
            "the journal belongs to the valve \"%.63s\" with hash %s, the present one has %s: load "

@@ -24,14 +24,14 @@ const std::vector<Checkpoint> &checkpoints_of(const Snapshot &snapshot) {
 
 Json restart_record(const Snapshot &snapshot) {
   Json json = word_record("restart");
-  put_steps(json, plan_steps(snapshot, {}));
+  json.set("steps", plan_steps(snapshot, {}));
   Json list = Json::array();
   for (const Checkpoint &c : checkpoints_of(snapshot)) {
     Snapshot there{c.at, snapshot.history};
     there.history.past = c.past;
     there.history.moves = c.moves;
     Json one = Json::object({{"name", c.name}});
-    put_steps(one, plan_steps(there, {}));
+    one.set("steps", plan_steps(there, {}));
     list.add(std::move(one));
   }
   json.set("checkpoints", std::move(list));
@@ -53,9 +53,9 @@ void restart_journal(mvs_sim &sim, const Snapshot &restored) {
 Json begun_record(const Snapshot &snapshot) {
   Json json;
   json.set("do", "begin");
-  json.set("journal", uint64_t{1});
+  json.set("version", plan_version);
   json.set("valve", valve_json(*start_of(snapshot)));
-  put_steps(json, plan_steps(snapshot, {}));
+  json.set("steps", plan_steps(snapshot, {}));
   return json;
 }
 
@@ -69,7 +69,7 @@ Json steps_record(const Snapshot &before, const Snapshot &after) {
     steps.add(entry_json(**entries[k]));
   }
   add_moves(steps, after.history.moves);
-  put_steps(json, std::move(steps));
+  json.set("steps", std::move(steps));
   return json;
 }
 
@@ -84,7 +84,7 @@ Json named_record(const char *word, const std::string &name, const RecordedEvent
   json.set("name", name);
   Json steps = Json::array();
   add_moves(steps, moves);
-  put_steps(json, std::move(steps));
+  json.set("steps", std::move(steps));
   return json;
 }
 

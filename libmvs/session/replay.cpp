@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/struct_fields.h"
-#include "formats/plan/old_ops.h"
 #include "history/tool_trajectory.h"
 #include "session/commit.h"
 #include "session/recorded_event.h"
@@ -67,8 +66,7 @@ Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
 
 void Replay::operate(const PlanStep &step) {
   const Model &model = *now.current.model;
-  const Operation told = read_op(step.op, model, exact_);
-  const Operation op = step.version > 2 ? told : keeping_length(told, model);
+  const Operation op = read_op(step.op, model, exact_);
   const bool goes_on = step.group == group_ && step.group_id == group_id_;
   if (!step.group.empty() && !goes_on) number_ = now.history.next_group++;
   now = after_op(now, op, step.group.empty() ? Group{} : Group{number_, step.group}, now_ms());

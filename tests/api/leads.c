@@ -193,7 +193,7 @@ static void a_plan_touches_no_tool_that_was_held(void) {
 static void refused(mvs_sim *sim, const char *step, const char *word) {
   char text[600];
   const int size = snprintf(text, sizeof text,
-                            "{\"format\": \"mvs-plan\", \"version\": 2, \"steps\": [%s]}", step);
+                            "{\"format\": \"mvs-plan\", \"version\": 1, \"steps\": [%s]}", step);
   const hash128 before = sim_hash(sim);
   MUST_FAIL(mvs_replay_plan(sim, text, (uint64_t)size, NULL), MVS_E_FORMAT, word);
   CHECK(same_hash(before, sim_hash(sim)));

@@ -334,8 +334,8 @@ class Plans(Command):
 
     def test_a_plan_written_by_hand_says_what_it_lacks(self):
         step = {"do": "annulus_scale", "factor": 0.85}
-        head = {"format": "mvs-plan", "version": 3}
-        for text, words in (('{"format": "mvs-plan",\n "version": 3,\n}', "line 3"),
+        head = {"format": "mvs-plan", "version": 1}
+        for text, words in (('{"format": "mvs-plan",\n "version": 1,\n}', "line 3"),
                             ({"steps": [step]}, 'lacks "format": "mvs-plan"'),
                             ({**head, "format": 3}, 'lacks "format": "mvs-plan"'),
                             (head, '"steps" has to be a list'),

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -31,6 +32,12 @@ inline std::string example_text() {
   const std::string text = document.str(), fence = "```obj\n";
   const size_t start = text.find(fence) + fence.size();
   return text.substr(start, text.find("```", start) - start);
+}
+
+// Writes a checked-in file anew where the environment has MVS_WRITE_GOLDEN.
+template <typename Make>
+void write_golden(const std::string &path, Make make) {
+  if (std::getenv("MVS_WRITE_GOLDEN")) std::ofstream(path, std::ios::binary) << make();
 }
 
 // What make_model makes of a file's content.

@@ -16,24 +16,7 @@ std::string decimal(double value, int shift = 0) {
 
 }  // namespace
 
-// valve_v1.obj is a valve as version 1 of the format wrote it, valve_v2.obj one of version 2: what
-// they had is written as then.
-void check_old(const std::string &file, const std::string &first) {
-  std::string text = read_whole_file(data + file);
-  const Pair pair = complete(read_obj(text));
-  text.replace(text.find(first), first.size(), "#mvs 3 units=mm");
-  CHECK(write_obj(pair.model, pair.state) == text);
-}
-
-TEST_CASE("a_file_of_version_1_is_read_as_ever") {
-  check_old("valve_v1.obj", "#mvs 1 units=mm");
-}
-
-TEST_CASE("a_file_of_version_2_is_read_as_ever") {
-  check_old("valve_v2.obj", "#mvs 2 units=mm");
-}
-
-// valve.obj is in_motion() as version 3 first wrote it; a change of these bytes is a change of the
+// valve.obj is in_motion() as the writer first wrote it; a change of these bytes is a change of the
 // format.
 TEST_CASE("the_golden_files_are_what_the_writers_make") {
   const std::string text = read_whole_file(data + "valve.obj");

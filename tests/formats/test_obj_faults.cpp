@@ -200,15 +200,17 @@ TEST_CASE("what_is_given_twice_or_in_the_wrong_place_is_told") {
 }
 
 TEST_CASE("versions_units_and_spaces_that_do_not_fit_are_told") {
-  check_fault("#mvs 3 units=mm", "#mvs 5 units=furlong", "version `5`", MVS_E_VERSION);
-  check_fault("#mvs 3 units=mm", "#mvs 99999999999", "version `99999999999`", MVS_E_VERSION);
-  check_fault("#mvs 3 units=mm", "#mvs 0 units=mm", "`#mvs 3 units=mm`");
-  check_fault("#mvs 3 units=mm", "#mvs x units=mm", "`#mvs 3 units=mm`");
-  check_fault("#mvs 3 units=mm", "#mvs 3", "lacks units=");
-  check_fault("#mvs 3 units=mm", "#mvs 3 units=m", "`m` is not known; known are: mm");
-  check_fault("#mvs 3 units=mm", "#mvs 3 units=inch", "known are: mm");
+  check_fault("#mvs 1 units=mm", "#mvs 5 units=furlong", "version `5`", MVS_E_VERSION);
+  check_fault("#mvs 1 units=mm", "#mvs 99999999999", "version `99999999999`", MVS_E_VERSION);
+  check_fault("#mvs 1 units=mm", "#mvs 2 units=mm",
+              "the file has version `2`, this libmvs reads version 1", MVS_E_VERSION);
+  check_fault("#mvs 1 units=mm", "#mvs 0 units=mm", "version `0`", MVS_E_VERSION);
+  check_fault("#mvs 1 units=mm", "#mvs x units=mm", "`#mvs 1 units=mm`");
+  check_fault("#mvs 1 units=mm", "#mvs 1", "lacks units=");
+  check_fault("#mvs 1 units=mm", "#mvs 1 units=m", "`m` is not known; known are: mm");
+  check_fault("#mvs 1 units=mm", "#mvs 1 units=inch", "known are: mm");
   check_fault("SPACE=LPS", "SPACE=RAS", "RAS");
-  CHECK(fault_of("v 0 0 0\n#mvs 3 units=mm\n").message.find("above the first v") !=
+  CHECK(fault_of("v 0 0 0\n#mvs 1 units=mm\n").message.find("above the first v") !=
         std::string::npos);
 }
 
@@ -224,7 +226,7 @@ TEST_CASE("a_plain_obj_is_told_what_it_lacks") {
   const Fault plain = fault_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   CHECK(plain.code == MVS_E_FORMAT);
   CHECK(plain.line == 4);
-  for (const char *word : {"3 vertices and 1 triangles", "#mvs 3 units=mm", "annulus", "head",
+  for (const char *word : {"3 vertices and 1 triangles", "#mvs 1 units=mm", "annulus", "head",
                            "leaflet", "`l HEAD LEAFLET`", "FORMAT.md"}) {
     CHECK(plain.message.find(word) != std::string::npos);
   }
@@ -243,7 +245,7 @@ TEST_CASE("a_line_without_end_is_told") {
 }
 
 TEST_CASE("more_than_the_limit_is_refused") {
-  std::string text = "#mvs 3 units=mm\nv 0 0 0\n", line = "#mvs annulus";
+  std::string text = "#mvs 1 units=mm\nv 0 0 0\n", line = "#mvs annulus";
   for (int k = 0; k < 32000; ++k) line += " 1";
   while (text.size() < 9000000) text += line + "\n";
   const Fault fault = fault_of(text);

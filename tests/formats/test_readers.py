@@ -13,8 +13,8 @@ import vtk
 DATA = Path(__file__).parent / "data"
 OBJ = DATA / "valve.obj"
 VTP = DATA / "valve.vtp"
-SESSION = DATA / "session_v1.h5"
-PRESENT = DATA / "session_v1_present.obj"
+SESSION = DATA / "session.h5"
+PRESENT = DATA / "session_present.obj"
 
 # Coordinates go through a decimal text or a product by 1000: a few units in the last place.
 CLOSE = {"rtol": 1e-15, "atol": 0}
