@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "formats/plan/plan.h"
 #include "model/part_names.h"
-#include "surgery/site.h"
+#include "surgery/leaflet/site.h"
 
 namespace mvs::core {
 namespace {

@@ -2,12 +2,12 @@
 // Each group is one header and one file of this folder; definitions are in README.md.
 #pragma once
 
-#include "measure/annulus.h"
-#include "measure/chords.h"
-#include "measure/coaptation.h"
-#include "measure/compare.h"
-#include "measure/frame.h"
-#include "measure/orifice.h"
-#include "measure/section.h"
-#include "measure/strain.h"
-#include "measure/tenting_billow.h"
+#include "measure/annulus/annulus.h"
+#include "measure/annulus/frame.h"
+#include "measure/coaptation/coaptation.h"
+#include "measure/comparison/compare.h"
+#include "measure/orifice/orifice.h"
+#include "measure/tenting/tenting_billow.h"
+#include "measure/tissue/chords.h"
+#include "measure/tissue/section.h"
+#include "measure/tissue/strain.h"

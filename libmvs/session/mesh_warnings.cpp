@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "energy/contact.h"
-#include "measure/annulus.h"
-#include "measure/landmarks.h"
+#include "measure/annulus/annulus.h"
+#include "measure/annulus/landmarks.h"
 
 namespace mvs::core {
 namespace {

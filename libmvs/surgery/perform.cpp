@@ -1,7 +1,7 @@
 #include "surgery/perform.h"
 
 #include "base/error.h"
-#include "surgery/site.h"
+#include "surgery/leaflet/site.h"
 #include "surgery/surgery.h"
 
 namespace mvs::core {

@@ -1,11 +1,11 @@
 // The frame and the annulus against closed forms: circles, ellipses, saddles.
-#include "measure/annulus.h"
+#include "measure/annulus/annulus.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "measure/frame.h"
+#include "measure/annulus/frame.h"
 #include "tests/measure/shapes.h"
 
 namespace mvs::core::test {

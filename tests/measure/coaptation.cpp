@@ -1,12 +1,12 @@
 // Coaptation of closed shapes whose overlap is known.
-#include "measure/coaptation.h"
+#include "measure/coaptation/coaptation.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "measure/frame.h"
+#include "measure/annulus/frame.h"
 #include "tests/measure/shapes.h"
 
 namespace mvs::core::test {

@@ -1,5 +1,5 @@
 // Comparing shapes against known motions, scales and brute force.
-#include "measure/compare.h"
+#include "measure/comparison/compare.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "geometry/distance.h"
-#include "measure/surface_distance.h"
+#include "measure/comparison/surface_distance.h"
 #include "tests/measure/shapes.h"
 
 namespace mvs::core::test {

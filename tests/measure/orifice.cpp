@@ -1,5 +1,5 @@
 // The orifice against shapes with a known opening.
-#include "measure/orifice.h"
+#include "measure/orifice/orifice.h"
 
 #include <doctest/doctest.h>
 

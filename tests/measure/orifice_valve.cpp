@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "anatomy/parametric.h"
-#include "measure/coaptation.h"
-#include "measure/orifice.h"
+#include "measure/coaptation/coaptation.h"
+#include "measure/orifice/orifice.h"
 #include "solve/solver.h"
 #include "tests/measure/shapes.h"
 

@@ -1,5 +1,5 @@
 // Planar cuts against closed forms.
-#include "measure/section.h"
+#include "measure/tissue/section.h"
 
 #include <doctest/doctest.h>
 

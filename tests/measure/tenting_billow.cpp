@@ -1,5 +1,5 @@
 // Tenting and billow against closed forms.
-#include "measure/tenting_billow.h"
+#include "measure/tenting/tenting_billow.h"
 
 #include <doctest/doctest.h>
 

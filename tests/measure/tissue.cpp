@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "measure/chords.h"
-#include "measure/strain.h"
+#include "measure/tissue/chords.h"
+#include "measure/tissue/strain.h"
 #include "tests/measure/shapes.h"
 
 namespace mvs::core::test {

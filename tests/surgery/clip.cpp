@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "surgery/sheet_map.h"
+#include "surgery/leaflet/sheet_map.h"
 #include "tests/surgery/operated.h"
 
 namespace mvs::core::test {

@@ -1,7 +1,7 @@
 // A patch: how much larger it is, where, and that the valve closes better with it.
 #include <Eigen/Geometry>
 
-#include "measure/surface.h"
+#include "measure/tissue/surface.h"
 #include "tests/surgery/operated.h"
 
 using namespace mvs::core;

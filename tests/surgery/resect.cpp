@@ -1,9 +1,9 @@
 // Resections: what is cut out, what stays as it was, and that the sewn valve closes.
 #include <cstdlib>
 
-#include "measure/landmarks.h"
-#include "surgery/flat.h"
-#include "surgery/sheet_map.h"
+#include "measure/annulus/landmarks.h"
+#include "surgery/leaflet/flat.h"
+#include "surgery/leaflet/sheet_map.h"
 #include "tests/surgery/operated.h"
 
 using namespace mvs::core;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "surgery/ring_curve.h"
+#include "surgery/ring/ring_curve.h"
 #include "tests/surgery/operated.h"
 
 namespace mvs::core::test {

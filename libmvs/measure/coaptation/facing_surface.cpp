@@ -1,0 +1,90 @@
+// Searching the tree for the nearest triangle that a point can face.
+#include "measure/coaptation/facing_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mvs::core {
+namespace {
+
+constexpr double facing = -0.5;           // cosine between the normals
+constexpr double ahead = 0.5;             // cosine between a normal and the way to the partner
+constexpr double straight_ahead = 0.966;  // 15 degrees: how far beyond a border still faces it
+constexpr double touching = 0.1;          // of reach: too near for the way to have a direction
+
+std::vector<uint8_t> find_borders(const Model &model) {
+  const Topology &topology = model.topology;
+  std::vector<uint8_t> node_on_border(model.node_count(), 0);
+  for (size_t e = 0; e < topology.edges.size(); ++e) {
+    if (topology.edge_triangles[e][1] != none) continue;
+    for (const uint32_t node : topology.edges[e]) node_on_border[node] = 1;
+  }
+  std::vector<uint8_t> border;
+  border.reserve(model.valve.triangles.size());
+  for (size_t t = 0; t < model.valve.triangles.size(); ++t) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (node_on_border[model.valve.triangles[t][k]]) bits |= 1u << k;
+      if (topology.edge_triangles[topology.triangle_edges[t][k]][1] == none) bits |= 8u << k;
+    }
+    border.push_back(static_cast<uint8_t>(bits));
+  }
+  return border;
+}
+
+bool share_a_node(const Tri &l, const Tri &r) {
+  return std::any_of(l.begin(), l.end(),
+                     [&](uint32_t n) { return n == r[0] || n == r[1] || n == r[2]; });
+}
+
+}  // namespace
+
+FacingSurface::FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface)
+    : model_(model),
+      x_(x),
+      surface_(surface),
+      tree_(model.valve.triangles, x),
+      border_(find_borders(model)),
+      reach_(model.valve.contact_thickness) {}
+
+Vec3 FacingSurface::normal_at(uint32_t triangle, const std::array<double, 3> &weight) const {
+  Vec3 normal = Vec3::Zero();
+  for (size_t k = 0; k < 3; ++k) {
+    normal += weight[k] * surface_.node_normal[model_.valve.triangles[triangle][k]];
+  }
+  return normal.normalized();
+}
+
+Partner FacingSurface::of_node(uint32_t node) const {
+  return find(x_[node], surface_.node_normal[node], {node, node, node});
+}
+
+Partner FacingSurface::of_point(uint32_t triangle, const Vec3 &p) const {
+  return find(p, surface_.normal[triangle], model_.valve.triangles[triangle]);
+}
+
+// Nearer tissue of which only the border is near hides what lies behind it: it is remembered as a
+// limit without a partner.
+Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) const {
+  Partner partner;
+  double limit2 = reach_ * reach_;
+  tree_.visit_near(p, limit2, [&](uint32_t t) {
+    if (surface_.normal[t].dot(normal) > facing) return;
+    if (share_a_node(model_.valve.triangles[t], own)) return;
+    const TrianglePoint q = tree_.closest_on(t, p);
+    if (q.distance2 > limit2) return;
+    const double distance = std::sqrt(q.distance2);
+    const Vec3 point = tree_.point_at(t, q.weight), way = point - p;
+    const bool far = distance > touching * reach_;
+    if (far && way.dot(normal) < ahead * distance) return;
+    const bool at_border = (border_[t] >> q.feature & 1) != 0;
+    const bool beyond =
+        far && at_border && -way.dot(surface_.normal[t]) < straight_ahead * distance;
+    if (q.distance2 == limit2 && (beyond || t > partner.triangle)) return;
+    limit2 = q.distance2;
+    partner = beyond ? Partner() : Partner{t, distance, point, normal_at(t, q.weight)};
+  });
+  return partner;
+}
+
+}  // namespace mvs::core

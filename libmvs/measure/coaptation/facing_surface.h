@@ -1,0 +1,44 @@
+// What a point of the sheet faces: the nearest tissue in front of its atrial side.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "geometry/triangle_tree.h"
+#include "measure/tissue/surface.h"
+#include "model/model.h"
+
+namespace mvs::core {
+
+struct Partner {
+  uint32_t triangle = none;
+  double distance = std::numeric_limits<double>::infinity();  // m
+  Vec3 point;
+  Vec3 normal = Vec3::Zero();  // between those of its nodes: the same from either side of an edge
+};
+
+// Two pieces of tissue face each other when they lie within reach, atrial side to atrial side: each
+// in front of the other, normals more than 120 degrees apart. Tissue beyond the other's border is
+// not in front of it. Any two pieces can face each other that share no node: those of two leaflets,
+// or those of one leaflet on the two sides of a cleft.
+class FacingSurface {
+ public:
+  FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
+
+  double reach() const { return reach_; }  // m: the contact thickness
+  Partner of_node(uint32_t node) const;
+  Partner of_point(uint32_t triangle, const Vec3 &p) const;
+
+ private:
+  Vec3 normal_at(uint32_t triangle, const std::array<double, 3> &weight) const;
+  Partner find(const Vec3 &p, const Vec3 &normal, const Tri &own) const;
+
+  const Model &model_;
+  const std::vector<Vec3> &x_;
+  const Surface &surface_;
+  TriangleTree tree_;
+  std::vector<uint8_t> border_;  // per triangle: bit f is set where feature f is on the border
+  double reach_;
+};
+
+}  // namespace mvs::core

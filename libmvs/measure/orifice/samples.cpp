@@ -1,0 +1,156 @@
+// Sampling the sheet and building the wall around it.
+#include "measure/orifice/samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/triangle_tree.h"
+#include "model/sides.h"
+
+namespace mvs::core::orifice {
+namespace {
+
+// Spacings over the contact thickness: three quarters keep a ball of that diameter from slipping
+// between the samples (see orifice_space.cpp) and place the verdict "closed" within a tenth.
+constexpr double grain_of_seal = 0.75;
+// The finest spacing over the length of the rims and over the root of the sheet's area: it bounds
+// the work where the contact thickness is tiny or the sheet torn far apart. For a mitral valve it
+// is a quarter of a millimetre. Below, the coarsest spacing over the finest.
+constexpr double grain_of_rim = 1e-3, grain_of_size = 1.0 / 150;
+constexpr double coarsest = 4;
+// Edges are as long as half the way to what faces them, and grow half as fast as that from a rim.
+constexpr double growth = 0.5;
+// Where leaflets touch, nearer to each other than this part of the contact thickness, no blood
+// comes and samples may be coarse: a ball that is held back by them is held back by the contact,
+// too.
+constexpr double deep_of_seal = 0.8;
+// What lies within 60 degrees of the normal faces a point; the sheet's own neighbourhood does not.
+constexpr double facing_cosine = 0.5;
+
+bool faces_something(const TriangleTree &tree, const Vec3 &p, const Vec3 &normal, double within) {
+  double limit2 = within * within;
+  bool found = false;
+  tree.visit_near(p, limit2, [&](uint32_t t) {
+    const TrianglePoint hit = tree.closest_on(t, p);
+    // a point is not faced by what it lies on, however the way there rounds
+    if (found || hit.distance2 >= limit2 || hit.distance2 < 1e-6 * within * within) return;
+    const Vec3 way = tree.point_at(t, hit.weight) - p;
+    found = std::abs(way.dot(normal)) > facing_cosine * std::sqrt(hit.distance2);
+    if (found) limit2 = 0;
+  });
+  return found;
+}
+
+bool is_near(const TriangleTree &tree, const Vec3 &p, double within) {
+  double limit2 = within * within;
+  bool found = false;
+  tree.visit_near(p, limit2, [&](uint32_t t) {
+    if (found || tree.closest_on(t, p).distance2 >= limit2) return;
+    found = true;
+    limit2 = 0;
+  });
+  return found;
+}
+
+Mesh refined(const Sheet &sheet) {
+  const std::vector<Tri> rim = as_triangles(sheet.rim);
+  const TriangleTree rim_tree(rim, sheet.mesh.x), tree(sheet.mesh.triangles, sheet.mesh.x);
+  Mesh mesh = sheet.mesh;
+  bisect(mesh, [&](const BisectEdge &edge) {
+    const double length = (edge.b - edge.a).norm();
+    if (!(length > sheet.grain)) return false;
+    if (edge.on_rim || length > coarsest * sheet.grain) return true;
+    const Vec3 middle = 0.5 * (edge.a + edge.b), normal = edge.normal.normalized();
+    if (is_near(rim_tree, middle, (length - sheet.grain) / growth)) return true;
+    if (!faces_something(tree, middle, normal, length / growth)) return false;
+    const auto is_deep = [&](const Vec3 &p) {
+      return faces_something(tree, p, normal, deep_of_seal * sheet.seal);
+    };
+    return length > 2 * sheet.seal || !is_deep(middle) || !is_deep(edge.a) || !is_deep(edge.b);
+  });
+  return mesh;
+}
+
+std::vector<double> longest_edges(const Mesh &mesh) {
+  std::vector<double> longest(mesh.x.size(), 0);
+  for (const Tri &t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = t[k], b = t[(k + 1) % 3];
+      const double length = (mesh.x[a] - mesh.x[b]).norm();
+      longest[a] = std::max(longest[a], length);
+      longest[b] = std::max(longest[b], length);
+    }
+  }
+  return longest;
+}
+
+// One ring of the wall: points at equal steps along the annulus, moved outwards.
+void add_ring(const Sheet &sheet, double outwards, double step, double shift, Samples &samples) {
+  const double length = sheet.annulus.length(), wider = 2 * std::numbers::pi * outwards;
+  const size_t count = std::max<size_t>(12, std::lround(std::ceil((length + wider) / step)));
+  for (size_t i = 0; i < count; ++i) {
+    const double part = (static_cast<double>(i) + shift) / static_cast<double>(count);
+    const Vec3 p = sheet.annulus.at(part * length);
+    const Vec3 way = Vec3(p.x(), p.y(), 0).normalized();
+    samples.point.push_back(p + outwards * way);
+    samples.spacing.push_back(2 * step);
+  }
+}
+
+void add_wall(const Sheet &sheet, Samples &samples) {
+  double step = sheet.grain, outwards = 0, shift = 0.5;
+  while (outwards < 2 * sheet.radius) {
+    outwards += 0.85 * step;
+    add_ring(sheet, outwards, step, shift, samples);
+    step *= 1.5;
+    shift = 0.5 - shift;
+  }
+}
+
+}  // namespace
+
+std::vector<Tri> as_triangles(const std::vector<Edge> &edges) {
+  std::vector<Tri> triangles;
+  for (const Edge &edge : edges) triangles.push_back({edge[0], edge[1], edge[1]});
+  return triangles;
+}
+
+Sheet local_sheet(const Model &model, const std::vector<Vec3> &local) {
+  const Valve &valve = model.valve;
+  Sheet sheet{{}, {}, Loop(valve.annulus, local), valve.contact_thickness, 0, 0};
+  std::vector<uint32_t> number(local.size(), none);
+  const auto take = [&](uint32_t node) {
+    if (number[node] == none) {
+      number[node] = static_cast<uint32_t>(sheet.mesh.x.size());
+      sheet.mesh.x.push_back(local[node]);
+    }
+    return number[node];
+  };
+  for (const Tri &t : valve.triangles) {
+    const uint32_t a = take(t[0]), b = take(t[1]), c = take(t[2]);
+    sheet.mesh.triangles.push_back({a, b, c});
+  }
+  const std::vector<Side> sides = sorted_sides(sheet.mesh.triangles);
+  for_each_edge(sides, [&](size_t first, size_t last) {
+    if (last == first + 1) sheet.rim.push_back(sides[first].edge);
+  });
+  double rim = 0;
+  for (const Edge &e : sheet.rim) rim += (sheet.mesh.x[e[0]] - sheet.mesh.x[e[1]]).norm();
+  for (const Vec3 &p : sheet.mesh.x) sheet.radius = std::max(sheet.radius, p.norm());
+  sheet.grain = std::max({grain_of_seal * sheet.seal, grain_of_rim * rim,
+                          grain_of_size * std::sqrt(area_of(sheet.mesh))});
+  return sheet;
+}
+
+Samples sample(const Sheet &sheet) {
+  const Mesh mesh = refined(sheet);
+  Samples samples;
+  samples.point = mesh.x;
+  samples.spacing = longest_edges(mesh);
+  samples.on_sheet = mesh.x.size();
+  add_wall(sheet, samples);
+  return samples;
+}
+
+}  // namespace mvs::core::orifice

@@ -1,0 +1,196 @@
+// Free space between samples: where a ball of the contact thickness can go, and how much fits
+// through each triangle of the Delaunay tetrahedra.
+#include "measure/orifice/smallest_cut.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/delaunay3d.h"
+#include "geometry/max_flow.h"
+#include "geometry/triangle_tree.h"
+
+namespace mvs::core::orifice {
+namespace {
+
+// No point of a triangle with edges up to 1 is farther from its corners than 1 / sqrt(3) = 0.58;
+// the rest is for the bend of the sheet.
+constexpr double reach_of_spacing = 0.65;
+constexpr double flow_unit = 1e-14;  // m2: 1e9 units are 10 mm2
+// Numbers of cells in the flow; all of the atrium is one, all of the ventricle another. A cell that
+// the blood has not reached has none.
+constexpr uint32_t atrium = 0, ventricle = 1, first_between = 2, in_wall = none - 1;
+
+struct Ball {
+  Vec3 centre;
+  double radius;
+};
+
+Ball ball_through(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
+  const Vec3 u = b - a, v = c - a, n = u.cross(v);
+  const Vec3 to_centre =
+      (u.squaredNorm() * v.cross(n) + v.squaredNorm() * n.cross(u)) / (2 * n.squaredNorm());
+  return {a + to_centre, to_centre.norm()};
+}
+
+Ball ball_through(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const Vec3 to_centre =
+      (u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) + w.squaredNorm() * u.cross(v)) /
+      (2 * u.dot(v.cross(w)));
+  return {a + to_centre, to_centre.norm()};
+}
+
+class Space {
+ public:
+  Space(const Sheet &sheet, const Samples &samples);
+
+  // Follows the blood from the atrium; true if some reaches the ventricle.
+  bool leaks();
+  std::vector<Tri> cut();
+
+ private:
+  struct Opening {
+    uint32_t cell, face;  // the side nearer to where the blood came from
+    uint32_t beyond;
+  };
+
+  Tri face(uint32_t cell, uint32_t k) const;
+  bool is_open(uint32_t cell, uint32_t k) const;
+  Ball tightest(uint32_t cell, uint32_t k) const;
+  double area(const Tri &t) const;
+
+  const Sheet &sheet_;
+  const Samples &samples_;
+  TriangleTree tree_;
+  Delaunay mesh_;
+  std::vector<Vec3> vertex_;  // on the lattice, in m, so that every cell has positive volume
+  std::vector<Ball> ball_;    // through the corners of each cell
+  std::vector<uint32_t> number_;
+  std::vector<Opening> openings_;
+  uint32_t numbers_ = first_between;
+};
+
+// The box is three times as large as the sheet, so that no cell joins its top and bottom through
+// the valve: the sphere of such a cell would hold a part of the wall. Those outside the wall do.
+Space::Space(const Sheet &sheet, const Samples &samples)
+    : sheet_(sheet), samples_(samples), tree_(sheet.mesh.triangles, sheet.mesh.x) {
+  const double half = 3 * sheet.radius, unit = 2 * half / lattice_size;
+  std::vector<LatticePoint> lattice;
+  for (const Vec3 &p : samples.point) {
+    LatticePoint q;
+    for (int k = 0; k < 3; ++k) {
+      const long place = std::lround((p[k] + half) / unit);
+      q[k] = static_cast<int32_t>(std::clamp<long>(place, 1, lattice_size - 1));
+    }
+    lattice.push_back(q);
+    vertex_.push_back(unit * Vec3(q[0], q[1], q[2]) - Vec3::Constant(half));
+  }
+  for (int k = 0; k < 8; ++k) {
+    vertex_.push_back(half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+  }
+  mesh_ = delaunay(lattice);
+  for (const Tetrahedron &cell : mesh_.tetrahedra) {
+    const std::array<uint32_t, 4> &c = cell.corner;
+    ball_.push_back(ball_through(vertex_[c[0]], vertex_[c[1]], vertex_[c[2]], vertex_[c[3]]));
+    bool top = false, bottom = false;
+    for (const uint32_t v : c) {
+      if (v >= samples.point.size()) ((v - samples.point.size()) & 4 ? top : bottom) = true;
+    }
+    number_.push_back(top ? (bottom ? in_wall : atrium) : (bottom ? ventricle : none));
+  }
+}
+
+// The corners of a face, turning right-handed around the way out of the cell.
+Tri Space::face(uint32_t cell, uint32_t k) const {
+  const std::array<uint32_t, 4> &c = mesh_.tetrahedra[cell].corner;
+  constexpr std::array<Tri, 4> order = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  return {c[order[k][0]], c[order[k][1]], c[order[k][2]]};
+}
+
+double Space::area(const Tri &t) const {
+  const Vec3 &a = samples_.point[t[0]];
+  return 0.5 * (samples_.point[t[1]] - a).cross(samples_.point[t[2]] - a).norm();
+}
+
+// The smallest ball, with its surface on samples and none inside, on the way from the centre of a
+// cell to that of its neighbour: the radius falls towards the plane of the face they share.
+Ball Space::tightest(uint32_t cell, uint32_t k) const {
+  const Tri t = face(cell, k);
+  const Vec3 &a = vertex_[t[0]];
+  const Vec3 out = (vertex_[t[1]] - a).cross(vertex_[t[2]] - a);
+  const Ball &here = ball_[cell], &there = ball_[mesh_.tetrahedra[cell].neighbour[k]];
+  if ((here.centre - a).dot(out) > 0) return here;
+  if ((there.centre - a).dot(out) < 0) return there;
+  return ball_through(a, vertex_[t[1]], vertex_[t[2]]);
+}
+
+// Does a ball of the contact thickness pass? The samples alone cannot tell it from slipping between
+// them when it is smaller than their spacing, and see the sheet up to `slack` too far away.
+bool Space::is_open(uint32_t cell, uint32_t k) const {
+  const Tri t = face(cell, k);
+  double spacing = 0;
+  bool only_wall = true;
+  for (const uint32_t v : t) {
+    if (v >= samples_.point.size()) return false;
+    spacing = std::max(spacing, samples_.spacing[v]);
+    only_wall &= v >= samples_.on_sheet;
+  }
+  const Ball ball = tightest(cell, k);
+  const double needed = 0.5 * sheet_.seal, slack = reach_of_spacing * spacing;
+  if (only_wall || !(ball.radius > std::max(needed, slack))) return false;
+  if (ball.radius * ball.radius > needed * needed + slack * slack) return true;
+  return tree_.closest(ball.centre).distance2 > needed * needed;
+}
+
+bool Space::leaks() {
+  std::vector<uint32_t> queue;
+  for (uint32_t c = 0; c < number_.size(); ++c) {
+    if (number_[c] == atrium) queue.push_back(c);
+  }
+  bool arrived = false;
+  for (size_t i = 0; i < queue.size(); ++i) {
+    const uint32_t cell = queue[i];
+    for (uint32_t k = 0; k < 4; ++k) {
+      const uint32_t beyond = mesh_.tetrahedra[cell].neighbour[k];
+      if (beyond == none || number_[beyond] == in_wall) continue;
+      const bool arrives = number_[beyond] == ventricle;
+      // cells come in the order of their numbers: what is below has looked at this face already
+      if (!arrives && number_[beyond] <= number_[cell]) continue;
+      if (!is_open(cell, k)) continue;
+      openings_.push_back({cell, k, beyond});
+      arrived |= arrives;
+      if (number_[beyond] != none) continue;
+      number_[beyond] = numbers_++;
+      queue.push_back(beyond);
+    }
+  }
+  return arrived;
+}
+
+std::vector<Tri> Space::cut() {
+  MaxFlow flow(numbers_);
+  for (const Opening &o : openings_) {
+    const double units = area(face(o.cell, o.face)) / flow_unit;
+    flow.add_pipe(number_[o.cell], number_[o.beyond], std::llround(units));
+  }
+  flow.run(atrium, ventricle);
+  std::vector<Tri> triangles;
+  for (const Opening &o : openings_) {
+    const bool here = flow.is_on_source_side(number_[o.cell]);
+    if (here == flow.is_on_source_side(number_[o.beyond])) continue;
+    Tri t = face(o.cell, o.face);
+    if (here) std::swap(t[1], t[2]);  // the normal points into the atrium
+    triangles.push_back(t);
+  }
+  return triangles;
+}
+
+}  // namespace
+
+std::vector<Tri> smallest_cut(const Sheet &sheet, const Samples &samples) {
+  Space space(sheet, samples);
+  return space.leaks() ? space.cut() : std::vector<Tri>{};
+}
+
+}  // namespace mvs::core::orifice

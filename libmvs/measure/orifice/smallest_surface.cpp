@@ -1,0 +1,217 @@
+// A surface of least area whose rim slides on the sheet.
+#include "measure/orifice/smallest_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/triangle_tree.h"
+#include "linalg/small_solve.h"
+#include "measure/tissue/surface.h"
+#include "model/sides.h"
+
+namespace mvs::core::orifice {
+namespace {
+
+// Edges inside the surface are cut to this part of the square root of its area, at which a chord of
+// a circle is 1 % below its arc, but not below the spacing of the samples.
+constexpr double edge_of_size = 0.15;
+constexpr int max_sweeps = 100;
+constexpr double enough = 1e-5;  // a sweep that gains less of the area is the last
+// An edge of the cut with its middle farther from the sheet than this part of its length does not
+// run along it. Over a crease of 60 degrees it is 0.13, across a closed passage 0.5.
+constexpr double off_of_length = 0.15;
+
+enum class Hold : uint8_t { free, slides, stays };
+
+// The compact mesh of the cut.
+Mesh surface_of_cut(const Samples &samples, const std::vector<Tri> &cut) {
+  Mesh mesh;
+  std::vector<uint32_t> number(samples.point.size(), none);
+  for (Tri t : cut) {
+    for (uint32_t &v : t) {
+      if (number[v] == none) {
+        number[v] = static_cast<uint32_t>(mesh.x.size());
+        mesh.x.push_back(samples.point[v]);
+      }
+      v = number[v];
+    }
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
+class Shrinking {
+ public:
+  Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples);
+  Mesh run();
+
+ private:
+  void hold_rim(size_t on_samples);
+  void list_triangles();
+  double sweep();
+  double area_around(uint32_t v, const Vec3 &p) const;
+  Vec3 move_of(uint32_t v) const;
+  Vec3 slide(uint32_t v, const Vec3 &p) const;
+  bool is_on_rim(const Vec3 &p) const;
+  double try_move(uint32_t v, const Vec3 &move);
+
+  const Sheet &sheet_;
+  std::vector<Tri> rim_edges_;
+  TriangleTree rim_tree_, tree_;
+  std::vector<Vec3> normal_;  // of the sheet, per node
+  Mesh mesh_;
+  std::vector<Hold> hold_;
+  std::vector<std::array<uint32_t, 2>> rim_;  // per node: the next ones along the rim, or none
+  std::vector<uint32_t> first_;               // per node: opposite_[first_[v] .. first_[v + 1])
+  std::vector<Edge> opposite_;
+};
+
+Shrinking::Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples)
+    : sheet_(sheet),
+      rim_edges_(as_triangles(sheet.rim)),
+      rim_tree_(rim_edges_, sheet.mesh.x),
+      tree_(sheet.mesh.triangles, sheet.mesh.x),
+      normal_(mvs::core::surface_of(sheet.mesh.triangles, sheet.mesh.x).node_normal),
+      mesh_(std::move(mesh)) {
+  hold_rim(on_samples);
+  list_triangles();
+}
+
+// Nodes of the rim slide where it runs along the sheet; where it crosses from one sheet to the
+// other, at the end of an opening, they stay, or the opening would shrink to nothing.
+void Shrinking::hold_rim(size_t on_samples) {
+  hold_.assign(mesh_.x.size(), Hold::free);
+  std::fill(hold_.begin(), hold_.begin() + static_cast<std::ptrdiff_t>(on_samples), Hold::slides);
+  rim_.assign(mesh_.x.size(), {none, none});
+  const std::vector<Side> sides = sorted_sides(mesh_.triangles);
+  for_each_edge(sides, [&](size_t first, size_t last) {
+    if (last == first + 2) return;
+    const Edge &e = sides[first].edge;
+    const Vec3 middle = 0.5 * (mesh_.x[e[0]] + mesh_.x[e[1]]);
+    const double off = off_of_length * (mesh_.x[e[0]] - mesh_.x[e[1]]).norm();
+    const bool along = last == first + 1 && tree_.closest(middle).distance2 < off * off;
+    for (int k = 0; k < 2; ++k) {
+      Hold &hold = hold_[e[k]];
+      hold = along && hold != Hold::stays ? Hold::slides : Hold::stays;
+      std::array<uint32_t, 2> &next = rim_[e[k]];
+      if (next[1] != none) hold = Hold::stays;  // two openings meet here
+      next[next[0] == none ? 0 : 1] = e[1 - k];
+    }
+  });
+}
+
+void Shrinking::list_triangles() {
+  first_.assign(mesh_.x.size() + 1, 0);
+  for (const Tri &t : mesh_.triangles) {
+    for (const uint32_t v : t) ++first_[v + 1];
+  }
+  for (size_t v = 0; v < mesh_.x.size(); ++v) first_[v + 1] += first_[v];
+  opposite_.resize(3 * mesh_.triangles.size());
+  std::vector<uint32_t> place(first_.begin(), first_.end() - 1);
+  for (const Tri &t : mesh_.triangles) {
+    for (int k = 0; k < 3; ++k) opposite_[place[t[k]]++] = {t[(k + 1) % 3], t[(k + 2) % 3]};
+  }
+}
+
+double Shrinking::area_around(uint32_t v, const Vec3 &p) const {
+  double twice = 0;
+  for (uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+    const Vec3 &a = mesh_.x[opposite_[i][0]], &b = mesh_.x[opposite_[i][1]];
+    twice += (a - p).cross(b - p).norm();
+  }
+  return 0.5 * twice;
+}
+
+// Where the areas around a node are least. Each is its opposite edge times the distance h from it,
+// and h is below h2 / (2 h0) + h0 / 2 for the present h0: the sum of these bounds is quadratic, and
+// its minimum has no larger area than the present place (majorise, then minimise).
+Vec3 Shrinking::move_of(uint32_t v) const {
+  const Vec3 &x = mesh_.x[v];
+  Mat3 stiffness = Mat3::Zero();
+  Vec3 force = Vec3::Zero();
+  for (uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+    const Vec3 &a = mesh_.x[opposite_[i][0]], along = mesh_.x[opposite_[i][1]] - a;
+    const double length = along.norm();
+    if (length == 0) continue;
+    const Vec3 unit = along / length;
+    const Vec3 away = x - a - unit.dot(x - a) * unit;
+    const double weight = length / std::max(away.norm(), 1e-3 * length);
+    stiffness += weight * (Mat3::Identity() - unit * unit.transpose());
+    force -= weight * away;
+  }
+  if (hold_[v] == Hold::free) {
+    stiffness += 1e-6 * stiffness.trace() * Mat3::Identity();
+    return solve_positive(stiffness, force);
+  }
+  const TriangleTree::Hit hit = tree_.closest(x);
+  const TrianglePoint where = tree_.closest_on(hit.triangle, x);
+  Vec3 normal = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    normal += where.weight[k] * normal_[sheet_.mesh.triangles[hit.triangle][k]];
+  }
+  // across the rim, in the sheet: moving along the rim would only crowd its nodes
+  const bool on_rim = rim_[v][1] != none;
+  const Vec3 tangent =
+      on_rim ? Vec3(mesh_.x[rim_[v][1]] - mesh_.x[rim_[v][0]]) : force.cross(normal);
+  const Vec3 across = normal.cross(tangent);
+  const double resistance = across.dot(stiffness * across);
+  return resistance > 0 ? Vec3(across.dot(force) / resistance * across) : Vec3(Vec3::Zero());
+}
+
+// The place on the sheet nearest to p. A node on the rim of the sheet may leave it for the inside,
+// but not run along it: that would round off its corners, or shorten a slit from its end.
+Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) const {
+  const Vec3 &x = mesh_.x[v];
+  const Vec3 there = tree_.closest(p).point;
+  return is_on_rim(x) && is_on_rim(there) ? x : there;
+}
+
+bool Shrinking::is_on_rim(const Vec3 &p) const {
+  const double off = 1e-3 * sheet_.grain;
+  return rim_tree_.closest(p).distance2 < off * off;
+}
+
+// Makes the move, or a part of it, if that lowers the area; returns by how much.
+double Shrinking::try_move(uint32_t v, const Vec3 &move) {
+  const double before = area_around(v, mesh_.x[v]);
+  for (double part = 1; part > 0.1; part *= 0.5) {
+    Vec3 p = mesh_.x[v] + part * move;
+    if (hold_[v] == Hold::slides) p = slide(v, p);
+    const double after = area_around(v, p);
+    if (after >= before) continue;
+    mesh_.x[v] = p;
+    return before - after;
+  }
+  return 0;
+}
+
+double Shrinking::sweep() {
+  double gain = 0;
+  for (uint32_t v = 0; v < mesh_.x.size(); ++v) {
+    if (hold_[v] != Hold::stays) gain += try_move(v, move_of(v));
+  }
+  return gain;
+}
+
+Mesh Shrinking::run() {
+  for (int k = 0; k < max_sweeps; ++k) {
+    if (sweep() < enough * area_of(mesh_)) break;
+  }
+  return std::move(mesh_);
+}
+
+}  // namespace
+
+Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut) {
+  Mesh mesh = surface_of_cut(samples, cut);
+  if (cut.empty()) return mesh;
+  const size_t on_samples = mesh.x.size();
+  const double longest = std::max(sheet.grain, edge_of_size * std::sqrt(area_of(mesh)));
+  bisect(mesh, [&](const BisectEdge &edge) {
+    return !edge.on_rim && (edge.b - edge.a).norm() > longest;
+  });
+  return Shrinking(sheet, std::move(mesh), on_samples).run();
+}
+
+}  // namespace mvs::core::orifice

@@ -1,0 +1,32 @@
+// The leaflets seen from the atrium along the valve axis: what is on top.
+#pragma once
+
+#include <vector>
+
+#include "measure/annulus/frame.h"
+
+namespace mvs::core {
+
+class HeightField {
+ public:
+  HeightField(const Frame &frame, const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+
+  struct Top {
+    uint32_t triangle = none;  // none where no leaflet is
+    double height = 0;         // m over the annulus plane
+  };
+  // The highest point of the leaflets at a point of the annulus plane (AP, CC).
+  Top top(double u, double v) const;
+
+ private:
+  size_t cell(size_t axis, double value) const;  // column or row, within the grid
+  void list_triangles();
+
+  const std::vector<Tri> &triangles_;
+  std::vector<Vec3> x_;  // in the frame
+  std::array<double, 2> low_{}, step_{};
+  size_t cells_ = 1;  // to a side
+  Rows rows_;         // triangles by cell
+};
+
+}  // namespace mvs::core

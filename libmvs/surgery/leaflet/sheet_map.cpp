@@ -1,0 +1,153 @@
+// The harmonic height, and angles about the axis.
+#include "surgery/leaflet/sheet_map.h"
+
+#include <mvs/snapshot.h>
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+#include <numbers>
+
+#include "base/math.h"
+#include "measure/annulus/frame.h"
+
+namespace mvs::core {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+// Nodes that are neighbours on the sheet, or sewn to each other, and how closely.
+struct Tie {
+  Edge nodes;
+  double weight;
+};
+
+// The seams of resections: each is a part of a free edge folded onto itself. From the node where
+// the sides part, whose neighbours are sewn to each other, it goes on pair by pair. What is inside
+// is marked and is free edge no more; its last pair is at the free edge still.
+std::vector<Tie> seams(const Model &model, std::vector<uint8_t> &inside) {
+  const std::vector<Chord> &chords = model.valve.chords;
+  const auto suture = [&](uint32_t a, uint32_t b) {
+    for (const uint32_t c : model.topology.node_chords[a]) {
+      const bool same = chords[c].a == b || chords[c].b == b;
+      if (same && chords[c].kind == MVS_CHORD_KIND_SUTURE) return c;
+    }
+    return none;
+  };
+  std::vector<Tie> ties;
+  for (const std::vector<uint32_t> &loop : model.topology.free_edges) {
+    const size_t n = loop.size();
+    for (size_t turn = 0; turn < n; ++turn) {
+      uint32_t c = suture(loop[(turn + n - 1) % n], loop[(turn + 1) % n]);
+      if (c == none) continue;
+      inside[loop[turn]] = 1;
+      for (size_t k = 2; 2 * k < n; ++k) {
+        const uint32_t next = suture(loop[(turn + n - k) % n], loop[(turn + k) % n]);
+        if (next == none) break;
+        inside[chords[c].a] = inside[chords[c].b] = 1;
+        ties.push_back({{chords[c].a, chords[c].b}, 1 / chords[c].rest_length});
+        c = next;
+      }
+    }
+  }
+  return ties;
+}
+
+// Heights that are known: 0 on the annulus, 1 on the free edges; -1 elsewhere.
+std::vector<double> boundary_heights(const Model &model, const std::vector<uint8_t> &sewn) {
+  std::vector<double> height(model.node_count(), -1);
+  for (const std::vector<uint32_t> &loop : model.topology.free_edges) {
+    for (const uint32_t node : loop) {
+      if (!sewn[node]) height[node] = 1;
+    }
+  }
+  for (const uint32_t node : model.valve.annulus) height[node] = 0;
+  return height;
+}
+
+// Solves sum over neighbours of (h - h_neighbour) / length = 0 at every inner node.
+std::vector<double> harmonic_heights(const Model &model) {
+  std::vector<uint8_t> sewn(model.node_count(), 0);
+  std::vector<Tie> ties = seams(model, sewn);
+  for (size_t e = 0; e < model.topology.edges.size(); ++e) {
+    ties.push_back({model.topology.edges[e], 1 / model.rest_length[e]});
+  }
+  std::vector<double> height = boundary_heights(model, sewn);
+  std::vector<int> row(height.size(), -1);
+  int count = 0;
+  for (uint32_t n = 0; n < height.size(); ++n) {
+    if (height[n] < 0 && !model.topology.node_triangles[n].empty()) row[n] = count++;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+  for (const auto &[nodes, weight] : ties) {
+    for (int side = 0; side < 2; ++side) {
+      const int here = row[nodes[side]], there = row[nodes[1 - side]];
+      if (here < 0) continue;
+      entries.emplace_back(here, here, weight);
+      if (there >= 0) {
+        entries.emplace_back(here, there, -weight);
+      } else {
+        right[here] += weight * height[nodes[1 - side]];
+      }
+    }
+  }
+  Sparse matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd solution = Eigen::SimplicialLDLT<Sparse>(matrix).solve(right);
+  for (size_t n = 0; n < height.size(); ++n) {
+    if (row[n] >= 0) height[n] = solution[row[n]];
+  }
+  return height;
+}
+
+double wrapped(double angle) {
+  return std::remainder(angle, 2 * std::numbers::pi);
+}
+
+}  // namespace
+
+SheetMap::SheetMap(const Model &model) : height_(harmonic_heights(model)) {
+  const std::vector<Vec3> &rest = model.valve.rest;
+  const Frame frame = valve_frame(model, rest);
+  std::vector<double> cc;
+  for (const Vec3 &p : rest) {
+    const Vec3 local = frame.local(p);
+    angle_.push_back(math::atan2(local[1], local[0]));
+    cc.push_back(local[1]);
+  }
+  ranges_.resize(model.valve.scallops.size());
+  for (uint32_t s = 0; s < ranges_.size(); ++s) {
+    Range &range = ranges_[s];
+    Vec3 towards = Vec3::Zero();
+    std::vector<uint32_t> nodes;
+    for (size_t t = 0; t < model.valve.triangles.size(); ++t) {
+      if (model.valve.triangle_scallop[t] != s) continue;
+      for (const uint32_t node : model.valve.triangles[t]) {
+        towards += Vec3(math::cos(angle_[node]), math::sin(angle_[node]), 0);
+        nodes.push_back(node);
+      }
+    }
+    range.middle = math::atan2(towards[1], towards[0]);
+    double slope = 0;
+    for (const uint32_t node : nodes) {
+      const double a = wrapped(angle_[node] - range.middle);
+      range.low = std::min(range.low, a);
+      range.high = std::max(range.high, a);
+      slope += a * cc[node];
+    }
+    range.turned = slope < 0;
+  }
+}
+
+double SheetMap::angle(const Range &range, uint32_t node) const {
+  const double a = wrapped(angle_[node] - range.middle);
+  return (a - range.low) / std::max(range.high - range.low, 1e-9);
+}
+
+double SheetMap::along(uint32_t scallop, uint32_t node) const {
+  const Range &range = ranges_[scallop];
+  const double a = angle(range, node);
+  return range.turned ? 1 - a : a;
+}
+
+}  // namespace mvs::core
