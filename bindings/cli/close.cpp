@@ -32,6 +32,7 @@ struct Options {
 struct Closed {
   mvs::Snapshot valve;
   mvs_stats stats;
+  mvs_profile profile;
   std::optional<Ensemble> ensemble;  // with --members; `valve` is then that of member 0
   std::optional<Errors> errors;      // with --reference
   double pressure_mmhg = 0;
@@ -49,19 +50,22 @@ Closed close_valve(const Options &options, const Console &console) {
   if (options.ensemble.members > 0) {
     Ensemble ensemble = run_ensemble(sim.snapshot(), pressure_mmhg, settle, options.ensemble,
                                      desc.backend, progress);
-    return {ensemble.snapshot(0), ensemble.stats(0), std::move(ensemble), {}, pressure_mmhg};
+    return {ensemble.snapshot(0), ensemble.stats(0), ensemble.profile(0), std::move(ensemble), {},
+            pressure_mmhg};
   }
   sim.set_load(pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle(settle);
-  return {sim.snapshot(), stats, {}, {}, pressure_mmhg};
+  return {sim.snapshot(), stats, mvs::profile_of(sim), {}, {}, pressure_mmhg};
 }
 
-Json phases_json(const mvs_stats &stats) {
-  static constexpr const char *names[MVS_PHASE_COUNT] = {
-      "terms", "broad", "narrow", "assembly", "ordering", "factor", "solve", "line_search"};
-  Json phases = Json::object();
-  for (int p = 0; p < MVS_PHASE_COUNT; ++p) phases[names[p]] = stats.phase_s[p];
-  return phases;
+Json profile_json(const mvs_profile &profile) {
+  Json json = Json::object();
+  for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_PROFILE)) {
+    const double value = mvs::field_value(&profile, field);
+    json[field.name] =
+        field.type == MVS_FIELD_COUNT ? Json(static_cast<uint32_t>(value)) : Json(value);
+  }
+  return json;
 }
 
 Json result_json(const Options &options, const Closed &closed, const mvs_measures &measures) {
@@ -77,14 +81,8 @@ Json result_json(const Options &options, const Closed &closed, const mvs_measure
                {"residual_N", stats.residual},
                {"energy_J", stats.energy},
                {"kinetic_J", stats.kinetic},
-               {"factorisations", stats.factorisations},
-               {"shifted", stats.shifted},
                {"contact_pairs", stats.contact_pairs},
-               {"phase_s", phases_json(stats)},
-               {"broad_phases", stats.broad_phases},
-               {"orderings", stats.orderings},
-               {"linear_iterations", stats.linear_iterations},
-               {"passes", stats.passes},
+               {"profile", profile_json(closed.profile)},
                {"vertices", size.vertices},
                {"faces", size.faces},
                {"chords", size.chords},

@@ -25,7 +25,7 @@ Statistics statistics_of(const Ensemble &ensemble) {
 }
 
 Json member_json(const Ensemble &ensemble, uint32_t number) {
-  const mvs_ensemble_member member = ensemble.path(number);
+  const mvs_ensemble_member member = ensemble.member(number);
   const mvs_stats stats = ensemble.stats(number);
   const mvs::Snapshot closed = ensemble.snapshot(number);
   const mvs_measures measures = closed.measure();
@@ -52,10 +52,10 @@ Json member_json(const Ensemble &ensemble, uint32_t number) {
 
 std::string summary_text(const Ensemble &ensemble) {
   const mvs_ensemble_summary all = ensemble.summary();
-  std::string lines = text("%u of %u members at rest, %u %s", all.converged, all.paths,
+  std::string lines = text("%u of %u members at rest, %u %s", all.converged, all.members,
                            all.equilibria, all.equilibria == 1 ? "equilibrium" : "equilibria");
   if (all.converged > 0)
-    lines += text(", the lowest energy in equilibrium %u", ensemble.path(all.lowest).equilibrium);
+    lines += text(", the lowest energy in equilibrium %u", ensemble.member(all.lowest).equilibrium);
   return lines +
          text(
              "\nbetween members: nodes %.3f mm RMS, %.2f mm at most; from member 0: surface "
@@ -64,7 +64,7 @@ std::string summary_text(const Ensemble &ensemble) {
 }
 
 std::string member_text(const Ensemble &ensemble, uint32_t number) {
-  const mvs_ensemble_member member = ensemble.path(number);
+  const mvs_ensemble_member member = ensemble.member(number);
   const mvs_stats stats = ensemble.stats(number);
   const std::string equilibrium = member.converged  ? std::to_string(member.equilibrium)
                                   : member.diverged ? "diverged"
@@ -103,10 +103,11 @@ Ensemble run_ensemble(const mvs::Snapshot &start, double pressure_mmhg,
   load.pressure = pressure_mmhg * pa_per_mmhg;
   load.boundary_fraction = 1;
   mvs_ensemble_options how = {};
-  how.paths = options.members;
+  how.members = options.members;
   how.backend = backend;
   how.seed = options.seed;
-  how.perturbation = options.perturbation_mm > 0 ? options.perturbation_mm * 1e-3 : -1;
+  if (options.perturbation_mm == 0) how.flags = MVS_ENSEMBLE_FLAG_UNPERTURBED;
+  how.perturbation = options.perturbation_mm * 1e-3;
   how.progress = Progress::callback;
   how.user = &progress;
   return {start, load, settle, how};
@@ -115,8 +116,8 @@ Ensemble run_ensemble(const mvs::Snapshot &start, double pressure_mmhg,
 Json ensemble_json(const Ensemble &ensemble, const EnsembleOptions &options) {
   const mvs_ensemble_summary all = ensemble.summary();
   Json closures = Json::array();
-  for (uint32_t k = 0; k < all.paths; ++k) closures.push_back(member_json(ensemble, k));
-  return {{"members", all.paths},
+  for (uint32_t k = 0; k < all.members; ++k) closures.push_back(member_json(ensemble, k));
+  return {{"members", all.members},
           {"seed", options.seed},
           {"perturbation_mm", options.perturbation_mm},
           {"converged", all.converged},

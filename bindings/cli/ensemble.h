@@ -9,7 +9,7 @@
 
 namespace cli {
 
-using Ensemble = mvs::Spread;
+using Ensemble = mvs::Ensemble;
 
 struct EnsembleOptions {
   uint32_t members = 0;  // 0: no ensemble

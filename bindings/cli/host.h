@@ -1,7 +1,7 @@
 // What several commands ask the library, through its public C++ handles.
 #pragma once
 
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 #include <string>
 
 namespace cli {

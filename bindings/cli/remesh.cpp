@@ -31,9 +31,9 @@ void run(const Options &options, const Console &console) {
   mvs::Sim sim = make_sim();
   sim.load_file(options.in);
   const Size before = size_of(sim.snapshot());
-  for (uint32_t level = 0; level < options.refine; ++level) sim.refine();
+  for (uint32_t level = 0; level < options.refine; ++level) mvs::refine(sim);
   mvs_coarsening made = {};
-  if (options.refine == 0) made = sim.coarsen({0, options.vertices, options.edge * 1e-3});
+  if (options.refine == 0) made = mvs::coarsen(sim, {0, options.vertices, options.edge * 1e-3});
   const mvs::Snapshot valve = sim.snapshot();
   valve.save(options.out);
   const Size after = size_of(valve);

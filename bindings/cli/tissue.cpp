@@ -13,7 +13,10 @@ std::vector<std::string> known_laws() {
   std::vector<std::string> words;
   mvs_law law = {};
   law.struct_size = sizeof law;
-  for (uint32_t k = 1; mvs_get_leaflet_law(k, &law) == MVS_OK; ++k) words.emplace_back(law.word);
+  for (uint32_t k = 0; k < mvs_get_leaflet_law_count(); ++k) {
+    mvs::must(mvs_get_leaflet_law(k, &law));
+    words.emplace_back(law.word);
+  }
   return words;
 }
 

@@ -9,9 +9,13 @@ options option = {NULL, NULL, NULL, "", NULL, "phantom", "", 1, 1e-3, 0.1, 0, 0}
 
 static const char *script;
 
-static void list_driver(void *user, const char *name, const char *path) {
-  (void)user;
-  fprintf(stderr, "  %-16s %s\n", name, path);
+static void list_drivers(void) {
+  uint32_t count = 0;
+  const char *name = NULL, *path = NULL;
+  if (mvs_get_driver_count(&count) != MVS_OK) return;
+  for (uint32_t k = 0; k < count && mvs_get_driver(k, &name, &path) == MVS_OK; ++k) {
+    fprintf(stderr, "  %-16s %s\n", name, path);
+  }
 }
 
 static void use(const char *why, const char *what) {
@@ -26,7 +30,7 @@ static void use(const char *why, const char *what) {
       "  [--frames DIR]    pictures into it             [--every S]  0.1\n"
       "  [--out BASE]      files of keys s and w: BASE.obj, BASE.json\n"
       "drivers:\n");
-  mvs_driver_each(list_driver, NULL);
+  list_drivers();
   exit(2);
 }
 

@@ -50,7 +50,6 @@ extern "C" {
 /* The result of a function that can fail: MVS_OK or a negative code; mvs_last_error() returns the
  * sentence. After a failure the simulator is bit for bit as before the call and outputs are
  * unchanged. */
-typedef int32_t mvs_result;
 enum mvs_result_e {
   MVS_OK = 0,
   MVS_E_ARGUMENT = -1,     /* a null pointer, or a value out of its range */
@@ -67,6 +66,7 @@ enum mvs_result_e {
   MVS_E_INTERNAL = -12,    /* a defect of the library: please report it */
   MVS_E_CANCELLED = -13    /* the progress callback cancelled the call */
 };
+typedef int32_t mvs_result;
 
 /* A failure in words. Texts are zero-terminated and truncated to fit. */
 typedef struct mvs_error {

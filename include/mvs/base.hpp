@@ -5,8 +5,10 @@
 #include <mvs/base.h>
 
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace mvs {
 
@@ -40,6 +42,26 @@ Struct sized() {
   Struct made = {};
   made.struct_size = sizeof(Struct);
   return made;
+}
+
+// Returns the described fields of a struct of results, MVS_STRUCT_*.
+inline std::vector<mvs_field_info> fields_of(mvs_struct which) {
+  std::vector<mvs_field_info> fields(mvs_get_field_count(which), sized<mvs_field_info>());
+  for (std::uint32_t k = 0; k < fields.size(); ++k) must(mvs_get_field(which, k, &fields[k]));
+  return fields;
+}
+
+// Reads a field of a struct of results; counts are converted.
+inline double field_value(const void *from, const mvs_field_info &field) {
+  const char *at = static_cast<const char *>(from) + field.offset;
+  if (field.type == MVS_FIELD_COUNT) {
+    std::uint32_t count = 0;
+    std::memcpy(&count, at, sizeof count);
+    return count;
+  }
+  double number = 0;
+  std::memcpy(&number, at, sizeof number);
+  return number;
 }
 
 }  // namespace mvs

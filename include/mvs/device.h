@@ -112,6 +112,7 @@ typedef struct mvs_device_limits {
   double fade_s;           /* s, duration of fading; 0.001 to 1 [0.05] */
   double stiffness;        /* N/m, largest stiffness felt by the hand [that of the device] */
 } mvs_device_limits;
+/* Set and read the limits; unset fields read as the default in effect. */
 MVS_API mvs_result mvs_device_set_limits(mvs_device *device, const mvs_device_limits *limits);
 MVS_API mvs_result mvs_device_get_limits(const mvs_device *device, mvs_device_limits *limits);
 
@@ -126,6 +127,7 @@ typedef struct mvs_device_view {
   double scale;       /* 0.01 to 100 [1] */
   double force_scale; /* 0.001 to 1000 [1] */
 } mvs_device_view;
+/* Set and read the map. */
 MVS_API mvs_result mvs_device_set_view(mvs_device *device, const mvs_device_view *view);
 MVS_API mvs_result mvs_device_get_view(const mvs_device *device, mvs_device_view *view);
 
@@ -256,6 +258,7 @@ typedef struct mvs_device_state {
   uint64_t ticks;            /* of the servo */
   uint64_t late;             /* ticks later than two periods */
 } mvs_device_state;
+/* Reads the status, from any thread. */
 MVS_API mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state);
 
 /* One tick of the servo, in the frame of the device. */

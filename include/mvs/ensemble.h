@@ -83,6 +83,7 @@ typedef struct mvs_ensemble_summary {
   double surface_max; /* m, largest distance from the surface of member 0 */
 } mvs_ensemble_summary;
 
+/* Reads the summary. */
 MVS_API mvs_result mvs_ensemble_get_summary(const mvs_ensemble *ensemble,
                                             mvs_ensemble_summary *summary);
 

@@ -252,6 +252,7 @@ typedef struct mvs_history {
   uint32_t checkpoints;
 } mvs_history;
 
+/* Reads the size of the history of a snapshot. */
 MVS_API mvs_result mvs_snapshot_get_history(const mvs_snapshot *snapshot, mvs_history *history);
 
 /* One operation of a history. */

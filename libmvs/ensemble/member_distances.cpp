@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "ensemble/shape_distances.h"
-#include "measure/compare.h"
+#include "measure/comparison/compare.h"
 
 namespace mvs::core {
 namespace {

@@ -109,7 +109,8 @@ static void what_is_given_is_kept(void) {
   for (int t = 0; t < FUNNEL_TRIANGLES; ++t) fibre[t][2] = -1;
   f.desc.nodes_now = packed(now, FUNNEL_NODES, 3, MVS_TYPE_F64);
   f.desc.triangle_fibre = packed(fibre, FUNNEL_TRIANGLES, 3, MVS_TYPE_F64);
-  f.desc.bending_scale = -1;
+  f.desc.bending_scale = 0;
+  f.desc.flags |= MVS_VALVE_FLAG_NO_BENDING;
   f.chords[3].rest_length = 12e-3;
   f.chords[3].name = "strut, left";
   f.chords[3].id = 77;

@@ -2,6 +2,7 @@
 #ifndef TESTS_CHECK_H
 #define TESTS_CHECK_H
 
+#include <mvs/experimental.h>
 #include <mvs/mvs.h>
 #include <stdio.h>
 #include <string.h>

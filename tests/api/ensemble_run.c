@@ -23,7 +23,7 @@ static const mvs_snapshot *snapshot_of(mvs_sim *sim) {
 }
 
 static mvs_ensemble_options options_of(uint32_t paths, uint64_t seed) {
-  mvs_ensemble_options options = {.struct_size = sizeof options, .paths = paths, .seed = seed};
+  mvs_ensemble_options options = {.struct_size = sizeof options, .members = paths, .seed = seed};
   return options;
 }
 
@@ -90,7 +90,7 @@ static void paths_are_told(const mvs_ensemble *spread, uint32_t count) {
   mvs_view pairs = {0};
   MUST(mvs_ensemble_get_summary(spread, &all));
   MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, &pairs));
-  CHECK(all.paths == count && all.converged == count && all.lowest < count);
+  CHECK(all.members == count && all.converged == count && all.lowest < count);
   CHECK(pairs.count == count && pairs.components == count && pairs.type == MVS_TYPE_F64);
   double lowest = INFINITY, squares = 0;
   uint32_t at = 0, equilibria = 0;
@@ -231,7 +231,7 @@ static void a_closed_valve_is_opened_again(mvs_sim *sim) {
   /* the closed valve settles again at once, and the other path is the one from the open valve */
   CHECK(same_hash(path_hash(from_rest, 0), snapshot_hash(closed)));
   CHECK(same_hash(path_hash(from_rest, 1), path_hash(from_open, 1)));
-  options.from = MVS_ENSEMBLE_START_SNAPSHOT;
+  options.start = MVS_ENSEMBLE_START_SNAPSHOT;
   from_start = run(closed, options);
   MUST(mvs_ensemble_get_summary(from_start, &near_it));
   MUST(mvs_ensemble_get_member(from_start, 1, &path));
@@ -260,10 +260,10 @@ static void bad_options_are_refused(const mvs_snapshot *start) {
   MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
             "wavelength");
   options = options_of(2, 0);
-  options.same = -1;
+  options.tolerance = -1;
   MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "same");
   options = options_of(2, 0);
-  options.from = 3;
+  options.start = 3;
   MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
             "ENSEMBLE_START");
   options = options_of(2, 0);

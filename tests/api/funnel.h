@@ -83,10 +83,13 @@ static inline void make_funnel(funnel *f) {
   f->desc.annulus = packed(f->annulus, FUNNEL_SEGMENTS, 1, MVS_TYPE_U32);
   f->desc.leaflets = f->leaflets;
   f->desc.leaflet_count = 2;
+  f->desc.leaflet_stride = sizeof f->leaflets[0];
   f->desc.chords = f->chords;
   f->desc.chord_count = FUNNEL_CHORDS;
+  f->desc.chord_stride = sizeof f->chords[0];
   f->desc.heads = f->heads;
   f->desc.head_count = 2;
+  f->desc.head_stride = sizeof f->heads[0];
 }
 
 /* Systole that the funnel stands: a tenth of the pressure, for a tube of tissue without coaptation.

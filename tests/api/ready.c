@@ -4,12 +4,12 @@
 static mvs_sim *sim;
 static const mvs_snapshot *closed;
 
-static mvs_stats step(mvs_sim *of) {
-  mvs_stats stats = {.struct_size = sizeof stats};
+static mvs_profile step(mvs_sim *of) {
+  mvs_profile profile = {.struct_size = sizeof profile};
   MUST(mvs_step(of, NULL));
-  MUST(mvs_get_stats(of, &stats));
-  CHECK(!(stats.skipped & MVS_SKIPPED_STEP));
-  return stats;
+  MUST(mvs_get_profile(of, &profile));
+  CHECK(!(profile.skipped & MVS_SKIPPED_STEP));
+  return profile;
 }
 
 static void shorten(const char *name) {

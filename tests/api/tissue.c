@@ -133,16 +133,22 @@ static void what_is_no_tissue_changes_nothing(void) {
 static void laws_say_what_they_are(void) {
   mvs_law law = {0};
   law.struct_size = sizeof law;
-  MUST(mvs_get_leaflet_law(MVS_LEAFLET_LAW_FUNG, &law));
+  MUST(mvs_get_leaflet_law(MVS_LEAFLET_LAW_FUNG - 1, &law));
+  CHECK(law.number == MVS_LEAFLET_LAW_FUNG);
   CHECK(strcmp(law.word, "fung") == 0 && law.constant_count == 3);
   CHECK(strcmp(law.constants[1].key, "c1") == 0 && strcmp(law.constants[1].unit, "Pa") == 0);
   CHECK(law.constants[1].fallback == 124 && law.constants[1].low > 0);
-  MUST(mvs_get_chord_law(MVS_CHORD_LAW_BILINEAR, &law));
+  MUST(mvs_get_chord_law(MVS_CHORD_LAW_BILINEAR - 1, &law));
   CHECK(strcmp(law.word, "bilinear") == 0 && law.constants[0].fallback == 0.05);
   CHECK(law.struct_size == sizeof law);
-  MUST_FAIL(mvs_get_leaflet_law(0, &law), MVS_E_ARGUMENT, "no law 0 of leaflets");
-  MUST_FAIL(mvs_get_chord_law(5, &law), MVS_E_ARGUMENT, "no law 5 of chordae");
-  MUST_FAIL(mvs_get_leaflet_law(1, NULL), MVS_E_ARGUMENT, "description");
+  for (uint32_t k = 0; k < mvs_get_leaflet_law_count(); ++k) {
+    MUST(mvs_get_leaflet_law(k, &law));
+    CHECK(law.number == k + 1);
+  }
+  CHECK(mvs_get_leaflet_law_count() == 6 && mvs_get_chord_law_count() == 4);
+  MUST_FAIL(mvs_get_leaflet_law(6, &law), MVS_E_ARGUMENT, "index is 6, but there are 6 laws");
+  MUST_FAIL(mvs_get_chord_law(4, &law), MVS_E_ARGUMENT, "index is 4, but there are 4 laws");
+  MUST_FAIL(mvs_get_leaflet_law(1, NULL), MVS_E_ARGUMENT, "law");
 }
 
 int main(void) {

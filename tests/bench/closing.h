@@ -1,7 +1,7 @@
 // One closure from open, as a user has it: through include/mvs.
 #pragma once
 
-#include <mvs/sim.h>
+#include <mvs/profile.h>
 #include <mvs/snapshot.h>
 
 #include <map>

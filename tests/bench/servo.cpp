@@ -147,12 +147,11 @@ class Scene {
 
   void fetch(Times &times) {
     mvs_device_sample rows[256];
-    uint32_t count = 0;
-    uint64_t lost = 0;
+    uint64_t count = 0, lost = 0;
     do {
-      mvs::must(mvs_device_trace(device_, rows, 256, &count, &lost));
+      mvs::must(mvs_device_take_samples(device_, rows, sizeof rows[0], 256, &count, &lost));
       times.lost += lost;
-      for (uint32_t k = 0; k < count; ++k) {
+      for (uint64_t k = 0; k < count; ++k) {
         times.body.push_back(rows[k].servo_s);
         if (last_ > 0) times.period.push_back(rows[k].time - last_);
         last_ = rows[k].time;

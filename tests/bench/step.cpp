@@ -15,7 +15,7 @@
 // awake during which load, boundary and tools stayed. "resting / active" compares the medians of
 // both kinds of steps. "explicit" is the median step of the founding paper's method, 8 us long, on
 // the closed valve: 125 of them make one of ours.
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The scripted play of bench_step: what a surgeon does to a valve that beats.
 #pragma once
 
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 
 #include <functional>
 #include <string>

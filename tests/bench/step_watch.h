@@ -2,7 +2,7 @@
 // that crosses.
 #pragma once
 
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 
 #include <cstddef>
 #include <cstdint>

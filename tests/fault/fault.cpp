@@ -1,5 +1,6 @@
 // For each call, the n-th allocation fails, for one n after the other. Then the code is
 // MVS_E_MEMORY, the simulator and its snapshots are bit for bit as before, and nothing has leaked.
+#include <mvs/experimental.h>
 #include <mvs/mvs.h>
 
 #include <chrono>

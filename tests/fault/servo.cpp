@@ -1,5 +1,6 @@
 // The servo of a haptic device allocates nothing and calls no system, whatever it is given: new
 // tissue, new limits, a cut, faults of the device.
+#include <mvs/experimental.h>
 #include <mvs/mvs.h>
 
 #include <cstdio>

@@ -7,6 +7,7 @@
 // A digest covers the bits of one array, not the snapshot hash, so that renaming a field or
 // reordering the hash leaves it alone. The digests are the same for every compiler, optimisation
 // level and vector extension (scripts/test --long golden checks that).
+#include <mvs/experimental.h>
 #include <mvs/mvs.h>
 
 #include <cinttypes>

@@ -3,10 +3,12 @@
 import dataclasses
 import math
 import re
+import typing
 
 import mvs
 import numpy as np
 import pytest
+from mvs import _core
 
 
 @pytest.mark.parametrize(
@@ -120,3 +122,11 @@ def test_laws_say_what_their_constants_are():
         assert all(c.low <= c.default <= c.high for c in mvs.leaflet_law(law).constants)
     with pytest.raises(mvs.ArgumentError, match="no law 9"):
         mvs.leaflet_law(9)
+
+
+def test_the_dataclasses_have_the_fields_that_the_library_describes():
+    for which, kind in ((1, mvs.Measures), (2, mvs.Stats), (3, mvs.Profile)):
+        described = [(name, unit or "1", text) for name, unit, text in _core.field_descriptions(which)]
+        hints = typing.get_type_hints(kind, include_extras=True)
+        ours = [(name, *hints[name].__metadata__) for name in hints if name != "profile"]
+        assert ours == described

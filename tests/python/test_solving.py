@@ -151,7 +151,7 @@ def test_stats_and_load_can_be_read_back(sim):
     stats = sim.settle(max_iterations=2)
     assert sim.stats == stats
     assert stats.iterations <= 2
-    assert set(stats.phase_s) >= {"terms", "factor", "solve"}
+    assert stats.profile.terms_s > 0 and stats.profile.factor_s > 0 and stats.profile.solve_s > 0
 
 
 def test_an_explicit_step_too_large_for_a_stiff_valve_says_so(real_valves):

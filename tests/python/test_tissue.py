@@ -131,4 +131,4 @@ def test_a_step_of_a_contracting_annulus_stays_within_its_budget(sim, budget):
     for _ in range(60):
         stats = sim.step(1, dt=1e-3, budget=budget)
         # and the forces before the first step
-        assert stats.passes + stats.factorisations <= budget + 1
+        assert stats.profile.passes + stats.profile.factorisations <= budget + 1

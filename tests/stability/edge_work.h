@@ -5,7 +5,7 @@
 // has to be known before one can say that a step made energy.
 #pragma once
 
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 // The valves that cases are played on.
 #pragma once
 
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 
 #include <array>
 #include <functional>

@@ -3,7 +3,7 @@
 // is, what is refused changes nothing, and undo leads back to the first bits.
 #pragma once
 
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 
 #include <array>
 #include <cstdint>

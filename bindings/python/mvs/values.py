@@ -49,6 +49,7 @@ __all__ = [
     "NodeKind",
     "Part",
     "PartKind",
+    "Profile",
     "Replay",
     "Ring",
     "RingKind",
@@ -160,25 +161,39 @@ class Tool:
 
 
 @dataclasses.dataclass(frozen=True)
-class Stats:
-    """How the last settle or step went. Not converged is no error: look at ``converged``."""
+class Profile:
+    """Work done and avoided in a settle or step. Experimental; times are those of this run."""
 
-    converged: Annotated[bool, "1", "the residual asked for was reached"]
-    iterations: Annotated[int, "1", "Newton iterations, or steps in time"]
+    skipped: Annotated[int, "1", "MVS_SKIPPED_* bits: work not done in the whole settle or step"]
     factorisations: Annotated[int, "1", "sparse factorisations"]
+    shifted: Annotated[int, "1", "iterations with a diagonal shift for positive definiteness"]
+    broad_phases: Annotated[int, "1", "broad phases run"]
+    orderings: Annotated[int, "1", "new sparsity patterns with their symbolic analysis"]
+    linear_iterations: Annotated[int, "1", "iterations of iterative linear solvers"]
+    passes: Annotated[int, "1", "evaluations of energy, gradient or Hessian over all terms"]
+    terms_s: Annotated[float, "s", "energy, gradient and Hessian blocks of the terms"]
+    broad_s: Annotated[float, "s", "broad phase and step limiter"]
+    narrow_s: Annotated[float, "s", "narrow phase: distances"]
+    assembly_s: Annotated[float, "s", "blocks into the sparse matrix"]
+    ordering_s: Annotated[float, "s", "symbolic analysis"]
+    factor_s: Annotated[float, "s", "numeric factorisation"]
+    solve_s: Annotated[float, "s", "solutions with the factor"]
+    line_search_s: Annotated[float, "s", "trial energies with their distances"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Stats:
+    """Outcome of the last settle or step. Ending without convergence raises no error."""
+
+    converged: Annotated[bool, "1", "1: the residual is reached"]
+    iterations: Annotated[int, "1", "Newton iterations, or time steps"]
     contact_pairs: Annotated[int, "1", "active contact pairs at the end"]
-    shifted: Annotated[int, "1", "iterations whose matrix needed a shift to be positive definite"]
-    residual: Annotated[float, "N", "largest out-of-balance force on a free node"]
-    energy: Annotated[float, "J", "total potential at the end"]
+    lowered: Annotated[int, "1", "MVS_LOWERED_* bits: accuracy given up for the budget of a step"]
+    residual: Annotated[float, "N", "largest out-of-balance force on a free node or tool point"]
+    energy: Annotated[float, "J", "total potential energy at the end"]
     kinetic: Annotated[float, "J", "kinetic energy at the end"]
-    wall_s: Annotated[float, "s", "time taken"]
-    phase_s: Annotated[dict[str, float], "s", "time taken by each phase of the work"]
-    skipped: Annotated[int, "1", "MVS_SKIPPED_* bits: what was never computed, as nothing needed it"]
-    lowered: Annotated[int, "1", "MVS_LOWERED_* bits: what a step gave up to stay within its budget"]
-    broad_phases: Annotated[int, "1", "how often candidate pairs were looked for"]
-    orderings: Annotated[int, "1", "new patterns of the matrix, and symbolic analyses"]
-    linear_iterations: Annotated[int, "1", "iterations on top of a factorisation"]
-    passes: Annotated[int, "1", "energies, gradients and matrices over all the terms"]
+    wall_s: Annotated[float, "s", "elapsed time"]
+    profile: Annotated[Profile, "1", "work done and avoided"]
 
 
 @dataclasses.dataclass(frozen=True)

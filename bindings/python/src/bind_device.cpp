@@ -25,13 +25,13 @@ std::string utf8(const char *text) {
 
 Texts drivers() {
   Texts found;
-  release_and([&] {
-    return mvs_driver_each(
-        [](void *to, const char *name, const char *path) {
-          static_cast<Texts *>(to)->emplace_back(utf8(name), utf8(path));
-        },
-        &found);
-  });
+  uint32_t count = 0;
+  must(mvs_get_driver_count(&count));
+  for (uint32_t k = 0; k < count; ++k) {
+    const char *name = nullptr, *path = nullptr;
+    must(mvs_get_driver(k, &name, &path));
+    found.emplace_back(utf8(name), utf8(path));
+  }
   return found;
 }
 

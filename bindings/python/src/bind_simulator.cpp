@@ -73,7 +73,8 @@ py::object settle(Simulator &self, const std::string &solver, Count max_iteratio
   options.residual = residual.value_or(0);
   options.dt = dt.value_or(0);
   options.damping = damping.value_or(0);
-  return stats_value(self.settle(options, std::move(progress)));
+  const mvs_stats stats = self.settle(options, std::move(progress));
+  return stats_value(stats, self.profile());
 }
 
 py::object step(Simulator &self, uint64_t count, const std::string &solver, Number dt,
@@ -84,7 +85,8 @@ py::object step(Simulator &self, uint64_t count, const std::string &solver, Numb
   options.dt = dt.value_or(0);
   options.damping = damping.value_or(0);
   options.budget = budget.value_or(0);
-  return stats_value(self.step(options, count));
+  const mvs_stats stats = self.step(options, count);
+  return stats_value(stats, self.profile());
 }
 
 void bind_generate(py::class_<Simulator> &type) {
@@ -153,7 +155,7 @@ void bind_work(py::class_<Simulator> &type) {
            "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: 1/s\n"
            "budget: passes over the terms in an implicit step, 4 to 10000 [64]");
   type.def_property_readonly(
-      "stats", [](Simulator &self) { return stats_value(self.stats()); },
+      "stats", [](Simulator &self) { return stats_value(self.stats(), self.profile()); },
       "How the last settle or step went (mvs.Stats).");
   type.def_property_readonly(
       "load_case", [](Simulator &self) { return load_value(self.load_case()); },

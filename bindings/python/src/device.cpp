@@ -58,15 +58,15 @@ void Device::cut() {
 
 py::array_t<mvs_device_sample> Device::trace() {
   std::vector<mvs_device_sample> samples(8192);
-  uint32_t count = 0;
+  uint64_t count = 0;
   call([&](mvs_device *device) {
     uint64_t lost = 0;
-    const mvs_result result = mvs_device_trace(
-        device, samples.data(), static_cast<uint32_t>(samples.size()), &count, &lost);
+    const mvs_result result = mvs_device_take_samples(
+        device, samples.data(), sizeof(mvs_device_sample), samples.size(), &count, &lost);
     lost_ += lost;
     return result;
   });
-  return py::array_t<mvs_device_sample>(count, samples.data());
+  return py::array_t<mvs_device_sample>(static_cast<py::ssize_t>(count), samples.data());
 }
 
 uint64_t Device::lost() {

@@ -55,12 +55,13 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
   ProgressCall call{std::move(progress), nullptr};
   mvs_ensemble_options options{};
   options.struct_size = sizeof options;
-  options.paths = members;
-  options.from = from_start ? MVS_ENSEMBLE_START_SNAPSHOT : MVS_ENSEMBLE_START_REST;
+  options.members = members;
+  options.start = from_start ? MVS_ENSEMBLE_START_SNAPSHOT : MVS_ENSEMBLE_START_REST;
   options.seed = seed;
-  options.perturbation = perturbation == 0.0 ? -1 : perturbation.value_or(0);
+  if (perturbation == 0.0) options.flags |= MVS_ENSEMBLE_FLAG_UNPERTURBED;
+  options.perturbation = perturbation.value_or(0);
   options.wavelength = wavelength.value_or(0);
-  options.same = same.value_or(0);
+  options.tolerance = same.value_or(0);
   options.progress = &ProgressCall::callback;
   options.user = &call;
   mvs_ensemble *made = nullptr;
@@ -76,14 +77,17 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
 
 py::tuple members(const Ensemble &self) {
   py::list all;
-  for (uint32_t k = 0; k < summary_of(self).paths; ++k) {
+  for (uint32_t k = 0; k < summary_of(self).members; ++k) {
     mvs_ensemble_member member{};
     mvs_stats stats{};
+    mvs_profile profile{};
     member.struct_size = sizeof member;
     stats.struct_size = sizeof stats;
+    profile.struct_size = sizeof profile;
     must(mvs_ensemble_get_member(self.get(), k, &member));
     must(mvs_ensemble_get_member_stats(self.get(), k, &stats));
-    all.append(ensemble_member_value(member, stats));
+    must(mvs_ensemble_get_member_profile(self.get(), k, &profile));
+    all.append(ensemble_member_value(member, stats, profile));
   }
   return py::tuple(all);
 }
@@ -142,7 +146,7 @@ void bind_ensemble(py::module_ &module, py::class_<Snapshot> &type) {
       module, "Ensemble",
       "The closures of one valve along several paths (Snapshot.ensemble); member 0 is the plain "
       "closure. Arrays are read-only and stay valid after the ensemble is freed.");
-  made.def("__len__", [](const Ensemble &self) { return summary_of(self).paths; });
+  made.def("__len__", [](const Ensemble &self) { return summary_of(self).members; });
   made.def_property_readonly(
       "summary", [](const Ensemble &self) { return ensemble_summary_value(summary_of(self)); },
       "Distances over all members (mvs.EnsembleSummary).");

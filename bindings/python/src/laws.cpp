@@ -9,12 +9,17 @@ namespace {
 
 namespace py = pybind11;
 
-using Describe = mvs_result (*)(uint32_t law, mvs_law *description);
+using Get = mvs_result (*)(uint32_t index, mvs_law *law);
 
-py::object law_value(Describe describe, uint32_t number) {
+// Laws are numbered from 1 in the order of their index.
+py::object law_value(Get get, uint32_t count, uint32_t number) {
+  if (number == 0 || number > count) {
+    refuse(MVS_E_ARGUMENT, "law",
+           "law: 1 to " + std::to_string(count) + " are the laws, not " + std::to_string(number));
+  }
   mvs_law law{};
   law.struct_size = sizeof law;
-  must(describe(number, &law));
+  must(get(number - 1, &law));
   const py::module_ values = py::module_::import("mvs.values");
   py::list constants;
   for (uint32_t k = 0; k < law.constant_count; ++k) {
@@ -28,12 +33,17 @@ py::object law_value(Describe describe, uint32_t number) {
 
 void bind_laws(py::module_ &module) {
   module.def(
-      "leaflet_law", [](uint32_t law) { return law_value(&mvs_get_leaflet_law, law); },
+      "leaflet_law",
+      [](uint32_t law) {
+        return law_value(&mvs_get_leaflet_law, mvs_get_leaflet_law_count(), law);
+      },
       py::arg("law"),
       "What a LeafletLaw says of itself (mvs.Law): its constants, units, defaults and ranges. "
       "ArgumentError for a law that there is not.");
   module.def(
-      "chord_law", [](uint32_t law) { return law_value(&mvs_get_chord_law, law); }, py::arg("law"),
+      "chord_law",
+      [](uint32_t law) { return law_value(&mvs_get_chord_law, mvs_get_chord_law_count(), law); },
+      py::arg("law"),
       "What a ChordLaw says of itself (mvs.Law). ArgumentError for a law that there is not.");
 }
 

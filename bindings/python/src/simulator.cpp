@@ -199,6 +199,13 @@ mvs_stats Simulator::stats() {
   return stats;
 }
 
+mvs_profile Simulator::profile() {
+  mvs_profile profile{};
+  profile.struct_size = sizeof profile;
+  call([&] { return mvs_get_profile(sim_, &profile); });
+  return profile;
+}
+
 // Runs a call that any thread may make at any time.
 template <typename Look>
 void Simulator::look(Look &&work) {

@@ -4,7 +4,7 @@
 #include <mvs/levels.h>
 #include <mvs/op.h>
 #include <mvs/plan.h>
-#include <mvs/sim.h>
+#include <mvs/profile.h>
 #include <mvs/tool.h>
 
 #include <atomic>
@@ -42,6 +42,7 @@ class Simulator {
   mvs_stats settle(const mvs_settle_options &options, py::object progress);
   mvs_stats step(const mvs_step_options &options, uint64_t count);
   mvs_stats stats();
+  mvs_profile profile();
   std::unique_ptr<Snapshot> snapshot();
   void restore(const Snapshot &snapshot);
   void check(const mvs_op *op);

@@ -105,8 +105,13 @@ py::tuple history(const Snapshot &snapshot) {
 }
 
 py::tuple checkpoints(const Snapshot &snapshot) {
+  mvs_history size{};
+  size.struct_size = sizeof size;
+  must(mvs_snapshot_get_history(snapshot.get(), &size));
   py::list names;
-  for (uint32_t k = 0; const char *name = mvs_snapshot_get_checkpoint(snapshot.get(), k); ++k) {
+  for (uint32_t k = 0; k < size.checkpoints; ++k) {
+    const char *name = nullptr;
+    must(mvs_snapshot_get_checkpoint(snapshot.get(), k, &name));
     names.append(name);
   }
   return py::tuple(names);

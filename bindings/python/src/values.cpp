@@ -18,7 +18,35 @@ py::array_t<double> matrix(const double *values, py::ssize_t rows, py::ssize_t c
   return array;
 }
 
+// The fields of a struct of results as the library describes them: keywords of its dataclass.
+py::dict fields_of(mvs_struct which, const void *from) {
+  py::dict fields;
+  mvs_field_info field{};
+  field.struct_size = sizeof field;
+  for (uint32_t k = 0; k < mvs_get_field_count(which); ++k) {
+    must(mvs_get_field(which, k, &field));
+    const char *at = static_cast<const char *>(from) + field.offset;
+    if (field.type == MVS_FIELD_COUNT) {
+      fields[field.name] = *reinterpret_cast<const uint32_t *>(at);
+    } else {
+      fields[field.name] = *reinterpret_cast<const double *>(at);
+    }
+  }
+  return fields;
+}
+
 }  // namespace
+
+py::list field_descriptions(uint32_t which) {
+  py::list rows;
+  mvs_field_info field{};
+  field.struct_size = sizeof field;
+  for (uint32_t k = 0; k < mvs_get_field_count(which); ++k) {
+    must(mvs_get_field(which, k, &field));
+    rows.append(py::make_tuple(field.name, field.unit, field.help));
+  }
+  return rows;
+}
 
 uint32_t solver_of(const std::string &name) {
   if (name == "newton") return MVS_SOLVER_NEWTON;
@@ -35,60 +63,15 @@ py::object load_value(const mvs_load_case &s) {
   return make("Load", fields);
 }
 
-py::object stats_value(const mvs_stats &s) {
-  py::dict fields, phases;
-  static constexpr const char *names[MVS_PHASE_COUNT] = {
-      "terms", "broad", "narrow", "assembly", "ordering", "factor", "solve", "line_search"};
-  for (int i = 0; i < MVS_PHASE_COUNT; ++i) phases[names[i]] = s.phase_s[i];
+py::object stats_value(const mvs_stats &s, const mvs_profile &p) {
+  py::dict fields = fields_of(MVS_STRUCT_STATS, &s);
   fields["converged"] = s.converged != 0;
-  FIELD(iterations);
-  FIELD(factorisations);
-  FIELD(contact_pairs);
-  FIELD(shifted);
-  FIELD(residual);
-  FIELD(energy);
-  FIELD(kinetic);
-  FIELD(wall_s);
-  fields["phase_s"] = phases;
-  FIELD(skipped);
-  FIELD(lowered);
-  FIELD(broad_phases);
-  FIELD(orderings);
-  FIELD(linear_iterations);
-  FIELD(passes);
+  fields["profile"] = make("Profile", fields_of(MVS_STRUCT_PROFILE, &p));
   return make("Stats", fields);
 }
 
 py::object measures_value(const mvs_measures &s) {
-  py::dict fields;
-  FIELD(intersections);
-  FIELD(regurgitant_orifice_area);
-  FIELD(coaptation_area);
-  FIELD(coaptation_length_mean);
-  FIELD(coaptation_length_min);
-  FIELD(coaptation_length_max);
-  FIELD(coaptation_height);
-  FIELD(coaptation_depth);
-  FIELD(tenting_height);
-  FIELD(tenting_area);
-  FIELD(tenting_volume);
-  FIELD(billow_height);
-  FIELD(billow_volume);
-  FIELD(annulus_ap);
-  FIELD(annulus_cc);
-  FIELD(annulus_perimeter);
-  FIELD(annulus_area_3d);
-  FIELD(annulus_area);
-  FIELD(annulus_saddle_height);
-  FIELD(annulus_nonplanar_angle);
-  FIELD(max_chord_strain);
-  FIELD(max_chord_tension);
-  FIELD(max_leaflet_strain);
-  FIELD(max_leaflet_stress);
-  FIELD(leaflet_area);
-  FIELD(chords_over_strain);
-  FIELD(chords_over_tension);
-  return make("Measures", fields);
+  return make("Measures", fields_of(MVS_STRUCT_MEASURES, &s));
 }
 
 py::object comparison_value(const mvs_comparison &s) {
@@ -184,7 +167,7 @@ py::object tool_value(const mvs_tool_state &s) {
 
 py::object ensemble_summary_value(const mvs_ensemble_summary &s) {
   py::dict fields;
-  fields["members"] = s.paths;
+  fields["members"] = s.members;
   FIELD(converged);
   FIELD(equilibria);
   fields["lowest"] = s.lowest == UINT32_MAX ? py::object(py::none()) : py::int_(s.lowest);
@@ -195,7 +178,8 @@ py::object ensemble_summary_value(const mvs_ensemble_summary &s) {
   return make("EnsembleSummary", fields);
 }
 
-py::object ensemble_member_value(const mvs_ensemble_member &s, const mvs_stats &stats) {
+py::object ensemble_member_value(const mvs_ensemble_member &s, const mvs_stats &stats,
+                                 const mvs_profile &profile) {
   py::dict fields;
   fields["converged"] = s.converged != 0;
   fields["diverged"] = s.diverged != 0;
@@ -209,7 +193,7 @@ py::object ensemble_member_value(const mvs_ensemble_member &s, const mvs_stats &
   FIELD(surface_rms);
   FIELD(surface_max);
   FIELD(ramp);
-  fields["stats"] = stats_value(stats);
+  fields["stats"] = stats_value(stats, profile);
   return make("EnsembleMember", fields);
 }
 

@@ -1,6 +1,7 @@
 // Structs of the C interface as the dataclasses of mvs.values.
 #pragma once
 
+#include <mvs/experimental.h>
 #include <mvs/mvs.h>
 
 #include "errors.h"
@@ -11,7 +12,7 @@ namespace mvs_python {
 uint32_t solver_of(const std::string &name);
 
 py::object load_value(const mvs_load_case &load);
-py::object stats_value(const mvs_stats &stats);
+py::object stats_value(const mvs_stats &stats, const mvs_profile &profile);
 py::object measures_value(const mvs_measures &measures);
 py::object comparison_value(const mvs_comparison &comparison);
 py::object coarsening_value(const mvs_coarsening &coarsening);
@@ -22,6 +23,10 @@ py::object chord_limits_value(double strain, double tension);
 py::object history_value(const mvs_history_entry &entry, bool done);
 py::object tool_value(const mvs_tool_state &tool);
 py::object ensemble_summary_value(const mvs_ensemble_summary &summary);
-py::object ensemble_member_value(const mvs_ensemble_member &path, const mvs_stats &stats);
+py::object ensemble_member_value(const mvs_ensemble_member &member, const mvs_stats &stats,
+                                 const mvs_profile &profile);
+
+// (name, unit, help) of every field of a struct of results, MVS_STRUCT_*.
+py::list field_descriptions(uint32_t which);
 
 }  // namespace mvs_python

@@ -105,6 +105,7 @@ void ValveArguments::read_leaflets() {
     leaflets_.push_back(desc);
   }
   desc_.leaflets = leaflets_.data();
+  desc_.leaflet_stride = sizeof(mvs_leaflet_desc);
   desc_.leaflet_count = static_cast<uint32_t>(leaflets_.size());
 }
 
@@ -150,6 +151,7 @@ void ValveArguments::read_chords() {
     chords_.push_back(chord);
   }
   desc_.chords = chords_.data();
+  desc_.chord_stride = sizeof(mvs_chord_desc);
   desc_.chord_count = static_cast<uint32_t>(count);
 }
 
@@ -166,6 +168,7 @@ void ValveArguments::read_heads() {
     heads_.push_back(head);
   }
   desc_.heads = heads_.data();
+  desc_.head_stride = sizeof(mvs_head_desc);
   desc_.head_count = static_cast<uint32_t>(heads_.size());
 }
 
@@ -183,6 +186,7 @@ void ValveArguments::read_rings() {
     rings_.push_back(desc);
   }
   desc_.rings = rings_.data();
+  desc_.ring_stride = sizeof(mvs_ring_desc);
   desc_.ring_count = static_cast<uint32_t>(rings_.size());
 }
 
@@ -199,6 +203,7 @@ void ValveArguments::read_curves() {
     curves_.push_back(desc);
   }
   desc_.curves = curves_.data();
+  desc_.curve_stride = sizeof(mvs_curve_desc);
   desc_.curve_count = static_cast<uint32_t>(curves_.size());
 }
 
@@ -209,7 +214,7 @@ void ValveArguments::read_numbers() {
   desc_.bending_scale = number("bending_scale");
   // zero means the default in the C struct and "no bending" in Python, where None is the default
   if (desc_.bending_scale == 0 && !valve_.attr("bending_scale").is_none()) {
-    desc_.bending_scale = -1;
+    desc_.flags |= MVS_VALVE_FLAG_NO_BENDING;
   }
 }
 
