@@ -87,7 +87,7 @@ class Ensemble(Shell):
     def test_people_read_value_range_and_members(self):
         told = self.ok("close", "thin.obj", "--members", MEMBERS).stdout
         self.assertIn(f"{MEMBERS} of {MEMBERS} members at rest", told)
-        self.assertRegex(told, r"plain +least +most +deviation\n")
+        self.assertRegex(told, r"plain +min +max +deviation\n")
         area = [self.found["measures"]["coaptation_area_mm2"]]
         ensemble = self.found["ensemble"]["measures"]["coaptation_area_mm2"]
         area += [ensemble["min"], ensemble["max"], ensemble["deviation"]]

@@ -1,4 +1,4 @@
-"""Abaqus input and FEBio models with the command: what is told, and under which pressure it closes."""
+"""Abaqus input and FEBio models with the command: messages, and the pressure of the closure."""
 import json
 import os
 import pathlib

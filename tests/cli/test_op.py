@@ -109,11 +109,12 @@ class Op(Command):
     def test_what_cannot_be_done_is_refused_with_a_reason(self):
         for words, options in (
                 ('no chord named "P9/1"', ["chord-length", "--chord", "P9/1", "--factor", 2]),
-                ('no papillary head named "PM9"', ["neochord", "--head", "PM9", "--site", "node:3"]),
+                ('no papillary head named "PM9"',
+                 ["neochord", "--head", "PM9", "--site", "node:3"]),
                 ('no scallop named "Q2"', ["neochord", "--head", "PM1", "--site", "Q2:0.1:1"]),
-                ("length is 20000 mm, it has to be 0.1 to 200",
+                ("length is 20000 mm, the range is 0.1 to 200",
                  ["chord-length", "--chord", "P2/3", "--length", 20000]),
-                ("factor is 0, it has to be", ["chord-length", "--chord", "P2/3", "--factor", 0]),
+                ("factor is 0, the range is", ["chord-length", "--chord", "P2/3", "--factor", 0]),
                 ("factor is nan", ["chord-length", "--chord", "P2/3", "--factor", "nan"]),
                 ("strands is 99", ["neochord", "--head", "PM1", "--site", "node:3", "--strands",
                                    99]),
@@ -137,13 +138,13 @@ class Op(Command):
                 ("not a number in mm", ["v.obj", *chord, "--length", "long", "-o", "x.obj"]),
                 ("not a number in mm", ["v.obj", *chord, "--length", "15mm", "-o", "x.obj"]),
                 ("X,Y,Z in mm", ["v.obj", *chord, "--drag-to", "1,2", "-o", "x.obj"]),
-                ("there is: leaflet, head",
+                ("choose from: leaflet, head",
                  ["v.obj", "chord-transfer", "--chord", "P2/3", "--end", "tail", "-o", "x.obj"]),
                 ("SCALLOP:ALONG:HEIGHT",
                  ["v.obj", "chord-add", "--head", "PM1", "--site", "P2", "-o", "x.obj"]),
                 ("SCALLOP:ALONG:HEIGHT",
                  ["v.obj", "chord-add", "--head", "PM1", "--site", "node:-1", "-o", "x.obj"]),
-                ("whole number", ["v.obj", "neochord", "--head", "PM1", "--site", "node:3",
+                ("non-negative integer", ["v.obj", "neochord", "--head", "PM1", "--site", "node:3",
                                   "--strands", 2.5, "-o", "x.obj"])):
             with self.subTest(line):
                 self.assertIn(words, self.misused("op", *line))
