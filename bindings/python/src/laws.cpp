@@ -7,15 +7,16 @@
 namespace mvs_python {
 namespace {
 
+using namespace py::literals;
+
 namespace py = pybind11;
 
 using Describe = mvs_result (*)(uint32_t law, mvs_law *description);
 
 py::object law_value(Describe describe, uint32_t number) {
-  mvs_law law{};
-  law.struct_size = sizeof law;
+  auto law = sized<mvs_law>();
   must(describe(number, &law));
-  const py::module_ values = py::module_::import("mvs.values");
+  const py::module_ values = py::module_::import("mvs.arrays");
   py::list constants;
   for (uint32_t k = 0; k < law.constant_count; ++k) {
     const mvs_law_constant &c = law.constants[k];
@@ -28,13 +29,12 @@ py::object law_value(Describe describe, uint32_t number) {
 
 void bind_laws(py::module_ &module) {
   module.def(
-      "leaflet_law", [](uint32_t law) { return law_value(&mvs_get_leaflet_law, law); },
-      py::arg("law"),
-      "What a LeafletLaw says of itself (mvs.Law): its constants, units, defaults and ranges. "
-      "ArgumentError for a law that there is not.");
+      "leaflet_law", [](uint32_t law) { return law_value(&mvs_get_leaflet_law, law); }, "law"_a,
+      "The description of a LeafletLaw (mvs.Law): its constants, units, defaults and ranges. "
+      "ArgumentError for an unknown law.");
   module.def(
-      "chord_law", [](uint32_t law) { return law_value(&mvs_get_chord_law, law); }, py::arg("law"),
-      "What a ChordLaw says of itself (mvs.Law). ArgumentError for a law that there is not.");
+      "chord_law", [](uint32_t law) { return law_value(&mvs_get_chord_law, law); }, "law"_a,
+      "The description of a ChordLaw (mvs.Law). ArgumentError for an unknown law.");
 }
 
 }  // namespace mvs_python

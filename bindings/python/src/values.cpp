@@ -2,14 +2,18 @@
 
 #include <pybind11/numpy.h>
 
-// One field of the C struct `s` into the keywords of its dataclass, under the same name.
-#define FIELD(name) fields[#name] = s.name
+// One field of the C struct `s`: as a keyword of the dataclass, or copied into its keywords.
+#define FIELD(name) py::arg(#name) = s.name
+#define COPY(name) fields[#name] = s.name
 
 namespace mvs_python {
 namespace {
 
-py::object make(const char *type, const py::dict &fields) {
-  return py::module_::import("mvs.values").attr(type)(**fields);
+using namespace py::literals;
+
+template <typename... Fields>
+py::object make_value(const char *type, Fields &&...fields) {
+  return py::module_::import("mvs.values").attr(type)(std::forward<Fields>(fields)...);
 }
 
 py::array_t<double> matrix(const double *values, py::ssize_t rows, py::ssize_t columns) {
@@ -29,10 +33,7 @@ uint32_t solver_of(const std::string &name) {
 }
 
 py::object load_value(const mvs_load_case &s) {
-  py::dict fields;
-  FIELD(pressure);
-  FIELD(boundary_fraction);
-  return make("Load", fields);
+  return make_value("Load", FIELD(pressure), FIELD(boundary_fraction));
 }
 
 py::object stats_value(const mvs_stats &s) {
@@ -41,176 +42,125 @@ py::object stats_value(const mvs_stats &s) {
       "terms", "broad", "narrow", "assembly", "ordering", "factor", "solve", "line_search"};
   for (int i = 0; i < MVS_PHASE_COUNT; ++i) phases[names[i]] = s.phase_s[i];
   fields["converged"] = s.converged != 0;
-  FIELD(iterations);
-  FIELD(factorisations);
-  FIELD(contact_pairs);
-  FIELD(shifted);
-  FIELD(residual);
-  FIELD(energy);
-  FIELD(kinetic);
-  FIELD(wall_s);
+  COPY(iterations);
+  COPY(factorisations);
+  COPY(contact_pairs);
+  COPY(shifted);
+  COPY(residual);
+  COPY(energy);
+  COPY(kinetic);
+  COPY(wall_s);
   fields["phase_s"] = phases;
-  FIELD(skipped);
-  FIELD(lowered);
-  FIELD(broad_phases);
-  FIELD(orderings);
-  FIELD(linear_iterations);
-  FIELD(passes);
-  return make("Stats", fields);
+  COPY(skipped);
+  COPY(lowered);
+  COPY(broad_phases);
+  COPY(orderings);
+  COPY(linear_iterations);
+  COPY(passes);
+  return make_value("Stats", **fields);
 }
 
 py::object measures_value(const mvs_measures &s) {
   py::dict fields;
-  FIELD(intersections);
-  FIELD(regurgitant_orifice_area);
-  FIELD(coaptation_area);
-  FIELD(coaptation_length_mean);
-  FIELD(coaptation_length_min);
-  FIELD(coaptation_length_max);
-  FIELD(coaptation_height);
-  FIELD(coaptation_depth);
-  FIELD(tenting_height);
-  FIELD(tenting_area);
-  FIELD(tenting_volume);
-  FIELD(billow_height);
-  FIELD(billow_volume);
-  FIELD(annulus_ap);
-  FIELD(annulus_cc);
-  FIELD(annulus_perimeter);
-  FIELD(annulus_area_3d);
-  FIELD(annulus_area);
-  FIELD(annulus_saddle_height);
-  FIELD(annulus_nonplanar_angle);
-  FIELD(max_chord_strain);
-  FIELD(max_chord_tension);
-  FIELD(max_leaflet_strain);
-  FIELD(max_leaflet_stress);
-  FIELD(leaflet_area);
-  FIELD(chords_over_strain);
-  FIELD(chords_over_tension);
-  return make("Measures", fields);
+  COPY(intersections);
+  COPY(regurgitant_orifice_area);
+  COPY(coaptation_area);
+  COPY(coaptation_length_mean);
+  COPY(coaptation_length_min);
+  COPY(coaptation_length_max);
+  COPY(coaptation_height);
+  COPY(coaptation_depth);
+  COPY(tenting_height);
+  COPY(tenting_area);
+  COPY(tenting_volume);
+  COPY(billow_height);
+  COPY(billow_volume);
+  COPY(annulus_ap);
+  COPY(annulus_cc);
+  COPY(annulus_perimeter);
+  COPY(annulus_area_3d);
+  COPY(annulus_area);
+  COPY(annulus_saddle_height);
+  COPY(annulus_nonplanar_angle);
+  COPY(max_chord_strain);
+  COPY(max_chord_tension);
+  COPY(max_leaflet_strain);
+  COPY(max_leaflet_stress);
+  COPY(leaflet_area);
+  COPY(chords_over_strain);
+  COPY(chords_over_tension);
+  return make_value("Measures", **fields);
 }
 
 py::object comparison_value(const mvs_comparison &s) {
-  py::dict fields;
-  fields["same_mesh"] = s.same_mesh != 0;
-  FIELD(node_rms);
-  FIELD(node_max);
-  FIELD(surface_rms);
-  FIELD(surface_max);
-  FIELD(node_rms_registered);
-  FIELD(node_max_registered);
-  FIELD(surface_rms_registered);
-  FIELD(surface_max_registered);
-  fields["registration"] = matrix(s.registration, 3, 4);
-  return make("Comparison", fields);
+  return make_value("Comparison", "same_mesh"_a = s.same_mesh != 0, FIELD(node_rms),
+                    FIELD(node_max), FIELD(surface_rms), FIELD(surface_max),
+                    FIELD(node_rms_registered), FIELD(node_max_registered),
+                    FIELD(surface_rms_registered), FIELD(surface_max_registered),
+                    "registration"_a = matrix(s.registration, 3, 4));
 }
 
 py::object coarsening_value(const mvs_coarsening &s) {
-  py::dict fields;
-  FIELD(vertices_before);
-  FIELD(vertices);
-  FIELD(chords_moved);
-  FIELD(chords_merged);
-  FIELD(chord_move);
-  FIELD(surface_max);
-  FIELD(surface_rms);
-  FIELD(worst_quality);
-  return make("Coarsening", fields);
+  return make_value("Coarsening", FIELD(vertices_before), FIELD(vertices), FIELD(chords_moved),
+                    FIELD(chords_merged), FIELD(chord_move), FIELD(surface_max), FIELD(surface_rms),
+                    FIELD(worst_quality));
 }
 
 py::object frame_value(const double frame[12]) {
-  py::dict fields;
-  fields["origin"] = py::array_t<double>(3, frame);
-  fields["axes"] = matrix(frame + 3, 3, 3);
-  return make("Frame", fields);
+  return make_value("Frame", "origin"_a = py::array_t<double>(3, frame),
+                    "axes"_a = matrix(frame + 3, 3, 3));
 }
 
 py::object part_value(const mvs_part &s) {
-  py::dict fields;
-  FIELD(id);
-  fields["kind"] = py::module_::import("mvs.values").attr("PartKind")(s.kind);
-  FIELD(index);
-  FIELD(name);
-  return make("Part", fields);
+  return make_value("Part", FIELD(id),
+                    "kind"_a = py::module_::import("mvs.kinds").attr("PartKind")(s.kind),
+                    FIELD(index), FIELD(name));
 }
 
 py::object replay_value(const mvs_replay &s) {
-  py::dict fields;
-  FIELD(operations);
-  fields["same_valve"] = s.same_valve != 0;
-  fields["same_result"] = s.same_result != 0;
-  return make("Replay", fields);
+  return make_value("Replay", FIELD(operations), "same_valve"_a = s.same_valve != 0,
+                    "same_result"_a = s.same_result != 0);
 }
 
 py::object chord_limits_value(double strain, double tension) {
-  py::dict fields;
-  fields["strain"] = strain;
-  fields["tension"] = tension;
-  return make("ChordLimits", fields);
+  return make_value("ChordLimits", "strain"_a = strain, "tension"_a = tension);
 }
 
 py::object history_value(const mvs_history_entry &s, bool done) {
-  py::dict fields;
-  fields["kind"] = py::module_::import("mvs.ops").attr("name_of_kind")(s.kind);
-  FIELD(title);
-  fields["group"] = s.group ? py::object(py::int_(s.group)) : py::none();
-  fields["group_name"] = s.in_group;
-  fields["made"] = s.made ? py::object(py::int_(s.made)) : py::none();
-  fields["done"] = done;
-  return make("HistoryEntry", fields);
+  return make_value("HistoryEntry",
+                    "kind"_a = py::module_::import("mvs.ops").attr("name_of_kind")(s.kind),
+                    FIELD(title), "group"_a = s.group ? py::object(py::int_(s.group)) : py::none(),
+                    "group_name"_a = s.in_group,
+                    "made"_a = s.made ? py::object(py::int_(s.made)) : py::none(), "done"_a = done);
 }
 
 py::object tool_value(const mvs_tool_state &s) {
   const auto vector = [](const double v[3]) { return py::array_t<double>(3, v); };
-  py::dict fields;
-  FIELD(id);
-  fields["kind"] = py::module_::import("mvs.values").attr("ToolKind")(s.kind);
-  fields["position"] = vector(s.position);
-  fields["axis"] = vector(s.axis);
-  fields["proxy"] = vector(s.proxy);
-  fields["proxy_axis"] = vector(s.proxy_axis);
-  fields["force"] = vector(s.force);
-  fields["torque"] = vector(s.torque);
-  FIELD(distance);
-  FIELD(radius);
-  FIELD(length);
-  FIELD(stiffness);
-  FIELD(max_force);
-  fields["node"] = s.node == UINT32_MAX ? py::object(py::none()) : py::int_(s.node);
-  fields["touching"] = s.touching != 0;
-  return make("Tool", fields);
+  return make_value("Tool", FIELD(id),
+                    "kind"_a = py::module_::import("mvs.kinds").attr("ToolKind")(s.kind),
+                    "position"_a = vector(s.position), "axis"_a = vector(s.axis),
+                    "proxy"_a = vector(s.proxy), "proxy_axis"_a = vector(s.proxy_axis),
+                    "force"_a = vector(s.force), "torque"_a = vector(s.torque), FIELD(distance),
+                    FIELD(radius), FIELD(length), FIELD(stiffness), FIELD(max_force),
+                    "node"_a = s.node == UINT32_MAX ? py::object(py::none()) : py::int_(s.node),
+                    "touching"_a = s.touching != 0);
 }
 
 py::object ensemble_summary_value(const mvs_ensemble_summary &s) {
-  py::dict fields;
-  fields["members"] = s.paths;
-  FIELD(converged);
-  FIELD(equilibria);
-  fields["lowest"] = s.lowest == UINT32_MAX ? py::object(py::none()) : py::int_(s.lowest);
-  FIELD(node_rms);
-  FIELD(node_max);
-  FIELD(surface_rms);
-  FIELD(surface_max);
-  return make("EnsembleSummary", fields);
+  return make_value(
+      "EnsembleSummary", "members"_a = s.paths, FIELD(converged), FIELD(equilibria),
+      "lowest"_a = s.lowest == UINT32_MAX ? py::object(py::none()) : py::int_(s.lowest),
+      FIELD(node_rms), FIELD(node_max), FIELD(surface_rms), FIELD(surface_max));
 }
 
 py::object ensemble_member_value(const mvs_ensemble_member &s, const mvs_stats &stats) {
-  py::dict fields;
-  fields["converged"] = s.converged != 0;
-  fields["diverged"] = s.diverged != 0;
-  FIELD(increments);
-  fields["order"] = py::module_::import("mvs.values").attr("EnsembleOrder")(s.order);
-  fields["equilibrium"] =
-      s.equilibrium == UINT32_MAX ? py::object(py::none()) : py::int_(s.equilibrium);
-  FIELD(perturbation);
-  FIELD(node_rms);
-  FIELD(node_max);
-  FIELD(surface_rms);
-  FIELD(surface_max);
-  FIELD(ramp);
-  fields["stats"] = stats_value(stats);
-  return make("EnsembleMember", fields);
+  return make_value("EnsembleMember", "converged"_a = s.converged != 0,
+                    "diverged"_a = s.diverged != 0, FIELD(increments),
+                    "order"_a = py::module_::import("mvs.kinds").attr("EnsembleOrder")(s.order),
+                    "equilibrium"_a = s.equilibrium == UINT32_MAX ? py::object(py::none())
+                                                                  : py::int_(s.equilibrium),
+                    FIELD(perturbation), FIELD(node_rms), FIELD(node_max), FIELD(surface_rms),
+                    FIELD(surface_max), FIELD(ramp), "stats"_a = stats_value(stats));
 }
 
 }  // namespace mvs_python
