@@ -1,4 +1,4 @@
-/* What happens, in words. */
+/* Messages about events, and the title of the window. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 
 #include "phantom.h"
 
-void tell(double time, const char *format, ...) {
+void log_line(double time, const char *format, ...) {
   va_list arguments;
   printf("%7.3f s  ", time);
   va_start(arguments, format);
@@ -24,7 +24,7 @@ double orifice_now(mvs_sim *sim, int wait) {
   return orifice_area(NULL);
 }
 
-/* The scallop that a node lies in. */
+/* The scallop of a node. */
 static const char *scallop_of(mvs_sim *sim, uint32_t node, mvs_part *part) {
   const mvs_snapshot *valve;
   mvs_view triangles, scallops;
@@ -62,33 +62,40 @@ double length_of(const double v[3]) {
 }
 
 static const char *cause_name(uint32_t cause) {
-  static const char *const names[] = {
-      "",           "the button at the device", "its speed",  "a watchdog", "a program",
-      "unplugging", "nobody holding it",        "no numbers", "its warmth", "calibration"};
-  return cause < sizeof names / sizeof names[0] ? names[cause] : "something new";
+  static const char *const names[] = {"",
+                                      "the button of the device",
+                                      "its speed",
+                                      "the watchdog",
+                                      "a program",
+                                      "disconnected",
+                                      "not held",
+                                      "non-finite numbers",
+                                      "temperature",
+                                      "calibration"};
+  return cause < sizeof names / sizeof names[0] ? names[cause] : "unknown cause";
 }
 
-void tell_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now) {
-  static double peak; /* N, since something was let go */
+void log_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now) {
+  static double peak; /* N, since the last release */
   const uint32_t e = hand->events;
   mvs_part part = {0};
   if (e & MVS_EVENT_CHOSEN) {
-    tell(now->time, "chooses chord %s, feels %.2f N", chord_name(sim, hand->chord, &part),
-         length_of(hand->force));
+    log_line(now->time, "selects chord %s, feels %.2f N", chord_name(sim, hand->chord, &part),
+             length_of(hand->force));
   }
   if (e & MVS_EVENT_GRASPED) {
-    tell(now->time, "grasps node %u of %s; orifice %.1f mm2", (unsigned)hand->node,
-         scallop_of(sim, hand->node, &part), 1e6 * orifice_now(sim, option.headless));
+    log_line(now->time, "grasps node %u of %s; orifice %.1f mm2", (unsigned)hand->node,
+             scallop_of(sim, hand->node, &part), 1e6 * orifice_now(sim, option.headless));
   }
-  if (e & MVS_EVENT_MISSED) tell(now->time, "reaches nothing");
+  if (e & MVS_EVENT_MISSED) log_line(now->time, "no node within reach");
   if (e & MVS_EVENT_LET_GO) {
-    tell(now->time, "lets go; %.2f N at most, orifice %.1f mm2", peak,
-         1e6 * orifice_now(sim, option.headless));
+    log_line(now->time, "releases it; %.2f N at most, orifice %.1f mm2", peak,
+             1e6 * orifice_now(sim, option.headless));
     peak = 0;
   }
-  if (e & MVS_EVENT_LOST_TOOL) tell(now->time, "the instrument went with that");
+  if (e & MVS_EVENT_LOST_TOOL) log_line(now->time, "the operation removed the instrument");
   if (e & MVS_EVENT_LATCHED) {
-    tell(now->time, "forces are off because of %s: key a arms again", cause_name(now->cause));
+    log_line(now->time, "forces are off (%s): key a arms again", cause_name(now->cause));
   }
   peak = fmax(peak, length_of(hand->force));
 }
@@ -103,9 +110,9 @@ const char *mode_name(uint32_t mode) {
 void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_device_report *hand,
                  const mvs_device_state *now) {
   static const char *const phases[] = {
-      "stopped",        "off (a: on)", "wait for the hand to move away",
-      "coming up",      "on",          "faded, the valve stands still",
-      "off because of "};
+      "stopped",    "off (a: on)", "waiting for the hand to move away",
+      "ramping up", "on",          "faded, the valve does not step",
+      "off: "};
   snprintf(text, size, "%s | orifice %.1f mm2 | %.2f N, felt %.2f N | forces %s%s%s",
            mode_name(mode), 1e6 * orifice_area(NULL), length_of(hand->force), length_of(now->force),
            now->phase < 7 ? phases[now->phase] : "",
