@@ -5,6 +5,7 @@
 
 #include "commands/commands.h"
 #include "text/readouts.h"
+#include "valve/at_rest.h"
 #include "valve/ensemble.h"
 #include "valve/pressure.h"
 #include "valve/reference.h"
@@ -71,11 +72,6 @@ Json closed_json(const CloseOptions &options, const Closed &closed, const mvs_me
                {"leaflet", laws_of(closed.valve)},
                {"solver", options.solver},
                {"pressure_mmHg", closed.pressure_mmhg},
-               {"converged", stats.converged != 0},
-               {"iterations", stats.iterations},
-               {"wall_s", stats.wall_s},
-               {"residual_N", stats.residual},
-               {"energy_J", stats.energy},
                {"kinetic_J", stats.kinetic},
                {"factorisations", stats.factorisations},
                {"shifted", stats.shifted},
@@ -87,10 +83,8 @@ Json closed_json(const CloseOptions &options, const Closed &closed, const mvs_me
                {"passes", stats.passes},
                {"vertices", size.vertices},
                {"faces", size.faces},
-               {"chords", size.chords},
-               {"intersections", measures.intersections},
-               {"hash", hash_of(closed.valve)},
-               {"measures", measures_json(measures)}};
+               {"chords", size.chords}};
+  json.update(closure_json(closed.valve, stats, measures));
   if (closed.ensemble) json["ensemble"] = ensemble_json(*closed.ensemble, options.ensemble);
   if (closed.errors) json["reference"] = errors_json(*closed.errors);
   return json;

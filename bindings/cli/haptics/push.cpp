@@ -35,55 +35,48 @@ std::array<double, 4> turn(const Vector &from, const Vector &to) {
           from[0] * to[1] - from[1] * to[0]};
 }
 
-// Renders a force of any size and direction on a device.
-class ChordPull {
- public:
-  ChordPull(mvs::Device &device, TautChord &chord) : device_(device), chord_(chord) {}
-
-  // Sets the direction, a unit vector in the frame of the device.
-  void aim(const Vector &direction) {
-    mvs_device_view view = {};
-    const auto rotation = turn(direction, chord_.pull);
-    std::copy(rotation.begin(), rotation.end(), view.rotation);
-    device_.set_view(view);
-  }
-
-  void ask(double force) {
-    const double gain = force / chord_.tension;
-    mvs_device_hand hand = {};
-    hand.mode = gain < min_gain ? MVS_HAND_MODE_LOOK : MVS_HAND_MODE_FEEL;
-    hand.chord = chord_.id;
-    hand.gain = gain < min_gain ? 0 : gain;
-    device_.set_hand(hand);
-    device_.sync(chord_.sim.get());
-  }
-
- private:
-  mvs::Device &device_;
-  TautChord &chord_;
-};
-
 // Runs the device in a loop with the simulator, and throws on Ctrl-C or latched forces.
 class Pusher {
  public:
   Pusher(Session &session, TautChord &chord, Ticks &ticks)
-      : session_(session), ticks_(ticks), pull_(session.device(), chord) {}
+      : session_(session), chord_(chord), ticks_(ticks) {}
 
   void begin();
   Push push(const std::string &direction, const Vector &axis, double force);
 
  private:
+  void aim(const Vector &direction);
+  void ask(double force);
   std::vector<mvs_device_sample> pass(double force);
   void pause_for(double seconds);
 
   Session &session_;
+  TautChord &chord_;
   Ticks &ticks_;
-  ChordPull pull_;
 };
+
+// Sets the direction of the force, a unit vector in the frame of the device.
+void Pusher::aim(const Vector &direction) {
+  mvs_device_view view = {};
+  const auto rotation = turn(direction, chord_.pull);
+  std::copy(rotation.begin(), rotation.end(), view.rotation);
+  session_.device().set_view(view);
+}
+
+// Sets the size of the force, N.
+void Pusher::ask(double force) {
+  const double gain = force / chord_.tension;
+  mvs_device_hand hand = {};
+  hand.mode = gain < min_gain ? MVS_HAND_MODE_LOOK : MVS_HAND_MODE_FEEL;
+  hand.chord = chord_.id;
+  hand.gain = gain < min_gain ? 0 : gain;
+  session_.device().set_hand(hand);
+  session_.device().sync(chord_.sim.get());
+}
 
 std::vector<mvs_device_sample> Pusher::pass(double force) {
   const uint64_t lost = session_.lost();
-  pull_.ask(force);
+  ask(force);
   std::vector<mvs_device_sample> samples = session_.pass(sync_period);
   ticks_.take(samples, session_.lost() > lost);
   if (session_.is_interrupted()) {
@@ -135,7 +128,7 @@ struct PlateauForces {
 
 Push Pusher::push(const std::string &direction, const Vector &axis, double force) {
   Push made = {direction, force, 0, 0, 0, true};
-  pull_.aim(axis);
+  aim(axis);
   pause_for(pause);
   const double from = dot(axis, session_.device().state().hand);
   PlateauForces sent;

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "haptics/device.h"
 #include "haptics/haptics.h"
@@ -24,19 +25,14 @@ struct RecordOptions {
 class RecordingFile {
  public:
   explicit RecordingFile(const std::string &path)
-      : path_(path), file_(std::fopen(path.c_str(), "w")) {
+      : path_(path), file_(std::fopen(path.c_str(), "w"), &std::fclose) {
     if (!file_) fail_to_write();
-  }
-  RecordingFile(const RecordingFile &) = delete;
-  RecordingFile &operator=(const RecordingFile &) = delete;
-  ~RecordingFile() {
-    if (file_) std::fclose(file_);
   }
 
   void begin(const mvs_device_info &info);
   void add(const mvs_device_sample &sample);
   void flush() {
-    if (std::fflush(file_) != 0) fail_to_write();
+    if (std::fflush(file_.get()) != 0) fail_to_write();
   }
   size_t count() const { return count_; }
   double seconds() const { return last_s_ - first_s_; }
@@ -47,32 +43,33 @@ class RecordingFile {
   }
 
   std::string path_;
-  std::FILE *file_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE *)> file_;
   size_t count_ = 0;
   double first_s_ = 0, last_s_ = 0;
 };
 
 void RecordingFile::begin(const mvs_device_info &info) {
   const double *const low = info.workspace_min, *const high = info.workspace_max;
-  std::fprintf(file_, "mvs-recording 1\n# by mvs haptics record, driver %s\n", info.driver);
-  if (info.model[0]) std::fprintf(file_, "device %s\n", info.model);
-  std::fprintf(file_, "force %.9g\n", info.freedoms_out == 0 ? 0 : info.peak_force);
-  std::fprintf(file_, "continuous_force %.9g\nstiffness %.9g\ndamping %.9g\nrate %.9g\n",
+  std::fprintf(file_.get(), "mvs-recording 1\n# by mvs haptics record, driver %s\n", info.driver);
+  if (info.model[0]) std::fprintf(file_.get(), "device %s\n", info.model);
+  std::fprintf(file_.get(), "force %.9g\n", info.freedoms_out == 0 ? 0 : info.peak_force);
+  std::fprintf(file_.get(), "continuous_force %.9g\nstiffness %.9g\ndamping %.9g\nrate %.9g\n",
                info.continuous_force, info.max_stiffness, info.max_damping, info.rate);
   if (low[0] < high[0]) {
-    std::fprintf(file_, "workspace %.9g %.9g %.9g %.9g %.9g %.9g\n", low[0], low[1], low[2],
+    std::fprintf(file_.get(), "workspace %.9g %.9g %.9g %.9g %.9g %.9g\n", low[0], low[1], low[2],
                  high[0], high[1], high[2]);
   }
-  std::fprintf(file_, "buttons %u\n", info.buttons);
-  std::fprintf(file_, "# time s, position m x y z, orientation w x y z, buttons, gripper rad\n");
+  std::fprintf(file_.get(), "buttons %u\n", info.buttons);
+  std::fprintf(file_.get(),
+               "# time s, position m x y z, orientation w x y z, buttons, gripper rad\n");
 }
 
 // Nanoseconds and nanometres, the resolution of replay.
 void RecordingFile::add(const mvs_device_sample &sample) {
   if (count_ > 0 && sample.time < last_s_ + min_sample_step) return;
   const double *const p = sample.position, *const q = sample.orientation;
-  std::fprintf(file_, "%.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f %u %.6f\n", sample.time, p[0], p[1],
-               p[2], q[0], q[1], q[2], q[3], sample.buttons, sample.gripper);
+  std::fprintf(file_.get(), "%.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f %u %.6f\n", sample.time, p[0],
+               p[1], p[2], q[0], q[1], q[2], q[3], sample.buttons, sample.gripper);
   if (count_++ == 0) first_s_ = sample.time;
   last_s_ = sample.time;
 }

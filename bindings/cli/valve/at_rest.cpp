@@ -18,14 +18,20 @@ AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name) {
   return {std::move(valve), stats, measures};
 }
 
+Json closure_json(const mvs::Snapshot &valve, const mvs_stats &stats,
+                  const mvs_measures &measures) {
+  return {{"converged", stats.converged != 0},
+          {"iterations", stats.iterations},
+          {"residual_N", stats.residual},
+          {"energy_J", stats.energy},
+          {"wall_s", stats.wall_s},
+          {"intersections", measures.intersections},
+          {"hash", hash_of(valve)},
+          {"measures", measures_json(measures)}};
+}
+
 Json at_rest_json(const AtRest &at_rest) {
-  return {{"converged", at_rest.stats.converged != 0},
-          {"iterations", at_rest.stats.iterations},
-          {"residual_N", at_rest.stats.residual},
-          {"wall_s", at_rest.stats.wall_s},
-          {"intersections", at_rest.measures.intersections},
-          {"hash", hash_of(at_rest.valve)},
-          {"measures", measures_json(at_rest.measures)}};
+  return closure_json(at_rest.valve, at_rest.stats, at_rest.measures);
 }
 
 }  // namespace cli

@@ -17,6 +17,8 @@ struct AtRest {
 // stderr gets a warning with `name`.
 AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name);
 
+// Convergence, energy, time, intersections, hash and measures of a closure.
+Json closure_json(const mvs::Snapshot &valve, const mvs_stats &stats, const mvs_measures &measures);
 Json at_rest_json(const AtRest &at_rest);
 
 }  // namespace cli

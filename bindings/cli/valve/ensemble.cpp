@@ -1,6 +1,7 @@
 #include "valve/ensemble.h"
 
 #include "text/readouts.h"
+#include "valve/at_rest.h"
 
 namespace cli {
 namespace {
@@ -26,28 +27,20 @@ Statistics statistics_of(const Ensemble &ensemble) {
 
 Json member_json(const Ensemble &ensemble, uint32_t number) {
   const mvs_ensemble_member member = ensemble.path(number);
-  const mvs_stats stats = ensemble.stats(number);
   const mvs::Snapshot closed = ensemble.snapshot(number);
-  const mvs_measures measures = closed.measure();
-  return {{"member", number},
-          {"increments", member.increments},
-          {"ramp_s", member.ramp},
-          {"order", order_name(member.order)},
-          {"perturbation_mm", member.perturbation * 1e3},
-          {"converged", member.converged != 0},
-          {"diverged", member.diverged != 0},
-          {"equilibrium", member.converged ? Json(member.equilibrium) : Json()},
-          {"iterations", stats.iterations},
-          {"wall_s", stats.wall_s},
-          {"residual_N", stats.residual},
-          {"energy_J", stats.energy},
-          {"node_rms_mm", member.node_rms * 1e3},
-          {"node_max_mm", member.node_max * 1e3},
-          {"surface_rms_mm", member.surface_rms * 1e3},
-          {"surface_max_mm", member.surface_max * 1e3},
-          {"intersections", measures.intersections},
-          {"hash", hash_of(closed)},
-          {"measures", measures_json(measures)}};
+  Json json = {{"member", number},
+               {"increments", member.increments},
+               {"ramp_s", member.ramp},
+               {"order", order_name(member.order)},
+               {"perturbation_mm", member.perturbation * 1e3},
+               {"diverged", member.diverged != 0},
+               {"equilibrium", member.converged ? Json(member.equilibrium) : Json()},
+               {"node_rms_mm", member.node_rms * 1e3},
+               {"node_max_mm", member.node_max * 1e3},
+               {"surface_rms_mm", member.surface_rms * 1e3},
+               {"surface_max_mm", member.surface_max * 1e3}};
+  json.update(closure_json(closed, ensemble.stats(number), closed.measure()));
+  return json;
 }
 
 std::string summary_text(const Ensemble &ensemble) {
