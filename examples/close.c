@@ -1,11 +1,11 @@
-/* Closes a valve file under 120 mmHg, tells how it went, and writes it for ParaView or Slicer.
+/* Closes the valve of a file under 120 mmHg, prints the result, and writes it for ParaView.
  * Build: cc -std=c99 close.c -o close $(pkg-config --cflags --libs mvs)
  * Use:   ./close valve.obj closed.vtp */
 #include <mvs/mvs.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Every fallible call returns a code; the sentence that belongs to it is in mvs_last_error(). */
+/* Every fallible call returns a code; mvs_last_error() has its sentence. */
 static void must(mvs_result result) {
   const mvs_error *error = mvs_last_error();
   if (result == MVS_OK) return;
@@ -16,7 +16,7 @@ static void must(mvs_result result) {
 static int32_t show_progress(void *user, double share, double residual) {
   (void)user;
   fprintf(stderr, "\r%3.0f %%  %.1e N", 100 * share, residual);
-  return 0; /* any other number cancels */
+  return 0; /* any other value cancels */
 }
 
 static mvs_sim *open_valve(const char *path) {
@@ -35,7 +35,7 @@ static void close_valve(mvs_sim *sim) {
   mvs_stats stats = {0};
   systole.struct_size = sizeof systole;
   systole.pressure = MVS_SYSTOLE_PA;
-  systole.boundary_fraction = 1; /* annulus and papillary heads go to their systolic places */
+  systole.boundary_fraction = 1; /* annulus and papillary heads at their systolic positions */
   must(mvs_set_load(sim, &systole));
 
   options.struct_size = sizeof options;
@@ -47,7 +47,7 @@ static void close_valve(mvs_sim *sim) {
          (unsigned)stats.iterations, stats.wall_s);
 }
 
-/* A snapshot shows every array of the valve without copying it. */
+/* A snapshot gives access to every array of the valve without a copy. */
 static void print_tightest_chord(const mvs_snapshot *valve) {
   mvs_view tension;
   mvs_part chord;

@@ -1,8 +1,9 @@
-/* The user interface of the founding paper (Tenenholtz et al. 2011): a hand in a mitral valve. It
- * grasps and pushes leaflets, feels and drags chordae, colours strain, operates, undoes, saves.
+/* The user interface of the founding paper (Tenenholtz et al. 2011): a hand in a mitral valve. The
+ * hand grasps and pushes leaflets, feels and drags chordae; keys colour strain, operate, undo,
+ * save.
  * Build: cc -std=c99 phantom.c phantom/[!nw]*.c phantom/no_window.c -o phantom -lm -pthread \
  *          $(pkg-config --cflags --libs mvs)     (with a window: see CMakeLists.txt)
- * Use:   ./phantom --driver NAME [--valve FILE]; README.md has more, ./phantom all options. */
+ * Use:   ./phantom --driver NAME [--valve FILE]; see README.md; ./phantom prints all options. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,8 +27,8 @@ void must(mvs_result result) {
   exit(1);
 }
 
-/* However the program ends: no device is left with a force. */
-static void put_down(void) {
+/* At every exit: no force stays on the device. */
+static void close_device(void) {
   mvs_device_close(device);
   device = NULL;
 }
@@ -38,13 +39,13 @@ static const mvs_snapshot *present(void) {
   return valve;
 }
 
-/* Tells them, and does what is to be done about them. */
+/* Prints and handles the events of the hand. */
 static void take_events(void) {
-  tell_events(sim, &hand, &now);
+  log_events(sim, &hand, &now);
   strongest = fmax(strongest, length_of(hand.force));
   if (hand.events & MVS_EVENT_CHOSEN) chosen = hand.chord;
   if (hand.events & MVS_EVENT_DRAGGED) {
-    tell(now.time, "%s", surgery_drag(sim, hand.chord, hand.drag_to));
+    log_line(now.time, "%s", surgery_drag(sim, hand.chord, hand.drag_to));
   }
 }
 
@@ -54,22 +55,22 @@ static void set_mode(uint32_t wanted, mvs_id chord) {
   tool.mode = mode = wanted;
   tool.chord = chord;
   must(mvs_device_set_hand(device, &tool));
-  tell(now.time, "the hand %s", mode_name(mode));
+  log_line(now.time, "the hand %s", mode_name(mode));
 }
 
 static void help(void) {
   printf(
-      "  1 look  2 grasp  3 push with a ball  4 with a rod  5 feel a chord  6 drag a chord\n"
-      "  a  forces on   space  forces off   n  chooses the chord nearest to the hand\n"
-      "  c  strain or anatomy   arrows, or h j k l, turn the view; z Z bring it near and far\n");
+      "  1 view  2 grasp  3 push with a ball  4 with a rod  5 feel a chord  6 drag a chord\n"
+      "  a  forces on   space  forces off   n  select the chord nearest to the hand\n"
+      "  c  strain or anatomy   arrows, or h j k l, rotate the view; z Z zoom in and out\n");
   surgery_help();
-  printf("  ?  this   q  end\n");
+  printf("  ?  help   q  quit\n");
 }
 
 static void choose_chord(void) {
   mvs_part part = {0};
   chosen = hand.near_chord;
-  tell(now.time, "chooses chord %s", chord_name(sim, chosen, &part));
+  log_line(now.time, "selects chord %s", chord_name(sim, chosen, &part));
   set_mode(mode, chosen);
 }
 
@@ -78,7 +79,7 @@ static void press(int key) {
   if (key >= '1' && key <= '6')
     set_mode((uint32_t)(key - '1'), 0);
   else if (key == 'a')
-    tell(now.time, "%s", mvs_device_arm(device) ? mvs_last_error()->message : "armed");
+    log_line(now.time, "%s", mvs_device_arm(device) ? mvs_last_error()->message : "armed");
   else if (key == ' ')
     must(mvs_device_cut(device));
   else if (key == 'n')
@@ -96,7 +97,7 @@ static void press(int key) {
   else if (key == 'q')
     ended = 1;
   else if ((said = surgery(sim, key, &hand, chosen, option.out)) != NULL) {
-    tell(now.time, "%s; orifice %.1f mm2", said, 1e6 * orifice_now(sim, option.headless));
+    log_line(now.time, "%s; orifice %.1f mm2", said, 1e6 * orifice_now(sim, option.headless));
   }
 }
 
@@ -110,7 +111,7 @@ static void press_due_keys(void) {
   }
 }
 
-/* Shows the valve in the window, and in a file where frames are wanted. */
+/* Shows the valve in the window, and writes a due frame. */
 static void show(void) {
   static scene triangles;
   const mvs_snapshot *const valve = present();
@@ -134,7 +135,7 @@ static void show(void) {
   snprintf(path, sizeof path, "%s/frame_%04d.ppm", option.frames ? option.frames : "", frames);
   if (!(window ? window_show(&triangles, &from, title, save ? path : NULL)
                : picture_paint(&triangles, &from, path))) {
-    fprintf(stderr, "phantom: %s cannot be written: is there such a folder?\n", path);
+    fprintf(stderr, "phantom: %s cannot be written: does the folder exist?\n", path);
     exit(1);
   }
   frames += save;
@@ -157,8 +158,9 @@ static void log_driver(void *user, mvs_log_level level, const char *text) {
   fprintf(stderr, "%s: %s\n", option.driver, text);
 }
 
-/* The device's right, up and towards the user are the surgeon's: right, out of the valve, down. */
-static void lay_over_valve(void) {
+/* Maps the device to the surgeon's view: right to right, up to out of the valve, towards the user
+ * to down. */
+static void map_to_valve(void) {
   const mvs_snapshot *const valve = present();
   const eye e = eye_of_surgeon(valve, 0, 0, 1);
   const double x = e.right[0], y = e.back[1], z = -e.up[2];
@@ -188,20 +190,20 @@ static void open_device(void) {
   must(mvs_device_open(&desc, &device));
   info.struct_size = sizeof info;
   must(mvs_device_get_info(device, &info));
-  printf("%s: %s, %.1f N at most, %.2f N for long\n", info.driver, info.model, info.peak_force,
+  printf("%s: %s, %.1f N peak, %.2f N continuous\n", info.driver, info.model, info.peak_force,
          info.continuous_force);
-  lay_over_valve();
+  map_to_valve();
   must(mvs_device_start(device));
 }
 
-/* The tissue's clock follows the device's; what a slow machine does not manage is left out. */
+/* True if the tissue clock is behind the device clock; on a slow machine it skips time. */
 static int tissue_is_behind(void) {
   if (option.headless) return 1;
   if (tissue_time < now.time - 0.05) tissue_time = now.time - 0.05;
   return tissue_time < now.time;
 }
 
-/* A device on a virtual clock that has stopped ticking is at the end of its recording, or lost. */
+/* True if a device on a virtual clock has stopped: the recording ended, or the device is lost. */
 static int is_over(void) {
   static uint64_t ticks;
   static double still;
@@ -234,7 +236,7 @@ static void turn_once(void) {
   if (option.seconds > 0 && now.time >= option.seconds) ended = 1;
 }
 
-static void tell_end(double before) {
+static void print_summary(double before) {
   const mvs_snapshot *const valve = present();
   uint64_t hash[2];
   must(mvs_snapshot_get_hash(valve, hash));
@@ -249,19 +251,19 @@ int main(int argc, char **argv) {
   double before;
   read_options(argc, argv);
   must(mvs_device_handle_signals(1));
-  atexit(put_down);
+  atexit(close_device);
   open_valve();
   before = 1e6 * orifice_now(sim, 1);
   if (!option.headless && (no_window = window_open(800, 600)) != NULL) {
-    fprintf(stderr, "phantom: no window (%s): --seconds or ^C ends it\n", no_window);
+    fprintf(stderr, "phantom: no window (%s): --seconds or Ctrl-C ends the program\n", no_window);
   }
   window = no_window == NULL;
   if (window) help();
   open_device();
   set_mode(MVS_HAND_MODE_GRASP, 0);
   while (!ended) turn_once();
-  put_down();
-  tell_end(before);
+  close_device();
+  print_summary(before);
   if (window) window_close();
   orifice_close();
   mvs_destroy(sim);

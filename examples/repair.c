@@ -1,7 +1,8 @@
-/* The founding paper's first valve (Tenenholtz et al. 2011): the annulus dilates by 15 % and a
- * chord stretches by 25 %, so that it leaks; the surgeon brings the annulus to 97 % and ties two
- * chordae. Build: cc -std=c99 repair.c -o repair $(pkg-config --cflags --libs mvs) Use:   ./repair
- * plan.json */
+/* The first valve of the founding paper (Tenenholtz et al. 2011): it leaks because its annulus is
+ * dilated by 15 % and a chord is 25 % longer. The repair sets the annulus to 97 % and adds two
+ * chordae.
+ * Build: cc -std=c99 repair.c -o repair $(pkg-config --cflags --libs mvs)
+ * Use:   ./repair plan.json */
 #include <mvs/mvs.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,8 +21,8 @@ static const mvs_snapshot *present(void) {
   return valve;
 }
 
-/* Closes the valve and tells what a surgeon looks at. */
-static double close_and_tell(const char *word) {
+/* Closes the valve, prints three of its measures, and returns the orifice area in m2. */
+static double close_and_print(const char *word) {
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   const mvs_snapshot *valve;
   mvs_measures m = {0};
@@ -36,8 +37,7 @@ static double close_and_tell(const char *word) {
   return m.regurgitant_orifice_area;
 }
 
-/* The struts are the two strong chordae of the anterior leaflet: the ids of the first and the last,
- * and of the papillary heads that they come from. */
+/* Finds the first and the last strut chord of the anterior leaflet, and their papillary heads. */
 static void find_struts(mvs_id strut[2], mvs_id head[2]) {
   const mvs_snapshot *valve = present();
   mvs_view kinds, nodes, heads;
@@ -73,7 +73,7 @@ static void lengthen(mvs_id chord, double factor) {
   must(mvs_apply_op(sim, &op.op, NULL));
 }
 
-/* A chord to the rough zone of A2, as taut as its neighbours. */
+/* Adds a chord to the rough zone of A2, as taut as its neighbours. */
 static void tie_chord(mvs_id head, double along) {
   mvs_op_chord_add op = {{sizeof op, MVS_OP_CHORD_ADD}, 0, {0}, 0, 0, 0, 0, 0, NULL};
   const mvs_snapshot *valve = present();
@@ -96,24 +96,24 @@ int main(int argc, char **argv) {
   must(mvs_create(NULL, &sim));
   must(mvs_generate_valve(sim, NULL));
   find_struts(strut, head);
-  close_and_tell("healthy");
+  close_and_print("healthy");
 
   scale_annulus(1.15);
   lengthen(strut[0], 1.25);
-  leak = close_and_tell("diseased");
+  leak = close_and_print("diseased");
 
   must(mvs_begin_group(sim, "repair"));
   scale_annulus(0.97 / 1.15);
   tie_chord(head[0], 0.4);
   tie_chord(head[1], 0.6);
   must(mvs_end_group(sim));
-  repaired = close_and_tell("repaired");
+  repaired = close_and_print("repaired");
 
   valve = present();
   if (argc > 1) must(mvs_save_plan(valve, &options, argv[1]));
   mvs_snapshot_release(valve);
-  must(mvs_undo(sim)); /* takes the whole repair back */
-  close_and_tell("taken back");
+  must(mvs_undo(sim)); /* undoes the whole repair */
+  close_and_print("undone");
   mvs_destroy(sim);
   return leak > 0 && repaired == 0 ? 0 : 1;
 }

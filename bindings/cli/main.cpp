@@ -1,9 +1,9 @@
 // `mvs`: generates, closes, operates on, measures and compares valves from the command line.
-// Exit code 0: done; 1: failed, with the reason on stderr; 2: the command line is not understood.
+// Exit code 0: done; 1: failed, with the reason on stderr; 2: wrong usage.
 #include <cstdio>
 #include <exception>
 
-#include "commands.h"
+#include "commands/commands.h"
 
 namespace {
 
@@ -32,7 +32,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
   cli::add_haptics(app, console);
 }
 
-int run(int argc, char **argv) {
+int run_command(int argc, char **argv) {
   CLI::App app("Mitral valve repair, simulated for one patient.", "mvs");
   cli::Console console;
   add_commands(app, console);
@@ -51,7 +51,7 @@ int run(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   try {
-    return run(argc, argv);
+    return run_command(argc, argv);
   } catch (const std::exception &error) {
     std::fprintf(stderr, "mvs: %s\n", error.what());
     return 1;

@@ -1,4 +1,4 @@
-/* In place of window.c where GLFW was not found: there is no window. */
+/* Replaces window.c in builds without GLFW: there is no window. */
 #include "phantom.h"
 
 const char *window_open(int width, int height) {

@@ -1,4 +1,4 @@
-/* What the command line says. */
+/* Parses the command line. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,16 +20,16 @@ static void list_drivers(void) {
 
 static void use(const char *why, const char *what) {
   fprintf(stderr, "phantom: %s%s\n", why, what);
-  fprintf(
-      stderr,
-      "use: phantom --driver NAME|PATH [--device NAME] [--option KEY=VALUE ...]\n"
-      "  [--valve FILE]    else the shipped valve       [--scale S]  of motion, 1\n"
-      "  [--script FILE]   a recording, for replay      [--keys \"2.0:u 3.0:s\"]  pressed for you\n"
-      "  [--headless]      unattended, on a virtual clock, no window\n"
-      "  [--seconds S]     else the script's end      [--dt S]  of a step, 0.001\n"
-      "  [--frames DIR]    pictures into it             [--every S]  0.1\n"
-      "  [--out BASE]      files of keys s and w: BASE.obj, BASE.json\n"
-      "drivers:\n");
+  fprintf(stderr,
+          "use: phantom --driver NAME|PATH [--device NAME] [--option KEY=VALUE ...]\n"
+          "  [--valve FILE]    else the shipped valve       [--scale S]  of the motion, 1\n"
+          "  [--script FILE]   recording for replay         [--keys \"2.0:u 3.0:s\"]  keys at "
+          "times in s\n"
+          "  [--headless]      without a window, on a virtual clock\n"
+          "  [--seconds S]     else to the end of the script  [--dt S]  time step, 0.001\n"
+          "  [--frames DIR]    folder of pictures           [--every S]  between them, 0.1\n"
+          "  [--out BASE]      files of keys s and w: BASE.obj, BASE.json\n"
+          "drivers:\n");
   list_drivers();
   exit(2);
 }
@@ -37,14 +37,14 @@ static void use(const char *why, const char *what) {
 static double number(const char *text) {
   char *end;
   const double value = strtod(text, &end);
-  if (end == text || *end != 0) use("this is no number: ", text);
+  if (end == text || *end != 0) use("not a number: ", text);
   return value;
 }
 
 static void add_driver_option(const char *key, const char *value) {
   const size_t used = strlen(option.driver_options), room = sizeof option.driver_options - used;
   const int wanted = snprintf(option.driver_options + used, room, "%s%s\n", key, value);
-  if (wanted < 0 || (size_t)wanted >= room) use("too many options for the driver, at ", value);
+  if (wanted < 0 || (size_t)wanted >= room) use("too many options of the driver, at ", value);
 }
 
 static void read_option(const char *name, const char *value) {
@@ -73,7 +73,7 @@ static void read_option(const char *name, const char *value) {
   else if (!strcmp(name, "--dt"))
     option.dt = number(value);
   else
-    use("there is no option ", name);
+    use("unknown option ", name);
 }
 
 const char *next_key(const char *keys, double *when, int *key) {
@@ -84,7 +84,7 @@ const char *next_key(const char *keys, double *when, int *key) {
   return colon + 2;
 }
 
-/* Whether these are keys with their times, and nothing else. */
+/* True for a list of TIME:KEY. */
 static int are_keys(const char *keys) {
   const char *rest;
   double when;
@@ -105,11 +105,11 @@ void read_options(int argc, char **argv) {
       use("a value is missing after ", argv[i]);
     }
   }
-  if (!option.driver) use("--driver has to be given", "");
-  if (!(option.every > 0)) use("--every has to be above 0", "");
-  if (!are_keys(option.keys)) use("these are no keys with their times: ", option.keys);
+  if (!option.driver) use("--driver is required", "");
+  if (!(option.every > 0)) use("--every must be positive", "");
+  if (!are_keys(option.keys)) use("not a list of TIME:KEY: ", option.keys);
   if (option.headless && option.seconds <= 0) {
-    if (!script) use("--headless needs --seconds or --script: nothing else ends it", "");
+    if (!script) use("--headless needs --seconds or --script, which end it", "");
     add_driver_option("end=", "stop");
   }
 }

@@ -1,11 +1,11 @@
-/* Looks for the regurgitant orifice on a thread of its own: that takes longer than a haptic device
- * may be left without a new model of the tissue. A snapshot can be measured on any thread. */
+/* Measures the regurgitant orifice on a second thread: a haptic device needs a new tissue model
+ * before the measure is finished. A snapshot can be measured on any thread. */
 #include <pthread.h>
 
 #include "phantom.h"
 
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
-static const mvs_snapshot *measured; /* the last one, held */
+static const mvs_snapshot *measured; /* the last one; owned */
 static double area;
 static int at_work, started;
 static pthread_t thread;

@@ -1,5 +1,5 @@
-/* Paints triangles into a picture file by hand, where there is no display: each pixel keeps the
- * nearest triangle, and a picture twice as fine is averaged so that edges are smooth. */
+/* Software rasteriser with a depth buffer and 2 x 2 supersampling: writes triangles into a picture
+ * file without a display. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -13,7 +13,7 @@ typedef struct pixel {
   float depth, colour[3];
 } pixel;
 
-/* A corner on the screen: x and y in pixels, z the depth. */
+/* A corner on the screen: x and y in pixels, z is the depth. */
 typedef struct spot {
   float at[3];
   const float *colour;
@@ -50,8 +50,8 @@ static void paint_pixel(pixel *to, const spot s[3], const float weight[3]) {
   }
 }
 
-/* The smallest and largest pixel along an axis that the triangle may cover. */
-static void span(const spot s[3], int axis, int size, int *first, int *last) {
+/* The first and last pixel of the bounding box of a triangle along an axis. */
+static void pixel_range(const spot s[3], int axis, int size, int *first, int *last) {
   float low = s[0].at[axis], high = low;
   int k;
   for (k = 1; k < 3; ++k) {
@@ -66,8 +66,8 @@ static void paint_triangle(pixel *pixels, const spot s[3]) {
   const float whole = area(&s[0], &s[1], s[2].at[0], s[2].at[1]);
   int x, y, left, right, top, bottom, k;
   if (whole == 0) return;
-  span(s, 0, WIDE, &left, &right);
-  span(s, 1, HIGH, &top, &bottom);
+  pixel_range(s, 0, WIDE, &left, &right);
+  pixel_range(s, 1, HIGH, &top, &bottom);
   for (y = top; y <= bottom; ++y) {
     for (x = left; x <= right; ++x) {
       float weight[3];

@@ -1,4 +1,4 @@
-/* The valve, the instrument and the force on it as coloured triangles. */
+/* Builds the coloured triangles of the valve, the instrument, and the force on the hand. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,8 +42,8 @@ static double unit(double v[3]) {
 eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double distance) {
   double f[12], towards_user[3] = {0, 0, 0};
   eye e;
-  must(mvs_snapshot_get_frame(valve, f)); /* rows: middle, AP, CC, the axis into the atrium */
-  along(f, -6e-3, f + 9, e.middle);       /* the chordae are to be seen as well */
+  must(mvs_snapshot_get_frame(valve, f)); /* rows: origin, AP, CC, axis into the atrium */
+  along(f, -6e-3, f + 9, e.middle);       /* lower, so that the chordae are visible */
   along(towards_user, -cos(turn), f + 3, towards_user);
   along(towards_user, sin(turn), f + 6, towards_user);
   memset(e.back, 0, sizeof e.back);
@@ -56,7 +56,7 @@ eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double d
 }
 
 void eye_matrix(const eye *from, double aspect, float m[16]) {
-  const double zoom = 1 / tan(15 * PI / 180); /* 30 degrees are seen */
+  const double zoom = 1 / tan(15 * PI / 180); /* field of view: 30 degrees */
   const double near = 0.2 * from->distance, far = 3 * from->distance;
   const double *const rows[3] = {from->right, from->up, from->back};
   double place[3];
@@ -88,7 +88,7 @@ static void add_corner(scene *out, const double at[3], const tint colour, double
   ++out->count;
 }
 
-/* A lamp beside the eye; tissue is lit on both sides. */
+/* Light from a lamp beside the eye, on both sides of the tissue. */
 static double lit(const eye *from, const double normal[3]) {
   double lamp[3];
   along(from->back, 0.4, from->up, lamp);
@@ -117,7 +117,7 @@ static void colour_of(double share, tint out) {
   }
 }
 
-/* A tapered tube; its normals are those of a cylinder. */
+/* Adds a tapered tube with the normals of a cylinder. */
 static void add_tube(scene *out, const eye *from, const double a[3], const double b[3],
                      const double radius[2], const tint colour) {
   enum { SIDES = 8 };
@@ -149,7 +149,7 @@ static void add_line(scene *out, const eye *from, const double a[3], const doubl
   add_tube(out, from, a, b, radii, colour);
 }
 
-/* A ball of rings about the axis towards the eye. */
+/* Adds a sphere of rings about the axis towards the eye. */
 static void add_ball(scene *out, const eye *from, const double middle[3], double radius,
                      const tint colour) {
   enum { RINGS = 8, SIDES = 16 };
@@ -173,7 +173,7 @@ static void show_leaflets(scene *out, const mvs_snapshot *valve, const eye *from
   const double *x = nodes.data, *stretch = view(valve, MVS_ARRAY_TRIANGLE_STRETCH).data;
   const uint32_t *t = faces.data, *leaflet = view(valve, MVS_ARRAY_TRIANGLE_LEAFLET).data;
   const uint32_t *scallop = view(valve, MVS_ARRAY_TRIANGLE_SCALLOP).data;
-  /* of a node: the sums of its triangles' normals and strains, and their number */
+  /* per node: sums of the normals and strains of its triangles, and their number */
   double(*sum)[5] = calloc(nodes.count, sizeof *sum);
   uint64_t i;
   int k;
@@ -196,13 +196,13 @@ static void show_leaflets(scene *out, const mvs_snapshot *valve, const eye *from
     double shade = lit(from, sum[node]);
     memcpy(colour, leaflet[i / 3] == 0 ? anterior : posterior, sizeof colour);
     if (strain) colour_of(sum[node][3] / sum[node][4] / STRAIN_FULL, colour);
-    if (!strain && scallop[i / 3] % 2 == 0) shade *= 0.85; /* neighbours differ */
+    if (!strain && scallop[i / 3] % 2 == 0) shade *= 0.85; /* so that neighbours differ */
     add_corner(out, x + 3 * node, colour, shade);
   }
   free(sum);
 }
 
-/* The chosen one stands out; slack ones have no colour of strain. */
+/* Highlights the selected chord; slack chordae have no strain colour. */
 static void show_chordae(scene *out, const mvs_snapshot *valve, const eye *from,
                          const sight *what) {
   const double *x = view(valve, MVS_ARRAY_NODE_POSITION).data;
@@ -241,7 +241,7 @@ static void show_orifice(scene *out, const mvs_snapshot *measured) {
   for (i = 0; i < 3 * faces.count; ++i) add_corner(out, x + 3 * face[i], hole, 1);
 }
 
-/* The instrument where the tissue lets it be, the hand that leads it, and the force between. */
+/* The instrument at its position in the tissue, the hand, and the force between them. */
 static void show_instrument(scene *out, const eye *from, const sight *what) {
   const double tip[2] = {1.0e-3, 0}, strength = sqrt(dot(what->force, what->force));
   double beside[3], shaft[3], end[3];
@@ -256,14 +256,15 @@ static void show_instrument(scene *out, const eye *from, const sight *what) {
   }
   add_ball(out, from, what->hand, 0.9e-3, glove);
   if (strength < 0.01) return;
-  along(what->hand, 2e-3, from->right, beside); /* so that neither hides the other */
+  along(what->hand, 2e-3, from->right,
+        beside); /* beside the hand, so that neither hides the other */
   along(beside, 5e-3, what->force, shaft);
   along(shaft, 3e-3 / strength, what->force, end);
   add_line(out, from, beside, shaft, 0.4e-3, arrow);
   add_tube(out, from, shaft, end, tip, arrow);
 }
 
-/* The scale of strain, nearer to the eye than all else, with a mark each 10 %. */
+/* The strain scale, in front of everything, with a mark every 10 %. */
 static void show_scale(scene *out, const eye *from) {
   const int parts = 50, marked = (int)(parts * 0.1 / STRAIN_FULL);
   const double size = 0.5 * from->distance;

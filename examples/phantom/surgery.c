@@ -1,10 +1,11 @@
-/* What keys do to the valve. What cannot be done is said, and nothing has changed. */
+/* Operations of the keys on the valve. An impossible operation reports its error and changes
+ * nothing. */
 #include <math.h>
 #include <stdio.h>
 
 #include "phantom.h"
 
-/* What a key works on. */
+/* Arguments of the action of a key. */
 typedef struct situation {
   mvs_sim *sim;
   const mvs_device_report *hand;
@@ -55,7 +56,7 @@ static mvs_id nearest_head(const mvs_snapshot *valve, uint32_t node) {
   return part.id;
 }
 
-/* An artificial chord to the place of the leaflet that the hand is nearest to. */
+/* Adds an artificial chord to the leaflet vertex nearest to the hand. */
 static mvs_result tie(const situation *s) {
   mvs_op_neochord op = {{sizeof op, MVS_OP_NEOCHORD}, 0, {0}, 0, 0, 0, 0, 0, NULL};
   const mvs_snapshot *valve;
@@ -72,7 +73,7 @@ static mvs_result dilate(const situation *s) {
   return mvs_apply_op(s->sim, &op.op, NULL);
 }
 
-/* A ring of about the width that the shipped annulus has. */
+/* Implants a ring of about the width of the shipped annulus. */
 static mvs_result sew_ring(const situation *s) {
   mvs_op_ring op = {{sizeof op, MVS_OP_RING}, {0}, 0, 0, 0, {0}, {0}, NULL};
   op.size = 0.034;
@@ -96,7 +97,7 @@ static mvs_result switch_pressure(const situation *s) {
   return mvs_set_load(s->sim, &load);
 }
 
-/* What was done is told with the orifice anyway. */
+/* No action: the caller prints the orifice after every key. */
 static mvs_result measure(const situation *s) {
   (void)s;
   return MVS_OK;
@@ -130,12 +131,12 @@ static const struct {
   int operates;
   const char *what;
   mvs_result (*act)(const situation *);
-} keys[] = {{'+', 1, "lengthen the chosen chord by 5 %", lengthen},
+} keys[] = {{'+', 1, "lengthen the selected chord by 5 %", lengthen},
             {'-', 1, "shorten it by 5 %", shorten},
             {'x', 1, "cut it", cut},
             {'t', 1, "tie an artificial chord to the leaflet at the hand", tie},
             {'d', 1, "dilate the annulus by 15 %", dilate},
-            {'o', 1, "sew in a ring of size 34", sew_ring},
+            {'o', 1, "implant a ring of size 34", sew_ring},
             {'u', 0, "undo", undo},
             {'r', 0, "redo", redo},
             {'p', 0, "pressure off, on", switch_pressure},
@@ -150,7 +151,7 @@ void surgery_help(void) {
   for (i = 0; i < KEYS; ++i) printf("  %c  %s\n", keys[i].key, keys[i].what);
 }
 
-/* The last operation in words: "shorten chord P2/3 to 75 %". */
+/* The title of the last operation: "Shorten chord P2/3 to 75 %". */
 static const char *title(mvs_sim *sim) {
   static mvs_history_entry entry;
   const mvs_snapshot *valve;

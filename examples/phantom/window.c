@@ -1,11 +1,11 @@
-/* The window: GLFW and OpenGL 3.3, whose functions GLFW finds by their names. */
+/* The window: GLFW and OpenGL 3.3, with functions loaded by name through GLFW. */
 #define GLFW_INCLUDE_GLCOREARB
 #include <GLFW/glfw3.h>
 #include <stdlib.h>
 
 #include "phantom.h"
 
-/* All of OpenGL that is used here. */
+/* The functions of OpenGL used here. */
 #define FUNCTIONS(f)                                                                              \
   f(PFNGLATTACHSHADERPROC, glAttachShader) f(PFNGLBINDBUFFERPROC, glBindBuffer) f(                \
       PFNGLBINDVERTEXARRAYPROC, glBindVertexArray) f(PFNGLBUFFERDATAPROC, glBufferData)           \
@@ -50,7 +50,7 @@ static void note_error(int code, const char *text) {
 }
 
 static void add_key(int key) {
-  if (key_count == 32) return; /* nobody types so fast */
+  if (key_count == 32) return; /* drop keys when the queue is full */
   keys[(first_key + key_count++) % 32] = key;
 }
 
@@ -59,7 +59,7 @@ static void on_character(GLFWwindow *of, unsigned key) {
   if (key < 128) add_key((int)key);
 }
 
-/* Arrows type the letters that turn the view. */
+/* Arrow keys send the letters that rotate the view. */
 static void on_key(GLFWwindow *of, int key, int code, int action, int modifiers) {
   (void)of, (void)code, (void)modifiers;
   if (action == GLFW_RELEASE) return;
@@ -95,9 +95,9 @@ static int make_program(void) {
   return good;
 }
 
-/* One buffer, filled anew for each picture. */
+/* One buffer, refilled for each picture. */
 static void make_buffer(void) {
-  /* OpenGL takes an offset for a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr) */
+  /* OpenGL takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr) */
   const void *const colours = (const void *)offsetof(corner, colour);
   GLuint array, buffer;
   glGenVertexArrays(1, &array);
@@ -114,7 +114,7 @@ static void make_buffer(void) {
 
 const char *window_open(int width, int height) {
   glfwSetErrorCallback(note_error);
-  reason = "GLFW does not say why";
+  reason = "GLFW gives no reason";
   if (!glfwInit()) return reason;
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -125,7 +125,7 @@ const char *window_open(int width, int height) {
   if (!window) return reason;
   glfwMakeContextCurrent(window);
   glfwSwapInterval(0); /* the simulation must not wait for the screen */
-  if (!load_functions() || !make_program()) return "its OpenGL is older than 3.3";
+  if (!load_functions() || !make_program()) return "OpenGL is older than 3.3";
   make_buffer();
   glfwSetCharCallback(window, on_character);
   glfwSetKeyCallback(window, on_key);
@@ -158,7 +158,7 @@ static int save(const char *path, int width, int height) {
   int y, good;
   if (!rgb) return 0;
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  for (y = 0; y < height; ++y) { /* OpenGL counts rows from below */
+  for (y = 0; y < height; ++y) { /* OpenGL counts rows from the bottom */
     glReadPixels(0, height - 1 - y, width, 1, GL_RGB, GL_UNSIGNED_BYTE, rgb + row * (size_t)y);
   }
   good = picture_write(path, rgb, width, height);

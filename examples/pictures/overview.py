@@ -1,5 +1,7 @@
-"""Makes the picture of the README: the shipped valve open and closed, and its leaking variant.
-Run: python examples/pictures/overview.py"""
+"""Draws the picture of the README: the shipped valve open and closed, and its leaking variant.
+
+Run: python examples/pictures/overview.py
+"""
 
 from pathlib import Path
 

@@ -1,5 +1,7 @@
-"""Makes session.png: four moments of the unattended session of examples/phantom.c.
-Run: python3 examples/pictures/session.py [build/release/examples/phantom]"""
+"""Draws session.png: four moments of the headless session of examples/phantom.c.
+
+Run: python3 examples/pictures/session.py [build/release/examples/phantom]
+"""
 
 import struct
 import subprocess
@@ -10,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 RECORDING = ROOT / "haptic_drivers/replay/trajectories/session.txt"
-# A2 is pulled; P2 is pushed; a strut chord is felt, seen from the anterior side; the dilated annulus leaks
+# A2 pulled; P2 pushed; a strut chord felt, from the anterior side; the dilated annulus leaks
 MOMENTS = (3.0, 8.5, 12.5, 16.0)
 KEYS = ("0:a 5.5:3 11:5 " + "11.1:h " * 12 + "11.1:k " * 3 + "13.1:l " * 12 + "13.1:j " * 4
         + "13.2:6 15.1:d 15.2:c")
@@ -18,9 +20,9 @@ EVERY = 0.5  # s
 
 
 def frames(program: str, folder: str) -> None:
-    subprocess.run([program, "--driver", "replay", "--script", RECORDING, "--headless", "--dt", "0.002",
-                    "--keys", KEYS, "--seconds", "16.1", "--frames", folder, "--every", str(EVERY),
-                    "--out", f"{folder}/phantom"], check=True)
+    subprocess.run([program, "--driver", "replay", "--script", RECORDING, "--headless",
+                    "--dt", "0.002", "--keys", KEYS, "--seconds", "16.1", "--frames", folder,
+                    "--every", str(EVERY), "--out", f"{folder}/phantom"], check=True)
 
 
 def rows(path: Path) -> tuple[int, list[bytes]]:
@@ -32,10 +34,11 @@ def rows(path: Path) -> tuple[int, list[bytes]]:
 
 def png(width: int, lines: list[bytes]) -> bytes:
     def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        crc = struct.pack(">I", zlib.crc32(kind + data))
+        return struct.pack(">I", len(data)) + kind + data + crc
 
     header = struct.pack(">IIBBBBB", width, len(lines), 8, 2, 0, 0, 0)
-    # each row as what it differs from the one above: a third of the size
+    # PNG filter 2: each row minus the row above, a third of the size
     before, coded = bytes(3 * width), []
     for line in lines:
         coded.append(b"\2" + bytes((a - b) & 255 for a, b in zip(line, before)))

@@ -14,7 +14,7 @@ class Ensemble(Shell):
         cls.plain = cls.json("close", "thin.obj", "-o", "plain.obj")
         cls.found = cls.json("close", "thin.obj", "--members", MEMBERS, "-o", "closed.obj")
 
-    def test_the_valve_is_the_one_without_members(self):
+    def test_the_valve_is_that_of_a_plain_closure(self):
         for key in ("hash", "iterations", "energy_J", "residual_N", "measures", "intersections"):
             self.assertEqual(self.found[key], self.plain[key], key)
         self.assertEqual((self.dir / "closed.obj").read_bytes(),
@@ -28,15 +28,15 @@ class Ensemble(Shell):
         self.assertEqual(ensemble["closures"][0]["hash"], self.found["hash"])
         for key in self.found["measures"]:
             values = [c["measures"][key] for c in ensemble["closures"]]
-            told = ensemble["measures"][key]
+            printed = ensemble["measures"][key]
             if None in values:
                 continue
-            self.assertEqual((told["min"], told["max"]), (min(values), max(values)), key)
-            if "mean" in told:
-                self.assertEqual(told["members"], MEMBERS)
-                # sums in another order
+            self.assertEqual((printed["min"], printed["max"]), (min(values), max(values)), key)
+            if "mean" in printed:
+                self.assertEqual(printed["members"], MEMBERS)
+                # the library sums in another order
                 size = max(map(abs, values)) or 1
-                self.assertAlmostEqual(told["mean"] / size, sum(values) / MEMBERS / size, 12)
+                self.assertAlmostEqual(printed["mean"] / size, sum(values) / MEMBERS / size, 12)
 
     def test_shapes_and_equilibria_are_those_of_the_closures(self):
         ensemble = self.found["ensemble"]
@@ -57,7 +57,7 @@ class Ensemble(Shell):
         self.assertEqual(hashes(other)[0], hashes(self.found)[0])
         self.assertNotEqual(hashes(other)[1:], hashes(self.found)[1:])
 
-    def test_no_disturbance_leaves_the_ways_of_loading(self):
+    def test_without_perturbation_the_loading_paths_remain(self):
         found = self.json("close", "thin.obj", "--members", 2, "--perturbation", 0)
         self.assertEqual([c["perturbation_mm"] for c in found["ensemble"]["closures"]], [0, 0])
 
@@ -76,7 +76,7 @@ class Ensemble(Shell):
         over = found.pop("ensemble")
         self.assertEqual(found, alone)
         self.assertEqual(over["members"], MEMBERS)
-        # the coarse thin valve folds in more ways than one, so the error has a range
+        # the coarse thin valve has several equilibria, so that the error has a range
         self.assertLess(over["node_max_mm"]["min"], over["node_max_mm"]["max"])
         self.assertLessEqual(over["surface_rms_mm"]["min"], found["surface_rms_mm"])
         self.assertRegex(self.ok(*line, "--members", MEMBERS).stdout,
@@ -84,16 +84,16 @@ class Ensemble(Shell):
         self.assertIn("nowhere.obj", mvs("close", "thin.obj", "--reference", "nowhere.obj",
                                          cwd=self.dir).stderr)
 
-    def test_people_read_value_range_and_members(self):
-        told = self.ok("close", "thin.obj", "--members", MEMBERS).stdout
-        self.assertIn(f"{MEMBERS} of {MEMBERS} members at rest", told)
-        self.assertRegex(told, r"plain +least +most +deviation\n")
+    def test_text_has_values_range_and_members(self):
+        printed = self.ok("close", "thin.obj", "--members", MEMBERS).stdout
+        self.assertIn(f"{MEMBERS} of {MEMBERS} members at rest", printed)
+        self.assertRegex(printed, r"plain +min +max +deviation\n")
         area = [self.found["measures"]["coaptation_area_mm2"]]
         ensemble = self.found["ensemble"]["measures"]["coaptation_area_mm2"]
         area += [ensemble["min"], ensemble["max"], ensemble["deviation"]]
-        self.assertRegex(told, r"Coaptation area +" + r" +".join(f"{a:.2f}" for a in area) + " mm2")
-        self.assertRegex(told, r"\n +2 +2  pressure first +0\.50 ")
-        self.assertRegex(told, r"\n +3 +in 60 ms  together +0\.50 ")
+        self.assertRegex(printed, r"Coaptation area +" + r" +".join(f"{a:.2f}" for a in area) + " mm2")
+        self.assertRegex(printed, r"\n +2 +2  pressure first +0\.50 ")
+        self.assertRegex(printed, r"\n +3 +in 60 ms  together +0\.50 ")
 
     def test_members_not_at_rest_are_named(self):
         done = self.ok("close", "thin.obj", "--members", 2, "--max-iterations", 2)

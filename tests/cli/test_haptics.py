@@ -1,4 +1,4 @@
-"""`mvs haptics`: drivers found and examined, devices tested and recorded, without hardware."""
+"""`mvs haptics` without hardware: drivers, checks, tests and recordings."""
 import json
 import os
 import pathlib
@@ -13,12 +13,12 @@ from test_cli import MVS, Shell, mvs
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRASP = ROOT / "haptic_drivers/replay/trajectories/grasp_a2.txt"
 REPLAY = ["--driver", "replay", "--virtual", "--option"]
-# a hand at rest in the middle of a Touch
+# simulated hand at rest in the middle of a Touch
 HAND = ["--driver", "hand", "--virtual"]
 
 
 def samples(path):
-    """The rows of a recording, as numbers."""
+    """The rows of a recording as numbers."""
     lines = pathlib.Path(path).read_text().splitlines()
     assert lines[0] == "mvs-recording 1"
     rows = [line.split() for line in lines[1:] if line[:1].isdigit() or line[:1] == "-"]
@@ -46,7 +46,7 @@ class List(Haptics):
                            "--option", f"file={GRASP}")["drivers"]
         self.assertEqual(row["devices"], [{"name": str(GRASP), "model": "Touch"}])
 
-    def test_a_driver_that_cannot_be_asked_says_why(self):
+    def test_a_driver_that_fails_to_load_is_reported(self):
         self.assertIn("mvs haptics list", self.fails("list", "--driver", "nowhere"))
         (self.dir / "junk.so").write_text("no library")
         self.assertIn("cannot be loaded", self.fails("list", "--driver", "./junk.so"))
@@ -57,17 +57,17 @@ class List(Haptics):
 
 class Doctor(Haptics):
     def test_system_and_driver_are_examined(self):
-        told = self.json("haptics", "doctor", "--driver", "replay", "--option", f"file={GRASP}")
-        self.assertEqual(told["faults"], 0)
-        checks = {(row["about"], row["check"]): row for row in told["findings"]}
+        printed = self.json("haptics", "doctor", "--driver", "replay", "--option", f"file={GRASP}")
+        self.assertEqual(printed["faults"], 0)
+        checks = {(row["about"], row["check"]): row for row in printed["findings"]}
         self.assertIn("libmvs", checks["system", "library"]["sentence"])
         self.assertIn("samples", checks["replay", "recording"]["sentence"])
         priority = checks["system", "real-time priority"]
         if priority["verdict"] == "warning" and "container" not in priority["sentence"]:
             self.assertIn("/etc/security/limits.d", priority["sentence"])
 
-    def test_without_the_right_to_it_priority_is_a_warning(self):
-        # root may do it whatever the limit is
+    def test_missing_realtime_permission_is_a_warning(self):
+        # root is allowed despite the limit
         if os.geteuid() == 0 and not shutil.which("capsh"):
             self.skipTest("root, and no capsh to drop the right")
         limit = "ulimit -r 0 && "
@@ -76,29 +76,29 @@ class Doctor(Haptics):
         if os.geteuid() == 0:
             line = ["capsh", "--drop=cap_sys_nice", "--", "-c", command]
         done = subprocess.run(line, capture_output=True, text=True, timeout=60)
-        told = json.loads(done.stdout)["findings"]
-        (priority,) = [row for row in told if row["check"] == "real-time priority"]
+        printed = json.loads(done.stdout)["findings"]
+        (priority,) = [row for row in printed if row["check"] == "real-time priority"]
         self.assertEqual(priority["verdict"], "warning")
         self.assertIn("rtprio 60", priority["sentence"])
 
-    def test_what_is_not_installed_is_a_note_unless_it_is_asked_for(self):
+    def test_a_missing_vendor_library_is_a_note_unless_named(self):
         if mvs("haptics", "list", "--driver", "phantom", cwd=self.dir).returncode == 0:
             self.skipTest("OpenHaptics is installed here")
-        told = self.json("haptics", "doctor")
-        self.assertEqual(told["faults"], 0)
-        (phantom,) = [row for row in told["findings"] if row["about"] == "phantom"]
+        printed = self.json("haptics", "doctor")
+        self.assertEqual(printed["faults"], 0)
+        (phantom,) = [row for row in printed["findings"] if row["about"] == "phantom"]
         self.assertEqual((phantom["verdict"], phantom["check"]), ("note", "driver"))
         self.assertIn("not installed", phantom["sentence"])
         self.assertEqual(mvs("haptics", "doctor", "--driver", "phantom",
                              cwd=self.dir).returncode, 1)
 
-    def test_faults_are_told_by_the_exit_code(self):
+    def test_faults_set_the_exit_code(self):
         done = mvs("haptics", "doctor", "--driver", "replay", "--option", "file=nowhere.txt",
                    "--json", cwd=self.dir)
         self.assertEqual(done.returncode, 1)
-        told = json.loads(done.stdout)
-        self.assertEqual(told["faults"], 1)
-        (fault,) = [row for row in told["findings"] if row["verdict"] == "fault"]
+        printed = json.loads(done.stdout)
+        self.assertEqual(printed["faults"], 1)
+        (fault,) = [row for row in printed["findings"] if row["verdict"] == "fault"]
         self.assertIn("nowhere.txt", fault["sentence"])
         self.assertIn("faults", done.stderr)
         self.assertIn("no driver", mvs("haptics", "doctor", "--driver", "nowhere",
@@ -107,77 +107,77 @@ class Doctor(Haptics):
 
 class Test(Haptics):
     def test_a_virtual_clock_ticks_evenly(self):
-        told = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--seconds", 2)
-        self.assertEqual(told["device"]["model"], "Touch")
-        self.assertEqual((told["clock"], told["late"], told["lost"]), ("virtual", 0, 0))
-        self.assertEqual(told["ticks"], 2000)
-        self.assertIsNone(told["latched"])
-        self.assertIsNone(told["servo_us"])
+        printed = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--seconds", 2)
+        self.assertEqual(printed["device"]["model"], "Touch")
+        self.assertEqual((printed["clock"], printed["late"], printed["lost"]), ("virtual", 0, 0))
+        self.assertEqual(printed["ticks"], 2000)
+        self.assertIsNone(printed["latched"])
+        self.assertIsNone(printed["servo_us"])
         for name in ("p50", "p99", "p99_9", "max"):
-            # a time is a sum of 2000 periods
-            self.assertAlmostEqual(told["period_us"][name], 1000, 6)
-        counts = [row["count"] for row in told["histogram"]]
+            # times are sums of 2000 periods
+            self.assertAlmostEqual(printed["period_us"][name], 1000, 6)
+        counts = [row["count"] for row in printed["histogram"]]
         self.assertEqual((sum(counts), max(counts)), (1999, 1999))
 
     def test_a_rate_is_that_of_the_servo(self):
-        told = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--seconds", 1,
+        printed = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--seconds", 1,
                          "--rate", 2000)
-        self.assertEqual(told["ticks"], 2000)
-        self.assertAlmostEqual(told["rate_Hz"], 2000, 6)
+        self.assertEqual(printed["ticks"], 2000)
+        self.assertAlmostEqual(printed["rate_Hz"], 2000, 6)
 
-    def test_a_real_clock_tells_its_jitter(self):
+    def test_a_real_clock_reports_its_jitter(self):
         done = mvs("haptics", "test", "--driver", "template", "--seconds", 0.5, "--json",
                    cwd=self.dir)
-        told = json.loads(done.stdout)
-        # a machine that stands still for 100 ms is the device's fault, as far as one can tell
-        self.assertEqual(done.returncode, 0 if told["latched"] is None else 1)
-        if told["lost"] == 0:
-            counted = sum(row["count"] for row in told["histogram"])
-            self.assertEqual(counted + 1, told["ticks"])
-        for figure in (told["period_us"], told["servo_us"]):
+        printed = json.loads(done.stdout)
+        # a pause of the machine of 100 ms looks like a fault of the device
+        self.assertEqual(done.returncode, 0 if printed["latched"] is None else 1)
+        if printed["lost"] == 0:
+            counted = sum(row["count"] for row in printed["histogram"])
+            self.assertEqual(counted + 1, printed["ticks"])
+        for figure in (printed["period_us"], printed["servo_us"]):
             in_order = [figure[name] for name in ("p50", "p99", "p99_9", "max")]
             self.assertEqual(in_order, sorted(in_order))
             self.assertGreater(in_order[0], 0)
-        self.assertIsInstance(told["realtime"], bool)
+        self.assertIsInstance(printed["realtime"], bool)
 
-    def test_people_read_the_same(self):
-        told = self.ok("haptics", "test", *REPLAY, f"file={GRASP}", "--seconds", 1).stdout
-        self.assertIn("Touch, driver replay", told)
-        self.assertIn("1000 ticks", told)
-        self.assertRegex(told, r"900 to +1100 us +999 +100.000 %")
+    def test_text_has_the_same_figures(self):
+        printed = self.ok("haptics", "test", *REPLAY, f"file={GRASP}", "--seconds", 1).stdout
+        self.assertIn("Touch, driver replay", printed)
+        self.assertIn("1000 ticks", printed)
+        self.assertRegex(printed, r"900 to +1100 us +999 +100.000 %")
 
-    def test_a_device_that_goes_is_a_fault(self):
-        told = self.fails("test", *HAND, "--option", "fault=unplug", "--option", "fault_at=0.5")
-        self.assertIn("the device is gone", told)
+    def test_a_disconnected_device_is_a_fault(self):
+        printed = self.fails("test", *HAND, "--option", "fault=unplug", "--option", "fault_at=0.5")
+        self.assertIn("the device was disconnected", printed)
 
-    def test_a_recording_may_be_over(self):
-        told = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--option", "end=stop",
+    def test_the_end_of_a_recording_is_no_fault(self):
+        printed = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--option", "end=stop",
                          "--seconds", 60)
-        self.assertEqual(told["latched"], "software")
+        self.assertEqual(printed["latched"], "software")
 
     def test_pushes_are_small_and_felt(self):
-        told = self.json("haptics", "test", *HAND, "--seconds", 0.1, "--force", "--yes")
+        printed = self.json("haptics", "test", *HAND, "--seconds", 0.1, "--force", "--yes")
         # a quarter of the Touch's 0.88 N
-        stiffness = 135  # of the simulated arm, N/m
-        self.assertEqual([row["direction"] for row in told["pushes"]],
+        stiffness = 135  # N/m, of the simulated arm
+        self.assertEqual([row["direction"] for row in printed["pushes"]],
                          ["+x", "-x", "+y", "-y", "+z", "-z"])
-        for row in told["pushes"]:
+        for row in printed["pushes"]:
             self.assertAlmostEqual(row["asked_N"], 0.22, 12)
-            # clamped at what is asked: a bit less than it, where the loop's energy is taken out
-            self.assertAlmostEqual(row["told_N"], 0.22, delta=0.01)
+            # limited to the requested force; less where damping removes energy of the loop
+            self.assertAlmostEqual(row["sent_N"], 0.22, delta=0.01)
             self.assertLessEqual(row["across_N"], 0.02)
             self.assertTrue(row["motors_on"])
-            # as far as the arm gives way, and at most twice that if it swings
+            # static displacement of the arm, and at most twice that in a swing
             self.assertGreater(row["moved_mm"], 0.8e3 * 0.22 / stiffness)
             self.assertLess(row["moved_mm"], 2e3 * 0.22 / stiffness)
 
     def test_a_strong_device_pushes_with_half_a_newton(self):
-        # 3 N for ever
-        told = self.json("haptics", "test", *HAND, "--option", "device=premium30", "--seconds", 0.1,
+        # 3 N continuous
+        printed = self.json("haptics", "test", *HAND, "--option", "device=premium30", "--seconds", 0.1,
                          "--force", "--yes")
-        self.assertEqual({row["asked_N"] for row in told["pushes"]}, {0.5})
+        self.assertEqual({row["asked_N"] for row in printed["pushes"]}, {0.5})
 
-    def test_nobody_is_pushed_unasked(self):
+    def test_a_push_needs_confirmation(self):
         for answer in ("", "n\n"):
             done = subprocess.run([MVS, "haptics", "test", *HAND, "--force"], input=answer,
                                   capture_output=True, text=True, timeout=60)
@@ -187,17 +187,17 @@ class Test(Haptics):
         self.assertIn("no motors", self.fails("test", *REPLAY, f"file={GRASP}", "--option",
                                               "force=0", "--force", "--yes"))
 
-    def test_a_push_that_latches_says_why(self):
-        told = self.fails("test", *HAND, "--seconds", 0.1, "--force", "--yes", "--option",
+    def test_a_push_that_latches_reports_the_cause(self):
+        printed = self.fails("test", *HAND, "--seconds", 0.1, "--force", "--yes", "--option",
                           "fault=hot", "--option", "fault_at=2")
-        self.assertIn("thermal", told)
+        self.assertIn("thermal", printed)
 
 
 class Record(Haptics):
     def record(self, *arguments):
         return self.json("haptics", "record", *arguments)
 
-    def test_what_replay_plays_is_what_was_recorded(self):
+    def test_replay_plays_the_recording(self):
         first = self.record(*REPLAY, f"file={GRASP}", "-o", "first.txt", "--seconds", 5)
         self.record(*REPLAY, "file=first.txt", "-o", "second.txt", "--seconds", 5)
         one, two = samples(self.dir / "first.txt"), samples(self.dir / "second.txt")
@@ -208,13 +208,13 @@ class Record(Haptics):
                 self.assertAlmostEqual(a[k], b[k], delta=2e-9)  # nine decimals, rounded twice
         buttons = [[row[8] for row in rows] for rows in (one, two)]
         self.assertIn(1, buttons[0])
-        # a change lies at a sample: rounding may put it one tick later
+        # changes occur at samples: rounding can delay one by a tick
         self.assertLessEqual(sum(a != b for a, b in zip(*buttons)), 2)
         header = (self.dir / "first.txt").read_text().splitlines()[:12]
         for line in ("device Touch", "force 3.3", "stiffness 400", "buttons 2"):
             self.assertIn(line, header)
 
-    def test_the_original_is_in_it(self):
+    def test_the_recording_contains_the_original(self):
         self.record(*REPLAY, f"file={GRASP}", "-o", "dense.txt", "--seconds", 4)
         dense = samples(self.dir / "dense.txt")
         for row in samples(GRASP):
@@ -223,12 +223,12 @@ class Record(Haptics):
                 for k in range(1, 4):
                     self.assertAlmostEqual(row[k], same[k], delta=1e-8)
 
-    def test_a_recording_that_is_over_ends_it(self):
+    def test_the_end_of_a_recording_ends_recording(self):
         made = self.record(*REPLAY, f"file={GRASP}", "--option", "end=stop", "-o", "all.txt",
                            "--seconds", 100)
         self.assertAlmostEqual(made["seconds"], samples(GRASP)[-1][0], delta=2e-3)
 
-    def test_ctrl_c_ends_it_and_the_file_is_whole(self):
+    def test_ctrl_c_ends_it_and_the_file_is_complete(self):
         out = self.dir / "stopped.txt"
         process = subprocess.Popen([MVS, "haptics", "record", "--driver", "template", "-o", out,
                                     "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -237,12 +237,12 @@ class Record(Haptics):
         while time.monotonic() < until and not (out.exists() and len(samples_or_none(out)) > 10):
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
-        told, complaints = process.communicate(timeout=60)
+        printed, complaints = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 0, complaints)
-        self.assertEqual(json.loads(told)["samples"], len(samples(out)))
+        self.assertEqual(json.loads(printed)["samples"], len(samples(out)))
         self.json("haptics", "list", "--driver", "replay", "--option", f"file={out}")
 
-    def test_nothing_is_written_for_a_device_that_is_not_there(self):
+    def test_nothing_is_written_for_a_missing_device(self):
         self.assertIn("file", self.fails("record", "--driver", "replay", "-o", "none.txt"))
         self.assertFalse((self.dir / "none.txt").exists())
         self.assertIn("--seconds", self.fails("record", *REPLAY, f"file={GRASP}", "-o", "none.txt"))
@@ -261,7 +261,7 @@ class Interrupted(Haptics):
         process = subprocess.Popen([MVS, "haptics", "test", "--driver", "template", "--seconds",
                                     "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    text=True)
-        time.sleep(0.5)  # either it has begun, or the default handler ends it
+        time.sleep(0.5)  # before its start the default handler ends it
         process.send_signal(signal.SIGINT)
         _, complaints = process.communicate(timeout=50)
         self.assertIn(process.returncode, (1, -signal.SIGINT))

@@ -4,7 +4,7 @@ import unittest
 
 from test_cli import Command
 
-# One operation of each kind, with options of every type.
+# Operations of each kind, with options of every type.
 EXAMPLES = {
     "chord-length": [["--chord", "P2/3", "--factor", 0.75], ["--chord", "P2/3", "--length", 15],
                      ["--chord", "P2/3", "--drag-to", "-1,0,2.5"]],
@@ -44,7 +44,7 @@ class Op(Command):
                     self.assertIn(done["title"], self.ok("op", "v.obj", kind, *options, "-o",
                                                          "op.obj").stdout)
 
-    def test_help_of_every_kind_needs_no_file_and_speaks_mm(self):
+    def test_help_of_every_kind_needs_no_file_and_uses_mm(self):
         self.assertRegex(self.ok("op", "chord-length", "--help").stdout,
                          r"--length mm +new rest length, mm; 0.1 to 200")
         self.assertRegex(self.ok("op", "neochord", "--help").stdout,
@@ -56,10 +56,10 @@ class Op(Command):
         half = self.op("chord-length", "--chord", "P2/3", "--factor", 0.5)
         length = re.search(r"([\d.]+) mm", half["title"]).group(1)
         again = self.op("chord-length", "--chord", "P2/3", "--length", length)
-        # the title has three digits
+        # titles have three digits
         self.assertIn(f"{length} mm", again["title"])
 
-    def test_what_is_made_is_told_by_its_name(self):
+    def test_a_created_part_is_reported_by_name(self):
         made = self.op("neochord", "--head", "PM1", "--site", "P2:0.5:0.9", "--name", "loop")
         self.assertEqual(made["made"]["name"], "loop")
         self.op("chord-remove", "--chord", "loop", file="op.obj")
@@ -106,14 +106,15 @@ class Op(Command):
     def refused(self, *arguments):
         return self.fails("op", "v.obj", *arguments, "-o", "never.obj").stderr
 
-    def test_what_cannot_be_done_is_refused_with_a_reason(self):
+    def test_impossible_operations_are_refused_with_a_reason(self):
         for words, options in (
                 ('no chord named "P9/1"', ["chord-length", "--chord", "P9/1", "--factor", 2]),
-                ('no papillary head named "PM9"', ["neochord", "--head", "PM9", "--site", "node:3"]),
+                ('no papillary head named "PM9"',
+                 ["neochord", "--head", "PM9", "--site", "node:3"]),
                 ('no scallop named "Q2"', ["neochord", "--head", "PM1", "--site", "Q2:0.1:1"]),
-                ("length is 20000 mm, it has to be 0.1 to 200",
+                ("length is 20000 mm, the range is 0.1 to 200",
                  ["chord-length", "--chord", "P2/3", "--length", 20000]),
-                ("factor is 0, it has to be", ["chord-length", "--chord", "P2/3", "--factor", 0]),
+                ("factor is 0, the range is", ["chord-length", "--chord", "P2/3", "--factor", 0]),
                 ("factor is nan", ["chord-length", "--chord", "P2/3", "--factor", "nan"]),
                 ("strands is 99", ["neochord", "--head", "PM1", "--site", "node:3", "--strands",
                                    99]),
@@ -124,7 +125,7 @@ class Op(Command):
             with self.subTest(options):
                 self.assertIn(words, self.refused(*options))
 
-    def test_words_that_are_not_understood_are_usage_errors(self):
+    def test_malformed_options_are_usage_errors(self):
         chord = ["chord-length", "--chord", "P2/3"]
         for words, line in (
                 ("fly", ["v.obj", "fly"]),
@@ -137,13 +138,13 @@ class Op(Command):
                 ("not a number in mm", ["v.obj", *chord, "--length", "long", "-o", "x.obj"]),
                 ("not a number in mm", ["v.obj", *chord, "--length", "15mm", "-o", "x.obj"]),
                 ("X,Y,Z in mm", ["v.obj", *chord, "--drag-to", "1,2", "-o", "x.obj"]),
-                ("there is: leaflet, head",
+                ("choose from: leaflet, head",
                  ["v.obj", "chord-transfer", "--chord", "P2/3", "--end", "tail", "-o", "x.obj"]),
                 ("SCALLOP:ALONG:HEIGHT",
                  ["v.obj", "chord-add", "--head", "PM1", "--site", "P2", "-o", "x.obj"]),
                 ("SCALLOP:ALONG:HEIGHT",
                  ["v.obj", "chord-add", "--head", "PM1", "--site", "node:-1", "-o", "x.obj"]),
-                ("whole number", ["v.obj", "neochord", "--head", "PM1", "--site", "node:3",
+                ("non-negative integer", ["v.obj", "neochord", "--head", "PM1", "--site", "node:3",
                                   "--strands", 2.5, "-o", "x.obj"])):
             with self.subTest(line):
                 self.assertIn(words, self.misused("op", *line))

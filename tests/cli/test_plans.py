@@ -1,4 +1,4 @@
-"""The repairs of examples/plans: each valve leaks, and does no more after `mvs repair`."""
+"""The plans of examples/plans: each valve leaks, and `mvs repair` seals it."""
 import json
 import os
 import pathlib
@@ -9,7 +9,7 @@ import unittest
 MVS = os.environ["MVS_COMMAND"]
 PLANS = pathlib.Path(__file__).resolve().parents[2] / "examples" / "plans"
 
-# As README.md of that folder makes them; strut chordae have another name on another mesh.
+# Commands of README.md of that folder; names of strut chordae depend on the mesh.
 SICK = {
     1: ["--annulus-scale", "1.15", "--chord-factor", "{strut}=1.25"],
     2: ["--chord-factor", "A2/4=0.70"],
@@ -19,7 +19,7 @@ STRUT = {425: "A1/11"}
 if os.environ.get("MVS_TEST_LONG"):
     STRUT[1700] = "A2/6"
 
-# Gaps count from 1 mm on, so the least opening that can show has 0.8 mm2.
+# Gaps below 1 mm are closed, so that the smallest measurable opening has 0.8 mm2.
 LEAK_MM2 = 3
 
 

@@ -1,4 +1,4 @@
-"""README.md says what is so: its program, its links, its folders, its length."""
+"""README.md: its program, its links, its folders and its length."""
 import importlib.util
 import pathlib
 import re
@@ -20,7 +20,7 @@ class Readme(unittest.TestCase):
         exec(program, names)
         self.assertEqual(names["closed"].measures.regurgitant_orifice_area, 0)
 
-    def test_links_lead_somewhere(self):
+    def test_links_have_targets(self):
         links = re.findall(r"\]\((?!https?:)([^)#]+)\)", README)
         self.assertGreater(len(links), 0)
         for link in links:

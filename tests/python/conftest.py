@@ -1,4 +1,4 @@
-"""Valves that the tests share; the module under test is the installed one."""
+"""Valves shared by the tests; the tests import the installed module."""
 
 import os
 import sys
@@ -29,7 +29,7 @@ def opened():
 
 @pytest.fixture(scope="session")
 def closed():
-    """The shipped valve, settled under 120 mmHg; its simulator is gone."""
+    """The shipped valve, settled under 120 mmHg; its simulator is closed."""
     with mvs.Simulator() as made:
         made.generate()
         made.set_load(mvs.SYSTOLE_PA)
@@ -39,7 +39,7 @@ def closed():
 
 @pytest.fixture(scope="session")
 def real_valves():
-    """The folder of real valves, or a skip that says where they were looked for."""
+    """The folder of real valves; skips the test if it is missing."""
     default = ROOT.parent / "shared" / "data"
     folder = Path(os.environ.get("MVS_TEST_DATA", default))
     if not folder.is_dir():

@@ -1,4 +1,4 @@
-"""Finer meshes come to the same closed shape (tests/validation/convergence.py); run time against
+"""Finer meshes converge to one closed shape (tests/validation/convergence.py); run time against
 error (tests/bench/time_error.py) keeps working."""
 
 import csv
@@ -20,10 +20,10 @@ def test_every_level_comes_to_rest_without_crossings(levels):
     assert all(level.closed.measures.intersections == 0 for level in levels)
 
 
-def test_each_level_is_nearer_to_the_next(levels):
+def test_levels_converge(levels):
     import convergence
 
-    # linear triangles have 2 where nothing touches; borders of contact leave between 1 and 2
+    # linear triangles converge with order 2 without contact; contact borders leave 1 to 2
     assert 1 < convergence.orders(levels)[0] < 2.5
     assert "6276" in convergence.table("membrane", levels)
 
@@ -45,6 +45,6 @@ def test_a_run_has_its_row_and_its_place_in_the_picture(levels, tmp_path, monkey
         read = list(csv.DictReader(file))
     assert [row["solver"] for row in read] == ["newton", "implicit"]
     assert min(float(row["times_fastest"]) for row in read) == 1
-    # 432 vertices lie 0.09 mm from 6,276, whoever closes them
+    # 432 vertices lie 0.09 mm from 6,276, for every solver
     assert all(0.05 < float(row["error_rms_mm"]) < 0.15 for row in read)
     assert (tmp_path / "picture.png").stat().st_size > 10_000

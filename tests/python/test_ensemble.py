@@ -47,7 +47,7 @@ def test_statistics_are_those_of_the_snapshots(ensemble):
         )
         assert (least, most, count) == (values.min(), values.max(), MEMBERS), field.name
         if isinstance(getattr(each[0], field.name), float):
-            # sums in another order
+            # the library sums in another order
             size = np.abs(values).max()
             assert mean == pytest.approx(values.mean(), rel=1e-12), field.name
             assert deviation == pytest.approx(values.std(ddof=1), abs=1e-12 * size), field.name
@@ -94,7 +94,7 @@ def test_the_same_seed_gives_the_same_bits(thin, ensemble):
     assert other.snapshot(1).hash != ensemble.snapshot(1).hash
 
 
-def test_progress_looks_cancels_and_raises(thin):
+def test_progress_reports_cancels_and_raises(thin):
     shares = []
     thin.ensemble(mvs.SYSTOLE_PA, members=2, progress=lambda share, _: shares.append(share))
     assert shares == sorted(shares) and shares[-1] > 0.5

@@ -1,4 +1,4 @@
-"""What fails, fails with the C library's code, part, line and sentence, and changes nothing."""
+"""Failed calls raise the C library's code, part, line and sentence, and change nothing."""
 
 import pickle
 
@@ -28,14 +28,14 @@ def test_an_exception_survives_pickling(code):
     assert (str(again), again.code, again.part, again.line) == (str(error), code, "chord P2/3", 17)
 
 
-def test_no_valve_yet_is_a_state_error():
+def test_a_simulator_without_a_valve_is_a_state_error():
     with mvs.Simulator() as sim, pytest.raises(mvs.StateError) as caught:
         sim.settle()
     assert caught.value.code == -3
     assert len(str(caught.value)) > 20
 
 
-def test_a_bad_file_tells_its_line(tmp_path, sim):
+def test_a_bad_file_is_reported_with_its_line(tmp_path, sim):
     path = tmp_path / "valve.obj"
     sim.snapshot().save(path)
     lines = path.read_text().splitlines()
@@ -63,14 +63,14 @@ def test_an_unknown_part_is_an_id_error(closed):
 
 
 @pytest.mark.parametrize("pressure", [np.nan, np.inf])
-def test_a_load_that_is_no_number_is_refused(sim, pressure):
+def test_a_load_that_is_not_finite_is_refused(sim, pressure):
     before = sim.snapshot().hash
     with pytest.raises(mvs.ArgumentError):
         sim.set_load(pressure)
     assert sim.snapshot().hash == before
 
 
-def test_words_that_choose_are_checked(sim, closed):
+def test_words_of_choices_are_checked(sim, closed):
     for call in (
         lambda: mvs.Simulator(backend="magic"),
         lambda: sim.settle(solver="magic"),
@@ -80,7 +80,7 @@ def test_words_that_choose_are_checked(sim, closed):
             call()
 
 
-def test_a_closed_simulator_says_so(sim):
+def test_a_closed_simulator_is_reported(sim):
     snapshot = sim.snapshot()
     sim.close()
     with pytest.raises(mvs.StateError, match="closed"):

@@ -1,4 +1,4 @@
-"""The case that FEBio closed, on the same mesh (see tests/validation/febio.py)."""
+"""A valve closed by FEBio, on the same mesh (see tests/validation/febio.py)."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ def theirs(real_valves):
 
 @pytest.fixture(scope="module")
 def stiff(theirs):
-    """Closed with a sheet 60 times stiffer in bending, about as stiff as FEBio's locked shells."""
+    """The closure with 60 times the bending stiffness, about that of FEBio's locked shells."""
     import febio
 
     return febio.close(theirs, febio.STIFF)
@@ -32,29 +32,29 @@ def test_it_closes_without_crossings(theirs):
     assert result.closed.measures.intersections == 0
 
 
-def test_chordae_carry_what_febio_says_where_febio_put_them(theirs):
+def test_chordal_tension_agrees_in_the_shape_of_febio(theirs):
     import febio
 
     target = febio.close(theirs, replace(febio.BASE, smoothed_chords=True, from_theirs=True)).target
-    # the file gives 1e-4 N; the tail that the table leaves out carries 0.3 mN
+    # the file has a resolution of 1e-4 N; the omitted tail of the table carries 0.3 mN
     assert np.abs(target.chord_tension - theirs.chord_force).max() < 4e-4
 
 
-def test_smoothing_of_chordae_does_not_show(theirs, stiff):
+def test_smoothing_of_chordae_has_no_effect(theirs, stiff):
     import febio
 
     smooth = febio.close(theirs, replace(febio.STIFF, smoothed_chords=True))
-    # it is half of 0.02 mm where a chord gets taut, and nothing beyond
+    # half of 0.02 mm where a chord becomes taut, zero beyond
     assert np.sqrt((np.linalg.norm(
         smooth.closed.node_position - stiff.closed.node_position, axis=1) ** 2).mean()) < 20e-6
 
 
-def test_only_bending_brings_it_near_febio(theirs, stiff):
+def test_bending_stiffness_explains_the_distance_to_febio(theirs, stiff):
     import febio
 
     plain = febio.close(theirs)
     assert stiff.stats.converged
-    # 0.87 and 1.91 mm: FEBio's shape is at rest for a shell that locks, not for this sheet
+    # 0.87 and 1.91 mm: FEBio's shape is an equilibrium of a locking shell, not of this sheet
     assert stiff.comparison.surface_rms < 0.5 * plain.comparison.surface_rms
 
 
@@ -66,5 +66,5 @@ def test_it_can_be_drawn(theirs, stiff, tmp_path):
     assert "bending x 60" in febio.row(stiff)
     signed = febio.signed_distance(stiff)
     assert signed.min() < 0 < signed.max()
-    # nodes are a rougher sample of the surface than the comparison's own
+    # nodes sample the surface more coarsely than the comparison does
     assert np.sqrt((signed**2).mean()) < 2 * stiff.comparison.surface_rms * 1e3

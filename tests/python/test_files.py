@@ -1,4 +1,4 @@
-"""Files: what is saved is what is loaded, to the last bit."""
+"""Files: saving and loading keep every bit."""
 
 from pathlib import Path
 from xml.etree import ElementTree
@@ -19,7 +19,7 @@ def test_a_saved_state_loads_with_the_same_hash(closed, tmp_path):
         assert sim.snapshot().hash == closed.hash
 
 
-def test_bytes_are_what_the_file_holds(closed, tmp_path):
+def test_bytes_equal_the_file(closed, tmp_path):
     path = tmp_path / "closed.obj"
     closed.save(path)
     data = closed.to_bytes()
@@ -29,7 +29,7 @@ def test_bytes_are_what_the_file_holds(closed, tmp_path):
         assert sim.snapshot().hash == closed.hash
 
 
-def test_save_load_settle_gives_what_settle_gives(opened, tmp_path):
+def test_settling_a_loaded_valve_gives_the_same_bits(opened, tmp_path):
     path = tmp_path / "open.obj"
     opened.save(path)
     hashes = []
@@ -69,17 +69,17 @@ def test_a_vtp_file_holds_the_leaflets(closed, tmp_path):
 
 
 def test_abaqus_input_is_a_valve_with_its_load(tmp_path):
-    told = []
-    with mvs.Simulator(log=lambda level, text: told.append(text)) as sim:
+    messages = []
+    with mvs.Simulator(log=lambda level, text: messages.append(text)) as sim:
         sim.load(TOY)
         valve = sim.snapshot()
         assert sim.load_case.pressure == pytest.approx(3000)
         assert len(valve.node_position) == 42
         names = [part.name for part in valve.parts if part.kind == mvs.PartKind.LEAFLET]
         assert names == ["Anterior", "Septal", "Posterior"]
-        # what has no place in a valve is told with its line
+        # ignored lines are reported with their numbers
         line = 1 + TOY.read_text(encoding="ascii").splitlines().index("*Friction")
-        assert any(text.startswith(f"line {line}: ") for text in told)
+        assert any(text.startswith(f"line {line}: ") for text in messages)
         sim.load_bytes(TOY.read_bytes(), format="inp")
         assert sim.snapshot().hash == valve.hash
         with pytest.raises(mvs.Error, match="read, not written"):
@@ -101,7 +101,7 @@ def test_a_febio_model_is_the_valve(tmp_path):
     valve.save(tmp_path / "toy.feb")
     root = ElementTree.parse(tmp_path / "toy.feb").getroot()
     assert (root.tag, root.get("version")) == ("febio_spec", "4.0")
-    # the order of sections that FEBio wants
+    # the order of sections that FEBio requires
     assert [section.tag for section in root] == [
         "Module", "Control", "Material", "Mesh", "MeshDomains", "MeshData", "Boundary", "Loads",
         "Contact", "Discrete", "LoadData", "Output",
@@ -112,7 +112,7 @@ def test_a_febio_model_is_the_valve(tmp_path):
     np.testing.assert_array_equal(shells - 1, valve.triangle_nodes)
     springs = rows_of(root.findall("Mesh/DiscreteSet/delem"), int)
     np.testing.assert_array_equal(springs - 1, valve.chord_nodes)
-    # whatever is named is there
+    # every referenced name is defined
     names = {(e.tag, e.get("name")) for e in root.iter() if e.get("name")}
     for load in root.findall("Loads/surface_load"):
         assert ("Surface", load.get("surface")) in names
@@ -128,7 +128,7 @@ def test_a_febio_model_is_the_valve(tmp_path):
     assert root.findtext("Loads/surface_load/pressure") == "-3"
 
 
-def test_a_net_of_springs_is_no_febio_model(opened, tmp_path):
+def test_a_spring_sheet_cannot_be_written_for_febio(opened, tmp_path):
     with pytest.raises(mvs.Error, match="net of springs"):
         opened.save(tmp_path / "springs.feb")
     assert not (tmp_path / "springs.feb").exists()

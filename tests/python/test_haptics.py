@@ -1,4 +1,4 @@
-"""Haptic devices from Python: a recorded hand on a clock that the test turns."""
+"""Haptic devices from Python: a recorded hand on a virtual clock."""
 
 import threading
 
@@ -20,7 +20,7 @@ def device():
         yield opened
 
 
-def test_drivers_are_found_asked_and_examined():
+def test_drivers_are_found_listed_and_checked():
     names = {driver.name for driver in mvs.haptics.drivers()}
     assert {"template", "replay", "hand"} <= names
     (found,) = mvs.haptics.list("replay", {"file": GRASP})
@@ -34,7 +34,7 @@ def test_drivers_are_found_asked_and_examined():
     assert "nowhere.txt" in [row for row in bad if row.verdict == "fault"][0].sentence
 
 
-def test_a_device_says_what_it_is(device):
+def test_a_device_reports_its_properties(device):
     info = device.info
     assert (info.driver, info.model, info.clock) == ("replay", "Touch", "virtual")
     assert (info.freedoms_in, info.buttons, info.peak_force) == (6, 2, 3.3)
@@ -42,7 +42,7 @@ def test_a_device_says_what_it_is(device):
     assert mvs.unit_of(mvs.haptics.Info, "peak_force") == "N"
 
 
-def test_settings_are_told_back(device):
+def test_settings_can_be_read_back(device):
     device.set_limits(force=1.0, ramp_s=0.5)
     assert (device.limits.force, device.limits.ramp_s, device.limits.gate) == (1.0, 0.5, 0.2)
     device.set_view(origin=(1e-3, 0, 0), rotation=(2, 0, 0, 0), scale=0.5, force_scale=2)
@@ -58,7 +58,7 @@ def test_settings_are_told_back(device):
 
 
 def grasp_a2(device, closed, seconds):
-    """Plays the recording against a closed valve; every report, and the rows of the trace."""
+    """Plays the recording in a closed valve; returns every report and the trace."""
     reports, rows = [], []
     device.set_view(rotation=VALVE_OVER_DEVICE)
     device.set_hand("grasp")
@@ -73,15 +73,15 @@ def grasp_a2(device, closed, seconds):
     return reports, np.concatenate(rows)
 
 
-def test_a_recorded_hand_grasps_pulls_and_lets_go(device, closed):
-    reports, rows = grasp_a2(device, closed, 6.5)  # it presses at 2.3 s, lets go at 6.1 s
+def test_a_recorded_hand_grasps_pulls_and_releases(device, closed):
+    reports, rows = grasp_a2(device, closed, 6.5)  # presses at 2.3 s, releases at 6.1 s
     (taken,) = [r for r in reports if Event.GRASPED in r.events]
-    assert taken.node == 7  # vertex 8 of the file, which counts from 1: A2's, says make.py
+    assert taken.node == 7  # vertex 8 of the file, which counts from 1: on A2 (make.py)
     assert sum(Event.LET_GO in r.events for r in reports) == 1
     assert reports[-1].tool is None and device.lost == 0
-    # pulled 10 mm, the leaflet answers with 1.74 N; that is more than the Touch bears for ever, so
-    # what the motors give lies between that and its peak
-    # (the step in time lags behind the hand, but the hand waits there for a second)
+    # displaced by 10 mm, the leaflet pulls with 1.74 N, above the continuous force of the Touch:
+    # the force of the motors lies between that and the peak force (the simulation lags behind the
+    # hand, which waits there for a second)
     pull = max(np.linalg.norm(r.force) for r in reports)
     assert pull == pytest.approx(1.74, rel=0.05)
     felt = np.linalg.norm(rows["force"], axis=1)
@@ -108,7 +108,7 @@ def test_a_trace_holds_every_tick(device):
     np.testing.assert_allclose(np.linalg.norm(rows["orientation"], axis=1), 1, rtol=1e-12)
     assert rows["position"].shape == (500, 3) and not rows["force"].any()
     device.advance(9)
-    # the library keeps 8192, one of which it may be writing
+    # the library keeps 8192 ticks, one of which may be in writing
     assert len(device.trace()) + device.lost == 9000
 
 
@@ -128,7 +128,7 @@ def test_forces_are_cut_from_another_thread(device, sim):
     assert device.state.phase != Phase.LATCHED
 
 
-def test_a_real_clock_runs_by_itself():
+def test_a_real_clock_runs_without_calls():
     with mvs.Device("template") as device:
         device.start()
         waiter = threading.Event()
@@ -144,7 +144,7 @@ def test_a_real_clock_runs_by_itself():
         assert device.state.phase == Phase.STOPPED
 
 
-def test_what_is_wrong_is_said(device, tmp_path):
+def test_errors_are_reported(device, tmp_path):
     with pytest.raises(mvs.IoError, match="there is no driver"):
         mvs.Device("nowhere")
     with pytest.raises(mvs.ArgumentError, match="no option"):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 
-def test_groups_go_together(sim):
+def test_groups_are_undone_together(sim):
     first = sim.snapshot().hash
     with sim.group("repair of P2"):
         sim.apply("chord_length", chord="P2/3", factor=0.75)
@@ -36,7 +36,7 @@ def test_a_group_ends_when_an_operation_raises(sim):
         sim.end_group()
 
 
-def test_history_ends_where_there_is_nothing(sim):
+def test_undo_and_redo_stop_at_the_ends_of_the_history(sim):
     for call in (sim.undo, sim.redo):
         with pytest.raises(mvs.StateError, match="no operation to"):
             call()
@@ -46,7 +46,7 @@ def test_history_ends_where_there_is_nothing(sim):
     assert sim.snapshot().history == ()
 
 
-def test_checkpoints_are_places_to_come_back_to(sim):
+def test_checkpoints_restore_every_bit(sim):
     sim.apply("annulus_scale", factor=1.1)
     sim.set_checkpoint("dilated")
     kept = sim.snapshot()

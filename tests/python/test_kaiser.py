@@ -25,8 +25,9 @@ def test_it_converges_without_crossings(result):
 
 @pytest.mark.parametrize("law", ["FUNG", "MAY_NEWMAN_YIN", "PROT"])
 def test_a_membrane_with_needles_converges(real_valves, law):
-    """Four triangles of the mesh are 16 to 23 um high: a step up the energy bends them so far
-    that a law that stiffens exponentially never finds back (residuals of 1e7 N and more)."""
+    """Four triangles of the mesh are 16 to 23 um high: exponential laws reach residuals of 1e7 N if
+    steps that raise the energy are accepted.
+    """
     import kaiser
 
     path = real_valves / kaiser.FILE
@@ -41,7 +42,7 @@ def test_a_membrane_with_needles_converges(real_valves, law):
         assert sim.snapshot().measures.intersections == 0
 
 
-def test_its_leaflets_are_told_apart(result):
+def test_its_leaflets_are_identified(result):
     opened = result.opened
     area = {
         name: np.count_nonzero(opened.triangle_leaflet == k) for k, name in enumerate("AP")
@@ -52,16 +53,16 @@ def test_its_leaflets_are_told_apart(result):
     ) < 0
 
 
-def test_its_boundary_stays_where_it_is_held(result):
+def test_its_boundary_is_at_its_prescribed_positions(result):
     held = np.isin(result.closed.node_kind, (mvs.NodeKind.ANNULUS, mvs.NodeKind.HEAD))
-    # prescribed nodes are put there, not solved for
+    # prescribed nodes are not unknowns
     assert np.array_equal(result.closed.node_position[held], result.closed.node_loaded[held])
 
 
-def test_it_comes_near_its_own_loaded_shape(result):
+def test_it_is_near_its_own_loaded_shape(result):
     found = result.comparison
     assert found.same_mesh
-    # another law: not a truth to be met, but the same valve (its leaflets are 16 to 26 mm tall)
+    # another material law, so that the shapes differ (the leaflets are 16 to 26 mm tall)
     assert found.surface_rms < 4e-3
     assert found.surface_rms <= found.node_rms
 

@@ -28,7 +28,7 @@ def test_a_coarse_result_is_compared_with_a_fine_one_node_by_node(sim):
     assert np.array_equal(coarse.node_rest, fine.node_rest[coarse.node_origin])
 
 
-def test_a_coarse_closure_goes_over_to_the_fine_level(sim, opened):
+def test_a_coarse_closure_is_transferred_to_the_fine_level(sim, opened):
     sim.coarsen(edge=3e-3)
     sim.set_load(mvs.SYSTOLE_PA)
     assert sim.settle().converged

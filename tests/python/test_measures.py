@@ -1,4 +1,4 @@
-"""Measures: floats in SI units, each with its unit and definition in words."""
+"""Measures: floats in SI units, each with a unit and a definition."""
 
 import dataclasses
 import math
@@ -13,7 +13,8 @@ from mvs import _core
 
 @pytest.mark.parametrize(
     "kind",
-    [mvs.Measures, mvs.Stats, mvs.Comparison, mvs.Coarsening, mvs.Load, mvs.Replay, mvs.ChordLimits],
+    [mvs.Measures, mvs.Stats, mvs.Comparison, mvs.Coarsening, mvs.Load, mvs.Replay,
+     mvs.ChordLimits],
 )
 def test_every_figure_has_a_unit_and_a_definition(kind):
     for field in dataclasses.fields(kind):
@@ -43,7 +44,7 @@ def test_chord_figures_agree_with_the_arrays(closed):
     a, b = closed.chord_nodes.T
     length = np.linalg.norm(closed.node_position[a] - closed.node_position[b], axis=1)
     strain = length / closed.chord_rest_length - 1
-    # the same formula in another order of operations: a few roundings apart
+    # the same formula in another order of operations
     assert np.allclose(closed.chord_strain, strain, atol=1e-12)
     tension = closed.chord_young * closed.chord_area * np.clip(strain, 0, None)
     assert np.allclose(closed.chord_tension, tension, atol=1e-9)
@@ -76,7 +77,7 @@ def test_every_kind_of_chord_has_limits():
         mvs.chord_limits(99)
 
 
-def test_the_heads_hold_what_the_chordae_pull(closed):
+def test_head_forces_balance_chordal_tension(closed):
     a, b = closed.chord_nodes.T
     pull = np.zeros_like(closed.node_position)
     along = closed.node_position[b] - closed.node_position[a]
@@ -86,7 +87,7 @@ def test_the_heads_hold_what_the_chordae_pull(closed):
     assert np.allclose(closed.head_force, pull[closed.head_nodes], atol=1e-9)
 
 
-def test_the_frame_is_right_handed_and_looks_into_the_atrium(closed):
+def test_the_frame_is_right_handed_and_points_into_the_atrium(closed):
     frame = closed.frame
     assert np.allclose(frame.axes @ frame.axes.T, np.eye(3), atol=1e-12)
     assert np.linalg.det(frame.axes) == pytest.approx(1)
@@ -101,10 +102,10 @@ def test_a_section_lies_in_its_plane(closed):
     assert np.abs(frame.to_local(segments)[..., 1]).max() < 1e-12
 
 
-def test_a_shape_is_no_distance_from_itself_and_some_from_another(opened, closed):
+def test_a_shape_has_zero_distance_only_from_itself(opened, closed):
     same = closed.compare(closed)
     assert same.same_mesh and same.node_max == 0
-    # a point of a triangle is found again to within the rounding of its own coordinates
+    # closest points have the rounding error of their coordinates
     assert same.surface_max < 1e-15
     other = opened.compare(closed)
     assert other.node_max >= other.node_rms > 1e-4
@@ -113,7 +114,7 @@ def test_a_shape_is_no_distance_from_itself_and_some_from_another(opened, closed
     assert other.node_max == pytest.approx(direct[leaflet].max(), rel=1e-9)
 
 
-def test_laws_say_what_their_constants_are():
+def test_laws_describe_their_constants():
     law = mvs.leaflet_law(mvs.LeafletLaw.FUNG)
     assert law.word == "fung"
     assert [(c.key, c.unit) for c in law.constants] == [("c0", "Pa"), ("c1", "Pa"), ("c2", "")]

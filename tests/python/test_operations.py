@@ -130,7 +130,7 @@ def test_a_site_may_be_written_in_several_ways(sim):
     assert sim.snapshot().hash == as_number
 
 
-def test_factors_do_what_they_say(sim):
+def test_factors_scale_their_lengths(sim):
     before = sim.snapshot()
     row = before.find(mvs.PartKind.CHORD, "P2/3").index
     assert sim.apply(mvs.ops.chord_length(chord="P2/3", factor=0.75)) is None
@@ -146,7 +146,7 @@ def test_a_choice_may_be_a_word_or_its_number(sim):
     assert mvs.ops.chord_add(head="PM1", site=3, type=mvs.ChordKind.STRUT) == word
 
 
-def test_what_is_made_can_be_worked_on_by_its_id(sim):
+def test_a_created_part_can_be_used_by_its_id(sim):
     made = sim.apply("neochord", head="PM1", site=("P2", 0.5, 1.0), name="loop")
     assert sim.snapshot().find(mvs.PartKind.CHORD, "loop").id == made
     sim.apply("chord_length", chord=made, factor=0.9)
@@ -162,7 +162,7 @@ REFUSED = [
     ("chord_length", dict(chord=None, factor=2), mvs.ArgumentError, "needs chord"),
     ("chord_length", dict(chord="P2/3", factor="2"), mvs.ArgumentError, "a number, not '2'"),
     ("chord_length", dict(chord="P2/3", factor=True), mvs.ArgumentError, "a number, not True"),
-    ("chord_length", dict(chord="P2/3", factor=0), mvs.ArgumentError, "leave it out"),
+    ("chord_length", dict(chord="P2/3", factor=0), mvs.ArgumentError, "omit it"),
     ("chord_length", dict(chord="P2/3", factor=-1), mvs.ArgumentError, "0.01 to 100"),
     ("chord_length", dict(chord="P2/3", factor=np.nan), mvs.ArgumentError, "factor is nan"),
     ("chord_length", dict(chord="P2/3", length=20), mvs.ArgumentError, "0.0001 to 0.2"),
@@ -178,7 +178,7 @@ REFUSED = [
     ("chord_add", dict(head="PM1", site=10**6), mvs.IdError, "node 1000000"),
     ("chord_add", dict(head="PM1", site=3, type="magic"), mvs.ArgumentError, '"rough_zone"'),
     ("chord_add", dict(head="PM1", site=3, type=9), mvs.ArgumentError, '"rough_zone"'),
-    ("neochord", dict(head="PM1", site=3, strands=2.0), mvs.ArgumentError, "a whole number"),
+    ("neochord", dict(head="PM1", site=3, strands=2.0), mvs.ArgumentError, "a non-negative integer"),
     ("neochord", dict(head="PM1", site=3, name=4), mvs.ArgumentError, "text"),
     ("neochord", dict(head="PM1", site=3, name="a\0b"), mvs.ArgumentError, "zero character"),
     ("neochord", dict(head="PM1", site=3, name="x" * 80), mvs.ArgumentError, "80 bytes"),
@@ -188,7 +188,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("kind, fields, error, words", REFUSED)
-def test_what_cannot_be_done_is_said_and_changes_nothing(sim, kind, fields, error, words):
+def test_impossible_operations_are_refused_and_change_nothing(sim, kind, fields, error, words):
     before = sim.snapshot().hash
     said = []
     for call in (sim.check, sim.apply):
@@ -208,7 +208,7 @@ def test_a_part_of_another_kind_is_refused(sim):
         sim.apply("chord_remove", chord=head)
 
 
-def test_a_site_is_one_place():
+def test_a_site_has_exactly_one_form():
     for wrong in (
         dict(),
         dict(node=1, scallop="P2"),
@@ -222,7 +222,7 @@ def test_a_site_is_one_place():
 def test_only_operations_are_applied(sim):
     with pytest.raises(mvs.ArgumentError, match="not int"):
         sim.apply(3)
-    with pytest.raises(mvs.ArgumentError, match="has its fields already"):
+    with pytest.raises(mvs.ArgumentError, match="already has its fields"):
         sim.apply(mvs.ops.chord_remove(chord="P2/3"), chord="P2/4")
     with pytest.raises(AttributeError, match="chord_length"):
         mvs.ops.chord_lenght
@@ -242,7 +242,7 @@ def test_an_operation_is_a_value():
         one.fields["factor"] = 2
 
 
-def test_constructors_say_their_fields_and_units():
+def test_constructors_document_fields_and_units():
     for name, kind in mvs.ops.KINDS.items():
         made = getattr(mvs.ops, name)
         assert kind.help in made.__doc__
@@ -252,7 +252,7 @@ def test_constructors_say_their_fields_and_units():
     assert "length (m): new rest length" in mvs.ops.chord_length.__doc__
 
 
-def test_many_points_arrive_as_they_were_given(sim):
+def test_many_points_arrive_unchanged(sim):
     wanted = sim.snapshot().node_loaded[sim.snapshot().annulus_nodes] * 0.9
     wide = np.zeros((len(wanted), 6))
     wide[:, ::2] = wanted
@@ -264,8 +264,8 @@ def test_many_points_arrive_as_they_were_given(sim):
         hashes.add(ring.hash)
         sim.undo()
     assert len(hashes) == 1
-    # landmarks that stay where they are leave the curve there, in whatever order; a rigid fit of
-    # coordinates of 0.02 m rounds at 1e-17 m
+    # landmarks that do not move keep the curve in place, in any order; a rigid fit of coordinates
+    # of 0.02 m rounds at 1e-17 m
     apart = np.linalg.norm(ring.ring_points[:, None] - wanted[None], axis=2)
     assert apart.min(axis=0).max() < 1e-12 and apart.min(axis=1).max() < 1e-12
     with mvs.Simulator() as other:
@@ -273,8 +273,8 @@ def test_many_points_arrive_as_they_were_given(sim):
         assert other.snapshot().hash == ring.hash
 
 
-def test_points_are_taken_over_as_they_are():
-    field = mvs.ops.OpField.told(
+def test_points_are_copied_unchanged():
+    field = mvs.ops.OpField.described_by(
         "any",
         dict(name="outline", type=10, offset=0, required=False, low=3, high=9, unit="m", help="",
              choices=""),
@@ -286,5 +286,5 @@ def test_points_are_taken_over_as_they_are():
     assert read[0, 0] == 0 and not read.flags.writeable
     assert np.array_equal(field.read([(0, 1, 2), (3, 4, 5)]), [[0, 1, 2], [3, 4, 5]])
     for wrong in (given[:, :2], given.ravel(), [["a", "b", "c"]], [[1j, 0, 0]], 3, [[1, 2], [3]]):
-        with pytest.raises(mvs.ArgumentError, match=r"any: outline has to be points.* in m"):
+        with pytest.raises(mvs.ArgumentError, match=r"any: outline must be points.* in m"):
             field.read(wrong)

@@ -1,4 +1,4 @@
-"""tests/bench/peers.py: the NumPy law is ours, its engines run, and the table tells the truth."""
+"""tests/bench/peers.py: the NumPy forces equal those of the library, and the engines run."""
 
 import csv
 import subprocess
@@ -34,24 +34,24 @@ def test_numpy_law_gives_the_forces_of_the_library(opened, goal):
     law = forces.Law(export.arrays(opened, mvs.SYSTOLE_PA), "none")
     ours = closed.node_force - closed.node_contact_force
     ours = np.where(goal.free[:, None], ours, 0)
-    # the same sums in another order: rounding of forces that are about a newton at most
+    # the same sums in another order: rounding of forces of at most about 1 N
     assert np.abs(law.forces(closed.node_position) - ours).max() < 1e-12
 
 
 @pytest.mark.parametrize("contact", ["barrier", "penalty"])
-def test_numpy_energy_has_the_numpy_forces_as_slope(opened, goal, contact):
+def test_numpy_forces_are_the_gradient_of_the_numpy_energy(opened, goal, contact):
     x = goal.shapes[0].node_position
     law = forces.Law(export.arrays(opened, mvs.SYSTOLE_PA), contact)
     frozen = law.frozen_rim(x)
     way = np.random.default_rng(1).normal(size=x.shape) * goal.free[:, None]
-    h = 1e-8  # m: the error of a central difference is h^2, that of rounding 1e-16 J / h
+    h = 1e-8  # m: a central difference has an error of h^2, rounding one of 1e-16 J / h
     rise = (law.energy(x + h * way, frozen)[0] - law.energy(x - h * way, frozen)[0]) / (2 * h)
     slope = -(law.energy(x, frozen)[1] * way).sum()
-    # springs have a kink in their slope and contact one where the nearest triangle changes
+    # the forces have kinks: of springs, and of contact where the nearest triangle changes
     assert rise == pytest.approx(slope, rel=0.02)
 
 
-def test_a_shape_is_judged_by_the_exact_test_and_by_our_forces(goal):
+def test_shapes_are_checked_by_the_exact_test_and_the_library_forces(goal):
     at_rest = goal.judge(goal.shapes[0].node_position)
     assert at_rest["node_max_mm"] == 0 and at_rest["crossings"] == 0
     assert at_rest["force_max_N"] < 1e-6  # closed to 1e-7 N
@@ -71,7 +71,7 @@ def test_the_driver_writes_a_row_for_each_case(tmp_path):
     assert verdicts["febio"] == "not given" and verdicts["mujoco"] == "not installed"
     for row in (row for row in rows if row["engine"] == "numpy"):
         assert row["verdict"] in ("rest", "limit", "stalled")
-        # cut off after a second of CPU: a step and set-up come on top
+        # the limit of 1 s of CPU excludes the last step and the set-up
         assert float(row["cpu_s"]) < 5 and float(row["node_max_mm"]) < 50
 
 

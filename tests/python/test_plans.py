@@ -30,13 +30,13 @@ def operated():
 
 
 def shapes_of(plan, folder):
-    """A plan in every shape that replay_plan takes."""
+    """A plan in every form that replay_plan accepts."""
     path = folder / "plan.json"
     path.write_text(plan, encoding="utf-8")
     return [plan, plan.encode(), json.loads(plan), path, str(path)]
 
 
-def test_a_plan_tells_what_was_done(operated):
+def test_a_plan_lists_the_operations(operated):
     plan = json.loads(operated.plan(author="Élodie", notes="first try"))
     assert (plan["format"], plan["author"], plan["notes"]) == ("mvs-plan", "Élodie", "first try")
     assert [step["do"] for step in plan["steps"]] == [
@@ -46,7 +46,7 @@ def test_a_plan_tells_what_was_done(operated):
     assert "before" not in plan["steps"][0]
 
 
-def test_measures_are_written_when_asked_for(operated, tmp_path):
+def test_measures_are_written_on_request(operated, tmp_path):
     with_measures = operated.plan(measures=True)
     first = json.loads(with_measures)["steps"][0]
     assert first["before"]["annulus_ap_m"] > 0
@@ -56,8 +56,8 @@ def test_measures_are_written_when_asked_for(operated, tmp_path):
     assert path.read_text(encoding="utf-8") == with_measures
 
 
-def test_a_long_plan_is_whole(opened):
-    # longer than what the binding asks for at first, 64 KiB
+def test_a_long_plan_is_complete(opened):
+    # longer than the first buffer of the binding, 64 KiB
     notes = "ä" * 50_000
     assert json.loads(opened.plan(notes=notes))["notes"] == notes
 
@@ -102,14 +102,14 @@ STEP_3 = {"do": "chord_remove", "chord": "P2/3"}
             mvs.Error,
             "step 2 of the plan: annulus_scale: ",
         ),
-        ({"steps": [{"do": "annulus_scale", "factor": math.nan}]}, mvs.ArgumentError, "no JSON"),
-        ({"steps": {1, 2}}, mvs.ArgumentError, "no JSON"),
+        ({"steps": [{"do": "annulus_scale", "factor": math.nan}]}, mvs.ArgumentError, "not JSON"),
+        ({"steps": {1, 2}}, mvs.ArgumentError, "not JSON"),
         (7, mvs.ArgumentError, "not int"),
         ("no/such/plan.json", mvs.IoError, "no/such/plan.json: cannot read the plan: "),
         ('{"\ud800": 1}', mvs.FormatError, "no JSON"),
     ],
 )
-def test_what_cannot_be_replayed_is_told_and_changes_nothing(sim, plan, kind, words):
+def test_plans_that_cannot_be_replayed_are_refused_and_change_nothing(sim, plan, kind, words):
     before = sim.snapshot().hash
     if isinstance(plan, dict):
         plan = {"format": "mvs-plan", "version": 1, **plan}
@@ -129,7 +129,7 @@ def test_a_replay_can_be_cancelled(sim, operated):
     assert sim.snapshot().hash == before
 
 
-def test_what_a_plan_cannot_say_or_be_written_to_is_refused(operated, tmp_path):
+def test_invalid_texts_and_paths_of_a_plan_are_refused(operated, tmp_path):
     with pytest.raises(mvs.ArgumentError, match="notes"):
         operated.plan(notes="one\0two")
     with pytest.raises(mvs.IoError):
@@ -149,10 +149,10 @@ def test_a_journal_outlives_its_simulator(tmp_path):
         sim.generate()
         assert sim.recover_journal(path).operations == 3
         assert sim.snapshot().hash == wanted
-        sim.undo()  # the journal goes on
+        sim.undo()  # the journal continues
         undone = sim.snapshot().hash
         sim.close_journal()
-        sim.apply("annulus_scale", factor=1.1)  # and then no more
+        sim.apply("annulus_scale", factor=1.1)  # after the end of the journal
     with mvs.Simulator() as sim:
         sim.generate()
         sim.recover_journal(path)
@@ -192,7 +192,7 @@ def test_a_journal_outlives_a_killed_process(sim, tmp_path):
     assert sim.snapshot().hash == run.stdout.strip()
 
 
-def test_journals_that_cannot_be_are_told(sim, tmp_path):
+def test_invalid_journals_are_refused(sim, tmp_path):
     path = tmp_path / "session.mvsj"
     with pytest.raises(mvs.StateError, match="no journal is open"):
         sim.close_journal()

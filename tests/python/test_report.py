@@ -1,4 +1,4 @@
-"""The report: a page that needs nothing else, with a picture of each kind and every figure."""
+"""The report: a self-contained page with a picture of each kind and every measure."""
 
 import dataclasses
 import io
@@ -30,12 +30,12 @@ def test_there_is_a_picture_of_each_kind_and_none_is_blank(pictures):
     assert [shown.name for shown in pictures] == list(gallery.CAPTIONS)
     for shown in pictures:
         image = matplotlib.image.imread(io.BytesIO(shown.png))
-        # the sheets alone cover far more than a tenth of a view, the lines of a section 1 %
+        # the sheets cover far more than a tenth of a view, the lines of a section 1 %
         drawn = (image[..., :3] < 0.9).any(axis=2).mean()
         assert drawn > (0.01 if shown.name == "section" else 0.1)
 
 
-def test_the_valve_of_a_file_closes_under_its_own_pressure_unless_told_another(tmp_path):
+def test_the_valve_of_a_file_closes_under_its_own_pressure_unless_given_another(tmp_path):
     with mvs.Simulator() as sim:
         sim.generate(vertices=200)
         sim.set_load(3e3)
@@ -45,7 +45,7 @@ def test_the_valve_of_a_file_closes_under_its_own_pressure_unless_told_another(t
         assert case.closed.load_case.pressure == pressure
 
 
-def test_the_page_needs_nothing_else(case, pictures):
+def test_the_page_is_self_contained(case, pictures):
     text = page.build([case], pictures)
     assert text.count("data:image/png;base64,") == len(pictures)
     assert not re.search(r"(src|href)=\"(?!data:)", text)
@@ -75,7 +75,7 @@ def test_unrolled_leaflets_hang_from_the_annulus(opened):
     flat = geometry.unroll(drawing)
     assert (flat.down[opened.annulus_nodes] == 0).all()
     assert flat.width == pytest.approx(opened.measures.annulus_perimeter * 1e3, rel=0.05)
-    # only the triangles that lie over the cut are left out: a strip two triangles wide at most
+    # only triangles across the cut are left out: a strip at most two triangles wide
     assert len(flat.triangles) > 0.9 * len(drawing.triangles)
     leaflet = opened.triangle_leaflet[flat.rows]
     left, right = (flat.across[flat.triangles[leaflet == k]].mean() for k in (0, 1))
@@ -88,7 +88,7 @@ def test_the_ensemble_has_a_picture_and_every_figure(case):
     each = ensemble.Run("thin", "Thin <valve>", case.opened.ensemble(mvs.SYSTOLE_PA, members=2))
     png = ensemble.picture_of(each, 50.0)
     image = matplotlib.image.imread(io.BytesIO(png))
-    # as the other maps: the sheets cover far more than a tenth
+    # the sheets cover far more than a tenth of the picture
     assert (image[..., :3] < 0.9).any(axis=2).mean() > 0.1
     text = ensemble.as_html([each], {"thin": png})
     assert text.count("data:image/png;base64,") == 1

@@ -1,4 +1,4 @@
-"""Settling and stepping: repeatable, open to other threads, and stoppable."""
+"""Settling and stepping: reproducible, usable with threads, and cancellable."""
 
 import signal
 import threading
@@ -44,7 +44,7 @@ def test_other_python_threads_run_while_it_settles():
         time.sleep(0.001)
         ticks += 1
     thread.join()
-    # held, the interpreter would let this loop run only between calls: a handful of times
+    # a held interpreter would let this loop run only between calls
     assert ticks > 20
 
 
@@ -72,7 +72,7 @@ def test_threads_that_share_a_simulator_take_turns(sim):
     assert np.isfinite(sim.snapshot().node_position).all()
 
 
-def test_progress_tells_share_and_residual(sim):
+def test_progress_reports_share_and_residual(sim):
     seen = []
     sim.set_load(mvs.SYSTOLE_PA)
     sim.settle(progress=lambda share, residual: seen.append((share, residual)))
@@ -88,7 +88,7 @@ def test_progress_that_returns_true_cancels_and_changes_nothing(sim):
     assert sim.snapshot().hash == before
 
 
-def test_an_exception_in_progress_stops_and_comes_out(sim):
+def test_an_exception_in_progress_stops_and_is_raised(sim):
     sim.set_load(mvs.SYSTOLE_PA)
     before = sim.snapshot().hash
 
@@ -100,7 +100,7 @@ def test_an_exception_in_progress_stops_and_comes_out(sim):
     assert sim.snapshot().hash == before
 
 
-def test_a_callback_may_look_but_not_work(sim):
+def test_a_callback_may_take_snapshots_but_not_settle(sim):
     sim.set_load(mvs.SYSTOLE_PA)
     before = sim.snapshot().hash
     seen = []
@@ -117,7 +117,7 @@ def test_ctrl_c_stops_a_settle(sim):
     def interrupt(share, residual):
         signal.raise_signal(signal.SIGINT)
 
-    # a shell that runs the tests in the background has them ignore the signal
+    # tests in the background of a shell ignore the signal
     kept = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with pytest.raises(KeyboardInterrupt):
@@ -154,7 +154,7 @@ def test_stats_and_load_can_be_read_back(sim):
     assert stats.profile.terms_s > 0 and stats.profile.factor_s > 0 and stats.profile.solve_s > 0
 
 
-def test_an_explicit_step_too_large_for_a_stiff_valve_says_so(real_valves):
+def test_an_explicit_step_too_large_for_a_stiff_valve_diverges(real_valves):
     folder = real_valves / "texas_trivalve_1.1_healthy"
     if not folder.is_dir():
         pytest.skip(f"no {folder}")
@@ -162,6 +162,6 @@ def test_an_explicit_step_too_large_for_a_stiff_valve_says_so(real_valves):
         sim.load(folder / "Healthy_QuasiStatic.inp")
         sim.coarsen(vertices=800)
         sim.set_load(3060.0)
-        # nodes were a billion km away before a force was no number, and the grid had no room
+        # nodes leave the range of the broad phase before a force is not finite
         with pytest.raises(mvs.DivergedError, match="time step is too large"):
             sim.settle(solver="explicit", dt=8e-6, max_iterations=2000)

@@ -1,4 +1,4 @@
-"""The stubs say what the module has."""
+"""The stubs match the module."""
 
 import re
 import subprocess
@@ -8,8 +8,8 @@ import mvs
 
 
 def test_stubs_match_the_module(tmp_path):
-    # set_valve, check_valve and __exit__ take *args at run time, the stubs say which; the classes
-    # of an extension have a metaclass of their own, and a Snapshot is made by a Simulator only
+    # set_valve, check_valve and __exit__ take *args at run time, and the stubs name them; classes
+    # of an extension have another metaclass, and only a Simulator creates a Snapshot
     allowed = tmp_path / "allowed.txt"
     allowed.write_text(
         "\n".join(

@@ -1,4 +1,4 @@
-"""A real valve beside Abaqus, on a coarse level (see tests/validation/texas.py for all tables)."""
+"""A real valve compared with Abaqus on a coarse level (all tables: tests/validation/texas.py)."""
 
 import mvs
 import numpy as np
@@ -44,7 +44,7 @@ def test_the_open_frame_is_the_valve_of_the_input(data, opened):
 
     errors = texas.errors_of(opened, texas.read_frame(data, texas.OPEN_FRAME))
     assert errors.nodes == 8587
-    # the frames are in single precision: 20 mm to 7 digits
+    # frames have single precision: 20 mm with 7 digits
     assert errors.max < 2e-8
 
 
@@ -66,7 +66,7 @@ def test_quads_cut_the_other_way_cover_the_same_surface(frame, opened):
         return {(a, b) for t in triangles.tolist() for a, b in zip(t, t[1:] + t[:1])}
 
     before, after = sides(opened.triangle_nodes), sides(valve.triangles)
-    # the sides of quads stay, turned as they were; every diagonal goes, once from each triangle
+    # the sides of quads keep their orientation; every diagonal is replaced, once in each triangle
     kept = {frozenset(side) for side in before & after}
     assert kept == {frozenset(side) for side in sides(frame.quads)}
     assert len(before - after) == len(after - before) == 2 * len(frame.quads)
@@ -76,11 +76,11 @@ def test_it_closes_as_abaqus_closes_it(result):
     assert result.stats.converged
     assert result.closed.measures.intersections == 0
     assert result.errors.nodes == VERTICES
-    # what the issue asks of about 1,500 vertices; measured is in tests/validation/README.md
+    # required for about 1,500 vertices; tests/validation/README.md has the measured errors
     assert result.errors.rms <= 0.7e-3
 
 
-def test_its_boundary_goes_where_the_input_puts_it(frame, result):
+def test_its_boundary_follows_the_input(frame, result):
     import texas
 
     rows, origin = texas.kept_nodes(result.closed, len(frame.points))

@@ -1,4 +1,4 @@
-"""Another tissue for the leaflets: laws by their names, and what is refused."""
+"""Material laws of the leaflets: selection by name, and refusals."""
 
 import mvs
 import numpy as np
@@ -9,7 +9,7 @@ LAWS = [law.name.lower() for law in mvs.LeafletLaw]
 
 @pytest.mark.parametrize("law", LAWS)
 def test_a_valve_closes_with_a_law_by_its_name(sim, law):
-    # a neo-Hookean sheet of 100 kPa does not stiffen and would be blown up; 2 MPa would not
+    # a neo-Hookean sheet of 100 kPa does not stiffen and would inflate; 2 MPa does not
     sim.set_leaflet(law=law, constants=(2e6,) if law == "neo_hookean" else ())
     sim.set_load(mvs.SYSTOLE_PA)
     stats = sim.settle()
@@ -21,12 +21,12 @@ def test_a_valve_closes_with_a_law_by_its_name(sim, law):
 
 def test_springs_become_the_membrane_of_their_curve(sim):
     sim.set_leaflet(law="bilinear")
-    # the fit that FEBio was given for the curve 100 kPa, 6 MPa, 0.25 (include/mvs/valve.h)
+    # the fit of the FEBio model to the curve 100 kPa, 6 MPa, 0.25 (include/mvs/valve.h)
     fit = [18.49e3, 3146e3, 3.1611, 0.006]
     assert sim.snapshot().leaflet_constants[0, 1:5] == pytest.approx(fit, rel=1e-12)
 
 
-def test_one_leaflet_is_named_and_the_other_stays(sim):
+def test_a_named_leaflet_changes_and_the_other_stays(sim):
     before = sim.snapshot()
     sim.set_leaflet("P", law=mvs.LeafletLaw.MAY_NEWMAN_YIN, constants=(414, 4.848, 305.4),
                     thickness=0.8e-3)
@@ -54,7 +54,7 @@ def test_one_leaflet_is_named_and_the_other_stays(sim):
         ({"law": "fung", "thickness": -1e-3}, mvs.OpError, "thickness"),
     ],
 )
-def test_what_is_no_tissue_is_refused_and_changes_nothing(sim, arguments, error, words):
+def test_invalid_tissue_is_refused_and_changes_nothing(sim, arguments, error, words):
     before = sim.snapshot().hash
     with pytest.raises(error, match=words):
         sim.set_leaflet(**arguments)
@@ -75,13 +75,13 @@ def test_a_law_is_required(sim):
     ],
 )
 def test_a_resected_leaflet_that_stiffens_exponentially_comes_to_rest(sim, law, dimensions):
-    """Hundreds of newtons at the seam, kept there by a few nodes that others stop."""
+    """Forces of hundreds of newtons at the seam, where contact stops a few nodes."""
     sim.generate(**dimensions)
     sim.set_leaflet(law=law)
     sim.set_load(mvs.SYSTOLE_PA)
     assert sim.settle().converged
     sim.apply("resect")
-    assert sim.settle(max_iterations=600).converged  # about 60, 120, 60; over 1,000 before
+    assert sim.settle(max_iterations=600).converged  # takes about 60, 120, 60
     assert sim.snapshot().measures.intersections == 0
 
 
@@ -94,8 +94,8 @@ def test_a_resected_leaflet_that_stiffens_exponentially_comes_to_rest(sim, law, 
         ("band", {"factor": 0.7}),
     ],
 )
-def test_what_an_operation_tears_does_not_keep_a_valve_from_rest(sim, dimensions, kind, fields):
-    """Forces of 1e2 to 1e10 N in five of the six while exponents were followed to 100 MPa."""
+def test_a_valve_torn_by_an_operation_comes_to_rest(sim, dimensions, kind, fields):
+    """The exponential laws end at 100 kPa; up to 100 MPa forces would reach 1e2 to 1e10 N."""
     sim.generate(**dimensions)
     sim.set_leaflet(law="may_newman_yin")
     sim.set_load(mvs.SYSTOLE_PA)
@@ -114,12 +114,12 @@ def test_what_an_operation_tears_does_not_keep_a_valve_from_rest(sim, dimensions
     ],
 )
 def test_an_annulus_that_contracts_does_not_tear_tissue_in_live_steps(sim, law, dimensions):
-    """With the whole pressure at once; the forces were 1e7 to 1e9 N within some steps."""
+    """Full pressure at once: the hardest case for exponential laws."""
     sim.generate(**dimensions)
     sim.set_leaflet(law=law)
     sim.set_load(mvs.SYSTOLE_PA)
     worst = max(sim.step(1, dt=1e-3).residual for _ in range(40))
-    # tens of newtons; the pressure on a leaflet is 10
+    # tens of newtons; the pressure force on a leaflet is 10 N
     assert worst < 1e3
 
 
@@ -130,5 +130,5 @@ def test_a_step_of_a_contracting_annulus_stays_within_its_budget(sim, budget):
     sim.set_load(mvs.SYSTOLE_PA)
     for _ in range(60):
         stats = sim.step(1, dt=1e-3, budget=budget)
-        # and the forces before the first step
+        # plus the forces before the first step
         assert stats.profile.passes + stats.profile.factorisations <= budget + 1

@@ -1,4 +1,4 @@
-"""Instruments from Python: held, pushed, felt, from another thread, and back by undo."""
+"""Instruments from Python: grasping, pushing, forces, threads, undo."""
 
 import base64
 import json
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 
-def test_a_leaflet_is_held_pulled_and_let_go(sim):
+def test_a_leaflet_is_grasped_pulled_and_released(sim):
     edge = sim.snapshot().free_edge_nodes[0]
     at = sim.snapshot().node_position[edge]
     tool = sim.add_tool("grasp", at)
@@ -22,7 +22,7 @@ def test_a_leaflet_is_held_pulled_and_let_go(sim):
     pulled = sim.snapshot()
     (seen,) = pulled.tools
     np.testing.assert_array_equal(seen.proxy, pulled.node_position[edge])
-    # the spring of the hand, by hand
+    # the formula of the spring of the hand
     np.testing.assert_allclose(seen.force, 200 * (seen.proxy - seen.position), rtol=1e-12)
     sim.remove_tool(tool)
     assert sim.snapshot().tools == ()
@@ -67,7 +67,7 @@ def test_a_hand_moves_while_the_simulator_works(sim):
     assert sim.tool(tool).position[2] == 0.05 - 1e-5 * 199
 
 
-def test_a_plan_leaves_tools_that_are_held_alone(sim):
+def test_a_plan_does_not_change_held_tools(sim):
     edge = sim.snapshot().free_edge_nodes
     at = sim.snapshot().node_position
     with mvs.Simulator() as other:

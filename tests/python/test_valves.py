@@ -1,4 +1,4 @@
-"""Valves from arrays: any strides, no silent casts, and the way from a snapshot and back."""
+"""Valves from arrays: any strides, no silent casts, and the round trip through a snapshot."""
 
 import dataclasses
 import warnings
@@ -38,7 +38,7 @@ def every_second(array):
 
 
 def padded_rows(array):
-    """The same values with space between the rows only: read in place."""
+    """The same values with gaps between rows, which are read in place."""
     wide = np.zeros((len(array), 2 if array.ndim == 1 else array.shape[1] + 1), dtype=array.dtype)
     if array.ndim == 1:
         wide[:, 0] = array
@@ -142,7 +142,7 @@ def test_dimensions_reach_the_generator():
         large = sim.snapshot()
         sim.generate(annulus_ap=24e-3, annulus_cc=32e-3)
         small = sim.snapshot()
-    # a polygon through the annulus is a little narrower than the curve it samples
+    # a polygon through the annulus is slightly narrower than the curve
     assert large.measures.annulus_ap == pytest.approx(30e-3, rel=0.03)
     assert large.measures.annulus_cc == pytest.approx(40e-3, rel=0.03)
     assert small.measures.annulus_cc == pytest.approx(32e-3, rel=0.03)
@@ -154,23 +154,23 @@ def test_dimensions_are_keywords_only(sim):
         sim.generate(500)
 
 
-def test_what_looks_like_another_unit_is_warned_of(valve):
+def test_values_like_another_unit_are_warned_of(valve):
     valve.chord_young[:] *= 1e-3
     with pytest.warns(mvs.ValveWarning, match="kPa or MPa given as Pa"):
         set_and_look(valve)
-    told = []
-    with mvs.Simulator(log=lambda level, text: told.append(text)) as sim:
+    messages = []
+    with mvs.Simulator(log=lambda level, text: messages.append(text)) as sim:
         with warnings.catch_warnings():
-            warnings.simplefilter("error")  # who has a log is not warned twice
+            warnings.simplefilter("error")  # a simulator with a log issues no warning
             sim.set_valve(valve)
             sim.set_load(120)
-    assert any("looks like mmHg given as Pa" in text for text in told)
+    assert any("looks like mmHg given as Pa" in text for text in messages)
 
 
-def test_a_valve_as_tissue_is_warns_of_nothing(valve):
+def test_a_valid_valve_issues_no_warning(valve):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         with mvs.Simulator() as sim:
             sim.set_valve(valve)
             sim.set_load(mvs.SYSTOLE_PA)
-            assert not sim.settle(max_iterations=1).converged  # its result says so
+            assert not sim.settle(max_iterations=1).converged  # reported by the result

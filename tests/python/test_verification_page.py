@@ -1,4 +1,4 @@
-"""The page of the verification suite, from tables as `verification --tables` writes them."""
+"""The page of the verification suite, from the tables of `verification --tables`."""
 
 import importlib.util
 import pathlib
@@ -25,7 +25,7 @@ def report():
     path = pathlib.Path(__file__).parents[1] / "verification" / "report.py"
     spec = importlib.util.spec_from_file_location("verification_report", path)
     module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # dataclasses look their module up
+    sys.modules[spec.name] = module  # dataclasses look up their module
     spec.loader.exec_module(module)
     return module
 
@@ -37,7 +37,7 @@ def studies(report, tmp_path):
     return report.read(tmp_path)
 
 
-def test_tables_are_read_as_they_were_written(studies):
+def test_tables_are_read_unchanged(studies):
     study = studies["hencky_disc"]
     assert study.verdict == "holds"
     assert [row.level for row in study.rows] == [0.002, 0.001]
@@ -45,7 +45,7 @@ def test_tables_are_read_as_they_were_written(studies):
     assert list(study.series()) == [("rings, of triangles", 0)]
 
 
-def test_the_page_shows_every_row_and_needs_nothing_else(report, studies):
+def test_the_page_is_self_contained_and_shows_every_row(report, studies):
     png = report.convergence_picture(studies)
     text = report.page(studies, [("convergence", "errors", png)])
     assert text.count("data:image/png;base64,") == 1
@@ -55,7 +55,7 @@ def test_the_page_shows_every_row_and_needs_nothing_else(report, studies):
         assert cell in text
 
 
-def test_without_tables_there_are_no_pictures_that_need_them(report, studies):
+def test_pictures_without_tables_are_left_out(report, studies):
     for _, _, draw, needs in report.PICTURES:
         if all(need in studies for need in needs):
             assert draw(studies).startswith(b"\x89PNG")

@@ -1,4 +1,4 @@
-"""Arrays of a snapshot are the library's own memory: read-only, and never dangling."""
+"""Arrays of a snapshot are views of the library's memory: read-only, and never dangling."""
 
 import gc
 import re
@@ -67,7 +67,7 @@ def test_a_view_outlives_snapshot_and_simulator():
     sim.close()
     del sim
     gc.collect()
-    # the memory would be reused by as many valves again, were it free
+    # freed memory would be reused by the next valves
     others = []
     for _ in range(8):
         other = mvs.Simulator()
@@ -76,7 +76,7 @@ def test_a_view_outlives_snapshot_and_simulator():
     assert np.array_equal(positions, before)
 
 
-def test_a_snapshot_is_unchanged_by_what_its_simulator_does_next(sim):
+def test_a_snapshot_is_independent_of_later_calls(sim):
     snapshot = sim.snapshot()
     before, hash_before = snapshot.node_position.copy(), snapshot.hash
     sim.set_load(mvs.SYSTOLE_PA)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import mvs
 import numpy as np
-from mvs.report.geometry import edges_of, ways_along
+from mvs.mesh import edges_of, shortest_paths
 
 FILE = Path("kaiser_mitral_normal_1") / "N64.json"
 
@@ -112,7 +112,7 @@ def leaflet_of_triangles(
     ring = rest[annulus]
     longest = np.linalg.svd(ring - ring.mean(axis=0))[2][0]
     ends = sorted([int(np.argmin(ring @ longest)), int(np.argmax(ring @ longest))])
-    way, nearest = ways_along(rest, edges_of(triangles.astype(np.int64)), annulus)
+    way, nearest = shortest_paths(rest, edges_of(triangles.astype(np.int64)), annulus)
     middle = np.median(nearest[triangles], axis=1)
     inside = (middle >= ends[0]) & (middle < ends[1])
     tall = [way[triangles[side]].max() for side in (inside, ~inside)]

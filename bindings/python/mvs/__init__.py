@@ -23,6 +23,7 @@ from ._core import (
     chord_limits,
     leaflet_law,
 )
+from .arrays import Curve, Law, LawConstant, Leaflet, Ring, Valve
 from .editing import valve_of
 from .errors import (
     ArgumentError,
@@ -41,39 +42,35 @@ from .errors import (
     ValveWarning,
     VersionError,
 )
-from .ops import Operation, Site
-from .values import (
+from .kinds import (
     MMHG,
     SYSTOLE_PA,
     ChordKind,
     ChordLaw,
+    EnsembleOrder,
+    LeafletLaw,
+    NodeKind,
+    PartKind,
+    RingKind,
+    ToolKind,
+)
+from .ops import Operation, Site
+from .values import (
     ChordLimits,
     Coarsening,
     Comparison,
-    Curve,
     EnsembleMember,
-    EnsembleOrder,
     EnsembleSummary,
     Fault,
     Frame,
     HistoryEntry,
-    Law,
-    LawConstant,
-    Leaflet,
-    LeafletLaw,
     Load,
     Measures,
-    NodeKind,
     Part,
-    PartKind,
     Profile,
     Replay,
-    Ring,
-    RingKind,
     Stats,
     Tool,
-    ToolKind,
-    Valve,
     definition_of,
     unit_of,
 )

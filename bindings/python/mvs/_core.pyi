@@ -1,4 +1,4 @@
-"""The C interface of libmvs for Python; shapes, units and errors stand in the docstrings."""
+"""Types of the C interface of libmvs for Python; docstrings have shapes, units and errors."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import haptics
+from .arrays import Law, Leaflet, Valve
+from .kinds import LeafletLaw, PartKind
 from .ops import Group, Operation
 from .values import (
     ChordLimits,
@@ -19,17 +21,12 @@ from .values import (
     Fault,
     Frame,
     HistoryEntry,
-    Law,
-    Leaflet,
-    LeafletLaw,
     Load,
     Measures,
     Part,
-    PartKind,
     Replay,
     Stats,
     Tool,
-    Valve,
 )
 
 _F64 = NDArray[np.float64]
@@ -51,7 +48,9 @@ def chord_limits(kind: int) -> ChordLimits: ...
 @overload
 def check_valve(valve: Valve, /) -> list[Fault]: ...
 @overload
-def check_valve(nodes: NDArray[Any], triangles: _U32, annulus: _U32, **arrays: Any) -> list[Fault]: ...
+def check_valve(
+    nodes: NDArray[Any], triangles: _U32, annulus: _U32, **arrays: Any
+) -> list[Fault]: ...
 
 def drivers() -> list[tuple[str, str]]: ...
 def devices(driver: str, options: str) -> list[tuple[str, str]]: ...

@@ -1,4 +1,4 @@
-"""The fields of operations: what may be given for each type, and what the C interface gets."""
+"""The fields of operations: reads values given in Python and converts them for the C interface."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import ArgumentError
-from .values import Part, PartKind
+from .kinds import PartKind
+from .values import Part
 
 if TYPE_CHECKING:
     from ._core import Snapshot
@@ -41,7 +42,7 @@ _PARTS = {
 
 _WANTED = {
     FieldType.NUMBER: "a number",
-    FieldType.COUNT: "a whole number from 0 on",
+    FieldType.COUNT: "a non-negative integer",
     FieldType.CHOICE: "a word",
     FieldType.CHORD: "the name or id of a chord",
     FieldType.HEAD: "the name or id of a papillary head",
@@ -56,12 +57,12 @@ _WANTED = {
 
 @dataclasses.dataclass(frozen=True)
 class Site:
-    """A place on a leaflet: a node, a place in a triangle, or a place in a scallop.
+    """A site on a leaflet: a node, a point of a triangle, or a point of a scallop.
 
-    node: its index
-    triangle: its index, with ``barycentric`` coordinates of sum 1
-    scallop: its name or id; ``along`` it from 0, its end towards the negative CC axis, to 1; and
-        ``height`` from 0, the annulus, to 1, the free edge
+    node: index
+    triangle: index; ``barycentric`` are its coordinates, with sum 1
+    scallop: name or id; ``along``: 0 at its end towards the negative CC axis, 1 at the other;
+        ``height``: 0 at the annulus, 1 at the free edge
     """
 
     node: Optional[int] = None
@@ -91,8 +92,8 @@ class Site:
 class OpField:
     """A field of an operation, as the library describes it.
 
-    low, high: the range of a number, in ``unit``; of the count of points; of the bytes of a text
-    choices: the words it can be and their numbers in C
+    low, high: range of a number in ``unit``, of the count of points, or of the bytes of a text
+    choices: the accepted words and their numbers in C
     """
 
     kind: str
@@ -107,15 +108,15 @@ class OpField:
     choices: tuple[tuple[str, int], ...]
 
     @classmethod
-    def told(cls, kind: str, fields: dict[str, Any]) -> OpField:
-        """From what the binding tells of a field."""
+    def described_by(cls, kind: str, fields: dict[str, Any]) -> OpField:
+        """The field that a dictionary of the binding describes."""
         pairs = (word.split("=") for word in fields["choices"].split())
         choices = tuple((word, int(number)) for word, number in pairs)
         read = {"kind": kind, "type": FieldType(fields["type"]), "choices": choices}
         return cls(**{**fields, **read})
 
     def with_unit(self) -> str:
-        """The name, and the unit if it has one: "length (m)"."""
+        """The name with the unit: "length (m)"."""
         return f"{self.name} ({self.unit})" if self.unit else self.name
 
     def described(self) -> str:
@@ -128,27 +129,27 @@ class OpField:
         return words
 
     def read(self, value: Any) -> Any:
-        """The value as an Operation holds it; ArgumentError for a wrong type."""
+        """The value as an Operation stores it; ArgumentError for a wrong type."""
         try:
             read = _READERS[self.type](self, value)
         except (TypeError, ValueError, OverflowError):
             self._refuse(value)
         if self._means_default(read):
             raise ArgumentError(
-                f"{self.kind}: {self.name} is 0, it has to be {self.low:g} to {self.high:g}; leave "
-                "it out for its default",
+                f"{self.kind}: {self.name} is 0, the range is {self.low:g} to {self.high:g}; omit "
+                "it for its default",
                 f"{self.kind}.{self.name}",
             )
         return read
 
     def shown(self, value: Any) -> str:
-        """The value as in source code; many points as their number."""
+        """The value as source code; more than four points as their count."""
         if isinstance(value, np.ndarray):
             return repr(value.tolist()) if len(value) <= 4 else f"<{len(value)} points>"
         return repr(value)
 
     def _means_default(self, value: Any) -> bool:
-        # a zero in the struct of C is a field that was not given: it must not pass for a value
+        # 0 in the C struct means "not given"
         numeric = self.type in (FieldType.NUMBER, FieldType.COUNT)
         return bool(numeric and value == 0 and not self.low <= 0 <= self.high)
 
@@ -158,7 +159,7 @@ class OpField:
             wanted = "one of " + ", ".join(f'"{word}"' for word, _ in self.choices)
         unit = f" in {self.unit}" if self.unit else ""
         shown = repr(value) if len(repr(value)) < 60 else type(value).__name__
-        sentence = f"{self.kind}: {self.name} has to be {wanted}{unit}, not {shown}"
+        sentence = f"{self.kind}: {self.name} must be {wanted}{unit}, not {shown}"
         raise ArgumentError(sentence, f"{self.kind}.{self.name}") from None
 
 
@@ -259,7 +260,7 @@ _READERS = {
 
 
 def resolve(field: OpField, value: Any, snapshot: Snapshot) -> Any:
-    """What the C interface gets for a value that ``read`` gave; names are looked up."""
+    """Converts a value of ``read`` for the C interface; looks up names in the snapshot."""
     if field.type in _PARTS:
         return _id(snapshot, _PARTS[field.type], value)
     if field.type == FieldType.CHOICE:

@@ -1,4 +1,4 @@
-"""A whole valve as arrays, with its tissue, rings and curves. SI units throughout."""
+"""A valve as arrays, with its tissue, rings and curves, in SI units."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .kinds import LeafletLaw, RingKind
 
 @dataclasses.dataclass(frozen=True)
 class LawConstant:
-    """A constant of a law: its word in files, its unit ("" for a pure number), default and range."""
+    """A constant of a law: key in files, unit ("" for a pure number), default and range."""
 
     key: str
     unit: str
@@ -24,7 +24,7 @@ class LawConstant:
 
 @dataclasses.dataclass(frozen=True)
 class Law:
-    """A law of tissue: its word in files and commands, its name, and its constants in order."""
+    """A material law: word in files and commands, name, and constants in order."""
 
     word: str
     name: str
@@ -33,7 +33,7 @@ class Law:
 
 @dataclasses.dataclass(frozen=True)
 class Leaflet:
-    """A leaflet and its tissue; zeros take the library's defaults.
+    """A leaflet and its tissue; zeros mean the library's defaults.
 
     thickness: m
     constants: of the law, at most 8, moduli in Pa; for the spring sheet Young's modulus below and
@@ -52,9 +52,9 @@ Array = Optional[NDArray[Any]]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Ring:
-    """A ring or band that is sewn to the annulus, to be drawn.
+    """A ring or band on the annulus, for drawing.
 
-    Where it holds the annulus is in ``nodes_open`` and ``nodes_loaded``.
+    ``nodes_open`` and ``nodes_loaded`` hold its effect on the annulus.
     curve: float64 or float32 (k, 3), m, its points in order
     """
 
@@ -66,10 +66,10 @@ class Ring:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Curve:
-    """A measured curve that chordae of ``ChordLaw.TABLE`` follow.
+    """A measured stress-strain curve for chordae of ``ChordLaw.TABLE``.
 
-    points: float64 or float32 (k, 2): strain, rising, and nominal stress in Pa, not falling; 0 at
-        the first point, where the chord gets taut
+    points: float64 or float32 (k, 2): increasing strain, non-decreasing nominal stress in Pa; the
+        stress is 0 at the first point, where the chord becomes taut
     """
 
     name: str
@@ -79,31 +79,31 @@ class Curve:
 
 @dataclasses.dataclass(eq=False)
 class Valve:
-    """A whole valve as arrays: n nodes, m triangles, l leaflets, c chord segments, h heads.
+    """A valve as arrays: n nodes, m triangles, l leaflets, c chord segments, h heads.
 
     Nodes are one list: leaflet vertices, branch points of chordae and papillary heads. ``None``
-    takes the library's default. Arrays may have any strides; their dtype must be the one stated,
-    since a silent cast of indices or lengths hides a fault. Lengths in m.
+    means the library's default. Arrays may have any strides; their dtype must be the stated one,
+    because a silent cast of indices or lengths would hide an error. Lengths in m.
     """
 
     nodes: Array
     """float64 or float32 (n, 3): the open, unloaded valve"""
     triangles: Array
-    """uint32 (m, 3): wound so that normals point into the atrium (or see ``orient``)"""
+    """uint32 (m, 3): normals point into the atrium (or see ``orient``)"""
     annulus: Array
-    """uint32 (k,): the boundary loop held by the heart, in order"""
+    """uint32 (k,): the annulus, a loop of boundary nodes in order"""
     leaflets: Sequence[Union[str, Leaflet]] = ("M",)
     """names, or leaflets with their tissue"""
     triangle_leaflet: Array = None
     """uint32 (m,): index into leaflets; None: all 0"""
     nodes_loaded: Array = None
-    """float64 or float32 (n, 3): where annulus and heads go under load; other rows are ignored"""
+    """float64 or float32 (n, 3): loaded positions of annulus and heads; other rows are ignored"""
     nodes_open: Array = None
-    """float64 or float32 (n, 3): where annulus and heads are without load; None: ``nodes``"""
+    """float64 or float32 (n, 3): positions of annulus and heads without load; None: ``nodes``"""
     nodes_now: Array = None
-    """float64 or float32 (n, 3): the shape to start from; None: ``nodes``"""
+    """float64 or float32 (n, 3): the start shape; None: ``nodes``"""
     node_origin: Array = None
-    """uint32 (n,): ``Snapshot.node_origin`` of a valve that was operated on"""
+    """uint32 (n,): ``Snapshot.node_origin`` of a valve after operations"""
     scallops: Optional[Sequence[str]] = None
     """names; None: one per leaflet"""
     scallop_id: Array = None
@@ -129,11 +129,11 @@ class Valve:
     chord_constants: Array = None
     """float64 (c, 6): of the law; for ChordLaw.TABLE the index of its curve first"""
     curves: Sequence[Curve] = ()
-    """measured curves that chordae follow"""
+    """measured stress-strain curves of chordae"""
     chord_id: Array = None
     """uint64 (c,)"""
     chord_names: Optional[Sequence[str]] = None
-    """None: made from kind and scallop, "P2/3" """
+    """None: built from kind and scallop, "P2/3" """
     head_nodes: Array = None
     """uint32 (h,)"""
     head_id: Array = None
@@ -141,7 +141,7 @@ class Valve:
     head_names: Optional[Sequence[str]] = None
     """None: "PM1", "PM2", ..."""
     rings: Sequence[Ring] = ()
-    """rings and bands sewn to the annulus"""
+    """rings and bands on the annulus"""
     name: str = "valve"
     density: Optional[float] = None
     """kg/m3"""
@@ -152,4 +152,4 @@ class Valve:
     bending_scale: Optional[float] = None
     """factor on the plate stiffness; 0: no bending"""
     orient: bool = False
-    """turn triangles so that their normals point into the atrium"""
+    """reverse triangles where needed, so that normals point into the atrium"""

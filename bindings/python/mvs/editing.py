@@ -1,18 +1,35 @@
-"""A snapshot as editable arrays, so that a valve can be changed and set again."""
+"""Copies the valve of a snapshot to editable arrays."""
 
 from __future__ import annotations
 
-from ._core import Snapshot
-from .values import Curve, Leaflet, LeafletLaw, PartKind, Ring, RingKind, Valve
-
 import numpy as np
+
+from ._core import Snapshot
+from .arrays import Curve, Leaflet, Ring, Valve
+from .kinds import LeafletLaw, PartKind, RingKind
+
+
+_COPIED = {
+    "nodes": "node_rest",
+    "nodes_loaded": "node_loaded",
+    "nodes_open": "node_open",
+    "nodes_now": "node_position",
+    "triangles": "triangle_nodes",
+    "annulus": "annulus_nodes",
+    **{name: name for name in (
+        "node_origin", "triangle_leaflet", "triangle_scallop", "triangle_thickness",
+        "triangle_fibre", "chord_nodes", "chord_rest_length", "chord_kind", "chord_young",
+        "chord_area", "chord_law", "chord_constants", "chord_id", "head_nodes",
+    )},
+}
+"""The array of mvs.Snapshot for each array of mvs.Valve."""
 
 
 def valve_of(snapshot: Snapshot) -> Valve:
-    """The valve of a snapshot as arrays of its own, ids and names included.
+    """Copies the valve of a snapshot to arrays, with ids and names.
 
-    ``sim.set_valve(mvs.valve_of(snapshot))`` sets the same valve; change the arrays before it to
-    set another one. The shape to start from is the snapshot's; velocities are not part of a valve.
+    ``sim.set_valve(mvs.valve_of(snapshot))`` sets the same valve; change the arrays first to set a
+    different one. The start shape is that of the snapshot; velocities are not part of a valve.
     """
     parts = {kind: [p for p in snapshot.parts if p.kind == kind] for kind in PartKind}
     leaflets = [
@@ -22,32 +39,14 @@ def valve_of(snapshot: Snapshot) -> Valve:
         )
     ]
     density, contact_thickness, contact_stiffness, bending = map(float, snapshot.valve_constants)
+    copied = {field: getattr(snapshot, array).copy() for field, array in _COPIED.items()}
     return Valve(
-        nodes=snapshot.node_rest.copy(),
-        triangles=snapshot.triangle_nodes.copy(),
-        annulus=snapshot.annulus_nodes.copy(),
+        **copied,
         leaflets=leaflets,
-        triangle_leaflet=snapshot.triangle_leaflet.copy(),
-        nodes_loaded=snapshot.node_loaded.copy(),
-        nodes_open=snapshot.node_open.copy(),
-        nodes_now=snapshot.node_position.copy(),
-        node_origin=snapshot.node_origin.copy(),
         scallops=[part.name for part in parts[PartKind.SCALLOP]],
         scallop_id=_ids(parts[PartKind.SCALLOP]),
-        triangle_scallop=snapshot.triangle_scallop.copy(),
-        triangle_thickness=snapshot.triangle_thickness.copy(),
-        triangle_fibre=snapshot.triangle_fibre.copy(),
-        chord_nodes=snapshot.chord_nodes.copy(),
-        chord_rest_length=snapshot.chord_rest_length.copy(),
-        chord_kind=snapshot.chord_kind.copy(),
-        chord_young=snapshot.chord_young.copy(),
-        chord_area=snapshot.chord_area.copy(),
-        chord_law=snapshot.chord_law.copy(),
-        chord_constants=snapshot.chord_constants.copy(),
         curves=_curves(snapshot, parts[PartKind.CURVE]),
-        chord_id=snapshot.chord_id.copy(),
         chord_names=[part.name for part in parts[PartKind.CHORD]],
-        head_nodes=snapshot.head_nodes.copy(),
         head_id=_ids(parts[PartKind.HEAD]),
         head_names=[part.name for part in parts[PartKind.HEAD]],
         rings=_rings(snapshot, parts[PartKind.RING]),

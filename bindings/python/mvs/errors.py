@@ -1,14 +1,14 @@
-"""What the library raises: one class a result code, each with the sentence of the C library."""
+"""Exceptions: one class per result code, with the sentence of the C library."""
 
 from __future__ import annotations
 
 
 class Error(Exception):
-    """A call that failed; the simulator is bit for bit as it was before.
+    """A failed call; the simulator is unchanged, bit for bit.
 
     code: the negative ``MVS_E_*`` number of the C interface
-    part: the part of the valve, or the argument, it is about ("triangle 17", "nodes"), or ""
-    line: the 1-based line of the file being read, 0 if there is none
+    part: the part of the valve or the argument at fault ("triangle 17", "nodes"), or ""
+    line: 1-based line of the file, 0 without a file
     """
 
     code: int = 0
@@ -25,13 +25,13 @@ class Error(Exception):
 
 
 class ValveWarning(UserWarning):
-    """What can be but hardly is: a number that looks like one of another unit, a triangle like a
-    needle, a line of a file that is left out. A simulator with a ``log`` tells it there instead.
+    """A suspicious input: a number that looks like another unit, a needle triangle, an ignored line
+    of a file. A simulator with a ``log`` reports it there instead.
     """
 
 
 class ArgumentError(Error, ValueError):
-    """A value that is wrong: a dtype, a shape, a range."""
+    """A wrong value: dtype, shape or range."""
 
     code = -1
 
@@ -43,43 +43,43 @@ class IdError(Error, LookupError):
 
 
 class StateError(Error):
-    """The call does not fit the simulator's state, e.g. there is no valve yet."""
+    """The call does not fit the state of the simulator, e.g. it has no valve."""
 
     code = -3
 
 
 class OpError(Error, ValueError):
-    """A valve, or a surgical operation, that cannot be."""
+    """An invalid valve, or an impossible surgical operation."""
 
     code = -4
 
 
 class DivergedError(Error, ArithmeticError):
-    """The numbers left the range in which they mean something."""
+    """The solution left the range of finite, meaningful numbers."""
 
     code = -5
 
 
 class FormatError(Error, ValueError):
-    """A file that is not what it should be; ``line`` says where."""
+    """A file with a wrong format; ``line`` is the line."""
 
     code = -6
 
 
 class VersionError(Error):
-    """A file of a version this library does not know."""
+    """A file of an unknown version."""
 
     code = -7
 
 
 class IoError(Error, OSError):
-    """The operating system refused to read or write."""
+    """The operating system could not read or write."""
 
     code = -8
 
 
 class DeviceError(Error):
-    """A haptic device or its driver."""
+    """An error of a haptic device or its driver."""
 
     code = -9
 
@@ -91,19 +91,19 @@ class LimitError(Error, MemoryError):
 
 
 class UnsupportedError(Error, NotImplementedError):
-    """This build lacks the part asked for."""
+    """This build lacks the requested part."""
 
     code = -11
 
 
 class InternalError(Error):
-    """A fault of the library itself: please report it."""
+    """A defect of the library; please report it."""
 
     code = -12
 
 
 class CancelledError(Error):
-    """The progress callback asked to stop."""
+    """The progress callback requested a stop."""
 
     code = -13
 

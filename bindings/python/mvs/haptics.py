@@ -1,7 +1,7 @@
-"""Haptic devices: which there are, and the plain values of ``mvs.Device``.
+"""Haptic devices: the installed drivers, and the values of ``mvs.Device``.
 
-SI units throughout; ``mvs.unit_of(mvs.haptics.State, "force")``. "Of the device" means its own
-frame: x to the user's right, y up, z towards the user, 0 the middle of its workspace.
+SI units throughout; ``mvs.unit_of(mvs.haptics.State, "force")``. "Device frame": x to the user's
+right, y up, z towards the user, origin in the middle of the workspace.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from . import _core
 
 Vector = NDArray[np.float64]
 Options = Optional[Mapping[str, Any]]
-"""Of a driver: a dictionary, whose values may be strings, paths or numbers."""
+"""Options of a driver: a dictionary whose values are strings, paths or numbers."""
 
 
 class HandMode(IntEnum):
-    """What a hand does in a valve; the names in small letters are those of Device.set_hand."""
+    """Mode of the hand; Device.set_hand takes the lower-case names."""
 
     LOOK = 0
     GRASP = 1
@@ -35,7 +35,7 @@ class HandMode(IntEnum):
 
 
 class Phase(IntEnum):
-    """Where the forces of a device stand."""
+    """Phase of the forces of a device."""
 
     STOPPED = 0
     OFF = 1
@@ -47,7 +47,7 @@ class Phase(IntEnum):
 
 
 class Cause(IntEnum):
-    """Why forces latched off."""
+    """Cause of a latch of the forces."""
 
     NONE = 0
     BUTTON = 1
@@ -62,7 +62,7 @@ class Cause(IntEnum):
 
 
 class Limited(IntFlag):
-    """What was done to a force."""
+    """Limits that changed a force."""
 
     FORCE = 1
     CONTINUOUS = 2
@@ -73,7 +73,7 @@ class Limited(IntFlag):
 
 
 class Event(IntFlag):
-    """What happened in Device.sync."""
+    """Events of Device.sync."""
 
     PRESSED = 1
     RELEASED = 2
@@ -89,7 +89,7 @@ class Event(IntFlag):
 
 @dataclasses.dataclass(frozen=True)
 class Driver:
-    """A driver that is installed."""
+    """An installed driver."""
 
     name: str
     path: str
@@ -97,7 +97,7 @@ class Driver:
 
 @dataclasses.dataclass(frozen=True)
 class Found:
-    """A device that a driver finds: the name that mvs.Device takes, and what it is."""
+    """A device found by a driver: its name for mvs.Device, and its model."""
 
     name: str
     model: str
@@ -105,11 +105,11 @@ class Found:
 
 @dataclasses.dataclass(frozen=True)
 class Finding:
-    """One check of a driver's doctor.
+    """One check of a driver.
 
     verdict: "good", "warning", "fault" or "note"
-    check: what was looked at
-    sentence: what was found, and what to do
+    check: subject of the check
+    sentence: result and remedy
     """
 
     verdict: str
@@ -119,48 +119,48 @@ class Finding:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Info:
-    """What a device is; numbers that its driver does not tell are those of the weakest one."""
+    """Properties of a device; unknown ones have the values of the weakest supported device."""
 
-    driver: Annotated[str, "1", "name of its driver"]
-    model: Annotated[str, "1", "as the driver says"]
-    serial: Annotated[str, "1", "as the driver says"]
-    firmware: Annotated[str, "1", "as the driver says"]
+    driver: Annotated[str, "1", "name of the driver"]
+    model: Annotated[str, "1", "reported by the driver"]
+    serial: Annotated[str, "1", "reported by the driver"]
+    firmware: Annotated[str, "1", "reported by the driver"]
     freedoms_in: Annotated[int, "1", "3: position; 6: orientation too"]
     freedoms_out: Annotated[int, "1", "0: no force; 3: force; 6: torque too"]
-    buttons: Annotated[int, "1", "how many"]
+    buttons: Annotated[int, "1", "number of buttons"]
     clock: Annotated[str, "1", '"real" or "virtual"']
-    realtime: Annotated[bool, "1", "once started: its thread has real-time priority"]
-    workspace_min: Annotated[Vector, "m", "smallest corner, of the device; 0: not told"]
-    workspace_max: Annotated[Vector, "m", "largest corner, of the device; 0: not told"]
-    peak_force: Annotated[float, "N", "that its motors can give"]
-    continuous_force: Annotated[float, "N", "that its motors bear for ever"]
-    max_stiffness: Annotated[float, "N/m", "the largest that is stable"]
-    max_damping: Annotated[float, "N s/m", "the largest that is stable"]
-    max_speed: Annotated[float, "m/s", "of the hand"]
+    realtime: Annotated[bool, "1", "its thread has real-time priority (after start)"]
+    workspace_min: Annotated[Vector, "m", "smallest corner, device frame; 0: unknown"]
+    workspace_max: Annotated[Vector, "m", "largest corner, device frame; 0: unknown"]
+    peak_force: Annotated[float, "N", "largest force of the motors"]
+    continuous_force: Annotated[float, "N", "largest continuous force of the motors"]
+    max_stiffness: Annotated[float, "N/m", "largest stable value"]
+    max_damping: Annotated[float, "N s/m", "largest stable value"]
+    max_speed: Annotated[float, "m/s", "largest speed of the hand"]
     rate: Annotated[float, "Hz", "of its servo"]
 
 
 @dataclasses.dataclass(frozen=True)
 class Limits:
-    """What the user allows."""
+    """Limits set by the user."""
 
-    force: Annotated[float, "N", "the most at any time"]
-    continuous_force: Annotated[float, "N", "that the motors may give on average"]
-    thermal_s: Annotated[float, "s", "over which it is averaged"]
-    slew: Annotated[float, "N/s", "how fast the force may change"]
-    gate: Annotated[float, "N", "the force has to be below it for forces to begin"]
-    ramp_s: Annotated[float, "s", "in which they come up"]
-    speed: Annotated[float, "m/s", "above it forces latch off"]
-    stale_s: Annotated[float, "s", "a tissue model older than it fades"]
-    fade_s: Annotated[float, "s", "in which it does"]
-    stiffness: Annotated[float, "N/m", "the most that the hand feels"]
+    force: Annotated[float, "N", "largest force"]
+    continuous_force: Annotated[float, "N", "largest mean force"]
+    thermal_s: Annotated[float, "s", "averaging time of the mean force"]
+    slew: Annotated[float, "N/s", "largest rate of change of the force"]
+    gate: Annotated[float, "N", "forces start only below it"]
+    ramp_s: Annotated[float, "s", "duration of the ramp at the start"]
+    speed: Annotated[float, "m/s", "above which forces latch off"]
+    stale_s: Annotated[float, "s", "age at which the tissue model fades"]
+    fade_s: Annotated[float, "s", "duration of the fade"]
+    stiffness: Annotated[float, "N/m", "largest rendered stiffness"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class View:
-    """How the device's workspace lies in the scene: p = origin + scale * rotation * p_device."""
+    """Map from the device's workspace to the scene: p = origin + scale * rotation * p_device."""
 
-    origin: Annotated[Vector, "m", "where the middle of the workspace is"]
+    origin: Annotated[Vector, "m", "position of the middle of the workspace"]
     rotation: Annotated[Vector, "1", "quaternion w x y z"]
     scale: Annotated[float, "1", "of lengths, from device to scene"]
     force_scale: Annotated[float, "1", "of forces, from scene to device"]
@@ -170,61 +170,61 @@ class View:
 class Hand:
     """The hand's tool."""
 
-    mode: Annotated[HandMode, "1", "what it does"]
-    chord: Annotated[Optional[int], "1", "id, to feel or drag; None: the nearest at the press"]
-    button: Annotated[int, "1", "that grasps, 0 the first"]
-    reach: Annotated[float, "m", "in the scene, to what the button takes"]
+    mode: Annotated[HandMode, "1", "mode"]
+    chord: Annotated[Optional[int], "1", "id, to feel or drag; None: nearest on press"]
+    button: Annotated[int, "1", "index of the grasping button"]
+    reach: Annotated[float, "m", "reach of the button, in the scene"]
     radius: Annotated[float, "m", "of ball or rod"]
     length: Annotated[float, "m", "of the rod"]
     stiffness: Annotated[float, "N/m", "of the spring between hand and tool, in the scene"]
     max_force: Annotated[float, "N", "of that spring, in the scene"]
-    gain: Annotated[float, "1", "of a felt chord's tension"]
+    gain: Annotated[float, "1", "factor on the tension of a felt chord"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Report:
-    """What the hand points at and did, of one Device.sync; in the scene."""
+    """Targets and actions of the hand in one Device.sync, in the scene."""
 
-    events: Annotated[Event, "1", "what happened"]
+    events: Annotated[Event, "1", "events of this sync"]
     tool: Annotated[Optional[int], "1", "id of the hand's tool in the valve"]
     chord: Annotated[Optional[int], "1", "id of the chosen chord"]
     near_chord: Annotated[Optional[int], "1", "id of the chord nearest to the hand"]
-    near_chord_distance: Annotated[float, "m", "to it"]
+    near_chord_distance: Annotated[float, "m", "distance to it"]
     near_node: Annotated[Optional[int], "1", "nearest free vertex of a leaflet"]
-    near_node_distance: Annotated[float, "m", "to it"]
-    node: Annotated[Optional[int], "1", "held"]
+    near_node_distance: Annotated[float, "m", "distance to it"]
+    node: Annotated[Optional[int], "1", "held node"]
     position: Annotated[Vector, "m", "of the hand"]
-    force: Annotated[Vector, "N", "of the tissue on the hand, before it is scaled"]
-    stiffness: Annotated[float, "N/m", "the largest that the device renders of it"]
-    drag_to: Annotated[Vector, "m", "where Event.DRAGGED wants the chord's end: chord_length"]
+    force: Annotated[Vector, "N", "of the tissue on the hand, before scaling"]
+    stiffness: Annotated[float, "N/m", "largest rendered stiffness"]
+    drag_to: Annotated[Vector, "m", "target of the chord's end at Event.DRAGGED, for chord_length"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class State:
-    """The servo as it is now."""
+    """Present state of the servo."""
 
-    phase: Annotated[Phase, "1", "where forces stand"]
+    phase: Annotated[Phase, "1", "phase of the forces"]
     cause: Annotated[Cause, "1", "of a latch"]
     flags: Annotated[int, "1", "MVS_DRIVER_* bits of the driver (driver.h)"]
-    limited: Annotated[Limited, "1", "what was done to the last force"]
+    limited: Annotated[Limited, "1", "limits that changed the last force"]
     buttons: Annotated[int, "1", "debounced, a sum of 1, 2, 4, ..."]
     time: Annotated[float, "s", "since start"]
     position: Annotated[Vector, "m", "in the scene"]
     orientation: Annotated[Vector, "1", "w x y z, from the stylus' axes to the scene"]
     velocity: Annotated[Vector, "m/s", "in the scene"]
-    hand: Annotated[Vector, "m", "position, of the device"]
-    force: Annotated[Vector, "N", "that the motors were told, of the device"]
-    rate: Annotated[float, "Hz", "of late"]
-    worst_period: Annotated[float, "s", "the longest between two ticks since start"]
-    model_age: Annotated[float, "s", "of the tissue model; infinity: none yet"]
-    energy: Annotated[float, "J", "that the loop made and damping has not yet taken out"]
+    hand: Annotated[Vector, "m", "position, device frame"]
+    force: Annotated[Vector, "N", "sent to the motors, device frame"]
+    rate: Annotated[float, "Hz", "over the last ticks"]
+    worst_period: Annotated[float, "s", "longest period since start"]
+    model_age: Annotated[float, "s", "age of the tissue model; infinity: no model yet"]
+    energy: Annotated[float, "J", "generated by the loop and not yet removed by damping"]
     heat: Annotated[float, "1", "0 cool to 1 at the continuous limit"]
-    ticks: Annotated[int, "1", "of the servo"]
-    late: Annotated[int, "1", "ticks that came after more than two periods"]
+    ticks: Annotated[int, "1", "number of ticks"]
+    late: Annotated[int, "1", "ticks later than two periods"]
 
 
 def option_lines(options: Options) -> str:
-    """Options as the "key=value" lines of the C interface; a path or number as its text."""
+    """Options as "key=value" lines for the C interface."""
     lines = []
     for key, value in (options or {}).items():
         line = f"{key}={os.fspath(value) if isinstance(value, os.PathLike) else value}"
@@ -242,9 +242,9 @@ def drivers() -> tuple[Driver, ...]:
 def list(driver: Union[str, os.PathLike[str]], options: Options = None) -> tuple[Found, ...]:
     """The devices that a driver finds.
 
-    driver: its name, or the absolute path of another one
-    IoError: there is no such driver. VersionError: it speaks another version. ArgumentError: an
-    option makes no sense. DeviceError: the driver's own sentence for what else is wrong.
+    driver: its name, or its absolute path
+    IoError: no such driver. VersionError: the driver has another interface version. ArgumentError:
+    invalid option. DeviceError: any other error, in the words of the driver.
     """
     return tuple(Found(*row) for row in _core.devices(os.fspath(driver), option_lines(options)))
 
@@ -252,13 +252,13 @@ def list(driver: Union[str, os.PathLike[str]], options: Options = None) -> tuple
 def doctor(
     driver: Optional[Union[str, os.PathLike[str]]] = None, options: Options = None
 ) -> tuple[Finding, ...]:
-    """All that a driver's device needs, looked at; errors as for ``list``.
+    """Checks the requirements of a driver's device; errors as for ``list``.
 
-    Without a driver: of every driver that is installed, checks being "driver: check"; one whose
-    device or vendor's library is not here is one note.
+    Without a driver: of every installed driver, with checks named "driver: check"; a driver without
+    its device or vendor's library gives one note.
     """
     words = {1: "good", 0: "fault", -1: "warning", 2: "note"}
     rows: builtins.list[tuple[int, str, str]] = _core.doctor(
         None if driver is None else os.fspath(driver), option_lines(options)
     )
-    return tuple(Finding(words.get(verdict, "fault"), *told) for verdict, *told in rows)
+    return tuple(Finding(words.get(verdict, "fault"), *texts) for verdict, *texts in rows)

@@ -1,4 +1,4 @@
-"""The words of the interface: kinds, laws and orders by their numbers, and two units."""
+"""Enumerations of the C interface, and two units."""
 
 from enum import IntEnum
 
@@ -58,7 +58,7 @@ class ToolKind(IntEnum):
 
 
 class LeafletLaw(IntEnum):
-    """The laws a leaflet sheet can follow: springs, or membranes with W(I1, I4) in J/m3.
+    """Laws of a leaflet: springs, or membranes with W(I1, I4) in J/m3.
 
     Formulas, constants and sources: include/mvs/valve.h.
     """
@@ -72,7 +72,7 @@ class LeafletLaw(IntEnum):
 
 
 class ChordLaw(IntEnum):
-    """The laws a chord can follow: nominal stress over strain, none when slack (valve.h)."""
+    """Laws of a chord: nominal stress over strain, zero when slack (include/mvs/valve.h)."""
 
     LINEAR = 1
     BILINEAR = 2

@@ -1,11 +1,12 @@
-"""Surgical operations, one constructor for each that the library has.
+"""Surgical operations: one constructor for each operation of the library.
 
     sim.apply(mvs.ops.chord_length(chord="P2/3", factor=0.75))
     sim.apply("chord_length", chord="P2/3", factor=0.75)  # the same
 
-Parts are named, or given by id or ``mvs.Part``. A site is a node's index, ``("P2", along, height)``,
-``(triangle, (u, v, w))`` or a ``Site``; points are (n, 3) arrays; choices are words. SI units throughout. The constructors
-come from the description that the library gives of itself: ``KINDS`` holds it for dialogs.
+Parts are given by name, id or ``mvs.Part``. A site is a node's index, ``("P2", along, height)``,
+``(triangle, (u, v, w))`` or a ``Site``; points are (n, 3) arrays; choices are words. SI units
+throughout. The constructors follow the library's description of its operations,
+``KINDS``, which also serves dialogs.
 """
 
 from __future__ import annotations
@@ -35,20 +36,22 @@ class OpKind:
     fields: tuple[OpField, ...]
 
     def field(self, name: str) -> OpField:
-        """The field of this name; ArgumentError lists those there are."""
+        """The field of this name; ArgumentError lists the fields."""
         for field in self.fields:
             if field.name == name:
                 return field
         listed = ", ".join(f.with_unit() for f in self.fields)
-        raise ArgumentError(f'{self.name} has no field "{name}"; there is: {listed}', self.name)
+        raise ArgumentError(f'{self.name} has no field "{name}"; choose from: {listed}', self.name)
 
 
 def _read_kinds() -> Mapping[str, OpKind]:
     kinds = {}
-    for told in _core.op_kinds():
-        name = told["name"]
-        fields = tuple(OpField.told(name, field) for field in told["fields"])
-        kinds[name] = OpKind(name, told["number"], told["size"], told["help"], fields)
+    for described in _core.op_kinds():
+        name = described["name"]
+        fields = tuple(OpField.described_by(name, field) for field in described["fields"])
+        kinds[name] = OpKind(
+            name, described["number"], described["size"], described["help"], fields
+        )
     return MappingProxyType(kinds)
 
 
@@ -57,10 +60,10 @@ KINDS: Mapping[str, OpKind] = _read_kinds()
 
 
 class Operation:
-    """One operation with its values: immutable, comparable, and of no simulator yet.
+    """One operation with its values: immutable, comparable, independent of a simulator.
 
     kind: the OpKind
-    fields: the fields that were given, by name
+    fields: the given fields, by name
     """
 
     kind: OpKind
@@ -108,7 +111,7 @@ class Operation:
         return (self.kind.name, *zip(self.fields, values))
 
     def rows(self, snapshot: _core.Snapshot) -> list[tuple[int, int, Any]]:
-        """Type, offset and value of each given field of the struct in C; for the binding."""
+        """Type, offset and value of each given field in the C struct; for the binding."""
         return [
             (int(f.type), f.offset, resolve(f, self.fields[f.name], snapshot))
             for f in self.kind.fields
@@ -119,7 +122,7 @@ class Operation:
 def operation(
     given: Union[str, Operation], fields: Optional[Mapping[str, Any]] = None
 ) -> Operation:
-    """The Operation given, or one made of its name and fields."""
+    """The given Operation, or one made of a name and fields."""
     if isinstance(given, str):
         return Operation(given, **(fields or {}))
     if not isinstance(given, Operation):
@@ -129,7 +132,7 @@ def operation(
         )
     if fields:
         raise ArgumentError(
-            f"operation: {given!r} has its fields already; make a new one to change them",
+            f"operation: {given!r} already has its fields; make a new one to change them",
             "operation",
         )
     return given
@@ -138,7 +141,7 @@ def operation(
 def _kind(name: str) -> OpKind:
     if name not in KINDS:
         raise ArgumentError(
-            f'there is no operation "{name}"; there is: {", ".join(KINDS)}', "operation"
+            f'there is no operation "{name}"; choose from: {", ".join(KINDS)}', "operation"
         )
     return KINDS[name]
 
@@ -149,7 +152,7 @@ def name_of_kind(number: int) -> str:
 
 
 class Group:
-    """What ``sim.group(name)`` gives; operations within its ``with`` are undone together."""
+    """Context manager of ``sim.group(name)``; operations within are undone together."""
 
     def __init__(self, sim: _core.Simulator, name: str) -> None:
         self._sim = sim
@@ -193,8 +196,8 @@ for _each in KINDS.values():
 
 
 def __getattr__(name: str) -> Callable[..., Operation]:
-    """Type checkers learn here that any operation may be there."""
-    raise AttributeError(f'there is no operation "{name}"; there is: {", ".join(KINDS)}')
+    """Declares to type checkers that any operation may exist."""
+    raise AttributeError(f'there is no operation "{name}"; choose from: {", ".join(KINDS)}')
 
 
 __all__ = ["KINDS", "FieldType", "Group", "OpField", "OpKind", "Operation", "Site", *KINDS]

@@ -1,4 +1,4 @@
-"""What Simulator.replay_plan and check_plan take, as the text that the library reads."""
+"""Converts the plan arguments of Simulator.replay_plan and check_plan to text."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from .errors import ArgumentError, IoError
 
 
 def text_of(plan: Union[str, bytes, os.PathLike[str], Mapping[str, Any]]) -> bytes:
-    """The text of a plan given as a dictionary, a path, or the text itself.
+    """The text of a plan given as a dictionary, a path, or text.
 
-    A string that begins with a bracket, or is empty, is text: no plan is read from a file of such
-    a name unless it is given as a ``Path``.
+    A string that is empty or begins with a bracket is text; give the path of a file with such a
+    name as a ``Path``.
     """
     if isinstance(plan, bytes):
         return plan
     if isinstance(plan, Mapping):
         return _written(plan)
     if isinstance(plan, str) and plan.lstrip()[:1] in ("", "{", "["):
-        # what UTF-8 cannot say goes on to the library, which refuses it with the byte's place
+        # lone surrogates: the library reports the position of the invalid byte
         return plan.encode("utf-8", "surrogatepass")
     if isinstance(plan, (str, os.PathLike)):
         return _read(plan)
@@ -31,11 +31,11 @@ def text_of(plan: Union[str, bytes, os.PathLike[str], Mapping[str, Any]]) -> byt
 
 
 def _written(plan: Mapping[str, Any]) -> bytes:
-    # json writes a float with the digits that read back as the same double: no bit is lost
+    # json writes floats with all digits: they read back as the same double
     try:
         return json.dumps(dict(plan), allow_nan=False).encode("ascii")
     except (TypeError, ValueError, RecursionError) as error:
-        raise ArgumentError(f"plan: the dictionary is no JSON: {error}", "plan") from error
+        raise ArgumentError(f"plan: the dictionary is not JSON: {error}", "plan") from error
 
 
 def _read(path: Union[str, os.PathLike[str]]) -> bytes:

@@ -1,6 +1,7 @@
-"""The plain values of the interface: loads, statistics, measures and parts; kinds and arrays beside them.
+"""The values of the interface: loads, statistics, measures and parts, in SI units.
 
-SI units throughout. The unit and the definition of every figure stand in its annotation, so that tables and reports print the same words: ``unit_of(Measures, "tenting_height")``.
+The annotation of every field holds its unit and its definition, so that tables and reports print
+the same words: ``unit_of(Measures, "tenting_height")``.
 """
 
 from __future__ import annotations
@@ -11,55 +12,7 @@ from typing import Annotated, Optional, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
-from .arrays import Curve, Law, LawConstant, Leaflet, Ring, Valve
-from .kinds import (
-    MMHG,
-    SYSTOLE_PA,
-    ChordKind,
-    ChordLaw,
-    EnsembleOrder,
-    LeafletLaw,
-    NodeKind,
-    PartKind,
-    RingKind,
-    ToolKind,
-)
-
-__all__ = [
-    "MMHG",
-    "SYSTOLE_PA",
-    "ChordKind",
-    "ChordLaw",
-    "ChordLimits",
-    "Coarsening",
-    "Comparison",
-    "Curve",
-    "EnsembleMember",
-    "EnsembleOrder",
-    "EnsembleSummary",
-    "Fault",
-    "Frame",
-    "HistoryEntry",
-    "Law",
-    "LawConstant",
-    "Leaflet",
-    "LeafletLaw",
-    "Load",
-    "Measures",
-    "NodeKind",
-    "Part",
-    "PartKind",
-    "Profile",
-    "Replay",
-    "Ring",
-    "RingKind",
-    "Stats",
-    "Tool",
-    "ToolKind",
-    "Valve",
-    "definition_of",
-    "unit_of",
-]
+from .kinds import EnsembleOrder, PartKind, ToolKind
 
 
 def _annotation(kind: type, name: str) -> tuple[str, str]:
@@ -68,12 +21,12 @@ def _annotation(kind: type, name: str) -> tuple[str, str]:
 
 
 def unit_of(kind: type, name: str) -> str:
-    """The unit of a field of Measures, Stats or Comparison; "1" where it has none."""
+    """The unit of a field of Measures, Stats or Comparison; "1" for a pure number."""
     return _annotation(kind, name)[0]
 
 
 def definition_of(kind: type, name: str) -> str:
-    """What a field of Measures, Stats or Comparison means, in words."""
+    """The definition of a field of Measures, Stats or Comparison."""
     return _annotation(kind, name)[1]
 
 
@@ -82,7 +35,7 @@ class Load:
     """The load on a valve."""
 
     pressure: Annotated[float, "Pa", "ventricle minus atrium"]
-    boundary_fraction: Annotated[float, "1", "where annulus and heads are: 0 open to 1 loaded"]
+    boundary_fraction: Annotated[float, "1", "position of annulus and heads: 0 open to 1 loaded"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -100,9 +53,9 @@ class HistoryEntry:
     """One operation in the history of a valve.
 
     kind: its name in ``mvs.ops``
-    title: what it did, for a menu
-    group: equal for operations that are undone together; None: it stands alone
-    made: id of the part that it made, or None
+    title: a description, for a menu
+    group: equal for operations that are undone together; None outside a group
+    made: id of the part that it created, or None
     done: False for an operation that was undone
     """
 
@@ -116,16 +69,16 @@ class HistoryEntry:
 
 @dataclasses.dataclass(frozen=True)
 class Replay:
-    """How a plan or a journal was replayed."""
+    """The result of replaying a plan or a journal."""
 
     operations: Annotated[int, "1", "operations applied"]
-    same_valve: Annotated[bool, "1", "it was made on this valve"]
-    same_result: Annotated[bool, "1", "the hash at the end is the one that it tells"]
+    same_valve: Annotated[bool, "1", "this is the valve of the plan"]
+    same_result: Annotated[bool, "1", "the hash at the end is that of the plan"]
 
 
 @dataclasses.dataclass(frozen=True)
 class ChordLimits:
-    """The range in which chordae of a kind work: beyond it one asks for a look."""
+    """The working range of chordae of a kind; chordae beyond it are flagged."""
 
     strain: Annotated[float, "1", "largest engineering strain"]
     tension: Annotated[float, "N", "largest tension"]
@@ -133,7 +86,7 @@ class ChordLimits:
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
-    """One reason why arrays are no valve."""
+    """One fault of a valve given as arrays."""
 
     part: str
     sentence: str
@@ -141,23 +94,23 @@ class Fault:
 
 @dataclasses.dataclass(frozen=True)
 class Tool:
-    """An instrument as it is in a snapshot: where the hand is, where the tool is, what is felt."""
+    """An instrument in a snapshot: positions of hand and tool, and the force on the hand."""
 
-    id: Annotated[int, "1", "names the tool"]
+    id: Annotated[int, "1", "id of the tool"]
     kind: Annotated[ToolKind, "1", "grasp, ball or rod"]
     position: Annotated[NDArray[np.float64], "m", "of the hand"]
-    axis: Annotated[NDArray[np.float64], "1", "of the hand's rod, of length 1; 0 for others"]
-    proxy: Annotated[NDArray[np.float64], "m", "the held node, the middle of ball or tip"]
-    proxy_axis: Annotated[NDArray[np.float64], "1", "of the rod, of length 1; 0 for others"]
+    axis: Annotated[NDArray[np.float64], "1", "unit vector of the rod of the hand; 0 for others"]
+    proxy: Annotated[NDArray[np.float64], "m", "the held node, or the centre of ball or tip"]
+    proxy_axis: Annotated[NDArray[np.float64], "1", "unit vector of the rod; 0 for others"]
     force: Annotated[NDArray[np.float64], "N", "on the hand"]
-    torque: Annotated[NDArray[np.float64], "N m", "on the hand about its position, of a rod"]
-    distance: Annotated[float, "m", "from its surface to the middle of the nearest leaflet"]
+    torque: Annotated[NDArray[np.float64], "N m", "of a rod, on the hand about its position"]
+    distance: Annotated[float, "m", "from its surface to the mid-surface of the nearest leaflet"]
     radius: Annotated[float, "m", "of a ball or rod"]
-    length: Annotated[float, "m", "of a rod between the middles of its ends"]
+    length: Annotated[float, "m", "of a rod, between the centres of its ends"]
     stiffness: Annotated[float, "N/m", "of the spring between hand and tool"]
     max_force: Annotated[float, "N", "of that spring"]
-    node: Annotated[Optional[int], "1", "held by a grasp; None for others"]
-    touching: Annotated[bool, "1", "tissue pushes on it; always of a grasp"]
+    node: Annotated[Optional[int], "1", "node held by a grasp; None for others"]
+    touching: Annotated[bool, "1", "in contact with tissue; always true for a grasp"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -198,7 +151,7 @@ class Stats:
 
 @dataclasses.dataclass(frozen=True)
 class Measures:
-    """What a valve measures. Sources: libmvs/measure/README.md."""
+    """The measures of a valve. Sources: libmvs/measure/README.md."""
 
     intersections: Annotated[int, "1", "pairs of triangles that cross (exact test)"]
     regurgitant_orifice_area: Annotated[
@@ -237,9 +190,9 @@ class Measures:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Comparison:
-    """How far two shapes are apart. Node figures are NaN where the meshes do not match."""
+    """Distances between two shapes. Node figures are NaN if the meshes do not match."""
 
-    same_mesh: Annotated[bool, "1", "the meshes match, so node-to-node figures exist"]
+    same_mesh: Annotated[bool, "1", "the meshes match and node-to-node figures exist"]
     node_rms: Annotated[float, "m", "node to node, RMS, as they lie"]
     node_max: Annotated[float, "m", "node to node, largest, as they lie"]
     surface_rms: Annotated[float, "m", "symmetric surface distance, RMS, as they lie"]
@@ -253,12 +206,12 @@ class Comparison:
 
 @dataclasses.dataclass(frozen=True)
 class EnsembleSummary:
-    """Distances over all members of an ensemble at rest; shapes are compared without registration."""
+    """Distances over all members of an ensemble at rest, without registration."""
 
     members: Annotated[int, "1", "closures, the plain one included"]
     converged: Annotated[int, "1", "members at rest"]
     equilibria: Annotated[int, "1", "distinct shapes among them"]
-    lowest: Annotated[Optional[int], "1", "member at rest of lowest potential; None: no member rests"]
+    lowest: Annotated[Optional[int], "1", "member at rest of lowest energy; None: none at rest"]
     node_rms: Annotated[float, "m", "node to node, RMS over all pairs of members"]
     node_max: Annotated[float, "m", "largest distance of a node between any two members"]
     surface_rms: Annotated[float, "m", "surface distance from member 0, RMS over the others"]
@@ -285,23 +238,23 @@ class EnsembleMember:
 
 @dataclasses.dataclass(frozen=True)
 class Coarsening:
-    """What coarsening did to a valve."""
+    """The result of coarsening a valve."""
 
     vertices_before: Annotated[int, "1", "vertices of the leaflets before"]
     vertices: Annotated[int, "1", "vertices of the leaflets now"]
     chords_moved: Annotated[int, "1", "chordae that end at another vertex"]
-    chords_merged: Annotated[int, "1", "chordae that became part of another one"]
-    chord_move: Annotated[float, "m", "the farthest that an end of a chord went"]
+    chords_merged: Annotated[int, "1", "chordae merged into another one"]
+    chord_move: Annotated[float, "m", "largest displacement of an end of a chord"]
     surface_max: Annotated[
-        float, "m", "largest distance of a vertex taken out from the coarse surface"
+        float, "m", "largest distance of a removed vertex from the coarse surface"
     ]
-    surface_rms: Annotated[float, "m", "RMS of that over all vertices of the fine level"]
-    worst_quality: Annotated[float, "1", "of a triangle: 1 equilateral, 0 flat"]
+    surface_rms: Annotated[float, "m", "RMS of that distance over all vertices of the fine level"]
+    worst_quality: Annotated[float, "1", "worst triangle: 1 equilateral, 0 degenerate"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Frame:
-    """A valve's own frame.
+    """The anatomical frame of a valve.
 
     origin: (3,) m, the centroid of the annulus
     axes: (3, 3), rows AP (towards the anterior leaflet), CC, and the axis into the atrium
@@ -311,5 +264,5 @@ class Frame:
     axes: NDArray[np.float64]
 
     def to_local(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points of shape (..., 3) in m, seen from this frame: columns AP, CC, axis."""
+        """Converts points (..., 3) in m to this frame: columns AP, CC, axis."""
         return (points - self.origin) @ self.axes.T

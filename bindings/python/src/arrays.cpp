@@ -3,6 +3,8 @@
 namespace mvs_python {
 namespace {
 
+using namespace py::literals;
+
 py::dtype dtype_of(uint32_t type) {
   switch (type) {
     case MVS_TYPE_F64:
@@ -20,7 +22,7 @@ py::dtype dtype_of(uint32_t type) {
   }
 }
 
-// 0 where the array's dtype is none of the wanted ones.
+// The MVS_TYPE_* of the array's dtype, or 0 if it is not among `types`.
 uint32_t type_among(const py::array &array, const std::vector<uint32_t> &types) {
   for (const uint32_t type : types) {
     if (array.dtype().equal(dtype_of(type))) return type;
@@ -38,7 +40,7 @@ std::string expectation(const Wanted &wanted) {
 }
 
 bool rows_are_packed(const py::array &array) {
-  const bool forward = array.strides(0) > 0;  // 0, of a broadcast row, would mean packed
+  const bool forward = array.strides(0) > 0;  // a broadcast row has stride 0
   const bool packed =
       array.ndim() == 1 || array.shape(1) == 1 || array.strides(1) == array.itemsize();
   const bool aligned = py::bool_(array.attr("flags").attr("aligned"));
@@ -57,7 +59,7 @@ py::array array_of(const mvs_view &view, const py::object &owner) {
     strides.push_back(dtype.itemsize());
   }
   py::array array(dtype, shape, strides, view.data, owner);
-  array.attr("setflags")(py::arg("write") = false);
+  array.attr("setflags")("write"_a = false);
   return array;
 }
 
@@ -82,8 +84,7 @@ py::array array_argument(const py::handle &value, const Wanted &wanted) {
 }
 
 mvs_array described(const py::array &array, std::vector<py::array> &kept) {
-  kept.push_back(rows_are_packed(array) ? array
-                                        : py::array(array.attr("copy")(py::arg("order") = "C")));
+  kept.push_back(rows_are_packed(array) ? array : py::array(array.attr("copy")("order"_a = "C")));
   const py::array &used = kept.back();
   mvs_array description{};
   description.data = used.data();

@@ -10,33 +10,31 @@
 
 namespace mvs_python {
 
-// A read-only array on the memory of a view; `owner` is kept alive by it.
+// A read-only array over the memory of a view; it keeps `owner` alive.
 py::array array_of(const mvs_view &view, const py::object &owner);
 
-// The dtypes an argument may have, and how many values its rows hold (1: one-dimensional).
+// The dtypes and the row length that an argument may have (1: one-dimensional).
 struct Wanted {
   const char *name;
   uint32_t components;
   std::vector<uint32_t> types;  // MVS_TYPE_F64 ...
 };
 
-// The array an argument is, checked for dtype and shape; raises ArgumentError otherwise. Never
-// converts: a silent cast of indices or lengths hides a fault of the caller.
+// Checks that an argument is an array of a wanted dtype and shape, and returns it; else raises
+// ArgumentError. Never converts: a silent cast of indices or lengths would hide an error of the
+// caller.
 py::array array_argument(const py::handle &value, const Wanted &wanted);
 
-// The description of a checked array, read in place wherever its rows are packed; otherwise of a
-// packed copy of the same values. What is described is kept alive in `kept`.
+// Describes a checked array for the C interface: the array if its rows are packed, else a packed
+// copy. `kept` keeps the described array alive.
 mvs_array described(const py::array &array, std::vector<py::array> &kept);
 
-// A checked one-dimensional argument as a vector; None is empty.
+// The values of a checked argument, row by row; empty for None.
 template <typename T>
 std::vector<T> values_of(const py::handle &value, const Wanted &wanted) {
-  std::vector<T> values;
-  if (value.is_none()) return values;
-  const auto array = py::array_t<T>(array_argument(value, wanted));
-  const auto row = array.template unchecked<1>();
-  for (py::ssize_t i = 0; i < row.shape(0); ++i) values.push_back(row(i));
-  return values;
+  if (value.is_none()) return {};
+  const py::array_t<T, py::array::c_style> array(array_argument(value, wanted));
+  return {array.data(), array.data() + array.size()};
 }
 
 }  // namespace mvs_python

@@ -1,4 +1,4 @@
-// mvs.Device, and what mvs.haptics asks drivers.
+// mvs.Device, and the driver queries of mvs.haptics.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -11,11 +11,13 @@
 namespace mvs_python {
 namespace {
 
+using namespace py::literals;
+
 using Number = std::optional<double>;
 using Texts = std::vector<std::pair<std::string, std::string>>;
 using Findings = std::vector<std::tuple<int32_t, std::string, std::string>>;
 
-// Drivers say what they like: no byte of it may fail to become a text.
+// Decodes text of a driver; replaces bytes that are not UTF-8.
 std::string utf8(const char *text) {
   const py::gil_scoped_acquire held;
   const auto decoded = py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
@@ -80,11 +82,10 @@ std::unique_ptr<Device> open(const std::filesystem::path &driver,
   return std::make_unique<Device>(desc);
 }
 
-// What one of the mvs_device_get_* fills.
+// The struct that one of the mvs_device_get_* functions fills.
 template <typename Struct>
 Struct got(Device &self, mvs_result (*get)(const mvs_device *, Struct *)) {
-  Struct found{};
-  found.struct_size = sizeof found;
+  auto found = sized<Struct>();
   self.call([&](mvs_device *device) { return get(device, &found); });
   return found;
 }
@@ -150,83 +151,83 @@ void set_hand(Device &self, const std::string &mode, std::optional<mvs_id> chord
 
 void bind_settings(py::class_<Device> &type) {
   const py::object none = py::none();
-  type.def("set_limits", &set_limits, py::kw_only(), py::arg("force") = none,
-           py::arg("continuous_force") = none, py::arg("thermal_s") = none, py::arg("slew") = none,
-           py::arg("gate") = none, py::arg("ramp_s") = none, py::arg("speed") = none,
-           py::arg("stale_s") = none, py::arg("fade_s") = none, py::arg("stiffness") = none,
-           "Sets what the user allows; what is not given takes its default, and nothing exceeds "
-           "the device's own limits.\n\nforce: N [peak force]\ncontinuous_force: N, on average "
-           "[the device's]\nthermal_s: s, over which it is averaged [10]\nslew: N/s [100 times "
-           "force]\ngate: N, the force has to be below it for forces to begin [0.2]\nramp_s: s, in "
-           "which they come up [1]\nspeed: m/s, above it forces latch off [the device's, at most "
-           "1]\nstale_s: s, a tissue model older than it fades [0.1]\nfade_s: s, in which it does "
-           "[0.05]\nstiffness: N/m, the most that the hand feels [the device's]");
-  type.def("set_view", &set_view, py::kw_only(), py::arg("origin") = std::array<double, 3>{},
-           py::arg("rotation") = std::array<double, 4>{1, 0, 0, 0}, py::arg("scale") = 1.0,
-           py::arg("force_scale") = 1.0,
-           "Lays the device's workspace over the scene: p = origin + scale * rotation * p_device; "
-           "a force in the scene is felt times force_scale.\n\norigin: m\nrotation: quaternion w x "
-           "y z of any length\nscale: 0.01 to 100\nforce_scale: 0.001 to 1000");
-  type.def("set_hand", &set_hand, py::arg("mode"), py::kw_only(), py::arg("chord") = none,
-           py::arg("button") = 0, py::arg("reach") = none, py::arg("radius") = none,
-           py::arg("length") = none, py::arg("stiffness") = none, py::arg("max_force") = none,
-           py::arg("gain") = none,
-           "Gives the hand a tool; what it holds is let go at the next sync.\n\nmode: \"look\"; "
-           "\"grasp\": the button takes the nearest node; \"ball\", \"rod\": push; \"feel\": the "
-           "tension of a chord; \"drag\": the button takes a chord's leaflet end\nchord: id, to "
-           "feel or drag [the nearest when the button goes down]\nbutton: that grasps, 0 the "
-           "first\nreach: m, in the scene [5e-3]\nradius: m, of ball or rod [2e-3]\nlength: m, of "
-           "the rod [40e-3]\nstiffness: N/m, of the spring between hand and tool [200]\nmax_force: "
-           "N, of that spring [5]\ngain: of a felt chord's tension [1]");
+  type.def("set_limits", &set_limits, py::kw_only(), "force"_a = none, "continuous_force"_a = none,
+           "thermal_s"_a = none, "slew"_a = none, "gate"_a = none, "ramp_s"_a = none,
+           "speed"_a = none, "stale_s"_a = none, "fade_s"_a = none, "stiffness"_a = none,
+           "Sets the limits of the user; omitted ones take their defaults, and no limit exceeds "
+           "that of the device.\n\nforce: N [peak force]\ncontinuous_force: N, mean force [the "
+           "device's]\nthermal_s: s, averaging time of the mean force [10]\nslew: N/s [100 times "
+           "force]\ngate: N, forces start only below it [0.2]\nramp_s: s, duration of the ramp at "
+           "the start [1]\nspeed: m/s, above which forces latch off [the device's, at most "
+           "1]\nstale_s: s, age at which the tissue model fades [0.1]\nfade_s: s, duration of the "
+           "fade [0.05]\nstiffness: N/m, upper limit of the rendered stiffness [the device's]");
+  type.def("set_view", &set_view, py::kw_only(), "origin"_a = std::array<double, 3>{},
+           "rotation"_a = std::array<double, 4>{1, 0, 0, 0}, "scale"_a = 1.0, "force_scale"_a = 1.0,
+           "Maps the device's workspace to the scene: p = origin + scale * rotation * p_device; "
+           "forces of the scene are multiplied by force_scale.\n\norigin: m\nrotation: quaternion "
+           "w x y z of any length\nscale: 0.01 to 100\nforce_scale: 0.001 to 1000");
+  type.def(
+      "set_hand", &set_hand, "mode"_a, py::kw_only(), "chord"_a = none, "button"_a = 0,
+      "reach"_a = none, "radius"_a = none, "length"_a = none, "stiffness"_a = none,
+      "max_force"_a = none, "gain"_a = none,
+      "Gives the hand a tool; the next sync releases the node that it holds.\n\nmode: \"look\"; "
+      "\"grasp\": the button takes the nearest node; \"ball\", \"rod\": push; \"feel\": the "
+      "tension of a chord; \"drag\": the button takes a chord's leaflet end\nchord: id of the "
+      "chord to feel or drag [the nearest when the button is pressed]\nbutton: index of the "
+      "grasping button\nreach: m, in the scene, of the button [5e-3]\nradius: m, of a ball or rod "
+      "[2e-3]\nlength: m, of a rod [40e-3]\nstiffness: N/m, of the spring between hand and tool "
+      "[200]\nmax_force: N, of that spring [5]\ngain: factor on the tension of a felt chord [1]");
 }
 
 void bind_views(py::class_<Device> &type) {
   type.def_property_readonly(
       "info", [](Device &self) { return device_info_value(got(self, &mvs_device_get_info)); },
-      "What the device is (mvs.haptics.Info).");
+      "Properties of the device (mvs.haptics.Info).");
   type.def_property_readonly(
       "limits", [](Device &self) { return device_limits_value(got(self, &mvs_device_get_limits)); },
-      "What the user allows (mvs.haptics.Limits).");
+      "Limits of the user (mvs.haptics.Limits).");
   type.def_property_readonly(
       "view", [](Device &self) { return device_view_value(got(self, &mvs_device_get_view)); },
-      "How the workspace lies in the scene (mvs.haptics.View).");
+      "Map from the workspace to the scene (mvs.haptics.View).");
   type.def_property_readonly(
       "hand", [](Device &self) { return device_hand_value(got(self, &mvs_device_get_hand)); },
       "The hand's tool (mvs.haptics.Hand).");
   type.def_property_readonly(
       "state", [](Device &self) { return device_state_value(self.state()); },
-      "The servo as it is now (mvs.haptics.State); from any thread.");
+      "Present state of the servo (mvs.haptics.State); allowed in any thread.");
   type.def("trace", &Device::trace,
            "The ticks of the servo since the last call, oldest first: a structured array of time "
            "(s), position (m), orientation (w x y z), force (N), servo_s (s, 0 on a virtual "
            "clock), gripper (rad), buttons, limited (mvs.haptics.Limited), in the frame of the "
            "device. The library keeps the last 8192.");
-  type.def_property_readonly("lost", &Device::lost, "Ticks that trace() came too late for.");
+  type.def_property_readonly("lost", &Device::lost,
+                             "Number of ticks that were overwritten before trace() read them.");
 }
 
 void bind_work(py::class_<Device> &type) {
   type.def(
       "start", [](Device &self) { self.call(&mvs_device_start); },
-      "Starts the servo: places are told, forces stay off until arm().");
+      "Starts the servo: it reports positions; forces stay off until arm().");
   type.def(
       "stop", [](Device &self) { self.call(&mvs_device_stop); },
-      "Stops it: zero force, motors off.");
+      "Stops the servo: zero force, motors off.");
   type.def(
       "arm", [](Device &self) { self.call(&mvs_device_arm); },
-      "Lets forces begin, by gate and ramp, also after they latched off; DeviceError says which "
-      "cause is not over.");
-  type.def("cut", &Device::cut, "Forces off now (Cause.SOFTWARE); from any thread.");
+      "Enables forces, through gate and ramp, also after they latched off; DeviceError names a "
+      "cause that persists.");
+  type.def("cut", &Device::cut,
+           "Switches forces off at once (Cause.SOFTWARE); allowed in any thread.");
   type.def(
       "advance",
       [](Device &self, double seconds) {
         self.call([&](mvs_device *device) { return mvs_device_advance(device, seconds); });
       },
-      py::arg("seconds"), "On a virtual clock: runs the servo for a time, at its rate.");
+      "seconds"_a, "Advances a virtual clock: runs the servo for a time, at its rate.");
   type.def(
       "sync", [](Device &self, Simulator &sim) { return device_report_value(self.sync(sim)); },
-      py::arg("sim"),
-      "Hand to valve, valve to hand, before each Simulator.step; what the hand points at and did "
-      "(mvs.haptics.Report). StateError without a valve.");
+      "sim"_a,
+      "Exchanges hand and valve; call it before each Simulator.step. Returns mvs.haptics.Report: "
+      "the targets and the actions of the hand. StateError without a valve.");
   type.def("close", &Device::close, "Stops and frees the device.");
   type.def("__enter__", [](const py::object &self) { return self; });
   type.def("__exit__", [](Device &self, const py::args &) { self.close(); });
@@ -241,23 +242,22 @@ void bind_device(py::module_ &module) {
       module, "Device",
       "An open haptic device; its motors are off until start() and arm().\n\nCalls release the "
       "interpreter; threads that share a device wait for each other. Closed at the end of a with "
-      "block.\n\ndriver: a name of mvs.haptics.drivers(), or an absolute path\ndevice: as "
-      "mvs.haptics.list names it [the first]\noptions: of the driver, a dictionary\nclock: "
-      "\"real\": the device's own, or a thread at its rate; \"virtual\": advance() turns it, for "
-      "tests\nrate: Hz, of a polled device, 100 to 10000 [its own, or 1000]\nIoError: there is no "
-      "such driver. VersionError: it speaks another version. ArgumentError: an option makes no "
-      "sense. DeviceError: the driver's own sentence for what else is wrong.");
-  type.def(py::init(&open), py::arg("driver"), py::arg("device") = py::none(), py::kw_only(),
-           py::arg("options") = py::none(), py::arg("clock") = "real",
-           py::arg("rate") = py::none());
+      "block.\n\ndriver: a name of mvs.haptics.drivers(), or an absolute path\ndevice: a name of "
+      "mvs.haptics.list [the first]\noptions: a dictionary of options of the driver\nclock: "
+      "\"real\": of the device, or a thread at its rate; \"virtual\": advanced by advance(), for "
+      "tests\nrate: Hz, of a polled device, 100 to 10000 [its default, or 1000]\nIoError: no such "
+      "driver. VersionError: the driver has another interface version. ArgumentError: invalid "
+      "option. DeviceError: any other error, in the words of the driver.");
+  type.def(py::init(&open), "driver"_a, "device"_a = py::none(), py::kw_only(),
+           "options"_a = py::none(), "clock"_a = "real", "rate"_a = py::none());
   bind_settings(type);
   bind_views(type);
   bind_work(type);
   module.def("drivers", &drivers, "Names and paths of the installed drivers.");
-  module.def("devices", &devices, py::arg("driver"), py::arg("options"),
+  module.def("devices", &devices, "driver"_a, "options"_a,
              "Names and models of the devices that a driver finds.");
-  module.def("doctor", &doctor, py::arg("driver"), py::arg("options"),
-             "Verdicts, checks and sentences of a driver's doctor.");
+  module.def("doctor", &doctor, "driver"_a, "options"_a,
+             "Verdicts, checks and sentences of the checks of a driver.");
 }
 
 }  // namespace mvs_python

@@ -1,4 +1,6 @@
-// The Python face of mvs.Simulator, and mvs.check_valve.
+// The methods of mvs.Simulator: valve, load, settle, step, levels, tissue, files; and
+// mvs.check_valve.
+#include <mvs/file.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -9,21 +11,24 @@
 namespace mvs_python {
 namespace {
 
+using namespace py::literals;
+
 using Number = std::optional<double>;
 using Count = std::optional<uint32_t>;
 
-// A valve as mvs.Valve: the one given, or one made of the arguments.
+// The mvs.Valve of the arguments: the one given, or one made of them.
 py::object valve_of(const py::args &args, const py::kwargs &kwargs) {
-  const py::object type = py::module_::import("mvs.values").attr("Valve");
+  const py::object type = py::module_::import("mvs.arrays").attr("Valve");
   if (args.size() == 1 && kwargs.empty() && py::isinstance(args[0], type)) return args[0];
   return type(*args, **kwargs);
 }
 
 void set_valve(Simulator &self, const py::args &args, const py::kwargs &kwargs) {
-  self.set_valve(ValveArguments(valve_of(args, kwargs)).desc());
+  const ValveArguments valve(valve_of(args, kwargs));
+  self.call([&](mvs_sim *sim) { return mvs_set_valve(sim, &valve.desc()); });
 }
 
-// The faults of a valve as a list of mvs.Fault; an empty list is a valve.
+// The faults of a valve as a list of mvs.Fault; empty for a valid valve.
 py::list check_valve(const py::args &args, const py::kwargs &kwargs) {
   const ValveArguments valve(valve_of(args, kwargs));
   std::vector<std::pair<std::string, std::string>> faults;
@@ -38,12 +43,12 @@ py::list check_valve(const py::args &args, const py::kwargs &kwargs) {
   return list;
 }
 
-// MVS_LEAFLET_LAW_* from a mvs.LeafletLaw, its number or its name in small letters.
+// MVS_LEAFLET_LAW_* from a mvs.LeafletLaw, its number, or its lower-case name.
 uint32_t law_of(const py::object &law) {
   if (!py::isinstance<py::str>(law)) return law.cast<uint32_t>();
   const std::string wanted = law.cast<std::string>();
   std::string names;
-  for (const py::handle member : py::module_::import("mvs.values").attr("LeafletLaw")) {
+  for (const py::handle member : py::module_::import("mvs.kinds").attr("LeafletLaw")) {
     const std::string name = py::str(member.attr("name").attr("lower")());
     if (name == wanted) return member.cast<uint32_t>();
     names += (names.empty() ? "\"" : ", \"") + name + "\"";
@@ -61,32 +66,42 @@ void set_leaflet(Simulator &self, const std::optional<std::string> &leaflet, con
            "constants: a law has at most 8, not " + std::to_string(constants.size()));
   }
   std::copy(constants.begin(), constants.end(), tissue.constants);
-  self.set_leaflet(leaflet, tissue);
+  mvs_part part{};
+  if (leaflet)
+    must(mvs_snapshot_find_part(self.snapshot()->get(), MVS_PART_LEAFLET, leaflet->c_str(), &part));
+  self.call([&](mvs_sim *sim) { return mvs_set_leaflet(sim, part.id, &tissue); });
+}
+
+py::object stats_of(Simulator &self) {
+  return stats_value(filled<mvs_stats>(self, &mvs_get_stats),
+                     filled<mvs_profile>(self, &mvs_get_profile));
 }
 
 py::object settle(Simulator &self, const std::string &solver, Count max_iterations, Number residual,
                   Number dt, Number damping, py::object progress) {
-  mvs_settle_options options{};
-  options.struct_size = sizeof options;
+  auto options = sized<mvs_settle_options>();
   options.solver = solver_of(solver);
   options.max_iterations = max_iterations.value_or(0);
   options.residual = residual.value_or(0);
   options.dt = dt.value_or(0);
   options.damping = damping.value_or(0);
-  const mvs_stats stats = self.settle(options, std::move(progress));
-  return stats_value(stats, self.profile());
+  self.settle(options, std::move(progress));
+  return stats_of(self);
 }
 
 py::object step(Simulator &self, uint64_t count, const std::string &solver, Number dt,
                 Number damping, Count budget) {
-  mvs_step_options options{};
-  options.struct_size = sizeof options;
+  auto options = sized<mvs_step_options>();
   options.solver = solver_of(solver);
   options.dt = dt.value_or(0);
   options.damping = damping.value_or(0);
   options.budget = budget.value_or(0);
-  const mvs_stats stats = self.step(options, count);
-  return stats_value(stats, self.profile());
+  self.call([&](mvs_sim *sim) {
+    mvs_result result = MVS_OK;
+    for (uint64_t i = 0; i < count && result == MVS_OK; ++i) result = mvs_step(sim, &options);
+    return result;
+  });
+  return stats_of(self);
 }
 
 void bind_generate(py::class_<Simulator> &type) {
@@ -97,128 +112,138 @@ void bind_generate(py::class_<Simulator> &type) {
          Number commissure_height, Number thickness, Number papillary_depth,
          Number papillary_separation, Number annulus_contraction, Number annulus_scale,
          Number chord_slack, Number indentation_depth, Number coaptation_depth) {
-        self.generate({.struct_size = sizeof(mvs_parametric_desc),
-                       .vertices = vertices.value_or(0),
-                       .chords = chords.value_or(0),
-                       .branching = branching ? 1u : 0u,
-                       .annulus_ap = annulus_ap.value_or(0),
-                       .annulus_cc = annulus_cc.value_or(0),
-                       .saddle_height = saddle_height.value_or(0),
-                       .anterior_height = anterior_height.value_or(0),
-                       .posterior_height = posterior_height.value_or(0),
-                       .commissure_height = commissure_height.value_or(0),
-                       .thickness = thickness.value_or(0),
-                       .papillary_depth = papillary_depth.value_or(0),
-                       .papillary_separation = papillary_separation.value_or(0),
-                       .annulus_contraction = annulus_contraction.value_or(0),
-                       .annulus_scale = annulus_scale.value_or(0),
-                       .chord_slack = chord_slack.value_or(0),
-                       .indentation_depth = indentation_depth.value_or(0),
-                       .coaptation_depth = coaptation_depth.value_or(0)});
+        const mvs_parametric_desc desc = {.struct_size = sizeof(mvs_parametric_desc),
+                                          .vertices = vertices.value_or(0),
+                                          .chords = chords.value_or(0),
+                                          .branching = branching ? 1u : 0u,
+                                          .annulus_ap = annulus_ap.value_or(0),
+                                          .annulus_cc = annulus_cc.value_or(0),
+                                          .saddle_height = saddle_height.value_or(0),
+                                          .anterior_height = anterior_height.value_or(0),
+                                          .posterior_height = posterior_height.value_or(0),
+                                          .commissure_height = commissure_height.value_or(0),
+                                          .thickness = thickness.value_or(0),
+                                          .papillary_depth = papillary_depth.value_or(0),
+                                          .papillary_separation = papillary_separation.value_or(0),
+                                          .annulus_contraction = annulus_contraction.value_or(0),
+                                          .annulus_scale = annulus_scale.value_or(0),
+                                          .chord_slack = chord_slack.value_or(0),
+                                          .indentation_depth = indentation_depth.value_or(0),
+                                          .coaptation_depth = coaptation_depth.value_or(0)};
+        self.call([&](mvs_sim *sim) { return mvs_generate_valve(sim, &desc); });
       },
-      py::kw_only(), py::arg("vertices") = py::none(), py::arg("chords") = py::none(),
-      py::arg("branching") = false, py::arg("annulus_ap") = py::none(),
-      py::arg("annulus_cc") = py::none(), py::arg("saddle_height") = py::none(),
-      py::arg("anterior_height") = py::none(), py::arg("posterior_height") = py::none(),
-      py::arg("commissure_height") = py::none(), py::arg("thickness") = py::none(),
-      py::arg("papillary_depth") = py::none(), py::arg("papillary_separation") = py::none(),
-      py::arg("annulus_contraction") = py::none(), py::arg("annulus_scale") = py::none(),
-      py::arg("chord_slack") = py::none(), py::arg("indentation_depth") = py::none(),
-      py::arg("coaptation_depth") = py::none(),
-      "Replaces the valve by a parametric mitral valve; None or 0 takes the default of an "
-      "adult.\n\n"
-      "vertices: 200 to 100000, about this many on the leaflets\nchords: chord segments, about\n"
-      "branching: chordae branch at free nodes\nlengths in m; annulus_contraction: loaded / open "
-      "size\nannulus_scale: factor on the loaded annulus, rest shape kept (dilation)\n"
-      "chord_slack: factor on all rest lengths\nindentation_depth: of the clefts beside "
-      "P2\ncoaptation_depth: of the closed coaptation line below the annulus plane");
+      py::kw_only(), "vertices"_a = py::none(), "chords"_a = py::none(), "branching"_a = false,
+      "annulus_ap"_a = py::none(), "annulus_cc"_a = py::none(), "saddle_height"_a = py::none(),
+      "anterior_height"_a = py::none(), "posterior_height"_a = py::none(),
+      "commissure_height"_a = py::none(), "thickness"_a = py::none(),
+      "papillary_depth"_a = py::none(), "papillary_separation"_a = py::none(),
+      "annulus_contraction"_a = py::none(), "annulus_scale"_a = py::none(),
+      "chord_slack"_a = py::none(), "indentation_depth"_a = py::none(),
+      "coaptation_depth"_a = py::none(),
+      "Replaces the valve by a parametric mitral valve; None or 0 takes the default, an adult "
+      "valve.\n\nvertices: approximate number of leaflet vertices, 200 to 100000\nchords: "
+      "approximate number of chord segments\nbranching: chordae branch at free nodes\nlengths in "
+      "m; annulus_contraction: loaded over open size\nannulus_scale: factor on the loaded annulus "
+      "(dilation); the rest shape stays\nchord_slack: factor on all rest "
+      "lengths\nindentation_depth: of the clefts beside P2\ncoaptation_depth: of the closed "
+      "coaptation line below the annulus plane");
+}
+
+void set_load(Simulator &self, double pressure, double boundary_fraction) {
+  const mvs_load_case load{sizeof load, 0, pressure, boundary_fraction};
+  self.call([&](mvs_sim *sim) { return mvs_set_load(sim, &load); });
 }
 
 void bind_work(py::class_<Simulator> &type) {
-  type.def("set_load", &Simulator::set_load, py::arg("pressure_pa"),
-           py::arg("boundary_fraction") = 1.0,
-           "Sets the load that settle and step work towards.\n\npressure_pa: ventricle minus "
-           "atrium, Pa\nboundary_fraction: where annulus and heads are, 0 open to 1 loaded");
-  type.def("settle", &settle, py::kw_only(), py::arg("solver") = "newton",
-           py::arg("max_iterations") = py::none(), py::arg("residual") = py::none(),
-           py::arg("dt") = py::none(), py::arg("damping") = py::none(),
-           py::arg("progress") = py::none(),
-           "Brings the valve to static equilibrium under the load and returns mvs.Stats. Not "
-           "converged is no error: look at Stats.converged.\n\nsolver: \"newton\", \"implicit\" "
-           "or \"explicit\"\nresidual: N, largest out-of-balance force at rest [1e-5]\ndt: s, and "
-           "damping: 1/s, of the solvers in time\nprogress: called with (share done, residual in "
-           "N) in this thread; True cancels (CancelledError), an exception stops and is raised");
-  type.def("step", &step, py::arg("count") = 1, py::kw_only(), py::arg("solver") = "implicit",
-           py::arg("dt") = py::none(), py::arg("damping") = py::none(),
-           py::arg("budget") = py::none(),
+  type.def("set_load", &set_load, "pressure_pa"_a, "boundary_fraction"_a = 1.0,
+           "Sets the load for settle and step.\n\npressure_pa: ventricle minus atrium, "
+           "Pa\nboundary_fraction: position of annulus and heads, 0 open to 1 loaded");
+  type.def("settle", &settle, py::kw_only(), "solver"_a = "newton", "max_iterations"_a = py::none(),
+           "residual"_a = py::none(), "dt"_a = py::none(), "damping"_a = py::none(),
+           "progress"_a = py::none(),
+           "Brings the valve to static equilibrium under the load and returns mvs.Stats. A closure "
+           "that does not converge raises no exception: check Stats.converged.\n\nsolver: "
+           "\"newton\", \"implicit\" or \"explicit\"\nresidual: N, largest out-of-balance force at "
+           "rest [1e-5]\ndt: s, and damping: 1/s, of the dynamic solvers\nprogress: called with "
+           "(share done, residual in N) in this thread; True cancels (CancelledError), an "
+           "exception stops the work and is raised again");
+  type.def("step", &step, "count"_a = 1, py::kw_only(), "solver"_a = "implicit",
+           "dt"_a = py::none(), "damping"_a = py::none(), "budget"_a = py::none(),
            "Advances by `count` time steps and returns mvs.Stats of the last.\n\nsolver: "
-           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: 1/s\n"
-           "budget: passes over the terms in an implicit step, 4 to 10000 [64]");
+           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: "
+           "1/s\nbudget: passes over the terms in an implicit step, 4 to 10000 [64]");
   type.def_property_readonly(
-      "stats", [](Simulator &self) { return stats_value(self.stats(), self.profile()); },
-      "How the last settle or step went (mvs.Stats).");
+      "stats", [](Simulator &self) { return stats_of(self); },
+      "Statistics of the last settle or step (mvs.Stats).");
   type.def_property_readonly(
-      "load_case", [](Simulator &self) { return load_value(self.load_case()); },
+      "load_case",
+      [](Simulator &self) { return load_value(filled<mvs_load_case>(self, &mvs_get_load)); },
       "The load in force (mvs.Load).");
 }
 
 void refine(Simulator &self, uint32_t times) {
-  for (uint32_t k = 0; k < times; ++k) self.refine();
+  for (uint32_t k = 0; k < times; ++k) self.call(&mvs_refine_valve);
 }
 
 py::object coarsen(Simulator &self, Count vertices, Number edge) {
-  mvs_coarsen_options options{};
-  options.struct_size = sizeof options;
+  auto options = sized<mvs_coarsen_options>();
   options.vertices = vertices.value_or(0);
   options.edge = edge.value_or(0);
-  return coarsening_value(self.coarsen(options));
+  return coarsening_value(filled<mvs_coarsening>(self, [&](mvs_sim *sim, mvs_coarsening *made) {
+    return mvs_coarsen_valve(sim, &options, made);
+  }));
+}
+
+void transfer_state(Simulator &self, const Snapshot &from) {
+  self.call([&](mvs_sim *sim) { return mvs_transfer_state(sim, from.get()); });
 }
 
 void bind_levels(py::class_<Simulator> &type) {
-  type.def(
-      "refine", &refine, py::arg("times") = 1,
-      "Cuts every triangle in four, this many times: the same surface and parts, old nodes with "
-      "their index, the state carried over. The history starts anew.");
-  type.def("coarsen", &coarsen, py::kw_only(), py::arg("vertices") = py::none(),
-           py::arg("edge") = py::none(),
-           "Takes vertices out of the leaflets and returns mvs.Coarsening. Those that stay keep "
-           "place and state; Snapshot.node_origin tells which they are. The history starts anew. "
-           "ArgumentError tells the least number.\n\nvertices: of the leaflets, exactly\nedge: m, "
-           "about the mean length of edges; one of the two is given");
-  type.def("transfer_state", &Simulator::transfer_state, py::arg("snapshot"),
-           "Takes over the state of a snapshot of a coarser or finer level of this valve. The "
-           "history starts anew. ArgumentError if they are not levels of one valve.");
+  type.def("refine", &refine, "times"_a = 1,
+           "Splits every triangle into four, this many times. Surface and parts stay, old nodes "
+           "keep their index, and the state is interpolated. The history restarts.");
+  type.def("coarsen", &coarsen, py::kw_only(), "vertices"_a = py::none(), "edge"_a = py::none(),
+           "Removes vertices from the leaflets and returns mvs.Coarsening. The others keep "
+           "position and state; Snapshot.node_origin identifies them. The history restarts. "
+           "ArgumentError reports the minimum.\n\nvertices: exact number of leaflet "
+           "vertices\nedge: m, approximate mean edge length; give one of the two");
+  type.def("transfer_state", &transfer_state, "snapshot"_a,
+           "Transfers the state from a snapshot of a coarser or finer level of this valve. The "
+           "history restarts. ArgumentError if they are not levels of one valve.");
 }
 
 void bind_tissue(py::class_<Simulator> &type) {
-  type.def(
-      "set_leaflet", &set_leaflet, py::arg("leaflet") = py::none(), py::kw_only(), py::arg("law"),
-      py::arg("constants") = std::vector<double>{}, py::arg("thickness") = 0.0,
-      "Gives a leaflet another tissue; shape, chordae, state and load stay, the history starts "
-      "anew.\n\nleaflet: its name; None: all of them\nlaw: a mvs.LeafletLaw, or its name in small "
-      "letters (\"bilinear\")\nconstants: of the law, at most 8, moduli in Pa; without any, its "
-      "defaults, and \"bilinear\" on springs becomes the membrane of their curve\nthickness: m; 0 "
-      "leaves it, another one scales that of each triangle\nIdError: no leaflet has that name. "
-      "OpError: constants that no tissue has.");
+  type.def("set_leaflet", &set_leaflet, "leaflet"_a = py::none(), py::kw_only(), "law"_a,
+           "constants"_a = std::vector<double>{}, "thickness"_a = 0.0,
+           "Sets the material law of a leaflet; shape, chordae, state and load stay, the history "
+           "restarts.\n\nleaflet: its name; None: all of them\nlaw: a mvs.LeafletLaw, or its "
+           "lower-case name (\"bilinear\")\nconstants: of the law, at most 8, moduli in Pa; empty: "
+           "its defaults, and \"bilinear\" on springs takes over their stress-strain "
+           "curve\nthickness: m; 0 keeps it, another value scales that of each triangle\nIdError: "
+           "unknown leaflet. OpError: constants out of range.");
 }
 
 void bind_files(py::class_<Simulator> &type) {
   type.def(
       "load",
       [](Simulator &self, const std::filesystem::path &path, const std::string &format) {
-        self.load(path.string(), format_of(format));
+        const uint32_t chosen = format_of(format);
+        const std::string name = path.string();
+        self.call([&](mvs_sim *sim) { return mvs_load_file(sim, name.c_str(), chosen); });
       },
-      py::arg("path"), py::kw_only(), py::arg("format") = "auto",
+      "path"_a, py::kw_only(), "format"_a = "auto",
       "Replaces valve, state and history by those of a file: extended OBJ, HDF5 (.h5), or Abaqus "
-      "input (.inp), whose load is then set and whose leftovers go to the log. FormatError tells "
-      "the "
+      "input (.inp), whose load is set and whose ignored lines go to the log. FormatError has the "
       "line.");
   type.def(
       "load_bytes",
       [](Simulator &self, const py::bytes &data, const std::string &format) {
-        self.load_bytes(std::string(data), format_of(format));
+        const uint32_t chosen = format_of(format);
+        const std::string bytes(data);
+        self.call(
+            [&](mvs_sim *sim) { return mvs_load_memory(sim, bytes.data(), bytes.size(), chosen); });
       },
-      py::arg("data"), py::kw_only(), py::arg("format") = "obj", "The same from memory.");
+      "data"_a, py::kw_only(), "format"_a = "obj", "Like load, from memory.");
 }
 
 }  // namespace
@@ -228,10 +253,10 @@ void bind_simulator(py::module_ &module) {
       module, "Simulator",
       "Simulates one valve.\n\nCalls release the interpreter; threads that share a simulator wait "
       "for each other. A call that raises leaves the simulator as it was.\n\nbackend: \"default\", "
-      "\"cholmod\" or \"eigen\", the sparse factorisation\nlog: called with (level, text); "
-      "without, what is worth a warning (level 2) is an mvs.ValveWarning");
-  type.def(py::init<const std::string &, py::object>(), py::kw_only(),
-           py::arg("backend") = "default", py::arg("log") = py::none());
+      "\"cholmod\" or \"eigen\", the sparse factorisation\nlog: called with (level, text); None: "
+      "warnings (level 2) become mvs.ValveWarning");
+  type.def(py::init<const std::string &, py::object>(), py::kw_only(), "backend"_a = "default",
+           "log"_a = py::none());
   bind_files(type);
   bind_generate(type);
   bind_levels(type);
@@ -241,20 +266,23 @@ void bind_simulator(py::module_ &module) {
   bind_plans(module, type);
   bind_tools(type);
   type.def("set_valve", &set_valve,
-           "Replaces the valve by a mvs.Valve, or by the arrays one is made of. OpError names the "
-           "first fault of a valve that is none; mvs.check_valve lists all.");
+           "Replaces the valve by a mvs.Valve, or by the arguments of one. OpError has the first "
+           "fault; mvs.check_valve lists all faults.");
+  type.def("snapshot", &Simulator::snapshot,
+           "The present valve and state (mvs.Snapshot). Allowed in any thread at any time; during "
+           "a call it returns the state before that call.");
   type.def(
-      "snapshot", &Simulator::snapshot,
-      "The present valve and state (mvs.Snapshot); any thread may ask at any time, and sees the "
-      "state before a call that is at work.");
-  type.def("restore", &Simulator::restore, py::arg("snapshot"),
-           "Puts the simulator back to a snapshot, of this simulator or of another one.");
+      "restore",
+      [](Simulator &self, const Snapshot &snapshot) {
+        self.call([&](mvs_sim *sim) { return mvs_restore(sim, snapshot.get()); });
+      },
+      "snapshot"_a, "Restores a snapshot of this or of another simulator.");
   type.def("close", &Simulator::close, "Frees the simulator; its snapshots stay valid.");
   type.def("__enter__", [](const py::object &self) { return self; });
   type.def("__exit__", [](Simulator &self, const py::args &) { self.close(); });
   module.def("check_valve", &check_valve,
-             "The faults of arrays that are to be a valve (list of mvs.Fault), empty if it is one; "
-             "arguments as for Simulator.set_valve.");
+             "The faults of a valve (list of mvs.Fault), empty for a valid valve; arguments as for "
+             "Simulator.set_valve.");
 }
 
 }  // namespace mvs_python

@@ -1,4 +1,4 @@
-// Instruments: of mvs.Simulator here, as seen in a snapshot in values.cpp.
+// Instruments of mvs.Simulator; values.cpp has those of a snapshot.
 #include <pybind11/stl.h>
 
 #include "simulator.h"
@@ -6,6 +6,8 @@
 
 namespace mvs_python {
 namespace {
+
+using namespace py::literals;
 
 using Number = std::optional<double>;
 using Place = std::array<double, 3>;
@@ -21,8 +23,7 @@ uint32_t kind_of(const std::string &name) {
 mvs_id add_tool(Simulator &self, const std::string &kind, const Place &position,
                 const std::optional<Place> &axis, Number radius, Number length, Number stiffness,
                 Number max_force, Number reach, std::optional<uint32_t> node) {
-  mvs_tool_desc desc{};
-  desc.struct_size = sizeof desc;
+  auto desc = sized<mvs_tool_desc>();
   desc.kind = kind_of(kind);
   std::copy(position.begin(), position.end(), desc.position);
   if (axis) std::copy(axis->begin(), axis->end(), desc.axis);
@@ -33,37 +34,47 @@ mvs_id add_tool(Simulator &self, const std::string &kind, const Place &position,
   desc.reach = reach.value_or(0);
   desc.by_node = node ? 1 : 0;
   desc.node = node.value_or(0);
-  return self.add_tool(desc);
+  mvs_id tool = 0;
+  self.call([&](mvs_sim *sim) { return mvs_add_tool(sim, &desc, &tool); });
+  return tool;
 }
 
 void move_tool(Simulator &self, mvs_id tool, const Place &position,
                const std::optional<Place> &axis) {
-  self.move_tool(tool, position.data(), axis ? axis->data() : nullptr);
+  self.look([&](mvs_sim *sim) {
+    return mvs_move_tool(sim, tool, position.data(), axis ? axis->data() : nullptr);
+  });
+}
+
+void remove_tool(Simulator &self, mvs_id tool) {
+  self.call([&](mvs_sim *sim) { return mvs_remove_tool(sim, tool); });
+}
+
+py::object tool_by_id(Simulator &self, mvs_id tool) {
+  auto state = sized<mvs_tool_state>();
+  self.look([&](mvs_sim *sim) { return mvs_get_tool(sim, tool, &state); });
+  return tool_value(state);
 }
 
 }  // namespace
 
 void bind_tools(py::class_<Simulator> &type) {
-  type.def(
-      "add_tool", &add_tool, py::arg("kind"), py::arg("position"), py::kw_only(),
-      py::arg("axis") = py::none(), py::arg("radius") = py::none(), py::arg("length") = py::none(),
-      py::arg("stiffness") = py::none(), py::arg("max_force") = py::none(),
-      py::arg("reach") = py::none(), py::arg("node") = py::none(),
-      "Adds an instrument and returns its id.\n\nkind: \"grasp\" holds a node, \"ball\" and "
-      "\"rod\" push and never pass through a leaflet\nposition: m, of the hand\naxis: of a rod, "
-      "from tip to handle\nradius: m [2e-3]\nlength: m, of a rod [40e-3]\nstiffness: N/m, of "
-      "the spring between hand and tool [200]\nmax_force: N, of that spring [5]\nreach: m; a "
-      "grasp takes the nearest free vertex of a leaflet within it [2e-3]\nnode: to be grasped, "
-      "from anywhere\nArgumentError: nothing in reach. StateError: it would lie in tissue.");
-  type.def(
-      "move_tool", &move_tool, py::arg("tool"), py::arg("position"), py::arg("axis") = py::none(),
-      "Moves the hand of a tool; the next settle or step begins with it. From any thread, also "
-      "while the simulator is at work. IdError if the tool is not there.");
-  type.def("remove_tool", &Simulator::remove_tool, py::arg("tool"),
-           "Takes a tool out; lets go of what it holds.");
-  type.def(
-      "tool", [](Simulator &self, mvs_id tool) { return tool_value(self.tool(tool)); },
-      py::arg("tool"), "A tool of the present snapshot (mvs.Tool), by its id.");
+  type.def("add_tool", &add_tool, "kind"_a, "position"_a, py::kw_only(), "axis"_a = py::none(),
+           "radius"_a = py::none(), "length"_a = py::none(), "stiffness"_a = py::none(),
+           "max_force"_a = py::none(), "reach"_a = py::none(), "node"_a = py::none(),
+           "Adds an instrument and returns its id.\n\nkind: \"grasp\" holds a node, \"ball\" and "
+           "\"rod\" push tissue and never pass through a leaflet\nposition: m, of the hand\naxis: "
+           "of a rod, from tip to handle\nradius: m [2e-3]\nlength: m, of a rod "
+           "[40e-3]\nstiffness: N/m, of the spring between hand and tool [200]\nmax_force: N, of "
+           "that spring [5]\nreach: m; a grasp takes the nearest free leaflet vertex within it "
+           "[2e-3]\nnode: index of the node to grasp, at any distance\nArgumentError: no node "
+           "within reach. StateError: the tool would intersect tissue.");
+  type.def("move_tool", &move_tool, "tool"_a, "position"_a, "axis"_a = py::none(),
+           "Moves the hand of a tool; the next settle or step uses it. Allowed in any thread at "
+           "any time. IdError for an unknown tool.");
+  type.def("remove_tool", &remove_tool, "tool"_a,
+           "Removes a tool; it releases the node that it holds.");
+  type.def("tool", &tool_by_id, "tool"_a, "A tool of the present snapshot (mvs.Tool), by its id.");
 }
 
 }  // namespace mvs_python

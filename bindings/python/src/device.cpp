@@ -20,12 +20,11 @@ void Device::close() {
   mvs_device_close(std::exchange(device_, nullptr));
 }
 
-// The simulator's turn first, then the device's: nobody takes them the other way round.
+// Lock order: the simulator first, then the device.
 mvs_device_report Device::sync(Simulator &sim) {
-  mvs_device_report report{};
-  report.struct_size = sizeof report;
+  auto report = sized<mvs_device_report>();
   bool closed = false;
-  sim.use([&](mvs_sim *in_turn) {
+  sim.call([&](mvs_sim *in_turn) {
     const std::lock_guard<std::mutex> turn(turn_);
     closed = device_ == nullptr;
     return closed ? MVS_OK : mvs_device_sync(device_, in_turn, &report);
@@ -46,8 +45,7 @@ void Device::look(Look &&work) {
 }
 
 mvs_device_state Device::state() {
-  mvs_device_state state{};
-  state.struct_size = sizeof state;
+  auto state = sized<mvs_device_state>();
   look([&] { return mvs_device_get_state(device_, &state); });
   return state;
 }

@@ -11,8 +11,7 @@
 
 namespace mvs_python {
 
-// Calls run with the interpreter released and one at a time; the state may be asked for, and forces
-// cut, at any time.
+// Calls release the interpreter and run one at a time; `state` and `cut` are allowed at any time.
 class Device {
  public:
   explicit Device(mvs_device_desc desc);
@@ -21,7 +20,7 @@ class Device {
   Device &operator=(const Device &) = delete;
 
   void close();
-  // Runs a call of the C library on the device when no other one is at work.
+  // Runs work(mvs_device *) when no other call is at work.
   template <typename Call>
   void call(Call &&work) {
     bool closed = false;
@@ -44,9 +43,9 @@ class Device {
   void look(Look &&work);
 
   mvs_device *device_ = nullptr;
-  uint64_t lost_ = 0;  // ticks that trace() came too late for
+  uint64_t lost_ = 0;  // ticks overwritten before trace() read them
   std::mutex turn_;
-  std::shared_mutex open_;  // held by those who look while another thread's call is at work
+  std::shared_mutex open_;  // shared by `look`, exclusive for closing
 };
 
 void bind_device(py::module_ &module);

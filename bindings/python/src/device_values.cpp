@@ -2,15 +2,18 @@
 
 #include <pybind11/numpy.h>
 
-// One field of the C struct `s` into the keywords of its dataclass, under the same name.
-#define FIELD(name) fields[#name] = s.name
-#define VECTOR(name) fields[#name] = vector(s.name)
+// One field of the C struct `s` as a keyword of its dataclass.
+#define FIELD(name) py::arg(#name) = s.name
+#define VECTOR(name) py::arg(#name) = vector(s.name)
 
 namespace mvs_python {
 namespace {
 
-py::object make(const char *type, const py::dict &fields) {
-  return py::module_::import("mvs.haptics").attr(type)(**fields);
+using namespace py::literals;
+
+template <typename... Fields>
+py::object make_haptic(const char *type, Fields &&...fields) {
+  return py::module_::import("mvs.haptics").attr(type)(std::forward<Fields>(fields)...);
 }
 
 py::object number(const char *type, uint32_t value) {
@@ -33,108 +36,51 @@ py::object node_or_none(uint32_t node) {
 }  // namespace
 
 py::object device_info_value(const mvs_device_info &s) {
-  // a driver may say anything
+  // text of a driver may have any bytes
   const auto text = [](const char *bytes) {
     return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
         bytes, static_cast<py::ssize_t>(std::char_traits<char>::length(bytes)), "replace"));
   };
-  py::dict fields;
-  fields["driver"] = text(s.driver);
-  fields["model"] = text(s.model);
-  fields["serial"] = text(s.serial);
-  fields["firmware"] = text(s.firmware);
-  FIELD(freedoms_in);
-  FIELD(freedoms_out);
-  FIELD(buttons);
-  fields["clock"] = s.clock == MVS_CLOCK_VIRTUAL ? "virtual" : "real";
-  fields["realtime"] = s.realtime != 0;
-  VECTOR(workspace_min);
-  VECTOR(workspace_max);
-  FIELD(peak_force);
-  FIELD(continuous_force);
-  FIELD(max_stiffness);
-  FIELD(max_damping);
-  FIELD(max_speed);
-  FIELD(rate);
-  return make("Info", fields);
+  return make_haptic(
+      "Info", "driver"_a = text(s.driver), "model"_a = text(s.model), "serial"_a = text(s.serial),
+      "firmware"_a = text(s.firmware), FIELD(freedoms_in), FIELD(freedoms_out), FIELD(buttons),
+      "clock"_a = s.clock == MVS_CLOCK_VIRTUAL ? "virtual" : "real", "realtime"_a = s.realtime != 0,
+      VECTOR(workspace_min), VECTOR(workspace_max), FIELD(peak_force), FIELD(continuous_force),
+      FIELD(max_stiffness), FIELD(max_damping), FIELD(max_speed), FIELD(rate));
 }
 
 py::object device_limits_value(const mvs_device_limits &s) {
-  py::dict fields;
-  FIELD(force);
-  FIELD(continuous_force);
-  FIELD(thermal_s);
-  FIELD(slew);
-  FIELD(gate);
-  FIELD(ramp_s);
-  FIELD(speed);
-  FIELD(stale_s);
-  FIELD(fade_s);
-  FIELD(stiffness);
-  return make("Limits", fields);
+  return make_haptic("Limits", FIELD(force), FIELD(continuous_force), FIELD(thermal_s), FIELD(slew),
+                     FIELD(gate), FIELD(ramp_s), FIELD(speed), FIELD(stale_s), FIELD(fade_s),
+                     FIELD(stiffness));
 }
 
 py::object device_view_value(const mvs_device_view &s) {
-  py::dict fields;
-  VECTOR(origin);
-  VECTOR(rotation);
-  FIELD(scale);
-  FIELD(force_scale);
-  return make("View", fields);
+  return make_haptic("View", VECTOR(origin), VECTOR(rotation), FIELD(scale), FIELD(force_scale));
 }
 
 py::object device_hand_value(const mvs_device_hand &s) {
-  py::dict fields;
-  fields["mode"] = number("HandMode", s.mode);
-  fields["chord"] = id_or_none(s.chord);
-  FIELD(button);
-  FIELD(reach);
-  FIELD(radius);
-  FIELD(length);
-  FIELD(stiffness);
-  FIELD(max_force);
-  FIELD(gain);
-  return make("Hand", fields);
+  return make_haptic("Hand", "mode"_a = number("HandMode", s.mode), "chord"_a = id_or_none(s.chord),
+                     FIELD(button), FIELD(reach), FIELD(radius), FIELD(length), FIELD(stiffness),
+                     FIELD(max_force), FIELD(gain));
 }
 
 py::object device_report_value(const mvs_device_report &s) {
-  py::dict fields;
-  fields["events"] = number("Event", s.events);
-  fields["tool"] = id_or_none(s.tool);
-  fields["chord"] = id_or_none(s.chord);
-  fields["near_chord"] = id_or_none(s.near_chord);
-  FIELD(near_chord_distance);
-  fields["near_node"] = node_or_none(s.near_node);
-  FIELD(near_node_distance);
-  fields["node"] = node_or_none(s.node);
-  VECTOR(position);
-  VECTOR(force);
-  FIELD(stiffness);
-  VECTOR(drag_to);
-  return make("Report", fields);
+  return make_haptic("Report", "events"_a = number("Event", s.events),
+                     "tool"_a = id_or_none(s.tool), "chord"_a = id_or_none(s.chord),
+                     "near_chord"_a = id_or_none(s.near_chord), FIELD(near_chord_distance),
+                     "near_node"_a = node_or_none(s.near_node), FIELD(near_node_distance),
+                     "node"_a = node_or_none(s.node), VECTOR(position), VECTOR(force),
+                     FIELD(stiffness), VECTOR(drag_to));
 }
 
 py::object device_state_value(const mvs_device_state &s) {
-  py::dict fields;
-  fields["phase"] = number("Phase", s.phase);
-  fields["cause"] = number("Cause", s.cause);
-  FIELD(flags);
-  fields["limited"] = number("Limited", s.limited);
-  FIELD(buttons);
-  FIELD(time);
-  VECTOR(position);
-  VECTOR(orientation);
-  VECTOR(velocity);
-  VECTOR(hand);
-  VECTOR(force);
-  FIELD(rate);
-  FIELD(worst_period);
-  FIELD(model_age);
-  FIELD(energy);
-  FIELD(heat);
-  FIELD(ticks);
-  FIELD(late);
-  return make("State", fields);
+  return make_haptic("State", "phase"_a = number("Phase", s.phase),
+                     "cause"_a = number("Cause", s.cause), FIELD(flags),
+                     "limited"_a = number("Limited", s.limited), FIELD(buttons), FIELD(time),
+                     VECTOR(position), VECTOR(orientation), VECTOR(velocity), VECTOR(hand),
+                     VECTOR(force), FIELD(rate), FIELD(worst_period), FIELD(model_age),
+                     FIELD(energy), FIELD(heat), FIELD(ticks), FIELD(late));
 }
 
 }  // namespace mvs_python

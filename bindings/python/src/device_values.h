@@ -1,4 +1,4 @@
-// Structs of devices as the dataclasses of mvs.haptics.
+// Converts structs of devices to the dataclasses of mvs.haptics.
 #pragma once
 
 #include <mvs/device.h>

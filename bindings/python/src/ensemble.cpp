@@ -11,10 +11,12 @@
 namespace mvs_python {
 namespace {
 
+using namespace py::literals;
+
 using Number = std::optional<double>;
 using Count = std::optional<uint32_t>;
 
-// Progress callback of one run: checks for Ctrl-C and calls the caller's function.
+// The progress callback of one run.
 struct ProgressCall {
   py::object progress;
   std::exception_ptr raised;
@@ -22,20 +24,12 @@ struct ProgressCall {
   static int32_t callback(void *user, double share, double residual) {
     auto &self = *static_cast<ProgressCall *>(user);
     py::gil_scoped_acquire held;
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (self.progress.is_none()) return 0;
-      return py::bool_(self.progress(share, residual)) ? 1 : 0;
-    } catch (...) {
-      self.raised = std::current_exception();
-      return 1;
-    }
+    return report_progress(self.progress, share, residual, self.raised);
   }
 };
 
 mvs_ensemble_summary summary_of(const Ensemble &self) {
-  mvs_ensemble_summary found{};
-  found.struct_size = sizeof found;
+  auto found = sized<mvs_ensemble_summary>();
   must(mvs_ensemble_get_summary(self.get(), &found));
   return found;
 }
@@ -47,14 +41,12 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
                                        Count max_iterations, Number residual, py::object progress) {
   if (members == 0) refuse(MVS_E_ARGUMENT, "members", "members: 1 to 1000 are needed, not 0");
   const mvs_load_case load{sizeof load, 0, pressure, boundary_fraction};
-  mvs_settle_options settle{};
-  settle.struct_size = sizeof settle;
+  auto settle = sized<mvs_settle_options>();
   settle.solver = solver_of(solver);
   settle.max_iterations = max_iterations.value_or(0);
   settle.residual = residual.value_or(0);
   ProgressCall call{std::move(progress), nullptr};
-  mvs_ensemble_options options{};
-  options.struct_size = sizeof options;
+  auto options = sized<mvs_ensemble_options>();
   options.members = members;
   options.start = from_start ? MVS_ENSEMBLE_START_SNAPSHOT : MVS_ENSEMBLE_START_REST;
   options.seed = seed;
@@ -75,15 +67,12 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
   return std::make_unique<Ensemble>(made);
 }
 
-py::tuple members(const Ensemble &self) {
+py::tuple all_members(const Ensemble &self) {
   py::list all;
   for (uint32_t k = 0; k < summary_of(self).members; ++k) {
-    mvs_ensemble_member member{};
-    mvs_stats stats{};
-    mvs_profile profile{};
-    member.struct_size = sizeof member;
-    stats.struct_size = sizeof stats;
-    profile.struct_size = sizeof profile;
+    auto member = sized<mvs_ensemble_member>();
+    auto stats = sized<mvs_stats>();
+    auto profile = sized<mvs_profile>();
     must(mvs_ensemble_get_member(self.get(), k, &member));
     must(mvs_ensemble_get_member_stats(self.get(), k, &stats));
     must(mvs_ensemble_get_member_profile(self.get(), k, &profile));
@@ -92,20 +81,19 @@ py::tuple members(const Ensemble &self) {
   return py::tuple(all);
 }
 
-std::unique_ptr<Snapshot> snapshot(const Ensemble &self, uint32_t member) {
+std::unique_ptr<Snapshot> member_snapshot(const Ensemble &self, uint32_t member) {
   const mvs_snapshot *taken = nullptr;
   must(mvs_ensemble_get_member_snapshot(self.get(), member, &taken));
   return std::make_unique<Snapshot>(taken);
 }
 
-py::object measure(const Ensemble &self, uint32_t statistic) {
-  mvs_measures found{};
-  found.struct_size = sizeof found;
+py::object statistic_of(const Ensemble &self, uint32_t statistic) {
+  auto found = sized<mvs_measures>();
   release_and([&] { return mvs_ensemble_measure(self.get(), statistic, &found); });
   return measures_value(found);
 }
 
-py::array view(const py::object &self, uint32_t which) {
+py::array ensemble_array(const py::object &self, uint32_t which) {
   mvs_view found{};
   must(mvs_ensemble_get_array(self.cast<const Ensemble &>().get(), which, &found));
   return array_of(found, self);
@@ -134,7 +122,7 @@ void bind_statistics(py::class_<Ensemble> &type) {
   for (const Statistic &statistic : statistics) {
     type.def_property_readonly(
         statistic.name,
-        [which = statistic.which](const Ensemble &self) { return measure(self, which); },
+        [which = statistic.which](const Ensemble &self) { return statistic_of(self, which); },
         statistic.doc);
   }
 }
@@ -150,39 +138,40 @@ void bind_ensemble(py::module_ &module, py::class_<Snapshot> &type) {
   made.def_property_readonly(
       "summary", [](const Ensemble &self) { return ensemble_summary_value(summary_of(self)); },
       "Distances over all members (mvs.EnsembleSummary).");
-  made.def_property_readonly("members", &members, "Every member (tuple of mvs.EnsembleMember).");
+  made.def_property_readonly("members", &all_members,
+                             "Every member (tuple of mvs.EnsembleMember).");
   made.def(
-      "snapshot", &snapshot, py::arg("member"),
+      "snapshot", &member_snapshot, "member"_a,
       "The closed valve of a member (mvs.Snapshot); ArgumentError if there is no such member.");
   bind_statistics(made);
   made.def_property_readonly(
       "node_deviation",
-      [](const py::object &self) { return view(self, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION); },
+      [](const py::object &self) {
+        return ensemble_array(self, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION);
+      },
       "(n,) float64, m: RMS distance of each node from its mean position over the members at "
       "rest.");
   made.def_property_readonly(
       "pair_distance",
       [](const py::object &self) {
-        const py::array rows = view(self, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE);
+        const py::array rows = ensemble_array(self, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE);
         return rows.attr("reshape")(rows.shape(0), rows.shape(0));
       },
       "(p, p) float64, m: node RMS between the shapes of every two members, at rest or not.");
-  type.def("ensemble", &run_ensemble, py::arg("pressure_pa"), py::arg("boundary_fraction") = 1.0,
-           py::kw_only(), py::arg("members") = 8, py::arg("seed") = 0,
-           py::arg("perturbation") = py::none(), py::arg("wavelength") = py::none(),
-           py::arg("same") = py::none(), py::arg("from_start") = false,
-           py::arg("solver") = "newton", py::arg("max_iterations") = py::none(),
-           py::arg("residual") = py::none(), py::arg("progress") = py::none(),
-           "Closes the valve along several paths and returns mvs.Ensemble: slack tissue can fold "
-           "in several ways, and the members show the range of shapes and measures. Member 0 is "
-           "the plain closure, with the same bits; the same arguments give the same bits."
-           "\n\npressure_pa, boundary_fraction: the load, as for Simulator.set_load\nmembers: "
-           "number of closures, the plain one included\nseed: of the perturbations\nperturbation: "
-           "m, largest displacement of a node of the start [0.5e-3]; 0: no perturbation"
-           "\nwavelength: m, shortest wavelength of a perturbation [5e-3]\nsame: m, two shapes are "
-           "one equilibrium if no node is farther apart [0.1e-3]\nfrom_start: members after the "
-           "first start from the shape of the snapshot instead of the rest shape\nsolver, "
-           "max_iterations, residual, progress: as for Simulator.settle");
+  type.def(
+      "ensemble", &run_ensemble, "pressure_pa"_a, "boundary_fraction"_a = 1.0, py::kw_only(),
+      "members"_a = 8, "seed"_a = 0, "perturbation"_a = py::none(), "wavelength"_a = py::none(),
+      "same"_a = py::none(), "from_start"_a = false, "solver"_a = "newton",
+      "max_iterations"_a = py::none(), "residual"_a = py::none(), "progress"_a = py::none(),
+      "Closes the valve along several paths and returns mvs.Ensemble: slack tissue can fold in "
+      "several ways, and the members show the range of shapes and measures. Member 0 is the plain "
+      "closure, with the same bits; the same arguments give the same bits.\n\npressure_pa, "
+      "boundary_fraction: the load, as for Simulator.set_load\nmembers: number of closures, the "
+      "plain one included\nseed: of the perturbations\nperturbation: m, largest displacement of a "
+      "node of the start [0.5e-3]; 0: no perturbation\nwavelength: m, shortest wavelength of a "
+      "perturbation [5e-3]\nsame: m, two shapes are one equilibrium if no node is farther apart "
+      "[0.1e-3]\nfrom_start: members after the first start from the shape of the snapshot instead "
+      "of the rest shape\nsolver, max_iterations, residual, progress: as for Simulator.settle");
 }
 
 }  // namespace mvs_python

@@ -32,4 +32,16 @@ void warn(const char *sentence) {
   if (PyErr_WarnEx(category.ptr(), sentence, 1) != 0) throw py::error_already_set();
 }
 
+int32_t report_progress(const py::object &progress, double share, double residual,
+                        std::exception_ptr &raised) {
+  try {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress || progress.is_none()) return 0;
+    return py::bool_(progress(share, residual)) ? 1 : 0;
+  } catch (...) {
+    raised = std::current_exception();
+    return 1;
+  }
+}
+
 }  // namespace mvs_python

@@ -1,16 +1,17 @@
-// Results of the C interface become exceptions of mvs.errors.
+// Converts results of the C interface to exceptions of mvs.errors.
 #pragma once
 
 #include <mvs/base.h>
 #include <pybind11/pybind11.h>
 
+#include <exception>
 #include <string>
 
 namespace mvs_python {
 
 namespace py = pybind11;
 
-// A result with its sentence, kept while the interpreter is released.
+// A result with its error, kept while the interpreter is released.
 struct Outcome {
   mvs_result result = MVS_OK;
   mvs_error error{};
@@ -25,11 +26,24 @@ inline void must(mvs_result result) {
   must(outcome_of(result));
 }
 
-// Raises the exception of a code from a sentence of the binding itself.
+// Raises the exception of a code with a sentence of the binding.
 [[noreturn]] void refuse(mvs_result code, const std::string &part, const std::string &sentence);
 
-// Warns of what the library says to nobody in particular; throws where warnings are errors.
+// Issues an mvs.ValveWarning; throws if the warning filter turns it into an error.
 void warn(const char *sentence);
+
+// Progress callback: checks for Ctrl-C and calls `progress` unless it is None. Returns 1 to cancel;
+// an exception is kept in `raised`. The interpreter must be held.
+int32_t report_progress(const py::object &progress, double share, double residual,
+                        std::exception_ptr &raised);
+
+// A zeroed struct of the C interface with its size.
+template <typename Struct>
+Struct sized() {
+  Struct made{};
+  made.struct_size = sizeof made;
+  return made;
+}
 
 // Runs a call of the C library with the interpreter released, and raises if it failed.
 template <typename Call>

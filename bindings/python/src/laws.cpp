@@ -7,6 +7,8 @@
 namespace mvs_python {
 namespace {
 
+using namespace py::literals;
+
 namespace py = pybind11;
 
 using Get = mvs_result (*)(uint32_t index, mvs_law *law);
@@ -17,10 +19,9 @@ py::object law_value(Get get, uint32_t count, uint32_t number) {
     refuse(MVS_E_ARGUMENT, "law",
            "law: 1 to " + std::to_string(count) + " are the laws, not " + std::to_string(number));
   }
-  mvs_law law{};
-  law.struct_size = sizeof law;
+  auto law = sized<mvs_law>();
   must(get(number - 1, &law));
-  const py::module_ values = py::module_::import("mvs.values");
+  const py::module_ values = py::module_::import("mvs.arrays");
   py::list constants;
   for (uint32_t k = 0; k < law.constant_count; ++k) {
     const mvs_law_constant &c = law.constants[k];
@@ -33,18 +34,12 @@ py::object law_value(Get get, uint32_t count, uint32_t number) {
 
 void bind_laws(py::module_ &module) {
   module.def(
-      "leaflet_law",
-      [](uint32_t law) {
-        return law_value(&mvs_get_leaflet_law, mvs_get_leaflet_law_count(), law);
-      },
-      py::arg("law"),
-      "What a LeafletLaw says of itself (mvs.Law): its constants, units, defaults and ranges. "
-      "ArgumentError for a law that there is not.");
+      "leaflet_law", [](uint32_t law) { return law_value(&mvs_get_leaflet_law, mvs_get_leaflet_law_count(), law); }, "law"_a,
+      "The description of a LeafletLaw (mvs.Law): its constants, units, defaults and ranges. "
+      "ArgumentError for an unknown law.");
   module.def(
-      "chord_law",
-      [](uint32_t law) { return law_value(&mvs_get_chord_law, mvs_get_chord_law_count(), law); },
-      py::arg("law"),
-      "What a ChordLaw says of itself (mvs.Law). ArgumentError for a law that there is not.");
+      "chord_law", [](uint32_t law) { return law_value(&mvs_get_chord_law, mvs_get_chord_law_count(), law); }, "law"_a,
+      "The description of a ChordLaw (mvs.Law). ArgumentError for an unknown law.");
 }
 
 }  // namespace mvs_python

@@ -1,4 +1,4 @@
-// What laws of tissue say of themselves.
+// mvs.leaflet_law and mvs.chord_law: descriptions of the material laws.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -11,8 +11,7 @@ namespace {
 using Triple = std::array<double, 3>;
 
 py::dict field_of(uint32_t kind, uint32_t index) {
-  mvs_field_info info{};
-  info.struct_size = sizeof info;
+  auto info = sized<mvs_field_info>();
   must(mvs_get_op_field(kind, index, &info));
   py::dict field;
   field["name"] = info.name;
@@ -40,7 +39,7 @@ OpStruct::OpStruct(const py::object &operation, const py::object &snapshot) {
   }
 }
 
-// Values have the types that mvs.ops gives them.
+// mvs.ops has converted `value` to the type of the field.
 void OpStruct::write(uint32_t type, uint32_t offset, const py::object &value) {
   switch (type) {
     case MVS_FIELD_NUMBER:
@@ -87,8 +86,7 @@ void OpStruct::write(uint32_t type, uint32_t offset, const py::object &value) {
 py::list op_kinds() {
   py::list kinds;
   for (uint32_t k = 0; k < mvs_get_op_count(); ++k) {
-    mvs_op_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<mvs_op_info>();
     must(mvs_get_op_info(k, &info));
     py::list fields;
     for (uint32_t f = 0; f < info.fields; ++f) fields.append(field_of(k, f));

@@ -1,4 +1,4 @@
-// Operations of mvs.ops as the structs of the C interface, which describes them itself.
+// Converts operations of mvs.ops to the structs of the C interface, from its description of them.
 #pragma once
 
 #include <mvs/op.h>
@@ -11,7 +11,7 @@
 
 namespace mvs_python {
 
-// The struct of an operation, and all that it points to.
+// The struct of an operation; owns the memory that it points to.
 class OpStruct {
  public:
   // `operation` is a mvs.ops.Operation; names of parts are looked up in `snapshot`.
@@ -25,12 +25,12 @@ class OpStruct {
     return *reinterpret_cast<Value *>(reinterpret_cast<char *>(words_.data()) + offset);
   }
 
-  std::vector<uint64_t> words_;  // so that the struct is aligned
+  std::vector<uint64_t> words_;  // the struct, aligned
   std::vector<py::array> kept_;
   std::list<std::string> texts_;
 };
 
-// What mvs_get_op_info tells, as a list of dictionaries.
+// The results of mvs_get_op_info as a list of dictionaries.
 py::list op_kinds();
 
 }  // namespace mvs_python

@@ -9,18 +9,18 @@
 
 #include <atomic>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
 #include <thread>
+#include <utility>
 
 #include "snapshot.h"
 
 namespace mvs_python {
 
-// Calls run with the interpreter released and one at a time; a second thread waits its turn, and a
-// callback that calls its own simulator is refused. A snapshot may be taken at any time.
+// Calls release the interpreter and run one at a time; a second thread waits for its turn, and a
+// callback that calls its own simulator is refused. A snapshot can be taken at any time.
 class Simulator {
  public:
   Simulator(const std::string &backend, py::object log);
@@ -29,49 +29,21 @@ class Simulator {
   Simulator &operator=(const Simulator &) = delete;
 
   void close();
-  void load(const std::string &path, uint32_t format);
-  void load_bytes(const std::string &bytes, uint32_t format);
-  void set_valve(const mvs_valve_desc &valve);
-  void generate(const mvs_parametric_desc &dimensions);
-  void set_leaflet(const std::optional<std::string> &name, const mvs_leaflet_desc &tissue);
-  void refine();
-  mvs_coarsening coarsen(const mvs_coarsen_options &options);
-  void transfer_state(const Snapshot &from);
-  void set_load(double pressure, double boundary_fraction);
-  mvs_load_case load_case();
   mvs_stats settle(const mvs_settle_options &options, py::object progress);
-  mvs_stats step(const mvs_step_options &options, uint64_t count);
-  mvs_stats stats();
-  mvs_profile profile();
   std::unique_ptr<Snapshot> snapshot();
-  void restore(const Snapshot &snapshot);
-  void check(const mvs_op *op);
-  mvs_id apply(const mvs_op *op);  // 0: it made nothing
-  mvs_id add_tool(const mvs_tool_desc &desc);
-  void move_tool(mvs_id tool, const double position[3], const double *axis);  // waits for nothing
-  void remove_tool(mvs_id tool);
-  mvs_tool_state tool(mvs_id tool);  // waits for nothing
-  void undo();
-  void redo();
-  void begin_group(const std::string &name);
-  void end_group();
-  void set_checkpoint(const std::string &name);
-  void restore_checkpoint(const std::string &name);
-  mvs_replay replay_plan(const std::string &text, py::object progress);
-  mvs_replay check_plan(const std::string &text);
-  void open_journal(const std::string &path);
-  void close_journal();
-  mvs_replay recover_journal(const std::string &path, py::object progress);
-  // A call that has something else to lock as well, on the simulator in its turn.
-  void use(const std::function<mvs_result(mvs_sim *)> &work);
 
- private:
+  // Runs work(mvs_sim *) when no other call is at work; raises its error or that of a callback.
   template <typename Call>
   void call(Call &&work);
-  template <typename Look>
-  void look(Look &&work);
+  // The same for long work, during which the library calls `progress`.
   template <typename Call>
   void call_with(py::object progress, Call &&work);
+  // Runs a work(mvs_sim *) that is allowed in any thread at any time.
+  template <typename Look>
+  void look(Look &&work);
+
+ private:
+  [[noreturn]] static void refuse_closed();
   void must_not_be_called_back() const;
   void free_now();
   static int32_t on_progress(void *user, double share, double residual);
@@ -79,12 +51,75 @@ class Simulator {
 
   mvs_sim *sim_ = nullptr;
   py::object log_, progress_;
-  bool settling_ = false;      // whether it came to rest is in what settle returns
-  std::exception_ptr raised_;  // by a callback, to be raised again when the call is back
+  bool settling_ = false;      // then warnings are dropped: the returned stats hold convergence
+  std::exception_ptr raised_;  // by a callback; raised again after the call
   std::mutex turn_;
-  std::shared_mutex open_;  // held by those who look while another thread's call is at work
+  std::shared_mutex open_;  // shared by `look`, exclusive for freeing
   std::atomic<std::thread::id> caller_{};
 };
+
+template <typename Call>
+void Simulator::call(Call &&work) {
+  must_not_be_called_back();
+  Outcome outcome;
+  std::exception_ptr raised;
+  bool closed = false;
+  {
+    py::gil_scoped_release released;
+    const std::lock_guard<std::mutex> turn(turn_);
+    closed = sim_ == nullptr;
+    caller_ = std::this_thread::get_id();
+    if (!closed) outcome = outcome_of(work(sim_));
+    caller_ = std::thread::id();
+    raised = std::exchange(raised_, nullptr);
+  }
+  if (closed) refuse_closed();
+  if (raised) std::rethrow_exception(raised);
+  must(outcome);
+}
+
+template <typename Call>
+void Simulator::call_with(py::object progress, Call &&work) {
+  call([&](mvs_sim *sim) {
+    {
+      py::gil_scoped_acquire held;
+      progress_ = std::move(progress);
+    }
+    const mvs_result result = work(sim);
+    py::gil_scoped_acquire held;
+    progress_ = py::none();
+    return result;
+  });
+}
+
+template <typename Look>
+void Simulator::look(Look &&work) {
+  bool closed = false;
+  release_and([&] {
+    const std::shared_lock<std::shared_mutex> looking(open_);
+    closed = sim_ == nullptr;
+    return closed ? MVS_OK : work(sim_);
+  });
+  if (closed) refuse_closed();
+}
+
+// Methods for functions of the C library that take the simulator, or the simulator and a text.
+template <auto function>
+void plain_call(Simulator &self) {
+  self.call(function);
+}
+template <auto function>
+void text_call(Simulator &self, const std::string &text) {
+  self.call([&](mvs_sim *sim) { return function(sim, text.c_str()); });
+}
+
+// A struct that a function of the C library fills.
+template <typename Struct, typename Get>
+Struct filled(Simulator &self, Get &&get) {
+  auto found = sized<Struct>();
+  self.call([&](mvs_sim *sim) { return get(sim, &found); });
+  return found;
+}
 
 void bind_simulator(py::module_ &module);
 void bind_operations(py::module_ &module, py::class_<Simulator> &type);

@@ -14,6 +14,8 @@
 namespace mvs_python {
 namespace {
 
+using namespace py::literals;
+
 py::array view(const py::object &self, uint32_t which) {
   const Snapshot &snapshot = self.cast<const Snapshot &>();
   mvs_view found{};
@@ -31,15 +33,13 @@ std::string hash(const Snapshot &snapshot) {
 }
 
 py::object load_case(const Snapshot &snapshot) {
-  mvs_load_case load{};
-  load.struct_size = sizeof load;
+  auto load = sized<mvs_load_case>();
   must(mvs_snapshot_get_load(snapshot.get(), &load));
   return load_value(load);
 }
 
 py::object measures(const Snapshot &snapshot) {
-  mvs_measures found{};
-  found.struct_size = sizeof found;
+  auto found = sized<mvs_measures>();
   release_and([&] { return mvs_snapshot_measure(snapshot.get(), &found); });
   return measures_value(found);
 }
@@ -51,8 +51,7 @@ py::object frame(const Snapshot &snapshot) {
 }
 
 py::object compare(const Snapshot &snapshot, const Snapshot &other) {
-  mvs_comparison found{};
-  found.struct_size = sizeof found;
+  auto found = sized<mvs_comparison>();
   release_and([&] { return mvs_snapshot_compare(snapshot.get(), other.get(), &found); });
   return comparison_value(found);
 }
@@ -82,8 +81,7 @@ py::tuple tools(const Snapshot &snapshot) {
   must(mvs_snapshot_get_tool_count(snapshot.get(), &count));
   py::tuple found(count);
   for (uint32_t k = 0; k < count; ++k) {
-    mvs_tool_state state{};
-    state.struct_size = sizeof state;
+    auto state = sized<mvs_tool_state>();
     must(mvs_snapshot_get_tool(snapshot.get(), k, &state));
     found[k] = tool_value(state);
   }
@@ -91,13 +89,11 @@ py::tuple tools(const Snapshot &snapshot) {
 }
 
 py::tuple history(const Snapshot &snapshot) {
-  mvs_history size{};
-  size.struct_size = sizeof size;
+  auto size = sized<mvs_history>();
   must(mvs_snapshot_get_history(snapshot.get(), &size));
   py::list entries;
   for (uint32_t k = 0; k < size.done + size.undone; ++k) {
-    mvs_history_entry entry{};
-    entry.struct_size = sizeof entry;
+    auto entry = sized<mvs_history_entry>();
     must(mvs_snapshot_get_history_entry(snapshot.get(), k, &entry));
     entries.append(history_value(entry, k < size.done));
   }
@@ -171,10 +167,10 @@ uint32_t format_of(const std::string &name) {
 }
 
 void bind_snapshot(py::module_ &module) {
-  py::class_<Snapshot> type(module, "Snapshot",
-                            "An immutable picture of a valve and its state.\n\nIts arrays are "
-                            "read-only and zero-copy; each keeps the snapshot alive, and a "
-                            "snapshot outlives its simulator. Any thread may use it.");
+  py::class_<Snapshot> type(
+      module, "Snapshot",
+      "An immutable valve with its state.\n\nIts arrays are read-only and zero-copy; each keeps "
+      "the snapshot alive, and a snapshot outlives its simulator. Any thread may use it.");
   for (const View &entry : views) {
     const uint32_t which = entry.which;
     type.def_property_readonly(
@@ -183,39 +179,36 @@ void bind_snapshot(py::module_ &module) {
   type.def_property_readonly(
       "name", [](const Snapshot &s) { return mvs_snapshot_get_name(s.get()); },
       "Name of the valve.");
-  type.def_property_readonly("hash", &hash,
-                             "128 bits over the meaning of model and state, in hexadecimal: equal "
-                             "for equal inputs of the next step.");
+  type.def_property_readonly(
+      "hash", &hash,
+      "128-bit hash of model and state in hexadecimal: equal for equal inputs of the next step.");
   type.def_property_readonly("load_case", &load_case, "The load (mvs.Load), Pa and fraction.");
   type.def_property_readonly("measures", &measures,
-                             "What the valve measures (mvs.Measures, SI units). The first call on "
-                             "a snapshot does the work.");
-  type.def_property_readonly("frame", &frame, "The valve's own frame (mvs.Frame), m.");
+                             "The measures of the valve (mvs.Measures, SI units). The first call "
+                             "on a snapshot computes them.");
+  type.def_property_readonly("frame", &frame, "The anatomical frame of the valve (mvs.Frame), m.");
   type.def_property_readonly("parts", &parts,
                              "All named parts (tuple of mvs.Part): leaflets, scallops, chordae, "
                              "heads, rings; `index` is the row in the arrays of their kind.");
   type.def_property_readonly("tools", &tools,
-                             "The instruments in the valve (tuple of mvs.Tool), in the order in "
-                             "which they were added.");
+                             "The instruments (tuple of mvs.Tool) in the order of their addition.");
   type.def_property_readonly("history", &history,
-                             "What was done to the valve (tuple of mvs.HistoryEntry): the "
-                             "operations done from first to last, then those undone in the order "
-                             "in which they would be redone.");
+                             "The operations on the valve (tuple of mvs.HistoryEntry): the applied "
+                             "ones from first to last, then the undone ones in the order of redo.");
   type.def_property_readonly("checkpoints", &checkpoints,
                              "The names of the checkpoints (tuple of str).");
-  type.def("find", &find, py::arg("kind"), py::arg("name"),
-           "The part of a kind with this name; IdError if there is none.");
-  type.def("compare", &compare, py::arg("other"),
+  type.def("find", &find, "kind"_a, "name"_a,
+           "The part of a kind with this name; IdError if there is no such part.");
+  type.def("compare", &compare, "other"_a,
            "Distance between the leaflet surfaces of two snapshots (mvs.Comparison), m.");
-  type.def("section", &section, py::arg("point"), py::arg("normal"),
+  type.def("section", &section, "point"_a, "normal"_a,
            "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
-  type.def(
-      "save", &save, py::arg("path"), py::kw_only(), py::arg("format") = "auto",
-      "Writes a file; format \"auto\" goes by the ending: .obj (exact round trip), .h5 (the "
-      "history as well), .vtp (for ParaView and Slicer) or .feb (a FEBio model that closes it). "
-      "IoError if the system refuses.");
-  type.def("to_bytes", &to_bytes, py::kw_only(), py::arg("format") = "obj",
-           "The bytes that save would write.");
+  type.def("save", &save, "path"_a, py::kw_only(), "format"_a = "auto",
+           "Writes a file; format \"auto\" follows the ending: .obj (exact round trip), .h5 (with "
+           "the history), .vtp (for ParaView and Slicer) or .feb (a FEBio model of the closure). "
+           "IoError if it cannot be written.");
+  type.def("to_bytes", &to_bytes, py::kw_only(), "format"_a = "obj",
+           "The contents of the file that save would write.");
   bind_plan_writing(type);
   bind_ensemble(module, type);
   type.def("__repr__", &text);

@@ -9,10 +9,10 @@
 
 namespace mvs_python {
 
-// Holds one reference to a snapshot; a Python object owns it, and arrays own the Python object.
+// Owns one reference to a snapshot; arrays keep its Python object alive.
 class Snapshot {
  public:
-  // Takes over the reference that mvs_get_snapshot gave.
+  // Takes ownership of a reference of mvs_get_snapshot.
   explicit Snapshot(const mvs_snapshot *taken) : handle_(taken, &mvs_snapshot_release) {}
   const mvs_snapshot *get() const { return handle_.get(); }
 

@@ -1,4 +1,4 @@
-// Structs of the C interface as the dataclasses of mvs.values.
+// Converts structs of the C interface to the dataclasses of mvs.values.
 #pragma once
 
 #include <mvs/experimental.h>

@@ -7,40 +7,34 @@
 namespace mvs_python {
 namespace {
 
-// A column of numbers beside the rows of `of`: given for each row, or not at all.
+// An optional array with `components` numbers per row of `of`; zeros if it is not given.
 template <typename T>
 std::vector<T> column(const py::object &valve, const char *name, uint32_t type, const char *of,
-                      size_t rows) {
-  std::vector<T> values = values_of<T>(valve.attr(name), {name, 1, {type}});
-  if (values.empty()) values.resize(rows);
-  if (values.size() != rows) {
+                      size_t rows, uint32_t components = 1) {
+  std::vector<T> values = values_of<T>(valve.attr(name), {name, components, {type}});
+  if (values.empty()) values.resize(components * rows);
+  if (values.size() != components * rows) {
     refuse(MVS_E_ARGUMENT, name,
-           std::string(name) + ": " + std::to_string(rows) +
-               " values are needed, one for each of " + of + ", not " +
-               std::to_string(values.size()));
+           std::string(name) + ": " + std::to_string(rows) + " rows are needed, one for each of " +
+               of + ", not " + std::to_string(values.size() / components));
   }
   return values;
 }
 
-// (rows, 6) numbers beside the rows of `of`, or zeros.
-std::vector<double> rows_of_six(const py::object &valve, const char *name, const char *of,
-                                size_t rows) {
-  const py::object given = valve.attr(name);
-  std::vector<double> values(6 * rows);
-  if (given.is_none()) return values;
-  const py::array_t<double> table(array_argument(given, {name, 6, {MVS_TYPE_F64}}));
-  const auto at = table.unchecked<2>();
-  if (static_cast<size_t>(at.shape(0)) != rows) {
-    refuse(MVS_E_ARGUMENT, name,
-           std::string(name) + ": " + std::to_string(rows) + " rows are needed, one for each of " +
-               of + ", not " + std::to_string(at.shape(0)));
+// The names and ids of the parts in a list of dataclasses; calls `read` with each part.
+template <typename Desc, typename Read>
+void read_parts(const py::object &valve, const char *list, std::vector<std::string> &names,
+                std::vector<Desc> &descs, Read &&read) {
+  const auto given = valve.attr(list).cast<std::vector<py::object>>();
+  names.reserve(given.size());
+  for (const py::object &part : given) {
+    names.push_back(part.attr("name").cast<std::string>());
+    Desc desc{};
+    desc.name = names.back().c_str();
+    desc.id = part.attr("id").cast<mvs_id>();
+    read(part, desc);
+    descs.push_back(desc);
   }
-  for (size_t r = 0; r < rows; ++r) {
-    for (size_t k = 0; k < 6; ++k) {
-      values[6 * r + k] = at(static_cast<py::ssize_t>(r), static_cast<py::ssize_t>(k));
-    }
-  }
-  return values;
 }
 
 }  // namespace
@@ -86,7 +80,7 @@ void ValveArguments::read_arrays() {
 }
 
 void ValveArguments::read_leaflets() {
-  const py::module_ values = py::module_::import("mvs.values");
+  const py::module_ values = py::module_::import("mvs.arrays");
   const auto given = valve_.attr("leaflets").cast<std::vector<py::object>>();
   leaflet_names_.reserve(given.size());
   for (py::object leaflet : given) {
@@ -123,9 +117,8 @@ void ValveArguments::read_scallops() {
 void ValveArguments::read_chords() {
   const py::object nodes = valve_.attr("chord_nodes");
   if (nodes.is_none()) return;
-  const py::array_t<uint32_t> pairs(array_argument(nodes, {"chord_nodes", 2, {MVS_TYPE_U32}}));
-  const auto node = pairs.unchecked<2>();
-  const size_t count = static_cast<size_t>(node.shape(0));
+  const auto node = values_of<uint32_t>(nodes, {"chord_nodes", 2, {MVS_TYPE_U32}});
+  const size_t count = node.size() / 2;
   const char *of = "chord_nodes";
   const auto length = column<double>(valve_, "chord_rest_length", MVS_TYPE_F64, of, count);
   const auto kind = column<uint32_t>(valve_, "chord_kind", MVS_TYPE_U32, of, count);
@@ -133,13 +126,12 @@ void ValveArguments::read_chords() {
   const auto area = column<double>(valve_, "chord_area", MVS_TYPE_F64, of, count);
   const auto id = column<mvs_id>(valve_, "chord_id", MVS_TYPE_U64, of, count);
   const auto law = column<uint32_t>(valve_, "chord_law", MVS_TYPE_U32, of, count);
-  const auto constants = rows_of_six(valve_, "chord_constants", of, count);
+  const auto constants = column<double>(valve_, "chord_constants", MVS_TYPE_F64, of, count, 6);
   chord_names_ = names("chord_names", count);
   for (size_t c = 0; c < count; ++c) {
-    const auto row = static_cast<py::ssize_t>(c);
     mvs_chord_desc chord{};
-    chord.node_a = node(row, 0);
-    chord.node_b = node(row, 1);
+    chord.node_a = node[2 * c];
+    chord.node_b = node[2 * c + 1];
     chord.kind = kind[c];
     chord.rest_length = length[c];
     chord.young = young[c];
@@ -173,35 +165,21 @@ void ValveArguments::read_heads() {
 }
 
 void ValveArguments::read_rings() {
-  const auto given = valve_.attr("rings").cast<std::vector<py::object>>();
-  ring_names_.reserve(given.size());
-  for (const py::object &ring : given) {
-    ring_names_.push_back(ring.attr("name").cast<std::string>());
-    mvs_ring_desc desc{};
-    desc.name = ring_names_.back().c_str();
-    desc.id = ring.attr("id").cast<mvs_id>();
-    desc.kind = ring.attr("kind").cast<uint32_t>();
+  read_parts(valve_, "rings", ring_names_, rings_, [&](const py::object &ring, auto &desc) {
+    desc.kind = ring.attr("kind").template cast<uint32_t>();
     const Wanted wanted{"rings", 3, {MVS_TYPE_F64, MVS_TYPE_F32}};
     desc.curve = described(array_argument(ring.attr("curve"), wanted), kept_);
-    rings_.push_back(desc);
-  }
+  });
   desc_.rings = rings_.data();
   desc_.ring_stride = sizeof(mvs_ring_desc);
   desc_.ring_count = static_cast<uint32_t>(rings_.size());
 }
 
 void ValveArguments::read_curves() {
-  const auto given = valve_.attr("curves").cast<std::vector<py::object>>();
-  curve_names_.reserve(given.size());
-  for (const py::object &curve : given) {
-    curve_names_.push_back(curve.attr("name").cast<std::string>());
-    mvs_curve_desc desc{};
-    desc.name = curve_names_.back().c_str();
-    desc.id = curve.attr("id").cast<mvs_id>();
+  read_parts(valve_, "curves", curve_names_, curves_, [&](const py::object &curve, auto &desc) {
     const Wanted wanted{"curves", 2, {MVS_TYPE_F64, MVS_TYPE_F32}};
     desc.points = described(array_argument(curve.attr("points"), wanted), kept_);
-    curves_.push_back(desc);
-  }
+  });
   desc_.curves = curves_.data();
   desc_.curve_stride = sizeof(mvs_curve_desc);
   desc_.curve_count = static_cast<uint32_t>(curves_.size());
@@ -212,7 +190,7 @@ void ValveArguments::read_numbers() {
   desc_.contact_thickness = number("contact_thickness");
   desc_.contact_stiffness = number("contact_stiffness");
   desc_.bending_scale = number("bending_scale");
-  // zero means the default in the C struct and "no bending" in Python, where None is the default
+  // 0 means the default in the C struct and "no bending" in Python, where None is the default
   if (desc_.bending_scale == 0 && !valve_.attr("bending_scale").is_none()) {
     desc_.flags |= MVS_VALVE_FLAG_NO_BENDING;
   }

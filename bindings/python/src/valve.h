@@ -1,4 +1,4 @@
-// A valve given as arrays (mvs.values.Valve) as the description the C interface takes.
+// Converts a valve given as arrays (mvs.Valve) to the description of the C interface.
 #pragma once
 
 #include <mvs/valve.h>
@@ -10,7 +10,7 @@
 
 namespace mvs_python {
 
-// Checks the arrays of a mvs.values.Valve and holds all that its description points to.
+// Checks the arrays of a mvs.Valve and owns the memory that the description points to.
 class ValveArguments {
  public:
   explicit ValveArguments(const py::object &valve);
@@ -37,7 +37,7 @@ class ValveArguments {
       curve_names_;
   std::vector<const char *> scallops_;
   std::vector<mvs_id> scallop_ids_;
-  std::vector<uint32_t> first_leaflet_;  // where triangle_leaflet is not given
+  std::vector<uint32_t> first_leaflet_;  // zeros in place of a missing triangle_leaflet
   std::vector<mvs_leaflet_desc> leaflets_;
   std::vector<mvs_chord_desc> chords_;
   std::vector<mvs_head_desc> heads_;

@@ -1,4 +1,4 @@
-"""python -m mvs.report --out DIR [FILE ...]"""
+"""Command line of the report: python -m mvs.report --out DIR [FILE ...]"""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ def _arguments() -> argparse.Namespace:
         "files, and repeats the founding paper's study of repairs; prints tables and writes "
         "DIR/report.html.",
     )
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to write")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="output folder")
     parser.add_argument("--pressure", type=float, metavar="MMHG",
-                        help="[that of the load in a FILE; 120 if there is none]")
+                        help="pressure [that of the load in a FILE, else 120]")
     parser.add_argument("--members", type=int, default=8, metavar="N",
                         help="closures in the ensemble of each valve; 0: no such chapter [8]")
-    parser.add_argument("--no-pictures", action="store_true", help="only the table")
+    parser.add_argument("--no-pictures", action="store_true", help="tables only")
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="more valves (.obj)")
     return parser.parse_args()
 
@@ -72,7 +72,7 @@ def _study(folder: Path, with_picture: bool) -> str:
 
 
 def _operations(folder: Path, with_pictures: bool, pressure_pa: float) -> str:
-    """Tries every operation by itself, and returns its chapter."""
+    """Applies every operation to the shipped valve, and returns the chapter."""
     shown, pictures = [], {}
     for each in operations.run(pressure_pa):
         shown.append(each)
@@ -83,7 +83,9 @@ def _operations(folder: Path, with_pictures: bool, pressure_pa: float) -> str:
     return operations.as_html(shown, pictures)
 
 
-def _ensembles(cases: list[Case], folder: Path, with_pictures: bool, members: int, pa: float) -> str:
+def _ensembles(
+    cases: list[Case], folder: Path, with_pictures: bool, members: int, pa: float
+) -> str:
     """Closes an ensemble of every valve, prints the distances, and returns the chapter."""
     runs = []
     for each in ensemble.run(cases, members, pa):
@@ -102,7 +104,7 @@ def _ensembles(cases: list[Case], folder: Path, with_pictures: bool, members: in
 
 
 def main() -> int:
-    """Makes the report; 0, or 1 with a sentence on stderr."""
+    """Writes the report; returns 0, or 1 with a sentence on stderr."""
     arguments = _arguments()
     try:
         asked = None if arguments.pressure is None else arguments.pressure * mvs.MMHG

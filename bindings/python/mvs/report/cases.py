@@ -1,4 +1,4 @@
-"""The valves of a report: each open, and closed under systolic pressure."""
+"""The valves of a report, each open and closed under systolic pressure."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ class Case:
 
     @property
     def verdict(self) -> str:
-        """What the closed valve does, in a few words."""
+        """The result of the closure in a few words."""
         return verdict(self.closed, self.stats)
 
 
 def verdict(closed: Snapshot, stats: Stats) -> str:
-    """What a closed valve does, in a few words."""
+    """The result of a closure in a few words: sealed, leaking, or not converged."""
     if not stats.converged:
         return "did not converge"
     area = closed.measures.regurgitant_orifice_area * 1e6
@@ -40,7 +40,7 @@ def verdict(closed: Snapshot, stats: Stats) -> str:
 
 
 def close(sim: Simulator, key: str, title: str, note: str, pressure_pa: float) -> Case:
-    """Settles the valve a simulator holds, from open, under a pressure."""
+    """Settles the open valve in a simulator under a pressure."""
     opened = sim.snapshot()
     sim.set_load(pressure_pa)
     stats = sim.settle()
@@ -48,10 +48,10 @@ def close(sim: Simulator, key: str, title: str, note: str, pressure_pa: float) -
 
 
 def shipped(pressure_pa: float) -> Case:
-    """The valve the project ships, with every dimension at its default."""
+    """The parametric valve with default dimensions."""
     with Simulator() as sim:
         sim.generate()
-        note = "The parametric valve shipped with libmvs: an adult mitral valve, by default."
+        note = "The parametric valve of libmvs with its default dimensions, those of an adult."
         return close(sim, "shipped", "Shipped valve", note, pressure_pa)
 
 
@@ -74,9 +74,9 @@ def leaking(pressure_pa: float) -> Case:
 
 
 def from_file(path: Path, key: str, asked_pa: float | None = None) -> Case:
-    """The valve of a file, closed from its open shape whatever state it was saved in.
+    """The valve of a file, closed from its open shape; the saved state is ignored.
 
-    Under the pressure asked for (Pa), else that of the load in the file, else 120 mmHg.
+    The pressure is the one given (Pa), else that of the load in the file, else 120 mmHg.
     """
     with Simulator() as sim:
         sim.load(path)

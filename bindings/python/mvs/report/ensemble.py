@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from mvs import Ensemble, EnsembleOrder, Simulator, Snapshot
 
 from .cases import Case
 from .geometry import Drawing
+from .markup import cells, figure, heads, table
 from .table import ROWS, Row, value
 
 THIN = 0.5e-3
@@ -88,10 +88,10 @@ def as_html(runs: list[Run], pictures: dict[str, bytes]) -> str:
     figures = "".join(_figure(each, pictures[each.key]) for each in runs
                       if each.key in pictures)
     return (
-        "<h2>Several closures of each valve</h2>\n<p>Slack tissue can fold in several ways, each of "
-        "them an equilibrium. Each valve is closed several times: the pressure in 1 to 8 increments "
-        "or as a dynamic ramp, the annulus moved before, with or after it, from starts perturbed by "
-        "up to 0.5 mm. Member 0 is the plain closure, whose figures stand everywhere else on this "
+        "<h2>Several closures of each valve</h2>\n<p>Slack tissue can fold in several ways, each "
+        "an equilibrium. Each valve is closed several times: the pressure in 1 to 8 increments or "
+        "as a dynamic ramp, the annulus moved before, with or after it, from starts perturbed by up "
+        "to 0.5 mm. Member 0 is the plain closure, whose figures stand everywhere else on this "
         "page; beside them stand the minimum and the maximum over the members at rest, and the "
         "standard deviation. The range over these members is not the error of the model "
         "(libmvs/ensemble/README.md).</p>\n"
@@ -101,14 +101,13 @@ def as_html(runs: list[Run], pictures: dict[str, bytes]) -> str:
 
 
 def _table(runs: list[Run]) -> str:
-    head = "".join(f"<th colspan=3>{html.escape(each.title)}</th>" for each in runs)
-    names = "<th>member 0</th><th>all members</th><th>deviation</th>" * len(runs)
-    rows = [f"<tr><th></th>{head}<th>unit</th></tr>", f"<tr><th></th>{names}<th></th></tr>"]
+    titles = "".join(f"<th colspan=3>{html.escape(each.title)}</th>" for each in runs)
+    names = heads(("member 0", "all members", "deviation")) * len(runs)
+    rows = [f"<tr><th></th>{titles}<th>unit</th></tr>", f"<tr><th></th>{names}<th></th></tr>"]
     for row in ROWS:
-        cells = "".join(f"<td>{text}</td>" for each in runs
-                        for text in _cells(row, each.ensemble))
-        rows.append(f"<tr><th>{row.label}</th>{cells}<td>{row.unit}</td></tr>")
-    return "<table>\n" + "\n".join(rows) + "\n</table>"
+        figures = cells(text for each in runs for text in _cells(row, each.ensemble))
+        rows.append(f"<tr><th>{row.label}</th>{figures}<td>{row.unit}</td></tr>")
+    return table(rows)
 
 
 _ORDERS = {EnsembleOrder.TOGETHER: "with the pressure", EnsembleOrder.BOUNDARY_FIRST: "before it",
@@ -116,25 +115,24 @@ _ORDERS = {EnsembleOrder.TOGETHER: "with the pressure", EnsembleOrder.BOUNDARY_F
 
 
 def _members(each: Run) -> str:
-    rows = ["<tr><th>member</th><th>increments</th><th>annulus moves</th><th>start moved, mm</th>"
-            "<th>iterations</th><th>equilibrium</th><th>energy, mJ</th>"
-            "<th>nodes from member 0, RMS / largest, mm</th></tr>"]
+    rows = ["<tr>" + heads(("member", "increments", "annulus moves", "start moved, mm",
+                            "iterations", "equilibrium", "energy, mJ",
+                            "nodes from member 0, RMS / largest, mm")) + "</tr>"]
     for k, member in enumerate(each.ensemble.members):
-        shape = "not at rest" if member.equilibrium is None else str(member.equilibrium)
-        came = f"in {member.ramp * 1e3:.0f} ms" if member.ramp else str(member.increments)
-        rows.append(
-            f"<tr><th>{k}</th><td>{came}</td><td>{_ORDERS[member.order]}</td>"
-            f"<td>{member.perturbation * 1e3:.2f}</td><td>{member.stats.iterations}</td>"
-            f"<td>{shape}</td><td>{member.stats.energy * 1e3:.3f}</td>"
-            f"<td>{member.node_rms * 1e3:.3f} / {member.node_max * 1e3:.2f}</td></tr>"
-        )
-    return (f"<h3>{html.escape(each.title)}</h3>\n<p>{html.escape(verdict(each))}.</p>\n<table>\n"
-            + "\n".join(rows) + "\n</table>\n")
+        figures = cells((
+            f"in {member.ramp * 1e3:.0f} ms" if member.ramp else member.increments,
+            _ORDERS[member.order],
+            f"{member.perturbation * 1e3:.2f}",
+            member.stats.iterations,
+            "not at rest" if member.equilibrium is None else member.equilibrium,
+            f"{member.stats.energy * 1e3:.3f}",
+            f"{member.node_rms * 1e3:.3f} / {member.node_max * 1e3:.2f}",
+        ))
+        rows.append(f"<tr><th>{k}</th>{figures}</tr>")
+    return (f"<h3>{html.escape(each.title)}</h3>\n<p>{html.escape(verdict(each))}.</p>\n"
+            f"{table(rows)}\n")
 
 
 def _figure(each: Run, png: bytes) -> str:
-    data = base64.b64encode(png).decode()
     most = float(np.max(each.ensemble.node_deviation)) * 1e3
-    words = html.escape(f"{each.title}: largest deviation of a node {most:.2f} mm", quote=True)
-    return (f'<figure><img alt="{words}" src="data:image/png;base64,{data}">'
-            f"<figcaption>{words}</figcaption></figure>\n")
+    return figure(png, f"{each.title}: largest deviation of a node {most:.2f} mm")

@@ -1,4 +1,4 @@
-"""Which pictures a report shows, and at which common scale."""
+"""The pictures of a report, and the scales that its valves share."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Scales:
-    """Sizes and ends of colour scales that all valves of a report share, so that they compare."""
+    """Sizes and colour scales that all valves of a report share, for comparison."""
 
     atrium_mm: float
     oblique_mm: float
@@ -34,18 +34,18 @@ class Scales:
 CAPTIONS = {
     "open-atrium": "Open, from the atrium: the surgeon's view, anterior leaflet up, P2 down.",
     "open-oblique": "Open, from the posterior side and above, with chordae and papillary muscles.",
-    "closed-atrium": "Closed under systolic pressure, from the atrium; an orifice would be red.",
+    "closed-atrium": "Closed under systolic pressure, from the atrium; an orifice is red.",
     "closed-chordae": "Closed, from the posterior side and below: tension of the chordae.",
-    "coaptation": "Coaptation: how far each leaflet is from the one it faces. Below, the leaflets "
+    "coaptation": "Coaptation: distance of each leaflet from the facing one. Below, the leaflets "
     "cut at a commissure and unrolled.",
     "strain": "Largest principal strain of the leaflets, from the atrium and unrolled.",
     "section": "Central anteroposterior cross-section: open, and closed with each sheet drawn as "
-    "thick as the distance at which leaflets touch.",
+    "thick as the contact thickness.",
 }
 
 
 def common_scales(cases: list[Case]) -> Scales:
-    """Round scales that hold every valve of the report."""
+    """Rounded scales that fit every valve of the report."""
     widths, strains, tensions = [], [], []
     for case in cases:
         for snapshot in (case.opened, case.closed):

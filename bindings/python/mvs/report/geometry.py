@@ -1,8 +1,10 @@
-"""What is drawn, in millimetres: X to the right, Y towards the anterior leaflet, Z to the atrium."""
+"""Drawing coordinates in mm: X to the right, Y towards the anterior leaflet, Z to the atrium.
+
+Also the unrolling of the leaflets into a plane.
+"""
 
 from __future__ import annotations
 
-import heapq
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import PartKind, Snapshot
+from mvs import PartKind, Snapshot
+from mvs.mesh import edges_of, shortest_paths
 
 Points = NDArray[np.float64]
 
@@ -19,13 +22,13 @@ Points = NDArray[np.float64]
 class Drawing:
     """A snapshot in the coordinates of the pictures.
 
-    X is to the surgeon's right when he looks from the atrium with the anterior leaflet up.
+    X points to the surgeon's right in the view from the atrium with the anterior leaflet up.
     """
 
     snapshot: Snapshot
 
     def place(self, points: Points) -> Points:
-        """Points in m (..., 3) in the picture's millimetres."""
+        """Converts points (..., 3) from m to the coordinates of the drawing."""
         local = self.snapshot.frame.to_local(points) * 1e3
         return np.stack([-local[..., 1], local[..., 0], local[..., 2]], axis=-1)
 
@@ -69,7 +72,7 @@ class Drawing:
         return normal / np.where(length > 0, length, 1)
 
     def scallop_anchor(self, scallop: int, towards: Points) -> Points:
-        """A point on a scallop that the eye sees from the direction `towards`."""
+        """A point on the part of a scallop that faces the direction `towards`."""
         mine = self.snapshot.triangle_scallop == scallop
         centres = self.nodes[self.triangles].mean(axis=1)
         facing = np.clip(self.normals @ towards, 0, None) ** 2
@@ -77,7 +80,7 @@ class Drawing:
         return np.asarray((centres * weight[:, None]).sum(axis=0) / weight.sum())
 
     def to_nodes(self, values: NDArray[Any]) -> NDArray[np.float64]:
-        """Values of triangles as means at the nodes, for smooth colours."""
+        """Means of triangle values at the nodes, for smooth colours."""
         total = np.zeros(len(self.nodes))
         count = np.zeros(len(self.nodes))
         for k in range(3):
@@ -97,7 +100,7 @@ class Unrolled:
     down: Points
     triangles: NDArray[np.int64]
     rows: NDArray[np.int64]
-    """the triangles shown, as rows of the snapshot's; those over the cut are left out"""
+    """rows of the shown triangles in the snapshot; triangles across the cut are left out"""
     width: float
 
 
@@ -110,7 +113,7 @@ def unroll(drawing: Drawing) -> Unrolled:
     sides = np.linalg.norm(drawing.rest[np.roll(loop, -1)] - drawing.rest[loop], axis=1)
     width = float(sides.sum())
     along = np.concatenate([[0.0], np.cumsum(sides)[:-1]]) / width
-    down, nearest = ways_along(drawing.rest, edges, loop)
+    down, nearest = shortest_paths(drawing.rest, edges, loop)
     turn = np.exp(2j * np.pi * along[nearest])
     fixed = np.isin(np.arange(len(turn)), loop)
     turn = _smooth(turn, fixed, edges)
@@ -122,39 +125,10 @@ def unroll(drawing: Drawing) -> Unrolled:
     return Unrolled(across, down, drawing.triangles[whole], np.flatnonzero(whole), width)
 
 
-def edges_of(triangles: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Each edge of a mesh once, as pairs of nodes."""
-    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    return np.unique(np.sort(sides, axis=1), axis=0)
-
-
-def ways_along(
-    points: Points, edges: NDArray[np.int64], sources: NDArray[np.int64]
-) -> tuple[Points, NDArray[np.int64]]:
-    """Shortest ways along edges from the sources, and which source each node is nearest to."""
-    near: list[list[tuple[int, float]]] = [[] for _ in points]
-    lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
-    for (a, b), length in zip(edges.tolist(), lengths.tolist()):
-        near[a].append((b, length))
-        near[b].append((a, length))
-    way = np.full(len(points), np.inf)
-    nearest = np.zeros(len(points), dtype=np.int64)
-    queue = [(0.0, int(node), k) for k, node in enumerate(sources)]
-    while queue:
-        length, node, source = heapq.heappop(queue)
-        if length >= way[node]:
-            continue
-        way[node], nearest[node] = length, source
-        for other, side in near[node]:
-            if length + side < way[other]:
-                heapq.heappush(queue, (length + side, other, source))
-    return np.where(np.isfinite(way), way, 0.0), nearest
-
-
 def _smooth(
     turn: NDArray[np.complex128], fixed: NDArray[np.bool_], edges: NDArray[np.int64]
 ) -> NDArray[np.complex128]:
-    """Averages over neighbours until smooth; enough rounds to cross a sheet of many rows."""
+    """Jacobi smoothing of unit complex numbers; 300 sweeps cross a sheet of many rows."""
     a, b = edges.T
     count = np.maximum(np.bincount(edges.ravel(), minlength=len(turn)), 1)
     for _ in range(300):
@@ -174,7 +148,7 @@ def _first_nodes(drawing: Drawing, leaflet: int) -> NDArray[np.bool_]:
 
 
 def _seam(drawing: Drawing, along: Points, loop: NDArray[np.int64]) -> float:
-    """Where to cut: the commissure on the surgeon's left, or the leftmost point if there is none."""
+    """The cut: the commissure on the surgeon's left, else the leftmost point of the annulus."""
     both = loop[_first_nodes(drawing, 0)[loop] & _first_nodes(drawing, 1)[loop]]
     candidates = both if len(both) else loop
     left = candidates[np.argmin(drawing.nodes[candidates, 0])]
@@ -182,7 +156,7 @@ def _seam(drawing: Drawing, along: Points, loop: NDArray[np.int64]) -> float:
 
 
 def _runs_backwards(drawing: Drawing, across: Points, width: float) -> bool:
-    """The first leaflet (the anterior) is drawn left of the others."""
+    """True if the first leaflet (the anterior) would be drawn right of the others."""
     mine = drawing.snapshot.triangle_leaflet == 0
     centre = across[drawing.triangles[mine]].mean()
     return bool(mine.any() and not mine.all() and centre > width / 2)

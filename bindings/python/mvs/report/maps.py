@@ -1,4 +1,4 @@
-"""Colour maps on the leaflets, from the atrium and unrolled, and the central cross-section."""
+"""Colour maps of the leaflets, from the atrium and unrolled, and the central cross-section."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from numpy.typing import NDArray
 
-from .. import PartKind
+from mvs import PartKind
 from .geometry import Drawing, Points, Unrolled, unroll
 from .pictures import (
     INK,
@@ -25,13 +25,13 @@ from .pictures import (
 from .scene import ORIFICE, Colours, Scene
 
 GAP_LIMIT = 3.0
-"""mm: the end of the colour scale of gaps"""
+"""mm: upper end of the colour scale of gaps"""
 
 FAR = "#e4e4e4"
 
 
 def coaptation_map(drawing: Drawing, width: float) -> bytes:
-    """The gap to the facing leaflet, in mm, with the coapted zone outlined."""
+    """The gap to the facing leaflet in mm, with the outline of the coapted zone."""
     gap = drawing.snapshot.node_coaptation * 1e3
     gap = np.where(np.isfinite(gap), gap, 1.5 * GAP_LIMIT)
     shades = matplotlib.colormaps["viridis"].with_extremes(over=FAR)
@@ -48,7 +48,7 @@ def strain_map(drawing: Drawing, width: float, high: float) -> bytes:
 
 
 DEVIATION_LIMIT = 0.5
-"""mm: the end of the colour scale of the deviation"""
+"""mm: upper end of the colour scale of the deviation"""
 
 
 def deviation_map(drawing: Drawing, deviation: NDArray[np.float64], width: float) -> bytes:
@@ -114,7 +114,7 @@ def _draw_flat(
 
 
 def _draw_borders(ax: Any, drawing: Drawing, flat: Unrolled) -> None:
-    """Lines between scallops, and their names above the annulus."""
+    """Draws lines between scallops, and their names above the annulus."""
     scallop = drawing.snapshot.triangle_scallop[flat.rows]
     points = np.column_stack([flat.across, flat.down])
     owner: dict[tuple[int, int], int] = {}
@@ -135,7 +135,7 @@ def _draw_borders(ax: Any, drawing: Drawing, flat: Unrolled) -> None:
 
 def section_plot(other: Drawing, closed: Drawing, name: str = "open") -> bytes:
     """The central anteroposterior cross-section of a closed valve, its sheets as thick as the
-    distance at which they touch, and that of another shape of it as a line."""
+    contact thickness, and that of another shape of the valve as a line."""
     figure, ax = plt.subplots(figsize=(8, 6.4))
     figure.subplots_adjust(left=0.09, right=0.98, top=0.97, bottom=0.1)
     _draw_chords(ax, closed)
@@ -155,7 +155,8 @@ def section_plot(other: Drawing, closed: Drawing, name: str = "open") -> bytes:
         mine = leaflet == which if which == 0 else leaflet > 0
         ax.add_collection(LineCollection(
             list(closed_cut[mine]), colors=colour, capstyle="round", alpha=0.9,
-            linewidths=closed.contact_thickness * points_per_mm, label=f"closed, {leaflet_name} leaflet"))
+            linewidths=closed.contact_thickness * points_per_mm,
+            label=f"closed, {leaflet_name} leaflet"))
     _finish_section(ax, closed)
     return to_png(figure)
 
@@ -167,8 +168,8 @@ def _inches_per_mm(figure: Any, ax: Any) -> float:
 
 
 def _cut(drawing: Drawing, plane: Drawing) -> tuple[Points, NDArray[np.int64]]:
-    """Where the sheets cross the plane X = 0 of a drawing, in (Y, Z), and the leaflet of each
-    segment, which Snapshot.section does not tell."""
+    """Segments of the sheets in the plane X = 0 of a drawing, in (Y, Z), and the leaflet of each,
+    which Snapshot.section does not return."""
     corners = plane.place(drawing.snapshot.node_position)[drawing.triangles]
     following = np.roll(corners, -1, axis=1)
     x, x_next = corners[:, :, 0], following[:, :, 0]
@@ -180,7 +181,7 @@ def _cut(drawing: Drawing, plane: Drawing) -> tuple[Points, NDArray[np.int64]]:
 
 
 def _draw_chords(ax: Any, drawing: Drawing) -> None:
-    """Chordae and the tips of the heads, projected on the plane."""
+    """Draws chordae and the tips of the heads, projected on the plane."""
     ends = drawing.nodes[drawing.snapshot.chord_nodes]
     ax.add_collection(LineCollection(list(ends[:, :, 1:]), colors="#d8cdb4", linewidths=0.9,
                                      label="chordae (projected)"))
@@ -194,8 +195,8 @@ def _finish_section(ax: Any, drawing: Drawing) -> None:
     ax.text(right + 0.4, 0.4, "annulus plane", ha="right", va="bottom", fontsize=9,
             color="#5b7c96")
     ax.text(0, 7.4, "left atrium", ha="center", fontsize=12, style="italic", color="#777777")
-    ax.text(right + 1, ax.get_ylim()[0] + 1, "left ventricle", ha="right", fontsize=12, style="italic",
-            color="#777777")
+    ax.text(right + 1, ax.get_ylim()[0] + 1, "left ventricle", ha="right", fontsize=12,
+            style="italic", color="#777777")
     ax.set_xlabel("anterior  ←   position along the AP axis, mm   →  posterior")
     ax.set_ylabel("height above the annulus plane, mm")
     ax.spines[["top", "right"]].set_visible(False)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import html
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -13,12 +11,13 @@ from mvs import Simulator, Snapshot
 
 from .cases import strut_chord, verdict
 from .geometry import Drawing
+from .markup import figure
 from .table import rows_of, valves_html
 
 
 @dataclass(frozen=True)
 class Shown:
-    """One operation, and the valve that it leads to."""
+    """One operation and the closed valve after it."""
 
     kind: str
     title: str
@@ -27,7 +26,7 @@ class Shown:
 
 
 _CHORDAE = ("chord_length", "chord_remove", "chord_add", "chord_transfer", "neochord", "head_move")
-"""Looked at from below, with the tension of the chordae; the others from the atrium."""
+"""Shown from below with the tension of the chordae; other operations are shown from the atrium."""
 
 
 def _examples(valve: Snapshot) -> dict[str, dict[str, Any]]:
@@ -49,7 +48,7 @@ def _examples(valve: Snapshot) -> dict[str, dict[str, Any]]:
 
 
 def run(pressure_pa: float = mvs.SYSTOLE_PA) -> Iterator[Shown]:
-    """Each operation of this library by itself, applied to the open valve and closed."""
+    """Applies each operation of the library to the open valve, and closes it."""
     with Simulator() as sim:
         sim.generate()
         opened = sim.snapshot()
@@ -65,7 +64,7 @@ def run(pressure_pa: float = mvs.SYSTOLE_PA) -> Iterator[Shown]:
 
 
 def picture_of(shown: Shown) -> bytes:
-    """The closed valve with what was sewn in, as PNG."""
+    """The closed valve with its implants, as PNG."""
     from .pictures import picture, view_from_atrium, view_from_ventricle
 
     drawing = Drawing(shown.closed)
@@ -83,14 +82,8 @@ def as_html(shown: list[Shown], pictures: dict[str, bytes]) -> str:
     """The chapter: a table, and a picture of each."""
     table = valves_html("operation", _COLUMNS, "verdict",
                         ((each.title, each.closed.measures, each.verdict) for each in shown))
-    figures = "".join(_figure(each, pictures[each.kind]) for each in shown if each.kind in pictures)
-    return ("<h2>Every operation by itself</h2>\n<p>On the shipped valve, open, which is then "
+    figures = "".join(figure(pictures[each.kind], each.title)
+                      for each in shown if each.kind in pictures)
+    return ("<h2>Every operation</h2>\n<p>Each is applied to the open shipped valve, which is then "
             f"closed. Rings, bands and sutures are blue.</p>\n{table}\n"
             f'<div class="row">{figures}</div>')
-
-
-def _figure(shown: Shown, png: bytes) -> str:
-    data = base64.b64encode(png).decode()
-    words = html.escape(shown.title, quote=True)
-    return (f'<figure><img alt="{words}" src="data:image/png;base64,{data}">'
-            f"<figcaption>{words}</figcaption></figure>\n")

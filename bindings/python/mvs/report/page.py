@@ -1,8 +1,7 @@
-"""The report as one HTML file that needs nothing else."""
+"""The report as one self-contained HTML file."""
 
 from __future__ import annotations
 
-import base64
 import html
 from datetime import datetime, timezone
 from string import Template
@@ -11,6 +10,7 @@ import mvs
 
 from .cases import Case
 from .gallery import CAPTIONS, Picture
+from .markup import figure
 from .table import as_html
 
 PAGE = Template("""<!DOCTYPE html>
@@ -33,7 +33,8 @@ PAGE = Template("""<!DOCTYPE html>
   table { border-collapse: collapse; font-size: .92rem; width: 100% }
   th, td { padding: .25rem .6rem; border-bottom: 1px solid #e5e5e5; text-align: right;
            font-variant-numeric: tabular-nums }
-  tr > th:first-child { text-align: left; font-weight: 500 } td.words { text-align: left; color: #555 }
+  tr > th:first-child { text-align: left; font-weight: 500 }
+  td.words { text-align: left; color: #555 }
   code { font-size: .85rem; overflow-wrap: anywhere }
 </style>
 </head>
@@ -47,9 +48,9 @@ $comparison
 <h2>Pictures</h2>
 $pictures
 <h2>Figures</h2>
-<p>All valves closed under the pressure stated. Coaptation counts where leaflets face each other
-within the contact thickness; definitions in full: libmvs/measure/README.md. The literature's
-figures are widely quoted ranges for orientation, not limits of this model.</p>
+<p>All valves are closed under the stated pressure. Leaflets coapt where they face each other
+within the contact thickness; definitions: libmvs/measure/README.md. The figures of the
+literature are widely quoted ranges for orientation, not limits of this model.</p>
 $table
 $study
 <h2>Settings</h2>
@@ -60,7 +61,7 @@ $settings
 
 
 def build(cases: list[Case], pictures: list[Picture], study: str = "") -> str:
-    """The page for some valves and their pictures; `study` is a chapter of its own, in HTML."""
+    """The page of some valves and their pictures; `study`: more chapters, in HTML."""
     return PAGE.substitute(
         columns=min(len(cases), 3),
         version=f"{mvs.__version__} ({', '.join(mvs.features)})",
@@ -101,32 +102,23 @@ def _comparison(cases: list[Case]) -> str:
 
 def _row(name: str, cases: list[Case], pictures: list[Picture]) -> str:
     titles = {case.key: case.title for case in cases}
-    figures = "".join(
-        f"<figure>{_image(shown, titles[shown.case])}"
-        f"<figcaption>{html.escape(titles[shown.case])}</figcaption></figure>\n"
-        for shown in pictures
-        if shown.name == name
-    )
-    return f'<h3>{html.escape(CAPTIONS[name])}</h3>\n<div class="row">{figures}</div>' if figures else ""
-
-
-def _image(shown: Picture, title: str) -> str:
-    data = base64.b64encode(shown.png).decode()
-    words = html.escape(f"{title}. {CAPTIONS[shown.name]}", quote=True)
-    return f'<img alt="{words}" src="data:image/png;base64,{data}">'
+    caption = CAPTIONS[name]
+    figures = "".join(figure(shown.png, titles[shown.case], f"{titles[shown.case]}. {caption}")
+                      for shown in pictures if shown.name == name)
+    return f'<h3>{html.escape(caption)}</h3>\n<div class="row">{figures}</div>' if figures else ""
 
 
 def _tissues(closed: mvs.Snapshot) -> str:
-    """The laws of the leaflets in words, each once."""
-    told: dict[str, None] = {}
+    """The distinct laws of the leaflets in words."""
+    laws: dict[str, None] = {}
     for number, row in zip(closed.leaflet_law, closed.leaflet_constants):
         law = mvs.leaflet_law(int(number))
         values = ", ".join(
             f"{c.key} {value / 1e3 if c.unit == 'Pa' else value:g}{' kPa' if c.unit else ''}"
             for c, value in zip(law.constants, row[1:])
         )
-        told[f"{law.name}, {row[0] * 1e3:g} mm thick, {values}"] = None
-    return "; ".join(told)
+        laws[f"{law.name}, {row[0] * 1e3:g} mm thick, {values}"] = None
+    return "; ".join(laws)
 
 
 def _settings(cases: list[Case]) -> str:
@@ -135,14 +127,15 @@ def _settings(cases: list[Case]) -> str:
         closed = case.closed
         density, thickness, stiffness, bending = closed.valve_constants
         items.append(
-            f"<li><strong>{html.escape(case.title)}</strong>: {_tissues(closed)}; chordae {closed.chord_young.mean() / 1e6:g} MPa, mean cross-section "
-            f"{closed.chord_area.mean() * 1e6:.2f} mm²; density {density:g} kg/m³; leaflets touch "
-            f"at {thickness * 1e3:g} mm, contact stiffness {stiffness / 1e3:g} kPa; bending scale "
-            f"{bending:g}; snapshot <code>{closed.hash}</code></li>\n"
+            f"<li><strong>{html.escape(case.title)}</strong>: {_tissues(closed)}; chordae "
+            f"{closed.chord_young.mean() / 1e6:g} MPa, mean cross-section "
+            f"{closed.chord_area.mean() * 1e6:.2f} mm²; density {density:g} kg/m³; contact "
+            f"thickness {thickness * 1e3:g} mm, contact stiffness {stiffness / 1e3:g} kPa; bending "
+            f"scale {bending:g}; snapshot <code>{closed.hash}</code></li>\n"
         )
     return (
         f"<ul>\n{''.join(items)}</ul>\n<p>Solver: projected Newton on the potential. Pictures: "
-        "the sheets are drawn through an interpolating subdivision of the mesh, as thick as the "
-        "distance at which they touch; the strip of atrial wall and the bodies of the papillary "
-        "muscles only show where the valve hangs. All figures come from the mesh itself.</p>"
+        "an interpolating subdivision refines the sheets, which are as thick as the contact "
+        "thickness; the strip of atrial wall and the papillary muscles are for orientation. All "
+        "figures come from the mesh.</p>"
     )

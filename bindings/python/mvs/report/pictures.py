@@ -1,4 +1,4 @@
-"""The pictures of a valve: scenes with labels, legends and scale bars laid over them."""
+"""The pictures of a valve: rendered scenes with labels, legends and scale bars."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
-from .. import PartKind  # noqa: E402
+from mvs import PartKind  # noqa: E402
 from .geometry import Drawing  # noqa: E402
 from .scene import ORIFICE, Colours, Scene, View  # noqa: E402
 
@@ -24,7 +24,7 @@ plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 11, "text.color"
 
 
 def to_png(figure: Any) -> bytes:
-    """A figure as the bytes of a PNG file; the figure is closed."""
+    """The bytes of a figure as a PNG file; closes the figure."""
     memory = io.BytesIO()
     figure.savefig(memory, format="png", dpi=DPI, facecolor="white")
     plt.close(figure)
@@ -32,7 +32,7 @@ def to_png(figure: Any) -> bytes:
 
 
 def side_by_side(pictures: list[bytes]) -> bytes:
-    """Pictures of one height joined to a strip."""
+    """Pictures of equal height, joined side by side."""
     images = [plt.imread(io.BytesIO(png)) for png in pictures]
     memory = io.BytesIO()
     plt.imsave(memory, np.ascontiguousarray(np.hstack(images)), format="png")
@@ -55,14 +55,14 @@ def view_from_ventricle(width: float) -> View:
 
 
 def place_image(ax: Any, image: NDArray[np.uint8], view: View) -> None:
-    """A rendered picture on axes whose coordinates are mm from the picture's centre."""
+    """Shows a rendered picture on axes in mm from its centre."""
     high, wide = image.shape[0] / image.shape[1] * view.width / 2, view.width / 2
     ax.imshow(image, extent=(-wide, wide, -high, high), interpolation="lanczos")
     ax.set_axis_off()
 
 
 def scale_bar(ax: Any, length: float = 10.0) -> None:
-    """A bar of a length in mm at the lower left; rays are parallel, so it holds everywhere."""
+    """Draws a bar of a length in mm at the lower left; the projection is parallel."""
     left, bottom = ax.get_xlim()[0], ax.get_ylim()[0]
     x, y = left + 2.5, bottom + 2.2
     ax.plot([x, x + length], [y, y], color=INK, linewidth=2.5, solid_capstyle="butt")
@@ -75,14 +75,14 @@ def _label(ax: Any, at: NDArray[np.float64], text: str, **style: Any) -> None:
 
 
 def label_scallops(ax: Any, drawing: Drawing, view: View) -> None:
-    """A1 .. P3, each on its scallop."""
+    """Writes the name of each scallop on it."""
     for row, name in enumerate(drawing.names(PartKind.SCALLOP)):
         anchor = drawing.scallop_anchor(row, view.axes[2])
         _label(ax, view.project(anchor), name, fontsize=14, fontweight="bold")
 
 
 def label_sides(ax: Any, drawing: Drawing, view: View) -> None:
-    """Which side is which, on the strip of wall, for a view from the atrium."""
+    """Writes "anterior" and "posterior" on the strip of wall, for a view from the atrium."""
     ring = drawing.annulus
     for y, text in ((ring[:, 1].max() + 2.6, "anterior"), (ring[:, 1].min() - 2.6, "posterior")):
         ax.text(*view.project(np.array([0.0, y, 0.0])), text, ha="center", va="center",
@@ -90,7 +90,7 @@ def label_sides(ax: Any, drawing: Drawing, view: View) -> None:
 
 
 def label_heads(ax: Any, drawing: Drawing, view: View) -> None:
-    """The names of the papillary heads, beside their tips."""
+    """Writes the names of the papillary heads beside their tips."""
     heads = drawing.names(PartKind.HEAD)
     if len(heads) > 4:
         return
@@ -101,7 +101,7 @@ def label_heads(ax: Any, drawing: Drawing, view: View) -> None:
 
 
 def colour_bar(figure: Any, ax: Any, colours: Colours, text: str, extend: str = "neither") -> None:
-    """The legend of a colour map: quantity and unit."""
+    """Draws the legend of a colour map with quantity and unit."""
     norm = matplotlib.colors.Normalize(colours.low, colours.high)
     shades = matplotlib.cm.ScalarMappable(norm, colours.map)
     bar = figure.colorbar(shades, cax=ax, orientation="horizontal", extend=extend)
@@ -117,7 +117,7 @@ def picture(
     tension: Optional[float] = None,
     labels: bool = True,
 ) -> bytes:
-    """One view of a valve; with `tension`, chordae are coloured up to that many N."""
+    """One view of a valve; `tension`: N, upper end of the colour scale of the chordae."""
     scene = Scene(drawing)
     from_atrium = view.towards == (0, 0, 1)
     scene.add_leaflets(opacity=0.55 if tension else 1.0)

@@ -1,8 +1,7 @@
-"""The founding paper's study on a page: table, cross-sections, and how far the shapes are apart."""
+"""The founding paper's study as a chapter: table, cross-sections, distances between the shapes."""
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import Snapshot
-from ..study import Stage
+from mvs import Snapshot
+from mvs.study import Stage
 from .geometry import Drawing
+from .markup import cells, figure, heads, table
 from .table import aligned, rows_of, value, valves_html
 
 Segments = NDArray[np.float64]
@@ -28,12 +28,12 @@ COLUMNS = rows_of((
 ))
 
 PAPER_MM = {3: (1.3, 0.5, 1.7)}
-"""Of the founding paper: RMS of its valve 3 in cross-section, pairs in the order of `Distances`."""
+"""RMS of valve 3 of the founding paper in cross-section, pairs in the order of `Distances`."""
 
 COLOURS = {"healthy": "#8a8a8a", "diseased": "#b3261e", "repaired": "#1b6f5a"}
 
 SAMPLE_MM = 0.1
-"""Between samples of a section: a tenth of the sheet's thickness."""
+"""Distance between samples of a section: a tenth of the sheet's thickness."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def triples(stages: Sequence[Stage]) -> list[tuple[Stage, Stage, Stage]]:
 
 
 def distances(stages: Sequence[Stage]) -> list[Distances]:
-    """How far the shapes of each valve are apart, as they lie."""
+    """Distances between the shapes of each valve, without registration."""
     found = []
     for healthy, diseased, repaired in triples(stages):
         plane = Drawing(healthy.closed)
@@ -71,13 +71,13 @@ def _triple(values: Sequence[float]) -> tuple[float, float, float]:
 
 
 def central_section(snapshot: Snapshot, plane: Drawing) -> Segments:
-    """Where the sheets cross the central AP plane of a drawing: segments (n, 2, 2), in mm."""
+    """Section of the sheets by the central AP plane of a drawing: segments (n, 2, 2), in mm."""
     frame = plane.snapshot.frame
     return np.asarray(plane.place(snapshot.section(frame.origin, frame.axes[1]))[..., 1:])
 
 
 def section_rms(a: Segments, b: Segments) -> float:
-    """Symmetric RMS distance of two sections in one plane, by length of both."""
+    """Symmetric RMS distance of two sections in one plane, weighted by length."""
     squares = np.concatenate([_to_nearest(_samples(a), b), _to_nearest(_samples(b), a)])
     return float(np.sqrt(squares.mean()))
 
@@ -92,7 +92,7 @@ def _samples(segments: Segments) -> Segments:
 
 
 def _to_nearest(points: Segments, segments: Segments) -> NDArray[np.float64]:
-    """Squared distances of points to the nearest of some segments."""
+    """Squared distances of points from the nearest segment."""
     start, way = segments[:, 0], segments[:, 1] - segments[:, 0]
     offset = points[:, None] - start
     share = (offset * way).sum(axis=2) / np.maximum((way**2).sum(axis=1), 1e-30)
@@ -101,7 +101,7 @@ def _to_nearest(points: Segments, segments: Segments) -> NDArray[np.float64]:
 
 
 def as_text(stages: Sequence[Stage]) -> str:
-    """Both tables for a terminal."""
+    """Both tables, for a terminal."""
     lines = [["", *(row.head for row in COLUMNS)]]
     for stage in stages:
         measures = stage.closed.measures
@@ -121,7 +121,7 @@ def _sentence(found: Distances) -> str:
 
 
 def sections(stages: Sequence[Stage]) -> bytes:
-    """Central cross-sections, the three states of each valve over one another, as PNG."""
+    """Central cross-sections, the three states of each valve superposed, as PNG."""
     import matplotlib.pyplot as plt
 
     from .pictures import to_png
@@ -160,20 +160,15 @@ def _legend(stage: Stage) -> str:
 
 
 def as_html(stages: Sequence[Stage], png: bytes) -> str:
-    """The chapter for the page; `png` from `sections`, or empty for none."""
+    """The chapter for the page; `png` is from `sections`, or empty."""
     picture = ""
     if png:
-        data = base64.b64encode(png).decode()
-        words = "Central cross-sections: healthy, diseased and repaired over one another."
-        picture = (
-            f'<figure><img alt="{words}" src="data:image/png;base64,{data}">'
-            f"<figcaption>{words}</figcaption></figure>\n"
-        )
+        picture = figure(png, "Central cross-sections: healthy, diseased and repaired, superposed.")
     return (
         "<h2>Three leaking valves and their repair</h2>\n"
         "<p>The study of Tenenholtz et al. (IROS 2011): the same factors on annulus and chordae, "
-        "on the parametric valve with a posterior leaflet of 12 mm. The paper does not say which "
-        "chordae; they are chosen here by place. Each valve is closed from the one before it."
+        "on the parametric valve with a posterior leaflet of 12 mm. The paper does not name the "
+        "chordae; they are chosen here by position. Each valve is closed from the one before it."
         f"</p>\n{picture}{_stage_table(stages)}\n{_distance_table(distances(stages))}"
     )
 
@@ -184,15 +179,13 @@ def _stage_table(stages: Sequence[Stage]) -> str:
 
 
 def _distance_table(found: list[Distances]) -> str:
-    rows = [
-        "<tr><th>RMS distance, mm</th><th>healthy to diseased</th><th>healthy to repaired</th>"
-        "<th>repaired to diseased</th></tr>"
-    ]
+    rows = ["<tr>" + heads(("RMS distance, mm", "healthy to diseased", "healthy to repaired",
+                            "repaired to diseased")) + "</tr>"]
     for each in found:
         lines = [("central section", each.section), ("surface", each.surface)]
         if each.number in PAPER_MM:
             lines.append(("section, founding paper", PAPER_MM[each.number]))
         for label, figures in lines:
-            cells = "".join(f"<td>{rms:.2f}</td>" for rms in figures)
-            rows.append(f"<tr><th>Valve {each.number}, {label}</th>{cells}</tr>")
-    return "<table>\n" + "\n".join(rows) + "\n</table>"
+            row = cells(f"{rms:.2f}" for rms in figures)
+            rows.append(f"<tr><th>Valve {each.number}, {label}</th>{row}</tr>")
+    return table(rows)

@@ -1,4 +1,4 @@
-"""The valve in three dimensions, drawn off-screen by VTK; labels are laid over it elsewhere."""
+"""The valve in three dimensions, rendered off-screen by VTK, without labels."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-# a window of the graphics library's own: there need be no display
+# EGL renders without a display
 os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 
 import pyvista  # noqa: E402
 
-from .. import ChordKind, RingKind  # noqa: E402
+from mvs import ChordKind, RingKind  # noqa: E402
 from .geometry import Drawing, Points  # noqa: E402
 
 ANTERIOR, POSTERIOR = "#efc4ae", "#dfa491"
@@ -25,9 +25,10 @@ PIXELS = 1100
 
 @dataclass(frozen=True)
 class View:
-    """From where one looks, with parallel rays, so that a scale bar holds everywhere.
+    """A camera with parallel projection.
 
-    towards: from the valve to the eye; up: upwards in the picture; width: mm across the picture
+    towards: direction from the valve to the eye; up: upward direction in the picture; width: of the
+    picture, mm
     """
 
     towards: tuple[float, float, float]
@@ -37,20 +38,20 @@ class View:
 
     @property
     def axes(self) -> NDArray[np.float64]:
-        """Rows: to the right, upwards, towards the eye."""
+        """Unit vectors in rows: right, up, towards the eye."""
         eye = np.asarray(self.towards) / np.linalg.norm(self.towards)
         right = np.cross(self.up, eye)
         right /= np.linalg.norm(right)
         return np.array([right, np.cross(eye, right), eye])
 
     def project(self, points: Points) -> Points:
-        """Points of the drawing, in mm to the right of and above the picture's centre."""
+        """Points of the drawing in mm to the right of and above the centre of the picture."""
         return np.asarray((points - np.asarray(self.centre)) @ self.axes[:2].T)
 
 
 @dataclass
 class Colours:
-    """Values at the nodes shown as colours of the leaflets."""
+    """Node values and their colour scale."""
 
     values: NDArray[np.float64]
     low: float
@@ -66,7 +67,7 @@ def _surface(points: Points, triangles: NDArray[np.int64]) -> Any:
 
 def _polyline(points: Points, closed: bool) -> Any:
     count = len(points)
-    # closed: one point more than once around, so that the ends of a tube overlap
+    # closed: one extra point, so that the ends of a tube overlap
     order = np.append(np.arange(count), [0, 1]) if closed else np.arange(count)
     return pyvista.PolyData(points, lines=np.concatenate([[len(order)], order]))
 
@@ -95,9 +96,9 @@ class Scene:
         only: Optional[int] = None,
         opacity: float = 1.0,
     ) -> None:
-        """The sheets, as thick as the distance at which they touch, smoothly shaded.
+        """Adds the sheets, as thick as the contact thickness, with smooth shading.
 
-        Drawn through an interpolating subdivision: every vertex of the mesh stays where it is.
+        An interpolating subdivision refines them: every vertex of the mesh keeps its position.
         """
         drawing = self.drawing
         for leaflet in np.unique(drawing.snapshot.triangle_leaflet):
@@ -127,14 +128,14 @@ class Scene:
         if colours is None:
             style["color"] = ANTERIOR if leaflet == 0 else POSTERIOR
         else:
-            # flatter light: shading must not be taken for a colour of the scale
+            # flatter light: shading must not look like a colour of the scale
             style.update(ambient=0.45, diffuse=0.6, specular=0.0)
             style.update(
                 scalars="value", cmap=colours.map, clim=(colours.low, colours.high),
                 show_scalar_bar=False, above_color=colours.above,
             )
         for side in (1, -1):
-            # the lower side is wound the other way, so that it is lit from below
+            # reversed winding lights the lower side from below
             sheet = _surface(fine.points + side * half * normals, faces[:, ::side])
             sheet.point_data["Normals"] = side * normals
             if colours is not None:
@@ -142,19 +143,19 @@ class Scene:
             self.plotter.add_mesh(sheet, **style)
 
     def add_rim(self) -> None:
-        """The free edge, rounded."""
+        """Adds the free edge as a tube."""
         edge = _polyline(self.drawing.free_edge, closed=True)
         tube = edge.tube(radius=self.drawing.contact_thickness / 2, n_sides=12)
         self.plotter.add_mesh(tube, color="#e8b8a2", smooth_shading=True, ambient=0.2)
 
     def add_annulus(self) -> None:
-        """The annulus as a cord, and a strip of atrial wall that shows where the valve hangs."""
+        """Adds the annulus as a tube."""
         ring = _smooth_loop(self.drawing.annulus)
         tube = _polyline(ring, closed=True).tube(radius=0.55, n_sides=16)
         self.plotter.add_mesh(tube, color=ANNULUS, smooth_shading=True, ambient=0.25, specular=0.3)
 
     def add_wall(self) -> None:
-        """A strip of atrial wall around the annulus: only to show where the valve hangs."""
+        """Adds a strip of atrial wall around the annulus, for orientation."""
         ring = _smooth_loop(self.drawing.annulus)
         centre = ring.mean(axis=0)
         outward = (ring - centre) * np.array([1.0, 1.0, 0.0])
@@ -166,13 +167,14 @@ class Scene:
         triangles = []
         for row in range(len(rows) - 1):
             a, b = row * count + index, row * count + (index + 1) % count
-            triangles += [np.column_stack([a, a + count, b]), np.column_stack([b, a + count, b + count])]
+            triangles += [np.column_stack([a, a + count, b]),
+                          np.column_stack([b, a + count, b + count])]
         wall = _surface(points, np.concatenate(triangles))
         self.plotter.add_mesh(wall, color=WALL, smooth_shading=True, ambient=0.3, specular=0.0)
 
     def add_chords(self, tension: Optional[NDArray[np.float64]] = None, high: float = 1.0) -> None:
-        """Chordae as tubes of their cross-section that narrow towards the leaflet, where they fan
-        out; coloured by tension in N where it is given."""
+        """Adds chordae as tubes of their cross-section that taper towards the leaflet, coloured by
+        tension in N if it is given."""
         snapshot = self.drawing.snapshot
         radius = np.sqrt(snapshot.chord_area / np.pi) * 1e3
         for row, (a, b) in enumerate(snapshot.chord_nodes):
@@ -191,7 +193,7 @@ class Scene:
             )
 
     def add_rings(self) -> None:
-        """Rings and bands, as thick as the cord of a real one."""
+        """Adds rings and bands as tubes of 2.2 mm diameter."""
         snapshot = self.drawing.snapshot
         points = self.drawing.place(snapshot.ring_points)
         start = snapshot.ring_start
@@ -201,7 +203,7 @@ class Scene:
                                   smooth_shading=True, ambient=0.25, specular=0.3)
 
     def add_heads(self) -> None:
-        """Papillary muscles: one body under each cluster of heads, its tips where chordae start."""
+        """Adds one papillary muscle under each cluster of heads, and a tip at each head."""
         for cluster in _clusters(self.drawing.heads, 9.0):
             tip = cluster.mean(axis=0)
             length, width = 14.0, max(3.0, 1.5 + np.linalg.norm(cluster - tip, axis=1).max())
@@ -214,7 +216,7 @@ class Scene:
                 )
 
     def add_orifice(self) -> None:
-        """The smallest opening, in red; nothing on a sealed valve."""
+        """Adds the regurgitant orifice in red, if there is one."""
         snapshot = self.drawing.snapshot
         if len(snapshot.orifice_triangles) == 0:
             return
@@ -223,7 +225,7 @@ class Scene:
         self.plotter.add_mesh(surface, color=ORIFICE, lighting=False)
 
     def render(self, view: View) -> NDArray[np.uint8]:
-        """The picture, (height, width, 3)."""
+        """Renders the picture: (height, width, 3)."""
         camera = self.plotter.camera
         centre = np.asarray(view.centre)
         camera.position = tuple(centre + 200 * view.axes[2])
@@ -259,7 +261,7 @@ def _tapered(start: Points, end: Points, radius: float) -> Any:
 
 
 def _clusters(points: Points, reach: float) -> list[Points]:
-    """Groups of points; each point is within reach of the first of its group."""
+    """Groups points: each is within reach of the first point of its group."""
     groups: list[list[Points]] = []
     for point in points:
         for group in groups:

@@ -1,4 +1,4 @@
-"""The figures of a report, in the units of the clinic, as text and as HTML."""
+"""The measures of a report in clinical units, as text and as HTML."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import MMHG, Measures, definition_of
+from mvs import MMHG, Measures, definition_of
 from .cases import Case
+from .markup import cells, heads, table
 
 
 @dataclass(frozen=True)
 class Row:
-    """One figure: a field of Measures, in a unit of the clinic."""
+    """One row: a field of Measures in a clinical unit."""
 
     label: str
     field: str
@@ -25,7 +26,7 @@ class Row:
 
     @property
     def head(self) -> str:
-        """What stands over its figures: label and unit."""
+        """The heading of the row: label and unit."""
         return f"{self.label}, {self.unit}" if self.unit else self.label
 
 
@@ -64,17 +65,17 @@ ROWS = (
 
 
 def value(row: Row, measures: Measures) -> str:
-    """A figure as it is printed, without its unit."""
+    """The printed value of a row, without its unit."""
     return f"{getattr(measures, row.field) * row.scale:.{row.digits}f}"
 
 
 def rows_of(fields: Iterable[str]) -> tuple[Row, ...]:
-    """The rows of these fields of Measures, in their order."""
+    """The rows of the given fields of Measures, in their order."""
     return tuple(row for field in fields for row in ROWS if row.field == field)
 
 
 def aligned(lines: Sequence[Sequence[str]]) -> str:
-    """Lines of cells as text: the first column to the left, the others to the right."""
+    """Lines of cells as text: first column left-aligned, others right-aligned."""
     widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
     return "\n".join(
         line[0].ljust(widths[0])
@@ -83,23 +84,22 @@ def aligned(lines: Sequence[Sequence[str]]) -> str:
     )
 
 
-def valves_html(what: str, figures: Sequence[Row], last: str,
+def valves_html(first: str, figures: Sequence[Row], last: str,
                 valves: Iterable[tuple[str, Measures, str]]) -> str:
-    """A valve a line: what it is, its figures, and words on it.
+    """A table with one line per valve: title, measures, remark.
 
-    `what` and `last` are the heads of the first and the last column.
+    `first` and `last` are the headings of the first and the last column.
     """
-    head = "".join(f"<th>{row.head}</th>" for row in figures)
-    lines = [f"<tr><th>{what}</th>{head}<th>{last}</th></tr>"]
+    lines = [f"<tr>{heads((first, *(row.head for row in figures), last))}</tr>"]
     for title, measures, words in valves:
-        cells = "".join(f"<td>{value(row, measures)}</td>" for row in figures)
-        lines.append(f"<tr><th>{html.escape(title)}</th>{cells}"
+        lines.append(f"<tr><th>{html.escape(title)}</th>"
+                     f"{cells(value(row, measures) for row in figures)}"
                      f"<td class=words>{html.escape(words)}</td></tr>")
-    return "<table>\n" + "\n".join(lines) + "\n</table>"
+    return table(lines)
 
 
 def solution(case: Case) -> list[tuple[str, str]]:
-    """How a closure went: label and text."""
+    """Labels and texts that describe a closure."""
     stats, closed = case.stats, case.closed
     leaflet = np.unique(closed.triangle_nodes)
     return [
@@ -116,7 +116,7 @@ def solution(case: Case) -> list[tuple[str, str]]:
 
 
 def as_text(cases: list[Case]) -> str:
-    """The table for a terminal."""
+    """The table, for a terminal."""
     lines = [["", *(case.title for case in cases)]]
     for k, (label, _) in enumerate(solution(cases[0])):
         lines.append([label, *(solution(case)[k][1] for case in cases)])
@@ -126,17 +126,17 @@ def as_text(cases: list[Case]) -> str:
 
 
 def as_html(cases: list[Case]) -> str:
-    """The table for the page, with definitions and the literature's figures."""
-    head = "".join(f"<th>{html.escape(case.title)}</th>" for case in cases)
-    rows = [f"<tr><th></th>{head}<th>unit</th><th>what it is</th><th>literature</th></tr>"]
+    """The table for the page, with definitions and figures of the literature."""
+    titles = (html.escape(case.title) for case in cases)
+    rows = [f"<tr>{heads(('', *titles, 'unit', 'definition', 'literature'))}</tr>"]
     for k, (label, _) in enumerate(solution(cases[0])):
-        cells = "".join(f"<td>{html.escape(solution(case)[k][1])}</td>" for case in cases)
-        rows.append(f"<tr><th>{label}</th>{cells}<td></td><td></td><td></td></tr>")
+        figures = cells(html.escape(solution(case)[k][1]) for case in cases)
+        rows.append(f"<tr><th>{label}</th>{figures}<td></td><td></td><td></td></tr>")
     for row in ROWS:
-        cells = "".join(f"<td>{value(row, case.closed.measures)}</td>" for case in cases)
+        figures = cells(value(row, case.closed.measures) for case in cases)
         meaning = html.escape(definition_of(Measures, row.field))
         rows.append(
-            f"<tr><th>{row.label}</th>{cells}<td>{row.unit}</td>"
+            f"<tr><th>{row.label}</th>{figures}<td>{row.unit}</td>"
             f"<td class=words>{meaning}</td><td class=words>{row.literature}</td></tr>"
         )
-    return "<table>\n" + "\n".join(rows) + "\n</table>"
+    return table(rows)

@@ -1,7 +1,7 @@
-"""Chordae and leaflet vertices by where they are, so that one plan fits many valves.
+"""Finds chordae and leaflet vertices by their position, so that one plan fits many valves.
 
-Names of chordae differ between valves and even between meshes of one valve; a place on a leaflet
-does not.
+Names of chordae differ between valves, and between meshes of one valve; positions on a leaflet do
+not.
 """
 
 from __future__ import annotations
@@ -13,15 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import IdError, NodeKind, Part, PartKind, Snapshot
-from ..report.geometry import edges_of, ways_along
+from ..mesh import edges_of, shortest_paths
+
 
 @dataclass(frozen=True)
 class Site:
-    """A place on a leaflet.
+    """A position on a leaflet.
 
-    across: from its middle, as a share of half the width of the annulus; towards the
-        anterolateral commissure is positive
-    down: share of the way from the annulus to the free edge
+    across: distance from the middle over half the width of the annulus; positive towards the
+        anterolateral commissure
+    down: 0 at the annulus, 1 at the free edge
     """
 
     leaflet: str
@@ -31,10 +32,10 @@ class Site:
 
 @dataclass(frozen=True)
 class Chord:
-    """A chord from a papillary head with all that it branches into.
+    """A chord from a papillary head with all its branches.
 
-    row: of its first segment
-    vertices: leaflet vertices that it holds
+    row: row of its first segment
+    vertices: leaflet vertices at its ends
     """
 
     row: int
@@ -42,7 +43,7 @@ class Chord:
 
 
 class Anatomy:
-    """Where things are on a valve at rest."""
+    """Positions on the rest shape of a valve."""
 
     def __init__(self, snapshot: Snapshot) -> None:
         self.snapshot = snapshot
@@ -53,20 +54,20 @@ class Anatomy:
 
     @cached_property
     def chords(self) -> list[Chord]:
-        """The chordae that spring from papillary heads, in the order of the valve."""
+        """The chordae from papillary heads, in the order of the valve."""
         rows = np.flatnonzero(np.isin(self.snapshot.chord_nodes[:, 0], self.snapshot.head_nodes))
         return [self._chord(int(row)) for row in rows]
 
     def chord_at(self, site: Site) -> Chord:
-        """The chord that holds vertices of that leaflet only, nearest to the site on average."""
+        """The chord to that leaflet only whose vertices are nearest to the site on average."""
         inside = set(self._vertices(site.leaflet).tolist())
         found = [chord for chord in self.chords if inside.issuperset(chord.vertices)]
         if not found:
-            raise IdError(f"no chord holds leaflet {site.leaflet} alone")
+            raise IdError(f"no chord ends on leaflet {site.leaflet} only")
         return min(found, key=lambda c: float(self._off(np.array(c.vertices), site).mean()))
 
     def vertex_at(self, site: Site) -> int:
-        """The vertex nearest to the site among those of its leaflet that no chord holds."""
+        """The vertex of the leaflet nearest to the site, among those without a chord."""
         free = np.setdiff1d(self._vertices(site.leaflet), self.snapshot.chord_nodes)
         free = free[self.snapshot.node_kind[free] == NodeKind.LEAFLET]
         if len(free) == 0:
@@ -74,12 +75,12 @@ class Anatomy:
         return int(free[np.argmin(self._off(free, site))])
 
     def nearest_head(self, vertex: int, side: float) -> int:
-        """The node of the papillary head nearest to a vertex, of the muscle of that side."""
+        """The node of the papillary head nearest to a vertex, on the muscle of that side."""
         heads = self._muscle(side)
         return int(heads[np.argmin(np.linalg.norm(self.rest[heads] - self.rest[vertex], axis=1))])
 
     def part(self, kind: PartKind, row: int) -> Part:
-        """The part of a kind in a row of its arrays."""
+        """The part of a kind in a row of the arrays."""
         return next(part for part in self.snapshot.parts if (part.kind, part.index) == (kind, row))
 
     def head_of(self, node: int) -> Part:
@@ -108,18 +109,18 @@ class Anatomy:
 
     @cached_property
     def _down(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Of each node, the share of the way from the annulus to the free edge; that way, m."""
+        """Position of each node from annulus (0) to free edge (1), and the distance of the two, m."""
         edges = edges_of(self._triangles)
         snapshot = self.snapshot
         above, below = (
-            ways_along(self.rest, edges, loop.astype(np.int64))[0]
+            shortest_paths(self.rest, edges, loop.astype(np.int64))[0]
             for loop in (snapshot.annulus_nodes, snapshot.free_edge_nodes)
         )
         return above / np.maximum(above + below, 1e-12), above + below
 
     def _off(self, vertices: NDArray[np.int64], site: Site) -> NDArray[np.float64]:
         """Squared distances of vertices from a site, m2."""
-        share, way = self._down
+        share, length = self._down
         across = self._x[vertices] - site.across * self._half_width
-        down = (share[vertices] - site.down) * way[vertices]
+        down = (share[vertices] - site.down) * length[vertices]
         return across**2 + down**2

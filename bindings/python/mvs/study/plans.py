@@ -1,4 +1,4 @@
-"""What makes each valve leak and what repairs it, as data."""
+"""The diseases of the study and their repairs, as data."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from .anatomy import Site
 
 @dataclass(frozen=True)
 class Disease:
-    """What makes a healthy valve leak: factors on the loaded annulus and on one chord."""
+    """A disease: factors on the loaded annulus and on the length of one chord."""
 
     annulus: float
     chord: float
     site: Site
-    """of the chord"""
+    """position of the chord"""
 
 
 class Treatment(Enum):
-    """What the surgeon does with the diseased chord."""
+    """Treatment of the diseased chord."""
 
     LEAVE = "left as it is"
-    RESTORE = "given its length back"
-    REPLACE = "removed, and a new one tied to each vertex that it held"
+    RESTORE = "restored to its length"
+    REPLACE = "removed, and a new one tied to each of its vertices"
 
 
 @dataclass(frozen=True)
 class Repair:
-    """What the surgeon does. `annulus` is a share of the healthy one; `add` are new chordae."""
+    """A repair: `annulus`, size over the healthy one; `add`, sites of new chordae."""
 
     annulus: float
     treatment: Treatment
@@ -45,7 +45,7 @@ class Plan:
 
 
 def _beside_the_middle(leaflet: str) -> tuple[Site, Site]:
-    """In the rough zone, one from each papillary muscle."""
+    """Two sites in the rough zone, one for each papillary muscle."""
     return Site(leaflet, 0.15, 0.75), Site(leaflet, -0.15, 0.75)
 
 
@@ -59,7 +59,7 @@ PARAMETRIC = (
     Plan(3, Disease(1.10, 0.67, _A2_ROUGH_ZONE),
          Repair(0.99, Treatment.RESTORE, _beside_the_middle("P"))),
 )
-"""For the parametric valve: an anterior strut, and the rough-zone chord next to the middle of A2."""
+"""For the parametric valve: an anterior strut chord, and the rough-zone chord nearest to A2's middle."""
 
 
 def _moved(plan: Plan, site: Site) -> Plan:
@@ -71,6 +71,6 @@ KAISER = (
     _moved(PARAMETRIC[1], Site("P", 0.7, 1.0)),
     _moved(PARAMETRIC[2], Site("P", 0.5, 1.0)),
 )
-"""For the valve of Kaiser et al.: its anterior leaflet hangs on two trees of chordae that hold half
-of it each, and reaches so far behind the posterior one that no shorter tree of them opens it. The
-chordae next to the anterolateral commissure, of the posterior leaflet, do."""
+"""For the valve of Kaiser et al.: two trees of chordae hold half of its anterior leaflet each, and
+it overlaps the posterior leaflet so far that no shorter tree opens the valve. The posterior chordae
+next to the anterolateral commissure do."""

@@ -1,4 +1,4 @@
-"""Closes a valve healthy, diseased and repaired."""
+"""Closes a valve in its healthy, diseased and repaired stages."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ POSTERIOR_HEIGHT_M = 12e-3
 class Stage:
     """A valve closed at 120 mmHg.
 
-    number: of the plan; 0 for the healthy valve
+    number: number of the plan; 0 for the healthy valve
     """
 
     number: int
@@ -27,16 +27,15 @@ class Stage:
 
     @property
     def title(self) -> str:
-        """Which valve it is, in a few words."""
+        """Number and state of the valve."""
         return f"Valve {self.number}, {self.state}" if self.number else self.state
 
 
 def healthy_valve(vertices: int = 425) -> Snapshot:
     """The parametric valve of the study, open.
 
-    Its posterior leaflet is 12 mm tall, the lower end of the normal 12 to 14. With the default's
-    13 mm it coapts over so much that a chord shorter by 30 % opens it by less than 2 mm2, whichever
-    chord it is.
+    Its posterior leaflet is 12 mm tall, the lower end of the normal 12 to 14 mm. With the default
+    of 13 mm the coaptation is so large that shortening any chord by 30 % opens less than 2 mm2.
     """
     with Simulator() as sim:
         sim.generate(vertices=vertices, posterior_height=POSTERIOR_HEIGHT_M)
@@ -44,10 +43,10 @@ def healthy_valve(vertices: int = 425) -> Snapshot:
 
 
 def run(healthy: Snapshot, plans: Sequence[Plan]) -> Iterator[Stage]:
-    """The healthy valve, then each plan's diseased valve and its repair.
+    """Yields the healthy valve, then the diseased and the repaired valve of each plan.
 
-    Each is closed from the shape before it: the disease from the healthy closed valve, the repair
-    from the diseased one.
+    Each closure starts from the previous shape: the disease from the healthy closed valve, the
+    repair from the diseased one.
     """
     anatomy = Anatomy(healthy)
     with Simulator() as sim:
@@ -84,7 +83,7 @@ def _repair(sim: Simulator, plan: Plan, anatomy: Anatomy) -> Stage:
         sim.apply("chord_remove", chord=chord)
     added = _new_chords(plan, anatomy)
     for head, vertex in added:
-        # without a length it is as taut as its neighbours
+        # without a length the new chord is as taut as its neighbours
         sim.apply("chord_add", head=head, site=vertex)
     note = (
         f"annulus to {repair.annulus:.0%} of the healthy one, chord {chord.name} "
@@ -98,7 +97,7 @@ def _diseased_chord(plan: Plan, anatomy: Anatomy) -> Part:
 
 
 def _new_chords(plan: Plan, anatomy: Anatomy) -> list[tuple[Part, int]]:
-    """Head and vertex of each chord that a repair adds."""
+    """Head and vertex of each chord added by a repair."""
     ends = []
     if plan.repair.treatment == Treatment.REPLACE:
         old = anatomy.chord_at(plan.disease.site)

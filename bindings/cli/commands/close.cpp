@@ -1,0 +1,157 @@
+// `mvs close`: settles a valve under systolic pressure and measures it.
+#include <cstdio>
+#include <map>
+#include <optional>
+
+#include "commands/commands.h"
+#include "text/readouts.h"
+#include "valve/at_rest.h"
+#include "valve/ensemble.h"
+#include "valve/pressure.h"
+#include "valve/reference.h"
+#include "valve/tissue.h"
+
+namespace cli {
+namespace {
+
+using Choices = std::map<std::string, uint32_t>;
+const Choices solvers = {{"newton", MVS_SOLVER_NEWTON},
+                         {"implicit", MVS_SOLVER_IMPLICIT},
+                         {"explicit", MVS_SOLVER_EXPLICIT}};
+const Choices backends = {{"default", MVS_BACKEND_DEFAULT},
+                          {"cholmod", MVS_BACKEND_CHOLMOD},
+                          {"eigen", MVS_BACKEND_EIGEN}};
+
+struct CloseOptions {
+  std::string in, out, reference;
+  std::string leaflet = "file", solver = "newton", backend = "default";
+  std::optional<double> pressure_mmhg;
+  mvs_settle_options settle = {};
+  EnsembleOptions ensemble;
+};
+
+struct Closed {
+  mvs::Snapshot valve;
+  mvs_stats stats;
+  mvs_profile profile;
+  std::optional<Ensemble> ensemble;  // with --members; `valve` is then that of member 0
+  std::optional<Errors> errors;      // with --reference
+  double pressure_mmhg = 0;
+};
+
+Closed close_valve(const CloseOptions &options, const Console &console) {
+  Progress progress(console);
+  mvs_sim_desc desc = {};
+  desc.backend = backends.at(options.backend);
+  mvs::Sim sim = load_sim(options.in, progress, desc);
+  set_tissue(sim, options.leaflet);
+  const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
+  mvs_settle_options settle = options.settle;
+  settle.solver = solvers.at(options.solver);
+  if (options.ensemble.members > 0) {
+    Ensemble ensemble = run_ensemble(sim.snapshot(), pressure_mmhg, settle, options.ensemble,
+                                     desc.backend, progress);
+    return {ensemble.snapshot(0), ensemble.stats(0), ensemble.profile(0), std::move(ensemble), {},
+            pressure_mmhg};
+  }
+  sim.set_load(pressure_mmhg * pa_per_mmhg);
+  const mvs_stats stats = sim.settle(settle);
+  return {sim.snapshot(), stats, mvs::profile_of(sim), {}, {}, pressure_mmhg};
+}
+
+Json profile_json(const mvs_profile &profile) {
+  Json json = Json::object();
+  for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_PROFILE)) {
+    const double value = mvs::field_value(&profile, field);
+    json[field.name] =
+        field.type == MVS_FIELD_COUNT ? Json(static_cast<uint32_t>(value)) : Json(value);
+  }
+  return json;
+}
+
+Json closed_json(const CloseOptions &options, const Closed &closed, const mvs_measures &measures) {
+  const Size size = size_of(closed.valve);
+  const mvs_stats &stats = closed.stats;
+  Json json = {{"file", options.in},
+               {"leaflet", laws_of(closed.valve)},
+               {"solver", options.solver},
+               {"pressure_mmHg", closed.pressure_mmhg},
+               {"kinetic_J", stats.kinetic},
+               {"contact_pairs", stats.contact_pairs},
+               {"profile", profile_json(closed.profile)},
+               {"vertices", size.vertices},
+               {"faces", size.faces},
+               {"chords", size.chords}};
+  json.update(closure_json(closed.valve, stats, measures));
+  if (closed.ensemble) json["ensemble"] = ensemble_json(*closed.ensemble, options.ensemble);
+  if (closed.errors) json["reference"] = errors_json(*closed.errors);
+  return json;
+}
+
+std::string closed_text(const CloseOptions &options, const Closed &closed,
+                        const mvs_measures &measures) {
+  const mvs_stats &stats = closed.stats;
+  return text("%s: %s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
+              options.in.c_str(), stats.converged ? "at rest" : "NOT at rest", closed.pressure_mmhg,
+              stats.wall_s, stats.iterations, stats.residual) +
+         (closed.ensemble ? ensemble_text(*closed.ensemble) : measures_text(measures)) +
+         (closed.errors ? errors_text(*closed.errors) : "");
+}
+
+// A valve that is not at rest is a result, not an error: it is written, marked, and warned of.
+void run_close(const CloseOptions &options, const Console &console) {
+  std::optional<mvs::Snapshot> reference;  // read first: a missing file fails before the closure
+  if (!options.reference.empty()) reference = load(options.reference);
+  Closed closed = close_valve(options, console);
+  if (reference) {
+    const Ensemble *ensemble = closed.ensemble ? &*closed.ensemble : nullptr;
+    closed.errors = errors_from(options.reference, *reference, closed.valve, ensemble);
+  }
+  const mvs_measures measures = closed.valve.measure();
+  if (!options.out.empty()) closed.valve.save(options.out);
+  if (!closed.stats.converged) {
+    std::fprintf(stderr,
+                 "mvs: warning: not converged after %u iterations, residual %.1e N; the shape is "
+                 "not an equilibrium (see --max-iterations)\n",
+                 closed.stats.iterations, closed.stats.residual);
+  }
+  print(console, closed_json(options, closed, measures), closed_text(options, closed, measures));
+}
+
+void add_choice(CLI::App &command, const char *option, std::string &value, const char *help,
+                const Choices &choices) {
+  std::vector<std::string> names;
+  for (const auto &[name, number] : choices) names.push_back(name);
+  command.add_option(option, value, help)->capture_default_str()->check(one_of(names));
+}
+
+}  // namespace
+
+void add_close(CLI::App &app, Console &console) {
+  const auto [command, options] = add_command<CloseOptions>(
+      app, console, "close", "close a valve under systolic pressure and measure it", run_close);
+  command->add_option("file", options->in, "valve to close, .obj, .h5 or .inp")->required();
+  command->add_option("-o,--output", options->out, "write the closed valve, .obj, .h5 or .vtp");
+  add_pressure_option(*command, options->pressure_mmhg);
+  add_tissue_option(*command, options->leaflet);
+  add_choice(*command, "--solver", options->solver, "method", solvers);
+  add_choice(*command, "--backend", options->backend, "sparse factorisation", backends);
+  command
+      ->add_option("--residual", options->settle.residual,
+                   "largest out-of-balance force of a node at rest, N [1e-5]")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--max-iterations", options->settle.max_iterations,
+                   "iterations or time steps [newton 1000, implicit 20000, explicit 2000000]")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--dt", options->settle.dt,
+                   "time step of the dynamic solvers, s [implicit 1e-3, explicit 8e-6]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--reference", options->reference,
+                      "report the distances of the closed valve from the shape in this file");
+  add_ensemble_options(*command, options->ensemble);
+  add_progress_flag(*command, console);
+}
+
+}  // namespace cli

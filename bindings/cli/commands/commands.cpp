@@ -1,0 +1,29 @@
+#include "commands/commands.h"
+
+#include <algorithm>
+
+namespace cli {
+
+CLI::App *add_command(CLI::App &app, Console &console, const std::string &name,
+                      const std::string &help) {
+  CLI::App *command = app.add_subcommand(name, help);
+  command->add_flag("--json", console.json, "print one JSON object on stdout and nothing else");
+  return command;
+}
+
+void add_progress_flag(CLI::App &command, Console &console) {
+  command.add_flag("--progress", console.progress,
+                   "show progress on stderr even if stderr is not a terminal");
+}
+
+CLI::Validator one_of(const std::vector<std::string> &names) {
+  const std::string list = CLI::detail::join(names, ", ");
+  return CLI::Validator(
+      [names, list](const std::string &given) {
+        const bool known = std::find(names.begin(), names.end(), given) != names.end();
+        return known ? std::string() : "'" + given + "' is unknown; choose from: " + list;
+      },
+      "{" + list + "}");
+}
+
+}  // namespace cli

@@ -1,0 +1,49 @@
+// The subcommands of `mvs`, and the options that several of them share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "text/console.h"
+
+namespace cli {
+
+// Each adds its subcommand to the parser; the parser's callback runs it.
+void add_generate(CLI::App &app, Console &console);
+void add_info(CLI::App &app, Console &console);
+void add_op(CLI::App &app, Console &console);
+void add_close(CLI::App &app, Console &console);
+void add_measure(CLI::App &app, Console &console);
+void add_compare(CLI::App &app, Console &console);
+void add_convert(CLI::App &app, Console &console);
+void add_plan(CLI::App &app, Console &console);
+void add_remesh(CLI::App &app, Console &console);
+void add_repair(CLI::App &app, Console &console);
+void add_haptics(CLI::App &app, Console &console);
+
+// A subcommand with the option of all subcommands, --json.
+CLI::App *add_command(CLI::App &app, Console &console, const std::string &name,
+                      const std::string &help);
+
+// The same with a struct of options; the parser calls `run(options, console)`. The pointer is valid
+// as long as the subcommand.
+template <typename Options, typename Run>
+std::pair<CLI::App *, Options *> add_command(CLI::App &app, Console &console,
+                                             const std::string &name, const std::string &help,
+                                             Run run) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = add_command(app, console, name, help);
+  command->callback([options, run, &console] { run(*options, console); });
+  return {command, options.get()};
+}
+
+// --progress
+void add_progress_flag(CLI::App &command, Console &console);
+
+// Accepts one of `names`; the error message lists them.
+CLI::Validator one_of(const std::vector<std::string> &names);
+
+}  // namespace cli

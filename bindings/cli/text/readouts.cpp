@@ -1,0 +1,161 @@
+// Read-outs as JSON and text, made from the library's description of mvs_measures.
+#include "text/readouts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+namespace {
+
+// A measure as it is shown.
+struct Readout {
+  mvs_field_info field;
+  std::string key;   // in JSON, with its unit
+  double scale = 1;  // from SI to that unit
+  std::string unit;  // in text
+  double text_scale = 1;
+  bool is_count = false;
+
+  double value(const mvs_measures &measures) const { return mvs::field_value(&measures, field); }
+};
+
+// The unit that people read, its factor from SI, and its suffix in JSON keys.
+struct Shown {
+  const char *si, *unit;
+  double scale;
+};
+constexpr Shown shown[] = {{"m", "mm", 1e3},  {"m2", "mm2", 1e6},
+                           {"m3", "ml", 1e6}, {"Pa", "kPa", 1e-3},
+                           {"N", "N", 1},     {"rad", "deg", 57.29577951308232}};
+
+Readout readout_of(const mvs_field_info &field) {
+  Readout readout{field, field.name, 1, "%", 100, field.type == MVS_FIELD_COUNT};
+  for (const Shown &row : shown) {
+    if (std::string_view(row.si) != field.unit) continue;
+    readout.key += std::string("_") + row.unit;
+    readout.scale = readout.text_scale = row.scale;
+    readout.unit = row.unit;
+  }
+  return readout;
+}
+
+// All measures: counts first, then numbers, both in the order of mvs_measures.
+const std::vector<Readout> &readouts() {
+  static const std::vector<Readout> all = [] {
+    std::vector<Readout> made;
+    for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_MEASURES))
+      made.push_back(readout_of(field));
+    std::stable_partition(made.begin(), made.end(), [](const Readout &r) { return r.is_count; });
+    return made;
+  }();
+  return all;
+}
+
+bool is_orifice(const Readout &readout) {
+  return readout.key == "regurgitant_orifice_area_mm2";
+}
+
+Json json_number(const Readout &readout, const mvs_measures &measures) {
+  const double value = readout.value(measures);
+  if (readout.is_count) return static_cast<uint32_t>(value);
+  return std::isfinite(value) ? Json(value * readout.scale) : Json();
+}
+
+// The cells of one read-out of several valves.
+std::string cells(const Readout &readout, const std::vector<const mvs_measures *> &valves) {
+  std::string row = text("  %-27s", readout.field.label);
+  for (const mvs_measures *measures : valves) {
+    const double value = readout.value(*measures);
+    if (readout.is_count) {
+      row += text("%10u", static_cast<uint32_t>(value));
+    } else {
+      row +=
+          std::isfinite(value) ? text("%10.2f", value * readout.text_scale) : text("%10s", "none");
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+// Grades by effective orifice area, 0.20, 0.30 and 0.40 cm2.
+const char *leak_grade(double orifice_area) {
+  const double cm2 = orifice_area * 1e4;
+  if (cm2 == 0) return "sealed";
+  if (cm2 < 0.2) return "mild";
+  if (cm2 < 0.3) return "moderate";
+  if (cm2 < 0.4) return "moderate to severe";
+  return "severe";
+}
+
+Json measures_json(const mvs_measures &measures) {
+  Json object = Json::object();
+  for (const Readout &readout : readouts()) {
+    if (readout.key != "intersections") object[readout.key] = json_number(readout, measures);
+  }
+  return object;
+}
+
+std::string measures_text(const mvs_measures &measures) {
+  std::string table;
+  for (const Readout &readout : readouts()) {
+    table += cells(readout, {&measures});
+    if (!readout.is_count && std::isfinite(readout.value(measures))) table += " " + readout.unit;
+    if (is_orifice(readout)) {
+      table += text(" (%s)", leak_grade(measures.regurgitant_orifice_area));
+    }
+    table += '\n';
+  }
+  return table;
+}
+
+std::string measures_text(const mvs_measures &before, const mvs_measures &after) {
+  std::string table;
+  for (const Readout &readout : readouts()) {
+    table += cells(readout, {&before, &after});
+    if (!readout.is_count) table += " " + readout.unit;
+    if (is_orifice(readout)) {
+      table += text(" (%s, then %s)", leak_grade(before.regurgitant_orifice_area),
+                    leak_grade(after.regurgitant_orifice_area));
+    }
+    table += '\n';
+  }
+  return table;
+}
+
+Json statistics_json(const Statistics &of) {
+  Json object = Json::object();
+  for (const Readout &readout : readouts()) {
+    const auto number = [&](const mvs_measures &m) { return json_number(readout, m); };
+    Json &row = object[readout.key];
+    row = {{"min", number(of.min)}, {"max", number(of.max)}};
+    if (readout.is_count) continue;
+    row["mean"] = number(of.mean);
+    row["deviation"] = number(of.deviation);
+    row["members"] = static_cast<uint32_t>(readout.value(of.count));
+  }
+  return object;
+}
+
+std::string measures_text(const mvs_measures &plain, const Statistics &of) {
+  std::string table = text("  %-27s%10s%10s%10s%10s\n", "", "plain", "min", "max", "deviation");
+  for (const Readout &readout : readouts()) {
+    if (readout.is_count) {
+      table += cells(readout, {&plain, &of.min, &of.max}) + '\n';
+      continue;
+    }
+    table += cells(readout, {&plain, &of.min, &of.max, &of.deviation}) + " " + readout.unit;
+    if (is_orifice(readout)) {
+      const std::string least = leak_grade(of.min.regurgitant_orifice_area);
+      const std::string most = leak_grade(of.max.regurgitant_orifice_area);
+      table += least == most ? text(" (%s)", most.c_str())
+                             : text(" (%s to %s)", least.c_str(), most.c_str());
+    }
+    table += '\n';
+  }
+  return table;
+}
+
+}  // namespace cli

@@ -1,0 +1,35 @@
+// The read-outs of mvs_measures with names and units, as JSON and as tables.
+#pragma once
+
+#include <string>
+
+#include "text/console.h"
+
+namespace cli {
+
+// Every read-out, named with its unit: {"regurgitant_orifice_area_mm2": 0.0, ...}. A read-out
+// without a value, such as a coaptation length without coaptation, is null.
+Json measures_json(const mvs_measures &measures);
+
+// The same as a table, with the grade of the leak.
+std::string measures_text(const mvs_measures &measures);
+
+// Two valves side by side.
+std::string measures_text(const mvs_measures &before, const mvs_measures &after);
+
+// Statistics of the members of an ensemble (mvs_ensemble_measure).
+struct Statistics {
+  mvs_measures mean, min, max, deviation, count;
+};
+
+// For every read-out {"mean": ..., "min": ..., "max": ..., "deviation": ..., "members": ...};
+// counts have the range only.
+Json statistics_json(const Statistics &statistics);
+
+// The read-outs of one closure with their range and deviation beside them.
+std::string measures_text(const mvs_measures &plain, const Statistics &statistics);
+
+// The grade of a leak of this orifice area in m2: "none", "mild", ...
+const char *leak_grade(double orifice_area);
+
+}  // namespace cli

@@ -1,0 +1,37 @@
+#include "valve/at_rest.h"
+
+#include <cstdio>
+
+#include "text/readouts.h"
+
+namespace cli {
+
+AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name) {
+  sim.set_load(pressure_mmhg * pa_per_mmhg);
+  const mvs_stats stats = sim.settle();
+  if (!stats.converged) {
+    std::fprintf(stderr, "mvs: warning: %s is not at rest after %u iterations, residual %.1e N\n",
+                 name.c_str(), stats.iterations, stats.residual);
+  }
+  mvs::Snapshot valve = sim.snapshot();
+  const mvs_measures measures = valve.measure();
+  return {std::move(valve), stats, measures};
+}
+
+Json closure_json(const mvs::Snapshot &valve, const mvs_stats &stats,
+                  const mvs_measures &measures) {
+  return {{"converged", stats.converged != 0},
+          {"iterations", stats.iterations},
+          {"residual_N", stats.residual},
+          {"energy_J", stats.energy},
+          {"wall_s", stats.wall_s},
+          {"intersections", measures.intersections},
+          {"hash", hash_of(valve)},
+          {"measures", measures_json(measures)}};
+}
+
+Json at_rest_json(const AtRest &at_rest) {
+  return closure_json(at_rest.valve, at_rest.stats, at_rest.measures);
+}
+
+}  // namespace cli

@@ -1,0 +1,24 @@
+// Closes a valve to rest and measures it, for commands that compare closures.
+#pragma once
+
+#include <string>
+
+#include "text/console.h"
+
+namespace cli {
+
+struct AtRest {
+  mvs::Snapshot valve;
+  mvs_stats stats;
+  mvs_measures measures;
+};
+
+// Settles under a pressure and measures. A valve that is not at rest is a result, not an error:
+// stderr gets a warning with `name`.
+AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name);
+
+// Convergence, energy, time, intersections, hash and measures of a closure.
+Json closure_json(const mvs::Snapshot &valve, const mvs_stats &stats, const mvs_measures &measures);
+Json at_rest_json(const AtRest &at_rest);
+
+}  // namespace cli

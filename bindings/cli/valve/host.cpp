@@ -1,0 +1,52 @@
+#include "valve/host.h"
+
+#include <cinttypes>
+#include <cstdio>
+
+namespace cli {
+
+void log_to_stderr(void *, mvs_log_level level, const char *text) {
+  if (level <= MVS_LOG_WARNING) std::fprintf(stderr, "mvs: %s\n", text);
+}
+
+mvs::Sim make_sim(mvs_sim_desc desc) {
+  desc.log = log_to_stderr;
+  return mvs::Sim(desc);
+}
+
+mvs::Snapshot load(const std::string &path) {
+  mvs::Sim sim = make_sim();
+  sim.load_file(path);
+  return sim.snapshot();
+}
+
+Size size_of(const mvs::Snapshot &valve) {
+  Size size;
+  for (const uint8_t kind : valve.view<uint8_t>(MVS_ARRAY_NODE_KIND)) {
+    size.vertices += kind == MVS_NODE_KIND_LEAFLET || kind == MVS_NODE_KIND_ANNULUS;
+    size.branches += kind == MVS_NODE_KIND_BRANCH;
+  }
+  size.faces = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES).rows();
+  size.chords = valve.view<uint32_t>(MVS_ARRAY_CHORD_NODES).rows();
+  size.heads = valve.view<uint32_t>(MVS_ARRAY_HEAD_NODES).rows();
+  size.annulus = valve.view<uint32_t>(MVS_ARRAY_ANNULUS_NODES).rows();
+  return size;
+}
+
+void fail(mvs_result code, const std::string &part, const std::string &sentence, int32_t line) {
+  mvs_error error = {};
+  error.code = code;
+  error.line = line;
+  std::snprintf(error.part, sizeof error.part, "%s", part.c_str());
+  std::snprintf(error.message, sizeof error.message, "%s", sentence.c_str());
+  throw mvs::Error(error);
+}
+
+std::string hash_of(const mvs::Snapshot &valve) {
+  const auto hash = valve.hash();
+  char text[33];
+  std::snprintf(text, sizeof text, "%016" PRIx64 "%016" PRIx64, hash[0], hash[1]);
+  return text;
+}
+
+}  // namespace cli

@@ -1,0 +1,72 @@
+#include "valve/tissue.h"
+
+#include <algorithm>
+
+#include "commands/commands.h"
+
+namespace cli {
+namespace {
+
+// The words of MVS_LEAFLET_LAW_*, from 1.
+std::vector<std::string> known_laws() {
+  std::vector<std::string> words;
+  mvs_law law = {};
+  law.struct_size = sizeof law;
+  for (uint32_t k = 0; k < mvs_get_leaflet_law_count(); ++k) {
+    mvs::must(mvs_get_leaflet_law(k, &law));
+    words.emplace_back(law.word);
+  }
+  return words;
+}
+
+std::vector<uint32_t> law_numbers(const mvs::Snapshot &valve) {
+  const auto view = valve.view<uint32_t>(MVS_ARRAY_LEAFLET_LAW);
+  return {view.data(), view.data() + view.rows()};
+}
+
+}  // namespace
+
+void add_tissue_option(CLI::App &command, std::string &choice) {
+  std::vector<std::string> words = {"file", "membrane"};
+  const std::vector<std::string> laws = known_laws();
+  words.insert(words.end(), laws.begin(), laws.end());
+  command
+      .add_option("--leaflet", choice,
+                  "tissue of the leaflets: as in the file, membranes in place of springs, or a law")
+      ->capture_default_str()
+      ->check(one_of(words));
+}
+
+void set_tissue(mvs::Sim &sim, const std::string &choice) {
+  if (choice == "file") return;
+  const std::vector<std::string> laws = known_laws();
+  const mvs::Snapshot before = sim.snapshot();
+  const std::vector<uint32_t> now = law_numbers(before);
+  const std::vector<mvs_part> leaflets = before.parts(MVS_PART_LEAFLET);
+  for (uint32_t l = 0; l < now.size(); ++l) {
+    mvs_leaflet_desc tissue = {};
+    if (choice != "membrane") {
+      tissue.law =
+          static_cast<uint32_t>(std::find(laws.begin(), laws.end(), choice) - laws.begin()) + 1;
+    } else if (now[l] == MVS_LEAFLET_LAW_SPRING) {
+      tissue.law = MVS_LEAFLET_LAW_BILINEAR;
+    } else {
+      continue;
+    }
+    if (tissue.law != now[l]) sim.set_leaflet(tissue, leaflets[l].id);
+  }
+}
+
+std::string laws_of(const mvs::Snapshot &valve) {
+  const std::vector<std::string> laws = known_laws();
+  std::vector<uint32_t> listed;
+  std::string text;
+  for (const uint32_t law : law_numbers(valve)) {
+    if (std::find(listed.begin(), listed.end(), law) != listed.end()) continue;
+    listed.push_back(law);
+    text += (text.empty() ? "" : ", ") + laws[law - 1];
+  }
+  return text;
+}
+
+}  // namespace cli
