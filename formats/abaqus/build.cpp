@@ -1,4 +1,4 @@
-// The parts of an Abaqus input file put together to a valve.
+// Assembly of a valve from the parts of an Abaqus input file.
 #include <mvs/valve.h>
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 namespace mvs::core {
 namespace {
 
-// Puts the parts together; rows are those of the valve, nodes those of the file.
+// Builds the valve. A row is an index of the valve, a node an index of the file.
 class Builder {
  public:
   Builder(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
@@ -45,12 +45,12 @@ class Builder {
   InpNotes &notes_;
   const InpSheet sheet_;
   const InpChordae chordae_;
-  std::vector<uint32_t> row_, node_;  // of a node; of a row
-  std::vector<uint8_t> turned_;       // 1: a triangle that was turned
+  std::vector<uint32_t> row_, node_;  // row of each node; node of each row
+  std::vector<uint8_t> turned_;       // 1: a triangle whose orientation was reversed
   Valve valve_;
 };
 
-// Nodes keep the order of the file; those inside cables and those of no element have no place.
+// Nodes keep the order of the file, without the inner nodes of cables and nodes without elements.
 void Builder::add_nodes() {
   std::vector<uint8_t> kept = sheet_.holds;
   for (const uint32_t head : chordae_.heads) kept[head] = 1;
@@ -95,8 +95,8 @@ void Builder::add_triangles() {
   for (const uint32_t node : chordae_.heads) valve_.heads.push_back({0, "", row_[node]});
 }
 
-// Without any *ORIENTATION fibres are circumferential, as in any valve that does not say. Where
-// only some sections have one, the others have that of Abaqus: the first axis laid into the shell.
+// Without any *ORIENTATION fibres are circumferential, the default of a valve. If only some
+// sections have one, the others use the default of Abaqus: the first axis projected onto the shell.
 void Builder::add_fibres() {
   const auto has = [](const InpSection &section) { return !section.orientation.empty(); };
   if (std::none_of(properties_.shells.begin(), properties_.shells.end(), has)) return;
@@ -111,7 +111,7 @@ void Builder::add_fibres() {
     const Vec3 normal = side.cross(valve_.rest[nodes[2]] - valve_.rest[nodes[0]]).normalized();
     const Vec3 fibre = orientation.fibre(sheet_.element[t]);
     const Vec3 flat = fibre - fibre.dot(normal) * normal;
-    const bool lies = flat.norm() > 1e-3;  // closer to the normal than that it is no direction
+    const bool lies = flat.norm() > 1e-3;  // false: nearly parallel to the normal
     across += !lies;
     valve_.triangle_fibre.push_back(lies ? flat.normalized() : side.normalized());
   }
@@ -140,7 +140,7 @@ void Builder::add_chordae() {
   }
 }
 
-// A valve has one density: that of the first leaflet.
+// A valve has one density; the density of the first leaflet is used.
 void Builder::set_density() {
   const auto density_of = [&](const InpSection &section) {
     return properties_.materials.at(section.material).density;
@@ -162,8 +162,8 @@ void Builder::set_density() {
   }
 }
 
-// Abaqus touches at the thickness of the shell, but at no more than a share of the shortest edge or
-// diagonal of each element. A valve has one distance: the median.
+// Contact distance: Abaqus uses the shell thickness, limited to a share of the shortest edge or
+// diagonal of each element. A valve has one distance; the median over the elements is used.
 void Builder::set_contact() {
   std::vector<double> distances;
   size_t reduced = 0;
@@ -201,7 +201,7 @@ void Builder::orient_sheet() {
                  turned_.size());
 }
 
-// From the ventricle, as a valve has it: along the normals, which point into the atrium.
+// Pressure from the ventricle, positive along the normals, which point into the atrium.
 double Builder::pressure() const {
   if (load_.pressure.empty()) return 0;
   double low = 1e300, high = -1e300;
@@ -218,7 +218,7 @@ double Builder::pressure() const {
         "is taken",
         low, high, pressure);
   }
-  constexpr double limit = 400e3;  // ten times what any heart makes: the unit is wrong
+  constexpr double limit = 400e3;  // Pa, ten times a high ventricular pressure
   if (std::abs(pressure) > limit) {
     inp_fail(0,
              "the pressure is %g Pa: a heart has up to 40e3; say the units of the file as "
@@ -228,14 +228,14 @@ double Builder::pressure() const {
   return pressure;
 }
 
-// Whether a part is of a kind ("node 17" of "node"), and then its index.
+// Returns whether a part is of a kind ("node 17" of "node"), and its index.
 bool is_part(std::string_view part, std::string_view kind, uint32_t &index) {
   if (!part.starts_with(kind) || part.size() < kind.size() + 2) return false;
   const char *const first = part.data() + kind.size() + 1;
   return std::from_chars(first, part.data() + part.size(), index).ec == std::errc();
 }
 
-// The line of the file behind a part that find_faults names; 0 where there is none.
+// Returns the line of a part named by find_faults, or 0.
 int32_t Builder::line_of(const std::string &part) const {
   uint32_t index = 0;
   if (is_part(part, "node", index) || is_part(part, "edge", index) ||
@@ -254,7 +254,7 @@ int32_t Builder::line_of(const std::string &part) const {
   return 0;
 }
 
-// What is wrong with the whole, where the parts are right; the sentence counts nodes from 0.
+// Checks the assembled valve; its messages count nodes from 0.
 void Builder::check() const {
   const std::vector<Fault> faults = find_faults(valve_);
   if (faults.empty()) return;

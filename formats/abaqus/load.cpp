@@ -1,4 +1,4 @@
-// *BOUNDARY, *DSLOAD and *DLOAD through the steps of the file, and *AMPLITUDE.
+// *BOUNDARY, *DSLOAD and *DLOAD of all steps, and *AMPLITUDE.
 #include "formats/abaqus/load.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace mvs::core {
 namespace {
 
-// What holds a node so far, by degree of freedom; 4 to 6 are rotations.
+// The constraints of a node by degree of freedom; 4 to 6 are rotations.
 struct Held {
   std::array<std::optional<double>, 3> moved;
   int32_t line = 0;
@@ -33,7 +33,7 @@ class Steps {
   InpNotes &notes_;
   std::map<uint32_t, Held> held_;
   std::map<uint32_t, double> pressure_;
-  bool boundary_is_new_ = false, pressure_is_new_ = false;  // OP=NEW stood in this step
+  bool boundary_is_new_ = false, pressure_is_new_ = false;  // this step has OP=NEW
 };
 
 bool is_new(InpCard &card) {
@@ -97,7 +97,7 @@ void Steps::boundary(InpCard &card, const InpAmplitudes &amplitudes) {
   for (size_t k = 0; k < card.data.size(); ++k) row_of_boundary(card.row(k), factor);
 }
 
-// *DSLOAD names a surface and pushes into it; *DLOAD names elements and pushes along their normals.
+// *DSLOAD pushes into a surface; *DLOAD pushes elements along their normals.
 void Steps::row_of_pressure(InpRow row, const InpCard &card, double factor,
                             const InpSurfaces &surfaces) {
   const std::string_view where = row.word();

@@ -1,4 +1,4 @@
-// *MATERIAL and the laws that a leaflet or a chord can follow.
+// *MATERIAL with the laws that leaflets and chordae can have.
 #include <algorithm>
 
 #include "formats/abaqus/properties.h"
@@ -7,7 +7,7 @@
 namespace mvs::core {
 namespace {
 
-// All numbers of a card in a row; what is not written is 0, as in Abaqus.
+// Returns all numbers of a card; a missing number is 0, as in Abaqus.
 std::vector<double> numbers_of(const InpCard &card) {
   constexpr size_t most = 64;
   std::vector<double> numbers;
@@ -26,8 +26,7 @@ void need_constants(const InpCard &card, const std::vector<double> &numbers, siz
            count);
 }
 
-// Moduli are whole powers of ten apart from Pa: the nearest double of the product is good enough
-// for constants that were fitted.
+// The conversion to Pa multiplies by a power of ten and rounds once, which fitted constants allow.
 double in_pascal(double value, const InpUnits &units) {
   for (int k = units.stress; k < 0; ++k) value *= 10;
   for (int k = units.stress; k > 0; --k) value /= 10;
@@ -66,8 +65,7 @@ void read_neo_hooke(const InpCard &card, const InpUnits &units, InpMaterial &mat
 }
 
 // mu_1, alpha_1 ... mu_N, alpha_N, D_1 ... D_N of W = sum 2 mu_k / alpha_k^2 (l1^alpha_k +
-// l2^alpha_k
-// + l3^alpha_k - 3) + ...
+// l2^alpha_k + l3^alpha_k - 3) + ...
 void read_ogden(InpCard &card, const InpUnits &units, InpMaterial &material, InpNotes &notes) {
   InpRow order(card.take("N").value_or("1"), card.line);
   const uint64_t terms = order.whole("N");
@@ -97,8 +95,8 @@ void read_hyperelastic(InpCard &card, const InpUnits &units, InpMaterial &materi
            quoted(law).c_str());
 }
 
-// The user material of the Texas TriValve (Mathur et al. 2022): C0, bulk modulus, C1, C2 of
-// W = C0 / 2 (I1 - 3) + C1 / 2 (exp(C2 (I1 - 3)^2) - 1).
+// The user material of the Texas TriValve (Mathur et al. 2022): C0, bulk modulus, C1, C2 of W = C0
+// / 2 (I1 - 3) + C1 / 2 (exp(C2 (I1 - 3)^2) - 1).
 void read_user_material(InpCard &card, const InpUnits &units, InpMaterial &material,
                         InpNotes &notes) {
   const bool user = card.take("USER").has_value();

@@ -1,4 +1,4 @@
-// Sentences about keywords and parameters that a valve has no place for.
+// Messages about unsupported keywords and parameters.
 #include "formats/abaqus/notes.h"
 
 #include <mvs/sim.h>
@@ -12,13 +12,13 @@
 namespace mvs::core {
 namespace {
 
-// Enough for any real file, and no flood from a broken one.
+// Limit of messages, above the number in real files.
 constexpr size_t most_lines = 200;
 
 struct Reason {
   std::string_view keyword, why;
 };
-// Why a keyword has no effect here, for those that files of valves have.
+// Reasons for ignored keywords that files of valves contain.
 constexpr std::array reasons = {
     Reason{"TRANSVERSE SHEAR", "a membrane does not shear through its thickness"},
     Reason{"SECTION CONTROLS", "a setting of Abaqus' elements"},
@@ -76,7 +76,7 @@ void InpNotes::counted(const char *pattern, ...) {
 
 void InpNotes::left_over(const std::vector<InpCard> &cards) {
   for (const InpCard &card : cards) {
-    // quoted() also shortens: a hostile keyword does not fill the log
+    // quoted() also shortens, so that a hostile keyword cannot fill the log
     const std::string shown = quoted("*" + card.keyword);
     if (!card.used) {
       left_out(card.line, shown + " is left out: " + reason_for(card.keyword));

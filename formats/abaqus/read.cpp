@@ -1,4 +1,4 @@
-// Abaqus input, read: the units of the file, then its parts, then the valve of them.
+// Entry point of the Abaqus reader: units, parts, valve.
 #include <algorithm>
 
 #include "formats/abaqus/valve.h"
@@ -15,7 +15,7 @@ constexpr std::array lengths = {Unit{"M", 0}, Unit{"CM", 2}, Unit{"MM", 3}};
 constexpr std::array stresses = {Unit{"PA", 0}, Unit{"KPA", -3}, Unit{"MPA", -6},
                                  Unit{"DYN/CM2", 1}};
 
-// "mm MPa", in any order, with commas or blanks; the unit of mass follows, time is in s.
+// Parses "mm MPa", in any order, separated by commas or blanks; time is in s.
 InpUnits units_of(const InpUnitsLine &given) {
   InpUnits units;
   std::string words = inp_label(given.words);

@@ -1,4 +1,4 @@
-// *SHELL SECTION and *SOLID SECTION: which elements are which leaflet, and how thick.
+// *SHELL SECTION and *SOLID SECTION: leaflets with thickness, chordae with area.
 #include "formats/abaqus/properties.h"
 #include "formats/text/line.h"
 
@@ -47,7 +47,7 @@ void read_shell(InpCard &card, const InpMesh &mesh, InpProperties &into, InpNote
   into.shells.push_back(std::move(section));
 }
 
-// That the elements of sections are of their kind, each in one section, and none in no section.
+// Checks that each element belongs to exactly one section of its kind.
 void check_sections(const InpMesh &mesh, const InpProperties &properties) {
   std::vector<int32_t> line_of(mesh.elements.size(), 0);
   const auto check = [&](const InpSection &section, bool trusses, const char *what) {

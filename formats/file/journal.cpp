@@ -1,4 +1,4 @@
-// Records, written with fdatasync and read with care.
+// Journal records: append with fdatasync, strict reader.
 #include "formats/file/journal.h"
 
 #include <fcntl.h>
@@ -31,7 +31,7 @@ uint32_t crc32(std::string_view text) {
   return ~crc;
 }
 
-// Reads a number up to a blank; false where there is none.
+// Reads a number and the blank after it; returns false on another text.
 template <typename Number>
 bool take_number(std::string_view &rest, Number &number, int base) {
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number, base);
@@ -40,7 +40,7 @@ bool take_number(std::string_view &rest, Number &number, int base) {
   return true;
 }
 
-// The record at the start of `rest`, which then begins after it; false where there is no whole one.
+// Takes the record at the start of `rest`; returns false if no whole record is there.
 bool take_record(std::string_view &rest, std::string &text) {
   std::string_view r = rest;
   size_t length = 0;
@@ -64,7 +64,7 @@ JournalRecords read_journal(std::string_view bytes) {
   while (take_record(rest, text)) records.texts.push_back(std::move(text));
   records.bytes = bytes.size() - rest.size();
   records.torn = !rest.empty();
-  // a crash cuts the last line short; anything after a line's end shows that it was no crash
+  // a crash cuts only the last line; bytes after its line end show another damage
   const size_t end = rest.find('\n');
   MVS_MUST(end == std::string_view::npos || end + 1 == rest.size(), MVS_E_FORMAT, "journal",
            "record %zu of the journal is damaged, and others follow it: restore the file from a "
@@ -88,7 +88,7 @@ Journal Journal::create(const std::string &path) {
   return {path, std::move(file), 0};
 }
 
-Journal Journal::go_on(const std::string &path, size_t bytes) {
+Journal Journal::reopen(const std::string &path, size_t bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.number() < 0) fail_journal("open", path, errno);
   if (::ftruncate(file.number(), static_cast<off_t>(bytes)) != 0) fail_journal("cut", path, errno);
@@ -107,7 +107,7 @@ void Journal::append(std::string_view text) {
   }
   if (written < line.size() || ::fdatasync(file_.number()) != 0) {
     const int error = errno;
-    // best effort: what is left half-written is taken for a torn record
+    // best effort: the reader drops a half-written record
     [[maybe_unused]] const int cut = ::ftruncate(file_.number(), static_cast<off_t>(size_));
     fail_journal("write", path_, error);
   }

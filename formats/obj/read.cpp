@@ -1,4 +1,4 @@
-// Extended OBJ, read: lines, and the statements of plain OBJ.
+// Reader of extended OBJ: lines and the statements of plain OBJ.
 #include <algorithm>
 
 #include "formats/obj/reader.h"
@@ -26,7 +26,7 @@ Loaded ObjReader::read(std::string_view text) {
 
 void ObjReader::statement(std::string_view content, Line &line) {
   using namespace std::string_view_literals;
-  // what other programs write and a valve has no use for
+  // statements of other programs that a valve does not use
   static constexpr std::array harmless = {"vn"sv,     "vt"sv, "vp"sv,     "o"sv,      "s"sv,
                                           "usemtl"sv, "mg"sv, "mtllib"sv, "usemap"sv, "maplib"sv};
   const std::string_view word = line.word();
@@ -42,7 +42,7 @@ void ObjReader::statement(std::string_view content, Line &line) {
   line.fail("%s is not a statement this reader knows", quoted(word).c_str());
 }
 
-// 3D Slicer tells its coordinate system in a comment.
+// 3D Slicer writes its coordinate system into a comment.
 void ObjReader::comment(std::string_view text, const Line &line) {
   if (text.find("SPACE=RAS") == std::string_view::npos) return;
   line.fail(
@@ -53,7 +53,7 @@ void ObjReader::comment(std::string_view text, const Line &line) {
 void ObjReader::vertex(Line &line) {
   const Vec3 x = read_place(line);
   if (!line.at_end()) {
-    // x y z r g b: colours are looked at, but not used
+    // x y z r g b: colours are checked and ignored
     for (int k = 0; k < 3; ++k) {
       if (line.at_end()) line.fail("a vertex has 3 coordinates, or these and 3 colours");
       line.number();
@@ -78,8 +78,8 @@ void ObjReader::group(Line &line) {
   leaflet_ = scallop_ = none;
 }
 
-// Looks up the leaflet and scallop of the present group, once a face needs them. A group without
-// faces may have any name.
+// Looks up the leaflet and scallop of the present group at its first face. A group without faces
+// may have any name.
 void ObjReader::enter_group(const Line &line) {
   if (leaflet_word_.empty()) {
     line.fail("the face is in no group: put `g` and the name of its leaflet above it");
@@ -108,7 +108,7 @@ void ObjReader::face(Line &line) {
   ++counts_.faces;
   valve.triangles.push_back(triangle);
   given_.thickness = false;
-  // a file without any #mvs line is read on, so that one sentence can name all that it lacks
+  // a plain OBJ is read to its end, so that one message can list all missing lines
   if (!has_version_) return;
   if (leaflet_ == none) enter_group(line);
   valve.triangle_leaflet.push_back(leaflet_);

@@ -1,7 +1,7 @@
-// The reader of extended OBJ: what OBJ itself has is in obj_read.cpp, the #mvs lines are in
-// obj_records.cpp. Every index, number and name is checked where it stands, so that what leaves the
-// reader can at worst be no valve (make_model says that), but never out of bounds. Nothing is
-// allocated for a count that the file only claims.
+// Reader of extended OBJ: OBJ statements in read.cpp, #mvs lines in records.cpp. Every index,
+// number and name is checked where it is read: the result may be an invalid valve (make_model
+// checks that), but has no index out of range. Memory is not allocated by counts that the file
+// claims.
 #pragma once
 
 #include <functional>
@@ -61,7 +61,7 @@ class ObjReader {
   static void check_room(const CowVector<Item> &items, const Line &line);
   void check_complete(const Line &last) const;
 
-  // What attributes the last v, f and l line have got so far.
+  // Attributes given so far for the last v, f and l line.
   struct Given {
     bool rest = false, open = false, loaded = false, origin = false, velocity = false;
     bool thickness = false, chord = false;
@@ -73,8 +73,8 @@ class ObjReader {
 
   Loaded out_;
   std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_;
-  std::string_view leaflet_word_, scallop_word_;  // of the group that faces are in
-  uint32_t leaflet_ = none, scallop_ = none;      // the same as indices, once a face needs them
+  std::string_view leaflet_word_, scallop_word_;  // of the present group
+  uint32_t leaflet_ = none, scallop_ = none;      // their indices, from the first face on
   size_t segments_in_line_ = 0;
   Given given_;
   Counts counts_;

@@ -1,4 +1,4 @@
-// Extended OBJ, read: the #mvs lines. Each belongs to the valve, or to the last v, f or l line
+// Reader of extended OBJ: the #mvs lines. Each belongs to the valve, or to the last v, f or l line
 // above.
 #include "formats/obj/reader.h"
 #include "model/chord_law.h"
@@ -15,7 +15,7 @@ void follows(const char *statement, bool is_there, const Line &line) {
   if (!is_there) line.fail("there is no `%s` line above that this one could belong to", statement);
 }
 
-// The constants of a law, each a key of its own.
+// Reads the constants of a law, one key each.
 template <typename Values>
 void read_constants(Fields &fields, std::span<const Constant> constants, Values &values) {
   for (size_t k = 0; k < constants.size(); ++k) {
@@ -331,7 +331,7 @@ void ObjReader::fibre(Line &line) {
   line.end();
 }
 
-// The index of the curve that a chord names.
+// Returns the index of the curve of a chord.
 uint32_t ObjReader::curve_of(Fields &fields, const Line &line) const {
   std::string name;
   fields.need(fields.text("curve", name), "curve");
@@ -366,7 +366,7 @@ void ObjReader::chord(Line &line) {
   fields.end();
 }
 
-// The counts show that no line was lost on the way.
+// Checks the line counts, which detect lost or added lines.
 void ObjReader::end(Line &line) {
   const Valve &valve = out_.valve;
   Fields fields(line);

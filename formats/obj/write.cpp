@@ -1,5 +1,4 @@
-// Extended OBJ, written. The order is that of FORMAT.md; the same valve and state give the same
-// bytes everywhere.
+// Writer of extended OBJ, in the order of FORMAT.md; equal valves and states give equal bytes.
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -142,8 +141,8 @@ void ObjWriter::leaflets() {
   }
 }
 
-// Rest, open and loaded position, velocity, origin only where they are not what the line before
-// lets expect.
+// Writes rest, open and loaded position, velocity and origin only if they differ from their
+// defaults.
 void ObjWriter::nodes() {
   const Vec3 still = Vec3::Zero();
   for (size_t n = 0; n < valve_.rest.size(); ++n) {

@@ -1,5 +1,5 @@
-// The layout of a session, once for both directions: an archive writes what it is given, or fills
-// it. FORMAT.md says the same in words; a change of it is a new version of the format.
+// The layout of a session, once for both directions: pass(archive, value) writes the fields of a
+// value or reads them, depending on the archive. FORMAT.md describes the same layout.
 #pragma once
 
 #include <concepts>
@@ -139,24 +139,24 @@ void pass(Archive &a, Is<ModelState> auto &current) {
 }
 
 template <typename Archive>
-void pass(Archive &a, Is<RecordedEvent> auto &move) {
-  a.choice(move.kind);
-  a.word(move.solver);
-  a.word(move.max_iterations);
-  a.word(move.count);
-  a.number(move.pressure);
-  a.number(move.boundary_fraction);
-  a.number(move.residual);
-  a.number(move.dt);
-  a.number(move.damping);
-  a.word(move.budget);
-  a.list(move.tool);
-  a.array(move.way);
-  a.array(move.pace);
-  a.check(move);
+void pass(Archive &a, Is<RecordedEvent> auto &event) {
+  a.choice(event.kind);
+  a.word(event.solver);
+  a.word(event.max_iterations);
+  a.word(event.count);
+  a.number(event.pressure);
+  a.number(event.boundary_fraction);
+  a.number(event.residual);
+  a.number(event.dt);
+  a.number(event.damping);
+  a.word(event.budget);
+  a.list(event.tools);
+  a.array(event.points);
+  a.array(event.steps_per_row);
+  a.check(event);
 }
 
-// Behind the operation of an entry, which cannot be made empty and filled.
+// The fields after the operation of an entry, which has no empty value to read into.
 template <typename Archive>
 void pass_rest(Archive &a, Is<HistoryEntry> auto &entry) {
   a.text(entry.title);
@@ -164,7 +164,7 @@ void pass_rest(Archive &a, Is<HistoryEntry> auto &entry) {
   a.word(entry.group);
   a.text(entry.group_name);
   a.word(entry.time_ms);
-  a.stack(entry.moves);
+  a.list(entry.events);
   pass(a, entry.before);
   pass(a, entry.after);
 }
@@ -173,18 +173,18 @@ template <typename Archive>
 void pass(Archive &a, Is<Checkpoint> auto &checkpoint) {
   a.text(checkpoint.name);
   pass(a, checkpoint.at);
-  a.stack(checkpoint.past);
-  a.stack(checkpoint.future);
-  a.stack(checkpoint.moves);
+  a.list(checkpoint.past);
+  a.list(checkpoint.future);
+  a.list(checkpoint.events);
 }
 
 template <typename Archive>
 void pass(Archive &a, Is<Snapshot> auto &snapshot) {
   pass(a, snapshot.current);
   a.optional(snapshot.history.start);
-  a.stack(snapshot.history.past);
-  a.stack(snapshot.history.future);
-  a.stack(snapshot.history.moves);
+  a.list(snapshot.history.past);
+  a.list(snapshot.history.future);
+  a.list(snapshot.history.events);
   a.optional(snapshot.history.checkpoints);
   a.word(snapshot.history.next_group);
 }

@@ -1,4 +1,4 @@
-// Three bytes are four digits.
+// Base64 codec: three bytes per four digits.
 #include "formats/text/base64.h"
 
 #include <mvs/base.h>

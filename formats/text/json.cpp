@@ -1,4 +1,4 @@
-// The reader's events become values; values become text.
+// JSON parser (nlohmann SAX events to values) and writer.
 #include "formats/text/json.h"
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ using Library = nlohmann::json;
 
 constexpr size_t deepest = 64;
 
-// Builds a value from what the library's parser meets on its way.
+// Builds a value from the events of the parser.
 class Builder : public nlohmann::json_sax<Library> {
  public:
   bool null() override { return put(Json()); }
@@ -43,7 +43,7 @@ class Builder : public nlohmann::json_sax<Library> {
   bool too_deep = false;
 
  private:
-  // Values that are not closed yet, each with the key of its next member.
+  // Open values, each with the key of its next member.
   std::vector<std::pair<Json, std::string>> open_;
 
   bool open(Json value) {
@@ -164,7 +164,7 @@ void Json::write(std::string &out, int indent) const {
       break;
   }
   const bool is_list = is_array();
-  // short lists of numbers stay on their line
+  // short lists of numbers stay on one line
   const bool flat = is_list && items_.size() <= 3;
   const size_t count = is_list ? items_.size() : members_.size();
   out += is_list ? '[' : '{';

@@ -22,7 +22,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// The number of blanks, or of others, that a text begins with.
+// Returns the number of leading blanks, or of leading other characters.
 size_t count_leading(std::string_view text, bool blanks) {
   size_t count = 0;
   while (count < text.size() && is_blank(text[count]) == blanks) ++count;

@@ -1,4 +1,4 @@
-// Names and numbers of sections are those of FIPS 180-4.
+// SHA-256; names and section numbers are those of FIPS 180-4.
 #include "formats/text/sha256.h"
 
 #include <algorithm>

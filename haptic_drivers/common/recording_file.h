@@ -1,4 +1,4 @@
-// Reads a recording from a file that nobody has checked; replay/README.md says what stands in it.
+// Strict parser of recording files (format: replay/README.md).
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ class RecordingFile {
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
       refuse(MVS_DRIVER_E_OPTION, path + ": there is no such recording");
-    // a pipe or a device could keep open() waiting for ever
+    // open() of a pipe or a device could block
     if (!std::filesystem::is_regular_file(status))
       refuse(MVS_DRIVER_E_OPTION, path + " is not a file");
     const auto size = std::filesystem::file_size(path, error);
@@ -33,7 +33,7 @@ class RecordingFile {
   static constexpr std::size_t kMostBytes = std::size_t(256) << 20;
   static constexpr std::size_t kMostSamples = 1000000;
   static constexpr double kMostTime = 1e6, kLeastStep = 1e-6;  // s
-  static constexpr double kFarthest = 10;                      // m: no hand reaches that far
+  static constexpr double kFarthest = 10;                      // m
   using Words = std::vector<std::string_view>;
 
   explicit RecordingFile(std::string path) : path_(std::move(path)) {}
@@ -114,7 +114,7 @@ class RecordingFile {
     if (samples_.size() == kMostSamples) bad("a recording has at most a million samples");
     Recording::Sample s;
     s.time = number(words[0], -kMostTime, kMostTime);
-    // closer ones would be a velocity without bounds
+    // bounds the velocity
     if (!samples_.empty() && s.time < samples_.back().time + kLeastStep)
       bad("time must grow by at least a microsecond from sample to sample");
     for (int k = 0; k < 3; ++k) s.pose.position[k] = number(words[1 + k], -kFarthest, kFarthest);
@@ -133,7 +133,7 @@ class RecordingFile {
       norm += q[k] * q[k];
     }
     norm = std::sqrt(norm);
-    // written with three digits it is still one
+    // allows for quaternions rounded to three digits
     if (std::abs(norm - 1) > 2e-3) bad("the orientation w x y z is not of length 1");
     for (double &k : q) k /= norm;
   }
@@ -157,7 +157,7 @@ class RecordingFile {
     }
   }
 
-  // Of bytes that may be anything, what can stand in a sentence.
+  // Returns a word for an error message, with unprintable bytes replaced.
   static std::string shown(std::string_view word) {
     std::string out(word.substr(0, 32));
     for (char &c : out)

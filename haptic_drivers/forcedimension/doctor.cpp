@@ -1,4 +1,4 @@
-// Which devices are there, and what is in the way of those that are not.
+// list() and doctor(): USB, library, devices.
 #include "common/finder.h"
 #include "common/library.h"
 #include "common/options.h"
@@ -34,7 +34,7 @@ void check_usb(const mvs_driver_host *host, const Finder &finder) {
                  kUdevRule);
 }
 
-// Opens one, moves nothing.
+// Opens a device without moving it.
 void check_device(const mvs_driver_host *host, const Finder &finder, int index) {
   const std::string name = std::to_string(index), check = "device " + name;
   mvs_driver_device *device = nullptr;
@@ -61,7 +61,7 @@ int count() {
 
 }  // namespace
 
-// By their numbers: what kind one is DHD tells only of one that is open.
+// Lists device numbers: DHD reports the type only of an open device.
 int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
   return driver::guarded([&] {
     const std::lock_guard lock(shared().mutex);

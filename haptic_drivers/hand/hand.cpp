@@ -1,4 +1,4 @@
-// A simulated hand that holds a simulated device, for tests of the closed loop without hardware.
+// Driver of a simulated hand that holds a simulated device, for closed-loop tests without hardware.
 #include <mvs/driver.h>
 
 #include <time.h>
@@ -24,7 +24,7 @@ struct mvs_driver_device {
   const hand::Settings settings;
   hand::Body body;
   hand::Motors motors;
-  std::atomic<bool> running{false};  // stop() comes from any thread
+  std::atomic<bool> running{false};  // stop() is called from any thread
   bool on = false;                   // of the last force written
   bool seen = false, begun = false;  // a sample was read: ever, since start()
   uint64_t now_ns = 0, begin_ns = 0;
@@ -135,7 +135,7 @@ double script_time(const mvs_driver_device &device) {
   return device.begun ? static_cast<double>(device.now_ns - device.begin_ns) * 1e-9 : -1;
 }
 
-// Moves the hand on to `now_ns`, and tells where it is.
+// Advances the hand to `now_ns` and stores its state.
 void sample(mvs_driver_device &device, uint64_t now_ns) {
   const double before = script_time(device);
   const double length = device.seen ? static_cast<double>(now_ns - device.now_ns) * 1e-9 : 0;
@@ -150,7 +150,7 @@ void sample(mvs_driver_device &device, uint64_t now_ns) {
   device.seen = true;
 }
 
-// What the encoder makes of a position.
+// Rounds a position to the resolution of the encoder.
 double encoded(double position, double resolution) {
   return resolution > 0 ? resolution * std::round(position / resolution) : position;
 }
@@ -179,7 +179,7 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   return state;
 }
 
-// One of the two faults that a function shows by itself; the others are in the state.
+// Fault returned by read() and write(); most other faults are in the state.
 int32_t unplugged(mvs_driver_device *device) {
   device->sentence = "the device was unplugged, as option fault=unplug wants it";
   return MVS_DRIVER_E_LOST;

@@ -97,7 +97,7 @@ TEST_CASE("inp_faults_of_sections_and_orientations") {
   check_fault("3, 90.", "1, 90.", "axis 3");
   check_fault("system=RECTANGULAR", "system=CYLINDRICAL", "RECTANGULAR by COORDINATES");
   check_fault("1, 0., 1., 0., 0., 0., 1.", "1, 0., 1., 0., 0., 2., 0.",
-              "the two directions are one");
+              "the two directions are parallel");
   check_fault("1, 0., 1., 0., 0., 0., 1.", "1000, 0., 1., 0., 0., 0., 1.", "element 1000 is not");
   check_fault("location=ELEMENT", "location=NODE", "LOCATION=ELEMENT");
 }
