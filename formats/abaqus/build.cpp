@@ -13,10 +13,10 @@ namespace mvs::core {
 namespace {
 
 // Builds the valve. A row is an index of the valve, a node an index of the file.
-class Builder {
+class ValveBuilder {
  public:
-  Builder(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
-          InpNotes &notes)
+  ValveBuilder(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
+               InpNotes &notes)
       : mesh_(mesh),
         properties_(properties),
         load_(load),
@@ -51,7 +51,7 @@ class Builder {
 };
 
 // Nodes keep the order of the file, without the inner nodes of cables and nodes without elements.
-void Builder::add_nodes() {
+void ValveBuilder::add_nodes() {
   std::vector<uint8_t> kept = sheet_.holds;
   for (const uint32_t head : chordae_.heads) kept[head] = 1;
   for (const InpCable &cable : chordae_.cables) kept[cable.a] = kept[cable.b] = 1;
@@ -72,7 +72,7 @@ void Builder::add_nodes() {
   }
 }
 
-void Builder::add_leaflets() {
+void ValveBuilder::add_leaflets() {
   std::set<std::string> taken;
   for (const InpSection &section : properties_.shells) {
     Leaflet leaflet;
@@ -85,7 +85,7 @@ void Builder::add_leaflets() {
   }
 }
 
-void Builder::add_triangles() {
+void ValveBuilder::add_triangles() {
   for (size_t t = 0; t < sheet_.triangles.size(); ++t) {
     const Tri &nodes = sheet_.triangles[t];
     valve_.triangles.push_back({row_[nodes[0]], row_[nodes[1]], row_[nodes[2]]});
@@ -97,7 +97,7 @@ void Builder::add_triangles() {
 
 // Without any *ORIENTATION fibres are circumferential, the default of a valve. If only some
 // sections have one, the others use the default of Abaqus: the first axis projected onto the shell.
-void Builder::add_fibres() {
+void ValveBuilder::add_fibres() {
   const auto has = [](const InpSection &section) { return !section.orientation.empty(); };
   if (std::none_of(properties_.shells.begin(), properties_.shells.end(), has)) return;
   static const InpOrientation global;
@@ -126,7 +126,7 @@ uint32_t kind_of(const InpCable &cable, const InpSheet &sheet) {
   return sheet.in_free_edge[cable.b] ? MVS_CHORD_KIND_MARGINAL : MVS_CHORD_KIND_ROUGH_ZONE;
 }
 
-void Builder::add_chordae() {
+void ValveBuilder::add_chordae() {
   for (const InpCable &cable : chordae_.cables) {
     const InpSection &section = properties_.trusses[cable.section];
     Chord chord;
@@ -141,7 +141,7 @@ void Builder::add_chordae() {
 }
 
 // A valve has one density; the density of the first leaflet is used.
-void Builder::set_density() {
+void ValveBuilder::set_density() {
   const auto density_of = [&](const InpSection &section) {
     return properties_.materials.at(section.material).density;
   };
@@ -164,7 +164,7 @@ void Builder::set_density() {
 
 // Contact distance: Abaqus uses the shell thickness, limited to a share of the shortest edge or
 // diagonal of each element. A valve has one distance; the median over the elements is used.
-void Builder::set_contact() {
+void ValveBuilder::set_contact() {
   std::vector<double> distances;
   size_t reduced = 0;
   for (const InpSection &section : properties_.shells) {
@@ -191,7 +191,7 @@ void Builder::set_contact() {
       1e3 * distances.front(), 1e3 * distances.back());
 }
 
-void Builder::orient_sheet() {
+void ValveBuilder::orient_sheet() {
   const std::vector<Tri> before = valve_.triangles;
   orient(valve_);
   for (size_t t = 0; t < before.size(); ++t) turned_.push_back(before[t] != valve_.triangles[t]);
@@ -202,7 +202,7 @@ void Builder::orient_sheet() {
 }
 
 // Pressure from the ventricle, positive along the normals, which point into the atrium.
-double Builder::pressure() const {
+double ValveBuilder::pressure() const {
   if (load_.pressure.empty()) return 0;
   double low = 1e300, high = -1e300;
   for (size_t t = 0; t < turned_.size(); ++t) {
@@ -236,7 +236,7 @@ bool is_part(std::string_view part, std::string_view kind, uint32_t &index) {
 }
 
 // Returns the line of a part named by find_faults, or 0.
-int32_t Builder::line_of(const std::string &part) const {
+int32_t ValveBuilder::line_of(const std::string &part) const {
   uint32_t index = 0;
   if (is_part(part, "node", index) || is_part(part, "edge", index) ||
       is_part(part, "annulus", index)) {
@@ -255,13 +255,13 @@ int32_t Builder::line_of(const std::string &part) const {
 }
 
 // Checks the assembled valve; its messages count nodes from 0.
-void Builder::check() const {
+void ValveBuilder::check() const {
   const std::vector<Fault> faults = find_faults(valve_);
   if (faults.empty()) return;
   inp_fail(line_of(faults[0].part), "as a valve (rows from 0): %s", faults[0].sentence.c_str());
 }
 
-Loaded Builder::build() {
+Loaded ValveBuilder::build() {
   if (!mesh_.heading.empty()) valve_.name = mesh_.heading;
   add_nodes();
   add_leaflets();
@@ -284,7 +284,7 @@ Loaded Builder::build() {
 
 Loaded build_inp_valve(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
                        InpNotes &notes) {
-  return Builder(mesh, properties, load, notes).build();
+  return ValveBuilder(mesh, properties, load, notes).build();
 }
 
 }  // namespace mvs::core

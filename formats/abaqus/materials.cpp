@@ -116,8 +116,8 @@ void read_user_material(InpCard &card, const InpUnits &units, InpMaterial &mater
                  "incompressible");
 }
 
-using Reader = void (*)(InpCard &, const InpUnits &, InpMaterial &, InpNotes &);
-Reader reader_of(const InpCard &card) {
+using MaterialReader = void (*)(InpCard &, const InpUnits &, InpMaterial &, InpNotes &);
+MaterialReader reader_of(const InpCard &card) {
   if (card.is("ELASTIC")) {
     return [](InpCard &c, const InpUnits &u, InpMaterial &m, InpNotes &) { read_elastic(c, u, m); };
   }
@@ -146,7 +146,7 @@ void read_inp_materials(std::vector<InpCard> &cards, const InpUnits &units, InpP
   InpMaterial *material = nullptr;
   for (InpCard &card : cards) {
     if (card.is("MATERIAL")) material = &add_material(card, into);
-    const Reader read = reader_of(card);
+    const MaterialReader read = reader_of(card);
     if (!read && !card.is("DENSITY")) continue;
     card.used = true;
     if (!material) inp_fail(card.line, "*%s stands before any *MATERIAL", card.keyword.c_str());

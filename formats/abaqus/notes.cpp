@@ -13,7 +13,7 @@ namespace mvs::core {
 namespace {
 
 // Limit of messages, above the number in real files.
-constexpr size_t most_lines = 200;
+constexpr size_t most_messages = 200;
 
 struct Reason {
   std::string_view keyword, why;
@@ -95,10 +95,10 @@ std::vector<Note> InpNotes::list() const {
                    [](const LeftOut &l, const LeftOut &r) { return l.line < r.line; });
   std::vector<Note> notes;
   for (const LeftOut &note : sorted) {
-    if (notes.size() == most_lines) {
+    if (notes.size() == most_messages) {
       notes.push_back(
           {MVS_LOG_WARNING, format("%zu more kinds of lines from line %d on are left out",
-                                   sorted.size() - most_lines, note.line)});
+                                   sorted.size() - most_messages, note.line)});
       break;
     }
     const std::string times = note.count > 1 ? format(" (%zu times)", note.count) : "";

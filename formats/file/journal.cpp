@@ -4,13 +4,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <charconv>
-#include <system_error>
 #include <utility>
 
 #include "base/error.h"
+#include "formats/text/checksum.h"
+#include "formats/text/line.h"
 
 namespace mvs::core {
 namespace {
@@ -22,34 +21,25 @@ constexpr size_t longest_record = size_t{64} << 20;
   fail_io(verb, "the journal " + path, error, "journal");
 }
 
-uint32_t crc32(std::string_view text) {
-  uint32_t crc = 0xffffffffu;
-  for (const char c : text) {
-    crc ^= static_cast<unsigned char>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
-  }
-  return ~crc;
-}
-
-// Reads a number and the blank after it; returns false on another text.
-template <typename Number>
-bool take_number(std::string_view &rest, Number &number, int base) {
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number, base);
-  if (error != std::errc() || end == rest.data() + rest.size() || *end != ' ') return false;
-  rest.remove_prefix(static_cast<size_t>(end - rest.data()) + 1);
-  return true;
+// Takes the word before the next blank, and the blank; returns an empty word without a blank.
+std::string_view take_word(std::string_view &rest) {
+  const size_t end = rest.find(' ');
+  if (end == std::string_view::npos) return {};
+  const std::string_view word = rest.substr(0, end);
+  rest.remove_prefix(end + 1);
+  return word;
 }
 
 // Takes the record at the start of `rest`; returns false if no whole record is there.
 bool take_record(std::string_view &rest, std::string &text) {
   std::string_view r = rest;
-  size_t length = 0;
-  uint32_t crc = 0;
   if (!r.starts_with(mark)) return false;
   r.remove_prefix(mark.size());
-  if (!take_number(r, length, 10) || !take_number(r, crc, 16)) return false;
+  uint64_t length = 0;
+  if (!parse_whole(take_word(r), length)) return false;
+  const std::string_view checksum = take_word(r);
   if (length > longest_record || r.size() < length + 1 || r[length] != '\n') return false;
-  if (crc32(r.substr(0, length)) != crc) return false;
+  if (checksum_digits(r.substr(0, length)) != checksum) return false;
   text = r.substr(0, length);
   rest = r.substr(length + 1);
   return true;
@@ -76,7 +66,8 @@ JournalRecords read_journal(std::string_view bytes) {
 }
 
 std::string journal_line(std::string_view text) {
-  return format("%s%zu %08x ", mark.data(), text.size(), crc32(text)) + std::string(text) + "\n";
+  return format("%s%zu %s ", mark.data(), text.size(), checksum_digits(text).c_str()) +
+         std::string(text) + "\n";
 }
 
 Journal Journal::create(const std::string &path) {

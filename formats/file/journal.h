@@ -1,8 +1,8 @@
 // Append-only log of records: append() returns after the record is on the disk, and a crash loses
 // at most the record being written.
 //
-// A record is one line: `mvsj LENGTH CRC32 TEXT`, LENGTH the bytes of TEXT in decimal, CRC32 its
-// checksum in 8 hexadecimal digits (the polynomial of zlib and PNG).
+// A record is one line: `mvsj LENGTH CHECKSUM TEXT`, with the bytes of TEXT in decimal and its
+// checksum in 32 hexadecimal digits.
 #pragma once
 
 #include <string>

@@ -1,9 +1,9 @@
 // The header of our HDF5 files: 512 bytes that HDF5 skips as its user block. It holds the name of
-// the format, the version, the length and a SHA-256, so that a damaged file is refused before HDF5
+// the format, the version, the length and a checksum, so that a damaged file is refused before HDF5
 // parses a byte: HDF5 opens most damaged files without an error, and crashes on some.
 //
-//   0  "\x89MVS\r\n\x1a\n"            24  SHA-256 of bytes 0 to 23 and of all from byte 56
-//   8  version, 32 bits               56  a readable line, zeros
+//   0  "\x89MVS\r\n\x1a\n"            24  checksum of bytes 0 to 23 and of all from byte 40
+//   8  version, 32 bits               40  a readable line, zeros
 //  12  512, 32 bits                  512  HDF5
 //  16  bytes after 512, 64 bits            numbers are little-endian
 //

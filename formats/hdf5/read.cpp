@@ -43,9 +43,9 @@ herr_t add_name(hid_t, const char *name, const H5L_info_t *link, void *to) noexc
   return names.fault || names.no_memory ? 1 : 0;
 }
 
-class Reader {
+class H5Reader {
  public:
-  explicit Reader(size_t bytes) : bytes_(bytes), left_(bytes) {}
+  explicit H5Reader(size_t bytes) : bytes_(bytes), left_(bytes) {}
 
   // Reads a member of the root with all its descendants.
   void root_member(hid_t file, const std::string &name) {
@@ -156,7 +156,7 @@ H5Tree read_h5(std::string_view bytes, const std::string &group, uint32_t versio
   check_seal(bytes, version);
   const ExclusiveUse use;
   const File file = open_image(bytes);
-  Reader reader(bytes.size());
+  H5Reader reader(bytes.size());
   reader.root_member(file.id(), group);
   return std::move(reader.tree);
 }

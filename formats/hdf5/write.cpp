@@ -92,9 +92,9 @@ Type file_type(const std::vector<std::string> &) {
   return type;
 }
 
-class Writer {
+class H5Writer {
  public:
-  explicit Writer(hid_t file) : file_(file) {
+  explicit H5Writer(hid_t file) : file_(file) {
     wrote(H5Pset_layout(array_creation_.id(), H5D_CONTIGUOUS), "array");
     wrote(H5Pset_obj_track_times(array_creation_.id(), false), "array");
     wrote(H5Pset_obj_track_times(group_creation_.id(), false), "group");
@@ -197,7 +197,7 @@ std::string write_h5(const H5Tree &tree, uint32_t version) {
   Image image;
   File file = create_file(image);
   {
-    Writer writer(file.id());
+    H5Writer writer(file.id());
     for (const auto &[path, array] : tree.arrays) writer.array(path, array);
     for (const auto &[place, value] : tree.attributes) {
       writer.attribute(place.first, place.second, value);

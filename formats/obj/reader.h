@@ -39,6 +39,7 @@ class ObjReader {
   void check_waypoints(const Line &last);
   void leaflet(Line &line);
   void scallop(Line &line);
+  const Vec3 &vector_of_vertex(bool &given, const char *what, CowVector<Vec3> &vectors, Line &line);
   void rest(Line &line);
   void open(Line &line);
   void loaded(Line &line);

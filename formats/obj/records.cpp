@@ -197,28 +197,30 @@ void ObjReader::scallop(Line &line) {
   valve.scallops.push_back(std::move(scallop));
 }
 
-void ObjReader::rest(Line &line) {
+// Reads x y z of the last vertex, once per kind of vector.
+const Vec3 &ObjReader::vector_of_vertex(bool &given, const char *what, CowVector<Vec3> &vectors,
+                                        Line &line) {
   follows("v", counts_.vertices > 0, line);
-  once(given_.rest, "the rest position of this vertex", line);
-  Valve &valve = out_.valve;
-  valve.rest.back() = read_place(line);
-  if (!given_.open) valve.open.back() = valve.rest.back();
-  if (!given_.loaded) valve.loaded.back() = valve.rest.back();
+  once(given, what, line);
+  const Vec3 vector = read_place(line);
   line.end();
+  return vectors.back() = vector;
+}
+
+void ObjReader::rest(Line &line) {
+  Valve &valve = out_.valve;
+  const Vec3 rest =
+      vector_of_vertex(given_.rest, "the rest position of this vertex", valve.rest, line);
+  if (!given_.open) valve.open.back() = rest;
+  if (!given_.loaded) valve.loaded.back() = rest;
 }
 
 void ObjReader::loaded(Line &line) {
-  follows("v", counts_.vertices > 0, line);
-  once(given_.loaded, "the loaded position of this vertex", line);
-  out_.valve.loaded.back() = read_place(line);
-  line.end();
+  vector_of_vertex(given_.loaded, "the loaded position of this vertex", out_.valve.loaded, line);
 }
 
 void ObjReader::open(Line &line) {
-  follows("v", counts_.vertices > 0, line);
-  once(given_.open, "the open position of this vertex", line);
-  out_.valve.open.back() = read_place(line);
-  line.end();
+  vector_of_vertex(given_.open, "the open position of this vertex", out_.valve.open, line);
 }
 
 // `#mvs origin 17`, or `#mvs origin new` for a node that an operation made.
@@ -239,10 +241,7 @@ void ObjReader::origin(Line &line) {
 }
 
 void ObjReader::velocity(Line &line) {
-  follows("v", counts_.vertices > 0, line);
-  once(given_.velocity, "the velocity of this vertex", line);
-  out_.state.v.back() = read_place(line);
-  line.end();
+  vector_of_vertex(given_.velocity, "the velocity of this vertex", out_.state.v, line);
 }
 
 void ObjReader::annulus(Line &line) {

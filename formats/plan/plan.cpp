@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "formats/plan/tool.h"
+#include "formats/text/checksum.h"
 
 namespace mvs::core {
 namespace {
@@ -141,9 +142,7 @@ std::string hash_at(const Json &json, const char *part) {
 }  // namespace
 
 std::string hash_text(const ModelState &current) {
-  const auto hash = hash_of(*current.model, current.state);
-  return format("%016llx%016llx", static_cast<unsigned long long>(hash[0]),
-                static_cast<unsigned long long>(hash[1]));
+  return hash_digits(hash_of(*current.model, current.state));
 }
 
 Json valve_json(const ModelState &start) {

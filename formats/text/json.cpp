@@ -13,7 +13,7 @@ using Library = nlohmann::json;
 constexpr size_t deepest = 64;
 
 // Builds a value from the events of the parser.
-class Builder : public nlohmann::json_sax<Library> {
+class JsonBuilder : public nlohmann::json_sax<Library> {
  public:
   bool null() override { return put(Json()); }
   bool boolean(bool value) override { return put(Json(value)); }
@@ -94,7 +94,7 @@ Json Json::numbers(std::initializer_list<double> values) {
 }
 
 Json Json::parse(std::string_view text) {
-  Builder builder;
+  JsonBuilder builder;
   const bool good = Library::sax_parse(text.begin(), text.end(), &builder);
   MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "the JSON is nested deeper than %zu levels",
            deepest);

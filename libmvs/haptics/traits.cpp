@@ -99,8 +99,8 @@ DeviceTraits read_traits(const mvs_driver_info &given, const char *driver) {
   copy_text(given.model, info.model);
   copy_text(given.serial, info.serial);
   copy_text(given.firmware, info.firmware);
-  read_frame(told, driver, traits);
-  read_workspace(told, driver, traits);
+  read_frame(given, driver, traits);
+  read_workspace(given, driver, traits);
   return traits;
 }
 
