@@ -125,7 +125,7 @@ double InpRow::number(const char *what, int shift, std::optional<double> otherwi
       text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
   double value = 0;
   if (!parse_decimal(text, value, shift)) {
-    inp_fail(line_, "%s is no number, where %s is needed", quoted(token).c_str(), what);
+    inp_fail(line_, "%s is not a number; %s is needed", quoted(token).c_str(), what);
   }
   return value;
 }
@@ -135,7 +135,7 @@ uint64_t InpRow::whole(const char *what) {
   uint64_t value = 0;
   if (token.empty()) inp_fail(line_, "the line ends where %s is needed", what);
   if (!parse_whole(token, value)) {
-    inp_fail(line_, "%s is no whole number, where %s is needed", quoted(token).c_str(), what);
+    inp_fail(line_, "%s is not a whole number; %s is needed", quoted(token).c_str(), what);
   }
   return value;
 }

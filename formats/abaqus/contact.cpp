@@ -15,7 +15,7 @@ int side_of(std::string_view word, int32_t line, InpNotes &notes) {
     notes.left_out(line, "a surface of both sides of shells is taken as SPOS");
     return 1;
   }
-  inp_fail(line, "%s is no side of a shell: SPOS or SNEG", quoted(word).c_str());
+  inp_fail(line, "%s is not a side of a shell: write SPOS or SNEG", quoted(word).c_str());
 }
 
 // MAXRATIO of general contact: Abaqus/Explicit limits the contact thickness of a shell to this

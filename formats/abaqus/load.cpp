@@ -70,9 +70,8 @@ void Steps::row_of_boundary(InpRow row, double factor) {
     return hold(nodes, 1, label == "PINNED" ? 3 : 6, 0, row.line());
   }
   if (!label.empty() && label[0] >= 'A' && label[0] <= 'Z') {
-    return notes_.left_out(row.line(),
-                           "boundary condition " + quoted(label) +
-                               " is left out: nodes are held in all directions or none");
+    return notes_.left_out(row.line(), "boundary condition " + quoted(label) +
+                                           " is ignored: a node is held in all directions or free");
   }
   const uint64_t first = row.whole("a degree of freedom");
   InpRow ahead = row;
@@ -113,7 +112,7 @@ void Steps::row_of_pressure(InpRow row, const InpCard &card, double factor,
   }
   const auto surface = surfaces.find(inp_label(where));
   if (surface == surfaces.end()) {
-    inp_fail(row.line(), "%s is no surface in the file", quoted(where).c_str());
+    inp_fail(row.line(), "the file has no surface %s", quoted(where).c_str());
   }
   for (const auto &[element, side] : surface->second.faces) pressure_[element] = -side * value;
 }
@@ -177,7 +176,7 @@ double inp_factor(InpCard &card, const InpAmplitudes &amplitudes) {
   if (!name) return 1;
   const auto found = amplitudes.find(inp_label(*name));
   if (found == amplitudes.end()) {
-    inp_fail(card.line, "%s is no amplitude in the file", quoted(*name).c_str());
+    inp_fail(card.line, "the file has no amplitude %s", quoted(*name).c_str());
   }
   return found->second;
 }

@@ -63,7 +63,7 @@ Imported read_inp(std::string_view text) {
   InpNotes notes;
   const InpUnits units = read_units(text, notes);
   std::vector<InpCard> cards = split_inp(text);
-  if (cards.empty()) inp_fail(0, "the file has no keyword: it is no Abaqus input");
+  if (cards.empty()) inp_fail(0, "the file has no keyword: it is not an Abaqus input file");
   const InpMesh mesh = read_inp_mesh(cards, units, notes);
   const InpProperties properties = read_inp_properties(cards, mesh, notes);
   const InpLoad load = read_inp_load(cards, mesh, notes);

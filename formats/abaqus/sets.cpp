@@ -36,7 +36,7 @@ std::vector<uint32_t> named(std::string_view word, int32_t line, const InpMesh &
   if (const InpSet *set = mesh.find_set(kind.sets, word)) return set->items;
   strip_instance(label, mesh);
   if (!parse_whole(label, number)) {
-    inp_fail(line, "%s is no set of %ss in the file", quoted(word).c_str(), kind.thing);
+    inp_fail(line, "the file has no set of %ss %s", kind.thing, quoted(word).c_str());
   }
   if (kind.skipped && kind.skipped->contains(number)) return {};
   const auto place = kind.numbers.find(number);
@@ -61,10 +61,10 @@ void add_range(InpRow row, const InpMesh &mesh, const Kind &kind, std::vector<ui
   const std::string_view word = row.word();
   uint64_t step = 1;
   if (!word.empty() && (!parse_whole(word, step) || step == 0)) {
-    inp_fail(row.line(), "%s is no step of a range", quoted(word).c_str());
+    inp_fail(row.line(), "%s is not a step of a range", quoted(word).c_str());
   }
   if (last < first || last - first > longest_range || (last - first) % step != 0) {
-    inp_fail(row.line(), "from %llu to %llu in steps of %llu is no range",
+    inp_fail(row.line(), "from %llu to %llu in steps of %llu is not a range",
              static_cast<unsigned long long>(first), static_cast<unsigned long long>(last),
              static_cast<unsigned long long>(step));
   }

@@ -61,7 +61,7 @@ JournalRecords read_journal(std::string_view bytes) {
            "copy, or cut it off at byte %zu",
            records.texts.size() + 1, records.bytes);
   MVS_MUST(!records.texts.empty(), MVS_E_FORMAT, "journal",
-           "this is no journal of libmvs: it does not begin with a whole record");
+           "the file is not a journal of libmvs: it does not begin with a whole record");
   return records;
 }
 

@@ -50,7 +50,7 @@ bool is_hdf5(std::string_view bytes) {
   MVS_MUST(!is_hdf5(bytes), MVS_E_FORMAT, "",
            "this HDF5 file is not one of libmvs: open it with the program that made it, and bring "
            "the valve as OBJ");
-  fail(MVS_E_FORMAT, "", "this is no HDF5 file of libmvs: name the format that it has");
+  fail(MVS_E_FORMAT, "", "the file is not an HDF5 file of libmvs: give its format");
 }
 
 }  // namespace

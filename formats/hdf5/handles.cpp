@@ -20,10 +20,11 @@ struct H5Message {
   bool out_of_memory = false;
 };
 
-herr_t hear(unsigned number, const H5E_error2_t *error, void *said_to) {
-  H5Message &said = *static_cast<H5Message *>(said_to);
-  if (number == 0 && error->desc) std::snprintf(said.text, sizeof said.text, "%s", error->desc);
-  said.out_of_memory = said.out_of_memory || error->maj_num == H5E_RESOURCE;
+herr_t store_message(unsigned number, const H5E_error2_t *error, void *message_to) {
+  H5Message &message = *static_cast<H5Message *>(message_to);
+  if (number == 0 && error->desc)
+    std::snprintf(message.text, sizeof message.text, "%s", error->desc);
+  message.out_of_memory = message.out_of_memory || error->maj_num == H5E_RESOURCE;
   return 0;
 }
 
@@ -47,10 +48,10 @@ ExclusiveUse::~ExclusiveUse() {
 }
 
 void fail_h5(mvs_result code, const std::string &part, const char *doing) {
-  H5Message said;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, hear, &said);
-  fail(said.out_of_memory ? MVS_E_MEMORY : code, part, "HDF5 cannot %s %s of the file: %s", doing,
-       part.c_str(), said.text);
+  H5Message message;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, store_message, &message);
+  fail(message.out_of_memory ? MVS_E_MEMORY : code, part, "HDF5 cannot %s %s of the file: %s",
+       doing, part.c_str(), message.text);
 }
 
 }  // namespace mvs::core::h5

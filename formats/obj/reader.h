@@ -13,6 +13,20 @@
 
 namespace mvs::core {
 
+// Lines read so far, by statement.
+struct ObjCounts {
+  uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
+
+  // Compares the counts with the keys of the `#mvs end` line.
+  void check(Fields &fields, const Line &line) const;
+};
+
+// The present group: its words, and their indices from its first face on.
+struct ObjGroup {
+  std::string_view leaflet_word, scallop_word;
+  uint32_t leaflet = none, scallop = none;
+};
+
 class ObjReader {
  public:
   Loaded read(std::string_view text);
@@ -68,17 +82,13 @@ class ObjReader {
     bool thickness = false, chord = false;
     std::array<bool, 2> place = {};  // of a waypoint
   };
-  struct Counts {
-    uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
-  };
 
   Loaded out_;
   std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_;
-  std::string_view leaflet_word_, scallop_word_;  // of the present group
-  uint32_t leaflet_ = none, scallop_ = none;      // their indices, from the first face on
+  ObjGroup group_;
   size_t segments_in_line_ = 0;
   Given given_;
-  Counts counts_;
+  ObjCounts counts_;
   bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
   std::array<bool, 2> has_waypoint_ = {};
 };

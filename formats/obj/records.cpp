@@ -12,7 +12,7 @@ void once(bool &given, const char *word, const Line &line) {
 }
 
 void follows(const char *statement, bool is_there, const Line &line) {
-  if (!is_there) line.fail("there is no `%s` line above that this one could belong to", statement);
+  if (!is_there) line.fail("there is no `%s` line above to which this line belongs", statement);
 }
 
 // Reads the constants of a law, one key each.
@@ -263,7 +263,7 @@ void ObjReader::head(Line &line) {
   fields.need(fields.whole("node", node), "node");
   fields.end();
   if (node < 1 || node > valve.rest.size()) {
-    line.fail("node=%llu is none of the %zu vertices above this line",
+    line.fail("node=%llu is not one of the %zu vertices above this line",
               static_cast<unsigned long long>(node), valve.rest.size());
   }
   head.node = static_cast<uint32_t>(node - 1);
@@ -323,7 +323,7 @@ void ObjReader::fibre(Line &line) {
     line.fail("the fibre of this triangle is given twice");
   }
   if (valve.triangle_fibre.size() + 1 < valve.triangles.size()) {
-    line.fail("a triangle above has no fibre: give one to each of them, or to none");
+    line.fail("a triangle above has no fibre: give one to each triangle, or omit all");
   }
   const double x = line.number(), y = line.number(), z = line.number();
   valve.triangle_fibre.push_back({x, y, z});
@@ -365,11 +365,8 @@ void ObjReader::chord(Line &line) {
   fields.end();
 }
 
-// Checks the line counts, which detect lost or added lines.
-void ObjReader::end(Line &line) {
-  const Valve &valve = out_.valve;
-  Fields fields(line);
-  const auto check = [&](const char *key, uint64_t found, const char *what) {
+void ObjCounts::check(Fields &fields, const Line &line) const {
+  const auto compare = [&](const char *key, uint64_t found, const char *what) {
     uint64_t claimed = 0;
     fields.need(fields.whole(key, claimed), key);
     if (claimed == found) return;
@@ -377,14 +374,21 @@ void ObjReader::end(Line &line) {
               static_cast<unsigned long long>(claimed), static_cast<unsigned long long>(found),
               what);
   };
-  check("v", counts_.vertices, "v");
-  check("f", counts_.faces, "f");
-  check("l", counts_.lines, "l");
-  check("g", counts_.groups, "g");
-  check("mvs", counts_.records, "#mvs");
+  compare("v", vertices, "v");
+  compare("f", faces, "f");
+  compare("l", lines, "l");
+  compare("g", groups, "g");
+  compare("mvs", records, "#mvs");
+}
+
+// Checks the line counts, which detect lost or added lines.
+void ObjReader::end(Line &line) {
+  const Valve &valve = out_.valve;
+  Fields fields(line);
+  counts_.check(fields, line);
   fields.end();
   if (!valve.triangle_fibre.empty() && valve.triangle_fibre.size() < valve.triangles.size()) {
-    line.fail("only %zu of %zu triangles have a fibre: give one to each of them, or to none",
+    line.fail("only %zu of %zu triangles have a fibre: give one to each triangle, or omit all",
               valve.triangle_fibre.size(), valve.triangles.size());
   }
   check_waypoints(line);

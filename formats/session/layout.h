@@ -2,8 +2,10 @@
 // value or reads them, depending on the archive. FORMAT.md describes the same layout.
 #pragma once
 
+#include <array>
 #include <concepts>
 
+#include "base/error.h"
 #include "history/history.h"
 
 namespace mvs::core {
@@ -154,6 +156,47 @@ void pass(Archive &a, Is<RecordedEvent> auto &event) {
   a.array(event.points);
   a.array(event.steps_per_row);
   a.check(event);
+}
+
+template <typename T, typename Byte>
+auto &field_at(Byte *at) {
+  return *reinterpret_cast<std::conditional_t<std::is_const_v<Byte>, const T, T> *>(at);
+}
+
+// A field of an operation, by its type and its address in the struct.
+template <typename Archive, typename Byte>
+void pass_field(Archive &a, const OpField &f, Byte *at) {
+  switch (f.type) {
+    case MVS_FIELD_NUMBER:
+      return a.number(field_at<double>(at));
+    case MVS_FIELD_COUNT:
+    case MVS_FIELD_CHOICE:
+      return a.word(field_at<uint32_t>(at));
+    case MVS_FIELD_CHORD:
+    case MVS_FIELD_HEAD:
+    case MVS_FIELD_SCALLOP:
+      return a.word(field_at<mvs_id>(at));
+    case MVS_FIELD_SITE: {
+      auto &site = field_at<mvs_site>(at);
+      a.word(site.how);
+      a.word(site.index);
+      a.word(site.scallop);
+      for (auto &u : site.u) a.number(u);
+      return;
+    }
+    case MVS_FIELD_POINT:
+      for (auto &x : field_at<mvs_point>(at).at) a.number(x);
+      return a.word(field_at<mvs_point>(at).given);
+    case MVS_FIELD_VECTOR:
+      for (auto &x : field_at<std::array<double, 3>>(at)) a.number(x);
+      return;
+    case MVS_FIELD_POINTS:
+      return a.points(field_at<mvs_array>(at));
+    case MVS_FIELD_TEXT:
+      return a.optional_text(field_at<const char *>(at));
+    default:
+      fail(MVS_E_INTERNAL, f.name, "a session cannot store field %s", f.name);
+  }
 }
 
 // The fields after the operation of an entry, which has no empty value to read into.

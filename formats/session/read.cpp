@@ -47,6 +47,8 @@ class SessionReader {
   template <typename Part>
   void list(CowVector<Part> &parts);
   void model(ModelPtr &model);
+  void points(mvs_array &given);
+  void optional_text(const char *&given);
   template <typename Item>
   void list(PersistentList<Item> &items);
   void check(const ModelState &current) const;
@@ -95,7 +97,6 @@ class SessionReader {
   void item(RecordedEvent &event) { pass(*this, event); }
   void item(std::shared_ptr<const HistoryEntry> &entry);
   Operation operation();
-  void field(const OpField &f, char *at);
 
   std::span<const uint64_t> words_;  // unread words of the present part
   const PoolReader<uint64_t> parts_;
@@ -162,7 +163,8 @@ void SessionReader::array(CowVector<Element> &items) {
   }
   const auto found = values<typename Stored<Element>::Value>(number);
   MVS_MUST(found.size() % columns == 0, MVS_E_FORMAT, "mvs",
-           "an array of the file has %zu values, which are no rows of %zu", found.size(), columns);
+           "an array of the file has %zu values, which is not a multiple of %zu", found.size(),
+           columns);
   std::vector<Element> elements(found.size() / columns);
   for (size_t k = 0; k < found.size(); ++k) {
     if constexpr (columns == 1) {
@@ -293,7 +295,7 @@ Operation SessionReader::operation() {
     MVS_MUST(found != kind->fields.end() && found->type == type, MVS_E_VERSION, "mvs",
              "the history of the file has a field %.63s of %s that this libmvs does not know",
              name.c_str(), kind->name);
-    field(*found, start + found->offset);
+    pass_field(*this, *found, start + found->offset);
   }
   try {
     return Operation(reinterpret_cast<const mvs_op *>(start));
@@ -303,44 +305,16 @@ Operation SessionReader::operation() {
   }
 }
 
-void SessionReader::field(const OpField &f, char *at) {
-  switch (f.type) {
-    case MVS_FIELD_NUMBER:
-      return number(*reinterpret_cast<double *>(at));
-    case MVS_FIELD_COUNT:
-    case MVS_FIELD_CHOICE:
-      return word(*reinterpret_cast<uint32_t *>(at));
-    case MVS_FIELD_CHORD:
-    case MVS_FIELD_HEAD:
-    case MVS_FIELD_SCALLOP:
-      return word(*reinterpret_cast<mvs_id *>(at));
-    case MVS_FIELD_SITE: {
-      auto &site = *reinterpret_cast<mvs_site *>(at);
-      word(site.how);
-      word(site.index);
-      word(site.scallop);
-      for (double &u : site.u) number(u);
-      return;
-    }
-    case MVS_FIELD_POINT:
-      for (double &x : reinterpret_cast<mvs_point *>(at)->at) number(x);
-      return word(reinterpret_cast<mvs_point *>(at)->given);
-    case MVS_FIELD_VECTOR:
-      for (double &x : *reinterpret_cast<std::array<double, 3> *>(at)) number(x);
-      return;
-    case MVS_FIELD_POINTS: {
-      const CowVector<Vec3> &points = points_.emplace_back();
-      array(points_.back());
-      if (points.empty()) return;
-      *reinterpret_cast<mvs_array *>(at) = {points.data(), points.size(), 3, MVS_TYPE_F64, 0};
-      return;
-    }
-    default: {
-      const bool given = next() != 0;
-      text(*names_.emplace_back(std::make_unique<std::string>()));
-      if (given) *reinterpret_cast<const char **>(at) = names_.back()->c_str();
-    }
-  }
+void SessionReader::points(mvs_array &given) {
+  const CowVector<Vec3> &points = points_.emplace_back();
+  array(points_.back());
+  if (!points.empty()) given = {points.data(), points.size(), 3, MVS_TYPE_F64, 0};
+}
+
+void SessionReader::optional_text(const char *&given) {
+  const bool is_given = next() != 0;
+  text(*names_.emplace_back(std::make_unique<std::string>()));
+  if (is_given) given = names_.back()->c_str();
 }
 
 }  // namespace

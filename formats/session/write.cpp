@@ -29,6 +29,8 @@ class SessionWriter {
   template <typename Part>
   void list(const CowVector<Part> &parts);
   void model(const ModelPtr &model);
+  void points(const mvs_array &given);
+  void optional_text(const char *given);
   template <typename Item>
   void list(const PersistentList<Item> &items);
   void check(const ModelState &) {}
@@ -56,8 +58,6 @@ class SessionWriter {
   void item(const RecordedEvent &event) { pass(*this, event); }
   void item(const std::shared_ptr<const HistoryEntry> &entry);
   void operation(const Operation &op);
-  void field(const Operation &op, const OpField &f);
-  void site(const mvs_site &site);
 
   std::vector<uint64_t> words_;
   PoolWriter<uint64_t> parts_;
@@ -163,46 +163,17 @@ void SessionWriter::operation(const Operation &op) {
   for (const OpField &f : op.kind().fields) {
     text(f.name);
     word(f.type);
-    field(op, f);
+    pass_field(*this, f, &op.field<char>(f));
   }
 }
 
-void SessionWriter::field(const Operation &op, const OpField &f) {
-  switch (f.type) {
-    case MVS_FIELD_NUMBER:
-      return number(op.field<double>(f));
-    case MVS_FIELD_COUNT:
-    case MVS_FIELD_CHOICE:
-      return word(op.field<uint32_t>(f));
-    case MVS_FIELD_CHORD:
-    case MVS_FIELD_HEAD:
-    case MVS_FIELD_SCALLOP:
-      return word(op.field<mvs_id>(f));
-    case MVS_FIELD_SITE:
-      return site(op.field<mvs_site>(f));
-    case MVS_FIELD_POINT:
-      for (const double at : op.field<mvs_point>(f).at) number(at);
-      return word(op.field<mvs_point>(f).given);
-    case MVS_FIELD_VECTOR:
-      for (const double at : op.field<std::array<double, 3>>(f)) number(at);
-      return;
-    case MVS_FIELD_POINTS:
-      return array(points_.emplace_back(points_of(op.field<mvs_array>(f))));
-    case MVS_FIELD_TEXT: {
-      const char *const given = op.field<const char *>(f);
-      word(uint64_t{given != nullptr});
-      return text(given ? given : std::string_view());
-    }
-    default:
-      fail(MVS_E_INTERNAL, f.name, "a session has no way to keep field %s", f.name);
-  }
+void SessionWriter::points(const mvs_array &given) {
+  array(points_.emplace_back(points_of(given)));
 }
 
-void SessionWriter::site(const mvs_site &site) {
-  word(site.how);
-  word(site.index);
-  word(site.scallop);
-  for (const double u : site.u) number(u);
+void SessionWriter::optional_text(const char *given) {
+  word(uint64_t{given != nullptr});
+  text(given ? given : std::string_view());
 }
 
 }  // namespace

@@ -98,8 +98,8 @@ Json Json::parse(std::string_view text) {
   const bool good = Library::sax_parse(text.begin(), text.end(), &builder);
   MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "the JSON is nested deeper than %zu levels",
            deepest);
-  MVS_MUST(good, MVS_E_FORMAT, "json", "this is no JSON: wrong at byte %zu; it may be cut short",
-           builder.at);
+  MVS_MUST(good, MVS_E_FORMAT, "json",
+           "the text is not JSON: error at byte %zu; it may be cut short", builder.at);
   return std::move(builder.result);
 }
 

@@ -56,7 +56,7 @@ class RecordingFile {
     const Words words = split(whole);
     if (line_ == 1) {
       if (words.size() != 2 || words[0] != "mvs-recording")
-        bad("is no recording: its first line must be \"mvs-recording 1\"");
+        bad("is not a recording: its first line must be \"mvs-recording 1\"");
       if (words[1] != "1") bad("is of a version that this driver does not know: it reads 1");
     } else if (!words.empty()) {
       const char first = words[0][0];
@@ -69,7 +69,7 @@ class RecordingFile {
 
   void header(const Words &words) {
     if (!samples_.empty())
-      bad("a sample begins with its time; what tells of the device stands before the first sample");
+      bad("a sample begins with its time; lines about the device stand before the first sample");
     const std::string_view key = words[0];
     if (key == "device") {
       for (std::size_t k = 1; k < words.size(); ++k)

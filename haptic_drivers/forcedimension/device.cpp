@@ -26,15 +26,15 @@ void refuse_permission(const std::string &sysroot) {
 [[noreturn]] void refuse_open(int index) {
   const int error = dhd().error_get_last();
   const char *const words = dhd().error_get_last_str();
-  const std::string said = sentence(" (DHD says: %s, %d)", words ? words : "nothing", error);
+  const std::string reason = sentence(" (DHD says: %s, %d)", words ? words : "nothing", error);
   if (error == kErrorInUse || error == kErrorBusy)
     refuse(MVS_DRIVER_E_BUSY,
-           sentence("device %d is open in another program: close it there", index) + said);
+           sentence("device %d is open in another program: close it there", index) + reason);
   if (error == kErrorNoDriver || error == kErrorNoDevice)
     refuse(MVS_DRIVER_E_ABSENT,
-           sentence("device %d is not there: check cable and power", index) + said);
+           sentence("device %d is not there: check cable and power", index) + reason);
   refuse(MVS_DRIVER_E_FAULT,
-         sentence("device %d does not open: switch it off and on", index) + said);
+         sentence("device %d does not open: switch it off and on", index) + reason);
 }
 
 // Returns the index of a named device; without a name, the first that is not open here.

@@ -75,7 +75,7 @@ int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *us
     const Finder finder = {finding, user};
     check_usb(host, finder);
     if (!check_library(host, finder)) return;
-    if (count() <= 0) finder.say(0, "device", "DHD finds none: check cable and power");
+    if (count() <= 0) finder.say(0, "device", "DHD finds no device: check cable and power");
     for (int i = 0; i < count(); ++i) check_device(host, finder, i);
   });
 }

@@ -64,7 +64,7 @@ void load(const mvs_driver_host *host) {
   const std::string chosen = driver::Options(host).text("library").value_or("");
   if (!chosen.empty() && chosen.front() != '/')
     driver::refuse(MVS_DRIVER_E_OPTION,
-                   "library=" + chosen + " is no absolute path: name the file from the root");
+                   "library=" + chosen + " is not an absolute path: give the path from the root");
   Shared &all = shared();
   if (all.library && chosen.empty()) return;
   const driver::DecimalPoint point;
@@ -78,7 +78,7 @@ void load(const mvs_driver_host *host) {
   const std::string missing = bind(one.handle, dhd);
   if (!missing.empty())
     driver::refuse(MVS_DRIVER_E_LIBRARY,
-                   one.path + " is no SDK 3 of Force Dimension: it has no " + missing);
+                   one.path + " is not SDK 3 of Force Dimension: it lacks " + missing);
   all.dhd = dhd;
   all.library = one.handle;
   all.path = one.path;

@@ -88,9 +88,9 @@ int32_t open(const mvs_driver_host *host, const char *name, mvs_driver_device **
     if (name && std::strcmp(name, "hand") != 0)
       driver::refuse(MVS_DRIVER_E_ABSENT, std::string("there is no \"") + name + "\": try hand");
     if (settings.faults.kind == Fault::kAbsent)
-      driver::refuse(MVS_DRIVER_E_ABSENT, "no device is there, as option fault=absent wants it");
+      driver::refuse(MVS_DRIVER_E_ABSENT, "no device is connected (option fault=absent)");
     if (settings.faults.kind == Fault::kLicence)
-      driver::refuse(MVS_DRIVER_E_LICENCE, "there is no licence, as option fault=licence wants it");
+      driver::refuse(MVS_DRIVER_E_LICENCE, "there is no licence (option fault=licence)");
     *device = new mvs_driver_device(std::move(settings));
   });
 }
@@ -118,7 +118,7 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *out) {
 
 int32_t calibrate(mvs_driver_device *device) {
   if (!device->settings.faults.now(Fault::kUncalibrated, 0)) return MVS_DRIVER_OK;
-  device->sentence = "put the stylus into its holder, as option fault=uncalibrated wants it";
+  device->sentence = "put the stylus into its holder (option fault=uncalibrated)";
   return MVS_DRIVER_E_CALIBRATION;
 }
 
@@ -159,7 +159,7 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   const hand::Settings &settings = device.settings;
   mvs_driver_state state = {};
   state.flags = MVS_DRIVER_FLAG_CALIBRATED;
-  if (settings.tells_velocity) state.flags |= MVS_DRIVER_FLAG_VELOCITY;
+  if (settings.measures_velocity) state.flags |= MVS_DRIVER_FLAG_VELOCITY;
   if (settings.faults.kind == Fault::kDeadman) state.flags |= MVS_DRIVER_FLAG_HELD;
   const bool on = device.running && device.on && !settings.faults.limp(script_time(device));
   if (on) state.flags |= MVS_DRIVER_FLAG_FORCE_ON;
@@ -168,7 +168,7 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   state.sequence = device.last.sequence + 1;
   for (int k = 0; k < 3; ++k)
     state.position[k] = encoded(device.body.position()[k], settings.device.resolution);
-  for (int k = 0; k < 3 && settings.tells_velocity; ++k)
+  for (int k = 0; k < 3 && settings.measures_velocity; ++k)
     state.velocity[k] = device.body.velocity()[k];
   state.orientation[0] = 1;
   state.buttons = settings.buttons;
@@ -181,7 +181,7 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
 
 // Fault returned by read() and write(); most other faults are in the state.
 int32_t unplugged(mvs_driver_device *device) {
-  device->sentence = "the device was unplugged, as option fault=unplug wants it";
+  device->sentence = "the device was unplugged (option fault=unplug)";
   return MVS_DRIVER_E_LOST;
 }
 

@@ -73,7 +73,7 @@ Settings settings(const mvs_driver_host *host) {
   const driver::Vector begin = recording ? recording->at(0).position : out.script.target;
   out.from = options.vector("from", begin, 1);
   out.push = options.vector("push", {}, kMost);
-  out.tells_velocity = options.number("velocity", 0, 0, 1) != 0;
+  out.measures_velocity = options.number("velocity", 0, 0, 1) != 0;
   const auto buttons = driver::count(options.text("buttons").value_or("0"));
   if (!buttons) refuse(MVS_DRIVER_E_OPTION, "option buttons: give a sum of 1, 2, 4, ...");
   out.buttons = *buttons;

@@ -22,7 +22,7 @@ struct Settings {
   Oscillator oscillator;  // hand and device together
   Script script;
   driver::Vector from = {}, push = {};  // m, initial position; N, additional force
-  bool tells_velocity = false;
+  bool measures_velocity = false;
   uint32_t buttons = 0;  // held permanently
   Faults faults;
 };

@@ -48,7 +48,7 @@ int32_t Connection::open(const Options &options, Fault &fault) {
   result = socket.receive(text, kOpenMs, fault);
   if (result == 0)
     return fault.set(MVS_DRIVER_E_LOST,
-                     "the Haply Inverse Service tells of no device in %d ms: "
+                     "the Haply Inverse Service reported no device for %d ms: "
                      "restart it (systemctl restart haply-inverse-service)",
                      kOpenMs);
   return result == 1 ? read_inventory(text, inventory, fault) : result;

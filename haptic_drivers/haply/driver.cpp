@@ -17,7 +17,7 @@ struct mvs_driver_device {
   Options options;
   Inverse inverse;
   Grip grip;
-  const char *said = "";
+  const char *sentence = "";
   Exchange exchange;  // last member: its thread ends first
 };
 
@@ -58,7 +58,7 @@ void examine(const Inverse &inverse, mvs_driver_finding finding, void *user) {
 
 void examine(const Inventory &inventory, mvs_driver_finding finding, void *user) {
   if (inventory.inverses.empty())
-    finding(user, 0, "device", "the service has found none: plug it in and look into Haply Hub");
+    finding(user, 0, "device", "the service has found no device: plug it in and check Haply Hub");
   for (const Inverse &inverse : inventory.inverses) examine(inverse, finding, user);
   if (inventory.grips.empty())
     finding(user, -1, "grip", "no VerseGrip: there is a position, but no orientation, no button");
@@ -162,7 +162,7 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
 }
 
 int32_t say(mvs_driver_device &device, int32_t code, const char *sentence) {
-  device.said = sentence;
+  device.sentence = sentence;
   return code;
 }
 
@@ -238,7 +238,7 @@ void close_device(mvs_driver_device *device) {
 }
 
 const char *error(const mvs_driver_device *device) {
-  return device ? device->said : driver::last_sentence;
+  return device ? device->sentence : driver::last_sentence;
 }
 
 const char *const kOptions[] = {

@@ -129,7 +129,7 @@ bool Exchange::say(const Force &force) {
 
 int32_t Exchange::silent() {
   return why_.set(MVS_DRIVER_E_LOST,
-                  "the Haply Inverse Service has told nothing of device %.64s for %d ms: is it "
+                  "the Haply Inverse Service has not reported device %.64s for %d ms: is it "
                   "plugged in? (systemctl status haply-inverse-service)",
                   device_.c_str(), options_.timeout_ms);
 }
@@ -148,10 +148,10 @@ int32_t Exchange::listen(Force force) {
   const uint64_t deadline = monotonic_ns() + static_cast<uint64_t>(options_.timeout_ms) * 1000000;
   for (int states = 0; states < kStatesAtOnce;) {
     const int32_t got = connection.socket.receive(text_, states ? 0 : kSliceMs, why_);
-    const int32_t told = got == 1 ? read_state(text_, device_, grip_, sample_.hand, why_) : got;
-    if (told < 0) return told;
-    states += told;
-    if (told == 1) continue;
+    const int32_t found = got == 1 ? read_state(text_, device_, grip_, sample_.hand, why_) : got;
+    if (found < 0) return found;
+    states += found;
+    if (found == 1) continue;
     if (states > 0) break;
     if (monotonic_ns() > deadline) return silent();
     if (!keep_asking(force, got == 1)) return silent();

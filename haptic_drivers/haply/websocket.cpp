@@ -134,7 +134,7 @@ int32_t WebSocket::decode(Frame &frame, Fault &fault) const {
   if (unread_.size() < 2) return 0;
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(unread_[i]); };
   const unsigned opcode = byte(0) & 15u;
-  if (byte(0) & 0x70u) return broken(fault, "a frame uses an extension that nobody asked for");
+  if (byte(0) & 0x70u) return broken(fault, "a frame uses an extension that was not requested");
   if (byte(1) & 0x80u) return broken(fault, "a frame is masked");
   uint64_t size = byte(1) & 0x7fu;
   const size_t wide = size == 126 ? 2 : size == 127 ? 8 : 0;

@@ -14,8 +14,6 @@
 namespace phantom {
 namespace {
 
-constexpr double kMillimetre = 1e-3;
-
 // hdInitDevice fails with kAlreadyInitiated if a crashed program did not close the device: disables
 // it and tries again, up to ten times.
 unsigned init(const std::string &name, unsigned &code) {

@@ -14,6 +14,7 @@
 namespace phantom {
 
 inline constexpr int kMaxDevices = 8;
+inline constexpr double kMillimetre = 1e-3;  // m
 // The vendor's name of the first device; older versions use "Default PHANTOM".
 inline constexpr const char *kDefaultDevice = "Default Device";
 

@@ -84,7 +84,7 @@ void check_device(const mvs_driver_host *host, const Finder &finder, const std::
   }
   const mvs_driver_info &info = device->info;
   finder.say(1, check,
-             driver::sentence("%s, serial %s, firmware %s: %.2g N (%.2g N for ever) at %.0f Hz",
+             driver::sentence("%s, serial %s, firmware %s: %.2g N (%.2g N continuous) at %.0f Hz",
                               info.model, info.serial, info.firmware, info.peak_force,
                               info.continuous_force, info.rate));
   const bool good = calibrate(device) == MVS_DRIVER_OK;

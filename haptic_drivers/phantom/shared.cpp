@@ -61,7 +61,7 @@ int32_t load(const mvs_driver_host *host, std::string &sentence) {
   const std::string chosen = option(host, "library");
   if (!chosen.empty() && chosen.front() != '/')
     return fail(sentence, MVS_DRIVER_E_OPTION,
-                "library=" + chosen + " is no absolute path: name the file from the root");
+                "library=" + chosen + " is not an absolute path: give the path from the root");
   if (broken())
     return fail(sentence, MVS_DRIVER_E_FAULT,
                 "OpenHaptics did not come back from its last call: start this program again");

@@ -11,7 +11,6 @@
 namespace phantom {
 namespace {
 
-constexpr double kMillimetre = 1e-3;
 constexpr int kQuiet = 100, kQuietWhenWarm = 1000;  // ticks without force after a warning
 constexpr int kStrangeAtMost = 10;
 constexpr uint64_t kSlowly = 128;  // ticks between two reads of calibration and temperature

@@ -72,7 +72,7 @@ int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *us
                      "moves, see /var/log/spnavd.log");
     if (!daemon.device(model, buttons))
       return finding(user, 0, "3D mouse",
-                     "spacenavd has found none: plug it in, and see /var/log/spnavd.log if it "
+                     "spacenavd has found no mouse: plug it in, and see /var/log/spnavd.log if it "
                      "still does not");
     finding(user, 1, "3D mouse", (model + ", " + std::to_string(buttons) + " buttons").c_str());
   });

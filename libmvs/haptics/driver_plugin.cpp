@@ -164,7 +164,7 @@ void DriverPlugin::negotiate(const std::string &path) {
 
 void DriverPlugin::check(const std::string &path, uint32_t room) const {
   MVS_MUST(api_.version == MVS_DRIVER_VERSION, MVS_E_VERSION, name_,
-           "the driver %s says that it speaks version %u of the interface, which it was not "
+           "the driver %s reports version %u of the interface, which was not "
            "offered: get one that was made for version %u",
            path.c_str(), api_.version, MVS_DRIVER_VERSION);
   MVS_MUST(api_.struct_size == room, MVS_E_VERSION, name_,

@@ -90,7 +90,7 @@ STEP_3 = {"do": "chord_remove", "chord": "P2/3"}
 @pytest.mark.parametrize(
     "plan, kind, words",
     [
-        ("", mvs.FormatError, "no JSON"),
+        ("", mvs.FormatError, "not JSON"),
         ("[1]", mvs.FormatError, "not a plan"),
         ({"version": 2, "steps": []}, mvs.VersionError, "has version 2, this libmvs reads version 1"),
         ({"steps": [1]}, mvs.FormatError, "step 1"),
@@ -105,7 +105,7 @@ STEP_3 = {"do": "chord_remove", "chord": "P2/3"}
         ({"steps": {1, 2}}, mvs.ArgumentError, "no JSON"),
         (7, mvs.ArgumentError, "not int"),
         ("no/such/plan.json", mvs.IoError, "no/such/plan.json: cannot read the plan: "),
-        ('{"\ud800": 1}', mvs.FormatError, "no JSON"),
+        ('{"\ud800": 1}', mvs.FormatError, "not JSON"),
     ],
 )
 def test_what_cannot_be_replayed_is_told_and_changes_nothing(sim, plan, kind, words):
@@ -226,5 +226,5 @@ def test_journals_that_cannot_be_are_told(sim, tmp_path):
     with pytest.raises(mvs.StateError, match="load that valve first"):
         sim.recover_journal(path)
     path.write_text("v 0 0 0\n")
-    with pytest.raises(mvs.FormatError, match="no journal"):
+    with pytest.raises(mvs.FormatError, match="not a journal"):
         sim.recover_journal(path)
