@@ -1,4 +1,4 @@
-// The parts of an Abaqus input file put together to a valve.
+// Assembly of a valve from the parts of an Abaqus input file.
 #include <mvs/valve.h>
 
 #include <Eigen/Geometry>
@@ -12,11 +12,11 @@
 namespace mvs::core {
 namespace {
 
-// Puts the parts together; rows are those of the valve, nodes those of the file.
-class Builder {
+// Builds the valve. A row is an index of the valve, a node an index of the file.
+class ValveBuilder {
  public:
-  Builder(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
-          InpNotes &notes)
+  ValveBuilder(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
+               InpNotes &notes)
       : mesh_(mesh),
         properties_(properties),
         load_(load),
@@ -45,13 +45,13 @@ class Builder {
   InpNotes &notes_;
   const InpSheet sheet_;
   const InpChordae chordae_;
-  std::vector<uint32_t> row_, node_;  // of a node; of a row
-  std::vector<uint8_t> turned_;       // 1: a triangle that was turned
+  std::vector<uint32_t> row_, node_;  // row of each node; node of each row
+  std::vector<uint8_t> turned_;       // 1: a triangle whose orientation was reversed
   Valve valve_;
 };
 
-// Nodes keep the order of the file; those inside cables and those of no element have no place.
-void Builder::add_nodes() {
+// Nodes keep the order of the file, without the inner nodes of cables and nodes without elements.
+void ValveBuilder::add_nodes() {
   std::vector<uint8_t> kept = sheet_.holds;
   for (const uint32_t head : chordae_.heads) kept[head] = 1;
   for (const InpCable &cable : chordae_.cables) kept[cable.a] = kept[cable.b] = 1;
@@ -72,7 +72,7 @@ void Builder::add_nodes() {
   }
 }
 
-void Builder::add_leaflets() {
+void ValveBuilder::add_leaflets() {
   std::set<std::string> taken;
   for (const InpSection &section : properties_.shells) {
     Leaflet leaflet;
@@ -85,7 +85,7 @@ void Builder::add_leaflets() {
   }
 }
 
-void Builder::add_triangles() {
+void ValveBuilder::add_triangles() {
   for (size_t t = 0; t < sheet_.triangles.size(); ++t) {
     const Tri &nodes = sheet_.triangles[t];
     valve_.triangles.push_back({row_[nodes[0]], row_[nodes[1]], row_[nodes[2]]});
@@ -95,9 +95,9 @@ void Builder::add_triangles() {
   for (const uint32_t node : chordae_.heads) valve_.heads.push_back({0, "", row_[node]});
 }
 
-// Without any *ORIENTATION fibres are circumferential, as in any valve that does not say. Where
-// only some sections have one, the others have that of Abaqus: the first axis laid into the shell.
-void Builder::add_fibres() {
+// Without any *ORIENTATION fibres are circumferential, the default of a valve. If only some
+// sections have one, the others use the default of Abaqus: the first axis projected onto the shell.
+void ValveBuilder::add_fibres() {
   const auto has = [](const InpSection &section) { return !section.orientation.empty(); };
   if (std::none_of(properties_.shells.begin(), properties_.shells.end(), has)) return;
   static const InpOrientation global;
@@ -111,7 +111,7 @@ void Builder::add_fibres() {
     const Vec3 normal = side.cross(valve_.rest[nodes[2]] - valve_.rest[nodes[0]]).normalized();
     const Vec3 fibre = orientation.fibre(sheet_.element[t]);
     const Vec3 flat = fibre - fibre.dot(normal) * normal;
-    const bool lies = flat.norm() > 1e-3;  // closer to the normal than that it is no direction
+    const bool lies = flat.norm() > 1e-3;  // false: nearly parallel to the normal
     across += !lies;
     valve_.triangle_fibre.push_back(lies ? flat.normalized() : side.normalized());
   }
@@ -126,7 +126,7 @@ uint32_t kind_of(const InpCable &cable, const InpSheet &sheet) {
   return sheet.in_free_edge[cable.b] ? MVS_CHORD_KIND_MARGINAL : MVS_CHORD_KIND_ROUGH_ZONE;
 }
 
-void Builder::add_chordae() {
+void ValveBuilder::add_chordae() {
   for (const InpCable &cable : chordae_.cables) {
     const InpSection &section = properties_.trusses[cable.section];
     Chord chord;
@@ -140,8 +140,8 @@ void Builder::add_chordae() {
   }
 }
 
-// A valve has one density: that of the first leaflet.
-void Builder::set_density() {
+// A valve has one density; the density of the first leaflet is used.
+void ValveBuilder::set_density() {
   const auto density_of = [&](const InpSection &section) {
     return properties_.materials.at(section.material).density;
   };
@@ -162,9 +162,9 @@ void Builder::set_density() {
   }
 }
 
-// Abaqus touches at the thickness of the shell, but at no more than a share of the shortest edge or
-// diagonal of each element. A valve has one distance: the median.
-void Builder::set_contact() {
+// Contact distance: Abaqus uses the shell thickness, limited to a share of the shortest edge or
+// diagonal of each element. A valve has one distance; the median over the elements is used.
+void ValveBuilder::set_contact() {
   std::vector<double> distances;
   size_t reduced = 0;
   for (const InpSection &section : properties_.shells) {
@@ -191,7 +191,7 @@ void Builder::set_contact() {
       1e3 * distances.front(), 1e3 * distances.back());
 }
 
-void Builder::orient_sheet() {
+void ValveBuilder::orient_sheet() {
   const std::vector<Tri> before = valve_.triangles;
   orient(valve_);
   for (size_t t = 0; t < before.size(); ++t) turned_.push_back(before[t] != valve_.triangles[t]);
@@ -201,8 +201,8 @@ void Builder::orient_sheet() {
                  turned_.size());
 }
 
-// From the ventricle, as a valve has it: along the normals, which point into the atrium.
-double Builder::pressure() const {
+// Pressure from the ventricle, positive along the normals, which point into the atrium.
+double ValveBuilder::pressure() const {
   if (load_.pressure.empty()) return 0;
   double low = 1e300, high = -1e300;
   for (size_t t = 0; t < turned_.size(); ++t) {
@@ -218,7 +218,7 @@ double Builder::pressure() const {
         "is taken",
         low, high, pressure);
   }
-  constexpr double limit = 400e3;  // ten times what any heart makes: the unit is wrong
+  constexpr double limit = 400e3;  // Pa, ten times a high ventricular pressure
   if (std::abs(pressure) > limit) {
     inp_fail(0,
              "the pressure is %g Pa: a heart has up to 40e3; say the units of the file as "
@@ -228,15 +228,15 @@ double Builder::pressure() const {
   return pressure;
 }
 
-// Whether a part is of a kind ("node 17" of "node"), and then its index.
+// Returns whether a part is of a kind ("node 17" of "node"), and its index.
 bool is_part(std::string_view part, std::string_view kind, uint32_t &index) {
   if (!part.starts_with(kind) || part.size() < kind.size() + 2) return false;
   const char *const first = part.data() + kind.size() + 1;
   return std::from_chars(first, part.data() + part.size(), index).ec == std::errc();
 }
 
-// The line of the file behind a part that find_faults names; 0 where there is none.
-int32_t Builder::line_of(const std::string &part) const {
+// Returns the line of a part named by find_faults, or 0.
+int32_t ValveBuilder::line_of(const std::string &part) const {
   uint32_t index = 0;
   if (is_part(part, "node", index) || is_part(part, "edge", index) ||
       is_part(part, "annulus", index)) {
@@ -254,14 +254,14 @@ int32_t Builder::line_of(const std::string &part) const {
   return 0;
 }
 
-// What is wrong with the whole, where the parts are right; the sentence counts nodes from 0.
-void Builder::check() const {
+// Checks the assembled valve; its messages count nodes from 0.
+void ValveBuilder::check() const {
   const std::vector<Fault> faults = find_faults(valve_);
   if (faults.empty()) return;
   inp_fail(line_of(faults[0].part), "as a valve (rows from 0): %s", faults[0].sentence.c_str());
 }
 
-Loaded Builder::build() {
+Loaded ValveBuilder::build() {
   if (!mesh_.heading.empty()) valve_.name = mesh_.heading;
   add_nodes();
   add_leaflets();
@@ -284,7 +284,7 @@ Loaded Builder::build() {
 
 Loaded build_inp_valve(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
                        InpNotes &notes) {
-  return Builder(mesh, properties, load, notes).build();
+  return ValveBuilder(mesh, properties, load, notes).build();
 }
 
 }  // namespace mvs::core

@@ -24,7 +24,7 @@ char capital(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-// In capitals, with one blank for any number of them.
+// Returns the text in capitals, with each run of blanks as one.
 std::string keyword_of(std::string_view text) {
   std::string out;
   for (const char c : trimmed(text)) {
@@ -35,7 +35,7 @@ std::string keyword_of(std::string_view text) {
   return out;
 }
 
-// Up to the next comma that is not in quotes, which goes with it.
+// Takes the text up to the next unquoted comma, and removes the comma.
 std::string_view next_field(std::string_view &rest) {
   bool in_quotes = false;
   size_t stop = 0;
@@ -125,7 +125,7 @@ double InpRow::number(const char *what, int shift, std::optional<double> otherwi
       text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
   double value = 0;
   if (!parse_decimal(text, value, shift)) {
-    inp_fail(line_, "%s is no number, where %s is needed", quoted(token).c_str(), what);
+    inp_fail(line_, "%s is not a number; %s is needed", quoted(token).c_str(), what);
   }
   return value;
 }
@@ -135,7 +135,7 @@ uint64_t InpRow::whole(const char *what) {
   uint64_t value = 0;
   if (token.empty()) inp_fail(line_, "the line ends where %s is needed", what);
   if (!parse_whole(token, value)) {
-    inp_fail(line_, "%s is no whole number, where %s is needed", quoted(token).c_str(), what);
+    inp_fail(line_, "%s is not a whole number; %s is needed", quoted(token).c_str(), what);
   }
   return value;
 }
@@ -160,12 +160,12 @@ std::string InpCard::need(std::string_view key) {
 std::vector<InpCard> split_inp(std::string_view text) {
   std::vector<InpCard> cards;
   size_t lines = 0;
-  bool goes_on = false;  // a keyword line that ends with a comma goes on in the next line
+  bool continues = false;  // a keyword line that ends with a comma continues in the next line
   for (int32_t number = 1; !text.empty(); ++number) {
     const std::string_view line = next_line(text, number);
     if (line.empty() || line.starts_with("**")) continue;
     if (++lines > most_lines) inp_fail(number, "the file has over %zu lines", most_lines);
-    if (goes_on && !line.starts_with('*')) {
+    if (continues && !line.starts_with('*')) {
       add_parameters(line, cards.back(), number);
     } else if (line.starts_with('*')) {
       cards.push_back(new_card(line, number));
@@ -176,7 +176,7 @@ std::vector<InpCard> split_inp(std::string_view text) {
       cards.back().data.push_back({line, number});
       continue;
     }
-    goes_on = line.ends_with(',');
+    continues = line.ends_with(',');
   }
   return cards;
 }

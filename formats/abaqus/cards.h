@@ -1,5 +1,5 @@
-// Abaqus input taken apart: keyword lines with their parameters, and the data lines below them.
-// A card marks what was understood of it; inp_notes.h lists the rest.
+// Tokenizer of Abaqus input: keyword lines (cards) with parameters and data lines. A card records
+// which parameters the readers used; notes.h reports the others.
 #pragma once
 
 #include <optional>
@@ -13,25 +13,25 @@ namespace mvs::core {
 
 [[noreturn, gnu::format(printf, 2, 3)]] void inp_fail(int32_t line, const char *pattern, ...);
 
-// A label as Abaqus compares it: in capitals, without quotes and outer blanks.
+// Returns a label in the form that Abaqus compares: capitals, without quotes and outer blanks.
 std::string inp_label(std::string_view word);
 
 struct InpParameter {
   std::string key;         // in capitals
-  std::string_view value;  // as written; empty where there is none
+  std::string_view value;  // as written; empty without a value
   bool taken = false;
 };
 
-// A data line, field by field; fields are parted by commas. Every complaint names the line.
+// The comma-separated fields of a data line. Every error names the line.
 class InpRow {
  public:
   InpRow(std::string_view text, int32_t line) : rest_(text), line_(line) {}
 
   int32_t line() const { return line_; }
   bool at_end() const { return rest_.empty(); }
-  // The next field without outer blanks; empty where nothing is written, and at the end.
+  // Returns the next field without outer blanks; empty for a missing field and at the end.
   std::string_view word();
-  // A number, divided by 10^shift; what is not written is `otherwise`, or a fault without it.
+  // Returns a number divided by 10^shift; a missing one is `otherwise`, or an error without it.
   double number(const char *what, int shift = 0, std::optional<double> otherwise = {});
   uint64_t whole(const char *what);
 
@@ -54,17 +54,17 @@ class InpCard {
   bool used = false;
 
   bool is(std::string_view name) const { return keyword == name; }
-  // The value of a parameter, which counts as understood from now on.
+  // Returns the value of a parameter and marks it as used.
   std::optional<std::string_view> take(std::string_view key);
-  // The label that a parameter gives; fails without it.
+  // Returns the label of a required parameter.
   std::string need(std::string_view key);
   InpRow row(size_t k) const { return {data[k].text, data[k].line}; }
 };
 
-// Fails on *INCLUDE, on data before the first keyword and on lines beyond any sense.
+// Splits a file into cards; fails on *INCLUDE, on data before the first keyword, on overlong lines.
 std::vector<InpCard> split_inp(std::string_view text);
 
-// The text of the comment line that names the units ("** units: mm MPa"), and its line.
+// The comment line that declares the units ("** units: mm MPa"), and its line.
 struct InpUnitsLine {
   std::string_view words;
   int32_t line = 0;

@@ -1,4 +1,4 @@
-// Trusses to cables, and which end of each is nearer a papillary head.
+// Conversion of trusses to cables, with the end nearer a papillary head first.
 #include <algorithm>
 
 #include "formats/abaqus/valve.h"
@@ -17,7 +17,7 @@ class Network {
   size_t truss_count() const { return trusses_.size(); }
 
  private:
-  // One truss; its two nodes as they stand in the file.
+  // One truss with its nodes in the order of the file.
   struct Truss {
     Edge nodes;
     uint32_t element, section;
@@ -70,14 +70,14 @@ uint32_t Network::other_end(uint32_t truss, uint32_t node) const {
   return nodes[0] == node ? nodes[1] : nodes[0];
 }
 
-// Whether a node only joins two segments of the same cable.
+// Returns whether a node only joins two segments of the same cable.
 bool Network::is_inner(uint32_t node) const {
   const std::span<const uint32_t> around = at_[node];
   return !sheet_.holds[node] && !is_head_[node] && around.size() == 2 &&
          trusses_[around[0]].section == trusses_[around[1]].section;
 }
 
-// Trusses from a node that ends a cable to the next one.
+// Follows the trusses from the end node of a cable to its other end.
 std::vector<uint32_t> Network::chain_from(uint32_t node, uint32_t truss) const {
   std::vector<uint32_t> chain = {truss};
   for (node = other_end(truss, node); is_inner(node); node = other_end(truss, node)) {
@@ -88,8 +88,8 @@ std::vector<uint32_t> Network::chain_from(uint32_t node, uint32_t truss) const {
   return chain;
 }
 
-// A second cable between the same ends, or one that comes back to its beginning, keeps its nodes:
-// a valve tells chordae by their ends.
+// A second cable between the same ends, or a closed one, keeps its inner nodes, because the ends of
+// a chord identify it.
 void Network::add_chain(uint32_t first, const std::vector<uint32_t> &chain) {
   uint32_t last = first;
   double length = 0;
@@ -120,7 +120,8 @@ std::vector<uint32_t> Network::heads() const {
   return heads;
 }
 
-// How many cables away from a head each node is; `none` where no way leads. The sheet ends a way.
+// Breadth-first distance of each node from a head, in cables; `none` if unreachable. Paths stop at
+// the sheet.
 std::vector<uint32_t> distances(const std::vector<InpCable> &cables,
                                 const std::vector<uint32_t> &heads, const InpSheet &sheet) {
   std::vector<Edge> ends;

@@ -1,4 +1,4 @@
-// *SURFACE and what says how surfaces touch.
+// *SURFACE and contact definitions.
 #include <algorithm>
 
 #include "formats/abaqus/load.h"
@@ -15,11 +15,11 @@ int side_of(std::string_view word, int32_t line, InpNotes &notes) {
     notes.left_out(line, "a surface of both sides of shells is taken as SPOS");
     return 1;
   }
-  inp_fail(line, "%s is no side of a shell: SPOS or SNEG", quoted(word).c_str());
+  inp_fail(line, "%s is not a side of a shell: write SPOS or SNEG", quoted(word).c_str());
 }
 
-// Of general contact: where a shell is thicker than this share of the shortest edge or diagonal of
-// the elements, Abaqus/Explicit reduces what it takes as thickness.
+// MAXRATIO of general contact: Abaqus/Explicit limits the contact thickness of a shell to this
+// share of the shortest edge or diagonal of its elements.
 void read_max_ratio(InpCard &card, InpLoad &into) {
   const auto value = card.take("MAXRATIO");
   if (!value) return;
@@ -28,7 +28,7 @@ void read_max_ratio(InpCard &card, InpLoad &into) {
   if (!(into.max_ratio > 0)) inp_fail(card.line, "MAXRATIO has to be above 0");
 }
 
-// pressure-overclosure: contact here is a barrier in the distance, which has no such constant.
+// Pressure-overclosure is ignored: the contact of libmvs is a barrier without this constant.
 void read_behaviour(InpCard &card, const InpUnits &units, InpNotes &notes) {
   card.used = true;
   const std::string law = inp_label(card.take("PRESSURE-OVERCLOSURE").value_or("HARD"));

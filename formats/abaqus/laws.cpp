@@ -1,4 +1,4 @@
-// Materials of Abaqus as laws of this library.
+// Conversion of Abaqus materials to laws of libmvs.
 #include <mvs/valve.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// *BOUNDARY, *DSLOAD and *DLOAD through the steps of the file, and *AMPLITUDE.
+// *BOUNDARY, *DSLOAD and *DLOAD of all steps, and *AMPLITUDE.
 #include "formats/abaqus/load.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace mvs::core {
 namespace {
 
-// What holds a node so far, by degree of freedom; 4 to 6 are rotations.
+// The constraints of a node by degree of freedom; 4 to 6 are rotations.
 struct Held {
   std::array<std::optional<double>, 3> moved;
   int32_t line = 0;
@@ -33,7 +33,7 @@ class Steps {
   InpNotes &notes_;
   std::map<uint32_t, Held> held_;
   std::map<uint32_t, double> pressure_;
-  bool boundary_is_new_ = false, pressure_is_new_ = false;  // OP=NEW stood in this step
+  bool boundary_is_new_ = false, pressure_is_new_ = false;  // this step has OP=NEW
 };
 
 bool is_new(InpCard &card) {
@@ -70,9 +70,8 @@ void Steps::row_of_boundary(InpRow row, double factor) {
     return hold(nodes, 1, label == "PINNED" ? 3 : 6, 0, row.line());
   }
   if (!label.empty() && label[0] >= 'A' && label[0] <= 'Z') {
-    return notes_.left_out(row.line(),
-                           "boundary condition " + quoted(label) +
-                               " is left out: nodes are held in all directions or none");
+    return notes_.left_out(row.line(), "boundary condition " + quoted(label) +
+                                           " is ignored: a node is held in all directions or free");
   }
   const uint64_t first = row.whole("a degree of freedom");
   InpRow ahead = row;
@@ -97,7 +96,7 @@ void Steps::boundary(InpCard &card, const InpAmplitudes &amplitudes) {
   for (size_t k = 0; k < card.data.size(); ++k) row_of_boundary(card.row(k), factor);
 }
 
-// *DSLOAD names a surface and pushes into it; *DLOAD names elements and pushes along their normals.
+// *DSLOAD pushes into a surface; *DLOAD pushes elements along their normals.
 void Steps::row_of_pressure(InpRow row, const InpCard &card, double factor,
                             const InpSurfaces &surfaces) {
   const std::string_view where = row.word();
@@ -113,7 +112,7 @@ void Steps::row_of_pressure(InpRow row, const InpCard &card, double factor,
   }
   const auto surface = surfaces.find(inp_label(where));
   if (surface == surfaces.end()) {
-    inp_fail(row.line(), "%s is no surface in the file", quoted(where).c_str());
+    inp_fail(row.line(), "the file has no surface %s", quoted(where).c_str());
   }
   for (const auto &[element, side] : surface->second.faces) pressure_[element] = -side * value;
 }
@@ -177,7 +176,7 @@ double inp_factor(InpCard &card, const InpAmplitudes &amplitudes) {
   if (!name) return 1;
   const auto found = amplitudes.find(inp_label(*name));
   if (found == amplitudes.end()) {
-    inp_fail(card.line, "%s is no amplitude in the file", quoted(*name).c_str());
+    inp_fail(card.line, "the file has no amplitude %s", quoted(*name).c_str());
   }
   return found->second;
 }

@@ -1,4 +1,4 @@
-// *MATERIAL and the laws that a leaflet or a chord can follow.
+// *MATERIAL with the laws that leaflets and chordae can have.
 #include <algorithm>
 
 #include "formats/abaqus/properties.h"
@@ -7,7 +7,7 @@
 namespace mvs::core {
 namespace {
 
-// All numbers of a card in a row; what is not written is 0, as in Abaqus.
+// Returns all numbers of a card; a missing number is 0, as in Abaqus.
 std::vector<double> numbers_of(const InpCard &card) {
   constexpr size_t most = 64;
   std::vector<double> numbers;
@@ -26,8 +26,7 @@ void need_constants(const InpCard &card, const std::vector<double> &numbers, siz
            count);
 }
 
-// Moduli are whole powers of ten apart from Pa: the nearest double of the product is good enough
-// for constants that were fitted.
+// The conversion to Pa multiplies by a power of ten and rounds once, which fitted constants allow.
 double in_pascal(double value, const InpUnits &units) {
   for (int k = units.stress; k < 0; ++k) value *= 10;
   for (int k = units.stress; k > 0; --k) value /= 10;
@@ -66,8 +65,7 @@ void read_neo_hooke(const InpCard &card, const InpUnits &units, InpMaterial &mat
 }
 
 // mu_1, alpha_1 ... mu_N, alpha_N, D_1 ... D_N of W = sum 2 mu_k / alpha_k^2 (l1^alpha_k +
-// l2^alpha_k
-// + l3^alpha_k - 3) + ...
+// l2^alpha_k + l3^alpha_k - 3) + ...
 void read_ogden(InpCard &card, const InpUnits &units, InpMaterial &material, InpNotes &notes) {
   InpRow order(card.take("N").value_or("1"), card.line);
   const uint64_t terms = order.whole("N");
@@ -97,8 +95,8 @@ void read_hyperelastic(InpCard &card, const InpUnits &units, InpMaterial &materi
            quoted(law).c_str());
 }
 
-// The user material of the Texas TriValve (Mathur et al. 2022): C0, bulk modulus, C1, C2 of
-// W = C0 / 2 (I1 - 3) + C1 / 2 (exp(C2 (I1 - 3)^2) - 1).
+// The user material of the Texas TriValve (Mathur et al. 2022): C0, bulk modulus, C1, C2 of W = C0
+// / 2 (I1 - 3) + C1 / 2 (exp(C2 (I1 - 3)^2) - 1).
 void read_user_material(InpCard &card, const InpUnits &units, InpMaterial &material,
                         InpNotes &notes) {
   const bool user = card.take("USER").has_value();
@@ -118,8 +116,8 @@ void read_user_material(InpCard &card, const InpUnits &units, InpMaterial &mater
                  "incompressible");
 }
 
-using Reader = void (*)(InpCard &, const InpUnits &, InpMaterial &, InpNotes &);
-Reader reader_of(const InpCard &card) {
+using MaterialReader = void (*)(InpCard &, const InpUnits &, InpMaterial &, InpNotes &);
+MaterialReader reader_of(const InpCard &card) {
   if (card.is("ELASTIC")) {
     return [](InpCard &c, const InpUnits &u, InpMaterial &m, InpNotes &) { read_elastic(c, u, m); };
   }
@@ -148,7 +146,7 @@ void read_inp_materials(std::vector<InpCard> &cards, const InpUnits &units, InpP
   InpMaterial *material = nullptr;
   for (InpCard &card : cards) {
     if (card.is("MATERIAL")) material = &add_material(card, into);
-    const Reader read = reader_of(card);
+    const MaterialReader read = reader_of(card);
     if (!read && !card.is("DENSITY")) continue;
     card.used = true;
     if (!material) inp_fail(card.line, "*%s stands before any *MATERIAL", card.keyword.c_str());

@@ -1,4 +1,4 @@
-// *NODE and *ELEMENT, and the part they stand in. Sets are in inp_sets.cpp.
+// *NODE and *ELEMENT, and the part that contains them. Sets are in sets.cpp.
 #include "formats/abaqus/mesh.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ void check_room(size_t count, int32_t line) {
   if (count >= most_items) inp_fail(line, "the limit is %zu nodes or elements", most_items);
 }
 
-// An instance may stand elsewhere than its part; node for node with the file is worth more.
+// The offset of an instance is ignored, so that nodes keep the coordinates of the file.
 void check_place(const InpCard &card) {
   for (size_t k = 0; k < card.data.size(); ++k) {
     InpRow row = card.row(k);
@@ -38,7 +38,7 @@ void name_once(InpCard &card, const char *key, std::string &name) {
 }
 
 bool is_name(std::string_view text) {
-  constexpr size_t longest = 63;  // of a valve
+  constexpr size_t longest = 63;  // of a valve's name
   return !text.empty() && text.size() <= longest && is_plain_text(text);
 }
 
@@ -61,7 +61,8 @@ void read_structure(InpCard &card, InpMesh &mesh) {
   card.take("NAME");
 }
 
-// A node again at the same place is the same node, as where several sets are listed in full.
+// A repeated node number with the same coordinates is accepted, as in files that list each set in
+// full.
 void add_node(InpRow row, InpMesh &mesh, std::vector<uint32_t> &into) {
   check_room(mesh.nodes.size(), row.line());
   const uint64_t number = row.whole("a node number");
@@ -88,7 +89,7 @@ void read_nodes(InpCard &card, InpMesh &mesh) {
   }
 }
 
-// The corners of an element type; 0 for one that a valve has no place for.
+// Returns the number of corners of an element type; 0 for an unsupported type.
 size_t corners_of(const std::string &type) {
   if (type == "T3D2") return 2;
   if (type == "S3" || type == "S3R") return 3;
@@ -104,7 +105,7 @@ uint32_t node_at(uint64_t number, const InpMesh &mesh, int32_t line) {
   return place->second;
 }
 
-// The element of data lines k and following: one that ends with a comma may go on in the next.
+// Reads the element at data line k; a line that ends with a comma may continue in the next.
 InpElement element_at(const InpCard &card, size_t &k, size_t corners, const InpMesh &mesh) {
   InpRow row = card.row(k);
   InpElement element{row.whole("an element number"), row.line(), {}};

@@ -1,4 +1,4 @@
-// The mesh of an Abaqus input file: nodes, elements, and the sets that name them.
+// Mesh of an Abaqus input file: nodes, elements and sets.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace mvs::core {
 
-// Powers of ten: lengths are divided by 10^length to be in m, stresses by 10^stress to be in Pa.
-// Time is in s, so that the unit of mass follows: stress x length x s2.
+// Units as powers of ten: lengths divided by 10^length are in m, stresses divided by 10^stress in
+// Pa. Time is in s; the unit of mass follows: stress x length x s2.
 struct InpUnits {
-  int length = 3, stress = -6;  // mm, MPa, and so tonne
+  int length = 3, stress = -6;  // mm, MPa, tonne
   int density() const { return stress - 2 * length; }
 };
 
@@ -26,13 +26,13 @@ struct InpNode {
 struct InpElement {
   uint64_t number;
   int32_t line;
-  std::vector<uint32_t> nodes;  // as in InpMesh::nodes: 2 a truss, 3 or 4 a shell
+  std::vector<uint32_t> nodes;  // indices into InpMesh::nodes: 2 for a truss, 3 or 4 for a shell
 };
 
 struct InpSet {
   std::string name;  // as written
   int32_t line = 0;
-  std::vector<uint32_t> items;  // of InpMesh::nodes or elements, each once
+  std::vector<uint32_t> items;  // indices into InpMesh::nodes or elements, each once
   std::set<uint32_t> members;   // the same
 };
 using InpSets = std::map<std::string, InpSet>;
@@ -42,15 +42,15 @@ struct InpMesh {
   std::vector<InpNode> nodes;                        // in the order of the file
   std::vector<InpElement> elements;                  // in the order of the file
   std::map<uint64_t, uint32_t> node_of, element_of;  // by number
-  std::set<uint64_t> skipped;       // numbers of elements that a valve has no place for
-  InpSets node_sets, element_sets;  // by label; "@" before those of the assembly
-  std::string heading;              // its first line, if a valve can have that name
-  std::string part, instance;       // labels, empty without
+  std::set<uint64_t> skipped;                        // numbers of elements of unsupported types
+  InpSets node_sets, element_sets;                   // by label; "@" before those of the assembly
+  std::string heading;                               // its first line, if it is a valid name
+  std::string part, instance;                        // labels; empty if absent
 
-  // What a number, a set, or either of them behind "instance." names; fails where it is nothing.
+  // Resolves a number or a set, with or without "instance." before it; fails if it does not exist.
   std::vector<uint32_t> named_nodes(std::string_view word, int32_t line) const;
   std::vector<uint32_t> named_elements(std::string_view word, int32_t line) const;
-  // The set of a label; null where there is none.
+  // Returns the set of a label, or null.
   const InpSet *find_set(const InpSets &sets, std::string_view word) const;
 };
 

@@ -1,4 +1,4 @@
-// Sentences about keywords and parameters that a valve has no place for.
+// Messages about unsupported keywords and parameters.
 #include "formats/abaqus/notes.h"
 
 #include <mvs/sim.h>
@@ -12,13 +12,13 @@
 namespace mvs::core {
 namespace {
 
-// Enough for any real file, and no flood from a broken one.
-constexpr size_t most_lines = 200;
+// Limit of messages, above the number in real files.
+constexpr size_t most_messages = 200;
 
 struct Reason {
   std::string_view keyword, why;
 };
-// Why a keyword has no effect here, for those that files of valves have.
+// Reasons for ignored keywords that files of valves contain.
 constexpr std::array reasons = {
     Reason{"TRANSVERSE SHEAR", "a membrane does not shear through its thickness"},
     Reason{"SECTION CONTROLS", "a setting of Abaqus' elements"},
@@ -26,10 +26,10 @@ constexpr std::array reasons = {
     Reason{"BULK VISCOSITY", "a setting of Abaqus' solver"},
     Reason{"VARIABLE MASS SCALING", "a setting of Abaqus' solver"},
     Reason{"FIXED MASS SCALING", "a setting of Abaqus' solver"},
-    Reason{"DYNAMIC", "how to get to equilibrium is said when settling"},
-    Reason{"STATIC", "how to get to equilibrium is said when settling"},
+    Reason{"DYNAMIC", "settle has its own options for the path to equilibrium"},
+    Reason{"STATIC", "settle has its own options for the path to equilibrium"},
     Reason{"CONTROLS", "a setting of Abaqus' solver"},
-    Reason{"DAMPING", "damping is said when settling"},
+    Reason{"DAMPING", "settle and step have their own option for damping"},
     Reason{"FRICTION", "leaflets slide without friction here"},
     Reason{"OUTPUT", "an output request"},
     Reason{"NODE OUTPUT", "an output request"},
@@ -76,7 +76,7 @@ void InpNotes::counted(const char *pattern, ...) {
 
 void InpNotes::left_over(const std::vector<InpCard> &cards) {
   for (const InpCard &card : cards) {
-    // quoted() also shortens: a hostile keyword does not fill the log
+    // quoted() also shortens, so that a hostile keyword cannot fill the log
     const std::string shown = quoted("*" + card.keyword);
     if (!card.used) {
       left_out(card.line, shown + " is left out: " + reason_for(card.keyword));
@@ -95,10 +95,10 @@ std::vector<Note> InpNotes::list() const {
                    [](const LeftOut &l, const LeftOut &r) { return l.line < r.line; });
   std::vector<Note> notes;
   for (const LeftOut &note : sorted) {
-    if (notes.size() == most_lines) {
+    if (notes.size() == most_messages) {
       notes.push_back(
           {MVS_LOG_WARNING, format("%zu more kinds of lines from line %d on are left out",
-                                   sorted.size() - most_lines, note.line)});
+                                   sorted.size() - most_messages, note.line)});
       break;
     }
     const std::string times = note.count > 1 ? format(" (%zu times)", note.count) : "";

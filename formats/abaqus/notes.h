@@ -1,4 +1,4 @@
-// What a reader of Abaqus input left out, and what it chose: told line by line, never dropped.
+// Log of the Abaqus reader: ignored features with line and count, assumptions, and counts.
 #pragma once
 
 #include <map>
@@ -12,16 +12,16 @@ namespace mvs::core {
 
 class InpNotes {
  public:
-  // Something of the file has no place in a valve. The same sentence again counts up.
+  // Reports a feature that a valve does not have. Repetitions of a sentence are counted.
   void left_out(int32_t line, const std::string &sentence);
-  // Something that the file does not say, or says otherwise, was chosen: worth a look.
+  // Reports an assumption about data that the file lacks or defines differently.
   [[gnu::format(printf, 2, 3)]] void chosen(const char *pattern, ...);
-  // How the file's things became those of a valve, without any choice.
+  // Reports a conversion without assumptions, with counts.
   [[gnu::format(printf, 2, 3)]] void counted(const char *pattern, ...);
-  // Everything in cards that nobody took.
+  // Reports all unused cards and parameters.
   void left_over(const std::vector<InpCard> &cards);
 
-  // In the order of the lines; then choices, then counts.
+  // Returns ignored features in the order of lines, then assumptions, then counts.
   std::vector<Note> list() const;
 
  private:
@@ -31,7 +31,7 @@ class InpNotes {
     size_t count;
   };
   std::vector<LeftOut> left_out_;
-  std::map<std::string, size_t> known_;  // places in left_out_
+  std::map<std::string, size_t> known_;  // indices into left_out_
   std::vector<std::string> chosen_, counted_;
 };
 

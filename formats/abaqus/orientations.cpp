@@ -1,4 +1,4 @@
-// *DISTRIBUTION and *ORIENTATION: the first local direction is that of the fibres.
+// *DISTRIBUTION and *ORIENTATION: the first local direction is the fibre direction.
 #include <Eigen/Geometry>
 #include <numbers>
 
@@ -23,7 +23,7 @@ struct Distribution {
 std::array<Vec3, 2> read_pair(InpRow &row) {
   const Vec3 x = read_direction(row), y = read_direction(row);
   if (!(x.cross(y).norm() > 1e-9 * x.norm() * y.norm())) {
-    inp_fail(row.line(), "the two directions are one: they have to span a plane");
+    inp_fail(row.line(), "the two directions are parallel: they have to define a plane");
   }
   return {x, y};
 }
@@ -107,7 +107,7 @@ void read_inp_orientations(std::vector<InpCard> &cards, const InpMesh &mesh, Inp
                            InpNotes &notes) {
   std::map<std::string, Distribution> known;
   for (InpCard &card : cards) {
-    // what its columns mean is checked where they are read
+    // its columns are checked when they are read
     if (card.is("DISTRIBUTION TABLE")) {
       card.used = true;
       card.take("NAME");

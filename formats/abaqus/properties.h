@@ -1,4 +1,4 @@
-// What the elements of an Abaqus input file are made of: materials, sections, orientations.
+// Properties of elements of an Abaqus input file: materials, sections, orientations.
 #pragma once
 
 #include "formats/abaqus/mesh.h"
@@ -15,13 +15,13 @@ struct InpMaterial {
   std::vector<double> constants;
 };
 
-// Local directions of elements; `of` holds those of the elements that a distribution names.
+// Local directions of elements; `of` holds the directions from a distribution.
 struct InpOrientation {
   int32_t line = 0;
   std::array<Vec3, 2> otherwise = {Vec3::UnitX(), Vec3::UnitY()};
   std::map<uint32_t, std::array<Vec3, 2>> of;
   double angle = 0;                // rad, about the third direction
-  Vec3 direction = Vec3::UnitX();  // of the fibres, in the turned directions
+  Vec3 direction = Vec3::UnitX();  // of the fibres, in the rotated axes
 
   Vec3 fibre(uint32_t element) const;
 };
@@ -30,7 +30,7 @@ struct InpSection {
   std::string name;  // of the set, as written
   int32_t line = 0;
   std::vector<uint32_t> elements;
-  std::string material, orientation;  // labels; the latter may be empty
+  std::string material, orientation;  // labels; the orientation may be empty
   double size = 0;                    // m thickness of shells, m2 area of trusses
 };
 
@@ -43,7 +43,7 @@ struct InpProperties {
 InpProperties read_inp_properties(std::vector<InpCard> &cards, const InpMesh &mesh,
                                   InpNotes &notes);
 
-// These three are parts of it.
+// Parts of read_inp_properties.
 void read_inp_materials(std::vector<InpCard> &cards, const InpUnits &units, InpProperties &into,
                         InpNotes &notes);
 void read_inp_orientations(std::vector<InpCard> &cards, const InpMesh &mesh, InpProperties &into,

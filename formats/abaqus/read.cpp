@@ -1,4 +1,4 @@
-// Abaqus input, read: the units of the file, then its parts, then the valve of them.
+// Entry point of the Abaqus reader: units, parts, valve.
 #include <algorithm>
 
 #include "formats/abaqus/valve.h"
@@ -15,7 +15,7 @@ constexpr std::array lengths = {Unit{"M", 0}, Unit{"CM", 2}, Unit{"MM", 3}};
 constexpr std::array stresses = {Unit{"PA", 0}, Unit{"KPA", -3}, Unit{"MPA", -6},
                                  Unit{"DYN/CM2", 1}};
 
-// "mm MPa", in any order, with commas or blanks; the unit of mass follows, time is in s.
+// Parses "mm MPa", in any order, separated by commas or blanks; time is in s.
 InpUnits units_of(const InpUnitsLine &given) {
   InpUnits units;
   std::string words = inp_label(given.words);
@@ -63,7 +63,7 @@ Imported read_inp(std::string_view text) {
   InpNotes notes;
   const InpUnits units = read_units(text, notes);
   std::vector<InpCard> cards = split_inp(text);
-  if (cards.empty()) inp_fail(0, "the file has no keyword: it is no Abaqus input");
+  if (cards.empty()) inp_fail(0, "the file has no keyword: it is not an Abaqus input file");
   const InpMesh mesh = read_inp_mesh(cards, units, notes);
   const InpProperties properties = read_inp_properties(cards, mesh, notes);
   const InpLoad load = read_inp_load(cards, mesh, notes);

@@ -1,4 +1,4 @@
-// *SHELL SECTION and *SOLID SECTION: which elements are which leaflet, and how thick.
+// *SHELL SECTION and *SOLID SECTION: leaflets with thickness, chordae with area.
 #include "formats/abaqus/properties.h"
 #include "formats/text/line.h"
 
@@ -12,12 +12,12 @@ InpSection read_section(InpCard &card, const InpMesh &mesh, const InpProperties 
   section.line = card.line;
   const std::string label = card.need("ELSET");
   const InpSet *set = mesh.find_set(mesh.element_sets, label);
-  if (!set) inp_fail(card.line, "%s is no set of elements in the file", quoted(label).c_str());
+  if (!set) inp_fail(card.line, "the file has no set of elements %s", quoted(label).c_str());
   section.name = set->name;
   section.elements = set->items;
   section.material = card.need("MATERIAL");
   if (!properties.materials.contains(section.material)) {
-    inp_fail(card.line, "%s is no material in the file", quoted(section.material).c_str());
+    inp_fail(card.line, "the file has no material %s", quoted(section.material).c_str());
   }
   if (card.data.empty())
     inp_fail(card.line, "*%s has no line with its %s", card.keyword.c_str(), size);
@@ -34,7 +34,7 @@ void read_shell(InpCard &card, const InpMesh &mesh, InpProperties &into, InpNote
   if (const auto orientation = card.take("ORIENTATION")) {
     section.orientation = inp_label(*orientation);
     if (!into.orientations.contains(section.orientation)) {
-      inp_fail(card.line, "%s is no orientation in the file", quoted(*orientation).c_str());
+      inp_fail(card.line, "the file has no orientation %s", quoted(*orientation).c_str());
     }
   }
   InpRow row = card.row(0);
@@ -47,7 +47,7 @@ void read_shell(InpCard &card, const InpMesh &mesh, InpProperties &into, InpNote
   into.shells.push_back(std::move(section));
 }
 
-// That the elements of sections are of their kind, each in one section, and none in no section.
+// Checks that each element belongs to exactly one section of its kind.
 void check_sections(const InpMesh &mesh, const InpProperties &properties) {
   std::vector<int32_t> line_of(mesh.elements.size(), 0);
   const auto check = [&](const InpSection &section, bool trusses, const char *what) {
@@ -55,7 +55,7 @@ void check_sections(const InpMesh &mesh, const InpProperties &properties) {
       const InpElement &element = mesh.elements[e];
       const auto number = static_cast<unsigned long long>(element.number);
       if ((element.nodes.size() == 2) != trusses) {
-        inp_fail(section.line, "element %llu of line %d is no %s, as the section of %s needs",
+        inp_fail(section.line, "element %llu of line %d is not a %s, as the section of %s requires",
                  number, element.line, what, quoted(section.name).c_str());
       }
       if (line_of[e] != 0) {

@@ -1,4 +1,4 @@
-// Sets and what names them: numbers, ranges, sets of sets, "instance.set".
+// Sets and references to them: numbers, ranges, sets of sets, "instance.set".
 #include "formats/abaqus/sets.h"
 
 #include "formats/text/line.h"
@@ -8,10 +8,10 @@ namespace {
 
 using Numbers = std::map<uint64_t, uint32_t>;
 
-// A range of numbers beyond this is a mistake, not a set.
+// Upper limit of a range, against typing errors.
 constexpr uint64_t longest_range = uint64_t{1} << 24;
 
-// Takes "instance." off a name; says whether it stood there.
+// Removes "instance." from a name; returns whether it was there.
 bool strip_instance(std::string &label, const InpMesh &mesh) {
   const size_t dot = label.rfind('.');
   if (dot == std::string::npos || dot == 0) return false;
@@ -21,7 +21,7 @@ bool strip_instance(std::string &label, const InpMesh &mesh) {
   return true;
 }
 
-// What a list calls its things, for sentences.
+// The noun for an item of a list, for error messages.
 struct Kind {
   const char *thing;
   const Numbers &numbers;
@@ -36,7 +36,7 @@ std::vector<uint32_t> named(std::string_view word, int32_t line, const InpMesh &
   if (const InpSet *set = mesh.find_set(kind.sets, word)) return set->items;
   strip_instance(label, mesh);
   if (!parse_whole(label, number)) {
-    inp_fail(line, "%s is no set of %ss in the file", quoted(word).c_str(), kind.thing);
+    inp_fail(line, "the file has no set of %ss %s", kind.thing, quoted(word).c_str());
   }
   if (kind.skipped && kind.skipped->contains(number)) return {};
   const auto place = kind.numbers.find(number);
@@ -54,17 +54,17 @@ Kind element_kind(const InpMesh &mesh) {
   return {"element", mesh.element_of, mesh.element_sets, &mesh.skipped};
 }
 
-// first, last, step: every number of it has to be there.
+// Reads a range (first, last, step); every number of it has to exist.
 void add_range(InpRow row, const InpMesh &mesh, const Kind &kind, std::vector<uint32_t> &items) {
   const uint64_t first = row.whole("the first number of a range");
   const uint64_t last = row.whole("the last number of a range");
   const std::string_view word = row.word();
   uint64_t step = 1;
   if (!word.empty() && (!parse_whole(word, step) || step == 0)) {
-    inp_fail(row.line(), "%s is no step of a range", quoted(word).c_str());
+    inp_fail(row.line(), "%s is not a step of a range", quoted(word).c_str());
   }
   if (last < first || last - first > longest_range || (last - first) % step != 0) {
-    inp_fail(row.line(), "from %llu to %llu in steps of %llu is no range",
+    inp_fail(row.line(), "from %llu to %llu in steps of %llu is not a range",
              static_cast<unsigned long long>(first), static_cast<unsigned long long>(last),
              static_cast<unsigned long long>(step));
   }
@@ -141,7 +141,7 @@ void read_inp_sets(std::vector<InpCard> &cards, InpMesh &mesh) {
   }
 }
 
-// Without an instance before it, a set of the assembly comes first.
+// Without an instance, a set of the assembly has precedence.
 const InpSet *InpMesh::find_set(const InpSets &sets, std::string_view word) const {
   std::string label = inp_label(word);
   if (!strip_instance(label, *this)) {

@@ -5,12 +5,11 @@
 
 namespace mvs::core {
 
-// Adds to a set, which begins to be where it is not there yet. Items that are in it are not
-// doubled.
+// Adds items to a set, and creates the set if it does not exist. Duplicates are ignored.
 void add_to_inp_set(InpSets &sets, const std::string &level, std::string_view name, int32_t line,
                     const std::vector<uint32_t> &items);
 
-// Reads the sets, once all nodes and elements are there.
+// Reads the sets; call after all nodes and elements are read.
 void read_inp_sets(std::vector<InpCard> &cards, InpMesh &mesh);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Shells to triangles, and the loop of the annulus.
+// Conversion of shells to triangles, and detection of the annulus loop.
 #include <Eigen/Geometry>
 #include <algorithm>
 
@@ -17,8 +17,7 @@ Vec3 normal_of(const InpMesh &mesh, const Tri &t) {
   return (mesh.nodes[t[1]].x - p).cross(mesh.nodes[t[2]].x - p);
 }
 
-// The corners without those that repeat their neighbour: a quad with two equal corners is a
-// triangle.
+// Returns the corners without repetitions: a quad with two equal corners is a triangle.
 std::vector<uint32_t> corners_of(const InpElement &element) {
   std::vector<uint32_t> corners;
   for (size_t k = 0; k < element.nodes.size(); ++k) {
@@ -35,8 +34,8 @@ std::vector<uint32_t> corners_of(const InpElement &element) {
   return corners;
 }
 
-// Along the shorter diagonal, the one from the first corner where both are equal; along the other
-// one where the quad is not convex there.
+// Splits a quad along its shorter diagonal (from the first corner if both are equal), or along the
+// other one if the quad is not convex there.
 std::array<Tri, 2> split_quad(const InpMesh &mesh, const InpElement &element,
                               const std::vector<uint32_t> &q) {
   const std::array<std::array<Tri, 2>, 2> ways = {
@@ -67,7 +66,7 @@ void add_element(const InpMesh &mesh, uint32_t e, uint32_t section, InpSheet &sh
   for (const Tri &triangle : split_quad(mesh, element, corners)) add(triangle);
 }
 
-// The nodes beside each node of the boundary.
+// The two neighbours of each boundary node.
 std::map<uint32_t, std::vector<uint32_t>> boundary_of(const InpMesh &mesh, const InpSheet &sheet) {
   std::map<uint32_t, std::vector<uint32_t>> beside;
   const std::vector<Side> sides = sorted_sides(sheet.triangles);
@@ -87,7 +86,8 @@ std::map<uint32_t, std::vector<uint32_t>> boundary_of(const InpMesh &mesh, const
   return beside;
 }
 
-// Each loop begins at its first node in the file and goes on to the earlier of its neighbours.
+// Each loop begins at its first node in the file and continues to the neighbour with the lower
+// index.
 std::vector<std::vector<uint32_t>> loops_of(
     const std::map<uint32_t, std::vector<uint32_t>> &beside) {
   std::vector<std::vector<uint32_t>> loops;
@@ -109,7 +109,7 @@ std::vector<std::vector<uint32_t>> loops_of(
   return loops;
 }
 
-// Says of the loop that is prescribed the farthest where it is not.
+// Reports the first free node of the loop with the most prescribed nodes.
 [[noreturn]] void fail_without_annulus(const InpMesh &mesh, const InpLoad &load,
                                        const std::vector<std::vector<uint32_t>> &loops) {
   size_t most = 0, length = 0;

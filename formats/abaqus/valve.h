@@ -1,4 +1,4 @@
-// From the mesh of an Abaqus input file to the parts of a valve. Nodes are still those of InpMesh.
+// Conversion of an Abaqus mesh to the parts of a valve. Node indices are those of InpMesh.
 #pragma once
 
 #include "formats/abaqus/load.h"
@@ -7,22 +7,22 @@
 
 namespace mvs::core {
 
-// Shells as triangles.
+// Shell elements as triangles.
 struct InpSheet {
-  std::vector<Tri> triangles;         // wound as the file has them
+  std::vector<Tri> triangles;         // with the node order of the file
   std::vector<uint32_t> element;      // of each triangle
   std::vector<uint32_t> section;      // of each triangle: index into InpProperties::shells
   std::vector<uint8_t> holds;         // 1: a node of a shell
-  std::vector<uint32_t> annulus;      // the loop of the boundary that is prescribed all around
-  std::vector<uint8_t> in_free_edge;  // 1: a node of another loop
+  std::vector<uint32_t> annulus;      // the boundary loop whose nodes are all prescribed
+  std::vector<uint8_t> in_free_edge;  // 1: a node of another boundary loop
 };
 InpSheet make_inp_sheet(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
                         InpNotes &notes);
 
-// A chain of trusses of one section whose inner nodes hold nothing else.
+// A chain of trusses of one section whose inner nodes belong to no other element.
 struct InpCable {
   uint32_t a, b;       // a: nearer a papillary head
-  double rest_length;  // m: of all its trusses
+  double rest_length;  // m, sum over its trusses
   uint32_t section;    // index into InpProperties::trusses
   uint32_t element;    // its first truss
 };
@@ -33,14 +33,14 @@ struct InpChordae {
 InpChordae make_inp_chordae(const InpMesh &mesh, const InpProperties &properties,
                             const InpLoad &load, const InpSheet &sheet, InpNotes &notes);
 
-// All of it together, at rest, with the load of the file set.
+// Builds the valve at rest, with the load of the file set.
 Loaded build_inp_valve(const InpMesh &mesh, const InpProperties &properties, const InpLoad &load,
                        InpNotes &notes);
 
-// The name of a leaflet: that of its set without "_Elements", "_Leaflet" and the like.
+// The name of a leaflet: its set name without suffixes such as "_Elements" and "_Leaflet".
 std::string inp_leaflet_name(std::string_view set);
 
-// What materials are as laws of this library; fails for one that there is none for.
+// Converts a material to a law of libmvs; fails for a material without a corresponding law.
 void set_inp_law(Leaflet &leaflet, const InpMaterial &material, InpNotes &notes);
 void set_inp_law(Chord &chord, const InpMaterial &material);
 

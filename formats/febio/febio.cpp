@@ -1,4 +1,4 @@
-// A valve at rest as a FEBio 4.0 model that closes it. The order of sections is FEBio's.
+// Writer of a FEBio 4.0 model that closes a valve from rest. Sections are in the order of FEBio.
 #include <mvs/sim.h>
 
 #include <cmath>
@@ -10,13 +10,13 @@
 namespace mvs::core {
 namespace {
 
-constexpr double mm = 1e3, kpa = 1e-3;
-// s: the load rises smoothly in the first half, as slowly as a heart's, and rests in the second.
+// s: the load rises smoothly in the first half, over a physiological time, and is constant in the
+// second.
 constexpr double rise = 0.1, end = 0.2, step = 1e-3;
-// 1/s, as much as swings of 0.1 s need to end within one.
+// 1/s: oscillations with a period of 0.1 s decay within one period.
 constexpr double damping = 100;
 
-// Dynamics, because a sheet that buckles on its way has no static path.
+// Dynamic analysis, because a buckling sheet has no continuous static path.
 void write_control(FebText &out) {
   out.open("Control");
   out.leaf("analysis", "DYNAMIC");
@@ -63,7 +63,7 @@ void write_boundary(FebText &out) {
   out.close("Boundary");
 }
 
-// A positive pressure of FEBio acts against the normals, that of a valve along them.
+// A positive pressure acts against the normals in FEBio, and along them in libmvs.
 void write_loads(double pressure, FebText &out) {
   out.open("Loads");
   out.open("surface_load", "name=\"systole\" surface=\"sheet\" type=\"pressure\"");
@@ -78,15 +78,15 @@ void write_loads(double pressure, FebText &out) {
 }
 
 // "contact potential" (Kamensky et al. 2018, CMAME 330, 522): an energy kc / r^4 between any two
-// points of the sheet closer than R_in, let down to zero at R_out. Two flat sheets at a distance d
+// points of the sheet closer than R_in, tapered to zero at R_out. Two flat sheets at a distance d
 // press on each other with 2 pi kc / d^3, so this kc balances the load at the contact thickness.
-// R0_min leaves out points that are close at rest; the sources compare it with a squared distance.
+// R0_min excludes points that are close at rest; the sources compare it with a squared distance.
 void write_contact(double thickness, double pressure, FebText &out) {
-  const double d = thickness * mm, outer = 1.5 * d;
+  const double d = thickness * mm_per_m, outer = 1.5 * d;
   out.open("Contact");
   out.open("contact",
            "name=\"leaflets\" surface_pair=\"sheet with itself\" type=\"contact potential\"");
-  out.leaf("kc", std::abs(pressure) * kpa * d * d * d / (2 * std::numbers::pi));
+  out.leaf("kc", std::abs(pressure) * kpa_per_pa * d * d * d / (2 * std::numbers::pi));
   out.leaf("p", "4");
   out.leaf("R_in", d);
   out.leaf("R_out", outer);
@@ -96,16 +96,16 @@ void write_contact(double thickness, double pressure, FebText &out) {
   out.close("Contact");
 }
 
-// A smooth step in ten pieces.
+// A smoothstep in ten linear segments.
 void write_load_curve(FebText &out) {
   out.open("LoadData");
   out.open("load_controller", "id=\"1\" name=\"rise\" type=\"loadcurve\"");
   out.leaf("interpolate", "LINEAR");
   out.leaf("extend", "CONSTANT");
   out.open("points");
-  constexpr int pieces = 10;
-  for (int k = 0; k <= pieces; ++k) {
-    const double s = static_cast<double>(k) / pieces;
+  constexpr int segments = 10;
+  for (int k = 0; k <= segments; ++k) {
+    const double s = static_cast<double>(k) / segments;
     out.leaf("pt", feb_list(std::array{rise * s, s * s * (3 - 2 * s)}));
   }
   out.leaf("pt", feb_list(std::array{end, 1.0}));

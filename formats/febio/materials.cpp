@@ -1,4 +1,4 @@
-// Laws of leaflets and chordae as FEBio has them.
+// FEBio materials of leaflets and springs of chordae.
 #include <mvs/valve.h>
 
 #include <algorithm>
@@ -11,28 +11,26 @@
 namespace mvs::core {
 namespace {
 
-// kPa: stiff enough that the volume of tissue hardly changes. The case of tests/validation that
-// FEBio closed has the same.
+// kPa, bulk modulus: nearly incompressible. The FEBio case of tests/validation has the same value.
 constexpr double bulk = 20e3;
-constexpr double kpa = 1e-3, mm = 1e3;
 
 // The energy density in kPa, in plain decimals. `i1` and `i4` are the words for the invariants.
 // Bilinear: the integral of c + a (x + sqrt(x2 + s2)) / 2 over x = I1 - Ic.
 std::string energy(const Leaflet &leaflet, const std::string &i1, const std::string &i4) {
   const Constants &c = leaflet.constants;
-  const auto stress = [&](size_t k) { return feb_plain(c[k] * kpa); };
+  const auto stress = [&](size_t k) { return feb_plain(c[k] * kpa_per_pa); };
   const auto plain = [&](size_t k) { return feb_plain(c[k]); };
   const std::string over = "(" + i1 + "-3)";
   switch (leaflet.law) {
     case MVS_LEAFLET_LAW_BILINEAR: {
       const std::string x = "(" + i1 + "-" + plain(2) + ")", s2 = feb_plain(c[3] * c[3]);
       const std::string root = "sqrt(" + x + "^2+" + s2 + ")";
-      return stress(0) + "*" + over + "+" + feb_plain(c[1] * kpa / 4) + "*(" + x + "^2+" + x + "*" +
-             root + "+" + s2 + "*ln(" + x + "+" + root + "))";
+      return stress(0) + "*" + over + "+" + feb_plain(c[1] * kpa_per_pa / 4) + "*(" + x + "^2+" +
+             x + "*" + root + "+" + s2 + "*ln(" + x + "+" + root + "))";
     }
     case MVS_LEAFLET_LAW_FUNG:
-      return feb_plain(c[0] * kpa / 2) + "*" + over + "+" + feb_plain(c[1] * kpa / 2) + "*(exp(" +
-             plain(2) + "*" + over + "^2)-1)";
+      return feb_plain(c[0] * kpa_per_pa / 2) + "*" + over + "+" +
+             feb_plain(c[1] * kpa_per_pa / 2) + "*(exp(" + plain(2) + "*" + over + "^2)-1)";
     case MVS_LEAFLET_LAW_MAY_NEWMAN_YIN:
       return stress(0) + "*(exp(" + plain(1) + "*" + over + "^2+" + plain(2) + "*(sqrt(" + i4 +
              ")-1)^4)-1)";
@@ -40,17 +38,17 @@ std::string energy(const Leaflet &leaflet, const std::string &i1, const std::str
       return stress(0) + "*(exp(" + plain(1) + "*" + over + "^2+" + plain(2) + "*(" + i4 +
              "-1)^2)-1)";
     case MVS_LEAFLET_LAW_NEO_HOOKEAN:
-      return feb_plain(c[0] * kpa / 2) + "*" + over;
+      return feb_plain(c[0] * kpa_per_pa / 2) + "*" + over;
     default:
       fail(MVS_E_UNSUPPORTED, "leaflet " + leaflet.name,
-           "leaflet %.63s is a net of springs, which FEBio has none of: give it the bilinear "
+           "leaflet %.63s is a net of springs, which FEBio does not have: give it the bilinear "
            "membrane law, which is fitted to the same curve, and export that",
            leaflet.name.c_str());
   }
 }
 
-// "uncoupled hyperelastic" takes W of the invariants without change of volume; "trans-iso
-// hyperelastic" takes W of the plain ones and J, so that both parts are written out.
+// "uncoupled hyperelastic" takes W of the isochoric invariants; "trans-iso hyperelastic" takes W of
+// the full invariants and J, so that W contains the isochoric and the volumetric part.
 void write_leaflet(const Valve &valve, const FebDomain &domain, size_t k, FebText &out) {
   const Leaflet &leaflet = valve.leaflets[domain.leaflet];
   const bool fibres = feb_has_fibres(leaflet.law);
@@ -69,8 +67,8 @@ void write_leaflet(const Valve &valve, const FebDomain &domain, size_t k, FebTex
   out.close("material");
 }
 
-// Strains between which straight lines follow the law of a chord: its own corners, or, where it is
-// curved, 64 steps up to 50 N, far above what a chord bears.
+// Nodes of the piecewise linear curve of a chord law: its own corners, or, for a curved law, 64
+// steps up to 50 N, far above the strength of a chord.
 std::vector<double> corners_of(const Valve &valve, const Chord &chord) {
   if (chord.law == MVS_CHORD_LAW_LINEAR) return {0, 0.1};
   if (chord.law == MVS_CHORD_LAW_BILINEAR) return {0, chord.constants[0], chord.constants[0] + 0.1};
@@ -93,12 +91,14 @@ std::vector<double> corners_of(const Valve &valve, const Chord &chord) {
   return strains;
 }
 
-// Force in mN over elongation in mm from the straight distance of the ends, which FEBio takes as
-// the length of a spring: a slack chord has no force until its rest length is reached.
+// Force in mN over elongation in mm. FEBio measures the elongation from the distance of the ends: a
+// slack chord has no force until its rest length is reached.
 void write_spring(const Valve &valve, size_t c, FebText &out) {
   const Chord &chord = valve.chords[c];
   const double distance = (valve.rest[chord.b] - valve.rest[chord.a]).norm();
-  const auto at = [&](double strain) { return (chord.rest_length * (1 + strain) - distance) * mm; };
+  const auto at = [&](double strain) {
+    return (chord.rest_length * (1 + strain) - distance) * mm_per_m;
+  };
   const std::vector<double> strains = corners_of(valve, chord);
   out.open("discrete_material", "id=\"" + std::to_string(c + 1) + "\" " +
                                     feb_attribute("name", chord.name) +
@@ -109,7 +109,7 @@ void write_spring(const Valve &valve, size_t c, FebText &out) {
   out.leaf("interpolate", "linear");
   out.leaf("extend", "extrapolate");
   out.open("points");
-  // before the first one there is no force, whatever is extrapolated
+  // makes the extrapolated force below the first strain zero
   out.leaf("pt", feb_list(std::array{at(strains[0]) - 1, 0.0}));
   for (const double strain : strains) {
     out.leaf("pt", feb_list(std::array{at(strain), chord_tension(valve, chord, strain) * 1e3}));

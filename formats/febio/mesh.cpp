@@ -1,4 +1,4 @@
-// Nodes, shells, surfaces and springs of a FEBio model, and what they carry.
+// Nodes, shells, surfaces, springs, prescribed displacements and fibres of a FEBio model.
 #include <algorithm>
 #include <map>
 
@@ -7,7 +7,7 @@
 namespace mvs::core {
 namespace {
 
-constexpr int mm = 3;  // power of ten
+constexpr int mm_shift = 3;  // power of ten
 
 std::string corners_of(const Tri &t) {
   return std::to_string(t[0] + 1) + "," + std::to_string(t[1] + 1) + "," + std::to_string(t[2] + 1);
@@ -21,7 +21,7 @@ void write_nodes(const Valve &valve, FebText &out) {
   out.open("Nodes", "name=\"valve\"");
   for (size_t n = 0; n < valve.rest.size(); ++n) {
     const Vec3 &x = valve.rest[n];
-    out.leaf("node", feb_list(std::array{x[0], x[1], x[2]}, mm), with_id(n + 1));
+    out.leaf("node", feb_list(std::array{x[0], x[1], x[2]}, mm_shift), with_id(n + 1));
   }
   out.close("Nodes");
 }
@@ -89,7 +89,8 @@ std::vector<FebDomain> feb_domains(const Valve &valve) {
   // a leaflet of several thicknesses: "A", "A, 1.2 mm", ...
   std::map<uint32_t, size_t> count;
   for (FebDomain &domain : domains) {
-    if (++count[domain.leaflet] > 1) domain.name += ", " + feb_number(domain.thickness, mm) + " mm";
+    if (++count[domain.leaflet] > 1)
+      domain.name += ", " + feb_number(domain.thickness, mm_shift) + " mm";
   }
   return domains;
 }
@@ -111,7 +112,7 @@ void write_feb_mesh(const Model &model, const std::vector<FebDomain> &domains, F
   out.close("Mesh");
 }
 
-// How far the held nodes go, and fibres. `lid` counts from 1 within the set.
+// Prescribed displacements of held nodes, and fibres. `lid` counts from 1 within the set.
 void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out) {
   out.open("MeshData");
   const std::vector<uint32_t> held = feb_held(valve);
@@ -120,7 +121,7 @@ void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domai
                              "\" node_set=\"held\" data_type=\"scalar\"");
     for (size_t k = 0; k < held.size(); ++k) {
       const double by = (valve.loaded[held[k]] - valve.rest[held[k]])[axis];
-      out.leaf("node", feb_number(by, mm), "lid=\"" + std::to_string(k + 1) + "\"");
+      out.leaf("node", feb_number(by, mm_shift), "lid=\"" + std::to_string(k + 1) + "\"");
     }
     out.close("NodeData");
   }

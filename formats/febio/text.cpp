@@ -1,4 +1,4 @@
-// The text of FEBio models: elements, attributes, numbers.
+// XML text of FEBio models: elements, attributes, numbers.
 #include "formats/febio/text.h"
 
 #include "base/error.h"

@@ -1,8 +1,7 @@
-// FEBio models as text: the parts of feb.cpp. mm, kPa, kg, s, and so mN.
+// Parts of the FEBio writer and its XML text. Units are mm, kPa, kg, s, mN.
 //
-// Names of features are those of the FEBio 4 sources and feature manual (github
-// febiosoftware/FEBio, FEBioMech/FEBioMechModule.cpp; febiosoftware/febio-feature-manual); the
-// comments say which.
+// Feature names are those of the FEBio 4 sources and feature manual (github febiosoftware/FEBio,
+// FEBioMech/FEBioMechModule.cpp; febiosoftware/febio-feature-manual).
 #pragma once
 
 #include <span>
@@ -12,7 +11,9 @@
 
 namespace mvs::core {
 
-// Nested elements, two blanks a level.
+inline constexpr double mm_per_m = 1e3, kpa_per_pa = 1e-3;
+
+// Nested elements, indented by two blanks per level.
 class FebText {
  public:
   // <name attributes>; `attributes` as `key="value"`.
@@ -32,12 +33,12 @@ class FebText {
 // formulas.
 std::string feb_number(double value, int shift = 0);
 std::string feb_plain(double value);
-// `key="text"` with what XML reserves escaped.
+// Returns `key="text"` with reserved characters of XML escaped.
 std::string feb_attribute(std::string_view key, std::string_view text);
-// Numbers times 10^shift with commas between them.
+// Returns comma-separated numbers times 10^shift.
 std::string feb_list(std::span<const double> values, int shift = 0);
 
-// The triangles of one leaflet that have one thickness.
+// The triangles of one leaflet with one thickness.
 struct FebDomain {
   std::string name;
   uint32_t leaflet;
@@ -46,16 +47,16 @@ struct FebDomain {
 };
 std::vector<FebDomain> feb_domains(const Valve &valve);
 
-// One material a domain. MVS_E_UNSUPPORTED for a law that FEBio has no counterpart of.
+// Writes one material per domain. MVS_E_UNSUPPORTED for a law without a counterpart in FEBio.
 void write_feb_materials(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out);
 void write_feb_springs(const Valve &valve, FebText &out);
 void write_feb_mesh(const Model &model, const std::vector<FebDomain> &domains, FebText &out);
 void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out);
 
-// Whether the law of a leaflet asks for fibres.
+// Returns whether the law of a leaflet uses fibres.
 bool feb_has_fibres(uint32_t law);
 
-// Nodes that are prescribed, ascending.
+// Returns the prescribed nodes, ascending.
 std::vector<uint32_t> feb_held(const Valve &valve);
 
 }  // namespace mvs::core

@@ -1,16 +1,15 @@
-// Records, written with fdatasync and read with care.
+// Journal records: append with fdatasync, strict reader.
 #include "formats/file/journal.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <charconv>
-#include <system_error>
 #include <utility>
 
 #include "base/error.h"
+#include "formats/text/checksum.h"
+#include "formats/text/line.h"
 
 namespace mvs::core {
 namespace {
@@ -22,34 +21,25 @@ constexpr size_t longest_record = size_t{64} << 20;
   fail_io(verb, "the journal " + path, error, "journal");
 }
 
-uint32_t crc32(std::string_view text) {
-  uint32_t crc = 0xffffffffu;
-  for (const char c : text) {
-    crc ^= static_cast<unsigned char>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
-  }
-  return ~crc;
+// Takes the word before the next blank, and the blank; returns an empty word without a blank.
+std::string_view take_word(std::string_view &rest) {
+  const size_t end = rest.find(' ');
+  if (end == std::string_view::npos) return {};
+  const std::string_view word = rest.substr(0, end);
+  rest.remove_prefix(end + 1);
+  return word;
 }
 
-// Reads a number up to a blank; false where there is none.
-template <typename Number>
-bool take_number(std::string_view &rest, Number &number, int base) {
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number, base);
-  if (error != std::errc() || end == rest.data() + rest.size() || *end != ' ') return false;
-  rest.remove_prefix(static_cast<size_t>(end - rest.data()) + 1);
-  return true;
-}
-
-// The record at the start of `rest`, which then begins after it; false where there is no whole one.
+// Takes the record at the start of `rest`; returns false if no whole record is there.
 bool take_record(std::string_view &rest, std::string &text) {
   std::string_view r = rest;
-  size_t length = 0;
-  uint32_t crc = 0;
   if (!r.starts_with(mark)) return false;
   r.remove_prefix(mark.size());
-  if (!take_number(r, length, 10) || !take_number(r, crc, 16)) return false;
+  uint64_t length = 0;
+  if (!parse_whole(take_word(r), length)) return false;
+  const std::string_view checksum = take_word(r);
   if (length > longest_record || r.size() < length + 1 || r[length] != '\n') return false;
-  if (crc32(r.substr(0, length)) != crc) return false;
+  if (checksum_digits(r.substr(0, length)) != checksum) return false;
   text = r.substr(0, length);
   rest = r.substr(length + 1);
   return true;
@@ -64,19 +54,20 @@ JournalRecords read_journal(std::string_view bytes) {
   while (take_record(rest, text)) records.texts.push_back(std::move(text));
   records.bytes = bytes.size() - rest.size();
   records.torn = !rest.empty();
-  // a crash cuts the last line short; anything after a line's end shows that it was no crash
+  // a crash cuts only the last line; bytes after its line end show another damage
   const size_t end = rest.find('\n');
   MVS_MUST(end == std::string_view::npos || end + 1 == rest.size(), MVS_E_FORMAT, "journal",
            "record %zu of the journal is damaged, and others follow it: restore the file from a "
            "copy, or cut it off at byte %zu",
            records.texts.size() + 1, records.bytes);
   MVS_MUST(!records.texts.empty(), MVS_E_FORMAT, "journal",
-           "this is no journal of libmvs: it does not begin with a whole record");
+           "the file is not a journal of libmvs: it does not begin with a whole record");
   return records;
 }
 
 std::string journal_line(std::string_view text) {
-  return format("%s%zu %08x ", mark.data(), text.size(), crc32(text)) + std::string(text) + "\n";
+  return format("%s%zu %s ", mark.data(), text.size(), checksum_digits(text).c_str()) +
+         std::string(text) + "\n";
 }
 
 Journal Journal::create(const std::string &path) {
@@ -88,7 +79,7 @@ Journal Journal::create(const std::string &path) {
   return {path, std::move(file), 0};
 }
 
-Journal Journal::go_on(const std::string &path, size_t bytes) {
+Journal Journal::reopen(const std::string &path, size_t bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.number() < 0) fail_journal("open", path, errno);
   if (::ftruncate(file.number(), static_cast<off_t>(bytes)) != 0) fail_journal("cut", path, errno);
@@ -107,7 +98,7 @@ void Journal::append(std::string_view text) {
   }
   if (written < line.size() || ::fdatasync(file_.number()) != 0) {
     const int error = errno;
-    // best effort: what is left half-written is taken for a torn record
+    // best effort: the reader drops a half-written record
     [[maybe_unused]] const int cut = ::ftruncate(file_.number(), static_cast<off_t>(size_));
     fail_journal("write", path_, error);
   }

@@ -1,7 +1,8 @@
-// A file of records that survives a crash: each is on the disk before append() returns.
+// Append-only log of records: append() returns after the record is on the disk, and a crash loses
+// at most the record being written.
 //
-// A record is one line: `mvsj LENGTH CRC32 TEXT`, LENGTH the bytes of TEXT in decimal, CRC32 its
-// checksum in 8 hexadecimal digits (the polynomial of zlib and PNG).
+// A record is one line: `mvsj LENGTH CHECKSUM TEXT`, with the bytes of TEXT in decimal and its
+// checksum in 32 hexadecimal digits.
 #pragma once
 
 #include <string>
@@ -12,27 +13,27 @@
 
 namespace mvs::core {
 
-// What a journal holds.
+// The content of a journal.
 struct JournalRecords {
   std::vector<std::string> texts;
   size_t bytes = 0;   // up to the end of the last whole record
-  bool torn = false;  // whether a record that was cut short followed
+  bool torn = false;  // whether an incomplete record follows
 };
 
-// Throws MVS_E_FORMAT where a record is damaged that others follow, or the file is no journal.
+// Throws MVS_E_FORMAT if a damaged record is followed by others, or the file is not a journal.
 JournalRecords read_journal(std::string_view bytes);
 
-// A record as it stands in the file.
+// Returns the line of a record.
 std::string journal_line(std::string_view text);
 
 class Journal {
  public:
-  // A new file; MVS_E_STATE if there is one.
+  // Creates a file; MVS_E_STATE if it exists.
   static Journal create(const std::string &path);
-  // Goes on with a file after its first `bytes`, dropping what follows them.
-  static Journal go_on(const std::string &path, size_t bytes);
+  // Opens a file for appending after its first `bytes` and drops the rest.
+  static Journal reopen(const std::string &path, size_t bytes);
 
-  // Throws MVS_E_IO, and the file is as before, where the record cannot be written.
+  // Appends a record. If this fails, throws MVS_E_IO and leaves the file unchanged.
   void append(std::string_view text);
   const std::string &path() const { return path_; }
 

@@ -1,4 +1,4 @@
-// What whole files and the journal share: descriptors, folders, failures of the system.
+// POSIX descriptors, folders and system errors, shared by whole files and the journal.
 #pragma once
 
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 namespace mvs::core {
 
-// A file descriptor that closes itself; -1 for none.
+// A file descriptor with automatic close; -1 if empty.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -19,7 +19,7 @@ class Descriptor {
   }
   ~Descriptor() { close(); }
   int number() const { return number_; }
-  // Closes now and says whether that went well: some file systems report a full disk only here.
+  // Closes now and returns whether that succeeded: some file systems report a full disk only here.
   bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
 
  private:
@@ -30,11 +30,11 @@ class Descriptor {
 [[noreturn]] void fail_io(const char *verb, const std::string &what, int error,
                           const char *part = "");
 
-// The folder that a file is in.
+// Returns the folder of a file.
 std::string folder_of(const std::string &path);
 
-// Brings the names in a folder to the disk. Some file systems cannot, and say so by EINVAL: nothing
-// is to be done about that.
+// Flushes the names of a folder to the disk. Some file systems do not support it and return EINVAL,
+// which is ignored.
 void sync_folder(const std::string &folder);
 
 }  // namespace mvs::core

@@ -1,5 +1,5 @@
-// Whole files. Writing follows the order that survives a crash: a new file beside the target, its
-// bytes to the disk, rename over the target, the folder to the disk. Rename alone may leave an
+// Atomic replacement of files, in the order that survives a crash: create a new file beside the
+// target, flush its bytes, rename it over the target, flush the folder. Rename alone may leave an
 // empty file after a power loss.
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Status = struct stat;
 
-// A file's name that is unlinked at the end, unless the file was renamed.
+// A file name that is unlinked on destruction unless the file was renamed.
 class Temporary {
  public:
   explicit Temporary(const std::string &path) : path_(path) {}
@@ -38,7 +38,7 @@ class Temporary {
   bool renamed_ = false;
 };
 
-// Opens a file of a new name in `folder`: O_EXCL sees to that, the umask to its mode.
+// Creates a file with a new name in `folder` (O_EXCL), with the mode of the umask.
 int open_new(const std::string &folder, std::string &path) {
   constexpr int tries = 1000;
   for (int k = 0; k < tries; ++k) {
@@ -59,7 +59,7 @@ void write_all(const Descriptor &file, std::string_view bytes, const std::string
   }
 }
 
-// Where links lead to, so that the file is replaced and the link stays.
+// Resolves links, so that the target is replaced and the link stays.
 std::string follow_links(const std::string &path) {
   char *const resolved = ::realpath(path.c_str(), nullptr);
   if (!resolved) return path;
@@ -67,7 +67,7 @@ std::string follow_links(const std::string &path) {
   return resolved;
 }
 
-// Whether there is a file to be replaced; its status, if so.
+// Returns whether a file exists that is to be replaced, and its status.
 bool find_old(const std::string &target, Status &old) {
   if (::stat(target.c_str(), &old) != 0) return false;
   if (S_ISDIR(old.st_mode)) fail_io("write", target, EISDIR);
@@ -77,7 +77,7 @@ bool find_old(const std::string &target, Status &old) {
   return true;
 }
 
-// The size to read at first, or a failure for what is no file or too large.
+// Returns the initial buffer size; fails for a folder or a file that is too large.
 size_t size_to_read(const Descriptor &file, const std::string &path, size_t limit) {
   Status status;
   if (::fstat(file.number(), &status) != 0) fail_io("read", path, errno);

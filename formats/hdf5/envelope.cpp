@@ -1,20 +1,21 @@
+// Writes and checks the header of HDF5 files.
 #include "formats/hdf5/envelope.h"
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "formats/text/sha256.h"
+#include "base/hash.h"
 
 namespace mvs::core {
 namespace {
 
-// As PNG's: a byte with its high bit, line ends and a DOS end of file, all of which a transfer in
+// As in PNG: a byte with its high bit set, line ends and a DOS end of file, which a transfer in
 // text mode changes.
 constexpr std::string_view magic("\x89MVS\r\n\x1a\n", 8);
 constexpr std::string_view hdf5_magic("\x89HDF\r\n\x1a\n", 8);
-constexpr std::string_view for_people =
+constexpr std::string_view readable_line =
     "A state of libmvs. HDF5 begins at byte 512; formats/FORMAT.md says what is in it.\n";
-constexpr size_t version_at = 8, header_at = 12, length_at = 16, digest_at = 24, people_at = 56;
+constexpr size_t version_at = 8, header_at = 12, length_at = 16, checksum_at = 24, text_at = 40;
 
 void put(char *at, uint64_t number, int bytes) {
   for (int k = 0; k < bytes; ++k) at[k] = static_cast<char>(number >> 8 * k);
@@ -26,15 +27,14 @@ uint64_t get(const char *at, int bytes) {
   return number;
 }
 
-std::string digest_of(std::string_view bytes) {
-  Sha256 sum;
-  sum.add(bytes.substr(0, digest_at));
-  sum.add(bytes.substr(people_at));
-  const auto value = sum.value();
-  return {value.begin(), value.end()};
+std::array<uint64_t, 2> checksum_of(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes.substr(0, checksum_at));
+  hash.add(bytes.substr(text_at));
+  return hash.value();
 }
 
-// HDF5 looks for its own beginning at byte 0, 512, 1024, 2048, ...
+// HDF5 searches its signature at byte 0, 512, 1024, 2048, ...
 bool is_hdf5(std::string_view bytes) {
   for (size_t at = 0; at < bytes.size(); at = std::max(envelope_bytes, 2 * at)) {
     if (bytes.substr(at).starts_with(hdf5_magic)) return true;
@@ -50,7 +50,7 @@ bool is_hdf5(std::string_view bytes) {
   MVS_MUST(!is_hdf5(bytes), MVS_E_FORMAT, "",
            "this HDF5 file is not one of libmvs: open it with the program that made it, and bring "
            "the valve as OBJ");
-  fail(MVS_E_FORMAT, "", "this is no HDF5 file of libmvs: name the format that it has");
+  fail(MVS_E_FORMAT, "", "the file is not an HDF5 file of libmvs: give its format");
 }
 
 }  // namespace
@@ -62,24 +62,27 @@ void seal(std::string &bytes, uint32_t version) {
   put(&bytes[version_at], version, 4);
   put(&bytes[header_at], envelope_bytes, 4);
   put(&bytes[length_at], bytes.size() - envelope_bytes, 8);
-  std::copy(for_people.begin(), for_people.end(), bytes.begin() + people_at);
-  const std::string digest = digest_of(bytes);
-  std::copy(digest.begin(), digest.end(), bytes.begin() + digest_at);
+  std::copy(readable_line.begin(), readable_line.end(), bytes.begin() + text_at);
+  const auto checksum = checksum_of(bytes);
+  put(&bytes[checksum_at], checksum[0], 8);
+  put(&bytes[checksum_at + 8], checksum[1], 8);
 }
 
 void check_seal(std::string_view bytes, uint32_t version) {
   if (!bytes.starts_with(magic)) refuse_foreign(bytes);
   MVS_MUST(bytes.size() > envelope_bytes, MVS_E_FORMAT, "",
            "the file was cut after %zu bytes: take the last whole copy", bytes.size());
-  const uint64_t told = get(&bytes[length_at], 8), there = bytes.size() - envelope_bytes;
-  MVS_MUST(told <= there, MVS_E_FORMAT, "",
+  const uint64_t stated = get(&bytes[length_at], 8), there = bytes.size() - envelope_bytes;
+  MVS_MUST(stated <= there, MVS_E_FORMAT, "",
            "the file was cut: %llu bytes should follow its first 512, %llu do; take the last whole "
            "copy",
-           static_cast<unsigned long long>(told), static_cast<unsigned long long>(there));
-  MVS_MUST(told == there, MVS_E_FORMAT, "",
+           static_cast<unsigned long long>(stated), static_cast<unsigned long long>(there));
+  MVS_MUST(stated == there, MVS_E_FORMAT, "",
            "the file is longer than it should be, by %llu bytes: take the last whole copy",
-           static_cast<unsigned long long>(there - told));
-  MVS_MUST(bytes.substr(digest_at, people_at - digest_at) == digest_of(bytes), MVS_E_FORMAT, "",
+           static_cast<unsigned long long>(there - stated));
+  const std::array<uint64_t, 2> stored = {get(&bytes[checksum_at], 8),
+                                          get(&bytes[checksum_at + 8], 8)};
+  MVS_MUST(stored == checksum_of(bytes), MVS_E_FORMAT, "",
            "the file is damaged, its checksum does not fit: take the last whole copy");
   const auto found = static_cast<uint32_t>(get(&bytes[version_at], 4));
   MVS_MUST(found == version, MVS_E_VERSION, "",

@@ -8,28 +8,29 @@
 namespace mvs::core::h5 {
 namespace {
 
-// Of all HDF5 calls of the process that are ours.
+// Serialises all HDF5 calls of libmvs in the process.
 std::mutex &one_at_a_time() {
   static std::mutex mutex;
   return mutex;
 }
 
-// What HDF5 says about its failure: the innermost of its messages.
-struct Said {
+// The innermost error message of HDF5.
+struct H5Message {
   char text[160] = "no reason given";
   bool out_of_memory = false;
 };
 
-herr_t hear(unsigned number, const H5E_error2_t *error, void *said_to) {
-  Said &said = *static_cast<Said *>(said_to);
-  if (number == 0 && error->desc) std::snprintf(said.text, sizeof said.text, "%s", error->desc);
-  said.out_of_memory = said.out_of_memory || error->maj_num == H5E_RESOURCE;
+herr_t store_message(unsigned number, const H5E_error2_t *error, void *message_to) {
+  H5Message &message = *static_cast<H5Message *>(message_to);
+  if (number == 0 && error->desc)
+    std::snprintf(message.text, sizeof message.text, "%s", error->desc);
+  message.out_of_memory = message.out_of_memory || error->maj_num == H5E_RESOURCE;
   return 0;
 }
 
 }  // namespace
 
-Conversation::Conversation() : alone_(one_at_a_time()) {
+ExclusiveUse::ExclusiveUse() : alone_(one_at_a_time()) {
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
   MVS_MUST(major == H5_VERS_MAJOR && minor == H5_VERS_MINOR && release == H5_VERS_RELEASE,
@@ -41,16 +42,16 @@ Conversation::Conversation() : alone_(one_at_a_time()) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Conversation::~Conversation() {
+ExclusiveUse::~ExclusiveUse() {
   H5Eclear2(H5E_DEFAULT);
   H5Eset_auto2(H5E_DEFAULT, handler_, handler_data_);
 }
 
 void fail_h5(mvs_result code, const std::string &part, const char *doing) {
-  Said said;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, hear, &said);
-  fail(said.out_of_memory ? MVS_E_MEMORY : code, part, "HDF5 cannot %s %s of the file: %s", doing,
-       part.c_str(), said.text);
+  H5Message message;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, store_message, &message);
+  fail(message.out_of_memory ? MVS_E_MEMORY : code, part, "HDF5 cannot %s %s of the file: %s",
+       doing, part.c_str(), message.text);
 }
 
 }  // namespace mvs::core::h5

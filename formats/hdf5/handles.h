@@ -1,4 +1,4 @@
-// HDF5's handles as objects, and its errors as ours.
+// RAII handles of HDF5, and its errors as mvs errors.
 #pragma once
 
 #include <hdf5.h>
@@ -11,7 +11,7 @@
 
 namespace mvs::core::h5 {
 
-// Closes its handle by the function of its kind.
+// Closes its handle with the function of its kind.
 template <herr_t (*close)(hid_t)>
 class Handle {
  public:
@@ -26,14 +26,14 @@ class Handle {
     if (id_ >= 0) close(id_);
   }
   hid_t id() const { return id_; }
-  // Closes now; negative if that fails, as all HDF5 calls.
+  // Closes now; returns a negative value on failure, as HDF5 does.
   herr_t close_now() { return close(std::exchange(id_, H5I_INVALID_HID)); }
 
  private:
   hid_t id_ = H5I_INVALID_HID;
 };
 using File = Handle<H5Fclose>;
-using Group = Handle<H5Gclose>;
+using GroupHandle = Handle<H5Gclose>;
 using Object = Handle<H5Oclose>;
 using Dataset = Handle<H5Dclose>;
 using Attribute = Handle<H5Aclose>;
@@ -41,15 +41,15 @@ using Space = Handle<H5Sclose>;
 using Type = Handle<H5Tclose>;
 using List = Handle<H5Pclose>;
 
-// One conversation with HDF5: alone, because not every HDF5 is built for threads; and silent, with
-// the host's own handler of HDF5 errors back at the end. Refuses to begin where the HDF5 found at
-// run time is not that of the headers: HDF5 itself would abort the program.
-class Conversation {
+// Exclusive use of HDF5: holds a lock, because HDF5 may be built without thread safety, and
+// replaces the host's error handler until destruction. Refuses an HDF5 library of another version
+// than its headers, on which HDF5 itself would abort the program.
+class ExclusiveUse {
  public:
-  Conversation();
-  Conversation(const Conversation &) = delete;
-  Conversation &operator=(const Conversation &) = delete;
-  ~Conversation();
+  ExclusiveUse();
+  ExclusiveUse(const ExclusiveUse &) = delete;
+  ExclusiveUse &operator=(const ExclusiveUse &) = delete;
+  ~ExclusiveUse();
 
  private:
   std::lock_guard<std::mutex> alone_;
@@ -57,10 +57,10 @@ class Conversation {
   void *handler_data_ = nullptr;
 };
 
-// Throws `code`, or MVS_E_MEMORY where that is what HDF5 lacks, with HDF5's own words at the end.
+// Throws `code`, or MVS_E_MEMORY if HDF5 lacks memory, with HDF5's message at the end.
 [[noreturn]] void fail_h5(mvs_result code, const std::string &part, const char *doing);
 
-// Turns a negative result into a failure of writing or reading; nothing is looked up if it is none.
+// Throws on a negative result of a call that writes or reads. The message is built only then.
 template <typename Result>
 Result wrote(Result result, const std::string &part) {
   if (result < 0) fail_h5(MVS_E_INTERNAL, part, "make");

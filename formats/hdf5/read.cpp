@@ -1,5 +1,5 @@
-// HDF5 to trees. Nothing is taken on trust: a link must be hard, an array contiguous, whole inside
-// the file and of a type we write, all of them together no larger than the file.
+// Reader of HDF5 files as trees, without trust in the file: links must be hard, arrays contiguous,
+// inside the file, of a written type, and together no larger than the file.
 #ifdef MVS_HAVE_HDF5
 #include <algorithm>
 #include <new>
@@ -18,19 +18,19 @@ constexpr size_t most_depth = 8, most_objects = 1 << 16;
 File open_image(std::string_view bytes) {
   const List access(read(H5Pcreate(H5P_FILE_ACCESS), "access"));
   read(H5Pset_fapl_core(access.id(), envelope_bytes, false), "access");
-  // HDF5 copies the image and does not write to it
+  // HDF5 copies the image and does not modify it
   read(H5Pset_file_image(access.id(), const_cast<char *>(bytes.data()), bytes.size()), "image");
   return File(read(H5Fopen("mvs", H5F_ACC_RDONLY, access.id()), "beginning"));
 }
 
-// The names of a group, and whether all of them are of its own objects: no links elsewhere.
+// The member names of a group, and a fault if it contains a soft or external link.
 struct Names {
   std::vector<std::string> names;
   const char *fault = nullptr;
   bool no_memory = false;
 };
 
-// Called by HDF5, which knows nothing of exceptions.
+// Callback of HDF5, which must not throw.
 herr_t add_name(hid_t, const char *name, const H5L_info_t *link, void *to) noexcept {
   Names &names = *static_cast<Names *>(to);
   try {
@@ -43,11 +43,11 @@ herr_t add_name(hid_t, const char *name, const H5L_info_t *link, void *to) noexc
   return names.fault || names.no_memory ? 1 : 0;
 }
 
-class Reader {
+class H5Reader {
  public:
-  explicit Reader(size_t bytes) : bytes_(bytes), left_(bytes) {}
+  explicit H5Reader(size_t bytes) : bytes_(bytes), left_(bytes) {}
 
-  // A member of the file's root, with all below it.
+  // Reads a member of the root with all its descendants.
   void root_member(hid_t file, const std::string &name) {
     H5L_info_t link;
     MVS_MUST(read(H5Lexists(file, name.c_str(), H5P_DEFAULT), name) > 0, MVS_E_FORMAT, name,
@@ -100,7 +100,7 @@ class Reader {
     tree.arrays.emplace(path, std::move(made));
   }
 
-  // The number of rows, so that no product with the other sizes overflows.
+  // Returns the number of rows, bounded so that products with the other sizes do not overflow.
   size_t check_shape(hid_t id, const std::string &path, uint32_t &columns) const {
     const Space space(read(H5Dget_space(id), path));
     const int rank = H5Sget_simple_extent_ndims(space.id());
@@ -154,9 +154,9 @@ class Reader {
 
 H5Tree read_h5(std::string_view bytes, const std::string &group, uint32_t version) {
   check_seal(bytes, version);
-  const Conversation conversation;
+  const ExclusiveUse use;
   const File file = open_image(bytes);
-  Reader reader(bytes.size());
+  H5Reader reader(bytes.size());
   reader.root_member(file.id(), group);
   return std::move(reader.tree);
 }

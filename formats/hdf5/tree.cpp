@@ -1,3 +1,4 @@
+// Access to arrays of a tree; stubs for builds without HDF5.
 #include "formats/hdf5/tree.h"
 
 #include "base/error.h"
@@ -21,17 +22,17 @@ void H5Tree::refuse_type(const std::string &path) {
 
 namespace {
 
-constexpr char without[] =
+constexpr char without_hdf5[] =
     "this libmvs was built without HDF5: use OBJ, or build it with -DMVS_HDF5=ON";
 
 }  // namespace
 
 std::string write_h5(const H5Tree &, uint32_t) {
-  fail(MVS_E_UNSUPPORTED, "format", without);
+  fail(MVS_E_UNSUPPORTED, "format", without_hdf5);
 }
 
 H5Tree read_h5(std::string_view, const std::string &, uint32_t) {
-  fail(MVS_E_UNSUPPORTED, "format", without);
+  fail(MVS_E_UNSUPPORTED, "format", without_hdf5);
 }
 
 #endif

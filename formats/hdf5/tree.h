@@ -1,9 +1,9 @@
 // A tree of named arrays as an HDF5 file in memory, and back.
 //
-// What is written is the plainest HDF5 there is: contiguous arrays, no filters, no chunks, no links
-// but to groups and arrays, no times. Equal trees give equal bytes. What is read may have come from
-// anyone: the envelope is checked first, and then each object before HDF5 reads its values. (A
-// checksum keeps accidents away and not malice: a file made to crash HDF5 can have a good one.)
+// The writer uses contiguous arrays, no filters, chunks or times, and links only to groups and
+// arrays; equal trees give equal bytes. The reader accepts files from any source: it checks the
+// envelope first, and then each object before HDF5 reads its values. (A checksum detects accidents,
+// not malice: a file made to crash HDF5 can have a valid one.)
 #pragma once
 
 #include <map>
@@ -17,28 +17,29 @@
 
 namespace mvs::core {
 
-// The type of the values is that of the array in the file, little-endian there. Texts end at their
-// first zero byte; they are for other programs and are refused by the reader.
+// The element type of the array in the file, which is little-endian. Texts end at their first zero
+// byte; they are for other programs, and the reader refuses them.
 using H5Values = std::variant<std::vector<double>, std::vector<uint64_t>, std::vector<int64_t>,
                               std::vector<uint32_t>, std::vector<int32_t>, std::vector<uint8_t>,
                               std::vector<std::string>>;
 
 struct H5Array {
   H5Values values;
-  uint32_t columns = 0;  // 0: one dimension, else rows of so many
+  uint32_t columns = 0;  // 0: one dimension; otherwise the length of a row
 };
 
-// Numbers, or a text where there are none. Attributes are for other programs and are not read back.
+// Numbers, or a text if `numbers` is empty. Attributes are for other programs and are not read
+// back.
 struct H5Attribute {
   std::string text;
   std::vector<int64_t> numbers = {};
 };
 
 struct H5Tree {
-  std::map<std::string, H5Array> arrays;  // by path, "mvs/present/x"; groups follow from that
+  std::map<std::string, H5Array> arrays;  // by path, "mvs/numbers/ends"; paths define the groups
   std::map<std::pair<std::string, std::string>, H5Attribute> attributes;  // of a group, by name
 
-  // The values of an array; throws MVS_E_FORMAT unless it is there with this type and shape.
+  // Returns the values of an array; throws MVS_E_FORMAT unless it exists with this type and shape.
   template <typename Value>
   const std::vector<Value> &at(const std::string &path, uint32_t columns = 0) const {
     const auto *values = std::get_if<std::vector<Value>>(&found(path, columns).values);
@@ -54,7 +55,7 @@ struct H5Tree {
   }
 };
 
-// The whole file, envelope and all. MVS_E_UNSUPPORTED in a build without HDF5.
+// Returns the whole file with its envelope. MVS_E_UNSUPPORTED in a build without HDF5.
 std::string write_h5(const H5Tree &tree, uint32_t version);
 
 // Reads the arrays of one group of the root, with paths "group/...". A file of another version is

@@ -1,6 +1,6 @@
-// Trees to HDF5. The format is that of HDF5 1.8, which every HDF5 of today reads, and of its ways
-// to store things the simplest: groups keep their links in their own header whatever their number,
-// so there are no heaps and no B-trees.
+// Writer of trees as HDF5, in the format of HDF5 1.8 and with its simplest storage: groups keep
+// their links in their own header whatever their number, so that the file has no heaps and no
+// B-trees.
 #ifdef MVS_HAVE_HDF5
 #include <algorithm>
 #include <cstdlib>
@@ -16,10 +16,10 @@ namespace {
 
 using namespace h5;
 
-// The file as HDF5 makes it in memory. HDF5 would leave gaps between its parts as malloc returns
-// them: the same tree would not give the same bytes, and what the process did before could be read
-// in its files. So what it asks for is cleared. What it holds when it closes the file is kept:
-// H5Fget_file_image of HDF5 1.10 gives a first block whose checksum does not fit.
+// The file image in memory. HDF5 leaves gaps between its parts with the bytes of malloc: equal
+// trees would not give equal bytes, and files could contain other data of the process. The
+// callbacks therefore clear the memory. The image is taken when HDF5 closes the file, because
+// H5Fget_file_image of HDF5 1.10 returns a first block with a wrong checksum.
 struct Image {
   Image() = default;
   Image(const Image &) = delete;
@@ -71,7 +71,7 @@ File create_file(Image &image) {
   wrote(H5Pset_userblock(creation.id(), envelope_bytes), "creation");
   wrote(H5Pset_obj_track_times(creation.id(), false), "creation");
   wrote(H5Pset_link_phase_change(creation.id(), UINT16_MAX, 0), "creation");
-  // a name for HDF5's list of open files; nothing of that name is opened
+  // a name for HDF5's list of open files; no file of that name is opened
   return File(wrote(H5Fcreate("mvs", H5F_ACC_TRUNC, creation.id(), access.id()), "file"));
 }
 
@@ -85,17 +85,16 @@ Type file_type(const std::vector<Value> &) {
   if constexpr (std::is_same_v<Value, uint8_t>) return Type(H5Tcopy(H5T_STD_U8LE));
 }
 
-// VTK takes texts of arrays of this type and crashes on any other (9.7.2): of variable length, and
-// said to be ASCII whatever they hold.
+// VTK 9.7.2 reads text arrays of variable length marked as ASCII, and crashes on other types.
 Type file_type(const std::vector<std::string> &) {
   Type type(H5Tcopy(H5T_C_S1));
   wrote(H5Tset_size(type.id(), H5T_VARIABLE), "text");
   return type;
 }
 
-class Writer {
+class H5Writer {
  public:
-  explicit Writer(hid_t file) : file_(file) {
+  explicit H5Writer(hid_t file) : file_(file) {
     wrote(H5Pset_layout(array_creation_.id(), H5D_CONTIGUOUS), "array");
     wrote(H5Pset_obj_track_times(array_creation_.id(), false), "array");
     wrote(H5Pset_obj_track_times(group_creation_.id(), false), "group");
@@ -115,14 +114,14 @@ class Writer {
   }
 
  private:
-  // The group of a path, made where it is not there yet, with those above it.
+  // Returns the group of a path; creates it and its parents if needed.
   hid_t group(const std::string &path) {
     const auto place = groups_.find(path);
     if (place != groups_.end()) return place->second.id();
     const size_t slash = path.rfind('/');
     const hid_t above = slash == std::string::npos ? file_ : group(path.substr(0, slash));
     const std::string name = path.substr(slash == std::string::npos ? 0 : slash + 1);
-    Group made(wrote(
+    GroupHandle made(wrote(
         H5Gcreate2(above, name.c_str(), H5P_DEFAULT, group_creation_.id(), H5P_DEFAULT), path));
     return groups_.emplace(path, std::move(made)).first->second.id();
   }
@@ -173,12 +172,12 @@ class Writer {
   const hid_t file_;
   const List array_creation_{wrote(H5Pcreate(H5P_DATASET_CREATE), "array")};
   const List group_creation_{wrote(H5Pcreate(H5P_GROUP_CREATE), "group")};
-  std::map<std::string, Group> groups_;
+  std::map<std::string, GroupHandle> groups_;
 };
 
-// The memory has room to spare at its end. Where the file ends is in its superblock: of version 2,
-// which H5F_LIBVER_V18 gives, the address behind its byte 28 (HDF5 File Format Specification 3.0,
-// section II.A).
+// Returns the size of the file, which is smaller than its memory: the end address at byte 28 of the
+// superblock of version 2, which H5F_LIBVER_V18 gives (HDF5 File Format Specification 3.0, section
+// II.A).
 size_t end_of(const Image &image) {
   constexpr size_t end_at = envelope_bytes + 28;
   MVS_MUST(image.closed && image.size >= end_at + 8 && image.closed[envelope_bytes + 8] == 2,
@@ -194,11 +193,11 @@ size_t end_of(const Image &image) {
 }  // namespace
 
 std::string write_h5(const H5Tree &tree, uint32_t version) {
-  const Conversation conversation;
+  const ExclusiveUse use;
   Image image;
   File file = create_file(image);
   {
-    Writer writer(file.id());
+    H5Writer writer(file.id());
     for (const auto &[path, array] : tree.arrays) writer.array(path, array);
     for (const auto &[place, value] : tree.attributes) {
       writer.attribute(place.first, place.second, value);

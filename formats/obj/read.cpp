@@ -1,4 +1,4 @@
-// Extended OBJ, read: lines, and the statements of plain OBJ.
+// Reader of extended OBJ: lines and the statements of plain OBJ.
 #include <algorithm>
 
 #include "formats/obj/reader.h"
@@ -26,7 +26,7 @@ Loaded ObjReader::read(std::string_view text) {
 
 void ObjReader::statement(std::string_view content, Line &line) {
   using namespace std::string_view_literals;
-  // what other programs write and a valve has no use for
+  // statements of other programs that a valve does not use
   static constexpr std::array harmless = {"vn"sv,     "vt"sv, "vp"sv,     "o"sv,      "s"sv,
                                           "usemtl"sv, "mg"sv, "mtllib"sv, "usemap"sv, "maplib"sv};
   const std::string_view word = line.word();
@@ -42,7 +42,7 @@ void ObjReader::statement(std::string_view content, Line &line) {
   line.fail("%s is not a statement this reader knows", quoted(word).c_str());
 }
 
-// 3D Slicer tells its coordinate system in a comment.
+// 3D Slicer writes its coordinate system into a comment.
 void ObjReader::comment(std::string_view text, const Line &line) {
   if (text.find("SPACE=RAS") == std::string_view::npos) return;
   line.fail(
@@ -53,7 +53,7 @@ void ObjReader::comment(std::string_view text, const Line &line) {
 void ObjReader::vertex(Line &line) {
   const Vec3 x = read_place(line);
   if (!line.at_end()) {
-    // x y z r g b: colours are looked at, but not used
+    // x y z r g b: colours are checked and ignored
     for (int k = 0; k < 3; ++k) {
       if (line.at_end()) line.fail("a vertex has 3 coordinates, or these and 3 colours");
       line.number();
@@ -73,30 +73,30 @@ void ObjReader::vertex(Line &line) {
 
 void ObjReader::group(Line &line) {
   ++counts_.groups;
-  leaflet_word_ = line.word();
-  scallop_word_ = line.word();
-  leaflet_ = scallop_ = none;
+  group_ = {line.word(), line.word()};
 }
 
-// Looks up the leaflet and scallop of the present group, once a face needs them. A group without
-// faces may have any name.
+// Looks up the leaflet and scallop of the present group at its first face. A group without faces
+// may have any name.
 void ObjReader::enter_group(const Line &line) {
-  if (leaflet_word_.empty()) {
+  if (group_.leaflet_word.empty()) {
     line.fail("the face is in no group: put `g` and the name of its leaflet above it");
   }
-  const auto leaflet = leaflets_.find(decoded(leaflet_word_, line));
+  const auto leaflet = leaflets_.find(decoded(group_.leaflet_word, line));
   if (leaflet == leaflets_.end()) {
-    line.fail("the face is in group %s, which is no leaflet: put `#mvs leaflet name=...` above it",
-              quoted(leaflet_word_).c_str());
+    line.fail(
+        "the face is in group %s, which is not a leaflet: put `#mvs leaflet name=...` above it",
+        quoted(group_.leaflet_word).c_str());
   }
-  leaflet_ = leaflet->second;
+  group_.leaflet = leaflet->second;
   if (scallops_.empty()) return;
-  const auto scallop = scallops_.find(decoded(scallop_word_, line));
+  const auto scallop = scallops_.find(decoded(group_.scallop_word, line));
   if (scallop == scallops_.end()) {
-    line.fail("the second word of the face's group, %s, is no scallop: write `g LEAFLET SCALLOP`",
-              quoted(scallop_word_).c_str());
+    line.fail(
+        "the second word of the face's group, %s, is not a scallop: write `g LEAFLET SCALLOP`",
+        quoted(group_.scallop_word).c_str());
   }
-  scallop_ = scallop->second;
+  group_.scallop = scallop->second;
 }
 
 void ObjReader::face(Line &line) {
@@ -108,12 +108,12 @@ void ObjReader::face(Line &line) {
   ++counts_.faces;
   valve.triangles.push_back(triangle);
   given_.thickness = false;
-  // a file without any #mvs line is read on, so that one sentence can name all that it lacks
+  // a plain OBJ is read to its end, so that one message can list all missing lines
   if (!has_version_) return;
-  if (leaflet_ == none) enter_group(line);
-  valve.triangle_leaflet.push_back(leaflet_);
-  valve.triangle_thickness.push_back(valve.leaflets[leaflet_].thickness);
-  if (scallop_ != none) valve.triangle_scallop.push_back(scallop_);
+  if (group_.leaflet == none) enter_group(line);
+  valve.triangle_leaflet.push_back(group_.leaflet);
+  valve.triangle_thickness.push_back(valve.leaflets[group_.leaflet].thickness);
+  if (group_.scallop != none) valve.triangle_scallop.push_back(group_.scallop);
 }
 
 void ObjReader::segments(Line &line) {

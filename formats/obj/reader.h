@@ -1,7 +1,7 @@
-// The reader of extended OBJ: what OBJ itself has is in obj_read.cpp, the #mvs lines are in
-// obj_records.cpp. Every index, number and name is checked where it stands, so that what leaves the
-// reader can at worst be no valve (make_model says that), but never out of bounds. Nothing is
-// allocated for a count that the file only claims.
+// Reader of extended OBJ: OBJ statements in read.cpp, #mvs lines in records.cpp. Every index,
+// number and name is checked where it is read: the result may be an invalid valve (make_model
+// checks that), but has no index out of range. Memory is not allocated by counts that the file
+// claims.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,20 @@
 #include "formats/text/line.h"
 
 namespace mvs::core {
+
+// Lines read so far, by statement.
+struct ObjCounts {
+  uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
+
+  // Compares the counts with the keys of the `#mvs end` line.
+  void check(Fields &fields, const Line &line) const;
+};
+
+// The present group: its words, and their indices from its first face on.
+struct ObjGroup {
+  std::string_view leaflet_word, scallop_word;
+  uint32_t leaflet = none, scallop = none;
+};
 
 class ObjReader {
  public:
@@ -39,6 +53,7 @@ class ObjReader {
   void check_waypoints(const Line &last);
   void leaflet(Line &line);
   void scallop(Line &line);
+  const Vec3 &vector_of_vertex(bool &given, const char *what, CowVector<Vec3> &vectors, Line &line);
   void rest(Line &line);
   void open(Line &line);
   void loaded(Line &line);
@@ -61,23 +76,19 @@ class ObjReader {
   static void check_room(const CowVector<Item> &items, const Line &line);
   void check_complete(const Line &last) const;
 
-  // What attributes the last v, f and l line have got so far.
+  // Attributes given so far for the last v, f and l line.
   struct Given {
     bool rest = false, open = false, loaded = false, origin = false, velocity = false;
     bool thickness = false, chord = false;
     std::array<bool, 2> place = {};  // of a waypoint
   };
-  struct Counts {
-    uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
-  };
 
   Loaded out_;
   std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_;
-  std::string_view leaflet_word_, scallop_word_;  // of the group that faces are in
-  uint32_t leaflet_ = none, scallop_ = none;      // the same as indices, once a face needs them
+  ObjGroup group_;
   size_t segments_in_line_ = 0;
   Given given_;
-  Counts counts_;
+  ObjCounts counts_;
   bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
   std::array<bool, 2> has_waypoint_ = {};
 };

@@ -1,4 +1,4 @@
-// Extended OBJ, read: the #mvs lines. Each belongs to the valve, or to the last v, f or l line
+// Reader of extended OBJ: the #mvs lines. Each belongs to the valve, or to the last v, f or l line
 // above.
 #include "formats/obj/reader.h"
 #include "model/chord_law.h"
@@ -12,10 +12,10 @@ void once(bool &given, const char *word, const Line &line) {
 }
 
 void follows(const char *statement, bool is_there, const Line &line) {
-  if (!is_there) line.fail("there is no `%s` line above that this one could belong to", statement);
+  if (!is_there) line.fail("there is no `%s` line above to which this line belongs", statement);
 }
 
-// The constants of a law, each a key of its own.
+// Reads the constants of a law, one key each.
 template <typename Values>
 void read_constants(Fields &fields, std::span<const Constant> constants, Values &values) {
   for (size_t k = 0; k < constants.size(); ++k) {
@@ -197,28 +197,30 @@ void ObjReader::scallop(Line &line) {
   valve.scallops.push_back(std::move(scallop));
 }
 
-void ObjReader::rest(Line &line) {
+// Reads x y z of the last vertex, once per kind of vector.
+const Vec3 &ObjReader::vector_of_vertex(bool &given, const char *what, CowVector<Vec3> &vectors,
+                                        Line &line) {
   follows("v", counts_.vertices > 0, line);
-  once(given_.rest, "the rest position of this vertex", line);
-  Valve &valve = out_.valve;
-  valve.rest.back() = read_place(line);
-  if (!given_.open) valve.open.back() = valve.rest.back();
-  if (!given_.loaded) valve.loaded.back() = valve.rest.back();
+  once(given, what, line);
+  const Vec3 vector = read_place(line);
   line.end();
+  return vectors.back() = vector;
+}
+
+void ObjReader::rest(Line &line) {
+  Valve &valve = out_.valve;
+  const Vec3 rest =
+      vector_of_vertex(given_.rest, "the rest position of this vertex", valve.rest, line);
+  if (!given_.open) valve.open.back() = rest;
+  if (!given_.loaded) valve.loaded.back() = rest;
 }
 
 void ObjReader::loaded(Line &line) {
-  follows("v", counts_.vertices > 0, line);
-  once(given_.loaded, "the loaded position of this vertex", line);
-  out_.valve.loaded.back() = read_place(line);
-  line.end();
+  vector_of_vertex(given_.loaded, "the loaded position of this vertex", out_.valve.loaded, line);
 }
 
 void ObjReader::open(Line &line) {
-  follows("v", counts_.vertices > 0, line);
-  once(given_.open, "the open position of this vertex", line);
-  out_.valve.open.back() = read_place(line);
-  line.end();
+  vector_of_vertex(given_.open, "the open position of this vertex", out_.valve.open, line);
 }
 
 // `#mvs origin 17`, or `#mvs origin new` for a node that an operation made.
@@ -239,10 +241,7 @@ void ObjReader::origin(Line &line) {
 }
 
 void ObjReader::velocity(Line &line) {
-  follows("v", counts_.vertices > 0, line);
-  once(given_.velocity, "the velocity of this vertex", line);
-  out_.state.v.back() = read_place(line);
-  line.end();
+  vector_of_vertex(given_.velocity, "the velocity of this vertex", out_.state.v, line);
 }
 
 void ObjReader::annulus(Line &line) {
@@ -264,7 +263,7 @@ void ObjReader::head(Line &line) {
   fields.need(fields.whole("node", node), "node");
   fields.end();
   if (node < 1 || node > valve.rest.size()) {
-    line.fail("node=%llu is none of the %zu vertices above this line",
+    line.fail("node=%llu is not one of the %zu vertices above this line",
               static_cast<unsigned long long>(node), valve.rest.size());
   }
   head.node = static_cast<uint32_t>(node - 1);
@@ -324,14 +323,14 @@ void ObjReader::fibre(Line &line) {
     line.fail("the fibre of this triangle is given twice");
   }
   if (valve.triangle_fibre.size() + 1 < valve.triangles.size()) {
-    line.fail("a triangle above has no fibre: give one to each of them, or to none");
+    line.fail("a triangle above has no fibre: give one to each triangle, or omit all");
   }
   const double x = line.number(), y = line.number(), z = line.number();
   valve.triangle_fibre.push_back({x, y, z});
   line.end();
 }
 
-// The index of the curve that a chord names.
+// Returns the index of the curve of a chord.
 uint32_t ObjReader::curve_of(Fields &fields, const Line &line) const {
   std::string name;
   fields.need(fields.text("curve", name), "curve");
@@ -366,11 +365,8 @@ void ObjReader::chord(Line &line) {
   fields.end();
 }
 
-// The counts show that no line was lost on the way.
-void ObjReader::end(Line &line) {
-  const Valve &valve = out_.valve;
-  Fields fields(line);
-  const auto check = [&](const char *key, uint64_t found, const char *what) {
+void ObjCounts::check(Fields &fields, const Line &line) const {
+  const auto compare = [&](const char *key, uint64_t found, const char *what) {
     uint64_t claimed = 0;
     fields.need(fields.whole(key, claimed), key);
     if (claimed == found) return;
@@ -378,14 +374,21 @@ void ObjReader::end(Line &line) {
               static_cast<unsigned long long>(claimed), static_cast<unsigned long long>(found),
               what);
   };
-  check("v", counts_.vertices, "v");
-  check("f", counts_.faces, "f");
-  check("l", counts_.lines, "l");
-  check("g", counts_.groups, "g");
-  check("mvs", counts_.records, "#mvs");
+  compare("v", vertices, "v");
+  compare("f", faces, "f");
+  compare("l", lines, "l");
+  compare("g", groups, "g");
+  compare("mvs", records, "#mvs");
+}
+
+// Checks the line counts, which detect lost or added lines.
+void ObjReader::end(Line &line) {
+  const Valve &valve = out_.valve;
+  Fields fields(line);
+  counts_.check(fields, line);
   fields.end();
   if (!valve.triangle_fibre.empty() && valve.triangle_fibre.size() < valve.triangles.size()) {
-    line.fail("only %zu of %zu triangles have a fibre: give one to each of them, or to none",
+    line.fail("only %zu of %zu triangles have a fibre: give one to each triangle, or omit all",
               valve.triangle_fibre.size(), valve.triangles.size());
   }
   check_waypoints(line);

@@ -1,4 +1,4 @@
-// The words of extended OBJ that reader and writer share. FORMAT.md says what they mean.
+// Words of extended OBJ, shared by reader and writer; FORMAT.md defines them.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@ namespace mvs::core::obj {
 // The version of the format. A file of another version is refused.
 inline constexpr unsigned version = 1;
 
-// Lengths are mm in the file and m in memory; areas go with the square.
+// Powers of ten of mm (lengths) and mm2 (areas), relative to m and m2.
 inline constexpr int mm = 3, mm2 = 6;
 
-// Indices are MVS_LEAFLET_LAW_*, MVS_CHORD_KIND_*, MVS_RING_KIND_*, less one where those start
-// at 1.
+// Indices are MVS_LEAFLET_LAW_*, MVS_CHORD_KIND_*, MVS_RING_KIND_*, less one where those start at
+// 1.
 inline constexpr std::array<std::string_view, 8> chord_kinds = {
     "other", "marginal", "rough_zone", "strut", "basal", "commissural", "trunk", "suture"};
 // Words of the laws, in the order of their numbers less one.

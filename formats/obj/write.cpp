@@ -1,5 +1,4 @@
-// Extended OBJ, written. The order is that of FORMAT.md; the same valve and state give the same
-// bytes everywhere.
+// Writer of extended OBJ, in the order of FORMAT.md; equal valves and states give equal bytes.
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -45,8 +44,17 @@ class ObjWriter {
   void group();
   void record(std::string_view word);
   void number(double value, int shift = 0);
-  void numbers(const Vec3 &values, int shift);
+  // The end of a line with three numbers, and a record of three numbers.
+  void vector(const Vec3 &values, int shift = obj::mm);
+  void vector_record(std::string_view word, const Vec3 &values, int shift = obj::mm);
   void key(std::string_view name) { out_.append(1, ' ').append(name).append(1, '='); }
+  // Starts a record with name and id of a part.
+  template <typename Part>
+  void part(std::string_view word, const Part &part) {
+    record(word);
+    key_text("name", part.name);
+    key_whole("id", part.id);
+  }
   void key_text(std::string_view name, std::string_view text);
   void key_number(std::string_view name, double value, int shift = 0);
   void key_whole(std::string_view name, uint64_t value);
@@ -125,50 +133,30 @@ void ObjWriter::waypoints() {
 
 void ObjWriter::leaflets() {
   for (const Leaflet &leaflet : valve_.leaflets) {
-    record("leaflet");
-    key_text("name", leaflet.name);
-    key_whole("id", leaflet.id);
+    part("leaflet", leaflet);
     key_choice("law", obj::words_of(leaflet_laws()), leaflet.law - 1);
     key_number("thickness", leaflet.thickness, obj::mm);
     key_constants(find_leaflet_law(leaflet.law)->constants, leaflet.constants);
     out_ += '\n';
   }
   for (const Scallop &scallop : valve_.scallops) {
-    record("scallop");
-    key_text("name", scallop.name);
-    key_whole("id", scallop.id);
+    part("scallop", scallop);
     key_text("leaflet", valve_.leaflets[scallop.leaflet].name);
     out_ += '\n';
   }
 }
 
-// Rest, open and loaded position, velocity, origin only where they are not what the line before
-// lets expect.
+// Writes rest, open and loaded position, velocity and origin only if they differ from their
+// defaults.
 void ObjWriter::nodes() {
   const Vec3 still = Vec3::Zero();
   for (size_t n = 0; n < valve_.rest.size(); ++n) {
-    const auto place = [&](const Vec3 &values) {
-      numbers(values, obj::mm);
-      out_ += '\n';
-    };
     out_ += 'v';
-    place(state_.x[n]);
-    if (!same_bits(valve_.rest[n], state_.x[n])) {
-      record("rest");
-      place(valve_.rest[n]);
-    }
-    if (!same_bits(valve_.open[n], valve_.rest[n])) {
-      record("open");
-      place(valve_.open[n]);
-    }
-    if (!same_bits(valve_.loaded[n], valve_.rest[n])) {
-      record("loaded");
-      place(valve_.loaded[n]);
-    }
-    if (!same_bits(state_.v[n], still)) {
-      record("velocity");
-      place(state_.v[n]);
-    }
+    vector(state_.x[n]);
+    if (!same_bits(valve_.rest[n], state_.x[n])) vector_record("rest", valve_.rest[n]);
+    if (!same_bits(valve_.open[n], valve_.rest[n])) vector_record("open", valve_.open[n]);
+    if (!same_bits(valve_.loaded[n], valve_.rest[n])) vector_record("loaded", valve_.loaded[n]);
+    if (!same_bits(state_.v[n], still)) vector_record("velocity", state_.v[n]);
     if (valve_.origin[n] != n) {
       record("origin ");
       out_ += valve_.origin[n] == none ? "new" : std::to_string(uint64_t{valve_.origin[n]} + 1);
@@ -177,7 +165,7 @@ void ObjWriter::nodes() {
     for (size_t k = 0; k < waypoints_.size(); ++k) {
       if (!waypoints_[k]) continue;
       record(obj::waypoint_places[k]);
-      place(waypoints_[k]->x[n]);
+      vector(waypoints_[k]->x[n]);
     }
   }
 }
@@ -190,9 +178,7 @@ void ObjWriter::annulus_and_heads() {
     if (k % nodes_a_line == nodes_a_line - 1 || k + 1 == valve_.annulus.size()) out_ += '\n';
   }
   for (const Head &head : valve_.heads) {
-    record("head");
-    key_text("name", head.name);
-    key_whole("id", head.id);
+    part("head", head);
     key_whole("node", uint64_t{head.node} + 1);
     out_ += '\n';
   }
@@ -200,24 +186,16 @@ void ObjWriter::annulus_and_heads() {
 
 void ObjWriter::rings() {
   for (const Ring &ring : valve_.rings) {
-    record("ring");
-    key_text("name", ring.name);
-    key_whole("id", ring.id);
+    part("ring", ring);
     key_choice("kind", obj::ring_kinds, ring.kind - 1);
     out_ += '\n';
-    for (const Vec3 &point : ring.curve) {
-      record("ring_point");
-      numbers(point, obj::mm);
-      out_ += '\n';
-    }
+    for (const Vec3 &point : ring.curve) vector_record("ring_point", point);
   }
 }
 
 void ObjWriter::curves() {
   for (const ChordCurve &curve : valve_.curves) {
-    record("curve");
-    key_text("name", curve.name);
-    key_whole("id", curve.id);
+    part("curve", curve);
     out_ += '\n';
     for (const auto &[strain, stress] : curve.points) {
       record("curve_point");
@@ -253,9 +231,7 @@ void ObjWriter::triangles() {
       number(thickness, obj::mm);
       out_ += '\n';
     }
-    record("fibre");
-    numbers(valve_.triangle_fibre[t], 0);
-    out_ += '\n';
+    vector_record("fibre", valve_.triangle_fibre[t], 0);
   }
 }
 
@@ -268,9 +244,7 @@ void ObjWriter::chords() {
     out_ += 'l';
     vertices({chord.a, chord.b});
     out_ += '\n';
-    record("chord");
-    key_text("name", chord.name);
-    key_whole("id", chord.id);
+    part("chord", chord);
     key_choice("kind", obj::chord_kinds, chord.kind);
     key_choice("law", obj::words_of(chord_laws()), chord.law - 1);
     key_number("rest_length", chord.rest_length, obj::mm);
@@ -312,11 +286,17 @@ void ObjWriter::number(double value, int shift) {
   append_decimal(out_, value, shift);
 }
 
-void ObjWriter::numbers(const Vec3 &values, int shift) {
+void ObjWriter::vector(const Vec3 &values, int shift) {
   for (int k = 0; k < 3; ++k) {
     out_ += ' ';
     number(values[k], shift);
   }
+  out_ += '\n';
+}
+
+void ObjWriter::vector_record(std::string_view word, const Vec3 &values, int shift) {
+  record(word);
+  vector(values, shift);
 }
 
 void ObjWriter::key_text(std::string_view name, std::string_view text) {

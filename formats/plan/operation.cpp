@@ -1,4 +1,4 @@
-// One operation as a JSON object: each field by its name and unit, parts by their names.
+// One operation as a JSON object: fields by name and unit, parts by name.
 #include <cstring>
 
 #include "base/error.h"
@@ -14,7 +14,7 @@ std::string key_of(const OpField &f) {
   return *f.unit ? format("%s_%s", f.name, f.unit) : std::string(f.name);
 }
 
-// The word of a choice, from "leaflet=1 head=2".
+// Returns the word of a choice, from "leaflet=1 head=2".
 std::string word_of(const OpField &f, uint32_t value) {
   std::string_view rest = f.choices;
   const std::string ending = format("=%u", value);
@@ -90,7 +90,7 @@ Json points_json(const mvs_array &array) {
   return json;
 }
 
-// Null for a field that is not given.
+// Returns null for a field that is not given.
 Json field_json(const Operation &op, const OpField &f, const Model &model) {
   switch (f.type) {
     case MVS_FIELD_NUMBER: {
@@ -132,7 +132,7 @@ Json field_json(const Operation &op, const OpField &f, const Model &model) {
   }
 }
 
-// Builds the struct of an operation, with what its pointers point to.
+// Builds the struct of an operation and owns the data of its pointers.
 class OpReader {
  public:
   OpReader(const OpKind &kind, const Model &model, bool exact)
@@ -250,7 +250,7 @@ void OpReader::read(const OpField &f, const Json &json) {
   }
 }
 
-// What a step may hold besides the fields of its operation.
+// Returns whether a key is a remark: allowed in a step besides the fields of its operation.
 bool is_remark(std::string_view key) {
   static constexpr std::string_view remarks[] = {"do",       "title",  "made",  "time", "group",
                                                  "group_id", "before", "after", "notes"};

@@ -1,4 +1,4 @@
-// The plan as a whole, and the moves between its operations.
+// Plans and journal records as JSON: writer and strict reader.
 #include "formats/plan/plan.h"
 
 #include <mvs/base.h>
@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "formats/plan/tool.h"
+#include "formats/text/checksum.h"
 
 namespace mvs::core {
 namespace {
@@ -64,51 +65,43 @@ uint32_t solver_at(const Json &json) {
   fail(MVS_E_FORMAT, "plan", "solver has to be newton, implicit or explicit");
 }
 
-// Throws unless each key of a move is one that it can have.
-void check_keys(const Json &json, std::initializer_list<std::string_view> known) {
-  for (const auto &[key, value] : json.members()) {
-    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
-    MVS_MUST(is_known, MVS_E_FORMAT, "plan", "%s has no field \"%.60s\"", json["do"].text().c_str(),
-             key.c_str());
-  }
+void read_step_options(const Json &json, RecordedEvent &event) {
+  event.solver = solver_at(json);
+  event.dt = number_at(json, "dt_s");
+  event.damping = number_at(json, "damping_1/s");
+  event.budget = static_cast<uint32_t>(whole_at(json, "budget", 0, UINT32_MAX));
 }
 
-void read_stepping(const Json &json, RecordedEvent &move) {
-  move.solver = solver_at(json);
-  move.dt = number_at(json, "dt_s");
-  move.damping = number_at(json, "damping_1/s");
-  move.budget = static_cast<uint32_t>(whole_at(json, "budget", 0, UINT32_MAX));
-}
-
-std::optional<RecordedEvent> read_move(const Json &json) {
+std::optional<RecordedEvent> read_event(const Json &json) {
   const std::string word = json["do"].text();
-  RecordedEvent move;
+  RecordedEvent event;
   if (word == "load") {
-    check_keys(json, {"do", "pressure_Pa", "boundary_fraction"});
-    move.pressure = number_at(json, "pressure_Pa");
-    move.boundary_fraction = number_at(json, "boundary_fraction");
-    return move;
+    check_keys(json, {"pressure_Pa", "boundary_fraction"});
+    event.pressure = number_at(json, "pressure_Pa");
+    event.boundary_fraction = number_at(json, "boundary_fraction");
+    return event;
   }
-  if (word == "lead") {
-    check_keys(
-        json, {"do", "count", "hands", "way_m", "pace", "solver", "dt_s", "damping_1/s", "budget"});
-    move = read_lead(json);
-    read_stepping(json, move);
-    return move;
+  if (word == "tool_trajectory") {
+    check_keys(json, {"count", "tools", "points_m", "steps_per_row", "solver", "dt_s",
+                      "damping_1/s", "budget"});
+    event = read_trajectory(json);
+    read_step_options(json, event);
+    return event;
   }
   if (word != "settle" && word != "step") return read_tool_step(json);
-  check_keys(json, {"do", "count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s",
-                    "budget"});
-  move.kind = word == "settle" ? RecordedEvent::settle : RecordedEvent::step;
-  MVS_MUST(move.kind == RecordedEvent::step || !json.has("count"), MVS_E_FORMAT, "plan",
-           "settle has no field \"count\": settled once is settled");
-  move.count = whole_at(json, "count", 1, RecordedEvent::most_count);
-  move.max_iterations = static_cast<uint32_t>(whole_at(json, "max_iterations", 0, UINT32_MAX));
-  move.residual = number_at(json, "residual_N");
-  MVS_MUST(move.kind == RecordedEvent::step || !json.has("budget"), MVS_E_FORMAT, "plan",
-           "settle has no field \"budget\": it goes on until the valve is at rest");
-  read_stepping(json, move);
-  return move;
+  check_keys(json,
+             {"count", "solver", "max_iterations", "residual_N", "dt_s", "damping_1/s", "budget"});
+  event.kind = word == "settle" ? RecordedEvent::settle : RecordedEvent::step;
+  const bool is_step = event.kind == RecordedEvent::step;
+  MVS_MUST(is_step || !json.has("count"), MVS_E_FORMAT, "plan",
+           "settle has no field \"count\": a second settle changes nothing");
+  MVS_MUST(is_step || !json.has("budget"), MVS_E_FORMAT, "plan",
+           "settle has no field \"budget\": it iterates until the valve is at rest");
+  event.count = whole_at(json, "count", 1, RecordedEvent::most_count);
+  event.max_iterations = static_cast<uint32_t>(whole_at(json, "max_iterations", 0, UINT32_MAX));
+  event.residual = number_at(json, "residual_N");
+  read_step_options(json, event);
+  return event;
 }
 
 std::string version_text() {
@@ -119,8 +112,8 @@ PlanStep read_step(const Json &json) {
   MVS_MUST(json.is_object() && json.has("do") && json["do"].is_text(), MVS_E_FORMAT, "plan",
            "a step has to be an object with a \"do\"");
   PlanStep step;
-  step.move = read_move(json);
-  if (step.move) return step;
+  step.event = read_event(json);
+  if (step.event) return step;
   step.op = json;
   if (!json.has("group")) return step;
   MVS_MUST(json["group"].is_text(), MVS_E_FORMAT, "plan", "group has to be a name");
@@ -149,34 +142,35 @@ std::string hash_at(const Json &json, const char *part) {
 }  // namespace
 
 std::string hash_text(const ModelState &current) {
-  const auto hash = hash_of(*current.model, current.state);
-  return format("%016llx%016llx", static_cast<unsigned long long>(hash[0]),
-                static_cast<unsigned long long>(hash[1]));
+  return hash_digits(hash_of(*current.model, current.state));
 }
 
 Json valve_json(const ModelState &start) {
   return Json::object({{"name", start.model->valve.name}, {"hash", hash_text(start)}});
 }
 
-Json move_json(const RecordedEvent &move) {
+Json event_json(const RecordedEvent &event) {
   Json json;
-  if (move.kind == RecordedEvent::load) {
+  if (event.kind == RecordedEvent::load) {
     json.set("do", "load");
-    json.set("pressure_Pa", move.pressure);
-    json.set("boundary_fraction", move.boundary_fraction);
+    json.set("pressure_Pa", event.pressure);
+    json.set("boundary_fraction", event.boundary_fraction);
     return json;
   }
-  const bool is_led = move.kind == RecordedEvent::lead;
-  if (!move.tool.empty() && !is_led) return tool_json(move);
-  if (is_led) json = lead_json(move);
-  if (!is_led) json.set("do", move.kind == RecordedEvent::settle ? "settle" : "step");
-  if (!is_led && move.count != 1) json.set("count", move.count);
-  if (move.solver != 0) json.set("solver", solver_word(move.solver));
-  if (move.max_iterations != 0) json.set("max_iterations", move.max_iterations);
-  put_unless_zero(json, "residual_N", move.residual);
-  put_unless_zero(json, "dt_s", move.dt);
-  put_unless_zero(json, "damping_1/s", move.damping);
-  if (move.budget != 0) json.set("budget", move.budget);
+  const bool is_trajectory = event.kind == RecordedEvent::tool_trajectory;
+  if (!event.tools.empty() && !is_trajectory) return tool_json(event);
+  if (is_trajectory) {
+    json = trajectory_json(event);
+  } else {
+    json.set("do", event.kind == RecordedEvent::settle ? "settle" : "step");
+    if (event.count != 1) json.set("count", event.count);
+  }
+  if (event.solver != 0) json.set("solver", solver_word(event.solver));
+  if (event.max_iterations != 0) json.set("max_iterations", event.max_iterations);
+  put_unless_zero(json, "residual_N", event.residual);
+  put_unless_zero(json, "dt_s", event.dt);
+  put_unless_zero(json, "damping_1/s", event.damping);
+  if (event.budget != 0) json.set("budget", event.budget);
   return json;
 }
 
@@ -190,8 +184,8 @@ Json entry_json(const HistoryEntry &entry) {
   return json;
 }
 
-void add_moves(Json &steps, const RecordedEvents &moves) {
-  for (const RecordedEvent *move : moves.items()) steps.add(move_json(*move));
+void add_events(Json &steps, const RecordedEvents &events) {
+  for (const RecordedEvent *event : events.items()) steps.add(event_json(*event));
 }
 
 Json plan_steps(const Snapshot &snapshot, const Measure &measure) {
@@ -199,17 +193,17 @@ Json plan_steps(const Snapshot &snapshot, const Measure &measure) {
   const auto entries = snapshot.history.past.items();
   for (size_t k = 0; k < entries.size(); ++k) {
     const HistoryEntry &entry = **entries[k];
-    add_moves(steps, entry.moves);
+    add_events(steps, entry.events);
     Json json = entry_json(entry);
     if (measure) {
       json.set("before", measure(entry.before));
-      // what it led to is seen just before the next operation, when the valve has settled
+      // measured just before the next operation, when the valve has settled
       json.set("after",
                measure(k + 1 < entries.size() ? (*entries[k + 1])->before : snapshot.current));
     }
     steps.add(std::move(json));
   }
-  add_moves(steps, snapshot.history.moves);
+  add_events(steps, snapshot.history.events);
   return steps;
 }
 

@@ -1,4 +1,4 @@
-// Tools in plans: added, moved, removed.
+// Tool events of plans: JSON writer and strict reader.
 #include "formats/plan/tool.h"
 
 #include <mvs/tool.h>
@@ -47,16 +47,7 @@ uint32_t kind_at(const Json &json) {
   fail(MVS_E_FORMAT, "plan", "kind has to be grasp, ball or rod");
 }
 
-// Each step has all of its keys and no others.
-void check_keys(const Json &json, std::initializer_list<std::string_view> known) {
-  for (const auto &[key, value] : json.members()) {
-    const bool is_known = key == "do" || std::find(known.begin(), known.end(), key) != known.end();
-    MVS_MUST(is_known, MVS_E_FORMAT, "plan", "%s has no field \"%.60s\"", json["do"].text().c_str(),
-             key.c_str());
-  }
-}
-
-// Numbers as their bytes, little-endian: they come back to the bit, in a third of the digits.
+// Numbers as base64 of their little-endian bytes: exact, in a third of the length of decimals.
 template <typename Word>
 std::string packed(const std::vector<Word> &words) {
   std::string bytes, text;
@@ -78,25 +69,27 @@ std::vector<Word> unpacked(const Json &json, const char *key) {
   return words;
 }
 
-std::vector<Tool> read_hands(const Json &json) {
+std::vector<Tool> read_trajectory_tools(const Json &json) {
   std::vector<Tool> tools;
-  for (const Json &hand : json["hands"].items()) {
+  for (const Json &item : json["tools"].items()) {
     Tool tool;
-    tool.id = whole_at(hand, "tool");
-    tool.kind = kind_at(hand);
+    tool.id = whole_at(item, "tool");
+    tool.kind = kind_at(item);
     tools.push_back(tool);
   }
   return tools;
 }
 
-std::vector<Vec3> read_way(const Json &json) {
-  const std::vector<uint64_t> words = unpacked<uint64_t>(json, "way_m");
-  std::vector<Vec3> way(words.size() / 3);
-  for (size_t k = 0; k < 3 * way.size(); ++k) way[k / 3][k % 3] = std::bit_cast<double>(words[k]);
-  return way;
+std::vector<Vec3> read_points(const Json &json) {
+  const std::vector<uint64_t> words = unpacked<uint64_t>(json, "points_m");
+  std::vector<Vec3> points(words.size() / 3);
+  for (size_t k = 0; k < 3 * points.size(); ++k) {
+    points[k / 3][k % 3] = std::bit_cast<double>(words[k]);
+  }
+  return points;
 }
 
-// A rod's axis comes back as it was to the last bit; what is written by hand is made a unit vector.
+// Keeps a recorded unit axis bit for bit and normalises any other axis.
 void read_hand(const Json &json, Tool &tool) {
   tool.position = vector_at(json, "position_m");
   if (!json.has("axis")) return;
@@ -125,18 +118,26 @@ void read_added(const Json &json, Tool &tool) {
 
 }  // namespace
 
-Json tool_json(const RecordedEvent &move) {
-  const Tool &tool = move.tool[0];
+void check_keys(const Json &json, std::initializer_list<std::string_view> known) {
+  for (const auto &[key, value] : json.members()) {
+    const bool is_known = key == "do" || std::find(known.begin(), known.end(), key) != known.end();
+    MVS_MUST(is_known, MVS_E_FORMAT, "plan", "%s has no field \"%.60s\"", json["do"].text().c_str(),
+             key.c_str());
+  }
+}
+
+Json tool_json(const RecordedEvent &event) {
+  const Tool &tool = event.tools[0];
   Json json;
-  json.set("do", move.kind == RecordedEvent::tool_add    ? "tool_add"
-                 : move.kind == RecordedEvent::tool_move ? "tool_move"
-                                                         : "tool_remove");
+  json.set("do", event.kind == RecordedEvent::tool_add    ? "tool_add"
+                 : event.kind == RecordedEvent::tool_move ? "tool_move"
+                                                          : "tool_remove");
   json.set("tool", tool.id);
-  if (move.kind == RecordedEvent::tool_remove) return json;
-  if (move.kind == RecordedEvent::tool_add) json.set("kind", kinds[tool.kind - 1]);
+  if (event.kind == RecordedEvent::tool_remove) return json;
+  if (event.kind == RecordedEvent::tool_add) json.set("kind", kinds[tool.kind - 1]);
   json.set("position_m", vector_json(tool.position));
   if (tool.kind == MVS_TOOL_KIND_ROD) json.set("axis", vector_json(tool.axis));
-  if (move.kind == RecordedEvent::tool_move) return json;
+  if (event.kind == RecordedEvent::tool_move) return json;
   if (tool.kind == MVS_TOOL_KIND_GRASP) json.set("node", tool.node);
   if (tool.kind != MVS_TOOL_KIND_GRASP) json.set("radius_m", tool.radius);
   if (tool.kind == MVS_TOOL_KIND_ROD) json.set("length_m", tool.length);
@@ -145,58 +146,62 @@ Json tool_json(const RecordedEvent &move) {
   return json;
 }
 
-Json lead_json(const RecordedEvent &move) {
-  Json json, hands = Json::array();
-  for (const Tool &tool : move.tool.get()) {
-    hands.add(Json::object({{"tool", tool.id}, {"kind", kinds[tool.kind - 1]}}));
+Json trajectory_json(const RecordedEvent &event) {
+  Json json, tools = Json::array();
+  for (const Tool &tool : event.tools.get()) {
+    tools.add(Json::object({{"tool", tool.id}, {"kind", kinds[tool.kind - 1]}}));
   }
-  std::vector<uint64_t> way;
-  for (const Vec3 &place : move.way.get()) {
-    for (int k = 0; k < 3; ++k) way.push_back(std::bit_cast<uint64_t>(place[k]));
+  std::vector<uint64_t> words;
+  for (const Vec3 &point : event.points.get()) {
+    for (int k = 0; k < 3; ++k) words.push_back(std::bit_cast<uint64_t>(point[k]));
   }
-  json.set("do", "lead");
-  json.set("count", move.count);
-  json.set("hands", std::move(hands));
-  json.set("way_m", packed(way));
-  if (move.count != move.pace.size()) json.set("pace", packed(move.pace.get()));
+  json.set("do", "tool_trajectory");
+  json.set("count", event.count);
+  json.set("tools", std::move(tools));
+  json.set("points_m", packed(words));
+  if (event.count != event.steps_per_row.size()) {
+    json.set("steps_per_row", packed(event.steps_per_row.get()));
+  }
   return json;
 }
 
-RecordedEvent read_lead(const Json &json) {
-  RecordedEvent move;
-  move.kind = RecordedEvent::lead;
-  move.tool = read_hands(json);
-  move.way = read_way(json);
-  const size_t rows = move.way.size() / std::max<size_t>(1, places_in_row(move));
-  move.pace = std::vector<uint32_t>(rows, 1);
-  if (json.has("pace")) move.pace = unpacked<uint32_t>(json, "pace");
-  move.count = whole_at(json, "count");
-  MVS_MUST(is_whole(move), MVS_E_FORMAT, "plan",
-           "lead has to have hands, a way with a row of numbers for each place of theirs, and a "
-           "pace of at least 1 for each row, which make its count");
-  return move;
+RecordedEvent read_trajectory(const Json &json) {
+  RecordedEvent event;
+  event.kind = RecordedEvent::tool_trajectory;
+  event.tools = read_trajectory_tools(json);
+  event.points = read_points(json);
+  const size_t rows = event.points.size() / std::max<size_t>(1, points_per_row(event));
+  event.steps_per_row = std::vector<uint32_t>(rows, 1);
+  if (json.has("steps_per_row")) {
+    event.steps_per_row = unpacked<uint32_t>(json, "steps_per_row");
+  }
+  event.count = whole_at(json, "count");
+  MVS_MUST(is_consistent(event), MVS_E_FORMAT, "plan",
+           "tool_trajectory has to have tools, points_m with the same number of finite points in "
+           "each row, and steps_per_row of at least 1 whose sum is count");
+  return event;
 }
 
 std::optional<RecordedEvent> read_tool_step(const Json &json) {
   const std::string &word = json["do"].text();
-  RecordedEvent move;
+  RecordedEvent event;
   Tool tool;
   if (word == "tool_add") {
-    move.kind = RecordedEvent::tool_add;
+    event.kind = RecordedEvent::tool_add;
     read_added(json, tool);
   } else if (word == "tool_move") {
-    move.kind = RecordedEvent::tool_move;
+    event.kind = RecordedEvent::tool_move;
     check_keys(json, {"tool", "position_m", "axis"});
     read_hand(json, tool);
   } else if (word == "tool_remove") {
-    move.kind = RecordedEvent::tool_remove;
+    event.kind = RecordedEvent::tool_remove;
     check_keys(json, {"tool"});
   } else {
     return {};
   }
   tool.id = whole_at(json, "tool");
-  move.tool = {tool};
-  return move;
+  event.tools = {tool};
+  return event;
 }
 
 }  // namespace mvs::core

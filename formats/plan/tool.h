@@ -1,6 +1,7 @@
-// What was done with tools, as steps of a plan.
+// Tool events as steps of a plan: tool_add, tool_move, tool_remove and tool_trajectory.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 
 #include "formats/text/json.h"
@@ -8,13 +9,17 @@
 
 namespace mvs::core {
 
-Json tool_json(const RecordedEvent &move);
+Json tool_json(const RecordedEvent &event);
 
-// Steps led by hands: whose, and where they were, the options of the steps being the caller's.
-Json lead_json(const RecordedEvent &move);
-RecordedEvent read_lead(const Json &json);
+// The tools and points of a trajectory; the caller adds the options of its time steps.
+Json trajectory_json(const RecordedEvent &event);
+RecordedEvent read_trajectory(const Json &json);
 
-// Null where the step is of another kind; throws MVS_E_FORMAT with what is wrong.
+// Reads tool_add, tool_move and tool_remove; null for a step of another kind. Throws MVS_E_FORMAT
+// with the wrong field.
 std::optional<RecordedEvent> read_tool_step(const Json &json);
+
+// Throws MVS_E_FORMAT if a step has a key other than "do" and the known ones.
+void check_keys(const Json &json, std::initializer_list<std::string_view> known);
 
 }  // namespace mvs::core

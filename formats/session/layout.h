@@ -1,9 +1,11 @@
-// The layout of a session, once for both directions: an archive writes what it is given, or fills
-// it. FORMAT.md says the same in words; a change of it is a new version of the format.
+// The layout of a session, once for both directions: pass(archive, value) writes the fields of a
+// value or reads them, depending on the archive. FORMAT.md describes the same layout.
 #pragma once
 
+#include <array>
 #include <concepts>
 
+#include "base/error.h"
 #include "history/history.h"
 
 namespace mvs::core {
@@ -139,24 +141,65 @@ void pass(Archive &a, Is<ModelState> auto &current) {
 }
 
 template <typename Archive>
-void pass(Archive &a, Is<RecordedEvent> auto &move) {
-  a.choice(move.kind);
-  a.word(move.solver);
-  a.word(move.max_iterations);
-  a.word(move.count);
-  a.number(move.pressure);
-  a.number(move.boundary_fraction);
-  a.number(move.residual);
-  a.number(move.dt);
-  a.number(move.damping);
-  a.word(move.budget);
-  a.list(move.tool);
-  a.array(move.way);
-  a.array(move.pace);
-  a.check(move);
+void pass(Archive &a, Is<RecordedEvent> auto &event) {
+  a.choice(event.kind);
+  a.word(event.solver);
+  a.word(event.max_iterations);
+  a.word(event.count);
+  a.number(event.pressure);
+  a.number(event.boundary_fraction);
+  a.number(event.residual);
+  a.number(event.dt);
+  a.number(event.damping);
+  a.word(event.budget);
+  a.list(event.tools);
+  a.array(event.points);
+  a.array(event.steps_per_row);
+  a.check(event);
 }
 
-// Behind the operation of an entry, which cannot be made empty and filled.
+template <typename T, typename Byte>
+auto &field_at(Byte *at) {
+  return *reinterpret_cast<std::conditional_t<std::is_const_v<Byte>, const T, T> *>(at);
+}
+
+// A field of an operation, by its type and its address in the struct.
+template <typename Archive, typename Byte>
+void pass_field(Archive &a, const OpField &f, Byte *at) {
+  switch (f.type) {
+    case MVS_FIELD_NUMBER:
+      return a.number(field_at<double>(at));
+    case MVS_FIELD_COUNT:
+    case MVS_FIELD_CHOICE:
+      return a.word(field_at<uint32_t>(at));
+    case MVS_FIELD_CHORD:
+    case MVS_FIELD_HEAD:
+    case MVS_FIELD_SCALLOP:
+      return a.word(field_at<mvs_id>(at));
+    case MVS_FIELD_SITE: {
+      auto &site = field_at<mvs_site>(at);
+      a.word(site.how);
+      a.word(site.index);
+      a.word(site.scallop);
+      for (auto &u : site.u) a.number(u);
+      return;
+    }
+    case MVS_FIELD_POINT:
+      for (auto &x : field_at<mvs_point>(at).at) a.number(x);
+      return a.word(field_at<mvs_point>(at).given);
+    case MVS_FIELD_VECTOR:
+      for (auto &x : field_at<std::array<double, 3>>(at)) a.number(x);
+      return;
+    case MVS_FIELD_POINTS:
+      return a.points(field_at<mvs_array>(at));
+    case MVS_FIELD_TEXT:
+      return a.optional_text(field_at<const char *>(at));
+    default:
+      fail(MVS_E_INTERNAL, f.name, "a session cannot store field %s", f.name);
+  }
+}
+
+// The fields after the operation of an entry, which has no empty value to read into.
 template <typename Archive>
 void pass_rest(Archive &a, Is<HistoryEntry> auto &entry) {
   a.text(entry.title);
@@ -164,7 +207,7 @@ void pass_rest(Archive &a, Is<HistoryEntry> auto &entry) {
   a.word(entry.group);
   a.text(entry.group_name);
   a.word(entry.time_ms);
-  a.stack(entry.moves);
+  a.list(entry.events);
   pass(a, entry.before);
   pass(a, entry.after);
 }
@@ -173,18 +216,18 @@ template <typename Archive>
 void pass(Archive &a, Is<Checkpoint> auto &checkpoint) {
   a.text(checkpoint.name);
   pass(a, checkpoint.at);
-  a.stack(checkpoint.past);
-  a.stack(checkpoint.future);
-  a.stack(checkpoint.moves);
+  a.list(checkpoint.past);
+  a.list(checkpoint.future);
+  a.list(checkpoint.events);
 }
 
 template <typename Archive>
 void pass(Archive &a, Is<Snapshot> auto &snapshot) {
   pass(a, snapshot.current);
   a.optional(snapshot.history.start);
-  a.stack(snapshot.history.past);
-  a.stack(snapshot.history.future);
-  a.stack(snapshot.history.moves);
+  a.list(snapshot.history.past);
+  a.list(snapshot.history.future);
+  a.list(snapshot.history.events);
   a.optional(snapshot.history.checkpoints);
   a.word(snapshot.history.next_group);
 }

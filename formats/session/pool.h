@@ -1,5 +1,5 @@
-// Pools of a session: sequences kept once whatever the number of those who refer to them, which is
-// how thousands of undo levels stay small.
+// Pools of a session: each distinct sequence is stored once and referred to by number, so that undo
+// levels cost only their differences.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace mvs::core {
 
-// For writing. Equal contents get equal numbers.
+// Writer: equal contents get equal numbers.
 template <typename Value>
 class PoolWriter {
  public:
@@ -42,7 +42,7 @@ class PoolWriter {
   static void add_bits(Hash &hash, uint32_t value) { hash.add(uint64_t{value}); }
   static void add_bits(Hash &hash, uint8_t value) { hash.add(uint64_t{value}); }
 
-  // The hash is no proof.
+  // Compares the contents: equal hashes do not prove equality.
   bool same(uint64_t number, const Value *first, size_t count) const {
     const uint64_t start = number == 0 ? 0 : ends_[number - 1];
     return ends_[number] - start == count &&
@@ -54,7 +54,7 @@ class PoolWriter {
   std::map<std::array<uint64_t, 2>, uint64_t> known_;
 };
 
-// For reading, from a tree that outlives it.
+// Reader; the tree must outlive it.
 template <typename Value>
 class PoolReader {
  public:
@@ -87,7 +87,7 @@ class PoolReader {
   const std::vector<uint64_t> &ends_;
 };
 
-// How an element of an array of the core is stored.
+// The stored type and number of columns of an array element.
 template <typename Element>
 struct Stored {
   using Value = Element;

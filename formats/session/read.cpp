@@ -1,5 +1,5 @@
-// Sessions, read. What was shared is shared again: each array, list, model and entry is made once,
-// by its number in the file.
+// Reader of sessions. Arrays, lists, models and entries are built once by their number in the file,
+// so that shared data is shared again.
 #include <mvs/tool.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using Made = std::map<uint64_t, Thing>;
 class SessionReader {
  public:
   explicit SessionReader(const H5Tree &tree)
-      : words_(tree.at<uint64_t>("mvs/moment")),
+      : words_(tree.at<uint64_t>("mvs/snapshot")),
         parts_(tree, "mvs/parts"),
         numbers_(tree, "mvs/numbers"),
         indices_(tree, "mvs/indices"),
@@ -35,7 +35,7 @@ class SessionReader {
     return snapshot;
   }
 
-  // what session_layout.h asks of an archive
+  // the archive functions of layout.h
   void word(uint64_t &number) { number = next(); }
   void word(int64_t &number) { number = static_cast<int64_t>(next()); }
   void word(uint32_t &number);
@@ -47,10 +47,12 @@ class SessionReader {
   template <typename Part>
   void list(CowVector<Part> &parts);
   void model(ModelPtr &model);
+  void points(mvs_array &given);
+  void optional_text(const char *&given);
   template <typename Item>
-  void stack(PersistentList<Item> &items);
+  void list(PersistentList<Item> &items);
   void check(const ModelState &current) const;
-  static void check(const RecordedEvent &move);
+  static void check(const RecordedEvent &event);
   void optional(std::shared_ptr<const ModelState> &current);
   void optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
 
@@ -61,7 +63,7 @@ class SessionReader {
     words_ = words_.subspan(1);
     return word;
   }
-  // How many things follow, each of a word at least.
+  // Returns the number of following items, each of at least one word.
   uint64_t count() {
     const uint64_t number = next();
     MVS_MUST(number <= words_.size(), MVS_E_FORMAT, "mvs", "a part of the file ends too early");
@@ -71,8 +73,8 @@ class SessionReader {
     MVS_MUST(words_.empty(), MVS_E_FORMAT, "mvs", "a part of the file has words left over");
   }
 
-  // The thing of the number that comes next: made by work(thing) from the words of that part, or
-  // made before.
+  // Returns the item with the next number: built by work(item) from the words of its part at the
+  // first reference.
   template <typename Thing, typename Work>
   const Thing &part(Made<Thing> &made, Work work) {
     const uint64_t number = next();
@@ -92,12 +94,11 @@ class SessionReader {
   template <typename Value>
   std::span<const Value> values(uint64_t number) const;
 
-  void item(RecordedEvent &move) { pass(*this, move); }
+  void item(RecordedEvent &event) { pass(*this, event); }
   void item(std::shared_ptr<const HistoryEntry> &entry);
   Operation operation();
-  void field(const OpField &f, char *at);
 
-  std::span<const uint64_t> words_;  // what is left of the part being read
+  std::span<const uint64_t> words_;  // unread words of the present part
   const PoolReader<uint64_t> parts_;
   const PoolReader<double> numbers_;
   const PoolReader<uint32_t> indices_;
@@ -110,7 +111,7 @@ class SessionReader {
              Made<std::shared_ptr<const HistoryEntry>>>
       made_;
   ModelPtr last_model_;
-  // what the operation being read points to
+  // data of the pointers of the operation being read
   std::vector<CowVector<Vec3>> points_;
   std::vector<std::unique_ptr<std::string>> names_;
 };
@@ -123,8 +124,8 @@ void SessionReader::word(uint32_t &number) {
 
 void SessionReader::choice(RecordedEvent::Kind &kind) {
   const uint64_t word = next();
-  MVS_MUST(word >= RecordedEvent::load && word <= RecordedEvent::lead, MVS_E_FORMAT, "mvs",
-           "the history of the file has a move of kind %llu, which there is not",
+  MVS_MUST(word >= RecordedEvent::load && word <= RecordedEvent::tool_trajectory, MVS_E_FORMAT,
+           "mvs", "the history of the file has an event of kind %llu, which does not exist",
            static_cast<unsigned long long>(word));
   kind = static_cast<RecordedEvent::Kind>(word);
 }
@@ -162,7 +163,8 @@ void SessionReader::array(CowVector<Element> &items) {
   }
   const auto found = values<typename Stored<Element>::Value>(number);
   MVS_MUST(found.size() % columns == 0, MVS_E_FORMAT, "mvs",
-           "an array of the file has %zu values, which are no rows of %zu", found.size(), columns);
+           "an array of the file has %zu values, which is not a multiple of %zu", found.size(),
+           columns);
   std::vector<Element> elements(found.size() / columns);
   for (size_t k = 0; k < found.size(); ++k) {
     if constexpr (columns == 1) {
@@ -185,7 +187,7 @@ void SessionReader::list(CowVector<Part> &parts) {
 
 void SessionReader::model(ModelPtr &model) {
   model = part(made<ModelPtr>(), [&](ModelPtr &it) {
-    // what follows from the valve is shared with the last model, the valve with what was read
+    // make_model shares derived data with the last model
     Model like = last_model_ ? *last_model_ : Model{};
     pass(*this, like.valve);
     it = make_model(like.valve, &like);
@@ -204,7 +206,7 @@ void check_tools(const Model &model, const CowVector<Tool> &tools) {
   }
 }
 
-// What make_model does not see: a state that fits its model.
+// Checks that a state fits its model.
 void SessionReader::check(const ModelState &current) const {
   const State &state = current.state;
   const size_t n = current.model->node_count();
@@ -225,19 +227,20 @@ void SessionReader::check(const ModelState &current) const {
   }
 }
 
-void SessionReader::check(const RecordedEvent &move) {
+void SessionReader::check(const RecordedEvent &event) {
   const bool is_of_tool =
-      move.kind >= RecordedEvent::tool_add && move.kind <= RecordedEvent::tool_remove;
-  bool is_good = move.kind == RecordedEvent::lead ? is_whole(move) : move.tool.size() == is_of_tool;
-  for (const Tool &tool : move.tool.get()) {
+      event.kind >= RecordedEvent::tool_add && event.kind <= RecordedEvent::tool_remove;
+  bool is_good = event.kind == RecordedEvent::tool_trajectory ? is_consistent(event)
+                                                              : event.tools.size() == is_of_tool;
+  for (const Tool &tool : event.tools.get()) {
     is_good = is_good && tool.kind >= MVS_TOOL_KIND_GRASP && tool.kind <= MVS_TOOL_KIND_ROD;
   }
   MVS_MUST(is_good, MVS_E_FORMAT, "history",
-           "the history of the file has a move whose tools and numbers do not agree");
+           "the history of the file has an event whose tools and numbers do not agree");
 }
 
 template <typename Item>
-void SessionReader::stack(PersistentList<Item> &items) {
+void SessionReader::list(PersistentList<Item> &items) {
   items = part(made<PersistentList<Item>>(), [&](PersistentList<Item> &all) {
     for (uint64_t left = count(); left > 0; --left) {
       Item one{};
@@ -292,7 +295,7 @@ Operation SessionReader::operation() {
     MVS_MUST(found != kind->fields.end() && found->type == type, MVS_E_VERSION, "mvs",
              "the history of the file has a field %.63s of %s that this libmvs does not know",
              name.c_str(), kind->name);
-    field(*found, start + found->offset);
+    pass_field(*this, *found, start + found->offset);
   }
   try {
     return Operation(reinterpret_cast<const mvs_op *>(start));
@@ -302,44 +305,16 @@ Operation SessionReader::operation() {
   }
 }
 
-void SessionReader::field(const OpField &f, char *at) {
-  switch (f.type) {
-    case MVS_FIELD_NUMBER:
-      return number(*reinterpret_cast<double *>(at));
-    case MVS_FIELD_COUNT:
-    case MVS_FIELD_CHOICE:
-      return word(*reinterpret_cast<uint32_t *>(at));
-    case MVS_FIELD_CHORD:
-    case MVS_FIELD_HEAD:
-    case MVS_FIELD_SCALLOP:
-      return word(*reinterpret_cast<mvs_id *>(at));
-    case MVS_FIELD_SITE: {
-      auto &site = *reinterpret_cast<mvs_site *>(at);
-      word(site.how);
-      word(site.index);
-      word(site.scallop);
-      for (double &u : site.u) number(u);
-      return;
-    }
-    case MVS_FIELD_POINT:
-      for (double &x : reinterpret_cast<mvs_point *>(at)->at) number(x);
-      return word(reinterpret_cast<mvs_point *>(at)->given);
-    case MVS_FIELD_VECTOR:
-      for (double &x : *reinterpret_cast<std::array<double, 3> *>(at)) number(x);
-      return;
-    case MVS_FIELD_POINTS: {
-      const CowVector<Vec3> &points = points_.emplace_back();
-      array(points_.back());
-      if (points.empty()) return;
-      *reinterpret_cast<mvs_array *>(at) = {points.data(), points.size(), 3, MVS_TYPE_F64, 0};
-      return;
-    }
-    default: {
-      const bool given = next() != 0;
-      text(*names_.emplace_back(std::make_unique<std::string>()));
-      if (given) *reinterpret_cast<const char **>(at) = names_.back()->c_str();
-    }
-  }
+void SessionReader::points(mvs_array &given) {
+  const CowVector<Vec3> &points = points_.emplace_back();
+  array(points_.back());
+  if (!points.empty()) given = {points.data(), points.size(), 3, MVS_TYPE_F64, 0};
+}
+
+void SessionReader::optional_text(const char *&given) {
+  const bool is_given = next() != 0;
+  text(*names_.emplace_back(std::make_unique<std::string>()));
+  if (is_given) given = names_.back()->c_str();
 }
 
 }  // namespace

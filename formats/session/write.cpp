@@ -1,5 +1,5 @@
-// Sessions, written. What is shared in memory is found by its address first, so that the content of
-// an array is looked at once however many levels have it.
+// Writer of sessions. Shared data is found by its address first, so that each array is hashed once,
+// not once per level.
 #include <bit>
 #include <cmath>
 
@@ -17,7 +17,7 @@ class SessionWriter {
   void write(const Snapshot &snapshot) { pass(*this, snapshot); }
   void put_into(H5Tree &tree);
 
-  // what session_layout.h asks of an archive
+  // the archive functions of layout.h
   void word(uint64_t number) { words_.push_back(number); }
   void word(int64_t number) { word(static_cast<uint64_t>(number)); }
   void word(uint32_t number) { word(uint64_t{number}); }
@@ -29,15 +29,17 @@ class SessionWriter {
   template <typename Part>
   void list(const CowVector<Part> &parts);
   void model(const ModelPtr &model);
+  void points(const mvs_array &given);
+  void optional_text(const char *given);
   template <typename Item>
-  void stack(const PersistentList<Item> &items);
+  void list(const PersistentList<Item> &items);
   void check(const ModelState &) {}
   void check(const RecordedEvent &) {}
   void optional(const std::shared_ptr<const ModelState> &current);
   void optional(const std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
 
  private:
-  // Words of their own, kept once; tells their number.
+  // Stores the words that work() writes as a part, and returns its number.
   template <typename Work>
   uint64_t part(Work work) {
     std::vector<uint64_t> around;
@@ -46,18 +48,16 @@ class SessionWriter {
     around.swap(words_);
     return parts_.add(around.data(), around.size());
   }
-  // The same for what has an address: it is looked at the first time only.
+  // The same for an object with an address: work() runs at its first reference only.
   template <typename Work>
   void part_at(const void *address, Work work) {
     const auto place = at_.find(address);
     word(place != at_.end() ? place->second : at_.emplace(address, part(work)).first->second);
   }
 
-  void item(const RecordedEvent &move) { pass(*this, move); }
+  void item(const RecordedEvent &event) { pass(*this, event); }
   void item(const std::shared_ptr<const HistoryEntry> &entry);
   void operation(const Operation &op);
-  void field(const Operation &op, const OpField &f);
-  void site(const mvs_site &site);
 
   std::vector<uint64_t> words_;
   PoolWriter<uint64_t> parts_;
@@ -65,11 +65,11 @@ class SessionWriter {
   PoolWriter<uint32_t> indices_;
   PoolWriter<uint8_t> texts_;
   std::map<const void *, uint64_t> at_;
-  std::vector<CowVector<Vec3>> points_;  // kept, so that no address is used twice
+  std::vector<CowVector<Vec3>> points_;  // kept alive, so that addresses stay unique
 };
 
 void SessionWriter::put_into(H5Tree &tree) {
-  tree.arrays["mvs/moment"] = {std::move(words_)};
+  tree.arrays["mvs/snapshot"] = {std::move(words_)};
   parts_.put_into(tree, "mvs/parts");
   numbers_.put_into(tree, "mvs/numbers");
   indices_.put_into(tree, "mvs/indices");
@@ -131,7 +131,7 @@ void SessionWriter::model(const ModelPtr &model) {
 }
 
 template <typename Item>
-void SessionWriter::stack(const PersistentList<Item> &items) {
+void SessionWriter::list(const PersistentList<Item> &items) {
   word(part([&] {
     word(uint64_t{items.size()});
     for (const Item *one : items.items()) item(*one);
@@ -156,53 +156,24 @@ void SessionWriter::optional(const std::shared_ptr<const std::vector<Checkpoint>
   for (const Checkpoint &checkpoint : *checkpoints) pass(*this, checkpoint);
 }
 
-// By the names of ops.def, so that kinds and fields may be added.
+// Writes names of ops.def, so that kinds and fields can be added.
 void SessionWriter::operation(const Operation &op) {
   text(op.kind().name);
   word(uint64_t{op.kind().fields.size()});
   for (const OpField &f : op.kind().fields) {
     text(f.name);
     word(f.type);
-    field(op, f);
+    pass_field(*this, f, &op.field<char>(f));
   }
 }
 
-void SessionWriter::field(const Operation &op, const OpField &f) {
-  switch (f.type) {
-    case MVS_FIELD_NUMBER:
-      return number(op.field<double>(f));
-    case MVS_FIELD_COUNT:
-    case MVS_FIELD_CHOICE:
-      return word(op.field<uint32_t>(f));
-    case MVS_FIELD_CHORD:
-    case MVS_FIELD_HEAD:
-    case MVS_FIELD_SCALLOP:
-      return word(op.field<mvs_id>(f));
-    case MVS_FIELD_SITE:
-      return site(op.field<mvs_site>(f));
-    case MVS_FIELD_POINT:
-      for (const double at : op.field<mvs_point>(f).at) number(at);
-      return word(op.field<mvs_point>(f).given);
-    case MVS_FIELD_VECTOR:
-      for (const double at : op.field<std::array<double, 3>>(f)) number(at);
-      return;
-    case MVS_FIELD_POINTS:
-      return array(points_.emplace_back(points_of(op.field<mvs_array>(f))));
-    case MVS_FIELD_TEXT: {
-      const char *const given = op.field<const char *>(f);
-      word(uint64_t{given != nullptr});
-      return text(given ? given : std::string_view());
-    }
-    default:
-      fail(MVS_E_INTERNAL, f.name, "a session has no way to keep field %s", f.name);
-  }
+void SessionWriter::points(const mvs_array &given) {
+  array(points_.emplace_back(points_of(given)));
 }
 
-void SessionWriter::site(const mvs_site &site) {
-  word(site.how);
-  word(site.index);
-  word(site.scallop);
-  for (const double u : site.u) number(u);
+void SessionWriter::optional_text(const char *given) {
+  word(uint64_t{given != nullptr});
+  text(given ? given : std::string_view());
 }
 
 }  // namespace
@@ -213,7 +184,7 @@ std::string write_session(const Snapshot &snapshot, const std::vector<VtpArray> 
   H5Tree tree;
   writer.put_into(tree);
   const ModelState &now = snapshot.current;
-  add_vtk_hdf(tree, make_vtk_picture(*now.model, now.state, arrays));
+  add_vtk_hdf(tree, make_vtk_polydata(*now.model, now.state, arrays));
   return write_h5(tree, session_version);
 }
 

@@ -1,4 +1,4 @@
-// Three bytes are four digits.
+// Base64 codec: three bytes per four digits.
 #include "formats/text/base64.h"
 
 #include <mvs/base.h>
@@ -41,7 +41,7 @@ std::string base64_bytes(std::string_view text, const char *part) {
     if (k % 4 != 3) continue;
     for (int shift = 16; shift >= 0; shift -= 8) bytes += static_cast<char>(group >> shift & 255);
   }
-  MVS_MUST(is_good, MVS_E_FORMAT, part, "%s is no base64", part);
+  MVS_MUST(is_good, MVS_E_FORMAT, part, "%s is not base64", part);
   bytes.resize(bytes.size() - padding);
   return bytes;
 }

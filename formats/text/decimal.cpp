@@ -8,7 +8,7 @@
 namespace mvs::core {
 namespace {
 
-// Numbers of this exponent range are written without one: 0.0001 .. 10^16.
+// Numbers in this range of exponents are written without one: 0.0001 to 10^16.
 constexpr int lowest_plain = -4, highest_plain = 15;
 
 bool is_digit(char c) {
@@ -38,7 +38,7 @@ bool scan_mantissa(std::string_view text, Mantissa &mantissa) {
   return any;
 }
 
-// Nothing, or e [sign] digits.
+// Empty, or e [sign] digits.
 bool scan_exponent(std::string_view text, int &exponent) {
   constexpr int beyond_any_double = 9999;
   if (text.empty()) return true;
@@ -89,7 +89,7 @@ void append_decimal(std::string &out, double value, int shift) {
   int exponent = 0;
   std::from_chars(e[1] == '+' ? e + 2 : e + 1, end, exponent);
   if (e - text > 1) {
-    text[1] = text[0];  // over the point: the digits are now in one piece
+    text[1] = text[0];  // overwrites the point, so that the digits are contiguous
     append_digits(out, {text + 1, static_cast<size_t>(e - text - 1)}, exponent + shift);
   } else {
     append_digits(out, {text, 1}, exponent + shift);
@@ -109,7 +109,7 @@ bool parse_decimal(std::string_view token, double &value, int shift) {
   *end++ = 'e';
   end = std::to_chars(end, text + sizeof text, exponent - shift).ptr;
   const auto [stop, error] = std::from_chars(text, end, value);
-  // implementations differ in how they tell of underflow, so zero from other digits is refused here
+  // implementations report underflow differently: zero from nonzero digits is refused here
   return error == std::errc() && stop == end && std::isfinite(value) &&
          (value != 0 || !mantissa.nonzero);
 }

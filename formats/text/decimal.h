@@ -1,6 +1,6 @@
-// Doubles as decimal text and back, with the decimal point moved on the way: metres in memory are
-// millimetres in text. Moving the point changes the exponent, not the digits, so a round trip is
-// exact at any shift, which x * 1000 / 1000 is not. Independent of the locale.
+// Doubles as decimal text and back, with a shift of the decimal point: metres in memory are
+// millimetres in text. The shift changes the exponent, not the digits, so that a round trip is
+// exact for any shift, which x * 1000 / 1000 is not. Independent of the locale.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The reader's events become values; values become text.
+// JSON parser (nlohmann SAX events to values) and writer.
 #include "formats/text/json.h"
 
 #include <nlohmann/json.hpp>
@@ -12,8 +12,8 @@ using Library = nlohmann::json;
 
 constexpr size_t deepest = 64;
 
-// Builds a value from what the library's parser meets on its way.
-class Builder : public nlohmann::json_sax<Library> {
+// Builds a value from the events of the parser.
+class JsonBuilder : public nlohmann::json_sax<Library> {
  public:
   bool null() override { return put(Json()); }
   bool boolean(bool value) override { return put(Json(value)); }
@@ -43,7 +43,7 @@ class Builder : public nlohmann::json_sax<Library> {
   bool too_deep = false;
 
  private:
-  // Values that are not closed yet, each with the key of its next member.
+  // Open values, each with the key of its next member.
   std::vector<std::pair<Json, std::string>> open_;
 
   bool open(Json value) {
@@ -94,12 +94,12 @@ Json Json::numbers(std::initializer_list<double> values) {
 }
 
 Json Json::parse(std::string_view text) {
-  Builder builder;
+  JsonBuilder builder;
   const bool good = Library::sax_parse(text.begin(), text.end(), &builder);
   MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "the JSON is nested deeper than %zu levels",
            deepest);
-  MVS_MUST(good, MVS_E_FORMAT, "json", "this is no JSON: wrong at byte %zu; it may be cut short",
-           builder.at);
+  MVS_MUST(good, MVS_E_FORMAT, "json",
+           "the text is not JSON: error at byte %zu; it may be cut short", builder.at);
   return std::move(builder.result);
 }
 
@@ -164,7 +164,7 @@ void Json::write(std::string &out, int indent) const {
       break;
   }
   const bool is_list = is_array();
-  // short lists of numbers stay on their line
+  // short lists of numbers stay on one line
   const bool flat = is_list && items_.size() <= 3;
   const size_t count = is_list ? items_.size() : members_.size();
   out += is_list ? '[' : '{';

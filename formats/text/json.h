@@ -1,8 +1,8 @@
-// JSON values of our own, read and written by nlohmann::json.
+// JSON values, parsed and printed by nlohmann::json.
 //
-// Its own values are not used: their destructor allocates (to flatten what is nested), so that
-// running out of memory while one is taken apart would end the host's process. Ours do not, and are
-// never nested deeper than the limit.
+// nlohmann's own values are not used: their destructor allocates (to flatten nested values), so
+// that a lack of memory during destruction would end the host's process. The destructor here does
+// not allocate, and the nesting depth is limited.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +30,10 @@ class Json {
   static Json object(std::initializer_list<Member> members = {});
   static Json numbers(std::initializer_list<double> values);
 
-  // Throws MVS_E_FORMAT with the byte where the text is no JSON.
+  // Throws MVS_E_FORMAT with the byte offset of the error.
   static Json parse(std::string_view text);
-  // On one line, or indented by two blanks a level. Doubles have the digits that read back as they
-  // are; bytes that are not UTF-8 are replaced.
+  // Prints on one line, or indented by two blanks per level. Doubles have the shortest digits that
+  // read back exactly; bytes that are not UTF-8 are replaced.
   std::string line() const;
   std::string page() const;
 
@@ -44,7 +44,7 @@ class Json {
   bool is_whole() const { return type_ == Type::whole; }
   bool is_number() const { return type_ == Type::number || type_ == Type::whole; }
 
-  // What it holds; of another type a zero or an empty text.
+  // The value; zero or an empty text for another type.
   double number() const { return is_whole() ? static_cast<double>(whole_) : number_; }
   uint64_t whole() const { return whole_; }
   const std::string &text() const { return text_; }
@@ -52,10 +52,10 @@ class Json {
   // The members of an object, in order; the items of an array.
   const std::vector<Member> &members() const { return members_; }
   const std::vector<Json> &items() const { return items_; }
-  // Null where there is none.
+  // Returns the member with this key, or null.
   const Json *find(std::string_view key) const;
   bool has(std::string_view key) const { return find(key) != nullptr; }
-  // The member of this key; a null value where there is none.
+  // The member with this key; a null value if it does not exist.
   const Json &operator[](std::string_view key) const;
 
   // Makes this an object with the member, or an array with one more item.

@@ -22,7 +22,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// The number of blanks, or of others, that a text begins with.
+// Returns the number of leading blanks, or of leading other characters.
 size_t count_leading(std::string_view text, bool blanks) {
   size_t count = 0;
   while (count < text.size() && is_blank(text[count]) == blanks) ++count;
@@ -123,7 +123,7 @@ uint32_t Line::vertex(size_t count) {
   const int64_t limit = static_cast<int64_t>(count);
   if (index == 0) fail("%s is not a vertex: the first one is 1", quoted(token).c_str());
   if (index > limit || index < -limit) {
-    fail("vertex %s is none of the %zu above this line", quoted(token).c_str(), count);
+    fail("vertex %s is not one of the %zu above this line", quoted(token).c_str(), count);
   }
   return static_cast<uint32_t>(index > 0 ? index - 1 : limit + index);
 }

@@ -1,4 +1,4 @@
-// One line of a text file, taken apart word by word; every complaint names the line and the word.
+// Parser of one line of a text file; every error names the line and the word.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 
 namespace mvs::core {
 
-// A word as it may be shown in a sentence: at most 32 bytes, odd ones as \x00, in backquotes.
+// Returns a word for an error message: at most 32 bytes, unprintable ones as \x00, in backquotes.
 std::string quoted(std::string_view word);
 
-// A whole number of digits alone; false for anything else.
+// Parses a number of digits only; returns false for another text.
 bool parse_whole(std::string_view text, uint64_t &value);
 
 class Line {
@@ -22,13 +22,14 @@ class Line {
   Line() = default;
   Line(std::string_view text, int32_t number) : rest_(text), number_(number) {}
 
-  // The next word, empty at the end of the line. Words are parted by spaces and tabs.
+  // Returns the next word, empty at the end. Spaces and tabs separate words.
   std::string_view word();
   // A number, divided by 10^shift.
   double number(int shift = 0);
   // A whole number, without sign.
   uint64_t whole();
-  // The 0-based index of a vertex out of `count`: files count from 1, or from the end with -1.
+  // Returns the 0-based index of one of `count` vertices; files count from 1, or from the end with
+  // -1.
   uint32_t vertex(size_t count);
   // Fails if words are left.
   void end();
@@ -42,8 +43,8 @@ class Line {
   int32_t number_ = 0;
 };
 
-// The words left in a line, as key=value pairs. Each getter takes its key; what nobody took is an
-// unknown key.
+// The remaining words of a line as key=value pairs. Each getter takes its key; end() refuses the
+// others as unknown.
 class Fields {
  public:
   explicit Fields(Line &line);

@@ -1,3 +1,4 @@
+// Points, cells and arrays of a valve as VTK PolyData.
 #include "formats/vtk/polydata.h"
 
 #include <algorithm>
@@ -9,13 +10,13 @@
 namespace mvs::core {
 namespace {
 
-constexpr double mm = 1e3;
+constexpr double vtk_mm = 1e3;  // per m
 
 std::vector<double> in_mm(const std::vector<Vec3> &places) {
   std::vector<double> numbers;
   numbers.reserve(3 * places.size());
   for (const Vec3 &place : places) {
-    numbers.insert(numbers.end(), {place[0] * mm, place[1] * mm, place[2] * mm});
+    numbers.insert(numbers.end(), {place[0] * vtk_mm, place[1] * vtk_mm, place[2] * vtk_mm});
   }
   return numbers;
 }
@@ -40,8 +41,8 @@ void add_number(std::vector<VtkArray> &to, const std::string &name, double numbe
   add(to, name, 1, std::vector<double>(1, number));
 }
 
-// SPACE is what 3D Slicer looks for, TimeValue what ParaView does. (No lists in braces here: GCC 12
-// destroys what it has not made yet when an allocation fails in one.)
+// 3D Slicer reads SPACE, ParaView reads TimeValue. (No braced lists here: GCC 12 destroys elements
+// it has not constructed if an allocation fails in one.)
 void add_field_data(std::vector<VtkArray> &to, const Valve &valve, const State &state) {
   add_text(to, "SPACE", "LPS");
   add_text(to, "UNITS", "mm");
@@ -54,7 +55,7 @@ void add_field_data(std::vector<VtkArray> &to, const Valve &valve, const State &
   add_number(to, "boundary_fraction", state.load.boundary_fraction);
 }
 
-// One value a chord, then one a triangle.
+// Adds one value per chord, then one per triangle.
 template <typename Number, typename OfChord, typename OfTriangle>
 void add_cells(std::vector<VtkArray> &to, const Valve &valve, const char *name, OfChord of_chord,
                OfTriangle of_triangle) {
@@ -81,15 +82,15 @@ void add_cell_data(std::vector<VtkArray> &to, const Valve &valve) {
   add_cells<int32_t>(
       to, valve, "chord_kind", [](const Chord &c) { return c.kind; }, no_triangle);
   add_cells<double>(
-      to, valve, "rest_length_mm", [](const Chord &c) { return c.rest_length * mm; },
+      to, valve, "rest_length_mm", [](const Chord &c) { return c.rest_length * vtk_mm; },
       [](size_t) { return nothing; });
   add_cells<double>(
       to, valve, "thickness_mm", [](const Chord &) { return nothing; },
-      [&](size_t t) { return valve.triangle_thickness[t] * mm; });
+      [&](size_t t) { return valve.triangle_thickness[t] * vtk_mm; });
 }
 
-// The caller has triangles first, VTK has lines first.
-void add_given(VtkPicture &current, const VtpArray &given) {
+// The caller orders triangles first, VTK lines first: rotates the rows.
+void add_given(VtkPolyData &current, const VtpArray &given) {
   const size_t components = static_cast<size_t>(given.components);
   const size_t rows =
       given.on_points ? current.points.size() / 3 : current.triangles.count + current.chords.count;
@@ -106,12 +107,12 @@ void add_given(VtkPicture &current, const VtpArray &given) {
 
 }  // namespace
 
-VtkPicture make_vtk_picture(const Model &model, const State &state,
-                            const std::vector<VtpArray> &arrays) {
+VtkPolyData make_vtk_polydata(const Model &model, const State &state,
+                              const std::vector<VtpArray> &arrays) {
   const Valve &valve = model.valve;
   MVS_MUST(state.x.size() == model.node_count(), MVS_E_INTERNAL, "state",
            "the state has %zu positions for %zu nodes", state.x.size(), model.node_count());
-  VtkPicture current;
+  VtkPolyData current;
   current.points = in_mm(state.x);
   current.chords = {valve.chords.size(), 2, {}};
   for (const Chord &chord : valve.chords) {

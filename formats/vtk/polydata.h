@@ -1,4 +1,4 @@
-// A valve as VTK's PolyData: what the VTP and the HDF5 file both show to other programs.
+// A valve as VTK PolyData, for the VTP and HDF5 writers.
 #pragma once
 
 #include "formats/formats.h"
@@ -12,24 +12,24 @@ struct VtkArray {
   H5Values values;
 };
 
-// Cells by the nodes of each, one cell after the other.
+// Cells as consecutive node indices.
 struct VtkCells {
   size_t count = 0;
   uint32_t nodes_each = 0;
   std::vector<int64_t> nodes;
 };
 
-// In mm. Cell data has a row for each chord, then for each triangle: VTK has lines before polygons.
-struct VtkPicture {
+// In mm. Cell data has one row per chord, then one per triangle: VTK orders lines before polygons.
+struct VtkPolyData {
   std::vector<double> points;
   VtkCells chords, triangles;
   std::vector<VtkArray> field_data, point_data, cell_data;
 };
 
-VtkPicture make_vtk_picture(const Model &model, const State &state,
-                            const std::vector<VtpArray> &arrays);
+VtkPolyData make_vtk_polydata(const Model &model, const State &state,
+                              const std::vector<VtpArray> &arrays);
 
-// The same as group VTKHDF of an HDF5 file (VTK HDF file format, version 2.1).
-void add_vtk_hdf(H5Tree &tree, VtkPicture current);
+// Adds the PolyData as group VTKHDF of an HDF5 file (VTK HDF file format, version 2.1).
+void add_vtk_hdf(H5Tree &tree, VtkPolyData current);
 
 }  // namespace mvs::core

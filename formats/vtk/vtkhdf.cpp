@@ -1,5 +1,4 @@
-// PolyData in HDF5 as the VTK file format documentation has it: one partition, and every kind of
-// cells there even if it is empty.
+// PolyData as VTK HDF: one partition, with every kind of cells present even if empty.
 #include <algorithm>
 #include <utility>
 
@@ -12,7 +11,7 @@ std::vector<int64_t> one(size_t number) {
   return {static_cast<int64_t>(number)};
 }
 
-void add_cells(H5Tree &tree, const std::string &path, VtkCells cells) {
+void add_cell_group(H5Tree &tree, const std::string &path, VtkCells cells) {
   std::vector<int64_t> offsets(cells.count + 1);
   for (size_t k = 0; k <= cells.count; ++k) {
     offsets[k] = static_cast<int64_t>(k * cells.nodes_each);
@@ -25,7 +24,7 @@ void add_cells(H5Tree &tree, const std::string &path, VtkCells cells) {
 
 void add_arrays(H5Tree &tree, const std::string &path, std::vector<VtkArray> arrays) {
   for (VtkArray &array : arrays) {
-    // a slash would begin a group, and VTK has no name twice
+    // a slash would create a group
     std::replace(array.name.begin(), array.name.end(), '/', '_');
     const uint32_t columns = array.components == 1 ? 0 : array.components;
     tree.arrays[path + "/" + array.name] = {std::move(array.values), columns};
@@ -34,16 +33,16 @@ void add_arrays(H5Tree &tree, const std::string &path, std::vector<VtkArray> arr
 
 }  // namespace
 
-void add_vtk_hdf(H5Tree &tree, VtkPicture current) {
+void add_vtk_hdf(H5Tree &tree, VtkPolyData current) {
   const std::string group = "VTKHDF";
   tree.attributes[{group, "Version"}] = {"", {2, 1}};
   tree.attributes[{group, "Type"}] = {"PolyData"};
   tree.arrays[group + "/NumberOfPoints"] = {one(current.points.size() / 3)};
   tree.arrays[group + "/Points"] = {std::move(current.points), 3};
-  add_cells(tree, group + "/Vertices", {});
-  add_cells(tree, group + "/Lines", std::move(current.chords));
-  add_cells(tree, group + "/Polygons", std::move(current.triangles));
-  add_cells(tree, group + "/Strips", {});
+  add_cell_group(tree, group + "/Vertices", {});
+  add_cell_group(tree, group + "/Lines", std::move(current.chords));
+  add_cell_group(tree, group + "/Polygons", std::move(current.triangles));
+  add_cell_group(tree, group + "/Strips", {});
   add_arrays(tree, group + "/FieldData", std::move(current.field_data));
   add_arrays(tree, group + "/PointData", std::move(current.point_data));
   add_arrays(tree, group + "/CellData", std::move(current.cell_data));

@@ -45,7 +45,7 @@ const char *type_name(uint8_t) {
 
 class VtpWriter {
  public:
-  std::string write(const VtkPicture &current);
+  std::string write(const VtkPolyData &current);
 
  private:
   void section(const char *name, const std::vector<VtkArray> &arrays);
@@ -53,14 +53,14 @@ class VtpWriter {
 
   template <typename Number>
   void array(std::string_view name, size_t components, const std::vector<Number> &values);
-  // Strings are the codes of their bytes, each with a zero at its end.
+  // Strings are written as byte codes with a terminating zero.
   void array(std::string_view name, size_t, const std::vector<std::string> &values);
 
   std::string out_;
-  bool in_field_ = false;  // the one section whose arrays have lengths of their own
+  bool in_field_ = false;  // the section whose arrays state their own lengths
 };
 
-std::string VtpWriter::write(const VtkPicture &current) {
+std::string VtpWriter::write(const VtkPolyData &current) {
   out_ += "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"";
   out_ += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   out_ += "\" header_type=\"UInt64\">\n<PolyData>\n";
@@ -130,7 +130,7 @@ void VtpWriter::array(std::string_view name, size_t, const std::vector<std::stri
 }  // namespace
 
 std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays) {
-  return VtpWriter().write(make_vtk_picture(model, state, arrays));
+  return VtpWriter().write(make_vtk_polydata(model, state, arrays));
 }
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Numbers in text, with '.' as decimal point whatever the locale is.
+// Parsing of numbers with '.' as decimal point, independent of the locale.
 #pragma once
 
 #include <charconv>
@@ -8,7 +8,7 @@
 
 namespace driver {
 
-// The finite number that the whole of `text` is, or nothing.
+// Returns the finite number in `text`, or nullopt if `text` is not entirely a number.
 inline std::optional<double> decimal(std::string_view text) {
   double value = 0;
   const char *const end = text.data() + text.size();
@@ -17,7 +17,7 @@ inline std::optional<double> decimal(std::string_view text) {
   return value;
 }
 
-// The same of a count that fits 32 bits.
+// Returns the 32-bit count in `text`, or nullopt.
 inline std::optional<unsigned> count(std::string_view text) {
   unsigned value = 0;
   const char *const end = text.data() + text.size();

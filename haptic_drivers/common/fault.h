@@ -1,4 +1,4 @@
-// Why a function failed: a code and its sentence, kept without allocating, for the device's rate.
+// Error code with a message, stored without allocation, for use at the device's rate.
 #pragma once
 
 #include <cstdarg>
@@ -9,7 +9,7 @@
 namespace driver {
 
 struct Fault {
-  // Returns `code`.
+  // Formats the message and returns `code`.
   [[gnu::format(printf, 3, 4)]] int32_t set(int32_t code, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -21,7 +21,7 @@ struct Fault {
   char sentence[400] = "";
 };
 
-// Turns a failure into a Refusal, where nothing hurries.
+// Throws a Refusal on failure; not for use at the device's rate.
 inline void must(int32_t result, const Fault &fault) {
   if (result != MVS_DRIVER_OK) refuse(result, fault.sentence);
 }

@@ -1,4 +1,4 @@
-// Findings of a driver's doctor(), told in strings.
+// Findings of a driver's doctor(), from strings.
 #pragma once
 
 #include <mvs/driver.h>
@@ -17,16 +17,17 @@ struct Finder {
     finding(user, verdict, check.c_str(), sentence.c_str());
   }
 
-  // What is plugged in, `none` where nothing is, and the udev rule for what may not be opened.
-  void say_usb(const std::vector<UsbDevice> &devices, const char *none, const char *rule) const {
-    if (devices.empty()) say(-1, "USB", none);
+  // Reports each connected device, or `absent` if there is no device; adds the udev rule for a
+  // device that this user may not open.
+  void say_usb(const std::vector<UsbDevice> &devices, const char *absent, const char *rule) const {
+    if (devices.empty()) say(-1, "USB", absent);
     for (const UsbDevice &device : devices) {
-      const std::string who = device.name + " (" + device.id + ") is plugged in, ";
+      const std::string subject = device.name + " (" + device.id + ") is plugged in, ";
       if (device.closed.empty())
-        say(1, "USB", who + "and this user may talk to it");
+        say(1, "USB", subject + "and this user may talk to it");
       else
         say(0, "USB",
-            who + "but this user may not open " + device.closed + ": add a udev rule, " + rule +
+            subject + "but this user may not open " + device.closed + ": add a udev rule, " + rule +
                 ", then plug it in again");
     }
   }

@@ -1,4 +1,4 @@
-// What every driver in C++ does where it meets libmvs: sizes, versions, and sentences for failures.
+// Helpers for drivers in C++ at the interface to libmvs: struct sizes, handshake, error messages.
 #pragma once
 
 #include <mvs/driver.h>
@@ -12,7 +12,7 @@
 
 namespace driver {
 
-// Thrown while a device is listed, looked at or opened; never at the device's rate, never outside.
+// Thrown by list, doctor and open; never at the device's rate, and never out of the driver.
 struct Refusal {
   int32_t code;
   std::string sentence;
@@ -22,14 +22,14 @@ struct Refusal {
   throw Refusal{code, std::move(sentence)};
 }
 
-// Gives as much of a struct as its reader has room for; the reader's struct_size stays.
+// Copies a struct to a reader, up to the reader's struct_size, which it keeps.
 template <class T>
 void give(T full, T *out) {
   full.struct_size = out->struct_size;
   std::memcpy(out, &full, std::min<std::size_t>(full.struct_size, sizeof full));
 }
 
-// Takes as much of a struct as its writer filled; the rest is zero.
+// Copies a struct of a writer, up to the writer's struct_size; the rest is zero.
 template <class T>
 T take(const T *in) {
   T full = {};
@@ -37,7 +37,7 @@ T take(const T *in) {
   return full;
 }
 
-// The handshake: `ours` is handed over if both sides know version 1 and the host has room for it.
+// Handshake: copies `ours` if both sides support this version and the host has room for it.
 inline int32_t negotiate(const mvs_driver_host *host, mvs_driver_api *api,
                          const mvs_driver_api &ours) {
   const std::size_t first_version = offsetof(mvs_driver_api, error) + sizeof api->error;
@@ -52,10 +52,10 @@ inline int32_t negotiate(const mvs_driver_host *host, mvs_driver_api *api,
   return MVS_DRIVER_OK;
 }
 
-// The sentence of the last list, doctor or open that failed on this thread.
+// The error message of the last failed list, doctor or open on this thread.
 inline thread_local char last_sentence[768] = "";
 
-// Does what may refuse, and says why it did.
+// Runs `work`; turns exceptions into an error code and last_sentence.
 template <class Work>
 int32_t guarded(Work &&work) {
   last_sentence[0] = 0;

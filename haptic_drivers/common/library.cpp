@@ -1,3 +1,4 @@
+// dlopen and dlsym with checks of the path.
 #include "common/library.h"
 
 #include <dlfcn.h>
@@ -12,12 +13,13 @@ bool is_absolute(const std::string &path) {
   return !path.empty() && path.front() == '/';
 }
 
-// A name alone is looked up by the system; a relative path would be looked for where we stand.
+// A relative path with a folder would be searched in the working directory.
 bool is_safe(const std::string &candidate) {
   return is_absolute(candidate) || (!candidate.empty() && candidate.find('/') == std::string::npos);
 }
 
-// What dlerror says begins with the file that failed: another one is something that this one needs.
+// The message of dlerror begins with the file that failed: the candidate, or a library that it
+// needs.
 bool is_there(const std::string &candidate, const std::string &why) {
   if (is_absolute(candidate)) return access(candidate.c_str(), F_OK) == 0;
   return why.compare(0, candidate.size() + 1, candidate + ":") != 0;

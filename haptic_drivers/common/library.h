@@ -1,4 +1,4 @@
-// Finds a vendor's library at run time, and says why not.
+// Run-time search of a vendor's library.
 #pragma once
 #include <string>
 #include <vector>
@@ -6,21 +6,22 @@
 namespace driver {
 
 struct Library {
-  void *handle = nullptr;  // null: nothing was loaded; never closed, some do not bear it
-  std::string path;        // what was loaded, or what was there and did not load
-  std::string why;         // what the system said to that
-  bool there = false;      // a file is there, even if something that it needs is not
+  void *handle =
+      nullptr;         // null: not loaded; never closed, because some libraries do not support it
+  std::string path;    // of the loaded library, or of the best candidate
+  std::string why;     // the error message of dlopen
+  bool there = false;  // the file exists, even if a library that it needs does not
 };
 
-// The first of the candidates that loads: absolute paths, or names without a folder, which the
-// system looks up. Others are passed over, so that nothing comes from the working directory.
+// Loads the first possible candidate: absolute paths, or names without a folder, which the system
+// searches. Other candidates are skipped, so that no library comes from the working directory.
 Library load(const std::vector<std::string> &candidates);
 
-// What an environment variable names, with `below` after it; empty if it is no absolute path, or
-// if the program runs with more rights than its user has.
+// Returns the value of an environment variable with `below` appended; empty if it is not an
+// absolute path, or if the program runs with elevated privileges.
 std::string below_variable(const char *variable, const char *below);
 
-// Looks `name` up in a library: false, and adds it to `missing`, if it is not exported.
+// Looks up `name` in a library. If it is not exported, returns false and adds it to `missing`.
 template <class Function>
 bool bind(void *library, const char *name, Function &function, std::string &missing);
 void *symbol(void *library, const char *name);

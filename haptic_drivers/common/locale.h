@@ -1,4 +1,4 @@
-// Numbers with a decimal point, for as long as one of these lives.
+// Decimal point in the calling thread during the lifetime of an object.
 #pragma once
 #include <clocale>
 #if !defined(_WIN32)
@@ -8,8 +8,8 @@
 namespace driver {
 
 // Vendors' libraries read their files with strtod and scanf, which in a German locale stop at the
-// point of "0.5": the first numbers of a device are then zero. uselocale changes the calling thread
-// only, setlocale would change those of the application.
+// point of "0.5", so that the first numbers of a device are zero. uselocale changes only the
+// calling thread, setlocale would change the application.
 class DecimalPoint {
  public:
 #if defined(_WIN32)

@@ -1,4 +1,4 @@
-// The options that an application gives, each checked: one that makes no sense is a Refusal.
+// Options of the application, each checked; an invalid one is a Refusal.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class Options {
     return *number;
   }
 
-  // "x,y,z", each at most `most` in magnitude.
+  // Reads "x,y,z", each at most `most` in magnitude.
   Vector vector(const char *key, const Vector &otherwise, double most) const {
     const auto value = text(key);
     if (!value) return otherwise;

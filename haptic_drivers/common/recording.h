@@ -1,4 +1,4 @@
-// A recorded trajectory: what stands in the file, and the pose at any instant of it.
+// Recorded trajectory: samples, and the interpolated pose at any time.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace driver {
 
-// Where the hand is; velocity is that of the straight line between two samples.
+// Pose of the hand; its velocity is the slope between two samples.
 struct Pose {
   Vector position = {};                              // m
   std::array<double, 4> orientation = {1, 0, 0, 0};  // w x y z
@@ -21,11 +21,11 @@ struct Pose {
   Vector velocity = {};  // m/s
 };
 
-// The device that a file says it was recorded from; a negative number is not said.
+// The recorded device as stated in the file; a negative number is unknown.
 struct Source {
   std::string device;
   double force = -1, continuous_force = -1, stiffness = -1, damping = -1, rate = -1;
-  std::array<double, 6> workspace = {};  // m, smallest and largest corner; all zero: not said
+  std::array<double, 6> workspace = {};  // m, smallest and largest corner; all zero: unknown
   unsigned buttons = 0;
 };
 
@@ -36,7 +36,7 @@ class Recording {
     Pose pose;    // without velocity
   };
 
-  // At least two samples, their times growing. From here on time counts from the first one.
+  // Takes at least two samples with increasing times, and shifts their times to start at 0.
   Recording(Source source, std::vector<Sample> samples)
       : source_(std::move(source)), samples_(std::move(samples)) {
     const double begin = samples_.front().time;
@@ -47,8 +47,8 @@ class Recording {
   const std::vector<Sample> &samples() const { return samples_; }
   double duration() const { return samples_.back().time - samples_.front().time; }
 
-  // `time` counts from the first sample; before it and after the last one the hand is at rest
-  // there.
+  // Returns the pose at `time` after the first sample; before it and after the last one the hand is
+  // at rest.
   Pose at(double time) const {
     time += samples_.front().time;
     if (!(time >= samples_.front().time)) return samples_.front().pose;
@@ -58,7 +58,7 @@ class Recording {
     return between(*(next - 1), *next, time);
   }
 
-  // When the first sample after `time` was taken; huge after the last one.
+  // Returns the time of the first sample after `time`; 1e300 after the last one.
   double next_after(double time) const {
     const auto next = std::upper_bound(samples_.begin(), samples_.end(), time,
                                        [](double t, const Sample &s) { return t < s.time; });
@@ -67,20 +67,20 @@ class Recording {
 
  private:
   static Pose between(const Sample &a, const Sample &b, double time) {
-    const double span = b.time - a.time;
-    const double u = (time - a.time) / span;
+    const double interval = b.time - a.time;
+    const double u = (time - a.time) / interval;
     Pose pose = a.pose;  // buttons change at samples only
     for (int k = 0; k < 3; ++k) {
-      const double way = b.pose.position[k] - a.pose.position[k];
-      pose.position[k] = a.pose.position[k] + u * way;
-      pose.velocity[k] = way / span;
+      const double step = b.pose.position[k] - a.pose.position[k];
+      pose.position[k] = a.pose.position[k] + u * step;
+      pose.velocity[k] = step / interval;
     }
     pose.gripper = a.pose.gripper + u * (b.pose.gripper - a.pose.gripper);
     pose.orientation = turn(a.pose.orientation, b.pose.orientation, u);
     return pose;
   }
 
-  // Along the shorter great circle (Shoemake 1985); q and -q are the same orientation.
+  // Spherical linear interpolation along the shorter arc (Shoemake 1985).
   static std::array<double, 4> turn(const std::array<double, 4> &a, std::array<double, 4> b,
                                     double u) {
     double cosine = 0;

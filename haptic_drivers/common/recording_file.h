@@ -1,4 +1,4 @@
-// Reads a recording from a file that nobody has checked; replay/README.md says what stands in it.
+// Strict parser of recording files (format: replay/README.md).
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ class RecordingFile {
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
       refuse(MVS_DRIVER_E_OPTION, path + ": there is no such recording");
-    // a pipe or a device could keep open() waiting for ever
+    // open() of a pipe or a device could block
     if (!std::filesystem::is_regular_file(status))
       refuse(MVS_DRIVER_E_OPTION, path + " is not a file");
     const auto size = std::filesystem::file_size(path, error);
@@ -33,7 +33,7 @@ class RecordingFile {
   static constexpr std::size_t kMostBytes = std::size_t(256) << 20;
   static constexpr std::size_t kMostSamples = 1000000;
   static constexpr double kMostTime = 1e6, kLeastStep = 1e-6;  // s
-  static constexpr double kFarthest = 10;                      // m: no hand reaches that far
+  static constexpr double kFarthest = 10;                      // m
   using Words = std::vector<std::string_view>;
 
   explicit RecordingFile(std::string path) : path_(std::move(path)) {}
@@ -56,7 +56,7 @@ class RecordingFile {
     const Words words = split(whole);
     if (line_ == 1) {
       if (words.size() != 2 || words[0] != "mvs-recording")
-        bad("is no recording: its first line must be \"mvs-recording 1\"");
+        bad("is not a recording: its first line must be \"mvs-recording 1\"");
       if (words[1] != "1") bad("is of a version that this driver does not know: it reads 1");
     } else if (!words.empty()) {
       const char first = words[0][0];
@@ -69,7 +69,7 @@ class RecordingFile {
 
   void header(const Words &words) {
     if (!samples_.empty())
-      bad("a sample begins with its time; what tells of the device stands before the first sample");
+      bad("a sample begins with its time; lines about the device stand before the first sample");
     const std::string_view key = words[0];
     if (key == "device") {
       for (std::size_t k = 1; k < words.size(); ++k)
@@ -114,7 +114,7 @@ class RecordingFile {
     if (samples_.size() == kMostSamples) bad("a recording has at most a million samples");
     Recording::Sample s;
     s.time = number(words[0], -kMostTime, kMostTime);
-    // closer ones would be a velocity without bounds
+    // bounds the velocity
     if (!samples_.empty() && s.time < samples_.back().time + kLeastStep)
       bad("time must grow by at least a microsecond from sample to sample");
     for (int k = 0; k < 3; ++k) s.pose.position[k] = number(words[1 + k], -kFarthest, kFarthest);
@@ -133,7 +133,7 @@ class RecordingFile {
       norm += q[k] * q[k];
     }
     norm = std::sqrt(norm);
-    // written with three digits it is still one
+    // allows for quaternions rounded to three digits
     if (std::abs(norm - 1) > 2e-3) bad("the orientation w x y z is not of length 1");
     for (double &k : q) k /= norm;
   }
@@ -157,7 +157,7 @@ class RecordingFile {
     }
   }
 
-  // Of bytes that may be anything, what can stand in a sentence.
+  // Returns a word for an error message, with unprintable bytes replaced.
   static std::string shown(std::string_view word) {
     std::string out(word.substr(0, 32));
     for (char &c : out)

@@ -1,4 +1,4 @@
-// A sentence in the manner of printf.
+// printf into a string.
 #pragma once
 #include <cstdarg>
 #include <cstdio>

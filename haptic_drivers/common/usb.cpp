@@ -1,3 +1,4 @@
+// Search of /sys/bus/usb and of device files in /dev.
 #include "common/usb.h"
 
 #include <unistd.h>
@@ -26,7 +27,7 @@ bool matches(const std::string &id, const std::vector<std::string> &ids) {
   return false;
 }
 
-// The file of libusb.
+// The device file that libusb opens.
 std::string bus_file(const fs::path &device) {
   char file[64];
   std::snprintf(file, sizeof file, "/dev/bus/usb/%03d/%03d",
@@ -35,8 +36,8 @@ std::string bus_file(const fs::path &device) {
   return file;
 }
 
-// The serial ports (Touch USB) and raw HID files (Touch HID) that the system made of a device: the
-// names below .../tty/ and .../hidraw/ of its interfaces.
+// Adds the serial ports (Touch USB) and raw HID files (Touch HID) of a device: the names below
+// .../tty/ and .../hidraw/ of its interfaces.
 void add_class_files(const fs::path &device, std::vector<std::string> &files) {
   std::error_code ignored;
   auto at = fs::recursive_directory_iterator(device, ignored);
@@ -68,7 +69,7 @@ std::vector<UsbDevice> usb_devices(const std::string &root, const std::vector<st
     if (vendor.empty()) continue;  // an interface
     const std::string id = vendor + ":" + line_of(entry.path() / "idProduct");
     if (!matches(id, ids)) continue;
-    // what the system lists are links to the devices
+    // the entries are links to the devices
     const fs::path device = fs::canonical(entry.path(), ignored);
     found.push_back({id, line_of(device / "product"), first_closed(root, device)});
   }

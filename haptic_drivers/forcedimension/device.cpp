@@ -1,4 +1,4 @@
-// Opens a device, says what it is, calibrates it, closes it.
+// Open, describe, calibrate, start and close a device.
 #include "device.h"
 
 #include <memory>
@@ -13,7 +13,8 @@ namespace {
 using driver::refuse;
 using driver::sentence;
 
-// On the bus, but this user may not open it: then DHD does not find it, or cannot open it.
+// DHD does not find, or cannot open, a USB device without permission: reports the missing udev
+// rule.
 void refuse_permission(const std::string &sysroot) {
   for (const auto &device : driver::usb_devices(sysroot, {"1451:", "0403:cb48"}))
     if (!device.closed.empty())
@@ -25,18 +26,18 @@ void refuse_permission(const std::string &sysroot) {
 [[noreturn]] void refuse_open(int index) {
   const int error = dhd().error_get_last();
   const char *const words = dhd().error_get_last_str();
-  const std::string said = sentence(" (DHD says: %s, %d)", words ? words : "nothing", error);
+  const std::string reason = sentence(" (DHD says: %s, %d)", words ? words : "nothing", error);
   if (error == kErrorInUse || error == kErrorBusy)
     refuse(MVS_DRIVER_E_BUSY,
-           sentence("device %d is open in another program: close it there", index) + said);
+           sentence("device %d is open in another program: close it there", index) + reason);
   if (error == kErrorNoDriver || error == kErrorNoDevice)
     refuse(MVS_DRIVER_E_ABSENT,
-           sentence("device %d is not there: check cable and power", index) + said);
+           sentence("device %d is not there: check cable and power", index) + reason);
   refuse(MVS_DRIVER_E_FAULT,
-         sentence("device %d does not open: switch it off and on", index) + said);
+         sentence("device %d does not open: switch it off and on", index) + reason);
 }
 
-// The index that a name means; without one the first that is not open here.
+// Returns the index of a named device; without a name, the first that is not open here.
 int index_of(const char *name, int count) {
   const Shared &all = shared();
   for (int i = 0; i < count && i < kMaxDevices; ++i) {
@@ -67,7 +68,7 @@ void describe(mvs_driver_device &device) {
   info.peak_torque = info.freedoms_out == 6 ? model.torque : 0;
   info.max_stiffness = model.stiffness;
   info.max_damping = model.damping;
-  // the device's x is towards the user, y to the right, z up
+  // device axes: x towards the user, y to the right, z up
   info.frame[1] = info.frame[6] = info.frame[8] = 1;
   const char *const name = dhd().get_system_name(device.id);
   std::snprintf(info.model, sizeof info.model, "%s", name ? name : "Force Dimension");
@@ -127,8 +128,8 @@ int32_t fail(mvs_driver_device &device, int32_t code, std::string sentence) {
   return code;
 }
 
-// DRD drives the arm to its stops: only if somebody said that it may.
-int32_t calibrate_by_itself(mvs_driver_device &device) {
+// DRD moves the arm to its stops; only with option move=yes.
+int32_t calibrate_automatically(mvs_driver_device &device) {
   if (!device.may_move)
     return fail(device, MVS_DRIVER_E_CALIBRATION,
                 device.info.model +
@@ -161,7 +162,7 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *out) {
 int32_t calibrate(mvs_driver_device *device) {
   const driver::DecimalPoint point;
   if (is_calibrated(*device)) return MVS_DRIVER_OK;
-  if (device->by_drd && dhd().drd_is_supported(device->id)) return calibrate_by_itself(*device);
+  if (device->by_drd && dhd().drd_is_supported(device->id)) return calibrate_automatically(*device);
   return fail(*device, MVS_DRIVER_E_CALIBRATION,
               device->info.model +
                   std::string(" must be calibrated: move its end to the rest position that its "

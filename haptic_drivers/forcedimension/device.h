@@ -1,4 +1,4 @@
-// An open device of Force Dimension's.
+// An open device of Force Dimension, and the shared vendor library.
 #pragma once
 #include <mvs/driver.h>
 
@@ -14,25 +14,25 @@
 namespace forcedimension {
 
 inline constexpr int kMaxDevices = 8;
-inline constexpr int kGrace = 50;  // reads until forces that were enabled must be on
+inline constexpr int kGrace = 50;  // reads until enabled forces must be on
 
 struct Shared {
-  std::mutex mutex;  // of everything here; not needed at the device's rate
+  std::mutex mutex;  // protects all members; not taken at the device's rate
   void *library = nullptr;
   std::string path;
   Dhd dhd = {};
-  bool open[kMaxDevices] = {};  // by the system's index
+  bool open[kMaxDevices] = {};  // by index of the system's list
 };
 Shared &shared();
 inline const Dhd &dhd() {
   return shared().dhd;
 }
 
-// Loads the library that the options name, or the first that is found; refuses, if there is none.
-// The mutex is held.
+// Loads the library named by the options, or the first found; throws a Refusal if there is no
+// library. The caller holds the mutex.
 void load(const mvs_driver_host *host);
 
-// What the device's forces are off for, as MVS_CAUSE_*.
+// Maps the reason for which the device switched its forces off to MVS_CAUSE_*.
 uint32_t cause_of(int force_off);
 
 inline constexpr const char *kUdevRule =
@@ -41,28 +41,28 @@ inline constexpr const char *kUdevRule =
 }  // namespace forcedimension
 
 struct mvs_driver_device {
-  int index = 0;  // of the system's list
-  char id = 0;    // DHD's number
+  int index = 0;  // in the system's list
+  char id = 0;    // number of DHD
   mvs_driver_info info = {};
   bool has_wrist = false, has_gripper = false;
-  double gripper_sign = 1;  // left-handed ones count the other way
-  bool by_drd = false;      // who opened it
-  bool may_move = false;    // by itself, to calibrate
+  double gripper_sign = 1;  // -1 for left-handed devices
+  bool by_drd = false;      // opened by DRD, not by DHD
+  bool may_move = false;    // may move by itself for calibration
   std::string sentence;     // of the last failure
 
-  // Held by who calls DHD for this device: the thread that polls, stop() or panic(). Who polls and
-  // finds it held goes on without.
+  // Lock for calls of DHD: taken by the polling thread, stop() or panic(). The polling thread skips
+  // its call if the lock is taken.
   std::atomic<bool> busy{false};
   std::atomic<bool> stopped{true};
 
-  // Of the thread that polls.
-  bool on = false;         // what was last asked of the motors
-  bool saturated = false;  // by the last force
-  int grace = 0;           // reads until a device that was just switched on must say that it is
-  int until_status = 0;    // reads until its status is asked for
+  // Used by the polling thread only.
+  bool on = false;         // last requested state of the motors
+  bool saturated = false;  // saturated by the last force
+  int grace = 0;           // reads until a switched-on device must report its forces as on
+  int until_status = 0;    // reads until the next status query
   int status[forcedimension::kStatusCount] = {};
-  double lever = 0;                  // m, of the gripper's finger; 0: not known yet
-  uint64_t now_ns = 0, good_ns = 0;  // the last read, and the last one that was answered
+  double lever = 0;                  // m, of the gripper's finger; 0: unknown
+  uint64_t now_ns = 0, good_ns = 0;  // times of the last read and the last successful read
   mvs_driver_state state = {};
 };
 

@@ -1,3 +1,4 @@
+// Symbol lookup of DHD and DRD.
 #include "dhd.h"
 
 #include "common/library.h"
@@ -5,7 +6,7 @@
 namespace forcedimension {
 
 std::string bind(void *library, Dhd &dhd) {
-  std::string missing, no_matter;
+  std::string missing, optional;
   const auto take = [&](const char *name, auto &function) {
     driver::bind(library, name, function, missing);
   };
@@ -34,12 +35,12 @@ std::string bind(void *library, Dhd &dhd) {
   take("dhdSetMaxForce", dhd.set_max_force);
   take("dhdErrorGetLast", dhd.error_get_last);
   take("dhdErrorGetLastStr", dhd.error_get_last_str);
-  driver::bind(library, "drdOpenID", dhd.drd_open_id, no_matter);
-  driver::bind(library, "drdClose", dhd.drd_close, no_matter);
-  driver::bind(library, "drdIsSupported", dhd.drd_is_supported, no_matter);
-  driver::bind(library, "drdIsInitialized", dhd.drd_is_initialized, no_matter);
-  driver::bind(library, "drdAutoInit", dhd.drd_auto_init, no_matter);
-  driver::bind(library, "drdStop", dhd.drd_stop, no_matter);
+  driver::bind(library, "drdOpenID", dhd.drd_open_id, optional);
+  driver::bind(library, "drdClose", dhd.drd_close, optional);
+  driver::bind(library, "drdIsSupported", dhd.drd_is_supported, optional);
+  driver::bind(library, "drdIsInitialized", dhd.drd_is_initialized, optional);
+  driver::bind(library, "drdAutoInit", dhd.drd_auto_init, optional);
+  driver::bind(library, "drdStop", dhd.drd_stop, optional);
   return missing;
 }
 

@@ -1,13 +1,13 @@
-// The part of Force Dimension's DHD and DRD that this driver calls, declared here so that the
-// vendor's headers need not be there. Units are SI; a function of a device takes its number last.
+// Function table of Force Dimension's DHD and DRD, declared here so that the vendor's headers are
+// not needed. Units are SI; the device number is the last argument.
 #pragma once
 #include <string>
 
 namespace forcedimension {
 
-// What a function returns; below zero: it failed, and error_get_last says why.
-inline constexpr int kTimeGuard = 1;       // done, but the sample is the one before
-inline constexpr int kMotorSaturated = 2;  // done, but the motors could not give all of it
+// Return codes; a negative value is a failure, explained by error_get_last.
+inline constexpr int kTimeGuard = 1;       // success, with the previous sample
+inline constexpr int kMotorSaturated = 2;  // success, with saturated motors
 
 enum Error {
   kErrorCom = 2,
@@ -19,13 +19,13 @@ enum Error {
   kErrorInUse = 20
 };
 
-// Places in what get_status fills.
+// Indices into the array of get_status.
 inline constexpr int kStatusCount = 17;
 enum Status {
   kPower = 0,
   kConnected = 1,
-  kReset = 3,  // it waits to be calibrated
-  kForce = 5,  // the motors follow
+  kReset = 3,  // not calibrated
+  kForce = 5,  // motors are on
   kErrorSeen = 9,
   kForceOffCause = 14
 };
@@ -86,7 +86,7 @@ struct Dhd {
   int(MVS_DHD *set_max_force)(double, char);
   int(MVS_DHD *error_get_last)();
   const char *(MVS_DHD *error_get_last_str)();
-  // DRD, which calibrates by itself; null if only DHD was found
+  // DRD, with automatic calibration; null if only DHD was found
   int(MVS_DHD *drd_open_id)(char);
   int(MVS_DHD *drd_close)(char);
   bool(MVS_DHD *drd_is_supported)(char);
@@ -100,8 +100,7 @@ struct Dhd {
   }
 };
 
-// Looks the functions up in a loaded library; the names of those that it does not export, but for
-// DRD's.
+// Looks up the functions in a loaded library; returns the missing names, except those of DRD.
 std::string bind(void *library, Dhd &dhd);
 
 }  // namespace forcedimension

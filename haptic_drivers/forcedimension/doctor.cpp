@@ -1,4 +1,4 @@
-// Which devices are there, and what is in the way of those that are not.
+// list() and doctor(): USB, library, devices.
 #include "common/finder.h"
 #include "common/library.h"
 #include "common/options.h"
@@ -34,7 +34,7 @@ void check_usb(const mvs_driver_host *host, const Finder &finder) {
                  kUdevRule);
 }
 
-// Opens one, moves nothing.
+// Opens a device without moving it.
 void check_device(const mvs_driver_host *host, const Finder &finder, int index) {
   const std::string name = std::to_string(index), check = "device " + name;
   mvs_driver_device *device = nullptr;
@@ -61,7 +61,7 @@ int count() {
 
 }  // namespace
 
-// By their numbers: what kind one is DHD tells only of one that is open.
+// Lists device numbers: DHD reports the type only of an open device.
 int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
   return driver::guarded([&] {
     const std::lock_guard lock(shared().mutex);
@@ -75,7 +75,7 @@ int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *us
     const Finder finder = {finding, user};
     check_usb(host, finder);
     if (!check_library(host, finder)) return;
-    if (count() <= 0) finder.say(0, "device", "DHD finds none: check cable and power");
+    if (count() <= 0) finder.say(0, "device", "DHD finds no device: check cable and power");
     for (int i = 0; i < count(); ++i) check_device(host, finder, i);
   });
 }

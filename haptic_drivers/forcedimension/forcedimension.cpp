@@ -1,4 +1,4 @@
-// The driver's one symbol: the table of its functions.
+// The function table of the driver.
 #include "device.h"
 
 namespace {

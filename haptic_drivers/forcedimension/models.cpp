@@ -1,3 +1,4 @@
+// Table of nominal limits (CHAI3D, CDeltaDevices.cpp).
 #include "models.h"
 
 #include "dhd.h"

@@ -1,9 +1,9 @@
-// The limits of the families of devices: DHD does not tell them.
+// Limits of the device families, which DHD does not report.
 #pragma once
 
 namespace forcedimension {
 
-// Nominal, as CHAI3D's table has them; what the motors bear for ever is nowhere told.
+// Nominal values of CHAI3D's table; continuous forces are not published.
 struct Model {
   double force;      // N
   double torque;     // N m
@@ -12,7 +12,7 @@ struct Model {
   double reach;      // m, half of the edge of the workspace's box
 };
 
-// Of an unknown type those that are the weakest of all.
+// Returns the weakest limits for an unknown type.
 Model model_of(int type);
 
 }  // namespace forcedimension

@@ -1,4 +1,4 @@
-// The library, loaded once for the life of the process.
+// The vendor library, loaded once per process.
 #include <dirent.h>
 
 #include <vector>
@@ -17,7 +17,7 @@ constexpr const char *kSdkFolder = "/lib/release/lin-aarch64-gcc";
 constexpr const char *kSdkFolder = "/lib/release/lin-x86_64-gcc";
 #endif
 
-// The library with DRD in a folder, of several the last by name.
+// Returns the library with DRD in a folder; the last by name if there are several.
 std::string newest_in(const std::string &folder) {
   std::string best;
   DIR *const files = folder.empty() ? nullptr : opendir(folder.c_str());
@@ -55,7 +55,7 @@ std::string explain(const driver::Library &one) {
 }  // namespace
 
 Shared &shared() {
-  // never destroyed: a device may be stopped while the program ends
+  // never destroyed: a device may be stopped during program exit
   static Shared *const all = new Shared;
   return *all;
 }
@@ -64,7 +64,7 @@ void load(const mvs_driver_host *host) {
   const std::string chosen = driver::Options(host).text("library").value_or("");
   if (!chosen.empty() && chosen.front() != '/')
     driver::refuse(MVS_DRIVER_E_OPTION,
-                   "library=" + chosen + " is no absolute path: name the file from the root");
+                   "library=" + chosen + " is not an absolute path: give the path from the root");
   Shared &all = shared();
   if (all.library && chosen.empty()) return;
   const driver::DecimalPoint point;
@@ -78,7 +78,7 @@ void load(const mvs_driver_host *host) {
   const std::string missing = bind(one.handle, dhd);
   if (!missing.empty())
     driver::refuse(MVS_DRIVER_E_LIBRARY,
-                   one.path + " is no SDK 3 of Force Dimension: it has no " + missing);
+                   one.path + " is not SDK 3 of Force Dimension: it lacks " + missing);
   all.dhd = dhd;
   all.library = one.handle;
   all.path = one.path;

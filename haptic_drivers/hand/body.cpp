@@ -1,3 +1,4 @@
+// Exact integration over intervals with uniform or sinusoidal motion of the arm.
 #include "body.h"
 
 namespace hand {
@@ -5,8 +6,8 @@ namespace hand {
 Body::Body(const Oscillator &oscillator, const Script &script, const driver::Vector &from)
     : oscillator_(oscillator), script_(script), position_(from) {}
 
-Body::Lead Body::lead(double time) const {
-  Lead out;
+Body::ArmEnd Body::arm_end(double time) const {
+  ArmEnd out;
   if (script_.recording) {
     const driver::Pose pose = script_.recording->at(time);
     out.offset = pose.position;
@@ -23,12 +24,12 @@ Body::Lead Body::lead(double time) const {
   return out;
 }
 
-// The arm's end moves as the oscillator knows: uniformly, or swinging.
-void Body::piece(double begin, double length, const driver::Vector &force) {
-  // the same step again and again on a steady clock
+// One interval in which the end of the arm moves uniformly or as a sine.
+void Body::advance(double begin, double length, const driver::Vector &force) {
+  // on a steady clock the same step is reused
   if (length != length_) step_ = step(oscillator_, length);
   length_ = length;
-  const Lead arm = lead(begin);
+  const ArmEnd arm = arm_end(begin);
   for (int k = 0; k < 3; ++k) {
     const double u = force[k] + oscillator_.stiffness * arm.middle[k];
     const double before[5] = {position_[k], velocity_[k], u, arm.offset[k], arm.speed[k]};
@@ -45,10 +46,10 @@ void Body::piece(double begin, double length, const driver::Vector &force) {
 void Body::move(double begin, double length, const driver::Vector &force) {
   const bool corners = script_.recording && begin >= 0;
   while (length > 0) {
-    // a recording turns a corner at each of its samples
+    // the velocity of a recording changes at each sample
     const double next = corners ? script_.recording->next_after(begin) : begin + length;
     const double part = corners ? std::min(length, next - begin) : length;
-    piece(begin, part, force);
+    advance(begin, part, force);
     length -= part;
     begin = next;
   }

@@ -1,4 +1,4 @@
-// The hand and the stylus in it: what moves.
+// Motion of the hand with the device in it.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@ class Body {
   const driver::Vector &position() const { return position_; }
   const driver::Vector &velocity() const { return velocity_; }
 
-  // For `length` s from `begin`, s since the script began, under a constant force, N. Before the
-  // script begins (a negative time) the arm waits where it will begin.
+  // Advances by `length` s from `begin`, s after the start of the script, under a constant force,
+  // N. Before the script (negative time) the arm rests at its first position.
   void move(double begin, double length, const driver::Vector &force);
 
  private:
-  // Where the arm's end is, m and m/s: beside `middle`, which rests.
-  struct Lead {
+  // The end of the arm: offset, m, and speed, m/s, relative to the fixed point `middle`.
+  struct ArmEnd {
     driver::Vector middle = {}, offset = {}, speed = {};
   };
-  Lead lead(double time) const;
-  void piece(double begin, double length, const driver::Vector &force);
+  ArmEnd arm_end(double time) const;
+  void advance(double begin, double length, const driver::Vector &force);
 
   Oscillator oscillator_;
   const Script &script_;
   driver::Vector position_, velocity_ = {};
-  double length_ = -1;  // s, of the interval that step_ is for
+  double length_ = -1;  // s, interval of step_
   Step step_ = {};
 };
 

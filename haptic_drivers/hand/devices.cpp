@@ -1,3 +1,4 @@
+// Table of devices.
 #include "devices.h"
 
 #include "common/interface.h"
@@ -7,7 +8,7 @@ namespace hand {
 namespace {
 
 constexpr Device kDevices[] = {
-    // no device at all: what is written is felt at once, by the hand alone
+    // no device: the written force acts on the hand at once
     {"ideal", "ideal", 100, 100, 1e5, 1e3, 1000, 0.25, 0, 0, 0, 0, 6},
     {"touch", "Touch", 3.3, 0.88, 400, 4, 1000, 0.075, 55e-6, 0.045, 0.005, 1, 6},
     {"omni", "PHANTOM Omni", 3.3, 0.88, 700, 5, 1000, 0.10, 55e-6, 0.045, 0.005, 1, 6},

@@ -1,4 +1,4 @@
-// The devices that the hand can hold; README.md says where each figure comes from.
+// Table of simulated devices; README.md gives the sources of the figures.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@ namespace hand {
 struct Device {
   const char *name;
   const char *model;
-  double force, continuous_force;   // N; 0: it does not say
-  double stiffness, damping, rate;  // N/m, N s/m, Hz: what it is said to render
+  double force, continuous_force;   // N; 0: unknown
+  double stiffness, damping, rate;  // N/m, N s/m, Hz: rated values
   double reach;                     // m, half an edge of its workspace
   double resolution;                // m, of its encoders at the tip
-  double mass, drag;                // kg, N s/m: what the hand moves along
-  unsigned delay;                   // samples from a force's writing to its effect
+  double mass, drag;                // kg, N s/m: moved with the hand
+  unsigned delay;                   // samples from writing a force to its effect
   unsigned freedoms_in;
 };
 
-// Throws a Refusal that names all there are.
+// Returns a device by name; throws a Refusal with all names.
 const Device &device(const std::string &name);
 
 }  // namespace hand

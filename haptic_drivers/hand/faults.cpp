@@ -1,3 +1,4 @@
+// Names and effects of faults.
 #include "faults.h"
 
 #include <limits>
@@ -104,7 +105,7 @@ void spoil(const Faults &faults, double time, const mvs_driver_state &before,
     case Fault::kButton:
       state.cause = MVS_CAUSE_BUTTON;
       break;
-    default:  // those of open() and of the time that read() takes
+    default:  // faults of open() and of the duration of read()
       break;
   }
 }

@@ -1,4 +1,4 @@
-// What goes wrong with a simulated device, to test that libmvs keeps the hand safe.
+// Faults of a simulated device, for tests of the safety functions.
 #pragma once
 
 #include <mvs/driver.h>
@@ -33,14 +33,14 @@ struct Faults {
   double from = 0, until = 0;  // s since start()
 
   bool now(Fault asked, double time) const { return kind == asked && time >= from && time < until; }
-  // The motors are off whatever is written.
+  // Returns whether the motors are off regardless of the written force.
   bool limp(double time) const { return now(Fault::kHot, time) || now(Fault::kButton, time); }
 };
 
-// From the options fault, fault_at and fault_for; throws a Refusal.
+// Reads the options fault, fault_at and fault_for; throws a Refusal.
 Faults faults(const driver::Options &options);
 
-// Spoils what a good device would have said at `time`; `before` is what it said last.
+// Applies the faults to the state of a good device at `time`; `before` is the previous state.
 void spoil(const Faults &faults, double time, const mvs_driver_state &before,
            mvs_driver_state &state);
 

@@ -1,4 +1,4 @@
-// A simulated hand that holds a simulated device, for tests of the closed loop without hardware.
+// Driver of a simulated hand that holds a simulated device, for closed-loop tests without hardware.
 #include <mvs/driver.h>
 
 #include <time.h>
@@ -24,7 +24,7 @@ struct mvs_driver_device {
   const hand::Settings settings;
   hand::Body body;
   hand::Motors motors;
-  std::atomic<bool> running{false};  // stop() comes from any thread
+  std::atomic<bool> running{false};  // stop() is called from any thread
   bool on = false;                   // of the last force written
   bool seen = false, begun = false;  // a sample was read: ever, since start()
   uint64_t now_ns = 0, begin_ns = 0;
@@ -88,9 +88,9 @@ int32_t open(const mvs_driver_host *host, const char *name, mvs_driver_device **
     if (name && std::strcmp(name, "hand") != 0)
       driver::refuse(MVS_DRIVER_E_ABSENT, std::string("there is no \"") + name + "\": try hand");
     if (settings.faults.kind == Fault::kAbsent)
-      driver::refuse(MVS_DRIVER_E_ABSENT, "no device is there, as option fault=absent wants it");
+      driver::refuse(MVS_DRIVER_E_ABSENT, "no device is connected (option fault=absent)");
     if (settings.faults.kind == Fault::kLicence)
-      driver::refuse(MVS_DRIVER_E_LICENCE, "there is no licence, as option fault=licence wants it");
+      driver::refuse(MVS_DRIVER_E_LICENCE, "there is no licence (option fault=licence)");
     *device = new mvs_driver_device(std::move(settings));
   });
 }
@@ -118,7 +118,7 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *out) {
 
 int32_t calibrate(mvs_driver_device *device) {
   if (!device->settings.faults.now(Fault::kUncalibrated, 0)) return MVS_DRIVER_OK;
-  device->sentence = "put the stylus into its holder, as option fault=uncalibrated wants it";
+  device->sentence = "put the stylus into its holder (option fault=uncalibrated)";
   return MVS_DRIVER_E_CALIBRATION;
 }
 
@@ -135,7 +135,7 @@ double script_time(const mvs_driver_device &device) {
   return device.begun ? static_cast<double>(device.now_ns - device.begin_ns) * 1e-9 : -1;
 }
 
-// Moves the hand on to `now_ns`, and tells where it is.
+// Advances the hand to `now_ns` and stores its state.
 void sample(mvs_driver_device &device, uint64_t now_ns) {
   const double before = script_time(device);
   const double length = device.seen ? static_cast<double>(now_ns - device.now_ns) * 1e-9 : 0;
@@ -150,7 +150,7 @@ void sample(mvs_driver_device &device, uint64_t now_ns) {
   device.seen = true;
 }
 
-// What the encoder makes of a position.
+// Rounds a position to the resolution of the encoder.
 double encoded(double position, double resolution) {
   return resolution > 0 ? resolution * std::round(position / resolution) : position;
 }
@@ -159,7 +159,7 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   const hand::Settings &settings = device.settings;
   mvs_driver_state state = {};
   state.flags = MVS_DRIVER_FLAG_CALIBRATED;
-  if (settings.tells_velocity) state.flags |= MVS_DRIVER_FLAG_VELOCITY;
+  if (settings.measures_velocity) state.flags |= MVS_DRIVER_FLAG_VELOCITY;
   if (settings.faults.kind == Fault::kDeadman) state.flags |= MVS_DRIVER_FLAG_HELD;
   const bool on = device.running && device.on && !settings.faults.limp(script_time(device));
   if (on) state.flags |= MVS_DRIVER_FLAG_FORCE_ON;
@@ -168,7 +168,7 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   state.sequence = device.last.sequence + 1;
   for (int k = 0; k < 3; ++k)
     state.position[k] = encoded(device.body.position()[k], settings.device.resolution);
-  for (int k = 0; k < 3 && settings.tells_velocity; ++k)
+  for (int k = 0; k < 3 && settings.measures_velocity; ++k)
     state.velocity[k] = device.body.velocity()[k];
   state.orientation[0] = 1;
   state.buttons = settings.buttons;
@@ -179,9 +179,9 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   return state;
 }
 
-// One of the two faults that a function shows by itself; the others are in the state.
+// Fault returned by read() and write(); most other faults are in the state.
 int32_t unplugged(mvs_driver_device *device) {
-  device->sentence = "the device was unplugged, as option fault=unplug wants it";
+  device->sentence = "the device was unplugged (option fault=unplug)";
   return MVS_DRIVER_E_LOST;
 }
 

@@ -1,4 +1,4 @@
-// The device's motors: what was written, held until the next one, late and no more than they can.
+// Motors of a device: the written force, delayed, held (zero-order hold) and limited to the peak.
 #pragma once
 
 #include <mvs/driver.h>
@@ -20,14 +20,14 @@ class Motors {
     double square = 0;
     for (const double f : wanted) square += f * f;
     const double size = std::sqrt(square);
-    // a force that libmvs clamped to the peak is not too large for its rounding
+    // tolerance for the rounding of a force that libmvs clamped to the peak
     saturated_ = device_.force > 0 && size > device_.force * (1 + 1e-9);
     for (int k = 0; k < 3; ++k)
       line_[0][k] = saturated_ ? wanted[k] * device_.force / size : wanted[k];
     if (device_.delay == 0) acting_ = line_[0];
   }
 
-  // A sample was taken: what is on its way comes nearer.
+  // Advances the delay line by one sample.
   void sampled() {
     if (device_.delay == 0) return;
     acting_ = line_[device_.delay - 1];
@@ -42,7 +42,7 @@ class Motors {
 
  private:
   const Device device_;
-  std::array<driver::Vector, 17> line_ = {};  // the newest first
+  std::array<driver::Vector, 17> line_ = {};  // delay line, newest first
   driver::Vector acting_ = {};
   bool saturated_ = false;
 };

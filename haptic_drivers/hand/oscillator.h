@@ -1,10 +1,10 @@
-// A mass that an arm, a spring and damper whose other end moves, leads: exact over any interval.
+// Exact integration of a mass on a spring and damper whose other end moves:
 //
 //   m x'' = -k (x - s) - c (x' - s') - b x' + u,   s'' = -w^2 s
 //
-// with u constant and s the arm's end: at rest, in uniform motion (w = 0) or swinging. This is
-// linear, so its state after h is exp(A h) times the state before, to rounding; an integrator that
-// makes energy of its own could not tell a stable servo from one that is not.
+// with constant u and the arm's end s at rest, in uniform motion (w = 0) or in a sine. The system
+// is linear: its state after h is exp(A h) times the state before, up to rounding. An integrator
+// with numerical energy gain could not distinguish a stable servo from an unstable one.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Oscillator {
   double swing = 0;        // w, rad/s
 };
 
-// x and v after an interval, as sums over x, v, u, s, s' before it.
+// Coefficients of x and v after an interval, over x, v, u, s, s' before it.
 struct Step {
   std::array<double, 5> x, v;
 };
@@ -36,7 +36,7 @@ inline Matrix operator*(const Matrix &a, const Matrix &b) {
   return out;
 }
 
-// exp(a) by scaling and squaring; `norm` bounds the sum of every row of |a|.
+// exp(a) by scaling and squaring; `norm` bounds the row sums of |a|.
 inline Matrix exponential(Matrix a, double norm) {
   int squarings = 0;
   for (; norm > 0.25 && squarings < 200; norm /= 2) ++squarings;
@@ -58,7 +58,7 @@ inline Matrix exponential(Matrix a, double norm) {
 
 inline Step step(const Oscillator &o, double h) {
   const double m = o.mass, drag = (o.arm_damping + o.damping) / m;
-  // velocities are counted in r times a length, u in m r^2 times one: all entries of A are alike
+  // velocities are scaled by r and u by m r^2, so that all entries of A have the same magnitude
   const double r = std::max({std::sqrt(o.stiffness / m), drag, o.swing, 1.0});
   Matrix a = {};
   a[0][1] = r * h;

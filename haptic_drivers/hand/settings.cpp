@@ -1,3 +1,4 @@
+// Reads and checks the options of the simulated hand.
 #include "settings.h"
 
 #include "common/recording_file.h"
@@ -10,7 +11,7 @@ using driver::Options;
 using driver::refuse;
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kMost = 1e6;  // of what has no natural bound, in its unit
+constexpr double kMost = 1e6;  // bound of options without a natural bound
 
 Device held_device(const Options &options) {
   Device held = device(options.text("device").value_or("touch"));
@@ -46,7 +47,7 @@ Script script_of(const Options &options) {
   return script;
 }
 
-// One person's, as measured at the handle of a haptic device; README.md cites it.
+// Defaults: one person, measured at the handle of a haptic device; source in README.md.
 Oscillator oscillator_of(const Options &options, const Device &held, const Script &script) {
   Oscillator o;
   o.mass = options.number("mass", 0.554, 0, 100) + held.mass;
@@ -54,7 +55,7 @@ Oscillator oscillator_of(const Options &options, const Device &held, const Scrip
   o.arm_damping = options.number("arm_damping", 6.45, 0, kMost);
   o.damping = held.drag;
   o.swing = kTwoPi * script.frequency;
-  // lighter than any finger, it would only be a stiff equation
+  // a smaller mass only makes the equation stiff
   if (o.mass < 1e-3)
     refuse(MVS_DRIVER_E_OPTION, "option mass: hand and device together weigh less than a gram");
   return o;
@@ -72,7 +73,7 @@ Settings settings(const mvs_driver_host *host) {
   const driver::Vector begin = recording ? recording->at(0).position : out.script.target;
   out.from = options.vector("from", begin, 1);
   out.push = options.vector("push", {}, kMost);
-  out.tells_velocity = options.number("velocity", 0, 0, 1) != 0;
+  out.measures_velocity = options.number("velocity", 0, 0, 1) != 0;
   const auto buttons = driver::count(options.text("buttons").value_or("0"));
   if (!buttons) refuse(MVS_DRIVER_E_OPTION, "option buttons: give a sum of 1, 2, 4, ...");
   out.buttons = *buttons;

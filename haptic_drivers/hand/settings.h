@@ -1,4 +1,4 @@
-// What the application wants simulated.
+// Options of the simulated hand.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,24 @@
 
 namespace hand {
 
-// Where the arm leads the hand.
+// Target position of the arm.
 struct Script {
   driver::Vector target = {}, amplitude = {};  // m
   double frequency = 0;                        // Hz
-  std::optional<driver::Recording> recording;  // instead of both
+  std::optional<driver::Recording> recording;  // replaces the other members
 };
 
 struct Settings {
   Device device;
   Oscillator oscillator;  // hand and device together
   Script script;
-  driver::Vector from = {}, push = {};  // m: where it begins; N: beside the arm and the device
-  bool tells_velocity = false;
-  uint32_t buttons = 0;  // held for ever
+  driver::Vector from = {}, push = {};  // m, initial position; N, additional force
+  bool measures_velocity = false;
+  uint32_t buttons = 0;  // held permanently
   Faults faults;
 };
 
-// From the options; throws a Refusal that says which makes no sense.
+// Reads the options; throws a Refusal with the invalid one.
 Settings settings(const mvs_driver_host *host);
 
 }  // namespace hand

@@ -1,5 +1,5 @@
-// The proof that a server understood a WebSocket's opening: base64(SHA-1(key + a fixed text)), RFC
-// 6455 section 1.3. SHA-1 (FIPS 180-4) for this and nothing else.
+// Sec-WebSocket-Accept of RFC 6455, section 1.3: base64(SHA-1(key + a fixed text)). SHA-1 (FIPS
+// 180-4) is used for this purpose only.
 #pragma once
 
 #include <array>

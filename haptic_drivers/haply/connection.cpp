@@ -1,3 +1,4 @@
+// Reads the options and connects to the service.
 #include "connection.h"
 
 #include "common/options.h"
@@ -6,7 +7,7 @@
 namespace haply {
 namespace {
 
-// For what is done before the device's rate counts.
+// Timeout of each step of open(), ms.
 constexpr int kOpenMs = 1000;
 
 }  // namespace
@@ -27,7 +28,7 @@ Options::Options(const mvs_driver_host *application) {
     driver::refuse(MVS_DRIVER_E_OPTION, "option version=" + version + ": give one like 3.5");
   port = static_cast<int>(given.number("port", 10001, 1, 65535));
   rate = given.number("rate", 2000, 50, 8000);
-  patience_ms = static_cast<int>(given.number("patience", MVS_DRIVER_PATIENCE_MS, 10, 2000));
+  timeout_ms = static_cast<int>(given.number("patience", MVS_DRIVER_PATIENCE_MS, 10, 2000));
 }
 
 int32_t Connection::open(const Options &options, Fault &fault) {
@@ -47,7 +48,7 @@ int32_t Connection::open(const Options &options, Fault &fault) {
   result = socket.receive(text, kOpenMs, fault);
   if (result == 0)
     return fault.set(MVS_DRIVER_E_LOST,
-                     "the Haply Inverse Service tells of no device in %d ms: "
+                     "the Haply Inverse Service reported no device for %d ms: "
                      "restart it (systemctl restart haply-inverse-service)",
                      kOpenMs);
   return result == 1 ? read_inventory(text, inventory, fault) : result;

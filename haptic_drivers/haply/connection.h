@@ -1,4 +1,4 @@
-// From the options of an application to a service that has told what it has.
+// Connection to the Inverse Service: options, version, WebSocket, inventory.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 namespace haply {
 
 struct Options {
-  // Refuses what makes no sense.
+  // Throws a Refusal for an invalid option.
   explicit Options(const mvs_driver_host *host);
 
   std::string host, device, grip, preset, version;
   int port;
   double rate;  // Hz
-  int patience_ms;
+  int timeout_ms;
 };
 
 struct Connection {
@@ -23,7 +23,7 @@ struct Connection {
   WebSocket socket;
   Inventory inventory;
 
-  // Asks for the version and the devices.
+  // Connects, and reads the version and the devices.
   int32_t open(const Options &options, Fault &fault);
 };
 

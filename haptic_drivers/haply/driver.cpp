@@ -1,4 +1,4 @@
-// The Haply Inverse3, Inverse3x and Minverse as devices of libmvs, by way of the vendor's service.
+// Driver for Haply Inverse3, Inverse3x and Minverse, by way of the vendor's service.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -17,8 +17,8 @@ struct mvs_driver_device {
   Options options;
   Inverse inverse;
   Grip grip;
-  const char *said = "";
-  Exchange exchange;  // last: its thread ends first
+  const char *sentence = "";
+  Exchange exchange;  // last member: its thread ends first
 };
 
 namespace {
@@ -34,7 +34,7 @@ int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
     Connection connection;
     Fault fault;
     const int32_t result = connection.open(options, fault);
-    connection.socket.close(options.patience_ms);
+    connection.socket.close(options.timeout_ms);
     if (result == MVS_DRIVER_E_LIBRARY) return;  // no service, no device
     driver::must(result, fault);
     for (const Inverse &inverse : connection.inventory.inverses)
@@ -58,7 +58,7 @@ void examine(const Inverse &inverse, mvs_driver_finding finding, void *user) {
 
 void examine(const Inventory &inventory, mvs_driver_finding finding, void *user) {
   if (inventory.inverses.empty())
-    finding(user, 0, "device", "the service has found none: plug it in and look into Haply Hub");
+    finding(user, 0, "device", "the service has found no device: plug it in and check Haply Hub");
   for (const Inverse &inverse : inventory.inverses) examine(inverse, finding, user);
   if (inventory.grips.empty())
     finding(user, -1, "grip", "no VerseGrip: there is a position, but no orientation, no button");
@@ -74,7 +74,7 @@ int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *us
     Connection connection;
     Fault fault;
     const int32_t result = connection.open(options, fault);
-    connection.socket.close(options.patience_ms);
+    connection.socket.close(options.timeout_ms);
     constexpr char kService[] = "Haply Inverse Service";
     if (result != MVS_DRIVER_OK) return finding(user, 0, kService, fault.sentence);
     const Version &version = connection.version;
@@ -86,7 +86,7 @@ int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *us
   });
 }
 
-// The one that is wanted, or the first.
+// Returns the item with this id; the first for an empty id.
 template <typename T>
 const T *chosen(const std::vector<T> &all, const std::string &id) {
   for (const T &one : all)
@@ -113,8 +113,8 @@ void choose(mvs_driver_device &device) {
   if (grip) device.grip = *grip;
 }
 
-void wish_for_real_time(const mvs_driver_host *host, Exchange &exchange) {
-  if (exchange.wish_for_real_time() == 0 || !host->log) return;
+void request_real_time(const mvs_driver_host *host, Exchange &exchange) {
+  if (exchange.request_real_time() == 0 || !host->log) return;
   host->log(host->host,
             "haply: its thread runs without real-time priority: on a busy machine states come late "
             "(ulimit -r, /etc/security/limits.d)");
@@ -132,41 +132,41 @@ int32_t open_device(const mvs_driver_host *host, const char *name, mvs_driver_de
     if (!exchange.connection.version.at_least(3, 5)) options.preset.clear();
     choose(*device);
     driver::must(exchange.open(device->inverse, device->grip, fault), fault);
-    wish_for_real_time(host, exchange);
+    request_real_time(host, exchange);
     *out = device.release();
   });
 }
 
 int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
-  mvs_driver_info told = {};
+  mvs_driver_info own = {};
   const bool has_grip = !device->grip.id.empty();
-  told.freedoms_in = has_grip ? 6 : 3;
-  told.freedoms_out = 3;
-  told.buttons = has_grip ? device->grip.buttons : 0;
-  // the sphere in which Haply's own tutorial 06 keeps the cursor, around the preset's origin
+  own.freedoms_in = has_grip ? 6 : 3;
+  own.freedoms_out = 3;
+  own.buttons = has_grip ? device->grip.buttons : 0;
+  // the sphere of the cursor in Haply's tutorial 06, around the origin of the preset
   if (device->options.preset == "arm_front_centered") {
     const double reach = device->inverse.type == "minverse" ? 0.04 : 0.1;
-    std::fill_n(told.workspace_min, 3, -reach);
-    std::fill_n(told.workspace_max, 3, reach);
+    std::fill_n(own.workspace_min, 3, -reach);
+    std::fill_n(own.workspace_max, 3, reach);
   }
-  told.rate = 1000;
+  own.rate = 1000;
   // from x right, y forward, z up (docs.haply.co, Basis Permutation)
   constexpr double kFrame[12] = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0};
-  std::copy_n(kFrame, 12, told.frame);
-  std::string(model_of(device->inverse)).copy(told.model, sizeof told.model - 1);
+  std::copy_n(kFrame, 12, own.frame);
+  std::string(model_of(device->inverse)).copy(own.model, sizeof own.model - 1);
   const std::string &serial = device->inverse.serial;
-  (serial.empty() ? device->inverse.id : serial).copy(told.serial, sizeof told.serial - 1);
-  device->inverse.firmware.copy(told.firmware, sizeof told.firmware - 1);
-  driver::give(told, wanted);
+  (serial.empty() ? device->inverse.id : serial).copy(own.serial, sizeof own.serial - 1);
+  device->inverse.firmware.copy(own.firmware, sizeof own.firmware - 1);
+  driver::give(own, wanted);
   return MVS_DRIVER_OK;
 }
 
 int32_t say(mvs_driver_device &device, int32_t code, const char *sentence) {
-  device.said = sentence;
+  device.sentence = sentence;
   return code;
 }
 
-// MVS_DRIVER_OK while the thread talks with the service.
+// Returns MVS_DRIVER_OK while the exchange thread runs.
 int32_t alive(mvs_driver_device &device) {
   const int32_t failure = device.exchange.failure();
   return failure == MVS_DRIVER_OK ? failure : say(device, failure, device.exchange.why());
@@ -195,7 +195,7 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *wante
   const Hand &hand = sample.hand;
   const uint64_t here = monotonic_ns();
   const uint64_t age = here > sample.arrived_ns ? here - sample.arrived_ns : 0;
-  if (age > static_cast<uint64_t>(device->options.patience_ms) * 1000000)
+  if (age > static_cast<uint64_t>(device->options.timeout_ms) * 1000000)
     return say(*device, MVS_DRIVER_E_LOST,
                "no state came in time: the service is silent, or this machine too busy");
   mvs_driver_state state = {};
@@ -217,7 +217,7 @@ int32_t write(mvs_driver_device *device, const mvs_driver_force *wanted) {
   Force force = {{given.force[0], given.force[1], given.force[2]}, given.on != 0};
   const bool finite = std::all_of(force.newton, force.newton + 3,
                                   [](double newton) { return std::isfinite(newton); });
-  if (!finite) force = {};  // it could not be written as JSON
+  if (!finite) force = {};  // JSON has no NaN
   device->exchange.put(force);
   const int32_t result = alive(*device);
   if (result != MVS_DRIVER_OK || finite) return result;
@@ -238,7 +238,7 @@ void close_device(mvs_driver_device *device) {
 }
 
 const char *error(const mvs_driver_device *device) {
-  return device ? device->said : driver::last_sentence;
+  return device ? device->sentence : driver::last_sentence;
 }
 
 const char *const kOptions[] = {

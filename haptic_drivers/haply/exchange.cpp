@@ -1,3 +1,4 @@
+// Exchange loop with the service.
 #include "exchange.h"
 
 #include <pthread.h>
@@ -12,10 +13,10 @@
 namespace haply {
 namespace {
 
-// How long a wait for the service may keep stop() from its zero force, ms.
+// ms, longest wait for the service before stop() can send zero force.
 constexpr int kSliceMs = 2;
 
-// More states than this at once are not answers to our forces; the rest is for the next time.
+// Limit of states read in one exchange.
 constexpr int kStatesAtOnce = 64;
 
 constexpr Force kZero = {};
@@ -27,7 +28,7 @@ void sleep_until(uint64_t time_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr);
 }
 
-// A thread of a library must not be the one that gets the application's signals.
+// Blocks signals in a new thread, so that the application's threads receive them.
 class NoSignals {
  public:
   NoSignals() {
@@ -54,7 +55,7 @@ int32_t Exchange::open(const Inverse &inverse, const Grip &grip, Fault &fault) {
   panic_frame_ = connection.socket.frame_of(commands_->force(kZero.newton));
   const std::string hello = commands_->hello(options_.preset);
   int32_t result = MVS_DRIVER_OK;
-  if (!connection.socket.send_text(hello.data(), hello.size(), options_.patience_ms))
+  if (!connection.socket.send_text(hello.data(), hello.size(), options_.timeout_ms))
     result = silent();
   // the second state is the first one after the preset has moved the origin
   for (int i = 0; i < 2 && result == MVS_DRIVER_OK; ++i)
@@ -70,13 +71,13 @@ Exchange::~Exchange() {
   allow(false);
   ending_ = true;
   if (thread_.joinable()) thread_.join();
-  connection.socket.close(options_.patience_ms);  // of one that never got so far
+  connection.socket.close(options_.timeout_ms);  // if no thread was started
 }
 
-int Exchange::wish_for_real_time() {
-  sched_param wish = {};
-  wish.sched_priority = 60;
-  return pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &wish);
+int Exchange::request_real_time() {
+  sched_param wanted = {};
+  wanted.sched_priority = 60;
+  return pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &wanted);
 }
 
 void Exchange::panic() {
@@ -97,7 +98,7 @@ void Exchange::work() {
   }
   descriptor_ = -1;
   failure_.store(result, std::memory_order_release);
-  connection.socket.close(options_.patience_ms);
+  connection.socket.close(options_.timeout_ms);
 }
 
 int32_t Exchange::talk() {
@@ -105,7 +106,7 @@ int32_t Exchange::talk() {
   int32_t result = MVS_DRIVER_OK;
   for (uint64_t next = monotonic_ns(); result == MVS_DRIVER_OK && !ending_;) {
     result = tick(wanted());
-    // a state that came late is not caught up with
+    // a late exchange is not repeated
     next = std::max(next + period, monotonic_ns());
     sleep_until(next);
   }
@@ -123,18 +124,18 @@ int32_t Exchange::tick(Force force) {
 
 bool Exchange::say(const Force &force) {
   const std::string &text = commands_->force(force.newton);
-  return connection.socket.send_text(text.data(), text.size(), options_.patience_ms);
+  return connection.socket.send_text(text.data(), text.size(), options_.timeout_ms);
 }
 
 int32_t Exchange::silent() {
   return why_.set(MVS_DRIVER_E_LOST,
-                  "the Haply Inverse Service has told nothing of device %.64s for %d ms: is it "
+                  "the Haply Inverse Service has not reported device %.64s for %d ms: is it "
                   "plugged in? (systemctl status haply-inverse-service)",
-                  device_.c_str(), options_.patience_ms);
+                  device_.c_str(), options_.timeout_ms);
 }
 
-// Somebody called stop() while we wait, or the service has answered that it knows of no device and
-// says no more before it is asked again.
+// Sends again if stop() was called during the wait, or if the service answered without the device:
+// it then sends nothing before the next message.
 bool Exchange::keep_asking(Force &force, bool answered) {
   const bool stopped = force.on && !allowed_.load(std::memory_order_acquire);
   if (stopped) force = kZero;
@@ -142,15 +143,15 @@ bool Exchange::keep_asking(Force &force, bool answered) {
   return (!stopped && !answered) || say(force);
 }
 
-// Waits for a state, and takes the newest of those that came.
+// Waits for a state, and takes the newest one received.
 int32_t Exchange::listen(Force force) {
-  const uint64_t deadline = monotonic_ns() + static_cast<uint64_t>(options_.patience_ms) * 1000000;
+  const uint64_t deadline = monotonic_ns() + static_cast<uint64_t>(options_.timeout_ms) * 1000000;
   for (int states = 0; states < kStatesAtOnce;) {
     const int32_t got = connection.socket.receive(text_, states ? 0 : kSliceMs, why_);
-    const int32_t told = got == 1 ? read_state(text_, device_, grip_, sample_.hand, why_) : got;
-    if (told < 0) return told;
-    states += told;
-    if (told == 1) continue;
+    const int32_t found = got == 1 ? read_state(text_, device_, grip_, sample_.hand, why_) : got;
+    if (found < 0) return found;
+    states += found;
+    if (found == 1) continue;
     if (states > 0) break;
     if (monotonic_ns() > deadline) return silent();
     if (!keep_asking(force, got == 1)) return silent();

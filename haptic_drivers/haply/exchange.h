@@ -1,5 +1,5 @@
-// The thread that talks with the service: a force out, a state in, so many times a second. The
-// thread of the host takes the latest state and leaves the latest force, and never waits.
+// The thread that exchanges forces and states with the service at a fixed rate. The host's thread
+// reads the latest state and writes the latest force without waiting.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace haply {
 
 struct Sample {
   Hand hand;
-  uint64_t sequence = 0, arrived_ns = 0;  // the time of monotonic_ns()
+  uint64_t sequence = 0, arrived_ns = 0;  // by monotonic_ns()
   bool force_on = false;
 };
 
@@ -26,23 +26,23 @@ struct Force {
 class Exchange {
  public:
   explicit Exchange(const Options &options) : options_(options) {}
-  // Says hello, and has a first sample when it returns MVS_DRIVER_OK; forces are off.
+  // Starts the session with forces off; on MVS_DRIVER_OK a first sample is available.
   int32_t open(const Inverse &inverse, const Grip &grip, Fault &fault);
-  // Zero force, then goodbye.
+  // Sends zero force and closes the connection.
   ~Exchange();
-  // 0, or what pthread_setschedparam says.
-  int wish_for_real_time();
+  // Returns the result of pthread_setschedparam, 0 on success.
+  int request_real_time();
 
-  // The thread of the host.
+  // For the host's thread.
   const Sample &latest() { return samples_.get(); }
   void put(const Force &force) { forces_.put(force); }
-  // MVS_DRIVER_OK, or why the thread has ended; then `why` does not change any more.
+  // MVS_DRIVER_OK, or the error that ended the thread; why() is then constant.
   int32_t failure() const { return failure_.load(std::memory_order_acquire); }
   const char *why() const { return why_.sentence; }
 
-  // Any thread.
+  // For any thread.
   void allow(bool forces) { allowed_.store(forces, std::memory_order_release); }
-  // A handler of a signal.
+  // For a signal handler.
   void panic();
 
   Connection connection;

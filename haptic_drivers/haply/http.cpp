@@ -1,3 +1,4 @@
+// Minimal HTTP/1.1 client.
 #include "http.h"
 
 #include <strings.h>
@@ -9,10 +10,10 @@
 namespace haply {
 namespace {
 
-constexpr int kPatienceMs = 1000;
+constexpr int kHttpTimeoutMs = 1000;
 constexpr size_t kLongestAnswer = size_t{1} << 20;
 
-// Joins chunks (RFC 9112 section 7.1); what is cut off ends the body.
+// Decodes chunked transfer coding (RFC 9112, section 7.1); an incomplete chunk ends the body.
 std::string unchunked(const std::string &chunks) {
   std::string body;
   for (size_t at = 0; at < chunks.size();) {
@@ -27,15 +28,15 @@ std::string unchunked(const std::string &chunks) {
   return body;
 }
 
-// All until the service closes the connection, which it was asked to do, or the body is complete.
+// Receives until the service closes the connection, as requested, or the body is complete.
 bool receive_all(const Tcp &tcp, std::string &answer, size_t &body) {
-  const uint64_t deadline = monotonic_ns() + uint64_t{kPatienceMs} * 1000000;
+  const uint64_t deadline = monotonic_ns() + uint64_t{kHttpTimeoutMs} * 1000000;
   body = std::string::npos;
   size_t complete = kLongestAnswer;
   while (monotonic_ns() < deadline && answer.size() < complete) {
     char bytes[4096];
-    const int got = tcp.receive(bytes, sizeof bytes, kPatienceMs);
-    if (got <= 0) break;  // closed, or kept open though it was asked not to
+    const int got = tcp.receive(bytes, sizeof bytes, kHttpTimeoutMs);
+    if (got <= 0) break;  // closed, or timed out
     answer.append(bytes, static_cast<size_t>(got));
     if (body != std::string::npos || (body = answer.find("\r\n\r\n")) == std::string::npos)
       continue;
@@ -64,14 +65,14 @@ std::string header_of(const std::string &head, const std::string &name) {
 
 int32_t http_get(const char *host, int port, const char *path, std::string &body, Fault &fault) {
   Tcp tcp;
-  const int32_t result = tcp.open(host, port, kPatienceMs, fault);
+  const int32_t result = tcp.open(host, port, kHttpTimeoutMs, fault);
   if (result != MVS_DRIVER_OK) return result;
   const std::string request = std::string("GET ") + path + " HTTP/1.1\r\nHost: " + host + ":" +
                               std::to_string(port) +
                               "\r\nAccept: application/json\r\nConnection: close\r\n\r\n";
   std::string answer;
   size_t begin = 0;
-  if (!tcp.send_all(request.data(), request.size(), kPatienceMs) ||
+  if (!tcp.send_all(request.data(), request.size(), kHttpTimeoutMs) ||
       !receive_all(tcp, answer, begin))
     return fault.set(MVS_DRIVER_E_LOST, "%.80s:%d does not answer to GET %s: is that the service?",
                      host, port, path);

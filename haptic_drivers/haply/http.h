@@ -1,4 +1,4 @@
-// One question to the service's HTTP side, which is at the same port as its WebSocket.
+// One HTTP request to the service, which shares the port of its WebSocket.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ namespace haply {
 
 using driver::Fault;
 
-// The body of `path`, e.g. "/version".
+// Reads the body of `path`, e.g. "/version".
 int32_t http_get(const char *host, int port, const char *path, std::string &body, Fault &fault);
 
-// The value of a header of `head`, whose lines end with CR LF; empty if it is not there.
+// Returns the value of a header of `head`, whose lines end with CR LF; empty if absent.
 std::string header_of(const std::string &head, const std::string &name);
 
 }  // namespace haply

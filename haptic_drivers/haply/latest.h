@@ -1,5 +1,4 @@
-// The latest of what one thread gives to another, neither of which ever waits: three places, of
-// which each has one and the third is exchanged.
+// Triple buffer: hands the latest value from one thread to another without waiting.
 #pragma once
 
 #include <atomic>
@@ -9,24 +8,24 @@ namespace haply {
 template <typename T>
 class Latest {
  public:
-  // Of the one thread that gives.
+  // For the writing thread.
   void put(const T &value) {
-    places_[giving_] = value;
-    giving_ = between_.exchange(giving_ | kNew, std::memory_order_acq_rel) & ~kNew;
+    slots_[writing_] = value;
+    writing_ = shared_.exchange(writing_ | kNew, std::memory_order_acq_rel) & ~kNew;
   }
-  // Of the one that takes; valid until it takes again.
+  // For the reading thread; the reference is valid until its next call.
   const T &get() {
-    if (between_.load(std::memory_order_relaxed) & kNew)
-      taking_ = between_.exchange(taking_, std::memory_order_acq_rel) & ~kNew;
-    return places_[taking_];
+    if (shared_.load(std::memory_order_relaxed) & kNew)
+      reading_ = shared_.exchange(reading_, std::memory_order_acq_rel) & ~kNew;
+    return slots_[reading_];
   }
 
  private:
   static constexpr unsigned kNew = 4;
 
-  T places_[3] = {};
-  unsigned giving_ = 0, taking_ = 1;
-  std::atomic<unsigned> between_{2};
+  T slots_[3] = {};
+  unsigned writing_ = 0, reading_ = 1;
+  std::atomic<unsigned> shared_{2};
 };
 
 }  // namespace haply

@@ -1,3 +1,4 @@
+// Parsing and building of messages with nlohmann::json.
 #include "messages.h"
 
 #include <charconv>
@@ -9,10 +10,11 @@ namespace {
 
 using nlohmann::json;
 
-// The order of their bits. Wireless grips have a b c; later ones more, or four directions.
+// Buttons in the order of their bits. Wireless grips have a b c; later ones more, or four
+// directions.
 constexpr const char *kButtons[] = {"a", "b", "c", "d", "e", "f", "up", "down", "left", "right"};
 
-// The same grip may be in two lists; the first has a b c (README of the crate haply).
+// A grip may be in two lists; the first list has a b c (README of the crate haply).
 constexpr const char *kGripLists[] = {"custom_verse_grip", "wireless_verse_grip", "verse_grip"};
 
 int32_t nonsense(Fault &fault, const char *what) {
@@ -22,10 +24,10 @@ int32_t nonsense(Fault &fault, const char *what) {
                    what);
 }
 
-// What `key` of an object is, or nothing.
+// Returns the value of `key` in an object, or null.
 const json &at(const json &object, const char *key) {
   static const json nothing;
-  const auto found = object.find(key);  // of what is no object: end
+  const auto found = object.find(key);  // end() if not an object
   return found == object.end() ? nothing : *found;
 }
 
@@ -39,7 +41,7 @@ bool flag_at(const json &object, const char *key, bool otherwise) {
   return value.is_boolean() ? value.get<bool>() : otherwise;
 }
 
-// False when `object` has not all of them; they are finite, which JSON cannot say otherwise.
+// Reads finite numbers; returns false if `object` lacks one of them.
 template <size_t count>
 bool numbers_at(const json &object, const char *const (&keys)[count], double *out) {
   double found[count];
@@ -63,7 +65,7 @@ int32_t parse(const std::string &frame, json &out, Fault &fault) {
   return MVS_DRIVER_OK;
 }
 
-// The entry of a list that has this id; nothing if there is none.
+// Returns the entry of a list with this id, or null.
 const json &entry(const json &frame, const std::string &list, const std::string &id) {
   static const json nothing;
   const json &entries = at(frame, list.c_str());
@@ -83,7 +85,7 @@ unsigned button_count(const json &state) {
 
 uint32_t button_mask(const json &state) {
   const json &buttons = at(state, "buttons");
-  uint32_t mask = flag_at(state, "button", false) ? 1 : 0;  // of the one with a cable
+  uint32_t mask = flag_at(state, "button", false) ? 1 : 0;  // of a grip on a cable
   for (unsigned i = 0; i < std::size(kButtons); ++i)
     if (flag_at(buttons, kButtons[i], false)) mask |= 1u << i;
   return mask;
@@ -104,14 +106,14 @@ Inverse read_inverse(const json &one) {
   return inverse;
 }
 
-// A grip that is gone or asleep lets go of its buttons, so that nothing stays grasped.
+// A disconnected or sleeping grip has no buttons pressed, so that no tool stays grasped.
 void read_grip(const json &one, Hand &hand) {
   const json &state = at(one, "state");
   hand.buttons = flag_at(at(one, "status"), "connected", true) ? button_mask(state) : 0;
   double q[4];
   if (!numbers_at(at(state, "orientation"), kWxyz, q)) return;
   const double norm = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  if (!(norm > 0.5 && norm < 2)) return;  // it has told none yet
+  if (!(norm > 0.5 && norm < 2)) return;  // no orientation yet
   for (int i = 0; i < 4; ++i) hand.orientation[i] = q[i] / norm;
 }
 
@@ -126,27 +128,27 @@ bool parse_version(const std::string &text, Version &version) {
 }
 
 int32_t read_version(const std::string &answer, Version &version, Fault &fault) {
-  json told;
-  const int32_t result = parse(answer, told, fault);
+  json message;
+  const int32_t result = parse(answer, message, fault);
   if (result != MVS_DRIVER_OK) return result;
-  const json &inner = at(told, "data").is_object() ? at(told, "data") : told;
+  const json &inner = at(message, "data").is_object() ? at(message, "data") : message;
   if (parse_version(text_at(inner, "project_version"), version) ||
       parse_version(text_at(inner, "git_tag"), version))
     return MVS_DRIVER_OK;
-  return nonsense(fault, "no version that can be read (the option version tells it)");
+  return nonsense(fault, "no readable version (set it by the option version)");
 }
 
 int32_t read_inventory(const std::string &frame, Inventory &inventory, Fault &fault) {
-  json told;
-  const int32_t result = parse(frame, told, fault);
+  json message;
+  const int32_t result = parse(frame, message, fault);
   if (result != MVS_DRIVER_OK) return result;
-  const json &inverses = at(told, "inverse3");
+  const json &inverses = at(message, "inverse3");
   if (!inverses.is_null() && !inverses.is_array())
     return nonsense(fault, "a frame whose inverse3 is not a list");
   for (const json &one : inverses)
     if (!text_at(one, "device_id").empty()) inventory.inverses.push_back(read_inverse(one));
   for (const char *list : kGripLists) {
-    const json &grips = at(told, list);
+    const json &grips = at(message, list);
     if (!grips.is_array()) continue;
     for (const json &one : grips) {
       const std::string id = text_at(one, "device_id");
@@ -160,10 +162,10 @@ int32_t read_inventory(const std::string &frame, Inventory &inventory, Fault &fa
 
 int32_t read_state(const std::string &frame, const std::string &device, const Grip &grip,
                    Hand &hand, Fault &fault) {
-  json told;
-  const int32_t result = parse(frame, told, fault);
+  json message;
+  const int32_t result = parse(frame, message, fault);
   if (result != MVS_DRIVER_OK) return result;
-  const json &one = entry(told, "inverse3", device);
+  const json &one = entry(message, "inverse3", device);
   if (one.is_null()) return 0;
   const json &state = at(one, "state"), &status = at(one, "status");
   if (!numbers_at(at(state, "cursor_position"), kXyz, hand.position))
@@ -174,7 +176,7 @@ int32_t read_state(const std::string &frame, const std::string &device, const Gr
     return nonsense(fault, "a cursor_velocity that is not three numbers");
   hand.calibrated = flag_at(status, "calibrated", hand.calibrated);
   hand.powered = flag_at(status, "power_supply", hand.powered);
-  if (!grip.id.empty()) read_grip(entry(told, grip.kind, grip.id), hand);
+  if (!grip.id.empty()) read_grip(entry(message, grip.kind, grip.id), hand);
   return 1;
 }
 
@@ -207,7 +209,7 @@ const std::string &Commands::force(const double newton[3]) {
   text_.resize(numbers_);
   for (int i = 0; i < 3; ++i) {
     char number[32];
-    // not printf: a locale may have it write a comma; six digits are a millionth of the force
+    // not printf, which may write a decimal comma; six digits are enough for a force
     const auto end =
         std::to_chars(number, number + sizeof number, newton[i], std::chars_format::general, 6);
     text_ += i ? ",\"" : "\"";

@@ -1,5 +1,4 @@
-// What is said to the Haply Inverse Service and what it tells, as JSON; the sources are in the
-// README. Nothing here talks to anybody.
+// JSON messages to and from the Haply Inverse Service; sources in README.md. No input or output.
 #pragma once
 
 #include <string>
@@ -19,9 +18,9 @@ struct Version {
   }
 };
 
-// "3.5.0.0", as "project_version" has it.
+// Parses "3.5.0.0", the form of "project_version".
 bool parse_version(const std::string &text, Version &version);
-// The answer to GET /version.
+// Parses the answer to GET /version.
 int32_t read_version(const std::string &answer, Version &version, Fault &fault);
 
 struct Grip {
@@ -35,31 +34,32 @@ struct Inverse {
   bool calibrated = true, powered = true, in_use = false;
 };
 
-// The first frame after connecting: all devices, with what they are.
+// The first frame after connecting: all devices with their descriptions.
 struct Inventory {
   std::vector<Inverse> inverses;
   std::vector<Grip> grips;
 };
 int32_t read_inventory(const std::string &frame, Inventory &inventory, Fault &fault);
 
-// What is known of the hand. What a frame leaves out stays as it was.
+// State of the hand. Values absent from a frame keep their previous value.
 struct Hand {
   double position[3] = {}, velocity[3] = {}, orientation[4] = {1, 0, 0, 0};
   bool has_velocity = false, calibrated = true, powered = true;
   uint32_t buttons = 0;
 };
-// 1 when `frame` tells of the device, 0 when it does not, else a code. `grip` may have no id.
+// Returns 1 if `frame` contains the device, 0 if not, otherwise an error code. The id of `grip` may
+// be empty.
 int32_t read_state(const std::string &frame, const std::string &device, const Grip &grip,
                    Hand &hand, Fault &fault);
 
-// The frames that are sent, of which a thread at the device's rate fills in three numbers.
+// Messages to the service. force() only fills in three numbers, for use at the device's rate.
 class Commands {
  public:
   Commands(const Version &version, const std::string &device);
 
-  // The first message: who we are, and where the origin is (`preset`, from 3.5 on; may be empty).
+  // The first message: session name, and the origin (`preset`, from 3.5 on; may be empty).
   std::string hello(const std::string &preset) const;
-  // Valid until the next call; allocates nothing after the first.
+  // The result is valid until the next call; allocates only in the first call.
   const std::string &force(const double newton[3]);
 
  private:

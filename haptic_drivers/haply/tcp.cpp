@@ -1,3 +1,4 @@
+// Non-blocking sockets with poll().
 #include "tcp.h"
 
 #include <fcntl.h>
@@ -44,7 +45,7 @@ int32_t Tcp::open(const char *host, int port, int milliseconds, Fault &fault) {
     return fault.set(MVS_DRIVER_E_OPTION, "option host '%.80s': %s", host, gai_strerror(unknown));
   const std::unique_ptr<addrinfo, void (*)(addrinfo *)> addresses(found, freeaddrinfo);
   int number = 0;
-  // "localhost" is ::1 and 127.0.0.1: the service may listen at one of them only
+  // "localhost" is ::1 and 127.0.0.1; the service may listen on one of them only
   for (const addrinfo *one = found; one; one = one->ai_next) {
     socket_ = socket(one->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     int refused = 0;
@@ -62,7 +63,7 @@ int32_t Tcp::open(const char *host, int port, int milliseconds, Fault &fault) {
                      "the Haply Hub and start it (systemctl start haply-inverse-service), or give "
                      "the options host and port",
                      host, port, std::strerror(number));
-  // a force must not wait for the acknowledgement of the last one
+  // disables Nagle's algorithm: a force must not wait for the acknowledgement of the last one
   const int at_once = 1;
   setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
   return MVS_DRIVER_OK;

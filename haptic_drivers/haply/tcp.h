@@ -1,4 +1,4 @@
-// A connection whose every wait has an end.
+// TCP client whose waits all have a timeout.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace haply {
 
 using driver::Fault;
 
-// Of CLOCK_MONOTONIC.
+// Time of CLOCK_MONOTONIC.
 uint64_t monotonic_ns();
 
 class Tcp {
@@ -22,11 +22,12 @@ class Tcp {
 
   int32_t open(const char *host, int port, int milliseconds, Fault &fault);
   void close();
-  // Closes after all that was sent has arrived: closing over unread bytes would throw it away.
+  // Closes after the peer has received all sent bytes: close() with unread input would discard
+  // them.
   void finish(int milliseconds);
 
   bool send_all(const void *bytes, size_t size, int milliseconds) const;
-  // How many bytes came, 0 when none did in time, -1 when the other side is gone.
+  // Returns the number of received bytes, 0 on timeout, -1 if the peer closed the connection.
   int receive(void *bytes, size_t size, int milliseconds) const;
   int descriptor() const { return socket_; }
 

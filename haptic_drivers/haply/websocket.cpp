@@ -68,8 +68,8 @@ void WebSocket::close(int milliseconds) {
   tcp_.finish(milliseconds);
 }
 
-// SplitMix64: masks keep what a web page sends from looking like another protocol; here nobody
-// else writes the text, and any mask will do.
+// SplitMix64. Masks protect proxies against text chosen by a web page; here the driver writes all
+// text, so that any mask is sufficient.
 uint32_t WebSocket::next_mask() {
   uint64_t z = mask_ += 0x9e3779b97f4a7c15;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
@@ -129,12 +129,12 @@ int32_t WebSocket::receive(std::string &text, int milliseconds, Fault &fault) {
   }
 }
 
-// The first frame of what was read: 1 when it is complete, 0 when not.
+// Decodes the first received frame: returns 1 if it is complete, 0 if not.
 int32_t WebSocket::decode(Frame &frame, Fault &fault) const {
   if (unread_.size() < 2) return 0;
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(unread_[i]); };
   const unsigned opcode = byte(0) & 15u;
-  if (byte(0) & 0x70u) return broken(fault, "a frame uses an extension that nobody asked for");
+  if (byte(0) & 0x70u) return broken(fault, "a frame uses an extension that was not requested");
   if (byte(1) & 0x80u) return broken(fault, "a frame is masked");
   uint64_t size = byte(1) & 0x7fu;
   const size_t wide = size == 126 ? 2 : size == 127 ? 8 : 0;

@@ -1,5 +1,4 @@
-// The client side of RFC 6455, of it what talks to a service on this machine: no extension, no
-// subprotocol, no TLS.
+// WebSocket client (RFC 6455) for a local service: no extensions, subprotocols or TLS.
 #pragma once
 
 #include <string>
@@ -11,13 +10,13 @@ namespace haply {
 class WebSocket {
  public:
   int32_t open(const char *host, int port, int milliseconds, Fault &fault);
-  // Says goodbye, and waits until what was sent has arrived.
+  // Sends a close frame, and waits until the peer has received all bytes.
   void close(int milliseconds);
 
-  // A text that is sent: masked, as all that a client sends.
+  // Returns the masked text frame of a client.
   std::string frame_of(const std::string &text);
   bool send_text(const char *text, size_t size, int milliseconds);
-  // The next text: 1 when there is one, 0 when none came in time, else a code. Answers pings.
+  // Receives the next text: 1 on success, 0 on timeout, otherwise an error code. Answers pings.
   int32_t receive(std::string &text, int milliseconds, Fault &fault);
   int descriptor() const { return tcp_.descriptor(); }
 
@@ -37,7 +36,7 @@ class WebSocket {
 
   Tcp tcp_;
   std::string unread_, message_, scratch_;
-  bool inside_ = false;  // of a message in several frames
+  bool inside_ = false;  // inside a message of several frames
   uint64_t mask_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Opens a device, says what it is, calibrates it, closes it.
+// Open, describe, calibrate, start and close a device.
 #include "device.h"
 
 #include <chrono>
@@ -14,10 +14,8 @@
 namespace phantom {
 namespace {
 
-constexpr double kMillimetre = 1e-3;
-
-// hdInitDevice fails with kAlreadyInitiated after a program that did not close the device: then it
-// can be switched off from here, and after a moment opened.
+// hdInitDevice fails with kAlreadyInitiated if a crashed program did not close the device: disables
+// it and tries again, up to ten times.
 unsigned init(const std::string &name, unsigned &code) {
   for (int attempt = 0; attempt < 10; ++attempt) {
     take_errors(hd());
@@ -37,7 +35,7 @@ unsigned init(const std::string &name, unsigned &code) {
   return kInvalidHandle;
 }
 
-// Some devices do not know some parameters: zero then.
+// Reads a parameter; zeros if the device does not support it.
 void numbers(unsigned parameter, double *out, int count) {
   double values[16] = {};
   take_errors(hd());
@@ -65,14 +63,13 @@ void text(unsigned parameter, char (&out)[N]) {
   std::snprintf(out, N, "%s", known ? words : "");
 }
 
-// In N/mm; a driver that answers in N/m would be 1000 times too stiff: then it is as if it had not
-// answered.
+// Converts N/mm to N/m. A value above 20 N/mm is probably in N/m and is ignored.
 double per_metre(double per_millimetre) {
   const double largest = 20;
   return per_millimetre > 0 && per_millimetre < largest ? per_millimetre / kMillimetre : 0;
 }
 
-// The device is current.
+// The device must be the current one.
 void describe(mvs_driver_device &device) {
   mvs_driver_info &info = device.info;
   info.struct_size = sizeof info;
@@ -81,7 +78,7 @@ void describe(mvs_driver_device &device) {
   text(kFirmware, info.firmware);
   info.freedoms_in = integer(kInputFreedoms, 6) >= 6 ? 6 : 3;
   info.freedoms_out = integer(kOutputFreedoms, 3) >= 6 ? 6 : 3;
-  info.buttons = std::strstr(info.model, "Premium") ? 4 : 2;  // HDAPI counts up to 4, does not tell
+  info.buttons = std::strstr(info.model, "Premium") ? 4 : 2;  // HDAPI does not report the number
   double box[6];
   numbers(kUsableWorkspace, box, 6);
   for (int i = 0; i < 3; ++i) {
@@ -98,7 +95,7 @@ void describe(mvs_driver_device &device) {
   device.style = integer(kCalibrationStyle, 0);
 }
 
-// Which of the parameters of each tick it knows.
+// Tests which parameters of a tick the device supports.
 void probe(mvs_driver_device &device) {
   unsigned char parked = 0;
   double values[16];
@@ -114,7 +111,7 @@ void probe(mvs_driver_device &device) {
   take_errors(hd());
 }
 
-// The library's own protections, where the device has them; forces themselves stay off.
+// Enables the library's protections that the device supports; forces stay off.
 void protect() {
   for (const unsigned capability : {kForceClamping, kForceRamping, kSoftwareForceLimit})
     hd().enable(capability);
@@ -155,7 +152,7 @@ int32_t open_locked(const mvs_driver_host *host, const char *name, mvs_driver_de
   return MVS_DRIVER_OK;
 }
 
-// The library is free, and the device current.
+// The caller holds the mutex, and no device is running.
 int32_t calibrate_locked(mvs_driver_device &device) {
   const driver::DecimalPoint point;
   hd().make_current(device.handle);
@@ -177,7 +174,7 @@ int32_t calibrate_locked(mvs_driver_device &device) {
       std::string(device.info.model) + " must be calibrated: " + how_to_calibrate(device.style));
 }
 
-// Devices whose callback may still come: kept, and known to be kept.
+// Keeps devices whose callback may still be called.
 void keep_for_ever(mvs_driver_device *device) {
   static std::vector<mvs_driver_device *> *const kept = new std::vector<mvs_driver_device *>;
   kept->push_back(device);
@@ -192,13 +189,14 @@ void disable(unsigned handle) {
   take_errors(hd());
 }
 
-// The mutex is held, the device is not running. A device that is lost may take the library with it.
+// The caller holds the mutex, and the device is not running. Calls for a lost device have a
+// timeout.
 void release(mvs_driver_device *device) {
   if (device->loop.result == MVS_DRIVER_OK && !device->abandoned) {
     disable(device->handle);
   } else {
-    if (device->abandoned && shared().running == 0 && !broken()) call_patiently(stop_all, 0);
-    if (!broken()) call_patiently(disable, device->handle);
+    if (device->abandoned && shared().running == 0 && !broken()) call_with_timeout(stop_all, 0);
+    if (!broken()) call_with_timeout(disable, device->handle);
   }
   device->slot->handle = kInvalidHandle;
   if (device->abandoned && (broken() || shared().running > 0))
@@ -233,8 +231,8 @@ int32_t calibrate(mvs_driver_device *device) {
   });
 }
 
-// While another device runs the library's current device is its; the loop then says by its flag
-// whether this one is calibrated.
+// While another device runs, the current device of the library must not change: the loop then
+// reports the calibration by its flag.
 int32_t start(mvs_driver_device *device) {
   return guarded(device->sentence, [&] {
     const std::lock_guard lock(shared().mutex);
@@ -246,7 +244,7 @@ int32_t start(mvs_driver_device *device) {
   });
 }
 
-// From within the servo it takes effect when run() returns.
+// A call from within the servo takes effect when run() returns.
 void close(mvs_driver_device *device) {
   if (!device) return;
   if (device->running) {

@@ -1,4 +1,5 @@
-// An open device, and what all of them share: the library, its one scheduler, its stack of errors.
+// An open device of 3D Systems, and the state shared by all devices: library, scheduler, error
+// slots.
 #pragma once
 #include <mvs/driver.h>
 
@@ -13,22 +14,25 @@
 namespace phantom {
 
 inline constexpr int kMaxDevices = 8;
-// What the vendor's set-up program calls the first one; older ones said "Default PHANTOM".
+inline constexpr double kMillimetre = 1e-3;  // m
+// The vendor's name of the first device; older versions use "Default PHANTOM".
 inline constexpr const char *kDefaultDevice = "Default Device";
 
-// A device as another device's callback sees it. Never freed: it may have been closed meanwhile.
+// The part of a device that callbacks of other devices use. Never freed, because the device may be
+// closed meanwhile.
 struct Slot {
   std::atomic<unsigned> handle{kInvalidHandle};  // kInvalidHandle: the slot is free
-  std::atomic<unsigned> posted{0};  // the newest error of this device that another one came upon
+  std::atomic<unsigned> posted{
+      0};  // the newest error of this device, found by another device's callback
 };
 
 struct Shared {
-  std::mutex mutex;         // of everything here but the slots
-  void *library = nullptr;  // never closed: HDAPI does not bear to be loaded twice
+  std::mutex mutex;         // protects all members except the slots
+  void *library = nullptr;  // never closed: HDAPI cannot be loaded twice
   std::string path;
   Hdapi hd = {};
-  int running = 0;  // calls of run(): the scheduler goes while there is one
-  std::shared_ptr<std::atomic<bool>> returned;  // false: a call has not come back, see broken()
+  int running = 0;  // active calls of run(); the scheduler runs while there is one
+  std::shared_ptr<std::atomic<bool>> returned;  // false: a call did not return, see broken()
   Slot slots[kMaxDevices];
 };
 Shared &shared();
@@ -36,32 +40,32 @@ inline const Hdapi &hd() {
   return shared().hd;
 }
 
-// The slot of a device that is open here, null if it is not.
+// Returns the slot of a device open in this process, or null.
 Slot *slot_of(unsigned handle);
 
-// Loads the library that the options name, or the first that is found. The mutex is held.
+// Loads the library named by the options, or the first found. The caller holds the mutex.
 int32_t load(const mvs_driver_host *host, std::string &sentence);
-// "" if it was not given.
+// Returns an option, "" if it is not given.
 std::string option(const mvs_driver_host *host, const char *key);
 
-// Who may be in the loop: see run().
+// State of the handover between the scheduler's thread and run().
 enum Phase : int { kWithLibrary, kInServo, kGivenUp };
 
-// What a run holds. Its atomics are seen by the scheduler's thread and by others, the rest only by
-// the scheduler's while it goes.
+// State of one run(). The atomics are shared between threads; the other members belong to the
+// scheduler's thread while it runs.
 struct Loop {
   mvs_driver_servo servo = nullptr;
   void *user = nullptr;
   uint64_t sequence = 0;
   int quiet = 0;       // ticks for which the motors stay off, after a warning
-  int strange = 0;     // ticks in a row with an error that should not come
-  unsigned cause = 0;  // of the quiet
+  int strange = 0;     // consecutive ticks with an unexpected error
+  unsigned cause = 0;  // cause of the quiet ticks
   bool enabled = false, calibrated = false, warm = false, saturated = false;
   std::atomic<uint64_t> ticks{0};
   std::atomic<int> phase{kWithLibrary};
-  std::atomic<bool> ended{false};  // there are no more ticks
+  std::atomic<bool> ended{false};  // the last tick is done
   std::atomic<int32_t> result{MVS_DRIVER_OK};
-  std::atomic<unsigned> code{0};  // the library's error that ended it
+  std::atomic<unsigned> code{0};  // the library's error that ended the run
   std::atomic<unsigned long> servo_thread{0};
   std::atomic<bool> panicked{false};  // panic(): zero from now on
 };
@@ -74,13 +78,13 @@ struct mvs_driver_device {
   unsigned handle = phantom::kInvalidHandle;
   phantom::Slot *slot = nullptr;
   mvs_driver_info info = {};
-  int style = 0;  // of its calibration, bits
+  int style = 0;  // bits of CalibrationStyle
   bool has_inkwell = false, has_temperature = false, has_velocity = false;
   std::string sentence;
   bool started = false;
   bool abandoned = false;  // a callback may still come
   std::atomic<bool> running{false}, close_after{false};
-  std::atomic<bool> quit{false};  // stop(): the next tick is the last one
+  std::atomic<bool> quit{false};  // set by stop(): the next tick is the last one
   phantom::Loop loop;
 };
 
@@ -98,19 +102,19 @@ void panic(mvs_driver_device *device);
 int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user);
 int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *user);
 
-// One tick of the scheduler, for the device `user`.
+// One tick of the scheduler for the device `user`.
 unsigned MVS_HDAPI tick(void *user);
 
-// Calls the library, which may never come back from a device that is gone: after a second it goes
-// on without, and the library is broken until it does come back.
-void call_patiently(void (*call)(unsigned), unsigned argument);
+// Calls the library on another thread with a timeout of 1 s, because a call for a disconnected
+// device may hang. After a timeout broken() is true until the call returns.
+void call_with_timeout(void (*call)(unsigned), unsigned argument);
 bool broken();
 
-// The sentence of list, doctor and open, on this thread.
+// The error message of list, doctor and open on this thread.
 std::string &last_sentence();
 int32_t fail(std::string &where, int32_t code, std::string sentence) noexcept;
 
-// Runs `body`, lets nothing out.
+// Runs `body`; turns exceptions into an error code.
 template <class Body>
 int32_t guarded(std::string &where, Body body) noexcept {
   try {

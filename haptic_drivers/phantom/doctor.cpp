@@ -1,4 +1,4 @@
-// Which devices are there, and what is in the way of those that are not.
+// list() and doctor(): locale, USB, library, devices.
 #include <filesystem>
 #include <set>
 
@@ -14,7 +14,7 @@ namespace {
 
 using driver::Finder;
 
-// The names that the vendor's set-up program has written, a file each; none: the default device.
+// Returns the device names of the vendor's configuration files; without files, the default device.
 std::vector<std::string> configured() {
   namespace fs = std::filesystem;
   std::set<std::string> names;
@@ -29,7 +29,8 @@ std::vector<std::string> configured() {
   return {names.begin(), names.end()};
 }
 
-// What libHD.so needs, each by itself: the first that is missing hides the others.
+// Checks the dependencies of libHD.so one by one, because dlopen reports only the first missing
+// one.
 void check_dependencies(const Finder &finder) {
   const struct {
     const char *name, *cure;
@@ -72,7 +73,7 @@ void check_locale(const Finder &finder) {
                    : "numbers have a decimal point");
 }
 
-// Opens the device, and calibrates it if that needs nobody.
+// Opens the device, and calibrates it if that needs no user.
 void check_device(const mvs_driver_host *host, const Finder &finder, const std::string &name) {
   const std::string check = "device " + name;
   mvs_driver_device *device = nullptr;
@@ -83,7 +84,7 @@ void check_device(const mvs_driver_host *host, const Finder &finder, const std::
   }
   const mvs_driver_info &info = device->info;
   finder.say(1, check,
-             driver::sentence("%s, serial %s, firmware %s: %.2g N (%.2g N for ever) at %.0f Hz",
+             driver::sentence("%s, serial %s, firmware %s: %.2g N (%.2g N continuous) at %.0f Hz",
                               info.model, info.serial, info.firmware, info.peak_force,
                               info.continuous_force, info.rate));
   const bool good = calibrate(device) == MVS_DRIVER_OK;
@@ -93,7 +94,7 @@ void check_device(const mvs_driver_host *host, const Finder &finder, const std::
 
 }  // namespace
 
-// HDAPI has no list: each name is opened and closed, which moves nothing.
+// HDAPI has no list of devices: opens and closes each name, which does not move the device.
 int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
   return guarded(last_sentence(), [&]() -> int32_t {
     {

@@ -1,3 +1,4 @@
+// Symbol lookup of HDAPI, and its error stack.
 #include "hdapi.h"
 
 #include "common/library.h"
@@ -35,7 +36,7 @@ std::string bind(void *library, Hdapi &hd) {
   return missing;
 }
 
-// Bounded, should a library never say that there is none.
+// The loop is bounded, in case a library never reports an empty stack.
 ErrorInfo take_errors(const Hdapi &hd) {
   ErrorInfo newest = {};
   for (int i = 0; i < 64; ++i) {

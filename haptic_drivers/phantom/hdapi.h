@@ -1,5 +1,5 @@
-// The part of OpenHaptics' HDAPI that this driver calls, declared here so that the vendor's headers
-// need not be there: names, types and numbers of its public reference guide.
+// Function table of OpenHaptics' HDAPI, declared here so that the vendor's headers are not needed;
+// names, types and numbers are those of its public reference guide.
 #pragma once
 #include <string>
 
@@ -9,7 +9,7 @@ inline constexpr unsigned kInvalidHandle = 0xFFFFFFFFu;
 inline constexpr unsigned kCallbackDone = 0, kCallbackContinue = 1;
 inline constexpr unsigned short kHighestPriority = 65535;
 
-// What hdGetError returns, by value: twelve bytes.
+// The result of hdGetError, returned by value: twelve bytes.
 struct ErrorInfo {
   unsigned code;
   int internal;
@@ -32,7 +32,7 @@ enum Error : unsigned {
   kTimerError = 0x304,
   kInvalidLicence = 0x600
 };
-// The classes of errors: the byte above the lowest.
+// Error classes: bits 8 to 11 of the code.
 enum ErrorClass : unsigned { kWarnings = 0x200, kDeviceErrors = 0x300 };
 
 enum Parameter : unsigned {
@@ -101,13 +101,13 @@ struct Hdapi {
   void(MVS_HDAPI *unschedule)(unsigned long);
 };
 
-// Looks the functions up in a loaded library; the names of those that it does not export.
+// Looks up the functions in a loaded library; returns the missing names.
 std::string bind(void *library, Hdapi &hd);
 
-// Empties the stack of errors; the newest one, code 0 if there was none.
+// Empties the error stack of the library and returns the newest error; code 0 without an error.
 ErrorInfo take_errors(const Hdapi &hd);
 
-// "HD_COMM_ERROR (0x302)", in the library's own words where it has some.
+// Returns "HD_COMM_ERROR (0x302)", with the library's text if it has one.
 std::string describe(const Hdapi &hd, unsigned code);
 
 }  // namespace phantom

@@ -1,4 +1,4 @@
-// run(): has the vendor's scheduler call tick(), and watches that it does; stop() and panic().
+// run(): schedules tick() in the vendor's scheduler and supervises it; stop() and panic().
 #include <pthread.h>
 #include <time.h>
 
@@ -15,8 +15,8 @@ namespace phantom {
 namespace {
 
 constexpr int kPollMs = 2;
-// The scheduler may take its time to begin.
-constexpr int kPatience = MVS_DRIVER_PATIENCE_MS / kPollMs, kFirstPatience = 2000 / kPollMs;
+// Polls without a tick until the device counts as lost; the scheduler starts slowly.
+constexpr int kTimeout = MVS_DRIVER_PATIENCE_MS / kPollMs, kFirstTimeout = 2000 / kPollMs;
 
 void reset(Loop &loop, mvs_driver_servo servo, void *user) {
   loop.servo = servo;
@@ -33,7 +33,7 @@ void reset(Loop &loop, mvs_driver_servo servo, void *user) {
   loop.panicked = false;
 }
 
-// Hz, 0: the library's own. HDAPI takes 500 and 1000 everywhere, more on some.
+// Hz; 0 keeps the library's rate. All devices support 500 and 1000, some more.
 unsigned long rate_of(const mvs_driver_device &device) {
   const std::string chosen = option(device.host, "rate");
   return chosen.empty() ? 0 : std::strtoul(chosen.c_str(), nullptr, 10);
@@ -67,9 +67,9 @@ int32_t begin_locked(mvs_driver_device &device) {
   return MVS_DRIVER_OK;
 }
 
-// Until the loop has ended; false if the scheduler has stopped calling, after which the servo is
-// not called any more. Polls are counted, not seconds: a process that was stopped and goes on finds
-// that no time has passed. The servo's own time is the host's business.
+// Waits until the loop has ended; returns false if the scheduler stopped calling, after which the
+// servo is not called again. Counts polls, not seconds, so that a suspended process does not time
+// out. Time spent in the servo does not count.
 bool wait(Loop &loop) {
   uint64_t seen = 0;
   for (int polls = 0; !loop.ended; ++polls) {
@@ -77,7 +77,7 @@ bool wait(Loop &loop) {
     const uint64_t ticks = loop.ticks;
     if (ticks != seen || loop.phase == kInServo) polls = 0;
     seen = ticks;
-    if (polls < (seen ? kPatience : kFirstPatience)) continue;
+    if (polls < (seen ? kTimeout : kFirstTimeout)) continue;
     int expected = kWithLibrary;
     if (loop.phase.compare_exchange_strong(expected, kGivenUp)) return loop.ended;
   }
@@ -116,7 +116,7 @@ int32_t finish(mvs_driver_device &device, bool answered) {
     if (device.loop.result == MVS_DRIVER_OK)
       hd().stop_scheduler();
     else if (!broken())
-      call_patiently(stop_scheduler, 0);
+      call_with_timeout(stop_scheduler, 0);
   }
   const int32_t result = say_end(device);
   if (!broken()) take_errors(hd());
@@ -149,9 +149,9 @@ int32_t stop(mvs_driver_device *device) {
   return MVS_DRIVER_OK;
 }
 
-// HDAPI may not be called from a signal handler that has interrupted it. It was not interrupted if
-// the signal came in the servo, on the scheduler's thread, where the frame is open; else its thread
-// goes on, and two ticks write zero.
+// HDAPI must not be called from a signal handler that interrupted it. A signal inside the servo, on
+// the scheduler's thread, did not interrupt it: the handler writes zero into the open frame.
+// Otherwise the scheduler's thread continues and writes zero in its next two ticks.
 void panic(mvs_driver_device *device) {
   Loop &loop = device->loop;
   loop.panicked = true;

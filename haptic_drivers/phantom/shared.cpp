@@ -1,4 +1,4 @@
-// The library, loaded once for the life of the process.
+// The vendor library, loaded once per process.
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -25,7 +25,7 @@ std::vector<std::string> candidates(const std::string &chosen) {
           "/usr/lib/x86_64-linux-gnu/libHD.so"};
 }
 
-// Another path than that of the library that is loaded already.
+// Compares a requested path with the loaded library.
 int32_t compare_with_loaded(const std::string &chosen, std::string &sentence) {
   const driver::Library other = driver::load({chosen});
   if (!other.handle)
@@ -61,7 +61,7 @@ int32_t load(const mvs_driver_host *host, std::string &sentence) {
   const std::string chosen = option(host, "library");
   if (!chosen.empty() && chosen.front() != '/')
     return fail(sentence, MVS_DRIVER_E_OPTION,
-                "library=" + chosen + " is no absolute path: name the file from the root");
+                "library=" + chosen + " is not an absolute path: give the path from the root");
   if (broken())
     return fail(sentence, MVS_DRIVER_E_FAULT,
                 "OpenHaptics did not come back from its last call: start this program again");
@@ -81,7 +81,7 @@ int32_t load(const mvs_driver_host *host, std::string &sentence) {
   return MVS_DRIVER_OK;
 }
 
-void call_patiently(void (*call)(unsigned), unsigned argument) {
+void call_with_timeout(void (*call)(unsigned), unsigned argument) {
   const auto returned = std::make_shared<std::atomic<bool>>(false);
   shared().returned = returned;
   std::thread([=] {

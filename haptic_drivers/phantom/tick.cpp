@@ -1,20 +1,20 @@
-// One tick of the vendor's scheduler: a sample to the servo, its force to the motors. Nothing here
-// locks, allocates or waits.
+// One tick of the vendor's scheduler: a sample to the servo, its force to the motors. No lock,
+// allocation or wait.
 #include <pthread.h>
 
 #include <chrono>
 #include <cmath>
 
+#include "common/rotation.h"
 #include "device.h"
 
 namespace phantom {
 namespace {
 
-constexpr double kMillimetre = 1e-3;
 constexpr int kQuiet = 100, kQuietWhenWarm = 1000;  // ticks without force after a warning
 constexpr int kStrangeAtMost = 10;
-constexpr uint64_t kSlowly = 128;  // what changes slowly is asked for once in so many ticks
-constexpr double kWarm = 0.9;      // of the largest motor temperature
+constexpr uint64_t kSlowly = 128;  // ticks between two reads of calibration and temperature
+constexpr double kWarm = 0.9;      // share of the largest motor temperature
 
 uint64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -22,8 +22,8 @@ uint64_t now_ns() {
       .count();
 }
 
-// The library takes its own forces off for a warning; they stay off for a while, so that a force
-// that caused it does not come back at once.
+// After a warning, for which the library switches its forces off, they stay off for a number of
+// ticks, so that the force that caused it does not return at once.
 void warn(Loop &loop, unsigned code) {
   loop.saturated = code == kExceededForce || code == kExceededImpulse;
   loop.quiet = code == kWarmMotors ? kQuietWhenWarm : kQuiet;
@@ -37,7 +37,8 @@ void end(Loop &loop, int32_t result, unsigned code) {
   loop.code = code;
 }
 
-// False: that was the end. `strange` becomes an error that a sound program does not see.
+// Classifies an error: returns false if it ends the loop; an unexpected error is stored in
+// `strange`.
 bool judge(Loop &loop, unsigned code, unsigned &strange) {
   if ((code & 0xF00) == kWarnings) {
     warn(loop, code);
@@ -55,8 +56,8 @@ bool judge(Loop &loop, unsigned code, unsigned &strange) {
   return true;
 }
 
-// Takes what is on the stack of errors, which all devices share, and what others left for this one.
-bool go_on(mvs_driver_device &device) {
+// Handles the errors on the stack, which all devices share, and errors posted by other devices.
+bool handle_errors(mvs_driver_device &device) {
   Loop &loop = device.loop;
   unsigned strange = 0;
   for (int i = 0; i < 16; ++i) {
@@ -80,21 +81,6 @@ bool go_on(mvs_driver_device &device) {
     loop.strange = 0;
   }
   return true;
-}
-
-// The rotation of a transform by columns as a quaternion w x y z: the largest of the four first, so
-// that nothing small divides. Not a number stays not a number.
-void quaternion(const double *m, double *q) {
-  const double trace[4] = {m[0] + m[5] + m[10], m[0] - m[5] - m[10], m[5] - m[0] - m[10],
-                           m[10] - m[0] - m[5]};
-  int k = 0;
-  for (int i = 1; i < 4; ++i)
-    if (trace[i] > trace[k]) k = i;
-  const double twice = std::sqrt(1 + trace[k]), half = 0.5 / twice;
-  const double x = m[6] - m[9], y = m[8] - m[2], z = m[1] - m[4];
-  const double xy = m[1] + m[4], xz = m[2] + m[8], yz = m[6] + m[9];
-  const double rows[4][4] = {{0, x, y, z}, {x, 0, xy, xz}, {y, xy, 0, yz}, {z, xz, yz, 0}};
-  for (int i = 0; i < 4; ++i) q[i] = i == k ? 0.5 * twice : rows[k][i] * half;
 }
 
 void read_slowly(mvs_driver_device &device) {
@@ -132,7 +118,11 @@ void read(mvs_driver_device &device, mvs_driver_state &state) {
   state.orientation[0] = 1;
   if (device.info.freedoms_in == 6) {
     hd().get_doubles(kTransform, transform);
-    quaternion(transform, state.orientation);
+    // the transform is stored by columns
+    const double rotation[3][3] = {{transform[0], transform[4], transform[8]},
+                                   {transform[1], transform[5], transform[9]},
+                                   {transform[2], transform[6], transform[10]}};
+    driver::quaternion(rotation, state.orientation);
   }
   state.struct_size = sizeof state;
   state.time_ns = now_ns();
@@ -140,14 +130,9 @@ void read(mvs_driver_device &device, mvs_driver_state &state) {
   state.buttons = uint32_t(buttons);
 }
 
-bool is_finite(const mvs_driver_force &force) {
-  for (int i = 0; i < 3; ++i)
-    if (!std::isfinite(force.force[i]) || !std::isfinite(force.torque[i])) return false;
-  return true;
-}
-
 void write(mvs_driver_device &device, const mvs_driver_force &force) {
-  const bool on = force.on && device.loop.quiet == 0 && !device.loop.panicked && is_finite(force);
+  const bool on =
+      force.on && device.loop.quiet == 0 && !device.loop.panicked && driver::is_finite(force);
   double newtons[3] = {}, millinewtonmetres[3] = {};
   for (int i = 0; on && i < 3; ++i) {
     newtons[i] = force.force[i];
@@ -157,7 +142,7 @@ void write(mvs_driver_device &device, const mvs_driver_force &force) {
   if (device.info.freedoms_out == 6) hd().set_doubles(kTorque, millinewtonmetres);
 }
 
-// Asks the servo, unless run() has given this loop up meanwhile.
+// Calls the servo, unless run() gave up this loop meanwhile.
 bool ask(Loop &loop, const mvs_driver_state &state, mvs_driver_force &force) {
   int expected = kWithLibrary;
   if (!loop.phase.compare_exchange_strong(expected, kInServo)) return false;
@@ -168,7 +153,7 @@ bool ask(Loop &loop, const mvs_driver_state &state, mvs_driver_force &force) {
   return answer == MVS_DRIVER_OK;
 }
 
-// Between hdBeginFrame and hdEndFrame. False: the last one.
+// The part between hdBeginFrame and hdEndFrame; returns false on the last tick.
 bool inside_frame(mvs_driver_device &device) {
   Loop &loop = device.loop;
   mvs_driver_state state = {};
@@ -176,7 +161,7 @@ bool inside_frame(mvs_driver_device &device) {
   force.struct_size = sizeof force;
   if (loop.sequence % kSlowly == 0) read_slowly(device);
   read(device, state);
-  bool more = go_on(device) && !device.quit;
+  bool more = handle_errors(device) && !device.quit;
   if (more) {
     state.flags = flags(device);
     state.cause = loop.cause;
@@ -196,7 +181,7 @@ bool frame(mvs_driver_device &device) {
   hd().make_current(device.handle);
   bool more = inside_frame(device);
   hd().end_frame(device.handle);
-  if (more) more = go_on(device);
+  if (more) more = handle_errors(device);
   if (!more) hd().disable(kForceOutput);
   return more;
 }

@@ -1,3 +1,4 @@
+// Error messages with the action to take.
 #include "words.h"
 
 #include <mvs/driver.h>
@@ -11,19 +12,20 @@ namespace {
 
 using driver::sentence;
 
-// Silence has three reasons, and only the USB bus tells which: it is not plugged in, it is and we
-// may not, it is and we may.
-int32_t explain_silence(const std::string &who, const std::string &sysroot, std::string &out) {
+// A device that does not answer is not connected, connected without permission, or connected: the
+// USB bus shows which.
+int32_t explain_no_answer(const std::string &subject, const std::string &sysroot,
+                          std::string &out) {
   const auto devices = driver::usb_devices(sysroot, {"2988:"});
   for (const auto &device : devices) {
     if (device.closed.empty()) continue;
     out = sentence(
         "%s is plugged in (USB %s), but this user may not open %s: add a udev rule, %s, then plug "
         "it in again",
-        who.c_str(), device.id.c_str(), device.closed.c_str(), kUdevRule);
+        subject.c_str(), device.id.c_str(), device.closed.c_str(), kUdevRule);
     return MVS_DRIVER_E_PERMISSION;
   }
-  out = sentence("%s does not answer: %s", who.c_str(),
+  out = sentence("%s does not answer: %s", subject.c_str(),
                  devices.empty() ? "no device of 3D Systems is on the USB bus; check power and "
                                    "cable (one on FireWire or Ethernet is not looked for here)"
                                  : "it is on the USB bus; run the vendor's Touch_Setup, and close "
@@ -35,30 +37,30 @@ int32_t explain_silence(const std::string &who, const std::string &sysroot, std:
 
 int32_t explain_open(unsigned code, const std::string &name, const std::string &sysroot,
                      std::string &out) {
-  const std::string who = name.empty() ? "the default device" : "the device \"" + name + "\"";
+  const std::string subject = name.empty() ? "the default device" : "the device \"" + name + "\"";
   switch (code) {
     case kAlreadyInitiated:
-      out = who +
+      out = subject +
             " is in use, here or in another program, or was left so by one that crashed: "
             "close that one, or unplug the device for a moment";
       return MVS_DRIVER_E_BUSY;
     case kInvalidLicence:
-      out = "OpenHaptics finds no licence for " + who +
+      out = "OpenHaptics finds no licence for " + subject +
             ": install the one of your edition (Developer or Academic) as its guide says";
       return MVS_DRIVER_E_LICENCE;
     case kDeviceFault:
-      out = who +
+      out = subject +
             " says that it is broken: switch it off and on; if that does not help, run the "
             "vendor's Touch_Diagnostic";
       return MVS_DRIVER_E_FAULT;
     case kCommConfigError:
     case kBadHandle:
-      out = who +
+      out = subject +
             " is not configured: run the vendor's Touch_Setup as this user (it writes "
             "~/.3dsystems/config), or give the name that it has there";
       return MVS_DRIVER_E_ABSENT;
     default:
-      return explain_silence(who, sysroot, out);
+      return explain_no_answer(subject, sysroot, out);
   }
 }
 

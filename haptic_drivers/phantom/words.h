@@ -1,19 +1,19 @@
-// What to tell somebody whose device does not work.
+// Error messages for users.
 #pragma once
 #include <cstdint>
 #include <string>
 
 namespace phantom {
 
-// A MVS_DRIVER_E_* and a sentence for an error with which hdInitDevice failed. `sysroot` is where
-// to look for USB devices, "" but in tests.
+// Returns MVS_DRIVER_E_* and writes a message for an error of hdInitDevice. `sysroot` is the root
+// of the USB search, "" except in tests.
 int32_t explain_open(unsigned code, const std::string &name, const std::string &sysroot,
                      std::string &sentence);
 
-// What to do with the stylus, by the bits of the style.
+// Returns the calibration instruction for the bits of CalibrationStyle.
 std::string how_to_calibrate(int style);
 
-// Why a library did not load, and what to install.
+// Returns the reason why the library did not load, and the package to install.
 std::string explain_load(const std::string &path, bool there, const std::string &why);
 
 inline constexpr const char *kUdevRule =

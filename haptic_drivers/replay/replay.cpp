@@ -1,4 +1,4 @@
-// Plays a recorded trajectory as if a hand led a device, so that everything runs without one.
+// Driver that plays a recorded trajectory in place of a device.
 #include <mvs/driver.h>
 
 #include <atomic>
@@ -21,8 +21,8 @@ struct mvs_driver_device {
   const replay::Settings settings;
   const std::string over;
   const char *sentence = "";
-  std::atomic<bool> playing{false}, motors{false};  // stop() comes from any thread
-  bool begun = false;                               // since start() a sample was read
+  std::atomic<bool> playing{false}, motors{false};  // stop() is called from any thread
+  bool begun = false;                               // a sample was read since start()
   bool saturated = false;
   uint64_t begin_ns = 0, now_ns = 0, sequence = 0;
   driver::Pose sample;
@@ -31,12 +31,12 @@ struct mvs_driver_device {
 namespace {
 
 const char *const kOptions[] = {
-    "file: the recording (haptic_drivers/replay/README.md says what stands in it)",
+    "file: the recording (format: haptic_drivers/replay/README.md)",
     "end: after the last sample stay (default) there, loop, or stop: the device is at its end",
     "speed: of the hand's motion, 1 as recorded",
-    "device: the name of the device that it is taken for",
+    "device: the name of the replayed device",
     "force: its peak force, N; 0: it has no motors",
-    "continuous_force: N, that its motors bear for ever",
+    "continuous_force: N, its sustained force",
     "stiffness: its largest stable stiffness, N/m",
     "damping: likewise, N s/m",
     "rate: of its servo, Hz; 1000 if neither option nor file says",
@@ -50,7 +50,7 @@ int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *user) {
   });
 }
 
-// Where the hand would jump when the recording begins again.
+// Returns whether the hand would jump when the recording repeats.
 bool jumps_in_loop(const replay::Settings &settings) {
   const driver::Vector first = settings.recording.samples().front().pose.position;
   const driver::Vector last = settings.recording.samples().back().pose.position;
@@ -111,7 +111,7 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   return state;
 }
 
-// The hand at `now_ns`; false once a recording that stops is over.
+// Sets the pose at `now_ns`; returns false after the end of a recording with end=stop.
 bool play(mvs_driver_device &device, uint64_t now_ns) {
   if (!device.begun) device.begin_ns = now_ns;
   device.begun = true;
@@ -132,7 +132,7 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *state
     ++device->sequence;
   }
   if (!device->playing)
-    device->sample.velocity = {};  // stopped: the hand rests
+    device->sample.velocity = {};  // stopped: the hand is at rest
   else if (news && !play(*device, now_ns)) {
     device->sentence = device->over.c_str();
     return MVS_DRIVER_E_END;
@@ -141,7 +141,7 @@ int32_t read(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *state
   return MVS_DRIVER_OK;
 }
 
-// Nobody feels it; what a state can tell of it is told.
+// Forces have no effect; the state reports them in its flags.
 int32_t write(mvs_driver_device *device, const mvs_driver_force *force) {
   const mvs_driver_force wanted = take(force);
   const double *f = wanted.force;

@@ -1,3 +1,4 @@
+// Options and device description of the replay driver.
 #include "settings.h"
 
 #include "common/recording_file.h"
@@ -9,9 +10,8 @@ namespace {
 using driver::Options;
 using driver::refuse;
 
-// What the hand may reach if nobody says: this much further than it went, m, and as far to the
-// other side: libmvs counts places from the middle of the workspace, which is the recording's zero
-// then.
+// m, margin of the default workspace around the recorded positions. The box is symmetric about the
+// recording's zero, because libmvs measures positions from the middle of the workspace.
 constexpr double kMargin = 0.02;
 
 End end_of(const Options &options) {
@@ -22,17 +22,17 @@ End end_of(const Options &options) {
   refuse(MVS_DRIVER_E_OPTION, "option end=" + end + ": give stay, loop or stop");
 }
 
-// The option's number if it is given, or else the file's, or else none.
-double said(const Options &options, const char *key, double in_file) {
+// Returns the number of the option, otherwise of the file, otherwise 0.
+double number_of(const Options &options, const char *key, double in_file) {
   return options.number(key, in_file < 0 ? 0 : in_file, 0, 1e6);
 }
 
 void put_workspace(const driver::Recording &recording, mvs_driver_info &info) {
-  const auto &said = recording.source().workspace;
+  const auto &box = recording.source().workspace;
   for (int k = 0; k < 3; ++k) {
-    info.workspace_min[k] = said[k];
-    info.workspace_max[k] = said[k + 3];
-    if (said[k] < said[k + 3]) continue;
+    info.workspace_min[k] = box[k];
+    info.workspace_max[k] = box[k + 3];
+    if (box[k] < box[k + 3]) continue;
     double most = 0;
     for (const auto &sample : recording.samples())
       most = std::max(most, std::abs(sample.pose.position[k]));
@@ -41,7 +41,7 @@ void put_workspace(const driver::Recording &recording, mvs_driver_info &info) {
   }
 }
 
-// How many buttons were ever pressed, and whether the hand ever turned or closed.
+// Sets buttons, orientation and gripper by their use in the recording.
 void put_freedoms(const driver::Recording &recording, mvs_driver_info &info) {
   const std::array<double, 4> unturned = {1, 0, 0, 0};
   uint32_t pressed = 0;
@@ -60,14 +60,14 @@ mvs_driver_info info_of(const Options &options, const driver::Recording &recordi
   mvs_driver_info info = {};
   put_workspace(recording, info);
   put_freedoms(recording, info);
-  info.peak_force = said(options, "force", source.force);
-  // a device that is said to have no force has none; of one of which nothing is said it is felt
+  info.peak_force = number_of(options, "force", source.force);
+  // force 0 in file or option: no motors; an unknown force: a device with force
   const bool without_motors = info.peak_force == 0 && (source.force == 0 || options.given("force"));
   info.freedoms_out = without_motors ? 0 : 3;
-  info.continuous_force = said(options, "continuous_force", source.continuous_force);
-  info.max_stiffness = said(options, "stiffness", source.stiffness);
-  info.max_damping = said(options, "damping", source.damping);
-  info.rate = said(options, "rate", source.rate);
+  info.continuous_force = number_of(options, "continuous_force", source.continuous_force);
+  info.max_stiffness = number_of(options, "stiffness", source.stiffness);
+  info.max_damping = number_of(options, "damping", source.damping);
+  info.rate = number_of(options, "rate", source.rate);
   if (info.rate == 0) info.rate = 1000;
   if (info.rate < 1 || info.rate > 1e5) refuse(MVS_DRIVER_E_OPTION, "rate: give 1 to 100000 Hz");
   const std::string device = options.text("device").value_or(source.device);

@@ -1,4 +1,4 @@
-// What the application wants played, and what device the recording is taken for.
+// Options of the replay driver, and the description of the replayed device.
 #pragma once
 
 #include <mvs/driver.h>
@@ -19,7 +19,7 @@ struct Settings {
   mvs_driver_info info;
 };
 
-// Reads the options and the file that they name, or `name` if it is not null; throws a Refusal.
+// Reads the options and their file, or the file `name` if it is not null; throws a Refusal.
 Settings settings(const mvs_driver_host *host, const char *name);
 
 }  // namespace replay

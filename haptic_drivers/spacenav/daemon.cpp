@@ -1,3 +1,4 @@
+// Connection, protocol negotiation and packets.
 #include "daemon.h"
 
 #include <poll.h>
@@ -15,21 +16,21 @@
 namespace spacenav {
 namespace {
 
-// Questions and their answers have this tag in the upper half of packet.type; taken for the float
-// that protocol 0 expects, it is not a number.
+// Tag of queries and answers in the upper half of packet.type; as the float that protocol 0
+// expects, it is NaN.
 constexpr int32_t kTag = 0x7faa0000;
 constexpr int32_t kChangeProtocol = kTag | 0x5500;
 constexpr int32_t kNewestProtocol = 1;
 constexpr int32_t kDeviceName = kTag | 0x2000;
 constexpr int32_t kDeviceButtons = kTag | 0x2003;
 
-// As long as libspnav waits; only open() asks.
+// The timeout of libspnav; only open() queries.
 constexpr int kAnswerMs = 300;
 
-// Strings come in pieces of this many bytes.
-constexpr int32_t kPiece = 24;
+// Bytes of a string per packet.
+constexpr int32_t kTextBytes = 24;
 
-// The socket that the configuration of spacenavd names, or nothing.
+// Returns the socket in the configuration of spacenavd, or "".
 std::string configured_socket() {
   std::ifstream file("/etc/spnavrc");
   for (std::string line; std::getline(file, line);) {
@@ -95,8 +96,8 @@ int32_t Daemon::connect_to(const std::string &path, Fault &fault) {
   return MVS_DRIVER_OK;
 }
 
-// Protocol 1 has questions and tells when a device is unplugged. A spacenavd before 1.0 has taken
-// the request for a sensitivity that is not a number, and is given 1 in its place.
+// Protocol 1 supports queries and reports disconnection. A spacenavd before 1.0 takes the request
+// as a sensitivity of NaN; the second message sets it to 1.
 int32_t Daemon::agree(Fault &fault) {
   const int32_t request = kChangeProtocol | kNewestProtocol;
   if (!send_all(&request, sizeof request))
@@ -126,10 +127,10 @@ bool Daemon::device(std::string &name, int32_t &buttons) {
   name.clear();
   buttons = 2;
   if (!ask(kDeviceName, packet) || packet.data[6] < 0) return false;
-  for (int32_t left = packet.data[6] & 0xffff;; left -= kPiece) {
+  for (int32_t left = packet.data[6] & 0xffff;; left -= kTextBytes) {
     const auto *text = reinterpret_cast<const char *>(packet.data);
-    name.append(text, static_cast<size_t>(std::clamp(left, 0, kPiece)));
-    if (left <= kPiece || !await(kDeviceName, packet)) break;
+    name.append(text, static_cast<size_t>(std::clamp(left, 0, kTextBytes)));
+    if (left <= kTextBytes || !await(kDeviceName, packet)) break;
   }
   if (ask(kDeviceButtons, packet) && packet.data[6] == 0)
     buttons = std::clamp(packet.data[0], 0, 32);
@@ -141,7 +142,7 @@ bool Daemon::ask(int32_t question, Packet &answer) {
   return send_all(&packet, sizeof packet) && await(question, answer);
 }
 
-// Events that come in between are of before open(), and dropped.
+// Events received meanwhile are older than open(), and dropped.
 bool Daemon::await(int32_t question, Packet &answer) {
   Fault ignored;
   for (;;) {

@@ -1,5 +1,5 @@
-// The socket of spacenavd: packets of eight 32-bit integers in the machine's own byte order, events
-// and answers to questions alike (FreeSpacenav/libspnav src/proto.h).
+// Client of spacenavd's socket: packets of eight 32-bit integers in native byte order, for events
+// and answers (FreeSpacenav/libspnav src/proto.h).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct Packet {
 };
 static_assert(sizeof(Packet) == 32);
 
-// What spacenavd tells by itself: packet.type.
+// Events of spacenavd: packet.type.
 enum Event : int32_t {
   kMotion = 0,   // data: x y z rx ry rz, ms since the last one
   kPress = 1,    // data[0]: the button
@@ -32,18 +32,18 @@ class Daemon {
   Daemon(const Daemon &) = delete;
   Daemon &operator=(const Daemon &) = delete;
 
-  // Connects to the socket `path`, or if it is null where libspnav looks: $SPNAV_SOCKET, the line
+  // Connects to the socket `path`; if it is null, to those of libspnav: $SPNAV_SOCKET, the line
   // "socket =" of /etc/spnavrc, /var/run/spnav.sock.
   int32_t open(const char *path, Fault &fault);
   void close();
-  // The version that both speak: 0 of a spacenavd before 1.0, which answers no question.
+  // The negotiated protocol version: 0 for a spacenavd before 1.0, which answers no queries.
   int protocol() const { return protocol_; }
   const std::string &path() const { return path_; }
 
-  // Whether a device is plugged in, with its name and buttons; not known of protocol 0.
+  // Returns whether a device is connected, with its name and buttons; false for protocol 0.
   bool device(std::string &name, int32_t &buttons);
 
-  // The next packet, without waiting: 1 if there is one, 0 if not, else MVS_DRIVER_E_LOST.
+  // Takes the next packet without waiting: 1 for a packet, 0 without one, or MVS_DRIVER_E_LOST.
   int32_t next(Packet &packet, Fault &fault);
 
  private:

@@ -1,4 +1,4 @@
-// A 3D mouse as a device of libmvs: a pose and buttons, no force.
+// Driver for 3D mice: pose and buttons, no force.
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -27,14 +27,14 @@ struct mvs_driver_device {
 
 namespace {
 
-// The one name of what spacenavd has plugged in: it mixes all mice into one.
+// The only device name: spacenavd merges all mice.
 constexpr char kName[] = "spacenav";
 
-// A pause between two reads longer than this is no time in which the puck was held: a program that
-// was stopped does not find its instrument at the wall.
+// s, largest time step of the integration, so that a suspended program does not move its instrument
+// to the wall.
 constexpr double kLongestStep = 0.05;
 
-// Drops what the host has not read for so long that it would keep us here.
+// Limit of packets per read().
 constexpr int kPacketsARead = 4096;
 
 const char *socket_of(const std::optional<std::string> &named) {
@@ -72,7 +72,7 @@ int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *us
                      "moves, see /var/log/spnavd.log");
     if (!daemon.device(model, buttons))
       return finding(user, 0, "3D mouse",
-                     "spacenavd has found none: plug it in, and see /var/log/spnavd.log if it "
+                     "spacenavd has found no mouse: plug it in, and see /var/log/spnavd.log if it "
                      "still does not");
     finding(user, 1, "3D mouse", (model + ", " + std::to_string(buttons) + " buttons").c_str());
   });
@@ -102,15 +102,15 @@ int32_t open_device(const mvs_driver_host *host, const char *name, mvs_driver_de
 }
 
 int32_t info(mvs_driver_device *device, mvs_driver_info *wanted) {
-  mvs_driver_info told = {};
-  told.freedoms_in = 6;
-  told.buttons = static_cast<uint32_t>(device->button_count);
-  std::fill_n(told.workspace_min, 3, -kReach);
-  std::fill_n(told.workspace_max, 3, kReach);
-  told.max_speed = device->speeds.move;
-  told.rate = 250;  // twice that of the mice: nothing is felt here, only seen
-  device->model.copy(told.model, sizeof told.model - 1);
-  driver::give(told, wanted);
+  mvs_driver_info own = {};
+  own.freedoms_in = 6;
+  own.buttons = static_cast<uint32_t>(device->button_count);
+  std::fill_n(own.workspace_min, 3, -kReach);
+  std::fill_n(own.workspace_max, 3, kReach);
+  own.max_speed = device->speeds.move;
+  own.rate = 250;  // twice the rate of the mice
+  device->model.copy(own.model, sizeof own.model - 1);
+  driver::give(own, wanted);
   return MVS_DRIVER_OK;
 }
 
@@ -134,11 +134,11 @@ void take(mvs_driver_device &device, const Packet &packet) {
       device.buttons = 0;
       break;
     default:
-      break;  // of a later spacenavd
+      break;  // an event of a later spacenavd
   }
 }
 
-// Takes what spacenavd told since the last read.
+// Handles the events since the last read.
 int32_t listen(mvs_driver_device &device) {
   Packet packet;
   for (int i = 0; i < kPacketsARead; ++i) {

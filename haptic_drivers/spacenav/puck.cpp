@@ -1,3 +1,4 @@
+// Scaling of the deflection and integration of the pose.
 #include "puck.h"
 
 #include <algorithm>
@@ -6,18 +7,18 @@
 namespace spacenav {
 namespace {
 
-// What an undamped SpaceNavigator tells when it is pushed as far as it goes, at sensitivity 1.
+// Full deflection of a SpaceNavigator at sensitivity 1.
 constexpr double kFull = 350;
 
-// spacenavd's axes are x right, y up and z away from the user, turns likewise about them by the
-// left hand: libspnav's own spnav_posrot_moveobj negates z of both for a right-handed frame.
+// spacenavd's axes are x right, y up, z away from the user, with left-handed rotations; libspnav's
+// spnav_posrot_moveobj negates z of both for a right-handed frame.
 constexpr double kSign[3] = {1, 1, -1};
 
 }  // namespace
 
 void Puck::deflect(const int32_t axes[6]) {
   for (int i = 0; i < 3; ++i) {
-    told_[i] = speeds_.move * kSign[i] * std::clamp(axes[i] / kFull, -1.0, 1.0);
+    speed_[i] = speeds_.move * kSign[i] * std::clamp(axes[i] / kFull, -1.0, 1.0);
     spin_[i] = speeds_.turn * kSign[i] * std::clamp(axes[i + 3] / kFull, -1.0, 1.0);
   }
 }
@@ -30,14 +31,14 @@ void Puck::centre() {
 
 void Puck::step(double seconds) {
   for (int i = 0; i < 3; ++i) {
-    position_[i] = std::clamp(position_[i] + told_[i] * seconds, -kReach, kReach);
-    const bool at_wall = position_[i] == std::copysign(kReach, told_[i]);
-    velocity_[i] = at_wall ? 0 : told_[i];
+    position_[i] = std::clamp(position_[i] + speed_[i] * seconds, -kReach, kReach);
+    const bool at_wall = position_[i] == std::copysign(kReach, speed_[i]);
+    velocity_[i] = at_wall ? 0 : speed_[i];
   }
   turn(seconds);
 }
 
-// q <- exp(spin seconds / 2) q: about the axes of the room, not of the stylus.
+// q <- exp(spin seconds / 2) q: rotation about fixed axes.
 void Puck::turn(double seconds) {
   const double rate = std::sqrt(spin_[0] * spin_[0] + spin_[1] * spin_[1] + spin_[2] * spin_[2]);
   if (rate == 0) return;

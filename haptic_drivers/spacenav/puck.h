@@ -1,4 +1,4 @@
-// What a 3D mouse means: its deflection is a speed, which is summed to a pose inside a box.
+// Integration of a 3D mouse: its deflection is a velocity, summed to a pose inside a box.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@ struct Speeds {
   double turn = 1.5;   // rad/s likewise
 };
 
-// Half the box's edge, m: a hand moves a stylus about as far without moving the arm.
+// m, half the edge of the box, about the reach of a stylus without moving the arm.
 constexpr double kReach = 0.05;
 
 class Puck {
  public:
   explicit Puck(const Speeds &speeds) : speeds_(speeds) {}
 
-  // The deflection told by spacenavd holds until it tells another.
+  // Sets the deflection, which holds until the next event.
   void deflect(const int32_t axes[6]);
-  // In the middle of the box, upright.
+  // Resets the pose to the middle of the box, upright.
   void centre();
   void step(double seconds);
 
@@ -31,7 +31,7 @@ class Puck {
   void turn(double seconds);
 
   Speeds speeds_;
-  double told_[3] = {}, spin_[3] = {};  // m/s and rad/s along the axes of libmvs
+  double speed_[3] = {}, spin_[3] = {};  // m/s and rad/s along the axes of libmvs
   double position_[3] = {}, velocity_[3] = {}, orientation_[4] = {1, 0, 0, 0};
 };
 

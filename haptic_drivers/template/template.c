@@ -1,42 +1,42 @@
-/* A driver to copy: one device, at rest in the middle of its workspace, that works as it is.
+/* Template of a driver: one device, at rest in the middle of its workspace, that works unchanged.
  *
- * 1. Copy the folder, put your name for `template` here and in its CMakeLists.txt; build; now
- *    `mvs haptics list` names it.
- * 2. Make the five functions of "the hardware" talk to your device. Convert there: to m, m/s, N,
- *    rad, and the device's own right-handed axes. Everything below may then stay.
- * 3. Fill describe() with your device's limits. They keep the hand safe: rather too small.
+ * 1. Copy the folder, replace `template` by your name here and in its CMakeLists.txt, and build.
+ *    `mvs haptics list` then shows it.
+ * 2. Implement the five functions of "the hardware" for your device. Convert there to m, m/s, N,
+ *    rad, and right-handed axes of the device. The code below can stay.
+ * 3. Fill describe() with your device's limits. They protect the hand: choose them low.
  *
- * README.md, one folder up, says in which order these functions are called, and by which thread. */
+ * README.md, one folder up, lists the order of calls and their threads. */
 #include <mvs/driver.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- the device: all that belongs to one that is open; nothing of it is global */
+/* ---- the device: the state of an open device; no globals */
 
 struct mvs_driver_device {
-  int motors; /* stop() clears it from any thread: hence read and set atomically */
+  int motors; /* cleared by stop() from any thread: access atomically */
   uint64_t sequence, time_ns;
-  mvs_driver_force force; /* the last one written */
-  char sentence[256];     /* what error() gives: the last failure of this device */
+  mvs_driver_force force; /* the last written force */
+  char sentence[256];     /* the last error message of this device */
 };
 
-/* The last failure of list, doctor or open, which have no device. */
+/* The last error message of list, doctor or open, which have no device. */
 static __thread char last_sentence[256] = "";
 
-/* The one device of this driver, and whether somebody has it open. */
+/* The only device of this driver, and whether it is open. */
 static const char only_name[] = "desk";
 static char taken;
 
 /* ---- the hardware: five functions to replace */
 
-/* Is it plugged in? Look only; do not move it. */
+/* Returns whether the device is connected; must not move it. */
 static int hardware_present(void) {
   return 1;
 }
 
-/* Nobody may have a device twice. With real hardware its own library will say so. */
+/* A device can be open only once. With real hardware its library reports this. */
 static int32_t hardware_open(mvs_driver_device *device) {
   (void)device;
   if (!__atomic_test_and_set(&taken, __ATOMIC_SEQ_CST)) return MVS_DRIVER_OK;
@@ -50,23 +50,23 @@ static void hardware_close(mvs_driver_device *device) {
   __atomic_clear(&taken, __ATOMIC_SEQ_CST);
 }
 
-/* Where the hand is. Called at the device's rate: no lock, no allocation, no waiting for anything
- * but the device, and for that at most MVS_DRIVER_PATIENCE_MS; then MVS_DRIVER_E_LOST. */
+/* Reads the pose of the hand. Called at the device's rate: no lock, no allocation, and no wait
+ * except for the device, for at most MVS_DRIVER_PATIENCE_MS; then MVS_DRIVER_E_LOST. */
 static int32_t hardware_read(mvs_driver_device *device, mvs_driver_state *state) {
   (void)device;
   state->position[0] = state->position[1] = state->position[2] = 0;
-  state->orientation[0] = 1; /* a unit quaternion, also of a device that does not turn */
+  state->orientation[0] = 1; /* a unit quaternion, also for a device without orientation */
   state->flags = MVS_DRIVER_FLAG_CALIBRATED;
   return MVS_DRIVER_OK;
 }
 
-/* To the motors, as it is: libmvs has clamped and ramped it. */
+/* Passes the force to the motors unchanged: libmvs has clamped and ramped it. */
 static int32_t hardware_write(mvs_driver_device *device, const double force[3]) {
   memcpy(device->force.force, force, sizeof device->force.force);
   return MVS_DRIVER_OK;
 }
 
-/* ---- what the device is */
+/* ---- description of the device */
 
 static void describe(mvs_driver_info *info) {
   int k;
@@ -79,7 +79,7 @@ static void describe(mvs_driver_info *info) {
   }
   info->peak_force = 3.3;
   info->continuous_force = 0.88;
-  info->max_stiffness = 400; /* what it renders without buzzing, not what its arm would bear */
+  info->max_stiffness = 400; /* the largest stable stiffness, not the strength of the arm */
   info->max_damping = 4;
   info->rate = 1000;
   /* info->frame stays zero: x is to the right, y up, z towards the user. A device with z up and x
@@ -87,11 +87,11 @@ static void describe(mvs_driver_info *info) {
   snprintf(info->model, sizeof info->model, "template");
 }
 
-/* ---- sizes: write no further than the caller has room, take what it did not give as zero */
+/* ---- struct sizes: write at most the caller's struct_size, read absent fields as zero */
 
 static void give(const void *full, size_t size, void *out) {
   uint32_t room;
-  memcpy(&room, out, sizeof room); /* every struct begins with struct_size, which stays */
+  memcpy(&room, out, sizeof room); /* every struct begins with struct_size, which is kept */
   if (room <= sizeof room) return;
   memcpy((char *)out + sizeof room, (const char *)full + sizeof room,
          (room < size ? room : size) - sizeof room);
@@ -112,7 +112,7 @@ static int32_t list(const mvs_driver_host *host, mvs_driver_found found, void *u
   return MVS_DRIVER_OK;
 }
 
-/* Everything that ever kept somebody from using the device, each with what to do about it. */
+/* One finding for each known obstacle to using the device, with its remedy. */
 static int32_t doctor(const mvs_driver_host *host, mvs_driver_finding finding, void *user) {
   (void)host;
   if (hardware_present())
@@ -126,7 +126,7 @@ static int32_t open_device(const mvs_driver_host *host, const char *name,
                            mvs_driver_device **device) {
   mvs_driver_device *made;
   int32_t code;
-  (void)host; /* host->option(host->host, "key") is where options come from */
+  (void)host; /* options: host->option(host->host, "key") */
   *device = NULL;
   if (!hardware_present() || (name && strcmp(name, only_name) != 0)) {
     snprintf(last_sentence, sizeof last_sentence, "there is no device \"%.100s\": try \"%s\"",
@@ -154,15 +154,15 @@ static int32_t info_of(mvs_driver_device *device, mvs_driver_info *info) {
   return MVS_DRIVER_OK;
 }
 
-/* From here on the motors follow what is written; until then they are off. */
+/* Switches the motors on; they are off before. */
 static int32_t start(mvs_driver_device *device) {
   memset(&device->force, 0, sizeof device->force);
   __atomic_store_n(&device->motors, 1, __ATOMIC_SEQ_CST);
   return MVS_DRIVER_OK;
 }
 
-/* `now_ns` is the clock of who polls; a real device stamps its sample with it, a simulated one
- * takes its time from it, and from nowhere else. */
+/* `now_ns` is the clock of the caller: a real device stamps its sample with it, a simulated one
+ * uses it as its only time. */
 static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver_state *state) {
   mvs_driver_state full = {0};
   const int32_t code = hardware_read(device, &full);
@@ -170,7 +170,7 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
     snprintf(device->sentence, sizeof device->sentence, "%s does not answer", only_name);
     return code;
   }
-  /* a new sample has a new number; who asks twice at one instant gets the same one */
+  /* a new sample has a new number; a second read at the same time returns the same one */
   if (device->sequence == 0 || now_ns > device->time_ns) {
     ++device->sequence;
     device->time_ns = now_ns;
@@ -194,11 +194,11 @@ static int32_t write_force(mvs_driver_device *device, const mvs_driver_force *fo
 static int32_t stop(mvs_driver_device *device) {
   __atomic_store_n(
       &device->motors, 0,
-      __ATOMIC_SEQ_CST); /* and tell the hardware, if that may be done from any thread */
+      __ATOMIC_SEQ_CST); /* and stop the hardware, if that is allowed from any thread */
   return MVS_DRIVER_OK;
 }
 
-/* In a handler of a fatal signal: no printf, no malloc, no lock. */
+/* Called in a handler of a fatal signal: no printf, no malloc, no lock. */
 static void panic(mvs_driver_device *device) {
   __atomic_store_n(&device->motors, 0, __ATOMIC_SEQ_CST);
 }
@@ -228,7 +228,7 @@ int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api) {
       .info = info_of,
       .calibrate = NULL, /* nothing to calibrate */
       .start = start,
-      .read = read_state, /* polled; a device with a thread of its own has .run instead of both */
+      .read = read_state, /* polled; a device with its own thread has .run instead of both */
       .write = write_force,
       .run = NULL,
       .stop = stop,

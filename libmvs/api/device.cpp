@@ -198,7 +198,7 @@ mvs_result mvs_device_set_view(mvs_device *device, const mvs_device_view *view) 
 mvs_result mvs_device_get_view(const mvs_device *device, mvs_device_view *view) {
   return guarded([&] {
     must_point(device, "device");
-    write_struct(view, device->hand.view().told(), "view");
+    write_struct(view, device->hand.view().get(), "view");
   });
 }
 
@@ -271,7 +271,7 @@ mvs_result mvs_device_take_samples(mvs_device *device, mvs_device_sample *sample
 mvs_result mvs_device_handle_signals(uint32_t on) {
   return guarded([&] {
     MVS_MUST(on <= 1, MVS_E_ARGUMENT, "on", "on is %u: it has to be 0 or 1", on);
-    watch_for_crashes(on == 1);
+    install_signal_handler(on == 1);
   });
 }
 

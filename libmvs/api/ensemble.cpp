@@ -76,9 +76,9 @@ SnapshotPtr snapshot_of(const Task &task, State state, bool plain) {
   if (plain) {
     State loaded = task.start.state;
     loaded.load = task.load;
-    const Snapshot before = after_move(task.start.value, loaded, move_of(task.load));
+    const Snapshot before = after_event(task.start.value, loaded, event_of(task.load));
     return make_snapshot(
-        after_move(before, std::move(state), move_of(RecordedEvent::settle, task.solve)));
+        after_event(before, std::move(state), event_of(RecordedEvent::settle, task.solve)));
   }
   share(state, task.start.state);
   return make_snapshot({{task.start.model, std::move(state)}, {}});

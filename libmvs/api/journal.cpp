@@ -30,11 +30,11 @@ std::vector<PlanStep> steps_at(const Json &json) {
   return read_steps(json);
 }
 
-// Back to right after the last operation: a record tells all moves since then.
+// Back to right after the last operation: a record tells all events since then.
 void rewind_moves(Snapshot &now) {
   const ModelState at = now.history.past.empty() ? *start_of(now) : now.history.past.top()->after;
   now.current = at;
-  now.history.moves = {};
+  now.history.events = {};
 }
 
 // Every checkpoint by the steps that led to it, then the steps to where the snapshot was.
@@ -42,11 +42,11 @@ void restart(Replay &replay, const Json &record) {
   Replay there({*start_of(replay.now), {}}, replay);
   for (const Json &checkpoint : record["checkpoints"].items()) {
     there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.history.checkpoints, 1}};
-    there.go(steps_at(checkpoint));
+    there.run(steps_at(checkpoint));
     there.now = with_checkpoint(there.now, text_at(checkpoint, "name"));
   }
   there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.history.checkpoints, 1}};
-  there.go(steps_at(record));
+  there.run(steps_at(record));
   replay.now = std::move(there.now);
 }
 
@@ -56,7 +56,7 @@ void redo(Replay &replay, const Json &record) {
   if (word == "restart") return restart(replay, record);
   if (record.has("steps")) {
     rewind_moves(replay.now);
-    replay.go(steps_at(record));
+    replay.run(steps_at(record));
   }
   if (word == "undo") {
     replay.now = undone(replay.now);
@@ -117,8 +117,8 @@ mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *repla
     const JournalRecords records = read_journal(read_whole_file(path));
     const Json first = parsed(records.texts[0], 1);
     check_beginning(first, present->value.current);
-    Replay steps({present->value.current, {}}, true, moves_of(s));
-    steps.go(steps_at(first));
+    Replay steps({present->value.current, {}}, true, event_runner(s));
+    steps.run(steps_at(first));
     for (size_t k = 1; k < records.texts.size(); ++k) {
       redo(steps, parsed(records.texts[k], k + 1));
     }
@@ -126,7 +126,7 @@ mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *repla
     how.operations = static_cast<uint32_t>(steps.now.history.past.size());
     how.same_valve = how.same_result = 1;
     SnapshotPtr next = make_snapshot(std::move(steps.now));
-    s.journal = std::make_unique<Journal>(Journal::go_on(path, records.bytes));
+    s.journal = std::make_unique<Journal>(Journal::reopen(path, records.bytes));
     s.replace(std::move(next));
     s.group = {};
     if (replay) write_struct(replay, how, "replay");

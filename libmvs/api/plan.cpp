@@ -57,8 +57,8 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
     const Plan plan = read_given(data, size);
     const bool exact = plan.valve_hash == hash_text(before->value.current);
     must_be_no_group(s, "replay");
-    Replay steps(before->value, exact, moves_of(s));
-    steps.go(plan.steps);
+    Replay steps(before->value, exact, event_runner(s));
+    steps.run(plan.steps);
     const mvs_replay how = replay_of(plan, before->value, steps.now);
     commit(s, std::move(steps.now),
            [&](const Snapshot &after) { return steps_record(before->value, after); });
@@ -74,7 +74,7 @@ mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size, m
     const Plan plan = read_given(data, size);
     const bool exact = plan.valve_hash == hash_text(before->value.current);
     Replay steps(before->value, exact, {});
-    steps.go(plan.steps);
+    steps.run(plan.steps);
     if (replay) write_struct(replay, replay_of(plan, before->value, steps.now), "replay");
   });
 }

@@ -96,9 +96,9 @@ SolveOptions read_options(const mvs_step_options *given) {
 
 // Makes a state that a solver arrived at the present one; it began with what the hands had moved.
 void go_on(mvs_sim &sim, const SnapshotPtr &before, State state,
-           const std::vector<RecordedEvent> &hands, const RecordedEvent &move,
+           const std::vector<RecordedEvent> &hands, const RecordedEvent &event,
            const SolveStats &stats) {
-  sim.replace(make_snapshot(after_move(before->value, std::move(state), hands, move)));
+  sim.replace(make_snapshot(after_event(before->value, std::move(state), hands, event)));
   sim.hands.done(sim.present()->state);
   sim.stats = stats;
 }
@@ -127,7 +127,7 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
     const SnapshotPtr before = s.present();
     State state = before->state;
     state.load = given;
-    s.replace(make_snapshot(after_move(before->value, std::move(state), move_of(given))));
+    s.replace(make_snapshot(after_event(before->value, std::move(state), event_of(given))));
     log_pressure(s, given.pressure);
   });
 }
@@ -148,7 +148,7 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     const std::vector<RecordedEvent> hands = s.hands.take(state);
     const SolveStats found =
         settle_with_mesh_hierarchy(s.solver, *before->model, state, how, s.progress());
-    go_on(s, before, std::move(state), hands, move_of(RecordedEvent::settle, how), found);
+    go_on(s, before, std::move(state), hands, event_of(RecordedEvent::settle, how), found);
     if (stats) write_struct(stats, public_stats(found), "stats");
     log_settled(s, found);
   });

@@ -83,7 +83,7 @@ mvs_result mvs_set_checkpoint(mvs_sim *sim, const char *name) {
     const SnapshotPtr before = s.present();
     const std::string text = checked_name(name, "checkpoint");
     commit(s, with_checkpoint(before->value, text), [&](const Snapshot &after) {
-      return named_record("checkpoint", text, after.history.moves);
+      return named_record("checkpoint", text, after.history.events);
     });
   });
 }

@@ -1,4 +1,4 @@
-// Walls and clamps.
+// Workspace wall and norm clamp.
 #include "haptics/budget.h"
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 namespace mvs::core {
 namespace {
 
-constexpr double margin = 5e-3;         // m, of the wall inside the box...
-constexpr double margin_share = 0.05;   // ...but no more of its width than this
-constexpr double wall_stiffness = 0.5;  // of the device's largest
+constexpr double margin = 5e-3;         // m, from the face of the box to the wall...
+constexpr double margin_share = 0.05;   // ...at most this share of the width of the box
+constexpr double wall_stiffness = 0.5;  // share of the device's largest stiffness
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Opening, starting, stopping.
+// Open, start, stop and arm a device; advance its virtual clock.
 #include "haptics/device.h"
 
 #include <chrono>
@@ -12,8 +12,8 @@
 namespace mvs::core {
 namespace {
 
-constexpr auto patience = std::chrono::seconds(2);         // with a thread that is to end
-constexpr double silence = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, of a clock that does not tick
+constexpr auto stop_timeout = std::chrono::seconds(2);          // for the servo thread to end
+constexpr double tick_timeout = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, without a tick
 
 const char *sentence_of(uint32_t cause) {
   switch (cause) {
@@ -24,15 +24,15 @@ const char *sentence_of(uint32_t cause) {
     case MVS_CAUSE_WATCHDOG:
       return "it does not answer in time: look at its cable and at what else this computer does";
     case MVS_CAUSE_DEADMAN:
-      return "nobody holds it: take it into the hand";
+      return "its grip is not held: take it into the hand";
     case MVS_CAUSE_NOT_FINITE:
-      return "it tells places that are no numbers: restart it";
+      return "it reports positions that are not finite: restart it";
     case MVS_CAUSE_THERMAL:
       return "its motors are too warm, or it is broken: let it cool";
     case MVS_CAUSE_CALIBRATION:
-      return "it is not calibrated: mvs haptics doctor says how";
+      return "it is not calibrated: run mvs haptics doctor for instructions";
     default:
-      return "it is gone: close it, plug it in, open it again";
+      return "it is disconnected: close it, plug it in, open it again";
   }
 }
 
@@ -40,26 +40,27 @@ const char *sentence_of(uint32_t cause) {
 
 Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
     : core_(std::make_shared<Core>()) {
-  core_->plug = DriverPlugin::load(desc.driver, desc.options ? desc.options : "", std::move(log));
+  core_->plugin = DriverPlugin::load(desc.driver, desc.options ? desc.options : "", std::move(log));
   core_->clock = desc.clock;
   const std::string name = desc.device ? desc.device : "";
   const auto &core = core_;
-  DriverPlugin &plug = *core_->plug;
-  MVS_MUST(desc.clock == MVS_CLOCK_REAL || plug.api().read, MVS_E_UNSUPPORTED, plug.name(),
+  DriverPlugin &plugin = *core_->plugin;
+  MVS_MUST(desc.clock == MVS_CLOCK_REAL || plugin.api().read, MVS_E_UNSUPPORTED, plugin.name(),
            "the driver %s has a clock of its own: it cannot be turned by hand",
-           plug.name().c_str());
-  plug.call("open", nullptr, [core, name](const mvs_driver_api &api) {
-    return api.open(core->plug->host(), name.empty() ? nullptr : name.c_str(), &core->handle);
+           plugin.name().c_str());
+  plugin.call("open", nullptr, [core, name](const mvs_driver_api &api) {
+    return api.open(core->plugin->host(), name.empty() ? nullptr : name.c_str(), &core->handle);
   });
-  MVS_MUST(core_->handle, MVS_E_DEVICE, plug.name(),
-           "the driver %s opened a device and gives none: do not use it", plug.name().c_str());
-  const auto told = std::make_shared<mvs_driver_info>();
-  told->struct_size = sizeof(mvs_driver_info);
+  MVS_MUST(core_->handle, MVS_E_DEVICE, plugin.name(),
+           "the driver %s reports success of open and returns no device: do not use it",
+           plugin.name().c_str());
+  const auto info = std::make_shared<mvs_driver_info>();
+  info->struct_size = sizeof(mvs_driver_info);
   try {
-    plug.call("info", core_->handle, [core, told](const mvs_driver_api &api) {
-      return api.info(core->handle, told.get());
+    plugin.call("info", core_->handle, [core, info](const mvs_driver_api &api) {
+      return api.info(core->handle, info.get());
     });
-    core_->traits = read_traits(*told, plug.name().c_str());
+    core_->traits = read_traits(*info, plugin.name().c_str());
     if (desc.rate > 0) core_->traits.info.rate = desc.rate;
     core_->traits.info.clock = desc.clock;
     limits_ = resolve_limits({}, core_->traits.info);
@@ -71,7 +72,8 @@ Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
   core_->servo = std::make_unique<Servo>(core_->traits, limits_, *core_->links);
 }
 
-// A thread that hangs in the driver still uses the device, and owns what it needs.
+// If the servo thread hangs in the driver it still uses the device: close() is then skipped, and
+// the thread keeps its share of the core.
 Device::~Device() {
   try {
     stop();
@@ -96,24 +98,24 @@ ServoLinks &Device::links() {
 }
 
 void Device::start() {
-  MVS_MUST(!started_, MVS_E_STATE, core_->plug->name(), "the device is started already");
-  MVS_MUST(!core_->is_running(), MVS_E_DEVICE, core_->plug->name(),
+  MVS_MUST(!started_, MVS_E_STATE, core_->plugin->name(), "the device is started already");
+  MVS_MUST(!core_->is_running(), MVS_E_DEVICE, core_->plugin->name(),
            "%s: its driver has not come back from its loop: unplug the device, and start anew",
-           core_->plug->name().c_str());
+           core_->plugin->name().c_str());
   const auto &core = core_;
-  DriverPlugin &plug = *core_->plug;
-  if (plug.api().calibrate) {
-    plug.call("calibrate", core_->handle,
-              [core](const mvs_driver_api &api) { return api.calibrate(core->handle); });
+  DriverPlugin &plugin = *core_->plugin;
+  if (plugin.api().calibrate) {
+    plugin.call("calibrate", core_->handle,
+                [core](const mvs_driver_api &api) { return api.calibrate(core->handle); });
   }
-  plug.call("start", core_->handle,
-            [core](const mvs_driver_api &api) { return api.start(core->handle); });
+  plugin.call("start", core_->handle,
+              [core](const mvs_driver_api &api) { return api.start(core->handle); });
   core_->servo->start();
   core_->stopping = false;
   core_->lost.clear();
   core_->now_ns = 0;
   core_->due = 0;
-  guard_from_crashes(plug.api(), core_->handle);
+  register_device(plugin.api(), core_->handle);
   if (core_->clock == MVS_CLOCK_REAL) start_thread();
   started_ = true;
 }
@@ -128,19 +130,19 @@ void Device::stop() {
   if (!started_) return;
   started_ = false;
   core_->stopping = true;
-  DriverPlugin &plug = *core_->plug;
-  plug.ask("stop", core_->handle,
-           [core = core_](const mvs_driver_api &api) { return api.stop(core->handle); });
-  forget_from_crashes(core_->handle);
+  DriverPlugin &plugin = *core_->plugin;
+  plugin.ask("stop", core_->handle,
+             [core = core_](const mvs_driver_api &api) { return api.stop(core->handle); });
+  unregister_device(core_->handle);
   std::unique_lock<std::mutex> lock(core_->mutex);
-  const bool ended = core_->ended.wait_for(lock, patience, [&] { return !core_->running; });
-  MVS_MUST(ended, MVS_E_DEVICE, plug.name(),
+  const bool ended = core_->ended.wait_for(lock, stop_timeout, [&] { return !core_->running; });
+  MVS_MUST(ended, MVS_E_DEVICE, plugin.name(),
            "%s: its driver does not come back from its loop: unplug the device, and start anew",
-           plug.name().c_str());
+           plugin.name().c_str());
 }
 
 void Device::must_be_started(const char *call) const {
-  MVS_MUST(started_, MVS_E_STATE, core_->plug->name(), "%s: start the device first", call);
+  MVS_MUST(started_, MVS_E_STATE, core_->plugin->name(), "%s: start the device first", call);
 }
 
 void Device::arm() {
@@ -148,12 +150,12 @@ void Device::arm() {
   const ServoStatus now = status();
   {
     const std::lock_guard<std::mutex> lock(core_->mutex);
-    MVS_MUST(core_->lost.empty(), MVS_E_DEVICE, core_->plug->name(),
-             "%s is lost (%s): close it, and open it again", core_->plug->name().c_str(),
+    MVS_MUST(core_->lost.empty(), MVS_E_DEVICE, core_->plugin->name(),
+             "%s is lost (%s): close it, and open it again", core_->plugin->name().c_str(),
              core_->lost.c_str());
   }
-  MVS_MUST(now.device_cause == MVS_CAUSE_NONE, MVS_E_DEVICE, core_->plug->name(),
-           "%s cannot be armed: %s", core_->plug->name().c_str(), sentence_of(now.device_cause));
+  MVS_MUST(now.device_cause == MVS_CAUSE_NONE, MVS_E_DEVICE, core_->plugin->name(),
+           "%s cannot be armed: %s", core_->plugin->name().c_str(), sentence_of(now.device_cause));
   core_->links->requests.arm();
 }
 
@@ -163,12 +165,12 @@ void Device::cut() {
 
 void Device::advance(double seconds) {
   must_be_started("advance");
-  MVS_MUST(core_->clock == MVS_CLOCK_VIRTUAL, MVS_E_STATE, core_->plug->name(),
+  MVS_MUST(core_->clock == MVS_CLOCK_VIRTUAL, MVS_E_STATE, core_->plugin->name(),
            "advance: this device has a real clock; open it with MVS_CLOCK_VIRTUAL");
   MVS_MUST(seconds >= 0 && seconds <= 3600, MVS_E_ARGUMENT, "seconds",
            "seconds is %g: it has to be 0 to 3600", seconds);
   const double period = 1 / core_->traits.info.rate;
-  // a tick that is due but for rounding is due
+  // tolerance for rounding of the accumulated time
   core_->due += seconds;
   while (core_->due > (1 - 1e-6) * period) {
     core_->due -= period;
@@ -186,7 +188,7 @@ ServoStatus Device::status() {
   if (!started_ || core_->clock == MVS_CLOCK_VIRTUAL) return now;
   const double quiet =
       1e-9 * static_cast<double>(static_cast<int64_t>(clock_ns()) - core_->last_tick_ns.load());
-  if (quiet > silence && now.device_cause == MVS_CAUSE_NONE) {
+  if (quiet > tick_timeout && now.device_cause == MVS_CAUSE_NONE) {
     core_->links->requests.cut(MVS_CAUSE_WATCHDOG);
     now.phase = MVS_DEVICE_PHASE_LATCHED;
     now.cause = now.device_cause = MVS_CAUSE_WATCHDOG;

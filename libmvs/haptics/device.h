@@ -1,4 +1,5 @@
-// An open device: its driver, its servo, and the thread or clock that turns it.
+// An open haptic device: its driver plugin, its servo, and the thread or virtual clock that runs
+// the servo.
 #pragma once
 
 #include <atomic>
@@ -27,9 +28,9 @@ class Device {
   void cut();
   void advance(double seconds);
 
-  // The servo as it is now, from any thread.
+  // Returns the newest status of the servo; callable from any thread.
   ServoStatus status();
-  // By one thread.
+  // For use by one thread.
   ServoLinks &links();
   bool is_started() const { return started_; }
 
@@ -38,9 +39,9 @@ class Device {
   void start_thread();
   void must_be_started(const char *call) const;
 
-  std::shared_ptr<Core> core_;  // shared with a thread that may hang
+  std::shared_ptr<Core> core_;  // shared with the servo thread, which may hang in the driver
   mvs_device_limits limits_ = {};
-  std::mutex reading_;  // of the status
+  std::mutex reading_;  // protects the reader side of the status mailbox
   std::atomic<bool> started_{false};
 };
 

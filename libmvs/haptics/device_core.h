@@ -1,4 +1,4 @@
-// What an open device and the thread of its servo share.
+// The state that an open device shares with the thread of its servo.
 #pragma once
 
 #include <atomic>
@@ -9,30 +9,30 @@
 namespace mvs::core {
 
 struct Device::Core : std::enable_shared_from_this<Device::Core> {
-  // Runs the servo on the device's clock, or polls it, until `stopping`; on a thread of its own.
+  // Runs the servo until `stopping`, on the driver's own clock or by polling; body of the thread.
   void serve();
-  // One sample and its force, on a virtual clock.
+  // Exchanges one sample and its force, on a virtual clock.
   void poll(uint64_t now_ns);
-  // Whether the thread is, also one that hangs.
+  // Returns whether the servo thread exists; true also while it hangs.
   bool is_running();
   void close();
 
-  std::shared_ptr<DriverPlugin> plug;
+  std::shared_ptr<DriverPlugin> plugin;
   mvs_driver_device *handle = nullptr;
   DeviceTraits traits;
   uint32_t clock = MVS_CLOCK_REAL;
   std::unique_ptr<ServoLinks> links;
   std::unique_ptr<Servo> servo;
-  uint64_t now_ns = 0;  // of a virtual clock
-  double due = 0;       // s of a virtual clock that are no whole tick yet
+  uint64_t now_ns = 0;  // virtual clock
+  double due = 0;       // s of virtual time less than a tick, carried over
 
   std::atomic<bool> stopping{false};
   std::atomic<uint32_t> realtime{0};
-  std::atomic<int64_t> last_tick_ns{0};  // of the thread, on the monotonic clock
-  std::mutex mutex;                      // of the next two
+  std::atomic<int64_t> last_tick_ns{0};  // of the servo thread, monotonic clock
+  std::mutex mutex;                      // protects `running` and `lost`
   std::condition_variable ended;
   bool running = false;
-  std::string lost;  // the driver's sentence when the thread ended by itself
+  std::string lost;  // the driver's error message if its loop ended unasked
 
  private:
   static int32_t serve_sample(void *core, const mvs_driver_state *state, mvs_driver_force *force);
@@ -42,7 +42,7 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   void lose(int32_t code, const char *otherwise);
 };
 
-// Monotonic, ns.
+// The monotonic clock, ns.
 uint64_t clock_ns();
 
 }  // namespace mvs::core

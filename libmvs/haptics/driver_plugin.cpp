@@ -1,4 +1,4 @@
-// Finding, trusting and asking a driver.
+// Search, trust check, negotiation and calls of driver plugins.
 #include "haptics/driver_plugin.h"
 
 #include <dlfcn.h>
@@ -16,10 +16,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds patience{10000};  // with calls that may wait for a device
+constexpr milliseconds call_timeout{10000};  // calls may wait for a device
 constexpr char ending[] = ".so";
 
-// Beside the library that this function is in.
+// The folder mvs/drivers beside the library that contains this function.
 std::filesystem::path drivers_folder() {
   Dl_info found = {};
   if (!dladdr(reinterpret_cast<const void *>(&result_of_driver), &found) || !found.dli_fname) {
@@ -45,15 +45,15 @@ std::string path_of(const std::string &driver) {
   return drivers_folder() / (driver + ending);
 }
 
-// What others could have written is not run in the surgeon's program.
+// Refuses a file that another user could have written: its code runs inside the application.
 void must_be_trusted(const std::string &path) {
   struct stat file = {};
   MVS_MUST(stat(path.c_str(), &file) == 0, MVS_E_IO, path,
-           "there is no driver %s: mvs haptics list names those that are", path.c_str());
-  MVS_MUST(S_ISREG(file.st_mode), MVS_E_IO, path, "%s is no file", path.c_str());
+           "there is no driver %s: mvs haptics list names the installed ones", path.c_str());
+  MVS_MUST(S_ISREG(file.st_mode), MVS_E_IO, path, "%s is not a regular file", path.c_str());
   MVS_MUST((file.st_mode & S_IWOTH) == 0 && (file.st_uid == 0 || file.st_uid == geteuid()),
            MVS_E_IO, path,
-           "%s is not loaded: it belongs to somebody else, or everybody may write it; make it "
+           "%s is not loaded: it belongs to another user, or is writable by others; make it "
            "yours or root's, and chmod o-w",
            path.c_str());
 }
@@ -67,7 +67,7 @@ std::map<std::string, std::string> read_options(const std::string &text) {
     if (line.empty()) continue;
     const size_t equals = line.find('=');
     MVS_MUST(equals != std::string::npos && equals > 0, MVS_E_ARGUMENT, "options",
-             "\"%s\" is no option: each line has to be key=value", line.c_str());
+             "\"%s\" is not an option: each line has to be key=value", line.c_str());
     options[line.substr(0, equals)] = line.substr(equals + 1);
   }
   return options;
@@ -103,34 +103,35 @@ std::shared_ptr<DriverPlugin> DriverPlugin::load(const std::string &driver,
                                                  const std::string &options, Log log) {
   const std::string path = path_of(driver);
   must_be_trusted(path);
-  std::shared_ptr<DriverPlugin> plug(new DriverPlugin);
-  plug->options_ = read_options(options);
-  plug->log_ = std::move(log);
-  plug->host_ = {sizeof(mvs_driver_host), MVS_DRIVER_VERSION, MVS_DRIVER_VERSION, 0, plug.get(),
-                 &DriverPlugin::option,   &DriverPlugin::log};
-  plug->name_ = std::filesystem::path(path).stem();
-  plug->negotiate(path);
-  for (const auto &[key, value] : plug->options_) {
+  std::shared_ptr<DriverPlugin> plugin(new DriverPlugin);
+  plugin->options_ = read_options(options);
+  plugin->log_ = std::move(log);
+  plugin->host_ = {sizeof(mvs_driver_host), MVS_DRIVER_VERSION, MVS_DRIVER_VERSION, 0, plugin.get(),
+                   &DriverPlugin::option,   &DriverPlugin::log};
+  plugin->name_ = std::filesystem::path(path).stem();
+  plugin->negotiate(path);
+  for (const auto &[key, value] : plugin->options_) {
     bool known = false;
-    for (const char *const *o = plug->api_.options; o && *o; ++o) {
+    for (const char *const *o = plugin->api_.options; o && *o; ++o) {
       known = known || (std::strncmp(*o, key.c_str(), key.size()) == 0 && (*o)[key.size()] == ':');
     }
     MVS_MUST(known, MVS_E_ARGUMENT, "options", "the driver %s has no option \"%s\"",
-             plug->name_.c_str(), key.c_str());
+             plugin->name_.c_str(), key.c_str());
   }
-  return plug;
+  return plugin;
 }
 
-// In a struct with room behind it, so that a driver that writes too much is found out.
+// The table lies before a guard area with a known pattern, which detects a driver that writes too
+// much.
 void DriverPlugin::negotiate(const std::string &path) {
   struct Room {
     mvs_driver_api api = {};
-    std::array<unsigned char, 256> behind;
+    std::array<unsigned char, 256> canary;
     int32_t code = MVS_DRIVER_E_INTERNAL;
     std::string wrong;
   };
   const auto room = std::make_shared<Room>();
-  room->behind.fill(0xa5);
+  room->canary.fill(0xa5);
   room->api.struct_size = sizeof(mvs_driver_api);
   const auto ask = [room, path, self = shared_from_this()] {
     void *const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -146,7 +147,7 @@ void DriverPlugin::negotiate(const std::string &path) {
     }
     room->code = reinterpret_cast<mvs_driver_negotiate_fn>(function)(&self->host_, &room->api);
   };
-  MVS_MUST(worker_.run(ask, patience), MVS_E_DEVICE, name_,
+  MVS_MUST(worker_.run(ask, call_timeout), MVS_E_DEVICE, name_,
            "the driver %s does not come back from being loaded: do not use it", path.c_str());
   MVS_MUST(room->wrong.empty(), MVS_E_DEVICE, name_, "the driver cannot be loaded: %s",
            room->wrong.c_str());
@@ -155,7 +156,7 @@ void DriverPlugin::negotiate(const std::string &path) {
            "that was made for it",
            path.c_str(), MVS_DRIVER_VERSION);
   const auto untouched = [](unsigned char c) { return c == 0xa5; };
-  MVS_MUST(std::all_of(room->behind.begin(), room->behind.end(), untouched), MVS_E_DEVICE, name_,
+  MVS_MUST(std::all_of(room->canary.begin(), room->canary.end(), untouched), MVS_E_DEVICE, name_,
            "the driver %s writes behind the struct that it was given: do not use it", path.c_str());
   api_ = room->api;
   check(path, sizeof(mvs_driver_api));
@@ -163,7 +164,7 @@ void DriverPlugin::negotiate(const std::string &path) {
 
 void DriverPlugin::check(const std::string &path, uint32_t room) const {
   MVS_MUST(api_.version == MVS_DRIVER_VERSION, MVS_E_VERSION, name_,
-           "the driver %s says that it speaks version %u of the interface, which it was not "
+           "the driver %s reports version %u of the interface, which was not "
            "offered: get one that was made for version %u",
            path.c_str(), api_.version, MVS_DRIVER_VERSION);
   MVS_MUST(api_.struct_size == room, MVS_E_VERSION, name_,
@@ -205,7 +206,7 @@ DriverPlugin::Answer DriverPlugin::ask(const char *what, mvs_driver_device *devi
         const char *const text = self->api_.error(device);
         answer->sentence = text ? text : "the driver does not say why";
       },
-      patience);
+      call_timeout);
   if (came_back) return *answer;
   return {
       MVS_DRIVER_E_LOST,

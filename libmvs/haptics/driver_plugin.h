@@ -1,6 +1,6 @@
-// A driver, loaded and distrusted. Its path is one that only its owner can write; it is asked for
-// its table of functions once, and the table is checked for what must be there. A driver is never
-// unloaded: vendors' libraries do not bear it.
+// A driver plugin: loads a shared library, negotiates the interface version, checks its function
+// table, and calls it with a timeout. Only a file that its owner alone can write is loaded. A
+// library is never unloaded, because vendors' libraries do not support it.
 #pragma once
 
 #include <mvs/device.h>
@@ -19,14 +19,15 @@ struct DriverFile {
   std::string name, path;
 };
 
-// The drivers in the folder beside the library, by name.
+// Returns the drivers in the folder mvs/drivers beside libmvs, sorted by name.
 std::vector<DriverFile> installed_drivers();
 
 class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
  public:
   using Log = std::function<void(mvs_log_level level, const char *text)>;
 
-  // `driver` is a name in that folder or an absolute path; options are "key=value" lines. Throws.
+  // `driver` is a name in that folder or an absolute path; options are "key=value" lines. Throws
+  // MVS_E_IO, _ARGUMENT, _VERSION or _DEVICE.
   static std::shared_ptr<DriverPlugin> load(const std::string &driver, const std::string &options,
                                             Log log);
 
@@ -36,13 +37,14 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
 
   struct Answer {
     int32_t code = MVS_DRIVER_E_INTERNAL;  // MVS_DRIVER_*
-    std::string sentence;                  // the driver's own, where the code is a failure
+    std::string sentence;                  // the driver's error message if the code is a failure
   };
   using Work = std::function<int32_t(const mvs_driver_api &)>;
-  // Calls work(api) on the worker; `device` is whom the sentence is asked of. One that does not
-  // come back is lost. What the work uses has to be owned by it.
+  // Calls work(api) on the worker thread. After a failure the error message is read from `device`.
+  // A call that does not return in 10 s gives MVS_DRIVER_E_LOST; the work must own all data it
+  // uses.
   Answer ask(const char *what, mvs_driver_device *device, Work work);
-  // The same where a failure is thrown.
+  // The same, but throws on failure.
   void call(const char *what, mvs_driver_device *device, Work work);
 
  private:
@@ -60,7 +62,7 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
   Worker worker_;
 };
 
-// What a driver's code means to who calls libmvs: MVS_E_VERSION, MVS_E_ARGUMENT or MVS_E_DEVICE.
+// Maps a driver's error code to MVS_E_VERSION, _ARGUMENT, _UNSUPPORTED or _DEVICE.
 mvs_result result_of_driver(int32_t code);
 
 }  // namespace mvs::core

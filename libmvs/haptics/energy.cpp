@@ -1,19 +1,19 @@
-// The account of what the loop makes.
+// Energy account of the passivity observer.
 #include "haptics/energy.h"
 
 #include <algorithm>
 
 namespace mvs::core {
 
-// What the loop took out of its own is not saved for later: a store could be spent all at once.
-void EnergyObserver::take_step(const Vec3 &step, const std::array<Vec3, 2> &told,
+// The energy is clamped at 0: a store of dissipated energy could be released at once later.
+void EnergyObserver::take_step(const Vec3 &step, const std::array<Vec3, 2> &sent,
                                const Vec3 &before, const Vec3 &now) {
-  const double given = std::max(told[0].dot(step), told[1].dot(step));
+  const double given = std::max(sent[0].dot(step), sent[1].dot(step));
   energy_ = std::max(0.0, energy_ + given - 0.5 * (before + now).dot(step));
 }
 
-// The old model said that it worked W_old on the way from its origin to here. The simulation worked
-// between the two origins, the new model from there to here.
+// The old model did the work W_old from its origin to the hand. The consistent value is the work of
+// the simulation between the two origins plus that of the new model from its origin to the hand.
 void EnergyObserver::take_model(const TissueModel &before, const TissueModel &now, const Vec3 &hand,
                                 double share) {
   const double simulated = 0.5 * (before.force + now.force).dot(now.origin - before.origin);

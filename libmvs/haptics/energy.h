@@ -1,15 +1,14 @@
-// Energy that the sampled loop makes, and its damping: a passivity observer and controller
-// (Hannaford & Ryu, IEEE Trans. Robotics and Automation 18, 2002) on what lies between the
-// simulation and the hand. Tissue under pressure may well work on the hand; what must not is the
-// link. So the observer compares the work that the hand was given with the work that the model
-// gives on the same way, and with that of the simulation when a new model replaces one.
+// Passivity observer and controller (Hannaford & Ryu, IEEE Trans. Robotics and Automation 18, 2002)
+// for the link between simulation and hand. Tissue under pressure may do work on the hand; the link
+// itself must not generate energy. The observer compares the work done on the hand with the work of
+// the tissue model along the same path, and, when a new model replaces one, the work of the models
+// with that of the simulation.
 //
-// Whether a device acts on a force at once or a sample later nobody knows: what is worse is
-// counted.
+// A device may apply a force at once or one sample later: the observer counts the larger work.
 //
-// A spring K, held for a period T, makes K v^2 T^2 / 2 a period, in and out: damping takes out just
-// what Colgate & Schenkel ask for (J. Robotic Systems 14, 1997), b > K T / 2, and only what the
-// hand and the device do not.
+// A spring K sampled at period T generates K v^2 T^2 / 2 per period. Damping takes out this energy,
+// which agrees with the condition b > K T / 2 of Colgate & Schenkel (J. Robotic Systems 14, 1997),
+// reduced by the damping of hand and device.
 #pragma once
 
 #include "haptics/tissue_model.h"
@@ -18,22 +17,23 @@ namespace mvs::core {
 
 class EnergyObserver {
  public:
-  // The hand went `step` under the force told last, or the one before it; the field gave `before`
-  // and `now` at its ends.
-  void take_step(const Vec3 &step, const std::array<Vec3, 2> &told, const Vec3 &before,
+  // Adds the work over a displacement `step` of the hand. `sent` are the last two forces sent to
+  // the motors; the tissue field has the values `before` and `now` at the ends of the step.
+  void take_step(const Vec3 &step, const std::array<Vec3, 2> &sent, const Vec3 &before,
                  const Vec3 &now);
-  // Another model of the same contact, with the hand at `hand`; `share` of the force is rendered.
+  // Adds the energy of a switch between two models of the same contact, with the hand at `hand`;
+  // `share` is the rendered share of the force.
   void take_model(const TissueModel &before, const TissueModel &now, const Vec3 &hand,
                   double share);
   void forget() { energy_ = 0; }
 
-  // The force that takes out what there is too much of, from a hand at this velocity, within `most`
-  // N s/m.
+  // Returns the damping force that dissipates the surplus energy at this velocity of the hand, with
+  // at most `most` N s/m.
   Vec3 damp(const Vec3 &velocity, double dt, double most) const;
   double energy() const { return energy_; }
 
  private:
-  double energy_ = 0;  // J, made and not yet taken out
+  double energy_ = 0;  // J, generated and not yet dissipated
 };
 
 }  // namespace mvs::core

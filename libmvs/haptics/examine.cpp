@@ -1,3 +1,4 @@
+// Calls the doctor functions of drivers and collects their findings.
 #include "haptics/examine.h"
 
 #include <memory>
@@ -16,14 +17,14 @@ std::string text_of(const char *text) {
   return text ? text : "";
 }
 
-Findings findings_of(const std::shared_ptr<DriverPlugin> &plug) {
-  Findings first = {{good, "driver", plug->api().about ? plug->api().about : plug->name()}};
-  if (!plug->api().doctor) return first;
-  // kept by the call: a driver that does not come back may go on writing
+Findings findings_of(const std::shared_ptr<DriverPlugin> &plugin) {
+  Findings first = {{good, "driver", plugin->api().about ? plugin->api().about : plugin->name()}};
+  if (!plugin->api().doctor) return first;
+  // owned by the call: a driver that hangs may still write to it
   const auto rows = std::make_shared<Findings>(std::move(first));
-  plug->call("doctor", nullptr, [rows, plug](const mvs_driver_api &api) {
+  plugin->call("doctor", nullptr, [rows, plugin](const mvs_driver_api &api) {
     return api.doctor(
-        plug->host(),
+        plugin->host(),
         [](void *to, int32_t verdict, const char *check, const char *sentence) {
           static_cast<Findings *>(to)->push_back({verdict, text_of(check), text_of(sentence)});
         },
@@ -32,14 +33,14 @@ Findings findings_of(const std::shared_ptr<DriverPlugin> &plug) {
   return *rows;
 }
 
-// Why nobody is here whom the driver could examine; "" where somebody is.
-std::string absence(const std::shared_ptr<DriverPlugin> &plug) {
-  if (!plug->api().list) return "";
+// Returns why the driver has no device to examine; "" if it has one.
+std::string absence(const std::shared_ptr<DriverPlugin> &plugin) {
+  if (!plugin->api().list) return "";
   const auto count = std::make_shared<size_t>(0);
   const DriverPlugin::Answer answer =
-      plug->ask("list", nullptr, [count, plug](const mvs_driver_api &api) {
+      plugin->ask("list", nullptr, [count, plugin](const mvs_driver_api &api) {
         return api.list(
-            plug->host(),
+            plugin->host(),
             [](void *to, const char *, const char *) { ++*static_cast<size_t *>(to); },
             count.get());
       });
@@ -48,13 +49,13 @@ std::string absence(const std::shared_ptr<DriverPlugin> &plug) {
   return answer.code >= 0 && *count == 0 ? "it finds no device" : "";
 }
 
-// A driver that cannot be asked is a finding too.
+// A driver that cannot be loaded or does not answer becomes a finding.
 Findings examine_installed(const std::string &path) {
   try {
-    const auto plug = DriverPlugin::load(path, "", {});
-    const std::string why = absence(plug);
+    const auto plugin = DriverPlugin::load(path, "", {});
+    const std::string why = absence(plugin);
     if (!why.empty()) return {{note, "driver", why}};
-    return findings_of(plug);
+    return findings_of(plugin);
   } catch (const Error &failure) {
     return {{fault, "driver", failure.what()}};
   }

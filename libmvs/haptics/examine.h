@@ -1,4 +1,4 @@
-// What a driver's doctor finds, and what is found of all drivers that are installed.
+// Findings of a driver's doctor function, and of all installed drivers.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ struct DriverFinding {
   std::string check, sentence;
 };
 
-// Options are "key=value" lines. Throws where the driver cannot be loaded or asked.
+// Options are "key=value" lines. Throws if the driver cannot be loaded or does not answer.
 std::vector<DriverFinding> examine(const std::string &driver, const std::string &options);
-// Every driver in the folder beside the library. A check is "driver: check"; a driver without a
-// device has one row, a note: nobody has every device.
+// Examines every driver in the folder beside the library. A check is named "driver: check"; a
+// driver without a device gives one note, because most users have at most one kind of device.
 std::vector<DriverFinding> examine_all();
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Gate, ramp, fade, latch.
+// Gate, ramp, fade and latch.
 #include "haptics/force_gate.h"
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 namespace mvs::core {
 namespace {
 
-constexpr uint32_t quiet_ticks = 3;      // below the gate before a ramp begins
-constexpr double fades_back_slower = 4;  // than it fades away
+constexpr uint32_t quiet_ticks = 3;   // ticks below the gate before the ramp begins
+constexpr double fade_in_factor = 4;  // fade-in time over fade-out time
 
 }  // namespace
 
@@ -31,7 +31,7 @@ double ForceGate::share(const Facts &facts, const mvs_device_limits &limits) {
   return ramp_ * fade_;
 }
 
-// What cuts comes after what arms, if both were asked for since the last tick.
+// If both arm and cut were requested since the last tick, cut wins.
 void ForceGate::take_requests() {
   const uint32_t armed = requests_->armed_.load(std::memory_order_relaxed);
   if (armed != armed_) {
@@ -65,7 +65,7 @@ void ForceGate::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
 
 void ForceGate::fade(const Facts &facts, const mvs_device_limits &limits) {
   if (facts.may_feel) {
-    fade_ = std::min(1.0, fade_ + facts.dt / (fades_back_slower * limits.fade_s));
+    fade_ = std::min(1.0, fade_ + facts.dt / (fade_in_factor * limits.fade_s));
   } else {
     fade_ = std::max(0.0, fade_ - facts.dt / limits.fade_s);
   }

@@ -1,5 +1,5 @@
-// Whether the hand may feel anything: the gate and ramp by which forces begin, the fade when the
-// simulation stands still, and the latch that ends them.
+// Force gate: the share of the force that is rendered. Forces begin below a threshold and rise
+// along a ramp, fade while the simulation is stale, and stay zero after a latched fault.
 #pragma once
 
 #include <atomic>
@@ -8,15 +8,15 @@
 
 namespace mvs::core {
 
-// What the guard has to know of a tick.
+// The inputs of the gate for one tick.
 struct Facts {
   uint32_t cause = MVS_CAUSE_NONE;  // a reason to latch
-  bool may_feel = false;            // held, not parked, not stale
-  double wanted = 0;                // N, of the force if nothing limited it
+  bool may_feel = false;            // tissue model is fresh and the device is not parked
+  double wanted = 0;                // N, norm of the unlimited force
   double dt = 0;                    // s
 };
 
-// What an application asks for, from any thread.
+// Requests of the application, from any thread.
 class Requests {
  public:
   void arm() { armed_.fetch_add(1, std::memory_order_relaxed); }
@@ -31,7 +31,7 @@ class ForceGate {
  public:
   explicit ForceGate(Requests &requests) : requests_(&requests) {}
 
-  // Takes in a tick, and says which share of the force the hand may feel.
+  // Advances by one tick and returns the share of the force to render, 0 to 1.
   double share(const Facts &facts, const mvs_device_limits &limits);
   void start();
 

@@ -1,4 +1,4 @@
-// Hand-overs between two threads without locks: one writes, one reads, neither waits.
+// Lock-free single-producer single-consumer channels: newest value, queue, overwriting trace.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace mvs::core {
 
-// The newest value: three places, of which the writer has one, the reader one, and the third
-// changes hands.
+// The newest value, by triple buffering: the writer owns one slot, the reader one, and an atomic
+// exchange hands over the third.
 template <typename Value>
 class Mailbox {
  public:
@@ -20,13 +20,13 @@ class Mailbox {
     writing_ = shared_.exchange(writing_ | is_new, std::memory_order_acq_rel) & ~is_new;
   }
 
-  // Takes in what is new; true if anything is.
+  // Takes the newest value if there is one since the last call; returns whether there was.
   bool refresh() {
     if (!(shared_.load(std::memory_order_relaxed) & is_new)) return false;
     reading_ = shared_.exchange(reading_, std::memory_order_acq_rel) & ~is_new;
     return true;
   }
-  // What refresh() took in last; a Value{} before.
+  // Returns the value of the last refresh(); a Value{} before the first.
   const Value &get() const { return place_[reading_]; }
 
  private:
@@ -36,7 +36,7 @@ class Mailbox {
   std::atomic<uint32_t> shared_{2};
 };
 
-// All values in turn, while the reader keeps up; a full queue takes no more.
+// Bounded ring buffer: values in order; push() returns false if it is full.
 template <typename Value, uint32_t Size>
 class Queue {
  public:
@@ -57,13 +57,13 @@ class Queue {
   }
 
  private:
-  static_assert((Size & (Size - 1)) == 0, "counts go round");
+  static_assert((Size & (Size - 1)) == 0, "counters wrap around");
   std::array<Value, Size> place_ = {};
   std::atomic<uint32_t> start_{0}, end_{0};
 };
 
-// The last `Size` values: the writer overwrites, the reader notices what it has lost. Values are
-// kept as words that can be read while they are written; what was torn is thrown away.
+// The last `Size` values: the writer overwrites, and the reader counts the values it lost. Values
+// are stored as atomic words, readable during a write; the reader discards a torn value.
 template <typename Value, uint64_t Size>
 class Trace {
  public:
@@ -72,12 +72,13 @@ class Trace {
     std::array<uint64_t, words> bits;
     std::memcpy(bits.data(), &value, sizeof value);
     Place &place = places_[end % Size];
-    // who sees a word of this value also sees that the one before it was complete
+    // release: a reader that sees a word of this value also sees the previous value complete
     for (size_t k = 0; k < words; ++k) place[k].store(bits[k], std::memory_order_release);
     end_.store(end + 1, std::memory_order_release);
   }
 
-  // Takes the next value; false if there is none. Adds to `lost` what was overwritten before.
+  // Takes the next value; returns false if the trace is empty. Adds the number of overwritten
+  // values to `lost`.
   bool pop(Value &value, uint64_t &lost) {
     for (;;) {
       const uint64_t end = end_.load(std::memory_order_acquire);
@@ -86,7 +87,7 @@ class Trace {
       std::array<uint64_t, words> bits;
       const Place &place = places_[next_ % Size];
       for (size_t k = 0; k < words; ++k) bits[k] = place[k].load(std::memory_order_acquire);
-      // the writer may be at work on the place of value `end_`
+      // the writer may be writing the slot of value `end_`
       if (end_.load(std::memory_order_acquire) - next_ >= Size) continue;
       std::memcpy(static_cast<void *>(&value), bits.data(), sizeof value);
       ++next_;

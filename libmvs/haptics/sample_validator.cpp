@@ -1,4 +1,4 @@
-// Samples, distrusted.
+// Checks of samples, velocity estimate, button debounce.
 #include "haptics/sample_validator.h"
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 namespace mvs::core {
 namespace {
 
-constexpr double patience = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, without a new sample
-constexpr double farthest = 10;                             // m
-constexpr double jump = 5;                                  // times the speed limit, in one sample
-constexpr uint32_t fast_samples = 3;                        // above the speed limit in turn
-constexpr double velocity_filter = 5e-3;                    // s, of an estimated velocity
-constexpr double bounce = 10e-3;  // s, that contacts of a button may bounce
+constexpr double sample_timeout = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, without a new sample
+constexpr double max_coordinate = 10;                             // m
+constexpr double jump = 5;                // times the speed limit, in one sample
+constexpr uint32_t fast_samples = 3;      // consecutive, above the speed limit
+constexpr double velocity_filter = 5e-3;  // s, time constant of the velocity estimate
+constexpr double bounce = 10e-3;          // s, debounce time of a button
 
 bool is_number(double value, double most) {
   return std::abs(value) <= most;  // false for NaN
@@ -36,7 +36,7 @@ void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limi
   if (sample.cause != MVS_CAUSE_NONE) latch_cause(std::min<uint32_t>(sample.cause, 9));
   if (!(flags_ & MVS_DRIVER_FLAG_CALIBRATED)) latch_cause(MVS_CAUSE_CALIBRATION);
   if (traits_->has_deadman && !(flags_ & MVS_DRIVER_FLAG_HELD)) latch_cause(MVS_CAUSE_DEADMAN);
-  if (silent_ > patience) latch_cause(MVS_CAUSE_WATCHDOG);
+  if (silent_ > sample_timeout) latch_cause(MVS_CAUSE_WATCHDOG);
   if (dt_ > 0 || !has_pose_) take_pose(sample, limits);
 }
 
@@ -44,14 +44,14 @@ bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
   double square = 0;
   for (const double q : sample.orientation) square += q * q;
   bool good = std::abs(square - 1) < 1e-3;
-  for (const double p : sample.position) good = good && is_number(p, farthest);
+  for (const double p : sample.position) good = good && is_number(p, max_coordinate);
   if (flags_ & MVS_DRIVER_FLAG_VELOCITY) {
     for (const double v : sample.velocity) good = good && is_number(v, 1e3);
   }
   return good;
 }
 
-// A clock that goes back, or stands still while samples come, is no clock.
+// Latches MVS_CAUSE_WATCHDOG if the device's clock goes back.
 void SampleValidator::take_time(const mvs_driver_state &sample) {
   dt_ = passed_ = 0;
   if (has_pose_ && sample.time_ns < time_ns_) {
@@ -60,12 +60,12 @@ void SampleValidator::take_time(const mvs_driver_state &sample) {
   }
   passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
-  // a clock that stands still says nothing about how long: then ticks do
+  // if the clock stands still, ticks measure the silence
   silent_ += passed_ > 0 ? passed_ : 1 / traits_->info.rate;
   if (has_pose_ && sample.sequence == sequence_) return;
   sequence_ = sample.sequence;
   dt_ = passed_ > 0 ? silent_ : 0;
-  if (silent_ > patience) latch_cause(MVS_CAUSE_WATCHDOG);
+  if (silent_ > sample_timeout) latch_cause(MVS_CAUSE_WATCHDOG);
   silent_ = 0;
 }
 
@@ -80,7 +80,7 @@ void SampleValidator::take_pose(const mvs_driver_state &sample, const mvs_device
     return;
   }
   const Vec3 step = pose_.position - before;
-  // two samples that a busy computer handed over at once say nothing about speed
+  // samples delivered together by a busy computer must not look fast: at least half a period
   const double speed = step.norm() / std::max(dt_, 0.5 / traits_->info.rate);
   fast_ = speed > limits.speed ? fast_ + 1 : 0;
   if (speed > jump * limits.speed || fast_ >= fast_samples) latch_cause(MVS_CAUSE_VELOCITY);

@@ -1,4 +1,5 @@
-// What is wrong with a sample: lost, silent, no number, a jump, too fast, not calibrated, not held.
+// Validation of device samples: returns a cause to latch for a lost or silent device, a value that
+// is not finite, a jump, excessive speed, missing calibration, or a released dead-man's switch.
 #pragma once
 
 #include "haptics/servo_types.h"
@@ -9,15 +10,15 @@ class SampleValidator {
  public:
   explicit SampleValidator(const DeviceTraits &traits) : traits_(&traits) {}
 
-  // Takes in a sample; the pose is in the frame of the device, dt since the last new sample.
+  // Validates a sample and updates the pose, which is in the frame of the device.
   void take(const mvs_driver_state &sample, const mvs_device_limits &limits);
   void start();
 
-  // The pose of the last sample that made sense.
+  // The pose of the last valid sample.
   const HandPose &pose() const { return pose_; }
-  // Since the last sample that was new; 0 for one that was not.
+  // Time since the last new sample, s; 0 if this sample is not new.
   double dt() const { return dt_; }
-  // Since the last sample, new or not.
+  // Time since the last sample, new or not, s.
   double passed() const { return passed_; }
   uint32_t cause() const { return cause_; }
   bool is_parked() const { return (flags_ & MVS_DRIVER_FLAG_PARKED) != 0; }
@@ -37,15 +38,14 @@ class SampleValidator {
   bool has_pose_ = false;
   uint64_t time_ns_ = 0, sequence_ = 0;
   double dt_ = 0, passed_ = 0, silent_ = 0;  // s
-  uint32_t fast_ = 0;                        // samples above the speed limit
+  uint32_t fast_ = 0;                        // consecutive samples above the speed limit
   uint32_t cause_ = MVS_CAUSE_NONE, flags_ = 0;
 };
 
-// Buttons that have stayed for a while; one that was down from the start counts from when it was
-// up.
+// Debounces buttons. A button that is down at the start counts as stuck until it was up once.
 class Buttons {
  public:
-  // True if a button has changed.
+  // Returns whether a debounced button changed.
   bool take(uint32_t raw, double dt);
   void start() { *this = Buttons(); }
   uint32_t down() const { return steady_ & ~stuck_; }
@@ -53,7 +53,7 @@ class Buttons {
  private:
   bool first_ = true;
   uint32_t steady_ = 0, stuck_ = 0;
-  std::array<double, 32> since_ = {};  // s that each button has differed from what it is held to be
+  std::array<double, 32> since_ = {};  // s since each button differs from its debounced state
 };
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// The thread of the servo: the device's own clock, or one of ours at its rate.
+// The servo thread: runs on the device's own clock, or polls the device at its rate.
 #include <pthread.h>
 #include <time.h>
 
@@ -10,9 +10,9 @@
 namespace mvs::core {
 namespace {
 
-constexpr int realtime_priority = 60;  // of SCHED_FIFO, below what kernels keep for themselves
+constexpr int realtime_priority = 60;  // of SCHED_FIFO, below the priorities of kernel threads
 
-// Refused without the right to it (RLIMIT_RTPRIO): then it is an ordinary thread, and told so.
+// Fails without the right to it (RLIMIT_RTPRIO); the thread then runs at normal priority.
 bool become_realtime() {
   sched_param wanted = {};
   wanted.sched_priority = realtime_priority;
@@ -47,7 +47,7 @@ uint64_t clock_ns() {
 }
 
 void Device::Core::serve() {
-  const mvs_driver_api &api = plug->api();
+  const mvs_driver_api &api = plugin->api();
   const bool own_clock = api.run != nullptr;
   realtime = own_clock || become_realtime() ? 1 : 0;
   const int32_t code = own_clock ? api.run(handle, &serve_sample, this) : poll_until_stopped();
@@ -57,9 +57,9 @@ void Device::Core::serve() {
   ended.notify_all();
 }
 
-// With the driver's own sentence where it failed, else with another one.
+// Stores the driver's own error message if it failed, otherwise `otherwise`.
 void Device::Core::lose(int32_t code, const char *otherwise) {
-  const char *const why = code < 0 ? plug->api().error(handle) : nullptr;
+  const char *const why = code < 0 ? plugin->api().error(handle) : nullptr;
   servo->lose(cause_of(code));
   const std::lock_guard<std::mutex> lock(mutex);
   lost = why ? why : otherwise;
@@ -71,7 +71,7 @@ bool Device::Core::is_running() {
 }
 
 void Device::Core::close() {
-  plug->ask("close", nullptr, [self = shared_from_this()](const mvs_driver_api &api) {
+  plugin->ask("close", nullptr, [self = shared_from_this()](const mvs_driver_api &api) {
     api.close(self->handle);
     return MVS_DRIVER_OK;
   });
@@ -92,7 +92,7 @@ int32_t Device::Core::serve_sample(void *core, const mvs_driver_state *state,
   return MVS_DRIVER_OK;
 }
 
-// What is late is not made up for: two forces in a row help nobody.
+// A late tick is skipped, not repeated: two forces in quick succession do not help.
 int32_t Device::Core::poll_until_stopped() {
   const auto period = static_cast<uint64_t>(1e9 / traits.info.rate);
   uint64_t next = clock_ns();
@@ -103,12 +103,12 @@ int32_t Device::Core::poll_until_stopped() {
   }
   mvs_driver_force zero = {};
   zero.struct_size = sizeof zero;
-  return plug->api().write(handle, &zero);
+  return plugin->api().write(handle, &zero);
 }
 
-// One sample for one force.
+// Reads one sample, computes and writes one force.
 int32_t Device::Core::exchange(uint64_t now) {
-  const mvs_driver_api &api = plug->api();
+  const mvs_driver_api &api = plugin->api();
   mvs_driver_state state = {};
   state.struct_size = sizeof state;
   if (const int32_t code = api.read(handle, now, &state); code < 0) return code;
@@ -123,7 +123,7 @@ void Device::Core::poll(uint64_t now) {
   if (code < 0) lose(code, "the driver does not say why");
 }
 
-// A virtual clock knows no time that a tick could take.
+// On a virtual clock the duration of a tick is not measured.
 void Device::Core::tick(const mvs_driver_state &state, mvs_driver_force &force) {
   if (clock == MVS_CLOCK_VIRTUAL) return servo->tick(state, force);
   const uint64_t begin = clock_ns();

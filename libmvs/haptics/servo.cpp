@@ -1,4 +1,4 @@
-// One tick, top to bottom.
+// One tick of the servo, in the order of servo.h.
 #include "haptics/servo.h"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 namespace mvs::core {
 namespace {
 
-constexpr double rate_filter = 0.1;  // s, over which the rate is told
-constexpr double late_periods = 2;   // between two samples, above which the second is late
+constexpr double rate_filter = 0.1;  // s, time constant of the reported rate
+constexpr double late_periods = 2;   // between two samples; a longer interval counts as late
 
 bool is_finite(const TissueModel &t) {
   return t.origin.allFinite() && t.force.allFinite() && t.stiffness.allFinite() &&
@@ -32,7 +32,7 @@ void Servo::start() {
   energy_.forget();
   field_ = force_ = before_ = Vec3::Zero();
   tissue_ = {};
-  links_->tissue.refresh();  // what was posted before is of another time
+  links_->tissue.refresh();  // discards a model posted before the start
   status_ = {};
   status_.rate = traits_->info.rate;
   status_.model_age = std::numeric_limits<double>::infinity();
@@ -46,20 +46,20 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
   const double dt = validator_.dt();
   const Vec3 &hand = validator_.pose().position;
   if (dt > 0) {
-    // the force since the last sample against the field at both ends of the way
+    // work of the sent forces against the field at both ends of the step
     uint32_t unused = 0;
     energy_.take_step(hand - at_, {force_, before_}, field_, rendered(wanted(), unused));
     heat_.spend(force_, dt, limits_);
   }
   at_ = hand;
   age(dt);
-  take_news();
+  take_updates();
   const bool may_feel = status_.model_age <= limits_.stale_s && !validator_.is_parked();
   const Vec3 field = wanted();
   share_ = gate_.share({validator_.cause(), may_feel, field.norm(), validator_.passed()}, limits_);
   before_ = force_;
   force_ = limited(field);
-  tell(force);
+  write_force(force);
   publish(sample);
 }
 
@@ -74,23 +74,23 @@ void Servo::lose(uint32_t cause) {
   links_->status.post(status_);
 }
 
-// A new model of the same contact goes on where the one before was; another one begins anew.
-void Servo::take_news() {
+// A new model of the same contact keeps the energy account; a model of another contact resets it.
+void Servo::take_updates() {
   if (links_->limits.refresh()) limits_ = links_->limits.get();
   if (!links_->tissue.refresh()) return;
-  const TissueModel &news = links_->tissue.get();
-  if (!is_finite(news)) {
+  const TissueModel &next = links_->tissue.get();
+  if (!is_finite(next)) {
     bits_ |= MVS_LIMITED_NUMBER;
     tissue_ = {};
     return links_->requests.cut(MVS_CAUSE_NOT_FINITE);
   }
-  const bool goes_on = news.contact == tissue_.contact && news.kind != TissueModel::free;
-  if (goes_on && tissue_.kind != TissueModel::free) {
-    energy_.take_model(tissue_, news, validator_.pose().position, share_);
+  const bool same_contact = next.contact == tissue_.contact && next.kind != TissueModel::free;
+  if (same_contact && tissue_.kind != TissueModel::free) {
+    energy_.take_model(tissue_, next, validator_.pose().position, share_);
   } else {
     energy_.forget();
   }
-  tissue_ = news;
+  tissue_ = next;
   status_.model_age = 0;
 }
 
@@ -99,7 +99,7 @@ Vec3 Servo::wanted() const {
   return force_at(tissue_, hand) + workspace_wall(*traits_, hand);
 }
 
-// What the motors may be asked for, of the field.
+// Returns the gated field, clamped to the peak force and to the heat budget.
 Vec3 Servo::rendered(const Vec3 &given, uint32_t &bits) const {
   const bool is_warm = (validator_.flags() & MVS_DRIVER_FLAG_WARM) != 0;
   const Vec3 force = clamped(share_ * given, limits_.force, MVS_LIMITED_FORCE, bits);
@@ -119,9 +119,9 @@ Vec3 Servo::limited(const Vec3 &given) {
   return force_ + clamped(force - force_, limits_.slew * dt, MVS_LIMITED_SLEW, bits_);
 }
 
-void Servo::tell(mvs_driver_force &force) const {
-  const Vec3 told = traits_->turn.transpose() * force_;
-  std::copy(told.data(), told.data() + 3, force.force);
+void Servo::write_force(mvs_driver_force &force) const {
+  const Vec3 sent = traits_->turn.transpose() * force_;
+  std::copy(sent.data(), sent.data() + 3, force.force);
   std::fill(force.torque, force.torque + 3, 0.0);
   force.gripper = 0;
   force.on = gate_.is_armed() ? 1 : 0;

@@ -1,9 +1,9 @@
-// The servo: a sample of the hand in, a force out. Called at the device's rate, on its thread or on
-// one of ours; no lock, no allocation, no system call, no exception.
+// The servo loop body: one sample of the hand in, one force out. Called at the device's rate, on
+// the driver's thread or on ours; no lock, allocation, system call or exception.
 //
-// In this order: distrust the sample; evaluate the newest tissue and the workspace's wall; share of
-// the guard; clamp; take out energy that the loop has made; limit the slew. What is told is what
-// was really asked of the motors.
+// Order: validate the sample; evaluate the newest tissue model and the workspace wall; multiply by
+// the share of the force gate; clamp; dissipate generated energy; limit the slew rate. The reported
+// force is the force sent to the motors.
 #pragma once
 
 #include "haptics/budget.h"
@@ -14,11 +14,11 @@
 
 namespace mvs::core {
 
-// What other threads share with the servo.
+// The channels between the servo and other threads.
 struct ServoLinks {
   Mailbox<TissueModel> tissue;           // from the simulation
   Mailbox<mvs_device_limits> limits;     // from the application
-  Mailbox<ServoStatus> status;           // to whoever looks
+  Mailbox<ServoStatus> status;           // to the application
   Queue<ButtonEvent, 256> buttons;       // to the simulation
   Trace<mvs_device_sample, 8192> trace;  // to the application
   Requests requests;
@@ -28,22 +28,22 @@ class Servo {
  public:
   Servo(const DeviceTraits &traits, const mvs_device_limits &limits, ServoLinks &links);
 
-  // Before the first tick, while no thread ticks.
+  // Resets the servo; call before the first tick, while no thread ticks.
   void start();
-  // One tick; the force is zero wherever it may not be anything else.
+  // One tick. The force is zero unless the gate is open.
   void tick(const mvs_driver_state &sample, mvs_driver_force &force);
-  // Instead of a tick, when there is no sample: the driver's reason, forces off.
+  // Replaces a tick if the device gives no sample: latches the driver's cause, forces off.
   void lose(uint32_t cause);
-  // How long tick() took, for the trace; of the tick before.
+  // Stores the duration of tick() for the next row of the trace.
   void took(double seconds) { servo_s_ = seconds; }
 
  private:
-  void take_news();
+  void take_updates();
   Vec3 wanted() const;
   Vec3 rendered(const Vec3 &given, uint32_t &bits) const;
   Vec3 limited(const Vec3 &given);
   void age(double dt);
-  void tell(mvs_driver_force &force) const;
+  void write_force(mvs_driver_force &force) const;
   void publish(const mvs_driver_state &sample);
   void keep_sample(const mvs_driver_state &sample);
 
@@ -56,10 +56,10 @@ class Servo {
   HeatBudget heat_;
   EnergyObserver energy_;
   TissueModel tissue_;
-  Vec3 field_ = Vec3::Zero();   // what tissue and wall give at the last sample, as it is rendered
-  Vec3 force_ = Vec3::Zero();   // what the motors were told last
-  Vec3 before_ = Vec3::Zero();  // and before that
-  Vec3 at_ = Vec3::Zero();      // where the hand was at the last tick
+  Vec3 field_ = Vec3::Zero();   // rendered force of tissue and wall at the last sample
+  Vec3 force_ = Vec3::Zero();   // sent to the motors last
+  Vec3 before_ = Vec3::Zero();  // sent before that
+  Vec3 at_ = Vec3::Zero();      // position of the hand at the last tick
   double share_ = 0;
   uint32_t bits_ = 0;  // MVS_LIMITED_*
   ServoStatus status_;

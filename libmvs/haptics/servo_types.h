@@ -1,4 +1,4 @@
-// What the servo is given, and what it tells.
+// Inputs and outputs of the servo: device traits, hand pose, button event, status.
 #pragma once
 
 #include <mvs/device.h>
@@ -13,20 +13,20 @@ namespace mvs::core {
 struct DeviceTraits {
   mvs_device_info info = {};
   bool has_deadman = false;
-  // from what a driver says to the frame of the device: p = turn p + shift
+  // from the driver's coordinates to the frame of the device: p' = turn p + shift
   Mat3 turn = Mat3::Identity();
   Eigen::Quaterniond turn_quaternion = Eigen::Quaterniond::Identity();
   Vec3 shift = Vec3::Zero();
   bool has_workspace = false;
 };
 
-// Takes a driver's word for nothing: throws MVS_E_DEVICE for numbers that cannot be.
-DeviceTraits read_traits(const mvs_driver_info &told, const char *driver);
+// Checks a driver's description; throws MVS_E_DEVICE for numbers out of range.
+DeviceTraits read_traits(const mvs_driver_info &given, const char *driver);
 
-// The limits with their defaults filled in; throws MVS_E_ARGUMENT.
+// Returns the limits with defaults filled in; throws MVS_E_ARGUMENT.
 mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_device_info &info);
 
-// Where the hand is, in the frame of the device.
+// The pose of the hand, in the frame of the device.
 struct HandPose {
   Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
@@ -39,7 +39,7 @@ struct ButtonEvent {
   Vec3 position = Vec3::Zero();
 };
 
-// The servo after a tick.
+// The status of the servo after a tick.
 struct ServoStatus {
   uint32_t phase = MVS_DEVICE_PHASE_STOPPED, cause = MVS_CAUSE_NONE, device_cause = MVS_CAUSE_NONE;
   uint32_t flags = 0, limited = 0, buttons = 0;

@@ -1,4 +1,5 @@
-// The handler: zero forces, then what would have happened without it.
+// Handler for fatal signals: sends zero force to all started devices, then restores the previous
+// handler and raises the signal again.
 #include "haptics/signal_handler.h"
 
 #include <signal.h>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::array<int, 7> fatal = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT};
 
-// A signal handler may look at lock-free atomics and nothing else.
+// Lock-free atomics, because a signal handler may read nothing else.
 struct Started {
   std::atomic<mvs_driver_device *> device{nullptr};
   std::atomic<void (*)(mvs_driver_device *)> panic{nullptr};
@@ -38,7 +39,7 @@ void zero_all(int signal) {
 
 }  // namespace
 
-void guard_from_crashes(const mvs_driver_api &api, mvs_driver_device *device) {
+void register_device(const mvs_driver_api &api, mvs_driver_device *device) {
   if (!api.panic) return;
   const std::lock_guard<std::mutex> lock(registering);
   for (Started &one : started) {
@@ -50,14 +51,14 @@ void guard_from_crashes(const mvs_driver_api &api, mvs_driver_device *device) {
   fail(MVS_E_MEMORY, "device", "more than %zu devices are started at a time", started.size());
 }
 
-void forget_from_crashes(mvs_driver_device *device) {
+void unregister_device(mvs_driver_device *device) {
   const std::lock_guard<std::mutex> lock(registering);
   for (Started &one : started) {
     if (one.device.load() == device) one.device = nullptr;
   }
 }
 
-void watch_for_crashes(bool on) {
+void install_signal_handler(bool on) {
   const std::lock_guard<std::mutex> lock(registering);
   if (on == watching) return;
   watching = on;

@@ -1,15 +1,15 @@
-// Zero force when the process dies of a signal.
+// Zero force when a fatal signal ends the process.
 #pragma once
 
 #include <mvs/driver.h>
 
 namespace mvs::core {
 
-// Keeps in mind, or forgets, a started device.
-void guard_from_crashes(const mvs_driver_api &api, mvs_driver_device *device);
-void forget_from_crashes(mvs_driver_device *device);
+// Adds a started device to the list of the handler, or removes it.
+void register_device(const mvs_driver_api &api, mvs_driver_device *device);
+void unregister_device(mvs_driver_device *device);
 
-// Handlers for fatal signals, or those that were there before.
-void watch_for_crashes(bool on);
+// Installs handlers for fatal signals, or restores the previous ones.
+void install_signal_handler(bool on);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// The local model, evaluated.
+// Evaluation of the local tissue model.
 #include "haptics/tissue_model.h"
 
 namespace mvs::core {

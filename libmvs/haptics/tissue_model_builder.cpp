@@ -1,4 +1,4 @@
-// Local models of grasps, instruments and chordae.
+// Local tissue models of grasps, balls, rods and chordae.
 #include "haptics/tissue_model_builder.h"
 
 #include <mvs/tool.h>
@@ -9,9 +9,9 @@
 namespace mvs::core {
 namespace {
 
-constexpr double same_place = 0.5e-3;   // m, within which a stiffness stays
-constexpr uint32_t refresh_calls = 32;  // a stiffness serves no more calls than this...
-constexpr uint32_t least_calls = 8;     // ...and, of one contact, no fewer
+constexpr double same_place = 0.5e-3;  // m, motion of the tool within which its stiffness is reused
+constexpr uint32_t refresh_calls = 32;  // a stiffness is reused for at most this many calls...
+constexpr uint32_t least_calls = 8;     // ...and, within one contact, for at least this many
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void TissueModelBuilder::refresh_stiffness(const Model &model, const State &stat
   valve_ = model.serial;
 }
 
-// A ball or rod in the open has no stiffness: it only needs to know where tissue begins.
+// A ball or rod without contact gets no stiffness, only the plane of the nearest tissue.
 TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, const Tool &tool) {
   const bool grasp = tool.kind == MVS_TOOL_KIND_GRASP;
   const Room room = grasp ? Room{0, Vec3::Zero()} : room_of(model, state.x, tool);

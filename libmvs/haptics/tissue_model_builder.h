@@ -1,4 +1,4 @@
-// From the simulated valve to the model of the tissue that a servo renders.
+// Builds the local tissue model of a tool from the simulated valve.
 #pragma once
 
 #include "haptics/tissue_model.h"
@@ -6,18 +6,18 @@
 
 namespace mvs::core {
 
-// Follows one tool. Force and place are new each time; the stiffness, which costs a factorisation
-// and changes slowly, is worked out again when the tool has moved or enough time has gone.
+// Follows one tool. Force and origin are new in each model; the stiffness, which costs a
+// factorisation and changes slowly, is recomputed after the tool has moved or after 32 calls.
 class TissueModelBuilder {
  public:
-  // Another tool, or none.
+  // Starts a contact of another tool, or of no tool.
   void begin_contact() {
     ++contact_;
     age_ = 0;
   }
   TissueModel nothing() const { return next(TissueModel::free); }
   TissueModel of_tool(const Model &model, const State &state, const Tool &tool);
-  // The tension of a chord, `gain` times, as its leaflet end feels it.
+  // The tension of a chord at its leaflet end, multiplied by `gain`.
   TissueModel of_chord(const Model &model, const State &state, const Chord &chord, const Vec3 &hand,
                        double gain) const;
 
@@ -28,9 +28,9 @@ class TissueModelBuilder {
   uint64_t contact_ = 0;
   ToolFeel feel_{MVS_BACKEND_BLOCK};
   Mat3 stiffness_ = Mat3::Zero();
-  Vec3 at_ = Vec3::Zero();  // where the hand was when that was worked out
-  uint64_t valve_ = 0;      // of which model
-  uint32_t age_ = 0;        // calls left until it is worked out again
+  Vec3 at_ = Vec3::Zero();  // position of the hand at the last stiffness
+  uint64_t valve_ = 0;      // serial of its model
+  uint32_t age_ = 0;        // calls left until the next stiffness
 };
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// A driver's description of its device, distrusted; the limits that follow from it.
+// Checks of a driver's description of its device, and the limits that follow from it.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -10,43 +10,45 @@ namespace mvs::core {
 namespace {
 
 // The weakest device of the table in haptic_drivers/hand/README.md (3D Systems Touch).
-constexpr double weakest_force = 3.3, weakest_continuous = 0.88;           // N
-constexpr double weakest_stiffness = 400, weakest_damping = 4;             // N/m, N s/m
-constexpr double usual_rate = 1000;                                        // Hz
-constexpr double usual_speed = 1;                                          // m/s
-constexpr double strongest = 1000, farthest = 10, stiffest = 1e6;          // what no device exceeds
+constexpr double weakest_force = 3.3, weakest_continuous = 0.88;  // N
+constexpr double weakest_stiffness = 400, weakest_damping = 4;    // N/m, N s/m
+constexpr double usual_rate = 1000;                               // Hz
+constexpr double usual_speed = 1;                                 // m/s
+constexpr double max_force = 1000, max_extent = 10,
+                 max_stiffness = 1e6;  // N, m, N/m: of any device
 constexpr double slowest_rate = 100, fastest_rate = 10000, fastest = 100;  // Hz, Hz, m/s
 
-// 0 takes the fallback.
-double number(double told, double fallback, double most, const char *driver, const char *what) {
-  MVS_MUST(told >= 0 && told <= most, MVS_E_DEVICE, driver,
-           "the driver says that %s is %g: it has to be 0 (not told) to %g; do not use it", what,
-           told, most);
-  return told == 0 ? fallback : told;
+// Returns the fallback for 0.
+double number(double given, double fallback, double most, const char *driver, const char *what) {
+  MVS_MUST(given >= 0 && given <= most, MVS_E_DEVICE, driver,
+           "the driver reports %s %g: it has to be 0 (unknown) to %g; do not use it", what, given,
+           most);
+  return given == 0 ? fallback : given;
 }
 
-void read_frame(const mvs_driver_info &told, const char *driver, DeviceTraits &traits) {
-  if (std::all_of(told.frame, told.frame + 12, [](double f) { return f == 0; })) return;
+void read_frame(const mvs_driver_info &given, const char *driver, DeviceTraits &traits) {
+  if (std::all_of(given.frame, given.frame + 12, [](double f) { return f == 0; })) return;
   for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) traits.turn(r, c) = told.frame[4 * r + c];
-    traits.shift[r] = told.frame[4 * r + 3];
+    for (int c = 0; c < 3; ++c) traits.turn(r, c) = given.frame[4 * r + c];
+    traits.shift[r] = given.frame[4 * r + 3];
   }
   const Mat3 gram = traits.turn * traits.turn.transpose() - Mat3::Identity();
   const double determinant = traits.turn.row(0).cross(traits.turn.row(1)).dot(traits.turn.row(2));
-  MVS_MUST(gram.norm() < 1e-6 && determinant > 0 && traits.shift.norm() <= farthest, MVS_E_DEVICE,
-           driver, "the driver gives a frame that is no rotation and offset: do not use it");
+  MVS_MUST(gram.norm() < 1e-6 && determinant > 0 && traits.shift.norm() <= max_extent, MVS_E_DEVICE,
+           driver, "the driver reports a frame that is not a rotation and offset: do not use it");
   traits.turn_quaternion = Eigen::Quaterniond(traits.turn);
 }
 
-// The box in the frame of the device, its middle at the origin.
-void read_workspace(const mvs_driver_info &told, const char *driver, DeviceTraits &traits) {
-  const Vec3 low = Vec3::Map(told.workspace_min), high = Vec3::Map(told.workspace_max);
+// Moves the workspace box to the frame of the device, with its centre at the origin.
+void read_workspace(const mvs_driver_info &given, const char *driver, DeviceTraits &traits) {
+  const Vec3 low = Vec3::Map(given.workspace_min), high = Vec3::Map(given.workspace_max);
   if (low.isZero(0) && high.isZero(0)) return;
   const Vec3 size = high - low;
-  MVS_MUST((size.array() > 0).all() && (low.array() >= -farthest).all() &&
-               (high.array() <= farthest).all(),
+  MVS_MUST((size.array() > 0).all() && (low.array() >= -max_extent).all() &&
+               (high.array() <= max_extent).all(),
            MVS_E_DEVICE, driver,
-           "the driver gives a workspace that is no box within %g m: do not use it", farthest);
+           "the driver reports a workspace that is not a box within %g m: do not use it",
+           max_extent);
   const Vec3 half = 0.5 * traits.turn.cwiseAbs() * size;
   traits.shift = -(traits.turn * (0.5 * (low + high)));
   std::copy(half.data(), half.data() + 3, traits.info.workspace_max);
@@ -54,7 +56,7 @@ void read_workspace(const mvs_driver_info &told, const char *driver, DeviceTrait
   traits.has_workspace = true;
 }
 
-// A text that may lack its end.
+// Copies a text that may lack its terminating zero.
 void copy_text(const char *from, char (&to)[64]) {
   std::memcpy(to, from, strnlen(from, sizeof to - 1));
 }
@@ -67,44 +69,45 @@ double or_default(double given, double fallback, double low, double high, const 
 
 }  // namespace
 
-DeviceTraits read_traits(const mvs_driver_info &told, const char *driver) {
+DeviceTraits read_traits(const mvs_driver_info &given, const char *driver) {
   DeviceTraits traits;
   mvs_device_info &info = traits.info;
   const auto freedoms = [&](uint32_t n) { return n == 0 || n == 3 || n == 6; };
-  MVS_MUST(freedoms(told.freedoms_in) && told.freedoms_in > 0 && freedoms(told.freedoms_out) &&
-               told.buttons <= 32,
+  MVS_MUST(freedoms(given.freedoms_in) && given.freedoms_in > 0 && freedoms(given.freedoms_out) &&
+               given.buttons <= 32,
            MVS_E_DEVICE, driver,
-           "the driver tells of %u freedoms in, %u out and %u buttons: no device has these",
-           told.freedoms_in, told.freedoms_out, told.buttons);
-  info.freedoms_in = told.freedoms_in;
-  info.freedoms_out = told.freedoms_out;
-  info.buttons = told.buttons;
-  info.peak_force = number(told.peak_force, weakest_force, strongest, driver, "the peak force");
+           "the driver reports %u freedoms in, %u out and %u buttons: no device has these",
+           given.freedoms_in, given.freedoms_out, given.buttons);
+  info.freedoms_in = given.freedoms_in;
+  info.freedoms_out = given.freedoms_out;
+  info.buttons = given.buttons;
+  info.peak_force = number(given.peak_force, weakest_force, max_force, driver, "the peak force");
   info.continuous_force = std::min(
-      info.peak_force, number(told.continuous_force, std::min(weakest_continuous, info.peak_force),
-                              strongest, driver, "the continuous force"));
-  info.max_stiffness =
-      number(told.max_stiffness, weakest_stiffness, stiffest, driver, "the largest stiffness");
-  info.max_damping = number(told.max_damping, weakest_damping, stiffest, driver, "the damping");
-  info.max_speed = number(told.max_speed, usual_speed, fastest, driver, "the largest speed");
-  info.rate = number(told.rate, usual_rate, fastest_rate, driver, "the rate");
+      info.peak_force, number(given.continuous_force, std::min(weakest_continuous, info.peak_force),
+                              max_force, driver, "the continuous force"));
+  info.max_stiffness = number(given.max_stiffness, weakest_stiffness, max_stiffness, driver,
+                              "the largest stiffness");
+  info.max_damping =
+      number(given.max_damping, weakest_damping, max_stiffness, driver, "the damping");
+  info.max_speed = number(given.max_speed, usual_speed, fastest, driver, "the largest speed");
+  info.rate = number(given.rate, usual_rate, fastest_rate, driver, "the rate");
   MVS_MUST(info.rate >= slowest_rate, MVS_E_DEVICE, driver,
            "the driver's rate is %g Hz: below %g Hz no force can be stable", info.rate,
            slowest_rate);
-  traits.has_deadman = told.has_deadman != 0;
+  traits.has_deadman = given.has_deadman != 0;
   copy_text(driver, info.driver);
-  copy_text(told.model, info.model);
-  copy_text(told.serial, info.serial);
-  copy_text(told.firmware, info.firmware);
-  read_frame(told, driver, traits);
-  read_workspace(told, driver, traits);
+  copy_text(given.model, info.model);
+  copy_text(given.serial, info.serial);
+  copy_text(given.firmware, info.firmware);
+  read_frame(given, driver, traits);
+  read_workspace(given, driver, traits);
   return traits;
 }
 
 mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_device_info &info) {
   mvs_device_limits out = given;
   const auto at_most = [&](double wanted, double device, const char *what) {
-    return std::min(or_default(wanted, device, 1e-6, stiffest, what), device);
+    return std::min(or_default(wanted, device, 1e-6, max_stiffness, what), device);
   };
   out.force = at_most(given.force, info.peak_force, "limits.force");
   out.continuous_force = std::min(
@@ -112,7 +115,7 @@ mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_devic
   out.stiffness = at_most(given.stiffness, info.max_stiffness, "limits.stiffness");
   out.thermal_s = or_default(given.thermal_s, 10, 0.1, 1000, "limits.thermal_s");
   out.slew = or_default(given.slew, 100 * out.force, 1e-3, 1e6, "limits.slew");
-  out.gate = or_default(given.gate, 0.2, 1e-3, strongest, "limits.gate");
+  out.gate = or_default(given.gate, 0.2, 1e-3, max_force, "limits.gate");
   out.ramp_s = or_default(given.ramp_s, 1, 0.01, 10, "limits.ramp_s");
   out.speed =
       or_default(given.speed, std::min(info.max_speed, usual_speed), 1e-3, fastest, "limits.speed");

@@ -1,4 +1,4 @@
-// A queue of one.
+// Worker thread with a queue of one item.
 #include "haptics/worker.h"
 
 #include <condition_variable>
@@ -22,7 +22,7 @@ struct Worker::Shared {
       work = nullptr;
       lock.unlock();
       now();
-      now = nullptr;  // it may own who owns this worker: not with the lock held
+      now = nullptr;  // may destroy the owner of this worker: not with the lock held
       lock.lock();
       busy = false;
       changed.notify_all();
@@ -34,20 +34,20 @@ Worker::Worker() : shared_(std::make_shared<Shared>()) {
   std::thread([shared = shared_] { shared->serve(); }).detach();
 }
 
-// The thread owns what it works on, and ends when it comes back.
+// The thread owns its work, and ends when the work returns.
 Worker::~Worker() {
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   shared_->over = true;
   shared_->changed.notify_all();
 }
 
-bool Worker::run(std::function<void()> work, std::chrono::milliseconds patience) {
+bool Worker::run(std::function<void()> work, std::chrono::milliseconds timeout) {
   if (stuck_) return false;
   std::unique_lock<std::mutex> lock(shared_->mutex);
   shared_->work = std::move(work);
   shared_->busy = true;
   shared_->changed.notify_all();
-  stuck_ = !shared_->changed.wait_for(lock, patience, [&] { return !shared_->busy; });
+  stuck_ = !shared_->changed.wait_for(lock, timeout, [&] { return !shared_->busy; });
   return !stuck_;
 }
 

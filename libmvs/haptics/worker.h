@@ -1,4 +1,5 @@
-// A thread on which a driver is called, so that one that hangs does not take its caller with it.
+// A thread on which a driver is called, so that a hanging driver does not block its caller for
+// ever.
 #pragma once
 
 #include <chrono>
@@ -8,9 +9,9 @@
 
 namespace mvs::core {
 
-// Runs one piece of work after the other, all on one thread: vendors' libraries keep things for
-// each thread. Work that does not come back in time leaves the worker stuck for ever; its thread
-// stays behind, so what the work uses has to be owned by it.
+// Runs work items one after the other on one thread, because vendors' libraries keep thread-local
+// state. An item that does not return in time leaves the worker stuck: its thread stays, so that
+// the work must own all data it uses.
 class Worker {
  public:
   Worker();
@@ -18,8 +19,9 @@ class Worker {
   Worker(const Worker &) = delete;
   Worker &operator=(const Worker &) = delete;
 
-  // False if it did not come back in time, or is stuck from before. Nothing may be thrown by it.
-  bool run(std::function<void()> work, std::chrono::milliseconds patience);
+  // Returns false if the work does not return in time or the worker is stuck. The work must not
+  // throw.
+  bool run(std::function<void()> work, std::chrono::milliseconds timeout);
   bool is_stuck() const { return stuck_; }
 
  private:

@@ -1,4 +1,4 @@
-// Going along a history.
+// Undo, redo, checkpoints and the record of events.
 #include "history/history.h"
 
 #include "base/error.h"
@@ -17,7 +17,7 @@ Snapshot undone_once(const Snapshot &now) {
   Snapshot snapshot{entry->before, now.history};
   snapshot.history.past = now.history.past.popped();
   snapshot.history.future = now.history.future.pushed(entry);
-  snapshot.history.moves = entry->moves;
+  snapshot.history.events = entry->events;
   return snapshot;
 }
 
@@ -26,14 +26,14 @@ Snapshot redone_once(const Snapshot &now) {
   Snapshot snapshot{entry->after, now.history};
   snapshot.history.past = now.history.past.pushed(entry);
   snapshot.history.future = now.history.future.popped();
-  snapshot.history.moves = {};
+  snapshot.history.events = {};
   return snapshot;
 }
 
-bool replaces(const RecordedEvent &move, const RecordedEvent &last) {
-  if (move.kind != last.kind) return false;
-  if (move.kind == RecordedEvent::load) return true;
-  return move.kind == RecordedEvent::tool_move && move.tool[0].id == last.tool[0].id;
+bool replaces(const RecordedEvent &event, const RecordedEvent &last) {
+  if (event.kind != last.kind) return false;
+  if (event.kind == RecordedEvent::load) return true;
+  return event.kind == RecordedEvent::tool_move && event.tools[0].id == last.tools[0].id;
 }
 
 }  // namespace
@@ -43,46 +43,46 @@ std::shared_ptr<const ModelState> start_of(const Snapshot &snapshot) {
   return std::make_shared<const ModelState>(snapshot.current);
 }
 
-RecordedEvents with_move(const RecordedEvents &moves, RecordedEvent move) {
-  if (moves.empty()) return moves.pushed(std::move(move));
-  const RecordedEvent &last = moves.top();
-  if (replaces(move, last)) return moves.popped().pushed(std::move(move));
+RecordedEvents with_event(const RecordedEvents &events, RecordedEvent event) {
+  if (events.empty()) return events.pushed(std::move(event));
+  const RecordedEvent &last = events.top();
+  if (replaces(event, last)) return events.popped().pushed(std::move(event));
   RecordedEvent longer = last;
-  const uint64_t all = move.count;
-  take_on(longer, move);
-  RecordedEvents before = move.count < all ? moves.popped().pushed(std::move(longer)) : moves;
-  if (move.count == 0) return before;
-  move = widened(before.top(), std::move(move));
-  move.tool.share_with(before.top().tool);
-  return before.pushed(std::move(move));
+  const uint64_t all = event.count;
+  append_steps(longer, event);
+  RecordedEvents before = event.count < all ? events.popped().pushed(std::move(longer)) : events;
+  if (event.count == 0) return before;
+  event = with_tools_of(before.top(), std::move(event));
+  event.tools.share_with(before.top().tools);
+  return before.pushed(std::move(event));
 }
 
-Snapshot after_move(const Snapshot &now, State state, const RecordedEvent &move) {
-  return after_move(now, std::move(state), {}, move);
+Snapshot after_event(const Snapshot &now, State state, const RecordedEvent &event) {
+  return after_event(now, std::move(state), {}, event);
 }
 
-Snapshot after_move(const Snapshot &now, State state, const std::vector<RecordedEvent> &first,
-                    const RecordedEvent &move) {
+Snapshot after_event(const Snapshot &now, State state, const std::vector<RecordedEvent> &first,
+                     const RecordedEvent &event) {
   must_be_finite(state);
   share(state, now.current.state);
   Snapshot snapshot{{now.current.model, std::move(state)}, now.history};
   snapshot.history.start = start_of(now);
   for (const RecordedEvent &before : first) {
-    snapshot.history.moves = with_move(snapshot.history.moves, before);
+    snapshot.history.events = with_event(snapshot.history.events, before);
   }
-  snapshot.history.moves = with_move(snapshot.history.moves, move);
+  snapshot.history.events = with_event(snapshot.history.events, event);
   return snapshot;
 }
 
-void take_move(const Model &model, State &state, const RecordedEvent &move) {
-  if (move.kind == RecordedEvent::load) {
-    state.load = {move.pressure, move.boundary_fraction};
+void apply_event(const Model &model, State &state, const RecordedEvent &event) {
+  if (event.kind == RecordedEvent::load) {
+    state.load = {event.pressure, event.boundary_fraction};
     return;
   }
-  const Tool &tool = move.tool[0];
-  if (move.kind == RecordedEvent::tool_add) {
+  const Tool &tool = event.tools[0];
+  if (event.kind == RecordedEvent::tool_add) {
     add_tool(model, state, tool);
-  } else if (move.kind == RecordedEvent::tool_move) {
+  } else if (event.kind == RecordedEvent::tool_move) {
     move_tool(state, tool.id, tool.position, tool.axis);
   } else {
     remove_tool(state, tool.id);
@@ -93,12 +93,12 @@ Snapshot after_op(const Snapshot &now, const Operation &op, const Group &group, 
   Operated done = perform(now.current, op);
   auto entry = std::make_shared<const HistoryEntry>(
       HistoryEntry{op, std::move(done.title), done.made, group.number, group.name, time_ms,
-                   now.history.moves, now.current, done.current});
+                   now.history.events, now.current, done.current});
   Snapshot snapshot{std::move(done.current), now.history};
   snapshot.history.start = start_of(now);
   snapshot.history.past = now.history.past.pushed(std::move(entry));
   snapshot.history.future = {};
-  snapshot.history.moves = {};
+  snapshot.history.events = {};
   return snapshot;
 }
 
@@ -114,8 +114,9 @@ Snapshot undone(const Snapshot &now) {
 }
 
 Snapshot redone(const Snapshot &now) {
-  MVS_MUST(!now.history.future.empty(), MVS_E_STATE, "redo",
-           "there is no operation to redo: none was undone, or another one was applied since");
+  MVS_MUST(
+      !now.history.future.empty(), MVS_E_STATE, "redo",
+      "there is no operation to redo: no operation was undone, or another one was applied since");
   const std::shared_ptr<const HistoryEntry> first = now.history.future.top();
   Snapshot snapshot = redone_once(now);
   while (!snapshot.history.future.empty() &&
@@ -128,7 +129,7 @@ Snapshot redone(const Snapshot &now) {
 Snapshot with_checkpoint(const Snapshot &now, const std::string &name) {
   auto list = now.history.checkpoints ? *now.history.checkpoints : std::vector<Checkpoint>();
   std::erase_if(list, [&](const Checkpoint &c) { return c.name == name; });
-  list.push_back({name, now.current, now.history.past, now.history.future, now.history.moves});
+  list.push_back({name, now.current, now.history.past, now.history.future, now.history.events});
   Snapshot snapshot = now;
   snapshot.history.start = start_of(now);
   snapshot.history.checkpoints = std::make_shared<const std::vector<Checkpoint>>(std::move(list));
@@ -142,7 +143,7 @@ Snapshot at_checkpoint(const Snapshot &now, const std::string &name) {
       Snapshot snapshot{c.at, now.history};
       snapshot.history.past = c.past;
       snapshot.history.future = c.future;
-      snapshot.history.moves = c.moves;
+      snapshot.history.events = c.events;
       return snapshot;
     }
   }

@@ -1,6 +1,6 @@
-// The history of a valve: what was done to it, what was undone, the checkpoints.
-//
-// It is immutable and shared like models and states are: each snapshot has the history up to it.
+// Linear undo history with checkpoints: the operations applied to a valve, the operations undone,
+// and the events between them. Snapshots are immutable and share their history structurally
+// (PersistentList), so that an undo level costs only the data that its operation changed.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace mvs::core {
 
-// What changes a state between two operations, so that a plan can be replayed to the same bits.
+// A change of the state between two operations, recorded so that a plan replays to the same bits.
 struct RecordedEvent {
   enum Kind : uint32_t {
     load = 1,
@@ -22,79 +22,80 @@ struct RecordedEvent {
     tool_add = 4,
     tool_move = 5,
     tool_remove = 6,
-    lead = 7  // steps, before each of which hands move (surgery/lead.h)
+    tool_trajectory = 7  // time steps, with tools moved before each (history/tool_trajectory.h)
   };
   static constexpr uint64_t most_count = uint64_t{1} << 40;
   Kind kind = load;
   uint32_t solver = 0, max_iterations = 0;  // of settle and step, as the caller gave them
-  uint64_t count = 1;   // of step: how many of the same in a row, at most most_count; of lead: all
+  uint64_t count = 1;   // time steps of a step event (at most most_count) or of a trajectory
   uint32_t budget = 0;  // of step, as the caller gave it
   double pressure = 0, boundary_fraction = 0;  // of load: Pa, 0 to 1
   double residual = 0, dt = 0, damping = 0;    // N, s, 1/s
-  // One, of what is done with it: as added; its hand; its id. Of lead: all that are led, by id and
-  // kind.
-  CowVector<Tool> tool;
-  CowVector<Vec3> way;       // of lead, in rows: where the hands of all of them are,
-  CowVector<uint32_t> pace;  // and how many steps follow
+  // tool_add: the new tool; tool_move: its id and hand; tool_remove: its id; tool_trajectory: id
+  // and kind of each tool.
+  CowVector<Tool> tools;
+  CowVector<Vec3> points;             // of a trajectory: rows with the points of each tool
+  CowVector<uint32_t> steps_per_row;  // of a trajectory: time steps after each row, at least 1
 
   bool operator==(const RecordedEvent &) const = default;
 };
 using RecordedEvents = PersistentList<RecordedEvent>;
 
-// With one more move; equal steps are counted together, steps that hands lead become one run, and a
-// load or a hand that moves on before anything has followed it is replaced.
-RecordedEvents with_move(const RecordedEvents &moves, RecordedEvent move);
+// Appends an event. Equal steps are counted together, trajectories are joined into runs, and a load
+// or tool_move directly after one of the same kind replaces it.
+RecordedEvents with_event(const RecordedEvents &events, RecordedEvent event);
 
-// One operation that was applied.
+// An applied operation.
 struct HistoryEntry {
   Operation op;
   std::string title;  // for a menu
   Id made = 0;
-  uint64_t group = 0;      // 0: none
-  std::string group_name;  // "" for none
-  int64_t time_ms = 0;     // when, since 1970 UTC
-  RecordedEvents moves;    // since the operation before it
+  uint64_t group = 0;      // 0: no group
+  std::string group_name;  // "" without a group
+  int64_t time_ms = 0;     // ms since 1970 UTC
+  RecordedEvents events;   // since the operation before it
   ModelState before, after;
 };
 using HistoryEntries = PersistentList<std::shared_ptr<const HistoryEntry>>;
 
-// A place to come back to.
+// A named snapshot of the history.
 struct Checkpoint {
   std::string name;
   ModelState at;
   HistoryEntries past, future;
-  RecordedEvents moves;
+  RecordedEvents events;
 };
 
 struct History {
-  std::shared_ptr<const ModelState> start;  // the valve as it was set; null: it is this picture
-  HistoryEntries past;                      // the last operation on top
-  HistoryEntries future;                    // undone; the next to be redone on top
-  RecordedEvents moves;                     // since the last operation
-  std::shared_ptr<const std::vector<Checkpoint>> checkpoints;  // null: none
+  std::shared_ptr<const ModelState> start;  // the valve as it was set; null: the current one
+  HistoryEntries past;                      // applied, the last one on top
+  HistoryEntries future;                    // undone, the next one to redo on top
+  RecordedEvents events;                    // since the last operation
+  std::shared_ptr<const std::vector<Checkpoint>> checkpoints;  // null: no checkpoints
   uint64_t next_group = 1;
 };
 
-// A picture with the history up to it.
+// A model and state with the history that led to them.
 struct Snapshot {
   ModelState current;
   History history;
 };
 
-// The valve as it was set, where the history begins.
+// Returns the valve as it was set, where the history begins.
 std::shared_ptr<const ModelState> start_of(const Snapshot &snapshot);
 
-// The moment after a move, which led to `state`; throws MVS_E_DIVERGED where a position is no
-// number. What the state has in common with the one before is shared.
-Snapshot after_move(const Snapshot &now, State state, const RecordedEvent &move);
-// The same where other moves came first.
-Snapshot after_move(const Snapshot &now, State state, const std::vector<RecordedEvent> &first,
-                    const RecordedEvent &move);
+// Returns the snapshot after an event that led to `state`; arrays equal to those of `now` are
+// shared. Throws MVS_E_DIVERGED if a position is not finite.
+Snapshot after_event(const Snapshot &now, State state, const RecordedEvent &event);
+// The same after the events `first` and then `event`.
+Snapshot after_event(const Snapshot &now, State state, const std::vector<RecordedEvent> &first,
+                     const RecordedEvent &event);
 
-// What a load or a move of a tool does to a state; throws where it cannot be done.
-void take_move(const Model &model, State &state, const RecordedEvent &move);
+// Applies a load or tool event to a state; throws if the tool operation is not possible.
+void apply_event(const Model &model, State &state, const RecordedEvent &event);
 
-// These give the moment after; they throw MVS_E_STATE or MVS_E_ID where there is nothing to go to.
+// The functions below return the next snapshot. They throw MVS_E_STATE or MVS_E_ID if there is no
+// operation or checkpoint to go to.
 struct Group {
   uint64_t number = 0;
   std::string name;

@@ -1,4 +1,5 @@
-// An immutable stack that shares everything below its top: a history costs what each level adds.
+// A persistent (immutable, structurally shared) singly linked list: push and pop return new lists
+// in O(1), and an undo level costs only its own item.
 #pragma once
 
 #include <memory>
@@ -13,13 +14,13 @@ class PersistentList {
   bool empty() const { return cell_ == nullptr; }
   size_t size() const { return cell_ ? cell_->size : 0; }
   const T &top() const { return cell_->value; }
-  // Without its top.
+  // Returns the list without its top item.
   PersistentList popped() const { return PersistentList(cell_->below); }
-  // With one more on top.
+  // Returns the list with one more item on top.
   PersistentList pushed(T value) const {
     return PersistentList(std::make_shared<Cell>(std::move(value), cell_, size() + 1));
   }
-  // All, from the bottom to the top; valid while this stack is.
+  // Returns all items, from the bottom to the top; the pointers are valid while this list is.
   std::vector<const T *> items() const {
     std::vector<const T *> all(size());
     size_t k = all.size();
@@ -35,7 +36,7 @@ class PersistentList {
         : value(std::move(value_in)), below(std::move(below_in)), size(size_in) {}
     Cell(const Cell &) = delete;
     Cell &operator=(const Cell &) = delete;
-    // thousands of levels must not become thousands of nested calls
+    // iterative, because the destructor of thousands of cells would recurse as deep
     ~Cell() {
       std::shared_ptr<Cell> next = std::move(below);
       while (next && next.use_count() == 1) next = std::shared_ptr<Cell>(std::move(next->below));

@@ -1,31 +1,32 @@
-// Steps led by hands, many in one move: a hand that moves does so at every step, and an hour of it
-// has to stay small. One row holds where the hands of a run went, and how often was stepped there.
+// Tool trajectories: runs of time steps with the position of each moving tool before every step, in
+// the compact form that the history keeps. A run stores one row of points per position and the
+// number of steps that follow it; one step of one tool costs about 30 bytes (`bench_hand`).
 #pragma once
 
 #include "history/history.h"
 
 namespace mvs::core {
 
-// The places that a hand has in a row: its position, and the axis of a rod.
-size_t places_of(const Tool &tool);
-size_t places_in_row(const RecordedEvent &lead);
+// The number of points of a tool in a row: its position, and the axis of a rod.
+size_t points_of_tool(const Tool &tool);
+size_t points_per_row(const RecordedEvent &trajectory);
 
-// Steps after hands have moved; `hands` are moves of tools.
-RecordedEvent lead_of(const std::vector<RecordedEvent> &hands, const RecordedEvent &step);
+// Returns the trajectory of one row: the tools move to `hands` (events tool_move), and `step`
+// follows.
+RecordedEvent trajectory_event(const std::vector<RecordedEvent> &hands, const RecordedEvent &step);
 
-// Takes as many steps from the front of `more` into `run`, which they follow, as fit there; all of
-// them are taken where the count of `more` becomes 0. Where memory ends nothing is changed.
-void take_on(RecordedEvent &run, RecordedEvent &more);
+// Moves as many steps as fit from the front of `more` to the end of `run`. The count of `more` is 0
+// afterwards if all of them fit. If an allocation fails, both are unchanged.
+void append_steps(RecordedEvent &run, RecordedEvent &more);
 
-// The same lead with a place for each hand of `last` too, a lead that it follows: two hands that
-// move in turn make one run.
-RecordedEvent widened(const RecordedEvent &last, RecordedEvent lead);
+// Returns `trajectory`, which follows `last`, with columns for the tools of `last` added, so that
+// tools that move in turn share one run.
+RecordedEvent with_tools_of(const RecordedEvent &last, RecordedEvent trajectory);
 
-// Whether rows, hands and counts of a lead agree.
-bool is_whole(const RecordedEvent &lead);
+// Returns whether rows, tools and counts of a trajectory agree and its points are finite.
+bool is_consistent(const RecordedEvent &trajectory);
 
-// Moves the tools of a state to where a row has their hands; throws MVS_E_ID where one is not
-// there.
-void take_row(State &state, const RecordedEvent &lead, size_t row);
+// Moves the tools of a state to a row of a trajectory; throws MVS_E_ID if the state lacks a tool.
+void apply_row(State &state, const RecordedEvent &trajectory, size_t row);
 
 }  // namespace mvs::core

@@ -1,3 +1,4 @@
+// Journal records and the commit of a transaction.
 #include "session/commit.h"
 
 #include <chrono>
@@ -18,8 +19,8 @@ void commit(mvs_sim &sim, Snapshot after, const Record &record) {
 namespace {
 
 const std::vector<Checkpoint> &checkpoints_of(const Snapshot &snapshot) {
-  static const std::vector<Checkpoint> none_there;
-  return snapshot.history.checkpoints ? *snapshot.history.checkpoints : none_there;
+  static const std::vector<Checkpoint> no_checkpoints;
+  return snapshot.history.checkpoints ? *snapshot.history.checkpoints : no_checkpoints;
 }
 
 Json restart_record(const Snapshot &snapshot) {
@@ -29,7 +30,7 @@ Json restart_record(const Snapshot &snapshot) {
   for (const Checkpoint &c : checkpoints_of(snapshot)) {
     Snapshot there{c.at, snapshot.history};
     there.history.past = c.past;
-    there.history.moves = c.moves;
+    there.history.events = c.events;
     Json one = Json::object({{"name", c.name}});
     one.set("steps", plan_steps(there, {}));
     list.add(std::move(one));
@@ -65,10 +66,10 @@ Json steps_record(const Snapshot &before, const Snapshot &after) {
   Json steps = Json::array();
   const auto entries = after.history.past.items();
   for (size_t k = before.history.past.size(); k < entries.size(); ++k) {
-    add_moves(steps, (*entries[k])->moves);
+    add_events(steps, (*entries[k])->events);
     steps.add(entry_json(**entries[k]));
   }
-  add_moves(steps, after.history.moves);
+  add_events(steps, after.history.events);
   json.set("steps", std::move(steps));
   return json;
 }
@@ -79,11 +80,11 @@ Json word_record(const char *word) {
   return json;
 }
 
-Json named_record(const char *word, const std::string &name, const RecordedEvents &moves) {
+Json named_record(const char *word, const std::string &name, const RecordedEvents &events) {
   Json json = word_record(word);
   json.set("name", name);
   Json steps = Json::array();
-  add_moves(steps, moves);
+  add_events(steps, events);
   json.set("steps", std::move(steps));
   return json;
 }

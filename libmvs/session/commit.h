@@ -1,4 +1,5 @@
-// Making a moment the present one of a simulator: the journal first.
+// Commit of a transaction: writes the journal record to the disk, then replaces the present
+// snapshot.
 #pragma once
 
 #include "formats/plan/plan.h"
@@ -9,20 +10,19 @@ namespace mvs::core {
 // Milliseconds since 1970 UTC.
 int64_t now_ms();
 
-// Makes `after` the present. Its record goes into the journal, if there is one, before anything
-// counts; it is asked for only then.
+// Makes `after` the present snapshot. If a journal is open, its record is built and written first;
+// a failure leaves the simulator unchanged.
 using Record = std::function<Json(const Snapshot &after)>;
 void commit(mvs_sim &sim, Snapshot after, const Record &record);
 
-// Writes into the journal, if there is one, that a snapshot is restored. A snapshot of another
-// valve ends it.
+// Writes a restart record into an open journal. A snapshot of another valve closes the journal.
 void restart_journal(mvs_sim &sim, const Snapshot &restored);
 
-// The records of a journal.
+// Journal records.
 Json begun_record(const Snapshot &snapshot);  // its first
 Json steps_record(const Snapshot &before,
                   const Snapshot &after);  // operations applied since `before`
 Json word_record(const char *word);        // undo, redo
-Json named_record(const char *word, const std::string &name, const RecordedEvents &moves);
+Json named_record(const char *word, const std::string &name, const RecordedEvents &events);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// The hand, from its button to its tool.
+// Actions of the hand: button events, tools, tissue model, report.
 #include "session/device_hand.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "session/tools.h"
 
 namespace mvs::core {
+
 void Hand::set_hand(const mvs_device_hand &given) {
   MVS_MUST(given.mode <= MVS_HAND_MODE_DRAG, MVS_E_ARGUMENT, "hand.mode",
            "hand.mode is %u: it has to be one of MVS_HAND_MODE_*", given.mode);
@@ -31,7 +32,7 @@ void Hand::set_hand(const mvs_device_hand &given) {
   changed_ = true;
 }
 
-// The hand's rod lies along the stylus, its handle towards the user.
+// A rod lies along the stylus, with its handle towards the user.
 Vec3 Hand::axis() const {
   return turn_ * Vec3::UnitZ();
 }
@@ -62,7 +63,7 @@ void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
   if (down == down_) return;
   down_ = down;
   events_ |= uint32_t{down ? MVS_EVENT_PRESSED : MVS_EVENT_RELEASED};
-  // where the hand was then, not where it is now
+  // the position at the time of the button event, not the present one
   const Vec3 now = place_;
   place_ = view_.to_scene(event.position);
   down ? press(sim) : release(sim);
@@ -92,7 +93,7 @@ void Hand::choose_chord(const mvs_sim &sim) {
   }
   chord_ = found.id;
   events_ |= MVS_EVENT_CHOSEN;
-  maker_.begin_contact();
+  builder_.begin_contact();
 }
 
 void Hand::release(mvs_sim &sim) {
@@ -110,10 +111,10 @@ void Hand::let_go(mvs_sim &sim) {
   if (tool(sim)) remove_tool_now(sim, tool_);
   tool_ = 0;
   events_ |= MVS_EVENT_LET_GO;
-  maker_.begin_contact();
+  builder_.begin_contact();
 }
 
-// With the spring that the device can render through this view.
+// The spring stiffness is limited to the value that the device can render through this view.
 mvs_tool_desc Hand::describe(uint32_t kind) const {
   mvs_tool_desc desc = {};
   desc.struct_size = sizeof desc;
@@ -130,7 +131,7 @@ mvs_tool_desc Hand::describe(uint32_t kind) const {
   return desc;
 }
 
-// False where the tool cannot be there.
+// Returns false if the position does not allow the tool.
 bool Hand::add(mvs_sim &sim, mvs_tool_desc desc) {
   try {
     tool_ = add_tool_now(sim, desc);
@@ -138,19 +139,19 @@ bool Hand::add(mvs_sim &sim, mvs_tool_desc desc) {
     if (error.code != MVS_E_STATE && error.code != MVS_E_ARGUMENT) throw;
     return false;
   }
-  maker_.begin_contact();
+  builder_.begin_contact();
   return true;
 }
 
 void Hand::follow(mvs_sim &sim) {
   if (changed_) let_go(sim);
-  if (changed_) maker_.begin_contact();
+  if (changed_) builder_.begin_contact();
   changed_ = false;
   const Tool *held = tool(sim);
   if (tool_ != 0 && !held) {
     tool_ = 0;
     events_ |= MVS_EVENT_LOST_TOOL;
-    maker_.begin_contact();
+    builder_.begin_contact();
   }
   const bool pushes = hand_.mode == MVS_HAND_MODE_BALL || hand_.mode == MVS_HAND_MODE_ROD;
   if (pushes && tool_ == 0) {
@@ -168,12 +169,12 @@ TissueModel Hand::tissue(mvs_sim &sim) {
   const ModelState &now = sim.current();
   const Tool *const held = tool(sim);
   const Chord *const felt = hand_.mode == MVS_HAND_MODE_FEEL ? chord(sim) : nullptr;
-  TissueModel scene = maker_.nothing();
+  TissueModel scene = builder_.nothing();
   felt_ = Vec3::Zero();
   if (held) {
-    scene = maker_.of_tool(*now.model, now.state, *held);
+    scene = builder_.of_tool(*now.model, now.state, *held);
   } else if (felt) {
-    scene = maker_.of_chord(*now.model, now.state, *felt, place_, hand_.gain);
+    scene = builder_.of_chord(*now.model, now.state, *felt, place_, hand_.gain);
     felt_ = scene.force;
   }
   return view_.to_device(scene, most_);

@@ -1,4 +1,5 @@
-// What a hand does in a valve: takes, drags, lets go, pushes, feels.
+// The hand of a haptic device in the scene: grasps, pushes, feels chordae and drags, with one
+// button.
 #pragma once
 
 #include <mvs/tool.h>
@@ -12,23 +13,23 @@ namespace mvs::core {
 
 class Hand {
  public:
-  // Both throw MVS_E_ARGUMENT.
+  // set_hand and set_view throw MVS_E_ARGUMENT.
   void set_hand(const mvs_device_hand &given);
   void set_view(const mvs_device_view &given) {
     view_ = DeviceView::read(given);
-    maker_.begin_contact();  // the same tissue lies elsewhere for the servo
+    builder_.begin_contact();  // the device coordinates of the tissue change
   }
   const mvs_device_hand &hand() const { return hand_; }
   const DeviceView &view() const { return view_; }
 
-  // The hand is at this pose of the device; before anything else of a sync. `most` N/m.
+  // Starts a sync with the present pose of the device; `most` is its largest stiffness, N/m.
   void begin(const ServoStatus &current, double most);
   void take_button(const ButtonEvent &event, mvs_sim &sim);
-  // Follows the hand, with its tool or without one.
+  // Updates the tool after the hand: adds it, moves it, or removes it after a change of the mode.
   void follow(mvs_sim &sim);
-  // Lets go of everything.
+  // Removes the tool of the hand.
   void let_go(mvs_sim &sim);
-  // The tissue for the servo, in the frame of the device.
+  // Returns the local tissue model for the servo, in the frame of the device.
   TissueModel tissue(mvs_sim &sim);
   mvs_device_report report(const mvs_sim &sim, const TissueModel &tissue, bool latched) const;
 
@@ -44,15 +45,15 @@ class Hand {
 
   DeviceView view_;
   mvs_device_hand hand_ = {};
-  TissueModelBuilder maker_;
-  Vec3 place_ = Vec3::Zero();  // in the scene
+  TissueModelBuilder builder_;
+  Vec3 place_ = Vec3::Zero();  // of the hand, in the scene
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
   double most_ = 0;  // N/m
   Id tool_ = 0, chord_ = 0;
   bool down_ = false, changed_ = true;
   uint32_t events_ = 0;
   Vec3 drag_to_ = Vec3::Zero();
-  Vec3 felt_ = Vec3::Zero();  // of the chord, on the hand
+  Vec3 felt_ = Vec3::Zero();  // force of the felt chord on the hand
 };
 
 }  // namespace mvs::core

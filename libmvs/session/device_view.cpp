@@ -1,24 +1,20 @@
-// Reading a view, and rendering through it.
+// Validation of a view, and the transform of tissue models.
 #include "session/device_view.h"
 
 #include <cmath>
 
 #include "base/option_checks.h"
 #include "linalg/eigenvalues.h"
+#include "session/tools.h"
 
 namespace mvs::core {
-namespace {
-
-constexpr double farthest = 10;  // m, from the origin of any scene
-
-}  // namespace
 
 DeviceView DeviceView::read(const mvs_device_view &given) {
   DeviceView view;
   view.origin_ = Vec3::Map(given.origin);
-  MVS_MUST((view.origin_.array().abs() <= farthest).all(), MVS_E_ARGUMENT, "view.origin",
+  MVS_MUST((view.origin_.array().abs() <= max_coordinate).all(), MVS_E_ARGUMENT, "view.origin",
            "view.origin is (%g, %g, %g) m: each has to be a number within %g", given.origin[0],
-           given.origin[1], given.origin[2], farthest);
+           given.origin[1], given.origin[2], max_coordinate);
   const double *const q = given.rotation;
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
   const double length = rotation.coeffs().stableNorm();
@@ -33,7 +29,7 @@ DeviceView DeviceView::read(const mvs_device_view &given) {
   return view;
 }
 
-mvs_device_view DeviceView::told() const {
+mvs_device_view DeviceView::get() const {
   mvs_device_view out = {};
   write(origin_, out.origin);
   write(rotation_, out.rotation);

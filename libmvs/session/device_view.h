@@ -1,4 +1,4 @@
-// Between the frame of a device and the scene.
+// The similarity transform between the frame of a device and the scene.
 #pragma once
 
 #include <mvs/device.h>
@@ -13,7 +13,7 @@ class DeviceView {
  public:
   // Throws MVS_E_ARGUMENT.
   static DeviceView read(const mvs_device_view &given);
-  mvs_device_view told() const;
+  mvs_device_view get() const;
 
   Vec3 to_scene(const Vec3 &hand) const { return origin_ + scale_ * (rotation_ * hand); }
   Vec3 to_device(const Vec3 &place) const {
@@ -22,9 +22,9 @@ class DeviceView {
   Vec3 turned(const Vec3 &v) const { return rotation_ * v; }
   Eigen::Quaterniond turned(const Eigen::Quaterniond &q) const { return rotation_ * q; }
   double scale() const { return scale_; }
-  // N/m of the device for each N/m in the scene.
+  // Device stiffness per scene stiffness.
   double stiffness_scale() const { return scale_ * force_scale_; }
-  // A model in the scene, as the device is to render it; no stiffer than `most` N/m of the device.
+  // Transforms a tissue model of the scene to the device, with a stiffness of at most `most` N/m.
   TissueModel to_device(const TissueModel &scene, double most) const;
 
  private:

@@ -1,3 +1,4 @@
+// A mutex-protected list of posted hands.
 #include "session/hand_targets.h"
 
 #include "session/recorded_event.h"
@@ -9,7 +10,7 @@ bool same_hand(const Tool &a, const Tool &b) {
   return a.position == b.position && a.axis == b.axis;
 }
 
-// Null where there is none.
+// Returns null if the state lacks the tool.
 const Tool *tool_in(const State &state, Id id) {
   for (const Tool &tool : state.tools.get()) {
     if (tool.id == id) return &tool;
@@ -37,7 +38,7 @@ std::vector<RecordedEvent> HandTargets::take(State &state) const {
     const Tool *const tool = tool_in(state, hand.id);
     if (!tool || same_hand(*tool, hand)) continue;
     move_tool(state, hand.id, hand.position, hand.axis);
-    taken.push_back(move_of(RecordedEvent::tool_move, hand));
+    taken.push_back(event_of(RecordedEvent::tool_move, hand));
   }
   return taken;
 }

@@ -1,4 +1,4 @@
-// Where hands want their tools to be, handed over from any thread to the next settle or step.
+// Hand positions posted from any thread, for the next settle or step.
 #pragma once
 
 #include <mutex>
@@ -11,20 +11,20 @@ namespace mvs::core {
 
 class HandTargets {
  public:
-  // Replaces what the hand of this tool wanted before; without an axis that one stays.
+  // Replaces the posted position of this tool; keeps the posted axis unless `has_axis`.
   void post(const Tool &hand, bool has_axis);
 
-  // Moves the tools of a state to their hands; the moves that this takes. Hands whose tool the
-  // state lacks are left out.
+  // Moves the tools of a state to their posted hands and returns the events. Skips hands whose tool
+  // the state lacks.
   std::vector<RecordedEvent> take(State &state) const;
-  // Forgets the hands that a state has followed, unless they have moved on meanwhile, and those
-  // whose tool it lacks.
+  // Removes the hands that the state has reached, unless they moved meanwhile, and hands whose tool
+  // the state lacks.
   void done(const State &state);
   void forget();
 
  private:
   mutable std::mutex mutex_;
-  std::vector<Tool> posted_;  // at most one a tool
+  std::vector<Tool> posted_;  // at most one per tool
 };
 
 }  // namespace mvs::core

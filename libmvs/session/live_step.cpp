@@ -1,22 +1,22 @@
-// One step in time, without a snapshot and, once the memory is there, without allocation.
+// One time step without a snapshot, and without allocation once the buffers exist.
 #include "history/tool_trajectory.h"
 #include "model/finite.h"
 #include "session/simulator.h"
 
 using namespace mvs::core;
 
-// The call at work is the only one that changes the picture, so it reads it without a lock.
+// Only the call at work changes the current state, so that it reads the state without the lock.
 void mvs_sim::step(const SolveOptions &how) {
   must_have_valve();
   begin_step();
   const std::vector<RecordedEvent> moved = hands.take(next_);
   const SolveStats found = solver.step(*now_.current.model, next_, how);
   must_be_finite(next_);
-  SnapshotPtr before;  // let go of outside the lock
+  SnapshotPtr before;  // released outside the lock
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!now_.history.start) now_.history.start = start_of(now_);
-    record_step(moved, move_of(RecordedEvent::step, how));
+    record_step(moved, event_of(RecordedEvent::step, how));
     std::swap(now_.current.state, next_);
     present_.swap(before);
   }
@@ -24,8 +24,8 @@ void mvs_sim::step(const SolveOptions &how) {
   stats = found;
 }
 
-// A copy of the present state in the memory of the one before it. Who holds a snapshot of that
-// keeps its memory, and there will be new.
+// Copies the current state into the buffers of the state before it (double buffering). If a
+// snapshot shares these buffers, the copy-on-write arrays allocate new ones.
 void mvs_sim::begin_step() {
   const State &now = now_.current.state;
   CowVector<Vec3> x = std::move(next_.x), v = std::move(next_.v);
@@ -36,13 +36,13 @@ void mvs_sim::begin_step() {
   next_.v = std::move(v);
 }
 
-// Steps are counted, those that hands lead put into one run; they go into the history when somebody
-// looks or others follow.
+// Merges equal steps and tool trajectories into one pending event. It enters the history when a
+// snapshot is taken or another kind of step follows.
 void mvs_sim::record_step(const std::vector<RecordedEvent> &moved,
                           const RecordedEvent &step) const {
-  RecordedEvent next = moved.empty() ? step : lead_of(moved, step);
-  if (stepped_.count > 0) take_on(stepped_, next);
+  RecordedEvent next = moved.empty() ? step : trajectory_event(moved, step);
+  if (stepped_.count > 0) append_steps(stepped_, next);
   if (next.count == 0) return;
-  if (stepped_.count > 0) now_.history.moves = with_move(now_.history.moves, stepped_);
+  if (stepped_.count > 0) now_.history.events = with_event(now_.history.events, stepped_);
   stepped_ = std::move(next);
 }

@@ -1,4 +1,4 @@
-// What is said of a mesh that is finer than its contact, or too fine to close, or without labels.
+// Checks of the mesh against the contact thickness, and of the leaflet names.
 #include "session/mesh_warnings.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace mvs::core {
 namespace {
 
-// Lower than this share of the contact thickness a triangle is a needle, on which a closure may
-// never come to rest (tests/stability, meshes/slivers); a share of 0.1 does no harm there. A real
-// valve whose lowest triangles have 0.016 of it closes, on a finer mesh with 0.001 it does not.
+// A triangle lower than this share of the contact thickness may keep a closure from converging
+// (tests/stability, meshes/slivers); a share of 0.1 does not. A real valve with a share of 0.016
+// closes, a finer mesh of it with 0.001 does not.
 constexpr double needle_share = 0.01;
 
 struct Needles {
@@ -39,20 +39,21 @@ Needles needles_of(const Model &model) {
   return found;
 }
 
-// Every read-out and ring goes by which side is anterior.
+// All measures and rings depend on the anterior side.
 void log_anterior(const mvs_sim &sim, const Model &model) {
   const Leaflet &leaflet = model.valve.leaflets[anterior_leaflet(model.valve)];
   if (leaflet.name[0] == 'A' || leaflet.name[0] == 'a') return;
   if (model.valve.leaflets.size() > 1) {
-    sim.log(MVS_LOG_WARNING, "no leaflet is named A: %s is taken for the anterior one",
+    sim.log(MVS_LOG_WARNING, "no leaflet is named A: %s is assumed to be anterior",
             leaflet.name.c_str());
     return;
   }
   const AnnulusMeasures m = measure_annulus(model, model.valve.rest);
   sim.log(MVS_LOG_WARNING,
-          "no leaflet is named A: the middle of the anterior side is taken to be the first node of "
-          "the annulus, so that it is %.3g mm wide from there (AP) and %.3g mm across (CC); name "
-          "leaflets A and P, or let the annulus begin there",
+          "no leaflet is named A: the first node of the annulus is assumed to be the middle of the "
+          "anterior side, so that the annulus is %.3g mm wide from there (AP) and %.3g mm across "
+          "(CC); name "
+          "leaflets A and P, or start the annulus at that node",
           1e3 * m.ap, 1e3 * m.cc);
 }
 
@@ -74,10 +75,11 @@ void log_mesh(const mvs_sim &sim, const Model &model) {
   const auto thin = std::count_if(model.rest_length.begin(), model.rest_length.end(),
                                   [r](double length) { return length < r; });
   if (thin == 0) return;
-  sim.log(MVS_LOG_INFO,
-          "%td of %zu edges are shorter than the contact thickness of %.3g m: places of the sheet "
-          "nearer to each other than %.3g m at rest do not touch, they are only kept apart",
-          thin, model.topology.edges.size(), r, contact_rest_distance * r);
+  sim.log(
+      MVS_LOG_INFO,
+      "%td of %zu edges are shorter than the contact thickness of %.3g m: parts of the "
+      "sheet closer than %.3g m at rest do not touch each other, the barrier only separates them",
+      thin, model.topology.edges.size(), r, contact_rest_distance * r);
 }
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Looked for one by one: a few thousand distances.
+// Linear search: a few thousand distances.
 #include "session/nearest.h"
 
 #include <mvs/snapshot.h>

@@ -1,4 +1,4 @@
-// The moves that a history keeps, from loads and solver options and back to them.
+// Conversion of loads, solver options and tool changes to recorded events, and back.
 #pragma once
 
 #include "history/history.h"
@@ -6,35 +6,36 @@
 
 namespace mvs::core {
 
-inline RecordedEvent move_of(RecordedEvent::Kind kind, const SolveOptions &how) {
-  RecordedEvent move;
-  move.kind = kind;
-  move.solver = how.solver;
-  move.max_iterations = how.max_iterations;
-  move.residual = how.residual;
-  move.dt = how.dt;
-  move.damping = how.damping;
-  move.budget = how.budget;
-  return move;
+inline RecordedEvent event_of(RecordedEvent::Kind kind, const SolveOptions &how) {
+  RecordedEvent event;
+  event.kind = kind;
+  event.solver = how.solver;
+  event.max_iterations = how.max_iterations;
+  event.residual = how.residual;
+  event.dt = how.dt;
+  event.damping = how.damping;
+  event.budget = how.budget;
+  return event;
 }
 
-inline SolveOptions options_of(const RecordedEvent &move) {
-  return {move.solver, move.max_iterations, move.residual, move.dt, move.damping, move.budget};
+inline SolveOptions options_of(const RecordedEvent &event) {
+  return {event.solver, event.max_iterations, event.residual,
+          event.dt,     event.damping,        event.budget};
 }
 
-inline RecordedEvent move_of(const Load &load) {
-  RecordedEvent move;
-  move.pressure = load.pressure;
-  move.boundary_fraction = load.boundary_fraction;
-  return move;
+inline RecordedEvent event_of(const Load &load) {
+  RecordedEvent event;
+  event.pressure = load.pressure;
+  event.boundary_fraction = load.boundary_fraction;
+  return event;
 }
 
-// What is done with a tool.
-inline RecordedEvent move_of(RecordedEvent::Kind kind, const Tool &tool) {
-  RecordedEvent move;
-  move.kind = kind;
-  move.tool = {tool};
-  return move;
+// The event tool_add, tool_move or tool_remove of a tool.
+inline RecordedEvent event_of(RecordedEvent::Kind kind, const Tool &tool) {
+  RecordedEvent event;
+  event.kind = kind;
+  event.tools = {tool};
+  return event;
 }
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Steps of a plan: moves by the solver, operations as any other.
+// Replay of plan steps: the solver executes events, after_op applies operations.
 #include "session/replay.h"
 
 #include "base/error.h"
@@ -11,17 +11,17 @@
 namespace mvs::core {
 namespace {
 
-// Takes the steps of a move. The host is asked after the first and every 64th one more.
+// Executes the time steps of an event. Calls the progress callback after the first and every 64th.
 class Stepping {
  public:
-  Stepping(mvs_sim &sim, const RecordedEvent &move)
-      : sim_(sim), move_(move), progress_(sim.progress()) {}
+  Stepping(mvs_sim &sim, const RecordedEvent &event)
+      : sim_(sim), event_(event), progress_(sim.progress()) {}
 
-  void on(const Model &model, State &state, uint64_t count) {
+  void run(const Model &model, State &state, uint64_t count) {
     for (uint64_t k = 0; k < count; ++k) {
-      const SolveStats found = sim_.solver.step(model, state, options_of(move_));
+      const SolveStats found = sim_.solver.step(model, state, options_of(event_));
       ++taken_;
-      const double share = static_cast<double>(taken_) / static_cast<double>(move_.count);
+      const double share = static_cast<double>(taken_) / static_cast<double>(event_.count);
       MVS_MUST(!progress_ || taken_ % 64 != 1 || progress_(share, found.residual), MVS_E_CANCELLED,
                "step", "stepping was cancelled by the progress callback; the valve is as before");
     }
@@ -29,28 +29,28 @@ class Stepping {
 
  private:
   mvs_sim &sim_;
-  const RecordedEvent &move_;
+  const RecordedEvent &event_;
   const Progress progress_;
   uint64_t taken_ = 0;
 };
 
-Snapshot moved(mvs_sim &sim, const Snapshot &now, const RecordedEvent &move) {
+Snapshot after_running(mvs_sim &sim, const Snapshot &now, const RecordedEvent &event) {
   const Model &model = *now.current.model;
   State state = now.current.state;
-  if (move.kind == RecordedEvent::settle) {
-    settle_with_mesh_hierarchy(sim.solver, model, state, options_of(move), sim.progress());
-  } else if (move.kind == RecordedEvent::step) {
-    Stepping(sim, move).on(model, state, move.count);
-  } else if (move.kind == RecordedEvent::lead) {
-    Stepping stepping(sim, move);
-    for (size_t row = 0; row < move.pace.size(); ++row) {
-      take_row(state, move, row);
-      stepping.on(model, state, move.pace.get()[row]);
+  if (event.kind == RecordedEvent::settle) {
+    settle_with_mesh_hierarchy(sim.solver, model, state, options_of(event), sim.progress());
+  } else if (event.kind == RecordedEvent::step) {
+    Stepping(sim, event).run(model, state, event.count);
+  } else if (event.kind == RecordedEvent::tool_trajectory) {
+    Stepping stepping(sim, event);
+    for (size_t row = 0; row < event.steps_per_row.size(); ++row) {
+      apply_row(state, event, row);
+      stepping.run(model, state, event.steps_per_row.get()[row]);
     }
   } else {
-    take_move(model, state, move);
+    apply_event(model, state, event);
   }
-  return after_move(now, std::move(state), move);
+  return after_event(now, std::move(state), event);
 }
 
 // The names of the chordae with a flag.
@@ -67,34 +67,34 @@ Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
 void Replay::operate(const PlanStep &step) {
   const Model &model = *now.current.model;
   const Operation op = read_op(step.op, model, exact_);
-  const bool goes_on = step.group == group_ && step.group_id == group_id_;
-  if (!step.group.empty() && !goes_on) number_ = now.history.next_group++;
+  const bool continues_group = step.group == group_ && step.group_id == group_id_;
+  if (!step.group.empty() && !continues_group) number_ = now.history.next_group++;
   now = after_op(now, op, step.group.empty() ? Group{} : Group{number_, step.group}, now_ms());
   group_ = step.group;
   group_id_ = step.group_id;
 }
 
-// Tools are called otherwise here where there were some before the plan: those that it adds get the
-// next numbers, and what it does with them is done with these, not with tools that were there.
-void Replay::move(RecordedEvent step) {
-  const Id added = step.kind == RecordedEvent::tool_add ? step.tool.get()[0].id : 0;
+// Maps recorded tool ids: a tool that the plan adds gets the next free id of the simulator, and
+// later events of that tool use it, so that tools present before the plan are not touched.
+void Replay::execute(RecordedEvent event) {
+  const Id added = event.kind == RecordedEvent::tool_add ? event.tools.get()[0].id : 0;
   const Id next = first_tool_id + now.current.state.tools_made;
   if (added != 0) tools_[added] = next;
-  for (size_t k = 0; k < step.tool.size(); ++k) {
-    const auto known = tools_.find(step.tool.get()[k].id);
-    if (known != tools_.end() && known->first != known->second) step.tool[k].id = known->second;
+  for (size_t k = 0; k < event.tools.size(); ++k) {
+    const auto known = tools_.find(event.tools.get()[k].id);
+    if (known != tools_.end() && known->first != known->second) event.tools[k].id = known->second;
   }
-  now = take_(now, step);
+  now = run_event_(now, event);
 }
 
-void Replay::go(const std::vector<PlanStep> &steps) {
+void Replay::run(const std::vector<PlanStep> &steps) {
   for (size_t k = 0; k < steps.size(); ++k) {
     const PlanStep &step = steps[k];
-    if (step.move && !take_) continue;
-    const std::string word = step.move ? "" : step.op["do"].text() + ": ";
+    if (step.event && !run_event_) continue;
+    const std::string word = step.event ? "" : step.op["do"].text() + ": ";
     try {
-      if (step.move) {
-        move(*step.move);
+      if (step.event) {
+        execute(*step.event);
       } else {
         operate(step);
       }
@@ -106,8 +106,10 @@ void Replay::go(const std::vector<PlanStep> &steps) {
   }
 }
 
-TakeMove moves_of(mvs_sim &sim) {
-  return [&sim](const Snapshot &now, const RecordedEvent &move) { return moved(sim, now, move); };
+RunEvent event_runner(mvs_sim &sim) {
+  return [&sim](const Snapshot &now, const RecordedEvent &event) {
+    return after_running(sim, now, event);
+  };
 }
 
 Json plan_measures(const ModelState &current) {

@@ -1,4 +1,4 @@
-// Replaying steps of a plan or a journal.
+// Replay of the steps of a plan or a journal on a snapshot, to the same bits on the same valve.
 #pragma once
 
 #include <map>
@@ -8,38 +8,38 @@
 
 namespace mvs::core {
 
-// Takes one move; empty: moves are left out.
-using TakeMove = std::function<Snapshot(const Snapshot &, const RecordedEvent &)>;
+// Executes one event and returns the snapshot after it. If it is empty, Replay skips events.
+using RunEvent = std::function<Snapshot(const Snapshot &, const RecordedEvent &)>;
 
 class Replay {
  public:
-  // In `exact` replay sites are the nodes and triangles that they were.
-  Replay(Snapshot start, bool exact, TakeMove take)
-      : now(std::move(start)), exact_(exact), take_(std::move(take)) {}
-  // From another moment in the way of another one.
+  // With `exact`, a site is the recorded node or triangle, otherwise its anatomical place.
+  Replay(Snapshot start, bool exact, RunEvent run_event)
+      : now(std::move(start)), exact_(exact), run_event_(std::move(run_event)) {}
+  // Starts at another snapshot with the settings of another replay.
   Replay(Snapshot start, const Replay &like)
-      : now(std::move(start)), exact_(like.exact_), take_(like.take_) {}
+      : now(std::move(start)), exact_(like.exact_), run_event_(like.run_event_) {}
 
-  // Goes on by these steps; throws with the number of the one that cannot be done.
-  void go(const std::vector<PlanStep> &steps);
+  // Executes steps; throws with the number of the step that failed.
+  void run(const std::vector<PlanStep> &steps);
 
   Snapshot now;
 
  private:
   void operate(const PlanStep &step);
-  void move(RecordedEvent step);
+  void execute(RecordedEvent event);
 
   bool exact_;
-  TakeMove take_;
-  std::map<Id, Id> tools_;  // what the tools that the plan added are called here
+  RunEvent run_event_;
+  std::map<Id, Id> tools_;  // recorded tool id -> id in this simulator
   std::string group_;       // of the last operation
   uint64_t group_id_ = 0, number_ = 0;
 };
 
-// The moves of a simulator, by its own solver.
-TakeMove moves_of(mvs_sim &sim);
+// Executes events with the solver of a simulator.
+RunEvent event_runner(mvs_sim &sim);
 
-// What measures of a picture a plan tells.
+// The measures that a plan stores before and after an operation.
 Json plan_measures(const ModelState &current);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// The simulator: its present snapshot, its log, the replacement of its valve.
+// Present snapshot, log and replacement of the valve.
 #include "session/simulator.h"
 
 #include <cstdarg>
@@ -14,7 +14,7 @@ SnapshotPtr mvs_sim::present() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   must_have_valve();
   if (present_) return present_;
-  if (stepped_.count > 0) now_.history.moves = with_move(now_.history.moves, stepped_);
+  if (stepped_.count > 0) now_.history.events = with_event(now_.history.events, stepped_);
   stepped_.count = 0;
   present_ = make_snapshot(now_);
   return present_;
@@ -79,7 +79,7 @@ void replace_valve(mvs_sim &sim, Snapshot snapshot) {
   sim.replace(make_snapshot(std::move(snapshot)));
   sim.group = {};
   sim.hands.forget();
-  if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: there is a new valve");
+  if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: the valve was replaced");
   sim.journal.reset();
   sim.stats.reset();
   sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",

@@ -1,4 +1,4 @@
-// The simulator behind mvs_sim: its present moment, a solver, the host's callbacks.
+// The simulator behind mvs_sim: present snapshot, solver, callbacks of the host.
 #pragma once
 
 #include <mvs/sim.h>
@@ -15,35 +15,35 @@
 #include "session/snapshot.h"
 #include "solve/solver.h"
 
-// A call works on copies and ends by replacing the present moment: that is the transaction. Only a
-// step takes no copy: it works in memory of its own, changes places with the present state when all
-// is well, and leaves it to who asks for a snapshot to make one.
+// A call works on copies and replaces the present snapshot at its end: it is a transaction. A time
+// step copies nothing: it works in a second state buffer, swaps it with the present state on
+// success, and a snapshot is built only on demand.
 struct mvs_sim {
   explicit mvs_sim(const mvs_sim_desc &desc_in) : desc(desc_in), solver(desc_in.backend) {}
 
-  // The present snapshot; throws MVS_E_STATE before there is a valve. From any thread.
+  // Returns the present snapshot, from any thread; throws MVS_E_STATE before a valve is set.
   mvs::core::SnapshotPtr present() const;
-  // The same for the call at work, without making one.
+  // Returns the present model and state without building a snapshot; for the call at work.
   const mvs::core::ModelState &current() const;
   void replace(mvs::core::SnapshotPtr next);
   mvs::core::Load load() const;
-  // One step in time of the present valve.
+  // Advances the present valve by one time step.
   void step(const mvs::core::SolveOptions &how);
-  // What the next step would do because of another valve or other tools, if steps are taken at all:
-  // work of the call that changed them.
+  // Updates the solver after a change of valve or tools, if time steps are in use, so that the next
+  // step does not pay for it.
   void make_ready() { solver.make_ready(*now_.current.model, now_.current.state); }
 
-  // One line to the host.
+  // Passes one line to the host's log callback.
   [[gnu::format(printf, 3, 4)]] void log(mvs_log_level level, const char *pattern, ...) const;
-  // The host's progress callback; empty where there is none.
+  // Returns the host's progress callback; empty if it has no callback.
   mvs::core::Progress progress() const;
 
   const mvs_sim_desc desc;
   mvs::core::Solver solver;
   std::optional<mvs::core::SolveStats> stats;
-  mvs::core::Group group;                       // number 0: none is open
-  std::unique_ptr<mvs::core::Journal> journal;  // null: none
-  mvs::core::HandTargets hands;                 // from any thread
+  mvs::core::Group group;                       // number 0: no group is open
+  std::unique_ptr<mvs::core::Journal> journal;  // null: no journal is open
+  mvs::core::HandTargets hands;                 // posted from any thread
   std::atomic<bool> at_work{false};
 
  private:
@@ -52,16 +52,16 @@ struct mvs_sim {
   void record_step(const std::vector<mvs::core::RecordedEvent> &moved,
                    const mvs::core::RecordedEvent &step) const;
 
-  mutable std::mutex mutex_;                  // of the next three
-  mutable mvs::core::Snapshot now_;           // no model: no valve yet
-  mutable mvs::core::RecordedEvent stepped_;  // steps that the moves of now_ lack; of count 0: none
-  mutable mvs::core::SnapshotPtr present_;    // of now_; null: nobody has asked since the last step
-  mvs::core::State next_;                     // where a step works, in memory of the state before
+  mutable std::mutex mutex_;                  // protects the next three
+  mutable mvs::core::Snapshot now_;           // null model before a valve is set
+  mutable mvs::core::RecordedEvent stepped_;  // pending event, not yet in now_; count 0: no event
+  mutable mvs::core::SnapshotPtr present_;    // cached snapshot of now_; null after a step
+  mvs::core::State next_;                     // buffer of the next step
 };
 
 namespace mvs::core {
 
-// Marks a simulator as at work; a second call meanwhile, from a callback or another thread, throws.
+// Marks a simulator as busy; throws if a callback or another thread calls it meanwhile.
 class AtWork {
  public:
   explicit AtWork(mvs_sim *sim);
@@ -73,10 +73,10 @@ class AtWork {
   mvs_sim *sim_;
 };
 
-// Throws MVS_E_STATE in the name of a call while a group is open.
+// Throws MVS_E_STATE with the name of the call if a group is open.
 void must_be_no_group(const mvs_sim &sim, const char *call);
 
-// Makes a valve with its state and history the present of a simulator.
+// Replaces the valve of a simulator by a snapshot, and logs warnings about it.
 void replace_valve(mvs_sim &sim, Snapshot snapshot);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// What a snapshot works out, each part once.
+// Measures and tables of a snapshot.
 #include "session/snapshot.h"
 #include "geometry/intersect.h"
 
@@ -58,12 +58,12 @@ void add_annulus(const mvs_snapshot &s, mvs_measures &m) {
 }
 
 void add_tenting_billow(const mvs_snapshot &s, mvs_measures &m) {
-  const TentingBillow doming = measure_tenting_billow(*s.model, s.state.x);
-  m.tenting_height = doming.tenting_height;
-  m.tenting_area = doming.tenting_area;
-  m.tenting_volume = doming.tenting_volume;
-  m.billow_height = doming.billow_height;
-  m.billow_volume = doming.billow_volume;
+  const TentingBillow measured = measure_tenting_billow(*s.model, s.state.x);
+  m.tenting_height = measured.tenting_height;
+  m.tenting_area = measured.tenting_area;
+  m.tenting_volume = measured.tenting_volume;
+  m.billow_height = measured.billow_height;
+  m.billow_volume = measured.billow_volume;
 }
 
 void add_closure(const mvs_snapshot &s, mvs_measures &m) {

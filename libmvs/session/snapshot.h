@@ -1,4 +1,4 @@
-// The snapshot behind mvs_snapshot: a model, a state, and what has been worked out from them.
+// The snapshot behind mvs_snapshot: model, state, history, and measures computed on demand.
 #pragma once
 
 #include <mvs/snapshot.h>
@@ -15,8 +15,8 @@
 
 namespace mvs::core {
 
-// A value that the first one to ask for works out, whichever thread that is. A failure is not
-// kept: the next one to ask tries again.
+// A value computed by the first call of get(), from any thread. A failure is not stored: the next
+// call tries again.
 template <typename Value>
 class Lazy {
  public:
@@ -32,7 +32,7 @@ class Lazy {
   mutable std::optional<Value> value_;
 };
 
-// Fields of parts, gathered into arrays for views.
+// Fields of the parts as arrays, for views of the C interface.
 struct Tables {
   std::vector<Edge> chord_nodes;
   std::vector<uint32_t> chord_kind, head_nodes, leaflet_law, free_edge_nodes;
@@ -48,7 +48,7 @@ struct Tables {
 
 }  // namespace mvs::core
 
-// Immutable but for the count of references and the values that are worked out once.
+// Immutable except for the reference count and the values computed on demand.
 struct mvs_snapshot {
   explicit mvs_snapshot(mvs::core::Snapshot value_in)
       : value(std::move(value_in)), model(value.current.model), state(value.current.state) {}
@@ -88,7 +88,7 @@ namespace mvs::core {
 class SnapshotPtr {
  public:
   SnapshotPtr() = default;
-  // Takes over a reference that the caller holds.
+  // Takes ownership of a reference of the caller.
   explicit SnapshotPtr(const mvs_snapshot *held) : held_(held) {}
   SnapshotPtr(const SnapshotPtr &other) : held_(other.held_) {
     if (held_) held_->retain();
@@ -106,7 +106,7 @@ class SnapshotPtr {
   const mvs_snapshot *get() const { return held_; }
   const mvs_snapshot *operator->() const { return held_; }
   explicit operator bool() const { return held_ != nullptr; }
-  // Hands the reference over to the caller.
+  // Gives the reference to the caller.
   const mvs_snapshot *release() { return std::exchange(held_, nullptr); }
 
  private:

@@ -1,4 +1,4 @@
-// Tools: read from the caller's description, added, removed.
+// Tools of the public interface: validation, addition, removal.
 #include "session/tools.h"
 
 #include <cmath>
@@ -9,9 +9,6 @@
 
 namespace mvs::core {
 namespace {
-
-// Farther away than any heart is from its origin: the unit is wrong.
-constexpr double farthest = 10;
 
 uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach) {
   const NearNode nearest = nearest_node(now.value.current, place);
@@ -51,11 +48,11 @@ Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
   return tool;
 }
 
-void take_at_once(mvs_sim &sim, const RecordedEvent &move) {
+void apply_at_once(mvs_sim &sim, const RecordedEvent &event) {
   const SnapshotPtr before = sim.present();
   State state = before->state;
-  take_move(*before->model, state, move);
-  sim.replace(make_snapshot(after_move(before->value, std::move(state), move)));
+  apply_event(*before->model, state, event);
+  sim.replace(make_snapshot(after_event(before->value, std::move(state), event)));
   sim.make_ready();
 }
 
@@ -63,9 +60,9 @@ void take_at_once(mvs_sim &sim, const RecordedEvent &move) {
 
 Vec3 read_place(const double given[3], const char *what) {
   Vec3 place(given[0], given[1], given[2]);
-  MVS_MUST((place.cwiseAbs().array() <= farthest).all(), MVS_E_ARGUMENT, what,
+  MVS_MUST((place.cwiseAbs().array() <= max_coordinate).all(), MVS_E_ARGUMENT, what,
            "%s is (%g, %g, %g) m: each has to be a number within %g", what, place.x(), place.y(),
-           place.z(), farthest);
+           place.z(), max_coordinate);
   return place;
 }
 
@@ -95,14 +92,14 @@ Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc) {
   const SnapshotPtr before = sim.present();
   Tool added = read_tool(*before.get(), desc);
   added.id = first_tool_id + before->state.tools_made;
-  take_at_once(sim, move_of(RecordedEvent::tool_add, added));
+  apply_at_once(sim, event_of(RecordedEvent::tool_add, added));
   return added.id;
 }
 
 void remove_tool_now(mvs_sim &sim, Id id) {
   Tool removed;
   removed.id = id;
-  take_at_once(sim, move_of(RecordedEvent::tool_remove, removed));
+  apply_at_once(sim, event_of(RecordedEvent::tool_remove, removed));
 }
 
 }  // namespace mvs::core

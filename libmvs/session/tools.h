@@ -1,4 +1,4 @@
-// Tools come and go, for calls at work on a simulator.
+// Description, addition and removal of tools, for the call at work.
 #pragma once
 
 #include <mvs/tool.h>
@@ -7,18 +7,22 @@
 
 namespace mvs::core {
 
-// What a tool is made of, as tool.h says.
+// Sizes and limits of a tool, as in include/mvs/tool.h.
 struct ToolSizes {
   double radius, length;        // m
   double stiffness, max_force;  // N/m, N
 };
 
-// With the defaults for what is zero; throws MVS_E_ARGUMENT for what is out of range, in the name
-// of a struct of the interface.
+// Replaces zeros by defaults; throws MVS_E_ARGUMENT for a value out of range, with the name `of` of
+// the public struct.
 ToolSizes read_tool_sizes(const ToolSizes &given, const std::string &of);
 double read_reach(double given, double fallback, const std::string &of);
 
-// A place within 10 m of the origin, and a unit direction; throw MVS_E_ARGUMENT.
+// m, bound of all coordinates: a larger one is probably in another unit.
+inline constexpr double max_coordinate = 10;
+
+// Reads a point with coordinates within max_coordinate, and a direction, which is normalised; both
+// throw MVS_E_ARGUMENT.
 Vec3 read_place(const double given[3], const char *what);
 Vec3 read_axis(const double given[3], const char *what);
 

@@ -1,4 +1,4 @@
-// Numbers in a wrong unit, told by what they would mean under systolic pressure.
+// Unit checks by the response under systolic pressure.
 #include "session/unit_warnings.h"
 
 #include <mvs/sim.h>
@@ -13,18 +13,19 @@
 namespace mvs::core {
 namespace {
 
-// kPa given as Pa are a thousandth, MPa less: a law with a hundredth of what its paper found is
-// told. The papers of one law lie within a factor of 10.
+// Values in kPa or MPa read as Pa are at most a thousandth of the true ones: a constant below a
+// hundredth of its published value is reported. Published values of one law lie within a factor of
+// 10.
 constexpr double little = 0.01;
-// Leaflets live with strains of 0.1 to 0.4 (tests/validation). The default of the softest law here,
-// neo-Hookean on 0.4 mm, would go to 7 times its length; fixed pericardium (50 MPa) gives 0.002.
+// Leaflet strains are 0.1 to 0.4 (tests/validation). The default of the softest law, neo-Hookean on
+// 0.4 mm, would stretch to 7 times its length; fixed pericardium (50 MPa) has a strain of 0.002.
 constexpr double longest_stretch = 10, least_strain = 1e-3;
-// Softer than this, the default a hundredth, contact carries the pressure of systole only where
-// leaflets lie within a hundredth of its thickness (libmvs/energy/README.md).
+// Pa, a hundredth of the default. A softer contact carries systolic pressure only at gaps below a
+// hundredth of its thickness (libmvs/energy/README.md).
 constexpr double softest_contact = 200;
 
-// What follows from the area of the leaflets, that of a disc: half its radius is about the radius
-// of curvature of a closed leaflet.
+// Length scale from the area of the leaflets as a disc: half its radius approximates the radius of
+// curvature of a closed leaflet.
 struct Scale {
   double area, curvature;
   explicit Scale(const Model &model)
@@ -34,7 +35,7 @@ struct Scale {
   double membrane_tension() const { return 0.5 * MVS_SYSTOLE_PA * curvature; }
 };
 
-// Nominal stress of a sheet that is stretched alike in both directions, Pa.
+// Nominal stress of a sheet under equibiaxial stretch, Pa.
 double equibiaxial_stress(const LeafletLaw &law, const Constants &constants, double stretch) {
   if (!law.response) return Bilinear(constants).stress(stretch - 1);
   const double l2 = stretch * stretch, l4 = l2 * l2;
@@ -42,7 +43,7 @@ double equibiaxial_stress(const LeafletLaw &law, const Constants &constants, dou
   return r.w1 * (2 * stretch - 2 / (l4 * stretch)) + r.w4 * stretch;
 }
 
-// The first constant in Pa of which there is too little; null: none.
+// Returns the first constant in Pa below its lower bound, or null.
 const Constant *too_small(const LeafletLaw &law, const Constants &constants, double &value) {
   for (size_t k = 0; k < law.constants.size(); ++k) {
     const Constant &c = law.constants[k];
@@ -84,8 +85,8 @@ void log_leaflet(const mvs_sim &sim, const Leaflet &leaflet, const Scale &scale)
           leaflet.thickness > thickest ? "too much" : "little", 1e3 * thinnest, 1e3 * thickest);
 }
 
-// What is told of chordae: the first by its name, and how many.
-struct Told {
+// A warning about chordae: the name of the first, and the number of them.
+struct ChordWarning {
   size_t count = 0;
   std::string first;
   void add(const Chord &chord, const std::string &sentence) {
@@ -108,11 +109,11 @@ size_t leaflet_ends(const Model &model) {
   return ends;
 }
 
-// A chord that gives way to its share of the pressure, or of a stress that no tissue lacks (the
-// softest natural chordae have a modulus of 10 MPa; half again as long they bear far more than
-// 50 kPa), and one as stiff as steel wire of 0.4 mm.
-void judge_stiffness(const Valve &valve, const Chord &chord, double share, Told &soft,
-                     Told &stiff) {
+// Soft: a chord that yields to its share of the pressure, or bears less than 50 kPa at a strain of
+// 0.5 (the softest natural chordae have a modulus of 10 MPa). Stiff: as stiff as steel wire of 0.4
+// mm.
+void judge_stiffness(const Valve &valve, const Chord &chord, double share, ChordWarning &soft,
+                     ChordWarning &stiff) {
   const double stress = chord_response(valve, chord, 0.5).stress;
   const double doubled = chord_tension(valve, chord, 1),
                slightly = chord_tension(valve, chord, 0.01);
@@ -131,9 +132,9 @@ void judge_stiffness(const Valve &valve, const Chord &chord, double share, Told 
   }
 }
 
-// Where leaflets hang below the heads in the open valve, chordae are up to 8 times as long there as
-// at rest; 0.98 for 98 % of the distance is some 50 times too long.
-void judge_length(const Valve &valve, const Chord &chord, Told &lengths) {
+// In an open valve whose leaflets hang below the heads, chordae are up to 8 times their rest
+// length; a relative length (0.98 for 98 % of the distance) is about 50 times too long.
+void judge_length(const Valve &valve, const Chord &chord, ChordWarning &lengths) {
   constexpr double shorter = 20, longer = 10;
   const double distance = (valve.rest[chord.a] - valve.rest[chord.b]).norm();
   if (distance <= shorter * chord.rest_length && chord.rest_length <= longer * distance) return;
@@ -148,9 +149,9 @@ void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale) {
   if (ends == 0) return;
   // the annulus spans about half the area of the leaflets
   const double share = 0.5 * MVS_SYSTOLE_PA * scale.area / static_cast<double>(ends);
-  Told soft, stiff, lengths;
+  ChordWarning soft, stiff, lengths;
   for (const Chord &chord : valve.chords) {
-    if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;  // the library's own
+    if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;  // made by the library
     judge_stiffness(valve, chord, share, soft, stiff);
     judge_length(valve, chord, lengths);
   }
@@ -173,7 +174,7 @@ void log_units(const mvs_sim &sim, const Model &model) {
   log_chords(sim, model, scale);
 }
 
-// A pressure that rises step by step passes these, but hardly as whole numbers.
+// Warns about whole numbers from 20 to 300 Pa only: a pressure ramp passes this range in fractions.
 void log_pressure(const mvs_sim &sim, double pressure) {
   constexpr double mmhg = MVS_SYSTOLE_PA / 120, most = 100e3;
   const double size = std::abs(pressure);

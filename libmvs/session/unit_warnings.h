@@ -1,16 +1,15 @@
-// What the host is told of numbers that can be, but are more likely in another unit than they
-// should be.
+// Warnings about numbers that are possible but probably in another unit.
 #pragma once
 
 #include "session/simulator.h"
 
 namespace mvs::core {
 
-// Logs tissue and chordae that no valve could live with, and chordae whose length no surgeon would
-// cut.
+// Logs leaflets and chordae whose response to systolic pressure is implausible, and chordae of
+// implausible length.
 void log_units(const mvs_sim &sim, const Model &model);
 
-// Logs a pressure that looks like one in mmHg.
+// Logs a pressure that is probably in mmHg.
 void log_pressure(const mvs_sim &sim, double pressure);
 
 }  // namespace mvs::core

@@ -128,7 +128,7 @@ static void which_side_is_taken_for_the_anterior_one_is_told(void) {
   MUST(mvs_create(&desc, &h.sim));
   MUST(mvs_set_valve(h.sim, &f.desc));
   CHECK(h.warnings == 1);
-  CHECK(strstr(h.last, "no leaflet is named A: Septal is taken for the anterior one") != NULL);
+  CHECK(strstr(h.last, "no leaflet is named A: Septal is assumed to be anterior") != NULL);
   f.leaflets[0].name = "M";
   f.desc.leaflet_count = 1;
   for (int t = 0; t < FUNNEL_TRIANGLES; ++t) f.leaflet[t] = 0;

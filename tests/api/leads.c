@@ -202,26 +202,28 @@ static void refused(mvs_sim *sim, const char *step, const char *word) {
 static void wrong_leads_are_refused(void) {
   mvs_sim *sim = make_sim();
   const char hands[] =
-      "{\"do\": \"lead\", \"count\": 1, \"hands\": [{\"tool\": 281474976710656, \"kind\": "
-      "\"grasp\"}], \"way_m\": ";
+      "{\"do\": \"tool_trajectory\", \"count\": 1, \"tools\": [{\"tool\": 281474976710656, "
+      "\"kind\": "
+      "\"grasp\"}], \"points_m\": ";
   const struct {
     const char *rest, *word;
   } wrong[] = {
-      {"\"\"}", "a way with a row"},
-      {"\"AAAAAAAAAAA=\"}", "a way with a row"},
+      {"\"\"}", "points_m with the same"},
+      {"\"AAAAAAAAAAA=\"}", "points_m with the same"},
       {"\"AAA\"}", "base64"},
-      {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"pace\": \"AAAAAA==\"}", "pace"},
-      {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"pace\": \"AgAAAA==\"}", "make its count"},
+      {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"steps_per_row\": \"AAAAAA==\"}", "steps_per_row"},
+      {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"steps_per_row\": \"AgAAAA==\"}",
+       "whose sum is count"},
       {"\"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\", \"speed\": 1}", "speed"},
-      {"\"AAAAAAAA+H8AAAAAAAAAAAAAAAAAAAAA\"}", "a way with a row"}, /* not a number */
+      {"\"AAAAAAAA+H8AAAAAAAAAAAAAAAAAAAAA\"}", "points_m with the same"}, /* not a number */
   };
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
     char step[400];
     snprintf(step, sizeof step, "%s%s", hands, wrong[k].rest);
     refused(sim, step, wrong[k].word);
   }
-  refused(sim, "{\"do\": \"lead\", \"count\": 0, \"hands\": [], \"way_m\": \"\"}",
-          "has to have hands");
+  refused(sim, "{\"do\": \"tool_trajectory\", \"count\": 0, \"tools\": [], \"points_m\": \"\"}",
+          "has to have tools");
   mvs_destroy(sim);
 }
 

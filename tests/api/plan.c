@@ -237,7 +237,7 @@ static void a_cancelled_replay_changes_nothing(void) {
 
 static void plans_that_cannot_be_done_are_told(void) {
   mvs_sim *sim = new_valve(0);
-  refused(sim, "", MVS_E_FORMAT, "no JSON");
+  refused(sim, "", MVS_E_FORMAT, "not JSON");
   refused(sim, "{\"format\":\"mvs-plan\",\"version\":1,\"steps\":[", MVS_E_FORMAT, "cut short");
   refused(sim, "[1]", MVS_E_FORMAT, "not a plan");
   refused(sim, "{\"format\":\"mvs-plan\",\"version\":2,\"steps\":[]}", MVS_E_VERSION,
@@ -360,7 +360,7 @@ static void a_torn_record_is_dropped(void) {
   sim = new_valve(200);
   MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_FORMAT, "is damaged, and others follow");
   write_file("v 0 0 0\n", 8);
-  MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_FORMAT, "no journal");
+  MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_FORMAT, "not a journal");
   MUST_FAIL(mvs_open_journal(sim, path), MVS_E_STATE, "is there already");
   MUST_FAIL(mvs_open_journal(sim, "/nowhere/at/all"), MVS_E_IO, "cannot create");
   MUST_FAIL(mvs_close_journal(sim), MVS_E_STATE, "no journal is open");

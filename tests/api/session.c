@@ -162,7 +162,7 @@ static void a_spoilt_file_changes_nothing(void) {
   MUST_FAIL(mvs_load_memory(sim, bytes, 100, h5), MVS_E_FORMAT, "the file was cut after 100");
   bytes[size / 2] ^= 1;
   MUST_FAIL(mvs_load_memory(sim, bytes, size, h5), MVS_E_FORMAT, "checksum does not fit");
-  MUST_FAIL(mvs_load_memory(sim, "v 0 0 0\n", 8, h5), MVS_E_FORMAT, "no HDF5 file of libmvs");
+  MUST_FAIL(mvs_load_memory(sim, "v 0 0 0\n", 8, h5), MVS_E_FORMAT, "not an HDF5 file of libmvs");
   CHECK(same_hash(before, sim_hash(sim)));
   MUST(mvs_undo(sim));
   free(bytes);

@@ -67,7 +67,7 @@ class Import(unittest.TestCase):
         path.write_text("*NODE\n1, 0., 0., zero\n", encoding="ascii")
         done = mvs("info", path)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("bad.inp:2: `zero` is no number", done.stderr)
+        self.assertIn("bad.inp:2: `zero` is not a number", done.stderr)
 
 
 if __name__ == "__main__":

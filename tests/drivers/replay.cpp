@@ -204,8 +204,8 @@ TEST_CASE("a_recording_that_is_none_is_refused_with_its_line") {
     std::string text, where, what;
   } bad[] = {
       {"", ":0: ", "is empty"},
-      {"\n", ":1: ", "is no recording"},
-      {"v 0 0 0\n", ":1: ", "is no recording"},
+      {"\n", ":1: ", "is not a recording"},
+      {"v 0 0 0\n", ":1: ", "is not a recording"},
       {"mvs-recording 2\n" + first + second, ":1: ", "version"},
       {head, ":1: ", "fewer than two samples"},
       {head + first, ":2: ", "fewer than two samples"},

@@ -232,7 +232,7 @@ TEST_CASE("an_hdf5_file_of_another_version_is_named_as_such") {
 
 TEST_CASE("a_foreign_file_is_named_as_such") {
   CHECK(refused(outcome(""), MVS_E_FORMAT, "the file is empty"));
-  CHECK(refused(outcome("v 0 0 0\n"), MVS_E_FORMAT, "no HDF5 file of libmvs"));
+  CHECK(refused(outcome("v 0 0 0\n"), MVS_E_FORMAT, "not an HDF5 file of libmvs"));
   std::string text_mode = write_h5(every_type(), 1);
   text_mode.erase(text_mode.find('\r'), 1);
   CHECK(refused(outcome(text_mode), MVS_E_FORMAT, "in binary mode"));

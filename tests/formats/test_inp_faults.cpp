@@ -50,8 +50,8 @@ TEST_CASE("inp_faults_of_lines") {
 }
 
 TEST_CASE("inp_faults_of_nodes_and_elements") {
-  check_fault("\n101, 12.000000", "\n101, twelve", "`twelve` is no number, where a coordinate", 1);
-  check_fault("\n101, 12.0", "\n101., 12.0", "`101.` is no whole number, where a node number", 1);
+  check_fault("\n101, 12.000000", "\n101, twelve", "`twelve` is not a number; a coordinate", 1);
+  check_fault("\n101, 12.0", "\n101., 12.0", "`101.` is not a whole number; a node number", 1);
   check_fault("999, 0., 0., -30.", "999, 0., 0.", "the line ends where a coordinate is needed");
   check_fault("999, 0., 0., -30.", "902, 0., 0., -30.", "stands in line 44 already, with other");
   check_fault("\n1, 101, 201, 202, 102", "\n1, 101, 201, 202", "ends where a node number", 1);
@@ -71,25 +71,25 @@ TEST_CASE("inp_faults_of_parts_and_instances") {
 }
 
 TEST_CASE("inp_faults_of_sets") {
-  check_fault("Annulus, HEADS", "Annulus, HEDAS", "`HEDAS` is no set of nodes");
+  check_fault("Annulus, HEADS", "Annulus, HEDAS", "the file has no set of nodes `HEDAS`");
   check_fault(" 901, 902,", " 901, 9020,", "node 9020 is not in the file");
   check_fault("101, 112, 1\n", "101, 113, 1\n", "node 113 is not in the file");
-  check_fault("101, 112, 1\n", "112, 101, 1\n", "from 112 to 101 in steps of 1 is no range");
-  check_fault("101, 112, 1\n", "101, 112, 0\n", "`0` is no step");
+  check_fault("101, 112, 1\n", "112, 101, 1\n", "from 112 to 101 in steps of 1 is not a range");
+  check_fault("101, 112, 1\n", "101, 112, 0\n", "`0` is not a step");
   check_fault("*NSET, NSET=Annulus, GENERATE", "*NSET, GENERATE", "*NSET lacks NSET=");
-  check_fault("Sheet-1.Annulus, 3, 3, 0.25", "Sheet-2.Annulus, 3, 3, 0.25", "is no set of nodes");
+  check_fault("Sheet-1.Annulus, 3, 3, 0.25", "Sheet-2.Annulus, 3, 3, 0.25", "no set of nodes");
 }
 
 TEST_CASE("inp_faults_of_sections_and_orientations") {
   check_fault("elset=Septal_Leaflet_Elements, material=Neo", "elset=Septum, material=Neo",
-              "`SEPTUM` is no set of elements");
-  check_fault("material=Neo", "material=Meo", "`MEO` is no material");
-  check_fault("orientation=Ori\n", "orientation=Ari\n", "`Ari` is no orientation");
-  check_fault(".8\n", "thick\n", "`thick` is no number, where thickness");
+              "no set of elements `SEPTUM`");
+  check_fault("material=Neo", "material=Meo", "no material `MEO`");
+  check_fault("orientation=Ori\n", "orientation=Ari\n", "no orientation `Ari`");
+  check_fault(".8\n", "thick\n", "`thick` is not a number; thickness");
   check_fault("elset=Septal_Leaflet_Elements, material=Neo",
               "elset=Anterior_Leaflet_Elements, material=Neo", "has a section in line");
   check_fault("*Solid Section, elset=Thick,", "*Solid Section, elset=Thin,", "has a section", 2);
-  check_fault("elset=Thin,", "elset=Anterior_Leaflet_Elements,", "is no truss, as the section");
+  check_fault("elset=Thin,", "elset=Anterior_Leaflet_Elements,", "is not a truss, as the section");
   check_text(toy_with("*Solid Section, elset=Thin, material=Wire\n0.25\n", ""),
              toy_line("107, 921, 302"), "element 107 has no section");
   check_fault("*Shell Section, elset=Septal", "*Shell Section, composite, elset=Septal",
@@ -97,7 +97,7 @@ TEST_CASE("inp_faults_of_sections_and_orientations") {
   check_fault("3, 90.", "1, 90.", "axis 3");
   check_fault("system=RECTANGULAR", "system=CYLINDRICAL", "RECTANGULAR by COORDINATES");
   check_fault("1, 0., 1., 0., 0., 0., 1.", "1, 0., 1., 0., 0., 2., 0.",
-              "the two directions are one");
+              "the two directions are parallel");
   check_fault("1, 0., 1., 0., 0., 0., 1.", "1000, 0., 1., 0., 0., 0., 1.", "element 1000 is not");
   check_fault("location=ELEMENT", "location=NODE", "LOCATION=ELEMENT");
 }
@@ -123,15 +123,15 @@ TEST_CASE("inp_faults_of_materials") {
 
 TEST_CASE("inp_faults_of_loads") {
   check_fault("*Boundary, op=NEW, amplitude=Ramp", "*Boundary, op=NEW, amplitude=Romp",
-              "`Romp` is no amplitude");
+              "no amplitude `Romp`");
   check_fault("*Boundary, op=NEW, amplitude=Ramp", "*Boundary, type=VELOCITY",
               "give displacements");
   check_fault("*Boundary, op=NEW, amplitude=Ramp", "*Boundary, op=OLD", "neither NEW nor MOD");
   check_fault("Sheet-1.Annulus, 3, 3, 0.25", "Sheet-1.Annulus, 3, 2, 0.25", "are 1 to 6");
   check_fault("definition=SMOOTH STEP", "definition=PERIODIC", "TABULAR or SMOOTH STEP");
-  check_fault("Wet, P, 0.0030", "Dry, P, 0.0030", "`Dry` is no surface");
-  check_fault("Wet, P, 0.0030", "Wet, P, much", "`much` is no number, where a pressure");
-  check_fault("Sheet-1.All_Leaflets, SPOS", "Sheet-1.All_Leaflets, TOP", "`TOP` is no side");
+  check_fault("Wet, P, 0.0030", "Dry, P, 0.0030", "no surface `Dry`");
+  check_fault("Wet, P, 0.0030", "Wet, P, much", "`much` is not a number; a pressure");
+  check_fault("Sheet-1.All_Leaflets, SPOS", "Sheet-1.All_Leaflets, TOP", "`TOP` is not a side");
   check_fault("type=ELEMENT, name=Wet", "type=NODE, name=Wet", "ELEMENT is");
   check_fault("maxratio=0.6", "maxratio=0", "MAXRATIO has to be above 0");
   check_text(toy_with("Wet, P, 0.0030", "Wet, P, 30."), 0, "the pressure is 3e+07 Pa");

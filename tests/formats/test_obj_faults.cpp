@@ -83,11 +83,11 @@ TEST_CASE("coordinates_that_are_no_numbers_are_told") {
 
 TEST_CASE("indices_of_nothing_are_told") {
   check_face_fault("f 0 2 17", "`0` is not a vertex: the first one is 1");
-  check_face_fault("f 1 2 69", "vertex `69` is none of the 68 above");
+  check_face_fault("f 1 2 69", "vertex `69` is not one of the 68 above");
   check_face_fault("f 1 2 -69", "vertex `-69` is none");
   check_face_fault("f 1 2 4294967297", "`4294967297` is none");
   check_face_fault("f 1 2 99999999999999999999999", "is not a vertex");
-  check_face_fault("f 1 2 -9223372036854775808", "is none of");
+  check_face_fault("f 1 2 -9223372036854775808", "is not one of");
   check_face_fault("f 1 2", "the line ends where a vertex is needed");
   check_face_fault("f 1 2 17 18", "triangulate");
   check_face_fault("f 1 2 1.0", "`1.0` is not a vertex");
@@ -152,9 +152,9 @@ TEST_CASE("groups_that_are_no_leaflet_are_told_at_their_first_face") {
     CHECK(fault.line == face);
     CHECK(fault.message.find(wanted) != std::string::npos);
   };
-  check("\ng B A2", "group `B`, which is no leaflet");
-  check("\ng A X", "`X`, is no scallop");
-  check("\ng A", "is no scallop");
+  check("\ng B A2", "group `B`, which is not a leaflet");
+  check("\ng A X", "`X`, is not a scallop");
+  check("\ng A", "is not a scallop");
   check("\ng", "in no group");
   check("\ns off", "in no group");
 }

@@ -26,19 +26,19 @@ Snapshot with_op(const Snapshot &now, Struct op, uint32_t kind, const Group &gro
   return after_op(now, Operation(&op.op), group, 1700000000000 + static_cast<int64_t>(kind));
 }
 
-// Time goes on: other positions, a move in the history.
+// Time goes on: other positions, a event in the history.
 Snapshot stepped(const Snapshot &now, uint64_t steps) {
   Snapshot snapshot = now;
   State &state = snapshot.current.state;
   for (Vec3 &x : state.x) x += Vec3(1e-6, 2e-6, -1e-6) * static_cast<double>(steps);
   state.steps += steps;
   state.time += 1e-3 * static_cast<double>(steps);
-  RecordedEvent move;
-  move.kind = RecordedEvent::step;
-  move.dt = 1e-3;
-  move.budget = 32;
+  RecordedEvent event;
+  event.kind = RecordedEvent::step;
+  event.dt = 1e-3;
+  event.budget = 32;
   for (uint64_t k = 0; k < steps; ++k) {
-    snapshot.history.moves = with_move(snapshot.history.moves, move);
+    snapshot.history.events = with_event(snapshot.history.events, event);
   }
   return snapshot;
 }
@@ -46,10 +46,10 @@ Snapshot stepped(const Snapshot &now, uint64_t steps) {
 Snapshot loaded(const Snapshot &now, double pressure) {
   Snapshot snapshot = now;
   snapshot.current.state.load = {pressure, 1};
-  RecordedEvent move;
-  move.pressure = pressure;
-  move.boundary_fraction = 1;
-  snapshot.history.moves = with_move(snapshot.history.moves, move);
+  RecordedEvent event;
+  event.pressure = pressure;
+  event.boundary_fraction = 1;
+  snapshot.history.events = with_event(snapshot.history.events, event);
   return snapshot;
 }
 
@@ -108,7 +108,7 @@ std::vector<std::string> titles(const HistoryEntries &entries) {
     const HistoryEntry &e = **entry;
     all.push_back(e.title + "|" + e.group_name + "|" + std::to_string(e.group) + "|" +
                   std::to_string(e.made) + "|" + std::to_string(e.time_ms) + "|" +
-                  std::to_string(e.moves.size()));
+                  std::to_string(e.events.size()));
   }
   return all;
 }
@@ -123,7 +123,7 @@ mvs_result outcome(const std::string &bytes) {
   }
 }
 
-// Changes one word of the moment or of the parts in a file, under a good checksum.
+// Changes one word of the snapshot or of the parts in a file, under a good checksum.
 std::string with_word(H5Tree tree, const char *array, size_t at, uint64_t word) {
   std::get<std::vector<uint64_t>>(tree.arrays.at(array).values).at(at) = word;
   return write_h5(tree, session_version);
@@ -145,7 +145,7 @@ TEST_CASE("a_session_comes_back_to_the_bit") {
   CHECK(titles(again.history.past) == titles(now.history.past));
   CHECK(titles(again.history.future) == titles(now.history.future));
   CHECK(again.history.next_group == now.history.next_group);
-  CHECK(again.history.moves.size() == now.history.moves.size());
+  CHECK(again.history.events.size() == now.history.events.size());
   REQUIRE(again.history.checkpoints);
   REQUIRE(again.history.checkpoints->size() == 2);
   CHECK(again.history.checkpoints->at(0).name == "short chord");
@@ -281,7 +281,7 @@ TEST_CASE("numbers_that_are_none_are_not_saved") {
 TEST_CASE("any_changed_word_gives_a_session_or_a_clean_error") {
   const H5Tree tree = read_h5(write_session(a_session(), {}), "mvs", session_version);
   std::array<size_t, 2> seen{};
-  for (const char *array : {"mvs/moment", "mvs/parts/values", "mvs/parts/ends"}) {
+  for (const char *array : {"mvs/snapshot", "mvs/parts/values", "mvs/parts/ends"}) {
     const auto words = tree.at<uint64_t>(array);
     // a prime step, so that every kind of word has its turn
     for (size_t k = 0; k<words.size(); k += words.size()> 400 ? 7 : 1) {

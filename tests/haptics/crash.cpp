@@ -35,7 +35,7 @@ End die_of(int signal, bool guarded, bool stopped) {
     desc.driver = path.c_str();
     Device device(desc, {});
     device.start();
-    if (guarded) watch_for_crashes(true);
+    if (guarded) install_signal_handler(true);
     if (stopped) device.stop();
     raise(signal);
     _exit(0);
@@ -69,12 +69,12 @@ TEST_CASE("without being asked to, or for a device that was stopped, nothing is 
 TEST_CASE("the guard gives back the handlers that were there") {
   struct sigaction before = {}, now = {};
   REQUIRE_EQ(sigaction(SIGBUS, nullptr, &before), 0);
-  watch_for_crashes(true);
-  watch_for_crashes(true);
+  install_signal_handler(true);
+  install_signal_handler(true);
   REQUIRE_EQ(sigaction(SIGBUS, nullptr, &now), 0);
   const bool taken = now.sa_handler != before.sa_handler;
   CHECK(taken);
-  watch_for_crashes(false);
+  install_signal_handler(false);
   REQUIRE_EQ(sigaction(SIGBUS, nullptr, &now), 0);
   const bool given_back = now.sa_handler == before.sa_handler;
   CHECK(given_back);

@@ -54,7 +54,7 @@ TEST_CASE("what a driver says of itself is not believed") {
                       {"no_close", MVS_E_DEVICE, "close"},
                       {"no_write", MVS_E_DEVICE, "read and write"},
                       {"refuses", MVS_E_DEVICE, "does not say why"},
-                      {"no_handle", MVS_E_DEVICE, "gives none"},
+                      {"no_handle", MVS_E_DEVICE, "returns no device"},
                       {"nan", MVS_E_DEVICE, "peak force"},
                       {"frame", MVS_E_DEVICE, "frame"},
                       {"workspace", MVS_E_DEVICE, "workspace"}};

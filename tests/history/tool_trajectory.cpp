@@ -1,4 +1,4 @@
-// Steps that hands lead: kept in runs, and still every step finds each hand where it was.
+// Tool trajectories: runs keep the position of every tool at every step.
 #include "history/tool_trajectory.h"
 
 #include <doctest/doctest.h>
@@ -22,10 +22,10 @@ RecordedEvent hand(Id id, uint32_t kind, Random &random) {
   tool.kind = kind;
   tool.position = Vec3(at(random), at(random), at(random));
   if (kind == MVS_TOOL_KIND_ROD) tool.axis = Vec3(at(random), at(random), 1).normalized();
-  RecordedEvent move;
-  move.kind = RecordedEvent::tool_move;
-  move.tool = {tool};
-  return move;
+  RecordedEvent event;
+  event.kind = RecordedEvent::tool_move;
+  event.tools = {tool};
+  return event;
 }
 
 RecordedEvent one_step(double dt) {
@@ -48,16 +48,16 @@ class Follower {
   void step(double dt, uint64_t count) {
     for (uint64_t k = 0; k < count; ++k) seen.push_back({dt, hands_});
   }
-  void take(const RecordedEvent &move) {
-    if (move.kind == RecordedEvent::step) return step(move.dt, move.count);
-    REQUIRE(move.kind == RecordedEvent::lead);
-    REQUIRE(is_whole(move));
+  void take(const RecordedEvent &event) {
+    if (event.kind == RecordedEvent::step) return step(event.dt, event.count);
+    REQUIRE(event.kind == RecordedEvent::tool_trajectory);
+    REQUIRE(is_consistent(event));
     State state;
-    for (const Tool &tool : move.tool.get()) state.tools.push_back(tool);
-    for (size_t row = 0; row < move.pace.size(); ++row) {
-      take_row(state, move, row);
+    for (const Tool &tool : event.tools.get()) state.tools.push_back(tool);
+    for (size_t row = 0; row < event.steps_per_row.size(); ++row) {
+      apply_row(state, event, row);
       for (const Tool &tool : state.tools.get()) hand(tool);
-      step(move.dt, move.pace.get()[row]);
+      step(event.dt, event.steps_per_row.get()[row]);
     }
   }
   std::vector<Seen> seen;
@@ -75,8 +75,8 @@ std::vector<RecordedEvent> some_hands(Random &random, uint32_t which) {
   return hands;
 }
 
-size_t runs(const RecordedEvents &moves) {
-  return moves.size();
+size_t runs(const RecordedEvents &events) {
+  return events.size();
 }
 
 }  // namespace
@@ -86,69 +86,70 @@ TEST_CASE("every_led_step_finds_each_hand_where_it_was") {
     CAPTURE(seed);
     Random random(seed);
     Follower direct, kept;
-    RecordedEvents moves;
+    RecordedEvents events;
     for (int k = 0; k < 500; ++k) {
       const double dt = random() % 100 == 0 ? 2e-3 : 1e-3;
       const std::vector<RecordedEvent> hands = some_hands(random, random() % 4 ? random() % 8 : 1);
-      RecordedEvent next = hands.empty() ? one_step(dt) : lead_of(hands, one_step(dt));
-      moves = with_move(moves, next);
-      for (const RecordedEvent &move : hands) direct.hand(move.tool.get()[0]);
+      RecordedEvent next = hands.empty() ? one_step(dt) : trajectory_event(hands, one_step(dt));
+      events = with_event(events, next);
+      for (const RecordedEvent &event : hands) direct.hand(event.tools.get()[0]);
       direct.step(dt, 1);
     }
-    for (const RecordedEvent *move : moves.items()) kept.take(*move);
+    for (const RecordedEvent *event : events.items()) kept.take(*event);
     CHECK(direct.seen == kept.seen);
   }
 }
 
 TEST_CASE("a_run_goes_on_however_it_was_put_together") {
-  // looked at after every step, never, or at odd times: the same moves
+  // looked at after every step, never, or at odd times: the same events
   for (const int every : {1, 7, 1000000}) {
     CAPTURE(every);
     Random random(3);
-    RecordedEvents moves, plain;
+    RecordedEvents events, plain;
     RecordedEvent kept;
     kept.count = 0;
     for (int k = 0; k < 700; ++k) {
       const bool moves_on = k % 3 != 1;
       const auto hands = moves_on ? some_hands(random, 3) : std::vector<RecordedEvent>();
-      RecordedEvent next = hands.empty() ? one_step(1e-3) : lead_of(hands, one_step(1e-3));
-      plain = with_move(plain, next);
-      if (kept.count > 0) take_on(kept, next);
+      RecordedEvent next = hands.empty() ? one_step(1e-3) : trajectory_event(hands, one_step(1e-3));
+      plain = with_event(plain, next);
+      if (kept.count > 0) append_steps(kept, next);
       if (next.count > 0) {
-        if (kept.count > 0) moves = with_move(moves, kept);
+        if (kept.count > 0) events = with_event(events, kept);
         kept = next;
       }
       if (k % every == 0) {
-        moves = with_move(moves, kept);
+        events = with_event(events, kept);
         kept = RecordedEvent();
         kept.count = 0;
       }
     }
-    if (kept.count > 0) moves = with_move(moves, kept);
-    REQUIRE(runs(moves) == runs(plain));
-    for (size_t k = 0; k < runs(moves); ++k) CHECK(*moves.items()[k] == *plain.items()[k]);
+    if (kept.count > 0) events = with_event(events, kept);
+    REQUIRE(runs(events) == runs(plain));
+    for (size_t k = 0; k < runs(events); ++k) CHECK(*events.items()[k] == *plain.items()[k]);
   }
 }
 
 TEST_CASE("hands_that_move_in_turn_make_one_run") {
   Random random(1);
-  RecordedEvents moves;
+  RecordedEvents events;
   for (int k = 0; k < 200; ++k) {
-    moves = with_move(moves, lead_of(some_hands(random, k % 2 ? 1 : 4), one_step(1e-3)));
+    events =
+        with_event(events, trajectory_event(some_hands(random, k % 2 ? 1 : 4), one_step(1e-3)));
   }
   // a step of the hand that came first, a whole run of both; and again, for the 71 that are left
-  CHECK(runs(moves) == 4);
+  CHECK(runs(events) == 4);
 }
 
 TEST_CASE("a_hand_that_rests_costs_nothing") {
   Random random(1);
-  RecordedEvents moves;
-  moves = with_move(moves, lead_of(some_hands(random, 1), one_step(1e-3)));
-  for (int k = 0; k < 100000; ++k) moves = with_move(moves, one_step(1e-3));
-  REQUIRE(runs(moves) == 1);
-  CHECK(moves.top().pace.size() == 1);
-  CHECK(moves.top().count == 100001);
-  // other steps are another move
-  moves = with_move(moves, one_step(2e-3));
-  CHECK(runs(moves) == 2);
+  RecordedEvents events;
+  events = with_event(events, trajectory_event(some_hands(random, 1), one_step(1e-3)));
+  for (int k = 0; k < 100000; ++k) events = with_event(events, one_step(1e-3));
+  REQUIRE(runs(events) == 1);
+  CHECK(events.top().steps_per_row.size() == 1);
+  CHECK(events.top().count == 100001);
+  // other steps are another event
+  events = with_event(events, one_step(2e-3));
+  CHECK(runs(events) == 2);
 }

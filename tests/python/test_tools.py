@@ -77,17 +77,17 @@ def test_a_plan_does_not_change_held_tools(sim):
             other.move_tool(theirs, at[edge[0]] + [0, 0, 1e-4 * (k + 1)])
             other.step()
         plan = other.snapshot().plan()
-    (lead,) = [step for step in json.loads(plan)["steps"] if step["do"] == "lead"]
-    assert lead["count"] == 20
-    way = np.frombuffer(base64.b64decode(lead["way_m"])).reshape(-1, 3)
-    np.testing.assert_array_equal(way[-1], at[edge[0]] + [0, 0, 2e-3])
+    (run,) = [step for step in json.loads(plan)["steps"] if step["do"] == "tool_trajectory"]
+    assert run["count"] == 20
+    points = np.frombuffer(base64.b64decode(run["points_m"])).reshape(-1, 3)
+    np.testing.assert_array_equal(points[-1], at[edge[0]] + [0, 0, 2e-3])
     mine = sim.add_tool("grasp", at[edge[8]])
     assert mine == theirs
     assert not sim.replay_plan(plan).same_result
     held, led = sim.snapshot().tools
     assert (held.id, held.node, led.node) == (mine, edge[8], edge[0])
     np.testing.assert_array_equal(held.position, at[edge[8]])
-    np.testing.assert_array_equal(led.position, way[-1])
+    np.testing.assert_array_equal(led.position, points[-1])
 
 
 def test_wrong_words_are_refused(sim):

@@ -19,7 +19,8 @@ std::string step_text(const Json &step) {
   if (word == "load") return text("Load %.0f mmHg", step.value("pressure_Pa", 0.0) / pa_per_mmhg);
   if (word == "settle") return "Settle";
   if (word == "step") return text("Step %llu times", step.value("count", 1ull));
-  if (word == "lead") return text("Step %llu times with hands", step.value("count", 1ull));
+  if (word == "tool_trajectory")
+    return text("Step %llu times with moving tools", step.value("count", 1ull));
   return word;
 }
 

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Makes the recordings of this folder: python3 make.py (again: the same bytes).
+"""Writes the recordings of this folder: python3 make.py. Equal runs give equal bytes.
 
-They are synthetic, for the valve that `mvs generate` makes, closed by `mvs close`, with its origin
-at the device's, at scale 1: the hand is above the atrium (the valve's z is the device's y), its
-right is the valve's x, and the valve's anterior side (y) points away from it (the device's z is
-the valve's -y). The grasp takes A2 at vertex 8 of that file, (0, -2.5, -3.2) mm in the valve; the
-push meets P2 at vertex 222, (0, -10.1, 0.7). The session also goes to where the strut chord A2/7 ends,
+They are synthetic, for the valve of `mvs generate`, closed by `mvs close`, with its origin at the
+device's origin, at scale 1. The hand is above the atrium (z of the valve is y of the device), x of
+the valve is to its right, and the anterior side (y) points away from it (z of the device is -y of
+the valve). The grasp takes A2 at vertex 8 of that file, (0, -2.5, -3.2) mm in the valve; the push
+meets P2 at vertex 222, (0, -10.1, 0.7). The session also reaches the end of the strut chord A2/7,
 (-8.3, 2.7, -2.2).
 """
 
 import math
 import os
 
-RATE = 100  # samples a second: a hand has little above 10 Hz
+RATE = 100  # samples per second; the motion of a hand has little content above 10 Hz
 A2 = (0.0, -3.2, 2.5)
 P2 = (0.0, 0.7, 10.1)
 STRUT = (-8.3, -2.2, -2.7)
@@ -33,7 +33,7 @@ buttons 2
 
 
 def smooth(u):
-    """A reach of least jerk (Flash and Hogan 1985): at rest at both ends."""
+    """Minimum-jerk reach (Flash and Hogan 1985), at rest at both ends."""
     return u * u * u * (10 + u * (6 * u - 15))
 
 
@@ -42,13 +42,13 @@ def above(point, mm):
 
 
 def tilt(degrees):
-    """The stylus leans over to the right, as a right hand holds it."""
+    """Tilt of the stylus to the right, as in a right hand."""
     half = math.radians(degrees) / 2
     return (math.cos(half), 0.0, 0.0, -math.sin(half))
 
 
 def play(begin, moves):
-    """Moves are (seconds, to, buttons, tilt in degrees); a move to where it is, is a rest."""
+    """Segments are (seconds, target, buttons, tilt in degrees); an unchanged target is a rest."""
     lines, count, lean = [], 0, moves[0][3]
     for seconds, to, buttons, lean_to in moves:
         steps = round(seconds * RATE)
@@ -106,7 +106,7 @@ def session():
 
 
 def circle():
-    """Ends where it begins, at the same speed: for option end=loop."""
+    """Periodic in position and velocity, for option end=loop."""
     lines = []
     for k in range(4 * RATE + 1):
         angle = 2 * math.pi * k / (4 * RATE)
