@@ -1,5 +1,4 @@
-/* A valve from arrays: strides, alignment, single precision, what is made where nothing is given.
- */
+/* A valve from arrays: strides, alignment, single precision, defaults of omitted arrays. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,7 +14,7 @@ static hash128 hash_of_valve(const mvs_valve_desc *desc) {
   return hash;
 }
 
-/* The rows of a packed array, `stride` bytes apart, the first one at an odd address. */
+/* Rows of a packed array, `stride` bytes apart, the first one at an odd address. */
 static char *spread(mvs_array *array, uint64_t row, uint64_t stride) {
   char *room = malloc(array->count * stride + 1);
   if (!room) exit(2);

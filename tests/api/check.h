@@ -1,4 +1,4 @@
-/* Checks for the tests in C: they print what failed and count it. */
+/* Checks of the tests in C: a failed check prints its expression and is counted. */
 #ifndef TESTS_CHECK_H
 #define TESTS_CHECK_H
 
@@ -27,7 +27,7 @@ static int failures = 0;
     }                                                                                        \
   } while (0)
 
-/* The call fails with this code, and a sentence in which `word` occurs. */
+/* The call fails with this code and a sentence that contains `word`. */
 #define MUST_FAIL(call, wanted, word)                                                            \
   do {                                                                                           \
     mvs_result result_ = (call);                                                                 \
@@ -44,7 +44,7 @@ static inline int finish(const char *name) {
   return failures ? 1 : 0;
 }
 
-/* The hash of what a simulator holds now; zeros before there is a valve. */
+/* The hash of the simulator's present state; zeros before it holds a valve. */
 typedef struct hash128 {
   uint64_t word[2];
 } hash128;

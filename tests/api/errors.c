@@ -1,4 +1,4 @@
-/* Every wrong argument has its code and its sentence, and changes nothing. */
+/* Every wrong argument fails with its code and a sentence, and changes no state. */
 #include <math.h>
 
 #include "check.h"
@@ -9,14 +9,14 @@ static const mvs_snapshot *snapshot = NULL;
 static hash128 start;
 static funnel f;
 
-/* The call fails so, and the simulator is as it was. */
+/* The call fails with this code, and the simulator is unchanged. */
 #define REFUSED(call, code, word)           \
   do {                                      \
     MUST_FAIL(call, code, word);            \
     CHECK(same_hash(start, sim_hash(sim))); \
   } while (0)
 
-/* A valve with one thing changed is refused so; it is made anew afterwards. */
+/* A valve with one changed field is refused with this code; a good valve is set afterwards. */
 #define REFUSED_VALVE(change, code, word)                        \
   do {                                                           \
     make_funnel(&f);                                             \
@@ -300,7 +300,7 @@ static void an_error_stays_until_the_next_and_fits_its_room(void) {
   MUST(mvs_snapshot_find_part(snapshot, 1, "A", &part));
   CHECK(mvs_last_error()->code == MVS_E_ID);
   CHECK(strcmp(mvs_last_error()->part, "one") == 0);
-  /* a part that does not fit is cut before, not within, a character of two bytes */
+  /* a name that does not fit is cut before a character of two bytes, not within it */
   memset(name, 'x', sizeof name);
   memcpy(name + 62, "\xc3\xa4", 2);
   name[sizeof name - 1] = 0;

@@ -1,4 +1,4 @@
-/* Finer and coarser levels of a simulator's valve, and states between them. */
+/* Finer and coarser mesh levels of a simulator's valve, and states mapped between them. */
 #include <math.h>
 
 #include "check.h"
@@ -99,7 +99,7 @@ static void a_closed_valve_goes_over_to_a_finer_level(void) {
   mvs_comparison distance = {0};
   distance.struct_size = sizeof distance;
   MUST(mvs_snapshot_compare(carried_over, closed, &distance));
-  /* as far apart as the two surfaces are at rest, edges being 3.5 mm long */
+  /* the distance of the two surfaces at rest, with edges of 3.5 mm */
   CHECK(distance.surface_rms < 0.3e-3);
   MUST(mvs_restore(sim, closed));
   MUST(mvs_transfer_state(sim, carried_over));

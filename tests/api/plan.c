@@ -7,7 +7,7 @@
 
 #include "check.h"
 
-static char path[64]; /* of the journal at work */
+static char path[64]; /* path of the open journal */
 static mvs_id named(mvs_sim *sim, uint32_t kind, const char *name) {
   const mvs_snapshot *snapshot = NULL;
   mvs_part part = {0};
@@ -88,13 +88,13 @@ static void a_plan_replays_to_the_same_bits(void) {
   MUST(mvs_replay_plan(again, text, size, &replay));
   CHECK(replay.operations == 3 && replay.same_valve == 1 && replay.same_result == 1);
   CHECK(same_hash(sim_hash(sim), sim_hash(again)));
-  /* groups as well: one undo takes back both operations */
+  /* groups as well: one undo reverts both operations */
   MUST(mvs_undo(sim));
   MUST(mvs_undo(again));
   CHECK(same_hash(sim_hash(sim), sim_hash(again)));
   MUST(mvs_redo(sim));
   MUST(mvs_redo(again));
-  /* on another valve by name and place */
+  /* on another valve, by name and place */
   MUST(mvs_replay_plan(other, text, size, &replay));
   CHECK(replay.operations == 3 && replay.same_valve == 0 && replay.same_result == 0);
   CHECK(named(other, MVS_PART_CHORD, "new one") != 0);
@@ -107,7 +107,7 @@ static void a_plan_replays_to_the_same_bits(void) {
   mvs_destroy(other);
 }
 
-/* Entries tell when they were applied; all else of two plans can be compared byte for byte. */
+/* Entries hold their time of application; all other bytes of two plans can be compared. */
 static void blank_times(char *text) {
   static const char key[] = "\"time\": \"";
   for (char *at = text; (at = strstr(at, key)) != NULL;) {
@@ -152,7 +152,8 @@ static void remove_blanks(char *text) {
   *to = 0;
 }
 
-/* Equal steps in a row are one step of the plan, however they were taken. */
+/* Consecutive equal steps are one entry of the plan, whether they were taken in one call or
+ * several. */
 static void equal_steps_are_counted_together(void) {
   static const char plan[] = PLAN(
       "{\"do\":\"load\",\"pressure_Pa\":9000,\"boundary_fraction\":1},"
@@ -175,7 +176,7 @@ static void equal_steps_are_counted_together(void) {
   mvs_destroy(stepped);
 }
 
-/* A step taken with a budget is replayed with it, and counted apart from others. */
+/* A step with a budget is replayed with that budget, in an entry of its own. */
 static void steps_keep_their_budget(void) {
   mvs_sim *sim = new_valve(200), *again = new_valve(200);
   const mvs_load_case load = {sizeof load, 0, 9000, 1};
@@ -194,7 +195,7 @@ static void steps_keep_their_budget(void) {
   mvs_destroy(again);
 }
 
-/* A host that ends the work at a call of its progress callback. */
+/* A host that cancels at a given call of its progress callback. */
 typedef struct host {
   int calls, stop_at;
   double share;
@@ -207,7 +208,7 @@ static int32_t tell(void *user, double share, double residual) {
   return ++h->calls == h->stop_at;
 }
 
-/* More steps than anybody can wait for end when the host says so, and nothing has happened. */
+/* A replay of 1e12 steps ends when the host cancels, and the state is unchanged. */
 static void a_cancelled_replay_changes_nothing(void) {
   static const char plan[] = PLAN(
       "{\"do\":\"annulus_scale\",\"factor\":0.9},"
@@ -265,7 +266,7 @@ static void plans_that_cannot_be_done_are_told(void) {
   mvs_destroy(sim);
 }
 
-/* Up to version 2 of plans a chord kept its length when it went to another head. */
+/* In plans up to version 2 a transferred chord keeps its length. */
 static void a_plan_of_version_2_is_replayed_as_ever(void) {
   static const char steps[] =
       "\"steps\":[{\"do\":\"chord_transfer\",\"chord\":\"A1/"
@@ -287,7 +288,7 @@ static void a_plan_of_version_2_is_replayed_as_ever(void) {
   snprintf(text, sizeof text, "{\"format\":\"mvs-plan\",\"version\":2,%s", steps);
   MUST(mvs_replay_plan(old, text, strlen(text), NULL));
   CHECK(same_hash(sim_hash(sim), sim_hash(old)));
-  /* and what it did stays what it did when it is written as a plan of today */
+  /* and its effect is preserved when it is written as a plan of the present version */
   uint64_t size = 0;
   mvs_replay replay = {.struct_size = sizeof replay};
   char *again = plan_of(old, &size);
@@ -306,7 +307,7 @@ static void a_plan_of_version_2_is_replayed_as_ever(void) {
   mvs_destroy(now);
 }
 
-/* What a session with a journal does; the hash after each of its calls that count. */
+/* Runs a session with a journal; stores the hash after each recorded call. */
 enum { session_length = 9 };
 static void session(mvs_sim *sim, int steps, hash128 *after) {
   for (int k = 0; k < steps; ++k) {
@@ -339,7 +340,8 @@ static void write_file(const char *bytes, size_t size) {
   if (file) fclose(file);
 }
 
-/* A child is killed after each record; what it did is recovered, and the journal goes on. */
+/* A child process is killed after each record; the session is recovered, and the journal continues.
+ * */
 static void a_killed_process_loses_nothing(void) {
   hash128 wanted[session_length];
   mvs_sim *whole = new_valve(200);
@@ -366,7 +368,7 @@ static void a_killed_process_loses_nothing(void) {
   mvs_destroy(whole);
 }
 
-/* The last record is cut at many bytes: what stands before it is recovered. */
+/* The last record is cut at many bytes: the records before it are recovered. */
 static void a_torn_record_is_dropped(void) {
   hash128 wanted[session_length];
   size_t size = 0;
@@ -383,7 +385,7 @@ static void a_torn_record_is_dropped(void) {
     sim = new_valve(200);
     MUST(mvs_recover_journal(sim, path, NULL));
     CHECK(same_hash(wanted[session_length - 2], sim_hash(sim)));
-    /* it goes on where the whole records end */
+    /* it continues after the last complete record */
     shorten(sim, "A2/2", 1.1);
     CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
     mvs_destroy(sim);
@@ -392,7 +394,7 @@ static void a_torn_record_is_dropped(void) {
     CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
     mvs_destroy(sim);
   }
-  /* damage in the middle is no crash */
+  /* damage in the middle is reported as an error */
   bytes[size / 2] ^= 1;
   write_file(bytes, size);
   sim = new_valve(200);
@@ -414,7 +416,7 @@ static void a_restored_snapshot_is_recovered_with_its_history(void) {
   const mvs_snapshot *early = NULL;
   mvs_sim *sim = new_valve(200);
   remove(path);
-  shorten(sim, "P2/3", 0.75); /* before the journal: its first record has it */
+  shorten(sim, "P2/3", 0.75); /* before the journal starts: its first record includes it */
   MUST(mvs_open_journal(sim, path));
   close_a_bit(sim);
   MUST(mvs_set_checkpoint(sim, "one"));

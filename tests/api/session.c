@@ -1,4 +1,5 @@
-/* HDF5 files: the whole of a session comes back, and goes on as if it had never been saved. */
+/* HDF5 files restore a whole session, which continues with the same bits as if it had not been
+ * saved. */
 #include <stdlib.h>
 
 #include "check.h"
@@ -53,7 +54,7 @@ static void steps(mvs_sim *of, uint32_t solver, int count) {
   for (int k = 0; k < count; ++k) MUST(mvs_step(of, &how));
 }
 
-/* A moving valve with four operations behind it, the last one undone. */
+/* A moving valve with four operations in its history, the last one undone. */
 static void make_session(uint32_t solver) {
   mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
   mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};

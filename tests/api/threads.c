@@ -1,4 +1,4 @@
-/* Many readers of one snapshot, and of the latest one while its simulator works. */
+/* Many threads read one snapshot, and the latest snapshot while its simulator works. */
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -42,7 +42,7 @@ static void *read_latest(void *user) {
     r->bad |= view.count != FUNNEL_NODES;
     r->bad |= mvs_snapshot_get_array(r->snapshot, MVS_ARRAY_CHORD_TENSION, &view) != MVS_OK;
     mvs_snapshot_release(r->snapshot);
-    /* a failure here is nobody else's */
+    /* failures are counted per thread */
     r->bad |= mvs_snapshot_get_hash(NULL, r->hash.word) != MVS_E_ARGUMENT;
     r->bad |= mvs_last_error()->code != MVS_E_ARGUMENT;
   }

@@ -1,4 +1,4 @@
-/* Every array, part and figure of a snapshot: sizes, types, values that are known. */
+/* Every array, part and measure of a snapshot: sizes, types, values with a closed form. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -82,7 +82,7 @@ static void every_array_has_its_size_and_type(void) {
     CHECK(view.stride == view.components * size[view.type]);
     CHECK(view.data != NULL || view.count == 0);
     mvs_view again = view_of(arrays[k].which);
-    CHECK(again.data == view.data); /* worked out once, stays where it is */
+    CHECK(again.data == view.data); /* computed once, at a fixed address */
   }
 }
 
@@ -169,7 +169,8 @@ static void a_cut_gives_its_size_first_and_then_its_points(void) {
   CHECK(again == count);
   for (uint64_t k = 0; k < count; ++k) CHECK(fabs(points[3 * k + 2] + 7e-3) < 1e-15);
   points[3] = 42;
-  MUST(mvs_snapshot_section(snapshot, at, up, points, 1, &again)); /* no more than there is room */
+  /* no more points than the buffer holds */
+  MUST(mvs_snapshot_section(snapshot, at, up, points, 1, &again));
   CHECK(again == count && points[3] == 42);
   free(points);
 }

@@ -1,4 +1,5 @@
-// The files of today are those of yesterday, and the document says what the code does.
+// Golden files: the writers produce the checked-in bytes, and the document states the defaults of
+// the code.
 #include "formats/text/decimal.h"
 #include "tests/formats/samples.h"
 
@@ -16,8 +17,8 @@ std::string decimal(double value, int shift = 0) {
 
 }  // namespace
 
-// valve_v1.obj is a valve as version 1 of the format wrote it, valve_v2.obj one of version 2: what
-// they had is written as then.
+// valve_v1.obj is a valve in version 1 of the format, valve_v2.obj one in version 2: the fields
+// that they had are written as then.
 void check_old(const std::string &file, const std::string &first) {
   std::string text = read_whole_file(data + file);
   const Pair pair = complete(read_obj(text));
@@ -25,17 +26,17 @@ void check_old(const std::string &file, const std::string &first) {
   CHECK(write_obj(pair.model, pair.state) == text);
 }
 
-TEST_CASE("a_file_of_version_1_is_read_as_ever") {
+TEST_CASE("an_obj_file_of_version_1_is_read") {
   check_old("valve_v1.obj", "#mvs 1 units=mm");
 }
 
-TEST_CASE("a_file_of_version_2_is_read_as_ever") {
+TEST_CASE("an_obj_file_of_version_2_is_read") {
   check_old("valve_v2.obj", "#mvs 2 units=mm");
 }
 
-// valve.obj is in_motion() as version 3 first wrote it; a change of these bytes is a change of the
+// valve.obj is in_motion() as version 3 first wrote it. A change of these bytes is a change of the
 // format.
-TEST_CASE("the_golden_files_are_what_the_writers_make") {
+TEST_CASE("the_writers_produce_the_golden_files") {
   const std::string text = read_whole_file(data + "valve.obj");
   const Pair pair = complete(read_obj(text));
   CHECK(write_obj(pair.model, pair.state) == text);

@@ -40,7 +40,7 @@ TEST_CASE("sha256_gives_the_published_digests") {
   CHECK(digest("\xbd") == "68325720aabd7c82f30f554b313d0570c95accbb7dc4b5aae11204c08ffe732b");
 }
 
-// every length around a block, cut everywhere
+// every length around a block, split at every position
 TEST_CASE("sha256_does_not_depend_on_the_pieces") {
   for (size_t size = 0; size <= 130; ++size) {
     std::string bytes(size, '\0');

@@ -1,4 +1,5 @@
-// Steps that hands lead: kept in runs, and still every step finds each hand where it was.
+// Tool trajectories: steps with moving hands are stored in runs, and every step returns each hand's
+// position.
 #include "history/tool_trajectory.h"
 
 #include <doctest/doctest.h>
@@ -35,7 +36,7 @@ RecordedEvent one_step(double dt) {
   return step;
 }
 
-// Where each hand is and how long the step is, step by step.
+// Position of each hand and length of the step, step by step.
 struct Seen {
   double dt;
   std::map<Id, std::pair<Vec3, Vec3>> hands;
@@ -66,7 +67,7 @@ class Follower {
   std::map<Id, std::pair<Vec3, Vec3>> hands_;
 };
 
-// What a hand does for a while: which tools move before the next step.
+// Random activity of a hand: which tools move before the next step.
 std::vector<RecordedEvent> some_hands(Random &random, uint32_t which) {
   std::vector<RecordedEvent> hands;
   if (which & 1) hands.push_back(hand(grasp_id, MVS_TOOL_KIND_GRASP, random));
@@ -81,7 +82,7 @@ size_t runs(const RecordedEvents &moves) {
 
 }  // namespace
 
-TEST_CASE("every_led_step_finds_each_hand_where_it_was") {
+TEST_CASE("every_recorded_step_returns_each_hands_position") {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -100,8 +101,8 @@ TEST_CASE("every_led_step_finds_each_hand_where_it_was") {
   }
 }
 
-TEST_CASE("a_run_goes_on_however_it_was_put_together") {
-  // looked at after every step, never, or at odd times: the same moves
+TEST_CASE("a_run_continues_independently_of_when_it_was_read") {
+  // read after every step, never, or at irregular times: the same runs
   for (const int every : {1, 7, 1000000}) {
     CAPTURE(every);
     Random random(3);
@@ -130,17 +131,17 @@ TEST_CASE("a_run_goes_on_however_it_was_put_together") {
   }
 }
 
-TEST_CASE("hands_that_move_in_turn_make_one_run") {
+TEST_CASE("hands_that_move_in_turn_form_one_run") {
   Random random(1);
   RecordedEvents moves;
   for (int k = 0; k < 200; ++k) {
     moves = with_move(moves, lead_of(some_hands(random, k % 2 ? 1 : 4), one_step(1e-3)));
   }
-  // a step of the hand that came first, a whole run of both; and again, for the 71 that are left
+  // a step of the hand that came first, a full run of both; then the remaining 71 steps
   CHECK(runs(moves) == 4);
 }
 
-TEST_CASE("a_hand_that_rests_costs_nothing") {
+TEST_CASE("a_resting_hand_needs_no_memory") {
   Random random(1);
   RecordedEvents moves;
   moves = with_move(moves, lead_of(some_hands(random, 1), one_step(1e-3)));
@@ -148,7 +149,7 @@ TEST_CASE("a_hand_that_rests_costs_nothing") {
   REQUIRE(runs(moves) == 1);
   CHECK(moves.top().pace.size() == 1);
   CHECK(moves.top().count == 100001);
-  // other steps are another move
+  // other steps form another run
   moves = with_move(moves, one_step(2e-3));
   CHECK(runs(moves) == 2);
 }

@@ -21,7 +21,7 @@ from mvs.report.geometry import edges_of, ways_along
 
 FILE = Path("kaiser_mitral_normal_1") / "N64.json"
 
-# That model's fibres follow a collagen law of the strain e: a (exp(b e) - 1) up to 0.145, then
+# The fibres of its model follow a collagen law of the strain e: a (exp(b e) - 1) up to 0.145, then
 # 32.5 MPa. It is designed so that every fibre and chord is at e = 0.16 under 120 mmHg. A linear
 # chord with the same tension at that strain has the secant modulus of the law there.
 DESIGN_STRAIN, RECRUITED, TANGENT_PA = 0.16, 0.145, 32.5e6
@@ -48,7 +48,7 @@ TISSUES = (
 
 
 def data_file() -> Path:
-    """Where the valve is looked for."""
+    """Where the valve is searched for."""
     default = Path(__file__).resolve().parents[3] / "shared" / "data"
     return Path(os.environ.get("MVS_TEST_DATA", default)) / FILE
 
@@ -149,7 +149,7 @@ def close(path: Path, tissue: Tissue = TISSUES[0]) -> Result:
 
 
 def spread_of(result: Result, paths: int) -> str:
-    """The same errors over the closures along several paths: how much of them is fold."""
+    """The same errors over the closures along several paths: the part due to folds."""
     spread = result.opened.spread(mvs.SYSTOLE_PA, paths=paths)
     at_rest = [k for k, path in enumerate(spread.paths) if path.converged]
     errors = [spread.snapshot(k).compare(result.target) for k in at_rest]
@@ -191,7 +191,7 @@ def table(results: list[Result], paths: int = 0) -> str:
 
 
 def strain_of(snapshot: mvs.Snapshot) -> float:
-    """The median over the triangles: the few that were unfolded at a commissure say nothing."""
+    """The median over the triangles: the few that were unfolded at a commissure are outliers."""
     return float(np.median(snapshot.triangle_stretch[:, 0]) - 1)
 
 
