@@ -233,7 +233,7 @@ HEAD = (
 
 
 def spread_of(result: Result, paths: int) -> str:
-    """The same errors over the closures along several paths: the part due to folds."""
+    """The same errors over the closures along several paths: how much of them is fold."""
     spread = result.opened.spread(mvs.SYSTOLE_PA, paths=paths)
     at_rest = [k for k, path in enumerate(spread.paths) if path.converged]
     errors = [spread.snapshot(k).compare(result.target) for k in at_rest]
