@@ -99,7 +99,7 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   MUST_FAIL(mvs_save_memory(snapshot, 9, NULL, 0, &size), MVS_E_ARGUMENT, "format is 9");
   /* a long path is abbreviated at its start, so that its end and the reason remain */
   memset(path, 'd', sizeof path);
-  strcpy(path + sizeof path - 10, "/last.obj");
+  memcpy(path + sizeof path - 10, "/last.obj", 10);
   MUST_FAIL(mvs_load_file(sim, path, 0), MVS_E_IO, "/last.obj: ");
   FILE *file = fopen("files_test.bad.obj", "w");
   if (!file) exit(2);

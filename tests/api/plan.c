@@ -1,5 +1,4 @@
 /* Plans replay to the same bits; journals survive a killed process. */
-#define _POSIX_C_SOURCE 200809L
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -328,9 +327,10 @@ static void session(mvs_sim *sim, int steps, hash128 *after) {
 
 static char *whole_file(size_t *size) {
   FILE *file = fopen(path, "rb");
-  char *bytes = malloc(1 << 20);
-  *size = file ? fread(bytes, 1, 1 << 20, file) : 0;
-  if (file) fclose(file);
+  char *bytes = calloc(1, 1 << 20);
+  if (!file || !bytes) exit(2);
+  *size = fread(bytes, 1, 1 << 20, file);
+  fclose(file);
   return bytes;
 }
 
@@ -378,8 +378,8 @@ static void a_torn_record_is_dropped(void) {
   session(sim, session_length, wanted);
   mvs_destroy(sim);
   char *bytes = whole_file(&size);
-  size_t last = size - 1;
-  while (bytes[last - 1] != '\n') --last;
+  size_t last = size > 0 ? size - 1 : 0;
+  while (last > 0 && bytes[last - 1] != '\n') --last;
   for (size_t cut = last; cut < size; cut += (size - last) / 7 + 1) {
     write_file(bytes, cut);
     sim = new_valve(200);

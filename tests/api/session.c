@@ -123,12 +123,12 @@ static void the_history_is_listed_as_before(void) {
   MUST(mvs_snapshot_get_history(a, &history));
   MUST(mvs_snapshot_get_history(b, &again));
   CHECK(history.done == 3 && history.undone == 1 && history.checkpoints == 1);
-  CHECK(memcmp(&history, &again, sizeof history) == 0);
+  CHECK(same_bits(&history, &again, sizeof history));
   for (uint32_t k = 0; k < 4; ++k) {
     mvs_history_entry x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
     MUST(mvs_snapshot_get_history_entry(a, k, &x));
     MUST(mvs_snapshot_get_history_entry(b, k, &y));
-    CHECK(memcmp(&x, &y, sizeof x) == 0);
+    CHECK(same_bits(&x, &y, sizeof x));
   }
   CHECK(strcmp(mvs_snapshot_get_checkpoint(b, 0), "one") == 0);
   mvs_snapshot_release(a);

@@ -73,8 +73,8 @@ static void readers_agree_on_one_snapshot(void) {
     pthread_join(threads[k], NULL);
     CHECK(!readers[k].bad);
     CHECK(same_hash(readers[k].hash, readers[0].hash));
-    CHECK(memcmp(&readers[k].measures, &readers[0].measures, sizeof readers[k].measures) == 0);
-    CHECK(memcmp(readers[k].data, readers[0].data, sizeof readers[k].data) == 0);
+    CHECK(same_bits(&readers[k].measures, &readers[0].measures, sizeof readers[k].measures));
+    CHECK(same_bits(readers[k].data, readers[0].data, sizeof readers[k].data));
   }
   mvs_snapshot_release(snapshot);
 }

@@ -96,10 +96,10 @@ static void every_number_between_names_an_array_or_none(void) {
 }
 
 static void arrays_show_what_was_set(void) {
-  CHECK(memcmp(view_of(MVS_ARRAY_NODE_POSITION).data, f.nodes, sizeof f.nodes) == 0);
-  CHECK(memcmp(view_of(MVS_ARRAY_TRIANGLE_NODES).data, f.triangles, sizeof f.triangles) == 0);
-  CHECK(memcmp(view_of(MVS_ARRAY_TRIANGLE_LEAFLET).data, f.leaflet, sizeof f.leaflet) == 0);
-  CHECK(memcmp(view_of(MVS_ARRAY_ANNULUS_NODES).data, f.annulus, sizeof f.annulus) == 0);
+  CHECK(same_bits(view_of(MVS_ARRAY_NODE_POSITION).data, f.nodes, sizeof f.nodes));
+  CHECK(same_bits(view_of(MVS_ARRAY_TRIANGLE_NODES).data, f.triangles, sizeof f.triangles));
+  CHECK(same_bits(view_of(MVS_ARRAY_TRIANGLE_LEAFLET).data, f.leaflet, sizeof f.leaflet));
+  CHECK(same_bits(view_of(MVS_ARRAY_ANNULUS_NODES).data, f.annulus, sizeof f.annulus));
   const uint32_t *ends = view_of(MVS_ARRAY_CHORD_NODES).data,
                  *kind = view_of(MVS_ARRAY_CHORD_KIND).data;
   for (int c = 0; c < FUNNEL_CHORDS; ++c) {
@@ -126,7 +126,7 @@ static void parts_are_found_by_index_and_name(void) {
       MUST(mvs_snapshot_get_part(snapshot, kind, k, &part));
       CHECK(part.index == k && part.kind == kind && part.id != 0 && part.name[0] != 0);
       MUST(mvs_snapshot_find_part(snapshot, kind, part.name, &found));
-      CHECK(memcmp(&part, &found, sizeof part) == 0);
+      CHECK(same_bits(&part, &found, sizeof part));
     }
   }
 }
@@ -136,7 +136,7 @@ static void measures_of_the_open_funnel(void) {
   mvs_measures m = {.struct_size = sizeof m}, again = {.struct_size = sizeof again};
   MUST(mvs_snapshot_measure(snapshot, &m));
   MUST(mvs_snapshot_measure(snapshot, &again));
-  CHECK(memcmp(&m, &again, sizeof m) == 0);
+  CHECK(same_bits(&m, &again, sizeof m));
   double perimeter = 16 * 30e-3 * sin(3.14159265358979 / 16);
   CHECK(fabs(m.annulus_perimeter - perimeter) < 1e-12); /* rounding of pi in the funnel */
   CHECK(m.intersections == 0);
