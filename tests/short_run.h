@@ -1,5 +1,5 @@
-// For tests that repeat one thing: whether less will do (MVS_TEST_SHORT), as it does under the
-// sanitizers in CI, where the release build has repeated it in full.
+// short_run(): MVS_TEST_SHORT asks tests that repeat one check many times to repeat it less often.
+// CI sets it for the sanitizers, since the release build has run every repetition.
 #ifndef MVS_TESTS_SHORT_RUN_H
 #define MVS_TESTS_SHORT_RUN_H
 

@@ -1,4 +1,4 @@
-// Chordae of the parametric valve: number, distribution, names, lengths.
+// Chordae of the parametric valve: number, distribution over scallops, names, rest lengths.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -33,7 +33,7 @@ std::string scallop_in(const std::string &name) {
 
 }  // namespace
 
-TEST_CASE("as_many_straight_chordae_as_asked_for_each_on_a_vertex_of_its_own") {
+TEST_CASE("the_requested_number_of_straight_chordae_end_on_distinct_vertices") {
   for (uint32_t vertices : {200u, 425u, 2000u}) {
     for (uint32_t chords : {20u, 40u, 80u, 120u}) {
       CAPTURE(vertices);
@@ -72,7 +72,7 @@ TEST_CASE("branching_chordae_spring_from_trunks_and_reach_the_leaflets") {
   }
 }
 
-TEST_CASE("every_scallop_has_chordae_and_every_kind_is_there") {
+TEST_CASE("every_scallop_has_chordae_and_every_kind_occurs") {
   for (uint32_t branching : {0u, 1u}) {
     const Valve valve = make_parametric_valve(described(425, 80, branching));
     std::set<std::string> scallops, names;
@@ -135,8 +135,8 @@ TEST_CASE("attachments_and_lengths_stay_where_they_are_under_refinement") {
   for (size_t i = 0; i < coarse.chords.size(); ++i) {
     const Chord &p = coarse.chords[i], &q = fine.chords[i];
     CHECK(p.kind == q.kind);
-    // each is at most an edge of the coarse mesh, about 2 mm, away from its place; a crowded one
-    // two
+    // each is at most an edge of the coarse mesh, about 2 mm, away from its place; a chord whose
+    // vertex is taken by another is at most two edges away
     CHECK((coarse.rest[p.b] - fine.rest[q.b]).norm() < 4e-3);
     CHECK(std::abs(p.rest_length - q.rest_length) < 4e-3);
   }

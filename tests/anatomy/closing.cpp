@@ -1,4 +1,4 @@
-// The parametric valve under systolic pressure: competent as it is, leaking when dilated.
+// The parametric valve under systolic pressure: competent by default, leaking when dilated.
 #include <algorithm>
 
 #include <doctest/doctest.h>
@@ -59,7 +59,7 @@ TEST_CASE("the_default_valve_closes_competently_at_every_size") {
     CHECK(find_intersections(x, closed.model->valve.triangles).empty());
     CHECK(measure_orifice(*closed.model, x).area == 0);
     const Coaptation coaptation = measure_coaptation(*closed.model, x);
-    CHECK(coaptation.length_max > 5 * mm);  // the surgeon's measure, at the middle: 5 to 9 mm
+    CHECK(coaptation.length_max > 5 * mm);  // surgical reference at the middle: 5 to 9 mm
     CHECK(coaptation.length_max < 9 * mm);
     CHECK(measure_tenting_billow(*closed.model, x).billow_height < 2 * mm);  // more is prolapse
     CHECK(measure_chords(*closed.model, x).max_strain < 0.05);  // at work: 4.3 +- 3.4 %

@@ -1,4 +1,5 @@
-// Coarsening: fewer vertices, the same valve.
+// Coarsening reduces the number of vertices and preserves topology, parts, shape, thickness and
+// chord slack.
 #include "anatomy/coarsen.h"
 
 #include <mvs/valve.h>
@@ -13,7 +14,7 @@ using namespace mvs::core::test;
 
 namespace {
 
-// The nodes where lines of the sheet meet: boundary, borders of scallops.
+// The vertices where lines of the sheet meet: boundary, borders of scallops.
 std::vector<uint32_t> corners(const Model &model) {
   std::vector<int> lines(model.node_count(), 0);
   const Topology &topology = model.topology;
@@ -37,7 +38,7 @@ bool has_all(std::vector<uint32_t> nodes, const std::vector<uint32_t> &wanted) {
 
 }  // namespace
 
-TEST_CASE("a_coarsened_valve_is_a_valve_of_the_size_asked_for_and_of_the_same_topology") {
+TEST_CASE("a_coarsened_valve_has_the_requested_size_and_the_same_topology") {
   for (const Named &one : all_kinds_of_valves()) {
     const ModelPtr &fine = one.model;
     for (const double share : {0.9, 0.5, 0.3}) {
@@ -52,14 +53,14 @@ TEST_CASE("a_coarsened_valve_is_a_valve_of_the_size_asked_for_and_of_the_same_to
       CHECK(euler(*coarse.model) == euler(*fine));
       CHECK(coarse.model->topology.free_edges.size() == fine->topology.free_edges.size());
       CHECK(crossings(*coarse.model) == 0);
-      // poor triangles of the input may stay, no others are made (live_sheet.cpp)
+      // poor triangles of the input may remain, but no new ones are created (live_sheet.cpp)
       CHECK(worst_quality(*coarse.model) >= std::min(0.3, worst_quality(*fine)) - 1e-12);
       CHECK(coarse.report.worst_quality == doctest::Approx(worst_quality(*coarse.model)));
     }
   }
 }
 
-TEST_CASE("vertices_that_stay_are_fine_ones_bit_for_bit_and_in_order") {
+TEST_CASE("remaining_vertices_are_fine_vertices_bit_for_bit_and_in_order") {
   for (const Named &one : all_kinds_of_valves()) {
     const ModelPtr &fine = one.model;
     CAPTURE(one.name);
@@ -73,7 +74,7 @@ TEST_CASE("vertices_that_stay_are_fine_ones_bit_for_bit_and_in_order") {
       CHECK(coarse.loaded[n] == fine->valve.loaded[old[n]]);
       CHECK(coarse.origin[n] == fine->valve.origin[old[n]]);
     }
-    // the annulus is the old one with vertices left out
+    // the coarse annulus is the fine one with vertices removed
     size_t at = 0;
     for (const uint32_t node : fine->valve.annulus.get()) {
       at += at < coarse.annulus.size() && old[coarse.annulus[at]] == node;
@@ -103,7 +104,7 @@ TEST_CASE("the_surface_and_its_scallops_stay_where_they_are") {
   }
 }
 
-TEST_CASE("edges_become_even") {
+TEST_CASE("edge_lengths_become_even") {
   const ModelPtr fine = make_model(refine(*parametric(1700)));
   const Coarsened made = coarsen(*fine, 1700);
   std::vector<double> lengths = made.model->rest_length;
@@ -112,7 +113,7 @@ TEST_CASE("edges_become_even") {
   CHECK(lengths[lengths.size() * 95 / 100] / lengths[lengths.size() * 5 / 100] < 2.5);
 }
 
-TEST_CASE("chordae_stay_as_they_are_while_there_are_vertices_enough") {
+TEST_CASE("chordae_are_unchanged_while_enough_vertices_remain") {
   const ModelPtr fine = parametric(1700, 1);
   const Coarsened made = coarsen(*fine, 600);
   REQUIRE(made.model->valve.chords.size() == fine->valve.chords.size());
@@ -126,7 +127,7 @@ TEST_CASE("chordae_stay_as_they_are_while_there_are_vertices_enough") {
   }
 }
 
-TEST_CASE("chordae_that_move_keep_their_slack_and_those_that_merge_their_stiffness") {
+TEST_CASE("moved_chordae_keep_their_slack_and_merged_chordae_their_stiffness") {
   const ModelPtr fine = parametric(1700);
   const Coarsened made = coarsen(*fine, 120);
   const Valve &coarse = made.model->valve;
@@ -157,7 +158,7 @@ TEST_CASE("chordae_that_move_keep_their_slack_and_those_that_merge_their_stiffne
   CHECK(area_after == doctest::Approx(area_before).epsilon(1e-14));
 }
 
-TEST_CASE("two_chordae_made_one_pull_like_both") {
+TEST_CASE("a_merged_chord_pulls_like_the_two_it_replaces") {
   const ModelPtr model = parametric(425);
   const std::vector<Chord> &chords = model->valve.chords;
   const auto second = std::find_if(chords.begin() + 1, chords.end(), [&](const Chord &c) {
@@ -204,26 +205,26 @@ TEST_CASE("levels_of_one_valve_are_nested") {
   CHECK(has_all(many, coarsen(*fine, 300).map.fine_of_coarse));
 }
 
-TEST_CASE("coarsening_to_all_vertices_changes_nothing") {
+TEST_CASE("coarsening_to_the_present_vertex_count_changes_nothing") {
   const ModelPtr fine = parametric(425);
   const Coarsened made = coarsen(*fine, sheet_vertices(*fine));
   CHECK(hash_of(*made.model, initial_state(*made.model)) == hash_of(*fine, initial_state(*fine)));
   CHECK(made.report.surface_max == 0);
 }
 
-TEST_CASE("coarsening_gives_the_same_bits_again") {
+TEST_CASE("coarsening_is_deterministic") {
   const Coarsened a = coarsen(*parametric(1700), 500), b = coarsen(*parametric(1700), 500);
   CHECK(hash_of(*a.model, initial_state(*a.model)) == hash_of(*b.model, initial_state(*b.model)));
 }
 
-TEST_CASE("thickness_and_fibres_are_those_of_the_tissue_underneath") {
+TEST_CASE("thickness_and_fibres_are_sampled_from_the_fine_tissue") {
   Valve valve = parametric(1700)->valve;
   const Vec3 along = Vec3(1, 0.3, 0).normalized();
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     const auto &[a, b, c] = valve.triangles[t];
     const Vec3 middle = (valve.rest[a] + valve.rest[b] + valve.rest[c]) / 3;
     valve.triangle_thickness[t] = 1e-3 * (1 + 20 * middle.x());
-    // no way along it is better than the other: signs must not matter
+    // a fibre has no orientation: flipping its sign must not change the result
     valve.triangle_fibre[t] = t % 2 == 0 ? along : Vec3(-along);
   }
   const ModelPtr fine = make_model(valve);
@@ -232,19 +233,19 @@ TEST_CASE("thickness_and_fibres_are_those_of_the_tissue_underneath") {
   for (size_t t = 0; t < coarse.triangles.size(); ++t) {
     const auto &[a, b, c] = coarse.triangles[t];
     const Vec3 middle = (coarse.rest[a] + coarse.rest[b] + coarse.rest[c]) / 3;
-    // the middles of the fine triangles lie within half a side of 1.6 mm of that of the coarse one
+    // the centroids of the fine triangles lie within half a side of 1.6 mm of the coarse centroid
     CHECK(std::abs(coarse.triangle_thickness[t] - 1e-3 * (1 + 20 * middle.x())) < 2e-5);
     const Vec3 normal =
         (coarse.rest[b] - coarse.rest[a]).cross(coarse.rest[c] - coarse.rest[a]).normalized();
     const Vec3 flat = along - along.dot(normal) * normal;
-    // where the fibre stands on the sheet it has no direction there
+    // a fibre normal to the sheet has no direction in its plane
     if (flat.norm() > 0.5) {
       CHECK(std::abs(coarse.triangle_fibre[t].dot(flat.normalized())) > std::cos(0.35));
     }
   }
 }
 
-TEST_CASE("equal_thickness_stays_equal_to_the_last_bit") {
+TEST_CASE("a_uniform_thickness_stays_uniform_to_the_last_bit") {
   const ModelPtr fine = parametric(1700);
   const Coarsened made = coarsen(*fine, 500);
   for (const double thickness : made.model->valve.triangle_thickness.get()) {
@@ -252,7 +253,7 @@ TEST_CASE("equal_thickness_stays_equal_to_the_last_bit") {
   }
 }
 
-TEST_CASE("a_length_of_edges_gives_a_number_of_vertices") {
+TEST_CASE("a_target_edge_length_gives_a_number_of_vertices") {
   const ModelPtr fine = make_model(refine(*parametric(1700)));
   for (const double edge : {0.7e-3, 1e-3, 1.5e-3}) {
     const Coarsened made = coarsen(*fine, vertices_for_edge(*fine, edge));
@@ -263,7 +264,7 @@ TEST_CASE("a_length_of_edges_gives_a_number_of_vertices") {
   }
 }
 
-TEST_CASE("what_cannot_be_coarsened_so_far_says_how_far") {
+TEST_CASE("an_unreachable_vertex_count_is_refused_with_the_smallest_possible_one") {
   const ModelPtr fine = parametric(425);
   CHECK(refusal([&] { coarsen(*fine, 5000); }).find("refine") != std::string::npos);
   const std::string sentence = refusal([&] { coarsen(*fine, 1); });

@@ -1,4 +1,5 @@
-// What a parametric valve refuses, and in which words.
+// Rules for the dimensions of a parametric valve: a violation is refused with a sentence that names
+// the dimension.
 #include <cmath>
 #include <string>
 
@@ -38,7 +39,7 @@ const Field fields[] = {
     {"coaptation_depth", &mvs_parametric_desc::coaptation_depth, -1 * mm, 16 * mm, "16 mm"},
 };
 
-// The error that making this valve throws; fails the test if there is none.
+// Returns the error that generating this valve throws; the test fails if it throws no error.
 Error error_of(const mvs_parametric_desc &desc) {
   try {
     make_parametric_valve(desc);
@@ -51,7 +52,7 @@ Error error_of(const mvs_parametric_desc &desc) {
 
 }  // namespace
 
-TEST_CASE("every_dimension_out_of_range_is_named_with_its_value_and_range") {
+TEST_CASE("a_dimension_out_of_range_is_named_with_its_value_and_range") {
   for (const Field &field : fields) {
     CAPTURE(field.name);
     for (double value : {field.too_small, field.too_large, double(NAN), double(INFINITY), -1.0}) {
@@ -87,7 +88,7 @@ TEST_CASE("counts_out_of_range_are_named") {
   CHECK(error_of(desc).part == "chords");
 }
 
-TEST_CASE("dimensions_that_do_not_fit_each_other_are_named") {
+TEST_CASE("dimensions_that_contradict_each_other_are_named") {
   mvs_parametric_desc desc{};
   desc.annulus_ap = 50 * mm;
   CHECK(error_of(desc).part == "annulus_ap");

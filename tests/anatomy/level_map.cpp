@@ -1,4 +1,4 @@
-// Maps between levels: places, shapes, motions.
+// Maps between mesh levels carry positions, rest shapes and velocities from one level to another.
 #include "anatomy/level_map.h"
 
 #include "solve/solver.h"
@@ -14,7 +14,7 @@ struct Pair {
   ModelPtr coarse, fine;
 };
 
-// Two levels of every valve, made either way.
+// Two levels of each valve, one pair by coarsening and one by refining.
 std::vector<Pair> pairs() {
   std::vector<Pair> made;
   for (const Named &one : all_kinds_of_valves()) {
@@ -26,7 +26,7 @@ std::vector<Pair> pairs() {
   return made;
 }
 
-// A state in which all moves as one: turned about a point, with the velocity of turning on.
+// A state in rigid motion: rotated about a point, with the velocity of that rotation.
 State moved(State state, const Mat3 &turn, const Vec3 &shift, const Vec3 &spin) {
   for (size_t n = 0; n < state.x.size(); ++n) {
     state.x[n] = turn * std::as_const(state.x)[n] + shift;
@@ -61,7 +61,7 @@ TEST_CASE("weights_of_a_place_sum_to_one") {
   }
 }
 
-TEST_CASE("the_rest_shape_and_rigid_motions_go_over_to_rounding") {
+TEST_CASE("the_rest_shape_and_rigid_motions_are_mapped_to_rounding") {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   const Vec3 shift(0.01, -0.02, 0.005), spin(3, -1, 2);
   for (const Pair &one : pairs()) {
@@ -78,7 +78,7 @@ TEST_CASE("the_rest_shape_and_rigid_motions_go_over_to_rounding") {
   }
 }
 
-TEST_CASE("refined_places_are_middles_of_sides") {
+TEST_CASE("refined_vertices_are_midpoints_of_edges") {
   const ModelPtr coarse = parametric(425), fine = make_model(refine(*coarse));
   const LevelMap map = make_level_map(*coarse, *fine);
   for (size_t n = coarse->node_count(); n < fine->node_count(); ++n) {
@@ -91,7 +91,7 @@ TEST_CASE("refined_places_are_middles_of_sides") {
   }
 }
 
-TEST_CASE("there_and_back_is_the_same_state_to_the_last_bit") {
+TEST_CASE("mapping_to_a_finer_level_and_back_gives_the_same_bits") {
   for (const Pair &one : pairs()) {
     const ModelPtr &coarse = one.coarse, &fine = one.fine;
     CAPTURE(one.name);
@@ -112,7 +112,7 @@ TEST_CASE("there_and_back_is_the_same_state_to_the_last_bit") {
   }
 }
 
-TEST_CASE("the_fine_annulus_is_held_where_the_coarse_one_is") {
+TEST_CASE("the_fine_annulus_is_prescribed_where_the_coarse_one_is") {
   const ModelPtr fine = dilated(), coarse = coarsen(*fine, 300).model;
   State state = initial_state(*coarse);
   state.load = {0, 0.6};
@@ -123,8 +123,8 @@ TEST_CASE("the_fine_annulus_is_held_where_the_coarse_one_is") {
   }
 }
 
-// Leaflets that touch in the closed shape: the way over the sheet tells them apart.
-TEST_CASE("places_lie_in_the_leaflet_of_their_node") {
+// Leaflets touch in the closed shape: geodesic distance keeps their vertices apart.
+TEST_CASE("mapped_positions_lie_in_the_leaflet_of_their_vertex") {
   const ModelPtr fine = parametric(1700), coarse = coarsen(*fine, 400).model;
   const LevelMap map = make_level_map(*coarse, *fine);
   const double side = 4e-3;  // the longest of the coarse level

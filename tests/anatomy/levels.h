@@ -1,4 +1,5 @@
-// What the tests of mesh levels share: valves of all kinds, and what is to be kept.
+// Fixtures of the tests of mesh levels: valves of every kind, and the properties that levels
+// preserve.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -34,7 +35,7 @@ inline ModelPtr parametric(uint32_t vertices, uint32_t branching = 0) {
   return make_model(make_parametric_valve(desc));
 }
 
-// A dilated valve with tall leaflets, held elsewhere when loaded.
+// A dilated valve with tall leaflets and a boundary that moves under load.
 inline ModelPtr dilated() {
   mvs_parametric_desc desc{};
   desc.struct_size = sizeof desc;
@@ -48,7 +49,8 @@ inline ModelPtr dilated() {
   return make_model(make_parametric_valve(desc));
 }
 
-// Kaiser's valve: triangles of every shape; the finer one in its loaded shape, see test_orient.cpp.
+// Kaiser's valve: triangles of every shape; the finer mesh in its loaded shape, see
+// tests/geometry/orient.cpp.
 inline void add_real(std::vector<Named> &valves, const std::string &file, const char *places) {
   const nlohmann::json json = read_real_valve(file);
   if (json.is_null()) {
@@ -113,7 +115,7 @@ inline size_t crossings(const Model &model) {
   return find_intersections(model.valve.rest, model.valve.triangles).size();
 }
 
-// The sentence of what `work` throws; "" if it does not.
+// Returns the sentence of the error that `work` throws; "" if it throws no error.
 template <typename Work>
 std::string refusal(Work work) {
   try {

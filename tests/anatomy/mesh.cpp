@@ -1,4 +1,4 @@
-// The open parametric valve: a clean sheet of the size and shape that were asked for.
+// The open parametric valve: a well-shaped mesh with the requested dimensions and vertex count.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ std::vector<size_t> boundary_loops(const Valve &valve) {
 
 }  // namespace
 
-TEST_CASE("every_size_asked_for_is_met_within_five_percent_by_well_shaped_triangles") {
+TEST_CASE("every_requested_size_is_met_within_five_percent_by_well_shaped_triangles") {
   for (uint32_t vertices : {200u, 300u, 425u, 850u, 1700u, 6800u}) {
     CAPTURE(vertices);
     const Valve valve = make_parametric_valve(sized(vertices));
@@ -101,7 +101,7 @@ TEST_CASE("every_size_asked_for_is_met_within_five_percent_by_well_shaped_triang
   }
 }
 
-TEST_CASE("edges_are_nearly_uniform") {
+TEST_CASE("edge_lengths_are_nearly_uniform") {
   const Valve valve = make_parametric_valve({});
   std::vector<double> lengths;
   for (const auto &[edge, uses] : edge_uses(valve)) {
@@ -146,7 +146,7 @@ TEST_CASE("normals_point_into_the_funnel") {
   }
 }
 
-TEST_CASE("dimensions_are_those_asked_for") {
+TEST_CASE("dimensions_are_the_requested_ones") {
   mvs_parametric_desc desc = sized(6000);
   desc.annulus_ap = 29 * mm;
   desc.annulus_cc = 36 * mm;
@@ -191,7 +191,7 @@ TEST_CASE("the_default_is_an_adult_valve") {
   CHECK(ratio < 2.5);
   CHECK(shape.height(0) == d.anterior_height);
   CHECK(shape.height(Shape::commissure) == doctest::Approx(d.commissure_height).epsilon(1e-3));
-  // both clefts are seen: the edge rises towards P1, P2 and P3
+  // both clefts are resolved: the edge rises towards P1, P2 and P3
   const double cleft = shape.height(Shape::cleft_theta());
   CHECK(shape.height(M_PI) > cleft + 2 * mm);
   CHECK(shape.height(Shape::cleft_theta() - 0.3) > cleft + 0.4 * mm);

@@ -1,4 +1,4 @@
-// Refinement: four triangles for one, and the same valve.
+// Refinement: each triangle becomes four, and every other property of the valve is preserved.
 #include "anatomy/refine.h"
 
 #include "tests/anatomy/levels.h"
@@ -21,7 +21,7 @@ TEST_CASE("a_refined_valve_is_a_valve_of_the_same_topology") {
   }
 }
 
-TEST_CASE("refining_keeps_every_part_and_every_old_node") {
+TEST_CASE("refinement_keeps_every_part_and_every_old_vertex") {
   for (const Named &one : all_kinds_of_valves()) {
     const ModelPtr &model = one.model;
     CAPTURE(one.name);
@@ -55,7 +55,7 @@ TEST_CASE("the_children_of_a_triangle_cover_it_and_have_its_tissue") {
         CHECK(made.triangle_leaflet[child] == old.triangle_leaflet[t]);
         CHECK(made.triangle_scallop[child] == old.triangle_scallop[t]);
         CHECK(made.triangle_thickness[child] == old.triangle_thickness[t]);
-        // the same but for the rounding of the plane it lies in: of 40 mm over sides of 0.1 mm, in
+        // equal but for the rounding of the plane it lies in: of 40 mm over sides of 0.1 mm, in
         // triangles of 1 degree
         CHECK((made.triangle_fibre[child] - old.triangle_fibre[t]).norm() < 1e-11);
       }
@@ -69,7 +69,7 @@ TEST_CASE("the_children_of_a_triangle_cover_it_and_have_its_tissue") {
   }
 }
 
-TEST_CASE("the_middle_of_an_annulus_side_is_held_between_its_ends") {
+TEST_CASE("the_midpoint_of_an_annulus_edge_is_held_between_its_ends") {
   const ModelPtr model = dilated(), fine = make_model(refine(*model));
   const std::vector<uint32_t> &old = model->valve.annulus, &made = fine->valve.annulus;
   for (size_t k = 0; k < old.size(); ++k) {
@@ -83,7 +83,7 @@ TEST_CASE("the_middle_of_an_annulus_side_is_held_between_its_ends") {
   }
 }
 
-TEST_CASE("three_refinements_of_the_shipped_valve_are_a_valve_of_25000_vertices") {
+TEST_CASE("three_refinements_of_the_default_valve_give_a_valve_of_25000_vertices") {
   ModelPtr model = parametric(425);
   const double before = area(*model);
   for (int level = 0; level < 3; ++level) model = make_model(refine(*model));

@@ -1,5 +1,4 @@
-/* A valve from arrays: strides, alignment, single precision, what is made where nothing is given.
- */
+/* A valve from arrays: strides, alignment, single precision, defaults of omitted arrays. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,7 +14,7 @@ static hash128 hash_of_valve(const mvs_valve_desc *desc) {
   return hash;
 }
 
-/* The rows of a packed array, `stride` bytes apart, the first one at an odd address. */
+/* Rows of a packed array, `stride` bytes apart, the first one at an odd address. */
 static char *spread(mvs_array *array, uint64_t row, uint64_t stride) {
   char *room = malloc(array->count * stride + 1);
   if (!room) exit(2);
@@ -122,9 +121,9 @@ static void what_is_given_is_kept(void) {
   MUST(mvs_set_valve(sim, &f.desc));
   MUST(mvs_get_snapshot(sim, &snapshot));
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &view));
-  CHECK(memcmp(view.data, now, sizeof now) == 0);
+  CHECK(same_bits(view.data, now, sizeof now));
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_REST, &view));
-  CHECK(memcmp(view.data, f.nodes, sizeof f.nodes) == 0);
+  CHECK(same_bits(view.data, f.nodes, sizeof f.nodes));
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_CHORD_REST_LENGTH, &view));
   CHECK(((const double *)view.data)[3] == 12e-3);
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_VALVE_CONSTANTS, &view));

@@ -1,4 +1,4 @@
-/* What the host is told during work, and how it stops it. */
+/* Callbacks report progress and warnings to the host, and the host cancels work through them. */
 #include "check.h"
 #include "funnel.h"
 
@@ -24,7 +24,7 @@ static int32_t take_progress(void *user, double share, double residual) {
   h->share_fell |= share < h->share;
   h->share = share;
   h->residual = residual;
-  /* the simulator is at work: it refuses another call, but shows its latest snapshot */
+  /* the simulator is busy: it refuses another call, but returns its latest snapshot */
   h->reentered |= mvs_step(h->sim, NULL) != MVS_E_STATE;
   const mvs_snapshot *snapshot = NULL;
   h->seen += mvs_get_snapshot(h->sim, &snapshot) == MVS_OK;
@@ -63,7 +63,7 @@ static void a_cancelled_settle_changes_nothing(void) {
   settle_with(&h, MVS_E_CANCELLED);
   CHECK(h.calls == 1);
   CHECK(strlen(mvs_last_error()->message) > 0);
-  /* and the simulator works on */
+  /* and the simulator still works */
   h.stop_at = 0;
   MUST(mvs_settle(h.sim, NULL, NULL));
   mvs_destroy(h.sim);
@@ -84,7 +84,7 @@ static void not_converged_is_a_warning_and_no_error(void) {
   mvs_destroy(h.sim);
 }
 
-/* Finer than its contact is no fault, but is told; with needles it is a warning. */
+/* A mesh finer than the contact thickness is no fault, but is reported; needles cause a warning. */
 static void edges_below_the_contact_thickness_are_told(void) {
   static funnel f;
   host h = {0};
@@ -95,7 +95,7 @@ static void edges_below_the_contact_thickness_are_told(void) {
   MUST(mvs_set_valve(h.sim, &f.desc));
   CHECK(h.lines == 2 && h.warnings == 0);
   CHECK(strstr(h.last, "edges are shorter than the contact thickness of 0.005 m") != NULL);
-  /* node 33 but a micrometre from node 32 */
+  /* node 33 is a micrometre away from node 32 */
   for (int k = 0; k < 3; ++k) f.nodes[33][k] = f.nodes[32][k] + (k == 1 ? 1e-6 : 0);
   MUST(mvs_set_valve(h.sim, &f.desc));
   CHECK(h.warnings == 1);
@@ -118,7 +118,7 @@ static void edges_below_the_contact_thickness_are_told(void) {
   mvs_destroy(h.sim);
 }
 
-/* AP, CC, A and P of every read-out hang on it. */
+/* Every measure depends on AP, CC, A and P. */
 static void which_side_is_taken_for_the_anterior_one_is_told(void) {
   static funnel f;
   host h = {0};

@@ -1,4 +1,4 @@
-/* Checks for the tests in C: they print what failed and count it. */
+/* Checks of the tests in C: a failed check prints its expression and is counted. */
 #ifndef TESTS_CHECK_H
 #define TESTS_CHECK_H
 
@@ -28,7 +28,7 @@ static int failures = 0;
     }                                                                                        \
   } while (0)
 
-/* The call fails with this code, and a sentence in which `word` occurs. */
+/* The call fails with this code and a sentence that contains `word`. */
 #define MUST_FAIL(call, wanted, word)                                                            \
   do {                                                                                           \
     mvs_result result_ = (call);                                                                 \
@@ -45,7 +45,7 @@ static inline int finish(const char *name) {
   return failures ? 1 : 0;
 }
 
-/* The hash of what a simulator holds now; zeros before there is a valve. */
+/* The hash of the simulator's present state; zeros before it holds a valve. */
 typedef struct hash128 {
   uint64_t word[2];
 } hash128;
@@ -67,6 +67,11 @@ static inline hash128 sim_hash(mvs_sim *sim) {
 
 static inline int same_hash(hash128 a, hash128 b) {
   return a.word[0] == b.word[0] && a.word[1] == b.word[1];
+}
+
+/* Whether two blocks of memory hold the same bits: -0.0 differs from 0.0. */
+static inline int same_bits(const void *a, const void *b, size_t size) {
+  return memcmp(a, b, size) == 0;
 }
 
 #endif

@@ -1,4 +1,5 @@
-/* A hand in a valve, through a device that plays a recording: what it takes, feels, and leaves. */
+/* A haptic device that plays a recording holds a valve: grasps, forces, limits, and the state it
+ * leaves. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -24,7 +25,7 @@ static mvs_device *opened(const char *recording, uint32_t mode) {
                           .driver = "replay",
                           .options = options};
   MUST(mvs_device_open(&desc, &device));
-  /* as the recordings lie: the device's y is up out of the valve */
+  /* orientation of the recordings: the device's y points up, out of the valve */
   mvs_device_view view = {.struct_size = sizeof view, .rotation = {1, 1, 0, 0}};
   mvs_device_hand hand = {.struct_size = sizeof hand, .mode = mode};
   mvs_device_limits limits = {.struct_size = sizeof limits, .ramp_s = 0.1};
@@ -58,7 +59,7 @@ static double length(const double v[3]) {
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Turns until an event, at most so often; the report that had it. */
+/* Steps until an event occurs, at most `turns` times; returns the report with the event. */
 static mvs_device_report turn_until(mvs_device *device, uint32_t event, int most) {
   mvs_device_report report = {0};
   for (int k = 0; k < most && !(report.events & event); ++k) report = turn(device);
@@ -66,7 +67,7 @@ static mvs_device_report turn_until(mvs_device *device, uint32_t event, int most
   return report;
 }
 
-/* Plays the grasp to its end; the hash of where the valve is then. */
+/* Plays the grasp to its end; returns the hash of the valve at that time. */
 static hash128 play_the_grasp(double *most) {
   mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   uint32_t events = 0, node = UINT32_MAX;
@@ -96,7 +97,7 @@ static void a_grasp_pulls_and_lets_go_and_is_the_same_each_time(void) {
   const hash128 one = play_the_grasp(&first), two = play_the_grasp(&second);
   CHECK(same_hash(one, two));
   CHECK(first == second);
-  /* 200 N/m of the hand and the tissue one after the other, over 10 mm: below 2 N */
+  /* 200 N/m of the hand and the tissue in series, over 10 mm: below 2 N */
   CHECK(first > 0.5 && first < 2);
 }
 
@@ -172,7 +173,7 @@ static void a_stopped_device_lets_go(void) {
   mvs_device_close(device);
 }
 
-/* The chord that carries most now, and its tension. */
+/* The chord with the largest tension, and that tension. */
 static mvs_part tautest_chord(double *most) {
   mvs_part part = {0};
   mvs_view tension, id;
@@ -202,7 +203,7 @@ static void a_chord_is_felt_as_it_pulls(void) {
   for (int k = 0; k < 200; ++k) turn(device);
   tautest_chord(&tension);
   CHECK(tension > 0.05);
-  /* the valve is at rest; the recording's circle goes on, and its damping is small */
+  /* the valve is at rest; the recorded circle continues, with small damping */
   CHECK(fabs(length(state_of(device).force) - 0.2 * tension) < 0.02 * tension);
   mvs_device_close(device);
 }
@@ -230,7 +231,7 @@ static void what_makes_no_sense_is_refused(void) {
   desc.driver = "nowhere";
   CHECK(mvs_device_open(&desc, &device) == MVS_E_IO);
   desc.driver = "replay";
-  CHECK(mvs_device_open(&desc, &device) == MVS_E_ARGUMENT); /* its own sentence: no file */
+  CHECK(mvs_device_open(&desc, &device) == MVS_E_ARGUMENT); /* sentence of the driver: no file */
   CHECK(strstr(mvs_last_error()->message, "file") != NULL);
   desc.clock = 7;
   CHECK(mvs_device_open(&desc, &device) == MVS_E_ARGUMENT);
@@ -331,7 +332,7 @@ static void count_finding(void *user, int32_t verdict, const char *check, const 
   *(int *)user += verdict == 1;
 }
 
-/* Verdicts of all drivers, as "driver: check". */
+/* The verdicts of all drivers, as "driver: check". */
 struct all_findings {
   int drivers, notes, phantom;
 };
@@ -345,7 +346,7 @@ static void sort_finding(void *user, int32_t verdict, const char *check, const c
   if (strncmp(check, "phantom: ", 9) == 0) all->phantom = verdict;
 }
 
-/* Who has no such device need not mend it, unless he asks for that driver. */
+/* A missing device is no failure unless the caller asked for that driver. */
 static void a_vendors_library_that_is_not_here_is_a_note(void) {
   struct all_findings all = {0, 0, 3};
   int drivers = 0, good = 0;
@@ -353,7 +354,7 @@ static void a_vendors_library_that_is_not_here_is_a_note(void) {
   MUST(mvs_device_doctor(NULL, NULL, sort_finding, &all));
   CHECK(all.drivers == drivers);
   CHECK(all.notes > 0 && all.notes < drivers);
-  /* somebody may have one */
+  /* a device may be present on this machine */
   CHECK(all.phantom == 2 || mvs_device_list("phantom", NULL, count_device, &drivers) == MVS_OK);
   MUST(mvs_device_doctor("phantom", NULL, count_fault, &good));
   CHECK(good > 0);

@@ -1,4 +1,4 @@
-/* Closing along several paths: what is the same, what is told, what is refused. */
+/* mvs_ensemble_run closes a valve along several paths: reproducibility, statistics, refusals. */
 #include <math.h>
 
 #include "check.h"
@@ -7,7 +7,7 @@ enum { PATHS = 4 }; /* the last one in time, with inertia */
 
 static const mvs_load_case systole = {sizeof(mvs_load_case), 0, MVS_SYSTOLE_PA, 1};
 
-/* The shipped valve, coarse, and half as thick so that it has folds to choose from. */
+/* The default valve, coarse, and half as thick so that it can fold in several ways. */
 static mvs_sim *thin_valve(void) {
   mvs_sim *sim = NULL;
   mvs_parametric_desc desc = {.struct_size = sizeof desc, .vertices = 250, .thickness = 0.5e-3};
@@ -52,7 +52,7 @@ static void path_0_is_the_plain_closure(const mvs_ensemble *spread, mvs_sim *sim
   MUST(mvs_ensemble_get_member_stats(spread, 0, &told));
   CHECK(told.converged == 1 && told.iterations == plain.iterations);
   CHECK(told.energy == plain.energy && told.residual == plain.residual);
-  /* its plan leads there too, so that it can stand in for the simulator's */
+  /* its plan leads to the same state, so that it can replace the simulator's */
   mvs_replay replay = {.struct_size = sizeof replay};
   static char text[65536];
   uint64_t size = 0;
@@ -66,7 +66,7 @@ static void path_0_is_the_plain_closure(const mvs_ensemble *spread, mvs_sim *sim
   mvs_snapshot_release(closed);
 }
 
-/* Whatever ran before: the same seed gives the same bits, more paths do not change the first. */
+/* The result depends only on the seed, not on earlier runs; more paths do not change the first. */
 static void same_seed_same_bits(const mvs_snapshot *start, const mvs_ensemble *spread) {
   mvs_ensemble *other = run(start, options_of(3, 5)), *again = run(start, options_of(2, 0));
   for (uint32_t k = 0; k < 2; ++k) CHECK(same_hash(path_hash(spread, k), path_hash(again, k)));
@@ -74,7 +74,7 @@ static void same_seed_same_bits(const mvs_snapshot *start, const mvs_ensemble *s
   mvs_ensemble_member path = {.struct_size = sizeof path}, moved = path;
   MUST(mvs_ensemble_get_member(spread, 2, &path));
   MUST(mvs_ensemble_get_member(other, 2, &moved));
-  /* another seed is another disturbance; where it leads may be the same fold */
+  /* another seed gives another perturbation, which may lead to the same fold */
   CHECK(!same_hash(path_hash(spread, 2), path_hash(other, 2)));
   CHECK(path.perturbation > 0 && moved.perturbation > 0);
   mvs_ensemble_release(other);
@@ -103,7 +103,7 @@ static void paths_are_told(const mvs_ensemble *spread, uint32_t count) {
     CHECK((path.ramp > 0) == (k == 3));
     CHECK(path.order >= MVS_ENSEMBLE_ORDER_TOGETHER &&
           path.order <= MVS_ENSEMBLE_ORDER_PRESSURE_FIRST);
-    /* the default, 0.5 mm, but for rounding; cut where sheets would meet */
+    /* the default, 0.5 mm, but for rounding; the displacement is cut where sheets would meet */
     CHECK(k == 0 ? path.perturbation == 0 : path.perturbation > 0);
     CHECK(path.perturbation <= 0.5e-3 * (1 + 1e-12));
     CHECK(path.node_rms <= path.node_max && path.surface_rms <= path.surface_max);
@@ -118,7 +118,7 @@ static void paths_are_told(const mvs_ensemble *spread, uint32_t count) {
   CHECK(fabs(all.node_rms - rms) <= 1e-12 * rms);
 }
 
-/* Mean, range and deviation are those of the measures that the paths' own snapshots show. */
+/* Mean, range and deviation match the measures of the paths' own snapshots. */
 static void statistics_are_those_of_the_paths(const mvs_ensemble *spread, uint32_t count) {
   mvs_measures of[5], each = {.struct_size = sizeof each};
   for (uint32_t s = 0; s < 5; ++s) {
@@ -141,12 +141,12 @@ static void statistics_are_those_of_the_paths(const mvs_ensemble *spread, uint32
   CHECK(of[1].coaptation_area == least && of[2].coaptation_area == most);
   CHECK(fabs(of[3].coaptation_area - sqrt(squares / (count - 1))) <= 1e-12 * most);
   CHECK(of[4].coaptation_area == count && of[4].intersections == count);
-  /* the annulus is where it is told to be on every path */
+  /* the annulus is at its prescribed position on every path */
   CHECK(of[3].annulus_ap == 0 && of[1].annulus_ap == of[2].annulus_ap);
 }
 
-/* The picture: nothing where nodes are held, and its squares those of the pairs. For n shapes the
- * mean square from the mean is half the mean square between two picked with replacement. */
+/* The deviation is zero at prescribed nodes, and its squares match those of the pairs. For n shapes
+ * the mean square from the mean is half the mean square between two picked with replacement. */
 static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_ensemble *spread) {
   mvs_view nodes = {0}, kind = {0}, pairs = {0};
   MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION, &nodes));
@@ -212,12 +212,13 @@ static void paths_not_at_rest_are_not_mixed_in(const mvs_snapshot *start) {
   MUST(mvs_ensemble_measure(spread, MVS_ENSEMBLE_STATISTIC_COUNT, &count));
   CHECK(all.converged == 0 && all.equilibria == 0 && all.lowest == UINT32_MAX);
   CHECK(all.node_rms == 0 && path.converged == 0 && path.equilibrium == UINT32_MAX);
-  CHECK(path.node_rms > 0); /* still told, of the path itself */
+  CHECK(path.node_rms > 0); /* the path itself still reports it */
   CHECK(isnan(mean.annulus_ap) && count.annulus_ap == 0);
   mvs_ensemble_release(spread);
 }
 
-/* From a closed valve: as it lies, the fold is found again; from rest, the plain closure is. */
+/* From a closed valve: from its present state, the same fold is found; from rest, the plain
+ * closure. */
 static void a_closed_valve_is_opened_again(mvs_sim *sim) {
   mvs_ensemble_summary near_it = {.struct_size = sizeof near_it};
   mvs_ensemble_member path = {.struct_size = sizeof path};

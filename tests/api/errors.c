@@ -1,4 +1,4 @@
-/* Every wrong argument has its code and its sentence, and changes nothing. */
+/* Every wrong argument fails with its code and a sentence, and changes no state. */
 #include <math.h>
 
 #include "check.h"
@@ -9,14 +9,14 @@ static const mvs_snapshot *snapshot = NULL;
 static hash128 start;
 static funnel f;
 
-/* The call fails so, and the simulator is as it was. */
+/* The call fails with this code, and the simulator is unchanged. */
 #define REFUSED(call, code, word)           \
   do {                                      \
     MUST_FAIL(call, code, word);            \
     CHECK(same_hash(start, sim_hash(sim))); \
   } while (0)
 
-/* A valve with one thing changed is refused so; it is made anew afterwards. */
+/* A valve with one changed field is refused with this code; a good valve is set afterwards. */
 #define REFUSED_VALVE(change, code, word)                        \
   do {                                                           \
     make_funnel(&f);                                             \
@@ -25,15 +25,8 @@ static funnel f;
     MUST_FAIL(mvs_check_valve(&f.desc, NULL, NULL), code, word); \
   } while (0)
 
-static void null_pointers(void) {
+static void null_pointers_for_a_simulator(void) {
   mvs_stats stats = {.struct_size = sizeof stats};
-  uint64_t hash[2], size = 0;
-  uint32_t count = 0;
-  double frame[12], up[3] = {0, 0, 1};
-  mvs_view view;
-  mvs_part part;
-  mvs_measures measures = {.struct_size = sizeof measures};
-  mvs_comparison comparison = {.struct_size = sizeof comparison};
   mvs_load_case load = funnel_load();
   REFUSED(mvs_create(NULL, NULL), MVS_E_ARGUMENT, "sim is a null pointer");
   REFUSED(mvs_set_valve(NULL, &f.desc), MVS_E_ARGUMENT, "sim is a null pointer");
@@ -52,6 +45,17 @@ static void null_pointers(void) {
   REFUSED(mvs_get_snapshot(sim, NULL), MVS_E_ARGUMENT, "snapshot is a null pointer");
   REFUSED(mvs_restore(NULL, snapshot), MVS_E_ARGUMENT, "sim is a null pointer");
   REFUSED(mvs_restore(sim, NULL), MVS_E_ARGUMENT, "snapshot is a null pointer");
+}
+
+static void null_pointers_for_a_snapshot(void) {
+  uint64_t hash[2], size = 0;
+  uint32_t count = 0;
+  double frame[12], up[3] = {0, 0, 1};
+  mvs_view view;
+  mvs_part part;
+  mvs_measures measures = {.struct_size = sizeof measures};
+  mvs_comparison comparison = {.struct_size = sizeof comparison};
+  mvs_load_case load = funnel_load();
   REFUSED(mvs_snapshot_get_hash(NULL, hash), MVS_E_ARGUMENT, "snapshot is a null pointer");
   REFUSED(mvs_snapshot_get_hash(snapshot, NULL), MVS_E_ARGUMENT, "hash is a null pointer");
   REFUSED(mvs_snapshot_get_array(NULL, 1, &view), MVS_E_ARGUMENT, "snapshot is a null pointer");
@@ -81,6 +85,10 @@ static void null_pointers(void) {
   REFUSED(mvs_snapshot_section(snapshot, up, up, NULL, 0, NULL), MVS_E_ARGUMENT, "count is a");
   REFUSED(mvs_snapshot_get_frame(NULL, frame), MVS_E_ARGUMENT, "snapshot is a null pointer");
   REFUSED(mvs_snapshot_get_frame(snapshot, NULL), MVS_E_ARGUMENT, "frame is a null pointer");
+}
+
+static void null_pointers_for_files(void) {
+  uint64_t size = 0;
   REFUSED(mvs_load_file(NULL, "a.obj", 0), MVS_E_ARGUMENT, "sim is a null pointer");
   REFUSED(mvs_load_file(sim, NULL, 0), MVS_E_ARGUMENT, "path is a null pointer");
   REFUSED(mvs_load_memory(NULL, "", 0, 0), MVS_E_ARGUMENT, "sim is a null pointer");
@@ -300,7 +308,7 @@ static void an_error_stays_until_the_next_and_fits_its_room(void) {
   MUST(mvs_snapshot_find_part(snapshot, 1, "A", &part));
   CHECK(mvs_last_error()->code == MVS_E_ID);
   CHECK(strcmp(mvs_last_error()->part, "one") == 0);
-  /* a part that does not fit is cut before, not within, a character of two bytes */
+  /* a name that does not fit is cut before a character of two bytes, not within it */
   memset(name, 'x', sizeof name);
   memcpy(name + 62, "\xc3\xa4", 2);
   name[sizeof name - 1] = 0;
@@ -314,7 +322,9 @@ int main(void) {
   MUST(mvs_set_valve(sim, &f.desc));
   MUST(mvs_get_snapshot(sim, &snapshot));
   start = sim_hash(sim);
-  null_pointers();
+  null_pointers_for_a_simulator();
+  null_pointers_for_a_snapshot();
+  null_pointers_for_files();
   options_out_of_range();
   a_budget_of_zero_is_the_default();
   arrays_that_cannot_be_read();

@@ -1,4 +1,4 @@
-/* Loading and saving through memory and paths. */
+/* Loading and saving through memory and through paths. */
 #include <stdlib.h>
 
 #include "check.h"
@@ -26,7 +26,7 @@ static char *save(const mvs_snapshot *snapshot, uint32_t format, uint64_t *size)
 static void saved_and_loaded_settles_to_the_same_bits(void) {
   mvs_load_case load = funnel_load();
   MUST(mvs_set_load(sim, &load));
-  MUST(mvs_step(sim, NULL)); /* so that velocity and time are there, too */
+  MUST(mvs_step(sim, NULL)); /* so that velocity and time are saved as well */
   const mvs_snapshot *start = present(sim);
   uint64_t size = 0;
   char *bytes = save(start, MVS_FORMAT_OBJ, &size);
@@ -97,9 +97,9 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   MUST_FAIL(mvs_save_file(snapshot, "a.stl", 0), MVS_E_ARGUMENT,
             ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
   MUST_FAIL(mvs_save_memory(snapshot, 9, NULL, 0, &size), MVS_E_ARGUMENT, "format is 9");
-  /* of a long path the end is shown, and the reason as well */
+  /* a long path is abbreviated at its start, so that its end and the reason remain */
   memset(path, 'd', sizeof path);
-  strcpy(path + sizeof path - 10, "/last.obj");
+  memcpy(path + sizeof path - 10, "/last.obj", 10);
   MUST_FAIL(mvs_load_file(sim, path, 0), MVS_E_IO, "/last.obj: ");
   FILE *file = fopen("files_test.bad.obj", "w");
   if (!file) exit(2);

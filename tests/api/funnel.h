@@ -1,4 +1,5 @@
-/* A small valve from arrays: a funnel under a round annulus, two heads, ten chordae. */
+/* Fixture: a small valve from arrays, a funnel under a round annulus with two heads and ten
+ * chordae. */
 #ifndef TESTS_FUNNEL_H
 #define TESTS_FUNNEL_H
 
@@ -68,7 +69,7 @@ static inline void funnel_chords(funnel *f) {
   }
 }
 
-/* Fills in a valve; `f` must stay where it is, the description points into it. */
+/* Fills in a valve. `f` must stay at its address: the description points into it. */
 static inline void make_funnel(funnel *f) {
   memset(f, 0, sizeof *f);
   funnel_sheet(f);
@@ -92,8 +93,7 @@ static inline void make_funnel(funnel *f) {
   f->desc.head_stride = sizeof f->heads[0];
 }
 
-/* Systole that the funnel stands: a tenth of the pressure, for a tube of tissue without coaptation.
- */
+/* Systole for the funnel: a tenth of the pressure, since a tube of tissue has no coaptation. */
 static inline mvs_load_case funnel_load(void) {
   mvs_load_case load = {sizeof load, 0, MVS_SYSTOLE_PA / 10, 1};
   return load;

@@ -1,4 +1,5 @@
-/* What hands did, again: from plans and sessions, and where other tools are held already. */
+/* Replay of tool trajectories from plans and sessions, also while the simulator holds other tools.
+ * */
 #include <stdlib.h>
 
 #include "check.h"
@@ -11,7 +12,7 @@ static mvs_sim *make_sim(void) {
   return sim;
 }
 
-/* Where node k of the free edge lies. */
+/* The position of node k of the free edge. */
 static uint32_t place(mvs_sim *sim, uint32_t k, double at[3]) {
   const mvs_snapshot *snapshot = NULL;
   mvs_view edge, x;
@@ -77,7 +78,7 @@ static plan plan_of(mvs_sim *sim) {
   return made;
 }
 
-/* A grasp and a rod, led in turn and together, with steps in which they rest; the rod is let go. */
+/* A grasp and a rod, moved in turn and together, with steps at rest; the rod is removed. */
 static void work(mvs_sim *sim) {
   double at[3], tip[3] = {0, 0, 0.02}, axis[3] = {0, 0.1, 1};
   const mvs_id held = grasp(sim, 0, at);
@@ -103,9 +104,9 @@ static void a_plan_leads_tools_to_the_same_bits(void) {
   MUST(mvs_replay_plan(other, made.text, made.size, &replay));
   CHECK(replay.same_valve == 1 && replay.same_result == 1);
   CHECK(same_hash(sim_hash(sim), sim_hash(other)));
-  /* and the plan of that is the same one */
+  /* and the plan of the replay is the same plan */
   const plan again = plan_of(other);
-  CHECK(again.size == made.size && memcmp(again.text, made.text, made.size) == 0);
+  CHECK(again.size == made.size && same_bits(again.text, made.text, made.size));
   free(made.text);
   free(again.text);
   mvs_destroy(sim);
@@ -125,7 +126,7 @@ static void looking_on_changes_no_plan(void) {
     if (k % 7 == 0) state_of(watched, seen);
   }
   const plan alone = plan_of(sim), followed = plan_of(watched);
-  CHECK(alone.size == followed.size && memcmp(alone.text, followed.text, alone.size) == 0);
+  CHECK(alone.size == followed.size && same_bits(alone.text, followed.text, alone.size));
   free(alone.text);
   free(followed.text);
   mvs_destroy(sim);
@@ -146,7 +147,7 @@ static void a_session_keeps_what_hands_did(void) {
   MUST(mvs_create(NULL, &other));
   MUST(mvs_load_memory(other, bytes, size, MVS_FORMAT_H5));
   const plan made = plan_of(sim), loaded = plan_of(other);
-  CHECK(made.size == loaded.size && memcmp(made.text, loaded.text, made.size) == 0);
+  CHECK(made.size == loaded.size && same_bits(made.text, loaded.text, made.size));
   mvs_snapshot_release(snapshot);
   free(bytes);
   free(made.text);
@@ -155,7 +156,7 @@ static void a_session_keeps_what_hands_did(void) {
   mvs_destroy(other);
 }
 
-/* The plan's tools come beside those that are held, and theirs stay as they are. */
+/* The plan's tools are added beside the tools that are held, which stay unchanged. */
 static void a_plan_touches_no_tool_that_was_held(void) {
   mvs_sim *sim = make_sim(), *busy = make_sim();
   double at[3];
@@ -166,20 +167,21 @@ static void a_plan_touches_no_tool_that_was_held(void) {
   const mvs_tool_state before = state_of(busy, mine);
   MUST(mvs_replay_plan(busy, made.text, made.size, &replay));
   CHECK(replay.same_valve == 0 && replay.same_result == 0);
-  CHECK(tools_in(busy) == 2); /* mine, and the grasp that the plan did not let go */
+  /* the simulator's own tool, and the grasp that the plan did not remove */
+  CHECK(tools_in(busy) == 2);
   const mvs_tool_state after = state_of(busy, mine);
   CHECK(after.node == before.node);
   CHECK(is_same_place(after.position, before.position));
   const mvs_tool_state led = state_of(busy, mine + 1), there = state_of(sim, mine);
   CHECK(led.node == there.node);
   CHECK(is_same_place(led.position, there.position));
-  /* what came of it is a history of its own: its plan leads there from the open valve */
+  /* the result has a history of its own: its plan leads there from the open valve */
   mvs_sim *third = make_sim();
   const plan both = plan_of(busy);
   MUST(mvs_replay_plan(third, both.text, both.size, &replay));
   CHECK(replay.same_valve == 1 && replay.same_result == 1);
   CHECK(same_hash(sim_hash(third), sim_hash(busy)));
-  /* and once more on itself */
+  /* the plan applies a second time to its own result */
   MUST(mvs_replay_plan(busy, made.text, made.size, NULL));
   CHECK(tools_in(busy) == 3);
   CHECK(is_same_place(state_of(busy, mine).position, before.position));

@@ -1,4 +1,4 @@
-/* Finer and coarser levels of a simulator's valve, and states between them. */
+/* Finer and coarser mesh levels of a simulator's valve, and states mapped between them. */
 #include <math.h>
 
 #include "check.h"
@@ -39,7 +39,7 @@ static void refining_keeps_old_nodes_and_tells_new_ones(void) {
   const uint32_t *origin = view(after, MVS_ARRAY_NODE_ORIGIN).data;
   CHECK(view(after, MVS_ARRAY_TRIANGLE_NODES).count ==
         4 * view(before, MVS_ARRAY_TRIANGLE_NODES).count);
-  CHECK(memcmp(old.data, made.data, old.count * 3 * sizeof(double)) == 0);
+  CHECK(same_bits(old.data, made.data, old.count * 3 * sizeof(double)));
   for (uint64_t n = 0; n < made.count; ++n) {
     CHECK(origin[n] == (n < old.count ? (uint32_t)n : UINT32_MAX));
   }
@@ -60,8 +60,8 @@ static void coarsening_says_what_it_did_and_where_nodes_are_from(void) {
   const double *fine_rest = view(fine, MVS_ARRAY_NODE_REST).data;
   for (uint64_t n = 0; n < rest.count; ++n) {
     const uint32_t from = ((const uint32_t *)origin.data)[n];
-    CHECK(memcmp((const double *)rest.data + 3 * n, fine_rest + (size_t)3 * from,
-                 3 * sizeof(double)) == 0);
+    CHECK(same_bits((const double *)rest.data + 3 * n, fine_rest + (size_t)3 * from,
+                    3 * sizeof(double)));
   }
   mvs_snapshot_release(fine);
   mvs_snapshot_release(coarse);
@@ -99,7 +99,7 @@ static void a_closed_valve_goes_over_to_a_finer_level(void) {
   mvs_comparison distance = {0};
   distance.struct_size = sizeof distance;
   MUST(mvs_snapshot_compare(carried_over, closed, &distance));
-  /* as far apart as the two surfaces are at rest, edges being 3.5 mm long */
+  /* the distance of the two surfaces at rest, with edges of 3.5 mm */
   CHECK(distance.surface_rms < 0.3e-3);
   MUST(mvs_restore(sim, closed));
   MUST(mvs_transfer_state(sim, carried_over));

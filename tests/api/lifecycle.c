@@ -1,4 +1,4 @@
-/* A simulator from create to destroy, and what its snapshots keep. */
+/* A simulator from create to destroy, and the data that its snapshots keep alive. */
 #include <math.h>
 
 #include "check.h"
@@ -32,7 +32,7 @@ static void restore_brings_back_every_bit(void) {
   CHECK(!same_hash(before, settled));
   MUST(mvs_restore(sim, start));
   CHECK(same_hash(before, sim_hash(sim)));
-  /* and the way on from there is the same again */
+  /* and the steps from there give the same bits again */
   MUST(mvs_set_load(sim, &load));
   MUST(mvs_settle(sim, NULL, NULL));
   CHECK(same_hash(settled, sim_hash(sim)));
@@ -149,7 +149,7 @@ static void every_backend_is_there_or_refused(void) {
     there += result == MVS_OK;
     mvs_destroy(sim);
   }
-  CHECK(there >= 2); /* the default, and the one it is */
+  CHECK(there >= 2); /* the default and the one in use */
 }
 
 static void null_is_accepted_where_it_is_said(void) {

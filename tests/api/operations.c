@@ -1,4 +1,5 @@
-/* Operations: the same verdict from check and apply, exact undo and redo, groups, checkpoints. */
+/* Operations: check and apply give the same verdict, undo and redo are exact, groups, checkpoints.
+ * */
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -45,7 +46,7 @@ static void close_a_bit(void) {
   MUST(mvs_settle(sim, &options, NULL));
 }
 
-/* One operation of each kind that this valve takes. */
+/* One operation of each kind that this valve accepts. */
 enum { most_examples = 16 };
 typedef union example {
   mvs_op op;
@@ -133,7 +134,7 @@ static void undoing_everything_gives_the_first_valve(void) {
   const int count = make_examples(list);
   int done = 0;
   for (int k = 0; k < count; ++k) {
-    /* what was cut cannot be transferred any more */
+    /* a chord that was cut cannot be transferred */
     if (mvs_apply_op(sim, &list[k].op, NULL) == MVS_OK) ++done;
     close_a_bit();
   }
@@ -143,7 +144,7 @@ static void undoing_everything_gives_the_first_valve(void) {
   CHECK(same_hash(first, sim_hash(sim)));
   MUST_FAIL(mvs_undo(sim), MVS_E_STATE, "no operation to undo");
   for (int k = 0; k < done; ++k) MUST(mvs_redo(sim));
-  CHECK(!same_hash(last_before, sim_hash(sim))); /* redo gives what was right after the operation */
+  CHECK(!same_hash(last_before, sim_hash(sim))); /* redo gives the bits right after the operation */
   MUST_FAIL(mvs_redo(sim), MVS_E_STATE, "no operation to redo");
 }
 
@@ -204,7 +205,7 @@ static void checkpoints_are_places_to_come_back_to(void) {
   MUST_FAIL(mvs_set_checkpoint(sim, ""), MVS_E_ARGUMENT, "1 to 63 bytes");
 }
 
-/* Check and apply say the same, and nothing changes. */
+/* Check and apply return the same code and sentence, and the state is unchanged. */
 static void must_refuse(const void *op, mvs_result code, const char *word, int line) {
   char said[sizeof mvs_last_error()->message];
   const hash128 before = sim_hash(sim);
@@ -278,7 +279,7 @@ static void what_cannot_be_done_is_said(void) {
   MUST_FAIL(mvs_check_op(sim, NULL), MVS_E_ARGUMENT, "null pointer");
 }
 
-/* A chord that was dragged with the tension it has ends where it was dragged to. */
+/* A chord that is moved at its present tension ends at the requested place. */
 static void a_dragged_chord_has_the_length_to_there(void) {
   new_valve();
   mvs_op_chord_length drag = {
@@ -301,7 +302,7 @@ static void a_dragged_chord_has_the_length_to_there(void) {
   mvs_snapshot_release(snapshot);
 }
 
-/* What a test asks of a chord: how long it is at rest, and the node of a leaflet that it holds. */
+/* A chord's rest length and the leaflet node that it holds. */
 typedef struct seen_chord {
   double length;
   uint32_t leaflet_end;
@@ -320,8 +321,8 @@ static seen_chord see(const char *chord) {
   return seen;
 }
 
-/* A surgeon who ties a chord to another head does so at a length that lets the leaflet close: that
- * of a new chord between the same places. One who sews its other end on leaves it as long. */
+/* Transferring a chord to another head sets the length that lets the leaflet close: that of a new
+ * chord between the same places. Moving its leaflet end keeps its length. */
 static void a_chord_tied_to_another_head_gets_the_length_of_a_new_one(void) {
   new_valve();
   mvs_op_chord_transfer transfer = {.op = {sizeof transfer, MVS_OP_CHORD_TRANSFER},
@@ -335,7 +336,7 @@ static void a_chord_tied_to_another_head_gets_the_length_of_a_new_one(void) {
   const double kept = see("A1/2").length;
   MUST(mvs_apply_op(sim, &add.op, NULL));
   const double wanted = see("new").length;
-  CHECK(wanted > 1.2 * kept); /* PM3 is on the far side: kept, it would be torn */
+  CHECK(wanted > 1.2 * kept); /* PM3 is on the far side: with its old length the chord would tear */
   MUST(mvs_undo(sim));
   MUST(mvs_apply_op(sim, &transfer.op, NULL));
   CHECK(see("A1/2").length == wanted);
@@ -351,7 +352,7 @@ static void a_chord_tied_to_another_head_gets_the_length_of_a_new_one(void) {
   CHECK(see("A1/2").length == kept);
 }
 
-/* Every field that a struct has is described where it lies. */
+/* Every field of an operation's struct is described with its offset. */
 static void operations_describe_themselves(void) {
   CHECK(mvs_get_op_count() >= 7);
   for (uint32_t k = 0; k < mvs_get_op_count(); ++k) {

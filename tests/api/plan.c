@@ -1,5 +1,4 @@
 /* Plans replay to the same bits; journals survive a killed process. */
-#define _POSIX_C_SOURCE 200809L
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -7,7 +6,7 @@
 
 #include "check.h"
 
-static char path[64]; /* of the journal at work */
+static char path[64]; /* path of the open journal */
 static mvs_id named(mvs_sim *sim, uint32_t kind, const char *name) {
   const mvs_snapshot *snapshot = NULL;
   mvs_part part = {0};
@@ -88,13 +87,13 @@ static void a_plan_replays_to_the_same_bits(void) {
   MUST(mvs_replay_plan(again, text, size, &replay));
   CHECK(replay.operations == 3 && replay.same_valve == 1 && replay.same_result == 1);
   CHECK(same_hash(sim_hash(sim), sim_hash(again)));
-  /* groups as well: one undo takes back both operations */
+  /* groups as well: one undo reverts both operations */
   MUST(mvs_undo(sim));
   MUST(mvs_undo(again));
   CHECK(same_hash(sim_hash(sim), sim_hash(again)));
   MUST(mvs_redo(sim));
   MUST(mvs_redo(again));
-  /* on another valve by name and place */
+  /* on another valve, by name and place */
   MUST(mvs_replay_plan(other, text, size, &replay));
   CHECK(replay.operations == 3 && replay.same_valve == 0 && replay.same_result == 0);
   CHECK(named(other, MVS_PART_CHORD, "new one") != 0);
@@ -107,7 +106,7 @@ static void a_plan_replays_to_the_same_bits(void) {
   mvs_destroy(other);
 }
 
-/* Entries tell when they were applied; all else of two plans can be compared byte for byte. */
+/* Entries hold their time of application; all other bytes of two plans can be compared. */
 static void blank_times(char *text) {
   static const char key[] = "\"time\": \"";
   for (char *at = text; (at = strstr(at, key)) != NULL;) {
@@ -152,7 +151,8 @@ static void remove_blanks(char *text) {
   *to = 0;
 }
 
-/* Equal steps in a row are one step of the plan, however they were taken. */
+/* Consecutive equal steps are one entry of the plan, whether they were taken in one call or
+ * several. */
 static void equal_steps_are_counted_together(void) {
   static const char plan[] = PLAN(
       "{\"do\":\"load\",\"pressure_Pa\":9000,\"boundary_fraction\":1},"
@@ -175,7 +175,7 @@ static void equal_steps_are_counted_together(void) {
   mvs_destroy(stepped);
 }
 
-/* A step taken with a budget is replayed with it, and counted apart from others. */
+/* A step with a budget is replayed with that budget, in an entry of its own. */
 static void steps_keep_their_budget(void) {
   mvs_sim *sim = new_valve(200), *again = new_valve(200);
   const mvs_load_case load = {sizeof load, 0, 9000, 1};
@@ -194,7 +194,7 @@ static void steps_keep_their_budget(void) {
   mvs_destroy(again);
 }
 
-/* A host that ends the work at a call of its progress callback. */
+/* A host that cancels at a given call of its progress callback. */
 typedef struct host {
   int calls, stop_at;
   double share;
@@ -207,7 +207,7 @@ static int32_t tell(void *user, double share, double residual) {
   return ++h->calls == h->stop_at;
 }
 
-/* More steps than anybody can wait for end when the host says so, and nothing has happened. */
+/* A replay of 1e12 steps ends when the host cancels, and the state is unchanged. */
 static void a_cancelled_replay_changes_nothing(void) {
   static const char plan[] = PLAN(
       "{\"do\":\"annulus_scale\",\"factor\":0.9},"
@@ -289,9 +289,10 @@ static void session(mvs_sim *sim, int steps, hash128 *after) {
 
 static char *whole_file(size_t *size) {
   FILE *file = fopen(path, "rb");
-  char *bytes = malloc(1 << 20);
-  *size = file ? fread(bytes, 1, 1 << 20, file) : 0;
-  if (file) fclose(file);
+  char *bytes = calloc(1, 1 << 20);
+  if (!file || !bytes) exit(2);
+  *size = fread(bytes, 1, 1 << 20, file);
+  fclose(file);
   return bytes;
 }
 
@@ -301,7 +302,8 @@ static void write_file(const char *bytes, size_t size) {
   if (file) fclose(file);
 }
 
-/* A child is killed after each record; what it did is recovered, and the journal goes on. */
+/* A child process is killed after each record; the session is recovered, and the journal continues.
+ * */
 static void a_killed_process_loses_nothing(void) {
   hash128 wanted[session_length];
   mvs_sim *whole = new_valve(200);
@@ -328,7 +330,7 @@ static void a_killed_process_loses_nothing(void) {
   mvs_destroy(whole);
 }
 
-/* The last record is cut at many bytes: what stands before it is recovered. */
+/* The last record is cut at many bytes: the records before it are recovered. */
 static void a_torn_record_is_dropped(void) {
   hash128 wanted[session_length];
   size_t size = 0;
@@ -338,14 +340,14 @@ static void a_torn_record_is_dropped(void) {
   session(sim, session_length, wanted);
   mvs_destroy(sim);
   char *bytes = whole_file(&size);
-  size_t last = size - 1;
-  while (bytes[last - 1] != '\n') --last;
+  size_t last = size > 0 ? size - 1 : 0;
+  while (last > 0 && bytes[last - 1] != '\n') --last;
   for (size_t cut = last; cut < size; cut += (size - last) / 7 + 1) {
     write_file(bytes, cut);
     sim = new_valve(200);
     MUST(mvs_recover_journal(sim, path, NULL));
     CHECK(same_hash(wanted[session_length - 2], sim_hash(sim)));
-    /* it goes on where the whole records end */
+    /* it continues after the last complete record */
     shorten(sim, "A2/2", 1.1);
     CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
     mvs_destroy(sim);
@@ -354,7 +356,7 @@ static void a_torn_record_is_dropped(void) {
     CHECK(same_hash(wanted[session_length - 1], sim_hash(sim)));
     mvs_destroy(sim);
   }
-  /* damage in the middle is no crash */
+  /* damage in the middle is reported as an error */
   bytes[size / 2] ^= 1;
   write_file(bytes, size);
   sim = new_valve(200);
@@ -376,7 +378,7 @@ static void a_restored_snapshot_is_recovered_with_its_history(void) {
   const mvs_snapshot *early = NULL;
   mvs_sim *sim = new_valve(200);
   remove(path);
-  shorten(sim, "P2/3", 0.75); /* before the journal: its first record has it */
+  shorten(sim, "P2/3", 0.75); /* before the journal starts: its first record includes it */
   MUST(mvs_open_journal(sim, path));
   close_a_bit(sim);
   MUST(mvs_set_checkpoint(sim, "one"));

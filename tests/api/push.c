@@ -1,5 +1,5 @@
-/* A ball pressed into a closed valve and drawn back: it comes along; and is itself, whatever pushed
- * before it. */
+/* A ball that is pressed into a closed valve and drawn back follows its hand, and the result does
+ * not depend on earlier tools. */
 #include <math.h>
 
 #include "check.h"
@@ -8,7 +8,7 @@ static mvs_sim *sim;
 static const mvs_snapshot *closed;
 static double frame[12];
 
-/* Where a hand pushes, how deep, and how far it goes in each step. */
+/* A push: its place, its depth, the distance that the hand moves in each step. */
 typedef struct push {
   double dt, each, ap, cc, depth, stiffness;
 } push;
@@ -22,7 +22,7 @@ static void close_valve(void) {
   MUST(mvs_snapshot_get_frame(closed, frame));
 }
 
-/* So far along AP and CC from the middle of the annulus, and up into the atrium. */
+/* A point at these distances along AP and CC from the annulus centroid, up in the atrium. */
 static void place(const push *p, double up, double at[3]) {
   for (int k = 0; k < 3; ++k) {
     at[k] = frame[k] + p->ap * frame[3 + k] + p->cc * frame[6 + k] + up * frame[9 + k];
@@ -35,7 +35,8 @@ static double height(const double at[3]) {
   return up;
 }
 
-/* The most steps in a row in which a ball stayed although its hand was above it and went on up. */
+/* The largest number of consecutive steps in which a ball stayed although its hand, above it, moved
+ * up. */
 static int steps_stuck(const push *p) {
   const double top = 10e-3;
   const int down = (int)lround(p->depth / p->each);
@@ -57,8 +58,8 @@ static int steps_stuck(const push *p) {
     MUST(mvs_step(sim, &step));
     MUST(mvs_get_tool(sim, tool, &state));
     const double now = height(state.proxy);
-    /* above it by more than lets a ball rest on tissue, and still it went less than a tenth of what
-     * the hand did */
+    /* its hand is farther above it than a ball at rest on tissue allows, and it moved by less than
+     * a tenth of the hand's step */
     const int is_stuck = k > down && hand > now + 0.1e-3 && fabs(now - last) < 0.1 * p->each;
     stuck = is_stuck ? stuck + 1 : 0;
     if (stuck > most) most = stuck;
@@ -67,8 +68,9 @@ static int steps_stuck(const push *p) {
   return most;
 }
 
-/* The worst of 480 pushes all over the leaflets, at 0.1 to 1 mm in steps of 1 and 4 ms: these stuck
- * for 33, 42, 11, 9, 16 and 31 steps, pulled at with up to 5 N. */
+/* The most sensitive six of 480 pushes, all over the leaflets, at 0.1 to 1 mm in steps of 1 and 4
+ * ms: a defective solver held these balls for 33, 42, 11, 9, 16 and 31 steps, pulled with up to 5
+ * N. */
 static void a_ball_drawn_back_comes_along(void) {
   static const push pushes[] = {
       {1e-3, 0.1e-3, -8e-3, 0, 18e-3, 200},   {1e-3, 0.1e-3, -8e-3, 6e-3, 18e-3, 1000},
@@ -78,12 +80,12 @@ static void a_ball_drawn_back_comes_along(void) {
   for (size_t k = 0; k < sizeof pushes / sizeof *pushes; ++k) {
     const int stuck = steps_stuck(&pushes[k]);
     printf("push %zu: stuck for %d steps\n", k + 1, stuck);
-    /* two: a step in which the hand passes the ball, and one that is cut */
+    /* two: a step in which the hand passes the ball, and a shortened one */
     CHECK(stuck <= 2);
   }
 }
 
-/* The hash after a ball or rod went down by 15 mm into the closed valve. */
+/* The hash after a ball or rod moved down by 15 mm into the closed valve. */
 static hash128 pushed(mvs_sim *by, mvs_tool_desc tool) {
   const push p = {1e-3, 1e-3, -8e-3, 0, 15e-3, 1000};
   mvs_tool_state state = {.struct_size = sizeof state};
@@ -100,8 +102,8 @@ static hash128 pushed(mvs_sim *by, mvs_tool_desc tool) {
   return sim_hash(by);
 }
 
-/* Going back takes an id back too, and the next tool gets it: what worked with the first one has to
- * forget how large that was. */
+/* Restoring a snapshot also restores the next tool id, and the next tool gets it: data cached for
+ * the first tool with that id must not be used for it. */
 static void a_tool_with_the_id_of_another_is_its_own(void) {
   static const mvs_tool_desc first[] = {
       {.struct_size = sizeof *first, .kind = MVS_TOOL_KIND_BALL, .radius = 2e-3},

@@ -1,4 +1,5 @@
-/* Who changes a valve that is stepped pays for it then, not in the next step; and no bit tells. */
+/* A call that changes a stepped valve prepares the solver in that call, not in the next step,
+ * without changing any bit. */
 #include "check.h"
 
 static mvs_sim *sim;
@@ -38,7 +39,7 @@ static void shorten_and_lay_a_ball(void) {
   MUST(mvs_add_tool(sim, &ball, &tool));
 }
 
-/* A simulator that begins there has everything to make in its first step. */
+/* A simulator that starts from this state prepares everything in its first step. */
 static void the_next_step_makes_no_factor(void (*change)(void)) {
   const mvs_snapshot *changed = NULL;
   mvs_sim *fresh = NULL;

@@ -1,5 +1,5 @@
-/* The next steps depend on the snapshot alone: not on the steps before it, nor on where it was
- * kept. */
+/* The next steps depend on the snapshot alone: not on the steps before it, nor on whether it was
+ * kept in memory or in a file. */
 #include <stdlib.h>
 
 #include "check.h"

@@ -1,4 +1,5 @@
-/* HDF5 files: the whole of a session comes back, and goes on as if it had never been saved. */
+/* HDF5 files restore a whole session, which continues with the same bits as if it had not been
+ * saved. */
 #include <stdlib.h>
 
 #include "check.h"
@@ -53,7 +54,7 @@ static void steps(mvs_sim *of, uint32_t solver, int count) {
   for (int k = 0; k < count; ++k) MUST(mvs_step(of, &how));
 }
 
-/* A moving valve with four operations behind it, the last one undone. */
+/* A moving valve with four operations in its history, the last one undone. */
 static void make_session(uint32_t solver) {
   mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
   mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
@@ -122,12 +123,12 @@ static void the_history_is_listed_as_before(void) {
   MUST(mvs_snapshot_get_history(a, &history));
   MUST(mvs_snapshot_get_history(b, &again));
   CHECK(history.done == 3 && history.undone == 1 && history.checkpoints == 1);
-  CHECK(memcmp(&history, &again, sizeof history) == 0);
+  CHECK(same_bits(&history, &again, sizeof history));
   for (uint32_t k = 0; k < 4; ++k) {
     mvs_history_entry x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
     MUST(mvs_snapshot_get_history_entry(a, k, &x));
     MUST(mvs_snapshot_get_history_entry(b, k, &y));
-    CHECK(memcmp(&x, &y, sizeof x) == 0);
+    CHECK(same_bits(&x, &y, sizeof x));
   }
   const char *name = NULL;
   MUST(mvs_snapshot_get_checkpoint(b, 0, &name));

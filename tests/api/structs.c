@@ -1,4 +1,4 @@
-/* Structs of older and newer programs than the library. */
+/* Structs of programs compiled against older and newer headers than the library. */
 #include <stddef.h>
 
 #include "check.h"
@@ -7,7 +7,7 @@
 static funnel f;
 static mvs_sim *sim;
 
-/* A load as a program of a later version would hand it over. */
+/* A load as a program of a later version passes it. */
 typedef struct later_load {
   mvs_load_case known;
   double unknown[2];
@@ -37,7 +37,7 @@ static void output_is_filled_as_far_as_the_caller_reaches(void) {
   read.struct_size = offsetof(mvs_load_case, boundary_fraction);
   MUST(mvs_get_load(sim, &read));
   CHECK(read.pressure == set.pressure);
-  CHECK(read.boundary_fraction == -2); /* beyond the end that was told */
+  CHECK(read.boundary_fraction == -2); /* beyond the size that the caller stated */
   CHECK(read.struct_size == offsetof(mvs_load_case, boundary_fraction));
   later_load later = {{sizeof later, 0, 0, 0}, {7, 7}};
   MUST(mvs_get_load(sim, &later.known));

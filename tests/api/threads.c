@@ -1,4 +1,4 @@
-/* Many readers of one snapshot, and of the latest one while its simulator works. */
+/* Many threads read one snapshot, and the latest snapshot while its simulator works. */
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -42,7 +42,7 @@ static void *read_latest(void *user) {
     r->bad |= view.count != FUNNEL_NODES;
     r->bad |= mvs_snapshot_get_array(r->snapshot, MVS_ARRAY_CHORD_TENSION, &view) != MVS_OK;
     mvs_snapshot_release(r->snapshot);
-    /* a failure here is nobody else's */
+    /* failures are counted per thread */
     r->bad |= mvs_snapshot_get_hash(NULL, r->hash.word) != MVS_E_ARGUMENT;
     r->bad |= mvs_last_error()->code != MVS_E_ARGUMENT;
   }
@@ -73,8 +73,8 @@ static void readers_agree_on_one_snapshot(void) {
     pthread_join(threads[k], NULL);
     CHECK(!readers[k].bad);
     CHECK(same_hash(readers[k].hash, readers[0].hash));
-    CHECK(memcmp(&readers[k].measures, &readers[0].measures, sizeof readers[k].measures) == 0);
-    CHECK(memcmp(readers[k].data, readers[0].data, sizeof readers[k].data) == 0);
+    CHECK(same_bits(&readers[k].measures, &readers[0].measures, sizeof readers[k].measures));
+    CHECK(same_bits(readers[k].data, readers[0].data, sizeof readers[k].data));
   }
   mvs_snapshot_release(snapshot);
 }

@@ -1,4 +1,4 @@
-/* Another tissue for a leaflet. */
+/* Another tissue law for a leaflet. */
 #include <math.h>
 #include <string.h>
 
@@ -95,7 +95,7 @@ static void a_valve_closes_in_every_law_of_tissue(void) {
     MUST(mvs_set_leaflet(sim, 0, &tissue));
     strain[k] = close_valve().max_leaflet_strain;
     CHECK(strain[k] > 0.05 && strain[k] < 2);
-    for (int j = 0; j < k; ++j) CHECK(strain[j] != strain[k]); /* they are different tissues */
+    for (int j = 0; j < k; ++j) CHECK(strain[j] != strain[k]); /* the tissues differ */
   }
 }
 

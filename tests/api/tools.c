@@ -1,4 +1,5 @@
-/* Instruments across the interface: their lives, what is refused, what keeps them. */
+/* Instruments through the C interface: life cycle, refused calls, and the calls that keep or remove
+ * them. */
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -57,10 +58,11 @@ static void a_grasp_takes_the_nearest_vertex_and_is_moved_and_let_go(void) {
   CHECK(held.id == tool && held.kind == MVS_TOOL_KIND_GRASP && held.node == node &&
         held.touching == 1);
   CHECK(held.stiffness == 200 && held.max_force == 5);
-  CHECK(fabs(held.force[2] + 200 * 1e-4) < 1e-12); /* the spring as it lies, down on the hand */
+  /* the spring at its present length, pulling the hand down */
+  CHECK(fabs(held.force[2] + 200 * 1e-4) < 1e-12);
   CHECK(!same_hash(before, sim_hash(sim)));
 
-  /* a move is nothing until a step begins with it */
+  /* a move has no effect until a step begins with it */
   const hash128 added = sim_hash(sim);
   at[2] += 3e-3;
   MUST(mvs_move_tool(sim, tool, at, NULL));
@@ -147,7 +149,7 @@ static void a_node_of_the_annulus_cannot_be_held(void) {
   mvs_snapshot_release(snapshot);
 }
 
-/* A grasp that pulls, a ball that is pushed down the orifice, ten steps on. */
+/* A grasp that pulls, a ball that is pushed down the orifice, after ten steps. */
 static void make_work(mvs_id tools[2]) {
   uint32_t node;
   double at[3];
@@ -173,7 +175,8 @@ static void undo_and_restore_bring_tools_back(void) {
   const mvs_snapshot *then = present(sim);
   mvs_op_annulus_scale smaller = {{sizeof smaller, MVS_OP_ANNULUS_SCALE}, 0.97, 0, 0};
   MUST(mvs_apply_op(sim, &smaller.op, NULL));
-  CHECK(state_of(sim, tools[0]).id == tools[0]); /* an operation lets go of nothing that stays */
+  /* an operation keeps the tools on all remaining nodes */
+  CHECK(state_of(sim, tools[0]).id == tools[0]);
   MUST(mvs_remove_tool(sim, tools[0]));
   MUST(mvs_remove_tool(sim, tools[1]));
   MUST(mvs_undo(sim));
@@ -183,7 +186,7 @@ static void undo_and_restore_bring_tools_back(void) {
   const hash128 on = sim_hash(sim);
   const double away[3] = {0, 0, 0.05};
   MUST(mvs_move_tool(sim, tools[1], away, NULL));
-  MUST(mvs_restore(sim, then)); /* forgets the move */
+  MUST(mvs_restore(sim, then)); /* discards the pending move */
   CHECK(same_hash(worked, sim_hash(sim)));
   steps(sim, 5);
   CHECK(same_hash(on, sim_hash(sim)));
@@ -226,7 +229,7 @@ static void a_session_keeps_tools_and_the_steps_to_come(void) {
   steps(other, 50);
   CHECK(same_hash(sim_hash(sim), sim_hash(other)));
   const mvs_tool_state one = state_of(sim, tools[1]), two = state_of(other, tools[1]);
-  CHECK(memcmp(&one, &two, sizeof one) == 0);
+  CHECK(same_bits(&one, &two, sizeof one));
   mvs_destroy(other);
 }
 
@@ -260,7 +263,7 @@ static void a_plan_does_with_tools_what_was_done(void) {
   free(text);
 }
 
-/* A hand in a thread of its own, as fast as it can. */
+/* A hand that moves in a thread of its own, as fast as it can. */
 typedef struct hand {
   mvs_id tool;
   double at[3];
@@ -288,7 +291,8 @@ static void a_hand_moves_from_another_thread(void) {
   pthread_join(thread, NULL);
   CHECK(!h.bad);
   steps(sim, 1);
-  CHECK(state_of(sim, h.tool).position[2] == h.at[2]); /* the last of them, whatever came before */
+  /* the last position, independent of the earlier ones */
+  CHECK(state_of(sim, h.tool).position[2] == h.at[2]);
 }
 
 static void a_failed_settle_keeps_what_the_hand_wants(void) {

@@ -1,9 +1,10 @@
-/* What looks like a number in a wrong unit is warned of, and nothing else is. */
+/* A value that looks like a number in a wrong unit causes a warning; values in the usual range do
+ * not. */
 #include "check.h"
 #include "funnel.h"
 
 typedef struct host {
-  char told[1024]; /* the warnings, one after the other */
+  char told[1024]; /* the warnings, concatenated */
   int warnings;
 } host;
 
@@ -29,7 +30,7 @@ static void must_warn(mvs_result result, int count, const char *words, int line)
   heard = (host){0};
 }
 #define WARNS(call, count, words) must_warn(call, count, words, __LINE__)
-/* The same of the funnel with something changed. */
+/* The warnings of the funnel with one change. */
 #define CHANGED(change, count, words)                                   \
   do {                                                                  \
     make_funnel(&f);                                                    \
@@ -47,7 +48,7 @@ static mvs_result tissue(uint32_t law, double first, double second) {
   return mvs_set_leaflet(sim, 0, &to);
 }
 
-/* What papers have is not warned of: every law with its defaults, and the softest and stiffest
+/* Published values cause no warning: every law with its defaults, and the softest and stiffest
  * natural chordae (Kunzelman and Cochran 1990: 10 to 130 MPa). */
 static void what_tissue_is_like_is_not_warned_of(void) {
   mvs_law law = {.struct_size = sizeof law};

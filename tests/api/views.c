@@ -1,4 +1,4 @@
-/* Every array, part and figure of a snapshot: sizes, types, values that are known. */
+/* Every array, part and measure of a snapshot: sizes, types, values with a closed form. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -82,7 +82,7 @@ static void every_array_has_its_size_and_type(void) {
     CHECK(view.stride == view.components * size[view.type]);
     CHECK(view.data != NULL || view.count == 0);
     mvs_view again = view_of(arrays[k].which);
-    CHECK(again.data == view.data); /* worked out once, stays where it is */
+    CHECK(again.data == view.data); /* computed once, at a fixed address */
   }
 }
 
@@ -96,10 +96,10 @@ static void every_number_between_names_an_array_or_none(void) {
 }
 
 static void arrays_show_what_was_set(void) {
-  CHECK(memcmp(view_of(MVS_ARRAY_NODE_POSITION).data, f.nodes, sizeof f.nodes) == 0);
-  CHECK(memcmp(view_of(MVS_ARRAY_TRIANGLE_NODES).data, f.triangles, sizeof f.triangles) == 0);
-  CHECK(memcmp(view_of(MVS_ARRAY_TRIANGLE_LEAFLET).data, f.leaflet, sizeof f.leaflet) == 0);
-  CHECK(memcmp(view_of(MVS_ARRAY_ANNULUS_NODES).data, f.annulus, sizeof f.annulus) == 0);
+  CHECK(same_bits(view_of(MVS_ARRAY_NODE_POSITION).data, f.nodes, sizeof f.nodes));
+  CHECK(same_bits(view_of(MVS_ARRAY_TRIANGLE_NODES).data, f.triangles, sizeof f.triangles));
+  CHECK(same_bits(view_of(MVS_ARRAY_TRIANGLE_LEAFLET).data, f.leaflet, sizeof f.leaflet));
+  CHECK(same_bits(view_of(MVS_ARRAY_ANNULUS_NODES).data, f.annulus, sizeof f.annulus));
   const uint32_t *ends = view_of(MVS_ARRAY_CHORD_NODES).data,
                  *kind = view_of(MVS_ARRAY_CHORD_KIND).data;
   for (int c = 0; c < FUNNEL_CHORDS; ++c) {
@@ -126,7 +126,7 @@ static void parts_are_found_by_index_and_name(void) {
       MUST(mvs_snapshot_get_part(snapshot, kind, k, &part));
       CHECK(part.index == k && part.kind == kind && part.id != 0 && part.name[0] != 0);
       MUST(mvs_snapshot_find_part(snapshot, kind, part.name, &found));
-      CHECK(memcmp(&part, &found, sizeof part) == 0);
+      CHECK(same_bits(&part, &found, sizeof part));
     }
   }
 }
@@ -136,7 +136,7 @@ static void measures_of_the_open_funnel(void) {
   mvs_measures m = {.struct_size = sizeof m}, again = {.struct_size = sizeof again};
   MUST(mvs_snapshot_measure(snapshot, &m));
   MUST(mvs_snapshot_measure(snapshot, &again));
-  CHECK(memcmp(&m, &again, sizeof m) == 0);
+  CHECK(same_bits(&m, &again, sizeof m));
   double perimeter = 16 * 30e-3 * sin(3.14159265358979 / 16);
   CHECK(fabs(m.annulus_perimeter - perimeter) < 1e-12); /* rounding of pi in the funnel */
   CHECK(m.intersections == 0);
@@ -169,7 +169,8 @@ static void a_cut_gives_its_size_first_and_then_its_points(void) {
   CHECK(again == count);
   for (uint64_t k = 0; k < count; ++k) CHECK(fabs(points[3 * k + 2] + 7e-3) < 1e-15);
   points[3] = 42;
-  MUST(mvs_snapshot_section(snapshot, at, up, points, 1, &again)); /* no more than there is room */
+  /* no more points than the buffer holds */
+  MUST(mvs_snapshot_section(snapshot, at, up, points, 1, &again));
   CHECK(again == count && points[3] == 42);
   free(points);
 }

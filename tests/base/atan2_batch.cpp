@@ -1,4 +1,4 @@
-// Arc tangents beside those of the standard library.
+// math::atan2 for batches against std::atan2.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 using namespace mvs::core;
 
-TEST_CASE("arc_tangents_are_those_of_the_standard_library") {
+TEST_CASE("arc_tangents_match_the_standard_library_to_two_roundings") {
   std::vector<double> y, x;
   for (const double size : {1e-200, 1e-9, 1.0, 1e30}) {
     for (int k = -1000; k <= 1000; ++k) {
@@ -28,7 +28,7 @@ TEST_CASE("arc_tangents_are_those_of_the_standard_library") {
   }
 }
 
-TEST_CASE("arc_tangents_hold_on_the_axes") {
+TEST_CASE("arc_tangents_are_exact_on_the_axes") {
   const std::vector<double> y = {0, 0, 1, -1, 0}, x = {1, -1, 0, 0, 0};
   std::vector<double> angle(5);
   atan2_batch(y.data(), x.data(), angle.data(), 5);
@@ -36,7 +36,7 @@ TEST_CASE("arc_tangents_hold_on_the_axes") {
   CHECK(angle == std::vector<double>{0, pi, pi / 2, -pi / 2, 0});
 }
 
-TEST_CASE("an_arc_tangent_has_the_same_bits_alone_and_among_others") {
+TEST_CASE("an_arc_tangent_has_the_same_bits_alone_and_in_a_batch") {
   std::vector<double> y, x;
   for (int k = 0; k < 101; ++k) {
     y.push_back(std::sin(0.37 * k) * (1 + k % 7));

@@ -1,4 +1,5 @@
-// Elementary functions beside values that mpmath computed with 60 digits (math_tables.py).
+// Elementary functions against reference values that mpmath computed with 60 digits
+// (math_tables.py).
 #include "base/math.h"
 
 #include <doctest/doctest.h>
@@ -84,7 +85,7 @@ TEST_CASE("every_function_is_within_one_ulp_of_multiple_precision") {
   }
 }
 
-TEST_CASE("limits_and_zeros_are_those_of_ieee_754") {
+TEST_CASE("limits_and_zeros_follow_ieee_754") {
   CHECK(same(math::log(0), -infinity));
   CHECK(same(math::log(infinity), infinity));
   CHECK(same(math::log(1), 0));
@@ -123,7 +124,7 @@ TEST_CASE("limits_and_zeros_are_those_of_ieee_754") {
   }
 }
 
-TEST_CASE("a_small_system_is_solved") {
+TEST_CASE("a_small_linear_system_is_solved") {
   Eigen::Matrix<double, 4, 4> root;
   root << 2, 0, 0, 0, 1, 3, 0, 0, -1, 2, 1, 0, 0.5, 0, 1, 2;
   const Eigen::Matrix<double, 4, 4> a = root * root.transpose();
@@ -132,7 +133,7 @@ TEST_CASE("a_small_system_is_solved") {
   CHECK((mvs::core::solve_positive<4>(a, a * x) - x).norm() < 1e-13);
 }
 
-TEST_CASE("a_direction_without_stiffness_stays_zero") {
+TEST_CASE("a_direction_without_stiffness_has_zero_solution") {
   const Eigen::Matrix2d a = Eigen::Vector2d(4, 0).asDiagonal();
   const Eigen::Vector2d x = mvs::core::solve_positive<2>(a, Eigen::Vector2d(8, 0));
   CHECK(x[0] == 2);

@@ -1,4 +1,4 @@
-// Steps a closed valve with and without what a caller may want beside.
+// Steps a closed valve with and without each optional call of an application.
 #include "tests/bench/callers.h"
 
 #include <functional>
@@ -19,7 +19,7 @@ mvs::Sim closed_valve(uint32_t vertices) {
   return sim;
 }
 
-// The median of steps towards a lower pressure, each with what is done after it.
+// The median of steps towards a lower pressure, each followed by the optional call.
 double step_cost(mvs::Sim sim, int steps, const std::function<void(mvs::Sim &)> &after) {
   sim.set_load(0.9 * MVS_SYSTOLE_PA);
   std::vector<double> cpu_s;

@@ -1,4 +1,4 @@
-// What callers add to a step of time by what they ask for, through include/mvs.
+// Cost that an application's optional calls add to a step of time, through include/mvs.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct Part {
   double on, off;  // CPU seconds
 };
 
-// Snapshots taken or not, measures asked for or not, levels of undo or none, over so many steps.
+// With and without snapshots, measures and levels of undo, over so many steps.
 std::vector<Part> caller_parts(uint32_t vertices, int steps);
 
 }  // namespace bench

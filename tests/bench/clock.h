@@ -1,5 +1,5 @@
-// Seconds that this process worked, beside those of the clock on the wall: other work on the
-// machine adds to the second much, to the first little.
+// CPU seconds of this process beside wall-clock seconds: other work on the machine adds much to the
+// second, little to the first.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline double cpu_now() {
   return read_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
 
-// What a piece of work takes.
+// The cost of a piece of work.
 template <typename Work>
 Seconds timed(Work &&work) {
   const double wall = read_clock(CLOCK_MONOTONIC), cpu = cpu_now();
@@ -35,8 +35,8 @@ inline double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// The CPU seconds of the fastest of `rounds`, each of as many calls as take a millisecond: what
-// else runs on the machine only ever adds.
+// The CPU seconds of the fastest of `rounds`, each of as many calls as take a millisecond: other
+// work on the machine only ever adds.
 template <typename Work>
 double fastest(int rounds, Work &&work) {
   int calls = 1;

@@ -1,4 +1,4 @@
-// One closure from open, as a user has it: through include/mvs.
+// One closure from open through include/mvs, as an application closes a valve.
 #pragma once
 
 #include <mvs/profile.h>
@@ -12,7 +12,7 @@
 
 namespace bench {
 
-// Scenes by name: the shipped valve in as many vertices.
+// Scenes by name: the default valve with their number of vertices.
 inline const std::map<std::string, uint32_t> scene_vertices = {
     {"S", 425}, {"M", 1700}, {"L", 6800}, {"XL", 27000}};
 inline const std::map<std::string, uint32_t> solver_names = {{"newton", MVS_SOLVER_NEWTON},
@@ -21,7 +21,8 @@ inline const std::map<std::string, uint32_t> solver_names = {{"newton", MVS_SOLV
 inline const std::vector<std::string> phase_names = {"terms",    "broad",  "narrow", "assembly",
                                                      "ordering", "factor", "solve",  "line_search"};
 
-// A force on a node below which a valve is at rest; what every bench closes to, N.
+// The out-of-balance force on a node below which a valve is at rest, N; every benchmark closes to
+// it.
 inline constexpr double rest_residual = 1e-4;
 
 struct Case {
@@ -33,7 +34,7 @@ struct Case {
 
 struct Closing {
   size_t vertices = 0;    // of the leaflets
-  bool diverged = false;  // numbers left their range; what follows is then meaningless
+  bool diverged = false;  // a value is not finite; later results are then meaningless
   mvs_stats stats = {};   // of the last run
   mvs_measures measures = {};
   std::vector<double> cpu_s, wall_s;  // of each run
@@ -41,13 +42,14 @@ struct Closing {
   bool at_rest() const { return !diverged && stats.converged != 0; }
   double cpu() const { return median(cpu_s); }
   double wall() const { return median(wall_s); }
-  // CPU seconds of a phase: its share of the wall's.
+  // CPU seconds of a phase: its share of the wall time, times the CPU time.
   double phase(size_t k) const {
     return stats.wall_s > 0 ? stats.phase_s[k] / stats.wall_s * cpu() : 0;
   }
 };
 
-// Closes it `repeat` times, each in a simulator of its own, so that no run warms up the next.
+// Closes it `repeat` times, each in a new simulator, so that no run starts from another's cached
+// data.
 Closing close(const Case &of, int repeat);
 
 // The keys of a map, for options.

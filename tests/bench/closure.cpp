@@ -1,5 +1,5 @@
-// What closing a valve from open takes, to one residual: leaflets of springs and of membrane,
-// solver beside solver, and where the time goes.
+// Cost of closing a valve from open to one residual: leaflets of springs and of membrane, for each
+// solver and phase.
 //
 //   bench_closure                    scenes S, M, L with newton; S also with the founding paper's
 //                                    explicit method, at its largest stable step and best damping
@@ -88,7 +88,7 @@ std::vector<Row> run_all(const Options &options) {
   return rows;
 }
 
-// Explicit over newton, where both ran on a scene and both came to rest.
+// The ratio of explicit to newton, where both ran on a scene and both converged.
 void tell_ratios(const std::vector<Row> &rows) {
   for (const Row &slow : rows) {
     if (slow.of.solver != "explicit") continue;
@@ -139,7 +139,7 @@ int run(int argc, char **argv) {
   CLI::App app("Times the closure of generated valves, solver against solver.", "bench_closure");
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
-  // asking for solvers by name asks for no other one
+  // naming solvers runs only those
   if (app.count("--solvers") > 0 && app.count("--explicit") == 0) options.explicit_scenes.clear();
   tell_ratios(run_all(options));
   return 0;

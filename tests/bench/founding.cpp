@@ -1,4 +1,4 @@
-// The search for the founding method's step and damping; each try is a closure.
+// Search for the founding method's step and damping; each trial is a closure.
 #include "tests/bench/founding.h"
 
 #include <cmath>
@@ -8,16 +8,16 @@ namespace {
 
 constexpr double rung = 1.189207115002721;  // the fourth root of two
 constexpr double usual_damping = 500;       // 1/s
-constexpr double longest = 1.0;             // s simulated, after which a try has failed
+constexpr double longest = 1.0;             // s simulated, after which a trial has failed
 
-// A try is given up where it takes longer than the best so far.
+// A trial stops when it takes longer than the best so far.
 Closing attempt(Case of, const Closing *best) {
   of.most = static_cast<uint32_t>(longest / of.dt);
   if (best != nullptr) of.most = best->stats.iterations + best->stats.iterations / 4;
   return close(of, 1);
 }
 
-// The smallest edges are in proportion to 1 / sqrt(vertices), and so is what is stable.
+// The smallest edge, and with it the stable step, is in proportion to 1 / sqrt(vertices).
 double first_dt(const std::string &scene) {
   return 8e-6 * std::sqrt(425.0 / scene_vertices.at(scene));
 }

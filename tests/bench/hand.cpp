@@ -1,6 +1,6 @@
-// What a moving hand leaves behind: bytes a step in memory, in a plan and in a session, while
-// nobody looks at the valve and while somebody does at every step. Fails if a plan does not lead to
-// the same bits, or if a step costs more than the headers say.
+// Memory of a moving hand: bytes a step in memory, in a plan and in a session, with and without a
+// snapshot at every step. Fails if a plan does not lead to the same bits, or if a step costs more
+// than the headers state.
 //
 //   bench_hand [STEPS]
 #include <malloc.h>
@@ -16,10 +16,10 @@
 
 namespace {
 
-// include/mvs/tool.h tells these; a run is not always full, and a session has its pictures.
+// Limits stated in include/mvs/tool.h; a run is not always full, and a session has its snapshots.
 constexpr double most_memory = 40, most_plan = 50;  // bytes a step of a hand
 
-// In use of the heap of this process, bytes; 0 where a sanitizer keeps it.
+// Heap bytes in use by this process; 0 where a sanitizer replaces the heap.
 double in_use() {
   const struct mallinfo2 heap = mallinfo2();
   return static_cast<double>(heap.uordblks + heap.hblkhd);

@@ -4,10 +4,10 @@
     python3 tests/bench/instructions.py --update     and writes tests/bench/instructions.csv
 
 Seconds differ from run to run by a factor of two on a busy machine; instructions do not: the same
-binary and the same input take the same path, to the bit. bench_work closes the shipped valve, steps,
-measures, saves and loads it under valgrind's callgrind, which counts each function with all that it
+binary and the same input take the same path, to the bit. bench_work closes, steps, measures, saves
+and loads the default valve under valgrind's callgrind, which counts each function with all that it
 calls. Exit code 1: a count has grown by more than the tolerance. Another compiler or option gives
-other counts, so that the table names its compiler, and comparing with another one is only told.
+other counts, so the table names its compiler; with another compiler growth is only printed.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ ROOT = HERE.parents[1]
 TABLE = HERE / "instructions.csv"
 
 # The same binary repeats to one part in 10,000 (addresses decide how hash tables and allocations
-# fall); what changes by more than 2 % has been changed by somebody.
+# are laid out); a change by more than 2 % has a cause in the code.
 TOLERANCE = 0.02
 
 WORK = {
@@ -42,7 +42,7 @@ WORK = {
     "of these: chordae": "mvs::core::CableTerm::",
     "of these: membrane": "mvs::core::MembraneTerm::",
 }
-"""What is counted, and the function (or the start of the functions) that does it."""
+"""A counted piece of work, and the function (or the start of the functions) that does it."""
 
 
 def counts(valgrind: str, program: Path) -> dict[str, int]:
@@ -72,7 +72,7 @@ def compiler(build: Path) -> str:
 
 
 def read_table() -> dict[str, dict[str, str]]:
-    """The counts that are checked in."""
+    """Returns the checked-in counts."""
     if not TABLE.exists():
         return {}
     with TABLE.open(newline="") as file:
@@ -80,7 +80,7 @@ def read_table() -> dict[str, dict[str, str]]:
 
 
 def write_table(found: dict[str, int], made_by: str) -> None:
-    """Checks them in."""
+    """Writes the counts to check in."""
     with TABLE.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(("work", "instructions", "compiler"))
@@ -88,7 +88,7 @@ def write_table(found: dict[str, int], made_by: str) -> None:
 
 
 def compare(found: dict[str, int], made_by: str) -> list[str]:
-    """Prints the table; the names of what has grown."""
+    """Prints the table and returns the names of the counts that have grown."""
     before, grown = read_table(), []
     print(f"{'work':<24} {'instructions':>15} {'before':>15} {'ratio':>8}")
     for name, count in found.items():

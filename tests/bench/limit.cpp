@@ -1,5 +1,5 @@
-// What closing a valve takes in units of what it cannot do without: one factorisation of the system
-// without contact, one pass over the terms, one search for pairs, on the same machine in one run.
+// Cost of closing a valve in units of its unavoidable work: one factorisation of the system without
+// contact, one pass over the terms, one search for pairs, on the same machine in one run.
 //
 //   bench_limit                      springs, scenes S, M, L
 //   bench_limit --leaflet membrane --scenes S
@@ -56,7 +56,7 @@ ModelPtr make_scene(const Options &options, const std::string &scene) {
   return make_model(std::move(valve));
 }
 
-// The CPU seconds of closing; `state` is closed then.
+// The CPU seconds of closing; `state` is closed afterwards.
 double close(const Options &options, const Model &model, State &state) {
   std::vector<double> cpu_s;
   for (int k = 0; k < options.repeat; ++k) {
@@ -78,7 +78,7 @@ std::vector<Vec3> nodes_of(const CowVector<Vec3> &x) {
   return {x.begin(), x.end()};
 }
 
-// The system of the open valve, where nothing touches.
+// The system of the open valve, which has no contact.
 HessianAssembler free_system(const Model &model) {
   TotalEnergy total_energy(model);
   Profile profile;

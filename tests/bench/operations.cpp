@@ -52,7 +52,7 @@ Operation chord_remove(const std::string &name) {
           }};
 }
 
-// To a place on a leaflet, from the first head or the second.
+// Transfers a chord to a place on a leaflet, from the first head or the second.
 template <typename Op>
 Operation tie(uint32_t kind, const char *name, const std::string &scallop, int head) {
   return {name, scallop, [=](const ModelState &p) {
@@ -90,7 +90,7 @@ Operation head_move(const std::string &name, int head, double z) {
           }};
 }
 
-// An operation with one value, the rest left to its defaults.
+// An operation with one value, all other fields at their defaults.
 template <typename Op>
 Operation with(uint32_t kind, const char *kind_name, const std::string &name, double Op::*field,
                double value) {

@@ -14,7 +14,7 @@ struct Operation {
   std::function<mvs::core::Operated(const mvs::core::ModelState &closed)> apply;
 };
 
-// Every kind of operation on the shipped valve, chordae and sites by their names.
+// Every kind of operation on the default valve, chordae and sites by their names.
 std::vector<Operation> operations();
 
 }  // namespace bench

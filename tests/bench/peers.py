@@ -1,11 +1,11 @@
-"""The same valve in other engines: what it costs them, and how far from our closure they end.
+"""The same valve in other engines: their CPU time, and the distance of their closures from ours.
 
     python tests/bench/peers.py --install --engines mujoco,newton,pybullet     # once, needs PyPI
     python tests/bench/peers.py [--engines libmvs,numpy,mujoco,...] [--vertices N] [--limit S]
                                 [--only WORD] [--febio BINARY] [--out DIR]
 
 One run, one row after the other, each engine in a process and a virtual environment of its own
-(OUT/ENGINE), on one thread where it can be told to. The valve is the shipped one with its springs
+(OUT/ENGINE), on one thread if it has such a setting. The valve is the shipped one with its springs
 (tests/bench/peers/valve.py says what the engines read). Times are CPU seconds of closing, without
 set-up. Distances are node to node from our own closure at rest, from the nearest one where several
 paths end in several shapes. tests/bench/PEERS.md says how each engine expresses the valve, what it
@@ -35,7 +35,7 @@ import mvs  # noqa: E402
 import numpy as np  # noqa: E402
 
 PACKAGES = {"mujoco": ["mujoco"], "newton": ["newton"], "pybullet": ["pybullet"]}
-"""what pip installs for an engine; NumPy comes along"""
+"""packages that pip installs for an engine; NumPy is a dependency of each"""
 
 COLUMNS = ("engine", "case", "verdict", "steps", "setup_cpu_s", "cpu_s", "near_own_end_s",
            "node_rms_mm", "node_median_mm", "node_max_mm", "surface_rms_mm", "crossings",
@@ -81,7 +81,7 @@ CASES = (
 
 
 class Goal:
-    """The open valve, its closures at rest along several paths, and what a shape is worth."""
+    """The open valve, its closures at rest along several paths, and comparisons with them."""
 
     def __init__(self, opened: mvs.Snapshot, pressure: float, paths: int) -> None:
         self.opened, self.pressure = opened, pressure
@@ -95,12 +95,12 @@ class Goal:
         self.free = (kind == mvs.NodeKind.LEAFLET) | (kind == mvs.NodeKind.BRANCH)
 
     def spread_mm(self) -> float:
-        """The farthest any node is apart in two of our own shapes."""
+        """The largest distance of a node between two of our own shapes."""
         first = self.shapes[0].node_position
         return max(np.linalg.norm(s.node_position - first, axis=1).max() for s in self.shapes) * 1e3
 
     def judge(self, shape: np.ndarray) -> dict[str, Any]:
-        """Distances, crossings by the exact test, and what is out of balance off the contact."""
+        """Distances, crossings by the exact test, and out-of-balance forces off the contact."""
         valve = mvs.valve_of(self.opened)
         valve.nodes_now = shape
         with mvs.Simulator() as sim:
@@ -165,7 +165,7 @@ def libmvs_rows(goals: dict[str, Goal]) -> Iterator[dict[str, Any]]:
 
 
 def python_of(engine: str, out: Path) -> Path:
-    """The interpreter that an engine runs in: the one at hand for NumPy."""
+    """The interpreter that an engine runs in: the present one for NumPy."""
     if engine not in PACKAGES:
         return Path(sys.executable)
     return out / engine / ("Scripts" if os.name == "nt" else "bin") / "python"
@@ -201,7 +201,7 @@ def run(case: Case, goal: Goal, valve: Path, out: Path, limit: float) -> dict[st
 
 
 def read_trace(trace: Path, goal: Goal) -> dict[str, Any]:
-    """The row of a trace: its end judged, and when it came near that end for good."""
+    """The row of a trace: its last shape compared, and the time from which it stays near."""
     with np.load(trace) as data:
         cpu, shapes, speeds = data["cpu"], data["shapes"], data["speeds"]
     told = json.loads(Path(f"{trace}.json").read_text(encoding="utf-8"))
@@ -219,7 +219,7 @@ def read_trace(trace: Path, goal: Goal) -> dict[str, Any]:
 
 
 def febio(binary: Optional[str], goal: Goal, out: Path) -> dict[str, Any]:
-    """FEBio on our export of the membrane valve, judged by the nodes in its log file."""
+    """FEBio on our export of the membrane valve, compared by the nodes in its log file."""
     row = {"engine": "febio", "case": "our export", "law": "shells, from our membrane"}
     if not binary:
         return row | {"verdict": "not given"}
@@ -265,7 +265,7 @@ def write(rows: list[dict[str, Any]], path: Path) -> None:
 
 
 def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
-    """Every row that was asked for, printed as it comes."""
+    """Yields every requested row, printed as soon as it is complete."""
     engines, rows = options.engines.split(","), []
     goals = {law: Goal(opened_valve(options.vertices, law), mvs.SYSTOLE_PA, options.paths)
              for law in ("spring", "bilinear") if law == "spring" or "libmvs" in engines}
@@ -292,7 +292,7 @@ def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def main() -> None:
-    """Installs what was asked for, or measures."""
+    """Installs the requested engines, or measures."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--engines", default="libmvs,numpy,mujoco,newton,pybullet,febio",

@@ -1,4 +1,4 @@
-// What closing again costs after one surgical operation, beside closing the same valve from open.
+// Cost of closing again after one surgical operation, beside closing the same valve from open.
 //
 //   bench_reclose                    scenes S, M and two sick valves; every operation on each
 //   bench_reclose --scenes S --repeat 1
@@ -73,7 +73,7 @@ Run close(const Options &options, const Model &model, const State &from) {
   for (int k = 0; k < options.repeat; ++k) {
     run.state = from;
     run.state.load = {MVS_SYSTOLE_PA, 1};
-    // a new solver each time, so that no run warms up the next
+    // a new solver each time, so that no run starts from another's cached data
     Solver solver(MVS_BACKEND_DEFAULT);
     const auto settle = [&] {
       run.stats = settle_with_mesh_hierarchy(solver, model, run.state, {}, {});
@@ -85,12 +85,12 @@ Run close(const Options &options, const Model &model, const State &from) {
 
 struct Row {
   std::string kind;
-  double iterations, time;  // again over open
+  double iterations, time;  // of closing again over closing from open
   double rms_mm, farthest_mm;
   bool sound;  // both at rest, nothing intersects
 };
 
-// How far apart the nodes of two states are.
+// RMS and largest distance of the nodes of two states.
 void measure_distance(const State &a, const State &b, Row &row) {
   double most = 0, sum = 0;
   for (size_t i = 0; i < a.x.size(); ++i) {

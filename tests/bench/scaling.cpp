@@ -44,7 +44,7 @@ double exponent(const std::vector<double> &x, const std::vector<double> &y) {
 
 struct Cost {
   std::string name;
-  std::vector<double> of;  // a scene each
+  std::vector<double> of;  // one value for each scene
 };
 
 std::vector<Cost> costs(const std::vector<Closing> &closings) {

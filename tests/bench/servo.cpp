@@ -1,4 +1,4 @@
-// What the servo costs, and how well it keeps its rate, beside a simulation that is at work.
+// Cost of the servo and regularity of its rate beside a running simulation.
 //
 //   bench_servo                      scenes S and M, 10 s each
 //   bench_servo --scenes S --seconds 2

@@ -1,12 +1,12 @@
-// What each part of a scene costs, and what it costs where the scene has none of it.
+// Cost of each part of a scene, present and absent.
 //
 //   bench_skip                       scene S
 //   bench_skip --scene M --csv FILE
 //
 // Terms: one energy, gradient and Hessian on a valve with the part, and on one without. Contact: of
 // the closed valve, and of the open one, where nothing meets. Steps: one that moves, and one at
-// rest; callers: what a snapshot, measures and levels of undo add to a step. CPU time, the fastest
-// of the rounds. Then, for whole closures, what mvs_stats says was skipped.
+// rest; callers: cost of a snapshot, measures and levels of undo beside a step. CPU time, the
+// fastest of the rounds. Then, for whole closures, the terms that mvs_stats reports as skipped.
 #include <mvs/sim.h>
 
 #include <CLI/CLI.hpp>
@@ -57,7 +57,7 @@ std::vector<Vec3> nodes_of(const CowVector<Vec3> &x) {
   return {x.begin(), x.end()};
 }
 
-// A system with room for every term of a model at x.
+// A system with the pattern of every term of a model at x.
 HessianAssembler room_for(const Model &model, const std::vector<Vec3> &x) {
   TotalEnergy total_energy(model);
   Profile profile;
@@ -69,7 +69,7 @@ HessianAssembler room_for(const Model &model, const std::vector<Vec3> &x) {
   return system;
 }
 
-// The same where one term alone finds its slots.
+// The same with the pattern of one term.
 template <typename Term>
 HessianAssembler room_for(const Model &model, const std::vector<Vec3> &x, const Term &term) {
   HessianAssembler system = room_for(model, x);
@@ -112,7 +112,7 @@ double pressure_cost(const Options &options, const Model &model, double pressure
   });
 }
 
-// Pairs, distances, and the term of what touches.
+// Pairs, distances, and the contact term.
 struct ContactCost {
   double broad, narrow, terms;
 };
@@ -134,7 +134,7 @@ ContactCost contact_cost(const Options &options, const Model &model, const std::
   return cost;
 }
 
-// Every scene that lacks something.
+// The scenes, each of which lacks one part.
 struct Scenes {
   ModelPtr full, membrane, no_chordae, no_bending;
   explicit Scenes(const Options &options)
@@ -182,7 +182,7 @@ void tell_terms(const Options &options, const Scenes &s, bench::Table &table) {
   tell(table, "contact: terms", on.terms, off.terms);
 }
 
-// The CPU seconds of one of `count` implicit steps: their median.
+// The median CPU seconds of one of `count` implicit steps.
 double step_cost(const Model &model, State state, int before, int count) {
   Solver solver(MVS_BACKEND_DEFAULT);
   SolveOptions how;

@@ -1,20 +1,20 @@
-// What a live step costs: a minute of scripted play at 1 kHz, every step timed.
+// Cost of a live step: a minute of scripted play at 1 kHz, every step timed.
 //
 //   bench_step                       scenes S and M, 60 s of simulated time each
 //   bench_step --seconds 2 --scenes S
 //   bench_step --csv FILE            also as a table, one row a scene and phase of the play
 //
-// The play, some ten seconds long and as often as fits: a valve closes under systole, beats, a hand
-// grasps the edge of A2, pulls it 10 mm into the atrium, and lets go; a ball pushes P2 down and
-// goes again; a chord is shortened, a ring sewn in, the valve beats again, a chord is cut, all is
-// undone, the valve is left alone, and the load goes. Times are CPU times of the thread
-// (CLOCK_THREAD_CPUTIME_ID), so that other work on the machine shows less. "asleep" is the share of
-// steps that did nothing but time; "lowered" counts steps that gave something up for their budget:
-// of the linear solution, of the way; "cross" is the largest number of crossing triangle pairs,
-// exact, at samples; "made" counts steps that made energy, by the rule of tests/stability, of those
-// awake during which load, boundary and tools stayed. "resting / active" compares the medians of
-// both kinds of steps. "explicit" is the median step of the founding paper's method, 8 us long, on
-// the closed valve: 125 of them make one of ours.
+// The play takes some ten seconds and is repeated: a valve closes under systole and beats; a hand
+// grasps the edge of A2, pulls it 10 mm into the atrium, and releases it; a ball pushes P2 down and
+// is removed; a chord is shortened and a ring sewn in; the valve beats again, a chord is cut, all
+// operations are undone, the valve rests, and the load is removed. Times are CPU times of the thread
+// (CLOCK_THREAD_CPUTIME_ID), which depend less on other work on the machine. Columns: "asleep" is
+// the share of steps that only advanced the time; "lowered" counts steps that reduced the accuracy
+// of the linear solution or the length of the step for their budget; "cross" is the largest number
+// of crossing triangle pairs, by the exact test, at samples; "made" counts awake steps with constant
+// load, boundary and tools that created energy, by the criterion of tests/stability. "resting /
+// active" compares the medians of both kinds of steps. "explicit" is the median step of the founding
+// paper's method, 8 us long, on the closed valve: 125 of them make one of ours.
 #include <mvs/experimental.hpp>
 
 #include <CLI/CLI.hpp>
@@ -41,8 +41,8 @@ constexpr double dt = 1e-3;
 constexpr double play_s = 10;
 constexpr int explicit_steps = 200;
 constexpr int samples = 20;  // of crossings, in a phase
-// m a step: what changes the forces on a node by 1e-5 N, the residual at rest, where 1e3 N/m hold
-// it
+// m a step: at a stiffness of 1e3 N/m it changes the force on a node by 1e-5 N, the residual at
+// rest
 constexpr double at_rest = 1e-8;
 
 struct Options {
@@ -63,9 +63,9 @@ struct Row {
   std::vector<double> active, resting;  // seconds a step
   std::vector<double> hand;             // of both, while a hand moves
   size_t lowered_linear = 0, lowered_step = 0, broad = 0, orderings = 0, made = 0;
-  size_t iterations = 0, served = 0;  // linear ones; steps that worked on no factor
+  size_t iterations = 0, served = 0;  // of conjugate gradients; steps without work on a factor
   size_t crossings = 0;
-  double quiet = 0, quiet_by_hand = 0;  // sums over active steps, over those with a hand, of shares
+  double quiet = 0, quiet_by_hand = 0;  // sums of shares over active steps, over those with a hand
 
   size_t steps() const { return active.size() + resting.size(); }
   void add(const Row &other) {
@@ -98,8 +98,8 @@ std::vector<double> all_of(const Row &row) {
   return all;
 }
 
-// One step, and what it took. Whoever looks at a valve has a snapshot made: only awake steps are
-// watched, so that those at rest are timed as nobody looks.
+// One step and its cost. Reading a valve makes a snapshot, so only awake steps are checked: steps
+// at rest are timed without a snapshot.
 void take_step(mvs::Sim &sim, const Options &options, bool hand_moves, StepWatch &watch, Row &row) {
   mvs_step_options how = {};
   how.dt = dt;
@@ -143,7 +143,7 @@ Row run_phase(mvs::Sim &sim, const Options &options, const std::string &scene, c
   return row;
 }
 
-// A row a phase, over all the times that it is played.
+// A row a phase, over all its repetitions.
 std::vector<Row> run_scene(const Options &options, const std::string &scene) {
   mvs::Sim sim;
   mvs_parametric_desc valve = {};

@@ -13,7 +13,7 @@ using Done = Phase::Done;
 
 constexpr double pulled = 10e-3;  // m that the hand pulls A2 into the atrium
 constexpr double above = 10e-3;   // m above P2 the ball begins,
-constexpr double pushed = 14e-3;  // and goes down that far
+constexpr double pushed = 14e-3;  // and moves down that far
 
 void nothing(mvs::Sim &) {}
 
@@ -40,7 +40,7 @@ void sew_ring(mvs::Sim &sim) {
   sim.apply(op);
 }
 
-// The one that carries most: a slack one would leave the valve asleep.
+// The chord with the largest tension: a slack one would leave the valve asleep.
 void cut_chord(mvs::Sim &sim) {
   const mvs::Snapshot valve = sim.snapshot();
   const auto tension = valve.view<double>(MVS_ARRAY_CHORD_TENSION);
@@ -86,7 +86,7 @@ Point place_of(const mvs::Snapshot &valve, uint32_t node) {
   return {x[0], x[1], x[2]};
 }
 
-// The vertex of these nearest to their middle.
+// The vertex of these nearest to their centroid.
 uint32_t middle_one(const mvs::Snapshot &valve, const std::vector<uint32_t> &nodes) {
   Point middle = {};
   for (const uint32_t n : nodes) {
@@ -110,7 +110,7 @@ std::vector<uint32_t> on_free_edge(const mvs::Snapshot &valve, const std::vector
   return found;
 }
 
-// A hand: its tool, where it took it, and which way the atrium was.
+// A hand: its tool, where it grasped, and the direction of the atrium then.
 struct Hand {
   mvs_id tool = 0;
   Point start = {}, up = {};
@@ -137,7 +137,7 @@ void grasp(mvs::Sim &sim, Hand &hand) {
   hand.add(sim, desc);
 }
 
-// There in the first half; then it holds still.
+// Moves there in the first half, then holds still.
 Done pull(mvs::Sim &sim, const Hand &hand, double share) {
   if (share > 0.5) return Done::nothing;
   hand.move(sim, pulled * 2 * share);
@@ -154,7 +154,7 @@ void lay_ball(mvs::Sim &sim, Hand &hand) {
   hand.add(sim, desc);
 }
 
-// Down, a while there, and up.
+// Moves down, stays a while, and moves up.
 Done push(mvs::Sim &sim, const Hand &hand, double share) {
   if (share > 0.4 && share < 0.6) return Done::nothing;
   hand.move(sim, -pushed * std::min(1.0, 2.5 * std::min(share, 1 - share)));

@@ -1,4 +1,4 @@
-// The scripted play of bench_step: what a surgeon does to a valve that beats.
+// The scripted play of bench_step: operations and tools on a valve that beats.
 #pragma once
 
 #include <mvs/experimental.hpp>
@@ -9,8 +9,8 @@
 
 namespace bench {
 
-// One phase of the play: what is done at its start, and before each of its steps, told the share of
-// the phase that is over.
+// One phase of the play: an action at its start, and one before each of its steps, called with the
+// elapsed share of the phase.
 struct Phase {
   enum class Done { nothing, changed, hand_moved };
 
@@ -19,7 +19,7 @@ struct Phase {
   std::function<Done(mvs::Sim &, int step, double share)> during = {};
 };
 
-// It ends where it began, so that it can be played again: every operation undone, no tools.
+// The play ends in its initial state, so that it can be repeated: every operation undone, no tools.
 std::vector<Phase> play();
 
 }  // namespace bench

@@ -7,7 +7,7 @@
 namespace bench {
 namespace {
 
-// Of its energy: rounding of sums of some thousand terms (tests/stability/README.md).
+// Relative to its energy: rounding of sums of some thousand terms (tests/stability/README.md).
 constexpr double bound = 1e-9;
 
 bool held_nodes_stayed(const mvs::Snapshot &now, const std::vector<double> &before) {

@@ -1,5 +1,5 @@
-// What bench_step holds its steps to, outside of the time it takes: no energy from nothing, nothing
-// that crosses.
+// Invariants that bench_step checks outside of the timed steps: no energy from nothing, no crossing
+// triangles.
 #pragma once
 
 #include <mvs/experimental.hpp>
@@ -15,22 +15,22 @@ namespace bench {
 
 class StepWatch {
  public:
-  // Load, boundary, valve or tools have changed: what the next step begins with is not known.
+  // To be called when load, boundary, valve or tools have changed: the energy before the next step
+  // is unknown.
   void changed() {
     energy_is_known_ = false;
     edge_work_.reset();
   }
-  // Pairs of triangles that cross, by the exact test alone: all measures take as long as many
-  // steps.
+  // Pairs of triangles that cross, by the exact test alone, which is cheaper than all measures.
   static size_t crossings(const mvs::Sim &sim);
-  // The share of the free nodes that went less than so far (m) in the last step of dt (s).
+  // The share of the free nodes that moved less than this distance (m) in the last step of dt (s).
   static double quiet(const mvs::Sim &sim, double dt, double least);
-  // After a step that was awake. True if it made energy.
+  // To be called after a step that was awake. Returns true if it created energy.
   bool makes_energy(const mvs::Sim &sim, const mvs_stats &stats);
 
  private:
   std::optional<stability::EdgeWork> edge_work_;
-  std::vector<double> x_;  // where nodes were before the step
+  std::vector<double> x_;  // positions before the step
   double energy_ = 0;      // J, potential and kinetic, before it
   bool energy_is_known_ = false;
 };

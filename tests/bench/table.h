@@ -1,4 +1,4 @@
-// A table that is printed row by row, and written as CSV where a file is named.
+// A table that is printed row by row, and written as CSV if a file is named.
 #pragma once
 
 #include <cstdio>
@@ -29,8 +29,8 @@ struct Cell {
 
 class Table {
  public:
-  // Columns are as wide as their names, with the blanks at their ends, and at least eight; `csv`
-  // may be empty.
+  // A column is as wide as its name with its trailing blanks, and at least eight; `csv` may be
+  // empty.
   explicit Table(std::vector<std::string> columns, const std::string &csv = "")
       : columns_(std::move(columns)), path_(csv) {
     if (!path_.empty()) file_.open(path_);

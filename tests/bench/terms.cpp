@@ -1,5 +1,5 @@
-// What the leaflet's terms cost: energy, gradient and Hessian of the springs and of the membrane in
-// every law, side by side in one run, on the shipped valve and on a larger one.
+// Cost of the leaflet's terms: energy, gradient and Hessian of the springs and of the membrane in
+// every law, in one run, on the default valve and on a larger one.
 //
 //   bench_terms                      valves of 425 and 6,800 vertices, 50 rounds
 //   bench_terms --vertices 425 --rounds 3
@@ -47,7 +47,7 @@ struct Bench {
   HessianAssembler system = {};
   std::vector<double> energy = {}, gradient = {}, hessian = {}, assembly = {}, whole = {};
   Profile profile = {};
-  double sum = 0;  // of all energies, so that none is left out
+  double sum = 0;  // of all energies, so that the compiler removes none
 
   Bench(const std::string &name, const ModelPtr &of)
       : law(name), model(of), spring(*of), membrane(*of), total_energy(*of) {

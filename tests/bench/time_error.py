@@ -37,7 +37,7 @@ ELEMENTS = ("spring", "bilinear")
 SOLVERS = ("newton", "implicit", "explicit")
 TOLERANCES = (1e-1, 1e-3, 1e-5)
 STEPS = {"newton": 600, "implicit": 4000, "explicit": 60000}
-"""where a run is given up; it then says "no" under converged"""
+"""limits after which a run stops; its `converged` is then `no`"""
 
 COLUMNS = ("valve", "element", "solver", "dt_us", "vertices", "tolerance_N", "converged",
            "iterations", "cpu_s", "times_fastest", "error_rms_mm", "error_max_mm", "other_rms_mm",
@@ -46,7 +46,7 @@ COLUMNS = ("valve", "element", "solver", "dt_us", "vertices", "tolerance_N", "co
 
 @dataclass
 class Subject:
-    """A valve, how it is made at each level, and what its closed shape is compared with."""
+    """A valve, how it is made at each level, and the reference for its closed shape."""
 
     name: str
     elements: tuple[str, ...]
@@ -137,7 +137,7 @@ SUBJECTS = {"shipped": shipped, "febio": febio_case, "texas": texas_case}
 
 @dataclass
 class Run:
-    """A closure from open: where it came, whether it rests, and what it took."""
+    """A closure from open: its shape, whether it is at rest, and its cost."""
 
     closed: mvs.Snapshot
     verdict: str
@@ -147,7 +147,7 @@ class Run:
 
 def close(subject: Subject, element: str, solver: str, level: int, tolerance: float,
           dt: Optional[float]) -> Run:
-    """One closure, given up after so many steps."""
+    """One closure, stopped after so many steps."""
     with mvs.Simulator() as sim:
         subject.prepare(element, level)(sim)
         sim.set_load(subject.pressure_pa)
@@ -191,7 +191,7 @@ def errors(name: str, closed: mvs.Snapshot, goal: Optional[mvs.Snapshot]) -> dic
 
 
 def rows_of(subject: Subject, long: bool) -> Iterator[dict]:
-    """Every run of a valve; the explicit method only as far as it takes minutes and not hours."""
+    """Every run of a valve; the explicit method only where it takes minutes, not hours."""
     for level in range(subject.levels):
         for element in subject.elements:
             for solver in SOLVERS:

@@ -1,7 +1,7 @@
-// What undo costs: memory a level, and the time of undo and redo beside a step, in one run.
-// Each level is an operation after a step, so that no two levels have the same positions. Fails if
-// undoing all of them does not lead back to the valve before the first one, or redoing all to the
-// last one.
+// Cost of undo: memory a level, and the time of undo and redo beside a step, in one run. Each level
+// is an operation after a step, so that no two levels have the same positions. Fails if undoing all
+// of them does not restore the valve before the first one, or redoing all does not restore the last
+// one.
 #include <algorithm>
 #include <array>
 #include <chrono>

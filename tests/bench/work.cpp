@@ -1,5 +1,5 @@
-// A fixed piece of work, to be counted in instructions (instructions.py) and not timed: closes the
-// shipped valve, steps it, measures it, saves and loads it.
+// A fixed piece of work to count instructions of (instructions.py), not to time: closes the default
+// valve, steps it, measures it, saves and loads it.
 //
 //   bench_work FILE                  FILE is written, read and left there
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Which pairs come up, against all pairs.
+// The broad phase and its Verlet list against brute force over all pairs.
 #include "collision/broad_phase.h"
 
 #include <doctest/doctest.h>
@@ -32,7 +32,7 @@ void for_edge_pairs(const Model &model, Visit &&visit) {
   }
 }
 
-// What Candidates says of the ways of nodes, once more.
+// Runs the broad phase once more on these motions.
 struct Ways {
   const Positions &x, &to;
   double slack;
@@ -57,7 +57,7 @@ struct Ways {
   }
 };
 
-// Whether the lists are what brute force finds on these ways, in their order.
+// Returns whether the lists equal those of brute force on these motions, in their order.
 void check_pairs(const Model &model, const BroadPhase &broad_phase, const Ways &ways) {
   const double r = model.valve.contact_thickness;
   const Positions middle = ways.middle();
@@ -125,7 +125,7 @@ double farthest(const Ways &ways) {
   return most;
 }
 
-// n triangles anywhere in a cube, each on its way.
+// n triangles with random positions in a cube, each with a motion of its own.
 struct Scattered {
   Positions x, to;
   std::vector<Tri> triangles;
@@ -139,7 +139,7 @@ struct Scattered {
 
 }  // namespace
 
-TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
+TEST_CASE("a_bvh_of_moving_triangles_finds_the_pairs_of_brute_force") {
   Random random(1);
   for (const uint32_t n : {0u, 1u, 2u, 60u, 200u}) {
     const Scattered sheet(n, random);
@@ -184,9 +184,9 @@ TEST_CASE("a_moving_tree_finds_what_brute_force_finds") {
   }
 }
 
-// All that are near, and none that single precision can tell to be farther; empty lanes are near
-// nothing.
-TEST_CASE("lanes_are_near_as_their_ways_are") {
+// Finds every near pair, and no pair that single precision can prove to be farther; empty lanes are
+// near no box.
+TEST_CASE("a_simd_batch_of_swept_boxes_finds_the_same_near_pairs_as_scalar_boxes") {
   Random random(6);
   for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
     size_t found = 0;
@@ -224,8 +224,8 @@ TEST_CASE("lanes_are_near_as_their_ways_are") {
   }
 }
 
-// Anywhere, on each other, in one plane, parallel, without a length.
-TEST_CASE("distances_side_by_side_are_to_the_bit_those_one_by_one") {
+// Positions: random, coincident, coplanar, parallel, degenerate (zero length).
+TEST_CASE("batched_distances_have_the_bits_of_scalar_distances") {
   Random random(9);
   const auto same = [](double a, double b) {
     return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
@@ -273,7 +273,7 @@ TEST_CASE("distances_side_by_side_are_to_the_bit_those_one_by_one") {
   CHECK(all);
 }
 
-TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {
+TEST_CASE("candidates_are_exactly_the_pairs_whose_motions_come_near") {
   const Plates plates = plates_for_steps();
   Random random(2);
   for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
@@ -288,20 +288,20 @@ TEST_CASE("candidates_are_the_pairs_whose_ways_come_near_and_no_other") {
   }
 }
 
-// Pairs are kept from one list to the next, and which of them are looked at again depends on all
-// that went before: nothing of it may show, however the sheet moves and wherever it is cut.
+// The Verlet list is kept from one build to the next, and the pairs that it checks again depend on
+// all earlier builds: the result must not depend on them, for any motion and any shortened step.
 void check_on_the_way(const Plates &plates, bool keep_near) {
   Random random(8);
   BroadPhase candidates(plates.model);
   candidates.keep_near(keep_near);
   Positions x = wavy(plates, random);
   std::vector<size_t> found;
-  const int every = short_run() ? 11 : 1;  // every kind of round all the same
+  const int every = short_run() ? 11 : 1;  // every kind of round occurs
   for (int round = 0; round < 96; ++round) {
     const StepMotion pace = round % 5 == 4 ? StepMotion::independent : StepMotion::together;
     const double slack = round % 7 == 6 ? 0.1e-3 : 0.02e-3;
-    // slow, plate against plate, with a few fast ones, a part of the sheet, all of it fast, not at
-    // all
+    // slow; plate against plate; with a few fast nodes; a part of the sheet; everything fast; no
+    // motion
     const int kind = (round / 8) % 6;
     const Vec3 drift = random.vector(kind == 4 ? 0.4e-3 : 0.03e-3);
     Positions step(x.size(), Vec3::Zero());
@@ -320,21 +320,22 @@ void check_on_the_way(const Plates &plates, bool keep_near) {
     if (round % every == 0) check_pairs(plates.model, candidates, {x, to, slack, pace});
     found.push_back(candidates.barrier_candidates().size() +
                     candidates.barrier_edge_candidates().size());
-    // some of the way, as a step that was cut
+    // a part of the motion, as of a shortened step
     x = moved(x, random(0.3, 1), step);
   }
   std::sort(found.begin(), found.end());
   CHECK(std::unique(found.begin(), found.end()) - found.begin() > 20);
 }
 
-TEST_CASE("candidates_are_the_same_however_the_sheet_came_there") {
+TEST_CASE("candidates_do_not_depend_on_earlier_positions") {
   const Plates plates = plates_for_steps();
   check_on_the_way(plates, true);
   check_on_the_way(plates, false);
 }
 
-// So fine that what is near at rest has shorter guards, and nothing of it is round.
-TEST_CASE("candidates_of_a_fine_mesh_are_the_same_however_it_came_there") {
+// So fine that pairs near each other at rest have shorter barriers, and no coordinate is a round
+// number.
+TEST_CASE("candidates_of_a_fine_mesh_do_not_depend_on_earlier_positions") {
   const Plates plates = two_plates(8, 3e-3, 3e-3, false, [](Valve &valve) {
     Random random(3);
     for (auto &place : valve.rest.edit()) place += random.vector(0.03e-3);
@@ -343,9 +344,9 @@ TEST_CASE("candidates_of_a_fine_mesh_are_the_same_however_it_came_there") {
   check_on_the_way(plates, false);
 }
 
-// No block of one plate is near the other when what is kept is made; all come near on the way, a
-// third of the skins a step.
-TEST_CASE("what_comes_from_afar_is_found") {
+// No block of one plate is near the other when the Verlet list is built; all blocks come near
+// later, by a third of the skin a step.
+TEST_CASE("pairs_that_approach_from_a_distance_are_found") {
   const Plates plates = plates_for_steps();
   Random random(5);
   BroadPhase candidates(plates.model);
@@ -365,7 +366,7 @@ TEST_CASE("what_comes_from_afar_is_found") {
   CHECK(candidates.contact_candidates().size() > first + 30);
 }
 
-TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
+TEST_CASE("no_pair_meets_during_a_motion_without_being_a_candidate") {
   const Plates plates = plates_for_steps();
   const Model &model = plates.model;
   const double r = model.valve.contact_thickness, slack = 0.05e-3;
@@ -377,10 +378,10 @@ TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
     const Positions step = random.vectors(x.size(), 1e-3);
     BroadPhase candidates(model);
     candidates.build(x, moved(x, 1, step), slack, pace);
-    // anywhere on the way, all together or each node for itself
+    // random points of the motion, all nodes together or each node by itself
     Positions y = x;
     const double common = random(0, 1);
-    // least squares find the share to a few percent of the slack, hence the nine tenths
+    // least squares find the fraction to a few percent of the slack, hence the nine tenths
     for (size_t i = 0; i < y.size(); ++i) {
       const double share = pace == StepMotion::together ? common : random(0, 1);
       y[i] += share * step[i] + random.vector(0.9 * slack / std::sqrt(3.0));
@@ -416,7 +417,7 @@ TEST_CASE("no_pair_meets_on_the_way_that_is_no_candidate") {
   CHECK(met > 1000);
 }
 
-TEST_CASE("candidates_know_how_far_they_hold") {
+TEST_CASE("the_validity_range_of_candidates_is_known") {
   const Plates plates = plates_for_steps();
   Random random(3);
   const Positions x = wavy(plates, random);
@@ -439,14 +440,14 @@ TEST_CASE("candidates_know_how_far_they_hold") {
     y[5] = x[5];
     y[6].x() += 0.02e-4;
     CHECK_FALSE(candidates.valid_for(y));
-    // one node ahead of the other by more than the slack either way
+    // one node ahead of the other by more than the slack in either direction
     y[6] = to[6];
     CHECK(candidates.valid_for(y) == (pace == StepMotion::independent));
   }
 }
 
-// As a step is cut, then shortened as a whole.
-TEST_CASE("candidates_recall_the_first_way_from_a_place") {
+// As in a solver step that is first limited, then shortened as a whole.
+TEST_CASE("candidates_recall_the_first_motion_from_a_position") {
   const Plates plates = plates_for_steps();
   Random random(77);
   const Positions x = wavy(plates, random), step = random.vectors(x.size(), 0.3e-3);
@@ -455,9 +456,9 @@ TEST_CASE("candidates_recall_the_first_way_from_a_place") {
   Positions cut = to;
   for (size_t i = 0; i < cut.size(); i += 13) cut[i] = x[i];
   BroadPhase candidates(plates.model);
-  candidates.build(x, x, slack);  // of no way
+  candidates.build(x, x, slack);  // zero motion
   candidates.build(x, to, slack);
-  CHECK_FALSE(candidates.recall(x, some_way));  // there are no others
+  CHECK_FALSE(candidates.recall(x, some_way));  // no other motion is stored
   candidates.build(x, cut, slack);
   CHECK_FALSE(candidates.recall(to, to));
   CHECK_FALSE(candidates.recall(x, moved(some_way, 1, random.vectors(x.size(), 0.1e-3))));
@@ -467,7 +468,7 @@ TEST_CASE("candidates_recall_the_first_way_from_a_place") {
   CHECK(candidates.valid_for(some_way));
   CHECK(candidates.valid_for(to));
   check_pairs(plates.model, candidates, {x, to, slack, StepMotion::together});
-  // what is looked for from there is all there is
+  // the pairs found from there are complete
   candidates.build(x, cut, slack);
   check_pairs(plates.model, candidates, {x, cut, slack, StepMotion::together});
 }

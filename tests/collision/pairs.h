@@ -1,4 +1,4 @@
-// Sheets near each other, and all pairs of a sheet one by one.
+// Fixtures: sheets near each other, and all pairs of a sheet by brute force.
 #pragma once
 
 #include <cmath>
@@ -20,11 +20,11 @@ inline bool has(const Tri &t, uint32_t v) {
   return t[0] == v || t[1] == v || t[2] == v;
 }
 
-// All pairs that do not touch by their nodes, in the order of Candidates.
+// All pairs without a common node, in the order of the broad phase.
 template <typename Visit>
 void for_vertex_triangles(const Model &model, Visit &&visit) {
   for (uint32_t v = 0; v < model.node_count(); ++v) {
-    if (model.vertex_area[v] == 0) continue;  // heads and branch points are no part of the sheet
+    if (model.vertex_area[v] == 0) continue;  // heads and branch points do not belong to the sheet
     for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
       if (!has(model.valve.triangles[t], v)) visit(v, t);
     }

@@ -1,4 +1,4 @@
-// Steps that never lead through a sheet.
+// Conservative CCD: a limited step never leads through a sheet.
 #include "collision/step_limiter.h"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ using namespace mvs::core::test;
 
 namespace {
 
-// What a step may never do, whatever it was: cross, or use up a pair.
+// Invariant of every limited step: no crossing, and no pair loses more than 90 % of its distance.
 void check_motion(const Model &model, const BroadPhase &broad_phase, const Positions &x,
                   const Positions &dx) {
   for (const double share : {0.2, 0.5, 0.7, 0.9, 1.0}) {
@@ -34,7 +34,7 @@ void check_motion(const Model &model, const BroadPhase &broad_phase, const Posit
   }
 }
 
-// Where the upper plate ends that is pressed down for as long as it takes.
+// The end position of the upper plate when it is pressed down for many steps.
 Positions pressed(const Plates &plates, Positions x) {
   for (int round = 0; round < 60; ++round) {
     Positions dx(x.size(), Vec3::Zero());
@@ -56,7 +56,7 @@ double nearest(const Model &model, const Positions &x) {
 
 }  // namespace
 
-TEST_CASE("no_step_however_wild_leads_through_a_sheet") {
+TEST_CASE("no_step_of_any_size_leads_through_a_sheet") {
   const Plates plates = plates_for_steps();
   const Model &model = plates.model;
   int cut = 0, wild = 0;
@@ -78,7 +78,7 @@ TEST_CASE("no_step_however_wild_leads_through_a_sheet") {
     cut += farthest(dx, wanted) > 0;
     check_motion(model, broad_phase, x, dx);
   }
-  // the steps were such that something had to be done
+  // some of the steps must have been limited
   CHECK(wild > 12);
   CHECK(cut >= wild);
 }
@@ -117,7 +117,7 @@ TEST_CASE("a_step_is_only_shortened_and_only_where_sheets_meet") {
   check_motion(model, broad_phase, x, dx);
   int uncut = 0;
   for (size_t i = 0; i < x.size(); ++i) {
-    // each node keeps its direction: this is a straight line down
+    // each node keeps its direction: a straight line down
     CHECK(dx[i].head<2>().norm() == 0);
     CHECK(dx[i].norm() <= wanted[i].norm());
     if (i < plates.upper || x[i].x() < 6e-3) continue;
@@ -128,7 +128,7 @@ TEST_CASE("a_step_is_only_shortened_and_only_where_sheets_meet") {
   CHECK(uncut > 20);
 }
 
-TEST_CASE("a_step_away_from_each_other_is_not_cut") {
+TEST_CASE("a_separating_step_is_not_limited") {
   const Plates plates = plates_for_steps();
   const Positions x = plates.at(0.1e-3);
   Positions dx(x.size(), Vec3::Zero());
@@ -138,10 +138,10 @@ TEST_CASE("a_step_away_from_each_other_is_not_cut") {
   CHECK(StepLimiter().limit(plates.model, x, broad_phase, dx) == 1);
 }
 
-TEST_CASE("sheets_that_move_together_are_not_held_back") {
+TEST_CASE("sheets_that_move_together_are_not_limited") {
   const Plates plates = plates_for_steps();
   const Positions x = plates.at(0.1e-3);
-  // a hundred times their distance, the same way
+  // a hundred times their distance, in the same direction
   Positions dx(x.size(), Vec3(0, 0, 10e-3));
   const Positions wanted = dx;
   BroadPhase broad_phase(plates.model);
@@ -150,17 +150,17 @@ TEST_CASE("sheets_that_move_together_are_not_held_back") {
   CHECK(farthest(dx, wanted) == 0);
 }
 
-// Seven orders of magnitude above rounding, pressed together for as long as it takes.
-TEST_CASE("pressed_together_again_and_again_nothing_comes_to_distance_zero") {
+// The distance stays seven orders of magnitude above rounding under repeated pressing.
+TEST_CASE("repeated_pressing_never_brings_a_pair_to_distance_zero") {
   const Plates plates = plates_for_steps();
   const Positions x = pressed(plates, plates.at(0.1e-3));
   CHECK(nearest(plates.model, x) >= 1e-10);
   CHECK(find_intersections(x, plates.model.valve.triangles).empty());
 }
 
-// Where a pair of edges is stopped its guard bears more than all the pressure on a valve, 120 mmHg
-// on 7 cm2: nothing that presses tissue together presses more, and so there is a balance.
-TEST_CASE("a_guard_has_the_room_to_bear_whatever_presses") {
+// At the distance at which a pair of edges stops, its barrier bears more than the whole pressure on
+// a valve, 120 mmHg on 7 cm2: no load presses tissue together harder, so an equilibrium exists.
+TEST_CASE("a_stopped_pair_has_a_barrier_stronger_than_any_load") {
   const Plates plates = plates_for_steps();
   const Model &model = plates.model;
   const double range = barrier_range(model.valve.contact_thickness, 1);
@@ -173,14 +173,14 @@ TEST_CASE("a_guard_has_the_room_to_bear_whatever_presses") {
   CHECK(-strength * barrier(least / range).first > 120 * 133.322 * 7e-4);
 }
 
-// Parts of a needle a thousandth of the contact thickness apart: stopped before its guard pushes, a
-// pair would never be in balance.
-TEST_CASE("what_lies_close_at_rest_is_stopped_by_its_guard_and_not_before") {
+// Parts of a needle a thousandth of the contact thickness apart: a pair that stopped before its
+// barrier acts would never be in equilibrium.
+TEST_CASE("a_pair_that_is_close_at_rest_stops_within_the_range_of_its_barrier") {
   const double apart = 1e-6;
   const Plates plates = two_plates(8, 10e-3, apart, false, [](Valve &) {});
   const Positions x = pressed(plates, plates.at(10 * apart));
   const double range = barrier_range(plates.model.valve.contact_thickness, apart);
-  CHECK(nearest(plates.model, x) < 0.01 * range);  // a barrier pushes a hundred times as there
+  CHECK(nearest(plates.model, x) < 0.01 * range);  // a barrier is a hundred times as strong there
   CHECK(nearest(plates.model, x) > 0);
   CHECK(find_intersections(x, plates.model.valve.triangles).empty());
 }

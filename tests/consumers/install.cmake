@@ -1,4 +1,5 @@
-# Installs a build afresh and looks whether everything a user needs is there, and nothing else is.
+# Installs a build into an empty folder and checks that it contains every file that a user needs,
+# and no other.
 file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX}
   RESULT_VARIABLE failed OUTPUT_QUIET)
@@ -20,7 +21,7 @@ foreach(pattern bin/mvs lib*/libmvs.so.${SOVERSION} lib*/cmake/mvs/mvsConfig.cma
   endif()
 endforeach()
 
-# Not one path of the building machine may be in what is shipped as text.
+# No path of the building machine may occur in installed text files.
 file(GLOB_RECURSE texts ${PREFIX}/*.cmake ${PREFIX}/*.pc ${PREFIX}/*.h)
 foreach(text ${texts})
   file(READ ${text} content)

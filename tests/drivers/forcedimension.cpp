@@ -1,4 +1,4 @@
-// The forcedimension driver on a stand-in for DHD, polled on a clock of the test's own.
+// The Force Dimension driver on a stand-in for DHD, polled on a clock of the test.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 const std::string kLibrary = MVS_STAND_INS_DIR "/dhd/libdrd_watched.so";
 constexpr uint64_t kTick = 1000000;  // ns
-// A doubt of the last bits of sine and cosine.
+// Tolerance for the last bits of sine and cosine.
 constexpr double kRounding = 1e-12;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -31,7 +31,7 @@ Options with_library(Options options) {
   return options;
 }
 
-// A driver on a stand-in without faults, but for those that the test then adds.
+// A driver on a stand-in without faults; a test adds its own.
 struct Bench {
   DhdStandIn &in = stand_in();
   Plug plug;
@@ -84,7 +84,7 @@ bool has(const std::string &sentence, const char *word) {
 
 }  // namespace
 
-TEST_CASE("forcedimension_says_which_library_is_missing") {
+TEST_CASE("forcedimension_names_the_missing_library") {
   Plug none("forcedimension", {{"library", "/nowhere/libdrd.so.3"}});
   CHECK(none.open() == MVS_DRIVER_E_LIBRARY);
   CHECK_MESSAGE(has(none.error(), "FDSDK"), none.error());
@@ -98,7 +98,7 @@ TEST_CASE("forcedimension_says_which_library_is_missing") {
   CHECK_MESSAGE(has(said, "no SDK of Force Dimension here"), said);
 }
 
-TEST_CASE("forcedimension_says_what_a_device_is") {
+TEST_CASE("forcedimension_describes_the_device") {
   Bench bench(Options{{"rate", "2000"}});
   REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
   mvs_driver_info info = bench.plug.info();
@@ -144,7 +144,7 @@ TEST_CASE("forcedimension_samples_are_those_of_the_device") {
   CHECK(state.cause == MVS_CAUSE_NONE);
 }
 
-TEST_CASE("forcedimension_the_time_guard_gives_the_sample_before") {
+TEST_CASE("forcedimension_the_time_guard_returns_the_previous_sample") {
   Bench bench;
   bench.in.guard_at = 5;
   bench.start();
@@ -173,7 +173,7 @@ TEST_CASE("forcedimension_force_torque_and_grip_reach_the_motors") {
   }
 }
 
-TEST_CASE("forcedimension_saturated_motors_are_a_success_and_told") {
+TEST_CASE("forcedimension_saturated_motors_are_a_success_and_reported") {
   Bench bench;
   bench.in.largest_mn = 1000;
   bench.start();
@@ -185,7 +185,7 @@ TEST_CASE("forcedimension_saturated_motors_are_a_success_and_told") {
   CHECK((bench.state.flags & MVS_DRIVER_FLAG_SATURATED) == 0);
 }
 
-TEST_CASE("forcedimension_not_a_number_is_read_and_never_written") {
+TEST_CASE("forcedimension_nan_is_read_and_never_written") {
   Bench bench;
   bench.in.nan_at = 3;
   bench.start();
@@ -197,17 +197,17 @@ TEST_CASE("forcedimension_not_a_number_is_read_and_never_written") {
   CHECK(bench.given()[1] == 0);
 }
 
-TEST_CASE("forcedimension_unplugged_is_lost") {
+TEST_CASE("forcedimension_an_unplugged_device_is_lost") {
   Bench bench;
   bench.in.unplug_at = 700;
   bench.start();
   REQUIRE(bench.ticks(700) == MVS_DRIVER_OK);
   CHECK(bench.ticks(100) == MVS_DRIVER_E_LOST);
-  CHECK(bench.in.ticks[0] <= 702);  // it did not take the patience that a crackle is given
+  CHECK(bench.in.ticks[0] <= 702);  // without the retries for short interruptions
   CHECK_MESSAGE(has(bench.plug.error(), "does not answer any more"), bench.plug.error());
 }
 
-TEST_CASE("forcedimension_a_crackle_is_no_loss_and_long_silence_is") {
+TEST_CASE("forcedimension_a_short_interruption_is_no_loss_and_long_silence_is") {
   Bench bench;
   bench.in.deaf_at = 100;
   bench.in.deaf_for = 90;
@@ -223,7 +223,7 @@ TEST_CASE("forcedimension_a_crackle_is_no_loss_and_long_silence_is") {
   CHECK(survived == MVS_DRIVER_PATIENCE_MS);
 }
 
-TEST_CASE("forcedimension_tells_why_the_device_took_its_forces_off") {
+TEST_CASE("forcedimension_reports_why_the_device_took_its_forces_off") {
   const uint32_t causes[] = {MVS_CAUSE_BUTTON,   MVS_CAUSE_VELOCITY,  MVS_CAUSE_WATCHDOG,
                              MVS_CAUSE_SOFTWARE, MVS_CAUSE_UNPLUGGED, MVS_CAUSE_DEADMAN};
   for (int dhd_cause = 1; dhd_cause <= 6; ++dhd_cause) {
@@ -238,7 +238,7 @@ TEST_CASE("forcedimension_tells_why_the_device_took_its_forces_off") {
     CHECK(bench.state.cause == causes[dhd_cause - 1]);
     CHECK((bench.state.flags & MVS_DRIVER_FLAG_FORCE_ON) == 0);
     CHECK(bench.in.enables[0] == 1);
-    // only who gives the forces up and wants them again gets them back
+    // forces return only after they were disabled and enabled again
     REQUIRE(bench.tick(0, 0, 0, false) == MVS_DRIVER_OK);
     REQUIRE(bench.ticks(20) == MVS_DRIVER_OK);
     CHECK(bench.in.enables[0] == 2);
@@ -247,7 +247,7 @@ TEST_CASE("forcedimension_tells_why_the_device_took_its_forces_off") {
   }
 }
 
-TEST_CASE("forcedimension_forces_that_are_slow_to_come_on_were_not_taken_off") {
+TEST_CASE("forcedimension_forces_that_come_on_slowly_are_no_fault") {
   Bench bench;
   bench.in.slow = 30;
   bench.start();
@@ -258,7 +258,7 @@ TEST_CASE("forcedimension_forces_that_are_slow_to_come_on_were_not_taken_off") {
   CHECK((bench.state.flags & MVS_DRIVER_FLAG_FORCE_ON) != 0);
 }
 
-TEST_CASE("forcedimension_off_is_no_force_and_then_the_brakes") {
+TEST_CASE("forcedimension_off_writes_zero_force_and_then_brakes") {
   Bench bench;
   bench.start();
   REQUIRE(bench.ticks(5) == MVS_DRIVER_OK);
@@ -325,7 +325,7 @@ TEST_CASE("forcedimension_moves_to_calibrate_only_when_it_may") {
   CHECK(free.api.start(free.device) == MVS_DRIVER_OK);
 }
 
-TEST_CASE("forcedimension_open_says_why_not") {
+TEST_CASE("forcedimension_open_reports_its_reason_of_failure") {
   struct Case {
     long error;
     int32_t result;
@@ -346,7 +346,7 @@ TEST_CASE("forcedimension_open_says_why_not") {
   CHECK(odd.open() == MVS_DRIVER_E_OPTION);
 }
 
-TEST_CASE("forcedimension_two_devices_and_each_once") {
+TEST_CASE("forcedimension_two_devices_open_and_each_once") {
   Bench bench;
   bench.in.count = 2;
   CHECK(bench.plug.list() == std::vector<std::string>{"0", "1"});
@@ -368,7 +368,7 @@ TEST_CASE("forcedimension_two_devices_and_each_once") {
   CHECK(std::string(second.info().serial) == "4001");
 }
 
-TEST_CASE("forcedimension_doctor_looks_at_library_bus_and_device") {
+TEST_CASE("forcedimension_doctor_checks_library_bus_and_device") {
   namespace fs = std::filesystem;
   const fs::path root = fs::temp_directory_path() / ("mvs_usb_fd_" + std::to_string(getpid()));
   const fs::path usb = root / "sys/bus/usb/devices/1-3";
@@ -389,7 +389,7 @@ TEST_CASE("forcedimension_doctor_looks_at_library_bus_and_device") {
   CHECK_MESSAGE(has(said, "omega.3 (1451:0402) is plugged in"), said);
   CHECK_MESSAGE(has(said, "1 device 0: stand-in omega"), said);
   CHECK_MESSAGE(has(said, "0 calibration"), said);
-  // root may open everything
+  // root may open every file
   if (geteuid() != 0) CHECK_MESSAGE(has(said, "udev"), said);
   CHECK_MESSAGE(bench.in.moved == 0, "the doctor moved the device");
   fs::remove_all(root);

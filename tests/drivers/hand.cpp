@@ -1,4 +1,4 @@
-// The simulated hand moves as its equation says, and makes no energy of its own.
+// The simulated hand follows its equation of motion and creates no energy.
 #include "hand.h"
 
 #include <complex>
@@ -11,7 +11,7 @@ std::string bytes_of(const mvs_driver_state &state) {
 
 using Complex = std::complex<double>;
 
-// m x'' + d x' + k x = 0 by the roots of its characteristic equation, which differ.
+// m x'' + d x' + k x = 0 by the distinct roots of its characteristic equation.
 struct Free {
   double mass, damping, stiffness;
 
@@ -23,7 +23,7 @@ struct Free {
   }
 };
 
-// Numbers of no pattern, the same every time, from -1 to 1.
+// Pseudo-random numbers from -1 to 1, the same in every run.
 struct Noise {
   uint64_t state = 1;
   double operator()() {
@@ -41,9 +41,9 @@ double energy(const mvs_driver_state &s, double mass, double stiffness) {
 
 }  // namespace
 
-TEST_CASE("a_hand_let_go_decays_as_the_closed_form_says") {
+TEST_CASE("a_released_hand_decays_as_the_closed_form") {
   const double mass = 0.2, stiffness = 180;
-  // swings, nearly critical (12), creeps, and a stiff one of time constants 1:10000
+  // oscillating, nearly critical (12), overdamped, and stiff with time constants 1:10000
   for (const double damping : {0.0, 1.5, 11.999, 40.0, 600.0}) {
     CAPTURE(damping);
     Hand hand(ideal({{"mass", "0.2"},
@@ -52,17 +52,17 @@ TEST_CASE("a_hand_let_go_decays_as_the_closed_form_says") {
                      {"from", "0.03,0,0"}}));
     const Free exact = {mass, damping, stiffness};
     double t = 0;
-    // any interval is right: 0.1 ms to 0.1 s
+    // any interval is exact: 0.1 ms to 0.1 s
     for (int n = 1; n <= 300; ++n) {
       const uint64_t ns = n % 3 ? 1000000 : n % 2 ? 100000 : 100000000;
       t += static_cast<double>(ns) * 1e-9;
-      // roots that are nearly one cost the closed form half of its digits
+      // with nearly equal roots the closed form loses half of its digits
       CHECK(std::abs(hand.after(ns).position[0] - exact(0.03, 0, t)) < 1e-9 * 0.03);
     }
   }
 }
 
-TEST_CASE("a_hand_that_is_led_in_a_sine_follows_as_the_closed_form_says") {
+TEST_CASE("a_hand_led_along_a_sine_follows_the_closed_form") {
   const double mass = 0.3, stiffness = 200, arm = 3, drag = 0.5, amplitude = 0.02;
   const double w = 2 * std::acos(-1.0) * 3;
   Hand hand(ideal({{"mass", "0.3"},
@@ -87,7 +87,7 @@ TEST_CASE("a_hand_that_is_led_in_a_sine_follows_as_the_closed_form_says") {
   }
 }
 
-TEST_CASE("a_hand_led_by_a_recording_is_exact_whenever_it_is_asked") {
+TEST_CASE("a_hand_led_by_a_recording_is_exact_at_any_sampling") {
   const std::string file = MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/grasp_a2.txt";
   Hand often(ideal({{"file", file}})), seldom(ideal({{"file", file}}));
   for (int n = 0; n < 100; ++n) {
@@ -97,11 +97,11 @@ TEST_CASE("a_hand_led_by_a_recording_is_exact_whenever_it_is_asked") {
       CHECK(std::abs(often.state.position[k] - seldom.state.position[k]) < 1e-12);
     CHECK_EQ(often.state.buttons, seldom.state.buttons);
   }
-  // and it gets where it is led: at the end the script rests at 0.0268
+  // and it arrives: at the end the script rests at 0.0268
   CHECK(std::abs(seldom.after(10000000000).position[1] - 0.0268) < 1e-9);
 }
 
-TEST_CASE("an_undamped_hand_has_the_energy_that_forces_gave_it") {
+TEST_CASE("an_undamped_hand_has_the_energy_that_forces_supplied") {
   const double mass = 0.1, stiffness = 300;
   Hand hand(ideal({{"mass", "0.1"}, {"arm_stiffness", "300"}, {"arm_damping", "0"}}));
   Noise noise;
@@ -119,7 +119,7 @@ TEST_CASE("an_undamped_hand_has_the_energy_that_forces_gave_it") {
   CHECK_GT(work, 0.1);
 }
 
-TEST_CASE("a_damped_hand_loses_what_its_dampers_take") {
+TEST_CASE("a_damped_hand_loses_the_energy_of_its_dampers") {
   const double mass = 0.15, stiffness = 250, damping = 1.7 + 0.3;
   Hand hand(ideal({{"mass", "0.15"},
                    {"arm_stiffness", "250"},
@@ -140,10 +140,10 @@ TEST_CASE("a_damped_hand_loses_what_its_dampers_take") {
     CHECK(std::abs(lost - taken) < 1e-15);
     most = std::max(most, taken);
   }
-  CHECK_GT(most, 1e-8);  // J: a million times what the rule errs by
+  CHECK_GT(most, 1e-8);  // J: a million times the error of the rule
 }
 
-TEST_CASE("a_spring_stiffer_than_damping_and_delay_allow_swings_up") {
+TEST_CASE("a_spring_stiffer_than_damping_and_delay_allow_diverges") {
   // a sampled spring is stable for K < b / (T / 2 + delay) (Gil et al. 2009, Stability boundary for
   // haptic rendering)
   const double stiffness = 1000, period = 1e-3;
@@ -170,7 +170,7 @@ TEST_CASE("a_spring_stiffer_than_damping_and_delay_allow_swings_up") {
     }
 }
 
-TEST_CASE("a_force_is_felt_as_many_samples_late_as_the_device_is") {
+TEST_CASE("a_force_acts_as_many_samples_late_as_the_device_states") {
   for (const int delay : {0, 1, 2, 16}) {
     Hand hand(ideal({{"arm_stiffness", "0"}, {"delay", std::to_string(delay)}}));
     hand.plug.write(1, 0, 0);
@@ -206,7 +206,7 @@ TEST_CASE("two_hands_do_not_feel_each_other") {
   CHECK_EQ(idle.tick().position[0], 0);
 }
 
-TEST_CASE("a_hand_that_is_pushed_rests_where_the_arm_bears_it") {
+TEST_CASE("a_pushed_hand_rests_where_the_arm_balances_it") {
   Hand hand(ideal({{"push", "0.27,0,-0.54"}, {"target", "0,0.01,0"}}));
   hand.after(20000000000);
   CHECK(std::abs(hand.x() - 0.27 / 135) < 1e-12);
@@ -214,7 +214,7 @@ TEST_CASE("a_hand_that_is_pushed_rests_where_the_arm_bears_it") {
   CHECK(std::abs(hand.state.position[2] + 0.54 / 135) < 1e-12);
 }
 
-TEST_CASE("motors_that_are_off_are_not_felt") {
+TEST_CASE("disabled_motors_have_no_effect") {
   Hand hand(ideal({{"arm_stiffness", "0"}, {"arm_damping", "0"}}));
   hand.plug.write(5, 0, 0, false);
   CHECK_EQ(hand.tick().position[0], 0);

@@ -1,4 +1,4 @@
-// A simulated hand on a clock of its own, for tests.
+// Fixture: a simulated hand on a clock of its own.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,7 @@ class Hand {
   mvs_driver_state state;
 };
 
-// A hand alone: what is written is felt at once and exactly, and velocity is told.
+// An ideal hand: a written force acts at once and exactly, and the sample holds the velocity.
 inline Options ideal(Options more) {
   more.insert({{"device", "ideal"}, {"velocity", "1"}});
   return more;

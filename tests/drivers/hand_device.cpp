@@ -14,7 +14,7 @@ Options with_fault(const std::string &fault, const std::string &lasting) {
           {"amplitude", "0.01,0,0"}, {"frequency", "1"},  {"device", "touch"}};
 }
 
-// What a sample says that a hand's never does; none of it if the device is well.
+// The fields of a sample that differ from those of a working device; empty if none differs.
 struct Oddities {
   Oddities(const mvs_driver_state &before, const mvs_driver_state &s, uint64_t now) {
     nan_position = std::isnan(s.position[0]);
@@ -41,7 +41,7 @@ struct Oddities {
 
 }  // namespace
 
-TEST_CASE("a_fault_begins_and_ends_when_it_is_told_to") {
+TEST_CASE("a_fault_begins_and_ends_at_its_times") {
   const struct {
     const char *name;
     bool (*shown)(const Oddities &);
@@ -85,7 +85,7 @@ TEST_CASE("a_button_that_bounces_changes_at_each_sample") {
   }
 }
 
-TEST_CASE("a_deadmans_switch_is_held_until_it_is_let_go") {
+TEST_CASE("a_dead_mans_switch_is_pressed_until_it_is_released") {
   Hand hand(with_fault("deadman", "0.05"));
   CHECK_EQ(hand.plug.info().has_deadman, 1);
   for (int ms = 1; ms <= 200; ++ms) {
@@ -94,7 +94,7 @@ TEST_CASE("a_deadmans_switch_is_held_until_it_is_let_go") {
   }
 }
 
-TEST_CASE("a_device_that_is_unplugged_is_lost_until_it_is_back") {
+TEST_CASE("an_unplugged_device_is_lost_until_it_returns") {
   Hand hand(with_fault("unplug", "0.05"));
   for (int ms = 1; ms <= 200; ++ms) {
     mvs_driver_state state;
@@ -116,7 +116,7 @@ TEST_CASE("a_slow_device_takes_longer_than_its_patience") {
   CHECK_GT(taken, std::chrono::milliseconds(MVS_DRIVER_PATIENCE_MS));  // it sleeps 150 ms
 }
 
-TEST_CASE("a_device_that_cannot_be_opened_says_why") {
+TEST_CASE("a_device_that_cannot_be_opened_reports_why") {
   const std::map<std::string, int32_t> codes = {{"absent", MVS_DRIVER_E_ABSENT},
                                                 {"licence", MVS_DRIVER_E_LICENCE}};
   for (const auto &[fault, code] : codes) {
@@ -158,7 +158,7 @@ TEST_CASE("the_devices_have_the_limits_of_the_published_tables") {
   CHECK_EQ(other.plug.info().rate, 333);
 }
 
-TEST_CASE("a_position_is_a_whole_number_of_the_encoders_steps") {
+TEST_CASE("a_position_is_a_multiple_of_the_encoder_step") {
   const Options swing = {{"amplitude", "0.01,0.02,0.03"}, {"frequency", "2"}};
   Options coarse = swing, fine = swing;
   coarse["resolution"] = "0.0001";
@@ -176,13 +176,13 @@ TEST_CASE("a_position_is_a_whole_number_of_the_encoders_steps") {
       least = std::min(least, error);
       most = std::max(most, error);
     }
-    CHECK_EQ(rough.state.velocity[0], 0);  // not measured, and not said to be
+    CHECK_EQ(rough.state.velocity[0], 0);  // not measured, and not reported as measured
     CHECK_EQ(rough.state.flags & MVS_DRIVER_FLAG_VELOCITY, 0);
   }
   CHECK_GT(most, 0.00004);
 }
 
-TEST_CASE("motors_give_no_more_than_they_can") {
+TEST_CASE("motors_give_at_most_their_largest_force") {
   const Options free = {{"mass", "1"},        {"arm_stiffness", "0"},  {"arm_damping", "0"},
                         {"device_mass", "0"}, {"device_damping", "0"}, {"delay", "0"},
                         {"resolution", "0"},  {"force", "3"}};
@@ -199,7 +199,7 @@ TEST_CASE("motors_give_no_more_than_they_can") {
   CHECK_NE(hand.tick().flags & MVS_DRIVER_FLAG_SATURATED, 0);
 }
 
-TEST_CASE("motors_that_the_device_switched_off_are_not_felt") {
+TEST_CASE("motors_switched_off_by_the_device_have_no_effect") {
   for (const std::string fault : {"hot", "button"}) {
     Hand hand(ideal({{"fault", fault}, {"fault_for", "0.01"}}));
     for (int ms = 1; ms <= 20; ++ms) {
@@ -209,7 +209,7 @@ TEST_CASE("motors_that_the_device_switched_off_are_not_felt") {
   }
 }
 
-TEST_CASE("a_force_that_is_no_number_moves_nothing_and_is_told_of") {
+TEST_CASE("a_force_with_nan_has_no_effect_and_is_reported") {
   Hand hand(ideal({}));
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     CHECK_EQ(hand.plug.write(0, bad, 0), MVS_DRIVER_E_FAULT);
@@ -219,7 +219,7 @@ TEST_CASE("a_force_that_is_no_number_moves_nothing_and_is_told_of") {
   }
 }
 
-TEST_CASE("options_of_the_hand_that_make_no_sense_are_refused") {
+TEST_CASE("invalid_options_of_the_hand_are_refused") {
   const std::string file = MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/circle.txt";
   const Options bad[] = {
       {{"device", "glove"}},

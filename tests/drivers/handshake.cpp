@@ -1,4 +1,5 @@
-// The handshake, for drivers that run without hardware: versions, sizes, and what may be missing.
+// The driver handshake, for drivers that run without hardware: versions, struct sizes, optional
+// functions.
 #include <cstring>
 #include <set>
 #include <thread>
@@ -23,7 +24,7 @@ std::map<std::string, std::string> options_of(const std::string &driver) {
 
 }  // namespace
 
-TEST_CASE("a_driver_speaks_version_1_to_a_host_that_speaks_it_too") {
+TEST_CASE("a_driver_accepts_a_host_of_version_1") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
     const auto negotiate = negotiate_of(name);
@@ -48,7 +49,7 @@ TEST_CASE("a_driver_speaks_version_1_to_a_host_that_speaks_it_too") {
   }
 }
 
-TEST_CASE("a_driver_tells_a_newer_host_how_much_it_filled") {
+TEST_CASE("a_driver_reports_the_size_it_filled_to_a_newer_host") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
     struct {
@@ -69,7 +70,7 @@ TEST_CASE("a_driver_tells_a_newer_host_how_much_it_filled") {
   }
 }
 
-TEST_CASE("a_driver_writes_no_further_than_its_host_has_room") {
+TEST_CASE("a_driver_writes_at_most_the_size_of_its_host") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
     Plug plug(name, options_of(name));
@@ -88,7 +89,7 @@ TEST_CASE("a_driver_writes_no_further_than_its_host_has_room") {
     REQUIRE_EQ(plug.api.read(plug.device, 1, &state), MVS_DRIVER_OK);
     CHECK_EQ(state.sequence, 1);
     CHECK_EQ(state.cause, 0x5a5a5a5au);
-    // a force of which only `on` was filled is zero, not what lies behind it
+    // a force of which only `on` was filled is zero; memory behind it is not read
     mvs_driver_force force;
     std::memset(&force, 0xff, sizeof force);
     force.struct_size = offsetof(mvs_driver_force, force);
@@ -97,7 +98,7 @@ TEST_CASE("a_driver_writes_no_further_than_its_host_has_room") {
   }
 }
 
-TEST_CASE("the_sample_stays_while_the_clock_stands") {
+TEST_CASE("the_sample_is_constant_while_the_clock_stands") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
     Plug plug(name, options_of(name));
@@ -117,7 +118,7 @@ TEST_CASE("the_sample_stays_while_the_clock_stands") {
   }
 }
 
-TEST_CASE("a_driver_lists_the_options_that_it_asks_for") {
+TEST_CASE("a_driver_lists_the_options_that_it_reads") {
   struct Asked {
     std::map<std::string, std::string> given;
     std::set<std::string> keys;
@@ -140,7 +141,7 @@ TEST_CASE("a_driver_lists_the_options_that_it_asks_for") {
     std::set<std::string> listed;
     for (const char *const *o = plug.api.options; o && *o; ++o)
       listed.insert(std::string(*o).substr(0, std::string(*o).find(':')));
-    if (name == "hand") {  // asked for only where a fault, a file, or neither is given
+    if (name == "hand") {  // read only where a fault, a file, or neither is given
       asked.given = {{"fault", "jump"}};
       plug.close();
       REQUIRE_EQ(plug.api.open(&host, nullptr, &plug.device), MVS_DRIVER_OK);
@@ -175,7 +176,7 @@ TEST_CASE("forces_are_on_between_start_and_stop_only") {
   }
 }
 
-TEST_CASE("stop_may_come_while_the_device_is_read") {
+TEST_CASE("stop_may_be_called_while_the_device_is_read") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
     Plug plug(name, options_of(name));

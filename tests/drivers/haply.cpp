@@ -1,5 +1,5 @@
 // The driver of the Haply Inverse3 against a service of our own; tests/drivers/test_haply.py does
-// the same against the third-party server `websockets`.
+// the same with the third-party server `websockets`.
 #include "haply_service.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ std::string steady(int, const std::string &) {
   return ws_frame(haply_state(0.03125));
 }
 
-// No test is about being late unless it says so.
+// Long time-outs: only tests of lateness set shorter ones.
 std::map<std::string, std::string> options(const HaplyService &service,
                                            std::map<std::string, std::string> more = {}) {
   more.insert({{"host", "127.0.0.1"}, {"port", service.port()}, {"patience", "2000"}});
@@ -46,7 +46,7 @@ TEST_CASE("haply: a state is read, on the clock of the host") {
       [&] { return plug.read(0, state) == MVS_DRIVER_OK && state.sequence > sequence + 5; }));
 }
 
-TEST_CASE("haply: what the device is") {
+TEST_CASE("haply: the device description") {
   HaplyService service(steady);
   Plug plug("haply", options(service));
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
@@ -67,7 +67,7 @@ TEST_CASE("haply: what the device is") {
   CHECK(has(hello, R"("profile":{"name":"libmvs"})"));
 }
 
-TEST_CASE("haply: the field of a force has the name that the service's version knows") {
+TEST_CASE("haply: the field of a force has the name of the service's version") {
   struct Case {
     const char *version, *field;
   };
@@ -107,7 +107,7 @@ TEST_CASE("haply: no force before start, after stop, when off, at panic, at the 
   REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(zero_again());
   REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-  CHECK(zero_again());  // what was written before does not count
+  CHECK(zero_again());  // earlier messages do not count
   REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(pushed());
   CHECK(eventually([&] {
@@ -155,7 +155,7 @@ TEST_CASE("haply: stop and panic reach a service that is slow to answer") {
     const size_t before = service.texts().size();
     if (panic) plug.api.panic(plug.device);
     if (!panic) plug.api.stop(plug.device);
-    // that of the thread, and of panic its own before
+    // the thread writes its own zero, and panic wrote one before
     CHECK(eventually([&] { return service.texts().size() > before + (panic ? 1 : 0); }));
     CHECK(has(service.texts().at(before), kZero));
     CHECK(has(service.last(), kZero));
@@ -185,7 +185,7 @@ TEST_CASE("haply: a service that is silent, gone or says goodbye is lost, after 
   }
 }
 
-TEST_CASE("haply: a device that is unplugged is lost; a grip that goes lets go") {
+TEST_CASE("haply: an unplugged device is lost; an unplugged grip releases its buttons") {
   std::atomic<int> scene{0};
   const std::string no_grip = R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":)"
                               R"({"x":0,"y":0,"z":0}}}],"wireless_verse_grip":[]})";
@@ -200,14 +200,14 @@ TEST_CASE("haply: a device that is unplugged is lost; a grip that goes lets go")
   CHECK_EQ(state.buttons, 5);
   scene = 1;
   CHECK(eventually([&] { return plug.read(0, state) == MVS_DRIVER_OK && state.buttons == 0; }));
-  CHECK_EQ(state.orientation[0], 0.8);  // the last one
+  CHECK_EQ(state.orientation[0], 0.8);  // the last one received
   CHECK((state.flags & MVS_DRIVER_FLAG_CALIBRATED) != 0);
   CHECK((state.flags & MVS_DRIVER_FLAG_VELOCITY) == 0);
   scene = 2;
   CHECK(eventually([&] { return plug.read(0, state) == MVS_DRIVER_E_LOST; }));
 }
 
-TEST_CASE("haply: an uncalibrated device says so") {
+TEST_CASE("haply: an uncalibrated device reports it") {
   const auto without = [](std::string text) {
     const std::string good = R"("calibrated":true)";
     return text.replace(text.find(good), good.size(), R"("calibrated":false)");
@@ -226,7 +226,7 @@ TEST_CASE("haply: an uncalibrated device says so") {
   CHECK_EQ(faults, 1);
 }
 
-TEST_CASE("haply: what is not there, and options that make no sense") {
+TEST_CASE("haply: missing services and devices, and invalid options") {
   HaplyService service(steady);
   const auto opened = [&](std::map<std::string, std::string> more, const char *name = nullptr) {
     Plug plug("haply", options(service, std::move(more)));
@@ -255,7 +255,7 @@ TEST_CASE("haply: what is not there, and options that make no sense") {
   CHECK(none.list().empty());
 }
 
-TEST_CASE("haply: a version that is told in other ways, or not at all") {
+TEST_CASE("haply: a version in another notation, or no version") {
   struct Case {
     const char *answer;
     int32_t result;
@@ -302,8 +302,9 @@ TEST_CASE("haply: pings, messages in pieces and long ones") {
   }
 }
 
-// What opening says to bytes that come in place of the first state. A short patience where they may
-// be no answer at all; a fault is one at once, if it is read in time, with sanitizers too.
+// The error of opening when these bytes replace the first state. The patience is short where the
+// bytes may be no answer at all; a fault is detected at once if it is read in time, with sanitizers
+// too.
 int32_t answered(const HaplyService &service, const char *patience = "2000") {
   Plug plug("haply",
             options(service, {{"version", "3.5"}, {"patience", patience}, {"rate", "50"}}));

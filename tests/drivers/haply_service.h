@@ -1,5 +1,6 @@
-// A Haply Inverse Service of our own: one port for HTTP and WebSocket, one state for each message.
-// Frames have the shapes of docs.haply.co (WebSocket Protocol, 3.5) and of the crate haply 1.3.1.
+// A stand-in for the Haply Inverse Service: one port for HTTP and WebSocket, one state for each
+// message. Frames have the shapes of docs.haply.co (WebSocket Protocol, 3.5) and of the crate haply
+// 1.3.1.
 #pragma once
 
 #include <arpa/inet.h>
@@ -18,7 +19,7 @@
 #include "../../haptic_drivers/haply/accept.h"
 #include "plug.h"
 
-// A frame of a server: not masked.
+// A frame of a server, which is not masked.
 inline std::string ws_frame(const std::string &text, unsigned first = 0x81) {
   std::string out(1, static_cast<char>(first));
   const size_t size = text.size();
@@ -53,7 +54,7 @@ inline std::string haply_inventory() {
 
 class HaplyService {
  public:
-  // The bytes that answer the n-th text of a connection; nothing: silence.
+  // The bytes that answer the n-th text of a connection; empty: silence.
   using Reply = std::function<std::string(int n, const std::string &text)>;
 
   explicit HaplyService(Reply reply, std::string version = "3.5.0.0",
@@ -79,7 +80,7 @@ class HaplyService {
     thread_.join();
     close(listening_);
   }
-  // All texts that clients sent, the WebSocket's opening left out.
+  // All texts that clients sent, without the WebSocket's opening.
   std::vector<std::string> texts() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return texts_;
@@ -97,7 +98,7 @@ class HaplyService {
     return pong_;
   }
 
-  // What GET /version answers, if not a good answer.
+  // The answer to GET /version, if not the default one.
   std::string http;
 
  private:
@@ -115,7 +116,7 @@ class HaplyService {
     for (std::thread &client : clients) client.join();
   }
 
-  // False when the client is gone or the test is over.
+  // Returns false when the client has left or the test has ended.
   bool more(int client, std::string &bytes) const {
     while (!stopping_) {
       pollfd waiting = {client, POLLIN, 0};
@@ -194,7 +195,7 @@ class HaplyService {
   std::thread thread_;
 };
 
-// What happens in another thread is waited for, not timed: a busy machine only takes longer.
+// Events of another thread are waited for, not timed: a busy machine only takes longer.
 inline bool eventually(const std::function<bool()> &true_at_last) {
   for (int i = 0; i < 10000; ++i) {
     if (true_at_last()) return true;

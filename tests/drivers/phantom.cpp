@@ -1,5 +1,5 @@
-// The phantom driver on a stand-in for OpenHaptics. Ticks follow each other as fast as they can:
-// nothing here depends on how long one takes.
+// The phantom driver on a stand-in for OpenHaptics. Ticks run without pauses, and no check depends
+// on their length.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 const std::string kLibrary = MVS_STAND_INS_DIR "/openhaptics/libHD_watched.so";
 
-// A doubt of the last bits: mm to m and back.
+// Tolerance for the last bits: mm to m and back.
 constexpr double kRounding = 1e-12;
 
 HdStandIn &stand_in() {
@@ -27,7 +27,7 @@ HdStandIn &stand_in() {
   return *reinterpret_cast<hd_stand_in_fn>(dlsym(library, "hd_stand_in"))();
 }
 
-// A driver on a stand-in without faults, but for those that the test then adds.
+// A driver on a stand-in without faults; a test adds its own.
 struct Bench {
   HdStandIn &in = stand_in();
   Plug plug{"phantom", {{"library", kLibrary}}};
@@ -61,11 +61,11 @@ struct Bench {
   }
 };
 
-// A servo that keeps what it is given, answers `force`, and stops after `ticks`.
+// A servo that stores its samples, answers `force`, and stops after `ticks`.
 struct Hand {
   size_t ticks = 100;
   mvs_driver_force force = {sizeof(mvs_driver_force), 1, {1, 0.5, -0.25}, {0.01, 0.02, 0.03}, 0};
-  mvs_driver_device *stop = nullptr;  // call stop() of this at the end, do not say it
+  mvs_driver_device *stop = nullptr;  // calls stop() of this at the end, returns no request
   const mvs_driver_api *api = nullptr;
   std::vector<mvs_driver_state> seen = {};
 
@@ -87,7 +87,7 @@ bool has(const std::string &sentence, const char *word) {
 
 }  // namespace
 
-TEST_CASE("phantom_knows_its_version_only") {
+TEST_CASE("phantom_accepts_its_own_version_only") {
   mvs_driver_api api = {};
   void *const library = dlopen(MVS_DRIVERS_DIR "/phantom.so", RTLD_NOW);
   const auto negotiate =
@@ -101,7 +101,7 @@ TEST_CASE("phantom_knows_its_version_only") {
   CHECK(!api.open);
 }
 
-TEST_CASE("phantom_says_which_library_is_missing") {
+TEST_CASE("phantom_names_the_missing_library") {
   Plug none("phantom", {{"library", "/nowhere/libHD.so"}});
   CHECK(none.open() == MVS_DRIVER_E_LIBRARY);
   CHECK(has(none.error(), "install the vendor's OpenHaptics"));
@@ -117,7 +117,7 @@ TEST_CASE("phantom_says_which_library_is_missing") {
   CHECK(relative.open() == MVS_DRIVER_E_OPTION);
 }
 
-TEST_CASE("phantom_says_what_a_device_is") {
+TEST_CASE("phantom_describes_the_device") {
   Bench bench;
   REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
   const mvs_driver_info info = bench.plug.info();
@@ -137,7 +137,7 @@ TEST_CASE("phantom_says_what_a_device_is") {
   CHECK(bench.plug.list() == std::vector<std::string>{"Default Device"});
 }
 
-TEST_CASE("phantom_samples_are_in_metres_and_turn_with_the_stylus") {
+TEST_CASE("phantom_samples_are_in_metres_and_rotate_with_the_stylus") {
   Bench bench;
   bench.in.buttons = 2;
   bench.in.parked = 1;
@@ -184,7 +184,7 @@ TEST_CASE("phantom_force_reaches_the_motors_and_the_last_one_is_zero") {
   CHECK(bench.plug.info().peak_torque == doctest::Approx(0.188));
 }
 
-TEST_CASE("phantom_motors_stay_off_when_told_so") {
+TEST_CASE("phantom_motors_stay_off_on_request") {
   Bench bench;
   bench.start();
   Hand hand{50};
@@ -193,7 +193,7 @@ TEST_CASE("phantom_motors_stay_off_when_told_so") {
   for (int frame = 0; frame < 50; ++frame) CHECK(bench.was_zero(0, frame));
 }
 
-TEST_CASE("phantom_unplugged_is_lost_and_later_absent") {
+TEST_CASE("phantom_an_unplugged_device_is_lost_and_later_absent") {
   Bench bench;
   bench.in.unplug_at = 700;
   bench.start();
@@ -208,7 +208,7 @@ TEST_CASE("phantom_unplugged_is_lost_and_later_absent") {
   CHECK_MESSAGE(has(bench.plug.error(), "USB"), bench.plug.error());
 }
 
-TEST_CASE("phantom_not_a_number_reaches_the_servo_and_never_the_motors") {
+TEST_CASE("phantom_nan_reaches_the_servo_and_never_the_motors") {
   Bench bench;
   bench.in.nan_at = 50;
   bench.start();
@@ -270,7 +270,7 @@ TEST_CASE("phantom_silence_of_the_scheduler_is_a_loss_and_nothing_hangs") {
   bench.plug.close();
   CHECK(bench.plug.open() == MVS_DRIVER_E_FAULT);
   CHECK_MESSAGE(has(bench.plug.error(), "start this program again"), bench.plug.error());
-  bench.in.hang = 0;  // it comes back: so may we
+  bench.in.hang = 0;  // it returns, so that the test can end
   while (bench.plug.open() == MVS_DRIVER_E_FAULT) std::this_thread::yield();
   CHECK(bench.plug.device != nullptr);
 }
@@ -301,7 +301,7 @@ TEST_CASE("phantom_warnings_take_the_force_off_for_a_while") {
   }
 }
 
-TEST_CASE("phantom_warm_motors_are_told_before_they_are_too_warm") {
+TEST_CASE("phantom_warm_motors_are_reported_before_they_are_too_warm") {
   Bench bench;
   bench.in.temperature = 95;
   bench.start();
@@ -312,7 +312,7 @@ TEST_CASE("phantom_warm_motors_are_told_before_they_are_too_warm") {
   CHECK(!bench.was_zero(0, 5));
 }
 
-TEST_CASE("phantom_open_says_why_not") {
+TEST_CASE("phantom_open_reports_its_reason_of_failure") {
   struct Case {
     long code;
     int32_t result;
@@ -338,7 +338,7 @@ TEST_CASE("phantom_open_says_why_not") {
   CHECK_MESSAGE(has(bench.plug.error(), "Phantom7"), bench.plug.error());
 }
 
-TEST_CASE("phantom_opens_what_a_crashed_program_left_open") {
+TEST_CASE("phantom_opens_a_device_that_a_crashed_program_left_open") {
   Bench bench;
   bench.in.init_code = 0x301;
   bench.in.init_times = 3;
@@ -354,7 +354,7 @@ TEST_CASE("phantom_opens_a_device_once") {
   CHECK_MESSAGE(bench.in.open[0] == 1, "it switched off a device that is open here");
 }
 
-TEST_CASE("phantom_calibrates_what_needs_no_hand_and_says_what_does") {
+TEST_CASE("phantom_calibrates_where_no_hand_is_needed_and_reports_where_one_is") {
   Bench bench;
   bench.in.calibration = 0x5001;
   bench.start();
@@ -368,8 +368,9 @@ TEST_CASE("phantom_calibrates_what_needs_no_hand_and_says_what_does") {
   CHECK(Hand().run(bench.plug) == MVS_DRIVER_E_INTERNAL);
 }
 
-// The library has one stack of errors: whose callback comes first may find those of the other.
-TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_go") {
+// The library has one stack of errors: the callback that runs first may pop those of the other
+// device.
+TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_be_lost") {
   for (const long found_by : {1, 0}) {
     CAPTURE(found_by);
     Bench bench;
@@ -397,7 +398,7 @@ TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_go") {
   }
 }
 
-TEST_CASE("phantom_opens_nothing_while_a_device_runs") {
+TEST_CASE("phantom_refuses_to_open_while_a_device_runs") {
   Bench bench;
   bench.start();
   Plug late("phantom", {{"library", kLibrary}});
@@ -410,7 +411,7 @@ TEST_CASE("phantom_opens_nothing_while_a_device_runs") {
   other.join();
 }
 
-TEST_CASE("phantom_panic_writes_zero_from_the_servo_and_from_elsewhere") {
+TEST_CASE("phantom_panic_writes_zero_from_the_servo_and_from_other_threads") {
   Bench bench;
   bench.start();
   const auto servo = [](void *user, const mvs_driver_state *, mvs_driver_force *force) -> int32_t {
@@ -419,7 +420,7 @@ TEST_CASE("phantom_panic_writes_zero_from_the_servo_and_from_elsewhere") {
     auto &plug = *static_cast<Plug *>(user);
     if (in.frames[0] != 20) return in.frames[0] < 40 ? MVS_DRIVER_OK : MVS_DRIVER_STOP;
     plug.api.panic(plug.device);
-    CHECK(in.frames[0] == 21);  // the frame ended there and then
+    CHECK(in.frames[0] == 21);  // the frame ended at that moment
     return MVS_DRIVER_OK;
   };
   CHECK(bench.plug.api.run(bench.plug.device, servo, &bench.plug) == MVS_DRIVER_OK);
@@ -463,8 +464,8 @@ TEST_CASE("phantom_reads_its_files_under_a_decimal_comma") {
   std::setlocale(LC_ALL, "C");
 }
 
-// As root everything may be opened: then only what is found is looked at.
-TEST_CASE("phantom_doctor_looks_at_the_usb_bus") {
+// Root may open every file: then only the listing is checked.
+TEST_CASE("phantom_doctor_checks_the_usb_bus") {
   namespace fs = std::filesystem;
   const fs::path root = fs::temp_directory_path() / ("mvs_usb_" + std::to_string(getpid()));
   const fs::path usb = root / "sys/bus/usb/devices/1-2";

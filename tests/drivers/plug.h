@@ -1,4 +1,4 @@
-// A driver, loaded and asked as libmvs does, for tests of drivers alone.
+// Fixture: loads a driver and calls it as libmvs does, for tests of drivers alone.
 #pragma once
 
 #include <dlfcn.h>
@@ -12,12 +12,12 @@
 
 class Plug {
  public:
-  // `driver` is a name in the folder of drivers, or a path; options are what an application gives.
+  // `driver` is a name in the folder of drivers, or a path; options are those of an application.
   explicit Plug(const std::string &driver, std::map<std::string, std::string> options = {})
       : options_(std::move(options)) {
     const std::string path =
         driver.front() == '/' ? driver : std::string(MVS_DRIVERS_DIR) + "/" + driver + ".so";
-    // never closed: vendors' libraries do not bear it
+    // never closed: vendors' libraries do not support unloading
     void *const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) throw std::runtime_error(dlerror());
     const auto negotiate =

@@ -1,4 +1,4 @@
-"""A driver, loaded from Python: include/mvs/driver.h declared once more, by ctypes."""
+"""A driver, loaded from Python: the declarations of include/mvs/driver.h in ctypes."""
 
 import ctypes as c
 import os
@@ -94,7 +94,7 @@ class Api(c.Structure):
 
 
 class Plug:
-    """An open driver with the options that an application would give."""
+    """An open driver with the options of an application."""
 
     def __init__(self, name, **options):
         library = c.CDLL(str(FOLDER / f"{name}.so"), mode=os.RTLD_NOW | os.RTLD_LOCAL)
@@ -130,7 +130,7 @@ class Plug:
         return told
 
     def read(self, now_ns=0):
-        """The code, and the state."""
+        """Returns the code and the state."""
         state = State(struct_size=c.sizeof(State))
         return self.api.read(self.device, now_ns, c.byref(state)), state
 

@@ -1,4 +1,4 @@
-// The same numbers on every machine (Steele, Lea & Flood 2014, SplitMix64).
+// SplitMix64 (Steele, Lea & Flood 2014): the same numbers on every machine.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The driver that plays a recording: what it plays, and what it refuses to.
+// The driver that plays a recording: the samples it plays, and the recordings it refuses.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using Options = std::map<std::string, std::string>;
 
-// A file of its own, gone with its owner.
+// A temporary file, removed by its owner's destructor.
 class Scratch {
  public:
   explicit Scratch(const std::string &text = {}) {
@@ -56,7 +56,7 @@ mvs_driver_state at(Plug &plug, double seconds) {
   return state;
 }
 
-// The sentence with which the text is refused; empty if it is not.
+// The sentence with which the text is refused; empty if it is accepted.
 std::string refusal(const Scratch &file, const std::string &text, const Options &more = {}) {
   file.put(text);
   Options options = more;
@@ -75,7 +75,7 @@ bool contains(const std::string &text, const std::string &part) {
 
 }  // namespace
 
-TEST_CASE("a_recording_is_straight_between_its_samples") {
+TEST_CASE("a_recording_is_interpolated_linearly_between_its_samples") {
   const Scratch file(kRecording);
   Plug plug("replay", {{"file", file.path()}});
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
@@ -132,7 +132,7 @@ TEST_CASE("a_recording_stays_loops_or_stops_at_its_end") {
   CHECK_EQ(at(stay, 2).position[2], 0.03);
   CHECK_EQ(at(stay, 2.1).velocity[2], 0);
   const uint64_t before = at(stay, 2.2).sequence;
-  CHECK_GT(at(stay, 2.3).sequence, before);  // it is at rest, not gone
+  CHECK_GT(at(stay, 2.3).sequence, before);  // it is at rest, not lost
 
   Plug loop("replay", {{"file", file.path()}, {"end", "loop"}});
   begun(loop);
@@ -145,11 +145,11 @@ TEST_CASE("a_recording_stays_loops_or_stops_at_its_end") {
   CHECK_EQ(stop.read(1101000000, state), MVS_DRIVER_E_END);
   CHECK(contains(stop.error(), file.path() + " is over"));
   CHECK_EQ(stop.read(1102000000, state), MVS_DRIVER_E_END);
-  stop.api.start(stop.device);  // again from its beginning
+  stop.api.start(stop.device);  // starts from its beginning again
   CHECK_EQ(at(stop, 2).position[0], 0.01);
 }
 
-TEST_CASE("a_recording_plays_faster_if_it_is_told_to") {
+TEST_CASE("a_recording_plays_faster_on_request") {
   const Scratch file(kRecording);
   Plug plug("replay", {{"file", file.path()}, {"speed", "2"}});
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
@@ -159,20 +159,20 @@ TEST_CASE("a_recording_plays_faster_if_it_is_told_to") {
   CHECK(std::abs(at(plug, 1.016).velocity[1] - 2) < 1e-9);
 }
 
-TEST_CASE("a_recording_says_what_device_it_is_of") {
+TEST_CASE("a_recording_describes_its_device") {
   const Scratch file(kRecording);
   Plug plug("replay", {{"file", file.path()}});
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
   const mvs_driver_info info = plug.info();
   CHECK_EQ(std::string(info.model), "Test stylus");
   CHECK_EQ(info.peak_force, 3.5);
-  CHECK_EQ(info.max_stiffness, 0);  // not said
+  CHECK_EQ(info.max_stiffness, 0);  // unknown
   CHECK_EQ(info.rate, 500);
   CHECK_EQ(info.freedoms_in, 6);
   CHECK_EQ(info.freedoms_out, 3);
   CHECK_EQ(info.has_gripper, 1);
   CHECK_EQ(info.buttons, 2);
-  // not said: around zero, 20 mm beyond the farthest sample
+  // unknown: around zero, 20 mm beyond the farthest sample
   CHECK_EQ(info.workspace_min[2], -0.05);
   CHECK_EQ(info.workspace_max[2], 0.05);
 
@@ -183,7 +183,7 @@ TEST_CASE("a_recording_says_what_device_it_is_of") {
   CHECK_EQ(std::string(told.info().model), "Mouse");
 }
 
-TEST_CASE("a_force_beyond_the_device_saturates_and_one_that_is_none_is_refused") {
+TEST_CASE("a_force_beyond_the_device_saturates_and_an_invalid_one_is_refused") {
   const Scratch file(kRecording);
   Plug plug("replay", {{"file", file.path()}});
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
@@ -196,7 +196,7 @@ TEST_CASE("a_force_beyond_the_device_saturates_and_one_that_is_none_is_refused")
   CHECK_EQ(at(plug, 3).flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
 }
 
-TEST_CASE("a_recording_that_is_none_is_refused_with_its_line") {
+TEST_CASE("an_invalid_recording_is_refused_with_its_line") {
   const Scratch file;
   const std::string head = "mvs-recording 1\n";
   const std::string first = "0 0 0 0 1 0 0 0 0 0\n", second = "1 0 0 0 1 0 0 0 0 0\n";
@@ -244,7 +244,7 @@ TEST_CASE("a_recording_that_is_none_is_refused_with_its_line") {
   }
 }
 
-TEST_CASE("a_recording_is_read_whatever_its_lines_end_with") {
+TEST_CASE("a_recording_is_read_with_any_line_ends") {
   const Scratch file;
   const std::string text = "mvs-recording 1\n0 0 0 0 1 0 0 0 0 0\n1 0 0 0 1 0 0 0 0 0";
   std::string with_returns;
@@ -256,7 +256,7 @@ TEST_CASE("a_recording_is_read_whatever_its_lines_end_with") {
   CHECK_EQ(refusal(file, with_returns + "\r\n"), "");
 }
 
-TEST_CASE("a_recording_is_read_whatever_the_locale_is") {
+TEST_CASE("a_recording_is_read_in_any_locale") {
   const char *const comma = setlocale(LC_ALL, "de_DE.UTF-8") ? "de_DE.UTF-8" : nullptr;
   if (!comma) MESSAGE("skipped: this machine has no locale de_DE.UTF-8");
   const Scratch file(kRecording);
@@ -274,7 +274,7 @@ TEST_CASE("a_recording_cut_off_at_any_byte_is_refused_or_shorter") {
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const std::string sentence = refusal(file, whole.substr(0, size));
     CAPTURE(size);
-    // what the last column lost cannot be seen
+    // a truncated last column cannot be detected
     if (sentence.empty()) CHECK_GT(size, whole.find("5.01"));
     if (size + 1 == two_samples) CHECK_EQ(sentence, "");
     if (!sentence.empty()) CHECK(contains(sentence, file.path() + ":"));
@@ -302,7 +302,7 @@ TEST_CASE("a_recording_with_any_byte_changed_is_refused_or_finite") {
     }
 }
 
-TEST_CASE("what_is_no_file_is_refused_at_once") {
+TEST_CASE("paths_that_are_not_files_are_refused_at_once") {
   const Scratch pipe;
   std::filesystem::remove(pipe.path());
   REQUIRE_EQ(mkfifo(pipe.path().c_str(), 0600), 0);
@@ -317,7 +317,7 @@ TEST_CASE("what_is_no_file_is_refused_at_once") {
   }
 }
 
-TEST_CASE("without_a_file_there_is_nothing_to_play") {
+TEST_CASE("opening_without_a_file_is_refused") {
   Plug plug("replay");
   CHECK(plug.list().empty());
   CHECK_EQ(plug.doctor().at(0).verdict, -1);
@@ -327,7 +327,7 @@ TEST_CASE("without_a_file_there_is_nothing_to_play") {
   CHECK_EQ(plug.open(file.path().c_str()), MVS_DRIVER_OK);
 }
 
-TEST_CASE("options_of_a_recording_that_make_no_sense_are_refused") {
+TEST_CASE("invalid_options_of_a_recording_are_refused") {
   const Scratch file;
   const Options bad = {{"end", "never"}, {"speed", "0"},      {"speed", "-1"},  {"speed", "fast"},
                        {"rate", "0.5"},  {"stiffness", "-1"}, {"force", "nan"}, {"damping", ""}};
@@ -339,7 +339,7 @@ TEST_CASE("options_of_a_recording_that_make_no_sense_are_refused") {
   CHECK(contains(refusal(file, kRecording, {{"speed", "101"}}), "from 0.001 to 100"));
 }
 
-TEST_CASE("the_recordings_that_are_shipped_are_hands_on_a_desk") {
+TEST_CASE("the_shipped_recordings_are_of_a_hand_on_a_desk") {
   for (const std::string name : {"grasp_a2.txt", "push_p2.txt", "circle.txt"}) {
     CAPTURE(name);
     Plug plug("replay", {{"file", kFolder + name}, {"end", "loop"}});
@@ -363,7 +363,7 @@ TEST_CASE("the_recordings_that_are_shipped_are_hands_on_a_desk") {
   }
 }
 
-TEST_CASE("a_loop_that_jumps_is_warned_of") {
+TEST_CASE("a_loop_with_a_jump_causes_a_warning") {
   const Scratch file(kRecording);
   Plug plug("replay", {{"file", file.path()}, {"end", "loop"}});
   const auto findings = plug.doctor();

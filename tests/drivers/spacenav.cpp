@@ -1,5 +1,5 @@
-// The driver of 3D mice against a spacenavd of our own, and beside the real libspnav: both read the
-// same socket, so that driver and fake cannot share a mistake.
+// The driver of 3D mice against a stand-in for spacenavd, and beside the real libspnav: both read
+// the same socket, so that driver and stand-in cannot share a mistake.
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -20,7 +20,8 @@ namespace {
 
 using Packet = std::array<int32_t, 8>;
 
-// Answers what libspnav asks (FreeSpacenav/libspnav src/proto.h) and sends what a test wants.
+// Answers the requests of libspnav (FreeSpacenav/libspnav src/proto.h) and sends events for the
+// test.
 class FakeDaemon {
  public:
   enum Kind { kNew, kOld, kNoMouse };
@@ -76,7 +77,7 @@ class FakeDaemon {
     Packet packet = {};
     const ssize_t got = recv(client, packet.data(), sizeof packet, 0);
     if (got <= 0) return false;
-    if (kind_ == kOld) return true;  // takes all for sensitivities
+    if (kind_ == kOld) return true;  // takes every request for sensitivities
     if (got == 4) return ::send(client, packet.data(), 4, MSG_NOSIGNAL) == 4;
     return reply(client, packet);
   }
@@ -86,7 +87,7 @@ class FakeDaemon {
     if (kind_ == kNoMouse) return say();
     if ((packet[0] & 0xffff) == 0x2003) packet[1] = 15;
     if ((packet[0] & 0xffff) != 0x2000) return say();
-    // a name of more than one piece
+    // a name in more than one packet
     const std::string name = "3Dconnexion SpaceMouse Pro Wireless";
     std::memcpy(&packet[1], name.data(), 24);
     packet[7] = static_cast<int32_t>(name.size());
@@ -135,7 +136,7 @@ TEST_CASE("spacenav: a deflection is a speed, inside a box") {
   CHECK(state.position[2] == doctest::Approx(-0.0005));
   CHECK(state.velocity[0] == doctest::Approx(0.1));
   CHECK_EQ(state.time_ns, 1010 * kMs);
-  // it stops at the wall, and when the puck is let go
+  // it stops at the wall, and when the puck is released
   const uint64_t sequence = state.sequence;
   for (uint64_t i = 0; i < 100; ++i)
     REQUIRE_EQ(plug.read((1020 + 10 * i) * kMs, state), MVS_DRIVER_OK);
@@ -149,14 +150,14 @@ TEST_CASE("spacenav: a deflection is a speed, inside a box") {
   const double there = state.position[2];
   REQUIRE_EQ(plug.read(3010 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[2], there);
-  // calibrating brings it back
+  // calibration moves it back
   REQUIRE_EQ(plug.api.calibrate(plug.device), MVS_DRIVER_OK);
   REQUIRE_EQ(plug.read(3020 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[0], 0);
   CHECK_EQ(plug.write(1, 0, 0), MVS_DRIVER_OK);
 }
 
-TEST_CASE("spacenav: a pause, and a clock that jumps back, move nothing far") {
+TEST_CASE("spacenav: a pause, and a clock that jumps back, cause no large motion") {
   FakeDaemon daemon;
   Plug plug("spacenav", {{"socket", daemon.path()}});
   REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
@@ -178,7 +179,7 @@ TEST_CASE("spacenav: buttons, and a mouse that is unplugged") {
   mvs_driver_state state;
   daemon.send({1, 0});
   daemon.send({1, 3});
-  daemon.send({1, 40});  // more than a mask holds
+  daemon.send({1, 40});  // more buttons than the mask holds
   daemon.send({1, -1});
   REQUIRE_EQ(plug.read(1 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.buttons, 9);
@@ -216,7 +217,7 @@ TEST_CASE("spacenav: packets in pieces, and packets of nonsense") {
   }
 }
 
-TEST_CASE("spacenav: the daemon goes, is old, has no mouse, is not there") {
+TEST_CASE("spacenav: the daemon ends, is old, has no mouse, does not run") {
   mvs_driver_state state;
   {
     FakeDaemon daemon;
@@ -254,7 +255,7 @@ TEST_CASE("spacenav: the daemon goes, is old, has no mouse, is not there") {
   CHECK_EQ(plug.doctor().at(0).verdict, 0);
 }
 
-TEST_CASE("spacenav: options that make no sense are refused") {
+TEST_CASE("spacenav: invalid options are refused") {
   FakeDaemon daemon;
   for (const char *speed : {"", "0", "-1", "nan", "1e9", "0.1x", "0,1"}) {
     CAPTURE(speed);
@@ -268,7 +269,7 @@ TEST_CASE("spacenav: options that make no sense are refused") {
   CHECK_EQ(longer.open(), MVS_DRIVER_E_OPTION);
 }
 
-// What of libspnav's interface is used here (its manual, doc/manual.md).
+// The part of libspnav's interface in use (its manual, doc/manual.md).
 struct Libspnav {
   struct Motion {
     int type, x, y, z, rx, ry, rz;

@@ -1,4 +1,4 @@
-// The driver to copy works as it is.
+// The driver template works unchanged.
 #include "plug.h"
 
 TEST_CASE("the_template_is_a_device_at_rest") {
@@ -28,7 +28,7 @@ TEST_CASE("the_template_is_a_device_at_rest") {
   }
 }
 
-TEST_CASE("the_template_is_open_once") {
+TEST_CASE("the_template_opens_once") {
   Plug first("template"), second("template");
   REQUIRE_EQ(first.open(), MVS_DRIVER_OK);
   CHECK_EQ(second.open(), MVS_DRIVER_E_BUSY);
@@ -38,7 +38,7 @@ TEST_CASE("the_template_is_open_once") {
   CHECK_EQ(second.open(), MVS_DRIVER_OK);
 }
 
-TEST_CASE("the_template_says_which_devices_there_are") {
+TEST_CASE("the_template_lists_its_devices") {
   Plug plug("template");
   CHECK_EQ(plug.open("attic"), MVS_DRIVER_E_ABSENT);
   CHECK_EQ(plug.error(), "there is no device \"attic\": try \"desk\"");

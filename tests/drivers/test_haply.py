@@ -134,7 +134,7 @@ def eventually(check):
 
 
 def plug(service, **options):
-    # no test is about being late unless it says so
+    # long time-outs: only tests of lateness set shorter ones
     return Plug("haply", **{"host": "127.0.0.1", "port": service.port, "patience": 2000, **options})
 
 
@@ -150,7 +150,7 @@ def test_a_state_is_read_whole_or_in_pieces(pieces):
         assert first.flags == CALIBRATED | VELOCITY
         assert first.buttons == 2
         assert list(first.velocity) == [-0.00018158932, -2.3230032e-05, -0.00025131978]
-        # what the service tells is a unit quaternion to 0.2 %
+        # the service's quaternion has unit length to 0.2 %
         assert list(first.orientation) == pytest.approx(
             [0.65896606, -0.0016784668, -0.037994385, -0.74890137], abs=2e-3)
         assert sum(part * part for part in first.orientation) == pytest.approx(1, abs=1e-14)

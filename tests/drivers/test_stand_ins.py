@@ -21,7 +21,7 @@ STAND_INS = pathlib.Path(
 
 
 def run(program, **environment):
-    """What a program says on standard output; it must end well."""
+    """Returns the program's standard output; the program must end without an error."""
     done = subprocess.run(
         [sys.executable, "-c", textwrap.dedent(program)],
         env={**os.environ, **environment},
@@ -80,7 +80,7 @@ HAPTICS = """
         print(i, *(round(x, 9) for row in matrix for x in row), buttons)
 """
 
-# Its own callback knows no errors of a device: this one asks with its types and numbers.
+# Its own callback ignores errors of a device: this one handles them with its types and numbers.
 HAPTICS_UNPLUGGED = """
     import ctypes, time
     from pyOpenHaptics import hd

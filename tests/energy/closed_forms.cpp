@@ -1,5 +1,5 @@
-// Equilibria of springs and chordae against closed forms. More, and everything about the membrane:
-// tests/verification.
+// Equilibria of springs and chordae against closed forms. tests/verification has more of them, and
+// those of the membrane.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ void make_linear_membrane(Valve &valve) {
 
 }  // namespace
 
-TEST_CASE("the_bilinear_law_is_the_curve_of_the_paper") {
+TEST_CASE("the_bilinear_law_is_the_published_curve") {
   for (const Cells &row : reference_table("a_bilinear.csv")) {
     const double strain = std::stod(row[0]), kpa = std::stod(row[1]);
     CAPTURE(strain);
@@ -47,7 +47,7 @@ TEST_CASE("the_bilinear_law_is_the_curve_of_the_paper") {
   }
 }
 
-TEST_CASE("a_branching_chord_finds_its_node_between_three_pulls") {
+TEST_CASE("a_branching_chord_balances_three_tensions") {
   // a Y of chordae between three fixed points; by symmetry its node is on the axis, where
   // E A (L1 - l1) / l1 = 2 E A (L2 - l2) / l2 cos(angle): solved by bisection here
   Valve valve;
@@ -85,8 +85,8 @@ TEST_CASE("a_clamped_membrane_converges_with_its_mesh") {
   CHECK(order < 2.5);
 }
 
-TEST_CASE("a_clamped_disc_bulges_as_hencky_says") {
-  // Hencky (1915) for nu = 1/3, what an equilateral lattice has: w0 = 0.6448 a (p a / E t)^(1/3)
+TEST_CASE("a_clamped_disc_deflects_as_in_hencky_1915") {
+  // Hencky (1915) for nu = 1/3, that of an equilateral lattice: w0 = 0.6448 a (p a / E t)^(1/3)
   const double pressure = 50,
                height = deflection(clamped_disc(16, 10e-3, make_linear_membrane), 50);
   const double hencky = 0.64478 * 10e-3 * std::cbrt(pressure * 10e-3 / (100e3 * 1e-3));

@@ -1,4 +1,4 @@
-// Contact: its derivatives, and what it adds up to between two sheets.
+// Contact energy: derivatives, resultants, and the pressure between two sheets.
 #include "energy/contact.h"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ using namespace mvs::core::test;
 namespace {
 
 // Two plates of large elements whose nodes come as near as 0.1 of the contact thickness: every kind
-// of pair, also guarded ones.
+// of pair occurs, also pairs with a barrier of their own.
 Plates rough_plates() {
   return two_plates(3, 12e-3, 8e-3, false, [](Valve &v) { v.contact_thickness = 4e-3; });
 }
@@ -34,7 +34,8 @@ double plate_pressure(uint32_t cells, double gap) {
       two_plates(cells, 10e-3, 4e-3, false, [](Valve &v) { v.contact_stiffness = 20e3; });
   const Positions x = plates.at(gap);
   const Positions g = Touch(plates.model, x, 0).gradient(x);
-  // what pushes the middle of the upper plate, rims left out: they feel each other's edges
+  // the contact force on the middle of the upper plate; rims are left out, since they feel each
+  // other's edges
   double force = 0, area = 0;
   for (size_t i = plates.upper; i < x.size(); ++i) {
     const Vec3 from_middle = x[i] - Vec3(5e-3, 5e-3, gap);
@@ -86,7 +87,7 @@ TEST_CASE("contact_has_the_derivatives_of_its_energy") {
         differences([&](const Positions &y) { return touch.gradient(y); }, x, 1e-8);
     CHECK((h - slope).cwiseAbs().maxCoeff() < 1e-6 * h.cwiseAbs().maxCoeff());
   }
-  // all kinds were there: points, edges, faces, guards, edge pairs, counts of -1
+  // every kind occurred: points, edges, faces, barriers, edge pairs, counts of -1
   for (const int count : slides) CHECK(count > 0);
   CHECK(guards > 0);
   CHECK(edge_edges > 0);
@@ -104,7 +105,7 @@ TEST_CASE("projected_contact_is_positive_semidefinite") {
   CHECK(values.maxCoeff() > 0);
 }
 
-TEST_CASE("contact_moves_with_the_sheets_and_has_no_resultant") {
+TEST_CASE("contact_moves_with_the_sheets_and_has_zero_resultant") {
   const Plates plates = rough_plates();
   const Positions x = rough(plates, 5);
   const Motion motion = some_motion();
@@ -130,14 +131,14 @@ TEST_CASE("contact_pressure_between_plates_follows_the_gap_at_any_resolution") {
     const double expected = -20e3 * barrier(gap / 1e-3).first;
     for (const uint32_t cells : {12u, 23u}) {
       CAPTURE(cells);
-      // a node of a regular mesh gets its share of what pushes the other plate up to how their
-      // nodes interleave: measured 1 % over the middle
+      // a node of a regular mesh gets its share of the force on the other plate, but for how the
+      // nodes of both plates interleave: measured 1 % over the middle
       CHECK(plate_pressure(cells, gap) == about(expected, 0.02));
     }
   }
 }
 
-TEST_CASE("nothing_touches_in_the_rest_shape_however_small_the_elements") {
+TEST_CASE("contact_is_zero_in_the_rest_shape_for_elements_of_any_size") {
   for (const double thickness : {0.5e-3, 2e-3, 8e-3}) {
     CAPTURE(thickness);
     Valve valve = small_valve();  // edges of 3 to 6 mm
@@ -148,7 +149,7 @@ TEST_CASE("nothing_touches_in_the_rest_shape_however_small_the_elements") {
   }
 }
 
-TEST_CASE("plates_pressed_together_rest_where_contact_bears_the_pressure") {
+TEST_CASE("pressed_plates_rest_where_contact_balances_the_pressure") {
   const double pressure = 4e3;
   // where -kappa B'(s) = p, by bisection
   double low = 1e-3, high = 1;

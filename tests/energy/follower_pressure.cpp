@@ -1,4 +1,4 @@
-// Pressure: the derivatives of its force, its potential where it has one, its resultant.
+// Follower pressure: derivatives of its force, its potential inside a held rim, its resultant.
 #include "energy/follower_pressure.h"
 
 #include "tests/energy/terms.h"
@@ -58,7 +58,8 @@ TEST_CASE("pressure_has_the_derivatives_of_its_force_also_at_the_free_edge") {
     const Eigen::MatrixXd slope = differences(gradient, x, 1e-6);
     CHECK((symmetric + skew - slope).cwiseAbs().maxCoeff() < 1e-9 * size);
     CHECK((skew + skew.transpose()).cwiseAbs().maxCoeff() < 1e-12 * size);
-    CHECK(skew.cwiseAbs().maxCoeff() > 1e-3 * size);  // the free edge is felt
+    // the free edge contributes an unsymmetric part
+    CHECK(skew.cwiseAbs().maxCoeff() > 1e-3 * size);
   }
 }
 
@@ -73,7 +74,7 @@ TEST_CASE("pressure_inside_a_prescribed_rim_has_a_potential") {
   CHECK(largest(y) == 0);
 }
 
-TEST_CASE("pressure_on_a_closed_surface_has_no_resultant") {
+TEST_CASE("pressure_on_a_closed_surface_has_zero_resultant") {
   const Model model = octahedron();
   FollowerPressureTerm term(model);
   term.set_pressure(16e3);
@@ -87,7 +88,7 @@ TEST_CASE("pressure_on_a_closed_surface_has_no_resultant") {
   CHECK(moment_of(x, g).norm() < 1e-14 * 0.01 * largest(g));
 }
 
-TEST_CASE("pressure_on_a_cap_pushes_with_its_projected_area") {
+TEST_CASE("pressure_on_a_cap_equals_pressure_on_its_projected_area") {
   const Model model = clamped_disc(6, 0.012, [](Valve &) {});
   FollowerPressureTerm term(model);
   term.set_pressure(16e3);

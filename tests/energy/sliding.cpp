@@ -1,5 +1,5 @@
-// Contact of a vertex with a sheet: its continuity over the mesh that it faces and around free
-// edges.
+// Vertex-to-sheet contact is continuous while the vertex slides over the facing mesh and around
+// free edges.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@ using namespace mvs::core::test;
 
 namespace {
 
-// A big sheet at z = height(x, y) under one small triangle, whose first corner is the probe. The
-// sheet is made of `cells` a side, over -8 .. 8 mm.
+// A large sheet at z = height(x, y) under one small triangle, whose first corner is the probe. The
+// sheet has `cells` cells a side, over -8 .. 8 mm.
 struct Facing {
   Model model;
   uint32_t probe;
@@ -40,7 +40,7 @@ Facing facing(uint32_t cells, const std::function<double(double x, double y)> &h
   return {model_of_sheet(valve, {}), probe};
 }
 
-// What the probe itself feels, apart from what the sheet's vertices feel of its triangle.
+// The force on the probe itself, without the sheet's vertices that contact its triangle.
 struct Felt {
   double energy = 0;
   Vec3 gradient = Vec3::Zero();
@@ -59,7 +59,7 @@ Felt felt_by_probe(const Facing &sheet, const Vec3 &p) {
   return felt;
 }
 
-// The flat sheet of facing() with a wedge cut out of it: its free edge turns inwards.
+// The flat sheet of facing() without a wedge: its free edge turns inwards.
 Facing notched(uint32_t cells) {
   Facing sheet = facing(cells, [](double, double) { return 0.0; });
   Valve valve = sheet.model.valve;
@@ -78,11 +78,11 @@ Facing notched(uint32_t cells) {
 }
 
 // The largest jump of the energy and of the force on the small triangle along a path of many short
-// steps, over the largest change that the smooth parts make.
+// steps, over the largest change of the smooth parts.
 void check_smooth_slide(const Facing &sheet, const Vec3 &from, const Vec3 &to) {
   constexpr int steps = 600;
   const Vec3 step = (to - from) / steps;
-  // candidates of a stretch of the way at a time: those of all of it would be the whole sheet
+  // candidates of a part of the path at a time: those of the whole path would be the whole sheet
   constexpr int stretch = 30;
   std::optional<Touch> touch;
   double most = 0, force = 0;
@@ -131,7 +131,7 @@ TEST_CASE("a_vertex_slides_over_a_mesh_without_a_jump") {
   }
 }
 
-TEST_CASE("a_flat_sheet_is_felt_once_however_finely_it_is_meshed") {
+TEST_CASE("a_flat_sheet_counts_once_in_a_mesh_of_any_size") {
   const Vec3 p(0.13e-3, 0.29e-3, 0.8e-3);
   for (const uint32_t cells : {2u, 5u, 12u, 40u}) {
     CAPTURE(cells);
@@ -143,7 +143,7 @@ TEST_CASE("a_flat_sheet_is_felt_once_however_finely_it_is_meshed") {
   }
 }
 
-TEST_CASE("a_free_edge_is_felt_like_the_rest_of_the_sheet") {
+TEST_CASE("a_free_edge_has_the_contact_energy_of_the_rest_of_the_sheet") {
   // from well inside to past the rim, over it, beside it and around its corner; the rim is at 8 mm
   const std::vector<Vec3> places = {
       {5.1e-3, 0.2e-3, 0.9e-3},  {7.3e-3, 0.2e-3, 0.9e-3},  {7.99e-3, 3e-3, 0.9e-3},
@@ -185,7 +185,7 @@ TEST_CASE("a_vertex_slides_around_a_free_edge_without_a_jump") {
   }
 }
 
-TEST_CASE("a_notch_is_felt_at_least_once") {
+TEST_CASE("a_notch_counts_at_least_once") {
   const Facing sheet = notched(9);
   const double strength = 0.5 * 20e3 * sheet.model.vertex_area[sheet.probe];
   Random random(7);

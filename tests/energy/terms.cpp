@@ -1,5 +1,5 @@
-// Every term of the sheet and the chordae: its gradient against differences of its energy, its
-// Hessian against differences of its gradient, and what it must not feel.
+// Every energy term of sheet and chordae: gradient against differences of the energy, Hessian
+// against differences of the gradient, invariance under rigid motion.
 #include "tests/energy/terms.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace mvs::core::test;
 
 namespace {
 
-// A cylinder of radius R out of an equilateral lattice of m x n cells, rolled along a direction.
+// A cylinder of radius R, an equilateral lattice of m x n cells rolled along a direction.
 double rolled_energy(uint32_t m, uint32_t n, double edge, double radius, bool along) {
   Valve valve;
   add_grid(valve, m, n, [&](double u, double v) -> Vec3 {
@@ -40,7 +40,7 @@ TEST_CASE("the_membrane_has_the_derivatives_of_its_energy_in_every_law") {
     if (!law.response) continue;
     CAPTURE(law.word);
     const Model model = free_membrane(law);
-    // where the exponents are of the order of 1, as in tissue at work
+    // stretches at which the exponents are of the order of 1, as in loaded tissue
     check_term(model, MembraneTerm(model), 0.25e-3);
   }
 }
@@ -107,7 +107,7 @@ TEST_CASE("chordae_have_the_derivatives_of_their_energy_in_every_law") {
   }
 }
 
-TEST_CASE("inner_forces_have_no_resultant") {
+TEST_CASE("inner_forces_have_zero_resultant") {
   const Model model = free_valve();
   const Positions x = crumpled(model, 4);
   const Model sheet = free_membrane(*find_leaflet_law(MVS_LEAFLET_LAW_PROT));
@@ -124,7 +124,7 @@ TEST_CASE("inner_forces_have_no_resultant") {
   }
 }
 
-TEST_CASE("nothing_pulls_in_the_rest_shape") {
+TEST_CASE("forces_vanish_in_the_rest_shape") {
   const Model model = free_valve();
   const Positions &x = model.valve.rest;
   Positions g(x.size(), Vec3::Zero());
@@ -185,7 +185,7 @@ TEST_CASE("a_chord_pulls_with_ea_times_strain_and_never_pushes") {
   CHECK(largest(g) == 0);
 }
 
-TEST_CASE("the_whole_potential_has_the_derivatives_of_its_energy") {
+TEST_CASE("the_total_energy_has_the_derivatives_of_its_value") {
   const Model model = free_valve();
   TotalEnergy total_energy(model);
   total_energy.set_pressure(16e3);
@@ -217,7 +217,7 @@ TEST_CASE("the_whole_potential_has_the_derivatives_of_its_energy") {
   CHECK((h * flat(v) + flat(skew) - slope).norm() < 1e-6 * slope.norm());
 }
 
-TEST_CASE("a_moving_boundary_pulls_through_the_blocks_it_has_no_rows_for") {
+TEST_CASE("a_moving_boundary_acts_through_the_blocks_without_rows") {
   Valve valve = small_valve();
   const Model whole = model_of_sheet(valve, {});
   std::vector<uint32_t> fixed = valve.annulus;

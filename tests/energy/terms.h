@@ -1,4 +1,5 @@
-// A term against differences: its gradient, its Hessian, and what it must not feel.
+// Checks of an energy term: gradient and Hessian against differences, invariance under rigid
+// motion.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -42,12 +43,12 @@ Probe probe_of(const Model &model, const Term &term) {
   return probe;
 }
 
-// The small valve with nothing prescribed, so that every block is looked at.
+// The small valve without prescribed nodes, so that every block is compared.
 inline Model free_valve() {
   return model_of_sheet(small_valve(), {});
 }
 
-// The same as a membrane of one law.
+// The same valve with leaflets of one membrane law.
 inline Model free_membrane(const LeafletLaw &law) {
   Valve valve = small_valve();
   for (size_t l = 0; l < valve.leaflets.size(); ++l) {
@@ -90,7 +91,7 @@ inline void check_projected(const Probe &probe, const Positions &x) {
   CHECK(values.maxCoeff() > 0);
 }
 
-// A term of the sheet's own shape does not see where the sheet is or which way it is turned.
+// A term of the sheet's own shape is invariant under rotation and translation.
 inline void check_invariance(const Probe &probe, const Positions &x) {
   const Motion motion = some_motion();
   const Positions moved = motion(x);

@@ -1,4 +1,4 @@
-// Contact without anything else, for the tests of it.
+// Fixture: contact energy alone.
 #pragma once
 
 #include "energy/contact.h"

@@ -1,4 +1,4 @@
-// Disturbances: bounded, smooth, the same everywhere, and nothing crosses.
+// Perturbations of a starting shape: bounded, smooth, equal on every machine, without crossings.
 #include "ensemble/perturbation.h"
 
 #include <doctest/doctest.h>
@@ -21,8 +21,8 @@ ModelPtr valve(uint32_t vertices) {
 
 }  // namespace
 
-TEST_CASE("random numbers are those of every machine, uniform, and other in another stream") {
-  // worked out by the definition in Python's integers
+TEST_CASE("random numbers are the same on every machine, uniform, and differ between streams") {
+  // computed by the definition with Python's integers
   Random first(0, 0), second(1, 2), random(0, 0);
   CHECK(first.next() == 0xa706dd2f4d197e6fu);
   CHECK(first.next() == 0xb382a305f4414f5eu);
@@ -46,12 +46,12 @@ TEST_CASE("random numbers are those of every machine, uniform, and other in anot
   CHECK(sum.cwiseAbs().maxCoeff() < 5 * 0.577 / 100);
 }
 
-TEST_CASE("the farthest node goes as far as asked, held nodes stay") {
+TEST_CASE("the farthest node moves by the requested distance, prescribed nodes stay") {
   const ModelPtr model = valve(300);
   const std::vector<Vec3> rest = model->valve.rest;
   std::vector<Vec3> x = rest;
   const double moved = disturb(*model, x, {0.1e-3, 5e-3}, {7, 1});
-  // the open leaflets are farther apart than that, so nothing is cut
+  // the open leaflets are farther apart than that, so the displacement is not shortened
   CHECK(moved == doctest::Approx(0.1e-3).epsilon(1e-12));
   double farthest = 0;
   for (size_t i = 0; i < x.size(); ++i) {
@@ -76,12 +76,12 @@ TEST_CASE("neighbours move together: a wave is longer than an edge") {
     difference += ((x[e[0]] - rest[e[0]]) - (x[e[1]] - rest[e[1]])).squaredNorm();
     size += (x[e[0]] - rest[e[0]]).squaredNorm() + (x[e[1]] - rest[e[1]]).squaredNorm();
   }
-  // neighbours that knew nothing of each other would give 1; edges of 2 mm under waves of 20 mm
-  // and more, (2 pi 2 / 20)^2 / 2 = 0.2 at most
+  // independent neighbours would give 1; edges of 2 mm under waves of 20 mm and more give (2 pi 2 /
+  // 20)^2 / 2 = 0.2 at most
   CHECK(difference / size < 0.2);
 }
 
-TEST_CASE("a disturbance that would drive sheets into each other is cut before they meet") {
+TEST_CASE("a perturbation that would make sheets meet is shortened before they meet") {
   const ModelPtr model = valve(300);
   for (uint64_t stream = 1; stream <= 10; ++stream) {
     std::vector<Vec3> x = model->valve.rest;

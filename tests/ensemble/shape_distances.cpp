@@ -1,4 +1,4 @@
-// Distances between shapes against closed forms, and which are one equilibrium.
+// Distances between shapes against closed forms, and the grouping of shapes into equilibria.
 #include "ensemble/shape_distances.h"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@
 
 using namespace mvs::core;
 
-TEST_CASE("a sheet moved as a whole is apart by the way it went") {
+TEST_CASE("a translated sheet is apart by its translation") {
   mvs_parametric_desc desc = {};
   desc.struct_size = sizeof desc;
   desc.vertices = 250;
@@ -22,13 +22,13 @@ TEST_CASE("a sheet moved as a whole is apart by the way it went") {
   const Apart apart = nodes_apart(*model, a, b);
   CHECK(apart.rms == doctest::Approx(5e-3).epsilon(1e-12));
   CHECK(apart.max == doctest::Approx(5e-3).epsilon(1e-12));
-  // heads and branch points are no part of the shape
+  // heads and branch points do not belong to the shape
   Shape c = a;
   c[model->valve.heads[0].node] += Vec3(1, 0, 0);
   CHECK(nodes_apart(*model, a, c).max == 0);
 }
 
-TEST_CASE("a node spreads as its places do") {
+TEST_CASE("the deviation of a node is that of its positions") {
   const Shape a = {Vec3(0, 0, 1), Vec3(0, 0, 0)}, b = {Vec3(0, 0, 1), Vec3(0, 2, 0)};
   const Shape c = {Vec3(0, 0, 1), Vec3(0, 4, 0)};
   const std::vector<double> spread = node_spread(2, {&a, &b, &c});
@@ -38,7 +38,8 @@ TEST_CASE("a node spreads as its places do") {
   CHECK(node_spread(2, {&b}) == std::vector<double>{0, 0});
 }
 
-TEST_CASE("equilibria are numbered as they come up, and what is not at rest is none") {
+TEST_CASE(
+    "equilibria are numbered in order of appearance, and a shape out of balance has no number") {
   // places on a line: 0, 5, 0.5, 5.4, 9
   const std::vector<double> at = {0, 5, 0.5, 5.4, 9};
   std::vector<double> farthest;
@@ -51,13 +52,13 @@ TEST_CASE("equilibria are numbered as they come up, and what is not at rest is n
   CHECK(find_equilibria(farthest, {1, 1, 1, 1, 1}, 0) == Numbers{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("fifteen ways of loading come before one comes back") {
+TEST_CASE("the first fifteen loading paths differ") {
   std::vector<std::array<uint32_t, 2>> ways;
   for (uint32_t k = 0; k < 30; ++k) {
     const Path path = make_path(k, {0.5e-3, 5e-3}, 3);
     CHECK(path.plain == (k == 0));
     CHECK((path.disturbance.longest > 0) == (k > 0));
-    // in time only where the pressure comes in many steps
+    // in time only where the pressure is applied in many steps
     CHECK((path.ramp > 0) == (path.increments == 60));
     ways.push_back({path.increments, path.order});
   }
@@ -67,11 +68,11 @@ TEST_CASE("fifteen ways of loading come before one comes back") {
   }
 }
 
-TEST_CASE("every way ends under the load asked for") {
+TEST_CASE("every loading path ends under the requested load") {
   mvs_parametric_desc desc = {};
   desc.struct_size = sizeof desc;
   desc.vertices = 200;
-  desc.annulus_contraction = 0.9;  // so that the boundary has a way to go
+  desc.annulus_contraction = 0.9;  // so that the boundary moves
   const ModelPtr model = make_model(make_parametric_valve(desc));
   const State start = initial_state(*model);
   Solver solver(0);

@@ -1,4 +1,4 @@
-// Replaces the global operator new and delete of the whole process, the library's included.
+// Replaces the global operator new and delete of the process, also for the library.
 #include "tests/fault/allocator.h"
 
 #include <cstddef>

@@ -1,9 +1,10 @@
-// An operator new that fails when told to, and counts what is alive.
+// A global operator new that fails on request and counts live allocations.
 #pragma once
 
 namespace fault {
 
-// From here the n-th allocation of this thread fails, and all after it; 0: none does.
+// The n-th allocation of this thread from now on fails, and all after it; 0: every allocation
+// succeeds.
 void fail_from(long n);
 
 // Whether an allocation has failed since.

@@ -1,5 +1,5 @@
-// What a program does besides computing: its allocations, counted by a malloc of its own, and its
-// system calls, forbidden. To be included once in a program.
+// Counts the allocations of a program by a malloc of its own, and forbids its system calls. To be
+// included once in a program.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ namespace {
 thread_local long allocations = 0;
 }
 
-// What every library of this process gets; operator new comes here too.
+// Serves every library of this process; operator new calls it too.
 extern "C" {
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
@@ -73,8 +73,8 @@ int posix_memalign(void **made, size_t alignment, size_t size) {
 #endif
 
 #if HAS_SECCOMP
-// From here on this process may write and end; anything else kills it. Reading the clock is a call
-// only where the kernel does not lend it to user space. False where that cannot be had.
+// From here on this process may write and end; any other system call kills it. Reading the clock is
+// a system call only where the kernel provides no vDSO. False if the system has no such filter.
 inline bool allow_nothing_more() {
 #define ALLOW(call) \
   BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (call), 0, 1), BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)
@@ -91,7 +91,7 @@ inline bool allow_nothing_more() {
          prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-// Does work() in a child that may only compute. False if it fails there, or the child is killed.
+// Runs work() in a child that may only compute. False if it fails there, or the child is killed.
 template <typename Work>
 bool computes_only(Work &&work) {
   std::fflush(stdout);

@@ -1,5 +1,6 @@
-// For each call, the n-th allocation fails, for one n after the other. Then the code is
-// MVS_E_MEMORY, the simulator and its snapshots are bit for bit as before, and nothing has leaked.
+// Failure injection: for each call the n-th allocation fails, for one n after the other. The call
+// then returns MVS_E_MEMORY, the simulator and its snapshots are unchanged to the bit, and no
+// memory leaks.
 #include <mvs/experimental.h>
 #include <mvs/mvs.h>
 
@@ -17,7 +18,7 @@
 
 namespace {
 
-// What a call works on: made anew for each attempt, so that nothing is worked out already.
+// The objects that a call works on: made anew for each attempt, so that nothing is cached.
 struct Scene {
   mvs_sim *sim = nullptr;
   const mvs_snapshot *snapshot = nullptr;
@@ -53,7 +54,7 @@ struct Call {
   std::function<mvs_result(Scene &)> make;
 };
 
-// How many allocations a call makes when none fails.
+// The number of allocations of a call when none fails.
 long count_allocations(const Call &call) {
   Scene scene = make_scene();
   fault::fail_from(0);
@@ -82,7 +83,7 @@ void fail_allocation(const Call &call, long n) {
               failed ? "" : ", not reached", same ? "" : ", changed", leaked ? ", leaked" : "");
 }
 
-// The first allocations all, where most of the kinds are; of thousands in a loop some hundred,
+// Every one of the first allocations, which cover most kinds; of thousands in a loop some hundred,
 // spread evenly, since each attempt costs a whole call.
 void fail_each_allocation(const Call &call) {
   const long all_of_first = short_run() ? 80 : 800, spread = short_run() ? 40 : 150;

@@ -1,5 +1,5 @@
-// A live step, once it has been taken a few times, allocates nothing and calls no system: counted
-// by a malloc of our own, and shown by a process that is killed for any other call.
+// A live step, after a few warm-up steps, allocates no memory and makes no system call: counted by
+// a malloc of our own, and shown by a process that is killed on any other call.
 #include <mvs/experimental.h>
 #include <mvs/mvs.h>
 
@@ -70,7 +70,7 @@ void steps_allocate_nothing(uint32_t solver) {
   mvs_destroy(sim);
 }
 
-// Somebody who holds a snapshot keeps its memory; once it is let go, steps are as before.
+// A held snapshot keeps its memory; after its release, steps allocate nothing again.
 void a_snapshot_costs_a_step_or_two(void) {
   mvs_sim *sim = closed_valve();
   const mvs_snapshot *held = nullptr;
@@ -107,7 +107,7 @@ void steps_call_no_system(void) {
 }
 #endif
 
-// Left alone, a valve falls asleep; whatever happens to it wakes it.
+// An idle valve falls asleep; any change wakes it.
 void a_valve_at_rest_sleeps(void) {
   mvs_sim *sim = closed_valve();
   MUST(mvs_step(sim, nullptr));

@@ -1,4 +1,4 @@
-// The servo of a haptic device allocates nothing and calls no system, whatever it is given: new
+// The servo of a haptic device allocates no memory and makes no system call on any input: new
 // tissue, new limits, a cut, faults of the device.
 #include <mvs/experimental.h>
 #include <mvs/mvs.h>

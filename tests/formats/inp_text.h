@@ -1,4 +1,4 @@
-// The toy valve of tests/formats/data/three_leaflets.inp as text, and what a change makes of it.
+// Fixture: the toy valve of tests/formats/data/three_leaflets.inp as text, with replacements.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -20,7 +20,7 @@ inline std::string toy_inp() {
   return text.str();
 }
 
-// A text with changes, each of what stands there in one place.
+// Returns the text with changes, each of a piece of text that occurs in one place.
 inline std::string changed(std::string text,
                            const std::vector<std::pair<std::string, std::string>> &changes) {
   for (const std::pair<std::string, std::string> &change : changes) {
@@ -37,7 +37,7 @@ inline std::string toy_with(const std::string &old, const std::string &with) {
   return changed(toy_inp(), {{old, with}});
 }
 
-// The line at which a piece of the toy stands.
+// The line that contains a piece of the toy valve's text.
 inline int32_t toy_line(const std::string &piece) {
   const std::string text = toy_inp();
   const size_t place = text.find(piece);
@@ -46,7 +46,7 @@ inline int32_t toy_line(const std::string &piece) {
                  std::count(text.begin(), text.begin() + static_cast<long>(place), '\n'));
 }
 
-// Whether one of the notes has a piece of text in it.
+// Whether one of the notes contains a piece of text.
 inline bool has_note(const Imported &imported, const std::string &piece) {
   for (const Note &note : imported.notes) {
     if (note.text.find(piece) != std::string::npos) return true;

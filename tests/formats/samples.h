@@ -1,4 +1,4 @@
-// Valves and states to write and read: a good one, and random ones with any bits.
+// Fixtures: valves and states to write and read, one valid and many random ones.
 #pragma once
 
 #include <mvs/valve.h>
@@ -45,7 +45,7 @@ inline Pair complete(const Loaded &loaded) {
   return {*make_model(loaded.valve), loaded.state};
 }
 
-// Sets everything that a file can hold and that is not the default yet.
+// Sets every field that a file can hold to a value that is not its default.
 inline Pair in_motion(Valve valve) {
   valve.name = "in motion";
   valve.loaded = valve.rest;
@@ -83,7 +83,7 @@ inline Pair in_motion(Valve valve) {
   return pair;
 }
 
-// 68 nodes for looking at, 9 nodes for what is done to every byte.
+// 68 nodes for inspection, 9 nodes for tests that change every byte.
 inline Pair moving_valve() {
   return in_motion(small_valve());
 }
@@ -203,7 +203,7 @@ inline void draw_numbers(RandomBits &random, Pair &pair) {
   pair.state.load = {random.number(), std::ldexp(static_cast<double>(random.bits() >> 11), -53)};
 }
 
-// Anything that fits the types and has indices in range; no valve by any means.
+// Anything that fits the types and has indices in range; not a valid valve.
 inline Pair random_pair(uint64_t seed) {
   RandomBits random(seed);
   Pair pair;

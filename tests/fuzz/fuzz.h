@@ -1,5 +1,5 @@
-// What the fuzz targets share. With clang and -DMVS_LIBFUZZER=ON they are libFuzzer targets; else
-// programs that run over the files of the folders named as arguments, as a test.
+// Shared by the fuzz targets. With clang and -DMVS_LIBFUZZER=ON they are libFuzzer targets;
+// otherwise programs that run over the files of the folders named as arguments, as a test.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Bytes as numbers and as operations: parts that are there, values in and out of range.
+// Bytes as numbers and as operations: existing parts, values in and out of range.
 #pragma once
 
 #include <mvs/op.h>
@@ -45,7 +45,7 @@ class Builder {
     for (uint32_t f = 0; f < info.fields; ++f) {
       mvs_field_info field = mvs::sized<mvs_field_info>();
       mvs::must(mvs_get_op_field(index, f, &field));
-      // what may be left out is left out half the time
+      // an optional field is left out half the time
       if (field.required || bytes_.below(2)) fill(field);
     }
     return reinterpret_cast<const mvs_op *>(words_.data());
@@ -79,7 +79,7 @@ class Builder {
     return s;
   }
 
-  // Mostly well inside the range, on a scale of factors where the range is wide.
+  // Mostly well inside the range, on a logarithmic scale where the range is wide.
   double number(const mvs_field_info &f) {
     const double share = bytes_.between(0, 1);
     if (f.low > 0) return f.low * std::pow(f.high / f.low, share);

@@ -1,4 +1,4 @@
-// Delaunay tetrahedra and maximum flow, the two machines under the orifice, against brute force.
+// Delaunay tetrahedra and maximum flow, the two algorithms behind the orifice, against brute force.
 #include "geometry/delaunay3d.h"
 
 #include <doctest/doctest.h>
@@ -73,8 +73,9 @@ void check_is_a_filling_of_the_box(const std::vector<LatticePoint> &points) {
 
 }  // namespace
 
-TEST_CASE("tetrahedra_fill_the_box_and_know_their_neighbours") {
-  for (const int32_t range : {3, 40, lattice_size - 1}) {  // 3: all places taken, all cospherical
+TEST_CASE("tetrahedra_fill_the_box_and_store_their_neighbours") {
+  // 3: every lattice point taken, all cospherical
+  for (const int32_t range : {3, 40, lattice_size - 1}) {
     check_is_a_filling_of_the_box(random_points(300, range, 7));
   }
 }
@@ -106,7 +107,7 @@ TEST_CASE("no_point_is_inside_the_sphere_of_a_tetrahedron") {
   }
 }
 
-TEST_CASE("points_in_one_place_share_a_vertex") {
+TEST_CASE("coincident_points_share_a_vertex") {
   std::vector<LatticePoint> points = random_points(50, 1000, 9);
   const size_t n = points.size();
   for (size_t i = 0; i < n; ++i) points.push_back(points[i]);
@@ -117,7 +118,7 @@ TEST_CASE("points_in_one_place_share_a_vertex") {
   }
 }
 
-TEST_CASE("points_of_surfaces_take_microseconds_each") {
+TEST_CASE("insertion_takes_microseconds_a_point_on_surfaces") {
   std::vector<LatticePoint> points;  // two flat regular sheets, one of them tilted
   for (int32_t i = 0; i < 100; ++i) {
     for (int32_t j = 0; j < 100; ++j) {
@@ -132,7 +133,7 @@ TEST_CASE("points_of_surfaces_take_microseconds_each") {
   CHECK(count > 3 * points.size());
 }
 
-TEST_CASE("the_largest_flow_is_the_smallest_cut") {
+TEST_CASE("the_maximum_flow_equals_the_minimum_cut") {
   std::mt19937 random(10);
   for (int round = 0; round < 200; ++round) {
     const uint32_t nodes = 8;

@@ -1,4 +1,4 @@
-// Crossing of triangles against exact integer arithmetic and against brute force.
+// Triangle intersection against exact integer arithmetic and against brute force.
 #include "geometry/intersect.h"
 
 #include <doctest/doctest.h>
@@ -40,8 +40,8 @@ int sign(Int value) {
   return (value > 0) - (value < 0);
 }
 
-// Is the origin a convex combination of points? By Caratheodory: of four, three, two or one of
-// them that are independent. The combinations of dependent ones are found among fewer points.
+// Whether the origin is a convex combination of points. By Caratheodory, four, three, two or one
+// independent points suffice; combinations of dependent points are found among fewer points.
 bool spans_origin(const IntVec &p) {
   return p == IntVec{0, 0, 0};
 }
@@ -62,7 +62,7 @@ bool spans_origin(const IntVec &p, const IntVec &q, const IntVec &r, const IntVe
          whole * sign(det(p, q, s)) >= 0 && whole * sign(det(p, q, r)) <= 0;
 }
 
-// Convex hulls meet when their difference holds the origin.
+// Convex hulls meet when their difference contains the origin.
 bool hulls_meet(const std::vector<IntVec> &a, const std::vector<IntVec> &b) {
   std::vector<IntVec> d;
   for (const IntVec &p : a) {
@@ -144,7 +144,7 @@ TEST_CASE("orientation_has_the_sign_of_integer_arithmetic") {
     undecided_by_rounding += (value > 0) - (value < 0) != expected;
   }
   CHECK(flat > 10000);                  // a third of the rounds
-  CHECK(undecided_by_rounding > 1000);  // so the expansions did decide
+  CHECK(undecided_by_rounding > 1000);  // the expansions decided
 }
 
 TEST_CASE("orientation_is_exact_where_differences_round") {
@@ -158,7 +158,7 @@ TEST_CASE("orientation_is_exact_where_differences_round") {
   CHECK(orient3d_sign(a, b, c, Vec3(2, 1, 3)) == above);
 }
 
-TEST_CASE("triangles_cross_as_their_hulls_do_in_integer_arithmetic") {
+TEST_CASE("triangles_cross_exactly_when_their_hulls_meet") {
   std::mt19937 random(2);
   int crossing = 0, degenerate = 0, rounds = 0;
   for (const int64_t range : {1, 2, 3, 6, 1000}) {  // small ranges give every degenerate case
@@ -184,7 +184,7 @@ TEST_CASE("triangles_cross_as_their_hulls_do_in_integer_arithmetic") {
   CHECK(degenerate > 100);
 }
 
-TEST_CASE("coplanar_triangles_of_any_plane_cross_as_in_integer_arithmetic") {
+TEST_CASE("coplanar_triangles_of_any_plane_cross_exactly_when_their_hulls_meet") {
   std::mt19937 random(3);
   int crossing = 0;
   for (int round = 0; round < 4000; ++round) {
@@ -208,7 +208,7 @@ TEST_CASE("coplanar_triangles_of_any_plane_cross_as_in_integer_arithmetic") {
   CHECK(crossing < 3900);
 }
 
-TEST_CASE("pairs_are_those_of_brute_force") {
+TEST_CASE("crossing_pairs_are_those_of_brute_force") {
   std::mt19937 random(4);
   size_t found = 0;
   for (int round = 0; round < 20; ++round) {
@@ -253,7 +253,7 @@ TEST_CASE("neighbours_over_one_node_cross_when_the_far_side_passes_through") {
   };
   CHECK(count({1, 1, -1}, {1, 1, 1}) == 1);    // through the inside
   CHECK(count({2, 2, -1}, {2, 2, 1}) == 1);    // through the far side: touching counts
-  CHECK(count({3, 3, -1}, {3, 3, 1}) == 1);    // the other one's far side passes through
+  CHECK(count({3, 3, -1}, {3, 3, 1}) == 1);    // the far side of the other one passes through
   CHECK(count({-1, 1, -1}, {-1, 1, 1}) == 0);  // beside it
   CHECK(count({0, -4, 0}, {-4, 0, 0}) == 0);   // a flat fan
   CHECK(count({1, 1, 0}, {2, -1, 0}) == 1);    // overlapping in one plane
@@ -265,7 +265,7 @@ TEST_CASE("neighbours_over_an_edge_cross_only_when_folded_flat") {
     return find_intersections({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(1, 4, 0), d}, pair).size();
   };
   CHECK(count({1, -4, 0}) == 0);
-  CHECK(count({1, 4, 1e-60}) == 0);  // folded, yet a hair apart: exact arithmetic sees it
+  CHECK(count({1, 4, 1e-60}) == 0);  // folded, 1e-60 apart: exact arithmetic separates them
   CHECK(count({2, 1, 0}) == 1);
   CHECK(count({2, 0, 0}) == 0);  // flat triangle in the fold itself
   CHECK(find_intersections({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(1, 4, 0)}, {{0, 1, 2}, {2, 1, 0}})
@@ -283,7 +283,7 @@ TEST_CASE("fifty_thousand_triangles_are_tested_at_interactive_speed") {
   double best = 1e300;
   size_t count = 0;
   for (int round = 0; round < 3; ++round) {
-    const std::clock_t start = std::clock();  // of this process: others may be busy
+    const std::clock_t start = std::clock();  // CPU time of this process: other processes may run
     count = find_intersections(x, triangles).size();
     best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }

@@ -1,4 +1,4 @@
-// Sheets wound anyhow come out facing the atrium, hand-made and real ones.
+// Orientation: sheets of any winding come out facing the atrium, hand-made and real ones.
 #include <doctest/doctest.h>
 #include <Eigen/Geometry>
 
@@ -24,13 +24,13 @@ std::string first_fault(const Valve &valve) {
 
 }  // namespace
 
-TEST_CASE("orient_leaves_a_good_valve_as_it_is") {
+TEST_CASE("orient_leaves_a_well_wound_valve_unchanged") {
   Valve valve = small_valve();
   orient(valve);
   CHECK(valve.triangles == small_valve().triangles);
 }
 
-TEST_CASE("orient_turns_what_is_wound_wrong") {
+TEST_CASE("orient_turns_triangles_of_the_wrong_winding") {
   for (const uint32_t every : {1u, 2u, 3u, 7u}) {
     Valve valve = turned(small_valve(), every);
     CHECK(first_fault(valve) != "");
@@ -39,7 +39,7 @@ TEST_CASE("orient_turns_what_is_wound_wrong") {
   }
 }
 
-TEST_CASE("without_heads_the_hanging_sheet_tells_the_ventricle") {
+TEST_CASE("without_heads_the_hanging_sheet_marks_the_ventricle") {
   Valve valve = small_valve();
   valve.heads.clear();
   valve.chords.clear();
@@ -58,7 +58,7 @@ TEST_CASE("a_flat_sheet_without_heads_may_face_either_way") {
   CHECK(first_fault(turned(valve, 1)) == "");
 }
 
-TEST_CASE("orient_turns_the_valve_whole_however_it_lies_in_space") {
+TEST_CASE("orient_turns_the_whole_valve_in_any_position") {
   const Mat3 rotation = Eigen::AngleAxisd(2.5, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   Valve valve = turned(small_valve(), 1);
   for (Vec3 &p : valve.rest) p = rotation * p + Vec3(0.3, -0.2, 0.1);
@@ -91,7 +91,7 @@ TEST_CASE("real_valves_pass_the_check_once_oriented") {
     Valve valve = json.contains("faces") ? kaiser_valve(json) : febio_valve(json);
     orient(valve);
     CHECK(first_fault(valve) == "");
-    // whichever way the file was wound, the opposite way is refused
+    // for either winding of the file, the opposite winding is refused
     CHECK(first_fault(turned(valve, 1)).find("faces the ventricle") != std::string::npos);
   }
 }

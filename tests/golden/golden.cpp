@@ -1,12 +1,12 @@
-// Golden digests: runs fixed scenes through the C interface and compares the bits of what they
-// compute with a table that is checked in.
+// Golden digests: runs fixed scenes through the C interface and compares the bits of their results
+// with a checked-in table.
 //
-//   golden TABLE [SCENE ...]          compares; exit code 1 and one line for each digest that
-//   differs golden --write TABLE              writes the table anew
+//   golden TABLE [SCENE ...]     compares; exit code 1 and one line for each digest that differs
+//   golden --write TABLE         writes the table anew
 //
 // A digest covers the bits of one array, not the snapshot hash, so that renaming a field or
-// reordering the hash leaves it alone. The digests are the same for every compiler, optimisation
-// level and vector extension (scripts/test --long golden checks that).
+// reordering the hash leaves it unchanged. The digests are the same for every compiler,
+// optimisation level and vector extension (scripts/test --long golden checks that).
 #include <mvs/experimental.h>
 #include <mvs/mvs.h>
 

@@ -1,4 +1,5 @@
-// Every scene starts from the parametric valve, so that the generator is pinned as well.
+// The pinned scenes. Every scene starts from the parametric valve, so that the generator is pinned
+// as well.
 #include "tests/golden/scenes.h"
 
 #include <cstdio>
@@ -99,7 +100,7 @@ void close_valves(const Record &record) {
   }
 }
 
-// The other solvers, cut off early: their bits matter, not their rest.
+// The other solvers, stopped early: their bits matter, not their convergence.
 void close_in_time(const Record &record) {
   Sim sim(small);
   sim.load();
@@ -158,7 +159,7 @@ void lead_hands(const Record &record) {
   }
   Sim sim(small);
   sim.load();
-  sim.step(200);  // the load put on at once, no hand
+  sim.step(200);  // a sudden load, no hand
   sim.record(record, "200 steps load at once");
 }
 
@@ -179,7 +180,7 @@ Op op_of(uint32_t kind) {
   return op;
 }
 
-// One operation on the closed valve: its bits before and after settling.
+// One operation on the closed valve: the bits before and after settling.
 struct OpCase {
   const char *name;
   std::function<void(const Sim &)> apply;
@@ -270,7 +271,7 @@ void operate(const Record &record) {
   membrane.load();
   membrane.settle();
   for (const OpCase &c : op_cases()) {
-    // a quadrangle gathers the annulus, which a ring or band holds by then
+    // a quadrangle gathers the annulus, which a ring or band then holds
     if (std::strcmp(c.name, "resect quadrangle") != 0) c.apply(membrane);
   }
   membrane.settle(MVS_SOLVER_NEWTON, 60);

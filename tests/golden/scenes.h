@@ -1,4 +1,4 @@
-// The scenes whose bits are pinned: closures, live steps with a hand, every operation, a plan.
+// The scenes of the golden digests: closures, live steps with a hand, every operation, a plan.
 #pragma once
 
 #include <mvs/mvs.h>
@@ -19,7 +19,7 @@ struct Group {
 };
 std::vector<Group> groups();
 
-// Ends the program with the sentence of the library's last failure unless a call succeeded.
+// Ends the program with the sentence of the library's last failure unless the call succeeded.
 void check(mvs_result result);
 
 }  // namespace golden

@@ -16,7 +16,7 @@ namespace {
 
 struct End {
   int status;
-  std::string told;  // by the driver's panic, on file 9
+  std::string told;  // written by the driver's panic on file 9
 };
 
 // Runs a child that starts a device and raises a signal.
@@ -26,7 +26,7 @@ End die_of(int signal, bool guarded, bool stopped) {
   const pid_t child = fork();
   if (child == 0) {
     dup2(ends[1], 9);
-    // doctest's own handlers are not what is tested
+    // doctest's own signal handlers would hide the ones under test
     for (const int s : {SIGSEGV, SIGABRT, SIGTERM, SIGFPE}) ::signal(s, SIG_DFL);
     const std::string path = std::string(MVS_LIARS_DIR) + "/panics.so";
     mvs_device_desc desc = {};
@@ -61,12 +61,12 @@ TEST_CASE("a fatal signal sets forces to zero, then ends the process as it would
   }
 }
 
-TEST_CASE("without being asked to, or for a device that was stopped, nothing is called") {
+TEST_CASE("unless it is requested, or after a device was stopped, panic is not called") {
   CHECK_EQ(die_of(SIGSEGV, false, false).told, "");
   CHECK_EQ(die_of(SIGSEGV, true, true).told, "");
 }
 
-TEST_CASE("the guard gives back the handlers that were there") {
+TEST_CASE("the signal handler restores the previous handlers") {
   struct sigaction before = {}, now = {};
   REQUIRE_EQ(sigaction(SIGBUS, nullptr, &before), 0);
   install_signal_handler(true);

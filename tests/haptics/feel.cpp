@@ -30,7 +30,7 @@ struct Valve425 {
     Solver solver(MVS_BACKEND_DEFAULT);
     REQUIRE(solver.settle(*model, state, options, {}).converged);
   }
-  // The force of the full simulation on a hand that has gone there.
+  // The force of the full simulation on a hand moved to this place.
   Vec3 force_at(const State &from, Id tool, const Vec3 &hand) const {
     State state = from;
     move_tool(state, tool, hand, tool_of(state, tool, "test").axis);
@@ -69,7 +69,7 @@ std::vector<Vec3> directions() {
   return all;
 }
 
-// Free vertices of the leaflets, here and there.
+// Free vertices of the leaflets, spread over the sheet.
 std::vector<uint32_t> some_nodes(size_t count) {
   std::vector<uint32_t> free, some;
   const auto &kind = valve().model->topology.node_kind.get();
@@ -97,7 +97,7 @@ TEST_CASE("the stiffness of a grasp is the slope of its force, to first order") 
       const Vec3 back = valve().force_at(state, id, tool.position - step * Vec3::Unit(c));
       slope.col(c) = -(ahead - back) / (2 * step);
     }
-    // residuals of 1e-7 N over 4 um are 0.05 N/m; what the pressure at the free edge adds is not
+    // residuals of 1e-7 N over 4 um are 0.05 N/m; the part of the pressure at the free edge is not
     // symmetric, and left out
     CHECK_LT((stiffness - slope).norm(), 0.05 * slope.norm());
   }
@@ -105,8 +105,8 @@ TEST_CASE("the stiffness of a grasp is the slope of its force, to first order") 
 
 namespace {
 
-// The largest difference between local model and full simulation so far around the hand, over the
-// largest force there.
+// The largest difference between local model and full simulation at this distance from the hand,
+// over the largest force there.
 double error_within(double reach, const State &state, Id id) {
   const Tool tool = tool_of(state, id, "test");
   TissueModelBuilder maker;
@@ -123,9 +123,9 @@ double error_within(double reach, const State &state, Id id) {
 
 }  // namespace
 
-// Where the hand lets the tissue go slack, within that millimetre, no slope can foretell it: the
-// nodes that are pulled by 1 mm only are told, not held to it.
-TEST_CASE("the local model of a grasp foretells the force within 5 % for 1 mm around") {
+// If the tissue becomes slack within that millimetre, no linear model predicts the force: nodes
+// whose tissue holds for 1 mm are checked, the others only printed.
+TEST_CASE("the local model of a grasp predicts the force within 5 % for 1 mm around") {
   double taut = 0, slack = 0;
   for (const uint32_t node : some_nodes(6)) {
     for (double *const worst : {&taut, &slack}) {
@@ -140,7 +140,7 @@ TEST_CASE("the local model of a grasp foretells the force within 5 % for 1 mm ar
 }
 
 TEST_CASE(
-    "the local model of a ball that pushes foretells the force within 10 % for 0.25 mm around") {
+    "the local model of a ball that pushes predicts the force within 10 % for 0.25 mm around") {
   double worst = 0, far = 0;
   int pushed = 0;
   for (const uint32_t node : some_nodes(10)) {
@@ -151,7 +151,7 @@ TEST_CASE(
     ball.radius = 2e-3;
     ball.stiffness = 200;
     ball.max_force = 5;
-    // from the atrium onto the leaflet, where nothing is in between
+    // from the atrium onto the leaflet, with no tissue in between
     const Vec3 under = state.x.get()[node];
     ball.position = under + Vec3(0, 0, 3e-3);
     ball.proxy = {ball.position, ball.position};
@@ -170,7 +170,7 @@ TEST_CASE(
   CHECK_LT(worst, 0.1);
 }
 
-TEST_CASE("stiffnesses lie between nothing and the spring of the hand") {
+TEST_CASE("stiffnesses_lie_between_zero_and_the_spring_of_the_hand") {
   for (const uint32_t node : some_nodes(8)) {
     for (const double spring : {50.0, 1000.0}) {
       State state = valve().closed;

@@ -1,4 +1,5 @@
-// Drivers that lie, hang, or lack something are found out, each with a sentence, and do no harm.
+// Faulty drivers, which lie, hang or lack a function, are detected, reported with a sentence each,
+// and cause no harm.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -27,7 +28,7 @@ mvs_device_desc desc_of(const std::string &path, uint32_t clock = MVS_CLOCK_VIRT
   return desc;
 }
 
-// The code and sentence with which opening fails; MVS_OK if it does not.
+// The code and sentence with which opening fails; MVS_OK if it succeeds.
 mvs_result why_not(const std::string &path, std::string &sentence) {
   try {
     Device device(desc_of(path), {});
@@ -40,7 +41,7 @@ mvs_result why_not(const std::string &path, std::string &sentence) {
 
 }  // namespace
 
-TEST_CASE("what a driver says of itself is not believed") {
+TEST_CASE("false_statements_of_a_driver_about_itself_are_refused") {
   struct Lie {
     const char *name;
     mvs_result code;
@@ -66,24 +67,24 @@ TEST_CASE("what a driver says of itself is not believed") {
   }
 }
 
-TEST_CASE("an honest one opens, and one whose text has no end is cut") {
+TEST_CASE("an_honest_driver_opens_and_an_unterminated_text_is_cut") {
   for (const char *name : {"honest", "text"}) {
     const std::string path = path_of(name);
     Device device(desc_of(path), {});
     const mvs_device_info info = device.info();
     CHECK_LT(std::string(info.model).size(), sizeof info.model);
-    CHECK_EQ(info.peak_force, 3.3);  // what is not told is that of the weakest device
+    CHECK_EQ(info.peak_force, 3.3);  // a missing value becomes that of the weakest device
     CHECK_EQ(info.rate, 1000);
   }
 }
 
-TEST_CASE("a driver that hangs costs its caller some seconds, not the process") {
+TEST_CASE("opening_a_driver_that_hangs_returns_after_some_seconds") {
   std::string sentence;
   CHECK_EQ(why_not(path_of("hangs"), sentence), MVS_E_DEVICE);
   CHECK_NE(sentence.find("does not come back from open()"), std::string::npos);
 }
 
-TEST_CASE("a loop that hangs is noticed, latched, and left behind") {
+TEST_CASE("a_loop_that_hangs_is_detected_latched_and_abandoned") {
   const std::string path = path_of("loop_hangs");
   Device device(desc_of(path, MVS_CLOCK_REAL), {});
   device.start();
@@ -94,10 +95,10 @@ TEST_CASE("a loop that hangs is noticed, latched, and left behind") {
   CHECK_THROWS_AS(device.arm(), Error);
   CHECK_THROWS_AS(device.stop(), Error);
   CHECK_THROWS_AS(device.start(), Error);
-  // and its end does not close what the loop still uses: the driver would end the process
+  // closing does not free data that the loop still uses: the driver would end the process
 }
 
-TEST_CASE("a loop that ends by itself is a lost device") {
+TEST_CASE("a_loop_that_returns_is_a_lost_device") {
   const std::string path = path_of("leaves");
   Device device(desc_of(path, MVS_CLOCK_REAL), {});
   device.start();
@@ -107,7 +108,7 @@ TEST_CASE("a loop that ends by itself is a lost device") {
   device.stop();
 }
 
-TEST_CASE("samples of garbage move nothing") {
+TEST_CASE("samples_of_garbage_cause_no_motion") {
   const std::string path = path_of("garbage");
   Device device(desc_of(path), {});
   device.start();
@@ -118,7 +119,7 @@ TEST_CASE("samples of garbage move nothing") {
   CHECK(now.force.isZero(0));
 }
 
-TEST_CASE("drivers are named plainly or by absolute path, and nobody else may have written them") {
+TEST_CASE("drivers_are_found_by_plain_name_or_absolute_path_and_must_not_be_writable_by_others") {
   std::string sentence;
   CHECK_EQ(why_not("../honest", sentence), MVS_E_ARGUMENT);
   CHECK_EQ(why_not("honest.so", sentence), MVS_E_ARGUMENT);
@@ -135,7 +136,7 @@ TEST_CASE("drivers are named plainly or by absolute path, and nobody else may ha
   CHECK_EQ(why_not(copy, sentence), MVS_OK);
 }
 
-TEST_CASE("options that a driver does not know, or that are none, are refused") {
+TEST_CASE("unknown_and_malformed_driver_options_are_refused") {
   const std::string path = std::string(MVS_DRIVERS_DIR) + "/hand.so";
   for (const char *options : {"nonsense=1", "mass", "=1", "mas=1"}) {
     CAPTURE(options);

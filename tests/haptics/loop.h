@@ -1,5 +1,5 @@
-// A simulated hand in the loop of the servo, on a virtual clock; the tissue is whatever a test
-// says.
+// Fixture: a simulated hand in the loop of the servo, on a virtual clock; each test supplies the
+// tissue.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ class Loop {
   }
   ServoStatus run_stopped() { return device_.status(); }
   void post(const TissueModel &tissue) { device_.links().tissue.post(tissue); }
-  // Forces on: the gate and the ramp behind it.
+  // Enables forces: passes the force gate and the ramp.
   void arm() {
     device_.advance(5e-3);
     device_.arm();
@@ -49,7 +49,7 @@ class Loop {
   Device device_;
 };
 
-// A spring to a place, as a grasp of something that does not move.
+// A spring to a fixed place, as when grasping an immobile object.
 inline TissueModel spring(double stiffness, const Vec3 &to = Vec3::Zero()) {
   TissueModel tissue;
   tissue.kind = TissueModel::held;

@@ -1,4 +1,4 @@
-// Hand-overs between threads: nothing torn, nothing out of order, nothing lost that is not counted.
+// Hand-over between threads: no torn value, the order preserved, every lost value counted.
 #include "haptics/mailbox.h"
 
 #include <doctest/doctest.h>
@@ -9,7 +9,7 @@ using namespace mvs::core;
 
 namespace {
 
-// Torn if its words differ.
+// A value is torn if its words differ.
 struct Words {
   std::array<uint64_t, 8> word = {};
   static Words of(uint64_t number) {
@@ -27,8 +27,8 @@ struct Words {
 
 constexpr uint64_t last = 200000;
 
-// Runs write(1) ... write(last) beside read(), which is true when it has seen the end; `wrong`
-// counts what doctest may not check in a loop of this length.
+// Runs write(1) ... write(last) beside read(), which returns true when it has seen the end; `wrong`
+// counts errors, since doctest is too slow for a loop of this length.
 template <typename Write, typename Read>
 void race(Write write, Read read) {
   std::thread writer([&] {
@@ -41,7 +41,7 @@ void race(Write write, Read read) {
 
 }  // namespace
 
-TEST_CASE("a mailbox gives the newest value, whole, and none twice as new") {
+TEST_CASE("a mailbox returns the newest value, whole, and each at most once as new") {
   Mailbox<Words> box;
   CHECK_FALSE(box.refresh());
   uint64_t before = 0, wrong = 0, seen = 0;
@@ -59,7 +59,7 @@ TEST_CASE("a mailbox gives the newest value, whole, and none twice as new") {
   CHECK_FALSE(box.refresh());
 }
 
-TEST_CASE("a queue gives all values in turn, and refuses when it is full") {
+TEST_CASE("a queue returns all values in order, and refuses a value when it is full") {
   Queue<Words, 64> queue;
   uint64_t before = 0, wrong = 0;
   race(
@@ -78,7 +78,7 @@ TEST_CASE("a queue gives all values in turn, and refuses when it is full") {
   CHECK_FALSE(queue.push({}));
 }
 
-TEST_CASE("a trace gives values whole and in turn, and counts those it has lost") {
+TEST_CASE("a trace returns values whole and in order, and counts lost ones") {
   Trace<Words, 64> trace;
   uint64_t before = 0, wrong = 0, lost = 0, seen = 0;
   race([&](uint64_t k) { trace.push(Words::of(k)); },
@@ -94,12 +94,12 @@ TEST_CASE("a trace gives values whole and in turn, and counts those it has lost"
   CHECK_EQ(seen + lost, last);
 }
 
-TEST_CASE("a trace that nobody reads keeps the newest") {
+TEST_CASE("an unread trace keeps the newest values") {
   Trace<Words, 64> trace;
   for (uint64_t k = 1; k <= 200; ++k) trace.push(Words::of(k));
   Words now;
   uint64_t lost = 0;
   REQUIRE(trace.pop(now, lost));
-  CHECK_EQ(lost, 200 - 63);  // the oldest place may be written to at any moment
+  CHECK_EQ(lost, 200 - 63);  // the oldest slot may be written to at any time
   CHECK_EQ(now.word[0], lost + 1);
 }

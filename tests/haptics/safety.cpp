@@ -1,5 +1,5 @@
-// Each fault of a device ends in zero force and a named cause, and in nothing else; forces begin by
-// gate and ramp, stay below their limits, and fade when nothing new is heard of the tissue.
+// Each fault of a device ends in zero force and a named cause. Forces start through gate and ramp,
+// stay below their limits, and fade when the tissue model is stale.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -34,11 +34,11 @@ void check_felt(const ServoStatus &now) {
 
 }  // namespace
 
-TEST_CASE("every fault of the list latches forces off, and only an arm brings them back") {
+TEST_CASE("every listed fault latches forces off, and only an arm enables them again") {
   struct Fault {
     const char *name;
     uint32_t cause;
-    bool passes;  // it is over after a while, and the device can be armed again
+    bool passes;  // the fault ends after a while, and the device can be armed again
   };
   const Fault faults[] = {{"nan_position", MVS_CAUSE_NOT_FINITE, true},
                           {"inf_velocity", MVS_CAUSE_NOT_FINITE, true},
@@ -75,7 +75,7 @@ TEST_CASE("every fault of the list latches forces off, and only an arm brings th
   }
 }
 
-TEST_CASE("while a fault lasts a device cannot be armed") {
+TEST_CASE("a device cannot be armed during a fault") {
   for (const char *fault : {"nan_position", "silent", "uncalibrated", "hot", "button", "deadman"}) {
     CAPTURE(fault);
     Loop loop(std::string(at_rest) + "fault=" + fault + "\nfault_at=0.2");
@@ -85,7 +85,7 @@ TEST_CASE("while a fault lasts a device cannot be armed") {
   }
 }
 
-TEST_CASE("saturated motors are told, and nothing else happens") {
+TEST_CASE("saturated motors are reported and have no other effect") {
   Loop loop(std::string(at_rest) + "fault=saturated\nfault_at=0.1");
   loop.arm();
   loop.post(spring(200));
@@ -94,7 +94,7 @@ TEST_CASE("saturated motors are told, and nothing else happens") {
   CHECK((now.flags & MVS_DRIVER_FLAG_SATURATED) != 0);
 }
 
-TEST_CASE("a button that is stuck from the start is no press, one that bounces changes nothing") {
+TEST_CASE("a button stuck from the start is no press, and a bouncing one changes nothing") {
   for (const char *buttons : {"buttons=1", "fault=bounce", "fault=stuck_button"}) {
     CAPTURE(buttons);
     Loop loop(std::string(at_rest) + buttons);
@@ -105,7 +105,7 @@ TEST_CASE("a button that is stuck from the start is no press, one that bounces c
   }
 }
 
-TEST_CASE("a button is told once, when it has settled, and once when it is let go") {
+TEST_CASE("a button is reported once when it has settled, and once when it is released") {
   Loop loop(std::string(at_rest) + "fault=stuck_button\nfault_at=0.5\nfault_for=0.5");
   ButtonEvent event;
   loop.run(0.505);
@@ -120,7 +120,7 @@ TEST_CASE("a button is told once, when it has settled, and once when it is let g
   CHECK_FALSE(loop.device().links().buttons.pop(event));
 }
 
-TEST_CASE("forces wait behind the gate, then come up along the ramp") {
+TEST_CASE("forces wait at the gate, then rise along the ramp") {
   Loop loop(at_rest);
   loop.run(0.01);
   mvs_device_limits limits = {};
@@ -139,7 +139,7 @@ TEST_CASE("forces wait behind the gate, then come up along the ramp") {
     const ServoStatus now = loop.run(0.01);
     const double force = now.force.norm();
     CHECK_EQ(now.phase, MVS_DEVICE_PHASE_RAMPING);
-    // a fiftieth of the force each 10 ms, and what the hand moves meanwhile
+    // a fiftieth of the force each 10 ms, and the change by the hand's motion meanwhile
     CHECK_GT(force, before);
     CHECK_LT(force - before, 2.0 / 50 * 80 * 0.002);
     before = force;
@@ -147,7 +147,7 @@ TEST_CASE("forces wait behind the gate, then come up along the ramp") {
   CHECK_EQ(loop.run(0.05).phase, MVS_DEVICE_PHASE_ON);
 }
 
-TEST_CASE("a force is clamped to what the user allows, and changes no faster than that") {
+TEST_CASE("a force is limited to the user's maximum and to the slew rate") {
   Loop loop(at_rest);
   loop.arm();
   mvs_device_limits limits = {};
@@ -176,7 +176,7 @@ TEST_CASE("a force is clamped to what the user allows, and changes no faster tha
   CHECK((limited & MVS_LIMITED_SLEW) != 0);
 }
 
-TEST_CASE("motors are not asked for more than they bear") {
+TEST_CASE("motor forces stay within the thermal limit") {
   Loop loop(at_rest);
   loop.arm();
   mvs_device_limits limits = {};
@@ -204,7 +204,7 @@ TEST_CASE("motors are not asked for more than they bear") {
   CHECK((hot.limited & MVS_LIMITED_CONTINUOUS) != 0);
 }
 
-TEST_CASE("forces fade when the simulation stands still, and come back with it") {
+TEST_CASE("forces fade when the simulation stops, and return with it") {
   Loop loop(at_rest);
   loop.arm();
   mvs_device_limits limits = {};
@@ -224,7 +224,7 @@ TEST_CASE("forces fade when the simulation stands still, and come back with it")
   check_felt(loop.run(0.05));
 }
 
-TEST_CASE("a tissue that is no number latches, and never reaches the motors") {
+TEST_CASE("a tissue model with NaN latches, and never reaches the motors") {
   for (int where = 0; where < 4; ++where) {
     CAPTURE(where);
     Loop loop(at_rest);
@@ -245,7 +245,7 @@ TEST_CASE("a tissue that is no number latches, and never reaches the motors") {
   }
 }
 
-TEST_CASE("the application's cut works from anywhere, and a stop and start does not undo it") {
+TEST_CASE("the application's cut works in any state, and a stop and start does not undo it") {
   Loop loop(at_rest);
   loop.arm();
   loop.post(spring(200));
@@ -261,7 +261,7 @@ TEST_CASE("the application's cut works from anywhere, and a stop and start does 
   CHECK_EQ(loop.run(0).phase, MVS_DEVICE_PHASE_OFF);
 }
 
-TEST_CASE("the edge of the workspace pushes back, before the device's own stop") {
+TEST_CASE("the edge of the workspace pushes back before the device's mechanical stop") {
   Loop loop("device=touch\nfrom=0.06,0,0\ntarget=0.09,0,0\nresolution=0");
   loop.arm();
   const ServoStatus now = loop.run(0.5);

@@ -1,5 +1,5 @@
-// The loop of hand, device and servo at each device's largest stable stiffness: what swings dies
-// away, and the motors give no more work than the tissue stores. The devices are those of
+// The loop of hand, device and servo at each device's largest stable stiffness: oscillations decay,
+// and the motors do no more work than the tissue stores. The devices are those of
 // haptic_drivers/hand: their force acts a sample late, their encoders have steps.
 #include <doctest/doctest.h>
 
@@ -20,10 +20,10 @@ constexpr Kind kinds[] = {{"touch", 55e-6},     {"omni", 55e-6},      {"desktop"
                           {"premium15", 30e-6}, {"premium30", 20e-6}, {"omega", 10e-6},
                           {"delta", 20e-6},     {"lambda", 10e-6},    {"falcon", 63.5e-6}};
 
-// The worst hand there is: no arm, no damping but the device's own.
+// The worst hand: no arm, no damping but the device's own.
 constexpr char held_by_nobody[] = "\nmass=0\narm_stiffness=0\narm_damping=0\nfrom=0.001,0,0";
 
-// What two steps of the encoders are worth in a spring: the servo cannot see less.
+// The force of two encoder steps in a spring: the resolution of the servo.
 double unseen(double stiffness, double resolution) {
   return stiffness * std::pow(2 * resolution, 2);
 }
@@ -63,7 +63,7 @@ class Work {
 
 }  // namespace
 
-TEST_CASE("a device that nobody holds comes to rest in the stiffest spring") {
+TEST_CASE("a free device comes to rest in the stiffest spring") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
     Loop loop(std::string("device=") + kind.name + held_by_nobody);
@@ -82,7 +82,7 @@ TEST_CASE("a device that nobody holds comes to rest in the stiffest spring") {
   }
 }
 
-TEST_CASE("a hand that swings into the stiffest wall gets no work from it") {
+TEST_CASE("a hand that swings into the stiffest wall gains no work from it") {
   for (const Kind &kind : kinds) {
     for (const double frequency : {1.0, 4.0}) {
       CAPTURE(kind.name);
@@ -104,10 +104,10 @@ TEST_CASE("a hand that swings into the stiffest wall gets no work from it") {
   }
 }
 
-TEST_CASE("a hand that drags a spring gets no more work than the spring held at first") {
+TEST_CASE("a hand that drags a spring gains no more work than the spring stored at first") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
-    // exact places, so that the account is one of work and not of encoder steps
+    // exact positions, so that work is not mixed with encoder steps
     Loop loop(std::string("device=") + kind.name +
               "\namplitude=0.005,0,0\nfrequency=2\nresolution=0");
     loop.arm();
@@ -116,14 +116,15 @@ TEST_CASE("a hand that drags a spring gets no more work than the spring held at 
     const double start = loop.run(0).pose.position.x();
     Work work;
     work.follow(loop, 3);
-    // the spring begins two or three samples later, with the hand where it has gone by then
+    // the spring begins two or three samples later, at the hand's place by then
     const double begin = std::abs(start) + 3 * loop.period() * 0.005 * 2 * 3.1416 * 2;
     CHECK_LT(work.most(), 0.5 * stiffness * begin * begin);
   }
 }
 
-// A simulation at 100 Hz that follows the hand 10 ms late: each model is of where the hand was.
-TEST_CASE("models that come late keep a grasp stable") {
+// A simulation at 100 Hz that follows the hand 10 ms late: each model belongs to an earlier
+// position.
+TEST_CASE("late models keep a grasp stable") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
     Loop loop(std::string("device=") + kind.name + held_by_nobody);

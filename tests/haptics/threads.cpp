@@ -1,5 +1,5 @@
-// On a real clock: the servo's thread, one that hands over, one that looks, one that cuts. What it
-// is for is the thread sanitizer (cmake --preset tsan).
+// On a real clock: the servo's thread, one that hands over models, one that reads, one that cuts.
+// This test serves the thread sanitizer (cmake --preset tsan).
 #include <doctest/doctest.h>
 
 #include <atomic>

@@ -1,4 +1,5 @@
-// Tool trajectories: runs keep the position of every tool at every step.
+// Tool trajectories: steps with moving hands are stored in runs, and every step returns each hand's
+// position.
 #include "history/tool_trajectory.h"
 
 #include <doctest/doctest.h>
@@ -35,7 +36,7 @@ RecordedEvent one_step(double dt) {
   return step;
 }
 
-// Where each hand is and how long the step is, step by step.
+// Position of each hand and length of the step, step by step.
 struct Seen {
   double dt;
   std::map<Id, std::pair<Vec3, Vec3>> hands;
@@ -66,7 +67,7 @@ class Follower {
   std::map<Id, std::pair<Vec3, Vec3>> hands_;
 };
 
-// What a hand does for a while: which tools move before the next step.
+// Random activity of a hand: which tools move before the next step.
 std::vector<RecordedEvent> some_hands(Random &random, uint32_t which) {
   std::vector<RecordedEvent> hands;
   if (which & 1) hands.push_back(hand(grasp_id, MVS_TOOL_KIND_GRASP, random));
@@ -81,7 +82,7 @@ size_t runs(const RecordedEvents &events) {
 
 }  // namespace
 
-TEST_CASE("every_led_step_finds_each_hand_where_it_was") {
+TEST_CASE("every_recorded_step_returns_each_hands_position") {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -100,8 +101,8 @@ TEST_CASE("every_led_step_finds_each_hand_where_it_was") {
   }
 }
 
-TEST_CASE("a_run_goes_on_however_it_was_put_together") {
-  // looked at after every step, never, or at odd times: the same events
+TEST_CASE("a_run_continues_independently_of_when_it_was_read") {
+  // read after every step, never, or at irregular times: the same runs
   for (const int every : {1, 7, 1000000}) {
     CAPTURE(every);
     Random random(3);
@@ -130,26 +131,26 @@ TEST_CASE("a_run_goes_on_however_it_was_put_together") {
   }
 }
 
-TEST_CASE("hands_that_move_in_turn_make_one_run") {
+TEST_CASE("hands_that_move_in_turn_form_one_run") {
   Random random(1);
   RecordedEvents events;
   for (int k = 0; k < 200; ++k) {
     events =
         with_event(events, trajectory_event(some_hands(random, k % 2 ? 1 : 4), one_step(1e-3)));
   }
-  // a step of the hand that came first, a whole run of both; and again, for the 71 that are left
-  CHECK(runs(events) == 4);
+  // a step of the hand that came first, a full run of both; then the remaining 71 steps
+  CHECK(runs(moves) == 4);
 }
 
-TEST_CASE("a_hand_that_rests_costs_nothing") {
+TEST_CASE("a_resting_hand_needs_no_memory") {
   Random random(1);
-  RecordedEvents events;
-  events = with_event(events, trajectory_event(some_hands(random, 1), one_step(1e-3)));
-  for (int k = 0; k < 100000; ++k) events = with_event(events, one_step(1e-3));
-  REQUIRE(runs(events) == 1);
-  CHECK(events.top().steps_per_row.size() == 1);
-  CHECK(events.top().count == 100001);
-  // other steps are another event
-  events = with_event(events, one_step(2e-3));
-  CHECK(runs(events) == 2);
+  RecordedEvents moves;
+  moves = with_move(moves, lead_of(some_hands(random, 1), one_step(1e-3)));
+  for (int k = 0; k < 100000; ++k) moves = with_move(moves, one_step(1e-3));
+  REQUIRE(runs(moves) == 1);
+  CHECK(moves.top().pace.size() == 1);
+  CHECK(moves.top().count == 100001);
+  // other steps form another run
+  moves = with_move(moves, one_step(2e-3));
+  CHECK(runs(moves) == 2);
 }

@@ -1,4 +1,4 @@
-// Sparse factors, the elimination order and GMRES against dense algebra.
+// Sparse factors, elimination orders and GMRES against dense algebra.
 #include "linalg/direct_solver.h"
 #include "linalg/cholesky.h"
 #include "linalg/nested_dissection.h"
@@ -39,7 +39,7 @@ std::vector<Edge> random_pairs(Random &random, uint32_t n, size_t count) {
   return pairs;
 }
 
-// Random blocks; the diagonal outweighs its row, so that the matrix is positive definite.
+// Random blocks; the diagonal dominates its row, so that the matrix is positive definite.
 BlockMatrix random_matrix(Random &random, uint32_t n, size_t pairs) {
   BlockMatrix m;
   m.set_pattern(n, random_pairs(random, n, pairs));
@@ -71,7 +71,7 @@ Eigen::MatrixXd dense(const BlockMatrix &m) {
   return full;
 }
 
-// With what rounding leaves of a well-conditioned system of a few hundred rows.
+// Solves to the rounding of a well-conditioned system of a few hundred rows.
 struct NamedFactor {
   std::string name;
   std::unique_ptr<DirectSolver> factor;
@@ -84,14 +84,14 @@ std::vector<NamedFactor> all_factors() {
     all.push_back({"backend " + std::to_string(backend), make_direct_solver(backend), 1e-12});
   }
   all.push_back({"narrow", make_narrow_factor(), 1e-4});
-  // what is left of the residual, and as much more as the norms of residual and solution differ
+  // the rest of the residual, and the share by which the norms of residual and solution differ
   all.push_back({"refined", make_mixed_precision_cholesky(), 1e-6});
   return all;
 }
 
 }  // namespace
 
-TEST_CASE("every_factor_solves_as_dense_algebra_does") {
+TEST_CASE("every_factor_solves_like_dense_algebra") {
   Random random(1);
   for (const NamedFactor &kind : all_factors()) {
     CAPTURE(kind.name);
@@ -110,7 +110,7 @@ TEST_CASE("every_factor_solves_as_dense_algebra_does") {
   }
 }
 
-TEST_CASE("products_are_those_of_dense_algebra") {
+TEST_CASE("products_equal_those_of_dense_algebra") {
   Random random(11);
   BlockSpmv product;
   for (const uint32_t n : {1u, 2u, 7u, 90u}) {
@@ -124,7 +124,7 @@ TEST_CASE("products_are_those_of_dense_algebra") {
   }
 }
 
-TEST_CASE("a_factor_takes_new_values_on_its_pattern") {
+TEST_CASE("a_factor_accepts_new_values_on_its_pattern") {
   Random random(2);
   for (const NamedFactor &kind : all_factors()) {
     CAPTURE(kind.name);
@@ -142,7 +142,7 @@ TEST_CASE("a_factor_takes_new_values_on_its_pattern") {
   }
 }
 
-// So a pattern may be kept while contact comes and goes.
+// A pattern may therefore be kept while contact pairs appear and disappear.
 TEST_CASE("zeros_in_the_pattern_change_no_bit_of_the_block_factor") {
   Random random(7);
   for (const uint32_t n : {5u, 40u, 200u}) {
@@ -172,7 +172,7 @@ TEST_CASE("zeros_in_the_pattern_change_no_bit_of_the_block_factor") {
   }
 }
 
-TEST_CASE("every_factor_refuses_what_is_not_positive_definite") {
+TEST_CASE("every_factor_refuses_a_matrix_that_is_not_positive_definite") {
   Random random(3);
   for (const NamedFactor &kind : all_factors()) {
     CAPTURE(kind.name);
@@ -181,7 +181,8 @@ TEST_CASE("every_factor_refuses_what_is_not_positive_definite") {
     factor->analyse(good);
     for (const uint32_t row : {0u, 11u, 29u}) {
       BlockMatrix bad = good;
-      bad.value[bad.start[row]](1, 1) = -1;  // a negative diagonal is no positive definite matrix
+      // a matrix with a negative diagonal entry is not positive definite
+      bad.value[bad.start[row]](1, 1) = -1;
       CHECK_FALSE(factor->factorise(bad));
       bad.value[bad.start[row]](1, 1) = std::numeric_limits<double>::quiet_NaN();
       CHECK_FALSE(factor->factorise(bad));
@@ -191,11 +192,11 @@ TEST_CASE("every_factor_refuses_what_is_not_positive_definite") {
     for (uint32_t k = hidden.start[0] + 1; k < hidden.start[1]; ++k) hidden.value[k] *= 1e3;
     REQUIRE(dense(hidden).selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() < 0);
     CHECK_FALSE(factor->factorise(hidden));
-    CHECK(factor->factorise(good));  // and is usable again afterwards
+    CHECK(factor->factorise(good));  // and the factor can be used again afterwards
   }
 }
 
-TEST_CASE("a_factor_made_in_parts_has_the_same_bits") {
+TEST_CASE("a_factor_computed_in_parts_has_the_same_bits") {
   Random random(9);
   const BlockMatrix m = random_matrix(random, 150, 600);
   const Positions b = random.vectors(150, 1);
@@ -212,9 +213,9 @@ TEST_CASE("a_factor_made_in_parts_has_the_same_bits") {
   }
 }
 
-// What is left to double precision, and that it is: two nodes held together a thousand million
-// times as firmly as in their place.
-TEST_CASE("what_single_precision_cannot_do_is_done_in_double") {
+// Double precision completes a solution where single precision fails: two nodes coupled a thousand
+// million times as firmly as each is to its place.
+TEST_CASE("systems_beyond_single_precision_are_solved_in_double") {
   BlockMatrix m;
   m.set_pattern(2, {{0, 1}});
   m.value = {Mat3::Identity() * (1e9 + 1), Mat3::Identity() * -1e9, Mat3::Identity() * (1e9 + 1)};
@@ -231,9 +232,9 @@ TEST_CASE("what_single_precision_cannot_do_is_done_in_double") {
   CHECK(error(make_mixed_precision_cholesky()) < 1e-6);
 }
 
-// Along a chain of which each node moves a tenth as much as the one before. Subnormal numbers take
-// some processors a hundred times as long.
-TEST_CASE("single_precision_leaves_no_subnormal_numbers_and_the_rounding_as_it_was") {
+// A chain of which each node moves a tenth as much as the one before. Subnormal numbers take some
+// processors a hundred times as long.
+TEST_CASE("single_precision_produces_no_subnormal_numbers_and_restores_the_rounding_mode") {
   constexpr uint32_t n = 60;
   std::vector<Edge> pairs;
   for (uint32_t k = 1; k < n; ++k) pairs.push_back({k - 1, k});
@@ -260,9 +261,9 @@ TEST_CASE("an_unknown_backend_is_refused") {
   CHECK_THROWS_AS(make_direct_solver(99), Error);
 }
 
-// A sheet of 40 by 20 nodes, its edges told twice: its separator has 20 nodes, the last of the
-// order, and nothing joins what they separate.
-TEST_CASE("nested_dissection_separates_a_sheet_by_its_shorter_way") {
+// A sheet of 40 by 20 nodes, its edges listed twice: its separator has 20 nodes, the last of the
+// order, and no edge joins the two sides.
+TEST_CASE("nested_dissection_separates_a_sheet_across_its_shorter_side") {
   constexpr uint32_t wide = 40, high = 20;
   std::vector<Edge> pairs;
   std::vector<Vec3> place;
@@ -287,8 +288,8 @@ TEST_CASE("nested_dissection_separates_a_sheet_by_its_shorter_way") {
 }
 
 // A path that is eliminated from its ends leaves two numbers in each column but the last; a star
-// whose middle goes first leaves all.
-TEST_CASE("the_work_of_an_elimination_is_counted") {
+// whose centre is eliminated first leaves all.
+TEST_CASE("the_operations_of_an_elimination_are_counted") {
   CHECK(elimination_work({0, 1, 2, 3}, {{0, 1}, {1, 2}, {3, 2}, {1, 0}}) == 4 + 4 + 4 + 1);
   CHECK(elimination_work({0, 1, 2, 3}, {{0, 1}, {0, 2}, {0, 3}}) == 16 + 9 + 4 + 1);
   CHECK(elimination_work({3, 2, 1, 0}, {{0, 1}, {0, 2}, {0, 3}}) == 4 + 4 + 4 + 1);
@@ -308,7 +309,7 @@ TEST_CASE("a_fill_reducing_order_is_a_permutation") {
 TEST_CASE("gmres_solves_an_unsymmetric_system") {
   Random random(5);
   const uint32_t n = 20;
-  // the identity and something small beside it, as a factorisation leaves it
+  // the identity plus a small perturbation, as after preconditioning
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(3 * n, 3 * n);
   for (Eigen::Index i = 0; i < a.size(); ++i) a(i) += random(-0.1, 0.1);
   const auto apply = [&](const Positions &v) {
@@ -322,7 +323,7 @@ TEST_CASE("gmres_solves_an_unsymmetric_system") {
     Positions x = b;
     const double reached = gmres(apply, x, 60, tolerance);
     CHECK(reached <= tolerance);
-    // what it says it has reached is what it has reached, to rounding
+    // the reported residual is the residual, to rounding
     const double residual = (a * flat(x) - flat(b)).norm() / flat(b).norm();
     CHECK(residual == doctest::Approx(reached).epsilon(1e-6).scale(1e-6));
   }
@@ -331,7 +332,7 @@ TEST_CASE("gmres_solves_an_unsymmetric_system") {
   CHECK(largest(zero) == 0);
 }
 
-TEST_CASE("gmres_stops_at_its_limit_and_says_how_far_it_got") {
+TEST_CASE("gmres_stops_at_its_limit_and_reports_the_residual") {
   Random random(6);
   Eigen::MatrixXd a(60, 60);
   for (Eigen::Index i = 0; i < a.size(); ++i) a(i) = random(-1, 1);

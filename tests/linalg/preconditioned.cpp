@@ -1,5 +1,5 @@
-// Conjugate gradients around a factor, factors made in parts, and live steps that go on with one
-// made earlier.
+// Preconditioned conjugate gradients, factors computed in parts, and live steps that reuse an
+// earlier factor.
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
@@ -36,7 +36,7 @@ Eigen::VectorXd powers_of(double base) {
   return values;
 }
 
-// Symmetric, with these eigenvalues.
+// A symmetric matrix with these eigenvalues.
 Eigen::MatrixXd with_spectrum(Random &random, const Eigen::VectorXd &values) {
   Eigen::MatrixXd any(values.size(), values.size());
   for (Eigen::Index i = 0; i < any.size(); ++i) any(i) = random(-1, 1);
@@ -65,7 +65,7 @@ void pulse(State &state, int step) {
 
 }  // namespace
 
-// As many iterations as there are different eigenvalues, in exact arithmetic (Hestenes & Stiefel).
+// As many iterations as distinct eigenvalues, in exact arithmetic (Hestenes & Stiefel).
 TEST_CASE("conjugate_gradients_end_after_as_many_iterations_as_eigenvalues") {
   Random random(11);
   Eigen::VectorXd values(30);
@@ -82,7 +82,7 @@ TEST_CASE("conjugate_gradients_end_after_as_many_iterations_as_eigenvalues") {
   CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
 }
 
-TEST_CASE("what_conjugate_gradients_say_is_left_is_left") {
+TEST_CASE("conjugate_gradients_report_the_true_residual") {
   Random random(12);
   const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.4));
   const Positions b = random.vectors(10, 1);
@@ -96,8 +96,9 @@ TEST_CASE("what_conjugate_gradients_say_is_left_is_left") {
   }
 }
 
-// With an exact preconditioner what is left after the guess is known, and one iteration takes it.
-TEST_CASE("conjugate_gradients_begin_with_a_guess_that_leads_downhill") {
+// With an exact preconditioner the error after the initial guess is known, and one iteration
+// removes it.
+TEST_CASE("conjugate_gradients_start_from_a_guess_that_leads_downhill") {
   Random random(16);
   const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.4));
   const Eigen::LLT<Eigen::MatrixXd> exact(a);
@@ -114,16 +115,16 @@ TEST_CASE("conjugate_gradients_begin_with_a_guess_that_leads_downhill") {
     const PcgResult result = pcg.solve(multiply, precondition, b, guess, x, {1e-3, 0});
     const Eigen::VectorXd left = flat(b) - a * flat(x);
     CHECK(flat(b).dot(flat(x)) >= 0);
-    // what is lost where nearly all of b is taken off
+    // cancellation where nearly all of b is removed
     CHECK(std::abs(result.error - std::sqrt(left.dot(exact.solve(left))) / size) <= 1e-7);
   }
-  CHECK(flat(x).isZero(0));  // nothing of one that leads uphill
-  // the step that nothing asks for brings back what the guess lacks
+  CHECK(flat(x).isZero(0));  // a guess that leads uphill is discarded
+  // one iteration is made although the guess meets the goal, and removes the rest of the error
   CHECK(pcg.solve(multiply, precondition, b, solution, x, {0.9, 9}).iterations == 1);
   CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
 }
 
-TEST_CASE("conjugate_gradients_give_up_what_they_cannot_reach") {
+TEST_CASE("conjugate_gradients_give_up_a_goal_out_of_reach") {
   Random random(14);
   const Eigen::MatrixXd a = with_spectrum(random, powers_of(2.0));
   const Positions b = random.vectors(10, 1);
@@ -134,7 +135,7 @@ TEST_CASE("conjugate_gradients_give_up_what_they_cannot_reach") {
   CHECK(solve(a, b, x, {1e-3, 8}).iterations == 8);
 }
 
-TEST_CASE("conjugate_gradients_that_take_long_end_with_less") {
+TEST_CASE("slow_conjugate_gradients_end_with_a_lower_accuracy") {
   Random random(15);
   const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.1));
   const Positions b = random.vectors(10, 1);
@@ -152,7 +153,7 @@ TEST_CASE("conjugate_gradients_that_take_long_end_with_less") {
   CHECK(later.iterations > 4);
   CHECK(later.iterations < all);
   CHECK(later.error <= 0.1);
-  goal.patience = all;  // what comes to its goal before
+  goal.patience = all;  // a run that reaches its goal first is not affected
   CHECK(solve(a, b, x, goal).iterations == all);
 }
 
@@ -172,7 +173,7 @@ TEST_CASE("conjugate_gradients_stop_where_the_matrix_is_not_positive_definite") 
   CHECK(largest(x) == 0);
 }
 
-// A factor in parts is the factor.
+// A factor computed in parts equals the factor.
 TEST_CASE("parts_of_a_factor_give_its_bits") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
@@ -195,7 +196,7 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
     for (uint32_t part = 0; part < CachedPreconditioner::parts; ++part) {
       CHECK(!parts.is_of(place, CachedPreconditioner::parts));
       REQUIRE(parts.factorise_part(part));
-      REQUIRE(parts.factorise_part(0));  // what is done stays
+      REQUIRE(parts.factorise_part(0));  // finished parts remain
     }
     CHECK(parts.is_of(place, CachedPreconditioner::parts));
     Positions rows(matrix.size()), x, y, back;
@@ -204,15 +205,15 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
     whole.solve(rows, x);
     parts.solve(rows, y);
     CHECK(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)) == 0);
-    // and of the matrix that products are of
+    // and of the matrix whose products are taken
     BlockSpmv().multiply(matrix.blocks(), x, back);
     for (size_t r = 0; r < rows.size(); ++r) back[r] -= rows[r];
     CHECK(largest(back) <= 1e-9 * largest(rows));  // its condition times rounding
   }
 }
 
-// Beside a step that factorises its own matrix, at the same state.
-TEST_CASE("an_earlier_factor_serves_within_its_tolerance") {
+// Compared with a step that factorises its own matrix, at the same state.
+TEST_CASE("an_earlier_factor_preconditions_within_its_tolerance") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Solver solver(MVS_BACKEND_DEFAULT), direct(MVS_BACKEND_DEFAULT);
@@ -234,15 +235,15 @@ TEST_CASE("an_earlier_factor_serves_within_its_tolerance") {
       far = std::max(far, (alone.x.get()[i] - before.x.get()[i]).norm());
       off = std::max(off, (alone.x.get()[i] - state.x.get()[i]).norm());
     }
-    // 2 % of the residual at most, in the norm of the factor; of the longest way, with what step
-    // bounds make of it
+    // 2 % of the residual at most, in the norm of the factor; relative to the longest displacement,
+    // step limiting included
     CHECK(off <= 0.05 * far);
   }
   CHECK(served > 100);
   CHECK(whole < 40);
 }
 
-TEST_CASE("a_valve_that_wakes_makes_no_factor") {
+TEST_CASE("a_waking_valve_computes_no_factor") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Solver solver(MVS_BACKEND_DEFAULT);
@@ -259,7 +260,7 @@ TEST_CASE("a_valve_that_wakes_makes_no_factor") {
   CHECK(stats.factorisations == 0);
 }
 
-TEST_CASE("a_valve_that_was_settled_has_no_waypoints") {
+TEST_CASE("a_settled_valve_has_no_preconditioner_key") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Solver solver(MVS_BACKEND_DEFAULT);
@@ -278,8 +279,8 @@ TEST_CASE("a_valve_that_was_settled_has_no_waypoints") {
   CHECK(state.coming.x.empty());
 }
 
-// A state may come from anywhere: forwards, backwards, with a factor half made.
-TEST_CASE("going_back_and_forth_changes_no_bit") {
+// A restored state may be earlier or later, with a factor half finished.
+TEST_CASE("restoring_earlier_and_later_states_changes_no_bit") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Solver solver(MVS_BACKEND_DEFAULT);
@@ -304,8 +305,8 @@ TEST_CASE("going_back_and_forth_changes_no_bit") {
   }
 }
 
-// As a file may say.
-TEST_CASE("a_factor_with_more_parts_than_there_are_is_left_out") {
+// Such a number can come from a file.
+TEST_CASE("a_factor_with_more_parts_than_exist_is_discarded") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Solver solver(MVS_BACKEND_DEFAULT);

@@ -36,7 +36,7 @@ double largest_difference(const AnnulusMeasures &l, const AnnulusMeasures &r) {
 
 }  // namespace
 
-TEST_CASE("frame_of_a_level_valve_is_its_axes") {
+TEST_CASE("frame_of_a_level_valve_is_aligned_with_its_axes") {
   const ModelPtr model = model_of(saddle(6e-3));
   const Frame frame = valve_frame(*model, model->valve.rest);
   // rounding of sums over 96 points of 18 mm
@@ -65,7 +65,7 @@ TEST_CASE("frame_turns_with_the_valve") {
   CHECK((turned.origin - motion(still.origin)).norm() < 1e-15);
 }
 
-TEST_CASE("frame_holds_still_while_leaflets_move") {
+TEST_CASE("frame_is_fixed_while_leaflets_move") {
   const ModelPtr model = model_of(saddle(6e-3));
   std::vector<Vec3> x = model->valve.rest;
   const Frame before = valve_frame(*model, x);
@@ -75,7 +75,7 @@ TEST_CASE("frame_holds_still_while_leaflets_move") {
   CHECK(after.origin == before.origin);
 }
 
-TEST_CASE("frame_axis_points_into_the_atrium_whichever_way_the_annulus_is_listed") {
+TEST_CASE("frame_axis_points_into_the_atrium_for_either_order_of_the_annulus") {
   Valve valve = valve_of(saddle(6e-3));
   std::reverse(valve.annulus.begin(), valve.annulus.end());
   const ModelPtr model = make_model(valve);

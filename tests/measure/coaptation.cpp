@@ -15,11 +15,11 @@ namespace {
 constexpr double gap = 0.5e-3;  // below the contact thickness
 
 // An elliptic annulus whose leaflets slope down to a line of coaptation and there turn into two
-// walls. The line runs across, from -half_width to half_width along its length; `wall` gives the
-// wall's point at a place along the line, a depth and a side (+1 anterior, -1 posterior).
+// walls. The line runs across, from -half_width to half_width; `wall` gives the wall's point at a
+// position along the line, a depth and a side (+1 anterior, -1 posterior).
 struct Closed {
   double half_width = 14e-3, depth = 4e-3;
-  double anterior_wall = 6e-3, posterior_wall = 6e-3;  // how far down the walls go
+  double anterior_wall = 6e-3, posterior_wall = 6e-3;  // depth of the walls
   std::function<Vec3(double along, double down, double side)> wall = [](double along, double down,
                                                                         double side) -> Vec3 {
     return {0.5 * gap * side, along, -down};
@@ -60,11 +60,12 @@ TEST_CASE("parallel_walls_coapt_over_their_overlap") {
   closed.posterior_wall = 5e-3;
   const Coaptation coaptation = coaptation_of(closed);
   const double overlap = 5e-3, width = 2 * closed.half_width;
-  // samples stand 0.25 mm apart, so a border may be wrong by that, one way here and the other
-  // there: 1 % of the area; the line loses half a percent of the area at either end
+  // samples are 0.25 mm apart, so a border is uncertain by that, in either direction: 1 % of the
+  // area; the line loses half a percent of the area at either end
   CHECK(coaptation.area == about(overlap * width, 0.02));
   CHECK(coaptation.length_mean == about(overlap, 0.03));
-  // a station sees one border's error, and 15 degrees beyond the border (0.13 mm) still face it
+  // a station has one border's error, and 15 degrees beyond the border (0.13 mm) still face the
+  // wall
   CHECK(coaptation.length_max == about(overlap, 0.08));
   CHECK(coaptation.length_min == about(overlap, 0.08));
   // extents are of whole samples
@@ -72,7 +73,7 @@ TEST_CASE("parallel_walls_coapt_over_their_overlap") {
   CHECK(std::abs(coaptation.depth - closed.depth) < 0.3e-3);
 }
 
-TEST_CASE("facing_nodes_know_their_distance") {
+TEST_CASE("facing_nodes_store_their_distance") {
   const ModelPtr model = model_of(sheet_of({}));
   const Coaptation coaptation = measure_coaptation(*model, model->valve.rest);
   size_t facing = 0;
@@ -162,7 +163,7 @@ TEST_CASE("a_curved_line_is_followed") {
   }
 }
 
-TEST_CASE("a_gap_in_the_line_is_its_shortest_place") {
+TEST_CASE("the_shortest_length_is_zero_where_the_line_has_a_gap") {
   Closed closed;
   closed.wall = [](double along, double down, double side) -> Vec3 {
     const double open = std::abs(along) < 3e-3 ? 4e-3 : gap;
@@ -200,7 +201,7 @@ TEST_CASE("outer_sides_within_reach_do_not_coapt") {
   CHECK(coaptation.area == 0);
 }
 
-TEST_CASE("a_cleft_coapts_with_itself_but_makes_no_line") {
+TEST_CASE("a_cleft_coapts_with_itself_but_forms_no_line") {
   Valve valve = valve_of(sheet_of({}));
   // one leaflet has both walls, the other only the bellies
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
@@ -231,7 +232,7 @@ TEST_CASE("three_leaflets_meet_along_their_lines") {
   // A with P and A with S; a line of 14 mm is uncertain by a sample at either end: 0.5 mm in all
   CHECK(coaptation.length_mean == about(6e-3, 0.04));
   CHECK(coaptation.length_max == about(6e-3, 0.08));
-  // both lines are there, end to end: no station is left out or counted twice
+  // both lines are complete: no station is missing or counted twice
   double furthest = 0, total = 0;
   for (const CoaptationStation &station : coaptation.line) {
     furthest = std::max(furthest, std::abs(station.point[1]));
@@ -241,12 +242,12 @@ TEST_CASE("three_leaflets_meet_along_their_lines") {
   CHECK(std::abs(total) / static_cast<double>(coaptation.line.size()) < 1.2e-3);
 }
 
-TEST_CASE("coaptation_survives_motion_and_renumbering") {
+TEST_CASE("coaptation_is_invariant_under_motion_and_renumbering") {
   const Valve valve = valve_of(sheet_of({}));
   const ModelPtr model = make_model(valve);
   const Coaptation still = measure_coaptation(*model, valve.rest);
   const auto check_same = [&](const Coaptation &other) {
-    // samples are yes or no: one of them is 1e-5 of the area
+    // a sample counts or does not: one of them is 1e-5 of the area
     CHECK(other.area == about(still.area, 1e-4));
     CHECK(other.length_mean == about(still.length_mean, 1e-3));
     CHECK(other.length_min == about(still.length_min, 1e-2));
@@ -262,7 +263,7 @@ TEST_CASE("coaptation_survives_motion_and_renumbering") {
 namespace {
 
 // The closed sheet with its posterior leaflet cut in two along the plane between both commissures,
-// the anterior one last: as a tricuspid valve has them.
+// the anterior one last, as in a tricuspid valve.
 ModelPtr three_leaflets(const Closed &closed) {
   Valve valve = valve_of(sheet_of(closed));
   valve.leaflets.resize(3);
@@ -288,11 +289,11 @@ TEST_CASE("three_leaflets_coapt_where_two_do") {
   const ModelPtr two = model_of(sheet_of(closed)), three = three_leaflets(closed);
   const Coaptation of_two = measure_coaptation(*two, two->valve.rest);
   const Coaptation of_three = measure_coaptation(*three, three->valve.rest);
-  // what faces what does not depend on the names of leaflets
+  // facing pairs do not depend on the names of leaflets
   CHECK(of_three.distance == of_two.distance);
   CHECK(of_three.share == of_two.share);
   CHECK(of_three.area == of_two.area);
-  // the line of A with P is now one with each half of P; stations at the cut are shared out anew
+  // the line of A with P is now one with each half of P; stations at the cut are distributed anew
   CHECK(of_three.line.size() + 2 >= of_two.line.size());
   CHECK(of_three.length_mean == about(of_two.length_mean, 0.05));
   CHECK(of_three.height == about(of_two.height, 1e-9));

@@ -1,4 +1,4 @@
-// Comparing shapes against known motions, scales and brute force.
+// Comparison of shapes against known motions, scales and brute force.
 #include "measure/comparison/compare.h"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@
 namespace mvs::core::test {
 namespace {
 
-// An uneven bowl, so that no turn maps it onto itself.
+// An uneven bowl, so that no rotation maps it onto itself.
 Sheet bowl(size_t around, size_t rings) {
   Sheet sheet = disc(18e-3, 4e-3, [](double x, double y) {
     return 20 * (x * x + 0.6 * y * y) - 6e-3 + 300 * x * x * y + 0.2 * x;
@@ -76,7 +76,7 @@ double brute_force_distance2(const Vec3 &p, const std::vector<Tri> &triangles,
 
 }  // namespace
 
-TEST_CASE("tree_finds_what_brute_force_finds") {
+TEST_CASE("bvh_queries_equal_brute_force") {
   const ModelPtr model = model_of(bowl(40, 10));
   const std::vector<Vec3> &x = model->valve.rest;
   const TriangleTree tree(model->valve.triangles, x);
@@ -90,7 +90,7 @@ TEST_CASE("tree_finds_what_brute_force_finds") {
   }
 }
 
-TEST_CASE("a_shape_is_nowhere_from_itself") {
+TEST_CASE("a_shape_has_zero_distance_to_itself") {
   const ModelPtr model = model_of(bowl(40, 10));
   const Comparison c = compare_shapes(*model, model->valve.rest, *model, model->valve.rest);
   CHECK(c.same_mesh);
@@ -110,7 +110,7 @@ TEST_CASE("registration_finds_a_rigid_motion_of_the_same_mesh") {
   CHECK(c.node_rms > 0.1);
 }
 
-TEST_CASE("a_shift_moves_every_node_by_itself") {
+TEST_CASE("a_translation_moves_every_node_by_its_length") {
   const ModelPtr model = model_of(bowl(40, 10));
   const Vec3 shift(1e-3, -2e-3, 2e-3);
   const Comparison c =
@@ -122,14 +122,15 @@ TEST_CASE("a_shift_moves_every_node_by_itself") {
   CHECK(c.surface_max <= c.node_max * (1 + 1e-12));
 }
 
-TEST_CASE("a_scaled_shape_keeps_what_no_motion_takes_away") {
+TEST_CASE("a_scaled_shape_keeps_the_distance_that_no_motion_removes") {
   const ModelPtr model = model_of(bowl(40, 10));
   const double scale = 1.05;
   const RigidMotion motion = some_rigid_motion();
   const Comparison c =
       compare_shapes(*model, model->valve.rest, *model,
                      moved(model->valve.rest, [&](const Vec3 &p) { return motion(scale * p); }));
-  // the best motion puts centroid on centroid; what is left is (scale - 1) times the distance to it
+  // the best motion aligns the centroids; the remaining distance is (scale - 1) times that to the
+  // centroid
   Vec3 mean = Vec3::Zero();
   const size_t sheet = model->valve.rest.size() - 2;  // the last two are heads
   for (size_t n = 0; n < sheet; ++n) mean += model->valve.rest[n] / static_cast<double>(sheet);
@@ -188,9 +189,9 @@ TEST_CASE("registration_finds_a_rigid_motion_of_another_mesh_of_the_same_surface
   CHECK(motion_error(c.registration, motion) < 1e-8);
 }
 
-TEST_CASE("surface_registration_leaves_no_better_motion_nearby") {
+TEST_CASE("surface_registration_is_a_local_minimum") {
   const ModelPtr a = model_of(bowl(40, 10)), b = model_of(bowl(34, 9));
-  // bent and shifted: no motion makes it fit
+  // bent and shifted, so that no rigid motion fits
   const std::vector<Vec3> x = moved(b->valve.rest, [](const Vec3 &p) {
     return Vec3(p[0] + 1e-3, 1.04 * p[1], p[2] + 4 * p[0] * p[1]);
   });
@@ -217,7 +218,7 @@ TEST_CASE("surface_registration_leaves_no_better_motion_nearby") {
   }
 }
 
-TEST_CASE("comparison_is_symmetric_and_repeats_its_bits") {
+TEST_CASE("comparison_is_symmetric_and_deterministic") {
   const ModelPtr a = model_of(bowl(40, 10)), b = model_of(bowl(34, 9));
   const Comparison ab = compare_shapes(*a, a->valve.rest, *b, b->valve.rest);
   const Comparison ba = compare_shapes(*b, b->valve.rest, *a, a->valve.rest);

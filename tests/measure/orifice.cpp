@@ -22,7 +22,7 @@ double flat(double, double) {
   return 0;
 }
 
-constexpr double seal = 0.6 * mm;  // what the expectations below are made for
+constexpr double seal = 0.6 * mm;  // the contact thickness that the expectations below assume
 
 Valve sealing(const mvs::core::test::Sheet &sheet) {
   Valve valve = valve_of(sheet);
@@ -35,7 +35,7 @@ double orifice_area(const Valve &valve) {
   return measure_orifice(*model, model->valve.rest).area;
 }
 
-// The area of a regular polygon on a circle: what a round hole in a mesh really is.
+// The area of a regular polygon on a circle: the exact opening of a round hole in a mesh.
 double polygon_area(double radius, size_t corners) {
   const double n = static_cast<double>(corners);
   return 0.5 * n * radius * radius * std::sin(2 * pi / n);
@@ -150,7 +150,7 @@ TEST_CASE("less_of_a_slit_is_lost_in_its_corners_with_thinner_contact") {
   }
 }
 
-TEST_CASE("holes_add_up") {
+TEST_CASE("holes_are_summed") {
   mvs::core::test::Sheet sheet = disc(16 * mm, 2 * mm, flat);
   sheet.around = 24;
   sheet.rings = 6;
@@ -162,7 +162,7 @@ TEST_CASE("holes_add_up") {
     valve.triangles.erase(valve.triangles.begin() + static_cast<std::ptrdiff_t>(t));
     valve.triangle_leaflet.erase(valve.triangle_leaflet.begin() + static_cast<std::ptrdiff_t>(t));
   }
-  // a ball of 0.6 mm does not reach into corners: 0.08 mm2 of each cell, to a spacing of 0.3 mm
+  // a ball of 0.6 mm does not reach into corners: 0.08 mm2 of each cell, at a spacing of 0.3 mm
   CHECK(orifice_area(valve) == about(expected, 0.02));
   CHECK(orifice_area(valve) > polygon_area(2 * mm, 24) + 6 * mm2);
 }
@@ -187,7 +187,7 @@ TEST_CASE("leaflets_within_the_contact_thickness_are_sealed") {
   }
 }
 
-TEST_CASE("a_funnel_has_its_smallest_cross_section") {
+TEST_CASE("a_funnel_is_measured_at_its_smallest_cross_section") {
   mvs::core::test::Sheet funnel;  // its free edge is the narrowest place
   funnel.at = [](double angle, double s) -> Vec3 {
     const double r = (16 - 8 * s) * mm;
@@ -203,7 +203,7 @@ TEST_CASE("a_funnel_has_its_smallest_cross_section") {
   CHECK(orifice_area(sealing(hourglass)) == about(polygon_area(8 * mm, 48), 5e-3));
 }
 
-TEST_CASE("an_oblique_tube_has_its_cross_section_not_its_mouth") {
+TEST_CASE("an_oblique_tube_is_measured_by_its_cross_section_not_its_mouth") {
   // a round tube that leaves the plane of the annulus at 45 degrees: cut level, it is an ellipse
   const double radius = 5 * mm;
   mvs::core::test::Sheet tube;
@@ -228,7 +228,7 @@ TEST_CASE("the_orifice_on_a_saddle_is_a_minimal_surface") {
   CHECK(orifice_area(sealing(disc(16 * mm, radius, saddle))) == about(expected, 2e-3));
 }
 
-TEST_CASE("a_rigid_motion_does_not_change_the_area") {
+TEST_CASE("the_area_is_invariant_under_rigid_motion") {
   for (const mvs::core::test::Sheet &sheet :
        {overlap(1.5 * mm, 3 * mm), slit(1 * mm, 14 * mm), disc(16 * mm, 3 * mm, flat)}) {
     const ModelPtr model = make_model(sealing(sheet));
@@ -249,7 +249,7 @@ TEST_CASE("a_finer_mesh_of_the_same_shape_has_the_same_orifice") {
   CHECK(orifice_area(sealing(sheet)) == about(coarse, 0.02));
 }
 
-TEST_CASE("the_surface_shown_has_the_area_and_its_rim_on_the_leaflets") {
+TEST_CASE("the_returned_surface_has_the_area_and_its_rim_on_the_leaflets") {
   const ModelPtr model = make_model(sealing(disc(16 * mm, 3 * mm, flat)));
   const Orifice orifice = measure_orifice(*model, model->valve.rest);
   double area = 0;
@@ -272,7 +272,7 @@ TEST_CASE("the_surface_shown_has_the_area_and_its_rim_on_the_leaflets") {
   }
 }
 
-TEST_CASE("the_same_valve_gives_the_same_bits") {
+TEST_CASE("the_orifice_is_deterministic") {
   const ModelPtr model = make_model(sealing(overlap(1.5 * mm, 3 * mm)));
   const Orifice a = measure_orifice(*model, model->valve.rest);
   const Orifice b = measure_orifice(*model, model->valve.rest);

@@ -1,4 +1,4 @@
-// Orifice and coaptation of the valve that the project ships, closed by the solver.
+// Orifice and coaptation of the default valve, closed by the solver.
 #include <doctest/doctest.h>
 #include <mvs/sim.h>
 
@@ -45,7 +45,7 @@ TEST_CASE("the_default_valve_is_sealed_at_120_mmhg_and_open_at_rest") {
   CHECK(open < 8e-4);
 }
 
-TEST_CASE("an_annulus_too_wide_for_its_leaflets_leaks_and_leaks_alike_in_any_place") {
+TEST_CASE("an_annulus_too_wide_for_its_leaflets_leaks_equally_in_any_position") {
   const Closed closed = close_valve(1.5);
   CHECK(closed.converged);
   const double area = measure_orifice(*closed.model, closed.state.x).area;
@@ -56,14 +56,14 @@ TEST_CASE("an_annulus_too_wide_for_its_leaflets_leaks_and_leaks_alike_in_any_pla
   CHECK(moved_area == about(area, 2e-3));  // rounding may choose other diagonals of the samples
 }
 
-// What a sample faces may lie on an edge: which of its triangles rounding chose changed where along
-// the line the sample counted, and lengths by up to 0.9 %.
-TEST_CASE("coaptation_of_a_closed_valve_is_the_same_in_any_place_and_order") {
+// The point that a sample faces may lie on an edge. Which of the edge's triangles rounding chooses
+// must not matter: it changed the sample's position along the line, and lengths by up to 0.9 %.
+TEST_CASE("coaptation_of_a_closed_valve_is_invariant_under_motion_and_renumbering") {
   for (const double scale : {1.0, 1.15}) {
     const Closed closed = close_valve(scale);
     const Coaptation still = measure_coaptation(*closed.model, closed.state.x);
     const auto check_same = [&](const Coaptation &other) {
-      constexpr double rounding = 1e-12;  // m; larger than 1e-16 by what the line extrapolates
+      constexpr double rounding = 1e-12;  // m; larger than 1e-16 because the line extrapolates
       CHECK(std::abs(other.length_mean - still.length_mean) < rounding);
       CHECK(std::abs(other.length_min - still.length_min) < rounding);
       CHECK(std::abs(other.length_max - still.length_max) < rounding);

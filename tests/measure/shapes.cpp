@@ -1,4 +1,4 @@
-// Meshing the shapes.
+// Meshes of the shapes of tests/measure/shapes.h.
 #include "tests/measure/shapes.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// Shapes with known measures: sheets between an annulus and a free edge, given by a map.
+// Fixtures: shapes with known measures, sheets between an annulus and a free edge given by a map.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ struct RigidMotion {
 RigidMotion some_rigid_motion();
 std::vector<Vec3> moved(const std::vector<Vec3> &x, const std::function<Vec3(const Vec3 &)> &by);
 
-// The same valve with its nodes in another order; `place` says where each went.
+// The same valve with its nodes in another order; `place` returns the new number of each node.
 struct Renumbered {
   ModelPtr model;
   std::vector<uint32_t> place;

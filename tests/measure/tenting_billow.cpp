@@ -13,7 +13,7 @@ namespace {
 constexpr double radius = 18e-3, depth = 5e-3;
 
 // The polygon of 96 sides loses 0.07 % of the circle, the rings of 0.7 mm 0.1 % of the bowl's
-// volume, and the pinhole of 0.05 mm nothing.
+// volume; the loss by the pinhole of 0.05 mm is negligible.
 constexpr double meshed = 3e-3;
 
 Sheet bowl(double height, double saddle = 0) {
@@ -60,7 +60,7 @@ TEST_CASE("a_sheet_on_its_saddle_neither_tents_nor_billows") {
   CHECK(doming.billow_volume < 5e-6 * pi * radius * radius);
 }
 
-TEST_CASE("volumes_are_counted_from_the_saddle_not_from_the_plane") {
+TEST_CASE("volumes_are_measured_from_the_saddle_not_from_the_plane") {
   const TentingBillow doming = doming_of(bowl(-depth, 6e-3));
   CHECK(doming.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
   CHECK(doming.tenting_area == about(4.0 / 3 * radius * depth, meshed));
@@ -81,7 +81,7 @@ TEST_CASE("half_a_valve_can_tent_while_the_other_billows") {
   CHECK(doming.tenting_height == about(highest, 1e-3));
 }
 
-TEST_CASE("what_hangs_below_the_coaptation_line_does_not_tent") {
+TEST_CASE("tissue_below_the_coaptation_line_does_not_tent") {
   const auto closed = [](double wall) {
     Sheet sheet;
     sheet.around = 96;
@@ -106,7 +106,7 @@ TEST_CASE("what_hangs_below_the_coaptation_line_does_not_tent") {
   CHECK(lot.tenting_area == about(0.5 * 28e-3 * 4e-3, 0.02));  // a triangle, but for the gap
 }
 
-TEST_CASE("doming_survives_motion_and_renumbering") {
+TEST_CASE("tenting_and_billow_are_invariant_under_motion_and_renumbering") {
   const Valve valve = valve_of(bowl(-depth, 6e-3));
   const ModelPtr model = make_model(valve);
   const TentingBillow still = measure_tenting_billow(*model, valve.rest);

@@ -1,4 +1,4 @@
-// Strain, stress and chordae against closed forms and virtual work.
+// Strain, stress and chord tension against closed forms and virtual work.
 #include <doctest/doctest.h>
 #include <mvs/snapshot.h>
 
@@ -47,7 +47,7 @@ Valve valve_with_chords() {
 
 }  // namespace
 
-TEST_CASE("uniform_stretch_is_found_in_every_triangle") {
+TEST_CASE("uniform_stretch_is_measured_in_every_triangle") {
   const ModelPtr model = model_of(flat_ring());
   const RigidMotion motion = some_rigid_motion();
   const Strain strain = measure_strain(*model, moved(model->valve.rest, [&](const Vec3 &p) {
@@ -127,7 +127,7 @@ TEST_CASE("stress_does_the_work_of_the_springs") {
   CHECK(work == about(expected, 1e-6));
 }
 
-TEST_CASE("stress_and_stretch_do_not_see_rigid_motion") {
+TEST_CASE("stress_and_stretch_are_invariant_under_rigid_motion") {
   const ModelPtr model = model_of(flat_ring());
   const std::vector<Vec3> x = moved(model->valve.rest, [](const Vec3 &p) {
     return Vec3(1.1 * p[0], p[1] + 4 * p[0] * p[1], 20 * p[1] * p[1]);
@@ -168,7 +168,7 @@ TEST_CASE("chordae_beyond_the_range_of_their_kind_are_flagged") {
   CHECK(flags().over_tension == 1);
   valve.chords[0].kind = MVS_CHORD_KIND_STRUT;
   CHECK(flags().flags[0] == 0);
-  // 12 % are above 11.1 %, whatever they carry
+  // 12 % are above 11.1 %, whatever their tension
   valve.chords[0].rest_length = rest / 1.12;
   valve.chords[0].young = 1e6;
   CHECK(flags().flags[0] == MVS_CHORD_FLAG_OVER_STRAIN);
@@ -189,7 +189,7 @@ TEST_CASE("heads_are_pulled_along_their_chordae") {
   CHECK(measures.head_force[0][2] > 0);
 }
 
-TEST_CASE("a_valve_without_chordae_pulls_nothing") {
+TEST_CASE("a_valve_without_chordae_has_zero_head_forces") {
   const ModelPtr model = model_of(flat_ring());
   const ChordMeasures measures = measure_chords(*model, model->valve.rest);
   CHECK(measures.strain.empty());

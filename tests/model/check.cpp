@@ -1,4 +1,4 @@
-// Each fault, made exactly in a good valve, is named, and nothing else is.
+// Model checks: each fault, made on purpose in a valid valve, is reported, and no other fault is.
 #include <mvs/valve.h>
 
 #include <doctest/doctest.h>
@@ -46,7 +46,7 @@ Chord chord_between(uint32_t a, uint32_t b) {
   return chord;
 }
 
-// Adds a triangle that lies by itself, of leaflet A.
+// Adds an isolated triangle of leaflet A.
 void add_triangle(Valve &valve, const Tri &triangle) {
   valve.triangles.push_back(triangle);
   valve.triangle_leaflet.push_back(0);
@@ -54,11 +54,11 @@ void add_triangle(Valve &valve, const Tri &triangle) {
 
 }  // namespace
 
-TEST_CASE("a_good_valve_has_no_fault") {
+TEST_CASE("a_valid_valve_has_no_fault") {
   size_t count = 1;
   CHECK(faults_after([](Valve &) {}, &count) == "");
   CHECK(count == 0);
-  // and what is completed stays good
+  // and the completed valve stays valid
   CHECK(find_faults(make_model(small_valve())->valve).empty());
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("indices_out_of_range_are_named") {
   check_fault("papillary head 1 names node", 1, [](Valve &v) { v.heads[1].node = none; });
 }
 
-TEST_CASE("coordinates_that_cannot_be_are_named") {
+TEST_CASE("impossible_coordinates_are_named") {
   check_fault("node 5 has a rest coordinate", 1, [](Valve &v) { v.rest[5][1] = not_a_number; });
   check_fault("node 5 has a rest coordinate", 1, [](Valve &v) { v.rest[5][1] = 1e200; });
   check_fault("node 5 has a rest coordinate", 1,
@@ -168,12 +168,12 @@ TEST_CASE("bad_triangles_are_named") {
   });
 }
 
-TEST_CASE("what_is_no_sheet_is_named") {
+TEST_CASE("a_surface_that_is_no_sheet_is_named") {
   check_fault("joins 3 triangles", 1, [](Valve &v) {
     v.rest.push_back({0, 0, -4e-3});
     add_triangle(v, {small_segments, small_segments + 1, head + 4});
   });
-  // as a part of its own it hangs on nothing, too
+  // as a part of its own it is also not attached to the annulus
   check_fault("touch in one point only", 2, [](Valve &v) {
     const Vec3 p = v.rest[edge_row + 1];
     v.rest.push_back(p + Vec3(0, 0, -2e-3));
@@ -186,7 +186,7 @@ TEST_CASE("what_is_no_sheet_is_named") {
   });
 }
 
-TEST_CASE("winding_faults_name_the_odd_ones_out") {
+TEST_CASE("winding_faults_name_the_triangles_of_the_other_winding") {
   check_fault("triangle 20 is wound against its neighbours", 1,
               [](Valve &v) { std::swap(v.triangles[20][0], v.triangles[20][1]); });
   check_fault("triangle 0 is wound against its neighbours", 1,
@@ -216,7 +216,7 @@ TEST_CASE("winding_faults_name_the_odd_ones_out") {
   CHECK(faults[0].sentence.find("Moebius") != std::string::npos);
 }
 
-TEST_CASE("an_annulus_that_is_no_boundary_loop_is_named") {
+TEST_CASE("an_annulus_that_is_not_a_boundary_loop_is_named") {
   check_fault("the annulus has 2 nodes", 1, [](Valve &v) { v.annulus.resize(2); });
   check_fault("annulus node 0 appears more than once", 1, [](Valve &v) { v.annulus.push_back(0); });
   check_fault("is no corner of a triangle", 1, [](Valve &v) { v.annulus.push_back(head + 1); });
@@ -227,7 +227,7 @@ TEST_CASE("an_annulus_that_is_no_boundary_loop_is_named") {
   });
 }
 
-TEST_CASE("chords_that_lead_nowhere_are_named") {
+TEST_CASE("chords_with_bad_ends_are_named") {
   check_fault("to itself", 1, [](Valve &v) { v.chords[1].b = v.chords[1].a; });
   check_fault("joins two papillary heads", 1,
               [](Valve &v) { v.chords.push_back(chord_between(head, head + 2)); });
@@ -241,7 +241,7 @@ TEST_CASE("chords_that_lead_nowhere_are_named") {
     v.chords.push_back(chord_between(head + 1, head + 4));
   });
   check_fault("reach no leaflet", 2, [](Valve &v) {
-    v.rest.push_back({0, 0, -20e-3});  // hangs free, too
+    v.rest.push_back({0, 0, -20e-3});  // not attached either
     v.chords.push_back(chord_between(head, head + 4));
   });
   check_fault("reach no papillary head", 1, [](Valve &v) { v.chords.erase(v.chords.begin()); });
@@ -269,7 +269,7 @@ TEST_CASE("names_and_ids_are_checked") {
   check_fault("ids are below", 1, [](Valve &v) { v.chords[0].id = UINT64_MAX; });
 }
 
-TEST_CASE("materials_that_cannot_be_are_named") {
+TEST_CASE("impossible_materials_are_named") {
   check_fault("leaflet A has thickness 1 m", 1, [](Valve &v) { v.leaflets[0].thickness = 1; });
   check_fault("low modulus", 1, [](Valve &v) { v.leaflets[0].constants[0] = -1; });
   check_fault("high modulus", 1, [](Valve &v) { v.leaflets[0].constants[1] = not_a_number; });
@@ -323,7 +323,7 @@ TEST_CASE("materials_that_cannot_be_are_named") {
   });
 }
 
-TEST_CASE("every_fault_is_listed_not_only_the_first") {
+TEST_CASE("every_fault_is_listed") {
   check_fault("chord 2 has area", 4, [](Valve &v) {
     std::swap(v.triangles[20][0], v.triangles[20][1]);
     v.chords[2].area = 0.785;
@@ -344,7 +344,7 @@ TEST_CASE("make_model_throws_the_first_fault") {
   }
 }
 
-TEST_CASE("three_leaflets_are_as_good_as_two") {
+TEST_CASE("a_valve_of_three_leaflets_is_valid") {
   Valve valve = small_valve();
   valve.leaflets.push_back({0, "septal"});
   for (size_t t = 0; t < valve.triangles.size(); ++t) {

@@ -1,4 +1,4 @@
-// The hash spreads every bit, and does not run words into each other.
+// The hash spreads every bit, and separates consecutive words and texts.
 #include "base/hash.h"
 
 #include <doctest/doctest.h>
@@ -28,7 +28,7 @@ TEST_CASE("every_bit_of_a_word_changes_about_half_of_the_hash") {
   CHECK(most <= 64 + 34);
 }
 
-TEST_CASE("a_million_counted_words_have_a_million_hashes_in_each_lane") {
+TEST_CASE("a_million_counted_words_have_distinct_hashes_in_each_lane") {
   std::vector<uint64_t> lane[2];
   for (uint64_t k = 0; k < 1000000; ++k) {
     Hash hash;
@@ -41,7 +41,7 @@ TEST_CASE("a_million_counted_words_have_a_million_hashes_in_each_lane") {
   }
 }
 
-TEST_CASE("texts_do_not_run_into_each_other") {
+TEST_CASE("texts_are_separated") {
   const auto hash_of = [](std::string_view a, std::string_view b) {
     Hash hash;
     hash.add(a);

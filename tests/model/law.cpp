@@ -1,4 +1,5 @@
-// Laws by themselves: derivatives against differences, also where exponents are cut off.
+// Leaflet and chord laws: derivatives against differences, also beyond the cut-off of the
+// exponents.
 #include <doctest/doctest.h>
 #include <mvs/valve.h>
 
@@ -11,8 +12,8 @@ using namespace mvs::core;
 
 namespace {
 
-// Relative to the size of what is compared: h^2 of central differences at h = 1e-5 of numbers of
-// the order of 1 whose third derivative may be 1e3 times the first, and rounding 1e-16 / h.
+// Relative to the compared value: h^2 of central differences at h = 1e-5 of numbers of the order of
+// 1 whose third derivative may be 1e3 times the first, and rounding 1e-16 / h.
 bool close(double a, double b, double size) {
   return std::abs(a - b) <= 1e-6 * size;
 }
@@ -44,7 +45,7 @@ TEST_CASE("every_law_has_the_derivatives_of_its_energy") {
   }
 }
 
-TEST_CASE("laws_do_nothing_at_rest_and_stay_finite_when_a_triangle_is_crushed") {
+TEST_CASE("laws_are_zero_at_rest_and_finite_when_a_triangle_is_crushed") {
   for (const LeafletLaw &law : leaflet_laws()) {
     if (!law.response) continue;
     CAPTURE(law.word);
@@ -54,7 +55,7 @@ TEST_CASE("laws_do_nothing_at_rest_and_stay_finite_when_a_triangle_is_crushed") 
     for (const double i1 : {4.0, 10.0, 1e3, 1e6}) {
       const Response r = law.response(c, i1, 4);
       CHECK(std::isfinite(r.w11));
-      CHECK(r.w > last);  // and it goes on rising
+      CHECK(r.w > last);  // and the energy increases further
       last = r.w;
     }
   }
@@ -62,7 +63,8 @@ TEST_CASE("laws_do_nothing_at_rest_and_stay_finite_when_a_triangle_is_crushed") 
 
 namespace {
 
-// Stretched along the fibre and by the same across and through: l, 1 / sqrt(l), 1 / sqrt(l).
+// Stretched along the fibre, equally narrower across and through the sheet: l, 1 / sqrt(l), 1 /
+// sqrt(l).
 Response stretched(const LeafletLaw &law, const Constants &c, double l) {
   return law.response(c, l * l + 2 / l, l * l);
 }
@@ -72,7 +74,7 @@ double cauchy(const Response &r, double l) {
 
 }  // namespace
 
-TEST_CASE("exponentials_are_followed_past_what_leaflets_bear_and_end_without_a_jump") {
+TEST_CASE("exponentials_continue_past_the_range_of_leaflets_and_end_without_a_jump") {
   struct Tissue {
     uint32_t law;
     Constants constants;
@@ -109,7 +111,7 @@ TEST_CASE("exponentials_are_followed_past_what_leaflets_bear_and_end_without_a_j
     while (t.published(stretch()) > 99e3) --k;
     double last = cauchy(stretched(law, t.constants, stretch()), stretch());
     CHECK(last > 5e6);
-    // to where W is twice as large: the stress goes on rising, without a jump
+    // to where W is twice as large: the stress increases further, without a jump
     bool rises = true, jumps = false;
     for (; t.published(stretch()) < 200e3; ++k) {
       const double stress = cauchy(stretched(law, t.constants, stretch()), stretch());
@@ -145,7 +147,7 @@ TEST_CASE("chord_laws_have_the_derivatives_of_their_energy") {
   }
 }
 
-TEST_CASE("an_ogden_chord_goes_on_along_its_tangent_past_what_tears_it") {
+TEST_CASE("an_ogden_chord_continues_along_its_tangent_past_its_rupture_strain") {
   Valve valve;
   Chord chord;
   chord.law = MVS_CHORD_LAW_OGDEN;
@@ -160,7 +162,7 @@ TEST_CASE("an_ogden_chord_goes_on_along_its_tangent_past_what_tears_it") {
   CHECK(far.slope == doctest::Approx(before.slope).epsilon(2e-3));
 }
 
-TEST_CASE("a_table_goes_through_its_points_and_on_with_the_last_slope") {
+TEST_CASE("a_table_passes_through_its_points_and_continues_with_the_last_slope") {
   Valve valve;
   valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};
   Chord chord;

@@ -1,4 +1,4 @@
-// Models: what is completed, what is derived, and their hash.
+// Models: completed parts, derived quantities, and the hash.
 #include "model/model.h"
 
 #include <doctest/doctest.h>
@@ -48,7 +48,7 @@ TEST_CASE("parts_get_ids_and_names") {
   CHECK(valve.chords[1].name == "A/1");
 }
 
-TEST_CASE("given_names_and_ids_are_kept_and_not_given_twice") {
+TEST_CASE("given_names_and_ids_are_kept_and_unique") {
   Valve valve = small_valve();
   valve.heads[1].name = "PM1";
   valve.chords[5].name = "A/1";
@@ -78,13 +78,14 @@ TEST_CASE("fibres_run_around_the_valve_in_the_plane_of_their_triangle") {
     const Vec3 &fibre = valve.triangle_fibre[t];
     CHECK(fibre.norm() == about(1));
     CHECK(std::abs(fibre.dot(normal)) < 1e-12);  // rounding of a unit vector
-    // on a funnel of 16 sides the middle of a triangle is at most half a side off its own
+    // on a funnel of 16 sides the centroid of a triangle is at most half a side off the fibre's
+    // angle
     const Vec3 around = Vec3(0, 0, 1).cross(middle).normalized();
     CHECK(std::abs(fibre.dot(around)) > std::cos(std::acos(-1.0) / small_segments));
   }
 }
 
-TEST_CASE("given_fibres_are_laid_into_the_plane_and_made_unit") {
+TEST_CASE("given_fibres_are_projected_into_the_plane_and_normalised") {
   Valve valve = small_valve();
   valve.triangle_fibre.assign(valve.triangles.size(), Vec3(0.1, 0.2, -3));
   const ModelPtr model = make_model(valve);
@@ -154,7 +155,7 @@ TEST_CASE("prescribed_nodes_move_from_open_to_loaded") {
   CHECK((model->target(3, 0.5) - valve.rest[3] - Vec3(0.5e-3, 0, -1e-3)).norm() < 1e-17);
 }
 
-TEST_CASE("the_hash_tells_every_input_apart") {
+TEST_CASE("the_hash_depends_on_every_input") {
   const ModelPtr base = make_model(small_valve());
   const State start = initial_state(*base);
   std::set<std::array<uint64_t, 2>> hashes = {hash_of(*base, start)};

@@ -1,4 +1,4 @@
-// Real valves of others, where they are at hand: in the folder that MVS_TEST_DATA names, or in
+// Real valves of other projects, if present: in the folder that MVS_TEST_DATA names, or in
 // shared/data beside the checkout.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace mvs::core {
 
-// Null where the file is not there.
+// Null if the file does not exist.
 inline nlohmann::json read_real_valve(const std::string &file) {
   const char *folder = std::getenv("MVS_TEST_DATA");
   std::ifstream in((folder ? std::string(folder) : MVS_SOURCE_DIR "/../shared/data") + "/" + file);

@@ -1,4 +1,4 @@
-// A small valve made by hand, for tests that need a good one to start from or to spoil.
+// Fixture: a small valid valve made by hand, to start from or to spoil.
 #pragma once
 
 #include <mvs/valve.h>
@@ -12,8 +12,8 @@ namespace mvs::core {
 inline constexpr uint32_t small_segments = 16, small_rows = 4;
 
 // A funnel that hangs from a round annulus of 30 mm in the plane z = 0 down to z = -18 mm, with the
-// atrium above: half of it leaflet A, half P; two heads at z = -25 mm. A chord goes from a head to
-// every second node of the free edge, and one per head branches on its way.
+// atrium above: one half is leaflet A, the other P; two heads at z = -25 mm. A chord leads from a
+// head to every second node of the free edge, and one chord per head branches.
 inline Valve small_valve() {
   Valve valve;
   valve.name = "small";

@@ -1,4 +1,4 @@
-// Topology against what the hand-made valve is known to have, and against brute force.
+// Topology of the hand-made valve against known counts and against brute force.
 #include <mvs/snapshot.h>
 
 #include <doctest/doctest.h>
@@ -76,7 +76,7 @@ TEST_CASE("rows_list_every_triangle_and_chord_of_a_node_in_order") {
   }
 }
 
-TEST_CASE("nodes_are_of_their_kind_and_prescribed_where_the_heart_holds_them") {
+TEST_CASE("nodes_have_their_kind_and_prescribed_nodes_are_annulus_and_heads") {
   const Valve valve = small_valve();
   const Topology topology = make_topology(valve);
   const uint32_t sheet = small_rows * small_segments;

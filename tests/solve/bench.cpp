@@ -1,4 +1,4 @@
-// Meshing, differences, settling.
+// Fixtures of tests/solve/bench.h: meshing, finite differences, settling.
 #include "tests/solve/bench.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// What the tests of the physics share: small sheets, random states, derivatives by differences.
+// Fixtures of the solver tests: small sheets, random states, derivatives by finite differences.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -24,12 +24,12 @@ inline doctest::Approx about(double value, double relative) {
   return doctest::Approx(value).epsilon(relative).scale(0);
 }
 
-// The rows below the heading of a table of the shared data; none, and a line on stderr that says
-// so, where it is missing.
+// The rows below the heading of a table of the shared data. If the table does not exist: no rows,
+// and a line on stderr.
 using Cells = std::vector<std::string>;
 std::vector<Cells> reference_table(const std::string &file);
 
-// The same numbers on every machine, unlike those of std's distributions.
+// The same numbers on every machine, unlike the distributions of the standard library.
 class Random {
  public:
   explicit Random(uint64_t seed) : engine_(seed) {}
@@ -46,8 +46,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// A model of any sheet, also one that is no valve: a plate, a sphere, two plates. `fixed` nodes are
-// prescribed. What the valve leaves out takes its default.
+// A model of any sheet, which need not be a valve: a plate, a sphere, two plates. `fixed` nodes are
+// prescribed. Omitted fields have their defaults.
 Model model_of_sheet(Valve valve, const std::vector<uint32_t> &fixed);
 
 // Adds a grid of nu x nv cells, each cut in two along the diagonal that makes an equilateral
@@ -71,7 +71,7 @@ struct Plates {
   uint32_t upper;                  // its first node
   uint32_t lower_cells;            // a side
   uint32_t upper_cells;            // a side
-  Positions at(double gap) const;  // brought together without bending
+  Positions at(double gap) const;  // translated to this gap without bending
 };
 Plates two_plates(uint32_t cells, double side, double gap, bool fixed_rims,
                   const std::function<void(Valve &)> &change);
@@ -90,17 +90,17 @@ Positions differences(const std::function<double(const Positions &)> &energy, Po
                       double h);
 Eigen::MatrixXd differences(const Gradient &gradient, Positions x, double h);
 
-// A system in the order of the nodes; prescribed nodes have rows of zeros.
+// A system in the order of the nodes; rows of prescribed nodes are zero.
 Eigen::MatrixXd dense(const HessianAssembler &system);
 Eigen::VectorXd flat(const Positions &x);
 double largest(const Positions &x);
 double farthest(const Positions &x, const Positions &y);
 
-// Kinetic energy and the potential, whose differences are exact on a sheet without free edge or
-// without pressure.
+// Kinetic plus potential energy. Its differences are exact on a sheet without free edge or without
+// pressure.
 double total_energy(const Model &model, const State &state);
 
-// Settles from a state and returns where that went.
+// Settles from a state and returns the final state.
 struct Settled {
   State state;
   SolveStats stats;
@@ -108,7 +108,7 @@ struct Settled {
 Settled settle(const Model &model, const State &from, const SolveOptions &options = {});
 Settled settle(const Model &model, double pressure, double fraction = 0,
                const SolveOptions &options = {});
-// At rest at systole, with its boundary loaded; it has to come there.
+// At rest at systole, with its boundary loaded; the test fails if it does not converge.
 State closed(const Model &model);
 
 }  // namespace mvs::core::test

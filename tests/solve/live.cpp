@@ -1,4 +1,4 @@
-// The live step: the same bits from any solver, bounded by its budget, asleep at rest.
+// The live step: bits independent of the solver object, bounded by a budget, asleep at rest.
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
@@ -42,8 +42,8 @@ bool same(const State &a, const State &b) {
 
 }  // namespace
 
-// What a solver keeps (pattern, candidates, forces) never shows: one that has seen contact come and
-// go, and one that begins in the middle, go on alike.
+// Data that a solver keeps (pattern, candidates, forces) have no effect: a solver that has seen
+// contact appear and vanish and a new solver take the same steps.
 TEST_CASE("steps_under_a_changing_load_have_the_same_bits_from_any_state") {
   const ModelPtr model = small_parametric();
   for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN}) {
@@ -67,7 +67,7 @@ TEST_CASE("steps_under_a_changing_load_have_the_same_bits_from_any_state") {
   }
 }
 
-TEST_CASE("a_short_budget_lowers_accuracy_and_says_so_never_safety") {
+TEST_CASE("a_short_budget_lowers_accuracy_and_reports_it_and_keeps_safety") {
   const ModelPtr model = small_parametric();
   for (const uint32_t budget : {4u, 5u, 8u, 64u}) {
     CAPTURE(budget);
@@ -90,8 +90,9 @@ TEST_CASE("a_short_budget_lowers_accuracy_and_says_so_never_safety") {
   }
 }
 
-// A disc has no free edge: its energy is one number, and what a step makes can be told.
-TEST_CASE("a_short_budget_makes_no_energy") {
+// A disc has no free edge, so its energy is defined, and the energy that a step creates can be
+// measured.
+TEST_CASE("a_short_budget_creates_no_energy") {
   const Model disc = clamped_disc(5, 12e-3, [](Valve &) {});
   for (const uint32_t budget : {4u, 6u}) {
     State state = initial_state(disc);
@@ -143,7 +144,7 @@ TEST_CASE("a_valve_at_rest_sleeps_until_something_changes") {
   CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_STEP) == 0);
 }
 
-// The tolerance follows the load: what a little pressure moves does not sleep.
+// The tolerance follows the load: under a small pressure a valve that still moves does not sleep.
 TEST_CASE("an_unloaded_valve_rests_only_without_forces") {
   CHECK(rest_force({0, 0}) == about(1e-9, 1e-9));
   CHECK(rest_force({systole, 1}) >= 1e-5);
@@ -151,9 +152,9 @@ TEST_CASE("an_unloaded_valve_rests_only_without_forces") {
   CHECK(rest_force({10 * systole, 1}) == rest_force({systole, 1}));
 }
 
-// Steps of 20 ms go farther than any node may: cut node by node they lead uphill, where a valve
-// that takes none of them would hang for ever.
-TEST_CASE("a_valve_out_of_balance_does_not_stand_still") {
+// In steps of 20 ms nodes would move farther than any node may. Limited node by node such a step
+// leads uphill, and a valve that takes no part of it would never move.
+TEST_CASE("a_valve_out_of_balance_keeps_moving") {
   mvs_parametric_desc desc = {};
   desc.struct_size = sizeof desc;
   desc.vertices = 425;

@@ -1,4 +1,5 @@
-// A piece of a closed valve feels what the whole feels, and settles without crossing the rest.
+// A local subproblem of a closed valve has the forces of the whole valve, and settles without
+// crossing the rest.
 #include "solve/static/local_subproblem.h"
 
 #include <doctest/doctest.h>
@@ -25,14 +26,15 @@ std::vector<Vec3> gradient(const Model &model, const std::vector<Vec3> &x) {
 
 }  // namespace
 
-TEST_CASE("free_nodes_of_a_piece_feel_what_they_feel_in_the_whole_valve") {
+TEST_CASE("free_nodes_of_a_subproblem_have_the_forces_of_the_whole_valve") {
   const ModelPtr model = make_model(make_parametric_valve({}));
   State state = closed(*model);
   std::vector<Vec3> x = state.x.get();
   const uint32_t place = model->valve.chords[3].b;
   const LocalSubproblem region = cut_out(*model, x, {place}, {8e-3, x.size(), 2e-3});
   REQUIRE(region.node.size() < x.size());
-  // as far as the leash allows, so that what lies beyond the piece could come into reach
+  // as far as max_displacement allows, so that tissue beyond the subproblem could come within
+  // contact
   size_t free = 0;
   for (size_t k = 0; k < region.node.size(); ++k) {
     if (region.model.topology.fixed[k]) continue;
@@ -57,7 +59,7 @@ TEST_CASE("free_nodes_of_a_piece_feel_what_they_feel_in_the_whole_valve") {
 TEST_CASE("a_closed_valve_comes_to_rest_after_a_chord_is_cut_or_tightened_with_nothing_crossing") {
   Valve valve = make_parametric_valve({});
   const State before = closed(*make_model(valve));
-  for (const double factor : {0.75, 50.0}) {  // so long a chord pulls at nothing
+  for (const double factor : {0.75, 50.0}) {  // a chord of 50 times its length pulls nothing
     CAPTURE(factor);
     Valve changed = valve;
     changed.chords[3].rest_length *= factor;

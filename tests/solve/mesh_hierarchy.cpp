@@ -1,5 +1,5 @@
-// Closing over coarser meshes: the same shape for less work, and the plain closure where it would
-// not pay.
+// Nested iteration over coarser meshes gives the shape of the plain closure with less work, and is
+// skipped where it would not pay.
 #include "solve/static/mesh_hierarchy.h"
 
 #include <doctest/doctest.h>
@@ -53,7 +53,7 @@ TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_itera
   CHECK(hash_of(*model, again) == hash_of(*model, levels));
 }
 
-TEST_CASE("a_small_valve_and_one_near_rest_are_settled_as_they_are") {
+TEST_CASE("a_small_valve_and_one_near_rest_are_settled_without_a_hierarchy") {
   Solver solver(MVS_BACKEND_DEFAULT);
   for (const uint32_t vertices : {425u, 1700u}) {
     const ModelPtr model = valve_of(vertices);
@@ -70,7 +70,7 @@ TEST_CASE("a_small_valve_and_one_near_rest_are_settled_as_they_are") {
   }
 }
 
-TEST_CASE("progress_goes_up_over_the_levels_and_can_cancel") {
+TEST_CASE("progress_increases_over_the_levels_and_can_cancel") {
   const ModelPtr model = valve_of(1300);
   Solver solver(MVS_BACKEND_DEFAULT);
   State state = loaded(*model);

@@ -1,4 +1,4 @@
-// The static closure: it comes to rest, says so truthfully, and depends on nothing it should not.
+// Static closure: converges, reports convergence truthfully, and depends on nothing but the state.
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double systole = MVS_SYSTOLE_PA;
 
-// The largest force on a node that is free to move, found anew from the state alone.
+// The largest force on a free node, recomputed from the state alone.
 double residual_of(const Model &model, const State &state) {
   const Forces forces = evaluate_forces(model, state);
   double most = 0;
@@ -30,7 +30,7 @@ double residual_of(const Model &model, const State &state) {
   return most;
 }
 
-// At rest, honestly so, and nowhere through itself.
+// At rest, as reported, and without self-intersection.
 void check_rest(const Model &model, const Settled &settled, double tolerance) {
   CHECK(settled.stats.converged);
   CHECK(settled.stats.residual <= tolerance);
@@ -62,20 +62,20 @@ bool same_bits(const State &a, const State &b) {
 
 }  // namespace
 
-TEST_CASE("a_valve_comes_to_rest_at_any_pressure_without_crossing_itself") {
+TEST_CASE("a_valve_converges_at_any_pressure_without_crossing_itself") {
   const ModelPtr model = make_model(moving_valve());
   for (const double pressure : {0.0, 500.0, 4e3, systole, 30e3}) {
     CAPTURE(pressure);
     const Settled settled = settle(*model, pressure, 1);
     check_rest(*model, settled, 1e-5);
     for (uint32_t i = 0; i < model->node_count(); ++i) {
-      // the boundary is where it was sent, to the bit
+      // the boundary is at its target, to the bit
       if (model->topology.fixed[i]) CHECK(settled.state.x[i] == model->target(i, 1));
     }
   }
 }
 
-TEST_CASE("reactions_carry_what_the_pressure_pushes") {
+TEST_CASE("reactions_balance_the_pressure") {
   const ModelPtr model = make_model(moving_valve());
   const Settled settled = settle(*model, systole, 1);
   REQUIRE(settled.stats.converged);
@@ -93,14 +93,14 @@ TEST_CASE("reactions_carry_what_the_pressure_pushes") {
     if (model->topology.fixed[i]) reaction += forces.total[i];
     contact += forces.contact[i];
   }
-  // total forces on prescribed nodes are what the heart holds against; 66 nodes out of balance by
-  // up to 1e-5 N each
+  // total forces on prescribed nodes are the reactions; 66 nodes out of balance by up to 1e-5 N
+  // each
   CHECK((reaction - pushed).norm() < 66 * 1e-5);
   CHECK(pushed.norm() > 1);
-  CHECK(contact.norm() < 1e-12);  // contact pushes both sides alike: rounding
+  CHECK(contact.norm() < 1e-12);  // contact acts on both sides alike: rounding
 }
 
-TEST_CASE("clamped_membranes_flat_or_domed_come_to_rest") {
+TEST_CASE("clamped_membranes_flat_or_domed_converge") {
   for (const double pressure : {10.0, 1e3, systole}) {
     CAPTURE(pressure);
     const Model flat = soft_disc(8);
@@ -119,7 +119,7 @@ TEST_CASE("a_tighter_tolerance_is_reached") {
   check_rest(model, settle(model, systole, 0, options), 1e-10);
 }
 
-TEST_CASE("what_did_not_converge_is_reported_so") {
+TEST_CASE("a_closure_that_did_not_converge_is_reported_as_such") {
   const ModelPtr model = make_model(moving_valve());
   SolveOptions options;
   options.max_iterations = 3;
@@ -137,7 +137,7 @@ TEST_CASE("a_valve_at_rest_stays_where_it_is") {
   CHECK(settled.state.x == model->valve.rest);
 }
 
-TEST_CASE("a_settled_valve_settles_again_at_once") {
+TEST_CASE("a_settled_valve_settles_again_without_iterations") {
   const ModelPtr model = make_model(moving_valve());
   const Settled once = settle(*model, systole, 1);
   REQUIRE(once.stats.converged);
@@ -176,7 +176,7 @@ TEST_CASE("a_rigid_motion_of_the_valve_moves_the_result_with_it") {
   CHECK(farthest(motion(a.state.x), b.state.x) < 1e-8);
 }
 
-TEST_CASE("two_runs_give_the_same_bits_and_a_used_solver_gives_them_too") {
+TEST_CASE("two_runs_and_a_used_solver_give_the_same_bits") {
   const ModelPtr model = make_model(moving_valve());
   const Model other = soft_disc(3);
   for (const uint32_t kind : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
@@ -226,7 +226,7 @@ TEST_CASE("backends_reach_the_same_equilibrium") {
   }
 }
 
-TEST_CASE("progress_is_told_and_can_cancel") {
+TEST_CASE("progress_is_reported_and_can_cancel") {
   const ModelPtr model = make_model(moving_valve());
   for (const uint32_t kind : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
     CAPTURE(kind);
@@ -252,10 +252,10 @@ TEST_CASE("progress_is_told_and_can_cancel") {
   }
 }
 
-TEST_CASE("numbers_out_of_range_are_refused_not_returned") {
+TEST_CASE("numbers_out_of_range_are_refused") {
   const ModelPtr model = make_model(small_valve());
   State state = initial_state(*model);
-  state.x[40] = state.x[41];  // two nodes in one place have no direction between them
+  state.x[40] = state.x[41];  // coincident nodes have no direction between them
   Solver solver(MVS_BACKEND_DEFAULT);
   try {
     solver.settle(*model, state, {}, {});

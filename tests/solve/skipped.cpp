@@ -1,4 +1,4 @@
-// What mvs_stats says was never computed: each term there and not.
+// mvs_stats reports the terms that were never computed, for each term present and absent.
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
@@ -36,7 +36,7 @@ void to_membrane(Valve &valve) {
   }
 }
 
-// The same of settling by any solver and of a step.
+// The same flags from settling by any solver and from a step.
 void check_skipped(const Model &model, const Load &load, uint32_t expected) {
   State state = initial_state(model);
   state.load = load;
@@ -54,7 +54,7 @@ void check_skipped(const Model &model, const Load &load, uint32_t expected) {
 
 }  // namespace
 
-TEST_CASE("a_term_that_the_scene_lacks_is_told_as_skipped") {
+TEST_CASE("a_term_that_the_scene_lacks_is_reported_as_skipped") {
   const Load load = {100, 0};
   check_skipped(*valve(), load, MVS_SKIPPED_MEMBRANE);
   check_skipped(*valve(to_membrane), load, MVS_SKIPPED_SPRINGS);
@@ -65,22 +65,22 @@ TEST_CASE("a_term_that_the_scene_lacks_is_told_as_skipped") {
   check_skipped(*valve(), {0, 0}, MVS_SKIPPED_MEMBRANE | MVS_SKIPPED_PRESSURE);
 }
 
-TEST_CASE("contact_is_told_as_skipped_unless_something_came_near_in_the_call") {
+TEST_CASE("contact_is_reported_as_skipped_unless_a_pair_came_near_in_the_call") {
   const ModelPtr model = valve();
   State state = initial_state(*model);
   state.load = {MVS_SYSTOLE_PA, 1};
   Solver solver(MVS_BACKEND_DEFAULT);
   CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_CONTACT) != 0);
   CHECK((solver.settle(*model, state, {}, {}).skipped & MVS_SKIPPED_CONTACT) == 0);
-  // awake or asleep: what is near stays looked for
+  // awake or asleep: near pairs remain in the search
   CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_CONTACT) == 0);
-  // each call speaks for itself
+  // each call reports for itself
   state = initial_state(*model);
   CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_CONTACT) != 0);
 }
 
-// Without pressure the term gives nothing, as one with pressure gives it in the limit.
-TEST_CASE("no_pressure_is_no_force_no_energy_and_no_stiffness") {
+// Without pressure the term contributes nothing, the limit of a vanishing pressure.
+TEST_CASE("zero_pressure_has_zero_force_energy_and_stiffness") {
   const ModelPtr model = valve();
   const Positions x = model->valve.rest;
   FollowerPressureTerm term(*model);

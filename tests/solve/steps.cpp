@@ -1,5 +1,5 @@
-// Steps in time: energy never comes from nowhere, sheets never cross, and where they end is where
-// the static closure ends.
+// Steps in time: energy is never created, sheets never cross, and the steps end at the static
+// closure.
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
@@ -36,7 +36,7 @@ void check_energy_falls(const Model &model, State state, double dt, int steps) {
 
 }  // namespace
 
-TEST_CASE("an_implicit_step_makes_no_energy") {
+TEST_CASE("an_implicit_step_creates_no_energy") {
   const Model disc = clamped_disc(5, 12e-3, [](Valve &) {});
   const ModelPtr valve = make_model(small_valve());
   Random random(1);
@@ -68,7 +68,7 @@ TEST_CASE("implicit_steps_of_any_size_stay_finite_and_uncrossed") {
     for (int k = 0; k < 60; ++k) {
       const SolveStats stats = solver.step(*model, state, options);
       REQUIRE(std::isfinite(stats.residual));
-      // no speed beyond what the pressure could give in free flight
+      // no speed beyond that of free flight under the pressure
       REQUIRE(largest(state.v) < 100);
       REQUIRE(find_intersections(state.x, model->valve.triangles).empty());
     }
@@ -77,7 +77,7 @@ TEST_CASE("implicit_steps_of_any_size_stay_finite_and_uncrossed") {
   }
 }
 
-TEST_CASE("the_boundary_travels_at_its_speed_and_arrives_to_the_bit") {
+TEST_CASE("the_boundary_moves_at_its_speed_and_arrives_to_the_bit") {
   Valve moving = small_valve();
   moving.loaded = moving.rest;
   for (const uint32_t node : moving.annulus) moving.loaded[node].z() -= 1e-3;
@@ -90,7 +90,7 @@ TEST_CASE("the_boundary_travels_at_its_speed_and_arrives_to_the_bit") {
   for (int k = 1; k <= 15; ++k) {
     const Positions before = state.x;
     solver.step(*model, state, options);
-    // rounding of a node's place, 1e-16 of 0.03 m
+    // rounding of a node's position, 1e-16 of 0.03 m
     CHECK(farthest(before, state.x) * (k <= 9 ? 1 : 0) < 10e-3);
     for (const uint32_t node : model->valve.annulus) {
       CHECK((state.x[node] - before[node]).norm() <= boundary_speed * options.dt * (1 + 1e-9));
@@ -99,7 +99,7 @@ TEST_CASE("the_boundary_travels_at_its_speed_and_arrives_to_the_bit") {
   for (const uint32_t node : model->valve.annulus) CHECK(state.x[node] == model->target(node, 1));
 }
 
-TEST_CASE("a_free_sheet_falls_as_the_implicit_step_says") {
+TEST_CASE("a_free_sheet_falls_as_implicit_euler_predicts") {
   // a lone triangle pushed by pressure alone: m v = p A t, to first order of the step
   Valve valve;
   valve.rest = {Vec3(0, 0, 0), Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0)};
@@ -112,7 +112,8 @@ TEST_CASE("a_free_sheet_falls_as_the_implicit_step_says") {
   Solver solver(MVS_BACKEND_DEFAULT);
   for (int k = 0; k < 10; ++k) solver.step(model, state, options);
   const double mass_per_area = 1060 * 1e-3;
-  // the push keeps its direction: 1 Pa turns nothing; backward Euler is exact for a constant force
+  // the push keeps its direction, since 1 Pa turns no triangle; backward Euler is exact for a
+  // constant force
   CHECK(state.v[0].z() == about(1.0 / mass_per_area * 1e-3, 1e-6));
   const double fallen = 1.0 / mass_per_area * 1e-8 * (10 * 11 / 2);
   CHECK(state.x[1].z() == about(fallen, 1e-6));
@@ -138,7 +139,7 @@ TEST_CASE("steps_and_closure_end_in_the_same_shape") {
   }
 }
 
-TEST_CASE("a_run_of_steps_goes_on_from_any_state_with_the_same_bits") {
+TEST_CASE("a_run_of_steps_continues_from_any_state_with_the_same_bits") {
   const ModelPtr model = make_model(small_valve());
   for (const uint32_t kind : {MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
     CAPTURE(kind);

@@ -1,4 +1,4 @@
-// Instruments: the spring of the hand, and what is held.
+// Grasps: the spring of the hand and the tissue that it holds.
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
@@ -53,13 +53,13 @@ constexpr double spring = 1e6 * 1e-7 / 0.010;  // N/m
 
 }  // namespace
 
-TEST_CASE("a_grasp_is_the_gradient_of_its_energy_and_its_slope_that_of_the_gradient") {
+TEST_CASE("a_grasp_has_the_gradient_and_hessian_of_its_energy") {
   const Model model = model_of_sheet(small_valve(), {});
   const State state = initial_state(model);
   Random random(7);
   GraspTerm term;
   std::vector<Tool> tools;
-  // within the force of the hand and beyond it
+  // within the largest force of the hand and beyond it
   for (uint32_t k = 0; k < 6; ++k) {
     tools.push_back(grasp(7 * k, state.x[7 * k] + random.vector(5e-3), 150, k < 3 ? 10 : 0.1));
   }
@@ -81,7 +81,7 @@ TEST_CASE("a_grasp_is_the_gradient_of_its_energy_and_its_slope_that_of_the_gradi
   CHECK((found - wanted).norm() <= 1e-6 * wanted.norm());
 }
 
-TEST_CASE("a_held_node_between_two_springs_goes_where_the_three_balance") {
+TEST_CASE("a_held_node_between_two_springs_moves_to_the_balance_of_three") {
   const Model model = two_springs();
   for (const double hand : {0.2e-3, 0.5e-3}) {
     State state = initial_state(model);
@@ -89,13 +89,13 @@ TEST_CASE("a_held_node_between_two_springs_goes_where_the_three_balance") {
     const Settled settled = settle(model, state, to_rest(1e-9));
     CHECK(settled.stats.converged);
     CHECK(settled.state.x[1].x() == about(30 * hand / (2 * spring + 30), 1e-6));
-    // the hand gives way: only its largest force is left
+    // beyond its largest force the hand yields at that force
     state.tools = {grasp(1, Vec3(hand, 0, 0), 30, 1e-3)};
     CHECK(settle(model, state, to_rest(1e-9)).state.x[1].x() == about(1e-3 / (2 * spring), 1e-6));
   }
 }
 
-TEST_CASE("what_is_held_pulls_back_as_the_hand_pulls") {
+TEST_CASE("the_held_tissue_pulls_back_with_the_force_of_the_hand") {
   const ModelPtr model = make_model(small_valve());
   const uint32_t node = 3 * small_segments + 3;
   State start = initial_state(*model);
@@ -114,7 +114,7 @@ TEST_CASE("what_is_held_pulls_back_as_the_hand_pulls") {
   }
 }
 
-TEST_CASE("a_pull_of_50_mm_in_one_step_never_has_more_than_its_force_and_lets_go") {
+TEST_CASE("a_pull_of_50_mm_in_one_step_is_limited_to_its_largest_force_and_recovers") {
   const ModelPtr model = make_model(small_valve());
   const uint32_t node = 3 * small_segments + 3;
   State state = initial_state(*model);
@@ -132,11 +132,11 @@ TEST_CASE("a_pull_of_50_mm_in_one_step_never_has_more_than_its_force_and_lets_go
   state.tools.clear();
   const Settled after = settle(*model, state, to_rest(1e-8));
   CHECK(after.stats.converged);
-  // the same equilibrium, found from elsewhere to the residual
+  // the same equilibrium, reached from another state, to the residual
   CHECK(farthest(after.state.x, before.state.x) <= 1e-6);
 }
 
-TEST_CASE("turned_with_the_valve_a_hand_does_the_same") {
+TEST_CASE("a_hand_rotated_with_the_valve_has_the_same_effect") {
   const Motion motion = some_motion();
   Valve turned = small_valve();
   for (CowVector<Vec3> *places : {&turned.rest, &turned.open, &turned.loaded}) {
@@ -156,7 +156,7 @@ TEST_CASE("turned_with_the_valve_a_hand_does_the_same") {
   CHECK(farthest(motion(x[0]), x[1]) <= 1e-7);
 }
 
-TEST_CASE("a_state_without_tools_is_as_it_ever_was") {
+TEST_CASE("a_state_whose_tools_were_removed_keeps_only_the_next_id") {
   const ModelPtr model = make_model(small_valve());
   State state = initial_state(*model);
   const auto before = hash_of(*model, state);

@@ -1,4 +1,4 @@
-// Instruments that push: derivatives, balance, and that nothing ever passes through.
+// Pushing instruments: derivatives, balance, and no instrument passes through tissue.
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
@@ -45,8 +45,8 @@ Vec3 above(const Model &model, const std::vector<Vec3> &x, uint32_t triangle, do
   return (x[a] + x[b] + x[c]) / 3 + height * n;
 }
 
-// That a step along straight lines went from `before` to `after` without anything crossing: tools
-// and tissue at many moments of it.
+// Checks that on a step along straight lines from `before` to `after` nothing crosses: tools and
+// tissue at many times of the step.
 void check_way(const Model &model, const State &before, const State &after) {
   constexpr int moments = 10;
   Positions x(before.x.size());
@@ -64,7 +64,7 @@ void check_way(const Model &model, const State &before, const State &after) {
   REQUIRE(find_intersections(after.x, model.valve.triangles).empty());
 }
 
-// Moves the hand of the only tool so far in each of so many steps of 1 ms.
+// Moves the hand of the only tool by the distance in each of so many steps of 1 ms.
 void push(const Model &model, State &state, const Vec3 &each, int steps) {
   Solver solver(MVS_BACKEND_DEFAULT);
   for (int k = 0; k < steps; ++k) {
@@ -77,10 +77,10 @@ void push(const Model &model, State &state, const Vec3 &each, int steps) {
 
 }  // namespace
 
-TEST_CASE("what_pushes_is_the_gradient_of_its_energy_and_its_slope_that_of_the_gradient") {
+TEST_CASE("a_pushing_tool_has_the_gradient_and_hessian_of_its_energy") {
   const ModelPtr valve = make_model(small_valve());
   State state = initial_state(*valve);
-  // a face felt from inside the funnel, a corner from outside, and edges by a rod across them
+  // a face touched from inside the funnel, a corner from outside, and edges by a rod across them
   const double near = 0.1 * valve->valve.contact_thickness;
   add_tool(*valve, state, ball(above(*valve, state.x, 40, 1e-3 + near), 1e-3));
   const Vec3 corner = state.x[20];
@@ -165,7 +165,7 @@ TEST_CASE("a_ball_and_a_rod_at_1_m_per_s_never_pass_through_a_leaflet") {
       add_tool(*model, state, tool);
       push(*model, state, -1e-3 * way, 40);
       const Vec3 behind = state.tools[0].position - state.tools[0].proxy[0];
-      // each step was looked at by push(); it may slide off the leaflet's side, but lies in none
+      // push() checked each step; the tool may slide off the leaflet's side, but is in no tissue
       CHECK(clearance(*model, state.x, state.tools[0]) > 0);
       CHECK(behind.norm() > 5e-3);
       CHECK(farthest(state.x, start.x) > 1e-3);
@@ -173,7 +173,7 @@ TEST_CASE("a_ball_and_a_rod_at_1_m_per_s_never_pass_through_a_leaflet") {
   }
 }
 
-TEST_CASE("a_valve_let_go_comes_back_to_where_it_was") {
+TEST_CASE("a_released_valve_returns_to_its_former_shape") {
   const ModelPtr model = make_model(small_valve());
   State start = initial_state(*model);
   start.load = {2000, 0};
@@ -188,7 +188,7 @@ TEST_CASE("a_valve_let_go_comes_back_to_where_it_was") {
   remove_tool(state, state.tools[0].id);
   const Settled after = settle(*model, state, options);
   CHECK(after.stats.converged);
-  // the same equilibrium, found from elsewhere to the residual
+  // the same equilibrium, reached from another state, to the residual
   CHECK(farthest(after.state.x, start.x) <= 1e-6);
 }
 
@@ -240,7 +240,7 @@ TEST_CASE("steps_with_tools_are_the_same_with_a_new_solver_as_with_a_used_one") 
   }
 }
 
-TEST_CASE("there_is_no_room_for_a_tool_in_tissue") {
+TEST_CASE("a_tool_is_refused_where_tissue_leaves_no_room") {
   const ModelPtr model = make_model(small_valve());
   State state = initial_state(*model);
   CHECK_THROWS_WITH(add_tool(*model, state, ball(above(*model, state.x, 40, 1e-3), 2e-3)),

@@ -19,7 +19,7 @@ Case annulus_at_once(const std::string &name, double factor) {
           }};
 }
 
-// To a quarter in eight operations, each of which comes to rest or not as it can.
+// To a quarter in eight operations, each of which may converge or not.
 void annulus_in_steps(Watch &watch) {
   for (int k = 0; k < 8; ++k) {
     scale_annulus(watch, std::pow(0.25, 1.0 / 8));
@@ -34,7 +34,7 @@ void small_ring(Watch &watch) {
   watch.rest();
 }
 
-// A saddle turned over about the CC axis: what should lie towards the atrium lies below.
+// A saddle turned over about the CC axis: its atrial side faces the ventricle.
 void ring_upside_down(Watch &watch) {
   std::vector<double> curve, marks, marks_at;
   const auto frame = watch.sim().snapshot().frame();

@@ -29,10 +29,10 @@ using namespace stability;
 namespace {
 
 constexpr double energy_bound = 1e-3;  // J
-constexpr double share_bound = 0.05;   // of what the operation put in
+constexpr double share_bound = 0.05;   // of the energy that the operation added
 constexpr double after = 10e-3;        // s, beyond the arrival of the boundary
 constexpr double speed = 0.1;          // m/s, of the boundary
-constexpr int looks = 100;             // how often a run is looked at for crossings
+constexpr int looks = 100;             // number of checks for crossings in a run
 
 struct Options {
   bool quick = false;
@@ -65,7 +65,7 @@ void operate(mvs::Sim &sim, const Run &run) {
   mvs::must(mvs_apply_op(sim.get(), &op.op, nullptr));
 }
 
-// m, the longest way of a held node to where it has to be.
+// m, the longest distance of a prescribed node to its target.
 double way_of_boundary(const mvs::Snapshot &now) {
   const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
   const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION),
@@ -85,7 +85,7 @@ std::vector<Pair> crossings_of(const mvs::Snapshot &now) {
   return crossings(x.data(), x.rows(), triangles.data(), triangles.rows());
 }
 
-// J, potential and kinetic, told by a step too short for anything to move.
+// J, potential and kinetic, from the statistics of a step too short for any motion.
 double energy_of(const mvs::Snapshot &valve) {
   mvs::Sim sim;
   mvs::must(mvs_restore(sim.get(), valve.get()));
@@ -95,16 +95,16 @@ double energy_of(const mvs::Snapshot &valve) {
   return sim.stats().energy + sim.stats().kinetic;
 }
 
-// Energy that came from nowhere, step by step.
+// Energy created, step by step.
 class Ledger {
  public:
   Ledger(const mvs::Snapshot &closed, bool is_explicit)
       : edge_(closed), is_explicit_(is_explicit), closed_(energy_of(closed)) {}
 
   void take(const mvs::Snapshot &now, const mvs_stats &stats, bool boundary_stands) {
-    // Symplectic Euler tells the potential where a step begins, and the speed where it ends. With
+    // Symplectic Euler reports the potential at the start of a step, and the speed at its end. With
     // the mean of the kinetic energies on either side its energy is right to second order, and does
-    // not swing by the share omega dt where nothing is wrong.
+    // not oscillate by the share omega dt in a sound run.
     const double mean = 0.5 * (kinetic_ + stats.kinetic);
     const double energy = stats.energy + (is_explicit_ ? mean : stats.kinetic);
     const std::vector<double> before = x_;
@@ -190,15 +190,15 @@ Run played(Run run) {
   return run;
 }
 
-// Explicit steps take longest where they are small, and mostly end at once where they are large;
-// implicit ones begin where a run takes half a minute.
+// Small explicit steps take longest, and large ones mostly end at once; the grid of implicit steps
+// begins where a run takes half a minute.
 void play_grid(const Options &options, const char *operation, const std::vector<double> &sizes,
                std::ostream &out) {
   if (!options.operation.empty() && options.operation != operation) return;
   std::vector<double> steps = {4e-6,   8e-6,   16e-6, 32e-6, 64e-6, 128e-6,
                                256e-6, 512e-6, 1e-3,  2e-3,  5e-3,  20e-3};
   if (options.quick) steps = {8e-6, 32e-6, 128e-6, 2e-3, 20e-3};
-  // the annulus travels for up to 0.1 s
+  // the annulus moves for up to 0.1 s
   const double least = std::string(operation) == "annulus" ? 32e-6 : 8e-6;
   const double smallest = options.quick ? 128e-6 : least;
   for (const char *solver : {"explicit", "implicit"}) {

@@ -32,7 +32,7 @@ def read(path: Path) -> list[dict[str, str]]:
 
 
 def in_words(microseconds: float) -> str:
-    """A time step as it is read out: "8 us", "2 ms"."""
+    """A time step for display: "8 us", "2 ms"."""
     return f"{microseconds:g} µs" if microseconds < 1000 else f"{microseconds / 1000:g} ms"
 
 

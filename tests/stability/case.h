@@ -1,4 +1,4 @@
-// A case: what is done to a valve, on which valves, and how it comes to rest.
+// A case of the stability suite: a script, its valves, and the ways it comes to rest.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 namespace stability {
 
 struct Case {
-  std::string name;  // "group/what"
+  std::string name;  // "group/case"
   std::function<void(Watch &)> play;
   std::vector<std::string> valves = {"S"};  // in short runs; `more` as well in long ones
   std::vector<std::string> more = {"M", "N32"};

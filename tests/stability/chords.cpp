@@ -1,4 +1,4 @@
-// Chordae drawn tight, slackened, and cut all at once.
+// Chordae shortened, slackened, and cut all at once.
 #include "tests/stability/case.h"
 
 namespace stability {
@@ -22,7 +22,7 @@ Case each_chord(const std::string &name, double factor, size_t stride) {
 
 // All of them, without a move in between.
 void remove_all(Watch &watch) {
-  // segments that hang on nothing go with the one that is cut
+  // segments without support are removed with the one that is cut
   while (true) {
     const std::vector<mvs_part> chords = watch.sim().snapshot().parts(MVS_PART_CHORD);
     if (chords.empty()) break;
@@ -33,7 +33,7 @@ void remove_all(Watch &watch) {
   watch.rest();
 }
 
-// All of them, one after the other, to a tenth: the sheet is drawn into the heads.
+// All of them, one after the other, to a tenth: the sheet is pulled into the heads.
 void shorten_all(Watch &watch) {
   for (const mvs_part &chord : watch.sim().snapshot().parts(MVS_PART_CHORD)) {
     mvs_op_chord_length op = {};

@@ -1,5 +1,5 @@
-// Which triangles cross, by the exact test of the core: apart from the rest of the suite, which
-// sees only include/mvs.
+// Crossing triangles by the exact test of the core; the rest of the suite includes only
+// include/mvs.
 #pragma once
 
 #include <array>

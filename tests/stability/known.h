@@ -1,5 +1,5 @@
-// What is known to fail, and why. Every line here is a line of README.md; a row that passes
-// although it is here is told as BETTER, so that both lines can go.
+// Known failures with their reasons. Every line here is also a line of README.md; a row that passes
+// although it is listed here is printed as BETTER, so that both lines can be removed.
 #pragma once
 
 #include <array>

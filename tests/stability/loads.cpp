@@ -1,4 +1,4 @@
-// Pressure far out of range, turned over at each step; steps from 0.01 to 20 ms.
+// Pressure far out of range, reversed at each step; steps from 0.01 to 20 ms.
 #include <cstdio>
 
 #include "tests/stability/case.h"
@@ -25,7 +25,7 @@ void open(Watch &watch, const std::string &valve) {
   make_valve(watch.sim(), valve);
 }
 
-// From open under the whole pressure at once, then with the annulus drawn to a half.
+// From open under the whole pressure at once, then with the annulus reduced to a half.
 Case steps_of(double dt) {
   char name[32];
   std::snprintf(name, sizeof name, "loads/dt_%g_ms", dt * 1e3);

@@ -1,5 +1,5 @@
-// Meshes of every size, with slivers and tiny triangles; tissue a million times stiffer beside
-// soft.
+// Meshes of every size, with slivers and tiny triangles; tissue a million times stiffer beside soft
+// tissue.
 #include "tests/stability/case.h"
 #include "tests/stability/valves.h"
 
@@ -12,7 +12,7 @@ void open(Watch &watch, const std::string &valve) {
   make_valve(watch.sim(), valve);
 }
 
-// Closes, then draws a chord tight and lets go again.
+// Closes, then shortens a chord and restores it.
 void close_and_pull(Watch &watch) {
   watch.load(MVS_SYSTOLE_PA);
   watch.rest();
@@ -28,7 +28,7 @@ void close(Watch &watch) {
   watch.rest();
 }
 
-// The first of each pair of free neighbours, no two pairs in touch, every 20th vertex or so: moved
+// The first of each pair of free neighbours, no two pairs adjacent, every 20th vertex or so: moved
 // onto the second but for a share of the edge, which leaves two slivers and tiny triangles around.
 std::vector<std::array<uint32_t, 2>> pairs_of(const mvs::Snapshot &valve) {
   const auto kinds = valve.view<uint8_t>(MVS_ARRAY_NODE_KIND);

@@ -1,5 +1,5 @@
-// Plays operations, loads, starts and meshes that no surgeon would ask for, and prints what came of
-// each (README.md says what is demanded).
+// Plays operations, loads, starts and meshes far outside of clinical use, and prints the result of
+// each (README.md lists the criteria).
 //
 //   stability                        the short suite, two minutes
 //   stability --long                 every valve, every chord, 10,000 scripts (MVS_TEST_LONG=1)
@@ -44,7 +44,7 @@ Row play(const Case &one, const std::string &valve, Way way, const Options &opti
   Effort effort;
   if (options.lengthy) effort.implicit = 20000;
   effort.may_refuse = one.may_refuse;
-  // so that no case pays for the closure that it starts from
+  // so that no case includes the time of the closure that it starts from
   if (!one.prepare) closed_valve(valve);
   const double start = cpu_now();
   Watch watch(way, effort);

@@ -34,7 +34,7 @@ mvs::Snapshot open_valve(const std::string &valve) {
   return sim.snapshot();
 }
 
-// The free nodes on the other side of the annulus plane, in the atrium.
+// The free nodes mirrored into the atrium at the annulus plane.
 void invert(Watch &watch, const std::string &valve) {
   const mvs::Snapshot open = open_valve(valve);
   const auto f = open.frame();
@@ -47,7 +47,7 @@ void invert(Watch &watch, const std::string &valve) {
   });
 }
 
-// Every free node anywhere within a cube of this size about its place.
+// Every free node at a random place within a cube of this size about its place.
 auto crumple(double size) {
   return [=](Watch &watch, const std::string &valve) {
     std::mt19937 random(1);
@@ -85,7 +85,7 @@ void collapse(Watch &watch, const std::string &valve) {
   });
 }
 
-// Opens what is closed, and closes it again.
+// Opens a closed valve, and closes it again.
 void reopen(Watch &watch) {
   watch.load(0, 0);
   watch.rest();

@@ -1,4 +1,5 @@
-// The table of the suite: a row for each case on each valve in each way, and what is known to fail.
+// The result table of the suite: a row for each case on each valve in each way, and the known
+// failures.
 #pragma once
 
 #include <string>

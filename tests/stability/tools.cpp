@@ -1,5 +1,4 @@
-// Instruments in a hand that does not wait: pulled 50 mm at once, pushed through the sheet at 1
-// m/s.
+// Instruments with abrupt motion: pulled 50 mm at once, pushed through the sheet at 1 m/s.
 #include <mvs/tool.hpp>
 
 #include "tests/stability/case.h"
@@ -35,8 +34,8 @@ uint32_t edge_node(const mvs::Snapshot &valve) {
   return found;
 }
 
-// Pulls an edge of the anterior leaflet by a way in the frame of the valve, in one step, and lets
-// go again.
+// Pulls an edge of the anterior leaflet by a vector in the frame of the valve, in one step, and
+// releases it.
 Case pulled(const std::string &name, double ap, double up) {
   return {"tools/" + name, [=](Watch &w) {
             const mvs::Snapshot valve = w.sim().snapshot();

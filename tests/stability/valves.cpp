@@ -125,9 +125,9 @@ mvs_result set_displaced(mvs::Sim &sim, const mvs::Snapshot &from, Places which,
   std::string out, line;
   size_t n = 0, statements = 0;
   while (std::getline(in, line)) {
-    if (starts_with(line, "#mvs rest ")) continue;  // told for every node below
+    if (starts_with(line, "#mvs rest ")) continue;  // replaced by a line for every node below
     statements += starts_with(line, "#mvs ");
-    // the last line says how many there are
+    // the last line holds the number of lines
     if (starts_with(line, "#mvs end ")) {
       line = line.substr(0, line.rfind('=') + 1) + std::to_string(statements);
     }

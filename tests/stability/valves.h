@@ -22,8 +22,7 @@ const mvs::Snapshot &closed_valve(const std::string &name);
 using Displacement =
     std::function<std::array<double, 3>(size_t node, uint8_t kind, std::array<double, 3> at)>;
 enum class Places { now, rest };
-// A new valve like a snapshot, with a displaced shape: by way of a file, as no other call sets
-// both.
+// A new valve like a snapshot, with a displaced shape; through a file, as no other call sets both.
 mvs_result set_displaced(mvs::Sim &sim, const mvs::Snapshot &from, Places which,
                          const Displacement &displaced);
 

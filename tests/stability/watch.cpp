@@ -10,10 +10,10 @@ namespace {
 
 // A step may make this share of its energy: rounding of sums of some thousand terms.
 constexpr double step_bound = 1e-9;
-// J that Newton may end above where it began, as its last iterations go by the force and not by the
-// energy. Asked where no node went farther than `near`: the work at the free edge is reckoned along
-// a straight way here, which says nothing about a leaflet that turned over. A settle by steps in
-// time is not asked: each of its steps is what `live` looks at.
+// J by which Newton may end above its start, since its last iterations follow the force and not the
+// energy. Checked only if no node moved farther than `near`: the work at the free edge is computed
+// along a straight path, which is wrong for a leaflet that turned over. A settle by steps in time
+// is not checked: the way `live` checks each step.
 constexpr double newton_bound = 1e-4;
 constexpr double near = 5e-3;       // m
 constexpr double tolerance = 1e-5;  // N, the library's own
@@ -53,7 +53,7 @@ bool held_nodes_stayed(const mvs::Snapshot &now, const std::vector<double> &befo
   return true;
 }
 
-// The largest out-of-balance force on a free node, N, as the snapshot tells it.
+// The largest out-of-balance force on a free node, N, from the snapshot.
 double residual_of(const mvs::Snapshot &now) {
   const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
   const auto force = now.view<double>(MVS_ARRAY_NODE_FORCE);
@@ -65,9 +65,9 @@ double residual_of(const mvs::Snapshot &now) {
   return most;
 }
 
-// Whether a residual told is that of these forces and of the instruments that push: what their
-// hands pull with is out of balance where nothing is touched; where something is, snapshots do not
-// tell.
+// Whether a reported residual is that of these forces and of the instruments that push: a hand in
+// free space has the force of its spring out of balance; for a touching tool, snapshots do not hold
+// the rest.
 bool is_residual(double told, double of_nodes, const mvs::Snapshot &now) {
   bool may_be_more = false;
   double most = of_nodes;
@@ -115,7 +115,8 @@ void Watch::begin() {
   look_again();
 }
 
-// After something but a move: what crosses now was the caller's doing, and energy is unknown.
+// To be called after a change that is no move: later crossings are compared with those of now, and
+// the energy is unknown.
 void Watch::look_again() {
   const mvs::Snapshot now = sim_.snapshot();
   x_ = positions(now);
@@ -157,7 +158,7 @@ void Watch::load(double pressure, double boundary_fraction) {
   energy_is_known_ = false;
 }
 
-// The potential before a settle, told by a step too short for anything to move.
+// The potential before a settle, from the statistics of a step too short for any motion.
 double Watch::potential_at_start() {
   mvs::Sim probe;
   mvs::must(mvs_restore(probe.get(), sim_.snapshot().get()));
@@ -167,7 +168,7 @@ double Watch::potential_at_start() {
   return probe.stats().energy + probe.stats().kinetic;
 }
 
-// A move that was not made: nothing has changed, and where the start allows it that is an answer.
+// A refused move: the state is unchanged, and where the case allows it that is a valid result.
 void Watch::refuse(const char *what, const Hash &before) {
   demand(sim_.snapshot().hash() == before, std::string("a refused ") + what + " changed something");
   const bool diverged = mvs_last_error()->code == MVS_E_DIVERGED;
@@ -225,7 +226,7 @@ bool Watch::step(double dt) {
   return true;
 }
 
-// What every move is held to.
+// The criteria of every move.
 void Watch::look(const mvs_stats &stats) {
   ++verdict_.moves;
   tool_has_changed_ = false;

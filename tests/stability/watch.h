@@ -1,6 +1,6 @@
-// Plays a case through the public interface and holds every move of it to the same demands: numbers
-// stay finite, no step makes energy, nothing crosses that did not cross before, rest is told as it
-// is, what is refused changes nothing, and undo leads back to the first bits.
+// Plays a case through the public interface and checks every move by the same criteria: values stay
+// finite, no step creates energy, no new crossing, convergence is reported truthfully, refused
+// calls change nothing, and undo restores the first bits.
 #pragma once
 
 #include <mvs/experimental.hpp>
@@ -21,24 +21,24 @@ using Hash = std::array<uint64_t, 2>;
 enum class Way { newton, implicit, live };
 const char *name_of(Way way);
 
-// How much a case may work.
+// Limits of the work in a case.
 struct Effort {
   uint32_t newton = 1000, implicit = 400, live = 200;  // iterations, steps, steps
   double dt = 1e-3;                                    // s, of implicit and live steps
   bool may_refuse = false;  // a start so absurd that MVS_E_DIVERGED is an answer
 };
 
-// What came of a case.
+// The result of a case.
 struct Verdict {
   uint32_t moves = 0;               // settles and steps
-  double made = 0;                  // largest share of its energy that a step made out of nothing
-  double gained = 0;                // J, the most that a settle ended above where it began
+  double made = 0;                  // largest share of its energy that a step created
+  double gained = 0;                // J, the most by which a settle ended above its start
   size_t crossed = 0;               // pairs of triangles that cross and did not before
   double residual = 0;              // N, of the last move, recomputed from the snapshot
-  bool at_rest = false;             // the same of rest
+  bool at_rest = false;             // recomputed as well
   uint32_t refused = 0;             // calls
   std::string sentence;             // of the last refusal
-  std::vector<std::string> faults;  // demands that were not met, each once
+  std::vector<std::string> faults;  // criteria that were violated, each once
 
   bool passed() const { return faults.empty(); }
 };
@@ -51,20 +51,21 @@ class Watch {
   Way way() const { return way_; }
   const Effort &effort() const { return effort_; }
 
-  // To be called once the valve lies as the case starts.
+  // To be called once the start of the case is complete.
   void begin();
 
-  // Applies an operation unless the library refuses it; true when it was applied.
+  // Applies an operation; returns true if the library accepted it.
   template <typename Op>
   bool operate(Op op, uint32_t kind) {
     op.op = {sizeof op, kind};
     return operate(&op.op);
   }
   bool operate(const mvs_op *op);
-  // A call that may be refused with a sentence; true when it was not.
+  // Makes a call that may be refused with a sentence; returns true if it was accepted.
   bool attempt(mvs_result result);
 
-  // A tool has moved, come or gone: the next move is not asked for energy.
+  // To be called when a tool was moved, added or removed: the energy of the next move is not
+  // checked.
   void changed() {
     energy_is_known_ = false;
     tool_has_changed_ = true;
@@ -75,15 +76,15 @@ class Watch {
   // False if it was refused.
   bool step(double dt);
 
-  // What the next faults are about: "chord P2/3".
+  // The subject of the next faults: "chord P2/3".
   void about(const std::string &part) { about_ = part; }
   // Undoes every operation, back to the first bits.
   void take_back();
-  // The same, and says how the case went.
+  // The same, and returns the result of the case.
   Verdict finish();
-  // How it went where something was thrown.
+  // The result where an error was thrown.
   Verdict failed(const std::string &thrown);
-  // Whether there is a valve: false where the start itself was refused.
+  // Whether there is a valve: false where the start was refused.
   bool is_laid_out() const;
 
  private:
@@ -102,12 +103,12 @@ class Watch {
   std::string about_;
   Hash first_{};  // before the first operation, or at the start
   bool operated_ = false;
-  // of the state before the move at hand
+  // of the state before the present move
   std::vector<double> x_;
   std::vector<Pair> crossing_;
   double energy_ = 0;  // J, potential and kinetic
   bool tool_has_changed_ = false;
-  bool energy_is_known_ = false;  // false where something but a move has changed since
+  bool energy_is_known_ = false;  // false after a change that is no move
 };
 
 }  // namespace stability

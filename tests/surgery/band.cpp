@@ -1,4 +1,4 @@
-// Flexible bands: what they shorten, what they leave.
+// Flexible bands: the part of the annulus that they shorten, and the part that stays.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -58,7 +58,7 @@ TEST_CASE("a_band_of_factor_1_moves_nothing") {
   }
 }
 
-TEST_CASE("only_the_posterior_annulus_moves_open_as_loaded_towards_the_trigones") {
+TEST_CASE("only_the_posterior_annulus_moves_open_and_loaded_towards_the_trigones") {
   const ModelState before = shipped();
   const Operated done = apply(before, band(0, 0.8));
   const Valve &a = before.model->valve, &b = done.current.model->valve;
@@ -78,7 +78,7 @@ TEST_CASE("only_the_posterior_annulus_moves_open_as_loaded_towards_the_trigones"
   CHECK(a.rest.get() == b.rest.get());
 }
 
-TEST_CASE("a_band_takes_the_place_of_a_ring") {
+TEST_CASE("a_band_replaces_a_ring") {
   auto ring = op_of<mvs_op_ring>(MVS_OP_RING);
   ring.size = 34 * mm;
   const Operated first = apply(shipped(), ring);
@@ -101,7 +101,7 @@ TEST_CASE("the_valve_closes_with_a_band_sewn_open_or_closed") {
   }
 }
 
-TEST_CASE("lengths_that_no_band_can_have_are_said") {
+TEST_CASE("impossible_band_lengths_are_refused") {
   const ModelState valve = shipped();
   refused(valve, band(0, 0), MVS_E_ARGUMENT, "either a length or a factor");
   refused(valve, band(70 * mm, 0.9), MVS_E_ARGUMENT, "either a length or a factor");

@@ -1,4 +1,4 @@
-// Edge-to-edge repair: which places are joined, and what that does to the valve.
+// Edge-to-edge repair: the joined places, and the effect on the valve.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -37,7 +37,7 @@ std::vector<uint8_t> nodes_of_leaflet(const Model &model, const std::string &nam
   return is;
 }
 
-// A small, thin, dilated valve with long leaflets, as a membrane that follows the springs' curve.
+// A small, thin, dilated valve with long leaflets, as a membrane with the springs' curve.
 ModelState creased_by_a_clip() {
   mvs_parametric_desc desc = of_size(300);
   desc.chords = 267;
@@ -118,7 +118,7 @@ TEST_CASE("a_clip_joins_facing_places_of_the_two_leaflets_in_rows") {
   CHECK(model.valve.chords.size() == before.model->valve.chords.size() + 9);
 }
 
-TEST_CASE("the_number_of_stitches_does_not_hang_on_the_mesh") {
+TEST_CASE("the_number_of_stitches_does_not_depend_on_the_mesh") {
   CHECK(stitches(*apply(shipped(of_size(1700)), clip()).current.model).size() == 9);
   auto op = clip();
   op.width = 1 * mm;
@@ -126,7 +126,7 @@ TEST_CASE("the_number_of_stitches_does_not_hang_on_the_mesh") {
   CHECK(stitches(*apply(shipped(), op).current.model).size() == 1);
 }
 
-TEST_CASE("a_clip_goes_where_its_position_says") {
+TEST_CASE("a_clip_is_placed_at_its_position") {
   const ModelState before = shipped();
   const SheetMap map(*before.model);
   for (const double position : {-0.8, 0.0, 0.8}) {
@@ -162,16 +162,16 @@ TEST_CASE("joined_places_stay_together_and_the_valve_closes") {
   }
 }
 
-// The clip presses two edges of a crease together with more than the newton that their guard bore
-// where pairs were stopped at a micrometre: 1000 iterations, and 0.27 N were left.
-TEST_CASE("a_clip_that_creases_a_leaflet_comes_to_rest") {
+// The clip presses two edges of a crease together with more than the newton that a barrier bears at
+// 1 um: if pairs stopped there, 0.27 N would be left after 1000 iterations.
+TEST_CASE("a_valve_creased_by_a_clip_converges") {
   const Closed closed = close(apply(creased_by_a_clip(), clip()).current);
   MESSAGE(closed.stats.iterations << " iterations");
   CHECK(closed.stats.converged);
   CHECK(intersections(closed) == 0);
 }
 
-TEST_CASE("a_clip_is_set_on_the_open_valve_whatever_the_valve_does") {
+TEST_CASE("a_clip_is_placed_on_the_open_shape_in_any_state") {
   const ModelState before = shipped();
   const Closed healthy = close(before);
   const Closed from_open = close(apply(before, clip()).current);
@@ -188,7 +188,7 @@ TEST_CASE("a_closed_valve_with_a_clip_takes_a_ring_and_closes_again") {
   CHECK(intersections(closed) == 0);
 }
 
-TEST_CASE("a_clip_makes_two_orifices_of_one") {
+TEST_CASE("a_clip_splits_the_orifice_in_two") {
   const ModelState before = shipped(), after = apply(before, clip()).current;
   const Orifice one = measure_orifice(*before.model, opened(before));
   const Orifice two = measure_orifice(*after.model, opened(after));
@@ -198,7 +198,7 @@ TEST_CASE("a_clip_makes_two_orifices_of_one") {
   CHECK(two.area < 0.9 * one.area);
 }
 
-TEST_CASE("a_second_clip_has_a_name_of_its_own") {
+TEST_CASE("a_second_clip_has_a_distinct_name") {
   auto op = clip();
   op.position = -0.7;
   op.width = 2 * mm;
@@ -212,7 +212,7 @@ TEST_CASE("a_second_clip_has_a_name_of_its_own") {
   refused(second.current, op, MVS_E_OP, "joins these two places already");
 }
 
-TEST_CASE("what_cannot_be_clipped_is_said") {
+TEST_CASE("impossible_clips_are_refused") {
   const ModelState valve = shipped();
   const Valve &parts = valve.model->valve;
   auto op = clip();

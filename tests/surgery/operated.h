@@ -1,4 +1,4 @@
-// What the tests of operations share: a valve, an operation on it, the closed valve afterwards.
+// Fixtures of the surgery tests: a valve, an operation on it, the closed valve afterwards.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -35,7 +35,7 @@ Operated apply(const ModelState &before, const Op &op) {
   return perform(before, Operation(&op.op));
 }
 
-// Fails with this code, and with a sentence in which `word` occurs.
+// Fails with this code and a sentence that contains `word`.
 template <typename Op>
 void refused(const ModelState &before, const Op &op, mvs_result code, const std::string &word) {
   CAPTURE(word);

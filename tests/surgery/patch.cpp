@@ -1,4 +1,4 @@
-// A patch: how much larger it is, where, and that the valve closes better with it.
+// Patches enlarge a leaflet by the requested area at the requested place, and improve closure.
 #include <Eigen/Geometry>
 
 #include "measure/tissue/surface.h"
@@ -23,7 +23,7 @@ mvs_op_patch patch_on(const ModelState &p, const std::string &scallop, double al
 
 }  // namespace
 
-TEST_CASE("a_patch_has_the_area_and_thickness_asked_for_and_the_rest_stays") {
+TEST_CASE("a_patch_has_the_requested_area_and_thickness_and_the_rest_stays") {
   const ModelState before = shipped();
   for (const double factor : {1.05, 1.3, 2.5}) {
     CAPTURE(factor);
@@ -47,8 +47,9 @@ TEST_CASE("a_patch_has_the_area_and_thickness_asked_for_and_the_rest_stays") {
       is += now.rest_area[t];
       CHECK(surface.normal[t].dot(flat.normal[t]) > 0);  // a dome, nowhere folded over
     }
-    CHECK(is == doctest::Approx(factor * was).epsilon(1e-9));  // halving to the last bits
-    CHECK(was > 0.8 * 3.14159 / 4 * 12 * mm * 8 * mm);         // an ellipse of triangles
+    // bisection to the last bits
+    CHECK(is == doctest::Approx(factor * was).epsilon(1e-9));
+    CHECK(was > 0.8 * 3.14159 / 4 * 12 * mm * 8 * mm);  // an ellipse of triangles
     CHECK(was < 1.2 * 3.14159 / 4 * 12 * mm * 8 * mm);
     for (size_t c = 0; c < now.valve.chords.size(); ++c) {
       CHECK(now.valve.chords[c] == old.valve.chords[c]);
@@ -72,7 +73,7 @@ TEST_CASE("a_valve_with_a_patch_closes_and_coapts_more") {
   }
 }
 
-TEST_CASE("where_no_patch_can_be_is_said") {
+TEST_CASE("impossible_patches_are_refused") {
   const ModelState p = shipped();
   refused(p, patch_on(p, "A2", 0.5, 0.1), MVS_E_OP, "reach the annulus");
   refused(p, patch_on(p, "A2", 0.5, 0.9), MVS_E_OP, "reach the free edge");

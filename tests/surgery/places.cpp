@@ -1,4 +1,5 @@
-// Operations that only move what the heart holds: the annulus scaled, a papillary head displaced.
+// Operations that move prescribed nodes only: scaling of the annulus, displacement of a papillary
+// head.
 #include <cmath>
 
 #include "tests/surgery/operated.h"

@@ -1,4 +1,4 @@
-// Resections: what is cut out, what stays as it was, and that the sewn valve closes.
+// Resections: the removed tissue, the unchanged rest, and the closure of the sutured valve.
 #include <cstdlib>
 
 #include "measure/annulus/landmarks.h"
@@ -52,7 +52,7 @@ uint32_t scallop_named(const Valve &valve, const std::string &name) {
   return none;
 }
 
-// Where a place of a scallop is now.
+// The present place of a point of a scallop.
 Vec3 place_on(const ModelState &p, const std::string &scallop, double along, double height) {
   const Surgery s{*p.model, p.model->valve, p.state, "test"};
   const Id id = p.model->valve.scallops[scallop_named(p.model->valve, scallop)].id;
@@ -85,7 +85,7 @@ double widest_gap(const Closed &closed) {
 
 }  // namespace
 
-TEST_CASE("a_resected_valve_comes_to_rest_sewn_and_sealed") {
+TEST_CASE("a_resected_valve_converges_sutured_and_sealed") {
   const ModelState before = shipped();
   const std::vector<Vec3> points = notch(before);
   for (const mvs_op_resect &op : {resection(0, 0, 0), resection(8 * mm, 6 * mm, 10 * mm),
@@ -102,7 +102,7 @@ TEST_CASE("a_resected_valve_comes_to_rest_sewn_and_sealed") {
   }
 }
 
-TEST_CASE("it_is_the_sutures_that_seal_the_gap") {
+TEST_CASE("the_sutures_seal_the_gap") {
   ModelState cut = apply(shipped(), resection(0, 0, 0)).current;
   Valve valve = cut.model->valve;
   std::vector<Chord> chords = valve.chords;
@@ -115,7 +115,7 @@ TEST_CASE("it_is_the_sutures_that_seal_the_gap") {
   CHECK(measure_orifice(*open.model, open.state.x).area > 15e-6);
 }
 
-TEST_CASE("what_stays_is_as_it_was") {
+TEST_CASE("the_remaining_tissue_is_unchanged") {
   const ModelState before = shipped();
   const ModelState after = apply(before, resection(0, 0, 0)).current;
   const Valve &old = before.model->valve, &now = after.model->valve;
@@ -137,7 +137,7 @@ TEST_CASE("what_stays_is_as_it_was") {
     CHECK(now.origin[now.annulus[k]] == old.annulus[k]);
   }
   CHECK(now.scallops == old.scallops);
-  // a chord that is there still is the same between the same nodes
+  // a remaining chord is the same between the same nodes
   size_t kept = 0;
   for (const Chord &c : now.chords) {
     if (c.kind == MVS_CHORD_KIND_SUTURE) continue;
@@ -150,18 +150,18 @@ TEST_CASE("what_stays_is_as_it_was") {
     }
   }
   CHECK(kept + sutures_of(now).size() == now.chords.size());
-  CHECK(kept < old.chords.size());  // those of the piece are gone
+  CHECK(kept < old.chords.size());  // those of the resected piece are removed
 }
 
-TEST_CASE("the_piece_has_the_size_that_was_asked_for") {
+TEST_CASE("the_piece_has_the_requested_size") {
   const ModelState before = fine_valve();
   const double edge = 0.5 * mm;  // of this mesh, about
   for (const double base : {0.0, 5 * mm}) {
     const ModelState after = apply(before, resection(9 * mm, base, 8 * mm)).current;
     const double cut = area_of(*before.model) - area_of(*after.model);
     const double wanted = 0.5 * (9 * mm + base) * 8 * mm;
-    // a node is cut through that lies a fifth of an edge beside one of the two sides, on the
-    // average half of that; the free edge between them is not straight: 2 mm2
+    // a node within a fifth of an edge beside one of the two sides is cut through, on average half
+    // of that; the free edge between them is not straight: 2 mm2
     CHECK(std::abs(cut - wanted) < 0.1 * edge * 2 * 9 * mm + 2e-6);
     double width = 0;
     for (const Chord &c : sutures_of(after.model->valve)) {
@@ -191,7 +191,7 @@ TEST_CASE("a_quadrangle_gathers_the_posterior_annulus_by_its_base") {
   }
 }
 
-TEST_CASE("an_outline_means_the_same_tissue_on_an_open_and_a_closed_valve") {
+TEST_CASE("an_outline_removes_the_same_tissue_on_an_open_and_a_closed_valve") {
   const ModelState open = shipped();
   const Closed closed = close(open);
   const ModelState shut{closed.model, closed.state};
@@ -199,12 +199,12 @@ TEST_CASE("an_outline_means_the_same_tissue_on_an_open_and_a_closed_valve") {
   const ModelState b = apply(shut, along_outline(notch(shut))).current;
   REQUIRE(a.model->node_count() == b.model->node_count());
   for (size_t n = 0; n < a.model->node_count(); ++n) {
-    // the flat points come by way of other triangles' weights: rounding
+    // the flat points are combined with other triangles' weights: rounding
     CHECK((a.model->valve.rest[n] - b.model->valve.rest[n]).norm() < 1e-9);
   }
 }
 
-TEST_CASE("what_cannot_be_resected_is_said") {
+TEST_CASE("impossible_resections_are_refused") {
   const ModelState p = shipped();
   const auto &valve = p.model->valve;
   refused(p, resection(20 * mm, 0, 0), MVS_E_OP, "free edge of P2 is");
@@ -231,14 +231,14 @@ TEST_CASE("what_cannot_be_resected_is_said") {
   refused(p, along_outline(points), MVS_E_OP, "from leaflet");
 }
 
-TEST_CASE("pieces_that_cannot_come_out_in_one_are_refused") {
+TEST_CASE("pieces_that_are_not_one_connected_piece_are_refused") {
   const ModelState p = fine_valve();
   const auto drawn = [&](const std::vector<std::array<double, 2>> &places) {
     std::vector<Vec3> points;
     for (const auto &[along, height] : places) points.push_back(place_on(p, "P2", along, height));
     return points;
   };
-  // a ring around a middle that only a slit of 0.1 mm joins to the rest
+  // a ring around an interior that only a slit of 0.1 mm joins to the rest
   std::vector<Vec3> points = drawn({{0.45, 1},
                                     {0.45, 0.8},
                                     {0.2, 0.8},
@@ -258,13 +258,13 @@ TEST_CASE("pieces_that_cannot_come_out_in_one_are_refused") {
   refused(p, along_outline(points), MVS_E_OP, "island");
   points = drawn({{0.1, 1}, {0.3, 0.4}, {0.5, 1}, {0.7, 0.4}, {0.9, 1}});
   refused(p, along_outline(points), MVS_E_OP, "two pieces");
-  // across the notch of an earlier one
+  // across the notch of an earlier resection
   points = drawn({{0.2, 1}, {0.2, 0.6}, {0.8, 0.6}, {0.8, 1}});
   const ModelState cut = apply(p, resection(5 * mm, 0, 10 * mm)).current;
   refused(cut, along_outline(points), MVS_E_OP, "two pieces");
 }
 
-TEST_CASE("what_is_narrower_than_the_mesh_is_cut_or_refused_as_such") {
+TEST_CASE("pieces_narrower_than_the_mesh_are_cut_or_refused_with_that_reason") {
   mvs_parametric_desc coarse = {};
   coarse.struct_size = sizeof coarse;
   coarse.vertices = 200;
@@ -285,7 +285,7 @@ TEST_CASE("what_is_narrower_than_the_mesh_is_cut_or_refused_as_such") {
   CHECK(holes > 0);
 }
 
-TEST_CASE("a_scallop_is_not_taken_out_whole") {
+TEST_CASE("a_whole_scallop_cannot_be_resected") {
   ModelState p = shipped();
   Valve valve = p.model->valve;
   const SheetMap map(*p.model);
@@ -311,7 +311,7 @@ TEST_CASE("after_a_ring_only_triangles_can_be_cut") {
   CHECK(close(apply(p, resection(8 * mm, 0, 0)).current).stats.converged);
 }
 
-// Each of many pieces is cut into a valve, or refused in words of its own.
+// Each of many pieces is cut out, or refused with a sentence of the operation.
 TEST_CASE("any_piece_is_cut_or_refused") {
   const char *lengthy = std::getenv("MVS_TEST_LONG");
   const uint32_t pieces = lengthy && *lengthy ? 300 : 90;
@@ -325,7 +325,7 @@ TEST_CASE("any_piece_is_cut_or_refused") {
   size_t cut = 0, again = 0;
   for (uint32_t k = 0; k < pieces; ++k) {
     CAPTURE(k);
-    // three numbers that fill the box evenly (Kronecker), the last two of a plastic number
+    // three coordinates that fill the box evenly (Kronecker), the last two of a plastic number
     const double u = std::fmod(0.5 + 0.8191725133961645 * k, 1);
     const double v = std::fmod(0.5 + 0.6710436067037893 * k, 1);
     const double w = std::fmod(0.5 + 0.5497004779019703 * k, 1);
@@ -351,7 +351,7 @@ TEST_CASE("any_piece_is_cut_or_refused") {
   CHECK(again > pieces / 6);
 }
 
-TEST_CASE("a_seam_is_no_free_edge_to_anatomical_sites") {
+TEST_CASE("a_seam_is_not_part_of_the_free_edge_of_anatomical_sites") {
   const ModelState before = shipped();
   const ModelState after = apply(before, resection(0, 0, 0)).current;
   const SheetMap old(*before.model), now(*after.model);
@@ -370,7 +370,7 @@ TEST_CASE("a_seam_is_no_free_edge_to_anatomical_sites") {
   CHECK(highest == 1);
 }
 
-TEST_CASE("a_leaflet_laid_flat_keeps_its_lengths") {
+TEST_CASE("a_flattened_leaflet_keeps_its_lengths") {
   const ModelState p = fine_valve();
   const Model &model = *p.model;
   const Surgery s{model, model.valve, p.state, "test"};
@@ -391,9 +391,10 @@ TEST_CASE("a_leaflet_laid_flat_keeps_its_lengths") {
       ++count;
     }
     const Vec2 u = flat.at[tri[1]] - flat.at[tri[0]], v = flat.at[tri[2]] - flat.at[tri[0]];
-    CHECK(u.x() * v.y() - u.y() * v.x() > 0);  // nothing is folded over
+    CHECK(u.x() * v.y() - u.y() * v.x() > 0);  // no triangle is folded over
   }
-  // P2 bulges between its clefts and cannot be flat without some change: 10 % at most, along them
+  // P2 bulges between its clefts and cannot be flattened without distortion: 10 % at most, along
+  // them
   CHECK(most < 0.15);
   CHECK(std::sqrt(sum / count) < 0.03);
 }

@@ -1,4 +1,4 @@
-// Rigid rings: their shape, where they come to lie, what they do to the annulus.
+// Rigid rings: shape, placement, and the annulus that they hold.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -97,13 +97,13 @@ TEST_CASE("a_ring_holds_the_annulus_on_its_curve_open_and_loaded") {
     CHECK(valve.open[node] == valve.loaded[node]);
     CHECK(distance_to_curve(valve.loaded[node], valve.rings[0].curve) < 1e-12);
   }
-  // the tissue's own shape and everything else of the valve stay
+  // the rest shape and everything else of the valve are unchanged
   CHECK(valve.rest.get() == before.model->valve.rest.get());
   CHECK(valve.chords.get() == before.model->valve.chords.get());
   CHECK(done.title == "Sew in ring, 34.0 x 25.6 mm, perimeter 98.4 mm");
 }
 
-TEST_CASE("annulus_nodes_keep_their_share_of_the_length_from_a") {
+TEST_CASE("annulus_nodes_keep_their_arc_length_fraction_from_a") {
   const ModelState before = shipped();
   const Operated done = apply(before, sized(32 * mm));
   const Model &model = *done.current.model;
@@ -117,7 +117,7 @@ TEST_CASE("annulus_nodes_keep_their_share_of_the_length_from_a") {
   }
 }
 
-TEST_CASE("a_points_to_a") {
+TEST_CASE("the_a_point_of_the_ring_is_at_the_a_point_of_the_annulus") {
   const Operated done = apply(shipped(), sized(34 * mm));
   const Model &model = *done.current.model;
   const Landmarks marks = find_landmarks(model, Loop(model.valve.annulus, model.valve.loaded));
@@ -129,7 +129,7 @@ TEST_CASE("a_points_to_a") {
   CHECK(m.saddle_height == doctest::Approx(34 * mm * 4.7 / 34.7).scale(0).epsilon(0.02));
 }
 
-TEST_CASE("frame_winding_and_start_of_a_curve_do_not_matter") {
+TEST_CASE("frame_winding_and_start_of_a_curve_have_no_effect") {
   const ModelState before = shipped();
   const std::vector<Vec3> curve = skew_ring(200);
   const Valve straight = apply(before, along(curve)).current.model->valve;
@@ -141,7 +141,7 @@ TEST_CASE("frame_winding_and_start_of_a_curve_do_not_matter") {
   CHECK(largest_difference(straight, apply(before, along(other)).current.model->valve) < 1e-7);
 }
 
-TEST_CASE("the_best_fit_finds_the_annulus_itself") {
+TEST_CASE("the_best_fit_of_the_annulus_to_itself_is_exact") {
   const ModelState before = shipped();
   const Valve &valve = before.model->valve;
   const Loop annulus(valve.annulus, valve.loaded);
@@ -188,7 +188,7 @@ TEST_CASE("the_valve_closes_with_any_ring_that_is_in_use") {
   }
 }
 
-TEST_CASE("what_is_no_ring_is_said") {
+TEST_CASE("impossible_rings_are_refused") {
   const ModelState valve = shipped();
   const auto none_given = op_of<mvs_op_ring>(MVS_OP_RING);
   refused(valve, none_given, MVS_E_ARGUMENT, "give a curve, or the size");
@@ -221,7 +221,7 @@ TEST_CASE("what_is_no_ring_is_said") {
   refused(valve, along(edited), MVS_E_ARGUMENT, "of the area of a circle");
 }
 
-TEST_CASE("landmarks_that_place_nothing_are_said") {
+TEST_CASE("degenerate_landmarks_are_refused") {
   const ModelState valve = shipped();
   const std::vector<Vec3> curve = skew_ring(40), line = {curve[0], 2 * curve[0], 3 * curve[0]};
   const std::vector<Vec3> three = {curve[0], curve[3], curve[20]};

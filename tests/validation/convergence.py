@@ -18,7 +18,7 @@ import mvs
 import numpy as np
 
 RESIDUAL = 1e-6
-"""N: with it a shape is known to a fraction of a micrometre, far below what levels differ by"""
+"""N: a shape at this residual is accurate to a fraction of a micrometre, far below the level errors"""
 
 
 @dataclass

@@ -79,7 +79,7 @@ def one_by_one(base: Choice) -> tuple[Choice, ...]:
 
 
 def data_file() -> Path:
-    """Where the case is looked for."""
+    """Where the data of the case are searched for."""
     default = Path(__file__).resolve().parents[3] / "shared" / "data"
     return Path(os.environ.get("MVS_TEST_DATA", default)) / FILE
 
@@ -191,7 +191,7 @@ class Result:
     comparison: mvs.Comparison
 
     def nodes(self, closed: mvs.Snapshot) -> np.ndarray:
-        """Distances from FEBio's nodes, m; middles of quads are none of FEBio's."""
+        """Distances from FEBio's nodes, m; midpoints of quads are not nodes of FEBio's."""
         mine, goal = closed.node_position, self.target.node_position
         on_sheet = np.unique(self.target.chord_nodes[:, 0]).min()  # the heads come after the mesh
         return np.linalg.norm(mine[:on_sheet] - goal[:on_sheet], axis=1)

@@ -21,7 +21,7 @@ from mvs.mesh import edges_of, shortest_paths
 
 FILE = Path("kaiser_mitral_normal_1") / "N64.json"
 
-# That model's fibres follow a collagen law of the strain e: a (exp(b e) - 1) up to 0.145, then
+# The fibres of its model follow a collagen law of the strain e: a (exp(b e) - 1) up to 0.145, then
 # 32.5 MPa. It is designed so that every fibre and chord is at e = 0.16 under 120 mmHg. A linear
 # chord with the same tension at that strain has the secant modulus of the law there.
 DESIGN_STRAIN, RECRUITED, TANGENT_PA = 0.16, 0.145, 32.5e6
@@ -48,7 +48,7 @@ TISSUES = (
 
 
 def data_file() -> Path:
-    """Where the valve is looked for."""
+    """Where the valve is searched for."""
     default = Path(__file__).resolve().parents[3] / "shared" / "data"
     return Path(os.environ.get("MVS_TEST_DATA", default)) / FILE
 
@@ -191,7 +191,7 @@ def table(results: list[Result], paths: int = 0) -> str:
 
 
 def strain_of(snapshot: mvs.Snapshot) -> float:
-    """The median over the triangles: the few that were unfolded at a commissure say nothing."""
+    """The median over the triangles: the few that were unfolded at a commissure are outliers."""
     return float(np.median(snapshot.triangle_stretch[:, 0]) - 1)
 
 

@@ -145,7 +145,7 @@ class Case:
         return force
 
     def rest_of(self, locked: bool) -> np.ndarray:
-        """How far the free nodes go to their rest, m. The pressure turns with them three times."""
+        """Displacements of the free nodes to their rest, m. The pressure is updated three times."""
         shell = shell_of(self.rest, self.theirs.quads, locked)
         nodes, back, free = self.shape.copy(), self.back, len(self.free)
         for _ in range(3):

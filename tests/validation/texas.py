@@ -32,11 +32,11 @@ PRESSURE = 3060.0
 MM = 1e3
 
 Change = Callable[[mvs.Valve], None]
-"""What is done to the arrays of a valve before it is set"""
+"""A change of the arrays of a valve before it is set."""
 
 
 def data_folder() -> Path:
-    """Where the valve is looked for."""
+    """Where the valve is searched for."""
     default = Path(__file__).resolve().parents[3] / "shared" / "data"
     return Path(os.environ.get("MVS_TEST_DATA", default)) / FOLDER
 
@@ -183,7 +183,7 @@ def _rms(values: np.ndarray) -> float:
 
 @dataclass
 class Result:
-    """A closure, what it took and how far it is from the closed frame of Abaqus."""
+    """A closure, its cost, and its distance from the closed frame of Abaqus."""
 
     closed: mvs.Snapshot
     stats: mvs.Stats

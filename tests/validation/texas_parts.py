@@ -11,7 +11,7 @@ from texas import MM, AbaqusFrame, Change, split_other_way
 
 
 def variants(frame: AbaqusFrame) -> Iterator[tuple[str, dict[str, Any]]]:
-    """What is changed, one thing at a time: arguments of open_valve and of close."""
+    """One change of the model: arguments of open_valve and of close."""
     yield "nothing", {}
     yield "mesh: 1,450 vertices", {"vertices": 1450}
     yield "mesh: 1,550 vertices", {"vertices": 1550}
@@ -38,7 +38,7 @@ def variants(frame: AbaqusFrame) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def setting(name: str, value: Callable[[float], float]) -> Change:
-    """A constant of the valve made another one."""
+    """The valve with another value of one constant."""
     return lambda valve: setattr(valve, name, value(getattr(valve, name)))
 
 
@@ -92,14 +92,14 @@ FIT_STRESS = 50e3
 
 
 def two_lines(c0: float, c1: float, c2: float) -> tuple[float, ...]:
-    """Of springs: Young's moduli below and above the kink, Pa, and its strain."""
+    """Constants of springs: Young's moduli below and above the kink, Pa, and its strain."""
     stretch, slope = loaded_tangent(c0, c1, c2)
     low = 3 * c0
     return low, slope, (slope * (stretch - 1) - FIT_STRESS) / (slope - low)
 
 
 def smooth_lines(c0: float, c1: float, c2: float) -> tuple[float, ...]:
-    """Of the membrane dW/dI1 = c + a max(0, I1 - Ic), smoothed as by default: c, a, Ic, s.
+    """Constants c, a, Ic, s of the membrane dW/dI1 = c + a max(0, I1 - Ic), default smoothing.
 
     Pulled one way the nominal stress is 2 g dW/dI1 with g = l - 1/l^2, and dI1/dl = 2 g.
     """

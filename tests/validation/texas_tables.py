@@ -27,7 +27,7 @@ LONG_LEVELS = (4000, None)
 """None is the full mesh of 8,587 vertices"""
 SOLVERS = ("newton", "implicit")
 PART_LEVEL = 1500
-"""vertices: where parts of the model are changed, and where the spread is"""
+"""vertices: where parts of the model are changed, and where the ensemble is run"""
 
 
 def error_columns(errors: Errors) -> Row:
@@ -50,7 +50,7 @@ def result_columns(result: Result) -> Row:
 
 
 def measure_columns(shape: mvs.Snapshot) -> Row:
-    """What a closed shape measures."""
+    """The measures of a closed shape."""
     found = shape.measures
     return {"crossings": found.intersections, "orifice": found.regurgitant_orifice_area * 1e6,
             "coaptation": found.coaptation_area * 1e6, "leaflet area": found.leaflet_area * 1e6,
@@ -58,7 +58,7 @@ def measure_columns(shape: mvs.Snapshot) -> Row:
 
 
 class Study:
-    """The data, the settings and the closures that more than one table needs."""
+    """The data, the settings and the closures that several tables share."""
 
     def __init__(self, options: argparse.Namespace) -> None:
         self.folder, self.out, self.paths = options.data, options.out, options.paths
@@ -115,7 +115,7 @@ class Study:
                "from path 0, max": summary.node_max * MM}
 
     def closures(self) -> list[Result]:
-        """The closures by Newton that there are; one, if there are none."""
+        """The closures by Newton; a new one, if none was made before."""
         if not self.by_newton:
             opened = open_valve(self.folder, self.mesh_levels[-1])
             self.by_newton.append(close(opened, self.frame))

@@ -1,4 +1,4 @@
-// Damped Newton: the exact Hessian with a shift that grows until the step does good.
+// Damped Newton: the exact Hessian plus a shift that grows until the step lowers the energy.
 #include "tests/verification/balance.h"
 
 #include <mvs/sim.h>
@@ -60,7 +60,7 @@ struct Balance::Newton {
     }
   }
 
-  // The step of the matrix as it is, if that lowers the energy or, near rest, halves the force.
+  // The unshifted step, if it lowers the energy or, near rest, halves the force.
   bool try_step() {
     if (!factor->factorise(system.matrix)) return false;
     Positions rows;

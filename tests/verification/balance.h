@@ -1,5 +1,5 @@
-// Rest under dead loads, which the library has no word for: the terms of the library with a linear
-// term of the test, brought to rest by a plain damped Newton.
+// Rest under dead loads, which the library does not support: the energy terms of the library plus a
+// linear term of the test, brought to rest by a plain damped Newton.
 #pragma once
 
 #include "energy/bending.h"
@@ -14,14 +14,14 @@ using mvs::core::test::Positions;
 
 class Balance {
  public:
-  // Terms of `model`, which may leave nodes free that are held here: `held` is where they stay.
+  // Terms of `model`, whose free nodes may be held here: `held` are their positions.
   Balance(const Model &model, const std::vector<uint32_t> &held);
 
-  // Positions at which no free node feels more than `tolerance` N; throws if there are none in
-  // reach. Energy - sum of load . x falls from step to step.
+  // Positions at which no free node has more than `tolerance` N; throws if Newton does not reach
+  // such positions. Energy - sum of load . x falls from step to step.
   Positions rest(Positions start, const Positions &load, double tolerance) const;
 
-  // dE/dx of all terms, also on held nodes: what holds them.
+  // dE/dx of all terms, also on held nodes: their reactions.
   double gradient(const Positions &x, Positions &g) const;
 
  private:

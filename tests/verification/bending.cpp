@@ -1,6 +1,6 @@
 // A strip that bends under its own weight, and what hinges make of other meshes.
 //
-// What the table's E I is for a strip of hinges. On an equilateral lattice, a hinge across the
+// The table's E I for a strip of hinges: on an equilateral lattice, a hinge across the
 // direction n opens by what its two far corners rise above its edge: for a curvature K that is in
 // proportion to n . K n - tr K / 4. Squared and summed over the three directions,
 //     W = D / 2 ((1 - nu) K : K + nu (tr K)^2)  with nu = -1/3,
@@ -115,7 +115,7 @@ Positions weight(const Strip &strip, double g, double thickness) {
   return load;
 }
 
-// A start for Newton: rows in the directions of the elastica, nowhere stretched.
+// A start for Newton: rows in the directions of the elastica, without stretch.
 Positions bent(const Strip &strip, const Exact &exact) {
   const Elastica elastica(exact);
   Positions line = {Vec3(-0.5 * strip.spacing, 0, 0), Vec3(0.5 * strip.spacing, 0, 0)};
@@ -156,7 +156,7 @@ class Cylinder {
   Positions rest(Positions x) {
     for (int k = 0; k < 200; ++k) {
       const Eigen::VectorXd force = reduced_force(x);
-      // beside the weight of a row; rounding of places, 1e-17 m, pulls with 1e-6 of that
+      // relative to the weight of a row; rounding of positions, 1e-17 m, causes 1e-6 of that
       if (force.lpNorm<Eigen::Infinity>() < 1e-5 * load_size()) return x;
       Eigen::VectorXd step = stiffness(x).partialPivLu().solve(-force);
       const double longest = step.lpNorm<Eigen::Infinity>();
@@ -255,8 +255,8 @@ Study cylindrical() {
   return s;
 }
 
-// All nodes free: also to curl across, and, on irregular meshes, to be held by stretching, for a
-// sheet of triangles bends without stretching only along its edges.
+// All nodes free: also to curl across. On irregular meshes stretch resists, since a sheet of
+// triangles bends without stretching only along its edges.
 Row free_strip(const std::string &name, const Exact &exact, double g, uint32_t cells, uint32_t rows,
                double thickness, double disturbed) {
   const Strip strip = strip_of(cells, rows, thickness, disturbed);

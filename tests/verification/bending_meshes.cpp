@@ -49,11 +49,11 @@ Valve sheet_of(Kind kind, uint32_t cells) {
   return valve;
 }
 
-// A sheet and how it is bent.
+// A sheet and the directions in which it is bent.
 using Shape = std::function<Vec3(const Vec3 &flat)>;
 
-// Bending energy per area. Tissue at the border is as good as absent, so that every triangle that
-// counts has hinges on all sides: each takes half of their energy.
+// Bending energy per area. Tissue at the border has almost no stiffness, so that every triangle
+// that counts has hinges on all sides: each takes half of their energy.
 double energy_per_area(Kind kind, uint32_t cells, const Shape &shape) {
   Valve valve = sheet_of(kind, cells);
   valve.leaflets.resize(1);

@@ -1,4 +1,4 @@
-// Cables and chordae: catenaries, pairs that only pull, chains that are one cable.
+// Cables and chordae: catenaries, tension-only pairs, chains that act as one cable.
 #include <mvs/valve.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ double pull(const Chain &chain, const Positions &x) {
   return std::abs(g[0].x());
 }
 
-// As good as inextensible: strains of 1e-6. Rounding of places, 1e-17 m, is 3e-9 N then.
+// Nearly inextensible: strains of 1e-6. Rounding of positions, 1e-17 m, is 3e-9 N then.
 Study catenary() {
   Study s = study_of("catenary", "A chain of stiff chordae under its weight",
                      "shared/data/verification/c_catenary.csv");
@@ -133,7 +133,7 @@ Study tension_only() {
     const bool pair = row[0] == "V two chords";
     const double load = std::stod(row[1]), length = 25e-3, half = pair ? 10e-3 : 0;
     Valve valve;
-    // and a chord that is slack whatever the load, from below
+    // and a chord that is slack under any load, from below
     valve.rest = {Vec3(-half, 0, 0), Vec3(half, 0, 0), Vec3(0, 0, -20e-3), Vec3(1e-3, 0, -40e-3)};
     for (const uint32_t a : {0u, 1u, 3u}) {
       if (a == 1 && !pair) continue;
@@ -175,7 +175,7 @@ double ogden_stress(const Chord::Constants &c, double stretch) {
   return static_cast<double>(slope / h);
 }
 
-// Unequal pieces of one cable, pulled by the force that the law has at a stretch.
+// Unequal pieces of one cable, pulled by the force of the law at a stretch.
 double stretch_of_chain(const Chord &law, const std::vector<double> &pieces, double force) {
   Valve valve;
   valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};

@@ -30,7 +30,7 @@ struct Disc {
 enum Mesh { rings_of_triangles, irregular };
 
 // Inner nodes moved within the plane by up to a quarter of the distance of the rings; node 0, whose
-// height is looked at, stays.
+// height is compared, stays.
 void disturb(Valve &valve, uint32_t rings) {
   test::Random random(7);
   const uint32_t inner = 1 + 3 * rings * (rings - 1);
@@ -52,8 +52,8 @@ Disc inflated(const Published &law, uint32_t rings, double pressure, Mesh mesh) 
     if (mesh == irregular) disturb(valve, rings);
   });
   SolveOptions options;
-  // beside the force of the pressure on a node; Hencky's stiff tissue cannot do with much less, for
-  // a place is rounded to 1e-18 m
+  // relative to the force of the pressure on a node; Hencky's stiff tissue needs nearly that much,
+  // since a position is rounded to 1e-18 m
   options.residual = 1e-5 * pressure * disc.edge * disc.edge;
   const test::Settled settled = test::settle(disc.model, pressure, 0, options);
   if (!settled.stats.converged) throw std::runtime_error("a disc did not come to rest");
@@ -96,8 +96,8 @@ double distance_from(const Profile &p, const Disc &disc) {
   return std::sqrt(sum / static_cast<double>(disc.x.size()));
 }
 
-// The larger principal stretch, mean over the triangles with a side on the rim, and what it is at
-// the rim itself: the slope of the profile by differences of fourth order from one side.
+// The larger principal stretch, mean over the triangles with a side on the rim, and its value at
+// the rim itself: the slope of the profile by one-sided differences of fourth order.
 double stretch_at_rim(const Disc &disc) {
   double sum = 0;
   uint32_t count = 0;
@@ -134,7 +134,7 @@ Study study_of(const std::string &name, const std::string &title) {
   return s;
 }
 
-// Strains of 7e-6, so that Hencky's linear tissue is what the law is; nu = 1/2.
+// Strains of 7e-6, so that the law is Hencky's linear tissue; nu = 1/2.
 Study hencky() {
   Study s = study_of("hencky_disc", "Hencky's disc");
   s.source =
@@ -159,7 +159,7 @@ Study hencky() {
   return s;
 }
 
-// Springs on the same meshes: each settles somewhere, but not where the tissue does.
+// Springs on the same meshes: each converges, but not to the tissue's deflection.
 Study hencky_of_springs() {
   Study s = study_of("hencky_disc_springs", "Hencky's disc of springs");
   s.source = "as for the membrane, nu = 1/3: what an equilateral lattice has";

@@ -62,8 +62,8 @@ double volume(const std::vector<Tri> &triangles, const Positions &x) {
   return sum;
 }
 
-// One node is held, the rest floats: a closed surface under its own pressure needs no more. The
-// stretch from the volumes.
+// One node is held, the rest is free: a closed surface under its own pressure needs no more.
+// Returns the stretch from the volumes.
 Row sphere(const Published &law, int times, double pressure, double exact) {
   Valve valve;
   add_sphere(valve, times);
@@ -75,8 +75,8 @@ Row sphere(const Published &law, int times, double pressure, double exact) {
   return {law.name, 1e-3 * pressure, mean_edge(model), std::cbrt(after / before) - 1, exact - 1};
 }
 
-// A tube whose ends are drawn out to the radius that Laplace has for the pressure, without change
-// of length: then all of it stands there. Fibres go around.
+// A tube whose ends are moved to the radius of Laplace's law for the pressure, at constant length:
+// then the whole tube has that radius. Fibres are circumferential.
 struct Tube {
   Model model;
   uint32_t around, rows;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t cells = 6;
 
-// Strains at which a law is asked: every hundredth up to 0.3, but for the kink of the springs.
+// Strains at which a law is evaluated: every hundredth up to 0.3, without the kink of the springs.
 std::vector<double> strains() {
   std::vector<double> all;
   for (int k = 1; k <= 30; ++k) {
@@ -18,7 +18,7 @@ std::vector<double> strains() {
   return all;
 }
 
-// The same by libmvs: the stretch across an axis at which the patch carries nothing across.
+// The same by libmvs: the stretch across an axis at which the patch has zero stress across.
 double free_stretch_of(const Patch &patch, int axis, double stretch) {
   double low = 0.3, high = 1.5, inner = 0;
   for (int k = 0; k < 50; ++k) {
@@ -37,7 +37,7 @@ Mat2 diagonal(double along, double across) {
   return f;
 }
 
-// One way to deform, and which entry of the stress is looked at.
+// One mode of deformation, and the compared entry of the stress.
 struct Mode {
   std::string name;
   int row, column;
@@ -75,8 +75,8 @@ double zero_scale(const Map2 &p) {
   return static_cast<double>(p.cwiseAbs().maxCoeff());
 }
 
-// libmvs follows the papers up to an energy of 100 kPa, above what leaflets bear, and goes on as a
-// parabola from there (libmvs/model/law.cpp). What lies past it is not compared, only counted.
+// libmvs follows the papers up to an energy of 100 kPa, above the range of leaflets, and continues
+// as a parabola from there (libmvs/model/law.cpp). Rows beyond it are not compared, only counted.
 bool is_past_rupture(const Published &law, const Mat2 &f) {
   return law.energy(f.cast<Real>()) > 99e3L;
 }

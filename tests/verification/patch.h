@@ -1,4 +1,4 @@
-// A patch of tissue between a rim that is put somewhere: what the assembled triangles carry.
+// A patch of tissue with a prescribed rim: the stress of the assembled triangles.
 #pragma once
 
 #include "model/membrane.h"
@@ -18,7 +18,7 @@ class Patch {
   // Springs on the lattice on which they are a homogeneous sheet, everything else on any mesh.
   Patch(const Published &law, uint32_t cells);
 
-  // Every node where a homogeneous map puts it; f in the axes of the fibre.
+  // Every node at its image under a homogeneous map; f in the axes of the fibre.
   Positions mapped(const Mat2 &f) const;
   // dE/dx of the leaflet at x.
   Positions forces(const Positions &x) const;
@@ -34,7 +34,7 @@ class Patch {
  private:
   Eigen::Vector2d in_fibre_axes(const Vec3 &v) const;
 
-  Model model_;  // nothing of it is prescribed, so that every triangle counts
+  Model model_;  // without prescribed nodes, so that every triangle counts
   std::vector<uint32_t> rim_;
   Vec3 fibre_, across_;
   double volume_ = 0;  // m3

@@ -1,5 +1,5 @@
-// What an element must do exactly: a homogeneous strain on any mesh, and nothing at all when the
-// tissue is only moved.
+// The patch test: an element represents a homogeneous strain exactly on any mesh, and has zero
+// force under a rigid motion.
 #include <mvs/valve.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ Mat2 some_strain() {
   return f;
 }
 
-// Inner nodes thrown about by a fifth of an edge, the rim where the map puts it.
+// Inner nodes displaced by up to a fifth of an edge, the rim at its image under the map.
 double lost_after_patch_test(const Published &law, uint32_t cells, Patch::Mesh mesh) {
   const Patch patch(law, cells, mesh);
   const Positions exact = patch.mapped(some_strain()), none(exact.size(), Vec3::Zero());

@@ -1,4 +1,4 @@
-// The laws as they are printed.
+// The laws as their papers print them.
 #include "tests/verification/published.h"
 
 #include <mvs/valve.h>

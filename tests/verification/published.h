@@ -1,6 +1,6 @@
-// The laws of leaflets as their papers print them, in principal terms and by themselves: nothing
-// here comes from libmvs/model/law.cpp, whose response is written in derivatives by I1 and I4.
-// Stress follows from them by differences, in extended precision.
+// The laws of leaflets as their papers print them, in principal terms and independent of libmvs:
+// libmvs/model/law.cpp is written in derivatives by I1 and I4. Stress follows from them by
+// differences, in extended precision.
 #pragma once
 
 #include <Eigen/LU>

@@ -47,7 +47,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Study:
-    """What studies.csv says about a table, and its rows."""
+    """A table's entry in studies.csv, and its rows."""
 
     about: dict[str, str]
     rows: list[Row]
@@ -190,7 +190,7 @@ def convergence_picture(studies: Studies) -> bytes:
 
 
 def limits_picture(studies: Studies) -> bytes:
-    """What does not converge: springs as tissue, hinges on meshes that are no lattice."""
+    """Studies that do not converge: springs as tissue, hinges on meshes that are no lattice."""
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.2))
     if "springs_shear" in studies:
         for colour, (case, rows) in zip(COLOURS, studies["springs_shear"].curves().items()):

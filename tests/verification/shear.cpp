@@ -1,4 +1,4 @@
-// What a sheet of springs makes of strains other than the one it was tuned on.
+// Strains other than the one that a sheet of springs was fitted to.
 //
 // A lattice of equal springs has the two elastic constants of Cauchy's relations, whatever the
 // springs: G = 3 E / 8 and E / (1 - nu) = 3 E / 2, where the incompressible tissue has E / 3 and

@@ -1,4 +1,4 @@
-// Steps in time: what becomes of energy and momentum, step for step smaller.
+// Energy and momentum balance of steps in time, with decreasing step.
 #include <mvs/sim.h>
 
 #include <Eigen/Geometry>
@@ -28,7 +28,7 @@ Model disc() {
   });
 }
 
-// What is missing in energy + damped away - work at the end, over the largest kinetic energy.
+// The error of energy + dissipation - work at the end, relative to the largest kinetic energy.
 Row balance(const char *name, uint32_t kind, double dt, double damping) {
   const Model model = disc();
   State state = initial_state(model);
@@ -95,13 +95,13 @@ Vec3 angular_momentum(const Model &model, const State &state) {
   return sum;
 }
 
-// A valve with nothing held, no load, thrown and spinning, and shaking in itself.
+// A valve without prescribed nodes or load, moving, rotating and vibrating.
 struct Flight {
   Vec3 before, after;  // momentum
   Vec3 spin_before, spin_after;
 };
-// With `anew` each step makes a factor of its own, in double precision, so that its linear system
-// is solved but for rounding.
+// With `anew` each step computes a factor of its own, in double precision, so that its linear
+// system is solved to rounding.
 Flight flight(uint32_t kind, double dt, bool anew = false) {
   const Model model = test::model_of_sheet(small_valve(), {});
   State state = initial_state(model);

@@ -1,4 +1,4 @@
-// Orders, verdicts, tables.
+// Orders of convergence, verdicts, tables.
 #include "tests/verification/study.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace mvs::core::verification {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-// Below it an error is rounding, or the tenth digit of a table, and has no order.
+// An error below it is rounding, or the tenth digit of a table, and has no order.
 constexpr double floor_of_error = 1e-8;
 
 bool same_series(const Row &a, const Row &b) {

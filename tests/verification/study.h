@@ -1,5 +1,5 @@
-// What a study of the verification suite is: numbers that libmvs computes beside the exact ones, on
-// finer and finer meshes, with where the exact ones come from and how fast the error should fall.
+// A study of the verification suite: values that libmvs computes beside exact ones, on finer and
+// finer meshes, with the source of the exact values and the expected order of convergence.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct Study {
   std::string name;      // of its table
   std::string title;     // in words
   std::string quantity;  // what value and exact are, with the unit
-  std::string x;         // what x is, with the unit; empty: nothing
+  std::string x;         // the meaning of x, with the unit; empty: unused
   std::string level;     // "edge, m" or "step, s"; empty: no levels
   std::string source;    // of the exact values
   std::string expects;   // the order, and why
@@ -42,7 +42,7 @@ double worst_error(const Study &study);  // over the finest levels
 // Over the finest levels of all series; NaN without levels.
 std::pair<double, double> order_range(const Study &study);
 
-// Empty if the study shows what it should, otherwise a sentence a fault.
+// Empty if the study meets its expectations, otherwise one sentence for each fault.
 std::vector<std::string> faults(const Study &study);
 
 // DIR/<name>.csv of every study, and DIR/studies.csv about them.

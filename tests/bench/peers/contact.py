@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from valve import Valve
 
 FACING = 1.5
-"""times the contact thickness: what was nearer at rest is the same piece of sheet"""
+"""times the contact thickness: pairs nearer at rest belong to the same piece of sheet"""
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -55,14 +55,14 @@ def barrier(s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def penalty(s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(1 - s)^3, as steep as the barrier at s = 1/2, and its slope: bounded, so it lets through."""
+    """(1 - s)^3, as steep as the barrier at s = 1/2, and its slope; bounded, so sheets may cross."""
     q = 1 - s
     scale = -barrier(np.array(0.5))[1] / 0.75
     return scale * q**3, -3 * scale * q * q
 
 
 class Contact:
-    """Pairs are kept until a node has used up half of the margin they were looked up with."""
+    """Pairs are kept until a node has moved by half of the search margin."""
 
     def __init__(self, valve: Valve, curve: str) -> None:
         self.curve = {"barrier": barrier, "penalty": penalty}[curve]

@@ -11,7 +11,7 @@ from valve import Recorder, arguments
 
 
 def main() -> None:
-    """Steps until the force is small or the time is up."""
+    """Steps until the force is small or the time limit is reached."""
     valve, out, s = arguments(dt=8e-6, damping=500.0, tolerance=1e-3, limit=60.0)
     law = Law(valve, "penalty")
     x, v = valve.start.copy(), np.zeros_like(valve.start)

@@ -15,11 +15,11 @@ from valve import Recorder, arguments
 
 
 class TimeUp(Exception):
-    """The limit came."""
+    """Raised at the time limit."""
 
 
 def main() -> None:
-    """Minimises, freezes anew, and again."""
+    """Minimises, updates the frozen pressure, and repeats."""
     valve, out, s = arguments(memory=30, rounds=40, tolerance=1e-3, limit=60.0, contact="penalty")
     law = Law(valve, s["contact"])
     free = np.flatnonzero(law.free)

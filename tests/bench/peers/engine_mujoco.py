@@ -17,7 +17,7 @@ from valve import Recorder, Valve, arguments
 
 
 def text(values: Any) -> str:
-    """Numbers for XML."""
+    """Formats numbers for XML."""
     return " ".join(f"{v:.12g}" if isinstance(v, float) else str(v)
                     for v in np.asarray(values).ravel().tolist())
 
@@ -37,7 +37,7 @@ def bodies(valve: Valve) -> str:
 
 
 def tendon(ends: np.ndarray, stiffness: float, low: float, high: float) -> str:
-    """A spring between two nodes that does nothing from `low` to `high`."""
+    """A spring between two nodes with zero force from `low` to `high`."""
     return (f'<spatial stiffness="{stiffness:.9g}" springlength="{low:.9g} {high:.9g}">'
             f'<site site="s{ends[0]}"/><site site="s{ends[1]}"/></spatial>')
 
@@ -80,7 +80,7 @@ def model(valve: Valve, s: dict[str, Any]) -> str:
 
 
 def main() -> None:
-    """Steps until nothing moves or the time is up."""
+    """Steps until the valve rests or the time limit is reached."""
     valve, out, s = arguments(sheet="tendons", contact="auto", integrator="discrete", dt=2e-4,
                               damping=200.0, ramp=5e-3, iterations=50, solref=1e-3, margin=0.0,
                               young=0.0, poisson=0.33, elastic_damping=0.0, still=1e-3, limit=60.0)

@@ -76,7 +76,7 @@ def solver_of(model: newton.Model, valve: Valve, s: dict) -> newton.solvers.Solv
 
 
 def main() -> None:
-    """Steps until nothing moves or the time is up."""
+    """Steps until the valve rests or the time limit is reached."""
     valve, out, s = arguments(solver="vbd", sheet="springs", strain=0.3, dt=1e-4, iterations=10,
                               scale=1.0, bending=1.0, kd=0.0, contact=1, contact_ke=1e3,
                               damping=200.0, ramp=5e-3, still=1e-3, limit=60.0)
@@ -99,7 +99,7 @@ def main() -> None:
         now, then = then, now
         return now.particle_q.numpy(), now.particle_qd.numpy()
 
-    solver.step(now, then, control, None, 1e-9)  # compiles what it needs: set-up
+    solver.step(now, then, control, None, 1e-9)  # compiles the kernels, which counts as set-up
     now, then = model.state(), model.state()
     recorder, verdict, step, quiet = Recorder(valve, s["limit"], 0.05), "limit", 0, 0
     while True:

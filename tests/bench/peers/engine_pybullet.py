@@ -26,7 +26,7 @@ def mesh(valve: Valve, nodes: int, scale: float) -> str:
 
 
 def main() -> None:
-    """Steps until nothing moves or the time is up."""
+    """Steps until the valve rests or the time limit is reached."""
     valve, out, s = arguments(dt=1e-4, scale=100.0, strain=0.1, stiffness=1.0, damp=0.1,
                               damping=200.0, ramp=5e-3, contact=1, still=1e-3, limit=60.0)
     nodes = int(valve.triangles.max()) + 1

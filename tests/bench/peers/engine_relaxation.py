@@ -29,7 +29,7 @@ def scaled_masses(valve: Valve, law: Law, x: np.ndarray, safety: float) -> np.nd
 
 
 def main() -> None:
-    """Iterates until the force is small or the time is up."""
+    """Iterates until the force is small or the time limit is reached."""
     valve, out, s = arguments(safety=1.0, longest=5e-4, tolerance=1e-3, limit=60.0)
     law = Law(valve, "penalty")
     x, v = valve.start.copy(), np.zeros_like(valve.start)

@@ -19,7 +19,7 @@ def scatter(columns: np.ndarray, nodes: int) -> csr_array:
 
 
 class Cables:
-    """What pulls along straight lines: springs of the sheet, chordae."""
+    """Forces along straight lines: springs of the sheet, chordae."""
 
     def __init__(self, ends: np.ndarray, nodes: int) -> None:
         self.a, self.b = ends[:, 0], ends[:, 1]

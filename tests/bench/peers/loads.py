@@ -1,4 +1,4 @@
-"""What engines lack, as forces from outside, and figures that several of them need. NumPy only."""
+"""Loads that engines lack, as external forces, and values that several of them need. NumPy only."""
 
 from __future__ import annotations
 

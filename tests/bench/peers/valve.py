@@ -1,7 +1,7 @@
-"""The valve as plain arrays, and how an engine tells where its nodes were at what CPU time.
+"""The valve as plain arrays, and the trace of node positions over CPU time that an engine returns.
 
 An engine is a script that is called as `engine_NAME.py VALVE.npz OUT.npz [key=value ...]`: it reads
-the valve, closes it, and hands back a trace. It knows nothing of libmvs. SI units.
+the valve, closes it, and hands back a trace. It does not import libmvs. SI units.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class Recorder:
         return time.process_time() - self.started - self.lost
 
     def due(self) -> bool:
-        """Whether it is time for a sample."""
+        """Whether a sample is due."""
         return not self.cpu or self.elapsed() >= self.cpu[-1] + self.every
 
     def sample(self, nodes: np.ndarray, speed: float) -> bool:

@@ -1,4 +1,4 @@
-/* An application in C: the header it was compiled with and the library it runs with agree. */
+/* An application in C: its header and the library that it loads have the same version. */
 #include <mvs/mvs.h>
 #include <stdio.h>
 

@@ -1,5 +1,6 @@
-// A stand-in for Force Dimension's libdrd.so: up to two devices whose end goes round a circle. Own
-// code, after what the public Python package forcedimension-core says of each function.
+// A stand-in for Force Dimension's libdrd.so: up to two devices whose end moves on a circle. Own
+// code, written after the description of each function in the public Python package
+// forcedimension-core.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double kTurn = 2 * 3.14159265358979323846 / 1000;  // rad a tick
 constexpr double kRadius = 0.03;                             // m
-constexpr int kFirstId = 2;                                  // of the first device: not its index
+constexpr int kFirstId = 2;  // of the first device: differs from its index
 
 struct Device {
   bool open = false, forces = false, gone = false, reset = false;
@@ -107,7 +108,8 @@ bool gripper() {
   return is_type({35, 37, 104, 105, 108, 109});
 }
 
-// x towards the user, y to the right, z up: facing the device, a circle that takes 1000 ticks.
+// x towards the user, y to the right, z up: seen from the front of the device, a circle of 1000
+// ticks.
 void position(const Device &device, double *p) {
   const double angle = kTurn * double(device.tick);
   p[0] = device.tick == told().nan_at ? std::numeric_limits<double>::quiet_NaN() : 0.01;
@@ -115,7 +117,7 @@ void position(const Device &device, double *p) {
   p[2] = kRadius * std::sin(angle);
 }
 
-// A new sample: 0, 1 for the one before, -1 if the device does not answer.
+// A new sample: 0; 1 for the previous one; -1 if the device does not answer.
 int sample(char id, double *p) {
   Device *const device = at(id);
   if (!device) return -1;
@@ -139,14 +141,14 @@ int sample(char id, double *p) {
   return guarded ? 1 : 0;
 }
 
-// The end turns about x as it goes round.
+// The end rotates about x along the circle.
 void orientation(const Device &device, double *m) {
   const double c = std::cos(kTurn * double(device.tick)), s = std::sin(kTurn * double(device.tick));
   const double rows[9] = {1, 0, 0, 0, c, -s, 0, s, c};
   std::memcpy(m, rows, sizeof rows);
 }
 
-// 0, or 2 if that is more than the motors can.
+// 0, or 2 if that exceeds the motors' largest force.
 int set_force(char id, const double *wanted) {
   Device *const device = at(id);
   if (!device) return -1;
@@ -215,7 +217,7 @@ extern "C" __attribute__((visibility("default"))) DhdStandIn *dhd_stand_in() {
   return &told();
 }
 
-// What is not simulated refuses, as a device does that has no such feature.
+// Functions without a simulation refuse, as a device without that feature does.
 #define UNSIMULATED(type, name)          \
   DHDAPI type name() {                   \
     ++told().unsimulated;                \
@@ -399,7 +401,7 @@ DHDAPI int dhdGetLinearVelocity(double *x, double *y, double *z, char id) {
   return 0;
 }
 
-// Half a radian, of a finger of 80 mm; left-handed ones count the other way.
+// Half a radian, of a finger of 80 mm; left-handed devices have the opposite sign.
 DHDAPI int dhdGetGripperAngleRad(double *angle, char id) {
   if (!at(id) || !gripper()) return refuse(6);
   *angle = told().left_handed ? -0.5 : 0.5;
@@ -469,7 +471,7 @@ DHDAPI double dhdGetMaxForce(char id) {
   return at(id) ? at(id)->max_force : -1;
 }
 
-// What a driver must leave alone.
+// Functions that a driver must not call.
 DHDAPI int dhdEnableExpertMode() {
   return unsafe();
 }

@@ -1,5 +1,6 @@
-// A stand-in for OpenHaptics' libHD.so: two devices whose stylus goes round a circle. Own code,
-// after the vendor's public guide; it is stricter than the vendor's, so that mistakes show.
+// A stand-in for OpenHaptics' libHD.so: two devices whose stylus moves on a circle. Own code,
+// written after the vendor's public guide; it is stricter than the vendor's library, so that
+// mistakes show.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -62,8 +63,8 @@ Device *in_frame(const char *what) {
   return nullptr;
 }
 
-// Facing the device, a circle of 30 mm that takes 1000 ticks, 10 mm towards the user; the stylus
-// turns with it. The second device is 5 mm higher.
+// Seen from the front of the device, a circle of 30 mm in 1000 ticks, 10 mm towards the user; the
+// stylus rotates with it. The second device is 5 mm higher.
 void position(const Device &device, double *out) {
   const double angle = kTurn * double(device.tick);
   const bool second = &device != world().devices;
@@ -101,7 +102,7 @@ bool state(unsigned parameter, double *out) {
   return true;
 }
 
-// What a device is; false: no such parameter.
+// Reads a constant parameter of a device; false: no such parameter.
 bool property(unsigned parameter, double *out) {
   const double workspace[6] = {-80, -60, -35, 80, 60, 35};
   switch (parameter) {
@@ -131,7 +132,7 @@ bool property(unsigned parameter, double *out) {
   }
 }
 
-// What the motors do at the end of a frame.
+// The motors' state at the end of a frame.
 void commit(unsigned handle, Device &device) {
   const bool on = device.enabled & 1;
   double norm = 0;
@@ -200,7 +201,7 @@ HDAPI unsigned hdInitDevice(const char *name) {
   Device &device = world().devices[handle];
   if (device.gone && told().unplug_at >= 0) return raise(0x302, handle), kNone;
   if (device.open) return raise(0x301, handle), handle;
-  // as the vendor's reads its configuration: with the locale of the program
+  // as the vendor's library reads its configuration: in the locale of the program
   world().reads_numbers = std::strtod("0.5", nullptr) > 0.4;
   device = Device();
   device.open = true;

@@ -1,4 +1,4 @@
-// The stand-in's devices and errors, as its files share them.
+// The stand-in's devices and errors, shared by its files.
 #pragma once
 #include <mutex>
 #include <string>
@@ -24,7 +24,7 @@ struct Device {
   unsigned calibration = 0x5000;
 };
 
-// One lock for all, as HDAPI has one state for all; recursive, since a callback calls back.
+// One lock, as HDAPI has one state; recursive, since a callback calls back.
 struct World {
   std::recursive_mutex mutex;
   Device devices[HdStandIn::kDevices];
@@ -36,10 +36,10 @@ World &world();
 HdStandIn &told();
 
 void raise(unsigned code, unsigned device);
-// Something that HDAPI forbids: counted, and an error.
+// A call that HDAPI forbids: counted, and an error.
 void misuse(const char *what, unsigned code = 0x102);
 Device *current();
-// While told().hang is set; only for calls that stop or close.
+// Blocks while told().hang is set; only for calls that stop or close.
 void hang();
 // The scheduler's tick, -1 outside its thread.
 long scheduler_tick();

@@ -1,3 +1,3 @@
-/* Nothing, for a library that is only there to be needed. */
+/* An empty library, a dependency of libHD_needy.so. */
 extern int mvs_nothing;
 int mvs_nothing;

@@ -1,5 +1,5 @@
 // The stand-in's scheduler: one thread that calls each callback once a tick, the highest priority
-// first, until it says that it is done.
+// first, until the callback reports that it is done.
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -62,7 +62,7 @@ void loop() {
     all.tick_began = Clock::now();
     call_all();
     told().ticks = tick + 1;
-    // never two ticks in less than a period: the hand moves by ticks, and would seem to jump
+    // at most one tick in a period: the hand moves by ticks, and would seem to jump
     if (told().period_ns > 0)
       std::this_thread::sleep_until(all.tick_began + std::chrono::nanoseconds(told().period_ns));
     else

@@ -1,4 +1,4 @@
-/* Drivers that libmvs has to find out: built once for each LIE_*. */
+/* Drivers with a defect that libmvs has to detect: compiled once for each LIE_*. */
 #include <math.h>
 #include <mvs/driver.h>
 #include <stddef.h>
@@ -79,7 +79,7 @@ static int32_t run(mvs_driver_device *device, mvs_driver_servo servo, void *user
   (void)device;
   (void)servo;
   (void)user;
-  return MVS_DRIVER_OK; /* at once: without having been asked to */
+  return MVS_DRIVER_OK; /* at once, without having been asked to stop */
 }
 
 static int32_t stop(mvs_driver_device *device) {
@@ -87,7 +87,7 @@ static int32_t stop(mvs_driver_device *device) {
   return MVS_DRIVER_OK;
 }
 
-#ifdef LIE_PANICS /* no lie: it tells on file 9 that it was called */
+#ifdef LIE_PANICS /* no defect: reports on file 9 that panic was called */
 static void panic(mvs_driver_device *device) {
   if (write(9, device == &the_one ? "zero" : "what", 4) != 4) _exit(1);
 }

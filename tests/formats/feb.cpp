@@ -1,4 +1,4 @@
-// FEBio models: what they hold is the valve, and their formulas are its laws.
+// FEBio models: the exported file contains the valve, and its formulas are the valve's laws.
 #include <mvs/valve.h>
 
 #include <cctype>
@@ -13,7 +13,7 @@ using namespace mvs::core;
 
 namespace {
 
-// The formulas of FEBio: + - * / ^, exp, ln, sqrt, and variables.
+// Evaluates the formulas of FEBio: + - * / ^, exp, ln, sqrt, and variables.
 class Formula {
  public:
   Formula(std::string text, std::map<std::string, double> variables)
@@ -154,7 +154,7 @@ TEST_CASE("feb_counts_are_those_of_the_valve") {
   CHECK(count_of(feb, "<discrete ") == 12);
   CHECK(count_of(feb, "<ShellDomain ") == 3);
   CHECK(count_of(inside(feb, "MeshData"), "<node ") == 3 * (12 + 3));
-  // 3 kPa of the file, against FEBio's sign
+  // 3 kPa in the file, with FEBio's sign
   CHECK(feb.find("<pressure lc=\"1\">-3</pressure>") != std::string::npos);
   CHECK(inside(feb, "shell_thickness") == "0.65");
 }
@@ -168,13 +168,13 @@ TEST_CASE("feb_energies_are_those_of_the_laws") {
     const std::string w = inside(feb_of(valve), "W");
     const Constants &c = valve.leaflets[0].constants;
     const LeafletLaw *known = find_leaflet_law(law);
-    // at J = 1 the energy, less what it is at rest, is that of the law in kPa
+    // at J = 1 the energy minus that at rest equals the energy of the law in kPa
     const auto febio = [&](double i1, double i4) {
       return Formula(w, {{"I1", i1}, {"I4", i4}, {"J", 1.0}}).value();
     };
     const auto ours = [&](double i1, double i4) { return known->response(c, i1, i4).w * 1e-3; };
     for (const auto &[i1, i4] : {std::pair(3.0, 1.0), {3.1, 1.2}, {3.2, 0.9}, {3.3, 1.3}}) {
-      // what 15 decimals leave of the constants
+      // accuracy of constants written with 15 decimals
       CHECK(febio(i1, i4) - febio(3, 1) ==
             doctest::Approx(ours(i1, i4) - ours(3, 1)).epsilon(1e-9));
     }
@@ -201,7 +201,7 @@ TEST_CASE("feb_springs_are_the_chords_with_their_slack") {
   }
 }
 
-TEST_CASE("feb_a_leaflet_of_two_thicknesses_is_two_domains") {
+TEST_CASE("feb_a_leaflet_of_two_thicknesses_becomes_two_domains") {
   Valve valve = read_inp(toy_inp()).loaded.valve;
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     valve.triangle_thickness.push_back(t == 3 ? 1.2e-3 : 0.65e-3);
@@ -218,7 +218,7 @@ TEST_CASE("feb_names_are_escaped") {
   CHECK(feb_of(valve).find("name=\"A&lt;&amp;&quot;1&quot;&gt;\"") != std::string::npos);
 }
 
-TEST_CASE("feb_has_no_springs_for_leaflets") {
+TEST_CASE("feb_export_refuses_leaflets_of_springs") {
   const Valve valve = toy_of(MVS_LEAFLET_LAW_SPRING);
   const ModelPtr model = make_model(valve);
   try {

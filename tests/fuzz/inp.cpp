@@ -1,4 +1,4 @@
-// Any bytes as Abaqus input: an error with a sentence, or a valve that is one.
+// Any bytes as Abaqus input: an error with a sentence, or a valid valve.
 #include "model/model.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,4 +1,5 @@
-// Whole files: the target is the old or the new one at every moment, and nothing else stays behind.
+// Atomic file replacement: at every moment the target is the old or the new file, and no temporary
+// file remains.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder for the length of a test.
+// A folder that exists for the length of a test.
 struct Folder {
   fs::path path;
   Folder() {
@@ -51,7 +52,7 @@ mode_t mode_of(const std::string &path) {
   return status.st_mode & 07777;
 }
 
-// Runs `work` in a child process; what it returns is the exit code.
+// Runs `work` in a child process; its return value is the exit code.
 template <typename Work>
 int in_child(Work work) {
   const pid_t child = ::fork();
@@ -63,7 +64,7 @@ int in_child(Work work) {
 
 }  // namespace
 
-TEST_CASE("a_file_comes_back_as_it_was_written") {
+TEST_CASE("a_file_is_read_back_as_written") {
   const Folder folder;
   const std::string path = folder.file("a.obj");
   for (const size_t size : {size_t{0}, size_t{1}, size_t{65535}, size_t{65536}, size_t{1000003}}) {
@@ -75,7 +76,7 @@ TEST_CASE("a_file_comes_back_as_it_was_written") {
   }
 }
 
-TEST_CASE("reading_says_why_it_cannot") {
+TEST_CASE("reading_reports_its_reason_of_failure") {
   const Folder folder;
   CHECK(contains(failure(MVS_E_IO, [&] { read_whole_file(folder.file("none")); }),
                  "No such file or directory"));
@@ -87,7 +88,7 @@ TEST_CASE("reading_says_why_it_cannot") {
                  "has 10 bytes, the limit is 9"));
 }
 
-TEST_CASE("reading_from_a_pipe_has_the_limit_too") {
+TEST_CASE("reading_from_a_pipe_has_the_size_limit") {
   const Folder folder;
   const std::string path = folder.file("pipe");
   REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
@@ -113,7 +114,7 @@ TEST_CASE("reading_from_a_pipe_has_the_limit_too") {
   }
 }
 
-TEST_CASE("writing_says_why_it_cannot_and_leaves_nothing") {
+TEST_CASE("writing_reports_its_reason_of_failure_and_leaves_no_file") {
   const Folder folder;
   CHECK(contains(failure(MVS_E_IO, [&] { write_whole_file(folder.file("no/a.obj"), "x"); }),
                  "No such file or directory"));
@@ -124,11 +125,11 @@ TEST_CASE("writing_says_why_it_cannot_and_leaves_nothing") {
   CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("a_full_disk_keeps_the_old_file_and_leaves_nothing") {
+TEST_CASE("a_full_disk_keeps_the_old_file_and_leaves_no_other") {
   const Folder folder;
   const std::string path = folder.file("a.obj");
   write_whole_file(path, "old");
-  // a limit on the size of files fails write() as a full disk does
+  // a limit on the size of files makes write() fail as a full disk does
   const int code = in_child([&] {
     ::signal(SIGXFSZ, SIG_IGN);
     const rlimit small = {1000, 1000};
@@ -145,7 +146,7 @@ TEST_CASE("a_full_disk_keeps_the_old_file_and_leaves_nothing") {
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("without_permission_nothing_is_read_or_written") {
+TEST_CASE("without_permission_files_are_neither_read_nor_written") {
   const Folder folder;
   const std::string path = folder.file("a.obj");
   write_whole_file(path, "old");
@@ -158,7 +159,7 @@ TEST_CASE("without_permission_nothing_is_read_or_written") {
     }
     return 0;
   };
-  // root may do anything, so it becomes nobody first
+  // root has every permission, so the test changes to an unprivileged user first
   const auto as_nobody = [&](auto work) {
     return in_child([&] {
       if (::geteuid() == 0 && ::setuid(65534) != 0) return 99;
@@ -178,7 +179,7 @@ TEST_CASE("without_permission_nothing_is_read_or_written") {
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("the_mode_is_the_old_files_or_what_the_umask_leaves") {
+TEST_CASE("the_mode_is_that_of_the_old_file_or_of_the_umask") {
   const Folder folder;
   const std::string path = folder.file("a.obj");
   const mode_t before = ::umask(027);
@@ -190,7 +191,7 @@ TEST_CASE("the_mode_is_the_old_files_or_what_the_umask_leaves") {
   ::umask(before);
 }
 
-TEST_CASE("a_link_stays_and_its_file_is_replaced") {
+TEST_CASE("a_symbolic_link_remains_and_its_file_is_replaced") {
   const Folder folder;
   fs::create_directory(folder.path / "far");
   write_whole_file(folder.file("far/real.obj"), "old");

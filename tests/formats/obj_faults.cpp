@@ -1,4 +1,4 @@
-// Each fault of a file is told with its line and its word, and nothing worse happens.
+// Each fault of an OBJ file is reported with its line and word.
 #include <algorithm>
 
 #include "tests/formats/samples.h"
@@ -35,7 +35,7 @@ Fault fault_of(const std::string &text) {
   return {};
 }
 
-// Replaces the first `old`, and expects a fault in that line that says `wanted`.
+// Replaces the first `old`, and expects a fault in that line whose sentence contains `wanted`.
 void check_fault(const std::string &old, const std::string &instead, const std::string &wanted,
                  mvs_result code = MVS_E_FORMAT) {
   std::string text = good_text();
@@ -63,7 +63,7 @@ void check_face_fault(const std::string &line, const std::string &wanted) {
 
 }  // namespace
 
-TEST_CASE("coordinates_that_are_no_numbers_are_told") {
+TEST_CASE("invalid_coordinates_are_reported") {
   check_vertex_fault("v 1 2 1e999", "`1e999`");
   check_vertex_fault("v nan 2 3", "`nan` is not a number");
   check_vertex_fault("v 1 inf 3", "`inf`");
@@ -81,7 +81,7 @@ TEST_CASE("coordinates_that_are_no_numbers_are_told") {
   check_vertex_fault("v 1 2 " + std::string(65, '1'), "...`");
 }
 
-TEST_CASE("indices_of_nothing_are_told") {
+TEST_CASE("indices_out_of_range_are_reported") {
   check_face_fault("f 0 2 17", "`0` is not a vertex: the first one is 1");
   check_face_fault("f 1 2 69", "vertex `69` is not one of the 68 above");
   check_face_fault("f 1 2 -69", "vertex `-69` is none");
@@ -109,7 +109,7 @@ TEST_CASE("indices_of_nothing_are_told") {
   check_fault(" node=65", "", "lacks node=");
 }
 
-TEST_CASE("words_that_mean_nothing_are_told") {
+TEST_CASE("unknown_words_are_reported") {
   check_fault("\ng A A2", "\nfo 1 2 3\ng A A2", "`fo` is not a statement");
   check_fault("\ng A A2", "\nB A A2", "`B` is not a statement");
   check_fault("#mvs state", "#mvs stat", "#mvs `stat` is not known");
@@ -139,7 +139,7 @@ TEST_CASE("words_that_mean_nothing_are_told") {
   check_fault("leaflet name=A", "leaflet nome=A", "lacks name=");
 }
 
-TEST_CASE("groups_that_are_no_leaflet_are_told_at_their_first_face") {
+TEST_CASE("groups_that_are_not_leaflets_are_reported_at_their_first_face") {
   std::string text = good_text();
   const size_t at = text.find("\ng A A2");
   const int32_t face = line_of(text, at) + 2;
@@ -159,7 +159,7 @@ TEST_CASE("groups_that_are_no_leaflet_are_told_at_their_first_face") {
   check("\ns off", "in no group");
 }
 
-TEST_CASE("what_is_given_twice_or_in_the_wrong_place_is_told") {
+TEST_CASE("repeated_and_misplaced_statements_are_reported") {
   const auto twice = [](const std::string &word, const std::string &wanted) {
     std::string text = good_text();
     const size_t start = text.find("#mvs " + word);
@@ -214,7 +214,7 @@ TEST_CASE("versions_units_and_spaces_that_do_not_fit_are_told") {
         std::string::npos);
 }
 
-TEST_CASE("counts_that_are_wrong_are_told_without_believing_them") {
+TEST_CASE("wrong_counts_are_reported_without_allocating_them") {
   check_fault("end v=68", "end v=1000000000", "v=1000000000, but the file has 68 v lines");
   check_fault("end v=68", "end v=18446744073709551615", "but the file has 68");
   check_fault("end v=68", "end v=67", "lines were lost or added");
@@ -222,7 +222,7 @@ TEST_CASE("counts_that_are_wrong_are_told_without_believing_them") {
   check_fault("end v=68", "end v=68 x=1", "`x` is not known");
 }
 
-TEST_CASE("a_plain_obj_is_told_what_it_lacks") {
+TEST_CASE("a_plain_obj_is_refused_with_the_missing_statement") {
   const Fault plain = fault_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   CHECK(plain.code == MVS_E_FORMAT);
   CHECK(plain.line == 4);
@@ -237,7 +237,7 @@ TEST_CASE("a_plain_obj_is_told_what_it_lacks") {
   CHECK(fault_of("\x89PNG\r\n\x1a\n").message.find("`\\x89PNG`") != std::string::npos);
 }
 
-TEST_CASE("a_line_without_end_is_told") {
+TEST_CASE("an_overlong_line_is_reported") {
   const Fault fault = fault_of("# short\nv " + std::string(100000, '1'));
   CHECK(fault.code == MVS_E_FORMAT);
   CHECK(fault.line == 2);

@@ -1,4 +1,4 @@
-// JSON values: what is written is read back, and nothing that a file holds breaks the reader.
+// JSON values: written values are read back, and no input breaks the reader.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -22,7 +22,7 @@ Json sample() {
 
 }  // namespace
 
-TEST_CASE("values_are_read_back_as_they_were_written") {
+TEST_CASE("values_are_read_back_as_written") {
   for (const std::string &text : {sample().line(), sample().page()}) {
     const Json back = Json::parse(text);
     CHECK(back.line() == sample().line());
@@ -40,7 +40,7 @@ TEST_CASE("a_record_is_one_line") {
   CHECK(sample().line().find('\n') == std::string::npos);
 }
 
-TEST_CASE("every_cut_of_a_text_is_an_error_and_no_crash") {
+TEST_CASE("every_truncation_of_a_text_is_an_error_without_a_crash") {
   const std::string text = sample().page();
   for (size_t cut = 0; cut < text.size(); ++cut) {
     CAPTURE(cut);
@@ -48,13 +48,13 @@ TEST_CASE("every_cut_of_a_text_is_an_error_and_no_crash") {
   }
 }
 
-TEST_CASE("what_is_nested_without_end_is_refused") {
+TEST_CASE("unlimited_nesting_is_refused") {
   const std::string deep(1000000, '[');
   CHECK_THROWS_AS(Json::parse(deep), Error);
   CHECK_NOTHROW(Json::parse(std::string(60, '[') + std::string(60, ']')));
 }
 
-TEST_CASE("text_that_is_not_utf8_is_written_as_text_that_is") {
+TEST_CASE("text_that_is_not_utf8_is_written_as_utf8") {
   const std::string line = Json(std::string("a\xff\xfe")).line();
   CHECK_NOTHROW(Json::parse(line));
 }

@@ -1,7 +1,6 @@
 // Any bytes as an HDF5 file of libmvs: a clean error, or a tree and a session that survive writing
-// and reading.
-// No change gets past the checksum, so the bytes are tried a second time under a good one: that is
-// what a file made with intent looks like, and what our checks before HDF5's reading are for.
+// and reading. Every change is caught by the checksum, so the bytes are tried a second time under a
+// valid one: that models a file made with intent, and exercises the checks before HDF5 reads it.
 #include "tests/fuzz/fuzz.h"
 
 #include "formats/hdf5/tree.h"

@@ -1,4 +1,4 @@
-// The arrays inside a .vtp, decoded again. That VTK and meshio read it is checked in Python.
+// The arrays of a .vtp file, decoded again. Python tests check that VTK and meshio read it.
 #include <cstring>
 
 #include "tests/formats/samples.h"
@@ -20,7 +20,7 @@ std::string base64_decoded(std::string_view text) {
   return bytes;
 }
 
-// The numbers of the first array of this name behind `section`.
+// The numbers of the first array of this name after `section`.
 template <typename Number>
 std::vector<Number> array_of(const std::string &vtp, const std::string &section,
                              const std::string &name) {
@@ -63,7 +63,7 @@ TEST_CASE("every_node_triangle_and_chord_is_in_the_vtp") {
   CHECK(array_of<int64_t>(vtp, "Lines", "offsets").back() == int64_t(lines.size()));
 }
 
-TEST_CASE("cell_arrays_have_chords_first") {
+TEST_CASE("cell_arrays_list_chords_first") {
   const Pair pair = moving_valve();
   const Valve &valve = pair.model.valve;
   const size_t c = valve.chords.size(), m = valve.triangles.size();

@@ -1,5 +1,5 @@
-// Sessions: all of the history comes back to the bit and shared as it was, and no file, however it
-// is made, gives anything but a session or a clean error.
+// Session files: the whole history is restored to the bit and shared as it was, and any file gives
+// a session or a clean error.
 #ifdef MVS_HAVE_HDF5
 #include <mvs/tool.h>
 
@@ -131,7 +131,7 @@ std::string with_word(H5Tree tree, const char *array, size_t at, uint64_t word) 
 
 }  // namespace
 
-TEST_CASE("a_session_comes_back_to_the_bit") {
+TEST_CASE("a_session_is_restored_to_the_bit") {
   const Snapshot now = a_session();
   const std::string bytes = write_session(now, {});
   const Snapshot again = read_session(bytes);
@@ -150,11 +150,11 @@ TEST_CASE("a_session_comes_back_to_the_bit") {
   REQUIRE(again.history.checkpoints->size() == 2);
   CHECK(again.history.checkpoints->at(0).name == "short chord");
   CHECK(hash_of(again.history.checkpoints->at(1).at) == hash_of(now.history.checkpoints->at(1).at));
-  // whatever else there is would change the bytes
+  // equal bytes: no other part of the session changed
   CHECK(write_session(again, {}) == bytes);
 }
 
-TEST_CASE("a_loaded_session_goes_on_as_the_saved_one") {
+TEST_CASE("a_loaded_session_continues_as_the_saved_one") {
   Snapshot now = a_session(), again = read_session(write_session(now, {}));
   const mvs_op_chord_remove op = {{}, now.current.model->valve.chords[5].id};
   CHECK(hash_of(with_op(again, op, MVS_OP_CHORD_REMOVE).current) ==
@@ -211,7 +211,7 @@ TEST_CASE("a_session_of_another_version_is_refused") {
   }
 }
 
-TEST_CASE("what_live_steps_go_on_from_is_part_of_a_session") {
+TEST_CASE("the_cached_preconditioner_of_live_steps_is_part_of_a_session") {
   Snapshot now = start();
   State &state = now.current.state;
   Tool ball;
@@ -229,7 +229,7 @@ TEST_CASE("what_live_steps_go_on_from_is_part_of_a_session") {
   CHECK(outcome(write_session(now, {})) == MVS_E_FORMAT);
 }
 
-TEST_CASE("what_levels_share_is_shared_again") {
+TEST_CASE("arrays_shared_by_snapshots_are_shared_again") {
   const Snapshot again = read_session(write_session(a_session(), {}));
   std::set<const void *> triangles, rests, topologies;
   std::set<const Model *> models;
@@ -252,7 +252,7 @@ TEST_CASE("what_levels_share_is_shared_again") {
   CHECK(again.current.model == (*entries.back())->after.model);
 }
 
-TEST_CASE("a_level_costs_what_it_changed") {
+TEST_CASE("an_undo_level_in_a_file_takes_only_the_bytes_that_it_changed") {
   Snapshot now = start();
   const Id chord = now.current.model->valve.chords[1].id;
   const size_t empty = write_session(now, {}).size();
@@ -263,27 +263,27 @@ TEST_CASE("a_level_costs_what_it_changed") {
   }
   const size_t each = (write_session(now, {}).size() - empty) / levels;
   MESSAGE(each << " bytes a level of " << empty);
-  // two pictures, of 16 bytes more each since they count instruments and 8 since they say whether
-  // there are waypoints, a model, its 12 chords and the operation in words: 2018; positions would
-  // be 3264 bytes
+  // two snapshots, of 16 bytes more each for the instruments and 8 for the preconditioner flag, a
+  // model, its 12 chords and the operation in words: 2018; positions would be 3264 bytes
   CHECK(each < 2032);
   CHECK(hash_of(read_session(write_session(now, {})).history.past.items()[7][0]->after) ==
         hash_of(now.history.past.items()[7][0]->after));
 }
 
-TEST_CASE("numbers_that_are_none_are_not_saved") {
+TEST_CASE("infinity_and_nan_are_not_saved") {
   Snapshot now = start();
   now.current.state.x[5][1] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(write_session(now, {}), doctest::Contains("go back to an earlier state"));
 }
 
-// The checksum is good here: the reader itself has to notice, or to make a session of it.
+// The checksum is valid here: the reader itself has to detect the change, or to make a session of
+// it.
 TEST_CASE("any_changed_word_gives_a_session_or_a_clean_error") {
   const H5Tree tree = read_h5(write_session(a_session(), {}), "mvs", session_version);
   std::array<size_t, 2> seen{};
   for (const char *array : {"mvs/snapshot", "mvs/parts/values", "mvs/parts/ends"}) {
     const auto words = tree.at<uint64_t>(array);
-    // a prime step, so that every kind of word has its turn
+    // a prime stride, so that every kind of word is changed
     for (size_t k = 0; k<words.size(); k += words.size()> 400 ? 7 : 1) {
       for (const uint64_t word : {words[k] + 1, words[k] - 1, uint64_t{0}, ~uint64_t{0}}) {
         const mvs_result code = outcome(with_word(tree, array, k, word));

@@ -1,4 +1,4 @@
-// The container of HDF5 files: exact, the same bytes each time, and no damage that goes unnoticed.
+// The container of HDF5 files: exact, deterministic, and every damage is detected.
 #ifdef MVS_HAVE_HDF5
 #include <hdf5.h>
 
@@ -42,7 +42,7 @@ H5Tree with_other_groups() {
   return tree;
 }
 
-// Equal to the bit: 0.0 is not -0.0 here, and NaN is NaN.
+// Equal to the bit: 0.0 differs from -0.0, and NaN equals NaN.
 bool same(const H5Array &a, const H5Array &b) {
   if (a.columns != b.columns || a.values.index() != b.values.index()) return false;
   return std::visit(
@@ -60,7 +60,7 @@ bool same(const H5Array &a, const H5Array &b) {
       a.values);
 }
 
-// The code and sentence that reading ends with; MVS_OK and "" if it does not fail.
+// The code and sentence with which reading fails; MVS_OK and "" if it succeeds.
 struct Outcome {
   mvs_result code = MVS_OK;
   std::string sentence;
@@ -86,7 +86,7 @@ bool refused(const Outcome &found, mvs_result code, const char *words) {
   return found.code == code && found.sentence.find(words) != std::string::npos;
 }
 
-// A file as someone else might make it, with group mvs and a user block of `block` bytes.
+// A file as another program might write it, with group mvs and a user block of `block` bytes.
 std::string made_by_hand(const std::function<void(hid_t)> &fill, hsize_t block = envelope_bytes) {
   const char *const path = "made_by_hand.h5";
   const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
@@ -133,7 +133,7 @@ void add_doubles(
 
 }  // namespace
 
-TEST_CASE("an_hdf5_tree_comes_back_to_the_bit") {
+TEST_CASE("an_hdf5_tree_is_read_back_to_the_bit") {
   const H5Tree tree = every_type();
   const H5Tree found = read_h5(write_h5(with_other_groups(), 7), "mvs", 7);
   CHECK(found.arrays.size() == tree.arrays.size());
@@ -150,9 +150,9 @@ TEST_CASE("an_hdf5_tree_comes_back_to_the_bit") {
                     "array mvs/x of the file has another type than it should");
 }
 
-TEST_CASE("equal_trees_are_equal_bytes") {
+TEST_CASE("equal_trees_give_equal_bytes") {
   const std::string first = write_h5(with_other_groups(), 1);
-  // memory that was used before must not be seen in the file
+  // uninitialised memory must not get into the file
   for (const char used : {'a', 'b'}) {
     std::vector<std::string> blocks;
     for (size_t size = 16; size < size_t{1} << 22; size += size / 3)
@@ -163,7 +163,7 @@ TEST_CASE("equal_trees_are_equal_bytes") {
   CHECK(write_h5(with_other_groups(), 2) != first);
 }
 
-// The parts of HDF5 that most of its faults were found in are not in our files.
+// Files contain neither B-trees nor heaps, the parts of HDF5 with most of its defects.
 TEST_CASE("a_file_has_no_trees_and_no_heaps") {
   H5Tree tree = every_type();
   for (int k = 0; k < 300; ++k) {
@@ -177,7 +177,7 @@ TEST_CASE("a_file_has_no_trees_and_no_heaps") {
   }
 }
 
-TEST_CASE("hdf5_tells_us_and_not_the_hosts_handler") {
+TEST_CASE("hdf5_errors_are_returned_and_do_not_reach_the_hosts_handler") {
   const auto count = [](hid_t, void *told) {
     ++*static_cast<int *>(told);
     return 0;
@@ -191,13 +191,13 @@ TEST_CASE("hdf5_tells_us_and_not_the_hosts_handler") {
   seal(bytes, 1);
   CHECK(refused(outcome(bytes), MVS_E_FORMAT, "file signature not found"));
   CHECK(told == 0);
-  // the handler is there again
+  // the host's handler is restored
   CHECK(H5Fclose(-1) < 0);
   CHECK(told == 1);
   H5Eset_auto2(H5E_DEFAULT, before, data_before);
 }
 
-TEST_CASE("an_hdf5_file_cut_anywhere_is_noticed") {
+TEST_CASE("an_hdf5_file_cut_anywhere_is_refused") {
   const std::string bytes = write_h5(every_type(), 1);
   CHECK(outcome(bytes).code == MVS_OK);
   for (size_t size = 0; size < bytes.size(); ++size) {
@@ -209,7 +209,7 @@ TEST_CASE("an_hdf5_file_cut_anywhere_is_noticed") {
   CHECK(refused(outcome(bytes + "x"), MVS_E_FORMAT, "longer than it should be, by 1 bytes"));
 }
 
-TEST_CASE("any_changed_byte_of_an_hdf5_file_is_noticed") {
+TEST_CASE("any_changed_byte_of_an_hdf5_file_is_detected") {
   std::string bytes = write_h5(every_type(), 1);
   for (char &byte : bytes) {
     const char before = byte;
@@ -222,7 +222,7 @@ TEST_CASE("any_changed_byte_of_an_hdf5_file_is_noticed") {
   CHECK(outcome(bytes).code == MVS_OK);
 }
 
-TEST_CASE("an_hdf5_file_of_another_version_is_named_as_such") {
+TEST_CASE("an_hdf5_file_of_another_version_is_refused_with_that_reason") {
   const std::string newer = write_h5(every_type(), 2);
   CHECK(outcome(newer, 2).code == MVS_OK);
   CHECK(refused(outcome(newer, 3), MVS_E_VERSION, "has version 2, this libmvs reads version 3"));
@@ -230,7 +230,7 @@ TEST_CASE("an_hdf5_file_of_another_version_is_named_as_such") {
   CHECK(refused(outcome(write_h5(every_type(), 0)), MVS_E_VERSION, "version 0"));
 }
 
-TEST_CASE("a_foreign_file_is_named_as_such") {
+TEST_CASE("a_foreign_file_is_refused_with_that_reason") {
   CHECK(refused(outcome(""), MVS_E_FORMAT, "the file is empty"));
   CHECK(refused(outcome("v 0 0 0\n"), MVS_E_FORMAT, "not an HDF5 file of libmvs"));
   std::string text_mode = write_h5(every_type(), 1);
@@ -242,7 +242,8 @@ TEST_CASE("a_foreign_file_is_named_as_such") {
   }
 }
 
-// What libmvs never writes is refused before HDF5 reads it, whatever the checksum says.
+// Structures that libmvs never writes are refused before HDF5 reads them, even under a valid
+// checksum.
 TEST_CASE("arrays_that_are_not_plain_are_refused") {
   const auto of = [](const std::function<void(hid_t)> &fill) { return outcome(sealed(fill)); };
   CHECK(of([](hid_t g) { add_doubles(g, {5, 3}); }).code == MVS_OK);
@@ -282,7 +283,7 @@ TEST_CASE("arrays_that_are_not_plain_are_refused") {
   CHECK(refused(of([](hid_t g) { add_array(g, "x", H5T_C_S1, {4}); }), MVS_E_FORMAT, "type"));
 }
 
-TEST_CASE("links_to_elsewhere_are_refused") {
+TEST_CASE("external_soft_and_repeated_links_are_refused") {
   const auto of = [](const std::function<void(hid_t)> &fill) { return outcome(sealed(fill)); };
   CHECK(refused(of([](hid_t g) { H5Lcreate_soft("/mvs", g, "x", H5P_DEFAULT, H5P_DEFAULT); }),
                 MVS_E_FORMAT, "link to elsewhere"));
@@ -314,7 +315,7 @@ TEST_CASE("links_to_elsewhere_are_refused") {
 #include "base/error.h"
 #include "formats/hdf5/tree.h"
 
-TEST_CASE("a_build_without_hdf5_says_so") {
+TEST_CASE("a_build_without_hdf5_reports_it") {
   const char *const sentence =
       "this libmvs was built without HDF5: use OBJ, or build it with -DMVS_HDF5=ON";
   CHECK_THROWS_WITH_AS(mvs::core::write_h5({}, 1), sentence, mvs::core::Error);

@@ -1,4 +1,4 @@
-// Decimal text: every double comes back from it bit for bit, at every shift of the point.
+// Decimal text: every double is read back bit for bit, at every shift of the decimal point.
 #include <bit>
 #include <clocale>
 #include <cmath>
@@ -31,7 +31,7 @@ bool is_number(std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("every_double_comes_back_at_every_shift") {
+TEST_CASE("every_double_is_read_back_at_every_shift") {
   RandomBits random(1);
   size_t lost = 0;
   for (int k = 0; k < 1000000; ++k) {
@@ -41,7 +41,7 @@ TEST_CASE("every_double_comes_back_at_every_shift") {
   CHECK(lost == 0);
 }
 
-TEST_CASE("the_extremes_come_back_at_every_shift") {
+TEST_CASE("the_extremes_are_read_back_at_every_shift") {
   using Limits = std::numeric_limits<double>;
   for (const double value :
        {0.0, Limits::denorm_min(), Limits::min(), Limits::max(), 0.1, 1e-3, 1e3, 1e22, 1e23,
@@ -83,7 +83,7 @@ TEST_CASE("text_is_the_shortest_and_its_point_is_moved") {
   CHECK(text_of(std::numeric_limits<double>::max(), 3) == "1.7976931348623157e311");
 }
 
-TEST_CASE("other_ways_to_write_a_number_are_read") {
+TEST_CASE("other_notations_of_a_number_are_read") {
   struct Written {
     const char *text;
     double expected;
@@ -103,7 +103,7 @@ TEST_CASE("other_ways_to_write_a_number_are_read") {
   }
 }
 
-TEST_CASE("what_is_no_number_is_refused") {
+TEST_CASE("text_that_is_not_a_number_is_refused") {
   for (const std::string text : {"",
                                  "-",
                                  "+",
@@ -144,7 +144,7 @@ TEST_CASE("what_is_no_number_is_refused") {
   CHECK_FALSE(is_number(std::string(65, '1')));
 }
 
-TEST_CASE("the_locale_changes_nothing") {
+TEST_CASE("the_locale_has_no_effect") {
   struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }

@@ -1,8 +1,8 @@
 // Any bytes as a script of operations, tools, undo, redo, settle, step, save and load, checkpoints:
-// every call succeeds or leaves all bits as they were, undo and redo are exact, undoing everything
-// gives the first valve, no move leaves a number that is none or makes triangles or tools cross,
-// and the plan of it all leads to the same bits. Without libFuzzer: `fuzz_ops SCRIPTS [FIRST]`, so
-// many random scripts from number FIRST on.
+// every call succeeds or leaves all bits unchanged, undo and redo are exact, undoing everything
+// gives the first valve, no move produces NaN or makes triangles or tools cross, and the plan of
+// the script leads to the same bits. Without libFuzzer: `fuzz_ops SCRIPTS [FIRST]` runs that many
+// random scripts from number FIRST on.
 #include <mvs/mvs.hpp>
 #include <mvs/tool.hpp>
 
@@ -34,7 +34,7 @@ void demand(bool condition, const char *what) {
   std::abort();
 }
 
-// A simulator, and what is known about its history.
+// A simulator, and the hashes expected from its history.
 class Script {
  public:
   explicit Script(const uint8_t *data, size_t size) : bytes_(data, size) {
@@ -94,7 +94,7 @@ class Script {
     }
   }
 
-  // Check and apply agree; a refusal changes nothing; undo gives what was before, redo what was
+  // Check and apply agree; a refusal changes nothing; undo restores the hash before, redo the hash
   // after.
   void operate() {
     const mvs::Snapshot valve = sim_.snapshot();
@@ -144,7 +144,7 @@ class Script {
 
   std::vector<mvs_tool_state> tools() const { return mvs::tools_of(sim_.snapshot()); }
 
-  // One that there is, seldom another.
+  // An existing tool, rarely another id.
   mvs_id some_tool() {
     const std::vector<mvs_tool_state> all = tools();
     if (all.empty() || bytes_.below(16) == 0) return (mvs_id{1} << 48) + bytes_.below(9);
@@ -155,7 +155,7 @@ class Script {
     return {bytes_.between(-0.03, 0.03), bytes_.between(-0.03, 0.03), bytes_.between(-0.03, 0.03)};
   }
 
-  // A grasp of some node, or a ball or rod somewhere, mostly in range.
+  // A grasp of a node, or a ball or rod at a place, mostly in range.
   void add_tool() {
     mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
     desc.kind = bytes_.below(16) == 0 ? bytes_.below(6) : 1 + bytes_.below(3);
@@ -176,7 +176,7 @@ class Script {
     demand(hash() == before, "a refused tool changed something");
   }
 
-  // Some steps with one hand or several that go on a way, or leap.
+  // Steps with one hand or several that follow a path, or jump.
   void lead() {
     for (uint32_t steps = 1 + bytes_.below(4); steps > 0; --steps) {
       for (uint32_t hands = bytes_.below(3); hands > 0; --hands) move_hand();
@@ -221,7 +221,8 @@ class Script {
            "the plan does not lead to the same bits");
   }
 
-  // What crosses after a move crossed before it: operations may make triangles cross, moves not.
+  // Triangles that cross after a move crossed before it: operations may create crossings, moves
+  // not.
   template <typename Call>
   void move(Call &&call) {
     const std::vector<stability::Pair> before = crossing();
@@ -243,17 +244,17 @@ class Script {
     return stability::crossings(x.data(), x.rows(), triangles.data(), triangles.rows());
   }
 
-  // An operation may make a valve whose forces overflow; that is told, and changes nothing.
+  // An operation may make a valve whose forces overflow; that is reported, and changes nothing.
   void tolerate(mvs_result result) {
     demand(result == MVS_OK || result == MVS_E_DIVERGED, mvs_last_error()->message);
   }
 
-  // A copy made by way of a file goes on to the same bits.
+  // A copy made through a file continues with the same bits.
   void save_and_load() {
-    step();  // with which hands are where they want to be: files do not have that
+    step();  // stores the positions of the hands: files do not hold pending moves
     const mvs::Snapshot valve = sim_.snapshot();
     mvs::Sim copy;
-    // OBJ files know neither tools nor that there were some
+    // OBJ files hold neither tools nor the next tool id
     const bool wants_whole = bytes_.below(2) == 1 || had_tools_;
     const bool whole = wants_whole && std::strstr(mvs_features(), "hdf5");
     if (wants_whole && !whole) return;
@@ -265,7 +266,7 @@ class Script {
            "the copy does not step as the original does");
     demand(copy.snapshot().hash() == sim_.snapshot().hash(), "the copy went another way");
     if (!whole) return;
-    // a file of the second kind has the history too
+    // a session file has the history too
     undo();
     demand(mvs_undo(copy.get()) == MVS_OK || history().done == 0, "the copy has no history");
     demand(copy.snapshot().hash() == sim_.snapshot().hash(), "the copy undid something else");
@@ -292,9 +293,9 @@ class Script {
   mvs_parametric_desc desc_ = {};
   Bytes bytes_;
   bool replays_ = false, had_tools_ = false;
-  Hash first_{};            // what undoing everything has to give: before the first operation
-  Hash undone_{};           // the same for what can be redone from there
-  std::vector<Hash> kept_;  // of the checkpoint: its own, and both of the above
+  Hash first_{};   // expected after undoing everything: the hash before the first operation
+  Hash undone_{};  // the same for the operations that can be redone from there
+  std::vector<Hash> kept_;  // of the checkpoint: its hash, and both of the above
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
-// Files cut, spoiled and out of memory: a clean error or a good valve, never anything else.
-// The four sweeps of ufbx: truncate at every byte, change every byte, lose every line, fail every
-// allocation.
+// Damaged OBJ files and failing allocations: always a clean error or a valid valve. The four sweeps
+// of ufbx: truncate at every byte, change every byte, remove every line, fail every allocation.
 #include <array>
 #include <cstdlib>
 #include <new>
@@ -12,7 +11,7 @@ using namespace mvs::core;
 
 namespace {
 
-// Allocations until one fails, counted in this program only while a test says so.
+// Allocations until one fails, counted only while a test asks for it.
 long allocations_left = -1;
 long allocations_alive = 0;
 
@@ -36,7 +35,7 @@ std::string small_text() {
   return write_obj(pair.model, pair.state);
 }
 
-// What becomes of a text: MVS_OK, or the code of a clean error.
+// Reads a text; returns MVS_OK, or the code of a clean error.
 mvs_result outcome(std::string_view text) {
   try {
     const Loaded loaded = read_obj(text);
@@ -59,8 +58,8 @@ std::vector<std::string> lines_of(const std::string &text) {
   return lines;
 }
 
-// Runs `work` with the first, the second, ... allocation failing, until it needs no more. Errors of
-// the work itself are as good as success.
+// Runs `work` with the first, the second, ... allocation failing, until none fails. Errors of the
+// work itself count as success.
 template <typename Work>
 long fail_every_allocation(Work work) {
   for (long n = 0;; ++n) {
@@ -88,7 +87,7 @@ void *operator new(size_t size) {
 void *operator new[](size_t size) {
   return allocate(size);
 }
-// std::stable_sort asks for its buffer in this way
+// std::stable_sort allocates its buffer through this operator
 void *operator new(size_t size, const std::nothrow_t &) noexcept {
   try {
     return allocate(size);
@@ -109,9 +108,9 @@ void operator delete[](void *memory, size_t) noexcept {
   release(memory);
 }
 
-TEST_CASE("a_file_cut_at_any_byte_is_noticed") {
+TEST_CASE("a_file_truncated_at_any_byte_is_refused") {
   const std::string text = small_text();
-  // without its last line end the file still says all
+  // without its last line end the file is complete
   CHECK(outcome(text) == MVS_OK);
   CHECK(outcome(std::string_view(text).substr(0, text.size() - 1)) == MVS_OK);
   for (size_t size = 0; size + 1 < text.size(); ++size) {
@@ -120,7 +119,7 @@ TEST_CASE("a_file_cut_at_any_byte_is_noticed") {
   }
 }
 
-TEST_CASE("a_lost_or_repeated_line_is_noticed") {
+TEST_CASE("a_missing_or_repeated_line_is_refused") {
   const std::vector<std::string> lines = lines_of(small_text());
   for (size_t changed = 0; changed < lines.size(); ++changed) {
     if (lines[changed].starts_with("# ")) continue;
@@ -154,15 +153,15 @@ TEST_CASE("any_changed_byte_gives_a_valve_or_a_clean_error") {
   CHECK(seen[1] > 0);
 }
 
-TEST_CASE("any_allocation_may_fail") {
+TEST_CASE("any_allocation_of_obj_files_may_fail") {
   const Pair pair = moving_valve();
   const std::string text = write_obj(pair.model, pair.state);
   const std::string bad = text.substr(0, text.size() / 2);
   const std::vector<VtpArray> arrays = {
       {"points", true, 1, std::vector<double>(pair.model.node_count(), 1.5)}};
   const std::string path = "any_allocation_may_fail.obj";
-  // each has so many allocations at least: fewer would mean that nothing was tested; write_obj
-  // reserves the whole text at once
+  // the minimum number of allocations: fewer would mean that nothing was tested; write_obj reserves
+  // the whole text at once
   CHECK(fail_every_allocation([&] { read_obj(text); }) > 50);
   CHECK(fail_every_allocation([&] { read_obj(bad); }) > 50);
   CHECK(fail_every_allocation([&] { write_obj(pair.model, pair.state); }) > 0);
@@ -180,7 +179,7 @@ TEST_CASE("any_allocation_of_an_hdf5_file_may_fail") {
   tree.arrays["other/names"] = {std::vector<std::string>{"A", "P"}};
   tree.attributes[{"other", "text"}] = {"a text that no short string holds in itself"};
   const std::string bytes = write_h5(tree, 1);
-  // HDF5 itself takes its memory from malloc, which does not fail here
+  // HDF5 allocates by malloc, which does not fail here
   CHECK(fail_every_allocation([&] { write_h5(tree, 1); }) > 5);
   CHECK(fail_every_allocation([&] { read_h5(bytes, "mvs", 1); }) > 4);
   CHECK(write_h5(tree, 1) == bytes);

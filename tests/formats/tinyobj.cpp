@@ -1,4 +1,4 @@
-// tinyobjloader, where Debian's libtinyobjloader-dev is installed, finds the same valve in our OBJ.
+// tinyobjloader, if Debian's libtinyobjloader-dev is installed, reads the same valve from our OBJ.
 #if __has_include(<tiny_obj_loader.h>)
 #define TINYOBJLOADER_IMPLEMENTATION
 #define TINYOBJLOADER_USE_DOUBLE
@@ -19,7 +19,7 @@ TEST_CASE("tinyobjloader_reads_nodes_faces_groups_and_chordae") {
   const std::vector<double> &places = reader.GetAttrib().vertices;
   REQUIRE(places.size() == 3 * valve.rest.size());
   for (size_t k = 0; k < places.size(); ++k) {
-    // its own decimal parser is good to a few units in the last place
+    // its own decimal parser is accurate to a few units in the last place
     const double wanted = pair.state.x[k / 3][static_cast<int>(k % 3)] * 1e3;
     CHECK(std::abs(places[k] - wanted) <=
           8 * std::numeric_limits<double>::epsilon() * std::abs(wanted));

@@ -1,4 +1,4 @@
-// Every fault of Abaqus input is told with its line and a sentence.
+// Every fault of Abaqus input is reported with its line and a sentence.
 #include "tests/formats/inp_text.h"
 
 using namespace mvs::core;
@@ -28,7 +28,8 @@ void check_text(const std::string &text, int32_t line, const std::string &wanted
   CHECK(fault.sentence.find(wanted) != std::string::npos);
 }
 
-// Changes what stands in one place, and expects a fault in its first line (plus `below`).
+// Changes a piece of text that occurs in one place, and expects a fault in its first line (plus
+// `below`).
 void check_fault(const std::string &old, const std::string &with, const std::string &wanted,
                  int32_t below = 0) {
   CAPTURE(with);
@@ -148,7 +149,7 @@ TEST_CASE("inp_faults_of_the_whole") {
              "has 11 of its 12 nodes prescribed, but not node 112");
   check_text(toy_with("Sheet-1.Heads, ENCASTRE", "Sheet-1.901, ENCASTRE"),
              toy_line("103, 902, 912"), "reach no papillary head");
-  // a free edge that is held as well
+  // a free edge with prescribed nodes
   check_text(toy_with("Sheet-1.Heads, ENCASTRE",
                       "Sheet-1.Heads, ENCASTRE\n301, PINNED\n302, PINNED\n303, PINNED\n"
                       "304, PINNED\n305, PINNED\n306, PINNED\n307, PINNED\n308, PINNED\n"
@@ -159,7 +160,7 @@ TEST_CASE("inp_faults_of_the_whole") {
 
 namespace {
 
-// A valve, or a clean error.
+// Returns a valve, or a clean error.
 void check_outcome(const std::string &text) {
   try {
     const Imported imported = read_inp(text);
@@ -183,7 +184,7 @@ TEST_CASE("inp_any_cut_or_changed_byte_gives_a_valve_or_a_clean_error") {
   }
 }
 
-TEST_CASE("inp_any_lost_line_gives_a_valve_or_a_clean_error") {
+TEST_CASE("inp_any_missing_line_gives_a_valve_or_a_clean_error") {
   const std::string text = toy_inp();
   for (size_t at = 0; at < text.size();) {
     const size_t stop = text.find('\n', at) + 1;

@@ -1,4 +1,4 @@
-// Abaqus input to a valve: what of the toy of three leaflets has to come out.
+// Abaqus input to a valve: import of the toy valve of three leaflets.
 #include <mvs/sim.h>
 #include <mvs/valve.h>
 
@@ -56,7 +56,7 @@ TEST_CASE("inp_quads_are_split_along_their_shorter_diagonal") {
   CHECK(corners.contains(second < first ? 1 : 13));
 }
 
-TEST_CASE("inp_the_longer_diagonal_is_no_edge") {
+TEST_CASE("inp_the_longer_diagonal_is_never_an_edge") {
   // node 202 moved towards 101 makes the diagonal from 101 to 202 the shorter one
   const std::string text = toy_with("202, 8.660254, 5.000000, -5.0", "202, 10.5, 3., -3.5");
   const Valve valve = read_inp(text).loaded.valve;
@@ -102,7 +102,7 @@ TEST_CASE("inp_normals_point_into_the_atrium_and_the_pressure_comes_from_below")
         doctest::Approx(-3000).epsilon(rounding));
 }
 
-TEST_CASE("inp_a_sheet_wound_the_other_way_is_the_same_valve") {
+TEST_CASE("inp_a_sheet_of_the_other_winding_gives_the_same_valve") {
   std::string text = toy_inp();
   // one element against all others: the first one
   const std::string piece = "\n1, 101, 201, 202, 102\n";
@@ -110,11 +110,11 @@ TEST_CASE("inp_a_sheet_wound_the_other_way_is_the_same_valve") {
   const Imported imported = read_inp(text);
   CHECK(make_model(imported.loaded.valve)->valve.triangles.size() == 48);
   CHECK(has_note(imported, "46 of 48 triangles turned"));
-  // its pressure is against that of the others, which is said
+  // its pressure opposes that of the others, which is reported
   CHECK(has_note(imported, "the pressure is not the same everywhere (-3000 to 3000 Pa"));
 }
 
-TEST_CASE("inp_the_annulus_is_the_prescribed_loop_and_goes_where_the_file_says") {
+TEST_CASE("inp_the_annulus_is_the_prescribed_loop_and_moves_to_the_files_positions") {
   const Valve valve = toy();
   REQUIRE(valve.annulus.size() == 12);
   for (uint32_t k = 0; k < 12; ++k) {
@@ -136,7 +136,7 @@ TEST_CASE("inp_chains_of_trusses_are_cables_with_their_slack") {
   CHECK(trunk.constants[0] == doctest::Approx(4e6).epsilon(rounding));
   CHECK(trunk.constants[1] == 50);
   CHECK(trunk.constants[5] == 70);
-  // the way by node 911, from the coordinates of the file
+  // the path by node 911, from the coordinates of the file
   const Vec3 head = valve.rest[36], branch = valve.rest[39];
   const Vec3 between(3.5e-3, head.y(), -19.5e-3);
   CHECK(trunk.rest_length ==
@@ -150,7 +150,7 @@ TEST_CASE("inp_chains_of_trusses_are_cables_with_their_slack") {
 }
 
 TEST_CASE("inp_two_cables_between_the_same_ends_keep_their_nodes") {
-  // a second way from head 901 to branch point 921, by node 999
+  // a second path from head 901 to branch point 921, by node 999
   const Imported imported = read_inp(toy_with("*ELEMENT, TYPE=T3D2, ELSET=Thin",
                                               "190, 901, 999\n191, 999, 921\n"
                                               "*ELEMENT, TYPE=T3D2, ELSET=Thin"));
@@ -178,7 +178,7 @@ TEST_CASE("inp_fibres_are_the_first_local_direction_in_the_plane") {
   }
 }
 
-TEST_CASE("inp_contact_is_reduced_where_elements_are_smaller_than_the_shell_is_thick") {
+TEST_CASE("inp_contact_is_reduced_where_elements_are_smaller_than_the_shell_thickness") {
   CHECK(read_inp(toy_inp()).loaded.valve.contact_thickness == 0.8e-3);
   // a hundredth of the shortest line of each element
   const Imported reduced = read_inp(toy_with("maxratio=0.6", "maxratio=0.01"));
@@ -187,7 +187,7 @@ TEST_CASE("inp_contact_is_reduced_where_elements_are_smaller_than_the_shell_is_t
   CHECK(has_note(reduced, "which reduces 26 of 26 shells"));
 }
 
-TEST_CASE("inp_whatever_is_left_out_is_listed_with_its_line") {
+TEST_CASE("inp_every_ignored_keyword_is_listed_with_its_line") {
   const Imported imported = read_inp(toy_inp());
   for (const char *piece :
        {"*Transverse Shear", "*Friction", "*Dynamic", "*Output, field", "*Surface Behavior"}) {
@@ -208,7 +208,7 @@ TEST_CASE("inp_whatever_is_left_out_is_listed_with_its_line") {
   CHECK(has_note(element, "an element of type `C3D4` is left out"));
 }
 
-TEST_CASE("inp_a_set_of_nodes_may_be_that_of_elements") {
+TEST_CASE("inp_a_node_set_may_be_defined_by_elements") {
   // the nodes of elements on the annulus, and those alone, by their numbers
   const Valve plain = read_inp(toy_inp()).loaded.valve;
   const Valve same = read_inp(toy_with("*NSET, NSET=Held\nAnnulus, HEADS",
@@ -218,7 +218,7 @@ TEST_CASE("inp_a_set_of_nodes_may_be_that_of_elements") {
   CHECK(same.rest == plain.rest);
 }
 
-TEST_CASE("inp_units_are_what_the_file_says_in_a_comment") {
+TEST_CASE("inp_units_are_those_of_a_comment_in_the_file") {
   const Loaded mpa = read_inp(toy_inp()).loaded;
   // the same valve in mm and kPa, so that the unit of mass is 1 kg
   const std::string text =
@@ -248,7 +248,7 @@ TEST_CASE("inp_units_are_what_the_file_says_in_a_comment") {
   CHECK(hash_of(*make_model(same.valve), same.state) == hash_of(*make_model(mpa.valve), mpa.state));
 }
 
-TEST_CASE("inp_line_ends_case_and_blanks_change_nothing") {
+TEST_CASE("inp_line_ends_case_and_blanks_have_no_effect") {
   const Loaded plain = read_inp(toy_inp()).loaded;
   std::string text;
   for (const char c : toy_inp()) {
@@ -262,7 +262,7 @@ TEST_CASE("inp_line_ends_case_and_blanks_change_nothing") {
   CHECK(other.valve.loaded == plain.valve.loaded);
 }
 
-TEST_CASE("inp_a_file_without_parts_and_steps_that_add_to_the_model") {
+TEST_CASE("inp_a_file_may_have_no_parts_and_steps_that_extend_the_model") {
   std::stringstream text;
   text << std::ifstream(MVS_SOURCE_DIR "/tests/fuzz/corpus_inp/flat.inp").rdbuf();
   const Loaded loaded = read_inp(text.str()).loaded;
@@ -279,7 +279,7 @@ TEST_CASE("inp_a_file_without_parts_and_steps_that_add_to_the_model") {
   CHECK(valve.density == 1060);
 }
 
-TEST_CASE("inp_a_step_with_op_new_starts_over") {
+TEST_CASE("inp_a_step_with_op_new_replaces_earlier_conditions") {
   // a second step that holds the same nodes elsewhere, and loads less
   const Imported imported =
       read_inp(toy_inp() +
@@ -294,7 +294,7 @@ TEST_CASE("inp_a_step_with_op_new_starts_over") {
                  "a node that is held in some directions is held in all of them (6 times)"));
 }
 
-TEST_CASE("inp_the_texas_tricuspid_valve_is_a_valve") {
+TEST_CASE("inp_the_texas_tricuspid_valve_is_imported") {
   const char *folder = std::getenv("MVS_TEST_DATA");
   const std::string path = (folder ? std::string(folder) : MVS_SOURCE_DIR "/../shared/data") +
                            "/texas_trivalve_1.1_healthy/Healthy_QuasiStatic.inp";
@@ -304,7 +304,7 @@ TEST_CASE("inp_the_texas_tricuspid_valve_is_a_valve") {
   }
   const Imported imported = read_inp(read_whole_file(path));
   const Valve valve = make_model(imported.loaded.valve)->valve;
-  // what the data set's README says of the file
+  // stated in the README of the data set
   CHECK(valve.triangles.size() == 2 * 8283);
   CHECK(valve.annulus.size() == 244);
   CHECK(valve.heads.size() == 32);

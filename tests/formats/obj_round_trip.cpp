@@ -1,4 +1,4 @@
-// What is written is read back bit for bit, whatever the bits are.
+// OBJ files: written values are read back bit for bit, for any bits.
 #include <cstring>
 
 #include "tests/formats/samples.h"
@@ -71,7 +71,7 @@ void check_same(const Valve &a, const State &x, const Valve &b, const State &y) 
 
 }  // namespace
 
-TEST_CASE("any_valve_and_state_come_back_bit_for_bit") {
+TEST_CASE("any_valve_and_state_are_read_back_bit_for_bit") {
   for (uint64_t seed = 0; seed < 2000; ++seed) {
     CAPTURE(seed);
     const Pair pair = random_pair(seed);
@@ -89,7 +89,7 @@ TEST_CASE("a_loaded_valve_has_the_hash_of_the_saved_one") {
   CHECK(write_obj(back.model, back.state) == text);
 }
 
-TEST_CASE("what_live_steps_go_on_from_comes_back") {
+TEST_CASE("the_cached_preconditioner_of_live_steps_is_read_back") {
   Pair pair = moving_valve();
   State &state = pair.state;
   state.serving = {pair.model.valve.rest, {}, 12e3, 1e-3, 0.5, 9};
@@ -99,7 +99,7 @@ TEST_CASE("what_live_steps_go_on_from_comes_back") {
     const Pair back = complete(read_obj(text));
     CHECK(hash_of(back.model, back.state) == hash_of(pair.model, state));
     CHECK(write_obj(back.model, back.state) == text);
-    // a place less, or one too many
+    // an element less, or one too many
     const std::string word = both ? "#mvs coming_place" : "#mvs serving_place";
     const size_t at = text.rfind(word), end = text.find('\n', at) + 1;
     std::string twice = text;
@@ -110,7 +110,7 @@ TEST_CASE("what_live_steps_go_on_from_comes_back") {
   }
 }
 
-TEST_CASE("line_ends_and_blanks_of_other_systems_change_nothing") {
+TEST_CASE("line_ends_and_blanks_of_other_systems_have_no_effect") {
   const Pair pair = moving_valve();
   const std::string text = write_obj(pair.model, pair.state);
   const auto hash = hash_of(pair.model, pair.state);
@@ -125,7 +125,7 @@ TEST_CASE("line_ends_and_blanks_of_other_systems_change_nothing") {
   }
 }
 
-TEST_CASE("statements_of_other_programs_change_nothing") {
+TEST_CASE("statements_of_other_programs_have_no_effect") {
   const Pair pair = moving_valve();
   std::string text = write_obj(pair.model, pair.state);
   const size_t first = text.find("\nv ") + 1;
@@ -137,7 +137,7 @@ TEST_CASE("statements_of_other_programs_change_nothing") {
   CHECK(hash_of(back.model, back.state) == hash_of(pair.model, pair.state));
 }
 
-TEST_CASE("colours_normals_and_indices_from_the_end_are_understood") {
+TEST_CASE("colours_normals_and_negative_indices_are_read") {
   const std::string head = "#mvs 1 units=mm\n#mvs leaflet name=A\n";
   const std::string tail = "#mvs end v=3 f=4 l=1 g=1 mvs=3\n";
   const Loaded loaded = read_obj(head +
@@ -154,7 +154,7 @@ TEST_CASE("colours_normals_and_indices_from_the_end_are_understood") {
   CHECK(valve.chords[1].b == 2);
 }
 
-TEST_CASE("the_writer_refuses_what_is_not_finite") {
+TEST_CASE("the_writer_refuses_infinity_and_nan") {
   Pair pair = moving_valve();
   pair.state.x[3][1] = std::nan("");
   try {

@@ -1,4 +1,5 @@
-// The files of today are those of yesterday, and the document says what the code does.
+// Golden files: the writers produce the checked-in bytes, and the document states the defaults of
+// the code.
 #include "formats/text/decimal.h"
 #include "tests/formats/samples.h"
 
@@ -18,7 +19,7 @@ std::string decimal(double value, int shift = 0) {
 
 // valve.obj is in_motion() as the writer first wrote it; a change of these bytes is a change of the
 // format.
-TEST_CASE("the_golden_files_are_what_the_writers_make") {
+TEST_CASE("the_writers_produce_the_golden_files") {
   const std::string text = read_whole_file(data + "valve.obj");
   const Pair pair = complete(read_obj(text));
   CHECK(write_obj(pair.model, pair.state) == text);
