@@ -29,14 +29,8 @@ class ObjReader {
   void version(std::string_view word, Line &line);
   void valve(Line &line);
   void state(Line &line);
-  template <size_t k>
-  void waypoint(Line &line);
-  template <size_t k>
-  void waypoint_place(Line &line);
-  PreconditionerKey &waypoint_of(size_t k) {
-    return k == 0 ? out_.state.serving : out_.state.coming;
-  }
-  void check_waypoints(const Line &last);
+  void solver_cache(Line &line);
+  void solver_cache_data(Line &line);
   void leaflet(Line &line);
   void scallop(Line &line);
   void rest(Line &line);
@@ -65,7 +59,6 @@ class ObjReader {
   struct Given {
     bool rest = false, open = false, loaded = false, origin = false, velocity = false;
     bool thickness = false, chord = false;
-    std::array<bool, 2> place = {};  // of a waypoint
   };
   struct Counts {
     uint64_t vertices = 0, faces = 0, lines = 0, groups = 0, records = 0;
@@ -79,7 +72,7 @@ class ObjReader {
   Given given_;
   Counts counts_;
   bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
-  std::array<bool, 2> has_waypoint_ = {};
+  uint64_t cache_size_ = 0;  // numbers that the solver cache says it has; 0: no cache
 };
 
 template <typename Item>
