@@ -43,14 +43,8 @@ class ObjReader {
   void version(std::string_view word, Line &line);
   void valve(Line &line);
   void state(Line &line);
-  template <size_t k>
-  void waypoint(Line &line);
-  template <size_t k>
-  void waypoint_place(Line &line);
-  PreconditionerKey &waypoint_of(size_t k) {
-    return k == 0 ? out_.state.serving : out_.state.coming;
-  }
-  void check_waypoints(const Line &last);
+  void solver_cache(Line &line);
+  void solver_cache_data(Line &line);
   void leaflet(Line &line);
   void scallop(Line &line);
   const Vec3 &vector_of_vertex(bool &given, const char *what, CowVector<Vec3> &vectors, Line &line);
@@ -80,7 +74,6 @@ class ObjReader {
   struct Given {
     bool rest = false, open = false, loaded = false, origin = false, velocity = false;
     bool thickness = false, chord = false;
-    std::array<bool, 2> place = {};  // of a waypoint
   };
 
   Loaded out_;
@@ -90,7 +83,7 @@ class ObjReader {
   Given given_;
   ObjCounts counts_;
   bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
-  std::array<bool, 2> has_waypoint_ = {};
+  uint64_t cache_size_ = 0;  // numbers that the solver cache says it has; 0: no cache
 };
 
 template <typename Item>

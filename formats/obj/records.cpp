@@ -31,30 +31,27 @@ void ObjReader::record(Line &line) {
     std::string_view word;
     void (ObjReader::*read)(Line &);
   };
-  static constexpr std::array records = {
-      Record{"fibre", &ObjReader::fibre},
-      Record{"rest", &ObjReader::rest},
-      Record{"velocity", &ObjReader::velocity},
-      Record{"loaded", &ObjReader::loaded},
-      Record{"open", &ObjReader::open},
-      Record{"origin", &ObjReader::origin},
-      Record{"ring", &ObjReader::ring},
-      Record{"ring_point", &ObjReader::ring_point},
-      Record{"curve", &ObjReader::curve},
-      Record{"curve_point", &ObjReader::curve_point},
-      Record{"thickness", &ObjReader::thickness},
-      Record{"chord", &ObjReader::chord},
-      Record{"annulus", &ObjReader::annulus},
-      Record{"head", &ObjReader::head},
-      Record{"scallop", &ObjReader::scallop},
-      Record{"leaflet", &ObjReader::leaflet},
-      Record{"state", &ObjReader::state},
-      Record{"valve", &ObjReader::valve},
-      Record{obj::waypoint_places[0], &ObjReader::waypoint_place<0>},
-      Record{obj::waypoint_places[1], &ObjReader::waypoint_place<1>},
-      Record{obj::waypoints[0], &ObjReader::waypoint<0>},
-      Record{obj::waypoints[1], &ObjReader::waypoint<1>},
-      Record{"end", &ObjReader::end}};
+  static constexpr std::array records = {Record{"fibre", &ObjReader::fibre},
+                                         Record{"rest", &ObjReader::rest},
+                                         Record{"velocity", &ObjReader::velocity},
+                                         Record{"loaded", &ObjReader::loaded},
+                                         Record{"open", &ObjReader::open},
+                                         Record{"origin", &ObjReader::origin},
+                                         Record{"ring", &ObjReader::ring},
+                                         Record{"ring_point", &ObjReader::ring_point},
+                                         Record{"curve", &ObjReader::curve},
+                                         Record{"curve_point", &ObjReader::curve_point},
+                                         Record{"thickness", &ObjReader::thickness},
+                                         Record{"chord", &ObjReader::chord},
+                                         Record{"annulus", &ObjReader::annulus},
+                                         Record{"head", &ObjReader::head},
+                                         Record{"scallop", &ObjReader::scallop},
+                                         Record{"leaflet", &ObjReader::leaflet},
+                                         Record{"state", &ObjReader::state},
+                                         Record{"valve", &ObjReader::valve},
+                                         Record{"solver_cache", &ObjReader::solver_cache},
+                                         Record{"solver_cache_data", &ObjReader::solver_cache_data},
+                                         Record{"end", &ObjReader::end}};
   ++counts_.records;
   const std::string_view word = line.word();
   if (!has_version_) return version(word, line);
@@ -116,41 +113,28 @@ void ObjReader::state(Line &line) {
   }
 }
 
-template <size_t k>
-void ObjReader::waypoint(Line &line) {
-  once(has_waypoint_[k], k == 0 ? "#mvs serving" : "#mvs coming", line);
-  PreconditionerKey &waypoint = waypoint_of(k);
-  uint64_t age = 0;
+void ObjReader::solver_cache(Line &line) {
+  if (cache_size_ > 0) line.fail("#mvs solver_cache is given twice");
+  SolverCache &cache = out_.state.cache;
+  uint64_t version = 0;
   Fields fields(line);
-  fields.need(fields.number("pressure", waypoint.pressure), "pressure");
-  fields.need(fields.number("dt", waypoint.dt), "dt");
-  fields.need(fields.number("damping", waypoint.damping), "damping");
-  fields.need(fields.whole("age", age), "age");
+  fields.need(fields.whole("version", version), "version");
+  fields.need(fields.whole("counter", cache.counter), "counter");
+  fields.need(fields.whole("size", cache_size_), "size");
   fields.end();
-  if (age > UINT32_MAX) line.fail("age is too large");
-  waypoint.age = static_cast<uint32_t>(age);
+  if (version > UINT32_MAX) line.fail("version is too large");
+  if (cache_size_ == 0) line.fail("size is 0: a state without a cache has no such line");
+  cache.version = static_cast<uint32_t>(version);
 }
 
-template <size_t k>
-void ObjReader::waypoint_place(Line &line) {
-  follows("v", counts_.vertices > 0, line);
-  once(given_.place[k], "the place of this vertex", line);
-  CowVector<Vec3> &x = waypoint_of(k).x;
-  if (x.size() + 1 != counts_.vertices) line.fail("a vertex above has no such place");
-  x.push_back(read_place(line));
-  line.end();
-}
-
-// A place is that of every vertex, and of a waypoint.
-void ObjReader::check_waypoints(const Line &last) {
-  for (size_t k = 0; k < has_waypoint_.size(); ++k) {
-    const size_t places = waypoint_of(k).x.size();
-    if (places == (has_waypoint_[k] ? counts_.vertices : 0)) continue;
-    last.fail(
-        "%zu of %llu vertices have a `#mvs %s` line: give one to each below a `#mvs %s` line, "
-        "or to none",
-        places, static_cast<unsigned long long>(counts_.vertices), obj::waypoint_places[k].data(),
-        obj::waypoints[k].data());
+void ObjReader::solver_cache_data(Line &line) {
+  CowVector<double> &data = out_.state.cache.data;
+  while (!line.at_end()) {
+    if (data.size() >= cache_size_) {
+      line.fail("the solver cache has more numbers than the %llu of its `#mvs solver_cache` line",
+                static_cast<unsigned long long>(cache_size_));
+    }
+    data.push_back(line.number());
   }
 }
 
@@ -391,7 +375,11 @@ void ObjReader::end(Line &line) {
     line.fail("only %zu of %zu triangles have a fibre: give one to each triangle, or omit all",
               valve.triangle_fibre.size(), valve.triangles.size());
   }
-  check_waypoints(line);
+  const size_t cached = out_.state.cache.data.size();
+  if (cached != cache_size_) {
+    line.fail("the solver cache has %zu of its %llu numbers: lines were lost", cached,
+              static_cast<unsigned long long>(cache_size_));
+  }
   has_end_ = true;
 }
 

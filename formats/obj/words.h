@@ -25,11 +25,6 @@ std::vector<std::string_view> words_of(const Laws &laws) {
   return words;
 }
 
-// Of the places that live steps go on from: `#mvs serving`, and `#mvs serving_place` below a `v`.
-inline constexpr std::array<std::string_view, 2> waypoints = {"serving", "coming"};
-inline constexpr std::array<std::string_view, 2> waypoint_places = {"serving_place",
-                                                                    "coming_place"};
-
 inline constexpr std::array<std::string_view, 2> ring_kinds = {"ring", "band"};
 
 }  // namespace mvs::core::obj

@@ -30,7 +30,7 @@ class ObjWriter {
 
  private:
   void header();
-  void waypoints();
+  void solver_cache();
   void leaflets();
   void nodes();
   void annulus_and_heads();
@@ -67,20 +67,14 @@ class ObjWriter {
 
   const Valve &valve_;
   const State &state_;
-  std::array<const PreconditionerKey *, 2> waypoints_{};  // null where there is none to write
+  const bool has_cache_;
   std::string out_;
   uint64_t groups_ = 0, records_ = 0;
 };
 
-// Where there are tools the file does not have the whole state, and steps from it begin anew.
-ObjWriter::ObjWriter(const Valve &valve, const State &state) : valve_(valve), state_(state) {
-  const auto can_be = [&](const PreconditionerKey &waypoint) {
-    return waypoint.x.size() == valve.rest.size() && waypoint.tools.empty();
-  };
-  if (!state.tools.empty() || !can_be(state.serving)) return;
-  waypoints_[0] = &state.serving;
-  if (can_be(state.coming)) waypoints_[1] = &state.coming;
-}
+// A state with tools is not written in full, so steps from the file begin without a solver cache.
+ObjWriter::ObjWriter(const Valve &valve, const State &state)
+    : valve_(valve), state_(state), has_cache_(state.tools.empty() && !state.cache.empty()) {}
 
 std::string ObjWriter::write() {
   out_.reserve(512 + 256 * valve_.rest.size() + 128 * valve_.triangles.size());
@@ -116,18 +110,23 @@ void ObjWriter::header() {
   key_number("pressure", state_.load.pressure);
   key_number("boundary_fraction", state_.load.boundary_fraction);
   out_ += '\n';
-  waypoints();
+  solver_cache();
 }
 
-void ObjWriter::waypoints() {
-  for (size_t k = 0; k < waypoints_.size(); ++k) {
-    if (!waypoints_[k]) continue;
-    record(obj::waypoints[k]);
-    key_number("pressure", waypoints_[k]->pressure);
-    key_number("dt", waypoints_[k]->dt);
-    key_number("damping", waypoints_[k]->damping);
-    key_whole("age", waypoints_[k]->age);
-    out_ += '\n';
+void ObjWriter::solver_cache() {
+  if (!has_cache_) return;
+  constexpr size_t numbers_a_line = 6;
+  const SolverCache &cache = state_.cache;
+  record("solver_cache");
+  key_whole("version", cache.version);
+  key_whole("counter", cache.counter);
+  key_whole("size", cache.data.size());
+  out_ += '\n';
+  for (size_t k = 0; k < cache.data.size(); ++k) {
+    if (k % numbers_a_line == 0) record("solver_cache_data");
+    out_ += ' ';
+    number(cache.data[k]);
+    if (k % numbers_a_line == numbers_a_line - 1 || k + 1 == cache.data.size()) out_ += '\n';
   }
 }
 
@@ -161,11 +160,6 @@ void ObjWriter::nodes() {
       record("origin ");
       out_ += valve_.origin[n] == none ? "new" : std::to_string(uint64_t{valve_.origin[n]} + 1);
       out_ += '\n';
-    }
-    for (size_t k = 0; k < waypoints_.size(); ++k) {
-      if (!waypoints_[k]) continue;
-      record(obj::waypoint_places[k]);
-      vector(waypoints_[k]->x[n]);
     }
   }
 }

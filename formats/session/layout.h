@@ -109,14 +109,11 @@ void pass(Archive &a, Is<Tool> auto &tool) {
 }
 
 template <typename Archive>
-void pass(Archive &a, Is<PreconditionerKey> auto &waypoint) {
-  a.array(waypoint.x);
-  if (waypoint.x.empty()) return;
-  a.list(waypoint.tools);
-  a.number(waypoint.pressure);
-  a.number(waypoint.dt);
-  a.number(waypoint.damping);
-  a.word(waypoint.age);
+void pass(Archive &a, Is<SolverCache> auto &cache) {
+  a.array(cache.data);
+  if (cache.data.empty()) return;
+  a.word(cache.version);
+  a.word(cache.counter);
 }
 
 template <typename Archive>
@@ -129,8 +126,7 @@ void pass(Archive &a, Is<State> auto &state) {
   a.number(state.load.boundary_fraction);
   a.list(state.tools);
   a.word(state.tools_made);
-  pass(a, state.serving);
-  if (!state.serving.x.empty()) pass(a, state.coming);
+  pass(a, state.cache);
 }
 
 template <typename Archive>

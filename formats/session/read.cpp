@@ -195,17 +195,6 @@ void SessionReader::model(ModelPtr &model) {
   });
 }
 
-void check_tools(const Model &model, const CowVector<Tool> &tools) {
-  for (const Tool &tool : tools) {
-    const bool holds = tool.kind == MVS_TOOL_KIND_GRASP && tool.node < model.node_count() &&
-                       !model.topology.fixed[tool.node];
-    const bool pushes =
-        (tool.kind == MVS_TOOL_KIND_BALL || tool.kind == MVS_TOOL_KIND_ROD) && tool.node == none;
-    MVS_MUST((holds || pushes) && tool.stiffness > 0 && tool.max_force > 0, MVS_E_FORMAT, "state",
-             "a state of the file has a tool that cannot be");
-  }
-}
-
 // Checks that a state fits its model.
 void SessionReader::check(const ModelState &current) const {
   const State &state = current.state;
@@ -216,14 +205,9 @@ void SessionReader::check(const ModelState &current) const {
   const double fraction = state.load.boundary_fraction;
   MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
            "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);
-  check_tools(*current.model, state.tools);
-  for (const PreconditionerKey *waypoint : {&state.serving, &state.coming}) {
-    size_t points = 0;
-    for (const Tool &tool : waypoint->tools) points += tool.points();
-    check_tools(*current.model, waypoint->tools);
-    MVS_MUST(waypoint->x.empty() || waypoint->x.size() == n + points, MVS_E_FORMAT, "state",
-             "a state of the file was at a place with %zu positions for %zu nodes",
-             waypoint->x.size(), n + points);
+  for (const Tool &tool : state.tools) {
+    MVS_MUST(is_valid(*current.model, tool), MVS_E_FORMAT, "state",
+             "a state of the file has a tool that cannot be");
   }
 }
 

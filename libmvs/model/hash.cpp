@@ -71,13 +71,6 @@ void add(Hash &hash, const Tool &tool) {
   for (const Vec3 &v : {tool.position, tool.axis, tool.proxy[0], tool.proxy[1]}) add(hash, v);
 }
 
-void add(Hash &hash, const PreconditionerKey &waypoint) {
-  add(hash, waypoint.x);
-  add(hash, waypoint.tools);
-  for (const double number : {waypoint.pressure, waypoint.dt, waypoint.damping}) hash.add(number);
-  add(hash, waypoint.age);
-}
-
 template <typename Item>
 void add(Hash &hash, const CowVector<Item> &items) {
   hash.add(uint64_t{items.size()});
@@ -125,9 +118,10 @@ std::array<uint64_t, 2> hash_of(const Model &model, const State &state) {
     hash.add(state.tools_made);
     add(hash, state.tools);
   }
-  if (!state.serving.x.empty() || !state.coming.x.empty()) {
-    add(hash, state.serving);
-    add(hash, state.coming);
+  if (!state.cache.empty()) {
+    add(hash, state.cache.version);
+    hash.add(state.cache.counter);
+    add(hash, state.cache.data);
   }
   return hash.value();
 }

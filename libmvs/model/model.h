@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/solver_cache.h"
 #include "model/tool.h"
 #include "model/topology.h"
 #include "model/valve.h"
@@ -34,17 +35,6 @@ struct Load {
   double boundary_fraction = 0;  // 0 open .. 1 loaded
 };
 
-// A place on the way whose matrix a live step has a factor of: it serves the steps that follow as
-// preconditioner (physics/kept_factor.h), so that it is an input of theirs.
-struct PreconditionerKey {
-  CowVector<Vec3> x;      // m, the points of its tools behind the nodes; empty: there is none
-  CowVector<Tool> tools;  // at that time
-  double pressure = 0;    // Pa
-  double dt = 0;          // s, and
-  double damping = 0;     // 1/s, of the mass in the matrix
-  uint32_t age = 0;       // steps in which it was worked on or served
-};
-
 // Every input of the next step.
 struct State {
   CowVector<Vec3> x;  // m
@@ -52,11 +42,11 @@ struct State {
   double time = 0;    // s
   uint64_t steps = 0;
   Load load;
-  CowVector<Tool> tools;              // in the order in which they were added
-  uint64_t tools_made = 0;            // so far; no id is given twice
-  PreconditionerKey serving, coming;  // while it moves in live steps; a valve at rest has none
+  CowVector<Tool> tools;    // in the order in which they were added
+  uint64_t tools_made = 0;  // so far; no id is given twice
+  SolverCache cache;        // of live steps; empty after settling or an operation
 
-  void drop_cache() { serving = coming = {}; }
+  void drop_cache() { cache = {}; }
 };
 
 // A model and a state of it.

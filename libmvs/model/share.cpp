@@ -55,9 +55,7 @@ void share(Model &model, const Model &other) {
 void share(State &state, const State &other) {
   state.x.share_with(other.x);
   state.v.share_with(other.v);
-  for (PreconditionerKey *to : {&state.serving, &state.coming}) {
-    for (const PreconditionerKey *from : {&other.serving, &other.coming}) to->x.share_with(from->x);
-  }
+  state.cache.data.share_with(other.cache.data);
 }
 
 }  // namespace mvs::core

@@ -102,6 +102,14 @@ Id add_tool(const Model &model, State &state, Tool tool) {
   return tool.id;
 }
 
+bool is_valid(const Model &model, const Tool &tool) {
+  const bool holds = tool.kind == MVS_TOOL_KIND_GRASP && tool.node < model.node_count() &&
+                     !model.topology.fixed[tool.node];
+  const bool pushes =
+      (tool.kind == MVS_TOOL_KIND_BALL || tool.kind == MVS_TOOL_KIND_ROD) && tool.node == none;
+  return (holds || pushes) && tool.stiffness > 0 && tool.max_force > 0;
+}
+
 const Tool &tool_of(const State &state, Id id, const char *call) {
   const std::vector<Tool> &tools = state.tools;
   const auto found = std::find_if(tools.begin(), tools.end(), [&](auto &t) { return is(t, id); });

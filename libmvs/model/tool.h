@@ -54,6 +54,10 @@ double tool_range(const Model &model);
 // Adds a tool where its hand is and gives it an id. Throws where it cannot be there.
 Id add_tool(const Model &model, State &state, Tool tool);
 
+// Whether a tool that was read from a file is one that add_tool could have made for this model: its
+// kind is known, a grasp holds a free node, stiffness and force limit are positive.
+bool is_valid(const Model &model, const Tool &tool);
+
 // Throw MVS_E_ID where the tool is not there, in the name of a call.
 const Tool &tool_of(const State &state, Id id, const char *call);
 void move_tool(State &state, Id id, const Vec3 &position, const Vec3 &axis);

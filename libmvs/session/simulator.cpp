@@ -75,6 +75,7 @@ void must_be_no_group(const mvs_sim &sim, const char *call) {
 }
 
 void replace_valve(mvs_sim &sim, Snapshot snapshot) {
+  check_solver_cache(snapshot.current);
   const ModelPtr held = snapshot.current.model;
   sim.replace(make_snapshot(std::move(snapshot)));
   sim.group = {};

@@ -136,7 +136,7 @@ Solver &Solver::operator=(Solver &&) noexcept = default;
 template <typename Solve>
 SolveStats Solver::with_points(const Model &model, State &state, const SolveOptions &options,
                                Solve solve) {
-  const uint32_t points = tool_points(state);
+  const uint32_t points = tool_points(state.tools);
   if (points == 0) {
     SolveStats stats = solve(model, state);
     if (state.tools.empty()) stats.skipped |= MVS_SKIPPED_TOOLS;
@@ -212,7 +212,7 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
 void Solver::make_ready(const Model &valve, const State &valve_state) noexcept {
   if (!work_->implicit) return;
   try {
-    const Model &model = work_->tool_points.extend(valve, tool_points(valve_state));
+    const Model &model = work_->tool_points.extend(valve, tool_points(valve_state.tools));
     if (work_->implicit_model == model.serial) return;
     State state = ToolPoints::extended(valve_state);
     work_->implicit_for(model).make_ready(state, work_->how);
@@ -223,7 +223,7 @@ void Solver::make_ready(const Model &valve, const State &valve_state) noexcept {
 
 Forces evaluate_forces(const Model &valve, const State &valve_state) {
   ToolPoints points;
-  const Model &model = points.extend(valve, tool_points(valve_state));
+  const Model &model = points.extend(valve, tool_points(valve_state.tools));
   const State state = ToolPoints::extended(valve_state);
   TotalEnergy total_energy(model);
   Profile profile;

@@ -77,6 +77,10 @@ class Solver {
   std::unique_ptr<Work> work_;
 };
 
+// Throws MVS_E_FORMAT or MVS_E_VERSION where the solver cache of a state cannot be used with its
+// model: for states that come from files.
+void check_solver_cache(const ModelState &current);
+
 // Whether the valve is far from rest as a whole: its boundary is still to move, or too many nodes
 // for a piece around a disturbance feel a force as the load's own.
 bool far_from_rest(const Model &model, const State &state);

@@ -89,19 +89,21 @@ TEST_CASE("a_loaded_valve_has_the_hash_of_the_saved_one") {
   CHECK(write_obj(back.model, back.state) == text);
 }
 
-TEST_CASE("the_cached_preconditioner_of_live_steps_is_read_back") {
+TEST_CASE("a_solver_cache_comes_back") {
   Pair pair = moving_valve();
-  State &state = pair.state;
-  state.serving = {pair.model.valve.rest, {}, 12e3, 1e-3, 0.5, 9};
-  for (const bool both : {false, true}) {
-    if (both) state.coming = {state.x, {}, 13e3, 1e-3, 0.5, 2};
-    const std::string text = write_obj(pair.model, state);
+  SolverCache &cache = pair.state.cache;
+  cache.version = 3;
+  cache.counter = UINT64_MAX;
+  for (const size_t size : {1, 6, 7, 100}) {
+    while (cache.data.size() < size) cache.data.push_back(-0.1 * static_cast<double>(size));
+    const std::string text = write_obj(pair.model, pair.state);
+    CHECK(text.find("#mvs 1 units=mm") != std::string::npos);
     const Pair back = complete(read_obj(text));
-    CHECK(hash_of(back.model, back.state) == hash_of(pair.model, state));
+    CHECK(back.state.cache == cache);
+    CHECK(hash_of(back.model, back.state) == hash_of(pair.model, pair.state));
     CHECK(write_obj(back.model, back.state) == text);
-    // an element less, or one too many
-    const std::string word = both ? "#mvs coming_place" : "#mvs serving_place";
-    const size_t at = text.rfind(word), end = text.find('\n', at) + 1;
+    // a line less, or one too many
+    const size_t at = text.rfind("#mvs solver_cache_data"), end = text.find('\n', at) + 1;
     std::string twice = text;
     twice.insert(end, text.substr(at, end - at));
     for (const std::string &bad : {text.substr(0, at) + text.substr(end), twice}) {

@@ -3,17 +3,21 @@
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
+#include <mvs/tool.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "anatomy/parametric.h"
+#include "base/error.h"
 #include "linalg/direct_solver.h"
 #include "linalg/pcg.h"
 #include "linalg/spmv.h"
 #include "solve/dynamic/cached_preconditioner.h"
+#include "solve/dynamic/preconditioner_key.h"
 #include "tests/solve/bench.h"
 
 using namespace mvs::core;
@@ -253,20 +257,20 @@ TEST_CASE("a_waking_valve_computes_no_factor") {
     asleep = (solver.step(*model, state, {}).skipped & MVS_SKIPPED_STEP) != 0;
   }
   REQUIRE(asleep);
-  CHECK(!state.serving.x.empty());
+  CHECK(!state.cache.empty());
   state.load.pressure *= 1.01;
   const SolveStats stats = solver.step(*model, state, {});
   CHECK((stats.skipped & MVS_SKIPPED_STEP) == 0);
   CHECK(stats.factorisations == 0);
 }
 
-TEST_CASE("a_settled_valve_has_no_preconditioner_key") {
+TEST_CASE("a_valve_that_was_settled_has_no_solver_cache") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Solver solver(MVS_BACKEND_DEFAULT);
   state.load.pressure *= 0.95;
   for (int k = 0; k < 5; ++k) solver.step(*model, state, {});
-  CHECK(!state.serving.x.empty());
+  CHECK(!state.cache.empty());
   SUBCASE("settled") {
     solver.settle(*model, state, {}, {});
   }
@@ -275,8 +279,7 @@ TEST_CASE("a_settled_valve_has_no_preconditioner_key") {
     how.solver = MVS_SOLVER_EXPLICIT;
     solver.step(*model, state, how);
   }
-  CHECK(state.serving.x.empty());
-  CHECK(state.coming.x.empty());
+  CHECK(state.cache.empty());
 }
 
 // A restored state may be earlier or later, with a factor half finished.
@@ -292,7 +295,10 @@ TEST_CASE("restoring_earlier_and_later_states_changes_no_bit") {
   }
   const auto same = [](const State &a, const State &b) {
     return std::memcmp(a.x.data(), b.x.data(), a.x.size() * sizeof(Vec3)) == 0 &&
-           a.serving.age == b.serving.age && a.coming.age == b.coming.age;
+           a.cache.version == b.cache.version && a.cache.counter == b.cache.counter &&
+           a.cache.data.size() == b.cache.data.size() &&
+           std::memcmp(a.cache.data.data(), b.cache.data.data(),
+                       a.cache.data.size() * sizeof(double)) == 0;
   };
   for (const int from : {30, 3, 21, 22, 8, 36, 20}) {
     State again = states[from];
@@ -305,19 +311,96 @@ TEST_CASE("restoring_earlier_and_later_states_changes_no_bit") {
   }
 }
 
-// Such a number can come from a file.
-TEST_CASE("a_factor_with_more_parts_than_exist_is_discarded") {
+namespace {
+
+mvs_result outcome(const ModelState &current) {
+  try {
+    check_solver_cache(current);
+    return MVS_OK;
+  } catch (const Error &error) {
+    CHECK(error.what()[0] != '\0');
+    return error.code;
+  }
+}
+
+// The same state with the numbers of its cache changed.
+ModelState with_numbers(ModelState current,
+                        const std::function<void(std::vector<double> &)> &edit) {
+  edit(current.state.cache.data.edit());
+  return current;
+}
+
+// A valve in motion whose solver cache has both keys, one of them with a ball and a grasp.
+ModelState with_both_keys() {
   const ModelPtr model = a_valve();
   State state = closed(*model);
-  Solver solver(MVS_BACKEND_DEFAULT);
-  state.load.pressure *= 0.9;
-  solver.step(*model, state, {});
-  REQUIRE(!state.serving.x.empty());
-  for (const uint32_t age : {CachedPreconditioner::parts + 1, UINT32_MAX}) {
-    State other = state;
-    other.coming = other.serving;
-    other.coming.age = age;
-    solver.step(*model, other, {});
-    CHECK(other.coming.age <= CachedPreconditioner::parts);
+  Tool ball, grasp;
+  ball.kind = MVS_TOOL_KIND_BALL;
+  ball.radius = ball.stiffness = ball.max_force = grasp.stiffness = grasp.max_force = 1;
+  grasp.kind = MVS_TOOL_KIND_GRASP;
+  for (grasp.node = 0; model->topology.fixed[grasp.node];) ++grasp.node;
+  PreconditionerKeys keys;
+  keys.active = {state.x, {}, 12e3, 1e-3, 0, 9};
+  keys.pending = {state.x, {ball, grasp}, 13e3, 1e-3, 0, 2};
+  keys.pending.x.push_back(Vec3(1, 2, 3));
+  CowVector<double> data;
+  state.cache = pack(keys, data);
+  return {model, state};
+}
+
+}  // namespace
+
+TEST_CASE("keys_come_out_of_a_solver_cache_as_they_went_in") {
+  const ModelState current = with_both_keys();
+  const size_t nodes = current.model->node_count();
+  const PreconditionerKeys keys = unpack(current.state.cache, *current.model, nodes);
+  CHECK(keys.active.age == 9);
+  CHECK(keys.pending.age == 2);
+  CHECK(keys.pending.tools.size() == 2);
+  CHECK(keys.pending.x.size() == nodes + 1);
+  CowVector<double> data;
+  CHECK(pack(keys, data) == current.state.cache);
+  CHECK(pack({}, data).empty());
+}
+
+TEST_CASE("a_damaged_solver_cache_is_refused") {
+  const ModelState good = with_both_keys();
+  CHECK(outcome(good) == MVS_OK);
+  using Numbers = std::vector<double>;
+  const size_t tools_at = 5 + 3 * good.model->node_count() + 5;
+  for (const std::function<void(Numbers &)> &edit :
+       {std::function<void(Numbers &)>([](Numbers &n) { n.pop_back(); }),
+        std::function<void(Numbers &)>([](Numbers &n) { n.push_back(0); }),
+        std::function<void(Numbers &)>([](Numbers &n) { n.resize(7); }),
+        std::function<void(Numbers &)>([](Numbers &n) { n[0] = 1e15; }),
+        std::function<void(Numbers &)>([](Numbers &n) { n[0] = -1; }),
+        std::function<void(Numbers &)>([](Numbers &n) { n[0] += 0.5; }),
+        std::function<void(Numbers &)>([](Numbers &n) { n[1] = 1e18; }),
+        std::function<void(Numbers &)>([](Numbers &n) { n[1] = 1; }),
+        std::function<void(Numbers &)>([](Numbers &n) { n[9] = NAN; }),
+        std::function<void(Numbers &)>([&](Numbers &n) { n[tools_at + 1] = 9; }),
+        std::function<void(Numbers &)>([&](Numbers &n) { n[tools_at + 1] = 0; })}) {
+    CHECK(outcome(with_numbers(good, edit)) == MVS_E_FORMAT);
   }
+  ModelState other = good;
+  ++other.state.cache.version;
+  CHECK(outcome(other) == MVS_E_VERSION);
+  // more parts of a factor than there are
+  other = good;
+  for (const uint64_t parts : {uint64_t{CachedPreconditioner::parts} + 1, uint64_t{UINT32_MAX}}) {
+    other.state.cache.counter = parts << 32;
+    CHECK(outcome(other) == MVS_E_FORMAT);
+    Solver solver(MVS_BACKEND_DEFAULT);
+    CHECK_THROWS_AS(solver.step(*other.model, other.state, {}), Error);
+  }
+}
+
+// Keys with tools that the state no longer has are valid, but serve no step.
+TEST_CASE("keys_that_do_not_fit_the_state_are_left_out") {
+  ModelState current = with_both_keys();
+  Solver solver(MVS_BACKEND_DEFAULT);
+  solver.step(*current.model, current.state, {});
+  const SolverCache &cache = current.state.cache;
+  REQUIRE(!cache.empty());
+  CHECK(unpack(cache, *current.model, current.model->node_count()).pending.tools.empty());
 }

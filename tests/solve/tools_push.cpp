@@ -92,7 +92,7 @@ TEST_CASE("a_pushing_tool_has_the_gradient_and_hessian_of_its_energy") {
   add_tool(*valve, state,
            rod(above(*valve, state.x, 60, -0.5e-3 - near), along - Vec3(0, 0, 5e-4), 0.5e-3, 4e-3));
   ToolPoints points;
-  const Model &with = points.extend(*valve, tool_points(state));
+  const Model &with = points.extend(*valve, tool_points(state.tools));
   const State extended = ToolPoints::extended(state);
   Model model = with;
   for (size_t i = 0; i < model.topology.fixed.size(); ++i) model.topology.fixed[i] = 0;

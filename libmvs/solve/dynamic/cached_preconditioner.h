@@ -6,6 +6,7 @@
 
 #include "linalg/block_permutation.h"
 #include "linalg/direct_solver.h"
+#include "solve/dynamic/preconditioner_key.h"
 #include "solve/dynamic/step_matrix.h"
 
 namespace mvs::core {

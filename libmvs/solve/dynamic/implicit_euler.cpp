@@ -66,7 +66,7 @@ void ImplicitEuler::make_ready(State &state, const StepOptions &how) {
   begin(state, how, unseen);
   if (how.may_sleep && is_at_rest(state, how)) return;
   matrix_.assemble(total_energy_, x_, how, nullptr, unseen.work);
-  solver_.make_ready(matrix_, here(state, how), x_, state);
+  solver_.make_ready(matrix_, here(state, how), x_);
 }
 
 void ImplicitEuler::step(State &state, const StepOptions &how, SolveStats &stats) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "linalg/cholesky.h"
+#include "solve/tools/tool_points.h"
 
 namespace mvs::core {
 namespace {
@@ -31,10 +32,21 @@ std::unique_ptr<DirectSolver> make_preconditioner(uint32_t backend) {
   return backend == MVS_BACKEND_DEFAULT ? make_narrow_factor() : make_direct_solver(backend);
 }
 
+// The first buffer that is shared with nobody, or else a new one: states and factors that hold the
+// others keep their memory.
+template <typename Item, size_t count>
+CowVector<Item> &free_buffer(std::array<CowVector<Item>, count> &buffers) {
+  auto free = std::find_if(buffers.begin(), buffers.end(),
+                           [](const CowVector<Item> &buffer) { return buffer.is_alone(); });
+  if (free == buffers.end()) *(free = buffers.begin()) = {};
+  return *free;
+}
+
 }  // namespace
 
 StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, uint32_t backend)
-    : total_energy_(&total_energy),
+    : model_(&model),
+      total_energy_(&total_energy),
       first_(model, make_preconditioner(backend)),
       second_(model, make_preconditioner(backend)),
       exact_(model, make_direct_solver(backend)) {
@@ -44,30 +56,56 @@ StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, uint
 
 void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,
                         const Look &look) {
-  for (PreconditionerKey *place : {&state.serving, &state.coming}) {
-    const bool fits =
-        place->x.size() == state.x.size() && place->dt == how.dt && place->damping == how.damping;
-    if (!fits) *place = {};
+  load_keys(state);
+  const auto fits = [&](const PreconditionerKey &key) {
+    return key.x.size() == state.x.size() && key.dt == how.dt && key.damping == how.damping;
+  };
+  if (!keys_.active.empty() && !fits(keys_.active)) drop_keys();
+  if (!keys_.pending.empty() && !fits(keys_.pending)) set_keys({keys_.active, {}});
+  make_factors(matrix, look);
+  store_keys(state);
+}
+
+void StepSolver::make_factors(StepMatrix &matrix, const Look &look) {
+  if (keys_.active.empty()) return;
+  const uint32_t all = CachedPreconditioner::parts, some = keys_.pending.age;
+  if (pending_->is_of(keys_.active, all)) std::swap(active_, pending_);
+  if (!active_->is_of(keys_.active, all) && !remake(keys_.active, all, *active_, matrix, look)) {
+    return drop_keys();
   }
-  if (state.serving.x.empty()) return state.drop_cache();
-  // a file may say anything
-  if (state.coming.age > CachedPreconditioner::parts) state.coming = {};
-  const uint32_t all = CachedPreconditioner::parts, some = state.coming.age;
-  if (coming_->is_of(state.serving, all)) std::swap(serving_, coming_);
-  if (!serving_->is_of(state.serving, all) &&
-      !remake(state.serving, all, *serving_, matrix, look)) {
-    return state.drop_cache();
+  if (keys_.pending.empty() || pending_->is_of(keys_.pending, some)) return;
+  if (!remake(keys_.pending, some, *pending_, matrix, look)) set_keys({keys_.active, {}});
+}
+
+void StepSolver::load_keys(const State &state) {
+  const SolverCache &cache = state.cache;
+  if (cache.version == packed_.version && cache.data.buffer() == packed_.data.buffer()) {
+    unpack_ages(cache.counter, keys_);
+  } else {
+    keys_ = unpack(cache, *model_, state.x.size() - tool_points(state.tools));
   }
-  if (state.coming.x.empty() || coming_->is_of(state.coming, some)) return;
-  if (!remake(state.coming, some, *coming_, matrix, look)) state.coming = {};
+  packed_ = cache;
+  is_packed_ = true;
+}
+
+void StepSolver::set_keys(PreconditionerKeys keys) {
+  keys_ = std::move(keys);
+  is_packed_ = false;
+}
+
+void StepSolver::store_keys(State &state) {
+  if (!is_packed_) packed_ = pack(keys_, free_buffer(caches_));
+  packed_.counter = packed_ages(keys_);
+  is_packed_ = true;
+  state.cache = packed_;
 }
 
 void StepSolver::make_ready(const StepMatrix &matrix, const PreconditionerKey &here,
-                            const std::vector<Vec3> &x, const State &state) {
-  if (!state.serving.x.empty()) return;
+                            const std::vector<Vec3> &x) {
+  if (!keys_.active.empty()) return;
   Profile unseen{};
   const PreconditionerKey place = with_place(here, x);
-  for (CachedPreconditioner *factor : {coming_, serving_}) {
+  for (CachedPreconditioner *factor : {pending_, active_}) {
     take(matrix, place, *factor, unseen);
     factor->factorise();
   }
@@ -95,18 +133,19 @@ void StepSolver::take(const StepMatrix &matrix, const PreconditionerKey &place,
 void StepSolver::solve(StepMatrix &matrix, const PreconditionerKey &here,
                        const std::vector<Vec3> &x, State &state, std::vector<Vec3> &rows,
                        uint32_t &left, SolveStats &stats) {
-  if (state.coming.age == CachedPreconditioner::parts) {
-    std::swap(serving_, coming_);
-    state.serving = std::exchange(state.coming, {});
+  if (keys_.pending.age == CachedPreconditioner::parts) {
+    std::swap(active_, pending_);
+    set_keys({keys_.pending, {}});
   }
   guess(matrix, here.dt, state.v);
-  if (!state.serving.x.empty() && iterate(matrix, rows, left, stats)) {
-    ++state.serving.age;
-    work_ahead(matrix, here, x, state, left, stats);
-  } else if (!factorise_here(matrix, here, x, state, rows, left, stats)) {
+  if (!keys_.active.empty() && iterate(matrix, rows, left, stats)) {
+    ++keys_.active.age;
+    work_ahead(matrix, here, x, left, stats);
+  } else if (!factorise_here(matrix, here, x, rows, left, stats)) {
     stats.lowered |= MVS_LOWERED_LINEAR;
     matrix.divide(rows);
   }
+  store_keys(state);
   // a zero has the sign that it has in any pattern
   for (Vec3 &row : rows) row.array() += 0.0;
 }
@@ -124,7 +163,7 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
     product_.multiply(matrix.blocks(), v, y);
   };
   const auto precondition = [&](const std::vector<Vec3> &r, std::vector<Vec3> &z) {
-    serving_->solve(r, z);
+    active_->solve(r, z);
   };
   const PcgGoal goal{tolerance, std::min(most_iterations, left - closing), good_enough,
                      many_iterations + 1, enough};
@@ -143,19 +182,18 @@ bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint
 
 // Begins the next factor, or does a part of it.
 void StepSolver::work_ahead(const StepMatrix &matrix, const PreconditionerKey &here,
-                            const std::vector<Vec3> &x, State &state, uint32_t &left,
-                            SolveStats &stats) {
-  if (state.coming.x.empty()) {
+                            const std::vector<Vec3> &x, uint32_t &left, SolveStats &stats) {
+  if (keys_.pending.empty()) {
     stats.skipped |= MVS_SKIPPED_FACTOR;
-    if (iterations_ <= many_iterations && state.serving.age <= oldest) return;
-    state.coming = with_place(here, x);
-    take(matrix, state.coming, *coming_, stats.work);
+    if (iterations_ <= many_iterations && keys_.active.age <= oldest) return;
+    set_keys({keys_.active, with_place(here, x)});
+    take(matrix, keys_.pending, *pending_, stats.work);
   } else if (left > closing) {
     const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
     --left;
-    if (!coming_->factorise_part(state.coming.age)) {
-      state.coming = {};
-    } else if (++state.coming.age == CachedPreconditioner::parts) {
+    if (!pending_->factorise_part(keys_.pending.age)) {
+      set_keys({keys_.active, {}});
+    } else if (++keys_.pending.age == CachedPreconditioner::parts) {
       ++stats.factorisations;
     }
   }
@@ -163,23 +201,23 @@ void StepSolver::work_ahead(const StepMatrix &matrix, const PreconditionerKey &h
 
 // False where the budget ends before.
 bool StepSolver::factorise_here(const StepMatrix &matrix, const PreconditionerKey &here,
-                                const std::vector<Vec3> &x, State &state, std::vector<Vec3> &rows,
-                                uint32_t &left, SolveStats &stats) {
-  state.drop_cache();
+                                const std::vector<Vec3> &x, std::vector<Vec3> &rows, uint32_t &left,
+                                SolveStats &stats) {
+  drop_keys();
   if (left <= closing) return false;
   guess_.clear();  // a factor of this very matrix needs none
   const PreconditionerKey place = with_place(here, x);
   --left;  // of any solver, whether its factor is ready or not
-  bool positive = serving_->is_of(place, CachedPreconditioner::parts);
+  bool positive = active_->is_of(place, CachedPreconditioner::parts);
   if (!positive) {
-    take(matrix, place, *serving_, stats.work);
+    take(matrix, place, *active_, stats.work);
     const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
     ++stats.factorisations;
-    positive = serving_->factorise();
+    positive = active_->factorise();
   }
   if (positive && (left == closing || iterate(matrix, rows, left, stats))) {
-    if (left == closing) solve_with(*serving_, rows, stats);
-    state.serving = place;
+    if (left == closing) solve_with(*active_, rows, stats);
+    set_keys({place, {}});
     return true;
   }
   return solve_exactly(matrix, place, rows, left, stats);
@@ -220,12 +258,9 @@ void StepSolver::solve_with(CachedPreconditioner &factor, std::vector<Vec3> &row
 PreconditionerKey StepSolver::with_place(const PreconditionerKey &here,
                                          const std::vector<Vec3> &x) {
   PreconditionerKey place = here;
-  auto free = std::find_if(places_.begin(), places_.end(),
-                           [](const CowVector<Vec3> &p) { return p.is_alone(); });
-  // snapshots that somebody holds keep their memory
-  if (free == places_.end()) *(free = places_.begin()) = {};
-  free->edit() = x;
-  place.x = *free;
+  CowVector<Vec3> &free = free_buffer(places_);
+  free.edit() = x;
+  place.x = free;
   return place;
 }
 

@@ -30,9 +30,9 @@ void add_node(Model &model) {
 
 }  // namespace
 
-uint32_t tool_points(const State &state) {
+uint32_t tool_points(const std::vector<Tool> &tools) {
   uint32_t points = 0;
-  for (const Tool &tool : state.tools.get()) points += tool.points();
+  for (const Tool &tool : tools) points += tool.points();
   return points;
 }
 

@@ -6,8 +6,8 @@
 
 namespace mvs::core {
 
-// How many points the tools of a state have; a grasp has none.
-uint32_t tool_points(const State &state);
+// The number of points of all tools; a grasp has 0.
+uint32_t tool_points(const std::vector<Tool> &tools);
 
 // Kept between calls for one model and number of points.
 class ToolPoints {

@@ -96,7 +96,7 @@ bool ToolFeel::try_factorise(double more_mass) {
 
 Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Tool &tool) {
   const size_t nodes = valve_state.x.size();
-  take_model(points_.extend(valve, tool_points(valve_state)));
+  take_model(points_.extend(valve, tool_points(valve_state.tools)));
   const State state = ToolPoints::extended(valve_state);
   factorise(state);
   std::array<uint32_t, 2> row;
