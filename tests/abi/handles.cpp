@@ -99,7 +99,7 @@ void devices_are_found_opened_and_turned() {
     device.arm();
     device.advance(0.01);
     std::uint64_t lost = 0;
-    check(device.trace(lost).size() == 10 && lost == 0, "ticks");
+    check(device.take_samples(lost).size() == 10 && lost == 0, "ticks");
     mvs::Sim sim;
     sim.generate();
     check(device.sync(sim.get()).tool == 0, "an empty hand");

@@ -174,20 +174,20 @@ std::vector<Call> calls_of_snapshots() {
        }},
       {"spread",
        [](Scene &s) {
-         mvs_ensemble *spread = nullptr;
+         mvs_ensemble *ensemble = nullptr;
          const mvs_load_case load = light_load();
          mvs_settle_options settle = {};
          settle.struct_size = sizeof settle;
          settle.max_iterations = 1;
          mvs_ensemble_options options = {};
          options.struct_size = sizeof options;
-         options.paths = 2;
+         options.members = 2;
          mvs_measures mean = {};
          mean.struct_size = sizeof mean;
-         mvs_result result = mvs_ensemble_run(s.snapshot, &load, &settle, &options, &spread);
+         mvs_result result = mvs_ensemble_run(s.snapshot, &load, &settle, &options, &ensemble);
          if (result == MVS_OK)
-           result = mvs_ensemble_measure(spread, MVS_ENSEMBLE_STATISTIC_MEAN, &mean);
-         mvs_ensemble_release(spread);
+           result = mvs_ensemble_measure(ensemble, MVS_ENSEMBLE_STATISTIC_MEAN, &mean);
+         mvs_ensemble_release(ensemble);
          return result;
        }},
       {"section",

@@ -2,6 +2,8 @@
 // as well.
 #include "tests/golden/scenes.h"
 
+#include <mvs/experimental.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -324,19 +326,19 @@ void paths(const Record &record) {
   Sim sim(small);
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   auto options = sized<mvs_ensemble_options>();
-  options.paths = 4;
+  options.members = 4;
   const mvs_snapshot *start = nullptr;
   check(mvs_get_snapshot(sim, &start));
-  mvs_ensemble *spread = nullptr;
-  check(mvs_ensemble_run(start, &systole, nullptr, &options, &spread));
+  mvs_ensemble *ensemble = nullptr;
+  check(mvs_ensemble_run(start, &systole, nullptr, &options, &ensemble));
   mvs_snapshot_release(start);
-  for (uint32_t k = 0; k < options.paths; ++k) {
+  for (uint32_t k = 0; k < options.members; ++k) {
     const mvs_snapshot *snapshot = nullptr;
-    check(mvs_ensemble_get_member_snapshot(spread, k, &snapshot));
+    check(mvs_ensemble_get_member_snapshot(ensemble, k, &snapshot));
     record("path " + std::to_string(k), snapshot);
     mvs_snapshot_release(snapshot);
   }
-  mvs_ensemble_release(spread);
+  mvs_ensemble_release(ensemble);
 }
 
 }  // namespace

@@ -139,18 +139,18 @@ TEST_CASE("hands_that_move_in_turn_form_one_run") {
         with_event(events, trajectory_event(some_hands(random, k % 2 ? 1 : 4), one_step(1e-3)));
   }
   // a step of the hand that came first, a full run of both; then the remaining 71 steps
-  CHECK(runs(moves) == 4);
+  CHECK(runs(events) == 4);
 }
 
 TEST_CASE("a_resting_hand_needs_no_memory") {
   Random random(1);
-  RecordedEvents moves;
-  moves = with_move(moves, lead_of(some_hands(random, 1), one_step(1e-3)));
-  for (int k = 0; k < 100000; ++k) moves = with_move(moves, one_step(1e-3));
-  REQUIRE(runs(moves) == 1);
-  CHECK(moves.top().pace.size() == 1);
-  CHECK(moves.top().count == 100001);
+  RecordedEvents events;
+  events = with_event(events, trajectory_event(some_hands(random, 1), one_step(1e-3)));
+  for (int k = 0; k < 100000; ++k) events = with_event(events, one_step(1e-3));
+  REQUIRE(runs(events) == 1);
+  CHECK(events.top().steps_per_row.size() == 1);
+  CHECK(events.top().count == 100001);
   // other steps form another run
-  moves = with_move(moves, one_step(2e-3));
-  CHECK(runs(moves) == 2);
+  events = with_event(events, one_step(2e-3));
+  CHECK(runs(events) == 2);
 }

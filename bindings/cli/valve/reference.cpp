@@ -39,9 +39,9 @@ std::pair<double, double> range_of(const Errors &errors, const Distance &distanc
 Errors errors_from(const std::string &file, const mvs::Snapshot &reference,
                    const mvs::Snapshot &closed, const Ensemble *ensemble) {
   Errors errors = {file, closed.compare(reference), {}};
-  const uint32_t members = ensemble ? ensemble->summary().paths : 0;
+  const uint32_t members = ensemble ? ensemble->summary().members : 0;
   for (uint32_t k = 0; k < members; ++k) {
-    if (!ensemble->path(k).converged) continue;
+    if (!ensemble->member(k).converged) continue;
     errors.at_rest.push_back(ensemble->snapshot(k).compare(reference));
   }
   return errors;

@@ -23,7 +23,7 @@ PYBIND11_MODULE(_core, module) {
   mvs_python::bind_simulator(module);
   mvs_python::bind_device(module);
   mvs_python::bind_laws(module);
-  module.def("field_descriptions", &mvs_python::field_descriptions, py::arg("which"),
+  module.def("field_descriptions", &mvs_python::field_descriptions, pybind11::arg("which"),
              "(name, unit, definition) of every field of a struct of results, MVS_STRUCT_*.");
   module.def("version", &version, "The version of the library in use.");
   module.def("features", &mvs_features, "Optional parts of this build, separated by spaces.");
