@@ -83,7 +83,7 @@ std::vector<NamedFactor> all_factors() {
   for (const uint32_t backend : backends()) {
     all.push_back({"backend " + std::to_string(backend), make_direct_solver(backend), 1e-12});
   }
-  all.push_back({"narrow", make_narrow_factor(), 1e-4});
+  all.push_back({"float", make_float_factor(), 1e-4});
   // what is left of the residual, and as much more as the norms of residual and solution differ
   all.push_back({"refined", make_mixed_precision_cholesky(), 1e-6});
   return all;
@@ -199,7 +199,7 @@ TEST_CASE("a_factor_made_in_parts_has_the_same_bits") {
   Random random(9);
   const BlockMatrix m = random_matrix(random, 150, 600);
   const Positions b = random.vectors(150, 1);
-  for (const auto make : {make_block_factor, make_narrow_factor}) {
+  for (const auto make : {make_block_factor, make_float_factor}) {
     const std::unique_ptr<DirectSolver> whole = make(), parts = make();
     whole->analyse(m);
     parts->analyse(m);
@@ -227,7 +227,7 @@ TEST_CASE("what_single_precision_cannot_do_is_done_in_double") {
     return (x[0] - 0.5 * b[0]).norm() / b[0].norm();
   };
   CHECK(error(make_block_factor()) < 1e-6);  // 1e9 times rounding
-  CHECK(error(make_narrow_factor()) > 0.1);
+  CHECK(error(make_float_factor()) > 0.1);
   CHECK(error(make_mixed_precision_cholesky()) < 1e-6);
 }
 
@@ -244,7 +244,7 @@ TEST_CASE("single_precision_leaves_no_subnormal_numbers_and_the_rounding_as_it_w
       m.value[k] = Mat3::Identity() * (k == m.start[c] ? 10.1 : -1.0);
     }
   }
-  const std::unique_ptr<DirectSolver> factor = make_narrow_factor();
+  const std::unique_ptr<DirectSolver> factor = make_float_factor();
   factor->analyse(m);
   REQUIRE(factor->factorise(m));
   Positions x(n, Vec3::Zero());

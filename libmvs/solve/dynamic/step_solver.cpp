@@ -28,7 +28,7 @@ bool is_our_own(uint32_t backend) {
 }
 
 std::unique_ptr<DirectSolver> make_preconditioner(uint32_t backend) {
-  return backend == MVS_BACKEND_DEFAULT ? make_narrow_factor() : make_direct_solver(backend);
+  return backend == MVS_BACKEND_DEFAULT ? make_float_factor() : make_direct_solver(backend);
 }
 
 }  // namespace
