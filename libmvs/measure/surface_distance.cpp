@@ -1,6 +1,7 @@
 // Sampling surfaces and summing distances.
 #include "measure/surface_distance.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
