@@ -1,4 +1,4 @@
-// Reading by element: any stride, any alignment, F32 widened to F64.
+// Conversion by element: any stride, any alignment, F32 widened to F64.
 #include "base/array_view.h"
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// The caller's strided arrays, read into the core's own.
+// Conversion of the caller's strided arrays into vectors, with checks of type and layout.
 #pragma once
 
 #include <mvs/base.h>
@@ -10,7 +10,7 @@
 
 namespace mvs::core {
 
-// Whether an array is given at all: one that is all zero is not.
+// Returns whether an array is given: one whose fields are all zero is not.
 bool is_given(const mvs_array &array);
 
 // Points or directions: F64 or F32, 3 components. An array that is not given is empty.
@@ -28,7 +28,7 @@ std::vector<uint32_t> read_indices(const mvs_array &array, const char *what);
 // Triangles: U32, 3 components.
 std::vector<Tri> read_triangles(const mvs_array &array, const char *what);
 
-// Throws where a list of structs is too long to be meant, or has a count but no pointer.
+// Throws if a list of structs is implausibly long, or has a count but no pointer.
 void check_list(const void *list, uint64_t count, const char *what);
 
 }  // namespace mvs::core

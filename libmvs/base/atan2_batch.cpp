@@ -1,28 +1,30 @@
+// atan2 by range reduction to [0, tan(pi / 8)] and a polynomial, without branches, so that the
+// compiler works on several numbers at a time.
 #include "base/atan2_batch.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "base/simd.h"
-#include "base/simd_level.h"
 
 namespace mvs::core {
 namespace {
 
-// atan(t) / t as a polynomial in t^2, t within tan(pi / 8): interpolated where a Chebyshev
-// polynomial of degree 12 is zero, 4e-18 off at most.
+// atan(t) / t as a polynomial in t^2 for |t| <= tan(pi / 8), interpolated at the zeros of a
+// Chebyshev polynomial of degree 12; the error is at most 4e-18.
 constexpr double coefficient[] = {
     0.9999999999999999999, -0.3333333333333312,   0.19999999999940887, -0.14285714279249717,
     0.1111111074489341,    -0.09090896808305078,  0.0769204531727064,  -0.06662951656891507,
     0.058468771429319936,  -0.050350971907218905, 0.03796512202489557, -0.017805247117932566};
 constexpr size_t coefficients = sizeof coefficient / sizeof coefficient[0];
 
-// 1 or 0: choices by products, which no branch keeps from going several at a time.
+// Returns 1 or 0. Choices are made by products: a branch would prevent vectorisation.
 MVS_INLINE double one_if(bool holds) {
   return holds ? 1.0 : 0.0;
 }
 
-// The angle of the smaller over the larger, turned by pi / 4 where that is nearer to 0.
+// Takes the angle of the smaller coordinate over the larger, turned by pi / 4 if that is nearer to
+// 0, and maps it to the octant of (x, y).
 MVS_INLINE double arc_tangent(double y, double x) {
   constexpr double pi = std::numbers::pi, tan_8th = 0.41421356237309503;  // of pi / 8
   const double high = std::abs(y), wide = std::abs(x);
@@ -38,34 +40,15 @@ MVS_INLINE double arc_tangent(double y, double x) {
   return std::copysign(behind * pi + (1 - 2 * behind) * ahead, y);
 }
 
-MVS_INLINE void all(const double *MVS_RESTRICT y, const double *MVS_RESTRICT x,
-                    double *MVS_RESTRICT angle, size_t n) {
+MVS_INLINE void arc_tangents(const double *MVS_RESTRICT y, const double *MVS_RESTRICT x,
+                             double *MVS_RESTRICT angle, size_t n) {
   for (size_t k = 0; k < n; ++k) angle[k] = arc_tangent(y[k], x[k]);
-}
-
-void all_plain(const double *y, const double *x, double *angle, size_t n) {
-  all(y, x, angle, n);
-}
-
-#if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] void all_wider(const double *y, const double *x, double *angle, size_t n) {
-  all(y, x, angle, n);
-}
-#endif
-
-using Kernel = void (*)(const double *, const double *, double *, size_t);
-
-Kernel choose() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (simd_level() >= SimdLevel::avx2) return &all_wider;
-#endif
-  return &all_plain;
 }
 
 }  // namespace
 
 void atan2_batch(const double *y, const double *x, double *angle, size_t n) {
-  static const Kernel kernel = choose();
+  static const auto kernel = simd_kernel<&arc_tangents>();
   kernel(y, x, angle, n);
 }
 

@@ -1,4 +1,4 @@
-// A vector whose copies share one buffer until one of them changes: what makes snapshots cheap.
+// Copy-on-write vector: copies share a buffer until one changes, so that snapshots are cheap.
 #pragma once
 
 #include <atomic>
@@ -11,9 +11,9 @@
 
 namespace mvs::core {
 
-// Used like a std::vector. Reading never copies; the first change to a copy does (copy on write).
-// Read through a const reference where it matters: a non-const operator[] or begin() counts as a
-// change. Copies may live in different threads, one object belongs to one thread at a time.
+// Has the interface of std::vector. Reading never copies; the first change to a copy does. Hot
+// loops read through a const reference: a non-const operator[] or begin() counts as a change.
+// Copies may live in different threads; one object belongs to one thread at a time.
 template <typename T>
 class CowVector {
  public:
@@ -44,7 +44,7 @@ class CowVector {
   auto begin() const { return get().begin(); }
   auto end() const { return get().end(); }
 
-  // The items for changing: of this object alone from here on.
+  // Returns the items for changes. From then on this object owns them alone.
   Vector &edit() {
     if (!block_) {
       block_ = new Block(Vector());
@@ -81,16 +81,16 @@ class CowVector {
     return edit().erase(std::forward<Arguments>(arguments)...);
   }
 
-  // Takes over the buffer of `other` if it holds the same, bit for bit; says whether it does.
+  // Shares the buffer of `other` if it holds the same items, bit for bit. Returns whether it does.
   bool share_with(const CowVector &other) {
     if (block_ == other.block_) return true;
     if (!same_bits(get(), other.get())) return false;
     *this = other;
     return true;
   }
-  // Whether a change would copy nothing.
+  // Returns whether a change would copy nothing.
   bool is_alone() const { return !block_ || block_->owners.load(std::memory_order_acquire) == 1; }
-  // Where the buffer is: equal for those that share it, null for an empty one.
+  // Returns the address of the buffer: equal for vectors that share it, null for an empty one.
   const void *buffer() const { return block_; }
 
   friend bool operator==(const CowVector &a, const CowVector &b) {
@@ -108,7 +108,7 @@ class CowVector {
     static const Vector empty;
     return empty;
   }
-  // Numbers by their bits, -0.0 is not 0.0; what has names by its own ==.
+  // Compares numbers by their bits (-0.0 is not 0.0), other types by their operator ==.
   static bool same_bits(const Vector &a, const Vector &b) {
     if (a.size() != b.size()) return false;
     if constexpr (std::has_unique_object_representations_v<T> || is_numbers<T>) {
@@ -117,7 +117,7 @@ class CowVector {
       return a == b;
     }
   }
-  // Plain doubles, alone or as the three of a vector: no padding.
+  // Floating-point numbers and Eigen's fixed vectors of them: no padding.
   template <typename U>
   static constexpr bool is_numbers = std::is_floating_point_v<U> || requires {
     typename U::Scalar;

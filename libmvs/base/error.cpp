@@ -1,4 +1,4 @@
-// Building the sentences of errors.
+// Formatting of error sentences.
 #include "base/error.h"
 
 #include <cstdarg>

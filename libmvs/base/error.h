@@ -1,4 +1,4 @@
-// Failures inside the core: must() throws an Error, only api/guard.h catches it.
+// Exceptions of the core: MVS_MUST throws an Error, which only the C interface (api/) catches.
 #pragma once
 
 #include <mvs/base.h>
@@ -10,7 +10,7 @@
 
 namespace mvs::core {
 
-// A failure with everything mvs_last_error() shows.
+// A failure with all fields of mvs_last_error().
 class Error : public std::runtime_error {
  public:
   Error(mvs_result code_in, std::string part_in, const std::string &message, int32_t line_in = 0)
@@ -21,11 +21,11 @@ class Error : public std::runtime_error {
   std::string part;
 };
 
-// printf into a string.
+// Formats like printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char *pattern, ...);
 [[gnu::format(printf, 1, 0)]] std::string vformat(const char *pattern, va_list arguments);
 
-// Throws an Error of `code` about `part` ("" for none) with a printf-style sentence.
+// Throws an Error of `code` about `part` ("" if there is no part) with a printf-style sentence.
 [[noreturn, gnu::format(printf, 3, 4)]] void fail(mvs_result code, const std::string &part,
                                                   const char *pattern, ...);
 

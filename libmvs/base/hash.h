@@ -1,4 +1,4 @@
-// A 128-bit hash of a sequence of words, for telling inputs apart; not for security.
+// 128-bit hash of a sequence of words, which distinguishes inputs; not for security.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace mvs::core {
 
-// Two independent 64-bit lanes. One word changes a lane by xor, a product with an odd number and a
-// shift, each of which can be undone: inputs that differ in one word alone never collide.
-// Doubles count by their bits: -0.0 and 0.0 are different inputs, because a step may tell them
-// apart (1/x, copysign). Lengths go in before contents, so "ab","c" is not "a","bc".
+// Two independent 64-bit states. A word changes each of them by xor, a product with an odd number
+// and a shift, all of which are invertible: inputs that differ in one word alone never collide.
+// Doubles count by their bits: -0.0 and 0.0 are different inputs, because a step may distinguish
+// them (1/x, copysign). Lengths precede contents, so that "ab","c" differs from "a","bc".
 class Hash {
  public:
   void add(uint64_t word) {

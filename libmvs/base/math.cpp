@@ -1,6 +1,6 @@
 // Table-driven elementary functions: the argument is reduced to a small interval around an entry of
-// a table, where a short Taylor polynomial does, and the tails of the leading terms are carried
-// along (Tang, ACM Trans. Math. Softw. 15, 1989, for exp; 16, 1990, for log; 18, 1992, for expm1;
+// a table, in which a short Taylor polynomial suffices, and the low parts of the leading terms are
+// kept (Tang, ACM Trans. Math. Softw. 15, 1989, for exp; 16, 1990, for log; 18, 1992, for expm1;
 // Cody and Waite 1980 and Payne and Hanek, ACM SIGNUM Newsl. 18, 1983, for the reduction of angles;
 // Dekker, Numer. Math. 18, 1971, for sums and products of two doubles).
 #include "base/math.h"
@@ -135,14 +135,14 @@ Pair log_in_full(double x) {
   return fast_two_sum(sum.high, sum.low + (low - 0.5 * square.low + tail));
 }
 
-// A reduced angle r within pi / 4, and the quadrant that it was taken from.
+// A reduced angle r within pi / 4, and its quadrant.
 struct Angle {
   Pair r;
   uint32_t quadrant;
 };
 
-// The fraction of m 2^e (2 / pi) by whole-number arithmetic, m and e of x: only the digits of 2 /
-// pi count that give neither multiples of 4 nor less than 2^-150.
+// Computes the fraction of m 2^e (2 / pi) in integers, m and e of x, from the digits of 2 / pi that
+// give neither multiples of 4 nor less than 2^-150.
 Angle reduce_any_angle(double x) {
   constexpr int words = 8, limbs = words + 2;
   const auto bits = std::bit_cast<uint64_t>(x);
@@ -187,7 +187,7 @@ Angle reduce_angle(double x) {
   if (x < 0x1p20) {
     const double k = nearest(x * two_over_pi_rounded);
     const Pair r = two_sum(x - k * half_pi_1, -k * half_pi_2);
-    // nearer to a multiple of pi / 2 its third part has too few digits
+    // nearer to a multiple of pi / 2 the third part of it has too few digits
     if (std::abs(r.high) > 0x1p-20) {
       return {fast_two_sum(r.high, r.low - k * half_pi_3), static_cast<uint32_t>(k)};
     }
@@ -219,7 +219,7 @@ double cos_of_small(Pair r) {
   return head + (((1 - head) - 0.5 * z) + (z * z * p - a * r.low));
 }
 
-// Sine of a reduced angle turned on by some right angles.
+// Returns the sine of a reduced angle plus `more` right angles.
 double sin_of(const Angle &angle, uint32_t more) {
   const uint32_t quadrant = angle.quadrant + more;
   const double value = (quadrant & 1) != 0 ? cos_of_small(angle.r) : sin_of_small(angle.r);
@@ -230,7 +230,7 @@ double sin_of(const Angle &angle, uint32_t more) {
 Pair atan_of_ratio(double small, double large) {
   const double k = nearest(16 * small / large);
   const double c = k / 16;
-  // the tangent of what is left: (small - c large) / (large + c small)
+  // the tangent of the remaining angle: (small - c large) / (large + c small)
   const Pair down = two_product(c, large), up = two_product(c, small);
   const Pair above = two_sum(small, -down.high), below = two_sum(large, up.high);
   const double left = above.low - down.low, right = below.low + up.low;
@@ -250,7 +250,7 @@ Pair atan_of(double y, double x) {
   const double large = y > x ? y : x;
   const auto bits = std::bit_cast<uint64_t>(large);
   const int exponent = static_cast<int>(bits >> mantissa_bits) - exponent_bias;
-  // to about 1, where products of halves neither overflow nor vanish
+  // scaled to about 1, so that products of halves neither overflow nor underflow
   const double a = scaled(y, -exponent / 2) * power_of_two(-exponent - -exponent / 2);
   const double b = scaled(x, -exponent / 2) * power_of_two(-exponent - -exponent / 2);
   if (y <= x) return atan_of_ratio(a, b);
@@ -303,7 +303,7 @@ double pow(double x, double y) {
   if (std::isinf(y)) return (x > 1) == (y > 0) ? infinity : 0;
   const Pair log_x = log_in_full(x);
   if (!(std::abs(y * log_x.high) < 800)) return (log_x.high > 0) == (y > 0) ? infinity : 0;
-  // where halving y would overflow the product is out of range or as good as 0
+  // if halving y would overflow, the product is out of range or rounds to 0
   if (std::abs(y) > 0x1p900 || std::abs(y) < 0x1p-900) return 1 + y * log_x.high;
   const Pair product = two_product(y, log_x.high);
   const Pair power = fast_two_sum(product.high, product.low + y * log_x.low);
@@ -331,7 +331,7 @@ double atan2(double y, double x) {
   }
   Pair angle = {0, 0};
   if (a > 0 && b > 0) {
-    // below 2^-60 the other leg is all there is
+    // below 2^-60 of the other one, a leg does not change the result
     if (b > 0x1p60 * a) {
       angle = {a / b, 0};
     } else if (a > 0x1p60 * b) {

@@ -103,7 +103,7 @@ def write_tables() -> None:
     half_pi = [rounded(pi / 2, 32)]
     half_pi.append(rounded(pi / 2 - half_pi[0], 65))
     text = "// Tables of math.cpp. Written by math_tables.py; do not edit.\n"
-    text += "// clang-format off\n#pragma once\n\n#include <cstdint>\n\nnamespace mvs::math::tables {\n\n"
+    text += "// clang-format off\n#pragma once\n\n#include <cstdint>\n\nnamespace mvs::core::math::tables {\n\n"
     text += f"inline constexpr uint64_t log_first = {LOG_FIRST:#x};\n"
     text += constant("log_ln2_high", log_ln2[0]) + constant("log_ln2_low", log_ln2[1])
     text += constant("exp_ln2_high", exp_ln2[0]) + constant("exp_ln2_low", exp_ln2[1])
@@ -117,12 +117,12 @@ def write_tables() -> None:
     text += "\n// atan(k / 16), head and tail\n" + table("atan_table", 2, atan_rows())
     words = ", ".join(f"{word:#010x}" for word in two_over_pi())
     text += f"\n// binary digits of 2 / pi\ninline constexpr uint32_t two_over_pi[] = {{{words}}};\n"
-    text += "\n}  // namespace mvs::math::tables\n"
+    text += "\n}  // namespace mvs::core::math::tables\n"
     TABLES.write_text(text)
 
 
 def arguments(rng: random.Random) -> dict[str, list[tuple[float, ...]]]:
-    """What the reference is computed for: the ranges in use, borders of intervals, extremes."""
+    """Arguments of the reference values: the ranges in use, borders of intervals, extremes."""
     def spread(low: float, high: float, n: int) -> list[float]:
         return [rng.uniform(low, high) for _ in range(n)]
 

@@ -1,4 +1,4 @@
-// Checks of the caller's options, and values written to arrays of the caller.
+// Checks of the caller's options, and output to arrays of the caller.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,17 +10,17 @@
 
 namespace mvs::core {
 
-// Throws MVS_E_ARGUMENT where a pointer that must be given is null.
+// Throws MVS_E_ARGUMENT if a required pointer is null.
 inline void must_point(const void *pointer, const char *what) {
   MVS_MUST(pointer != nullptr, MVS_E_ARGUMENT, what, "%s is a null pointer", what);
 }
 
-// A nullable text.
+// Converts a nullable text.
 inline std::string text_or_empty(const char *text) {
   return text ? text : "";
 }
 
-// Fields kept for later versions have to be zero, so that they can get a meaning.
+// Throws unless a reserved field is zero, so that later versions can define it.
 inline void must_be_zero(double value, const char *what) {
   MVS_MUST(value == 0, MVS_E_ARGUMENT, what,
            "%s is %g: this version has no meaning for it, leave 0", what, value);
@@ -34,13 +34,13 @@ inline void write(const Vec3 &from, double to[3]) {
   std::copy(from.data(), from.data() + 3, to);
 }
 
-// As w x y z.
+// In the order w x y z.
 inline void write(const Eigen::Quaterniond &from, double to[4]) {
   to[0] = from.w();
   std::copy(from.vec().data(), from.vec().data() + 3, to + 1);
 }
 
-// That an option is a number in its range; zero stays the default.
+// Throws unless an option is a number in its range or zero, its default.
 inline void must_be_in(double value, double low, double high, const char *what) {
   MVS_MUST(value == 0 || (value >= low && value <= high), MVS_E_ARGUMENT, what,
            "%s is %g: it has to be 0 (the default) or %g to %g", what, value, low, high);

@@ -1,4 +1,4 @@
-// The few types that every file of the core shares.
+// Types that all files of the core share.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@ using Id = uint64_t;
 
 inline constexpr uint32_t none = UINT32_MAX;
 
-// Sees to room for `size` items, and for as many again: what follows the contact of a live step
-// comes to its largest size early.
+// Reserves memory for `size` items and as many again: lists that grow with contact during live
+// steps reach their largest size early.
 template <typename T>
 void make_room(std::vector<T> &items, size_t size) {
   if (size > items.capacity()) items.reserve(2 * size);

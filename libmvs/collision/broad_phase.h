@@ -1,37 +1,33 @@
-// Which vertices and triangles, and which edges, could meet: the broad phase.
+// Broad phase: for one step of all nodes, finds every vertex-triangle and edge-edge pair that could
+// come within the range of contact or of its barrier, by a bounding volume hierarchy of swept
+// boxes.
 //
-// Two lists, by a tree of moving boxes. Facing pairs: a vertex and a triangle apart in the rest
-// shape, within the contact thickness of each other. Guard pairs: every vertex and triangle, and
-// every two edges, that are not incident and within their guard range. Each list also takes what
-// could come that near while every node stays within `slack` of its way: the segment from where it
-// is to where a step would take it. Together: all nodes the same share of their ways at a time, so
-// that what moves alike stays apart. Each for itself: wherever on its way every node is. Edges are
-// owned by one of their triangles, so that each pair of them comes up once
-// (representative triangles: Curtis, Tamstorf, Manocha, I3D 2008).
+// Contact candidates: a vertex and a triangle that are apart in the rest shape (RestDistanceFilter)
+// and come within the contact thickness. Barrier candidates: a vertex and a triangle, or two edges,
+// that share no node and come within their barrier's range. Both lists hold while every node stays
+// within a slack of its segment from x to `to`: with StepMotion::together at a common share of it,
+// with StepMotion::independent anywhere on it. Each edge belongs to one of its triangles, so that
+// each pair is reported once (representative triangles: Curtis, Tamstorf, Manocha, I3D 2008).
+//
+// The lists of successive steps are taken from a VerletList where that is quicker; they are the
+// same.
 #pragma once
 
 #include <algorithm>
 #include <optional>
 #include <vector>
 
+#include "collision/candidate_filter.h"
+#include "collision/candidates.h"
 #include "collision/leaf_parts.h"
 #include "collision/leaf_soa.h"
+#include "collision/node_motion.h"
+#include "collision/search_mask.h"
 #include "collision/verlet_list.h"
-#include "geometry/distance_batch.h"
-#include "geometry/swept_bvh.h"
+#include "geometry/bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {
-
-struct VertexTriangle {
-  uint32_t vertex, triangle;
-  double guard;  // m, range of the guard; unused in facing pairs
-};
-
-struct EdgeEdge {
-  uint32_t first, second;  // edges, first < second
-  double guard;            // m
-};
 
 class BroadPhase {
  public:
@@ -39,101 +35,59 @@ class BroadPhase {
   BroadPhase(const BroadPhase &) = delete;
   BroadPhase &operator=(const BroadPhase &) = delete;
 
-  // Whether what is near is kept from one list to the next, which pays in live steps; the lists are
-  // the same.
-  void keep_near(bool keep) { keeps_near_ = keep; }
-  // Keeps it from the next list on: there will be more.
-  void keep_near_at_once() { lists_ = std::max(lists_, lists_alone); }
-  // Makes the lists for nodes on their way from x to `to`.
-  void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
-             StepMotion pace = StepMotion::together);
-  // Goes back to the first lists made where the last ones were, if they hold for x and `to`: a step
-  // that is shortened as a whole after its cuts needs no lists of its own.
-  bool recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to);
-  // Whether each node is on its way, and all at the same share of it if they go together. What is
-  // true of two places is true of the straight way between them.
-  bool valid_for(const std::vector<Vec3> &x) const;
-  bool for_itself() const { return pace_ == StepMotion::independent; }
+  // Allows the Verlet list, which pays in live steps (default), or not. It is made with the third
+  // lists, or the next ones after use_verlet_list_at_once().
+  void use_verlet_list(bool use) { uses_verlet_list_ = use; }
+  void use_verlet_list_at_once() { list_count_ = std::max(list_count_, lists_without_verlet); }
 
-  bool empty() const {
-    return contact_candidates_.empty() && barrier_candidates_.empty() &&
-           barrier_edge_candidates_.empty();
-  }
+  // Makes the lists for nodes that move from x to `to`.
+  void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
+             StepMotion mode = StepMotion::together);
+  // Returns to the first lists made from the place of the last ones, if they hold for x and `to`:
+  // a step that is shortened as a whole after its limits needs no new lists.
+  bool recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to);
+  // Returns whether the lists hold at x. If they hold at two places, they hold on the segments
+  // between them.
+  bool valid_for(const std::vector<Vec3> &x) const { return current_.motion.contains(x); }
+  bool is_independent() const { return current_.motion.is_independent(); }
+
+  bool empty() const { return current_.lists.empty(); }
   // Sorted by vertex, then triangle; edges by first, then second.
-  const std::vector<VertexTriangle> &contact_candidates() const { return contact_candidates_; }
-  const std::vector<VertexTriangle> &barrier_candidates() const { return barrier_candidates_; }
-  const std::vector<EdgeEdge> &barrier_edge_candidates() const { return barrier_edge_candidates_; }
+  const std::vector<VertexTriangle> &contact_candidates() const { return current_.lists.contact; }
+  const std::vector<VertexTriangle> &barrier_candidates() const { return current_.lists.barrier; }
+  const std::vector<EdgeEdge> &barrier_edge_candidates() const {
+    return current_.lists.barrier_edges;
+  }
 
  private:
-  void keep_first();
-  void exchange();
-  double share_of(const std::vector<Vec3> &x) const;
-  bool stays(uint32_t node) const;
-  void find_still();
-  template <typename Nodes>
-  SweptAabb way_of(const Nodes &nodes) const {
-    return SweptAabb::of(nodes, from_, to_, pace_);
-  }
-  void choose();
-  void choose(const VerletTriangle &pair, const VerletBlocks &blocks);
-  bool find_changed(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
-                    StepMotion pace);
-  void search();
-  void forget_changed();
-  void forget();
-  bool edge_changed(uint32_t edge) const;
-  bool concerns(uint32_t vertex, uint32_t triangle) const;
-  bool concerns(const Edge &pair) const;
-  void take_triangles();
-  void take_edges();
-  void take(uint32_t vertex, uint32_t triangle, double middle, double near);
-  void take_edge_pair(uint32_t i, uint32_t j, double distance);
-  void sort_pairs(std::vector<VertexTriangle> &pairs);
-  void sort_edges();
-  template <typename A, typename B>
-  double reach(const A &a, const B &b) const;
+  // The lists of one motion; whether they are the first ones from its start.
+  struct StepCandidates {
+    NodeMotion motion;
+    CandidateLists lists;
+    bool is_first = false;
+  };
+
+  void select_from_verlet_list();
+  void select(const VerletTriangle &pair, const VerletBlocks &blocks);
+  void search_hierarchy();
+  void filter_found();
 
   const Model *model_;
-  double thickness_;
   RestDistanceFilter rest_distance_filter_;
-  SweptBvh tree_;
+  SweptBvh bvh_;
   LeafParts parts_;
-  LeafSoA lanes_;
-  std::vector<Vec3> from_, to_;         // of each node
-  std::vector<Vec3> middle_, half_;     // of its way; from there to the end
-  std::vector<VertexTriangle> sorted_;  // while pairs are sorted, with how many each vertex has
-  std::vector<uint32_t> count_;
-  // What is to be measured: pairs that the lanes have found, and some of them side by side.
-  std::vector<Edge> found_triangles_, found_edges_;
-  DistanceBatch place_, motion_;
-  double slack_ = 0;
-  StepMotion pace_ = StepMotion::together;
-  // Nodes and triangles that go elsewhere than when the lists were last made; triangles between two
-  // of which there is nothing to look for.
-  std::vector<uint8_t> changed_, triangle_changed_, skip_block_;
-  bool little_ = false;  // has changed: the rest of the lists stays
-  // Triangles that may be prescribed to stay, and those that do: nothing is between two of them.
-  std::vector<uint32_t> held_;
-  std::vector<uint8_t> still_;
-  bool any_still_ = false;
-  std::vector<VertexTriangle> contact_candidates_, barrier_candidates_;
-  std::vector<EdgeEdge> barrier_edge_candidates_;
-  bool first_ = false;  // lists of a way from this place
-  // Those before the present ones, where that place had other ones first.
-  struct {
-    std::vector<Vec3> from, to, half;
-    double slack = 0;
-    StepMotion pace = StepMotion::together;
-    std::vector<VertexTriangle> facing, guarded;
-    std::vector<EdgeEdge> edges;
-    bool first = false;
-  } kept_;
-  bool keeps_near_ = true;
-  // Lists before what is near is kept, which takes longer than to search: a step that is the only
-  // one does not need it, and the first step is dear enough.
-  static constexpr uint64_t lists_alone = 2;
-  uint64_t lists_ = 0;
-  std::optional<VerletList> near_;
+  LeafSoA leaves_;
+  SearchMask mask_;
+  CandidateFilter filter_;
+  CandidateSorter sorter_;
+  FoundPairs found_;
+  StepCandidates current_, first_;  // first_: of the same start, while current_ are later ones
+  // Lists before the Verlet list is made, which takes longer than a search: a single step does not
+  // need it, and the first step takes longest already.
+  static constexpr uint64_t lists_without_verlet = 2;
+  bool uses_verlet_list_ = true;
+  uint64_t list_count_ = 0;
+  std::optional<VerletList> verlet_list_;
 };
 
 }  // namespace mvs::core

@@ -1,16 +1,16 @@
-// Boxes around instruments and their ways.
+// Boxes around the motions of instruments.
 #include "collision/instrument_bodies.h"
 
 #include <algorithm>
 
-#include "geometry/box_tree.h"
+#include "geometry/bvh.h"
 #include "geometry/distance.h"
 
 namespace mvs::core {
 namespace {
 
-Box around(const Vec3 &from, const Vec3 &to, double margin) {
-  Box box;
+Aabb box_around(const Vec3 &from, const Vec3 &to, double margin) {
+  Aabb box;
   box.add(from);
   box.add(to);
   box.low.array() -= margin;
@@ -18,8 +18,8 @@ Box around(const Vec3 &from, const Vec3 &to, double margin) {
   return box;
 }
 
-// The sides of a box that a place is beyond, one bit each.
-uint8_t sides(const Box &box, const Vec3 &place) {
+// Returns a bit for each side of a box that a place is outside of.
+uint8_t sides_outside(const Aabb &box, const Vec3 &place) {
   uint32_t bits = 0;
   for (int k = 0; k < 3; ++k) {
     bits |= static_cast<uint32_t>(place[k] < box.low[k]) << (2 * k);
@@ -28,7 +28,7 @@ uint8_t sides(const Box &box, const Vec3 &place) {
   return static_cast<uint8_t>(bits);
 }
 
-void make_unique(std::vector<uint32_t> &numbers) {
+void sort_unique(std::vector<uint32_t> &numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
@@ -54,35 +54,36 @@ void InstrumentBodies::set_tools(const std::vector<Tool> &tools, uint32_t first)
 
 void InstrumentBodies::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to,
                                double slack) {
-  for (InstrumentBody &body : bodies_) look_around(body, x, to, slack);
+  for (InstrumentBody &body : bodies_) find_near(body, x, to, slack);
   prepared_ = true;
 }
 
-// By boxes around the ways of the triangles' corners and of the instrument: apart where all corners
-// are, at both ends, beyond the same side.
-void InstrumentBodies::look_around(InstrumentBody &body, const std::vector<Vec3> &x,
-                                   const std::vector<Vec3> &to, double slack) {
+// A triangle is far from an instrument if all its corners, at both ends of the step, are outside of
+// the same side of the box around the instrument's motion.
+void InstrumentBodies::find_near(InstrumentBody &body, const std::vector<Vec3> &x,
+                                 const std::vector<Vec3> &to, double slack) {
   const double margin = body.tool.radius + tool_range(*model_) + 2 * slack;
-  Box box = around(x[body.point[0]], to[body.point[0]], margin);
-  box.add(around(x[body.point[1]], to[body.point[1]], margin));
-  beyond_.resize(x.size());
-  for (size_t i = 0; i < x.size(); ++i) beyond_[i] = sides(box, x[i]) & sides(box, to[i]);
+  Aabb box = box_around(x[body.point[0]], to[body.point[0]], margin);
+  box.add(box_around(x[body.point[1]], to[body.point[1]], margin));
+  outside_.resize(x.size());
+  for (size_t i = 0; i < x.size(); ++i)
+    outside_[i] = sides_outside(box, x[i]) & sides_outside(box, to[i]);
   body.vertices.clear();
   body.edges.clear();
   body.triangles.clear();
   const auto &triangles = model_->valve.triangles.get();
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     const auto [i, j, k] = triangles[t];
-    if ((beyond_[i] & beyond_[j] & beyond_[k]) != 0) continue;
+    if ((outside_[i] & outside_[j] & outside_[k]) != 0) continue;
     body.triangles.push_back(t);
     for (const uint32_t v : triangles[t]) body.vertices.push_back(v);
     for (const uint32_t e : model_->topology.triangle_edges[t]) body.edges.push_back(e);
   }
-  make_unique(body.vertices);
-  make_unique(body.edges);
+  sort_unique(body.vertices);
+  sort_unique(body.edges);
 }
 
-const std::vector<ToolPair> &InstrumentBodies::pairs_to_part(const std::vector<Vec3> &x) {
+const std::vector<ToolPair> &InstrumentBodies::barrier_pairs(const std::vector<Vec3> &x) {
   pairs_.clear();
   for (const InstrumentBody &body : bodies_) {
     const auto &[p, q] = body.point;
@@ -91,16 +92,16 @@ const std::vector<ToolPair> &InstrumentBodies::pairs_to_part(const std::vector<V
       for (uint32_t end = 0; end < (body.is_rod() ? 2u : 1u); ++end) {
         const uint32_t v = body.point[end];
         const auto w = closest_on_triangle(x[v], x[i], x[j], x[k]).weight;
-        const Vec3 apart = x[v] - (w[0] * x[i] + w[1] * x[j] + w[2] * x[k]);
-        pairs_.push_back({{v, i, j, k}, {p, i, j, k}, 1, apart, body.tool.radius});
+        const Vec3 separation = x[v] - (w[0] * x[i] + w[1] * x[j] + w[2] * x[k]);
+        pairs_.push_back({{v, i, j, k}, {p, i, j, k}, 1, separation, body.tool.radius});
       }
     }
     if (!body.is_rod()) continue;
     for (const uint32_t e : body.edges) {
       const auto [i, j] = model_->topology.edges[e];
       const SegmentPair s = closest_of_segments(x[p], x[q], x[i], x[j]);
-      const Vec3 apart = x[p] + s.s * (x[q] - x[p]) - x[i] - s.t * (x[j] - x[i]);
-      pairs_.push_back({{p, q, i, j}, {p, p, i, j}, 2, apart, body.tool.radius});
+      const Vec3 separation = x[p] + s.s * (x[q] - x[p]) - x[i] - s.t * (x[j] - x[i]);
+      pairs_.push_back({{p, q, i, j}, {p, p, i, j}, 2, separation, body.tool.radius});
     }
   }
   return pairs_;

@@ -1,6 +1,8 @@
-// The broad phase of instruments: which parts of the sheet are near each ball or rod.
+// Broad phase of instruments: the vertices, edges and triangles of the sheet near each ball or rod
+// during a step, and the pairs that the step limiter keeps apart.
 //
-// Points of instruments (the middle of a ball, of both ends of a rod) are nodes like any other.
+// The points of an instrument (the centre of a ball, the centres of both ends of a rod) are nodes
+// like those of the sheet.
 #pragma once
 
 #include <vector>
@@ -9,21 +11,21 @@
 
 namespace mvs::core {
 
-// What must stay more than `radius` apart: nodes before `split`, and the others; `apart` joins the
-// closest points, towards the first. Nodes of one body give way together, by the share of the node
-// in `with`.
+// Nodes before `split` and the others that must stay more than `radius` apart. `separation` joins
+// the closest points, towards the nodes before `split`. Nodes of one body are limited together, by
+// the share of the node in `with`.
 struct ToolPair {
   std::array<uint32_t, 4> node, with;
   uint32_t split;
-  Vec3 apart;
+  Vec3 separation;
   double radius;
 };
 
-// A ball or rod and what is near it.
+// A ball or rod with the parts of the sheet near it.
 struct InstrumentBody {
-  Tool tool;                                         // as it was when it came: its size
-  Edge point;                                        // nodes; the same twice for a ball
-  std::vector<uint32_t> vertices, edges, triangles;  // near it
+  Tool tool;   // at its first step: its size
+  Edge point;  // nodes; the same twice for a ball
+  std::vector<uint32_t> vertices, edges, triangles;
   bool is_rod() const { return point[0] != point[1]; }
 };
 
@@ -31,29 +33,31 @@ class InstrumentBodies {
  public:
   explicit InstrumentBodies(const Model &model) : model_(&model) {}
 
-  // Points are nodes from `first` on. Without tools that push, nothing below does anything.
+  // Points are nodes from `first` on. Without tools that push, all functions below have no effect.
   void set_tools(const std::vector<Tool> &tools, uint32_t first);
   const std::vector<InstrumentBody> &all() const { return bodies_; }
 
-  // Looks for the sheet near each instrument, while every node stays within `slack` of its way.
+  // Finds the parts of the sheet near each instrument while every node stays within `slack` of its
+  // segment from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack);
-  // Whether that was done for the present tools.
+  // Returns whether that was done for the present tools.
   bool is_prepared() const { return prepared_; }
 
-  // Everything near that must not be crossed, for StepBounds.
-  const std::vector<ToolPair> &pairs_to_part(const std::vector<Vec3> &x);
-  // Shortens the steps of both ends of a rod alike, until neither is longer than that.
+  // Returns all pairs near an instrument, for StepLimiter.
+  const std::vector<ToolPair> &barrier_pairs(const std::vector<Vec3> &x);
+  // Shortens the steps of both ends of a rod by the same factor, so that neither is longer than
+  // `longest`.
   void shorten(std::vector<Vec3> &step, double longest) const;
 
  private:
-  void look_around(InstrumentBody &body, const std::vector<Vec3> &x, const std::vector<Vec3> &to,
-                   double slack);
+  void find_near(InstrumentBody &body, const std::vector<Vec3> &x, const std::vector<Vec3> &to,
+                 double slack);
 
   const Model *model_;
   std::vector<InstrumentBody> bodies_;
   bool prepared_ = true;
   std::vector<ToolPair> pairs_;
-  std::vector<uint8_t> beyond_;  // of each node, while one looks around
+  std::vector<uint8_t> outside_;  // of each node: sides of the box at hand, see sides_outside()
 };
 
 }  // namespace mvs::core

@@ -1,16 +1,16 @@
+// One pass over the leaves and one over the triangles.
 #include "collision/leaf_parts.h"
 
 namespace mvs::core {
 
-LeafParts::LeafParts(const Model &model, const SweptBvh &tree)
+LeafParts::LeafParts(const Model &model, const BvhTopology &bvh)
     : vertex_start_{0}, edge_start_{0}, owner_(model.topology.edges.size(), none) {
-  std::vector<uint8_t> taken(model.node_count(), 0);
-  const auto &start = tree.block_start();
-  for (size_t block = 0; block + 1 < start.size(); ++block) {
-    for (uint32_t k = start[block]; k < start[block + 1]; ++k) {
-      for (const uint32_t v : model.valve.triangles[tree.triangles()[k]]) {
-        if (!taken[v]) vertex_.push_back(v);
-        taken[v] = 1;
+  std::vector<uint8_t> assigned(model.node_count(), 0);
+  for (uint32_t leaf = 0; leaf < bvh.leaf_count(); ++leaf) {
+    for (uint32_t k = bvh.leaf_start[leaf]; k < bvh.leaf_start[leaf + 1]; ++k) {
+      for (const uint32_t v : model.valve.triangles[bvh.order[k]]) {
+        if (!assigned[v]) vertex_.push_back(v);
+        assigned[v] = 1;
       }
     }
     vertex_start_.push_back(static_cast<uint32_t>(vertex_.size()));

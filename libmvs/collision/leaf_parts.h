@@ -1,24 +1,24 @@
-// What comes up with each block of triangles and with each triangle of a sheet, so that pairs of
-// vertices, triangles and edges come up once: a vertex with the first block that has it, an edge
-// with the first triangle.
+// Assignment of vertices to leaves of the hierarchy and of edges to triangles, so that each pair of
+// vertices, triangles and edges is found once: a vertex belongs to the first leaf that has it, an
+// edge to the first triangle.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "geometry/swept_bvh.h"
+#include "geometry/bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {
 
 class LeafParts {
  public:
-  LeafParts(const Model &model, const SweptBvh &tree);
+  LeafParts(const Model &model, const BvhTopology &bvh);
 
-  // By blocks.
+  // All vertices of triangles, by leaves.
   const std::vector<uint32_t> &vertices() const { return vertex_; }
-  std::span<const uint32_t> vertices_of(uint32_t block) const {
-    return {vertex_.data() + vertex_start_[block], vertex_.data() + vertex_start_[block + 1]};
+  std::span<const uint32_t> vertices_of(uint32_t leaf) const {
+    return {vertex_.data() + vertex_start_[leaf], vertex_.data() + vertex_start_[leaf + 1]};
   }
   std::span<const uint32_t> edges_of(uint32_t triangle) const {
     return {edge_.data() + edge_start_[triangle], edge_.data() + edge_start_[triangle + 1]};

@@ -1,3 +1,4 @@
+// Boxes of leaves and of their parts, and SIMD tests between two leaves.
 #include "collision/leaf_soa.h"
 
 #include <algorithm>
@@ -11,236 +12,249 @@ double farthest_of(const Vec3 &p, double farthest) {
   return std::max(farthest, p.cwiseAbs().maxCoeff());
 }
 
-CornerF to_corner(const Vec3 &p) {
+CornerF corner_f(const Vec3 &p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0};
 }
 
-// Bit k: lane k of one of some is the same as one of the values.
-template <size_t some, size_t values>
-uint32_t lanes_with(const std::array<std::array<int32_t, SweptAabb8::count>, some> &lanes,
-                    const std::array<int32_t, values> &value) {
+// Sets bit k if entry k of one of the arrays equals one of the values.
+template <size_t arrays, size_t values>
+uint32_t entries_with(const std::array<Eight<int32_t>, arrays> &entries,
+                      const std::array<int32_t, values> &value) {
   uint32_t bits = 0;
-  for (uint32_t k = 0; k < SweptAabb8::count; k += simd_width) {
-    SimdMask same = {};
-    for (const auto &one : lanes) {
-      for (const int32_t v : value) same |= load_simd(&one[k]) == v;
+  for (uint32_t k = 0; k < SweptAabb8::count; k += Float4::width) {
+    Float4::Mask same = {};
+    for (const auto &entry : entries) {
+      Float4::Mask four;
+      std::memcpy(&four, &entry[k], sizeof four);
+      for (const int32_t v : value) same |= four == v;
     }
-    bits |= bits_of(same) << k;
+    bits |= bits_of<Float4>(same) << k;
   }
   return bits;
 }
 
-// Calls visit(first, count) for eight after eight of some, the rest last.
-template <typename Items, typename Visit>
-void by_eight(const Items &items, Visit &&visit) {
-  for (size_t k = 0; k < items.size(); k += SweptAabb8::count) {
-    visit(k, std::min<size_t>(SweptAabb8::count, items.size() - k));
-  }
+uint32_t with_corner(const LeafTriangles &triangles, uint32_t vertex) {
+  return entries_with<3, 1>(triangles.corner, {static_cast<int32_t>(vertex)});
 }
 
-}  // namespace
-
-LeafSoA::LeafSoA(const Model &model, const SweptBvh &tree, const LeafParts &parts, double apart)
-    : model_(&model), vertex_start_{0}, edge_start_{0} {
-  double farthest = 0;
-  for (const uint32_t v : parts.vertices()) farthest = farthest_of(model.valve.rest[v], farthest);
-  rest_margin_ = float_margin(apart, farthest);
-  // of a difference of two places, and its square and sum
-  const double near = apart * (1 - 1e-5) - 8 * 0x1p-24 * farthest;
-  surely_near2_ = static_cast<float>(near > 0 ? near * near : 0);
-  node_.resize(model.node_count());
-  triangles_.resize(tree.block_count());
-  for (uint32_t block = 0; block < tree.block_count(); ++block) add_block(block, tree, parts);
-  way_.resize(tree.block_count());
-  placed_.assign(tree.block_count(), 0);
-  begin(model.valve.rest, model.valve.rest, StepMotion::together);
-  rest_ = place_all();
+// The edges that share a node with edge i of `of`.
+uint32_t sharing_node(const LeafEdges &edges, const LeafEdges &of, uint32_t i) {
+  return entries_with<2, 2>(edges.end, {of.end[0][i], of.end[1][i]});
 }
 
-void LeafSoA::add_block(uint32_t block, const SweptBvh &tree, const LeafParts &parts) {
-  const auto &rest = model_->valve.rest.get();
-  Triangles &own = triangles_[block];
-  own.id.fill(none);
-  for (auto &corner : own.corner) corner.fill(-1);
-  for (auto &axis : own.centre) axis.fill(0);
-  std::vector<uint32_t> edges;
-  for (uint32_t k = tree.block_start()[block]; k < tree.block_start()[block + 1]; ++k) {
-    const uint32_t lane = k - tree.block_start()[block], t = tree.triangles()[k];
-    const Tri &corners = model_->valve.triangles[t];
-    own.id[lane] = t;
-    const Vec3 centre = (rest[corners[0]] + rest[corners[1]] + rest[corners[2]]) / 3;
-    for (uint32_t c = 0; c < 3; ++c) {
-      own.corner[c][lane] = static_cast<int32_t>(corners[c]);
-      own.centre[c][lane] = static_cast<float>(centre[c]);
-    }
-    edges.insert(edges.end(), parts.edges_of(t).begin(), parts.edges_of(t).end());
-  }
-  const auto vertices = parts.vertices_of(block);
-  by_eight(vertices, [&](size_t first, size_t count) {
-    Vertices &eight = vertices_.emplace_back();
-    eight.id.fill(none);
-    for (auto &axis : eight.rest) axis.fill(0);
-    for (size_t lane = 0; lane < count; ++lane) {
-      const uint32_t v = eight.id[lane] = vertices[first + lane];
-      for (uint32_t c = 0; c < 3; ++c) eight.rest[c][lane] = static_cast<float>(rest[v][c]);
-    }
-  });
-  by_eight(edges, [&](size_t first, size_t count) {
-    Edges &eight = edges_.emplace_back();
-    eight.id.fill(none);
-    for (auto &end : eight.end) end.fill(-1);
-    for (size_t lane = 0; lane < count; ++lane) {
-      const uint32_t e = eight.id[lane] = edges[first + lane];
-      for (uint32_t c = 0; c < 2; ++c) {
-        eight.end[c][lane] = static_cast<int32_t>(model_->topology.edges[e][c]);
-      }
-    }
-  });
-  vertex_start_.push_back(static_cast<uint32_t>(vertices_.size()));
-  edge_start_.push_back(static_cast<uint32_t>(edges_.size()));
-}
-
-void LeafSoA::begin(const std::vector<Vec3> &from, const std::vector<Vec3> &to, StepMotion pace) {
-  ++round_;
-  pace_ = pace;
-  farthest_ = 0;
-  for (const Vertices &eight : vertices_) {
-    for (const uint32_t v : eight.id) {
-      if (v == none) break;
-      farthest_ = farthest_of(to[v], farthest_of(from[v], farthest_));
-      node_[v] = {to_corner(from[v]), to_corner(to[v])};
-    }
-  }
-}
-
-const std::vector<SweptAabbF> &LeafSoA::place_all() {
-  for (uint32_t block = 0; block < way_.size(); ++block) place(block);
-  return way_;
-}
-
-const std::vector<SweptAabbF> &LeafSoA::place_boxes() {
-  for (size_t block = 0; block < way_.size(); ++block) {
-    way_[block] = {};
-    for (const uint32_t t : triangles_[block].id) {
-      if (t == none) break;
-      for (const uint32_t i : model_->valve.triangles[t]) way_[block].add(node_[i]);
-    }
-    if (pace_ == StepMotion::independent) way_[block].join_ends();
-  }
-  return way_;
-}
-
-template <typename Nodes>
-SweptAabbF LeafSoA::narrow(const Nodes &nodes) const {
-  SweptAabbF way;
-  for (const uint32_t i : nodes) way.add(node_[i]);
-  if (pace_ == StepMotion::independent) way.join_ends();
-  return way;
-}
-
-void LeafSoA::place_block(uint32_t block) {
-  placed_[block] = round_;
-  Triangles &own = triangles_[block];
-  SweptAabbF &all = way_[block] = {};
-  for (uint32_t lane = 0; lane < SweptAabb8::count && own.id[lane] != none; ++lane) {
-    const SweptAabbF way = narrow(model_->valve.triangles[own.id[lane]]);
-    own.way.set(lane, way);
-    all.add(way);
-  }
-  for (uint32_t k = vertex_start_[block]; k < vertex_start_[block + 1]; ++k) {
-    Vertices &eight = vertices_[k];
-    for (uint32_t lane = 0; lane < SweptAabb8::count && eight.id[lane] != none; ++lane) {
-      eight.way.set(lane, narrow(std::array<uint32_t, 1>{eight.id[lane]}));
-    }
-  }
-  for (uint32_t k = edge_start_[block]; k < edge_start_[block + 1]; ++k) {
-    Edges &eight = edges_[k];
-    for (uint32_t lane = 0; lane < SweptAabb8::count && eight.id[lane] != none; ++lane) {
-      eight.way.set(lane, narrow(model_->topology.edges[eight.id[lane]]));
-    }
-  }
-}
-
-// Where all of two blocks was surely apart at rest, as leaflets are, what is within a guard faces,
-// too.
-void LeafSoA::meet(uint32_t a, uint32_t b, float facing, float guard, std::vector<Edge> &triangles,
-                   std::vector<Edge> &edges) const {
-  const bool within_guard = !surely_apart(way_[a], way_[b], guard);
-  const bool asks_guard = within_guard && !surely_apart(rest_[a], rest_[b], rest_margin_);
-  const float *closer = asks_guard ? &guard : nullptr;
-  near_vertices(a, b, facing, closer, triangles);
-  if (a != b) near_vertices(b, a, facing, closer, triangles);
-  if (within_guard) near_edges(a, b, guard, edges);
-}
-
-void LeafSoA::near_vertices(uint32_t of, uint32_t in, float facing, const float *guard,
-                            std::vector<Edge> &pairs) const {
-  for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
-    near_vertices(vertices_[k], in, facing, guard, pairs);
-  }
-}
-
-void LeafSoA::near_vertices(const Vertices &of, uint32_t in, float facing, const float *guard,
-                            std::vector<Edge> &pairs) const {
-  const Triangles &there = triangles_[in];
-  LaneMasks near, close;
-  uint32_t some = find_near(of.way, way_[in], facing);
-  if (some == 0) return;
-  some = find_near(of.way, some, there.way, facing, near);
-  if (guard != nullptr) find_near(of.way, some, there.way, *guard, close);
-  for (; some != 0; some &= some - 1) {
-    const auto k = static_cast<uint32_t>(std::countr_zero(some));
-    uint32_t lanes = near[k] & maybe_apart(of, k, there);
-    if (guard != nullptr) lanes |= close[k];
-    if (lanes != 0) lanes &= ~with_corner(there, of.id[k]);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      pairs.push_back({of.id[k], there.id[std::countr_zero(lanes)]});
-    }
-  }
-}
-
-void LeafSoA::near_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const {
-  for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
-    const uint32_t of = find_near(edges_[k].way, way_[b], margin);
-    if (of == 0) continue;
-    for (uint32_t l = a == b ? k : edge_start_[b]; l < edge_start_[b + 1]; ++l) {
-      near_edges(edges_[k], of, edges_[l], margin, pairs);
-    }
-  }
-}
-
-// Of the lanes `of` of one; with itself, each pair comes once.
-void LeafSoA::near_edges(const Edges &here, uint32_t of, const Edges &there, float margin,
+// Tests the edges `of` of eight against eight others. Of the pairs within one eight, each is
+// reported once.
+void find_edges_of_eight(const LeafEdges &here, uint32_t of, const LeafEdges &there, float margin,
                          std::vector<Edge> &pairs) {
-  LaneMasks near;
-  for (uint32_t some = find_near(here.way, of, there.way, margin, near); some != 0;
+  SweptAabb8::PairBits near;
+  for (uint32_t some = find_near(here.box, of, there.box, margin, near); some != 0;
        some &= some - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(some));
-    uint32_t lanes = near[i] & ~sharing(there, here, i);
-    if (&here == &there) lanes &= ~((2u << i) - 1);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const uint32_t e = here.id[i], f = there.id[std::countr_zero(lanes)];
+    uint32_t bits = near[i] & ~sharing_node(there, here, i);
+    if (&here == &there) bits &= ~((2u << i) - 1);
+    for (; bits != 0; bits &= bits - 1) {
+      const uint32_t e = here.id[i], f = there.id[std::countr_zero(bits)];
       pairs.push_back({std::min(e, f), std::max(e, f)});
     }
   }
 }
 
-uint32_t LeafSoA::with_corner(const Triangles &triangles, uint32_t vertex) {
-  return lanes_with<3, 1>(triangles.corner, {static_cast<int32_t>(vertex)});
+}  // namespace
+
+LeafSoA::LeafSoA(const Model &model, const BvhTopology &bvh, const LeafParts &parts,
+                 double contact_distance)
+    : model_(&model), vertex_start_{0}, edge_start_{0} {
+  double farthest = 0;
+  for (const uint32_t v : parts.vertices()) farthest = farthest_of(model.valve.rest[v], farthest);
+  rest_margin_ = float_margin(contact_distance, farthest);
+  // less the rounding of a difference of two places, of its square and of their sum
+  const double near = contact_distance * (1 - 1e-5) - 8 * 0x1p-24 * farthest;
+  surely_near2_ = static_cast<float>(near > 0 ? near * near : 0);
+  node_.resize(model.node_count());
+  triangles_.resize(bvh.leaf_count());
+  for (uint32_t leaf = 0; leaf < bvh.leaf_count(); ++leaf) add_leaf(leaf, bvh, parts);
+  box_.resize(bvh.leaf_count());
+  updated_.assign(bvh.leaf_count(), 0);
+  set_motion(model.valve.rest, model.valve.rest, StepMotion::together);
+  rest_ = update_all();
 }
 
-uint32_t LeafSoA::sharing(const Edges &edges, const Edges &of, uint32_t lane) {
-  return lanes_with<2, 2>(edges.end, {of.end[0][lane], of.end[1][lane]});
+void LeafSoA::add_leaf(uint32_t leaf, const BvhTopology &bvh, const LeafParts &parts) {
+  const auto &rest = model_->valve.rest.get();
+  LeafTriangles &own = triangles_[leaf];
+  own.id.fill(none);
+  for (auto &corner : own.corner) corner.fill(-1);
+  for (auto &axis : own.centre) axis.fill(0);
+  std::vector<uint32_t> edges;
+  for (uint32_t k = bvh.leaf_start[leaf]; k < bvh.leaf_start[leaf + 1]; ++k) {
+    const uint32_t i = k - bvh.leaf_start[leaf], t = bvh.order[k];
+    const Tri &corners = model_->valve.triangles[t];
+    own.id[i] = t;
+    const Vec3 centre = (rest[corners[0]] + rest[corners[1]] + rest[corners[2]]) / 3;
+    for (uint32_t c = 0; c < 3; ++c) {
+      own.corner[c][i] = static_cast<int32_t>(corners[c]);
+      own.centre[c][i] = static_cast<float>(centre[c]);
+    }
+    edges.insert(edges.end(), parts.edges_of(t).begin(), parts.edges_of(t).end());
+  }
+  add_vertices(leaf, parts);
+  add_edges(edges);
 }
 
-// The lanes that are not surely near at rest.
-uint32_t LeafSoA::maybe_apart(const Vertices &of, uint32_t lane, const Triangles &in) const {
+void LeafSoA::add_vertices(uint32_t leaf, const LeafParts &parts) {
+  const auto vertices = parts.vertices_of(leaf);
+  for (size_t k = 0; k < vertices.size(); ++k) {
+    const size_t i = k % SweptAabb8::count;
+    if (i == 0) {
+      vertices_.emplace_back().id.fill(none);
+      for (auto &axis : vertices_.back().rest) axis.fill(0);
+    }
+    vertices_.back().id[i] = vertices[k];
+    for (uint32_t c = 0; c < 3; ++c) {
+      vertices_.back().rest[c][i] = static_cast<float>(model_->valve.rest[vertices[k]][c]);
+    }
+  }
+  vertex_start_.push_back(static_cast<uint32_t>(vertices_.size()));
+}
+
+void LeafSoA::add_edges(const std::vector<uint32_t> &edges) {
+  for (size_t k = 0; k < edges.size(); ++k) {
+    const size_t i = k % SweptAabb8::count;
+    if (i == 0) {
+      edges_.emplace_back().id.fill(none);
+      for (auto &end : edges_.back().end) end.fill(-1);
+    }
+    edges_.back().id[i] = edges[k];
+    for (uint32_t c = 0; c < 2; ++c) {
+      edges_.back().end[c][i] = static_cast<int32_t>(model_->topology.edges[edges[k]][c]);
+    }
+  }
+  edge_start_.push_back(static_cast<uint32_t>(edges_.size()));
+}
+
+void LeafSoA::set_motion(const std::vector<Vec3> &from, const std::vector<Vec3> &to,
+                         StepMotion mode) {
+  ++motion_count_;
+  mode_ = mode;
+  farthest_ = 0;
+  for (const LeafVertices &eight : vertices_) {
+    for (const uint32_t v : eight.id) {
+      if (v == none) break;
+      farthest_ = farthest_of(to[v], farthest_of(from[v], farthest_));
+      node_[v] = {corner_f(from[v]), corner_f(to[v])};
+    }
+  }
+}
+
+const std::vector<SweptAabbF> &LeafSoA::update_all() {
+  for (uint32_t leaf = 0; leaf < box_.size(); ++leaf) update(leaf);
+  return box_;
+}
+
+const std::vector<SweptAabbF> &LeafSoA::update_boxes() {
+  for (size_t leaf = 0; leaf < box_.size(); ++leaf) {
+    box_[leaf] = {};
+    for (const uint32_t t : triangles_[leaf].id) {
+      if (t == none) break;
+      for (const uint32_t i : model_->valve.triangles[t]) box_[leaf].add(node_[i]);
+    }
+    if (mode_ == StepMotion::independent) box_[leaf].join_ends();
+  }
+  return box_;
+}
+
+template <typename Nodes>
+SweptAabbF LeafSoA::swept_box(const Nodes &nodes) const {
+  SweptAabbF box;
+  for (const uint32_t i : nodes) box.add(node_[i]);
+  if (mode_ == StepMotion::independent) box.join_ends();
+  return box;
+}
+
+void LeafSoA::update_leaf(uint32_t leaf) {
+  updated_[leaf] = motion_count_;
+  LeafTriangles &own = triangles_[leaf];
+  SweptAabbF &all = box_[leaf] = {};
+  for (uint32_t i = 0; i < SweptAabb8::count && own.id[i] != none; ++i) {
+    const SweptAabbF box = swept_box(model_->valve.triangles[own.id[i]]);
+    own.box.set(i, box);
+    all.add(box);
+  }
+  for (uint32_t k = vertex_start_[leaf]; k < vertex_start_[leaf + 1]; ++k) {
+    LeafVertices &eight = vertices_[k];
+    for (uint32_t i = 0; i < SweptAabb8::count && eight.id[i] != none; ++i) {
+      eight.box.set(i, swept_box(std::array<uint32_t, 1>{eight.id[i]}));
+    }
+  }
+  for (uint32_t k = edge_start_[leaf]; k < edge_start_[leaf + 1]; ++k) {
+    LeafEdges &eight = edges_[k];
+    for (uint32_t i = 0; i < SweptAabb8::count && eight.id[i] != none; ++i) {
+      eight.box.set(i, swept_box(model_->topology.edges[eight.id[i]]));
+    }
+  }
+}
+
+// If all of two leaves was surely apart at rest, as two leaflets are, every pair within its barrier
+// is a contact pair too, and needs no test of its own.
+void LeafSoA::find_pairs(uint32_t a, uint32_t b, float contact, float barrier,
+                         FoundPairs &found) const {
+  const bool within_barrier = !surely_apart(box_[a], box_[b], barrier);
+  const bool tests_barrier = within_barrier && !surely_apart(rest_[a], rest_[b], rest_margin_);
+  const float *closer = tests_barrier ? &barrier : nullptr;
+  find_triangles(a, b, contact, closer, found.triangles);
+  if (a != b) find_triangles(b, a, contact, closer, found.triangles);
+  if (within_barrier) find_edges(a, b, barrier, found.edges);
+}
+
+void LeafSoA::find_triangles(uint32_t of, uint32_t in, float contact, const float *barrier,
+                             std::vector<Edge> &pairs) const {
+  for (uint32_t k = vertex_start_[of]; k < vertex_start_[of + 1]; ++k) {
+    find_triangles(vertices_[k], in, contact, barrier, pairs);
+  }
+}
+
+void LeafSoA::find_triangles(const LeafVertices &of, uint32_t in, float contact,
+                             const float *barrier, std::vector<Edge> &pairs) const {
+  const LeafTriangles &there = triangles_[in];
+  SweptAabb8::PairBits near, close;
+  uint32_t some = find_near(of.box, box_[in], contact);
+  if (some == 0) return;
+  some = find_near(of.box, some, there.box, contact, near);
+  if (barrier != nullptr) find_near(of.box, some, there.box, *barrier, close);
+  for (; some != 0; some &= some - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(some));
+    uint32_t bits = near[i] & maybe_apart_at_rest(of, i, there);
+    if (barrier != nullptr) bits |= close[i];
+    if (bits != 0) bits &= ~with_corner(there, of.id[i]);
+    for (; bits != 0; bits &= bits - 1) {
+      pairs.push_back({of.id[i], there.id[std::countr_zero(bits)]});
+    }
+  }
+}
+
+void LeafSoA::find_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const {
+  for (uint32_t k = edge_start_[a]; k < edge_start_[a + 1]; ++k) {
+    const uint32_t of = find_near(edges_[k].box, box_[b], margin);
+    if (of == 0) continue;
+    for (uint32_t l = a == b ? k : edge_start_[b]; l < edge_start_[b + 1]; ++l) {
+      find_edges_of_eight(edges_[k], of, edges_[l], margin, pairs);
+    }
+  }
+}
+
+// Clears the bits of triangles that were surely nearer than the contact distance at rest.
+uint32_t LeafSoA::maybe_apart_at_rest(const LeafVertices &of, uint32_t i,
+                                      const LeafTriangles &in) const {
   uint32_t bits = 0;
-  for (uint32_t k = 0; k < SweptAabb8::count; k += simd_width) {
-    const SimdFloat x = load_simd(&in.centre[0][k]) - of.rest[0][lane];
-    const SimdFloat y = load_simd(&in.centre[1][k]) - of.rest[1][lane];
-    const SimdFloat z = load_simd(&in.centre[2][k]) - of.rest[2][lane];
-    bits |= bits_of(x * x + y * y + z * z >= surely_near2_) << k;
+  for (uint32_t k = 0; k < SweptAabb8::count; k += Float4::width) {
+    Float4::Value x, y, z;
+    load<Float4>(x, &in.centre[0][k]);
+    load<Float4>(y, &in.centre[1][k]);
+    load<Float4>(z, &in.centre[2][k]);
+    x = x - of.rest[0][i];
+    y = y - of.rest[1][i];
+    z = z - of.rest[2][i];
+    bits |= bits_of<Float4>(x * x + y * y + z * z >= surely_near2_) << k;
   }
   return bits;
 }

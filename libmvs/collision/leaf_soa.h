@@ -1,86 +1,99 @@
-// The vertices, triangles and edges of a sheet in lanes, by the blocks of its tree: which of those
-// of two blocks could come near each other on their ways. What is found is all that may be, and
-// little more: boxes in single precision tell.
+// Structure of arrays of the vertices, triangles and edges of a surface, by leaves of its
+// hierarchy: finds the pairs of two leaves whose swept boxes come near each other, by SIMD tests of
+// eight boxes at a time in single precision. It reports every pair within the margins, and few
+// others.
 #pragma once
 
 #include "collision/leaf_parts.h"
-#include "geometry/swept_bvh.h"
+#include "geometry/bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {
 
+// Pairs whose swept boxes come near each other.
+struct FoundPairs {
+  std::vector<Edge> triangles;  // a vertex and a triangle without it
+  std::vector<Edge> edges;      // two edges that share no node, the lower one first
+
+  void clear() {
+    triangles.clear();
+    edges.clear();
+  }
+};
+
+template <typename T>
+using Eight = std::array<T, SweptAabb8::count>;
+
+// Eight parts of one leaf. Unused entries have the id `none` and empty boxes.
+struct LeafTriangles {
+  SweptAabb8 box;
+  Eight<uint32_t> id;
+  std::array<Eight<int32_t>, 3> corner;
+  std::array<Eight<float>, 3> centre;  // at rest
+};
+struct LeafVertices {
+  SweptAabb8 box;
+  Eight<uint32_t> id;
+  std::array<Eight<float>, 3> rest;
+};
+struct LeafEdges {
+  SweptAabb8 box;
+  Eight<uint32_t> id;
+  std::array<Eight<int32_t>, 2> end;
+};
+
 class LeafSoA {
  public:
-  // `parts` and `tree` of the same model; `apart` m at rest, see meet().
-  LeafSoA(const Model &model, const SweptBvh &tree, const LeafParts &parts, double apart);
+  // All of the same model; `contact_distance`: m at rest, see find_pairs().
+  LeafSoA(const Model &model, const BvhTopology &bvh, const LeafParts &parts,
+          double contact_distance);
 
-  // The ways of all nodes; what a block has is placed when it is asked for.
-  void begin(const std::vector<Vec3> &from, const std::vector<Vec3> &to, StepMotion pace);
-  void place(uint32_t block) {
-    if (placed_[block] != round_) place_block(block);
+  // Sets the motion of all nodes. The boxes of a leaf follow with update().
+  void set_motion(const std::vector<Vec3> &from, const std::vector<Vec3> &to, StepMotion mode);
+  void update(uint32_t leaf) {
+    if (updated_[leaf] != motion_count_) update_leaf(leaf);
   }
-  const std::vector<SweptAabbF> &place_all();
-  // The ways of all blocks, with nothing of what they have placed.
-  const std::vector<SweptAabbF> &place_boxes();
-  const SweptAabbF &way_of(uint32_t block) const { return way_[block]; }
+  // Updates all leaves, and returns their boxes.
+  const std::vector<SweptAabbF> &update_all();
+  // Returns the boxes of all leaves, without those of their parts.
+  const std::vector<SweptAabbF> &update_boxes();
+  const SweptAabbF &box_of(uint32_t leaf) const { return box_[leaf]; }
+  // Returns a margin for boxes of this motion, see float_margin().
   float margin(double margin) const { return float_margin(margin, farthest_); }
 
-  // What could meet of two blocks that are placed, or of one and itself; margins from margin().
-  // Vertices and triangles without them: those within `facing` that may be `apart` at rest, and
-  // those within `guard` whatever they were. Edges, the lower one first, that share no node: those
-  // within `guard`. Each pair comes once.
-  void meet(uint32_t a, uint32_t b, float facing, float guard, std::vector<Edge> &triangles,
-            std::vector<Edge> &edges) const;
-  // How many pairs come of two blocks at most.
+  // Appends the pairs between two updated leaves, or within one, that come near each other; margins
+  // from margin(). A vertex and a triangle: within `contact` if they may have been the contact
+  // distance apart at rest, within `barrier` whatever they were. Two edges: within `barrier`.
+  void find_pairs(uint32_t a, uint32_t b, float contact, float barrier, FoundPairs &found) const;
+  // The largest number of pairs of each kind between two leaves.
   static constexpr size_t most_pairs = size_t{3 * SweptAabb8::count} * 3 * SweptAabb8::count;
 
  private:
-  template <typename T>
-  using Lanes = std::array<T, SweptAabb8::count>;
-  struct Triangles {
-    SweptAabb8 way;
-    Lanes<uint32_t> id;
-    std::array<Lanes<int32_t>, 3> corner;
-    std::array<Lanes<float>, 3> centre;  // at rest
-  };
-  struct Vertices {
-    SweptAabb8 way;
-    Lanes<uint32_t> id;
-    std::array<Lanes<float>, 3> rest;
-  };
-  struct Edges {
-    SweptAabb8 way;
-    Lanes<uint32_t> id;
-    std::array<Lanes<int32_t>, 2> end;
-  };
-
-  void add_block(uint32_t block, const SweptBvh &tree, const LeafParts &parts);
-  void place_block(uint32_t block);
+  void add_leaf(uint32_t leaf, const BvhTopology &bvh, const LeafParts &parts);
+  void add_vertices(uint32_t leaf, const LeafParts &parts);
+  void add_edges(const std::vector<uint32_t> &edges);
+  void update_leaf(uint32_t leaf);
   template <typename Nodes>
-  SweptAabbF narrow(const Nodes &nodes) const;
-  void near_vertices(uint32_t of, uint32_t in, float facing, const float *guard,
-                     std::vector<Edge> &pairs) const;
-  void near_vertices(const Vertices &of, uint32_t in, float facing, const float *guard,
-                     std::vector<Edge> &pairs) const;
-  void near_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const;
-  static void near_edges(const Edges &here, uint32_t of, const Edges &there, float margin,
-                         std::vector<Edge> &pairs);
-  static uint32_t with_corner(const Triangles &triangles, uint32_t vertex);
-  static uint32_t sharing(const Edges &edges, const Edges &of, uint32_t lane);
-  uint32_t maybe_apart(const Vertices &of, uint32_t lane, const Triangles &in) const;
+  SweptAabbF swept_box(const Nodes &nodes) const;
+  void find_triangles(uint32_t of, uint32_t in, float contact, const float *barrier,
+                      std::vector<Edge> &pairs) const;
+  void find_triangles(const LeafVertices &of, uint32_t in, float contact, const float *barrier,
+                      std::vector<Edge> &pairs) const;
+  void find_edges(uint32_t a, uint32_t b, float margin, std::vector<Edge> &pairs) const;
+  uint32_t maybe_apart_at_rest(const LeafVertices &of, uint32_t i, const LeafTriangles &in) const;
 
   const Model *model_;
   float rest_margin_ = 0, surely_near2_ = 0;
-  std::vector<Triangles> triangles_;                 // of each block
-  std::vector<Vertices> vertices_;                   // by eight, those of a block together
-  std::vector<Edges> edges_;                         //
-  std::vector<uint32_t> vertex_start_, edge_start_;  // of each block
-  std::vector<SweptAabbF> way_, rest_;               // of each block, on its way and at rest
+  std::vector<LeafTriangles> triangles_;             // of each leaf
+  std::vector<LeafVertices> vertices_;               // by eight, those of a leaf together
+  std::vector<LeafEdges> edges_;                     // likewise
+  std::vector<uint32_t> vertex_start_, edge_start_;  // of each leaf
+  std::vector<SweptAabbF> box_, rest_;               // of each leaf, in motion and at rest
   std::vector<SweptPointF> node_;
-  StepMotion pace_ = StepMotion::together;
-  double farthest_ = 0;
-  uint64_t round_ = 0;
-  std::vector<uint64_t> placed_;  // the round in which a block was
+  StepMotion mode_ = StepMotion::together;
+  double farthest_ = 0;  // m, the largest coordinate of the motion
+  uint64_t motion_count_ = 0;
+  std::vector<uint64_t> updated_;  // the motion for which a leaf was updated last
 };
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// The exact distance at rest decides; spheres around the triangles settle most pairs.
+// Spheres around the triangles at rest, and the exact test.
 #include "collision/rest_distance_filter.h"
 
 #include <algorithm>
@@ -10,13 +10,14 @@
 namespace mvs::core {
 namespace {
 
-constexpr double rounding = 1e-9;  // relative, more than squares and roots are wrong by
+// Relative, above the rounding error of squares and roots.
+constexpr double sphere_error = 1e-9;
 
 }  // namespace
 
 RestDistanceFilter::RestDistanceFilter(const Model &model) : model_(&model) {
   const double needed = contact_rest_distance * model.valve.contact_thickness;
-  surely_near2_ = needed * needed * (1 - rounding);
+  surely_near2_ = needed * needed * (1 - sphere_error);
   const auto &x = model.valve.rest.get();
   centre_.reserve(model.valve.triangles.size());
   surely_apart2_.reserve(model.valve.triangles.size());
@@ -28,7 +29,7 @@ RestDistanceFilter::RestDistanceFilter(const Model &model) : model_(&model) {
     }
     const double clear = needed + std::sqrt(radius2);
     centre_.push_back(centre);
-    surely_apart2_.push_back(clear * clear * (1 + rounding));
+    surely_apart2_.push_back(clear * clear * (1 + sphere_error));
   }
 }
 

@@ -1,4 +1,6 @@
-// Which vertices and triangles face each other: those that are apart in the rest shape.
+// Rest distance filter: selects the vertex-triangle pairs that can be in contact, those that are at
+// least contact_rest_distance times the contact thickness apart in the rest shape. Spheres around
+// the triangles decide most pairs, the exact distance the others.
 #pragma once
 
 #include <vector>
@@ -9,7 +11,7 @@ namespace mvs::core {
 
 class RestDistanceFilter {
  public:
-  // The model is there as long as this.
+  // The model must outlive the filter.
   explicit RestDistanceFilter(const Model &model);
 
   bool operator()(uint32_t vertex, uint32_t triangle) const {
@@ -22,9 +24,9 @@ class RestDistanceFilter {
   bool is_apart(uint32_t vertex, uint32_t triangle) const;
 
   const Model *model_;
-  double surely_near2_;
+  double surely_near2_;                // m2, from the centre
   std::vector<Vec3> centre_;           // of each triangle
-  std::vector<double> surely_apart2_;  // what is as far from there has all of the triangle so far
+  std::vector<double> surely_apart2_;  // m2, from the centre: then all of the triangle is apart
 };
 
 }  // namespace mvs::core

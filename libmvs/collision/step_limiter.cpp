@@ -1,4 +1,4 @@
-// Step bounds by separating planes.
+// Limits by separating planes.
 #include "collision/step_limiter.h"
 
 #include <algorithm>
@@ -9,26 +9,26 @@
 namespace mvs::core {
 namespace {
 
-// The share of a distance that one step may use up. The rest is what rounding could never cross.
-constexpr double usable = 0.9;
-// m, nearer than this no instrument comes to the sheet: so far that a pair that was pressed to it
-// parts again soon. A Newton step on a logarithm doubles its distance, and from 1e-10 m a ball that
-// a hand drew back stuck in the tissue for twenty steps.
-constexpr double closest_to_tool = 1e-6;
-// Of the range of a pair's guard, 0.2 mm or less: how near two parts of the sheet come. A guard
-// that is not given the room to push back is never in balance: where edges are 1 mm long it bears
-// 1 N at a share of 5e-3 and 100 N, ten times the systolic force on a valve, at this one. A crease
-// under a clip or of a needle presses with more than 1 N. Far above the rounding of places, 1e-17
-// m.
-constexpr double closest_share = 5e-5;
-constexpr double closest_of_all = 1e-11;  // m
-// Passes in which a node may follow one that gives way; then each keeps to its own half.
-constexpr int lenient_passes = 30;
-// Lists made for nodes that go together, before one that holds for each node by itself.
+// Share of a distance that one step may use up. The rest is far more than rounding errors.
+constexpr double usable_share = 0.9;
+// m, the least distance of an instrument from the sheet: large enough that a pair that was pressed
+// together parts again soon. A Newton step on a logarithm doubles its distance, and from 1e-10 m a
+// ball that a hand drew back stuck in the tissue for twenty steps.
+constexpr double least_tool_distance = 1e-6;
+// Least distance of two parts of the sheet, as a share of their barrier's range (0.2 mm or less),
+// and in m. A barrier without room to push back never comes to balance: where edges are 1 mm long
+// it bears 1 N at a share of 5e-3, and 100 N, ten times the systolic force on a valve, at this one.
+// A crease under a clip or of a needle presses with more than 1 N. Both are far above the rounding
+// of positions, 1e-17 m.
+constexpr double least_barrier_share = 5e-5;
+constexpr double least_distance_of_all = 1e-11;
+// Passes in which one side may use what the other leaves; then each keeps to its half.
+constexpr int sharing_passes = 30;
+// Lists built for nodes that move together, before those for independent ones.
 constexpr uint32_t lists_together = 2;
 
-double closest_of_guard(double range) {
-  return std::max(closest_share * range, closest_of_all);
+double least_distance(double barrier_range) {
+  return std::max(least_barrier_share * barrier_range, least_distance_of_all);
 }
 
 }  // namespace
@@ -49,50 +49,53 @@ uint32_t StepLimiter::limit(const Model &model, const std::vector<Vec3> &x, doub
       }
       if (tools) tools->prepare(x, to_, slack);
     }
-    const auto &apart = tools ? tools->pairs_to_part(x) : no_pairs;
-    if (limit(model, x, broad_phase, dx, apart) == 1 || broad_phase.for_itself()) return lists;
+    const auto &tool_pairs = tools ? tools->barrier_pairs(x) : no_pairs;
+    if (limit(model, x, broad_phase, dx, tool_pairs) == 1 || broad_phase.is_independent()) {
+      return lists;
+    }
   }
 }
 
 double StepLimiter::limit(const Model &model, const std::vector<Vec3> &x,
                           const BroadPhase &broad_phase, std::vector<Vec3> &dx,
                           const std::vector<ToolPair> &tools) {
-  take_pairs(model, x, broad_phase, dx);
-  for (const ToolPair &p : tools) keep(p, p.radius + closest_to_tool, dx);
+  add_pairs(model, x, broad_phase, dx);
+  for (const ToolPair &p : tools) add_pair(p, p.radius + least_tool_distance, dx);
   if (pairs_.empty()) return 1;
-  scale_.assign(dx.size(), 1.0);
+  max_safe_step_.assign(dx.size(), 1.0);
   bool changed = true;
   for (int pass = 0; changed; ++pass) {
     changed = false;
-    strict_ = pass >= lenient_passes;
-    for (const Pair &pair : pairs_) changed = cut(pair, dx) || changed;
+    for (const Pair &pair : pairs_)
+      changed = limit_pair(pair, dx, pass >= sharing_passes) || changed;
   }
   for (const ToolPair &p : tools) {
-    for (uint32_t k = 0; k < 4; ++k) scale_[p.node[k]] = scale_[p.with[k]];
+    for (uint32_t k = 0; k < 4; ++k) max_safe_step_[p.node[k]] = max_safe_step_[p.with[k]];
   }
   double least = 1;
   for (size_t i = 0; i < dx.size(); ++i) {
-    if (scale_[i] < 1) dx[i] *= scale_[i];
-    least = std::min(least, scale_[i]);
+    if (max_safe_step_[i] < 1) dx[i] *= max_safe_step_[i];
+    least = std::min(least, max_safe_step_[i]);
   }
   return least;
 }
 
-// Keeps a pair if its nodes move far enough to matter.
-void StepLimiter::keep(const ToolPair &pair, double least, const std::vector<Vec3> &dx) {
-  const double length = pair.apart.norm();
-  const double room = usable * std::max(0.0, length - least);
+// Adds a pair if its nodes move far enough to need a limit.
+void StepLimiter::add_pair(const ToolPair &pair, double least_distance,
+                           const std::vector<Vec3> &dx) {
+  const double length = pair.separation.norm();
+  const double max_approach = usable_share * std::max(0.0, length - least_distance);
   double near = 0, far = 0;
   for (uint32_t k = 0; k < 4; ++k) {
     double &side = k < pair.split ? near : far;
     side = std::max(side, dx[pair.node[k]].squaredNorm());
   }
-  if (std::sqrt(near) + std::sqrt(far) <= room) return;
-  pairs_.push_back({pair.node, pair.with, pair.split, pair.apart / length, room});
+  if (std::sqrt(near) + std::sqrt(far) <= max_approach) return;
+  pairs_.push_back({pair.node, pair.with, pair.split, pair.separation / length, max_approach});
 }
 
-void StepLimiter::take_pairs(const Model &model, const std::vector<Vec3> &x,
-                             const BroadPhase &broad_phase, const std::vector<Vec3> &dx) {
+void StepLimiter::add_pairs(const Model &model, const std::vector<Vec3> &x,
+                            const BroadPhase &broad_phase, const std::vector<Vec3> &dx) {
   pairs_.clear();
   pairs_.reserve(model.node_count());  // rarely more, so that a live step seldom allocates
   for (const VertexTriangle &c : broad_phase.barrier_candidates()) {
@@ -100,39 +103,39 @@ void StepLimiter::take_pairs(const Model &model, const std::vector<Vec3> &x,
     const auto p = closest_on_triangle(x[c.vertex], x[t[0]], x[t[1]], x[t[2]]);
     const Vec3 q = p.weight[0] * x[t[0]] + p.weight[1] * x[t[1]] + p.weight[2] * x[t[2]];
     const std::array<uint32_t, 4> node = {c.vertex, t[0], t[1], t[2]};
-    keep({node, node, 1, x[c.vertex] - q, 0}, closest_of_guard(c.guard), dx);
+    add_pair({node, node, 1, x[c.vertex] - q, 0}, least_distance(c.range), dx);
   }
   for (const EdgeEdge &c : broad_phase.barrier_edge_candidates()) {
     const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
     const auto p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
     const Vec3 r = x[e[0]] + p.s * (x[e[1]] - x[e[0]]) - x[f[0]] - p.t * (x[f[1]] - x[f[0]]);
     const std::array<uint32_t, 4> node = {e[0], e[1], f[0], f[1]};
-    keep({node, node, 2, r, 0}, closest_of_guard(c.guard), dx);
+    add_pair({node, node, 2, r, 0}, least_distance(c.range), dx);
   }
 }
 
-bool StepLimiter::cut(const Pair &pair, const std::vector<Vec3> &dx) {
+bool StepLimiter::limit_pair(const Pair &pair, const std::vector<Vec3> &dx, bool by_halves) {
   std::array<double, 4> approach;
   std::array<double, 2> side{-1e300, -1e300};
   for (uint32_t k = 0; k < 4; ++k) {
     const uint32_t s = k < pair.split ? 0 : 1;
-    const double along = pair.normal.dot(dx[pair.node[k]]) * scale_[pair.with[k]];
+    const double along = pair.normal.dot(dx[pair.node[k]]) * max_safe_step_[pair.with[k]];
     approach[k] = s == 0 ? -along : along;
     side[s] = std::max(side[s], approach[k]);
   }
-  if (side[0] + side[1] <= pair.room) return false;
-  // what one side gives way, the other may follow; what both want, they share
-  const double half = 0.5 * pair.room;
-  std::array<double, 2> limit{half, half};
-  if (!strict_ && side[0] < half) limit[1] = pair.room - side[0];
-  if (!strict_ && side[1] < half) limit[0] = pair.room - side[1];
+  if (side[0] + side[1] <= pair.max_approach) return false;
+  // a side that needs less than its half leaves the rest to the other
+  const double half = 0.5 * pair.max_approach;
+  std::array<double, 2> most{half, half};
+  if (!by_halves && side[0] < half) most[1] = pair.max_approach - side[0];
+  if (!by_halves && side[1] < half) most[0] = pair.max_approach - side[1];
   bool changed = false;
   for (uint32_t k = 0; k < 4; ++k) {
-    const double most = limit[k < pair.split ? 0 : 1];
-    if (approach[k] <= most) continue;
-    // a hair below, so that rounding does not bring the pair back
-    const double share = most / approach[k] * (1 - 1e-12);
-    scale_[pair.with[k]] *= share;
+    const double allowed = most[k < pair.split ? 0 : 1];
+    if (approach[k] <= allowed) continue;
+    // slightly less, so that rounding does not bring the pair back
+    const double share = allowed / approach[k] * (1 - 1e-12);
+    max_safe_step_[pair.with[k]] *= share;
     if (k + 1 < pair.split && pair.with[k] == pair.with[k + 1]) approach[k + 1] *= share;
     changed = true;
   }

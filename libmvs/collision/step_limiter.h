@@ -1,4 +1,12 @@
-// How far each node may go so that no sheet passes through another.
+// Conservative continuous collision detection: shortens the step of each node so that no motion
+// x .. x + dx along straight lines brings a pair of the broad phase to less than a tenth of its
+// present distance, or nearer than its barrier can hold it.
+//
+// The plane across the closest points of a pair separates it. The pair stays apart during the whole
+// motion if its corners, moving linearly, keep their sides of that plane. If both sides together
+// approach by more than the pair allows, each is limited to a half. Steps are only ever shortened,
+// and a pair once limited stays safe, so the passes end after at most one limit for every pair.
+// Unlike one global time of impact, two sheets that nearly touch do not stop the rest of the valve.
 #pragma once
 
 #include <vector>
@@ -8,46 +16,35 @@
 
 namespace mvs::core {
 
-// Shortens a step dx, node by node, until no motion x .. x + dx along straight lines brings a pair
-// of `broad_phase` (which must reach as far as dx) to less than a tenth of its present distance, or
-// nearer than its guard can hold it.
-//
-// For each pair a plane across its closest points separates it; the pair stays apart for the whole
-// motion if its corners, moving linearly, keep their sides of it. Pairs for which the sum of both
-// approaches is too much have each node's approach cut to its half. Cutting only ever shortens, and
-// a pair cut once stays safe, so this ends after at most one cut of every pair. Unlike one global
-// time of impact, two sheets that nearly touch do not stop the rest of the valve.
 class StepLimiter {
  public:
-  // Shortens a step so that nothing passes through anything, whatever there is to meet: finds the
-  // pairs that could meet while all nodes move together, cuts, and looks again, as what is cut
-  // moves against what is not. What cuts again and again gets a list that holds however each node
-  // is cut. `broad_phase` then hold for x, for x + dx and between, within `slack`. Returns how
-  // often they were looked for. What must not cross `tools` is looked for with them.
+  // Limits the step of a whole model and of its instruments. Builds `broad_phase` for nodes that
+  // move together, limits, and builds it again, as limited nodes move relative to others; the third
+  // lists hold for nodes that move independently, and so for any further limit. At the end the
+  // lists hold at x, at x + dx and between, within `slack`. Returns how often they were built.
   uint32_t limit(const Model &model, const std::vector<Vec3> &x, double slack,
                  BroadPhase &broad_phase, std::vector<Vec3> &dx, InstrumentBodies *tools = nullptr);
 
-  // Returns the smallest factor by which a node's step was cut, 1 if none was. What an instrument
-  // must not cross comes in `tools`.
+  // Limits a step for the pairs of `broad_phase`, which must hold for it, and of `tools`. Returns
+  // the smallest factor by which the step of a node was shortened, 1 if none was.
   double limit(const Model &model, const std::vector<Vec3> &x, const BroadPhase &broad_phase,
                std::vector<Vec3> &dx, const std::vector<ToolPair> &tools = {});
 
  private:
   struct Pair {
-    std::array<uint32_t, 4> node, with;  // with: whose share of its step a node goes
-    uint32_t split;                      // nodes before it are on the side the normal points to
+    std::array<uint32_t, 4> node, with;  // with: the node whose share of its step a node takes
+    uint32_t split;                      // nodes before it are on the side of the normal
     Vec3 normal;
-    double room;  // m, the share of the distance that may be used up
+    double max_approach;  // m, of both sides together
   };
-  void take_pairs(const Model &model, const std::vector<Vec3> &x, const BroadPhase &broad_phase,
-                  const std::vector<Vec3> &dx);
-  void keep(const ToolPair &pair, double least, const std::vector<Vec3> &dx);
-  bool cut(const Pair &pair, const std::vector<Vec3> &dx);
+  void add_pairs(const Model &model, const std::vector<Vec3> &x, const BroadPhase &broad_phase,
+                 const std::vector<Vec3> &dx);
+  void add_pair(const ToolPair &pair, double least_distance, const std::vector<Vec3> &dx);
+  bool limit_pair(const Pair &pair, const std::vector<Vec3> &dx, bool by_halves);
 
   std::vector<Vec3> to_;
   std::vector<Pair> pairs_;
-  std::vector<double> scale_;
-  bool strict_ = false;
+  std::vector<double> max_safe_step_;  // of each node, a share of its step
 };
 
 }  // namespace mvs::core

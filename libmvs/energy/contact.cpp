@@ -43,7 +43,7 @@ void ContactTerm::collect(const std::vector<Vec3> &x, const BroadPhase &broad_ph
   if (law_ == ContactLaw::penalty) return;
   for (const VertexTriangle &pair : broad_phase.barrier_candidates()) {
     const double strength = 0.5 * stiffness_ * model_->vertex_area[pair.vertex];
-    add_vertex_triangle(x, pair.vertex, model_->valve.triangles[pair.triangle], pair.guard,
+    add_vertex_triangle(x, pair.vertex, model_->valve.triangles[pair.triangle], pair.range,
                         strength, true);
   }
   for (const EdgeEdge &pair : broad_phase.barrier_edge_candidates()) add_guard(x, pair);
@@ -133,9 +133,9 @@ void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, co
 void ContactTerm::add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair) {
   const Edge &e = model_->topology.edges[pair.first], &f = model_->topology.edges[pair.second];
   const SegmentPair p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
-  if (p.distance2 >= pair.guard * pair.guard) return;
+  if (p.distance2 >= pair.range * pair.range) return;
   ContactPair s = edge_edge(e, f, p);
-  s.range = pair.guard;
+  s.range = pair.range;
   s.strength = 0.25 * stiffness_ * (edge_area_[pair.first] + edge_area_[pair.second]);
   finish(x, s);
 }

@@ -26,8 +26,8 @@ class TotalEnergy {
   void set_tools(const std::vector<Tool> &tools);
 
   // See Candidates.
-  void keep_near(bool keep) { broad_phase_.keep_near(keep); }
-  void keep_near_at_once() { broad_phase_.keep_near_at_once(); }
+  void keep_near(bool keep) { broad_phase_.use_verlet_list(keep); }
+  void keep_near_at_once() { broad_phase_.use_verlet_list_at_once(); }
   // Makes contact known while each node stays within `slack` of its way from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                Profile &profile);

@@ -1,4 +1,4 @@
-// Delaunay tetrahedra by insertion, in integers.
+// Incremental insertion in integer arithmetic.
 #include "geometry/delaunay3d.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Step step(const LatticePoint &from, const LatticePoint &to) {
   return {int64_t{to[0]} - from[0], int64_t{to[1]} - from[1], int64_t{to[2]} - from[2]};
 }
 
-// Six times the volume: below 3 * 2^61, so it fits.
+// Returns six times the volume, below 3 * 2^61.
 int64_t volume(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
                const LatticePoint &d) {
   const Step u = step(a, b), v = step(a, c), w = step(a, d);
@@ -26,7 +26,7 @@ int64_t volume(const LatticePoint &a, const LatticePoint &b, const LatticePoint 
          (u[2] * v[0] - u[0] * v[2]) * w[1];
 }
 
-// Whether p is strictly inside the sphere through a, b, c, d, which have positive volume.
+// Returns whether p is strictly inside the sphere through a, b, c, d, which have positive volume.
 bool in_sphere(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
                const LatticePoint &d, const LatticePoint &p) {
   const std::array<Step, 4> row = {step(p, a), step(p, b), step(p, c), step(p, d)};
@@ -43,7 +43,7 @@ bool in_sphere(const LatticePoint &a, const LatticePoint &b, const LatticePoint 
   return Wide{lift(0)} * bcd - Wide{lift(1)} * acd + Wide{lift(2)} * abd - Wide{lift(3)} * abc > 0;
 }
 
-// Where a point is along the Z curve: the bits of its coordinates, interleaved.
+// Returns the Morton code of a point: the interleaved bits of its coordinates.
 uint64_t z_order(const LatticePoint &p) {
   uint64_t code = 0;
   for (int bit = 20; bit >= 0; --bit) {
@@ -52,7 +52,7 @@ uint64_t z_order(const LatticePoint &p) {
   return code;
 }
 
-// Half of the points come last, a quarter before them, and so on, by a fixed shuffle.
+// Half of the points form the last round, a quarter the one before, and so on, by a fixed shuffle.
 std::vector<uint32_t> insertion_order(const std::vector<LatticePoint> &points) {
   struct Key {
     uint32_t round, point;
@@ -73,7 +73,7 @@ std::vector<uint32_t> insertion_order(const std::vector<LatticePoint> &points) {
   return order;
 }
 
-// Pairs up the two new tetrahedra at each edge of the hole that a new point fills.
+// Hash table of the edges of a cavity, which pairs the two new tetrahedra at each edge.
 class EdgeTable {
  public:
   struct Side {
@@ -82,7 +82,7 @@ class EdgeTable {
   };
 
   void clear(size_t edges) { slots_.assign(std::bit_ceil(2 * edges + 1), Side{empty, 0, 0}); }
-  // The side that was put at this edge before; else puts this one and returns null.
+  // Returns the side stored at this edge, or stores this one and returns null.
   const Side *match(uint32_t a, uint32_t b, uint32_t tetrahedron, uint32_t face) {
     const uint64_t edge = uint64_t{std::min(a, b)} << 32 | std::max(a, b);
     size_t slot = (edge * 0x9e3779b97f4a7c15u) >> 32;
@@ -100,16 +100,16 @@ class EdgeTable {
   std::vector<Side> slots_;
 };
 
-class Builder {
+class DelaunayBuilder {
  public:
-  explicit Builder(const std::vector<LatticePoint> &points);
+  explicit DelaunayBuilder(const std::vector<LatticePoint> &points);
 
-  // Returns the vertex that is in the place of `vertex`: itself, or an earlier one.
+  // Inserts a vertex. Returns it, or an earlier one in the same place.
   uint32_t insert(uint32_t vertex);
   std::vector<Tetrahedron> finish();
 
  private:
-  struct Facet {
+  struct CavityFacet {
     std::array<uint32_t, 4> corner;  // the new vertex at `place`
     uint32_t place;
     uint32_t outside;  // the tetrahedron on the other side, or `none`
@@ -117,24 +117,25 @@ class Builder {
 
   const LatticePoint &at(uint32_t vertex) const { return point_[vertex]; }
   uint32_t locate(const LatticePoint &p);
-  void find_hole(uint32_t start, uint32_t vertex);
-  void fill_hole();
+  void find_cavity(uint32_t start, uint32_t vertex);
+  void fill_cavity();
   uint32_t vacancy();
-  void join_outside(const Facet &facet, uint32_t t);
-  void join_inside(const Facet &facet, uint32_t t);
+  void join_outside(const CavityFacet &facet, uint32_t t);
+  void join_inside(const CavityFacet &facet, uint32_t t);
 
   std::vector<LatticePoint> point_;
   std::vector<Tetrahedron> tetrahedra_;
-  std::vector<uint64_t> seen_;  // per tetrahedron: 2 * insertion, + 1 when its sphere is hit
+  // Of each tetrahedron: 2 * insertion, + 1 if its sphere has the vertex.
+  std::vector<uint64_t> seen_;
   uint64_t insertion_ = 0;
   uint32_t last_ = 0;
-  std::vector<uint32_t> hole_, vacant_;
-  std::vector<Facet> facets_;
+  std::vector<uint32_t> cavity_, vacant_;
+  std::vector<CavityFacet> facets_;
   EdgeTable table_;
 };
 
-// The box, as six tetrahedra around its diagonal.
-Builder::Builder(const std::vector<LatticePoint> &points) : point_(points) {
+// Divides the box into six tetrahedra around its diagonal.
+DelaunayBuilder::DelaunayBuilder(const std::vector<LatticePoint> &points) : point_(points) {
   const uint32_t first = static_cast<uint32_t>(points.size());
   for (int k = 0; k < 8; ++k) {
     point_.push_back(
@@ -150,14 +151,14 @@ Builder::Builder(const std::vector<LatticePoint> &points) : point_(points) {
   seen_.assign(tetrahedra_.size(), 0);
 }
 
-// Walks towards p through the face that hides it.
-uint32_t Builder::locate(const LatticePoint &p) {
+// Visibility walk: moves to the neighbour across a face that separates from p.
+uint32_t DelaunayBuilder::locate(const LatticePoint &p) {
   uint32_t t = last_, came_from = none;
   for (uint32_t turn = 0;; ++turn) {
     const Tetrahedron &here = tetrahedra_[t];
     uint32_t next = none;
     for (uint32_t j = 0; j < 4 && next == none; ++j) {
-      const uint32_t k = (j + turn) % 4;  // turning keeps the walk out of circles
+      const uint32_t k = (j + turn) % 4;  // the rotation prevents cycles
       if (here.neighbour[k] == came_from || here.neighbour[k] == none) continue;
       std::array<uint32_t, 4> c = here.corner;
       const auto corner = [&](uint32_t i) -> const LatticePoint & { return i == k ? p : at(c[i]); };
@@ -169,32 +170,32 @@ uint32_t Builder::locate(const LatticePoint &p) {
   }
 }
 
-// All tetrahedra whose sphere holds the vertex, and the faces around them.
-void Builder::find_hole(uint32_t start, uint32_t vertex) {
+// Finds the cavity: all tetrahedra whose sphere has the vertex, and the faces around them.
+void DelaunayBuilder::find_cavity(uint32_t start, uint32_t vertex) {
   ++insertion_;
-  hole_.assign(1, start);
+  cavity_.assign(1, start);
   facets_.clear();
   seen_[start] = 2 * insertion_ + 1;
-  for (size_t i = 0; i < hole_.size(); ++i) {
-    const Tetrahedron here = tetrahedra_[hole_[i]];
+  for (size_t i = 0; i < cavity_.size(); ++i) {
+    const Tetrahedron here = tetrahedra_[cavity_[i]];
     for (uint32_t k = 0; k < 4; ++k) {
       const uint32_t n = here.neighbour[k];
       if (n != none && seen_[n] < 2 * insertion_) {
         const std::array<uint32_t, 4> &c = tetrahedra_[n].corner;
         const bool hit = in_sphere(at(c[0]), at(c[1]), at(c[2]), at(c[3]), at(vertex));
         seen_[n] = 2 * insertion_ + hit;
-        if (hit) hole_.push_back(n);
+        if (hit) cavity_.push_back(n);
       }
       if (n != none && seen_[n] == 2 * insertion_ + 1) continue;
-      Facet facet{here.corner, k, n};
+      CavityFacet facet{here.corner, k, n};
       facet.corner[k] = vertex;
       facets_.push_back(facet);
     }
   }
 }
 
-// A place for a new tetrahedron: one of the hole, as long as there are any.
-uint32_t Builder::vacancy() {
+// Returns the index for a new tetrahedron: one of the cavity, as long as there are any.
+uint32_t DelaunayBuilder::vacancy() {
   if (vacant_.empty()) {
     tetrahedra_.emplace_back();
     seen_.push_back(0);
@@ -206,8 +207,8 @@ uint32_t Builder::vacancy() {
   return t;
 }
 
-// Joins the new tetrahedron of a facet to the old one outside.
-void Builder::join_outside(const Facet &facet, uint32_t t) {
+// Links the new tetrahedron of a facet with the old one outside.
+void DelaunayBuilder::join_outside(const CavityFacet &facet, uint32_t t) {
   tetrahedra_[t].neighbour[facet.place] = facet.outside;
   if (facet.outside == none) return;
   Tetrahedron &outside = tetrahedra_[facet.outside];
@@ -219,8 +220,8 @@ void Builder::join_outside(const Facet &facet, uint32_t t) {
   }
 }
 
-// Joins it to those new ones, over the edges of the facet, that are there already.
-void Builder::join_inside(const Facet &facet, uint32_t t) {
+// Links it with the new ones across the edges of the facet that exist already.
+void DelaunayBuilder::join_inside(const CavityFacet &facet, uint32_t t) {
   for (uint32_t k = 0; k < 4; ++k) {
     if (k == facet.place) continue;
     std::array<uint32_t, 2> edge;
@@ -235,10 +236,10 @@ void Builder::join_inside(const Facet &facet, uint32_t t) {
   }
 }
 
-void Builder::fill_hole() {
-  vacant_.insert(vacant_.end(), hole_.begin(), hole_.end());
+void DelaunayBuilder::fill_cavity() {
+  vacant_.insert(vacant_.end(), cavity_.begin(), cavity_.end());
   table_.clear(3 * facets_.size() / 2);
-  for (const Facet &facet : facets_) {
+  for (const CavityFacet &facet : facets_) {
     last_ = vacancy();
     tetrahedra_[last_].corner = facet.corner;
     join_outside(facet, last_);
@@ -246,18 +247,18 @@ void Builder::fill_hole() {
   }
 }
 
-uint32_t Builder::insert(uint32_t vertex) {
+uint32_t DelaunayBuilder::insert(uint32_t vertex) {
   const uint32_t start = locate(at(vertex));
   for (const uint32_t corner : tetrahedra_[start].corner) {
     if (at(corner) == at(vertex)) return corner;
   }
-  find_hole(start, vertex);
-  fill_hole();
+  find_cavity(start, vertex);
+  fill_cavity();
   return vertex;
 }
 
-// Drops the vacant places.
-std::vector<Tetrahedron> Builder::finish() {
+// Removes the unused tetrahedra.
+std::vector<Tetrahedron> DelaunayBuilder::finish() {
   std::vector<uint32_t> number(tetrahedra_.size(), 0);
   for (const uint32_t t : vacant_) number[t] = none;
   uint32_t count = 0;
@@ -279,7 +280,7 @@ std::vector<Tetrahedron> Builder::finish() {
 }  // namespace
 
 Delaunay delaunay(const std::vector<LatticePoint> &points) {
-  Builder builder(points);
+  DelaunayBuilder builder(points);
   Delaunay result;
   result.stands_for.resize(points.size());
   for (const uint32_t i : insertion_order(points)) result.stands_for[i] = builder.insert(i);

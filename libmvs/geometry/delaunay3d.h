@@ -1,4 +1,6 @@
-// The Delaunay tetrahedra of points on an integer lattice, exact: no rounding, no tolerance.
+// Delaunay tetrahedralisation of points on an integer lattice, exact: no rounding, no tolerance.
+// Incremental insertion (Bowyer 1981, Watson 1981) in a biased randomised order (Amenta, Choi, Rote
+// 2003).
 #pragma once
 
 #include <array>
@@ -18,14 +20,14 @@ struct Tetrahedron {
 };
 
 // The tetrahedra fill the box. With n points, vertex n + k is corner k of the box: bits 0, 1, 2 of
-// k say whether it is at the far end of x, y, z.
+// k are set if it is at the far end of x, y, z.
 struct Delaunay {
   std::vector<Tetrahedron> tetrahedra;
-  std::vector<uint32_t> stands_for;  // per point: itself, or the one that is in the same place
+  std::vector<uint32_t> stands_for;  // of each point: itself, or the first one in the same place
 };
 
-// By inserting the points one by one (Bowyer 1981, Watson 1981), in rounds of doubling size, each
-// along a space-filling curve (Amenta, Choi, Rote 2003): near-linear for points on surfaces.
+// Points are inserted in rounds of doubling size, each along a space-filling curve: nearly linear
+// time for points on surfaces.
 Delaunay delaunay(const std::vector<LatticePoint> &points);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Closest points between points, segments and triangles, with the feature they lie on.
+// Closest points between points, segments and triangles, with the feature that they are on.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace mvs::core {
 struct TrianglePoint {
   std::array<double, 3> weight;
   uint32_t feature;
-  double distance2;  // m2, to the point asked about
+  double distance2;  // m2, to the query point
 };
 
 struct SegmentPoint {
@@ -27,7 +27,7 @@ inline SegmentPoint closest_on_segment(const Vec3 &p, const Vec3 &a, const Vec3 
   return {s, (p - a - s * ab).squaredNorm()};
 }
 
-// By Voronoi regions (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+// Closest point by Voronoi regions (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
 inline TrianglePoint closest_on_triangle(const Vec3 &p, const Vec3 &a, const Vec3 &b,
                                          const Vec3 &c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
@@ -72,8 +72,8 @@ struct SegmentPair {
   double distance2;
 };
 
-// Section 5.1.9 of the same book, clamped; parallel segments take the middle of their overlap, so
-// that the answer does not jump from end to end as they turn.
+// Section 5.1.9 of the same book, clamped. Parallel segments take the middle of their overlap, so
+// that the result does not jump from end to end as they turn.
 inline SegmentPair closest_of_segments(const Vec3 &p0, const Vec3 &p1, const Vec3 &q0,
                                        const Vec3 &q1) {
   const Vec3 d1 = p1 - p0, d2 = q1 - q0, r = p0 - q0;
@@ -99,8 +99,8 @@ inline SegmentPair closest_of_segments(const Vec3 &p0, const Vec3 &p1, const Vec
   return {s, t, (r + s * d1 - t * d2).squaredNorm()};
 }
 
-// The squared distance of a segment from a triangle that it does not pass through: from an end of
-// the segment to the triangle, or between the segment and an edge.
+// Returns the squared distance of a segment and a triangle that do not intersect: that of an end of
+// the segment to the triangle, or of the segment and an edge.
 inline double segment_triangle_distance2(const Vec3 &p, const Vec3 &q, const Vec3 &a, const Vec3 &b,
                                          const Vec3 &c) {
   return std::min(

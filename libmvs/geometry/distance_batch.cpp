@@ -1,59 +1,27 @@
-// The cases of distance.h, all of them taken and the right one chosen, with the widest vectors that
-// the processor has. Every sum is in the order that Eigen has in distance.h: of three, (x + y) + z.
+// Evaluates all cases of distance.h, and selects one for each pair by masks. Every sum is in the
+// order that Eigen uses in distance.h: (x + y) + z.
 #include "geometry/distance_batch.h"
 
 #include "base/simd.h"
-#include "base/simd_level.h"
 
 namespace mvs::core {
 namespace {
 
-// Lying: what is anywhere in memory. Copied by memcpy, wide vectors would go through the stack,
-// sixteen bytes at a time. (Not templates: gcc forgets the alignment of those.)
-#if defined(__GNUC__)
-struct Two {
-  static constexpr uint32_t lanes = 2;
-  typedef double Value __attribute__((vector_size(16)));
-  typedef int64_t Answers __attribute__((vector_size(16)));
-  typedef double Lying __attribute__((vector_size(16), aligned(8), may_alias));
-};
-struct Four {
-  static constexpr uint32_t lanes = 4;
-  typedef double Value __attribute__((vector_size(32)));
-  typedef int64_t Answers __attribute__((vector_size(32)));
-  typedef double Lying __attribute__((vector_size(32), aligned(8), may_alias));
-};
-#else
-struct Two {
-  static constexpr uint32_t lanes = 1;
-  typedef double Value;
-  typedef bool Answers;
-  typedef double Lying;
-};
-#endif
-
 template <typename V>
-struct Place {
+struct SimdPoint {
   typename V::Value x, y, z;
 };
 
 template <typename V>
-struct Kernel {
+struct DistanceKernel {
   using Value = typename V::Value;
-  using Answers = typename V::Answers;
-  using Point = Place<V>;
+  using Mask = typename V::Mask;
+  using Point = SimdPoint<V>;
 
-  // All by reference: the width of what is passed would depend on the target.
-  MVS_INLINE static void take(const double &from, Value &to) {
-    to = *reinterpret_cast<const typename V::Lying *>(&from);
-  }
-  MVS_INLINE static void load(const DistanceBatch &rows, uint32_t point, uint32_t pair, Point &p) {
-    take(rows.at[3 * point][pair], p.x);
-    take(rows.at[3 * point + 1][pair], p.y);
-    take(rows.at[3 * point + 2][pair], p.z);
-  }
-  MVS_INLINE static void store(const Value &square, DistanceBatch &rows, uint32_t pair) {
-    *reinterpret_cast<typename V::Lying *>(&rows.distance2[pair]) = square;
+  MVS_INLINE static void read(const DistanceBatch &batch, uint32_t point, uint32_t pair, Point &p) {
+    load<V>(p.x, &batch.at[3 * point][pair]);
+    load<V>(p.y, &batch.at[3 * point + 1][pair]);
+    load<V>(p.z, &batch.at[3 * point + 2][pair]);
   }
   MVS_INLINE static void subtract(const Point &a, const Point &b, Point &difference) {
     difference.x = a.x - b.x;
@@ -63,7 +31,7 @@ struct Kernel {
   MVS_INLINE static void dot(const Point &a, const Point &b, Value &sum) {
     sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
   }
-  MVS_INLINE static void choose(const Answers &where, const Value &value, Value &otherwise) {
+  MVS_INLINE static void choose(const Mask &where, const Value &value, Value &otherwise) {
     otherwise = where ? value : otherwise;
   }
   MVS_INLINE static void clamp(Value &s) {
@@ -76,21 +44,21 @@ struct Kernel {
     dot(rest, rest, square);
   }
 
-  // A place on an edge, from / (from - to) of the way, or its first end.
-  MVS_INLINE static void on_edge(const Value &part, const Value &whole, const Answers &is_long,
+  // Squared distance to the point of an edge at part / whole of its length, or to its first end.
+  MVS_INLINE static void on_edge(const Value &part, const Value &whole, const Mask &is_long,
                                  const Point &p, const Point &edge, Value &square) {
     const Value zero = {};
     const Value s = is_long ? part / whole : zero;
     along(p, s, edge, square);
   }
 
-  // From the last case to the first, which decides.
-  MVS_INLINE static void triangle(DistanceBatch &rows, uint32_t pair) {
+  // Cases from the last to the first, which overrides the others.
+  MVS_INLINE static void triangle(DistanceBatch &batch, uint32_t pair) {
     Point p, a, b, c, ab, ac, bc, ap, bp, cp;
-    load(rows, 0, pair, p);
-    load(rows, 1, pair, a);
-    load(rows, 2, pair, b);
-    load(rows, 3, pair, c);
+    read(batch, 0, pair, p);
+    read(batch, 1, pair, a);
+    read(batch, 2, pair, b);
+    read(batch, 3, pair, c);
     subtract(b, a, ab);
     subtract(c, a, ac);
     subtract(c, b, bc);
@@ -123,10 +91,10 @@ struct Kernel {
     choose((d3 >= zero) & (d4 <= d3), other, square);
     dot(ap, ap, other);
     choose((d1 <= zero) & (d2 <= zero), other, square);
-    store(square, rows, pair);
+    store<V>(&batch.distance2[pair], square);
   }
 
-  // Where the end of the other segment is nearest on one that is `a` long, squared.
+  // Clamped parameter part / a on a segment of squared length a.
   MVS_INLINE static void at_end(const Value &part, const Value &a, Value &s) {
     const Value zero = {};
     s = part / a;
@@ -134,12 +102,12 @@ struct Kernel {
     s = a > zero ? s : zero;
   }
 
-  MVS_INLINE static void segments(DistanceBatch &rows, uint32_t pair) {
+  MVS_INLINE static void segments(DistanceBatch &batch, uint32_t pair) {
     Point p0, p1, q0, q1, d1, d2, r;
-    load(rows, 0, pair, p0);
-    load(rows, 1, pair, p1);
-    load(rows, 2, pair, q0);
-    load(rows, 3, pair, q1);
+    read(batch, 0, pair, p0);
+    read(batch, 1, pair, p1);
+    read(batch, 2, pair, q0);
+    read(batch, 3, pair, q1);
     subtract(p1, p0, d1);
     subtract(q1, q0, d2);
     subtract(p0, q0, r);
@@ -157,7 +125,7 @@ struct Kernel {
     clamp(s);
     s = denominator > 1e-12 * a * e ? s : 0.5 * (at_start + at_other);
     Value t = e > zero ? (b * s + f) / e : zero;
-    const Answers below = t<zero, above = t> one;
+    const Mask below = t<zero, above = t> one;
     choose(below, at_start, s);
     choose(above, at_other, s);
     choose(below, zero, t);
@@ -165,85 +133,61 @@ struct Kernel {
     const Point gap = {r.x + s * d1.x - t * d2.x, r.y + s * d1.y - t * d2.y,
                        r.z + s * d1.z - t * d2.z};
     dot(gap, gap, square);
-    store(square, rows, pair);
+    store<V>(&batch.distance2[pair], square);
   }
 
-  MVS_INLINE static void farthest(DistanceBatch &rows, uint32_t pair, uint32_t split) {
+  MVS_INLINE static void farthest(DistanceBatch &batch, uint32_t pair, uint32_t split) {
     Value most = {}, square;
     for (uint32_t i = 0; i < split; ++i) {
       Point a, b, difference;
-      load(rows, i, pair, a);
+      read(batch, i, pair, a);
       for (uint32_t j = split; j < 4; ++j) {
-        load(rows, j, pair, b);
+        read(batch, j, pair, b);
         subtract(a, b, difference);
         dot(difference, difference, square);
         most = most < square ? square : most;
       }
     }
-    store(most, rows, pair);
+    store<V>(&batch.distance2[pair], most);
   }
 };
 
-struct Kernels {
-  void (*triangles)(DistanceBatch &, uint32_t);
-  void (*segments)(DistanceBatch &, uint32_t);
-  void (*farthest)(DistanceBatch &, uint32_t, uint32_t);
-};
-
-// The loops compiled for a target with V its vectors. Attributes cannot be in parentheses.
-// NOLINTBEGIN(bugprone-macro-parentheses)
-#define MVS_KERNELS(Name, ATTRIBUTE)                                                           \
-  template <typename V>                                                                        \
-  struct Name {                                                                                \
-    ATTRIBUTE static void triangles(DistanceBatch &rows, uint32_t count) {                     \
-      for (uint32_t pair = 0; pair < count; pair += V::lanes) Kernel<V>::triangle(rows, pair); \
-    }                                                                                          \
-    ATTRIBUTE static void segments(DistanceBatch &rows, uint32_t count) {                      \
-      for (uint32_t pair = 0; pair < count; pair += V::lanes) Kernel<V>::segments(rows, pair); \
-    }                                                                                          \
-    ATTRIBUTE static void farthest(DistanceBatch &rows, uint32_t count, uint32_t split) {      \
-      for (uint32_t pair = 0; pair < count; pair += V::lanes) {                                \
-        if (split == 1) {                                                                      \
-          Kernel<V>::farthest(rows, pair, 1);                                                  \
-        } else {                                                                               \
-          Kernel<V>::farthest(rows, pair, 2);                                                  \
-        }                                                                                      \
-      }                                                                                        \
-    }                                                                                          \
-    static Kernels all() { return {&triangles, &segments, &farthest}; }                        \
-  }
-
-// NOLINTEND(bugprone-macro-parentheses)
-
-MVS_KERNELS(Plain, );
-#if defined(__x86_64__) && defined(__GNUC__)
-MVS_KERNELS(Wider, [[gnu::target("avx2")]]);
-#endif
-
-Kernels choose() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (simd_level() >= SimdLevel::avx2) return Wider<Four>::all();
-#endif
-  return Plain<Two>::all();
+template <typename V>
+MVS_INLINE void all_triangles(DistanceBatch &batch, uint32_t count) {
+  for (uint32_t pair = 0; pair < count; pair += V::width) DistanceKernel<V>::triangle(batch, pair);
 }
 
-const Kernels &kernels() {
-  static const Kernels chosen = choose();
-  return chosen;
+template <typename V>
+MVS_INLINE void all_segments(DistanceBatch &batch, uint32_t count) {
+  for (uint32_t pair = 0; pair < count; pair += V::width) DistanceKernel<V>::segments(batch, pair);
+}
+
+template <typename V>
+MVS_INLINE void all_farthest(DistanceBatch &batch, uint32_t count, uint32_t split) {
+  for (uint32_t pair = 0; pair < count; pair += V::width) {
+    if (split == 1) {
+      DistanceKernel<V>::farthest(batch, pair, 1);
+    } else {
+      DistanceKernel<V>::farthest(batch, pair, 2);
+    }
+  }
 }
 
 }  // namespace
 
-void measure_triangles(DistanceBatch &rows, uint32_t count) {
-  kernels().triangles(rows, count);
+void measure_triangles(DistanceBatch &batch, uint32_t count) {
+  static const auto kernel = simd_kernel<&all_triangles<Double2>, &all_triangles<Double4>>();
+  kernel(batch, count);
 }
 
-void measure_segments(DistanceBatch &rows, uint32_t count) {
-  kernels().segments(rows, count);
+void measure_segments(DistanceBatch &batch, uint32_t count) {
+  static const auto kernel = simd_kernel<&all_segments<Double2>, &all_segments<Double4>>();
+  kernel(batch, count);
 }
 
-void measure_farthest(DistanceBatch &rows, uint32_t count, uint32_t split) {
-  kernels().farthest(rows, count, split);
+void measure_farthest(DistanceBatch &batch, uint32_t count, uint32_t split) {
+  static const auto kernel = simd_kernel<&all_farthest<Double2>, &all_farthest<Double4>>();
+  kernel(batch, count, split);
 }
 
 }  // namespace mvs::core

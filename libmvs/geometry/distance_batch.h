@@ -1,11 +1,11 @@
-// Squared distances of many pairs at once: bit for bit those of distance.h.
+// Squared distances of batches of pairs by SIMD, with the bits of distance.h.
 #pragma once
 
 #include "base/types.h"
 
 namespace mvs::core {
 
-// Pairs side by side, each of four points: a point and a triangle, or two segments.
+// Structure of arrays of pairs of four points: a point and a triangle, or two segments.
 struct DistanceBatch {
   static constexpr uint32_t most = 64;
   using Row = std::array<double, most>;
@@ -18,11 +18,12 @@ struct DistanceBatch {
   }
 };
 
-// The first `count` pairs: closest_on_triangle() of the first point and the others.
-void measure_triangles(DistanceBatch &rows, uint32_t count);
+// Sets distance2 of the first `count` pairs: closest_on_triangle() of the first point and the
+// others.
+void measure_triangles(DistanceBatch &batch, uint32_t count);
 // closest_of_segments() of the first two points and the others.
-void measure_segments(DistanceBatch &rows, uint32_t count);
-// The farthest from any of the first `split` points to any of the others.
-void measure_farthest(DistanceBatch &rows, uint32_t count, uint32_t split);
+void measure_segments(DistanceBatch &batch, uint32_t count);
+// The largest squared distance from any of the first `split` points to any of the others.
+void measure_farthest(DistanceBatch &batch, uint32_t count, uint32_t split);
 
 }  // namespace mvs::core

@@ -1,10 +1,11 @@
-// Exact crossing tests: floating-point filters first, expansions where they cannot tell.
+// Adaptive predicates (Shewchuk 1997): floating-point filters first, expansions if they are not
+// decisive. Pairs of triangles come from a bounding volume hierarchy.
 #include "geometry/intersect.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/box_tree.h"
+#include "geometry/bvh.h"
 #include "geometry/predicates.h"
 
 namespace mvs::core {
@@ -20,7 +21,7 @@ int sign_of(double value) {
   return (value > 0) - (value < 0);
 }
 
-// The 2 x 2 determinant of exact differences.
+// Returns the 2 x 2 determinant of exact differences.
 Expansion<16> exact_minor(const Expansion<2> &ax, const Expansion<2> &ay, const Expansion<2> &bx,
                           const Expansion<2> &by) {
   return ax * by + -(ay * bx);
@@ -39,7 +40,7 @@ int exact_orient3d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 
   return (term(0, 1, 2) + term(1, 2, 0) + term(2, 0, 1)).sign();
 }
 
-// The sign of the area of triangle a b c seen along one axis, exact.
+// Returns the sign of the area of triangle a b c projected along one axis, exact.
 int orient2d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, int axis) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const double left = (b[i] - a[i]) * (c[j] - a[j]), right = (b[j] - a[j]) * (c[i] - a[i]);
@@ -50,10 +51,10 @@ int orient2d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, int axis) {
       .sign();
 }
 
-// Whether two segments meet, seen along one axis: each straddles the line of the other, and their
-// boxes touch, which decides where both lie on one line.
-bool segments_cross_seen_along(int axis, const Vec3 &p, const Vec3 &q, const Vec3 &a,
-                               const Vec3 &b) {
+// Returns whether the projections of two segments along one axis meet: each straddles the line of
+// the other, and their boxes overlap, which decides if both are on one line.
+bool projected_segments_cross(int axis, const Vec3 &p, const Vec3 &q, const Vec3 &a,
+                              const Vec3 &b) {
   for (const int k : {(axis + 1) % 3, (axis + 2) % 3}) {
     if (std::max(p[k], q[k]) < std::min(a[k], b[k])) return false;
     if (std::max(a[k], b[k]) < std::min(p[k], q[k])) return false;
@@ -62,16 +63,16 @@ bool segments_cross_seen_along(int axis, const Vec3 &p, const Vec3 &q, const Vec
          orient2d_sign(a, b, p, axis) * orient2d_sign(a, b, q, axis) <= 0;
 }
 
-// Segments of one plane meet exactly when they meet seen along all three axes: along one of them
-// the plane is seen without two of its points on top of each other, so the meeting is real.
+// Segments of one plane meet if and only if their projections along all three axes meet: one of
+// these projections is injective on the plane.
 bool segments_cross(const Vec3 &p, const Vec3 &q, const Vec3 &a, const Vec3 &b) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (!segments_cross_seen_along(axis, p, q, a, b)) return false;
+    if (!projected_segments_cross(axis, p, q, a, b)) return false;
   }
   return orient3d_sign(p, q, a, b) == 0;
 }
 
-// Whether p, in the plane of triangle a b c, is inside it and not on its rim. Never in a flat one.
+// Returns whether p, in the plane of triangle a b c, is strictly inside it; false for a flat one.
 bool strictly_inside(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c) {
   for (int axis = 0; axis < 3; ++axis) {
     const int whole = orient2d_sign(a, b, c, axis);
@@ -82,14 +83,14 @@ bool strictly_inside(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c)
   return false;
 }
 
-// Whether all corners of a triangle are strictly on one side of another's plane.
+// Returns whether all corners of a triangle are strictly on one side of another's plane.
 bool is_on_one_side(const std::array<Vec3, 3> &triangle, const std::array<Vec3, 3> &plane) {
   const int first = orient3d_sign(plane[0], plane[1], plane[2], triangle[0]);
   return first != 0 && first == orient3d_sign(plane[0], plane[1], plane[2], triangle[1]) &&
          first == orient3d_sign(plane[0], plane[1], plane[2], triangle[2]);
 }
 
-// Triangles a b c and a b d, or any two with the same plane and edge: the same side of the edge?
+// Returns whether triangles a b c and a b d of one plane are on the same side of their edge.
 bool is_folded_flat(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
   if (orient3d_sign(a, b, c, d) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -99,7 +100,8 @@ bool is_folded_flat(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) 
   return false;
 }
 
-// The corners of both triangles, the shared ones first and in the same order; how many are shared.
+// Reorders the corners of both triangles, the shared ones first and in the same order. Returns how
+// many are shared.
 uint32_t shared_first(Tri &s, Tri &t) {
   uint32_t shared = 0;
   for (uint32_t i = 0; i < 3; ++i) {
@@ -144,7 +146,7 @@ bool segment_crosses_triangle(const Vec3 &p, const Vec3 &q, const Vec3 &a, const
     return segments_cross(p, q, a, b) || segments_cross(p, q, b, c) || segments_cross(p, q, c, a) ||
            strictly_inside(p, a, b, c);
   }
-  // the line meets the plane in one point: on which side of each edge does it pass?
+  // the line meets the plane in one point: the sides of the edges on which it passes
   const int ab = orient3d_sign(p, q, a, b), bc = orient3d_sign(p, q, b, c);
   if (ab * bc < 0) return false;
   const int ca = orient3d_sign(p, q, c, a);
@@ -165,13 +167,10 @@ bool triangles_cross(const std::array<Vec3, 3> &first, const std::array<Vec3, 3>
 
 std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
                                      const std::vector<Tri> &triangles) {
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
-  for (const Tri &triangle : triangles) boxes.push_back(box_of(x, triangle));
-  const AabbTree tree(std::move(boxes));
+  const TriangleBvh bvh(triangles, x);
   std::vector<Edge> crossing;
   for (uint32_t s = 0; s < triangles.size(); ++s) {
-    tree.for_touching(tree.boxes()[s], [&](uint32_t t) {
+    bvh.for_overlapping(bvh.box_of(s), [&](uint32_t t) {
       if (t > s && pair_crosses(x, triangles[s], triangles[t])) crossing.push_back({s, t});
     });
   }

@@ -1,5 +1,5 @@
-// Exact sums and products of doubles, as expansions: a number is the sum of doubles that do not
-// overlap, smallest first, none zero (Shewchuk, Adaptive Precision Floating-Point Arithmetic and
+// Exact arithmetic on floating-point expansions: a number is the sum of nonzero doubles that do not
+// overlap, smallest first (Shewchuk, Adaptive Precision Floating-Point Arithmetic and
 // Fast Robust Geometric Predicates, 1997). Exact unless a product underflows or overflows, which
 // needs coordinates outside 1e-90 .. 1e100. Needs round-to-even and -ffp-contract=off.
 #pragma once
@@ -22,7 +22,7 @@ struct Expansion {
 };
 
 struct TwoDoubles {
-  double high, low;  // high is the rounded result, low what rounding lost
+  double high, low;  // high is the rounded result, low its error
 };
 
 inline TwoDoubles two_sum(double a, double b) {
@@ -36,7 +36,7 @@ inline TwoDoubles two_product(double a, double b) {
   return {product, std::fma(a, b, -product)};
 }
 
-// a - b, without loss.
+// a - b, exact.
 inline Expansion<2> exact_difference(double a, double b) {
   const TwoDoubles d = two_sum(a, -b);
   Expansion<2> result;

@@ -1,4 +1,5 @@
-// Where a thing goes in one step: boxes at both ends of its way.
+// Swept axis-aligned boxes in double precision: a box at each end of a linear motion, and the test
+// whether two of them keep apart during the whole motion.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +9,11 @@
 
 namespace mvs::core {
 
+// Whether all nodes take the same share of their motion at a time, or each node any share.
 enum class StepMotion { together, independent };
 
-// Where something is at the two ends of its way, in boxes; for what goes for itself both are the
-// box of the whole way.
+// Boxes around a set of nodes at both ends of their motion. For independent nodes both are the box
+// of the whole motion.
 struct SweptAabb {
   struct Box {
     std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -35,23 +37,22 @@ struct SweptAabb {
 
   template <typename Nodes>
   static SweptAabb of(const Nodes &nodes, const std::vector<Vec3> &x, const std::vector<Vec3> &to,
-                      StepMotion pace) {
-    SweptAabb way;
+                      StepMotion mode) {
+    SweptAabb box;
     for (const uint32_t i : nodes) {
-      way.start.add(x[i].data());
-      way.end.add(to[i].data());
+      box.start.add(x[i].data());
+      box.end.add(to[i].data());
     }
-    if (pace == StepMotion::independent) {
-      way.start.add(way.end);
-      way.end = way.start;
+    if (mode == StepMotion::independent) {
+      box.start.add(box.end);
+      box.end = box.start;
     }
-    return way;
+    return box;
   }
 };
 
-// Whether two ways keep more than `margin` between them. The sides of the boxes move no faster than
-// linearly towards each other, so that a gap along one axis which is there at both ends is there
-// all the way.
+// Returns whether two swept boxes keep more than `margin` apart. Their sides move no faster than
+// linearly towards each other, so that a gap along one axis at both ends is a gap all the time.
 inline bool apart(const SweptAabb &a, const SweptAabb &b, double margin) {
   for (uint32_t k = 0; k < 3; ++k) {
     if (a.start.low[k] - b.start.high[k] > margin && a.end.low[k] - b.end.high[k] > margin) {

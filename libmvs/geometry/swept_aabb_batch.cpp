@@ -1,162 +1,81 @@
-// Eight ways against eight others, with the widest vectors that the processor has.
+// Overlap tests of eight swept boxes against a box or against eight others, in single precision, by
+// comparisons of the widest registers that the processor has.
 #include "geometry/swept_aabb_batch.h"
 
 #include <bit>
 
 #include "base/simd.h"
-#include "base/simd_level.h"
 
 namespace mvs::core {
 namespace {
 
-// Lying: what is anywhere in memory. Copied by memcpy, wide vectors would go through the stack,
-// sixteen bytes at a time. (Not templates: gcc forgets the alignment of those.)
-#if defined(__GNUC__)
-struct Four {
-  static constexpr uint32_t lanes = 4;
-  typedef float Value __attribute__((vector_size(16)));
-  typedef int32_t Answers __attribute__((vector_size(16)));
-  typedef float Lying __attribute__((vector_size(16), aligned(4), may_alias));
-};
-struct Eight {
-  static constexpr uint32_t lanes = 8;
-  typedef float Value __attribute__((vector_size(32)));
-  typedef int32_t Answers __attribute__((vector_size(32)));
-  typedef float Lying __attribute__((vector_size(32), aligned(4), may_alias));
-};
-#else
-struct Four {
-  static constexpr uint32_t lanes = 1;
-  typedef float Value;
-  typedef int32_t Answers;
-  typedef float Lying;
-};
-#endif
-
+// The sides of as many boxes as V has elements, moved outwards by a margin.
 template <typename V>
-MVS_INLINE uint32_t all_bits_of(const typename V::Answers &answers) {
-  uint32_t bits = 0;
-  for (uint32_t first = 0; first < V::lanes; first += simd_width) {
-    SimdMask part;
-    std::memcpy(&part, reinterpret_cast<const char *>(&answers) + 4 * first, sizeof part);
-    bits |= bits_of(part) << first;
-  }
-  return bits;
-}
-
-// As many lanes as V has, with a margin around them.
-template <typename V>
-struct Widened {
+struct WidenedAabbs {
   typename V::Value start_low[3], start_high[3], end_low[3], end_high[3];
+
+  MVS_INLINE WidenedAabbs(const SweptAabb8 &boxes, uint32_t first, float margin) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      load<V>(start_low[k], &boxes.start_low[k][first]);
+      load<V>(start_high[k], &boxes.start_high[k][first]);
+      load<V>(end_low[k], &boxes.end_low[k][first]);
+      load<V>(end_high[k], &boxes.end_high[k][first]);
+      start_low[k] = start_low[k] + -margin;
+      start_high[k] = start_high[k] + margin;
+      end_low[k] = end_low[k] + -margin;
+      end_high[k] = end_high[k] + margin;
+    }
+  }
+
+  // Marks the boxes that a swept interval on axis k is above, or below, at both ends.
+  MVS_INLINE void separate(uint32_t k, float from_low, float from_high, float to_low, float to_high,
+                           typename V::Mask &apart) const {
+    apart |= (start_high[k] < from_low) & (end_high[k] < to_low);
+    apart |= (start_low[k] > from_high) & (end_low[k] > to_high);
+  }
+
+  // Bits of the boxes that are near one box.
+  MVS_INLINE uint32_t near_box(const SweptAabbF &box) const {
+    typename V::Mask apart = {};
+    for (uint32_t k = 0; k < 3; ++k) {
+      separate(k, box.start_low[k], box.start_high[k], box.end_low[k], box.end_high[k], apart);
+    }
+    return bits_of<V>(~apart);
+  }
+
+  MVS_INLINE uint32_t near_box(const SweptAabb8 &boxes, uint32_t i) const {
+    typename V::Mask apart = {};
+    for (uint32_t k = 0; k < 3; ++k) {
+      separate(k, boxes.start_low[k][i], boxes.start_high[k][i], boxes.end_low[k][i],
+               boxes.end_high[k][i], apart);
+    }
+    return bits_of<V>(~apart);
+  }
 };
 
 template <typename V>
-MVS_INLINE void take(typename V::Value &to, const float *from, float margin) {
-  to = *reinterpret_cast<const typename V::Lying *>(from) + margin;
-}
-
-template <typename V>
-MVS_INLINE void widen(const SweptAabb8 &lanes, uint32_t first, float margin, Widened<V> &to) {
-  for (uint32_t k = 0; k < 3; ++k) {
-    take<V>(to.start_low[k], &lanes.start_low[k][first], -margin);
-    take<V>(to.start_high[k], &lanes.start_high[k][first], margin);
-    take<V>(to.end_low[k], &lanes.end_low[k][first], -margin);
-    take<V>(to.end_high[k], &lanes.end_high[k][first], margin);
-  }
-}
-
-// Along one axis a way is above or below the others at both ends.
-template <typename V>
-MVS_INLINE void part(const Widened<V> &there, uint32_t k, float start_low, float start_high,
-                     float end_low, float end_high, typename V::Answers &apart) {
-  apart |= (there.start_high[k] < start_low) & (there.end_high[k] < end_low);
-  apart |= (there.start_low[k] > start_high) & (there.end_low[k] > end_high);
-}
-
-// Bits of the lanes that are near one way.
-template <typename V>
-MVS_INLINE uint32_t near_box(const Widened<V> &there, const SweptAabbF &way) {
-  typename V::Answers apart = {};
-  for (uint32_t k = 0; k < 3; ++k) {
-    part<V>(there, k, way.start_low[k], way.start_high[k], way.end_low[k], way.end_high[k], apart);
-  }
-  return all_bits_of<V>(~apart);
-}
-
-template <typename V>
-MVS_INLINE uint32_t near_lane(const Widened<V> &there, const SweptAabb8 &here, uint32_t i) {
-  typename V::Answers apart = {};
-  for (uint32_t k = 0; k < 3; ++k) {
-    part<V>(there, k, here.start_low[k][i], here.start_high[k][i], here.end_low[k][i],
-            here.end_high[k][i], apart);
-  }
-  return all_bits_of<V>(~apart);
-}
-
-template <typename V>
-MVS_INLINE uint32_t near_box_with(const SweptAabb8 &lanes, const SweptAabbF &box, float margin) {
-  Widened<V> wide;
+MVS_INLINE uint32_t eight_near_box(const SweptAabb8 &boxes, const SweptAabbF &box, float margin) {
   uint32_t bits = 0;
-  for (uint32_t first = 0; first < SweptAabb8::count; first += V::lanes) {
-    widen<V>(lanes, first, margin, wide);
-    bits |= near_box<V>(wide, box) << first;
+  for (uint32_t first = 0; first < SweptAabb8::count; first += V::width) {
+    bits |= WidenedAabbs<V>(boxes, first, margin).near_box(box) << first;
   }
   return bits;
 }
 
 template <typename V>
-MVS_INLINE uint32_t near_lanes_with(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there,
-                                    float margin, LaneMasks &near) {
-  Widened<V> lanes;
+MVS_INLINE uint32_t eight_near_eight(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there,
+                                     float margin, SweptAabb8::PairBits &near) {
   uint32_t some = 0;
-  for (uint32_t first = 0; first < SweptAabb8::count; first += V::lanes) {
-    widen<V>(there, first, margin, lanes);
+  for (uint32_t first = 0; first < SweptAabb8::count; first += V::width) {
+    const WidenedAabbs<V> widened(there, first, margin);
     for (uint32_t left = of; left != 0; left &= left - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(left));
-      const uint32_t found = near_lane<V>(lanes, here, i) << first;
+      const uint32_t found = widened.near_box(here, i) << first;
       near[i] = first > 0 ? near[i] | found : found;
       some |= (found != 0 ? 1u : 0u) << i;
     }
   }
   return some;
-}
-
-struct Kernels {
-  uint32_t (*box)(const SweptAabb8 &, const SweptAabbF &, float);
-  uint32_t (*lanes)(const SweptAabb8 &, uint32_t, const SweptAabb8 &, float, LaneMasks &);
-};
-
-// The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
-// NOLINTBEGIN(bugprone-macro-parentheses)
-#define MVS_KERNELS(Name, V, ATTRIBUTE)                                                           \
-  struct Name {                                                                                   \
-    ATTRIBUTE static uint32_t box(const SweptAabb8 &lanes, const SweptAabbF &around,              \
-                                  float margin) {                                                 \
-      return near_box_with<V>(lanes, around, margin);                                             \
-    }                                                                                             \
-    ATTRIBUTE static uint32_t lanes(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there, \
-                                    float margin, LaneMasks &near) {                              \
-      return near_lanes_with<V>(here, of, there, margin, near);                                   \
-    }                                                                                             \
-  }
-
-// NOLINTEND(bugprone-macro-parentheses)
-
-MVS_KERNELS(Plain, Four, );
-#if defined(__x86_64__) && defined(__GNUC__)
-MVS_KERNELS(Wider, Eight, [[gnu::target("avx2")]]);
-#endif
-
-Kernels choose() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (simd_level() >= SimdLevel::avx2) return {&Wider::box, &Wider::lanes};
-#endif
-  return {&Plain::box, &Plain::lanes};
-}
-
-const Kernels &kernels() {
-  static const Kernels chosen = choose();
-  return chosen;
 }
 
 }  // namespace
@@ -170,13 +89,15 @@ void SweptAabb8::clear() {
   end_high = start_high;
 }
 
-uint32_t find_near(const SweptAabb8 &lanes, const SweptAabbF &box, float margin) {
-  return kernels().box(lanes, box, margin);
+uint32_t find_near(const SweptAabb8 &boxes, const SweptAabbF &box, float margin) {
+  static const auto kernel = simd_kernel<&eight_near_box<Float4>, &eight_near_box<Float8>>();
+  return kernel(boxes, box, margin);
 }
 
 uint32_t find_near(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there, float margin,
-                   LaneMasks &near) {
-  return kernels().lanes(here, of, there, margin, near);
+                   SweptAabb8::PairBits &near) {
+  static const auto kernel = simd_kernel<&eight_near_eight<Float4>, &eight_near_eight<Float8>>();
+  return kernel(here, of, there, margin, near);
 }
 
 }  // namespace mvs::core

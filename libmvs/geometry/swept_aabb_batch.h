@@ -1,69 +1,34 @@
-// Ways in single precision, many numbers at a time: which of them could come near each other. What
-// is near for sure is for apart() to tell.
+// Swept boxes in single precision (SweptAabbF), alone and eight at a time (SweptAabb8):
+// conservative overlap tests, which never report "apart" for two boxes that are within the margin.
+// Pairs that they leave are decided in double precision by apart() of swept_aabb.h.
 #pragma once
-
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
 
 #include <cmath>
 #include <cstring>
 
+#include "base/simd.h"
 #include "geometry/swept_aabb.h"
 
 namespace mvs::core {
 
-// Four numbers in a register where the compiler knows how, one elsewhere.
-#if defined(__GNUC__)
-typedef float SimdFloat __attribute__((vector_size(16)));
-typedef int32_t SimdMask __attribute__((vector_size(16)));
-inline uint32_t bits_of(const SimdMask &answers) {
-#if defined(__SSE__)
-  return static_cast<uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(answers)));
-#else
-  const SimdMask bits = answers & SimdMask{1, 2, 4, 8};
-  return static_cast<uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
-#endif
-}
-#else
-typedef float SimdFloat;
-typedef int32_t SimdMask;
-inline uint32_t bits_of(SimdMask answer) {
-  return answer & 1;
-}
-#endif
-inline constexpr uint32_t simd_width = sizeof(SimdFloat) / sizeof(float);
-
-inline SimdFloat load_simd(const float *from) {
-  SimdFloat numbers;
-  std::memcpy(&numbers, from, sizeof numbers);
-  return numbers;
-}
-
-inline SimdMask load_simd(const int32_t *from) {
-  SimdMask numbers;
-  std::memcpy(&numbers, from, sizeof numbers);
-  return numbers;
-}
-
-// Three axes; the fourth is nothing: there all are at the same place.
+// Three axes; the fourth number is 0 in all boxes, so that they overlap along it.
 using CornerF = std::array<float, 4>;
 
-// Where a node is at both ends of its way.
+// The two ends of a node's motion.
 struct SweptPointF {
   CornerF start{}, end{};
 };
 
 struct SweptAabbF {
-  CornerF start_low = nowhere(1), start_high = nowhere(-1);
-  CornerF end_low = nowhere(1), end_high = nowhere(-1);
+  CornerF start_low = empty_side(1), start_high = empty_side(-1);
+  CornerF end_low = empty_side(1), end_high = empty_side(-1);
 
-  // What is no number is left out.
-  void add(const SweptPointF &place) {
-    lower(start_low, place.start);
-    raise(start_high, place.start);
-    lower(end_low, place.end);
-    raise(end_high, place.end);
+  // Coordinates that are NaN are left out.
+  void add(const SweptPointF &point) {
+    lower(start_low, point.start);
+    raise(start_high, point.start);
+    lower(end_low, point.end);
+    raise(end_high, point.end);
   }
   void add(const SweptAabbF &other) {
     lower(start_low, other.start_low);
@@ -71,7 +36,7 @@ struct SweptAabbF {
     lower(end_low, other.end_low);
     raise(end_high, other.end_high);
   }
-  // Of what goes for itself (see Way).
+  // Makes both boxes that of the whole motion, for StepMotion::independent.
   void join_ends() {
     lower(start_low, end_low);
     raise(start_high, end_high);
@@ -80,73 +45,79 @@ struct SweptAabbF {
   }
 
  private:
-  static constexpr CornerF nowhere(float sign) {
+  static constexpr CornerF empty_side(float sign) {
     return {sign * HUGE_VALF, sign * HUGE_VALF, sign * HUGE_VALF, 0};
   }
   static void lower(CornerF &low, const CornerF &other) {
-    for (uint32_t k = 0; k < 4; k += simd_width) {
-      const SimdFloat mine = load_simd(&low[k]), its = load_simd(&other[k]);
-      const SimdFloat least = its < mine ? its : mine;
-      std::memcpy(&low[k], &least, sizeof least);
+    for (uint32_t k = 0; k < 4; k += Float4::width) {
+      Float4::Value mine, its;
+      load<Float4>(mine, &low[k]);
+      load<Float4>(its, &other[k]);
+      store<Float4>(&low[k], its < mine ? its : mine);
     }
   }
   static void raise(CornerF &high, const CornerF &other) {
-    for (uint32_t k = 0; k < 4; k += simd_width) {
-      const SimdFloat mine = load_simd(&high[k]), its = load_simd(&other[k]);
-      const SimdFloat most = its > mine ? its : mine;
-      std::memcpy(&high[k], &most, sizeof most);
+    for (uint32_t k = 0; k < 4; k += Float4::width) {
+      Float4::Value mine, its;
+      load<Float4>(mine, &high[k]);
+      load<Float4>(its, &other[k]);
+      store<Float4>(&high[k], its > mine ? its : mine);
     }
   }
 };
 
-// A margin for ways between places no farther than `farthest` from zero along any axis, with what
-// rounding may take from it: the sides of both, their sum with the margin and the margin itself are
-// each off by at most half a unit in the last place.
+// A margin in single precision for boxes whose coordinates are at most `farthest` in size: `margin`
+// and the rounding of the sides of both boxes, of their sum with the margin and of the margin
+// itself, each at most half a unit in the last place.
 inline float float_margin(double margin, double farthest) {
   return static_cast<float>(margin + 4 * 0x1p-24 * (farthest + margin));
 }
 
-// Whether two ways are apart by a margin from narrow_margin() for sure.
+// Returns true only if two boxes are more than a margin of float_margin() apart.
 inline bool surely_apart(const SweptAabbF &a, const SweptAabbF &b, float margin) {
-  for (uint32_t k = 0; k < 4; k += simd_width) {
-    const auto at = [k](const CornerF &corner) { return load_simd(&corner[k]); };
-    const SimdMask above =
+  for (uint32_t k = 0; k < 4; k += Float4::width) {
+    const auto at = [k](const CornerF &corner) {
+      Float4::Value side;
+      load<Float4>(side, &corner[k]);
+      return side;
+    };
+    const Float4::Mask above =
         (at(a.start_low) - margin > at(b.start_high)) & (at(a.end_low) - margin > at(b.end_high));
-    const SimdMask below =
+    const Float4::Mask below =
         (at(a.start_high) + margin < at(b.start_low)) & (at(a.end_high) + margin < at(b.end_low));
-    if (bits_of(above | below) != 0) return true;
+    if (bits_of<Float4>(above | below) != 0) return true;
   }
   return false;
 }
 
-// Eight ways side by side.
+// Eight swept boxes as a structure of arrays.
 struct SweptAabb8 {
   static constexpr uint32_t count = 8;
-  using Numbers = std::array<std::array<float, count>, 3>;
+  using Sides = std::array<std::array<float, count>, 3>;
+  // For each of eight boxes, bits of eight others.
+  using PairBits = std::array<uint32_t, count>;
 
-  Numbers start_low, start_high, end_low, end_high;
+  Sides start_low, start_high, end_low, end_high;
 
   SweptAabb8() { clear(); }
-  void clear();  // to what is nowhere and near nothing
-  void set(uint32_t lane, const SweptAabbF &way) {
+  void clear();  // makes all boxes empty, which find_near() never reports
+  void set(uint32_t i, const SweptAabbF &box) {
     for (uint32_t k = 0; k < 3; ++k) {
-      start_low[k][lane] = way.start_low[k];
-      start_high[k][lane] = way.start_high[k];
-      end_low[k][lane] = way.end_low[k];
-      end_high[k][lane] = way.end_high[k];
+      start_low[k][i] = box.start_low[k];
+      start_high[k][i] = box.start_high[k];
+      end_low[k][i] = box.end_low[k];
+      end_high[k][i] = box.end_high[k];
     }
   }
 };
 
-// For each lane, bits of the lanes of others.
-using LaneMasks = std::array<uint32_t, SweptAabb8::count>;
+// Returns a bit for each of eight boxes: 0 only if it is more than a margin of float_margin() apart
+// from `box`.
+uint32_t find_near(const SweptAabb8 &boxes, const SweptAabbF &box, float margin);
 
-// Bit i is set unless lane i is apart from a box by a margin from narrow_margin() for sure.
-uint32_t find_near(const SweptAabb8 &lanes, const SweptAabbF &box, float margin);
-
-// For the bits i of `of`: bit j of near[i] is set unless lane i of `here` is apart from lane j of
-// `there` by a margin from narrow_margin() for sure. Returns the bits of those that have any.
+// For each bit i of `of`: bit j of near[i] is 0 only if box i of `here` is more than a margin of
+// float_margin() apart from box j of `there`. Returns the bits i for which near[i] is not 0.
 uint32_t find_near(const SweptAabb8 &here, uint32_t of, const SweptAabb8 &there, float margin,
-                   LaneMasks &near);
+                   SweptAabb8::PairBits &near);
 
 }  // namespace mvs::core

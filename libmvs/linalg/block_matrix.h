@@ -1,4 +1,4 @@
-// A symmetric sparse matrix of 3x3 blocks: the lower triangle by columns, diagonal block first.
+// Symmetric sparse matrix of 3x3 blocks (BSC): the lower triangle by columns, diagonal block first.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@ namespace mvs::core {
 
 class BlockMatrix {
  public:
-  // Takes the pattern of `n` block rows from pairs of rows in any order; the diagonal is always in.
+  // Sets the pattern of `n` block rows from pairs of rows in any order, plus the diagonal.
   void set_pattern(uint32_t n, std::vector<Edge> pairs) {
     sort_pairs(n, pairs);
     take_sorted(n, pairs);
   }
 
-  // The same from what sort_pairs() gave.
+  // The same from the output of sort_pairs().
   void take_sorted(uint32_t n, const std::vector<Edge> &pairs) {
     start.assign(n + 1, 0);
     make_room(row, pairs.size() + n);
@@ -34,19 +34,19 @@ class BlockMatrix {
     clear();
   }
 
-  // Leaves no rows; their memory stays.
+  // Removes all rows, and keeps their memory.
   void forget_pattern() {
     start.clear();
     row.clear();
     value.clear();
   }
 
-  // Pairs of `n` rows, ascending, the lower row first, each once. In linear time: by the higher
-  // row, then, keeping that order, by the lower one.
+  // Sorts pairs of `n` rows, the lower row first, and removes duplicates. Radix sort in linear
+  // time: by the higher row, then, keeping that order, by the lower one.
   void sort_pairs(uint32_t n, std::vector<Edge> &pairs) {
     for (Edge &p : pairs) p = {std::min(p[0], p[1]), std::max(p[0], p[1])};
     make_room(pairs, pairs.size());
-    halfway_.reserve(pairs.capacity());  // grows no more often than what is sorted
+    halfway_.reserve(pairs.capacity());  // grows no more often than `pairs`
     halfway_.resize(pairs.size());
     for (const size_t key : {1u, 0u}) {
       count_.assign(n + 1, 0);
@@ -62,10 +62,10 @@ class BlockMatrix {
 
   uint32_t size() const { return start.empty() ? 0 : static_cast<uint32_t>(start.size() - 1); }
 
-  // Where block (r, c), r >= c, is kept; `none` if it is not in the pattern.
+  // Returns the index of block (r, c), r >= c; `none` if it is not in the pattern.
   uint32_t find(uint32_t r, uint32_t c) const {
     const uint32_t *first = row.data() + start[c], *last = row.data() + start[c + 1];
-    // halves without branches: where to look next is no guess of the processor's
+    // binary search without branches, which the processor would mispredict
     for (size_t left = static_cast<size_t>(last - first); left > 1;) {
       const size_t half = left / 2;
       first = first[half] <= r ? first + half : first;
@@ -78,7 +78,7 @@ class BlockMatrix {
   std::vector<Mat3> value;
 
  private:
-  // while pairs are sorted: halfway there, how many begin with each row
+  // buffers of sort_pairs(): pairs after the first pass, counts of each row
   std::vector<Edge> halfway_;
   std::vector<uint32_t> count_;
 };

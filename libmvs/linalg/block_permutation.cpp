@@ -6,7 +6,7 @@ void BlockPermutation::permute(const BlockMatrix &from, const std::vector<uint32
                                BlockMatrix &result) {
   const uint32_t n = from.size();
   take(from, to);
-  // by columns, and in each by rows, the diagonal first
+  // by columns, and within each by rows, the diagonal first
   sort_by(n, [](const Block &b) { return b.row; });
   sort_by(n, [](const Block &b) { return b.column; });
   make_room(result.row, from.row.size());
@@ -40,7 +40,7 @@ void BlockPermutation::take(const BlockMatrix &from, const std::vector<uint32_t>
   }
 }
 
-// In linear time, keeping the order of those that have the same key.
+// Stable counting sort.
 template <typename Key>
 void BlockPermutation::sort_by(uint32_t rows, Key key) {
   count_.assign(rows + 1, 0);

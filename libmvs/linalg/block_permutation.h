@@ -1,4 +1,4 @@
-// A matrix of 3x3 blocks in another order of its rows.
+// Symmetric permutation of a matrix of 3x3 blocks.
 #pragma once
 
 #include <vector>
@@ -7,18 +7,18 @@
 
 namespace mvs::core {
 
-// Its memory is kept from one matrix to the next.
+// Keeps its memory from one matrix to the next.
 class BlockPermutation {
  public:
-  // Row r of `from` becomes row to[r] of `result`, whose pattern has nothing that is zero but on
-  // the diagonal.
+  // Row r of `from` becomes row to[r] of `result`. Blocks that are zero are left out of the
+  // pattern, except on the diagonal.
   void permute(const BlockMatrix &from, const std::vector<uint32_t> &to, BlockMatrix &result);
 
  private:
   struct Block {
     uint32_t column, row;
     uint32_t source;  // in `from`
-    bool turned;      // its transpose
+    bool turned;      // transposed
   };
   void take(const BlockMatrix &from, const std::vector<uint32_t> &to);
   template <typename Key>

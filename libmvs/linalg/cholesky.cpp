@@ -1,8 +1,7 @@
-// A sparse Cholesky factorisation on 3x3 blocks, written for meshes of a few hundred to a few ten
-// thousand nodes: a third of the index work of a scalar one, and dense arithmetic inside.
-//
-// Left-looking by supernodes (Ng & Peyton, SIAM J. Sci. Comput. 14, 1993): each panel gathers what
-// the earlier ones contribute, straight into its place, and is then factorised on its own.
+// Supernodal left-looking Cholesky factorisation (Ng & Peyton, SIAM J. Sci. Comput. 14, 1993) of
+// matrices of 3x3 blocks, for meshes of a few hundred to a few ten thousand nodes: a third of the
+// index work of a scalar one, and dense arithmetic inside. Each panel gathers the contributions of
+// the earlier ones in place, and is then factorised on its own.
 #include "linalg/cholesky.h"
 
 #include <algorithm>
@@ -14,15 +13,15 @@
 namespace mvs::core {
 namespace {
 
-// What holds while panels of T are worked on.
+// State of the processor during work on panels of T.
 template <typename T>
 struct Rounding {
-  Rounding() {}  // not trivial: nobody warns of one that is not used
+  Rounding() {}  // not trivial: no warning of an unused object
 };
 template <>
 struct Rounding<float> : FlushDenormals {};
 
-// Panels of T: double, or float where something else makes good what it rounds.
+// Panels of double, or of float as a preconditioner.
 template <typename T>
 class BlockFactor final : public DirectSolver {
  public:
@@ -48,8 +47,8 @@ class BlockFactor final : public DirectSolver {
   std::vector<T> x_;              // right-hand side, then solution
   std::vector<T> local_;          // right-hand side in the rows of one panel
   std::vector<double> work_;      // products up to the end of each supernode
-  std::vector<uint32_t> place_;   // block row -> its place in the panel at hand
-  std::vector<uint32_t> target_;  // rows of a contribution in the panel at hand
+  std::vector<uint32_t> place_;   // block row -> its place in the current panel
+  std::vector<uint32_t> target_;  // rows of a contribution in the current panel
 };
 
 template <typename T>
@@ -57,7 +56,7 @@ void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   pattern_.analyse(matrix);
   size_t tallest = 0;
   for (const Supernode &s : pattern_.node) tallest = std::max(tallest, s.height());
-  make_room(value_, 2 * pattern_.numbers + panel_slack);  // pages that are not used cost nothing
+  make_room(value_, 2 * pattern_.numbers + panel_slack);  // unused pages cost no memory
   make_room(work_, pattern_.node.size());
   make_room(target_, matrix.size());
   for (auto *rows : {&x_, &local_}) make_room(*rows, 3 * matrix.size() + panel_slack);
@@ -69,7 +68,7 @@ void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   weigh();
 }
 
-// Products of blocks, and as many more as calls and copies cost about.
+// Counts products of blocks, with the cost of calls and copies in products.
 template <typename T>
 void BlockFactor<T>::weigh() {
   constexpr double call = 100;
@@ -90,7 +89,7 @@ void BlockFactor<T>::weigh() {
   }
 }
 
-// The first supernode of a part.
+// Returns the first supernode of a part.
 template <typename T>
 size_t BlockFactor<T>::begin_of(uint32_t part, uint32_t parts) const {
   if (part == parts) return work_.size();
@@ -105,7 +104,7 @@ void BlockFactor<T>::locate(const Supernode &s) {
   for (size_t k = s.row_start; k < s.row_end; ++k) place_[pattern_.row[k]] = at++;
 }
 
-// The columns of the matrix, in the rows of the panel.
+// Copies the columns of the matrix into the rows of the panel.
 template <typename T>
 void BlockFactor<T>::gather(const BlockMatrix &matrix, const Supernode &s) {
   const size_t height = s.height();
@@ -149,7 +148,7 @@ bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, ui
   return true;
 }
 
-// Three numbers at a time: most panels have but a few.
+// Copies three numbers at a time: most panels have only a few rows.
 template <typename T>
 void copy_block(const T *from, T *to) {
   for (size_t c = 0; c < 3; ++c) to[c] = from[c];
@@ -178,8 +177,8 @@ void BlockFactor<T>::store_rows(const Supernode &s) {
   }
 }
 
-// L y = b by columns, then L^T x = y; of doubles with the sums of each row from its last column on:
-// an order that no explicit zero changes.
+// Solves L y = b by columns, then L^T x = y; for doubles with the sums of each row from its last
+// column on, an order that explicit zeros do not change.
 template <typename T>
 void BlockFactor<T>::solve(std::vector<Vec3> &b) {
   const Rounding<T> rounding;
@@ -207,7 +206,7 @@ std::unique_ptr<DirectSolver> make_block_factor() {
   return std::make_unique<BlockFactor<double>>();
 }
 
-std::unique_ptr<DirectSolver> make_narrow_factor() {
+std::unique_ptr<DirectSolver> make_float_factor() {
   return std::make_unique<BlockFactor<float>>();
 }
 

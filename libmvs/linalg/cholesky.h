@@ -1,4 +1,4 @@
-// The library's own backend: see factor_block.cpp.
+// Sparse Cholesky factorisation on 3x3 blocks: the library's own backend.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace mvs::core {
 std::unique_ptr<DirectSolver> make_block_factor();
 
 // The same in single precision, for half of the memory and of the time: a preconditioner. Its
-// factorisation fails where rounding alone makes a matrix indefinite, so of condition 1e7 or so.
-std::unique_ptr<DirectSolver> make_narrow_factor();
+// factorisation fails if rounding alone makes a matrix indefinite, from a condition of about 1e7.
+std::unique_ptr<DirectSolver> make_float_factor();
 
 }  // namespace mvs::core

@@ -80,7 +80,7 @@ class CholmodFactor final : public DirectSolver {
     MVS_MUST(ok, MVS_E_INTERNAL, "backend", "CHOLMOD failed with status %d", common_.status);
   }
 
-  // LDL^T takes negative pivots without complaint; D stands first in each column of L.
+  // LDL^T accepts negative pivots; D is the first entry of each column of L.
   bool positive() const {
     const auto *start = static_cast<const int *>(factor_->p);
     const auto *value = static_cast<const double *>(factor_->x);

@@ -1,4 +1,4 @@
-// The CHOLMOD backend, and what both scalar backends need: blocks expanded to columns.
+// The CHOLMOD backend, and the expansion of blocks to scalar columns that both scalar backends use.
 #pragma once
 
 #include <mvs/sim.h>

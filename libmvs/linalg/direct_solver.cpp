@@ -1,4 +1,4 @@
-// Choosing a factorisation, the elimination order, and the Eigen backend.
+// Choice of a backend, the elimination order, and the Eigen backend.
 #include "linalg/direct_solver.h"
 
 #include <Eigen/OrderingMethods>

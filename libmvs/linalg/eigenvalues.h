@@ -1,4 +1,4 @@
-// Eigenvalues of symmetric 3x3 matrices.
+// Eigenvalues of symmetric 3x3 matrices, and their projection to a range.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -11,7 +11,7 @@ inline double largest_eigenvalue(const Mat3 &m) {
   return Eigen::SelfAdjointEigenSolver<Mat3>(m, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
-// The matrix with its eigenvalues brought into a range; to the bit itself where they are in it.
+// Returns the matrix with its eigenvalues clamped to a range; the same bits if they are in it.
 inline Mat3 with_eigenvalues_in(const Mat3 &m, double low, double high) {
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(m);
   const Vec3 values = eigen.eigenvalues();

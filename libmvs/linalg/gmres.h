@@ -1,5 +1,5 @@
-// GMRES for a system that a factorisation almost solves (Saad & Schultz, SIAM J. Sci. Stat. Comput.
-// 7, 1986).
+// GMRES without restarts (Saad & Schultz, SIAM J. Sci. Stat. Comput. 7, 1986), for systems that a
+// preconditioner almost solves.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ inline double dot(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   return sum;
 }
 
-// Solves A x = b in place of b, for apply(v) giving A v, from x = 0, to |b - A x| <= tolerance |b|
-// or `most` iterations. Returns the relative residual reached.
+// Solves A x = b in place of b, for apply(v) that returns A v, from x = 0, to
+// |b - A x| <= tolerance |b| or `most` iterations. Returns the relative residual reached.
 template <typename Apply>
 double gmres(const Apply &apply, std::vector<Vec3> &b, int most, double tolerance) {
   const double size = std::sqrt(dot(b, b));

@@ -1,3 +1,4 @@
+// Conjugate gradients around a float factor, with a double one in reserve.
 #include "linalg/mixed_precision.h"
 
 #include "linalg/cholesky.h"
@@ -7,10 +8,10 @@
 namespace mvs::core {
 namespace {
 
-// Of the right-hand side, in the norm of the factor: what Newton's method leaves out of a step is
-// more, until it has come to rest.
-constexpr double tolerance = 1e-7;
-// A factor in double precision costs as much as some ten.
+// Residual over right-hand side, in the norm of the factor: less than the linearisation error of a
+// Newton step, except at convergence.
+constexpr double residual_tolerance = 1e-7;
+// A factor in double precision costs as much as about ten iterations.
 constexpr uint32_t most_iterations = 8;
 
 class MixedPrecisionCholesky final : public DirectSolver {
@@ -21,11 +22,11 @@ class MixedPrecisionCholesky final : public DirectSolver {
   uint32_t iterations() const override { return iterations_; }
 
  private:
-  bool factorise_exactly();
+  bool factorise_in_double();
 
-  std::unique_ptr<DirectSolver> narrow_ = make_narrow_factor(), exact_ = make_block_factor();
+  std::unique_ptr<DirectSolver> float_ = make_float_factor(), double_ = make_block_factor();
   BlockMatrix matrix_;
-  bool is_exact_ = false, is_analysed_ = false;  // the exact one
+  bool uses_double_ = false, double_is_analysed_ = false;
   uint32_t iterations_ = 0;
   Pcg pcg_;
   BlockSpmv product_;
@@ -33,42 +34,43 @@ class MixedPrecisionCholesky final : public DirectSolver {
 };
 
 void MixedPrecisionCholesky::analyse(const BlockMatrix &matrix) {
-  narrow_->analyse(matrix);
-  is_analysed_ = false;
+  float_->analyse(matrix);
+  double_is_analysed_ = false;
 }
 
 bool MixedPrecisionCholesky::factorise(const BlockMatrix &matrix) {
   matrix_ = matrix;
-  is_exact_ = false;
-  return narrow_->factorise(matrix_) || factorise_exactly();
+  uses_double_ = false;
+  return float_->factorise(matrix_) || factorise_in_double();
 }
 
-bool MixedPrecisionCholesky::factorise_exactly() {
-  if (!is_analysed_) exact_->analyse(matrix_);
-  is_analysed_ = true;
-  return is_exact_ = exact_->factorise(matrix_);
+bool MixedPrecisionCholesky::factorise_in_double() {
+  if (!double_is_analysed_) double_->analyse(matrix_);
+  double_is_analysed_ = true;
+  return uses_double_ = double_->factorise(matrix_);
 }
 
-// What has no exact factor is indefinite by a hair: an iterate does there, as it leads downhill.
+// A matrix without a factor in double precision is barely indefinite: the last iterate serves, as
+// it is a descent direction.
 void MixedPrecisionCholesky::solve(std::vector<Vec3> &b) {
   iterations_ = 0;
-  if (!is_exact_) {
+  if (!uses_double_) {
     const auto multiply = [&](const std::vector<Vec3> &v, std::vector<Vec3> &y) {
       product_.multiply(matrix_, v, y);
     };
     const auto precondition = [&](const std::vector<Vec3> &r, std::vector<Vec3> &z) {
       z = r;
-      narrow_->solve(z);
+      float_->solve(z);
     };
-    const PcgGoal goal{tolerance, most_iterations, tolerance};
+    const PcgGoal goal{residual_tolerance, most_iterations, residual_tolerance};
     const PcgResult result = pcg_.solve(multiply, precondition, b, solution_, goal);
     iterations_ = result.iterations;
-    if (result.error <= tolerance || !factorise_exactly()) {
+    if (result.error <= residual_tolerance || !factorise_in_double()) {
       b.swap(solution_);
       return;
     }
   }
-  exact_->solve(b);
+  double_->solve(b);
 }
 
 }  // namespace

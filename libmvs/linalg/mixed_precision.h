@@ -1,10 +1,11 @@
-// A factor in single precision that conjugate gradients make exact.
+// Mixed-precision Cholesky solver: a factor in single precision preconditions conjugate gradients
+// in double precision.
 //
 // The factor takes half of the time and memory of one in double precision, and each of the few
-// iterations about as long as one solution with it. Where single precision does not do, because
-// rounding makes the matrix indefinite or too many iterations are needed, a factor in double
-// precision is made after all. (Iterative refinement with narrow factors: Carson & Higham, SIAM J.
-// Sci. Comput. 40, 2018.)
+// iterations about as long as one solution with it. If rounding makes the matrix indefinite in
+// single precision, or too many iterations are needed, a factor in double precision replaces it.
+// (Iterative refinement with factors of lower precision: Carson & Higham, SIAM J. Sci. Comput. 40,
+// 2018.)
 #pragma once
 
 #include <memory>

@@ -1,15 +1,14 @@
+// Blocks a b^T as two registers of four numbers and a ninth number.
 #include "linalg/outer_product.h"
 
 #include "base/simd.h"
-#include "base/simd_level.h"
 
 namespace mvs::core {
 namespace {
 
 #if defined(__GNUC__)
 
-using Four = Wide<double, 4, 1>;
-using Value = Four::Value;
+using Value = Double4::Value;
 
 #if defined(__clang__)
 #define MVS_PICK(v, a, b, c, d) __builtin_shufflevector(v, v, a, b, c, d)
@@ -18,15 +17,15 @@ typedef long long Picks __attribute__((vector_size(32)));
 #define MVS_PICK(v, a, b, c, d) __builtin_shuffle(v, Picks{a, b, c, d})
 #endif
 
-// A node's three numbers as a block a b^T has them, column by column: those of a and those of b in
-// its first, second and last place.
-struct Spread {
+// The factors of a block a b^T, stored by columns, if a node is a (a0, a1) or b (b0, b1): of its
+// first four, second four and last entries.
+struct BlockFactors {
   Value a0, a1, b0, b1;
   double last;
 
-  MVS_INLINE explicit Spread(const double *slope) : last(slope[2]) {
+  MVS_INLINE explicit BlockFactors(const double *slope) : last(slope[2]) {
     Value v;
-    load<Four>(v, slope);
+    load<Double4>(v, slope);
     a0 = MVS_PICK(v, 0, 1, 2, 0);
     a1 = MVS_PICK(v, 1, 2, 0, 1);
     b0 = MVS_PICK(v, 0, 0, 0, 1);
@@ -34,20 +33,21 @@ struct Spread {
   }
 };
 
-MVS_INLINE void add_block(double *block, const Spread &a, const Spread &b, double times) {
+MVS_INLINE void add_block(double *block, const BlockFactors &a, const BlockFactors &b,
+                          double times) {
   Value first, second;
-  load<Four>(first, block);
-  load<Four>(second, block + 4);
+  load<Double4>(first, block);
+  load<Double4>(second, block + 4);
   const double last = block[8] + times * (a.last * b.last);
   first += times * (a.a0 * b.b0);
   second += times * (a.a1 * b.b1);
-  store<Four>(block, first);
-  store<Four>(block + 4, second);
+  store<Double4>(block, first);
+  store<Double4>(block + 4, second);
   block[8] = last;
 }
 
-MVS_INLINE void add_pair(const OuterProductTarget &to, size_t pair, const Spread &a,
-                         const Spread &b, double times) {
+MVS_INLINE void add_pair(const OuterProductTarget &to, size_t pair, const BlockFactors &a,
+                         const BlockFactors &b, double times) {
   if (to.lower[pair]) {
     add_block(to.pair[pair], a, b, times);
   } else {
@@ -55,9 +55,9 @@ MVS_INLINE void add_pair(const OuterProductTarget &to, size_t pair, const Spread
   }
 }
 
-MVS_INLINE void add(const Slope &slope, double times, const OuterProductTarget &to) {
+MVS_INLINE void add_blocks(const Slope &slope, double times, const OuterProductTarget &to) {
   const double *s = slope.number.data();
-  const Spread n0(s), n1(s + 3), n2(s + 6), n3(s + 9);
+  const BlockFactors n0(s), n1(s + 3), n2(s + 6), n3(s + 9);
   add_block(to.diagonal[0], n0, n0, times);
   add_block(to.diagonal[1], n1, n1, times);
   add_block(to.diagonal[2], n2, n2, times);
@@ -72,7 +72,7 @@ MVS_INLINE void add(const Slope &slope, double times, const OuterProductTarget &
 
 #else
 
-void add(const Slope &slope, double times, const OuterProductTarget &to) {
+void add_blocks(const Slope &slope, double times, const OuterProductTarget &to) {
   const auto add_block = [&](double *block, uint32_t a, uint32_t b) {
     Eigen::Map<Mat3>(block) += times * (slope.node(a) * slope.node(b).transpose());
   };
@@ -86,30 +86,10 @@ void add(const Slope &slope, double times, const OuterProductTarget &to) {
 
 #endif
 
-void add_plain(const Slope &slope, double times, const OuterProductTarget &to) {
-  add(slope, times, to);
-}
-
-#if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] void add_wider(const Slope &slope, double times,
-                                       const OuterProductTarget &to) {
-  add(slope, times, to);
-}
-#endif
-
-using Kernel = void (*)(const Slope &, double, const OuterProductTarget &);
-
-Kernel choose() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (simd_level() >= SimdLevel::avx2) return &add_wider;
-#endif
-  return &add_plain;
-}
-
 }  // namespace
 
 void add_outer_product(const Slope &slope, double times, const OuterProductTarget &to) {
-  static const Kernel kernel = choose();
+  static const auto kernel = simd_kernel<&add_blocks>();
   kernel(slope, times, to);
 }
 

@@ -1,5 +1,4 @@
-// The kernels: one tile held in registers, the loops over tiles, and the choice of the widest
-// vector that the processor has.
+// Register-tiled kernels: one tile of C in registers, cache-blocked loops over tiles.
 #include "linalg/panel.h"
 
 #include <algorithm>
@@ -7,46 +6,51 @@
 #include <type_traits>
 
 #include "base/simd.h"
-#include "base/simd_level.h"
 
 namespace mvs::core {
 namespace {
 
 constexpr size_t tile_columns = 6;
 constexpr size_t block_columns = 48;
-// A piece of this size is 96 kB: a part of the second-level cache.
-constexpr size_t piece_depth = 128, piece_rows = 96;
+// A slab of this size is 96 kB, which fits the second-level cache.
+constexpr size_t slab_depth = 128, slab_rows = 96;
+
+// A tile is `vectors` registers high.
+template <typename V, size_t vectors_in>
+struct Tall : V {
+  static constexpr size_t vectors = vectors_in, height = V::width * vectors;
+};
 
 // A tile of some columns: C -= A B^T, of B the rows that the columns of C have.
 template <typename V, size_t columns, bool from_zero = false, typename T = typename V::Number>
 MVS_INLINE void subtract_tile(T *c, size_t c_stride, const T *a, const T *b, size_t a_stride,
                               size_t depth) {
-  constexpr size_t lanes = V::lanes, vectors = V::vectors;
+  constexpr size_t width = V::width, vectors = V::vectors;
   typename V::Value sum[vectors][columns], of_a[vectors];
   for (size_t j = 0; j < columns; ++j) {
     for (size_t v = 0; v < vectors; ++v) {
       if constexpr (from_zero) {
         sum[v][j] = typename V::Value{};
       } else {
-        load<V>(sum[v][j], c + j * c_stride + v * lanes);
+        load<V>(sum[v][j], c + j * c_stride + v * width);
       }
     }
   }
   for (size_t k = 0; k < depth; ++k, a += a_stride, b += a_stride) {
-    for (size_t v = 0; v < vectors; ++v) load<V>(of_a[v], a + v * lanes);
+    for (size_t v = 0; v < vectors; ++v) load<V>(of_a[v], a + v * width);
     for (size_t j = 0; j < columns; ++j) {
       for (size_t v = 0; v < vectors; ++v) sum[v][j] -= of_a[v] * b[j];
     }
   }
   for (size_t j = 0; j < columns; ++j) {
-    for (size_t v = 0; v < vectors; ++v) store<V>(c + j * c_stride + v * lanes, sum[v][j]);
+    for (size_t v = 0; v < vectors; ++v) store<V>(c + j * c_stride + v * width, sum[v][j]);
   }
 }
 
-// What some columns of C lose, from row i on.
+// Some columns of C from row i on, gathered by blocks.
 template <size_t columns, typename T>
 struct Tile {
-  T value[columns * piece_rows];
+  T value[columns * slab_rows];
 
   // Calls visit(block of C, block here) for each of `rows` rows.
   template <typename Visit>
@@ -55,7 +59,7 @@ struct Tile {
     for (size_t q = 0; q < columns; ++q) {
       T *column = u.c + (3 * u.row[(j + q) / 3] + q % 3) * u.c_stride;
       for (size_t p = 0; p < rows; p += 3) {
-        visit(column + 3 * u.row[(i + p) / 3], value + q * piece_rows + p);
+        visit(column + 3 * u.row[(i + p) / 3], value + q * slab_rows + p);
       }
     }
   }
@@ -66,8 +70,8 @@ template <typename V, size_t columns, typename T = typename V::Number>
 MVS_INLINE void update_columns(const PanelUpdate<T> &u, size_t j) {
   Tile<columns, T> tile;
   constexpr bool exact = std::is_same_v<T, double>;
-  for (size_t i = j; i < u.m; i += piece_rows) {
-    const size_t rows = std::min(piece_rows, u.m - i);
+  for (size_t i = j; i < u.m; i += slab_rows) {
+    const size_t rows = std::min(slab_rows, u.m - i);
     if (exact) {
       tile.for_each(u, i, j, rows, [](const T *c, T *here) {
         here[0] = c[0];
@@ -76,7 +80,7 @@ MVS_INLINE void update_columns(const PanelUpdate<T> &u, size_t j) {
       });
     }
     for (size_t p = 0; p < rows; p += V::height) {
-      subtract_tile<V, columns, !exact>(tile.value + p, piece_rows, u.a + i + p, u.a + j,
+      subtract_tile<V, columns, !exact>(tile.value + p, slab_rows, u.a + i + p, u.a + j,
                                         u.a_stride, u.depth);
     }
     tile.for_each(u, i, j, rows, [](T *c, const T *here) {
@@ -87,28 +91,28 @@ MVS_INLINE void update_columns(const PanelUpdate<T> &u, size_t j) {
   }
 }
 
-// A piece of the depth at a time, so that A stays in the cache while its columns pass.
+// One slab of the depth at a time, so that A stays in the cache while its columns pass.
 template <typename V, typename T = typename V::Number>
-MVS_INLINE void update(const PanelUpdate<T> &u) {
-  for (size_t k = 0; k < u.depth; k += piece_depth) {
-    PanelUpdate<T> piece = u;
-    piece.a += k * u.a_stride;
-    piece.depth = std::min(piece_depth, u.depth - k);
+MVS_INLINE void update_tiles(const PanelUpdate<T> &u) {
+  for (size_t k = 0; k < u.depth; k += slab_depth) {
+    PanelUpdate<T> slab = u;
+    slab.a += k * u.a_stride;
+    slab.depth = std::min(slab_depth, u.depth - k);
     size_t j = 0;
-    for (; j + tile_columns <= u.n; j += tile_columns) update_columns<V, tile_columns>(piece, j);
-    if (j < u.n) update_columns<V, 3>(piece, j);
+    for (; j + tile_columns <= u.n; j += tile_columns) update_columns<V, tile_columns>(slab, j);
+    if (j < u.n) update_columns<V, 3>(slab, j);
   }
 }
 
-// Takes from columns first .. last of a panel what the columns left .. first to their left give.
-// Whole tiles: what is above the diagonal is nobody's.
+// Subtracts from columns first .. last of a panel the products with columns left .. first. Works on
+// whole tiles: numbers above the diagonal are not used.
 template <typename V, typename T = typename V::Number>
 MVS_INLINE void subtract_left(T *panel, size_t height, size_t left, size_t first, size_t last) {
-  for (size_t k = left; k < first; k += piece_depth) {
-    const size_t depth = std::min(piece_depth, first - k);
+  for (size_t k = left; k < first; k += slab_depth) {
+    const size_t depth = std::min(slab_depth, first - k);
     const T *a = panel + k * height;
-    for (size_t top = first / panel_rows * panel_rows; top < height; top += piece_rows) {
-      const size_t bottom = std::min(top + piece_rows, height);
+    for (size_t top = first / panel_rows * panel_rows; top < height; top += slab_rows) {
+      const size_t bottom = std::min(top + slab_rows, height);
       for (size_t j = first; j < last; j += tile_columns) {
         T *c = panel + j * height;
         for (size_t i = std::max(top, j / panel_rows * panel_rows); i < bottom; i += V::height) {
@@ -123,7 +127,7 @@ MVS_INLINE void subtract_left(T *panel, size_t height, size_t left, size_t first
   }
 }
 
-// The square on the diagonal of some columns by itself: L, and 1 / its diagonal.
+// The square on the diagonal of some columns: L, and 1 / its diagonal.
 template <size_t columns, typename T>
 struct Square {
   T l[columns][columns];  // [column][row]
@@ -145,15 +149,15 @@ struct Square {
   }
 };
 
-// Factorises some columns by themselves: their square, then all rows by it, those of the square
-// too, whose diagonal comes after them.
+// Factorises some columns on their own: their square, then all rows by it, those of the square too,
+// whose diagonal is stored last.
 template <typename V, size_t columns, typename T = typename V::Number>
 MVS_INLINE bool factorise_columns(T *panel, size_t height, size_t first) {
-  constexpr size_t lanes = V::lanes;
+  constexpr size_t width = V::width;
   Square<columns, T> square;
   if (!square.factorise(panel, height, first)) return false;
   T *c = panel + first * height;
-  for (size_t i = first / panel_rows * panel_rows; i < height; i += lanes) {
+  for (size_t i = first / panel_rows * panel_rows; i < height; i += width) {
     typename V::Value of[columns];
     for (size_t j = 0; j < columns; ++j) load<V>(of[j], c + j * height + i);
     for (size_t j = 0; j < columns; ++j) {
@@ -166,8 +170,8 @@ MVS_INLINE bool factorise_columns(T *panel, size_t height, size_t first) {
   return true;
 }
 
-// Inverts the squares of three columns on the diagonal: a solution has its three numbers without
-// one waiting for the other.
+// Inverts the 3x3 squares on the diagonal, so that the three numbers of a solution do not depend on
+// each other.
 MVS_INLINE void invert_squares(float *panel, size_t width, size_t height) {
   for (size_t j = 0; j < width; j += 3) {
     float *a = panel + j * height + j, *b = a + height, *c = b + height;
@@ -178,9 +182,9 @@ MVS_INLINE void invert_squares(float *panel, size_t width, size_t height) {
   }
 }
 
-// Blocks of columns, and tiles of columns in them.
+// Loops over blocks of columns, and tiles of columns in them.
 template <typename V, typename T = typename V::Number>
-MVS_INLINE bool factorise(T *panel, size_t width, size_t height) {
+MVS_INLINE bool factorise_tiles(T *panel, size_t width, size_t height) {
   for (size_t block = 0; block < width; block += block_columns) {
     const size_t end = std::min(block + block_columns, width);
     subtract_left<V>(panel, height, 0, block, end);
@@ -197,61 +201,28 @@ MVS_INLINE bool factorise(T *panel, size_t width, size_t height) {
   return true;
 }
 
-template <typename T>
-struct Kernels {
-  void (*update)(const PanelUpdate<T> &);
-  bool (*factorise)(T *, size_t, size_t);
-};
-
-// The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
-// NOLINTBEGIN(bugprone-macro-parentheses)
-#define MVS_KERNELS(Name, ATTRIBUTE)                                                   \
-  template <typename V>                                                                \
-  struct Name {                                                                        \
-    using T = typename V::Number;                                                      \
-    ATTRIBUTE static void update(const PanelUpdate<T> &u) { mvs::core::update<V>(u); } \
-    ATTRIBUTE static bool factorise(T *p, size_t w, size_t h) {                        \
-      return mvs::core::factorise<V>(p, w, h);                                         \
-    }                                                                                  \
-    static Kernels<T> all() { return {&update, &factorise}; }                          \
-  }
-
-// NOLINTEND(bugprone-macro-parentheses)
-
-MVS_KERNELS(Plain, );
-#if defined(__x86_64__) && defined(__GNUC__)
-MVS_KERNELS(Wider, [[gnu::target("avx2")]]);
-MVS_KERNELS(Widest, [[gnu::target("avx512f")]]);
-#endif
-
 // A tile of floats has as many rows as one of doubles: panels of small valves are not high.
-template <typename T>
-Kernels<T> choose() {
-  constexpr size_t sse = 16 / sizeof(T);
-  constexpr bool narrow = sizeof(T) == 4;
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (simd_level() == SimdLevel::avx512) return Widest<Wide<T, 4 * sse, narrow ? 1 : 2>>::all();
-  if (simd_level() >= SimdLevel::avx2) return Wider<Wide<T, 2 * sse, narrow ? 1 : 2>>::all();
-#endif
-  return Plain<Wide<T, sse, 2>>::all();
-}
-
-template <typename T>
-const Kernels<T> &kernels() {
-  static const Kernels<T> chosen = choose<T>();
-  return chosen;
-}
+template <typename V>
+using WideTile = Tall<V, sizeof(typename V::Number) == 4 ? 1 : 2>;
 
 }  // namespace
 
 template <typename T>
 void update_panel(const PanelUpdate<T> &u) {
-  kernels<T>().update(u);
+  using R = Registers<T>;
+  static const auto kernel = simd_kernel<&update_tiles<Tall<typename R::Baseline, 2>>,
+                                         &update_tiles<WideTile<typename R::Avx2>>,
+                                         &update_tiles<WideTile<typename R::Avx512>>>();
+  kernel(u);
 }
 
 template <typename T>
 bool factorise_panel(T *panel, size_t width, size_t height) {
-  return kernels<T>().factorise(panel, width, height);
+  using R = Registers<T>;
+  static const auto kernel = simd_kernel<&factorise_tiles<Tall<typename R::Baseline, 2>>,
+                                         &factorise_tiles<WideTile<typename R::Avx2>>,
+                                         &factorise_tiles<WideTile<typename R::Avx512>>>();
+  return kernel(panel, width, height);
 }
 
 template void update_panel(const PanelUpdate<double> &);

@@ -1,19 +1,18 @@
-// Solving with factorised panels: a few columns by themselves, then what they give to the rows
-// below, which is held in registers while all of them pass.
+// Triangular solution with factorised panels: a few columns on their own, then their products with
+// the rows below, which stay in registers for all of these columns.
 #include <algorithm>
 #include <array>
 #include <type_traits>
 
 #include "base/simd.h"
-#include "base/simd_level.h"
 #include "linalg/panel.h"
 
 namespace mvs::core {
 namespace {
 
-constexpr size_t block_columns = 12;  // a multiple of 3: columns come three at a time
+constexpr size_t solve_columns = 12;  // a multiple of 3: columns come three at a time
 
-// Three numbers by the square of their columns a, b, c, from row j on.
+// Solves for three numbers by the square of their columns a, b, c, from row j on.
 MVS_INLINE void forward_square(const double *a, const double *b, const double *c, size_t j,
                                double *x) {
   x[j] *= a[j];
@@ -21,7 +20,7 @@ MVS_INLINE void forward_square(const double *a, const double *b, const double *c
   x[j + 2] = (x[j + 2] - a[j + 2] * x[j] - b[j + 2] * x[j + 1]) * c[j + 2];
 }
 
-// The square of floats is inverse.
+// The square of floats is an inverse.
 MVS_INLINE void forward_square(const float *a, const float *b, const float *c, size_t j, float *x) {
   const float x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
   x[j] = a[j] * x0;
@@ -29,7 +28,7 @@ MVS_INLINE void forward_square(const float *a, const float *b, const float *c, s
   x[j + 2] = (a[j + 2] * x0 + b[j + 2] * x1) + c[j + 2] * x2;
 }
 
-// Columns first .. last by themselves.
+// Solves for columns first .. last on their own.
 template <typename T>
 MVS_INLINE void forward_block(const T *panel, size_t height, size_t first, size_t last, T *x) {
   for (size_t j = first; j < last; j += 3) {
@@ -40,35 +39,35 @@ MVS_INLINE void forward_block(const T *panel, size_t height, size_t first, size_
   }
 }
 
-// x[i] -= sum_k a[i, k] by[k] for as many rows as `count` vectors have.
+// x[i] -= sum_k a[i, k] by[k] for the rows of `count` registers.
 template <typename V, size_t count, typename T = typename V::Number>
 MVS_INLINE void take_from(const T *a, size_t height, size_t columns, const T *by, T *x) {
   typename V::Value sum[count], of_a;
-  for (size_t v = 0; v < count; ++v) load<V>(sum[v], x + v * V::lanes);
+  for (size_t v = 0; v < count; ++v) load<V>(sum[v], x + v * V::width);
   for (size_t k = 0; k < columns; ++k, a += height) {
     for (size_t v = 0; v < count; ++v) {
-      load<V>(of_a, a + v * V::lanes);
+      load<V>(of_a, a + v * V::width);
       sum[v] -= of_a * by[k];
     }
   }
-  for (size_t v = 0; v < count; ++v) store<V>(x + v * V::lanes, sum[v]);
+  for (size_t v = 0; v < count; ++v) store<V>(x + v * V::width, sum[v]);
 }
 
-// Whole vectors to the end: what lies past it is nobody's.
+// Whole registers to the end: numbers past it are padding.
 template <typename V, typename T = typename V::Number>
-MVS_INLINE void forward(const T *panel, size_t width, size_t height, T *x) {
-  constexpr size_t lanes = V::lanes;
-  for (size_t first = 0; first < width; first += block_columns) {
-    const size_t last = std::min(first + block_columns, width), columns = last - first;
+MVS_INLINE void forward_columns(const T *panel, size_t width, size_t height, T *x) {
+  constexpr size_t wide = V::width;
+  for (size_t first = 0; first < width; first += solve_columns) {
+    const size_t last = std::min(first + solve_columns, width), columns = last - first;
     forward_block(panel, height, first, last, x);
     const T *a = panel + first * height, *by = x + first;
     size_t i = last;
-    for (; i + 3 * lanes < height; i += 4 * lanes) {
+    for (; i + 3 * wide < height; i += 4 * wide) {
       take_from<V, 4>(a + i, height, columns, by, x + i);
     }
-    if (i + 2 * lanes < height) {
+    if (i + 2 * wide < height) {
       take_from<V, 3>(a + i, height, columns, by, x + i);
-    } else if (i + lanes < height) {
+    } else if (i + wide < height) {
       take_from<V, 2>(a + i, height, columns, by, x + i);
     } else if (i < height) {
       take_from<V, 1>(a + i, height, columns, by, x + i);
@@ -76,7 +75,7 @@ MVS_INLINE void forward(const T *panel, size_t width, size_t height, T *x) {
   }
 }
 
-// What the rows below take from three columns: from the last row on.
+// Subtracts the products of three columns with the rows below, from the last row on.
 template <typename T>
 MVS_INLINE void take_rows(const T *a, size_t height, size_t first, size_t last, const T *x,
                           std::array<T, 3> &sum) {
@@ -88,7 +87,7 @@ MVS_INLINE void take_rows(const T *a, size_t height, size_t first, size_t last, 
   }
 }
 
-// From what the rows below leave of three numbers, by the square of their columns from row j on.
+// Solves for three numbers, of which `sum` is left, by the square of their columns from row j on.
 MVS_INLINE void backward_square(const double *a, const double *b, const double *c, size_t j,
                                 const std::array<double, 3> &sum, double *x) {
   x[j + 2] = sum[2] * c[j + 2];
@@ -103,8 +102,8 @@ MVS_INLINE void backward_square(const float *a, const float *b, const float *c, 
   x[j] = (sum[2] * a[j + 2] + sum[1] * a[j + 1]) + sum[0] * a[j];
 }
 
-// Columns first .. last, of which x has what the rows from `last` on leave: three at a time, their
-// sums do not wait for each other.
+// Solves for columns first .. last, without the products with rows from `last` on: three at a time,
+// so that their sums are independent.
 template <typename T>
 MVS_INLINE void backward_block(const T *panel, size_t height, size_t first, size_t last,
                                size_t rows, T *x) {
@@ -116,20 +115,18 @@ MVS_INLINE void backward_block(const T *panel, size_t height, size_t first, size
   }
 }
 
-using Eight = Wide<float, 8, 1>;
-
 struct Sums {
-  Eight::Value of_a = {}, of_b = {}, of_c = {};
+  Float8::Value of_a = {}, of_b = {}, of_c = {};
 };
 
-// Eight rows of three columns, or what there is of them.
+// Adds the products of eight rows of three columns, or of the `rows` that remain.
 MVS_INLINE void add_rows(const float *a, size_t height, const float *x, size_t rows, Sums &sum) {
-  Eight::Value of_x, of_a, of_b, of_c;
-  load<Eight>(of_x, x);
-  load<Eight>(of_a, a);
-  load<Eight>(of_b, a + height);
-  load<Eight>(of_c, a + 2 * height);
-  if (rows < Eight::lanes) {
+  Float8::Value of_x, of_a, of_b, of_c;
+  load<Float8>(of_x, x);
+  load<Float8>(of_a, a);
+  load<Float8>(of_b, a + height);
+  load<Float8>(of_c, a + 2 * height);
+  if (rows < Float8::width) {
     keep_first(of_x, rows);
     keep_first(of_a, rows);
     keep_first(of_b, rows);
@@ -140,27 +137,27 @@ MVS_INLINE void add_rows(const float *a, size_t height, const float *x, size_t r
   sum.of_c += of_c * of_x;
 }
 
-// to[k] -= sum_i a[i, k] x[i] for three columns k, i first .. height. In eight sums each, whatever
-// the processor: the bits are the same on all of them.
+// to[k] -= sum_i a[i, k] x[i] for three columns k, i first .. height, in eight sums each on every
+// processor, so that the bits are the same.
 MVS_INLINE void take_below(const float *a, size_t height, size_t first, const float *x, float *to) {
   Sums sum;
   size_t i = first;
-  for (; i + Eight::lanes <= height; i += Eight::lanes) {
-    add_rows(a + i, height, x + i, Eight::lanes, sum);
+  for (; i + Float8::width <= height; i += Float8::width) {
+    add_rows(a + i, height, x + i, Float8::width, sum);
   }
   if (i < height) add_rows(a + i, height, x + i, height - i, sum);
-  to[0] -= sum_of<Eight>(sum.of_a);
-  to[1] -= sum_of<Eight>(sum.of_b);
-  to[2] -= sum_of<Eight>(sum.of_c);
+  to[0] -= sum_of(sum.of_a);
+  to[1] -= sum_of(sum.of_b);
+  to[2] -= sum_of(sum.of_c);
 }
 
 template <typename T>
-MVS_INLINE void backward(const T *panel, size_t width, size_t height, T *x) {
+MVS_INLINE void backward_columns(const T *panel, size_t width, size_t height, T *x) {
   if constexpr (std::is_same_v<T, double>) {
     backward_block(panel, height, 0, width, height, x);
   } else {
     for (size_t last = width; last > 0;) {
-      const size_t first = (last - 1) / block_columns * block_columns;
+      const size_t first = (last - 1) / solve_columns * solve_columns;
       for (size_t j = first; j < last; j += 3) {
         take_below(panel + j * height, height, last, x, x + j);
       }
@@ -170,61 +167,22 @@ MVS_INLINE void backward(const T *panel, size_t width, size_t height, T *x) {
   }
 }
 
-template <typename T>
-struct Kernels {
-  void (*forward)(const T *, size_t, size_t, T *);
-  void (*backward)(const T *, size_t, size_t, T *);
-};
-
-// The kernels compiled for a target with V its vectors. Attributes cannot be in parentheses.
-// NOLINTBEGIN(bugprone-macro-parentheses)
-#define MVS_KERNELS(Name, ATTRIBUTE)                                       \
-  template <typename V>                                                    \
-  struct Name {                                                            \
-    using T = typename V::Number;                                          \
-    ATTRIBUTE static void forward(const T *p, size_t w, size_t h, T *x) {  \
-      mvs::core::forward<V>(p, w, h, x);                                   \
-    }                                                                      \
-    ATTRIBUTE static void backward(const T *p, size_t w, size_t h, T *x) { \
-      mvs::core::backward(p, w, h, x);                                     \
-    }                                                                      \
-    static Kernels<T> all() { return {&forward, &backward}; }              \
-  }
-
-// NOLINTEND(bugprone-macro-parentheses)
-
-MVS_KERNELS(Plain, );
-#if defined(__x86_64__) && defined(__GNUC__)
-MVS_KERNELS(Wider, [[gnu::target("avx2")]]);
-MVS_KERNELS(Widest, [[gnu::target("avx512f")]]);
-#endif
-
-template <typename T>
-Kernels<T> choose() {
-  constexpr size_t sse = 16 / sizeof(T);
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (simd_level() == SimdLevel::avx512) return Widest<Wide<T, 4 * sse, 1>>::all();
-  if (simd_level() >= SimdLevel::avx2) return Wider<Wide<T, 2 * sse, 1>>::all();
-#endif
-  return Plain<Wide<T, sse, 1>>::all();
-}
-
-template <typename T>
-const Kernels<T> &kernels() {
-  static const Kernels<T> chosen = choose<T>();
-  return chosen;
-}
-
 }  // namespace
 
 template <typename T>
 void solve_forward(const T *panel, size_t width, size_t height, T *x) {
-  kernels<T>().forward(panel, width, height, x);
+  using R = Registers<T>;
+  static const auto kernel =
+      simd_kernel<&forward_columns<typename R::Baseline>, &forward_columns<typename R::Avx2>,
+                  &forward_columns<typename R::Avx512>>();
+  kernel(panel, width, height, x);
 }
 
 template <typename T>
 void solve_backward(const T *panel, size_t width, size_t height, T *x) {
-  kernels<T>().backward(panel, width, height, x);
+  static const auto kernel =
+      simd_kernel<&backward_columns<T>, &backward_columns<T>, &backward_columns<T>>();
+  kernel(panel, width, height, x);
 }
 
 template void solve_forward(const double *, size_t, size_t, double *);

@@ -1,6 +1,5 @@
-// Conjugate gradients for a system that a factorisation nearly solves (Hestenes & Stiefel, J. Res.
-// Nat. Bur. Stand. 49, 1952; preconditioned: Saad, Iterative Methods for Sparse Linear Systems,
-// 2003, section 9.2).
+// Preconditioned conjugate gradients (Hestenes & Stiefel, J. Res. Nat. Bur. Stand. 49, 1952; Saad,
+// Iterative Methods for Sparse Linear Systems, 2003, section 9.2).
 #pragma once
 
 #include <cmath>
@@ -14,39 +13,39 @@ namespace mvs::core {
 
 struct PcgResult {
   uint32_t iterations = 0;
-  // What is left of the residual, in the norm that the preconditioner gives: 1 where x = 0.
+  // Relative residual in the norm of the preconditioner: 1 at x = 0.
   double error = 0;
 };
 
-// How far to go.
+// Stopping criteria.
 struct PcgGoal {
   double tolerance;  // of PcgResult::error
   uint32_t most;     // iterations
-  // It gives up where at the rate so far the most of them would leave more than that.
+  // It stops early if, at the rate so far, `most` iterations would leave a larger error than this.
   double worst = std::numeric_limits<double>::infinity();
-  // After so many iterations, that is enough.
+  // After `patience` iterations `enough` replaces the tolerance.
   uint32_t patience = std::numeric_limits<uint32_t>::max();
   double enough = 0;
 
   double after(uint32_t iterations) const { return iterations < patience ? tolerance : enough; }
 };
 
-// Its vectors are kept from one system to the next.
+// Keeps its vectors from one system to the next.
 class Pcg {
  public:
-  // Sets x to a solution of A x = b for multiply(v, y) giving y = A v and precondition(v, y) an
-  // approximate solution of A y = v. From x = 0 each iterate is better than the one before, and
-  // none leads uphill for b, whatever the preconditioner, as long as it is positive definite. Where
-  // A turns out not to be, the iterate before stays.
+  // Sets x to a solution of A x = b for multiply(v, y) that sets y = A v and precondition(v, y)
+  // that solves A y = v approximately. Starts from x = 0. Each iterate has less energy than the one
+  // before, and x . b >= 0, for any positive definite preconditioner. If A turns out not to be
+  // positive definite, x is the iterate before.
   template <typename Multiply, typename Precondition>
   PcgResult solve(const Multiply &multiply, const Precondition &precondition,
                   const std::vector<Vec3> &b, std::vector<Vec3> &x, const PcgGoal &goal) {
     return solve(multiply, precondition, b, {}, x, goal);
   }
-  // The same from a guess, or none where it is empty or leads uphill, for a product and no
-  // preconditioning. The whole guess, for what it and the preconditioner both get right stays
-  // right: the momentum of what nothing holds. One iteration follows, however good it is: what
-  // turns as it turned grows.
+  // The same from a guess, or from x = 0 if it is empty or does not reduce the energy; costs a
+  // product and no preconditioning. The guess is not scaled, so that components that both it and
+  // the preconditioner get right stay right: the momentum of parts that no force holds. At least
+  // one iteration follows, however good the guess is: an error that is repeated in each step grows.
   template <typename Multiply, typename Precondition>
   PcgResult solve(const Multiply &multiply, const Precondition &precondition,
                   const std::vector<Vec3> &b, const std::vector<Vec3> &guess, std::vector<Vec3> &x,
@@ -58,7 +57,7 @@ class Pcg {
     p_ = z_;
     const double first = dot(r_, z_);
     PcgResult result;
-    const double whole = begun + first;  // the square of the norm of b, for an exact preconditioner
+    const double whole = begun + first;  // squared norm of b, for an exact preconditioner
     if (!(first >= 0 && whole > 0)) return result;
     const double left = std::sqrt(first / whole);
     result.error = left;
@@ -85,7 +84,8 @@ class Pcg {
   }
 
  private:
-  // Twice b . x - x . A x / 2 there; 0, and x too, if that is not positive.
+  // Starts at the guess and returns 2 b . x - x . A x; at x = 0, and returns 0, if that is not
+  // positive.
   template <typename Multiply>
   double begin(const Multiply &multiply, const std::vector<Vec3> &guess, std::vector<Vec3> &x) {
     multiply(guess, y_);

@@ -1,12 +1,12 @@
-// Small dense symmetric systems by LDL^T without pivoting, in loops whose order no vector extension
-// changes (Golub and Van Loan, Matrix Computations, 2013, section 4.1).
+// Solution of small dense symmetric systems by LDL^T without pivoting (Golub and Van Loan, Matrix
+// Computations, 2013, section 4.1), in scalar loops with the same bits on every processor.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace mvs::core {
 
-// x with a x = b, for a positive semidefinite matrix; a direction without stiffness stays 0.
+// Returns x with a x = b, for a positive semidefinite matrix; components without stiffness are 0.
 template <int n>
 Eigen::Matrix<double, n, 1> solve_positive(Eigen::Matrix<double, n, n> a,
                                            Eigen::Matrix<double, n, 1> b) {

@@ -1,56 +1,57 @@
-// Each block is read once, column by column: as it stands for the row below the diagonal, and
-// transposed for the one beside it.
+// Each block is read once, column by column: for its row below the diagonal, and transposed for
+// that above it.
 #include "linalg/spmv.h"
 
 #include "base/simd.h"
-#include "base/simd_level.h"
 
 namespace mvs::core {
 namespace {
 
-constexpr size_t stride = 4;  // of the numbers of a row
+constexpr size_t stride = 4;  // numbers for each row of blocks
 
 constexpr double zeros[stride] = {};
 
 #if defined(__GNUC__)
-using Four = Wide<double, stride, 1>;
+using Padded = Double4;
 #else
-struct Four {
+struct Padded {
   using Number = double;
   using Value = Eigen::Array4d;
+  using Unaligned = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
 };
 #endif
 
-// The columns of a block; the last number of each belongs to what follows it.
+// The columns of a block; the last number of each register belongs to the next column or block.
 struct Columns {
-  Four::Value a, b, c;
+  Padded::Value a, b, c;
 
   MVS_INLINE explicit Columns(const double *block) {
-    load<Four>(a, block);
-    load<Four>(b, block + 3);
-    load<Four>(c, block + 6);
+    load<Padded>(a, block);
+    load<Padded>(b, block + 3);
+    load<Padded>(c, block + 6);
   }
 };
 
-// All columns of the matrix but the last, whose only block nothing follows.
-MVS_INLINE void multiply(const BlockMatrix &matrix, uint32_t columns, const double *v, double *y) {
+// Multiplies with all columns of the matrix but the last, after whose block a register cannot read.
+MVS_INLINE void multiply_columns(const BlockMatrix &matrix, uint32_t columns, const double *v,
+                                 double *y) {
   const double *values = matrix.value.front().data();
   const uint32_t *row = matrix.row.data(), *start = matrix.start.data();
   for (uint32_t c = 0; c < columns; ++c) {
     const double x0 = v[stride * c], x1 = v[stride * c + 1], x2 = v[stride * c + 2];
     const Columns diagonal(values + 9 * start[c]);
-    const Four::Value own = diagonal.a * x0 + diagonal.b * x1 + diagonal.c * x2;
-    Four::Value sum0, sum1, sum2;
-    load<Four>(sum0, zeros);
-    load<Four>(sum1, zeros);
-    load<Four>(sum2, zeros);
+    const Padded::Value own = diagonal.a * x0 + diagonal.b * x1 + diagonal.c * x2;
+    Padded::Value sum0, sum1, sum2;
+    load<Padded>(sum0, zeros);
+    load<Padded>(sum1, zeros);
+    load<Padded>(sum2, zeros);
     for (uint32_t k = start[c] + 1, end = start[c + 1]; k < end; ++k) {
       const Columns block(values + 9 * k);
-      Four::Value of_r, of_y;
-      load<Four>(of_r, v + stride * row[k]);
-      load<Four>(of_y, y + stride * row[k]);
+      Padded::Value of_r, of_y;
+      load<Padded>(of_r, v + stride * row[k]);
+      load<Padded>(of_y, y + stride * row[k]);
       of_y += block.a * x0 + block.b * x1 + block.c * x2;
-      store<Four>(y + stride * row[k], of_y);
+      store<Padded>(y + stride * row[k], of_y);
       sum0 += block.a * of_r;
       sum1 += block.b * of_r;
       sum2 += block.c * of_r;
@@ -61,30 +62,10 @@ MVS_INLINE void multiply(const BlockMatrix &matrix, uint32_t columns, const doub
   }
 }
 
-void multiply_plain(const BlockMatrix &a, uint32_t columns, const double *v, double *y) {
-  multiply(a, columns, v, y);
-}
-
-#if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] void multiply_wider(const BlockMatrix &a, uint32_t columns, const double *v,
-                                            double *y) {
-  multiply(a, columns, v, y);
-}
-#endif
-
-using Kernel = void (*)(const BlockMatrix &, uint32_t, const double *, double *);
-
-Kernel choose() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (simd_level() >= SimdLevel::avx2) return &multiply_wider;
-#endif
-  return &multiply_plain;
-}
-
 }  // namespace
 
 void BlockSpmv::multiply(const BlockMatrix &a, const std::vector<Vec3> &v, std::vector<Vec3> &y) {
-  static const Kernel kernel = choose();
+  static const auto kernel = simd_kernel<&multiply_columns>();
   const uint32_t n = a.size();
   y.resize(v.size());
   if (n == 0) return;

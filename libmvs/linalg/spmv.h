@@ -1,19 +1,19 @@
-// Products of a BlockMatrix with vectors, by the widest registers that the processor has.
+// Sparse matrix-vector product (SpMV) of a symmetric BlockMatrix, with SIMD.
 #pragma once
 
 #include "linalg/block_matrix.h"
 
 namespace mvs::core {
 
-// Keeps the memory that a product takes. The bits are the same on every processor, and entries that
-// are zero change none but signs of zeros.
+// Keeps its memory from one product to the next. The bits are the same on every processor, and
+// blocks that are zero change only signs of zeros.
 class BlockSpmv {
  public:
   // y = A v
   void multiply(const BlockMatrix &a, const std::vector<Vec3> &v, std::vector<Vec3> &y);
 
  private:
-  std::vector<double> v_, y_;  // a row in four numbers, of which the last is nobody's
+  std::vector<double> v_, y_;  // rows of four numbers, the last one padding
 };
 
 }  // namespace mvs::core

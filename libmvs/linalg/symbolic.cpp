@@ -1,12 +1,13 @@
-// Symbolic factorisation.
+// Rows of the columns by the elimination tree, then supernodes and their relaxation.
 #include "linalg/symbolic.h"
 
 namespace mvs::core {
 namespace {
 
-// Explicit zeros that a merge may bring, as a share of the panel, by its width in blocks: narrow
-// panels cost more than the zeros do. Chosen after the shares that CHOLMOD relaxes by, not tuned.
-double bearable_zeros(uint32_t width) {
+// Returns the largest share of explicit zeros that a merge may add, by the width of the panel in
+// blocks: a panel of few columns costs more than the zeros do. After CHOLMOD's relaxation, not
+// tuned.
+double allowed_zeros(uint32_t width) {
   return width <= 4 ? 0.5 : width <= 12 ? 0.2 : 0.05;
 }
 
@@ -24,8 +25,8 @@ void Supernodes::analyse(const BlockMatrix &matrix) {
   find_contributions();
 }
 
-// The rows of column j: its own, and those of the columns whose first row below is j. Those of the
-// longest of these are in order already, and most of what there is.
+// The rows of column j are its own and those of its children in the elimination tree. Those of the
+// longest child are sorted already, and most of them.
 void Supernodes::find_columns(const BlockMatrix &matrix) {
   const uint32_t n = matrix.size();
   column_start_.assign(n + 1, 0);
@@ -64,7 +65,7 @@ void Supernodes::find_columns(const BlockMatrix &matrix) {
   }
 }
 
-// Sorts column_row_ from `begin` on, of which all before `ordered` is.
+// Sorts column_row_ from `begin` on; up to `ordered` it is sorted already.
 void Supernodes::sort_in(size_t begin, size_t ordered) {
   if (ordered == column_row_.size()) return;
   added_.assign(column_row_.begin() + static_cast<std::ptrdiff_t>(ordered), column_row_.end());
@@ -75,7 +76,7 @@ void Supernodes::sort_in(size_t begin, size_t ordered) {
   }
 }
 
-// Columns that follow each other with the same rows.
+// Gathers successive columns with the same rows.
 void Supernodes::gather_runs() {
   const auto n = static_cast<uint32_t>(mark_.size());
   auto rows = [&](uint32_t j) { return column_start_[j + 1] - column_start_[j]; };
@@ -91,8 +92,8 @@ void Supernodes::gather_runs() {
   }
 }
 
-// Joins a supernode to the one before it where that is its child and few zeros come in. What is
-// merged has the rows of the later one.
+// Merges a supernode with the one before it, if that is its child and few zeros are added. The
+// merged one has the rows of the later one.
 void Supernodes::merge() {
   size_t kept = 0;
   for (size_t k = 0; k < node.size(); ++k) {
@@ -109,7 +110,7 @@ bool Supernodes::worth_merging(const Supernode &left, const Supernode &right) co
   both.first = left.first;
   const auto filled = static_cast<double>(blocks_of(left) + blocks_of(right));
   const auto all = static_cast<double>(blocks_of(both));
-  return all - filled <= bearable_zeros(both.width()) * all;
+  return all - filled <= allowed_zeros(both.width()) * all;
 }
 
 void Supernodes::place_panels() {
@@ -126,7 +127,7 @@ void Supernodes::place_panels() {
   }
 }
 
-// Counted first, then placed, so that each supernode's list ascends.
+// Counts first, then places, so that each supernode's list ascends.
 void Supernodes::find_contributions() {
   owner_.resize(mark_.size());
   for (uint32_t s = 0; s < node.size(); ++s) {

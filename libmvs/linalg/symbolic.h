@@ -1,7 +1,7 @@
-// The pattern of a Cholesky factor on 3x3 blocks, gathered into supernodes: runs of columns with
-// nearly the same rows, kept as one dense panel each (Davis, Direct Methods for Sparse Linear
-// Systems, 2006, section 4; Ashcraft & Grimes, ACM Trans. Math. Softw. 15, 1989, for the merging of
-// small ones, which trades a few explicit zeros for longer dense runs).
+// Symbolic Cholesky factorisation on 3x3 blocks with relaxed supernodes: runs of columns with
+// nearly the same rows, each stored as one dense panel (Davis, Direct Methods for Sparse Linear
+// Systems, 2006, section 4; Ashcraft & Grimes, ACM Trans. Math. Softw. 15, 1989, for the
+// relaxation, which trades a few explicit zeros for longer dense runs).
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace mvs::core {
 
-// Rows below a run of columns, block rows ascending; a panel has the columns' own rows before them.
+// A run of columns and the rows below it, ascending; a panel has the columns' own rows before them.
 struct Supernode {
   uint32_t first, last;  // block columns first .. last
   size_t row_start;      // its rows below: Supernodes::row[row_start] .. row_end
@@ -20,14 +20,14 @@ struct Supernode {
 
   uint32_t width() const { return last - first; }
   size_t below() const { return row_end - row_start; }
-  // Of the panel, in numbers: rounded up to what its kernels work on.
+  // Height of the panel in numbers, rounded up to a multiple of panel_rows.
   size_t height() const {
     return (3 * (width() + below()) + panel_rows - 1) / panel_rows * panel_rows;
   }
 };
 
-// What an earlier supernode contributes to a later one: its rows first .. in_columns lie in the
-// columns of the later one, those up to its end in the rows.
+// Contribution of an earlier supernode to a later one: its rows first .. in_columns are columns of
+// the later one, those from there on rows of it.
 struct Contribution {
   uint32_t from;
   size_t first, in_columns;  // into Supernodes::row
@@ -35,7 +35,7 @@ struct Contribution {
 
 class Supernodes {
  public:
-  // Memory is kept from one pattern to the next.
+  // Keeps its memory from one pattern to the next.
   void analyse(const BlockMatrix &matrix);
 
   std::vector<Supernode> node;

@@ -8,8 +8,8 @@
 #include <initializer_list>
 
 #include "energy/contact.h"
+#include "geometry/bvh.h"
 #include "geometry/distance_batch.h"
-#include "geometry/swept_bvh.h"
 #include "tests/collision/pairs.h"
 #include "tests/short_run.h"
 
@@ -79,7 +79,7 @@ void check_pairs(const Model &model, const BroadPhase &broad_phase, const Ways &
     }
     if (least > guard || ways.boxes_part({v}, corners, faces ? r : barrier_share * r)) return;
     same = same && k < guarded.size() && guarded[k].vertex == v && guarded[k].triangle == t &&
-           guarded[k].guard == guard;
+           guarded[k].range == guard;
     ++k;
   });
   for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
@@ -90,7 +90,7 @@ void check_pairs(const Model &model, const BroadPhase &broad_phase, const Ways &
     const double guard = barrier_range(r, distance(model.valve.rest, e, f));
     if (least > guard || ways.boxes_part(a, b, barrier_share * r)) return;
     same = same && pairs < list.size() && list[pairs].first == i && list[pairs].second == j &&
-           list[pairs].guard == guard;
+           list[pairs].range == guard;
     ++pairs;
   });
   CHECK(same);
@@ -144,23 +144,23 @@ TEST_CASE("a_bvh_of_moving_triangles_finds_the_pairs_of_brute_force") {
   for (const uint32_t n : {0u, 1u, 2u, 60u, 200u}) {
     const Scattered sheet(n, random);
     SweptBvh tree(sheet.x, sheet.triangles);
-    const auto &start = tree.block_start();
+    const auto &start = tree.topology().leaf_start;
     std::vector<uint32_t> block_of(n);
-    std::vector<uint8_t> still(tree.block_count());
-    for (uint32_t b = 0; b < tree.block_count(); ++b) {
+    std::vector<uint8_t> still(tree.topology().leaf_count());
+    for (uint32_t b = 0; b < tree.topology().leaf_count(); ++b) {
       CHECK(start[b + 1] - start[b] <= SweptAabb8::count);
       still[b] = b % 3 == 0;
-      for (uint32_t k = start[b]; k < start[b + 1]; ++k) block_of[tree.triangles()[k]] = b;
+      for (uint32_t k = start[b]; k < start[b + 1]; ++k) block_of[tree.topology().order[k]] = b;
     }
     for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
       const Ways ways = {sheet.x, sheet.to, 0, pace};
-      std::vector<SweptAabbF> blocks(tree.block_count());
+      std::vector<SweptAabbF> blocks(tree.topology().leaf_count());
       for (uint32_t t = 0; t < n; ++t) {
         blocks[block_of[t]].add(narrow_way(sheet.triangles[t], ways));
       }
-      tree.place(blocks, still);
+      tree.refit(blocks, still);
       std::vector<Edge> found;
-      tree.for_near_blocks(float_margin(0.05, farthest(ways)), [&](uint32_t a, uint32_t b) {
+      tree.for_near_leaves(float_margin(0.05, farthest(ways)), [&](uint32_t a, uint32_t b) {
         CHECK_FALSE((still[a] && still[b]));
         found.push_back({std::min(a, b), std::max(a, b)});
       });
@@ -201,7 +201,7 @@ TEST_CASE("a_simd_batch_of_swept_boxes_finds_the_same_near_pairs_as_scalar_boxes
         (t < 8 ? here : there).set(t < 8 ? t : t - 8, way);
         if (t >= 8) box.add(way);
       }
-      LaneMasks near;
+      SweptAabb8::PairBits near;
       const float wide = float_margin(margin, farthest(ways));
       const uint32_t of = find_near(here, box, wide);
       const uint32_t some = find_near(here, of, there, wide, near);
@@ -293,7 +293,7 @@ TEST_CASE("candidates_are_exactly_the_pairs_whose_motions_come_near") {
 void check_on_the_way(const Plates &plates, bool keep_near) {
   Random random(8);
   BroadPhase candidates(plates.model);
-  candidates.keep_near(keep_near);
+  candidates.use_verlet_list(keep_near);
   Positions x = wavy(plates, random);
   std::vector<size_t> found;
   const int every = short_run() ? 11 : 1;  // every kind of round occurs

@@ -83,7 +83,7 @@ std::vector<NamedFactor> all_factors() {
   for (const uint32_t backend : backends()) {
     all.push_back({"backend " + std::to_string(backend), make_direct_solver(backend), 1e-12});
   }
-  all.push_back({"narrow", make_narrow_factor(), 1e-4});
+  all.push_back({"float", make_float_factor(), 1e-4});
   // the rest of the residual, and the share by which the norms of residual and solution differ
   all.push_back({"refined", make_mixed_precision_cholesky(), 1e-6});
   return all;
@@ -200,7 +200,7 @@ TEST_CASE("a_factor_computed_in_parts_has_the_same_bits") {
   Random random(9);
   const BlockMatrix m = random_matrix(random, 150, 600);
   const Positions b = random.vectors(150, 1);
-  for (const auto make : {make_block_factor, make_narrow_factor}) {
+  for (const auto make : {make_block_factor, make_float_factor}) {
     const std::unique_ptr<DirectSolver> whole = make(), parts = make();
     whole->analyse(m);
     parts->analyse(m);
@@ -228,7 +228,7 @@ TEST_CASE("systems_beyond_single_precision_are_solved_in_double") {
     return (x[0] - 0.5 * b[0]).norm() / b[0].norm();
   };
   CHECK(error(make_block_factor()) < 1e-6);  // 1e9 times rounding
-  CHECK(error(make_narrow_factor()) > 0.1);
+  CHECK(error(make_float_factor()) > 0.1);
   CHECK(error(make_mixed_precision_cholesky()) < 1e-6);
 }
 
@@ -245,7 +245,7 @@ TEST_CASE("single_precision_produces_no_subnormal_numbers_and_restores_the_round
       m.value[k] = Mat3::Identity() * (k == m.start[c] ? 10.1 : -1.0);
     }
   }
-  const std::unique_ptr<DirectSolver> factor = make_narrow_factor();
+  const std::unique_ptr<DirectSolver> factor = make_float_factor();
   factor->analyse(m);
   REQUIRE(factor->factorise(m));
   Positions x(n, Vec3::Zero());

@@ -79,12 +79,12 @@ double brute_force_distance2(const Vec3 &p, const std::vector<Tri> &triangles,
 TEST_CASE("bvh_queries_equal_brute_force") {
   const ModelPtr model = model_of(bowl(40, 10));
   const std::vector<Vec3> &x = model->valve.rest;
-  const TriangleTree tree(model->valve.triangles, x);
+  const TriangleBvh tree(model->valve.triangles, x);
   for (int i = 0; i < 2000; ++i) {
     // a low-discrepancy cloud in and around the valve
     const auto fraction = [&](double step) { return std::fmod(0.5 + i * step, 1.0) - 0.5; };
     const Vec3 p = 60e-3 * Vec3(fraction(0.8191725), fraction(0.6710436), fraction(0.5497005));
-    const TriangleTree::Hit hit = tree.closest(p);
+    const TriangleBvh::Hit hit = tree.closest(p);
     CHECK(hit.distance2 == brute_force_distance2(p, model->valve.triangles, x));
     CHECK((hit.point - p).squaredNorm() == about(hit.distance2, 1e-9));
   }

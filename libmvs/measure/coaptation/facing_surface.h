@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/bvh.h"
 #include "measure/tissue/surface.h"
 #include "model/model.h"
 
@@ -36,7 +36,7 @@ class FacingSurface {
   const Model &model_;
   const std::vector<Vec3> &x_;
   const Surface &surface_;
-  TriangleTree tree_;
+  TriangleBvh tree_;
   std::vector<uint8_t> border_;  // per triangle: bit f is set where feature f is on the border
   double reach_;
 };

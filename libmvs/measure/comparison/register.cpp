@@ -1,6 +1,7 @@
 // Kabsch for points; a damped Gauss-Newton method for surfaces.
 #include "measure/comparison/register.h"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 
@@ -55,12 +56,12 @@ Fit fit(const SampledSurface &a, const SampledSurface &b, const Rigid &motion, c
   Fit sum;
   for (size_t i = 0; i < a.samples().size(); i += stride(a)) {
     const Vec3 p = motion(a.samples()[i].point);
-    const TriangleTree::Hit hit = b.tree().closest(p);
+    const TriangleBvh::Hit hit = b.tree().closest(p);
     sum.add(p - centre, p - hit.point, b.normal(hit.triangle), a.samples()[i].weight);
   }
   for (size_t i = 0; i < b.samples().size(); i += stride(b)) {
     const Vec3 &p = b.samples()[i].point;
-    const TriangleTree::Hit hit = a.tree().closest(back(p));
+    const TriangleBvh::Hit hit = a.tree().closest(back(p));
     const Vec3 q = motion(hit.point);
     sum.add(q - centre, q - p, motion.turn * a.normal(hit.triangle), b.samples()[i].weight);
   }

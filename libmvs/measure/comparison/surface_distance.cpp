@@ -1,6 +1,7 @@
 // Sampling surfaces and summing distances.
 #include "measure/comparison/surface_distance.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

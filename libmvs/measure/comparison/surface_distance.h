@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/bvh.h"
 
 namespace mvs::core {
 
@@ -19,13 +19,13 @@ class SampledSurface {
     double weight;
   };
   const std::vector<Sample> &samples() const { return samples_; }
-  const TriangleTree &tree() const { return tree_; }
+  const TriangleBvh &tree() const { return tree_; }
   Vec3 normal(uint32_t triangle) const;  // unit; zero where it has no area
 
  private:
   const std::vector<Tri> &triangles_;
   const std::vector<Vec3> &x_;
-  TriangleTree tree_;
+  TriangleBvh tree_;
   std::vector<Sample> samples_;
 };
 

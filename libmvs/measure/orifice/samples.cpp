@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/bvh.h"
 #include "model/sides.h"
 
 namespace mvs::core::orifice {
@@ -28,7 +28,7 @@ constexpr double deep_of_seal = 0.8;
 // What lies within 60 degrees of the normal faces a point; the sheet's own neighbourhood does not.
 constexpr double facing_cosine = 0.5;
 
-bool faces_something(const TriangleTree &tree, const Vec3 &p, const Vec3 &normal, double within) {
+bool faces_something(const TriangleBvh &tree, const Vec3 &p, const Vec3 &normal, double within) {
   double limit2 = within * within;
   bool found = false;
   tree.visit_near(p, limit2, [&](uint32_t t) {
@@ -42,7 +42,7 @@ bool faces_something(const TriangleTree &tree, const Vec3 &p, const Vec3 &normal
   return found;
 }
 
-bool is_near(const TriangleTree &tree, const Vec3 &p, double within) {
+bool is_near(const TriangleBvh &tree, const Vec3 &p, double within) {
   double limit2 = within * within;
   bool found = false;
   tree.visit_near(p, limit2, [&](uint32_t t) {
@@ -55,7 +55,7 @@ bool is_near(const TriangleTree &tree, const Vec3 &p, double within) {
 
 Mesh refined(const Sheet &sheet) {
   const std::vector<Tri> rim = as_triangles(sheet.rim);
-  const TriangleTree rim_tree(rim, sheet.mesh.x), tree(sheet.mesh.triangles, sheet.mesh.x);
+  const TriangleBvh rim_tree(rim, sheet.mesh.x), tree(sheet.mesh.triangles, sheet.mesh.x);
   Mesh mesh = sheet.mesh;
   bisect(mesh, [&](const BisectEdge &edge) {
     const double length = (edge.b - edge.a).norm();

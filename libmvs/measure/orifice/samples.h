@@ -18,7 +18,7 @@ struct Sheet {
   double grain;   // m: the finest spacing of samples
   double radius;  // m: the sheet is inside the sphere of this size around the origin
 };
-// Edges as triangles of no area, for a TriangleTree.
+// Edges as triangles of no area, for a TriangleBvh.
 std::vector<Tri> as_triangles(const std::vector<Edge> &edges);
 
 Sheet local_sheet(const Model &model, const std::vector<Vec3> &local);

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bvh.h"
 #include "geometry/delaunay3d.h"
 #include "geometry/max_flow.h"
-#include "geometry/triangle_tree.h"
 
 namespace mvs::core::orifice {
 namespace {
@@ -62,7 +62,7 @@ class Space {
 
   const Sheet &sheet_;
   const Samples &samples_;
-  TriangleTree tree_;
+  TriangleBvh tree_;
   Delaunay mesh_;
   std::vector<Vec3> vertex_;  // on the lattice, in m, so that every cell has positive volume
   std::vector<Ball> ball_;    // through the corners of each cell
@@ -172,7 +172,7 @@ std::vector<Tri> Space::cut() {
   MaxFlow flow(numbers_);
   for (const Opening &o : openings_) {
     const double units = area(face(o.cell, o.face)) / flow_unit;
-    flow.add_pipe(number_[o.cell], number_[o.beyond], std::llround(units));
+    flow.add_edge(number_[o.cell], number_[o.beyond], std::llround(units));
   }
   flow.run(atrium, ventricle);
   std::vector<Tri> triangles;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/bvh.h"
 #include "linalg/small_solve.h"
 #include "measure/tissue/surface.h"
 #include "model/sides.h"
@@ -58,7 +58,7 @@ class Shrinking {
 
   const Sheet &sheet_;
   std::vector<Tri> rim_edges_;
-  TriangleTree rim_tree_, tree_;
+  TriangleBvh rim_tree_, tree_;
   std::vector<Vec3> normal_;  // of the sheet, per node
   Mesh mesh_;
   std::vector<Hold> hold_;
@@ -144,7 +144,7 @@ Vec3 Shrinking::move_of(uint32_t v) const {
     stiffness += 1e-6 * stiffness.trace() * Mat3::Identity();
     return solve_positive(stiffness, force);
   }
-  const TriangleTree::Hit hit = tree_.closest(x);
+  const TriangleBvh::Hit hit = tree_.closest(x);
   const TrianglePoint where = tree_.closest_on(hit.triangle, x);
   Vec3 normal = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {

@@ -29,7 +29,7 @@ bool is_our_own(uint32_t backend) {
 }
 
 std::unique_ptr<DirectSolver> make_preconditioner(uint32_t backend) {
-  return backend == MVS_BACKEND_DEFAULT ? make_narrow_factor() : make_direct_solver(backend);
+  return backend == MVS_BACKEND_DEFAULT ? make_float_factor() : make_direct_solver(backend);
 }
 
 // The first buffer that is shared with nobody, or else a new one: states and factors that hold the

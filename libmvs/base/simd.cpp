@@ -1,4 +1,5 @@
-#include "base/simd_level.h"
+// The instruction set of the processor, limited by the environment variable MVS_SIMD.
+#include "base/simd.h"
 
 #include <algorithm>
 #include <cstdlib>

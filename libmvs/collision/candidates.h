@@ -1,0 +1,45 @@
+// Candidate pairs of the broad phase: the lists that contact, barriers and step limits run over.
+#pragma once
+
+#include <vector>
+
+#include "base/types.h"
+
+namespace mvs::core {
+
+struct VertexTriangle {
+  uint32_t vertex, triangle;
+  double range;  // m, of the barrier; unused in contact pairs
+};
+
+struct EdgeEdge {
+  uint32_t first, second;  // edges, first < second
+  double range;            // m, of the barrier
+};
+
+struct CandidateLists {
+  std::vector<VertexTriangle> contact, barrier;
+  std::vector<EdgeEdge> barrier_edges;
+
+  bool empty() const { return contact.empty() && barrier.empty() && barrier_edges.empty(); }
+  void clear();
+};
+
+// Sorts pairs by vertex, then triangle; edges by first, then second. Keeps its memory.
+class CandidateSorter {
+ public:
+  explicit CandidateSorter(size_t node_count) : node_count_(node_count) {
+    count_.reserve(node_count + 1);
+  }
+  void reserve(size_t pairs) { sorted_.reserve(pairs); }
+  void sort(CandidateLists &lists);
+
+ private:
+  void sort(std::vector<VertexTriangle> &pairs);
+
+  size_t node_count_;
+  std::vector<VertexTriangle> sorted_;
+  std::vector<uint32_t> count_;  // where the pairs of each vertex end
+};
+
+}  // namespace mvs::core

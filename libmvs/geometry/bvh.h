@@ -1,0 +1,255 @@
+// Bounding volume hierarchy over the triangles of a surface, for all queries of the library: boxes
+// that overlap a box, triangles nearest to a point, and pairs of leaves of one surface that come
+// near each other while it moves.
+//
+// The topology is built once, top down, by splitting at the median of the longest extent of the
+// centroids (n log n, the same on every machine). Volumes are refitted bottom up in linear time, as
+// often as the surface moves (van den Bergen, J. Graphics Tools 2(4), 1997).
+#pragma once
+
+#include <vector>
+
+#include "base/types.h"
+#include "geometry/distance.h"
+#include "geometry/swept_aabb_batch.h"
+
+namespace mvs::core {
+
+// Nodes in depth-first order: the left child follows its parent.
+struct BvhNode {
+  uint32_t right;  // child; `none` in a leaf
+  uint32_t after;  // the first node that is not below this one
+  uint32_t leaf;   // index of a leaf
+  bool is_leaf() const { return right == none; }
+};
+
+// The hierarchy without volumes. Leaf l holds triangles order[leaf_start[l]] to
+// order[leaf_start[l + 1] - 1].
+struct BvhTopology {
+  // All leaves but the last hold `leaf_size` triangles.
+  BvhTopology(const std::vector<Vec3> &x, const std::vector<Tri> &triangles, uint32_t leaf_size);
+
+  uint32_t leaf_count() const { return static_cast<uint32_t>(leaf_start.size() - 1); }
+
+  std::vector<BvhNode> nodes;  // empty without triangles
+  std::vector<uint32_t> order, leaf_start;
+};
+
+// A hierarchy with a Volume for each node. Volume::add(other) makes a volume enclose another one.
+template <typename Volume>
+class Bvh {
+ public:
+  Bvh(const std::vector<Vec3> &x, const std::vector<Tri> &triangles, uint32_t leaf_size)
+      : topology_(x, triangles, leaf_size), volume_(topology_.nodes.size()) {}
+
+  const BvhTopology &topology() const { return topology_; }
+
+  // Sets the volume of every node from those of the leaves: set(leaf, volume) assigns one.
+  template <typename Set>
+  void refit(Set &&set) {
+    for (size_t i = volume_.size(); i-- > 0;) {
+      const BvhNode &node = topology_.nodes[i];
+      if (node.is_leaf()) {
+        set(node.leaf, volume_[i]);
+      } else {
+        volume_[i] = volume_[i + 1];
+        volume_[i].add(volume_[node.right]);
+      }
+    }
+  }
+
+  // Calls visit(triangle) for the triangles of all leaves except those at or below a node with
+  // skip(volume), depth first.
+  template <typename Skip, typename Visit>
+  void for_overlapping(Skip &&skip, Visit &&visit) const {
+    for (uint32_t i = 0; i < volume_.size();) {
+      const BvhNode &node = topology_.nodes[i];
+      const bool skipped = skip(volume_[i]);
+      if (!skipped && node.is_leaf()) visit_leaf(node.leaf, visit);
+      i = skipped ? node.after : i + 1;
+    }
+  }
+
+  // Calls visit(triangle) for at least every triangle in volumes with distance2(volume) <= limit2,
+  // near volumes first. The visitor may lower limit2.
+  template <typename Distance2, typename Visit>
+  void for_nearest(Distance2 &&distance2, const double &limit2, Visit &&visit) const {
+    // the median split keeps the depth below 33, and each level leaves one entry on the stack
+    std::array<uint32_t, 40> stack;
+    size_t count = 0;
+    if (!volume_.empty()) stack[count++] = 0;
+    while (count > 0) {
+      const uint32_t i = stack[--count];
+      const BvhNode &node = topology_.nodes[i];
+      if (distance2(volume_[i]) > limit2) continue;
+      if (node.is_leaf()) {
+        visit_leaf(node.leaf, visit);
+        continue;
+      }
+      const uint32_t left = i + 1, right = node.right;
+      const bool left_first = distance2(volume_[left]) <= distance2(volume_[right]);
+      stack[count++] = left_first ? right : left;
+      stack[count++] = left_first ? left : right;
+    }
+  }
+
+  // Calls visit(a, b) once for each pair of leaves whose volumes, and those of the nodes above
+  // them, are not apart(volume, volume), in an order that depends on the topology alone; and
+  // visit(a, a) for each leaf. Skips pairs within a subtree with rests(volume), and between two
+  // such subtrees.
+  template <typename Rests, typename Apart, typename Visit>
+  void for_near_leaves(Rests &&rests, Apart &&apart, Visit &&visit) const {
+    if (!volume_.empty()) pairs_within(0, rests, apart, visit);
+  }
+
+ private:
+  template <typename Visit>
+  void visit_leaf(uint32_t leaf, Visit &visit) const {
+    const uint32_t last = topology_.leaf_start[leaf + 1];
+    for (uint32_t k = topology_.leaf_start[leaf]; k < last; ++k) visit(topology_.order[k]);
+  }
+
+  template <typename Rests, typename Apart, typename Visit>
+  void pairs_within(uint32_t i, Rests &rests, Apart &apart, Visit &visit) const {
+    const BvhNode &node = topology_.nodes[i];
+    if (rests(volume_[i])) return;
+    if (node.is_leaf()) {
+      visit(node.leaf, node.leaf);
+      return;
+    }
+    pairs_within(i + 1, rests, apart, visit);
+    pairs_within(node.right, rests, apart, visit);
+    pairs_between(i + 1, node.right, rests, apart, visit);
+  }
+
+  // Descends into the larger of two subtrees.
+  template <typename Rests, typename Apart, typename Visit>
+  void pairs_between(uint32_t i, uint32_t j, Rests &rests, Apart &apart, Visit &visit) const {
+    const Volume &u = volume_[i], &v = volume_[j];
+    if ((rests(u) && rests(v)) || apart(u, v)) return;
+    const BvhNode &a = topology_.nodes[i], &b = topology_.nodes[j];
+    if (a.is_leaf() && b.is_leaf()) {
+      visit(a.leaf, b.leaf);
+    } else if (b.is_leaf() || (!a.is_leaf() && a.after - i >= b.after - j)) {
+      pairs_between(i + 1, j, rests, apart, visit);
+      pairs_between(a.right, j, rests, apart, visit);
+    } else {
+      pairs_between(i, j + 1, rests, apart, visit);
+      pairs_between(i, b.right, rests, apart, visit);
+    }
+  }
+
+  BvhTopology topology_;
+  std::vector<Volume> volume_;  // of each node
+};
+
+// An axis-aligned bounding box.
+struct Aabb {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+
+  void add(const Vec3 &p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  void add(const Aabb &other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  bool overlaps(const Aabb &other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  double distance2(const Vec3 &p) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double off = p[k] < low[k] ? low[k] - p[k] : (p[k] > high[k] ? p[k] - high[k] : 0.0);
+      sum += off * off;
+    }
+    return sum;
+  }
+};
+
+Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle);
+
+// A surface at rest: boxes that overlap a box, and triangles near a point.
+class TriangleBvh {
+ public:
+  // Keeps references to both: they must outlive the hierarchy.
+  TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+
+  // Calls visit(triangle) for every triangle whose box overlaps `box`.
+  template <typename Visit>
+  void for_overlapping(const Aabb &box, Visit &&visit) const {
+    bvh_.for_overlapping([&](const Aabb &volume) { return !volume.overlaps(box); },
+                         [&](uint32_t t) {
+                           if (box_[t].overlaps(box)) visit(t);
+                         });
+  }
+  const Aabb &box_of(uint32_t triangle) const { return box_[triangle]; }
+
+  // Calls visit(triangle) for at least every triangle nearer to p than sqrt(limit2), near boxes
+  // first; the visitor may lower limit2, which it holds by reference.
+  template <typename Visit>
+  void visit_near(const Vec3 &p, const double &limit2, Visit &&visit) const {
+    bvh_.for_nearest([&](const Aabb &volume) { return volume.distance2(p); }, limit2, visit);
+  }
+
+  // The closest point of all triangles; on equal distance, that of the first triangle.
+  struct Hit {
+    uint32_t triangle = none;
+    double distance2 = 0;
+    Vec3 point;
+  };
+  Hit closest(const Vec3 &p) const;
+
+  TrianglePoint closest_on(uint32_t triangle, const Vec3 &p) const {
+    const Tri &t = triangles_[triangle];
+    return closest_on_triangle(p, x_[t[0]], x_[t[1]], x_[t[2]]);
+  }
+  Vec3 point_at(uint32_t triangle, const std::array<double, 3> &weight) const {
+    const Tri &t = triangles_[triangle];
+    return weight[0] * x_[t[0]] + weight[1] * x_[t[1]] + weight[2] * x_[t[2]];
+  }
+
+ private:
+  const std::vector<Tri> &triangles_;
+  const std::vector<Vec3> &x_;
+  std::vector<Aabb> box_;  // of each triangle
+  Bvh<Aabb> bvh_;
+};
+
+// A surface in motion: pairs of leaves, of at most eight triangles each, that come near each other
+// during a step. Nodes move from `from` to `to` along straight lines. If all move together (the
+// same share of their motion at a time), neighbours that move alike keep their distance; if each
+// node moves independently, the boxes of their whole motions decide.
+class SweptBvh {
+ public:
+  SweptBvh(const std::vector<Vec3> &x, const std::vector<Tri> &triangles)
+      : bvh_(x, triangles, SweptAabb8::count) {}
+
+  const BvhTopology &topology() const { return bvh_.topology(); }
+
+  // Sets the swept boxes of the leaves. Pairs of leaves that rest are not reported.
+  void refit(const std::vector<SweptAabbF> &leaves, const std::vector<uint8_t> &rests);
+  // Calls visit(a, b) once for each pair of leaves that are not apart by a margin of
+  // float_margin(), a leaf and itself included, in an order that depends on the topology alone.
+  template <typename Visit>
+  void for_near_leaves(float margin, Visit &&visit) const {
+    bvh_.for_near_leaves(
+        [](const Volume &v) { return v.rests; },
+        [&](const Volume &a, const Volume &b) { return surely_apart(a.box, b.box, margin); },
+        visit);
+  }
+
+ private:
+  struct Volume {
+    SweptAabbF box;
+    bool rests = false;
+    void add(const Volume &other) {
+      box.add(other.box);
+      rests = rests && other.rests;
+    }
+  };
+  Bvh<Volume> bvh_;
+};
+
+}  // namespace mvs::core
