@@ -132,7 +132,7 @@ void compare_nodes(const Model &model, double same, mvs_ensemble &spread) {
     }
   }
   if (pairs > 0) spread.summary.node_rms = std::sqrt(squares / pairs);
-  spread.nodes = node_spread(model.node_count(), shapes);
+  spread.nodes = node_deviation(model.node_count(), shapes);
   const std::vector<uint32_t> equilibrium = find_equilibria(farthest, at_rest, same);
   for (size_t k = 0; k < size; ++k) {
     spread.paths[k].equilibrium = equilibrium[k];

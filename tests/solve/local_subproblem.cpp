@@ -30,7 +30,7 @@ TEST_CASE("free_nodes_of_a_piece_feel_what_they_feel_in_the_whole_valve") {
   State state = closed(*model);
   std::vector<Vec3> x = state.x.get();
   const uint32_t place = model->valve.chords[3].b;
-  const LocalSubproblem region = cut_out(*model, x, {place}, {8e-3, x.size(), 2e-3});
+  const LocalSubproblem region = make_local_subproblem(*model, x, {place}, {8e-3, x.size(), 2e-3});
   REQUIRE(region.node.size() < x.size());
   // as far as the leash allows, so that what lies beyond the piece could come into reach
   size_t free = 0;
