@@ -1,4 +1,4 @@
-// The barrier, and sums over stencils.
+// The barrier function, contact pairs of all kinds of features, and sums over contact pairs.
 #include "energy/barrier.h"
 
 #include <Eigen/Dense>
@@ -88,16 +88,16 @@ double add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*cur
 
 namespace {
 
-// The second derivative of E(d) over the nodes of one stencil. With r = sum w_k x_k, n = r / |r|,
-// t_a = sum slide_ak x_k and the closest point sliding freely (n t_a = 0), c = E' / d and
-// G_ab = t_a t_b, block (k, l) is
+// The second derivative of E(d) over the nodes of one contact pair. With r = sum w_k x_k, n = r /
+// |r|, t_a = sum slide_ak x_k and the closest point sliding freely (n t_a = 0), c = E' / d and G_ab
+// = t_a t_b, block (k, l) is
 //   w_k w_l (E'' n n^T + c (I - n n^T)) - c sum_ab (G^-1)_ab u_ka u_lb^T,
 //   u_ka = w_k t_a + slide_ka d n.
-// The projected one keeps E'' n n^T, which is positive where E'' is, and leaves the rest.
-class StencilHessian {
+// The projected Hessian keeps E'' n n^T where E'' is positive, and leaves the rest out.
+class ContactPairHessian {
  public:
-  StencilHessian(const ContactPair &s, double second, double c, const std::vector<Vec3> &x)
-      : stencil_(s), c_(c) {
+  ContactPairHessian(const ContactPair &s, double second, double c, const std::vector<Vec3> &x)
+      : pair_(s), c_(c) {
     const Vec3 &n = s.normal;
     along_ = (second - c) * n * n.transpose();
     along_.diagonal().array() += c;
@@ -105,7 +105,7 @@ class StencilHessian {
   }
 
   Mat3 block(uint32_t k, uint32_t l) const {
-    Mat3 sum = stencil_.weight[k] * stencil_.weight[l] * along_;
+    Mat3 sum = pair_.weight[k] * pair_.weight[l] * along_;
     for (uint32_t a = 0; a < slides_; ++a) {
       for (uint32_t b = 0; b < slides_; ++b) {
         sum -= c_ * inverse_(a, b) * u_[a][k] * u_[b][l].transpose();
@@ -116,24 +116,22 @@ class StencilHessian {
 
  private:
   void slide(const std::vector<Vec3> &x) {
-    slides_ = stencil_.slides;
+    slides_ = pair_.slides;
     std::array<Vec3, 2> t{Vec3::Zero(), Vec3::Zero()};
     Eigen::Matrix2d gram = Eigen::Matrix2d::Identity();
     for (uint32_t a = 0; a < slides_; ++a) {
-      for (uint32_t k = 0; k < stencil_.count; ++k)
-        t[a] += stencil_.slide[a][k] * x[stencil_.node[k]];
+      for (uint32_t k = 0; k < pair_.count; ++k) t[a] += pair_.slide[a][k] * x[pair_.node[k]];
     }
     for (uint32_t a = 0; a < slides_; ++a) {
       for (uint32_t b = 0; b < slides_; ++b) gram(a, b) = t[a].dot(t[b]);
-      for (uint32_t k = 0; k < stencil_.count; ++k) {
-        u_[a][k] =
-            stencil_.weight[k] * t[a] + stencil_.slide[a][k] * stencil_.distance * stencil_.normal;
+      for (uint32_t k = 0; k < pair_.count; ++k) {
+        u_[a][k] = pair_.weight[k] * t[a] + pair_.slide[a][k] * pair_.distance * pair_.normal;
       }
     }
     inverse_ = gram.inverse();
   }
 
-  const ContactPair &stencil_;
+  const ContactPair &pair_;
   double c_;
   Mat3 along_;
   uint32_t slides_ = 0;
@@ -151,7 +149,7 @@ bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)
     const double second = s.strength / s.range * b.second;
     const bool exact = curvature == Curvature::exact;
     if (!exact && second <= 0) continue;
-    const StencilHessian blocks(s, second, exact ? s.strength * b.first / s.distance : 0, x);
+    const ContactPairHessian blocks(s, second, exact ? s.strength * b.first / s.distance : 0, x);
     for (uint32_t k = 0; k < s.count; ++k) {
       system.add_diagonal(s.node[k], blocks.block(k, k));
       for (uint32_t l = 0; l < k; ++l) {

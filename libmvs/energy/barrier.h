@@ -1,5 +1,6 @@
-// One distance between parts of the sheet, or of it and an instrument, and what it does: the energy
-// strength * range * B((d - radius) / range) with its derivatives over the nodes of the distance.
+// Energy, gradient and Hessian of contact pairs: each pair has a distance d between two parts of
+// the sheet, or between the sheet and an instrument, and the energy strength * range * B((d -
+// radius) / range).
 #pragma once
 
 #include <vector>
@@ -18,39 +19,39 @@ Barrier barrier(double s);
 // (1 - s)^3 scaled to push as the barrier does at s = 1/2.
 Barrier penalty(double s);
 
-// One distance and what it does: d = |sum_k weight_k x_k| over up to four nodes.
+// Two features within range: d = |sum_k weight_k x_k| over up to four nodes.
 struct ContactPair {
   std::array<uint32_t, 4> node;
   std::array<double, 4> weight;
-  std::array<std::array<double, 4>, 2> slide;  // d(weight) along each direction it may slide in
+  std::array<std::array<double, 4>, 2> slide;  // d(weight) along each direction of sliding
   uint32_t count;                              // nodes
   uint32_t slides;                             // 0: point-point, 1: point-edge, 2: face or edges
   Vec3 normal;                                 // unit, towards the first nodes
   double distance;
   double range;
-  double strength;  // kappa times an area, times c_p: may be negative
-  bool guard;
-  double radius = 0;  // of the instrument among its nodes: what counts is distance - radius
+  double strength;    // kappa times an area, times c_p: may be negative
+  bool is_barrier;    // of the short-range barrier, not of contact proper
+  double radius = 0;  // m, of the instrument; 0 between parts of the sheet
 
   double gap() const { return distance - radius; }
 };
 
-// Stencils without distance, range and strength. Nodes of the second kind come after the first.
+// Pairs without distance, range and strength. The nodes of the second feature follow the first.
 ContactPair point_point(uint32_t v, uint32_t a);
 ContactPair point_edge(uint32_t v, uint32_t a, uint32_t b, double s);
 ContactPair point_face(uint32_t v, const Tri &t, const std::array<double, 3> &weight);
-// Of a vertex and the feature of a triangle that is closest to it.
+// A vertex and the feature of a triangle that is closest to it.
 ContactPair vertex_triangle(uint32_t v, const Tri &t, const TrianglePoint &p);
 ContactPair edge_edge(const Edge &e, const Edge &f, const SegmentPair &p);
 
-// Works out the distance at x; false if that is out of range.
+// Measures the distance and normal at x. Returns false if the pair is out of range.
 bool measure(const std::vector<Vec3> &x, ContactPair &s);
 
-// Sums over stencils, at the positions where they were measured.
+// Sums over contact pairs, at the positions where they were measured.
 double energy_of(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double));
 double add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
                     std::vector<Vec3> &g);
-// False if the pattern lacks a block; add_pairs() then gives what is needed.
+// Returns false if the pattern lacks a block; add_pairs() returns the pairs of nodes it needs.
 bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
                  const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system);
 void add_pairs(const std::vector<ContactPair> &contact_pairs, std::vector<Edge> &pairs);

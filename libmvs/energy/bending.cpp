@@ -1,5 +1,5 @@
-// The hinge: angle, gradient and Hessian (as in Tamstorf & Grinspun, Graphical Models 75, 2013,
-// written here from the derivative of the gradient).
+// Angle, gradient and Hessian of a hinge, as in Tamstorf & Grinspun, Graphical Models 75, 2013; the
+// Hessian is derived here from the gradient.
 #include "energy/bending.h"
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 namespace mvs::core {
 namespace {
 
-// The parts of a hinge that its derivatives share. N1 = e x (x2 - x0), N2 = (x3 - x0) x e.
+// Quantities that the derivatives of a hinge share. N1 = e x (x2 - x0), N2 = (x3 - x0) x e.
 struct Parts {
   Vec3 e, n1, n2, m1, m2;  // m = N / |N|^2
   double q1, q2;           // |N|^2
@@ -87,7 +87,7 @@ double wrap(double angle) {
   return angle > 0 ? angle - 2 * std::numbers::pi : angle + 2 * std::numbers::pi;
 }
 
-// A hinge as its angle has it.
+// A hinge with the quantities that its angle and gradient need.
 struct Fold {
   Vec3 e, c2, c3, n1, n2;  // c = x - x0
   double length;
@@ -99,7 +99,7 @@ struct Fold {
   double sine() const { return 0 - length * n1.dot(c3); }
   double cosine() const { return n1.dot(n2); }
 
-  // Of the angle, by the nodes. s is where a corner's foot stands along the edge.
+  // Gradient of the angle by nodes. s is the position of the foot of a corner along the edge, m.
   void slopes(Slope &slope) const {
     const double per_length = 1 / length, s2 = c2.dot(e) * per_length, s3 = c3.dot(e) * per_length;
     const Vec3 m1 = 1 / n1.squaredNorm() * n1, m2 = 1 / n2.squaredNorm() * n2;
@@ -110,7 +110,7 @@ struct Fold {
   }
 };
 
-constexpr size_t at_once = 32;  // hinges
+constexpr size_t hinges_per_batch = 32;  // of atan2_batch()
 
 }  // namespace
 
@@ -160,16 +160,16 @@ double BendingTerm::energy(const std::vector<Vec3> &x) const {
 
 double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
   double sum = 0;
-  for (size_t first = 0; first < hinges_.size(); first += at_once) {
-    sum += gradient_of(first, std::min(first + at_once, hinges_.size()), x, g);
+  for (size_t first = 0; first < hinges_.size(); first += hinges_per_batch) {
+    sum += gradient_of(first, std::min(first + hinges_per_batch, hinges_.size()), x, g);
   }
   return sum;
 }
 
 double BendingTerm::gradient_of(size_t first, size_t last, const std::vector<Vec3> &x,
                                 std::vector<Vec3> &g) const {
-  std::array<double, at_once> sine{}, cosine{}, angle{};
-  std::array<Slope, at_once> slope;
+  std::array<double, hinges_per_batch> sine{}, cosine{}, angle{};
+  std::array<Slope, hinges_per_batch> slope;
   for (size_t k = first; k < last; ++k) {
     const auto &node = hinges_[k].node;
     const Fold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);

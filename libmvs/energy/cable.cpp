@@ -1,4 +1,4 @@
-// Tension-only cables: each its law (model/chord_law.h) over its volume, nothing when slack.
+// A stretched cable has the energy of its law (model/chord_law.h) times its volume, a slack one 0.
 #include "energy/cable.h"
 
 #include "model/chord_law.h"

@@ -1,4 +1,4 @@
-// Chordae: tension-only cables, straight or branching at free nodes.
+// Chordae as tension-only cables: energy, gradient and Hessian. They may branch at free nodes.
 #pragma once
 
 #include <vector>

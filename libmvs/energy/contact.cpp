@@ -1,4 +1,4 @@
-// What touches, and the forces of it.
+// Measures the contact pairs of each vertex by inclusion-exclusion over faces, edges and corners.
 #include "energy/contact.h"
 
 namespace mvs::core {
@@ -9,7 +9,7 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
       stiffness_(model.valve.contact_stiffness),
       law_(law),
       curve_(law == ContactLaw::barrier ? barrier : penalty) {
-  // more than a closed valve has, so that a live step seldom allocates
+  // more pairs than a closed valve has, so that a live step seldom allocates
   contact_pairs_.reserve(model.node_count());
   edges_.touched.reserve(256);
   corners_.touched.reserve(256);
@@ -46,7 +46,7 @@ void ContactTerm::collect(const std::vector<Vec3> &x, const BroadPhase &broad_ph
     add_vertex_triangle(x, pair.vertex, model_->valve.triangles[pair.triangle], pair.range,
                         strength, true);
   }
-  for (const EdgeEdge &pair : broad_phase.barrier_edge_candidates()) add_guard(x, pair);
+  for (const EdgeEdge &pair : broad_phase.barrier_edge_candidates()) add_barrier(x, pair);
 }
 
 bool ContactTerm::Tally::meet(uint32_t index) {
@@ -64,7 +64,8 @@ void ContactTerm::Tally::clear() {
   touched.clear();
 }
 
-// Triangles whose closest point is inside act at once; edges and corners are tallied first.
+// Adds the pairs of one vertex. Triangles whose closest point is inside are added at once; edges
+// and corners are counted first.
 void ContactTerm::collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
                                  const VertexTriangle *last) {
   for (const VertexTriangle *c = first; c != last; ++c) tally(x, c->vertex, c->triangle);
@@ -76,7 +77,7 @@ void ContactTerm::tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangl
   const TrianglePoint p = closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]);
   if (p.distance2 >= thickness_ * thickness_) return;
   const Tri &edges = model_->topology.triangle_edges[triangle];
-  // each edge and corner of the surface counts once, whatever its number of triangles
+  // each edge and corner of the surface counts once, for any number of its triangles
   for (const uint32_t k : t) {
     if (corners_.meet(k)) corners_.count[k] += corner_share_[k];
   }
@@ -122,15 +123,15 @@ void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v) {
 }
 
 void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t,
-                                      double range, double strength, bool guard) {
+                                      double range, double strength, bool is_barrier) {
   ContactPair s = vertex_triangle(v, t, closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]));
   s.range = range;
   s.strength = strength;
-  s.guard = guard;
+  s.is_barrier = is_barrier;
   finish(x, s);
 }
 
-void ContactTerm::add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair) {
+void ContactTerm::add_barrier(const std::vector<Vec3> &x, const EdgeEdge &pair) {
   const Edge &e = model_->topology.edges[pair.first], &f = model_->topology.edges[pair.second];
   const SegmentPair p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
   if (p.distance2 >= pair.range * pair.range) return;

@@ -1,21 +1,22 @@
-// Contact of the sheet with itself: a smooth force between surfaces that face each other within the
-// contact thickness, and a guard that keeps every vertex-triangle and edge-edge pair apart.
+// Self-contact of the sheet: a smooth force between surfaces that face each other within the
+// contact thickness, and a short-range barrier that keeps every vertex-triangle and edge-edge pair
+// apart.
 //
-// Contact proper. Each vertex v feels the surface that faces it through
+// Contact proper. The energy of a vertex v and the surface that faces it is
 //   E_v = kappa A_v / 2 * sum_p c_p r B(d_p / r),   B(s) = -(1 - s)^2 ln s for s < 1,
 // r the contact thickness, kappa the contact stiffness, A_v the vertex's rest area, d_p the
 // distance to a triangle, edge or vertex. The barrier B is that of Li et al., Incremental Potential
 // Contact (2020). The integers c_p count +1 for triangles, -1 for edges, +1 for vertices (the
-// inclusion-exclusion of Li et al., Convergent IPC, 2023), so that a flat surface is felt once
-// however finely it is meshed. Edges and vertices of a rim count 0: what is subtracted is what two
-// triangles share. So the sheet is felt once up to its rim and past it, E = B(distance to the
-// sheet) for a flat one without notches. Each d_p is the distance to a convex set and smooth off
-// it, so that the force is continuous as the vertex slides across faces, edges, corners and rims.
-// What is closer than facing_rest_distance * r in the rest shape belongs to the same piece of sheet
-// and is left out. Two sheets pressed together by p rest at a distance where -kappa B'(d / r) = p.
+// inclusion-exclusion of Li et al., Convergent IPC, 2023), so that a flat surface counts once at
+// any mesh size. Edges and vertices of a rim count 0, because only features that two triangles
+// share are subtracted. So the sheet counts once up to its rim and past it: E = B(distance to the
+// sheet) for a flat sheet without notches. Each d_p is the distance to a convex set and smooth
+// outside it, so that the force is continuous as the vertex slides across faces, edges, corners and
+// rims. Pairs closer than facing_rest_distance * r in the rest shape belong to the same sheet and
+// are left out. Two sheets pressed together by p rest at the distance where -kappa B'(d / r) = p.
 //
-// The guard is the same barrier over a short range for every pair that is not incident, edges with
-// edges included: nothing comes to distance zero.
+// The short-range barrier is the same B for every pair that is not incident, edge-edge pairs
+// included, over min(0.2 r, 0.4 times the rest distance): no distance becomes zero.
 #pragma once
 
 #include <vector>
@@ -27,41 +28,41 @@
 
 namespace mvs::core {
 
-// The barrier of this file, or the founding paper's kind of contact: a force that grows with depth
-// up to a bound, from vertices to triangles only, with no guard.
+// The barrier of this file, or the contact of the founding paper: a force that grows with depth up
+// to a bound, between vertices and triangles only, without a short-range barrier.
 enum class ContactLaw { barrier, penalty };
 
 class ContactTerm {
  public:
   explicit ContactTerm(const Model &model, ContactLaw law = ContactLaw::barrier);
 
-  // Finds what touches at x; `broad_phase` must be valid there.
+  // Measures the contact pairs at x; `broad_phase` must be valid there.
   void collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase);
   const std::vector<ContactPair> &contact_pairs() const { return contact_pairs_; }
 
-  // All three speak of the last collect().
+  // All three refer to the last collect().
   double energy() const;
   double gradient(std::vector<Vec3> &g) const;
-  // False if the pattern lacks a block; add_pairs() then gives what is needed.
+  // Returns false if the pattern lacks a block; add_pairs() returns the pairs of nodes it needs.
   bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:
-  // Counts per edge or vertex of the sheet, for the vertex at hand.
+  // Counts per edge or vertex of the sheet, for one vertex.
   struct Tally {
     std::vector<int> count;
     std::vector<uint8_t> seen;
     std::vector<uint32_t> touched;
-    bool meet(uint32_t index);  // true the first time
+    bool meet(uint32_t index);  // returns true the first time
     void clear();
   };
   void collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
                       const VertexTriangle *last);
   void tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangle);
   void add_tallied(const std::vector<Vec3> &x, uint32_t v);
-  void add_guard(const std::vector<Vec3> &x, const EdgeEdge &pair);
+  void add_barrier(const std::vector<Vec3> &x, const EdgeEdge &pair);
   void add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t, double range,
-                           double strength, bool guard);
+                           double strength, bool is_barrier);
   void finish(const std::vector<Vec3> &x, ContactPair s);
 
   const Model *model_;

@@ -1,4 +1,5 @@
-// Follower pressure: forces, the potential beside them, and their symmetric derivative.
+// Forces of the follower pressure, its energy with a frozen free edge, and both parts of its
+// derivative.
 #include "energy/follower_pressure.h"
 
 #include <Eigen/Geometry>
@@ -7,7 +8,7 @@ namespace mvs::core {
 namespace {
 
 // The corner of a triangle that is neither i nor j.
-uint32_t opposite(const Tri &t, uint32_t i, uint32_t j) {
+uint32_t corner_opposite(const Tri &t, uint32_t i, uint32_t j) {
   for (const uint32_t k : t) {
     if (k != i && k != j) return k;
   }
@@ -29,8 +30,8 @@ FollowerPressureTerm::FollowerPressureTerm(const Model &model) : triangles_(mode
     const Tri &t = triangles_[first];
     const bool along = has_directed(t, i, j);
     const uint32_t a = along ? i : j, b = along ? j : i;
-    const uint32_t right = second == none ? none : opposite(triangles_[second], i, j);
-    slopes_.push_back({a, b, opposite(t, i, j), right});
+    const uint32_t right = second == none ? none : corner_opposite(triangles_[second], i, j);
+    slopes_.push_back({a, b, corner_opposite(t, i, j), right});
     const bool both_fixed = topology.fixed[i] && topology.fixed[j];
     if (second == none && !both_fixed) free_edges_.push_back({a, b});
   }

@@ -1,10 +1,11 @@
-// The ventricular pressure on the sheet, following the deformed normal.
+// Follower pressure: the ventricular pressure on the sheet, along the deformed normal. Returns
+// exact forces and the symmetric part of their derivative.
 //
 // Each triangle pushes p A n / 3 on its corners. Away from the free edge that is the gradient of
 // -p V, V the volume swept by the sheet, for any prescribed boundary. At a free edge the follower
 // force has no potential: the difference, (p / 6) a x b on both ends of each free edge (a, b), is
-// kept as a constant force in the energy between calls of freeze(). Forces are always the true
-// ones; energy differences are exact to first order around the frozen shape.
+// kept as a constant force in the energy between calls of freeze(). Forces are exact; differences
+// of the energy are exact to first order around the frozen shape.
 #pragma once
 
 #include <vector>
@@ -20,17 +21,18 @@ class FollowerPressureTerm {
   explicit FollowerPressureTerm(const Model &model);
 
   void set_pressure(double pressure) { pressure_ = pressure; }
-  // Without pressure nothing but freeze() costs anything.
+  // Without pressure all functions but freeze() return at once.
   bool empty() const { return pressure_ == 0; }
-  // Takes the shape whose free edge the energy is exact at. Call it before each line search.
+  // Sets the shape around which the energy of the free edge is exact. Call it before each line
+  // search.
   void freeze(const std::vector<Vec3> &x);
 
   double energy(const std::vector<Vec3> &x) const;
   // Adds minus the follower force; returns energy(x).
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  // The symmetric part of the derivative; indefinite by nature, so `projected` is the same.
+  // Adds the symmetric part of the derivative. It is indefinite and has no projected form.
   void hessian(const std::vector<Vec3> &x, HessianAssembler &system) const;
-  // Adds to y the skew part of the derivative times v: what the free edge adds to the Hessian.
+  // Adds to y the skew part of the derivative, which the free edge has, times v.
   void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v, std::vector<Vec3> &y) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 

@@ -1,4 +1,4 @@
-// The forces of a state, for looking at: what every term does to every node.
+// Nodal forces of a state, for output.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Springs that give way.
+// Force, energy and Hessian of the springs of hands.
 #include "energy/grasp.h"
 
 #include <mvs/tool.h>

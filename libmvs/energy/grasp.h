@@ -1,8 +1,9 @@
-// The springs between hands and what they lead: held nodes, and the points of instruments.
+// Springs between hands and nodes: held nodes, and the points of instruments.
 //
-// Each is a spring of stiffness k whose force stops growing at F: E = k d^2 / 2 up to d0 = F / k,
-// and F d - F d0 / 2 beyond, d the distance from where the hand wants the node. E is convex and its
-// gradient continuous; what is pulled too far slips through the hand's force, not through space.
+// A spring of stiffness k whose force is at most F has E = k d^2 / 2 up to d0 = F / k, and
+// F d - F d0 / 2 beyond, d the distance of the node from its target (the Huber function). E is
+// convex and its gradient continuous. A node whose target is too far away stays behind; it does not
+// jump.
 #pragma once
 
 #include <vector>
@@ -16,16 +17,16 @@ struct Hold {
   uint32_t node;
   Vec3 target;
   double stiffness;  // N/m
-  double force;      // N, at most
+  double force;      // N, the largest
 };
 
-// The spring that leads point k of a tool, or the node of a grasp, with the node it leads.
+// The spring of point k of a tool, or of a grasp (k = 0), on a node.
 Hold hold_of(const Tool &tool, uint32_t k, uint32_t node);
 
-// The force of a hold on what is at x, N.
+// The force of a spring on its node at x, N.
 Vec3 pull(const Hold &hold, const Vec3 &x);
 
-// The second derivative of its energy there; positive semidefinite.
+// The second derivative of its energy at x; positive semidefinite.
 Mat3 hold_block(const Hold &hold, const Vec3 &x);
 
 class GraspTerm {

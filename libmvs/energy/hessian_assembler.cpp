@@ -1,24 +1,14 @@
-// Numbering the rows of the system.
+// Numbers the rows of the free nodes, builds block patterns and finds the place of each block.
 #include "energy/hessian_assembler.h"
 
 #include <algorithm>
 #include <iterator>
 
+#include "energy/settings.h"
 #include "linalg/direct_solver.h"
 #include "linalg/nested_dissection.h"
 
 namespace mvs::core {
-namespace {
-
-// Times the blocks that are needed: more are not kept from one pattern to the next.
-constexpr double most_kept = 1.25;
-
-// From here on nested dissection makes a factor cheaper than minimum degree does: a closure of
-// 1,700 vertices by 3 %, of 3,400 by 7, of 6,800 by 25, of 27,000 by 31.
-constexpr size_t dissected_rows = 1000;
-
-}  // namespace
-
 void HessianAssembler::set_pattern(const Model &model, const std::vector<Edge> &pairs) {
   slots_.clear();
   if (!keeps_order_) number_rows(model, pairs);
@@ -42,7 +32,8 @@ void HessianAssembler::set_pattern(const Model &model, const std::vector<Edge> &
   place_always();
 }
 
-// Sorted, and which of these each of the pairs is: good for as long as the order of the rows.
+// Sorts the fixed pairs and finds the place of each in the sorted list; valid while rows keep their
+// order.
 void HessianAssembler::find_always(const std::vector<Edge> &pairs) {
   take_rows(pairs);
   always_ = rows_;
@@ -60,7 +51,7 @@ void HessianAssembler::find_always(const std::vector<Edge> &pairs) {
   }
 }
 
-// Both they and the pattern ascend.
+// Finds the blocks of the fixed pairs in the matrix; both lists ascend.
 void HessianAssembler::place_always() {
   place_.resize(always_.size());
   for (uint32_t i = 0, k = 0; i < always_.size(); ++i) {
@@ -75,7 +66,7 @@ void HessianAssembler::place_always() {
   }
 }
 
-// Adds to the pairs of rows what others, sorted as they are, have.
+// Adds sorted pairs of rows to those of the pattern.
 void HessianAssembler::unite(const std::vector<Edge> &other) {
   united_.clear();
   make_room(united_, rows_.size() + other.size());
@@ -84,10 +75,10 @@ void HessianAssembler::unite(const std::vector<Edge> &other) {
   rows_.swap(united_);
 }
 
-// And what the pattern has, unless that has become too much.
+// Adds the pairs of the old pattern, unless the pattern then grows beyond its limit.
 void HessianAssembler::keep_old_rows() {
   if (!keeps_order_ || matrix.size() != node_of.size()) return;
-  const auto needed = most_kept * static_cast<double>(rows_.size());
+  const auto needed = settings::assembly::max_pattern_growth * static_cast<double>(rows_.size());
   old_.clear();
   make_room(old_, matrix.row.size());
   for (uint32_t c = 0; c < matrix.size(); ++c) {
@@ -99,7 +90,7 @@ void HessianAssembler::keep_old_rows() {
   if (static_cast<double>(rows_.size()) > needed) rows_.swap(united_);
 }
 
-// Where its blocks are; false unless all are in the matrix.
+// Finds the blocks of an outer product. Returns false unless all are in the matrix.
 bool HessianAssembler::find_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
                                           OuterProductTarget &to) {
   if (slots_.empty()) return false;
@@ -142,7 +133,7 @@ void HessianAssembler::set_order(const Model &model, const std::vector<uint32_t>
   matrix.forget_pattern();
 }
 
-// The pairs of free nodes, by their rows.
+// Collects the pairs of free nodes as sorted pairs of rows.
 void HessianAssembler::take_rows(const std::vector<Edge> &pairs) {
   rows_.clear();
   for (const Edge &p : pairs) {
@@ -152,11 +143,12 @@ void HessianAssembler::take_rows(const std::vector<Edge> &pairs) {
   matrix.sort_pairs(static_cast<uint32_t>(node_of.size()), rows_);
 }
 
-// Of the nodes, coupled by pairs of their numbers in the list: the order that makes less work.
+// Returns the order of elimination, minimum degree or nested dissection, that needs less work.
+// `pairs` are indices into `nodes`.
 std::vector<uint32_t> HessianAssembler::order_of(const std::vector<uint32_t> &nodes,
                                                  const std::vector<Edge> &pairs) const {
   std::vector<uint32_t> order = fill_reducing_order(static_cast<uint32_t>(nodes.size()), pairs);
-  if (place == nullptr || nodes.size() < dissected_rows) return order;
+  if (place == nullptr || nodes.size() < settings::assembly::min_dissection_rows) return order;
   std::vector<Vec3> places;
   places.reserve(nodes.size());
   for (const uint32_t i : nodes) places.push_back((*place)[i]);

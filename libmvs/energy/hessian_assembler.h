@@ -1,4 +1,4 @@
-// The linear system of one Newton iteration: blocks of the Hessian go in by node numbers.
+// Hessian assembler: takes 3x3 blocks by node numbers and adds them to a symmetric block matrix.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,21 @@
 
 namespace mvs::core {
 
-// Free nodes have a row, numbered in elimination order; prescribed nodes have none. What couples a
-// free node to a prescribed one that moves by a known amount goes to the right-hand side.
+// Free nodes have a row, in elimination order; prescribed nodes have no row. The coupling of a free
+// node with a prescribed node that moves by a known displacement is added to the right-hand side.
 class HessianAssembler {
  public:
   // Rows from the free nodes of a model; the pattern from pairs of nodes.
   void set_pattern(const Model &model, const std::vector<Edge> &pairs);
-  // The same from pairs that it always has, and some beside; finds where the blocks of the former
-  // are.
+  // The same from fixed pairs and additional ones. Keeps the places of the blocks of the fixed
+  // pairs.
   void set_pattern(const Model &model, const std::vector<Edge> &always,
                    const std::vector<Edge> &beside);
-  // Puts the free nodes in this order, which then stays whatever the pattern; that is to be set
-  // next. Another one with the same order keeps what it had, unless that has become much more than
-  // needed.
+  // Sets the order of the rows, which every following pattern keeps. The next call has to set a
+  // pattern. Patterns keep earlier pairs up to settings::assembly::max_pattern_growth.
   void set_order(const Model &model, const std::vector<uint32_t> &nodes);
 
-  // Whether the rows stay in the order they have when the pattern changes.
+  // Whether rows keep their order when the pattern changes.
   void keep_order(bool keep) { keeps_order_ = keep; }
 
   void clear() {
@@ -32,7 +31,7 @@ class HessianAssembler {
     boundary_force.assign(matrix.size(), Vec3::Zero());
   }
 
-  // Adds block (i, j), i != j, and its transpose at (j, i). False if the pattern lacks it.
+  // Adds block (i, j), i != j, and its transpose at (j, i). Returns false if the pattern lacks it.
   bool add(uint32_t i, uint32_t j, const Mat3 &block) {
     const uint32_t r = row_of[i], c = row_of[j];
     if (r == none || c == none) {
@@ -45,9 +44,9 @@ class HessianAssembler {
     return true;
   }
 
-  // Of the pairs that it always has, those of a term begin here.
+  // The index of the first fixed pair of the term that adds blocks next.
   void begin_term(size_t first) { first_ = first; }
-  // The same as add(i, j, block) for what is pair `k` of a term, one way or the other.
+  // The same as add(i, j, block) for nodes i and j that are pair `k` of the term, in any order.
   void add(size_t k, uint32_t i, uint32_t j, const Mat3 &block) {
     if (slots_.empty()) {
       add(i, j, block);
@@ -61,8 +60,8 @@ class HessianAssembler {
     }
   }
 
-  // Adds times * slope slope^T, the slope by four nodes, whose six pairs (1, 0), (2, 0), (2, 1) ...
-  // are `k` and those after it of a term.
+  // Adds times * slope slope^T, a gradient over four nodes. Their six pairs (1, 0), (2, 0), (2, 1)
+  // ... are pairs k to k + 5 of the term.
   void add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
                          double times);
 
@@ -71,12 +70,13 @@ class HessianAssembler {
     if (r != none) matrix.value[matrix.start[r]] += block;
   }
 
-  // Where the nodes lie; the order of many rows then goes by it, too.
+  // Positions of the nodes, nullable: with them nested dissection is tried for many rows.
   const std::vector<Vec3> *place = nullptr;
   BlockMatrix matrix;
   std::vector<uint32_t> row_of;   // node -> row, none where prescribed
   std::vector<uint32_t> node_of;  // row -> node
-  // While the boundary moves: the step of every node (zero where free), and -H_fb times it by rows.
+  // While the boundary moves: the step of every node (zero where free), and -H_fb times it, by
+  // rows.
   const std::vector<Vec3> *boundary_step = nullptr;
   std::vector<Vec3> boundary_force;
 
@@ -106,12 +106,12 @@ class HessianAssembler {
   }
 
   bool keeps_order_ = false;
-  // pairs of rows, while a pattern is made
+  // pairs of rows, while a pattern is built
   std::vector<Edge> rows_, united_, old_;
-  // of the pairs that it always has: sorted, where each of these is in the matrix, and for each
-  // pair as it was given which of these it is, and where: none where a node has no row
-  std::vector<Edge> always_;
-  std::vector<uint32_t> place_, always_of_, slots_;
+  std::vector<Edge> always_;         // the fixed pairs, sorted, as rows
+  std::vector<uint32_t> place_;      // of each sorted pair in the matrix
+  std::vector<uint32_t> always_of_;  // fixed pair as given -> sorted pair, or none without rows
+  std::vector<uint32_t> slots_;      // fixed pair as given -> place in the matrix, or none
   size_t first_ = 0;
 };
 

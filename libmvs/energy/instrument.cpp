@@ -1,19 +1,13 @@
-// Balls and rods: what is near, what touches, what it does.
+// Measures the distances between instruments and the sheet and evaluates their barrier.
 #include "energy/instrument.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "energy/contact.h"
+#include "energy/settings.h"
 
 namespace mvs::core {
-namespace {
-
-// A rod gives in length by a quarter of a millimetre where its ends are pushed together with 5 N.
-constexpr double axial_stiffness = 2e4;  // N/m
-
-}  // namespace
-
 void InstrumentTerm::collect(const std::vector<Vec3> &x) {
   contact_pairs_.clear();
   for (const InstrumentBody &body : bodies_.all()) {
@@ -56,10 +50,10 @@ void InstrumentTerm::take_edge(const std::vector<Vec3> &x, const InstrumentBody 
 }
 
 void InstrumentTerm::finish(const std::vector<Vec3> &x, const InstrumentBody &body, ContactPair s,
-                            double range, double area, bool guard) {
+                            double range, double area, bool is_barrier) {
   s.range = range;
-  s.strength = (guard ? 0.5 : 1) * model_->valve.contact_stiffness * area;
-  s.guard = guard;
+  s.strength = (is_barrier ? 0.5 : 1) * model_->valve.contact_stiffness * area;
+  s.is_barrier = is_barrier;
   s.radius = body.tool.radius;
   if (measure(x, s)) contact_pairs_.push_back(s);
 }
@@ -69,7 +63,7 @@ double InstrumentTerm::energy(const std::vector<Vec3> &x) const {
   for (const InstrumentBody &body : bodies_.all()) {
     if (!body.is_rod()) continue;
     const double longer = (x[body.point[1]] - x[body.point[0]]).norm() - body.tool.length;
-    sum += 0.5 * axial_stiffness * longer * longer;
+    sum += 0.5 * settings::instrument::rod_stiffness * longer * longer;
   }
   return sum;
 }
@@ -79,7 +73,7 @@ double InstrumentTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g
   for (const InstrumentBody &body : bodies_.all()) {
     if (!body.is_rod()) continue;
     const Vec3 d = x[body.point[1]] - x[body.point[0]];
-    const Vec3 f = axial_stiffness * (1 - body.tool.length / d.norm()) * d;
+    const Vec3 f = settings::instrument::rod_stiffness * (1 - body.tool.length / d.norm()) * d;
     g[body.point[0]] -= f;
     g[body.point[1]] += f;
   }
@@ -94,8 +88,9 @@ bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
     const auto &[a, b] = body.point;
     const Vec3 d = x[b] - x[a];
     const double length = d.norm();
-    const Mat3 block = axial_block(d / length, axial_stiffness,
-                                   axial_stiffness * (1 - body.tool.length / length), curvature);
+    const Mat3 block = axial_block(
+        d / length, settings::instrument::rod_stiffness,
+        settings::instrument::rod_stiffness * (1 - body.tool.length / length), curvature);
     system.add_diagonal(a, block);
     system.add_diagonal(b, block);
     complete = system.add(a, b, -block) && complete;

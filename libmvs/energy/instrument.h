@@ -1,14 +1,16 @@
-// Instruments that push: balls, and rods with round ends, against the sheet.
+// Contact of the sheet with instruments that push: balls, and rods with round ends (capsules).
 //
-// Their points (the middle of a ball, of both ends of a rod) are nodes like any other: led by the
-// hand's springs (physics/grasp.h), pushed by the sheet, cut by the step bounds. So what pushes is
-// a proxy, in the sense of Zilles & Salisbury's god-object (IROS 1995), that never passes through.
+// Their points (the centre of a ball, the centres of both ends of a rod) are nodes like any other:
+// the springs of the hand pull them (energy/grasp.h), the sheet pushes them, the step limiter
+// shortens their steps. So the instrument that pushes is a proxy, as the god-object of Zilles &
+// Salisbury (IROS 1995), that never passes through the sheet.
 //
-// The sheet feels an instrument through its vertices, E_v = kappa A_v r B((d - R) / r), d from the
-// vertex to the middle or the axis, R the radius, r half of the contact thickness: a pressure at a
-// distance, at any mesh size. Between vertices a guard keeps every triangle and edge out: the same
-// barrier over a short range for each end and triangle, and for each axis and edge. All of these
-// distances above R means that nothing crosses. An axial spring keeps a rod's length.
+// Each vertex has the energy E_v = kappa A_v r B((d - R) / r), d the distance from the vertex to
+// the centre or the axis, R the radius, r half of the contact thickness: a pressure at a distance,
+// at any mesh size. A short-range barrier of the same B keeps triangles and edges out between
+// vertices: for each end and triangle, and for each axis and edge. While all of these distances are
+// above R nothing passes through. An axial spring keeps the length of a rod. There is no
+// friction, and chordae do not collide with instruments.
 #pragma once
 
 #include <vector>
@@ -30,7 +32,7 @@ class InstrumentTerm {
   void collect(const std::vector<Vec3> &x);
   const std::vector<ContactPair> &contact_pairs() const { return contact_pairs_; }
 
-  // These speak of the last collect().
+  // These refer to the last collect().
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
   bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
@@ -41,7 +43,7 @@ class InstrumentTerm {
   void take_triangle(const std::vector<Vec3> &x, const InstrumentBody &body, uint32_t t);
   void take_edge(const std::vector<Vec3> &x, const InstrumentBody &body, uint32_t e);
   void finish(const std::vector<Vec3> &x, const InstrumentBody &body, ContactPair s, double range,
-              double area, bool guard);
+              double area, bool is_barrier);
 
   const Model *model_;
   InstrumentBodies bodies_;

@@ -1,11 +1,11 @@
-// The membrane: energy, gradient, Hessian.
+// Deformation gradient, stress and stiffness of constant-strain triangles.
 #include "energy/membrane.h"
 
 #include <cmath>
 
 namespace mvs::core {
 
-// A triangle where it is now.
+// A triangle in its deformed shape.
 struct MembraneTerm::Deformed {
   Vec3 f0, f1;  // F
   InPlaneStrain strain;
@@ -14,7 +14,7 @@ struct MembraneTerm::Deformed {
 
 namespace {
 
-// The stress that stretching carries as a form on the weights of the corners: [2 Wa, Wc; Wc, 2 Wb].
+// The in-plane stress as a quadratic form on the weights of the corners: [2 Wa, Wc; Wc, 2 Wb].
 Mat2 stress_form(const Vec3 &first, Curvature curvature) {
   Mat2 form;
   form << 2 * first[0], first[2], first[2], 2 * first[1];
@@ -22,7 +22,7 @@ Mat2 stress_form(const Vec3 &first, Curvature curvature) {
   const double mean = first[0] + first[1], half = first[0] - first[1];
   const double radius = std::sqrt(half * half + first[2] * first[2]);
   if (mean >= radius) return form;              // tension in both directions
-  if (mean + radius <= 0) return Mat2::Zero();  // in none
+  if (mean + radius <= 0) return Mat2::Zero();  // compression in both
   // tension along one: its share of the form
   const double large = mean + radius, small = mean - radius;
   return (form - small * Mat2::Identity()) * (large / (large - small));
@@ -83,7 +83,7 @@ double MembraneTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) 
 
 namespace {
 
-// d2W / df_p df_q = F m_pq F^T + (what the stress adds), from the curvature of W.
+// d2W / df_p df_q = F m_pq F^T + (part of the stress), from the curvature of W.
 struct Middle {
   Mat2 m00, m01, m11;
 
@@ -100,7 +100,7 @@ struct Middle {
   }
 };
 
-// A block column by column, and one number more, so that all of it fits pairs of numbers.
+// A block column by column, padded by one number so that SIMD registers of two hold all of it.
 using Flat = Eigen::Matrix<double, 10, 1>;
 
 // F m F^T + s I. The products of the columns of F serve three blocks.

@@ -1,11 +1,11 @@
-// The leaflet as a finite-element membrane: constant-strain triangles, plane stress,
-// incompressible, total Lagrangian, with any law of model/law.h that is not a spring.
+// Finite-element membrane of a leaflet: energy, gradient and Hessian of constant-strain triangles,
+// plane stress, incompressible, total Lagrangian, for every law of model/law.h but the spring.
 //
 // The energy of a triangle is t A W(a, b, c), see model/membrane.h. Its Hessian has two parts. One
 // comes from the curvature of W, which is convex: positive semidefinite as it is. The other is the
 // stress times the second derivative of the strain: negative under compression, where the sheet
 // would buckle below the size of the triangle. Projected, the compressive part of the stress is
-// left out, which makes the whole positive semidefinite without an eigenvalue problem a triangle.
+// left out, which makes the whole positive semidefinite without an eigenvalue problem per triangle.
 //
 // Compression is kept as it is, not relaxed by a tension field: the shells of FEBio and Abaqus on
 // the same mesh do the same, wrinkles that the mesh can show are held by bending, and a tension

@@ -1,4 +1,4 @@
-// Where the work of a solver goes.
+// Profile of a solver: seconds by phase and counts of operations.
 #pragma once
 
 #include <mvs/profile.h>
@@ -8,12 +8,11 @@
 
 namespace mvs::core {
 
-// Seconds by MVS_PHASE_*, and how often things were done. Only ever reported, never part of a
-// result.
+// Seconds by MVS_PHASE_*, and counts. Reported only; no result depends on it.
 struct Profile {
   std::array<double, MVS_PHASE_COUNT> seconds{};
   uint32_t broad_phases = 0, orderings = 0, linear_iterations = 0;
-  uint32_t passes = 0;  // energies, gradients and matrices over all the terms
+  uint32_t passes = 0;  // evaluations of energy, gradient or Hessian over all terms
 
   void add(const Profile &other) {
     for (size_t k = 0; k < seconds.size(); ++k) seconds[k] += other.seconds[k];
@@ -28,7 +27,7 @@ inline double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Adds the time it lives to one phase.
+// Adds the time between its construction and destruction to one phase.
 class PhaseTimer {
  public:
   PhaseTimer(Profile &profile, uint32_t phase)

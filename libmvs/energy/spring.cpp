@@ -1,4 +1,4 @@
-// The mass-spring sheet.
+// Builds the springs of the edges and evaluates them.
 #include "energy/spring.h"
 
 #include <mvs/valve.h>

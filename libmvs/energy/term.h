@@ -1,15 +1,15 @@
-// Small blocks that several terms share.
+// Matrix blocks that several energy terms share.
 #pragma once
 
 #include "base/types.h"
 
 namespace mvs::core {
 
-// How a term gives its Hessian: as it is, or with what makes it indefinite left out.
+// The Hessian of a term as it is, or projected: without the part that makes it indefinite.
 enum class Curvature { exact, projected };
 
 // d2E/dx_i2 for E(L), L = |x_i - x_j|: stiffness along the unit direction n, tension / L across it.
-// A compressed spring buckles sideways (tension < 0): the projected block leaves that out.
+// A compressed spring buckles sideways (tension < 0); the projected block has 0 there.
 inline Mat3 axial_block(const Vec3 &n, double stiffness, double tension_over_length,
                         Curvature curvature) {
   const double across =

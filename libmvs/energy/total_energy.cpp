@@ -1,4 +1,4 @@
-// The sum of the terms.
+// Sums the terms in a fixed order, so that the bits of energies and forces do not depend on use.
 #include "energy/total_energy.h"
 
 namespace mvs::core {
@@ -101,7 +101,7 @@ double TotalEnergy::freeze(const std::vector<Vec3> &x) {
 
 bool TotalEnergy::fill(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) {
   system.clear();
-  // first what the pattern may lack: nothing is computed in vain
+  // contact first: the pattern may lack its blocks, and the rest would be computed in vain
   if (!contact_.hessian(x, curvature, system)) return false;
   if (!instrument_.hessian(x, curvature, system)) return false;
   system.begin_term(0);
@@ -132,7 +132,7 @@ bool TotalEnergy::hessian(const std::vector<Vec3> &x, Curvature curvature, Hessi
     const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
     if (fill(x, curvature, system)) return false;
   }
-  // contact has come where the pattern has no room: a new pattern from what touches now
+  // the pattern lacks blocks of contact: build a new one from the present contact pairs
   {
     const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
     ++profile.orderings;

@@ -1,4 +1,5 @@
-// All the terms a model has, as one potential: what every solver runs over.
+// Total energy of a valve: the sum of all terms of a model, with gradient, Hessian, broad phase and
+// step limiter. Every solver runs on it.
 #pragma once
 
 #include <vector>
@@ -22,24 +23,24 @@ class TotalEnergy {
   explicit TotalEnergy(const Model &model, ContactLaw law = ContactLaw::barrier);
 
   void set_pressure(double pressure) { pressure_.set_pressure(pressure); }
-  // The points of instruments are the last nodes (physics/tool_points.h).
+  // The points of instruments are the last nodes (solve/tools/tool_points.h).
   void set_tools(const std::vector<Tool> &tools);
 
-  // See Candidates.
-  void keep_near(bool keep) { broad_phase_.use_verlet_list(keep); }
-  void keep_near_at_once() { broad_phase_.use_verlet_list_at_once(); }
-  // Makes contact known while each node stays within `slack` of its way from x to `to`.
+  // See BroadPhase.
+  void use_verlet_list(bool use) { broad_phase_.use_verlet_list(use); }
+  void use_verlet_list_at_once() { broad_phase_.use_verlet_list_at_once(); }
+  // Builds the broad phase for nodes that stay within `slack`, m, of their paths from x to `to`.
   void prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
                Profile &profile);
-  // Shortens a step dx from x so that nothing passes through anything; contact is then known at x,
-  // at x + dx, and between.
+  // Shortens a step dx from x so that nothing passes through (conservative continuous collision
+  // detection). The broad phase then holds at x, at x + dx, and between.
   void limit_step(const std::vector<Vec3> &x, double slack, std::vector<Vec3> &dx,
                   Profile &profile);
   bool prepared_for(const std::vector<Vec3> &x) const {
     return instrument_.bodies().is_prepared() && broad_phase_.valid_for(x);
   }
 
-  // Forgets what was near, for skipped().
+  // Resets the record of contact for skipped().
   void begin_call() { was_near_ = false; }
   // MVS_SKIPPED_* of the terms that no pass since begin_call() has computed.
   uint32_t skipped() const;
@@ -49,21 +50,21 @@ class TotalEnergy {
   // Sets g = dE/dx and returns the energy; x must be prepared for.
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile);
 
-  // The same in parts, for a step that tries a place and stays there. Without what hands do, and
-  // with an energy comparable with that at the last freeze():
+  // The same in parts, for a step that accepts a trial. Gradient and energy without the springs of
+  // hands; the energy is comparable with that of the last freeze().
   double sheet_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g, Profile &profile);
-  // ... at the x of the last sheet_gradient(), whose energy it returns as gradient() would;
+  // Freezes the follower load at the x of the last sheet_gradient(); returns the energy there.
   double freeze(const std::vector<Vec3> &x);
-  // ... and what hands do: all that changes when only they move.
+  // The springs of hands: the only terms that change when only hands move.
   double hands_energy(const std::vector<Vec3> &x) const { return grasp_.energy(x); }
   double add_hands(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
     return grasp_.gradient(x, g);
   }
-  // Fills the system with the Hessian at the x of the last gradient(). True if its pattern is new.
+  // Assembles the Hessian at the x of the last gradient(). Returns true if its pattern is new.
   bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system,
                Profile &profile);
 
-  // Adds what the Hessian leaves out because it is not symmetric: see PressureTerm::add_skew.
+  // Adds the skew part that the Hessian leaves out: see FollowerPressureTerm::add_skew.
   void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v,
                 std::vector<Vec3> &y) const {
     pressure_.add_skew(x, v, y);
@@ -71,7 +72,7 @@ class TotalEnergy {
 
   // Sets the pattern that the Hessian at the x of the last gradient() needs.
   void set_pattern(HessianAssembler &system);
-  // Nodes that the terms whose pattern never changes couple.
+  // Pairs of nodes that terms with a fixed pattern couple.
   const std::vector<Edge> &pairs() const { return pairs_; }
   const BroadPhase &broad_phase() const { return broad_phase_; }
   const ContactTerm &contact() const { return contact_; }
@@ -92,13 +93,13 @@ class TotalEnergy {
   ContactTerm contact_;
   GraspTerm grasp_;
   InstrumentTerm instrument_;
-  bool was_near_ = false;    // contact had pairs to look at
-  double elastic_ = 0;       // energy of the last sheet_gradient(), without that of the pressure
-  std::vector<Edge> pairs_;  // of the terms whose pattern never changes,
+  bool was_near_ = false;    // the broad phase had pairs since begin_call()
+  double elastic_ = 0;       // J, of the last sheet_gradient(), without that of the pressure
+  std::vector<Edge> pairs_;  // of the terms with a fixed pattern
   struct {
     size_t membrane, bending, chord, pressure;
-  } first_;                   // where those of each begin, the springs' at 0
-  std::vector<Edge> wanted_;  // what touches, while a pattern is made
+  } first_;                   // index of the first pair of each; springs begin at 0
+  std::vector<Edge> wanted_;  // pairs of contact, while a pattern is built
 };
 
 }  // namespace mvs::core

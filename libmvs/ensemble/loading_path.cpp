@@ -1,3 +1,4 @@
+// Stages of a loading path, and the closure along them.
 #include "ensemble/loading_path.h"
 
 #include <mvs/ensemble.h>
@@ -13,8 +14,8 @@
 namespace mvs::core {
 namespace {
 
-// Between increments the valve need not be at rest to the last digit: a tenth of the pressure's
-// force on a node of mean area, within as many iterations as a closure takes at most.
+// Residual between increments, as a share of the force of the pressure on a node of mean area, and
+// iterations, as many as a closure takes at most.
 constexpr double between_residual = 0.1;
 constexpr uint32_t between_iterations = 100;
 
@@ -23,7 +24,7 @@ constexpr uint32_t between_iterations = 100;
 constexpr double ramp_time = 60e-3;
 constexpr uint32_t ramp_steps = 60;
 
-// A load on the way: passed in time by one step, or settled to.
+// One load of a path: applied for one step in time, or settled to.
 struct Stage {
   Load load;
   bool in_time;
@@ -44,7 +45,7 @@ std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to)
         {{from.pressure + share * (to.pressure - from.pressure), together ? travelled : held},
          path.ramp > 0});
   }
-  // the last one is the load itself, to the bit, and is settled to
+  // the last stage is the load itself, bit for bit, and is settled to
   if (!stages.back().in_time && !(moves && path.order == MVS_ENSEMBLE_ORDER_PRESSURE_FIRST)) {
     stages.pop_back();
   }
@@ -56,13 +57,14 @@ double force_between(const Model &model, const Load &load) {
   return between_residual * std::abs(load.pressure) * mean_area(model);
 }
 
-// Goes from stage to stage, and counts what each of them took.
-class Walk {
+// Runs the stages of a path in order and adds up their statistics.
+class PathRun {
  public:
-  Walk(Solver &solver, const Model &model, Closing &closing, bool plain, const Progress &progress)
+  PathRun(Solver &solver, const Model &model, Closing &closing, bool plain,
+          const Progress &progress)
       : solver_(solver), model_(model), closing_(closing), plain_(plain), progress_(progress) {}
 
-  void go(const std::vector<Stage> &stages, const SolveOptions &options, double dt) {
+  void run(const std::vector<Stage> &stages, const SolveOptions &options, double dt) {
     SolveOptions between = options, step;
     between.residual = std::max(options.residual, force_between(model_, stages.back().load));
     if (options.solver <= MVS_SOLVER_NEWTON) between.max_iterations = between_iterations;
@@ -83,15 +85,15 @@ class Walk {
     const auto tell = [this](double share, double residual) {
       return progress_(begun_ + share * stage_, residual);
     };
-    const Progress told = progress_ ? Progress(tell) : Progress();
-    // the others are on this mesh all the way, so that what it can fold to is found
-    return plain_ ? settle_with_mesh_hierarchy(solver_, model_, closing_.state, how, told)
-                  : solver_.settle(model_, closing_.state, how, told);
+    const Progress shared = progress_ ? Progress(tell) : Progress();
+    // the other paths stay on this mesh, so that they find its own folds
+    return plain_ ? settle_with_mesh_hierarchy(solver_, model_, closing_.state, how, shared)
+                  : solver_.settle(model_, closing_.state, how, shared);
   }
 
   SolveStats pass(const SolveOptions &how) {
     const SolveStats done = solver_.step(model_, closing_.state, how);
-    MVS_MUST(!progress_ || progress_(begun_, done.residual), MVS_E_CANCELLED, "spread",
+    MVS_MUST(!progress_ || progress_(begun_, done.residual), MVS_E_CANCELLED, "ensemble",
              "closing along paths was cancelled by the progress callback");
     return done;
   }
@@ -101,13 +103,13 @@ class Walk {
   Closing &closing_;
   bool plain_;
   const Progress &progress_;
-  double begun_ = 0, stage_ = 0;  // shares of the path: where the stage begins, how long it is
+  double begun_ = 0, stage_ = 0;  // shares of the path before the stage, and in the stage
 };
 
 }  // namespace
 
 Path make_path(uint32_t number, const Disturbance &disturbance, uint64_t seed) {
-  // 5 and 3 have no common factor: fifteen combinations before one comes back; 0 is in time
+  // 5 and 3 are coprime: fifteen combinations before one repeats; 0 increments: a ramp in time
   static constexpr uint32_t increments[] = {1, 4, 2, 0, 8};
   static constexpr uint32_t orders[] = {MVS_ENSEMBLE_ORDER_TOGETHER,
                                         MVS_ENSEMBLE_ORDER_BOUNDARY_FIRST,
@@ -134,8 +136,8 @@ Closing close_along(Solver &solver, const Model &model, const State &start, cons
   }
   closing.state = begun;
   try {
-    Walk(solver, model, closing, path.plain, progress)
-        .go(stages_of(path, start.load, load), options, path.ramp / path.increments);
+    PathRun(solver, model, closing, path.plain, progress)
+        .run(stages_of(path, start.load, load), options, path.ramp / path.increments);
     must_be_finite(closing.state);
   } catch (const Error &error) {
     if (error.code != MVS_E_DIVERGED || path.plain) throw;

@@ -1,4 +1,5 @@
-// Ways to close a valve: how pressure and boundary arrive, from which start.
+// Loading paths of an ensemble: from a perturbed start to rest under a load, with pressure and
+// boundary in different increments and orders.
 #pragma once
 
 #include "ensemble/perturbation.h"
@@ -8,26 +9,26 @@ namespace mvs::core {
 
 struct Path {
   uint32_t increments = 1;  // equal steps of the pressure
-  double ramp = 0;          // s: the pressure comes in time, with inertia; 0: at rest between steps
+  double ramp = 0;          // s, of the pressure, with inertia; 0: settles after each increment
   uint32_t order = 0;       // MVS_ENSEMBLE_ORDER_TOGETHER ...
   Disturbance disturbance;
   Random random{0, 0};
-  bool plain = false;  // the plain closure: numbers out of range are a failure of the whole
+  bool plain = false;  // the plain closure, whose divergence is an error of the whole ensemble
 };
 
-// The number-th way; number 0 is the plain closure. Fifteen ways of loading come in turn, each
-// time with another disturbance.
+// Returns path `number`; number 0 is the plain closure. Fifteen ways of loading repeat, each time
+// with another disturbance.
 Path make_path(uint32_t number, const Disturbance &disturbance, uint64_t seed);
 
-// How a path ended.
+// The end of a path.
 struct Closing {
   State state;
   SolveStats stats;
-  double moved = 0;  // m, the farthest that a node of the start was moved
+  double moved = 0;  // m, the largest displacement of a node of the start
   bool diverged = false;
 };
 
-// Goes along a path from `start` to rest under `load`. Cancelling throws.
+// Follows a path from `start` to rest under `load`. Throws where the progress callback cancels.
 Closing close_along(Solver &solver, const Model &model, const State &start, const Load &load,
                     const SolveOptions &options, const Path &path, const Progress &progress);
 

@@ -1,3 +1,4 @@
+// Statistics of each field of mvs_measures.
 #include "ensemble/measure_statistics.h"
 
 #include <mvs/ensemble.h>
@@ -15,7 +16,7 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 using Row = std::array<double, 5>;
 
-// NaN stands for a figure that a valve does not have.
+// The statistics of one measure. NaN stands for a measure that a valve does not have.
 Row row_of(const std::vector<double> &values) {
   Row row = {missing, missing, missing, missing, 0};
   double &count = row[MVS_ENSEMBLE_STATISTIC_COUNT - 1];
@@ -26,7 +27,7 @@ Row row_of(const std::vector<double> &values) {
       first = row[MVS_ENSEMBLE_STATISTIC_MIN - 1] = row[MVS_ENSEMBLE_STATISTIC_MAX - 1] = v;
     row[MVS_ENSEMBLE_STATISTIC_MIN - 1] = std::min(row[MVS_ENSEMBLE_STATISTIC_MIN - 1], v);
     row[MVS_ENSEMBLE_STATISTIC_MAX - 1] = std::max(row[MVS_ENSEMBLE_STATISTIC_MAX - 1], v);
-    // from the first one, so that equal values have exactly that mean and no deviation
+    // relative to the first value, so that equal values have that mean and a deviation of 0 exactly
     sum += v - first;
     ++count;
   }

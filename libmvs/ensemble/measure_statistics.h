@@ -1,4 +1,5 @@
-// Mean, range and deviation of every figure of mvs_measures over several valves.
+// Statistics of an ensemble: mean, range, sample deviation and count of every field of mvs_measures
+// over its members.
 #pragma once
 
 #include <mvs/snapshot.h>
@@ -8,7 +9,7 @@
 
 namespace mvs::core {
 
-// As MVS_ENSEMBLE_STATISTIC_MEAN ... MVS_ENSEMBLE_STATISTIC_COUNT, in that order.
+// In the order MVS_ENSEMBLE_STATISTIC_MEAN ... MVS_ENSEMBLE_STATISTIC_COUNT.
 using Statistics = std::array<mvs_measures, 5>;
 
 Statistics statistics_of(const std::vector<const mvs_measures *> &valves);

@@ -67,7 +67,7 @@ MemberDistances member_distances(const Model &model, const Shapes &shapes,
   for (size_t k = 0; k < shapes.size(); ++k) {
     if (at_rest[k]) rest.push_back(shapes[k]);
   }
-  found.node_deviation = node_spread(model.node_count(), rest);
+  found.node_deviation = node_deviation(model.node_count(), rest);
   return found;
 }
 

@@ -1,3 +1,4 @@
+// Sums plane waves over the nodes and limits the displacement.
 #include "ensemble/perturbation.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ struct Wave {
   double phase;
 };
 
-// As many long waves as short ones: wavelengths are uniform in their logarithm.
+// Wavelengths are uniform in their logarithm: as many long waves as short ones.
 std::vector<Wave> make_waves(double wavelength, Random &random) {
   constexpr double turn = 6.283185307179586;
   std::vector<Wave> waves(wave_count);
@@ -65,8 +66,8 @@ double disturb(const Model &model, std::vector<Vec3> &x, const Disturbance &how,
   const double farthest = longest(dx);
   if (how.longest <= 0 || farthest == 0) return 0;
   for (Vec3 &d : dx) d *= how.longest / farthest;
-  BroadPhase candidates(model);
-  StepLimiter().limit(model, x, 0, candidates, dx);
+  BroadPhase broad_phase(model);
+  StepLimiter().limit(model, x, 0, broad_phase, dx);
   for (size_t i = 0; i < x.size(); ++i) x[i] += dx[i];
   return longest(dx);
 }

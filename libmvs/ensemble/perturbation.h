@@ -1,4 +1,4 @@
-// Small disturbances of a shape, smooth in space, that let nothing cross.
+// Random perturbation of a shape by plane waves: smooth in space, bounded, without intersections.
 #pragma once
 
 #include "ensemble/random.h"
@@ -7,14 +7,14 @@
 namespace mvs::core {
 
 struct Disturbance {
-  double longest = 0;     // m, the farthest that a node is moved
+  double longest = 0;     // m, the largest displacement of a node
   double wavelength = 0;  // m, the shortest wave
 };
 
-// Moves the free nodes of x; returns how far the farthest went. The displacement is a sum of plane
-// waves in space, so that it does not depend on the mesh and sheets that lie together move
-// together; it fades out towards prescribed nodes, and is shortened, node by node, where sheets
-// would meet (physics/step_bounds.h).
+// Moves the free nodes of x and returns the largest displacement, m. The displacement is a sum of
+// plane waves in space, so that it does not depend on the mesh and sheets in contact move together.
+// It fades to zero towards prescribed nodes, and the step limiter shortens it node by node where
+// sheets would meet (collision/step_limiter.h).
 double disturb(const Model &model, std::vector<Vec3> &x, const Disturbance &how, Random random);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine: those of <random> are not.
+// Random numbers with the same bits on every machine, which <random> does not guarantee.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ class Random {
   }
   // In [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-  // Any direction as likely as another: height and longitude are uniform (Archimedes).
+  // A uniform direction: height and longitude are uniform (Archimedes).
   Vec3 direction() {
     const double z = 2 * uniform() - 1, turn = 6.283185307179586 * uniform();
     const double r = std::sqrt(1 - z * z);

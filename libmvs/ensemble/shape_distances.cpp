@@ -1,3 +1,4 @@
+// Node distances, deviations and equilibria of shapes.
 #include "ensemble/shape_distances.h"
 
 #include <algorithm>
@@ -20,20 +21,20 @@ Apart nodes_apart(const Model &model, const Shape &a, const Shape &b) {
   return {std::sqrt(squares / static_cast<double>(count)), std::sqrt(largest)};
 }
 
-std::vector<double> node_spread(size_t nodes, const std::vector<const Shape *> &shapes) {
-  std::vector<double> spread(nodes, 0);
-  if (shapes.empty()) return spread;
+std::vector<double> node_deviation(size_t nodes, const std::vector<const Shape *> &shapes) {
+  std::vector<double> deviation(nodes, 0);
+  if (shapes.empty()) return deviation;
   const auto count = static_cast<double>(shapes.size());
   for (size_t i = 0; i < nodes; ++i) {
-    // from the first shape, so that a node that never differs has exactly none
+    // relative to the first shape, so that a node that never differs has a deviation of 0 exactly
     const Vec3 &origin = (*shapes[0])[i];
     Vec3 mean = Vec3::Zero();
     for (const Shape *shape : shapes) mean += ((*shape)[i] - origin) / count;
     double squares = 0;
     for (const Shape *shape : shapes) squares += ((*shape)[i] - origin - mean).squaredNorm();
-    spread[i] = std::sqrt(squares / count);
+    deviation[i] = std::sqrt(squares / count);
   }
-  return spread;
+  return deviation;
 }
 
 std::vector<uint32_t> find_equilibria(const std::vector<double> &farthest,

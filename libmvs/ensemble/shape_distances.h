@@ -1,4 +1,4 @@
-// How far the shapes that a valve can close to lie apart.
+// Distances between the shapes of an ensemble, and their grouping into equilibria.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,20 @@ namespace mvs::core {
 
 using Shape = std::vector<Vec3>;  // positions of all nodes
 
-// Node to node over the vertices of the leaflets, as they lie.
+// Distances of equal nodes over the vertices of the leaflets, without registration.
 struct Apart {
   double rms = 0, max = 0;  // m
 };
 Apart nodes_apart(const Model &model, const Shape &a, const Shape &b);
 
-// Of each node, the RMS distance from its mean place over the shapes; zeros without any.
-std::vector<double> node_spread(size_t nodes, const std::vector<const Shape *> &shapes);
+// Returns for each node the RMS distance from its mean position over the shapes; zeros without
+// shapes.
+std::vector<double> node_deviation(size_t nodes, const std::vector<const Shape *> &shapes);
 
-// Numbers the shapes by equilibrium, in the order in which these come up: a shape belongs to the
-// first equilibrium from whose first shape no node of it is farther than `same`. `farthest` is the
-// square matrix of the largest node distance between shapes; those that do not count are `none`.
-// The largest distance and not a mean: one fold is a few nodes of many.
+// Numbers the shapes by equilibrium, in order of appearance: a shape belongs to the first
+// equilibrium from whose first shape no node is farther than `same`, m. `farthest` is the square
+// matrix of the largest node distance between shapes; shapes that do not count get `none`. The
+// largest distance decides, not a mean, because one fold is a few nodes of many.
 std::vector<uint32_t> find_equilibria(const std::vector<double> &farthest,
                                       const std::vector<uint8_t> &counts, double same);
 

@@ -1,4 +1,4 @@
-// What every solver asks about nodes that are free to move, and about those that are prescribed.
+// Small functions over all nodes that the solvers share.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,19 @@
 
 namespace mvs::core {
 
-// m2, of the sheet for each node.
+// Mean area of the sheet per node, m2.
 inline double mean_area(const Model &model) {
   double area = 0;
   for (const double a : model.rest_area) area += a;
   return area / static_cast<double>(model.node_count());
 }
 
-// Pa; an unloaded valve is scaled as if by 1 kPa, the pressure of a relaxed ventricle.
+// The pressure that forces are measured by, Pa: at least 1 kPa, that of a relaxed ventricle.
 inline double scale_of(const Load &load) {
   return std::max(std::abs(load.pressure), 1e3);
 }
 
-// The longest of the vectors on free nodes: of forces, the residual.
+// The length of the longest vector on a free node. For g = dE/dx it is the residual.
 inline double largest_free(const Model &model, const std::vector<Vec3> &g) {
   double square = 0;
   for (size_t i = 0; i < g.size(); ++i) {
@@ -31,17 +31,7 @@ inline double largest_free(const Model &model, const std::vector<Vec3> &g) {
   return std::sqrt(square);
 }
 
-// Whether every prescribed node has come within a distance of its target; 0: to the bit.
-inline bool boundary_is_there(const Model &model, const std::vector<Vec3> &x, double fraction,
-                              double within) {
-  for (uint32_t i = 0; i < x.size(); ++i) {
-    if (!model.topology.fixed[i]) continue;
-    if (!((model.target(i, fraction) - x[i]).squaredNorm() <= within * within)) return false;
-  }
-  return true;
-}
-
-// To the bit: -0.0 is not 0.0.
+// Equality bit for bit: -0.0 differs from 0.0.
 inline bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }

@@ -1,4 +1,4 @@
-// One face for the solvers: options checked, defaults filled in, the right one run.
+// Dispatch over the solvers: fills in default options and runs the solver that they name.
 #include "solve/solver.h"
 
 #include <mvs/sim.h>
@@ -11,82 +11,79 @@
 #include "linalg/mixed_precision.h"
 #include "solve/dynamic/explicit_euler.h"
 #include "solve/dynamic/implicit_euler.h"
-#include "solve/nodes.h"
+#include "solve/settings.h"
+#include "solve/static/boundary_ramp.h"
 #include "solve/static/newton.h"
 #include "solve/tools/tool_points.h"
 
 namespace mvs::core {
 namespace {
 
-constexpr uint32_t default_budget = 64;
-constexpr uint32_t largest_budget = 10000;
-
-StepOptions defaults(const SolveOptions &options) {
+// Fills in the defaults.
+StepOptions step_options(const SolveOptions &options) {
+  namespace set = settings::defaults;
   const bool is_explicit = options.solver == MVS_SOLVER_EXPLICIT;
   StepOptions how{options.dt, options.damping, options.budget, true};
-  if (how.dt == 0) how.dt = is_explicit ? 8e-6 : 1e-3;
-  if (how.damping == 0 && is_explicit) how.damping = 500;
-  if (how.budget == 0) how.budget = default_budget;
+  if (how.dt == 0) how.dt = is_explicit ? set::explicit_dt : set::implicit_dt;
+  if (how.damping == 0 && is_explicit) how.damping = set::explicit_damping;
+  if (how.budget == 0) how.budget = set::budget;
   return how;
 }
 
-// Settling goes on until the residual asked for, with all the work that a step may need.
-StepOptions settling(const SolveOptions &options) {
-  StepOptions how = defaults(options);
-  how.budget = largest_budget;
+// Steps that settle continue until the residual, with all the work that a step may need.
+StepOptions settle_options(const SolveOptions &options) {
+  StepOptions how = step_options(options);
+  how.budget = settings::defaults::settle_budget;
   how.may_sleep = false;
   return how;
 }
 
-uint32_t most_steps(const SolveOptions &options) {
+uint32_t max_settle_steps(const SolveOptions &options) {
   if (options.max_iterations > 0) return options.max_iterations;
-  return options.solver == MVS_SOLVER_EXPLICIT ? 2000000 : 20000;
+  return options.solver == MVS_SOLVER_EXPLICIT ? settings::defaults::explicit_steps
+                                               : settings::defaults::implicit_steps;
 }
 
-// What of mvs_stats.skipped the counts of a whole run tell.
-uint32_t never_done(const Profile &work) {
+// The bits of mvs_stats.skipped that follow from the counts of a whole run.
+uint32_t skipped_in_run(const Profile &work) {
   uint32_t skipped = 0;
   if (work.broad_phases == 0) skipped |= MVS_SKIPPED_BROAD;
   if (work.orderings == 0) skipped |= MVS_SKIPPED_ORDERING;
   return skipped;
 }
 
-// A boundary that steps in time have brought within rounding of its target is there.
-constexpr double arrival = 1e-9;  // m
-
-// Steps until the out-of-balance force is below the tolerance and stays there for a while, so that
-// a valve passing through balance in motion does not count as at rest.
+// Steps in time until the out-of-balance force is below the tolerance for several steps in a row.
 template <typename Step>
 SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &options,
                           const Progress &progress, Step &&step) {
-  constexpr int calm_needed = 10;
   const double start = seconds_now();
-  const double tolerance = options.residual > 0 ? options.residual : 1e-5;
-  const StepOptions how = settling(options);
-  const uint32_t most = most_steps(options);
+  const double tolerance = options.residual > 0 ? options.residual : settings::defaults::residual;
+  const StepOptions how = settle_options(options);
+  const uint32_t most = max_settle_steps(options);
   SolveStats stats;
   int calm = 0;
-  while (stats.iterations < most && calm < calm_needed) {
+  while (stats.iterations < most && calm < settings::settle::calm_steps) {
     ++stats.iterations;
     step(how, stats);
     state.time += how.dt;
     ++state.steps;
     const bool at_rest = stats.residual <= tolerance &&
-                         boundary_is_there(model, state.x, state.load.boundary_fraction, arrival);
+                         boundary_is_there(model, state.x, state.load.boundary_fraction,
+                                           settings::settle::boundary_arrival);
     calm = at_rest ? calm + 1 : 0;
-    const bool tell = progress && stats.iterations % 64 == 0;
-    MVS_MUST(!tell || progress(static_cast<double>(stats.iterations) / most, stats.residual),
+    const bool reports = progress && stats.iterations % settings::settle::steps_per_report == 0;
+    MVS_MUST(!reports || progress(static_cast<double>(stats.iterations) / most, stats.residual),
              MVS_E_CANCELLED, "settle",
              "settling was cancelled by the progress callback; the valve is as before");
   }
-  stats.converged = calm == calm_needed;
+  stats.converged = calm == settings::settle::calm_steps;
   state.v.assign(state.v.size(), Vec3::Zero());
   stats.kinetic = 0;
   stats.wall_s = seconds_now() - start;
   return stats;
 }
 
-// One step of a stepper that has made others before.
+// One step, with the statistics of its call.
 template <typename Stepper>
 void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveStats &stats) {
   stepper.begin_call();
@@ -101,7 +98,7 @@ std::unique_ptr<DirectSolver> make_newton_factor(uint32_t backend) {
 
 }  // namespace
 
-// The workers of the last model, so that a sequence of steps keeps its matrices.
+// The solvers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
   explicit Work(uint32_t backend_in) : backend(backend_in), factor(make_newton_factor(backend)) {}
 
@@ -132,7 +129,7 @@ Solver::~Solver() = default;
 Solver::Solver(Solver &&) noexcept = default;
 Solver &Solver::operator=(Solver &&) noexcept = default;
 
-// Runs solve(model, state) with nodes for the points of the tools, if they have any.
+// Runs solve(model, state) on a model that has nodes for the points of the tools, if there are any.
 template <typename Solve>
 SolveStats Solver::with_points(const Model &model, State &state, const SolveOptions &options,
                                Solve solve) {
@@ -143,8 +140,8 @@ SolveStats Solver::with_points(const Model &model, State &state, const SolveOpti
     return stats;
   }
   MVS_MUST(options.solver != MVS_SOLVER_EXPLICIT, MVS_E_UNSUPPORTED, "tool",
-           "the explicit solver guards against no crossing and cannot push with a ball or rod: "
-           "remove it, or take another solver");
+           "the explicit solver does not prevent penetration and cannot push with a ball or rod: "
+           "remove the tool, or use another solver");
   State extended = ToolPoints::extended(state);
   const SolveStats stats = solve(work_->tool_points.extend(model, points), extended);
   ToolPoints::take_back(std::move(extended), state);
@@ -181,13 +178,13 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
     stats = Newton(model, *work_->factor).settle(state, options, progress);
   }
   state.drop_cache();
-  stats.skipped |= never_done(stats.work);
+  stats.skipped |= skipped_in_run(stats.work);
   return stats;
 }
 
 SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptions &options) {
   const double start = seconds_now();
-  const StepOptions how = defaults(options);
+  const StepOptions how = step_options(options);
   SolveStats stats;
   if (options.solver == MVS_SOLVER_EXPLICIT) {
     state.drop_cache();
@@ -197,14 +194,14 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
     try {
       step_alone(work_->implicit_for(model), state, how, stats);
     } catch (...) {
-      work_->implicit.reset();  // half-way: nothing of it is to be kept
+      work_->implicit.reset();  // it is half-way through a step
       throw;
     }
   }
   state.time += how.dt;
   ++state.steps;
   stats.iterations = 1;
-  stats.skipped |= never_done(stats.work);
+  stats.skipped |= skipped_in_run(stats.work);
   stats.wall_s = seconds_now() - start;
   return stats;
 }
@@ -227,7 +224,7 @@ Forces evaluate_forces(const Model &valve, const State &valve_state) {
   const State state = ToolPoints::extended(valve_state);
   TotalEnergy total_energy(model);
   Profile profile;
-  total_energy.keep_near(false);
+  total_energy.use_verlet_list(false);
   total_energy.set_pressure(state.load.pressure);
   total_energy.set_tools(state.tools);
   total_energy.prepare(state.x, state.x, 0, profile);

@@ -1,4 +1,4 @@
-// The solvers over the terms: static closure, implicit step, explicit step.
+// Solver: brings a valve to rest (static closure) or takes one implicit or explicit step in time.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace mvs::core {
 
-// Zeros are the defaults stated in include/mvs/sim.h.
+// A zero stands for the default that include/mvs/sim.h states.
 struct SolveOptions {
   uint32_t solver = 0;  // MVS_SOLVER_*
   uint32_t max_iterations = 0;
@@ -33,7 +33,7 @@ struct SolveStats {
   uint32_t lowered = 0;  // MVS_LOWERED_*
   Profile work;
 
-  // Counts and times of what was done before; skipped is what was in both.
+  // Adds the counts and times of a run before; keeps the `skipped` bits that both runs have.
   void add(const SolveStats &before) {
     if (before.work.passes > 0) skipped &= before.skipped;
     iterations += before.iterations;
@@ -44,11 +44,11 @@ struct SolveStats {
   }
 };
 
-// Told the share done and the residual in N; returns true to go on, false to cancel.
+// Receives the share done and the residual in N; returns true to continue, false to cancel.
 using Progress = std::function<bool(double share, double residual)>;
 
-// Keeps what is worth keeping between calls (symbolic factorisation, candidate pairs), none of
-// which changes a result: a new Solver gives the same bits.
+// Keeps the symbolic factorisation and the broad phase between calls. They change no result: a new
+// Solver returns the same bits.
 class Solver {
  public:
   explicit Solver(uint32_t backend);  // MVS_BACKEND_*; throws MVS_E_UNSUPPORTED
@@ -56,13 +56,13 @@ class Solver {
   Solver(Solver &&) noexcept;
   Solver &operator=(Solver &&) noexcept;
 
-  // Both change `state` in place and may leave it half-way when they throw: hand in a copy.
+  // Both change `state` in place and leave it undefined when they throw: pass a copy.
   SolveStats settle(const Model &model, State &state, const SolveOptions &options,
                     const Progress &progress);
   SolveStats step(const Model &model, State &state, const SolveOptions &options);
-  // Where another model was stepped last: does now what the first step of this one would do for
-  // those after it, as for one with the same options. It changes no result, and what goes wrong is
-  // for that step to tell.
+  // After steps of another model: does now what the first step of this model would do for those
+  // after it, with the options of the last step. Changes no result; reports no error, because that
+  // step will.
   void make_ready(const Model &model, const State &state) noexcept;
 
  private:
@@ -81,8 +81,8 @@ class Solver {
 // model: for states that come from files.
 void check_solver_cache(const ModelState &current);
 
-// Whether the valve is far from rest as a whole: its boundary is still to move, or too many nodes
-// for a piece around a disturbance feel a force as the load's own.
+// Whether the valve is far from rest as a whole: its boundary is not at its target, or more nodes
+// than a local subproblem may have are disturbed.
 bool far_from_rest(const Model &model, const State &state);
 
 }  // namespace mvs::core

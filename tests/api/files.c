@@ -112,12 +112,29 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   mvs_snapshot_release(snapshot);
 }
 
+static void a_solver_cache_of_another_version_is_refused(void) {
+  const mvs_snapshot *snapshot = present(sim);
+  const hash128 before = snapshot_hash(snapshot);
+  const char *const line = "#mvs solver_cache version=";
+  uint64_t size = 0;
+  char *text = save(snapshot, MVS_FORMAT_OBJ, &size);
+  text[size] = 0;
+  char *at = strstr(text, line);
+  CHECK(at != NULL);
+  if (at) at[strlen(line)] = '7';
+  MUST_FAIL(mvs_load_memory(sim, text, size, 0), MVS_E_VERSION, "solver cache");
+  CHECK(same_hash(before, sim_hash(sim)));
+  free(text);
+  mvs_snapshot_release(snapshot);
+}
+
 int main(void) {
   static funnel f;
   make_funnel(&f);
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_set_valve(sim, &f.desc));
   saved_and_loaded_settles_to_the_same_bits();
+  a_solver_cache_of_another_version_is_refused();
   a_file_comes_back_the_same();
   vtp_is_written_with_results();
   refused_files_name_themselves_and_change_nothing();

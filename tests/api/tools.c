@@ -306,7 +306,7 @@ static void a_failed_settle_keeps_what_the_hand_wants(void) {
   at[2] += 1e-3;
   MUST(mvs_move_tool(sim, tool, at, NULL));
   const mvs_step_options wrong = {sizeof wrong, MVS_SOLVER_EXPLICIT, 0.5, 0, 0, 0};
-  MUST_FAIL(mvs_step(sim, &wrong), MVS_E_DIVERGED, "blew up");
+  MUST_FAIL(mvs_step(sim, &wrong), MVS_E_DIVERGED, "diverged");
   CHECK(same_hash(before, sim_hash(sim)));
   steps(sim, 1);
   CHECK(state_of(sim, tool).position[2] == at[2]);

@@ -74,7 +74,7 @@ TEST_CASE("contact_has_the_derivatives_of_its_energy") {
     const Positions g = touch.gradient(x);
     for (const ContactPair &s : touch.contact_pairs()) {
       ++slides[s.slides];
-      guards += s.guard;
+      guards += s.is_barrier;
       edge_edges += s.weight[1] > 0;
       negative += s.strength < 0;
     }

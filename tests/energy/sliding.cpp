@@ -51,7 +51,7 @@ Felt felt_by_probe(const Facing &sheet, const Vec3 &p) {
   touch.energy(x);
   Felt felt;
   for (const ContactPair &s : touch.contact_pairs()) {
-    if (s.node[0] != sheet.probe || s.guard) continue;
+    if (s.node[0] != sheet.probe || s.is_barrier) continue;
     const Barrier b = barrier(s.distance / s.range);
     felt.energy += s.strength * s.range * b.value;
     felt.gradient += s.strength * b.first * s.normal;

@@ -31,11 +31,11 @@ TEST_CASE("a translated sheet is apart by its translation") {
 TEST_CASE("the deviation of a node is that of its positions") {
   const Shape a = {Vec3(0, 0, 1), Vec3(0, 0, 0)}, b = {Vec3(0, 0, 1), Vec3(0, 2, 0)};
   const Shape c = {Vec3(0, 0, 1), Vec3(0, 4, 0)};
-  const std::vector<double> spread = node_spread(2, {&a, &b, &c});
+  const std::vector<double> spread = node_deviation(2, {&a, &b, &c});
   CHECK(spread[0] == 0);
   CHECK(spread[1] == doctest::Approx(std::sqrt(8.0 / 3)).epsilon(1e-14));
-  CHECK(node_spread(2, {}) == std::vector<double>{0, 0});
-  CHECK(node_spread(2, {&b}) == std::vector<double>{0, 0});
+  CHECK(node_deviation(2, {}) == std::vector<double>{0, 0});
+  CHECK(node_deviation(2, {&b}) == std::vector<double>{0, 0});
 }
 
 TEST_CASE(

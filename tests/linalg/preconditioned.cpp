@@ -194,8 +194,8 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
     CachedPreconditioner whole(*model, make_direct_solver(backend)),
         parts(*model, make_direct_solver(backend));
     const PreconditionerKey place{state.x, {}, state.load.pressure, 1e-3, 0, 0};
-    whole.take(matrix, place, nullptr);
-    parts.take(matrix, place, nullptr);
+    whole.copy(matrix, place, nullptr);
+    parts.copy(matrix, place, nullptr);
     REQUIRE(whole.factorise());
     for (uint32_t part = 0; part < CachedPreconditioner::parts; ++part) {
       CHECK(!parts.is_of(place, CachedPreconditioner::parts));

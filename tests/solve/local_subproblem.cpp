@@ -31,7 +31,7 @@ TEST_CASE("free_nodes_of_a_subproblem_have_the_forces_of_the_whole_valve") {
   State state = closed(*model);
   std::vector<Vec3> x = state.x.get();
   const uint32_t place = model->valve.chords[3].b;
-  const LocalSubproblem region = cut_out(*model, x, {place}, {8e-3, x.size(), 2e-3});
+  const LocalSubproblem region = make_local_subproblem(*model, x, {place}, {8e-3, x.size(), 2e-3});
   REQUIRE(region.node.size() < x.size());
   // as far as max_displacement allows, so that tissue beyond the subproblem could come within
   // contact

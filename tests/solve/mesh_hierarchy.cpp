@@ -8,6 +8,7 @@
 #include "anatomy/parametric.h"
 #include "base/error.h"
 #include "geometry/intersect.h"
+#include "solve/settings.h"
 
 using namespace mvs::core;
 
@@ -58,7 +59,7 @@ TEST_CASE("a_small_valve_and_one_near_rest_are_settled_without_a_hierarchy") {
   for (const uint32_t vertices : {425u, 1700u}) {
     const ModelPtr model = valve_of(vertices);
     State plain = loaded(*model);
-    if (vertices > hierarchy_vertices) {
+    if (vertices > settings::mesh_hierarchy::min_vertices) {
       solver.settle(*model, plain, {}, {});
       plain.load.pressure *= 1.02;
       CHECK_FALSE(far_from_rest(*model, plain));

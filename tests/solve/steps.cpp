@@ -8,7 +8,7 @@
 
 #include "energy/total_energy.h"
 #include "geometry/intersect.h"
-#include "solve/dynamic/time_step.h"
+#include "solve/settings.h"
 #include "tests/model/small_valve.h"
 #include "tests/solve/bench.h"
 
@@ -93,7 +93,8 @@ TEST_CASE("the_boundary_moves_at_its_speed_and_arrives_to_the_bit") {
     // rounding of a node's position, 1e-16 of 0.03 m
     CHECK(farthest(before, state.x) * (k <= 9 ? 1 : 0) < 10e-3);
     for (const uint32_t node : model->valve.annulus) {
-      CHECK((state.x[node] - before[node]).norm() <= boundary_speed * options.dt * (1 + 1e-9));
+      CHECK((state.x[node] - before[node]).norm() <=
+            settings::boundary::max_speed * options.dt * (1 + 1e-9));
     }
   }
   for (const uint32_t node : model->valve.annulus) CHECK(state.x[node] == model->target(node, 1));

@@ -1,3 +1,4 @@
+// Copies a step matrix and factorises it in parts.
 #include "solve/dynamic/cached_preconditioner.h"
 
 #include "solve/nodes.h"
@@ -6,27 +7,27 @@ namespace mvs::core {
 CachedPreconditioner::CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor)
     : model_(&model), factor_(std::move(factor)) {}
 
-bool CachedPreconditioner::is_of(const PreconditionerKey &place, uint32_t done) const {
-  const bool same_place = place_.x.buffer() == place.x.buffer() || same_bits(place_.x, place.x);
-  return done_ >= done && same_place && place_.tools == place.tools &&
-         place_.pressure == place.pressure && place_.dt == place.dt &&
-         place_.damping == place.damping;
+bool CachedPreconditioner::is_of(const PreconditionerKey &key, uint32_t done) const {
+  const bool same_x = key_.x.buffer() == key.x.buffer() || same_bits(key_.x, key.x);
+  return done_ >= done && same_x && key_.tools == key.tools && key_.pressure == key.pressure &&
+         key_.dt == key.dt && key_.damping == key.damping;
 }
 
-// Blocks that are zero stay out: what a pattern has kept of earlier contact may not show.
-void CachedPreconditioner::take(const StepMatrix &matrix, const PreconditionerKey &place,
+// Zero blocks are left out: the entries that a pattern keeps of earlier contact must not change the
+// factor.
+void CachedPreconditioner::copy(const StepMatrix &matrix, const PreconditionerKey &key,
                                 const std::vector<uint32_t> *order) {
-  place_ = place;
+  key_ = key;
   done_ = 0;
   has_order_ = order != nullptr;
   if (has_order_) {
-    take_in_order(matrix, *order);
+    copy_in_order(matrix, *order);
   } else {
-    take_blocks(matrix);
+    copy_blocks(matrix);
   }
 }
 
-void CachedPreconditioner::take_in_order(const StepMatrix &matrix,
+void CachedPreconditioner::copy_in_order(const StepMatrix &matrix,
                                          const std::vector<uint32_t> &order) {
   system_.set_order(*model_, order);
   row_.resize(matrix.size());
@@ -34,7 +35,7 @@ void CachedPreconditioner::take_in_order(const StepMatrix &matrix,
   permutation_.permute(matrix.blocks(), row_, system_.matrix);
 }
 
-void CachedPreconditioner::take_blocks(const StepMatrix &matrix) {
+void CachedPreconditioner::copy_blocks(const StepMatrix &matrix) {
   const BlockMatrix &m = matrix.blocks();
   nodes_.clear();
   pairs_.clear();
@@ -53,7 +54,7 @@ void CachedPreconditioner::take_blocks(const StepMatrix &matrix) {
   }
 }
 
-// Rows in the order that suits the pattern.
+// Sets the rows in the order that the assembler finds for the pattern.
 void CachedPreconditioner::find_order() {
   system_.set_pattern(*model_, pairs_);
   for (size_t k = 0; k < pairs_.size(); ++k) system_.add(pairs_[k][0], pairs_[k][1], blocks_[k]);
@@ -77,7 +78,7 @@ bool CachedPreconditioner::factorise_part(uint32_t part) {
     return true;
   }
   const bool positive = factor_->factorise_part(system_.matrix, part - 1, parts - 1);
-  if (!positive) place_ = {};
+  if (!positive) key_ = {};
   return positive;
 }
 
@@ -85,7 +86,7 @@ bool CachedPreconditioner::factorise() {
   if (done_ == 0) analyse();
   const bool positive = factor_->factorise(system_.matrix);
   done_ = parts;
-  if (!positive) place_ = {};
+  if (!positive) key_ = {};
   return positive;
 }
 
@@ -96,11 +97,11 @@ void CachedPreconditioner::add_mass(const StepMatrix &matrix, double times) {
 }
 
 void CachedPreconditioner::solve(const std::vector<Vec3> &r, std::vector<Vec3> &z) {
-  turned_.resize(r.size());
-  for (size_t k = 0; k < r.size(); ++k) turned_[row_[k]] = r[k];
-  factor_->solve(turned_);
+  permuted_.resize(r.size());
+  for (size_t k = 0; k < r.size(); ++k) permuted_[row_[k]] = r[k];
+  factor_->solve(permuted_);
   z.resize(r.size());
-  for (size_t k = 0; k < r.size(); ++k) z[k] = turned_[row_[k]];
+  for (size_t k = 0; k < r.size(); ++k) z[k] = permuted_[row_[k]];
 }
 
 }  // namespace mvs::core

@@ -1,5 +1,5 @@
-// A factor of the matrix of an implicit step at one place: made in parts, kept while the valve goes
-// on, and good for the steps around as a preconditioner.
+// Cholesky factor of the matrix of an implicit step, named by its key: made in parts over several
+// steps, and kept as a preconditioner for the steps that follow.
 #pragma once
 
 #include <memory>
@@ -8,51 +8,51 @@
 #include "linalg/direct_solver.h"
 #include "solve/dynamic/preconditioner_key.h"
 #include "solve/dynamic/step_matrix.h"
+#include "solve/settings.h"
 
 namespace mvs::core {
 
 class CachedPreconditioner {
  public:
-  // Parts of about the same work in which a factor is made beside the steps that another serves:
-  // first the pattern, then the numbers.
-  static constexpr uint32_t parts = 3;
+  // Parts of a factorisation, of about equal work: first the pattern, then the numbers.
+  static constexpr uint32_t parts = settings::linear::factor_parts;
 
   CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor);
 
-  // Whether it is of this place, with so many parts of it done at least.
-  bool is_of(const PreconditionerKey &place, uint32_t done) const;
-  // Copies a matrix, of this place, in an order of elimination; without one it finds its own.
-  void take(const StepMatrix &matrix, const PreconditionerKey &place,
+  // Whether at least `done` parts of the factor of this key are made.
+  bool is_of(const PreconditionerKey &key, uint32_t done) const;
+  // Copies the matrix of a key. `order`: elimination order of the nodes, null to find one.
+  void copy(const StepMatrix &matrix, const PreconditionerKey &key,
             const std::vector<uint32_t> *order);
-  // The next part, unless it is done; all that is left. False, and of no place any more, if the
-  // matrix is not positive definite.
+  // Makes one part, unless it is made; makes all remaining parts. Returns false and drops the key
+  // if the matrix is not positive definite.
   bool factorise_part(uint32_t part);
   bool factorise();
-  // Adds so many times the mass that is in the matrix, which is to be factorised again.
+  // Adds `times` the mass that is in the matrix; factorise() has to follow.
   void add_mass(const StepMatrix &matrix, double times);
 
-  // z = A^-1 r, by the rows of a StepMatrix.
+  // Sets z = A^-1 r, in the rows of a StepMatrix.
   void solve(const std::vector<Vec3> &r, std::vector<Vec3> &z);
 
  private:
-  void take_in_order(const StepMatrix &matrix, const std::vector<uint32_t> &order);
-  void take_blocks(const StepMatrix &matrix);
+  void copy_in_order(const StepMatrix &matrix, const std::vector<uint32_t> &order);
+  void copy_blocks(const StepMatrix &matrix);
   void find_order();
   void analyse();
 
   const Model *model_;
   std::unique_ptr<DirectSolver> factor_;
   HessianAssembler system_;
-  PreconditionerKey place_;
+  PreconditionerKey key_;
   uint32_t done_ = 0;          // parts
-  std::vector<uint32_t> row_;  // of a StepMatrix -> here
+  std::vector<uint32_t> row_;  // of a StepMatrix -> of system_
   BlockPermutation permutation_;
-  // a matrix taken without an order: rows by node, blocks below the diagonal by pairs of nodes
+  // a matrix copied without an order: rows by node, blocks below the diagonal by pairs of nodes
   bool has_order_ = false;
   std::vector<uint32_t> nodes_;
   std::vector<Edge> pairs_;
   std::vector<Mat3> blocks_, diagonal_;
-  std::vector<Vec3> turned_;  // a vector in the order here
+  std::vector<Vec3> permuted_;  // a vector in the rows of system_
 };
 
 }  // namespace mvs::core

@@ -1,3 +1,4 @@
+// Patches of nodes, their coupling as bit sets, and minimum degree over the patches.
 #include "solve/dynamic/contact_ordering.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ ContactOrdering::ContactOrdering(const Model &model, const std::vector<Edge> &pa
   nodes_.reserve(patch_node_.size());
 }
 
-// A node that has no patch yet, and those of its neighbours along edges and chordae that have none.
-// Smaller patches cost more and fill no less (measured with at most three nodes).
+// Builds each patch from a node without a patch and its neighbours, along edges and chordae,
+// without a patch. Smaller patches cost more and fill no less (measured with at most three nodes).
 void ContactOrdering::make_patches(const Model &model) {
   const auto n = static_cast<uint32_t>(model.node_count());
   std::vector<std::vector<uint32_t>> around(n);
@@ -77,7 +78,7 @@ uint32_t ContactOrdering::degree(uint32_t patch) const {
   return sum;
 }
 
-// What was next to the patch is now next to each other.
+// Eliminates a patch: its neighbours become adjacent to each other.
 void ContactOrdering::eliminate(uint32_t patch) {
   const Word *gone = &graph_[patch * words_];
   for_each(gone, [&](uint32_t p) {

@@ -1,11 +1,12 @@
 // Symplectic Euler: v += dt (f / m - c v), x += dt v, with a soft vertex-triangle penalty as
-// contact (Tenenholtz et al. 2011). Nothing guards it against crossings or large steps: it is the
-// baseline.
+// contact (Tenenholtz et al., IROS 2011). It prevents neither penetration nor too large steps: it
+// is the baseline of the founding paper.
 #pragma once
 
 #include "energy/total_energy.h"
 #include "solve/dynamic/time_step.h"
 #include "solve/solver.h"
+#include "solve/static/boundary_ramp.h"
 
 namespace mvs::core {
 
@@ -13,14 +14,15 @@ class ExplicitEuler {
  public:
   explicit ExplicitEuler(const Model &model);
   void step(State &state, const StepOptions &how, SolveStats &stats);
-  // See Potential.
+  // See TotalEnergy.
   void begin_call() { total_energy_.begin_call(); }
   uint32_t skipped() const { return total_energy_.skipped(); }
 
  private:
   const Model *model_;
   TotalEnergy total_energy_;
-  std::vector<Vec3> g_, boundary_;
+  std::vector<Vec3> g_;
+  BoundaryStep boundary_;
 };
 
 }  // namespace mvs::core

@@ -16,6 +16,7 @@ namespace mvs::core {
 namespace {
 
 constexpr uint32_t cache_version = 1;
+constexpr size_t key_header = 5;  // numbers in front of the tools
 
 void append(std::vector<double> &data, const Vec3 &v) {
   data.insert(data.end(), v.data(), v.data() + 3);
@@ -103,6 +104,15 @@ class CacheReader {
   std::span<const double> left_;
 };
 
+uint64_t packed_ages(const PreconditionerKeys &keys) {
+  return keys.active.age | uint64_t{keys.pending.age} << 32;
+}
+
+void unpack_ages(uint64_t counter, PreconditionerKeys &keys) {
+  keys.active.age = static_cast<uint32_t>(counter);
+  keys.pending.age = static_cast<uint32_t>(counter >> 32);
+}
+
 }  // namespace
 
 SolverCache pack(const PreconditionerKeys &keys, CowVector<double> &data) {
@@ -112,15 +122,6 @@ SolverCache pack(const PreconditionerKeys &keys, CowVector<double> &data) {
   append(numbers, keys.active);
   if (!keys.pending.empty()) append(numbers, keys.pending);
   return {cache_version, packed_ages(keys), data};
-}
-
-uint64_t packed_ages(const PreconditionerKeys &keys) {
-  return keys.active.age | uint64_t{keys.pending.age} << 32;
-}
-
-void unpack_ages(uint64_t counter, PreconditionerKeys &keys) {
-  keys.active.age = static_cast<uint32_t>(counter);
-  keys.pending.age = static_cast<uint32_t>(counter >> 32);
 }
 
 PreconditionerKeys unpack(const SolverCache &cache, const Model &model, size_t valve_nodes) {
@@ -138,6 +139,33 @@ PreconditionerKeys unpack(const SolverCache &cache, const Model &model, size_t v
   MVS_MUST(reader.at_end() && keys.pending.age <= most_parts, MVS_E_FORMAT, "state",
            "the solver cache of the state is damaged: settle the valve, which makes a new one");
   return keys;
+}
+
+void KeyStore::reserve(size_t nodes) {
+  for (CowVector<double> &buffer : buffers_) buffer.reserve(2 * (key_header + 3 * nodes));
+}
+
+void KeyStore::load(const State &state, const Model &model) {
+  const SolverCache &cache = state.cache;
+  if (cache.version == packed_.version && cache.data.buffer() == packed_.data.buffer()) {
+    unpack_ages(cache.counter, keys_);
+  } else {
+    keys_ = unpack(cache, model, state.x.size() - tool_points(state.tools));
+  }
+  packed_ = cache;
+  is_packed_ = true;
+}
+
+void KeyStore::store(State &state) {
+  if (!is_packed_) packed_ = pack(keys_, free_buffer(buffers_));
+  packed_.counter = packed_ages(keys_);
+  is_packed_ = true;
+  state.cache = packed_;
+}
+
+void KeyStore::set(PreconditionerKeys keys) {
+  keys_ = std::move(keys);
+  is_packed_ = false;
 }
 
 void check_solver_cache(const ModelState &current) {

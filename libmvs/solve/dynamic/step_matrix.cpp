@@ -1,3 +1,4 @@
+// Assembles the matrix of an implicit step, and its diagonal bound.
 #include "solve/dynamic/step_matrix.h"
 
 namespace mvs::core {

@@ -1,5 +1,5 @@
-// The matrix of an implicit step, H + M (1 / dt^2 + c / dt), by free nodes: its rows never change
-// their order, so that products have the same bits whatever is eliminated when, or was.
+// The matrix of an implicit step, H + M (1 / dt^2 + c / dt). Its rows are the free nodes in their
+// own order for ever, so that products have the same bits for every elimination order.
 #pragma once
 
 #include "energy/total_energy.h"
@@ -11,20 +11,20 @@ class StepMatrix {
  public:
   explicit StepMatrix(const Model &model);
 
-  // Takes in the projected Hessian at x, the place of the potential's last gradient. `boundary` is
-  // the step of the prescribed nodes, null if they stay.
+  // Assembles the matrix at x, where the last gradient of the total energy was evaluated.
+  // `boundary` is the step of the prescribed nodes, null if they stay.
   void assemble(TotalEnergy &total_energy, const std::vector<Vec3> &x, const StepOptions &how,
                 const std::vector<Vec3> *boundary, Profile &profile);
   uint32_t size() const { return static_cast<uint32_t>(mass_.size()); }
   uint32_t node(uint32_t row) const { return system_.node_of[row]; }
-  // What is on the diagonal of a row beside H, N/m.
+  // The mass term on the diagonal of a row, N/m.
   double mass(uint32_t row) const { return mass_[row]; }
   // -H_fb times the step of the boundary, by rows.
   const std::vector<Vec3> &boundary_force() const { return system_.boundary_force; }
   const BlockMatrix &blocks() const { return system_.matrix; }
 
-  // Divides each row by a bound of its sum: a step against the force, short enough for any matrix
-  // of these entries.
+  // Divides each row by a bound of its absolute row sum: a step along the force that is short
+  // enough for any matrix with entries of this size.
   void divide(std::vector<Vec3> &rows);
 
  private:

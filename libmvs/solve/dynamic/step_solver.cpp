@@ -1,45 +1,22 @@
+// Conjugate gradients around a cached factor, and the schedule by which factors are made.
 #include "solve/dynamic/step_solver.h"
 
 #include <algorithm>
 
 #include "linalg/cholesky.h"
-#include "solve/tools/tool_points.h"
+#include "solve/settings.h"
 
 namespace mvs::core {
 namespace {
 
-// Of the linear system, in the norm of its preconditioner. What is left of it is small beside what
-// linearising a step leaves out, and forces of the next step hold it again.
-constexpr double tolerance = 1e-3;
-// After the most iterations, each about a tenth of a factor with its order, this will do, and the
-// next factor is begun; else one is made at once. What comes to that is a valve a few steps after a
-// chord was cut or its leaflets met: each step leads downhill, less far.
-constexpr double good_enough = 0.3;
-constexpr uint32_t most_iterations = 10;
-// More iterations or an older factor: the next one is begun. A factor in parts costs as much as
-// some ten iterations.
-constexpr uint32_t many_iterations = 3;
-constexpr uint32_t oldest = 20;  // steps
-// Then this will do: a slow step goes through no more iterations for what linearising it leaves out
-// anyway.
-constexpr double enough = 1e-2;
+constexpr uint32_t reserved_passes = settings::implicit::reserved_passes;
 
-bool is_our_own(uint32_t backend) {
+bool is_block_cholesky(uint32_t backend) {
   return backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK;
 }
 
 std::unique_ptr<DirectSolver> make_preconditioner(uint32_t backend) {
   return backend == MVS_BACKEND_DEFAULT ? make_float_factor() : make_direct_solver(backend);
-}
-
-// The first buffer that is shared with nobody, or else a new one: states and factors that hold the
-// others keep their memory.
-template <typename Item, size_t count>
-CowVector<Item> &free_buffer(std::array<CowVector<Item>, count> &buffers) {
-  auto free = std::find_if(buffers.begin(), buffers.end(),
-                           [](const CowVector<Item> &buffer) { return buffer.is_alone(); });
-  if (free == buffers.end()) *(free = buffers.begin()) = {};
-  return *free;
 }
 
 }  // namespace
@@ -49,201 +26,125 @@ StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, uint
       total_energy_(&total_energy),
       first_(model, make_preconditioner(backend)),
       second_(model, make_preconditioner(backend)),
-      exact_(model, make_direct_solver(backend)) {
-  // other backends do best with the order that each matrix of its own gives
-  if (is_our_own(backend)) order_.emplace(model, total_energy.pairs());
+      direct_(model, make_direct_solver(backend)) {
+  // other backends do best with the order that each of them finds for a matrix
+  if (is_block_cholesky(backend)) order_.emplace(model, total_energy.pairs());
+  keys_.reserve(model.node_count());
+  for (CowVector<Vec3> &x : positions_) x.reserve(model.node_count());
 }
 
-void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,
-                        const Look &look) {
-  load_keys(state);
-  const auto fits = [&](const PreconditionerKey &key) {
-    return key.x.size() == state.x.size() && key.dt == how.dt && key.damping == how.damping;
-  };
-  if (!keys_.active.empty() && !fits(keys_.active)) drop_keys();
-  if (!keys_.pending.empty() && !fits(keys_.pending)) set_keys({keys_.active, {}});
-  make_factors(matrix, look);
-  store_keys(state);
-}
-
-void StepSolver::make_factors(StepMatrix &matrix, const Look &look) {
-  if (keys_.active.empty()) return;
-  const uint32_t all = CachedPreconditioner::parts, some = keys_.pending.age;
-  if (pending_->is_of(keys_.active, all)) std::swap(active_, pending_);
-  if (!active_->is_of(keys_.active, all) && !remake(keys_.active, all, *active_, matrix, look)) {
-    return drop_keys();
-  }
-  if (keys_.pending.empty() || pending_->is_of(keys_.pending, some)) return;
-  if (!remake(keys_.pending, some, *pending_, matrix, look)) set_keys({keys_.active, {}});
-}
-
-void StepSolver::load_keys(const State &state) {
-  const SolverCache &cache = state.cache;
-  if (cache.version == packed_.version && cache.data.buffer() == packed_.data.buffer()) {
-    unpack_ages(cache.counter, keys_);
-  } else {
-    keys_ = unpack(cache, *model_, state.x.size() - tool_points(state.tools));
-  }
-  packed_ = cache;
-  is_packed_ = true;
-}
-
-void StepSolver::set_keys(PreconditionerKeys keys) {
-  keys_ = std::move(keys);
-  is_packed_ = false;
-}
-
-void StepSolver::store_keys(State &state) {
-  if (!is_packed_) packed_ = pack(keys_, free_buffer(caches_));
-  packed_.counter = packed_ages(keys_);
-  is_packed_ = true;
-  state.cache = packed_;
-}
-
-void StepSolver::make_ready(const StepMatrix &matrix, const PreconditionerKey &here,
-                            const std::vector<Vec3> &x) {
-  if (!keys_.active.empty()) return;
-  Profile unseen{};
-  const PreconditionerKey place = with_place(here, x);
-  for (CachedPreconditioner *factor : {pending_, active_}) {
-    take(matrix, place, *factor, unseen);
-    factor->factorise();
-  }
-}
-
-bool StepSolver::remake(const PreconditionerKey &place, uint32_t parts,
-                        CachedPreconditioner &factor, StepMatrix &matrix, const Look &look) {
-  look(place, matrix);
-  Profile unseen{};
-  take(matrix, place, factor, unseen);
-  for (uint32_t part = 0; part < parts; ++part) {
-    if (!factor.factorise_part(part)) return false;
-  }
-  return true;
-}
-
-void StepSolver::take(const StepMatrix &matrix, const PreconditionerKey &place,
-                      CachedPreconditioner &factor, Profile &profile) {
-  const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
-  ++profile.orderings;
-  if (order_) order_->update(total_energy_->contact().contact_pairs());
-  factor.take(matrix, place, order_ ? &order_->nodes() : nullptr);
-}
-
-void StepSolver::solve(StepMatrix &matrix, const PreconditionerKey &here,
-                       const std::vector<Vec3> &x, State &state, std::vector<Vec3> &rows,
-                       uint32_t &left, SolveStats &stats) {
-  if (keys_.pending.age == CachedPreconditioner::parts) {
+void StepSolver::solve(const StepSystem &system, State &state, StepWork &work) {
+  if (keys_.pending().age == CachedPreconditioner::parts) {
     std::swap(active_, pending_);
-    set_keys({keys_.pending, {}});
+    keys_.set({keys_.pending(), {}});
   }
-  guess(matrix, here.dt, state.v);
-  if (!keys_.active.empty() && iterate(matrix, rows, left, stats)) {
-    ++keys_.active.age;
-    work_ahead(matrix, here, x, left, stats);
-  } else if (!factorise_here(matrix, here, x, rows, left, stats)) {
-    stats.lowered |= MVS_LOWERED_LINEAR;
-    matrix.divide(rows);
+  // the guess: nodes keep their velocity; a third of all steps are solved with one iteration then
+  const std::vector<Vec3> &v = state.v.get();
+  guess_.resize(system.matrix.size());
+  for (uint32_t r = 0; r < system.matrix.size(); ++r) {
+    guess_[r] = work.how.dt * v[system.matrix.node(r)];
   }
-  store_keys(state);
-  // a zero has the sign that it has in any pattern
-  for (Vec3 &row : rows) row.array() += 0.0;
+  if (!keys_.active().empty() && iterate(system, work)) {
+    keys_.count_active_use();
+    work_ahead(system, work);
+  } else if (!factorise_here(system, work)) {
+    work.stats.lowered |= MVS_LOWERED_LINEAR;
+    system.matrix.divide(system.rows);
+  }
+  keys_.store(state);
+  // the sign of a zero would depend on the pattern
+  for (Vec3 &row : system.rows) row.array() += 0.0;
 }
 
-// That nodes go on as they went: a third of all steps are solved with one iteration from there.
-void StepSolver::guess(const StepMatrix &matrix, double dt, const std::vector<Vec3> &v) {
-  guess_.resize(matrix.size());
-  for (uint32_t r = 0; r < matrix.size(); ++r) guess_[r] = dt * v[matrix.node(r)];
-}
-
-bool StepSolver::iterate(const StepMatrix &matrix, std::vector<Vec3> &rows, uint32_t &left,
-                         SolveStats &stats) {
-  const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
+// Returns false if the residual stays too large and the budget allows a factorisation instead.
+bool StepSolver::iterate(const StepSystem &system, StepWork &work) {
+  namespace set = settings::linear;
+  const PhaseTimer timer(work.stats.work, MVS_PHASE_SOLVE);
   const auto multiply = [&](const std::vector<Vec3> &v, std::vector<Vec3> &y) {
-    product_.multiply(matrix.blocks(), v, y);
+    product_.multiply(system.matrix.blocks(), v, y);
   };
   const auto precondition = [&](const std::vector<Vec3> &r, std::vector<Vec3> &z) {
     active_->solve(r, z);
   };
-  const PcgGoal goal{tolerance, std::min(most_iterations, left - closing), good_enough,
-                     many_iterations + 1, enough};
-  const PcgResult result = pcg_.solve(multiply, precondition, rows, guess_, solution_, goal);
-  left -= result.iterations;
+  const PcgGoal goal{set::tolerance, std::min(set::max_iterations, work.left - reserved_passes),
+                     set::max_residual, set::many_iterations + 1, set::late_tolerance};
+  const PcgResult result = pcg_.solve(multiply, precondition, system.rows, guess_, solution_, goal);
+  work.left -= result.iterations;
   iterations_ = result.iterations;
-  stats.work.linear_iterations += result.iterations;
-  if (!(result.error <= good_enough)) {
-    const bool no_more = result.iterations > 0 && left <= closing;
-    if (!no_more) return false;
-    stats.lowered |= MVS_LOWERED_LINEAR;
+  work.stats.work.linear_iterations += result.iterations;
+  if (!(result.error <= set::max_residual)) {
+    const bool budget_ends = result.iterations > 0 && work.left <= reserved_passes;
+    if (!budget_ends) return false;
+    work.stats.lowered |= MVS_LOWERED_LINEAR;
   }
-  rows.swap(solution_);
+  system.rows.swap(solution_);
   return true;
 }
 
-// Begins the next factor, or does a part of it.
-void StepSolver::work_ahead(const StepMatrix &matrix, const PreconditionerKey &here,
-                            const std::vector<Vec3> &x, uint32_t &left, SolveStats &stats) {
-  if (keys_.pending.empty()) {
-    stats.skipped |= MVS_SKIPPED_FACTOR;
-    if (iterations_ <= many_iterations && keys_.active.age <= oldest) return;
-    set_keys({keys_.active, with_place(here, x)});
-    take(matrix, keys_.pending, *pending_, stats.work);
-  } else if (left > closing) {
-    const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
-    --left;
-    if (!pending_->factorise_part(keys_.pending.age)) {
-      set_keys({keys_.active, {}});
-    } else if (++keys_.pending.age == CachedPreconditioner::parts) {
-      ++stats.factorisations;
+// Begins the next factor where the active one is old or needs many iterations; otherwise does one
+// part of the factor that was begun.
+void StepSolver::work_ahead(const StepSystem &system, StepWork &work) {
+  namespace set = settings::linear;
+  if (keys_.pending().empty()) {
+    work.stats.skipped |= MVS_SKIPPED_FACTOR;
+    if (iterations_ <= set::many_iterations && keys_.active().age <= set::max_age) return;
+    keys_.set_pending(key_at(system));
+    copy_matrix(system.matrix, keys_.pending(), *pending_, work.stats.work);
+  } else if (work.left > reserved_passes) {
+    const PhaseTimer timer(work.stats.work, MVS_PHASE_FACTOR);
+    --work.left;
+    if (!pending_->factorise_part(keys_.pending().age)) {
+      keys_.set_pending({});
+    } else if (keys_.count_pending_part() == CachedPreconditioner::parts) {
+      ++work.stats.factorisations;
     }
   }
 }
 
-// False where the budget ends before.
-bool StepSolver::factorise_here(const StepMatrix &matrix, const PreconditionerKey &here,
-                                const std::vector<Vec3> &x, std::vector<Vec3> &rows, uint32_t &left,
-                                SolveStats &stats) {
-  drop_keys();
-  if (left <= closing) return false;
-  guess_.clear();  // a factor of this very matrix needs none
-  const PreconditionerKey place = with_place(here, x);
-  --left;  // of any solver, whether its factor is ready or not
-  bool positive = active_->is_of(place, CachedPreconditioner::parts);
+// Factorises this matrix and solves with it. Returns false where the budget ends before.
+bool StepSolver::factorise_here(const StepSystem &system, StepWork &work) {
+  keys_.drop();
+  if (work.left <= reserved_passes) return false;
+  guess_.clear();  // a factor of this very matrix needs no guess
+  const PreconditionerKey key = key_at(system);
+  --work.left;  // of every solver alike, also of one that has this factor
+  bool positive = active_->is_of(key, CachedPreconditioner::parts);
   if (!positive) {
-    take(matrix, place, *active_, stats.work);
-    const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
-    ++stats.factorisations;
+    copy_matrix(system.matrix, key, *active_, work.stats.work);
+    const PhaseTimer timer(work.stats.work, MVS_PHASE_FACTOR);
+    ++work.stats.factorisations;
     positive = active_->factorise();
   }
-  if (positive && (left == closing || iterate(matrix, rows, left, stats))) {
-    if (left == closing) solve_with(*active_, rows, stats);
-    set_keys({place, {}});
+  if (positive && (work.left == reserved_passes || iterate(system, work))) {
+    if (work.left == reserved_passes) solve_with(*active_, system.rows, work.stats);
+    keys_.set({key, {}});
     return true;
   }
-  return solve_exactly(matrix, place, rows, left, stats);
+  return solve_directly(system, key, work);
 }
 
-// In double precision where single does not do, and with more mass where the pressure makes the
-// matrix indefinite: a smaller step in disguise. This factor serves no other step.
-bool StepSolver::solve_exactly(const StepMatrix &matrix, const PreconditionerKey &place,
-                               std::vector<Vec3> &rows, uint32_t &left, SolveStats &stats) {
-  take(matrix, place, exact_, stats.work);
+// Solves in double precision, with more mass where the pressure makes the matrix indefinite, which
+// amounts to a smaller time step. This factor serves no other step.
+bool StepSolver::solve_directly(const StepSystem &system, const PreconditionerKey &key,
+                                StepWork &work) {
+  namespace set = settings::linear;
+  copy_matrix(system.matrix, key, direct_, work.stats.work);
   double times = 1;
-  while (left > closing && times < 1e18) {
-    --left;
-    ++stats.factorisations;
+  while (work.left > reserved_passes && times < set::max_mass) {
+    --work.left;
+    ++work.stats.factorisations;
     bool positive = false;
     {
-      const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
-      positive = exact_.factorise();
+      const PhaseTimer timer(work.stats.work, MVS_PHASE_FACTOR);
+      positive = direct_.factorise();
     }
     if (positive) {
-      solve_with(exact_, rows, stats);
+      solve_with(direct_, system.rows, work.stats);
       return true;
     }
-    if (times == 1) ++stats.shifted;
-    exact_.add_mass(matrix, 3 * times);
-    times *= 4;
+    if (times == 1) ++work.stats.shifted;
+    direct_.add_mass(system.matrix, (set::mass_growth - 1) * times);
+    times *= set::mass_growth;
   }
   return false;
 }
@@ -255,13 +156,65 @@ void StepSolver::solve_with(CachedPreconditioner &factor, std::vector<Vec3> &row
   rows.swap(solution_);
 }
 
-PreconditionerKey StepSolver::with_place(const PreconditionerKey &here,
-                                         const std::vector<Vec3> &x) {
-  PreconditionerKey place = here;
-  CowVector<Vec3> &free = free_buffer(places_);
-  free.edit() = x;
-  place.x = free;
-  return place;
+PreconditionerKey StepSolver::key_at(const StepSystem &system) {
+  PreconditionerKey key = system.here;
+  CowVector<Vec3> &x = free_buffer(positions_);
+  x.edit() = system.x;
+  key.x = x;
+  return key;
+}
+
+void StepSolver::copy_matrix(const StepMatrix &matrix, const PreconditionerKey &key,
+                             CachedPreconditioner &factor, Profile &profile) {
+  const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
+  ++profile.orderings;
+  if (order_) order_->update(total_energy_->contact().contact_pairs());
+  factor.copy(matrix, key, order_ ? &order_->nodes() : nullptr);
+}
+
+void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,
+                        const Assemble &assemble) {
+  keys_.load(state, *model_);
+  const auto fits = [&](const PreconditionerKey &key) {
+    return key.x.size() == state.x.size() && key.dt == how.dt && key.damping == how.damping;
+  };
+  if (!keys_.active().empty() && !fits(keys_.active())) keys_.drop();
+  if (!keys_.pending().empty() && !fits(keys_.pending())) keys_.set_pending({});
+  make_factors(matrix, assemble);
+  keys_.store(state);
+}
+
+void StepSolver::make_factors(StepMatrix &matrix, const Assemble &assemble) {
+  if (keys_.active().empty()) return;
+  const uint32_t all = CachedPreconditioner::parts, some = keys_.pending().age;
+  if (pending_->is_of(keys_.active(), all)) std::swap(active_, pending_);
+  if (!active_->is_of(keys_.active(), all) &&
+      !remake(keys_.active(), all, *active_, matrix, assemble)) {
+    return keys_.drop();
+  }
+  if (keys_.pending().empty() || pending_->is_of(keys_.pending(), some)) return;
+  if (!remake(keys_.pending(), some, *pending_, matrix, assemble)) keys_.set_pending({});
+}
+
+bool StepSolver::remake(const PreconditionerKey &key, uint32_t parts, CachedPreconditioner &factor,
+                        StepMatrix &matrix, const Assemble &assemble) {
+  assemble(key, matrix);
+  Profile unseen{};
+  copy_matrix(matrix, key, factor, unseen);
+  for (uint32_t part = 0; part < parts; ++part) {
+    if (!factor.factorise_part(part)) return false;
+  }
+  return true;
+}
+
+void StepSolver::make_ready(const StepSystem &system) {
+  if (!keys_.active().empty()) return;
+  Profile unseen{};
+  const PreconditionerKey key = key_at(system);
+  for (CachedPreconditioner *factor : {pending_, active_}) {
+    copy_matrix(system.matrix, key, *factor, unseen);
+    factor->factorise();
+  }
 }
 
 }  // namespace mvs::core

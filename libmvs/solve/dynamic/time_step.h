@@ -1,25 +1,27 @@
-// What the steppers in time share: how the boundary travels, and energy in motion.
+// Options and bookkeeping of one step in time, for the implicit and the explicit method.
 #pragma once
 
 #include <vector>
 
 #include "model/model.h"
+#include "solve/solver.h"
 
 namespace mvs::core {
 
-// How to take one step in time, all filled in.
+// Options of one step in time, without defaults left to fill in.
 struct StepOptions {
   double dt, damping;  // s, 1/s
-  uint32_t budget;     // of an implicit step: see ImplicitStepper
-  bool may_sleep;      // whether an implicit step of a valve at rest may do nothing
+  uint32_t budget;     // of an implicit step: see ImplicitEuler
+  bool may_sleep;      // an implicit step of a valve at rest may do nothing
 };
 
-// The largest speed at which annulus and heads travel to their targets, m/s.
-inline constexpr double boundary_speed = 0.1;
-
-// Where the prescribed nodes are after a time dt on their way to the state's targets. Says whether
-// any of them moves.
-bool advance_boundary(const Model &model, const State &state, double dt, std::vector<Vec3> &step);
+// One step at work: its options, its statistics, and the passes and factorisations that its budget
+// has left.
+struct StepWork {
+  const StepOptions &how;
+  SolveStats &stats;
+  uint32_t left;
+};
 
 double kinetic_energy(const Model &model, const std::vector<Vec3> &v);
 

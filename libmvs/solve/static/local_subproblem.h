@@ -1,9 +1,10 @@
-// A piece of a valve on its own, for bringing to rest what one operation disturbed.
+// Local subproblem (one subdomain of a domain decomposition): a model of the neighbourhood of some
+// nodes, for settling what one operation disturbed.
 //
-// The nodes near the disturbance are free, the others are held where they are. The piece has every
-// triangle that a free node could meet without going farther than the leash: as long as it does
-// not, nothing in the piece can pass through what was left out, and the forces on its free nodes
-// are those of the whole valve.
+// Nodes near the disturbance are free, the others are prescribed where they are. The subproblem has
+// every triangle that a free node could meet within `max_displacement`. While no free node moves
+// farther, the subproblem cannot pass through the rest of the valve, and the forces on its free
+// nodes are those of the whole valve.
 #pragma once
 
 #include <vector>
@@ -13,18 +14,19 @@
 namespace mvs::core {
 
 struct LocalSubproblem {
-  Model model;                 // what the potential needs of it; no names, masses or fibres
-  std::vector<uint32_t> node;  // node of the whole valve by node of the piece
+  Model model;                 // the parts that TotalEnergy reads; no names, masses or fibres
+  std::vector<uint32_t> node;  // of the whole valve, by node of the subproblem
 };
 
-struct Extent {
-  double radius;  // m from the disturbance: nodes up to there are free ...
-  size_t most;    // ... but no more than about so many, the nearest
-  double leash;   // m that a free node may go
+struct LocalExtent {
+  double radius;            // m: free nodes are within this distance of the disturbed nodes,
+  size_t max_nodes;         // and only about so many, the nearest
+  double max_displacement;  // m, of a free node
 };
 
-// Distances are those of the present shape, so that what touches goes along.
-LocalSubproblem cut_out(const Model &whole, const std::vector<Vec3> &x,
-                        const std::vector<uint32_t> &places, const Extent &extent);
+// Distances are those of the present shape x, so that tissue in contact is part of the subproblem.
+LocalSubproblem make_local_subproblem(const Model &whole, const std::vector<Vec3> &x,
+                                      const std::vector<uint32_t> &disturbed,
+                                      const LocalExtent &extent);
 
 }  // namespace mvs::core

@@ -1,24 +1,21 @@
-// Static closure from coarse to fine: a large valve is first closed on a coarser mesh of itself,
-// where that is cheap, and its shape carried to the fine one, which is then nearly at rest.
+// Nested iteration over a mesh hierarchy: settles a large valve on a coarser mesh of itself first,
+// recursively, and starts on the fine mesh from the shape that the coarse mesh closed to.
 //
-// What decides where the leaflets go happens on the way, and most of it is long waves that a coarse
-// mesh has too; folds finer than that form on the fine mesh at the end. The way is another one than
-// on the fine mesh alone, and so a valve that can fold in several ways may close to another one of
-// its shapes (libmvs/ensemble). The start of a valve near rest, as after most operations, is better
-// than any coarse mesh's, and is left alone.
+// The leaflets take their places in long waves, which a coarse mesh resolves; shorter folds form on
+// the fine mesh at the end. The path differs from that of the fine mesh alone, so a valve that can
+// fold in several ways may close to another of its shapes (libmvs/ensemble). A valve near rest, as
+// after most operations, starts from its own shape, which is better than that of a coarse mesh.
 #pragma once
 
 #include "solve/solver.h"
 
 namespace mvs::core {
 
-// Settles as Solver::settle does, over coarser meshes where that pays: with Newton's method, on at
-// least cascade_vertices of the sheet, if the valve is far from rest, without tools on it, and if
-// what comes from the coarse mesh crosses nothing. The count of iterations is that of the mesh
-// itself; factorisations, passes and times are those of all.
+// Settles as Solver::settle does. Uses coarser meshes with Newton's method on at least
+// settings::mesh_hierarchy::min_vertices vertices of the sheet, if the valve is far from rest and
+// has no tools, and if the shape from the coarse mesh does not intersect itself. The count of
+// iterations is that of the mesh itself; factorisations, passes and times are those of all levels.
 SolveStats settle_with_mesh_hierarchy(Solver &solver, const Model &model, State &state,
                                       const SolveOptions &options, const Progress &progress);
-
-inline constexpr size_t hierarchy_vertices = 1200;
 
 }  // namespace mvs::core

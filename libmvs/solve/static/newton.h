@@ -1,97 +1,88 @@
-// The static closure: Newton on the potential inside a trust region, with the boundary on its way.
+// Static closure: Newton's method on the total energy inside a trust region, while the boundary
+// moves to its target. Brings a state to rest under its load, or reports that it did not converge.
 //
-// The matrix is H + shift * D, D a stiffness the load itself has (pressure times element size). Far
-// from rest H is projected (what makes it indefinite is left out) and the shift follows how well
-// the quadratic model foretold the energy (Conn, Gould, Toint, Trust-Region Methods, 2000). Near
-// rest H is exact and the skew part of the follower load at the free edge is solved for too, so
-// that the last iterations converge quadratically although the load has no potential there. Every
-// step is cut node by node so that no sheet passes another (physics/step_bounds.h).
+// The matrix is H + lambda D (newton_system.h). Far from rest H is projected to be positive
+// semidefinite and lambda follows the gain ratio, the measured over the predicted change of energy
+// (Conn, Gould, Toint, Trust-Region Methods, 2000). Near rest H is exact and a full step on the
+// out-of-balance force is tried first, which converges quadratically although the follower load
+// has no potential at the free edge. Conservative continuous collision detection shortens every
+// step node by node, so that no sheet passes another (collision/step_limiter.h).
 //
-// Where only a few nodes are far from rest, as after an operation on a closed valve, a piece around
-// them is settled first (physics/region.h): a better start, nothing more.
+// Where only a few nodes are far from rest, as after an operation on a closed valve, a local
+// subproblem around them is settled first (local_subproblem.h): it only improves the start.
 #pragma once
 
 #include "energy/total_energy.h"
 #include "linalg/direct_solver.h"
 #include "solve/solver.h"
+#include "solve/static/boundary_ramp.h"
+#include "solve/static/newton_system.h"
 
 namespace mvs::core {
 
-// Of the stiffness of the load: keeps slack branch points and loose flaps solvable.
-inline constexpr double least_shift = 1e-4;
-
 class Newton {
  public:
-  Newton(const Model &model, DirectSolver &factor)
-      : model_(&model), factor_(&factor), total_energy_(model) {
-    total_energy_.keep_near(false);
-    system_.place = &x_;
-  }
+  Newton(const Model &model, DirectSolver &factor);
 
   // Brings state.x to rest under state.load and sets velocities to zero.
   SolveStats settle(State &state, const SolveOptions &options, const Progress &progress);
 
  private:
-  void begin(const State &state);
-  void settle_disturbed(const Load &load);
-  void evaluate();
-  void iterate();
-  bool rest_step();
-  void travel_step();
-  void shorten();
-  void note_stopped();
-  bool hold();
-  double agreement_of(double found, double foretold) const;
-  void follow(double agreement);
-  double try_step(double &foretold);
-  bool may_move_boundary();
-  void move_boundary();
-
-  void assemble(Curvature curvature);
-  void factorise();
-  void solve_system(std::vector<Vec3> &rows);
-  void solve(bool with_shift);
-  void include_skew(bool with_shift);
-  void limit_step();
-  bool try_force();
-  double free_norm() const;
-  double slope() const;
-  double curvature_along() const;
-
+  struct Iterate {
+    std::vector<Vec3> x, gradient;    // m; N, dE/dx
+    double energy = 0, residual = 0;  // J; N, the largest force on a free node
+  };
+  struct Step {
+    std::vector<Vec3> newton, limited;  // m: solution of the linear system; after all limits
+    double far_share = 0;               // of the nodes: those whose Newton step is much too long
+  };
+  // A local subproblem ends when a node would leave the region that it was cut out for.
+  struct DisplacementLimit {
+    double distance = 0;       // m; 0: unlimited
+    std::vector<Vec3> origin;  // of the nodes
+    bool reached = false;
+  };
+  // When a polish step is tried, and with which lambda.
+  struct PolishSchedule {
+    double best_residual;  // N, the smallest that a polish step reached
+    double lambda = 0;
+    int wait = 0, pause = 1;  // iterations until the next attempt; after the next failure
+  };
+  // A node that the step limiter stopped.
   struct Stopped {
     size_t row;
-    Vec3 way;      // its direction
-    double share;  // the whole way over what is left of it
+    Vec3 direction;
+    double share;  // its Newton step over the limited one
   };
 
-  const Model *model_;
-  DirectSolver *factor_;
-  TotalEnergy total_energy_;
-  HessianAssembler system_;
-  SolveStats stats_;
+  void begin(const State &state);
+  void presolve_locally(const Load &load);
+  void evaluate();
+  void iterate(PolishSchedule &polish);
+  bool newton_polish_step(double &polish_lambda);
+  bool search_on_force();
+  void trust_region_step();
+  double try_step(double &predicted_reduction);
+  double gain_ratio(double reduction, double predicted_reduction) const;
+  void adapt_lambda(double gain);
+  void shorten();
+  std::vector<Stopped> stopped_nodes() const;
+  bool hold(const std::vector<Stopped> &stopped);
+  void move_boundary(BoundaryRamp &ramp);
+  void limit_step();
+  double free_norm() const;
 
-  std::vector<Vec3> x_, trial_, g_;    // positions, positions tried, dE/dx
-  std::vector<Vec3> step_, full_;      // the step as cut, as the system gave it
-  std::vector<Vec3> rows_, boundary_;  // right-hand side and solution; step of prescribed nodes
-  std::vector<Mat3> diagonal_;         // of the system before a shift
-  std::vector<double> shift_scale_;    // N/m per node: D
-  std::vector<Stopped> stopped_;
-  std::vector<Mat3> hold_;  // N/m per row, of nodes that are stopped; empty: none
-  double slack_ = 0;        // m, for Potential::prepare
-  double fraction_ = 0;
-  double near_force_ = 0, rest_force_ = 0;  // N: below it, exact curvature; attempts at rest
-  double shift_ = 0, added_ = 0;            // wanted; in the matrix now
-  double rest_shift_ = 0;                   // that the next attempt at rest begins with
-  double far_ = 0;                          // share of nodes whose uncut step was much too long
-  double energy_ = 0, residual_ = 0;
-  double leash_ = 0;        // m, of a piece: no node goes farther from where it was; 0: the whole
-  std::vector<Vec3> from_;  // where the nodes of a piece were
-  bool held_ = false;       // a node of it would have gone farther
-  double best_ = 0;         // N, the smallest residual at rest so far
-  Curvature curvature_ = Curvature::projected;
-  uint32_t boundary_wait_ = 0;   // iterations that the boundary has waited
-  uint32_t patterns_ = 0;        // of the matrix so far
-  int wait_ = 0, patience_ = 1;  // iterations until rest_step is tried again
+  const Model *model_;
+  TotalEnergy total_energy_;
+  Iterate at_;
+  NewtonSystem system_;
+  SolveStats stats_;
+  double rest_force_ = 0;  // N, of the pressure on a node of mean area
+  double slack_ = 0;       // m, of the broad phase
+  double lambda_ = 1;      // that the next factorisation asks for
+  Step step_;
+  std::vector<Vec3> trial_;  // m, positions
+  DisplacementLimit limit_;
 };
 
 }  // namespace mvs::core

@@ -1,89 +1,123 @@
-// The linear system of a step: its matrix, the shift that makes it positive definite, its solution.
-#include "solve/static/newton.h"
+// Assembles, factorises and solves the linear system of a Newton iteration.
+#include "solve/static/newton_system.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "linalg/gmres.h"
+#include "solve/settings.h"
 
 namespace mvs::core {
-namespace {
 
-// Contact comes where the pattern has no room in most iterations; an order of elimination is good
-// for a few such patterns.
-constexpr uint32_t patterns_per_order = 6;
-
-}  // namespace
-
-void Newton::assemble(Curvature curvature) {
-  curvature_ = curvature;
-  if (total_energy_.hessian(x_, curvature, system_, stats_.work)) {
-    system_.keep_order(++patterns_ % patterns_per_order != 0);
-    const PhaseTimer timer(stats_.work, MVS_PHASE_ORDERING);
-    factor_->analyse(system_.matrix);
-  }
-  diagonal_.resize(system_.node_of.size());
-  for (size_t r = 0; r < diagonal_.size(); ++r) {
-    diagonal_[r] = system_.matrix.value[system_.matrix.start[r]];
+void NewtonSystem::set_scale(double pressure, double mean_area) {
+  lambda_scale_.clear();
+  for (const double a : model_->vertex_area) {
+    lambda_scale_.push_back(pressure * std::sqrt(std::max(a, mean_area)));
   }
 }
 
-// Factorises with the present shift, or the first larger one that makes the matrix positive
-// definite.
-void Newton::factorise() {
-  const PhaseTimer timer(stats_.work, MVS_PHASE_FACTOR);
-  added_ = std::max(shift_, least_shift);
+void NewtonSystem::assemble(Curvature curvature, Profile &profile) {
+  curvature_ = curvature;
+  if (total_energy_->hessian(*x_, curvature, assembler_, profile)) {
+    assembler_.keep_order(++patterns_ % settings::newton::patterns_per_order != 0);
+    const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
+    factor_->analyse(assembler_.matrix);
+  }
+  diagonal_.resize(assembler_.node_of.size());
+  for (size_t r = 0; r < diagonal_.size(); ++r) {
+    diagonal_[r] = assembler_.matrix.value[assembler_.matrix.start[r]];
+  }
+}
+
+void NewtonSystem::assemble(Curvature curvature, const std::vector<Vec3> &boundary,
+                            Profile &profile) {
+  assembler_.boundary_step = &boundary;
+  assemble(curvature, profile);
+  assembler_.boundary_step = nullptr;
+}
+
+void NewtonSystem::factorise(double &lambda, SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+  applied_lambda_ = std::max(lambda, settings::newton::min_lambda);
   for (bool first = true;; first = false) {
     for (size_t r = 0; r < diagonal_.size(); ++r) {
-      Mat3 &block = system_.matrix.value[system_.matrix.start[r]];
+      Mat3 &block = assembler_.matrix.value[assembler_.matrix.start[r]];
       block = diagonal_[r];
-      block.diagonal().array() += added_ * shift_scale_[system_.node_of[r]];
+      block.diagonal().array() += applied_lambda_ * lambda_scale_[assembler_.node_of[r]];
       if (!hold_.empty()) block += hold_[r];
     }
-    ++stats_.factorisations;
-    if (factor_->factorise(system_.matrix)) return;
-    if (first) ++stats_.shifted;
-    added_ = shift_ = std::max(3 * added_, 0.05);
-    MVS_MUST(added_ < 1e12, MVS_E_DIVERGED, "settle",
+    ++stats.factorisations;
+    if (factor_->factorise(assembler_.matrix)) return;
+    if (first) ++stats.shifted;
+    applied_lambda_ = lambda = std::max(settings::newton::failed_lambda_growth * applied_lambda_,
+                                        settings::newton::failed_lambda);
+    MVS_MUST(applied_lambda_ < settings::newton::max_failed_lambda, MVS_E_DIVERGED, "settle",
              "the stiffness matrix is not finite; check the materials");
   }
 }
 
-void Newton::solve_system(std::vector<Vec3> &rows) {
+void NewtonSystem::solve(const std::vector<Vec3> &g, bool with_lambda, std::vector<Vec3> &step,
+                         SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
+  rows_.resize(assembler_.node_of.size());
+  for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = -g[assembler_.node_of[r]];
+  solve_rows(rows_, stats);
+  if (curvature_ == Curvature::exact) include_skew(with_lambda, stats);
+  step.assign(x_->size(), Vec3::Zero());
+  for (size_t r = 0; r < rows_.size(); ++r) step[assembler_.node_of[r]] = rows_[r];
+}
+
+void NewtonSystem::carry(std::vector<Vec3> &step, SolveStats &stats) {
+  rows_ = assembler_.boundary_force;
+  solve_rows(rows_, stats);
+  for (size_t r = 0; r < rows_.size(); ++r) step[assembler_.node_of[r]] = rows_[r];
+}
+
+void NewtonSystem::solve_rows(std::vector<Vec3> &rows, SolveStats &stats) {
   factor_->solve(rows);
-  stats_.work.linear_iterations += factor_->iterations();
+  stats.work.linear_iterations += factor_->iterations();
 }
 
-// The step that the factorised system gives, in full_.
-void Newton::solve(bool with_shift) {
-  const PhaseTimer timer(stats_.work, MVS_PHASE_SOLVE);
-  rows_.resize(system_.node_of.size());
-  for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = -g_[system_.node_of[r]];
-  solve_system(rows_);
-  if (curvature_ == Curvature::exact) include_skew(with_shift);
-  full_.assign(x_.size(), Vec3::Zero());
-  for (size_t r = 0; r < rows_.size(); ++r) full_[system_.node_of[r]] = rows_[r];
-}
-
-// Turns (H + shift D)^-1 b into the solution for the true derivative, H + S (+ shift D), S the skew
-// part that the free edge adds.
-void Newton::include_skew(bool with_shift) {
-  const double removed = with_shift ? 0 : added_;
+// Turns (H + lambda D)^-1 b into the solution for the true derivative, H + S (+ lambda D), S the
+// skew part at the free edge.
+void NewtonSystem::include_skew(bool with_lambda, SolveStats &stats) {
+  const double removed = with_lambda ? 0 : applied_lambda_;
   auto apply = [&](const std::vector<Vec3> &v) {
-    trial_.assign(x_.size(), Vec3::Zero());
-    for (size_t r = 0; r < v.size(); ++r) trial_[system_.node_of[r]] = v[r];
-    step_.assign(x_.size(), Vec3::Zero());
-    total_energy_.add_skew(x_, trial_, step_);
+    direction_.assign(x_->size(), Vec3::Zero());
+    for (size_t r = 0; r < v.size(); ++r) direction_[assembler_.node_of[r]] = v[r];
+    skew_.assign(x_->size(), Vec3::Zero());
+    total_energy_->add_skew(*x_, direction_, skew_);
     std::vector<Vec3> y(v.size());
     for (size_t r = 0; r < v.size(); ++r) {
-      const uint32_t i = system_.node_of[r];
-      y[r] = step_[i] - removed * shift_scale_[i] * v[r];
+      const uint32_t i = assembler_.node_of[r];
+      y[r] = skew_[i] - removed * lambda_scale_[i] * v[r];
     }
-    solve_system(y);
+    solve_rows(y, stats);
     for (size_t r = 0; r < v.size(); ++r) y[r] += v[r];
     return y;
   };
-  gmres(apply, rows_, 30, 1e-3);
+  gmres(apply, rows_, settings::newton::gmres_iterations, settings::newton::gmres_tolerance);
+}
+
+double NewtonSystem::quadratic_form(const std::vector<Vec3> &step) const {
+  const BlockMatrix &m = assembler_.matrix;
+  double sum = 0;
+  for (uint32_t c = 0; c < m.size(); ++c) {
+    const Vec3 &d = step[assembler_.node_of[c]];
+    Vec3 below = Vec3::Zero();
+    for (uint32_t k = m.start[c] + 1; k < m.start[c + 1]; ++k) {
+      below += m.value[k].transpose() * step[assembler_.node_of[m.row[k]]];
+    }
+    sum += d.dot(diagonal_[c] * d + 2 * below);
+  }
+  return sum;
+}
+
+void NewtonSystem::hold(size_t row, const Vec3 &direction, double times) {
+  hold_.resize(diagonal_.size(), Mat3::Zero());
+  const double stiff = times * (diagonal_[row] + hold_[row]).trace() / 3;
+  hold_[row] += stiff * direction * direction.transpose();
 }
 
 }  // namespace mvs::core

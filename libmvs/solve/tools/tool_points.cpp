@@ -1,14 +1,12 @@
-// Adding nodes for the points of instruments.
+// Adds nodes for the points of instruments to a model and a state, and removes them again.
 #include "solve/tools/tool_points.h"
 
 #include <mvs/snapshot.h>
 
+#include "solve/settings.h"
+
 namespace mvs::core {
 namespace {
-
-// Without it the implicit step could not move what no spring holds. At 1 kHz it is a twentieth of
-// the default spring of a hand; an instrument without its own inertia follows the hand at once.
-constexpr double point_mass = 1e-5;  // kg
 
 void add_row(Rows &rows) {
   rows.start.push_back(rows.start.get().back());
@@ -21,7 +19,7 @@ void add_node(Model &model) {
   }
   valve.origin.push_back(none);
   model.vertex_area.push_back(0);
-  model.node_mass.push_back(point_mass);
+  model.node_mass.push_back(settings::tools::point_mass);
   model.topology.node_kind.push_back(MVS_NODE_KIND_BRANCH);
   model.topology.fixed.push_back(0);
   add_row(model.topology.node_triangles);
@@ -38,10 +36,10 @@ uint32_t tool_points(const std::vector<Tool> &tools) {
 
 const Model &ToolPoints::extend(const Model &model, uint32_t points) {
   if (points == 0) return model;
-  // below 2^48 models there are, and at most 128 points; a model made without a number has 0
+  // serials are below 2^48 and points at most 128; a model without a serial has 0
   const uint64_t serial = model.serial | uint64_t{points} << 48;
   if (model.serial != 0 && serial == serial_) return model_;
-  serial_ = 0;  // until all is there
+  serial_ = 0;  // until the model is complete
   model_ = model;
   for (uint32_t k = 0; k < points; ++k) add_node(model_);
   model_.serial = serial_ = serial;

@@ -1,5 +1,5 @@
-// A valve whose last nodes are the points of its instruments, so that every solver moves them as it
-// moves any node.
+// Extends a model by nodes for the points of instruments, so that every solver moves them like any
+// other node.
 #pragma once
 
 #include "model/model.h"
@@ -9,14 +9,14 @@ namespace mvs::core {
 // The number of points of all tools; a grasp has 0.
 uint32_t tool_points(const std::vector<Tool> &tools);
 
-// Kept between calls for one model and number of points.
+// Keeps the extended model of the last call.
 class ToolPoints {
  public:
-  // The model with so many more nodes, free, in no triangle.
+  // Returns the model with `points` more nodes, which are free and belong to no triangle.
   const Model &extend(const Model &model, uint32_t points);
-  // The state with a position for each point.
+  // Returns the state with a position and a velocity of zero for each point.
   static State extended(const State &state);
-  // Back to the nodes of the valve, the points into their tools.
+  // Writes the nodes of the valve back to `state` and the points to their tools.
   static void take_back(State extended, State &state);
 
  private:

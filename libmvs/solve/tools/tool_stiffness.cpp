@@ -1,4 +1,4 @@
-// The stiffness of a tool, from the factorised system.
+// Stiffness of a tool as a Schur complement of the factorised Hessian.
 #include "solve/tools/tool_stiffness.h"
 
 #include <mvs/tool.h>
@@ -8,24 +8,18 @@
 
 #include "base/error.h"
 #include "linalg/eigenvalues.h"
+#include "solve/settings.h"
 
 namespace mvs::core {
 namespace {
 
-// What the slack part of a sheet lacks in stiffness its mass gives, over a time in which a hand can
-// be said to stand still.
-constexpr double quasi_static = 0.1;  // s
-
-// An elimination order serves for patterns that differ little; one that was indefinite stays so for
-// a while.
-constexpr uint32_t patterns_per_order = 20, wait_after_failure = 8;
-
+// The number of springs between a hand and its tool.
 uint32_t springs_of(const Tool &tool) {
   return tool.kind == MVS_TOOL_KIND_ROD ? 2 : 1;
 }
 
-// The nodes that the hand leads, in a state with nodes for points.
-uint32_t led_node(const State &state, size_t nodes, const Tool &tool, uint32_t k) {
+// The node of spring k of a tool, in a state that has nodes for the points of tools.
+uint32_t spring_node(const State &state, size_t nodes, const Tool &tool, uint32_t k) {
   if (tool.kind == MVS_TOOL_KIND_GRASP) return tool.node;
   auto node = static_cast<uint32_t>(nodes);
   for (const Tool &other : state.tools.get()) {
@@ -61,24 +55,25 @@ void ToolFeel::factorise(const State &state) {
   total_energy_->set_pressure(state.load.pressure);
   total_energy_->set_tools(state.tools);
   if (!total_energy_->prepared_for(state.x)) {
-    total_energy_->prepare(state.x, state.x, 0.1 * model_->valve.contact_thickness, profile_);
+    const double slack = settings::implicit::broad_phase_slack * model_->valve.contact_thickness;
+    total_energy_->prepare(state.x, state.x, slack, profile_);
   }
   total_energy_->gradient(state.x, g_, profile_);
   for (const Curvature curvature : {Curvature::exact, Curvature::projected}) {
-    if (curvature == Curvature::exact && exact_fails_ > 0) {
-      --exact_fails_;
+    if (curvature == Curvature::exact && exact_pause_ > 0) {
+      --exact_pause_;
       continue;
     }
     if (total_energy_->hessian(state.x, curvature, system_, profile_)) {
-      system_.keep_order(++patterns_ % patterns_per_order != 0);
+      system_.keep_order(++patterns_ % settings::tools::patterns_per_order != 0);
       factor_->analyse(system_.matrix);
     }
     if (try_factorise(1)) return;
-    if (curvature == Curvature::exact) exact_fails_ = wait_after_failure;
+    if (curvature == Curvature::exact) exact_pause_ = settings::tools::pause_after_indefinite;
   }
   double more = 1;
-  while (more < 1e18) {
-    more *= 4;
+  while (more < settings::tools::max_mass) {
+    more *= settings::tools::mass_growth;
     total_energy_->hessian(state.x, Curvature::projected, system_, profile_);
     if (try_factorise(more)) return;
   }
@@ -89,7 +84,7 @@ bool ToolFeel::try_factorise(double more_mass) {
   for (uint32_t r = 0; r < system_.matrix.size(); ++r) {
     const double m = model_->node_mass[system_.node_of[r]];
     system_.matrix.value[system_.matrix.start[r]].diagonal().array() +=
-        more_mass * m / (quasi_static * quasi_static);
+        more_mass * m / (settings::tools::quasi_static_time * settings::tools::quasi_static_time);
   }
   return factor_->factorise(system_.matrix);
 }
@@ -104,7 +99,7 @@ Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Too
   Mat3 sum = Mat3::Zero();
   const uint32_t springs = springs_of(tool);
   for (uint32_t k = 0; k < springs; ++k) {
-    const uint32_t node = led_node(valve_state, nodes, tool, k);
+    const uint32_t node = spring_node(valve_state, nodes, tool, k);
     row[k] = system_.row_of[node];
     block[k] = hold_block(hold_of(tool, k, node), state.x[node]);
     sum += block[k];

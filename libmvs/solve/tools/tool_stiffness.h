@@ -1,9 +1,9 @@
-// How a tool answers its hand: the force, and how it changes as the hand moves while everything
-// else comes to rest again.
+// Force of a tool on its hand, and the static stiffness that the hand feels: the derivative of the
+// force by the position of the hand while the valve follows in equilibrium.
 //
-// With E(x, h) the potential of nodes x and hand h, x(h) at rest and F = -dE/dh the force on the
-// hand, dF/dh = -E_hh + E_hx H^-1 E_xh: the stiffness of hand and tissue one after the other. H is
-// exact where that is positive definite, projected where it is not.
+// With E(x, h) the total energy of nodes x and hand h, x(h) in equilibrium and F = -dE/dh the force
+// on the hand, dF/dh = -E_hh + E_hx H^-1 E_xh: the springs of hand and tissue in series (a Schur
+// complement). H is exact where it is positive definite and projected elsewhere.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class ToolFeel {
  public:
   explicit ToolFeel(uint32_t backend) : backend_(backend) {}
 
-  // -dF/dh of a tool in its state, N/m; symmetric, not negative.
+  // Returns -dF/dh of a tool in a state, N/m; symmetric positive semidefinite.
   Mat3 stiffness(const Model &model, const State &state, const Tool &tool);
 
  private:
@@ -42,7 +42,7 @@ class ToolFeel {
   HessianAssembler system_;
   Profile profile_;
   uint32_t patterns_ = 0;     // of the matrix so far
-  uint32_t exact_fails_ = 0;  // calls to come that do not try the exact curvature
+  uint32_t exact_pause_ = 0;  // calls until the exact Hessian is tried again
   std::vector<Vec3> g_, rows_;
 };
 

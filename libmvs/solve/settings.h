@@ -1,0 +1,248 @@
+// Every tuning constant of the solvers: name, value, unit, meaning, evidence. "Rest force" is the
+// force of the pressure on a node of mean area, N. A value without stated evidence is a round
+// figure with which the tests of tests/solve pass; its sensitivity was not measured.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "energy/settings.h"
+
+namespace mvs::core::settings {
+
+// Defaults of the options in include/mvs/sim.h.
+namespace defaults {
+
+inline constexpr double residual = 1e-5;             // N, largest out-of-balance nodal force
+inline constexpr double implicit_dt = 1e-3;          // s: one step of a 1 kHz haptic loop
+inline constexpr double explicit_dt = 8e-6;          // s: stable on the shipped valve
+inline constexpr double explicit_damping = 500;      // 1/s
+inline constexpr uint32_t budget = 64;               // passes and factorisations of a step
+inline constexpr uint32_t settle_budget = 10000;     // of a step while settling: no limit
+inline constexpr uint32_t newton_iterations = 1000;  // at most
+inline constexpr uint32_t implicit_steps = 20000;    // at most, while settling
+inline constexpr uint32_t explicit_steps = 2000000;  // at most, while settling
+
+}  // namespace defaults
+
+// Settling by steps in time.
+namespace settle {
+
+// Steps in a row below the residual. A valve that passes through balance in motion is not at rest.
+inline constexpr int calm_steps = 10;
+// m, distance of a prescribed node from its target that counts as rounding.
+inline constexpr double boundary_arrival = 1e-9;
+// Steps between two calls of the progress callback.
+inline constexpr uint32_t steps_per_report = 64;
+
+}  // namespace settle
+
+// Motion of the prescribed nodes (annulus and papillary heads).
+namespace boundary {
+
+// m, largest increment in one static iteration. The contact thickness is 1 mm by default.
+inline constexpr double max_increment = 0.5e-3;
+// m/s, largest speed in live steps.
+inline constexpr double max_speed = 0.1;
+// Rest forces above which the boundary waits in static iterations. Tissue with an exponential law
+// that is held by contact reached 1e7 N when the boundary moved on, and did not recover.
+inline constexpr double max_static_residual = 1e3;
+// Iterations that the boundary waits at most: tissue that is stuck may need the boundary to get
+// free.
+inline constexpr uint32_t max_static_wait = 20;
+// The same for live steps. Of nine moving annuli with exponential laws, in 40 steps each, six stay
+// below 13 N, two have single steps of 2e3 and 3e3 N; with 100 in place of 10 one reaches 8e5 N.
+inline constexpr double max_live_residual = 10;
+inline constexpr uint64_t max_live_wait = 20;  // steps
+// m, distance from the target within which a live step sets the node onto its target.
+inline constexpr double snap_distance = 1e-12;
+
+}  // namespace boundary
+
+// Static closure by Newton iterations.
+namespace newton {
+
+// m, largest displacement of a node in one iteration: the default contact thickness.
+inline constexpr double max_displacement = 1e-3;
+// Multiples of max_displacement from which a node counts as much too far.
+inline constexpr double far_factor = 1.5;
+// Share of the contact thickness by which nodes may leave the path that the broad phase was built
+// for. Steps far from rest need a new broad phase anyway, steps near rest are far smaller.
+inline constexpr double broad_phase_slack = 0.02;
+// Rest forces below which the trust region uses the exact Hessian.
+inline constexpr double exact_hessian_residual = 4;
+// Stiffness that lambda = 1 adds is pressure times element size. This least lambda keeps slack
+// branch points and loose flaps solvable.
+inline constexpr double min_lambda = 1e-4;
+// Factor and least value of lambda after a factorisation failed, and the value at which the matrix
+// counts as not finite.
+inline constexpr double failed_lambda_growth = 3, failed_lambda = 0.05, max_failed_lambda = 1e12;
+// Patterns that one elimination order serves. Contact asks for blocks outside the pattern in most
+// iterations, and an order is good for a few such patterns.
+inline constexpr uint32_t patterns_per_order = 6;
+// GMRES around the factor for the skew part of the load at the free edge: iterations at most,
+// relative residual.
+inline constexpr int gmres_iterations = 30;
+inline constexpr double gmres_tolerance = 1e-3;
+
+// Polish steps near rest: lambda below which the step leaves lambda out of the solution, and the
+// share of the lambda that the last one needed with which the next begins. A lambda that stays
+// after the valve has left the place that needed it slows down all following steps.
+inline constexpr double max_removed_lambda = 1, polish_lambda_share = 0.1;
+// Share of the smallest residual so far that counts as progress towards rest, and the longest pause
+// after a failed polish step, iterations.
+inline constexpr double polish_progress = 0.5;
+inline constexpr int max_polish_pause = 64;
+// Backtracking on the norm of the force: trials, factor, sufficient decrease (Armijo).
+inline constexpr int polish_trials = 5;
+inline constexpr double polish_backtracking = 0.5, polish_decrease = 0.1;
+
+}  // namespace newton
+
+// Trust region on the energy (Conn, Gould, Toint, Trust-Region Methods, 2000).
+namespace trust_region {
+
+inline constexpr int trials = 8;  // of one iteration; every second one factorises
+inline constexpr double max_lambda = 1e6;
+// Gain ratio above which a step is accepted.
+inline constexpr double accepted_gain = 0.01;
+// Gain ratios between which lambda stays, and above which it falls faster.
+inline constexpr double poor_gain = 0.2, good_gain = 0.6, very_good_gain = 0.9;
+// Factors of lambda after a poor, a good and a very good step, and the least lambda after a poor
+// one. Below zero_lambda a good step sets lambda to 0.
+inline constexpr double poor_growth = 4, good_decay = 0.3, very_good_decay = 0.1;
+inline constexpr double poor_lambda = 0.03, zero_lambda = 1e-3;
+// Share of the nodes that may be much too far before lambda grows, its factor and least value.
+// Fewer nodes are only shortened, so that a chord that pulls tight does not stiffen the whole
+// valve.
+inline constexpr double max_far_share = 0.03;
+inline constexpr double far_growth = 2, far_lambda = 0.01;
+// After an accepted step that raised the energy because the load at the free edge changed.
+inline constexpr double raised_growth = 2, raised_lambda = 0.03;
+// Share of the step before that every second trial tries, at most and at least. Eighteen closings
+// of real and parametric valves took 3,400 to 3,600 iterations with a least share of 0.03 to 0.25,
+// and 3,900 with 0.5.
+inline constexpr double max_shortening = 0.5, min_shortening = 0.2;
+// Share of its step below which a node counts as stopped by the step limiter, and the share of the
+// nodes above which no node is held.
+inline constexpr double stopped_share = 0.9, max_stopped_share = 0.03;
+// Largest stiffness of a held node, as a multiple of its own.
+inline constexpr double max_hold = 1e3;
+// Lambda above which stopped nodes are held. Needles of a real mesh (Kaiser N64), which are always
+// stopped, take fewer iterations when they are not held below it.
+inline constexpr double min_hold_lambda = 100;
+
+}  // namespace trust_region
+
+// The local subproblem around a disturbance that is settled before the whole valve. An operation
+// disturbs a few nodes, a load all of them; share and radius are where subproblem and whole valve
+// together cost least.
+namespace local_subproblem {
+
+inline constexpr double disturbed_residual = 0.25;  // rest forces: above it a node is disturbed
+inline constexpr double max_disturbed_share = 0.1;  // of the nodes: above it no subproblem
+inline constexpr double max_free_share = 0.2;       // of the nodes that are free in it
+inline constexpr double radius = 10e-3;             // m, around the disturbed nodes
+inline constexpr double max_displacement = 4e-3;    // m, of a node from its start
+inline constexpr uint32_t max_iterations = 12;
+inline constexpr double residual = 0.2;  // rest forces: its rim is as far from rest
+
+}  // namespace local_subproblem
+
+// Nested iteration over coarser meshes.
+namespace mesh_hierarchy {
+
+inline constexpr size_t min_vertices = 1200;  // of the sheet: below it the mesh is settled itself
+// A quarter of the vertices doubles the edge length, for an eighth of the work or less.
+inline constexpr size_t coarsening = 4;
+inline constexpr size_t min_coarse_vertices = 425;
+// The coarse shape is a start: its residual, in rest forces, and its iterations are those that most
+// valves need.
+inline constexpr double coarse_residual = 0.25;
+inline constexpr uint32_t max_coarse_iterations = 200;
+// Share of the reported progress that the coarse meshes take: about their share of the time.
+inline constexpr double coarse_progress = 0.25;
+
+}  // namespace mesh_hierarchy
+
+// One implicit Euler step.
+namespace implicit {
+
+inline constexpr double max_displacement = 1e-3;  // m, of a node in one step
+// Residual of a valve at rest, N: rest_residual at systolic pressure, less in proportion to the
+// pressure, plus min_rest_residual; never above max_rest_residual.
+inline constexpr double rest_residual = 1e-5, min_rest_residual = 1e-9;
+inline constexpr double max_rest_residual = 1.0001e-5;
+// Share of the contact thickness: the slack of the broad phase of a step without motion.
+inline constexpr double broad_phase_slack = 0.1;
+// Share of the contact thickness. Where no node moves farther, pairs outside the broad phase cannot
+// be limited, and a broad phase of an earlier step serves.
+inline constexpr double slow_displacement = 0.02;
+// Energy line search: trials of a share of the limited step, the least and most share of the share
+// before, and how often the whole step is quartered before it is limited again.
+inline constexpr int trials = 8;
+inline constexpr double min_share = 0.1, max_share = 0.5;
+inline constexpr int quarterings = 12;
+// Energy that rounding makes, as a share of the energy of the step's start.
+inline constexpr double energy_rounding = 1e-12;
+// Passes that the budget keeps for after the linear solve: one trial, and the forces where the
+// valve stays.
+inline constexpr uint32_t reserved_passes = 2;
+
+}  // namespace implicit
+
+// The linear system of an implicit step: conjugate gradients with the factor of an earlier step as
+// preconditioner. One iteration costs about a tenth of a factorisation with its ordering.
+namespace linear {
+
+// Parts of about equal work in which a factorisation is spread over steps: pattern, numbers,
+// numbers.
+inline constexpr uint32_t factor_parts = 3;
+// Residual in the norm of the preconditioner, relative. The rest is small beside the error of
+// linearising the step, and the forces of the next step contain it again.
+inline constexpr double tolerance = 1e-3;
+// After max_iterations a residual of max_residual is accepted and a new factor begun; above it a
+// factor is made at once. That happens a few steps after a chord was cut or leaflets met: each step
+// leads downhill, only less far.
+inline constexpr uint32_t max_iterations = 10;
+inline constexpr double max_residual = 0.3;
+// More iterations or an older factor than this, and the next factor is begun. A factor in parts
+// costs as much as ten iterations.
+inline constexpr uint32_t many_iterations = 3;
+inline constexpr uint32_t max_age = 20;  // steps
+// Residual that is accepted after many_iterations: a slow step does no more iterations for what
+// linearising it leaves out anyway.
+inline constexpr double late_tolerance = 1e-2;
+// Factor by which the mass on the diagonal grows until an indefinite matrix can be factorised, and
+// the multiple at which the budget of attempts ends.
+inline constexpr double mass_growth = 4, max_mass = 1e18;
+
+}  // namespace linear
+
+// One explicit Euler step.
+namespace explicit_euler {
+
+inline constexpr double max_displacement = 1;  // m: a larger one is a diverged step
+// Share of the contact thickness: the slack of the broad phase.
+inline constexpr double broad_phase_slack = 0.5;
+
+}  // namespace explicit_euler
+
+// Instruments and their stiffness.
+namespace tools {
+
+// kg, mass of a point of an instrument, without which an implicit step could not move a point that
+// no spring holds. At 1 kHz it adds a twentieth of the default spring of a hand; an instrument
+// without inertia follows the hand at once.
+inline constexpr double point_mass = 1e-5;
+// s, time over which mass replaces the stiffness that slack tissue lacks: a hand stands still for
+// that long.
+inline constexpr double quasi_static_time = 0.1;
+// Patterns that one elimination order serves; calls without the exact Hessian after it was
+// indefinite, which it then stays for a while.
+inline constexpr uint32_t patterns_per_order = 20, pause_after_indefinite = 8;
+inline constexpr double mass_growth = 4, max_mass = 1e18;  // as in `linear`
+
+}  // namespace tools
+
+}  // namespace mvs::core::settings

@@ -1,0 +1,69 @@
+// The linear system of a Newton iteration: (H + lambda D) dx = -g, D a diagonal stiffness that the
+// load itself has (pressure times element size). Near rest the skew part that a follower load has
+// at the free edge is solved for as well, by GMRES around the factor.
+#pragma once
+
+#include "energy/total_energy.h"
+#include "linalg/direct_solver.h"
+#include "solve/solver.h"
+
+namespace mvs::core {
+
+class NewtonSystem {
+ public:
+  // `x` are the positions of the current iterate; the elimination order of many rows uses them.
+  NewtonSystem(const Model &model, TotalEnergy &total_energy, DirectSolver &factor,
+               const std::vector<Vec3> &x)
+      : model_(&model), total_energy_(&total_energy), factor_(&factor), x_(&x) {
+    assembler_.place = x_;
+  }
+  // Begins a closure under a pressure of this size, Pa.
+  void set_scale(double pressure, double mean_area);
+
+  // Assembles H at x, the point of the last gradient.
+  void assemble(Curvature curvature, Profile &profile);
+  // The same with the displacements of the prescribed nodes, for carry().
+  void assemble(Curvature curvature, const std::vector<Vec3> &boundary, Profile &profile);
+  // Factorises with this lambda, or with the first larger one that makes the matrix positive
+  // definite, which `lambda` then is.
+  void factorise(double &lambda, SolveStats &stats);
+  double applied_lambda() const { return applied_lambda_; }
+  DirectSolver &factor() { return *factor_; }
+
+  // The step of all nodes for the gradient g. Where H is exact and `with_lambda` is false the step
+  // solves the system without lambda.
+  void solve(const std::vector<Vec3> &g, bool with_lambda, std::vector<Vec3> &step,
+             SolveStats &stats);
+  // Sets the step of the free nodes to -H_ff^-1 H_fb dx_b: they follow the boundary.
+  void carry(std::vector<Vec3> &step, SolveStats &stats);
+
+  Curvature curvature() const { return curvature_; }
+  // step^T H step, without lambda.
+  double quadratic_form(const std::vector<Vec3> &step) const;
+
+  size_t rows() const { return diagonal_.size(); }
+  uint32_t node(size_t row) const { return assembler_.node_of[row]; }
+  // Adds `times` the mean stiffness of a row along a unit direction, until release().
+  void hold(size_t row, const Vec3 &direction, double times);
+  void release() { hold_.clear(); }
+
+ private:
+  void solve_rows(std::vector<Vec3> &rows, SolveStats &stats);
+  void include_skew(bool with_lambda, SolveStats &stats);
+
+  const Model *model_;
+  TotalEnergy *total_energy_;
+  DirectSolver *factor_;
+  const std::vector<Vec3> *x_;
+  HessianAssembler assembler_;
+  Curvature curvature_ = Curvature::projected;
+  std::vector<Mat3> diagonal_;          // of H
+  std::vector<double> lambda_scale_;    // N/m per node: D
+  std::vector<Mat3> hold_;              // N/m per row; empty: no row is held
+  std::vector<Vec3> rows_;              // right-hand side and solution
+  std::vector<Vec3> direction_, skew_;  // by node, of include_skew()
+  double applied_lambda_ = 0;           // in the factor
+  uint32_t patterns_ = 0;               // of the matrix so far
+};
+
+}  // namespace mvs::core
