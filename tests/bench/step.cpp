@@ -7,14 +7,15 @@
 // The play takes some ten seconds and is repeated: a valve closes under systole and beats; a hand
 // grasps the edge of A2, pulls it 10 mm into the atrium, and releases it; a ball pushes P2 down and
 // is removed; a chord is shortened and a ring sewn in; the valve beats again, a chord is cut, all
-// operations are undone, the valve rests, and the load is removed. Times are CPU times of the thread
-// (CLOCK_THREAD_CPUTIME_ID), which depend less on other work on the machine. Columns: "asleep" is
-// the share of steps that only advanced the time; "lowered" counts steps that reduced the accuracy
-// of the linear solution or the length of the step for their budget; "cross" is the largest number
-// of crossing triangle pairs, by the exact test, at samples; "made" counts awake steps with constant
-// load, boundary and tools that created energy, by the criterion of tests/stability. "resting /
-// active" compares the medians of both kinds of steps. "explicit" is the median step of the founding
-// paper's method, 8 us long, on the closed valve: 125 of them make one of ours.
+// operations are undone, the valve rests, and the load is removed. Times are CPU times of the
+// thread (CLOCK_THREAD_CPUTIME_ID), which depend less on other work on the machine. Columns:
+// "asleep" is the share of steps that only advanced the time; "lowered" counts steps that reduced
+// the accuracy of the linear solution or the length of the step for their budget; "cross" is the
+// largest number of crossing triangle pairs, by the exact test, at samples; "made" counts awake
+// steps with constant load, boundary and tools that created energy, by the criterion of
+// tests/stability. "resting / active" compares the medians of both kinds of steps. "explicit" is
+// the median step of the founding paper's method, 8 us long, on the closed valve: 125 of them make
+// one of ours.
 #include <mvs/mvs.hpp>
 
 #include <CLI/CLI.hpp>
