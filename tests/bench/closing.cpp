@@ -1,7 +1,7 @@
 // Closes generated valves, for every bench that needs one closed.
 #include "tests/bench/closing.h"
 
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 
 namespace bench {
 namespace {
@@ -41,6 +41,7 @@ void close_once(const Case &of, Closing &closing) {
   const Seconds took = timed([&] {
     try {
       closing.stats = sim.settle(options_of(of));
+      closing.profile = mvs::profile_of(sim);
     } catch (const mvs::Error &error) {
       if (error.code() != MVS_E_DIVERGED) throw;
       closing.diverged = true;

@@ -36,6 +36,7 @@ struct Closing {
   size_t vertices = 0;    // of the leaflets
   bool diverged = false;  // a value is not finite; later results are then meaningless
   mvs_stats stats = {};   // of the last run
+  mvs_profile profile = {};
   mvs_measures measures = {};
   std::vector<double> cpu_s, wall_s;  // of each run
 
@@ -44,7 +45,7 @@ struct Closing {
   double wall() const { return median(wall_s); }
   // CPU seconds of a phase: its share of the wall time, times the CPU time.
   double phase(size_t k) const {
-    return stats.wall_s > 0 ? stats.phase_s[k] / stats.wall_s * cpu() : 0;
+    return stats.wall_s > 0 ? profile.phase_s[k] / stats.wall_s * cpu() : 0;
   }
 };
 

@@ -45,16 +45,17 @@ std::vector<std::string> columns() {
 
 void tell(Table &table, const Row &row) {
   const mvs_stats &s = row.closing.stats;
+  const mvs_profile &profile = row.closing.profile;
   std::vector<Cell> cells = {row.of.scene,
                              row.closing.vertices,
                              row.of.leaflet,
                              row.of.solver,
                              s.iterations,
-                             s.factorisations,
-                             s.orderings,
-                             s.broad_phases,
-                             s.passes,
-                             s.linear_iterations,
+                             profile.factorisations,
+                             profile.orderings,
+                             profile.broad_phases,
+                             profile.passes,
+                             profile.linear_iterations,
                              row.closing.cpu(),
                              row.closing.wall(),
                              s.residual,

@@ -7,14 +7,15 @@
 // The play takes some ten seconds and is repeated: a valve closes under systole and beats; a hand
 // grasps the edge of A2, pulls it 10 mm into the atrium, and releases it; a ball pushes P2 down and
 // is removed; a chord is shortened and a ring sewn in; the valve beats again, a chord is cut, all
-// operations are undone, the valve rests, and the load is removed. Times are CPU times of the thread
-// (CLOCK_THREAD_CPUTIME_ID), which depend less on other work on the machine. Columns: "asleep" is
-// the share of steps that only advanced the time; "lowered" counts steps that reduced the accuracy
-// of the linear solution or the length of the step for their budget; "cross" is the largest number
-// of crossing triangle pairs, by the exact test, at samples; "made" counts awake steps with constant
-// load, boundary and tools that created energy, by the criterion of tests/stability. "resting /
-// active" compares the medians of both kinds of steps. "explicit" is the median step of the founding
-// paper's method, 8 us long, on the closed valve: 125 of them make one of ours.
+// operations are undone, the valve rests, and the load is removed. Times are CPU times of the
+// thread (CLOCK_THREAD_CPUTIME_ID), which depend less on other work on the machine. Columns:
+// "asleep" is the share of steps that only advanced the time; "lowered" counts steps that reduced
+// the accuracy of the linear solution or the length of the step for their budget; "cross" is the
+// largest number of crossing triangle pairs, by the exact test, at samples; "made" counts awake
+// steps with constant load, boundary and tools that created energy, by the criterion of
+// tests/stability. "resting / active" compares the medians of both kinds of steps. "explicit" is
+// the median step of the founding paper's method, 8 us long, on the closed valve: 125 of them make
+// one of ours.
 #include <mvs/experimental.hpp>
 
 #include <CLI/CLI.hpp>
@@ -108,15 +109,16 @@ void take_step(mvs::Sim &sim, const Options &options, bool hand_moves, StepWatch
   sim.step(how);
   const double took = cpu_now() - start;
   const mvs_stats stats = sim.stats();
-  const bool asleep = (stats.skipped & MVS_SKIPPED_STEP) != 0;
+  const mvs_profile profile = mvs::profile_of(sim);
+  const bool asleep = (profile.skipped & MVS_SKIPPED_STEP) != 0;
   (asleep ? row.resting : row.active).push_back(took);
   if (hand_moves) row.hand.push_back(took);
   row.lowered_linear += (stats.lowered & MVS_LOWERED_LINEAR) != 0;
   row.lowered_step += (stats.lowered & MVS_LOWERED_STEP) != 0;
-  row.broad += stats.broad_phases;
-  row.orderings += stats.orderings;
-  row.iterations += stats.linear_iterations;
-  row.served += !asleep && (stats.skipped & MVS_SKIPPED_FACTOR) != 0;
+  row.broad += profile.broad_phases;
+  row.orderings += profile.orderings;
+  row.iterations += profile.linear_iterations;
+  row.served += !asleep && (profile.skipped & MVS_SKIPPED_FACTOR) != 0;
   if (asleep) return;
   row.made += watch.makes_energy(sim, stats);
   const double quiet = StepWatch::quiet(sim, dt, at_rest);
