@@ -84,8 +84,8 @@ TEST_CASE("invalid_coordinates_are_reported") {
 TEST_CASE("indices_out_of_range_are_reported") {
   check_face_fault("f 0 2 17", "`0` is not a vertex: the first one is 1");
   check_face_fault("f 1 2 69", "vertex `69` is not one of the 68 above");
-  check_face_fault("f 1 2 -69", "vertex `-69` is none");
-  check_face_fault("f 1 2 4294967297", "`4294967297` is none");
+  check_face_fault("f 1 2 -69", "vertex `-69` is not one");
+  check_face_fault("f 1 2 4294967297", "`4294967297` is not one");
   check_face_fault("f 1 2 99999999999999999999999", "is not a vertex");
   check_face_fault("f 1 2 -9223372036854775808", "is not one of");
   check_face_fault("f 1 2", "the line ends where a vertex is needed");
@@ -100,10 +100,10 @@ TEST_CASE("indices_out_of_range_are_reported") {
   check_fault("l 65 66", "l 1", "the line ends where a vertex is needed");
   check_fault("l 65 66", "l", "the line ends");
   check_fault("l 65 66", "l 65 0", "the first one is 1");
-  check_fault("#mvs annulus 1 ", "#mvs annulus 1000000000 ", "none of the 68");
+  check_fault("#mvs annulus 1 ", "#mvs annulus 1000000000 ", "not one of the 68");
   check_fault("#mvs annulus 1 2", "#mvs annulus 1 2.", "`2.` is not a vertex");
-  check_fault("node=65", "node=0", "node=0 is none");
-  check_fault("node=65", "node=69", "node=69 is none");
+  check_fault("node=65", "node=0", "node=0 is not one");
+  check_fault("node=65", "node=69", "node=69 is not one");
   check_fault("node=65", "node=-1", "not a whole number");
   check_fault("node=65", "node=99999999999999999999", "at most 64 bits");
   check_fault(" node=65", "", "lacks node=");
@@ -173,7 +173,7 @@ TEST_CASE("repeated_and_misplaced_statements_are_reported") {
     CHECK(fault.line == line_of(text, start + line.size()));
     CHECK(fault.message.find(wanted) != std::string::npos);
   };
-  twice("3 ", "#mvs `3` is not known");
+  twice("1 ", "#mvs `1` is not known");
   twice("valve", "#mvs valve is given twice");
   twice("state", "#mvs state is given twice");
   twice("leaflet", "leaflet `A` is given twice");
