@@ -15,7 +15,6 @@ using namespace mvs::core;
 
 namespace {
 
-constexpr double mm = 1e-3;
 
 mvs_parametric_desc sized(uint32_t vertices) {
   mvs_parametric_desc desc{};

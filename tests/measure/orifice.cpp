@@ -41,10 +41,6 @@ double polygon_area(double radius, size_t corners) {
   return 0.5 * n * radius * radius * std::sin(2 * pi / n);
 }
 
-double triangle_area(const std::vector<Vec3> &x, const Tri &t) {
-  return 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm();
-}
-
 // Leaflets whose free edges, half ellipses seen from the side, reach over each other by 2 * reach
 // where `gap` is the distance between them in the middle: lens-shaped seen along the sheets, and
 // closed seen from above.

@@ -56,7 +56,7 @@ TEST_CASE("section_of_a_closed_loop_meets_itself_bit_for_bit") {
 
 TEST_CASE("section_beside_the_valve_is_empty") {
   const ModelPtr model = model_of(tube());
-  CHECK(cut(*model, model->valve.rest, {0, 0, 10e-3}, {0, 0, 1}).empty());
+  CHECK(plane_section(*model, model->valve.rest, {0, 0, 10e-3}, {0, 0, 1}).empty());
 }
 
 }  // namespace mvs::core::test
