@@ -1,3 +1,5 @@
+// Plans the attachments of the chordae of one papillary muscle: rows of equal arc length on the
+// smooth surface, assigned to the nearest free mesh vertices, grouped into trees.
 #include "anatomy/chordae.h"
 
 #include <algorithm>
@@ -8,9 +10,7 @@
 namespace mvs::core {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-// Chordae within this share of a row from the commissure are its fan.
+// Chordae within this share of a row from the commissure form its fan.
 constexpr double commissural_share = 0.08;
 
 struct Spot {
@@ -20,7 +20,7 @@ struct Spot {
 
 using Row = std::vector<Spot>;
 
-// `count` spots evenly along the curve v between two angles, half a gap from either end.
+// Returns `count` spots evenly along the curve v between two angles, half a gap from either end.
 Row even_row(const Shape &shape, double v, double theta0, double theta1, uint32_t count,
              uint32_t kind) {
   const ArcLength arc(shape, v, theta0, theta1);
@@ -31,7 +31,7 @@ Row even_row(const Shape &shape, double v, double theta0, double theta1, uint32_
   return row;
 }
 
-// Turns the spots near the commissure into its fan.
+// Sets the kind of the spots near the commissure to commissural.
 void name_commissural(const Shape &shape, double v, Row &row) {
   const double reach = commissural_share * ArcLength(shape, v, 0, pi).total();
   for (Spot &spot : row) {
@@ -41,7 +41,7 @@ void name_commissural(const Shape &shape, double v, Row &row) {
   }
 }
 
-// The rows of one muscle, `count` spots in all: free edge, rough zone, strut, base.
+// Returns the rows of one muscle, `count` spots in total: free edge, rough zone, strut, base.
 std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
   const auto part = [&](double share) {
     return std::max(1u, static_cast<uint32_t>(std::lround(share * count)));
@@ -59,13 +59,13 @@ std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
   return rows;
 }
 
-// Gives spots to vertices, each vertex once.
+// Assigns spots to vertices, each vertex once.
 class Snapper {
  public:
   Snapper(const Shape &shape, const HalfSheet &sheet)
       : shape_(shape), sheet_(sheet), taken_(sheet.x.size(), 0) {
     for (size_t i = 0; i < taken_.size(); ++i) {
-      // the mirror is no muscle's own, the annulus needs no chord
+      // vertices on the mirror plane belong to neither muscle; the annulus has no chordae
       taken_[i] = (sheet.sides[i] & (on_mirror | on_annulus)) != 0;
     }
   }
@@ -101,8 +101,8 @@ uint32_t nearest_tip(const std::vector<Vec3> &tips, const Vec3 &x) {
   return static_cast<uint32_t>(std::min_element(tips.begin(), tips.end(), nearer) - tips.begin());
 }
 
-// Cuts a run of neighbours into equal trees of at most `most`.
-void cut_into_trees(const Tree &run, size_t most, std::vector<Tree> &trees) {
+// Divides a run of neighbours into trees of equal size, at most `most`.
+void divide_into_trees(const Tree &run, size_t most, std::vector<Tree> &trees) {
   const size_t count = (run.size() + most - 1) / most;
   for (size_t i = 0; i < count; ++i) {
     trees.emplace_back(run.begin() + static_cast<std::ptrdiff_t>(i * run.size() / count),
@@ -126,12 +126,12 @@ std::vector<Tree> plan_trees(const Shape &shape, const HalfSheet &sheet, const D
       const Attachment next{vertex, spot.kind,
                             nearest_tip(tips, shape.closed(sheet.place[vertex]))};
       if (!run.empty() && run.back().tip != next.tip) {
-        cut_into_trees(run, d.branching ? 3 : 1, trees);
+        divide_into_trees(run, d.branching ? 3 : 1, trees);
         run.clear();
       }
       run.push_back(next);
     }
-    cut_into_trees(run, d.branching ? 3 : 1, trees);
+    divide_into_trees(run, d.branching ? 3 : 1, trees);
   }
   return trees;
 }

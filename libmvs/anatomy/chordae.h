@@ -1,4 +1,4 @@
-// Where chordae attach, how they fan out from the papillary tips, and how long they are.
+// Plan of the chordae of a parametric valve: attachments, branching, papillary tips.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace mvs::core {
 
-// A vertex of the half sheet that a chord holds, and why.
+// A vertex of the half sheet with a chord, and the chord that ends there.
 struct Attachment {
   uint32_t vertex;
   uint32_t kind;  // MVS_CHORD_KIND_*
   uint32_t tip;   // of its papillary muscle
 };
 
-// Chordae of one muscle that spring from one stem; a stem of one is a plain chord.
+// Chordae of one muscle with a common trunk; a tree of one is a plain chord.
 using Tree = std::vector<Attachment>;
 
-// The trees of the posteromedial muscle. The places are the same for every mesh; each is given to
-// the nearest vertex that is still free.
+// Returns the trees of the posteromedial muscle. The target places do not depend on the mesh; each
+// is assigned to the nearest free vertex.
 std::vector<Tree> plan_trees(const Shape &shape, const HalfSheet &sheet, const Dimensions &d);
 
 }  // namespace mvs::core

@@ -1,3 +1,4 @@
+// Moves and merges chordae when a vertex of the sheet is collapsed into another.
 #include "anatomy/coarse_chordae.h"
 
 #include <mvs/valve.h>
@@ -8,12 +9,12 @@
 namespace mvs::core {
 namespace {
 
-// A move may shorten the rest length of a chord to this share of it, or of its new distance.
+// Least rest length after a move, as a share of the old rest length or of the new distance.
 constexpr double shortest = 0.5;
-// m: a chord between nodes this near has no direction to pull in.
+// m: a chord between nodes nearer than this has no direction.
 constexpr double no_length = 1e-6;
 
-// Whether two chordae differ in nothing but their size and place.
+// Returns whether two chordae differ only in size and place.
 bool same_tissue(const Chord &a, const Chord &b) {
   Chord other = b;
   other.id = a.id;
@@ -45,22 +46,22 @@ bool CoarseChordae::sewn(uint32_t vertex) const {
                      [&](uint32_t c) { return chords_[c].kind == MVS_CHORD_KIND_SUTURE; });
 }
 
-// The rest length of a chord whose leaflet end goes to another vertex.
-double CoarseChordae::moved_length(const Chord &chord, uint32_t to) const {
-  const std::vector<Vec3> &x = model_.valve.rest;
-  const bool b_moves = !model_.topology.node_triangles[chord.b].empty();
-  const Vec3 &stays = x[b_moves ? chord.a : chord.b], &moves = x[b_moves ? chord.b : chord.a];
-  return chord.rest_length + (x[to] - stays).norm() - (moves - stays).norm();
+// Returns the end that is not on the sheet, which stays.
+uint32_t CoarseChordae::far_end(const Chord &chord) const {
+  return model_.topology.node_triangles[chord.b].empty() ? chord.b : chord.a;
 }
 
-// The chord at `to` that joins it to the same node as this chord would; `none` for none.
+// Returns the rest length of a chord whose leaflet end moves to another vertex.
+double CoarseChordae::moved_length(const Chord &chord, uint32_t to) const {
+  const std::vector<Vec3> &x = model_.valve.rest;
+  const uint32_t stays = far_end(chord), moves = chord.other_end(stays);
+  return chord.rest_length + (x[to] - x[stays]).norm() - (x[moves] - x[stays]).norm();
+}
+
+// Returns the chord at `to` with the same far end as this chord, or `none`.
 uint32_t CoarseChordae::same_ends(uint32_t chord, uint32_t to) const {
-  const auto far_end = [&](uint32_t c) {
-    const Chord &one = chords_[c];
-    return model_.topology.node_triangles[one.b].empty() ? one.b : one.a;
-  };
   for (const uint32_t c : at_[to]) {
-    if (far_end(c) == far_end(chord)) return c;
+    if (far_end(chords_[c]) == far_end(chords_[chord])) return c;
   }
   return none;
 }
@@ -69,17 +70,16 @@ bool CoarseChordae::may_move(uint32_t from, uint32_t to) const {
   if (sewn(from) || sewn(to)) return at_[from].empty();
   for (const uint32_t c : at_[from]) {
     const Chord &chord = chords_[c];
-    const bool b_moves = !model_.topology.node_triangles[chord.b].empty();
-    const uint32_t far_end = b_moves ? chord.a : chord.b;
-    const double distance = (model_.valve.rest[far_end] - model_.valve.rest[to]).norm();
+    const uint32_t stays = far_end(chord);
+    const double distance = (model_.valve.rest[stays] - model_.valve.rest[to]).norm();
     const double length = moved_length(chord, to);
     if (distance < no_length || length < shortest * std::min(chord.rest_length, distance)) {
       return false;
     }
     const uint32_t other = same_ends(c, to);
     if (other == none) continue;
-    const bool same_way = (b_moves ? chords_[other].a : chords_[other].b) == far_end;
-    if (!same_way || !same_tissue(chord, chords_[other])) return false;
+    const bool same_direction = (stays == chord.a ? chords_[other].a : chords_[other].b) == stays;
+    if (!same_direction || !same_tissue(chord, chords_[other])) return false;
   }
   return true;
 }

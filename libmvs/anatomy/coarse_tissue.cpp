@@ -1,3 +1,4 @@
+// Averages thickness and fibres of a fine level over the triangles of a coarse level.
 #include "anatomy/coarse_tissue.h"
 
 #include <Eigen/Eigenvalues>
@@ -9,8 +10,8 @@
 namespace mvs::core {
 namespace {
 
-// The coarse triangle of the same scallop on which the middle of a fine triangle lies; `none` where
-// the walk finds no way into that scallop.
+// Returns the coarse triangle of the same scallop that is nearest to the centroid of a fine
+// triangle; `none` if the search does not reach that scallop.
 uint32_t triangle_under(const Model &fine, uint32_t t, const LevelMap &map, const SheetWalk &walk) {
   const auto &[a, b, c] = fine.valve.triangles[t];
   const Vec3 middle = (fine.valve.rest[a] + fine.valve.rest[b] + fine.valve.rest[c]) / 3;
@@ -28,7 +29,7 @@ Tri sorted(Tri triangle) {
   return triangle;
 }
 
-// The coarse triangles that are triangles of the fine level too.
+// Marks the coarse triangles that exist on the fine level too.
 std::vector<uint8_t> unchanged(const Model &fine, const LevelMap &map, const Valve &coarse) {
   std::vector<Tri> all;
   for (const Tri &triangle : fine.valve.triangles) all.push_back(sorted(triangle));
@@ -41,20 +42,20 @@ std::vector<uint8_t> unchanged(const Model &fine, const LevelMap &map, const Val
   return same;
 }
 
-// What the fine triangles of one coarse triangle add up to.
+// Sums over the fine triangles of one coarse triangle.
 struct Sum {
-  double area = 0, thickness = 0;  // thickness over the first one's, times area
+  double area = 0, thickness = 0;  // thickness: area times the excess over the first
   double first_thickness = 0;
   Mat3 fibre = Mat3::Zero();
 };
 
-// The principal axis in the plane with this normal, on the side of `like`; `like` itself where the
-// mean has no axis there.
+// Returns the principal axis in the plane with this normal, oriented along `like`; `like` itself if
+// the two eigenvalues are equal to rounding.
 Vec3 axis_of(const Mat3 &mean, const Vec3 &normal, const Vec3 &like) {
   const Mat3 flat = Mat3::Identity() - normal * normal.transpose();
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(flat * mean * flat);
   const Vec3 axis = axes.eigenvectors().col(2);
-  // both axes of the plane are as good where they differ by less than rounding
+  // equal eigenvalues: every axis of the plane is a principal axis
   if (axes.eigenvalues()[2] - axes.eigenvalues()[1] <= 1e-9 * mean.trace()) return like;
   return axis.dot(like) < 0 ? Vec3(-axis) : axis;
 }

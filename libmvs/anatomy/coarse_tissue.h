@@ -5,10 +5,11 @@
 
 namespace mvs::core {
 
-// Gives each coarse triangle the mean, weighted by area, of the fine triangles of its scallop that
-// have their middle on it; fibres are lines without direction, so it is the principal axis of the
-// mean of f f^T. A triangle of the fine level that is still there keeps its own, bit for bit; so
-// does one that stands for none. `valve` is the coarse model's, for the result.
+// Sets thickness and fibre of each coarse triangle to the area-weighted mean over the fine
+// triangles of its scallop whose centroids lie on it. Fibres are lines without sign, so their mean
+// is the principal axis of the mean of f f^T. A triangle that exists on the fine level keeps its
+// values bit for bit, as does one without fine triangles. `valve` is the description of the coarse
+// model and receives the result.
 void average_tissue(const Model &fine, const LevelMap &map, const Model &coarse, Valve &valve);
 
 }  // namespace mvs::core

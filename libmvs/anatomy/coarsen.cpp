@@ -1,6 +1,6 @@
-// Which vertex goes next, and where to. After Yuksel, Sample Elimination for Generating Poisson
-// Disk Sample Sets, Computer Graphics Forum 34 (2015): the one with the nearest neighbours, those
-// around are weighed anew, and so on; here on a sheet, with neighbours over its edges.
+// Coarsening of a sheet by greedy vertex removal. After Yuksel, Sample Elimination for Generating
+// Poisson Disk Sample Sets, Computer Graphics Forum 34 (2015): the most crowded vertex is removed
+// and its neighbours are weighed anew; here the neighbours are those over the edges of a sheet.
 #include "anatomy/coarsen.h"
 
 #include <algorithm>
@@ -13,16 +13,19 @@
 #include "anatomy/live_sheet.h"
 #include "base/error.h"
 #include "geometry/distance.h"
+#include "model/valve_arrays.h"
 
 namespace mvs::core {
 namespace {
 
-// A vertex with chordae goes when its neighbours are nearer than others' by this root of 8: 1.41.
+// Weight factor of a vertex with chordae: the sixth power of distance makes it a factor of 1.41 in
+// distance.
 constexpr double chord_share = 1.0 / 8;
-// A vertex of a line this far off the way past it, as a share of that way, counts half.
+// Deviation of a boundary vertex from the straight line between its neighbours, as a share of that
+// line, that halves its weight.
 constexpr double corner_share = 0.05;
 
-// How crowded a vertex is with a neighbour at this distance, squared.
+// Contribution of a neighbour at this squared distance to the weight of a vertex.
 double crowded_by(double distance2) {
   return 1 / (distance2 * distance2 * distance2);
 }
@@ -36,13 +39,13 @@ class Coarsener {
         stamp_(model.node_count(), 0),
         held_(model.topology.fixed) {}
 
-  // Takes vertices out until so many are gone; says how many went.
-  size_t take_out(size_t wanted) {
+  // Removes vertices until `wanted` are removed or no more can be; returns their number.
+  size_t remove_vertices(size_t wanted) {
     size_t gone = 0;
     for (size_t before = none; gone < wanted && gone != before;) {
       before = gone;
-      weigh_all();  // again, since what was not possible may have become so
-      while (gone < wanted && !queue_.empty()) gone += take_next();
+      weigh_all();  // again: earlier removals may permit further ones
+      while (gone < wanted && !queue_.empty()) gone += remove_next();
     }
     return gone;
   }
@@ -59,9 +62,10 @@ class Coarsener {
     }
   };
 
-  // Where a vertex may go: along its line, or anywhere from inside; chordae only to other chordae,
-  // and never from inside to the annulus.
-  std::vector<uint32_t> ways(uint32_t vertex) const {
+  // Returns the targets of a collapse: neighbours along the line for a boundary vertex, all
+  // neighbours for an inner one. A vertex with chordae moves only to one with chordae, and never
+  // from inside to the annulus.
+  std::vector<uint32_t> targets(uint32_t vertex) const {
     std::vector<uint32_t> along = sheet_.along_lines(vertex);
     const bool inside = along.empty();
     if (inside) along = sheet_.neighbours(vertex);
@@ -75,7 +79,7 @@ class Coarsener {
 
   void weigh(uint32_t vertex) {
     const uint32_t stamp = ++stamp_[vertex];
-    const std::vector<uint32_t> around = ways(vertex);
+    const std::vector<uint32_t> around = targets(vertex);
     if (around.empty() || chordae_.sewn(vertex)) return;
     const std::vector<uint32_t> along = sheet_.along_lines(vertex);
     double weight = along.empty() ? weight_inside(vertex, around) : weight_on_line(vertex, along);
@@ -91,8 +95,9 @@ class Coarsener {
     return weight;
   }
 
-  // By the length of the side that a line gets without the vertex, so that none becomes too long.
-  // As much as inside where six neighbours are half as far away; little at a corner of the line.
+  // Weight by the length of the side that the line gets without the vertex, which keeps sides
+  // short. Equal to the weight inside where six neighbours are half as far away; small at a corner
+  // of the line.
   double weight_on_line(uint32_t vertex, const std::vector<uint32_t> &along) const {
     const Vec3 &a = sheet_.at(along[0]), &b = sheet_.at(along[1]);
     const double length2 = (b - a).squaredNorm();
@@ -107,11 +112,11 @@ class Coarsener {
     }
   }
 
-  bool take_next() {
+  bool remove_next() {
     const Crowded next = queue_.top();
     queue_.pop();
     if (stamp_[next.vertex] != next.stamp) return false;
-    const uint32_t to = best_way(next.vertex);
+    const uint32_t to = best_target(next.vertex);
     if (to == none) return false;
     std::vector<uint32_t> around = sheet_.neighbours(next.vertex);
     ++stamp_[next.vertex];
@@ -126,13 +131,14 @@ class Coarsener {
     return true;
   }
 
-  // Chordae go the shortest way, other vertices where the triangles are best and the sheet is
-  // nearest to where they were.
-  uint32_t best_way(uint32_t vertex) const {
+  // Returns the best target: the nearest one for a vertex with chordae; otherwise the one with the
+  // best combination of triangle quality and distance to the old vertex; `none` if no collapse is
+  // allowed.
+  uint32_t best_target(uint32_t vertex) const {
     const bool chordae = chordae_.end_at(vertex);
     uint32_t best = none;
     double best_score = -INFINITY;
-    for (const uint32_t to : ways(vertex)) {
+    for (const uint32_t to : targets(vertex)) {
       if (chordae && !chordae_.may_move(vertex, to)) continue;
       const double quality = sheet_.collapse_quality(vertex, to);
       if (quality < 0) continue;
@@ -146,7 +152,7 @@ class Coarsener {
     return best;
   }
 
-  // How far a vertex would lie from the triangles that take its place.
+  // Distance of a vertex from the triangles that replace it.
   double distance_after(uint32_t vertex, uint32_t to) const {
     double distance2 = (sheet_.at(vertex) - sheet_.at(to)).squaredNorm();
     for (const uint32_t t : sheet_.star(vertex)) {
@@ -165,7 +171,7 @@ class Coarsener {
   LiveSheet sheet_;
   CoarseChordae chordae_;
   std::priority_queue<Crowded> queue_;
-  std::vector<uint32_t> stamp_;  // tells which entry of the queue is the last one
+  std::vector<uint32_t> stamp_;  // identifies the latest queue entry of a vertex
   const std::vector<uint8_t> &held_;
 };
 
@@ -177,52 +183,28 @@ size_t sheet_vertices(const Model &model) {
   return count;
 }
 
-// The nodes that stay, in order.
-std::vector<uint32_t> nodes_left(const Model &model, const LiveSheet &sheet) {
-  std::vector<uint32_t> left;
+// Marks the removed vertices.
+std::vector<uint8_t> removed_nodes(const Model &model, const LiveSheet &sheet) {
+  std::vector<uint8_t> removed(model.node_count(), 0);
   for (uint32_t n = 0; n < model.node_count(); ++n) {
-    if (model.topology.node_triangles[n].empty() || !sheet.star(n).empty()) left.push_back(n);
+    removed[n] = !model.topology.node_triangles[n].empty() && sheet.star(n).empty();
   }
-  return left;
+  return removed;
 }
 
-template <typename T>
-CowVector<T> rows(const CowVector<T> &all, const std::vector<uint32_t> &which) {
-  std::vector<T> some;
-  some.reserve(which.size());
-  for (const uint32_t k : which) some.push_back(all[k]);
-  return some;
-}
-
-// The valve that is left; its triangles have the tissue of the fine triangles they came from.
-Valve valve_left(const Model &model, const Coarsener &work, const std::vector<uint32_t> &nodes) {
-  const Valve &fine = model.valve;
-  std::vector<uint32_t> number(model.node_count(), none), triangles;
-  for (uint32_t k = 0; k < nodes.size(); ++k) number[nodes[k]] = k;
-  for (uint32_t t = 0; t < fine.triangles.size(); ++t) {
-    if (!LiveSheet::is_gone(work.sheet().triangle(t))) triangles.push_back(t);
+// The remaining valve; its triangles have the tissue of the fine triangles they came from.
+Valve remaining_valve(const Model &model, const Coarsener &work,
+                      const std::vector<uint8_t> &removed) {
+  std::vector<uint8_t> removed_triangles;
+  for (const Tri &triangle : work.sheet().triangles()) {
+    removed_triangles.push_back(LiveSheet::is_gone(triangle));
   }
-  Valve valve = fine;
-  for (CowVector<Vec3> *places : {&valve.rest, &valve.open, &valve.loaded}) {
-    *places = rows(*places, nodes);
-  }
-  valve.origin = rows(fine.origin, nodes);
-  valve.triangles = rows(CowVector<Tri>(work.sheet().triangles()), triangles);
-  valve.triangle_leaflet = rows(fine.triangle_leaflet, triangles);
-  valve.triangle_scallop = rows(fine.triangle_scallop, triangles);
-  valve.triangle_thickness = rows(fine.triangle_thickness, triangles);
-  valve.triangle_fibre = rows(fine.triangle_fibre, triangles);
+  Valve valve = model.valve;
+  valve.triangles = work.sheet().triangles();
+  remove_triangles(valve, removed_triangles);
   valve.chords = work.chordae().left();
-  std::erase_if(valve.annulus.edit(), [&](uint32_t node) { return number[node] == none; });
-  for (Tri &triangle : valve.triangles) {
-    for (uint32_t &node : triangle) node = number[node];
-  }
-  for (uint32_t &node : valve.annulus) node = number[node];
-  for (Head &head : valve.heads) head.node = number[head.node];
-  for (Chord &chord : valve.chords) {
-    chord.a = number[chord.a];
-    chord.b = number[chord.b];
-  }
+  std::erase_if(valve.annulus.edit(), [&](uint32_t node) { return removed[node] != 0; });
+  remove_nodes(valve, removed);
   return valve;
 }
 
@@ -250,7 +232,7 @@ CoarseningReport report_of(const Model &fine, const Coarsened &made, const Coars
 }  // namespace
 
 size_t vertices_for_edge(const Model &model, double edge) {
-  // a vertex of a regular sheet has sqrt(3)/2 edge^2; those of a boundary have half of it
+  // a vertex of a regular sheet has an area of sqrt(3)/2 edge^2; one of a boundary has half
   const double area = std::accumulate(model.rest_area.begin(), model.rest_area.end(), 0.0);
   double boundary = 0;
   for (size_t e = 0; e < model.topology.edges.size(); ++e) {
@@ -266,13 +248,17 @@ Coarsened coarsen(const Model &model, size_t vertices) {
            "coarsen: the leaflets have %zu vertices, %zu were asked for: refine for more of them",
            before, vertices);
   Coarsener work(model);
-  const size_t left = before - work.take_out(before - vertices);
+  const size_t left = before - work.remove_vertices(before - vertices);
   MVS_MUST(left == vertices, MVS_E_ARGUMENT, "vertices",
            "coarsen: %zu vertices are too few for this valve, it needs %zu for its annulus, free "
            "edge, borders, chordae and triangles in shape: ask for at least as many",
            vertices, left);
-  std::vector<uint32_t> nodes = nodes_left(model, work.sheet());
-  Valve valve = valve_left(model, work, nodes);
+  const std::vector<uint8_t> removed = removed_nodes(model, work.sheet());
+  std::vector<uint32_t> nodes;
+  for (uint32_t n = 0; n < removed.size(); ++n) {
+    if (!removed[n]) nodes.push_back(n);
+  }
+  Valve valve = remaining_valve(model, work, removed);
   Coarsened made;
   made.model = make_model(valve, &model);
   made.map = make_level_map(*made.model, model, std::move(nodes));

@@ -1,11 +1,11 @@
-// A coarser level of any valve: vertices are taken out of its sheet one by one.
+// A coarser level of any valve by greedy removal of sheet vertices.
 #pragma once
 
 #include "anatomy/level_map.h"
 
 namespace mvs::core {
 
-// What coarsening did to the valve.
+// Summary of a coarsening.
 struct CoarseningReport {
   size_t vertices_before = 0, vertices = 0;  // of the sheet
   uint32_t chords_moved = 0;                 // chordae that end at another vertex
@@ -18,25 +18,25 @@ struct CoarseningReport {
 
 struct Coarsened {
   ModelPtr model;
-  LevelMap map;  // from the valve it was made of, the fine level, to this one
+  LevelMap map;  // from the fine level (the input) to this one
   CoarseningReport report;
 };
 
-// Leaves this many vertices of the sheet. The crowded ones go first, so that edges become even; the
-// order does not depend on the number asked for, so that the vertices of a coarser level are
-// vertices of every finer one made of the same valve.
+// Returns a level with this number of sheet vertices. The most crowded vertices are removed first,
+// so that edges become even. The order does not depend on the number asked for: the vertices of a
+// coarser level are vertices of every finer one made of the same valve.
 //
-// Vertices that stay keep their place and order: results can be compared with those of the fine
-// level node by node, and relaxation, which would move them, is left out; flips of sides keep
-// triangles in shape instead. The annulus, the free edge, and the borders of leaflets and scallops
-// lose vertices along themselves only; where they meet nothing goes. A vertex with chordae goes
-// only to one that has chordae too, and they go with it (CoarseChordae). Thickness and fibres are
-// means over the fine triangles that a coarse one stands for.
+// Remaining vertices keep their place and order, so that results compare with the fine level node
+// by node; relaxation, which would move them, is left out, and edge flips keep triangles well
+// shaped instead. The annulus, the free edge and the borders of leaflets and scallops lose vertices
+// only along themselves; their junctions stay. A vertex with chordae is merged only into one that
+// has chordae too, and its chordae move along (CoarseChordae). Thickness and fibres are means over
+// the fine triangles.
 //
-// Throws MVS_E_ARGUMENT where the valve has fewer vertices than asked for, or needs more.
+// Throws MVS_E_ARGUMENT if the valve has fewer vertices than asked for, or needs more.
 Coarsened coarsen(const Model &model, size_t vertices);
 
-// How many vertices of the sheet a level with edges of this length has, about.
+// Returns the approximate number of sheet vertices of a level with edges of this length.
 size_t vertices_for_edge(const Model &model, double edge);
 
 }  // namespace mvs::core

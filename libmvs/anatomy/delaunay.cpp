@@ -1,13 +1,15 @@
+// Lawson flips with the cotangent criterion on a surface in space.
 #include "anatomy/delaunay.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <tuple>
+
+#include "model/sides.h"
 
 namespace mvs::core {
 namespace {
 
-constexpr int most_sweeps = 100;  // a stop, never reached
+constexpr int most_sweeps = 100;  // safety limit, not reached in practice
 
 double cotangent(const Vec3 &at, const Vec3 &b, const Vec3 &c) {
   return (b - at).dot(c - at) / (b - at).cross(c - at).norm();
@@ -18,7 +20,7 @@ uint32_t corner_facing(const std::vector<Tri> &across, uint32_t triangle, uint32
   return static_cast<uint32_t>(std::find(n.begin(), n.end(), other) - n.begin());
 }
 
-// Triangles a b c and b a d become a d c and d b c if the edge a b is not Delaunay.
+// Replaces triangles a b c and b a d by a d c and d b c if the edge a b is not Delaunay.
 bool flip(HalfSheet &sheet, std::vector<Tri> &across, uint32_t t, uint32_t k) {
   const uint32_t u = across[t][k];
   const uint32_t a = sheet.triangles[t][k], b = sheet.triangles[t][(k + 1) % 3],
@@ -56,43 +58,15 @@ bool on_one_column(const HalfSheet &sheet, uint32_t a, uint32_t b) {
 }
 
 std::vector<Tri> connect(const std::vector<Tri> &triangles) {
-  struct Side {
-    uint32_t low, high, triangle, corner;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-      sides.push_back({a, b, t, k});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side &p, const Side &q) {
-    return std::tie(p.low, p.high, p.triangle) < std::tie(q.low, q.high, q.triangle);
-  });
+  const std::vector<Side> sides = sorted_sides(triangles);
   std::vector<Tri> across(triangles.size(), {none, none, none});
   for (size_t i = 1; i < sides.size(); ++i) {
     const Side &p = sides[i - 1], &q = sides[i];
-    if (p.low != q.low || p.high != q.high) continue;
-    across[p.triangle][p.corner] = q.triangle;
-    across[q.triangle][q.corner] = p.triangle;
+    if (p.edge != q.edge) continue;
+    across[p.triangle][p.k] = q.triangle;
+    across[q.triangle][q.k] = p.triangle;
   }
   return across;
-}
-
-Rows rings_of(const HalfSheet &sheet) {
-  Rows rows;
-  rows.start.assign(sheet.x.size() + 1, 0);
-  for (const Tri &triangle : sheet.triangles) {
-    for (uint32_t i : triangle) ++rows.start[i + 1];
-  }
-  for (size_t i = 1; i < rows.start.size(); ++i) rows.start[i] += rows.start[i - 1];
-  rows.items.resize(rows.start.back());
-  std::vector<uint32_t> next(rows.start.begin(), rows.start.end() - 1);
-  for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
-    for (uint32_t i : sheet.triangles[t]) rows.items[next[i]++] = t;
-  }
-  return rows;
 }
 
 void flip_to_delaunay(HalfSheet &sheet, std::vector<Tri> &across) {

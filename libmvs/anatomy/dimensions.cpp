@@ -1,3 +1,4 @@
+// Checks the fields of mvs_parametric_desc and fills in defaults.
 #include "anatomy/dimensions.h"
 
 #include <cinttypes>
@@ -7,9 +8,7 @@
 namespace mvs::core {
 namespace {
 
-constexpr double mm = 1e-3;
-
-// Takes `given` unless it is zero; refuses what lies outside low .. high (NaN lies nowhere).
+// Assigns `given` unless it is zero; throws outside of low .. high (NaN included).
 void take(double &value, double given, double low, double high, const char *name, const char *unit,
           double in_unit) {
   if (given == 0) return;
@@ -36,22 +35,20 @@ void take_count(uint32_t &value, uint32_t given, uint32_t low, uint32_t high, co
   value = given;
 }
 
-// Dimensions that are each possible but not together.
+void must_not_exceed(double value, const char *name, double factor, double other,
+                     const char *other_name) {
+  MVS_MUST(value <= factor * other, MVS_E_ARGUMENT, name,
+           "parametric valve: %s is %g mm, it must not exceed %g times %s (%g mm)", name,
+           value / mm, factor, other_name, other / mm);
+}
+
+// Checks combinations of dimensions.
 void check_together(const Dimensions &d) {
-  MVS_MUST(d.annulus_ap <= 1.2 * d.annulus_cc, MVS_E_ARGUMENT, "annulus_ap",
-           "parametric valve: annulus_ap is %g mm, it must not exceed 1.2 times annulus_cc (%g mm)",
-           d.annulus_ap / mm, d.annulus_cc / mm);
-  MVS_MUST(d.annulus_cc <= 2.5 * d.annulus_ap, MVS_E_ARGUMENT, "annulus_cc",
-           "parametric valve: annulus_cc is %g mm, it must not exceed 2.5 times annulus_ap (%g mm)",
-           d.annulus_cc / mm, d.annulus_ap / mm);
-  MVS_MUST(d.commissure_height <= 0.3 * d.annulus_cc, MVS_E_ARGUMENT, "commissure_height",
-           "parametric valve: commissure_height is %g mm, it must not exceed 0.3 times annulus_cc "
-           "(%g mm)",
-           d.commissure_height / mm, d.annulus_cc / mm);
-  MVS_MUST(d.indentation_depth <= 0.4 * d.posterior_height, MVS_E_ARGUMENT, "indentation_depth",
-           "parametric valve: indentation_depth is %g mm, it must not exceed 0.4 times "
-           "posterior_height (%g mm)",
-           d.indentation_depth / mm, d.posterior_height / mm);
+  must_not_exceed(d.annulus_ap, "annulus_ap", 1.2, d.annulus_cc, "annulus_cc");
+  must_not_exceed(d.annulus_cc, "annulus_cc", 2.5, d.annulus_ap, "annulus_ap");
+  must_not_exceed(d.commissure_height, "commissure_height", 0.3, d.annulus_cc, "annulus_cc");
+  must_not_exceed(d.indentation_depth, "indentation_depth", 0.4, d.posterior_height,
+                  "posterior_height");
   MVS_MUST(d.papillary_depth >= d.coaptation_depth + 5 * mm, MVS_E_ARGUMENT, "papillary_depth",
            "parametric valve: papillary_depth is %g mm, it must be at least 5 mm more than "
            "coaptation_depth (%g mm)",

@@ -1,4 +1,4 @@
-// The dimensions of a parametric valve: defaults filled in, ranges checked.
+// The dimensions of a parametric valve with defaults filled in and ranges checked.
 #pragma once
 
 #include <mvs/valve.h>
@@ -7,7 +7,10 @@
 
 namespace mvs::core {
 
-// mvs_parametric_desc without its zeros; lengths in m. Sources: README.md of this folder.
+inline constexpr double mm = 1e-3;  // m
+
+// mvs_parametric_desc with defaults in place of zeros; lengths in m. Sources: PARAMETRIC.md of this
+// folder.
 struct Dimensions {
   uint32_t vertices = 425;
   uint32_t chords = 80;
@@ -28,7 +31,7 @@ struct Dimensions {
   double coaptation_depth = 5e-3;
 };
 
-// Throws MVS_E_ARGUMENT naming the field, its value and its range.
+// Throws MVS_E_ARGUMENT with the name, value and range of an invalid field.
 Dimensions resolve_dimensions(const mvs_parametric_desc &desc);
 
 }  // namespace mvs::core

@@ -1,4 +1,5 @@
-// Matching nodes, placing fine ones on the coarse sheet, and carrying states.
+// Matches nodes of two levels by rest position, locates fine nodes on the coarse sheet, and
+// transfers states.
 #include "anatomy/level_map.h"
 
 #include <Eigen/Geometry>
@@ -13,8 +14,8 @@
 namespace mvs::core {
 namespace {
 
-// Nodes in the order of their places, those of the sheet first. Several branch points may lie at
-// one place; they are told apart by their order.
+// Sort key of a node: its rest position, sheet nodes first. Several branch points may have one
+// position; they are matched in order.
 struct Placed {
   bool off_sheet;
   double x, y, z;
@@ -38,7 +39,7 @@ std::vector<Placed> by_place(const Valve &valve) {
   return placed;
 }
 
-// The foot of a point on a triangle's plane and its height above.
+// Returns the orthogonal projection of a point onto the plane of a triangle, and its height.
 LevelPlace place_in(const Model &coarse, uint32_t triangle, const Vec3 &p) {
   const Tri &nodes = coarse.valve.triangles[triangle];
   const Vec3 &a = coarse.valve.rest[nodes[0]];
@@ -50,7 +51,8 @@ LevelPlace place_in(const Model &coarse, uint32_t triangle, const Vec3 &p) {
   return {nodes, {1 - second - third, second, third}, ap.dot(normal) / std::sqrt(area2)};
 }
 
-// For every fine node of the sheet the coarse node that the fewest fine edges lead to.
+// Returns for every fine sheet node the common node with the fewest fine edges in between
+// (breadth-first search).
 std::vector<uint32_t> nearest_coarse(const LevelMap &map, const Model &fine) {
   std::vector<uint32_t> nearest(fine.node_count(), none), queue;
   for (uint32_t c = 0; c < map.fine_of_coarse.size(); ++c) {
@@ -69,7 +71,7 @@ std::vector<uint32_t> nearest_coarse(const LevelMap &map, const Model &fine) {
   return nearest;
 }
 
-// The normal of a triangle, unit, and how it turns when its corners move.
+// The unit normal of a triangle and its rate of change for given corner velocities.
 struct Normal {
   Vec3 direction, rate;
 };
@@ -88,9 +90,9 @@ Vec3 mean(const LevelPlace &place, const std::vector<Vec3> &rows) {
   return sum;
 }
 
-// Whether the held corners of a place, of which there has to be one, are where they are to be held.
+// Returns whether a place has prescribed corners and all of them are at their prescribed positions.
 bool is_held_there(const LevelPlace &place, const Model &coarse, const State &state) {
-  constexpr double there = 1e-9;  // m: far above rounding, far below any motion that is seen
+  constexpr double there = 1e-9;  // m: far above rounding, far below any visible motion
   int held = 0;
   for (const uint32_t node : place.nodes) {
     if (!coarse.topology.fixed[node]) continue;
@@ -99,6 +101,16 @@ bool is_held_there(const LevelPlace &place, const Model &coarse, const State &st
     if ((state.x[node] - target).norm() > there) return false;
   }
   return held > 0;
+}
+
+// The values of a state that do not depend on the mesh.
+State without_nodes(const State &state) {
+  State made = state;
+  made.x.clear();
+  made.v.clear();
+  made.tools.clear();
+  made.drop_cache();
+  return made;
 }
 
 void must_be_levels(bool they_are) {
@@ -156,11 +168,7 @@ double distance_from(const Model &coarse, const LevelPlace &place, const Vec3 &p
 }
 
 State to_fine(const LevelMap &map, const Model &coarse, const Model &fine, const State &state) {
-  State made = state;
-  made.x.clear();
-  made.v.clear();
-  made.tools.clear();
-  made.drop_cache();
+  State made = without_nodes(state);
   for (uint32_t n = 0; n < map.place.size(); ++n) {
     const LevelPlace &place = map.place[n];
     Vec3 x = mean(place, state.x), v = mean(place, state.v);
@@ -180,11 +188,7 @@ State to_fine(const LevelMap &map, const Model &coarse, const Model &fine, const
 }
 
 State to_coarse(const LevelMap &map, const State &state) {
-  State made = state;
-  made.x.clear();
-  made.v.clear();
-  made.tools.clear();
-  made.drop_cache();
+  State made = without_nodes(state);
   for (const uint32_t node : map.fine_of_coarse) {
     made.x.push_back(state.x.get()[node]);
     made.v.push_back(state.v.get()[node]);

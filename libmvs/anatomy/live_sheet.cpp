@@ -1,21 +1,22 @@
-// Half-edge collapses under the link condition (Dey et al. 1999), and flips towards good triangles.
+// Half-edge collapses under the link condition (Dey et al. 1999), and edge flips that improve
+// triangle quality.
 #include "anatomy/live_sheet.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "model/sides.h"
+
 namespace mvs::core {
 namespace {
 
-// A triangle with a smallest angle of about 12 degrees; one this poor may only replace a poorer
-// one.
+// Quality of a triangle with a smallest angle of about 12 degrees; a poorer one may only replace a
+// still poorer one.
 constexpr double poor = 0.3;
-// Cosine of the most that a triangle may turn when a corner or a side of it is replaced: 60
-// degrees.
+// Cosine of the largest rotation of a triangle normal by a collapse or flip: 60 degrees.
 constexpr double turned = 0.5;
-// A flip may not make the sheet this much sharper there, in the cosine of the angle between
-// normals.
+// Largest increase of the crease at a flipped edge, in the cosine of the angle between normals.
 constexpr double sharper = 0.1;
 
 enum Rim : uint8_t { inside, annulus, free_edge };
@@ -29,14 +30,7 @@ bool has(const Tri &triangle, uint32_t vertex) {
   return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
 }
 
-uint32_t third_corner(const Tri &triangle, uint32_t a, uint32_t b) {
-  for (const uint32_t corner : triangle) {
-    if (corner != a && corner != b) return corner;
-  }
-  return none;
-}
-
-// Whether the triangle runs from a to b.
+// Returns whether the triangle traverses the edge from a to b.
 bool runs(const Tri &t, uint32_t a, uint32_t b) {
   return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
 }
@@ -72,8 +66,8 @@ Vec3 LiveSheet::normal(const Tri &triangle) const {
   return (x_[triangle[1]] - a).cross(x_[triangle[2]] - a).normalized();
 }
 
-// Whether a triangle leaves the sheet no freedom: all of it is held, or it leads from the annulus
-// to the free edge without a vertex between.
+// Returns whether a triangle is over-constrained: all corners on the annulus, or corners on both
+// annulus and free edge.
 bool LiveSheet::too_stiff(const Tri &triangle) const {
   int on[3] = {0, 0, 0};
   for (const uint32_t corner : triangle) ++on[rim_[corner]];
@@ -81,15 +75,7 @@ bool LiveSheet::too_stiff(const Tri &triangle) const {
 }
 
 std::vector<uint32_t> LiveSheet::neighbours(uint32_t vertex) const {
-  std::vector<uint32_t> around;
-  for (const uint32_t t : star_[vertex]) {
-    for (const uint32_t corner : triangles_[t]) {
-      if (corner != vertex) around.push_back(corner);
-    }
-  }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  return around;
+  return neighbours_in(triangles_, star_[vertex], vertex);
 }
 
 LiveSheet::Pair LiveSheet::at_side(uint32_t a, uint32_t b) const {
@@ -115,9 +101,9 @@ std::vector<uint32_t> LiveSheet::along_lines(uint32_t vertex) const {
   return along;
 }
 
-// The vertices that are neighbours of both are opposite to the side between them: then a collapse
-// does not change the topology. A vertex of a boundary goes along the boundary only, see
-// along_lines.
+// Link condition: the common neighbours of both vertices are exactly those opposite to the side
+// between them; then a collapse keeps the topology. A boundary vertex moves along the boundary
+// only, see along_lines.
 bool LiveSheet::link_holds(uint32_t gone, uint32_t kept) const {
   const std::vector<uint32_t> a = neighbours(gone), b = neighbours(kept);
   std::vector<uint32_t> common;
@@ -164,10 +150,10 @@ void LiveSheet::collapse(uint32_t gone, uint32_t kept) {
   std::sort(star_[kept].begin(), star_[kept].end());
 }
 
-// Whether two triangles may be replaced by these, and are better then.
+// Returns whether replacing two triangles by two others is allowed and improves them.
 bool LiveSheet::flip_helps(const std::array<Tri, 2> &old, const std::array<Tri, 2> &made) const {
   const double before = std::min(quality(old[0]), quality(old[1]));
-  // above rounding, so that flips come to an end: each raises the worst quality of a pair
+  // above rounding, so that flips terminate: each raises the worst quality of a pair
   constexpr double gain = 1e-9;
   if (std::min(quality(made[0]), quality(made[1])) <= before + gain) return false;
   const bool stiff = too_stiff(old[0]) || too_stiff(old[1]);
@@ -182,13 +168,14 @@ bool LiveSheet::flip_helps(const std::array<Tri, 2> &old, const std::array<Tri, 
   return m[0].dot(m[1]) > n[0].dot(n[1]) - sharper;
 }
 
-// Flips the side between a and b if that helps; its triangles keep their scallop.
+// Flips the side between a and b if that improves its triangles; they keep their scallop.
 bool LiveSheet::flip(uint32_t a, uint32_t b) {
   const Pair pair = at_side(a, b);
   if (pair.count != 2 || scallop_[pair.triangle[0]] != scallop_[pair.triangle[1]]) return false;
   auto [t, u] = pair.triangle;
   if (!runs(triangles_[t], a, b)) std::swap(t, u);
-  const uint32_t c = third_corner(triangles_[t], a, b), d = third_corner(triangles_[u], a, b);
+  const uint32_t c = opposite_corner(triangles_[t], {a, b});
+  const uint32_t d = opposite_corner(triangles_[u], {a, b});
   const bool too_few = star_[a].size() <= 3 || star_[b].size() <= 3;
   if (too_few || joined(c, d)) return false;
   const std::array<Tri, 2> made = {Tri{a, d, c}, Tri{d, b, c}};

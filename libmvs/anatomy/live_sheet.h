@@ -1,4 +1,4 @@
-// A sheet that changes: collapses of one vertex into a neighbour, and flips. Vertices do not move.
+// A triangle sheet under half-edge collapses and edge flips. Vertices do not move.
 #pragma once
 
 #include <vector>
@@ -17,20 +17,19 @@ class LiveSheet {
   static bool is_gone(const Tri &triangle) { return triangle[0] == none; }
   const Vec3 &at(uint32_t vertex) const { return x_[vertex]; }
 
-  // The vertices around one, ascending.
+  // Returns the neighbours of a vertex, ascending.
   std::vector<uint32_t> neighbours(uint32_t vertex) const;
-  // Those along the lines that are kept: boundaries, borders of leaflets and scallops. None inside
-  // a scallop, two on a line, another number where lines meet or end.
+  // Returns the neighbours along feature lines: boundaries, borders of leaflets and scallops. Zero
+  // inside a scallop, two on a line, another number at junctions and ends of lines.
   std::vector<uint32_t> along_lines(uint32_t vertex) const;
 
-  // Whether the sheet stays one when `gone` becomes `kept`: manifold, with the same boundaries and
-  // scallops, no triangle folded over or worse than poor, none held at all corners, and none that
-  // reaches from the annulus to the free edge. Says how good the worst new triangle would be;
-  // negative if it may not be.
+  // Returns the quality of the worst new triangle if `gone` is merged into `kept`; negative if that
+  // is not allowed: the sheet stays manifold with the same boundaries and scallops, and no triangle
+  // folds over, gets poor, has all corners prescribed, or joins annulus and free edge.
   double collapse_quality(uint32_t gone, uint32_t kept) const;
   void collapse(uint32_t gone, uint32_t kept);
 
-  // Flips sides around a vertex, and on from there, while the worse of two triangles gets better.
+  // Flips sides around a vertex, and from there on, as long as the worse of two triangles improves.
   void flip_around(uint32_t vertex);
 
   // 1 for an equilateral triangle, 0 for a flat one.
@@ -38,7 +37,7 @@ class LiveSheet {
 
  private:
   struct Pair {
-    uint32_t count = 0;  // of triangles at a side
+    uint32_t count = 0;  // number of triangles at a side
     std::array<uint32_t, 2> triangle = {none, none};
   };
   Pair at_side(uint32_t a, uint32_t b) const;
@@ -55,7 +54,7 @@ class LiveSheet {
   const std::vector<uint32_t> &scallop_;
   std::vector<Tri> triangles_;
   std::vector<std::vector<uint32_t>> star_;
-  std::vector<uint32_t> scallop_size_;  // triangles left
+  std::vector<uint32_t> scallop_size_;  // number of remaining triangles
   std::vector<uint8_t> rim_;            // 1: annulus, 2: free edge
 };
 

@@ -1,3 +1,5 @@
+// Assembles a parametric valve from a mesh of one half and its mirror image, with named parts,
+// chordae and boundary conditions.
 #include "anatomy/parametric.h"
 
 #include <algorithm>
@@ -10,14 +12,14 @@
 namespace mvs::core {
 namespace {
 
-// The middle scallop of the anterior leaflet reaches this share of the way to a commissure.
+// A2 extends to this share of the angle between its middle and a commissure.
 constexpr double a2_share = 0.42;
-// A branch node lies this share of the way from the papillary tip to the leaflet.
+// Position of a branch node between papillary tip and leaflet, as a share from the tip.
 constexpr double trunk_share = 0.6;
 
 enum ScallopIndex : uint32_t { a1, a2, a3, p1, p2, p3 };
 
-// On the posteromedial half if `medial`, else on its mirror image.
+// Returns the scallop at an angle: on the posteromedial half if `medial`, else on its mirror image.
 uint32_t scallop_at(double theta, bool medial) {
   if (theta < a2_share * Shape::commissure) return a2;
   if (theta <= Shape::commissure) return medial ? a3 : a1;
@@ -25,161 +27,164 @@ uint32_t scallop_at(double theta, bool medial) {
   return p2;
 }
 
-Vec3 mirrored(const Vec3 &x) {
-  return {-x.x(), x.y(), x.z()};
+// The smooth shape, its half mesh, and the vertex of the other half that mirrors each of its
+// vertices.
+struct Halves {
+  const Dimensions &dimensions;
+  const Shape &shape;
+  const HalfSheet &sheet;
+  std::vector<uint32_t> image;
+};
+
+// A point of the posteromedial half, or its mirror image.
+Vec3 on_half(const Vec3 &x, bool medial) {
+  return medial ? x : Vec3(-x.x(), x.y(), x.z());
 }
 
-class Builder {
- public:
-  explicit Builder(const Dimensions &d)
-      : d_(d), shape_(d), sheet_(mesh_half_sheet(shape_, d.vertices)) {}
+uint32_t count_of(const CowVector<Vec3> &nodes) {
+  return static_cast<uint32_t>(nodes.size());
+}
 
-  Valve build() {
-    name_parts();
-    add_vertices();
-    add_triangles();
-    add_annulus();
-    add_chordae();
-    load_boundary();
-    return std::move(valve_);
+void name_parts(const Dimensions &d, Valve &valve) {
+  valve.name = "parametric mitral valve";
+  for (const char *name : {"A", "P"}) {
+    Leaflet leaflet;
+    leaflet.name = name;
+    leaflet.thickness = d.thickness;
+    valve.leaflets.push_back(leaflet);
   }
-
- private:
-  void name_parts() {
-    valve_.name = "parametric mitral valve";
-    for (const char *name : {"A", "P"}) {
-      Leaflet leaflet;
-      leaflet.name = name;
-      leaflet.thickness = d_.thickness;
-      valve_.leaflets.push_back(leaflet);
-    }
-    for (const char *name : {"A1", "A2", "A3", "P1", "P2", "P3"}) {
-      valve_.scallops.push_back({0, name, name[0] == 'A' ? 0u : 1u});
-    }
+  for (const char *name : {"A1", "A2", "A3", "P1", "P2", "P3"}) {
+    valve.scallops.push_back({0, name, name[0] == 'A' ? 0u : 1u});
   }
+}
 
-  // The medial half as it is, then the mirror images of all but the mirror's own vertices.
-  void add_vertices() {
-    valve_.rest = sheet_.x;
-    for (uint32_t i = 0; i < sheet_.x.size(); ++i) {
-      if (sheet_.sides[i] & on_mirror) {
-        image_.push_back(i);
-      } else {
-        image_.push_back(static_cast<uint32_t>(valve_.rest.size()));
-        valve_.rest.push_back(mirrored(sheet_.x[i]));
-      }
-    }
+// Adds the vertices of the medial half, then the mirror images of those that are not on the mirror
+// plane; fills `image`.
+void add_vertices(Halves &halves, Valve &valve) {
+  const HalfSheet &sheet = halves.sheet;
+  valve.rest = sheet.x;
+  for (uint32_t i = 0; i < sheet.x.size(); ++i) {
+    const bool shared = (sheet.sides[i] & on_mirror) != 0;
+    halves.image.push_back(shared ? i : count_of(valve.rest));
+    if (!shared) valve.rest.push_back(on_half(sheet.x[i], false));
   }
+}
 
-  void add_triangles() {
-    for (bool medial : {true, false}) {
-      for (const auto &[a, b, c] : sheet_.triangles) {
-        const auto &p = sheet_.place;
-        const uint32_t scallop = scallop_at((p[a].theta + p[b].theta + p[c].theta) / 3, medial);
-        valve_.triangles.push_back(medial ? Tri{a, b, c} : Tri{image_[a], image_[c], image_[b]});
-        valve_.triangle_scallop.push_back(scallop);
-        valve_.triangle_leaflet.push_back(valve_.scallops[scallop].leaflet);
-      }
+void add_triangles(const Halves &halves, Valve &valve) {
+  const std::vector<uint32_t> &image = halves.image;
+  for (bool medial : {true, false}) {
+    for (const auto &[a, b, c] : halves.sheet.triangles) {
+      const auto &p = halves.sheet.place;
+      const uint32_t scallop = scallop_at((p[a].theta + p[b].theta + p[c].theta) / 3, medial);
+      valve.triangles.push_back(medial ? Tri{a, b, c} : Tri{image[a], image[c], image[b]});
+      valve.triangle_scallop.push_back(scallop);
+      valve.triangle_leaflet.push_back(valve.scallops[scallop].leaflet);
     }
   }
+}
 
-  // From the A point over the posteromedial commissure and the P point back.
-  void add_annulus() {
-    for (uint32_t i = 0; i < sheet_.x.size(); ++i) {
-      if (sheet_.sides[i] & on_annulus) valve_.annulus.push_back(i);
-    }
-    for (size_t i = valve_.annulus.size() - 2; i > 0; --i) {
-      valve_.annulus.push_back(image_[valve_.annulus[i]]);
-    }
+// From the A point over the posteromedial commissure to the P point, and back over the other half.
+void add_annulus(const Halves &halves, Valve &valve) {
+  for (uint32_t i = 0; i < halves.sheet.x.size(); ++i) {
+    if (halves.sheet.sides[i] & on_annulus) valve.annulus.push_back(i);
   }
-
-  void add_chordae() {
-    const std::vector<Tree> trees = plan_trees(shape_, sheet_, d_);
-    for (bool medial : {false, true}) {
-      const uint32_t first_head = add_heads(medial);
-      for (const Tree &tree : trees) add_tree(tree, first_head, medial);
-    }
-    name_chordae();
+  for (size_t i = valve.annulus.size() - 2; i > 0; --i) {
+    valve.annulus.push_back(halves.image[valve.annulus[i]]);
   }
+}
 
-  uint32_t add_heads(bool medial) {
-    const uint32_t first = static_cast<uint32_t>(valve_.rest.size());
-    int number = 0;
-    for (const Vec3 &tip : shape_.medial_tips()) {
-      const uint32_t node = static_cast<uint32_t>(valve_.rest.size());
-      valve_.heads.push_back({0, format("%s%d", medial ? "PM" : "AL", ++number), node});
-      valve_.rest.push_back(medial ? tip : mirrored(tip));
-    }
-    return first;
+uint32_t add_heads(const Shape &shape, bool medial, Valve &valve) {
+  const uint32_t first = count_of(valve.rest);
+  int number = 0;
+  for (const Vec3 &tip : shape.medial_tips()) {
+    valve.heads.push_back(
+        {0, format("%s%d", medial ? "PM" : "AL", ++number), count_of(valve.rest)});
+    valve.rest.push_back(on_half(tip, medial));
   }
+  return first;
+}
 
-  void add_tree(const Tree &tree, uint32_t first_head, bool medial) {
-    const Vec3 tip = shape_.medial_tips()[tree.front().tip];
-    uint32_t from = first_head + tree.front().tip;
-    Vec3 from_closed = tip;
-    if (tree.size() > 1) {
-      Vec3 open = Vec3::Zero(), closed = Vec3::Zero();
-      for (const Attachment &a : tree) {
-        open += sheet_.x[a.vertex] / static_cast<double>(tree.size());
-        closed += shape_.closed(sheet_.place[a.vertex]) / static_cast<double>(tree.size());
-      }
-      const Vec3 node = tip + trunk_share * (open - tip);
-      from_closed = tip + trunk_share * (closed - tip);
-      const uint32_t trunk_end = static_cast<uint32_t>(valve_.rest.size());
-      valve_.rest.push_back(medial ? node : mirrored(node));
-      add_chord(from, trunk_end, MVS_CHORD_KIND_TRUNK, (from_closed - tip).norm(),
-                scallop_of(tree[tree.size() / 2], medial));
-      from = trunk_end;
-    }
-    for (const Attachment &a : tree) {
-      const double length = (shape_.closed(sheet_.place[a.vertex]) - from_closed).norm();
-      add_chord(from, medial ? a.vertex : image_[a.vertex], a.kind, length, scallop_of(a, medial));
-    }
-  }
+// One half of a valve to which chordae are added; chords get the names of their scallops, numbered
+// within each scallop in the order of the list: "P2/3".
+struct ChordBuilder {
+  const Halves &halves;
+  bool medial;
+  Valve &valve;
+  std::array<int, 6> &number;
 
-  uint32_t scallop_of(const Attachment &a, bool medial) const {
-    return scallop_at(sheet_.place[a.vertex].theta, medial);
-  }
-
-  void add_chord(uint32_t a, uint32_t b, uint32_t kind, double length, uint32_t scallop) {
+  void add(uint32_t a, uint32_t b, uint32_t kind, double length, const Attachment &at) {
+    const uint32_t scallop = scallop_at(halves.sheet.place[at.vertex].theta, medial);
     Chord chord;
     chord.a = a;
     chord.b = b;
     chord.kind = kind;
-    chord.rest_length = d_.chord_slack * length;
-    valve_.chords.push_back(chord);
-    chord_scallop_.push_back(scallop);
+    chord.rest_length = halves.dimensions.chord_slack * length;
+    chord.name = format("%s/%d", valve.scallops.get()[scallop].name.c_str(), ++number[scallop]);
+    valve.chords.push_back(chord);
   }
-
-  // "P2/3": numbered within each scallop in the order of the list, lateral muscle first.
-  void name_chordae() {
-    std::array<int, 6> number{};
-    for (size_t i = 0; i < valve_.chords.size(); ++i) {
-      const uint32_t scallop = chord_scallop_[i];
-      valve_.chords[i].name =
-          format("%s/%d", valve_.scallops[scallop].name.c_str(), ++number[scallop]);
-    }
-  }
-
-  void load_boundary() {
-    valve_.loaded = valve_.rest;
-    for (uint32_t node : valve_.annulus) {
-      valve_.loaded[node] *= d_.annulus_contraction * d_.annulus_scale;
-    }
-  }
-
-  Dimensions d_;
-  Shape shape_;
-  HalfSheet sheet_;
-  std::vector<uint32_t> image_;  // of each vertex of the half sheet on the lateral half
-  std::vector<uint32_t> chord_scallop_;
-  Valve valve_;
 };
+
+void add_tree(const Tree &tree, uint32_t first_head, ChordBuilder &builder) {
+  const auto &[halves, medial, valve, number] = builder;
+  const auto closed = [&](const Attachment &a) {
+    return halves.shape.closed(halves.sheet.place[a.vertex]);
+  };
+  const Vec3 tip = halves.shape.medial_tips()[tree.front().tip];
+  uint32_t from = first_head + tree.front().tip;
+  Vec3 from_closed = tip;
+  if (tree.size() > 1) {
+    Vec3 mean_open = Vec3::Zero(), mean_closed = Vec3::Zero();
+    for (const Attachment &a : tree) {
+      mean_open += halves.sheet.x[a.vertex] / static_cast<double>(tree.size());
+      mean_closed += closed(a) / static_cast<double>(tree.size());
+    }
+    const Vec3 node = tip + trunk_share * (mean_open - tip);
+    from_closed = tip + trunk_share * (mean_closed - tip);
+    const uint32_t trunk_end = count_of(valve.rest);
+    valve.rest.push_back(on_half(node, medial));
+    builder.add(from, trunk_end, MVS_CHORD_KIND_TRUNK, (from_closed - tip).norm(),
+                tree[tree.size() / 2]);
+    from = trunk_end;
+  }
+  for (const Attachment &a : tree) {
+    const uint32_t vertex = medial ? a.vertex : halves.image[a.vertex];
+    builder.add(from, vertex, a.kind, (closed(a) - from_closed).norm(), a);
+  }
+}
+
+// The lateral muscle first.
+void add_chordae(const Halves &halves, Valve &valve) {
+  const std::vector<Tree> trees = plan_trees(halves.shape, halves.sheet, halves.dimensions);
+  std::array<int, 6> number{};
+  for (bool medial : {false, true}) {
+    const uint32_t first_head = add_heads(halves.shape, medial, valve);
+    ChordBuilder builder{halves, medial, valve, number};
+    for (const Tree &tree : trees) add_tree(tree, first_head, builder);
+  }
+}
+
+void load_boundary(const Dimensions &d, Valve &valve) {
+  valve.loaded = valve.rest;
+  for (uint32_t node : valve.annulus) {
+    valve.loaded[node] *= d.annulus_contraction * d.annulus_scale;
+  }
+}
 
 }  // namespace
 
 Valve make_parametric_valve(const mvs_parametric_desc &desc) {
-  return Builder(resolve_dimensions(desc)).build();
+  const Dimensions d = resolve_dimensions(desc);
+  const Shape shape(d);
+  const HalfSheet sheet = mesh_half_sheet(shape, d.vertices);
+  Halves halves{d, shape, sheet, {}};
+  Valve valve;
+  name_parts(d, valve);
+  add_vertices(halves, valve);
+  add_triangles(halves, valve);
+  add_annulus(halves, valve);
+  add_chordae(halves, valve);
+  load_boundary(d, valve);
+  return valve;
 }
 
 }  // namespace mvs::core

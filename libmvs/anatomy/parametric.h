@@ -1,4 +1,5 @@
-// A parametric mitral valve: annulus, two leaflets, two papillary heads, chordae that let it close.
+// Parametric mitral valve: annulus, two leaflets, two papillary muscles, chordae that permit
+// closure.
 #pragma once
 
 #include <mvs/valve.h>
@@ -7,8 +8,8 @@
 
 namespace mvs::core {
 
-// Zeros in `desc` take the defaults stated in include/mvs/valve.h; throws MVS_E_ARGUMENT with the
-// name of a dimension that no valve can have.
+// Zeros in `desc` stand for the defaults of include/mvs/valve.h. Throws MVS_E_ARGUMENT with the
+// name of an invalid dimension.
 Valve make_parametric_valve(const mvs_parametric_desc &desc);
 
 }  // namespace mvs::core

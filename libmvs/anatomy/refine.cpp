@@ -1,14 +1,13 @@
-// The children of a triangle: its three corners with the middles of their sides, and the middles.
+// Uniform 1:4 subdivision of triangles at the midpoints of their sides.
 #include "anatomy/refine.h"
 
-#include <algorithm>
-
 #include "base/error.h"
+#include "model/valve_arrays.h"
 
 namespace mvs::core {
 namespace {
 
-// What a list of a valve may hold (model/check_lists.cpp).
+// Largest length of a list (model/check_lists.cpp).
 constexpr size_t list_limit = size_t{1} << 24;
 
 template <typename T>
@@ -19,66 +18,48 @@ std::vector<T> four_times(const std::vector<T> &rows) {
   return four;
 }
 
-class Refiner {
- public:
-  explicit Refiner(const Model &model) : old_(model), valve_(model.valve) {}
+// The node at the midpoint of an edge.
+uint32_t midpoint_of(const Model &old, size_t edge) {
+  return static_cast<uint32_t>(old.node_count() + edge);
+}
 
-  Valve run() {
-    add_middles();
-    cut_triangles();
-    cut_annulus();
-    return std::move(valve_);
+void add_midpoints(const Model &old, Valve &valve) {
+  for (const auto &[a, b] : old.topology.edges) {
+    const Vec3 middle = 0.5 * (old.valve.rest[a] + old.valve.rest[b]);
+    valve.rest.push_back(middle);
+    valve.open.push_back(middle);
+    valve.loaded.push_back(middle);
+    valve.origin.push_back(none);
   }
+}
 
- private:
-  uint32_t middle_of(size_t edge) const { return static_cast<uint32_t>(old_.node_count() + edge); }
-
-  void add_middles() {
-    for (const auto &[a, b] : old_.topology.edges) {
-      const Vec3 middle = 0.5 * (old_.valve.rest[a] + old_.valve.rest[b]);
-      valve_.rest.push_back(middle);
-      valve_.open.push_back(middle);
-      valve_.loaded.push_back(middle);
-      valve_.origin.push_back(none);
-    }
+void split_triangles(const Model &old, Valve &valve) {
+  const std::vector<Tri> &coarse = old.valve.triangles;
+  std::vector<Tri> triangles;
+  triangles.reserve(4 * coarse.size());
+  for (size_t t = 0; t < coarse.size(); ++t) {
+    const auto &[a, b, c] = coarse[t];
+    const Tri &edges = old.topology.triangle_edges[t];
+    const uint32_t ab = midpoint_of(old, edges[0]), bc = midpoint_of(old, edges[1]),
+                   ca = midpoint_of(old, edges[2]);
+    triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
   }
+  valve.triangles = std::move(triangles);
+  for_each_triangle_array([&](auto array) { valve.*array = four_times((old.valve.*array).get()); });
+}
 
-  void cut_triangles() {
-    const std::vector<Tri> &old = old_.valve.triangles;
-    std::vector<Tri> triangles;
-    triangles.reserve(4 * old.size());
-    for (size_t t = 0; t < old.size(); ++t) {
-      const auto &[a, b, c] = old[t];
-      const Tri &edges = old_.topology.triangle_edges[t];
-      const uint32_t ab = middle_of(edges[0]), bc = middle_of(edges[1]), ca = middle_of(edges[2]);
-      triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    valve_.triangles = std::move(triangles);
-    valve_.triangle_leaflet = four_times(old_.valve.triangle_leaflet.get());
-    valve_.triangle_scallop = four_times(old_.valve.triangle_scallop.get());
-    valve_.triangle_thickness = four_times(old_.valve.triangle_thickness.get());
-    valve_.triangle_fibre = four_times(old_.valve.triangle_fibre.get());
+void split_annulus(const Model &old, Valve &valve) {
+  const std::vector<uint32_t> &coarse = old.valve.annulus;
+  std::vector<uint32_t> annulus;
+  for (size_t k = 0; k < coarse.size(); ++k) {
+    const uint32_t from = coarse[k], to = coarse[(k + 1) % coarse.size()];
+    const uint32_t middle = midpoint_of(old, edge_between(old.topology, from, to));
+    valve.open[middle] = 0.5 * (old.valve.open[from] + old.valve.open[to]);
+    valve.loaded[middle] = 0.5 * (old.valve.loaded[from] + old.valve.loaded[to]);
+    annulus.insert(annulus.end(), {from, middle});
   }
-
-  void cut_annulus() {
-    const std::vector<uint32_t> &old = old_.valve.annulus;
-    const std::vector<Edge> &edges = old_.topology.edges;
-    std::vector<uint32_t> annulus;
-    for (size_t k = 0; k < old.size(); ++k) {
-      const uint32_t from = old[k], to = old[(k + 1) % old.size()];
-      const Edge side = {std::min(from, to), std::max(from, to)};
-      const auto edge = std::lower_bound(edges.begin(), edges.end(), side) - edges.begin();
-      const uint32_t middle = middle_of(static_cast<size_t>(edge));
-      valve_.open[middle] = 0.5 * (old_.valve.open[from] + old_.valve.open[to]);
-      valve_.loaded[middle] = 0.5 * (old_.valve.loaded[from] + old_.valve.loaded[to]);
-      annulus.insert(annulus.end(), {from, middle});
-    }
-    valve_.annulus = std::move(annulus);
-  }
-
-  const Model &old_;
-  Valve valve_;
-};
+  valve.annulus = std::move(annulus);
+}
 
 }  // namespace
 
@@ -87,7 +68,11 @@ Valve refine(const Model &model) {
   MVS_MUST(4 * triangles <= list_limit, MVS_E_ARGUMENT, "triangles",
            "refine: %zu triangles would become %zu, the limit is %zu: this level is the finest",
            triangles, 4 * triangles, list_limit);
-  return Refiner(model).run();
+  Valve valve = model.valve;
+  add_midpoints(model, valve);
+  split_triangles(model, valve);
+  split_annulus(model, valve);
+  return valve;
 }
 
 }  // namespace mvs::core

@@ -1,3 +1,4 @@
+// Isotropic remeshing on a parametric surface (Botsch & Kobbelt 2004).
 #include "anatomy/remesh.h"
 
 #include <Eigen/Geometry>
@@ -5,15 +6,17 @@
 #include <cmath>
 
 #include "anatomy/delaunay.h"
+#include "model/sides.h"
 
 namespace mvs::core {
 namespace {
 
-constexpr int rounds = 8;        // sizes settle in about 6
+constexpr int rounds = 8;        // sizes converge in about 6
 constexpr int last_rounds = 8;   // of flips and smoothing alone
-constexpr int most_passes = 40;  // of splits or collapses in one round: a stop, never reached
+constexpr int most_passes = 40;  // of splits or collapses in one round: safety limit
 
-// An edge outside low .. high is nearer to the wanted length after a collapse or a split.
+// Relative edge lengths: below `low` a collapse, above `high` a split brings an edge nearer to the
+// target.
 constexpr double low = 4.0 / 5, high = 4.0 / 3;
 
 Place between(const Place &a, const Place &b, double share) {
@@ -56,7 +59,7 @@ class Remesher {
     return static_cast<uint32_t>(s_.x.size() - 1);
   }
 
-  // One pass over the long edges, longest first; a triangle is cut at most once a pass.
+  // One pass over the long edges, longest first; a triangle is split at most once in a pass.
   bool split_long() {
     struct Long {
       double length;
@@ -99,9 +102,9 @@ class Remesher {
     }
   }
 
-  // One pass over all edges; collapses of one pass do not touch each other.
+  // One pass over all edges; collapses of one pass have disjoint neighbourhoods.
   bool collapse_short() {
-    ring_ = rings_of(s_);
+    ring_ = rows_of(s_.x.size(), s_.triangles);
     std::vector<uint8_t> locked(s_.x.size(), 0);
     bool any = false;
     for (uint32_t t = 0; t < s_.triangles.size(); ++t) {
@@ -123,7 +126,7 @@ class Remesher {
     return any;
   }
 
-  // Whether vertex a may be merged into b.
+  // Returns whether vertex a may be merged into b.
   bool can_collapse(uint32_t a, uint32_t b, bool curve, const std::vector<uint8_t> &locked) const {
     if (s_.sides[a] != 0 && (!curve || s_.sides[a] != (s_.sides[a] & s_.sides[b]))) return false;
     if (is_corner(s_.sides[a])) return false;
@@ -163,20 +166,12 @@ class Remesher {
     }
   }
 
-  // The vertices around one, ascending.
+  // The neighbours of a vertex, ascending.
   std::vector<uint32_t> neighbours(uint32_t vertex) const {
-    std::vector<uint32_t> around;
-    for (uint32_t i = ring_.start[vertex]; i < ring_.start[vertex + 1]; ++i) {
-      for (uint32_t corner : s_.triangles[ring_.items[i]]) {
-        if (corner != vertex) around.push_back(corner);
-      }
-    }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    return around;
+    return neighbours_in(s_.triangles, ring_[vertex], vertex);
   }
 
-  // Drops collapsed triangles and the vertices that no triangle uses.
+  // Removes collapsed triangles and unused vertices.
   void compact() {
     std::erase_if(s_.triangles, [](const Tri &t) { return t[0] == none; });
     std::vector<uint32_t> number(s_.x.size(), none);
@@ -201,7 +196,7 @@ class Remesher {
   }
 
   void smooth() {
-    ring_ = rings_of(s_);
+    ring_ = rows_of(s_.x.size(), s_.triangles);
     for (uint32_t i = 0; i < s_.x.size(); ++i) {
       if (is_corner(s_.sides[i])) continue;
       move(i, s_.sides[i] == 0 ? centre_of_ring(i) : middle_of_curve(i));
@@ -220,7 +215,8 @@ class Remesher {
     s_.x[vertex] = old_x;
   }
 
-  // The mean of the triangles around, weighted by area: large ones draw the vertex in.
+  // Area-weighted mean of the centroids of the surrounding triangles: large triangles attract the
+  // vertex.
   Place centre_of_ring(uint32_t vertex) const {
     Place sum;
     double weight = 0;
@@ -235,7 +231,7 @@ class Remesher {
     return {sum.theta / weight, sum.v / weight};
   }
 
-  // A vertex on a curve moves towards the farther of its two neighbours there.
+  // A vertex on a curve moves towards the farther of its two neighbours on the curve.
   Place middle_of_curve(uint32_t vertex) const {
     const bool column = s_.sides[vertex] & on_column;
     const auto along = [&](uint32_t i) { return column ? s_.place[i].v : s_.place[i].theta; };
@@ -252,7 +248,7 @@ class Remesher {
                      : between(s_.place[vertex], s_.place[before], -shift / back);
   }
 
-  // Negative when the triangle is turned over.
+  // Quality of a triangle; negative if it is inverted.
   double quality(const Tri &triangle) const {
     const auto &[a, b, c] = triangle;
     if (signed_area(s_.place[a], s_.place[b], s_.place[c]) <= 0) return -1;

@@ -1,3 +1,4 @@
+// Smooth surface of a parametric valve: closed formulas of PARAMETRIC.md.
 #include "anatomy/shape.h"
 
 #include <algorithm>
@@ -8,34 +9,32 @@
 namespace mvs::core {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double mm = 1e-3;
-
 // The annulus is y = AP/2 (cos + flatness sin^2): 0 is an ellipse, 1/2 a straight anterior side.
 constexpr double flatness = 0.3;
-// Where the clefts beside P2 lie, and how wide they are, as a share of the way from the P point to
-// a commissure.
+// Position and width of the clefts beside P2, as a share of the angle from the P point to a
+// commissure.
 constexpr double cleft = 0.38;
 constexpr double cleft_width = 0.1;
-// The open leaflet leaves the annulus leaning inwards and turns to hang almost straight down.
+// Tilt of the open leaflet at annulus and free edge, rad: it leans inwards and turns until it hangs
+// almost vertically.
 constexpr double tilt_annulus = 1.0;
 constexpr double tilt_edge = 0.05;
-// Seen from above it leans towards the coaptation line, and this share of its x towards the middle.
+// The lean is directed to the coaptation line, with this share of its x towards the middle.
 constexpr double inward_pull = 0.8;
-// Of the AP diameter, the leaflets may lean over at most this share: the open orifice stays open.
+// Largest sum of both leans as a share of the AP diameter, so that the open orifice stays open.
 constexpr double greatest_lean = 0.65;
-// The coaptation line lies this share of the way from the posterior to the anterior annulus, and
-// spans this share of the width.
+// Position of the coaptation line from posterior to anterior annulus, and its width, as shares.
 constexpr double coaptation_share = 0.4;
 constexpr double coaptation_span = 0.86;
-// How much longer than at rest a loaded leaflet is: a little less than the kink of its law.
+// Length of a loaded leaflet over its rest length: slightly below the kink of its law.
 constexpr double closed_stretch = 1.15;
 
 double square(double a) {
   return a * a;
 }
 
-// Inward and downward run of a leaflet that turns evenly from tilt a to tilt b, at share v.
+// Returns inward and downward distance at share v along a leaflet of unit length that turns evenly
+// from tilt a to tilt b.
 std::array<double, 2> generator(double a, double b, double v) {
   const double here = a + (b - a) * v;
   return {(math::cos(a) - math::cos(here)) / (b - a), (math::sin(here) - math::sin(a)) / (b - a)};

@@ -1,6 +1,7 @@
-// The smooth surface every mesh of a parametric valve is taken from: open, and as it should close.
+// Smooth surface of a parametric valve, open and in its closed target shape.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "anatomy/dimensions.h"
@@ -8,28 +9,30 @@
 
 namespace mvs::core {
 
-// A place on the leaflets: angle theta around the annulus, 0 at the A point, +-pi at the P point,
+inline constexpr double pi = std::numbers::pi;
+
+// Surface coordinates: angle theta around the annulus, 0 at the A point, +-pi at the P point,
 // positive on the posteromedial side; v from 0 at the annulus to 1 at the free edge.
 struct Place {
   double theta = 0, v = 0;
 };
 
-// Frame: x to the posteromedial commissure, y to the A point, z into the atrium; the origin is the
-// centroid of the annulus. Everything is even in theta but for the sign of x.
+// Frame: x towards the posteromedial commissure, y towards the A point, z into the atrium; the
+// origin is the centroid of the annulus. All functions are even in theta except for the sign of x.
 class Shape {
  public:
   explicit Shape(const Dimensions &dimensions);
 
-  // The commissures lie at the widest part of the annulus.
+  // Angle of the commissures, at the largest width of the annulus.
   static constexpr double commissure = 1.5707963267948966;
-  // The clefts on either side of P2.
+  // Angle of the clefts on either side of P2.
   static double cleft_theta();
 
   Vec3 annulus(double theta) const;
   double height(double theta) const;  // from annulus to free edge along the leaflet
   Vec3 open(const Place &place) const;
-  // Where a place should lie when the valve is closed: on the straight line from the contracted
-  // annulus to the coaptation line, and beyond it hanging down.
+  // Target position in the closed valve: on the straight line from the contracted annulus to the
+  // coaptation line, and vertically below that line.
   Vec3 closed(const Place &place) const;
   // The tips of the posteromedial papillary muscle, anterior one first.
   std::vector<Vec3> medial_tips() const;
@@ -42,7 +45,7 @@ class Shape {
   double tilt_scale_ = 1;
 };
 
-// Length along the curve v = const of the open surface, and its inverse.
+// Arc length along the curve v = const of the open surface, and its inverse.
 class ArcLength {
  public:
   ArcLength(const Shape &shape, double v, double theta0, double theta1);

@@ -1,3 +1,4 @@
+// Meshes half a parametric valve: a coarse grid, remeshed until the number of vertices fits.
 #include "anatomy/sheet.h"
 
 #include <algorithm>
@@ -10,9 +11,7 @@
 namespace mvs::core {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-// The grid a mesh starts from: fine enough for the shape, every cell cut in two.
+// The initial grid: fine enough for the shape, every cell divided in two triangles.
 HalfSheet coarse_sheet(const Shape &shape) {
   constexpr uint32_t columns = 24, rows = 6;
   HalfSheet sheet;
@@ -46,15 +45,15 @@ double area_of(const HalfSheet &sheet) {
   return area;
 }
 
-// Vertices of the mirrored whole.
+// Number of vertices of the mirrored whole.
 double whole_count(const HalfSheet &sheet) {
   const auto on_it = [](uint8_t sides) { return (sides & on_mirror) != 0; };
   return 2.0 * static_cast<double>(sheet.x.size()) -
          static_cast<double>(std::count_if(sheet.sides.begin(), sheet.sides.end(), on_it));
 }
 
-// Numbers vertices along the annulus, so that neighbours are near in memory; puts the mirror's
-// vertices exactly on it.
+// Numbers vertices along the annulus, which keeps neighbours near in memory; sets x to 0 for
+// vertices on the mirror plane.
 HalfSheet in_order(const HalfSheet &sheet) {
   std::vector<uint32_t> order(sheet.x.size()), number(sheet.x.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -85,7 +84,7 @@ HalfSheet in_order(const HalfSheet &sheet) {
 HalfSheet mesh_half_sheet(const Shape &shape, uint32_t vertices) {
   constexpr int attempts = 8;
   constexpr double close_enough = 0.02;
-  constexpr uint32_t trial = 1000;        // vertices that show how edge and count go together
+  constexpr uint32_t trial = 1000;        // vertices of a first trial that calibrates edge length
   const double row = std::sqrt(3.0) / 2;  // a vertex of a regular sheet has row * edge^2
   HalfSheet best, sheet = coarse_sheet(shape);
   const double area = 2 * area_of(sheet);

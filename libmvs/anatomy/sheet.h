@@ -1,4 +1,4 @@
-// A triangle mesh of half a parametric valve, from the A point over a commissure to the P point.
+// Triangle mesh of half a parametric valve, from the A point over a commissure to the P point.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace mvs::core {
 
-// Curves on which a vertex lies, as bits; it may slide along one and is held where two meet.
+// Curves on which a vertex lies, as bits; a vertex slides along one and is fixed where two meet.
 enum SheetSide : uint8_t {
   on_annulus = 1,
   on_free_edge = 2,
@@ -22,7 +22,7 @@ struct HalfSheet {
   std::vector<Tri> triangles;  // wound so that normals point into the funnel
 };
 
-// Near-uniform triangles; mirrored to a whole valve they have about `vertices` vertices.
+// Returns a near-uniform mesh; the mirrored whole has about `vertices` vertices.
 HalfSheet mesh_half_sheet(const Shape &shape, uint32_t vertices);
 
 }  // namespace mvs::core

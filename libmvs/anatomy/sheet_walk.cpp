@@ -1,3 +1,4 @@
+// Greedy descent of the distance over neighbouring triangles.
 #include "anatomy/sheet_walk.h"
 
 #include <cmath>

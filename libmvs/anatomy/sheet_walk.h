@@ -1,5 +1,5 @@
-// Walking over a sheet to the triangle that is nearest to a point: other parts of the sheet that
-// touch this one in space are far away for it.
+// Greedy search for the nearest triangle by walking over a sheet: parts of the sheet that touch
+// this one in space are not reached.
 #pragma once
 
 #include "model/model.h"
@@ -11,9 +11,9 @@ class SheetWalk {
   // Keeps a reference to the model.
   explicit SheetWalk(const Model &model) : model_(model) {}
 
-  // Starts from the triangles around a node, of one scallop only if `scallop` is not `none`, and
-  // goes on to nearer ones among those that touch it until there is none. `none` if there is no
-  // start.
+  // Starts at the triangles around a node, of one scallop only unless `scallop` is `none`, and
+  // moves to nearer triangles among those that touch the present one, until it finds a local
+  // minimum. Returns `none` without a triangle to start from.
   uint32_t nearest(uint32_t node, const Vec3 &p, uint32_t scallop = none) const;
 
  private:

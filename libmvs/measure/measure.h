@@ -1,5 +1,5 @@
-// The read-outs: everything mvs_snapshot_measure and the derived arrays of a snapshot show.
-// Each group is one header and one file of this folder; definitions are in README.md.
+// The measures of mvs_snapshot_measure and of the derived arrays of a snapshot. Each group has one
+// header and one source file; DEFINITIONS.md has the definitions.
 #pragma once
 
 #include "measure/annulus/annulus.h"

@@ -1,4 +1,4 @@
-// Is this a valve? The order of the checks: what later ones rely on comes first.
+// find_faults: runs the groups of checks in the order of their dependencies.
 #include "model/check.h"
 
 #include "model/checks.h"
@@ -10,10 +10,7 @@ Sheet make_sheet(const Valve &valve) {
   Sheet sheet;
   sheet.sides = sorted_sides(valve.triangles);
   sheet.winding = find_winding(valve.triangles, sheet.sides);
-  sheet.is_vertex.assign(valve.rest.size(), 0);
-  for (const Tri &triangle : valve.triangles) {
-    for (const uint32_t node : triangle) sheet.is_vertex[node] = 1;
-  }
+  sheet.is_vertex = vertex_marks(valve.triangles, valve.rest.size());
   return sheet;
 }
 

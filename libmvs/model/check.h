@@ -1,4 +1,4 @@
-// Is this a valve? Every reason why not, in words.
+// Validation of a valve: returns every fault with a sentence for the user.
 #pragma once
 
 #include <functional>
@@ -10,13 +10,14 @@ namespace mvs::core {
 
 struct Fault {
   std::string part;      // "triangle 17"
-  std::string sentence;  // what is wrong with it and what to do
+  std::string sentence;  // the fault and its remedy
 };
 
-// Lists every fault of a valve, in the order of its parts; an empty list is a valve.
+// Returns every fault of a valve, in the order of its parts; empty for a valid valve.
 std::vector<Fault> find_faults(const Valve &valve);
 
-// Turns triangles so that neighbours agree and normals point into the atrium.
+// Reorders triangle corners so that neighbours have the same winding and normals point into the
+// atrium.
 void orient(Valve &valve);
 
 }  // namespace mvs::core

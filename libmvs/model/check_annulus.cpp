@@ -1,4 +1,4 @@
-// The annulus: a closed loop of boundary edges of the sheet.
+// Checks that the annulus is a closed loop of boundary edges of the sheet.
 #include <algorithm>
 
 #include "model/checks.h"
@@ -6,7 +6,7 @@
 namespace mvs::core {
 namespace {
 
-// How many triangles lie at the edge between two nodes.
+// Returns the number of triangles at the edge between two nodes.
 size_t triangles_at(const Sheet &sheet, uint32_t a, uint32_t b) {
   const Edge edge = {std::min(a, b), std::max(a, b)};
   const auto before = [](const Side &side, const Edge &e) { return side.edge < e; };
@@ -16,17 +16,18 @@ size_t triangles_at(const Sheet &sheet, uint32_t a, uint32_t b) {
   return count;
 }
 
-void check_nodes(const Valve &valve, const Sheet &sheet, Faults &faults) {
+void check_annulus_nodes(const Valve &valve, const Sheet &sheet, Faults &faults) {
   std::vector<uint8_t> seen(valve.rest.size(), 0);
   for (const uint32_t node : valve.annulus) {
     if (!sheet.is_vertex[node]) {
       faults.add(format("node %u", node), "annulus node %u is no corner of a triangle", node);
     }
     if (seen[node]++ == 1) {
-      faults.add(format("node %u", node),
-                 "annulus node %u appears more than once: the loop closes by itself, do not repeat "
-                 "its first node",
-                 node);
+      faults.add(
+          format("node %u", node),
+          "annulus node %u appears more than once: the loop is closed implicitly, do not repeat "
+          "its first node",
+          node);
     }
   }
 }
@@ -39,7 +40,7 @@ void check_annulus(const Valve &valve, const Sheet &sheet, Faults &faults) {
   if (k < 3) {
     faults.add("annulus", "the annulus has %zu nodes: a loop has at least 3", k);
   }
-  check_nodes(valve, sheet, faults);
+  check_annulus_nodes(valve, sheet, faults);
   if (faults.list.size() > before) return;
   for (size_t i = 0; i < k; ++i) {
     const uint32_t a = valve.annulus[i], b = valve.annulus[(i + 1) % k];

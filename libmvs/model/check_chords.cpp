@@ -1,10 +1,10 @@
-// Chordae and papillary heads: what they join.
+// Checks the nodes that chordae and papillary heads join.
 #include <mvs/valve.h>
 
 #include <algorithm>
 
 #include "model/checks.h"
-#include "model/compressed_rows.h"
+#include "model/topology.h"
 
 namespace mvs::core {
 namespace {
@@ -12,8 +12,7 @@ namespace {
 enum Role : uint8_t { role_branch, role_sheet, role_head };
 
 std::string chord_part(const Valve &valve, size_t c) {
-  const std::string &name = valve.chords[c].name;
-  return name.empty() ? format("chord %zu", c) : "chord " + name;
+  return part_name("chord", valve.chords[c].name, c);
 }
 
 std::vector<uint8_t> roles_of(const Valve &valve, const Sheet &sheet, Faults &faults) {
@@ -28,7 +27,7 @@ std::vector<uint8_t> roles_of(const Valve &valve, const Sheet &sheet, Faults &fa
       faults.add(part, "papillary head %zu is node %u of the sheet: give it a node of its own", h,
                  node);
     } else if (role[node] == role_head) {
-      faults.add(part, "papillary head %zu is at node %u, which is a head already", h, node);
+      faults.add(part, "papillary head %zu is at node %u, which is another head", h, node);
     } else {
       role[node] = role_head;
     }
@@ -36,7 +35,8 @@ std::vector<uint8_t> roles_of(const Valve &valve, const Sheet &sheet, Faults &fa
   return role;
 }
 
-void check_chord(const Valve &valve, const std::vector<uint8_t> &role, size_t c, Faults &faults) {
+void check_chord_ends(const Valve &valve, const std::vector<uint8_t> &role, size_t c,
+                      Faults &faults) {
   const Chord &chord = valve.chords[c];
   const std::string part = chord_part(valve, c);
   if (chord.a == chord.b) {
@@ -56,7 +56,7 @@ void check_chord(const Valve &valve, const std::vector<uint8_t> &role, size_t c,
   }
 }
 
-void check_duplicates(const Valve &valve, Faults &faults) {
+void check_duplicate_chords(const Valve &valve, Faults &faults) {
   struct Ends {
     Edge nodes;
     size_t chord;
@@ -77,7 +77,8 @@ void check_duplicates(const Valve &valve, Faults &faults) {
   }
 }
 
-// Spreads from chord `first` over branch nodes; says whether heads and the sheet are reached.
+// Breadth-first search from chord `first` over branch nodes; reports a tree that reaches no
+// papillary head or no leaflet.
 void visit_tree(const Valve &valve, const std::vector<uint8_t> &role, const Rows &chords_at,
                 size_t first, std::vector<uint8_t> &visited, Faults &faults) {
   std::vector<uint32_t> queue = {static_cast<uint32_t>(first)};
@@ -94,7 +95,7 @@ void visit_tree(const Valve &valve, const std::vector<uint8_t> &role, const Rows
       }
     }
   }
-  // without a branch node the chord was judged by itself
+  // a chord without a branch node is checked in check_chord_ends
   if (!reached[role_branch]) return;
   const std::string part = chord_part(valve, first);
   if (!reached[role_head]) {
@@ -105,7 +106,7 @@ void visit_tree(const Valve &valve, const std::vector<uint8_t> &role, const Rows
   }
 }
 
-void check_nodes(const std::vector<uint8_t> &role, const Rows &chords_at, Faults &faults) {
+void check_branch_nodes(const std::vector<uint8_t> &role, const Rows &chords_at, Faults &faults) {
   for (uint32_t n = 0; n < role.size(); ++n) {
     if (role[n] != role_branch) continue;
     const size_t count = chords_at[n].size();
@@ -124,18 +125,16 @@ void check_nodes(const std::vector<uint8_t> &role, const Rows &chords_at, Faults
 
 void check_chords(const Valve &valve, const Sheet &sheet, Faults &faults) {
   const std::vector<uint8_t> role = roles_of(valve, sheet, faults);
-  std::vector<Edge> ends;
   for (size_t c = 0; c < valve.chords.size(); ++c) {
-    check_chord(valve, role, c, faults);
-    ends.push_back({valve.chords[c].a, valve.chords[c].b});
+    check_chord_ends(valve, role, c, faults);
   }
-  check_duplicates(valve, faults);
-  const Rows chords_at = rows_of(valve.rest.size(), ends);
+  check_duplicate_chords(valve, faults);
+  const Rows chords_at = chords_at_nodes(valve);
   std::vector<uint8_t> visited(valve.chords.size(), 0);
   for (size_t c = 0; c < valve.chords.size(); ++c) {
     if (!visited[c]) visit_tree(valve, role, chords_at, c, visited, faults);
   }
-  check_nodes(role, chords_at, faults);
+  check_branch_nodes(role, chords_at, faults);
 }
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Sizes of lists and ranges of indices.
+// Checks the sizes of lists and the ranges of indices.
 #include <mvs/valve.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace mvs::core {
 namespace {
 
-// Above any valve that can be computed, and far below where an index overflows.
+// Larger than any valve that can be computed, and far below the overflow of an index.
 constexpr size_t list_limit = size_t{1} << 24;
 
 void check_count(const char *what, size_t count, bool needed, Faults &faults) {
@@ -26,7 +26,7 @@ void check_length(const char *what, const char *of, size_t count, size_t expecte
              expected, of, optional ? ", or none at all" : "");
 }
 
-// That entry `number` of the list `what` names one of `count` things.
+// Checks that entry `number` of the list `what` refers to one of `count` items.
 void check_index(const char *what, size_t number, const char *of, size_t index, size_t count,
                  Faults &faults) {
   if (index < count) return;

@@ -1,4 +1,4 @@
-// Names, ids and materials.
+// Checks names, ids and material constants.
 #include <mvs/snapshot.h>
 
 #include <algorithm>
@@ -8,11 +8,12 @@
 #include "model/checks.h"
 #include "model/chord_law.h"
 #include "model/text.h"
+#include "model/valve_arrays.h"
 
 namespace mvs::core {
 namespace {
 
-// What a name has room for in mvs_part, less the end.
+// Length of mvs_part::name without the terminating zero.
 constexpr size_t name_limit = sizeof(mvs_part::name) - 1;
 
 template <typename Part>
@@ -41,7 +42,7 @@ void check_names(const CowVector<Part> &parts, const char *kind, bool needed, Fa
 
 template <typename Part>
 void check_ids(const CowVector<Part> &parts, const char *kind, std::set<Id> &seen, Faults &faults) {
-  // room for every id that is still to be given
+  // leaves room for all ids that are still to be assigned
   constexpr Id id_limit = Id{1} << 62;
   for (size_t k = 0; k < parts.size(); ++k) {
     const Id id = parts[k].id;
@@ -52,25 +53,25 @@ void check_ids(const CowVector<Part> &parts, const char *kind, std::set<Id> &see
                  static_cast<unsigned long long>(id));
     }
     if (!seen.insert(id).second) {
-      faults.add(part, "%s has id %llu, which another part has already", part.c_str(),
+      faults.add(part, "%s has id %llu, which another part has", part.c_str(),
                  static_cast<unsigned long long>(id));
     }
   }
 }
 
-// That a number is one and lies in the range in which it means something.
+// The valid range of a quantity; a NaN is outside of every range.
 struct Range {
   double low, high;
-  const char *unit, *hint;                           // of what is too large
-  const char *low_hint = "too small, or no number";  // of all else
+  const char *unit, *hint;                              // hint for a value that is too large
+  const char *low_hint = "too small, or not a number";  // hint for other values
 };
 constexpr Range thickness_range = {1e-5, 2e-2, "m", "looks like mm given as m"};
-constexpr const char *low_modulus = "looks like MPa or GPa given as Pa, or no number";
+constexpr const char *low_modulus = "looks like MPa or GPa given as Pa, or not a number";
 constexpr Range modulus_range = {1, 1e12, "Pa", "moduli are in Pa", low_modulus};
 constexpr Range density_range = {100, 20000, "kg/m3", "tissue has about 1060",
                                  "looks like g/cm3 given as kg/m3: tissue has about 1060"};
 constexpr Range area_range = {1e-11, 1e-3, "m2", "looks like mm2 given as m2"};
-// the shortest segment that a mesh of chordae has is about 0.1 mm
+// the shortest segment in meshes of chordae is about 0.1 mm
 constexpr Range length_range = {1e-6, 1, "m", "looks like mm given as m"};
 constexpr Range gap_range = {1e-6, 1e-2, "m", "looks like mm given as m"};
 constexpr Range scale_range = {0, 1e6, "", "1 is the sheet's own bending stiffness"};
@@ -83,7 +84,7 @@ void check_range(const std::string &part, const char *what, double value, const 
              value > range.high ? range.hint : range.low_hint);
 }
 
-// That a law is known, that each of its constants is in range, and that no other is given.
+// Checks that a law exists, that its constants are in range, and that surplus constants are 0.
 template <typename Law, typename Values>
 void check_law(const std::string &part, uint32_t id, const Law *law, const Values &values,
                Faults &faults) {
@@ -106,7 +107,8 @@ void check_law(const std::string &part, uint32_t id, const Law *law, const Value
   }
 }
 
-// Rising strains, stress that starts at 0 and does not fall: else a chord would push or jump.
+// Checks a measured curve: strains rise, stress starts at 0 and does not fall, so that a chord
+// neither pushes nor jumps.
 void check_curve(const ChordCurve &curve, Faults &faults) {
   const std::string part = "curve " + curve.name;
   const auto &points = curve.points.get();
@@ -131,7 +133,7 @@ void check_curve(const ChordCurve &curve, Faults &faults) {
   }
 }
 
-// A chord has to resist from the start, and to more than a twentieth of its length.
+// Checks that an Ogden chord has positive stiffness from the start to a strain of 5 %.
 void check_ogden(const std::string &part, const Valve &valve, const Chord &chord, Faults &faults) {
   for (size_t k = 0; k < chord.constants.size(); k += 2) {
     if ((chord.constants[k] == 0) == (chord.constants[k + 1] == 0)) continue;
@@ -142,24 +144,23 @@ void check_ogden(const std::string &part, const Valve &valve, const Chord &chord
   for (const double strain : {1e-6, 0.01, 0.05}) {
     if (chord_response(valve, chord, strain).slope > 0) continue;
     faults.add(part,
-               "%s gets softer than nothing at a strain of %g: its Ogden constants are of no "
-               "tissue",
+               "%s has no positive stiffness at a strain of %g: its Ogden constants do not "
+               "describe tissue",
                part.c_str(), strain);
     return;
   }
 }
 
 void check_leaflet(const Leaflet &leaflet, size_t k, Faults &faults) {
-  const std::string part =
-      leaflet.name.empty() ? format("leaflet %zu", k) : "leaflet " + leaflet.name;
+  const std::string part = part_name("leaflet", leaflet.name, k);
   const LeafletLaw *law = find_leaflet_law(leaflet.law);
   check_law(part, leaflet.law, law, leaflet.constants, faults);
   check_range(part, "thickness", leaflet.thickness, thickness_range, faults);
 }
 
-void check_chord(const Valve &valve, size_t k, Faults &faults) {
+void check_chord_material(const Valve &valve, size_t k, Faults &faults) {
   const Chord &chord = valve.chords[k];
-  const std::string part = chord.name.empty() ? format("chord %zu", k) : "chord " + chord.name;
+  const std::string part = part_name("chord", chord.name, k);
   check_law(part, chord.law, find_chord_law(chord.law), chord.constants, faults);
   if (chord.law == MVS_CHORD_LAW_OGDEN) check_ogden(part, valve, chord, faults);
   if (chord.kind > MVS_CHORD_KIND_SUTURE) {
@@ -168,7 +169,7 @@ void check_chord(const Valve &valve, size_t k, Faults &faults) {
   }
   check_range(part, "Young's modulus", chord.young, modulus_range, faults);
   check_range(part, "area", chord.area, area_range, faults);
-  // 0 is the distance of its nodes (complete.cpp)
+  // 0 stands for the distance of its nodes (complete.cpp)
   if (chord.rest_length != 0) {
     check_range(part, "rest length", chord.rest_length, length_range, faults);
   }
@@ -194,19 +195,12 @@ void check_valve(const Valve &valve, Faults &faults) {
 }  // namespace
 
 void check_parts(const Valve &valve, Faults &faults) {
-  check_names(valve.leaflets, "leaflet", true, faults);
-  check_names(valve.scallops, "scallop", true, faults);
-  check_names(valve.heads, "papillary head", false, faults);
-  check_names(valve.chords, "chord", false, faults);
-  check_names(valve.rings, "ring", true, faults);
-  check_names(valve.curves, "curve", true, faults);
+  for_each_part_list([&](auto list, const char *kind, bool needs_name) {
+    check_names(valve.*list, kind, needs_name, faults);
+  });
   std::set<Id> seen;
-  check_ids(valve.leaflets, "leaflet", seen, faults);
-  check_ids(valve.scallops, "scallop", seen, faults);
-  check_ids(valve.heads, "papillary head", seen, faults);
-  check_ids(valve.chords, "chord", seen, faults);
-  check_ids(valve.rings, "ring", seen, faults);
-  check_ids(valve.curves, "curve", seen, faults);
+  for_each_part_list(
+      [&](auto list, const char *kind, bool) { check_ids(valve.*list, kind, seen, faults); });
   check_valve(valve, faults);
   for (size_t k = 0; k < valve.rings.size(); ++k) {
     const Ring &ring = valve.rings[k];
@@ -215,7 +209,7 @@ void check_parts(const Valve &valve, Faults &faults) {
                ring.name.c_str(), ring.kind);
   }
   for (size_t k = 0; k < valve.leaflets.size(); ++k) check_leaflet(valve.leaflets[k], k, faults);
-  for (size_t k = 0; k < valve.chords.size(); ++k) check_chord(valve, k, faults);
+  for (size_t k = 0; k < valve.chords.size(); ++k) check_chord_material(valve, k, faults);
   for (const ChordCurve &curve : valve.curves) check_curve(curve, faults);
 }
 

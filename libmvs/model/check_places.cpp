@@ -1,4 +1,4 @@
-// Where nodes are: numbers, metres, one place.
+// Checks that node coordinates are finite, in metres, and within one valve.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,9 @@ namespace {
 
 // An adult mitral valve spans about 40 mm; a mouse's about 2 mm, a whale's below 300 mm.
 constexpr double smallest_valve = 1e-3, largest_valve = 0.4;
-constexpr double smallest_in_mm = 8;  // m, as a valve of 8 mm or 8 cm seems if its unit is wrong
-// In units of the valve's size: farther away than any head, moved farther than any annulus.
+constexpr double smallest_in_mm = 8;  // m: an extent above 8 means mm, below it cm
+// Limits in units of the valve size: distance of a node from the centre, displacement of a held
+// node.
 constexpr double far_away = 10, far_moved = 2;
 
 double median(std::vector<double> values) {
@@ -19,7 +20,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Medians, so that one stray node does not move them.
+// Robust extent: medians do not depend on single stray nodes.
 struct Extent {
   Vec3 centre;
   double size;  // m: twice the median distance from the centre
@@ -38,7 +39,7 @@ Extent extent_of(const std::vector<Vec3> &points) {
 
 void check_numbers(const std::vector<Vec3> &points, const char *what, Faults &faults) {
   for (size_t n = 0; n < points.size(); ++n) {
-    // hypot of doubles near the limit would overflow into infinity: they are as absurd
+    // coordinates near the limit of double would overflow in a norm
     if (points[n].allFinite() && points[n].cwiseAbs().maxCoeff() < 1e100) continue;
     faults.add(format("node %zu", n),
                "node %zu has a %s coordinate that is not a usable number (%g, %g, %g)", n, what,
@@ -69,7 +70,7 @@ void check_strays(const Valve &valve, const Extent &extent, Faults &faults) {
   }
 }
 
-// The nodes that the heart holds; only their open and loaded positions mean something.
+// The prescribed nodes; open and loaded positions are used for these only.
 std::vector<uint32_t> held_nodes(const Valve &valve) {
   std::vector<uint32_t> held = valve.annulus;
   for (const Head &head : valve.heads) held.push_back(head.node);

@@ -1,4 +1,5 @@
-// Triangles: each of them, and the sheet that they make.
+// Checks the triangles one by one, then the sheet that they form: manifold, oriented, attached,
+// facing the atrium.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
@@ -17,7 +18,7 @@ std::string edge_part(const Edge &edge) {
   return format("edge %u-%u", edge[0], edge[1]);
 }
 
-// Height over longest side below this is a line, not a triangle: no law of tissue computes with it.
+// Ratio of height to longest side below which a triangle counts as degenerate.
 constexpr double flat_triangle = 1e-6;
 
 bool repeats_a_corner(const Tri &t) {
@@ -53,11 +54,11 @@ void check_fibre(const Valve &valve, size_t t, Faults &faults) {
                           .normalized();
   const Vec3 flat = fibre - fibre.dot(normal) * normal;
   if (!(flat.norm() > 1e-6 * fibre.norm()) || !fibre.allFinite()) {
-    faults.add(triangle_part(t), "triangle %zu has a fibre direction with no part in its plane", t);
+    faults.add(triangle_part(t), "triangle %zu has no fibre direction in its plane", t);
   }
 }
 
-void check_duplicates(const Valve &valve, Faults &faults) {
+void check_duplicate_triangles(const Valve &valve, Faults &faults) {
   std::vector<uint32_t> order(valve.triangles.size());
   std::iota(order.begin(), order.end(), 0u);
   std::vector<Tri> sorted = valve.triangles;
@@ -72,7 +73,8 @@ void check_duplicates(const Valve &valve, Faults &faults) {
   }
 }
 
-// Two corners at one place are a seam that was not welded: the sheet would tear there.
+// Reports coincident vertices: an unwelded seam, at which the sheet would tear. Sweep along one
+// direction.
 void check_coincident(const Valve &valve, const Sheet &sheet, Faults &faults) {
   const Vec3 direction(0.3826834323650898, 0.5773502691896258, 0.7211102550927978);  // generic
   std::vector<std::pair<double, uint32_t>> order;
@@ -93,7 +95,7 @@ void check_coincident(const Valve &valve, const Sheet &sheet, Faults &faults) {
   }
 }
 
-// Whether edges with more than two triangles were found.
+// Reports edges with more than two triangles; returns whether there are any.
 bool check_edges(const Sheet &sheet, Faults &faults) {
   bool branches = false;
   for_each_edge(sheet.sides, [&](size_t first, size_t last) {
@@ -107,15 +109,16 @@ bool check_edges(const Sheet &sheet, Faults &faults) {
   return branches;
 }
 
-// Whether the triangles around a node make one fan: whether the edges opposite to it hang together.
+// Returns whether the triangles around a node form one fan: the edges opposite to the node are
+// connected (union-find).
 bool is_one_fan(const Valve &valve, uint32_t node, std::span<const uint32_t> around) {
-  std::vector<Edge> opposite;
+  std::vector<Edge> link;
   std::vector<uint32_t> corners;
   for (const uint32_t t : around) {
     const Tri &nodes = valve.triangles[t];
     const int k = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
-    opposite.push_back({nodes[(k + 1) % 3], nodes[(k + 2) % 3]});
-    corners.insert(corners.end(), opposite.back().begin(), opposite.back().end());
+    link.push_back({nodes[(k + 1) % 3], nodes[(k + 2) % 3]});
+    corners.insert(corners.end(), link.back().begin(), link.back().end());
   }
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
@@ -128,7 +131,7 @@ bool is_one_fan(const Valve &valve, uint32_t node, std::span<const uint32_t> aro
     return r;
   };
   size_t parts = corners.size();
-  for (const Edge &edge : opposite) {
+  for (const Edge &edge : link) {
     const uint32_t a = find(edge[0]), b = find(edge[1]);
     root[std::max(a, b)] = std::min(a, b);
     parts -= a != b;
@@ -147,7 +150,8 @@ void check_vertices(const Valve &valve, Faults &faults) {
   }
 }
 
-// Names the smaller party of each component: most likely those are the ones to turn.
+// Reports the triangles with the less frequent winding in each component: most likely those are
+// wrong.
 void check_winding(const Sheet &sheet, Faults &faults) {
   const Winding &winding = sheet.winding;
   for (const Edge &edge : winding.conflicts) {
@@ -172,8 +176,7 @@ void check_winding(const Sheet &sheet, Faults &faults) {
 }
 
 void check_components(const Valve &valve, const Sheet &sheet, Faults &faults) {
-  std::vector<uint8_t> in_annulus(valve.rest.size(), 0);
-  for (const uint32_t node : valve.annulus) in_annulus[node] = 1;
+  const std::vector<uint8_t> in_annulus = marks_of(valve.annulus, valve.rest.size());
   const std::vector<uint32_t> &component = sheet.winding.component;
   std::vector<uint8_t> touches(sheet.winding.component_count, 0);
   std::vector<size_t> size(touches.size(), 0), first(touches.size(), 0);
@@ -185,7 +188,7 @@ void check_components(const Valve &valve, const Sheet &sheet, Faults &faults) {
   for (size_t c = 0; c < touches.size(); ++c) {
     if (touches[c]) continue;
     faults.add(triangle_part(first[c]),
-               "the part of the sheet with triangle %zu (%zu triangles) hangs on nothing: join it "
+               "the part of the sheet with triangle %zu (%zu triangles) is not attached: join it "
                "to the leaflets, or remove it",
                first[c], size[c]);
   }
@@ -207,7 +210,7 @@ void check_facing(const Valve &valve, const Sheet &sheet, Faults &faults) {
 void check_sheet(const Valve &valve, const Sheet &sheet, Faults &faults) {
   const size_t before = faults.list.size();
   for (size_t t = 0; t < valve.triangles.size(); ++t) check_triangle(valve, t, faults);
-  check_duplicates(valve, faults);
+  check_duplicate_triangles(valve, faults);
   check_coincident(valve, sheet, faults);
   if (faults.list.size() > before) return;
   for (size_t t = 0; t < valve.triangle_fibre.size(); ++t) check_fibre(valve, t, faults);

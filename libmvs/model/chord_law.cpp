@@ -1,5 +1,5 @@
-// The laws of chordae. A new one is a case here and a row of the table, and its number in
-// include/mvs/valve.h.
+// Constitutive laws of chordae: linear, bilinear, Ogden (incompressible, uniaxial), measured curve.
+// A new law adds one case here, one row of the table, and its number in include/mvs/valve.h.
 #include "model/chord_law.h"
 
 #include <mvs/valve.h>
@@ -16,11 +16,8 @@ Axial linear(double young, double e) {
   return {0.5 * young * e * e, young * e, young};
 }
 
-Axial bilinear(double low, double kink, double high, double e) {
-  if (e < kink) return linear(low, e);
-  const double over = e - kink;
-  return {0.5 * low * kink * kink + low * kink * over + 0.5 * high * over * over,
-          low * kink + high * over, high};
+Axial bilinear(const Bilinear &law, double e) {
+  return {law.energy(e), law.stress(e), law.tangent(e)};
 }
 
 // P = sum of 2 mu / alpha (l^(alpha - 1) - l^(-alpha / 2 - 1)): uniaxial, incompressible.
@@ -30,7 +27,7 @@ Axial ogden(const Chord::Constants &c, double e) {
   for (size_t k = 0; k < c.size(); k += 2) {
     const double mu = c[k], alpha = c[k + 1];
     if (mu == 0) continue;
-    // less one, so that a small alpha (fits have 1e-4) does not lose the digits
+    // expm1 keeps the digits of a small alpha (fits have 1e-4)
     const double along = math::expm1(alpha * math::log(l)),
                  across = math::expm1(-alpha / 2 * math::log(l));
     sum.energy += 2 * mu / (alpha * alpha) * (along + 2 * across);
@@ -41,8 +38,8 @@ Axial ogden(const Chord::Constants &c, double e) {
   return sum;
 }
 
-// Past 100 MPa, several times what tears a chord, on along the tangent: with an alpha of 100 a
-// trial step could otherwise ask for more force than a double holds.
+// Ogden law with linear continuation beyond 100 MPa, several times the strength of a chord: with an
+// alpha of 100 a trial step could otherwise overflow a double.
 Axial bounded_ogden(const Chord::Constants &c, double e) {
   constexpr double limit = 100e6;
   const Axial plain = ogden(c, e);
@@ -72,30 +69,30 @@ Axial table(const CowVector<CurvePoint> &points, double e) {
   return at;
 }
 
-constexpr Constant bilinear_constants[] = {{"kink", "kink strain", "", 0.05, 0, 10},
-                                           {"high", "high modulus", "Pa", 100e6, 1, 1e12}};
+constexpr Constant bilinear_cable_constants[] = {{"kink", "kink strain", "", 0.05, 0, 10},
+                                                 {"high", "high modulus", "Pa", 100e6, 1, 1e12}};
 constexpr double mu = 1e12, alpha = 1e3;
-// alpha of a term that is not there is 0
+// the alpha of an unused term is 0
 constexpr Constant ogden_constants[] = {
     {"mu1", "constant mu1", "Pa", 0, -mu, mu}, {"alpha1", "constant alpha1", "", 0, -alpha, alpha},
     {"mu2", "constant mu2", "Pa", 0, -mu, mu}, {"alpha2", "constant alpha2", "", 0, -alpha, alpha},
     {"mu3", "constant mu3", "Pa", 0, -mu, mu}, {"alpha3", "constant alpha3", "", 0, -alpha, alpha}};
 constexpr Constant table_constants[] = {{"curve", "curve", "", 0, 0, 4294967294.0}};
 
-constexpr ChordLaw laws[] = {
+constexpr ChordLaw chord_law_table[] = {
     {MVS_CHORD_LAW_LINEAR, "linear", "linear cable", {}},
-    {MVS_CHORD_LAW_BILINEAR, "bilinear", "bilinear cable", bilinear_constants},
+    {MVS_CHORD_LAW_BILINEAR, "bilinear", "bilinear cable", bilinear_cable_constants},
     {MVS_CHORD_LAW_OGDEN, "ogden", "Ogden", ogden_constants},
     {MVS_CHORD_LAW_TABLE, "table", "measured curve", table_constants}};
 
 }  // namespace
 
 std::span<const ChordLaw> chord_laws() {
-  return laws;
+  return chord_law_table;
 }
 
 const ChordLaw *find_chord_law(uint32_t id) {
-  for (const ChordLaw &law : laws) {
+  for (const ChordLaw &law : chord_law_table) {
     if (law.id == id) return &law;
   }
   return nullptr;
@@ -106,7 +103,7 @@ Axial chord_response(const Valve &valve, const Chord &chord, double strain) {
   const auto &c = chord.constants;
   switch (chord.law) {
     case MVS_CHORD_LAW_BILINEAR:
-      return bilinear(chord.young, c[0], c[1], strain);
+      return bilinear(Bilinear(chord.young, c[1], c[0]), strain);
     case MVS_CHORD_LAW_OGDEN:
       return bounded_ogden(c, strain);
     case MVS_CHORD_LAW_TABLE:

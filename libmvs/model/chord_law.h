@@ -1,4 +1,4 @@
-// What a chord does when it is stretched: nominal stress over engineering strain, none when slack.
+// Constitutive laws of chordae: nominal stress over engineering strain; zero in compression.
 #pragma once
 
 #include <span>
@@ -7,24 +7,24 @@
 
 namespace mvs::core {
 
-// At one strain: energy per rest volume in J/m3, nominal stress in Pa, and its slope.
+// Response at one strain: energy per rest volume in J/m3, nominal stress in Pa and its derivative.
 struct Axial {
   double energy = 0, stress = 0, slope = 0;
 };
 
 struct ChordLaw {
-  uint32_t id;  // MVS_CHORD_KIND_*
+  uint32_t id;  // MVS_CHORD_LAW_*
   const char *word, *name;
   std::span<const Constant> constants;
 };
 
 std::span<const ChordLaw> chord_laws();       // in the order of their ids, from 1
-const ChordLaw *find_chord_law(uint32_t id);  // null if there is none
+const ChordLaw *find_chord_law(uint32_t id);  // null if unknown
 
-// `chord` follows a law that is known, with the constants it needs (check_parts.cpp).
+// Requires a known law and valid constants (check_parts.cpp).
 Axial chord_response(const Valve &valve, const Chord &chord, double strain);
 
-// N
+// Tension in N.
 inline double chord_tension(const Valve &valve, const Chord &chord, double strain) {
   return chord.area * chord_response(valve, chord, strain).stress;
 }

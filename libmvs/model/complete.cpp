@@ -1,4 +1,4 @@
-// The defaults of a valve, one function a kind of part.
+// Default values of a valve, one function for each kind of part.
 #include "model/complete.h"
 
 #include <Eigen/Geometry>
@@ -7,12 +7,14 @@
 #include <set>
 #include <utility>
 
-#include "model/compressed_rows.h"
+#include "model/orientation.h"
+#include "model/topology.h"
+#include "model/valve_arrays.h"
 
 namespace mvs::core {
 namespace {
 
-// Only where prescribed nodes are means something.
+// Open and loaded positions are used for prescribed nodes only; all others get the rest position.
 void complete_places(const Valve &valve, CowVector<Vec3> &places) {
   std::vector<Vec3> complete = valve.rest;
   if (!places.empty()) {
@@ -57,18 +59,8 @@ void give_ids(CowVector<Part> &parts, Id &next_id) {
 }
 
 void complete_ids(Valve &valve) {
-  raise_next_id(valve.leaflets, valve.next_id);
-  raise_next_id(valve.scallops, valve.next_id);
-  raise_next_id(valve.heads, valve.next_id);
-  raise_next_id(valve.chords, valve.next_id);
-  raise_next_id(valve.rings, valve.next_id);
-  raise_next_id(valve.curves, valve.next_id);
-  give_ids(valve.leaflets, valve.next_id);
-  give_ids(valve.scallops, valve.next_id);
-  give_ids(valve.heads, valve.next_id);
-  give_ids(valve.chords, valve.next_id);
-  give_ids(valve.rings, valve.next_id);
-  give_ids(valve.curves, valve.next_id);
+  for_each_part_list([&](auto list, auto...) { raise_next_id(valve.*list, valve.next_id); });
+  for_each_part_list([&](auto list, auto...) { give_ids(valve.*list, valve.next_id); });
 }
 
 template <typename Part>
@@ -78,7 +70,7 @@ std::set<std::string> names_of(const CowVector<Part> &parts) {
   return names;
 }
 
-// The first of "prefix1", "prefix2", ... that is not taken yet.
+// Returns the first unused name of "prefix1", "prefix2", ...
 std::string free_name(const std::string &prefix, std::set<std::string> &taken, uint32_t &number) {
   std::string name;
   do {
@@ -95,7 +87,7 @@ void complete_head_names(Valve &valve) {
   }
 }
 
-// The scallop that each leaflet node lies in: that of its first triangle.
+// The scallop of each leaflet node: that of its first triangle.
 std::vector<uint32_t> node_scallops(const Valve &valve) {
   std::vector<uint32_t> scallop(valve.rest.size(), none);
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
@@ -106,11 +98,9 @@ std::vector<uint32_t> node_scallops(const Valve &valve) {
   return scallop;
 }
 
-// The head that each node of the chordae is reached from: the first one to get there.
+// The papillary head of each node of the chordae, by breadth-first search from the heads.
 std::vector<uint32_t> node_heads(const Valve &valve) {
-  std::vector<Edge> segments;
-  for (const Chord &chord : valve.chords) segments.push_back({chord.a, chord.b});
-  const Rows chords_at = rows_of(valve.rest.size(), segments);
+  const Rows chords_at = chords_at_nodes(valve);
   std::vector<uint32_t> head(valve.rest.size(), none), queue;
   for (uint32_t h = 0; h < valve.heads.size(); ++h) {
     head[valve.heads[h].node] = h;
@@ -118,7 +108,7 @@ std::vector<uint32_t> node_heads(const Valve &valve) {
   }
   for (size_t q = 0; q < queue.size(); ++q) {
     for (const uint32_t c : chords_at[queue[q]]) {
-      const uint32_t other = segments[c][0] + segments[c][1] - queue[q];
+      const uint32_t other = valve.chords.get()[c].other_end(queue[q]);
       if (head[other] != none) continue;
       head[other] = head[queue[q]];
       queue.push_back(other);
@@ -127,7 +117,8 @@ std::vector<uint32_t> node_heads(const Valve &valve) {
   return head;
 }
 
-// "P2/3": the third chord without a name that goes to P2; "PM1/2" where it ends at a branch point.
+// Names chordae after scallop and number, "P2/3", or after the head, "PM1/2", if they end at a
+// branch point.
 void complete_chord_names(Valve &valve) {
   const std::vector<uint32_t> scallop = node_scallops(valve), head = node_heads(valve);
   std::set<std::string> taken = names_of(valve.chords);
@@ -152,40 +143,24 @@ void complete_lengths(Valve &valve) {
   }
 }
 
-// Vector area of the annulus: its direction is the valve's axis.
-Vec3 annulus_axis(const Valve &valve, const Vec3 &centre) {
-  Vec3 area = Vec3::Zero();
-  for (size_t k = 0; k < valve.annulus.size(); ++k) {
-    const Vec3 &p = valve.rest[valve.annulus[k]];
-    const Vec3 &q = valve.rest[valve.annulus[(k + 1) % valve.annulus.size()]];
-    area += (p - centre).cross(q - centre);
-  }
-  return area.normalized();
-}
-
-Vec3 annulus_centre(const Valve &valve) {
-  Vec3 sum = Vec3::Zero();
-  for (const uint32_t node : valve.annulus) sum += valve.rest[node];
-  return sum / static_cast<double>(valve.annulus.size());
-}
-
-// A direction laid into the plane of a triangle, unit; the triangle's first side where it has no
-// part in that plane. One that is unit and in the plane already is kept as it is.
+// Projects a direction onto the plane of a triangle and normalises it; returns the first side of
+// the triangle if the projection vanishes. A unit vector in the plane is returned unchanged.
 Vec3 into_plane(const Valve &valve, const Tri &triangle, const Vec3 &direction) {
   const Vec3 side = valve.rest[triangle[1]] - valve.rest[triangle[0]];
   const Vec3 normal = side.cross(valve.rest[triangle[2]] - valve.rest[triangle[0]]).normalized();
   const double out = direction.dot(normal), length = direction.norm();
-  // far above the rounding of a unit vector, far below any angle that matters
+  // far above rounding of a unit vector, far below any relevant angle
   constexpr double close = 1e-12;
   if (std::abs(length - 1) < close && std::abs(out) < close) return direction;
   const Vec3 flat = direction - out * normal;
   return flat.norm() > 1e-6 * length ? flat.normalized() : side.normalized();
 }
 
-// Circumferential by default: the way a point moves when the valve turns about its axis.
+// Fibres are circumferential by default: tangential to a rotation about the axis of the valve.
 void complete_fibres(Valve &valve) {
   const bool given = !valve.triangle_fibre.empty();
-  const Vec3 centre = annulus_centre(valve), axis = annulus_axis(valve, centre);
+  const Vec3 centre = annulus_centre(valve);
+  const Vec3 axis = annulus_area(valve, centre).normalized();
   valve.triangle_fibre.resize(valve.triangles.size());
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     const Tri &triangle = valve.triangles[t];

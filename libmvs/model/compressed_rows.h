@@ -1,4 +1,4 @@
-// Compressed rows: for each node, the groups (triangles, chord segments) that hold it.
+// Compressed sparse rows: for each node, the groups (triangles, chord segments) that contain it.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace mvs::core {
 
-// Row r holds items[start[r] .. start[r + 1]).
+// Row r is items[start[r] .. start[r + 1]).
 struct Rows {
   CowVector<uint32_t> start, items;
 
@@ -19,19 +19,26 @@ struct Rows {
   }
 };
 
-// Rows of nodes over groups, ascending; a group is an array of nodes.
+// Builds rows by counting sort; for_each(visit) calls visit(row, item) for every entry, and runs
+// twice.
+template <typename ForEach>
+Rows build_rows(size_t row_count, ForEach for_each) {
+  std::vector<uint32_t> start(row_count + 1, 0);
+  for_each([&](size_t row, uint32_t) { ++start[row + 1]; });
+  for (size_t r = 0; r < row_count; ++r) start[r + 1] += start[r];
+  std::vector<uint32_t> items(start.back()), next(start.begin(), start.end() - 1);
+  for_each([&](size_t row, uint32_t item) { items[next[row]++] = item; });
+  return {std::move(start), std::move(items)};
+}
+
+// Returns for each node the indices of its groups, ascending; a group is an array of nodes.
 template <typename Group>
 Rows rows_of(size_t node_count, const std::vector<Group> &groups) {
-  std::vector<uint32_t> start(node_count + 1, 0);
-  for (const Group &group : groups) {
-    for (const uint32_t node : group) ++start[node + 1];
-  }
-  for (size_t n = 0; n < node_count; ++n) start[n + 1] += start[n];
-  std::vector<uint32_t> items(start.back()), next(start.begin(), start.end() - 1);
-  for (uint32_t g = 0; g < groups.size(); ++g) {
-    for (const uint32_t node : groups[g]) items[next[node]++] = g;
-  }
-  return {std::move(start), std::move(items)};
+  return build_rows(node_count, [&](auto visit) {
+    for (uint32_t g = 0; g < groups.size(); ++g) {
+      for (const uint32_t node : groups[g]) visit(node, g);
+    }
+  });
 }
 
 }  // namespace mvs::core

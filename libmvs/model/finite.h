@@ -1,4 +1,4 @@
-// That a state is made of numbers.
+// Check that a state has finite numbers only.
 #pragma once
 
 #include "base/error.h"
@@ -6,7 +6,7 @@
 
 namespace mvs::core {
 
-// Throws MVS_E_DIVERGED where a position is not a number.
+// Throws MVS_E_DIVERGED if a position of a node or tool is infinite or NaN.
 inline void must_be_finite(const State &state) {
   for (const Vec3 &x : state.x.get()) {
     MVS_MUST(x.allFinite(), MVS_E_DIVERGED, "nodes",

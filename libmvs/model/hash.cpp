@@ -1,7 +1,8 @@
-// The hash of a model and a state: every field that a later step can depend on, in one fixed order.
+// Hash of a model and a state: every field that a later step can depend on, in one fixed order.
 #include "base/hash.h"
 
 #include "model/model.h"
+#include "model/valve_arrays.h"
 
 namespace mvs::core {
 namespace {
@@ -86,22 +87,7 @@ void add(Hash &hash, const CowVector<Item> &items) {
 
 void add(Hash &hash, const Valve &valve) {
   hash.add(valve.name);
-  add(hash, valve.rest);
-  add(hash, valve.open);
-  add(hash, valve.loaded);
-  add(hash, valve.origin);
-  add(hash, valve.triangles);
-  add(hash, valve.triangle_leaflet);
-  add(hash, valve.triangle_scallop);
-  add(hash, valve.triangle_thickness);
-  add(hash, valve.triangle_fibre);
-  add(hash, valve.annulus);
-  add(hash, valve.leaflets);
-  add(hash, valve.scallops);
-  add(hash, valve.chords);
-  add(hash, valve.heads);
-  add(hash, valve.rings);
-  add(hash, valve.curves);
+  for_each_array([&](auto array) { add(hash, valve.*array); });
   for (const double number :
        {valve.density, valve.contact_thickness, valve.contact_stiffness, valve.bending_scale}) {
     hash.add(number);
@@ -120,7 +106,7 @@ std::array<uint64_t, 2> hash_of(const Model &model, const State &state) {
   hash.add(state.steps);
   hash.add(state.load.pressure);
   hash.add(state.load.boundary_fraction);
-  // a state that never had a tool hashes as before there were any
+  // tools are hashed only if the state ever had one
   if (state.tools_made > 0) {
     hash.add(state.tools_made);
     add(hash, state.tools);

@@ -1,5 +1,5 @@
-// The laws of leaflets. A new one is a response and a row of the table, and its number in
-// include/mvs/valve.h; nothing else has to know.
+// Constitutive laws of leaflets. A new law adds one response function, one row of the table, and
+// its number in include/mvs/valve.h.
 #include "model/law.h"
 
 #include <mvs/valve.h>
@@ -14,19 +14,20 @@ namespace {
 
 // scale exp(q) up to 100 kPa, where the stress along a stretch is 6 to 11 MPa with the constants
 // below: leaflets of aortic and pulmonary valves tear at 0.3 to 2.8 MPa (Biomaterials 225 (2019)
-// 119493, table 3). From there on a parabola in sqrt(q), which is about a strain, with the slope,
-// but a fiftieth of the curvature, of what it goes on from. So a trial step that crushes a triangle
-// gives a number that a solver can come back from, and a few triangles torn or crushed by an
-// operation do not stop all others: of 80 operations on closed valves 14 did not come to rest with
-// a parabola in q from 100 MPa on, 4 with all of the curvature, none with this.
+// 119493, table 3). Above, a parabola in sqrt(q), which is about a strain, with the slope of the
+// exponential and 2 % of its curvature at the transition. A trial step that crushes a triangle then
+// gives a finite value from which a solver recovers, and a few triangles torn or crushed by an
+// operation do not stop the others: of 80 operations on closed valves 14 did not come to rest with
+// a parabola in q from 100 MPa on, 4 with the full curvature, 0 with this law.
 struct Exponential {
-  double value, first, second;  // and derivatives by q
+  double value, first, second;  // and derivatives with respect to q
 };
 Exponential bounded_exp(double scale, double q) {
   constexpr double most = 100e3, share = 0.02;
   const double plain = scale * math::exp(q);
   if (plain <= most) return {plain, plain, plain};
-  const double edge = std::max(math::log(most / scale), 1.0);  // tissue may begin above `most`
+  const double edge =
+      std::max(math::log(most / scale), 1.0);  // the stress at rest may exceed `most`
   if (q <= edge) return {plain, plain, plain};
   const double top = scale * math::exp(edge), r = std::sqrt(q), over = r - std::sqrt(edge);
   const double start = 2 * std::sqrt(edge) * top, curve = share * (2 + 4 * edge) * top;
@@ -35,7 +36,7 @@ Exponential bounded_exp(double scale, double q) {
           (curve - slope / r) / (4 * q)};
 }
 
-// W = scale (exp(q) - 1), from the derivatives of q by I1 and I4.
+// W = scale (exp(q) - 1), from the derivatives of q with respect to I1 and I4.
 Response exponential(double scale, double q, double q1, double q11, double q4, double q44) {
   const auto [value, first, second] = bounded_exp(scale, q);
   return {value - scale,    first * q1,
@@ -43,8 +44,8 @@ Response exponential(double scale, double q, double q1, double q11, double q4, d
           second * q1 * q4, second * q4 * q4 + first * q44};
 }
 
-// The smooth fit to the paper's curve: c 18.49 kPa, a 3146 kPa, Ic 3.1611, s 0.006 (its
-// uniaxial stress lies within 12 % of the curve except at the kink, which it rounds: the table of
+// Smooth fit to the curve of the founding paper: c 18.49 kPa, a 3146 kPa, Ic 3.1611, s 0.006. Its
+// uniaxial stress lies within 12 % of the curve except at the kink, which it rounds (table of
 // tests/verification).
 Response bilinear(const Constants &k, double i1, double) {
   const double c = k[0], a = k[1], x = i1 - k[2], s2 = k[3] * k[3], x0 = 3 - k[2];
@@ -86,10 +87,10 @@ constexpr double soft = 1e-3, hard = 1e12;  // Pa: softer than any gel, harder t
 constexpr Constant spring_constants[] = {{"low", "low modulus", "Pa", 100e3, 1, hard},
                                          {"high", "high modulus", "Pa", 6e6, 1, hard},
                                          {"kink", "kink strain", "", 0.25, 0, 10}};
-constexpr Constant bilinear_constants[] = {{"c", "constant c", "Pa", 18.49e3, soft, hard},
-                                           {"a", "constant a", "Pa", 3146e3, soft, hard},
-                                           {"ic", "constant Ic", "", 3.1611, 3, 100},
-                                           {"s", "constant s", "", 0.006, 1e-6, 10}};
+constexpr Constant bilinear_membrane_constants[] = {{"c", "constant c", "Pa", 18.49e3, soft, hard},
+                                                    {"a", "constant a", "Pa", 3146e3, soft, hard},
+                                                    {"ic", "constant Ic", "", 3.1611, 3, 100},
+                                                    {"s", "constant s", "", 0.006, 1e-6, 10}};
 constexpr Constant fung_constants[] = {{"c0", "constant c0", "Pa", 1e3, soft, hard},
                                        {"c1", "constant c1", "Pa", 124, soft, hard},
                                        {"c2", "constant c2", "", 4.568202, 1e-6, 1e6}};
@@ -101,9 +102,10 @@ constexpr Constant prot_constants[] = {{"c0", "constant c0", "Pa", 52, soft, har
                                        {"c2", "constant c2", "", 22.6, 0, 1e6}};
 constexpr Constant neo_hookean_constants[] = {{"mu", "shear modulus", "Pa", 1e5 / 3, soft, hard}};
 
-constexpr LeafletLaw laws[] = {
+constexpr LeafletLaw leaflet_law_table[] = {
     {MVS_LEAFLET_LAW_SPRING, "spring", "bilinear springs", spring_constants, nullptr},
-    {MVS_LEAFLET_LAW_BILINEAR, "bilinear", "bilinear membrane", bilinear_constants, bilinear},
+    {MVS_LEAFLET_LAW_BILINEAR, "bilinear", "bilinear membrane", bilinear_membrane_constants,
+     bilinear},
     {MVS_LEAFLET_LAW_FUNG, "fung", "Fung-type membrane", fung_constants, fung},
     {MVS_LEAFLET_LAW_MAY_NEWMAN_YIN, "may_newman_yin", "May-Newman and Yin", may_newman_constants,
      may_newman_yin},
@@ -114,11 +116,11 @@ constexpr LeafletLaw laws[] = {
 }  // namespace
 
 std::span<const LeafletLaw> leaflet_laws() {
-  return laws;
+  return leaflet_law_table;
 }
 
 const LeafletLaw *find_leaflet_law(uint32_t id) {
-  for (const LeafletLaw &law : laws) {
+  for (const LeafletLaw &law : leaflet_law_table) {
     if (law.id == id) return &law;
   }
   return nullptr;
@@ -131,7 +133,7 @@ Constants default_constants(std::span<const Constant> constants) {
 }
 
 Constants membrane_like(const Bilinear &springs) {
-  // the fit to 100 kPa, 6 MPa and 0.25, scaled; its turn lies 0.0014 below I1 at the kink
+  // the fit to 100 kPa, 6 MPa and 0.25, scaled; its transition lies 0.0014 below I1 at the kink
   const double l = 1 + springs.kink;
   return {18.49e-2 * springs.low, 3146e-3 / 6 * springs.high, l * l + 2 / l - 0.0014, 0.006};
 }

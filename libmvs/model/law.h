@@ -1,5 +1,6 @@
-// What tissue does when stretched. One table of leaflet laws and one of chord laws: their words,
-// constants and ranges, which the checks, the files and the interface read, and what they compute.
+// Constitutive laws of leaflets. One table each of leaflet laws and chord laws lists their words,
+// constants and ranges for the checks, the files and the interface, with the functions that
+// evaluate them.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@ namespace mvs::core {
 
 using Constants = std::array<double, 8>;
 
-// One constant of a law. `key` is its word in files, `what` its name in sentences.
+// One constant of a law. `key` is its word in files, `what` its name in error sentences.
 struct Constant {
   const char *key;
   const char *what;
@@ -19,9 +20,9 @@ struct Constant {
   double fallback, low, high;
 };
 
-// The energy density of a membrane in J/m3 and its derivatives by I1 and I4. Every law is convex in
-// the in-plane Cauchy-Green strain: not falling in I1, and jointly convex. The element relies on
-// it.
+// Energy density of a membrane in J/m3 and its derivatives with respect to I1 and I4. Every law is
+// convex in the in-plane Cauchy-Green strain: it does not decrease in I1, and is jointly convex.
+// The element relies on this.
 struct Response {
   double w, w1, w4, w11, w14, w44;
 };
@@ -35,21 +36,23 @@ struct LeafletLaw {
 };
 
 std::span<const LeafletLaw> leaflet_laws();       // in the order of their ids, from 1
-const LeafletLaw *find_leaflet_law(uint32_t id);  // null if there is none
+const LeafletLaw *find_leaflet_law(uint32_t id);  // null if unknown
 Constants default_constants(std::span<const Constant> constants);
 
-// Young's modulus that bending takes: at rest, or where a law starts without stiffness, the secant
-// of its uniaxial curve along the fibre at a strain of 0.1.
+// Young's modulus for the bending stiffness: the tangent at rest or, for a law without initial
+// stiffness, the secant of its uniaxial curve along the fibre at a strain of 0.1.
 double bending_modulus(const LeafletLaw &law, const Constants &constants);
 
-// The springs: sigma(e) = low e below the kink, then slope high (Tenenholtz et al. 2011).
-// Compression follows the first line. Pa over engineering strain.
+// Bilinear spring law: sigma(e) = low e below the kink, slope high above it (Tenenholtz et al.
+// 2011). Compression follows the first branch. Pa over engineering strain.
 struct Bilinear {
   double low = 100e3;
   double high = 6e6;
   double kink = 0.25;
 
-  explicit Bilinear(const Constants &c) : low(c[0]), high(c[1]), kink(c[2]) {}
+  Bilinear(double low_in, double high_in, double kink_in)
+      : low(low_in), high(high_in), kink(kink_in) {}
+  explicit Bilinear(const Constants &c) : Bilinear(c[0], c[1], c[2]) {}
   double stress(double e) const { return e < kink ? low * e : low * kink + high * (e - kink); }
   double tangent(double e) const { return e < kink ? low : high; }
   // Energy density: the integral of stress over strain, J/m3.
@@ -60,7 +63,7 @@ struct Bilinear {
   }
 };
 
-// The constants of the bilinear membrane whose uniaxial curve is that of the springs.
+// Returns the constants of the bilinear membrane that has the uniaxial curve of the springs.
 Constants membrane_like(const Bilinear &springs);
 
 }  // namespace mvs::core

@@ -1,8 +1,9 @@
-// The strain of a membrane triangle and what its law makes of it. With F = [f0 f1] the map from the
-// rest triangle (first axis along the fibre) into space, everything follows from three numbers,
+// Kinematics of a membrane triangle and its second Piola-Kirchhoff response. With F = [f0 f1] the
+// map from the rest triangle (first axis along the fibre) into space, three numbers determine the
+// response:
 //     a = f0 . f0,  b = f1 . f1,  c = f0 . f1,
-// the in-plane Cauchy-Green strain C = [a c; c b]. The tissue does not compress and nothing presses
-// on its faces (plane stress), so that the thickness stretches by 1 / sqrt(det C):
+// the in-plane Cauchy-Green strain C = [a c; c b]. The tissue is incompressible and in plane
+// stress, so that the thickness is scaled by 1 / sqrt(det C):
 //     I1 = a + b + 1 / (a b - c^2),  I4 = a.
 #pragma once
 
@@ -15,7 +16,7 @@ namespace mvs::core {
 
 using Mat2 = Eigen::Matrix2d;
 
-// Energy density and its derivatives by (a, b, c).
+// Energy density and its derivatives with respect to (a, b, c).
 struct InPlane {
   double w;
   Vec3 first;
@@ -27,7 +28,7 @@ struct InPlaneStrain {
   double det() const { return a * b - c * c; }
 };
 
-// The energy density and its slope; `second` is left as it is.
+// Returns energy density and gradient; `second` is not set.
 inline InPlane in_plane_stress(const Response &r, const InPlaneStrain &s) {
   const double d = 1 / s.det(), d2 = d * d;
   InPlane out;
@@ -36,13 +37,15 @@ inline InPlane in_plane_stress(const Response &r, const InPlaneStrain &s) {
   return out;
 }
 
-// With its curvature. W is convex in (a, b, c) for every law of law.h, for I1 is convex in C, I4
-// linear, and W rises in I1 and is convex in both: `second` is positive semidefinite. Its entries
-// are w1 d2I1 + w11 dI1 dI1 + w14 (dI1 dI4 + dI4 dI1) + w44 dI4 dI4.
+// Returns energy density, gradient and Hessian. W is convex in (a, b, c) for every law of law.h,
+// since I1 is convex in C, I4 is linear, and W increases in I1 and is jointly convex: `second` is
+// positive semidefinite. Its entries are w1 d2I1 + w11 dI1 dI1 + w14 (dI1 dI4 + dI4 dI1) + w44 dI4
+// dI4.
 inline InPlane in_plane_stiffness(const Response &r, const InPlaneStrain &s) {
   const auto [a, b, c] = s;
   const double d = 1 / s.det(), d2 = d * d, k = 2 * r.w1 * d2 * d;
-  const double p = 1 - b * d2, q = 1 - a * d2, u = 2 * c * d2;  // dI1 by a, b, c
+  const double p = 1 - b * d2, q = 1 - a * d2,
+               u = 2 * c * d2;  // derivatives of I1 with respect to a, b, c
   InPlane out;
   out.w = r.w;
   out.first = {r.w1 * p + r.w4, r.w1 * q, r.w1 * u};
@@ -56,8 +59,8 @@ inline InPlane in_plane_stiffness(const Response &r, const InPlaneStrain &s) {
   return out;
 }
 
-// The inverse of the rest triangle's sides 0-1 and 0-2 in its own axes: fibre, normal x fibre.
-// F = [x1 - x0, x2 - x0] times it.
+// Inverse of the matrix of rest sides 0-1 and 0-2 in the triangle's axes: fibre, normal x fibre. F
+// = [x1 - x0, x2 - x0] times this inverse.
 inline Mat2 rest_inverse(const Valve &valve, size_t t) {
   const Tri &nodes = valve.triangles[t];
   const Vec3 s1 = valve.rest[nodes[1]] - valve.rest[nodes[0]];

@@ -1,4 +1,5 @@
-// Making models: check, complete, derive, freeze.
+// make_model: checks a valve, fills in defaults, derives topology, rest lengths, areas and lumped
+// masses.
 #include "model/model.h"
 
 #include <Eigen/Geometry>
@@ -7,14 +8,10 @@
 #include "base/error.h"
 #include "model/check.h"
 #include "model/complete.h"
+#include "model/sides.h"
 
 namespace mvs::core {
 namespace {
-
-double triangle_area(const Valve &valve, const Tri &triangle) {
-  const Vec3 &a = valve.rest[triangle[0]];
-  return 0.5 * (valve.rest[triangle[1]] - a).cross(valve.rest[triangle[2]] - a).norm();
-}
 
 void derive_lengths_and_areas(Model &model) {
   const Valve &valve = model.valve;
@@ -23,7 +20,7 @@ void derive_lengths_and_areas(Model &model) {
   }
   model.vertex_area.assign(valve.rest.size(), 0);
   for (const Tri &triangle : valve.triangles) {
-    const double area = triangle_area(valve, triangle);
+    const double area = triangle_area(valve.rest, triangle);
     model.rest_area.push_back(area);
     for (const uint32_t node : triangle) model.vertex_area[node] += area / 3;
   }

@@ -1,4 +1,4 @@
-// Model, State and Snapshot: the three things that everything else is made of.
+// Model, State and ModelState: an immutable valve with derived data, and one state of it.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace mvs::core {
 
-// An immutable valve with what follows from it. Made by make_model, shared by every snapshot.
+// An immutable valve with its derived data. make_model makes it; snapshots share it.
 struct Model {
   Valve valve;
   Topology topology;
@@ -18,10 +18,11 @@ struct Model {
   CowVector<double> rest_length;  // m per edge
   CowVector<double> vertex_area;  // m2 per node: a third of its rest triangles
   CowVector<double> node_mass;    // kg: lumped from triangles and chordae
-  uint64_t serial = 0;  // of this process: tells a new model from one that lay at its address
+  uint64_t serial =
+      0;  // unique in this process, so that a new model at an old address is recognised
 
   size_t node_count() const { return valve.rest.size(); }
-  // Where a prescribed node is at a fraction 0 (open) .. 1 (loaded) of the boundary motion.
+  // Position of a prescribed node at a fraction 0 (open) .. 1 (loaded) of the boundary motion.
   Vec3 target(uint32_t node, double fraction) const {
     return valve.open[node] + fraction * (valve.loaded[node] - valve.open[node]);
   }
@@ -52,31 +53,33 @@ struct State {
   double time = 0;    // s
   uint64_t steps = 0;
   Load load;
-  CowVector<Tool> tools;              // in the order in which they were added
-  uint64_t tools_made = 0;            // so far; no id is given twice
+  CowVector<Tool> tools;              // in the order of addition
+  uint64_t tools_made = 0;            // count of all tools added so far; ids are not reused
   PreconditionerKey serving, coming;  // while it moves in live steps; a valve at rest has none
 
   void drop_cache() { serving = coming = {}; }
 };
 
-// A model and a state of it.
+// A model with one of its states.
 struct ModelState {
   ModelPtr model;
   State state;
 };
 
-// Checks, completes (ids, names, fibres, thickness) and freezes a valve; throws the first fault.
-// Arrays that hold the same as those of `parent` (nullable) are shared with it.
+// Checks a valve, fills in its defaults (ids, names, fibres, thickness) and derives the rest.
+// Throws the first fault. Arrays equal to those of `parent` (may be null) share their memory with
+// it.
 ModelPtr make_model(Valve valve, const Model *parent = nullptr);
 
-// Shares with `other` the arrays that hold the same bits; nothing else changes.
+// Makes arrays that have the same bits as those of `other` share their memory; no value changes.
 void share(Model &model, const Model &other);
 void share(State &state, const State &other);
 
-// The state a new valve starts from: at rest, no load.
+// The initial state of a valve: rest shape, zero velocity, no load.
 State initial_state(const Model &model);
 
-// 128 bits over the meaning of both: names, numbers, order; never addresses or padding.
+// A 128-bit hash of all values of both (names, numbers, order), independent of addresses and
+// padding.
 std::array<uint64_t, 2> hash_of(const Model &model, const State &state);
 
 }  // namespace mvs::core

@@ -1,15 +1,16 @@
-// The side of the atrium, and turning triangles towards it.
+// The atrial side of the annulus, and reorientation of triangles towards it.
 #include "model/orientation.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "model/check.h"
 
 namespace mvs::core {
 namespace {
 
-// A sheet that hangs less than this share of the annulus' size from its plane does not tell where
-// the ventricle is.
+// A sheet whose depth is below this share of the annulus size does not show the side of the
+// ventricle.
 constexpr double flat = 1e-3;
 
 Vec3 mean_of_heads(const Valve &valve) {
@@ -27,34 +28,42 @@ Vec3 mean_of_sheet(const Valve &valve) {
 }
 
 bool in_range(const Valve &valve) {
-  const size_t n = valve.rest.size();
-  for (const Tri &triangle : valve.triangles) {
-    for (const uint32_t node : triangle) {
-      if (node >= n) return false;
-    }
-  }
-  for (const uint32_t node : valve.annulus) {
-    if (node >= n) return false;
-  }
-  for (const Head &head : valve.heads) {
-    if (head.node >= n) return false;
-  }
-  return true;
+  const auto exists = [&](uint32_t node) { return node < valve.rest.size(); };
+  const auto have_nodes = [&](const Tri &t) {
+    return exists(t[0]) && exists(t[1]) && exists(t[2]);
+  };
+  const auto has_node = [&](const Head &head) { return exists(head.node); };
+  const std::vector<Tri> &triangles = valve.triangles;
+  const std::vector<uint32_t> &annulus = valve.annulus;
+  const std::vector<Head> &heads = valve.heads;
+  return std::all_of(triangles.begin(), triangles.end(), have_nodes) &&
+         std::all_of(annulus.begin(), annulus.end(), exists) &&
+         std::all_of(heads.begin(), heads.end(), has_node);
 }
 
 }  // namespace
 
+Vec3 annulus_centre(const Valve &valve) {
+  Vec3 sum = Vec3::Zero();
+  for (const uint32_t node : valve.annulus) sum += valve.rest[node];
+  return sum / static_cast<double>(valve.annulus.size());
+}
+
+Vec3 annulus_area(const Valve &valve, const Vec3 &centre) {
+  Vec3 area = Vec3::Zero();
+  for (size_t k = 0; k < valve.annulus.size(); ++k) {
+    const Vec3 p = valve.rest[valve.annulus[k]] - centre;
+    const Vec3 q = valve.rest[valve.annulus[(k + 1) % valve.annulus.size()]] - centre;
+    area += 0.5 * p.cross(q);
+  }
+  return area;
+}
+
 AtrialSide atrial_side(const Valve &valve) {
   AtrialSide side;
   if (valve.annulus.empty() || valve.triangles.empty()) return side;
-  for (const uint32_t node : valve.annulus) side.centre += valve.rest[node];
-  side.centre /= static_cast<double>(valve.annulus.size());
-  Vec3 area = Vec3::Zero();
-  for (size_t k = 0; k < valve.annulus.size(); ++k) {
-    const Vec3 p = valve.rest[valve.annulus[k]] - side.centre;
-    const Vec3 q = valve.rest[valve.annulus[(k + 1) % valve.annulus.size()]] - side.centre;
-    area += 0.5 * p.cross(q);
-  }
+  side.centre = annulus_centre(valve);
+  const Vec3 area = annulus_area(valve, side.centre);
   const Vec3 ventricle = valve.heads.empty() ? mean_of_sheet(valve) : mean_of_heads(valve);
   const double depth = area.normalized().dot(side.centre - ventricle);
   if (std::abs(depth) > flat * std::sqrt(area.norm())) {
@@ -65,8 +74,7 @@ AtrialSide atrial_side(const Valve &valve) {
 
 std::vector<Vec3> faced_areas(const Valve &valve, const std::vector<Side> &sides,
                               const Winding &winding) {
-  std::vector<uint8_t> in_annulus(valve.rest.size(), 0);
-  for (const uint32_t node : valve.annulus) in_annulus[node] = 1;
+  const std::vector<uint8_t> in_annulus = marks_of(valve.annulus, valve.rest.size());
   const Vec3 centre = atrial_side(valve).centre;
   std::vector<Vec3> areas(winding.component_count, Vec3::Zero());
   for_each_edge(sides, [&](size_t first, size_t last) {
@@ -80,7 +88,7 @@ std::vector<Vec3> faced_areas(const Valve &valve, const std::vector<Side> &sides
 }
 
 void orient(Valve &valve) {
-  if (!in_range(valve)) return;  // find_faults says what is wrong with it
+  if (!in_range(valve)) return;  // find_faults reports the fault
   const Winding winding = find_winding(valve.triangles, sorted_sides(valve.triangles));
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     if (winding.against[t]) std::swap(valve.triangles[t][1], valve.triangles[t][2]);

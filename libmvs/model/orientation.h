@@ -1,4 +1,4 @@
-// Which way a sheet faces: towards the atrium, or into the ventricle.
+// Orientation of a sheet relative to the atrium.
 #pragma once
 
 #include "model/valve.h"
@@ -6,19 +6,26 @@
 
 namespace mvs::core {
 
-// Where the atrium is: the normal of the annulus loop that points away from the ventricle, unit,
-// with the centre of the loop. The ventricle is where the papillary heads are; without heads it is
-// where the sheet hangs. Zero where neither tells (a flat sheet). Indices must be in range.
+// Mean of the annulus nodes at rest.
+Vec3 annulus_centre(const Valve &valve);
+
+// Vector area of the annulus loop at rest about its centre, m2; it points along the valve's axis or
+// against it.
+Vec3 annulus_area(const Valve &valve, const Vec3 &centre);
+
+// The unit normal of the annulus loop that points away from the ventricle, and the centre of the
+// loop. The ventricle is on the side of the papillary heads or, without heads, on the side of the
+// sheet. The axis is zero if neither decides (a flat sheet). Indices must be in range.
 struct AtrialSide {
   Vec3 centre = Vec3::Zero();
   Vec3 axis = Vec3::Zero();
 };
 AtrialSide atrial_side(const Valve &valve);
 
-// For each component, the vector area of its rim at the annulus, walked along the winding of the
-// triangles there. A sheet with normals on one side of its rim has a rim that runs
-// counter-clockwise seen from that side, however its walls hang: so this points to the side that
-// the component faces.
+// Returns, for each component of the sheet, the vector area of its rim at the annulus, traversed in
+// the winding of the triangles there. The rim of a sheet runs counter-clockwise seen from the side
+// of its normals, whatever the shape of its walls: so the vector points to the side that the
+// component faces.
 std::vector<Vec3> faced_areas(const Valve &valve, const std::vector<Side> &sides,
                               const Winding &winding);
 

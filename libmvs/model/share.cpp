@@ -1,5 +1,7 @@
-// Arrays of two models that hold the same become one: what undo levels cost is what differs.
+// Sharing of equal arrays between two models or states: an undo level costs only the arrays that
+// differ.
 #include "model/model.h"
+#include "model/valve_arrays.h"
 
 namespace mvs::core {
 namespace {
@@ -10,22 +12,9 @@ void share(Rows &rows, const Rows &other) {
 }
 
 void share(Valve &valve, const Valve &other) {
-  valve.rest.share_with(other.rest);
-  valve.open.share_with(valve.rest) || valve.open.share_with(other.open);
-  valve.loaded.share_with(valve.rest) || valve.loaded.share_with(other.loaded);
-  valve.origin.share_with(other.origin);
-  valve.triangles.share_with(other.triangles);
-  valve.triangle_leaflet.share_with(other.triangle_leaflet);
-  valve.triangle_scallop.share_with(other.triangle_scallop);
-  valve.triangle_thickness.share_with(other.triangle_thickness);
-  valve.triangle_fibre.share_with(other.triangle_fibre);
-  valve.annulus.share_with(other.annulus);
-  valve.leaflets.share_with(other.leaflets);
-  valve.scallops.share_with(other.scallops);
-  valve.chords.share_with(other.chords);
-  valve.heads.share_with(other.heads);
-  valve.rings.share_with(other.rings);
-  valve.curves.share_with(other.curves);
+  for_each_array([&](auto array) { (valve.*array).share_with(other.*array); });
+  valve.open.share_with(valve.rest);
+  valve.loaded.share_with(valve.rest);
 }
 
 void share(Topology &topology, const Topology &other) {

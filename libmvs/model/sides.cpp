@@ -1,4 +1,4 @@
-// Collecting and sorting sides.
+// Collects and sorts the sides of triangles.
 #include "model/sides.h"
 
 #include <algorithm>
@@ -18,6 +18,19 @@ std::vector<Side> sorted_sides(const std::vector<Tri> &triangles) {
     return l.edge != r.edge ? l.edge < r.edge : l.triangle < r.triangle;
   });
   return sides;
+}
+
+std::vector<uint32_t> neighbours_in(const std::vector<Tri> &triangles,
+                                    std::span<const uint32_t> star, uint32_t vertex) {
+  std::vector<uint32_t> around;
+  for (const uint32_t t : star) {
+    for (const uint32_t corner : triangles[t]) {
+      if (corner != vertex) around.push_back(corner);
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return around;
 }
 
 }  // namespace mvs::core

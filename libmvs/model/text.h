@@ -1,4 +1,4 @@
-// What a text may hold that is shown and saved.
+// Validity of texts that are displayed and saved.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace mvs::core {
 
-// That no control character is in it.
+// Returns whether a text has no control character.
 inline bool is_plain_text(std::string_view text) {
   return std::none_of(text.begin(), text.end(),
                       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });

@@ -1,4 +1,5 @@
-// Adding, moving and removing instruments; whether there is room for one.
+// Adds, moves and removes instruments; computes the clearance between an instrument and the
+// leaflets.
 #include "model/tool.h"
 
 #include <mvs/tool.h>
@@ -15,14 +16,15 @@
 namespace mvs::core {
 namespace {
 
-// A tool closer to tissue than this share of its range would start with a blow.
+// Least clearance of a new tool as a share of its range: a smaller one would start with a large
+// force.
 constexpr double least_room = 0.01;
 
 bool is(const Tool &tool, Id id) {
   return tool.id == id;
 }
 
-// Crossing a triangle counts as 0.
+// Returns 0 for a tool axis that crosses the triangle.
 double distance_of_core(const std::vector<Vec3> &x, const Tri &t, const Tool &tool) {
   const auto &[a, b] = tool.proxy;
   const Vec3 &p = x[t[0]], &q = x[t[1]], &r = x[t[2]];
@@ -31,7 +33,8 @@ double distance_of_core(const std::vector<Vec3> &x, const Tri &t, const Tool &to
   return std::sqrt(segment_triangle_distance2(a, b, p, q, r));
 }
 
-// From the point of a triangle nearest to the axis of a tool: that of its ends, or that of an edge.
+// Unit vector from the nearest point of a triangle to the axis of a tool; considers the ends of the
+// axis and the edges of the triangle.
 Vec3 away_from(const std::vector<Vec3> &x, const Tri &t, const Tool &tool) {
   Vec3 away = Vec3::Zero();
   double least = std::numeric_limits<double>::infinity();
@@ -84,7 +87,7 @@ Room room_of(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
 
 Id add_tool(const Model &model, State &state, Tool tool) {
   MVS_MUST(state.tools.size() < MVS_MAX_TOOLS, MVS_E_STATE, "tool",
-           "there are %u tools already, as many as there can be: remove one first", MVS_MAX_TOOLS);
+           "there are %u tools, which is the limit: remove one first", MVS_MAX_TOOLS);
   tool.id = first_tool_id + state.tools_made;
   tool.proxy = {tool.target(0), tool.target(1)};
   if (tool.kind == MVS_TOOL_KIND_GRASP) {
@@ -109,7 +112,7 @@ const Tool &tool_of(const State &state, Id id, const char *call) {
   MVS_MUST(id >= first_tool_id, MVS_E_ID, "tool", "%s: id %llu is not that of a tool", call,
            number);
   MVS_MUST(found != tools.end(), MVS_E_ID, "tool",
-           "%s: tool %llu is not there: it was removed, or this state is from before it", call,
+           "%s: tool %llu does not exist: it was removed, or this state is older than it", call,
            number);
   return *found;
 }

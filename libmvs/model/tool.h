@@ -1,4 +1,4 @@
-// Instruments in the valve: part of the state (include/mvs/tool.h says what they do).
+// Instruments in the valve, a part of the state; include/mvs/tool.h describes their behaviour.
 #pragma once
 
 #include <array>
@@ -14,52 +14,56 @@ struct Tool {
   Id id = 0;
   uint32_t kind = 1;                                  // MVS_TOOL_KIND_*
   uint32_t node = none;                               // held by a grasp
-  double radius = 0, length = 0;                      // m, of what pushes
+  double radius = 0, length = 0;                      // m, of a ball or rod
   double stiffness = 0;                               // N/m
   double max_force = 0;                               // N
   Vec3 position = Vec3::Zero(), axis = Vec3::Zero();  // of the hand
-  // Where it is: the middle of a ball, of both ends of a rod; unused by a grasp.
+  // Actual position: centre of a ball, both ends of a rod; unused by a grasp.
   std::array<Vec3, 2> proxy = {Vec3::Zero(), Vec3::Zero()};
 
-  // How many points of its own it has.
+  // Number of its own degrees of freedom, as points.
   uint32_t points() const { return kind - 1; }
-  // Where the hand wants point k.
+  // Position that the hand requests for point k.
   Vec3 target(uint32_t k) const { return position + k * length * axis; }
 
-  // Whether it is the same thing, wherever it is. An id is not enough: what was undone gives its
-  // own to the next tool.
+  // Whether both are the same tool, regardless of position. Comparing ids is not sufficient: after
+  // an undo, the next tool gets the id of the undone one.
   bool is_same_as(const Tool &other) const {
     return id == other.id && kind == other.kind && radius == other.radius && length == other.length;
   }
   bool operator==(const Tool &) const = default;
 };
 
-// Ids of tools lie above those of the parts of any valve.
+// Ids of tools are larger than the ids of all parts of a valve.
 inline constexpr Id first_tool_id = Id{1} << 48;
 
-// The middle of the leaflets to the surface of a ball or rod; negative inside it, infinity without
-// leaflets.
+// Returns the distance from the mid-surface of the leaflets to the surface of a ball or rod;
+// negative inside it, infinity without leaflets.
 double clearance(const Model &model, const std::vector<Vec3> &x, const Tool &tool);
 
-// The same, and the unit direction from the tissue there to the tool; 0 without leaflets.
+// The same distance with the unit direction from the nearest tissue to the tool; 0 without
+// leaflets.
 struct Room {
   double distance;
   Vec3 away;
 };
 Room room_of(const Model &model, const std::vector<Vec3> &x, const Tool &tool);
 
-// How near the middle of a leaflet tissue begins to push: half of the contact thickness.
+// Returns the distance from the mid-surface below which tissue pushes: half of the contact
+// thickness.
 double tool_range(const Model &model);
 
-// Adds a tool where its hand is and gives it an id. Throws where it cannot be there.
+// Adds a tool at the position of its hand and assigns an id. Throws if the position is not
+// possible.
 Id add_tool(const Model &model, State &state, Tool tool);
 
-// Throw MVS_E_ID where the tool is not there, in the name of a call.
+// These throw MVS_E_ID if the tool does not exist, with the name of the call.
 const Tool &tool_of(const State &state, Id id, const char *call);
 void move_tool(State &state, Id id, const Vec3 &position, const Vec3 &axis);
 void remove_tool(State &state, Id id);
 
-// After an operation: the tools that still have their place. `number` are the new numbers of nodes.
+// After an operation: renumbers grasped nodes, and removes tools whose node or free space is gone.
+// `number` gives the new number of each node.
 void renumber_grasps(State &state, const std::vector<uint32_t> &number);
 void drop_lost_tools(const Model &model, State &state);
 

@@ -1,7 +1,9 @@
-// Topology by sorting: every list comes out in one order, whatever the order of the input.
+// Topology by sorting: the order of every list does not depend on hashing or addresses.
 #include "model/topology.h"
 
 #include <mvs/snapshot.h>
+
+#include <algorithm>
 
 #include "model/sides.h"
 
@@ -19,13 +21,6 @@ void add_edges(const std::vector<Side> &sides, Topology &topology) {
     topology.triangle_edges[side.triangle][side.k] =
         static_cast<uint32_t>(topology.edges.size() - 1);
   }
-}
-
-uint32_t opposite_corner(const Tri &triangle, const Edge &edge) {
-  for (const uint32_t corner : triangle) {
-    if (corner != edge[0] && corner != edge[1]) return corner;
-  }
-  return none;
 }
 
 void add_hinges(const std::vector<Tri> &triangles, Topology &topology) {
@@ -53,8 +48,8 @@ void add_kinds(const Valve &valve, Topology &topology) {
   }
 }
 
-// Walks the boundary along the winding of its triangles. In a manifold sheet a boundary node has
-// one way out, so loops are disjoint; the annulus is one of them and is left out.
+// Traverses the boundary in the winding of its triangles. In a manifold sheet each boundary node
+// has one successor, so the loops are disjoint; the annulus is left out.
 void add_free_edges(const Valve &valve, Topology &topology) {
   std::vector<uint32_t> next(valve.rest.size(), none);
   for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
@@ -85,13 +80,25 @@ Topology make_topology(const Valve &valve) {
   add_edges(sorted_sides(valve.triangles), topology);
   add_hinges(valve.triangles, topology);
   topology.node_triangles = rows_of(valve.rest.size(), valve.triangles.get());
-  std::vector<Edge> chords;
-  chords.reserve(valve.chords.size());
-  for (const Chord &chord : valve.chords) chords.push_back({chord.a, chord.b});
-  topology.node_chords = rows_of(valve.rest.size(), chords);
+  topology.node_chords = chords_at_nodes(valve);
   add_kinds(valve, topology);
   add_free_edges(valve, topology);
   return topology;
+}
+
+Rows chords_at_nodes(const Valve &valve) {
+  std::vector<Edge> chords;
+  chords.reserve(valve.chords.size());
+  for (const Chord &chord : valve.chords) chords.push_back({chord.a, chord.b});
+  return rows_of(valve.rest.size(), chords);
+}
+
+uint32_t edge_between(const Topology &topology, uint32_t a, uint32_t b) {
+  const std::vector<Edge> &edges = topology.edges;
+  const Edge edge = {std::min(a, b), std::max(a, b)};
+  const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+  return found != edges.end() && *found == edge ? static_cast<uint32_t>(found - edges.begin())
+                                                : none;
 }
 
 }  // namespace mvs::core

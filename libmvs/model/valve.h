@@ -1,4 +1,5 @@
-// A valve as plain data: what files hold, generators make and operations edit.
+// The description of a valve as plain data: files hold it, generators make it, operations edit it.
+// Lengths in m, moduli in Pa.
 #pragma once
 
 #include <string>
@@ -14,7 +15,7 @@ struct Leaflet {
   std::string name;
   uint32_t law = 1;  // MVS_LEAFLET_LAW_*
   double thickness = 1e-3;
-  Constants constants = {100e3, 6e6, 0.25};  // of the law; what it does not use is 0
+  Constants constants = {100e3, 6e6, 0.25};  // of the law; unused entries are 0
 
   bool operator==(const Leaflet &) const = default;
 };
@@ -38,14 +39,15 @@ struct Chord {
   double young = 40e6;                 // Pa
   double area = 7.853981633974483e-7;  // m2, diameter 1 mm
   using Constants = std::array<double, 6>;
-  Constants constants = {};  // of the law; what it does not use is 0
+  Constants constants = {};  // of the law; unused entries are 0
 
+  uint32_t other_end(uint32_t node) const { return node == a ? b : a; }
   bool operator==(const Chord &) const = default;
 };
 
 using CurvePoint = std::array<double, 2>;  // engineering strain, nominal stress in Pa
 
-// A measured curve that chordae can follow.
+// A measured stress-strain curve for chordae of MVS_CHORD_LAW_TABLE.
 struct ChordCurve {
   Id id = 0;
   std::string name;
@@ -62,8 +64,8 @@ struct Head {
   bool operator==(const Head &) const = default;
 };
 
-// A ring or band sewn to the annulus: what to draw, and that it is there. Where it holds the
-// annulus is in Valve::open and Valve::loaded.
+// A ring or band sewn to the annulus, for display. Valve::open and Valve::loaded contain the
+// positions to which it moves the annulus.
 struct Ring {
   Id id = 0;
   std::string name;
@@ -73,14 +75,14 @@ struct Ring {
   bool operator==(const Ring &) const = default;
 };
 
-// Everything that is not derived. Nodes are leaflet vertices, branch points and heads in any order.
-// Copies share their arrays, so that a valve after an operation costs what the operation changed.
+// A valve without derived data. Nodes are leaflet vertices, chord branch points and papillary heads
+// in any order. Copies share their arrays (copy on write).
 struct Valve {
   std::string name = "valve";
-  CowVector<Vec3> rest;        // unloaded: the rest shape of the sheet
-  CowVector<Vec3> open;        // where prescribed nodes are without load; equals rest elsewhere
-  CowVector<Vec3> loaded;      // where prescribed nodes go under load; equals rest elsewhere
-  CowVector<uint32_t> origin;  // index before operations, levels changed the nodes; none: new
+  CowVector<Vec3> rest;        // m: rest shape, without load
+  CowVector<Vec3> open;        // m: prescribed nodes without load; equals rest elsewhere
+  CowVector<Vec3> loaded;      // m: prescribed nodes under full load; equals rest elsewhere
+  CowVector<uint32_t> origin;  // index before operations and levels; none: new
   CowVector<Tri> triangles;
   CowVector<uint32_t> triangle_leaflet;
   CowVector<uint32_t> triangle_scallop;
@@ -97,7 +99,7 @@ struct Valve {
   double contact_thickness = 1e-3;  // m, of a leaflet
   double contact_stiffness = 20e3;  // Pa
   double bending_scale = 1;         // 0: no bending
-  Id next_id = 1;                   // every id given so far is below it
+  Id next_id = 1;                   // larger than every id in use
 };
 
 }  // namespace mvs::core

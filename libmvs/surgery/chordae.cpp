@@ -1,18 +1,13 @@
-// What the operations on chordae share.
+// Functions shared by the operations on chordae: pruning, rest lengths, names.
 #include "base/error.h"
-#include "model/compressed_rows.h"
+#include "model/topology.h"
+#include "model/valve_arrays.h"
 #include "surgery/surgery.h"
 
 #include <algorithm>
 
 namespace mvs::core {
 namespace {
-
-Rows chords_at_nodes(const Valve &valve) {
-  std::vector<Edge> ends;
-  for (const Chord &chord : valve.chords) ends.push_back({chord.a, chord.b});
-  return rows_of(valve.rest.size(), ends);
-}
 
 std::vector<uint8_t> kinds_of_nodes(const Valve &valve) {
   std::vector<uint8_t> kind(valve.rest.size(), MVS_NODE_KIND_BRANCH);
@@ -23,7 +18,7 @@ std::vector<uint8_t> kinds_of_nodes(const Valve &valve) {
   return kind;
 }
 
-// Marks the chords that can be reached from the heads by branch points only.
+// Marks the chords that a search from the heads reaches over branch points.
 std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_at,
                                         const std::vector<uint8_t> &kind) {
   std::vector<uint8_t> reached(valve.chords.size(), 0);
@@ -36,7 +31,7 @@ std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_a
     for (const uint32_t c : chords_at[queue[q]]) {
       reached[c] = 1;
       const Chord &chord = valve.chords.get()[c];
-      const uint32_t other = chord.a == queue[q] ? chord.b : chord.a;
+      const uint32_t other = chord.other_end(queue[q]);
       if (kind[other] != MVS_NODE_KIND_BRANCH || seen[other]) continue;
       seen[other] = 1;
       queue.push_back(other);
@@ -45,38 +40,29 @@ std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_a
   return reached;
 }
 
-// Removes chords by marks, keeping the order of the others.
-void keep_chords(Valve &valve, const std::vector<uint8_t> &kept) {
-  std::vector<Chord> chords;
-  for (size_t c = 0; c < kept.size(); ++c) {
-    if (kept[c]) chords.push_back(valve.chords.get()[c]);
-  }
-  valve.chords = std::move(chords);
-}
-
-// One round; says whether anything went. A branch that ends in the air is reached from a head and
-// not from a leaflet; one that hangs from leaflets only, the other way round.
+// One round of pruning; returns whether it removed chords: those that are not reached from a head,
+// and those with a branch point that has no other chord.
 bool prune_once(Valve &valve) {
   const Rows chords_at = chords_at_nodes(valve);
   const std::vector<uint8_t> kind = kinds_of_nodes(valve);
   const std::vector<uint8_t> from_head = reached_from_heads(valve, chords_at, kind);
-  std::vector<uint8_t> kept(valve.chords.size(), 1);
+  std::vector<uint8_t> removed(valve.chords.size(), 0);
   bool changed = false;
-  for (size_t c = 0; c < kept.size(); ++c) {
+  for (size_t c = 0; c < removed.size(); ++c) {
     const Chord &chord = valve.chords.get()[c];
     if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;
-    bool in_the_air = false;
+    bool has_loose_end = false;
     for (const uint32_t node : {chord.a, chord.b}) {
-      in_the_air |= kind[node] == MVS_NODE_KIND_BRANCH && chords_at[node].size() == 1;
+      has_loose_end |= kind[node] == MVS_NODE_KIND_BRANCH && chords_at[node].size() == 1;
     }
-    kept[c] = from_head[c] && !in_the_air;
-    changed |= !kept[c];
+    removed[c] = !from_head[c] || has_loose_end;
+    changed |= removed[c] != 0;
   }
-  if (changed) keep_chords(valve, kept);
+  if (changed) remove_rows(valve.chords, removed);
   return changed;
 }
 
-// Length along the chordae from a head to each leaflet node it holds; 0 for others.
+// Returns the length along the chordae from a head to each of its leaflet nodes; 0 for other nodes.
 std::vector<double> reach_of(const Valve &valve, uint32_t head_node) {
   const Rows chords_at = chords_at_nodes(valve);
   const std::vector<uint8_t> kind = kinds_of_nodes(valve);
@@ -86,7 +72,7 @@ std::vector<double> reach_of(const Valve &valve, uint32_t head_node) {
     for (const uint32_t c : chords_at[queue[q]]) {
       const Chord &chord = valve.chords.get()[c];
       if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;
-      const uint32_t other = chord.a == queue[q] ? chord.b : chord.a;
+      const uint32_t other = chord.other_end(queue[q]);
       if (length[other] > 0 || kind[other] == MVS_NODE_KIND_HEAD) continue;
       length[other] = length[queue[q]] + chord.rest_length;
       if (kind[other] == MVS_NODE_KIND_BRANCH) queue.push_back(other);
@@ -114,17 +100,21 @@ void prune_chords(Surgery &s) {
   if (any) remove_nodes(s, gone);
 }
 
+bool has_chord_named(const Surgery &s, const std::string &name) {
+  const std::vector<Chord> &chords = s.valve.chords;
+  return std::any_of(chords.begin(), chords.end(), [&](const Chord &c) { return c.name == name; });
+}
+
 void must_not_be_tied(const Surgery &s, uint32_t a, uint32_t b) {
   for (const Chord &chord : s.valve.chords) {
     const bool same = (chord.a == a && chord.b == b) || (chord.a == b && chord.b == a);
     MVS_MUST(!same, MVS_E_OP, "chord " + chord.name,
-             "%s: chord %s joins these two places already: change its length, or choose another "
-             "place",
+             "%s: chord %s joins these two places: change its length, or choose another place",
              s.op_name, chord.name.c_str());
   }
 }
 
-// The median of five, so that one torn or stretched neighbour does not count.
+// Median of the five nearest, robust against one torn or stretched neighbour.
 double length_like_neighbours(const Surgery &s, uint32_t head, uint32_t node) {
   const Valve &valve = s.valve;
   const std::vector<Vec3> &rest = valve.rest;
@@ -159,9 +149,7 @@ std::string free_chord_name(const Surgery &s, uint32_t node) {
   }
   for (uint32_t number = 1;; ++number) {
     std::string name = scallop + "/" + std::to_string(number);
-    const auto taken = [&](const Chord &chord) { return chord.name == name; };
-    const std::vector<Chord> &chords = valve.chords;
-    if (std::none_of(chords.begin(), chords.end(), taken)) return name;
+    if (!has_chord_named(s, name)) return name;
   }
 }
 

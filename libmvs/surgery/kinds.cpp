@@ -1,4 +1,4 @@
-// ops.def as tables; what the compiler can check about them is checked here.
+// Tables made from ops.def, with compile-time checks of the field types.
 #include "surgery/kinds.h"
 
 #include <array>
@@ -7,38 +7,30 @@
 namespace mvs::core {
 namespace {
 
-// What a field of each type is in C.
+// The C type of each field type.
 template <uint32_t type>
-struct InC;
-template <>
-struct InC<MVS_FIELD_NUMBER> : std::type_identity<double> {};
-template <>
-struct InC<MVS_FIELD_COUNT> : std::type_identity<uint32_t> {};
-template <>
-struct InC<MVS_FIELD_CHOICE> : std::type_identity<uint32_t> {};
-template <>
-struct InC<MVS_FIELD_CHORD> : std::type_identity<mvs_id> {};
-template <>
-struct InC<MVS_FIELD_HEAD> : std::type_identity<mvs_id> {};
-template <>
-struct InC<MVS_FIELD_SCALLOP> : std::type_identity<mvs_id> {};
-template <>
-struct InC<MVS_FIELD_SITE> : std::type_identity<mvs_site> {};
-template <>
-struct InC<MVS_FIELD_POINT> : std::type_identity<mvs_point> {};
-template <>
-struct InC<MVS_FIELD_VECTOR> : std::type_identity<double[3]> {};
-template <>
-struct InC<MVS_FIELD_POINTS> : std::type_identity<mvs_array> {};
-template <>
-struct InC<MVS_FIELD_TEXT> : std::type_identity<const char *> {};
+constexpr auto in_c() {
+  using std::type_identity;
+  if constexpr (type == MVS_FIELD_NUMBER) return type_identity<double>{};
+  if constexpr (type == MVS_FIELD_COUNT) return type_identity<uint32_t>{};
+  if constexpr (type == MVS_FIELD_CHOICE) return type_identity<uint32_t>{};
+  if constexpr (type == MVS_FIELD_CHORD) return type_identity<mvs_id>{};
+  if constexpr (type == MVS_FIELD_HEAD) return type_identity<mvs_id>{};
+  if constexpr (type == MVS_FIELD_SCALLOP) return type_identity<mvs_id>{};
+  if constexpr (type == MVS_FIELD_SITE) return type_identity<mvs_site>{};
+  if constexpr (type == MVS_FIELD_POINT) return type_identity<mvs_point>{};
+  if constexpr (type == MVS_FIELD_VECTOR) return type_identity<double[3]>{};
+  if constexpr (type == MVS_FIELD_POINTS) return type_identity<mvs_array>{};
+  if constexpr (type == MVS_FIELD_TEXT) return type_identity<const char *>{};
+}
 
 #define OPERATION(NUMBER, op_name, op_help)                                               \
   static_assert(offsetof(mvs_op_##op_name, op) == 0 && sizeof(mvs_op_##op_name) % 8 == 0, \
                 "an operation begins with mvs_op");
-#define FIELD(op_name, field, TYPE, required, low, high, unit, choices, help)                   \
-  static_assert(std::is_same_v<decltype(mvs_op_##op_name::field), InC<MVS_FIELD_##TYPE>::type>, \
-                "the field has the type that ops.def says");
+#define FIELD(op_name, field, TYPE, required, low, high, unit, choices, help)                      \
+  static_assert(                                                                                   \
+      std::is_same_v<decltype(mvs_op_##op_name::field), decltype(in_c<MVS_FIELD_##TYPE>())::type>, \
+      "the field has the type that ops.def says");
 #include "surgery/ops.def"
 #undef OPERATION
 #undef FIELD
@@ -56,7 +48,7 @@ struct Row {
 #undef OPERATION
 #undef FIELD
 
-constexpr Row rows[] = {
+constexpr Row field_rows[] = {
 #define OPERATION(NUMBER, op_name, op_help)
 #define FIELD(op_name, field, TYPE, required, low, high, unit, choices, help)           \
   {number_of_##op_name,                                                                 \
@@ -67,21 +59,21 @@ constexpr Row rows[] = {
 #undef FIELD
 };
 
-constexpr size_t row_count = std::size(rows);
+constexpr size_t row_count = std::size(field_rows);
 
 constexpr std::array<OpField, row_count> make_fields() {
   std::array<OpField, row_count> fields{};
-  for (size_t k = 0; k < row_count; ++k) fields[k] = rows[k].field;
+  for (size_t k = 0; k < row_count; ++k) fields[k] = field_rows[k].field;
   return fields;
 }
 constexpr std::array<OpField, row_count> fields = make_fields();
 
-// The rows of one operation: they stand together.
+// Returns the rows of one operation, which are contiguous.
 std::span<const OpField> fields_of(uint32_t op) {
   size_t first = 0;
-  while (first < row_count && rows[first].op != op) ++first;
+  while (first < row_count && field_rows[first].op != op) ++first;
   size_t last = first;
-  while (last < row_count && rows[last].op == op) ++last;
+  while (last < row_count && field_rows[last].op == op) ++last;
   return {fields.data() + first, last - first};
 }
 

@@ -1,4 +1,4 @@
-// The kinds of operations and their fields, as ops.def lists them.
+// The kinds of operations and their fields, as listed in ops.def.
 #pragma once
 
 #include <mvs/op.h>
@@ -14,7 +14,7 @@ struct OpField {
   uint32_t type;    // MVS_FIELD_*
   uint32_t offset;  // bytes into the struct
   bool required;
-  double low, high;  // of a number that is given; of the count of points; of the bytes of a text
+  double low, high;  // range of a given number, number of points, or bytes of a text
   const char *unit, *choices, *help;
 };
 
@@ -26,10 +26,10 @@ struct OpKind {
   std::span<const OpField> fields;
 };
 
-// In the order of their numbers.
+// Returns all kinds in the order of their numbers.
 std::span<const OpKind> op_kinds();
 
-// Null where there is none.
+// Return null for an unknown kind.
 const OpKind *find_op_kind(uint32_t number);
 const OpKind *find_op_kind(std::string_view name);
 

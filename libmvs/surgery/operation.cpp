@@ -1,4 +1,4 @@
-// Reading operations: sizes, ranges, and taking over what they point to.
+// Reads operations: struct sizes, ranges of fields, deep copies of arrays and texts.
 #include "surgery/operation.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void check_coordinates(const OpKind &kind, const OpField &f, const double *at, d
   }
 }
 
-// Farther from the origin than any patient's valve lies in a scanner.
+// Largest distance of a patient's valve from the origin of a scanner, m.
 constexpr double farthest = 10;
 
 void check_value(const OpKind &kind, const OpField &f, const void *at) {
@@ -81,7 +81,7 @@ void check_value(const OpKind &kind, const OpField &f, const void *at) {
     case MVS_FIELD_VECTOR:
       return check_coordinates(kind, f, static_cast<const double *>(at), f.high);
     default:
-      return;  // what is pointed to is checked when it is taken over
+      return;  // arrays and texts are checked in own()
   }
 }
 
@@ -100,7 +100,8 @@ void check_text(const OpKind &kind, const OpField &f, const std::string &text) {
            f.name, text.size(), f.high);
 }
 
-// The struct's size as the caller set it: at least its head, at most what can be meant.
+// Returns the struct size that the caller set: at least the common head, at most a plausible
+// maximum.
 uint32_t checked_size(const mvs_op *given) {
   MVS_MUST(given != nullptr, MVS_E_ARGUMENT, "op", "op is a null pointer");
   uint32_t size = 0;
@@ -137,7 +138,7 @@ Operation::Operation(const mvs_op *given) {
   owned_ = std::move(owned);
 }
 
-// Copies what a field points to, and makes it point there.
+// Copies the array or text of a pointer field and redirects the field to the copy.
 void Operation::own(Owned &owned, const OpField &f) {
   char *at = reinterpret_cast<char *>(owned.bytes.data()) + f.offset;
   if (f.type == MVS_FIELD_POINTS) {

@@ -1,4 +1,4 @@
-// One operation with its values: an immutable copy of the caller's struct and of what it points to.
+// One operation with its values: an immutable deep copy of the caller's struct.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace mvs::core {
 
-// Copies share what they own.
+// Copies share one immutable value.
 class Operation {
  public:
-  // Throws MVS_E_ARGUMENT or MVS_E_VERSION where the struct cannot be read or a value is out of its
-  // range; whether its parts are there is for perform() to say.
+  // Throws MVS_E_ARGUMENT or MVS_E_VERSION for a struct that cannot be read or a value out of
+  // range. perform() checks that the parts exist.
   explicit Operation(const mvs_op *given);
 
   const OpKind &kind() const { return *owned_->kind; }
@@ -23,7 +23,7 @@ class Operation {
     return *reinterpret_cast<const Struct *>(owned_->bytes.data());
   }
   const mvs_op *get() const { return &as<mvs_op>(); }
-  // A field, read as what its type is in C.
+  // Returns a field as its C type.
   template <typename Value>
   const Value &field(const OpField &f) const {
     return *reinterpret_cast<const Value *>(bytes() + f.offset);
@@ -32,7 +32,7 @@ class Operation {
  private:
   struct Owned {
     const OpKind *kind;
-    std::vector<uint64_t> bytes;  // of the struct; words, so that it is aligned
+    std::vector<uint64_t> bytes;  // the struct, in words for alignment
     std::vector<std::unique_ptr<std::vector<Vec3>>> points;
     std::vector<std::unique_ptr<std::string>> texts;
   };
@@ -42,7 +42,7 @@ class Operation {
   std::shared_ptr<const Owned> owned_;
 };
 
-// The points of an array field of an Operation.
+// Returns the points of an array field of an Operation.
 std::vector<Vec3> points_of(const mvs_array &array);
 
 }  // namespace mvs::core

@@ -1,3 +1,4 @@
+// Dispatches an operation to its function and validates the resulting valve.
 #include "surgery/perform.h"
 
 #include "base/error.h"
@@ -21,8 +22,8 @@ void dispatch(Surgery &s, const Operation &op) {
   }
 }
 
-// That every part an operation names is there, also one that it has no use for: a plan tells parts
-// by their names.
+// Checks that every part that an operation names exists, including unused ones: a plan identifies
+// parts by name.
 void check_parts(const Surgery &s, const Operation &op) {
   for (const OpField &f : op.kind().fields) {
     const bool names_part =
@@ -35,12 +36,12 @@ void check_parts(const Surgery &s, const Operation &op) {
   }
 }
 
-// A valve that the operation spoilt is the operation's failure.
+// Builds the model; reports an invalid valve as a failure of the operation.
 ModelPtr checked_model(Surgery &s) {
   try {
     return make_model(std::move(s.valve), &s.before);
   } catch (const Error &fault) {
-    fail(MVS_E_OP, fault.part, "%s would not leave a valve: %s", s.op_name, fault.what());
+    fail(MVS_E_OP, fault.part, "%s: the result is not a valid valve: %s", s.op_name, fault.what());
   }
 }
 

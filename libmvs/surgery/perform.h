@@ -1,4 +1,4 @@
-// Applying one operation: on copies, checked as any valve is, all or nothing.
+// Applies one operation to copies of model and state, with all checks; all or nothing.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace mvs::core {
 
-// What an operation did.
+// Result of an operation.
 struct Operated {
   ModelState current;
   Id made = 0;
   std::string title;
 };
 
-// Applies an operation to a picture; throws and leaves it as it is if that cannot be done.
+// Applies an operation to a model and its state. Throws if it is not possible; `before` never
+// changes.
 Operated perform(const ModelState &before, const Operation &op);
 
 }  // namespace mvs::core

@@ -272,7 +272,7 @@ static void what_cannot_be_done_is_said(void) {
   REFUSED(scale, MVS_E_ARGUMENT, "at least one of");
   mvs_op_chord_remove remove = list[1].remove;
   MUST(mvs_apply_op(sim, &remove.op, NULL));
-  REFUSED(remove, MVS_E_ID, "not there any more");
+  REFUSED(remove, MVS_E_ID, "does not exist any more");
   MUST_FAIL(mvs_check_op(sim, NULL), MVS_E_ARGUMENT, "null pointer");
 }
 

@@ -33,28 +33,30 @@ double length_of(const std::vector<Vec3> &pairs) {
 
 TEST_CASE("cut_across_a_tube_is_its_polygon") {
   const ModelPtr model = model_of(tube());
-  const std::vector<Vec3> pairs = cut(*model, model->valve.rest, {0, 0, -9e-3}, {0, 0, 1});
+  const std::vector<Vec3> pairs =
+      plane_section(*model, model->valve.rest, {0, 0, -9e-3}, {0, 0, 1});
   CHECK(length_of(pairs) == about(2 * 48 * radius * std::sin(pi / 48), 1e-13));
   for (const Vec3 &p : pairs) CHECK(p[2] == about(-9e-3, 1e-14));
 }
 
 TEST_CASE("cut_along_mesh_edges_counts_them_once") {
   const ModelPtr model = model_of(tube());
-  const std::vector<Vec3> pairs = cut(*model, model->valve.rest, {0, 0, -10e-3}, {0, 0, 1});
+  const std::vector<Vec3> pairs =
+      plane_section(*model, model->valve.rest, {0, 0, -10e-3}, {0, 0, 1});
   CHECK(length_of(pairs) == about(2 * 48 * radius * std::sin(pi / 48), 1e-13));
 }
 
 TEST_CASE("cut_of_a_closed_loop_meets_itself_bit_for_bit") {
   const ModelPtr model = model_of(tube());
   const std::vector<Vec3> pairs =
-      cut(*model, model->valve.rest, {0.1e-3, 0.2e-3, -10.3e-3}, {0.1, -0.2, 1});
+      plane_section(*model, model->valve.rest, {0.1e-3, 0.2e-3, -10.3e-3}, {0.1, -0.2, 1});
   REQUIRE(!pairs.empty());
   for (const Vec3 &p : pairs) CHECK(std::count(pairs.begin(), pairs.end(), p) == 2);
 }
 
 TEST_CASE("cut_beside_the_valve_is_empty") {
   const ModelPtr model = model_of(tube());
-  CHECK(cut(*model, model->valve.rest, {0, 0, 10e-3}, {0, 0, 1}).empty());
+  CHECK(plane_section(*model, model->valve.rest, {0, 0, 10e-3}, {0, 0, 1}).empty());
 }
 
 }  // namespace mvs::core::test

@@ -154,11 +154,11 @@ TEST_CASE("bad_triangles_are_named") {
     v.rest.push_back(v.rest[chord.b] + Vec3(1e-3, 0, -1e-3));
     add_triangle(v, {n - 1, n, n + 1});
   });
-  check_fault("has a fibre direction with no part in its plane", 1, [](Valve &v) {
+  check_fault("has no fibre direction in its plane", 1, [](Valve &v) {
     v.triangle_fibre = make_model(v)->valve.triangle_fibre;
     v.triangle_fibre[2] = Vec3::Zero();
   });
-  check_fault("has a fibre direction", 1, [](Valve &v) {
+  check_fault("has no fibre direction", 1, [](Valve &v) {
     v.triangle_fibre = make_model(v)->valve.triangle_fibre;
     v.triangle_fibre[2][0] = not_a_number;
   });
@@ -173,14 +173,14 @@ TEST_CASE("what_is_no_sheet_is_named") {
     v.rest.push_back({0, 0, -4e-3});
     add_triangle(v, {small_segments, small_segments + 1, head + 4});
   });
-  // as a part of its own it hangs on nothing, too
+  // as a component of its own it is not attached, too
   check_fault("touch in one point only", 2, [](Valve &v) {
     const Vec3 p = v.rest[edge_row + 1];
     v.rest.push_back(p + Vec3(0, 0, -2e-3));
     v.rest.push_back(p + Vec3(1e-3, 0, -2e-3));
     add_triangle(v, {edge_row + 1, head + 4, head + 5});
   });
-  check_fault("hangs on nothing", 1, [](Valve &v) {
+  check_fault("is not attached", 1, [](Valve &v) {
     for (const double x : {0.0, 1e-3, 2e-3}) v.rest.push_back({x, x * x * 100, -10e-3});
     add_triangle(v, {head + 4, head + 5, head + 6});
   });
@@ -252,7 +252,7 @@ TEST_CASE("nodes_and_heads_out_of_place_are_named") {
   check_fault("papillary head 2 is node 63 of the sheet", 1, [](Valve &v) {
     v.heads.push_back({0, "", head - 1});
   });
-  check_fault("is a head already", 1, [](Valve &v) { v.heads.push_back({0, "", head}); });
+  check_fault("is another head", 1, [](Valve &v) { v.heads.push_back({0, "", head}); });
 }
 
 TEST_CASE("names_and_ids_are_checked") {
@@ -284,7 +284,7 @@ TEST_CASE("materials_that_cannot_be_are_named") {
     v.chords[2].law = MVS_CHORD_LAW_OGDEN;
     v.chords[2].constants = {1e6, 10, 1e6, 0, 0, 0};
   });
-  check_fault("gets softer than nothing", 1, [](Valve &v) {
+  check_fault("has no positive stiffness", 1, [](Valve &v) {
     v.chords[2].law = MVS_CHORD_LAW_OGDEN;
     v.chords[2].constants = {-1e6, 10, 0, 0, 0, 0};
   });
@@ -304,7 +304,7 @@ TEST_CASE("materials_that_cannot_be_are_named") {
   check_fault("is of kind 99", 1, [](Valve &v) { v.chords[2].kind = 99; });
   check_fault("mm2 given as m2", 1, [](Valve &v) { v.chords[2].area = 0.785; });
   check_fault("Young's modulus", 1, [](Valve &v) { v.chords[2].young = 0; });
-  check_fault("outside 1e-06 to 1: too small, or no number", 1,
+  check_fault("outside 1e-06 to 1: too small, or not a number", 1,
               [](Valve &v) { v.chords[2].rest_length = not_a_number; });
   check_fault("has rest length 1e-09 m", 1, [](Valve &v) { v.chords[2].rest_length = 1e-9; });
   check_fault("looks like MPa or GPa given as Pa", 1,

@@ -207,9 +207,9 @@ TEST_CASE("a_second_clip_has_a_name_of_its_own") {
   const Operated second = apply(first.current, op);
   CHECK(stitches(*second.current.model).back().name.starts_with("clip2"));
   op.name = "clip2";
-  refused(second.current, op, MVS_E_OP, "named clip2 already");
+  refused(second.current, op, MVS_E_OP, "named clip2");
   op.name = "again";
-  refused(second.current, op, MVS_E_OP, "joins these two places already");
+  refused(second.current, op, MVS_E_OP, "joins these two places");
 }
 
 TEST_CASE("what_cannot_be_clipped_is_said") {

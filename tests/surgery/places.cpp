@@ -84,7 +84,7 @@ TEST_CASE("a_head_moves_along_the_axes_of_the_world_or_of_the_valve") {
     tissue_is_untouched(before, after);
   }
   op.by[0] = op.by[2] = 0;
-  refused(before, op, MVS_E_ARGUMENT, head.name + " is moved by nothing");
+  refused(before, op, MVS_E_ARGUMENT, head.name + " has a displacement of zero");
   op.by[1] = 0.06;
   refused(before, op, MVS_E_ARGUMENT, "within 0.05 m");
 }

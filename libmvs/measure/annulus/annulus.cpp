@@ -1,4 +1,5 @@
-// Diameters from the landmarks, the rest from the loop in the valve's frame.
+// Measures of the annulus: diameters between landmarks, the rest from the loop in the valve's
+// frame.
 #include "measure/annulus/annulus.h"
 
 #include <Eigen/Geometry>
@@ -29,7 +30,7 @@ double height_over_plane(const Loop &loop, const Frame &frame) {
   return frame.local(*ends.second)[2] - frame.local(*ends.first)[2];
 }
 
-// The angle at the middle between the commissures, from the A to the P point: pi when flat.
+// Angle at the midpoint between the commissures, from the A to the P point; pi for a flat annulus.
 double nonplanar_angle(const Landmarks &landmarks) {
   const Vec3 middle = 0.5 * (landmarks.commissure[0] + landmarks.commissure[1]);
   const Vec3 to_a = landmarks.a - middle, to_p = landmarks.p - middle;

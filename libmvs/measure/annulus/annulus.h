@@ -1,4 +1,4 @@
-// The size and shape of the annulus.
+// Size and shape of the annulus.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Solving for the heights, ring by ring of elements.
+// Linear finite elements for the Laplace equation on concentric rings.
 #include "measure/annulus/annulus_surface.h"
 
 #include <Eigen/Geometry>
@@ -10,16 +10,12 @@
 namespace mvs::core {
 namespace {
 
-constexpr size_t rings = 24;  // the area of a saddle is then right to 1e-4
-
-double cross(const Vec3 &a, const Vec3 &b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
+constexpr size_t rings = 24;  // gives the area of a saddle to 1e-4
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Calls visit(corners, share) for the triangles between two rings. A quadrilateral counts as the
-// mean of its two halvings, so that a mirrored annulus has the mirrored surface.
+// Calls visit(corners, share) for each triangle between two rings. A quadrilateral is the mean of
+// its two triangulations, so that a mirrored annulus has the mirrored surface.
 template <typename Visit>
 void for_each_element(size_t sides, Visit visit) {
   using Corner = std::array<size_t, 2>;  // ring, place
@@ -37,10 +33,10 @@ void for_each_element(size_t sides, Visit visit) {
 
 }  // namespace
 
-AnnulusSurface::AnnulusSurface(const Frame &frame, const std::vector<Vec3> &rim) {
+AnnulusSurface::AnnulusSurface(const Frame &frame, const std::vector<Vec3> &rim)
+    : rim_(frame.local(rim)) {
   double turn = 0;
-  for (const Vec3 &p : rim) rim_.push_back(frame.local(p));
-  for (size_t k = 0; k < sides(); ++k) turn += cross(rim_[k], rim_[(k + 1) % sides()]);
+  for (size_t k = 0; k < sides(); ++k) turn += cross_in_plane(rim_[k], rim_[(k + 1) % sides()]);
   if (turn < 0) std::reverse(rim_.begin(), rim_.end());
   solve();
 }
@@ -71,7 +67,7 @@ void AnnulusSurface::solve() {
       side[c][2] = 0;
       node[c] = index(corner[c][0], corner[c][1]);
     }
-    const double twice_area = std::abs(cross(side[0], side[1]));
+    const double twice_area = std::abs(cross_in_plane(side[0], side[1]));
     if (twice_area == 0) return;
     for (size_t i = 0; i < 3; ++i) {
       for (size_t j = 0; j < 3 && node[i] < unknowns; ++j) {
@@ -94,9 +90,10 @@ double AnnulusSurface::height(double u, double v) const {
   const Vec3 p(u, v, 0);
   for (size_t k = 0; k < sides(); ++k) {
     const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
-    const double area = cross(a, b), toward_a = cross(p, b), toward_b = cross(a, p);
+    const double area = cross_in_plane(a, b), toward_a = cross_in_plane(p, b),
+                 toward_b = cross_in_plane(a, p);
     if (toward_a < 0 || toward_b < 0 || area <= 0 || toward_a + toward_b > area) continue;
-    // the ray through p meets the rim at a share f of this side; rings are lines parallel to it
+    // the ray through p meets this side of the rim at a share f; rings are parallel to the side
     const double s = (toward_a + toward_b) / area;
     const double f = s > 0 ? toward_b / (toward_a + toward_b) : 0;
     const size_t ring = std::min(static_cast<size_t>(s * rings), rings - 1);

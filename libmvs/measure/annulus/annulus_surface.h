@@ -1,4 +1,4 @@
-// The surface that spans the annulus: a soap film, to first order in its slope.
+// Surface that spans the annulus: solution of the Laplace equation, the linearised minimal surface.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,17 @@
 
 namespace mvs::core {
 
-// Heights above the annulus plane that solve Laplace's equation over the projection of the annulus
-// and equal it on the rim, by linear finite elements on rings that shrink towards the centre. The
-// projection must be star-shaped about the frame's origin, as any annulus is.
+// Height above the annulus plane that solves the Laplace equation over the projected annulus with
+// the annulus as boundary values; linear finite elements on rings that shrink towards the centre.
+// The projection must be star-shaped about the origin of the frame, which holds for any annulus.
 class AnnulusSurface {
  public:
   AnnulusSurface(const Frame &frame, const std::vector<Vec3> &rim);
 
-  // The height in m at a point of the annulus plane (AP, CC); NaN outside the annulus.
+  // Returns the height in m at a point (AP, CC) of the annulus plane; NaN outside the annulus.
   double height(double u, double v) const;
 
-  // The area of the surface itself, m2.
+  // Returns the area of the surface, m2.
   double area() const;
 
  private:

@@ -1,4 +1,4 @@
-// The frame from the annulus alone: its centroid, its best plane, its landmarks.
+// Frame of a valve from its annulus: centroid, plane of least squares, landmarks.
 #include "measure/annulus/frame.h"
 
 #include <Eigen/Eigenvalues>
@@ -9,28 +9,8 @@
 namespace mvs::core {
 namespace {
 
-Vec3 centroid(const Loop &loop) {
-  Vec3 sum = Vec3::Zero();
-  for (size_t k = 0; k < loop.size(); ++k) {
-    const Vec3 &a = loop.point(k), &b = loop.point(k + 1);
-    sum += 0.5 * (b - a).norm() * (a + b);
-  }
-  return sum / loop.length();
-}
-
-// Second moments of the curve about a point, exact along each edge.
-Mat3 second_moments(const Loop &loop, const Vec3 &about) {
-  Mat3 sum = Mat3::Zero();
-  for (size_t k = 0; k < loop.size(); ++k) {
-    const Vec3 along = loop.point(k + 1) - loop.point(k);
-    const Vec3 middle = loop.point(k) + 0.5 * along - about;
-    sum += along.norm() * (middle * middle.transpose() + along * along.transpose() / 12.0);
-  }
-  return sum;
-}
-
-// The vector area of the annulus walked as its triangles wind. Their normals point into the atrium,
-// so this does too, however far the leaflets have moved.
+// Vector area of the annulus, traversed in the winding of its triangles. Their normals point into
+// the atrium, and so does this vector, however far the leaflets have moved.
 Vec3 area_towards_atrium(const Model &model, const Loop &loop, const Vec3 &origin) {
   const std::vector<uint32_t> triangles = annulus_triangles(model);
   Vec3 sum = Vec3::Zero();
@@ -50,6 +30,13 @@ Vec3 area_towards_atrium(const Model &model, const Loop &loop, const Vec3 &origi
 }
 
 }  // namespace
+
+std::vector<Vec3> Frame::local(const std::vector<Vec3> &points) const {
+  std::vector<Vec3> moved;
+  moved.reserve(points.size());
+  for (const Vec3 &p : points) moved.push_back(local(p));
+  return moved;
+}
 
 Frame valve_frame(const Model &model, const std::vector<Vec3> &x) {
   const Loop loop(model.valve.annulus, x);

@@ -1,4 +1,4 @@
-// Walking the annulus by arc length.
+// Arc length along the annulus, leaflet attachments and landmarks.
 #include "measure/annulus/landmarks.h"
 
 #include <algorithm>
@@ -34,16 +34,37 @@ Vec3 Loop::at(double s) const {
   return point(edge) + along * (point(edge + 1) - point(edge));
 }
 
+double polyline_length(const std::vector<Vec3> &points) {
+  double sum = 0;
+  for (size_t k = 1; k < points.size(); ++k) sum += (points[k] - points[k - 1]).norm();
+  return sum;
+}
+
+Vec3 centroid(const Loop &loop) {
+  Vec3 sum = Vec3::Zero();
+  for (size_t k = 0; k < loop.size(); ++k) {
+    const Vec3 &a = loop.point(k), &b = loop.point(k + 1);
+    sum += 0.5 * (b - a).norm() * (a + b);
+  }
+  return sum / loop.length();
+}
+
+Mat3 second_moments(const Loop &loop, const Vec3 &about) {
+  Mat3 sum = Mat3::Zero();
+  for (size_t k = 0; k < loop.size(); ++k) {
+    const Vec3 along = loop.point(k + 1) - loop.point(k);
+    const Vec3 middle = loop.point(k) + 0.5 * along - about;
+    sum += along.norm() * (middle * middle.transpose() + along * along.transpose() / 12.0);
+  }
+  return sum;
+}
+
 std::vector<uint32_t> annulus_triangles(const Model &model) {
   const std::vector<uint32_t> &nodes = model.valve.annulus;
-  const Topology &topology = model.topology;
   std::vector<uint32_t> triangles(nodes.size(), none);
   for (size_t k = 0; k < nodes.size(); ++k) {
-    const uint32_t a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-    const Edge edge = {std::min(a, b), std::max(a, b)};
-    const auto found = std::lower_bound(topology.edges.begin(), topology.edges.end(), edge);
-    if (found == topology.edges.end() || *found != edge) continue;
-    triangles[k] = topology.edge_triangles[found - topology.edges.begin()][0];
+    const uint32_t e = edge_between(model.topology, nodes[k], nodes[(k + 1) % nodes.size()]);
+    if (e != none) triangles[k] = model.topology.edge_triangles[e][0];
   }
   return triangles;
 }

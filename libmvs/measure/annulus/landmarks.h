@@ -1,4 +1,4 @@
-// The annulus as a curve, the leaflets along it, and the landmarks that follow.
+// The annulus as a curve, the attachment of leaflets along it, and anatomical landmarks.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,10 @@
 
 namespace mvs::core {
 
-// A closed polygon by arc length.
+// Length of an open polygon.
+double polyline_length(const std::vector<Vec3> &points);
+
+// A closed polygon parametrised by arc length.
 class Loop {
  public:
   Loop(const std::vector<uint32_t> &nodes, const std::vector<Vec3> &x);
@@ -18,12 +21,18 @@ class Loop {
   double start_of(size_t edge) const { return start_[edge]; }  // m from the first point
   const Vec3 &point(size_t k) const { return points_[k % points_.size()]; }
   const std::vector<Vec3> &points() const { return points_; }
-  Vec3 at(double s) const;  // any s: the loop goes round
+  Vec3 at(double s) const;  // any s, periodic
 
  private:
   std::vector<Vec3> points_;
-  std::vector<double> start_;  // one more than there are points: the last is the length
+  std::vector<double> start_;  // one per point, then the total length
 };
+
+// Centroid of a loop by arc length.
+Vec3 centroid(const Loop &loop);
+
+// Second moments of a loop about a point, by arc length, m3; exact along each edge.
+Mat3 second_moments(const Loop &loop, const Vec3 &about);
 
 // A part of a loop; `to` may exceed the loop's length.
 struct Arc {
@@ -32,22 +41,22 @@ struct Arc {
   double middle() const { return 0.5 * (from + to); }
 };
 
-// The triangle at each annulus edge (node k to node k + 1); `none` where there is none.
+// Returns the triangle at each annulus edge (node k to node k + 1), or `none`.
 std::vector<uint32_t> annulus_triangles(const Model &model);
 
-// The longest stretch of the annulus that holds a leaflet; of length 0 where it holds none of it
-// or where the leaflet goes all the way round, for then it has no ends.
+// Returns the longest stretch of the annulus to which a leaflet is attached. Its length is 0 if the
+// leaflet is not attached, or attached along the whole annulus, in which case it has no ends.
 Arc attachment(const Model &model, const Loop &annulus, uint32_t leaflet);
 
-// The leaflet named "A", else the first whose name starts with A or a, else the first.
+// Returns the leaflet named "A", else the first whose name starts with A or a, else the first.
 uint32_t anterior_leaflet(const Valve &valve);
 
-// The stretch that holds the anterior leaflet, with the A point in its middle; without one, the
-// half of the loop around its first node.
+// Returns the attachment of the anterior leaflet, with the A point in its middle; without an
+// attachment, the half of the loop around its first node.
 Arc anterior_stretch(const Model &model, const Loop &annulus);
 
-// Where the anterior leaflet is attached, and what follows from it. Without such a stretch the
-// landmarks are the quarter points of the loop, A at its first node.
+// Landmarks from the attachment of the anterior leaflet. Without an attachment they are the quarter
+// points of the loop, A at its first node.
 struct Landmarks {
   Vec3 a;                          // middle, by arc length, of the anterior stretch
   Vec3 p;                          // middle of the rest of the annulus

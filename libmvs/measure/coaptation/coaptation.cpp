@@ -1,4 +1,5 @@
-// Sampling the sheet finely, asking each sample what it faces.
+// Coaptation measures from samples of the sheet: each triangle is divided into equal parts, and
+// each part is tested for tissue that it faces.
 #include "measure/coaptation/coaptation.h"
 
 #include <Eigen/Geometry>
@@ -17,14 +18,15 @@ namespace {
 
 constexpr double samples_per_reach = 2;
 constexpr size_t most_parts = 12;  // of a triangle's side
-constexpr double ends = 0.05;      // of the line at either end: no shortest or longest place there
+constexpr double ends = 0.05;      // share at either end of the line without minimum and maximum
 
-// About as far apart as two stations can tell lengths apart, 1.2 mm in a default valve.
+// Distance of stations in m: the least distance at which two lengths are independent, 1.2 mm in a
+// default valve.
 double station_spacing(const Model &model) {
   return 2 * model.valve.contact_thickness;
 }
 
-// A sample that faces another piece of tissue.
+// A sample that faces other tissue.
 struct Coapted {
   Vec3 middle;             // between both
   Vec3 normal;             // towards the other
@@ -35,7 +37,8 @@ struct Coapted {
 
 using Weights = std::array<double, 3>;
 
-// Calls visit(corners) for each of the parts^2 equal parts of a triangle, corners by their weights.
+// Calls visit(corners) for each of the parts^2 equal parts of a triangle, corners as barycentric
+// weights.
 template <typename Visit>
 void for_each_part(size_t parts, Visit visit) {
   const double n = static_cast<double>(parts);
@@ -61,15 +64,15 @@ size_t parts_of(const Tri &triangle, const std::vector<Vec3> &x, double reach) {
   return static_cast<size_t>(std::clamp(parts, 1.0, static_cast<double>(most_parts)));
 }
 
-// Finds the coapted samples of all triangles and fills `share`.
+// Returns the coapted samples of all triangles and fills `share`.
 std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
-                            const FacingSurface &opposite, const Frame &frame,
+                            const FacingSurface &facing, const Frame &frame,
                             std::vector<double> &share) {
   const Valve &valve = model.valve;
   std::vector<Coapted> samples;
   for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
     const Tri &triangle = valve.triangles[t];
-    const size_t parts = parts_of(triangle, x, opposite.reach());
+    const size_t parts = parts_of(triangle, x, facing.reach());
     const double area = surface.area[t] / static_cast<double>(parts * parts);
     size_t found = 0;
     for_each_part(parts, [&](const std::array<Weights, 3> &corners) {
@@ -79,7 +82,7 @@ std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, cons
                 corners[c][2] * x[triangle[2]];
       }
       const Vec3 centre = (at[0] + at[1] + at[2]) / 3;
-      const Partner partner = opposite.of_point(t, centre);
+      const Partner partner = facing.of_point(t, centre);
       if (partner.triangle == none) return;
       ++found;
       const auto height =
@@ -103,7 +106,7 @@ Vec3 mean_of(const std::vector<CoaptedPiece> &pieces) {
   return sum / area;
 }
 
-// The middle of the attachment of the leaflet that reaches further to meet the other: the line
+// Returns the midpoint of the attachment of the leaflet that reaches further: the coaptation line
 // bulges away from it.
 Vec3 find_pole(const Model &model, const Loop &annulus, const std::array<uint32_t, 2> &pair,
                const Vec3 &mean) {
@@ -119,8 +122,8 @@ Vec3 find_pole(const Model &model, const Loop &annulus, const std::array<uint32_
   return pole;
 }
 
-// One line for each pair of leaflets that meet; for each leaflet that meets itself only where the
-// valve has no other.
+// Returns one line for each pair of leaflets in contact; a leaflet in contact with itself has a
+// line only if the valve has no other leaflet.
 std::vector<CoaptationLine> find_lines(const Model &model, const std::vector<Vec3> &x,
                                        const std::vector<Coapted> &samples, const Frame &frame) {
   const Loop annulus(model.valve.annulus, x);
@@ -131,7 +134,7 @@ std::vector<CoaptationLine> find_lines(const Model &model, const std::vector<Vec
     for (uint32_t r = leaflets > 1 ? l + 1 : l; r < leaflets; ++r) {
       std::vector<CoaptedPiece> pieces;
       for (const Coapted &s : samples) {
-        // each side of the coaptation gives half of the area of one side
+        // each side contributes half of the area of one side
         if (std::minmax(s.leaflet, s.other) == std::minmax(l, r)) {
           pieces.push_back({s.middle, s.normal, 0.5 * s.area});
         }
@@ -163,7 +166,7 @@ void summarise(const std::vector<CoaptationLine> &lines, Coaptation &coaptation)
   if (length > 0) coaptation.length_mean = area / length;
 }
 
-// Height and depth in the central AP plane, where echocardiography measures them.
+// Height and depth in the central AP plane, as in echocardiography.
 void measure_central_plane(const std::vector<Coapted> &samples, const Frame &frame,
                            double half_width, Coaptation &coaptation) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -181,15 +184,15 @@ void measure_central_plane(const std::vector<Coapted> &samples, const Frame &fra
 
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x) {
   const Surface surface = surface_of(model.valve.triangles, x);
-  const FacingSurface opposite(model, x, surface);
+  const FacingSurface facing(model, x, surface);
   const Frame frame = valve_frame(model, x);
   Coaptation coaptation;
   for (uint32_t node = 0; node < x.size(); ++node) {
     const bool on_sheet = surface.node_normal[node] != Vec3::Zero();
-    coaptation.distance.push_back(on_sheet ? opposite.of_node(node).distance
+    coaptation.distance.push_back(on_sheet ? facing.of_node(node).distance
                                            : std::numeric_limits<double>::infinity());
   }
-  const std::vector<Coapted> samples = sample(model, x, surface, opposite, frame, coaptation.share);
+  const std::vector<Coapted> samples = sample(model, x, surface, facing, frame, coaptation.share);
   for (const Coapted &s : samples) coaptation.area += 0.5 * s.area;
   summarise(find_lines(model, x, samples, frame), coaptation);
   measure_central_plane(samples, frame, 0.5 * station_spacing(model), coaptation);

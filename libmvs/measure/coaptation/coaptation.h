@@ -1,4 +1,4 @@
-// Where leaflets face each other within the contact thickness.
+// Coaptation: tissue that faces other tissue within the contact thickness.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace mvs::core {
 
-// A place on the coaptation line and how long the leaflets lie together there.
+// A point of the coaptation line with the coaptation length there.
 struct CoaptationStation {
   Vec3 point;
   double length;  // m, along the tissue across the line
 };
 
 struct Coaptation {
-  std::vector<double> distance;         // m per node, infinity where nothing faces it
+  std::vector<double> distance;         // m per node, infinity for a node that faces no tissue
   std::vector<double> share;            // per triangle, 0..1
-  std::vector<CoaptationStation> line;  // in order; one line after the other
+  std::vector<CoaptationStation> line;  // in order; several lines are concatenated
   double area = 0, length_mean = 0, length_min = 0, length_max = 0, height = 0, depth = 0;
 };
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x);

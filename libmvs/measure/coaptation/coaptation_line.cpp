@@ -1,4 +1,5 @@
-// The curve through the middle of the pieces and the area along it.
+// Coaptation line by local linear regression over the angle around a pole, and tissue area per
+// length along it.
 #include "measure/coaptation/coaptation_line.h"
 
 #include <Eigen/Geometry>
@@ -11,23 +12,23 @@ namespace mvs::core {
 namespace {
 
 constexpr double trimmed = 0.005;  // of the area, at either end
-constexpr double window = 0.125;   // of the line to either side, that decides where the curve runs
+constexpr double window = 0.125;   // half width of the regression, share of the line
 constexpr int steps = 32;
-constexpr double flattest = 0.5;  // sine: tissue within 30 degrees of level is slid as if at 30
+constexpr double flattest = 0.5;  // sine: slopes below 30 degrees count as 30
 
-// A piece with a quantity that grows along the line.
+// A piece with a parameter that increases along the line.
 struct Ordered {
   Vec3 middle;
   double area, order;
 };
 
-// A polygon, with the pieces' order and the length of curve at each point.
+// A polygon with the parameter and the arc length at each point.
 struct Curve {
   std::vector<Vec3> points;
   std::vector<double> order, start;
 };
 
-// The pieces by their order, without the outermost share of their area.
+// Sorts pieces by parameter and removes the outermost share of their area.
 std::vector<Ordered> trim(std::vector<Ordered> pieces) {
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Ordered &l, const Ordered &r) { return l.order < r.order; });
@@ -42,8 +43,8 @@ std::vector<Ordered> trim(std::vector<Ordered> pieces) {
   return kept;
 }
 
-// Local linear regression (Cleveland, JASA 74, 1979) at one value of the order: unlike a mean it is
-// not drawn inwards at the ends. False where no piece is near.
+// Local linear regression (Cleveland, JASA 74, 1979) at one parameter: unlike a mean it is not
+// biased inwards at the ends. Returns false if no piece is near.
 bool regress(const std::vector<Ordered> &pieces, double at, double width, Vec3 &point) {
   double w = 0, wt = 0, wtt = 0;
   Vec3 wp = Vec3::Zero(), wtp = Vec3::Zero();
@@ -58,8 +59,8 @@ bool regress(const std::vector<Ordered> &pieces, double at, double width, Vec3 &
   }
   if (w == 0) return false;
   const double determinant = w * wtt - wt * wt;
-  const bool spread = determinant > 1e-6 * w * w;  // else all stand in one place
-  point = spread ? Vec3((wtt * wp - wt * wtp) / determinant) : Vec3(wp / w);
+  const bool spans_a_range = determinant > 1e-6 * w * w;  // else all pieces have one parameter
+  point = spans_a_range ? Vec3((wtt * wp - wt * wtp) / determinant) : Vec3(wp / w);
   return true;
 }
 
@@ -78,7 +79,7 @@ Curve fit_curve(const std::vector<Ordered> &pieces) {
   return curve;
 }
 
-// The part of a rising list that holds t, and how far through it.
+// The interval of an ascending list that contains t, and the position in it.
 struct Place {
   size_t k;
   double share;
@@ -94,8 +95,8 @@ Vec3 point_at(const std::vector<Vec3> &points, const Place &place) {
   return points[place.k] + place.share * (points[place.k + 1] - points[place.k]);
 }
 
-// Shares each piece's area out to the two stations beside it, by nearness: rows of pieces would
-// otherwise fall on one side or the other of a boundary and show as ripples.
+// Distributes the area of each piece linearly to its two nearest stations; assignment to one
+// station would show rows of pieces as ripples.
 CoaptationLine area_along(const std::vector<Ordered> &pieces, const Curve &curve, double spacing) {
   const double length = curve.start.back();
   const int count = static_cast<int>(std::max(1.0, std::round(length / spacing)));
@@ -119,14 +120,14 @@ CoaptationLine area_along(const std::vector<Ordered> &pieces, const Curve &curve
   return line;
 }
 
-// Seen along the axis from its concave side, the line sweeps from side to side: the angle grows
-// along it, be it straight or a horseshoe.
+// Angle around the pole, seen along the axis: it increases along the line, be it straight or a
+// horseshoe.
 class Angle {
  public:
   Angle(const Vec3 &pole, const Vec3 &axis, const std::vector<CoaptedPiece> &pieces) : pole_(pole) {
-    Vec3 way = Vec3::Zero();
-    for (const CoaptedPiece &piece : pieces) way += piece.area * (piece.middle - pole);
-    ahead_ = way - way.dot(axis) * axis;
+    Vec3 mean = Vec3::Zero();
+    for (const CoaptedPiece &piece : pieces) mean += piece.area * (piece.middle - pole);
+    ahead_ = mean - mean.dot(axis) * axis;
     aside_ = axis.cross(ahead_);
   }
   double operator()(const Vec3 &p) const {
@@ -137,8 +138,8 @@ class Angle {
   Vec3 pole_, ahead_, aside_;
 };
 
-// The place at another height over which (or under which) a piece's tissue runs, along its steepest
-// slope: what lies along one such slope belongs to one place of the line.
+// Moves a piece by `rise` along the steepest slope of its tissue: all tissue along one such slope
+// belongs to one point of the line.
 Vec3 slide(const CoaptedPiece &piece, const Vec3 &axis, double rise) {
   const double up = piece.normal.dot(axis);
   const Vec3 level = piece.normal - up * axis;

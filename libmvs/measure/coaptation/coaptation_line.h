@@ -1,4 +1,4 @@
-// The line along which leaflets meet, found from the places where they do.
+// Coaptation line through samples of the coaptation zone, with the coaptation length along it.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace mvs::core {
 
-// A piece of the coaptation zone, midway between the leaflets.
+// A sample of the coaptation zone, midway between the leaflets.
 struct CoaptedPiece {
   Vec3 middle;
   Vec3 normal;  // from one leaflet to the other, of any length
@@ -19,10 +19,10 @@ struct CoaptationLine {
   double spacing = 0;  // m between stations
 };
 
-// A smooth curve through the middle of the pieces, and the area of tissue per length of that curve
-// at stations about `spacing` apart: the coaptation length there, measured along the tissue
-// whatever its tilt or bend. The pole is a point that the line does not bulge towards; the
-// outermost 0.5 % of the area at either end is left out. There must be at least one piece.
+// Fits a smooth curve through the middle of the pieces and returns, at stations about `spacing`
+// apart, the tissue area per length of curve: the coaptation length, measured along the tissue
+// whatever its tilt or bend. The line bulges away from the pole. The outermost 0.5 % of the area at
+// either end is left out. `pieces` must not be empty.
 CoaptationLine find_coaptation_line(const std::vector<CoaptedPiece> &pieces, const Vec3 &pole,
                                     const Vec3 &axis, double spacing);
 

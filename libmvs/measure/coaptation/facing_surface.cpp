@@ -1,4 +1,4 @@
-// Searching the tree for the nearest triangle that a point can face.
+// Search of a triangle tree for the nearest triangle that a point faces.
 #include "measure/coaptation/facing_surface.h"
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 namespace mvs::core {
 namespace {
 
-constexpr double facing = -0.5;           // cosine between the normals
-constexpr double ahead = 0.5;             // cosine between a normal and the way to the partner
-constexpr double straight_ahead = 0.966;  // 15 degrees: how far beyond a border still faces it
-constexpr double touching = 0.1;          // of reach: too near for the way to have a direction
+constexpr double facing = -0.5;  // cosine between the normals
+constexpr double ahead = 0.5;    // cosine between a normal and the direction to the partner
+constexpr double straight_ahead = 0.966;  // 15 degrees: tolerance beyond a border
+constexpr double touching = 0.1;          // share of reach below which the direction is not defined
 
 std::vector<uint8_t> find_borders(const Model &model) {
   const Topology &topology = model.topology;
@@ -63,8 +63,8 @@ Partner FacingSurface::of_point(uint32_t triangle, const Vec3 &p) const {
   return find(p, surface_.normal[triangle], model_.valve.triangles[triangle]);
 }
 
-// Nearer tissue of which only the border is near hides what lies behind it: it is remembered as a
-// limit without a partner.
+// Tissue of which only the border is near hides the tissue behind it: it lowers the limit but is
+// not a partner.
 Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) const {
   Partner partner;
   double limit2 = reach_ * reach_;
@@ -74,12 +74,12 @@ Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) c
     const TrianglePoint q = tree_.closest_on(t, p);
     if (q.distance2 > limit2) return;
     const double distance = std::sqrt(q.distance2);
-    const Vec3 point = tree_.point_at(t, q.weight), way = point - p;
+    const Vec3 point = tree_.point_at(t, q.weight), to_partner = point - p;
     const bool far = distance > touching * reach_;
-    if (far && way.dot(normal) < ahead * distance) return;
+    if (far && to_partner.dot(normal) < ahead * distance) return;
     const bool at_border = (border_[t] >> q.feature & 1) != 0;
     const bool beyond =
-        far && at_border && -way.dot(surface_.normal[t]) < straight_ahead * distance;
+        far && at_border && -to_partner.dot(surface_.normal[t]) < straight_ahead * distance;
     if (q.distance2 == limit2 && (beyond || t > partner.triangle)) return;
     limit2 = q.distance2;
     partner = beyond ? Partner() : Partner{t, distance, point, normal_at(t, q.weight)};

@@ -1,4 +1,4 @@
-// What a point of the sheet faces: the nearest tissue in front of its atrial side.
+// Nearest tissue that a point of the sheet faces, in front of its atrial side.
 #pragma once
 
 #include <limits>
@@ -14,13 +14,13 @@ struct Partner {
   uint32_t triangle = none;
   double distance = std::numeric_limits<double>::infinity();  // m
   Vec3 point;
-  Vec3 normal = Vec3::Zero();  // between those of its nodes: the same from either side of an edge
+  Vec3 normal = Vec3::Zero();  // interpolated from nodes: continuous across edges
 };
 
-// Two pieces of tissue face each other when they lie within reach, atrial side to atrial side: each
-// in front of the other, normals more than 120 degrees apart. Tissue beyond the other's border is
-// not in front of it. Any two pieces can face each other that share no node: those of two leaflets,
-// or those of one leaflet on the two sides of a cleft.
+// Two pieces of tissue face each other if they lie within reach, atrial side to atrial side: each
+// in front of the other, normals more than 120 degrees apart. Tissue beyond the border of the other
+// piece is not in front of it. Pieces that share a node do not face each other; two leaflets, or
+// the two sides of a cleft of one leaflet, can.
 class FacingSurface {
  public:
   FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface);

@@ -1,4 +1,4 @@
-// Distances as the shapes lie, and after the best rigid motion.
+// Distances between two shapes in place and after rigid registration.
 #include "measure/comparison/compare.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ NodeDistance between_nodes(const std::vector<Vec3> &a, const std::vector<Vec3> &
   return {std::sqrt(squares / static_cast<double>(a.size())), std::sqrt(max2)};
 }
 
-// From the samples of one surface, moved, to another surface.
+// Distances from the samples of one surface, moved, to another surface.
 SurfaceDistance one_way(const SampledSurface &from, const SampledSurface &to, const Rigid &motion) {
   SurfaceDistance sum;
   for (const SampledSurface::Sample &sample : from.samples()) {

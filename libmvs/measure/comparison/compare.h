@@ -1,4 +1,4 @@
-// How far two leaflet surfaces are apart.
+// Distances between two leaflet surfaces.
 #pragma once
 
 #include <vector>

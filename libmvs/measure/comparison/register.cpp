@@ -1,4 +1,4 @@
-// Kabsch for points; a damped Gauss-Newton method for surfaces.
+// Registration by the Kabsch method for points and a damped Gauss-Newton method for surfaces.
 #include "measure/comparison/register.h"
 
 #include <Eigen/SVD>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t most_samples = 4000;  // of either surface
 constexpr int most_steps = 100;
-constexpr double settled = 1e-12;  // relative decrease of the sum of squares that ends the search
+constexpr double settled = 1e-12;  // relative decrease of the sum of squares at convergence
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -29,9 +29,10 @@ Mat3 cross_matrix(const Vec3 &v) {
   return m;
 }
 
-// The sum of squared distances both ways, and its model in a small turn about `centre` and a small
-// shift: the gradient is exact; the first Hessian is that of distances to tangent planes (right
-// where surfaces can slide), the second that of distances to fixed points (never too soft).
+// Sum of squared distances in both directions, and its quadratic model for a small rotation about
+// `centre` and a small translation: the gradient is exact; `to_planes` is the Hessian for distances
+// to tangent planes (exact where surfaces slide), `to_points` for distances to fixed points (an
+// upper bound).
 struct Fit {
   double squares = 0;
   Vec6 gradient = Vec6::Zero();
@@ -48,7 +49,7 @@ struct Fit {
   }
 };
 
-// Every so many-th sample of a, moved, against b, and of b against a, moved.
+// Evaluates every n-th sample of a, moved, against b, and of b against a, moved.
 Fit fit(const SampledSurface &a, const SampledSurface &b, const Rigid &motion, const Vec3 &centre) {
   const auto stride = [](const SampledSurface &s) { return 1 + s.samples().size() / most_samples; };
   const Rigid back = motion.inverse();
@@ -67,7 +68,7 @@ Fit fit(const SampledSurface &a, const SampledSurface &b, const Rigid &motion, c
   return sum;
 }
 
-// The rotation about a vector by its length (Rodrigues).
+// Rotation about a vector by its length (Rodrigues).
 Mat3 rotation_by(const Vec3 &turn) {
   const double angle = turn.norm();
   if (angle == 0) return Mat3::Identity();
@@ -94,7 +95,7 @@ Rigid register_points(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   for (size_t i = 0; i < a.size(); ++i) {
     covariance += (b[i] - centre_b) * (a[i] - centre_a).transpose();
   }
-  // square, so that nothing has to be preconditioned, nor compiled for it
+  // the matrix is square and needs no preconditioner
   const Eigen::JacobiSVD<Mat3, Eigen::NoQRPreconditioner> svd(
       covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 sign = Mat3::Identity();
@@ -115,7 +116,7 @@ Rigid register_surfaces(const SampledSurface &a, const SampledSurface &b, const 
     const Rigid next = moved_by(best, -solve_positive(hessian, now.gradient), centre);
     const Fit then = fit(a, b, next, centre);
     if (then.squares >= now.squares) {
-      // at 1 the model bounds the distances from above: no descent there means none is left
+      // with damping 1 the model is an upper bound: no descent means a local minimum
       if (damping >= 1) break;
       damping *= 10;
       continue;

@@ -1,4 +1,4 @@
-// The rigid motion that brings one shape closest to another.
+// Rigid registration of one shape to another.
 #pragma once
 
 #include <vector>
@@ -17,15 +17,15 @@ struct Rigid {
   Rigid inverse() const { return {turn.transpose(), -(turn.transpose() * shift)}; }
 };
 
-// The motion that puts frame a onto frame b.
+// Returns the motion that maps frame a onto frame b.
 Rigid align(const Frame &a, const Frame &b);
 
-// The motion with the least sum of squared distances from a[i] to b[i] (Kabsch, Acta Cryst. A 32,
-// 1976). There must be points.
+// Returns the motion with the least sum of squared distances from a[i] to b[i] (Kabsch, Acta Cryst.
+// A 32, 1976). `a` must not be empty.
 Rigid register_points(const std::vector<Vec3> &a, const std::vector<Vec3> &b);
 
-// The motion of a, near `start`, with the least symmetric surface distance (RMS) to b, from at most
-// a few thousand samples of either.
+// Returns the motion of a, near `start`, with the least symmetric RMS surface distance to b; uses
+// at most a few thousand samples of either.
 Rigid register_surfaces(const SampledSurface &a, const SampledSurface &b, const Rigid &start);
 
 }  // namespace mvs::core

@@ -1,8 +1,10 @@
-// Sampling surfaces and summing distances.
+// Samples of a surface, and sums of squared distances.
 #include "measure/comparison/surface_distance.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "model/sides.h"
 
 namespace mvs::core {
 
@@ -11,7 +13,7 @@ SampledSurface::SampledSurface(const std::vector<Tri> &triangles, const std::vec
   std::vector<double> at_node(x.size(), 0);
   std::vector<Sample> centroids;
   for (const Tri &t : triangles) {
-    const double area = 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm();
+    const double area = triangle_area(x, t);
     for (const uint32_t node : t) at_node[node] += area / 12;
     centroids.push_back({(x[t[0]] + x[t[1]] + x[t[2]]) / 3, 0.75 * area});
   }

@@ -1,4 +1,4 @@
-// Distances between surfaces, from samples of one to the exact closest points of the other.
+// Distances between surfaces: samples of one to the exact closest points of the other.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace mvs::core {
 // quadratic functions exactly, such as the squared distance to a plane.
 class SampledSurface {
  public:
-  // Keeps references to both: they must outlive it.
+  // Keeps references to both arguments, which must outlive it.
   SampledSurface(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
 
   struct Sample {

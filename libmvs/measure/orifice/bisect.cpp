@@ -1,4 +1,4 @@
-// Longest-edge bisection in rounds, each of which leaves a sheet without gaps.
+// Longest-edge bisection in rounds, each of which leaves a conforming mesh.
 #include "measure/orifice/bisect.h"
 
 #include <Eigen/Geometry>
@@ -20,21 +20,21 @@ Vec3 area_vector(const Mesh &mesh, uint32_t t) {
   return 0.5 * (mesh.x[c[1]] - mesh.x[c[0]]).cross(mesh.x[c[2]] - mesh.x[c[0]]);
 }
 
-struct Side {
+struct NodeSide {
   uint32_t larger, triangle, k;
 };
 
-// Sides gathered at their smaller node, so that the few of each node can be sorted among
-// themselves: this runs once a round, and one sort of all sides would be most of its time.
-// Those of node n are sides[first[n] .. first[n + 1]).
-std::vector<Side> sides_by_node(const Mesh &mesh, std::vector<uint32_t> &first) {
+// Groups sides by their smaller node, so that each group can be sorted alone: this runs once in a
+// round, and one sort of all sides would dominate its time. The sides of node n are sides[first[n]
+// .. first[n + 1]).
+std::vector<NodeSide> sides_by_node(const Mesh &mesh, std::vector<uint32_t> &first) {
   const auto smaller = [](const Tri &t, uint32_t k) { return std::min(t[k], t[(k + 1) % 3]); };
   first.assign(mesh.x.size() + 1, 0);
   for (const Tri &t : mesh.triangles) {
     for (uint32_t k = 0; k < 3; ++k) ++first[smaller(t, k) + 1];
   }
   for (size_t n = 0; n < mesh.x.size(); ++n) first[n + 1] += first[n];
-  std::vector<Side> sides(3 * mesh.triangles.size());
+  std::vector<NodeSide> sides(3 * mesh.triangles.size());
   std::vector<uint32_t> place(first.begin(), first.end() - 1);
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Tri &t = mesh.triangles[i];
@@ -47,12 +47,12 @@ std::vector<Side> sides_by_node(const Mesh &mesh, std::vector<uint32_t> &first) 
 
 Edges edges_of(const Mesh &mesh) {
   std::vector<uint32_t> first;
-  std::vector<Side> sides = sides_by_node(mesh, first);
+  std::vector<NodeSide> sides = sides_by_node(mesh, first);
   Edges edges;
   edges.of_triangle.resize(mesh.triangles.size());
   for (uint32_t n = 0; n < mesh.x.size(); ++n) {
     const auto begin = sides.begin() + first[n], end = sides.begin() + first[n + 1];
-    std::sort(begin, end, [](const Side &l, const Side &r) {
+    std::sort(begin, end, [](const NodeSide &l, const NodeSide &r) {
       return l.larger != r.larger ? l.larger < r.larger : l.triangle < r.triangle;
     });
     for (auto side = begin; side != end; ++side) {
@@ -70,7 +70,8 @@ Edges edges_of(const Mesh &mesh) {
   return edges;
 }
 
-// The side of triangle t that is cut first; on equal lengths, that with the larger edge number.
+// Returns the side of triangle t that is divided first; among equal lengths, the one with the
+// larger edge number.
 uint32_t longest_side(const Mesh &mesh, const Edges &edges, uint32_t t) {
   const auto key = [&](uint32_t k) {
     const Edge &e = edges.ends[edges.of_triangle[t][k]];
@@ -83,8 +84,8 @@ uint32_t longest_side(const Mesh &mesh, const Edges &edges, uint32_t t) {
   return longest;
 }
 
-// A triangle with any edge to cut cuts its longest one too.
-void spread(const Mesh &mesh, const Edges &edges, std::vector<uint8_t> &cut) {
+// Marks the longest edge of every triangle that has a marked edge, until nothing changes.
+void mark_longest_sides(const Mesh &mesh, const Edges &edges, std::vector<uint8_t> &cut) {
   for (bool changed = true; changed;) {
     changed = false;
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -97,7 +98,7 @@ void spread(const Mesh &mesh, const Edges &edges, std::vector<uint8_t> &cut) {
   }
 }
 
-// The parts of triangle t; `middle` holds the new node of each edge or `none`.
+// Appends the parts of triangle t; `middle` is the new node of each edge or `none`.
 void cut_triangle(const Mesh &mesh, const Edges &edges, const std::vector<uint32_t> &middle,
                   uint32_t t, std::vector<Tri> &parts) {
   const uint32_t k = longest_side(mesh, edges, t), k1 = (k + 1) % 3, k2 = (k + 2) % 3;
@@ -130,6 +131,22 @@ double area_of(const Mesh &mesh) {
   return area;
 }
 
+Mesh compact_mesh(const std::vector<Vec3> &points, const std::vector<Tri> &triangles) {
+  Mesh mesh;
+  std::vector<uint32_t> number(points.size(), none);
+  for (Tri t : triangles) {
+    for (uint32_t &v : t) {
+      if (number[v] == none) {
+        number[v] = static_cast<uint32_t>(mesh.x.size());
+        mesh.x.push_back(points[v]);
+      }
+      v = number[v];
+    }
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
 void bisect(Mesh &mesh, const std::function<bool(const BisectEdge &)> &is_too_long) {
   for (size_t known = 0;;) {
     const Edges edges = edges_of(mesh);
@@ -142,7 +159,7 @@ void bisect(Mesh &mesh, const std::function<bool(const BisectEdge &)> &is_too_lo
     }
     if (std::find(cut.begin(), cut.end(), 1) == cut.end()) return;
     known = mesh.x.size();
-    spread(mesh, edges, cut);
+    mark_longest_sides(mesh, edges, cut);
     std::vector<uint32_t> middle(cut.size(), none);
     for (size_t e = 0; e < cut.size(); ++e) {
       if (!cut[e]) continue;

@@ -1,4 +1,4 @@
-// Making the triangles of a sheet smaller where they are too large.
+// Longest-edge bisection of a triangle mesh where its edges are too long.
 #pragma once
 
 #include <functional>
@@ -15,16 +15,19 @@ struct Mesh {
 
 double area_of(const Mesh &mesh);
 
-// An edge as the criterion sees it.
+// Returns triangles over `points` as a mesh of their own nodes, in the order of their first use.
+Mesh compact_mesh(const std::vector<Vec3> &points, const std::vector<Tri> &triangles);
+
+// The edge that a refinement criterion gets.
 struct BisectEdge {
   Vec3 a, b;
   Vec3 normal;  // sum of the area vectors of its triangles
-  bool on_rim;  // it belongs to one triangle only
+  bool on_rim;  // the edge belongs to one triangle only
 };
 
-// Halves edges until none is too long. A triangle is always cut through its longest edge first,
-// which keeps its angles above half of the smallest it started with (Rosenberg, Stenger 1975).
-// Old nodes keep their numbers and places.
+// Halves edges until no edge is too long. A triangle is always divided at its longest edge first,
+// which keeps its angles above half of the smallest initial one (Rosenberg, Stenger 1975). Old
+// nodes keep their numbers and positions.
 void bisect(Mesh &mesh, const std::function<bool(const BisectEdge &)> &is_too_long);
 
 }  // namespace mvs::core::orifice

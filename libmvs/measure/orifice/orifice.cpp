@@ -1,5 +1,5 @@
-// The regurgitant orifice: sample the sheet, cut the space between its samples, smooth the cut.
-// The definition, the method and its errors are in README.md.
+// Regurgitant orifice: samples the sheet, computes the minimum cut of the space between the
+// samples, and shrinks it to a surface of least area. METHOD.md has definition, method and errors.
 #include "measure/orifice/orifice.h"
 
 #include "measure/annulus/frame.h"
@@ -11,11 +11,7 @@ namespace mvs::core {
 
 Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x) {
   const Frame frame = valve_frame(model, x);
-  std::vector<Vec3> local;
-  local.reserve(x.size());
-  for (const Vec3 &p : x) local.push_back(frame.local(p));
-
-  const orifice::Sheet sheet = orifice::local_sheet(model, local);
+  const orifice::Sheet sheet = orifice::local_sheet(model, frame.local(x));
   const orifice::Samples samples = orifice::sample(sheet);
   const std::vector<Tri> cut = orifice::smallest_cut(sheet, samples);
   const orifice::Mesh surface = orifice::smallest_surface(sheet, samples, cut);

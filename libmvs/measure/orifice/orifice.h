@@ -1,4 +1,4 @@
-// The regurgitant orifice.
+// Regurgitant orifice: the surface of least area that separates ventricle and atrium.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace mvs::core {
 
-// The smallest cross-section joining ventricle and atrium: its area, and it as triangles.
+// The smallest cross-section between ventricle and atrium: its area, and its triangles.
 struct Orifice {
   double area = 0;  // m2
   std::vector<Vec3> vertices;

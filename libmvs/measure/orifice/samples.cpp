@@ -1,4 +1,4 @@
-// Sampling the sheet and building the wall around it.
+// Samples the sheet by graded bisection and builds the wall around it.
 #include "measure/orifice/samples.h"
 
 #include <algorithm>
@@ -11,21 +11,22 @@
 namespace mvs::core::orifice {
 namespace {
 
-// Spacings over the contact thickness: three quarters keep a ball of that diameter from slipping
-// between the samples (see orifice_space.cpp) and place the verdict "closed" within a tenth.
+// Spacing over contact thickness: with three quarters a ball of that diameter cannot pass between
+// the samples (see smallest_cut.cpp), and the width at which an opening counts as closed is right
+// to a tenth.
 constexpr double grain_of_seal = 0.75;
-// The finest spacing over the length of the rims and over the root of the sheet's area: it bounds
-// the work where the contact thickness is tiny or the sheet torn far apart. For a mitral valve it
-// is a quarter of a millimetre. Below, the coarsest spacing over the finest.
+// Finest spacing over the length of the rims and over the root of the sheet area: limits the work
+// for a tiny contact thickness or a torn sheet. A quarter of a millimetre for a mitral valve. Next,
+// the ratio of coarsest to finest spacing.
 constexpr double grain_of_rim = 1e-3, grain_of_size = 1.0 / 150;
 constexpr double coarsest = 4;
-// Edges are as long as half the way to what faces them, and grow half as fast as that from a rim.
+// Edge length over the distance to opposite tissue, and growth rate of edges away from a rim.
 constexpr double growth = 0.5;
-// Where leaflets touch, nearer to each other than this part of the contact thickness, no blood
-// comes and samples may be coarse: a ball that is held back by them is held back by the contact,
-// too.
+// Share of the contact thickness below which leaflets are in deep contact. Samples may be coarse
+// there: a ball that is stopped by them is stopped by the contact, too.
 constexpr double deep_of_seal = 0.8;
-// What lies within 60 degrees of the normal faces a point; the sheet's own neighbourhood does not.
+// Tissue within 60 degrees of the normal faces a point, which excludes the neighbourhood of the
+// point itself.
 constexpr double facing_cosine = 0.5;
 
 bool faces_something(const TriangleTree &tree, const Vec3 &p, const Vec3 &normal, double within) {
@@ -33,10 +34,10 @@ bool faces_something(const TriangleTree &tree, const Vec3 &p, const Vec3 &normal
   bool found = false;
   tree.visit_near(p, limit2, [&](uint32_t t) {
     const TrianglePoint hit = tree.closest_on(t, p);
-    // a point is not faced by what it lies on, however the way there rounds
+    // excludes the triangle on which the point lies, for which the direction is rounding error
     if (found || hit.distance2 >= limit2 || hit.distance2 < 1e-6 * within * within) return;
-    const Vec3 way = tree.point_at(t, hit.weight) - p;
-    found = std::abs(way.dot(normal)) > facing_cosine * std::sqrt(hit.distance2);
+    const Vec3 direction = tree.point_at(t, hit.weight) - p;
+    found = std::abs(direction.dot(normal)) > facing_cosine * std::sqrt(hit.distance2);
     if (found) limit2 = 0;
   });
   return found;
@@ -85,15 +86,15 @@ std::vector<double> longest_edges(const Mesh &mesh) {
   return longest;
 }
 
-// One ring of the wall: points at equal steps along the annulus, moved outwards.
+// Adds one ring of the wall: points at equal steps along the annulus, moved outwards.
 void add_ring(const Sheet &sheet, double outwards, double step, double shift, Samples &samples) {
   const double length = sheet.annulus.length(), wider = 2 * std::numbers::pi * outwards;
   const size_t count = std::max<size_t>(12, std::lround(std::ceil((length + wider) / step)));
   for (size_t i = 0; i < count; ++i) {
     const double part = (static_cast<double>(i) + shift) / static_cast<double>(count);
     const Vec3 p = sheet.annulus.at(part * length);
-    const Vec3 way = Vec3(p.x(), p.y(), 0).normalized();
-    samples.point.push_back(p + outwards * way);
+    const Vec3 direction = Vec3(p.x(), p.y(), 0).normalized();
+    samples.point.push_back(p + outwards * direction);
     samples.spacing.push_back(2 * step);
   }
 }
@@ -118,19 +119,12 @@ std::vector<Tri> as_triangles(const std::vector<Edge> &edges) {
 
 Sheet local_sheet(const Model &model, const std::vector<Vec3> &local) {
   const Valve &valve = model.valve;
-  Sheet sheet{{}, {}, Loop(valve.annulus, local), valve.contact_thickness, 0, 0};
-  std::vector<uint32_t> number(local.size(), none);
-  const auto take = [&](uint32_t node) {
-    if (number[node] == none) {
-      number[node] = static_cast<uint32_t>(sheet.mesh.x.size());
-      sheet.mesh.x.push_back(local[node]);
-    }
-    return number[node];
-  };
-  for (const Tri &t : valve.triangles) {
-    const uint32_t a = take(t[0]), b = take(t[1]), c = take(t[2]);
-    sheet.mesh.triangles.push_back({a, b, c});
-  }
+  Sheet sheet{compact_mesh(local, valve.triangles),
+              {},
+              Loop(valve.annulus, local),
+              valve.contact_thickness,
+              0,
+              0};
   const std::vector<Side> sides = sorted_sides(sheet.mesh.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
     if (last == first + 1) sheet.rim.push_back(sides[first].edge);

@@ -1,4 +1,4 @@
-// Points of the sheet, and of a wall around it, dense where blood might find a way through.
+// Point samples of the sheet and of a wall around it, dense where an opening is possible.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace mvs::core::orifice {
 
-// The sheet in the valve's frame, z towards the atrium; only the nodes of its triangles.
+// The sheet in the valve's frame, z towards the atrium, with the nodes of its triangles only.
 struct Sheet {
   Mesh mesh;
   std::vector<Edge> rim;  // edges of one triangle: annulus, free edges, holes
   Loop annulus;
-  double seal;    // m: a passage up to this width is closed
+  double seal;    // m: a passage up to this width is sealed
   double grain;   // m: the finest spacing of samples
   double radius;  // m: the sheet is inside the sphere of this size around the origin
 };
-// Edges as triangles of no area, for a TriangleTree.
+// Returns edges as degenerate triangles for a TriangleTree.
 std::vector<Tri> as_triangles(const std::vector<Edge> &edges);
 
 Sheet local_sheet(const Model &model, const std::vector<Vec3> &local);
@@ -29,9 +29,9 @@ struct Samples {
   size_t on_sheet = 0;          // points from here on belong to the wall
 };
 
-// The sheet with edges of `grain` at its rims and wherever another part of it faces it, and twice
-// as coarse as the way to either elsewhere; then a wall that goes outwards from the annulus, to
-// twice the radius, in rings of growing spacing.
+// Samples the sheet with edges of `grain` at its rims and wherever another part of it is opposite,
+// and of half the distance to either elsewhere; then adds a wall that extends outwards from the
+// annulus to twice the radius, in rings of growing spacing.
 Samples sample(const Sheet &sheet);
 
 }  // namespace mvs::core::orifice

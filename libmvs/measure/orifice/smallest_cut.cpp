@@ -1,5 +1,6 @@
-// Free space between samples: where a ball of the contact thickness can go, and how much fits
-// through each triangle of the Delaunay tetrahedra.
+// Free space between samples as an alpha shape (Edelsbrunner and Muecke 1994): a triangle of the
+// Delaunay tetrahedra is open if a ball of the contact thickness passes. Max flow with triangle
+// areas as capacities gives the minimum cut.
 #include "measure/orifice/smallest_cut.h"
 
 #include <Eigen/Geometry>
@@ -9,16 +10,17 @@
 #include "geometry/delaunay3d.h"
 #include "geometry/max_flow.h"
 #include "geometry/triangle_tree.h"
+#include "model/sides.h"
 
 namespace mvs::core::orifice {
 namespace {
 
-// No point of a triangle with edges up to 1 is farther from its corners than 1 / sqrt(3) = 0.58;
-// the rest is for the bend of the sheet.
+// The points of a triangle with edges up to 1 lie within 1 / sqrt(3) = 0.58 of its corners; the
+// excess allows for the bend of the sheet.
 constexpr double reach_of_spacing = 0.65;
 constexpr double flow_unit = 1e-14;  // m2: 1e9 units are 10 mm2
-// Numbers of cells in the flow; all of the atrium is one, all of the ventricle another. A cell that
-// the blood has not reached has none.
+// Cell numbers in the flow network: one for all atrial cells, one for all ventricular cells. Cells
+// that are not reached have no number.
 constexpr uint32_t atrium = 0, ventricle = 1, first_between = 2, in_wall = none - 1;
 
 struct Ball {
@@ -45,20 +47,20 @@ class Space {
  public:
   Space(const Sheet &sheet, const Samples &samples);
 
-  // Follows the blood from the atrium; true if some reaches the ventricle.
+  // Breadth-first search from the atrium through open triangles; returns whether it reaches the
+  // ventricle.
   bool leaks();
   std::vector<Tri> cut();
 
  private:
   struct Opening {
-    uint32_t cell, face;  // the side nearer to where the blood came from
+    uint32_t cell, face;  // the side from which the search came
     uint32_t beyond;
   };
 
   Tri face(uint32_t cell, uint32_t k) const;
   bool is_open(uint32_t cell, uint32_t k) const;
   Ball tightest(uint32_t cell, uint32_t k) const;
-  double area(const Tri &t) const;
 
   const Sheet &sheet_;
   const Samples &samples_;
@@ -71,8 +73,9 @@ class Space {
   uint32_t numbers_ = first_between;
 };
 
-// The box is three times as large as the sheet, so that no cell joins its top and bottom through
-// the valve: the sphere of such a cell would hold a part of the wall. Those outside the wall do.
+// The bounding box is three times as large as the sheet, so that no cell joins its top and bottom
+// through the valve: the sphere of such a cell would contain a part of the wall. Cells outside the
+// wall do join both.
 Space::Space(const Sheet &sheet, const Samples &samples)
     : sheet_(sheet), samples_(samples), tree_(sheet.mesh.triangles, sheet.mesh.x) {
   const double half = 3 * sheet.radius, unit = 2 * half / lattice_size;
@@ -101,20 +104,15 @@ Space::Space(const Sheet &sheet, const Samples &samples)
   }
 }
 
-// The corners of a face, turning right-handed around the way out of the cell.
+// Returns the corners of a face, counter-clockwise seen from outside the cell.
 Tri Space::face(uint32_t cell, uint32_t k) const {
   const std::array<uint32_t, 4> &c = mesh_.tetrahedra[cell].corner;
   constexpr std::array<Tri, 4> order = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   return {c[order[k][0]], c[order[k][1]], c[order[k][2]]};
 }
 
-double Space::area(const Tri &t) const {
-  const Vec3 &a = samples_.point[t[0]];
-  return 0.5 * (samples_.point[t[1]] - a).cross(samples_.point[t[2]] - a).norm();
-}
-
-// The smallest ball, with its surface on samples and none inside, on the way from the centre of a
-// cell to that of its neighbour: the radius falls towards the plane of the face they share.
+// Returns the smallest empty ball on the segment between the centres of a cell and its neighbour:
+// the radius has its minimum at the plane of the common face.
 Ball Space::tightest(uint32_t cell, uint32_t k) const {
   const Tri t = face(cell, k);
   const Vec3 &a = vertex_[t[0]];
@@ -125,8 +123,9 @@ Ball Space::tightest(uint32_t cell, uint32_t k) const {
   return ball_through(a, vertex_[t[1]], vertex_[t[2]]);
 }
 
-// Does a ball of the contact thickness pass? The samples alone cannot tell it from slipping between
-// them when it is smaller than their spacing, and see the sheet up to `slack` too far away.
+// Returns whether a ball of the contact thickness passes. Samples alone do not decide for a ball
+// smaller than their spacing, and overestimate the distance to the sheet by up to `slack`; in this
+// range the distance to the triangles decides.
 bool Space::is_open(uint32_t cell, uint32_t k) const {
   const Tri t = face(cell, k);
   double spacing = 0;
@@ -155,7 +154,7 @@ bool Space::leaks() {
       const uint32_t beyond = mesh_.tetrahedra[cell].neighbour[k];
       if (beyond == none || number_[beyond] == in_wall) continue;
       const bool arrives = number_[beyond] == ventricle;
-      // cells come in the order of their numbers: what is below has looked at this face already
+      // cells are visited in the order of their numbers: lower ones have handled this face
       if (!arrives && number_[beyond] <= number_[cell]) continue;
       if (!is_open(cell, k)) continue;
       openings_.push_back({cell, k, beyond});
@@ -171,7 +170,7 @@ bool Space::leaks() {
 std::vector<Tri> Space::cut() {
   MaxFlow flow(numbers_);
   for (const Opening &o : openings_) {
-    const double units = area(face(o.cell, o.face)) / flow_unit;
+    const double units = triangle_area(samples_.point, face(o.cell, o.face)) / flow_unit;
     flow.add_pipe(number_[o.cell], number_[o.beyond], std::llround(units));
   }
   flow.run(atrium, ventricle);

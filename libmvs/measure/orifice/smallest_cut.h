@@ -1,4 +1,4 @@
-// The space around the sheet as tetrahedra, and the smallest cut between atrium and ventricle.
+// Minimum cut between atrium and ventricle in the Delaunay tetrahedra of the samples.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,8 @@
 
 namespace mvs::core::orifice {
 
-// Triangles that close the valve at the least area; nodes are those of `samples`. None if sealed.
+// Returns the triangles of least area that close the valve, as indices of `samples`; empty for a
+// sealed valve.
 std::vector<Tri> smallest_cut(const Sheet &sheet, const Samples &samples);
 
 }  // namespace mvs::core::orifice

@@ -1,4 +1,5 @@
-// A surface of least area whose rim slides on the sheet.
+// Surface of least area with a rim that slides on the sheet: node by node majorise-minimise sweeps,
+// in which the area never increases.
 #include "measure/orifice/smallest_surface.h"
 
 #include <Eigen/Geometry>
@@ -13,33 +14,16 @@
 namespace mvs::core::orifice {
 namespace {
 
-// Edges inside the surface are cut to this part of the square root of its area, at which a chord of
-// a circle is 1 % below its arc, but not below the spacing of the samples.
+// Target edge length over the root of the area, at which a chord of a circle is 1 % below its arc;
+// not below the spacing of the samples.
 constexpr double edge_of_size = 0.15;
 constexpr int max_sweeps = 100;
-constexpr double enough = 1e-5;  // a sweep that gains less of the area is the last
-// An edge of the cut with its middle farther from the sheet than this part of its length does not
-// run along it. Over a crease of 60 degrees it is 0.13, across a closed passage 0.5.
+constexpr double enough = 1e-5;  // relative decrease of area in the last sweep
+// A rim edge whose midpoint is farther from the sheet than this share of its length does not run
+// along the sheet. The value is 0.13 over a crease of 60 degrees, 0.5 across a sealed passage.
 constexpr double off_of_length = 0.15;
 
 enum class Hold : uint8_t { free, slides, stays };
-
-// The compact mesh of the cut.
-Mesh surface_of_cut(const Samples &samples, const std::vector<Tri> &cut) {
-  Mesh mesh;
-  std::vector<uint32_t> number(samples.point.size(), none);
-  for (Tri t : cut) {
-    for (uint32_t &v : t) {
-      if (number[v] == none) {
-        number[v] = static_cast<uint32_t>(mesh.x.size());
-        mesh.x.push_back(samples.point[v]);
-      }
-      v = number[v];
-    }
-    mesh.triangles.push_back(t);
-  }
-  return mesh;
-}
 
 class Shrinking {
  public:
@@ -78,8 +62,8 @@ Shrinking::Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples)
   list_triangles();
 }
 
-// Nodes of the rim slide where it runs along the sheet; where it crosses from one sheet to the
-// other, at the end of an opening, they stay, or the opening would shrink to nothing.
+// Rim nodes slide where the rim runs along the sheet; they stay where it crosses from one sheet to
+// the other at the end of an opening, which would otherwise shrink to nothing.
 void Shrinking::hold_rim(size_t on_samples) {
   hold_.assign(mesh_.x.size(), Hold::free);
   std::fill(hold_.begin(), hold_.begin() + static_cast<std::ptrdiff_t>(on_samples), Hold::slides);
@@ -123,9 +107,10 @@ double Shrinking::area_around(uint32_t v, const Vec3 &p) const {
   return 0.5 * twice;
 }
 
-// Where the areas around a node are least. Each is its opposite edge times the distance h from it,
-// and h is below h2 / (2 h0) + h0 / 2 for the present h0: the sum of these bounds is quadratic, and
-// its minimum has no larger area than the present place (majorise, then minimise).
+// Returns the move that minimises a quadratic upper bound of the area around a node. The area of
+// each triangle is its opposite edge times the distance h from it, and h <= h2 / (2 h0) + h0 / 2
+// for the present h0: the minimum of the sum of these bounds has no larger area than the present
+// position.
 Vec3 Shrinking::move_of(uint32_t v) const {
   const Vec3 &x = mesh_.x[v];
   Mat3 stiffness = Mat3::Zero();
@@ -150,7 +135,7 @@ Vec3 Shrinking::move_of(uint32_t v) const {
   for (int k = 0; k < 3; ++k) {
     normal += where.weight[k] * normal_[sheet_.mesh.triangles[hit.triangle][k]];
   }
-  // across the rim, in the sheet: moving along the rim would only crowd its nodes
+  // perpendicular to the rim, in the sheet: motion along the rim would only crowd its nodes
   const bool on_rim = rim_[v][1] != none;
   const Vec3 tangent =
       on_rim ? Vec3(mesh_.x[rim_[v][1]] - mesh_.x[rim_[v][0]]) : force.cross(normal);
@@ -159,8 +144,8 @@ Vec3 Shrinking::move_of(uint32_t v) const {
   return resistance > 0 ? Vec3(across.dot(force) / resistance * across) : Vec3(Vec3::Zero());
 }
 
-// The place on the sheet nearest to p. A node on the rim of the sheet may leave it for the inside,
-// but not run along it: that would round off its corners, or shorten a slit from its end.
+// Returns the nearest point of the sheet. A node on the rim of the sheet may move inwards, but not
+// along the rim, which would round off corners or shorten a slit from its end.
 Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) const {
   const Vec3 &x = mesh_.x[v];
   const Vec3 there = tree_.closest(p).point;
@@ -172,7 +157,7 @@ bool Shrinking::is_on_rim(const Vec3 &p) const {
   return rim_tree_.closest(p).distance2 < off * off;
 }
 
-// Makes the move, or a part of it, if that lowers the area; returns by how much.
+// Applies the move, or a part of it, if that lowers the area; returns the decrease.
 double Shrinking::try_move(uint32_t v, const Vec3 &move) {
   const double before = area_around(v, mesh_.x[v]);
   for (double part = 1; part > 0.1; part *= 0.5) {
@@ -204,7 +189,7 @@ Mesh Shrinking::run() {
 }  // namespace
 
 Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut) {
-  Mesh mesh = surface_of_cut(samples, cut);
+  Mesh mesh = compact_mesh(samples.point, cut);
   if (cut.empty()) return mesh;
   const size_t on_samples = mesh.x.size();
   const double longest = std::max(sheet.grain, edge_of_size * std::sqrt(area_of(mesh)));

@@ -1,4 +1,4 @@
-// Making the cut that closes the valve a smooth surface of least area.
+// Relaxation of the minimum cut to a smooth surface of least area.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace mvs::core::orifice {
 
-// Lets the cut shrink: its rim slides along the sheet (where it crosses a closed passage it stays),
-// the rest is free.
+// Minimises the area of the cut: nodes of its rim slide along the sheet, or stay where the rim
+// crosses a sealed passage; inner nodes are free.
 Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut);
 
 }  // namespace mvs::core::orifice

@@ -1,4 +1,4 @@
-// The leaflets seen from the atrium along the valve axis: what is on top.
+// Height field of the leaflets seen from the atrium: highest point along the valve axis.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ class HeightField {
   HeightField(const Frame &frame, const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
 
   struct Top {
-    uint32_t triangle = none;  // none where no leaflet is
+    uint32_t triangle = none;  // none without a leaflet
     double height = 0;         // m over the annulus plane
   };
-  // The highest point of the leaflets at a point of the annulus plane (AP, CC).
+  // Returns the highest leaflet point over a point (AP, CC) of the annulus plane.
   Top top(double u, double v) const;
 
  private:

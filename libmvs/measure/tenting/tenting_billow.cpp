@@ -1,4 +1,5 @@
-// Comparing the leaflets seen from the atrium with the surface that spans the annulus.
+// Tenting and billow from a raster of the leaflets seen from the atrium, closed morphologically by
+// a ball of the contact thickness, minus the surface that spans the annulus.
 #include "measure/tenting/tenting_billow.h"
 
 #include <algorithm>
@@ -14,16 +15,16 @@ namespace {
 
 constexpr int cells_across = 256;  // about 0.13 mm each
 
-// Cells of the annulus plane: columns along AP, rows along CC. Each has the height of the annulus
-// surface (NaN outside the annulus) and of the leaflets, -infinity where there are none.
+// Raster of the annulus plane: columns along AP, rows along CC. A cell has the height of the
+// annulus surface (NaN outside the annulus) and of the leaflets (-infinity without a leaflet).
 struct Raster {
   double low_u, low_v, width, height;  // m, of the first corner and of a cell
-  std::vector<double> span, leaflet;
+  std::vector<double> annulus, leaflet;
 
   size_t at(int column, int row) const {
     return static_cast<size_t>(row) * cells_across + static_cast<size_t>(column);
   }
-  bool inside(size_t cell) const { return !std::isnan(span[cell]); }
+  bool inside(size_t cell) const { return !std::isnan(annulus[cell]); }
 };
 
 double square(double a) {
@@ -40,21 +41,21 @@ Raster empty_raster(const Loop &annulus, const Frame &frame) {
   return {low[0], low[1], cell[0], cell[1], {}, {}};
 }
 
-void draw(const AnnulusSurface &span, const HeightField &relief, Raster &raster) {
+void draw(const AnnulusSurface &surface, const HeightField &height_field, Raster &raster) {
   for (int row = 0; row < cells_across; ++row) {
     const double v = raster.low_v + (row + 0.5) * raster.height;
     for (int column = 0; column < cells_across; ++column) {
       const double u = raster.low_u + (column + 0.5) * raster.width;
-      raster.span.push_back(span.height(u, v));
+      raster.annulus.push_back(surface.height(u, v));
       const HeightField::Top top =
-          raster.inside(raster.span.size() - 1) ? relief.top(u, v) : HeightField::Top();
+          raster.inside(raster.annulus.size() - 1) ? height_field.top(u, v) : HeightField::Top();
       raster.leaflet.push_back(top.triangle != none ? top.height : -HUGE_VAL);
     }
   }
 }
 
-// One step of a morphological closing: with sign +1, how high the centre of a ball must be to rest
-// on the heights; with -1, how low the bottoms of balls with these centres reach. Over the inside.
+// One step of a morphological closing over the inside of the annulus: with sign +1, the height at
+// which a ball rests on the heights; with -1, the lowest points of balls with these centres.
 std::vector<double> roll(const Raster &raster, const std::vector<double> &heights, double radius,
                          double sign) {
   struct Offset {
@@ -87,7 +88,8 @@ std::vector<double> roll(const Raster &raster, const std::vector<double> &height
   return result;
 }
 
-// What has no height takes the mean of its neighbours, from the borders of each hole inwards.
+// Fills cells without a height by the mean of their neighbours, from the borders of each hole
+// inwards.
 void fill_holes(Raster &raster) {
   std::vector<size_t> holes;
   for (size_t c = 0; c < raster.leaflet.size(); ++c) {
@@ -114,15 +116,15 @@ void fill_holes(Raster &raster) {
         left.push_back(cell);
       }
     }
-    if (filled.empty()) return;  // no leaflet over the annulus at all
+    if (filled.empty()) return;  // no leaflet over the annulus
     for (const auto &[cell, height] : filled) raster.leaflet[cell] = height;
     holes = std::move(left);
   }
 }
 
-// How far the leaflets are above the annulus surface; 0 where there is nothing to compare.
+// Height of the leaflets above the annulus surface; 0 if either is not defined.
 double rise_at(const Raster &raster, size_t cell) {
-  const double rise = raster.leaflet[cell] - raster.span[cell];
+  const double rise = raster.leaflet[cell] - raster.annulus[cell];
   return std::isfinite(rise) ? rise : 0;
 }
 
@@ -134,7 +136,7 @@ double area_below(const Raster &raster, int row) {
   return sum;
 }
 
-// The same on the central AP line, between the rows beside it.
+// Area below the annulus surface in the central AP plane, interpolated between the adjacent rows.
 double central_area_below(const Raster &raster) {
   const double place = std::clamp(-raster.low_v / raster.height - 0.5, 0.0, cells_across - 2.0);
   const int row = static_cast<int>(place);
@@ -142,13 +144,13 @@ double central_area_below(const Raster &raster) {
   return (1 - share) * area_below(raster, row) + share * area_below(raster, row + 1);
 }
 
-double highest_over(const AnnulusSurface &span, const Frame &frame, const Model &model,
+double highest_over(const AnnulusSurface &surface, const Frame &frame, const Model &model,
                     const std::vector<Vec3> &x) {
   double highest = 0;
   for (const Tri &triangle : model.valve.triangles) {
     for (const uint32_t node : triangle) {
       const Vec3 p = frame.local(x[node]);
-      const double rise = p[2] - span.height(p[0], p[1]);
+      const double rise = p[2] - surface.height(p[0], p[1]);
       if (rise > highest) highest = rise;
     }
   }
@@ -160,27 +162,27 @@ double highest_over(const AnnulusSurface &span, const Frame &frame, const Model 
 TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3> &x) {
   const Loop annulus(model.valve.annulus, x);
   const Frame frame = valve_frame(model, x);
-  const AnnulusSurface span(frame, annulus.points());
+  const AnnulusSurface surface(frame, annulus.points());
   Raster raster = empty_raster(annulus, frame);
-  draw(span, HeightField(frame, model.valve.triangles, x), raster);
+  draw(surface, HeightField(frame, model.valve.triangles, x), raster);
   const double radius = 0.5 * model.valve.contact_thickness;
   raster.leaflet = roll(raster, roll(raster, raster.leaflet, radius, 1), radius, -1);
   fill_holes(raster);
 
-  TentingBillow doming;
+  TentingBillow result;
   const double cell = raster.width * raster.height;
   for (size_t c = 0; c < raster.leaflet.size(); ++c) {
     if (!raster.inside(c)) continue;
     const double rise = rise_at(raster, c);
-    doming.tenting_volume += cell * std::max(0.0, -rise);
-    doming.billow_volume += cell * std::max(0.0, rise);
+    result.tenting_volume += cell * std::max(0.0, -rise);
+    result.billow_volume += cell * std::max(0.0, rise);
     if (std::isfinite(raster.leaflet[c])) {
-      doming.tenting_height = std::max(doming.tenting_height, -raster.leaflet[c]);
+      result.tenting_height = std::max(result.tenting_height, -raster.leaflet[c]);
     }
   }
-  doming.tenting_area = central_area_below(raster);
-  doming.billow_height = highest_over(span, frame, model, x);
-  return doming;
+  result.tenting_area = central_area_below(raster);
+  result.billow_height = highest_over(surface, frame, model, x);
+  return result;
 }
 
 }  // namespace mvs::core

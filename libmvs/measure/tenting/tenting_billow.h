@@ -1,4 +1,4 @@
-// How far the leaflets sag below the annulus (tenting) or rise above it (billow).
+// Tenting and billow: depth of the leaflets below the annulus surface, and height above it.
 #pragma once
 
 #include <vector>

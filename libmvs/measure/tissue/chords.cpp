@@ -1,4 +1,4 @@
-// Chordae from their end points.
+// Strain, tension and working range of each chord from the positions of its ends.
 #include "measure/tissue/chords.h"
 
 #include <mvs/snapshot.h>
@@ -11,20 +11,20 @@
 namespace mvs::core {
 namespace {
 
-// The sum of the pulls on a node, each along its chord towards the other end.
+// Sum of the tensions at a node, each directed towards the other end of its chord.
 Vec3 pull_on(uint32_t node, const Model &model, const std::vector<Vec3> &x,
              const std::vector<double> &tension) {
   const Rows &rows = model.topology.node_chords;
   Vec3 sum = Vec3::Zero();
   for (uint32_t i = rows.start[node]; i < rows.start[node + 1]; ++i) {
     const Chord &chord = model.valve.chords[rows.items[i]];
-    const Vec3 along = x[chord.a == node ? chord.b : chord.a] - x[node];
+    const Vec3 along = x[chord.other_end(node)] - x[node];
     sum += tension[rows.items[i]] * along.normalized();
   }
   return sum;
 }
 
-// What a chord leaves of the working range of its kind.
+// Flags of the limits that a chord exceeds.
 uint8_t flags_of(const Chord &chord, double strain, double tension) {
   const ChordLimits limits = chord_limits(chord.kind);
   uint8_t flags = 0;
@@ -40,7 +40,7 @@ ChordLimits chord_limits(uint32_t kind) {
   // working strain 4.3 +- 3.4 %: mean and two standard deviations
   constexpr double strain = 0.111;
   if (kind == MVS_CHORD_KIND_SUTURE) return {infinite, infinite};
-  // twice what chordae carry at work: strut about 1 N, others up to 0.4 N; a trunk carries several
+  // twice the working tension: strut about 1 N, others up to 0.4 N; a trunk carries several
   if (kind == MVS_CHORD_KIND_STRUT || kind == MVS_CHORD_KIND_TRUNK) return {strain, 2.0};
   return {strain, 0.8};
 }

@@ -1,4 +1,4 @@
-// Strain and tension of the chordae, and what they pull on the papillary heads.
+// Strain and tension of the chordae, and the resultant forces on the papillary heads.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace mvs::core {
 
-// The working range of chordae of a kind; README.md has the sources.
+// Limits of the working range of a kind of chord; DEFINITIONS.md has the sources.
 struct ChordLimits {
   double strain, tension;  // 1, N
 };
@@ -16,7 +16,7 @@ ChordLimits chord_limits(uint32_t kind);  // MVS_CHORD_KIND_*
 struct ChordMeasures {
   std::vector<double> strain, tension;         // per chord
   std::vector<uint8_t> flags;                  // per chord: MVS_CHORD_FLAG_OVER_*
-  uint32_t over_strain = 0, over_tension = 0;  // how many chordae
+  uint32_t over_strain = 0, over_tension = 0;  // number of chordae
   std::vector<Vec3> head_force;                // N, per head
   double max_strain = 0, max_tension = 0;
 };

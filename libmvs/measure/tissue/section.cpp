@@ -1,12 +1,12 @@
-// Cutting triangles by a plane.
+// Intersection of triangles with a plane, as segments.
 #include "measure/tissue/section.h"
 
 #include <utility>
 
 namespace mvs::core {
 
-std::vector<Vec3> cut(const Model &model, const std::vector<Vec3> &x, const Vec3 &point,
-                      const Vec3 &normal) {
+std::vector<Vec3> plane_section(const Model &model, const std::vector<Vec3> &x, const Vec3 &point,
+                                const Vec3 &normal) {
   const auto height = [&](uint32_t node) { return (x[node] - point).dot(normal); };
   const auto crossing = [&](uint32_t a, uint32_t b) -> Vec3 {
     if (a > b) std::swap(a, b);

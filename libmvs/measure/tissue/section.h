@@ -1,4 +1,4 @@
-// A planar cut through the leaflets.
+// Intersection of the leaflets with a plane.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,10 @@
 
 namespace mvs::core {
 
-// The cut as pairs of points. Nodes on the plane count as in front of it, so that a cut along mesh
-// edges appears once; the two triangles at an edge give the same bits for its point.
-std::vector<Vec3> cut(const Model &model, const std::vector<Vec3> &x, const Vec3 &point,
-                      const Vec3 &normal);
+// Returns the section as pairs of points. Nodes on the plane count as in front of it, so that a
+// section along mesh edges appears once; both triangles at an edge give the same bits for its
+// point.
+std::vector<Vec3> plane_section(const Model &model, const std::vector<Vec3> &x, const Vec3 &point,
+                                const Vec3 &normal);
 
 }  // namespace mvs::core

@@ -1,5 +1,5 @@
-// Stretch from the deformation of each triangle; stress from the law of its membrane, or from the
-// springs along its sides.
+// Principal stretches from the deformation gradient of each triangle; principal stresses from the
+// law of its membrane, or from the springs along its sides.
 #include "measure/tissue/strain.h"
 
 #include <Eigen/Geometry>
@@ -43,9 +43,9 @@ std::array<double, 2> principal_stretches(const Sides &rest, const Sides &now) {
   return {std::sqrt(squares[0]), std::sqrt(std::max(squares[1], 0.0))};
 }
 
-// The mean (virial) stress of the triangle's share of its springs: the sum of force x length n n^T
-// over its present volume. A side's share of force is sigma t A0 / L0 (Van Gelder 1998) and the
-// volume stays A0 t, for tissue does not compress, so that t and A0 drop out.
+// Virial stress of the springs of a triangle: the sum of force x length n n^T over its present
+// volume. The share of a side in the force is sigma t A0 / L0 (Van Gelder 1998), and the volume A0
+// t is constant as tissue is incompressible, so that t and A0 cancel.
 std::array<double, 2> principal_stresses(const Bilinear &law, const Sides &rest, const Sides &now) {
   Mat2 stress = Mat2::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -57,8 +57,7 @@ std::array<double, 2> principal_stresses(const Bilinear &law, const Sides &rest,
   return principal(stress);
 }
 
-// Cauchy stress of a membrane, 2 F (dW/dC) F^T: nothing compresses, so that det of the whole
-// deformation is 1.
+// Cauchy stress of a membrane, 2 F (dW/dC) F^T; the determinant of the three-dimensional F is 1.
 std::array<double, 2> principal_stresses(const LeafletLaw &law, const Constants &constants,
                                          const Mat2 &inverse, const Sides &now) {
   Mat2 sides;

@@ -1,4 +1,4 @@
-// The sheet as it lies now: areas and normals.
+// Areas and normals of the deformed sheet.
 #pragma once
 
 #include <vector>

@@ -1,27 +1,32 @@
-// Sides of the sheet that the outline crosses are split there, one after the other: a split never
-// makes another side that crosses it, so what is inside ends as a set of whole triangles.
+// Splits the sides of the sheet that cross an outline, one after the other, and removes the
+// triangles inside. A split never makes another side that crosses the outline, so the inside
+// becomes a set of whole triangles.
 #include "surgery/cutting/cut.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "base/error.h"
+#include "model/sides.h"
+#include "model/valve_arrays.h"
 #include "surgery/cutting/split.h"
 
 namespace mvs::core {
 namespace {
 
-// A node nearer to the outline than this share of a side is cut through, so that no sliver is left.
+// A node nearer to the outline than this share of a side becomes a node of the cut, which avoids
+// slivers.
 constexpr double snap_share = 0.2;
-// The outline goes through a side and back again: what is less than this share of it is ignored.
+// An outline that enters and leaves through one side within this share of it is ignored there.
 constexpr double thin_share = 0.25;
 
 class Cutter {
  public:
   Cutter(Surgery &s, Flat &flat, const Outline &outline)
-      : s_(&s), flat_(&flat), outline_(&outline) {
-    fixed_.assign(s.valve.rest.size(), 0);
-    for (const uint32_t node : s.valve.annulus.get()) fixed_[node] = 1;
+      : s_(&s),
+        flat_(&flat),
+        outline_(&outline),
+        fixed_(marks_of(s.valve.annulus, s.valve.rest.size())) {
     for (uint32_t n = 0; n < flat.at.size(); ++n) {
       side_.push_back(flat.has(n) && outline.holds(flat.at[n]) ? -1 : 1);
     }
@@ -56,7 +61,7 @@ class Cutter {
   std::vector<uint8_t> fixed_;
 };
 
-// Sides of the piece that lead from a node of one kind to one of another, in order.
+// Returns the sides of the piece that join nodes of two kinds, sorted.
 std::vector<Edge> Cutter::sides_between(int8_t first, int8_t second) const {
   std::vector<Edge> sides;
   for (uint32_t t = 0; t < s_->valve.triangles.size(); ++t) {
@@ -73,8 +78,8 @@ std::vector<Edge> Cutter::sides_between(int8_t first, int8_t second) const {
   return sides;
 }
 
-// Where the outline is met on the way from a node inside to one outside, as a share; halving never
-// misses it, whatever rounding makes of a corner of the outline.
+// Returns the position of the outline between an inner and an outer node, as a share of the side.
+// Bisection finds it regardless of rounding at corners of the outline.
 double Cutter::crossing(uint32_t in, uint32_t out) const {
   double low = 0, high = 1;
   for (int k = 0; k < 40; ++k) {
@@ -102,7 +107,7 @@ void Cutter::snap() {
   for (const uint32_t node : near) side_[node] = 0;
 }
 
-// Where both ends are outside but the middle is not, a node inside opens the way for the cut.
+// If both ends of a side are outside but its middle is inside, an inner node is inserted.
 void Cutter::open_thin_places() {
   constexpr int samples = 16;
   for (const auto &[a, b] : sides_between(1, 1)) {
@@ -133,20 +138,14 @@ uint8_t Cutter::is_inside(uint32_t t) const {
   return outline_->holds((flat_->at[tri[0]] + flat_->at[tri[1]] + flat_->at[tri[2]]) / 3);
 }
 
-double rest_area(const Valve &valve, uint32_t t) {
-  const Tri &tri = valve.triangles.get()[t];
-  const std::vector<Vec3> &rest = valve.rest;
-  return 0.5 * (rest[tri[1]] - rest[tri[0]]).cross(rest[tri[2]] - rest[tri[0]]).norm();
-}
-
-// A piece of the sheet: triangles that hang together along edges.
+// A connected set of triangles.
 struct Piece {
   std::vector<uint32_t> triangles;
   double area = 0;
-  bool held = false;  // by the annulus
+  bool held = false;  // attached to the annulus
 };
 
-// The pieces of the triangles whose mark is `mark`.
+// Returns the connected components of the triangles with mark `mark`.
 std::vector<Piece> pieces_of(const Valve &valve, const std::vector<uint8_t> &marks, uint8_t mark) {
   const Topology topology = make_topology(valve);
   std::vector<uint8_t> seen(marks.size(), 0);
@@ -154,29 +153,22 @@ std::vector<Piece> pieces_of(const Valve &valve, const std::vector<uint8_t> &mar
   for (uint32_t start = 0; start < marks.size(); ++start) {
     if (marks[start] != mark || seen[start]) continue;
     Piece piece;
-    piece.triangles = {start};
-    seen[start] = 1;
-    for (size_t q = 0; q < piece.triangles.size(); ++q) {
-      const uint32_t here = piece.triangles[q];
-      piece.area += rest_area(valve, here);
-      for (const uint32_t n : valve.triangles.get()[here]) piece.held |= topology.fixed[n] != 0;
-      for (const uint32_t e : topology.triangle_edges[here]) {
-        for (const uint32_t t : topology.edge_triangles[e]) {
-          if (t == none || seen[t] || marks[t] != mark) continue;
-          seen[t] = 1;
-          piece.triangles.push_back(t);
-        }
-      }
+    piece.triangles =
+        connected_triangles(topology, start, seen, [&](uint32_t t) { return marks[t] == mark; });
+    for (const uint32_t t : piece.triangles) {
+      const Tri &triangle = valve.triangles.get()[t];
+      piece.area += triangle_area(valve.rest, triangle);
+      for (const uint32_t n : triangle) piece.held |= topology.fixed[n] != 0;
     }
     pieces.push_back(std::move(piece));
   }
   return pieces;
 }
 
-// One piece is taken out: a scrap beside it stays, and a scrap of the rest that would hang on
-// nothing goes with it. Anything larger is refused.
+// Keeps one piece: small scraps beside it stay in the valve, small detached parts of the rest are
+// removed with it. Larger ones are refused.
 void tidy(const Surgery &s, std::vector<uint8_t> &inside) {
-  constexpr double scrap = 0.05;  // of what is cut out
+  constexpr double scrap = 0.05;  // share of the removed area
   std::vector<Piece> pieces = pieces_of(s.valve, inside, 1);
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece &a, const Piece &b) { return a.area > b.area; });
@@ -189,14 +181,14 @@ void tidy(const Surgery &s, std::vector<uint8_t> &inside) {
   for (const Piece &piece : pieces_of(s.valve, inside, 0)) {
     if (piece.held) continue;
     MVS_MUST(piece.area < scrap * pieces[0].area, MVS_E_OP, "outline",
-             "%s: the cut would leave an island of %.1f mm2 that hangs on nothing: make the piece "
+             "%s: the cut would leave an unattached island of %.1f mm2: make the piece "
              "narrower or take the island out as well",
              s.op_name, 1e6 * piece.area);
     for (const uint32_t t : piece.triangles) inside[t] = 1;
   }
 }
 
-// The edges between what goes and what stays, one after the other.
+// Returns the nodes between removed and remaining triangles, in order.
 CutLine line_between(const Surgery &s, const std::vector<uint8_t> &inside) {
   const Topology topology = make_topology(s.valve);
   std::vector<std::vector<uint32_t>> next(s.valve.rest.size());
@@ -215,7 +207,7 @@ CutLine line_between(const Surgery &s, const std::vector<uint8_t> &inside) {
   }
   MVS_MUST(
       ends != 0, MVS_E_OP, "outline",
-      "%s: the piece does not come through the free edge and would leave a hole: make it wider "
+      "%s: the piece does not reach through the free edge and would leave a hole: make it wider "
       "there than a side of this mesh, or begin and end the outline beyond the free edge",
       s.op_name);
   for (uint32_t from = none; !line.empty();) {
@@ -232,7 +224,7 @@ CutLine line_between(const Surgery &s, const std::vector<uint8_t> &inside) {
   return line;
 }
 
-// Chords that end on nodes that no triangle is left at.
+// Removes the chords that end on nodes without a remaining triangle.
 void remove_loose_chords(Valve &valve, const std::vector<uint8_t> &gone) {
   std::vector<uint8_t> loose(valve.rest.size(), 0);
   for (uint32_t t = 0; t < gone.size(); ++t) {
@@ -242,28 +234,8 @@ void remove_loose_chords(Valve &valve, const std::vector<uint8_t> &gone) {
     if (gone[t]) continue;
     for (const uint32_t n : valve.triangles.get()[t]) loose[n] = 0;
   }
-  std::vector<Chord> kept;
-  for (const Chord &chord : valve.chords.get()) {
-    if (!loose[chord.a] && !loose[chord.b]) kept.push_back(chord);
-  }
-  valve.chords = std::move(kept);
-}
-
-template <typename T>
-void keep(CowVector<T> &rows, const std::vector<uint8_t> &gone) {
-  std::vector<T> kept;
-  for (size_t t = 0; t < gone.size(); ++t) {
-    if (!gone[t]) kept.push_back(rows.get()[t]);
-  }
-  rows = std::move(kept);
-}
-
-void keep_triangles(Valve &valve, const std::vector<uint8_t> &gone) {
-  keep(valve.triangles, gone);
-  keep(valve.triangle_leaflet, gone);
-  keep(valve.triangle_scallop, gone);
-  keep(valve.triangle_thickness, gone);
-  keep(valve.triangle_fibre, gone);
+  std::erase_if(valve.chords.edit(),
+                [&](const Chord &chord) { return loose[chord.a] || loose[chord.b]; });
 }
 
 bool crosses(const Vec2 &a, const Vec2 &b, const Vec2 &p) {
@@ -300,7 +272,7 @@ CutLine cut_out(Surgery &s, Flat &flat, const Outline &outline) {
   tidy(s, inside);
   CutLine line = line_between(s, inside);
   remove_loose_chords(s.valve, inside);
-  keep_triangles(s.valve, inside);
+  remove_triangles(s.valve, inside);
   return line;
 }
 

@@ -1,5 +1,5 @@
-// The annulus between the commissures becomes shorter: its curve is drawn towards the line between
-// them, and its nodes go along it so that only the gathered stretch has its edges shortened.
+// Plication of the annulus between the commissures: the curve is drawn towards the line between
+// them, and its nodes are redistributed so that only the gathered stretch has shorter edges.
 #include "surgery/cutting/plicate.h"
 
 #include <numbers>
@@ -11,18 +11,18 @@
 namespace mvs::core {
 namespace {
 
-// The shortest that an edge of the annulus becomes, as a share: it cannot vanish, for the tissue
-// above it has to have a place.
+// Least length of an annulus edge, as a share: an edge cannot vanish, as the tissue above it needs
+// a place.
 constexpr double shortest = 0.25;
 
-// The part of the annulus that is gathered, and what each of its edges is shortened to.
+// The gathered part of the annulus with the length factor of each edge.
 struct Stretch {
   std::vector<uint32_t> nodes;  // from one commissure to the other
   std::vector<double> factor;   // per edge, times its length
 };
 
-// A dip of the form cos^2, of half width w = width / (1 - shortest): the integral of what it takes
-// away is the width.
+// Length factor of an edge for a dip of the form cos^2 with half width w = width / (1 - shortest),
+// whose integral is the width.
 double shortened(double from, double to, double width) {
   const double w = width / (1 - shortest);
   const auto taken = [&](double s) {
@@ -32,7 +32,7 @@ double shortened(double from, double to, double width) {
   return 1 - (taken(to) - taken(from)) / (to - from);
 }
 
-// The annulus by arc length from the commissure where the anterior leaflet ends.
+// The annulus by arc length from the commissure at the end of the anterior leaflet.
 class Walk {
  public:
   explicit Walk(const Surgery &s) : loop_(s.valve.annulus, s.valve.rest) {
@@ -60,7 +60,7 @@ class Walk {
  private:
   const Vec3 &point(size_t k) const { return loop_.point(node(k)); }
   double after(double arc) const { return arc - loop_.length() * std::floor(arc / loop_.length()); }
-  // rounding must not send the commissure itself once round
+  // rounding must not move the commissure by a full turn
   double from(double start, size_t k) const { return after(loop_.start_of(k) - start + rounding); }
   static constexpr double rounding = 1e-9;
 
@@ -87,19 +87,19 @@ Stretch stretch_around(const Surgery &s, const Vec3 &at, double width) {
   return stretch;
 }
 
-// A curve drawn towards the line between its ends.
+// Returns a curve drawn towards the line between its ends.
 std::vector<Vec3> drawn(const std::vector<Vec3> &curve, double share) {
   const Vec3 &from = curve.front();
-  const Vec3 way = curve.back() - from;
+  const Vec3 chord = curve.back() - from;
   std::vector<Vec3> out;
   for (const Vec3 &p : curve) {
-    const Vec3 foot = from + (p - from).dot(way) / way.squaredNorm() * way;
+    const Vec3 foot = from + (p - from).dot(chord) / chord.squaredNorm() * chord;
     out.push_back(foot + share * (p - foot));
   }
   return out;
 }
 
-// The nodes' places: each edge its share of what is left of the length.
+// Positions the nodes of the stretch: each edge gets its share of the remaining length.
 void gather(const Surgery &s, const Stretch &stretch, CowVector<Vec3> &places) {
   std::vector<Vec3> curve;
   for (const uint32_t node : stretch.nodes) curve.push_back(places.get()[node]);
@@ -107,11 +107,6 @@ void gather(const Surgery &s, const Stretch &stretch, CowVector<Vec3> &places) {
   for (size_t k = 0; k + 1 < curve.size(); ++k) {
     arc.push_back(arc.back() + stretch.factor[k] * (curve[k + 1] - curve[k]).norm());
   }
-  const auto length = [](const std::vector<Vec3> &c) {
-    double sum = 0;
-    for (size_t k = 0; k + 1 < c.size(); ++k) sum += (c[k + 1] - c[k]).norm();
-    return sum;
-  };
   MVS_MUST(arc.back() > 1.02 * (curve.back() - curve.front()).norm(), MVS_E_OP, "annulus",
            "%s: the annulus would become straight from commissure to commissure: take a smaller "
            "base_width",
@@ -119,7 +114,7 @@ void gather(const Surgery &s, const Stretch &stretch, CowVector<Vec3> &places) {
   double low = 0, high = 1;
   for (int k = 0; k < 60; ++k) {
     const double share = 0.5 * (low + high);
-    (length(drawn(curve, share)) < arc.back() ? low : high) = share;
+    (polyline_length(drawn(curve, share)) < arc.back() ? low : high) = share;
   }
   const std::vector<Vec3> target = drawn(curve, high);
   double start = 0;

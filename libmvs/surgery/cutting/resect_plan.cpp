@@ -1,4 +1,4 @@
-// Shapes from numbers and outlines from points; both become a line on the flat leaflet.
+// Cut lines of resections on the flattened leaflet, from numbers or from an outline.
 #include "surgery/cutting/resect_plan.h"
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 namespace mvs::core {
 namespace {
 
-// Tissue that has to stay between a cut and the annulus: what a stitch needs to hold, one thickness
-// of the leaflet.
+// Width of tissue that remains between a cut and the annulus for the stitches: one thickness of the
+// leaflet, m.
 double least_rim(const Surgery &s) {
   return s.valve.contact_thickness;
 }
 
-// The length of the free edge of a scallop, laid flat.
+// Returns the length of the free edge of a scallop at rest.
 double free_edge_of(const Surgery &s, uint32_t scallop) {
   const Topology &topology = s.before.topology;
   std::vector<uint8_t> is_free(s.valve.rest.size(), 0);
@@ -42,7 +42,7 @@ SheetPoint on_scallop(const Surgery &s, uint32_t scallop, double along, double h
                 {MVS_SITE_ANATOMICAL, 0, s.valve.scallops.get()[scallop].id, {along, height, 0}});
 }
 
-// What the numbers of the operation mean on one scallop.
+// The shape on one scallop that the numbers of the operation define.
 struct Shape {
   double width, base, depth;
   Vec2 edge, up;  // the middle of the free edge; from there out of the leaflet
@@ -85,11 +85,12 @@ ResectPlan plan_shape(const Surgery &s, const mvs_op_resect &op) {
   if (shape.depth == 0) shape.depth = 0.8 * height;
   check_shape(s, plan.scallop, shape, height);
   Vec2 first, last;
-  MVS_MUST(walk(middle, -0.5 * shape.width, first) && walk(middle, 0.5 * shape.width, last),
-           MVS_E_OP, "resect.position",
-           "resect: %.1f mm around this position reach past the leaflet of %s: take less, or come "
-           "nearer to its middle",
-           1e3 * shape.width, name_of(s, plan.scallop));
+  MVS_MUST(
+      walk(middle, -0.5 * shape.width, first) && walk(middle, 0.5 * shape.width, last), MVS_E_OP,
+      "resect.position",
+      "resect: %.1f mm around this position reach past the leaflet of %s: take less, or a position "
+      "nearer to its middle",
+      1e3 * shape.width, name_of(s, plan.scallop));
   const Vec2 deep = shape.edge - shape.depth * shape.up;
   const Vec2 across = turned(shape.up) * ((first - last).dot(turned(shape.up)) > 0 ? 1 : -1);
   plan.line = {first, deep + 0.5 * shape.base * across, deep - 0.5 * shape.base * across, last};
@@ -101,7 +102,7 @@ ResectPlan plan_shape(const Surgery &s, const mvs_op_resect &op) {
   return plan;
 }
 
-// The nearest place on some triangles of the present leaflets, and how far that is.
+// Returns the nearest point on the accepted triangles of the present leaflets, and its distance.
 template <typename Taken>
 SheetPoint nearest(const Surgery &s, const Vec3 &p, Taken taken, double &distance) {
   SheetPoint best;
@@ -119,7 +120,7 @@ SheetPoint nearest(const Surgery &s, const Vec3 &p, Taken taken, double &distanc
   return best;
 }
 
-// The leaflet that an outline was drawn on: the nearest one, all points together. Closed leaflets
+// Returns the leaflet of an outline: the nearest one in the sum over all points. Closed leaflets
 // lie so close that single points may be nearer to the other one.
 uint32_t leaflet_of(const Surgery &s, const std::vector<Vec3> &points) {
   uint32_t best = 0;
@@ -138,9 +139,9 @@ uint32_t leaflet_of(const Surgery &s, const std::vector<Vec3> &points) {
   return best;
 }
 
-// Farther from the leaflet than this, a point was not meant to lie on it.
+// Largest distance of an outline point from the leaflet, m.
 constexpr double farthest_point = 5e-3;
-// Points closer than this add nothing that tissue could follow.
+// Least distance of two outline points, m; the mesh does not resolve less.
 constexpr double finest = 0.05e-3;
 
 std::vector<Vec2> points_on(const Surgery &s, const std::vector<Vec3> &points, const Flat &flat) {
@@ -153,7 +154,7 @@ std::vector<Vec2> points_on(const Surgery &s, const std::vector<Vec3> &points, c
     MVS_MUST(
         distance < farthest_point, MVS_E_OP, "resect.outline",
         "resect: point %zu of the outline lies %.1f mm from leaflet %s: draw it on the leaflet "
-        "as it lies now",
+        "in its present position",
         k, 1e3 * distance, valve.leaflets[flat.leaflet].name.c_str());
     const Vec2 p = flat.point(valve, at);
     if (line.empty() || (p - line.back()).norm() > finest) line.push_back(p);
@@ -173,7 +174,7 @@ void check_line(const Surgery &s, const std::vector<Vec2> &line, const FlatEdges
            "resect: the outline has fewer than 3 points on the leaflet: draw it from free edge to "
            "free edge");
   for (const Vec2 &end : {line.front(), line.back()}) {
-    const double away = distance_to(free, end);
+    const double away = nearest_along(free, end).distance;
     MVS_MUST(away < s.valve.contact_thickness, MVS_E_OP, "resect.outline",
              "resect: the outline ends %.1f mm from the free edge: begin and end it on or beyond "
              "the free edge",
@@ -187,9 +188,9 @@ void check_line(const Surgery &s, const std::vector<Vec2> &line, const FlatEdges
   }
 }
 
-// Points beyond the free edge came to lie on it: one at each end is enough.
-void trim(std::vector<Vec2> &line, const FlatEdges &free) {
-  const auto on_edge = [&](const Vec2 &p) { return distance_to(free, p) < finest; };
+// Outline points beyond the free edge project onto it: one at each end is enough.
+void trim_to_edge(std::vector<Vec2> &line, const FlatEdges &free) {
+  const auto on_edge = [&](const Vec2 &p) { return nearest_along(free, p).distance < finest; };
   while (line.size() > 2 && on_edge(line[0]) && on_edge(line[1])) line.erase(line.begin());
   while (line.size() > 2 && on_edge(line.back()) && on_edge(line[line.size() - 2])) line.pop_back();
 }
@@ -212,7 +213,7 @@ ResectPlan plan_outline(const Surgery &s, const mvs_op_resect &op) {
   plan.scallop = valve.triangle_scallop[inside.triangle];
   plan.line = points_on(s, points, plan.flat);
   const auto free = free_edges_on(s, plan.flat);
-  trim(plan.line, free);
+  trim_to_edge(plan.line, free);
   check_line(s, plan.line, free);
   for (const Vec2 &p : plan.line) {
     plan.depth = std::max(plan.depth, distance_to_segment(p, plan.line.front(), plan.line.back()));
@@ -250,8 +251,8 @@ void check_size(const Surgery &s, const ResectPlan &plan) {
            1e6 * area, 1e6 * sum / count);
 }
 
-// Which way leads out of the leaflet from the ends of the line, and how far the free edge bulges
-// that way between them.
+// Computes the direction out of the leaflet at the ends of the line, and the bulge of the free edge
+// in that direction between them.
 void close_beyond_edge(ResectPlan &plan, const FlatEdges &free) {
   const Vec2 first = plan.line.front(), last = plan.line.back();
   plan.out = turned(last - first).normalized();
@@ -271,8 +272,8 @@ void close_beyond_edge(ResectPlan &plan, const FlatEdges &free) {
 
 }  // namespace
 
-// Both ends go on straight, past the free edge, and then side by side, as far as the edge bulges
-// between them and no farther: the flat leaflet is curved and may come round again.
+// Extends both ends straight beyond the free edge, then perpendicular by the bulge of the edge and
+// no farther, since the flattened leaflet is curved and may extend around.
 Outline ResectPlan::outline() const {
   constexpr double past = 0.5e-3;
   std::vector<Vec2> points = line;

@@ -1,4 +1,4 @@
-// Where a resection cuts: on the leaflet laid flat.
+// Plan of a resection: the cut line on the flattened leaflet.
 #pragma once
 
 #include <mvs/op.h>
@@ -14,13 +14,13 @@ struct ResectPlan {
   Vec3 annulus = Vec3::Zero();  // at rest, above the middle of the piece
   double depth = 0;             // m
   Vec2 out = Vec2::Zero();      // unit: out of the leaflet, across the ends of the line
-  double bulge = 0;             // m, of the free edge between them, that way
+  double bulge = 0;             // m, of the free edge between them, along `out`
 
   Outline outline() const;  // the line, closed beyond the free edge
 };
 
-// A triangle or quadrangle of a scallop, or the outline that the caller drew; throws where that
-// cannot be cut.
+// Plans a triangle or quadrangle of a scallop, or the outline of the caller; throws if it cannot be
+// cut.
 ResectPlan plan_resection(const Surgery &s, const mvs_op_resect &op);
 
 }  // namespace mvs::core

@@ -1,23 +1,25 @@
-// The parts of a triangle keep its leaflet, scallop, thickness and fibre.
+// Splits of sides and triangles; the parts keep leaflet, scallop, thickness and fibre.
 #include "surgery/cutting/split.h"
+
+#include "model/valve_arrays.h"
 
 namespace mvs::core {
 namespace {
 
-// A triangle like another one, with other corners.
+// Adds a triangle with the data of another one.
 void add_triangle(Valve &valve, uint32_t like, const Tri &corners) {
   valve.triangles.push_back(corners);
-  valve.triangle_leaflet.push_back(uint32_t{valve.triangle_leaflet.get()[like]});
-  valve.triangle_scallop.push_back(uint32_t{valve.triangle_scallop.get()[like]});
-  valve.triangle_thickness.push_back(double{valve.triangle_thickness.get()[like]});
-  valve.triangle_fibre.push_back(Vec3(valve.triangle_fibre.get()[like]));
+  for_each_triangle_array([&](auto array) {
+    auto row = (valve.*array).get()[like];
+    (valve.*array).push_back(std::move(row));
+  });
 }
 
 }  // namespace
 
 uint32_t split_triangle(Surgery &s, uint32_t triangle, const std::array<double, 3> &weight) {
   const Tri tri = s.valve.triangles.get()[triangle];
-  const uint32_t node = s.add_node({tri[0], tri[1], tri[2]}, {weight[0], weight[1], weight[2]});
+  const uint32_t node = add_node(s, {tri[0], tri[1], tri[2]}, {weight[0], weight[1], weight[2]});
   s.valve.triangles[triangle] = {tri[0], tri[1], node};
   add_triangle(s.valve, triangle, {tri[1], tri[2], node});
   add_triangle(s.valve, triangle, {tri[2], tri[0], node});
@@ -25,7 +27,7 @@ uint32_t split_triangle(Surgery &s, uint32_t triangle, const std::array<double, 
 }
 
 uint32_t split_side(Surgery &s, uint32_t a, uint32_t b, double share) {
-  const uint32_t node = s.add_node({a, b}, {1 - share, share});
+  const uint32_t node = add_node(s, {a, b}, {1 - share, share});
   const size_t count = s.valve.triangles.size();
   for (uint32_t t = 0; t < count; ++t) {
     const Tri old = s.valve.triangles.get()[t];

@@ -1,6 +1,7 @@
-// Least squares conformal map (Levy et al., SIGGRAPH 2002), then made as rigid as possible (Liu et
-// al., A Local/Global Approach to Mesh Parameterization, SGP 2008). A leaflet at rest is close to a
-// piece of a cone, so little is left to change.
+// Flattening of a leaflet: least squares conformal map (Levy et al., SIGGRAPH 2002), followed by
+// local/global as-rigid-as-possible iterations (Liu et al., A Local/Global Approach to Mesh
+// Parameterization, SGP 2008). A leaflet at rest is close to a developable cone, so the distortion
+// is small.
 #include "surgery/leaflet/flat.h"
 
 #include <Eigen/Dense>
@@ -20,17 +21,17 @@ namespace {
 using Complex = std::complex<double>;
 using Plane = Eigen::VectorXcd;
 
-// A triangle of the piece: its rows, its shape laid flat alone, the cotangents of its angles.
+// A triangle of the piece: its rows, its isolated planar shape, the cotangents of its angles.
 struct Facet {
   std::array<int, 3> row;
   std::array<Complex, 3> shape;
   std::array<double, 3> cotangent;
 };
 
-// As far to either side of the middle as no leaflet's sector reaches round the annulus.
+// Half the angular range of a piece about the axis; larger than the sector of any leaflet.
 constexpr double half_sector = 100.0 / 180 * std::numbers::pi;
 
-// The triangles of a leaflet that hang together with one of them within that sector.
+// Returns the triangles of a leaflet connected to `triangle` within that sector.
 std::vector<uint32_t> piece_around(const Model &model, uint32_t triangle) {
   const Valve &valve = model.valve;
   const Frame frame = valve_frame(model, valve.rest);
@@ -41,23 +42,13 @@ std::vector<uint32_t> piece_around(const Model &model, uint32_t triangle) {
   };
   const double here = angle(triangle);
   std::vector<uint8_t> seen(valve.triangles.size(), 0);
-  std::vector<uint32_t> piece = {triangle};
-  seen[triangle] = 1;
-  for (size_t q = 0; q < piece.size(); ++q) {
-    for (const uint32_t e : model.topology.triangle_edges[piece[q]]) {
-      for (const uint32_t t : model.topology.edge_triangles[e]) {
-        if (t == none || seen[t]) continue;
-        seen[t] = 1;
-        if (valve.triangle_leaflet[t] != valve.triangle_leaflet[triangle]) continue;
-        if (std::abs(std::remainder(angle(t) - here, 2 * std::numbers::pi)) > half_sector) continue;
-        piece.push_back(t);
-      }
-    }
-  }
-  return piece;
+  return connected_triangles(model.topology, triangle, seen, [&](uint32_t t) {
+    return valve.triangle_leaflet[t] == valve.triangle_leaflet[triangle] &&
+           std::abs(std::remainder(angle(t) - here, 2 * std::numbers::pi)) <= half_sector;
+  });
 }
 
-// Rows of the nodes of a piece, in the order of the nodes.
+// Returns the row of each node of a piece, in the order of the nodes; -1 for other nodes.
 std::vector<int> rows_of_piece(const Valve &valve, const std::vector<uint32_t> &piece, int &count) {
   std::vector<int> row(valve.rest.size(), -1);
   for (const uint32_t t : piece) {
@@ -85,7 +76,8 @@ Facet facet_of(const Valve &valve, const Tri &nodes, const std::vector<int> &row
   return facet;
 }
 
-// Row 0 at the origin, the node farthest from it at its distance: the other rows follow.
+// Conformal map with row 0 at the origin and the farthest node at its distance; the other rows by
+// least squares.
 Plane conformal(const std::vector<Facet> &facets, int count, int pin, double away) {
   const auto place = [&](int row) { return row < pin ? row - 1 : row - 2; };
   std::vector<Eigen::Triplet<Complex>> entries;
@@ -110,7 +102,7 @@ Plane conformal(const std::vector<Facet> &facets, int count, int pin, double awa
   return all;
 }
 
-// The cotangent Laplacian without row 0.
+// Cotangent Laplacian without row 0.
 Eigen::SparseMatrix<double> laplacian(const std::vector<Facet> &facets, int count) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const Facet &f : facets) {
@@ -128,7 +120,8 @@ Eigen::SparseMatrix<double> laplacian(const std::vector<Facet> &facets, int coun
   return matrix;
 }
 
-// What the Laplacian of the best places is when each triangle is turned as it lies now.
+// Right-hand side of the global step: each triangle has its best rotation for the present
+// positions.
 Plane turned_shapes(const std::vector<Facet> &facets, const Plane &at) {
   Plane right = Plane::Zero(at.size());
   for (const Facet &f : facets) {
@@ -149,7 +142,8 @@ Plane turned_shapes(const std::vector<Facet> &facets, const Plane &at) {
   return right;
 }
 
-// Twenty rounds bring a leaflet, all but a cone, to well below a hundredth of a millimetre.
+// Local/global iterations; twenty bring a leaflet, which is nearly a cone, to well below 0.01 mm of
+// the limit.
 void make_rigid(const std::vector<Facet> &facets, Plane &at) {
   const int count = static_cast<int>(at.size());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(laplacian(facets, count));

@@ -1,4 +1,4 @@
-// A piece of a leaflet laid flat: where widths and straight lines mean what they mean to a surgeon.
+// Flattened piece of a leaflet, on which widths and straight lines are defined.
 #pragma once
 
 #include <cmath>
@@ -18,11 +18,11 @@ struct Flat {
   Vec2 point(const Valve &valve, const SheetPoint &p) const;
 };
 
-// The part of the leaflet of a triangle that lies around that triangle, its rest shape laid flat
-// with as little change of lengths as can be, seen from the atrium.
+// Flattens the rest shape of the leaflet around a triangle with minimal distortion, seen from the
+// atrium.
 Flat flatten(const Model &model, uint32_t triangle);
 
-// How far a point is from the segment from a to b.
+// Distance of a point from the segment a b.
 double distance_to_segment(const Vec2 &p, const Vec2 &a, const Vec2 &b);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// Walking along the free edge of a flat piece by arc length.
+// Free edge of a flattened piece by arc length.
 #include "surgery/leaflet/flat_edge.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace mvs::core {
 FlatEdges free_edges_on(const Surgery &s, const Flat &flat) {
   FlatEdges stretches;
   for (const std::vector<uint32_t> &loop : s.before.topology.free_edges) {
-    // begins off the piece where it can, so that no stretch is cut in two
+    // starts off the piece if possible, so that no stretch is divided
     const auto off =
         std::find_if(loop.begin(), loop.end(), [&](uint32_t n) { return !flat.has(n); });
     const size_t begin = static_cast<size_t>(off - loop.begin());
@@ -25,28 +25,16 @@ FlatEdges free_edges_on(const Surgery &s, const Flat &flat) {
   return stretches;
 }
 
-double distance_to(const FlatEdges &stretches, const Vec2 &p) {
-  double least = 1e300;
-  for (const std::vector<Vec2> &stretch : stretches) {
-    for (size_t k = 0; k + 1 < stretch.size(); ++k) {
-      least = std::min(least, distance_to_segment(p, stretch[k], stretch[k + 1]));
-    }
-  }
-  return least;
-}
-
 Along nearest_along(const FlatEdges &stretches, const Vec2 &p) {
   Along best;
-  double least = 1e300;
   for (const std::vector<Vec2> &stretch : stretches) {
     double arc = 0;
     for (size_t k = 0; k + 1 < stretch.size(); ++k) {
       const Vec2 side = stretch[k + 1] - stretch[k];
       const double away = distance_to_segment(p, stretch[k], stretch[k + 1]);
-      if (away < least) {
+      if (away < best.distance) {
         const double share = (p - stretch[k]).dot(side) / side.squaredNorm();
-        least = away;
-        best = {&stretch, arc + std::clamp(share, 0.0, 1.0) * side.norm()};
+        best = {&stretch, arc + std::clamp(share, 0.0, 1.0) * side.norm(), away};
       }
       arc += side.norm();
     }

@@ -1,10 +1,11 @@
-// Walking the free edge by arc length.
+// Projection of leaflet nodes onto the free edge, parametrised by arc length.
 #include "surgery/leaflet/free_edge.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/distance.h"
 #include "surgery/leaflet/sheet_map.h"
 
 namespace mvs::core {
@@ -13,22 +14,17 @@ namespace {
 // The part of a free edge that belongs to one leaflet.
 struct Chain {
   std::vector<uint32_t> nodes;
-  std::vector<uint32_t> triangle;  // at each side: one fewer than nodes
+  std::vector<uint32_t> triangle;  // at each side; one less than nodes
   std::vector<double> at;          // m from the first node, at rest
 };
 
-uint32_t triangle_at(const Topology &topology, uint32_t a, uint32_t b) {
-  const Edge edge = {std::min(a, b), std::max(a, b)};
-  const auto found = std::lower_bound(topology.edges.begin(), topology.edges.end(), edge);
-  return topology.edge_triangles[found - topology.edges.begin()][0];
-}
-
-// The longest run of sides of a loop on this leaflet.
+// Returns the longest run of sides of a loop on this leaflet.
 Chain chain_of(const Model &model, const std::vector<uint32_t> &loop, uint32_t leaflet) {
   const size_t n = loop.size();
   std::vector<uint32_t> triangle;
   for (size_t k = 0; k < n; ++k) {
-    triangle.push_back(triangle_at(model.topology, loop[k], loop[(k + 1) % n]));
+    const uint32_t e = edge_between(model.topology, loop[k], loop[(k + 1) % n]);
+    triangle.push_back(model.topology.edge_triangles[e][0]);
   }
   const auto holds = [&](size_t k) {
     return model.valve.triangle_leaflet[triangle[k % n]] == leaflet;
@@ -68,8 +64,8 @@ Chain free_edge_of(const Model &model, uint32_t leaflet) {
   return longest;
 }
 
-// Where the wanted share of the scallop is on the chain, and the chain's sense: +1 where the share
-// grows along it.
+// Position of the wanted share of the scallop on the chain, and the orientation of the chain: +1 if
+// the share increases along it.
 struct Origin {
   double at = 0, sense = 1;
   bool found = false;
@@ -99,12 +95,12 @@ EdgeNode seen_from(const Model &model, const Chain &chain, const Origin &origin,
   const std::vector<Vec3> &rest = model.valve.rest;
   EdgeNode best{node, 0, 1e300};
   for (size_t k = 0; k + 1 < chain.nodes.size(); ++k) {
-    const Vec3 &a = rest[chain.nodes[k]], side = rest[chain.nodes[k + 1]] - a;
-    const double t = std::clamp((rest[node] - a).dot(side) / side.squaredNorm(), 0.0, 1.0);
-    const double away = (rest[node] - a - t * side).norm();
-    if (away >= best.depth) continue;
-    best.depth = away;
-    best.along = origin.sense * (chain.at[k] + t * side.norm() - origin.at);
+    const Vec3 &a = rest[chain.nodes[k]], &b = rest[chain.nodes[k + 1]];
+    const SegmentPoint nearest = closest_on_segment(rest[node], a, b);
+    const double depth = std::sqrt(nearest.distance2);
+    if (depth >= best.depth) continue;
+    best.depth = depth;
+    best.along = origin.sense * (chain.at[k] + nearest.s * (b - a).norm() - origin.at);
   }
   return best;
 }
@@ -129,7 +125,7 @@ std::vector<EdgeNode> nodes_from_free_edge(const Surgery &s, uint32_t scallop, d
     if (wanted[n]) nodes.push_back(seen_from(model, chain, origin, n));
   }
   for (EdgeNode &seen : nodes) {
-    // what rounding leaves of the distance of a node of the edge from it
+    // rounding error of the distance of a node on the edge
     if (seen.depth < 1e-12) seen.depth = 0;
   }
   return nodes;

@@ -1,4 +1,5 @@
-// A leaflet seen from its free edge: how far along it and how far from it a node lies at rest.
+// Coordinates of leaflet nodes relative to the free edge at rest: arc length along it and distance
+// from it.
 #pragma once
 
 #include "surgery/surgery.h"
@@ -12,8 +13,8 @@ struct EdgeNode {
   double depth = 0;  // m, from the free edge; 0 on it
 };
 
-// The leaflet's nodes that are no part of the annulus, ascending. The origin is the place of the
-// free edge at `share` (0 to 1, as SheetMap::along) of the scallop. Throws MVS_E_OP where the
+// Returns the nodes of the leaflet except those of the annulus, ascending. The origin is the point
+// of the free edge at `share` (0 to 1, as SheetMap::along) of the scallop. Throws MVS_E_OP if the
 // scallop has no free edge.
 std::vector<EdgeNode> nodes_from_free_edge(const Surgery &s, uint32_t scallop, double share);
 

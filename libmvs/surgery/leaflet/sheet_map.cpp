@@ -1,4 +1,4 @@
-// The harmonic height, and angles about the axis.
+// Harmonic height by a graph Laplacian with weights 1 / length; angles about the valve axis.
 #include "surgery/leaflet/sheet_map.h"
 
 #include <mvs/snapshot.h>
@@ -15,15 +15,16 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// Nodes that are neighbours on the sheet, or sewn to each other, and how closely.
+// Two nodes that are neighbours on the sheet or sutured to each other, with the weight of their
+// connection.
 struct Tie {
   Edge nodes;
   double weight;
 };
 
-// The seams of resections: each is a part of a free edge folded onto itself. From the node where
-// the sides part, whose neighbours are sewn to each other, it goes on pair by pair. What is inside
-// is marked and is free edge no more; its last pair is at the free edge still.
+// Finds the seams of resections. A seam is a part of a free edge folded onto itself: it starts at
+// the node whose two neighbours are sutured to each other and continues pair by pair. Marks the
+// nodes that are no longer free edge; the last pair still is.
 std::vector<Tie> seams(const Model &model, std::vector<uint8_t> &inside) {
   const std::vector<Chord> &chords = model.valve.chords;
   const auto suture = [&](uint32_t a, uint32_t b) {
@@ -52,7 +53,7 @@ std::vector<Tie> seams(const Model &model, std::vector<uint8_t> &inside) {
   return ties;
 }
 
-// Heights that are known: 0 on the annulus, 1 on the free edges; -1 elsewhere.
+// Boundary values: 0 on the annulus, 1 on the free edges; -1 elsewhere.
 std::vector<double> boundary_heights(const Model &model, const std::vector<uint8_t> &sewn) {
   std::vector<double> height(model.node_count(), -1);
   for (const std::vector<uint32_t> &loop : model.topology.free_edges) {

@@ -1,4 +1,4 @@
-// Finding a place on the sheet, and making a node there.
+// Locates sites on the sheet and inserts nodes there.
 #include "surgery/leaflet/site.h"
 
 #include <Eigen/Dense>
@@ -11,8 +11,8 @@
 namespace mvs::core {
 namespace {
 
-// A corner closer than this in barycentric terms is taken instead of a new node; a side closer than
-// the second is split, so that no triangle gets an angle too sharp to compute with.
+// Barycentric distances below which an existing corner is used, and below which a side is split, so
+// that no triangle gets a very small angle.
 constexpr double corner_share = 0.25, side_share = 0.15;
 
 SheetPoint at_triangle(const Surgery &s, const mvs_site &site) {
@@ -37,8 +37,7 @@ SheetPoint at_vertex(const Surgery &s, uint32_t node) {
   fail(MVS_E_OP, format("node %u", node), "%s: node %u is no vertex of a leaflet", s.op_name, node);
 }
 
-// The barycentric coordinates of (u, v) in the triangle with these corners; false for one without
-// area.
+// Computes the barycentric coordinates of a point; returns false for a degenerate triangle.
 bool weights_at(const std::array<Eigen::Vector2d, 3> &corner, const Eigen::Vector2d &at,
                 std::array<double, 3> &weight) {
   Eigen::Matrix2d sides;
@@ -49,7 +48,7 @@ bool weights_at(const std::array<Eigen::Vector2d, 3> &corner, const Eigen::Vecto
   return true;
 }
 
-// The point of the scallop with these coordinates, or the nearest that there is.
+// Returns the point of the scallop with these coordinates, or the nearest one.
 SheetPoint at_coordinates(const Model &model, uint32_t scallop, double along, double height) {
   const SheetMap map(model);
   SheetPoint best;

@@ -1,4 +1,5 @@
-// Places on the leaflets: from a node, a point in a triangle, or anatomical coordinates, to a node.
+// Sites on the leaflets: a node, a point in a triangle, or anatomical coordinates, resolved to a
+// sheet point or node.
 #pragma once
 
 #include "surgery/surgery.h"
@@ -11,17 +12,19 @@ struct SheetPoint {
   std::array<double, 3> weight{};
 };
 
-// Throws MVS_E_ID or MVS_E_OP where a site names what is not there; finds no place, which costs.
+// Throws MVS_E_ID or MVS_E_OP if a site refers to a part that does not exist. Does not locate the
+// site, which is expensive.
 void check_site(const Surgery &s, const mvs_site &site);
 
-// Where a site is on the present valve; throws MVS_E_ID or MVS_E_OP where there is none.
+// Returns the sheet point of a site on the present valve; throws MVS_E_ID or MVS_E_OP if there is
+// no such point.
 SheetPoint locate(const Surgery &s, const mvs_site &site);
 
-// The node at a site. A point in a triangle gets a node of its own, unless a corner that is no part
-// of the annulus is nearer than a quarter of the triangle.
+// Returns the node at a site. A point in a triangle gets a new node, unless a corner off the
+// annulus is nearer than a quarter of the triangle.
 uint32_t node_at(Surgery &s, const mvs_site &site);
 
-// A site in anatomical coordinates, to be found on another valve.
+// Returns a site in anatomical coordinates, which are valid on other valves too.
 mvs_site anatomical(const Model &model, const mvs_site &site);
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// The annulus becomes larger or smaller.
+// Operation annulus_scale: scales the prescribed positions of the annulus about its centroid.
 #include "base/error.h"
 #include "measure/annulus/frame.h"
 #include "surgery/surgery.h"
@@ -6,7 +6,7 @@
 namespace mvs::core {
 namespace {
 
-// Scales where the annulus is held, about its centroid and along its axes there.
+// Scales the prescribed positions about their centroid, along their own axes.
 void scale(const Surgery &s, const Vec3 &along, CowVector<Vec3> &places) {
   const Frame frame = valve_frame(s.before, places);
   for (const uint32_t node : s.valve.annulus.get()) {

@@ -1,4 +1,4 @@
-// A flexible band is sewn along the posterior annulus.
+// Operation band: shortens the posterior annulus between the trigones by a flexible band.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,10 +12,11 @@
 namespace mvs::core {
 namespace {
 
-// The fibrous trigones, seen along the valve's axis from the A point (libmvs/anatomy/README.md).
+// Angle of the fibrous trigones from the A point about the axis of the valve
+// (libmvs/anatomy/PARAMETRIC.md).
 constexpr double trigone = 38 * std::numbers::pi / 180;
 
-// Angles of the annulus nodes about the axis, -pi to pi, from the A point.
+// Returns the angles of the annulus nodes about the axis from the A point, -pi to pi.
 std::vector<double> angles_from_a(const Model &model, const std::vector<Vec3> &x) {
   const Frame frame = valve_frame(model, x);
   const auto angle = [&](const Vec3 &p) {
@@ -38,13 +39,13 @@ size_t nearest(const std::vector<double> &angles, double wanted) {
                              angles.begin());
 }
 
-// From one trigone along the posterior annulus to the other.
+// Returns the annulus nodes from one trigone along the posterior annulus to the other.
 std::vector<uint32_t> posterior_part(const Surgery &s) {
   const std::vector<uint32_t> &annulus = s.before.valve.annulus;
   const std::vector<double> angles = angles_from_a(s.before, s.before.valve.loaded);
   const size_t n = annulus.size(), middle = nearest(angles, 0);
   size_t first = nearest(angles, trigone), last = nearest(angles, -trigone);
-  // the way from first to last that leads past the A point is the anterior one
+  // the direction from first to last over the A point is the anterior one
   if ((middle + n - first) % n <= (last + n - first) % n) std::swap(first, last);
   std::vector<uint32_t> nodes;
   for (size_t k = first; k != last; k = (k + 1) % n) nodes.push_back(annulus[k]);
@@ -55,15 +56,9 @@ std::vector<uint32_t> posterior_part(const Surgery &s) {
   return nodes;
 }
 
-double length_of(const std::vector<Vec3> &points) {
-  double sum = 0;
-  for (size_t k = 1; k < points.size(); ++k) sum += (points[k] - points[k - 1]).norm();
-  return sum;
-}
-
-// Points at the same shares of length on the line between the ends.
+// Returns points at the same shares of length on the line between the ends.
 std::vector<Vec3> straightened(const std::vector<Vec3> &points) {
-  const double length = length_of(points);
+  const double length = polyline_length(points);
   std::vector<Vec3> line = points;
   double along = 0;
   for (size_t k = 1; k < points.size(); ++k) {
@@ -81,14 +76,14 @@ std::vector<Vec3> between(const std::vector<Vec3> &line, const std::vector<Vec3>
   return mixed;
 }
 
-// The length of `between` is convex in the share and least at 0, so it grows from there to 1 and
-// halving finds every length between.
+// Blends towards the straight line by bisection until the curve has this length, which is convex in
+// the share, least at 0 and increasing.
 std::vector<Vec3> shortened(const std::vector<Vec3> &points, double length) {
   const std::vector<Vec3> line = straightened(points);
   double low = 0, high = 1;
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
-    (length_of(between(line, points, middle)) < length ? low : high) = middle;
+    (polyline_length(between(line, points, middle)) < length ? low : high) = middle;
   }
   return between(line, points, high);
 }
@@ -115,21 +110,16 @@ void operate(Surgery &s, const mvs_op_band &op) {
   std::vector<Vec3> points;
   points.reserve(nodes.size());
   for (const uint32_t node : nodes) points.push_back(s.before.valve.loaded[node]);
-  const double present = length_of(points);
+  const double present = polyline_length(points);
   const double length = wanted_length(op, present, (points.back() - points.front()).norm());
   std::vector<Vec3> placed = shortened(points, length);
   for (size_t k = 0; k < nodes.size(); ++k) {
     s.valve.open[nodes[k]] += placed[k] - points[k];
     s.valve.loaded[nodes[k]] += placed[k] - points[k];
   }
-  Ring part;
-  part.id = s.made = s.new_id();
-  part.name = op.name && *op.name ? op.name : "band";
-  part.kind = MVS_RING_KIND_BAND;
-  part.curve = std::move(placed);
-  s.title = format("Sew in %s, %.1f mm, %.0f %% of the posterior annulus", part.name.c_str(),
-                   1e3 * length, 100 * length / present);
-  s.valve.rings = {std::move(part)};
+  set_ring(s, op.name, "band", MVS_RING_KIND_BAND, std::move(placed));
+  s.title = format("Sew in %s, %.1f mm, %.0f %% of the posterior annulus",
+                   s.valve.rings.get()[0].name.c_str(), 1e3 * length, 100 * length / present);
 }
 
 }  // namespace mvs::core

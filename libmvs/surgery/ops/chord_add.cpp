@@ -1,4 +1,4 @@
-// New chordae: natural ones and artificial ones.
+// Operations chord_add and neochord: natural and artificial chordae.
 #include <numbers>
 
 #include "base/error.h"
@@ -16,12 +16,12 @@ struct NewChord {
   const char *name;
 };
 
-// The index of the chord that is tied; its id is what the operation made.
+// Adds a chord and returns its index; `made` becomes its id.
 uint32_t tie(Surgery &s, const NewChord &given) {
   const uint32_t head = head_of(s, given.head), node = node_at(s, given.site);
   must_not_be_tied(s, s.valve.heads.get()[head].node, node);
   Chord chord;
-  chord.id = s.made = s.new_id();
+  chord.id = s.made = new_id(s);
   chord.name = given.name && *given.name ? given.name : free_chord_name(s, node);
   chord.a = s.valve.heads.get()[head].node;
   chord.b = node;
@@ -44,7 +44,7 @@ void operate(Surgery &s, const mvs_op_chord_add &op) {
   s.title = "Add " + s.title;
 }
 
-// Expanded PTFE: README.md of this folder has the source of its modulus.
+// Expanded PTFE; OPERATIONS.md has the source of its modulus.
 void operate(Surgery &s, const mvs_op_neochord &op) {
   MVS_MUST(op.reserved == 0, MVS_E_ARGUMENT, "neochord", "neochord.reserved has to be 0");
   constexpr double ptfe_young = 0.4e9, strand = 0.3e-3;

@@ -1,4 +1,4 @@
-// A chord gets another rest length.
+// Operation chord_length: changes the rest length of a chord.
 #include <cmath>
 
 #include "base/error.h"
@@ -7,7 +7,8 @@
 namespace mvs::core {
 namespace {
 
-// With the tension it has now, the chord ends where its leaflet end was dragged to.
+// Returns the rest length at which the chord, with its present stretch, ends where its leaflet end
+// was dragged to.
 double dragged_length(const Surgery &s, const Chord &chord, const mvs_point &to) {
   const Vec3 target(to.at[0], to.at[1], to.at[2]);
   const std::vector<Vec3> &x = s.state.x;

@@ -1,4 +1,4 @@
-// A chord is cut.
+// Operation chord_remove: removes a chord and the segments that depend on it.
 #include "base/error.h"
 #include "surgery/surgery.h"
 
@@ -12,7 +12,7 @@ void operate(Surgery &s, const mvs_op_chord_remove &op) {
   prune_chords(s);
   const size_t with_it = before - s.valve.chords.size() - 1;
   s.title = "Remove chord " + name;
-  if (with_it > 0) s.title += format(" and %zu segments that hung on it", with_it);
+  if (with_it > 0) s.title += format(" and %zu segments that depend on it", with_it);
 }
 
 }  // namespace mvs::core

@@ -1,4 +1,4 @@
-// One end of a chord goes to another place.
+// Operation chord_transfer: moves one end of a chord.
 #include "base/error.h"
 #include "surgery/leaflet/site.h"
 #include "surgery/surgery.h"
@@ -21,9 +21,9 @@ uint32_t new_leaflet_end(Surgery &s, const Chord &chord, const mvs_site &site) {
   return node_at(s, site);
 }
 
-// Tied at the old length a chord to a head farther away would be torn, and a nearer one would hold
-// nothing.
-void go_to_head(const Surgery &s, Chord &chord, Id head, double length) {
+// Moves the head end. With its old length a chord to a farther head would be torn, one to a nearer
+// head slack.
+void move_to_head(const Surgery &s, Chord &chord, Id head, double length) {
   MVS_MUST(head != 0, MVS_E_ID, "chord_transfer.head",
            "chord_transfer: the head end of chord %s needs a papillary head to go to",
            chord.name.c_str());
@@ -39,7 +39,7 @@ void operate(Surgery &s, const mvs_op_chord_transfer &op) {
   const uint32_t index = chord_of(s, op.chord);
   Chord chord = s.valve.chords.get()[index];
   if (op.end == MVS_CHORD_END_HEAD) {
-    go_to_head(s, chord, op.head, op.length);
+    move_to_head(s, chord, op.head, op.length);
   } else {
     chord.b = new_leaflet_end(s, chord, op.site);
   }

@@ -1,4 +1,4 @@
-// A papillary head is displaced.
+// Operation head_move: displaces a papillary head.
 #include "base/error.h"
 #include "measure/annulus/frame.h"
 #include "surgery/surgery.h"
@@ -11,7 +11,7 @@ void operate(Surgery &s, const mvs_op_head_move &op) {
   const Head &head = s.valve.heads.get()[index];
   Vec3 by(op.by[0], op.by[1], op.by[2]);
   MVS_MUST(by.norm() > 0, MVS_E_ARGUMENT, "papillary head " + head.name,
-           "head_move: papillary head %s is moved by nothing: give a distance in m",
+           "head_move: papillary head %s has a displacement of zero: give a distance in m",
            head.name.c_str());
   if (op.frame == 1) by = valve_frame(s.before, s.valve.loaded).axes.transpose() * by;
   s.valve.open[head.node] += by;

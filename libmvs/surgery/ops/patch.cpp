@@ -1,35 +1,37 @@
-// A part of a leaflet becomes larger than the hole it fills: its rest shape is a dome.
+// Operation patch: enlarges an elliptic part of a leaflet by giving it the rest shape of a dome.
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "base/error.h"
 #include "geometry/intersect.h"
+#include "model/sides.h"
 #include "surgery/leaflet/flat.h"
 #include "surgery/leaflet/site.h"
 
 namespace mvs::core {
 namespace {
 
-// An ellipse on the flat leaflet.
+// An ellipse on the flattened leaflet.
 struct Ellipse {
   Vec2 middle, across;  // across: unit, circumferential
   double width, height;
 
-  // Distances in units of the radii: the ellipse becomes the unit circle.
+  // Maps the ellipse to the unit circle.
   Vec2 scaled(const Vec2 &p) const {
     const Vec2 d = p - middle, up(-across.y(), across.x());
     return {2 * d.dot(across) / width, 2 * d.dot(up) / height};
   }
 };
 
-// What lies inside.
-struct Piece {
+// The tissue inside the ellipse.
+struct PatchRegion {
   std::vector<uint32_t> triangles;
   std::vector<uint32_t> nodes;  // with all their triangles inside
-  std::vector<Vec3> lift;       // where such a node goes for a dome 1 m high
+  std::vector<Vec3> lift;       // displacement of such a node for a dome of height 1 m
 };
 
-// Circumferential is across the way from the annulus to the free edge.
+// Centres the ellipse at the site; its width is perpendicular to the direction from the annulus to
+// the free edge.
 Ellipse ellipse_of(const Surgery &s, const mvs_op_patch &op, const SheetPoint &site,
                    const Flat &flat) {
   const Valve &valve = s.before.valve;
@@ -47,7 +49,7 @@ Ellipse ellipse_of(const Surgery &s, const mvs_op_patch &op, const SheetPoint &s
   return ellipse;
 }
 
-// What the sheet ends with at an edge of the leaflet.
+// Name of the border at an edge of the leaflet.
 const char *border(const Surgery &s, size_t e) {
   const Topology &topology = s.before.topology;
   if (topology.edge_triangles[e][1] != none) return "another leaflet";
@@ -72,9 +74,9 @@ void check_borders(const Surgery &s, const Flat &flat, const Ellipse &ellipse) {
   }
 }
 
-Piece piece_in(const Surgery &s, const Flat &flat, const Ellipse &ellipse) {
+PatchRegion piece_in(const Surgery &s, const Flat &flat, const Ellipse &ellipse) {
   const Valve &valve = s.before.valve;
-  Piece piece;
+  PatchRegion piece;
   std::vector<uint8_t> inside(valve.triangles.size(), 0);
   for (uint32_t t = 0; t < inside.size(); ++t) {
     if (!flat.has(valve, t)) continue;
@@ -104,23 +106,22 @@ Piece piece_in(const Surgery &s, const Flat &flat, const Ellipse &ellipse) {
   return piece;
 }
 
-double area_of(const Valve &valve, const std::vector<Vec3> &rest, const Piece &piece) {
+double area_of(const Valve &valve, const std::vector<Vec3> &rest, const PatchRegion &piece) {
   double sum = 0;
   for (const uint32_t t : piece.triangles) {
-    const Tri &tri = valve.triangles.get()[t];
-    sum += 0.5 * (rest[tri[1]] - rest[tri[0]]).cross(rest[tri[2]] - rest[tri[0]]).norm();
+    sum += triangle_area(rest, valve.triangles.get()[t]);
   }
   return sum;
 }
 
-std::vector<Vec3> domed(const Valve &valve, const Piece &piece, double height) {
+std::vector<Vec3> domed(const Valve &valve, const PatchRegion &piece, double height) {
   std::vector<Vec3> rest = valve.rest;
   for (size_t k = 0; k < piece.nodes.size(); ++k) rest[piece.nodes[k]] += height * piece.lift[k];
   return rest;
 }
 
-// The dome with the area that is wanted.
-std::vector<Vec3> dome_of(const Surgery &s, const Piece &piece, const Ellipse &ellipse,
+// Returns the dome with the wanted area, by bisection over its height.
+std::vector<Vec3> dome_of(const Surgery &s, const PatchRegion &piece, const Ellipse &ellipse,
                           double factor) {
   const Valve &valve = s.before.valve;
   const double wanted = factor * area_of(valve, valve.rest, piece);
@@ -148,12 +149,12 @@ void operate(Surgery &s, const mvs_op_patch &op) {
   const Flat flat = flatten(s.before, site.triangle);
   const Ellipse ellipse = ellipse_of(s, op, site, flat);
   check_borders(s, flat, ellipse);
-  const Piece piece = piece_in(s, flat, ellipse);
+  const PatchRegion piece = piece_in(s, flat, ellipse);
   const std::vector<Vec3> rest = dome_of(s, piece, ellipse, factor);
   const std::vector<Tri> &triangles = s.before.valve.triangles;
   const size_t crossings = find_intersections(s.before.valve.rest, triangles).size();
   MVS_MUST(find_intersections(rest, triangles).size() <= crossings, MVS_E_OP, "patch.area_factor",
-           "patch: a dome of %.2f times the area would pass through the valve: take a smaller "
+           "patch: a dome of %.2f times the area would intersect the valve: take a smaller "
            "area_factor or a larger patch",
            factor);
   for (const uint32_t n : piece.nodes)

@@ -1,7 +1,10 @@
-// A piece of leaflet is cut out and the gap sewn.
+// Operation resect: removes a piece of leaflet and sutures the gap.
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
+#include "geometry/distance.h"
+#include "model/sides.h"
 #include "surgery/cutting/plicate.h"
 #include "surgery/cutting/resect_plan.h"
 #include "surgery/cutting/seam.h"
@@ -9,14 +12,13 @@
 namespace mvs::core {
 namespace {
 
-// Where the two sides part: the middle of the deepest part of the line, measured from its ends.
+// Returns the node where the two sides of the cut part: the middle of its deepest part, measured
+// from the line between its ends.
 size_t turn_of(const Valve &valve, const CutLine &line) {
   const std::vector<Vec3> &rest = valve.rest;
-  const Vec3 from = rest[line.front()], way = rest[line.back()] - from;
   const auto depth = [&](size_t k) {
-    const Vec3 at = rest[line[k]] - from;
-    const double share = std::clamp(at.dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (at - share * way).norm();
+    return std::sqrt(
+        closest_on_segment(rest[line[k]], rest[line.front()], rest[line.back()]).distance2);
   };
   std::vector<double> arc = {0};
   double deepest = 0;
@@ -43,13 +45,10 @@ void check_rest(const Surgery &s) {
   for (const uint32_t k : s.before.valve.triangle_scallop) was[k] = 1;
   for (size_t k = 0; k < left.size(); ++k) {
     MVS_MUST(left[k] || !was[k], MVS_E_OP, "scallop " + s.before.valve.scallops[k].name,
-             "resect: nothing would be left of %s: take a smaller piece",
+             "resect: the cut would remove all of %s: take a smaller piece",
              s.before.valve.scallops[k].name.c_str());
   }
-  std::vector<uint8_t> held(s.valve.rest.size(), 0);
-  for (const Tri &triangle : s.valve.triangles.get()) {
-    for (const uint32_t n : triangle) held[n] = 1;
-  }
+  const std::vector<uint8_t> held = vertex_marks(s.valve.triangles, s.valve.rest.size());
   for (const uint32_t n : s.valve.annulus.get()) {
     MVS_MUST(held[n], MVS_E_OP, "annulus",
              "resect: the cut reaches the annulus: leave at least one row of triangles");

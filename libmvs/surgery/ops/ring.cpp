@@ -1,4 +1,4 @@
-// A rigid ring is sewn to the annulus.
+// Operation ring: attaches the annulus to a rigid ring.
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
@@ -12,11 +12,11 @@
 namespace mvs::core {
 namespace {
 
-// Physio II 34 as measured: 34.7 mm CC, 26.1 mm AP, saddle 4.7 mm (README.md of this folder).
+// Physio II 34 as measured: 34.7 mm CC, 26.1 mm AP, saddle 4.7 mm (OPERATIONS.md).
 constexpr double ap_over_cc = 26.1 / 34.7, saddle_over_cc = 4.7 / 34.7;
 
-// An annulus reduced to a quarter is the smallest that the model is shown to close (README.md); a
-// threefold one is as far as annulus_scale goes.
+// Perimeter of a ring over that of the annulus at rest: a quarter is the smallest value that is
+// tested to close (OPERATIONS.md), 3 the limit of annulus_scale.
 constexpr double least_share = 0.25, largest_share = 3;
 
 std::vector<Vec3> given_curve(const mvs_op_ring &op) {
@@ -32,7 +32,7 @@ std::vector<Vec3> given_curve(const mvs_op_ring &op) {
                          op.saddle != 0 ? op.saddle : op.size * saddle_over_cc);
 }
 
-// Their second moment across the line through them, over that along it.
+// Second moment of points across their principal line over the one along it.
 double breadth(const std::vector<Vec3> &points) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3 &p : points) centre += p / static_cast<double>(points.size());
@@ -57,7 +57,7 @@ Rigid by_landmarks(const std::vector<Vec3> &from, const std::vector<Vec3> &to, d
     squares += (motion(from[k]) - to[k]).squaredNorm() / static_cast<double>(from.size());
   }
   const double off = std::sqrt(squares);
-  // what a hand sets wrong by a fifth of the ring is another point than it meant
+  // an error of a fifth of the ring means that another point was selected
   MVS_MUST(off <= 0.2 * width, MVS_E_OP, "landmarks",
            "ring: no rigid motion brings the landmarks to their places, they stay %.1f mm off: "
            "check their order and units",
@@ -78,13 +78,13 @@ void must_fit_the_annulus(const Surgery &s, const Loop &ring, const Loop &annulu
       "ring: its perimeter of %.1f mm is %.0f %% of the annulus's at rest: at most %.0f %% are "
       "possible, take a smaller ring",
       1e3 * ring.length(), 100 * share, 100 * largest_share);
-  Vec3 way = Vec3::Zero();
+  Vec3 offset = Vec3::Zero();
   for (int k = 0; k < 8; ++k) {
-    way += (motion(ring.at(ring.length() * k / 8)) - annulus.at(annulus.length() * k / 8)) / 8;
+    offset += (motion(ring.at(ring.length() * k / 8)) - annulus.at(annulus.length() * k / 8)) / 8;
   }
   // half a diameter
-  MVS_MUST(way.norm() <= annulus.length() / 6, MVS_E_OP, "ring",
-           "ring: it would lie %.0f mm from the annulus: check landmarks_at", 1e3 * way.norm());
+  MVS_MUST(offset.norm() <= annulus.length() / 6, MVS_E_OP, "ring",
+           "ring: it would lie %.0f mm from the annulus: check landmarks_at", 1e3 * offset.norm());
 }
 
 RingFit placed(const Surgery &s, const mvs_op_ring &op, const Loop &ring, const Loop &annulus) {
@@ -104,7 +104,7 @@ RingFit placed(const Surgery &s, const mvs_op_ring &op, const Loop &ring, const 
   return fit;
 }
 
-// Each annulus node goes to its share of the ring, and is held there with and without load.
+// Moves each annulus node to its share of the ring, with and without load.
 void hold(Surgery &s, const Loop &ring, const Loop &annulus, const RingFit &fit) {
   const double a = anterior_stretch(s.before, annulus).middle();
   const std::vector<uint32_t> &nodes = s.before.valve.annulus;
@@ -123,17 +123,13 @@ void operate(Surgery &s, const mvs_op_ring &op) {
   const Loop ring(curve), annulus(s.before.valve.annulus, s.before.valve.loaded);
   const RingFit fit = placed(s, op, ring, annulus);
   hold(s, ring, annulus, fit);
-  Ring part;
-  part.id = s.made = s.new_id();
-  part.name = op.name && *op.name ? op.name : "ring";
-  part.kind = MVS_RING_KIND_RIGID;
   std::vector<Vec3> points = curve;
   for (Vec3 &p : points) p = fit.motion(p);
-  part.curve = std::move(points);
+  set_ring(s, op.name, "ring", MVS_RING_KIND_RIGID, std::move(points));
   const Vec3 extent = extent_of(ring);
-  s.title = format("Sew in %s, %.1f x %.1f mm, perimeter %.1f mm", part.name.c_str(),
-                   1e3 * extent[0], 1e3 * extent[1], 1e3 * ring.length());
-  s.valve.rings = {std::move(part)};
+  s.title =
+      format("Sew in %s, %.1f x %.1f mm, perimeter %.1f mm", s.valve.rings.get()[0].name.c_str(),
+             1e3 * extent[0], 1e3 * extent[1], 1e3 * ring.length());
 }
 
 }  // namespace mvs::core

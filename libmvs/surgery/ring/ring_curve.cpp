@@ -1,4 +1,4 @@
-// Closed curves as polygons.
+// Parametric ring and checks of closed polygons.
 #include "surgery/ring/ring_curve.h"
 
 #include <Eigen/Eigenvalues>
@@ -15,36 +15,21 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-// Smallest and largest width of a ring, as for `size` in ops.def: that of a mouse's valve is 2 mm,
-// but nobody sews a ring to it; the largest adult ring is labelled 40.
+// Smallest and largest width of a ring, as for `size` in ops.def. The valve of a mouse is 2 mm wide
+// but is never repaired by a ring; the largest adult ring has label 40.
 constexpr double narrowest = 5e-3, widest = 0.1;
 
-// A circle has 1, an ellipse of 1 : 4 has 0.55, the valve's own annulus about 0.9.
+// Least roundness (4 pi area / length^2): 1 for a circle, 0.55 for an ellipse of 1 : 4, about 0.9
+// for the annulus.
 constexpr double least_roundness = 0.2;
 
-Vec3 centroid(const Loop &loop) {
-  Vec3 sum = Vec3::Zero();
-  for (size_t k = 0; k < loop.size(); ++k) {
-    const Vec3 &a = loop.point(k), &b = loop.point(k + 1);
-    sum += 0.5 * (b - a).norm() * (a + b);
-  }
-  return sum / loop.length();
-}
-
-// Rows are the axes of the second moments, the largest first; exact along each side.
+// Returns the principal axes of the second moments as rows, the largest first.
 Mat3 principal_axes(const Loop &loop) {
-  const Vec3 centre = centroid(loop);
-  Mat3 moments = Mat3::Zero();
-  for (size_t k = 0; k < loop.size(); ++k) {
-    const Vec3 along = loop.point(k + 1) - loop.point(k);
-    const Vec3 middle = loop.point(k) + 0.5 * along - centre;
-    moments += along.norm() * (middle * middle.transpose() + along * along.transpose() / 12.0);
-  }
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(moments);
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(second_moments(loop, centroid(loop)));
   return solver.eigenvectors().rowwise().reverse().transpose();
 }
 
-// The curve in its own plane.
+// Returns the curve projected onto its own plane.
 std::vector<Vec2> flattened(const Loop &loop) {
   const Mat3 axes = principal_axes(loop);
   std::vector<Vec2> flat;
@@ -64,28 +49,28 @@ double area_of(const std::vector<Vec2> &polygon) {
   return std::abs(sum) / 2;
 }
 
-struct Side {
+struct RingSide {
   Vec2 a, b;
   size_t number;
   double low() const { return std::min(a[0], b[0]); }
   double high() const { return std::max(a[0], b[0]); }
 };
 
-bool cross_each_other(const Side &s, const Side &t) {
+bool cross_each_other(const RingSide &s, const RingSide &t) {
   const Vec2 along = s.b - s.a, other = t.b - t.a;
   return cross(along, t.a - s.a) * cross(along, t.b - s.a) < 0 &&
          cross(other, s.a - t.a) * cross(other, s.b - t.a) < 0;
 }
 
-// Sides that share no stretch of the first coordinate are never compared: a ring of k points has
-// two sides nearly everywhere, so this takes about k log k.
+// Sweep along the first coordinate: only sides with overlapping ranges are compared, two at nearly
+// every position of a ring, so the cost is about k log k for k points.
 void must_not_cross_itself(const char *op_name, const std::vector<Vec2> &polygon) {
-  std::vector<Side> sides;
+  std::vector<RingSide> sides;
   for (size_t k = 0; k < polygon.size(); ++k) {
     sides.push_back({polygon[k], polygon[(k + 1) % polygon.size()], k});
   }
   std::stable_sort(sides.begin(), sides.end(),
-                   [](const Side &s, const Side &t) { return s.low() < t.low(); });
+                   [](const RingSide &s, const RingSide &t) { return s.low() < t.low(); });
   for (size_t i = 0; i < sides.size(); ++i) {
     for (size_t j = i + 1; j < sides.size() && sides[j].low() <= sides[i].high(); ++j) {
       const auto [first, second] = std::minmax(sides[i].number, sides[j].number);
@@ -98,13 +83,13 @@ void must_not_cross_itself(const char *op_name, const std::vector<Vec2> &polygon
 }
 
 void must_have_distinct_points(const char *op_name, const std::vector<Vec3> &curve) {
-  constexpr double same = 1e-7;  // m; below what any scanner or drawing resolves
+  constexpr double same = 1e-7;  // m; below the resolution of scanners and drawings
   for (size_t k = 0; k < curve.size(); ++k) {
     const size_t next = (k + 1) % curve.size();
     const bool last = next == 0;
     MVS_MUST((curve[next] - curve[k]).norm() > same, MVS_E_ARGUMENT, "curve",
              last ? "%s: points %zu and %zu of the curve, the last and the first, lie at the same "
-                    "place: leave out the last, the curve closes by itself"
+                    "place: leave out the last, the curve is closed implicitly"
                   : "%s: points %zu and %zu of the curve lie at the same place: leave one out",
              op_name, k, next);
   }
@@ -120,7 +105,7 @@ void must_have_distinct_points(const char *op_name, const std::vector<Vec3> &cur
 std::vector<Vec3> parametric_ring(double width, double ap, double saddle) {
   constexpr double c = 0.169203011768, q = 0.020174643763, r = 0.069789405284;
   constexpr int count = 360;
-  // from -1 - r^2 / 8, where cos t = -r / 4, to 1 + r
+  // the range is -1 - r^2 / 8, at cos t = -r / 4, to 1 + r
   const double h = saddle / (2 + r + r * r / 8);
   std::vector<Vec3> points;
   for (int k = 0; k < count; ++k) {

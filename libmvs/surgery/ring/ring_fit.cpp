@@ -1,4 +1,4 @@
-// A search over the start, with Kabsch's motion at each.
+// Search over the start point, with the Kabsch motion for each.
 #include "surgery/ring/ring_fit.h"
 
 #include <cmath>
@@ -26,8 +26,8 @@ struct Search {
     return fit;
   }
 
-  // Golden section between the neighbours of the best start: it does not depend on where the
-  // caller's curve begins beyond 1e-9 of its length.
+  // Golden section search between the neighbours of the best start, to 1e-9 of the length, so that
+  // the result does not depend on the start of the given curve.
   RingFit refined(RingFit best) const {
     const double golden = 0.5 * (std::sqrt(5.0) - 1);
     double low = best.start - 1.0 / samples, high = best.start + 1.0 / samples;
