@@ -78,9 +78,9 @@ static void a_grasp_takes_the_nearest_vertex_and_is_moved_and_let_go(void) {
   CHECK(count == 0);
   MUST_FAIL(mvs_snapshot_get_tool(snapshot, 0, &held), MVS_E_ARGUMENT, "has 0 tools");
   mvs_snapshot_release(snapshot);
-  MUST_FAIL(mvs_get_tool(sim, tool, &held), MVS_E_ID, "is not there");
-  MUST_FAIL(mvs_move_tool(sim, tool, at, NULL), MVS_E_ID, "is not there");
-  MUST_FAIL(mvs_remove_tool(sim, tool), MVS_E_ID, "is not there");
+  MUST_FAIL(mvs_get_tool(sim, tool, &held), MVS_E_ID, "does not exist");
+  MUST_FAIL(mvs_move_tool(sim, tool, at, NULL), MVS_E_ID, "does not exist");
+  MUST_FAIL(mvs_remove_tool(sim, tool), MVS_E_ID, "does not exist");
   MUST_FAIL(mvs_remove_tool(sim, 17), MVS_E_ID, "not that of a tool");
 }
 

@@ -26,7 +26,7 @@ def test_a_leaflet_is_grasped_pulled_and_released(sim):
     np.testing.assert_allclose(seen.force, 200 * (seen.proxy - seen.position), rtol=1e-12)
     sim.remove_tool(tool)
     assert sim.snapshot().tools == ()
-    with pytest.raises(mvs.IdError, match="is not there"):
+    with pytest.raises(mvs.IdError, match="does not exist"):
         sim.tool(tool)
     sim.restore(pulled)
     assert sim.snapshot().hash == pulled.hash
