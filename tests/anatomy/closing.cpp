@@ -12,6 +12,7 @@ using namespace mvs::core;
 
 namespace {
 
+constexpr double mm = 1e-3;
 constexpr double systole = 120 * 133.322;  // Pa
 
 struct Closed {

@@ -12,6 +12,7 @@ using namespace mvs::core;
 
 namespace {
 
+constexpr double mm = 1e-3;
 
 struct Field {
   const char *name;
