@@ -38,12 +38,11 @@ enum mvs_array_kind_e {
   MVS_ARRAY_NODE_VELOCITY = 4, /* F64 n x 3, m/s */
   MVS_ARRAY_NODE_KIND = 5,     /* U8 n: MVS_NODE_KIND_* */
   MVS_ARRAY_NODE_FORCE = 6,    /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
-  MVS_ARRAY_NODE_CONTACT_FORCE = 7, /* F64 n x 3, N */
-  MVS_ARRAY_NODE_COAPTATION =
-      8,                      /* F64 n, m: distance to the facing leaflet; infinity without one */
-  MVS_ARRAY_NODE_OPEN = 9,    /* F64 n x 3, m: unloaded targets of prescribed nodes */
-  MVS_ARRAY_NODE_ORIGIN = 10, /* U32 n: the node's index before any operation, refinement or
-                           coarsening added or removed nodes; UINT32_MAX for a new one */
+  MVS_ARRAY_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
+  MVS_ARRAY_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet, or infinity */
+  MVS_ARRAY_NODE_OPEN = 9,           /* F64 n x 3, m: unloaded targets of prescribed nodes */
+  MVS_ARRAY_NODE_ORIGIN = 10,        /* U32 n: the node's index before operations, refinement and
+                                        coarsening; UINT32_MAX for a new node */
   MVS_ARRAY_TRIANGLE_NODES = 20,     /* U32 m x 3 */
   MVS_ARRAY_TRIANGLE_LEAFLET = 21,   /* U32 m */
   MVS_ARRAY_TRIANGLE_SCALLOP = 22,   /* U32 m */
@@ -77,9 +76,9 @@ enum mvs_array_kind_e {
   MVS_ARRAY_CURVE_START = 76,  /* U32 k + 1: first row of each curve's points, then their number */
   MVS_ARRAY_ORIFICE_VERTICES = 70,  /* F64 x 3, m: the smallest opening, as triangles */
   MVS_ARRAY_ORIFICE_TRIANGLES = 71, /* U32 x 3 into MVS_ARRAY_ORIFICE_VERTICES */
-  MVS_ARRAY_VALVE_CONSTANTS = 80, /* F64 4: density, kg/m3; contact thickness, m; contact stiffness,
-                               Pa; bending scale, 0: no bending */
-  MVS_ARRAY_STATE_TIME = 81       /* F64 1, s: simulated time since the valve was set */
+  MVS_ARRAY_VALVE_CONSTANTS = 80,   /* F64 4: density, kg/m3; contact thickness, m; contact
+                                       stiffness, Pa; bending scale, 0: no bending */
+  MVS_ARRAY_STATE_TIME = 81         /* F64 1, s: simulated time since the valve was set */
 };
 typedef uint32_t mvs_array_kind;
 

@@ -159,11 +159,17 @@ mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
 }
 
 mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats) {
-  return guarded([&] { write_struct(stats, public_stats(last_stats(sim)), "stats"); });
+  return guarded([&] {
+    checked_struct_size(stats, "stats");
+    write_struct(stats, public_stats(last_stats(sim)), "stats");
+  });
 }
 
 mvs_result mvs_get_profile(const mvs_sim *sim, mvs_profile *profile) {
-  return guarded([&] { write_struct(profile, public_profile(last_stats(sim)), "profile"); });
+  return guarded([&] {
+    checked_struct_size(profile, "profile");
+    write_struct(profile, public_profile(last_stats(sim)), "profile");
+  });
 }
 
 }  // extern "C"

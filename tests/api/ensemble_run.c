@@ -28,35 +28,35 @@ static mvs_ensemble_options options_of(uint32_t paths, uint64_t seed) {
 }
 
 static mvs_ensemble *run(const mvs_snapshot *start, mvs_ensemble_options options) {
-  mvs_ensemble *spread = NULL;
-  MUST(mvs_ensemble_run(start, &systole, NULL, &options, &spread));
-  return spread;
+  mvs_ensemble *ensemble = NULL;
+  MUST(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble));
+  return ensemble;
 }
 
-static hash128 path_hash(const mvs_ensemble *spread, uint32_t path) {
+static hash128 path_hash(const mvs_ensemble *ensemble, uint32_t path) {
   const mvs_snapshot *snapshot = NULL;
-  MUST(mvs_ensemble_get_member_snapshot(spread, path, &snapshot));
+  MUST(mvs_ensemble_get_member_snapshot(ensemble, path, &snapshot));
   hash128 hash = snapshot_hash(snapshot);
   mvs_snapshot_release(snapshot);
   return hash;
 }
 
-static void path_0_is_the_plain_closure(const mvs_ensemble *spread, mvs_sim *sim) {
+static void path_0_is_the_plain_closure(const mvs_ensemble *ensemble, mvs_sim *sim) {
   mvs_stats plain = {.struct_size = sizeof plain}, told = plain;
   hash128 before = sim_hash(sim);
   const mvs_snapshot *start = snapshot_of(sim), *closed = NULL;
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, &plain));
   CHECK(!same_hash(before, sim_hash(sim)));
-  CHECK(same_hash(path_hash(spread, 0), sim_hash(sim)));
-  MUST(mvs_ensemble_get_member_stats(spread, 0, &told));
+  CHECK(same_hash(path_hash(ensemble, 0), sim_hash(sim)));
+  MUST(mvs_ensemble_get_member_stats(ensemble, 0, &told));
   CHECK(told.converged == 1 && told.iterations == plain.iterations);
   CHECK(told.energy == plain.energy && told.residual == plain.residual);
   /* its plan leads to the same state, so that it can replace the simulator's */
   mvs_replay replay = {.struct_size = sizeof replay};
   static char text[65536];
   uint64_t size = 0;
-  MUST(mvs_ensemble_get_member_snapshot(spread, 0, &closed));
+  MUST(mvs_ensemble_get_member_snapshot(ensemble, 0, &closed));
   MUST(mvs_write_plan(closed, NULL, text, sizeof text, &size));
   MUST(mvs_restore(sim, start));
   MUST(mvs_replay_plan(sim, text, size, &replay));
@@ -67,15 +67,15 @@ static void path_0_is_the_plain_closure(const mvs_ensemble *spread, mvs_sim *sim
 }
 
 /* The result depends only on the seed, not on earlier runs; more paths do not change the first. */
-static void same_seed_same_bits(const mvs_snapshot *start, const mvs_ensemble *spread) {
+static void same_seed_same_bits(const mvs_snapshot *start, const mvs_ensemble *ensemble) {
   mvs_ensemble *other = run(start, options_of(3, 5)), *again = run(start, options_of(2, 0));
-  for (uint32_t k = 0; k < 2; ++k) CHECK(same_hash(path_hash(spread, k), path_hash(again, k)));
-  CHECK(same_hash(path_hash(spread, 0), path_hash(other, 0)));
+  for (uint32_t k = 0; k < 2; ++k) CHECK(same_hash(path_hash(ensemble, k), path_hash(again, k)));
+  CHECK(same_hash(path_hash(ensemble, 0), path_hash(other, 0)));
   mvs_ensemble_member path = {.struct_size = sizeof path}, moved = path;
-  MUST(mvs_ensemble_get_member(spread, 2, &path));
+  MUST(mvs_ensemble_get_member(ensemble, 2, &path));
   MUST(mvs_ensemble_get_member(other, 2, &moved));
   /* another seed gives another perturbation, which may lead to the same fold */
-  CHECK(!same_hash(path_hash(spread, 2), path_hash(other, 2)));
+  CHECK(!same_hash(path_hash(ensemble, 2), path_hash(other, 2)));
   CHECK(path.perturbation > 0 && moved.perturbation > 0);
   mvs_ensemble_release(other);
   mvs_ensemble_release(again);
@@ -85,11 +85,11 @@ static double number_at(const mvs_view *view, uint64_t row, uint32_t column) {
   return ((const double *)view->data)[row * view->components + column];
 }
 
-static void paths_are_told(const mvs_ensemble *spread, uint32_t count) {
+static void paths_are_told(const mvs_ensemble *ensemble, uint32_t count) {
   mvs_ensemble_summary all = {.struct_size = sizeof all};
   mvs_view pairs = {0};
-  MUST(mvs_ensemble_get_summary(spread, &all));
-  MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, &pairs));
+  MUST(mvs_ensemble_get_summary(ensemble, &all));
+  MUST(mvs_ensemble_get_array(ensemble, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, &pairs));
   CHECK(all.members == count && all.converged == count && all.lowest < count);
   CHECK(pairs.count == count && pairs.components == count && pairs.type == MVS_TYPE_F64);
   double lowest = INFINITY, squares = 0;
@@ -97,8 +97,8 @@ static void paths_are_told(const mvs_ensemble *spread, uint32_t count) {
   for (uint32_t k = 0; k < count; ++k) {
     mvs_ensemble_member path = {.struct_size = sizeof path};
     mvs_stats stats = {.struct_size = sizeof stats};
-    MUST(mvs_ensemble_get_member(spread, k, &path));
-    MUST(mvs_ensemble_get_member_stats(spread, k, &stats));
+    MUST(mvs_ensemble_get_member(ensemble, k, &path));
+    MUST(mvs_ensemble_get_member_stats(ensemble, k, &stats));
     CHECK(path.converged == 1 && path.diverged == 0 && path.increments >= 1);
     CHECK((path.ramp > 0) == (k == 3));
     CHECK(path.order >= MVS_ENSEMBLE_ORDER_TOGETHER &&
@@ -119,16 +119,16 @@ static void paths_are_told(const mvs_ensemble *spread, uint32_t count) {
 }
 
 /* Mean, range and deviation match the measures of the paths' own snapshots. */
-static void statistics_are_those_of_the_paths(const mvs_ensemble *spread, uint32_t count) {
+static void statistics_are_those_of_the_paths(const mvs_ensemble *ensemble, uint32_t count) {
   mvs_measures of[5], each = {.struct_size = sizeof each};
   for (uint32_t s = 0; s < 5; ++s) {
     of[s].struct_size = sizeof of[s];
-    MUST(mvs_ensemble_measure(spread, s + 1, &of[s]));
+    MUST(mvs_ensemble_measure(ensemble, s + 1, &of[s]));
   }
   double sum = 0, squares = 0, least = INFINITY, most = 0;
   for (uint32_t k = 0; k < count; ++k) {
     const mvs_snapshot *snapshot = NULL;
-    MUST(mvs_ensemble_get_member_snapshot(spread, k, &snapshot));
+    MUST(mvs_ensemble_get_member_snapshot(ensemble, k, &snapshot));
     MUST(mvs_snapshot_measure(snapshot, &each));
     mvs_snapshot_release(snapshot);
     sum += each.coaptation_area;
@@ -147,17 +147,17 @@ static void statistics_are_those_of_the_paths(const mvs_ensemble *spread, uint32
 
 /* The deviation is zero at prescribed nodes, and its squares match those of the pairs. For n shapes
  * the mean square from the mean is half the mean square between two picked with replacement. */
-static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_ensemble *spread) {
+static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_ensemble *ensemble) {
   mvs_view nodes = {0}, kind = {0}, pairs = {0};
-  MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION, &nodes));
-  MUST(mvs_ensemble_get_array(spread, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, &pairs));
+  MUST(mvs_ensemble_get_array(ensemble, MVS_ENSEMBLE_ARRAY_NODE_DEVIATION, &nodes));
+  MUST(mvs_ensemble_get_array(ensemble, MVS_ENSEMBLE_ARRAY_PAIR_DISTANCE, &pairs));
   MUST(mvs_snapshot_get_array(start, MVS_ARRAY_NODE_KIND, &kind));
   CHECK(nodes.count == kind.count && nodes.components == 1);
   double squares = 0, between = 0, sheet = 0;
   for (uint64_t k = 0; k < nodes.count; ++k) {
     uint8_t what = ((const uint8_t *)kind.data)[k];
     double spread_here = number_at(&nodes, k, 0);
-    if (what == MVS_NODE_KIND_ANNULUS || what == MVS_NODE_KIND_HEAD) CHECK(spread_here == 0);
+    if (what == MVS_NODE_KIND_ANNULUS || what == MVS_NODE_KIND_HEAD) CHECK(ensemble_here == 0);
     if (what > MVS_NODE_KIND_ANNULUS) continue;
     squares += spread_here * spread_here;
     sheet += 1;
@@ -189,9 +189,9 @@ static void it_is_told_how_far_it_is_and_can_be_stopped(const mvs_snapshot *star
   mvs_ensemble_options options = options_of(2, 0);
   options.progress = take_progress;
   options.user = &h;
-  mvs_ensemble *spread = run(start, options), *kept = NULL;
+  mvs_ensemble *ensemble = run(start, options), *kept = NULL;
   CHECK(h.calls > 10 && !h.share_fell && h.share > 0.5);
-  mvs_ensemble_release(spread);
+  mvs_ensemble_release(ensemble);
   /* in the second path: the last call but one */
   h = (host){.stop_at = h.calls - 1};
   MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &kept), MVS_E_CANCELLED, "cancelled");
@@ -201,20 +201,20 @@ static void it_is_told_how_far_it_is_and_can_be_stopped(const mvs_snapshot *star
 static void paths_not_at_rest_are_not_mixed_in(const mvs_snapshot *start) {
   mvs_settle_options one = {.struct_size = sizeof one, .max_iterations = 1};
   mvs_ensemble_options options = options_of(2, 0);
-  mvs_ensemble *spread = NULL;
-  MUST(mvs_ensemble_run(start, &systole, &one, &options, &spread));
+  mvs_ensemble *ensemble = NULL;
+  MUST(mvs_ensemble_run(start, &systole, &one, &options, &ensemble));
   mvs_ensemble_summary all = {.struct_size = sizeof all};
   mvs_ensemble_member path = {.struct_size = sizeof path};
   mvs_measures mean = {.struct_size = sizeof mean}, count = mean;
-  MUST(mvs_ensemble_get_summary(spread, &all));
-  MUST(mvs_ensemble_get_member(spread, 1, &path));
-  MUST(mvs_ensemble_measure(spread, MVS_ENSEMBLE_STATISTIC_MEAN, &mean));
-  MUST(mvs_ensemble_measure(spread, MVS_ENSEMBLE_STATISTIC_COUNT, &count));
+  MUST(mvs_ensemble_get_summary(ensemble, &all));
+  MUST(mvs_ensemble_get_member(ensemble, 1, &path));
+  MUST(mvs_ensemble_measure(ensemble, MVS_ENSEMBLE_STATISTIC_MEAN, &mean));
+  MUST(mvs_ensemble_measure(ensemble, MVS_ENSEMBLE_STATISTIC_COUNT, &count));
   CHECK(all.converged == 0 && all.equilibria == 0 && all.lowest == UINT32_MAX);
   CHECK(all.node_rms == 0 && path.converged == 0 && path.equilibrium == UINT32_MAX);
   CHECK(path.node_rms > 0); /* the path itself still reports it */
   CHECK(isnan(mean.annulus_ap) && count.annulus_ap == 0);
-  mvs_ensemble_release(spread);
+  mvs_ensemble_release(ensemble);
 }
 
 /* From a closed valve: from its present state, the same fold is found; from rest, the plain
@@ -247,51 +247,53 @@ static void a_closed_valve_is_opened_again(mvs_sim *sim) {
 }
 
 static void bad_options_are_refused(const mvs_snapshot *start) {
-  mvs_ensemble *spread = NULL;
+  mvs_ensemble *ensemble = NULL;
   mvs_ensemble_options options = options_of(1001, 0);
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
             "1 to 1000");
   options = options_of(2, 0);
   options.perturbation = 1;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT, "0.005");
   options.perturbation = NAN;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "0.005");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT, "0.005");
   options = options_of(2, 0);
   options.wavelength = 1e-6;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
             "wavelength");
   options = options_of(2, 0);
   options.tolerance = -1;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "same");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
+            "tolerance");
   options = options_of(2, 0);
   options.start = 3;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT,
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
             "ENSEMBLE_START");
   options = options_of(2, 0);
   options.backend = 9;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &spread), MVS_E_ARGUMENT, "BACKEND");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
+            "BACKEND");
   mvs_load_case load = systole;
   load.pressure = 1e9;
-  MUST_FAIL(mvs_ensemble_run(start, &load, NULL, NULL, &spread), MVS_E_ARGUMENT, "pressure");
-  MUST_FAIL(mvs_ensemble_run(NULL, &systole, NULL, NULL, &spread), MVS_E_ARGUMENT, "start");
-  MUST_FAIL(mvs_ensemble_run(start, NULL, NULL, NULL, &spread), MVS_E_ARGUMENT, "load");
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, NULL, NULL), MVS_E_ARGUMENT, "spread");
-  CHECK(spread == NULL);
+  MUST_FAIL(mvs_ensemble_run(start, &load, NULL, NULL, &ensemble), MVS_E_ARGUMENT, "pressure");
+  MUST_FAIL(mvs_ensemble_run(NULL, &systole, NULL, NULL, &ensemble), MVS_E_ARGUMENT, "start");
+  MUST_FAIL(mvs_ensemble_run(start, NULL, NULL, NULL, &ensemble), MVS_E_ARGUMENT, "load");
+  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, NULL, NULL), MVS_E_ARGUMENT, "ensemble");
+  CHECK(ensemble == NULL);
 }
 
-static void bad_questions_are_refused(const mvs_ensemble *spread) {
+static void bad_questions_are_refused(const mvs_ensemble *ensemble) {
   mvs_ensemble_member path = {.struct_size = sizeof path};
   mvs_measures measures = {.struct_size = sizeof measures};
   mvs_stats stats = {.struct_size = sizeof stats};
   const mvs_snapshot *snapshot = NULL;
   mvs_view view;
-  MUST_FAIL(mvs_ensemble_get_member(spread, PATHS, &path), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_ensemble_get_member_stats(spread, PATHS, &stats), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_ensemble_get_member_snapshot(spread, PATHS, &snapshot), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_ensemble_measure(spread, 0, &measures), MVS_E_ARGUMENT, "statistic");
-  MUST_FAIL(mvs_ensemble_measure(spread, 6, &measures), MVS_E_ARGUMENT, "statistic");
-  MUST_FAIL(mvs_ensemble_get_array(spread, 3, &view), MVS_E_ARGUMENT, "which");
-  MUST_FAIL(mvs_ensemble_get_summary(NULL, NULL), MVS_E_ARGUMENT, "spread");
+  MUST_FAIL(mvs_ensemble_get_member(ensemble, PATHS, &path), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_ensemble_get_member_stats(ensemble, PATHS, &stats), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_ensemble_get_member_snapshot(ensemble, PATHS, &snapshot), MVS_E_ARGUMENT, "0 to 3");
+  MUST_FAIL(mvs_ensemble_measure(ensemble, 0, &measures), MVS_E_ARGUMENT, "statistic");
+  MUST_FAIL(mvs_ensemble_measure(ensemble, 6, &measures), MVS_E_ARGUMENT, "statistic");
+  MUST_FAIL(mvs_ensemble_get_array(ensemble, 3, &view), MVS_E_ARGUMENT, "which");
+  MUST_FAIL(mvs_ensemble_get_summary(NULL, NULL), MVS_E_ARGUMENT, "ensemble");
   mvs_ensemble_release(NULL);
 }
 
@@ -299,19 +301,19 @@ int main(void) {
   mvs_sim *sim = thin_valve();
   const mvs_snapshot *start = snapshot_of(sim);
   hash128 before = snapshot_hash(start);
-  mvs_ensemble *spread = run(start, options_of(PATHS, 0));
+  mvs_ensemble *ensemble = run(start, options_of(PATHS, 0));
   CHECK(same_hash(before, snapshot_hash(start)) && same_hash(before, sim_hash(sim)));
-  path_0_is_the_plain_closure(spread, sim);
-  same_seed_same_bits(start, spread);
-  paths_are_told(spread, PATHS);
-  statistics_are_those_of_the_paths(spread, PATHS);
-  nodes_spread_as_the_pairs_do(start, spread);
+  path_0_is_the_plain_closure(ensemble, sim);
+  same_seed_same_bits(start, ensemble);
+  paths_are_told(ensemble, PATHS);
+  statistics_are_those_of_the_paths(ensemble, PATHS);
+  nodes_spread_as_the_pairs_do(start, ensemble);
   it_is_told_how_far_it_is_and_can_be_stopped(start);
   paths_not_at_rest_are_not_mixed_in(start);
   a_closed_valve_is_opened_again(sim);
   bad_options_are_refused(start);
-  bad_questions_are_refused(spread);
-  mvs_ensemble_release(spread);
+  bad_questions_are_refused(ensemble);
+  mvs_ensemble_release(ensemble);
   mvs_snapshot_release(start);
   mvs_destroy(sim);
   return finish("ensemble_run");

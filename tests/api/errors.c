@@ -174,7 +174,7 @@ static void a_budget_of_zero_is_the_default(void) {
 }
 
 static void arrays_that_cannot_be_read(void) {
-  REFUSED_VALVE(f.desc.flags = 2, MVS_E_ARGUMENT, "valve.flags is 2");
+  REFUSED_VALVE(f.desc.flags = 4, MVS_E_ARGUMENT, "valve.flags is 4");
   REFUSED_VALVE(f.desc.nodes.data = NULL, MVS_E_ARGUMENT, "nodes has 66 entries but is a null");
   REFUSED_VALVE(f.desc.nodes.components = 2, MVS_E_ARGUMENT, "nodes has 2 components");
   REFUSED_VALVE(f.desc.nodes.type = MVS_TYPE_U32, MVS_E_ARGUMENT, "nodes is of MVS_TYPE_U32");

@@ -158,7 +158,7 @@ TEST_CASE("bad_triangles_are_named") {
     v.triangle_fibre = make_model(v)->valve.triangle_fibre;
     v.triangle_fibre[2] = Vec3::Zero();
   });
-  check_fault("has a fibre direction", 1, [](Valve &v) {
+  check_fault("has no fibre direction", 1, [](Valve &v) {
     v.triangle_fibre = make_model(v)->valve.triangle_fibre;
     v.triangle_fibre[2][0] = not_a_number;
   });

@@ -121,7 +121,7 @@ def test_laws_describe_their_constants():
     assert [c.key for c in mvs.chord_law(mvs.ChordLaw.BILINEAR).constants] == ["kink", "high"]
     for law in mvs.LeafletLaw:
         assert all(c.low <= c.default <= c.high for c in mvs.leaflet_law(law).constants)
-    with pytest.raises(mvs.ArgumentError, match="no law 9"):
+    with pytest.raises(mvs.ArgumentError, match="not 9"):
         mvs.leaflet_law(9)
 
 

@@ -15,7 +15,7 @@ from mvs.report import cases, ensemble, gallery, geometry, page, table  # noqa: 
 
 @pytest.fixture(scope="module")
 def case(opened, closed):
-    stats = mvs.Stats(True, 1, 1, 0, 0, 1e-6, 0.0, 0.0, 0.1, {}, 0, 0, 1, 1, 0, 4)
+    stats = mvs.Stats(True, 1, 0, 0, 1e-6, 0.0, 0.0, 0.1, mvs.Profile(*[0] * 15))
     return cases.Case("shipped", "Shipped <valve>", "a note", opened, closed, stats)
 
 

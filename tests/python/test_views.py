@@ -16,7 +16,7 @@ VIEWS = [
 
 def test_there_is_a_view_for_each_array_of_the_header(root_header):
     listed = re.search(r"enum \w+ \{\s*MVS_ARRAY_NODE_POSITION.*?\};", root_header, re.S).group()
-    names = re.findall(r"^\s*MVS_ARRAY_([A-Z_]+) = \d+", listed, re.M)
+    names = re.findall(r"^\s*MVS_ARRAY_([A-Z_]+) =", listed, re.M)
     assert sorted(name.lower() for name in names) == sorted(VIEWS)
 
 
