@@ -147,7 +147,7 @@ TEST_CASE("the_largest_flow_is_the_smallest_cut") {
     for (int k = 0; k < 18; ++k) {
       const Pipe pipe = {any(random), any(random), size(random)};
       pipes.push_back(pipe);
-      network.add_pipe(pipe.a, pipe.b, pipe.capacity);
+      network.add_edge(pipe.a, pipe.b, pipe.capacity);
     }
     const auto cut = [&](const auto &is_in) {
       int64_t total = 0;
