@@ -9,7 +9,7 @@
 namespace mvs::core {
 namespace {
 
-constexpr uint32_t triangles_in_leaf = 3;  // of a TriangleBvh
+constexpr uint32_t triangles_in_leaf = 4;  // of a TriangleBvh
 
 struct BvhBuilder {
   BvhTopology &bvh;
