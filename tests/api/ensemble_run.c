@@ -157,7 +157,7 @@ static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_en
   for (uint64_t k = 0; k < nodes.count; ++k) {
     uint8_t what = ((const uint8_t *)kind.data)[k];
     double spread_here = number_at(&nodes, k, 0);
-    if (what == MVS_NODE_KIND_ANNULUS || what == MVS_NODE_KIND_HEAD) CHECK(ensemble_here == 0);
+    if (what == MVS_NODE_KIND_ANNULUS || what == MVS_NODE_KIND_HEAD) CHECK(spread_here == 0);
     if (what > MVS_NODE_KIND_ANNULUS) continue;
     squares += spread_here * spread_here;
     sheet += 1;
