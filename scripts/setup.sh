@@ -46,18 +46,13 @@ python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
 test_packages=(abigail-tools doctest-dev libtinyobjloader-dev libspnav0 libglfw3-dev locales xvfb
   xauth clang clang-format clang-tidy git)
 
-# How many files are compiled as one (cmake/unity.cmake) where there is no ccache: none, for what is
-# to be used or measured.
+# How many files are compiled as one (cmake/unity.cmake): none where the result is used or measured;
+# scripts/test sets it.
 files_as_one=
 
-# Whether there is no ccache, nor a long run: then common headers are compiled once, too
-# (cmake/precompiled.cmake).
-built_together() {
-  { ! command -v ccache >/dev/null || [ -n "${CI:-}" ]; } && [ -z "${MVS_TEST_LONG:-}" ]
-}
-
-# Configures and builds a preset of CMakePresets.json, with ccache where its cache is kept:
-# build_preset NAME [CMAKE OPTION ...] [-- BUILD OPTION ...]
+# Configures and builds a preset of CMakePresets.json: build_preset NAME [CMAKE OPTION ...] [-- BUILD
+# OPTION ...]. The short gate compiles files together with precompiled headers, everything else
+# compiles them one by one, with ccache where it is installed.
 build_preset() {
   local preset=$1 launcher=(-DMVS_PRECOMPILED= -DMVS_UNITY=) options=()
   shift
@@ -65,10 +60,13 @@ build_preset() {
     options+=("$1")
     shift
   done
-  if built_together; then
-    launcher=(-DMVS_PRECOMPILED=all "-DMVS_UNITY=$files_as_one")
-  elif command -v ccache >/dev/null && [ -z "${CI:-}" ]; then
+  if [ -n "$files_as_one" ]; then
+    launcher=(-DMVS_PRECOMPILED=all "-DMVS_UNITY=$files_as_one"
+      -DCMAKE_C_COMPILER_LAUNCHER= -DCMAKE_CXX_COMPILER_LAUNCHER=)
+  elif command -v ccache >/dev/null; then
     launcher+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  elif [ -z "${MVS_TEST_LONG:-}" ]; then
+    launcher=(-DMVS_PRECOMPILED=all -DMVS_UNITY=)
   fi
   mkdir -p build
   cmake --preset "$preset" "${launcher[@]}" "${options[@]}" >"build/$preset.log" 2>&1 || {
