@@ -1,8 +1,8 @@
 // Distances between the members of an ensemble, and the equilibria among them.
 //
 // Input: the final shapes of all members of one model. Output: node and surface distances of every
-// member from member 0 and of every pair, and the equilibrium of each (find_equilibria). Sums run in
-// a fixed order.
+// member from member 0 and of every pair, and the equilibrium of each (find_equilibria). Sums run
+// in a fixed order.
 #pragma once
 
 #include <vector>

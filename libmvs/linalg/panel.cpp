@@ -80,8 +80,8 @@ MVS_INLINE void update_columns(const PanelUpdate<T> &u, size_t j) {
       });
     }
     for (size_t p = 0; p < rows; p += V::height) {
-      subtract_tile<V, columns, !exact>(tile.value + p, slab_rows, u.a + i + p, u.a + j,
-                                        u.a_stride, u.depth);
+      subtract_tile<V, columns, !exact>(tile.value + p, slab_rows, u.a + i + p, u.a + j, u.a_stride,
+                                        u.depth);
     }
     tile.for_each(u, i, j, rows, [](T *c, const T *here) {
       c[0] = exact ? here[0] : c[0] + here[0];

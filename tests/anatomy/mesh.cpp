@@ -15,7 +15,6 @@ using namespace mvs::core;
 
 namespace {
 
-
 mvs_parametric_desc sized(uint32_t vertices) {
   mvs_parametric_desc desc{};
   desc.struct_size = sizeof desc;

@@ -34,12 +34,17 @@ py::object law_value(Get get, uint32_t count, uint32_t number) {
 
 void bind_laws(py::module_ &module) {
   module.def(
-      "leaflet_law", [](uint32_t law) { return law_value(&mvs_get_leaflet_law, mvs_get_leaflet_law_count(), law); }, "law"_a,
+      "leaflet_law",
+      [](uint32_t law) {
+        return law_value(&mvs_get_leaflet_law, mvs_get_leaflet_law_count(), law);
+      },
+      "law"_a,
       "The description of a LeafletLaw (mvs.Law): its constants, units, defaults and ranges. "
       "ArgumentError for an unknown law.");
   module.def(
-      "chord_law", [](uint32_t law) { return law_value(&mvs_get_chord_law, mvs_get_chord_law_count(), law); }, "law"_a,
-      "The description of a ChordLaw (mvs.Law). ArgumentError for an unknown law.");
+      "chord_law",
+      [](uint32_t law) { return law_value(&mvs_get_chord_law, mvs_get_chord_law_count(), law); },
+      "law"_a, "The description of a ChordLaw (mvs.Law). ArgumentError for an unknown law.");
 }
 
 }  // namespace mvs_python
