@@ -102,7 +102,7 @@ Json chord_rows(const std::map<uint32_t, ChordGroup> &groups) {
   return rows;
 }
 
-Json info_json(const std::string &file, const mvs::Snapshot &valve, const Info &info) {
+Json valve_json(const std::string &file, const mvs::Snapshot &valve, const Info &info) {
   return {{"file", file},
           {"name", valve.name()},
           {"units", {{"length", "mm"}, {"pressure", "mmHg"}}},
@@ -145,7 +145,7 @@ std::string chords_text(const Info &info) {
 }
 
 // Loading refuses a file that is not a valve, so that only its shape remains to be checked.
-std::string info_text(const std::string &file, const mvs::Snapshot &valve, const Info &info) {
+std::string valve_text(const std::string &file, const mvs::Snapshot &valve, const Info &info) {
   const mvs_measures &m = info.measures;
   return text("%s: %s\n", file.c_str(), valve.name().c_str()) +
          text("  Sheet            %zu vertices, %zu triangles, %.0f mm2\n", info.size.vertices,
@@ -165,7 +165,7 @@ std::string info_text(const std::string &file, const mvs::Snapshot &valve, const
 void run_info(const InfoOptions &options, const Console &console) {
   const mvs::Snapshot valve = load(options.file);
   const Info info = gather(valve);
-  print(console, info_json(options.file, valve, info), info_text(options.file, valve, info));
+  print(console, valve_json(options.file, valve, info), valve_text(options.file, valve, info));
 }
 
 }  // namespace
