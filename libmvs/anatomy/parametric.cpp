@@ -126,7 +126,8 @@ struct ChordBuilder {
 
 void add_tree(const Tree &tree, uint32_t first_head, ChordBuilder &builder) {
   const auto &[halves, medial, valve, number] = builder;
-  const auto closed = [&](const Attachment &a) {
+  // clang 14 captures no structured binding by reference
+  const auto closed = [&halves = halves](const Attachment &a) {
     return halves.shape.closed(halves.sheet.place[a.vertex]);
   };
   const Vec3 tip = halves.shape.medial_tips()[tree.front().tip];

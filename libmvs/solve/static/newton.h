@@ -20,6 +20,19 @@
 
 namespace mvs::core {
 
+// When a polish step is tried, and with which lambda.
+struct PolishSchedule {
+  double best_residual;  // N, the smallest that a polish step reached
+  double lambda = 0;
+  int wait = 0, pause = 1;  // iterations until the next attempt; after the next failure
+};
+// A node that the step limiter stopped.
+struct StoppedNode {
+  size_t row;
+  Vec3 direction;
+  double share;  // its Newton step over the limited one
+};
+
 class Newton {
  public:
   Newton(const Model &model, DirectSolver &factor);
@@ -42,19 +55,6 @@ class Newton {
     std::vector<Vec3> origin;  // of the nodes
     bool reached = false;
   };
-  // When a polish step is tried, and with which lambda.
-  struct PolishSchedule {
-    double best_residual;  // N, the smallest that a polish step reached
-    double lambda = 0;
-    int wait = 0, pause = 1;  // iterations until the next attempt; after the next failure
-  };
-  // A node that the step limiter stopped.
-  struct Stopped {
-    size_t row;
-    Vec3 direction;
-    double share;  // its Newton step over the limited one
-  };
-
   void begin(const State &state);
   void presolve_locally(const Load &load);
   void evaluate();
@@ -66,8 +66,8 @@ class Newton {
   double gain_ratio(double reduction, double predicted_reduction) const;
   void adapt_lambda(double gain);
   void shorten();
-  std::vector<Stopped> stopped_nodes() const;
-  bool hold(const std::vector<Stopped> &stopped);
+  std::vector<StoppedNode> stopped_nodes() const;
+  bool hold(const std::vector<StoppedNode> &stopped);
   void move_boundary(BoundaryRamp &ramp);
   void limit_step();
   double free_norm() const;

@@ -17,7 +17,7 @@ void Newton::trust_region_step() {
   const double near_rest = settings::newton::exact_hessian_residual * rest_force_;
   system_.assemble(at_.residual < near_rest ? Curvature::exact : Curvature::projected, stats_.work);
   const double kept = lambda_;
-  std::vector<Stopped> stopped;
+  std::vector<StoppedNode> stopped;
   bool lower = false;
   for (int trial = 0; trial < set::trials; ++trial) {
     const bool factorises = trial % 2 == 0;
@@ -65,9 +65,9 @@ void Newton::shorten() {
 }
 
 // Returns the nodes that the step limiter stopped; an empty list if they are many.
-std::vector<Newton::Stopped> Newton::stopped_nodes() const {
+std::vector<StoppedNode> Newton::stopped_nodes() const {
   namespace set = settings::trust_region;
-  std::vector<Stopped> stopped;
+  std::vector<StoppedNode> stopped;
   for (size_t r = 0; r < system_.rows(); ++r) {
     const uint32_t i = system_.node(r);
     const double whole = step_.newton[i].norm(), left = step_.limited[i].norm();
@@ -83,8 +83,8 @@ std::vector<Newton::Stopped> Newton::stopped_nodes() const {
 // Stiffens the stopped nodes along their direction for the rest of this iteration, so that the
 // other nodes take into account how far these go. Lambda, which a few of them would raise until no
 // node moves, may then stay. Returns false if no node is stopped.
-bool Newton::hold(const std::vector<Stopped> &stopped) {
-  for (const Stopped &s : stopped) system_.hold(s.row, s.direction, s.share);
+bool Newton::hold(const std::vector<StoppedNode> &stopped) {
+  for (const StoppedNode &s : stopped) system_.hold(s.row, s.direction, s.share);
   return !stopped.empty();
 }
 
