@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -296,9 +297,10 @@ TEST_CASE("restoring_earlier_and_later_states_changes_no_bit") {
   const auto same = [](const State &a, const State &b) {
     return std::memcmp(a.x.data(), b.x.data(), a.x.size() * sizeof(Vec3)) == 0 &&
            a.cache.version == b.cache.version && a.cache.counter == b.cache.counter &&
-           a.cache.data.size() == b.cache.data.size() &&
-           std::memcmp(a.cache.data.data(), b.cache.data.data(),
-                       a.cache.data.size() * sizeof(double)) == 0;
+           std::equal(a.cache.data.begin(), a.cache.data.end(), b.cache.data.begin(),
+                      b.cache.data.end(), [](double left, double right) {
+                        return std::bit_cast<uint64_t>(left) == std::bit_cast<uint64_t>(right);
+                      });
   };
   for (const int from : {30, 3, 21, 22, 8, 36, 20}) {
     State again = states[from];
