@@ -176,7 +176,7 @@ extern "C" {
 mvs_result mvs_ensemble_run(const mvs_snapshot *start, const mvs_load_case *load,
                             const mvs_settle_options *settle, const mvs_ensemble_options *options,
                             mvs_ensemble **ensemble) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(start, "start");
     must_point(ensemble, "ensemble");
     const Task task{*start, read_load(load), mvs::core::read_options(settle),
@@ -190,7 +190,7 @@ void mvs_ensemble_release(mvs_ensemble *ensemble) {
 }
 
 mvs_result mvs_ensemble_get_summary(const mvs_ensemble *ensemble, mvs_ensemble_summary *summary) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(ensemble, "ensemble");
     write_struct(summary, ensemble->summary, "summary");
   });
@@ -198,7 +198,7 @@ mvs_result mvs_ensemble_get_summary(const mvs_ensemble *ensemble, mvs_ensemble_s
 
 mvs_result mvs_ensemble_get_member(const mvs_ensemble *ensemble, uint32_t index,
                                    mvs_ensemble_member *member) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     write_struct(member, ensemble->members[index], "member");
   });
@@ -206,7 +206,7 @@ mvs_result mvs_ensemble_get_member(const mvs_ensemble *ensemble, uint32_t index,
 
 mvs_result mvs_ensemble_get_member_stats(const mvs_ensemble *ensemble, uint32_t index,
                                          mvs_stats *stats) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     write_struct(stats, public_stats(ensemble->stats[index]), "stats");
   });
@@ -214,7 +214,7 @@ mvs_result mvs_ensemble_get_member_stats(const mvs_ensemble *ensemble, uint32_t 
 
 mvs_result mvs_ensemble_get_member_profile(const mvs_ensemble *ensemble, uint32_t index,
                                            mvs_profile *profile) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     write_struct(profile, public_profile(ensemble->stats[index]), "profile");
   });
@@ -222,7 +222,7 @@ mvs_result mvs_ensemble_get_member_profile(const mvs_ensemble *ensemble, uint32_
 
 mvs_result mvs_ensemble_get_member_snapshot(const mvs_ensemble *ensemble, uint32_t index,
                                             const mvs_snapshot **snapshot) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     must_point(snapshot, "snapshot");
     *snapshot = SnapshotPtr(ensemble->snapshots[index]).release();
@@ -231,7 +231,7 @@ mvs_result mvs_ensemble_get_member_snapshot(const mvs_ensemble *ensemble, uint32
 
 mvs_result mvs_ensemble_measure(const mvs_ensemble *ensemble, mvs_ensemble_statistic statistic,
                                 mvs_measures *measures) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(ensemble, "ensemble");
     MVS_MUST(statistic >= MVS_ENSEMBLE_STATISTIC_MEAN && statistic <= MVS_ENSEMBLE_STATISTIC_COUNT,
              MVS_E_ARGUMENT, "statistic",
@@ -246,7 +246,7 @@ mvs_result mvs_ensemble_measure(const mvs_ensemble *ensemble, mvs_ensemble_stati
 
 mvs_result mvs_ensemble_get_array(const mvs_ensemble *ensemble, mvs_ensemble_array which,
                                   mvs_view *view) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(ensemble, "ensemble");
     must_point(view, "view");
     MVS_MUST(

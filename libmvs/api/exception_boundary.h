@@ -19,7 +19,7 @@ Error about_file(const Error &error, const std::string &path);
 
 // Runs `work` and turns what it throws into a result code and the last failure.
 template <typename Work>
-mvs_result guarded(Work &&work) noexcept {
+mvs_result at_boundary(Work &&work) noexcept {
   try {
     work();
     return MVS_OK;
@@ -37,8 +37,8 @@ mvs_result guarded(Work &&work) noexcept {
 
 // The same for work on a file: the failure says which one, "path: ..." or "path:line: ...".
 template <typename Work>
-mvs_result guarded_file(const char *path, Work &&work) noexcept {
-  return guarded([&] {
+mvs_result file_at_boundary(const char *path, Work &&work) noexcept {
+  return at_boundary([&] {
     try {
       work();
     } catch (const Error &error) {

@@ -103,7 +103,7 @@ std::string written(const mvs_snapshot &s, uint32_t format_given) {
 extern "C" {
 
 mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format_given) {
-  return guarded_file(path ? path : "", [&] {
+  return file_at_boundary(path ? path : "", [&] {
     const AtWork at_work(sim);
     const uint32_t how = format_of(path, format_given);
     load_bytes(*sim, read_whole_file(path), how);
@@ -111,14 +111,14 @@ mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format_given) 
 }
 
 mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size, uint32_t format_given) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(data, "data");
     load_bytes(s, {static_cast<const char *>(data), size}, checked_format(format_given));
   });
 }
 
 mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_t format_given) {
-  return guarded_file(path ? path : "", [&] {
+  return file_at_boundary(path ? path : "", [&] {
     must_point(snapshot, "snapshot");
     const uint32_t how = format_of(path, format_given);
     write_whole_file(path, written(*snapshot, how));
@@ -127,7 +127,7 @@ mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_
 
 mvs_result mvs_save_memory(const mvs_snapshot *snapshot, uint32_t format_given, void *data,
                            uint64_t capacity, uint64_t *size) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     write_bytes(data, capacity, size,
                 [&] { return written(*snapshot, checked_format(format_given)); });

@@ -88,7 +88,7 @@ void check_beginning(const Json &first, const ModelState &present) {
 extern "C" {
 
 mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(path, "path");
     MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",
              s.journal->path().c_str());
@@ -101,14 +101,14 @@ mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
 }
 
 mvs_result mvs_close_journal(mvs_sim *sim) {
-  return guarded_call(sim, [](mvs_sim &s) {
+  return call_at_boundary(sim, [](mvs_sim &s) {
     MVS_MUST(s.journal, MVS_E_STATE, "journal", "no journal is open");
     s.journal.reset();
   });
 }
 
 mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *replay) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(path, "path");
     if (replay) checked_struct_size(replay, "replay");
     MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",

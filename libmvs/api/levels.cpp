@@ -40,7 +40,7 @@ mvs_coarsening public_report(const CoarseningReport &report) {
 extern "C" {
 
 mvs_result mvs_refine_valve(mvs_sim *sim) {
-  return guarded_call(sim, [](mvs_sim &s) {
+  return call_at_boundary(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     ModelPtr fine = make_model(refine(*before->model), before->model.get());
     State state = transferred(*before->model, before->state, *fine);
@@ -50,7 +50,7 @@ mvs_result mvs_refine_valve(mvs_sim *sim) {
 
 mvs_result mvs_coarsen_valve(mvs_sim *sim, const mvs_coarsen_options *options,
                              mvs_coarsening *made) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const mvs_coarsen_options how = read_struct(options, "options");
     if (made) checked_struct_size(made, "made");
     const SnapshotPtr before = s.present();
@@ -64,7 +64,7 @@ mvs_result mvs_coarsen_valve(mvs_sim *sim, const mvs_coarsen_options *options,
 }
 
 mvs_result mvs_transfer_state(mvs_sim *sim, const mvs_snapshot *from) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(from, "from");
     const SnapshotPtr before = s.present();
     State state = transferred(*from->model, from->state, *before->model);

@@ -66,7 +66,7 @@ extern "C" {
 
 mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, uint32_t kind,
                                        uint32_t *count) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(count, "count");
     with_parts(snapshot, kind,
                [&](const auto &parts) { *count = static_cast<uint32_t>(parts.size()); });
@@ -75,7 +75,7 @@ mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, uint32_t ki
 
 mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, uint32_t kind, uint32_t index,
                                  mvs_part *part) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(part, "part");
     with_parts(snapshot, kind, [&](const auto &parts) {
       MVS_MUST(index < parts.size(), MVS_E_ARGUMENT, "index",
@@ -88,7 +88,7 @@ mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, uint32_t kind, ui
 
 mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, uint32_t kind, const char *name,
                                   mvs_part *part) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(name, "name");
     must_point(part, "part");
     with_parts(snapshot, kind, [&](const auto &parts) {

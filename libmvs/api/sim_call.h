@@ -8,8 +8,8 @@ namespace mvs::core {
 
 // Runs work(*sim) as the one call at work on a simulator.
 template <typename Work>
-mvs_result guarded_call(mvs_sim *sim, Work &&work) noexcept {
-  return guarded([&] {
+mvs_result call_at_boundary(mvs_sim *sim, Work &&work) noexcept {
+  return at_boundary([&] {
     const AtWork at_work(sim);
     work(*sim);
   });

@@ -160,7 +160,7 @@ Viewed other_view(const mvs_snapshot &s, uint32_t which) {
 
 extern "C" mvs_result mvs_snapshot_get_array(const mvs_snapshot *snapshot, uint32_t which,
                                              mvs_view *view) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     must_point(view, "view");
     Viewed found = node_view(*snapshot, which);
