@@ -176,8 +176,8 @@ mvs_result mvs_device_get_info(const mvs_device *device, mvs_device_info *info) 
 }
 
 mvs_result mvs_device_set_limits(mvs_device *device, const mvs_device_limits *limits) {
-  return device_at_boundary(device,
-                        [&](mvs_device &d) { d.device.set_limits(read_struct(limits, "limits")); });
+  return device_at_boundary(
+      device, [&](mvs_device &d) { d.device.set_limits(read_struct(limits, "limits")); });
 }
 
 mvs_result mvs_device_get_limits(const mvs_device *device, mvs_device_limits *limits) {
@@ -203,7 +203,8 @@ mvs_result mvs_device_get_view(const mvs_device *device, mvs_device_view *view) 
 }
 
 mvs_result mvs_device_set_hand(mvs_device *device, const mvs_device_hand *hand) {
-  return device_at_boundary(device, [&](mvs_device &d) { d.hand.set_hand(read_struct(hand, "hand")); });
+  return device_at_boundary(device,
+                            [&](mvs_device &d) { d.hand.set_hand(read_struct(hand, "hand")); });
 }
 
 mvs_result mvs_device_get_hand(const mvs_device *device, mvs_device_hand *hand) {

@@ -96,8 +96,8 @@ SolveOptions read_options(const mvs_step_options *given) {
 
 // Makes a state that a solver arrived at the present one; it began with what the hands had moved.
 void replace_state(mvs_sim &sim, const SnapshotPtr &before, State state,
-           const std::vector<RecordedEvent> &hands, const RecordedEvent &event,
-           const SolveStats &stats) {
+                   const std::vector<RecordedEvent> &hands, const RecordedEvent &event,
+                   const SolveStats &stats) {
   sim.replace(make_snapshot(after_event(before->value, std::move(state), hands, event)));
   sim.hands.done(sim.present()->state);
   sim.stats = stats;
