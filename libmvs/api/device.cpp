@@ -1,4 +1,4 @@
-// Haptic devices for applications.
+// Haptic devices: enumerates drivers, opens and starts devices, exchanges data with a simulator.
 #include "haptics/device.h"
 #include "api/sim_call.h"
 
@@ -20,7 +20,7 @@ struct mvs_device {
   mutable Device device;
   Hand hand;
   bool latched = false;  // at the last sync
-  std::mutex viewing;    // of the view, which the state is told through
+  std::mutex viewing;    // protects the view of the device in the scene
 };
 
 namespace {
@@ -32,7 +32,7 @@ DriverPlugin::Log log_of(const mvs_device_desc &desc) {
   };
 }
 
-// Drivers that the calling thread's last mvs_get_driver_count found.
+// The drivers that the last mvs_get_driver_count of this thread found.
 thread_local std::vector<DriverFile> listed_drivers;
 
 template <typename Work>
@@ -75,7 +75,8 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
   return out;
 }
 
-// Hand to valve, then valve to hand; what the hand points at is looked for where somebody asks.
+// Applies the buttons and the position of the hand to the simulator, then posts the tissue model to
+// the servo loop. The part that the hand points at is searched only for a report.
 void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   const ServoStatus now = d.device.status();
   ServoLinks &links = d.device.links();
@@ -124,16 +125,16 @@ mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_f
   return at_boundary([&] {
     must_point(driver, "driver");
     MVS_MUST(found, MVS_E_ARGUMENT, "found", "found is a null pointer");
-    const auto plug = DriverPlugin::load(driver, text_or_empty(options), {});
+    const auto plugin = DriverPlugin::load(driver, text_or_empty(options), {});
     struct Names {
       std::vector<std::pair<std::string, std::string>> rows;
     };
-    // kept by the call: a driver that does not come back may go on writing
+    // owned by the call: a driver that exceeds the timeout may still write
     const auto names = std::make_shared<Names>();
-    if (!plug->api().list) return;
-    plug->call("list", nullptr, [names, plug](const mvs_driver_api &api) {
+    if (!plugin->api().list) return;
+    plugin->call("list", nullptr, [names, plugin](const mvs_driver_api &api) {
       return api.list(
-          plug->host(),
+          plugin->host(),
           [](void *to, const char *name, const char *model) {
             static_cast<Names *>(to)->rows.emplace_back(text_or_empty(name), text_or_empty(model));
           },

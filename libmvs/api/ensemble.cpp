@@ -1,4 +1,4 @@
-// Ensembles: run the members, store their results, return them.
+// Ensembles: runs the members, stores their results, returns their statistics.
 #include <mvs/ensemble.h>
 
 #include <memory>
@@ -62,7 +62,7 @@ struct Task {
   mvs_ensemble_options options;
 };
 
-// Progress of one member as a part of that of all.
+// Reports the progress of one member as a share of all members.
 Progress progress_of(const mvs_ensemble_options &options, uint32_t number) {
   if (!options.progress) return {};
   return [&options, number](double share, double residual) {
@@ -70,8 +70,8 @@ Progress progress_of(const mvs_ensemble_options &options, uint32_t number) {
   };
 }
 
-// Member 0 continues the history of the start, as after mvs_set_load and mvs_settle; no plan
-// reaches the other members.
+// Returns the snapshot of a member. Member 0 (`plain`) continues the history of the start, as after
+// mvs_set_load and mvs_settle. The others begin a history: no plan reproduces them.
 SnapshotPtr snapshot_of(const Task &task, State state, bool plain) {
   if (plain) {
     State loaded = task.start.state;

@@ -1,4 +1,4 @@
-// Descriptions of the structs of results.
+// Enumerates the fields of the result structs: the rows of base/structs.def.
 #include "base/struct_fields.h"
 
 #include "api/structs.h"

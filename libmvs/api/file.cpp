@@ -1,4 +1,4 @@
-// Load and save: the formats behind one pair of functions.
+// Loads and saves files and memory in all formats; the ending or the caller selects the format.
 #include <mvs/file.h>
 
 #include <limits>
@@ -34,7 +34,7 @@ uint32_t format_of(const char *path, uint32_t format_given) {
   if (ends_with(path, ".h5") || ends_with(path, ".vtkhdf")) return MVS_FORMAT_H5;
   if (ends_with(path, ".inp")) return MVS_FORMAT_INP;
   if (ends_with(path, ".feb")) return MVS_FORMAT_FEB;
-  fail(MVS_E_ARGUMENT, "path", "the ending does not tell a format: %s", ending_hint);
+  fail(MVS_E_ARGUMENT, "path", "the ending names no known format: %s", ending_hint);
 }
 
 void load_inp(mvs_sim &sim, std::string_view bytes) {
@@ -56,7 +56,7 @@ void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
 }
 
-// Chords stand after the triangles in the cells of a VTP file.
+// Returns a cell array of a VTP file, whose cells are the triangles, then the chordae.
 VtpArray triangle_array(const mvs_snapshot &s, const char *name, int components,
                         const double *values) {
   const size_t triangles = s.model->valve.triangles.size(), chords = s.model->valve.chords.size();

@@ -1,4 +1,4 @@
-// The history of a snapshot, and the kinds of operations, told to the host.
+// Enumerates the history of a snapshot, its checkpoints, and the kinds of operations.
 #include <mvs/op.h>
 
 #include <cstring>
@@ -17,7 +17,7 @@ void copy_text(char (&to)[size], const std::string &from) {
   to[length] = 0;
 }
 
-// Entry `index`, those done first; the next to be redone is the first of those undone.
+// Returns entry `index`: applied operations, oldest first, then undone ones in the order of redo.
 const HistoryEntry &entry_at(const History &history, uint32_t index) {
   const size_t done = history.past.size(), count = done + history.future.size();
   MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but the history has %zu entries",

@@ -1,4 +1,4 @@
-// Mesh levels of a simulator's valve.
+// Mesh levels of a valve: coarsens, refines, and returns to the original mesh.
 #include <mvs/levels.h>
 
 #include "anatomy/coarsen.h"
@@ -10,7 +10,7 @@ using namespace mvs::core;
 
 namespace {
 
-// Shorter or longer edges are a mistake in units: a valve spans about 0.04 m.
+// m. Shorter or longer edges indicate wrong units: the diameter of a valve is about 0.04 m.
 constexpr double shortest_edge = 1e-5, longest_edge = 0.1;
 
 size_t wanted_vertices(const mvs_coarsen_options &options, const Model &model) {

@@ -1,4 +1,4 @@
-// The named parts of a snapshot.
+// Enumerates and finds the named parts of a snapshot: leaflets, scallops, chordae, heads, rings.
 #include <cstring>
 
 #include "api/structs.h"
@@ -26,7 +26,7 @@ const char *kind_name(uint32_t kind) {
   }
 }
 
-// Calls use(parts) with the list of a kind.
+// Calls use(parts) with the list of parts of a kind.
 template <typename Use>
 void with_parts(const mvs_snapshot *snapshot, uint32_t kind, Use use) {
   must_point(snapshot, "snapshot");
@@ -55,7 +55,7 @@ mvs_part public_part(const CowVector<Part> &parts, uint32_t kind, uint32_t index
   out.id = parts[index].id;
   out.kind = kind;
   out.index = index;
-  // find_faults keeps names shorter than the field
+  // find_faults refuses names longer than the field
   std::memcpy(out.name, parts[index].name.c_str(), parts[index].name.size());
   return out;
 }

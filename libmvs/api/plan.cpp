@@ -1,4 +1,4 @@
-// Plans: written from a snapshot's history, replayed on the present valve.
+// Plans: writes the history of a snapshot as JSON, and replays a plan on the present valve.
 #include <mvs/plan.h>
 
 #include "api/sim_call.h"

@@ -1,4 +1,4 @@
-// The life of a simulator: create, give it a valve, snapshot, restore, destroy.
+// Simulators: create, set a valve, take and restore snapshots, destroy.
 #include "api/sim_call.h"
 #include "session/simulator.h"
 
@@ -35,18 +35,18 @@ mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve) {
 }
 
 mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void *user) {
-  bool told = false;
-  const auto tell = [&](const char *part, const char *sentence) {
-    told = true;
+  bool reported = false;
+  const auto report = [&](const char *part, const char *sentence) {
+    reported = true;
     if (fault) fault(user, part, sentence);
   };
   const mvs_result result = at_boundary([&] {
     Described described = read_valve_desc(valve);
-    for (const Fault &f : find_faults(described.valve)) tell(f.part.c_str(), f.sentence.c_str());
+    for (const Fault &f : find_faults(described.valve)) report(f.part.c_str(), f.sentence.c_str());
     described_state(*make_model(std::move(described.valve)), described.now);
   });
-  // what kept the description from being read is a fault as well
-  if (result != MVS_OK && !told) tell(mvs_last_error()->part, mvs_last_error()->message);
+  // an error of reading the description is a fault as well
+  if (result != MVS_OK && !reported) report(mvs_last_error()->part, mvs_last_error()->message);
   return result;
 }
 

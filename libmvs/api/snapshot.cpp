@@ -1,4 +1,4 @@
-// Snapshots: references, hash, load, measures, comparison, cuts.
+// Snapshots: reference counts, hash, load, measures, comparison, sections.
 #include "session/snapshot.h"
 
 #include "api/structs.h"

@@ -1,4 +1,4 @@
-// Load, settle, step, statistics.
+// Sets the load, settles, steps in time, and returns the statistics of the solver.
 #include "api/solve.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace mvs::core {
 namespace {
 
-// Ten times the highest pressure a heart makes: beyond it the unit is wrong.
+// Pa, ten times the highest pressure of a heart: a larger one is in the wrong unit.
 constexpr double pressure_limit = 400e3;
 
 }  // namespace
@@ -94,7 +94,8 @@ SolveOptions read_options(const mvs_step_options *given) {
   return {options.solver, 0, 0, options.dt, options.damping, options.budget};
 }
 
-// Makes a state that a solver arrived at the present one; it began with what the hands had moved.
+// Makes the result of a solver the present state, and records the tool moves before the solver call
+// and the call itself.
 void replace_state(mvs_sim &sim, const SnapshotPtr &before, State state,
                    const std::vector<RecordedEvent> &hands, const RecordedEvent &event,
                    const SolveStats &stats) {

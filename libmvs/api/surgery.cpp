@@ -1,4 +1,4 @@
-// Operations: check, apply, undo, redo, groups, checkpoints.
+// Operations: checks, applies, undoes and redoes them; groups and checkpoints.
 #include <mvs/op.h>
 
 #include "api/sim_call.h"

@@ -1,4 +1,4 @@
-// Instruments: read, posted, told.
+// Instruments: adds, moves, removes and enumerates them.
 #include <mvs/tool.h>
 
 #include "api/sim_call.h"
