@@ -1,4 +1,4 @@
-// Haptic devices for applications.
+// Haptic devices: enumerates drivers, opens and starts devices, exchanges data with a simulator.
 #include "haptics/device.h"
 #include "api/sim_call.h"
 
@@ -20,7 +20,7 @@ struct mvs_device {
   mutable Device device;
   Hand hand;
   bool latched = false;  // at the last sync
-  std::mutex viewing;    // of the view, which the state is told through
+  std::mutex viewing;    // protects the view of the device in the scene
 };
 
 namespace {
@@ -32,12 +32,12 @@ DriverPlugin::Log log_of(const mvs_device_desc &desc) {
   };
 }
 
-// Drivers that the calling thread's last mvs_get_driver_count found.
+// The drivers that the last mvs_get_driver_count of this thread found.
 thread_local std::vector<DriverFile> listed_drivers;
 
 template <typename Work>
-mvs_result guarded_device(mvs_device *device, Work &&work) noexcept {
-  return guarded([&] {
+mvs_result device_at_boundary(mvs_device *device, Work &&work) noexcept {
+  return at_boundary([&] {
     must_point(device, "device");
     work(*device);
   });
@@ -75,7 +75,8 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
   return out;
 }
 
-// Hand to valve, then valve to hand; what the hand points at is looked for where somebody asks.
+// Applies the buttons and the position of the hand to the simulator, then posts the tissue model to
+// the servo loop. The part that the hand points at is searched only for a report.
 void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   const ServoStatus now = d.device.status();
   ServoLinks &links = d.device.links();
@@ -100,7 +101,7 @@ void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
 extern "C" {
 
 mvs_result mvs_get_driver_count(uint32_t *count) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(count, "count");
     listed_drivers = installed_drivers();
     *count = static_cast<uint32_t>(listed_drivers.size());
@@ -108,7 +109,7 @@ mvs_result mvs_get_driver_count(uint32_t *count) {
 }
 
 mvs_result mvs_get_driver(uint32_t index, const char **name, const char **path) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(name, "name");
     must_point(path, "path");
     MVS_MUST(index < listed_drivers.size(), MVS_E_ARGUMENT, "index",
@@ -121,19 +122,19 @@ mvs_result mvs_get_driver(uint32_t index, const char **name, const char **path) 
 
 mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_found found,
                            void *user) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(driver, "driver");
     MVS_MUST(found, MVS_E_ARGUMENT, "found", "found is a null pointer");
-    const auto plug = DriverPlugin::load(driver, text_or_empty(options), {});
+    const auto plugin = DriverPlugin::load(driver, text_or_empty(options), {});
     struct Names {
       std::vector<std::pair<std::string, std::string>> rows;
     };
-    // kept by the call: a driver that does not come back may go on writing
+    // owned by the call: a driver that exceeds the timeout may still write
     const auto names = std::make_shared<Names>();
-    if (!plug->api().list) return;
-    plug->call("list", nullptr, [names, plug](const mvs_driver_api &api) {
+    if (!plugin->api().list) return;
+    plugin->call("list", nullptr, [names, plugin](const mvs_driver_api &api) {
       return api.list(
-          plug->host(),
+          plugin->host(),
           [](void *to, const char *name, const char *model) {
             static_cast<Names *>(to)->rows.emplace_back(text_or_empty(name), text_or_empty(model));
           },
@@ -145,7 +146,7 @@ mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_f
 
 mvs_result mvs_device_doctor(const char *driver, const char *options, mvs_driver_finding finding,
                              void *user) {
-  return guarded([&] {
+  return at_boundary([&] {
     MVS_MUST(finding, MVS_E_ARGUMENT, "finding", "finding is a null pointer");
     MVS_MUST(driver || !options, MVS_E_ARGUMENT, "options",
              "options are of one driver, and driver is a null pointer");
@@ -157,7 +158,7 @@ mvs_result mvs_device_doctor(const char *driver, const char *options, mvs_driver
 }
 
 mvs_result mvs_device_open(const mvs_device_desc *desc, mvs_device **device) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(device, "device");
     const mvs_device_desc given = read_device(desc);
     *device = new mvs_device(given, log_of(given));
@@ -169,26 +170,26 @@ void mvs_device_close(mvs_device *device) {
 }
 
 mvs_result mvs_device_get_info(const mvs_device *device, mvs_device_info *info) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(device, "device");
     write_struct(info, device->device.info(), "info");
   });
 }
 
 mvs_result mvs_device_set_limits(mvs_device *device, const mvs_device_limits *limits) {
-  return guarded_device(device,
-                        [&](mvs_device &d) { d.device.set_limits(read_struct(limits, "limits")); });
+  return device_at_boundary(
+      device, [&](mvs_device &d) { d.device.set_limits(read_struct(limits, "limits")); });
 }
 
 mvs_result mvs_device_get_limits(const mvs_device *device, mvs_device_limits *limits) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(device, "device");
     write_struct(limits, device->device.limits(), "limits");
   });
 }
 
 mvs_result mvs_device_set_view(mvs_device *device, const mvs_device_view *view) {
-  return guarded_device(device, [&](mvs_device &d) {
+  return device_at_boundary(device, [&](mvs_device &d) {
     const mvs_device_view given = read_struct(view, "view");
     const std::lock_guard<std::mutex> lock(d.viewing);
     d.hand.set_view(given);
@@ -196,45 +197,46 @@ mvs_result mvs_device_set_view(mvs_device *device, const mvs_device_view *view) 
 }
 
 mvs_result mvs_device_get_view(const mvs_device *device, mvs_device_view *view) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(device, "device");
     write_struct(view, device->hand.view().get(), "view");
   });
 }
 
 mvs_result mvs_device_set_hand(mvs_device *device, const mvs_device_hand *hand) {
-  return guarded_device(device, [&](mvs_device &d) { d.hand.set_hand(read_struct(hand, "hand")); });
+  return device_at_boundary(device,
+                            [&](mvs_device &d) { d.hand.set_hand(read_struct(hand, "hand")); });
 }
 
 mvs_result mvs_device_get_hand(const mvs_device *device, mvs_device_hand *hand) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(device, "device");
     write_struct(hand, device->hand.hand(), "hand");
   });
 }
 
 mvs_result mvs_device_start(mvs_device *device) {
-  return guarded_device(device, [](mvs_device &d) { d.device.start(); });
+  return device_at_boundary(device, [](mvs_device &d) { d.device.start(); });
 }
 
 mvs_result mvs_device_stop(mvs_device *device) {
-  return guarded_device(device, [](mvs_device &d) { d.device.stop(); });
+  return device_at_boundary(device, [](mvs_device &d) { d.device.stop(); });
 }
 
 mvs_result mvs_device_arm(mvs_device *device) {
-  return guarded_device(device, [](mvs_device &d) { d.device.arm(); });
+  return device_at_boundary(device, [](mvs_device &d) { d.device.arm(); });
 }
 
 mvs_result mvs_device_cut(mvs_device *device) {
-  return guarded_device(device, [](mvs_device &d) { d.device.cut(); });
+  return device_at_boundary(device, [](mvs_device &d) { d.device.cut(); });
 }
 
 mvs_result mvs_device_advance(mvs_device *device, double seconds) {
-  return guarded_device(device, [&](mvs_device &d) { d.device.advance(seconds); });
+  return device_at_boundary(device, [&](mvs_device &d) { d.device.advance(seconds); });
 }
 
 mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *report) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(device, "device");
     if (report) checked_struct_size(report, "report");
     sync(*device, s, report);
@@ -242,7 +244,7 @@ mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *
 }
 
 mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state) {
-  return guarded_device(device, [&](mvs_device &d) {
+  return device_at_boundary(device, [&](mvs_device &d) {
     checked_struct_size(state, "state");
     const ServoStatus now = d.device.status();
     const std::lock_guard<std::mutex> lock(d.viewing);
@@ -252,7 +254,7 @@ mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state) {
 
 mvs_result mvs_device_take_samples(mvs_device *device, mvs_device_sample *samples, uint32_t stride,
                                    uint64_t capacity, uint64_t *count, uint64_t *lost) {
-  return guarded_device(device, [&](mvs_device &d) {
+  return device_at_boundary(device, [&](mvs_device &d) {
     if (capacity > 0) must_point(samples, "samples");
     must_point(count, "count");
     must_point(lost, "lost");
@@ -269,7 +271,7 @@ mvs_result mvs_device_take_samples(mvs_device *device, mvs_device_sample *sample
 }
 
 mvs_result mvs_device_handle_signals(uint32_t on) {
-  return guarded([&] {
+  return at_boundary([&] {
     MVS_MUST(on <= 1, MVS_E_ARGUMENT, "on", "on is %u: it has to be 0 or 1", on);
     install_signal_handler(on == 1);
   });

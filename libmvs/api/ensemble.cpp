@@ -1,4 +1,4 @@
-// Ensembles: run the members, store their results, return them.
+// Ensembles: runs the members, stores their results, returns their statistics.
 #include <mvs/ensemble.h>
 
 #include <memory>
@@ -62,7 +62,7 @@ struct Task {
   mvs_ensemble_options options;
 };
 
-// Progress of one member as a part of that of all.
+// Reports the progress of one member as a share of all members.
 Progress progress_of(const mvs_ensemble_options &options, uint32_t number) {
   if (!options.progress) return {};
   return [&options, number](double share, double residual) {
@@ -70,8 +70,8 @@ Progress progress_of(const mvs_ensemble_options &options, uint32_t number) {
   };
 }
 
-// Member 0 continues the history of the start, as after mvs_set_load and mvs_settle; no plan
-// reaches the other members.
+// Returns the snapshot of a member. Member 0 (`plain`) continues the history of the start, as after
+// mvs_set_load and mvs_settle. The others begin a history: no plan reproduces them.
 SnapshotPtr snapshot_of(const Task &task, State state, bool plain) {
   if (plain) {
     State loaded = task.start.state;
@@ -176,7 +176,7 @@ extern "C" {
 mvs_result mvs_ensemble_run(const mvs_snapshot *start, const mvs_load_case *load,
                             const mvs_settle_options *settle, const mvs_ensemble_options *options,
                             mvs_ensemble **ensemble) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(start, "start");
     must_point(ensemble, "ensemble");
     const Task task{*start, read_load(load), mvs::core::read_options(settle),
@@ -190,7 +190,7 @@ void mvs_ensemble_release(mvs_ensemble *ensemble) {
 }
 
 mvs_result mvs_ensemble_get_summary(const mvs_ensemble *ensemble, mvs_ensemble_summary *summary) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(ensemble, "ensemble");
     write_struct(summary, ensemble->summary, "summary");
   });
@@ -198,7 +198,7 @@ mvs_result mvs_ensemble_get_summary(const mvs_ensemble *ensemble, mvs_ensemble_s
 
 mvs_result mvs_ensemble_get_member(const mvs_ensemble *ensemble, uint32_t index,
                                    mvs_ensemble_member *member) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     write_struct(member, ensemble->members[index], "member");
   });
@@ -206,7 +206,7 @@ mvs_result mvs_ensemble_get_member(const mvs_ensemble *ensemble, uint32_t index,
 
 mvs_result mvs_ensemble_get_member_stats(const mvs_ensemble *ensemble, uint32_t index,
                                          mvs_stats *stats) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     write_struct(stats, public_stats(ensemble->stats[index]), "stats");
   });
@@ -214,7 +214,7 @@ mvs_result mvs_ensemble_get_member_stats(const mvs_ensemble *ensemble, uint32_t 
 
 mvs_result mvs_ensemble_get_member_profile(const mvs_ensemble *ensemble, uint32_t index,
                                            mvs_profile *profile) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     write_struct(profile, public_profile(ensemble->stats[index]), "profile");
   });
@@ -222,7 +222,7 @@ mvs_result mvs_ensemble_get_member_profile(const mvs_ensemble *ensemble, uint32_
 
 mvs_result mvs_ensemble_get_member_snapshot(const mvs_ensemble *ensemble, uint32_t index,
                                             const mvs_snapshot **snapshot) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_have_member(ensemble, index);
     must_point(snapshot, "snapshot");
     *snapshot = SnapshotPtr(ensemble->snapshots[index]).release();
@@ -231,7 +231,7 @@ mvs_result mvs_ensemble_get_member_snapshot(const mvs_ensemble *ensemble, uint32
 
 mvs_result mvs_ensemble_measure(const mvs_ensemble *ensemble, mvs_ensemble_statistic statistic,
                                 mvs_measures *measures) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(ensemble, "ensemble");
     MVS_MUST(statistic >= MVS_ENSEMBLE_STATISTIC_MEAN && statistic <= MVS_ENSEMBLE_STATISTIC_COUNT,
              MVS_E_ARGUMENT, "statistic",
@@ -246,7 +246,7 @@ mvs_result mvs_ensemble_measure(const mvs_ensemble *ensemble, mvs_ensemble_stati
 
 mvs_result mvs_ensemble_get_array(const mvs_ensemble *ensemble, mvs_ensemble_array which,
                                   mvs_view *view) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(ensemble, "ensemble");
     must_point(view, "view");
     MVS_MUST(

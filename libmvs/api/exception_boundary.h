@@ -1,4 +1,5 @@
-// The boundary: nothing that is thrown inside leaves through the C interface.
+// Exception boundary of the C interface: runs work and converts each exception to a result code and
+// the last failure of the thread. No exception leaves the library.
 #pragma once
 
 #include <mvs/base.h>
@@ -10,16 +11,16 @@
 
 namespace mvs::core {
 
-// Makes these the last failure of this thread, and returns the code. Allocates nothing.
+// Stores the last failure of this thread, and returns the code. Does not allocate.
 mvs_result record_failure(mvs_result code, int32_t line, const char *part,
                           const char *message) noexcept;
 
-// The failure with the file it is about, if named, before its sentence.
+// Returns the failure with the path of its file, unless that is empty, before its sentence.
 Error about_file(const Error &error, const std::string &path);
 
-// Runs `work` and turns what it throws into a result code and the last failure.
+// Runs `work`; converts an exception to a result code and the last failure.
 template <typename Work>
-mvs_result guarded(Work &&work) noexcept {
+mvs_result at_boundary(Work &&work) noexcept {
   try {
     work();
     return MVS_OK;
@@ -35,10 +36,10 @@ mvs_result guarded(Work &&work) noexcept {
   }
 }
 
-// The same for work on a file: the failure says which one, "path: ..." or "path:line: ...".
+// The same for work on a file: the failure begins with "path: " or "path:line: ".
 template <typename Work>
-mvs_result guarded_file(const char *path, Work &&work) noexcept {
-  return guarded([&] {
+mvs_result file_at_boundary(const char *path, Work &&work) noexcept {
+  return at_boundary([&] {
     try {
       work();
     } catch (const Error &error) {

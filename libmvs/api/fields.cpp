@@ -1,4 +1,4 @@
-// Descriptions of the structs of results.
+// Enumerates the fields of the result structs: the rows of base/structs.def.
 #include "base/struct_fields.h"
 
 #include "api/structs.h"
@@ -12,7 +12,7 @@ uint32_t mvs_get_field_count(mvs_struct which) {
 }
 
 mvs_result mvs_get_field(mvs_struct which, uint32_t index, mvs_field_info *field) {
-  return guarded([&] {
+  return at_boundary([&] {
     const std::span<const mvs_field_info> fields = struct_fields(which);
     MVS_MUST(!fields.empty(), MVS_E_ARGUMENT, "which",
              "which is %u: it has to be one of MVS_STRUCT_*", which);

@@ -1,4 +1,4 @@
-// Load and save: the formats behind one pair of functions.
+// Loads and saves files and memory in all formats; the ending or the caller selects the format.
 #include <mvs/file.h>
 
 #include <limits>
@@ -34,7 +34,7 @@ uint32_t format_of(const char *path, uint32_t format_given) {
   if (ends_with(path, ".h5") || ends_with(path, ".vtkhdf")) return MVS_FORMAT_H5;
   if (ends_with(path, ".inp")) return MVS_FORMAT_INP;
   if (ends_with(path, ".feb")) return MVS_FORMAT_FEB;
-  fail(MVS_E_ARGUMENT, "path", "the ending does not tell a format: %s", ending_hint);
+  fail(MVS_E_ARGUMENT, "path", "the ending names no known format: %s", ending_hint);
 }
 
 void load_inp(mvs_sim &sim, std::string_view bytes) {
@@ -56,7 +56,7 @@ void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
 }
 
-// Chords stand after the triangles in the cells of a VTP file.
+// Returns a cell array of a VTP file, whose cells are the triangles, then the chordae.
 VtpArray triangle_array(const mvs_snapshot &s, const char *name, int components,
                         const double *values) {
   const size_t triangles = s.model->valve.triangles.size(), chords = s.model->valve.chords.size();
@@ -103,7 +103,7 @@ std::string written(const mvs_snapshot &s, uint32_t format_given) {
 extern "C" {
 
 mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format_given) {
-  return guarded_file(path ? path : "", [&] {
+  return file_at_boundary(path ? path : "", [&] {
     const AtWork at_work(sim);
     const uint32_t how = format_of(path, format_given);
     load_bytes(*sim, read_whole_file(path), how);
@@ -111,14 +111,14 @@ mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format_given) 
 }
 
 mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size, uint32_t format_given) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(data, "data");
     load_bytes(s, {static_cast<const char *>(data), size}, checked_format(format_given));
   });
 }
 
 mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_t format_given) {
-  return guarded_file(path ? path : "", [&] {
+  return file_at_boundary(path ? path : "", [&] {
     must_point(snapshot, "snapshot");
     const uint32_t how = format_of(path, format_given);
     write_whole_file(path, written(*snapshot, how));
@@ -127,7 +127,7 @@ mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_
 
 mvs_result mvs_save_memory(const mvs_snapshot *snapshot, uint32_t format_given, void *data,
                            uint64_t capacity, uint64_t *size) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     write_bytes(data, capacity, size,
                 [&] { return written(*snapshot, checked_format(format_given)); });

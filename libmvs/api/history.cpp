@@ -1,4 +1,4 @@
-// The history of a snapshot, and the kinds of operations, told to the host.
+// Enumerates the history of a snapshot, its checkpoints, and the kinds of operations.
 #include <mvs/op.h>
 
 #include <cstring>
@@ -17,7 +17,7 @@ void copy_text(char (&to)[size], const std::string &from) {
   to[length] = 0;
 }
 
-// Entry `index`, those done first; the next to be redone is the first of those undone.
+// Returns entry `index`: applied operations, oldest first, then undone ones in the order of redo.
 const HistoryEntry &entry_at(const History &history, uint32_t index) {
   const size_t done = history.past.size(), count = done + history.future.size();
   MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but the history has %zu entries",
@@ -37,7 +37,7 @@ const OpKind &kind_at(uint32_t index) {
 extern "C" {
 
 mvs_result mvs_snapshot_get_history(const mvs_snapshot *snapshot, mvs_history *history) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     const History &found = snapshot->value.history;
     mvs_history out = {};
@@ -50,7 +50,7 @@ mvs_result mvs_snapshot_get_history(const mvs_snapshot *snapshot, mvs_history *h
 
 mvs_result mvs_snapshot_get_history_entry(const mvs_snapshot *snapshot, uint32_t index,
                                           mvs_history_entry *entry) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     const HistoryEntry &found = entry_at(snapshot->value.history, index);
     mvs_history_entry out = {};
@@ -65,7 +65,7 @@ mvs_result mvs_snapshot_get_history_entry(const mvs_snapshot *snapshot, uint32_t
 
 mvs_result mvs_snapshot_get_checkpoint(const mvs_snapshot *snapshot, uint32_t index,
                                        const char **name) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     must_point(name, "name");
     const auto &list = snapshot->value.history.checkpoints;
@@ -81,7 +81,7 @@ uint32_t mvs_get_op_count(void) {
 }
 
 mvs_result mvs_get_op_info(uint32_t index, mvs_op_info *info) {
-  return guarded([&] {
+  return at_boundary([&] {
     const OpKind &kind = kind_at(index);
     mvs_op_info out = {};
     out.kind = kind.number;
@@ -94,7 +94,7 @@ mvs_result mvs_get_op_info(uint32_t index, mvs_op_info *info) {
 }
 
 mvs_result mvs_get_op_field(uint32_t index, uint32_t field, mvs_field_info *info) {
-  return guarded([&] {
+  return at_boundary([&] {
     const OpKind &kind = kind_at(index);
     MVS_MUST(field < kind.fields.size(), MVS_E_ARGUMENT, "field",
              "field is %u, but %s has %zu fields", field, kind.name, kind.fields.size());

@@ -1,4 +1,4 @@
-// The journal of a simulator: begun, closed, recovered.
+// The journal of a simulator: begins, closes and recovers it.
 #include "formats/file/journal.h"
 #include "api/sim_call.h"
 
@@ -15,7 +15,7 @@ namespace {
 Json parsed(const std::string &text, size_t number) {
   Json json = Json::parse(text);
   MVS_MUST(json.is_object() && json.has("do") && json["do"].is_text(), MVS_E_FORMAT, "journal",
-           "record %zu of the journal is none that libmvs wrote", number);
+           "record %zu of the journal is not a record of libmvs", number);
   return json;
 }
 
@@ -30,14 +30,14 @@ std::vector<PlanStep> steps_at(const Json &json) {
   return read_steps(json);
 }
 
-// Back to right after the last operation: a record tells all events since then.
+// Returns to the state after the last operation: a record has all events since then.
 void rewind_moves(Snapshot &now) {
   const ModelState at = now.history.past.empty() ? *start_of(now) : now.history.past.top()->after;
   now.current = at;
   now.history.events = {};
 }
 
-// Every checkpoint by the steps that led to it, then the steps to where the snapshot was.
+// Replays a restart record: the steps to each checkpoint, then the steps to the snapshot.
 void restart(Replay &replay, const Json &record) {
   Replay there({*start_of(replay.now), {}}, replay);
   for (const Json &checkpoint : record["checkpoints"].items()) {
@@ -50,7 +50,7 @@ void restart(Replay &replay, const Json &record) {
   replay.now = std::move(there.now);
 }
 
-// One record after the first.
+// Replays one record after the first.
 void redo(Replay &replay, const Json &record) {
   const std::string word = text_at(record, "do");
   if (word == "restart") return restart(replay, record);
@@ -88,7 +88,7 @@ void check_beginning(const Json &first, const ModelState &present) {
 extern "C" {
 
 mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(path, "path");
     MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",
              s.journal->path().c_str());
@@ -101,14 +101,14 @@ mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
 }
 
 mvs_result mvs_close_journal(mvs_sim *sim) {
-  return guarded_call(sim, [](mvs_sim &s) {
+  return call_at_boundary(sim, [](mvs_sim &s) {
     MVS_MUST(s.journal, MVS_E_STATE, "journal", "no journal is open");
     s.journal.reset();
   });
 }
 
 mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *replay) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(path, "path");
     if (replay) checked_struct_size(replay, "replay");
     MVS_MUST(!s.journal, MVS_E_STATE, "journal", "the journal %s is open: close it first",

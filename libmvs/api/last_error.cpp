@@ -1,4 +1,4 @@
-// The last failure of each thread, and what the library says about itself.
+// The last failure of each thread; version and features of the library.
 #include <mvs/base.h>
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 thread_local mvs_error last_error = {};
 
-// Copies what fits; never cuts a UTF-8 character in two.
+// Copies a text, shortened to the array; does not split a UTF-8 character.
 template <size_t size>
 void copy_text(char (&to)[size], const char *from) noexcept {
   size_t length = std::strlen(from);
@@ -39,7 +39,7 @@ mvs_result record_failure(mvs_result code, int32_t line, const char *part,
 
 Error about_file(const Error &error, const std::string &path) {
   if (path.empty()) return error;
-  // the end of a long path tells more than its beginning, and the reason has to fit as well
+  // keeps the end of a long path, which has the file name, and leaves room for the reason
   constexpr size_t longest = 150;
   std::string where = path.size() > longest ? "..." + path.substr(path.size() - longest) : path;
   if (error.line > 0) where += ":" + std::to_string(error.line);

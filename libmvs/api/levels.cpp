@@ -1,4 +1,4 @@
-// Mesh levels of a simulator's valve.
+// Mesh levels of a valve: coarsens, refines, and returns to the original mesh.
 #include <mvs/levels.h>
 
 #include "anatomy/coarsen.h"
@@ -10,7 +10,7 @@ using namespace mvs::core;
 
 namespace {
 
-// Shorter or longer edges are a mistake in units: a valve spans about 0.04 m.
+// m. Shorter or longer edges indicate wrong units: the diameter of a valve is about 0.04 m.
 constexpr double shortest_edge = 1e-5, longest_edge = 0.1;
 
 size_t wanted_vertices(const mvs_coarsen_options &options, const Model &model) {
@@ -40,7 +40,7 @@ mvs_coarsening public_report(const CoarseningReport &report) {
 extern "C" {
 
 mvs_result mvs_refine_valve(mvs_sim *sim) {
-  return guarded_call(sim, [](mvs_sim &s) {
+  return call_at_boundary(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     ModelPtr fine = make_model(refine(*before->model), before->model.get());
     State state = transferred(*before->model, before->state, *fine);
@@ -50,7 +50,7 @@ mvs_result mvs_refine_valve(mvs_sim *sim) {
 
 mvs_result mvs_coarsen_valve(mvs_sim *sim, const mvs_coarsen_options *options,
                              mvs_coarsening *made) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const mvs_coarsen_options how = read_struct(options, "options");
     if (made) checked_struct_size(made, "made");
     const SnapshotPtr before = s.present();
@@ -64,7 +64,7 @@ mvs_result mvs_coarsen_valve(mvs_sim *sim, const mvs_coarsen_options *options,
 }
 
 mvs_result mvs_transfer_state(mvs_sim *sim, const mvs_snapshot *from) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(from, "from");
     const SnapshotPtr before = s.present();
     State state = transferred(*from->model, from->state, *before->model);

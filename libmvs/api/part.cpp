@@ -1,4 +1,4 @@
-// The named parts of a snapshot.
+// Enumerates and finds the named parts of a snapshot: leaflets, scallops, chordae, heads, rings.
 #include <cstring>
 
 #include "api/structs.h"
@@ -26,7 +26,7 @@ const char *kind_name(uint32_t kind) {
   }
 }
 
-// Calls use(parts) with the list of a kind.
+// Calls use(parts) with the list of parts of a kind.
 template <typename Use>
 void with_parts(const mvs_snapshot *snapshot, uint32_t kind, Use use) {
   must_point(snapshot, "snapshot");
@@ -55,7 +55,7 @@ mvs_part public_part(const CowVector<Part> &parts, uint32_t kind, uint32_t index
   out.id = parts[index].id;
   out.kind = kind;
   out.index = index;
-  // find_faults keeps names shorter than the field
+  // find_faults refuses names longer than the field
   std::memcpy(out.name, parts[index].name.c_str(), parts[index].name.size());
   return out;
 }
@@ -66,7 +66,7 @@ extern "C" {
 
 mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, uint32_t kind,
                                        uint32_t *count) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(count, "count");
     with_parts(snapshot, kind,
                [&](const auto &parts) { *count = static_cast<uint32_t>(parts.size()); });
@@ -75,7 +75,7 @@ mvs_result mvs_snapshot_get_part_count(const mvs_snapshot *snapshot, uint32_t ki
 
 mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, uint32_t kind, uint32_t index,
                                  mvs_part *part) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(part, "part");
     with_parts(snapshot, kind, [&](const auto &parts) {
       MVS_MUST(index < parts.size(), MVS_E_ARGUMENT, "index",
@@ -88,7 +88,7 @@ mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, uint32_t kind, ui
 
 mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, uint32_t kind, const char *name,
                                   mvs_part *part) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(name, "name");
     must_point(part, "part");
     with_parts(snapshot, kind, [&](const auto &parts) {

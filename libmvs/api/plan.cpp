@@ -1,4 +1,4 @@
-// Plans: written from a snapshot's history, replayed on the present valve.
+// Plans: writes the history of a snapshot as JSON, and replays a plan on the present valve.
 #include <mvs/plan.h>
 
 #include "api/sim_call.h"
@@ -38,7 +38,7 @@ extern "C" {
 
 mvs_result mvs_save_plan(const mvs_snapshot *snapshot, const mvs_plan_options *options,
                          const char *path) {
-  return guarded_file(path ? path : "", [&] {
+  return file_at_boundary(path ? path : "", [&] {
     must_point(path, "path");
     write_whole_file(path, plan_text(snapshot, options));
   });
@@ -46,12 +46,12 @@ mvs_result mvs_save_plan(const mvs_snapshot *snapshot, const mvs_plan_options *o
 
 mvs_result mvs_write_plan(const mvs_snapshot *snapshot, const mvs_plan_options *options, void *data,
                           uint64_t capacity, uint64_t *size) {
-  return guarded(
+  return at_boundary(
       [&] { write_bytes(data, capacity, size, [&] { return plan_text(snapshot, options); }); });
 }
 
 mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_replay *replay) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     if (replay) checked_struct_size(replay, "replay");
     const Plan plan = read_given(data, size);
@@ -67,7 +67,7 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
 }
 
 mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size, mvs_replay *replay) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(sim, "sim");
     if (replay) checked_struct_size(replay, "replay");
     const SnapshotPtr before = sim->present();

@@ -1,4 +1,4 @@
-// The life of a simulator: create, give it a valve, snapshot, restore, destroy.
+// Simulators: create, set a valve, take and restore snapshots, destroy.
 #include "api/sim_call.h"
 #include "session/simulator.h"
 
@@ -12,7 +12,7 @@ using namespace mvs::core;
 extern "C" {
 
 mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(sim, "sim");
     const mvs_sim_desc how = read_struct_or_default(desc, "desc");
     MVS_MUST(how.backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, "desc.backend",
@@ -26,7 +26,7 @@ void mvs_destroy(mvs_sim *sim) {
 }
 
 mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     Described described = read_valve_desc(valve);
     ModelPtr model = make_model(std::move(described.valve));
     State state = described_state(*model, described.now);
@@ -35,23 +35,23 @@ mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve) {
 }
 
 mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void *user) {
-  bool told = false;
-  const auto tell = [&](const char *part, const char *sentence) {
-    told = true;
+  bool reported = false;
+  const auto report = [&](const char *part, const char *sentence) {
+    reported = true;
     if (fault) fault(user, part, sentence);
   };
-  const mvs_result result = guarded([&] {
+  const mvs_result result = at_boundary([&] {
     Described described = read_valve_desc(valve);
-    for (const Fault &f : find_faults(described.valve)) tell(f.part.c_str(), f.sentence.c_str());
+    for (const Fault &f : find_faults(described.valve)) report(f.part.c_str(), f.sentence.c_str());
     described_state(*make_model(std::move(described.valve)), described.now);
   });
-  // what kept the description from being read is a fault as well
-  if (result != MVS_OK && !told) tell(mvs_last_error()->part, mvs_last_error()->message);
+  // an error of reading the description is a fault as well
+  if (result != MVS_OK && !reported) report(mvs_last_error()->part, mvs_last_error()->message);
   return result;
 }
 
 mvs_result mvs_generate_valve(mvs_sim *sim, const mvs_parametric_desc *desc) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     ModelPtr model = make_model(make_parametric_valve(read_struct_or_default(desc, "desc")));
     State state = initial_state(*model);
     replace_valve(s, {{std::move(model), std::move(state)}, {}});
@@ -59,7 +59,7 @@ mvs_result mvs_generate_valve(mvs_sim *sim, const mvs_parametric_desc *desc) {
 }
 
 mvs_result mvs_get_snapshot(mvs_sim *sim, const mvs_snapshot **snapshot) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(sim, "sim");
     must_point(snapshot, "snapshot");
     *snapshot = sim->present().release();
@@ -67,7 +67,7 @@ mvs_result mvs_get_snapshot(mvs_sim *sim, const mvs_snapshot **snapshot) {
 }
 
 mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(snapshot, "snapshot");
     must_be_no_group(s, "restore");
     restart_journal(s, snapshot->value);

@@ -1,4 +1,4 @@
-// A call that changes a simulator: one at a time, its failures as result codes.
+// A call that changes a simulator: one at a time, exceptions as result codes.
 #pragma once
 
 #include "api/structs.h"
@@ -6,10 +6,10 @@
 
 namespace mvs::core {
 
-// Runs work(*sim) as the one call at work on a simulator.
+// Runs work(*sim). Throws MVS_E_STATE during another call on the same simulator.
 template <typename Work>
-mvs_result guarded_call(mvs_sim *sim, Work &&work) noexcept {
-  return guarded([&] {
+mvs_result call_at_boundary(mvs_sim *sim, Work &&work) noexcept {
+  return at_boundary([&] {
     const AtWork at_work(sim);
     work(*sim);
   });

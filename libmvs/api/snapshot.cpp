@@ -1,4 +1,4 @@
-// Snapshots: references, hash, load, measures, comparison, cuts.
+// Snapshots: reference counts, hash, load, measures, comparison, sections.
 #include "session/snapshot.h"
 
 #include "api/structs.h"
@@ -44,7 +44,7 @@ void mvs_snapshot_release(const mvs_snapshot *snapshot) {
 }
 
 mvs_result mvs_snapshot_get_hash(const mvs_snapshot *snapshot, uint64_t hash[2]) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     must_point(hash, "hash");
     const std::array<uint64_t, 2> value = hash_of(*snapshot->model, snapshot->state);
@@ -57,14 +57,14 @@ const char *mvs_snapshot_get_name(const mvs_snapshot *snapshot) {
 }
 
 mvs_result mvs_snapshot_get_load(const mvs_snapshot *snapshot, mvs_load_case *load) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     write_struct(load, public_load(snapshot->state.load), "load");
   });
 }
 
 mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *measures) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     checked_struct_size(measures, "measures");
     write_struct(measures, snapshot->measures(), "measures");
@@ -73,7 +73,7 @@ mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *meas
 
 mvs_result mvs_snapshot_compare(const mvs_snapshot *a, const mvs_snapshot *b,
                                 mvs_comparison *comparison) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(a, "a");
     must_point(b, "b");
     checked_struct_size(comparison, "comparison");
@@ -85,7 +85,7 @@ mvs_result mvs_snapshot_compare(const mvs_snapshot *a, const mvs_snapshot *b,
 mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const double point[3],
                                 const double normal[3], double *points, uint64_t capacity,
                                 uint64_t *count) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     must_point(count, "count");
     if (capacity > 0) must_point(points, "points");
@@ -100,7 +100,7 @@ mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const double point
 }
 
 mvs_result mvs_snapshot_get_frame(const mvs_snapshot *snapshot, double frame[12]) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     must_point(frame, "frame");
     const Frame found = valve_frame(*snapshot->model, snapshot->state.x);
@@ -112,7 +112,7 @@ mvs_result mvs_snapshot_get_frame(const mvs_snapshot *snapshot, double frame[12]
 }
 
 mvs_result mvs_get_chord_limits(uint32_t kind, double *strain, double *tension) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(strain, "strain");
     must_point(tension, "tension");
     MVS_MUST(kind <= MVS_CHORD_KIND_SUTURE, MVS_E_ARGUMENT, "kind",

@@ -1,4 +1,4 @@
-// Load, settle, step, statistics.
+// Sets the load, settles, steps in time, and returns the statistics of the solver.
 #include "api/solve.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace mvs::core {
 namespace {
 
-// Ten times the highest pressure a heart makes: beyond it the unit is wrong.
+// Pa, ten times the highest pressure of a heart: a larger one is in the wrong unit.
 constexpr double pressure_limit = 400e3;
 
 }  // namespace
@@ -94,10 +94,11 @@ SolveOptions read_options(const mvs_step_options *given) {
   return {options.solver, 0, 0, options.dt, options.damping, options.budget};
 }
 
-// Makes a state that a solver arrived at the present one; it began with what the hands had moved.
-void go_on(mvs_sim &sim, const SnapshotPtr &before, State state,
-           const std::vector<RecordedEvent> &hands, const RecordedEvent &event,
-           const SolveStats &stats) {
+// Makes the result of a solver the present state, and records the tool moves before the solver call
+// and the call itself.
+void replace_state(mvs_sim &sim, const SnapshotPtr &before, State state,
+                   const std::vector<RecordedEvent> &hands, const RecordedEvent &event,
+                   const SolveStats &stats) {
   sim.replace(make_snapshot(after_event(before->value, std::move(state), hands, event)));
   sim.hands.done(sim.present()->state);
   sim.stats = stats;
@@ -122,7 +123,7 @@ void log_settled(const mvs_sim &sim, const SolveStats &stats) {
 extern "C" {
 
 mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const Load given = read_load(load);
     const SnapshotPtr before = s.present();
     State state = before->state;
@@ -133,14 +134,14 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
 }
 
 mvs_result mvs_get_load(const mvs_sim *sim, mvs_load_case *load) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(sim, "sim");
     write_struct(load, public_load(sim->load()), "load");
   });
 }
 
 mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const SolveOptions how = read_options(options);
     if (stats) checked_struct_size(stats, "stats");
     const SnapshotPtr before = s.present();
@@ -148,25 +149,25 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     const std::vector<RecordedEvent> hands = s.hands.take(state);
     const SolveStats found =
         settle_with_mesh_hierarchy(s.solver, *before->model, state, how, s.progress());
-    go_on(s, before, std::move(state), hands, event_of(RecordedEvent::settle, how), found);
+    replace_state(s, before, std::move(state), hands, event_of(RecordedEvent::settle, how), found);
     if (stats) write_struct(stats, public_stats(found), "stats");
     log_settled(s, found);
   });
 }
 
 mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
-  return guarded_call(sim, [&](mvs_sim &s) { s.step(read_options(options)); });
+  return call_at_boundary(sim, [&](mvs_sim &s) { s.step(read_options(options)); });
 }
 
 mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats) {
-  return guarded([&] {
+  return at_boundary([&] {
     checked_struct_size(stats, "stats");
     write_struct(stats, public_stats(last_stats(sim)), "stats");
   });
 }
 
 mvs_result mvs_get_profile(const mvs_sim *sim, mvs_profile *profile) {
-  return guarded([&] {
+  return at_boundary([&] {
     checked_struct_size(profile, "profile");
     write_struct(profile, public_profile(last_stats(sim)), "profile");
   });

@@ -1,4 +1,4 @@
-// What loads and solver options mean, for every call that settles.
+// Reads loads and solver options, writes solver statistics, for every call that settles.
 #pragma once
 
 #include <mvs/profile.h>
@@ -7,7 +7,7 @@
 
 namespace mvs::core {
 
-// Both throw MVS_E_ARGUMENT for a value out of its range.
+// Both throw MVS_E_ARGUMENT if a value is out of its range.
 Load read_load(const mvs_load_case *given);
 SolveOptions read_options(const mvs_settle_options *given);
 

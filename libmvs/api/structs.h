@@ -1,4 +1,5 @@
-// Sized structs across the boundary: older and newer callers than this library.
+// Sized structs and strided arrays of the C interface: reads and writes structs of callers that
+// were compiled with older or newer headers than this library.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +11,10 @@
 
 namespace mvs::core {
 
-// No struct of this interface is larger; a size above it was never set.
+// Bytes. No struct is larger: a size above it is uninitialised memory.
 inline constexpr uint32_t struct_size_limit = 4096;
 
-// The struct_size of a struct, checked for sense.
+// Returns the struct_size of a struct; throws MVS_E_ARGUMENT if no struct can have this size.
 inline uint32_t checked_struct_size(const void *given, const char *what) {
   must_point(given, what);
   uint32_t size = 0;
@@ -23,8 +24,8 @@ inline uint32_t checked_struct_size(const void *given, const char *what) {
   return size;
 }
 
-// Reads an input struct. What an older caller does not have counts as zero; what a newer one has
-// must be zero, since this library cannot honour it.
+// Reads an input struct. Fields that an older caller lacks are zero. Fields that only a newer
+// caller has must be zero, because this library does not implement them.
 template <typename Struct>
 Struct read_struct(const Struct *given, const char *what) {
   const uint32_t size = checked_struct_size(given, what);
@@ -41,14 +42,14 @@ Struct read_struct(const Struct *given, const char *what) {
   return known;
 }
 
-// The same where null means all defaults.
+// The same; a null pointer selects all defaults.
 template <typename Struct>
 Struct read_struct_or_default(const Struct *given, const char *what) {
   return given ? read_struct(given, what) : Struct{};
 }
 
-// Fills an output struct as far as the caller's reaches; what only a newer caller knows becomes 0.
-// The caller's struct_size stays.
+// Writes an output struct up to the caller's size. Fields that only a newer caller has become 0.
+// The caller's struct_size is kept.
 template <typename Struct>
 void write_struct(Struct *to, const Struct &value, const char *what) {
   const uint32_t size = checked_struct_size(to, what);
@@ -77,7 +78,7 @@ Struct read_element(const Struct *list, uint32_t index, uint32_t stride, const c
   return known;
 }
 
-// Fills element `index` of a caller's array whose elements are `stride` bytes apart.
+// Writes element `index` of a caller's array whose elements are `stride` bytes apart.
 template <typename Struct>
 void write_element(Struct *list, uint64_t index, uint32_t stride, const Struct &value) {
   char *bytes = reinterpret_cast<char *>(list) + index * stride;
@@ -86,8 +87,8 @@ void write_element(Struct *list, uint64_t index, uint32_t stride, const Struct &
   std::memset(bytes + common, 0, stride - common);
 }
 
-// Hands the bytes that make() gives to the caller's memory, as far as it reaches, and their true
-// number to *size.
+// Copies the bytes that make() returns to the caller's memory, up to its capacity, and sets *size
+// to their full number.
 template <typename Make>
 void write_bytes(void *data, uint64_t capacity, uint64_t *size, Make make) {
   must_point(size, "size");

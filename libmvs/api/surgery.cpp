@@ -1,4 +1,4 @@
-// Operations: check, apply, undo, redo, groups, checkpoints.
+// Operations: checks, applies, undoes and redoes them; groups and checkpoints.
 #include <mvs/op.h>
 
 #include "api/sim_call.h"
@@ -22,7 +22,7 @@ std::string checked_name(const char *name, const char *what) {
 extern "C" {
 
 mvs_result mvs_check_op(const mvs_sim *sim, const mvs_op *op) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(sim, "sim");
     const SnapshotPtr present = sim->present();
     perform(present->value.current, Operation(op));
@@ -30,7 +30,7 @@ mvs_result mvs_check_op(const mvs_sim *sim, const mvs_op *op) {
 }
 
 mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     Snapshot after = after_op(before->value, Operation(op), s.group, now_ms());
     const std::shared_ptr<const HistoryEntry> entry = after.history.past.top();
@@ -43,7 +43,7 @@ mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
 }
 
 mvs_result mvs_undo(mvs_sim *sim) {
-  return guarded_call(sim, [](mvs_sim &s) {
+  return call_at_boundary(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "undo");
     commit(s, undone(before->value), [](const Snapshot &) { return word_record("undo"); });
@@ -51,7 +51,7 @@ mvs_result mvs_undo(mvs_sim *sim) {
 }
 
 mvs_result mvs_redo(mvs_sim *sim) {
-  return guarded_call(sim, [](mvs_sim &s) {
+  return call_at_boundary(sim, [](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "redo");
     commit(s, redone(before->value), [](const Snapshot &) { return word_record("redo"); });
@@ -59,7 +59,7 @@ mvs_result mvs_redo(mvs_sim *sim) {
 }
 
 mvs_result mvs_begin_group(mvs_sim *sim, const char *name) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "begin_group");
     Group group{before->value.history.next_group, checked_name(name, "group")};
@@ -71,7 +71,7 @@ mvs_result mvs_begin_group(mvs_sim *sim, const char *name) {
 }
 
 mvs_result mvs_end_group(mvs_sim *sim) {
-  return guarded_call(sim, [](mvs_sim &s) {
+  return call_at_boundary(sim, [](mvs_sim &s) {
     MVS_MUST(s.group.number != 0, MVS_E_STATE, "group", "end_group: no group is open");
     s.group = {};
     s.make_ready();
@@ -79,7 +79,7 @@ mvs_result mvs_end_group(mvs_sim *sim) {
 }
 
 mvs_result mvs_set_checkpoint(mvs_sim *sim, const char *name) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     const std::string text = checked_name(name, "checkpoint");
     commit(s, with_checkpoint(before->value, text), [&](const Snapshot &after) {
@@ -89,7 +89,7 @@ mvs_result mvs_set_checkpoint(mvs_sim *sim, const char *name) {
 }
 
 mvs_result mvs_restore_checkpoint(mvs_sim *sim, const char *name) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "restore_checkpoint");
     const std::string text = checked_name(name, "checkpoint");

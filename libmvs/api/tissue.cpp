@@ -32,7 +32,7 @@ uint32_t mvs_get_leaflet_law_count(void) {
 }
 
 mvs_result mvs_get_leaflet_law(uint32_t index, mvs_law *law) {
-  return guarded([&] { describe(leaflet_laws(), index, law); });
+  return at_boundary([&] { describe(leaflet_laws(), index, law); });
 }
 
 uint32_t mvs_get_chord_law_count(void) {
@@ -40,11 +40,11 @@ uint32_t mvs_get_chord_law_count(void) {
 }
 
 mvs_result mvs_get_chord_law(uint32_t index, mvs_law *law) {
-  return guarded([&] { describe(chord_laws(), index, law); });
+  return at_boundary([&] { describe(chord_laws(), index, law); });
 }
 
 mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(tissue, "tissue");
     const SnapshotPtr present = s.present();
     Valve valve = present->model->valve;

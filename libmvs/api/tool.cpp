@@ -1,4 +1,4 @@
-// Instruments: read, posted, told.
+// Instruments: adds, moves, removes and enumerates them.
 #include <mvs/tool.h>
 
 #include "api/sim_call.h"
@@ -43,7 +43,7 @@ mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
 extern "C" {
 
 mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
-  return guarded_call(sim, [&](mvs_sim &s) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(tool, "tool");
     *tool = add_tool_now(s, read_struct(desc, "desc"));
   });
@@ -51,7 +51,7 @@ mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
 
 mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
                          const double axis[3]) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(sim, "sim");
     must_point(position, "position");
     Tool moved = tool_of(sim->present()->state, tool, "move");
@@ -62,11 +62,11 @@ mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
 }
 
 mvs_result mvs_remove_tool(mvs_sim *sim, mvs_id tool) {
-  return guarded_call(sim, [&](mvs_sim &s) { remove_tool_now(s, tool); });
+  return call_at_boundary(sim, [&](mvs_sim &s) { remove_tool_now(s, tool); });
 }
 
 mvs_result mvs_get_tool(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(sim, "sim");
     checked_struct_size(state, "state");
     const SnapshotPtr now = sim->present();
@@ -75,7 +75,7 @@ mvs_result mvs_get_tool(const mvs_sim *sim, mvs_id tool, mvs_tool_state *state) 
 }
 
 mvs_result mvs_snapshot_get_tool_count(const mvs_snapshot *snapshot, uint32_t *count) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     must_point(count, "count");
     *count = static_cast<uint32_t>(snapshot->state.tools.size());
@@ -84,7 +84,7 @@ mvs_result mvs_snapshot_get_tool_count(const mvs_snapshot *snapshot, uint32_t *c
 
 mvs_result mvs_snapshot_get_tool(const mvs_snapshot *snapshot, uint32_t index,
                                  mvs_tool_state *state) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     checked_struct_size(state, "state");
     const std::vector<Tool> &tools = snapshot->state.tools;

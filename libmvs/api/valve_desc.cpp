@@ -1,4 +1,5 @@
-// One function a kind of part; zeros become the defaults that include/mvs/valve.h states.
+// Reads a valve description, with one function for each kind of part. A zero selects the default of
+// include/mvs/valve.h.
 #include "api/valve_desc.h"
 
 #include "api/structs.h"
@@ -28,7 +29,8 @@ void read_nodes_and_triangles(const mvs_valve_desc &desc, Described &described) 
   valve.annulus = read_indices(desc.annulus, "annulus");
 }
 
-// Zeros become the law's defaults; what a law does not know is left for the check to name.
+// Replaces zeros by the defaults of the law. Keeps constants that the law does not have:
+// find_faults reports them.
 template <typename Law, typename Values>
 void read_law_constants(const Law *law, const double *given, Values &values) {
   for (size_t k = 0; k < values.size(); ++k) {
@@ -52,7 +54,7 @@ void read_leaflets(const mvs_valve_desc &desc, Valve &valve) {
   }
 }
 
-// A scallop lies in the leaflet of its first triangle.
+// A scallop belongs to the leaflet of its first triangle.
 void read_scallops(const mvs_valve_desc &desc, Valve &valve) {
   check_list(desc.scallops, desc.scallop_count, "scallops");
   for (uint32_t s = 0; s < desc.scallop_count; ++s) {
@@ -151,9 +153,9 @@ Described read_valve_desc(const mvs_valve_desc *given) {
 
 void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue) {
   must_be_zero(tissue.reserved, "tissue.reserved");
-  MVS_MUST(
-      !tissue.name && tissue.id == 0, MVS_E_ARGUMENT, "tissue.name",
-      "tissue.name and tissue.id have to be empty: a tissue has none, the leaflet keeps its own");
+  MVS_MUST(!tissue.name && tissue.id == 0, MVS_E_ARGUMENT, "tissue.name",
+           "tissue.name and tissue.id have to be empty: a tissue has no name or id, the leaflet "
+           "keeps its own");
   const bool bare = std::all_of(std::begin(tissue.constants), std::end(tissue.constants),
                                 [](double constant) { return constant == 0; });
   const uint32_t law = tissue.law == 0 ? uint32_t{MVS_LEAFLET_LAW_SPRING} : tissue.law;
@@ -172,9 +174,9 @@ State described_state(const Model &model, const std::vector<Vec3> &now) {
   MVS_MUST(now.size() == state.x.size(), MVS_E_ARGUMENT, "nodes_now",
            "nodes_now has %zu rows, the valve has %zu nodes", now.size(), state.x.size());
   for (size_t n = 0; n < now.size(); ++n) {
-    // no heart moves a node by a metre; written so that NaN fails
+    // nodes move by centimetres; the comparison is false for NaN
     MVS_MUST((now[n] - state.x[n]).norm() < 1, MVS_E_ARGUMENT, format("node %zu", n),
-             "node %zu of nodes_now is not a number, or over 1 m from where it rests", n);
+             "node %zu of nodes_now is not a number, or over 1 m from its rest position", n);
   }
   state.x = now;
   return state;

@@ -1,4 +1,4 @@
-// A valve as the caller describes it, made into the core's own.
+// Converts the caller's description of a valve to a Valve and its node positions.
 #pragma once
 
 #include <mvs/valve.h>
@@ -7,21 +7,22 @@
 
 namespace mvs::core {
 
-// What a description holds: the valve, and the positions to start from (empty: the rest shape).
+// A valve, and its initial positions (empty: the rest shape).
 struct Described {
   Valve valve;
   std::vector<Vec3> now;
 };
 
-// Throws MVS_E_ARGUMENT, _MEMORY or _VERSION where the description cannot be read; whether it is a
-// valve is left to find_faults.
+// Throws MVS_E_ARGUMENT, _MEMORY or _VERSION if the description cannot be read. Does not check the
+// valve: find_faults does.
 Described read_valve_desc(const mvs_valve_desc *given);
 
-// Gives a leaflet the law, thickness and constants of a description; throws MVS_E_ARGUMENT where it
-// says more than that.
+// Sets law, thickness and constants of a leaflet; throws MVS_E_ARGUMENT if the description has
+// other fields.
 void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue);
 
-// The state that a described valve starts from; throws MVS_E_ARGUMENT where positions are none.
+// Returns the initial state of a described valve; throws MVS_E_ARGUMENT if a position is not finite
+// or too far from the rest shape.
 State described_state(const Model &model, const std::vector<Vec3> &now);
 
 }  // namespace mvs::core

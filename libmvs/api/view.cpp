@@ -1,4 +1,4 @@
-// The arrays of a snapshot, each where it lies.
+// Returns the arrays of a snapshot as views of its memory, without copies.
 #include "api/structs.h"
 #include "session/snapshot.h"
 
@@ -34,7 +34,7 @@ mvs_view view_of(const std::vector<uint8_t> &v) {
   return view_of(v.data(), v.size(), 1, MVS_TYPE_U8, 1);
 }
 
-// Null for a number that names no array of its group.
+// Empty if the number is not an array of the group.
 using Viewed = std::optional<mvs_view>;
 
 Viewed node_view(const mvs_snapshot &s, uint32_t which) {
@@ -160,7 +160,7 @@ Viewed other_view(const mvs_snapshot &s, uint32_t which) {
 
 extern "C" mvs_result mvs_snapshot_get_array(const mvs_snapshot *snapshot, uint32_t which,
                                              mvs_view *view) {
-  return guarded([&] {
+  return at_boundary([&] {
     must_point(snapshot, "snapshot");
     must_point(view, "view");
     Viewed found = node_view(*snapshot, which);

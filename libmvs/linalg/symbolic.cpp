@@ -31,7 +31,7 @@ void Supernodes::find_columns(const BlockMatrix &matrix) {
   const uint32_t n = matrix.size();
   column_start_.assign(n + 1, 0);
   column_row_.clear();
-  make_room(added_, n);
+  make_room(new_rows_, n);
   child_.assign(n, none);
   sibling_.assign(n, none);
   mark_.assign(n, none);
@@ -68,11 +68,11 @@ void Supernodes::find_columns(const BlockMatrix &matrix) {
 // Sorts column_row_ from `begin` on; up to `ordered` it is sorted already.
 void Supernodes::sort_in(size_t begin, size_t ordered) {
   if (ordered == column_row_.size()) return;
-  added_.assign(column_row_.begin() + static_cast<std::ptrdiff_t>(ordered), column_row_.end());
-  std::sort(added_.begin(), added_.end());
-  for (size_t to = column_row_.size(), old = ordered, left = added_.size(); left > 0;) {
-    const bool takes_old = old > begin && column_row_[old - 1] > added_[left - 1];
-    column_row_[--to] = takes_old ? column_row_[--old] : added_[--left];
+  new_rows_.assign(column_row_.begin() + static_cast<std::ptrdiff_t>(ordered), column_row_.end());
+  std::sort(new_rows_.begin(), new_rows_.end());
+  for (size_t to = column_row_.size(), old = ordered, left = new_rows_.size(); left > 0;) {
+    const bool takes_old = old > begin && column_row_[old - 1] > new_rows_[left - 1];
+    column_row_[--to] = takes_old ? column_row_[--old] : new_rows_[--left];
   }
 }
 

@@ -55,7 +55,7 @@ class Supernodes {
 
   // the factor by single columns
   std::vector<size_t> column_start_;
-  std::vector<uint32_t> column_row_, mark_, child_, sibling_, owner_, added_;
+  std::vector<uint32_t> column_row_, mark_, child_, sibling_, owner_, new_rows_;
 };
 
 }  // namespace mvs::core

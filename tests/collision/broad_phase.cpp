@@ -33,10 +33,10 @@ void for_edge_pairs(const Model &model, Visit &&visit) {
 }
 
 // Runs the broad phase once more on these motions.
-struct Ways {
+struct MotionCase {
   const Positions &x, &to;
   double slack;
-  StepMotion pace;
+  StepMotion mode;
 
   Vec3 half(uint32_t i) const { return 0.5 * (to[i] - x[i]); }
   Positions middle() const { return moved(x, 0.5, moved(to, -1, x)); }
@@ -49,53 +49,54 @@ struct Ways {
         together = std::max(together, (half(i) - half(j)).norm());
       }
     }
-    return 2 * slack + (pace == StepMotion::together ? together : of_a + of_b);
+    return 2 * slack + (mode == StepMotion::together ? together : of_a + of_b);
   }
   bool boxes_part(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b,
                   double margin) const {
-    return apart(SweptAabb::of(a, x, to, pace), SweptAabb::of(b, x, to, pace), margin + 2 * slack);
+    return apart(SweptAabb::of(a, x, to, mode), SweptAabb::of(b, x, to, mode), margin + 2 * slack);
   }
 };
 
 // Returns whether the lists equal those of brute force on these motions, in their order.
-void check_pairs(const Model &model, const BroadPhase &broad_phase, const Ways &ways) {
+void check_pairs(const Model &model, const BroadPhase &broad_phase, const MotionCase &motion) {
   const double r = model.valve.contact_thickness;
-  const Positions middle = ways.middle();
-  const auto &guarded = broad_phase.barrier_candidates(), &faced = broad_phase.contact_candidates();
+  const Positions middle = motion.middle();
+  const auto &barrier_list = broad_phase.barrier_candidates(),
+             &contact_list = broad_phase.contact_candidates();
   const auto &list = broad_phase.barrier_edge_candidates();
-  size_t k = 0, facing = 0, pairs = 0;
+  size_t k = 0, contacts = 0, pairs = 0;
   bool same = true;
   for_vertex_triangles(model, [&](uint32_t v, uint32_t t) {
     const Tri &tri = model.valve.triangles[t];
     const std::vector<uint32_t> corners(tri.begin(), tri.end());
-    const double least = distance(middle, v, tri) - ways.nearer({v}, corners);
+    const double least = distance(middle, v, tri) - motion.nearer({v}, corners);
     if (least > r) return;
-    const double rest = distance(model.valve.rest, v, tri), guard = barrier_range(r, rest);
+    const double rest = distance(model.valve.rest, v, tri), range = barrier_range(r, rest);
     const bool faces = rest >= contact_rest_distance * r;
-    if (faces && !ways.boxes_part({v}, corners, r)) {
-      same =
-          same && facing < faced.size() && faced[facing].vertex == v && faced[facing].triangle == t;
-      ++facing;
+    if (faces && !motion.boxes_part({v}, corners, r)) {
+      same = same && contacts < contact_list.size() && contact_list[contacts].vertex == v &&
+             contact_list[contacts].triangle == t;
+      ++contacts;
     }
-    if (least > guard || ways.boxes_part({v}, corners, faces ? r : barrier_share * r)) return;
-    same = same && k < guarded.size() && guarded[k].vertex == v && guarded[k].triangle == t &&
-           guarded[k].range == guard;
+    if (least > range || motion.boxes_part({v}, corners, faces ? r : barrier_share * r)) return;
+    same = same && k < barrier_list.size() && barrier_list[k].vertex == v &&
+           barrier_list[k].triangle == t && barrier_list[k].range == range;
     ++k;
   });
   for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
     const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
     const std::vector<uint32_t> a(e.begin(), e.end()), b(f.begin(), f.end());
-    const double least = distance(middle, e, f) - ways.nearer(a, b);
+    const double least = distance(middle, e, f) - motion.nearer(a, b);
     if (least > barrier_share * r) return;
-    const double guard = barrier_range(r, distance(model.valve.rest, e, f));
-    if (least > guard || ways.boxes_part(a, b, barrier_share * r)) return;
+    const double range = barrier_range(r, distance(model.valve.rest, e, f));
+    if (least > range || motion.boxes_part(a, b, barrier_share * r)) return;
     same = same && pairs < list.size() && list[pairs].first == i && list[pairs].second == j &&
-           list[pairs].range == guard;
+           list[pairs].range == range;
     ++pairs;
   });
   CHECK(same);
-  CHECK(facing == faced.size());
-  CHECK(k == guarded.size());
+  CHECK(contacts == contact_list.size());
+  CHECK(k == barrier_list.size());
   CHECK(pairs == list.size());
 }
 
@@ -108,18 +109,18 @@ CornerF to_corner(const Vec3 &p) {
 }
 
 template <typename Nodes>
-SweptAabbF narrow_way(const Nodes &nodes, const Ways &ways) {
-  SweptAabbF way;
+SweptAabbF swept_box(const Nodes &nodes, const MotionCase &motion) {
+  SweptAabbF swept;
   for (const uint32_t i : nodes) {
-    way.add(SweptPointF{to_corner(ways.x[i]), to_corner(ways.to[i])});
+    swept.add(SweptPointF{to_corner(motion.x[i]), to_corner(motion.to[i])});
   }
-  if (ways.pace == StepMotion::independent) way.join_ends();
-  return way;
+  if (motion.mode == StepMotion::independent) swept.join_ends();
+  return swept;
 }
 
-double farthest(const Ways &ways) {
+double farthest(const MotionCase &motion) {
   double most = 0;
-  for (const Positions *places : {&ways.x, &ways.to}) {
+  for (const Positions *places : {&motion.x, &motion.to}) {
     for (const Vec3 &p : *places) most = std::max(most, p.cwiseAbs().maxCoeff());
   }
   return most;
@@ -152,15 +153,15 @@ TEST_CASE("a_bvh_of_moving_triangles_finds_the_pairs_of_brute_force") {
       still[b] = b % 3 == 0;
       for (uint32_t k = start[b]; k < start[b + 1]; ++k) block_of[tree.topology().order[k]] = b;
     }
-    for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
-      const Ways ways = {sheet.x, sheet.to, 0, pace};
+    for (const StepMotion mode : {StepMotion::together, StepMotion::independent}) {
+      const MotionCase motion = {sheet.x, sheet.to, 0, mode};
       std::vector<SweptAabbF> blocks(tree.topology().leaf_count());
       for (uint32_t t = 0; t < n; ++t) {
-        blocks[block_of[t]].add(narrow_way(sheet.triangles[t], ways));
+        blocks[block_of[t]].add(swept_box(sheet.triangles[t], motion));
       }
       tree.refit(blocks, still);
       std::vector<Edge> found;
-      tree.for_near_leaves(float_margin(0.05, farthest(ways)), [&](uint32_t a, uint32_t b) {
+      tree.for_near_leaves(float_margin(0.05, farthest(motion)), [&](uint32_t a, uint32_t b) {
         CHECK_FALSE((still[a] && still[b]));
         found.push_back({std::min(a, b), std::max(a, b)});
       });
@@ -172,8 +173,8 @@ TEST_CASE("a_bvh_of_moving_triangles_finds_the_pairs_of_brute_force") {
           const Edge pair = {std::min(block_of[a], block_of[b]),
                              std::max(block_of[a], block_of[b])};
           if ((still[pair[0]] && still[pair[1]]) ||
-              apart(SweptAabb::of(sheet.triangles[a], sheet.x, sheet.to, pace),
-                    SweptAabb::of(sheet.triangles[b], sheet.x, sheet.to, pace), 0.05)) {
+              apart(SweptAabb::of(sheet.triangles[a], sheet.x, sheet.to, mode),
+                    SweptAabb::of(sheet.triangles[b], sheet.x, sheet.to, mode), 0.05)) {
             continue;
           }
           all = all && std::binary_search(found.begin(), found.end(), pair);
@@ -184,25 +185,25 @@ TEST_CASE("a_bvh_of_moving_triangles_finds_the_pairs_of_brute_force") {
   }
 }
 
-// Finds every near pair, and no pair that single precision can prove to be farther; empty lanes are
-// near no box.
+// Finds every near pair, and no pair that single precision can prove to be farther; empty entries
+// of the SIMD batch are near no box.
 TEST_CASE("a_simd_batch_of_swept_boxes_finds_the_same_near_pairs_as_scalar_boxes") {
   Random random(6);
-  for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
+  for (const StepMotion mode : {StepMotion::together, StepMotion::independent}) {
     size_t found = 0;
     for (int round = 0; round < 200; ++round) {
       const Scattered sheet(13, random);
-      const Ways ways = {sheet.x, sheet.to, 0, pace};
+      const MotionCase motion = {sheet.x, sheet.to, 0, mode};
       const double margin = random(0, 0.5);
       SweptAabb8 here, there;
       SweptAabbF box;
       for (uint32_t t = 0; t < 13; ++t) {
-        const SweptAabbF way = narrow_way(sheet.triangles[t], ways);
-        (t < 8 ? here : there).set(t < 8 ? t : t - 8, way);
-        if (t >= 8) box.add(way);
+        const SweptAabbF swept = swept_box(sheet.triangles[t], motion);
+        (t < 8 ? here : there).set(t < 8 ? t : t - 8, swept);
+        if (t >= 8) box.add(swept);
       }
       SweptAabb8::PairBits near;
-      const float wide = float_margin(margin, farthest(ways));
+      const float wide = float_margin(margin, farthest(motion));
       const uint32_t of = find_near(here, box, wide);
       const uint32_t some = find_near(here, of, there, wide, near);
       CHECK((some & ~of) == 0);
@@ -211,8 +212,8 @@ TEST_CASE("a_simd_batch_of_swept_boxes_finds_the_same_near_pairs_as_scalar_boxes
         CHECK(bits < 32);
         CHECK(((some >> i & 1) != 0) == (bits != 0));
         for (uint32_t j = 0; j < 5; ++j) {
-          const SweptAabb a = SweptAabb::of(sheet.triangles[i], sheet.x, sheet.to, pace);
-          const SweptAabb b = SweptAabb::of(sheet.triangles[8 + j], sheet.x, sheet.to, pace);
+          const SweptAabb a = SweptAabb::of(sheet.triangles[i], sheet.x, sheet.to, mode);
+          const SweptAabb b = SweptAabb::of(sheet.triangles[8 + j], sheet.x, sheet.to, mode);
           const bool is_near = (bits >> j & 1) != 0;
           if (!apart(a, b, margin)) CHECK(is_near);
           if (is_near) CHECK_FALSE(apart(a, b, margin + 2e-6));
@@ -276,15 +277,15 @@ TEST_CASE("batched_distances_have_the_bits_of_scalar_distances") {
 TEST_CASE("candidates_are_exactly_the_pairs_whose_motions_come_near") {
   const Plates plates = plates_for_steps();
   Random random(2);
-  for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
+  for (const StepMotion mode : {StepMotion::together, StepMotion::independent}) {
     const Positions x = wavy(plates, random);
     const Positions to = moved(x, 1, random.vectors(x.size(), 0.4e-3));
-    BroadPhase candidates(plates.model);
-    candidates.build(x, to, 0.05e-3, pace);
-    check_pairs(plates.model, candidates, {x, to, 0.05e-3, pace});
-    CHECK(candidates.contact_candidates().size() > 30);
-    CHECK(candidates.barrier_candidates().size() > 30);
-    CHECK(candidates.barrier_edge_candidates().size() > 30);
+    BroadPhase broad_phase(plates.model);
+    broad_phase.build(x, to, 0.05e-3, mode);
+    check_pairs(plates.model, broad_phase, {x, to, 0.05e-3, mode});
+    CHECK(broad_phase.contact_candidates().size() > 30);
+    CHECK(broad_phase.barrier_candidates().size() > 30);
+    CHECK(broad_phase.barrier_edge_candidates().size() > 30);
   }
 }
 
@@ -292,13 +293,13 @@ TEST_CASE("candidates_are_exactly_the_pairs_whose_motions_come_near") {
 // all earlier builds: the result must not depend on them, for any motion and any shortened step.
 void check_on_the_way(const Plates &plates, bool keep_near) {
   Random random(8);
-  BroadPhase candidates(plates.model);
-  candidates.use_verlet_list(keep_near);
+  BroadPhase broad_phase(plates.model);
+  broad_phase.use_verlet_list(keep_near);
   Positions x = wavy(plates, random);
   std::vector<size_t> found;
   const int every = short_run() ? 11 : 1;  // every kind of round occurs
   for (int round = 0; round < 96; ++round) {
-    const StepMotion pace = round % 5 == 4 ? StepMotion::independent : StepMotion::together;
+    const StepMotion mode = round % 5 == 4 ? StepMotion::independent : StepMotion::together;
     const double slack = round % 7 == 6 ? 0.1e-3 : 0.02e-3;
     // slow; plate against plate; with a few fast nodes; a part of the sheet; everything fast; no
     // motion
@@ -312,14 +313,14 @@ void check_on_the_way(const Plates &plates, bool keep_near) {
       if (kind == 2 && i % 40 == 0) step[i] += random.vector(0.6e-3);
     }
     Positions to = moved(x, 1, step);
-    candidates.build(x, to, slack, pace);
+    broad_phase.build(x, to, slack, mode);
     CAPTURE(round);
-    if (round % every == 0) check_pairs(plates.model, candidates, {x, to, slack, pace});
+    if (round % every == 0) check_pairs(plates.model, broad_phase, {x, to, slack, mode});
     for (size_t i = 0; i < x.size(); i += 13) to[i] = x[i] + random(0, 1) * step[i];
-    candidates.build(x, to, slack, pace);
-    if (round % every == 0) check_pairs(plates.model, candidates, {x, to, slack, pace});
-    found.push_back(candidates.barrier_candidates().size() +
-                    candidates.barrier_edge_candidates().size());
+    broad_phase.build(x, to, slack, mode);
+    if (round % every == 0) check_pairs(plates.model, broad_phase, {x, to, slack, mode});
+    found.push_back(broad_phase.barrier_candidates().size() +
+                    broad_phase.barrier_edge_candidates().size());
     // a part of the motion, as of a shortened step
     x = moved(x, random(0.3, 1), step);
   }
@@ -349,7 +350,7 @@ TEST_CASE("candidates_of_a_fine_mesh_do_not_depend_on_earlier_positions") {
 TEST_CASE("pairs_that_approach_from_a_distance_are_found") {
   const Plates plates = plates_for_steps();
   Random random(5);
-  BroadPhase candidates(plates.model);
+  BroadPhase broad_phase(plates.model);
   Positions x = wavy(plates, random);
   const Vec3 step(0.03e-3, 0, -0.1e-3);
   for (size_t i = x.size() / 2; i < x.size(); ++i) x[i] -= 60 * step;
@@ -357,13 +358,13 @@ TEST_CASE("pairs_that_approach_from_a_distance_are_found") {
   for (int k = 0; k < 60; ++k) {
     Positions to = x;
     for (size_t i = x.size() / 2; i < x.size(); ++i) to[i] += step;
-    candidates.build(x, to, 0.02e-3);
-    if (k == 0) first = candidates.contact_candidates().size();
+    broad_phase.build(x, to, 0.02e-3);
+    if (k == 0) first = broad_phase.contact_candidates().size();
     CAPTURE(k);
-    if (k % 6 == 5) check_pairs(plates.model, candidates, {x, to, 0.02e-3, StepMotion::together});
+    if (k % 6 == 5) check_pairs(plates.model, broad_phase, {x, to, 0.02e-3, StepMotion::together});
     x = to;
   }
-  CHECK(candidates.contact_candidates().size() > first + 30);
+  CHECK(broad_phase.contact_candidates().size() > first + 30);
 }
 
 TEST_CASE("no_pair_meets_during_a_motion_without_being_a_candidate") {
@@ -373,21 +374,22 @@ TEST_CASE("no_pair_meets_during_a_motion_without_being_a_candidate") {
   Random random(12);
   size_t met = 0;
   for (int round = 0; round < 20; ++round) {
-    const StepMotion pace = round % 2 == 0 ? StepMotion::together : StepMotion::independent;
+    const StepMotion mode = round % 2 == 0 ? StepMotion::together : StepMotion::independent;
     const Positions x = wavy(plates, random);
     const Positions step = random.vectors(x.size(), 1e-3);
-    BroadPhase candidates(model);
-    candidates.build(x, moved(x, 1, step), slack, pace);
+    BroadPhase broad_phase(model);
+    broad_phase.build(x, moved(x, 1, step), slack, mode);
     // random points of the motion, all nodes together or each node by itself
     Positions y = x;
     const double common = random(0, 1);
     // least squares find the fraction to a few percent of the slack, hence the nine tenths
     for (size_t i = 0; i < y.size(); ++i) {
-      const double share = pace == StepMotion::together ? common : random(0, 1);
+      const double share = mode == StepMotion::together ? common : random(0, 1);
       y[i] += share * step[i] + random.vector(0.9 * slack / std::sqrt(3.0));
     }
-    REQUIRE(candidates.valid_for(y));
-    const auto &guarded = candidates.barrier_candidates(), &faced = candidates.contact_candidates();
+    REQUIRE(broad_phase.valid_for(y));
+    const auto &barrier_list = broad_phase.barrier_candidates(),
+               &contact_list = broad_phase.contact_candidates();
     const auto listed = [](const std::vector<VertexTriangle> &list, uint32_t v, uint32_t t) {
       return std::any_of(list.begin(), list.end(),
                          [&](const VertexTriangle &c) { return c.vertex == v && c.triangle == t; });
@@ -397,10 +399,10 @@ TEST_CASE("no_pair_meets_during_a_motion_without_being_a_candidate") {
       const double now = distance(y, v, model.valve.triangles[t]);
       if (now >= r) return;
       const double rest = distance(model.valve.rest, v, model.valve.triangles[t]);
-      if (rest >= contact_rest_distance * r) all = all && listed(faced, v, t);
+      if (rest >= contact_rest_distance * r) all = all && listed(contact_list, v, t);
       if (now >= barrier_range(r, rest)) return;
       ++met;
-      all = all && listed(guarded, v, t);
+      all = all && listed(barrier_list, v, t);
     });
     for_edge_pairs(model, [&](uint32_t i, uint32_t j) {
       const Edge &e = model.topology.edges[i], &f = model.topology.edges[j];
@@ -408,7 +410,7 @@ TEST_CASE("no_pair_meets_during_a_motion_without_being_a_candidate") {
       if (now >= barrier_share * r || now >= barrier_range(r, distance(model.valve.rest, e, f)))
         return;
       ++met;
-      const auto &list = candidates.barrier_edge_candidates();
+      const auto &list = broad_phase.barrier_edge_candidates();
       all = all && std::any_of(list.begin(), list.end(),
                                [&](const EdgeEdge &c) { return c.first == i && c.second == j; });
     });
@@ -421,28 +423,28 @@ TEST_CASE("the_validity_range_of_candidates_is_known") {
   const Plates plates = plates_for_steps();
   Random random(3);
   const Positions x = wavy(plates, random);
-  BroadPhase candidates(plates.model);
-  CHECK_FALSE(candidates.valid_for(x));
+  BroadPhase broad_phase(plates.model);
+  CHECK_FALSE(broad_phase.valid_for(x));
   Positions to = x;
   to[6].z() += 1e-3;
   to[7].z() += 1e-3;
-  for (const StepMotion pace : {StepMotion::together, StepMotion::independent}) {
-    candidates.build(x, to, 1e-4, pace);
+  for (const StepMotion mode : {StepMotion::together, StepMotion::independent}) {
+    broad_phase.build(x, to, 1e-4, mode);
     Positions y = x;
-    CHECK(candidates.valid_for(y));
+    CHECK(broad_phase.valid_for(y));
     y[5].x() += 0.99e-4;
     y[6].z() += 0.7e-3;
     y[7].z() += 0.7e-3;
     y[6].x() += 0.99e-4;
-    CHECK(candidates.valid_for(y));
+    CHECK(broad_phase.valid_for(y));
     y[5].x() += 0.02e-4;
-    CHECK_FALSE(candidates.valid_for(y));
+    CHECK_FALSE(broad_phase.valid_for(y));
     y[5] = x[5];
     y[6].x() += 0.02e-4;
-    CHECK_FALSE(candidates.valid_for(y));
+    CHECK_FALSE(broad_phase.valid_for(y));
     // one node ahead of the other by more than the slack in either direction
     y[6] = to[6];
-    CHECK(candidates.valid_for(y) == (pace == StepMotion::independent));
+    CHECK(broad_phase.valid_for(y) == (mode == StepMotion::independent));
   }
 }
 
@@ -451,24 +453,24 @@ TEST_CASE("candidates_recall_the_first_motion_from_a_position") {
   const Plates plates = plates_for_steps();
   Random random(77);
   const Positions x = wavy(plates, random), step = random.vectors(x.size(), 0.3e-3);
-  const Positions to = moved(x, 1, step), some_way = moved(x, 0.25, step);
+  const Positions to = moved(x, 1, step), quarter = moved(x, 0.25, step);
   const double slack = 0.02e-3;
   Positions cut = to;
   for (size_t i = 0; i < cut.size(); i += 13) cut[i] = x[i];
-  BroadPhase candidates(plates.model);
-  candidates.build(x, x, slack);  // zero motion
-  candidates.build(x, to, slack);
-  CHECK_FALSE(candidates.recall(x, some_way));  // no other motion is stored
-  candidates.build(x, cut, slack);
-  CHECK_FALSE(candidates.recall(to, to));
-  CHECK_FALSE(candidates.recall(x, moved(some_way, 1, random.vectors(x.size(), 0.1e-3))));
-  CHECK(candidates.valid_for(cut));
-  CHECK_FALSE(candidates.valid_for(some_way));
-  REQUIRE(candidates.recall(x, some_way));
-  CHECK(candidates.valid_for(some_way));
-  CHECK(candidates.valid_for(to));
-  check_pairs(plates.model, candidates, {x, to, slack, StepMotion::together});
+  BroadPhase broad_phase(plates.model);
+  broad_phase.build(x, x, slack);  // zero motion
+  broad_phase.build(x, to, slack);
+  CHECK_FALSE(broad_phase.recall(x, quarter));  // no other motion is stored
+  broad_phase.build(x, cut, slack);
+  CHECK_FALSE(broad_phase.recall(to, to));
+  CHECK_FALSE(broad_phase.recall(x, moved(quarter, 1, random.vectors(x.size(), 0.1e-3))));
+  CHECK(broad_phase.valid_for(cut));
+  CHECK_FALSE(broad_phase.valid_for(quarter));
+  REQUIRE(broad_phase.recall(x, quarter));
+  CHECK(broad_phase.valid_for(quarter));
+  CHECK(broad_phase.valid_for(to));
+  check_pairs(plates.model, broad_phase, {x, to, slack, StepMotion::together});
   // the pairs found from there are complete
-  candidates.build(x, cut, slack);
-  check_pairs(plates.model, candidates, {x, cut, slack, StepMotion::together});
+  broad_phase.build(x, cut, slack);
+  check_pairs(plates.model, broad_phase, {x, cut, slack, StepMotion::together});
 }

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "dhd/stand_in.h"
-#include "plug.h"
+#include "plugin.h"
 
 namespace {
 
@@ -34,11 +34,12 @@ Options with_library(Options options) {
 // A driver on a stand-in without faults; a test adds its own.
 struct Bench {
   DhdStandIn &in = stand_in();
-  Plug plug;
+  Plugin plugin;
   uint64_t now = 0;
   mvs_driver_state state = {};
 
-  explicit Bench(Options options = {}) : plug("forcedimension", with_library(std::move(options))) {
+  explicit Bench(Options options = {})
+      : plugin("forcedimension", with_library(std::move(options))) {
     for (auto *at : {&in.unplug_at, &in.deaf_at, &in.nan_at, &in.guard_at, &in.force_off_at})
       *at = DhdStandIn::kNever;
     for (auto *zero :
@@ -52,21 +53,21 @@ struct Bench {
     in.largest_mn = 12000;
   }
   ~Bench() {
-    plug.close();
+    plugin.close();
     CHECK_MESSAGE(in.unsafe == 0, "it touched what keeps the device safe, or sent no number");
     CHECK_MESSAGE(in.unsimulated == 0, "it called what is not simulated");
   }
   void start() {
-    REQUIRE_MESSAGE(plug.open() == MVS_DRIVER_OK, plug.error());
-    REQUIRE_MESSAGE(plug.api.start(plug.device) == MVS_DRIVER_OK, plug.error());
+    REQUIRE_MESSAGE(plugin.open() == MVS_DRIVER_OK, plugin.error());
+    REQUIRE_MESSAGE(plugin.api.start(plugin.device) == MVS_DRIVER_OK, plugin.error());
     in.writes[0] = 0;
   }
   // One tick, as libmvs does it: a sample, a force.
   int32_t tick(double x = 1, double y = 0.5, double z = -0.25, bool on = true) {
-    const int32_t code = plug.read(now, state);
+    const int32_t code = plugin.read(now, state);
     now += kTick;
     if (code != MVS_DRIVER_OK) return code;
-    return plug.write(x, y, z, on);
+    return plugin.write(x, y, z, on);
   }
   int32_t ticks(int count) {
     int32_t code = MVS_DRIVER_OK;
@@ -85,13 +86,13 @@ bool has(const std::string &sentence, const char *word) {
 }  // namespace
 
 TEST_CASE("forcedimension_names_the_missing_library") {
-  Plug none("forcedimension", {{"library", "/nowhere/libdrd.so.3"}});
+  Plugin none("forcedimension", {{"library", "/nowhere/libdrd.so.3"}});
   CHECK(none.open() == MVS_DRIVER_E_LIBRARY);
   CHECK_MESSAGE(has(none.error(), "FDSDK"), none.error());
-  Plug wrong("forcedimension", {{"library", MVS_STAND_INS_DIR "/openhaptics/libHD.so"}});
+  Plugin wrong("forcedimension", {{"library", MVS_STAND_INS_DIR "/openhaptics/libHD.so"}});
   const int32_t code = wrong.open();
   CHECK((code == MVS_DRIVER_E_LIBRARY || code == MVS_DRIVER_E_OPTION));
-  Plug relative("forcedimension", {{"library", "libdrd.so"}});
+  Plugin relative("forcedimension", {{"library", "libdrd.so"}});
   CHECK(relative.open() == MVS_DRIVER_E_OPTION);
   std::string said;
   for (const auto &one : none.doctor()) said += one.check + ": " + one.sentence + "\n";
@@ -100,8 +101,8 @@ TEST_CASE("forcedimension_names_the_missing_library") {
 
 TEST_CASE("forcedimension_describes_the_device") {
   Bench bench(Options{{"rate", "2000"}});
-  REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
-  mvs_driver_info info = bench.plug.info();
+  REQUIRE(bench.plugin.open() == MVS_DRIVER_OK);
+  mvs_driver_info info = bench.plugin.info();
   CHECK(std::string(info.model) == "stand-in omega");
   CHECK(std::string(info.serial) == "4000");
   CHECK(info.freedoms_in == 3);
@@ -109,10 +110,10 @@ TEST_CASE("forcedimension_describes_the_device") {
   CHECK(info.has_gripper == 0);
   CHECK(info.peak_force == 12);
   CHECK(info.rate == 2000);
-  bench.plug.close();
+  bench.plugin.close();
   bench.in.type = 104;
-  REQUIRE(bench.plug.open("0") == MVS_DRIVER_OK);
-  info = bench.plug.info();
+  REQUIRE(bench.plugin.open("0") == MVS_DRIVER_OK);
+  info = bench.plugin.info();
   CHECK(info.freedoms_in == 6);
   CHECK(info.freedoms_out == 6);
   CHECK(info.has_gripper == 1);
@@ -164,10 +165,10 @@ TEST_CASE("forcedimension_force_torque_and_grip_reach_the_motors") {
     bench.in.left_handed = left;
     bench.start();
     CHECK(bench.in.max_force_mn[0] == 12000);
-    REQUIRE(bench.plug.read(0, bench.state) == MVS_DRIVER_OK);
+    REQUIRE(bench.plugin.read(0, bench.state) == MVS_DRIVER_OK);
     CHECK(bench.state.gripper == 0.5);
     const mvs_driver_force force = {sizeof force, 1, {1, 2, 3}, {0.1, 0.2, 0.3}, 0.16};
-    REQUIRE(bench.plug.api.write(bench.plug.device, &force) == MVS_DRIVER_OK);
+    REQUIRE(bench.plugin.api.write(bench.plugin.device, &force) == MVS_DRIVER_OK);
     const double wanted[7] = {1, 2, 3, 0.1, 0.2, 0.3, left ? -2.0 : 2.0};  // 0.16 N m by 80 mm
     for (int i = 0; i < 7; ++i) CHECK(bench.given()[i] == doctest::Approx(wanted[i]));
   }
@@ -204,7 +205,7 @@ TEST_CASE("forcedimension_an_unplugged_device_is_lost") {
   REQUIRE(bench.ticks(700) == MVS_DRIVER_OK);
   CHECK(bench.ticks(100) == MVS_DRIVER_E_LOST);
   CHECK(bench.in.ticks[0] <= 702);  // without the retries for short interruptions
-  CHECK_MESSAGE(has(bench.plug.error(), "does not answer any more"), bench.plug.error());
+  CHECK_MESSAGE(has(bench.plugin.error(), "does not answer any more"), bench.plugin.error());
 }
 
 TEST_CASE("forcedimension_a_short_interruption_is_no_loss_and_long_silence_is") {
@@ -277,15 +278,15 @@ TEST_CASE("forcedimension_stop_from_another_thread_ends_all_force") {
     while (go) bench.tick();
   });
   while (bench.in.writes[0] < 100) std::this_thread::yield();
-  bench.plug.api.stop(bench.plug.device);
-  bench.plug.api.stop(bench.plug.device);
+  bench.plugin.api.stop(bench.plugin.device);
+  bench.plugin.api.stop(bench.plugin.device);
   const long writes = bench.in.ticks[0];
   while (bench.in.ticks[0] < writes + 50) std::this_thread::yield();
   go = false;
   poll.join();
   CHECK(bench.in.on[0] == 0);
   CHECK(bench.given()[0] == 0);
-  REQUIRE(bench.plug.api.start(bench.plug.device) == MVS_DRIVER_OK);
+  REQUIRE(bench.plugin.api.start(bench.plugin.device) == MVS_DRIVER_OK);
   REQUIRE(bench.ticks(2) == MVS_DRIVER_OK);
   CHECK(bench.given()[0] == 1);
 }
@@ -294,7 +295,7 @@ TEST_CASE("forcedimension_panic_writes_zero") {
   Bench bench;
   bench.start();
   REQUIRE(bench.ticks(5) == MVS_DRIVER_OK);
-  bench.plug.api.panic(bench.plug.device);
+  bench.plugin.api.panic(bench.plugin.device);
   CHECK(bench.given()[0] == 0);
   REQUIRE(bench.ticks(5) == MVS_DRIVER_OK);
   CHECK(bench.given()[0] == 0);
@@ -303,18 +304,18 @@ TEST_CASE("forcedimension_panic_writes_zero") {
 TEST_CASE("forcedimension_moves_to_calibrate_only_when_it_may") {
   Bench bench;
   bench.in.reset = 1;
-  REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
-  CHECK(bench.plug.api.start(bench.plug.device) == MVS_DRIVER_E_CALIBRATION);
-  CHECK_MESSAGE(has(bench.plug.error(), "move=yes"), bench.plug.error());
+  REQUIRE(bench.plugin.open() == MVS_DRIVER_OK);
+  CHECK(bench.plugin.api.start(bench.plugin.device) == MVS_DRIVER_E_CALIBRATION);
+  CHECK_MESSAGE(has(bench.plugin.error(), "move=yes"), bench.plugin.error());
   CHECK(bench.in.moved == 0);
-  bench.plug.close();
+  bench.plugin.close();
   bench.in.supported = 0;
-  REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
-  CHECK(bench.plug.api.calibrate(bench.plug.device) == MVS_DRIVER_E_CALIBRATION);
-  CHECK_MESSAGE(has(bench.plug.error(), "rest position"), bench.plug.error());
-  bench.plug.close();
+  REQUIRE(bench.plugin.open() == MVS_DRIVER_OK);
+  CHECK(bench.plugin.api.calibrate(bench.plugin.device) == MVS_DRIVER_E_CALIBRATION);
+  CHECK_MESSAGE(has(bench.plugin.error(), "rest position"), bench.plugin.error());
+  bench.plugin.close();
 
-  Plug free("forcedimension", with_library({{"move", "yes"}}));
+  Plugin free("forcedimension", with_library({{"move", "yes"}}));
   bench.in.supported = 1;
   bench.in.stuck = 1;
   REQUIRE(free.open() == MVS_DRIVER_OK);
@@ -334,28 +335,28 @@ TEST_CASE("forcedimension_open_reports_its_reason_of_failure") {
                           Case{4, MVS_DRIVER_E_ABSENT}, Case{8, MVS_DRIVER_E_FAULT}}) {
     Bench bench;
     bench.in.open_error = one.error;
-    CHECK(bench.plug.open() == one.result);
-    CHECK_MESSAGE(has(bench.plug.error(), "DHD says"), bench.plug.error());
+    CHECK(bench.plugin.open() == one.result);
+    CHECK_MESSAGE(has(bench.plugin.error(), "DHD says"), bench.plugin.error());
   }
   Bench bench;
-  CHECK(bench.plug.open("7") == MVS_DRIVER_E_ABSENT);
+  CHECK(bench.plugin.open("7") == MVS_DRIVER_E_ABSENT);
   bench.in.count = 0;
-  CHECK(bench.plug.open() == MVS_DRIVER_E_ABSENT);
-  CHECK(bench.plug.list().empty());
-  Plug odd("forcedimension", with_library({{"rate", "fast"}}));
+  CHECK(bench.plugin.open() == MVS_DRIVER_E_ABSENT);
+  CHECK(bench.plugin.list().empty());
+  Plugin odd("forcedimension", with_library({{"rate", "fast"}}));
   CHECK(odd.open() == MVS_DRIVER_E_OPTION);
 }
 
 TEST_CASE("forcedimension_two_devices_open_and_each_once") {
   Bench bench;
   bench.in.count = 2;
-  CHECK(bench.plug.list() == std::vector<std::string>{"0", "1"});
+  CHECK(bench.plugin.list() == std::vector<std::string>{"0", "1"});
   bench.start();
-  Plug second("forcedimension", with_library({}));
+  Plugin second("forcedimension", with_library({}));
   CHECK(second.open("0") == MVS_DRIVER_E_BUSY);
   REQUIRE(second.open() == MVS_DRIVER_OK);
   REQUIRE(second.api.start(second.device) == MVS_DRIVER_OK);
-  Plug third("forcedimension", with_library({}));
+  Plugin third("forcedimension", with_library({}));
   CHECK(third.open() == MVS_DRIVER_E_BUSY);
   mvs_driver_state state = {};
   for (int i = 0; i < 10; ++i) {
@@ -384,7 +385,7 @@ TEST_CASE("forcedimension_doctor_checks_library_bus_and_device") {
   Bench bench(Options{{"sysroot", root.string()}});
   bench.in.reset = 1;
   std::string said;
-  for (const auto &one : bench.plug.doctor())
+  for (const auto &one : bench.plugin.doctor())
     said += std::to_string(one.verdict) + " " + one.check + ": " + one.sentence + "\n";
   CHECK_MESSAGE(has(said, "omega.3 (1451:0402) is plugged in"), said);
   CHECK_MESSAGE(has(said, "1 device 0: stand-in omega"), said);

@@ -108,7 +108,7 @@ TEST_CASE("an_undamped_hand_has_the_energy_that_forces_supplied") {
   double work = 0;
   for (int n = 0; n < 20000; ++n) {
     const double force = 3 * noise();
-    hand.plug.write(force, -force, 0.5);
+    hand.plugin.write(force, -force, 0.5);
     const mvs_driver_state before = hand.state, after = hand.tick();
     work += force * (after.position[0] - before.position[0]) -
             force * (after.position[1] - before.position[1]) +
@@ -129,7 +129,7 @@ TEST_CASE("a_damped_hand_loses_the_energy_of_its_dampers") {
   double most = 0;
   for (int n = 0; n < 2000; ++n) {
     const double force = 2 * noise();
-    hand.plug.write(force, 0, 0);
+    hand.plugin.write(force, 0, 0);
     const mvs_driver_state a = hand.state, b = hand.after(100000), c = hand.after(100000);
     const double lost = force * (c.position[0] - a.position[0]) + energy(a, mass, stiffness) -
                         energy(c, mass, stiffness);
@@ -159,7 +159,7 @@ TEST_CASE("a_spring_stiffer_than_damping_and_delay_allow_diverges") {
                        {"delay", std::to_string(delay)},
                        {"from", "0.001,0,0"}}));
       for (int ms = 0; ms < 3000; ++ms) {
-        hand.plug.write(-stiffness * hand.x(), 0, 0);
+        hand.plugin.write(-stiffness * hand.x(), 0, 0);
         hand.tick();
       }
       const double left = std::hypot(hand.x(), hand.v() * std::sqrt(0.1 / stiffness));
@@ -173,7 +173,7 @@ TEST_CASE("a_spring_stiffer_than_damping_and_delay_allow_diverges") {
 TEST_CASE("a_force_acts_as_many_samples_late_as_the_device_states") {
   for (const int delay : {0, 1, 2, 16}) {
     Hand hand(ideal({{"arm_stiffness", "0"}, {"delay", std::to_string(delay)}}));
-    hand.plug.write(1, 0, 0);
+    hand.plugin.write(1, 0, 0);
     for (int n = 0; n < delay; ++n) CHECK_EQ(hand.tick().position[0], 0);
     CHECK_GT(hand.tick().position[0], 0);
   }
@@ -186,8 +186,8 @@ TEST_CASE("the_same_options_and_clock_give_the_same_bits") {
   for (int n = 0; n < 2000; ++n) {
     const uint64_t ns = static_cast<uint64_t>(1e6 * (1.5 + noise()));
     const double force = noise();
-    one.plug.write(force, force, 0);
-    other.plug.write(force, force, 0);
+    one.plugin.write(force, force, 0);
+    other.plugin.write(force, force, 0);
     const mvs_driver_state a = one.after(ns), b = other.after(ns);
     CHECK_EQ(bytes_of(a), bytes_of(b));
   }
@@ -195,14 +195,14 @@ TEST_CASE("the_same_options_and_clock_give_the_same_bits") {
 
 TEST_CASE("two_hands_do_not_feel_each_other") {
   Hand pulled(ideal({})), idle(ideal({}));
-  pulled.plug.write(1, 0, 0);
+  pulled.plugin.write(1, 0, 0);
   for (int n = 0; n < 100; ++n) {
     pulled.tick();
     idle.tick();
   }
   CHECK_GT(pulled.x(), 1e-4);
   CHECK_EQ(idle.x(), 0);
-  pulled.plug.close();
+  pulled.plugin.close();
   CHECK_EQ(idle.tick().position[0], 0);
 }
 
@@ -216,9 +216,9 @@ TEST_CASE("a_pushed_hand_rests_where_the_arm_balances_it") {
 
 TEST_CASE("disabled_motors_have_no_effect") {
   Hand hand(ideal({{"arm_stiffness", "0"}, {"arm_damping", "0"}}));
-  hand.plug.write(5, 0, 0, false);
+  hand.plugin.write(5, 0, 0, false);
   CHECK_EQ(hand.tick().position[0], 0);
-  hand.plug.write(5, 0, 0);
-  hand.plug.api.stop(hand.plug.device);  // before the force has acted
+  hand.plugin.write(5, 0, 0);
+  hand.plugin.api.stop(hand.plugin.device);  // before the force has acted
   CHECK_EQ(hand.tick().position[0], 0);
 }

@@ -3,29 +3,29 @@
 
 #include <cmath>
 
-#include "plug.h"
+#include "plugin.h"
 
 using Options = std::map<std::string, std::string>;
 
 class Hand {
  public:
-  explicit Hand(Options options) : plug("hand", std::move(options)) {
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+  explicit Hand(Options options) : plugin("hand", std::move(options)) {
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
     state = after(0);
   }
 
   // The sample `ns` later.
   mvs_driver_state after(uint64_t ns) {
     now += ns;
-    REQUIRE_EQ(plug.read(now, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(now, state), MVS_DRIVER_OK);
     return state;
   }
   mvs_driver_state tick() { return after(1000000); }
   double x() const { return state.position[0]; }
   double v() const { return state.velocity[0]; }
 
-  Plug plug;
+  Plugin plugin;
   uint64_t now = 5000000000;
   mvs_driver_state state;
 };

@@ -65,7 +65,7 @@ TEST_CASE("a_fault_begins_and_ends_at_its_times") {
       for (int ms = 1; ms <= 300; ++ms) {
         CAPTURE(ms);
         const mvs_driver_state before = hand.state;
-        hand.plug.write(0.1, 0, 0);
+        hand.plugin.write(0.1, 0, 0);
         const mvs_driver_state state = hand.tick();
         const Oddities odd(before, state, hand.now);
         const bool wanted = ms >= 100 && (for_ever || ms < 150);
@@ -87,7 +87,7 @@ TEST_CASE("a_button_that_bounces_changes_at_each_sample") {
 
 TEST_CASE("a_dead_mans_switch_is_pressed_until_it_is_released") {
   Hand hand(with_fault("deadman", "0.05"));
-  CHECK_EQ(hand.plug.info().has_deadman, 1);
+  CHECK_EQ(hand.plugin.info().has_deadman, 1);
   for (int ms = 1; ms <= 200; ++ms) {
     const bool held = (hand.tick().flags & MVS_DRIVER_FLAG_HELD) != 0;
     CHECK_EQ(held, ms < 100 || ms >= 150);
@@ -98,11 +98,11 @@ TEST_CASE("an_unplugged_device_is_lost_until_it_returns") {
   Hand hand(with_fault("unplug", "0.05"));
   for (int ms = 1; ms <= 200; ++ms) {
     mvs_driver_state state;
-    const int32_t code = hand.plug.read(hand.now += 1000000, state);
+    const int32_t code = hand.plugin.read(hand.now += 1000000, state);
     const bool gone = ms >= 100 && ms < 150;
     CHECK_EQ(code, gone ? MVS_DRIVER_E_LOST : MVS_DRIVER_OK);
-    CHECK_EQ(hand.plug.write(0, 0, 0), gone ? MVS_DRIVER_E_LOST : MVS_DRIVER_OK);
-    if (gone) CHECK(contains(hand.plug.error(), "unplugged"));
+    CHECK_EQ(hand.plugin.write(0, 0, 0), gone ? MVS_DRIVER_E_LOST : MVS_DRIVER_OK);
+    if (gone) CHECK(contains(hand.plugin.error(), "unplugged"));
   }
 }
 
@@ -120,16 +120,16 @@ TEST_CASE("a_device_that_cannot_be_opened_reports_why") {
   const std::map<std::string, int32_t> codes = {{"absent", MVS_DRIVER_E_ABSENT},
                                                 {"licence", MVS_DRIVER_E_LICENCE}};
   for (const auto &[fault, code] : codes) {
-    Plug plug("hand", {{"fault", fault}});
-    CHECK_EQ(plug.open(), code);
-    CHECK(contains(plug.error(), fault));
-    CHECK_EQ(plug.list().empty(), fault == "absent");
+    Plugin plugin("hand", {{"fault", fault}});
+    CHECK_EQ(plugin.open(), code);
+    CHECK(contains(plugin.error(), fault));
+    CHECK_EQ(plugin.list().empty(), fault == "absent");
   }
-  Plug plug("hand", {{"fault", "uncalibrated"}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-  CHECK_EQ(plug.api.calibrate(plug.device), MVS_DRIVER_E_CALIBRATION);
-  CHECK(contains(plug.error(), "into its holder"));
-  Plug other("hand");
+  Plugin plugin("hand", {{"fault", "uncalibrated"}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+  CHECK_EQ(plugin.api.calibrate(plugin.device), MVS_DRIVER_E_CALIBRATION);
+  CHECK(contains(plugin.error(), "into its holder"));
+  Plugin other("hand");
   CHECK_EQ(other.open("foot"), MVS_DRIVER_E_ABSENT);
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("the_devices_have_the_limits_of_the_published_tables") {
   for (const auto &row : table) {
     CAPTURE(row.name);
     Hand hand(Options{{"device", row.name}});
-    const mvs_driver_info info = hand.plug.info();
+    const mvs_driver_info info = hand.plugin.info();
     CHECK_EQ(info.peak_force, row.force);
     CHECK_EQ(info.max_stiffness, row.stiffness);
     CHECK_LE(info.continuous_force, info.peak_force);
@@ -153,9 +153,9 @@ TEST_CASE("the_devices_have_the_limits_of_the_published_tables") {
     CHECK(contains(info.model, "(simulated)"));
   }
   Hand other(Options{{"device", "falcon"}, {"force", "2"}, {"stiffness", "50"}, {"rate", "333"}});
-  CHECK_EQ(other.plug.info().peak_force, 2);
-  CHECK_EQ(other.plug.info().max_stiffness, 50);
-  CHECK_EQ(other.plug.info().rate, 333);
+  CHECK_EQ(other.plugin.info().peak_force, 2);
+  CHECK_EQ(other.plugin.info().max_stiffness, 50);
+  CHECK_EQ(other.plugin.info().rate, 333);
 }
 
 TEST_CASE("a_position_is_a_multiple_of_the_encoder_step") {
@@ -187,15 +187,15 @@ TEST_CASE("motors_give_at_most_their_largest_force") {
                         {"device_mass", "0"}, {"device_damping", "0"}, {"delay", "0"},
                         {"resolution", "0"},  {"force", "3"}};
   Hand hand(free);
-  hand.plug.write(30, 40, 0);
+  hand.plugin.write(30, 40, 0);
   hand.after(1000000000);
   // 3 N along (3, 4, 0) / 5 on 1 kg for 1 s
   CHECK(std::abs(hand.state.position[0] - 0.9) < 1e-12);
   CHECK(std::abs(hand.state.position[1] - 1.2) < 1e-12);
   CHECK((hand.state.flags & MVS_DRIVER_FLAG_SATURATED) != 0);
-  hand.plug.write(0, 3, 0);
+  hand.plugin.write(0, 3, 0);
   CHECK_EQ(hand.tick().flags & MVS_DRIVER_FLAG_SATURATED, 0);
-  hand.plug.write(0, 3.001, 0);
+  hand.plugin.write(0, 3.001, 0);
   CHECK_NE(hand.tick().flags & MVS_DRIVER_FLAG_SATURATED, 0);
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("motors_switched_off_by_the_device_have_no_effect") {
   for (const std::string fault : {"hot", "button"}) {
     Hand hand(ideal({{"fault", fault}, {"fault_for", "0.01"}}));
     for (int ms = 1; ms <= 20; ++ms) {
-      hand.plug.write(1, 0, 0);
+      hand.plugin.write(1, 0, 0);
       CHECK_EQ(hand.tick().position[0] == 0, ms <= 10);
     }
   }
@@ -212,8 +212,8 @@ TEST_CASE("motors_switched_off_by_the_device_have_no_effect") {
 TEST_CASE("a_force_with_nan_has_no_effect_and_is_reported") {
   Hand hand(ideal({}));
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
-    CHECK_EQ(hand.plug.write(0, bad, 0), MVS_DRIVER_E_FAULT);
-    CHECK(contains(hand.plug.error(), "not finite"));
+    CHECK_EQ(hand.plugin.write(0, bad, 0), MVS_DRIVER_E_FAULT);
+    CHECK(contains(hand.plugin.error(), "not finite"));
     CHECK_EQ(hand.tick().position[1], 0);
     CHECK_EQ(hand.state.flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
   }
@@ -250,12 +250,12 @@ TEST_CASE("invalid_options_of_the_hand_are_refused") {
       {{"fault_for", "1"}},
   };
   for (const Options &options : bad) {
-    Plug plug("hand", options);
+    Plugin plugin("hand", options);
     CAPTURE(options.begin()->first);
-    CHECK_EQ(plug.open(), MVS_DRIVER_E_OPTION);
-    CHECK_EQ(plug.device, nullptr);
-    INFO(plug.error());
-    CHECK(contains(plug.error(), options.begin()->first));
-    CHECK_EQ(plug.doctor().at(0).verdict, 0);
+    CHECK_EQ(plugin.open(), MVS_DRIVER_E_OPTION);
+    CHECK_EQ(plugin.device, nullptr);
+    INFO(plugin.error());
+    CHECK(contains(plugin.error(), options.begin()->first));
+    CHECK_EQ(plugin.doctor().at(0).verdict, 0);
   }
 }

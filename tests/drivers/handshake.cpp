@@ -4,7 +4,7 @@
 #include <set>
 #include <thread>
 
-#include "plug.h"
+#include "plugin.h"
 
 namespace {
 
@@ -73,20 +73,20 @@ TEST_CASE("a_driver_reports_the_size_it_filled_to_a_newer_host") {
 TEST_CASE("a_driver_writes_at_most_the_size_of_its_host") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
-    Plug plug(name, options_of(name));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    Plugin plugin(name, options_of(name));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
     mvs_driver_info info;
     std::memset(&info, 0x5a, sizeof info);
     info.struct_size = offsetof(mvs_driver_info, peak_force);
-    REQUIRE_EQ(plug.api.info(plug.device, &info), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.info(plugin.device, &info), MVS_DRIVER_OK);
     CHECK_EQ(info.struct_size, offsetof(mvs_driver_info, peak_force));
     CHECK_LT(info.workspace_min[0], info.workspace_max[0]);
     CHECK_EQ(info.model[0], 0x5a);
     mvs_driver_state state;
     std::memset(&state, 0x5a, sizeof state);
     state.struct_size = offsetof(mvs_driver_state, orientation);
-    REQUIRE_EQ(plug.api.read(plug.device, 1, &state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.read(plugin.device, 1, &state), MVS_DRIVER_OK);
     CHECK_EQ(state.sequence, 1);
     CHECK_EQ(state.cause, 0x5a5a5a5au);
     // a force of which only `on` was filled is zero; memory behind it is not read
@@ -94,21 +94,21 @@ TEST_CASE("a_driver_writes_at_most_the_size_of_its_host") {
     std::memset(&force, 0xff, sizeof force);
     force.struct_size = offsetof(mvs_driver_force, force);
     force.on = 1;
-    CHECK_EQ(plug.api.write(plug.device, &force), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.api.write(plugin.device, &force), MVS_DRIVER_OK);
   }
 }
 
 TEST_CASE("the_sample_is_constant_while_the_clock_stands") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
-    Plug plug(name, options_of(name));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    Plugin plugin(name, options_of(name));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
     mvs_driver_state first, again, earlier, later;
-    CHECK_EQ(plug.read(1000000, first), MVS_DRIVER_OK);
-    CHECK_EQ(plug.read(1000000, again), MVS_DRIVER_OK);
-    CHECK_EQ(plug.read(500000, earlier), MVS_DRIVER_OK);
-    CHECK_EQ(plug.read(2000000, later), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.read(1000000, first), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.read(1000000, again), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.read(500000, earlier), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.read(2000000, later), MVS_DRIVER_OK);
     CHECK_EQ(first.time_ns, 1000000);
     CHECK_EQ(again.sequence, first.sequence);
     CHECK_EQ(earlier.sequence, first.sequence);
@@ -125,7 +125,7 @@ TEST_CASE("a_driver_lists_the_options_that_it_reads") {
   };
   for (const std::string name : kDrivers) {
     CAPTURE(name);
-    Plug plug(name);
+    Plugin plugin(name);
     Asked asked = {options_of(name), {}};
     mvs_driver_host host = {};
     host.struct_size = sizeof host;
@@ -137,14 +137,14 @@ TEST_CASE("a_driver_lists_the_options_that_it_reads") {
       const auto found = all.given.find(key);
       return found == all.given.end() ? nullptr : found->second.c_str();
     };
-    REQUIRE_EQ(plug.api.open(&host, nullptr, &plug.device), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.open(&host, nullptr, &plugin.device), MVS_DRIVER_OK);
     std::set<std::string> listed;
-    for (const char *const *o = plug.api.options; o && *o; ++o)
+    for (const char *const *o = plugin.api.options; o && *o; ++o)
       listed.insert(std::string(*o).substr(0, std::string(*o).find(':')));
     if (name == "hand") {  // read only where a fault, a file, or neither is given
       asked.given = {{"fault", "jump"}};
-      plug.close();
-      REQUIRE_EQ(plug.api.open(&host, nullptr, &plug.device), MVS_DRIVER_OK);
+      plugin.close();
+      REQUIRE_EQ(plugin.api.open(&host, nullptr, &plugin.device), MVS_DRIVER_OK);
     }
     CHECK_EQ(asked.keys, listed);
   }
@@ -153,25 +153,25 @@ TEST_CASE("a_driver_lists_the_options_that_it_reads") {
 TEST_CASE("forces_are_on_between_start_and_stop_only") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
-    Plug plug(name, options_of(name));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+    Plugin plugin(name, options_of(name));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
     uint64_t now = 0;
     const auto on = [&] {
       mvs_driver_state state;
-      CHECK_EQ(plug.write(0, 1, 0), MVS_DRIVER_OK);
-      CHECK_EQ(plug.read(now += 1000000, state), MVS_DRIVER_OK);
+      CHECK_EQ(plugin.write(0, 1, 0), MVS_DRIVER_OK);
+      CHECK_EQ(plugin.read(now += 1000000, state), MVS_DRIVER_OK);
       return (state.flags & MVS_DRIVER_FLAG_FORCE_ON) != 0;
     };
     CHECK_FALSE(on());
-    CHECK_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
     CHECK(on());
-    std::thread([&] { CHECK_EQ(plug.api.stop(plug.device), MVS_DRIVER_OK); }).join();
+    std::thread([&] { CHECK_EQ(plugin.api.stop(plugin.device), MVS_DRIVER_OK); }).join();
     CHECK_FALSE(on());
-    CHECK_EQ(plug.api.stop(plug.device), MVS_DRIVER_OK);
-    CHECK_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.api.stop(plugin.device), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
     CHECK(on());
-    if (!plug.api.panic) continue;
-    plug.api.panic(plug.device);
+    if (!plugin.api.panic) continue;
+    plugin.api.panic(plugin.device);
     CHECK_FALSE(on());
   }
 }
@@ -179,19 +179,19 @@ TEST_CASE("forces_are_on_between_start_and_stop_only") {
 TEST_CASE("stop_may_be_called_while_the_device_is_read") {
   for (const std::string name : kDrivers) {
     CAPTURE(name);
-    Plug plug(name, options_of(name));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+    Plugin plugin(name, options_of(name));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
     std::thread other([&] {
-      for (int n = 0; n < 100; ++n) plug.api.stop(plug.device);
+      for (int n = 0; n < 100; ++n) plugin.api.stop(plugin.device);
     });
     mvs_driver_state state;
     for (uint64_t n = 1; n <= 1000; ++n) {
-      CHECK_EQ(plug.read(n * 1000000, state), MVS_DRIVER_OK);
-      CHECK_EQ(plug.write(0, 0, 1), MVS_DRIVER_OK);
+      CHECK_EQ(plugin.read(n * 1000000, state), MVS_DRIVER_OK);
+      CHECK_EQ(plugin.write(0, 0, 1), MVS_DRIVER_OK);
     }
     other.join();
-    CHECK_EQ(plug.read(2000000000, state), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.read(2000000000, state), MVS_DRIVER_OK);
     CHECK_EQ(state.flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
   }
 }

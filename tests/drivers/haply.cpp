@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "plug.h"
+#include "plugin.h"
 #include "random.h"
 
 namespace {
@@ -28,10 +28,10 @@ constexpr char kZero[] = R"({"x":0,"y":0,"z":0})";
 
 TEST_CASE("haply: a state is read, on the clock of the host") {
   HaplyService service(steady);
-  Plug plug("haply", options(service));
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("haply", options(service));
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   mvs_driver_state state;
-  REQUIRE_EQ(plug.read(uint64_t{1} << 60, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(uint64_t{1} << 60, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[0], 0.03125);
   CHECK_EQ(state.position[1], -0.12);
   CHECK_EQ(state.velocity[2], -0.25);
@@ -43,14 +43,14 @@ TEST_CASE("haply: a state is read, on the clock of the host") {
   CHECK(state.time_ns + 2000000000 > uint64_t{1} << 60);
   const uint64_t sequence = state.sequence;
   CHECK(eventually(
-      [&] { return plug.read(0, state) == MVS_DRIVER_OK && state.sequence > sequence + 5; }));
+      [&] { return plugin.read(0, state) == MVS_DRIVER_OK && state.sequence > sequence + 5; }));
 }
 
 TEST_CASE("haply: the device description") {
   HaplyService service(steady);
-  Plug plug("haply", options(service));
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-  const mvs_driver_info told = plug.info();
+  Plugin plugin("haply", options(service));
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+  const mvs_driver_info told = plugin.info();
   CHECK_EQ(told.freedoms_in, 6);
   CHECK_EQ(told.freedoms_out, 3);
   CHECK_EQ(told.buttons, 3);
@@ -61,7 +61,7 @@ TEST_CASE("haply: the device description") {
   // up is Haply's z, towards the user is minus its y
   CHECK_EQ(told.frame[6], 1);
   CHECK_EQ(told.frame[9], -1);
-  CHECK_EQ(plug.list(), std::vector<std::string>{"049D"});
+  CHECK_EQ(plugin.list(), std::vector<std::string>{"049D"});
   const std::string hello = service.texts().at(0);
   CHECK(has(hello, R"("preset":{"preset":"arm_front_centered"})"));
   CHECK(has(hello, R"("profile":{"name":"libmvs"})"));
@@ -76,10 +76,10 @@ TEST_CASE("haply: the field of a force has the name of the service's version") {
         Case{"3.10.0.0", "vector"}, Case{"4.0.0.0", "vector"}}) {
     CAPTURE(one.version);
     HaplyService service(steady, one.version);
-    Plug plug("haply", options(service));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.write(1.5, -0.25, 1e-7), MVS_DRIVER_OK);
+    Plugin plugin("haply", options(service));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.write(1.5, -0.25, 1e-7), MVS_DRIVER_OK);
     const bool vector = std::string(one.field) == "vector";
     const std::string wanted = std::string(R"({"inverse3":[{"device_id":"049D","commands":)") +
                                R"({"set_cursor_force":{")" + one.field +
@@ -87,14 +87,14 @@ TEST_CASE("haply: the field of a force has the name of the service's version") {
                                (vector ? R"(,"execute":true)" : "") + "}}}]}";
     CHECK(eventually([&] { return service.last() == wanted; }));
     CHECK_EQ(has(service.texts().at(0), "profile"), vector);
-    CHECK_EQ(plug.info().workspace_max[0] > 0, vector);
+    CHECK_EQ(plugin.info().workspace_max[0] > 0, vector);
   }
 }
 
 TEST_CASE("haply: no force before start, after stop, when off, at panic, at the end") {
   HaplyService service(steady);
-  Plug plug("haply", options(service));
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("haply", options(service));
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   const auto zero_again = [&] {
     const size_t before = service.texts().size();
     return eventually([&] {
@@ -104,36 +104,36 @@ TEST_CASE("haply: no force before start, after stop, when off, at panic, at the 
   };
   const auto pushed = [&] { return eventually([&] { return has(service.last(), "\"x\":2,"); }); };
   mvs_driver_state state;
-  REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(zero_again());
-  REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
   CHECK(zero_again());  // earlier messages do not count
-  REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(pushed());
   CHECK(eventually([&] {
-    return plug.read(0, state) == MVS_DRIVER_OK && (state.flags & MVS_DRIVER_FLAG_FORCE_ON);
+    return plugin.read(0, state) == MVS_DRIVER_OK && (state.flags & MVS_DRIVER_FLAG_FORCE_ON);
   }));
-  REQUIRE_EQ(plug.write(2, 0, 0, false), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.write(2, 0, 0, false), MVS_DRIVER_OK);
   CHECK(zero_again());
-  REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(pushed());
-  std::thread other([&] { plug.api.stop(plug.device); });
+  std::thread other([&] { plugin.api.stop(plugin.device); });
   other.join();
-  CHECK_EQ(plug.api.stop(plug.device), MVS_DRIVER_OK);
+  CHECK_EQ(plugin.api.stop(plugin.device), MVS_DRIVER_OK);
   CHECK(zero_again());
-  REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-  REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(pushed());
-  CHECK_EQ(plug.write(2, NAN, 0), MVS_DRIVER_E_INTERNAL);
+  CHECK_EQ(plugin.write(2, NAN, 0), MVS_DRIVER_E_INTERNAL);
   CHECK(zero_again());
-  REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(pushed());
-  plug.api.panic(plug.device);
+  plugin.api.panic(plugin.device);
   CHECK(zero_again());
-  REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-  REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.write(2, 0, 0), MVS_DRIVER_OK);
   CHECK(pushed());
-  plug.close();
+  plugin.close();
   CHECK(eventually([&] { return service.closed_with() == "\x03\xe8"; }));
   CHECK(has(service.last(), kZero));
 }
@@ -145,16 +145,16 @@ TEST_CASE("haply: stop and panic reach a service that is slow to answer") {
   for (const bool panic : {false, true}) {
     CAPTURE(panic);
     silent = false;
-    Plug plug("haply", options(service, {{"patience", "1000"}}));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.write(2, 0, 0), MVS_DRIVER_OK);
+    Plugin plugin("haply", options(service, {{"patience", "1000"}}));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.write(2, 0, 0), MVS_DRIVER_OK);
     CHECK(eventually([&] { return has(service.last(), "\"x\":2,"); }));
     silent = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const size_t before = service.texts().size();
-    if (panic) plug.api.panic(plug.device);
-    if (!panic) plug.api.stop(plug.device);
+    if (panic) plugin.api.panic(plugin.device);
+    if (!panic) plugin.api.stop(plugin.device);
     // the thread writes its own zero, and panic wrote one before
     CHECK(eventually([&] { return service.texts().size() > before + (panic ? 1 : 0); }));
     CHECK(has(service.texts().at(before), kZero));
@@ -171,17 +171,17 @@ TEST_CASE("haply: a service that is silent, gone or says goodbye is lost, after 
       if (n < 20) return ws_frame(haply_state(0));
       return how == "goodbye" ? ws_frame("\x03\xe9", 0x88) : std::string();
     });
-    Plug plug("haply", options(service, {{"patience", "60"}}));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-    plug.write(2, 0, 0);
+    Plugin plugin("haply", options(service, {{"patience", "60"}}));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+    plugin.write(2, 0, 0);
     if (how == "gone") service.stop();
-    CHECK(eventually([&] { return plug.read(0, state) == MVS_DRIVER_E_LOST; }));
-    CHECK(eventually([&] { return plug.write(2, 0, 0) == MVS_DRIVER_E_LOST; }));
-    CHECK(!plug.error().empty());
-    CHECK_EQ(plug.api.start(plug.device), MVS_DRIVER_E_LOST);
+    CHECK(eventually([&] { return plugin.read(0, state) == MVS_DRIVER_E_LOST; }));
+    CHECK(eventually([&] { return plugin.write(2, 0, 0) == MVS_DRIVER_E_LOST; }));
+    CHECK(!plugin.error().empty());
+    CHECK_EQ(plugin.api.start(plugin.device), MVS_DRIVER_E_LOST);
     if (how == "silent") CHECK(eventually([&] { return has(service.last(), kZero); }));
-    if (how == "goodbye") CHECK(has(plug.error(), "closed the connection"));
+    if (how == "goodbye") CHECK(has(plugin.error(), "closed the connection"));
   }
 }
 
@@ -193,18 +193,18 @@ TEST_CASE("haply: an unplugged device is lost; an unplugged grip releases its bu
     if (scene == 1) return ws_frame(no_grip);
     return ws_frame(scene == 0 ? haply_state(0) : R"({"inverse3":[],"session_id":7})");
   });
-  Plug plug("haply", options(service, {{"patience", "200"}}));
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("haply", options(service, {{"patience", "200"}}));
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   mvs_driver_state state;
-  REQUIRE_EQ(plug.read(0, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(0, state), MVS_DRIVER_OK);
   CHECK_EQ(state.buttons, 5);
   scene = 1;
-  CHECK(eventually([&] { return plug.read(0, state) == MVS_DRIVER_OK && state.buttons == 0; }));
+  CHECK(eventually([&] { return plugin.read(0, state) == MVS_DRIVER_OK && state.buttons == 0; }));
   CHECK_EQ(state.orientation[0], 0.8);  // the last one received
   CHECK((state.flags & MVS_DRIVER_FLAG_CALIBRATED) != 0);
   CHECK((state.flags & MVS_DRIVER_FLAG_VELOCITY) == 0);
   scene = 2;
-  CHECK(eventually([&] { return plug.read(0, state) == MVS_DRIVER_E_LOST; }));
+  CHECK(eventually([&] { return plugin.read(0, state) == MVS_DRIVER_E_LOST; }));
 }
 
 TEST_CASE("haply: an uncalibrated device reports it") {
@@ -214,24 +214,24 @@ TEST_CASE("haply: an uncalibrated device reports it") {
   };
   HaplyService service([&](int, const std::string &) { return ws_frame(without(haply_state(0))); },
                        "3.5.0.0", without(haply_inventory()));
-  Plug plug("haply", options(service));
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("haply", options(service));
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   mvs_driver_state state;
-  REQUIRE_EQ(plug.read(0, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(0, state), MVS_DRIVER_OK);
   CHECK((state.flags & MVS_DRIVER_FLAG_CALIBRATED) == 0);
-  CHECK_EQ(plug.api.calibrate(plug.device), MVS_DRIVER_E_CALIBRATION);
-  CHECK(has(plug.error(), "rest"));
+  CHECK_EQ(plugin.api.calibrate(plugin.device), MVS_DRIVER_E_CALIBRATION);
+  CHECK(has(plugin.error(), "rest"));
   int faults = 0;
-  for (const auto &finding : plug.doctor()) faults += finding.verdict == 0;
+  for (const auto &finding : plugin.doctor()) faults += finding.verdict == 0;
   CHECK_EQ(faults, 1);
 }
 
 TEST_CASE("haply: missing services and devices, and invalid options") {
   HaplyService service(steady);
   const auto opened = [&](std::map<std::string, std::string> more, const char *name = nullptr) {
-    Plug plug("haply", options(service, std::move(more)));
-    const int32_t result = plug.open(name);
-    CHECK_EQ(result != MVS_DRIVER_OK, plug.device == nullptr);
+    Plugin plugin("haply", options(service, std::move(more)));
+    const int32_t result = plugin.open(name);
+    CHECK_EQ(result != MVS_DRIVER_OK, plugin.device == nullptr);
     return result;
   };
   CHECK_EQ(opened({}, "049D"), MVS_DRIVER_OK);
@@ -244,13 +244,13 @@ TEST_CASE("haply: missing services and devices, and invalid options") {
   CHECK_EQ(opened({{"version", "new"}}), MVS_DRIVER_E_OPTION);
   CHECK_EQ(opened({{"version", "3.0"}}), MVS_DRIVER_E_UNSUPPORTED);
   CHECK_EQ(opened({{"host", "no such host"}}), MVS_DRIVER_E_OPTION);
-  Plug nobody("haply", {{"port", "1"}});
+  Plugin nobody("haply", {{"port", "1"}});
   CHECK_EQ(nobody.open(), MVS_DRIVER_E_LIBRARY);
   CHECK(has(nobody.error(), "haply-inverse-service"));
   CHECK(nobody.list().empty());
   CHECK_EQ(nobody.doctor().at(0).verdict, 0);
   const HaplyService empty(steady, "3.5.0.0", R"({"inverse3":[],"session_id":1})");
-  Plug none("haply", options(empty));
+  Plugin none("haply", options(empty));
   CHECK_EQ(none.open(), MVS_DRIVER_E_ABSENT);
   CHECK(none.list().empty());
 }
@@ -275,9 +275,9 @@ TEST_CASE("haply: a version in another notation, or no version") {
     CAPTURE(one.answer);
     HaplyService service(steady);
     service.http = one.answer;
-    Plug plug("haply", options(service));
-    CHECK_EQ(plug.open(), one.result);
-    Plug told("haply", options(service, {{"version", "3.5"}}));
+    Plugin plugin("haply", options(service));
+    CHECK_EQ(plugin.open(), one.result);
+    Plugin told("haply", options(service, {{"version", "3.5"}}));
     CHECK_EQ(told.open(), MVS_DRIVER_OK);
   }
 }
@@ -293,10 +293,10 @@ TEST_CASE("haply: pings, messages in pieces and long ones") {
                                ws_frame(padded), ws_frame("", 0x8a) + ws_frame(text)};
   for (const std::string &one : bytes) {
     HaplyService service([&](int, const std::string &) { return one; });
-    Plug plug("haply", options(service));
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+    Plugin plugin("haply", options(service));
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
     mvs_driver_state state;
-    REQUIRE_EQ(plug.read(0, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(0, state), MVS_DRIVER_OK);
     CHECK_EQ(state.position[0], 0.25);
     if (&one == bytes) CHECK(eventually([&] { return service.pong() == "are you there?"; }));
   }
@@ -306,16 +306,16 @@ TEST_CASE("haply: pings, messages in pieces and long ones") {
 // bytes may be no answer at all; a fault is detected at once if it is read in time, with sanitizers
 // too.
 int32_t answered(const HaplyService &service, const char *patience = "2000") {
-  Plug plug("haply",
-            options(service, {{"version", "3.5"}, {"patience", patience}, {"rate", "50"}}));
-  const int32_t result = plug.open();
+  Plugin plugin("haply",
+                options(service, {{"version", "3.5"}, {"patience", patience}, {"rate", "50"}}));
+  const int32_t result = plugin.open();
   if (result != MVS_DRIVER_OK) {
     CHECK((result == MVS_DRIVER_E_FAULT || result == MVS_DRIVER_E_LOST));
-    CHECK(plug.error().size() > 20);
+    CHECK(plugin.error().size() > 20);
     return result;
   }
   mvs_driver_state state = {};
-  if (plug.read(0, state) != MVS_DRIVER_OK) return MVS_DRIVER_E_LOST;
+  if (plugin.read(0, state) != MVS_DRIVER_OK) return MVS_DRIVER_E_LOST;
   for (int i = 0; i < 3; ++i) CHECK(std::isfinite(state.position[i] + state.velocity[i]));
   for (const double part : state.orientation) CHECK(std::abs(part) <= 1);
   return result;
@@ -393,30 +393,30 @@ TEST_CASE("haply: an inventory that is cut or changed anywhere never crashes") {
     for (uint32_t k = i % 2 ? 0 : random() % 4 + 1; k > 0; --k)
       text[random() % text.size()] = static_cast<char>(random());
     const HaplyService service(steady, "3.5.0.0", text);
-    Plug plug("haply", options(service, {{"version", "3.5"}}));
-    if (plug.open() != MVS_DRIVER_OK) CHECK(plug.error().size() > 20);
-    plug.list();
-    CHECK(!plug.doctor().empty());
+    Plugin plugin("haply", options(service, {{"version", "3.5"}}));
+    if (plugin.open() != MVS_DRIVER_OK) CHECK(plugin.error().size() > 20);
+    plugin.list();
+    CHECK(!plugin.doctor().empty());
   }
 }
 
 TEST_CASE("haply: a host at full rate while others call stop") {
   HaplyService service(steady);
-  Plug plug("haply", options(service, {{"rate", "4000"}}));
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("haply", options(service, {{"rate", "4000"}}));
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   std::atomic<bool> done{false};
   std::thread other([&] {
     while (!done) {
-      plug.api.stop(plug.device);
-      plug.api.panic(plug.device);
+      plugin.api.stop(plugin.device);
+      plugin.api.panic(plugin.device);
       std::this_thread::sleep_for(std::chrono::milliseconds(3));
     }
   });
   mvs_driver_state state;
   for (uint64_t i = 0; i < 300; ++i) {
-    if (i % 20 == 0) CHECK_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-    CHECK_EQ(plug.read(i * 1000000, state), MVS_DRIVER_OK);
-    CHECK_EQ(plug.write(0.001 * static_cast<double>(i), 0, 0), MVS_DRIVER_OK);
+    if (i % 20 == 0) CHECK_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.read(i * 1000000, state), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.write(0.001 * static_cast<double>(i), 0, 0), MVS_DRIVER_OK);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   done = true;

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "../../haptic_drivers/haply/accept.h"
-#include "plug.h"
+#include "plugin.h"
 
 // A frame of a server, which is not masked.
 inline std::string ws_frame(const std::string &text, unsigned first = 0x81) {

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "openhaptics/stand_in.h"
-#include "plug.h"
+#include "plugin.h"
 
 namespace {
 
@@ -30,7 +30,7 @@ HdStandIn &stand_in() {
 // A driver on a stand-in without faults; a test adds its own.
 struct Bench {
   HdStandIn &in = stand_in();
-  Plug plug{"phantom", {{"library", kLibrary}}};
+  Plugin plugin{"phantom", {{"library", kLibrary}}};
 
   Bench() {
     in.period_ns = 20000;
@@ -47,12 +47,12 @@ struct Bench {
   }
   ~Bench() {
     in.hang = 0;
-    plug.close();
+    plugin.close();
     CHECK_MESSAGE(in.misuses == 0, in.misuse.load());
   }
   void start() {
-    REQUIRE_MESSAGE(plug.open() == MVS_DRIVER_OK, plug.error());
-    REQUIRE_MESSAGE(plug.api.start(plug.device) == MVS_DRIVER_OK, plug.error());
+    REQUIRE_MESSAGE(plugin.open() == MVS_DRIVER_OK, plugin.error());
+    REQUIRE_MESSAGE(plugin.api.start(plugin.device) == MVS_DRIVER_OK, plugin.error());
   }
   bool was_zero(int device, long frame) const {
     for (const double one : in.forces[device][frame % HdStandIn::kKept])
@@ -78,7 +78,7 @@ struct Hand {
     std::memset(force->force, 0, sizeof force->force);
     return MVS_DRIVER_STOP;
   }
-  int32_t run(Plug &plug) { return plug.api.run(plug.device, servo, this); }
+  int32_t run(Plugin &plugin) { return plugin.api.run(plugin.device, servo, this); }
 };
 
 bool has(const std::string &sentence, const char *word) {
@@ -102,25 +102,25 @@ TEST_CASE("phantom_accepts_its_own_version_only") {
 }
 
 TEST_CASE("phantom_names_the_missing_library") {
-  Plug none("phantom", {{"library", "/nowhere/libHD.so"}});
+  Plugin none("phantom", {{"library", "/nowhere/libHD.so"}});
   CHECK(none.open() == MVS_DRIVER_E_LIBRARY);
   CHECK(has(none.error(), "install the vendor's OpenHaptics"));
   const std::string needy_library = MVS_STAND_INS_DIR "/openhaptics/libHD_needy.so";
-  Plug needy("phantom", {{"library", needy_library}});
+  Plugin needy("phantom", {{"library", needy_library}});
   CHECK(needy.open() == MVS_DRIVER_E_LIBRARY);
   CHECK_MESSAGE(has(needy.error(), "apt-get install libncurses5"), needy.error());
   std::string said;
   for (const auto &one : needy.doctor()) said += one.check + ": " + one.sentence + "\n";
   CHECK_MESSAGE(has(said, "library libHD.so: "), said);
   CHECK_MESSAGE(has(said, "library libPhantomIOLib42.so: "), said);
-  Plug relative("phantom", {{"library", "libHD.so"}});
+  Plugin relative("phantom", {{"library", "libHD.so"}});
   CHECK(relative.open() == MVS_DRIVER_E_OPTION);
 }
 
 TEST_CASE("phantom_describes_the_device") {
   Bench bench;
-  REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
-  const mvs_driver_info info = bench.plug.info();
+  REQUIRE(bench.plugin.open() == MVS_DRIVER_OK);
+  const mvs_driver_info info = bench.plugin.info();
   CHECK(std::string(info.model) == "Stand-in Touch");
   CHECK(std::string(info.serial) == "STAND-IN-1");
   CHECK(info.freedoms_in == 6);
@@ -134,7 +134,7 @@ TEST_CASE("phantom_describes_the_device") {
   CHECK(info.workspace_max[2] == doctest::Approx(0.035));
   CHECK(info.rate == 1000);
   CHECK(bench.in.enabled[0] == (2 | 4 | 8));  // its protections, not its motors
-  CHECK(bench.plug.list() == std::vector<std::string>{"Default Device"});
+  CHECK(bench.plugin.list() == std::vector<std::string>{"Default Device"});
 }
 
 TEST_CASE("phantom_samples_are_in_metres_and_rotate_with_the_stylus") {
@@ -143,7 +143,7 @@ TEST_CASE("phantom_samples_are_in_metres_and_rotate_with_the_stylus") {
   bench.in.parked = 1;
   bench.start();
   Hand hand{600};
-  REQUIRE(hand.run(bench.plug) == MVS_DRIVER_OK);
+  REQUIRE(hand.run(bench.plugin) == MVS_DRIVER_OK);
   REQUIRE(hand.seen.size() == 600);
   const mvs_driver_state &quarter = hand.seen[250];  // of the circle
   CHECK(quarter.sequence == 251);
@@ -169,7 +169,7 @@ TEST_CASE("phantom_force_reaches_the_motors_and_the_last_one_is_zero") {
   bench.in.freedoms_out = 6;
   bench.start();
   Hand hand{300};
-  REQUIRE(hand.run(bench.plug) == MVS_DRIVER_OK);
+  REQUIRE(hand.run(bench.plugin) == MVS_DRIVER_OK);
   REQUIRE(bench.in.frames[0] == 300);
   for (int frame = 0; frame < 299; ++frame) {
     const double *const given = bench.in.forces[0][frame];
@@ -181,7 +181,7 @@ TEST_CASE("phantom_force_reaches_the_motors_and_the_last_one_is_zero") {
   }
   CHECK(bench.in.forces[0][299][0] == 0);
   CHECK_MESSAGE((bench.in.enabled[0] & 1) == 0, "forces are still enabled");
-  CHECK(bench.plug.info().peak_torque == doctest::Approx(0.188));
+  CHECK(bench.plugin.info().peak_torque == doctest::Approx(0.188));
 }
 
 TEST_CASE("phantom_motors_stay_off_on_request") {
@@ -189,7 +189,7 @@ TEST_CASE("phantom_motors_stay_off_on_request") {
   bench.start();
   Hand hand{50};
   hand.force.on = 0;
-  REQUIRE(hand.run(bench.plug) == MVS_DRIVER_OK);
+  REQUIRE(hand.run(bench.plugin) == MVS_DRIVER_OK);
   for (int frame = 0; frame < 50; ++frame) CHECK(bench.was_zero(0, frame));
 }
 
@@ -198,14 +198,14 @@ TEST_CASE("phantom_an_unplugged_device_is_lost_and_later_absent") {
   bench.in.unplug_at = 700;
   bench.start();
   Hand hand{100000};
-  CHECK(hand.run(bench.plug) == MVS_DRIVER_E_LOST);
+  CHECK(hand.run(bench.plugin) == MVS_DRIVER_E_LOST);
   CHECK(hand.seen.size() == 700);
-  CHECK_MESSAGE(has(bench.plug.error(), "HD_COMM_ERROR"), bench.plug.error());
+  CHECK_MESSAGE(has(bench.plugin.error(), "HD_COMM_ERROR"), bench.plugin.error());
   CHECK(bench.was_zero(0, 700));
-  CHECK(hand.run(bench.plug) != MVS_DRIVER_OK);
-  bench.plug.close();
-  CHECK(bench.plug.open() == MVS_DRIVER_E_ABSENT);
-  CHECK_MESSAGE(has(bench.plug.error(), "USB"), bench.plug.error());
+  CHECK(hand.run(bench.plugin) != MVS_DRIVER_OK);
+  bench.plugin.close();
+  CHECK(bench.plugin.open() == MVS_DRIVER_E_ABSENT);
+  CHECK_MESSAGE(has(bench.plugin.error(), "USB"), bench.plugin.error());
 }
 
 TEST_CASE("phantom_nan_reaches_the_servo_and_never_the_motors") {
@@ -214,7 +214,7 @@ TEST_CASE("phantom_nan_reaches_the_servo_and_never_the_motors") {
   bench.start();
   Hand hand{100};
   hand.force.force[1] = std::nan("");
-  REQUIRE(hand.run(bench.plug) == MVS_DRIVER_OK);
+  REQUIRE(hand.run(bench.plugin) == MVS_DRIVER_OK);
   CHECK(std::isnan(hand.seen[50].position[0]));
   CHECK(std::isfinite(hand.seen[51].position[0]));
   for (int frame = 0; frame < 100; ++frame) CHECK(bench.was_zero(0, frame));
@@ -224,23 +224,23 @@ TEST_CASE("phantom_stop_ends_the_loop_from_the_servo_and_from_elsewhere") {
   Bench bench;
   bench.start();
   Hand within{200};
-  within.stop = bench.plug.device;
-  within.api = &bench.plug.api;
-  CHECK(within.run(bench.plug) == MVS_DRIVER_OK);
+  within.stop = bench.plugin.device;
+  within.api = &bench.plugin.api;
+  CHECK(within.run(bench.plugin) == MVS_DRIVER_OK);
   CHECK(within.seen.size() == 200);
   CHECK_MESSAGE(bench.was_zero(0, 200), "the tick after stop()");
-  CHECK(within.run(bench.plug) == MVS_DRIVER_OK);  // still stopped
+  CHECK(within.run(bench.plugin) == MVS_DRIVER_OK);  // still stopped
   CHECK(within.seen.size() == 200);
 
-  REQUIRE(bench.plug.api.start(bench.plug.device) == MVS_DRIVER_OK);
+  REQUIRE(bench.plugin.api.start(bench.plugin.device) == MVS_DRIVER_OK);
   bench.in.frames[0] = 0;
   Hand hand{100000000};
   std::thread other([&] {
     while (bench.in.frames[0] < 100) std::this_thread::yield();
-    bench.plug.api.stop(bench.plug.device);
-    bench.plug.api.stop(bench.plug.device);
+    bench.plugin.api.stop(bench.plugin.device);
+    bench.plugin.api.stop(bench.plugin.device);
   });
-  CHECK(hand.run(bench.plug) == MVS_DRIVER_OK);
+  CHECK(hand.run(bench.plugin) == MVS_DRIVER_OK);
   other.join();
   CHECK(bench.was_zero(0, bench.in.frames[0] - 1));
 }
@@ -249,12 +249,12 @@ TEST_CASE("phantom_close_from_the_servo_waits_for_the_loop") {
   Bench bench;
   bench.start();
   const auto servo = [](void *user, const mvs_driver_state *state, mvs_driver_force *) -> int32_t {
-    auto &plug = *static_cast<Plug *>(user);
-    if (state->sequence == 10) plug.api.close(plug.device);
+    auto &plugin = *static_cast<Plugin *>(user);
+    if (state->sequence == 10) plugin.api.close(plugin.device);
     return MVS_DRIVER_OK;
   };
-  CHECK(bench.plug.api.run(bench.plug.device, servo, &bench.plug) == MVS_DRIVER_OK);
-  bench.plug.device = nullptr;
+  CHECK(bench.plugin.api.run(bench.plugin.device, servo, &bench.plugin) == MVS_DRIVER_OK);
+  bench.plugin.device = nullptr;
   CHECK(bench.in.open[0] == 0);
 }
 
@@ -263,16 +263,16 @@ TEST_CASE("phantom_silence_of_the_scheduler_is_a_loss_and_nothing_hangs") {
   bench.in.silent_at = 300;
   bench.start();
   Hand hand{100000};
-  CHECK(hand.run(bench.plug) == MVS_DRIVER_E_LOST);
+  CHECK(hand.run(bench.plugin) == MVS_DRIVER_E_LOST);
   CHECK(hand.seen.size() == 300);
-  CHECK_MESSAGE(has(bench.plug.error(), "has not called for 100 ms"), bench.plug.error());
+  CHECK_MESSAGE(has(bench.plugin.error(), "has not called for 100 ms"), bench.plugin.error());
   bench.in.hang = 1;
-  bench.plug.close();
-  CHECK(bench.plug.open() == MVS_DRIVER_E_FAULT);
-  CHECK_MESSAGE(has(bench.plug.error(), "start this program again"), bench.plug.error());
+  bench.plugin.close();
+  CHECK(bench.plugin.open() == MVS_DRIVER_E_FAULT);
+  CHECK_MESSAGE(has(bench.plugin.error(), "start this program again"), bench.plugin.error());
   bench.in.hang = 0;  // it returns, so that the test can end
-  while (bench.plug.open() == MVS_DRIVER_E_FAULT) std::this_thread::yield();
-  CHECK(bench.plug.device != nullptr);
+  while (bench.plugin.open() == MVS_DRIVER_E_FAULT) std::this_thread::yield();
+  CHECK(bench.plugin.device != nullptr);
 }
 
 TEST_CASE("phantom_warnings_take_the_force_off_for_a_while") {
@@ -289,7 +289,7 @@ TEST_CASE("phantom_warnings_take_the_force_off_for_a_while") {
     bench.in.fail_code = one.code;
     bench.start();
     Hand hand{1300};
-    REQUIRE(hand.run(bench.plug) == MVS_DRIVER_OK);
+    REQUIRE(hand.run(bench.plugin) == MVS_DRIVER_OK);
     CHECK(!bench.was_zero(0, 199));
     CHECK(hand.seen[200].cause == one.cause);
     CHECK((hand.seen[200].flags & one.flag) == one.flag);
@@ -306,7 +306,7 @@ TEST_CASE("phantom_warm_motors_are_reported_before_they_are_too_warm") {
   bench.in.temperature = 95;
   bench.start();
   Hand hand{10};
-  REQUIRE(hand.run(bench.plug) == MVS_DRIVER_OK);
+  REQUIRE(hand.run(bench.plugin) == MVS_DRIVER_OK);
   CHECK((hand.seen[5].flags & MVS_DRIVER_FLAG_WARM) != 0);
   CHECK(hand.seen[5].cause == MVS_CAUSE_NONE);
   CHECK(!bench.was_zero(0, 5));
@@ -326,29 +326,29 @@ TEST_CASE("phantom_open_reports_its_reason_of_failure") {
     Bench bench;
     bench.in.init_code = one.code;
     bench.in.init_times = 100;
-    CHECK(bench.plug.open() == one.result);
-    CHECK_MESSAGE(has(bench.plug.error(), one.word), bench.plug.error());
+    CHECK(bench.plugin.open() == one.result);
+    CHECK_MESSAGE(has(bench.plugin.error(), one.word), bench.plugin.error());
     std::string said;
-    for (const auto &finding : bench.plug.doctor())
+    for (const auto &finding : bench.plugin.doctor())
       if (finding.verdict != 1) said += finding.sentence + "\n";
     CHECK_MESSAGE(has(said, one.word), said);
   }
   Bench bench;
-  CHECK(bench.plug.open("Phantom7") == MVS_DRIVER_E_ABSENT);
-  CHECK_MESSAGE(has(bench.plug.error(), "Phantom7"), bench.plug.error());
+  CHECK(bench.plugin.open("Phantom7") == MVS_DRIVER_E_ABSENT);
+  CHECK_MESSAGE(has(bench.plugin.error(), "Phantom7"), bench.plugin.error());
 }
 
 TEST_CASE("phantom_opens_a_device_that_a_crashed_program_left_open") {
   Bench bench;
   bench.in.init_code = 0x301;
   bench.in.init_times = 3;
-  CHECK_MESSAGE(bench.plug.open() == MVS_DRIVER_OK, bench.plug.error());
+  CHECK_MESSAGE(bench.plugin.open() == MVS_DRIVER_OK, bench.plugin.error());
 }
 
 TEST_CASE("phantom_opens_a_device_once") {
   Bench bench;
-  REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
-  Plug other("phantom", {{"library", kLibrary}});
+  REQUIRE(bench.plugin.open() == MVS_DRIVER_OK);
+  Plugin other("phantom", {{"library", kLibrary}});
   CHECK(other.open("Default Device") == MVS_DRIVER_E_BUSY);
   CHECK(other.open() == MVS_DRIVER_E_BUSY);
   CHECK_MESSAGE(bench.in.open[0] == 1, "it switched off a device that is open here");
@@ -358,14 +358,14 @@ TEST_CASE("phantom_calibrates_where_no_hand_is_needed_and_reports_where_one_is")
   Bench bench;
   bench.in.calibration = 0x5001;
   bench.start();
-  bench.plug.close();
+  bench.plugin.close();
   bench.in.calibration = 0x5002;
   bench.in.style = 4;
-  REQUIRE(bench.plug.open() == MVS_DRIVER_OK);
-  CHECK(bench.plug.api.calibrate(bench.plug.device) == MVS_DRIVER_E_CALIBRATION);
-  CHECK_MESSAGE(has(bench.plug.error(), "inkwell"), bench.plug.error());
-  CHECK(bench.plug.api.start(bench.plug.device) == MVS_DRIVER_E_CALIBRATION);
-  CHECK(Hand().run(bench.plug) == MVS_DRIVER_E_INTERNAL);
+  REQUIRE(bench.plugin.open() == MVS_DRIVER_OK);
+  CHECK(bench.plugin.api.calibrate(bench.plugin.device) == MVS_DRIVER_E_CALIBRATION);
+  CHECK_MESSAGE(has(bench.plugin.error(), "inkwell"), bench.plugin.error());
+  CHECK(bench.plugin.api.start(bench.plugin.device) == MVS_DRIVER_E_CALIBRATION);
+  CHECK(Hand().run(bench.plugin) == MVS_DRIVER_E_INTERNAL);
 }
 
 // The library has one stack of errors: the callback that runs first may pop those of the other
@@ -374,7 +374,7 @@ TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_be_lost") {
   for (const long found_by : {1, 0}) {
     CAPTURE(found_by);
     Bench bench;
-    Plug second("phantom", {{"library", kLibrary}});
+    Plugin second("phantom", {{"library", kLibrary}});
     REQUIRE(second.open("Phantom2") == MVS_DRIVER_OK);
     REQUIRE(second.api.start(second.device) == MVS_DRIVER_OK);
     bench.start();
@@ -387,7 +387,7 @@ TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_be_lost") {
     int32_t lost = 0;
     std::thread other([&] { lost = left.run(second); });
     while (bench.in.frames[1] == 0) std::this_thread::yield();
-    CHECK(right.run(bench.plug) == MVS_DRIVER_OK);
+    CHECK(right.run(bench.plugin) == MVS_DRIVER_OK);
     other.join();
     CHECK(lost == MVS_DRIVER_E_LOST);
     CHECK(right.seen.size() == 2000);
@@ -401,13 +401,13 @@ TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_be_lost") {
 TEST_CASE("phantom_refuses_to_open_while_a_device_runs") {
   Bench bench;
   bench.start();
-  Plug late("phantom", {{"library", kLibrary}});
+  Plugin late("phantom", {{"library", kLibrary}});
   Hand hand{100000000};
-  std::thread other([&] { hand.run(bench.plug); });
+  std::thread other([&] { hand.run(bench.plugin); });
   while (bench.in.frames[0] < 10) std::this_thread::yield();
   CHECK(late.open("Phantom2") == MVS_DRIVER_E_BUSY);
   CHECK_MESSAGE(has(late.error(), "before the first one runs"), late.error());
-  bench.plug.api.stop(bench.plug.device);
+  bench.plugin.api.stop(bench.plugin.device);
   other.join();
 }
 
@@ -417,24 +417,24 @@ TEST_CASE("phantom_panic_writes_zero_from_the_servo_and_from_other_threads") {
   const auto servo = [](void *user, const mvs_driver_state *, mvs_driver_force *force) -> int32_t {
     *force = Hand().force;
     HdStandIn &in = stand_in();
-    auto &plug = *static_cast<Plug *>(user);
+    auto &plugin = *static_cast<Plugin *>(user);
     if (in.frames[0] != 20) return in.frames[0] < 40 ? MVS_DRIVER_OK : MVS_DRIVER_STOP;
-    plug.api.panic(plug.device);
+    plugin.api.panic(plugin.device);
     CHECK(in.frames[0] == 21);  // the frame ended at that moment
     return MVS_DRIVER_OK;
   };
-  CHECK(bench.plug.api.run(bench.plug.device, servo, &bench.plug) == MVS_DRIVER_OK);
+  CHECK(bench.plugin.api.run(bench.plugin.device, servo, &bench.plugin) == MVS_DRIVER_OK);
   CHECK(!bench.was_zero(0, 19));
   for (int frame = 20; frame < bench.in.frames[0]; ++frame) CHECK(bench.was_zero(0, frame));
   bench.in.misuses = 0;  // the frame that panic() ended is ended again by the servo's return
 
   bench.in.frames[0] = 0;
   Hand hand{100000000};
-  std::thread other([&] { hand.run(bench.plug); });
+  std::thread other([&] { hand.run(bench.plugin); });
   while (bench.in.frames[0] < 20) std::this_thread::yield();
-  bench.plug.api.panic(bench.plug.device);
+  bench.plugin.api.panic(bench.plugin.device);
   const long frame = bench.in.frames[0];
-  bench.plug.api.stop(bench.plug.device);
+  bench.plugin.api.stop(bench.plugin.device);
   other.join();
   CHECK(!bench.was_zero(0, 10));
   CHECK(bench.was_zero(0, frame - 1));
@@ -453,12 +453,12 @@ TEST_CASE("phantom_reads_its_files_under_a_decimal_comma") {
     Bench bench;
     bench.start();
     Hand hand{10};
-    CHECK(hand.run(bench.plug) == MVS_DRIVER_OK);
+    CHECK(hand.run(bench.plugin) == MVS_DRIVER_OK);
     CHECK(hand.seen[0].position[0] == doctest::Approx(0.03));
     CHECK(std::string(std::setlocale(LC_NUMERIC, nullptr)) == "de_DE.UTF-8");
-    bench.plug.close();
+    bench.plugin.close();
     bool told = false;
-    for (const auto &one : bench.plug.doctor()) told |= has(one.sentence, "decimal comma");
+    for (const auto &one : bench.plugin.doctor()) told |= has(one.sentence, "decimal comma");
     CHECK(told);
   }
   std::setlocale(LC_ALL, "C");
@@ -476,19 +476,19 @@ TEST_CASE("phantom_doctor_checks_the_usb_bus") {
   std::ofstream(usb / "product") << "Touch\n";
   std::ofstream(root / "dev/hidraw3") << "";
   fs::permissions(root / "dev/hidraw3", fs::perms::none);
-  Plug plug("phantom", {{"library", kLibrary}, {"sysroot", root.string()}});
+  Plugin plugin("phantom", {{"library", kLibrary}, {"sysroot", root.string()}});
   Bench bench;
   std::string said;
-  for (const auto &one : plug.doctor())
+  for (const auto &one : plugin.doctor())
     if (one.check == "USB") said += std::to_string(one.verdict) + " " + one.sentence;
   CHECK_MESSAGE(has(said, "Touch (2988:0304)"), said);
   bench.in.init_code = 0x302;
   bench.in.init_times = 100;
-  const int32_t code = plug.open();
+  const int32_t code = plugin.open();
   if (geteuid() != 0) {
     CHECK_MESSAGE(has(said, "udev"), said);
     CHECK(code == MVS_DRIVER_E_PERMISSION);
-    CHECK_MESSAGE(has(plug.error(), "/dev/hidraw3"), plug.error());
+    CHECK_MESSAGE(has(plugin.error(), "/dev/hidraw3"), plugin.error());
   } else {
     CHECK(code == MVS_DRIVER_E_ABSENT);
   }

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "plug.h"
+#include "plugin.h"
 
 namespace {
 
@@ -50,9 +50,9 @@ const char *const kRecording =
 const char *const kFolder = MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/";
 const double kRootHalf = std::sqrt(0.5);
 
-mvs_driver_state at(Plug &plug, double seconds) {
+mvs_driver_state at(Plugin &plugin, double seconds) {
   mvs_driver_state state;
-  REQUIRE_EQ(plug.read(static_cast<uint64_t>(std::llround(seconds * 1e9)), state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(static_cast<uint64_t>(std::llround(seconds * 1e9)), state), MVS_DRIVER_OK);
   return state;
 }
 
@@ -61,12 +61,12 @@ std::string refusal(const Scratch &file, const std::string &text, const Options 
   file.put(text);
   Options options = more;
   options["file"] = file.path();
-  Plug plug("replay", options);
-  const int32_t code = plug.open();
+  Plugin plugin("replay", options);
+  const int32_t code = plugin.open();
   if (code == MVS_DRIVER_OK) return "";
   CHECK_EQ(code, MVS_DRIVER_E_OPTION);
-  CHECK_EQ(plug.device, nullptr);
-  return plug.error();
+  CHECK_EQ(plugin.device, nullptr);
+  return plugin.error();
 }
 
 bool contains(const std::string &text, const std::string &part) {
@@ -77,15 +77,15 @@ bool contains(const std::string &text, const std::string &part) {
 
 TEST_CASE("a_recording_is_interpolated_linearly_between_its_samples") {
   const Scratch file(kRecording);
-  Plug plug("replay", {{"file", file.path()}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-  CHECK_EQ(at(plug, 1).position[0], 0.01);  // before start() it waits at its beginning
-  REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
-  CHECK_EQ(at(plug, 100).position[0], 0.01);  // and begins with the first read after it
+  Plugin plugin("replay", {{"file", file.path()}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+  CHECK_EQ(at(plugin, 1).position[0], 0.01);  // before start() it waits at its beginning
+  REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+  CHECK_EQ(at(plugin, 100).position[0], 0.01);  // and begins with the first read after it
 
   // the clock counts nanoseconds, and 5.01 - 5 is rounded
   const double tolerance = 1e-9;
-  const mvs_driver_state early = at(plug, 100.005);
+  const mvs_driver_state early = at(plugin, 100.005);
   CHECK(std::abs(early.position[0] - 0.015) < tolerance);
   CHECK(std::abs(early.velocity[0] - 1) < tolerance);
   CHECK((early.flags & MVS_DRIVER_FLAG_VELOCITY) != 0);
@@ -95,18 +95,18 @@ TEST_CASE("a_recording_is_interpolated_linearly_between_its_samples") {
   CHECK(std::abs(std::abs(early.orientation[0]) - std::cos(std::atan(1) / 2)) < tolerance);
   CHECK(std::abs(early.orientation[0] * early.orientation[3] - kRootHalf / 2) < tolerance);
 
-  const mvs_driver_state middle = at(plug, 100.03);
+  const mvs_driver_state middle = at(plugin, 100.03);
   CHECK_EQ(middle.position[0], 0.02);
   CHECK(std::abs(middle.position[1] - 0.02) < tolerance);
   CHECK(std::abs(middle.velocity[1] - 1) < tolerance);
   CHECK_EQ(middle.buttons, 1);
   CHECK(std::abs(std::abs(middle.orientation[3]) - kRootHalf) < tolerance);
-  CHECK(std::abs(at(plug, 100.075).velocity[2] - 1) < tolerance);
+  CHECK(std::abs(at(plugin, 100.075).velocity[2] - 1) < tolerance);
 }
 
 TEST_CASE("a_recording_plays_the_same_at_any_rate") {
   const std::string file = std::string(kFolder) + "grasp_a2.txt";
-  Plug fast("replay", {{"file", file}}), slow("replay", {{"file", file}});
+  Plugin fast("replay", {{"file", file}}), slow("replay", {{"file", file}});
   REQUIRE_EQ(fast.open(), MVS_DRIVER_OK);
   REQUIRE_EQ(slow.open(), MVS_DRIVER_OK);
   fast.api.start(fast.device);
@@ -122,23 +122,23 @@ TEST_CASE("a_recording_plays_the_same_at_any_rate") {
 
 TEST_CASE("a_recording_stays_loops_or_stops_at_its_end") {
   const Scratch file(kRecording);
-  const auto begun = [&](Plug &plug) {
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    plug.api.start(plug.device);
-    at(plug, 1);
+  const auto begun = [&](Plugin &plugin) {
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    plugin.api.start(plugin.device);
+    at(plugin, 1);
   };
-  Plug stay("replay", {{"file", file.path()}});
+  Plugin stay("replay", {{"file", file.path()}});
   begun(stay);
   CHECK_EQ(at(stay, 2).position[2], 0.03);
   CHECK_EQ(at(stay, 2.1).velocity[2], 0);
   const uint64_t before = at(stay, 2.2).sequence;
   CHECK_GT(at(stay, 2.3).sequence, before);  // it is at rest, not lost
 
-  Plug loop("replay", {{"file", file.path()}, {"end", "loop"}});
+  Plugin loop("replay", {{"file", file.path()}, {"end", "loop"}});
   begun(loop);
   CHECK(std::abs(at(loop, 1 + 7 * 0.1 + 0.005).position[0] - 0.015) < 1e-9);
 
-  Plug stop("replay", {{"file", file.path()}, {"end", "stop"}});
+  Plugin stop("replay", {{"file", file.path()}, {"end", "stop"}});
   begun(stop);
   at(stop, 1.099);
   mvs_driver_state state;
@@ -151,19 +151,19 @@ TEST_CASE("a_recording_stays_loops_or_stops_at_its_end") {
 
 TEST_CASE("a_recording_plays_faster_on_request") {
   const Scratch file(kRecording);
-  Plug plug("replay", {{"file", file.path()}, {"speed", "2"}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-  plug.api.start(plug.device);
-  at(plug, 1);
-  CHECK(std::abs(at(plug, 1.015).position[1] - 0.02) < 1e-9);
-  CHECK(std::abs(at(plug, 1.016).velocity[1] - 2) < 1e-9);
+  Plugin plugin("replay", {{"file", file.path()}, {"speed", "2"}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+  plugin.api.start(plugin.device);
+  at(plugin, 1);
+  CHECK(std::abs(at(plugin, 1.015).position[1] - 0.02) < 1e-9);
+  CHECK(std::abs(at(plugin, 1.016).velocity[1] - 2) < 1e-9);
 }
 
 TEST_CASE("a_recording_describes_its_device") {
   const Scratch file(kRecording);
-  Plug plug("replay", {{"file", file.path()}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-  const mvs_driver_info info = plug.info();
+  Plugin plugin("replay", {{"file", file.path()}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+  const mvs_driver_info info = plugin.info();
   CHECK_EQ(std::string(info.model), "Test stylus");
   CHECK_EQ(info.peak_force, 3.5);
   CHECK_EQ(info.max_stiffness, 0);  // unknown
@@ -176,7 +176,8 @@ TEST_CASE("a_recording_describes_its_device") {
   CHECK_EQ(info.workspace_min[2], -0.05);
   CHECK_EQ(info.workspace_max[2], 0.05);
 
-  Plug told("replay", {{"file", file.path()}, {"force", "0"}, {"device", "Mouse"}, {"rate", "60"}});
+  Plugin told("replay",
+              {{"file", file.path()}, {"force", "0"}, {"device", "Mouse"}, {"rate", "60"}});
   REQUIRE_EQ(told.open(), MVS_DRIVER_OK);
   CHECK_EQ(told.info().freedoms_out, 0);
   CHECK_EQ(told.info().rate, 60);
@@ -185,15 +186,15 @@ TEST_CASE("a_recording_describes_its_device") {
 
 TEST_CASE("a_force_beyond_the_device_saturates_and_an_invalid_one_is_refused") {
   const Scratch file(kRecording);
-  Plug plug("replay", {{"file", file.path()}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-  plug.api.start(plug.device);
-  CHECK_EQ(plug.write(0, 3.5, 0), MVS_DRIVER_OK);
-  CHECK_EQ(at(plug, 1).flags & MVS_DRIVER_FLAG_SATURATED, 0);
-  CHECK_EQ(plug.write(0, 3.6, 0), MVS_DRIVER_OK);
-  CHECK((at(plug, 2).flags & MVS_DRIVER_FLAG_SATURATED) != 0);
-  CHECK_EQ(plug.write(0, std::nan(""), 0), MVS_DRIVER_E_FAULT);
-  CHECK_EQ(at(plug, 3).flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
+  Plugin plugin("replay", {{"file", file.path()}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+  plugin.api.start(plugin.device);
+  CHECK_EQ(plugin.write(0, 3.5, 0), MVS_DRIVER_OK);
+  CHECK_EQ(at(plugin, 1).flags & MVS_DRIVER_FLAG_SATURATED, 0);
+  CHECK_EQ(plugin.write(0, 3.6, 0), MVS_DRIVER_OK);
+  CHECK((at(plugin, 2).flags & MVS_DRIVER_FLAG_SATURATED) != 0);
+  CHECK_EQ(plugin.write(0, std::nan(""), 0), MVS_DRIVER_E_FAULT);
+  CHECK_EQ(at(plugin, 3).flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
 }
 
 TEST_CASE("an_invalid_recording_is_refused_with_its_line") {
@@ -260,11 +261,11 @@ TEST_CASE("a_recording_is_read_in_any_locale") {
   const char *const comma = setlocale(LC_ALL, "de_DE.UTF-8") ? "de_DE.UTF-8" : nullptr;
   if (!comma) MESSAGE("skipped: this machine has no locale de_DE.UTF-8");
   const Scratch file(kRecording);
-  Plug plug("replay", {{"file", file.path()}, {"speed", "1.5"}});
-  const int32_t code = plug.open();
+  Plugin plugin("replay", {{"file", file.path()}, {"speed", "1.5"}});
+  const int32_t code = plugin.open();
   setlocale(LC_ALL, "C");
   REQUIRE_EQ(code, MVS_DRIVER_OK);
-  CHECK_EQ(at(plug, 1).position[0], 0.01);
+  CHECK_EQ(at(plugin, 1).position[0], 0.01);
 }
 
 TEST_CASE("a_recording_cut_off_at_any_byte_is_refused_or_shorter") {
@@ -289,11 +290,11 @@ TEST_CASE("a_recording_with_any_byte_changed_is_refused_or_finite") {
       std::string text = whole;
       text[k] = other;
       file.put(text);
-      Plug plug("replay", {{"file", file.path()}});
-      if (plug.open() != MVS_DRIVER_OK) continue;
-      plug.api.start(plug.device);
+      Plugin plugin("replay", {{"file", file.path()}});
+      if (plugin.open() != MVS_DRIVER_OK) continue;
+      plugin.api.start(plugin.device);
       for (int ms = 0; ms < 120; ms += 11) {
-        const mvs_driver_state state = at(plug, 1 + ms * 1e-3);
+        const mvs_driver_state state = at(plugin, 1 + ms * 1e-3);
         double sum = state.gripper;
         for (int i = 0; i < 3; ++i) sum += state.position[i] + state.velocity[i];
         for (int i = 0; i < 4; ++i) sum += state.orientation[i];
@@ -309,22 +310,22 @@ TEST_CASE("paths_that_are_not_files_are_refused_at_once") {
   for (const std::string &path :
        {pipe.path(), std::string("/dev/zero"), std::string("/"), std::string("/no/such/file")}) {
     CAPTURE(path);
-    Plug plug("replay", {{"file", path}});
-    CHECK_EQ(plug.open(), MVS_DRIVER_E_OPTION);
-    CHECK(contains(plug.error(), path));
-    CHECK_EQ(plug.doctor().at(0).verdict, 0);
-    CHECK(plug.list().empty());
+    Plugin plugin("replay", {{"file", path}});
+    CHECK_EQ(plugin.open(), MVS_DRIVER_E_OPTION);
+    CHECK(contains(plugin.error(), path));
+    CHECK_EQ(plugin.doctor().at(0).verdict, 0);
+    CHECK(plugin.list().empty());
   }
 }
 
 TEST_CASE("opening_without_a_file_is_refused") {
-  Plug plug("replay");
-  CHECK(plug.list().empty());
-  CHECK_EQ(plug.doctor().at(0).verdict, -1);
-  CHECK_EQ(plug.open(), MVS_DRIVER_E_OPTION);
-  CHECK(contains(plug.error(), "file=RECORDING"));
+  Plugin plugin("replay");
+  CHECK(plugin.list().empty());
+  CHECK_EQ(plugin.doctor().at(0).verdict, -1);
+  CHECK_EQ(plugin.open(), MVS_DRIVER_E_OPTION);
+  CHECK(contains(plugin.error(), "file=RECORDING"));
   const Scratch file(kRecording);
-  CHECK_EQ(plug.open(file.path().c_str()), MVS_DRIVER_OK);
+  CHECK_EQ(plugin.open(file.path().c_str()), MVS_DRIVER_OK);
 }
 
 TEST_CASE("invalid_options_of_a_recording_are_refused") {
@@ -342,14 +343,14 @@ TEST_CASE("invalid_options_of_a_recording_are_refused") {
 TEST_CASE("the_shipped_recordings_are_of_a_hand_on_a_desk") {
   for (const std::string name : {"grasp_a2.txt", "push_p2.txt", "circle.txt"}) {
     CAPTURE(name);
-    Plug plug("replay", {{"file", kFolder + name}, {"end", "loop"}});
-    for (const auto &finding : plug.doctor()) CHECK_EQ(finding.verdict, 1);  // it may loop
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    plug.api.start(plug.device);
+    Plugin plugin("replay", {{"file", kFolder + name}, {"end", "loop"}});
+    for (const auto &finding : plugin.doctor()) CHECK_EQ(finding.verdict, 1);  // it may loop
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    plugin.api.start(plugin.device);
     uint32_t pressed = 0;
     double least = 1, most = -1;
     for (int ms = 0; ms < 15000; ms += 5) {
-      const mvs_driver_state state = at(plug, 1 + ms * 1e-3);
+      const mvs_driver_state state = at(plugin, 1 + ms * 1e-3);
       pressed |= state.buttons;
       least = std::min(least, state.position[1]);
       most = std::max(most, state.position[1]);
@@ -365,8 +366,8 @@ TEST_CASE("the_shipped_recordings_are_of_a_hand_on_a_desk") {
 
 TEST_CASE("a_loop_with_a_jump_causes_a_warning") {
   const Scratch file(kRecording);
-  Plug plug("replay", {{"file", file.path()}, {"end", "loop"}});
-  const auto findings = plug.doctor();
+  Plugin plugin("replay", {{"file", file.path()}, {"end", "loop"}});
+  const auto findings = plugin.doctor();
   REQUIRE_EQ(findings.size(), 2);
   CHECK_EQ(findings[0].verdict, 1);
   CHECK_EQ(findings[1].verdict, -1);
@@ -374,7 +375,7 @@ TEST_CASE("a_loop_with_a_jump_causes_a_warning") {
 
 TEST_CASE("two_recordings_play_side_by_side") {
   const Scratch file(kRecording);
-  Plug one("replay", {{"file", file.path()}}), two("replay", {{"file", file.path()}});
+  Plugin one("replay", {{"file", file.path()}}), two("replay", {{"file", file.path()}});
   REQUIRE_EQ(one.open(), MVS_DRIVER_OK);
   REQUIRE_EQ(two.open(), MVS_DRIVER_OK);
   one.api.start(one.device);

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <thread>
 
-#include "plug.h"
+#include "plugin.h"
 #include "random.h"
 
 namespace {
@@ -118,20 +118,20 @@ void check_finite(const mvs_driver_state &state) {
 
 TEST_CASE("spacenav: a deflection is a speed, inside a box") {
   FakeDaemon daemon;
-  Plug plug("spacenav", {{"socket", daemon.path()}, {"speed", "0.1"}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-  const mvs_driver_info told = plug.info();
+  Plugin plugin("spacenav", {{"socket", daemon.path()}, {"speed", "0.1"}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+  const mvs_driver_info told = plugin.info();
   CHECK_EQ(told.freedoms_in, 6);
   CHECK_EQ(told.freedoms_out, 0);
   CHECK_EQ(told.buttons, 15);
   CHECK_EQ(std::string(told.model), "3Dconnexion SpaceMouse Pro Wireless");
   mvs_driver_state state;
-  REQUIRE_EQ(plug.read(1000 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(1000 * kMs, state), MVS_DRIVER_OK);
   // full to the right and half away from the user
   daemon.motion({350, 0, 175, 0, 0, 0});
-  REQUIRE_EQ(plug.read(1000 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(1000 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[0], 0);
-  REQUIRE_EQ(plug.read(1010 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(1010 * kMs, state), MVS_DRIVER_OK);
   CHECK(state.position[0] == doctest::Approx(0.001));
   CHECK(state.position[2] == doctest::Approx(-0.0005));
   CHECK(state.velocity[0] == doctest::Approx(0.1));
@@ -139,70 +139,70 @@ TEST_CASE("spacenav: a deflection is a speed, inside a box") {
   // it stops at the wall, and when the puck is released
   const uint64_t sequence = state.sequence;
   for (uint64_t i = 0; i < 100; ++i)
-    REQUIRE_EQ(plug.read((1020 + 10 * i) * kMs, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read((1020 + 10 * i) * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.sequence, sequence + 100);
-  REQUIRE_EQ(plug.read(2010 * kMs, state), MVS_DRIVER_OK);  // the clock stands
+  REQUIRE_EQ(plugin.read(2010 * kMs, state), MVS_DRIVER_OK);  // the clock stands
   CHECK_EQ(state.sequence, sequence + 100);
   CHECK_EQ(state.position[0], 0.05);
   CHECK_EQ(state.velocity[0], 0);
   daemon.motion({});
-  REQUIRE_EQ(plug.read(3000 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(3000 * kMs, state), MVS_DRIVER_OK);
   const double there = state.position[2];
-  REQUIRE_EQ(plug.read(3010 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(3010 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[2], there);
   // calibration moves it back
-  REQUIRE_EQ(plug.api.calibrate(plug.device), MVS_DRIVER_OK);
-  REQUIRE_EQ(plug.read(3020 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.api.calibrate(plugin.device), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(3020 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[0], 0);
-  CHECK_EQ(plug.write(1, 0, 0), MVS_DRIVER_OK);
+  CHECK_EQ(plugin.write(1, 0, 0), MVS_DRIVER_OK);
 }
 
 TEST_CASE("spacenav: a pause, and a clock that jumps back, cause no large motion") {
   FakeDaemon daemon;
-  Plug plug("spacenav", {{"socket", daemon.path()}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("spacenav", {{"socket", daemon.path()}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   mvs_driver_state state;
-  REQUIRE_EQ(plug.read(5000 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(5000 * kMs, state), MVS_DRIVER_OK);
   daemon.motion({350, 0, 0, 0, 0, 0});
-  REQUIRE_EQ(plug.read(5000 * kMs, state), MVS_DRIVER_OK);
-  REQUIRE_EQ(plug.read(9000 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(5000 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(9000 * kMs, state), MVS_DRIVER_OK);
   CHECK(state.position[0] == doctest::Approx(0.05 * 0.05));  // one longest step of 50 ms
   const double before = state.position[0];
-  REQUIRE_EQ(plug.read(100 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(100 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[0], before);
 }
 
 TEST_CASE("spacenav: buttons, and a mouse that is unplugged") {
   FakeDaemon daemon;
-  Plug plug("spacenav", {{"socket", daemon.path()}});
-  REQUIRE_EQ(plug.open("spacenav"), MVS_DRIVER_OK);
+  Plugin plugin("spacenav", {{"socket", daemon.path()}});
+  REQUIRE_EQ(plugin.open("spacenav"), MVS_DRIVER_OK);
   mvs_driver_state state;
   daemon.send({1, 0});
   daemon.send({1, 3});
   daemon.send({1, 40});  // more buttons than the mask holds
   daemon.send({1, -1});
-  REQUIRE_EQ(plug.read(1 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(1 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.buttons, 9);
   daemon.send({2, 0});
-  REQUIRE_EQ(plug.read(2 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(2 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.buttons, 8);
   daemon.send({3, 1, 0});
-  CHECK_EQ(plug.read(3 * kMs, state), MVS_DRIVER_E_LOST);
-  CHECK(plug.error().find("unplugged") != std::string::npos);
+  CHECK_EQ(plugin.read(3 * kMs, state), MVS_DRIVER_E_LOST);
+  CHECK(plugin.error().find("unplugged") != std::string::npos);
   daemon.send({3, 0, 0});
-  REQUIRE_EQ(plug.read(4 * kMs, state), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.read(4 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.buttons, 0);
 }
 
 TEST_CASE("spacenav: packets in pieces, and packets of nonsense") {
   FakeDaemon daemon;
-  Plug plug("spacenav", {{"socket", daemon.path()}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("spacenav", {{"socket", daemon.path()}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   mvs_driver_state state;
   const Packet press = {1, 2};
   for (size_t i = 0; i < sizeof press; ++i) {
     daemon.send(reinterpret_cast<const char *>(press.data()) + i, 1);
-    REQUIRE_EQ(plug.read(i * kMs, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(i * kMs, state), MVS_DRIVER_OK);
     CHECK_EQ(state.buttons, i + 1 < sizeof press ? 0 : 4);
   }
   Random random{1};
@@ -212,7 +212,7 @@ TEST_CASE("spacenav: packets in pieces, and packets of nonsense") {
     packet[0] = static_cast<int32_t>(random() % 9) - 1;
     if (packet[0] == 3) packet[1] = 0;
     daemon.send(packet);
-    REQUIRE_EQ(plug.read((100 + i) * kMs, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read((100 + i) * kMs, state), MVS_DRIVER_OK);
     check_finite(state);
   }
 }
@@ -221,51 +221,51 @@ TEST_CASE("spacenav: the daemon ends, is old, has no mouse, does not run") {
   mvs_driver_state state;
   {
     FakeDaemon daemon;
-    Plug plug("spacenav", {{"socket", daemon.path()}});
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
-    CHECK_EQ(plug.list(), std::vector<std::string>{"spacenav"});
+    Plugin plugin("spacenav", {{"socket", daemon.path()}});
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
+    CHECK_EQ(plugin.list(), std::vector<std::string>{"spacenav"});
     daemon.stop();
-    CHECK_EQ(plug.read(1, state), MVS_DRIVER_E_LOST);
-    CHECK_EQ(plug.read(2, state), MVS_DRIVER_E_LOST);
-    CHECK(plug.error().find("is gone") != std::string::npos);
+    CHECK_EQ(plugin.read(1, state), MVS_DRIVER_E_LOST);
+    CHECK_EQ(plugin.read(2, state), MVS_DRIVER_E_LOST);
+    CHECK(plugin.error().find("is gone") != std::string::npos);
   }
   {
     FakeDaemon daemon(FakeDaemon::kOld);
-    Plug plug("spacenav", {{"socket", daemon.path()}});
-    REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+    Plugin plugin("spacenav", {{"socket", daemon.path()}});
+    REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
     daemon.motion({0, 350, 0, 0, 0, 0});
-    REQUIRE_EQ(plug.read(1, state), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.read(1 + 10 * kMs, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(1, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(1 + 10 * kMs, state), MVS_DRIVER_OK);
     CHECK(state.position[1] == doctest::Approx(0.0005));
   }
   {
     FakeDaemon daemon(FakeDaemon::kNoMouse);
-    Plug plug("spacenav", {{"socket", daemon.path()}});
-    CHECK_EQ(plug.open(), MVS_DRIVER_E_ABSENT);
-    CHECK(plug.list().empty());
-    const auto found = plug.doctor();
+    Plugin plugin("spacenav", {{"socket", daemon.path()}});
+    CHECK_EQ(plugin.open(), MVS_DRIVER_E_ABSENT);
+    CHECK(plugin.list().empty());
+    const auto found = plugin.doctor();
     REQUIRE_EQ(found.size(), 2);
     CHECK_EQ(found[0].verdict, 1);
     CHECK_EQ(found[1].verdict, 0);
   }
-  Plug plug("spacenav", {{"socket", "/nonexistent/socket"}});
-  CHECK_EQ(plug.open(), MVS_DRIVER_E_LIBRARY);
-  CHECK(plug.error().find("apt-get install spacenavd") != std::string::npos);
-  CHECK(plug.list().empty());
-  CHECK_EQ(plug.doctor().at(0).verdict, 0);
+  Plugin plugin("spacenav", {{"socket", "/nonexistent/socket"}});
+  CHECK_EQ(plugin.open(), MVS_DRIVER_E_LIBRARY);
+  CHECK(plugin.error().find("apt-get install spacenavd") != std::string::npos);
+  CHECK(plugin.list().empty());
+  CHECK_EQ(plugin.doctor().at(0).verdict, 0);
 }
 
 TEST_CASE("spacenav: invalid options are refused") {
   FakeDaemon daemon;
   for (const char *speed : {"", "0", "-1", "nan", "1e9", "0.1x", "0,1"}) {
     CAPTURE(speed);
-    Plug plug("spacenav", {{"socket", daemon.path()}, {"speed", speed}});
-    CHECK_EQ(plug.open(), MVS_DRIVER_E_OPTION);
-    CHECK(plug.error().find("speed") != std::string::npos);
+    Plugin plugin("spacenav", {{"socket", daemon.path()}, {"speed", speed}});
+    CHECK_EQ(plugin.open(), MVS_DRIVER_E_OPTION);
+    CHECK(plugin.error().find("speed") != std::string::npos);
   }
-  Plug other("spacenav", {{"socket", daemon.path()}});
+  Plugin other("spacenav", {{"socket", daemon.path()}});
   CHECK_EQ(other.open("another"), MVS_DRIVER_E_ABSENT);
-  Plug longer("spacenav", {{"socket", std::string(300, 'a')}});
+  Plugin longer("spacenav", {{"socket", std::string(300, 'a')}});
   CHECK_EQ(longer.open(), MVS_DRIVER_E_OPTION);
 }
 
@@ -314,13 +314,13 @@ TEST_CASE("spacenav: the real libspnav reads the same and moves the same way") {
   FakeDaemon daemon;
   setenv("SPNAV_SOCKET", daemon.path().c_str(), 1);
   // 0.001 rad a unit, as spnav_posrot_moveobj has it: 7 rad/s / 350 units over 50 ms
-  Plug plug("spacenav", {{"turn", "7"}});
-  REQUIRE_EQ(plug.open(), MVS_DRIVER_OK);
+  Plugin plugin("spacenav", {{"turn", "7"}});
+  REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   REQUIRE_EQ(real.open(), 0);
   char name[64];
   REQUIRE(real.name(name, sizeof name) > 0);
-  CHECK_EQ(std::string(plug.info().model), name);
-  CHECK_EQ(plug.info().buttons, static_cast<uint32_t>(real.buttons()));
+  CHECK_EQ(std::string(plugin.info().model), name);
+  CHECK_EQ(plugin.info().buttons, static_cast<uint32_t>(real.buttons()));
   Libspnav::Pose pose;
   real.pose_init(&pose);
   mvs_driver_state state;
@@ -329,14 +329,14 @@ TEST_CASE("spacenav: the real libspnav reads the same and moves the same way") {
     std::array<int32_t, 6> axes;
     for (int32_t &axis : axes) axis = static_cast<int32_t>(random() % 701) - 350;
     daemon.motion(axes);
-    REQUIRE_EQ(plug.read(50 * i * kMs, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(50 * i * kMs, state), MVS_DRIVER_OK);
     daemon.motion({});  // the deflection is held for 50 ms
     Libspnav::Event event;
     REQUIRE_EQ(real.poll_event(&event), 1);
     real.pose_move(&pose, &event.motion);
     REQUIRE_EQ(real.poll_event(&event), 1);
-    REQUIRE_EQ(plug.read(50 * (i + 1) * kMs, state), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.read(50 * (i + 1) * kMs, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(50 * (i + 1) * kMs, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(50 * (i + 1) * kMs, state), MVS_DRIVER_OK);
   }
   // libspnav sums 0.001 a unit, the driver 0.05 m/s / 350 units over 50 ms: a 140th; and in float
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,23 +1,23 @@
 // The driver template works unchanged.
-#include "plug.h"
+#include "plugin.h"
 
 TEST_CASE("the_template_is_a_device_at_rest") {
-  Plug plug("template");
-  REQUIRE_EQ(plug.list(), std::vector<std::string>{"desk"});
-  const auto findings = plug.doctor();
+  Plugin plugin("template");
+  REQUIRE_EQ(plugin.list(), std::vector<std::string>{"desk"});
+  const auto findings = plugin.doctor();
   REQUIRE_EQ(findings.size(), 1);
   CHECK_EQ(findings[0].verdict, 1);
-  REQUIRE_EQ(plug.open("desk"), MVS_DRIVER_OK);
-  const mvs_driver_info info = plug.info();
+  REQUIRE_EQ(plugin.open("desk"), MVS_DRIVER_OK);
+  const mvs_driver_info info = plugin.info();
   CHECK_EQ(info.freedoms_in, 3);
   CHECK_EQ(info.freedoms_out, 3);
   CHECK_GT(info.max_stiffness, 0);
   CHECK_LE(info.continuous_force, info.peak_force);
-  REQUIRE_EQ(plug.api.start(plug.device), MVS_DRIVER_OK);
+  REQUIRE_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
   for (uint64_t n = 1; n <= 100; ++n) {
     mvs_driver_state state;
-    REQUIRE_EQ(plug.read(n * 1000000, state), MVS_DRIVER_OK);
-    REQUIRE_EQ(plug.write(0.5, 0, 0), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.read(n * 1000000, state), MVS_DRIVER_OK);
+    REQUIRE_EQ(plugin.write(0.5, 0, 0), MVS_DRIVER_OK);
     CHECK_EQ(state.sequence, n);
     CHECK((state.flags & MVS_DRIVER_FLAG_CALIBRATED) != 0);
     for (int k = 0; k < 3; ++k) {
@@ -29,7 +29,7 @@ TEST_CASE("the_template_is_a_device_at_rest") {
 }
 
 TEST_CASE("the_template_opens_once") {
-  Plug first("template"), second("template");
+  Plugin first("template"), second("template");
   REQUIRE_EQ(first.open(), MVS_DRIVER_OK);
   CHECK_EQ(second.open(), MVS_DRIVER_E_BUSY);
   CHECK_EQ(second.device, nullptr);
@@ -39,7 +39,7 @@ TEST_CASE("the_template_opens_once") {
 }
 
 TEST_CASE("the_template_lists_its_devices") {
-  Plug plug("template");
-  CHECK_EQ(plug.open("attic"), MVS_DRIVER_E_ABSENT);
-  CHECK_EQ(plug.error(), "there is no device \"attic\": try \"desk\"");
+  Plugin plugin("template");
+  CHECK_EQ(plugin.open("attic"), MVS_DRIVER_E_ABSENT);
+  CHECK_EQ(plugin.error(), "there is no device \"attic\": try \"desk\"");
 }

@@ -9,7 +9,7 @@ import threading
 import time
 
 import pytest
-from plug import CALIBRATED, E_LOST, FOLDER, FORCE_ON, OK, VELOCITY, Plug
+from plugin import CALIBRATED, E_LOST, FOLDER, FORCE_ON, OK, VELOCITY, Plugin
 
 server = pytest.importorskip("websockets.sync.server")
 
@@ -133,14 +133,14 @@ def eventually(check):
     return False
 
 
-def plug(service, **options):
+def plugin(service, **options):
     # long time-outs: only tests of lateness set shorter ones
-    return Plug("haply", **{"host": "127.0.0.1", "port": service.port, "patience": 2000, **options})
+    return Plugin("haply", **{"host": "127.0.0.1", "port": service.port, "patience": 2000, **options})
 
 
 @pytest.mark.parametrize("pieces", [1, 3])
 def test_a_state_is_read_whole_or_in_pieces(pieces):
-    with Service(pieces=pieces) as service, plug(service) as opened:
+    with Service(pieces=pieces) as service, plugin(service) as opened:
         told = opened.info()
         assert (told.freedoms_in, told.freedoms_out, told.buttons) == (6, 3, 3)
         assert told.serial == b"ED78730C8173560784AB4167961D048D"
@@ -160,7 +160,7 @@ def test_a_state_is_read_whole_or_in_pieces(pieces):
 @pytest.mark.parametrize("version, field", [("3.1.2.0", "values"), ("3.5.0.0", "vector")])
 def test_forces_arrive_and_the_last_one_is_zero(version, field):
     with Service(version) as service:
-        with plug(service) as opened:
+        with plugin(service) as opened:
             assert opened.api.start(opened.device) == OK
             assert opened.write(0.5, -1.25, 3) == OK
             wanted = {"x": 0.5, "y": -1.25, "z": 3}
@@ -174,7 +174,7 @@ def test_forces_arrive_and_the_last_one_is_zero(version, field):
 
 
 def test_panic_is_a_frame_that_the_server_takes():
-    with Service() as service, plug(service) as opened:
+    with Service() as service, plugin(service) as opened:
         assert opened.api.start(opened.device) == OK
         assert opened.write(1, 0, 0) == OK
         assert eventually(lambda: service.forces("vector")[-1]["x"] == 1)
@@ -189,12 +189,12 @@ def test_panic_is_a_frame_that_the_server_takes():
 
 
 def test_a_ping_is_answered():
-    with Service() as service, plug(service):
+    with Service() as service, plugin(service):
         assert service.connections[0].ping().wait(10)
 
 
 def test_a_silent_service_is_lost_after_a_zero_force():
-    with Service() as service, plug(service, patience=80) as opened:
+    with Service() as service, plugin(service, patience=80) as opened:
         assert opened.api.start(opened.device) == OK
         assert opened.write(1, 0, 0) == OK
         assert eventually(lambda: service.forces("vector")[-1]["x"] == 1)
@@ -205,7 +205,7 @@ def test_a_silent_service_is_lost_after_a_zero_force():
 
 
 def test_a_service_that_ends_is_lost():
-    with Service() as service, plug(service) as opened:
+    with Service() as service, plugin(service) as opened:
         service.connections[0].close(1001)
         assert eventually(lambda: opened.read()[0] == E_LOST)
         assert "closed the connection" in opened.error()

@@ -172,7 +172,7 @@ std::vector<Call> calls_of_snapshots() {
          comparison.struct_size = sizeof comparison;
          return mvs_snapshot_compare(s.snapshot, s.snapshot, &comparison);
        }},
-      {"spread",
+      {"ensemble",
        [](Scene &s) {
          mvs_ensemble *ensemble = nullptr;
          const mvs_load_case load = light_load();

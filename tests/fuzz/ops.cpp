@@ -86,7 +86,7 @@ class Script {
       case 6:
         return add_tool();
       case 7:
-        return lead();
+        return move_hands_and_step();
       case 8:
         return remove_tool();
       default:
@@ -177,7 +177,7 @@ class Script {
   }
 
   // Steps with one hand or several that follow a path, or jump.
-  void lead() {
+  void move_hands_and_step() {
     for (uint32_t steps = 1 + bytes_.below(4); steps > 0; --steps) {
       for (uint32_t hands = bytes_.below(3); hands > 0; --hands) move_hand();
       step();

@@ -128,7 +128,7 @@ mvs_id add_tool(const Sim &sim, uint32_t kind, uint32_t node, const double *at) 
 }
 
 // 200 steps of a hand that drags a node, a ball or a rod by 20 um a step.
-void lead(Sim &sim, mvs_id tool, const double *from, const double *towards) {
+void move_tool(Sim &sim, mvs_id tool, const double *from, const double *towards) {
   double at[3];
   std::memcpy(at, from, sizeof at);
   for (int k = 0; k < 200; ++k) {
@@ -138,7 +138,7 @@ void lead(Sim &sim, mvs_id tool, const double *from, const double *towards) {
   }
 }
 
-void lead_hands(const Record &record) {
+void tool_trajectories(const Record &record) {
   const struct {
     const char *name;
     uint32_t law, kind;
@@ -156,7 +156,7 @@ void lead_hands(const Record &record) {
     const uint32_t node = 200;
     sim.node_position(node, at);
     if (c.kind != MVS_TOOL_KIND_GRASP) at[2] += 6e-3;
-    lead(sim, add_tool(sim, c.kind, node, at), at, c.towards);
+    move_tool(sim, add_tool(sim, c.kind, node, at), at, c.towards);
     sim.record(record, c.name);
   }
   Sim sim(small);
@@ -280,7 +280,7 @@ void operate(const Record &record) {
   membrane.record(record, "op all in a row membrane");
 }
 
-// A plan that loads, settles, steps, leads a tool and operates.
+// A plan that loads, settles, steps, moves a tool and operates.
 void replay(const Record &record) {
   Sim sim(small);
   sim.load();
@@ -291,7 +291,7 @@ void replay(const Record &record) {
   sim.node_position(150, at);
   const double up[3] = {0, 0, 1};
   const mvs_id tool = add_tool(sim, MVS_TOOL_KIND_GRASP, 150, at);
-  lead(sim, tool, at, up);
+  move_tool(sim, tool, at, up);
   check(mvs_remove_tool(sim, tool));
   op_cases()[6].apply(sim);
   sim.settle();
@@ -350,8 +350,9 @@ void check(mvs_result result) {
 }
 
 std::vector<Group> groups() {
-  return {{"close", close_valves}, {"time", close_in_time}, {"hand", lead_hands}, {"op", operate},
-          {"plan", replay},        {"levels", levels},      {"paths", paths}};
+  return {{"close", close_valves}, {"time", close_in_time}, {"hand", tool_trajectories},
+          {"op", operate},         {"plan", replay},        {"levels", levels},
+          {"paths", paths}};
 }
 
 }  // namespace golden

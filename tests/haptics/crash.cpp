@@ -20,7 +20,7 @@ struct End {
 };
 
 // Runs a child that starts a device and raises a signal.
-End die_of(int signal, bool guarded, bool stopped) {
+End die_of(int signal, bool with_handler, bool stopped) {
   int ends[2];
   REQUIRE_EQ(pipe(ends), 0);
   const pid_t child = fork();
@@ -35,7 +35,7 @@ End die_of(int signal, bool guarded, bool stopped) {
     desc.driver = path.c_str();
     Device device(desc, {});
     device.start();
-    if (guarded) install_signal_handler(true);
+    if (with_handler) install_signal_handler(true);
     if (stopped) device.stop();
     raise(signal);
     _exit(0);

@@ -26,7 +26,7 @@ Sheet bowl(double height, double saddle = 0) {
   return sheet;
 }
 
-TentingBillow doming_of(const Sheet &sheet) {
+TentingBillow tenting_billow_of(const Sheet &sheet) {
   const ModelPtr model = model_of(sheet);
   return measure_tenting_billow(*model, model->valve.rest);
 }
@@ -34,37 +34,37 @@ TentingBillow doming_of(const Sheet &sheet) {
 }  // namespace
 
 TEST_CASE("a_bowl_tents_by_its_paraboloid") {
-  const TentingBillow doming = doming_of(bowl(-depth));
+  const TentingBillow measured = tenting_billow_of(bowl(-depth));
   // the lowest cell is 0.1 mm off the axis, and the ball sinks 0.004 mm into the pinhole
-  CHECK(doming.tenting_height == about(depth, 2e-3));
-  CHECK(doming.tenting_area == about(4.0 / 3 * radius * depth, meshed));
-  CHECK(doming.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
-  CHECK(doming.billow_height == 0);
-  CHECK(doming.billow_volume == 0);
+  CHECK(measured.tenting_height == about(depth, 2e-3));
+  CHECK(measured.tenting_area == about(4.0 / 3 * radius * depth, meshed));
+  CHECK(measured.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
+  CHECK(measured.billow_height == 0);
+  CHECK(measured.billow_volume == 0);
 }
 
 TEST_CASE("a_dome_billows_by_its_paraboloid") {
-  const TentingBillow doming = doming_of(bowl(depth));
-  CHECK(doming.billow_height == about(depth, 1e-3));
-  CHECK(doming.billow_volume == about(0.5 * pi * radius * radius * depth, meshed));
-  CHECK(doming.tenting_height == 0);
-  CHECK(doming.tenting_area == 0);
-  CHECK(doming.tenting_volume == 0);
+  const TentingBillow measured = tenting_billow_of(bowl(depth));
+  CHECK(measured.billow_height == about(depth, 1e-3));
+  CHECK(measured.billow_volume == about(0.5 * pi * radius * radius * depth, meshed));
+  CHECK(measured.tenting_height == 0);
+  CHECK(measured.tenting_area == 0);
+  CHECK(measured.tenting_volume == 0);
 }
 
 TEST_CASE("a_sheet_on_its_saddle_neither_tents_nor_billows") {
-  const TentingBillow doming = doming_of(bowl(0, 6e-3));
+  const TentingBillow measured = tenting_billow_of(bowl(0, 6e-3));
   // 24 rings of elements follow the saddle to 1 um where it is steepest
-  CHECK(doming.billow_height < 5e-6);
-  CHECK(doming.tenting_volume < 5e-6 * pi * radius * radius);
-  CHECK(doming.billow_volume < 5e-6 * pi * radius * radius);
+  CHECK(measured.billow_height < 5e-6);
+  CHECK(measured.tenting_volume < 5e-6 * pi * radius * radius);
+  CHECK(measured.billow_volume < 5e-6 * pi * radius * radius);
 }
 
 TEST_CASE("volumes_are_measured_from_the_saddle_not_from_the_plane") {
-  const TentingBillow doming = doming_of(bowl(-depth, 6e-3));
-  CHECK(doming.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
-  CHECK(doming.tenting_area == about(4.0 / 3 * radius * depth, meshed));
-  CHECK(doming.billow_height < 5e-6);
+  const TentingBillow measured = tenting_billow_of(bowl(-depth, 6e-3));
+  CHECK(measured.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
+  CHECK(measured.tenting_area == about(4.0 / 3 * radius * depth, meshed));
+  CHECK(measured.billow_height < 5e-6);
 }
 
 TEST_CASE("half_a_valve_can_tent_while_the_other_billows") {
@@ -73,12 +73,12 @@ TEST_CASE("half_a_valve_can_tent_while_the_other_billows") {
   });
   sheet.around = 96;
   sheet.rings = 26;
-  const TentingBillow doming = doming_of(sheet);
-  CHECK(doming.billow_volume == about(4.0 / 15 * depth * radius * radius, meshed));
-  CHECK(doming.tenting_volume == about(4.0 / 15 * depth * radius * radius, meshed));
+  const TentingBillow measured = tenting_billow_of(sheet);
+  CHECK(measured.billow_volume == about(4.0 / 15 * depth * radius * radius, meshed));
+  CHECK(measured.tenting_volume == about(4.0 / 15 * depth * radius * radius, meshed));
   const double highest = depth * 2 / (3 * std::sqrt(3.0));
-  CHECK(doming.billow_height == about(highest, 1e-3));  // nodes every 0.7 mm see the flat top
-  CHECK(doming.tenting_height == about(highest, 1e-3));
+  CHECK(measured.billow_height == about(highest, 1e-3));  // nodes every 0.7 mm see the flat top
+  CHECK(measured.tenting_height == about(highest, 1e-3));
 }
 
 TEST_CASE("tissue_below_the_coaptation_line_does_not_tent") {
@@ -95,7 +95,8 @@ TEST_CASE("tissue_below_the_coaptation_line_does_not_tent") {
     };
     return sheet;
   };
-  const TentingBillow little = doming_of(closed(2e-3)), lot = doming_of(closed(9e-3));
+  const TentingBillow little = tenting_billow_of(closed(2e-3)),
+                      lot = tenting_billow_of(closed(9e-3));
   // the ball of 0.6 mm sinks 0.13 mm into the gap of 0.5 mm between their upper edges; cells of
   // 0.11 mm see that to 0.1 mm
   for (const double height : {little.tenting_height, lot.tenting_height}) {

@@ -1,4 +1,4 @@
-// A case of the stability suite: a script, its valves, and the ways it comes to rest.
+// A case of the stability suite: a script, its valves, and the solver modes that bring it to rest.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct Case {
   std::function<void(Watch &)> play;
   std::vector<std::string> valves = {"S"};  // in short runs; `more` as well in long ones
   std::vector<std::string> more = {"M", "N32"};
-  std::vector<Way> ways = {Way::newton, Way::implicit, Way::live};
+  std::vector<SolverMode> modes = {SolverMode::newton, SolverMode::implicit, SolverMode::live};
   bool may_refuse = false;  // moves may fail with MVS_E_DIVERGED
   // Lays the valve out; without it the case starts from the closed valve under systolic pressure.
   std::function<void(Watch &, const std::string &valve)> prepare = {};

@@ -7,7 +7,7 @@
 namespace stability {
 
 struct Known {
-  const char *name, *way;  // way "": any
+  const char *name, *mode;  // mode "": any
   const char *reason;
 };
 

@@ -37,7 +37,7 @@ Case steps_of(double dt) {
               w.operate(op, MVS_OP_ANNULUS_SCALE);
               for (uint32_t k = 0; k < w.effort().live; ++k) w.step(dt);
             }};
-  made.ways = {Way::live};
+  made.modes = {SolverMode::live};
   made.prepare = open;
   return made;
 }
@@ -49,7 +49,7 @@ std::vector<Case> load_cases() {
                            pressure("negative", -MVS_SYSTOLE_PA),
                            pressure("negative_x10", -10 * MVS_SYSTOLE_PA)};
   Case turned{"loads/pressure_switched_each_step", switched};
-  turned.ways = {Way::live};
+  turned.modes = {SolverMode::live};
   all.push_back(turned);
   for (const double dt : {1e-5, 1e-4, 1e-3, 5e-3, 20e-3}) all.push_back(steps_of(dt));
   return all;

@@ -3,7 +3,7 @@
 //
 //   stability                        the short suite, two minutes
 //   stability --long                 every valve, every chord, 10,000 scripts (MVS_TEST_LONG=1)
-//   stability --group boundary --case annulus --valve S --way live
+//   stability --group boundary --case annulus --valve S --mode live
 //   stability --csv FILE             also as a table
 //
 // Exit code 1: a row failed that is not known to.
@@ -23,7 +23,7 @@ namespace {
 
 struct Options {
   bool lengthy = false;
-  std::string group, part, valve, way, csv;
+  std::string group, part, valve, mode, csv;
 };
 
 double cpu_now() {
@@ -39,15 +39,15 @@ std::vector<Case> all_cases(const Options &options) {
   return all;
 }
 
-Row play(const Case &one, const std::string &valve, Way way, const Options &options) {
-  Row row{one.name, valve, way, {}, 0};
+Row play(const Case &one, const std::string &valve, SolverMode mode, const Options &options) {
+  Row row{one.name, valve, mode, {}, 0};
   Effort effort;
   if (options.lengthy) effort.implicit = 20000;
   effort.may_refuse = one.may_refuse;
   // so that no case includes the time of the closure that it starts from
   if (!one.prepare) closed_valve(valve);
   const double start = cpu_now();
-  Watch watch(way, effort);
+  Watch watch(mode, effort);
   try {
     if (one.prepare) {
       one.prepare(watch, valve);
@@ -90,9 +90,9 @@ std::vector<Row> play_all(const Options &options) {
                     valve.c_str());
         continue;
       }
-      for (const Way way : one.ways) {
-        if (!options.way.empty() && options.way != name_of(way)) continue;
-        rows.push_back(play(one, valve, way, options));
+      for (const SolverMode mode : one.modes) {
+        if (!options.mode.empty() && options.mode != name_of(mode)) continue;
+        rows.push_back(play(one, valve, mode, options));
         print(rows.back());
       }
     }
@@ -111,7 +111,7 @@ int tell(const std::vector<Row> &rows) {
     resting += row.verdict.at_rest;
     if (verdict == "known" || verdict == "BETTER") {
       std::printf("%s: %s on %s, %s: %s\n", verdict.c_str(), row.name.c_str(), row.valve.c_str(),
-                  name_of(row.way), known_reason(row).c_str());
+                  name_of(row.mode), known_reason(row).c_str());
     }
   }
   std::printf(
@@ -130,7 +130,7 @@ int run(int argc, char **argv) {
   app.add_option("--group", options.group, "boundary, chords, loads, starts, meshes, tools");
   app.add_option("--case", options.part, "cases whose name has this in it");
   app.add_option("--valve", options.valve, "this valve: S, S2, M, L, XL, N32");
-  app.add_option("--way", options.way, "newton, implicit or live");
+  app.add_option("--mode", options.mode, "newton, implicit or live");
   app.add_option("--csv", options.csv, "file to write the table to");
   CLI11_PARSE(app, argc, argv);
   const std::vector<Row> rows = play_all(options);

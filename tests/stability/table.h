@@ -1,5 +1,5 @@
-// The result table of the suite: a row for each case on each valve in each way, and the known
-// failures.
+// The result table of the suite: a row for each case on each valve in each solver mode, and the
+// known failures.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace stability {
 
 struct Row {
   std::string name, valve;
-  Way way;
+  SolverMode mode;
   Verdict verdict;
   double cpu_s;
 };

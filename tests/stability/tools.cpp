@@ -85,7 +85,7 @@ void ball(Watch &watch) {
 
 std::vector<Case> tool_cases() {
   Case pushed{"tools/ball_through_at_1_m_s", ball};
-  pushed.ways = {Way::live};
+  pushed.modes = {SolverMode::live};
   return {pulled("grasp_50mm_up", 0, 50e-3), pulled("grasp_50mm_through_the_other", -50e-3, 0),
           pushed};
 }

@@ -13,7 +13,7 @@ constexpr double step_bound = 1e-9;
 // J by which Newton may end above its start, since its last iterations follow the force and not the
 // energy. Checked only if no node moved farther than `near`: the work at the free edge is computed
 // along a straight path, which is wrong for a leaflet that turned over. A settle by steps in time
-// is not checked: the way `live` checks each step.
+// is not checked: the mode `live` checks each step.
 constexpr double newton_bound = 1e-4;
 constexpr double near = 5e-3;       // m
 constexpr double tolerance = 1e-5;  // N, the library's own
@@ -98,8 +98,8 @@ bool boundary_is_there(const mvs::Snapshot &now) {
 
 }  // namespace
 
-const char *name_of(Way way) {
-  return way == Way::newton ? "newton" : way == Way::implicit ? "implicit" : "live";
+const char *name_of(SolverMode mode) {
+  return mode == SolverMode::newton ? "newton" : mode == SolverMode::implicit ? "implicit" : "live";
 }
 
 void Watch::demand(bool condition, const std::string &fault) {
@@ -257,8 +257,8 @@ void Watch::compare_crossings(const mvs::Snapshot &now) {
 }
 
 void Watch::rest() {
-  if (way_ == Way::newton) return settle(MVS_SOLVER_NEWTON, effort_.newton);
-  if (way_ == Way::implicit) return settle(MVS_SOLVER_IMPLICIT, effort_.implicit);
+  if (mode_ == SolverMode::newton) return settle(MVS_SOLVER_NEWTON, effort_.newton);
+  if (mode_ == SolverMode::implicit) return settle(MVS_SOLVER_IMPLICIT, effort_.implicit);
   for (uint32_t k = 0; k < effort_.live && step(effort_.dt); ++k) {
   }
 }

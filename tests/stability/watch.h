@@ -17,9 +17,9 @@ namespace stability {
 
 using Hash = std::array<uint64_t, 2>;
 
-// How a case comes to rest.
-enum class Way { newton, implicit, live };
-const char *name_of(Way way);
+// The solver that brings a case to rest: Newton or implicit Euler to rest, or live steps.
+enum class SolverMode { newton, implicit, live };
+const char *name_of(SolverMode mode);
 
 // Limits of the work in a case.
 struct Effort {
@@ -45,10 +45,10 @@ struct Verdict {
 
 class Watch {
  public:
-  Watch(Way way, const Effort &effort) : way_(way), effort_(effort) {}
+  Watch(SolverMode mode, const Effort &effort) : mode_(mode), effort_(effort) {}
 
   mvs::Sim &sim() { return sim_; }
-  Way way() const { return way_; }
+  SolverMode mode() const { return mode_; }
   const Effort &effort() const { return effort_; }
 
   // To be called once the start of the case is complete.
@@ -96,7 +96,7 @@ class Watch {
   void demand(bool condition, const std::string &fault);
   double potential_at_start();
 
-  Way way_;
+  SolverMode mode_;
   Effort effort_;
   mvs::Sim sim_;
   Verdict verdict_;

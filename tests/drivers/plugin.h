@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-class Plug {
+class Plugin {
  public:
   // `driver` is a name in the folder of drivers, or a path; options are those of an application.
-  explicit Plug(const std::string &driver, std::map<std::string, std::string> options = {})
+  explicit Plugin(const std::string &driver, std::map<std::string, std::string> options = {})
       : options_(std::move(options)) {
     const std::string path =
         driver.front() == '/' ? driver : std::string(MVS_DRIVERS_DIR) + "/" + driver + ".so";
@@ -26,9 +26,9 @@ class Plug {
     api.struct_size = sizeof api;
     if (negotiate(&host_, &api) != MVS_DRIVER_OK) throw std::runtime_error(path + " refused");
   }
-  ~Plug() { close(); }
-  Plug(const Plug &) = delete;
-  Plug &operator=(const Plug &) = delete;
+  ~Plugin() { close(); }
+  Plugin(const Plugin &) = delete;
+  Plugin &operator=(const Plugin &) = delete;
 
   int32_t open(const char *name = nullptr) { return api.open(&host_, name, &device); }
   void close() {
@@ -89,12 +89,12 @@ class Plug {
 
  private:
   static const char *option(void *host, const char *key) {
-    const auto &options = static_cast<Plug *>(host)->options_;
+    const auto &options = static_cast<Plugin *>(host)->options_;
     const auto found = options.find(key);
     return found == options.end() ? nullptr : found->second.c_str();
   }
   static void log(void *host, const char *sentence) {
-    static_cast<Plug *>(host)->logged.push_back(sentence);
+    static_cast<Plugin *>(host)->logged.push_back(sentence);
   }
 
   std::map<std::string, std::string> options_;

@@ -96,7 +96,7 @@ static void work(mvs_sim *sim) {
   for (int k = 0; k < 5; ++k) MUST(mvs_step(sim, NULL));
 }
 
-static void a_plan_leads_tools_to_the_same_bits(void) {
+static void a_plan_moves_tools_to_the_same_bits(void) {
   mvs_sim *sim = make_sim(), *other = make_sim();
   mvs_replay replay = {.struct_size = sizeof replay};
   work(sim);
@@ -172,10 +172,10 @@ static void a_plan_touches_no_tool_that_was_held(void) {
   const mvs_tool_state after = state_of(busy, mine);
   CHECK(after.node == before.node);
   CHECK(is_same_place(after.position, before.position));
-  const mvs_tool_state led = state_of(busy, mine + 1), there = state_of(sim, mine);
-  CHECK(led.node == there.node);
-  CHECK(is_same_place(led.position, there.position));
-  /* the result has a history of its own: its plan leads there from the open valve */
+  const mvs_tool_state moved = state_of(busy, mine + 1), there = state_of(sim, mine);
+  CHECK(moved.node == there.node);
+  CHECK(is_same_place(moved.position, there.position));
+  /* the result has a history of its own: its plan replays to it from the open valve */
   mvs_sim *third = make_sim();
   const plan both = plan_of(busy);
   MUST(mvs_replay_plan(third, both.text, both.size, &replay));
@@ -201,7 +201,7 @@ static void refused(mvs_sim *sim, const char *step, const char *word) {
   CHECK(same_hash(before, sim_hash(sim)));
 }
 
-static void wrong_leads_are_refused(void) {
+static void wrong_trajectories_are_refused(void) {
   mvs_sim *sim = make_sim();
   const char hands[] =
       "{\"do\": \"tool_trajectory\", \"count\": 1, \"tools\": [{\"tool\": 281474976710656, "
@@ -230,10 +230,10 @@ static void wrong_leads_are_refused(void) {
 }
 
 int main(void) {
-  a_plan_leads_tools_to_the_same_bits();
+  a_plan_moves_tools_to_the_same_bits();
   looking_on_changes_no_plan();
   a_session_keeps_what_hands_did();
   a_plan_touches_no_tool_that_was_held();
-  wrong_leads_are_refused();
-  return finish("leads");
+  wrong_trajectories_are_refused();
+  return finish("trajectories");
 }

@@ -93,7 +93,7 @@ class Api(c.Structure):
     ]
 
 
-class Plug:
+class Plugin:
     """An open driver with the options of an application."""
 
     def __init__(self, name, **options):
