@@ -4,8 +4,10 @@
 //
 // The plane across the closest points of a pair separates it. The pair stays apart during the whole
 // motion if its corners, moving linearly, keep their sides of that plane. If both sides together
-// approach by more than the pair allows, each is limited to a half. Steps are only ever shortened,
-// and a pair once limited stays safe, so the passes end after at most one limit for every pair.
+// approach by more than the pair allows, 90 % of its distance beyond the least one, each side is
+// limited to a half, and in the first passes a side that needs less leaves the rest to the other.
+// Steps are only ever shortened; after the first passes a limited pair stays safe, so that the
+// passes end.
 // Unlike one global time of impact, two sheets that nearly touch do not stop the rest of the valve.
 #pragma once
 

@@ -12,7 +12,7 @@
 // share are subtracted. So the sheet counts once up to its rim and past it: E = B(distance to the
 // sheet) for a flat sheet without notches. Each d_p is the distance to a convex set and smooth
 // outside it, so that the force is continuous as the vertex slides across faces, edges, corners and
-// rims. Pairs closer than facing_rest_distance * r in the rest shape belong to the same sheet and
+// rims. Pairs closer than contact_rest_distance * r in the rest shape belong to the same sheet and
 // are left out. Two sheets pressed together by p rest at the distance where -kappa B'(d / r) = p.
 //
 // The short-range barrier is the same B for every pair that is not incident, edge-edge pairs

@@ -151,7 +151,7 @@ class Stats:
 
 @dataclasses.dataclass(frozen=True)
 class Measures:
-    """The measures of a valve. Sources: libmvs/measure/README.md."""
+    """The measures of a valve. Sources: libmvs/measure/DEFINITIONS.md."""
 
     intersections: Annotated[int, "1", "pairs of triangles that cross (exact test)"]
     regurgitant_orifice_area: Annotated[
@@ -163,8 +163,12 @@ class Measures:
     coaptation_length_mean: Annotated[float, "m", "mean along the coaptation line"]
     coaptation_length_min: Annotated[float, "m", "smallest along the coaptation line"]
     coaptation_length_max: Annotated[float, "m", "largest along the coaptation line"]
-    coaptation_height: Annotated[float, "m", "extent of the coaptation along the valve axis"]
-    coaptation_depth: Annotated[float, "m", "annulus plane to the nearest coapting point"]
+    coaptation_height: Annotated[
+        float, "m", "extent of the coaptation along the valve axis, central AP plane"
+    ]
+    coaptation_depth: Annotated[
+        float, "m", "annulus plane to the highest coapted tissue, central AP plane"
+    ]
     tenting_height: Annotated[
         float, "m", "deepest leaflet point on the atrial side below the annulus plane"
     ]

@@ -3,7 +3,8 @@
 //
 // The matrix is H + lambda D (newton_system.h). Far from rest H is projected to be positive
 // semidefinite and lambda follows the gain ratio, the measured over the predicted change of energy
-// (Conn, Gould, Toint, Trust-Region Methods, 2000). Near rest H is exact and a full step on the
+// (Conn, Gould, Toint, Trust-Region Methods, 2000). Near rest H is exact, the ratio is 1 minus the
+// error of the predicted change relative to the slope, and a full step on the
 // out-of-balance force is tried first, which converges quadratically although the follower load
 // has no potential at the free edge. Conservative continuous collision detection shortens every
 // step node by node, so that no sheet passes another (collision/step_limiter.h).

@@ -88,7 +88,9 @@ bool Newton::hold(const std::vector<StoppedNode> &stopped) {
   return !stopped.empty();
 }
 
-// The trust-region ratio: 1 where the quadratic model is exact.
+// The trust-region ratio: 1 where the quadratic model is exact. Arguments are changes of energy,
+// negative where it falls. Projected Hessian: measured over predicted change; exact Hessian: 1
+// minus the error of the predicted change relative to the slope.
 double Newton::gain_ratio(double reduction, double predicted_reduction) const {
   if (system_.curvature() == Curvature::projected) {
     return predicted_reduction < 0 ? reduction / predicted_reduction : (reduction < 0 ? 1 : -1);
