@@ -1,9 +1,9 @@
 # Eigen, the standard library and doctest take 1.2 s of each of our C++ files under clang, 1.5 s
 # under gcc; MVS_PRECOMPILED has them read once: "tests" for the doctest programs, "all" for the
-# library, the command and the Python module too. scripts/test asks for "all" where there is no
-# ccache. A file that forgot an include compiles then; clang-tidy, which reads every changed file by
-# itself, still refuses it, and so do the long runs and every build that did not ask.
-# Of nobody by default: ccache keeps no objects that were compiled this way.
+# library, the command and the Python module too. scripts/demo and the short gate of scripts/test ask
+# for "all". A file that forgot an include compiles then; clang-tidy, which reads every changed file
+# by itself, still refuses it, and so do the long gate and every build that did not ask.
+# Off by default: ccache keeps no objects that were compiled this way.
 set(MVS_PRECOMPILED "" CACHE STRING "Whose headers are precompiled: tests, all, or nobody's")
 set_property(CACHE MVS_PRECOMPILED PROPERTY STRINGS "" tests all)
 

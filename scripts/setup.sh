@@ -46,13 +46,15 @@ python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
 test_packages=(libsuitesparse-dev abigail-tools doctest-dev libtinyobjloader-dev libspnav0 libglfw3-dev locales xvfb
   xauth clang clang-format clang-tidy git)
 
-# How many files are compiled as one (cmake/unity.cmake): none where the result is used or measured;
-# scripts/test sets it.
+# How many files are compiled as one (cmake/unity.cmake): one by one unless scripts/demo or the short
+# gate sets it.
 files_as_one=
+# CMake options of every build_preset of a script: a tree configured another way compiles again.
+options_of_all=()
 
 # Configures and builds a preset of CMakePresets.json: build_preset NAME [CMAKE OPTION ...] [-- BUILD
-# OPTION ...]. The short gate compiles files together with precompiled headers, everything else
-# compiles them one by one, with ccache where it is installed.
+# OPTION ...]. The short gate and the demo compile files together with precompiled headers,
+# everything else compiles them one by one, with ccache where it is installed.
 build_preset() {
   local preset=$1 launcher=(-DMVS_PRECOMPILED= -DMVS_UNITY=) options=()
   shift
@@ -69,7 +71,7 @@ build_preset() {
     launcher=(-DMVS_PRECOMPILED=all -DMVS_UNITY=)
   fi
   mkdir -p build
-  cmake --preset "$preset" "${launcher[@]}" "${options[@]}" >"build/$preset.log" 2>&1 || {
+  cmake --preset "$preset" "${launcher[@]}" "${options_of_all[@]}" "${options[@]}" >"build/$preset.log" 2>&1 || {
     cat "build/$preset.log" >&2
     return 1
   }
@@ -119,6 +121,3 @@ python_module() {
   site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))') || return 1
   echo "$PWD/build/release/python" >"$site/libmvs.pth"
 }
-
-# install_python EXTRA ...
-install_python() { make_venv "$@" && python_module; }

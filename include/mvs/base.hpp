@@ -44,10 +44,20 @@ Struct sized() {
   return made;
 }
 
+// Returns the struct that a call of the C interface fills: its last parameter, after `arguments`.
+template <typename Struct, typename Get, typename... Arguments>
+Struct filled(Get get, Arguments... arguments) {
+  Struct made = sized<Struct>();
+  must(get(arguments..., &made));
+  return made;
+}
+
 // Returns the described fields of a struct of results, MVS_STRUCT_*.
 inline std::vector<mvs_field_info> fields_of(mvs_struct which) {
-  std::vector<mvs_field_info> fields(mvs_get_field_count(which), sized<mvs_field_info>());
-  for (std::uint32_t k = 0; k < fields.size(); ++k) must(mvs_get_field(which, k, &fields[k]));
+  std::vector<mvs_field_info> fields;
+  for (std::uint32_t k = 0; k < mvs_get_field_count(which); ++k) {
+    fields.push_back(filled<mvs_field_info>(mvs_get_field, which, k));
+  }
   return fields;
 }
 

@@ -85,41 +85,27 @@ class Device {
 
   mvs_device *get() const { return device_; }
 
-  mvs_device_info info() const {
-    mvs_device_info info = sized<mvs_device_info>();
-    must(mvs_device_get_info(device_, &info));
-    return info;
-  }
+  mvs_device_info info() const { return filled<mvs_device_info>(mvs_device_get_info, device_); }
 
   void set_limits(mvs_device_limits limits) {
     limits.struct_size = sizeof limits;
     must(mvs_device_set_limits(device_, &limits));
   }
   mvs_device_limits limits() const {
-    mvs_device_limits limits = sized<mvs_device_limits>();
-    must(mvs_device_get_limits(device_, &limits));
-    return limits;
+    return filled<mvs_device_limits>(mvs_device_get_limits, device_);
   }
 
   void set_view(mvs_device_view view) {
     view.struct_size = sizeof view;
     must(mvs_device_set_view(device_, &view));
   }
-  mvs_device_view view() const {
-    mvs_device_view view = sized<mvs_device_view>();
-    must(mvs_device_get_view(device_, &view));
-    return view;
-  }
+  mvs_device_view view() const { return filled<mvs_device_view>(mvs_device_get_view, device_); }
 
   void set_hand(mvs_device_hand hand) {
     hand.struct_size = sizeof hand;
     must(mvs_device_set_hand(device_, &hand));
   }
-  mvs_device_hand hand() const {
-    mvs_device_hand hand = sized<mvs_device_hand>();
-    must(mvs_device_get_hand(device_, &hand));
-    return hand;
-  }
+  mvs_device_hand hand() const { return filled<mvs_device_hand>(mvs_device_get_hand, device_); }
 
   void start() { must(mvs_device_start(device_)); }
   void stop() { must(mvs_device_stop(device_)); }
@@ -130,17 +116,11 @@ class Device {
 
   // To be called before each step of the simulator, mvs::Sim::get().
   mvs_device_report sync(mvs_sim *sim) {
-    mvs_device_report report = sized<mvs_device_report>();
-    must(mvs_device_sync(device_, sim, &report));
-    return report;
+    return filled<mvs_device_report>(mvs_device_sync, device_, sim);
   }
 
   // From any thread.
-  mvs_device_state state() const {
-    mvs_device_state state = sized<mvs_device_state>();
-    must(mvs_device_get_state(device_, &state));
-    return state;
-  }
+  mvs_device_state state() const { return filled<mvs_device_state>(mvs_device_get_state, device_); }
 
   // Takes the ticks since the last call; adds the number of ticks lost by overflow to `lost`.
   std::vector<mvs_device_sample> take_samples(std::uint64_t &lost) {

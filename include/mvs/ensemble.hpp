@@ -32,27 +32,19 @@ class Ensemble {
   const mvs_ensemble *get() const { return held_; }
 
   mvs_ensemble_summary summary() const {
-    mvs_ensemble_summary summary = sized<mvs_ensemble_summary>();
-    must(mvs_ensemble_get_summary(held_, &summary));
-    return summary;
+    return filled<mvs_ensemble_summary>(mvs_ensemble_get_summary, held_);
   }
 
   mvs_ensemble_member member(std::uint32_t index) const {
-    mvs_ensemble_member found = sized<mvs_ensemble_member>();
-    must(mvs_ensemble_get_member(held_, index, &found));
-    return found;
+    return filled<mvs_ensemble_member>(mvs_ensemble_get_member, held_, index);
   }
 
   mvs_stats stats(std::uint32_t index) const {
-    mvs_stats stats = sized<mvs_stats>();
-    must(mvs_ensemble_get_member_stats(held_, index, &stats));
-    return stats;
+    return filled<mvs_stats>(mvs_ensemble_get_member_stats, held_, index);
   }
 
   mvs_profile profile(std::uint32_t index) const {
-    mvs_profile profile = sized<mvs_profile>();
-    must(mvs_ensemble_get_member_profile(held_, index, &profile));
-    return profile;
+    return filled<mvs_profile>(mvs_ensemble_get_member_profile, held_, index);
   }
 
   Snapshot snapshot(std::uint32_t index) const {
@@ -63,9 +55,7 @@ class Ensemble {
 
   // Returns the statistic MVS_ENSEMBLE_STATISTIC_* of every figure.
   mvs_measures measure(mvs_ensemble_statistic statistic) const {
-    mvs_measures measures = sized<mvs_measures>();
-    must(mvs_ensemble_measure(held_, statistic, &measures));
-    return measures;
+    return filled<mvs_measures>(mvs_ensemble_measure, held_, statistic);
   }
 
   // Returns the array MVS_ENSEMBLE_ARRAY_*, valid while the ensemble lives.

@@ -26,9 +26,7 @@ inline void transfer_state(Sim &sim, const Snapshot &from) {
 }
 
 inline mvs_profile profile_of(const Sim &sim) {
-  mvs_profile profile = sized<mvs_profile>();
-  must(mvs_get_profile(sim.get(), &profile));
-  return profile;
+  return filled<mvs_profile>(mvs_get_profile, sim.get());
 }
 
 }  // namespace mvs

@@ -72,11 +72,7 @@ class Sim {
     must(mvs_set_load(sim_, &load));
   }
 
-  mvs_load_case load() const {
-    mvs_load_case load = sized<mvs_load_case>();
-    must(mvs_get_load(sim_, &load));
-    return load;
-  }
+  mvs_load_case load() const { return filled<mvs_load_case>(mvs_get_load, sim_); }
 
   // Does not throw without convergence: check `converged` of the result.
   mvs_stats settle(mvs_settle_options options = {}) {
@@ -91,11 +87,7 @@ class Sim {
     must(mvs_step(sim_, &options));
   }
 
-  mvs_stats stats() const {
-    mvs_stats stats = sized<mvs_stats>();
-    must(mvs_get_stats(sim_, &stats));
-    return stats;
-  }
+  mvs_stats stats() const { return filled<mvs_stats>(mvs_get_stats, sim_); }
 
   Snapshot snapshot() const {
     const mvs_snapshot *held = nullptr;
@@ -105,24 +97,18 @@ class Sim {
 
   // The text of a plan's file.
   mvs_replay replay_plan(const std::string &text) {
-    mvs_replay replay = sized<mvs_replay>();
-    must(mvs_replay_plan(sim_, text.data(), text.size(), &replay));
-    return replay;
+    return filled<mvs_replay>(mvs_replay_plan, sim_, text.data(), text.size());
   }
 
   mvs_replay check_plan(const std::string &text) const {
-    mvs_replay replay = sized<mvs_replay>();
-    must(mvs_check_plan(sim_, text.data(), text.size(), &replay));
-    return replay;
+    return filled<mvs_replay>(mvs_check_plan, sim_, text.data(), text.size());
   }
 
   void open_journal(const std::string &path) { must(mvs_open_journal(sim_, path.c_str())); }
   void close_journal() { must(mvs_close_journal(sim_)); }
 
   mvs_replay recover_journal(const std::string &path) {
-    mvs_replay replay = sized<mvs_replay>();
-    must(mvs_recover_journal(sim_, path.c_str(), &replay));
-    return replay;
+    return filled<mvs_replay>(mvs_recover_journal, sim_, path.c_str());
   }
 
   void restore(const Snapshot &snapshot) { must(mvs_restore(sim_, snapshot.get())); }
@@ -165,9 +151,7 @@ class Sim {
   }
   void remove_tool(mvs_id tool) { must(mvs_remove_tool(sim_, tool)); }
   mvs_tool_state tool(mvs_id tool) const {
-    mvs_tool_state state = sized<mvs_tool_state>();
-    must(mvs_get_tool(sim_, tool, &state));
-    return state;
+    return filled<mvs_tool_state>(mvs_get_tool, sim_, tool);
   }
 
   void undo() { must(mvs_undo(sim_)); }

@@ -52,11 +52,9 @@ struct OpKind {
 inline std::vector<OpKind> op_kinds() {
   std::vector<OpKind> kinds;
   for (std::uint32_t k = 0; k < mvs_get_op_count(); ++k) {
-    OpKind kind = {sized<mvs_op_info>(), {}};
-    must(mvs_get_op_info(k, &kind.info));
-    kind.fields.assign(kind.info.fields, sized<mvs_field_info>());
+    OpKind kind = {filled<mvs_op_info>(mvs_get_op_info, k), {}};
     for (std::uint32_t f = 0; f < kind.info.fields; ++f) {
-      must(mvs_get_op_field(k, f, &kind.fields[f]));
+      kind.fields.push_back(filled<mvs_field_info>(mvs_get_op_field, k, f));
     }
     kinds.push_back(std::move(kind));
   }

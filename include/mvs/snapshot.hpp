@@ -106,20 +106,14 @@ class Snapshot {
     return part;
   }
 
-  mvs_load_case load() const {
-    mvs_load_case load = sized<mvs_load_case>();
-    must(mvs_snapshot_get_load(held_, &load));
-    return load;
-  }
+  mvs_load_case load() const { return filled<mvs_load_case>(mvs_snapshot_get_load, held_); }
 
   History history() const {
-    mvs_history size = sized<mvs_history>();
-    must(mvs_snapshot_get_history(held_, &size));
+    const mvs_history size = filled<mvs_history>(mvs_snapshot_get_history, held_);
     History found;
     for (std::uint32_t k = 0; k < size.done + size.undone; ++k) {
-      mvs_history_entry entry = sized<mvs_history_entry>();
-      must(mvs_snapshot_get_history_entry(held_, k, &entry));
-      (k < size.done ? found.done : found.undone).push_back(entry);
+      (k < size.done ? found.done : found.undone)
+          .push_back(filled<mvs_history_entry>(mvs_snapshot_get_history_entry, held_, k));
     }
     for (std::uint32_t k = 0; k < size.checkpoints; ++k) {
       const char *name = nullptr;
@@ -129,16 +123,10 @@ class Snapshot {
     return found;
   }
 
-  mvs_measures measure() const {
-    mvs_measures measures = sized<mvs_measures>();
-    must(mvs_snapshot_measure(held_, &measures));
-    return measures;
-  }
+  mvs_measures measure() const { return filled<mvs_measures>(mvs_snapshot_measure, held_); }
 
   mvs_comparison compare(const Snapshot &other) const {
-    mvs_comparison comparison = sized<mvs_comparison>();
-    must(mvs_snapshot_compare(held_, other.held_, &comparison));
-    return comparison;
+    return filled<mvs_comparison>(mvs_snapshot_compare, held_, other.held_);
   }
 
   // Segments as pairs of points.

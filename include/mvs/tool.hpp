@@ -15,9 +15,10 @@ namespace mvs {
 inline std::vector<mvs_tool_state> tools_of(const Snapshot &snapshot) {
   std::uint32_t count = 0;
   must(mvs_snapshot_get_tool_count(snapshot.get(), &count));
-  std::vector<mvs_tool_state> found(count, sized<mvs_tool_state>());
-  for (std::uint32_t k = 0; k < count; ++k)
-    must(mvs_snapshot_get_tool(snapshot.get(), k, &found[k]));
+  std::vector<mvs_tool_state> found;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    found.push_back(filled<mvs_tool_state>(mvs_snapshot_get_tool, snapshot.get(), k));
+  }
   return found;
 }
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "api/exception_boundary.h"
+#include "base/array_view.h"
 #include "base/option_checks.h"
 
 namespace mvs::core {
@@ -24,20 +26,27 @@ inline uint32_t checked_struct_size(const void *given, const char *what) {
   return size;
 }
 
-// Reads an input struct. Fields that an older caller lacks are zero. Fields that only a newer
-// caller has must be zero, because this library does not implement them.
+// Copies a caller's struct of `size` bytes. Fields that an older caller lacks are zero. Fields that
+// only a newer caller has must be zero, because this library does not implement them. `element`:
+// the index in a list, for the message; negative for a struct by itself.
 template <typename Struct>
-Struct read_struct(const Struct *given, const char *what) {
-  const uint32_t size = checked_struct_size(given, what);
-  const char *bytes = reinterpret_cast<const char *>(given);
+Struct copy_known(const void *given, uint32_t size, const char *what, int64_t element = -1) {
+  const char *bytes = static_cast<const char *>(given);
   for (size_t k = sizeof(Struct); k < size; ++k) {
     MVS_MUST(bytes[k] == 0, MVS_E_VERSION, what,
-             "%s has a field at byte %zu that this version of libmvs does not know: update libmvs, "
-             "or leave the field zero",
-             what, k);
+             "%s%s has a field at byte %zu that this version of libmvs does not know: update "
+             "libmvs, or leave the field zero",
+             what, element < 0 ? "" : format("[%lld]", static_cast<long long>(element)).c_str(), k);
   }
   Struct known = {};
   std::memcpy(&known, bytes, std::min<size_t>(size, sizeof(Struct)));
+  return known;
+}
+
+// Reads an input struct.
+template <typename Struct>
+Struct read_struct(const Struct *given, const char *what) {
+  Struct known = copy_known<Struct>(given, checked_struct_size(given, what), what);
   known.struct_size = sizeof(Struct);
   return known;
 }
@@ -48,43 +57,38 @@ Struct read_struct_or_default(const Struct *given, const char *what) {
   return given ? read_struct(given, what) : Struct{};
 }
 
-// Writes an output struct up to the caller's size. Fields that only a newer caller has become 0.
-// The caller's struct_size is kept.
-template <typename Struct>
-void write_struct(Struct *to, const Struct &value, const char *what) {
-  const uint32_t size = checked_struct_size(to, what);
-  char *bytes = reinterpret_cast<char *>(to);
-  const char *from = reinterpret_cast<const char *>(&value);
-  const size_t common = std::min<size_t>(size, sizeof(Struct));
-  std::memcpy(bytes + sizeof size, from + sizeof size, common - sizeof size);
-  std::memset(bytes + common, 0, size - common);
-}
-
-// Reads element `index` of a caller's array whose elements are `stride` bytes apart, by the same
-// rules: bytes beyond the caller's element count as zero, bytes beyond this library's must be zero.
-template <typename Struct>
-Struct read_element(const Struct *list, uint32_t index, uint32_t stride, const char *what) {
-  MVS_MUST(stride >= 8 && stride <= struct_size_limit && stride % 4 == 0, MVS_E_ARGUMENT, what,
-           "the stride of %s is %u: set it to sizeof its struct", what, stride);
-  const char *bytes = reinterpret_cast<const char *>(list) + size_t{index} * stride;
-  for (size_t k = sizeof(Struct); k < stride; ++k) {
-    MVS_MUST(bytes[k] == 0, MVS_E_VERSION, what,
-             "%s[%u] has a field at byte %zu that this version of libmvs does not know: update "
-             "libmvs, or leave the field zero",
-             what, index, k);
-  }
-  Struct known = {};
-  std::memcpy(&known, bytes, std::min<size_t>(stride, sizeof(Struct)));
-  return known;
-}
-
-// Writes element `index` of a caller's array whose elements are `stride` bytes apart.
+// Writes element `index` of a caller's array whose elements are `stride` bytes apart, up to the
+// stride. Fields that only a newer caller has become 0.
 template <typename Struct>
 void write_element(Struct *list, uint64_t index, uint32_t stride, const Struct &value) {
   char *bytes = reinterpret_cast<char *>(list) + index * stride;
   const size_t common = std::min<size_t>(stride, sizeof(Struct));
   std::memcpy(bytes, &value, common);
   std::memset(bytes + common, 0, stride - common);
+}
+
+// Writes an output struct in the same way. The caller's struct_size is kept.
+template <typename Struct>
+void write_struct(Struct *to, Struct value, const char *what) {
+  value.struct_size = checked_struct_size(to, what);
+  write_element(to, 0, value.struct_size, value);
+}
+
+// Returns read(element) of each of `count` elements of a caller's list that are `stride` bytes
+// apart.
+template <typename Struct, typename Part>
+std::vector<Part> read_list(const Struct *list, uint32_t count, uint32_t stride, const char *what,
+                            Part (*read)(const Struct &)) {
+  check_list(list, count, what);
+  MVS_MUST(count == 0 || (stride >= 8 && stride <= struct_size_limit && stride % 4 == 0),
+           MVS_E_ARGUMENT, what, "the stride of %s is %u: set it to sizeof its struct", what,
+           stride);
+  const char *bytes = reinterpret_cast<const char *>(list);
+  std::vector<Part> parts;
+  for (uint32_t k = 0; k < count; ++k, bytes += stride) {
+    parts.push_back(read(copy_known<Struct>(bytes, stride, what, k)));
+  }
+  return parts;
 }
 
 // Copies the bytes that make() returns to the caller's memory, up to its capacity, and sets *size

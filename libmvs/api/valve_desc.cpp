@@ -39,19 +39,15 @@ void read_law_constants(const Law *law, const double *given, Values &values) {
   }
 }
 
-void read_leaflets(const mvs_valve_desc &desc, Valve &valve) {
-  check_list(desc.leaflets, desc.leaflet_count, "leaflets");
-  for (uint32_t l = 0; l < desc.leaflet_count; ++l) {
-    const mvs_leaflet_desc given = read_element(desc.leaflets, l, desc.leaflet_stride, "leaflets");
-    must_be_zero(given.reserved, "leaflets[].reserved");
-    Leaflet leaflet;
-    leaflet.id = given.id;
-    leaflet.name = text_or_empty(given.name);
-    if (given.law != 0) leaflet.law = given.law;
-    leaflet.thickness = or_default(given.thickness, leaflet.thickness);
-    read_law_constants(find_leaflet_law(leaflet.law), given.constants, leaflet.constants);
-    valve.leaflets.push_back(std::move(leaflet));
-  }
+Leaflet read_leaflet(const mvs_leaflet_desc &given) {
+  must_be_zero(given.reserved, "leaflets[].reserved");
+  Leaflet leaflet;
+  leaflet.id = given.id;
+  leaflet.name = text_or_empty(given.name);
+  if (given.law != 0) leaflet.law = given.law;
+  leaflet.thickness = or_default(given.thickness, leaflet.thickness);
+  read_law_constants(find_leaflet_law(leaflet.law), given.constants, leaflet.constants);
+  return leaflet;
 }
 
 // A scallop belongs to the leaflet of its first triangle.
@@ -69,53 +65,44 @@ void read_scallops(const mvs_valve_desc &desc, Valve &valve) {
   }
 }
 
-void read_chords(const mvs_valve_desc &desc, Valve &valve) {
-  check_list(desc.chords, desc.chord_count, "chords");
-  for (uint32_t c = 0; c < desc.chord_count; ++c) {
-    const mvs_chord_desc given = read_element(desc.chords, c, desc.chord_stride, "chords");
-    Chord chord;
-    chord.id = given.id;
-    chord.name = text_or_empty(given.name);
-    chord.a = given.node_a;
-    chord.b = given.node_b;
-    chord.kind = given.kind;
-    if (given.law != 0) chord.law = given.law;
-    chord.rest_length = given.rest_length;
-    chord.young = or_default(given.young, chord.young);
-    chord.area = or_default(given.area, chord.area);
-    read_law_constants(find_chord_law(chord.law), given.constants, chord.constants);
-    valve.chords.push_back(std::move(chord));
-  }
+Chord read_chord(const mvs_chord_desc &given) {
+  Chord chord;
+  chord.id = given.id;
+  chord.name = text_or_empty(given.name);
+  chord.a = given.node_a;
+  chord.b = given.node_b;
+  chord.kind = given.kind;
+  if (given.law != 0) chord.law = given.law;
+  chord.rest_length = given.rest_length;
+  chord.young = or_default(given.young, chord.young);
+  chord.area = or_default(given.area, chord.area);
+  read_law_constants(find_chord_law(chord.law), given.constants, chord.constants);
+  return chord;
 }
 
-void read_heads(const mvs_valve_desc &desc, Valve &valve) {
-  check_list(desc.heads, desc.head_count, "heads");
-  for (uint32_t h = 0; h < desc.head_count; ++h) {
-    const mvs_head_desc given = read_element(desc.heads, h, desc.head_stride, "heads");
-    must_be_zero(given.reserved, "heads[].reserved");
-    valve.heads.push_back({given.id, text_or_empty(given.name), given.node});
-  }
+Head read_head(const mvs_head_desc &given) {
+  must_be_zero(given.reserved, "heads[].reserved");
+  return {given.id, text_or_empty(given.name), given.node};
 }
 
-void read_rings(const mvs_valve_desc &desc, Valve &valve) {
-  check_list(desc.rings, desc.ring_count, "rings");
-  for (uint32_t r = 0; r < desc.ring_count; ++r) {
-    const mvs_ring_desc given = read_element(desc.rings, r, desc.ring_stride, "rings");
-    must_be_zero(given.reserved, "rings[].reserved");
-    Ring ring{given.id, text_or_empty(given.name), MVS_RING_KIND_RIGID, {}};
-    if (given.kind != 0) ring.kind = given.kind;
-    ring.curve = read_points(given.curve, "rings[].curve");
-    valve.rings.push_back(std::move(ring));
-  }
+Ring read_ring(const mvs_ring_desc &given) {
+  must_be_zero(given.reserved, "rings[].reserved");
+  const uint32_t kind = given.kind == 0 ? uint32_t{MVS_RING_KIND_RIGID} : given.kind;
+  return {given.id, text_or_empty(given.name), kind, read_points(given.curve, "rings[].curve")};
 }
 
-void read_curves(const mvs_valve_desc &desc, Valve &valve) {
-  check_list(desc.curves, desc.curve_count, "curves");
-  for (uint32_t c = 0; c < desc.curve_count; ++c) {
-    const mvs_curve_desc given = read_element(desc.curves, c, desc.curve_stride, "curves");
-    valve.curves.push_back(
-        {given.id, text_or_empty(given.name), read_pairs(given.points, "curves[].points")});
-  }
+ChordCurve read_curve(const mvs_curve_desc &given) {
+  return {given.id, text_or_empty(given.name), read_pairs(given.points, "curves[].points")};
+}
+
+void read_parts(const mvs_valve_desc &desc, Valve &valve) {
+  valve.leaflets =
+      read_list(desc.leaflets, desc.leaflet_count, desc.leaflet_stride, "leaflets", read_leaflet);
+  read_scallops(desc, valve);
+  valve.chords = read_list(desc.chords, desc.chord_count, desc.chord_stride, "chords", read_chord);
+  valve.heads = read_list(desc.heads, desc.head_count, desc.head_stride, "heads", read_head);
+  valve.rings = read_list(desc.rings, desc.ring_count, desc.ring_stride, "rings", read_ring);
+  valve.curves = read_list(desc.curves, desc.curve_count, desc.curve_stride, "curves", read_curve);
 }
 
 void read_constants(const mvs_valve_desc &desc, Valve &valve) {
@@ -140,12 +127,7 @@ Described read_valve_desc(const mvs_valve_desc *given) {
   must_be_zero(desc.reserved, "valve.reserved");
   Described described;
   read_nodes_and_triangles(desc, described);
-  read_leaflets(desc, described.valve);
-  read_scallops(desc, described.valve);
-  read_chords(desc, described.valve);
-  read_heads(desc, described.valve);
-  read_rings(desc, described.valve);
-  read_curves(desc, described.valve);
+  read_parts(desc, described.valve);
   read_constants(desc, described.valve);
   if (desc.flags & MVS_VALVE_FLAG_ORIENT) orient(described.valve);
   return described;

@@ -35,8 +35,8 @@ class BroadPhase {
   BroadPhase(const BroadPhase &) = delete;
   BroadPhase &operator=(const BroadPhase &) = delete;
 
-  // Allows the Verlet list, which pays in live steps (default), or not. It is made with the third
-  // lists, or the next ones after use_verlet_list_at_once().
+  // Allows the Verlet list (default) or not: it pays in live steps. It is made by the third call of
+  // build(), or by the next one after use_verlet_list_at_once().
   void use_verlet_list(bool use) { uses_verlet_list_ = use; }
   void use_verlet_list_at_once() { list_count_ = std::max(list_count_, lists_without_verlet); }
 

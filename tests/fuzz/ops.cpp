@@ -64,9 +64,7 @@ class Script {
   }
 
   mvs_history history() const {
-    mvs_history out = mvs::sized<mvs_history>();
-    mvs::must(mvs_snapshot_get_history(sim_.snapshot().get(), &out));
-    return out;
+    return mvs::filled<mvs_history>(mvs_snapshot_get_history, sim_.snapshot().get());
   }
 
   void act() {

@@ -1,6 +1,7 @@
 #include "values.h"
 
 #include <pybind11/numpy.h>
+#include <mvs/base.hpp>
 
 // One field of the C struct `s` as a keyword of the dataclass.
 #define FIELD(name) py::arg(#name) = s.name
@@ -21,29 +22,23 @@ py::array_t<double> matrix(const double *values, py::ssize_t rows, py::ssize_t c
   return array;
 }
 
-// The fields of a struct of results as the library describes them: keywords of its dataclass.
-py::dict fields_of(mvs_struct which, const void *from) {
-  py::dict fields;
-  auto field = sized<mvs_field_info>();
-  for (uint32_t k = 0; k < mvs_get_field_count(which); ++k) {
-    must(mvs_get_field(which, k, &field));
-    const char *at = static_cast<const char *>(from) + field.offset;
-    if (field.type == MVS_FIELD_COUNT) {
-      fields[field.name] = *reinterpret_cast<const uint32_t *>(at);
-    } else {
-      fields[field.name] = *reinterpret_cast<const double *>(at);
-    }
+// The described fields of a struct of results as keywords of its dataclass.
+py::dict keywords(const std::vector<mvs_field_info> &fields, const void *from) {
+  py::dict found;
+  for (const mvs_field_info &field : fields) {
+    const double value = mvs::field_value(from, field);
+    found[field.name] = field.type == MVS_FIELD_COUNT
+                            ? py::object(py::int_(static_cast<uint32_t>(value)))
+                            : py::object(py::float_(value));
   }
-  return fields;
+  return found;
 }
 
 }  // namespace
 
 py::list field_descriptions(uint32_t which) {
   py::list rows;
-  auto field = sized<mvs_field_info>();
-  for (uint32_t k = 0; k < mvs_get_field_count(which); ++k) {
-    must(mvs_get_field(which, k, &field));
+  for (const mvs_field_info &field : mvs::fields_of(which)) {
     rows.append(py::make_tuple(field.name, field.unit, field.help));
   }
   return rows;
@@ -61,15 +56,19 @@ py::object load_value(const mvs_load_case &s) {
   return make_value("Load", FIELD(pressure), FIELD(boundary_fraction));
 }
 
+// Descriptions are read once: every step returns two of these structs.
 py::object stats_value(const mvs_stats &s, const mvs_profile &p) {
-  py::dict fields = fields_of(MVS_STRUCT_STATS, &s);
+  static const auto stats = mvs::fields_of(MVS_STRUCT_STATS);
+  static const auto profile = mvs::fields_of(MVS_STRUCT_PROFILE);
+  py::dict fields = keywords(stats, &s);
   fields["converged"] = s.converged != 0;
-  fields["profile"] = make_value("Profile", **fields_of(MVS_STRUCT_PROFILE, &p));
+  fields["profile"] = make_value("Profile", **keywords(profile, &p));
   return make_value("Stats", **fields);
 }
 
 py::object measures_value(const mvs_measures &s) {
-  return make_value("Measures", **fields_of(MVS_STRUCT_MEASURES, &s));
+  static const auto measures = mvs::fields_of(MVS_STRUCT_MEASURES);
+  return make_value("Measures", **keywords(measures, &s));
 }
 
 py::object comparison_value(const mvs_comparison &s) {

@@ -32,11 +32,11 @@ void Newton::trust_region_step() {
     const double reduction = try_step(predicted_reduction);
     const double gain = gain_ratio(reduction, predicted_reduction);
     adapt_lambda(gain);
-    lower = gain > set::accepted_gain || reduction <= 0;
+    lower = gain > set::accepted_gain || reduction >= 0;
     if (gain > set::accepted_gain || lambda_ >= set::max_lambda) break;
     if (factorises) stopped = stopped_nodes();
     // the model itself predicts that the limited step raises the energy
-    const bool uphill = system_.curvature() == Curvature::projected && predicted_reduction > 0;
+    const bool uphill = system_.curvature() == Curvature::projected && predicted_reduction < 0;
     if (uphill && lambda_ > set::min_hold_lambda && !factorises && trial + 1 < set::trials &&
         hold(stopped)) {
       lambda_ = kept;
@@ -88,12 +88,12 @@ bool Newton::hold(const std::vector<StoppedNode> &stopped) {
   return !stopped.empty();
 }
 
-// The trust-region ratio: 1 where the quadratic model is exact. Arguments are changes of energy,
-// negative where it falls. Projected Hessian: measured over predicted change; exact Hessian: 1
-// minus the error of the predicted change relative to the slope.
+// The trust-region ratio: 1 where the quadratic model is exact. Arguments are reductions of the
+// energy, positive where it falls. Projected Hessian: measured over predicted reduction; exact
+// Hessian: 1 minus the error of the predicted reduction relative to the slope.
 double Newton::gain_ratio(double reduction, double predicted_reduction) const {
   if (system_.curvature() == Curvature::projected) {
-    return predicted_reduction < 0 ? reduction / predicted_reduction : (reduction < 0 ? 1 : -1);
+    return predicted_reduction > 0 ? reduction / predicted_reduction : (reduction > 0 ? 1 : -1);
   }
   // the linear part is common to both, so their difference is the error of the matrix
   const double slope = dot(at_.gradient, step_.limited);
@@ -112,15 +112,15 @@ void Newton::adapt_lambda(double gain) {
   }
 }
 
-// Returns the change of energy along the limited step, and sets the change that the quadratic model
-// predicts. Both are negative where the energy falls.
+// Returns the reduction of the energy by the limited step, and sets the reduction that the
+// quadratic model predicts. Both are positive where the energy falls.
 double Newton::try_step(double &predicted_reduction) {
   const PhaseTimer timer(stats_.work, MVS_PHASE_LINE_SEARCH);
   ++stats_.work.passes;
   const std::vector<Vec3> &step = step_.limited;
-  predicted_reduction = dot(at_.gradient, step) + 0.5 * system_.quadratic_form(step);
+  predicted_reduction = -(dot(at_.gradient, step) + 0.5 * system_.quadratic_form(step));
   for (size_t i = 0; i < at_.x.size(); ++i) trial_[i] = at_.x[i] + step[i];
-  return total_energy_.energy(trial_) - at_.energy;
+  return at_.energy - total_energy_.energy(trial_);
 }
 
 }  // namespace mvs::core
