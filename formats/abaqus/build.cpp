@@ -1,6 +1,4 @@
 // Assembly of a valve from the parts of an Abaqus input file.
-#include <mvs/valve.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
@@ -121,9 +119,9 @@ void ValveBuilder::add_fibres() {
   }
 }
 
-uint32_t kind_of(const InpCable &cable, const InpSheet &sheet) {
-  if (!sheet.holds[cable.b]) return MVS_CHORD_KIND_TRUNK;
-  return sheet.in_free_edge[cable.b] ? MVS_CHORD_KIND_MARGINAL : MVS_CHORD_KIND_ROUGH_ZONE;
+ChordKind kind_of(const InpCable &cable, const InpSheet &sheet) {
+  if (!sheet.holds[cable.b]) return ChordKind::trunk;
+  return sheet.in_free_edge[cable.b] ? ChordKind::marginal : ChordKind::rough_zone;
 }
 
 void ValveBuilder::add_chordae() {

@@ -1,6 +1,4 @@
 // Conversion of Abaqus materials to laws of libmvs.
-#include <mvs/valve.h>
-
 #include <algorithm>
 
 #include "formats/abaqus/valve.h"
@@ -26,20 +24,20 @@ void set_inp_law(Leaflet &leaflet, const InpMaterial &material, InpNotes &notes)
   leaflet.constants = {};
   switch (material.law) {
     case InpMaterial::fung:
-      leaflet.law = MVS_LEAFLET_LAW_FUNG;
+      leaflet.law = LeafletLawId::fung;
       std::copy(c.begin(), c.end(), leaflet.constants.begin());
       return;
     case InpMaterial::neo_hookean:
-      leaflet.law = MVS_LEAFLET_LAW_NEO_HOOKEAN;
+      leaflet.law = LeafletLawId::neo_hookean;
       leaflet.constants[0] = c[0];
       return;
     case InpMaterial::ogden:
       if (c.size() != 2 || c[1] != 2) break;
-      leaflet.law = MVS_LEAFLET_LAW_NEO_HOOKEAN;
+      leaflet.law = LeafletLawId::neo_hookean;
       leaflet.constants[0] = c[0];
       return;
     case InpMaterial::elastic:
-      leaflet.law = MVS_LEAFLET_LAW_NEO_HOOKEAN;
+      leaflet.law = LeafletLawId::neo_hookean;
       leaflet.constants[0] = c[0] / 3;
       notes.chosen(
           "leaflet %s: *ELASTIC of %g Pa is neo-Hookean with mu = %g Pa, incompressible "
@@ -57,15 +55,15 @@ void set_inp_law(Chord &chord, const InpMaterial &material) {
   const std::vector<double> &c = material.constants;
   switch (material.law) {
     case InpMaterial::elastic:
-      chord.law = MVS_CHORD_LAW_LINEAR;
+      chord.law = ChordLawId::linear;
       chord.young = c[0];
       return;
     case InpMaterial::neo_hookean:
-      chord.law = MVS_CHORD_LAW_OGDEN;
+      chord.law = ChordLawId::ogden;
       chord.constants = {c[0], 2};
       return;
     case InpMaterial::ogden:
-      chord.law = MVS_CHORD_LAW_OGDEN;
+      chord.law = ChordLawId::ogden;
       std::copy(c.begin(), c.end(), chord.constants.begin());
       return;
     case InpMaterial::fung:

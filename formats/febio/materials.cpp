@@ -1,6 +1,4 @@
 // FEBio materials of leaflets and springs of chordae.
-#include <mvs/valve.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,29 +20,30 @@ std::string energy(const Leaflet &leaflet, const std::string &i1, const std::str
   const auto plain = [&](size_t k) { return feb_plain(c[k]); };
   const std::string over = "(" + i1 + "-3)";
   switch (leaflet.law) {
-    case MVS_LEAFLET_LAW_BILINEAR: {
+    case LeafletLawId::bilinear: {
       const std::string x = "(" + i1 + "-" + plain(2) + ")", s2 = feb_plain(c[3] * c[3]);
       const std::string root = "sqrt(" + x + "^2+" + s2 + ")";
       return stress(0) + "*" + over + "+" + feb_plain(c[1] * kpa_per_pa / 4) + "*(" + x + "^2+" +
              x + "*" + root + "+" + s2 + "*ln(" + x + "+" + root + "))";
     }
-    case MVS_LEAFLET_LAW_FUNG:
+    case LeafletLawId::fung:
       return feb_plain(c[0] * kpa_per_pa / 2) + "*" + over + "+" +
              feb_plain(c[1] * kpa_per_pa / 2) + "*(exp(" + plain(2) + "*" + over + "^2)-1)";
-    case MVS_LEAFLET_LAW_MAY_NEWMAN_YIN:
+    case LeafletLawId::may_newman_yin:
       return stress(0) + "*(exp(" + plain(1) + "*" + over + "^2+" + plain(2) + "*(sqrt(" + i4 +
              ")-1)^4)-1)";
-    case MVS_LEAFLET_LAW_PROT:
+    case LeafletLawId::prot:
       return stress(0) + "*(exp(" + plain(1) + "*" + over + "^2+" + plain(2) + "*(" + i4 +
              "-1)^2)-1)";
-    case MVS_LEAFLET_LAW_NEO_HOOKEAN:
+    case LeafletLawId::neo_hookean:
       return feb_plain(c[0] * kpa_per_pa / 2) + "*" + over;
-    default:
-      fail(MVS_E_UNSUPPORTED, "leaflet " + leaflet.name,
-           "leaflet %.63s is a net of springs, which FEBio does not have: give it the bilinear "
-           "membrane law, which is fitted to the same curve, and export that",
-           leaflet.name.c_str());
+    case LeafletLawId::spring:
+      break;
   }
+  fail(MVS_E_UNSUPPORTED, "leaflet " + leaflet.name,
+       "leaflet %.63s is a net of springs, which FEBio does not have: give it the bilinear "
+       "membrane law, which is fitted to the same curve, and export that",
+       leaflet.name.c_str());
 }
 
 // "uncoupled hyperelastic" takes W of the isochoric invariants; "trans-iso hyperelastic" takes W of
@@ -70,9 +69,9 @@ void write_leaflet(const Valve &valve, const FebDomain &domain, size_t k, FebTex
 // Nodes of the piecewise linear curve of a chord law: its own corners, or, for a curved law, 64
 // steps up to 50 N, far above the strength of a chord.
 std::vector<double> corners_of(const Valve &valve, const Chord &chord) {
-  if (chord.law == MVS_CHORD_LAW_LINEAR) return {0, 0.1};
-  if (chord.law == MVS_CHORD_LAW_BILINEAR) return {0, chord.constants[0], chord.constants[0] + 0.1};
-  if (chord.law == MVS_CHORD_LAW_TABLE) {
+  if (chord.law == ChordLawId::linear) return {0, 0.1};
+  if (chord.law == ChordLawId::bilinear) return {0, chord.constants[0], chord.constants[0] + 0.1};
+  if (chord.law == ChordLawId::table) {
     std::vector<double> strains;
     const ChordCurve &curve = valve.curves[static_cast<size_t>(chord.constants[0])];
     for (const CurvePoint &point : curve.points) strains.push_back(point[0]);
@@ -121,8 +120,8 @@ void write_spring(const Valve &valve, size_t c, FebText &out) {
 
 }  // namespace
 
-bool feb_has_fibres(uint32_t law) {
-  return law == MVS_LEAFLET_LAW_MAY_NEWMAN_YIN || law == MVS_LEAFLET_LAW_PROT;
+bool feb_has_fibres(LeafletLawId law) {
+  return law == LeafletLawId::may_newman_yin || law == LeafletLawId::prot;
 }
 
 void write_feb_materials(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out) {

@@ -54,7 +54,7 @@ void write_feb_mesh(const Model &model, const std::vector<FebDomain> &domains, F
 void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out);
 
 // Returns whether the law of a leaflet uses fibres.
-bool feb_has_fibres(uint32_t law);
+bool feb_has_fibres(LeafletLawId law);
 
 // Returns the prescribed nodes, ascending.
 std::vector<uint32_t> feb_held(const Valve &valve);

@@ -146,7 +146,8 @@ void ObjReader::leaflet(Line &line) {
   Fields fields(line);
   fields.need(fields.text("name", leaflet.name), "name");
   fields.whole("id", leaflet.id);
-  if (fields.choice("law", law, obj::words_of(leaflet_laws()))) leaflet.law = law + 1;
+  if (fields.choice("law", law, obj::words_of(leaflet_laws())))
+    leaflet.law = static_cast<LeafletLawId>(law + 1);
   fields.number("thickness", leaflet.thickness, obj::mm);
   leaflet.constants = {};
   read_constants(fields, find_leaflet_law(leaflet.law)->constants, leaflet.constants);
@@ -262,7 +263,7 @@ void ObjReader::ring(Line &line) {
   Fields fields(line);
   fields.need(fields.text("name", ring.name), "name");
   fields.whole("id", ring.id);
-  if (fields.choice("kind", kind, obj::ring_kinds)) ring.kind = kind + 1;
+  if (fields.choice("kind", kind, obj::ring_kinds)) ring.kind = static_cast<RingKind>(kind + 1);
   fields.end();
   valve.rings.push_back(std::move(ring));
 }
@@ -332,16 +333,17 @@ void ObjReader::chord(Line &line) {
     line.fail("the l line above has %zu segments: write an l line for each", segments_in_line_);
   }
   Chord &chord = out_.valve.chords.back();
-  uint32_t law = 0;
+  uint32_t kind = 0, law = 0;
   Fields fields(line);
   fields.text("name", chord.name);
   fields.whole("id", chord.id);
-  fields.choice("kind", chord.kind, obj::chord_kinds);
-  if (fields.choice("law", law, obj::words_of(chord_laws()))) chord.law = law + 1;
+  if (fields.choice("kind", kind, obj::chord_kinds)) chord.kind = static_cast<ChordKind>(kind);
+  if (fields.choice("law", law, obj::words_of(chord_laws())))
+    chord.law = static_cast<ChordLawId>(law + 1);
   fields.number("rest_length", chord.rest_length, obj::mm);
   fields.number("young", chord.young);
   fields.number("area", chord.area, obj::mm2);
-  if (chord.law == MVS_CHORD_LAW_TABLE) {
+  if (chord.law == ChordLawId::table) {
     chord.constants[0] = curve_of(fields, line);
   } else {
     read_constants(fields, find_chord_law(chord.law)->constants, chord.constants);

@@ -13,8 +13,7 @@ inline constexpr unsigned version = 1;
 // Powers of ten of mm (lengths) and mm2 (areas), relative to m and m2.
 inline constexpr int mm = 3, mm2 = 6;
 
-// Indices are MVS_LEAFLET_LAW_*, MVS_CHORD_KIND_*, MVS_RING_KIND_*, less one where those start at
-// 1.
+// Indices are the numbers of ChordKind, RingKind and the laws, less one where those start at 1.
 inline constexpr std::array<std::string_view, 8> chord_kinds = {
     "other", "marginal", "rough_zone", "strut", "basal", "commissural", "trunk", "suture"};
 // Words of the laws, in the order of their numbers less one.

@@ -133,7 +133,7 @@ void ObjWriter::solver_cache() {
 void ObjWriter::leaflets() {
   for (const Leaflet &leaflet : valve_.leaflets) {
     part("leaflet", leaflet);
-    key_choice("law", obj::words_of(leaflet_laws()), leaflet.law - 1);
+    key_choice("law", obj::words_of(leaflet_laws()), static_cast<uint32_t>(leaflet.law) - 1);
     key_number("thickness", leaflet.thickness, obj::mm);
     key_constants(find_leaflet_law(leaflet.law)->constants, leaflet.constants);
     out_ += '\n';
@@ -181,7 +181,7 @@ void ObjWriter::annulus_and_heads() {
 void ObjWriter::rings() {
   for (const Ring &ring : valve_.rings) {
     part("ring", ring);
-    key_choice("kind", obj::ring_kinds, ring.kind - 1);
+    key_choice("kind", obj::ring_kinds, static_cast<uint32_t>(ring.kind) - 1);
     out_ += '\n';
     for (const Vec3 &point : ring.curve) vector_record("ring_point", point);
   }
@@ -239,12 +239,12 @@ void ObjWriter::chords() {
     vertices({chord.a, chord.b});
     out_ += '\n';
     part("chord", chord);
-    key_choice("kind", obj::chord_kinds, chord.kind);
-    key_choice("law", obj::words_of(chord_laws()), chord.law - 1);
+    key_choice("kind", obj::chord_kinds, static_cast<uint32_t>(chord.kind));
+    key_choice("law", obj::words_of(chord_laws()), static_cast<uint32_t>(chord.law) - 1);
     key_number("rest_length", chord.rest_length, obj::mm);
     key_number("young", chord.young);
     key_number("area", chord.area, obj::mm2);
-    if (chord.law == MVS_CHORD_LAW_TABLE) {
+    if (chord.law == ChordLawId::table) {
       key_text("curve", valve_.curves[static_cast<size_t>(chord.constants[0])].name);
     } else {
       key_constants(find_chord_law(chord.law)->constants, chord.constants);

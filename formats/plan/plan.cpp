@@ -2,7 +2,6 @@
 #include "formats/plan/plan.h"
 
 #include <mvs/base.h>
-#include <mvs/sim.h>
 
 #include <ctime>
 
@@ -16,17 +15,18 @@ namespace {
 constexpr const char *format_name = "mvs-plan";
 constexpr size_t most_bytes = size_t{512} << 20;  // hours of a hand at 1 kHz
 
-const char *solver_word(uint32_t solver) {
+const char *solver_word(SolverKind solver) {
   switch (solver) {
-    case MVS_SOLVER_NEWTON:
+    case SolverKind::newton:
       return "newton";
-    case MVS_SOLVER_IMPLICIT:
+    case SolverKind::implicit_euler:
       return "implicit";
-    case MVS_SOLVER_EXPLICIT:
+    case SolverKind::explicit_euler:
       return "explicit";
-    default:
-      return "";
+    case SolverKind::unset:
+      break;
   }
+  return "";
 }
 
 // "2026-11-21T14:05:09.123Z"
@@ -56,10 +56,11 @@ uint64_t whole_at(const Json &json, const char *key, uint64_t fallback, uint64_t
   return json[key].whole();
 }
 
-uint32_t solver_at(const Json &json) {
-  if (!json.has("solver")) return 0;
+SolverKind solver_at(const Json &json) {
+  if (!json.has("solver")) return SolverKind::unset;
   const std::string word = json["solver"].is_text() ? json["solver"].text() : "";
-  for (uint32_t solver = MVS_SOLVER_NEWTON; solver <= MVS_SOLVER_EXPLICIT; ++solver) {
+  for (const SolverKind solver :
+       {SolverKind::newton, SolverKind::implicit_euler, SolverKind::explicit_euler}) {
     if (word == solver_word(solver)) return solver;
   }
   fail(MVS_E_FORMAT, "plan", "solver has to be newton, implicit or explicit");
@@ -165,7 +166,7 @@ Json event_json(const RecordedEvent &event) {
     json.set("do", event.kind == RecordedEvent::settle ? "settle" : "step");
     if (event.count != 1) json.set("count", event.count);
   }
-  if (event.solver != 0) json.set("solver", solver_word(event.solver));
+  if (event.solver != SolverKind::unset) json.set("solver", solver_word(event.solver));
   if (event.max_iterations != 0) json.set("max_iterations", event.max_iterations);
   put_unless_zero(json, "residual_N", event.residual);
   put_unless_zero(json, "dt_s", event.dt);

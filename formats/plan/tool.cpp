@@ -1,8 +1,6 @@
 // Tool events of plans: JSON writer and strict reader.
 #include "formats/plan/tool.h"
 
-#include <mvs/tool.h>
-
 #include <Eigen/Geometry>
 #include <bit>
 #include <cmath>
@@ -15,6 +13,10 @@ namespace mvs::core {
 namespace {
 
 constexpr const char *kinds[] = {"grasp", "ball", "rod"};
+
+const char *word_of(ToolKind kind) {
+  return kinds[static_cast<uint32_t>(kind) - 1];
+}
 
 Json vector_json(const Vec3 &v) {
   return Json::numbers({v.x(), v.y(), v.z()});
@@ -40,9 +42,9 @@ Vec3 vector_at(const Json &json, const char *key) {
   return v;
 }
 
-uint32_t kind_at(const Json &json) {
+ToolKind kind_at(const Json &json) {
   for (uint32_t k = 0; k < std::size(kinds); ++k) {
-    if (json["kind"].text() == kinds[k]) return k + 1;
+    if (json["kind"].text() == kinds[k]) return static_cast<ToolKind>(k + 1);
   }
   fail(MVS_E_FORMAT, "plan", "kind has to be grasp, ball or rod");
 }
@@ -106,12 +108,12 @@ void read_added(const Json &json, Tool &tool) {
   read_hand(json, tool);
   tool.stiffness = positive_at(json, "stiffness_N/m");
   tool.max_force = positive_at(json, "max_force_N");
-  if (tool.kind == MVS_TOOL_KIND_GRASP) {
+  if (tool.kind == ToolKind::grasp) {
     tool.node = static_cast<uint32_t>(std::min<uint64_t>(whole_at(json, "node"), none - 1));
     return;
   }
   tool.radius = positive_at(json, "radius_m");
-  if (tool.kind != MVS_TOOL_KIND_ROD) return;
+  if (tool.kind != ToolKind::rod) return;
   tool.length = positive_at(json, "length_m");
   MVS_MUST(json.has("axis"), MVS_E_FORMAT, "plan", "a rod has to have an axis");
 }
@@ -134,13 +136,13 @@ Json tool_json(const RecordedEvent &event) {
                                                           : "tool_remove");
   json.set("tool", tool.id);
   if (event.kind == RecordedEvent::tool_remove) return json;
-  if (event.kind == RecordedEvent::tool_add) json.set("kind", kinds[tool.kind - 1]);
+  if (event.kind == RecordedEvent::tool_add) json.set("kind", word_of(tool.kind));
   json.set("position_m", vector_json(tool.position));
-  if (tool.kind == MVS_TOOL_KIND_ROD) json.set("axis", vector_json(tool.axis));
+  if (tool.kind == ToolKind::rod) json.set("axis", vector_json(tool.axis));
   if (event.kind == RecordedEvent::tool_move) return json;
-  if (tool.kind == MVS_TOOL_KIND_GRASP) json.set("node", tool.node);
-  if (tool.kind != MVS_TOOL_KIND_GRASP) json.set("radius_m", tool.radius);
-  if (tool.kind == MVS_TOOL_KIND_ROD) json.set("length_m", tool.length);
+  if (tool.kind == ToolKind::grasp) json.set("node", tool.node);
+  if (tool.kind != ToolKind::grasp) json.set("radius_m", tool.radius);
+  if (tool.kind == ToolKind::rod) json.set("length_m", tool.length);
   json.set("stiffness_N/m", tool.stiffness);
   json.set("max_force_N", tool.max_force);
   return json;
@@ -149,7 +151,7 @@ Json tool_json(const RecordedEvent &event) {
 Json trajectory_json(const RecordedEvent &event) {
   Json json, tools = Json::array();
   for (const Tool &tool : event.tools.get()) {
-    tools.add(Json::object({{"tool", tool.id}, {"kind", kinds[tool.kind - 1]}}));
+    tools.add(Json::object({{"tool", tool.id}, {"kind", word_of(tool.kind)}}));
   }
   std::vector<uint64_t> words;
   for (const Vec3 &point : event.points.get()) {

@@ -1,7 +1,5 @@
 // Reader of sessions. Arrays, lists, models and entries are built once by their number in the file,
 // so that shared data is shared again.
-#include <mvs/tool.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -39,6 +37,12 @@ class SessionReader {
   void word(uint64_t &number) { number = next(); }
   void word(int64_t &number) { number = static_cast<int64_t>(next()); }
   void word(uint32_t &number);
+  template <Enum Kind>
+  void word(Kind &kind) {
+    uint32_t number = 0;
+    word(number);
+    kind = static_cast<Kind>(number);
+  }
   void choice(RecordedEvent::Kind &kind);
   void number(double &value);
   void text(std::string &text);
@@ -217,7 +221,7 @@ void SessionReader::check(const RecordedEvent &event) {
   bool is_good = event.kind == RecordedEvent::tool_trajectory ? is_consistent(event)
                                                               : event.tools.size() == is_of_tool;
   for (const Tool &tool : event.tools.get()) {
-    is_good = is_good && tool.kind >= MVS_TOOL_KIND_GRASP && tool.kind <= MVS_TOOL_KIND_ROD;
+    is_good = is_good && tool.kind >= ToolKind::grasp && tool.kind <= ToolKind::rod;
   }
   MVS_MUST(is_good, MVS_E_FORMAT, "history",
            "the history of the file has an event whose tools and numbers do not agree");

@@ -21,6 +21,7 @@ class SessionWriter {
   void word(uint64_t number) { words_.push_back(number); }
   void word(int64_t number) { word(static_cast<uint64_t>(number)); }
   void word(uint32_t number) { word(uint64_t{number}); }
+  void word(Enum auto kind) { word(static_cast<uint64_t>(kind)); }
   void choice(RecordedEvent::Kind kind) { word(uint64_t{kind}); }
   void number(double value);
   void text(std::string_view text);

@@ -123,7 +123,8 @@ VtkPolyData make_vtk_polydata(const Model &model, const State &state,
     current.triangles.nodes.insert(current.triangles.nodes.end(), triangle.begin(), triangle.end());
   }
   add_field_data(current.field_data, valve, state);
-  add(current.point_data, "node_kind", 1, model.topology.node_kind.get());
+  const auto *const kind = reinterpret_cast<const uint8_t *>(model.topology.node_kind.data());
+  add(current.point_data, "node_kind", 1, std::vector<uint8_t>(kind, kind + model.node_count()));
   add(current.point_data, "rest_mm", 3, in_mm(valve.rest));
   add_cell_data(current.cell_data, valve);
   for (const VtpArray &given : arrays) add_given(current, given);

@@ -15,14 +15,14 @@ constexpr double commissural_share = 0.08;
 
 struct Spot {
   Place place;
-  uint32_t kind;
+  ChordKind kind;
 };
 
 using Row = std::vector<Spot>;
 
 // Returns `count` spots evenly along the curve v between two angles, half a gap from either end.
 Row even_row(const Shape &shape, double v, double theta0, double theta1, uint32_t count,
-             uint32_t kind) {
+             ChordKind kind) {
   const ArcLength arc(shape, v, theta0, theta1);
   Row row;
   for (uint32_t i = 0; i < count; ++i) {
@@ -37,7 +37,7 @@ void name_commissural(const Shape &shape, double v, Row &row) {
   for (Spot &spot : row) {
     const double from = std::min(spot.place.theta, Shape::commissure);
     const double to = std::max(spot.place.theta, Shape::commissure);
-    if (ArcLength(shape, v, from, to).total() < reach) spot.kind = MVS_CHORD_KIND_COMMISSURAL;
+    if (ArcLength(shape, v, from, to).total() < reach) spot.kind = ChordKind::commissural;
   }
 }
 
@@ -50,10 +50,10 @@ std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
   const uint32_t edge = count - basal - rough - 1;
   constexpr double rough_v = 0.75, strut_v = 0.38, basal_v = 0.35;
   std::vector<Row> rows = {
-      even_row(shape, 1, 0, pi, edge, MVS_CHORD_KIND_MARGINAL),
-      even_row(shape, rough_v, 0, pi, rough, MVS_CHORD_KIND_ROUGH_ZONE),
-      {{{0.4 * Shape::commissure, strut_v}, MVS_CHORD_KIND_STRUT}},
-      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, MVS_CHORD_KIND_BASAL)};
+      even_row(shape, 1, 0, pi, edge, ChordKind::marginal),
+      even_row(shape, rough_v, 0, pi, rough, ChordKind::rough_zone),
+      {{{0.4 * Shape::commissure, strut_v}, ChordKind::strut}},
+      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, ChordKind::basal)};
   name_commissural(shape, 1, rows[0]);
   name_commissural(shape, rough_v, rows[1]);
   return rows;

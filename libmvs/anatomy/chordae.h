@@ -11,8 +11,8 @@ namespace mvs::core {
 // A vertex of the half sheet with a chord, and the chord that ends there.
 struct Attachment {
   uint32_t vertex;
-  uint32_t kind;  // MVS_CHORD_KIND_*
-  uint32_t tip;   // of its papillary muscle
+  ChordKind kind;
+  uint32_t tip;  // of its papillary muscle
 };
 
 // Chordae of one muscle with a common trunk; a tree of one is a plain chord.

@@ -1,8 +1,6 @@
 // Moves and merges chordae when a vertex of the sheet is collapsed into another.
 #include "anatomy/coarse_chordae.h"
 
-#include <mvs/valve.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -43,7 +41,7 @@ CoarseChordae::CoarseChordae(const Model &model)
 
 bool CoarseChordae::sewn(uint32_t vertex) const {
   return std::any_of(at_[vertex].begin(), at_[vertex].end(),
-                     [&](uint32_t c) { return chords_[c].kind == MVS_CHORD_KIND_SUTURE; });
+                     [&](uint32_t c) { return chords_[c].kind == ChordKind::suture; });
 }
 
 // Returns the end that is not on the sheet, which stays.

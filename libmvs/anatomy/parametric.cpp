@@ -112,7 +112,7 @@ struct ChordBuilder {
   Valve &valve;
   std::array<int, 6> &number;
 
-  void add(uint32_t a, uint32_t b, uint32_t kind, double length, const Attachment &at) {
+  void add(uint32_t a, uint32_t b, ChordKind kind, double length, const Attachment &at) {
     const uint32_t scallop = scallop_at(halves.sheet.place[at.vertex].theta, medial);
     Chord chord;
     chord.a = a;
@@ -143,7 +143,7 @@ void add_tree(const Tree &tree, uint32_t first_head, ChordBuilder &builder) {
     from_closed = tip + trunk_share * (mean_closed - tip);
     const uint32_t trunk_end = count_of(valve.rest);
     valve.rest.push_back(on_half(node, medial));
-    builder.add(from, trunk_end, MVS_CHORD_KIND_TRUNK, (from_closed - tip).norm(),
+    builder.add(from, trunk_end, ChordKind::trunk, (from_closed - tip).norm(),
                 tree[tree.size() / 2]);
     from = trunk_end;
   }

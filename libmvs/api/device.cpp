@@ -54,8 +54,8 @@ mvs_device_desc read_device(const mvs_device_desc *given) {
 
 mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
   mvs_device_state out = {};
-  out.phase = now.phase;
-  out.cause = now.cause;
+  out.phase = static_cast<uint32_t>(now.phase);
+  out.cause = static_cast<uint32_t>(now.cause);
   out.flags = now.flags;
   out.limited = now.limited;
   out.buttons = now.buttons;
@@ -83,14 +83,14 @@ void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   d.hand.begin(now, d.device.limits().stiffness);
   ButtonEvent event;
   while (links.buttons.pop(event)) d.hand.take_button(event, sim);
-  if (now.phase == MVS_DEVICE_PHASE_STOPPED) {
+  if (now.phase == DevicePhase::stopped) {
     d.hand.let_go(sim);
   } else {
     d.hand.follow(sim);
   }
   const TissueModel tissue = d.hand.tissue(sim);
   links.tissue.post(tissue);
-  const bool is_latched = now.phase == MVS_DEVICE_PHASE_LATCHED, was_latched = d.latched;
+  const bool is_latched = now.phase == DevicePhase::latched, was_latched = d.latched;
   d.latched = is_latched;
   if (report)
     write_struct(report, d.hand.report(sim, tissue, is_latched && !was_latched), "report");

@@ -96,7 +96,7 @@ void close_member(const Task &task, uint32_t number, Solver &solver, mvs_ensembl
   member.struct_size = sizeof member;
   member.converged = closing.stats.converged ? 1 : 0;
   member.increments = path.increments;
-  member.order = path.order;
+  member.order = static_cast<uint32_t>(path.order);
   member.diverged = closing.diverged ? 1 : 0;
   member.perturbation = closing.moved;
   member.ramp = path.ramp;
@@ -148,7 +148,7 @@ std::unique_ptr<mvs_ensemble> run(const Task &task) {
   ensemble->snapshots.resize(size);
   ensemble->members.resize(size);
   ensemble->stats.resize(size);
-  Solver solver(task.options.backend);
+  Solver solver(static_cast<Backend>(task.options.backend));
   for (uint32_t k = 0; k < size; ++k) close_member(task, k, solver, *ensemble);
   compare_members(task, *ensemble);
   summarise(*ensemble);

@@ -117,7 +117,7 @@ mvs_result mvs_get_chord_limits(uint32_t kind, double *strain, double *tension) 
     must_point(tension, "tension");
     MVS_MUST(kind <= MVS_CHORD_KIND_SUTURE, MVS_E_ARGUMENT, "kind",
              "kind is %u: it has to be one of MVS_CHORD_KIND_*", kind);
-    const ChordLimits limits = chord_limits(kind);
+    const ChordLimits limits = chord_limits(static_cast<ChordKind>(kind));
     *strain = limits.strain;
     *tension = limits.tension;
   });

@@ -38,7 +38,8 @@ SolveOptions read_options(const mvs_settle_options *given) {
   must_be_in(options.residual, 1e-12, 1e3, "options.residual");
   must_be_in(options.dt, 1e-9, 1, "options.dt");
   must_be_in(options.damping, 1e-6, 1e6, "options.damping");
-  return {options.solver, options.max_iterations, options.residual, options.dt, options.damping};
+  return {static_cast<SolverKind>(options.solver), options.max_iterations, options.residual,
+          options.dt, options.damping};
 }
 
 mvs_stats public_stats(const SolveStats &from) {
@@ -91,7 +92,8 @@ SolveOptions read_options(const mvs_step_options *given) {
       "options.budget is %u: a step needs 4 passes over the terms and may take 10000; 0 is the "
       "default",
       options.budget);
-  return {options.solver, 0, 0, options.dt, options.damping, options.budget};
+  return {
+      static_cast<SolverKind>(options.solver), 0, 0, options.dt, options.damping, options.budget};
 }
 
 // Makes the result of a solver the present state, and records the tool moves before the solver call

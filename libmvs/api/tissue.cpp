@@ -14,7 +14,7 @@ void describe(std::span<const Law> laws, uint32_t index, mvs_law *law) {
   MVS_MUST(index < laws.size(), MVS_E_ARGUMENT, "index", "index is %u, but there are %zu laws",
            index, laws.size());
   mvs_law out = {};
-  out.number = laws[index].id;
+  out.number = static_cast<uint32_t>(laws[index].id);
   out.word = laws[index].word;
   out.name = laws[index].name;
   for (const Constant &c : laws[index].constants) {

@@ -12,7 +12,7 @@ namespace {
 mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
   const State &state = snapshot.state;
   mvs_tool_state out = {};
-  out.kind = tool.kind;
+  out.kind = static_cast<uint32_t>(tool.kind);
   out.id = tool.id;
   write(tool.position, out.position);
   write(tool.axis, out.axis);
@@ -24,13 +24,13 @@ mvs_tool_state public_tool(const mvs_snapshot &snapshot, const Tool &tool) {
   out.stiffness = tool.stiffness;
   out.max_force = tool.max_force;
   out.node = tool.node;
-  if (tool.kind == MVS_TOOL_KIND_GRASP) {
+  if (tool.kind == ToolKind::grasp) {
     write(state.x[tool.node], out.proxy);
     out.touching = 1;
     return out;
   }
   write(tool.proxy[0], out.proxy);
-  if (tool.kind == MVS_TOOL_KIND_ROD) {
+  if (tool.kind == ToolKind::rod) {
     write((tool.proxy[1] - tool.proxy[0]).normalized(), out.proxy_axis);
   }
   out.distance = clearance(*snapshot.model, state.x, tool);
@@ -56,7 +56,7 @@ mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
     must_point(position, "position");
     Tool moved = tool_of(sim->present()->state, tool, "move");
     moved.position = read_place(position, "position");
-    if (axis && moved.kind == MVS_TOOL_KIND_ROD) moved.axis = read_axis(axis, "axis");
+    if (axis && moved.kind == ToolKind::rod) moved.axis = read_axis(axis, "axis");
     sim->hands.post(moved, axis != nullptr);
   });
 }

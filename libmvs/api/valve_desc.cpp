@@ -44,7 +44,7 @@ Leaflet read_leaflet(const mvs_leaflet_desc &given) {
   Leaflet leaflet;
   leaflet.id = given.id;
   leaflet.name = text_or_empty(given.name);
-  if (given.law != 0) leaflet.law = given.law;
+  if (given.law != 0) leaflet.law = static_cast<LeafletLawId>(given.law);
   leaflet.thickness = or_default(given.thickness, leaflet.thickness);
   read_law_constants(find_leaflet_law(leaflet.law), given.constants, leaflet.constants);
   return leaflet;
@@ -71,8 +71,8 @@ Chord read_chord(const mvs_chord_desc &given) {
   chord.name = text_or_empty(given.name);
   chord.a = given.node_a;
   chord.b = given.node_b;
-  chord.kind = given.kind;
-  if (given.law != 0) chord.law = given.law;
+  chord.kind = static_cast<ChordKind>(given.kind);
+  if (given.law != 0) chord.law = static_cast<ChordLawId>(given.law);
   chord.rest_length = given.rest_length;
   chord.young = or_default(given.young, chord.young);
   chord.area = or_default(given.area, chord.area);
@@ -87,7 +87,7 @@ Head read_head(const mvs_head_desc &given) {
 
 Ring read_ring(const mvs_ring_desc &given) {
   must_be_zero(given.reserved, "rings[].reserved");
-  const uint32_t kind = given.kind == 0 ? uint32_t{MVS_RING_KIND_RIGID} : given.kind;
+  const RingKind kind = given.kind == 0 ? RingKind::rigid : static_cast<RingKind>(given.kind);
   return {given.id, text_or_empty(given.name), kind, read_points(given.curve, "rings[].curve")};
 }
 
@@ -140,8 +140,9 @@ void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue) {
            "keeps its own");
   const bool bare = std::all_of(std::begin(tissue.constants), std::end(tissue.constants),
                                 [](double constant) { return constant == 0; });
-  const uint32_t law = tissue.law == 0 ? uint32_t{MVS_LEAFLET_LAW_SPRING} : tissue.law;
-  if (bare && law == MVS_LEAFLET_LAW_BILINEAR && leaflet.law == MVS_LEAFLET_LAW_SPRING) {
+  const LeafletLawId law =
+      tissue.law == 0 ? LeafletLawId::spring : static_cast<LeafletLawId>(tissue.law);
+  if (bare && law == LeafletLawId::bilinear && leaflet.law == LeafletLawId::spring) {
     leaflet.constants = membrane_like(Bilinear(leaflet.constants));
   } else {
     read_law_constants(find_leaflet_law(law), tissue.constants, leaflet.constants);

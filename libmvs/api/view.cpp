@@ -30,6 +30,11 @@ mvs_view view_of(const std::vector<uint32_t> &v) {
 mvs_view view_of(const std::vector<uint64_t> &v) {
   return view_of(v.data(), v.size(), 1, MVS_TYPE_U64, 8);
 }
+template <Enum Kind>
+mvs_view view_of(const std::vector<Kind> &v) {
+  constexpr uint32_t type = sizeof(Kind) == 1 ? MVS_TYPE_U8 : MVS_TYPE_U32;
+  return view_of(v.data(), v.size(), 1, type, sizeof(Kind));
+}
 mvs_view view_of(const std::vector<uint8_t> &v) {
   return view_of(v.data(), v.size(), 1, MVS_TYPE_U8, 1);
 }
@@ -52,7 +57,7 @@ Viewed node_view(const mvs_snapshot &s, uint32_t which) {
     case MVS_ARRAY_NODE_VELOCITY:
       return view_of(s.state.v);
     case MVS_ARRAY_NODE_KIND:
-      return view_of(s.model->topology.node_kind);
+      return view_of(s.model->topology.node_kind.get());
     case MVS_ARRAY_NODE_FORCE:
       return view_of(s.forces().total);
     case MVS_ARRAY_NODE_CONTACT_FORCE:

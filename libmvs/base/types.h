@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace mvs::core {
@@ -15,6 +16,9 @@ using Edge = std::array<uint32_t, 2>;
 using Id = uint64_t;
 
 inline constexpr uint32_t none = UINT32_MAX;
+
+template <typename T>
+concept Enum = std::is_enum_v<T>;
 
 // Reserves memory for `size` items and as many again: lists that grow with contact during live
 // steps reach their largest size early.

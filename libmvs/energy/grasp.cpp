@@ -1,14 +1,12 @@
 // Force, energy and Hessian of the springs of hands.
 #include "energy/grasp.h"
 
-#include <mvs/tool.h>
-
 #include "energy/term.h"
 
 namespace mvs::core {
 
 Hold hold_of(const Tool &tool, uint32_t k, uint32_t node) {
-  const double share = tool.kind == MVS_TOOL_KIND_ROD ? 0.5 : 1;
+  const double share = tool.kind == ToolKind::rod ? 0.5 : 1;
   return {node, tool.target(k), share * tool.stiffness, share * tool.max_force};
 }
 
@@ -29,7 +27,7 @@ Mat3 hold_block(const Hold &hold, const Vec3 &x) {
 void GraspTerm::set_tools(const std::vector<Tool> &tools, uint32_t first) {
   holds_.clear();
   for (const Tool &tool : tools) {
-    if (tool.kind == MVS_TOOL_KIND_GRASP) holds_.push_back(hold_of(tool, 0, tool.node));
+    if (tool.kind == ToolKind::grasp) holds_.push_back(hold_of(tool, 0, tool.node));
     for (uint32_t k = 0; k < tool.points(); ++k) holds_.push_back(hold_of(tool, k, first++));
   }
 }

@@ -1,8 +1,6 @@
 // Builds the springs of the edges and evaluates them.
 #include "energy/spring.h"
 
-#include <mvs/valve.h>
-
 namespace mvs::core {
 
 SpringTerm::SpringTerm(const Model &model) {
@@ -14,7 +12,7 @@ SpringTerm::SpringTerm(const Model &model) {
     for (const uint32_t t : model.topology.edge_triangles[e]) {
       if (t == none) continue;
       const uint32_t law = valve.triangle_leaflet[t];
-      if (valve.leaflets[law].law != MVS_LEAFLET_LAW_SPRING) continue;
+      if (valve.leaflets[law].law != LeafletLawId::spring) continue;
       const double volume = valve.triangle_thickness[t] * model.rest_area[t];
       Spring *last = springs_.empty() ? nullptr : &springs_.back();
       if (last != nullptr && last->i == i && last->j == j && last->law == law) {

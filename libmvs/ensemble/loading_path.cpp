@@ -1,8 +1,6 @@
 // Stages of a loading path, and the closure along them.
 #include "ensemble/loading_path.h"
 
-#include <mvs/ensemble.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +30,8 @@ struct Stage {
 
 std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to) {
   std::vector<Stage> stages;
-  const bool together = path.order == MVS_ENSEMBLE_ORDER_TOGETHER;
-  const bool first = path.order == MVS_ENSEMBLE_ORDER_BOUNDARY_FIRST;
+  const bool together = path.order == LoadingOrder::together;
+  const bool first = path.order == LoadingOrder::boundary_first;
   const bool moves = from.boundary_fraction != to.boundary_fraction;
   const double held = first ? to.boundary_fraction : from.boundary_fraction;
   if (first && moves) stages.push_back({{from.pressure, held}, false});
@@ -46,7 +44,7 @@ std::vector<Stage> stages_of(const Path &path, const Load &from, const Load &to)
          path.ramp > 0});
   }
   // the last stage is the load itself, bit for bit, and is settled to
-  if (!stages.back().in_time && !(moves && path.order == MVS_ENSEMBLE_ORDER_PRESSURE_FIRST)) {
+  if (!stages.back().in_time && !(moves && path.order == LoadingOrder::pressure_first)) {
     stages.pop_back();
   }
   stages.push_back({to, false});
@@ -67,7 +65,7 @@ class PathRun {
   void run(const std::vector<Stage> &stages, const SolveOptions &options, double dt) {
     SolveOptions between = options, step;
     between.residual = std::max(options.residual, force_between(model_, stages.back().load));
-    if (options.solver <= MVS_SOLVER_NEWTON) between.max_iterations = between_iterations;
+    if (options.solver <= SolverKind::newton) between.max_iterations = between_iterations;
     step.dt = dt;
     for (size_t k = 0; k < stages.size(); ++k) {
       closing_.state.load = stages[k].load;
@@ -111,9 +109,8 @@ class PathRun {
 Path make_path(uint32_t number, const Disturbance &disturbance, uint64_t seed) {
   // 5 and 3 are coprime: fifteen combinations before one repeats; 0 increments: a ramp in time
   static constexpr uint32_t increments[] = {1, 4, 2, 0, 8};
-  static constexpr uint32_t orders[] = {MVS_ENSEMBLE_ORDER_TOGETHER,
-                                        MVS_ENSEMBLE_ORDER_BOUNDARY_FIRST,
-                                        MVS_ENSEMBLE_ORDER_PRESSURE_FIRST};
+  static constexpr LoadingOrder orders[] = {LoadingOrder::together, LoadingOrder::boundary_first,
+                                            LoadingOrder::pressure_first};
   Path path;
   path.plain = number == 0;
   path.increments = increments[number % 5];

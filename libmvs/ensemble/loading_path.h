@@ -2,15 +2,25 @@
 // boundary in different increments and orders.
 #pragma once
 
+#include <mvs/ensemble.h>
+
 #include "ensemble/perturbation.h"
 #include "solve/solver.h"
 
 namespace mvs::core {
 
+// When the boundary moves: in proportion to the pressure, before it or after it. The numbers are
+// those of the C interface.
+enum class LoadingOrder : uint32_t {
+  together = MVS_ENSEMBLE_ORDER_TOGETHER,
+  boundary_first = MVS_ENSEMBLE_ORDER_BOUNDARY_FIRST,
+  pressure_first = MVS_ENSEMBLE_ORDER_PRESSURE_FIRST
+};
+
 struct Path {
   uint32_t increments = 1;  // equal steps of the pressure
   double ramp = 0;          // s, of the pressure, with inertia; 0: settles after each increment
-  uint32_t order = 0;       // MVS_ENSEMBLE_ORDER_TOGETHER ...
+  LoadingOrder order = LoadingOrder::together;
   Disturbance disturbance;
   Random random{0, 0};
   bool plain = false;  // the plain closure, whose divergence is an error of the whole ensemble

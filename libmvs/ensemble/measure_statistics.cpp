@@ -1,8 +1,6 @@
 // Statistics of each field of mvs_measures.
 #include "ensemble/measure_statistics.h"
 
-#include <mvs/ensemble.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,24 +17,22 @@ using Row = std::array<double, 5>;
 // The statistics of one measure. NaN stands for a measure that a valve does not have.
 Row row_of(const std::vector<double> &values) {
   Row row = {missing, missing, missing, missing, 0};
-  double &count = row[MVS_ENSEMBLE_STATISTIC_COUNT - 1];
+  auto &[mean, least, most, deviation, count] = row;
   double sum = 0, first = 0;
   for (const double v : values) {
     if (std::isnan(v)) continue;
-    if (count == 0)
-      first = row[MVS_ENSEMBLE_STATISTIC_MIN - 1] = row[MVS_ENSEMBLE_STATISTIC_MAX - 1] = v;
-    row[MVS_ENSEMBLE_STATISTIC_MIN - 1] = std::min(row[MVS_ENSEMBLE_STATISTIC_MIN - 1], v);
-    row[MVS_ENSEMBLE_STATISTIC_MAX - 1] = std::max(row[MVS_ENSEMBLE_STATISTIC_MAX - 1], v);
+    if (count == 0) first = least = most = v;
+    least = std::min(least, v);
+    most = std::max(most, v);
     // relative to the first value, so that equal values have that mean and a deviation of 0 exactly
     sum += v - first;
     ++count;
   }
   if (count == 0) return row;
-  const double mean = first + sum / count;
-  row[MVS_ENSEMBLE_STATISTIC_MEAN - 1] = mean;
+  mean = first + sum / count;
   double squares = 0;
   for (const double v : values) squares += std::isnan(v) ? 0 : (v - mean) * (v - mean);
-  if (count > 1) row[MVS_ENSEMBLE_STATISTIC_DEVIATION - 1] = std::sqrt(squares / (count - 1));
+  if (count > 1) deviation = std::sqrt(squares / (count - 1));
   return row;
 }
 

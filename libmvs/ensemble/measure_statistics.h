@@ -9,7 +9,7 @@
 
 namespace mvs::core {
 
-// In the order MVS_ENSEMBLE_STATISTIC_MEAN ... MVS_ENSEMBLE_STATISTIC_COUNT.
+// Mean, least, most, deviation and count: in the order of mvs_ensemble_statistic.
 using Statistics = std::array<mvs_measures, 5>;
 
 Statistics statistics_of(const std::vector<const mvs_measures *> &valves);

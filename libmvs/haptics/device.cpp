@@ -15,21 +15,21 @@ namespace {
 constexpr auto stop_timeout = std::chrono::seconds(2);          // for the servo thread to end
 constexpr double tick_timeout = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, without a tick
 
-const char *sentence_of(uint32_t cause) {
+const char *sentence_of(Cause cause) {
   switch (cause) {
-    case MVS_CAUSE_BUTTON:
+    case Cause::button:
       return "its own switch has forces off: switch them on at the device";
-    case MVS_CAUSE_VELOCITY:
+    case Cause::velocity:
       return "it moves too fast: hold it still";
-    case MVS_CAUSE_WATCHDOG:
+    case Cause::watchdog:
       return "it does not answer in time: look at its cable and at what else this computer does";
-    case MVS_CAUSE_DEADMAN:
+    case Cause::deadman:
       return "its grip is not held: take it into the hand";
-    case MVS_CAUSE_NOT_FINITE:
+    case Cause::not_finite:
       return "it reports positions that are not finite: restart it";
-    case MVS_CAUSE_THERMAL:
+    case Cause::thermal:
       return "its motors are too warm, or it is broken: let it cool";
-    case MVS_CAUSE_CALIBRATION:
+    case Cause::calibration:
       return "it is not calibrated: run mvs haptics doctor for instructions";
     default:
       return "it is disconnected: close it, plug it in, open it again";
@@ -41,11 +41,11 @@ const char *sentence_of(uint32_t cause) {
 Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
     : core_(std::make_shared<Core>()) {
   core_->plugin = DriverPlugin::load(desc.driver, desc.options ? desc.options : "", std::move(log));
-  core_->clock = desc.clock;
+  core_->clock = static_cast<DeviceClock>(desc.clock);
   const std::string name = desc.device ? desc.device : "";
   const auto &core = core_;
   DriverPlugin &plugin = *core_->plugin;
-  MVS_MUST(desc.clock == MVS_CLOCK_REAL || plugin.api().read, MVS_E_UNSUPPORTED, plugin.name(),
+  MVS_MUST(core_->clock == DeviceClock::real || plugin.api().read, MVS_E_UNSUPPORTED, plugin.name(),
            "the driver %s has a clock of its own: it cannot be turned by hand",
            plugin.name().c_str());
   plugin.call("open", nullptr, [core, name](const mvs_driver_api &api) {
@@ -116,7 +116,7 @@ void Device::start() {
   core_->now_ns = 0;
   core_->due = 0;
   register_device(plugin.api(), core_->handle);
-  if (core_->clock == MVS_CLOCK_REAL) start_thread();
+  if (core_->clock == DeviceClock::real) start_thread();
   started_ = true;
 }
 
@@ -154,18 +154,18 @@ void Device::arm() {
              "%s is lost (%s): close it, and open it again", core_->plugin->name().c_str(),
              core_->lost.c_str());
   }
-  MVS_MUST(now.device_cause == MVS_CAUSE_NONE, MVS_E_DEVICE, core_->plugin->name(),
+  MVS_MUST(now.device_cause == Cause::none, MVS_E_DEVICE, core_->plugin->name(),
            "%s cannot be armed: %s", core_->plugin->name().c_str(), sentence_of(now.device_cause));
   core_->links->requests.arm();
 }
 
 void Device::cut() {
-  core_->links->requests.cut(MVS_CAUSE_SOFTWARE);
+  core_->links->requests.cut(Cause::software);
 }
 
 void Device::advance(double seconds) {
   must_be_started("advance");
-  MVS_MUST(core_->clock == MVS_CLOCK_VIRTUAL, MVS_E_STATE, core_->plugin->name(),
+  MVS_MUST(core_->clock == DeviceClock::manual, MVS_E_STATE, core_->plugin->name(),
            "advance: this device has a real clock; open it with MVS_CLOCK_VIRTUAL");
   MVS_MUST(seconds >= 0 && seconds <= 3600, MVS_E_ARGUMENT, "seconds",
            "seconds is %g: it has to be 0 to 3600", seconds);
@@ -184,14 +184,14 @@ ServoStatus Device::status() {
   const std::lock_guard<std::mutex> lock(reading_);
   core_->links->status.refresh();
   ServoStatus now = core_->links->status.get();
-  if (!started_) now.phase = MVS_DEVICE_PHASE_STOPPED;
-  if (!started_ || core_->clock == MVS_CLOCK_VIRTUAL) return now;
+  if (!started_) now.phase = DevicePhase::stopped;
+  if (!started_ || core_->clock == DeviceClock::manual) return now;
   const double quiet =
       1e-9 * static_cast<double>(static_cast<int64_t>(clock_ns()) - core_->last_tick_ns.load());
-  if (quiet > tick_timeout && now.device_cause == MVS_CAUSE_NONE) {
-    core_->links->requests.cut(MVS_CAUSE_WATCHDOG);
-    now.phase = MVS_DEVICE_PHASE_LATCHED;
-    now.cause = now.device_cause = MVS_CAUSE_WATCHDOG;
+  if (quiet > tick_timeout && now.device_cause == Cause::none) {
+    core_->links->requests.cut(Cause::watchdog);
+    now.phase = DevicePhase::latched;
+    now.cause = now.device_cause = Cause::watchdog;
   }
   return now;
 }

@@ -20,7 +20,7 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   std::shared_ptr<DriverPlugin> plugin;
   mvs_driver_device *handle = nullptr;
   DeviceTraits traits;
-  uint32_t clock = MVS_CLOCK_REAL;
+  DeviceClock clock = DeviceClock::real;
   std::unique_ptr<ServoLinks> links;
   std::unique_ptr<Servo> servo;
   uint64_t now_ns = 0;  // virtual clock

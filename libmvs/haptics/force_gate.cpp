@@ -12,22 +12,20 @@ constexpr double fade_in_factor = 4;  // fade-in time over fade-out time
 }  // namespace
 
 void ForceGate::start() {
-  phase_ = MVS_DEVICE_PHASE_OFF;
-  cause_ = MVS_CAUSE_NONE;
+  phase_ = DevicePhase::off;
+  cause_ = Cause::none;
   armed_ = requests_->armed_.load(std::memory_order_relaxed);
-  requests_->cut_.store(MVS_CAUSE_NONE, std::memory_order_relaxed);
+  requests_->cut_.store(Cause::none, std::memory_order_relaxed);
 }
 
 double ForceGate::share(const Facts &facts, const mvs_device_limits &limits) {
   take_requests();
-  if (is_armed() && facts.cause != MVS_CAUSE_NONE) latch(facts.cause);
+  if (is_armed() && facts.cause != Cause::none) latch(facts.cause);
   if (!is_armed()) return 0;
   pass_gate(facts, limits);
   fade(facts, limits);
-  if (phase_ == MVS_DEVICE_PHASE_WAITING) return 0;
-  phase_ = fade_ < 1   ? MVS_DEVICE_PHASE_FADED
-           : ramp_ < 1 ? MVS_DEVICE_PHASE_RAMPING
-                       : MVS_DEVICE_PHASE_ON;
+  if (phase_ == DevicePhase::waiting) return 0;
+  phase_ = fade_ < 1 ? DevicePhase::faded : ramp_ < 1 ? DevicePhase::ramping : DevicePhase::on;
   return ramp_ * fade_;
 }
 
@@ -37,26 +35,26 @@ void ForceGate::take_requests() {
   if (armed != armed_) {
     armed_ = armed;
     if (!is_armed()) {
-      phase_ = MVS_DEVICE_PHASE_WAITING;
-      cause_ = MVS_CAUSE_NONE;
+      phase_ = DevicePhase::waiting;
+      cause_ = Cause::none;
       quiet_ = 0;
     }
   }
-  const uint32_t cut = requests_->cut_.exchange(MVS_CAUSE_NONE, std::memory_order_relaxed);
-  if (cut != MVS_CAUSE_NONE && phase_ != MVS_DEVICE_PHASE_LATCHED) latch(cut);
+  const Cause cut = requests_->cut_.exchange(Cause::none, std::memory_order_relaxed);
+  if (cut != Cause::none && phase_ != DevicePhase::latched) latch(cut);
 }
 
-void ForceGate::latch(uint32_t cause) {
-  phase_ = MVS_DEVICE_PHASE_LATCHED;
+void ForceGate::latch(Cause cause) {
+  phase_ = DevicePhase::latched;
   cause_ = cause;
   ramp_ = 0;
 }
 
 void ForceGate::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
-  if (phase_ == MVS_DEVICE_PHASE_WAITING) {
+  if (phase_ == DevicePhase::waiting) {
     quiet_ = facts.wanted < limits.gate ? quiet_ + 1 : 0;
     if (quiet_ < quiet_ticks) return;
-    phase_ = MVS_DEVICE_PHASE_RAMPING;
+    phase_ = DevicePhase::ramping;
     ramp_ = 0;
     fade_ = 1;
   }

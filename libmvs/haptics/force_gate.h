@@ -10,21 +10,22 @@ namespace mvs::core {
 
 // The inputs of the gate for one tick.
 struct Facts {
-  uint32_t cause = MVS_CAUSE_NONE;  // a reason to latch
-  bool may_feel = false;            // tissue model is fresh and the device is not parked
-  double wanted = 0;                // N, norm of the unlimited force
-  double dt = 0;                    // s
+  Cause cause = Cause::none;  // a reason to latch
+  bool may_feel = false;      // tissue model is fresh and the device is not parked
+  double wanted = 0;          // N, norm of the unlimited force
+  double dt = 0;              // s
 };
 
 // Requests of the application, from any thread.
 class Requests {
  public:
   void arm() { armed_.fetch_add(1, std::memory_order_relaxed); }
-  void cut(uint32_t cause) { cut_.store(cause, std::memory_order_relaxed); }
+  void cut(Cause cause) { cut_.store(cause, std::memory_order_relaxed); }
 
  private:
   friend class ForceGate;
-  std::atomic<uint32_t> armed_{0}, cut_{MVS_CAUSE_NONE};
+  std::atomic<uint32_t> armed_{0};
+  std::atomic<Cause> cut_{Cause::none};
 };
 
 class ForceGate {
@@ -35,21 +36,20 @@ class ForceGate {
   double share(const Facts &facts, const mvs_device_limits &limits);
   void start();
 
-  uint32_t phase() const { return phase_; }
-  uint32_t cause() const { return cause_; }
-  bool is_armed() const {
-    return phase_ >= MVS_DEVICE_PHASE_WAITING && phase_ != MVS_DEVICE_PHASE_LATCHED;
-  }
+  DevicePhase phase() const { return phase_; }
+  Cause cause() const { return cause_; }
+  bool is_armed() const { return phase_ >= DevicePhase::waiting && phase_ != DevicePhase::latched; }
 
  private:
   void take_requests();
-  void latch(uint32_t cause);
+  void latch(Cause cause);
   void pass_gate(const Facts &facts, const mvs_device_limits &limits);
   void fade(const Facts &facts, const mvs_device_limits &limits);
 
   Requests *requests_;
-  uint32_t phase_ = MVS_DEVICE_PHASE_STOPPED, cause_ = MVS_CAUSE_NONE, armed_ = 0;
-  uint32_t quiet_ = 0;  // ticks below the gate
+  DevicePhase phase_ = DevicePhase::stopped;
+  Cause cause_ = Cause::none;
+  uint32_t armed_ = 0, quiet_ = 0;  // requests taken; ticks below the gate
   double ramp_ = 0, fade_ = 1;
 };
 

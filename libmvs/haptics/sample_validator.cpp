@@ -26,17 +26,17 @@ void SampleValidator::start() {
 }
 
 void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limits &limits) {
-  cause_ = MVS_CAUSE_NONE;
+  cause_ = Cause::none;
   flags_ = sample.flags;
   if (!is_finite(sample)) {
     dt_ = passed_ = 0;
-    return latch_cause(MVS_CAUSE_NOT_FINITE);
+    return latch_cause(Cause::not_finite);
   }
   take_time(sample);
-  if (sample.cause != MVS_CAUSE_NONE) latch_cause(std::min<uint32_t>(sample.cause, 9));
-  if (!(flags_ & MVS_DRIVER_FLAG_CALIBRATED)) latch_cause(MVS_CAUSE_CALIBRATION);
-  if (traits_->has_deadman && !(flags_ & MVS_DRIVER_FLAG_HELD)) latch_cause(MVS_CAUSE_DEADMAN);
-  if (silent_ > sample_timeout) latch_cause(MVS_CAUSE_WATCHDOG);
+  latch_cause(std::min(static_cast<Cause>(sample.cause), Cause::calibration));
+  if (!(flags_ & MVS_DRIVER_FLAG_CALIBRATED)) latch_cause(Cause::calibration);
+  if (traits_->has_deadman && !(flags_ & MVS_DRIVER_FLAG_HELD)) latch_cause(Cause::deadman);
+  if (silent_ > sample_timeout) latch_cause(Cause::watchdog);
   if (dt_ > 0 || !has_pose_) take_pose(sample, limits);
 }
 
@@ -51,12 +51,12 @@ bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
   return good;
 }
 
-// Latches MVS_CAUSE_WATCHDOG if the device's clock goes back.
+// Latches Cause::watchdog if the device's clock goes back.
 void SampleValidator::take_time(const mvs_driver_state &sample) {
   dt_ = passed_ = 0;
   if (has_pose_ && sample.time_ns < time_ns_) {
     time_ns_ = sample.time_ns;
-    return latch_cause(MVS_CAUSE_WATCHDOG);
+    return latch_cause(Cause::watchdog);
   }
   passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
@@ -65,7 +65,7 @@ void SampleValidator::take_time(const mvs_driver_state &sample) {
   if (has_pose_ && sample.sequence == sequence_) return;
   sequence_ = sample.sequence;
   dt_ = passed_ > 0 ? silent_ : 0;
-  if (silent_ > sample_timeout) latch_cause(MVS_CAUSE_WATCHDOG);
+  if (silent_ > sample_timeout) latch_cause(Cause::watchdog);
   silent_ = 0;
 }
 
@@ -83,7 +83,7 @@ void SampleValidator::take_pose(const mvs_driver_state &sample, const mvs_device
   // samples delivered together by a busy computer must not look fast: at least half a period
   const double speed = step.norm() / std::max(dt_, 0.5 / traits_->info.rate);
   fast_ = speed > limits.speed ? fast_ + 1 : 0;
-  if (speed > jump * limits.speed || fast_ >= fast_samples) latch_cause(MVS_CAUSE_VELOCITY);
+  if (speed > jump * limits.speed || fast_ >= fast_samples) latch_cause(Cause::velocity);
   take_velocity(sample, step);
 }
 

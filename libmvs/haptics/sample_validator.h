@@ -20,7 +20,7 @@ class SampleValidator {
   double dt() const { return dt_; }
   // Time since the last sample, new or not, s.
   double passed() const { return passed_; }
-  uint32_t cause() const { return cause_; }
+  Cause cause() const { return cause_; }
   bool is_parked() const { return (flags_ & MVS_DRIVER_FLAG_PARKED) != 0; }
   uint32_t flags() const { return flags_; }
 
@@ -29,8 +29,8 @@ class SampleValidator {
   void take_time(const mvs_driver_state &sample);
   void take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits);
   void take_velocity(const mvs_driver_state &sample, const Vec3 &step);
-  void latch_cause(uint32_t cause) {
-    if (cause_ == MVS_CAUSE_NONE) cause_ = cause;
+  void latch_cause(Cause cause) {
+    if (cause_ == Cause::none) cause_ = cause;
   }
 
   const DeviceTraits *traits_;
@@ -39,7 +39,8 @@ class SampleValidator {
   uint64_t time_ns_ = 0, sequence_ = 0;
   double dt_ = 0, passed_ = 0, silent_ = 0;  // s
   uint32_t fast_ = 0;                        // consecutive samples above the speed limit
-  uint32_t cause_ = MVS_CAUSE_NONE, flags_ = 0;
+  Cause cause_ = Cause::none;
+  uint32_t flags_ = 0;
 };
 
 // Debounces buttons. A button that is down at the start counts as stuck until it was up once.

@@ -25,16 +25,16 @@ void sleep_until(uint64_t ns) {
   }
 }
 
-uint32_t cause_of(int32_t code) {
+Cause cause_of(int32_t code) {
   switch (code) {
     case MVS_DRIVER_E_END:
-      return MVS_CAUSE_SOFTWARE;
+      return Cause::software;
     case MVS_DRIVER_E_FAULT:
-      return MVS_CAUSE_THERMAL;
+      return Cause::thermal;
     case MVS_DRIVER_E_CALIBRATION:
-      return MVS_CAUSE_CALIBRATION;
+      return Cause::calibration;
     default:
-      return MVS_CAUSE_UNPLUGGED;
+      return Cause::unplugged;
   }
 }
 
@@ -125,7 +125,7 @@ void Device::Core::poll(uint64_t now) {
 
 // On a virtual clock the duration of a tick is not measured.
 void Device::Core::tick(const mvs_driver_state &state, mvs_driver_force &force) {
-  if (clock == MVS_CLOCK_VIRTUAL) return servo->tick(state, force);
+  if (clock == DeviceClock::manual) return servo->tick(state, force);
   const uint64_t begin = clock_ns();
   last_tick_ns.store(static_cast<int64_t>(begin), std::memory_order_relaxed);
   servo->tick(state, force);

@@ -63,7 +63,7 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
   publish(sample);
 }
 
-void Servo::lose(uint32_t cause) {
+void Servo::lose(Cause cause) {
   links_->requests.cut(cause);
   share_ = gate_.share({}, limits_);
   force_ = Vec3::Zero();
@@ -82,7 +82,7 @@ void Servo::take_updates() {
   if (!is_finite(next)) {
     bits_ |= MVS_LIMITED_NUMBER;
     tissue_ = {};
-    return links_->requests.cut(MVS_CAUSE_NOT_FINITE);
+    return links_->requests.cut(Cause::not_finite);
   }
   const bool same_contact = next.contact == tissue_.contact && next.kind != TissueModel::free;
   if (same_contact && tissue_.kind != TissueModel::free) {

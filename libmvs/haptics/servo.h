@@ -33,7 +33,7 @@ class Servo {
   // One tick. The force is zero unless the gate is open.
   void tick(const mvs_driver_state &sample, mvs_driver_force &force);
   // Replaces a tick if the device gives no sample: latches the driver's cause, forces off.
-  void lose(uint32_t cause);
+  void lose(Cause cause);
   // Stores the duration of tick() for the next row of the trace.
   void took(double seconds) { servo_s_ = seconds; }
 

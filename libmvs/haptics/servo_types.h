@@ -9,6 +9,32 @@
 
 namespace mvs::core {
 
+// The numbers are those of the C interface and of drivers. A cause is the reason of a latch.
+enum class Cause : uint32_t {
+  none = MVS_CAUSE_NONE,
+  button = MVS_CAUSE_BUTTON,
+  velocity = MVS_CAUSE_VELOCITY,
+  watchdog = MVS_CAUSE_WATCHDOG,
+  software = MVS_CAUSE_SOFTWARE,
+  unplugged = MVS_CAUSE_UNPLUGGED,
+  deadman = MVS_CAUSE_DEADMAN,
+  not_finite = MVS_CAUSE_NOT_FINITE,
+  thermal = MVS_CAUSE_THERMAL,
+  calibration = MVS_CAUSE_CALIBRATION
+};
+
+enum class DevicePhase : uint32_t {
+  stopped = MVS_DEVICE_PHASE_STOPPED,
+  off = MVS_DEVICE_PHASE_OFF,
+  waiting = MVS_DEVICE_PHASE_WAITING,
+  ramping = MVS_DEVICE_PHASE_RAMPING,
+  on = MVS_DEVICE_PHASE_ON,
+  faded = MVS_DEVICE_PHASE_FADED,
+  latched = MVS_DEVICE_PHASE_LATCHED
+};
+
+enum class DeviceClock : uint32_t { real = MVS_CLOCK_REAL, manual = MVS_CLOCK_VIRTUAL };
+
 // A device as its driver describes it, checked and completed; m, N, s, in the frame of the device.
 struct DeviceTraits {
   mvs_device_info info = {};
@@ -41,7 +67,8 @@ struct ButtonEvent {
 
 // The status of the servo after a tick.
 struct ServoStatus {
-  uint32_t phase = MVS_DEVICE_PHASE_STOPPED, cause = MVS_CAUSE_NONE, device_cause = MVS_CAUSE_NONE;
+  DevicePhase phase = DevicePhase::stopped;
+  Cause cause = Cause::none, device_cause = Cause::none;
   uint32_t flags = 0, limited = 0, buttons = 0;
   HandPose pose;
   Vec3 force = Vec3::Zero();

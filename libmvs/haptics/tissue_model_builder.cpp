@@ -1,8 +1,6 @@
 // Local tissue models of grasps, balls, rods and chordae.
 #include "haptics/tissue_model_builder.h"
 
-#include <mvs/tool.h>
-
 #include "model/chord_law.h"
 #include "model/model.h"
 
@@ -36,7 +34,7 @@ void TissueModelBuilder::refresh_stiffness(const Model &model, const State &stat
 
 // A ball or rod without contact gets no stiffness, only the plane of the nearest tissue.
 TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, const Tool &tool) {
-  const bool grasp = tool.kind == MVS_TOOL_KIND_GRASP;
+  const bool grasp = tool.kind == ToolKind::grasp;
   const Room room = grasp ? Room{0, Vec3::Zero()} : room_of(model, state.x, tool);
   const bool touches = grasp || room.distance < tool_range(model);
   TissueModel tissue = next(grasp     ? TissueModel::held

@@ -26,7 +26,7 @@ class TissueModelBuilder {
   void refresh_stiffness(const Model &model, const State &state, const Tool &tool);
 
   uint64_t contact_ = 0;
-  ToolFeel feel_{MVS_BACKEND_BLOCK};
+  ToolFeel feel_{Backend::block};
   Mat3 stiffness_ = Mat3::Zero();
   Vec3 at_ = Vec3::Zero();  // position of the hand at the last stiffness
   uint64_t valve_ = 0;      // serial of its model

@@ -26,7 +26,8 @@ struct RecordedEvent {
   };
   static constexpr uint64_t most_count = uint64_t{1} << 40;
   Kind kind = load;
-  uint32_t solver = 0, max_iterations = 0;  // of settle and step, as the caller gave them
+  SolverKind solver = SolverKind::unset;  // of settle and step, as the caller gave it
+  uint32_t max_iterations = 0;            // of settle, as the caller gave it
   uint64_t count = 1;   // time steps of a step event (at most most_count) or of a trajectory
   uint32_t budget = 0;  // of step, as the caller gave it
   double pressure = 0, boundary_fraction = 0;  // of load: Pa, 0 to 1

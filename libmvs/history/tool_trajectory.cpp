@@ -1,8 +1,6 @@
 // Tool trajectories: construction, run-length append, replay of a row.
 #include "history/tool_trajectory.h"
 
-#include <mvs/tool.h>
-
 #include <algorithm>
 
 namespace mvs::core {
@@ -93,7 +91,7 @@ void take_steps(uint64_t &count, uint64_t &from, uint64_t most) {
 }  // namespace
 
 size_t points_of_tool(const Tool &tool) {
-  return tool.kind == MVS_TOOL_KIND_ROD ? 2 : 1;
+  return tool.kind == ToolKind::rod ? 2 : 1;
 }
 
 size_t points_per_row(const RecordedEvent &trajectory) {

@@ -64,11 +64,12 @@ void expand_lower(const BlockMatrix &matrix, int *start, int *row, double *value
   start[3 * matrix.size()] = at;
 }
 
-std::unique_ptr<DirectSolver> make_direct_solver(uint32_t backend) {
-  if (backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK) return make_block_factor();
-  if (backend == MVS_BACKEND_EIGEN) return std::make_unique<EigenFactor>();
-  MVS_MUST(backend == MVS_BACKEND_CHOLMOD, MVS_E_ARGUMENT, "backend",
-           "there is no factorisation number %u; use MVS_BACKEND_DEFAULT", backend);
+std::unique_ptr<DirectSolver> make_direct_solver(Backend backend) {
+  if (backend == Backend::fastest || backend == Backend::block) return make_block_factor();
+  if (backend == Backend::eigen) return std::make_unique<EigenFactor>();
+  MVS_MUST(backend == Backend::cholmod, MVS_E_ARGUMENT, "backend",
+           "there is no factorisation number %u; use MVS_BACKEND_DEFAULT",
+           static_cast<uint32_t>(backend));
 #ifdef MVS_HAVE_CHOLMOD
   return make_cholmod_solver();
 #else

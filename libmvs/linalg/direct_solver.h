@@ -1,12 +1,23 @@
 // Sparse direct solvers of a BlockMatrix behind one interface: the library's own, CHOLMOD, Eigen.
 #pragma once
 
+#include <mvs/sim.h>
+
 #include <memory>
 #include <vector>
 
 #include "linalg/block_matrix.h"
 
 namespace mvs::core {
+
+// The numbers are those of the C interface. `fastest`: in solve the block Cholesky in single
+// precision as a preconditioner, elsewhere `block`.
+enum class Backend : uint32_t {
+  fastest = MVS_BACKEND_DEFAULT,
+  cholmod = MVS_BACKEND_CHOLMOD,
+  eigen = MVS_BACKEND_EIGEN,
+  block = MVS_BACKEND_BLOCK
+};
 
 class DirectSolver {
  public:
@@ -27,8 +38,8 @@ class DirectSolver {
   virtual uint32_t iterations() const { return 0; }
 };
 
-// Makes a solver of a MVS_BACKEND_*; throws MVS_E_UNSUPPORTED if this build lacks it.
-std::unique_ptr<DirectSolver> make_direct_solver(uint32_t backend);
+// Makes the solver of a backend; throws MVS_E_UNSUPPORTED if this build lacks it.
+std::unique_ptr<DirectSolver> make_direct_solver(Backend backend);
 
 // Returns the names of the backends of this build, separated by spaces.
 const char *factor_names();

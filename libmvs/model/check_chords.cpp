@@ -1,6 +1,4 @@
 // Checks the nodes that chordae and papillary heads join.
-#include <mvs/valve.h>
-
 #include <algorithm>
 
 #include "model/checks.h"
@@ -43,10 +41,10 @@ void check_chord_ends(const Valve &valve, const std::vector<uint8_t> &role, size
     faults.add(part, "%s leads from node %u to itself", part.c_str(), chord.a);
   } else if (role[chord.a] == role_head && role[chord.b] == role_head) {
     faults.add(part, "%s joins two papillary heads: it has to lead to the sheet", part.c_str());
-  } else if (chord.kind == MVS_CHORD_KIND_SUTURE &&
+  } else if (chord.kind == ChordKind::suture &&
              (role[chord.a] != role_sheet || role[chord.b] != role_sheet)) {
     faults.add(part, "%s is a suture: it has to join two nodes of the sheet", part.c_str());
-  } else if (chord.kind != MVS_CHORD_KIND_SUTURE && role[chord.a] == role_sheet &&
+  } else if (chord.kind != ChordKind::suture && role[chord.a] == role_sheet &&
              role[chord.b] == role_sheet) {
     faults.add(part, "%s joins two nodes of the sheet: it has to lead to a papillary head",
                part.c_str());

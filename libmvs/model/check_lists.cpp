@@ -1,6 +1,4 @@
 // Checks the sizes of lists and the ranges of indices.
-#include <mvs/valve.h>
-
 #include <cmath>
 
 #include "model/checks.h"
@@ -98,7 +96,7 @@ void check_other_indices(const Valve &valve, Faults &faults) {
   for (size_t c = 0; c < valve.chords.size(); ++c) {
     check_index("chord", c, "node", valve.chords[c].a, n, faults);
     check_index("chord", c, "node", valve.chords[c].b, n, faults);
-    if (valve.chords[c].law == MVS_CHORD_LAW_TABLE) check_curve_index(valve, c, faults);
+    if (valve.chords[c].law == ChordLawId::table) check_curve_index(valve, c, faults);
   }
   for (size_t h = 0; h < valve.heads.size(); ++h) {
     check_index("papillary head", h, "node", valve.heads[h].node, n, faults);

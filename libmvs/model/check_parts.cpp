@@ -86,10 +86,11 @@ void check_range(const std::string &part, const char *what, double value, const 
 
 // Checks that a law exists, that its constants are in range, and that surplus constants are 0.
 template <typename Law, typename Values>
-void check_law(const std::string &part, uint32_t id, const Law *law, const Values &values,
+void check_law(const std::string &part, Enum auto id, const Law *law, const Values &values,
                Faults &faults) {
   if (!law) {
-    faults.add(part, "%s follows law %u, which this library does not know", part.c_str(), id);
+    faults.add(part, "%s follows law %u, which this library does not know", part.c_str(),
+               static_cast<uint32_t>(id));
     return;
   }
   for (size_t k = 0; k < values.size(); ++k) {
@@ -162,10 +163,10 @@ void check_chord_material(const Valve &valve, size_t k, Faults &faults) {
   const Chord &chord = valve.chords[k];
   const std::string part = part_name("chord", chord.name, k);
   check_law(part, chord.law, find_chord_law(chord.law), chord.constants, faults);
-  if (chord.law == MVS_CHORD_LAW_OGDEN) check_ogden(part, valve, chord, faults);
-  if (chord.kind > MVS_CHORD_KIND_SUTURE) {
+  if (chord.law == ChordLawId::ogden) check_ogden(part, valve, chord, faults);
+  if (chord.kind > ChordKind::suture) {
     faults.add(part, "%s is of kind %u, which this library does not know", part.c_str(),
-               chord.kind);
+               static_cast<uint32_t>(chord.kind));
   }
   check_range(part, "Young's modulus", chord.young, modulus_range, faults);
   check_range(part, "area", chord.area, area_range, faults);
@@ -204,9 +205,9 @@ void check_parts(const Valve &valve, Faults &faults) {
   check_valve(valve, faults);
   for (size_t k = 0; k < valve.rings.size(); ++k) {
     const Ring &ring = valve.rings[k];
-    if (ring.kind == MVS_RING_KIND_RIGID || ring.kind == MVS_RING_KIND_BAND) continue;
+    if (ring.kind == RingKind::rigid || ring.kind == RingKind::band) continue;
     faults.add("ring " + ring.name, "ring %s is of kind %u, which this library does not know",
-               ring.name.c_str(), ring.kind);
+               ring.name.c_str(), static_cast<uint32_t>(ring.kind));
   }
   for (size_t k = 0; k < valve.leaflets.size(); ++k) check_leaflet(valve.leaflets[k], k, faults);
   for (size_t k = 0; k < valve.chords.size(); ++k) check_chord_material(valve, k, faults);

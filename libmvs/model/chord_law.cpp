@@ -1,8 +1,7 @@
 // Constitutive laws of chordae: linear, bilinear, Ogden (incompressible, uniaxial), measured curve.
-// A new law adds one case here, one row of the table, and its number in include/mvs/valve.h.
+// A new law adds one case here, one row of the table, and its number in include/mvs/valve.h and
+// model/kinds.h.
 #include "model/chord_law.h"
-
-#include <mvs/valve.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,10 +79,10 @@ constexpr Constant ogden_constants[] = {
 constexpr Constant table_constants[] = {{"curve", "curve", "", 0, 0, 4294967294.0}};
 
 constexpr ChordLaw chord_law_table[] = {
-    {MVS_CHORD_LAW_LINEAR, "linear", "linear cable", {}},
-    {MVS_CHORD_LAW_BILINEAR, "bilinear", "bilinear cable", bilinear_cable_constants},
-    {MVS_CHORD_LAW_OGDEN, "ogden", "Ogden", ogden_constants},
-    {MVS_CHORD_LAW_TABLE, "table", "measured curve", table_constants}};
+    {ChordLawId::linear, "linear", "linear cable", {}},
+    {ChordLawId::bilinear, "bilinear", "bilinear cable", bilinear_cable_constants},
+    {ChordLawId::ogden, "ogden", "Ogden", ogden_constants},
+    {ChordLawId::table, "table", "measured curve", table_constants}};
 
 }  // namespace
 
@@ -91,7 +90,7 @@ std::span<const ChordLaw> chord_laws() {
   return chord_law_table;
 }
 
-const ChordLaw *find_chord_law(uint32_t id) {
+const ChordLaw *find_chord_law(ChordLawId id) {
   for (const ChordLaw &law : chord_law_table) {
     if (law.id == id) return &law;
   }
@@ -102,15 +101,16 @@ Axial chord_response(const Valve &valve, const Chord &chord, double strain) {
   if (strain <= 0) return {};
   const auto &c = chord.constants;
   switch (chord.law) {
-    case MVS_CHORD_LAW_BILINEAR:
+    case ChordLawId::linear:
+      break;
+    case ChordLawId::bilinear:
       return bilinear(Bilinear(chord.young, c[1], c[0]), strain);
-    case MVS_CHORD_LAW_OGDEN:
+    case ChordLawId::ogden:
       return bounded_ogden(c, strain);
-    case MVS_CHORD_LAW_TABLE:
+    case ChordLawId::table:
       return table(valve.curves[static_cast<size_t>(c[0])].points, strain);
-    default:
-      return linear(chord.young, strain);
   }
+  return linear(chord.young, strain);
 }
 
 }  // namespace mvs::core

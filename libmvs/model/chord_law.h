@@ -13,13 +13,13 @@ struct Axial {
 };
 
 struct ChordLaw {
-  uint32_t id;  // MVS_CHORD_LAW_*
+  ChordLawId id;
   const char *word, *name;
   std::span<const Constant> constants;
 };
 
-std::span<const ChordLaw> chord_laws();       // in the order of their ids, from 1
-const ChordLaw *find_chord_law(uint32_t id);  // null if unknown
+std::span<const ChordLaw> chord_laws();         // in the order of their ids, from 1
+const ChordLaw *find_chord_law(ChordLawId id);  // null if unknown
 
 // Requires a known law and valid constants (check_parts.cpp).
 Axial chord_response(const Valve &valve, const Chord &chord, double strain);

@@ -19,6 +19,9 @@ void add(Hash &hash, uint32_t number) {
 void add(Hash &hash, double number) {
   hash.add(number);
 }
+void add(Hash &hash, Enum auto kind) {
+  hash.add(static_cast<uint64_t>(kind));
+}
 void add(Hash &hash, const Leaflet &leaflet) {
   hash.add(leaflet.id);
   hash.add(leaflet.name);
@@ -34,7 +37,9 @@ void add(Hash &hash, const Scallop &scallop) {
 void add(Hash &hash, const Chord &chord) {
   hash.add(chord.id);
   hash.add(chord.name);
-  for (const uint32_t number : {chord.a, chord.b, chord.kind, chord.law}) add(hash, number);
+  for (const uint32_t node : {chord.a, chord.b}) add(hash, node);
+  add(hash, chord.kind);
+  add(hash, chord.law);
   for (const double number : {chord.rest_length, chord.young, chord.area}) hash.add(number);
   for (const double constant : chord.constants) hash.add(constant);
 }

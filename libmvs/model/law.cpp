@@ -1,8 +1,6 @@
 // Constitutive laws of leaflets. A new law adds one response function, one row of the table, and
-// its number in include/mvs/valve.h.
+// its number in include/mvs/valve.h and model/kinds.h.
 #include "model/law.h"
-
-#include <mvs/valve.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,14 +101,14 @@ constexpr Constant prot_constants[] = {{"c0", "constant c0", "Pa", 52, soft, har
 constexpr Constant neo_hookean_constants[] = {{"mu", "shear modulus", "Pa", 1e5 / 3, soft, hard}};
 
 constexpr LeafletLaw leaflet_law_table[] = {
-    {MVS_LEAFLET_LAW_SPRING, "spring", "bilinear springs", spring_constants, nullptr},
-    {MVS_LEAFLET_LAW_BILINEAR, "bilinear", "bilinear membrane", bilinear_membrane_constants,
+    {LeafletLawId::spring, "spring", "bilinear springs", spring_constants, nullptr},
+    {LeafletLawId::bilinear, "bilinear", "bilinear membrane", bilinear_membrane_constants,
      bilinear},
-    {MVS_LEAFLET_LAW_FUNG, "fung", "Fung-type membrane", fung_constants, fung},
-    {MVS_LEAFLET_LAW_MAY_NEWMAN_YIN, "may_newman_yin", "May-Newman and Yin", may_newman_constants,
+    {LeafletLawId::fung, "fung", "Fung-type membrane", fung_constants, fung},
+    {LeafletLawId::may_newman_yin, "may_newman_yin", "May-Newman and Yin", may_newman_constants,
      may_newman_yin},
-    {MVS_LEAFLET_LAW_PROT, "prot", "Prot", prot_constants, prot},
-    {MVS_LEAFLET_LAW_NEO_HOOKEAN, "neo_hookean", "neo-Hookean membrane", neo_hookean_constants,
+    {LeafletLawId::prot, "prot", "Prot", prot_constants, prot},
+    {LeafletLawId::neo_hookean, "neo_hookean", "neo-Hookean membrane", neo_hookean_constants,
      neo_hookean}};
 
 }  // namespace
@@ -119,7 +117,7 @@ std::span<const LeafletLaw> leaflet_laws() {
   return leaflet_law_table;
 }
 
-const LeafletLaw *find_leaflet_law(uint32_t id) {
+const LeafletLaw *find_leaflet_law(LeafletLawId id) {
   for (const LeafletLaw &law : leaflet_law_table) {
     if (law.id == id) return &law;
   }

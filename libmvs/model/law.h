@@ -4,9 +4,10 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <string_view>
+
+#include "model/kinds.h"
 
 namespace mvs::core {
 
@@ -28,15 +29,15 @@ struct Response {
 };
 
 struct LeafletLaw {
-  uint32_t id;  // MVS_LEAFLET_LAW_*
+  LeafletLawId id;
   const char *word;
   const char *name;
   std::span<const Constant> constants;
   Response (*response)(const Constants &c, double i1, double i4);  // null: a spring sheet
 };
 
-std::span<const LeafletLaw> leaflet_laws();       // in the order of their ids, from 1
-const LeafletLaw *find_leaflet_law(uint32_t id);  // null if unknown
+std::span<const LeafletLaw> leaflet_laws();           // in the order of their ids, from 1
+const LeafletLaw *find_leaflet_law(LeafletLawId id);  // null if unknown
 Constants default_constants(std::span<const Constant> constants);
 
 // Young's modulus for the bending stiffness: the tangent at rest or, for a law without initial

@@ -90,7 +90,7 @@ Id add_tool(const Model &model, State &state, Tool tool) {
            "there are %u tools, which is the limit: remove one first", MVS_MAX_TOOLS);
   tool.id = first_tool_id + state.tools_made;
   tool.proxy = {tool.target(0), tool.target(1)};
-  if (tool.kind == MVS_TOOL_KIND_GRASP) {
+  if (tool.kind == ToolKind::grasp) {
     check_node(model, tool.node);
   } else {
     const double room = clearance(model, state.x, tool);
@@ -106,10 +106,10 @@ Id add_tool(const Model &model, State &state, Tool tool) {
 }
 
 bool is_valid(const Model &model, const Tool &tool) {
-  const bool holds = tool.kind == MVS_TOOL_KIND_GRASP && tool.node < model.node_count() &&
+  const bool holds = tool.kind == ToolKind::grasp && tool.node < model.node_count() &&
                      !model.topology.fixed[tool.node];
   const bool pushes =
-      (tool.kind == MVS_TOOL_KIND_BALL || tool.kind == MVS_TOOL_KIND_ROD) && tool.node == none;
+      (tool.kind == ToolKind::ball || tool.kind == ToolKind::rod) && tool.node == none;
   return (holds || pushes) && tool.stiffness > 0 && tool.max_force > 0;
 }
 
@@ -149,8 +149,7 @@ void renumber_grasps(State &state, const std::vector<uint32_t> &number) {
 void drop_lost_tools(const Model &model, State &state) {
   if (state.tools.empty()) return;
   std::erase_if(state.tools.edit(), [&](const Tool &tool) {
-    if (tool.kind == MVS_TOOL_KIND_GRASP)
-      return tool.node == none || model.topology.fixed[tool.node];
+    if (tool.kind == ToolKind::grasp) return tool.node == none || model.topology.fixed[tool.node];
     return clearance(model, state.x, tool) <= 0;
   });
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/types.h"
+#include "model/kinds.h"
 
 namespace mvs::core {
 
@@ -12,7 +13,7 @@ struct State;
 
 struct Tool {
   Id id = 0;
-  uint32_t kind = 1;                                  // MVS_TOOL_KIND_*
+  ToolKind kind = ToolKind::grasp;
   uint32_t node = none;                               // held by a grasp
   double radius = 0, length = 0;                      // m, of a ball or rod
   double stiffness = 0;                               // N/m
@@ -22,7 +23,7 @@ struct Tool {
   std::array<Vec3, 2> proxy = {Vec3::Zero(), Vec3::Zero()};
 
   // Number of its own degrees of freedom, as points.
-  uint32_t points() const { return kind - 1; }
+  uint32_t points() const { return static_cast<uint32_t>(kind) - 1; }
   // Position that the hand requests for point k.
   Vec3 target(uint32_t k) const { return position + k * length * axis; }
 

@@ -1,8 +1,6 @@
 // Topology by sorting: the order of every list does not depend on hashing or addresses.
 #include "model/topology.h"
 
-#include <mvs/snapshot.h>
-
 #include <algorithm>
 
 #include "model/sides.h"
@@ -35,16 +33,16 @@ void add_hinges(const std::vector<Tri> &triangles, Topology &topology) {
 
 void add_kinds(const Valve &valve, Topology &topology) {
   const size_t n = valve.rest.size();
-  topology.node_kind.assign(n, MVS_NODE_KIND_BRANCH);
+  topology.node_kind.assign(n, NodeKind::branch);
   topology.fixed.assign(n, 0);
   for (const Tri &triangle : valve.triangles) {
-    for (const uint32_t node : triangle) topology.node_kind[node] = MVS_NODE_KIND_LEAFLET;
+    for (const uint32_t node : triangle) topology.node_kind[node] = NodeKind::leaflet;
   }
-  for (const uint32_t node : valve.annulus) topology.node_kind[node] = MVS_NODE_KIND_ANNULUS;
-  for (const Head &head : valve.heads) topology.node_kind[head.node] = MVS_NODE_KIND_HEAD;
+  for (const uint32_t node : valve.annulus) topology.node_kind[node] = NodeKind::annulus;
+  for (const Head &head : valve.heads) topology.node_kind[head.node] = NodeKind::head;
   for (size_t node = 0; node < n; ++node) {
-    topology.fixed[node] = topology.node_kind[node] == MVS_NODE_KIND_ANNULUS ||
-                           topology.node_kind[node] == MVS_NODE_KIND_HEAD;
+    topology.fixed[node] =
+        topology.node_kind[node] == NodeKind::annulus || topology.node_kind[node] == NodeKind::head;
   }
 }
 

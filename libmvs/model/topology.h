@@ -14,9 +14,9 @@ struct Topology {
   CowVector<Tri> triangle_edges;   // edge k of a triangle joins its corners k and k + 1
   CowVector<std::array<uint32_t, 4>> hinges;  // edge nodes i j, then the opposite corners
   CowVector<uint32_t> hinge_edge;
-  Rows node_triangles;                          // triangles around each node, ascending
-  Rows node_chords;                             // chord segments at each node, ascending
-  CowVector<uint8_t> node_kind;                 // MVS_NODE_KIND_*
+  Rows node_triangles;  // triangles around each node, ascending
+  Rows node_chords;     // chord segments at each node, ascending
+  CowVector<NodeKind> node_kind;
   CowVector<uint8_t> fixed;                     // 1: prescribed (annulus, head)
   CowVector<std::vector<uint32_t>> free_edges;  // boundary loops except the annulus, in order
 };

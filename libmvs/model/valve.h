@@ -6,6 +6,7 @@
 
 #include "base/cow_vector.h"
 #include "base/types.h"
+#include "model/kinds.h"
 #include "model/law.h"
 
 namespace mvs::core {
@@ -13,7 +14,7 @@ namespace mvs::core {
 struct Leaflet {
   Id id = 0;
   std::string name;
-  uint32_t law = 1;  // MVS_LEAFLET_LAW_*
+  LeafletLawId law = LeafletLawId::spring;
   double thickness = 1e-3;
   Constants constants = {100e3, 6e6, 0.25};  // of the law; unused entries are 0
 
@@ -31,10 +32,10 @@ struct Scallop {
 struct Chord {
   Id id = 0;
   std::string name;
-  uint32_t a = none;                   // nearer the papillary head
-  uint32_t b = none;                   // nearer the leaflet
-  uint32_t kind = 0;                   // MVS_CHORD_KIND_MARGINAL ...
-  uint32_t law = 1;                    // MVS_CHORD_LAW_LINEAR ...
+  uint32_t a = none;  // nearer the papillary head
+  uint32_t b = none;  // nearer the leaflet
+  ChordKind kind = ChordKind::other;
+  ChordLawId law = ChordLawId::linear;
   double rest_length = 0;              // m
   double young = 40e6;                 // Pa
   double area = 7.853981633974483e-7;  // m2, diameter 1 mm
@@ -47,7 +48,7 @@ struct Chord {
 
 using CurvePoint = std::array<double, 2>;  // engineering strain, nominal stress in Pa
 
-// A measured stress-strain curve for chordae of MVS_CHORD_LAW_TABLE.
+// A measured stress-strain curve for chordae of ChordLawId::table.
 struct ChordCurve {
   Id id = 0;
   std::string name;
@@ -69,7 +70,7 @@ struct Head {
 struct Ring {
   Id id = 0;
   std::string name;
-  uint32_t kind = 1;      // MVS_RING_KIND_*
+  RingKind kind = RingKind::rigid;
   CowVector<Vec3> curve;  // m, closed for a ring, open for a band
 
   bool operator==(const Ring &) const = default;

@@ -13,7 +13,7 @@
 namespace mvs::core {
 
 void Hand::set_hand(const mvs_device_hand &given) {
-  MVS_MUST(given.mode <= MVS_HAND_MODE_DRAG, MVS_E_ARGUMENT, "hand.mode",
+  MVS_MUST(static_cast<HandMode>(given.mode) <= HandMode::drag, MVS_E_ARGUMENT, "hand.mode",
            "hand.mode is %u: it has to be one of MVS_HAND_MODE_*", given.mode);
   MVS_MUST(given.button < 32, MVS_E_ARGUMENT, "hand.button",
            "hand.button is %u: it has to be 0 to 31", given.button);
@@ -71,15 +71,15 @@ void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
 }
 
 void Hand::press(mvs_sim &sim) {
-  if (hand_.mode == MVS_HAND_MODE_GRASP && tool_ == 0) {
-    const bool found = add(sim, describe(MVS_TOOL_KIND_GRASP));
+  if (mode() == HandMode::grasp && tool_ == 0) {
+    const bool found = add(sim, describe(ToolKind::grasp));
     events_ |= uint32_t{found ? MVS_EVENT_GRASPED : MVS_EVENT_MISSED};
   }
-  if (hand_.mode != MVS_HAND_MODE_FEEL && hand_.mode != MVS_HAND_MODE_DRAG) return;
+  if (mode() != HandMode::feel && mode() != HandMode::drag) return;
   if (hand_.chord == 0) choose_chord(sim);
   const Chord *const chosen = chord(sim);
-  if (!chosen || hand_.mode == MVS_HAND_MODE_FEEL || tool_ != 0) return;
-  mvs_tool_desc desc = describe(MVS_TOOL_KIND_GRASP);
+  if (!chosen || mode() == HandMode::feel || tool_ != 0) return;
+  mvs_tool_desc desc = describe(ToolKind::grasp);
   desc.by_node = 1;
   desc.node = chosen->b;
   if (add(sim, desc)) events_ |= MVS_EVENT_GRASPED;
@@ -98,8 +98,8 @@ void Hand::choose_chord(const mvs_sim &sim) {
 
 void Hand::release(mvs_sim &sim) {
   const Tool *const held = tool(sim);
-  if (!held || held->kind != MVS_TOOL_KIND_GRASP) return;
-  if (hand_.mode == MVS_HAND_MODE_DRAG) {
+  if (!held || held->kind != ToolKind::grasp) return;
+  if (mode() == HandMode::drag) {
     drag_to_ = sim.current().state.x[held->node];
     events_ |= MVS_EVENT_DRAGGED;
   }
@@ -115,16 +115,16 @@ void Hand::let_go(mvs_sim &sim) {
 }
 
 // The spring stiffness is limited to the value that the device can render through this view.
-mvs_tool_desc Hand::describe(uint32_t kind) const {
+mvs_tool_desc Hand::describe(ToolKind kind) const {
   mvs_tool_desc desc = {};
   desc.struct_size = sizeof desc;
-  desc.kind = kind;
+  desc.kind = static_cast<uint32_t>(kind);
   write(place_, desc.position);
-  if (kind == MVS_TOOL_KIND_ROD) {
+  if (kind == ToolKind::rod) {
     write(axis(), desc.axis);
     desc.length = hand_.length;
   }
-  if (kind != MVS_TOOL_KIND_GRASP) desc.radius = hand_.radius;
+  if (kind != ToolKind::grasp) desc.radius = hand_.radius;
   desc.reach = hand_.reach;
   desc.stiffness = std::max(1.0, std::min(hand_.stiffness, most_ / view_.stiffness_scale()));
   desc.max_force = hand_.max_force;
@@ -153,22 +153,22 @@ void Hand::follow(mvs_sim &sim) {
     events_ |= MVS_EVENT_LOST_TOOL;
     builder_.begin_contact();
   }
-  const bool pushes = hand_.mode == MVS_HAND_MODE_BALL || hand_.mode == MVS_HAND_MODE_ROD;
+  const bool pushes = mode() == HandMode::ball || mode() == HandMode::rod;
   if (pushes && tool_ == 0) {
-    const uint32_t kind = hand_.mode == MVS_HAND_MODE_BALL ? MVS_TOOL_KIND_BALL : MVS_TOOL_KIND_ROD;
+    const ToolKind kind = mode() == HandMode::ball ? ToolKind::ball : ToolKind::rod;
     if (!add(sim, describe(kind))) events_ |= MVS_EVENT_BLOCKED;
   } else if (held) {
     Tool moved = *held;
     moved.position = place_;
-    if (moved.kind == MVS_TOOL_KIND_ROD) moved.axis = axis();
-    sim.hands.post(moved, moved.kind == MVS_TOOL_KIND_ROD);
+    if (moved.kind == ToolKind::rod) moved.axis = axis();
+    sim.hands.post(moved, moved.kind == ToolKind::rod);
   }
 }
 
 TissueModel Hand::tissue(mvs_sim &sim) {
   const ModelState &now = sim.current();
   const Tool *const held = tool(sim);
-  const Chord *const felt = hand_.mode == MVS_HAND_MODE_FEEL ? chord(sim) : nullptr;
+  const Chord *const felt = mode() == HandMode::feel ? chord(sim) : nullptr;
   TissueModel scene = builder_.nothing();
   felt_ = Vec3::Zero();
   if (held) {

@@ -11,6 +11,16 @@
 
 namespace mvs::core {
 
+// The numbers are those of the C interface.
+enum class HandMode : uint32_t {
+  look = MVS_HAND_MODE_LOOK,
+  grasp = MVS_HAND_MODE_GRASP,
+  ball = MVS_HAND_MODE_BALL,
+  rod = MVS_HAND_MODE_ROD,
+  feel = MVS_HAND_MODE_FEEL,
+  drag = MVS_HAND_MODE_DRAG
+};
+
 class Hand {
  public:
   // set_hand and set_view throw MVS_E_ARGUMENT.
@@ -34,13 +44,14 @@ class Hand {
   mvs_device_report report(const mvs_sim &sim, const TissueModel &tissue, bool latched) const;
 
  private:
+  HandMode mode() const { return static_cast<HandMode>(hand_.mode); }
   const Tool *tool(const mvs_sim &sim) const;
   const Chord *chord(const mvs_sim &sim) const;
   void press(mvs_sim &sim);
   void release(mvs_sim &sim);
   void choose_chord(const mvs_sim &sim);
   bool add(mvs_sim &sim, mvs_tool_desc desc);
-  mvs_tool_desc describe(uint32_t kind) const;
+  mvs_tool_desc describe(ToolKind kind) const;
   Vec3 axis() const;
 
   DeviceView view_;

@@ -1,8 +1,6 @@
 // Linear search: a few thousand distances.
 #include "session/nearest.h"
 
-#include <mvs/snapshot.h>
-
 #include <cmath>
 #include <limits>
 
@@ -24,7 +22,7 @@ NearNode nearest_node(const ModelState &now, const Vec3 &place) {
   NearNode found = {none, std::numeric_limits<double>::infinity()};
   const std::vector<Vec3> &x = now.state.x;
   for (uint32_t i = 0; i < x.size(); ++i) {
-    if (now.model->topology.node_kind[i] != MVS_NODE_KIND_LEAFLET) continue;
+    if (now.model->topology.node_kind[i] != NodeKind::leaflet) continue;
     const double distance = (x[i] - place).norm();
     if (distance < found.distance) found = {i, distance};
   }

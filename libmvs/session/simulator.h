@@ -19,7 +19,8 @@
 // step copies nothing: it works in a second state buffer, swaps it with the present state on
 // success, and a snapshot is built only on demand.
 struct mvs_sim {
-  explicit mvs_sim(const mvs_sim_desc &desc_in) : desc(desc_in), solver(desc_in.backend) {}
+  explicit mvs_sim(const mvs_sim_desc &desc_in)
+      : desc(desc_in), solver(static_cast<mvs::core::Backend>(desc_in.backend)) {}
 
   // Returns the present snapshot, from any thread; throws MVS_E_STATE before a valve is set.
   mvs::core::SnapshotPtr present() const;

@@ -35,8 +35,11 @@ class Lazy {
 // Fields of the parts as arrays, for views of the C interface.
 struct Tables {
   std::vector<Edge> chord_nodes;
-  std::vector<uint32_t> chord_kind, head_nodes, leaflet_law, free_edge_nodes;
-  std::vector<uint32_t> ring_start, ring_kind, chord_law, curve_start;
+  std::vector<ChordKind> chord_kind;
+  std::vector<ChordLawId> chord_law;
+  std::vector<LeafletLawId> leaflet_law;
+  std::vector<RingKind> ring_kind;
+  std::vector<uint32_t> head_nodes, free_edge_nodes, ring_start, curve_start;
   std::vector<Vec3> ring_points;
   std::vector<CurvePoint> curve_points;
   std::vector<Chord::Constants> chord_constants;

@@ -20,8 +20,9 @@ uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach)
 }
 
 void check_numbers(const mvs_tool_desc &desc) {
-  MVS_MUST(desc.kind >= MVS_TOOL_KIND_GRASP && desc.kind <= MVS_TOOL_KIND_ROD, MVS_E_ARGUMENT,
-           "desc.kind", "desc.kind is %u: it has to be one of MVS_TOOL_KIND_*", desc.kind);
+  const auto kind = static_cast<ToolKind>(desc.kind);
+  MVS_MUST(kind >= ToolKind::grasp && kind <= ToolKind::rod, MVS_E_ARGUMENT, "desc.kind",
+           "desc.kind is %u: it has to be one of MVS_TOOL_KIND_*", desc.kind);
   MVS_MUST(desc.by_node <= 1, MVS_E_ARGUMENT, "desc.by_node",
            "desc.by_node is %u: it has to be 0 or 1", desc.by_node);
 }
@@ -29,19 +30,19 @@ void check_numbers(const mvs_tool_desc &desc) {
 Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
   check_numbers(desc);
   Tool tool;
-  tool.kind = desc.kind;
+  tool.kind = static_cast<ToolKind>(desc.kind);
   tool.position = read_place(desc.position, "desc.position");
   const ToolSizes sizes =
       read_tool_sizes({desc.radius, desc.length, desc.stiffness, desc.max_force}, "desc");
   const double reach = read_reach(desc.reach, 2e-3, "desc");
   tool.stiffness = sizes.stiffness;
   tool.max_force = sizes.max_force;
-  if (desc.kind == MVS_TOOL_KIND_GRASP) {
+  if (tool.kind == ToolKind::grasp) {
     tool.node = desc.by_node ? desc.node : node_in_reach(now, tool.position, reach);
     return tool;
   }
   tool.radius = sizes.radius;
-  if (desc.kind == MVS_TOOL_KIND_BALL) return tool;
+  if (tool.kind == ToolKind::ball) return tool;
   tool.length = sizes.length;
   const bool is_given = desc.axis[0] != 0 || desc.axis[1] != 0 || desc.axis[2] != 0;
   tool.axis = is_given ? read_axis(desc.axis, "desc.axis") : Vec3::UnitZ();

@@ -102,8 +102,8 @@ size_t leaflet_ends(const Model &model) {
   size_t ends = 0;
   for (const Chord &chord : model.valve.chords) {
     for (const uint32_t node : {chord.a, chord.b}) {
-      ends += model.topology.node_kind[node] != MVS_NODE_KIND_BRANCH &&
-              model.topology.node_kind[node] != MVS_NODE_KIND_HEAD;
+      ends += model.topology.node_kind[node] != NodeKind::branch &&
+              model.topology.node_kind[node] != NodeKind::head;
     }
   }
   return ends;
@@ -151,7 +151,7 @@ void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale) {
   const double share = 0.5 * MVS_SYSTOLE_PA * scale.area / static_cast<double>(ends);
   ChordWarning soft, stiff, lengths;
   for (const Chord &chord : valve.chords) {
-    if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;  // made by the library
+    if (chord.kind == ChordKind::suture) continue;  // made by the library
     judge_stiffness(valve, chord, share, soft, stiff);
     judge_length(valve, chord, lengths);
   }

@@ -22,7 +22,7 @@ namespace {
 // Fills in the defaults.
 StepOptions step_options(const SolveOptions &options) {
   namespace set = settings::defaults;
-  const bool is_explicit = options.solver == MVS_SOLVER_EXPLICIT;
+  const bool is_explicit = options.solver == SolverKind::explicit_euler;
   StepOptions how{options.dt, options.damping, options.budget, true};
   if (how.dt == 0) how.dt = is_explicit ? set::explicit_dt : set::implicit_dt;
   if (how.damping == 0 && is_explicit) how.damping = set::explicit_damping;
@@ -40,8 +40,8 @@ StepOptions settle_options(const SolveOptions &options) {
 
 uint32_t max_settle_steps(const SolveOptions &options) {
   if (options.max_iterations > 0) return options.max_iterations;
-  return options.solver == MVS_SOLVER_EXPLICIT ? settings::defaults::explicit_steps
-                                               : settings::defaults::implicit_steps;
+  return options.solver == SolverKind::explicit_euler ? settings::defaults::explicit_steps
+                                                      : settings::defaults::implicit_steps;
 }
 
 // The bits of mvs_stats.skipped that follow from the counts of a whole run.
@@ -91,16 +91,16 @@ void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveSta
   stats.skipped |= stepper.skipped();
 }
 
-std::unique_ptr<DirectSolver> make_newton_factor(uint32_t backend) {
-  return backend == MVS_BACKEND_DEFAULT ? make_mixed_precision_cholesky()
-                                        : make_direct_solver(backend);
+std::unique_ptr<DirectSolver> make_newton_factor(Backend backend) {
+  return backend == Backend::fastest ? make_mixed_precision_cholesky()
+                                     : make_direct_solver(backend);
 }
 
 }  // namespace
 
 // The solvers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
-  explicit Work(uint32_t backend_in) : backend(backend_in), factor(make_newton_factor(backend)) {}
+  explicit Work(Backend backend_in) : backend(backend_in), factor(make_newton_factor(backend)) {}
 
   ImplicitEuler &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();
@@ -115,7 +115,7 @@ struct Solver::Work {
     return *explicit_;
   }
 
-  const uint32_t backend;
+  const Backend backend;
   ToolPoints tool_points;
   std::unique_ptr<DirectSolver> factor;  // of settling
   std::optional<ImplicitEuler> implicit;
@@ -124,7 +124,7 @@ struct Solver::Work {
   uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
 };
 
-Solver::Solver(uint32_t backend) : work_(std::make_unique<Work>(backend)) {}
+Solver::Solver(Backend backend) : work_(std::make_unique<Work>(backend)) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver &&) noexcept = default;
 Solver &Solver::operator=(Solver &&) noexcept = default;
@@ -139,7 +139,7 @@ SolveStats Solver::with_points(const Model &model, State &state, const SolveOpti
     if (state.tools.empty()) stats.skipped |= MVS_SKIPPED_TOOLS;
     return stats;
   }
-  MVS_MUST(options.solver != MVS_SOLVER_EXPLICIT, MVS_E_UNSUPPORTED, "tool",
+  MVS_MUST(options.solver != SolverKind::explicit_euler, MVS_E_UNSUPPORTED, "tool",
            "the explicit solver does not prevent penetration and cannot push with a ball or rod: "
            "remove the tool, or use another solver");
   State extended = ToolPoints::extended(state);
@@ -164,12 +164,12 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
                                 const Progress &progress) {
   SolveStats stats;
   state.drop_cache();
-  if (options.solver == MVS_SOLVER_IMPLICIT) {
+  if (options.solver == SolverKind::implicit_euler) {
     ImplicitEuler stepper(model, work_->backend);
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
     stats = settle_in_time(model, state, options, progress, step);
     stats.skipped = stepper.skipped();
-  } else if (options.solver == MVS_SOLVER_EXPLICIT) {
+  } else if (options.solver == SolverKind::explicit_euler) {
     ExplicitEuler stepper(model);
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
     stats = settle_in_time(model, state, options, progress, step);
@@ -186,7 +186,7 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
   const double start = seconds_now();
   const StepOptions how = step_options(options);
   SolveStats stats;
-  if (options.solver == MVS_SOLVER_EXPLICIT) {
+  if (options.solver == SolverKind::explicit_euler) {
     state.drop_cache();
     step_alone(work_->explicit_for(model), state, how, stats);
   } else {

@@ -5,13 +5,14 @@
 #include <memory>
 
 #include "energy/profile.h"
+#include "linalg/direct_solver.h"
 #include "model/model.h"
 
 namespace mvs::core {
 
 // A zero stands for the default that include/mvs/sim.h states.
 struct SolveOptions {
-  uint32_t solver = 0;  // MVS_SOLVER_*
+  SolverKind solver = SolverKind::unset;
   uint32_t max_iterations = 0;
   double residual = 0;  // N
   double dt = 0;        // s
@@ -51,7 +52,7 @@ using Progress = std::function<bool(double share, double residual)>;
 // Solver returns the same bits.
 class Solver {
  public:
-  explicit Solver(uint32_t backend);  // MVS_BACKEND_*; throws MVS_E_UNSUPPORTED
+  explicit Solver(Backend backend);  // throws MVS_E_UNSUPPORTED
   ~Solver();
   Solver(Solver &&) noexcept;
   Solver &operator=(Solver &&) noexcept;

@@ -9,22 +9,22 @@
 namespace mvs::core {
 namespace {
 
-std::vector<uint8_t> kinds_of_nodes(const Valve &valve) {
-  std::vector<uint8_t> kind(valve.rest.size(), MVS_NODE_KIND_BRANCH);
+std::vector<NodeKind> kinds_of_nodes(const Valve &valve) {
+  std::vector<NodeKind> kind(valve.rest.size(), NodeKind::branch);
   for (const Tri &triangle : valve.triangles) {
-    for (const uint32_t node : triangle) kind[node] = MVS_NODE_KIND_LEAFLET;
+    for (const uint32_t node : triangle) kind[node] = NodeKind::leaflet;
   }
-  for (const Head &head : valve.heads) kind[head.node] = MVS_NODE_KIND_HEAD;
+  for (const Head &head : valve.heads) kind[head.node] = NodeKind::head;
   return kind;
 }
 
 // Marks the chords that a search from the heads reaches over branch points.
 std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_at,
-                                        const std::vector<uint8_t> &kind) {
+                                        const std::vector<NodeKind> &kind) {
   std::vector<uint8_t> reached(valve.chords.size(), 0);
   std::vector<uint32_t> queue;
   for (uint32_t n = 0; n < kind.size(); ++n) {
-    if (kind[n] == MVS_NODE_KIND_HEAD) queue.push_back(n);
+    if (kind[n] == NodeKind::head) queue.push_back(n);
   }
   std::vector<uint8_t> seen(kind.size(), 0);
   for (size_t q = 0; q < queue.size(); ++q) {
@@ -32,7 +32,7 @@ std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_a
       reached[c] = 1;
       const Chord &chord = valve.chords.get()[c];
       const uint32_t other = chord.other_end(queue[q]);
-      if (kind[other] != MVS_NODE_KIND_BRANCH || seen[other]) continue;
+      if (kind[other] != NodeKind::branch || seen[other]) continue;
       seen[other] = 1;
       queue.push_back(other);
     }
@@ -44,16 +44,16 @@ std::vector<uint8_t> reached_from_heads(const Valve &valve, const Rows &chords_a
 // and those with a branch point that has no other chord.
 bool prune_once(Valve &valve) {
   const Rows chords_at = chords_at_nodes(valve);
-  const std::vector<uint8_t> kind = kinds_of_nodes(valve);
+  const std::vector<NodeKind> kind = kinds_of_nodes(valve);
   const std::vector<uint8_t> from_head = reached_from_heads(valve, chords_at, kind);
   std::vector<uint8_t> removed(valve.chords.size(), 0);
   bool changed = false;
   for (size_t c = 0; c < removed.size(); ++c) {
     const Chord &chord = valve.chords.get()[c];
-    if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;
+    if (chord.kind == ChordKind::suture) continue;
     bool has_loose_end = false;
     for (const uint32_t node : {chord.a, chord.b}) {
-      has_loose_end |= kind[node] == MVS_NODE_KIND_BRANCH && chords_at[node].size() == 1;
+      has_loose_end |= kind[node] == NodeKind::branch && chords_at[node].size() == 1;
     }
     removed[c] = !from_head[c] || has_loose_end;
     changed |= removed[c] != 0;
@@ -65,21 +65,21 @@ bool prune_once(Valve &valve) {
 // Returns the length along the chordae from a head to each of its leaflet nodes; 0 for other nodes.
 std::vector<double> reach_of(const Valve &valve, uint32_t head_node) {
   const Rows chords_at = chords_at_nodes(valve);
-  const std::vector<uint8_t> kind = kinds_of_nodes(valve);
+  const std::vector<NodeKind> kind = kinds_of_nodes(valve);
   std::vector<double> length(valve.rest.size(), 0);
   std::vector<uint32_t> queue = {head_node};
   for (size_t q = 0; q < queue.size(); ++q) {
     for (const uint32_t c : chords_at[queue[q]]) {
       const Chord &chord = valve.chords.get()[c];
-      if (chord.kind == MVS_CHORD_KIND_SUTURE) continue;
+      if (chord.kind == ChordKind::suture) continue;
       const uint32_t other = chord.other_end(queue[q]);
-      if (length[other] > 0 || kind[other] == MVS_NODE_KIND_HEAD) continue;
+      if (length[other] > 0 || kind[other] == NodeKind::head) continue;
       length[other] = length[queue[q]] + chord.rest_length;
-      if (kind[other] == MVS_NODE_KIND_BRANCH) queue.push_back(other);
+      if (kind[other] == NodeKind::branch) queue.push_back(other);
     }
   }
   for (size_t n = 0; n < length.size(); ++n) {
-    if (kind[n] != MVS_NODE_KIND_LEAFLET) length[n] = 0;
+    if (kind[n] != NodeKind::leaflet) length[n] = 0;
   }
   return length;
 }
@@ -89,12 +89,12 @@ std::vector<double> reach_of(const Valve &valve, uint32_t head_node) {
 void prune_chords(Surgery &s) {
   while (prune_once(s.valve)) {
   }
-  const std::vector<uint8_t> kind = kinds_of_nodes(s.valve);
+  const std::vector<NodeKind> kind = kinds_of_nodes(s.valve);
   const Rows chords_at = chords_at_nodes(s.valve);
   std::vector<uint8_t> gone(kind.size(), 0);
   bool any = false;
   for (size_t n = 0; n < gone.size(); ++n) {
-    gone[n] = kind[n] == MVS_NODE_KIND_BRANCH && chords_at[n].empty();
+    gone[n] = kind[n] == NodeKind::branch && chords_at[n].empty();
     any |= gone[n] != 0;
   }
   if (any) remove_nodes(s, gone);

@@ -91,7 +91,7 @@ Id add_suture(Surgery &s, Suture suture) {
   chord.name = std::move(suture.name);
   chord.a = suture.a;
   chord.b = suture.b;
-  chord.kind = MVS_CHORD_KIND_SUTURE;
+  chord.kind = ChordKind::suture;
   chord.rest_length = suture.rest_length;
   chord.young = suture.young;
   chord.area = suture.area;
@@ -100,7 +100,7 @@ Id add_suture(Surgery &s, Suture suture) {
   return id;
 }
 
-void set_ring(Surgery &s, const char *name, const char *default_name, uint32_t kind,
+void set_ring(Surgery &s, const char *name, const char *default_name, RingKind kind,
               std::vector<Vec3> curve) {
   Ring ring;
   ring.id = s.made = new_id(s);

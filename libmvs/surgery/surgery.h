@@ -53,7 +53,7 @@ Id add_suture(Surgery &s, Suture suture);
 bool has_chord_named(const Surgery &s, const std::string &name);
 
 // Replaces the rings of the valve by one and sets `made`; `name` may be null or empty.
-void set_ring(Surgery &s, const char *name, const char *default_name, uint32_t kind,
+void set_ring(Surgery &s, const char *name, const char *default_name, RingKind kind,
               std::vector<Vec3> curve);
 
 // Throws if a chord joins these nodes.

@@ -21,8 +21,8 @@ mvs_parametric_desc described(uint32_t vertices, uint32_t chords, uint32_t branc
   return desc;
 }
 
-std::map<uint32_t, int> count_kinds(const Valve &valve) {
-  std::map<uint32_t, int> kinds;
+std::map<ChordKind, int> count_kinds(const Valve &valve) {
+  std::map<ChordKind, int> kinds;
   for (const Chord &chord : valve.chords) ++kinds[chord.kind];
   return kinds;
 }
@@ -55,7 +55,7 @@ TEST_CASE("branching_chordae_spring_from_trunks_and_reach_the_leaflets") {
   for (const Head &head : valve.heads) heads.insert(head.node);
   for (const Tri &triangle : valve.triangles) leaflet.insert(triangle.begin(), triangle.end());
   for (const Chord &chord : valve.chords) {
-    if (chord.kind == MVS_CHORD_KIND_TRUNK) {
+    if (chord.kind == ChordKind::trunk) {
       CHECK(heads.count(chord.a) == 1);
       ++trunks[chord.b];
     } else {
@@ -83,12 +83,12 @@ TEST_CASE("every_scallop_has_chordae_and_every_kind_occurs") {
     CHECK(scallops == std::set<std::string>{"A1", "A2", "A3", "P1", "P2", "P3"});
     CHECK(names.size() == valve.chords.size());
     const auto kinds = count_kinds(valve);
-    CHECK(kinds.at(MVS_CHORD_KIND_STRUT) == 2);
-    for (uint32_t kind : {MVS_CHORD_KIND_MARGINAL, MVS_CHORD_KIND_ROUGH_ZONE, MVS_CHORD_KIND_BASAL,
-                          MVS_CHORD_KIND_COMMISSURAL}) {
+    CHECK(kinds.at(ChordKind::strut) == 2);
+    for (const ChordKind kind :
+         {ChordKind::marginal, ChordKind::rough_zone, ChordKind::basal, ChordKind::commissural}) {
       CHECK(kinds.at(kind) >= 6);
     }
-    CHECK(kinds.count(MVS_CHORD_KIND_TRUNK) == branching);
+    CHECK(kinds.count(ChordKind::trunk) == branching);
   }
 }
 
@@ -121,9 +121,9 @@ TEST_CASE("marginal_chordae_end_at_the_free_edge_and_basal_ones_on_the_posterior
     if (count == 1) boundary.insert(edge.begin(), edge.end());
   }
   for (const Chord &chord : valve.chords) {
-    if (chord.kind == MVS_CHORD_KIND_MARGINAL) CHECK(boundary.count(chord.b) == 1);
-    if (chord.kind == MVS_CHORD_KIND_BASAL) CHECK(chord.name[0] == 'P');
-    if (chord.kind == MVS_CHORD_KIND_STRUT) CHECK(chord.name[0] == 'A');
+    if (chord.kind == ChordKind::marginal) CHECK(boundary.count(chord.b) == 1);
+    if (chord.kind == ChordKind::basal) CHECK(chord.name[0] == 'P');
+    if (chord.kind == ChordKind::strut) CHECK(chord.name[0] == 'A');
   }
 }
 

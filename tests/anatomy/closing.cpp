@@ -25,7 +25,7 @@ Closed close(const Valve &valve) {
   Closed closed{make_model(valve), {}, {}};
   closed.state = initial_state(*closed.model);
   closed.state.load = {systole, 1};
-  Solver solver(0);
+  Solver solver(Backend::fastest);
   closed.stats = solver.settle(*closed.model, closed.state, {}, {});
   return closed;
 }
@@ -80,7 +80,7 @@ TEST_CASE("dilated_with_one_long_strut_chord_it_leaks_more_than_ten_square_milli
   desc.annulus_scale = 1.15;
   Valve valve = make_parametric_valve(desc);
   const auto strut = std::find_if(valve.chords.begin(), valve.chords.end(),
-                                  [](const Chord &c) { return c.kind == MVS_CHORD_KIND_STRUT; });
+                                  [](const Chord &c) { return c.kind == ChordKind::strut; });
   REQUIRE(strut != valve.chords.end());
   strut->rest_length *= 1.25;
   const Closed closed = close(valve);

@@ -2,8 +2,6 @@
 // chord slack.
 #include "anatomy/coarsen.h"
 
-#include <mvs/valve.h>
-
 #include <set>
 
 #include "anatomy/coarse_chordae.h"
@@ -187,7 +185,7 @@ TEST_CASE("a_suture_keeps_its_vertices") {
   Chord suture;
   suture.a = edge[3];
   suture.b = edge[edge.size() - 5];
-  suture.kind = MVS_CHORD_KIND_SUTURE;
+  suture.kind = ChordKind::suture;
   suture.name = "stitch";
   valve.chords.push_back(suture);
   const ModelPtr fine = make_model(valve);

@@ -144,7 +144,7 @@ TEST_CASE("levels_of_different_valves_are_refused") {
 
 TEST_CASE("levels_close_and_the_coarse_closure_starts_the_fine_one") {
   const ModelPtr coarse = parametric(200), fine = make_model(refine(*coarse));
-  Solver solver(0);
+  Solver solver(Backend::fastest);
   State state = initial_state(*coarse);
   state.load = {120 * 133.322, 1};
   const SolveStats first = solver.settle(*coarse, state, {}, {});

@@ -47,9 +47,9 @@ ModelPtr make_scene(const Options &options, const std::string &scene) {
   desc.vertices = bench::scene_vertices.at(scene);
   Valve valve = make_parametric_valve(desc);
   for (size_t k = 0; options.leaflet == "membrane" && k < valve.leaflets.size(); ++k) {
-    valve.leaflets[k].law = MVS_LEAFLET_LAW_BILINEAR;
+    valve.leaflets[k].law = LeafletLawId::bilinear;
     for (const LeafletLaw &law : leaflet_laws()) {
-      if (law.id == MVS_LEAFLET_LAW_BILINEAR)
+      if (law.id == LeafletLawId::bilinear)
         valve.leaflets[k].constants = default_constants(law.constants);
     }
   }
@@ -64,7 +64,7 @@ double close(const Options &options, const Model &model, State &state) {
     state.load = {MVS_SYSTOLE_PA, 1};
     SolveOptions how;
     how.residual = options.residual;
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     SolveStats stats;
     cpu_s.push_back(bench::timed([&] {
                       stats = settle_with_mesh_hierarchy(solver, model, state, how, {});
@@ -106,7 +106,7 @@ std::vector<Edge> pairs_of(const BlockMatrix &matrix) {
 }
 
 void add_factor(const Options &options, const BlockMatrix &matrix, const std::string &name,
-                uint32_t backend, std::vector<Unit> &units) {
+                Backend backend, std::vector<Unit> &units) {
   if (std::string(factor_names()).find(name) == std::string::npos) return;
   const auto factor = make_direct_solver(backend);
   units.push_back(
@@ -126,9 +126,9 @@ void add_factor(const Options &options, const BlockMatrix &matrix, const std::st
 
 void add_system(const Options &options, const Model &model, std::vector<Unit> &units) {
   const BlockMatrix matrix = free_system(model).matrix;
-  add_factor(options, matrix, "cholmod", MVS_BACKEND_CHOLMOD, units);
-  add_factor(options, matrix, "eigen", MVS_BACKEND_EIGEN, units);
-  add_factor(options, matrix, "block", MVS_BACKEND_BLOCK, units);
+  add_factor(options, matrix, "cholmod", Backend::cholmod, units);
+  add_factor(options, matrix, "eigen", Backend::eigen, units);
+  add_factor(options, matrix, "block", Backend::block, units);
   const std::vector<Edge> pairs = pairs_of(matrix);
   units.push_back({"order of elimination", bench::fastest(options.rounds, [&] {
                      fill_reducing_order(matrix.size(), pairs);

@@ -74,7 +74,7 @@ Run close(const Options &options, const Model &model, const State &from) {
     run.state = from;
     run.state.load = {MVS_SYSTOLE_PA, 1};
     // a new solver each time, so that no run starts from another's cached data
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     const auto settle = [&] {
       run.stats = settle_with_mesh_hierarchy(solver, model, run.state, {}, {});
     };

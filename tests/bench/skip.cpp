@@ -36,9 +36,9 @@ using Change = std::function<void(Valve &)>;
 
 void to_membrane(Valve &valve) {
   for (size_t k = 0; k < valve.leaflets.size(); ++k) {
-    valve.leaflets[k].law = MVS_LEAFLET_LAW_BILINEAR;
+    valve.leaflets[k].law = LeafletLawId::bilinear;
     for (const LeafletLaw &law : leaflet_laws()) {
-      if (law.id == MVS_LEAFLET_LAW_BILINEAR)
+      if (law.id == LeafletLawId::bilinear)
         valve.leaflets[k].constants = default_constants(law.constants);
     }
   }
@@ -152,7 +152,7 @@ State loaded(const Model &model, double pressure, double fraction) {
 
 State closed(const Model &model) {
   State state = loaded(model, MVS_SYSTOLE_PA, 1);
-  Solver(MVS_BACKEND_DEFAULT).settle(model, state, {}, {});
+  Solver(Backend::fastest).settle(model, state, {}, {});
   return state;
 }
 
@@ -184,9 +184,9 @@ void tell_terms(const Options &options, const Scenes &s, bench::Table &table) {
 
 // The median CPU seconds of one of `count` implicit steps.
 double step_cost(const Model &model, State state, int before, int count) {
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   SolveOptions how;
-  how.solver = MVS_SOLVER_IMPLICIT;
+  how.solver = SolverKind::implicit_euler;
   for (int k = 0; k < before; ++k) solver.step(model, state, how);
   std::vector<double> cpu_s;
   cpu_s.reserve(static_cast<size_t>(count));
@@ -209,7 +209,7 @@ void tell_closure(bench::Table &table, const char *name, const Model &model, dou
                   double fraction) {
   State state = loaded(model, pressure, fraction);
   SolveStats stats;
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   SolveOptions how;
   how.residual = bench::rest_residual;
   how.max_iterations = 100;

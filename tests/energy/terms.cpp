@@ -65,7 +65,7 @@ TEST_CASE("the_curvature_of_every_law_is_positive") {
 
 TEST_CASE("springs_and_membrane_share_a_valve_by_leaflets") {
   Valve valve = small_valve();
-  valve.leaflets[1].law = MVS_LEAFLET_LAW_NEO_HOOKEAN;
+  valve.leaflets[1].law = LeafletLawId::neo_hookean;
   valve.leaflets[1].constants = {1e5 / 3};
   const Model model = model_of_sheet(valve, {});
   Positions x = crumpled(model, 8), springs(x.size(), Vec3::Zero()), membrane = springs;
@@ -87,13 +87,13 @@ TEST_CASE("bending_has_the_derivatives_of_its_energy") {
 }
 
 TEST_CASE("chordae_have_the_derivatives_of_their_energy_in_every_law") {
-  const std::pair<uint32_t, Chord::Constants> laws[] = {
-      {MVS_CHORD_LAW_LINEAR, {}},
-      {MVS_CHORD_LAW_BILINEAR, {0.05, 100e6}},
-      {MVS_CHORD_LAW_OGDEN, {4.24e6, 55.9, 2.72e6, 55.9, 37, 70.7}},  // Texas TriValve, posterior
-      {MVS_CHORD_LAW_TABLE, {0}}};
+  const std::pair<ChordLawId, Chord::Constants> laws[] = {
+      {ChordLawId::linear, {}},
+      {ChordLawId::bilinear, {0.05, 100e6}},
+      {ChordLawId::ogden, {4.24e6, 55.9, 2.72e6, 55.9, 37, 70.7}},  // Texas TriValve, posterior
+      {ChordLawId::table, {0}}};
   for (const auto &row : laws) {
-    const uint32_t law = row.first;
+    const ChordLawId law = row.first;
     const Chord::Constants &constants = row.second;
     CAPTURE(law);
     Valve valve = small_valve();
@@ -110,7 +110,7 @@ TEST_CASE("chordae_have_the_derivatives_of_their_energy_in_every_law") {
 TEST_CASE("inner_forces_have_zero_resultant") {
   const Model model = free_valve();
   const Positions x = crumpled(model, 4);
-  const Model sheet = free_membrane(*find_leaflet_law(MVS_LEAFLET_LAW_PROT));
+  const Model sheet = free_membrane(*find_leaflet_law(LeafletLawId::prot));
   for (int term = 0; term < 4; ++term) {
     CAPTURE(term);
     Positions g(x.size(), Vec3::Zero());

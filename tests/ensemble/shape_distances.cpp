@@ -53,7 +53,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the first fifteen loading paths differ") {
-  std::vector<std::array<uint32_t, 2>> ways;
+  std::vector<std::pair<uint32_t, LoadingOrder>> ways;
   for (uint32_t k = 0; k < 30; ++k) {
     const Path path = make_path(k, {0.5e-3, 5e-3}, 3);
     CHECK(path.plain == (k == 0));
@@ -75,7 +75,7 @@ TEST_CASE("every loading path ends under the requested load") {
   desc.annulus_contraction = 0.9;  // so that the boundary moves
   const ModelPtr model = make_model(make_parametric_valve(desc));
   const State start = initial_state(*model);
-  Solver solver(0);
+  Solver solver(Backend::fastest);
   const Load load{4e3, 1};
   for (uint32_t k = 0; k < 9; ++k) {
     std::vector<double> shares;

@@ -1,6 +1,4 @@
 // FEBio models: the exported file contains the valve, and its formulas are the valve's laws.
-#include <mvs/valve.h>
-
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -110,7 +108,7 @@ std::string feb_of(const Valve &valve) {
   return write_feb(*model, initial_state(*model));
 }
 
-Valve toy_of(uint32_t law) {
+Valve toy_of(LeafletLawId law) {
   Valve valve = read_inp(toy_inp()).loaded.valve;
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.law = law;
@@ -160,9 +158,9 @@ TEST_CASE("feb_counts_are_those_of_the_valve") {
 }
 
 TEST_CASE("feb_energies_are_those_of_the_laws") {
-  for (const uint32_t law :
-       {MVS_LEAFLET_LAW_BILINEAR, MVS_LEAFLET_LAW_FUNG, MVS_LEAFLET_LAW_MAY_NEWMAN_YIN,
-        MVS_LEAFLET_LAW_PROT, MVS_LEAFLET_LAW_NEO_HOOKEAN}) {
+  for (const LeafletLawId law :
+       {LeafletLawId::bilinear, LeafletLawId::fung, LeafletLawId::may_newman_yin,
+        LeafletLawId::prot, LeafletLawId::neo_hookean}) {
     CAPTURE(law);
     const Valve valve = toy_of(law);
     const std::string w = inside(feb_of(valve), "W");
@@ -194,7 +192,7 @@ TEST_CASE("feb_springs_are_the_chords_with_their_slack") {
       const double elongation = chord.rest_length * (1 + strain) - distance;
       const double tension = strain <= 0 ? 0 : chord_tension(valve, chord, strain) * 1e3;
       // chords of the curve between 64 points lie above it by under 1 % of a steep exponential
-      const double close = chord.law == MVS_CHORD_LAW_LINEAR ? 1e-9 : 2e-2;
+      const double close = chord.law == ChordLawId::linear ? 1e-9 : 2e-2;
       CHECK(std::abs(interpolated(points, elongation * 1e3) - tension) <=
             close * tension + 1e-9 * valve.chords[0].area * 1e12);
     }
@@ -219,7 +217,7 @@ TEST_CASE("feb_names_are_escaped") {
 }
 
 TEST_CASE("feb_export_refuses_leaflets_of_springs") {
-  const Valve valve = toy_of(MVS_LEAFLET_LAW_SPRING);
+  const Valve valve = toy_of(LeafletLawId::spring);
   const ModelPtr model = make_model(valve);
   try {
     write_feb(*model, initial_state(*model));

@@ -1,7 +1,4 @@
 // Abaqus input to a valve: import of the toy valve of three leaflets.
-#include <mvs/sim.h>
-#include <mvs/valve.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -74,16 +71,16 @@ TEST_CASE("inp_leaflets_are_the_sections_with_their_laws_in_pascal") {
   const Valve valve = toy();
   REQUIRE(valve.leaflets.size() == 3);
   CHECK(valve.leaflets[0].name == "Anterior");
-  CHECK(valve.leaflets[0].law == MVS_LEAFLET_LAW_FUNG);
+  CHECK(valve.leaflets[0].law == LeafletLawId::fung);
   CHECK(valve.leaflets[0].thickness == 0.65e-3);
   CHECK(valve.leaflets[0].constants[0] == doctest::Approx(1000).epsilon(rounding));
   CHECK(valve.leaflets[0].constants[1] == doctest::Approx(124).epsilon(rounding));
   CHECK(valve.leaflets[0].constants[2] == 4.5);
   CHECK(valve.leaflets[1].name == "Septal");
-  CHECK(valve.leaflets[1].law == MVS_LEAFLET_LAW_NEO_HOOKEAN);
+  CHECK(valve.leaflets[1].law == LeafletLawId::neo_hookean);
   CHECK(valve.leaflets[1].constants[0] == doctest::Approx(40e3).epsilon(rounding));  // 2 C10
   CHECK(valve.leaflets[2].name == "Posterior");
-  CHECK(valve.leaflets[2].law == MVS_LEAFLET_LAW_NEO_HOOKEAN);
+  CHECK(valve.leaflets[2].law == LeafletLawId::neo_hookean);
   CHECK(valve.leaflets[2].constants[0] == doctest::Approx(100e3).epsilon(rounding));  // E / 3
   CHECK(valve.density == 1050);
 }
@@ -130,8 +127,8 @@ TEST_CASE("inp_chains_of_trusses_are_cables_with_their_slack") {
   const Valve valve = toy();
   REQUIRE(valve.chords.size() == 12);
   const Chord &trunk = chord_between(valve, 36, 39);
-  CHECK(trunk.kind == MVS_CHORD_KIND_TRUNK);
-  CHECK(trunk.law == MVS_CHORD_LAW_OGDEN);
+  CHECK(trunk.kind == ChordKind::trunk);
+  CHECK(trunk.law == ChordLawId::ogden);
   CHECK(trunk.area == 0.5e-6);
   CHECK(trunk.constants[0] == doctest::Approx(4e6).epsilon(rounding));
   CHECK(trunk.constants[1] == 50);
@@ -143,10 +140,10 @@ TEST_CASE("inp_chains_of_trusses_are_cables_with_their_slack") {
         doctest::Approx((between - head).norm() + (branch - between).norm()).epsilon(rounding));
   CHECK(trunk.rest_length > 1.04 * (branch - head).norm());
   const Chord &marginal = chord_between(valve, 39, 25);
-  CHECK(marginal.kind == MVS_CHORD_KIND_MARGINAL);
-  CHECK(marginal.law == MVS_CHORD_LAW_LINEAR);
+  CHECK(marginal.kind == ChordKind::marginal);
+  CHECK(marginal.law == ChordLawId::linear);
   CHECK(marginal.young == doctest::Approx(40e6).epsilon(rounding));
-  CHECK(chord_between(valve, 36, 14).kind == MVS_CHORD_KIND_ROUGH_ZONE);
+  CHECK(chord_between(valve, 36, 14).kind == ChordKind::rough_zone);
 }
 
 TEST_CASE("inp_two_cables_between_the_same_ends_keep_their_nodes") {
@@ -272,9 +269,9 @@ TEST_CASE("inp_a_file_may_have_no_parts_and_steps_that_extend_the_model") {
   // pinned before the step, in which one direction of one node is moved
   CHECK((valve.loaded[0] - valve.rest[0] - Vec3(-5e-4, 0, 0)).norm() < 1e-17);
   for (const uint32_t node : {1u, 7u, 16u}) CHECK(valve.loaded[node] == valve.rest[node]);
-  CHECK(valve.leaflets[0].law == MVS_LEAFLET_LAW_NEO_HOOKEAN);
+  CHECK(valve.leaflets[0].law == LeafletLawId::neo_hookean);
   CHECK(valve.leaflets[0].constants[0] == 30e3);
-  CHECK(valve.chords[0].law == MVS_CHORD_LAW_OGDEN);
+  CHECK(valve.chords[0].law == ChordLawId::ogden);
   CHECK(valve.chords[0].constants[0] == 1e7);
   CHECK(valve.density == 1060);
 }

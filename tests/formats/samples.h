@@ -55,9 +55,8 @@ inline Pair in_motion(Valve valve) {
   valve.open[valve.annulus[0]] += Vec3(1e-4, 0, 0);
   valve.origin.resize(valve.rest.size(), 3u);
   valve.origin.back() = none;
-  valve.rings.push_back(
-      {0, "ring 1", MVS_RING_KIND_RIGID, {Vec3(0, 1e-3, 2e-3), Vec3(1e-3, 0, 0)}});
-  valve.rings.push_back({0, "band", MVS_RING_KIND_BAND, {}});
+  valve.rings.push_back({0, "ring 1", RingKind::rigid, {Vec3(0, 1e-3, 2e-3), Vec3(1e-3, 0, 0)}});
+  valve.rings.push_back({0, "band", RingKind::band, {}});
   valve.scallops = {{0, "A2", 0}, {0, "P1", 1}, {0, "P3", 1}};
   valve.triangle_scallop.clear();
   valve.triangle_thickness.clear();
@@ -153,7 +152,7 @@ inline void draw_nodes(RandomBits &random, uint32_t n, Pair &pair) {
 inline void draw_leaflets(RandomBits &random, Valve &valve) {
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.thickness = random.number();
-    leaflet.law = 1 + random.below(static_cast<uint32_t>(leaflet_laws().size()));
+    leaflet.law = leaflet_laws()[random.below(static_cast<uint32_t>(leaflet_laws().size()))].id;
     leaflet.constants = {};
     const size_t known = find_leaflet_law(leaflet.law)->constants.size();
     for (size_t k = 0; k < known; ++k) leaflet.constants[k] = random.number();
@@ -177,12 +176,12 @@ inline void draw_chords(RandomBits &random, uint32_t n, Valve &valve) {
   for (Chord &chord : valve.chords) {
     chord.a = random.below(n);
     chord.b = random.below(n);
-    chord.kind = random.below(MVS_CHORD_KIND_TRUNK + 1);
+    chord.kind = static_cast<ChordKind>(random.below(MVS_CHORD_KIND_SUTURE));
     chord.rest_length = random.number();
     chord.young = random.number();
     chord.area = random.number();
-    chord.law = 1 + random.below(MVS_CHORD_LAW_TABLE);
-    if (chord.law == MVS_CHORD_LAW_TABLE) {
+    chord.law = chord_laws()[random.below(static_cast<uint32_t>(chord_laws().size()))].id;
+    if (chord.law == ChordLawId::table) {
       chord.constants[0] = random.below(static_cast<uint32_t>(valve.curves.size()));
     } else {
       const size_t known = find_chord_law(chord.law)->constants.size();

@@ -1,7 +1,6 @@
 // The local model of the tissue against the full simulation: settle, move the hand, settle again.
 #include <doctest/doctest.h>
 #include <mvs/sim.h>
-#include <mvs/tool.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -27,7 +26,7 @@ struct Valve425 {
   void settle(State &state) const {
     SolveOptions options;
     options.residual = 1e-7;
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     REQUIRE(solver.settle(*model, state, options, {}).converged);
   }
   // The force of the full simulation on a hand moved to this place.
@@ -49,7 +48,7 @@ const Valve425 &valve() {
 // A grasp of a node, with the hand pulled away from it.
 Id hold(State &state, uint32_t node, const Vec3 &pull, double stiffness) {
   Tool tool;
-  tool.kind = MVS_TOOL_KIND_GRASP;
+  tool.kind = ToolKind::grasp;
   tool.node = node;
   tool.position = state.x.get()[node] + pull;
   tool.stiffness = stiffness;
@@ -74,7 +73,7 @@ std::vector<uint32_t> some_nodes(size_t count) {
   std::vector<uint32_t> free, some;
   const auto &kind = valve().model->topology.node_kind.get();
   for (uint32_t i = 0; i < kind.size(); ++i) {
-    if (kind[i] == MVS_NODE_KIND_LEAFLET) free.push_back(i);
+    if (kind[i] == NodeKind::leaflet) free.push_back(i);
   }
   for (size_t k = 0; k < count; ++k) some.push_back(free[(2 * k + 1) * free.size() / (2 * count)]);
   return some;
@@ -88,7 +87,7 @@ TEST_CASE("the stiffness of a grasp is the slope of its force, to first order") 
     State state = valve().closed;
     const Id id = hold(state, node, Vec3(0, 0, 1e-3), 200);
     const Tool tool = tool_of(state, id, "test");
-    ToolFeel feel(MVS_BACKEND_DEFAULT);
+    ToolFeel feel(Backend::fastest);
     const Mat3 stiffness = feel.stiffness(*valve().model, state, tool);
     Mat3 slope;
     constexpr double step = 2e-6;  // m; central differences of forces good to 1e-7 N
@@ -147,7 +146,7 @@ TEST_CASE(
     CAPTURE(node);
     State state = valve().closed;
     Tool ball;
-    ball.kind = MVS_TOOL_KIND_BALL;
+    ball.kind = ToolKind::ball;
     ball.radius = 2e-3;
     ball.stiffness = 200;
     ball.max_force = 5;
@@ -175,7 +174,7 @@ TEST_CASE("stiffnesses_lie_between_zero_and_the_spring_of_the_hand") {
     for (const double spring : {50.0, 1000.0}) {
       State state = valve().closed;
       const Id id = hold(state, node, Vec3(0.5e-3, 0, 0), spring);
-      ToolFeel feel(MVS_BACKEND_DEFAULT);
+      ToolFeel feel(Backend::fastest);
       const Mat3 k = feel.stiffness(*valve().model, state, tool_of(state, id, "test"));
       const Eigen::SelfAdjointEigenSolver<Mat3> eigen(k);
       CHECK_GE(eigen.eigenvalues()[0], 0);

@@ -90,8 +90,8 @@ TEST_CASE("a_loop_that_hangs_is_detected_latched_and_abandoned") {
   device.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
   const ServoStatus now = device.status();
-  CHECK_EQ(now.phase, MVS_DEVICE_PHASE_LATCHED);
-  CHECK_EQ(now.cause, MVS_CAUSE_WATCHDOG);
+  CHECK_EQ(now.phase, DevicePhase::latched);
+  CHECK_EQ(now.cause, Cause::watchdog);
   CHECK_THROWS_AS(device.arm(), Error);
   CHECK_THROWS_AS(device.stop(), Error);
   CHECK_THROWS_AS(device.start(), Error);
@@ -103,7 +103,7 @@ TEST_CASE("a_loop_that_returns_is_a_lost_device") {
   Device device(desc_of(path, MVS_CLOCK_REAL), {});
   device.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  CHECK_EQ(device.status().cause, MVS_CAUSE_UNPLUGGED);
+  CHECK_EQ(device.status().cause, Cause::unplugged);
   CHECK_THROWS_AS(device.arm(), Error);
   device.stop();
 }

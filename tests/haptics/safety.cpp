@@ -28,7 +28,7 @@ bool can_arm(Loop &loop) {
 }
 
 void check_felt(const ServoStatus &now) {
-  CHECK_EQ(now.phase, MVS_DEVICE_PHASE_ON);
+  CHECK_EQ(now.phase, DevicePhase::on);
   CHECK_LT(now.force.x(), -0.05);
 }
 
@@ -37,20 +37,20 @@ void check_felt(const ServoStatus &now) {
 TEST_CASE("every listed fault latches forces off, and only an arm enables them again") {
   struct Fault {
     const char *name;
-    uint32_t cause;
+    Cause cause;
     bool passes;  // the fault ends after a while, and the device can be armed again
   };
-  const Fault faults[] = {{"nan_position", MVS_CAUSE_NOT_FINITE, true},
-                          {"inf_velocity", MVS_CAUSE_NOT_FINITE, true},
-                          {"jump", MVS_CAUSE_VELOCITY, true},
-                          {"unplug", MVS_CAUSE_UNPLUGGED, false},
-                          {"silent", MVS_CAUSE_WATCHDOG, true},
-                          {"uncalibrated", MVS_CAUSE_CALIBRATION, true},
-                          {"hot", MVS_CAUSE_THERMAL, true},
-                          {"button", MVS_CAUSE_BUTTON, true},
-                          {"deadman", MVS_CAUSE_DEADMAN, true},
-                          {"clock_back", MVS_CAUSE_WATCHDOG, true},
-                          {"clock_jump", MVS_CAUSE_WATCHDOG, true}};
+  const Fault faults[] = {{"nan_position", Cause::not_finite, true},
+                          {"inf_velocity", Cause::not_finite, true},
+                          {"jump", Cause::velocity, true},
+                          {"unplug", Cause::unplugged, false},
+                          {"silent", Cause::watchdog, true},
+                          {"uncalibrated", Cause::calibration, true},
+                          {"hot", Cause::thermal, true},
+                          {"button", Cause::button, true},
+                          {"deadman", Cause::deadman, true},
+                          {"clock_back", Cause::watchdog, true},
+                          {"clock_jump", Cause::watchdog, true}};
   for (const Fault &fault : faults) {
     CAPTURE(fault.name);
     Loop loop(std::string(at_rest) + "fault=" + fault.name + "\nfault_at=1\nfault_for=0.5");
@@ -58,11 +58,11 @@ TEST_CASE("every listed fault latches forces off, and only an arm enables them a
     loop.post(spring(200));
     check_felt(loop.run(0.9));
     const ServoStatus during = loop.run(0.4);
-    CHECK_EQ(during.phase, MVS_DEVICE_PHASE_LATCHED);
+    CHECK_EQ(during.phase, DevicePhase::latched);
     CHECK_EQ(during.cause, fault.cause);
     CHECK(during.force.isZero(0));
     const ServoStatus after = loop.run(0.5);
-    CHECK_EQ(after.phase, MVS_DEVICE_PHASE_LATCHED);
+    CHECK_EQ(after.phase, DevicePhase::latched);
     CHECK_EQ(after.cause, fault.cause);
     CHECK(after.force.isZero(0));
     CHECK_EQ(can_arm(loop), fault.passes);
@@ -130,7 +130,7 @@ TEST_CASE("forces wait at the gate, then rise along the ramp") {
   loop.post(spring(200));  // 0.4 N at 2 mm, above the gate of 0.2
   loop.device().arm();
   const ServoStatus waiting = loop.run(0.5);
-  CHECK_EQ(waiting.phase, MVS_DEVICE_PHASE_WAITING);
+  CHECK_EQ(waiting.phase, DevicePhase::waiting);
   CHECK(waiting.force.isZero(0));
   loop.post(spring(80));
   loop.run(0.01);
@@ -138,13 +138,13 @@ TEST_CASE("forces wait at the gate, then rise along the ramp") {
   for (int k = 0; k < 48; ++k) {
     const ServoStatus now = loop.run(0.01);
     const double force = now.force.norm();
-    CHECK_EQ(now.phase, MVS_DEVICE_PHASE_RAMPING);
+    CHECK_EQ(now.phase, DevicePhase::ramping);
     // a fiftieth of the force each 10 ms, and the change by the hand's motion meanwhile
     CHECK_GT(force, before);
     CHECK_LT(force - before, 2.0 / 50 * 80 * 0.002);
     before = force;
   }
-  CHECK_EQ(loop.run(0.05).phase, MVS_DEVICE_PHASE_ON);
+  CHECK_EQ(loop.run(0.05).phase, DevicePhase::on);
 }
 
 TEST_CASE("a force is limited to the user's maximum and to the slew rate") {
@@ -213,7 +213,7 @@ TEST_CASE("forces fade when the simulation stops, and return with it") {
   loop.post(spring(200));
   check_felt(loop.run(0.09));
   const ServoStatus fading = loop.run(0.03);
-  CHECK_EQ(fading.phase, MVS_DEVICE_PHASE_FADED);
+  CHECK_EQ(fading.phase, DevicePhase::faded);
   CHECK_GT(fading.force.norm(), 0);
   CHECK(loop.run(0.1).force.isZero(1e-12));
   loop.post(spring(200));
@@ -239,8 +239,8 @@ TEST_CASE("a tissue model with NaN latches, and never reaches the motors") {
     if (where == 3) wrong.most = nan;
     loop.post(wrong);
     const ServoStatus now = loop.run(0.01);
-    CHECK_EQ(now.phase, MVS_DEVICE_PHASE_LATCHED);
-    CHECK_EQ(now.cause, MVS_CAUSE_NOT_FINITE);
+    CHECK_EQ(now.phase, DevicePhase::latched);
+    CHECK_EQ(now.cause, Cause::not_finite);
     CHECK(now.force.isZero(0));
   }
 }
@@ -252,13 +252,13 @@ TEST_CASE("the application's cut works in any state, and a stop and start does n
   check_felt(loop.run(0.1));
   loop.device().cut();
   const ServoStatus now = loop.run(1e-3);
-  CHECK_EQ(now.cause, MVS_CAUSE_SOFTWARE);
+  CHECK_EQ(now.cause, Cause::software);
   CHECK(now.force.isZero(0));
   loop.device().stop();
-  CHECK_EQ(loop.run_stopped().phase, MVS_DEVICE_PHASE_STOPPED);
+  CHECK_EQ(loop.run_stopped().phase, DevicePhase::stopped);
   loop.device().start();
   CHECK(loop.run(0.1).force.isZero(0));
-  CHECK_EQ(loop.run(0).phase, MVS_DEVICE_PHASE_OFF);
+  CHECK_EQ(loop.run(0).phase, DevicePhase::off);
 }
 
 TEST_CASE("the edge of the workspace pushes back before the device's mechanical stop") {

@@ -78,7 +78,7 @@ TEST_CASE("a free device comes to rest in the stiffest spring") {
     work.follow(loop, 0.4);
     const double last = work.farthest();
     CHECK_LT(last, std::max(0.9 * first, 4 * kind.resolution));
-    CHECK_EQ(loop.run(0).phase, MVS_DEVICE_PHASE_ON);
+    CHECK_EQ(loop.run(0).phase, DevicePhase::on);
   }
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("a hand that swings into the stiffest wall gains no work from it") {
       work.follow(loop, 3);
       CHECK_LT(work.most(), unseen(stiffness, kind.resolution));
       CHECK_GT(work.farthest(), 1e-3);  // it did swing
-      CHECK_EQ(loop.run(0).phase, MVS_DEVICE_PHASE_ON);
+      CHECK_EQ(loop.run(0).phase, DevicePhase::on);
     }
   }
 }

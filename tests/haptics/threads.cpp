@@ -57,7 +57,7 @@ TEST_CASE("a servo, a simulation, a window and an emergency stop share a device"
   looks.join();
   cuts.join();
   const ServoStatus now = device.status();
-  CHECK_EQ(now.phase, MVS_DEVICE_PHASE_LATCHED);
+  CHECK_EQ(now.phase, DevicePhase::latched);
   CHECK(now.force.isZero(0));
   CHECK_GT(now.ticks, 100);
   device.stop();

@@ -3,8 +3,6 @@
 #include "history/tool_trajectory.h"
 
 #include <doctest/doctest.h>
-#include <mvs/tool.h>
-
 #include <map>
 #include <random>
 
@@ -16,13 +14,13 @@ using Random = std::mt19937;
 
 constexpr Id grasp_id = first_tool_id, rod_id = first_tool_id + 1, ball_id = first_tool_id + 2;
 
-RecordedEvent hand(Id id, uint32_t kind, Random &random) {
+RecordedEvent hand(Id id, ToolKind kind, Random &random) {
   std::uniform_real_distribution<double> at(-0.05, 0.05);
   Tool tool;
   tool.id = id;
   tool.kind = kind;
   tool.position = Vec3(at(random), at(random), at(random));
-  if (kind == MVS_TOOL_KIND_ROD) tool.axis = Vec3(at(random), at(random), 1).normalized();
+  if (kind == ToolKind::rod) tool.axis = Vec3(at(random), at(random), 1).normalized();
   RecordedEvent event;
   event.kind = RecordedEvent::tool_move;
   event.tools = {tool};
@@ -70,9 +68,9 @@ class Follower {
 // Random activity of a hand: which tools move before the next step.
 std::vector<RecordedEvent> some_hands(Random &random, uint32_t which) {
   std::vector<RecordedEvent> hands;
-  if (which & 1) hands.push_back(hand(grasp_id, MVS_TOOL_KIND_GRASP, random));
-  if (which & 2) hands.push_back(hand(rod_id, MVS_TOOL_KIND_ROD, random));
-  if (which & 4) hands.push_back(hand(ball_id, MVS_TOOL_KIND_BALL, random));
+  if (which & 1) hands.push_back(hand(grasp_id, ToolKind::grasp, random));
+  if (which & 2) hands.push_back(hand(rod_id, ToolKind::rod, random));
+  if (which & 4) hands.push_back(hand(ball_id, ToolKind::ball, random));
   return hands;
 }
 

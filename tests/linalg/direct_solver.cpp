@@ -4,8 +4,6 @@
 #include "linalg/nested_dissection.h"
 #include "linalg/spmv.h"
 
-#include <mvs/sim.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -22,10 +20,10 @@ using namespace mvs::core::test;
 
 namespace {
 
-std::vector<uint32_t> backends() {
-  std::vector<uint32_t> list{MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN};
+std::vector<Backend> backends() {
+  std::vector<Backend> list{Backend::block, Backend::eigen};
   if (std::string(factor_names()).find("cholmod") != std::string::npos) {
-    list.push_back(MVS_BACKEND_CHOLMOD);
+    list.push_back(Backend::cholmod);
   }
   return list;
 }
@@ -80,8 +78,9 @@ struct NamedFactor {
 
 std::vector<NamedFactor> all_factors() {
   std::vector<NamedFactor> all;
-  for (const uint32_t backend : backends()) {
-    all.push_back({"backend " + std::to_string(backend), make_direct_solver(backend), 1e-12});
+  for (const Backend backend : backends()) {
+    all.push_back({"backend " + std::to_string(static_cast<uint32_t>(backend)),
+                   make_direct_solver(backend), 1e-12});
   }
   all.push_back({"float", make_float_factor(), 1e-4});
   // the rest of the residual, and the share by which the norms of residual and solution differ
@@ -161,7 +160,7 @@ TEST_CASE("zeros_in_the_pattern_change_no_bit_of_the_block_factor") {
     }
     const Positions b = random.vectors(n, 1);
     Positions x = b, y = b;
-    const std::unique_ptr<DirectSolver> factor = make_direct_solver(MVS_BACKEND_BLOCK);
+    const std::unique_ptr<DirectSolver> factor = make_direct_solver(Backend::block);
     factor->analyse(m);
     REQUIRE(factor->factorise(m));
     factor->solve(x);
@@ -258,7 +257,7 @@ TEST_CASE("single_precision_produces_no_subnormal_numbers_and_restores_the_round
 }
 
 TEST_CASE("an_unknown_backend_is_refused") {
-  CHECK_THROWS_AS(make_direct_solver(99), Error);
+  CHECK_THROWS_AS(make_direct_solver(static_cast<Backend>(99)), Error);
 }
 
 // A sheet of 40 by 20 nodes, its edges listed twice: its separator has 20 nodes, the last of the

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
-#include <mvs/tool.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -190,7 +189,7 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
   total_energy.gradient(state.x, g, profile);
   StepMatrix matrix(*model);
   matrix.assemble(total_energy, state.x, {1e-3, 0, 64, true}, nullptr, profile);
-  for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN}) {
+  for (const Backend backend : {Backend::block, Backend::eigen}) {
     CAPTURE(backend);
     CachedPreconditioner whole(*model, make_direct_solver(backend)),
         parts(*model, make_direct_solver(backend));
@@ -221,7 +220,7 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
 TEST_CASE("an_earlier_factor_preconditions_within_its_tolerance") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
-  Solver solver(MVS_BACKEND_DEFAULT), direct(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest), direct(Backend::fastest);
   uint32_t served = 0, whole = 0;
   for (int k = 0; k < 200; ++k) {
     if (k % 4 == 0) pulse(state, k);
@@ -251,7 +250,7 @@ TEST_CASE("an_earlier_factor_preconditions_within_its_tolerance") {
 TEST_CASE("a_waking_valve_computes_no_factor") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   state.load.pressure *= 0.95;
   bool asleep = false;
   for (int k = 0; k < 2000 && !asleep; ++k) {
@@ -268,7 +267,7 @@ TEST_CASE("a_waking_valve_computes_no_factor") {
 TEST_CASE("a_valve_that_was_settled_has_no_solver_cache") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   state.load.pressure *= 0.95;
   for (int k = 0; k < 5; ++k) solver.step(*model, state, {});
   CHECK(!state.cache.empty());
@@ -277,7 +276,7 @@ TEST_CASE("a_valve_that_was_settled_has_no_solver_cache") {
   }
   SUBCASE("another step in time") {
     SolveOptions how;
-    how.solver = MVS_SOLVER_EXPLICIT;
+    how.solver = SolverKind::explicit_euler;
     solver.step(*model, state, how);
   }
   CHECK(state.cache.empty());
@@ -287,7 +286,7 @@ TEST_CASE("a_valve_that_was_settled_has_no_solver_cache") {
 TEST_CASE("restoring_earlier_and_later_states_changes_no_bit") {
   const ModelPtr model = a_valve();
   State state = closed(*model);
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   std::vector<State> states;
   for (int k = 0; k < 40; ++k) {
     if (k % 4 == 0) pulse(state, 5 * k);
@@ -337,9 +336,9 @@ ModelState with_both_keys() {
   const ModelPtr model = a_valve();
   State state = closed(*model);
   Tool ball, grasp;
-  ball.kind = MVS_TOOL_KIND_BALL;
+  ball.kind = ToolKind::ball;
   ball.radius = ball.stiffness = ball.max_force = grasp.stiffness = grasp.max_force = 1;
-  grasp.kind = MVS_TOOL_KIND_GRASP;
+  grasp.kind = ToolKind::grasp;
   for (grasp.node = 0; model->topology.fixed[grasp.node];) ++grasp.node;
   PreconditionerKeys keys;
   keys.active = {state.x, {}, 12e3, 1e-3, 0, 9};
@@ -392,7 +391,7 @@ TEST_CASE("a_damaged_solver_cache_is_refused") {
   for (const uint64_t parts : {uint64_t{CachedPreconditioner::parts} + 1, uint64_t{UINT32_MAX}}) {
     other.state.cache.counter = parts << 32;
     CHECK(outcome(other) == MVS_E_FORMAT);
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     CHECK_THROWS_AS(solver.step(*other.model, other.state, {}), Error);
   }
 }
@@ -400,7 +399,7 @@ TEST_CASE("a_damaged_solver_cache_is_refused") {
 // Keys with tools that the state no longer has are valid, but serve no step.
 TEST_CASE("keys_that_do_not_fit_the_state_are_left_out") {
   ModelState current = with_both_keys();
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   solver.step(*current.model, current.state, {});
   const SolverCache &cache = current.state.cache;
   REQUIRE(!cache.empty());

@@ -159,14 +159,14 @@ TEST_CASE("chordae_beyond_the_range_of_their_kind_are_flagged") {
   const double rest = valve.chords[0].rest_length;
   // 5 % of the standard chord carry 1.6 N: too much for a marginal chord, not for a strut
   valve.chords[0].rest_length = rest / 1.05;
-  valve.chords[0].kind = MVS_CHORD_KIND_MARGINAL;
+  valve.chords[0].kind = ChordKind::marginal;
   const auto flags = [&] {
     const ModelPtr model = make_model(valve);
     return measure_chords(*model, valve.rest);
   };
   CHECK(flags().flags[0] == MVS_CHORD_FLAG_OVER_TENSION);
   CHECK(flags().over_tension == 1);
-  valve.chords[0].kind = MVS_CHORD_KIND_STRUT;
+  valve.chords[0].kind = ChordKind::strut;
   CHECK(flags().flags[0] == 0);
   // 12 % are above 11.1 %, whatever their tension
   valve.chords[0].rest_length = rest / 1.12;

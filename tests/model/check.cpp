@@ -1,6 +1,4 @@
 // Model checks: each fault, made on purpose in a valid valve, is reported, and no other fault is.
-#include <mvs/valve.h>
-
 #include <doctest/doctest.h>
 #include <functional>
 #include <limits>
@@ -273,23 +271,24 @@ TEST_CASE("impossible_materials_are_named") {
   check_fault("leaflet A has thickness 1 m", 1, [](Valve &v) { v.leaflets[0].thickness = 1; });
   check_fault("low modulus", 1, [](Valve &v) { v.leaflets[0].constants[0] = -1; });
   check_fault("high modulus", 1, [](Valve &v) { v.leaflets[0].constants[1] = not_a_number; });
-  check_fault("follows law 7", 1, [](Valve &v) { v.leaflets[0].law = 7; });
+  check_fault("follows law 7", 1,
+              [](Valve &v) { v.leaflets[0].law = static_cast<LeafletLawId>(7); });
   check_fault("its law (spring) has only 3", 1, [](Valve &v) { v.leaflets[0].constants[3] = 1; });
   check_fault("constant c2", 1, [](Valve &v) {
-    v.leaflets[0].law = MVS_LEAFLET_LAW_FUNG;
+    v.leaflets[0].law = LeafletLawId::fung;
     v.leaflets[0].constants = {1e3, 124, -4.6};
   });
-  check_fault("follows law 5", 1, [](Valve &v) { v.chords[2].law = 5; });
+  check_fault("follows law 5", 1, [](Valve &v) { v.chords[2].law = static_cast<ChordLawId>(5); });
   check_fault("give both, or neither", 1, [](Valve &v) {
-    v.chords[2].law = MVS_CHORD_LAW_OGDEN;
+    v.chords[2].law = ChordLawId::ogden;
     v.chords[2].constants = {1e6, 10, 1e6, 0, 0, 0};
   });
   check_fault("has no positive stiffness", 1, [](Valve &v) {
-    v.chords[2].law = MVS_CHORD_LAW_OGDEN;
+    v.chords[2].law = ChordLawId::ogden;
     v.chords[2].constants = {-1e6, 10, 0, 0, 0, 0};
   });
   check_fault("names curve 1, but there are 1", 1, [](Valve &v) {
-    v.chords[2].law = MVS_CHORD_LAW_TABLE;
+    v.chords[2].law = ChordLawId::table;
     v.chords[2].constants = {1};
     v.curves = {{0, "c", {{0, 0}, {0.1, 1e6}}}};
   });
@@ -299,9 +298,10 @@ TEST_CASE("impossible_materials_are_named") {
     v.curves = {{0, "c", {{0, 0}, {0.1, -1}}}};
   });
   check_fault("kink strain", 1, [](Valve &v) { v.leaflets[0].constants[2] = 25; });
-  check_fault("law 9", 1, [](Valve &v) { v.leaflets[0].law = 9; });
-  check_fault("chord 2 follows law 9", 1, [](Valve &v) { v.chords[2].law = 9; });
-  check_fault("is of kind 99", 1, [](Valve &v) { v.chords[2].kind = 99; });
+  check_fault("law 9", 1, [](Valve &v) { v.leaflets[0].law = static_cast<LeafletLawId>(9); });
+  check_fault("chord 2 follows law 9", 1,
+              [](Valve &v) { v.chords[2].law = static_cast<ChordLawId>(9); });
+  check_fault("is of kind 99", 1, [](Valve &v) { v.chords[2].kind = static_cast<ChordKind>(99); });
   check_fault("mm2 given as m2", 1, [](Valve &v) { v.chords[2].area = 0.785; });
   check_fault("Young's modulus", 1, [](Valve &v) { v.chords[2].young = 0; });
   check_fault("outside 1e-06 to 1: too small, or not a number", 1,

@@ -1,8 +1,6 @@
 // Leaflet and chord laws: derivatives against differences, also beyond the cut-off of the
 // exponents.
 #include <doctest/doctest.h>
-#include <mvs/valve.h>
-
 #include <cmath>
 
 #include "model/chord_law.h"
@@ -76,24 +74,24 @@ double cauchy(const Response &r, double l) {
 
 TEST_CASE("exponentials_continue_past_the_range_of_leaflets_and_end_without_a_jump") {
   struct Tissue {
-    uint32_t law;
+    LeafletLawId law;
     Constants constants;
     double (*published)(double l);  // W, J/m3
   };
-  const Tissue tissues[] = {{MVS_LEAFLET_LAW_FUNG,
+  const Tissue tissues[] = {{LeafletLawId::fung,
                              {1e3, 124, 4.568202},
                              [](double l) {
                                const double x = l * l + 2 / l - 3;
                                return 500 * x + 62 * (std::exp(4.568202 * x * x) - 1);
                              }},
-                            {MVS_LEAFLET_LAW_MAY_NEWMAN_YIN,
+                            {LeafletLawId::may_newman_yin,
                              {399, 4.325, 1446.5},
                              [](double l) {
                                const double x = l * l + 2 / l - 3;
                                return 399 *
                                       (std::exp(4.325 * x * x + 1446.5 * std::pow(l - 1, 4)) - 1);
                              }},
-                            {MVS_LEAFLET_LAW_PROT, {171, 5.28, 6.46}, [](double l) {
+                            {LeafletLawId::prot, {171, 5.28, 6.46}, [](double l) {
                                const double x = l * l + 2 / l - 3, y = l * l - 1;
                                return 171 * (std::exp(5.28 * x * x + 6.46 * y * y) - 1);
                              }}};
@@ -132,9 +130,9 @@ TEST_CASE("chord_laws_have_the_derivatives_of_their_energy") {
   for (const ChordLaw &law : chord_laws()) {
     CAPTURE(law.word);
     chord.law = law.id;
-    if (law.id == MVS_CHORD_LAW_BILINEAR) chord.constants = {0.05, 100e6};
-    if (law.id == MVS_CHORD_LAW_OGDEN) chord.constants = {4.24e6, 55.9, 2.72e6, 1e-4, 37, 70.7};
-    if (law.id == MVS_CHORD_LAW_TABLE) chord.constants = {0};
+    if (law.id == ChordLawId::bilinear) chord.constants = {0.05, 100e6};
+    if (law.id == ChordLawId::ogden) chord.constants = {4.24e6, 55.9, 2.72e6, 1e-4, 37, 70.7};
+    if (law.id == ChordLawId::table) chord.constants = {0};
     for (const double e : {0.01, 0.03, 0.07, 0.1, 0.2}) {
       CAPTURE(e);
       const Axial at = chord_response(valve, chord, e);
@@ -150,7 +148,7 @@ TEST_CASE("chord_laws_have_the_derivatives_of_their_energy") {
 TEST_CASE("an_ogden_chord_continues_along_its_tangent_past_its_rupture_strain") {
   Valve valve;
   Chord chord;
-  chord.law = MVS_CHORD_LAW_OGDEN;
+  chord.law = ChordLawId::ogden;
   chord.constants = {18.9e6, 98.25, 22.7e6, 98.25, 19.5e6, 98.25};  // Texas TriValve, anterior
   double edge = 0;
   while (chord_response(valve, chord, edge).stress <= 100e6) edge += 1e-5;
@@ -166,7 +164,7 @@ TEST_CASE("a_table_passes_through_its_points_and_continues_with_the_last_slope")
   Valve valve;
   valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};
   Chord chord;
-  chord.law = MVS_CHORD_LAW_TABLE;
+  chord.law = ChordLawId::table;
   // rounding of strains
   CHECK(chord_response(valve, chord, 0.02).stress == doctest::Approx(0).epsilon(1e-12));
   CHECK(chord_response(valve, chord, 0.08).stress == doctest::Approx(1e6).epsilon(1e-12));

@@ -177,7 +177,7 @@ TEST_CASE("the_hash_depends_on_every_input") {
   model_differs([](Model &m) { std::swap(m.valve.annulus[0], m.valve.annulus[1]); });
   model_differs([](Model &m) { m.valve.leaflets[0].name = "B"; });
   model_differs([](Model &m) { m.valve.leaflets[0].id = 99; });
-  model_differs([](Model &m) { m.valve.leaflets[0].law = 2; });
+  model_differs([](Model &m) { m.valve.leaflets[0].law = LeafletLawId::bilinear; });
   model_differs([](Model &m) { m.valve.leaflets[0].thickness = 2e-3; });
   model_differs([](Model &m) { m.valve.leaflets[0].constants[0] = 2e5; });
   model_differs([](Model &m) { m.valve.leaflets[0].constants[1] = 2e6; });
@@ -187,7 +187,7 @@ TEST_CASE("the_hash_depends_on_every_input") {
   model_differs([](Model &m) { m.valve.chords[0].young *= 1.25; });
   model_differs([](Model &m) { m.valve.chords[0].area *= 1.25; });
   model_differs([](Model &m) { std::swap(m.valve.chords[0].a, m.valve.chords[0].b); });
-  model_differs([](Model &m) { m.valve.chords[0].kind = 5; });
+  model_differs([](Model &m) { m.valve.chords[0].kind = ChordKind::commissural; });
   model_differs([](Model &m) { m.valve.chords.pop_back(); });
   model_differs([](Model &m) { m.valve.heads[0].name = "left"; });
   model_differs([](Model &m) { m.valve.heads[0].node = 1; });

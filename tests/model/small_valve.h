@@ -1,8 +1,6 @@
 // Fixture: a small valid valve made by hand, to start from or to spoil.
 #pragma once
 
-#include <mvs/valve.h>
-
 #include <cmath>
 
 #include "model/valve.h"
@@ -46,19 +44,19 @@ inline Valve small_valve() {
     valve.rest.push_back({x, 0, -25e-3});
     valve.rest.push_back({x, 0, -22e-3});
     valve.heads.push_back({0, "", head});
-    const auto chord = [&](uint32_t a, uint32_t b, uint32_t kind) {
+    const auto chord = [&](uint32_t a, uint32_t b, ChordKind kind) {
       Chord made;
       made.a = a;
       made.b = b;
       made.kind = kind;
       valve.chords.push_back(made);
     };
-    chord(head, head + 1, MVS_CHORD_KIND_TRUNK);
+    chord(head, head + 1, ChordKind::trunk);
     const uint32_t s = h == 0 ? 0 : small_segments / 2;
-    chord(head + 1, edge + s, MVS_CHORD_KIND_MARGINAL);
-    chord(head + 1, edge - small_segments + s, MVS_CHORD_KIND_ROUGH_ZONE);
+    chord(head + 1, edge + s, ChordKind::marginal);
+    chord(head + 1, edge - small_segments + s, ChordKind::rough_zone);
     for (const uint32_t off : {2u, 4u, small_segments - 2u}) {
-      chord(head, edge + (s + off) % small_segments, MVS_CHORD_KIND_MARGINAL);
+      chord(head, edge + (s + off) % small_segments, ChordKind::marginal);
     }
   }
   return valve;

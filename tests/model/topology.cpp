@@ -1,6 +1,4 @@
 // Topology of the hand-made valve against known counts and against brute force.
-#include <mvs/snapshot.h>
-
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <set>
@@ -81,12 +79,12 @@ TEST_CASE("nodes_have_their_kind_and_prescribed_nodes_are_annulus_and_heads") {
   const Topology topology = make_topology(valve);
   const uint32_t sheet = small_rows * small_segments;
   for (uint32_t n = 0; n < valve.rest.size(); ++n) {
-    const int kind = n < small_segments ? MVS_NODE_KIND_ANNULUS
-                     : n < sheet        ? MVS_NODE_KIND_LEAFLET
-                     : n % 2 == 0       ? MVS_NODE_KIND_HEAD
-                                        : MVS_NODE_KIND_BRANCH;
+    const NodeKind kind = n < small_segments ? NodeKind::annulus
+                          : n < sheet        ? NodeKind::leaflet
+                          : n % 2 == 0       ? NodeKind::head
+                                             : NodeKind::branch;
     CHECK(topology.node_kind[n] == kind);
-    CHECK(topology.fixed[n] == (kind == MVS_NODE_KIND_ANNULUS || kind == MVS_NODE_KIND_HEAD));
+    CHECK(topology.fixed[n] == (kind == NodeKind::annulus || kind == NodeKind::head));
   }
 }
 

@@ -272,7 +272,7 @@ double total_energy(const Model &model, const State &state) {
 
 Settled settle(const Model &model, const State &from, const SolveOptions &options) {
   Settled result{from, {}};
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   result.stats = solver.settle(model, result.state, options, {});
   return result;
 }

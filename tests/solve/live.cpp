@@ -46,7 +46,7 @@ bool same(const State &a, const State &b) {
 // contact appear and vanish and a new solver take the same steps.
 TEST_CASE("steps_under_a_changing_load_have_the_same_bits_from_any_state") {
   const ModelPtr model = small_parametric();
-  for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN}) {
+  for (const Backend backend : {Backend::block, Backend::eigen}) {
     CAPTURE(backend);
     State state = closed(*model);
     Solver one(backend);
@@ -75,7 +75,7 @@ TEST_CASE("a_short_budget_lowers_accuracy_and_reports_it_and_keeps_safety") {
     state.load = {systole, 1};
     SolveOptions options;
     options.budget = budget;
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     uint32_t lowered = 0;
     for (int k = 0; k < 150; ++k) {
       const SolveStats stats = solver.step(*model, state, options);
@@ -100,7 +100,7 @@ TEST_CASE("a_short_budget_creates_no_energy") {
     SolveOptions options;
     options.budget = budget;
     options.dt = 5e-3;
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     double before = total_energy(disc, state), scale = std::abs(before);
     for (int k = 0; k < 60; ++k) {
       solver.step(disc, state, options);
@@ -116,7 +116,7 @@ TEST_CASE("a_short_budget_creates_no_energy") {
 TEST_CASE("a_valve_at_rest_sleeps_until_something_changes") {
   const ModelPtr model = small_parametric();
   State state = closed(*model);
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   const State before = state;
   for (int k = 0; k < 3; ++k) {
     const SolveStats stats = solver.step(*model, state, {});
@@ -160,7 +160,7 @@ TEST_CASE("a_valve_out_of_balance_keeps_moving") {
   desc.vertices = 425;
   const ModelPtr model = make_model(make_parametric_valve(desc));
   State state = closed(*model);
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   SolveOptions options;
   options.dt = 20e-3;
   for (const double pressure : {0.0, systole}) {

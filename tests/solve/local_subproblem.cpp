@@ -65,7 +65,7 @@ TEST_CASE("a_closed_valve_comes_to_rest_after_a_chord_is_cut_or_tightened_with_n
     changed.chords[3].rest_length *= factor;
     const ModelPtr model = make_model(changed);
     State first = before, again = before;
-    Solver solver(MVS_BACKEND_DEFAULT), used(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest), used(Backend::fastest);
     State open = initial_state(*model);
     used.settle(*model, open, {}, {});
     CHECK(solver.settle(*model, first, {}, {}).converged);

@@ -37,7 +37,7 @@ double farthest(const State &a, const State &b) {
 
 TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_iterations") {
   const ModelPtr model = valve_of(1700);
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   State plain = loaded(*model), levels = plain, again = plain;
   const SolveStats direct = solver.settle(*model, plain, {}, {});
   const SolveStats stats = settle_with_mesh_hierarchy(solver, *model, levels, {}, {});
@@ -49,13 +49,13 @@ TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_itera
   // this valve has one closed shape; forces of 1e-5 N move its softest nodes by micrometres
   CHECK(farthest(plain, levels) < 0.01e-3);
   CHECK(levels.load.pressure == MVS_SYSTOLE_PA);
-  Solver other(MVS_BACKEND_DEFAULT);
+  Solver other(Backend::fastest);
   settle_with_mesh_hierarchy(other, *model, again, {}, {});
   CHECK(hash_of(*model, again) == hash_of(*model, levels));
 }
 
 TEST_CASE("a_small_valve_and_one_near_rest_are_settled_without_a_hierarchy") {
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   for (const uint32_t vertices : {425u, 1700u}) {
     const ModelPtr model = valve_of(vertices);
     State plain = loaded(*model);
@@ -73,7 +73,7 @@ TEST_CASE("a_small_valve_and_one_near_rest_are_settled_without_a_hierarchy") {
 
 TEST_CASE("progress_increases_over_the_levels_and_can_cancel") {
   const ModelPtr model = valve_of(1300);
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   State state = loaded(*model);
   double last = 0;
   int calls = 0;

@@ -179,18 +179,19 @@ TEST_CASE("a_rigid_motion_of_the_valve_moves_the_result_with_it") {
 TEST_CASE("two_runs_and_a_used_solver_give_the_same_bits") {
   const ModelPtr model = make_model(moving_valve());
   const Model other = soft_disc(3);
-  for (const uint32_t kind : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+  for (const SolverKind kind :
+       {SolverKind::newton, SolverKind::implicit_euler, SolverKind::explicit_euler}) {
     CAPTURE(kind);
     SolveOptions options;
     options.solver = kind;
-    options.max_iterations = kind == MVS_SOLVER_NEWTON ? 0 : 60;
+    options.max_iterations = kind == SolverKind::newton ? 0 : 60;
     const auto run = [&](Solver &solver) {
       State state = initial_state(*model);
       state.load = {systole, 1};
       solver.settle(*model, state, options, {});
       return state;
     };
-    Solver fresh(MVS_BACKEND_DEFAULT), used(MVS_BACKEND_DEFAULT);
+    Solver fresh(Backend::fastest), used(Backend::fastest);
     State warm = initial_state(other);
     warm.load.pressure = 100;
     used.step(other, warm, {});
@@ -209,7 +210,7 @@ TEST_CASE("backends_reach_the_same_equilibrium") {
   SolveOptions options;
   options.residual = 1e-9;
   Positions first;
-  for (const uint32_t backend : {MVS_BACKEND_BLOCK, MVS_BACKEND_EIGEN, MVS_BACKEND_CHOLMOD}) {
+  for (const Backend backend : {Backend::block, Backend::eigen, Backend::cholmod}) {
     CAPTURE(backend);
     State state = initial_state(model);
     state.load.pressure = systole;
@@ -228,14 +229,15 @@ TEST_CASE("backends_reach_the_same_equilibrium") {
 
 TEST_CASE("progress_is_reported_and_can_cancel") {
   const ModelPtr model = make_model(moving_valve());
-  for (const uint32_t kind : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+  for (const SolverKind kind :
+       {SolverKind::newton, SolverKind::implicit_euler, SolverKind::explicit_euler}) {
     CAPTURE(kind);
     SolveOptions options;
     options.solver = kind;
     options.residual = 1e-14;  // not reached before the third call
     State state = initial_state(*model);
     state.load = {systole, 1};
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     int calls = 0;
     bool sound = true;
     try {
@@ -256,7 +258,7 @@ TEST_CASE("numbers_out_of_range_are_refused") {
   const ModelPtr model = make_model(small_valve());
   State state = initial_state(*model);
   state.x[40] = state.x[41];  // coincident nodes have no direction between them
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   try {
     solver.settle(*model, state, {}, {});
     FAIL("took coincident nodes");

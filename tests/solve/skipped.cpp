@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
-#include <mvs/valve.h>
 
 #include <functional>
 
@@ -30,9 +29,9 @@ ModelPtr valve(const std::function<void(Valve &)> &change = {}) {
 
 void to_membrane(Valve &valve) {
   for (size_t k = 0; k < valve.leaflets.size(); ++k) {
-    valve.leaflets[k].law = MVS_LEAFLET_LAW_BILINEAR;
+    valve.leaflets[k].law = LeafletLawId::bilinear;
     valve.leaflets[k].constants =
-        default_constants(find_leaflet_law(MVS_LEAFLET_LAW_BILINEAR)->constants);
+        default_constants(find_leaflet_law(LeafletLawId::bilinear)->constants);
   }
 }
 
@@ -42,13 +41,14 @@ void check_skipped(const Model &model, const Load &load, uint32_t expected) {
   state.load = load;
   SolveOptions options;
   options.max_iterations = 40;
-  for (const uint32_t solver : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+  for (const SolverKind solver :
+       {SolverKind::newton, SolverKind::implicit_euler, SolverKind::explicit_euler}) {
     CAPTURE(solver);
     options.solver = solver;
     CHECK((settle(model, state, options).stats.skipped & terms) == expected);
-    if (solver == MVS_SOLVER_NEWTON) continue;
+    if (solver == SolverKind::newton) continue;
     State stepped = state;
-    CHECK((Solver(MVS_BACKEND_DEFAULT).step(model, stepped, options).skipped & terms) == expected);
+    CHECK((Solver(Backend::fastest).step(model, stepped, options).skipped & terms) == expected);
   }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("contact_is_reported_as_skipped_unless_a_pair_came_near_in_the_call") 
   const ModelPtr model = valve();
   State state = initial_state(*model);
   state.load = {MVS_SYSTOLE_PA, 1};
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   CHECK((solver.step(*model, state, {}).skipped & MVS_SKIPPED_CONTACT) != 0);
   CHECK((solver.settle(*model, state, {}, {}).skipped & MVS_SKIPPED_CONTACT) == 0);
   // awake or asleep: near pairs remain in the search

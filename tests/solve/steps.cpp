@@ -22,7 +22,7 @@ constexpr double systole = MVS_SYSTOLE_PA;
 void check_energy_falls(const Model &model, State state, double dt, int steps) {
   SolveOptions options;
   options.dt = dt;
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   double before = total_energy(model, state), scale = std::abs(before);
   for (int k = 0; k < steps; ++k) {
     solver.step(model, state, options);
@@ -64,7 +64,7 @@ TEST_CASE("implicit_steps_of_any_size_stay_finite_and_uncrossed") {
     state.load = {systole, 1};
     SolveOptions options;
     options.dt = dt;
-    Solver solver(MVS_BACKEND_DEFAULT);
+    Solver solver(Backend::fastest);
     for (int k = 0; k < 60; ++k) {
       const SolveStats stats = solver.step(*model, state, options);
       REQUIRE(std::isfinite(stats.residual));
@@ -86,7 +86,7 @@ TEST_CASE("the_boundary_moves_at_its_speed_and_arrives_to_the_bit") {
   state.load = {0, 1};
   SolveOptions options;
   options.dt = 1e-3;
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   for (int k = 1; k <= 15; ++k) {
     const Positions before = state.x;
     solver.step(*model, state, options);
@@ -110,7 +110,7 @@ TEST_CASE("a_free_sheet_falls_as_implicit_euler_predicts") {
   state.load.pressure = 1;
   SolveOptions options;
   options.dt = 1e-4;
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   for (int k = 0; k < 10; ++k) solver.step(model, state, options);
   const double mass_per_area = 1060 * 1e-3;
   // the push keeps its direction, since 1 Pa turns no triangle; backward Euler is exact for a
@@ -126,12 +126,12 @@ TEST_CASE("steps_and_closure_end_in_the_same_shape") {
   tight.residual = 1e-8;
   const Settled newton = settle(model, systole, 0, tight);
   REQUIRE(newton.stats.converged);
-  for (const uint32_t kind : {MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+  for (const SolverKind kind : {SolverKind::implicit_euler, SolverKind::explicit_euler}) {
     CAPTURE(kind);
     SolveOptions options = tight;
     options.solver = kind;
-    options.residual = kind == MVS_SOLVER_IMPLICIT ? 1e-7 : 1e-5;
-    options.damping = kind == MVS_SOLVER_IMPLICIT ? 50 : 0;
+    options.residual = kind == SolverKind::implicit_euler ? 1e-7 : 1e-5;
+    options.damping = kind == SolverKind::implicit_euler ? 50 : 0;
     const Settled stepped = settle(model, systole, 0, options);
     REQUIRE(stepped.stats.converged);
     CHECK(stepped.stats.residual <= options.residual);
@@ -142,19 +142,19 @@ TEST_CASE("steps_and_closure_end_in_the_same_shape") {
 
 TEST_CASE("a_run_of_steps_continues_from_any_state_with_the_same_bits") {
   const ModelPtr model = make_model(small_valve());
-  for (const uint32_t kind : {MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
+  for (const SolverKind kind : {SolverKind::implicit_euler, SolverKind::explicit_euler}) {
     CAPTURE(kind);
     SolveOptions options;
     options.solver = kind;
     State straight = initial_state(*model);
     straight.load.pressure = systole;
-    Solver one(MVS_BACKEND_DEFAULT);
+    Solver one(Backend::fastest);
     State middle;
     for (int k = 0; k < 40; ++k) {
       if (k == 20) middle = straight;
       one.step(*model, straight, options);
     }
-    Solver other(MVS_BACKEND_DEFAULT);
+    Solver other(Backend::fastest);
     for (int k = 0; k < 20; ++k) other.step(*model, middle, options);
     CHECK(middle.x == straight.x);
     CHECK(middle.v == straight.v);

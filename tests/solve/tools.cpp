@@ -1,9 +1,6 @@
 // Grasps: the spring of the hand and the tissue that it holds.
 #include <doctest/doctest.h>
 
-#include <mvs/sim.h>
-#include <mvs/tool.h>
-
 #include <cmath>
 
 #include "energy/forces.h"
@@ -18,7 +15,7 @@ namespace {
 
 Tool grasp(uint32_t node, const Vec3 &hand, double stiffness = 200, double force = 5) {
   Tool tool;
-  tool.kind = MVS_TOOL_KIND_GRASP;
+  tool.kind = ToolKind::grasp;
   tool.node = node;
   tool.position = hand;
   tool.stiffness = stiffness;
@@ -26,7 +23,7 @@ Tool grasp(uint32_t node, const Vec3 &hand, double stiffness = 200, double force
   return tool;
 }
 
-SolveOptions to_rest(double residual, uint32_t solver = MVS_SOLVER_NEWTON) {
+SolveOptions to_rest(double residual, SolverKind solver = SolverKind::newton) {
   SolveOptions options;
   options.solver = solver;
   options.residual = residual;
@@ -101,7 +98,7 @@ TEST_CASE("the_held_tissue_pulls_back_with_the_force_of_the_hand") {
   State start = initial_state(*model);
   start.load = {2000, 0};
   start.tools = {grasp(node, start.x[node] + Vec3(0, 0, 4e-3))};
-  for (const uint32_t solver : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT}) {
+  for (const SolverKind solver : {SolverKind::newton, SolverKind::implicit_euler}) {
     const Settled settled = settle(*model, start, to_rest(1e-6, solver));
     CHECK(settled.stats.converged);
     State without = settled.state;
@@ -123,7 +120,7 @@ TEST_CASE("a_pull_of_50_mm_in_one_step_is_limited_to_its_largest_force_and_recov
   state = before.state;
   // through the other leaflet
   state.tools = {grasp(node, -state.x[node].normalized() * 0.05, 200, 2)};
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   for (int k = 0; k < 100; ++k) {
     solver.step(*model, state, {});
     REQUIRE(pull(hold_of(state.tools[0], 0, node), state.x[node]).norm() <= 2 * (1 + 1e-12));

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <mvs/sim.h>
-#include <mvs/tool.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -22,7 +21,7 @@ namespace {
 
 Tool ball(const Vec3 &at, double radius, double stiffness = 200, double force = 2) {
   Tool tool;
-  tool.kind = MVS_TOOL_KIND_BALL;
+  tool.kind = ToolKind::ball;
   tool.position = at;
   tool.radius = radius;
   tool.stiffness = stiffness;
@@ -32,7 +31,7 @@ Tool ball(const Vec3 &at, double radius, double stiffness = 200, double force = 
 
 Tool rod(const Vec3 &tip, const Vec3 &axis, double radius, double length) {
   Tool tool = ball(tip, radius);
-  tool.kind = MVS_TOOL_KIND_ROD;
+  tool.kind = ToolKind::rod;
   tool.axis = axis.normalized();
   tool.length = length;
   return tool;
@@ -66,7 +65,7 @@ void check_way(const Model &model, const State &before, const State &after) {
 
 // Moves the hand of the only tool by the distance in each of so many steps of 1 ms.
 void push(const Model &model, State &state, const Vec3 &each, int steps) {
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   for (int k = 0; k < steps; ++k) {
     state.tools[0].position += each;
     const State before = state;
@@ -131,7 +130,7 @@ TEST_CASE("a_ball_on_a_membrane_is_carried_by_its_rim") {
   State state = initial_state(disc);
   add_tool(disc, state, ball(Vec3(1e-3, 0.5e-3, 4e-3), 3e-3));
   state.tools[0].position.z() = 1e-3;
-  for (const uint32_t solver : {MVS_SOLVER_NEWTON, MVS_SOLVER_IMPLICIT}) {
+  for (const SolverKind solver : {SolverKind::newton, SolverKind::implicit_euler}) {
     SolveOptions options;
     options.solver = solver;
     options.residual = 1e-6;
@@ -197,7 +196,7 @@ TEST_CASE("a_rod_swung_round_in_one_step_stops_at_the_sheet_and_keeps_its_length
   State state = initial_state(*model);
   // down the middle of the funnel; then across it
   add_tool(*model, state, rod(Vec3(0, 0, -8e-3), Vec3::UnitZ(), 1e-3, 30e-3));
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   state.tools[0].axis = Vec3::UnitX();
   for (int k = 0; k < 80; ++k) {
     const State before = state;
@@ -229,13 +228,13 @@ TEST_CASE("steps_with_tools_are_the_same_with_a_new_solver_as_with_a_used_one") 
   State state = initial_state(*model);
   state.load = {2000, 0};
   add_tool(*model, state, ball(above(*model, state.x, 40, 3e-3), 2e-3));
-  Solver used(MVS_BACKEND_DEFAULT);
+  Solver used(Backend::fastest);
   State fresh = state;
   for (int k = 0; k < 10; ++k) {
     state.tools[0].position *= 0.97;
     fresh.tools[0].position *= 0.97;
     used.step(*model, state, {});
-    Solver(MVS_BACKEND_DEFAULT).step(*model, fresh, {});
+    Solver(Backend::fastest).step(*model, fresh, {});
     REQUIRE(hash_of(*model, state) == hash_of(*model, fresh));
   }
 }
@@ -258,7 +257,7 @@ TEST_CASE("the_explicit_solver_refuses_to_push") {
   State state = initial_state(*model);
   add_tool(*model, state, ball(Vec3(0, 0, 0.02), 2e-3));
   SolveOptions options;
-  options.solver = MVS_SOLVER_EXPLICIT;
-  Solver solver(MVS_BACKEND_DEFAULT);
+  options.solver = SolverKind::explicit_euler;
+  Solver solver(Backend::fastest);
   CHECK_THROWS_WITH(solver.step(*model, state, options), doctest::Contains("explicit solver"));
 }

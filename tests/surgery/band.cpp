@@ -35,7 +35,7 @@ TEST_CASE("a_band_has_its_length_and_its_ends_stay_at_the_trigones") {
   CHECK(is.front() == was.front());
   CHECK(is.back() == was.back());
   const Valve &valve = done.current.model->valve;
-  CHECK(valve.rings[0].kind == MVS_RING_KIND_BAND);
+  CHECK(valve.rings[0].kind == RingKind::band);
   CHECK(valve.rings[0].id == done.made);
   CHECK(valve.rings[0].name == "band");
   const double percent = 100 * 70 * mm / length_of(was);

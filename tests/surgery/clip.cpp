@@ -23,7 +23,7 @@ mvs_parametric_desc of_size(uint32_t vertices) {
 std::vector<Chord> stitches(const Model &model) {
   std::vector<Chord> found;
   for (const Chord &chord : model.valve.chords.get()) {
-    if (chord.kind == MVS_CHORD_KIND_SUTURE) found.push_back(chord);
+    if (chord.kind == ChordKind::suture) found.push_back(chord);
   }
   return found;
 }
@@ -58,7 +58,7 @@ ModelState creased_by_a_clip() {
   desc.coaptation_depth = 5.7 * mm;
   Valve valve = make_parametric_valve(desc);
   for (Leaflet &leaflet : valve.leaflets.edit()) {
-    leaflet.law = MVS_LEAFLET_LAW_BILINEAR;
+    leaflet.law = LeafletLawId::bilinear;
     leaflet.constants = membrane_like(Bilinear(leaflet.constants));
   }
   const ModelPtr model = make_model(std::move(valve));
@@ -85,7 +85,7 @@ size_t openings(const Orifice &orifice) {
 // The open valve at rest.
 std::vector<Vec3> opened(const ModelState &current) {
   State state = current.state;
-  Solver solver(0);
+  Solver solver(Backend::fastest);
   CHECK(solver.settle(*current.model, state, {}, {}).converged);
   return state.x;
 }

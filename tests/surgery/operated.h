@@ -60,7 +60,7 @@ struct Closed {
 inline Closed close(const ModelState &current) {
   Closed closed{current.model, current.state, {}};
   closed.state.load = {120 * 133.322, 1};
-  Solver solver(0);
+  Solver solver(Backend::fastest);
   closed.stats = solver.settle(*closed.model, closed.state, {}, {});
   return closed;
 }

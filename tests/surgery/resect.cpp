@@ -30,7 +30,7 @@ ModelState fine_valve() {
 std::vector<Chord> sutures_of(const Valve &valve) {
   std::vector<Chord> list;
   for (const Chord &chord : valve.chords) {
-    if (chord.kind == MVS_CHORD_KIND_SUTURE) list.push_back(chord);
+    if (chord.kind == ChordKind::suture) list.push_back(chord);
   }
   return list;
 }
@@ -106,7 +106,7 @@ TEST_CASE("the_sutures_seal_the_gap") {
   ModelState cut = apply(shipped(), resection(0, 0, 0)).current;
   Valve valve = cut.model->valve;
   std::vector<Chord> chords = valve.chords;
-  std::erase_if(chords, [](const Chord &c) { return c.kind == MVS_CHORD_KIND_SUTURE; });
+  std::erase_if(chords, [](const Chord &c) { return c.kind == ChordKind::suture; });
   valve.chords = chords;
   cut.model = make_model(valve);
   const Closed open = close(cut);
@@ -140,7 +140,7 @@ TEST_CASE("the_remaining_tissue_is_unchanged") {
   // a remaining chord is the same between the same nodes
   size_t kept = 0;
   for (const Chord &c : now.chords) {
-    if (c.kind == MVS_CHORD_KIND_SUTURE) continue;
+    if (c.kind == ChordKind::suture) continue;
     for (const Chord &o : old.chords) {
       if (o.id != c.id) continue;
       ++kept;

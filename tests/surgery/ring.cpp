@@ -92,7 +92,7 @@ TEST_CASE("a_ring_holds_the_annulus_on_its_curve_open_and_loaded") {
   REQUIRE(valve.rings.size() == 1);
   CHECK(valve.rings[0].id == done.made);
   CHECK(valve.rings[0].name == "ring");
-  CHECK(valve.rings[0].kind == MVS_RING_KIND_RIGID);
+  CHECK(valve.rings[0].kind == RingKind::rigid);
   for (const uint32_t node : valve.annulus) {
     CHECK(valve.open[node] == valve.loaded[node]);
     CHECK(distance_to_curve(valve.loaded[node], valve.rings[0].curve) < 1e-12);

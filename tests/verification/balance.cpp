@@ -1,8 +1,6 @@
 // Damped Newton: the exact Hessian plus a shift that grows until the step lowers the energy.
 #include "tests/verification/balance.h"
 
-#include <mvs/sim.h>
-
 #include <cmath>
 #include <stdexcept>
 
@@ -14,7 +12,7 @@ namespace mvs::core::verification {
 struct Balance::Newton {
   const Balance &of;
   const Positions &load;
-  std::unique_ptr<DirectSolver> factor = make_direct_solver(MVS_BACKEND_BLOCK);
+  std::unique_ptr<DirectSolver> factor = make_direct_solver(Backend::block);
   HessianAssembler system = {};
   Positions x = {}, g = {};
   double energy = 0, residual = 0, shift = 0;

@@ -10,8 +10,6 @@
 // - a narrow strip that curls as it likes has E I = (1 - nu^2) D b = 8/9 D b, where tissue, with
 //   nu = 1/2, has 3/4 D b = E b t^3 / 12. There hinges are 32/27 times too stiff, and the strip
 //   curls the other way.
-#include <mvs/valve.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -83,7 +81,7 @@ Strip strip_of(uint32_t cells, uint32_t rows, double thickness, double disturbed
   const double spacing = length / (rows - 0.5), edge = spacing / std::sqrt(0.75);
   Valve valve;
   valve.leaflets.resize(1);
-  valve.leaflets[0].law = MVS_LEAFLET_LAW_NEO_HOOKEAN;
+  valve.leaflets[0].law = LeafletLawId::neo_hookean;
   valve.leaflets[0].constants = {young / 3};
   valve.leaflets[0].thickness = thickness;
   test::Random random(11);

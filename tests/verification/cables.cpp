@@ -1,6 +1,4 @@
 // Cables and chordae: catenaries, tension-only pairs, chains that act as one cable.
-#include <mvs/valve.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -207,11 +205,11 @@ Study chain_of_cables() {
   s.tolerance = 1e-8;
   const std::vector<double> pieces = {2e-3, 5e-3, 1e-3, 7e-3, 4e-3, 6e-3};
   Chord ogden, bilinear, table;
-  ogden.law = MVS_CHORD_LAW_OGDEN;
+  ogden.law = ChordLawId::ogden;
   ogden.constants = {4.24e6, 55.9, 2.72e6, 55.9, 37, 70.7};  // Texas TriValve, posterior
-  bilinear.law = MVS_CHORD_LAW_BILINEAR;
+  bilinear.law = ChordLawId::bilinear;
   bilinear.constants = {0.05, 100e6};
-  table.law = MVS_CHORD_LAW_TABLE;
+  table.law = ChordLawId::table;
   table.constants = {0};
   for (const double e : {0.03, 0.06, 0.09}) {
     const auto add = [&](const char *name, const Chord &law, double stress) {

@@ -1,8 +1,6 @@
 // The patch: mesh, maps, stress from the forces on its rim.
 #include "tests/verification/patch.h"
 
-#include <mvs/valve.h>
-
 #include <cmath>
 
 #include "energy/membrane.h"
@@ -33,7 +31,7 @@ double mean_edge(const Model &model) {
 }
 
 Patch::Patch(const Published &law, uint32_t cells)
-    : Patch(law, cells, law.law == MVS_LEAFLET_LAW_SPRING ? equilateral : irregular) {}
+    : Patch(law, cells, law.law == LeafletLawId::spring ? equilateral : irregular) {}
 
 Patch::Patch(const Published &law, uint32_t cells, Mesh mesh) {
   const bool even = mesh == equilateral;

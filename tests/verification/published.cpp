@@ -1,8 +1,6 @@
 // The laws as their papers print them.
 #include "tests/verification/published.h"
 
-#include <mvs/valve.h>
-
 #include <cmath>
 #include <stdexcept>
 
@@ -80,29 +78,29 @@ Real neo_hookean(Real i1, Real) {
 }  // namespace
 
 std::vector<Published> published_laws() {
-  return {{"springs", MVS_LEAFLET_LAW_SPRING, {100e3, 6e6, 0.25}, lattice},
+  return {{"springs", LeafletLawId::spring, {100e3, 6e6, 0.25}, lattice},
           {"bilinear",
-           MVS_LEAFLET_LAW_BILINEAR,
+           LeafletLawId::bilinear,
            {18.49e3, 3146e3, 3.1611, 0.006},
            of_invariants(bilinear)},
-          {"Fung, Texas anterior", MVS_LEAFLET_LAW_FUNG, {1e3, 124, 4.568202}, of_invariants(fung)},
+          {"Fung, Texas anterior", LeafletLawId::fung, {1e3, 124, 4.568202}, of_invariants(fung)},
           {"May-Newman and Yin, anterior",
-           MVS_LEAFLET_LAW_MAY_NEWMAN_YIN,
+           LeafletLawId::may_newman_yin,
            {399, 4.325, 1446.5},
            of_invariants(may_newman_yin(399, 4.325L, 1446.5L))},
           {"May-Newman and Yin, posterior",
-           MVS_LEAFLET_LAW_MAY_NEWMAN_YIN,
+           LeafletLawId::may_newman_yin,
            {414, 4.848, 305.4},
            of_invariants(may_newman_yin(414, 4.848L, 305.4L))},
           {"Prot, anterior",
-           MVS_LEAFLET_LAW_PROT,
+           LeafletLawId::prot,
            {52, 4.63, 22.6},
            of_invariants(prot(52, 4.63L, 22.6L))},
           {"Prot, posterior",
-           MVS_LEAFLET_LAW_PROT,
+           LeafletLawId::prot,
            {171, 5.28, 6.46},
            of_invariants(prot(171, 5.28L, 6.46L))},
-          {"neo-Hookean", MVS_LEAFLET_LAW_NEO_HOOKEAN, {1e5 / 3}, of_invariants(neo_hookean)}};
+          {"neo-Hookean", LeafletLawId::neo_hookean, {1e5 / 3}, of_invariants(neo_hookean)}};
 }
 
 Published published(const std::string &name) {

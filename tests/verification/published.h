@@ -17,7 +17,7 @@ using Map2 = Eigen::Matrix<Real, 2, 2>;  // F in the plane, the first axis along
 
 struct Published {
   std::string name;
-  uint32_t law;                              // MVS_LEAFLET_LAW_*
+  LeafletLawId law;
   Constants constants;                       // for libmvs
   std::function<Real(const Map2 &)> energy;  // J/m3
 };

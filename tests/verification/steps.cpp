@@ -1,6 +1,4 @@
 // Energy and momentum balance of steps in time, with decreasing step.
-#include <mvs/sim.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -29,7 +27,7 @@ Model disc() {
 }
 
 // The error of energy + dissipation - work at the end, relative to the largest kinetic energy.
-Row balance(const char *name, uint32_t kind, double dt, double damping) {
+Row balance(const char *name, SolverKind kind, double dt, double damping) {
   const Model model = disc();
   State state = initial_state(model);
   state.load.pressure = pressure;
@@ -37,7 +35,7 @@ Row balance(const char *name, uint32_t kind, double dt, double damping) {
   options.solver = kind;
   options.dt = dt;
   options.damping = damping;
-  Solver solver(MVS_BACKEND_DEFAULT);
+  Solver solver(Backend::fastest);
   const double before = test::total_energy(model, state);
   double damped = 0, most = 0;
   const auto steps = std::lround(duration / dt);
@@ -70,13 +68,13 @@ Study energy() {
   s.order_low = 0.8;
   s.order_high = 1.2;
   for (const double dt : {4e-5, 2e-5, 1e-5, 5e-6}) {
-    s.rows.push_back(balance("implicit, no damping", MVS_SOLVER_IMPLICIT, dt, 0));
-    s.rows.push_back(balance("implicit, damping 200 / s", MVS_SOLVER_IMPLICIT, dt, 200));
+    s.rows.push_back(balance("implicit, no damping", SolverKind::implicit_euler, dt, 0));
+    s.rows.push_back(balance("implicit, damping 200 / s", SolverKind::implicit_euler, dt, 200));
   }
   // 0 would be the default damping
   for (const double dt : {8e-6, 4e-6, 2e-6, 1e-6}) {
-    s.rows.push_back(balance("explicit, no damping", MVS_SOLVER_EXPLICIT, dt, 1e-12));
-    s.rows.push_back(balance("explicit, damping 200 / s", MVS_SOLVER_EXPLICIT, dt, 200));
+    s.rows.push_back(balance("explicit, no damping", SolverKind::explicit_euler, dt, 1e-12));
+    s.rows.push_back(balance("explicit, damping 200 / s", SolverKind::explicit_euler, dt, 200));
   }
   return s;
 }
@@ -102,7 +100,7 @@ struct Flight {
 };
 // With `anew` each step computes a factor of its own, in double precision, so that its linear
 // system is solved to rounding.
-Flight flight(uint32_t kind, double dt, bool anew = false) {
+Flight flight(SolverKind kind, double dt, bool anew = false) {
   const Model model = test::model_of_sheet(small_valve(), {});
   State state = initial_state(model);
   test::Random random(17);
@@ -113,7 +111,7 @@ Flight flight(uint32_t kind, double dt, bool anew = false) {
   options.solver = kind;
   options.dt = dt;
   options.damping = 1e-12;
-  Solver solver(anew ? MVS_BACKEND_BLOCK : MVS_BACKEND_DEFAULT);
+  Solver solver(anew ? Backend::block : Backend::fastest);
   Flight f;
   f.before = momentum(model, state);
   f.spin_before = angular_momentum(model, state);
@@ -159,8 +157,8 @@ std::vector<Study> momenta() {
       "what steps_spin leaves, and a thousandth of what a step's out-of-balance forces change";
   kept.tolerance = 5e-5;
   kept.order_low = kept.order_high = 0;
-  for (const uint32_t kind : {MVS_SOLVER_IMPLICIT, MVS_SOLVER_EXPLICIT}) {
-    const bool is_explicit = kind == MVS_SOLVER_EXPLICIT;
+  for (const SolverKind kind : {SolverKind::implicit_euler, SolverKind::explicit_euler}) {
+    const bool is_explicit = kind == SolverKind::explicit_euler;
     const std::string name = is_explicit ? "explicit" : "implicit";
     for (const double dt : {2e-5, 1e-5, 5e-6}) {
       if (is_explicit && dt > 1e-5) continue;

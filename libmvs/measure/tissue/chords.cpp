@@ -35,13 +35,13 @@ uint8_t flags_of(const Chord &chord, double strain, double tension) {
 
 }  // namespace
 
-ChordLimits chord_limits(uint32_t kind) {
+ChordLimits chord_limits(ChordKind kind) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   // working strain 4.3 +- 3.4 %: mean and two standard deviations
   constexpr double strain = 0.111;
-  if (kind == MVS_CHORD_KIND_SUTURE) return {infinite, infinite};
+  if (kind == ChordKind::suture) return {infinite, infinite};
   // twice the working tension: strut about 1 N, others up to 0.4 N; a trunk carries several
-  if (kind == MVS_CHORD_KIND_STRUT || kind == MVS_CHORD_KIND_TRUNK) return {strain, 2.0};
+  if (kind == ChordKind::strut || kind == ChordKind::trunk) return {strain, 2.0};
   return {strain, 0.8};
 }
 

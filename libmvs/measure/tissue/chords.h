@@ -11,7 +11,7 @@ namespace mvs::core {
 struct ChordLimits {
   double strain, tension;  // 1, N
 };
-ChordLimits chord_limits(uint32_t kind);  // MVS_CHORD_KIND_*
+ChordLimits chord_limits(ChordKind kind);
 
 struct ChordMeasures {
   std::vector<double> strain, tension;         // per chord

@@ -118,7 +118,7 @@ double ImplicitEuler::limit_step(SolveStats &stats) {
   return slack;
 }
 
-ImplicitEuler::ImplicitEuler(const Model &model, uint32_t backend)
+ImplicitEuler::ImplicitEuler(const Model &model, Backend backend)
     : model_(&model),
       total_energy_(model),
       matrix_(model),

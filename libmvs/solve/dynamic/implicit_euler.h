@@ -26,7 +26,7 @@ namespace mvs::core {
 
 class ImplicitEuler {
  public:
-  ImplicitEuler(const Model &model, uint32_t backend);
+  ImplicitEuler(const Model &model, Backend backend);
   // Does now what the first step from a state would do for those after it: memory, broad phase,
   // forces, factor. Like a step it may remove keys that do not fit from the solver cache.
   void make_ready(State &state, const StepOptions &how);

@@ -89,7 +89,7 @@ class CacheReader {
   Tool tool() {
     Tool tool;
     tool.id = whole();
-    tool.kind = index();
+    tool.kind = static_cast<ToolKind>(index());
     tool.node = index();
     for (double *value : {&tool.radius, &tool.length, &tool.stiffness, &tool.max_force}) {
       *value = number();

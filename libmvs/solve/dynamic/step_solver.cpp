@@ -11,17 +11,17 @@ namespace {
 
 constexpr uint32_t reserved_passes = settings::implicit::reserved_passes;
 
-bool is_block_cholesky(uint32_t backend) {
-  return backend == MVS_BACKEND_DEFAULT || backend == MVS_BACKEND_BLOCK;
+bool is_block_cholesky(Backend backend) {
+  return backend == Backend::fastest || backend == Backend::block;
 }
 
-std::unique_ptr<DirectSolver> make_preconditioner(uint32_t backend) {
-  return backend == MVS_BACKEND_DEFAULT ? make_float_factor() : make_direct_solver(backend);
+std::unique_ptr<DirectSolver> make_preconditioner(Backend backend) {
+  return backend == Backend::fastest ? make_float_factor() : make_direct_solver(backend);
 }
 
 }  // namespace
 
-StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, uint32_t backend)
+StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, Backend backend)
     : model_(&model),
       total_energy_(&total_energy),
       first_(model, make_preconditioner(backend)),

@@ -34,7 +34,7 @@ class StepSolver {
   // Assembles the matrix of a key.
   using Assemble = std::function<void(const PreconditionerKey &, StepMatrix &)>;
 
-  StepSolver(const Model &model, const TotalEnergy &total_energy, uint32_t backend);
+  StepSolver(const Model &model, const TotalEnergy &total_energy, Backend backend);
 
   // Makes the factors that the solver cache of the state names. Keys that fit neither the valve nor
   // the step are removed from the cache.

@@ -1,8 +1,6 @@
 // Nested iteration: coarsens, settles the coarse mesh, transfers its shape, settles the fine mesh.
 #include "solve/static/mesh_hierarchy.h"
 
-#include <mvs/sim.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -71,7 +69,7 @@ SolveStats settle_with_mesh_hierarchy(Solver &solver, const Model &model, State 
   const size_t vertices = sheet_vertices(model);
   SolveStats spent;
   Progress remaining = progress;
-  if (options.solver <= MVS_SOLVER_NEWTON && vertices >= settings::mesh_hierarchy::min_vertices &&
+  if (options.solver <= SolverKind::newton && vertices >= settings::mesh_hierarchy::min_vertices &&
       state.tools.empty() && far_from_rest(model, state)) {
     if (std::optional<Level> level = coarser(model, state, vertices)) {
       if (auto start = start_from(solver, *level, model, state, options, progress, spent)) {

@@ -1,8 +1,6 @@
 // Adds nodes for the points of instruments to a model and a state, and removes them again.
 #include "solve/tools/tool_points.h"
 
-#include <mvs/snapshot.h>
-
 #include "solve/settings.h"
 
 namespace mvs::core {
@@ -20,7 +18,7 @@ void add_node(Model &model) {
   valve.origin.push_back(none);
   model.vertex_area.push_back(0);
   model.node_mass.push_back(settings::tools::point_mass);
-  model.topology.node_kind.push_back(MVS_NODE_KIND_BRANCH);
+  model.topology.node_kind.push_back(NodeKind::branch);
   model.topology.fixed.push_back(0);
   add_row(model.topology.node_triangles);
   add_row(model.topology.node_chords);

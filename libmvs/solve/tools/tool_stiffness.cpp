@@ -1,8 +1,6 @@
 // Stiffness of a tool as a Schur complement of the factorised Hessian.
 #include "solve/tools/tool_stiffness.h"
 
-#include <mvs/tool.h>
-
 #include <Eigen/Geometry>
 #include <limits>
 
@@ -15,12 +13,12 @@ namespace {
 
 // The number of springs between a hand and its tool.
 uint32_t springs_of(const Tool &tool) {
-  return tool.kind == MVS_TOOL_KIND_ROD ? 2 : 1;
+  return tool.kind == ToolKind::rod ? 2 : 1;
 }
 
 // The node of spring k of a tool, in a state that has nodes for the points of tools.
 uint32_t spring_node(const State &state, size_t nodes, const Tool &tool, uint32_t k) {
-  if (tool.kind == MVS_TOOL_KIND_GRASP) return tool.node;
+  if (tool.kind == ToolKind::grasp) return tool.node;
   auto node = static_cast<uint32_t>(nodes);
   for (const Tool &other : state.tools.get()) {
     if (other.id == tool.id) break;
@@ -34,7 +32,7 @@ uint32_t spring_node(const State &state, size_t nodes, const Tool &tool, uint32_
 ToolForce force_of(const State &state, const Tool &tool) {
   ToolForce sum;
   for (uint32_t k = 0; k < springs_of(tool); ++k) {
-    const Vec3 at = tool.kind == MVS_TOOL_KIND_GRASP ? state.x[tool.node] : tool.proxy[k];
+    const Vec3 at = tool.kind == ToolKind::grasp ? state.x[tool.node] : tool.proxy[k];
     const Vec3 back = -pull(hold_of(tool, k, 0), at);
     sum.force += back;
     sum.torque += (tool.target(k) - tool.position).cross(back);

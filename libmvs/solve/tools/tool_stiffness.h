@@ -23,7 +23,7 @@ ToolForce force_of(const State &state, const Tool &tool);
 
 class ToolFeel {
  public:
-  explicit ToolFeel(uint32_t backend) : backend_(backend) {}
+  explicit ToolFeel(Backend backend) : backend_(backend) {}
 
   // Returns -dF/dh of a tool in a state, N/m; symmetric positive semidefinite.
   Mat3 stiffness(const Model &model, const State &state, const Tool &tool);
@@ -33,7 +33,7 @@ class ToolFeel {
   void factorise(const State &state);
   bool try_factorise(double more_mass);
 
-  uint32_t backend_;
+  Backend backend_;
   ToolPoints points_;
   const Model *model_ = nullptr;
   uint64_t serial_ = 0;

@@ -1,8 +1,6 @@
 // Harmonic height by a graph Laplacian with weights 1 / length; angles about the valve axis.
 #include "surgery/leaflet/sheet_map.h"
 
-#include <mvs/snapshot.h>
-
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
@@ -30,7 +28,7 @@ std::vector<Tie> seams(const Model &model, std::vector<uint8_t> &inside) {
   const auto suture = [&](uint32_t a, uint32_t b) {
     for (const uint32_t c : model.topology.node_chords[a]) {
       const bool same = chords[c].a == b || chords[c].b == b;
-      if (same && chords[c].kind == MVS_CHORD_KIND_SUTURE) return c;
+      if (same && chords[c].kind == ChordKind::suture) return c;
     }
     return none;
   };

@@ -117,7 +117,7 @@ void operate(Surgery &s, const mvs_op_band &op) {
     s.valve.open[nodes[k]] += placed[k] - points[k];
     s.valve.loaded[nodes[k]] += placed[k] - points[k];
   }
-  set_ring(s, op.name, "band", MVS_RING_KIND_BAND, std::move(placed));
+  set_ring(s, op.name, "band", RingKind::band, std::move(placed));
   s.title = format("Sew in %s, %.1f mm, %.0f %% of the posterior annulus",
                    s.valve.rings.get()[0].name.c_str(), 1e3 * length, 100 * length / present);
 }

@@ -12,7 +12,7 @@ struct NewChord {
   Id head;
   mvs_site site;
   double length, young, area;
-  uint32_t kind;
+  ChordKind kind;
   const char *name;
 };
 
@@ -40,7 +40,8 @@ uint32_t tie(Surgery &s, const NewChord &given) {
 
 void operate(Surgery &s, const mvs_op_chord_add &op) {
   MVS_MUST(op.reserved == 0, MVS_E_ARGUMENT, "chord_add", "chord_add.reserved has to be 0");
-  tie(s, {op.head, op.site, op.length, op.young, op.area, op.type, op.name});
+  tie(s,
+      {op.head, op.site, op.length, op.young, op.area, static_cast<ChordKind>(op.type), op.name});
   s.title = "Add " + s.title;
 }
 
@@ -52,7 +53,7 @@ void operate(Surgery &s, const mvs_op_neochord &op) {
   const uint32_t strands = op.strands != 0 ? op.strands : 2;
   const double area = strands * std::numbers::pi / 4 * diameter * diameter;
   tie(s, {op.head, op.site, op.length, op.young != 0 ? op.young : ptfe_young, area,
-          MVS_CHORD_KIND_MARGINAL, op.name});
+          ChordKind::marginal, op.name});
   s.title = "Add neochord, " + s.title;
 }
 

@@ -7,8 +7,8 @@ namespace mvs::core {
 namespace {
 
 bool is_sheet(const Model &model, uint32_t node) {
-  const uint8_t kind = model.topology.node_kind[node];
-  return kind == MVS_NODE_KIND_LEAFLET || kind == MVS_NODE_KIND_ANNULUS;
+  const NodeKind kind = model.topology.node_kind[node];
+  return kind == NodeKind::leaflet || kind == NodeKind::annulus;
 }
 
 uint32_t new_leaflet_end(Surgery &s, const Chord &chord, const mvs_site &site) {

@@ -125,7 +125,7 @@ void operate(Surgery &s, const mvs_op_ring &op) {
   hold(s, ring, annulus, fit);
   std::vector<Vec3> points = curve;
   for (Vec3 &p : points) p = fit.motion(p);
-  set_ring(s, op.name, "ring", MVS_RING_KIND_RIGID, std::move(points));
+  set_ring(s, op.name, "ring", RingKind::rigid, std::move(points));
   const Vec3 extent = extent_of(ring);
   s.title =
       format("Sew in %s, %.1f x %.1f mm, perimeter %.1f mm", s.valve.rings.get()[0].name.c_str(),
