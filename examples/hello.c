@@ -13,7 +13,7 @@ int main(int argc, char **argv) {
            mvs_set_load(sim, &systole) == MVS_OK && mvs_settle(sim, NULL, NULL) == MVS_OK &&
            mvs_get_snapshot(sim, &valve) == MVS_OK && mvs_snapshot_measure(valve, &m) == MVS_OK;
   double hole = m.regurgitant_orifice_area * 1e6;
-  if (ok) printf(hole > 0 ? "The valve leaks: %.1f mm2\n" : "The valve is sealed.\n", hole);
+  if (ok) printf("%s: leaks through %.1f mm2\n", m.at_rest ? "At rest" : "NOT at rest", hole);
   if (!ok) fprintf(stderr, "%s\n", mvs_last_error()->message);
   mvs_snapshot_release(valve);
   mvs_destroy(sim);

@@ -46,7 +46,7 @@ struct VtpArray {
   std::string name;
   bool on_points = true;
   int components = 1;
-  std::vector<double> values;  // points: all nodes; cells: triangles, then chords (NaN: not there)
+  std::vector<double> values;  // points: all nodes; cells: triangles, then chords (0: not there)
 };
 std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays);
 

@@ -106,10 +106,14 @@ void ObjReader::state(Line &line) {
   fields.whole("steps", state.steps);
   fields.number("pressure", state.load.pressure);
   fields.number("boundary_fraction", state.load.boundary_fraction);
+  fields.number("rest_tolerance", state.rest_tolerance);
   fields.end();
   if (!(state.load.boundary_fraction >= 0 && state.load.boundary_fraction <= 1)) {
     line.fail("boundary_fraction is %g: it has to be 0 (open) to 1 (loaded)",
               state.load.boundary_fraction);
+  }
+  if (!(state.rest_tolerance >= 0)) {
+    line.fail("rest_tolerance is %g: it has to be a force in N, or 0", state.rest_tolerance);
   }
 }
 

@@ -124,6 +124,7 @@ void pass(Archive &a, Is<State> auto &state) {
   a.word(state.steps);
   a.number(state.load.pressure);
   a.number(state.load.boundary_fraction);
+  a.number(state.rest_tolerance);
   a.list(state.tools);
   a.word(state.tools_made);
   pass(a, state.cache);

@@ -209,6 +209,9 @@ void SessionReader::check(const ModelState &current) const {
   const double fraction = state.load.boundary_fraction;
   MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
            "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);
+  MVS_MUST(state.rest_tolerance >= 0, MVS_E_FORMAT, "state",
+           "a state of the file has a rest tolerance of %g N, it has to be 0 or more",
+           state.rest_tolerance);
   for (const Tool &tool : state.tools) {
     MVS_MUST(is_valid(*current.model, tool), MVS_E_FORMAT, "state",
              "a state of the file has a tool that cannot be");

@@ -2,7 +2,6 @@
 #include "formats/vtk/polydata.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -53,6 +52,7 @@ void add_field_data(std::vector<VtkArray> &to, const Valve &valve, const State &
   add_number(to, "TimeValue", state.time);
   add_number(to, "pressure_Pa", state.load.pressure);
   add_number(to, "boundary_fraction", state.load.boundary_fraction);
+  add_number(to, "at_rest", state.is_at_rest());
 }
 
 // Adds one value per chord, then one per triangle.
@@ -69,7 +69,7 @@ void add_cells(std::vector<VtkArray> &to, const Valve &valve, const char *name, 
 }
 
 void add_cell_data(std::vector<VtkArray> &to, const Valve &valve) {
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  constexpr double nothing = 0;  // colour bars of viewers break on NaN
   const auto no_chord = [](const Chord &) { return -1; };
   const auto no_triangle = [](size_t) { return -1; };
   add_cells<int64_t>(

@@ -69,7 +69,8 @@ typedef void (*mvs_fault_fn)(void *user, const char *part, const char *sentence)
 
 /* Checks a valve without a simulator: returns the result that mvs_set_valve would return, and
  * reports every fault. Faults that prevent further checks (an index out of range) are reported
- * alone. `fault` and `user` are nullable. */
+ * alone. With MVS_OK the sentences are warnings: triangles that cross, needles, edges shorter than
+ * the contact thickness. `fault` and `user` are nullable. */
 MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void *user);
 
 /* Changes the tissue of a leaflet, of all leaflets if `leaflet` is 0: law, thickness and constants
@@ -129,7 +130,7 @@ typedef uint32_t mvs_lowered_flags;
 /* Outcome of a settle or step (fields: MVS_STRUCT_STATS). */
 typedef struct mvs_stats {
   uint32_t struct_size;
-  uint32_t converged;        /* 1: the residual is reached */
+  uint32_t converged;        /* 1: the residual is reached, and nothing has changed since */
   uint32_t iterations;       /* Newton iterations, or time steps */
   uint32_t contact_pairs;    /* active contact pairs at the end */
   mvs_lowered_flags lowered; /* MVS_LOWERED_*: accuracy given up for the budget of a step */
@@ -142,8 +143,9 @@ typedef struct mvs_stats {
 
 /* Moves the valve to static equilibrium under the load. Ending without convergence is not an error:
  * the valve is then at the last iterate and stats->converged is 0. MVS_E_CANCELLED if the progress
- * callback cancelled, MVS_E_DIVERGED if numbers left their range. `options` and `stats` are
- * nullable. */
+ * callback cancelled, MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to
+ * ten times its area because its law cannot bear the pressure. `options` and `stats` are nullable.
+ */
 MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats);
 
 /* Options of mvs_step. */
@@ -166,7 +168,9 @@ typedef struct mvs_step_options {
  * dt. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
-/* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first. */
+/* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.
+ * `converged` is 1 while the valve is at rest: an operation, a load or a tool makes it 0 until the
+ * next settle; so does a time step that moves the valve. */
 MVS_API mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats);
 
 #ifdef __cplusplus

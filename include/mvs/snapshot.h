@@ -141,6 +141,18 @@ MVS_API const char *mvs_snapshot_get_name(const mvs_snapshot *snapshot);
 /* Reads the load of the snapshot. */
 MVS_API mvs_result mvs_snapshot_get_load(const mvs_snapshot *snapshot, mvs_load_case *load);
 
+/* Whether a snapshot is at rest. */
+typedef struct mvs_rest {
+  uint32_t struct_size;
+  uint32_t at_rest; /* 1: at rest under its load, as a settle or step found it */
+  double tolerance; /* N, out-of-balance force up to which it was found at rest; 0 if it is not */
+} mvs_rest;
+
+/* Reads whether the snapshot is at rest. A settle that converges and a step that moves nothing find
+ * rest; a change of valve, load or tools, and a step that moves, end it. Undo and files restore it.
+ * A valve from another program is not known to be at rest. */
+MVS_API mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest *rest);
+
 /* Measures of a valve (fields: MVS_STRUCT_MEASURES). Definitions and sources:
  * libmvs/measure/README.md. */
 typedef struct mvs_measures {
@@ -172,6 +184,10 @@ typedef struct mvs_measures {
   double leaflet_area;             /* m2 */
   uint32_t chords_over_strain;     /* chordae strained beyond the limit of their kind */
   uint32_t chords_over_tension;    /* chordae that carry more than the limit of their kind */
+  uint32_t at_rest;                /* 1: at rest under its load, as a settle or step found it */
+  uint32_t under_load;             /* 1: the pressure closes the valve. A leak may be graded if
+                                      both are 1: otherwise these are measures of a moving, an
+                                      operated or an open valve */
 } mvs_measures;
 
 /* Returns the working range of chordae of a kind: largest strain and tension in N; infinite for

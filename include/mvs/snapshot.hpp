@@ -108,6 +108,8 @@ class Snapshot {
 
   mvs_load_case load() const { return filled<mvs_load_case>(mvs_snapshot_get_load, held_); }
 
+  bool at_rest() const { return filled<mvs_rest>(mvs_snapshot_get_rest, held_).at_rest != 0; }
+
   History history() const {
     const mvs_history size = filled<mvs_history>(mvs_snapshot_get_history, held_);
     History found;

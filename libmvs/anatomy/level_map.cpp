@@ -110,6 +110,7 @@ State without_nodes(const State &state) {
   made.v.clear();
   made.tools.clear();
   made.drop_cache();
+  made.rest_tolerance = 0;
   return made;
 }
 

@@ -1,7 +1,8 @@
 // Loads and saves files and memory in all formats; the ending or the caller selects the format.
 #include <mvs/file.h>
 
-#include <limits>
+#include <array>
+#include <cmath>
 #include <string_view>
 
 #include "api/sim_call.h"
@@ -56,19 +57,21 @@ void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
 }
 
-// Returns a cell array of a VTP file, whose cells are the triangles, then the chordae.
+// Returns a cell array of a VTP file, whose cells are the triangles, then the chordae. Cells
+// without a value have 0 (colour bars of viewers break on NaN and infinity); `chord_kind` tells
+// them apart.
 VtpArray triangle_array(const mvs_snapshot &s, const char *name, int components,
                         const double *values) {
   const size_t triangles = s.model->valve.triangles.size(), chords = s.model->valve.chords.size();
   VtpArray array{name, false, components, {}};
   array.values.assign(values, values + components * triangles);
-  array.values.resize(components * (triangles + chords), std::numeric_limits<double>::quiet_NaN());
+  array.values.resize(components * (triangles + chords), 0.0);
   return array;
 }
 
 VtpArray chord_array(const mvs_snapshot &s, const char *name, const std::vector<double> &values) {
   VtpArray array{name, false, 1, {}};
-  array.values.assign(s.model->valve.triangles.size(), std::numeric_limits<double>::quiet_NaN());
+  array.values.assign(s.model->valve.triangles.size(), 0.0);
   array.values.insert(array.values.end(), values.begin(), values.end());
   return array;
 }
@@ -77,11 +80,25 @@ VtpArray point_array(const char *name, int components, const double *values, siz
   return {name, true, components, std::vector<double>(values, values + components * count)};
 }
 
+// The distance to the facing tissue in mm, and whether a node faces any: 0 and 0 if not.
+std::array<VtpArray, 2> coaptation_arrays(const mvs_snapshot &s) {
+  std::array<VtpArray, 2> made = {VtpArray{"coaptation_distance_mm", true, 1, {}},
+                                  VtpArray{"faces_tissue", true, 1, {}}};
+  for (const double distance : s.coaptation().distance) {
+    const bool faces = std::isfinite(distance);
+    made[0].values.push_back(faces ? 1e3 * distance : 0);
+    made[1].values.push_back(faces ? 1 : 0);
+  }
+  return made;
+}
+
 std::vector<VtpArray> result_arrays(const mvs_snapshot &s) {
   const size_t n = s.model->node_count();
+  auto [distance, faces] = coaptation_arrays(s);
   return {point_array("force_N", 3, s.forces().total.data()->data(), n),
           point_array("contact_force_N", 3, s.forces().contact.data()->data(), n),
-          point_array("coaptation_distance_m", 1, s.coaptation().distance.data(), n),
+          std::move(distance),
+          std::move(faces),
           triangle_array(s, "stretch", 2, s.strain().stretch.data()->data()),
           triangle_array(s, "stress_Pa", 2, s.strain().stress.data()->data()),
           triangle_array(s, "coapted_share", 1, s.coaptation().share.data()),

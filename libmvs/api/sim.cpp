@@ -6,6 +6,7 @@
 #include "api/valve_desc.h"
 #include "model/check.h"
 #include "session/commit.h"
+#include "session/mesh_warnings.h"
 
 using namespace mvs::core;
 
@@ -43,7 +44,11 @@ mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fault, void
   const mvs_result result = at_boundary([&] {
     Described described = read_valve_desc(valve);
     for (const Fault &f : find_faults(described.valve)) report(f.part.c_str(), f.sentence.c_str());
-    described_state(*make_model(std::move(described.valve)), described.now);
+    const ModelPtr model = make_model(std::move(described.valve));
+    const State state = described_state(*model, described.now);
+    for (const Fault &f : mesh_warnings(*model, state.x)) {
+      report(f.part.c_str(), f.sentence.c_str());
+    }
   });
   // an error of reading the description is a fault as well
   if (result != MVS_OK && !reported) report(mvs_last_error()->part, mvs_last_error()->message);

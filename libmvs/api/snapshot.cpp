@@ -63,6 +63,14 @@ mvs_result mvs_snapshot_get_load(const mvs_snapshot *snapshot, mvs_load_case *lo
   });
 }
 
+mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest *rest) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    const double tolerance = snapshot->state.rest_tolerance;
+    write_struct(rest, mvs_rest{sizeof(mvs_rest), tolerance > 0, tolerance}, "rest");
+  });
+}
+
 mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *measures) {
   return at_boundary([&] {
     must_point(snapshot, "snapshot");

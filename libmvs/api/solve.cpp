@@ -129,8 +129,9 @@ mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
     const Load given = read_load(load);
     const SnapshotPtr before = s.present();
     State state = before->state;
-    state.load = given;
-    s.replace(make_snapshot(after_event(before->value, std::move(state), event_of(given))));
+    const RecordedEvent event = event_of(given);
+    apply_event(*before->model, state, event);
+    s.replace(make_snapshot(after_event(before->value, std::move(state), event)));
     log_pressure(s, given.pressure);
   });
 }

@@ -65,7 +65,9 @@ mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc 
       if (scale[l] != 1) valve.triangle_thickness[t] *= scale[l];
     }
     ModelPtr model = make_model(std::move(valve), present->model.get());
-    replace_valve(s, {{std::move(model), present->state}, {}});
+    State state = present->state;
+    state.rest_tolerance = 0;
+    replace_valve(s, {{std::move(model), std::move(state)}, {}});
   });
 }
 

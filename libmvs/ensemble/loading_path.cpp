@@ -69,8 +69,8 @@ class PathRun {
     step.dt = dt;
     for (size_t k = 0; k < stages.size(); ++k) {
       closing_.state.load = stages[k].load;
-      begun_ = static_cast<double>(k) / static_cast<double>(stages.size());
-      stage_ = 1 / static_cast<double>(stages.size());
+      before_ = static_cast<double>(k);
+      stages_ = static_cast<double>(stages.size());
       const SolveStats before = closing_.stats;
       closing_.stats =
           stages[k].in_time ? pass(step) : settle(k + 1 == stages.size() ? options : between);
@@ -81,7 +81,7 @@ class PathRun {
  private:
   SolveStats settle(const SolveOptions &how) {
     const auto tell = [this](double share, double residual) {
-      return progress_(begun_ + share * stage_, residual);
+      return progress_((before_ + share) / stages_, residual);
     };
     const Progress shared = progress_ ? Progress(tell) : Progress();
     // the other paths stay on this mesh, so that they find its own folds
@@ -91,7 +91,7 @@ class PathRun {
 
   SolveStats pass(const SolveOptions &how) {
     const SolveStats done = solver_.step(model_, closing_.state, how);
-    MVS_MUST(!progress_ || progress_(begun_, done.residual), MVS_E_CANCELLED, "ensemble",
+    MVS_MUST(!progress_ || progress_(before_ / stages_, done.residual), MVS_E_CANCELLED, "ensemble",
              "closing along paths was cancelled by the progress callback");
     return done;
   }
@@ -101,7 +101,7 @@ class PathRun {
   Closing &closing_;
   bool plain_;
   const Progress &progress_;
-  double begun_ = 0, stage_ = 0;  // shares of the path before the stage, and in the stage
+  double before_ = 0, stages_ = 1;  // number of stages done, and of all
 };
 
 }  // namespace

@@ -75,6 +75,7 @@ Snapshot after_event(const Snapshot &now, State state, const std::vector<Recorde
 }
 
 void apply_event(const Model &model, State &state, const RecordedEvent &event) {
+  state.rest_tolerance = 0;
   if (event.kind == RecordedEvent::load) {
     state.load = {event.pressure, event.boundary_fraction};
     return;

@@ -98,7 +98,7 @@ constexpr Constant may_newman_constants[] = {{"c0", "constant c0", "Pa", 399, so
 constexpr Constant prot_constants[] = {{"c0", "constant c0", "Pa", 52, soft, hard},
                                        {"c1", "constant c1", "", 4.63, 1e-6, 1e6},
                                        {"c2", "constant c2", "", 22.6, 0, 1e6}};
-constexpr Constant neo_hookean_constants[] = {{"mu", "shear modulus", "Pa", 1e5 / 3, soft, hard}};
+constexpr Constant neo_hookean_constants[] = {{"mu", "shear modulus", "Pa", 2e5, soft, hard}};
 
 constexpr LeafletLaw leaflet_law_table[] = {
     {LeafletLawId::spring, "spring", "bilinear springs", spring_constants, nullptr},

@@ -46,7 +46,11 @@ struct State {
   CowVector<Tool> tools;    // in the order of addition
   uint64_t tools_made = 0;  // count of all tools added so far; ids are not reused
   SolverCache cache;        // of live steps; empty after settling or an operation
+  // N, the out-of-balance force at which a solver found this state at rest under its load; 0: not
+  // at rest, or not known to be. Every change of model, load, tools or positions makes it 0.
+  double rest_tolerance = 0;
 
+  bool is_at_rest() const { return rest_tolerance > 0; }
   void drop_cache() { cache = {}; }
 };
 

@@ -1,9 +1,13 @@
-// Checks of the mesh against the contact thickness, and of the leaflet names.
+// Checks of the mesh: crossings, needles, edges below the contact thickness, leaflet names.
 #include "session/mesh_warnings.h"
 
 #include <algorithm>
+#include <numeric>
+#include <string>
 
+#include "base/error.h"
 #include "energy/contact.h"
+#include "geometry/intersect.h"
 #include "measure/annulus/annulus.h"
 #include "measure/annulus/landmarks.h"
 
@@ -39,47 +43,88 @@ Needles needles_of(const Model &model) {
   return found;
 }
 
+double mean_edge(const Model &model) {
+  const std::vector<double> &length = model.rest_length;
+  return std::accumulate(length.begin(), length.end(), 0.0) / static_cast<double>(length.size());
+}
+
+// The remedy for triangles and edges that are too small: a mesh whose edges are well above the
+// contact thickness.
+std::string remesh_command(const Model &model) {
+  const double edge = std::max(2 * model.valve.contact_thickness, mean_edge(model));
+  return format("`mvs remesh FILE --edge %.2g -o OUT` (mvs_coarsen_valve)", 1e3 * edge);
+}
+
 // All measures and rings depend on the anterior side.
-void log_anterior(const mvs_sim &sim, const Model &model) {
+void check_anterior(const Model &model, std::vector<Fault> &found) {
   const Leaflet &leaflet = model.valve.leaflets[anterior_leaflet(model.valve)];
   if (leaflet.name[0] == 'A' || leaflet.name[0] == 'a') return;
   if (model.valve.leaflets.size() > 1) {
-    sim.log(MVS_LOG_WARNING, "no leaflet is named A: %s is assumed to be anterior",
-            leaflet.name.c_str());
+    found.push_back({"leaflets", format("no leaflet is named A: %s is assumed to be anterior",
+                                        leaflet.name.c_str())});
     return;
   }
   const AnnulusMeasures m = measure_annulus(model, model.valve.rest);
-  sim.log(MVS_LOG_WARNING,
-          "no leaflet is named A: the first node of the annulus is assumed to be the middle of the "
-          "anterior side, so that the annulus is %.3g mm wide from there (AP) and %.3g mm across "
-          "(CC); name "
-          "leaflets A and P, or start the annulus at that node",
-          1e3 * m.ap, 1e3 * m.cc);
+  found.push_back(
+      {"leaflets",
+       format("no leaflet is named A: the first node of the annulus is assumed to be the middle of "
+              "the anterior side, so that the annulus is %.3g mm wide from there (AP) and %.3g mm "
+              "across (CC); name leaflets A and P, or start the annulus at that node",
+              1e3 * m.ap, 1e3 * m.cc)});
+}
+
+void check_crossings(const Model &model, const std::vector<Vec3> &x, std::vector<Fault> &found) {
+  constexpr size_t listed = 3;
+  const std::vector<Edge> pairs = find_intersections(x, model.valve.triangles);
+  if (pairs.empty()) return;
+  std::string list;
+  for (size_t k = 0; k < std::min(listed, pairs.size()); ++k) {
+    list += format("%s%u and %u", k > 0 ? ", " : "", pairs[k][0], pairs[k][1]);
+  }
+  found.push_back(
+      {format("triangle %u", pairs[0][0]),
+       format("%zu pairs of triangles cross (triangles %s%s): tissue never passes through tissue, "
+              "so they stay entangled, and forces and measures near them are wrong; separate them "
+              "in the mesh",
+              pairs.size(), list.c_str(), pairs.size() > listed ? ", ..." : "")});
+}
+
+void check_needles(const Model &model, std::vector<Fault> &found) {
+  const Needles needles = needles_of(model);
+  if (needles.count == 0) return;
+  const auto [i, j, k] = needles.where;
+  found.push_back(
+      {"triangles",
+       format("the triangle of nodes %u, %u, %u is %.3g m high, under a hundredth of the contact "
+              "thickness of %.3g m (%zu of them): the valve may not come to rest; merge nodes that "
+              "are too close, or make another mesh: %s",
+              i, j, k, needles.lowest, model.valve.contact_thickness, needles.count,
+              remesh_command(model).c_str())});
+}
+
+void check_short_edges(const Model &model, std::vector<Fault> &found) {
+  const double r = model.valve.contact_thickness;
+  const auto thin = std::count_if(model.rest_length.begin(), model.rest_length.end(),
+                                  [r](double length) { return length < r; });
+  if (thin == 0) return;
+  found.push_back(
+      {"triangles",
+       format("%td of %zu edges are shorter than the contact thickness of %.3g m: parts of the "
+              "sheet closer than %.3g m at rest do not touch each other, the barrier only "
+              "separates them; for contact there too: a smaller contact thickness, or %s",
+              thin, model.topology.edges.size(), r, contact_rest_distance * r,
+              remesh_command(model).c_str())});
 }
 
 }  // namespace
 
-void log_mesh(const mvs_sim &sim, const Model &model) {
-  log_anterior(sim, model);
-  const double r = model.valve.contact_thickness;
-  const Needles needles = needles_of(model);
-  if (needles.count > 0) {
-    const auto [i, j, k] = needles.where;
-    sim.log(
-        MVS_LOG_WARNING,
-        "the triangle of nodes %u, %u, %u is %.3g m high, under a hundredth of the contact "
-        "thickness of %.3g m (%zu of them): the valve may not come to rest; merge nodes that are "
-        "too close or make another mesh; to close without bending (bending_scale 0) may help too",
-        i, j, k, needles.lowest, r, needles.count);
-  }
-  const auto thin = std::count_if(model.rest_length.begin(), model.rest_length.end(),
-                                  [r](double length) { return length < r; });
-  if (thin == 0) return;
-  sim.log(
-      MVS_LOG_INFO,
-      "%td of %zu edges are shorter than the contact thickness of %.3g m: parts of the "
-      "sheet closer than %.3g m at rest do not touch each other, the barrier only separates them",
-      thin, model.topology.edges.size(), r, contact_rest_distance * r);
+std::vector<Fault> mesh_warnings(const Model &model, const std::vector<Vec3> &x) {
+  std::vector<Fault> found;
+  check_crossings(model, x, found);
+  check_short_edges(model, found);
+  check_needles(model, found);
+  check_anterior(model, found);
+  return found;
 }
 
 }  // namespace mvs::core

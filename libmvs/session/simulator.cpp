@@ -29,6 +29,7 @@ void mvs_sim::replace(SnapshotPtr next) {
   const std::lock_guard<std::mutex> lock(mutex_);
   now_ = next->value;
   stepped_.count = 0;
+  if (stats) stats->converged = now_.current.state.is_at_rest();
   present_.swap(next);
 }
 
@@ -77,6 +78,7 @@ void must_be_no_group(const mvs_sim &sim, const char *call) {
 void replace_valve(mvs_sim &sim, Snapshot snapshot) {
   check_solver_cache(snapshot.current);
   const ModelPtr held = snapshot.current.model;
+  const std::vector<Fault> doubtful = mesh_warnings(*held, snapshot.current.state.x);
   sim.replace(make_snapshot(std::move(snapshot)));
   sim.group = {};
   sim.hands.forget();
@@ -86,7 +88,7 @@ void replace_valve(mvs_sim &sim, Snapshot snapshot) {
   sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",
           held->valve.name.c_str(), held->node_count(), held->valve.triangles.size(),
           held->valve.chords.size());
-  log_mesh(sim, *held);
+  for (const Fault &fault : doubtful) sim.log(MVS_LOG_WARNING, "%s", fault.sentence.c_str());
   log_units(sim, *held);
   log_pressure(sim, sim.load().pressure);
 }

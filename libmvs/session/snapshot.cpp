@@ -95,6 +95,8 @@ mvs_measures make_measures(const mvs_snapshot &snapshot) {
   add_tenting_billow(snapshot, measures);
   add_annulus(snapshot, measures);
   add_strength(snapshot, measures);
+  measures.at_rest = snapshot.state.is_at_rest();
+  measures.under_load = snapshot.state.load.pressure > 0;
   return measures;
 }
 

@@ -34,6 +34,14 @@ inline constexpr int calm_steps = 10;
 inline constexpr double boundary_arrival = 1e-9;
 // Steps between two calls of the progress callback.
 inline constexpr uint32_t steps_per_report = 64;
+// Shares of the reported progress at the end of the boundary's way, and at the end of the last
+// iteration; 1 is reported when the settle is over.
+inline constexpr double boundary_progress = 0.5, settled_progress = 0.99;
+// A leaflet with more than this multiple of its rest area yields without end. Closed valves have
+// 1.1 to 1.6; tissue tears below 4.
+inline constexpr double max_area_ratio = 10;
+// Iterations between two looks at the areas, which take a hundredth of the time of an iteration.
+inline constexpr uint32_t looks_per_area = 4;
 
 }  // namespace settle
 

@@ -12,6 +12,7 @@
 #include "solve/dynamic/explicit_euler.h"
 #include "solve/dynamic/implicit_euler.h"
 #include "solve/settings.h"
+#include "solve/settle_watch.h"
 #include "solve/static/boundary_ramp.h"
 #include "solve/static/newton.h"
 #include "solve/tools/tool_points.h"
@@ -52,15 +53,20 @@ uint32_t skipped_in_run(const Profile &work) {
   return skipped;
 }
 
+double settle_tolerance(const SolveOptions &options) {
+  return options.residual > 0 ? options.residual : settings::defaults::residual;
+}
+
 // Steps in time until the out-of-balance force is below the tolerance for several steps in a row.
 template <typename Step>
 SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &options,
                           const Progress &progress, Step &&step) {
   const double start = seconds_now();
-  const double tolerance = options.residual > 0 ? options.residual : settings::defaults::residual;
+  const double tolerance = settle_tolerance(options);
   const StepOptions how = settle_options(options);
   const uint32_t most = max_settle_steps(options);
   SolveStats stats;
+  SettleWatch watch(model, state.x, state.load, tolerance, progress);
   int calm = 0;
   while (stats.iterations < most && calm < settings::settle::calm_steps) {
     ++stats.iterations;
@@ -71,11 +77,11 @@ SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &
                          boundary_is_there(model, state.x, state.load.boundary_fraction,
                                            settings::settle::boundary_arrival);
     calm = at_rest ? calm + 1 : 0;
-    const bool reports = progress && stats.iterations % settings::settle::steps_per_report == 0;
-    MVS_MUST(!reports || progress(static_cast<double>(stats.iterations) / most, stats.residual),
-             MVS_E_CANCELLED, "settle",
-             "settling was cancelled by the progress callback; the valve is as before");
+    if (stats.iterations % settings::settle::steps_per_report == 0) {
+      watch.look(state.x, stats.residual);
+    }
   }
+  watch.finish(stats.residual);
   stats.converged = calm == settings::settle::calm_steps;
   state.v.assign(state.v.size(), Vec3::Zero());
   stats.kinetic = 0;
@@ -178,6 +184,7 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
     stats = Newton(model, *work_->factor).settle(state, options, progress);
   }
   state.drop_cache();
+  state.rest_tolerance = stats.converged ? settle_tolerance(options) : 0;
   stats.skipped |= skipped_in_run(stats.work);
   return stats;
 }
@@ -198,6 +205,9 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
       throw;
     }
   }
+  const bool stands = (stats.skipped & MVS_SKIPPED_STEP) != 0;
+  state.rest_tolerance = stands ? rest_force(state.load) : 0;
+  stats.converged = stands;
   state.time += how.dt;
   ++state.steps;
   stats.iterations = 1;

@@ -57,6 +57,7 @@ Operated perform(const ModelState &before, const Operation &op) {
   done.current.state = std::move(s.state);
   done.current.model = checked_model(s);
   done.current.state.drop_cache();
+  done.current.state.rest_tolerance = 0;
   drop_lost_tools(*done.current.model, done.current.state);
   share(done.current.state, before.state);
   MVS_MUST(done.current.state.x.size() == done.current.model->node_count(), MVS_E_INTERNAL,

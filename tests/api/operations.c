@@ -127,6 +127,35 @@ static void every_operation_can_be_taken_back_and_done_again(void) {
   }
 }
 
+static int is_at_rest(void) {
+  const mvs_snapshot *snapshot = present();
+  mvs_rest rest = {.struct_size = sizeof rest};
+  MUST(mvs_snapshot_get_rest(snapshot, &rest));
+  mvs_snapshot_release(snapshot);
+  return rest.at_rest == 1;
+}
+
+/* What was measured before an operation is not so after it: its figures wait for the next settle.
+ */
+static void every_operation_ends_rest(void) {
+  example list[most_examples];
+  mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+  mvs_stats stats = {.struct_size = sizeof stats};
+  new_valve();
+  MUST(mvs_set_load(sim, &systole));
+  MUST(mvs_settle(sim, NULL, NULL));
+  const int count = make_examples(list);
+  for (int k = 0; k < count; ++k) {
+    CHECK(is_at_rest());
+    MUST(mvs_apply_op(sim, &list[k].op, NULL));
+    MUST(mvs_get_stats(sim, &stats));
+    CHECK(!is_at_rest() && stats.converged == 0);
+    MUST(mvs_undo(sim));
+    MUST(mvs_get_stats(sim, &stats));
+    CHECK(is_at_rest() && stats.converged == 1);
+  }
+}
+
 static void undoing_everything_gives_the_first_valve(void) {
   example list[most_examples];
   new_valve();
@@ -377,6 +406,7 @@ int main(void) {
   MUST(mvs_create(NULL, &sim));
   MUST_FAIL(mvs_undo(sim), MVS_E_STATE, "no valve");
   every_operation_can_be_taken_back_and_done_again();
+  every_operation_ends_rest();
   undoing_everything_gives_the_first_valve();
   groups_go_together();
   checkpoints_are_places_to_come_back_to();

@@ -109,10 +109,27 @@ class Close(Command):
     def test_residual_is_below_the_requested_one(self):
         self.assertLessEqual(self.json("close", "v.obj", "--residual", 1e-3)["residual_N"], 1e-3)
 
-    def test_stopping_early_is_reported_without_failure(self):
-        done = self.ok("close", "v.obj", "--json", "--max-iterations", 2)
+    def test_a_valve_that_is_not_at_rest_is_written_marked_and_ends_with_1(self):
+        early = ["close", "v.obj", "--json", "--max-iterations", 2, "-o", "early.obj"]
+        done = mvs(*early, cwd=self.dir)
+        self.assertEqual(done.returncode, 1)
         self.assertFalse(json.loads(done.stdout)["converged"])
         self.assertIn("not converged", done.stderr)
+        found = self.json("measure", "early.obj")["measures"]
+        self.assertEqual((found["at_rest"], found["under_load"]), (False, True))
+        self.assertIn("(no grade: not at rest)", self.ok("measure", "early.obj").stdout)
+        self.ok(*early, "--allow-unsettled")
+
+    def test_only_a_valve_at_rest_under_load_is_graded(self):
+        self.assertIn("(no grade: no load)", self.ok("measure", "v.obj").stdout)
+        self.assertIn("(sealed)", self.ok("measure", "closed.obj").stdout)
+        self.ok("op", "closed.obj", "ring", "--size", 30, "-o", "ringed.obj")
+        self.assertIn("(no grade: not at rest)", self.ok("measure", "ringed.obj").stdout)
+
+    def test_tissue_that_cannot_bear_the_pressure_is_named(self):
+        done = self.fails("close", "v.obj", "--leaflet", "neo_hookean", "--pressure", 1500)
+        self.assertIn("yields without end", done.stderr)
+        self.ok("close", "v.obj", "--leaflet", "neo_hookean")
 
     def test_same_command_gives_the_same_bits(self):
         self.assertEqual(self.json("close", "v.obj")["hash"], self.closed["hash"])

@@ -110,8 +110,8 @@ def test_the_arrays_of_the_vtp_belong_to_their_cells(faces, chords):
     np.testing.assert_array_equal(cells["leaflet"] < 0, is_chord)
     np.testing.assert_array_equal(cells["scallop"] < 0, is_chord)
     np.testing.assert_array_equal(cells["chord_kind"] >= 0, is_chord)
-    np.testing.assert_array_equal(np.isnan(cells["rest_length_mm"]), ~is_chord)
-    np.testing.assert_array_equal(np.isnan(cells["thickness_mm"]), is_chord)
+    np.testing.assert_array_equal(cells["rest_length_mm"] == 0, ~is_chord)
+    np.testing.assert_array_equal(cells["thickness_mm"] == 0, is_chord)
     # half of the triangles are of leaflet A, whose id is 1000 in the file
     assert np.sum(cells["id"] == 1000) == len(faces) / 2
     kinds = mesh.point_data["node_kind"]
@@ -152,7 +152,7 @@ def test_vtk_finds_the_arrays_of_the_vtp_in_a_session(session):
             assert found[name].dtype.kind == wanted[name].dtype.kind, name
     is_chord = np.arange(session.n_cells) < session.n_lines
     np.testing.assert_array_equal(session.cell_data["leaflet"] < 0, is_chord)
-    np.testing.assert_array_equal(np.isnan(session.cell_data["rest_length_mm"]), ~is_chord)
+    np.testing.assert_array_equal(session.cell_data["rest_length_mm"] == 0, ~is_chord)
     assert list(session.field_data["SPACE"]) == ["LPS"]
     assert list(session.field_data["scallop_names"]) == ["A2", "P1", "P3"]
     assert len(session.field_data["chord_names"]) == session.n_lines

@@ -66,6 +66,15 @@ def test_a_vtp_file_holds_the_leaflets(closed, tmp_path):
     # VTK files are in mm (FORMAT.md), the library in m
     assert np.allclose(mesh.points, closed.node_position * 1e3, atol=1e-3)
     assert faces is None or np.array_equal(faces, closed.triangle_nodes)
+    for values in (*mesh.point_data.values(), *mesh.cell_data.values()):
+        assert np.all(np.isfinite(values))
+    names = {*mesh.point_data, *mesh.cell_data}
+    assert not [name for name in names if name.endswith("_m")]
+    facing = np.isfinite(closed.node_coaptation)
+    assert np.array_equal(mesh.point_data["faces_tissue"] == 1, facing)
+    distance = mesh.point_data["coaptation_distance_mm"]
+    assert np.allclose(distance[facing], 1e3 * closed.node_coaptation[facing])
+    assert mesh.field_data["at_rest"][0] == 1
 
 
 def test_abaqus_input_is_a_valve_with_its_load(tmp_path):

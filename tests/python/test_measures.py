@@ -22,7 +22,7 @@ def test_every_figure_has_a_unit_and_a_definition(kind):
         assert len(mvs.definition_of(kind, field.name)) > 3
 
 
-COUNTS = {"intersections", "chords_over_strain", "chords_over_tension"}
+COUNTS = {"intersections", "chords_over_strain", "chords_over_tension", "at_rest", "under_load"}
 
 
 def test_measures_are_finite_floats(closed):

@@ -26,6 +26,7 @@ struct CloseOptions {
   std::string in, out, reference;
   std::string leaflet = "file", solver = "newton", backend = "default";
   std::optional<double> pressure_mmhg;
+  bool allow_unsettled = false;
   mvs_settle_options settle = {};
   EnsembleOptions ensemble;
 };
@@ -98,8 +99,8 @@ std::string closed_text(const CloseOptions &options, const Closed &closed,
          (closed.errors ? errors_text(*closed.errors) : "");
 }
 
-// A valve that is not at rest is a result, not an error: it is written, marked, and warned of.
-void run_close(const CloseOptions &options, const Console &console) {
+// A valve that is not at rest is written, marked, warned of, and ends with exit code 1.
+void run_close(const CloseOptions &options, Console &console) {
   std::optional<mvs::Snapshot> reference;  // read first: a missing file fails before the closure
   if (!options.reference.empty()) reference = load(options.reference);
   Closed closed = close_valve(options, console);
@@ -116,6 +117,7 @@ void run_close(const CloseOptions &options, const Console &console) {
                  closed.stats.iterations, closed.stats.residual);
   }
   print(console, closed_json(options, closed, measures), closed_text(options, closed, measures));
+  demand_rest(console, closed.stats, options.allow_unsettled);
 }
 
 void add_choice(CLI::App &command, const char *option, std::string &value, const char *help,
@@ -150,6 +152,7 @@ void add_close(CLI::App &app, Console &console) {
       ->check(CLI::PositiveNumber);
   command->add_option("--reference", options->reference,
                       "report the distances of the closed valve from the shape in this file");
+  add_unsettled_option(*command, options->allow_unsettled);
   add_ensemble_options(*command, options->ensemble);
   add_progress_flag(*command, console);
 }

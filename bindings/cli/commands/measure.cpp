@@ -20,7 +20,8 @@ void run_measure(const MeasureOptions &options, const Console &console) {
          {"boundary_fraction", load_case.boundary_fraction},
          {"intersections", measures.intersections},
          {"measures", measures_json(measures)}},
-        text("%s: as stored in the file, load %g mmHg\n", options.file.c_str(), pressure_mmhg) +
+        text("%s: as stored in the file, load %g mmHg, %s\n", options.file.c_str(), pressure_mmhg,
+             measures.at_rest != 0 ? "at rest" : "not at rest") +
             measures_text(measures));
 }
 

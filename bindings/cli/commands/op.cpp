@@ -16,7 +16,7 @@ namespace {
 struct OpRequest {
   mvs::OpKind kind;
   std::string in, out;
-  bool settle = false;
+  bool settle = false, allow_unsettled = false;
   std::optional<double> settle_mmhg;
   std::map<std::string, std::string> fields;  // the given ones, as text
 };
@@ -93,11 +93,14 @@ std::string operated_text(const OpRequest &request, const Operated &done) {
          measures_text(done.at_rest[0].measures, done.at_rest[1].measures);
 }
 
-void run_op(const OpRequest &request, const Console &console) {
+void run_op(const OpRequest &request, Console &console) {
   if (request.out.empty() && !request.settle) throw CLI::RequiredError("--output or --settle");
   const Operated done = operate(request, console);
   if (!request.out.empty()) done.valve.save(request.out);
   print(console, operated_json(request, done), operated_text(request, done));
+  for (const AtRest &closed : done.at_rest) {
+    demand_rest(console, closed.stats, request.allow_unsettled);
+  }
 }
 
 // Option names have dashes in place of underscores.
@@ -136,6 +139,7 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
           ->expected(0, 1)
           ->type_name("MMHG")
           ->check(CLI::Validator(CLI::Number).description(""));
+  add_unsettled_option(*command, request->allow_unsettled);
   add_progress_flag(*command, console);
   command->callback([request, file, settle, &console] {
     request->settle = settle->count() > 0;

@@ -14,7 +14,7 @@ struct PlanOptions {
 
 // One line per step.
 std::string step_text(const Json &step) {
-  const std::string word = step.value("do", "?");
+  std::string word = step.value("do", "?");
   if (step.contains("title")) return step.value("title", "");
   if (word == "load") return text("Load %.0f mmHg", step.value("pressure_Pa", 0.0) / pa_per_mmhg);
   if (word == "settle") return "Settle";

@@ -13,9 +13,10 @@ namespace {
 struct RepairOptions {
   std::string file, plan, out, plan_out;
   std::optional<double> pressure_mmhg;
+  bool allow_unsettled = false;
 };
 
-void run_repair(const RepairOptions &options, const Console &console) {
+void run_repair(const RepairOptions &options, Console &console) {
   const std::string plan = plan_text(options.plan);
   Progress progress(console);
   mvs::Sim unrepaired = load_sim(options.file, progress);
@@ -48,6 +49,8 @@ void run_repair(const RepairOptions &options, const Console &console) {
          {"before", at_rest_json(before)},
          {"after", at_rest_json(after)}},
         lines + measures_text(before.measures, after.measures));
+  demand_rest(console, before.stats, options.allow_unsettled);
+  demand_rest(console, after.stats, options.allow_unsettled);
 }
 
 }  // namespace
@@ -61,6 +64,7 @@ void add_repair(CLI::App &app, Console &console) {
   command->add_option("--save-plan", options->plan_out,
                       "write the applied plan, with measures before and after each operation");
   add_pressure_option(*command, options->pressure_mmhg);
+  add_unsettled_option(*command, options->allow_unsettled);
 }
 
 }  // namespace cli

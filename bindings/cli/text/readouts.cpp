@@ -57,8 +57,14 @@ bool is_orifice(const Readout &readout) {
   return readout.key == "regurgitant_orifice_area_mm2";
 }
 
+// Whether the measures are those of a valve at rest and under load: words in a table, not a row.
+bool is_condition(const Readout &readout) {
+  return readout.key == "at_rest" || readout.key == "under_load";
+}
+
 Json json_number(const Readout &readout, const mvs_measures &measures) {
   const double value = readout.value(measures);
+  if (is_condition(readout)) return value != 0;
   if (readout.is_count) return static_cast<uint32_t>(value);
   return std::isfinite(value) ? Json(value * readout.scale) : Json();
 }
@@ -81,8 +87,10 @@ std::string cells(const Readout &readout, const std::vector<const mvs_measures *
 }  // namespace
 
 // Grades by effective orifice area, 0.20, 0.30 and 0.40 cm2.
-const char *leak_grade(double orifice_area) {
-  const double cm2 = orifice_area * 1e4;
+const char *leak_grade(const mvs_measures &measures) {
+  if (measures.under_load == 0) return "no grade: no load";
+  if (measures.at_rest == 0) return "no grade: not at rest";
+  const double cm2 = measures.regurgitant_orifice_area * 1e4;
   if (cm2 == 0) return "sealed";
   if (cm2 < 0.2) return "mild";
   if (cm2 < 0.3) return "moderate";
@@ -101,10 +109,11 @@ Json measures_json(const mvs_measures &measures) {
 std::string measures_text(const mvs_measures &measures) {
   std::string table;
   for (const Readout &readout : readouts()) {
+    if (is_condition(readout)) continue;
     table += cells(readout, {&measures});
     if (!readout.is_count && std::isfinite(readout.value(measures))) table += " " + readout.unit;
     if (is_orifice(readout)) {
-      table += text(" (%s)", leak_grade(measures.regurgitant_orifice_area));
+      table += text(" (%s)", leak_grade(measures));
     }
     table += '\n';
   }
@@ -114,11 +123,11 @@ std::string measures_text(const mvs_measures &measures) {
 std::string measures_text(const mvs_measures &before, const mvs_measures &after) {
   std::string table;
   for (const Readout &readout : readouts()) {
+    if (is_condition(readout)) continue;
     table += cells(readout, {&before, &after});
     if (!readout.is_count) table += " " + readout.unit;
     if (is_orifice(readout)) {
-      table += text(" (%s, then %s)", leak_grade(before.regurgitant_orifice_area),
-                    leak_grade(after.regurgitant_orifice_area));
+      table += text(" (%s, then %s)", leak_grade(before), leak_grade(after));
     }
     table += '\n';
   }
@@ -142,14 +151,15 @@ Json statistics_json(const Statistics &of) {
 std::string measures_text(const mvs_measures &plain, const Statistics &of) {
   std::string table = text("  %-27s%10s%10s%10s%10s\n", "", "plain", "min", "max", "deviation");
   for (const Readout &readout : readouts()) {
+    if (is_condition(readout)) continue;
     if (readout.is_count) {
       table += cells(readout, {&plain, &of.min, &of.max}) + '\n';
       continue;
     }
     table += cells(readout, {&plain, &of.min, &of.max, &of.deviation}) + " " + readout.unit;
     if (is_orifice(readout)) {
-      const std::string least = leak_grade(of.min.regurgitant_orifice_area);
-      const std::string most = leak_grade(of.max.regurgitant_orifice_area);
+      const std::string least = leak_grade(of.min);
+      const std::string most = leak_grade(of.max);
       table += least == most ? text(" (%s)", most.c_str())
                              : text(" (%s to %s)", least.c_str(), most.c_str());
     }

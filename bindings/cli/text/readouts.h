@@ -29,7 +29,8 @@ Json statistics_json(const Statistics &statistics);
 // The read-outs of one closure with their range and deviation beside them.
 std::string measures_text(const mvs_measures &plain, const Statistics &statistics);
 
-// The grade of a leak of this orifice area in m2: "none", "mild", ...
-const char *leak_grade(double orifice_area);
+// The grade of the leak: "sealed", "mild", ...; why there is none if the valve is not at rest or
+// bears no pressure.
+const char *leak_grade(const mvs_measures &measures);
 
 }  // namespace cli

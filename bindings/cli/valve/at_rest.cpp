@@ -18,6 +18,15 @@ AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name) {
   return {std::move(valve), stats, measures};
 }
 
+void add_unsettled_option(CLI::App &command, bool &allowed) {
+  command.add_flag("--allow-unsettled", allowed,
+                   "exit code 0 also if the valve does not come to rest");
+}
+
+void demand_rest(Console &console, const mvs_stats &stats, bool allowed) {
+  if (stats.converged == 0 && !allowed) console.exit_code = 1;
+}
+
 Json closure_json(const mvs::Snapshot &valve, const mvs_stats &stats,
                   const mvs_measures &measures) {
   return {{"converged", stats.converged != 0},

@@ -1,6 +1,7 @@
 // Closes a valve to rest and measures it, for commands that compare closures.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "text/console.h"
@@ -16,6 +17,13 @@ struct AtRest {
 // Settles under a pressure and measures. A valve that is not at rest is a result, not an error:
 // stderr gets a warning with `name`.
 AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name);
+
+// Adds --allow-unsettled, which has a command that closes valves end with 0 all the same.
+void add_unsettled_option(CLI::App &command, bool &allowed);
+
+// Sets the exit code to 1 if the valve is not at rest, unless that is allowed. What there is was
+// written, marked as not at rest.
+void demand_rest(Console &console, const mvs_stats &stats, bool allowed);
 
 // Convergence, energy, time, intersections, hash and measures of a closure.
 Json closure_json(const mvs::Snapshot &valve, const mvs_stats &stats, const mvs_measures &measures);

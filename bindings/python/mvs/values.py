@@ -86,10 +86,11 @@ class ChordLimits:
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
-    """One fault of a valve given as arrays."""
+    """One fault of a valve given as arrays, or a warning about a valve without faults."""
 
     part: str
     sentence: str
+    is_warning: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -138,7 +139,7 @@ class Profile:
 class Stats:
     """Outcome of the last settle or step. Ending without convergence raises no error."""
 
-    converged: Annotated[bool, "1", "1: the residual is reached"]
+    converged: Annotated[bool, "1", "1: the residual is reached, and nothing has changed since"]
     iterations: Annotated[int, "1", "Newton iterations, or time steps"]
     contact_pairs: Annotated[int, "1", "active contact pairs at the end"]
     lowered: Annotated[int, "1", "MVS_LOWERED_* bits: accuracy given up for the budget of a step"]
@@ -190,6 +191,8 @@ class Measures:
     leaflet_area: Annotated[float, "m2", "area of both leaflets in the present shape"]
     chords_over_strain: Annotated[int, "1", "chordae strained beyond the limit of their kind"]
     chords_over_tension: Annotated[int, "1", "chordae that carry more than the limit of their kind"]
+    at_rest: Annotated[int, "1", "1: at rest under its load, as a settle or step found it"]
+    under_load: Annotated[int, "1", "1: the pressure closes the valve"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

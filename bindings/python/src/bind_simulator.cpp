@@ -39,7 +39,9 @@ py::list check_valve(const py::args &args, const py::kwargs &kwargs) {
   if (result != MVS_OK && faults.empty()) must(result);
   py::list list;
   const py::object type = py::module_::import("mvs.values").attr("Fault");
-  for (const auto &[part, sentence] : faults) list.append(type(part, sentence));
+  for (const auto &[part, sentence] : faults) {
+    list.append(type(part, sentence, result == MVS_OK));
+  }
   return list;
 }
 
@@ -281,8 +283,8 @@ void bind_simulator(py::module_ &module) {
   type.def("__enter__", [](const py::object &self) { return self; });
   type.def("__exit__", [](Simulator &self, const py::args &) { self.close(); });
   module.def("check_valve", &check_valve,
-             "The faults of a valve (list of mvs.Fault), empty for a valid valve; arguments as for "
-             "Simulator.set_valve.");
+             "The faults of a valve (list of mvs.Fault); for a valve without faults its warnings, "
+             "such as triangles that cross. Arguments as for Simulator.set_valve.");
 }
 
 }  // namespace mvs_python

@@ -182,6 +182,14 @@ void bind_snapshot(py::module_ &module) {
   type.def_property_readonly(
       "hash", &hash,
       "128-bit hash of model and state in hexadecimal: equal for equal inputs of the next step.");
+  type.def_property_readonly(
+      "at_rest",
+      [](const Snapshot &self) {
+        auto rest = sized<mvs_rest>();
+        must(mvs_snapshot_get_rest(self.get(), &rest));
+        return rest.at_rest != 0;
+      },
+      "Whether a settle or step found this state at rest under its load.");
   type.def_property_readonly("load_case", &load_case, "The load (mvs.Load), Pa and fraction.");
   type.def_property_readonly("measures", &measures,
                              "The measures of the valve (mvs.Measures, SI units). The first call "

@@ -9,6 +9,7 @@
 #include "energy/forces.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
+#include "solve/settle_watch.h"
 #include "solve/static/local_subproblem.h"
 
 namespace mvs::core {
@@ -54,6 +55,7 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
   begin(state);
   BoundaryRamp ramp(*model_, state.load.boundary_fraction);
   PolishSchedule polish{rest_force_};
+  SettleWatch watch(*model_, at_.x, state.load, tolerance, progress);
   // a local subproblem has no tools
   if (state.tools.empty() && limit_.distance == 0 && ramp.is_there(at_.x)) {
     presolve_locally(state.load);
@@ -62,13 +64,12 @@ SolveStats Newton::settle(State &state, const SolveOptions &options, const Progr
     const bool arrived = ramp.is_there(at_.x);
     stats_.converged = arrived && at_.residual <= tolerance;
     if (stats_.converged || stats_.iterations == most || limit_.reached) break;
-    const double share = static_cast<double>(stats_.iterations) / most;
-    MVS_MUST(!progress || progress(share, at_.residual), MVS_E_CANCELLED, "settle",
-             "settling was cancelled by the progress callback; the valve is as before");
+    watch.look(at_.x, at_.residual);
     ++stats_.iterations;
     if (!arrived && ramp.may_move(at_.residual, rest_force_)) move_boundary(ramp);
     iterate(polish);
   }
+  watch.finish(at_.residual);
   state.x = at_.x;
   state.v.assign(at_.x.size(), Vec3::Zero());
   stats_.residual = at_.residual;

@@ -32,10 +32,13 @@ class Case:
 
 
 def verdict(closed: Snapshot, stats: Stats) -> str:
-    """The result of a closure in a few words: sealed, leaking, or not converged."""
-    if not stats.converged:
-        return "did not converge"
-    area = closed.measures.regurgitant_orifice_area * 1e6
+    """The result of a closure in a few words: sealed, leaking, or not at rest."""
+    measures = closed.measures
+    if not (stats.converged and measures.at_rest):
+        return "not at rest"
+    if not measures.under_load:
+        return "no load"
+    area = measures.regurgitant_orifice_area * 1e6
     return "sealed" if area == 0 else f"leaks through {area:.1f} mm²"
 
 
