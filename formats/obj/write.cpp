@@ -109,7 +109,7 @@ void ObjWriter::header() {
   key_whole("steps", state_.steps);
   key_number("pressure", state_.load.pressure);
   key_number("boundary_fraction", state_.load.boundary_fraction);
-  key_number("rest_tolerance", state_.rest_tolerance);
+  if (state_.is_at_rest()) key_number("rest_tolerance", state_.rest_tolerance);
   out_ += '\n';
   solver_cache();
 }

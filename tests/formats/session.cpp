@@ -254,7 +254,8 @@ TEST_CASE("an_undo_level_in_a_file_takes_only_the_bytes_that_it_changed") {
   const size_t each = (write_session(now, {}).size() - empty) / levels;
   MESSAGE(each << " bytes a level of " << empty);
   // two snapshots, of 16 bytes more each for the instruments, 8 for the preconditioner flag and 8
-  // for rest, a model, its 12 chords and the operation in words: 2034; positions would be 3264 bytes
+  // for rest, a model, its 12 chords and the operation in words: 2034; positions would be 3264
+  // bytes
   CHECK(each < 2048);
   CHECK(hash_of(read_session(write_session(now, {})).history.past.items()[7][0]->after) ==
         hash_of(now.history.past.items()[7][0]->after));
