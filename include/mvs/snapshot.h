@@ -43,6 +43,8 @@ enum mvs_array_kind_e {
   MVS_ARRAY_NODE_OPEN = 9,           /* F64 n x 3, m: unloaded targets of prescribed nodes */
   MVS_ARRAY_NODE_ORIGIN = 10,        /* U32 n: the node's index before operations, refinement and
                                         coarsening; UINT32_MAX for a new node */
+  MVS_ARRAY_NODE_STRAIN_FIBRE = 11,  /* F64 n x 3: means of the triangles at a node by rest area */
+  MVS_ARRAY_NODE_STRESS_FIBRE = 12,  /* F64 n x 3, Pa: the same */
   MVS_ARRAY_TRIANGLE_NODES = 20,     /* U32 m x 3 */
   MVS_ARRAY_TRIANGLE_LEAFLET = 21,   /* U32 m */
   MVS_ARRAY_TRIANGLE_SCALLOP = 22,   /* U32 m */
@@ -51,24 +53,29 @@ enum mvs_array_kind_e {
   MVS_ARRAY_TRIANGLE_STRETCH = 25,   /* F64 m x 2: principal stretches, larger first */
   MVS_ARRAY_TRIANGLE_STRESS = 26,    /* F64 m x 2, Pa: principal Cauchy stresses, larger first */
   MVS_ARRAY_TRIANGLE_COAPTED = 27,   /* F64 m: share of the triangle that faces another leaflet */
-  MVS_ARRAY_LEAFLET_LAW = 30,        /* U32 l, a row a leaflet: MVS_LEAFLET_LAW_* */
-  MVS_ARRAY_LEAFLET_CONSTANTS = 31,  /* F64 l x 9: thickness in m, then the constants of the law */
-  MVS_ARRAY_ANNULUS_NODES = 40,      /* U32 k, in order */
-  MVS_ARRAY_FREE_EDGE_NODES = 41,    /* U32, in order */
-  MVS_ARRAY_CHORD_NODES = 50,        /* U32 c x 2 */
-  MVS_ARRAY_CHORD_REST_LENGTH = 51,  /* F64 c, m */
-  MVS_ARRAY_CHORD_KIND = 52,         /* U32 c: MVS_CHORD_KIND_* */
-  MVS_ARRAY_CHORD_STRAIN = 53,       /* F64 c: (L - L0) / L0, negative when slack */
-  MVS_ARRAY_CHORD_TENSION = 54,      /* F64 c, N */
-  MVS_ARRAY_CHORD_ID = 55,           /* U64 c */
-  MVS_ARRAY_CHORD_YOUNG = 56,        /* F64 c, Pa */
-  MVS_ARRAY_CHORD_AREA = 57,         /* F64 c, m2 */
-  MVS_ARRAY_CHORD_FLAGS = 58,        /* U8 c: MVS_CHORD_FLAG_OVER_* */
-  MVS_ARRAY_CHORD_LAW = 59,          /* U32 c: MVS_CHORD_LAW_* */
-  MVS_ARRAY_HEAD_NODES = 60,         /* U32 h */
-  MVS_ARRAY_HEAD_FORCE = 61,         /* F64 h x 3, N: pull of the chordae on each head */
-  MVS_ARRAY_CHORD_CONSTANTS = 62,    /* F64 c x 6: of the law */
-  MVS_ARRAY_RING_POINTS = 65,        /* F64 x 3, m: the points of all rings, one after the other */
+  MVS_ARRAY_TRIANGLE_STRAIN_FIBRE = 28, /* F64 m x 3: Green-Lagrange strain along the fibre
+                                           (circumferential), across it (radial), in shear */
+  MVS_ARRAY_TRIANGLE_STRESS_FIBRE = 29, /* F64 m x 3, Pa: Cauchy stress, turned back by the
+                                           rotation of the triangle, in the same order */
+  MVS_ARRAY_TRIANGLE_DIRECTION = 32,    /* F64 m x 3: unit direction of the largest stretch */
+  MVS_ARRAY_LEAFLET_LAW = 30,           /* U32 l, a row a leaflet: MVS_LEAFLET_LAW_* */
+  MVS_ARRAY_LEAFLET_CONSTANTS = 31, /* F64 l x 9: thickness in m, then the constants of the law */
+  MVS_ARRAY_ANNULUS_NODES = 40,     /* U32 k, in order */
+  MVS_ARRAY_FREE_EDGE_NODES = 41,   /* U32, in order */
+  MVS_ARRAY_CHORD_NODES = 50,       /* U32 c x 2 */
+  MVS_ARRAY_CHORD_REST_LENGTH = 51, /* F64 c, m */
+  MVS_ARRAY_CHORD_KIND = 52,        /* U32 c: MVS_CHORD_KIND_* */
+  MVS_ARRAY_CHORD_STRAIN = 53,      /* F64 c: (L - L0) / L0, negative when slack */
+  MVS_ARRAY_CHORD_TENSION = 54,     /* F64 c, N */
+  MVS_ARRAY_CHORD_ID = 55,          /* U64 c */
+  MVS_ARRAY_CHORD_YOUNG = 56,       /* F64 c, Pa */
+  MVS_ARRAY_CHORD_AREA = 57,        /* F64 c, m2 */
+  MVS_ARRAY_CHORD_FLAGS = 58,       /* U8 c: MVS_CHORD_FLAG_OVER_* */
+  MVS_ARRAY_CHORD_LAW = 59,         /* U32 c: MVS_CHORD_LAW_* */
+  MVS_ARRAY_HEAD_NODES = 60,        /* U32 h */
+  MVS_ARRAY_HEAD_FORCE = 61,        /* F64 h x 3, N: pull of the chordae on each head */
+  MVS_ARRAY_CHORD_CONSTANTS = 62,   /* F64 c x 6: of the law */
+  MVS_ARRAY_RING_POINTS = 65,       /* F64 x 3, m: the points of all rings, one after the other */
   MVS_ARRAY_RING_START = 66,   /* U32 r + 1: first row of each ring's points, then their number */
   MVS_ARRAY_RING_KIND = 67,    /* U32 r: MVS_RING_KIND_* */
   MVS_ARRAY_RING_ID = 68,      /* U64 r */
@@ -188,6 +195,12 @@ typedef struct mvs_measures {
   uint32_t under_load;             /* 1: the pressure closes the valve. A leak may be graded if
                                       both are 1: otherwise these are measures of a moving, an
                                       operated or an open valve */
+  double leaflet_strain_p50; /* largest principal strain: half of the tissue has at most this */
+  double leaflet_strain_p95; /* 95 % of the tissue, by rest area */
+  double leaflet_strain_p99; /* 99 %; one bad triangle does not change it */
+  double leaflet_stress_p50; /* Pa, largest principal Cauchy stress, in the same way */
+  double leaflet_stress_p95; /* Pa */
+  double leaflet_stress_p99; /* Pa */
 } mvs_measures;
 
 /* Returns the working range of chordae of a kind: largest strain and tension in N; infinite for

@@ -101,6 +101,11 @@ std::vector<VtpArray> result_arrays(const mvs_snapshot &s) {
           std::move(faces),
           triangle_array(s, "stretch", 2, s.strain().stretch.data()->data()),
           triangle_array(s, "stress_Pa", 2, s.strain().stress.data()->data()),
+          triangle_array(s, "strain_fibre", 3, s.tensors().strain.data()->data()),
+          triangle_array(s, "stress_fibre_Pa", 3, s.tensors().stress.data()->data()),
+          triangle_array(s, "stretch_direction", 3, s.tensors().direction.data()->data()),
+          point_array("node_strain_fibre", 3, s.tensors().node_strain.data()->data(), n),
+          point_array("node_stress_fibre_Pa", 3, s.tensors().node_stress.data()->data(), n),
           triangle_array(s, "coapted_share", 1, s.coaptation().share.data()),
           chord_array(s, "chord_strain", s.chords().strain),
           chord_array(s, "chord_tension_N", s.chords().tension)};

@@ -64,6 +64,10 @@ Viewed node_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.forces().contact);
     case MVS_ARRAY_NODE_COAPTATION:
       return view_of(s.coaptation().distance);
+    case MVS_ARRAY_NODE_STRAIN_FIBRE:
+      return view_of(s.tensors().node_strain);
+    case MVS_ARRAY_NODE_STRESS_FIBRE:
+      return view_of(s.tensors().node_stress);
     default:
       return {};
   }
@@ -86,6 +90,12 @@ Viewed triangle_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.strain().stretch);
     case MVS_ARRAY_TRIANGLE_STRESS:
       return view_of(s.strain().stress);
+    case MVS_ARRAY_TRIANGLE_STRAIN_FIBRE:
+      return view_of(s.tensors().strain);
+    case MVS_ARRAY_TRIANGLE_STRESS_FIBRE:
+      return view_of(s.tensors().stress);
+    case MVS_ARRAY_TRIANGLE_DIRECTION:
+      return view_of(s.tensors().direction);
     case MVS_ARRAY_TRIANGLE_COAPTED:
       return view_of(s.coaptation().share);
     default:

@@ -11,3 +11,4 @@
 #include "measure/tissue/chords.h"
 #include "measure/tissue/section.h"
 #include "measure/tissue/strain.h"
+#include "measure/tissue/tensors.h"

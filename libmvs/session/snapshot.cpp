@@ -86,6 +86,14 @@ void add_strength(const mvs_snapshot &s, mvs_measures &m) {
   m.max_leaflet_strain = s.strain().max_strain;
   m.max_leaflet_stress = s.strain().max_stress;
   m.leaflet_area = s.strain().leaflet_area;
+  const Percentiles &strain = s.strain().strain_percentiles;
+  m.leaflet_strain_p50 = strain.p50;
+  m.leaflet_strain_p95 = strain.p95;
+  m.leaflet_strain_p99 = strain.p99;
+  const Percentiles &stress = s.strain().stress_percentiles;
+  m.leaflet_stress_p50 = stress.p50;
+  m.leaflet_stress_p95 = stress.p95;
+  m.leaflet_stress_p99 = stress.p99;
 }
 
 mvs_measures make_measures(const mvs_snapshot &snapshot) {
@@ -110,6 +118,9 @@ const Coaptation &mvs_snapshot::coaptation() const {
 }
 const Strain &mvs_snapshot::strain() const {
   return strain_.get([this] { return measure_strain(*model, state.x); });
+}
+const Tensors &mvs_snapshot::tensors() const {
+  return tensors_.get([this] { return measure_tensors(*model, state.x); });
 }
 const ChordMeasures &mvs_snapshot::chords() const {
   return chords_.get([this] { return measure_chords(*model, state.x); });

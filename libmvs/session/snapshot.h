@@ -59,6 +59,7 @@ struct mvs_snapshot {
   const mvs::core::Forces &forces() const;
   const mvs::core::Coaptation &coaptation() const;
   const mvs::core::Strain &strain() const;
+  const mvs::core::Tensors &tensors() const;
   const mvs::core::ChordMeasures &chords() const;
   const mvs::core::Orifice &orifice() const;
   const mvs::core::Tables &tables() const;
@@ -79,6 +80,7 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::Forces> forces_;
   mvs::core::Lazy<mvs::core::Coaptation> coaptation_;
   mvs::core::Lazy<mvs::core::Strain> strain_;
+  mvs::core::Lazy<mvs::core::Tensors> tensors_;
   mvs::core::Lazy<mvs::core::ChordMeasures> chords_;
   mvs::core::Lazy<mvs::core::Orifice> orifice_;
   mvs::core::Lazy<mvs::core::Tables> tables_;

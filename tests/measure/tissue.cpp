@@ -7,6 +7,7 @@
 
 #include "measure/tissue/chords.h"
 #include "measure/tissue/strain.h"
+#include "measure/tissue/tensors.h"
 #include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
@@ -125,6 +126,63 @@ TEST_CASE("stress_does_the_work_of_the_springs") {
   const double expected = (energy_at(1 + step) - energy_at(1 - step)) / (2 * step);
   // a kink crossed within the step is wrong by step * 6 MPa / 0.1 MPa = 6e-5 of that side's share
   CHECK(work == about(expected, 1e-6));
+}
+
+// The sheet is stretched by 1.2 along a fibre at angle 0.3 to x and by 0.9 across it.
+TEST_CASE("tensors_are_those_of_a_homogeneous_stretch_in_the_fibre_frame") {
+  Valve valve = valve_of(flat_ring());
+  const double angle = 0.3;
+  const Vec3 fibre(std::cos(angle), std::sin(angle), 0),
+      across(-std::sin(angle), std::cos(angle), 0);
+  valve.triangle_fibre = std::vector<Vec3>(valve.triangles.size(), fibre);
+  for (Leaflet &leaflet : valve.leaflets.edit()) {
+    leaflet.law = LeafletLawId::fung;
+    leaflet.constants = default_constants(find_leaflet_law(leaflet.law)->constants);
+  }
+  const ModelPtr model = make_model(std::move(valve));
+  const auto x = moved(moved(model->valve.rest,
+                             [&](const Vec3 &p) {
+                               return Vec3(1.2 * fibre.dot(p) * fibre +
+                                           0.9 * across.dot(p) * across + p.z() * Vec3::UnitZ());
+                             }),
+                       some_rigid_motion());
+  const Tensors found = measure_tensors(*model, x);
+  const Strain strain = measure_strain(*model, x);
+  for (size_t t = 0; t < found.strain.size(); ++t) {
+    CHECK(found.strain[t][0] == about(0.5 * (1.2 * 1.2 - 1), 1e-11));
+    CHECK(found.strain[t][1] == about(0.5 * (0.9 * 0.9 - 1), 1e-11));
+    CHECK(std::abs(found.strain[t][2]) < 1e-11);
+    CHECK(found.stress[t][0] == about(strain.stress[t][0], 1e-9));
+    CHECK(found.stress[t][1] + strain.stress[t][0] ==
+          about(strain.stress[t][1] + strain.stress[t][0], 1e-9));
+    CHECK(std::abs(found.stress[t][2]) < 1e-9 * strain.stress[t][0]);
+    CHECK(std::abs(found.direction[t].dot(some_rigid_motion().turn * fibre)) == about(1, 1e-11));
+  }
+  for (const uint32_t node : model->valve.triangles[0]) {
+    CHECK((found.node_strain[node] - found.strain[0]).norm() < 1e-11);
+  }
+}
+
+TEST_CASE("percentiles_are_shares_of_the_tissue_by_area") {
+  const ModelPtr model = make_model(valve_of(flat_ring()));
+  std::vector<Vec3> x = model->valve.rest.get();
+  for (Vec3 &p : x) p.x() *= 1 + 20 * p.x();
+  const Strain strain = measure_strain(*model, x);
+  const auto share_up_to = [&](double value) {
+    double below = 0, all = 0;
+    for (size_t t = 0; t < strain.stretch.size(); ++t) {
+      all += model->rest_area[t];
+      if (std::max(strain.stretch[t][0] - 1, 0.0) <= value) below += model->rest_area[t];
+    }
+    return below / all;
+  };
+  const Percentiles &p = strain.strain_percentiles;
+  CHECK(p.p50 < p.p95);
+  CHECK(p.p99 <= strain.max_strain);
+  for (const auto &[value, share] : {std::pair{p.p50, 0.5}, {p.p95, 0.95}, {p.p99, 0.99}}) {
+    CHECK(share_up_to(value) >= share);
+    CHECK(share_up_to(value * (1 - 1e-12)) < share);
+  }
 }
 
 TEST_CASE("stress_and_stretch_are_invariant_under_rigid_motion") {

@@ -193,6 +193,22 @@ class Measures:
     chords_over_tension: Annotated[int, "1", "chordae that carry more than the limit of their kind"]
     at_rest: Annotated[int, "1", "1: at rest under its load, as a settle or step found it"]
     under_load: Annotated[int, "1", "1: the pressure closes the valve"]
+    leaflet_strain_p50: Annotated[
+        float, "1", "largest principal strain that half of the tissue does not exceed, by rest area"
+    ]
+    leaflet_strain_p95: Annotated[float, "1", "the same for 95 % of the tissue"]
+    leaflet_strain_p99: Annotated[
+        float, "1", "the same for 99 %: one bad triangle does not change it"
+    ]
+    leaflet_stress_p50: Annotated[
+        float,
+        "Pa",
+        "largest principal Cauchy stress that half of the tissue does not exceed, by rest area",
+    ]
+    leaflet_stress_p95: Annotated[float, "Pa", "the same for 95 % of the tissue"]
+    leaflet_stress_p99: Annotated[
+        float, "Pa", "the same for 99 %: one bad triangle does not change it"
+    ]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

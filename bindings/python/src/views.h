@@ -36,6 +36,18 @@ inline constexpr View views[] = {
      "(m, 2) float64: principal stretches, larger first."},
     {"triangle_stress", MVS_ARRAY_TRIANGLE_STRESS,
      "(m, 2) float64, Pa: principal Cauchy stresses, larger first."},
+    {"triangle_strain_fibre", MVS_ARRAY_TRIANGLE_STRAIN_FIBRE,
+     "(m, 3) float64: Green-Lagrange strain along the fibre (circumferential), across it (radial), "
+     "in shear."},
+    {"triangle_stress_fibre", MVS_ARRAY_TRIANGLE_STRESS_FIBRE,
+     "(m, 3) float64, Pa: Cauchy stress, turned back by the rotation of the triangle, in the same "
+     "order."},
+    {"triangle_direction", MVS_ARRAY_TRIANGLE_DIRECTION,
+     "(m, 3) float64: unit direction of the largest stretch."},
+    {"node_strain_fibre", MVS_ARRAY_NODE_STRAIN_FIBRE,
+     "(n, 3) float64: triangle_strain_fibre, mean of the triangles at a node by rest area."},
+    {"node_stress_fibre", MVS_ARRAY_NODE_STRESS_FIBRE,
+     "(n, 3) float64, Pa: triangle_stress_fibre, mean of the triangles at a node by rest area."},
     {"triangle_coapted", MVS_ARRAY_TRIANGLE_COAPTED,
      "(m,) float64: share of the triangle that faces another leaflet."},
     {"leaflet_law", MVS_ARRAY_LEAFLET_LAW, "(l,) uint32: mvs.LeafletLaw."},

@@ -1,31 +1,16 @@
-// Principal stretches from the deformation gradient of each triangle; principal stresses from the
-// law of its membrane, or from the springs along its sides.
+// Principal stretches from the deformation gradient of each triangle, principal stresses, and their
+// percentiles.
 #include "measure/tissue/strain.h"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/math.h"
-#include "model/membrane.h"
+#include "measure/tissue/triangle.h"
 
 namespace mvs::core {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
-using Sides = Eigen::Matrix<double, 2, 3>;
-
-// The sides of a triangle (corner k to k + 1) in a basis of its own plane, first along side 0.
-Sides sides_in_plane(const std::vector<Vec3> &x, const Tri &triangle) {
-  const Vec3 first = x[triangle[1]] - x[triangle[0]], last = x[triangle[2]] - x[triangle[0]];
-  const double length = first.norm();
-  const Vec2 u(length, 0);
-  const Vec2 v(first.dot(last) / length, first.cross(last).norm() / length);
-  Sides sides;
-  sides << u, v - u, -v;
-  return sides;
-}
 
 // Eigenvalues of a symmetric matrix, larger first.
 std::array<double, 2> principal(const Mat2 &m) {
@@ -43,32 +28,27 @@ std::array<double, 2> principal_stretches(const Sides &rest, const Sides &now) {
   return {std::sqrt(squares[0]), std::sqrt(std::max(squares[1], 0.0))};
 }
 
-// Virial stress of the springs of a triangle: the sum of force x length n n^T over its present
-// volume. The share of a side in the force is sigma t A0 / L0 (Van Gelder 1998), and the volume A0
-// t is constant as tissue is incompressible, so that t and A0 cancel.
-std::array<double, 2> principal_stresses(const Bilinear &law, const Sides &rest, const Sides &now) {
-  Mat2 stress = Mat2::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const double length = now.col(k).norm();
-    const double stretch = length / rest.col(k).norm();
-    const Vec2 direction = now.col(k) / length;
-    stress += law.stress(stretch - 1) * stretch * direction * direction.transpose();
+// Percentiles of the first column of `rows`, weighted by the rest area of the triangles: the
+// smallest value that this share of the tissue does not exceed.
+Percentiles percentiles_of(const std::vector<std::array<double, 2>> &rows, double offset,
+                           const std::vector<double> &area) {
+  std::vector<uint32_t> order(rows.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return rows[a][0] != rows[b][0] ? rows[a][0] < rows[b][0] : a < b;
+  });
+  double whole = 0;
+  for (const uint32_t t : order) whole += area[t];
+  Percentiles found;
+  double sum = 0;
+  for (const uint32_t t : order) {
+    const double value = std::max(rows[t][0] - offset, 0.0);
+    if (sum < 0.50 * whole) found.p50 = value;
+    if (sum < 0.95 * whole) found.p95 = value;
+    if (sum < 0.99 * whole) found.p99 = value;
+    sum += area[t];
   }
-  return principal(stress);
-}
-
-// Cauchy stress of a membrane, 2 F (dW/dC) F^T; the determinant of the three-dimensional F is 1.
-std::array<double, 2> principal_stresses(const LeafletLaw &law, const Constants &constants,
-                                         const Mat2 &inverse, const Sides &now) {
-  Mat2 sides;
-  sides << now.col(0), -now.col(2);
-  const Mat2 f = sides * inverse, c = f.transpose() * f;
-  const InPlaneStrain strain{c(0, 0), c(1, 1), c(0, 1)};
-  const double i1 = strain.a + strain.b + 1 / strain.det();
-  const Vec3 slope = in_plane_stress(law.response(constants, i1, strain.a), strain).first;
-  Mat2 s;
-  s << 2 * slope[0], slope[2], slope[2], 2 * slope[1];
-  return principal(f * s * f.transpose());
+  return found;
 }
 
 }  // namespace
@@ -79,16 +59,14 @@ Strain measure_strain(const Model &model, const std::vector<Vec3> &x) {
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     const Sides rest = sides_in_plane(valve.rest, valve.triangles[t]);
     const Sides now = sides_in_plane(x, valve.triangles[t]);
-    const Leaflet &leaflet = valve.leaflets[valve.triangle_leaflet[t]];
-    const LeafletLaw &law = *find_leaflet_law(leaflet.law);
     strain.stretch.push_back(principal_stretches(rest, now));
-    strain.stress.push_back(
-        law.response ? principal_stresses(law, leaflet.constants, rest_inverse(valve, t), now)
-                     : principal_stresses(Bilinear(leaflet.constants), rest, now));
+    strain.stress.push_back(principal(cauchy_stress(valve, t, rest, now)));
     strain.max_strain = std::max(strain.max_strain, strain.stretch[t][0] - 1);
     strain.max_stress = std::max(strain.max_stress, strain.stress[t][0]);
     strain.leaflet_area += 0.5 * std::abs(now(0, 0) * now(1, 2));
   }
+  strain.strain_percentiles = percentiles_of(strain.stretch, 1, model.rest_area);
+  strain.stress_percentiles = percentiles_of(strain.stress, 0, model.rest_area);
   return strain;
 }
 

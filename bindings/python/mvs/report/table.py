@@ -58,7 +58,13 @@ ROWS = (
     Row("Chordae over their working strain", "chords_over_strain", "", 1, 0, "none"),
     Row("Chordae over their working tension", "chords_over_tension", "", 1, 0, "none"),
     Row("Leaflet strain, largest", "max_leaflet_strain", "%", 100, 1),
+    Row("Leaflet strain, 99 % of the tissue", "leaflet_strain_p99", "%", 100, 1),
+    Row("Leaflet strain, 95 % of the tissue", "leaflet_strain_p95", "%", 100, 1),
+    Row("Leaflet strain, 50 % of the tissue", "leaflet_strain_p50", "%", 100, 1),
     Row("Leaflet stress, largest", "max_leaflet_stress", "kPa", 1e-3, 0),
+    Row("Leaflet stress, 99 % of the tissue", "leaflet_stress_p99", "kPa", 1e-3, 0),
+    Row("Leaflet stress, 95 % of the tissue", "leaflet_stress_p95", "kPa", 1e-3, 0),
+    Row("Leaflet stress, 50 % of the tissue", "leaflet_stress_p50", "kPa", 1e-3, 0),
     Row("Leaflet area, closed", "leaflet_area", "cm²", 1e4, 2),
     Row("Crossing triangle pairs", "intersections", "", 1, 0),
 )
