@@ -3,7 +3,8 @@
  * save.
  * Build: cc -std=c99 phantom.c phantom/[!nw]*.c phantom/no_window.c -o phantom -lm -pthread \
  *          $(pkg-config --cflags --libs mvs)     (with a window: see CMakeLists.txt)
- * Use:   ./phantom --driver NAME [--valve FILE]; see README.md; ./phantom prints all options. */
+ * Use:   ./phantom --driver NAME [--valve FILE]; see README.md; ./phantom --help prints all
+ * options. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -58,13 +59,17 @@ static void set_mode(uint32_t wanted, mvs_id chord) {
   log_line(now.time, "the hand %s", mode_name(mode));
 }
 
-static void help(void) {
+void help(void) {
   printf(
       "  1 view  2 grasp  3 push with a ball  4 with a rod  5 feel a chord  6 drag a chord\n"
       "  a  forces on   space  forces off   n  select the chord nearest to the hand\n"
       "  c  strain or anatomy   arrows, or h j k l, rotate the view; z Z zoom in and out\n");
   surgery_help();
   printf("  ?  help   q  quit\n");
+}
+
+int is_key(int key) {
+  return strchr("123456a nchljkzZ?q", key) != NULL || is_surgery_key(key);
 }
 
 static void choose_chord(void) {

@@ -21,6 +21,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
       "Exit code 0: done; 1: failed, with the reason on stderr; 2: wrong usage.");
   cli::add_generate(app, console);
   cli::add_info(app, console);
+  cli::add_chords(app, console);
   cli::add_op(app, console);
   cli::add_close(app, console);
   cli::add_measure(app, console);
@@ -29,6 +30,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
   cli::add_plan(app, console);
   cli::add_remesh(app, console);
   cli::add_repair(app, console);
+  cli::add_sweep(app, console);
   cli::add_haptics(app, console);
 }
 

@@ -9,18 +9,17 @@ options option = {NULL, NULL, NULL, "", NULL, "phantom", "", 1, 1e-3, 0.1, 0, 0}
 
 static const char *script;
 
-static void list_drivers(void) {
+static void list_drivers(FILE *to) {
   uint32_t count = 0;
   const char *name = NULL, *path = NULL;
   if (mvs_get_driver_count(&count) != MVS_OK) return;
   for (uint32_t k = 0; k < count && mvs_get_driver(k, &name, &path) == MVS_OK; ++k) {
-    fprintf(stderr, "  %-16s %s\n", name, path);
+    fprintf(to, "  %-16s %s\n", name, path);
   }
 }
 
-static void use(const char *why, const char *what) {
-  fprintf(stderr, "phantom: %s%s\n", why, what);
-  fprintf(stderr,
+static void print_use(FILE *to) {
+  fprintf(to,
           "use: phantom --driver NAME|PATH [--device NAME] [--option KEY=VALUE ...]\n"
           "  [--valve FILE]    else the shipped valve       [--scale S]  of the motion, 1\n"
           "  [--script FILE]   recording for replay         [--keys \"2.0:u 3.0:s\"]  keys at "
@@ -28,9 +27,15 @@ static void use(const char *why, const char *what) {
           "  [--headless]      without a window, on a virtual clock\n"
           "  [--seconds S]     else to the end of the script  [--dt S]  time step, 0.001\n"
           "  [--frames DIR]    folder of pictures           [--every S]  between them, 0.1\n"
+          "  [--help]          prints this\n"
           "  [--out BASE]      files of keys s and w: BASE.obj, BASE.json\n"
           "drivers:\n");
-  list_drivers();
+  list_drivers(to);
+}
+
+static void use(const char *why, const char *what) {
+  fprintf(stderr, "phantom: %s%s\n", why, what);
+  print_use(stderr);
   exit(2);
 }
 
@@ -93,10 +98,25 @@ static int are_keys(const char *keys) {
   return keys[strspn(keys, " ")] == 0;
 }
 
+static void must_know_keys(const char *keys) {
+  double when;
+  int key;
+  char name[2] = {0, 0};
+  while ((keys = next_key(keys, &when, &key)) != NULL) {
+    name[0] = (char)key;
+    if (!is_key(key)) use("--keys has an unknown key (--help lists them): ", name);
+  }
+}
+
 void read_options(int argc, char **argv) {
   int i;
   for (i = 1; i < argc; ++i) {
-    if (!strcmp(argv[i], "--headless")) {
+    if (!strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
+      print_use(stdout);
+      printf("keys:\n");
+      help();
+      exit(0);
+    } else if (!strcmp(argv[i], "--headless")) {
       option.headless = 1;
     } else if (i + 1 < argc) {
       read_option(argv[i], argv[i + 1]);
@@ -108,6 +128,10 @@ void read_options(int argc, char **argv) {
   if (!option.driver) use("--driver is required", "");
   if (!(option.every > 0)) use("--every must be positive", "");
   if (!are_keys(option.keys)) use("not a list of TIME:KEY: ", option.keys);
+  must_know_keys(option.keys);
+  if (!strcmp(option.driver, "replay") && !strstr(option.driver_options, "file=")) {
+    use("the driver replay needs --script FILE, a recording", "");
+  }
   if (option.headless && option.seconds <= 0) {
     if (!script) use("--headless needs --seconds or --script, which end it", "");
     add_driver_option("end=", "stop");

@@ -16,7 +16,11 @@ typedef struct options {
   int headless;
 } options;
 extern options option;
-/* Exits with code 2 for invalid options. */
+/* Prints the keys. */
+void help(void);
+/* True for the keys that it prints. */
+int is_key(int key);
+/* Exits with code 2 for invalid options, with 0 after --help. */
 void read_options(int argc, char **argv);
 /* Reads the first entry of "2.0:u 3.0:s" (key u at 2 s, key s at 3 s); returns the rest, or null
  * without an entry. */
@@ -91,6 +95,7 @@ const char *surgery(mvs_sim *sim, int key, const mvs_device_report *hand, mvs_id
 /* Sets the length of a chord so that its end reaches a point. */
 const char *surgery_drag(mvs_sim *sim, mvs_id chord, const double to[3]);
 void surgery_help(void);
+int is_surgery_key(int key);
 
 /* Renders into a PPM file without a window system; 0 if it cannot be written. */
 int picture_paint(const scene *what, const eye *from, const char *path);

@@ -151,6 +151,14 @@ void surgery_help(void) {
   for (i = 0; i < KEYS; ++i) printf("  %c  %s\n", keys[i].key, keys[i].what);
 }
 
+int is_surgery_key(int key) {
+  int i;
+  for (i = 0; i < KEYS; ++i) {
+    if (keys[i].key == key) return 1;
+  }
+  return 0;
+}
+
 /* The title of the last operation: "Shorten chord P2/3 to 75 %". */
 static const char *title(mvs_sim *sim) {
   static mvs_history_entry entry;

@@ -10,9 +10,41 @@
 
 namespace mvs::core {
 
+namespace {
+
+const char *remedy_of(int error) {
+  switch (error) {
+    case EISDIR:
+      return "; give the name of a file";
+    case ENOENT:
+    case ENOTDIR:
+      return "; create the folder first";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; choose another folder, or get the right to write there (chmod, chown)";
+    case ENOSPC:
+    case EDQUOT:
+      return "; free space on the disk";
+    default:
+      return "";
+  }
+}
+
+// errno is a number of the generic category, not of the system's
+std::string reason_of(int error) {
+  return std::generic_category().message(error);
+}
+
+}  // namespace
+
 void fail_io(const char *verb, const std::string &what, int error, const char *part) {
-  fail(MVS_E_IO, part, "cannot %s %s: %s", verb, what.c_str(),
-       std::system_category().message(error).c_str());
+  fail(MVS_E_IO, part, "cannot %s %s: %s", verb, what.c_str(), reason_of(error).c_str());
+}
+
+void fail_to_write(const char *verb, const std::string &what, int error) {
+  fail(MVS_E_IO, "", "cannot %s %s: %s%s", verb, what.c_str(), reason_of(error).c_str(),
+       remedy_of(error));
 }
 
 std::string folder_of(const std::string &path) {

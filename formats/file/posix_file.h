@@ -26,9 +26,12 @@ class Descriptor {
   int number_;
 };
 
-// Throws MVS_E_IO, "cannot VERB WHAT: the system's reason".
+// Throws MVS_E_IO, "cannot VERB WHAT: the system's reason"; `error` is errno.
 [[noreturn]] void fail_io(const char *verb, const std::string &what, int error,
                           const char *part = "");
+
+// The same for a file that is written; the sentence ends with the remedy where one is known.
+[[noreturn]] void fail_to_write(const char *verb, const std::string &what, int error);
 
 // Returns the folder of a file.
 std::string folder_of(const std::string &path);

@@ -29,7 +29,7 @@ class Temporary {
     if (!renamed_) ::unlink(path_.c_str());
   }
   void rename_to(const std::string &target) {
-    if (::rename(path_.c_str(), target.c_str()) != 0) fail_io("replace", target, errno);
+    if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write("replace", target, errno);
     renamed_ = true;
   }
 
@@ -45,16 +45,16 @@ int open_new(const std::string &folder, std::string &path) {
     path = folder + "/.mvs-" + std::to_string(::getpid()) + "-" + std::to_string(k) + ".tmp";
     const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (number >= 0) return number;
-    if (errno != EEXIST) fail_io("write into folder", folder, errno);
+    if (errno != EEXIST) fail_to_write("write into folder", folder, errno);
   }
-  fail_io("find a new name in folder", folder, EEXIST);
+  fail_to_write("find a new name in folder", folder, EEXIST);
 }
 
 void write_all(const Descriptor &file, std::string_view bytes, const std::string &target) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_io("write", target, errno);
+    if (written < 0) fail_to_write("write", target, errno);
     bytes.remove_prefix(static_cast<size_t>(written));
   }
 }
@@ -70,10 +70,10 @@ std::string follow_links(const std::string &path) {
 // Returns whether a file exists that is to be replaced, and its status.
 bool find_old(const std::string &target, Status &old) {
   if (::stat(target.c_str(), &old) != 0) return false;
-  if (S_ISDIR(old.st_mode)) fail_io("write", target, EISDIR);
+  if (S_ISDIR(old.st_mode)) fail_to_write("write", target, EISDIR);
   MVS_MUST(S_ISREG(old.st_mode), MVS_E_IO, "", "cannot write %s: it is a device or pipe, no file",
            target.c_str());
-  if (::access(target.c_str(), W_OK) != 0) fail_io("write", target, errno);
+  if (::access(target.c_str(), W_OK) != 0) fail_to_write("write", target, errno);
   return true;
 }
 
@@ -121,10 +121,10 @@ void write_whole_file(const std::string &path, std::string_view bytes) {
   Temporary temporary(path_of_new);
   write_all(file, bytes, target);
   if (replaces && ::fchmod(file.number(), old.st_mode & 07777) != 0) {
-    fail_io("keep the mode of", target, errno);
+    fail_to_write("keep the mode of", target, errno);
   }
-  if (::fsync(file.number()) != 0) fail_io("write", target, errno);
-  if (!file.close()) fail_io("write", target, errno);
+  if (::fsync(file.number()) != 0) fail_to_write("write", target, errno);
+  if (!file.close()) fail_to_write("write", target, errno);
   temporary.rename_to(target);
   sync_folder(folder);
 }

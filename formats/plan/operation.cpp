@@ -63,7 +63,7 @@ Id id_in(const Parts &parts, const std::string &name, const char *word) {
     if (part.name == name) return part.id;
   }
   fail(MVS_E_ID, name, "the valve has no %s named \"%.63s\"%s", word, name.c_str(),
-       existing_names(parts).c_str());
+       near_names(name, parts).c_str());
 }
 
 Json point_json(const double *at) {

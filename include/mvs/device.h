@@ -236,6 +236,16 @@ enum mvs_limited_flags_e {
 };
 typedef uint32_t mvs_limited_flags;
 
+/* Defects of the driver's samples: bits of mvs_device_state.sample_faults. */
+enum mvs_sample_fault_flags_e {
+  MVS_SAMPLE_FAULT_NUMBER = 1 << 0,      /* position or velocity not finite, or above 1000 m/s */
+  MVS_SAMPLE_FAULT_ORIENTATION = 1 << 1, /* not a unit quaternion */
+  MVS_SAMPLE_FAULT_FAR = 1 << 2,         /* more than 1 m from the centre of the workspace */
+  MVS_SAMPLE_FAULT_SEQUENCE = 1 << 3,    /* `sequence` did not change for 0.1 s: no new sample */
+  MVS_SAMPLE_FAULT_CLOCK = 1 << 4        /* `time_ns` went back, or stood still for 0.1 s */
+};
+typedef uint32_t mvs_sample_fault_flags;
+
 /* Present status of the servo. */
 typedef struct mvs_device_state {
   uint32_t struct_size;
@@ -257,6 +267,10 @@ typedef struct mvs_device_state {
   double heat;               /* 0 cool .. 1 at the continuous limit */
   uint64_t ticks;            /* of the servo */
   uint64_t late;             /* ticks later than two periods */
+  uint64_t bad_samples;      /* samples with a defect since mvs_device_start */
+  mvs_sample_fault_flags sample_faults; /* MVS_SAMPLE_FAULT_*, of these samples; a defect latches
+                                           forces off only once they are armed */
+  uint32_t reserved;
 } mvs_device_state;
 /* Reads the status, from any thread. */
 MVS_API mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state);

@@ -37,7 +37,8 @@ MVS_API mvs_result mvs_load_file(mvs_sim *sim, const char *path, mvs_format form
 MVS_API mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size,
                                    mvs_format format);
 
-/* Writes a snapshot to a file, which is replaced if it exists. */
+/* Writes a snapshot to a file, which is replaced if it exists. MVS_E_IO, with the remedy, if it
+ * cannot be written or replaced: the old file stays, and no other remains. */
 MVS_API mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, mvs_format format);
 
 /* Writes a snapshot to memory: at most `capacity` bytes; stores the number of bytes of the whole

@@ -72,6 +72,8 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
   out.heat = now.heat;
   out.ticks = now.ticks;
   out.late = now.late;
+  out.bad_samples = now.bad_samples;
+  out.sample_faults = now.sample_faults;
   return out;
 }
 

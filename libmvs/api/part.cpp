@@ -98,7 +98,7 @@ mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, uint32_t kind, c
         return;
       }
       fail(MVS_E_ID, name, "the valve has no %s named \"%.63s\"%s", kind_name(kind), name,
-           existing_names(parts).c_str());
+           near_names(name, parts).c_str());
     });
   });
 }

@@ -14,8 +14,16 @@ constexpr uint32_t fast_samples = 3;      // consecutive, above the speed limit
 constexpr double velocity_filter = 5e-3;  // s, time constant of the velocity estimate
 constexpr double bounce = 10e-3;          // s, debounce time of a button
 
+constexpr double max_speed = 1e3;  // m/s, of a measured velocity
+constexpr double plausible = 1;    // m, from the centre; no haptic device reaches farther
+
 bool is_number(double value, double most) {
   return std::abs(value) <= most;  // false for NaN
+}
+
+bool is_unit(const double *q) {
+  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  return std::abs(square - 1) < 1e-3;
 }
 
 }  // namespace
@@ -28,6 +36,7 @@ void SampleValidator::start() {
 void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limits &limits) {
   cause_ = Cause::none;
   flags_ = sample.flags;
+  find_faults(sample);
   if (!is_finite(sample)) {
     dt_ = passed_ = 0;
     return latch_cause(Cause::not_finite);
@@ -40,13 +49,23 @@ void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limi
   if (dt_ > 0 || !has_pose_) take_pose(sample, limits);
 }
 
+// Names the defects of one sample; take_time adds those of its clock.
+void SampleValidator::find_faults(const mvs_driver_state &sample) {
+  faults_ = is_unit(sample.orientation) ? 0 : MVS_SAMPLE_FAULT_ORIENTATION;
+  const Vec3 position = traits_->turn * Vec3::Map(sample.position) + traits_->shift;
+  bool finite = position.allFinite();
+  if (finite && position.norm() > plausible) faults_ |= MVS_SAMPLE_FAULT_FAR;
+  if (flags_ & MVS_DRIVER_FLAG_VELOCITY) {
+    for (const double v : sample.velocity) finite = finite && is_number(v, max_speed);
+  }
+  if (!finite) faults_ |= MVS_SAMPLE_FAULT_NUMBER;
+}
+
 bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
-  double square = 0;
-  for (const double q : sample.orientation) square += q * q;
-  bool good = std::abs(square - 1) < 1e-3;
+  bool good = is_unit(sample.orientation);
   for (const double p : sample.position) good = good && is_number(p, max_coordinate);
   if (flags_ & MVS_DRIVER_FLAG_VELOCITY) {
-    for (const double v : sample.velocity) good = good && is_number(v, 1e3);
+    for (const double v : sample.velocity) good = good && is_number(v, max_speed);
   }
   return good;
 }
@@ -56,13 +75,19 @@ void SampleValidator::take_time(const mvs_driver_state &sample) {
   dt_ = passed_ = 0;
   if (has_pose_ && sample.time_ns < time_ns_) {
     time_ns_ = sample.time_ns;
+    faults_ |= MVS_SAMPLE_FAULT_CLOCK;
     return latch_cause(Cause::watchdog);
   }
   passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
   // if the clock stands still, ticks measure the silence
   silent_ += passed_ > 0 ? passed_ : 1 / traits_->info.rate;
-  if (has_pose_ && sample.sequence == sequence_) return;
+  if (has_pose_ && sample.sequence == sequence_) {
+    if (silent_ > sample_timeout) faults_ |= MVS_SAMPLE_FAULT_SEQUENCE;
+    return;
+  }
+  still_ = passed_ > 0 ? 0 : still_ + 1 / traits_->info.rate;
+  if (still_ > sample_timeout) faults_ |= MVS_SAMPLE_FAULT_CLOCK;
   sequence_ = sample.sequence;
   dt_ = passed_ > 0 ? silent_ : 0;
   if (silent_ > sample_timeout) latch_cause(Cause::watchdog);

@@ -23,8 +23,11 @@ class SampleValidator {
   Cause cause() const { return cause_; }
   bool is_parked() const { return (flags_ & MVS_DRIVER_FLAG_PARKED) != 0; }
   uint32_t flags() const { return flags_; }
+  // MVS_SAMPLE_FAULT_* of the last sample.
+  uint32_t faults() const { return faults_; }
 
  private:
+  void find_faults(const mvs_driver_state &sample);
   bool is_finite(const mvs_driver_state &sample) const;
   void take_time(const mvs_driver_state &sample);
   void take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits);
@@ -38,9 +41,10 @@ class SampleValidator {
   bool has_pose_ = false;
   uint64_t time_ns_ = 0, sequence_ = 0;
   double dt_ = 0, passed_ = 0, silent_ = 0;  // s
+  double still_ = 0;                         // s, since the time of new samples advanced
   uint32_t fast_ = 0;                        // consecutive samples above the speed limit
   Cause cause_ = Cause::none;
-  uint32_t flags_ = 0;
+  uint32_t flags_ = 0, faults_ = 0;
 };
 
 // Debounces buttons. A button that is down at the start counts as stuck until it was up once.

@@ -141,6 +141,8 @@ void Servo::publish(const mvs_driver_state &sample) {
   status_.phase = gate_.phase();
   status_.cause = gate_.cause();
   status_.device_cause = validator_.cause();
+  status_.sample_faults |= validator_.faults();
+  if (validator_.faults() != 0) ++status_.bad_samples;
   status_.flags = validator_.flags();
   status_.limited = bits_;
   status_.pose = validator_.pose();

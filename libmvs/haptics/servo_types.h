@@ -74,6 +74,8 @@ struct ServoStatus {
   Vec3 force = Vec3::Zero();
   double time = 0, rate = 0, worst_period = 0, model_age = 0, energy = 0, heat = 0;
   uint64_t ticks = 0, late = 0;
+  uint64_t bad_samples = 0;
+  uint32_t sample_faults = 0;  // MVS_SAMPLE_FAULT_* since the start
 };
 
 }  // namespace mvs::core

@@ -2,18 +2,20 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace mvs::core {
 
-// Returns "; there are A, P", at most a dozen names.
+// Returns "; near: A2/7, A2/17", the at most eight existing names nearest to the unknown one, or
+// "; there are A, P" where a dozen names or fewer exist or none is near.
+std::string near_names(std::string_view unknown, const std::vector<std::string_view> &existing);
+
 template <typename Parts>
-std::string existing_names(const Parts &parts) {
-  constexpr size_t most = 12;
-  std::string list = parts.empty() ? "; there is no such part" : "; there are ";
-  for (size_t k = 0; k < parts.size() && k < most; ++k) {
-    list += (k == 0 ? "" : ", ") + parts[k].name;
-  }
-  return list + (parts.size() > most ? ", ..." : "");
+std::string near_names(std::string_view unknown, const Parts &parts) {
+  std::vector<std::string_view> existing;
+  for (const auto &part : parts) existing.emplace_back(part.name);
+  return near_names(unknown, existing);
 }
 
 }  // namespace mvs::core

@@ -58,7 +58,7 @@ uint32_t scallop_or(const Surgery &s, Id id, const char *name) {
     if (s.valve.scallops.get()[k].name == name) return k;
   }
   fail(MVS_E_ID, name, "%s: the valve has no scallop named %s: say which one you mean%s", s.op_name,
-       name, existing_names(s.valve.scallops.get()).c_str());
+       name, near_names(name, s.valve.scallops.get()).c_str());
 }
 
 uint32_t add_node(Surgery &s, const std::vector<uint32_t> &nodes,

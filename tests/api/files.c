@@ -1,5 +1,8 @@
 /* Loading and saving through memory and through paths. */
+#include <dirent.h>
 #include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "check.h"
 #include "funnel.h"
@@ -112,6 +115,59 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   mvs_snapshot_release(snapshot);
 }
 
+static int entries_of(const char *folder) {
+  DIR *const open = opendir(folder);
+  int count = -2; /* the folder itself and its parent */
+  if (!open) return -1;
+  while (readdir(open)) ++count;
+  closedir(open);
+  return count;
+}
+
+static void make_folder(const char *path, mode_t mode) {
+  if (mkdir(path, 0755) != 0 || chmod(path, mode) != 0) exit(2);
+}
+
+/* Root may write anywhere, so that it becomes another user while it saves. */
+static void save_must_fail(const mvs_snapshot *snapshot, const char *path, const char *words) {
+  const int is_root = geteuid() == 0;
+  if (is_root && seteuid(65534) != 0) exit(2);
+  MUST_FAIL(mvs_save_file(snapshot, path, MVS_FORMAT_OBJ), MVS_E_IO, words);
+  CHECK(strncmp(mvs_last_error()->message, path, strlen(path)) == 0);
+  if (is_root && seteuid(0) != 0) exit(2);
+}
+
+static void a_target_that_cannot_be_replaced_is_an_io_error_with_a_remedy(void) {
+  const mvs_snapshot *snapshot = present(sim);
+  FILE *old;
+  /* of an earlier run that was stopped */
+  remove("files_test.sticky/a.obj");
+  rmdir("files_test.folder.obj");
+  rmdir("files_test.closed");
+  rmdir("files_test.sticky");
+  make_folder("files_test.folder.obj", 0755);
+  save_must_fail(snapshot, "files_test.folder.obj", "give the name of a file");
+  CHECK(entries_of("files_test.folder.obj") == 0);
+  make_folder("files_test.closed", 0555);
+  save_must_fail(snapshot, "files_test.closed/a.obj", "choose another folder");
+  CHECK(entries_of("files_test.closed") == 0);
+  save_must_fail(snapshot, "files_test.none/a.obj", "create the folder first");
+  /* a file of root's in a sticky folder may be written, but not replaced, by other users */
+  make_folder("files_test.sticky", 01777);
+  old = fopen("files_test.sticky/a.obj", "w");
+  if (!old || fclose(old) != 0 || chmod("files_test.sticky/a.obj", 0666) != 0) exit(2);
+  if (geteuid() == 0) {
+    save_must_fail(snapshot, "files_test.sticky/a.obj", "cannot replace");
+    save_must_fail(snapshot, "files_test.sticky/a.obj", "choose another folder");
+  }
+  CHECK(entries_of("files_test.sticky") == 1);
+  remove("files_test.sticky/a.obj");
+  rmdir("files_test.sticky");
+  rmdir("files_test.closed");
+  rmdir("files_test.folder.obj");
+  mvs_snapshot_release(snapshot);
+}
+
 static void a_solver_cache_of_another_version_is_refused(void) {
   const mvs_snapshot *snapshot = present(sim);
   const hash128 before = snapshot_hash(snapshot);
@@ -138,6 +194,7 @@ int main(void) {
   a_file_comes_back_the_same();
   vtp_is_written_with_results();
   refused_files_name_themselves_and_change_nothing();
+  a_target_that_cannot_be_replaced_is_an_io_error_with_a_remedy();
   mvs_destroy(sim);
   return finish("files");
 }

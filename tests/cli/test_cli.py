@@ -370,8 +370,16 @@ class Plans(Command):
         self.assertEqual(self.json("plan", "check", "own.json", "--on", "v.obj")["operations"], 1)
 
     def test_a_file_that_is_not_a_plan_is_refused(self):
-        for name in ("v.obj", "nowhere.json"):
-            self.assertIn(name, self.fails("plan", "show", name).stderr)
+        (self.dir / "empty.json").write_text("")
+        (self.dir / "number.json").write_text(json.dumps(
+            {"format": "mvs-plan", "version": 1, "steps": [{"do": "load", "pressure_Pa": "high"}]}))
+        for name, words in (("v.obj", "is no plan"), ("nowhere.json", "No such file"),
+                            (".", "cannot be read"), ("empty.json", "is no plan"),
+                            ("number.json", "wrong type")):
+            with self.subTest(name):
+                printed = self.fails("plan", "show", name).stderr
+                self.assertRegex(printed, rf"^mvs: {re.escape(name)}: [^\n]*{words}[^\n]*\n$")
+                self.assertNotIn("json.exception", printed)
 
 
 class Usage(Command):
@@ -380,8 +388,24 @@ class Usage(Command):
 
     def test_a_pressure_in_pa_is_refused(self):
         for pressure in (15998.64, -20000, "inf", "nan"):
-            self.assertIn("pressures are in mmHg",
-                          self.misused("close", "v.obj", f"--pressure={pressure}"))
+            for line in (["close", "v.obj", f"--pressure={pressure}"],
+                         ["op", "v.obj", "annulus-scale", "--factor=1", f"--settle={pressure}"]):
+                self.assertIn("pressures are in mmHg", self.misused(*line))
+        for line in (["close", "--help"], ["op", "v.obj", "ring", "--help"]):
+            self.assertRegex(self.ok(*line).stdout, r"--(pressure|settle) MMHG +\S")
+
+    def test_only_backends_of_this_build_are_offered(self):
+        shown = re.search(r"--backend \S+ in \{([^}]*)\}|--backend[^{]*\{([^}]*)\}",
+                          self.ok("close", "--help").stdout)
+        offered = (shown.group(1) or shown.group(2)).split(", ")
+        self.assertLessEqual({"default", "eigen", "block"}, set(offered))
+        self.assertEqual("cholmod" in offered, "cholmod" in self.ok("--version").stdout)
+        for backend in offered:
+            done = self.json("close", "v.obj", "--backend", backend)
+            self.assertTrue(done["converged"], backend)
+        if "cholmod" not in offered:
+            self.assertIn("-DMVS_CHOLMOD=ON", self.misused("close", "v.obj", "--backend",
+                                                           "cholmod"))
 
     def test_unknown_words_are_usage_errors(self):
         for line in ([], ["fly"], ["close"], ["close", "v.obj", "--solver", "magic"],

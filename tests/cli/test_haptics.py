@@ -13,6 +13,7 @@ from test_cli import MVS, Shell, mvs
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRASP = ROOT / "haptic_drivers/replay/trajectories/grasp_a2.txt"
 REPLAY = ["--driver", "replay", "--virtual", "--option"]
+LIARS = pathlib.Path(os.environ.get("MVS_LIARS_DIR", ""))
 # simulated hand at rest in the middle of a Touch
 HAND = ["--driver", "hand", "--virtual"]
 
@@ -149,6 +150,41 @@ class Test(Haptics):
     def test_a_disconnected_device_is_a_fault(self):
         printed = self.fails("test", *HAND, "--option", "fault=unplug", "--option", "fault_at=0.5")
         self.assertIn("the device was disconnected", printed)
+
+    def test_samples_of_a_broken_driver_are_named_with_the_remedy(self):
+        for lie, faults, remedy in (
+                ("nan_position", ["number"], "finite numbers"),
+                ("inf_velocity", ["number"], "finite numbers"),
+                ("no_quaternion", ["orientation"], "norm 1"),
+                ("long_quaternion", ["orientation"], "norm 1"),
+                ("millimetres", ["far"], "not millimetres"),
+                ("no_sequence", ["sequence"], "increase `sequence`"),
+                ("no_time", ["clock"], "`now_ns`"),
+                ("clock_back", ["clock"], "`now_ns`"),
+                ("garbage", ["number", "orientation"], "norm 1"),
+                ("honest", [], "")):
+            driver = LIARS / f"{lie}.so"
+            if not driver.is_file():
+                self.skipTest(f"{driver} is not built")
+            # on a real clock a late thread could miss the 0.1 s without a new sample
+            for clock in (["--virtual"], []) if lie in ("nan_position", "honest") else (
+                    ["--virtual"],):
+                with self.subTest(lie, clock=clock):
+                    done = mvs("haptics", "test", "--driver", driver, *clock, "--seconds", 0.15,
+                               "--json", cwd=self.dir)
+                    printed = json.loads(done.stdout)
+                    self.assertEqual([row["name"] for row in printed["faults"]], faults)
+                    self.assertEqual(done.returncode, 1 if faults else 0, done.stderr)
+                    self.assertIn(remedy, done.stderr)
+                    self.assertEqual(printed["bad_samples"] > 0, bool(faults))
+
+    def test_a_device_that_falls_silent_is_a_fault(self):
+        printed = self.fails("test", *HAND, "--seconds", 1, "--option", "fault=silent",
+                             "--option", "fault_at=0.5")
+        self.assertIn("no new sample for 0.1 s", printed)
+        done = mvs("haptics", "test", *HAND, "--seconds", 0.5, "--option", "fault=nan_position",
+                   "--option", "fault_at=0.25", cwd=self.dir)
+        self.assertRegex(done.stdout, r"\d+ of \d+ samples are faulty\n  fault: a position")
 
     def test_the_end_of_a_recording_is_no_fault(self):
         printed = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--option", "end=stop",

@@ -18,9 +18,30 @@ using Choices = std::map<std::string, uint32_t>;
 const Choices solvers = {{"newton", MVS_SOLVER_NEWTON},
                          {"implicit", MVS_SOLVER_IMPLICIT},
                          {"explicit", MVS_SOLVER_EXPLICIT}};
-const Choices backends = {{"default", MVS_BACKEND_DEFAULT},
-                          {"cholmod", MVS_BACKEND_CHOLMOD},
-                          {"eigen", MVS_BACKEND_EIGEN}};
+const Choices all_backends = {{"default", MVS_BACKEND_DEFAULT},
+                              {"cholmod", MVS_BACKEND_CHOLMOD},
+                              {"eigen", MVS_BACKEND_EIGEN},
+                              {"block", MVS_BACKEND_BLOCK}};
+
+// Those of this build of the library, which names them among its features.
+const Choices &backends() {
+  static const Choices here = [] {
+    const std::string features = " " + std::string(mvs_features()) + " ";
+    Choices found = all_backends;
+    std::erase_if(found, [&](const auto &backend) {
+      return backend.first != "default" &&
+             features.find(" " + backend.first + " ") == std::string::npos;
+    });
+    return found;
+  }();
+  return here;
+}
+
+std::string absent_backend(const std::string &given) {
+  if (!all_backends.count(given) || backends().count(given)) return "";
+  return "this build of libmvs has no " + given +
+         ": leave out --backend, or build libmvs with it (-DMVS_CHOLMOD=ON)";
+}
 
 struct CloseOptions {
   std::string in, out, reference;
@@ -43,7 +64,7 @@ struct Closed {
 Closed close_valve(const CloseOptions &options, const Console &console) {
   Progress progress(console);
   mvs_sim_desc desc = {};
-  desc.backend = backends.at(options.backend);
+  desc.backend = backends().at(options.backend);
   mvs::Sim sim = load_sim(options.in, progress, desc);
   set_tissue(sim, options.leaflet);
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
@@ -120,11 +141,16 @@ void run_close(const CloseOptions &options, Console &console) {
   demand_rest(console, closed.stats, options.allow_unsettled);
 }
 
+using Complaint = std::string (*)(const std::string &);
+
+// `complain` gives a better sentence than "unknown" for some words, else "".
 void add_choice(CLI::App &command, const char *option, std::string &value, const char *help,
-                const Choices &choices) {
+                const Choices &choices, Complaint complain = nullptr) {
   std::vector<std::string> names;
   for (const auto &[name, number] : choices) names.push_back(name);
-  command.add_option(option, value, help)->capture_default_str()->check(one_of(names));
+  CLI::Option *added = command.add_option(option, value, help)->capture_default_str();
+  if (complain) added->check(complain, "");
+  added->check(one_of(names));
 }
 
 }  // namespace
@@ -137,7 +163,8 @@ void add_close(CLI::App &app, Console &console) {
   add_pressure_option(*command, options->pressure_mmhg);
   add_tissue_option(*command, options->leaflet);
   add_choice(*command, "--solver", options->solver, "method", solvers);
-  add_choice(*command, "--backend", options->backend, "sparse factorisation", backends);
+  add_choice(*command, "--backend", options->backend, "sparse factorisation", backends(),
+             absent_backend);
   command
       ->add_option("--residual", options->settle.residual,
                    "largest out-of-balance force of a node at rest, N [1e-5]")

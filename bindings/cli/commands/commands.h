@@ -14,6 +14,7 @@ namespace cli {
 // Each adds its subcommand to the parser; the parser's callback runs it.
 void add_generate(CLI::App &app, Console &console);
 void add_info(CLI::App &app, Console &console);
+void add_chords(CLI::App &app, Console &console);
 void add_op(CLI::App &app, Console &console);
 void add_close(CLI::App &app, Console &console);
 void add_measure(CLI::App &app, Console &console);
@@ -22,6 +23,7 @@ void add_convert(CLI::App &app, Console &console);
 void add_plan(CLI::App &app, Console &console);
 void add_remesh(CLI::App &app, Console &console);
 void add_repair(CLI::App &app, Console &console);
+void add_sweep(CLI::App &app, Console &console);
 void add_haptics(CLI::App &app, Console &console);
 
 // A subcommand with the option of all subcommands, --json.

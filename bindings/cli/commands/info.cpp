@@ -3,13 +3,10 @@
 #include <map>
 
 #include "commands/commands.h"
+#include "valve/chords.h"
 
 namespace cli {
 namespace {
-
-// Indexed by MVS_CHORD_KIND_*.
-constexpr const char *chord_kinds[] = {"other", "marginal",    "rough zone", "strut",
-                                       "basal", "commissural", "trunk",      "suture"};
 
 struct InfoOptions {
   std::string file;
@@ -32,10 +29,6 @@ std::map<uint32_t, ChordGroup> chord_groups(const mvs::Snapshot &valve) {
     group.longest = std::max(group.longest, *length.row(c));
   }
   return groups;
-}
-
-const char *kind_name(uint32_t kind) {
-  return kind < std::size(chord_kinds) ? chord_kinds[kind] : "unknown";
 }
 
 // The number of rows of an index array that refer to each part.
@@ -94,7 +87,7 @@ Json part_rows(const std::vector<mvs_part> &all, const std::vector<size_t> &coun
 Json chord_rows(const std::map<uint32_t, ChordGroup> &groups) {
   Json rows = Json::array();
   for (const auto &[kind, group] : groups) {
-    rows.push_back({{"kind", kind_name(kind)},
+    rows.push_back({{"kind", chord_kind_name(kind)},
                     {"count", group.count},
                     {"rest_length_min_mm", group.shortest * 1e3},
                     {"rest_length_max_mm", group.longest * 1e3}});
@@ -138,7 +131,7 @@ std::string chords_text(const Info &info) {
   std::string out = text("  Chordae          %zu segments, %zu branch points\n", info.size.chords,
                          info.size.branches);
   for (const auto &[kind, group] : info.chords) {
-    out += text("    %-14s %4zu, rest length %.1f to %.1f mm\n", kind_name(kind), group.count,
+    out += text("    %-14s %4zu, rest length %.1f to %.1f mm\n", chord_kind_name(kind), group.count,
                 group.shortest * 1e3, group.longest * 1e3);
   }
   return out;

@@ -132,13 +132,9 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
   command->add_option("-o,--output", request->out, "write the valve, .obj, .h5 or .vtp")
       ->type_name("FILE");
   const CLI::Option *settle =
-      command
-          ->add_option("--settle", request->settle_mmhg,
-                       "close and measure the valve before and after, at this pressure in mmHg "
-                       "[that of the load in the file, else 120]")
-          ->expected(0, 1)
-          ->type_name("MMHG")
-          ->check(CLI::Validator(CLI::Number).description(""));
+      add_pressure_option(*command, request->settle_mmhg, "--settle",
+                          "close and measure the valve before and after, at this pressure")
+          ->expected(0, 1);
   add_unsettled_option(*command, request->allow_unsettled);
   add_progress_flag(*command, console);
   command->callback([request, file, settle, &console] {
@@ -149,6 +145,12 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
   });
 }
 
+std::vector<std::string> operation_names() {
+  std::vector<std::string> names;
+  for (const mvs::OpKind &kind : mvs::op_kinds()) names.push_back(dashed(kind.info.name));
+  return names;
+}
+
 }  // namespace
 
 void add_op(CLI::App &app, Console &console) {
@@ -157,6 +159,11 @@ void add_op(CLI::App &app, Console &console) {
       add_command(app, console, "op", "operate on a valve: mvs op FILE OPERATION, see --help");
   // not `required`: the parser would then take "ring" for the file in `mvs op ring --help`
   command->add_option("file", *file, "valve to operate on, .obj or .h5");
+  // takes the word that is no subcommand, so that its error lists the operations
+  command
+      ->add_option_function<std::string>(
+          "operation", [](const std::string &) {}, "one of the operations below")
+      ->check(one_of(operation_names()).description(""));
   command->require_subcommand(0, 1);
   command->callback([command] {
     if (command->get_subcommands().empty()) {

@@ -39,10 +39,9 @@ std::string effect_text(const Json &step) {
               number_text(step["after"], height, 1e3).c_str());
 }
 
-void show_plan(const PlanOptions &options, const Console &console) {
-  const Json plan = Json::parse(plan_text(options.plan));
-  std::string lines =
-      text("plan for valve \"%s\"", plan.value("valve", Json::object()).value("name", "?").c_str());
+std::string plan_lines(const Json &plan) {
+  const std::string name = plan.value("valve", Json::object()).value("name", "?");
+  std::string lines = text("plan for valve \"%s\"", name.c_str());
   if (plan.contains("author")) lines += " by " + plan.value("author", "");
   if (plan.contains("notes")) lines += "\n" + plan.value("notes", "");
   size_t number = 0;
@@ -50,6 +49,19 @@ void show_plan(const PlanOptions &options, const Console &console) {
     lines += text("\n%4zu  %s", ++number, step_text(step).c_str());
     if (step.contains("group")) lines += " [" + step.value("group", "") + "]";
     lines += effect_text(step);
+  }
+  return lines;
+}
+
+// The library checks types where a plan is applied to a valve; the text needs only some of them.
+void show_plan(const PlanOptions &options, const Console &console) {
+  const Json plan = Json::parse(plan_text(options.plan));
+  std::string lines;
+  try {
+    lines = plan_lines(plan);
+  } catch (const Json::type_error &) {
+    fail(MVS_E_FORMAT, "plan",
+         options.plan + ": a value has a wrong type: mvs plan check FILE --on VALVE names it");
   }
   print(console, plan, lines);
 }

@@ -7,6 +7,7 @@
 #include "haptics/device.h"
 #include "haptics/haptics.h"
 #include "haptics/push.h"
+#include "haptics/sample_faults.h"
 #include "haptics/ticks.h"
 
 namespace cli {
@@ -25,6 +26,7 @@ struct Tested {
   mvs_device_state state;
   uint64_t lost;
   std::vector<Push> pushes;
+  std::vector<SampleFault> faults;
 };
 
 // Asks before the device pushes a hand.
@@ -70,6 +72,8 @@ Json tested_json(const TestOptions &options, const Tested &tested, const Ticks &
                {"late", state.late},
                {"lost", tested.lost},
                {"worst_period_us", 1e6 * state.worst_period},
+               {"bad_samples", state.bad_samples},
+               {"faults", sample_faults_json(tested.faults)},
                {"latched", latched ? Json(cause_of(state.cause).name) : Json()}};
   json.update(ticks.json());
   if (options.force) json["pushes"] = pushes_json(tested.pushes);
@@ -87,7 +91,7 @@ std::string tested_text(const TestOptions &options, const Tested &tested, const 
   std::string lines = info_text(tested.info);
   lines += text("  %zu ticks in %.3f s, %llu late; %s\n", ticks.count(), ticks.seconds(),
                 static_cast<unsigned long long>(state.late), clock_text(options, tested));
-  lines += ticks.text() + pushes_text(tested.pushes);
+  lines += ticks.text() + pushes_text(tested.pushes) + sample_faults_text(tested.faults, state);
   if (state.phase == MVS_DEVICE_PHASE_LATCHED) {
     lines += text("  forces latched off (%s): %s\n", cause_of(state.cause).name,
                   cause_of(state.cause).sentence);
@@ -99,6 +103,17 @@ std::string tested_text(const TestOptions &options, const Tested &tested, const 
 // An unarmed device latches only on a fault, or at the end of a recording (MVS_CAUSE_SOFTWARE).
 bool is_fault(const mvs_device_state &state) {
   return state.phase == MVS_DEVICE_PHASE_LATCHED && state.cause != MVS_CAUSE_SOFTWARE;
+}
+
+// Every fault on stderr, and exit code 1.
+void report_faults(const Tested &tested, Console &console) {
+  for (const SampleFault &fault : tested.faults) {
+    std::fprintf(stderr, "mvs: the driver %s: %s\n", tested.info.driver, fault.sentence);
+  }
+  if (is_fault(tested.state)) {
+    std::fprintf(stderr, "mvs: %s\n", cause_of(tested.state.cause).sentence);
+  }
+  if (!tested.faults.empty() || is_fault(tested.state)) console.exit_code = 1;
 }
 
 void run_test(const TestOptions &options, Console &console) {
@@ -113,27 +128,29 @@ void run_test(const TestOptions &options, Console &console) {
   Ticks ticks(info.rate);
   collect_ticks(options, session, ticks);
   Tested tested = {};
-  if (chord && !session.is_over()) {
+  const bool is_sound = sample_faults(session.device().state()).empty();
+  if (chord && is_sound && !session.is_over()) {
     tested.pushes = push_hand(session, *chord, push_of(info), ticks);
   }
   tested.info = session.device().info();
   tested.state = session.device().state();
+  tested.faults = sample_faults(tested.state);
   tested.lost = session.lost();
   session.stop();
   if (session.is_interrupted()) {
     fail(MVS_E_CANCELLED, "test", "stopped by Ctrl-C; forces are off");
   }
   print(console, tested_json(options, tested, ticks), tested_text(options, tested, ticks));
-  if (!is_fault(tested.state)) return;
-  std::fprintf(stderr, "mvs: %s\n", cause_of(tested.state.cause).sentence);
-  console.exit_code = 1;
+  report_faults(tested, console);
 }
 
 }  // namespace
 
 void add_haptics_test(CLI::App &haptics, Console &console) {
   const auto [command, options] = add_command<TestOptions>(
-      haptics, console, "test", "measure a device's rate and jitter; with --force push the hand",
+      haptics, console, "test",
+      "measure a device's rate and jitter, and check its samples; with --force push the hand; exit "
+      "code 1 for a fault",
       run_test);
   add_device_options(*command, options->device);
   command->add_option("--seconds", options->seconds, "duration of the measurement")

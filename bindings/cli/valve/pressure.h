@@ -1,7 +1,8 @@
-// The option --pressure, and the pressure under which a command closes a valve.
+// Options with a pressure, all in mmHg, and the pressure under which a command closes a valve.
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -14,15 +15,20 @@ namespace cli {
 // "".
 inline std::string wrong_pressure(const std::string &given) {
   constexpr double limit_mmhg = 3000;  // of mvs_set_load
-  if (std::abs(std::stod(given)) <= limit_mmhg) return "";
+  // strtod takes numbers out of range as infinite; the option has refused other words before
+  if (std::abs(std::strtod(given.c_str(), nullptr)) <= limit_mmhg) return "";
   return given + " mmHg is above 3000: pressures are in mmHg, 120 in systole";
 }
 
-inline void add_pressure_option(CLI::App &command, std::optional<double> &asked_mmhg) {
-  command
-      .add_option("--pressure", asked_mmhg,
-                  "transvalvular pressure, mmHg [that of the load in the file, else 120]")
-      ->check(CLI::Number)
+// `help` is completed by the unit and the default.
+inline CLI::Option *add_pressure_option(CLI::App &command, std::optional<double> &asked_mmhg,
+                                        const char *option = "--pressure",
+                                        const char *help = "transvalvular pressure") {
+  return command
+      .add_option(option, asked_mmhg,
+                  std::string(help) + ", mmHg [that of the load in the file, else 120]")
+      ->type_name("MMHG")
+      ->check(CLI::Validator(CLI::Number).description(""))
       ->check(wrong_pressure, "");
 }
 

@@ -72,6 +72,16 @@ class Limited(IntFlag):
     NUMBER = 32
 
 
+class SampleFault(IntFlag):
+    """Defects of the samples of a driver."""
+
+    NUMBER = 1
+    ORIENTATION = 2
+    FAR = 4
+    SEQUENCE = 8
+    CLOCK = 16
+
+
 class Event(IntFlag):
     """Events of Device.sync."""
 
@@ -221,6 +231,8 @@ class State:
     heat: Annotated[float, "1", "0 cool to 1 at the continuous limit"]
     ticks: Annotated[int, "1", "number of ticks"]
     late: Annotated[int, "1", "ticks later than two periods"]
+    bad_samples: Annotated[int, "1", "samples of the driver with a defect, since start"]
+    sample_faults: Annotated[SampleFault, "1", "defects of these samples"]
 
 
 def option_lines(options: Options) -> str:

@@ -80,7 +80,8 @@ py::object device_state_value(const mvs_device_state &s) {
                      "limited"_a = number("Limited", s.limited), FIELD(buttons), FIELD(time),
                      VECTOR(position), VECTOR(orientation), VECTOR(velocity), VECTOR(hand),
                      VECTOR(force), FIELD(rate), FIELD(worst_period), FIELD(model_age),
-                     FIELD(energy), FIELD(heat), FIELD(ticks), FIELD(late));
+                     FIELD(energy), FIELD(heat), FIELD(ticks), FIELD(late),
+                     FIELD(bad_samples), "sample_faults"_a = number("SampleFault", s.sample_faults));
 }
 
 }  // namespace mvs_python

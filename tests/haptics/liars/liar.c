@@ -63,6 +63,31 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
   state->time_ns = now_ns;
   state->sequence = ++device->sequence;
   state->orientation[0] = 1;
+#ifdef LIE_NAN_POSITION
+  state->position[1] = NAN;
+#endif
+#ifdef LIE_INF_VELOCITY
+  state->flags |= MVS_DRIVER_FLAG_VELOCITY;
+  state->velocity[2] = INFINITY;
+#endif
+#ifdef LIE_NO_QUATERNION
+  state->orientation[0] = 0;
+#endif
+#ifdef LIE_LONG_QUATERNION
+  state->orientation[1] = 1;
+#endif
+#ifdef LIE_MILLIMETRES
+  state->position[0] = 30;
+#endif
+#ifdef LIE_NO_SEQUENCE
+  state->sequence = 7;
+#endif
+#ifdef LIE_NO_TIME
+  state->time_ns = 7;
+#endif
+#ifdef LIE_CLOCK_BACK
+  state->time_ns = UINT64_MAX - now_ns;
+#endif
 #ifdef LIE_GARBAGE
   memset(state, 0xff, sizeof *state);
 #endif

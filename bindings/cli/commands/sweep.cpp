@@ -1,0 +1,320 @@
+// `mvs sweep`: applies every combination of values of operations to a closed valve, settles and
+// measures it, in several processes, and writes a table with one row for each combination.
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "commands/commands.h"
+#include "text/csv.h"
+#include "text/op_forms.h"
+#include "text/readouts.h"
+#include "text/sweep_grid.h"
+#include "valve/at_rest.h"
+#include "valve/pressure.h"
+#include "valve/processes.h"
+
+namespace cli {
+namespace {
+
+constexpr size_t most_shown = 10;
+
+struct SweepOptions {
+  std::string file, csv, sort;
+  std::vector<std::string> ops;
+  std::optional<double> pressure_mmhg;
+  unsigned jobs = core_count();
+  bool largest = false;
+};
+
+// The closed valve to which every combination is applied, and how a row is made of it.
+struct Sweep {
+  SweepGrid grid;
+  mvs::Snapshot closed;
+  std::string valve;  // the hash of the valve in the file
+  double pressure_mmhg;
+};
+
+std::vector<std::string> measure_keys() {
+  std::vector<std::string> keys = {"residual_N", "intersections"};
+  const Json measures = measures_json({});
+  for (const auto &[key, value] : measures.items()) keys.push_back(key);
+  return keys;
+}
+
+// Parameters, "converged", the measures, and what the rows of one file have in common.
+CsvRow columns_of(const SweepGrid &grid) {
+  CsvRow columns = grid.columns();
+  columns.emplace_back("converged");
+  for (const std::string &key : measure_keys()) columns.push_back(key);
+  for (const char *last : {"pressure_mmHg", "valve", "error"}) columns.emplace_back(last);
+  return columns;
+}
+
+std::string cell_of(const Json &value) {
+  return value.is_null() ? "" : value.dump();
+}
+
+SweepGrid grid_of(const SweepOptions &options) {
+  std::vector<SweepOp> ops;
+  for (const std::string &given : options.ops) ops.push_back(read_sweep_op(given));
+  return SweepGrid(std::move(ops));
+}
+
+// Every combination starts from the same bits in a new simulator, whichever process does it.
+AtRest close_combination(const Sweep &sweep, size_t combination) {
+  mvs_sim_desc desc = {};
+  desc.progress = [](void *, double, double) -> int32_t { return InterruptFlag::is_set(); };
+  mvs::Sim sim = make_sim(desc);
+  sim.restore(sweep.closed);
+  sweep.grid.apply(combination, sim);
+  return settle(sim, sweep.pressure_mmhg,
+                "combination " + CLI::detail::join(sweep.grid.values(combination), " "));
+}
+
+// A combination that cannot be applied is a row with the reason instead of measures.
+CsvRow row_of(const Sweep &sweep, size_t combination) {
+  CsvRow row = sweep.grid.values(combination);
+  std::string error;
+  try {
+    const AtRest at_rest = close_combination(sweep, combination);
+    row.emplace_back(at_rest.stats.converged ? "1" : "0");
+    row.push_back(cell_of(at_rest.stats.residual));
+    row.push_back(cell_of(at_rest.measures.intersections));
+    const Json measures = measures_json(at_rest.measures);
+    for (const auto &[key, value] : measures.items()) row.push_back(cell_of(value));
+  } catch (const mvs::Error &failure) {
+    error = failure.what();
+    row.resize(row.size() + 1 + measure_keys().size());
+  }
+  row.push_back(cell_of(sweep.pressure_mmhg));
+  row.push_back(sweep.valve);
+  row.push_back(error);
+  return row;
+}
+
+// The rows of a file by their combination, and the file that they are added to.
+class SweepTable {
+ public:
+  SweepTable(const Sweep &sweep, const std::string &path)
+      : columns_(columns_of(sweep.grid)),
+        parameters_(sweep.grid.columns().size()),
+        file_(path, columns_) {
+    for (size_t k = 0; k < sweep.grid.combinations(); ++k) order_[sweep.grid.values(k)] = k;
+    for (const CsvRow &row : file_.rows()) {
+      if (cell(row, "valve") != sweep.valve ||
+          cell(row, "pressure_mmHg") != cell_of(sweep.pressure_mmhg)) {
+        fail(MVS_E_FORMAT, "csv",
+             path + ": holds rows of another valve or pressure: give the name of another file");
+      }
+    }
+  }
+
+  const std::string &cell(const CsvRow &row, const std::string &column) const {
+    return row[std::find(columns_.begin(), columns_.end(), column) - columns_.begin()];
+  }
+  const CsvRow &columns() const { return columns_; }
+
+  std::vector<size_t> missing() const {
+    std::map<CsvRow, size_t> left = order_;
+    for (const CsvRow &row : file_.rows()) left.erase(key(row));
+    std::vector<size_t> all;
+    for (const auto &[values, combination] : left) all.push_back(combination);
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  void append(const std::string &line) { file_.append(read_csv_line(line)); }
+
+  // Rows of this sweep in the order of the combinations, then rows of former sweeps.
+  void sort() {
+    std::vector<CsvRow> rows = file_.rows();
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](const CsvRow &a, const CsvRow &b) { return place(a) < place(b); });
+    file_.rewrite(std::move(rows));
+  }
+
+  // The rows of this sweep.
+  std::vector<CsvRow> rows() const {
+    std::vector<CsvRow> rows;
+    for (const CsvRow &row : file_.rows()) {
+      if (order_.count(key(row))) rows.push_back(row);
+    }
+    return rows;
+  }
+
+ private:
+  CsvRow key(const CsvRow &row) const {
+    return {row.begin(), row.begin() + static_cast<ptrdiff_t>(parameters_)};
+  }
+  size_t place(const CsvRow &row) const {
+    const auto found = order_.find(key(row));
+    return found == order_.end() ? order_.size() : found->second;
+  }
+
+  CsvRow columns_;
+  size_t parameters_;
+  CsvFile file_;
+  std::map<CsvRow, size_t> order_;  // of the combinations, by their values
+};
+
+// The first rows by a measure; rows that are not at rest, or lack it, are left out.
+std::vector<CsvRow> best_rows(const SweepTable &table, const SweepOptions &options) {
+  std::vector<std::pair<double, CsvRow>> found;
+  for (const CsvRow &row : table.rows()) {
+    double value = 0;
+    if (table.cell(row, "converged") != "1" || !read_number(table.cell(row, options.sort), value))
+      continue;
+    found.emplace_back(options.largest ? -value : value, row);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto &a, const auto &b) { return a.first < b.first; });
+  std::vector<CsvRow> best;
+  for (size_t k = 0; k < found.size() && k < most_shown; ++k) best.push_back(found[k].second);
+  return best;
+}
+
+Json best_json(const SweepTable &table, const CsvRow &row) {
+  Json object = Json::object();
+  for (size_t k = 0; k < row.size(); ++k) {
+    double number = 0;
+    object[table.columns()[k]] = row[k].empty()                ? Json()
+                                 : read_number(row[k], number) ? Json::parse(row[k], nullptr, false)
+                                                               : Json(row[k]);
+  }
+  return object;
+}
+
+std::string best_text(const SweepTable &table, const SweepOptions &options, size_t parameters) {
+  const std::vector<CsvRow> best = best_rows(table, options);
+  std::string lines =
+      text("\n%s, %s first", options.sort.c_str(), options.largest ? "largest" : "smallest");
+  if (best.empty()) lines += ": no combination is at rest and has it";
+  for (const CsvRow &row : best) {
+    double value = 0;
+    read_number(table.cell(row, options.sort), value);
+    lines += text("\n  %12.4g ", value);
+    for (size_t k = 0; k < parameters; ++k) lines += " " + table.columns()[k] + "=" + row[k];
+  }
+  return lines;
+}
+
+void close_missing(const Sweep &sweep, SweepTable &table, const std::vector<size_t> &missing,
+                   const SweepOptions &options, const Console &console) {
+  size_t done = 0;
+  run_in_processes(
+      missing.size(), options.jobs, [&](size_t k) { return csv_line(row_of(sweep, missing[k])); },
+      [&](size_t, const std::string &line) {
+        table.append(line);
+        ++done;
+        if (console.progress)
+          std::fprintf(stderr, "%zu of %zu combinations\n", done, missing.size());
+      });
+}
+
+void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &options,
+            size_t closed_now, const Console &console) {
+  const std::vector<CsvRow> rows = table.rows();
+  const auto failed = std::count_if(rows.begin(), rows.end(), [&](const CsvRow &row) {
+    return !table.cell(row, "error").empty();
+  });
+  Json best = Json::array();
+  std::string lines =
+      text("%s: %zu combinations under %g mmHg, %zu of them closed now, in %s",
+           options.file.c_str(), rows.size(), sweep.pressure_mmhg, closed_now, options.csv.c_str());
+  if (failed > 0) lines += text("\n%td cannot be applied: see the column error", failed);
+  if (!options.sort.empty()) {
+    for (const CsvRow &row : best_rows(table, options)) best.push_back(best_json(table, row));
+    lines += best_text(table, options, sweep.grid.columns().size());
+  }
+  print(console,
+        {{"file", options.file},
+         {"csv", options.csv},
+         {"pressure_mmHg", sweep.pressure_mmhg},
+         {"combinations", rows.size()},
+         {"closed_now", closed_now},
+         {"failed", failed},
+         {"sort", options.sort.empty() ? Json() : Json(options.sort)},
+         {"best", best}},
+        lines);
+}
+
+void run_sweep(const SweepOptions &options, Console &console) {
+  SweepGrid grid = grid_of(options);
+  Progress progress(console);
+  mvs::Sim sim = load_sim(options.file, progress);
+  const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
+  Sweep sweep = {std::move(grid), sim.snapshot(), hash_of(sim.snapshot()), pressure_mmhg};
+  SweepTable table(sweep, options.csv);
+  const std::vector<size_t> missing = table.missing();
+  if (!missing.empty()) {
+    sweep.closed = settle(sim, pressure_mmhg, options.file).valve;
+    close_missing(sweep, table, missing, options, console);
+  }
+  table.sort();
+  if (InterruptFlag::is_set()) {
+    fail(MVS_E_CANCELLED, "sweep", "stopped by Ctrl-C: run the same command again to continue");
+  }
+  report(sweep, table, options, missing.size(), console);
+  const std::vector<CsvRow> rows = table.rows();
+  const bool any = std::any_of(rows.begin(), rows.end(),
+                               [&](const CsvRow &row) { return table.cell(row, "error").empty(); });
+  if (any) return;
+  std::fprintf(stderr, "mvs: no combination can be applied: %s\n",
+               table.cell(rows[0], "error").c_str());
+  console.exit_code = 1;
+}
+
+// An error sentence for all --op together, else "".
+std::string wrong_op(const std::string &given) {
+  try {
+    read_sweep_op(given);
+    return "";
+  } catch (const std::invalid_argument &error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+void add_sweep(CLI::App &app, Console &console) {
+  const auto [command, options] = add_command<SweepOptions>(
+      app, console, "sweep",
+      "close a valve after every combination of operations, and tabulate the measures",
+      [](const SweepOptions &given, Console &output) {
+        try {
+          run_sweep(given, output);
+        } catch (const std::invalid_argument &error) {
+          throw CLI::ValidationError("--op", error.what());
+        }
+      });
+  command->add_option("file", options->file, "valve to close, .obj, .h5 or .inp")->required();
+  command
+      ->add_option("--op", options->ops,
+                   "operation and values of its fields: \"ring size=28:36:2\" (first, last, step) "
+                   "or \"chord-length chord=A2/7 factor=0.7,0.8\"; points are separated by "
+                   "semicolons; applied in the given order")
+      ->type_name("TEXT")
+      ->required()
+      ->allow_extra_args(false)
+      ->check(wrong_op, "");
+  command
+      ->add_option("--csv", options->csv,
+                   "table to write; combinations that it already has are not closed again")
+      ->required();
+  add_pressure_option(*command, options->pressure_mmhg);
+  command->add_option("--jobs", options->jobs, "processes at a time; the table is the same for any")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1024u));
+  CLI::Option *sort = command
+                          ->add_option("--sort", options->sort,
+                                       "measure by which the best ten combinations are printed, "
+                                       "smallest first: a column of the table")
+                          ->check(one_of(measure_keys()).description(""));
+  sort->type_name("MEASURE");
+  command->add_flag("--largest", options->largest, "print the largest first")->needs(sort);
+  add_progress_flag(*command, console);
+}
+
+}  // namespace cli

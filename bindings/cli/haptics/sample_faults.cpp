@@ -1,0 +1,67 @@
+#include "haptics/sample_faults.h"
+
+namespace cli {
+namespace {
+
+struct FaultRow {
+  uint32_t bit;
+  SampleFault fault;
+};
+
+constexpr FaultRow fault_rows[] = {
+    {MVS_SAMPLE_FAULT_NUMBER,
+     {"number",
+      "a position or velocity is not finite, or above 1000 m/s: write finite numbers in m and m/s, "
+      "and set MVS_DRIVER_FLAG_VELOCITY only where the velocity is measured"}},
+    {MVS_SAMPLE_FAULT_ORIENTATION,
+     {"orientation",
+      "the orientation is not a unit quaternion: write w x y z of norm 1, which is 1 0 0 0 for a "
+      "device with 3 freedoms"}},
+    {MVS_SAMPLE_FAULT_FAR,
+     {"far",
+      "a position is more than 1 m from the centre of the workspace: write metres, not "
+      "millimetres, and set mvs_driver_info.frame so that the centre becomes 0"}},
+    {MVS_SAMPLE_FAULT_SEQUENCE,
+     {"sequence",
+      "no new sample for 0.1 s: increase `sequence` with each new sample; if the driver does so, "
+      "check the connection of the device"}},
+    {MVS_SAMPLE_FAULT_CLOCK,
+     {"clock",
+      "the time of the samples stands still or goes back: write `time_ns` in ns on the clock of "
+      "`now_ns`, never less than before"}}};
+
+constexpr SampleFault no_sample = {
+    "no_sample",
+    "the device gave no sample: read() has to return one at each call, and run() has to call the "
+    "servo for each sample"};
+
+}  // namespace
+
+std::vector<SampleFault> sample_faults(const mvs_device_state &state) {
+  if (state.ticks == 0 && state.phase != MVS_DEVICE_PHASE_LATCHED) return {no_sample};
+  std::vector<SampleFault> found;
+  for (const FaultRow &row : fault_rows) {
+    if (state.sample_faults & row.bit) found.push_back(row.fault);
+  }
+  return found;
+}
+
+Json sample_faults_json(const std::vector<SampleFault> &faults) {
+  Json all = Json::array();
+  for (const SampleFault &fault : faults) {
+    all.push_back({{"name", fault.name}, {"sentence", fault.sentence}});
+  }
+  return all;
+}
+
+std::string sample_faults_text(const std::vector<SampleFault> &faults,
+                               const mvs_device_state &state) {
+  if (faults.empty()) return "";
+  std::string lines = text("  %llu of %llu samples are faulty\n",
+                           static_cast<unsigned long long>(state.bad_samples),
+                           static_cast<unsigned long long>(state.ticks));
+  for (const SampleFault &fault : faults) lines += text("  fault: %s\n", fault.sentence);
+  return lines;
+}
+
+}  // namespace cli

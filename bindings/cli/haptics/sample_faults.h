@@ -1,0 +1,25 @@
+// The defects of a driver's samples, each with its remedy for the author of the driver.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "text/console.h"
+
+namespace cli {
+
+struct SampleFault {
+  const char *name, *sentence;
+};
+
+// Those of a device that was started, in a fixed order; a device without any sample has one too.
+std::vector<SampleFault> sample_faults(const mvs_device_state &state);
+
+// [{"name": ..., "sentence": ...}, ...]
+Json sample_faults_json(const std::vector<SampleFault> &faults);
+
+// One line per fault, after the number of faulty samples; "" without a fault.
+std::string sample_faults_text(const std::vector<SampleFault> &faults,
+                               const mvs_device_state &state);
+
+}  // namespace cli

@@ -1,0 +1,110 @@
+#include "text/csv.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "valve/host.h"
+
+namespace cli {
+namespace {
+
+std::string csv_cell(std::string cell) {
+  std::replace_if(
+      cell.begin(), cell.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  if (cell.find_first_of(",\"") == std::string::npos) return cell;
+  std::string quoted = "\"";
+  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+// All complete lines of a file; none if it does not exist.
+std::vector<std::string> complete_lines(const std::string &path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream content;
+  if (!file || !std::filesystem::is_regular_file(path, error)) {
+    fail(MVS_E_IO, "csv", path + ": cannot be read: give the name of a file");
+  }
+  content << file.rdbuf();
+  const std::string all = content.str();
+  std::vector<std::string> lines;
+  size_t from = 0, to = 0;
+  while ((to = all.find('\n', from)) != std::string::npos) {
+    lines.push_back(all.substr(from, to - from));
+    if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
+    from = to + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string csv_line(const CsvRow &row) {
+  std::string line;
+  for (size_t k = 0; k < row.size(); ++k) line += (k == 0 ? "" : ",") + csv_cell(row[k]);
+  return line;
+}
+
+CsvRow read_csv_line(const std::string &line) {
+  CsvRow row(1);
+  bool is_quoted = false;
+  for (size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '"' && is_quoted && k + 1 < line.size() && line[k + 1] == '"') {
+      row.back() += line[++k];
+    } else if (line[k] == '"') {
+      is_quoted = !is_quoted;
+    } else if (line[k] == ',' && !is_quoted) {
+      row.emplace_back();
+    } else {
+      row.back() += line[k];
+    }
+  }
+  return row;
+}
+
+CsvFile::CsvFile(const std::string &path, const CsvRow &columns) : path_(path), columns_(columns) {
+  const std::vector<std::string> lines = complete_lines(path);
+  if (!lines.empty() && read_csv_line(lines[0]) != columns) {
+    fail(MVS_E_FORMAT, "csv",
+         path + ": has other columns than this sweep: give the name of another file", 1);
+  }
+  for (size_t k = 1; k < lines.size(); ++k) {
+    rows_.push_back(read_csv_line(lines[k]));
+    if (rows_.back().size() == columns.size()) continue;
+    fail(MVS_E_FORMAT, "csv", path + ": line " + std::to_string(k + 1) + " is not of this sweep",
+         static_cast<int32_t>(k + 1));
+  }
+  rewrite(rows_);  // without an incomplete last line
+}
+
+void CsvFile::append(const CsvRow &row) {
+  write(path_, csv_line(row) + "\n", true);
+  rows_.push_back(row);
+}
+
+void CsvFile::rewrite(std::vector<CsvRow> rows) {
+  std::string content = csv_line(columns_) + "\n";
+  for (const CsvRow &row : rows) content += csv_line(row) + "\n";
+  const std::string beside = path_ + ".new";
+  write(beside, content, false);
+  std::error_code error;
+  std::filesystem::rename(beside, path_, error);
+  if (error) {
+    std::filesystem::remove(beside);
+    fail(MVS_E_IO, "csv", path_ + ": cannot be replaced: " + error.message());
+  }
+  rows_ = std::move(rows);
+}
+
+void CsvFile::write(const std::string &path, const std::string &content, bool at_end) const {
+  std::ofstream file(path, std::ios::binary | (at_end ? std::ios::app : std::ios::trunc));
+  file << content << std::flush;
+  if (!file) fail(MVS_E_IO, "csv", path + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace cli

@@ -1,0 +1,120 @@
+"""`mvs sweep`: combinations of operations as a table."""
+import csv
+import itertools
+import math
+
+from test_cli import Shell, mvs
+
+ORIFICE = "regurgitant_orifice_area_mm2"
+# Six combinations of a small valve: one chord and the annulus.
+GRID = ["--op", "annulus-scale factor=1.3:0.9:-0.2",
+        "--op", "chord-length chord=P2/1 factor=0.80,1.20"]
+
+
+class Sweep(Shell):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.ok("generate", "-o", "v.obj", "--vertices", 200)
+        cls.printed = cls.json("sweep", "v.obj", *GRID, "--csv", "all.csv", "--jobs", 1, "--sort",
+                               ORIFICE)
+
+    def rows(self, name):
+        with open(self.dir / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def bytes(self, name):
+        return (self.dir / name).read_bytes()
+
+    def test_every_combination_is_a_row_in_order(self):
+        rows = self.rows("all.csv")
+        self.assertEqual(
+            [(row["annulus_scale_factor"], row["chord_length_chord"], row["chord_length_factor"])
+             for row in rows],
+            [(scale, "P2/1", factor) for scale, factor in
+             itertools.product(("1.3", "1.1", "0.9"), ("0.8", "1.2"))])
+        self.assertEqual((self.printed["combinations"], self.printed["closed_now"]), (6, 6))
+        for row in rows:
+            self.assertEqual((row["converged"], row["error"], row["pressure_mmHg"]),
+                             ("1", "", "120.0"))
+
+    def test_a_row_is_what_op_and_close_give(self):
+        self.ok("close", "v.obj", "-o", "c.obj")
+        self.ok("op", "c.obj", "annulus-scale", "--factor", 1.1, "-o", "d.obj")
+        self.ok("op", "d.obj", "chord-length", "--chord", "P2/1", "--factor", 0.8, "-o", "e.obj")
+        closed = self.json("close", "e.obj")
+        row = self.rows("all.csv")[2]
+        self.assertEqual(float(row["residual_N"]), closed["residual_N"])
+        for key, value in closed["measures"].items():
+            self.assertEqual(float(row[key]) if row[key] else None, value, key)
+
+    def test_the_table_is_the_same_for_any_number_of_processes(self):
+        self.ok("sweep", "v.obj", *GRID, "--csv", "three.csv", "--jobs", 3)
+        self.assertEqual(self.bytes("three.csv"), self.bytes("all.csv"))
+
+    def test_a_stopped_sweep_continues_where_it_was(self):
+        lines = self.bytes("all.csv").splitlines(keepends=True)
+        # two rows, out of order, and the beginning of a third
+        (self.dir / "part.csv").write_bytes(lines[0] + lines[5] + lines[2] + lines[1][:20])
+        printed = self.json("sweep", "v.obj", *GRID, "--csv", "part.csv")
+        self.assertEqual((printed["combinations"], printed["closed_now"]), (6, 4))
+        self.assertEqual(self.bytes("part.csv"), self.bytes("all.csv"))
+        again = self.json("sweep", "v.obj", *GRID, "--csv", "part.csv")
+        self.assertEqual(again["closed_now"], 0)
+        self.assertEqual(self.bytes("part.csv"), self.bytes("all.csv"))
+        self.assertEqual({path.name for path in self.dir.glob("*.new")}, set())
+
+    def test_best_rows_are_sorted_by_the_measure(self):
+        best = self.printed["best"]
+        self.assertEqual(len(best), 6)
+        values = [row[ORIFICE] for row in best]
+        self.assertEqual(values, sorted(values))
+        largest = self.json("sweep", "v.obj", *GRID, "--csv", "all.csv", "--sort", "annulus_ap_mm",
+                            "--largest")["best"]
+        self.assertEqual(largest[0]["annulus_scale_factor"], 1.3)
+        table = self.ok("sweep", "v.obj", *GRID, "--csv", "all.csv", "--sort", ORIFICE).stdout
+        self.assertIn(f"{ORIFICE}, smallest first", table)
+        self.assertEqual(table.count("annulus_scale_factor="), 6)
+
+    def test_an_impossible_combination_is_a_row_with_the_reason(self):
+        printed = self.json("sweep", "v.obj", "--op", "chord-remove chord=P2/1,P9/1", "--csv",
+                            "some.csv", "--sort", ORIFICE)
+        self.assertEqual((printed["failed"], len(printed["best"])), (1, 1))
+        good, bad = self.rows("some.csv")
+        self.assertTrue(math.isfinite(float(good[ORIFICE])))
+        self.assertIn('no chord named "P9/1"', bad["error"])
+        self.assertEqual((bad["converged"], bad[ORIFICE]), ("", ""))
+        done = mvs("sweep", "v.obj", "--op", "chord-remove chord=P9/1", "--csv", "none.csv",
+                   cwd=self.dir)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('no chord named "P9/1"', done.stderr)
+
+    def test_the_table_of_another_sweep_is_not_touched(self):
+        before = self.bytes("all.csv")
+        for words, line in (("other columns", ["--op", "annulus-scale factor=1.1"]),
+                            ("another valve or pressure", [*GRID, "--pressure", 80])):
+            done = mvs("sweep", "v.obj", *line, "--csv", "all.csv", cwd=self.dir)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, f"all.csv: .*{words}")
+            self.assertEqual(self.bytes("all.csv"), before)
+
+    def test_wrong_grids_are_usage_errors(self):
+        for words, op in (("choose from: chord_length", "fly"),
+                          ("choose from: chord, length", "chord-length colour=2"),
+                          ("needs chord=CHORD", "chord-length factor=2"),
+                          ("not a number", "annulus-scale factor=big"),
+                          ("in at most", "annulus-scale factor=1:2:-0.1"),
+                          ("FIRST:LAST:STEP", "annulus-scale factor=1:2"),
+                          ("given twice", "annulus-scale factor=1,1.0"),
+                          ("FIELD=VALUES", "annulus-scale 1.2"),
+                          ("more than", "annulus-scale ap=0.5:1.5:0.0015 cc=0.5:1.5:0.0015")):
+            with self.subTest(op):
+                done = mvs("sweep", "v.obj", "--op", op, "--csv", "wrong.csv", cwd=self.dir)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(words, done.stderr)
+        self.assertFalse((self.dir / "wrong.csv").exists())
+
+
+if __name__ == "__main__":
+    import unittest
+    unittest.main()
