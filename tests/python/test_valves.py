@@ -167,6 +167,11 @@ def test_values_like_another_unit_are_warned_of(valve):
     assert any("looks like mmHg given as Pa" in text for text in messages)
 
 
+def test_a_pressure_like_kpa_is_warned_of(sim):
+    with pytest.warns(mvs.ValveWarning, match="looks like kPa given as Pa; 16 kPa are 16000 Pa"):
+        sim.set_load(16.0)
+
+
 def test_a_valid_valve_issues_no_warning(valve):
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -12,7 +12,7 @@
 SI units throughout: m, kg, s, N, Pa, rad.
 """
 
-from . import _core, haptics, ops
+from . import _core, haptics, methods, ops
 from ._core import (
     Device,
     Ensemble,
@@ -55,6 +55,8 @@ from .kinds import (
     ToolKind,
 )
 from .ops import Operation, Site
+from .sweeps import sweep
+from .tables import Table
 from .values import (
     ChordLimits,
     Coarsening,
@@ -77,6 +79,8 @@ from .values import (
 
 __version__ = _core.version()
 features = tuple(_core.features().split())
+
+methods.attach()
 
 __all__ = [
     "MMHG",
@@ -125,6 +129,7 @@ __all__ = [
     "Snapshot",
     "StateError",
     "Stats",
+    "Table",
     "Tool",
     "ToolKind",
     "UnsupportedError",
@@ -139,6 +144,7 @@ __all__ = [
     "haptics",
     "leaflet_law",
     "ops",
+    "sweep",
     "unit_of",
     "valve_of",
 ]

@@ -44,4 +44,12 @@ int32_t report_progress(const py::object &progress, double share, double residua
   }
 }
 
+bool SignalWatch::interrupted(std::exception_ptr &raised) {
+  const Clock::time_point now = Clock::now();
+  if (now - looked_ < std::chrono::milliseconds(50)) return false;
+  looked_ = now;
+  const py::gil_scoped_acquire held;
+  return report_progress(py::none(), 0, 0, raised) != 0;
+}
+
 }  // namespace mvs_python
