@@ -1,5 +1,6 @@
 """Failed calls raise the C library's code, part, line and sentence, and change nothing."""
 
+import inspect
 import pickle
 
 import mvs
@@ -146,3 +147,11 @@ def test_backends_are_those_of_the_build():
         assert "cholmod" not in mvs.Simulator.__doc__ and "cholmod" not in str(caught.value)
         with pytest.raises(mvs.UnsupportedError, match="CHOLMOD|cholmod"):
             mvs.Simulator(backend="cholmod")
+
+
+def test_methods_have_signatures_for_completion():
+    shown = inspect.signature(mvs.Simulator.settle)
+    assert list(shown.parameters)[:3] == ["self", "solver", "max_iterations"]
+    assert shown.parameters["solver"].default == "newton"
+    assert shown.parameters["solver"].kind == inspect.Parameter.KEYWORD_ONLY
+    assert inspect.signature(mvs.Device).parameters["clock"].default == "real"

@@ -6,13 +6,15 @@ arguments against the signature only after such an error, so that a call that fi
 
 from __future__ import annotations
 
+import ast
 import dataclasses
 import functools
+import inspect
 import operator
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Optional
 
 from .words import did_you_mean, shown
 
@@ -25,18 +27,23 @@ class Parameter:
 
     name: str
     type: str
-    required: bool
+    default: str
     by_keyword: bool
+
+    @property
+    def required(self) -> bool:
+        """Whether it has no default."""
+        return not self.default
 
 
 def read_signature(text: str) -> list[Parameter]:
-    """The parameters, after self, of the first signature in an error of pybind11.
+    """The parameters, after self, of a signature of pybind11, whose bracket opens first in a text.
 
-    "    1. (self: mvs._core.Simulator, *, solver: str = 'newton') -> object"; the signature of a
-    constructor has the name of its class and no self.
+    "(self: mvs._core.Simulator, *, solver: str = 'newton') -> object"; the signature of a
+    constructor in an error has no self.
     """
     found, by_keyword = [], False
-    for part in _split(text[text.index("(", text.index("\n    1. ")) + 1 :]):
+    for part in _split(text[text.index("(") + 1 :]):
         if part in ("", "/") or part.startswith("*"):
             by_keyword = by_keyword or part == "*"
             continue
@@ -44,8 +51,30 @@ def read_signature(text: str) -> list[Parameter]:
         if name == "self":
             continue
         kind, _, default = rest.partition(" = ")
-        found.append(Parameter(name, kind, not default, by_keyword))
+        found.append(Parameter(name, kind, default, by_keyword))
     return found
+
+
+def signature_of(documentation: str) -> Optional[inspect.Signature]:
+    """The signature in the first line of a docstring of pybind11; None if it takes any arguments."""
+    line = documentation.partition("\n")[0]
+    if "(self: " not in line or "*args" in line or "**kwargs" in line:
+        return None
+    made = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
+    for p in read_signature(line):
+        default = inspect.Parameter.empty if p.required else _value(p.default)
+        kind = inspect.Parameter.KEYWORD_ONLY
+        if not p.by_keyword:
+            kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        made.append(inspect.Parameter(p.name, kind, default=default))
+    return inspect.Signature(made)
+
+
+def _value(text: str) -> Any:
+    try:
+        return ast.literal_eval(text)
+    except (ValueError, SyntaxError):
+        return ...
 
 
 def _split(text: str) -> list[str]:
@@ -111,7 +140,7 @@ def _fits(kind: str, value: object) -> tuple[str, bool]:
 
 def sentence(call: str, text: str, given: Sequence[Any], named: Mapping[str, Any]) -> str:
     """The sentence for a call that did not fit the signature in the error of pybind11."""
-    parameters = read_signature(text)
+    parameters = read_signature(text[text.index("\n    1. ") :])
     names = [p.name for p in parameters]
     places = [p for p in parameters if not p.by_keyword]
     words = f"{call}() takes {', '.join(names) or 'no arguments'}"
@@ -156,6 +185,9 @@ def with_sentences(method: Callable[..., Any], call: str) -> Callable[..., Any]:
                 raise
         raise TypeError(sentence(call, text, given, named))
 
+    found = signature_of(method.__doc__ or "")
+    if found is not None:
+        setattr(checked, "__signature__", found)
     return checked
 
 

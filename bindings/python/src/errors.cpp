@@ -29,7 +29,8 @@ void refuse(mvs_result code, const std::string &part, const std::string &sentenc
 
 void warn(const char *sentence) {
   const py::object category = py::module_::import("mvs.errors").attr("ValveWarning");
-  if (PyErr_WarnEx(category.ptr(), sentence, 1) != 0) throw py::error_already_set();
+  // the line of the caller of the method: the first frame is the wrapper in mvs/arguments.py
+  if (PyErr_WarnEx(category.ptr(), sentence, 2) != 0) throw py::error_already_set();
 }
 
 int32_t report_progress(const py::object &progress, double share, double residual,
