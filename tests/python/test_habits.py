@@ -52,7 +52,8 @@ def test_an_unknown_field_of_a_valve_is_refused_with_the_near_name(closed):
 
 
 def test_constants_of_a_law_are_given_by_name(sim):
-    fung = mvs.leaflet_law(mvs.LeafletLaw.FUNG).constants
+    fung = mvs.leaflet_law("fung").constants
+    assert mvs.leaflet_law(mvs.LeafletLaw.FUNG).constants == fung
     first, second = fung[0], fung[1]
     tissue = mvs.Leaflet("A", law="fung", constants={second.key: 2 * second.default})
     assert tissue.law is mvs.LeafletLaw.FUNG

@@ -21,7 +21,6 @@ from ._core import (
     check_valve,
     chord_law,
     chord_limits,
-    leaflet_law,
 )
 from .arrays import Curve, Law, LawConstant, Leaflet, Ring, Valve
 from .editing import valve_of
@@ -54,6 +53,7 @@ from .kinds import (
     RingKind,
     ToolKind,
 )
+from .laws import leaflet_law
 from .ops import Operation, Site
 from .sweeps import sweep
 from .tables import Table

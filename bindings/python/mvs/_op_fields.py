@@ -47,8 +47,8 @@ _WANTED = {
     FieldType.CHORD: "the name or id of a chord",
     FieldType.HEAD: "the name or id of a papillary head",
     FieldType.SCALLOP: "the name or id of a scallop",
-    FieldType.SITE: "a node's index, (scallop, along, height), \"P2:0.5:0.9\", (triangle, (u, v, w)) or a "
-    "mvs.Site",
+    FieldType.SITE: "a node's index, (scallop, along, height), \"P2:0.5:0.9\", "
+    "(triangle, (u, v, w)) or a mvs.Site",
     FieldType.POINT: "a point, three numbers",
     FieldType.VECTOR: "a vector, three numbers",
     FieldType.POINTS: "points, an array of shape (n, 3)",

@@ -56,16 +56,15 @@ def read_signature(text: str) -> list[Parameter]:
 
 
 def signature_of(documentation: str) -> Optional[inspect.Signature]:
-    """The signature in the first line of a docstring of pybind11; None if it takes any arguments."""
+    """The signature in the first line of a docstring of pybind11; None for one with *args."""
     line = documentation.partition("\n")[0]
     if "(self: " not in line or "*args" in line or "**kwargs" in line:
         return None
     made = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
     for p in read_signature(line):
         default = inspect.Parameter.empty if p.required else _value(p.default)
-        kind = inspect.Parameter.KEYWORD_ONLY
-        if not p.by_keyword:
-            kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        named, placed = inspect.Parameter.KEYWORD_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD
+        kind = named if p.by_keyword else placed
         made.append(inspect.Parameter(p.name, kind, default=default))
     return inspect.Signature(made)
 
@@ -164,12 +163,9 @@ def sentence(call: str, text: str, given: Sequence[Any], named: Mapping[str, Any
         if p.name in values:
             wanted, fits = _fits(p.type, values[p.name])
             if not fits:
-                return f"{call}: {p.name} has to be {wanted}{_or_none(p)}, not {shown(values[p.name])}"
+                wanted += " or None" if "None" in p.type else ""
+                return f"{call}: {p.name} has to be {wanted}, not {shown(values[p.name])}"
     return f"{call}: the arguments {', '.join(map(shown, values.values()))} do not fit; {words}"
-
-
-def _or_none(parameter: Parameter) -> str:
-    return " or None" if "None" in parameter.type else ""
 
 
 def with_sentences(method: Callable[..., Any], call: str) -> Callable[..., Any]:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Mapping, Sequence
-from typing import Union
+from typing import TYPE_CHECKING, Union
 
+from . import _core
 from .errors import ArgumentError
 from .kinds import LeafletLaw
 from .words import listed, shown
+
+if TYPE_CHECKING:
+    from .arrays import Law
 
 Constants = Union[Sequence[float], Mapping[str, float]]
 """Constants of a law: in its order, or by key."""
@@ -33,6 +37,14 @@ def _number(law: int) -> int:
         ) from None
 
 
+def leaflet_law(law: Union[LeafletLaw, int, str]) -> Law:
+    """The description of a leaflet law (mvs.Law): its constants, units, defaults and ranges.
+
+    law: a LeafletLaw, or its lower-case name; ArgumentError for an unknown one
+    """
+    return _core.leaflet_law(leaflet_law_of(law))
+
+
 def constants_of(law: int, given: Constants) -> tuple[float, ...]:
     """The constants of a leaflet law in its order; a key that is left out takes its default."""
     if not isinstance(given, Mapping):
@@ -41,8 +53,6 @@ def constants_of(law: int, given: Constants) -> tuple[float, ...]:
         return tuple(map(float, given))
     if not given:
         return ()
-    from ._core import leaflet_law
-
     known = {each.key: each for each in leaflet_law(law).constants}
     for key in given:
         if key not in known:

@@ -44,7 +44,7 @@ def sweep(
     pressure_pa: Optional[float] = None,
     settle: Optional[Mapping[str, Any]] = None,
 ) -> Table:
-    """Applies operations with all combinations of their parameters; a mvs.Table with a row for each.
+    """Applies operations with all combinations of their parameters: a mvs.Table, a row for each.
 
         mvs.sweep(valve, [("ring", {"size": [28e-3, 30e-3, 32e-3]}),
                           ("chord_length", {"chord": "A2/7", "factor": [0.7, 0.8, 0.9]})],

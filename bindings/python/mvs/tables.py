@@ -19,7 +19,7 @@ Row = Mapping[str, Any]
 
 
 class Table(Sequence[Row]):
-    """Rows as dictionaries, in order: ``table[0]["tension"]``, ``table["tension"]``, ``for row in``.
+    """Rows as dictionaries, in order: ``table[0]["tension"]``, ``table["tension"]``, iteration.
 
     columns: their names
     units: the unit of each column, "" without one

@@ -46,7 +46,7 @@ def _need(call: str) -> None:
 
 
 def plot(self: Snapshot, view: str = "atrium") -> Picture:
-    """A picture of the valve (mvs.drawing.snapshots.Picture), shown in a notebook; extra ``report``.
+    """A picture of the valve, shown in a notebook (mvs.drawing.snapshots.Picture, extra ``report``).
 
     view: "atrium" (the surgeon's view, an orifice in red), "oblique", "chords" (from the ventricle,
         coloured by tension), "coaptation" (gap to the facing leaflet) or "strain"
@@ -76,11 +76,11 @@ def plot(self: Snapshot, view: str = "atrium") -> Picture:
 
 
 def to_pyvista(self: Snapshot) -> Any:
-    """The valve as a pyvista.MultiBlock in m: "leaflets", "chords", "orifice" if open; extra ``report``.
+    """The valve as a pyvista.MultiBlock in m: "leaflets", "chords", and "orifice" if open.
 
-    Point k of "leaflets" and "chords" is node k of the snapshot.
-    leaflets: a surface; per point kind, force (N), coaptation (m, NaN without a facing leaflet); per
-        triangle leaflet, scallop, thickness (m), stretch_1, stretch_2, stress_1, stress_2 (Pa)
+    Point k of "leaflets" and "chords" is node k of the snapshot. Needs the extra ``report``.
+    leaflets: a surface; per point kind, force (N), coaptation (m, NaN without a facing leaflet);
+        per triangle leaflet, scallop, thickness (m), stretch_1, stretch_2, stress_1, stress_2 (Pa)
     chords: lines; per line kind, strain, tension (N), flags, rest_length (m)
     """
     _need("to_pyvista")

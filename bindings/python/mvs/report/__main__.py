@@ -28,7 +28,8 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--members", type=int, default=8, metavar="N",
                         help="closures in the ensemble of each valve; 0: no such chapter [8]")
     parser.add_argument("--no-pictures", action="store_true", help="tables only")
-    parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="valves (.obj, .h5, .inp); only they are reported")
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE",
+                        help="valves (.obj, .h5, .inp); only they are reported")
     arguments = parser.parse_args()
     if arguments.out is None:
         first = arguments.files[0].stem if arguments.files else "mvs"
