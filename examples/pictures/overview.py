@@ -7,8 +7,8 @@ from pathlib import Path
 
 import mvs
 from mvs.report.cases import leaking, shipped
-from mvs.report.geometry import Drawing
-from mvs.report.pictures import picture, side_by_side, view_from_atrium
+from mvs.drawing.geometry import Drawing
+from mvs.drawing.pictures import picture, side_by_side, view_from_atrium
 
 WIDTH_MM = 54
 

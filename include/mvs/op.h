@@ -127,8 +127,8 @@ typedef struct mvs_op_annulus_scale {
  * arc length, with and without load. Makes a ring, which replaces an existing ring or band. */
 typedef struct mvs_op_ring {
   mvs_op op;
-  mvs_array curve;     /* F64, k x 3, m, k >= 8: closed, in any frame, of any winding and start; or
-                          left out with a size */
+  mvs_array curve;     /* F64, k x 3, m, k >= 8: closed, in any frame, of any winding and start, its
+                          first point repeated at its end or not; or left out with a size */
   double size;         /* m, intercommissural width of a parametric ring: 0.034 is labelled 34.
                           Measured proportions of the Physio II 34, not catalogue data */
   double ap_ratio;     /* AP over CC width [26.1 / 34.7] */

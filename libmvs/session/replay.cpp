@@ -1,6 +1,8 @@
 // Replay of plan steps: the solver executes events, after_op applies operations.
 #include "session/replay.h"
 
+#include <chrono>
+
 #include "base/error.h"
 #include "base/struct_fields.h"
 #include "history/tool_trajectory.h"
@@ -11,7 +13,8 @@
 namespace mvs::core {
 namespace {
 
-// Executes the time steps of an event. Calls the progress callback after the first and every 64th.
+// Executes the time steps of an event. Calls the progress callback after the first step, and then
+// after a step if 50 ms have passed: a host that cancels must not wait for many slow steps.
 class Stepping {
  public:
   Stepping(mvs_sim &sim, const RecordedEvent &event)
@@ -22,16 +25,26 @@ class Stepping {
       const SolveStats found = sim_.solver.step(model, state, options_of(event_));
       ++taken_;
       const double share = static_cast<double>(taken_) / static_cast<double>(event_.count);
-      MVS_MUST(!progress_ || taken_ % 64 != 1 || progress_(share, found.residual), MVS_E_CANCELLED,
-               "step", "stepping was cancelled by the progress callback; the valve is as before");
+      MVS_MUST(!is_due() || progress_(share, found.residual), MVS_E_CANCELLED, "step",
+               "stepping was cancelled by the progress callback; the valve is as before");
     }
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_due() {
+    const Clock::time_point now = Clock::now();
+    if (!progress_ || (taken_ > 1 && now - reported_ < std::chrono::milliseconds(50))) return false;
+    reported_ = now;
+    return true;
+  }
+
   mvs_sim &sim_;
   const RecordedEvent &event_;
   const Progress progress_;
   uint64_t taken_ = 0;
+  Clock::time_point reported_;
 };
 
 Snapshot after_running(mvs_sim &sim, const Snapshot &now, const RecordedEvent &event) {

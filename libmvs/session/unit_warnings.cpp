@@ -174,14 +174,19 @@ void log_units(const mvs_sim &sim, const Model &model) {
   log_chords(sim, model, scale);
 }
 
-// Warns about whole numbers from 20 to 300 Pa only: a pressure ramp passes this range in fractions.
+// Warns about numbers that a person types and a pressure ramp passes in longer fractions: whole
+// ones from 20 to 300 Pa (mmHg), and those with at most three decimals from 1 to 20 Pa (kPa).
 void log_pressure(const mvs_sim &sim, double pressure) {
   constexpr double mmhg = MVS_SYSTOLE_PA / 120, most = 100e3;
-  const double size = std::abs(pressure);
+  const double size = std::abs(pressure), thousandths = 1000 * size;
   if (size >= 20 && size <= 300 && size == std::floor(size)) {
     sim.log(MVS_LOG_WARNING,
             "a pressure of %g Pa is %.2g mmHg: looks like mmHg given as Pa; %g mmHg are %.8g Pa",
             pressure, pressure / mmhg, pressure, pressure * mmhg);
+  } else if (size >= 1 && size < 20 && std::abs(thousandths - std::round(thousandths)) < 1e-9) {
+    sim.log(MVS_LOG_WARNING,
+            "a pressure of %g Pa is %.2g mmHg: looks like kPa given as Pa; %g kPa are %.8g Pa",
+            pressure, pressure / mmhg, pressure, 1e3 * pressure);
   } else if (size > most) {
     sim.log(MVS_LOG_WARNING,
             "a pressure of %g Pa is %.4g mmHg: looks like Pa taken for mmHg; pressures are in Pa",

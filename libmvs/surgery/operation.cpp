@@ -17,11 +17,18 @@ std::string name_of(const OpKind &kind, const OpField &f) {
   return format("%s.%s", kind.name, f.name);
 }
 
+// A hint if a value in m above its limit is in range as mm.
+const char *mm_hint(const char *unit, double value, double limit) {
+  const double size = std::abs(value);
+  const bool millimetres = std::strcmp(unit, "m") == 0 && size > limit && size <= 1e3 * limit;
+  return millimetres ? ": looks like mm given as m" : "";
+}
+
 void check_number(const OpKind &kind, const OpField &f, double value) {
   if (value == 0 && !f.required) return;
   MVS_MUST(value >= f.low && value <= f.high, MVS_E_ARGUMENT, name_of(kind, f),
-           "%s: %s is %g%s%s, it has to be %g to %g", kind.name, f.name, value, *f.unit ? " " : "",
-           f.unit, f.low, f.high);
+           "%s: %s is %g%s%s, it has to be %g to %g%s", kind.name, f.name, value,
+           *f.unit ? " " : "", f.unit, f.low, f.high, mm_hint(f.unit, value, f.high));
 }
 
 void check_count(const OpKind &kind, const OpField &f, uint32_t value) {
@@ -49,8 +56,8 @@ void check_site(const OpKind &kind, const OpField &f, const mvs_site &site) {
 void check_coordinates(const OpKind &kind, const OpField &f, const double *at, double limit) {
   for (int k = 0; k < 3; ++k) {
     MVS_MUST(std::abs(at[k]) <= limit, MVS_E_ARGUMENT, name_of(kind, f),
-             "%s: %s has a coordinate of %g m, it has to be within %g m", kind.name, f.name, at[k],
-             limit);
+             "%s: %s has a coordinate of %g m, it has to be within %g m%s", kind.name, f.name,
+             at[k], limit, mm_hint("m", at[k], limit));
   }
 }
 

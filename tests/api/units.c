@@ -95,6 +95,13 @@ static void pressures_in_mmhg_are_warned_of(void) {
   WARNS(load(120 * 133.322 * 20), 1, "looks like Pa taken for mmHg");
 }
 
+static void pressures_in_kpa_are_warned_of(void) {
+  MUST(mvs_generate_valve(sim, NULL));
+  WARNS(load(16), 1, "a pressure of 16 Pa is 0.12 mmHg: looks like kPa given as Pa; 16 kPa are");
+  WARNS(load(-13.33), 1, "-13.33 kPa are -13330 Pa");
+  WARNS(load(120 * 133.322 / 900), 0, ""); /* the first of 900 steps of a ramp */
+}
+
 int main(void) {
   const mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, NULL, &heard};
   MUST(mvs_create(&desc, &sim));
@@ -102,6 +109,7 @@ int main(void) {
   moduli_in_kpa_are_warned_of();
   lengths_in_other_units_are_warned_of();
   pressures_in_mmhg_are_warned_of();
+  pressures_in_kpa_are_warned_of();
   mvs_destroy(sim);
   return finish("units");
 }

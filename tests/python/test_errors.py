@@ -1,5 +1,6 @@
 """Failed calls raise the C library's code, part, line and sentence, and change nothing."""
 
+import inspect
 import pickle
 
 import mvs
@@ -86,3 +87,71 @@ def test_a_closed_simulator_is_reported(sim):
     with pytest.raises(mvs.StateError, match="closed"):
         sim.settle()
     assert snapshot.measures.annulus_ap > 0
+
+
+MISFITS = [
+    (lambda sim: sim.set_load("120"), "set_load: pressure_pa has to be a number, not '120' (str)"),
+    (lambda sim: sim.set_load(), "set_load() needs the argument pressure_pa"),
+    (lambda sim: sim.set_load(1, 2, 3), "set_load: 3 (int) is one argument too many"),
+    (lambda sim: sim.set_load(1e4, presure=1), 'set_load() has no argument "presure"; did you mean'),
+    (lambda sim: sim.set_load(1e4, pressure_pa=1e4), "pressure_pa is given twice"),
+    (lambda sim: sim.settle("newton"), "settle: 'newton' (str) needs a name, as in settle(solver="),
+    (lambda sim: sim.settle(max_iterations=3.5),
+     "settle: max_iterations has to be a non-negative integer or None, not 3.5 (float)"),
+    (lambda sim: sim.settle(solver=3), "settle: solver has to be text, not 3 (int)"),
+    (lambda sim: sim.step(-1), "step: count has to be a non-negative integer, not -1 (int)"),
+    (lambda sim: sim.apply(), "apply() needs the argument operation"),
+    (lambda sim: sim.set_leaflet("A"), "set_leaflet() needs the argument law"),
+    (lambda sim: sim.generate(vertices="many"), "generate: vertices has to be a non-negative"),
+    (lambda sim: sim.generate(400), "generate: 400 (int) needs a name, as in generate(vertices="),
+    (lambda sim: sim.load(3), "load: path has to be a path, not 3 (int)"),
+    (lambda sim: sim.snapshot().save(None), "save: path has to be a path, not None (NoneType)"),
+    (lambda sim: sim.snapshot().compare(sim), "compare: other has to be a mvs.Snapshot, not"),
+    (lambda sim: sim.restore(3), "restore: snapshot has to be a mvs.Snapshot, not 3 (int)"),
+    (lambda sim: sim.add_tool("ball", (0, 0)), "add_tool: position has to be 3 numbers, not (0, 0)"),
+    (lambda sim: mvs.Simulator(backend=3), "Simulator: backend has to be text, not 3 (int)"),
+    (lambda sim: mvs.Device(), "Device() needs the argument driver"),
+    (lambda sim: mvs.Device("template", clock="virtual").sync(3),
+     "sync: sim has to be a mvs.Simulator, not 3 (int)"),
+]
+
+
+@pytest.mark.parametrize("call, words", MISFITS, ids=[words[:24] for _, words in MISFITS])
+def test_a_type_error_says_which_argument_and_why(sim, call, words):
+    before = sim.snapshot().hash
+    with pytest.raises(TypeError) as caught:
+        call(sim)
+    said = str(caught.value)
+    assert words in said
+    assert "\n" not in said and len(said) < 400 and "incompatible" not in said
+    assert sim.snapshot().hash == before
+
+
+def test_a_type_error_of_a_callback_stays_as_it_is(sim):
+    def fail(share, residual):
+        raise TypeError("mine")
+
+    with pytest.raises(TypeError, match="^mine$"):
+        sim.settle(progress=fail)
+
+
+def test_backends_are_those_of_the_build():
+    offered = {"default", *mvs.features} - {"hdf5"}
+    for name in sorted(offered):
+        assert f'"{name}"' in mvs.Simulator.__doc__
+        mvs.Simulator(backend=name).close()
+    with pytest.raises(mvs.ArgumentError) as caught:
+        mvs.Simulator(backend="magic")
+    assert all(f'"{name}"' in str(caught.value) for name in offered)
+    if "cholmod" not in mvs.features:
+        assert "cholmod" not in mvs.Simulator.__doc__ and "cholmod" not in str(caught.value)
+        with pytest.raises(mvs.UnsupportedError, match="CHOLMOD|cholmod"):
+            mvs.Simulator(backend="cholmod")
+
+
+def test_methods_have_signatures_for_completion():
+    shown = inspect.signature(mvs.Simulator.settle)
+    assert list(shown.parameters)[:3] == ["self", "solver", "max_iterations"]
+    assert shown.parameters["solver"].default == "newton"
+    assert shown.parameters["solver"].kind == inspect.Parameter.KEYWORD_ONLY
+    assert inspect.signature(mvs.Device).parameters["clock"].default == "real"

@@ -115,6 +115,7 @@ def test_a_site_may_be_written_in_several_ways(sim):
         ("P2", 0.4, 0.8),
         [scallop, 0.4, 0.8],
         (scallop.id, 0.4, np.float64(0.8)),
+        "P2:0.4:0.8",
         mvs.Site(scallop="P2", along=0.4, height=0.8),
     ):
         sim.apply("neochord", head="PM1", site=site)
@@ -126,8 +127,13 @@ def test_a_site_may_be_written_in_several_ways(sim):
     as_number = sim.snapshot().hash
     assert sim.snapshot().chord_nodes[-1, 1] == node
     sim.undo()
-    sim.apply("neochord", head="PM1", site=mvs.Site(node=node))
-    assert sim.snapshot().hash == as_number
+    for site in (mvs.Site(node=node), f"node:{node}"):
+        sim.apply("neochord", head="PM1", site=site)
+        assert sim.snapshot().hash == as_number
+        sim.undo()
+    assert mvs.ops.neochord(head="PM1", site="triangle:5:0.3:0.3:0.4") == mvs.ops.neochord(
+        head="PM1", site=(5, (0.3, 0.3, 0.4))
+    )
 
 
 def test_factors_scale_their_lengths(sim):
@@ -173,6 +179,9 @@ REFUSED = [
     ("chord_length", dict(chord=1.0, factor=2), mvs.ArgumentError, "name or id of a chord"),
     ("chord_length", dict(chord=10**9, factor=2), mvs.IdError, "1000000000"),
     ("chord_add", dict(head="PM1", site="P2"), mvs.ArgumentError, "(scallop, along, height)"),
+    ("chord_add", dict(head="PM1", site="P2:0.4"), mvs.ArgumentError, '"P2:0.5:0.9"'),
+    ("chord_add", dict(head="PM1", site="node:x"), mvs.ArgumentError, '"P2:0.5:0.9"'),
+    ("ring", dict(size=34), mvs.ArgumentError, "looks like mm given as m"),
     ("chord_add", dict(head="PM1", site=("Q2", 0.1, 1)), mvs.IdError, "there are A"),
     ("chord_add", dict(head="PM1", site=("P2", 1.5, 1)), mvs.ArgumentError, "coordinate of 1.5"),
     ("chord_add", dict(head="PM1", site=10**6), mvs.IdError, "node 1000000"),
@@ -271,6 +280,18 @@ def test_many_points_arrive_unchanged(sim):
     with mvs.Simulator() as other:
         other.set_valve(mvs.valve_of(ring))
         assert other.snapshot().hash == ring.hash
+
+
+def test_a_closed_curve_may_repeat_its_first_point(sim):
+    wanted = sim.snapshot().node_loaded[sim.snapshot().annulus_nodes] * 0.9
+    rings = []
+    for curve in (wanted, np.vstack([wanted, wanted[:1]])):
+        sim.apply("ring", curve=curve)
+        rings.append(sim.snapshot().ring_points)
+        sim.undo()
+    assert np.array_equal(*rings)
+    with pytest.raises(mvs.ArgumentError, match="looks like mm given as m"):
+        sim.apply("ring", curve=wanted * 1e3)
 
 
 def test_points_are_copied_unchanged():

@@ -10,7 +10,8 @@ import pytest
 pytest.importorskip("pyvista")
 pytest.importorskip("matplotlib")
 
-from mvs.report import cases, ensemble, gallery, geometry, page, table  # noqa: E402
+from mvs.drawing import geometry  # noqa: E402
+from mvs.report import cases, ensemble, gallery, page, table  # noqa: E402
 
 
 @pytest.fixture(scope="module")

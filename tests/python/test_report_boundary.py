@@ -16,6 +16,7 @@ OTHERS = [p for p in sorted(PACKAGE.rglob("*.py"))
           if p.parent != PACKAGE / "report" and p.exists()]
 PUBLIC = {"mvs": {*mvs.__all__, "__version__", "study"}, "mvs.mesh": set(vars(mvs.mesh)),
           "mvs.study": set(mvs.study.__all__)}
+DRAWING = {p.stem for p in (PACKAGE / "drawing").glob("*.py")}
 
 
 def imports_of(path):
@@ -46,7 +47,10 @@ def test_no_other_file_imports_the_report(path):
 def test_the_report_uses_public_names_of_the_module(path):
     for module, names in imports_of(path):
         assert not module.startswith("..")
-        if module.split(".")[0] == "mvs" and names:
+        if module.startswith("mvs.drawing."):
+            assert module.split(".")[2] in DRAWING
+            assert not any(name.startswith("_") for name in names)
+        elif module.split(".")[0] == "mvs" and names:
             assert set(names) <= PUBLIC[module]
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Attribute) and getattr(node.value, "id", None) == "mvs":

@@ -167,6 +167,13 @@ def test_values_like_another_unit_are_warned_of(valve):
     assert any("looks like mmHg given as Pa" in text for text in messages)
 
 
+def test_a_pressure_like_kpa_is_warned_of(sim):
+    words = "looks like kPa given as Pa; 16 kPa are 16000 Pa"
+    with pytest.warns(mvs.ValveWarning, match=words) as caught:
+        sim.set_load(16.0)
+    assert caught[0].filename == __file__
+
+
 def test_a_valid_valve_issues_no_warning(valve):
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -263,9 +263,9 @@ def signed_distance(result: Result) -> np.ndarray:
 def draw(results: list[Result], folder: Path) -> None:
     """Signed distances from FEBio's surface on the closed valves, and central cross-sections."""
     import matplotlib
-    from mvs.report.geometry import Drawing
-    from mvs.report.maps import section_plot
-    from mvs.report.pictures import (
+    from mvs.drawing.geometry import Drawing
+    from mvs.drawing.maps import section_plot
+    from mvs.drawing.pictures import (
         colour_bar,
         picture,
         place_image,
@@ -273,7 +273,7 @@ def draw(results: list[Result], folder: Path) -> None:
         to_png,
         view_from_atrium,
     )
-    from mvs.report.scene import Colours, Scene
+    from mvs.drawing.scene import Colours, Scene
 
     folder.mkdir(parents=True, exist_ok=True)
     target, view = Drawing(results[0].target), view_from_atrium(46)

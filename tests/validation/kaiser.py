@@ -205,9 +205,9 @@ contact and is open at the commissures."""
 
 def draw(results: list[Result], folder: Path) -> None:
     """The closed valves from the atrium and the central cross-sections, beside the model's own."""
-    from mvs.report.geometry import Drawing
-    from mvs.report.maps import section_plot
-    from mvs.report.pictures import picture, view_from_atrium
+    from mvs.drawing.geometry import Drawing
+    from mvs.drawing.maps import section_plot
+    from mvs.drawing.pictures import picture, view_from_atrium
 
     folder.mkdir(parents=True, exist_ok=True)
     shapes = [("own", results[0].target)] + [

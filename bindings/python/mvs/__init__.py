@@ -12,7 +12,7 @@
 SI units throughout: m, kg, s, N, Pa, rad.
 """
 
-from . import _core, haptics, ops
+from . import _core, haptics, methods, ops
 from ._core import (
     Device,
     Ensemble,
@@ -21,7 +21,6 @@ from ._core import (
     check_valve,
     chord_law,
     chord_limits,
-    leaflet_law,
 )
 from .arrays import Curve, Law, LawConstant, Leaflet, Ring, Valve
 from .editing import valve_of
@@ -54,7 +53,10 @@ from .kinds import (
     RingKind,
     ToolKind,
 )
+from .laws import leaflet_law
 from .ops import Operation, Site
+from .sweeps import sweep
+from .tables import Table
 from .values import (
     ChordLimits,
     Coarsening,
@@ -77,6 +79,8 @@ from .values import (
 
 __version__ = _core.version()
 features = tuple(_core.features().split())
+
+methods.attach()
 
 __all__ = [
     "MMHG",
@@ -125,6 +129,7 @@ __all__ = [
     "Snapshot",
     "StateError",
     "Stats",
+    "Table",
     "Tool",
     "ToolKind",
     "UnsupportedError",
@@ -139,6 +144,7 @@ __all__ = [
     "haptics",
     "leaflet_law",
     "ops",
+    "sweep",
     "unit_of",
     "valve_of",
 ]

@@ -47,7 +47,8 @@ _WANTED = {
     FieldType.CHORD: "the name or id of a chord",
     FieldType.HEAD: "the name or id of a papillary head",
     FieldType.SCALLOP: "the name or id of a scallop",
-    FieldType.SITE: "a node's index, (scallop, along, height), (triangle, (u, v, w)) or a mvs.Site",
+    FieldType.SITE: "a node's index, (scallop, along, height), \"P2:0.5:0.9\", "
+    "(triangle, (u, v, w)) or a mvs.Site",
     FieldType.POINT: "a point, three numbers",
     FieldType.VECTOR: "a vector, three numbers",
     FieldType.POINTS: "points, an array of shape (n, 3)",
@@ -195,6 +196,8 @@ def _part(field: OpField, value: Any) -> Union[str, int]:
 
 
 def _site(field: OpField, value: Any) -> Site:
+    if isinstance(value, str):
+        value = _site_of_text(value)
     if isinstance(value, (tuple, list)):
         value = _site_of_tuple(*value)
     elif not isinstance(value, Site):
@@ -207,6 +210,17 @@ def _site(field: OpField, value: Any) -> Site:
         along=_number(field, value.along),
         height=_number(field, value.height),
     )
+
+
+def _site_of_text(text: str) -> Site:
+    """Reads the command's text: P2:0.5:0.9, node:17, or triangle:12:0.3:0.3:0.4."""
+    first, *rest = text.split(":")
+    if first == "node" and len(rest) == 1:
+        return Site(node=int(rest[0]))
+    if first == "triangle" and len(rest) == 4:
+        return Site(triangle=int(rest[0]), barycentric=tuple(map(float, rest[1:])))
+    along, height = map(float, rest)
+    return Site(scallop=first, along=along, height=height)
 
 
 def _site_of_tuple(first: Any, *rest: Any) -> Site:

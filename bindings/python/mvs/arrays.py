@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Sequence
-from typing import Any, Optional, Union
+from typing import Annotated, Any, Optional, Union
 
 from numpy.typing import NDArray
 
+from .describe import Kind, with_field_help
 from .kinds import LeafletLaw, RingKind
+from .laws import Constants, constants_of, leaflet_law_of
+from .words import did_you_mean
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,16 +39,26 @@ class Law:
 class Leaflet:
     """A leaflet and its tissue; zeros mean the library's defaults.
 
+        mvs.Leaflet("A", law="fung", constants={"c0": 2e3, "c2": 5})
+
     thickness: m
-    constants: of the law, at most 8, moduli in Pa; for the spring sheet Young's modulus below and
-        above the kink and the strain at the kink
+    constants: of the law, at most 8, moduli in Pa: in order, or a dictionary by the keys of
+        ``mvs.leaflet_law(law)``, where a key that is left out takes its default; for the spring
+        sheet Young's modulus below and above the kink and the strain at the kink
+    law: a LeafletLaw, or its lower-case name
     """
 
     name: str
     thickness: float = 0.0
-    constants: tuple[float, ...] = ()
-    law: LeafletLaw = LeafletLaw.SPRING
+    constants: Constants = ()
+    law: Union[LeafletLaw, str] = LeafletLaw.SPRING
     id: int = 0
+
+    def __post_init__(self) -> None:
+        law = leaflet_law_of(self.law)
+        known = LeafletLaw(law) if law in list(LeafletLaw) else law
+        object.__setattr__(self, "law", known)
+        object.__setattr__(self, "constants", constants_of(law, self.constants))
 
 
 Array = Optional[NDArray[Any]]
@@ -77,79 +91,107 @@ class Curve:
     id: int = 0
 
 
+def _with_near_names(kind: Kind) -> Kind:
+    """Lets the constructor of a dataclass name the fields that an unknown one may mean."""
+    make = kind.__init__  # type: ignore[misc]
+
+    @functools.wraps(make)
+    def checked(self: Any, *given: Any, **named: Any) -> None:
+        for name in named:
+            if name not in kind.__dataclass_fields__:  # type: ignore[attr-defined]
+                raise TypeError(_no_field(name))
+        make(self, *given, **named)
+
+    kind.__init__ = checked  # type: ignore[misc]
+    return kind
+
+
+def _no_field(name: str) -> str:
+    near = did_you_mean(name, Valve.__dataclass_fields__)
+    return f'a mvs.Valve has no field "{name}"{near or "; help(mvs.Valve) lists the fields"}'
+
+
+@_with_near_names
+@with_field_help
 @dataclasses.dataclass(eq=False)
 class Valve:
-    """A valve as arrays: n nodes, m triangles, l leaflets, c chord segments, h heads.
+    """A valve as arrays: n nodes, m triangles, l leaflets, s scallops, c chord segments, h heads.
 
     Nodes are one list: leaflet vertices, branch points of chordae and papillary heads. ``None``
     means the library's default. Arrays may have any strides; their dtype must be the stated one,
-    because a silent cast of indices or lengths would hide an error. Lengths in m.
+    because a silent cast of indices or lengths would hide an error.
     """
 
-    nodes: Array
-    """float64 or float32 (n, 3): the open, unloaded valve"""
-    triangles: Array
-    """uint32 (m, 3): normals point into the atrium (or see ``orient``)"""
-    annulus: Array
-    """uint32 (k,): the annulus, a loop of boundary nodes in order"""
-    leaflets: Sequence[Union[str, Leaflet]] = ("M",)
-    """names, or leaflets with their tissue"""
-    triangle_leaflet: Array = None
-    """uint32 (m,): index into leaflets; None: all 0"""
-    nodes_loaded: Array = None
-    """float64 or float32 (n, 3): loaded positions of annulus and heads; other rows are ignored"""
-    nodes_open: Array = None
-    """float64 or float32 (n, 3): positions of annulus and heads without load; None: ``nodes``"""
-    nodes_now: Array = None
-    """float64 or float32 (n, 3): the start shape; None: ``nodes``"""
-    node_origin: Array = None
-    """uint32 (n,): ``Snapshot.node_origin`` of a valve after operations"""
-    scallops: Optional[Sequence[str]] = None
-    """names; None: one per leaflet"""
-    scallop_id: Array = None
-    """uint64"""
-    triangle_scallop: Array = None
-    """uint32 (m,): index into scallops"""
-    triangle_thickness: Array = None
-    """float64 (m,), m; None: the leaflet's"""
-    triangle_fibre: Array = None
-    """float64 (m, 3): fibre direction; None: circumferential"""
-    chord_nodes: Array = None
-    """uint32 (c, 2): papillary side first"""
-    chord_rest_length: Array = None
-    """float64 (c,), m; None or 0: the distance of the two nodes"""
-    chord_kind: Array = None
-    """uint32 (c,): ChordKind"""
-    chord_young: Array = None
-    """float64 (c,), Pa"""
-    chord_area: Array = None
-    """float64 (c,), m2"""
-    chord_law: Array = None
-    """uint32 (c,): ChordLaw; None: linear"""
-    chord_constants: Array = None
-    """float64 (c, 6): of the law; for ChordLaw.TABLE the index of its curve first"""
-    curves: Sequence[Curve] = ()
-    """measured stress-strain curves of chordae"""
-    chord_id: Array = None
-    """uint64 (c,)"""
-    chord_names: Optional[Sequence[str]] = None
-    """None: built from kind and scallop, "P2/3" """
-    head_nodes: Array = None
-    """uint32 (h,)"""
-    head_id: Array = None
-    """uint64 (h,)"""
-    head_names: Optional[Sequence[str]] = None
-    """None: "PM1", "PM2", ..."""
-    rings: Sequence[Ring] = ()
-    """rings and bands on the annulus"""
-    name: str = "valve"
-    density: Optional[float] = None
-    """kg/m3"""
-    contact_thickness: Optional[float] = None
-    """m, mid-surface distance at which leaflets touch"""
-    contact_stiffness: Optional[float] = None
-    """Pa, scale of the contact pressure"""
-    bending_scale: Optional[float] = None
-    """factor on the plate stiffness; 0: no bending"""
-    orient: bool = False
-    """reverse triangles where needed, so that normals point into the atrium"""
+    nodes: Annotated[Array, "float64 or float32 (n, 3), m", "the open, unloaded valve"]
+    triangles: Annotated[
+        Array, "uint32 (m, 3)", "normals point into the atrium (or see ``orient``)"
+    ]
+    annulus: Annotated[Array, "uint32 (k,)", "the annulus, a loop of boundary nodes in order"]
+    leaflets: Annotated[
+        Sequence[Union[str, Leaflet]], "l names or mvs.Leaflet", "the leaflets, with their tissue"
+    ] = ("M",)
+    triangle_leaflet: Annotated[Array, "uint32 (m,)", "index into leaflets; None: all 0"] = None
+    nodes_loaded: Annotated[
+        Array,
+        "float64 or float32 (n, 3), m",
+        "loaded positions of annulus and heads; other rows are ignored",
+    ] = None
+    nodes_open: Annotated[
+        Array,
+        "float64 or float32 (n, 3), m",
+        "positions of annulus and heads without load; None: ``nodes``",
+    ] = None
+    nodes_now: Annotated[
+        Array, "float64 or float32 (n, 3), m", "the start shape; None: ``nodes``"
+    ] = None
+    node_origin: Annotated[
+        Array, "uint32 (n,)", "``Snapshot.node_origin`` of a valve after operations"
+    ] = None
+    scallops: Annotated[Optional[Sequence[str]], "s names", "None: one per leaflet"] = None
+    scallop_id: Annotated[Array, "uint64 (s,)", "ids of the scallops; None: new ones"] = None
+    triangle_scallop: Annotated[Array, "uint32 (m,)", "index into scallops"] = None
+    triangle_thickness: Annotated[Array, "float64 (m,), m", "None: the leaflet's"] = None
+    triangle_fibre: Annotated[
+        Array, "float64 (m, 3)", "fibre direction; None: circumferential"
+    ] = None
+    chord_nodes: Annotated[Array, "uint32 (c, 2)", "papillary side first"] = None
+    chord_rest_length: Annotated[
+        Array, "float64 (c,), m", "None or 0: the distance of the two nodes"
+    ] = None
+    chord_kind: Annotated[Array, "uint32 (c,)", "ChordKind; None: OTHER"] = None
+    chord_young: Annotated[
+        Array, "float64 (c,), Pa", "Young's modulus; None or 0: the default"
+    ] = None
+    chord_area: Annotated[Array, "float64 (c,), m2", "cross-section; None or 0: the default"] = None
+    chord_law: Annotated[Array, "uint32 (c,)", "ChordLaw; None: linear"] = None
+    chord_constants: Annotated[
+        Array, "float64 (c, 6)", "of the law; for ChordLaw.TABLE the index of its curve first"
+    ] = None
+    curves: Annotated[Sequence[Curve], "curves", "measured stress-strain curves of chordae"] = ()
+    chord_id: Annotated[Array, "uint64 (c,)", "ids of the chordae; None: new ones"] = None
+    chord_names: Annotated[
+        Optional[Sequence[str]], "c names", 'None: built from kind and scallop, "P2/3"'
+    ] = None
+    head_nodes: Annotated[Array, "uint32 (h,)", "nodes of the papillary heads"] = None
+    head_id: Annotated[Array, "uint64 (h,)", "ids of the heads; None: new ones"] = None
+    head_names: Annotated[Optional[Sequence[str]], "h names", 'None: "PM1", "PM2", ...'] = None
+    rings: Annotated[Sequence[Ring], "rings", "rings and bands on the annulus"] = ()
+    name: Annotated[str, "text", "name of the valve"] = "valve"
+    density: Annotated[
+        Optional[float], "kg/m3", "of leaflets and chordae; None: the default"
+    ] = None
+    contact_thickness: Annotated[
+        Optional[float], "m", "mid-surface distance at which leaflets touch"
+    ] = None
+    contact_stiffness: Annotated[Optional[float], "Pa", "scale of the contact pressure"] = None
+    bending_scale: Annotated[
+        Optional[float], "number", "factor on the plate stiffness; 0: no bending"
+    ] = None
+    orient: Annotated[
+        bool, "bool", "reverse triangles where needed, so that normals point into the atrium"
+    ] = False
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if name not in self.__dataclass_fields__:
+            raise AttributeError(_no_field(name))
+        super().__setattr__(name, value)

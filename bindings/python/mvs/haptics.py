@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .describe import with_field_help
 
 Vector = NDArray[np.float64]
 Options = Optional[Mapping[str, Any]]
@@ -127,6 +128,7 @@ class Finding:
     sentence: str
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True, eq=False)
 class Info:
     """Properties of a device; unknown ones have the values of the weakest supported device."""
@@ -150,6 +152,7 @@ class Info:
     rate: Annotated[float, "Hz", "of its servo"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Limits:
     """Limits set by the user."""
@@ -166,6 +169,7 @@ class Limits:
     stiffness: Annotated[float, "N/m", "largest rendered stiffness"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True, eq=False)
 class View:
     """Map from the device's workspace to the scene: p = origin + scale * rotation * p_device."""
@@ -176,6 +180,7 @@ class View:
     force_scale: Annotated[float, "1", "of forces, from scene to device"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Hand:
     """The hand's tool."""
@@ -191,6 +196,7 @@ class Hand:
     gain: Annotated[float, "1", "factor on the tension of a felt chord"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True, eq=False)
 class Report:
     """Targets and actions of the hand in one Device.sync, in the scene."""

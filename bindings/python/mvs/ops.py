@@ -4,9 +4,9 @@
     sim.apply("chord_length", chord="P2/3", factor=0.75)  # the same
 
 Parts are given by name, id or ``mvs.Part``. A site is a node's index, ``("P2", along, height)``,
-``(triangle, (u, v, w))`` or a ``Site``; points are (n, 3) arrays; choices are words. SI units
-throughout. The constructors follow the library's description of its operations,
-``KINDS``, which also serves dialogs.
+the command's text ``"P2:0.5:0.9"``, ``(triangle, (u, v, w))`` or a ``Site``; points are (n, 3)
+arrays; choices are words. SI units throughout. The constructors follow the library's description of
+its operations, ``KINDS``, which also serves dialogs.
 """
 
 from __future__ import annotations

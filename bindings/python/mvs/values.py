@@ -7,29 +7,26 @@ the same words: ``unit_of(Measures, "tenting_height")``.
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, Optional, get_type_hints
+from typing import Annotated, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .describe import annotation_of, with_field_help
 from .kinds import EnsembleOrder, PartKind, ToolKind
-
-
-def _annotation(kind: type, name: str) -> tuple[str, str]:
-    unit, definition = get_type_hints(kind, include_extras=True)[name].__metadata__
-    return unit, definition
 
 
 def unit_of(kind: type, name: str) -> str:
     """The unit of a field of Measures, Stats or Comparison; "1" for a pure number."""
-    return _annotation(kind, name)[0]
+    return annotation_of(kind, name)[0]
 
 
 def definition_of(kind: type, name: str) -> str:
     """The definition of a field of Measures, Stats or Comparison."""
-    return _annotation(kind, name)[1]
+    return annotation_of(kind, name)[1]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Load:
     """The load on a valve."""
@@ -67,6 +64,7 @@ class HistoryEntry:
     done: bool
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Replay:
     """The result of replaying a plan or a journal."""
@@ -76,6 +74,7 @@ class Replay:
     same_result: Annotated[bool, "1", "the hash at the end is that of the plan"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class ChordLimits:
     """The working range of chordae of a kind; chordae beyond it are flagged."""
@@ -93,6 +92,7 @@ class Fault:
     is_warning: bool = False
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Tool:
     """An instrument in a snapshot: positions of hand and tool, and the force on the hand."""
@@ -114,6 +114,7 @@ class Tool:
     touching: Annotated[bool, "1", "in contact with tissue; always true for a grasp"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Profile:
     """Work done and avoided in a settle or step. Experimental; times are those of this run."""
@@ -135,6 +136,7 @@ class Profile:
     line_search_s: Annotated[float, "s", "trial energies with their distances"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Stats:
     """Outcome of the last settle or step. Ending without convergence raises no error."""
@@ -150,6 +152,7 @@ class Stats:
     profile: Annotated[Profile, "1", "work done and avoided"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Measures:
     """The measures of a valve. Sources: libmvs/measure/DEFINITIONS.md."""
@@ -211,6 +214,7 @@ class Measures:
     ]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True, eq=False)
 class Comparison:
     """Distances between two shapes. Node figures are NaN if the meshes do not match."""
@@ -227,6 +231,7 @@ class Comparison:
     registration: Annotated[NDArray[np.float64], "m", "rows of [R | t], 3 x 4: b ~ R a + t"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class EnsembleSummary:
     """Distances over all members of an ensemble at rest, without registration."""
@@ -241,6 +246,7 @@ class EnsembleSummary:
     surface_max: Annotated[float, "m", "the largest distance from the surface of member 0"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class EnsembleMember:
     """One member of an ensemble: its loading path, and its distance from member 0 at the end."""
@@ -259,6 +265,7 @@ class EnsembleMember:
     stats: Annotated[Stats, "1", "counts and times over all increments, the rest at the end"]
 
 
+@with_field_help
 @dataclasses.dataclass(frozen=True)
 class Coarsening:
     """The result of coarsening a valve."""

@@ -204,6 +204,23 @@ void bind_views(py::class_<Device> &type) {
                              "Number of ticks that were overwritten before trace() read them.");
 }
 
+// Advances in parts, between which Ctrl-C stops. An invalid time is refused by the first part.
+void advance(Device &self, double seconds) {
+  constexpr double part = 0.25, most = 3600;  // s; the limit of mvs_device_advance
+  std::exception_ptr raised;
+  self.call([&](mvs_device *device) {
+    SignalWatch watch;
+    double left = seconds;
+    mvs_result result = MVS_OK;
+    while (seconds <= most && left > part && result == MVS_OK && !watch.interrupted(raised)) {
+      result = mvs_device_advance(device, part);
+      left -= part;
+    }
+    return result == MVS_OK && !raised ? mvs_device_advance(device, left) : result;
+  });
+  if (raised) std::rethrow_exception(raised);
+}
+
 void bind_work(py::class_<Device> &type) {
   type.def(
       "start", [](Device &self) { self.call(&mvs_device_start); },
@@ -217,12 +234,8 @@ void bind_work(py::class_<Device> &type) {
       "cause that persists.");
   type.def("cut", &Device::cut,
            "Switches forces off at once (Cause.SOFTWARE); allowed in any thread.");
-  type.def(
-      "advance",
-      [](Device &self, double seconds) {
-        self.call([&](mvs_device *device) { return mvs_device_advance(device, seconds); });
-      },
-      "seconds"_a, "Advances a virtual clock: runs the servo for a time, at its rate.");
+  type.def("advance", &advance, "seconds"_a,
+           "Advances a virtual clock: runs the servo for a time, at its rate. Ctrl-C stops it.");
   type.def(
       "sync", [](Device &self, Simulator &sim) { return device_report_value(self.sync(sim)); },
       "sim"_a,

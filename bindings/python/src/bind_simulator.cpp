@@ -45,29 +45,15 @@ py::list check_valve(const py::args &args, const py::kwargs &kwargs) {
   return list;
 }
 
-// MVS_LEAFLET_LAW_* from a mvs.LeafletLaw, its number, or its lower-case name.
-uint32_t law_of(const py::object &law) {
-  if (!py::isinstance<py::str>(law)) return law.cast<uint32_t>();
-  const std::string wanted = law.cast<std::string>();
-  std::string names;
-  for (const py::handle member : py::module_::import("mvs.kinds").attr("LeafletLaw")) {
-    const std::string name = py::str(member.attr("name").attr("lower")());
-    if (name == wanted) return member.cast<uint32_t>();
-    names += (names.empty() ? "\"" : ", \"") + name + "\"";
-  }
-  refuse(MVS_E_ARGUMENT, "law", "law: one of " + names + " is needed, not \"" + wanted + "\"");
-}
-
 void set_leaflet(Simulator &self, const std::optional<std::string> &leaflet, const py::object &law,
-                 const std::vector<double> &constants, double thickness) {
+                 const py::object &constants, double thickness) {
   mvs_leaflet_desc tissue{};
-  tissue.law = law_of(law);
   tissue.thickness = thickness;
-  if (constants.size() > std::size(tissue.constants)) {
-    refuse(MVS_E_ARGUMENT, "constants",
-           "constants: a law has at most 8, not " + std::to_string(constants.size()));
-  }
-  std::copy(constants.begin(), constants.end(), tissue.constants);
+  const py::module_ laws = py::module_::import("mvs.laws");
+  const py::object chosen = laws.attr("leaflet_law_of")(law);
+  tissue.law = chosen.cast<uint32_t>();
+  const auto values = laws.attr("constants_of")(chosen, constants).cast<std::vector<double>>();
+  std::copy(values.begin(), values.end(), tissue.constants);
   mvs_part part{};
   if (leaflet)
     must(mvs_snapshot_find_part(self.snapshot()->get(), MVS_PART_LEAFLET, leaflet->c_str(), &part));
@@ -98,11 +84,7 @@ py::object step(Simulator &self, uint64_t count, const std::string &solver, Numb
   options.dt = dt.value_or(0);
   options.damping = damping.value_or(0);
   options.budget = budget.value_or(0);
-  self.call([&](mvs_sim *sim) {
-    mvs_result result = MVS_OK;
-    for (uint64_t i = 0; i < count && result == MVS_OK; ++i) result = mvs_step(sim, &options);
-    return result;
-  });
+  self.repeat(count, [&](mvs_sim *sim) { return mvs_step(sim, &options); });
   return stats_of(self);
 }
 
@@ -171,7 +153,8 @@ void bind_work(py::class_<Simulator> &type) {
            "exception stops the work and is raised again");
   type.def("step", &step, "count"_a = 1, py::kw_only(), "solver"_a = "implicit",
            "dt"_a = py::none(), "damping"_a = py::none(), "budget"_a = py::none(),
-           "Advances by `count` time steps and returns mvs.Stats of the last.\n\nsolver: "
+           "Advances by `count` time steps and returns mvs.Stats of the last. Ctrl-C stops between "
+           "two steps.\n\nsolver: "
            "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: "
            "1/s\nbudget: passes over the terms in an implicit step, 4 to 10000 [64]");
   type.def_property_readonly(
@@ -184,7 +167,7 @@ void bind_work(py::class_<Simulator> &type) {
 }
 
 void refine(Simulator &self, uint32_t times) {
-  for (uint32_t k = 0; k < times; ++k) self.call(&mvs_refine_valve);
+  self.repeat(times, &mvs_refine_valve);
 }
 
 py::object coarsen(Simulator &self, Count vertices, Number edge) {
@@ -216,10 +199,12 @@ void bind_levels(py::class_<Simulator> &type) {
 
 void bind_tissue(py::class_<Simulator> &type) {
   type.def("set_leaflet", &set_leaflet, "leaflet"_a = py::none(), py::kw_only(), "law"_a,
-           "constants"_a = std::vector<double>{}, "thickness"_a = 0.0,
+           "constants"_a = py::tuple(), "thickness"_a = 0.0,
            "Sets the material law of a leaflet; shape, chordae, state and load stay, the history "
            "restarts.\n\nleaflet: its name; None: all of them\nlaw: a mvs.LeafletLaw, or its "
-           "lower-case name (\"bilinear\")\nconstants: of the law, at most 8, moduli in Pa; empty: "
+           "lower-case name (\"bilinear\")\nconstants: of the law, in order (at most 8), or a "
+           "dictionary "
+           "by the keys of mvs.leaflet_law(law); moduli in Pa; empty: "
            "its defaults, and \"bilinear\" on springs takes over their stress-strain "
            "curve\nthickness: m; 0 keeps it, another value scales that of each triangle\nIdError: "
            "unknown leaflet. OpError: constants out of range.");
@@ -251,12 +236,13 @@ void bind_files(py::class_<Simulator> &type) {
 }  // namespace
 
 void bind_simulator(py::module_ &module) {
-  py::class_<Simulator> type(
-      module, "Simulator",
+  const std::string about =
       "Simulates one valve.\n\nCalls release the interpreter; threads that share a simulator wait "
-      "for each other. A call that raises leaves the simulator as it was.\n\nbackend: \"default\", "
-      "\"cholmod\" or \"eigen\", the sparse factorisation\nlog: called with (level, text); None: "
-      "warnings (level 2) become mvs.ValveWarning");
+      "for each other. A call that raises leaves the simulator as it was.\n\nbackend: the sparse "
+      "factorisation, one of " +
+      backend_words() +
+      "\nlog: called with (level, text); None: warnings (level 2) become mvs.ValveWarning";
+  py::class_<Simulator> type(module, "Simulator", about.c_str());
   type.def(py::init<const std::string &, py::object>(), py::kw_only(), "backend"_a = "default",
            "log"_a = py::none());
   bind_files(type);

@@ -29,7 +29,8 @@ void refuse(mvs_result code, const std::string &part, const std::string &sentenc
 
 void warn(const char *sentence) {
   const py::object category = py::module_::import("mvs.errors").attr("ValveWarning");
-  if (PyErr_WarnEx(category.ptr(), sentence, 1) != 0) throw py::error_already_set();
+  // the line of the caller of the method: the first frame is the wrapper in mvs/arguments.py
+  if (PyErr_WarnEx(category.ptr(), sentence, 2) != 0) throw py::error_already_set();
 }
 
 int32_t report_progress(const py::object &progress, double share, double residual,
@@ -42,6 +43,14 @@ int32_t report_progress(const py::object &progress, double share, double residua
     raised = std::current_exception();
     return 1;
   }
+}
+
+bool SignalWatch::interrupted(std::exception_ptr &raised) {
+  const Clock::time_point now = Clock::now();
+  if (now - looked_ < std::chrono::milliseconds(50)) return false;
+  looked_ = now;
+  const py::gil_scoped_acquire held;
+  return report_progress(py::none(), 0, 0, raised) != 0;
 }
 
 }  // namespace mvs_python

@@ -4,6 +4,7 @@
 #include <mvs/base.h>
 #include <pybind11/pybind11.h>
 
+#include <chrono>
 #include <exception>
 #include <string>
 
@@ -36,6 +37,19 @@ void warn(const char *sentence);
 // an exception is kept in `raised`. The interpreter must be held.
 int32_t report_progress(const py::object &progress, double share, double residual,
                         std::exception_ptr &raised);
+
+// Looks for Ctrl-C between the parts of long work, at most every 50 ms: taking the interpreter
+// costs more than a short part.
+class SignalWatch {
+ public:
+  // True after a signal handler raised an exception, which is kept in `raised`. The interpreter
+  // must be released.
+  bool interrupted(std::exception_ptr &raised);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point looked_ = Clock::now();
+};
 
 // A zeroed struct of the C interface with its size.
 template <typename Struct>

@@ -3,15 +3,40 @@
 namespace mvs_python {
 namespace {
 
+struct Backend {
+  const char *name;
+  uint32_t number;
+};
+constexpr Backend backends[] = {{"default", MVS_BACKEND_DEFAULT},
+                                {"block", MVS_BACKEND_BLOCK},
+                                {"cholmod", MVS_BACKEND_CHOLMOD},
+                                {"eigen", MVS_BACKEND_EIGEN}};
+
+// Whether this build of the library has a backend.
+bool has(const Backend &backend) {
+  const std::string features = std::string(" ") + mvs_features() + " ";
+  return backend.number == MVS_BACKEND_DEFAULT ||
+         features.find(std::string(" ") + backend.name + " ") != std::string::npos;
+}
+
+// A backend that this build lacks is refused by mvs_create, with the sentence of the library.
 uint32_t backend_of(const std::string &name) {
-  if (name == "default") return MVS_BACKEND_DEFAULT;
-  if (name == "cholmod") return MVS_BACKEND_CHOLMOD;
-  if (name == "eigen") return MVS_BACKEND_EIGEN;
+  for (const Backend &backend : backends) {
+    if (name == backend.name) return backend.number;
+  }
   refuse(MVS_E_ARGUMENT, "backend",
-         "backend: \"default\", \"cholmod\" or \"eigen\" is needed, not \"" + name + "\"");
+         "backend: one of " + backend_words() + " is needed, not \"" + name + "\"");
 }
 
 }  // namespace
+
+std::string backend_words() {
+  std::string words;
+  for (const Backend &backend : backends) {
+    if (has(backend)) words += (words.empty() ? "\"" : ", \"") + std::string(backend.name) + "\"";
+  }
+  return words;
+}
 
 Simulator::Simulator(const std::string &backend, py::object log) : log_(std::move(log)) {
   auto desc = sized<mvs_sim_desc>();

@@ -38,6 +38,9 @@ class Simulator {
   // The same for long work, during which the library calls `progress`.
   template <typename Call>
   void call_with(py::object progress, Call &&work);
+  // Runs a short work(mvs_sim *) `count` times in one turn; Ctrl-C stops between two of them.
+  template <typename Call>
+  void repeat(uint64_t count, Call &&work);
   // Runs a work(mvs_sim *) that is allowed in any thread at any time.
   template <typename Look>
   void look(Look &&work);
@@ -92,6 +95,19 @@ void Simulator::call_with(py::object progress, Call &&work) {
   });
 }
 
+template <typename Call>
+void Simulator::repeat(uint64_t count, Call &&work) {
+  call([&](mvs_sim *sim) {
+    SignalWatch watch;
+    mvs_result result = MVS_OK;
+    for (uint64_t k = 0; k < count && result == MVS_OK; ++k) {
+      if (watch.interrupted(raised_)) break;
+      result = work(sim);
+    }
+    return result;
+  });
+}
+
 template <typename Look>
 void Simulator::look(Look &&work) {
   bool closed = false;
@@ -120,6 +136,9 @@ Struct filled(Simulator &self, Get &&get) {
   self.call([&](mvs_sim *sim) { return get(sim, &found); });
   return found;
 }
+
+// The names of the sparse factorisations of this build, quoted, for a sentence.
+std::string backend_words();
 
 void bind_simulator(py::module_ &module);
 void bind_operations(py::module_ &module, py::class_<Simulator> &type);

@@ -27,7 +27,7 @@ std::vector<Vec3> given_curve(const mvs_op_ring &op) {
            "ring: both a curve and a size are given: leave one out");
   MVS_MUST(size || (op.ap_ratio == 0 && op.saddle == 0), MVS_E_ARGUMENT, "ring",
            "ring: ap_ratio and saddle shape a parametric ring: leave them out with a curve");
-  if (curve) return points_of(op.curve);
+  if (curve) return without_repeated_start(points_of(op.curve));
   return parametric_ring(op.size, op.size * (op.ap_ratio != 0 ? op.ap_ratio : ap_over_cc),
                          op.saddle != 0 ? op.saddle : op.size * saddle_over_cc);
 }

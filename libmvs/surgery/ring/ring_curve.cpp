@@ -82,16 +82,16 @@ void must_not_cross_itself(const char *op_name, const std::vector<Vec2> &polygon
   }
 }
 
+// Two points of a curve closer than this, m, are one: below the resolution of scanners and
+// drawings.
+constexpr double same_place = 1e-7;
+
 void must_have_distinct_points(const char *op_name, const std::vector<Vec3> &curve) {
-  constexpr double same = 1e-7;  // m; below the resolution of scanners and drawings
   for (size_t k = 0; k < curve.size(); ++k) {
     const size_t next = (k + 1) % curve.size();
-    const bool last = next == 0;
-    MVS_MUST((curve[next] - curve[k]).norm() > same, MVS_E_ARGUMENT, "curve",
-             last ? "%s: points %zu and %zu of the curve, the last and the first, lie at the same "
-                    "place: leave out the last, the curve is closed implicitly"
-                  : "%s: points %zu and %zu of the curve lie at the same place: leave one out",
-             op_name, k, next);
+    MVS_MUST((curve[next] - curve[k]).norm() > same_place, MVS_E_ARGUMENT, "curve",
+             "%s: points %zu and %zu of the curve lie at the same place: leave one out", op_name, k,
+             next);
   }
 }
 
@@ -128,6 +128,12 @@ Vec3 extent_of(const Loop &curve) {
     high = high.cwiseMax(axes * p);
   }
   return high - low;
+}
+
+std::vector<Vec3> without_repeated_start(std::vector<Vec3> curve) {
+  const bool repeats = curve.size() > 1 && (curve.back() - curve.front()).norm() <= same_place;
+  if (repeats) curve.pop_back();
+  return curve;
 }
 
 void must_be_a_ring(const char *op_name, const std::vector<Vec3> &curve) {

@@ -13,6 +13,9 @@ std::vector<Vec3> parametric_ring(double width, double ap, double saddle);
 // Returns the extent of a closed curve along its principal axes, largest first.
 Vec3 extent_of(const Loop &curve);
 
+// Returns a closed curve without its last point if that repeats the first, as VTK and Slicer write.
+std::vector<Vec3> without_repeated_start(std::vector<Vec3> curve);
+
 // Throws MVS_E_ARGUMENT with the name of the operation for an invalid ring: coincident points,
 // implausible size, a slit, or a curve that crosses itself.
 void must_be_a_ring(const char *op_name, const std::vector<Vec3> &curve);

@@ -1,10 +1,9 @@
-"""Command line of the report: python -m mvs.report --out DIR [FILE ...]"""
+"""Command line of the report: python -m mvs.report [--out DIR] [FILE ...]"""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from itertools import chain
 from pathlib import Path
 
 import mvs
@@ -18,27 +17,30 @@ from .table import as_text
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m mvs.report",
-        description="Closes the shipped valve, a leaking variant of it and the valves of the "
-        "files, and repeats the founding paper's study of repairs; prints tables and writes "
-        "DIR/report.html.",
+        description="Closes the valves of the files, prints tables and writes DIR/report.html. "
+        "Without a FILE: of the shipped valve and a leaking variant of it, with every operation "
+        "and the founding paper's study of repairs.",
     )
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="output folder")
+    parser.add_argument("--out", type=Path, metavar="DIR",
+                        help="output folder [the name of the first FILE, and -report]")
     parser.add_argument("--pressure", type=float, metavar="MMHG",
                         help="pressure [that of the load in a FILE, else 120]")
     parser.add_argument("--members", type=int, default=8, metavar="N",
                         help="closures in the ensemble of each valve; 0: no such chapter [8]")
     parser.add_argument("--no-pictures", action="store_true", help="tables only")
-    parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="more valves (.obj)")
-    return parser.parse_args()
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE",
+                        help="valves (.obj, .h5, .inp); only they are reported")
+    arguments = parser.parse_args()
+    if arguments.out is None:
+        first = arguments.files[0].stem if arguments.files else "mvs"
+        arguments.out = Path(f"{first}-report")
+    return arguments
 
 
 def _close_all(files: list[Path], asked_pa: float | None, pressure_pa: float) -> list[Case]:
     cases: list[Case] = []
-    made = chain(
-        (make(pressure_pa) for make in (shipped, leaking)),
-        (from_file(file, f"file{k}", asked_pa) for k, file in enumerate(files, 1)),
-    )
-    for case in made:
+    of_files = (from_file(file, f"file{k}", asked_pa) for k, file in enumerate(files, 1))
+    for case in of_files if files else (make(pressure_pa) for make in (shipped, leaking)):
         cases.append(case)
         print(f"{case.title}: {case.verdict}", file=sys.stderr)
     return cases
@@ -116,8 +118,10 @@ def main() -> int:
         from .page import build
 
         page = arguments.out / "report.html"
-        chapter = _study(arguments.out, not arguments.no_pictures)
-        chapter += _operations(arguments.out, not arguments.no_pictures, pressure)
+        chapter = ""
+        if not arguments.files:
+            chapter += _study(arguments.out, not arguments.no_pictures)
+            chapter += _operations(arguments.out, not arguments.no_pictures, pressure)
         if arguments.members > 0:
             chapter += _ensembles(
                 cases, arguments.out, not arguments.no_pictures, arguments.members, pressure

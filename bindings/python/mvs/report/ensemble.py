@@ -11,8 +11,8 @@ import numpy as np
 import mvs
 from mvs import Ensemble, EnsembleOrder, Simulator, Snapshot
 
+from mvs.drawing.geometry import Drawing
 from .cases import Case
-from .geometry import Drawing
 from .markup import cells, figure, heads, table
 from .table import ROWS, Row, value
 
@@ -60,7 +60,7 @@ def verdict(each: Run) -> str:
 
 def picture_of(each: Run, width_mm: float) -> bytes:
     """The closed valve of member 0, coloured by the deviation of its nodes, as PNG."""
-    from .maps import deviation_map
+    from mvs.drawing.maps import deviation_map
 
     deviation = each.ensemble.node_deviation * 1e3
     return deviation_map(Drawing(each.ensemble.snapshot(0)), deviation, width_mm)

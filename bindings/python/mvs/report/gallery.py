@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mvs.drawing.geometry import Drawing
+from mvs.drawing.maps import coaptation_map, section_plot, strain_map
+from mvs.drawing.pictures import picture, view_from_atrium, view_from_ventricle, view_oblique
 from .cases import Case
-from .geometry import Drawing
-from .maps import coaptation_map, section_plot, strain_map
-from .pictures import picture, view_from_atrium, view_from_ventricle, view_oblique
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from typing import Any
 import mvs
 from mvs import Simulator, Snapshot
 
+from mvs.drawing.geometry import Drawing
 from .cases import strut_chord, verdict
-from .geometry import Drawing
 from .markup import figure
 from .table import rows_of, valves_html
 
@@ -65,7 +65,7 @@ def run(pressure_pa: float = mvs.SYSTOLE_PA) -> Iterator[Shown]:
 
 def picture_of(shown: Shown) -> bytes:
     """The closed valve with its implants, as PNG."""
-    from .pictures import picture, view_from_atrium, view_from_ventricle
+    from mvs.drawing.pictures import picture, view_from_atrium, view_from_ventricle
 
     drawing = Drawing(shown.closed)
     if shown.kind in _CHORDAE:

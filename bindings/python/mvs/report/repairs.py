@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mvs import Snapshot
 from mvs.study import Stage
-from .geometry import Drawing
+from mvs.drawing.geometry import Drawing
 from .markup import cells, figure, heads, table
 from .table import aligned, rows_of, value, valves_html
 
@@ -122,13 +122,11 @@ def _sentence(found: Distances) -> str:
 
 def sections(stages: Sequence[Stage]) -> bytes:
     """Central cross-sections, the three states of each valve superposed, as PNG."""
-    import matplotlib.pyplot as plt
-
-    from .pictures import to_png
+    from mvs.drawing.pictures import new_figure, to_png
 
     rows = triples(stages)
-    figure, axes = plt.subplots(1, len(rows), figsize=(5 * len(rows), 3.9), sharey=True,
-                                squeeze=False)
+    figure = new_figure(5 * len(rows), 3.9)
+    axes = figure.subplots(1, len(rows), sharey=True, squeeze=False)
     figure.subplots_adjust(left=0.055, right=0.99, top=0.93, bottom=0.13, wspace=0.05)
     for ax, valve in zip(axes[0], rows):
         _draw_sections(ax, valve)

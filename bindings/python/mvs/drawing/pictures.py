@@ -6,36 +6,42 @@ import io
 from typing import Any, Optional
 
 import matplotlib
+import matplotlib.image
+import matplotlib.patheffects as effects
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
-matplotlib.use("Agg")
-
-import matplotlib.patheffects as effects  # noqa: E402
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from numpy.typing import NDArray  # noqa: E402
-
-from mvs import PartKind  # noqa: E402
-from .geometry import Drawing  # noqa: E402
-from .scene import ORIFICE, Colours, Scene, View  # noqa: E402
+from mvs import PartKind
+from .geometry import Drawing
+from .scene import ORIFICE, Colours, Scene, View
 
 INK = "#222222"
 DPI = 110
-plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 11, "text.color": INK})
+STYLE = {"font.family": "DejaVu Sans", "font.size": 11, "text.color": INK}
+"""Settings of matplotlib within a drawing function; those of the user stay as they are."""
+
+
+def new_figure(width: float, height: float) -> Any:
+    """An empty figure of a size in inches, outside of pyplot: needs no display or backend."""
+    figure = Figure(figsize=(width, height))
+    FigureCanvasAgg(figure)
+    return figure
 
 
 def to_png(figure: Any) -> bytes:
-    """The bytes of a figure as a PNG file; closes the figure."""
+    """The bytes of a figure as a PNG file."""
     memory = io.BytesIO()
     figure.savefig(memory, format="png", dpi=DPI, facecolor="white")
-    plt.close(figure)
     return memory.getvalue()
 
 
 def side_by_side(pictures: list[bytes]) -> bytes:
     """Pictures of equal height, joined side by side."""
-    images = [plt.imread(io.BytesIO(png)) for png in pictures]
+    images = [matplotlib.image.imread(io.BytesIO(png)) for png in pictures]
     memory = io.BytesIO()
-    plt.imsave(memory, np.ascontiguousarray(np.hstack(images)), format="png")
+    matplotlib.image.imsave(memory, np.ascontiguousarray(np.hstack(images)), format="png")
     return memory.getvalue()
 
 
@@ -109,6 +115,7 @@ def colour_bar(figure: Any, ax: Any, colours: Colours, text: str, extend: str = 
     bar.outline.set_visible(False)
 
 
+@matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
 def picture(
     drawing: Drawing,
     view: View,
@@ -132,7 +139,7 @@ def picture(
         scene.add_orifice()
     image = scene.render(view)
 
-    figure = plt.figure(figsize=(8, 7.0 if tension else 6.4))
+    figure = new_figure(8, 7.0 if tension else 6.4)
     ax = figure.add_axes((0, 0.1 if tension else 0, 1, 0.9 if tension else 1))
     place_image(ax, image, view)
     if from_atrium:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import matplotlib
-import matplotlib.pyplot as plt
+import matplotlib.tri
 import numpy as np
 from matplotlib.collections import LineCollection
 from numpy.typing import NDArray
@@ -14,9 +14,11 @@ from mvs import PartKind
 from .geometry import Drawing, Points, Unrolled, unroll
 from .pictures import (
     INK,
+    STYLE,
     colour_bar,
     label_scallops,
     label_sides,
+    new_figure,
     place_image,
     scale_bar,
     to_png,
@@ -59,6 +61,7 @@ def deviation_map(drawing: Drawing, deviation: NDArray[np.float64], width: float
     return _map(drawing, colours, text, width, extend="max")
 
 
+@matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
 def _map(
     drawing: Drawing,
     colours: Colours,
@@ -77,7 +80,7 @@ def _map(
     view = view_from_atrium(width)
     image = scene.render(view)
 
-    figure = plt.figure(figsize=(8, 9.7))
+    figure = new_figure(8, 9.7)
     top = figure.add_axes((0, 0.34, 1, 0.66))
     place_image(top, image, view)
     label_sides(top, drawing, view)
@@ -133,10 +136,12 @@ def _draw_borders(ax: Any, drawing: Drawing, flat: Unrolled) -> None:
                     fontsize=12, fontweight="bold")
 
 
+@matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
 def section_plot(other: Drawing, closed: Drawing, name: str = "open") -> bytes:
     """The central anteroposterior cross-section of a closed valve, its sheets as thick as the
     contact thickness, and that of another shape of the valve as a line."""
-    figure, ax = plt.subplots(figsize=(8, 6.4))
+    figure = new_figure(8, 6.4)
+    ax = figure.subplots()
     figure.subplots_adjust(left=0.09, right=0.98, top=0.97, bottom=0.1)
     _draw_chords(ax, closed)
     other_cut, _ = _cut(other, closed)

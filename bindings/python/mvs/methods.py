@@ -1,0 +1,85 @@
+"""Methods of Simulator and Snapshot that are written in Python: texts, copies, tables, pictures."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from . import _core
+from .arguments import wrap_methods
+from .drawing import snapshots
+from .errors import Error
+from .kinds import MMHG
+from .tables import chords, to_dataframe
+
+Form = Literal["obj", "h5"]
+
+MOST_VERTICES = 20000
+"""Leaflet vertices up to which a text measures the leak: it takes less than a second."""
+
+
+def attach() -> None:
+    """Adds the methods to the classes of the binding, and sentences to their TypeErrors."""
+    for kind in (_core.Simulator, _core.Snapshot, _core.Ensemble, _core.Device):
+        wrap_methods(kind)
+    for name, method in (
+        ("__repr__", snapshot_text),
+        ("__reduce__", reduced),
+        ("__copy__", copied),
+        ("__deepcopy__", deeply_copied),
+        ("_repr_html_", snapshots.repr_html),
+        ("chords", chords),
+        ("plot", snapshots.plot),
+        ("to_dataframe", to_dataframe),
+        ("to_pyvista", snapshots.to_pyvista),
+    ):
+        setattr(_core.Snapshot, name, method)
+    setattr(_core.Simulator, "__repr__", simulator_text)
+
+
+def words_of(snapshot: _core.Snapshot) -> str:
+    """Size, load and leak of a valve in a few words."""
+    kinds = snapshot.node_kind
+    vertices = int((kinds <= 1).sum())
+    words = f"{vertices} vertices, {len(snapshot.chord_kind)} chordae"
+    pressure = snapshot.load_case.pressure
+    if pressure == 0:
+        return f"{words}, no load"
+    words += f", {pressure / MMHG:.4g} mmHg"
+    if vertices > MOST_VERTICES:
+        return words
+    area = snapshot.measures.regurgitant_orifice_area
+    return f"{words}, leaks {area * 1e6:.1f} mm2" if area > 0 else f"{words}, no leak"
+
+
+def snapshot_text(self: _core.Snapshot) -> str:
+    return f'<mvs.Snapshot "{self.name}": {words_of(self)}>'
+
+
+def simulator_text(self: _core.Simulator) -> str:
+    try:
+        snapshot = self.snapshot()
+    except Error as error:
+        return f"<mvs.Simulator: {error}>"
+    return f'<mvs.Simulator "{snapshot.name}": {words_of(snapshot)}>'
+
+
+def reduced(self: _core.Snapshot) -> tuple[Any, ...]:
+    form: Form = "h5" if "hdf5" in _core.features().split() else "obj"
+    return snapshot_of_bytes, (self.to_bytes(format=form), form)
+
+
+def snapshot_of_bytes(data: bytes, form: Form) -> _core.Snapshot:
+    """The snapshot that ``Snapshot.to_bytes(format=form)`` wrote, bit for bit."""
+    with _core.Simulator(log=lambda level, text: None) as sim:
+        sim.load_bytes(data, format=form)
+        return sim.snapshot()
+
+
+def copied(self: _core.Snapshot) -> _core.Snapshot:
+    """A snapshot is immutable: its copy is itself."""
+    return self
+
+
+def deeply_copied(self: _core.Snapshot, memo: object) -> _core.Snapshot:
+    """As copied()."""
+    return self

@@ -1,0 +1,172 @@
+"""Sweeps: operations with all combinations of their parameters, each settled and measured."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Executor
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import ops as operations
+from ._core import Simulator, Snapshot
+from .arrays import Valve
+from .errors import ArgumentError, Error
+from .kinds import SYSTOLE_PA
+from .ops import FieldType, Operation
+from .tables import Row, Table
+from .values import Measures, unit_of
+from .words import shown
+
+Step = Union[Operation, tuple[str, Mapping[str, Any]]]
+"""An operation, or its name with its fields, where a field may hold a list of values."""
+
+_PLAIN = (FieldType.NUMBER, FieldType.COUNT)
+
+
+@dataclasses.dataclass(frozen=True)
+class _Task:
+    """One combination: everything that a worker needs."""
+
+    start: Snapshot
+    operations: tuple[Operation, ...]
+    pressure: float
+    settle: Mapping[str, Any]
+
+
+def sweep(
+    valve: Union[Valve, Snapshot],
+    ops: Iterable[Step],
+    executor: Optional[Executor] = None,
+    *,
+    pressure_pa: Optional[float] = None,
+    settle: Optional[Mapping[str, Any]] = None,
+) -> Table:
+    """Applies operations with all combinations of their parameters: a mvs.Table, a row for each.
+
+        mvs.sweep(valve, [("ring", {"size": [28e-3, 30e-3, 32e-3]}),
+                          ("chord_length", {"chord": "A2/7", "factor": [0.7, 0.8, 0.9]})],
+                  ProcessPoolExecutor())
+
+    Each combination starts from the same valve or snapshot, is settled under the pressure and
+    measured. Columns: the parameters with several values ("ring.size"), "converged", the fields of
+    mvs.Measures in SI units, and "error", the sentence of an impossible combination, whose measures
+    are NaN. The rows are in the order of the combinations, the last parameter fastest, and do not
+    depend on the executor.
+
+    ops: pairs of a name and its fields, or mvs.Operation. A list holds the values of a parameter;
+        numbers may also be a range or an array. Points of a curve are an array, a site a tuple
+    executor: any of concurrent.futures; None: one after another in this thread
+    pressure_pa: Pa; None: that of the snapshot, else 120 mmHg
+    settle: arguments of Simulator.settle
+    """
+    start = valve if isinstance(valve, Snapshot) else _snapshot_of(valve)
+    pressure = start.load_case.pressure or SYSTOLE_PA if pressure_pa is None else pressure_pa
+    choices = _all_choices(ops)
+    varied = [c.label for c in choices if c.field and len(c.values) > 1]
+    tasks, parameters = [], []
+    for values in itertools.product(*(c.values for c in choices)):
+        parameters.append({c.label: v for c, v in zip(choices, values) if c.label in varied})
+        tasks.append(_Task(start, _operations(choices, values), pressure, dict(settle or {})))
+    if executor is None:
+        results: Iterable[Row] = map(_run, tasks)
+    else:
+        results = [each.result() for each in [executor.submit(_run, task) for task in tasks]]
+    units = _units(choices, varied)
+    return Table(({**p, **row} for p, row in zip(parameters, results)), units)
+
+
+@dataclasses.dataclass(frozen=True)
+class _Choice:
+    """The values of one field; without a field the operation itself, which then has none."""
+
+    number: int
+    kind: str
+    field: str
+    values: Sequence[Any]
+    label: str = ""
+
+
+def _all_choices(ops: Iterable[Step]) -> list[_Choice]:
+    choices: list[_Choice] = []
+    for number, step in enumerate(ops):
+        for each in _choices(number, step):
+            # a second operation of a kind has its number in the names of its columns
+            again = any(c.kind == each.kind and c.number != number for c in choices)
+            label = f"{each.kind}{f' {number + 1}' if again else ''}.{each.field}"
+            choices.append(dataclasses.replace(each, label=label))
+    return choices
+
+
+def _choices(number: int, step: Step) -> list[_Choice]:
+    if isinstance(step, Operation):
+        return [_Choice(number, step.kind.name, "", [step])]
+    try:
+        name, fields = step
+        given = dict(fields)
+    except (TypeError, ValueError):
+        raise ArgumentError(
+            f"ops: a mvs.Operation or a pair (name, fields) is needed, not {shown(step)}", "ops"
+        ) from None
+    if name not in operations.KINDS:
+        Operation(name)
+    kind = operations.KINDS[name]
+    return [_Choice(number, name, "", [None])] + [
+        _Choice(number, name, key, _values(kind.field(key), value)) for key, value in given.items()
+    ]
+
+
+def _values(field: operations.OpField, given: Any) -> Sequence[Any]:
+    if isinstance(given, list):
+        values = given
+    elif field.type in _PLAIN and isinstance(given, (tuple, range, np.ndarray)):
+        values = [each.item() if hasattr(each, "item") else each for each in given]
+    else:
+        values = [given]
+    if not values:
+        raise ArgumentError(f"ops: {field.kind}.{field.name} has no values", "ops")
+    return values
+
+
+def _operations(choices: Sequence[_Choice], values: Sequence[Any]) -> tuple[Operation, ...]:
+    made = []
+    for _, group in itertools.groupby(zip(choices, values), key=lambda pair: pair[0].number):
+        (first, given), *fields = group
+        made.append(given or Operation(first.kind, **{c.field: v for c, v in fields}))
+    return tuple(made)
+
+
+def _units(choices: Sequence[_Choice], varied: Sequence[str]) -> dict[str, str]:
+    units = {
+        c.label: operations.KINDS[c.kind].field(c.field).unit for c in choices if c.label in varied
+    }
+    units["converged"] = ""
+    for field in dataclasses.fields(Measures):
+        unit = unit_of(Measures, field.name)
+        units[field.name] = "" if unit == "1" else unit
+    units["error"] = ""
+    return units
+
+
+def _snapshot_of(valve: Valve) -> Snapshot:
+    with Simulator() as sim:
+        sim.set_valve(valve)
+        return sim.snapshot()
+
+
+def _run(task: _Task) -> Row:
+    """One row; an impossible combination is a row with its sentence. Runs in a worker."""
+    names = [field.name for field in dataclasses.fields(Measures)]
+    try:
+        with Simulator(log=lambda level, text: None) as sim:
+            sim.restore(task.start)
+            for operation in task.operations:
+                sim.apply(operation)
+            sim.set_load(task.pressure, 1.0)
+            converged = sim.settle(**task.settle).converged
+            measures = sim.snapshot().measures
+    except Error as error:
+        return {"converged": False, **dict.fromkeys(names, float("nan")), "error": str(error)}
+    return {"converged": converged, **{n: getattr(measures, n) for n in names}, "error": ""}

@@ -1,0 +1,218 @@
+"""Tables of results: rows in order, units of the columns, and a data frame on request."""
+
+from __future__ import annotations
+
+import dataclasses
+import html
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, Union, overload
+
+import numpy as np
+
+from ._core import Snapshot
+from .errors import ArgumentError
+from .kinds import ChordKind, NodeKind, PartKind
+from .values import Measures, definition_of, unit_of
+from .words import listed
+
+Row = Mapping[str, Any]
+
+
+class Table(Sequence[Row]):
+    """Rows as dictionaries, in order: ``table[0]["tension"]``, ``table["tension"]``, iteration.
+
+    columns: their names
+    units: the unit of each column, "" without one
+    """
+
+    def __init__(self, rows: Iterable[Row], units: Mapping[str, str]) -> None:
+        self._rows = tuple(rows)
+        self.units = dict(units)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns, in order."""
+        return tuple(self.units)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, which: int) -> Row: ...
+    @overload
+    def __getitem__(self, which: slice) -> Table: ...
+    @overload
+    def __getitem__(self, which: str) -> list[Any]: ...
+    def __getitem__(self, which: Union[int, slice, str]) -> Union[Row, Table, list[Any]]:
+        if isinstance(which, str):
+            if which not in self.units:
+                raise KeyError(f'no column "{which}"; there are {", ".join(self.units)}')
+            return [row[which] for row in self._rows]
+        if isinstance(which, slice):
+            return Table(self._rows[which], self.units)
+        return self._rows[which]
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self._rows)
+
+    def sorted(self, column: str, reverse: bool = False) -> Table:
+        """The rows sorted by a column; rows with equal values keep their order."""
+        self[column]
+        return Table(
+            sorted(self._rows, key=lambda row: row[column], reverse=reverse), self.units
+        )
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame; ``attrs["units"]`` has the units (extra ``tables``)."""
+        frame = _pandas().DataFrame(list(self._rows), columns=list(self.units))
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def __repr__(self) -> str:
+        lines = [self._heads(), *(self._cells(row) for row in self._rows[:60])]
+        widths = [max(len(line[k]) for line in lines) for k in range(len(self.units))]
+        text = "\n".join(
+            "  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip()
+            for line in lines
+        )
+        more = len(self) - 60
+        return f"{text}\n... and {more} more rows" if more > 0 else text
+
+    def _repr_html_(self) -> str:
+        def row_of(cells: Sequence[str], tag: str) -> str:
+            inside = "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells)
+            return f"<tr>{inside}</tr>"
+
+        rows = "\n".join(row_of(self._cells(row), "td") for row in self._rows)
+        return f"<table>{row_of(self._heads(), 'th')}\n{rows}</table>"
+
+    def _heads(self) -> list[str]:
+        return [f"{name}, {unit}" if unit else name for name, unit in self.units.items()]
+
+    def _cells(self, row: Row) -> list[str]:
+        values = (row[name] for name in self.units)
+        return [f"{v:.4g}" if isinstance(v, float) else str(v) for v in values]
+
+
+def _pandas() -> Any:
+    try:
+        import pandas  # type: ignore[import-untyped,unused-ignore]
+    except ImportError as error:
+        raise ImportError("to_dataframe needs pandas: pip install 'libmvs[tables]'") from error
+    return pandas
+
+
+CHORD_UNITS = {
+    "name": "", "kind": "", "head": "", "site": "", "length": "m", "rest_length": "m",
+    "strain": "", "tension": "N", "flag": "",
+}
+FLAGS = {0: "", 1: "strained", 2: "loaded", 3: "strained, loaded"}
+"""Words of Snapshot.chord_flags: beyond the limit of strain, of tension."""
+
+
+def chords(self: Snapshot) -> Table:
+    """The chordae as a table (mvs.Table), a row per segment in the order of the arrays.
+
+    name, kind ("strut"), head (name of its papillary head; "" behind a branch point without one),
+    site (scallop of its leaflet end; "" at a branch point), length and rest_length in m, strain,
+    tension in N, flag ("strained", "loaded": beyond the limits of mvs.chord_limits).
+    """
+    points = self.node_position[self.chord_nodes]
+    lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
+    heads, sites = _heads_of_chords(self), _sites_of_nodes(self)
+    names = [part.name for part in self.parts if part.kind == PartKind.CHORD]
+    return Table(
+        (
+            {
+                "name": names[c],
+                "kind": ChordKind(int(self.chord_kind[c])).name.lower(),
+                "head": heads[c],
+                "site": sites.get(int(node), ""),
+                "length": float(lengths[c]),
+                "rest_length": float(self.chord_rest_length[c]),
+                "strain": float(self.chord_strain[c]),
+                "tension": float(self.chord_tension[c]),
+                "flag": FLAGS[int(self.chord_flags[c])],
+            }
+            for c, node in enumerate(self.chord_nodes[:, 1])
+        ),
+        CHORD_UNITS,
+    )
+
+
+def _heads_of_chords(snapshot: Snapshot) -> list[str]:
+    """The head that each chord hangs from, through branch points."""
+    names = [part.name for part in snapshot.parts if part.kind == PartKind.HEAD]
+    known = {int(node): name for node, name in zip(snapshot.head_nodes, names)}
+    segments = snapshot.chord_nodes.tolist()
+    # branch points are few levels deep; each pass passes the heads on by one level
+    before = -1
+    while len(known) != before:
+        before = len(known)
+        for a, b in segments:
+            if a in known and snapshot.node_kind[b] == NodeKind.BRANCH:
+                known.setdefault(b, known[a])
+    return [known.get(a, "") for a, _ in segments]
+
+
+def _sites_of_nodes(snapshot: Snapshot) -> dict[int, str]:
+    """The scallop of each leaflet vertex; of the first triangle, where two scallops meet."""
+    names = [part.name for part in snapshot.parts if part.kind == PartKind.SCALLOP]
+    sites: dict[int, str] = {}
+    for corners, scallop in zip(snapshot.triangle_nodes.tolist(), snapshot.triangle_scallop):
+        for node in corners:
+            sites.setdefault(node, names[scallop])
+    return sites
+
+
+NODE_UNITS = {
+    "x": "m", "y": "m", "z": "m", "kind": "", "fx": "N", "fy": "N", "fz": "N", "coaptation": "m",
+}
+TRIANGLE_UNITS = {
+    "leaflet": "", "scallop": "", "thickness": "m", "stretch_1": "", "stretch_2": "",
+    "stress_1": "Pa", "stress_2": "Pa", "coapted": "",
+}
+
+
+def _nodes(snapshot: Snapshot) -> Table:
+    columns = [*snapshot.node_position.T.tolist(),
+               [NodeKind(int(k)).name.lower() for k in snapshot.node_kind],
+               *snapshot.node_force.T.tolist(), snapshot.node_coaptation.tolist()]
+    return Table((dict(zip(NODE_UNITS, row)) for row in zip(*columns)), NODE_UNITS)
+
+
+def _triangles(snapshot: Snapshot) -> Table:
+    leaflets = [part.name for part in snapshot.parts if part.kind == PartKind.LEAFLET]
+    scallops = [part.name for part in snapshot.parts if part.kind == PartKind.SCALLOP]
+    columns = [[leaflets[k] for k in snapshot.triangle_leaflet],
+               [scallops[k] for k in snapshot.triangle_scallop],
+               snapshot.triangle_thickness.tolist(), *snapshot.triangle_stretch.T.tolist(),
+               *snapshot.triangle_stress.T.tolist(), snapshot.triangle_coapted.tolist()]
+    return Table((dict(zip(TRIANGLE_UNITS, row)) for row in zip(*columns)), TRIANGLE_UNITS)
+
+
+def _measures(snapshot: Snapshot) -> Table:
+    measures = snapshot.measures
+    return Table(
+        (
+            {"measure": field.name, "value": getattr(measures, field.name),
+             "unit": unit_of(Measures, field.name),
+             "definition": definition_of(Measures, field.name)}
+            for field in dataclasses.fields(Measures)
+        ),
+        {"measure": "", "value": "", "unit": "", "definition": ""},
+    )
+
+
+_TABLES = {"measures": _measures, "chords": chords, "nodes": _nodes, "triangles": _triangles}
+
+
+def to_dataframe(self: Snapshot, what: str = "measures") -> Any:
+    """A pandas.DataFrame of this snapshot in SI units (extra ``tables``).
+
+    what: "measures" (value, unit and definition of each), "chords" (as chords()), "nodes" or
+        "triangles" (the arrays); ``attrs["units"]`` of the frame has the units of the columns
+    """
+    if what not in _TABLES:
+        raise ArgumentError(f'what: one of {listed(_TABLES)} is needed, not "{what}"', "what")
+    return _TABLES[what](self).to_dataframe()

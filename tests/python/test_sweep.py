@@ -1,0 +1,68 @@
+"""Sweeps: rows in the order of the combinations, the same with every executor."""
+
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+
+import mvs
+import numpy as np
+import pytest
+
+OPS = [
+    ("ring", {"size": [30e-3, 34e-3]}),
+    ("chord_length", {"chord": "P2/3", "factor": np.array([0.8, 0.9])}),
+]
+QUICK = {"max_iterations": 3}
+
+
+@pytest.fixture(scope="module")
+def serial(opened):
+    return mvs.sweep(opened, OPS, pressure_pa=mvs.SYSTOLE_PA, settle=QUICK)
+
+
+def test_rows_are_in_the_order_of_the_combinations(opened, serial):
+    assert list(zip(serial["ring.size"], serial["chord_length.factor"])) == [
+        (30e-3, 0.8), (30e-3, 0.9), (34e-3, 0.8), (34e-3, 0.9)
+    ]
+    assert serial.units["ring.size"] == "m" and set(serial["error"]) == {""}
+    with mvs.Simulator() as sim:
+        sim.restore(opened)
+        sim.apply("ring", size=30e-3)
+        sim.apply("chord_length", chord="P2/3", factor=0.9)
+        sim.set_load(mvs.SYSTOLE_PA)
+        sim.settle(**QUICK)
+        alone = sim.snapshot().measures
+    assert serial[1]["tenting_height"] == alone.tenting_height
+    assert serial[1]["max_chord_tension"] == alone.max_chord_tension
+
+
+@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_rows_do_not_depend_on_the_executor(opened, serial, pool):
+    with pool(2) as executor:
+        rows = mvs.sweep(opened, OPS, executor, pressure_pa=mvs.SYSTOLE_PA, settle=QUICK)
+    assert list(rows) == list(serial)
+
+
+def test_an_impossible_combination_is_a_row_with_its_sentence(opened):
+    rows = mvs.sweep(mvs.valve_of(opened), [("ring", {"size": [8e-3, 34e-3]})], settle=QUICK)
+    assert "take a larger ring" in rows[0]["error"] and np.isnan(rows[0]["annulus_ap"])
+    assert rows[1]["error"] == "" and rows[1]["annulus_ap"] > 0
+
+
+def test_operations_of_one_kind_have_columns_of_their_own(opened):
+    ops = [("chord_length", {"chord": ["P2/3", "P2/4"], "factor": 0.9}),
+           mvs.ops.annulus_scale(factor=0.95),
+           ("chord_length", {"chord": "A2/1", "factor": (0.8, 0.9)})]
+    rows = mvs.sweep(opened, ops, settle=QUICK)
+    assert rows.columns[:2] == ("chord_length.chord", "chord_length 3.factor")
+    assert len(rows) == 4
+
+
+def test_wrong_operations_are_refused_before_any_work(opened):
+    for ops, words in (
+        ([("rign", {"size": 1})], 'no operation "rign"'),
+        ([("ring", {"szie": 1})], 'no field "szie"'),
+        ([("ring", {"size": ["a"]})], "a number in m"),
+        ([("ring", {"size": []})], "has no values"),
+        ([3], "a pair"),
+    ):
+        with pytest.raises(mvs.ArgumentError, match=words):
+            mvs.sweep(opened, ops)
