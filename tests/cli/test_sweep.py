@@ -1,6 +1,7 @@
 """`mvs sweep`: combinations of operations as a table."""
 import csv
 import itertools
+import json
 import math
 
 from test_cli import Shell, mvs
@@ -46,7 +47,7 @@ class Sweep(Shell):
         row = self.rows("all.csv")[2]
         self.assertEqual(float(row["residual_N"]), closed["residual_N"])
         for key, value in closed["measures"].items():
-            self.assertEqual(float(row[key]) if row[key] else None, value, key)
+            self.assertEqual(json.loads(row[key]) if row[key] else None, value, key)
 
     def test_the_table_is_the_same_for_any_number_of_processes(self):
         self.ok("sweep", "v.obj", *GRID, "--csv", "three.csv", "--jobs", 3)

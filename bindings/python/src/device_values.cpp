@@ -75,13 +75,12 @@ py::object device_report_value(const mvs_device_report &s) {
 }
 
 py::object device_state_value(const mvs_device_state &s) {
-  return make_haptic("State", "phase"_a = number("Phase", s.phase),
-                     "cause"_a = number("Cause", s.cause), FIELD(flags),
-                     "limited"_a = number("Limited", s.limited), FIELD(buttons), FIELD(time),
-                     VECTOR(position), VECTOR(orientation), VECTOR(velocity), VECTOR(hand),
-                     VECTOR(force), FIELD(rate), FIELD(worst_period), FIELD(model_age),
-                     FIELD(energy), FIELD(heat), FIELD(ticks), FIELD(late),
-                     FIELD(bad_samples), "sample_faults"_a = number("SampleFault", s.sample_faults));
+  return make_haptic(
+      "State", "phase"_a = number("Phase", s.phase), "cause"_a = number("Cause", s.cause),
+      FIELD(flags), "limited"_a = number("Limited", s.limited), FIELD(buttons), FIELD(time),
+      VECTOR(position), VECTOR(orientation), VECTOR(velocity), VECTOR(hand), VECTOR(force),
+      FIELD(rate), FIELD(worst_period), FIELD(model_age), FIELD(energy), FIELD(heat), FIELD(ticks),
+      FIELD(late), FIELD(bad_samples), "sample_faults"_a = number("SampleFault", s.sample_faults));
 }
 
 }  // namespace mvs_python
