@@ -98,6 +98,12 @@ class Sweep(Shell):
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, f"all.csv: .*{words}")
             self.assertEqual(self.bytes("all.csv"), before)
+        (self.dir / "notes").write_text("no table, and no line")
+        for name in ("notes", "v.obj", "."):
+            done = mvs("sweep", "v.obj", *GRID, "--csv", name, cwd=self.dir)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("the name of", done.stderr)
+        self.assertEqual(self.bytes("notes"), b"no table, and no line")
 
     def test_wrong_grids_are_usage_errors(self):
         for words, op in (("choose from: chord_length", "fly"),

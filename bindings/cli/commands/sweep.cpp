@@ -2,15 +2,13 @@
 // measures it, in several processes, and writes a table with one row for each combination.
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <optional>
 #include <stdexcept>
 
 #include "commands/commands.h"
-#include "text/csv.h"
 #include "text/op_forms.h"
 #include "text/readouts.h"
-#include "text/sweep_grid.h"
+#include "text/sweep_table.h"
 #include "valve/at_rest.h"
 #include "valve/pressure.h"
 #include "valve/processes.h"
@@ -35,26 +33,6 @@ struct Sweep {
   std::string valve;  // the hash of the valve in the file
   double pressure_mmhg;
 };
-
-std::vector<std::string> measure_keys() {
-  std::vector<std::string> keys = {"residual_N", "intersections"};
-  const Json measures = measures_json({});
-  for (const auto &[key, value] : measures.items()) keys.push_back(key);
-  return keys;
-}
-
-// Parameters, "converged", the measures, and what the rows of one file have in common.
-CsvRow columns_of(const SweepGrid &grid) {
-  CsvRow columns = grid.columns();
-  columns.emplace_back("converged");
-  for (const std::string &key : measure_keys()) columns.push_back(key);
-  for (const char *last : {"pressure_mmHg", "valve", "error"}) columns.emplace_back(last);
-  return columns;
-}
-
-std::string cell_of(const Json &value) {
-  return value.is_null() ? "" : value.dump();
-}
 
 SweepGrid grid_of(const SweepOptions &options) {
   std::vector<SweepOp> ops;
@@ -94,87 +72,6 @@ CsvRow row_of(const Sweep &sweep, size_t combination) {
   return row;
 }
 
-// The rows of a file by their combination, and the file that they are added to.
-class SweepTable {
- public:
-  SweepTable(const Sweep &sweep, const std::string &path)
-      : columns_(columns_of(sweep.grid)),
-        parameters_(sweep.grid.columns().size()),
-        file_(path, columns_) {
-    for (size_t k = 0; k < sweep.grid.combinations(); ++k) order_[sweep.grid.values(k)] = k;
-    for (const CsvRow &row : file_.rows()) {
-      if (cell(row, "valve") != sweep.valve ||
-          cell(row, "pressure_mmHg") != cell_of(sweep.pressure_mmhg)) {
-        fail(MVS_E_FORMAT, "csv",
-             path + ": holds rows of another valve or pressure: give the name of another file");
-      }
-    }
-  }
-
-  const std::string &cell(const CsvRow &row, const std::string &column) const {
-    return row[std::find(columns_.begin(), columns_.end(), column) - columns_.begin()];
-  }
-  const CsvRow &columns() const { return columns_; }
-
-  std::vector<size_t> missing() const {
-    std::map<CsvRow, size_t> left = order_;
-    for (const CsvRow &row : file_.rows()) left.erase(key(row));
-    std::vector<size_t> all;
-    for (const auto &[values, combination] : left) all.push_back(combination);
-    std::sort(all.begin(), all.end());
-    return all;
-  }
-
-  void append(const std::string &line) { file_.append(read_csv_line(line)); }
-
-  // Rows of this sweep in the order of the combinations, then rows of former sweeps.
-  void sort() {
-    std::vector<CsvRow> rows = file_.rows();
-    std::stable_sort(rows.begin(), rows.end(),
-                     [&](const CsvRow &a, const CsvRow &b) { return place(a) < place(b); });
-    file_.rewrite(std::move(rows));
-  }
-
-  // The rows of this sweep.
-  std::vector<CsvRow> rows() const {
-    std::vector<CsvRow> rows;
-    for (const CsvRow &row : file_.rows()) {
-      if (order_.count(key(row))) rows.push_back(row);
-    }
-    return rows;
-  }
-
- private:
-  CsvRow key(const CsvRow &row) const {
-    return {row.begin(), row.begin() + static_cast<ptrdiff_t>(parameters_)};
-  }
-  size_t place(const CsvRow &row) const {
-    const auto found = order_.find(key(row));
-    return found == order_.end() ? order_.size() : found->second;
-  }
-
-  CsvRow columns_;
-  size_t parameters_;
-  CsvFile file_;
-  std::map<CsvRow, size_t> order_;  // of the combinations, by their values
-};
-
-// The first rows by a measure; rows that are not at rest, or lack it, are left out.
-std::vector<CsvRow> best_rows(const SweepTable &table, const SweepOptions &options) {
-  std::vector<std::pair<double, CsvRow>> found;
-  for (const CsvRow &row : table.rows()) {
-    double value = 0;
-    if (table.cell(row, "converged") != "1" || !read_number(table.cell(row, options.sort), value))
-      continue;
-    found.emplace_back(options.largest ? -value : value, row);
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto &a, const auto &b) { return a.first < b.first; });
-  std::vector<CsvRow> best;
-  for (size_t k = 0; k < found.size() && k < most_shown; ++k) best.push_back(found[k].second);
-  return best;
-}
-
 Json best_json(const SweepTable &table, const CsvRow &row) {
   Json object = Json::object();
   for (size_t k = 0; k < row.size(); ++k) {
@@ -187,7 +84,7 @@ Json best_json(const SweepTable &table, const CsvRow &row) {
 }
 
 std::string best_text(const SweepTable &table, const SweepOptions &options, size_t parameters) {
-  const std::vector<CsvRow> best = best_rows(table, options);
+  const std::vector<CsvRow> best = table.best(options.sort, options.largest, most_shown);
   std::string lines =
       text("\n%s, %s first", options.sort.c_str(), options.largest ? "largest" : "smallest");
   if (best.empty()) lines += ": no combination is at rest and has it";
@@ -225,7 +122,8 @@ void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &opt
            options.file.c_str(), rows.size(), sweep.pressure_mmhg, closed_now, options.csv.c_str());
   if (failed > 0) lines += text("\n%td cannot be applied: see the column error", failed);
   if (!options.sort.empty()) {
-    for (const CsvRow &row : best_rows(table, options)) best.push_back(best_json(table, row));
+    for (const CsvRow &row : table.best(options.sort, options.largest, most_shown))
+      best.push_back(best_json(table, row));
     lines += best_text(table, options, sweep.grid.columns().size());
   }
   print(console,
@@ -246,7 +144,7 @@ void run_sweep(const SweepOptions &options, Console &console) {
   mvs::Sim sim = load_sim(options.file, progress);
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
   Sweep sweep = {std::move(grid), sim.snapshot(), hash_of(sim.snapshot()), pressure_mmhg};
-  SweepTable table(sweep, options.csv);
+  SweepTable table(sweep.grid, options.csv, sweep.valve, pressure_mmhg);
   const std::vector<size_t> missing = table.missing();
   if (!missing.empty()) {
     sweep.closed = settle(sim, pressure_mmhg, options.file).valve;
@@ -266,7 +164,7 @@ void run_sweep(const SweepOptions &options, Console &console) {
   console.exit_code = 1;
 }
 
-// An error sentence for all --op together, else "".
+// An error sentence for one --op, else "".
 std::string wrong_op(const std::string &given) {
   try {
     read_sweep_op(given);

@@ -21,21 +21,24 @@ std::string csv_cell(std::string cell) {
   return quoted + "\"";
 }
 
-// All complete lines of a file; none if it does not exist.
-std::vector<std::string> complete_lines(const std::string &path) {
+// The bytes of a file; none if it does not exist.
+std::string bytes_of(const std::string &path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return {};
+  if (!std::filesystem::exists(path, error)) return "";
   std::ifstream file(path, std::ios::binary);
-  std::stringstream content;
   if (!file || !std::filesystem::is_regular_file(path, error)) {
     fail(MVS_E_IO, "csv", path + ": cannot be read: give the name of a file");
   }
+  std::stringstream content;
   content << file.rdbuf();
-  const std::string all = content.str();
+  return content.str();
+}
+
+std::vector<std::string> complete_lines(const std::string &bytes) {
   std::vector<std::string> lines;
   size_t from = 0, to = 0;
-  while ((to = all.find('\n', from)) != std::string::npos) {
-    lines.push_back(all.substr(from, to - from));
+  while ((to = bytes.find('\n', from)) != std::string::npos) {
+    lines.push_back(bytes.substr(from, to - from));
     if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
     from = to + 1;
   }
@@ -68,8 +71,12 @@ CsvRow read_csv_line(const std::string &line) {
 }
 
 CsvFile::CsvFile(const std::string &path, const CsvRow &columns) : path_(path), columns_(columns) {
-  const std::vector<std::string> lines = complete_lines(path);
-  if (!lines.empty() && read_csv_line(lines[0]) != columns) {
+  const std::string bytes = bytes_of(path);
+  const std::vector<std::string> lines = complete_lines(bytes);
+  // a program that was stopped while it wrote the first line leaves the beginning of it
+  const bool is_ours =
+      lines.empty() ? csv_line(columns).rfind(bytes, 0) == 0 : read_csv_line(lines[0]) == columns;
+  if (!is_ours) {
     fail(MVS_E_FORMAT, "csv",
          path + ": has other columns than this sweep: give the name of another file", 1);
   }

@@ -1,0 +1,96 @@
+#include "text/sweep_table.h"
+
+#include <algorithm>
+
+#include "text/op_forms.h"
+#include "text/readouts.h"
+
+namespace cli {
+namespace {
+
+CsvRow sweep_columns(const SweepGrid &grid) {
+  CsvRow columns = grid.columns();
+  columns.emplace_back("converged");
+  for (const std::string &key : measure_keys()) columns.push_back(key);
+  for (const char *last : {"pressure_mmHg", "valve", "error"}) columns.emplace_back(last);
+  return columns;
+}
+
+}  // namespace
+
+std::vector<std::string> measure_keys() {
+  std::vector<std::string> keys = {"residual_N", "intersections"};
+  const Json measures = measures_json({});
+  for (const auto &[key, value] : measures.items()) keys.push_back(key);
+  return keys;
+}
+
+std::string cell_of(const Json &value) {
+  return value.is_null() ? "" : value.dump();
+}
+
+SweepTable::SweepTable(const SweepGrid &grid, const std::string &path, const std::string &valve,
+                       double pressure_mmhg)
+    : columns_(sweep_columns(grid)), parameters_(grid.columns().size()), file_(path, columns_) {
+  for (size_t k = 0; k < grid.combinations(); ++k) order_[grid.values(k)] = k;
+  for (const CsvRow &row : file_.rows()) {
+    if (cell(row, "valve") == valve && cell(row, "pressure_mmHg") == cell_of(pressure_mmhg))
+      continue;
+    fail(MVS_E_FORMAT, "csv",
+         path + ": holds rows of another valve or pressure: give the name of another file");
+  }
+}
+
+const std::string &SweepTable::cell(const CsvRow &row, const std::string &column) const {
+  return row[std::find(columns_.begin(), columns_.end(), column) - columns_.begin()];
+}
+
+std::vector<size_t> SweepTable::missing() const {
+  std::map<CsvRow, size_t> left = order_;
+  for (const CsvRow &row : file_.rows()) left.erase(key(row));
+  std::vector<size_t> all;
+  for (const auto &[values, combination] : left) all.push_back(combination);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<CsvRow> SweepTable::rows() const {
+  std::vector<CsvRow> rows;
+  for (const CsvRow &row : file_.rows()) {
+    if (order_.count(key(row))) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<CsvRow> SweepTable::best(const std::string &measure, bool largest_first,
+                                     size_t most) const {
+  std::vector<std::pair<double, CsvRow>> found;
+  for (const CsvRow &row : rows()) {
+    double value = 0;
+    if (cell(row, "converged") != "1" || !read_number(cell(row, measure), value)) continue;
+    found.emplace_back(largest_first ? -value : value, row);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto &a, const auto &b) { return a.first < b.first; });
+  std::vector<CsvRow> best;
+  for (size_t k = 0; k < found.size() && k < most; ++k) best.push_back(found[k].second);
+  return best;
+}
+
+void SweepTable::sort() {
+  std::vector<CsvRow> rows = file_.rows();
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const CsvRow &a, const CsvRow &b) { return place(a) < place(b); });
+  file_.rewrite(std::move(rows));
+}
+
+CsvRow SweepTable::key(const CsvRow &row) const {
+  return {row.begin(), row.begin() + static_cast<ptrdiff_t>(parameters_)};
+}
+
+size_t SweepTable::place(const CsvRow &row) const {
+  const auto found = order_.find(key(row));
+  return found == order_.end() ? order_.size() : found->second;
+}
+
+}  // namespace cli

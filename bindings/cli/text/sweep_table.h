@@ -1,0 +1,52 @@
+// The table of a sweep: one row for each combination, in a CSV file that a later run continues.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "text/console.h"
+#include "text/csv.h"
+#include "text/sweep_grid.h"
+
+namespace cli {
+
+// The columns between "converged" and "pressure_mmHg": all measures with their units.
+std::vector<std::string> measure_keys();
+
+// A number as in JSON; "" for null.
+std::string cell_of(const Json &value);
+
+// Columns: the parameters, "converged", the measures, "pressure_mmHg", "valve" (its hash), "error".
+class SweepTable {
+ public:
+  // Reads the rows of an existing file. Throws mvs::Error if it has other columns, or rows of
+  // another valve or pressure.
+  SweepTable(const SweepGrid &grid, const std::string &path, const std::string &valve,
+             double pressure_mmhg);
+
+  const CsvRow &columns() const { return columns_; }
+  const std::string &cell(const CsvRow &row, const std::string &column) const;
+  // The combinations of the grid without a row.
+  std::vector<size_t> missing() const;
+  // The rows of the grid.
+  std::vector<CsvRow> rows() const;
+  // At most `most` rows at rest, sorted by a measure.
+  std::vector<CsvRow> best(const std::string &measure, bool largest_first, size_t most) const;
+
+  // Adds a row to the file.
+  void append(const std::string &line) { file_.append(read_csv_line(line)); }
+  // Sorts the file: rows of the grid in the order of the combinations, then those of other grids.
+  void sort();
+
+ private:
+  CsvRow key(const CsvRow &row) const;
+  size_t place(const CsvRow &row) const;
+
+  CsvRow columns_;
+  size_t parameters_;  // the first columns
+  CsvFile file_;
+  std::map<CsvRow, size_t> order_;  // of the combinations, by their values
+};
+
+}  // namespace cli
