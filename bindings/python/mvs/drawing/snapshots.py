@@ -46,7 +46,7 @@ def _need(call: str) -> None:
 
 
 def plot(self: Snapshot, view: str = "atrium") -> Picture:
-    """A picture of the valve, shown in a notebook (mvs.drawing.snapshots.Picture, extra ``report``).
+    """A picture (mvs.drawing.snapshots.Picture), shown in a notebook; extra ``report``.
 
     view: "atrium" (the surgeon's view, an orifice in red), "oblique", "chords" (from the ventricle,
         coloured by tension), "coaptation" (gap to the facing leaflet) or "strain"
