@@ -37,7 +37,7 @@ def attach() -> None:
 
 
 def words_of(snapshot: _core.Snapshot) -> str:
-    """Size, load and leak of a valve in a few words."""
+    """Size, load, rest and leak of a valve in a few words."""
     kinds = snapshot.node_kind
     vertices = int((kinds <= 1).sum())
     words = f"{vertices} vertices, {len(snapshot.chord_kind)} chordae"
@@ -45,6 +45,9 @@ def words_of(snapshot: _core.Snapshot) -> str:
     if pressure == 0:
         return f"{words}, no load"
     words += f", {pressure / MMHG:.4g} mmHg"
+    if not snapshot.at_rest:
+        return f"{words}, not at rest"
+    words += ", at rest"
     if vertices > MOST_VERTICES:
         return words
     area = snapshot.measures.regurgitant_orifice_area
