@@ -1,5 +1,6 @@
 """Habits of Python users: texts that tell, help with units, copies, tables, pictures."""
 
+import base64
 import copy
 import os
 import pickle
@@ -147,7 +148,7 @@ def test_a_missing_package_is_named_with_its_extra(closed, monkeypatch):
         closed.plot("below")
 
 
-def test_pictures_leave_the_settings_of_matplotlib_alone(closed, tmp_path):
+def test_pictures_leave_the_settings_of_matplotlib_alone(closed, tmp_path, monkeypatch):
     pytest.importorskip("pyvista")
     matplotlib = pytest.importorskip("matplotlib")
     before = dict(matplotlib.rcParams)
@@ -156,7 +157,10 @@ def test_pictures_leave_the_settings_of_matplotlib_alone(closed, tmp_path):
     assert (tmp_path / "valve.png").read_bytes() == picture._repr_png_()
     assert picture.png.startswith(b"\x89PNG")
     assert dict(matplotlib.rcParams) == before
-    assert 'src="data:image/png;base64,' in closed._repr_html_()
+    # a notebook shows that picture
+    monkeypatch.setattr("mvs.drawing.snapshots.plot", lambda snapshot: picture)
+    data = base64.b64encode(picture.png).decode("ascii")
+    assert f'src="data:image/png;base64,{data}"' in closed._repr_html_()
 
 
 def test_pyvista_blocks_hold_the_arrays(closed):
