@@ -12,6 +12,15 @@ install(FILES ${PROJECT_SOURCE_DIR}/include/mvs-api.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/mvs COMPONENT mvs_development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT mvs_runtime)
+# what a C programmer or the author of a driver reads and copies
+install(FILES README.md CHANGELOG.md formats/FORMAT.md libmvs/surgery/OPERATIONS.md
+  libmvs/measure/DEFINITIONS.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT mvs_development)
+install(FILES examples/hello.c examples/close.c examples/repair.c
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT mvs_development)
+install(DIRECTORY examples/plans DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
+  COMPONENT mvs_development)
+install(FILES haptic_drivers/README.md haptic_drivers/template/template.c
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/haptic_drivers COMPONENT mvs_development)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mvs)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/mvsConfig.cmake.in

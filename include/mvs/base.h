@@ -152,6 +152,10 @@ typedef struct mvs_field_info {
   const char *unit;  /* "m", "Pa", "m2", or "" */
   const char *help;
   const char *choices; /* "none=0 leaflet=1 head=2", or "" */
+  /* The meaning of a zero or empty field of an operation: "40e6", "as taut as its neighbours"; ""
+   * if it has none. The same as a number in SI units, or of a choice; NaN if it is not fixed. */
+  const char *default_text;
+  double default_value;
 } mvs_field_info;
 
 /* Structs of results whose fields the library describes. */

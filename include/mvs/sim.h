@@ -115,8 +115,9 @@ typedef struct mvs_settle_options {
   uint32_t max_iterations; /* [1000 for newton, 20000 implicit, 2000000 explicit] */
   uint32_t reserved;
   double residual; /* N, largest out-of-balance force on a node at rest [1e-5] */
-  double dt;       /* s, time step of the dynamic solvers [explicit 8e-6, implicit 1e-3] */
-  double damping;  /* 1/s, mass-proportional, of the dynamic solvers [explicit 500] */
+  double dt; /* s, time step of the dynamic solvers [implicit 1e-3; explicit: stable on this valve,
+                at most 8e-6] */
+  double damping; /* 1/s, mass-proportional, of the dynamic solvers [explicit 500] */
 } mvs_settle_options;
 
 /* Accuracy that a step gave up to stay within its budget, in this order: bits of mvs_stats.lowered.
@@ -152,7 +153,7 @@ MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, m
 typedef struct mvs_step_options {
   uint32_t struct_size;
   mvs_solver solver; /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
-  double dt;         /* s [implicit 1e-3, explicit 8e-6]; 1e-9 to 1 */
+  double dt;         /* s [as for mvs_settle]; 1e-9 to 1 */
   double damping;    /* 1/s, mass-proportional [0 implicit, 500 explicit] */
   /* Largest number of energy passes and solutions with the factor in an implicit step, 4 to 10000
    * [64]. A count, not a time, so that the same calls give the same bits on any machine;

@@ -110,6 +110,8 @@ mvs_result mvs_get_op_field(uint32_t index, uint32_t field, mvs_field_info *info
     out.unit = f.unit;
     out.help = f.help;
     out.choices = f.choices;
+    out.default_text = default_of(f).text.c_str();
+    out.default_value = default_of(f).value;
     write_struct(info, out, "info");
   });
 }

@@ -5,6 +5,7 @@
 #include <mvs/snapshot.h>
 
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 namespace mvs::core {
@@ -25,6 +26,8 @@ constexpr mvs_field_info row(uint32_t type, size_t offset, const char *name, con
   field.unit = unit;
   field.help = help;
   field.choices = "";
+  field.default_text = "";
+  field.default_value = std::numeric_limits<double>::quiet_NaN();
   return field;
 }
 

@@ -136,6 +136,13 @@ Constants membrane_like(const Bilinear &springs) {
   return {18.49e-2 * springs.low, 3146e-3 / 6 * springs.high, l * l + 2 / l - 0.0014, 0.006};
 }
 
+double equibiaxial_stress(const LeafletLaw &law, const Constants &constants, double stretch) {
+  if (!law.response) return Bilinear(constants).stress(stretch - 1);
+  const double l2 = stretch * stretch, l4 = l2 * l2;
+  const Response r = law.response(constants, 2 * l2 + 1 / l4, l2);
+  return r.w1 * (2 * stretch - 2 / (l4 * stretch)) + r.w4 * stretch;
+}
+
 double bending_modulus(const LeafletLaw &law, const Constants &constants) {
   if (!law.response) return Bilinear(constants).low;
   // plane stress, incompressible: E = 6 dW/dI1 at rest

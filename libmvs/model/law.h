@@ -44,6 +44,9 @@ Constants default_constants(std::span<const Constant> constants);
 // stiffness, the secant of its uniaxial curve along the fibre at a strain of 0.1.
 double bending_modulus(const LeafletLaw &law, const Constants &constants);
 
+// Nominal stress of a sheet under equibiaxial stretch, Pa.
+double equibiaxial_stress(const LeafletLaw &law, const Constants &constants, double stretch);
+
 // Bilinear spring law: sigma(e) = low e below the kink, slope high above it (Tenenholtz et al.
 // 2011). Compression follows the first branch. Pa over engineering strain.
 struct Bilinear {

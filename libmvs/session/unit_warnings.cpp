@@ -17,8 +17,8 @@ namespace {
 // hundredth of its published value is reported. Published values of one law lie within a factor of
 // 10.
 constexpr double little = 0.01;
-// Leaflet strains are 0.1 to 0.4 (tests/validation). The default of the softest law, neo-Hookean on
-// 0.4 mm, would stretch to 7 times its length; fixed pericardium (50 MPa) has a strain of 0.002.
+// Leaflet strains are 0.1 to 0.4 (tests/validation). A neo-Hookean sheet of 0.4 mm with a shear
+// modulus of 33 kPa would stretch to 7 times its length; fixed pericardium (50 MPa) has a strain of 0.002.
 constexpr double longest_stretch = 10, least_strain = 1e-3;
 // Pa, a hundredth of the default. A softer contact carries systolic pressure only at gaps below a
 // hundredth of its thickness (libmvs/energy/README.md).
@@ -34,14 +34,6 @@ struct Scale {
   // Laplace's law of a sphere, N/m
   double membrane_tension() const { return 0.5 * MVS_SYSTOLE_PA * curvature; }
 };
-
-// Nominal stress of a sheet under equibiaxial stretch, Pa.
-double equibiaxial_stress(const LeafletLaw &law, const Constants &constants, double stretch) {
-  if (!law.response) return Bilinear(constants).stress(stretch - 1);
-  const double l2 = stretch * stretch, l4 = l2 * l2;
-  const Response r = law.response(constants, 2 * l2 + 1 / l4, l2);
-  return r.w1 * (2 * stretch - 2 / (l4 * stretch)) + r.w4 * stretch;
-}
 
 // Returns the first constant in Pa below its lower bound, or null.
 const Constant *too_small(const LeafletLaw &law, const Constants &constants, double &value) {

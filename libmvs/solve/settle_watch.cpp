@@ -11,8 +11,6 @@
 namespace mvs::core {
 namespace {
 
-namespace set = settings::settle;
-
 // m, the longest way of a prescribed node to its target.
 double boundary_way(const Model &model, const std::vector<Vec3> &x, double fraction) {
   double square = 0;
@@ -35,7 +33,7 @@ SettleWatch::SettleWatch(const Model &model, const std::vector<Vec3> &x, const L
       way_(boundary_way(model, x, load.boundary_fraction)) {}
 
 void SettleWatch::look(const std::vector<Vec3> &x, double residual) {
-  if (++looks_ % set::looks_per_area == 0) must_hold(x);
+  if (++looks_ % settings::settle::looks_per_area == 0) must_hold(x);
   if (!*report_) return;
   share_ = std::max(share_, share_of(x, residual));
   MVS_MUST((*report_)(share_, residual), MVS_E_CANCELLED, "settle",
@@ -50,11 +48,11 @@ double SettleWatch::share_of(const std::vector<Vec3> &x, double residual) {
   highest_ = std::max(highest_, residual);
   const double travelled =
       way_ > 0 ? 1 - boundary_way(*model_, x, load_.boundary_fraction) / way_ : 1;
-  const double before_rest = way_ > 0 ? set::boundary_progress : 0;
+  const double before_rest = way_ > 0 ? settings::settle::boundary_progress : 0;
   if (travelled < 1) return before_rest * travelled;
   const double orders = math::log(highest_ / tolerance_), gone = math::log(highest_ / residual);
   const double calmed = orders > 0 ? std::clamp(gone / orders, 0.0, 1.0) : 1;
-  return before_rest + (set::settled_progress - before_rest) * calmed;
+  return before_rest + (settings::settle::settled_progress - before_rest) * calmed;
 }
 
 // A sheet under a follower pressure whose law does not stiffen has a limit load (a balloon): above
@@ -69,7 +67,7 @@ void SettleWatch::must_hold(const std::vector<Vec3> &x) const {
   }
   for (size_t l = 0; l < area.size(); ++l) {
     const Leaflet &leaflet = valve.leaflets[l];
-    MVS_MUST(area[l] <= set::max_area_ratio * rest_area[l], MVS_E_DIVERGED,
+    MVS_MUST(area[l] <= settings::settle::max_area_ratio * rest_area[l], MVS_E_DIVERGED,
              "leaflet " + leaflet.name,
              "leaflet %s yields without end: its area is %.0f times its rest area, under %g Pa; "
              "its law is too soft to bear this pressure: give it stiffer constants or a greater "

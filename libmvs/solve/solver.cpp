@@ -25,10 +25,16 @@ StepOptions step_options(const SolveOptions &options) {
   namespace set = settings::defaults;
   const bool is_explicit = options.solver == SolverKind::explicit_euler;
   StepOptions how{options.dt, options.damping, options.budget, true};
-  if (how.dt == 0) how.dt = is_explicit ? set::explicit_dt : set::implicit_dt;
+  if (how.dt == 0) how.dt = set::implicit_dt;  // explicit: with_stable_dt
   if (how.damping == 0 && is_explicit) how.damping = set::explicit_damping;
   if (how.budget == 0) how.budget = set::budget;
   return how;
+}
+
+// The default time step of the explicit solver depends on the valve.
+SolveOptions with_stable_dt(SolveOptions options, const ExplicitEuler &stepper) {
+  if (options.dt == 0) options.dt = stepper.stable_dt();
+  return options;
 }
 
 // Steps that settle continue until the residual, with all the work that a step may need.
@@ -178,7 +184,7 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
   } else if (options.solver == SolverKind::explicit_euler) {
     ExplicitEuler stepper(model);
     const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
-    stats = settle_in_time(model, state, options, progress, step);
+    stats = settle_in_time(model, state, with_stable_dt(options, stepper), progress, step);
     stats.skipped = stepper.skipped();
   } else {
     stats = Newton(model, *work_->factor).settle(state, options, progress);
@@ -191,11 +197,13 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
 
 SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptions &options) {
   const double start = seconds_now();
-  const StepOptions how = step_options(options);
+  StepOptions how = step_options(options);
   SolveStats stats;
   if (options.solver == SolverKind::explicit_euler) {
+    ExplicitEuler &stepper = work_->explicit_for(model);
+    how = step_options(with_stable_dt(options, stepper));
     state.drop_cache();
-    step_alone(work_->explicit_for(model), state, how, stats);
+    step_alone(stepper, state, how, stats);
   } else {
     work_->how = how;
     try {

@@ -2,7 +2,10 @@
 #include "surgery/kinds.h"
 
 #include <array>
+#include <charconv>
+#include <limits>
 #include <type_traits>
+#include <vector>
 
 namespace mvs::core {
 namespace {
@@ -77,7 +80,34 @@ std::span<const OpField> fields_of(uint32_t op) {
   return {fields.data() + first, last - first};
 }
 
+// The number of "text" in "none=0 text=1"; NaN if it is not there.
+double choice_of(std::string_view choices, std::string_view text) {
+  const size_t at = (" " + std::string(choices)).find(" " + std::string(text) + "=");
+  if (text.empty() || at == std::string::npos) return std::numeric_limits<double>::quiet_NaN();
+  return choices[at + text.size() + 1] - '0';
+}
+
+OpDefault read_default(const OpField &field) {
+  const std::string_view help = field.help;
+  const size_t open = help.rfind('[');
+  if (open == std::string_view::npos || help.back() != ']') return {"", choice_of("", "")};
+  OpDefault found{std::string(help.substr(open + 1, help.size() - open - 2)), 0};
+  const char *end = found.text.data() + found.text.size();
+  const auto [last, error] = std::from_chars(found.text.data(), end, found.value);
+  if (error != std::errc() || last != end) found.value = choice_of(field.choices, found.text);
+  return found;
+}
+
 }  // namespace
+
+const OpDefault &default_of(const OpField &field) {
+  static const std::vector<OpDefault> defaults = [] {
+    std::vector<OpDefault> made;
+    for (const OpField &each : fields) made.push_back(read_default(each));
+    return made;
+  }();
+  return defaults[static_cast<size_t>(&field - fields.data())];
+}
 
 std::span<const OpKind> op_kinds() {
   static const OpKind kinds[] = {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace mvs::core {
@@ -17,6 +18,14 @@ struct OpField {
   double low, high;  // range of a given number, number of points, or bytes of a text
   const char *unit, *choices, *help;
 };
+
+// The meaning of a zero or empty field, which stands in [brackets] at the end of its help.
+struct OpDefault {
+  std::string text;  // empty if there is none
+  double value;      // of a fixed number, or of a choice; otherwise NaN
+};
+// Valid as long as the library is loaded.
+const OpDefault &default_of(const OpField &field);
 
 struct OpKind {
   uint32_t number;  // MVS_OP_*

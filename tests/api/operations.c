@@ -394,6 +394,14 @@ static void operations_describe_themselves(void) {
       MUST(mvs_get_op_field(k, f, &field));
       CHECK(field.offset >= end && field.offset < info.size && *field.help);
       end = field.offset + 4;
+      /* a default that is a number or a choice may be given */
+      const double fallback = field.default_value;
+      CHECK((field.default_text[0] != 0) == (strchr(field.help, '[') != NULL));
+      CHECK(isnan(fallback) || (fallback >= field.low && fallback <= field.high));
+      if (strcmp(field.name, "young") == 0 && strcmp(info.name, "chord_add") == 0) {
+        CHECK(fallback == 40e6 && strcmp(field.default_text, "40e6") == 0);
+      }
+      if (strcmp(field.name, "end") == 0) CHECK(fallback == 1);
     }
     mvs_field_info none = {.struct_size = sizeof none};
     MUST_FAIL(mvs_get_op_field(k, info.fields, &none), MVS_E_ARGUMENT, "fields");

@@ -14,7 +14,10 @@ if(NOT "${shipped}" STREQUAL "${installed}")
 endif()
 # the library under its SONAME, which carries major.minor
 foreach(pattern bin/mvs lib*/libmvs.so.${SOVERSION} lib*/cmake/mvs/mvsConfig.cmake
-        lib*/pkgconfig/mvs.pc share/doc/libmvs/LICENSE)
+        lib*/pkgconfig/mvs.pc share/doc/libmvs/LICENSE share/doc/libmvs/README.md share/doc/libmvs/FORMAT.md
+        share/doc/libmvs/OPERATIONS.md share/doc/libmvs/DEFINITIONS.md
+        share/doc/libmvs/examples/hello.c share/doc/libmvs/examples/plans/valve1.json
+        share/doc/libmvs/haptic_drivers/template.c)
   file(GLOB found ${PREFIX}/${pattern})
   if(NOT found)
     message(FATAL_ERROR "not installed: ${pattern}")

@@ -175,7 +175,8 @@ void add_close(CLI::App &app, Console &console) {
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--dt", options->settle.dt,
-                   "time step of the dynamic solvers, s [implicit 1e-3, explicit 8e-6]")
+                   "time step of the dynamic solvers, s [implicit 1e-3; explicit: stable on this "
+                   "valve, at most 8e-6]")
       ->check(CLI::PositiveNumber);
   command->add_option("--reference", options->reference,
                       "report the distances of the closed valve from the shape in this file");

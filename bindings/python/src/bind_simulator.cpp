@@ -155,7 +155,8 @@ void bind_work(py::class_<Simulator> &type) {
            "dt"_a = py::none(), "damping"_a = py::none(), "budget"_a = py::none(),
            "Advances by `count` time steps and returns mvs.Stats of the last. Ctrl-C stops between "
            "two steps.\n\nsolver: "
-           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3, explicit 8e-6]\ndamping: "
+           "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3; explicit: stable on this valve, at "
+           "most 8e-6]\ndamping: "
            "1/s\nbudget: passes over the terms in an implicit step, 4 to 10000 [64]");
   type.def_property_readonly(
       "stats", [](Simulator &self) { return stats_of(self); },

@@ -4,12 +4,15 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "solve/dynamic/stable_step.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
 
 namespace mvs::core {
 ExplicitEuler::ExplicitEuler(const Model &model)
-    : model_(&model), total_energy_(model, ContactLaw::penalty) {}
+    : model_(&model),
+      total_energy_(model, ContactLaw::penalty),
+      stable_dt_(stable_explicit_step(model)) {}
 
 void ExplicitEuler::step(State &state, const StepOptions &how, SolveStats &stats) {
   std::vector<Vec3> &x = state.x.edit(), &v = state.v.edit();

@@ -13,6 +13,8 @@ namespace mvs::core {
 class ExplicitEuler {
  public:
   explicit ExplicitEuler(const Model &model);
+  // s, the default of the time step (stable_step.h).
+  double stable_dt() const { return stable_dt_; }
   void step(State &state, const StepOptions &how, SolveStats &stats);
   // See TotalEnergy.
   void begin_call() { total_energy_.begin_call(); }
@@ -23,6 +25,7 @@ class ExplicitEuler {
   TotalEnergy total_energy_;
   std::vector<Vec3> g_;
   BoundaryStep boundary_;
+  double stable_dt_;
 };
 
 }  // namespace mvs::core
