@@ -18,7 +18,8 @@ namespace {
 // 10.
 constexpr double little = 0.01;
 // Leaflet strains are 0.1 to 0.4 (tests/validation). A neo-Hookean sheet of 0.4 mm with a shear
-// modulus of 33 kPa would stretch to 7 times its length; fixed pericardium (50 MPa) has a strain of 0.002.
+// modulus of 33 kPa would stretch to 7 times its length; fixed pericardium (50 MPa) has a strain of
+// 0.002.
 constexpr double longest_stretch = 10, least_strain = 1e-3;
 // Pa, a hundredth of the default. A softer contact carries systolic pressure only at gaps below a
 // hundredth of its thickness (libmvs/energy/README.md).
