@@ -21,7 +21,7 @@ struct OpField {
 
 // The meaning of a zero or empty field, which stands in [brackets] at the end of its help.
 struct OpDefault {
-  std::string text;  // empty if there is none
+  std::string text;  // empty: no default
   double value;      // of a fixed number, or of a choice; otherwise NaN
 };
 // Valid as long as the library is loaded.

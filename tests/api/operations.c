@@ -135,8 +135,7 @@ static int is_at_rest(void) {
   return rest.at_rest == 1;
 }
 
-/* What was measured before an operation is not so after it: its figures wait for the next settle.
- */
+/* Measures from before an operation do not hold after it; new ones need a settle. */
 static void every_operation_ends_rest(void) {
   example list[most_examples];
   mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};

@@ -37,7 +37,7 @@ std::string fault_of(const Json &plan) {
   }
   if (!plan.contains("steps") || !plan["steps"].is_array()) return "\"steps\" must be a list";
   for (const Json &step : plan["steps"]) {
-    const std::string fault = fault_of_step(step);
+    std::string fault = fault_of_step(step);
     if (!fault.empty()) return fault;
   }
   if (plan.contains("valve") && !plan["valve"].is_object()) return "\"valve\" must be an object";
@@ -74,7 +74,7 @@ std::string read_file(const std::string &path) {
 }  // namespace
 
 std::string plan_text(const std::string &path) {
-  const std::string content = read_file(path);
+  std::string content = read_file(path);
   const std::string fault = fault_of_text(content);
   if (!fault.empty()) fail(MVS_E_FORMAT, "plan", path + ": " + fault);
   return content;

@@ -29,8 +29,8 @@ Json statistics_json(const Statistics &statistics);
 // The read-outs of one closure with their range and deviation beside them.
 std::string measures_text(const mvs_measures &plain, const Statistics &statistics);
 
-// The grade of the leak: "sealed", "mild", ...; why there is none if the valve is not at rest or
-// bears no pressure.
+// The grade of the leak: "sealed", "mild", ...; the reason for no grade if the valve is not at rest
+// or bears no pressure.
 const char *leak_grade(const mvs_measures &measures);
 
 }  // namespace cli

@@ -39,7 +39,9 @@ std::vector<std::string> read_range(const std::string &given) {
              given.c_str(), most_values));
   }
   std::vector<std::string> values;
-  for (double k = 0; k <= steps; ++k) values.push_back(plain_number(first + k * step));
+  for (uint32_t k = 0; k <= static_cast<uint32_t>(steps); ++k) {
+    values.push_back(plain_number(first + k * step));
+  }
   return values;
 }
 

@@ -49,6 +49,7 @@ std::vector<size_t> SweepTable::missing() const {
   std::map<CsvRow, size_t> left = order_;
   for (const CsvRow &row : file_.rows()) left.erase(key(row));
   std::vector<size_t> all;
+  all.reserve(left.size());
   for (const auto &[values, combination] : left) all.push_back(combination);
   std::sort(all.begin(), all.end());
   return all;

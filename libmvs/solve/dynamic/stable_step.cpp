@@ -19,8 +19,10 @@ double working_tangent(const Leaflet &leaflet) {
     return equibiaxial_stress(law, leaflet.constants, stretch);
   };
   constexpr double d = 1e-3;
+  constexpr auto count = static_cast<uint32_t>((set::largest_stretch - 1) / d);
   double stiffest = 0;
-  for (double stretch = 1; stretch < set::largest_stretch; stretch += d) {
+  for (uint32_t k = 0; k < count; ++k) {
+    const double stretch = 1 + k * d;
     stiffest = std::max(stiffest, (stress(stretch + d) - stress(stretch)) / d);
     if (stress(stretch) > set::largest_stress) break;
   }
