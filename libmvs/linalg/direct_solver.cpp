@@ -34,7 +34,7 @@ class EigenFactor final : public DirectSolver {
 
  private:
   static void expand(const BlockMatrix &matrix, Sparse &lower) {
-    const auto n = static_cast<Eigen::Index>(3 * matrix.size());
+    const auto n = 3 * static_cast<Eigen::Index>(matrix.size());
     lower.resize(n, n);
     lower.resizeNonZeros(static_cast<Eigen::Index>(9 * matrix.row.size() - 3 * matrix.size()));
     expand_lower(matrix, lower.outerIndexPtr(), lower.innerIndexPtr(), lower.valuePtr());
