@@ -103,6 +103,7 @@ OpDefault read_default(const OpField &field) {
 const OpDefault &default_of(const OpField &field) {
   static const std::vector<OpDefault> defaults = [] {
     std::vector<OpDefault> made;
+    made.reserve(fields.size());
     for (const OpField &each : fields) made.push_back(read_default(each));
     return made;
   }();
