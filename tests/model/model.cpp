@@ -214,7 +214,7 @@ TEST_CASE("the_hash_depends_on_every_input") {
 
 TEST_CASE("the_hash_is_the_same_for_a_copy") {
   const ModelPtr model = make_model(small_valve());
-  const Model copy =
-      *model;  // NOLINT(performance-unnecessary-copy-initialization): its hash is tested
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the copy's hash is tested
+  const Model copy = *model;
   CHECK(hash_of(copy, initial_state(copy)) == fresh_hash(model));
 }
