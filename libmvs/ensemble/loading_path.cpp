@@ -128,6 +128,7 @@ Closing close_along(Solver &solver, const Model &model, const State &start, cons
                     const SolveOptions &options, const Path &path, const Progress &progress) {
   Closing closing;
   State begun = start;
+  begun.rest_tolerance = 0;  // of another load or shape; the last stage finds it again
   if (path.disturbance.longest > 0) {
     closing.moved = disturb(model, begun.x.edit(), path.disturbance, path.random);
   }

@@ -68,6 +68,27 @@ TEST_CASE("the first fifteen loading paths differ") {
   }
 }
 
+// A balloon: neo-Hookean leaflets of 5 kPa bear no systolic pressure.
+TEST_CASE("a member that diverged is not at rest though its start was") {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = 200;
+  Valve valve = make_parametric_valve(desc);
+  for (Leaflet &leaflet : valve.leaflets.edit()) {
+    leaflet.law = LeafletLawId::neo_hookean;
+    leaflet.constants = {5e3};
+  }
+  const ModelPtr model = make_model(std::move(valve));
+  State start = initial_state(*model);
+  Solver solver(Backend::fastest);
+  REQUIRE(solver.settle(*model, start, {}, {}).converged);
+  REQUIRE(start.is_at_rest());
+  const Path path = make_path(1, {0.5e-3, 5e-3}, 0);
+  const Closing closing = close_along(solver, *model, start, {MVS_SYSTOLE_PA, 1}, {}, path, {});
+  CHECK(closing.diverged);
+  CHECK(!closing.state.is_at_rest());
+}
+
 TEST_CASE("every loading path ends under the requested load") {
   mvs_parametric_desc desc = {};
   desc.struct_size = sizeof desc;
