@@ -13,22 +13,23 @@ namespace mvs::core {
 // tolerance on a logarithmic scale. It never falls, and is 1 at the end.
 class SettleWatch {
  public:
-  // `tolerance`: N, the residual at rest; `report` may be empty.
+  // `tolerance`: N, the residual at rest; `progress` may be empty.
   SettleWatch(const Model &model, const std::vector<Vec3> &x, const Load &load, double tolerance,
-              const Progress &report);
+              const Progress &progress);
 
   // To be called before each iteration, with the nodes and the residual there. Throws
   // MVS_E_CANCELLED, and MVS_E_DIVERGED with the leaflet that yields.
   void look(const std::vector<Vec3> &x, double residual);
-  // To be called once at the end.
+  // To be called once at the end: the host may cancel there as well, and then no result is kept.
   void finish(double residual) const;
 
  private:
   double share_of(const std::vector<Vec3> &x, double residual);
+  void report(double share, double residual) const;
   void must_hold(const std::vector<Vec3> &x) const;
 
   const Model *model_;
-  const Progress *report_;
+  const Progress *progress_;
   Load load_;
   double tolerance_;
   double way_;          // m, of the boundary from the start to its target

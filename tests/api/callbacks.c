@@ -69,6 +69,41 @@ static void a_cancelled_settle_changes_nothing(void) {
   mvs_destroy(h.sim);
 }
 
+/* A host that asks to cancel once, at any call, the last included: an ensemble went on with its
+ * next member if the request came at the end of one. */
+static int32_t cancel_once(void *user, double share, double residual) {
+  host *h = user;
+  (void)residual;
+  ++h->calls;
+  if (share <= 0.5) h->seen = h->calls; /* the last call of the first of two members */
+  return h->calls == h->stop_at;
+}
+
+static void a_single_request_cancels_an_ensemble(void) {
+  static funnel f;
+  const mvs_snapshot *start;
+  mvs_ensemble *made = NULL;
+  mvs_sim *sim;
+  host h = {0};
+  mvs_load_case load = funnel_load();
+  mvs_ensemble_options options = {
+      .struct_size = sizeof options, .members = 2, .progress = cancel_once, .user = &h};
+  make_funnel(&f);
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_set_valve(sim, &f.desc));
+  MUST(mvs_get_snapshot(sim, &start));
+  MUST(mvs_ensemble_run(start, &load, NULL, &options, &made));
+  mvs_ensemble_release(made);
+  const int requests[] = {1, h.seen, h.seen + 1, h.calls};
+  for (int k = 0; k < 4; ++k) {
+    h = (host){.stop_at = requests[k]};
+    MUST_FAIL(mvs_ensemble_run(start, &load, NULL, &options, &made), MVS_E_CANCELLED, "cancelled");
+    CHECK(h.calls == requests[k]);
+  }
+  mvs_snapshot_release(start);
+  mvs_destroy(sim);
+}
+
 static void not_converged_is_a_warning_and_no_error(void) {
   host h = {0};
   settle_with(&h, MVS_OK);
@@ -146,6 +181,7 @@ int main(void) {
   small_edges_and_needles_are_warned_of();
   progress_is_told_rises_and_ends_at_1();
   a_cancelled_settle_changes_nothing();
+  a_single_request_cancels_an_ensemble();
   not_converged_is_a_warning_and_no_error();
   return finish("callbacks");
 }
