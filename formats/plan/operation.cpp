@@ -26,20 +26,6 @@ std::string word_of(const OpField &f, uint32_t value) {
   return std::to_string(value);
 }
 
-bool value_of(const OpField &f, std::string_view word, uint32_t &value) {
-  std::string_view rest = f.choices;
-  while (!rest.empty()) {
-    const std::string_view pair = rest.substr(0, rest.find(' '));
-    const size_t sign = pair.find('=');
-    if (pair.substr(0, sign) == word) {
-      value = static_cast<uint32_t>(std::stoul(std::string(pair.substr(sign + 1))));
-      return true;
-    }
-    rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
-  }
-  return false;
-}
-
 // Calls use(parts, word) with the list of parts that a field names.
 template <typename Use>
 auto with_parts(const Valve &valve, const OpField &f, Use use) {
@@ -182,9 +168,9 @@ class OpReader {
 };
 
 uint32_t OpReader::choice(const OpField &f, const Json &json) const {
-  uint32_t value = 0;
-  if (!value_of(f, text(f, json), value)) refuse(f, f.choices);
-  return value;
+  const std::optional<uint32_t> value = choice_of(f, text(f, json));
+  if (!value) refuse(f, f.choices);
+  return *value;
 }
 
 mvs_site OpReader::site(const OpField &f, const Json &json) const {

@@ -61,12 +61,10 @@ void SampleValidator::find_faults(const mvs_driver_state &sample) {
   if (!finite) faults_ |= MVS_SAMPLE_FAULT_NUMBER;
 }
 
+// After find_faults, which has looked at orientation and velocity.
 bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
-  bool good = is_unit(sample.orientation);
+  bool good = (faults_ & (MVS_SAMPLE_FAULT_NUMBER | MVS_SAMPLE_FAULT_ORIENTATION)) == 0;
   for (const double p : sample.position) good = good && is_number(p, max_coordinate);
-  if (flags_ & MVS_DRIVER_FLAG_VELOCITY) {
-    for (const double v : sample.velocity) good = good && is_number(v, max_speed);
-  }
   return good;
 }
 

@@ -78,7 +78,8 @@ void must_be_no_group(const mvs_sim &sim, const char *call) {
 void replace_valve(mvs_sim &sim, Snapshot snapshot) {
   check_solver_cache(snapshot.current);
   const ModelPtr held = snapshot.current.model;
-  const std::vector<Fault> doubtful = mesh_warnings(*held, snapshot.current.state.x);
+  std::vector<Fault> doubtful;  // before the replacement, which nothing may interrupt
+  if (sim.desc.log) doubtful = mesh_warnings(*held, snapshot.current.state.x);
   sim.replace(make_snapshot(std::move(snapshot)));
   sim.group = {};
   sim.hands.forget();

@@ -59,16 +59,12 @@ uint32_t skipped_in_run(const Profile &work) {
   return skipped;
 }
 
-double settle_tolerance(const SolveOptions &options) {
-  return options.residual > 0 ? options.residual : settings::defaults::residual;
-}
-
 // Steps in time until the out-of-balance force is below the tolerance for several steps in a row.
 template <typename Step>
 SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &options,
                           const Progress &progress, Step &&step) {
   const double start = seconds_now();
-  const double tolerance = settle_tolerance(options);
+  const double tolerance = options.tolerance();
   const StepOptions how = settle_options(options);
   const uint32_t most = max_settle_steps(options);
   SolveStats stats;
@@ -109,6 +105,10 @@ std::unique_ptr<DirectSolver> make_newton_factor(Backend backend) {
 }
 
 }  // namespace
+
+double SolveOptions::tolerance() const {
+  return residual > 0 ? residual : settings::defaults::residual;
+}
 
 // The solvers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
@@ -190,7 +190,7 @@ SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOpt
     stats = Newton(model, *work_->factor).settle(state, options, progress);
   }
   state.drop_cache();
-  state.rest_tolerance = stats.converged ? settle_tolerance(options) : 0;
+  state.rest_tolerance = stats.converged ? options.tolerance() : 0;
   stats.skipped |= skipped_in_run(stats.work);
   return stats;
 }

@@ -18,6 +18,9 @@ struct SolveOptions {
   double dt = 0;        // s
   double damping = 0;   // 1/s
   uint32_t budget = 0;  // of a step
+
+  // N, the residual at rest, or its default.
+  double tolerance() const;
 };
 
 struct SolveStats {

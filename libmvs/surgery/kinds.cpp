@@ -1,6 +1,7 @@
 // Tables made from ops.def, with compile-time checks of the field types.
 #include "surgery/kinds.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -80,25 +81,34 @@ std::span<const OpField> fields_of(uint32_t op) {
   return {fields.data() + first, last - first};
 }
 
-// The number of "text" in "none=0 text=1"; NaN if it is not there.
-double choice_of(std::string_view choices, std::string_view text) {
-  const size_t at = (" " + std::string(choices)).find(" " + std::string(text) + "=");
-  if (text.empty() || at == std::string::npos) return std::numeric_limits<double>::quiet_NaN();
-  return choices[at + text.size() + 1] - '0';
-}
-
 OpDefault read_default(const OpField &field) {
   const std::string_view help = field.help;
   const size_t open = help.rfind('[');
-  if (open == std::string_view::npos || help.back() != ']') return {"", choice_of("", "")};
-  OpDefault found{std::string(help.substr(open + 1, help.size() - open - 2)), 0};
+  constexpr double unfixed = std::numeric_limits<double>::quiet_NaN();
+  if (open == std::string_view::npos || help.back() != ']') return {"", unfixed};
+  OpDefault found{std::string(help.substr(open + 1, help.size() - open - 2)), unfixed};
   const char *end = found.text.data() + found.text.size();
   const auto [last, error] = std::from_chars(found.text.data(), end, found.value);
-  if (error != std::errc() || last != end) found.value = choice_of(field.choices, found.text);
+  if (error == std::errc() && last == end) return found;
+  const std::optional<uint32_t> choice = choice_of(field, found.text);
+  found.value = choice ? *choice : unfixed;
   return found;
 }
 
 }  // namespace
+
+std::optional<uint32_t> choice_of(const OpField &field, std::string_view word) {
+  std::string_view rest = field.choices;
+  while (!rest.empty()) {
+    const std::string_view pair = rest.substr(0, rest.find(' '));
+    const size_t sign = pair.find('=');
+    if (pair.substr(0, sign) == word) {
+      return static_cast<uint32_t>(std::stoul(std::string(pair.substr(sign + 1))));
+    }
+    rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
+  }
+  return {};
+}
 
 const OpDefault &default_of(const OpField &field) {
   static const std::vector<OpDefault> defaults = [] {

@@ -4,6 +4,7 @@
 #include <mvs/op.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,10 @@ struct OpField {
   double low, high;  // range of a given number, number of points, or bytes of a text
   const char *unit, *choices, *help;
 };
+
+// Returns the number of a word of a choice, 2 for "head" in "leaflet=1 head=2"; empty if there is
+// no such word.
+std::optional<uint32_t> choice_of(const OpField &field, std::string_view word);
 
 // The meaning of a zero or empty field, which stands in [brackets] at the end of its help.
 struct OpDefault {

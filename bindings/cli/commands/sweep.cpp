@@ -83,8 +83,8 @@ Json best_json(const SweepTable &table, const CsvRow &row) {
   return object;
 }
 
-std::string best_text(const SweepTable &table, const SweepOptions &options, size_t parameters) {
-  const std::vector<CsvRow> best = table.best(options.sort, options.largest, most_shown);
+std::string best_text(const SweepTable &table, const std::vector<CsvRow> &best,
+                      const SweepOptions &options, size_t parameters) {
   std::string lines =
       text("\n%s, %s first", options.sort.c_str(), options.largest ? "largest" : "smallest");
   if (best.empty()) lines += ": no combination is at rest and has it";
@@ -122,9 +122,9 @@ void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &opt
            options.file.c_str(), rows.size(), sweep.pressure_mmhg, closed_now, options.csv.c_str());
   if (failed > 0) lines += text("\n%td cannot be applied: see the column error", failed);
   if (!options.sort.empty()) {
-    for (const CsvRow &row : table.best(options.sort, options.largest, most_shown))
-      best.push_back(best_json(table, row));
-    lines += best_text(table, options, sweep.grid.columns().size());
+    const std::vector<CsvRow> first = table.best(options.sort, options.largest, most_shown);
+    for (const CsvRow &row : first) best.push_back(best_json(table, row));
+    lines += best_text(table, first, options, sweep.grid.columns().size());
   }
   print(console,
         {{"file", options.file},

@@ -1,6 +1,7 @@
 #include "text/op_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "text/console.h"
@@ -73,13 +74,6 @@ bool has_form(const mvs_field_info &field, const std::string &given) {
   }
 }
 
-// Reads the default in brackets at the end of a help text; false if it is not a plain number.
-bool read_default(const std::string &help, size_t &bracket, double &value) {
-  bracket = help.find(" [");
-  if (bracket == std::string::npos || help.back() != ']') return false;
-  return read_number(std::string_view(help).substr(bracket + 2, help.size() - bracket - 3), value);
-}
-
 }  // namespace
 
 const char *unit_in_text(const mvs_field_info &field) {
@@ -130,12 +124,10 @@ std::string form_of(const mvs_field_info &field) {
 std::string help_of(const mvs_field_info &field) {
   const std::string help = field.help;
   const std::string unit = *field.unit ? std::string(", ") + unit_in_text(field) : "";
-  size_t bracket;
-  double value;
-  if (!read_default(help, bracket, value)) {
-    return help.substr(0, bracket) + unit + (bracket < help.size() ? help.substr(bracket) : "");
-  }
-  return help.substr(0, bracket) + unit + text(" [%g]", in_text(field, value));
+  const size_t bracket = std::min(help.find(" ["), help.size());
+  const bool is_number = field.type != MVS_FIELD_CHOICE && !std::isnan(field.default_value);
+  return help.substr(0, bracket) + unit +
+         (is_number ? text(" [%g]", in_text(field, field.default_value)) : help.substr(bracket));
 }
 
 std::string complaint(const mvs_field_info &field, const std::string &given) {

@@ -22,9 +22,9 @@ double working_tangent(const Leaflet &leaflet) {
   constexpr auto count = static_cast<uint32_t>((set::largest_stretch - 1) / d);
   double stiffest = 0;
   for (uint32_t k = 0; k < count; ++k) {
-    const double stretch = 1 + k * d;
-    stiffest = std::max(stiffest, (stress(stretch + d) - stress(stretch)) / d);
-    if (stress(stretch) > set::largest_stress) break;
+    const double stretch = 1 + k * d, here = stress(stretch);
+    stiffest = std::max(stiffest, (stress(stretch + d) - here) / d);
+    if (here > set::largest_stress) break;
   }
   return stiffest;
 }

@@ -49,7 +49,7 @@ Newton::Newton(const Model &model, DirectSolver &factor)
 
 SolveStats Newton::settle(State &state, const SolveOptions &options, const Progress &progress) {
   const double start = seconds_now();
-  const double tolerance = options.residual > 0 ? options.residual : settings::defaults::residual;
+  const double tolerance = options.tolerance();
   const uint32_t most =
       options.max_iterations > 0 ? options.max_iterations : settings::defaults::newton_iterations;
   begin(state);
