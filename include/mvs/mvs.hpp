@@ -82,6 +82,20 @@ class Sim {
     return stats;
   }
 
+  // A settle in slices. advance_settle returns the completed share; 1: the end.
+  void begin_settle(mvs_settle_options options = {}) {
+    options.struct_size = sizeof options;
+    must(mvs_begin_settle(sim_, &options));
+  }
+
+  double advance_settle(double seconds) {
+    double share = 0;
+    must(mvs_advance_settle(sim_, seconds, &share, nullptr));
+    return share;
+  }
+
+  void cancel_settle() { must(mvs_cancel_settle(sim_)); }
+
   void step(mvs_step_options options = {}) {
     options.struct_size = sizeof options;
     must(mvs_step(sim_, &options));

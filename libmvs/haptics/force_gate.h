@@ -11,9 +11,9 @@ namespace mvs::core {
 // The inputs of the gate for one tick.
 struct Facts {
   Cause cause = Cause::nothing;  // a reason to latch
-  bool may_feel = false;      // tissue model is fresh and the device is not parked
-  double wanted = 0;          // N, norm of the unlimited force
-  double dt = 0;              // s
+  bool may_feel = false;         // tissue model is fresh and the device is not parked
+  double wanted = 0;             // N, norm of the unlimited force
+  double dt = 0;                 // s
 };
 
 // Requests of the application, from any thread.

@@ -13,7 +13,7 @@ namespace mvs::core {
 // tolerance on a logarithmic scale. It never falls, and is 1 at the end.
 class SettleWatch {
  public:
-  // `tolerance`: N, the residual at rest; `progress` may be empty.
+  // `tolerance`: N, the residual at rest; `progress` may be empty. The model must outlive it.
   SettleWatch(const Model &model, const std::vector<Vec3> &x, const Load &load, double tolerance,
               const Progress &progress);
 
@@ -29,7 +29,7 @@ class SettleWatch {
   void must_hold(const std::vector<Vec3> &x) const;
 
   const Model *model_;
-  const Progress *progress_;
+  Progress progress_;
   Load load_;
   double tolerance_;
   double way_;          // m, of the boundary from the start to its target

@@ -1,7 +1,7 @@
 """Types of the C interface of libmvs for Python; docstrings have shapes, units and errors."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any, Literal, Optional, Union, overload
 
@@ -308,6 +308,27 @@ class Simulator:
         damping: Optional[float] = None,
         progress: _Progress = None,
     ) -> Stats: ...
+    def begin_settle(
+        self,
+        *,
+        solver: Literal["newton", "implicit", "explicit"] = "newton",
+        max_iterations: Optional[int] = None,
+        residual: Optional[float] = None,
+        dt: Optional[float] = None,
+        damping: Optional[float] = None,
+    ) -> None: ...
+    def advance_settle(self, seconds: float) -> float: ...
+    def cancel_settle(self) -> None: ...
+    def settle_slices(
+        self,
+        seconds: float = 0.05,
+        *,
+        solver: Literal["newton", "implicit", "explicit"] = "newton",
+        max_iterations: Optional[int] = None,
+        residual: Optional[float] = None,
+        dt: Optional[float] = None,
+        damping: Optional[float] = None,
+    ) -> Iterator[float]: ...
     def step(
         self,
         count: int = 1,
