@@ -159,7 +159,7 @@ void add_close(CLI::App &app, Console &console) {
   const auto [command, options] = add_command<CloseOptions>(
       app, console, "close", "close a valve under systolic pressure and measure it", run_close);
   command->add_option("file", options->in, "valve to close, .obj, .h5 or .inp")->required();
-  command->add_option("-o,--output", options->out, "write the closed valve, .obj, .h5 or .vtp");
+  command->add_option("-o,--output", options->out, "write the closed valve, .obj, .h5, .vtp or .vtm");
   add_pressure_option(*command, options->pressure_mmhg);
   add_tissue_option(*command, options->leaflet);
   add_choice(*command, "--solver", options->solver, "method", solvers);

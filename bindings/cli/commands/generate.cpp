@@ -89,7 +89,7 @@ void run_generate(const GenerateOptions &options, const Console &console) {
 void add_generate(CLI::App &app, Console &console) {
   const auto [command, options] = add_command<GenerateOptions>(
       app, console, "generate", "make a parametric mitral valve", run_generate);
-  command->add_option("-o,--output", options->out, "file to write, .obj, .h5 or .vtp")->required();
+  command->add_option("-o,--output", options->out, "file to write, .obj, .h5, .vtp or .vtm")->required();
   command->add_option("--vertices", options->valve.vertices, "leaflet vertices, about [425]")
       ->check(CLI::PositiveNumber);
   command->add_option("--chords", options->valve.chords, "chord segments, about [80]")

@@ -129,7 +129,7 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
   request->kind = kind;
   CLI::App *command = add_command(op, console, dashed(kind.info.name), kind.info.help);
   for (const mvs_field_info &field : kind.fields) add_field(*command, *request, field);
-  command->add_option("-o,--output", request->out, "write the valve, .obj, .h5 or .vtp")
+  command->add_option("-o,--output", request->out, "write the valve, .obj, .h5, .vtp or .vtm")
       ->type_name("FILE");
   const CLI::Option *settle =
       add_pressure_option(*command, request->settle_mmhg, "--settle",

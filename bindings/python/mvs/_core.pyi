@@ -40,7 +40,7 @@ _Point = Union[Sequence[float], _F64]
 _Path = Union[str, os.PathLike[str]]
 _Plan = Union[str, bytes, os.PathLike[str], Mapping[str, Any]]
 _Progress = Optional[Callable[[float, float], object]]
-_Format = Literal["auto", "obj", "h5", "vtp", "inp", "feb"]
+_Format = Literal["auto", "obj", "h5", "vtp", "inp", "feb", "vtm"]
 
 def version() -> str: ...
 def features() -> str: ...

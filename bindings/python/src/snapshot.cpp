@@ -161,6 +161,7 @@ uint32_t format_of(const std::string &name) {
   if (name == "h5") return MVS_FORMAT_H5;
   if (name == "inp") return MVS_FORMAT_INP;
   if (name == "feb") return MVS_FORMAT_FEB;
+  if (name == "vtm") return MVS_FORMAT_VTM;
   refuse(MVS_E_ARGUMENT, "format",
          "format: \"auto\", \"obj\", \"h5\", \"vtp\", \"inp\" or \"feb\" is needed, not \"" + name +
              "\"");
@@ -213,7 +214,8 @@ void bind_snapshot(py::module_ &module) {
            "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
   type.def("save", &save, "path"_a, py::kw_only(), "format"_a = "auto",
            "Writes a file; format \"auto\" follows the ending: .obj (exact round trip), .h5 (with "
-           "the history), .vtp (for ParaView and Slicer) or .feb (a FEBio model of the closure). "
+           "the history), .vtp (for ParaView and Slicer), .vtm (the same with orifice and coaptation "
+           "line, in a folder beside it) or .feb (a FEBio model of the closure). "
            "IoError if it cannot be written.");
   type.def("to_bytes", &to_bytes, py::kw_only(), "format"_a = "obj",
            "The contents of the file that save would write.");
