@@ -19,8 +19,8 @@ struct VtkCells {
   std::vector<int64_t> nodes;
 };
 
-// In mm. Cell data has one row per line, then one per triangle: VTK orders lines before polygons. The
-// lines of a valve are its chordae.
+// In mm. Cell data has one row per line, then one per triangle: VTK orders lines before polygons.
+// The lines of a valve are its chordae.
 struct VtkPolyData {
   std::vector<double> points;
   VtkCells lines, triangles;

@@ -25,9 +25,9 @@ enum mvs_format_e {
                          valve is at rest; its load is that of the file */
   MVS_FORMAT_FEB = 5, /* FEBio 4.0 model, write only: the valve at rest with the load of the
                          snapshot. MVS_E_UNSUPPORTED where FEBio lacks the law */
-  MVS_FORMAT_VTM = 6  /* VTK XML multiblock dataset, write only, to a path: an index and the files of
-                         its blocks in a folder of the same name: valve, orifice if there is one,
-                         coaptation_line if leaflets touch */
+  MVS_FORMAT_VTM = 6 /* VTK XML multiblock dataset, write only, to a path: an index and the files of
+                        its blocks in a folder of the same name: valve, orifice if there is one,
+                        coaptation_line if leaflets touch */
 };
 typedef uint32_t mvs_format;
 

@@ -20,20 +20,20 @@
 namespace mvs {
 
 // A simulator, owned.
-class Sim {
+class Simulator {
  public:
-  explicit Sim(mvs_sim_desc desc = {}) {
+  explicit Simulator(mvs_sim_desc desc = {}) {
     desc.struct_size = sizeof desc;
     must(mvs_create(&desc, &sim_));
   }
-  Sim(Sim &&other) noexcept : sim_(std::exchange(other.sim_, nullptr)) {}
-  Sim &operator=(Sim &&other) noexcept {
+  Simulator(Simulator &&other) noexcept : sim_(std::exchange(other.sim_, nullptr)) {}
+  Simulator &operator=(Simulator &&other) noexcept {
     std::swap(sim_, other.sim_);
     return *this;
   }
-  Sim(const Sim &) = delete;
-  Sim &operator=(const Sim &) = delete;
-  ~Sim() { mvs_destroy(sim_); }
+  Simulator(const Simulator &) = delete;
+  Simulator &operator=(const Simulator &) = delete;
+  ~Simulator() { mvs_destroy(sim_); }
 
   mvs_sim *get() const { return sim_; }
 

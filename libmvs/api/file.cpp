@@ -48,7 +48,8 @@ void load_inp(mvs_sim &sim, std::string_view bytes) {
 
 void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   MVS_MUST(format_given != MVS_FORMAT_VTP && format_given != MVS_FORMAT_VTM, MVS_E_UNSUPPORTED,
-           "format", "VTP and VTM files are written for other programs, not read: load the OBJ or HDF5 file");
+           "format",
+           "VTP and VTM files are written for other programs, not read: load the OBJ or HDF5 file");
   MVS_MUST(format_given != MVS_FORMAT_FEB, MVS_E_UNSUPPORTED, "format",
            "FEBio models are written for FEBio, not read: load the OBJ or HDF5 file");
   if (format_given == MVS_FORMAT_H5) return replace_valve(sim, read_session(bytes));
@@ -149,8 +150,7 @@ void save_vtm(const mvs_snapshot &s, const std::string &path) {
   std::vector<VtkBlock> blocks;
   if (!s.orifice().triangles.empty()) blocks.push_back(orifice_block(s));
   if (!s.coaptation().line.empty()) blocks.push_back(coaptation_block(s));
-  const std::vector<NamedFile> files =
-      write_vtm(name, *s.model, s.state, result_arrays(s), blocks);
+  const std::vector<NamedFile> files = write_vtm(name, *s.model, s.state, result_arrays(s), blocks);
   make_folder(stem);
   for (const NamedFile &file : files) write_whole_file(folder + file.path, file.bytes);
 }

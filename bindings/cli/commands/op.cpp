@@ -32,7 +32,7 @@ struct Operated {
 // Both closures start from the shape in the file.
 Operated operate(const OpRequest &request, const Console &console) {
   Progress progress(console);
-  mvs::Sim sim = load_sim(request.in, progress);
+  mvs::Simulator sim = load_sim(request.in, progress);
   const mvs::Snapshot first = sim.snapshot();
   OpText op(request.kind);
   for (const auto &[name, given] : request.fields) op.set(name, given, first);

@@ -212,11 +212,12 @@ void bind_snapshot(py::module_ &module) {
            "Distance between the leaflet surfaces of two snapshots (mvs.Comparison), m.");
   type.def("section", &section, "point"_a, "normal"_a,
            "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
-  type.def("save", &save, "path"_a, py::kw_only(), "format"_a = "auto",
-           "Writes a file; format \"auto\" follows the ending: .obj (exact round trip), .h5 (with "
-           "the history), .vtp (for ParaView and Slicer), .vtm (the same with orifice and coaptation "
-           "line, in a folder beside it) or .feb (a FEBio model of the closure). "
-           "IoError if it cannot be written.");
+  type.def(
+      "save", &save, "path"_a, py::kw_only(), "format"_a = "auto",
+      "Writes a file; format \"auto\" follows the ending: .obj (exact round trip), .h5 (with "
+      "the history), .vtp (for ParaView and Slicer), .vtm (the same with orifice and coaptation "
+      "line, in a folder beside it) or .feb (a FEBio model of the closure). "
+      "IoError if it cannot be written.");
   type.def("to_bytes", &to_bytes, py::kw_only(), "format"_a = "obj",
            "The contents of the file that save would write.");
   bind_plan_writing(type);
