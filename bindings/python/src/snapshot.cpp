@@ -147,6 +147,20 @@ py::bytes to_bytes(const Snapshot &snapshot, const std::string &format) {
   return py::bytes(bytes);
 }
 
+// The rows of mvs.tables.chords.
+py::list chords_of(const Snapshot &self) {
+  uint32_t count = 0;
+  must(mvs_snapshot_get_part_count(self.get(), MVS_PART_CHORD, &count));
+  py::list rows;
+  for (uint32_t c = 0; c < count; ++c) {
+    auto chord = sized<mvs_chord_info>();
+    release_and([&] { return mvs_snapshot_get_chord(self.get(), c, &chord); });
+    rows.append(py::make_tuple(chord.name, chord.kind, chord.heads, chord.scallops, chord.flags,
+                               chord.length, chord.rest_length, chord.strain, chord.tension));
+  }
+  return rows;
+}
+
 std::string text(const Snapshot &snapshot) {
   return std::string("<mvs.Snapshot \"") + mvs_snapshot_get_name(snapshot.get()) + "\" " +
          hash(snapshot) + ">";
@@ -162,9 +176,10 @@ uint32_t format_of(const std::string &name) {
   if (name == "inp") return MVS_FORMAT_INP;
   if (name == "feb") return MVS_FORMAT_FEB;
   if (name == "vtm") return MVS_FORMAT_VTM;
-  refuse(MVS_E_ARGUMENT, "format",
-         "format: \"auto\", \"obj\", \"h5\", \"vtp\", \"inp\" or \"feb\" is needed, not \"" + name +
-             "\"");
+  refuse(
+      MVS_E_ARGUMENT, "format",
+      "format: \"auto\", \"obj\", \"h5\", \"vtp\", \"vtm\", \"inp\" or \"feb\" is needed, not \"" +
+          name + "\"");
 }
 
 void bind_snapshot(py::module_ &module) {
@@ -206,6 +221,7 @@ void bind_snapshot(py::module_ &module) {
                              "ones from first to last, then the undone ones in the order of redo.");
   type.def_property_readonly("checkpoints", &checkpoints,
                              "The names of the checkpoints (tuple of str).");
+  type.def("_chords", &chords_of);
   type.def("find", &find, "kind"_a, "name"_a,
            "The part of a kind with this name; IdError if there is no such part.");
   type.def("compare", &compare, "other"_a,
