@@ -19,8 +19,8 @@ namespace {
 // closes, a finer mesh of it with 0.001 does not.
 constexpr double needle_share = 0.01;
 
-// Fewer short edges than this share are not warned of: operations leave a few behind, and contact is
-// missing only beside them. A valve refined once has two thirds.
+// Fewer short edges than this share are not warned of: operations leave a few behind, and contact
+// is missing only beside them. A valve refined once has two thirds.
 constexpr double short_edge_share = 0.01;
 
 struct Needles {
