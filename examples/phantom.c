@@ -120,7 +120,7 @@ static void press_due_keys(void) {
 static void show(void) {
   static scene triangles;
   const mvs_snapshot *const valve = present();
-  const eye from = eye_of_surgeon(valve, turn, tilt, distance);
+  const eye from = eye_of_surgeon(valve, turn, tilt, distance, window ? window_aspect() : 4.0 / 3);
   char title[256], path[1024];
   int save = option.frames != NULL && now.time >= frames * option.every;
   sight what = {0};
@@ -134,9 +134,9 @@ static void show(void) {
   must(mvs_snapshot_get_array(valve, MVS_ARRAY_NODE_POSITION, &nodes));
   if (hand.near_node < nodes.count) what.marked = (const double *)nodes.data + 3 * hand.near_node;
   orifice_look(valve, !window);
-  orifice_area(&what.orifice);
+  what.orifice = orifice_last();
   scene_build(&triangles, valve, &from, &what);
-  write_title(title, sizeof title, mode, strain, &hand, &now);
+  write_title(title, sizeof title, mode, &hand, &now);
   snprintf(path, sizeof path, "%s/frame_%04d.ppm", option.frames ? option.frames : "", frames);
   if (!(window ? window_show(&triangles, &from, title, save ? path : NULL)
                : picture_paint(&triangles, &from, path))) {
@@ -144,7 +144,7 @@ static void show(void) {
     exit(1);
   }
   frames += save;
-  mvs_snapshot_release(what.orifice);
+  mvs_snapshot_release(what.orifice.valve);
   mvs_snapshot_release(valve);
 }
 
@@ -167,7 +167,7 @@ static void log_driver(void *user, mvs_log_level level, const char *text) {
  * to down. */
 static void map_to_valve(void) {
   const mvs_snapshot *const valve = present();
-  const eye e = eye_of_surgeon(valve, 0, 0, 1);
+  const eye e = eye_of_surgeon(valve, 0, 0, 1, 1);
   const double x = e.right[0], y = e.back[1], z = -e.up[2];
   mvs_device_view view = {0};
   double frame[12];

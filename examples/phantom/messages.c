@@ -21,7 +21,7 @@ double orifice_now(mvs_sim *sim, int wait) {
   must(mvs_get_snapshot(sim, &valve));
   orifice_look(valve, wait);
   mvs_snapshot_release(valve);
-  return orifice_area(NULL);
+  return orifice_area();
 }
 
 /* The scallop of a node. */
@@ -107,15 +107,19 @@ const char *mode_name(uint32_t mode) {
   return mode < 6 ? names[mode] : "";
 }
 
-void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_device_report *hand,
+void write_title(char *text, size_t size, uint32_t mode, const mvs_device_report *hand,
                  const mvs_device_state *now) {
   static const char *const phases[] = {
       "stopped",    "off (a: on)", "waiting for the hand to move away",
       "ramping up", "on",          "faded, the valve does not step",
       "off: "};
-  snprintf(text, size, "%s | orifice %.1f mm2 | %.2f N, felt %.2f N | forces %s%s%s",
-           mode_name(mode), 1e6 * orifice_area(NULL), length_of(hand->force), length_of(now->force),
-           now->phase < 7 ? phases[now->phase] : "",
-           now->phase == MVS_DEVICE_PHASE_LATCHED ? cause_name(now->cause) : "",
-           strain ? " | strain 0 to 50 %, of chordae 0 to 5 %" : "");
+  const orifice hole = orifice_last();
+  mvs_snapshot_release(hole.valve);
+  snprintf(text, size, "%s | orifice %.1f mm2%s | %.2f N, felt %.2f N | forces %s%s",
+           mode_name(mode), 1e6 * hole.area,
+           !hole.under_load ? " without load"
+           : hole.at_rest   ? ""
+                            : ", moving",
+           length_of(hand->force), length_of(now->force), now->phase < 7 ? phases[now->phase] : "",
+           now->phase == MVS_DEVICE_PHASE_LATCHED ? cause_name(now->cause) : "");
 }

@@ -15,6 +15,10 @@ int window_wants_to_close(void) {
   return 0;
 }
 
+double window_aspect(void) {
+  return 4.0 / 3;
+}
+
 void window_wait(double seconds) {
   (void)seconds;
 }

@@ -30,36 +30,49 @@ const char *next_key(const char *keys, double *when, int *key);
 typedef struct eye {
   double middle[3], right[3], up[3], back[3];
   double distance;
+  double aspect; /* width of the picture divided by its height */
 } eye;
+
+/* Half the height of the picture at distance 1: the field of view is 30 degrees. */
+#define EYE_SLOPE 0.26794919243112270647
 
 /* The surgeon's view, from the atrium with the anterior leaflet on top, turned about the valve's
  * axis and tilted away from it (rad). */
-eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double distance);
+eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double distance,
+                   double aspect);
 
 /* The projection matrix for column vectors in column-major order, as OpenGL needs it. */
-void eye_matrix(const eye *from, double aspect, float matrix[16]);
+void eye_matrix(const eye *from, float matrix[16]);
 
 #define BACKGROUND \
   { 0.93f, 0.94f, 0.96f }
 
-/* Coloured and lit triangles, three corners each. */
+/* Coloured and lit triangles, three corners each. Those from `solid` on are drawn over all others,
+ * in their order and mixed with the colours behind them. */
 typedef struct corner {
-  float at[3], colour[3];
+  float at[3], colour[4]; /* red green blue alpha */
 } corner;
 typedef struct scene {
   corner *corners;
-  size_t count, room;
+  size_t count, solid, room;
 } scene;
+
+/* The orifice of a measured valve. It may be graded only of a valve at rest under load. */
+typedef struct orifice {
+  double area; /* m2 */
+  int at_rest, under_load;
+  const mvs_snapshot *valve; /* null: not yet measured */
+} orifice;
 
 /* Objects to show besides the valve. */
 typedef struct sight {
-  int strain;                  /* 1: colours show strain, 0: anatomy */
-  mvs_id chord;                /* highlighted chord; 0: no chord */
-  double hand[3];              /* m */
-  double force[3];             /* N, on the hand: an arrow of 5 mm/N */
-  mvs_tool_state tool;         /* kind 0: no tool */
-  const double *marked;        /* position to mark; nullable */
-  const mvs_snapshot *orifice; /* snapshot with the orifice to show; nullable */
+  int strain;           /* 1: colours show strain, 0: anatomy */
+  mvs_id chord;         /* highlighted chord; 0: no chord */
+  double hand[3];       /* m */
+  double force[3];      /* N, on the hand: an arrow of 5 mm/N */
+  mvs_tool_state tool;  /* kind 0: no tool */
+  const double *marked; /* position to mark; nullable */
+  orifice orifice;
 } sight;
 
 /* Strain at the upper end of the colour scale of leaflets and of chordae. */
@@ -71,15 +84,16 @@ void scene_build(scene *out, const mvs_snapshot *valve, const eye *from, const s
 
 /* Measures a snapshot, on a second thread unless `wait` is set; skips it if that thread is busy. */
 void orifice_look(const mvs_snapshot *valve, int wait);
-/* The orifice of the last measured snapshot, m2. `of` (nullable) receives that snapshot, which the
- * caller releases. */
-double orifice_area(const mvs_snapshot **of);
+/* The orifice of the last measured snapshot; the caller releases its valve. */
+orifice orifice_last(void);
+/* Its area, m2. */
+double orifice_area(void);
 void orifice_close(void);
 
 /* Messages. */
 void log_line(double time, const char *format, ...);
 void log_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now);
-void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_device_report *hand,
+void write_title(char *text, size_t size, uint32_t mode, const mvs_device_report *hand,
                  const mvs_device_state *now);
 const char *mode_name(uint32_t mode);
 const char *chord_name(mvs_sim *sim, mvs_id id, mvs_part *part);
@@ -106,6 +120,8 @@ const char *window_open(int width, int height);
 /* The character of the next pressed key; 0: no key. */
 int window_key(void);
 int window_wants_to_close(void);
+/* Its width divided by its height. */
+double window_aspect(void);
 /* Handles user input for at most this time. */
 void window_wait(double seconds);
 /* Shows the scene and, if `path` is not null, writes it into a PPM file; 0 if that fails. */
