@@ -22,6 +22,8 @@ void help(void);
 int is_key(int key);
 /* Exits with code 2 for invalid options, with 0 after --help. */
 void read_options(int argc, char **argv);
+/* Adds a line "key=value" to the options of the driver. */
+void add_driver_option(const char *key, const char *value);
 /* Reads the first entry of "2.0:u 3.0:s" (key u at 2 s, key s at 3 s); returns the rest, or null
  * without an entry. */
 const char *next_key(const char *keys, double *when, int *key);
@@ -40,6 +42,10 @@ typedef struct eye {
  * axis and tilted away from it (rad). */
 eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double distance,
                    double aspect);
+
+/* Maps a device to the surgeon's view: right to right, up to out of the valve, towards the user to
+ * down. */
+mvs_device_view map_of_surgeon(const mvs_snapshot *valve, double scale);
 
 /* The projection matrix for column vectors in column-major order, as OpenGL needs it. */
 void eye_matrix(const eye *from, float matrix[16]);
@@ -92,8 +98,10 @@ void orifice_close(void);
 
 /* Messages. */
 void log_line(double time, const char *format, ...);
+void log_device(const mvs_device_info *info);
 void log_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now);
-void write_title(char *text, size_t size, uint32_t mode, const mvs_device_report *hand,
+/* `motors`: the device can push, so that the state of its forces matters. */
+void write_title(char *text, size_t size, uint32_t mode, int motors, const mvs_device_report *hand,
                  const mvs_device_state *now);
 const char *mode_name(uint32_t mode);
 const char *chord_name(mvs_sim *sim, mvs_id id, mvs_part *part);
@@ -115,6 +123,25 @@ int is_surgery_key(int key);
 int picture_paint(const scene *what, const eye *from, const char *path);
 int picture_write(const char *path, const unsigned char *rgb, int width, int height);
 
+/* The pointer of the window, in coordinates of the screen: x from -aspect to aspect, y from -1 to 1
+ * upwards. */
+typedef struct pointer {
+  double x, y;
+  double notches; /* of the wheel since the last call, positive away from the user */
+  int left;       /* the left button is down */
+  int right;      /* the right button was pressed since the last call */
+} pointer;
+
+/* The driver mouse. mouse_open creates the shared memory between window and driver and returns the
+ * value of the driver's option `pointer`, or exits; mouse_opened removes the name of that memory
+ * once the driver has it; mouse_close ends the driver's device. */
+const char *mouse_open(void);
+void mouse_opened(void);
+void mouse_close(void);
+int mouse_is_open(void);
+/* Moves the hand of the driver under the pointer. */
+void mouse_move(mvs_device *device, const mvs_snapshot *valve, const eye *from, const pointer *to);
+
 /* Opens the window. Returns null on success, else the reason of the failure. */
 const char *window_open(int width, int height);
 /* The character of the next pressed key; 0: no key. */
@@ -122,6 +149,8 @@ int window_key(void);
 int window_wants_to_close(void);
 /* Its width divided by its height. */
 double window_aspect(void);
+/* Reads its pointer; returns 0 if that has not changed since the last call. */
+int window_pointer(pointer *now);
 /* Handles user input for at most this time. */
 void window_wait(double seconds);
 /* Shows the scene and, if `path` is not null, writes it into a PPM file; 0 if that fails. */

@@ -54,6 +54,22 @@ mvs_view view(const mvs_snapshot *valve, uint32_t which) {
   return v;
 }
 
+mvs_device_view map_of_surgeon(const mvs_snapshot *valve, double scale) {
+  const eye e = eye_of_surgeon(valve, 0, 0, 1, 1);
+  const double x = e.right[0], y = e.back[1], z = -e.up[2];
+  mvs_device_view map = {0};
+  double frame[12];
+  must(mvs_snapshot_get_frame(valve, frame));
+  map.struct_size = sizeof map;
+  map.scale = scale;
+  memcpy(map.origin, frame, sizeof map.origin);
+  map.rotation[0] = sqrt(fmax(0, 1 + x + y + z));
+  map.rotation[1] = copysign(sqrt(fmax(0, 1 + x - y - z)), e.back[2] + e.up[1]);
+  map.rotation[2] = copysign(sqrt(fmax(0, 1 - x + y - z)), -e.up[0] - e.right[2]);
+  map.rotation[3] = copysign(sqrt(fmax(0, 1 - x - y + z)), e.right[1] - e.back[0]);
+  return map;
+}
+
 static void show_leaflets(scene *out, const mvs_snapshot *valve, const eye *from, int strain) {
   const mvs_view nodes = view(valve, MVS_ARRAY_NODE_POSITION),
                  faces = view(valve, MVS_ARRAY_TRIANGLE_NODES);

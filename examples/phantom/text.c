@@ -56,11 +56,13 @@ static const char *lines_of(char name) {
 void add_text(scene *out, const eye *from, double x, double y, double height, const char *text,
               const tint colour) {
   const double size = height / DIGIT_HEIGHT;
-  for (; *text != 0; ++text, x += STEP * size) {
-    const char *p = lines_of(*text);
+  size_t i;
+  for (i = 0; text[i] != 0; ++i) {
+    const double left = x + STEP * size * (double)i;
+    const char *p = lines_of(text[i]);
     for (; strlen(p) >= 5; p += 3) { /* "xy xy": a line between two points */
-      const double a[2] = {x + size * (p[0] - '0'), y + size * (p[1] - '2')};
-      const double b[2] = {x + size * (p[3] - '0'), y + size * (p[4] - '2')};
+      const double a[2] = {left + size * (p[0] - '0'), y + size * (p[1] - '2')};
+      const double b[2] = {left + size * (p[3] - '0'), y + size * (p[4] - '2')};
       if (p[2] != '|') add_stroke(out, from, a, b, LINE * size, colour);
     }
   }

@@ -47,6 +47,8 @@ static GLFWwindow *window;
 static const char *reason;
 static GLint eye_place;
 static int keys[32], first_key, key_count;
+static pointer mouse;
+static int mouse_changed = 1; /* where it was before the window opened is news too */
 
 static void note_error(int code, const char *text) {
   (void)code;
@@ -71,6 +73,24 @@ static void on_key(GLFWwindow *of, int key, int code, int action, int modifiers)
   if (key == GLFW_KEY_DOWN) add_key('j');
   if (key == GLFW_KEY_UP) add_key('k');
   if (key == GLFW_KEY_RIGHT) add_key('l');
+}
+
+static void on_motion(GLFWwindow *of, double x, double y) {
+  (void)of, (void)x, (void)y;
+  mouse_changed = 1;
+}
+
+static void on_button(GLFWwindow *of, int button, int action, int modifiers) {
+  (void)of, (void)modifiers;
+  if (button == GLFW_MOUSE_BUTTON_LEFT) mouse.left = action == GLFW_PRESS;
+  if (button == GLFW_MOUSE_BUTTON_RIGHT && action == GLFW_PRESS) mouse.right = 1;
+  mouse_changed = 1;
+}
+
+static void on_wheel(GLFWwindow *of, double x, double y) {
+  (void)of, (void)x;
+  mouse.notches += y;
+  mouse_changed = 1;
 }
 
 static int load_functions(void) {
@@ -134,6 +154,9 @@ const char *window_open(int width, int height) {
   make_buffer();
   glfwSetCharCallback(window, on_character);
   glfwSetKeyCallback(window, on_key);
+  glfwSetCursorPosCallback(window, on_motion);
+  glfwSetMouseButtonCallback(window, on_button);
+  glfwSetScrollCallback(window, on_wheel);
   return NULL;
 }
 
@@ -153,6 +176,24 @@ double window_aspect(void) {
   int width, height;
   glfwGetFramebufferSize(window, &width, &height);
   return width > 0 && height > 0 ? (double)width / height : 4.0 / 3;
+}
+
+/* A pointer outside of the window counts as one at its edge. */
+int window_pointer(pointer *now) {
+  double x, y;
+  int width, height;
+  if (!mouse_changed) return 0;
+  glfwGetCursorPos(window, &x, &y);
+  glfwGetWindowSize(window, &width, &height);
+  if (width == 0 || height == 0) return 0; /* minimised */
+  x = x < 0 ? 0 : x > width ? width : x;
+  y = y < 0 ? 0 : y > height ? height : y;
+  mouse.x = (2 * x - width) / height;
+  mouse.y = 1 - 2 * y / height;
+  *now = mouse;
+  mouse.notches = 0;
+  mouse.right = mouse_changed = 0;
+  return 1;
 }
 
 void window_wait(double seconds) {
