@@ -26,7 +26,14 @@ xdotool mousemove --window "$window" 400 320
 sleep 0.3
 xdotool click 3
 sleep 0.3
-xdotool mousedown 1
+# on a busy machine the hand may come after the button, which then finds no tissue
+for try in 1 2 3 4 5; do
+  xdotool mousedown 1
+  sleep 0.4
+  grep -q "grasps node" log && break
+  xdotool mouseup 1
+  sleep 0.4
+done
 await "grasps node"
 # 120 pixels (9 mm) upwards at 60 Hz, then 8 mm towards the eye
 step=0
@@ -36,7 +43,7 @@ while [ $step -lt 40 ]; do
   step=$((step + 1))
 done
 xdotool click --repeat 8 --delay 30 5
-sleep 0.7
+sleep 1
 xdotool mouseup 1
 await "releases it"
 xdotool windowfocus --sync "$window" key q
