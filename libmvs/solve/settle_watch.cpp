@@ -37,7 +37,12 @@ void SettleWatch::look(const std::vector<Vec3> &x, double residual) {
   if (++looks_ % settings::settle::looks_per_area == 0) must_hold(x);
   if (!progress_) return;
   share_ = std::max(share_, share_of(x, residual));
+  residual_ = residual;
   report(share_, residual);
+}
+
+void SettleWatch::poll() const {
+  if (progress_ && looks_ > 0) report(share_, residual_);
 }
 
 void SettleWatch::finish(double residual) const {

@@ -20,6 +20,9 @@ class SettleWatch {
   // To be called before each iteration, with the nodes and the residual there. Throws
   // MVS_E_CANCELLED, and MVS_E_DIVERGED with the leaflet that yields.
   void look(const std::vector<Vec3> &x, double residual);
+  // To be called within a long iteration: reports as the last look did, so that the host can
+  // cancel.
+  void poll() const;
   // To be called once at the end: the host may cancel there as well, and then no result is kept.
   void finish(double residual) const;
 
@@ -32,9 +35,9 @@ class SettleWatch {
   Progress progress_;
   Load load_;
   double tolerance_;
-  double way_;          // m, of the boundary from the start to its target
-  double highest_ = 0;  // N, largest residual so far
-  double share_ = 0;    // reported last
+  double way_;                       // m, of the boundary from the start to its target
+  double highest_ = 0;               // N, largest residual so far
+  double share_ = 0, residual_ = 0;  // reported last; N
   uint32_t looks_ = 0;
 };
 

@@ -38,6 +38,7 @@ class Newton {
  public:
   Newton(const Model &model, DirectSolver &factor);
 
+  void set_poll(std::function<void()> poll) { system_.set_poll(std::move(poll)); }
   // Starts at a state. `max_displacement`: m, of a local subproblem; 0: unlimited.
   void begin(const State &state, double max_displacement);
   // Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many

@@ -23,6 +23,7 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
       polish_{},
       watch_(model, state.x, state.load, tolerance_, progress) {
   const AddedTime timer(seconds_);
+  newton_.set_poll([this] { watch_.poll(); });
   newton_.begin(state, max_displacement);
   polish_.best_residual = newton_.rest_force();
   // a local subproblem has no tools
