@@ -1,6 +1,7 @@
 // Progress and end of a settle.
 #include "solve/settle_watch.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
