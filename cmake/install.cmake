@@ -20,6 +20,7 @@ install(FILES examples/hello.c examples/close.c examples/repair.c
 install(DIRECTORY examples/plans DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
   COMPONENT mvs_development)
 install(FILES haptic_drivers/README.md haptic_drivers/template/template.c
+  haptic_drivers/mouse/pointer.h
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/haptic_drivers COMPONENT mvs_development)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mvs)

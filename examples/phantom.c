@@ -1,10 +1,10 @@
 /* The user interface of the founding paper (Tenenholtz et al. 2011): a hand in a mitral valve. The
  * hand grasps and pushes leaflets, feels and drags chordae; keys colour strain, operate, undo,
  * save.
- * Build: cc -std=c99 phantom.c phantom/[!nw]*.c phantom/no_window.c -o phantom -lm -pthread \
+ * Build: cc -std=c99 phantom.c phantom/[!nw]*.c phantom/no_window.c -o phantom -lm -lrt -pthread \
  *          $(pkg-config --cflags --libs mvs)     (with a window: see CMakeLists.txt)
- * Use:   ./phantom --driver NAME [--valve FILE]; see README.md; ./phantom --help prints all
- * options. */
+ * Use:   ./phantom [--driver NAME] [--valve FILE]; see README.md; ./phantom --help prints all
+ * options. Without --driver the mouse moves the hand. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static mvs_device_report hand = {.struct_size = sizeof hand};
 static mvs_device_state now = {.struct_size = sizeof now};
 static mvs_id chosen; /* chord, for operations */
 static uint32_t mode;
-static int window, strain = 1, ended, frames;
+static int window, strain = 1, ended, frames, motors;
 static double turn, tilt = 0.7, distance = 0.088; /* of the view: rad, rad, m */
 static double tissue_time, frame_time, strongest; /* s, s, N */
 
@@ -32,6 +32,7 @@ void must(mvs_result result) {
 static void close_device(void) {
   mvs_device_close(device);
   device = NULL;
+  mouse_close();
 }
 
 static const mvs_snapshot *present(void) {
@@ -63,7 +64,9 @@ void help(void) {
   printf(
       "  1 view  2 grasp  3 push with a ball  4 with a rod  5 feel a chord  6 drag a chord\n"
       "  a  forces on   space  forces off   n  select the chord nearest to the hand\n"
-      "  c  strain or anatomy   arrows, or h j k l, rotate the view; z Z zoom in and out\n");
+      "  c  strain or anatomy   arrows, or h j k l, rotate the view; z Z zoom in and out\n"
+      "  driver mouse: left button grasps, wheel moves away and near, right button to the "
+      "tissue\n");
   surgery_help();
   printf("  ?  help   q  quit\n");
 }
@@ -116,11 +119,27 @@ static void press_due_keys(void) {
   }
 }
 
+static eye present_eye(const mvs_snapshot *valve) {
+  return eye_of_surgeon(valve, turn, tilt, distance, window ? window_aspect() : 4.0 / 3);
+}
+
+/* Moves the hand of the driver mouse. */
+static void follow_pointer(void) {
+  pointer to;
+  const mvs_snapshot *valve;
+  eye from;
+  if (!mouse_is_open() || !window_pointer(&to)) return;
+  valve = present();
+  from = present_eye(valve);
+  mouse_move(device, valve, &from, &to);
+  mvs_snapshot_release(valve);
+}
+
 /* Shows the valve in the window, and writes a due frame. */
 static void show(void) {
   static scene triangles;
   const mvs_snapshot *const valve = present();
-  const eye from = eye_of_surgeon(valve, turn, tilt, distance);
+  const eye from = present_eye(valve);
   char title[256], path[1024];
   int save = option.frames != NULL && now.time >= frames * option.every;
   sight what = {0};
@@ -134,9 +153,9 @@ static void show(void) {
   must(mvs_snapshot_get_array(valve, MVS_ARRAY_NODE_POSITION, &nodes));
   if (hand.near_node < nodes.count) what.marked = (const double *)nodes.data + 3 * hand.near_node;
   orifice_look(valve, !window);
-  orifice_area(&what.orifice);
+  what.orifice = orifice_last();
   scene_build(&triangles, valve, &from, &what);
-  write_title(title, sizeof title, mode, strain, &hand, &now);
+  write_title(title, sizeof title, mode, motors, &hand, &now);
   snprintf(path, sizeof path, "%s/frame_%04d.ppm", option.frames ? option.frames : "", frames);
   if (!(window ? window_show(&triangles, &from, title, save ? path : NULL)
                : picture_paint(&triangles, &from, path))) {
@@ -144,7 +163,7 @@ static void show(void) {
     exit(1);
   }
   frames += save;
-  mvs_snapshot_release(what.orifice);
+  mvs_snapshot_release(what.orifice.valve);
   mvs_snapshot_release(valve);
 }
 
@@ -163,24 +182,30 @@ static void log_driver(void *user, mvs_log_level level, const char *text) {
   fprintf(stderr, "%s: %s\n", option.driver, text);
 }
 
-/* Maps the device to the surgeon's view: right to right, up to out of the valve, towards the user
- * to down. */
 static void map_to_valve(void) {
   const mvs_snapshot *const valve = present();
-  const eye e = eye_of_surgeon(valve, 0, 0, 1);
-  const double x = e.right[0], y = e.back[1], z = -e.up[2];
-  mvs_device_view view = {0};
-  double frame[12];
-  must(mvs_snapshot_get_frame(valve, frame));
+  const mvs_device_view map = map_of_surgeon(valve, option.scale);
   mvs_snapshot_release(valve);
-  view.struct_size = sizeof view;
-  view.scale = option.scale;
-  memcpy(view.origin, frame, sizeof view.origin);
-  view.rotation[0] = sqrt(fmax(0, 1 + x + y + z));
-  view.rotation[1] = copysign(sqrt(fmax(0, 1 + x - y - z)), e.back[2] + e.up[1]);
-  view.rotation[2] = copysign(sqrt(fmax(0, 1 - x + y - z)), -e.up[0] - e.right[2]);
-  view.rotation[3] = copysign(sqrt(fmax(0, 1 - x - y + z)), e.right[1] - e.back[0]);
-  must(mvs_device_set_view(device, &view));
+  must(mvs_device_set_view(device, &map));
+}
+
+/* Opens the window; without one, only the driver mouse cannot continue, unless an option names the
+ * pointer of another program. */
+static void open_window(void) {
+  const int own_pointer =
+      strcmp(option.driver, "mouse") == 0 && !strstr(option.driver_options, "pointer=");
+  const char *reason;
+  if (option.headless) return;
+  reason = window_open(800, 600);
+  window = reason == NULL;
+  if (reason) {
+    fprintf(stderr, "phantom: no window (%s): %s\n", reason,
+            own_pointer ? "the driver mouse needs it; give another --driver, --help lists them"
+                        : "--seconds or Ctrl-C ends the program");
+    if (own_pointer) exit(1);
+  }
+  if (window) help();
+  if (own_pointer) add_driver_option("pointer=", mouse_open());
 }
 
 static void open_device(void) {
@@ -193,10 +218,11 @@ static void open_device(void) {
   desc.options = option.driver_options;
   desc.log = log_driver;
   must(mvs_device_open(&desc, &device));
+  mouse_opened();
   info.struct_size = sizeof info;
   must(mvs_device_get_info(device, &info));
-  printf("%s: %s, %.1f N peak, %.2f N continuous\n", info.driver, info.model, info.peak_force,
-         info.continuous_force);
+  motors = info.freedoms_out > 0;
+  log_device(&info);
   map_to_valve();
   must(mvs_device_start(device));
 }
@@ -228,6 +254,7 @@ static void turn_once(void) {
   take_events();
   press_due_keys();
   while (window && (key = window_key()) != 0) press(key);
+  follow_pointer();
   if (tissue_is_behind()) {
     must(mvs_step(sim, &step));
     tissue_time += option.dt;
@@ -252,18 +279,13 @@ static void print_summary(double before) {
 }
 
 int main(int argc, char **argv) {
-  const char *no_window = "";
   double before;
   read_options(argc, argv);
   must(mvs_device_handle_signals(1));
   atexit(close_device);
   open_valve();
   before = 1e6 * orifice_now(sim, 1);
-  if (!option.headless && (no_window = window_open(800, 600)) != NULL) {
-    fprintf(stderr, "phantom: no window (%s): --seconds or Ctrl-C ends the program\n", no_window);
-  }
-  window = no_window == NULL;
-  if (window) help();
+  open_window();
   open_device();
   set_mode(MVS_HAND_MODE_GRASP, 0);
   while (!ended) turn_once();

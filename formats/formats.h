@@ -50,6 +50,24 @@ struct VtpArray {
 };
 std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays);
 
+// VTK XML multiblock dataset: an index and one VTP file for each block. Returns the files in the
+// order to write them, the index last, with paths relative to the folder of the index: for the stem
+// "closed" closed/valve.vtp, closed/BLOCK.vtp ..., closed.vtm.
+struct VtkBlock {
+  std::string name;          // letters, digits, underscores
+  std::vector<Vec3> points;  // m
+  std::vector<Edge> lines;
+  std::vector<Tri> triangles;
+  std::vector<VtpArray> arrays;
+  std::vector<std::pair<std::string, double>> numbers;  // of the whole block
+};
+struct NamedFile {
+  std::string path, bytes;
+};
+std::vector<NamedFile> write_vtm(const std::string &stem, const Model &model, const State &state,
+                                 const std::vector<VtpArray> &arrays,
+                                 const std::vector<VtkBlock> &blocks);
+
 // HDF5: a valve with its state and history, and its present shape for VTK in the same file, with
 // `arrays` as above. Data shared by levels of the history is stored once and shared after reading.
 // MVS_E_UNSUPPORTED in a build without HDF5.
@@ -58,6 +76,9 @@ Snapshot read_session(std::string_view bytes);
 
 // Reads a file or pipe of at most `limit` bytes.
 std::string read_whole_file(const std::string &path, size_t limit = max_file_bytes);
+
+// Creates a folder, unless it is there.
+void make_folder(const std::string &path);
 
 // Replaces a file atomically: at every moment, also after a power loss, the target is either the
 // old file or the whole new one. A failure removes the temporary file.

@@ -1,4 +1,4 @@
-# Tests of the example phantom: cmake -D CASE=grasp|session|errors|window -D ... -P check.cmake
+# Tests of the example phantom: cmake -D CASE=grasp|session|errors|window|mouse -D ... -P check.cmake
 file(REMOVE_RECURSE ${DIR})
 file(MAKE_DIRECTORY ${DIR}/a ${DIR}/b)
 
@@ -98,6 +98,10 @@ elseif(CASE STREQUAL "errors")
   must_print("^phantom: --keys has an unknown key [^\n]*: Y\n" "use: phantom ")
   run(2 ${unattended})
   must_print("^phantom: the driver replay needs --script FILE")
+  run(2 ${PHANTOM} --headless --seconds 1)
+  must_print("^phantom: --headless has no window, and the driver mouse needs its pointer: ")
+  run(1 ${CMAKE_COMMAND} -E env --unset=DISPLAY --unset=WAYLAND_DISPLAY ${PHANTOM})
+  must_print("phantom: no window .*the driver mouse needs it; give another --driver")
   run(2 ${PHANTOM} --driver hand --headless)
   must_print("needs --seconds or --script")
   run(0 ${PHANTOM} --help)
@@ -111,4 +115,9 @@ elseif(CASE STREQUAL "window")
     --frames a --every 10 --keys "0:a 0.5:c")
   must_print("peak force")
   must_be_pictures(1 ${DIR}/a)
+elseif(CASE STREQUAL "mouse")
+  # the hand starts at the tissue under the pointer, which pulls it by some millimetres
+  run(0 ${XVFB_RUN} -a sh ${CMAKE_CURRENT_LIST_DIR}/mouse.sh ${PHANTOM})
+  must_print("mouse: pointer of a window, no force" "grasps node [0-9]+ of [AP][1-3]"
+    "releases it; [0-9.]+ N at most, moved [1-9][0-9]?\\.[0-9] mm")
 endif()

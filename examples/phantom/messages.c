@@ -16,12 +16,20 @@ void log_line(double time, const char *format, ...) {
   fflush(stdout);
 }
 
+void log_device(const mvs_device_info *info) {
+  printf("%s: %s, ", info->driver, info->model);
+  if (info->freedoms_out > 0)
+    printf("%.1f N peak, %.2f N continuous\n", info->peak_force, info->continuous_force);
+  else
+    printf("no force\n");
+}
+
 double orifice_now(mvs_sim *sim, int wait) {
   const mvs_snapshot *valve;
   must(mvs_get_snapshot(sim, &valve));
   orifice_look(valve, wait);
   mvs_snapshot_release(valve);
-  return orifice_area(NULL);
+  return orifice_area();
 }
 
 /* The scallop of a node. */
@@ -75,8 +83,26 @@ static const char *cause_name(uint32_t cause) {
   return cause < sizeof names / sizeof names[0] ? names[cause] : "unknown cause";
 }
 
+/* The largest distance of the held tissue from its place when it was grasped, m. */
+static double moved(mvs_sim *sim, const mvs_device_report *hand) {
+  static double from[3], farthest;
+  mvs_tool_state tool = {0};
+  double way[3];
+  int k;
+  tool.struct_size = sizeof tool;
+  if (hand->tool == 0 || mvs_get_tool(sim, hand->tool, &tool) != MVS_OK) return farthest;
+  if (hand->events & MVS_EVENT_GRASPED) {
+    memcpy(from, tool.proxy, sizeof from);
+    farthest = 0;
+  }
+  for (k = 0; k < 3; ++k) way[k] = tool.proxy[k] - from[k];
+  farthest = fmax(farthest, length_of(way));
+  return farthest;
+}
+
 void log_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now) {
   static double peak; /* N, since the last release */
+  const double far = moved(sim, hand);
   const uint32_t e = hand->events;
   mvs_part part = {0};
   if (e & MVS_EVENT_CHOSEN) {
@@ -87,10 +113,13 @@ void log_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_st
     log_line(now->time, "grasps node %u of %s; orifice %.1f mm2", (unsigned)hand->node,
              scallop_of(sim, hand->node, &part), 1e6 * orifice_now(sim, option.headless));
   }
-  if (e & MVS_EVENT_MISSED) log_line(now->time, "no node within reach");
+  if (e & MVS_EVENT_MISSED) {
+    log_line(now->time, "no node within reach%s",
+             mouse_is_open() ? ": the wheel or the right button moves the hand to the tissue" : "");
+  }
   if (e & MVS_EVENT_LET_GO) {
-    log_line(now->time, "releases it; %.2f N at most, orifice %.1f mm2", peak,
-             1e6 * orifice_now(sim, option.headless));
+    log_line(now->time, "releases it; %.2f N at most, moved %.1f mm, orifice %.1f mm2", peak,
+             1e3 * far, 1e6 * orifice_now(sim, option.headless));
     peak = 0;
   }
   if (e & MVS_EVENT_LOST_TOOL) log_line(now->time, "the operation removed the instrument");
@@ -107,15 +136,26 @@ const char *mode_name(uint32_t mode) {
   return mode < 6 ? names[mode] : "";
 }
 
-void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_device_report *hand,
-                 const mvs_device_state *now) {
+/* Forces of the motors, or without motors the use of the pointer. */
+static void write_forces(char *text, size_t size, const mvs_device_state *now) {
   static const char *const phases[] = {
       "stopped",    "off (a: on)", "waiting for the hand to move away",
       "ramping up", "on",          "faded, the valve does not step",
       "off: "};
-  snprintf(text, size, "%s | orifice %.1f mm2 | %.2f N, felt %.2f N | forces %s%s%s",
-           mode_name(mode), 1e6 * orifice_area(NULL), length_of(hand->force), length_of(now->force),
+  snprintf(text, size, "felt %.2f N | forces %s%s", length_of(now->force),
            now->phase < 7 ? phases[now->phase] : "",
-           now->phase == MVS_DEVICE_PHASE_LATCHED ? cause_name(now->cause) : "",
-           strain ? " | strain 0 to 50 %, of chordae 0 to 5 %" : "");
+           now->phase == MVS_DEVICE_PHASE_LATCHED ? cause_name(now->cause) : "");
+}
+
+void write_title(char *text, size_t size, uint32_t mode, int motors, const mvs_device_report *hand,
+                 const mvs_device_state *now) {
+  const orifice hole = orifice_last();
+  char forces[128] = "left: grasp, wheel: depth, right: to the tissue";
+  mvs_snapshot_release(hole.valve);
+  if (motors) write_forces(forces, sizeof forces, now);
+  snprintf(text, size, "%s | orifice %.1f mm2%s | %.2f N | %s", mode_name(mode), 1e6 * hole.area,
+           !hole.under_load ? " without load"
+           : hole.at_rest   ? ""
+                            : ", moving",
+           length_of(hand->force), motors || mouse_is_open() ? forces : "no motors");
 }

@@ -15,6 +15,15 @@ int window_wants_to_close(void) {
   return 0;
 }
 
+double window_aspect(void) {
+  return 4.0 / 3;
+}
+
+int window_pointer(pointer *now) {
+  (void)now;
+  return 0;
+}
+
 void window_wait(double seconds) {
   (void)seconds;
 }

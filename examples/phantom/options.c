@@ -20,7 +20,8 @@ static void list_drivers(FILE *to) {
 
 static void print_use(FILE *to) {
   fprintf(to,
-          "use: phantom --driver NAME|PATH [--device NAME] [--option KEY=VALUE ...]\n"
+          "use: phantom [--driver NAME|PATH] [--device NAME] [--option KEY=VALUE ...]\n"
+          "                    else the driver mouse: the pointer of the window moves the hand\n"
           "  [--valve FILE]    else the shipped valve       [--scale S]  of the motion, 1\n"
           "  [--script FILE]   recording for replay         [--keys \"2.0:u 3.0:s\"]  keys at "
           "times in s\n"
@@ -46,7 +47,7 @@ static double number(const char *text) {
   return value;
 }
 
-static void add_driver_option(const char *key, const char *value) {
+void add_driver_option(const char *key, const char *value) {
   const size_t used = strlen(option.driver_options), room = sizeof option.driver_options - used;
   const int wanted = snprintf(option.driver_options + used, room, "%s%s\n", key, value);
   if (wanted < 0 || (size_t)wanted >= room) use("too many options of the driver, at ", value);
@@ -125,7 +126,13 @@ void read_options(int argc, char **argv) {
       use("a value is missing after ", argv[i]);
     }
   }
-  if (!option.driver) use("--driver is required", "");
+  if (!option.driver) option.driver = "mouse";
+  if (option.headless && !strcmp(option.driver, "mouse")) {
+    use("--headless has no window, and the driver mouse needs its pointer: leave --headless away, "
+        "or "
+        "give --driver replay --script FILE",
+        "");
+  }
   if (!(option.every > 0)) use("--every must be positive", "");
   if (!are_keys(option.keys)) use("not a list of TIME:KEY: ", option.keys);
   must_know_keys(option.keys);

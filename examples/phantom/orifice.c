@@ -5,8 +5,7 @@
 #include "phantom.h"
 
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
-static const mvs_snapshot *measured; /* the last one; owned */
-static double area;
+static orifice last; /* its valve is owned */
 static int at_work, started;
 static pthread_t thread;
 
@@ -16,9 +15,11 @@ static void *look(void *snapshot) {
   m.struct_size = sizeof m;
   must(mvs_snapshot_measure(valve, &m));
   pthread_mutex_lock(&mutex);
-  mvs_snapshot_release(measured);
-  measured = valve;
-  area = m.regurgitant_orifice_area;
+  mvs_snapshot_release(last.valve);
+  last.valve = valve;
+  last.area = m.regurgitant_orifice_area;
+  last.at_rest = (int)m.at_rest;
+  last.under_load = (int)m.under_load;
   at_work = 0;
   pthread_mutex_unlock(&mutex);
   return NULL;
@@ -45,21 +46,23 @@ void orifice_look(const mvs_snapshot *valve, int wait) {
   }
 }
 
-double orifice_area(const mvs_snapshot **of) {
-  double answer;
+orifice orifice_last(void) {
+  orifice answer;
   pthread_mutex_lock(&mutex);
-  answer = area;
-  mvs_snapshot_retain(measured);
-  if (of)
-    *of = measured;
-  else
-    mvs_snapshot_release(measured);
+  mvs_snapshot_retain(last.valve);
+  answer = last;
   pthread_mutex_unlock(&mutex);
   return answer;
 }
 
+double orifice_area(void) {
+  const orifice answer = orifice_last();
+  mvs_snapshot_release(answer.valve);
+  return answer.area;
+}
+
 void orifice_close(void) {
   if (started) pthread_join(thread, NULL);
-  mvs_snapshot_release(measured);
-  measured = NULL;
+  mvs_snapshot_release(last.valve);
+  last.valve = NULL;
 }

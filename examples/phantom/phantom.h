@@ -22,6 +22,8 @@ void help(void);
 int is_key(int key);
 /* Exits with code 2 for invalid options, with 0 after --help. */
 void read_options(int argc, char **argv);
+/* Adds a line "key=value" to the options of the driver. */
+void add_driver_option(const char *key, const char *value);
 /* Reads the first entry of "2.0:u 3.0:s" (key u at 2 s, key s at 3 s); returns the rest, or null
  * without an entry. */
 const char *next_key(const char *keys, double *when, int *key);
@@ -30,36 +32,53 @@ const char *next_key(const char *keys, double *when, int *key);
 typedef struct eye {
   double middle[3], right[3], up[3], back[3];
   double distance;
+  double aspect; /* width of the picture divided by its height */
 } eye;
+
+/* Half the height of the picture at distance 1: the field of view is 30 degrees. */
+#define EYE_SLOPE 0.26794919243112270647
 
 /* The surgeon's view, from the atrium with the anterior leaflet on top, turned about the valve's
  * axis and tilted away from it (rad). */
-eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double distance);
+eye eye_of_surgeon(const mvs_snapshot *valve, double turn, double tilt, double distance,
+                   double aspect);
+
+/* Maps a device to the surgeon's view: right to right, up to out of the valve, towards the user to
+ * down. */
+mvs_device_view map_of_surgeon(const mvs_snapshot *valve, double scale);
 
 /* The projection matrix for column vectors in column-major order, as OpenGL needs it. */
-void eye_matrix(const eye *from, double aspect, float matrix[16]);
+void eye_matrix(const eye *from, float matrix[16]);
 
 #define BACKGROUND \
   { 0.93f, 0.94f, 0.96f }
 
-/* Coloured and lit triangles, three corners each. */
+/* Coloured and lit triangles, three corners each. Those from `solid` on are drawn over all others,
+ * in their order and mixed with the colours behind them. */
 typedef struct corner {
-  float at[3], colour[3];
+  float at[3], colour[4]; /* red green blue alpha */
 } corner;
 typedef struct scene {
   corner *corners;
-  size_t count, room;
+  size_t count, solid, room;
 } scene;
+
+/* The orifice of a measured valve. It may be graded only of a valve at rest under load. */
+typedef struct orifice {
+  double area; /* m2 */
+  int at_rest, under_load;
+  const mvs_snapshot *valve; /* null: not yet measured */
+} orifice;
 
 /* Objects to show besides the valve. */
 typedef struct sight {
-  int strain;                  /* 1: colours show strain, 0: anatomy */
-  mvs_id chord;                /* highlighted chord; 0: no chord */
-  double hand[3];              /* m */
-  double force[3];             /* N, on the hand: an arrow of 5 mm/N */
-  mvs_tool_state tool;         /* kind 0: no tool */
-  const double *marked;        /* position to mark; nullable */
-  const mvs_snapshot *orifice; /* snapshot with the orifice to show; nullable */
+  int strain;           /* 1: colours show strain, 0: anatomy */
+  mvs_id chord;         /* highlighted chord; 0: no chord */
+  double hand[3];       /* m */
+  double force[3];      /* N, on the hand: an arrow of 5 mm/N */
+  mvs_tool_state tool;  /* kind 0: no tool */
+  const double *marked; /* position to mark; nullable */
+  orifice orifice;
 } sight;
 
 /* Strain at the upper end of the colour scale of leaflets and of chordae. */
@@ -71,15 +90,18 @@ void scene_build(scene *out, const mvs_snapshot *valve, const eye *from, const s
 
 /* Measures a snapshot, on a second thread unless `wait` is set; skips it if that thread is busy. */
 void orifice_look(const mvs_snapshot *valve, int wait);
-/* The orifice of the last measured snapshot, m2. `of` (nullable) receives that snapshot, which the
- * caller releases. */
-double orifice_area(const mvs_snapshot **of);
+/* The orifice of the last measured snapshot; the caller releases its valve. */
+orifice orifice_last(void);
+/* Its area, m2. */
+double orifice_area(void);
 void orifice_close(void);
 
 /* Messages. */
 void log_line(double time, const char *format, ...);
+void log_device(const mvs_device_info *info);
 void log_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_state *now);
-void write_title(char *text, size_t size, uint32_t mode, int strain, const mvs_device_report *hand,
+/* `motors`: the device can push, so that the state of its forces matters. */
+void write_title(char *text, size_t size, uint32_t mode, int motors, const mvs_device_report *hand,
                  const mvs_device_state *now);
 const char *mode_name(uint32_t mode);
 const char *chord_name(mvs_sim *sim, mvs_id id, mvs_part *part);
@@ -101,11 +123,34 @@ int is_surgery_key(int key);
 int picture_paint(const scene *what, const eye *from, const char *path);
 int picture_write(const char *path, const unsigned char *rgb, int width, int height);
 
+/* The pointer of the window, in coordinates of the screen: x from -aspect to aspect, y from -1 to 1
+ * upwards. */
+typedef struct pointer {
+  double x, y;
+  double notches; /* of the wheel since the last call, positive away from the user */
+  int left;       /* the left button is down */
+  int right;      /* the right button was pressed since the last call */
+} pointer;
+
+/* The driver mouse. mouse_open creates the shared memory between window and driver and returns the
+ * value of the driver's option `pointer`, or exits; mouse_opened removes the name of that memory
+ * once the driver has it; mouse_close ends the driver's device. */
+const char *mouse_open(void);
+void mouse_opened(void);
+void mouse_close(void);
+int mouse_is_open(void);
+/* Moves the hand of the driver under the pointer. */
+void mouse_move(mvs_device *device, const mvs_snapshot *valve, const eye *from, const pointer *to);
+
 /* Opens the window. Returns null on success, else the reason of the failure. */
 const char *window_open(int width, int height);
 /* The character of the next pressed key; 0: no key. */
 int window_key(void);
 int window_wants_to_close(void);
+/* Its width divided by its height. */
+double window_aspect(void);
+/* Reads its pointer; returns 0 if that has not changed since the last call. */
+int window_pointer(pointer *now);
 /* Handles user input for at most this time. */
 void window_wait(double seconds);
 /* Shows the scene and, if `path` is not null, writes it into a PPM file; 0 if that fails. */

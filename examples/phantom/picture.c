@@ -38,16 +38,17 @@ static float area(const spot *a, const spot *b, float x, float y) {
   return (b->at[0] - a->at[0]) * (y - a->at[1]) - (b->at[1] - a->at[1]) * (x - a->at[0]);
 }
 
-static void paint_pixel(pixel *to, const spot s[3], const float weight[3]) {
-  float depth = 0;
+/* `over` ignores the depth of the picture and leaves it. */
+static void paint_pixel(pixel *to, const spot s[3], const float weight[3], int over) {
+  float depth = 0, colour[4] = {0, 0, 0, 0};
   int k, c;
   for (k = 0; k < 3; ++k) depth += weight[k] * s[k].at[2];
-  if (depth >= to->depth || depth < -1) return;
-  to->depth = depth;
-  for (c = 0; c < 3; ++c) {
-    to->colour[c] = 0;
-    for (k = 0; k < 3; ++k) to->colour[c] += weight[k] * s[k].colour[c];
+  if (depth < -1 || (!over && depth >= to->depth)) return;
+  if (!over) to->depth = depth;
+  for (c = 0; c < 4; ++c) {
+    for (k = 0; k < 3; ++k) colour[c] += weight[k] * s[k].colour[c];
   }
+  for (c = 0; c < 3; ++c) to->colour[c] += colour[3] * (colour[c] - to->colour[c]);
 }
 
 /* The first and last pixel of the bounding box of a triangle along an axis. */
@@ -62,7 +63,7 @@ static void pixel_range(const spot s[3], int axis, int size, int *first, int *la
   *last = high < 0 ? -1 : high >= (float)size ? size - 1 : (int)high;
 }
 
-static void paint_triangle(pixel *pixels, const spot s[3]) {
+static void paint_triangle(pixel *pixels, const spot s[3], int over) {
   const float whole = area(&s[0], &s[1], s[2].at[0], s[2].at[1]);
   int x, y, left, right, top, bottom, k;
   if (whole == 0) return;
@@ -76,7 +77,7 @@ static void paint_triangle(pixel *pixels, const spot s[3]) {
             area(&s[(k + 1) % 3], &s[(k + 2) % 3], (float)x + 0.5f, (float)y + 0.5f) / whole;
       }
       if (weight[0] < 0 || weight[1] < 0 || weight[2] < 0) continue;
-      paint_pixel(&pixels[y * WIDE + x], s, weight);
+      paint_pixel(&pixels[y * WIDE + x], s, weight, over);
     }
   }
 }
@@ -117,12 +118,12 @@ int picture_paint(const scene *what, const eye *from, const char *path) {
     pixels[i].colour[1] = background[1];
     pixels[i].colour[2] = background[2];
   }
-  eye_matrix(from, (double)WIDTH / HEIGHT, matrix);
+  eye_matrix(from, matrix);
   for (i = 0; good && i + 2 < what->count; i += 3) {
     spot s[3];
     if (project(matrix, &what->corners[i], &s[0]) & project(matrix, &what->corners[i + 1], &s[1]) &
         project(matrix, &what->corners[i + 2], &s[2])) {
-      paint_triangle(pixels, s);
+      paint_triangle(pixels, s, i >= what->solid);
     }
   }
   if (good) average(pixels, rgb);

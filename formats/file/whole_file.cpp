@@ -112,6 +112,14 @@ std::string read_whole_file(const std::string &path, size_t limit) {
   }
 }
 
+void make_folder(const std::string &path) {
+  Status found;
+  if (::mkdir(path.c_str(), 0777) == 0) return;
+  const int error = errno;
+  if (error == EEXIST && ::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) return;
+  fail_to_write("create folder", path, error);
+}
+
 void write_whole_file(const std::string &path, std::string_view bytes) {
   const std::string target = follow_links(path), folder = folder_of(target);
   Status old;

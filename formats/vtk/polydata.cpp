@@ -93,7 +93,7 @@ void add_cell_data(std::vector<VtkArray> &to, const Valve &valve) {
 void add_given(VtkPolyData &current, const VtpArray &given) {
   const size_t components = static_cast<size_t>(given.components);
   const size_t rows =
-      given.on_points ? current.points.size() / 3 : current.triangles.count + current.chords.count;
+      given.on_points ? current.points.size() / 3 : current.triangles.count + current.lines.count;
   MVS_MUST(given.components > 0 && given.values.size() == rows * components, MVS_E_INTERNAL,
            given.name, "array %s has %zu values for %zu rows of %d", given.name.c_str(),
            given.values.size(), rows, given.components);
@@ -105,6 +105,13 @@ void add_given(VtkPolyData &current, const VtpArray &given) {
   current.cell_data.push_back(std::move(array));
 }
 
+template <typename Cell>
+VtkCells cells_of(const std::vector<Cell> &cells) {
+  VtkCells made{cells.size(), std::tuple_size_v<Cell>, {}};
+  for (const Cell &cell : cells) made.nodes.insert(made.nodes.end(), cell.begin(), cell.end());
+  return made;
+}
+
 }  // namespace
 
 VtkPolyData make_vtk_polydata(const Model &model, const State &state,
@@ -114,20 +121,29 @@ VtkPolyData make_vtk_polydata(const Model &model, const State &state,
            "the state has %zu positions for %zu nodes", state.x.size(), model.node_count());
   VtkPolyData current;
   current.points = in_mm(state.x);
-  current.chords = {valve.chords.size(), 2, {}};
+  current.lines = {valve.chords.size(), 2, {}};
   for (const Chord &chord : valve.chords) {
-    current.chords.nodes.insert(current.chords.nodes.end(), {chord.a, chord.b});
+    current.lines.nodes.insert(current.lines.nodes.end(), {chord.a, chord.b});
   }
-  current.triangles = {valve.triangles.size(), 3, {}};
-  for (const Tri &triangle : valve.triangles) {
-    current.triangles.nodes.insert(current.triangles.nodes.end(), triangle.begin(), triangle.end());
-  }
+  current.triangles = cells_of<Tri>(valve.triangles);
   add_field_data(current.field_data, valve, state);
   const auto *const kind = reinterpret_cast<const uint8_t *>(model.topology.node_kind.data());
   add(current.point_data, "node_kind", 1, std::vector<uint8_t>(kind, kind + model.node_count()));
   add(current.point_data, "rest_mm", 3, in_mm(valve.rest));
   add_cell_data(current.cell_data, valve);
   for (const VtpArray &given : arrays) add_given(current, given);
+  return current;
+}
+
+VtkPolyData make_vtk_polydata(const VtkBlock &block) {
+  VtkPolyData current;
+  current.points = in_mm(block.points);
+  current.lines = cells_of(block.lines);
+  current.triangles = cells_of(block.triangles);
+  add_text(current.field_data, "SPACE", "LPS");
+  add_text(current.field_data, "UNITS", "mm");
+  for (const auto &[name, value] : block.numbers) add_number(current.field_data, name, value);
+  for (const VtpArray &given : block.arrays) add_given(current, given);
   return current;
 }
 

@@ -19,15 +19,20 @@ struct VtkCells {
   std::vector<int64_t> nodes;
 };
 
-// In mm. Cell data has one row per chord, then one per triangle: VTK orders lines before polygons.
+// In mm. Cell data has one row per line, then one per triangle: VTK orders lines before polygons.
+// The lines of a valve are its chordae.
 struct VtkPolyData {
   std::vector<double> points;
-  VtkCells chords, triangles;
+  VtkCells lines, triangles;
   std::vector<VtkArray> field_data, point_data, cell_data;
 };
 
 VtkPolyData make_vtk_polydata(const Model &model, const State &state,
                               const std::vector<VtpArray> &arrays);
+
+std::string vtp_text(const VtkPolyData &current);
+// Lines and triangles on points that are no nodes of the valve.
+VtkPolyData make_vtk_polydata(const VtkBlock &block);
 
 // Adds the PolyData as group VTKHDF of an HDF5 file (VTK HDF file format, version 2.1).
 void add_vtk_hdf(H5Tree &tree, VtkPolyData current);

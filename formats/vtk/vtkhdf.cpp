@@ -40,7 +40,7 @@ void add_vtk_hdf(H5Tree &tree, VtkPolyData current) {
   tree.arrays[group + "/NumberOfPoints"] = {one(current.points.size() / 3)};
   tree.arrays[group + "/Points"] = {std::move(current.points), 3};
   add_cell_group(tree, group + "/Vertices", {});
-  add_cell_group(tree, group + "/Lines", std::move(current.chords));
+  add_cell_group(tree, group + "/Lines", std::move(current.lines));
   add_cell_group(tree, group + "/Polygons", std::move(current.triangles));
   add_cell_group(tree, group + "/Strips", {});
   add_arrays(tree, group + "/FieldData", std::move(current.field_data));

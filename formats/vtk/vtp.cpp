@@ -7,22 +7,11 @@
 #include <string>
 
 #include "formats/text/base64.h"
+#include "formats/text/xml.h"
 #include "formats/vtk/polydata.h"
 
 namespace mvs::core {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&' || c == '<' || c == '>' || c == '"') {
-      out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 const char *type_name(double) {
   return "Float64";
@@ -68,7 +57,7 @@ std::string VtpWriter::write(const VtkPolyData &current) {
   section("FieldData", current.field_data);
   in_field_ = false;
   out_ += "<Piece NumberOfPoints=\"" + std::to_string(current.points.size() / 3) +
-          "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(current.chords.count) +
+          "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(current.lines.count) +
           "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(current.triangles.count) +
           "\">\n";
   section("PointData", current.point_data);
@@ -76,7 +65,7 @@ std::string VtpWriter::write(const VtkPolyData &current) {
   out_ += "<Points>\n";
   array("Points", 3, current.points);
   out_ += "</Points>\n";
-  cells("Lines", current.chords);
+  cells("Lines", current.lines);
   cells("Polys", current.triangles);
   out_ += "</Piece>\n</PolyData>\n</VTKFile>\n";
   return std::move(out_);
@@ -110,7 +99,7 @@ void VtpWriter::array(std::string_view name, size_t components, const std::vecto
   std::memcpy(bytes.data(), &size, sizeof size);
   if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
   out_.append("<DataArray type=\"").append(type_name(Number{})).append("\" Name=\"");
-  out_ += escaped(name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
+  out_ += xml_escaped(name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
   if (in_field_) out_ += " NumberOfTuples=\"" + std::to_string(values.size() / components) + "\"";
   out_ += " format=\"binary\">";
   append_base64(out_, bytes);
@@ -129,8 +118,12 @@ void VtpWriter::array(std::string_view name, size_t, const std::vector<std::stri
 
 }  // namespace
 
+std::string vtp_text(const VtkPolyData &current) {
+  return VtpWriter().write(current);
+}
+
 std::string write_vtp(const Model &model, const State &state, const std::vector<VtpArray> &arrays) {
-  return VtpWriter().write(make_vtk_polydata(model, state, arrays));
+  return vtp_text(make_vtk_polydata(model, state, arrays));
 }
 
 }  // namespace mvs::core

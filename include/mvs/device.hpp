@@ -114,7 +114,7 @@ class Device {
   void cut() { must(mvs_device_cut(device_)); }
   void advance(double seconds) { must(mvs_device_advance(device_, seconds)); }
 
-  // To be called before each step of the simulator, mvs::Sim::get().
+  // To be called before each step of the simulator, mvs::Simulator::get().
   mvs_device_report sync(mvs_sim *sim) {
     return filled<mvs_device_report>(mvs_device_sync, device_, sim);
   }

@@ -8,12 +8,12 @@
 
 namespace mvs {
 
-inline void refine(Sim &sim) {
+inline void refine(Simulator &sim) {
   must(mvs_refine_valve(sim.get()));
 }
 
 // By vertices or by edge; returns the changes.
-inline mvs_coarsening coarsen(Sim &sim, mvs_coarsen_options options) {
+inline mvs_coarsening coarsen(Simulator &sim, mvs_coarsen_options options) {
   options.struct_size = sizeof options;
   mvs_coarsening made = sized<mvs_coarsening>();
   must(mvs_coarsen_valve(sim.get(), &options, &made));
@@ -21,11 +21,11 @@ inline mvs_coarsening coarsen(Sim &sim, mvs_coarsen_options options) {
 }
 
 // Transfers the state of a coarser or finer level of this valve.
-inline void transfer_state(Sim &sim, const Snapshot &from) {
+inline void transfer_state(Simulator &sim, const Snapshot &from) {
   must(mvs_transfer_state(sim.get(), from.get()));
 }
 
-inline mvs_profile profile_of(const Sim &sim) {
+inline mvs_profile profile_of(const Simulator &sim) {
   return filled<mvs_profile>(mvs_get_profile, sim.get());
 }
 

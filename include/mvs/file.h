@@ -23,8 +23,11 @@ enum mvs_format_e {
   MVS_FORMAT_INP = 4, /* Abaqus input, read only: shells, trusses, materials, prescribed nodes and
                          pressure. Ignored keywords and assumptions are logged, MVS_LOG_WARNING. The
                          valve is at rest; its load is that of the file */
-  MVS_FORMAT_FEB = 5  /* FEBio 4.0 model, write only: the valve at rest with the load of the
+  MVS_FORMAT_FEB = 5, /* FEBio 4.0 model, write only: the valve at rest with the load of the
                          snapshot. MVS_E_UNSUPPORTED where FEBio lacks the law */
+  MVS_FORMAT_VTM = 6 /* VTK XML multiblock dataset, write only, to a path: an index and the files of
+                        its blocks in a folder of the same name: valve, orifice if there is one,
+                        coaptation_line if leaflets touch */
 };
 typedef uint32_t mvs_format;
 

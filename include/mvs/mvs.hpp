@@ -20,20 +20,20 @@
 namespace mvs {
 
 // A simulator, owned.
-class Sim {
+class Simulator {
  public:
-  explicit Sim(mvs_sim_desc desc = {}) {
+  explicit Simulator(mvs_sim_desc desc = {}) {
     desc.struct_size = sizeof desc;
     must(mvs_create(&desc, &sim_));
   }
-  Sim(Sim &&other) noexcept : sim_(std::exchange(other.sim_, nullptr)) {}
-  Sim &operator=(Sim &&other) noexcept {
+  Simulator(Simulator &&other) noexcept : sim_(std::exchange(other.sim_, nullptr)) {}
+  Simulator &operator=(Simulator &&other) noexcept {
     std::swap(sim_, other.sim_);
     return *this;
   }
-  Sim(const Sim &) = delete;
-  Sim &operator=(const Sim &) = delete;
-  ~Sim() { mvs_destroy(sim_); }
+  Simulator(const Simulator &) = delete;
+  Simulator &operator=(const Simulator &) = delete;
+  ~Simulator() { mvs_destroy(sim_); }
 
   mvs_sim *get() const { return sim_; }
 
@@ -81,6 +81,20 @@ class Sim {
     must(mvs_settle(sim_, &options, &stats));
     return stats;
   }
+
+  // A settle in slices. advance_settle returns the completed share; 1: the end.
+  void begin_settle(mvs_settle_options options = {}) {
+    options.struct_size = sizeof options;
+    must(mvs_begin_settle(sim_, &options));
+  }
+
+  double advance_settle(double seconds) {
+    double share = 0;
+    must(mvs_advance_settle(sim_, seconds, &share, nullptr));
+    return share;
+  }
+
+  void cancel_settle() { must(mvs_cancel_settle(sim_)); }
 
   void step(mvs_step_options options = {}) {
     options.struct_size = sizeof options;

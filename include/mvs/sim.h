@@ -149,6 +149,23 @@ typedef struct mvs_stats {
  */
 MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats);
 
+/* Begins a settle in slices, for a host whose only thread has to answer in between (the worker of a
+ * browser, a window). The result has the same bits as that of mvs_settle. Until the end the valve
+ * is as before: it may be read, and another call that changes it cancels the settle. Replaces a
+ * settle already begun. `options` is nullable. */
+MVS_API mvs_result mvs_begin_settle(mvs_sim *sim, const mvs_settle_options *options);
+
+/* Advances the settle for `seconds`, 0 to 3600, and at least one iteration of Newton's method or
+ * one step in time. *share is the completed share in [0, 1]; 1: the settle has ended, the valve is
+ * that of mvs_settle, and `stats` is written. MVS_E_STATE if no settle is under way. The codes of
+ * mvs_settle, and the progress callback if it cancels, end the settle; the valve is as before.
+ * `share` and `stats` are nullable. */
+MVS_API mvs_result mvs_advance_settle(mvs_sim *sim, double seconds, double *share,
+                                      mvs_stats *stats);
+
+/* Cancels a settle in slices, if one is under way. */
+MVS_API mvs_result mvs_cancel_settle(mvs_sim *sim);
+
 /* Options of mvs_step. */
 typedef struct mvs_step_options {
   uint32_t struct_size;

@@ -141,6 +141,26 @@ MVS_API mvs_result mvs_snapshot_get_part(const mvs_snapshot *snapshot, mvs_part_
 MVS_API mvs_result mvs_snapshot_find_part(const mvs_snapshot *snapshot, mvs_part_kind kind,
                                           const char *name, mvs_part *part);
 
+/* A chord segment in words and figures, for tables. Texts are valid while the snapshot is held. */
+typedef struct mvs_chord_info {
+  uint32_t struct_size;
+  mvs_chord_kind kind; /* MVS_CHORD_KIND_* */
+  mvs_id id;
+  const char *name;
+  const char *heads;     /* names of the papillary heads above it, joined by '+'; "" without one */
+  const char *scallops;  /* of those in which it, or its branches, end, joined by '+' */
+  double length;         /* m, now */
+  double rest_length;    /* m */
+  double strain;         /* engineering strain, negative when slack */
+  double tension;        /* N */
+  mvs_chord_flags flags; /* MVS_CHORD_FLAG_* */
+  uint32_t reserved;
+} mvs_chord_info;
+
+/* Returns chord segment `index` of a snapshot. */
+MVS_API mvs_result mvs_snapshot_get_chord(const mvs_snapshot *snapshot, uint32_t index,
+                                          mvs_chord_info *chord);
+
 /* Returns the name of the valve, valid while the snapshot is held. Never null; "" for a null
  * snapshot. */
 MVS_API const char *mvs_snapshot_get_name(const mvs_snapshot *snapshot);

@@ -108,6 +108,9 @@ class Snapshot {
 
   mvs_load_case load() const { return filled<mvs_load_case>(mvs_snapshot_get_load, held_); }
 
+  mvs_chord_info chord(std::uint32_t index) const {
+    return filled<mvs_chord_info>(mvs_snapshot_get_chord, held_, index);
+  }
   bool at_rest() const { return filled<mvs_rest>(mvs_snapshot_get_rest, held_).at_rest != 0; }
 
   History history() const {

@@ -14,14 +14,14 @@ using namespace mvs::core;
 namespace {
 
 const char *const ending_hint =
-    "known endings are .obj, .h5, .vtkhdf, .vtp, .inp and .feb, or name the format";
+    "known endings are .obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb, or name the format";
 
 bool ends_with(std::string_view text, std::string_view ending) {
   return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
 }
 
 uint32_t checked_format(uint32_t format_given) {
-  MVS_MUST(format_given <= MVS_FORMAT_FEB, MVS_E_ARGUMENT, "format",
+  MVS_MUST(format_given <= MVS_FORMAT_VTM, MVS_E_ARGUMENT, "format",
            "format is %u: it has to be one of MVS_FORMAT_*", format_given);
   return format_given;
 }
@@ -32,6 +32,7 @@ uint32_t format_of(const char *path, uint32_t format_given) {
   if (checked_format(format_given) != MVS_FORMAT_AUTO) return format_given;
   if (ends_with(path, ".obj")) return MVS_FORMAT_OBJ;
   if (ends_with(path, ".vtp")) return MVS_FORMAT_VTP;
+  if (ends_with(path, ".vtm")) return MVS_FORMAT_VTM;
   if (ends_with(path, ".h5") || ends_with(path, ".vtkhdf")) return MVS_FORMAT_H5;
   if (ends_with(path, ".inp")) return MVS_FORMAT_INP;
   if (ends_with(path, ".feb")) return MVS_FORMAT_FEB;
@@ -46,8 +47,9 @@ void load_inp(mvs_sim &sim, std::string_view bytes) {
 }
 
 void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
-  MVS_MUST(format_given != MVS_FORMAT_VTP, MVS_E_UNSUPPORTED, "format",
-           "VTP files are written for other programs, not read: load the OBJ or HDF5 file");
+  MVS_MUST(format_given != MVS_FORMAT_VTP && format_given != MVS_FORMAT_VTM, MVS_E_UNSUPPORTED,
+           "format",
+           "VTP and VTM files are written for other programs, not read: load the OBJ or HDF5 file");
   MVS_MUST(format_given != MVS_FORMAT_FEB, MVS_E_UNSUPPORTED, "format",
            "FEBio models are written for FEBio, not read: load the OBJ or HDF5 file");
   if (format_given == MVS_FORMAT_H5) return replace_valve(sim, read_session(bytes));
@@ -111,7 +113,51 @@ std::vector<VtpArray> result_arrays(const mvs_snapshot &s) {
           chord_array(s, "chord_tension_N", s.chords().tension)};
 }
 
+VtkBlock orifice_block(const mvs_snapshot &s) {
+  const Orifice &orifice = s.orifice();
+  VtkBlock block{"orifice", orifice.vertices, {}, orifice.triangles, {}, {}};
+  block.numbers = {{"regurgitant_orifice_area_mm2", 1e6 * orifice.area}};
+  return block;
+}
+
+VtkBlock coaptation_block(const mvs_snapshot &s) {
+  const Coaptation &coaptation = s.coaptation();
+  VtkBlock block;
+  block.name = "coaptation_line";
+  VtpArray length{"coaptation_length_mm", true, 1, {}};
+  uint32_t k = 0;
+  for (const uint32_t end : coaptation.line_end) {
+    for (const uint32_t begin = k; k < end; ++k) {
+      block.points.push_back(coaptation.line[k].point);
+      length.values.push_back(1e3 * coaptation.line[k].length);
+      if (k > begin) block.lines.push_back({k - 1, k});
+    }
+  }
+  block.arrays.push_back(std::move(length));
+  block.numbers = {{"coaptation_area_mm2", 1e6 * coaptation.area},
+                   {"coaptation_length_mean_mm", 1e3 * coaptation.length_mean}};
+  return block;
+}
+
+// Writes the index last: it refers to files that are complete.
+void save_vtm(const mvs_snapshot &s, const std::string &path) {
+  const std::string stem = ends_with(path, ".vtm") ? path.substr(0, path.size() - 4) : path;
+  const size_t slash = stem.rfind('/');
+  const std::string folder = slash == std::string::npos ? "" : stem.substr(0, slash + 1),
+                    name = stem.substr(folder.size());
+  MVS_MUST(!name.empty() && stem != path, MVS_E_ARGUMENT, "path",
+           "a VTM file is named NAME.vtm, with its blocks in the folder NAME");
+  std::vector<VtkBlock> blocks;
+  if (!s.orifice().triangles.empty()) blocks.push_back(orifice_block(s));
+  if (!s.coaptation().line.empty()) blocks.push_back(coaptation_block(s));
+  const std::vector<NamedFile> files = write_vtm(name, *s.model, s.state, result_arrays(s), blocks);
+  make_folder(stem);
+  for (const NamedFile &file : files) write_whole_file(folder + file.path, file.bytes);
+}
+
 std::string written(const mvs_snapshot &s, uint32_t format_given) {
+  MVS_MUST(format_given != MVS_FORMAT_VTM, MVS_E_UNSUPPORTED, "format",
+           "a VTM dataset is several files: save it to a path, or take MVS_FORMAT_VTP");
   MVS_MUST(format_given != MVS_FORMAT_INP, MVS_E_UNSUPPORTED, "format",
            "Abaqus input is read, not written: save as .obj, .h5 or .feb");
   if (format_given == MVS_FORMAT_FEB) return write_feb(*s.model, s.state);
@@ -143,6 +189,7 @@ mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_
   return file_at_boundary(path ? path : "", [&] {
     must_point(snapshot, "snapshot");
     const uint32_t how = format_of(path, format_given);
+    if (how == MVS_FORMAT_VTM) return save_vtm(*snapshot, path);
     write_whole_file(path, written(*snapshot, how));
   });
 }

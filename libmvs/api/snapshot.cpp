@@ -33,6 +33,29 @@ mvs_comparison public_comparison(const Comparison &c) {
 
 }  // namespace
 
+namespace {
+
+mvs_chord_info public_chord(const mvs_snapshot &s, uint32_t index) {
+  const Chord &chord = s.model->valve.chords[index];
+  const ChordMeasures &measured = s.chords();
+  const ChordEnds &ends = s.chord_ends();
+  mvs_chord_info info = {};
+  info.struct_size = sizeof info;
+  info.kind = static_cast<mvs_chord_kind>(chord.kind);
+  info.id = chord.id;
+  info.name = chord.name.c_str();
+  info.heads = ends.heads[index].c_str();
+  info.scallops = ends.scallops[index].c_str();
+  info.length = (s.state.x[chord.b] - s.state.x[chord.a]).norm();
+  info.rest_length = chord.rest_length;
+  info.strain = measured.strain[index];
+  info.tension = measured.tension[index];
+  info.flags = measured.flags[index];
+  return info;
+}
+
+}  // namespace
+
 extern "C" {
 
 void mvs_snapshot_retain(const mvs_snapshot *snapshot) {
@@ -68,6 +91,18 @@ mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest *rest) {
     must_point(snapshot, "snapshot");
     const double tolerance = snapshot->state.rest_tolerance;
     write_struct(rest, mvs_rest{sizeof(mvs_rest), tolerance > 0, tolerance}, "rest");
+  });
+}
+
+mvs_result mvs_snapshot_get_chord(const mvs_snapshot *snapshot, uint32_t index,
+                                  mvs_chord_info *chord) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(chord, "chord");
+    const std::vector<Chord> &chords = snapshot->model->valve.chords;
+    MVS_MUST(index < chords.size(), MVS_E_ARGUMENT, "index",
+             "index is %u, but the valve has %zu chords", index, chords.size());
+    write_struct(chord, public_chord(*snapshot, index), "chord");
   });
 }
 

@@ -96,14 +96,34 @@ SolveOptions read_options(const mvs_step_options *given) {
       static_cast<SolverKind>(options.solver), 0, 0, options.dt, options.damping, options.budget};
 }
 
-// Makes the result of a solver the present state, and records the tool moves before the solver call
-// and the call itself.
-void replace_state(mvs_sim &sim, const SnapshotPtr &before, State state,
-                   const std::vector<RecordedEvent> &hands, const RecordedEvent &event,
-                   const SolveStats &stats) {
-  sim.replace(make_snapshot(after_event(before->value, std::move(state), hands, event)));
+// Makes a settled state the present one, and records the tool moves before the settle and the
+// settle itself.
+void finish_settle(mvs_sim &sim, const Snapshot &before, State state,
+                   const std::vector<RecordedEvent> &hands, const SolveOptions &how,
+                   const SolveStats &found, mvs_stats *stats) {
+  const RecordedEvent event = event_of(RecordedEvent::settle, how);
+  sim.replace(make_snapshot(after_event(before, std::move(state), hands, event)));
   sim.hands.done(sim.present()->state);
-  sim.stats = stats;
+  sim.stats = found;
+  if (stats) write_struct(stats, public_stats(found), "stats");
+  sim.log(found.converged ? MVS_LOG_INFO : MVS_LOG_WARNING,
+          "settle: %s after %u iterations, residual %.3g N, %.3f s",
+          found.converged ? "converged" : "not converged", found.iterations, found.residual,
+          found.wall_s);
+}
+
+// Works on the slices of a simulator; an error ends them.
+template <typename Work>
+auto work_on_slices(mvs_sim &sim, Work &&work) {
+  MVS_MUST(sim.slices, MVS_E_STATE, "settle",
+           "no settle is under way: it ended, was cancelled, or the valve changed; call "
+           "mvs_begin_settle");
+  try {
+    return work(*sim.slices);
+  } catch (...) {
+    sim.slices.reset();
+    throw;
+  }
 }
 
 const SolveStats &last_stats(const mvs_sim *sim) {
@@ -111,13 +131,6 @@ const SolveStats &last_stats(const mvs_sim *sim) {
   MVS_MUST(sim->stats, MVS_E_STATE, "sim",
            "the simulator has no statistics: this valve was neither settled nor stepped");
   return *sim->stats;
-}
-
-void log_settled(const mvs_sim &sim, const SolveStats &stats) {
-  sim.log(stats.converged ? MVS_LOG_INFO : MVS_LOG_WARNING,
-          "settle: %s after %u iterations, residual %.3g N, %.3f s",
-          stats.converged ? "converged" : "not converged", stats.iterations, stats.residual,
-          stats.wall_s);
 }
 
 }  // namespace
@@ -152,10 +165,44 @@ mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats
     const std::vector<RecordedEvent> hands = s.hands.take(state);
     const SolveStats found =
         settle_with_mesh_hierarchy(s.solver, *before->model, state, how, s.progress());
-    replace_state(s, before, std::move(state), hands, event_of(RecordedEvent::settle, how), found);
-    if (stats) write_struct(stats, public_stats(found), "stats");
-    log_settled(s, found);
+    finish_settle(s, before->value, std::move(state), hands, how, found, stats);
   });
+}
+
+mvs_result mvs_begin_settle(mvs_sim *sim, const mvs_settle_options *options) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
+    const SolveOptions how = read_options(options);
+    const SnapshotPtr before = s.present();
+    State state = before->state;
+    std::vector<RecordedEvent> hands = s.hands.take(state);
+    s.slices.reset();
+    s.slices =
+        std::make_unique<SettleSlices>(static_cast<Backend>(s.desc.backend), before,
+                                       std::move(state), std::move(hands), how, s.progress());
+  });
+}
+
+mvs_result mvs_advance_settle(mvs_sim *sim, double seconds, double *share, mvs_stats *stats) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
+    MVS_MUST(seconds >= 0 && seconds <= 3600, MVS_E_ARGUMENT, "seconds",
+             "seconds is %g: it has to be 0 to 3600", seconds);
+    if (stats) checked_struct_size(stats, "stats");
+    const double done = work_on_slices(s, [&](SettleSlices &slices) {
+      if (slices.advance(seconds)) return slices.share();
+      State state;
+      const SolveStats found = slices.finish(state);
+      // the replacement of the present snapshot frees the slices
+      const std::unique_ptr<SettleSlices> ended = std::move(s.slices);
+      finish_settle(s, ended->before()->value, std::move(state), ended->hands(), ended->options(),
+                    found, stats);
+      return 1.0;
+    });
+    if (share) *share = done;
+  });
+}
+
+mvs_result mvs_cancel_settle(mvs_sim *sim) {
+  return call_at_boundary(sim, [](mvs_sim &s) { s.slices.reset(); });
 }
 
 mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {

@@ -19,7 +19,7 @@ using namespace tables;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr uint64_t exponent_mask = 0xfff0000000000000, sign_mask = 0x8000000000000000;
+constexpr uint64_t exponent_mask = 0xfff0000000000000;
 constexpr int mantissa_bits = 52, exponent_bias = 1023;
 
 // An unevaluated sum.

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace mvs::core {
 
@@ -159,7 +160,8 @@ struct SimdVersions<function> {
 template <auto baseline, auto avx2 = baseline, auto avx512 = nullptr>
 auto simd_kernel() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if constexpr (avx512 != nullptr) {
+  // not `avx512 != nullptr`, which is no constant to gcc 12 with -fsanitize=undefined
+  if constexpr (!std::is_same_v<decltype(avx512), std::nullptr_t>) {
     if (simd_level() == SimdLevel::avx512) return &SimdVersions<avx512>::avx512;
   }
   if (simd_level() >= SimdLevel::avx2) return &SimdVersions<avx2>::avx2;

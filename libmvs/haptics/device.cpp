@@ -154,7 +154,7 @@ void Device::arm() {
              "%s is lost (%s): close it, and open it again", core_->plugin->name().c_str(),
              core_->lost.c_str());
   }
-  MVS_MUST(now.device_cause == Cause::none, MVS_E_DEVICE, core_->plugin->name(),
+  MVS_MUST(now.device_cause == Cause::nothing, MVS_E_DEVICE, core_->plugin->name(),
            "%s cannot be armed: %s", core_->plugin->name().c_str(), sentence_of(now.device_cause));
   core_->links->requests.arm();
 }
@@ -188,7 +188,7 @@ ServoStatus Device::status() {
   if (!started_ || core_->clock == DeviceClock::manual) return now;
   const double quiet =
       1e-9 * static_cast<double>(static_cast<int64_t>(clock_ns()) - core_->last_tick_ns.load());
-  if (quiet > tick_timeout && now.device_cause == Cause::none) {
+  if (quiet > tick_timeout && now.device_cause == Cause::nothing) {
     core_->links->requests.cut(Cause::watchdog);
     now.phase = DevicePhase::latched;
     now.cause = now.device_cause = Cause::watchdog;

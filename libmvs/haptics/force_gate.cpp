@@ -13,14 +13,14 @@ constexpr double fade_in_factor = 4;  // fade-in time over fade-out time
 
 void ForceGate::start() {
   phase_ = DevicePhase::off;
-  cause_ = Cause::none;
+  cause_ = Cause::nothing;
   armed_ = requests_->armed_.load(std::memory_order_relaxed);
-  requests_->cut_.store(Cause::none, std::memory_order_relaxed);
+  requests_->cut_.store(Cause::nothing, std::memory_order_relaxed);
 }
 
 double ForceGate::share(const Facts &facts, const mvs_device_limits &limits) {
   take_requests();
-  if (is_armed() && facts.cause != Cause::none) latch(facts.cause);
+  if (is_armed() && facts.cause != Cause::nothing) latch(facts.cause);
   if (!is_armed()) return 0;
   pass_gate(facts, limits);
   fade(facts, limits);
@@ -36,12 +36,12 @@ void ForceGate::take_requests() {
     armed_ = armed;
     if (!is_armed()) {
       phase_ = DevicePhase::waiting;
-      cause_ = Cause::none;
+      cause_ = Cause::nothing;
       quiet_ = 0;
     }
   }
-  const Cause cut = requests_->cut_.exchange(Cause::none, std::memory_order_relaxed);
-  if (cut != Cause::none && phase_ != DevicePhase::latched) latch(cut);
+  const Cause cut = requests_->cut_.exchange(Cause::nothing, std::memory_order_relaxed);
+  if (cut != Cause::nothing && phase_ != DevicePhase::latched) latch(cut);
 }
 
 void ForceGate::latch(Cause cause) {

@@ -10,10 +10,10 @@ namespace mvs::core {
 
 // The inputs of the gate for one tick.
 struct Facts {
-  Cause cause = Cause::none;  // a reason to latch
-  bool may_feel = false;      // tissue model is fresh and the device is not parked
-  double wanted = 0;          // N, norm of the unlimited force
-  double dt = 0;              // s
+  Cause cause = Cause::nothing;  // a reason to latch
+  bool may_feel = false;         // tissue model is fresh and the device is not parked
+  double wanted = 0;             // N, norm of the unlimited force
+  double dt = 0;                 // s
 };
 
 // Requests of the application, from any thread.
@@ -25,7 +25,7 @@ class Requests {
  private:
   friend class ForceGate;
   std::atomic<uint32_t> armed_{0};
-  std::atomic<Cause> cut_{Cause::none};
+  std::atomic<Cause> cut_{Cause::nothing};
 };
 
 class ForceGate {
@@ -48,7 +48,7 @@ class ForceGate {
 
   Requests *requests_;
   DevicePhase phase_ = DevicePhase::stopped;
-  Cause cause_ = Cause::none;
+  Cause cause_ = Cause::nothing;
   uint32_t armed_ = 0, quiet_ = 0;  // requests taken; ticks below the gate
   double ramp_ = 0, fade_ = 1;
 };

@@ -34,7 +34,7 @@ void SampleValidator::start() {
 }
 
 void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limits &limits) {
-  cause_ = Cause::none;
+  cause_ = Cause::nothing;
   flags_ = sample.flags;
   find_faults(sample);
   if (!is_finite(sample)) {

@@ -33,7 +33,7 @@ class SampleValidator {
   void take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits);
   void take_velocity(const mvs_driver_state &sample, const Vec3 &step);
   void latch_cause(Cause cause) {
-    if (cause_ == Cause::none) cause_ = cause;
+    if (cause_ == Cause::nothing) cause_ = cause;
   }
 
   const DeviceTraits *traits_;
@@ -43,7 +43,7 @@ class SampleValidator {
   double dt_ = 0, passed_ = 0, silent_ = 0;  // s
   double still_ = 0;                         // s, since the time of new samples advanced
   uint32_t fast_ = 0;                        // consecutive samples above the speed limit
-  Cause cause_ = Cause::none;
+  Cause cause_ = Cause::nothing;
   uint32_t flags_ = 0, faults_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace mvs::core {
 
 // The numbers are those of the C interface and of drivers. A cause is the reason of a latch.
 enum class Cause : uint32_t {
-  none = MVS_CAUSE_NONE,
+  nothing = MVS_CAUSE_NONE,
   button = MVS_CAUSE_BUTTON,
   velocity = MVS_CAUSE_VELOCITY,
   watchdog = MVS_CAUSE_WATCHDOG,
@@ -68,7 +68,7 @@ struct ButtonEvent {
 // The status of the servo after a tick.
 struct ServoStatus {
   DevicePhase phase = DevicePhase::stopped;
-  Cause cause = Cause::none, device_cause = Cause::none;
+  Cause cause = Cause::nothing, device_cause = Cause::nothing;
   uint32_t flags = 0, limited = 0, buttons = 0;
   HandPose pose;
   Vec3 force = Vec3::Zero();

@@ -22,6 +22,7 @@ void mvs_sim::step(const SolveOptions &how) {
   }
   hands.done(now_.current.state);
   stats = found;
+  slices.reset();
 }
 
 // Copies the current state into the buffers of the state before it (double buffering). If a

@@ -19,6 +19,10 @@ namespace {
 // closes, a finer mesh of it with 0.001 does not.
 constexpr double needle_share = 0.01;
 
+// Fewer short edges than this share are not warned of: operations leave a few behind, and contact
+// is missing only beside them. A valve refined once has two thirds.
+constexpr double short_edge_share = 0.01;
+
 struct Needles {
   size_t count = 0;
   double lowest = 0;  // m
@@ -106,7 +110,8 @@ void check_short_edges(const Model &model, std::vector<Fault> &found) {
   const double r = model.valve.contact_thickness;
   const auto thin = std::count_if(model.rest_length.begin(), model.rest_length.end(),
                                   [r](double length) { return length < r; });
-  if (thin == 0) return;
+  const double edges = static_cast<double>(model.topology.edges.size());
+  if (static_cast<double>(thin) <= short_edge_share * edges) return;
   found.push_back(
       {"triangles",
        format("%td of %zu edges are shorter than the contact thickness of %.3g m: parts of the "

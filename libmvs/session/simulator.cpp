@@ -30,6 +30,7 @@ void mvs_sim::replace(SnapshotPtr next) {
   now_ = next->value;
   stepped_.count = 0;
   if (stats) stats->converged = now_.current.state.is_at_rest();
+  slices.reset();
   present_.swap(next);
 }
 

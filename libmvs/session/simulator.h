@@ -12,6 +12,7 @@
 #include "formats/file/journal.h"
 #include "session/hand_targets.h"
 #include "session/recorded_event.h"
+#include "session/settle_slices.h"
 #include "session/snapshot.h"
 #include "solve/solver.h"
 
@@ -45,6 +46,8 @@ struct mvs_sim {
   mvs::core::Group group;                       // number 0: no group is open
   std::unique_ptr<mvs::core::Journal> journal;  // null: no journal is open
   mvs::core::HandTargets hands;                 // posted from any thread
+  // null: no settle in slices is under way; a change of the present snapshot ends it
+  std::unique_ptr<mvs::core::SettleSlices> slices;
   std::atomic<bool> at_work{false};
 
  private:

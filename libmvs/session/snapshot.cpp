@@ -125,6 +125,9 @@ const Tensors &mvs_snapshot::tensors() const {
 const ChordMeasures &mvs_snapshot::chords() const {
   return chords_.get([this] { return measure_chords(*model, state.x); });
 }
+const ChordEnds &mvs_snapshot::chord_ends() const {
+  return chord_ends_.get([this] { return find_chord_ends(*model); });
+}
 const Orifice &mvs_snapshot::orifice() const {
   return orifice_.get([this] { return measure_orifice(*model, state.x); });
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "anatomy/chord_ends.h"
 #include "energy/forces.h"
 #include "history/history.h"
 #include "measure/measure.h"
@@ -61,6 +62,7 @@ struct mvs_snapshot {
   const mvs::core::Strain &strain() const;
   const mvs::core::Tensors &tensors() const;
   const mvs::core::ChordMeasures &chords() const;
+  const mvs::core::ChordEnds &chord_ends() const;
   const mvs::core::Orifice &orifice() const;
   const mvs::core::Tables &tables() const;
   const mvs_measures &measures() const;
@@ -82,6 +84,7 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::Strain> strain_;
   mvs::core::Lazy<mvs::core::Tensors> tensors_;
   mvs::core::Lazy<mvs::core::ChordMeasures> chords_;
+  mvs::core::Lazy<mvs::core::ChordEnds> chord_ends_;
   mvs::core::Lazy<mvs::core::Orifice> orifice_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
   mvs::core::Lazy<mvs_measures> measures_;

@@ -28,24 +28,29 @@ double boundary_way(const Model &model, const std::vector<Vec3> &x, double fract
 SettleWatch::SettleWatch(const Model &model, const std::vector<Vec3> &x, const Load &load,
                          double tolerance, const Progress &progress)
     : model_(&model),
-      progress_(&progress),
+      progress_(progress),
       load_(load),
       tolerance_(tolerance),
       way_(boundary_way(model, x, load.boundary_fraction)) {}
 
 void SettleWatch::look(const std::vector<Vec3> &x, double residual) {
   if (++looks_ % settings::settle::looks_per_area == 0) must_hold(x);
-  if (!*progress_) return;
+  if (!progress_) return;
   share_ = std::max(share_, share_of(x, residual));
+  residual_ = residual;
   report(share_, residual);
 }
 
+void SettleWatch::poll() const {
+  if (progress_ && looks_ > 0) report(share_, residual_);
+}
+
 void SettleWatch::finish(double residual) const {
-  if (*progress_) report(1, residual);
+  if (progress_) report(1, residual);
 }
 
 void SettleWatch::report(double share, double residual) const {
-  MVS_MUST((*progress_)(share, residual), MVS_E_CANCELLED, "settle",
+  MVS_MUST(progress_(share, residual), MVS_E_CANCELLED, "settle",
            "settling was cancelled by the progress callback; the valve is as before");
 }
 

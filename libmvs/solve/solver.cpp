@@ -11,10 +11,9 @@
 #include "linalg/mixed_precision.h"
 #include "solve/dynamic/explicit_euler.h"
 #include "solve/dynamic/implicit_euler.h"
+#include "solve/dynamic/settling_in_time.h"
 #include "solve/settings.h"
-#include "solve/settle_watch.h"
-#include "solve/static/boundary_ramp.h"
-#include "solve/static/newton.h"
+#include "solve/static/newton_settling.h"
 #include "solve/tools/tool_points.h"
 
 namespace mvs::core {
@@ -59,38 +58,6 @@ uint32_t skipped_in_run(const Profile &work) {
   return skipped;
 }
 
-// Steps in time until the out-of-balance force is below the tolerance for several steps in a row.
-template <typename Step>
-SolveStats settle_in_time(const Model &model, State &state, const SolveOptions &options,
-                          const Progress &progress, Step &&step) {
-  const double start = seconds_now();
-  const double tolerance = options.tolerance();
-  const StepOptions how = settle_options(options);
-  const uint32_t most = max_settle_steps(options);
-  SolveStats stats;
-  SettleWatch watch(model, state.x, state.load, tolerance, progress);
-  int calm = 0;
-  while (stats.iterations < most && calm < settings::settle::calm_steps) {
-    ++stats.iterations;
-    step(how, stats);
-    state.time += how.dt;
-    ++state.steps;
-    const bool at_rest = stats.residual <= tolerance &&
-                         boundary_is_there(model, state.x, state.load.boundary_fraction,
-                                           settings::settle::boundary_arrival);
-    calm = at_rest ? calm + 1 : 0;
-    if (stats.iterations % settings::settle::steps_per_report == 0) {
-      watch.look(state.x, stats.residual);
-    }
-  }
-  watch.finish(stats.residual);
-  stats.converged = calm == settings::settle::calm_steps;
-  state.v.assign(state.v.size(), Vec3::Zero());
-  stats.kinetic = 0;
-  stats.wall_s = seconds_now() - start;
-  return stats;
-}
-
 // One step, with the statistics of its call.
 template <typename Stepper>
 void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveStats &stats) {
@@ -98,6 +65,39 @@ void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveSta
   stepper.step(state, how, stats);
   stats.skipped |= stepper.skipped();
 }
+
+// Throws MVS_E_UNSUPPORTED where the solver cannot push with the tools.
+uint32_t points_for(const std::vector<Tool> &tools, const SolveOptions &options) {
+  const uint32_t points = tool_points(tools);
+  MVS_MUST(points == 0 || options.solver != SolverKind::explicit_euler, MVS_E_UNSUPPORTED, "tool",
+           "the explicit solver does not prevent penetration and cannot push with a ball or rod: "
+           "remove the tool, or use another solver");
+  return points;
+}
+
+// The loop of a solver over all nodes, those of the points of tools included.
+class ValveSettling final : public Settling {
+ public:
+  ValveSettling(std::unique_ptr<Settling> loop, double tolerance)
+      : loop_(std::move(loop)), tolerance_(tolerance) {}
+
+  bool advance() override { return loop_->advance(); }
+
+  SolveStats finish(State &state) override {
+    State nodes = ToolPoints::extended(state);
+    SolveStats stats = loop_->finish(nodes);
+    nodes.drop_cache();
+    nodes.rest_tolerance = stats.converged ? tolerance_ : 0;
+    stats.skipped |= skipped_in_run(stats.work);
+    if (state.tools.empty()) stats.skipped |= MVS_SKIPPED_TOOLS;
+    ToolPoints::take_back(std::move(nodes), state);
+    return stats;
+  }
+
+ private:
+  std::unique_ptr<Settling> loop_;
+  double tolerance_;  // N, the residual at rest
+};
 
 std::unique_ptr<DirectSolver> make_newton_factor(Backend backend) {
   return backend == Backend::fastest ? make_mixed_precision_cholesky()
@@ -141,57 +141,51 @@ Solver::~Solver() = default;
 Solver::Solver(Solver &&) noexcept = default;
 Solver &Solver::operator=(Solver &&) noexcept = default;
 
-// Runs solve(model, state) on a model that has nodes for the points of the tools, if there are any.
-template <typename Solve>
-SolveStats Solver::with_points(const Model &model, State &state, const SolveOptions &options,
-                               Solve solve) {
-  const uint32_t points = tool_points(state.tools);
-  if (points == 0) {
-    SolveStats stats = solve(model, state);
-    if (state.tools.empty()) stats.skipped |= MVS_SKIPPED_TOOLS;
-    return stats;
+std::unique_ptr<Settling> Solver::loop_over_nodes(const Model &model, State state,
+                                                  const SolveOptions &options,
+                                                  const Progress &progress) {
+  if (options.solver == SolverKind::implicit_euler) {
+    auto stepper = std::make_unique<ImplicitEuler>(model, work_->backend);
+    return std::make_unique<SettlingInTime<ImplicitEuler>>(
+        model, std::move(stepper), std::move(state), settle_options(options),
+        max_settle_steps(options), options.tolerance(), progress);
   }
-  MVS_MUST(options.solver != SolverKind::explicit_euler, MVS_E_UNSUPPORTED, "tool",
-           "the explicit solver does not prevent penetration and cannot push with a ball or rod: "
-           "remove the tool, or use another solver");
-  State extended = ToolPoints::extended(state);
-  const SolveStats stats = solve(work_->tool_points.extend(model, points), extended);
-  ToolPoints::take_back(std::move(extended), state);
-  return stats;
+  if (options.solver == SolverKind::explicit_euler) {
+    auto stepper = std::make_unique<ExplicitEuler>(model);
+    const StepOptions how = settle_options(with_stable_dt(options, *stepper));
+    return std::make_unique<SettlingInTime<ExplicitEuler>>(
+        model, std::move(stepper), std::move(state), how, max_settle_steps(options),
+        options.tolerance(), progress);
+  }
+  return std::make_unique<NewtonSettling>(model, *work_->factor, state, options, progress);
+}
+
+std::unique_ptr<Settling> Solver::begin_settle(const Model &valve, const State &valve_state,
+                                               const SolveOptions &options,
+                                               const Progress &progress) {
+  const uint32_t points = points_for(valve_state.tools, options);
+  const Model &model = work_->tool_points.extend(valve, points);
+  State state = ToolPoints::extended(valve_state);
+  state.drop_cache();
+  auto loop = loop_over_nodes(model, std::move(state), options, progress);
+  return std::make_unique<ValveSettling>(std::move(loop), options.tolerance());
 }
 
 SolveStats Solver::settle(const Model &model, State &state, const SolveOptions &options,
                           const Progress &progress) {
-  return with_points(model, state, options, [&](const Model &m, State &s) {
-    return settle_nodes(m, s, options, progress);
-  });
+  return run(*begin_settle(model, state, options, progress), state);
 }
 
-SolveStats Solver::step(const Model &model, State &state, const SolveOptions &options) {
-  return with_points(model, state, options,
-                     [&](const Model &m, State &s) { return step_nodes(m, s, options); });
-}
-
-SolveStats Solver::settle_nodes(const Model &model, State &state, const SolveOptions &options,
-                                const Progress &progress) {
-  SolveStats stats;
-  state.drop_cache();
-  if (options.solver == SolverKind::implicit_euler) {
-    ImplicitEuler stepper(model, work_->backend);
-    const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
-    stats = settle_in_time(model, state, options, progress, step);
-    stats.skipped = stepper.skipped();
-  } else if (options.solver == SolverKind::explicit_euler) {
-    ExplicitEuler stepper(model);
-    const auto step = [&](const StepOptions &how, SolveStats &s) { stepper.step(state, how, s); };
-    stats = settle_in_time(model, state, with_stable_dt(options, stepper), progress, step);
-    stats.skipped = stepper.skipped();
-  } else {
-    stats = Newton(model, *work_->factor).settle(state, options, progress);
+SolveStats Solver::step(const Model &valve, State &valve_state, const SolveOptions &options) {
+  const uint32_t points = points_for(valve_state.tools, options);
+  if (points == 0) {
+    SolveStats stats = step_nodes(valve, valve_state, options);
+    if (valve_state.tools.empty()) stats.skipped |= MVS_SKIPPED_TOOLS;
+    return stats;
   }
-  state.drop_cache();
-  state.rest_tolerance = stats.converged ? options.tolerance() : 0;
-  stats.skipped |= skipped_in_run(stats.work);
+  State state = ToolPoints::extended(valve_state);
+  const SolveStats stats = step_nodes(work_->tool_points.extend(valve, points), state, options);
+  ToolPoints::take_back(std::move(state), valve_state);
   return stats;
 }
 

@@ -51,6 +51,8 @@ struct SolveStats {
 // Receives the share done and the residual in N; returns true to continue, false to cancel.
 using Progress = std::function<bool(double share, double residual)>;
 
+class Settling;
+
 // Keeps the symbolic factorisation and the broad phase between calls. They change no result: a new
 // Solver returns the same bits.
 class Solver {
@@ -64,17 +66,18 @@ class Solver {
   SolveStats settle(const Model &model, State &state, const SolveOptions &options,
                     const Progress &progress);
   SolveStats step(const Model &model, State &state, const SolveOptions &options);
+  // Begins the same settle, to be advanced by the caller (settling.h). The solver makes no other
+  // call until it has ended, and it and the model outlive it.
+  std::unique_ptr<Settling> begin_settle(const Model &model, const State &state,
+                                         const SolveOptions &options, const Progress &progress);
   // After steps of another model: does now what the first step of this model would do for those
   // after it, with the options of the last step. Changes no result; reports no error, because that
   // step will.
   void make_ready(const Model &model, const State &state) noexcept;
 
  private:
-  template <typename Solve>
-  SolveStats with_points(const Model &model, State &state, const SolveOptions &options,
-                         Solve solve);
-  SolveStats settle_nodes(const Model &model, State &state, const SolveOptions &options,
-                          const Progress &progress);
+  std::unique_ptr<Settling> loop_over_nodes(const Model &model, State state,
+                                            const SolveOptions &options, const Progress &progress);
   SolveStats step_nodes(const Model &model, State &state, const SolveOptions &options);
 
   struct Work;

@@ -14,21 +14,21 @@ void check(bool condition, const char *what) {
 }
 
 void handles_move_and_snapshots_are_shared() {
-  static_assert(!std::is_copy_constructible<mvs::Sim>::value, "one owner");
-  static_assert(std::is_nothrow_move_constructible<mvs::Sim>::value, "moves");
-  mvs::Sim first;
+  static_assert(!std::is_copy_constructible<mvs::Simulator>::value, "one owner");
+  static_assert(std::is_nothrow_move_constructible<mvs::Simulator>::value, "moves");
+  mvs::Simulator first;
   first.generate();
-  mvs::Sim sim = std::move(first);
+  mvs::Simulator sim = std::move(first);
   const mvs::Snapshot one = sim.snapshot();
   mvs::Snapshot two = one, three = std::move(two);
   two = three;
-  sim = mvs::Sim();
+  sim = mvs::Simulator();
   check(one.hash() == two.hash() && one.get() == three.get(), "copies show one snapshot");
 }
 
 void failures_are_thrown_with_code_and_part() {
   try {
-    mvs::Sim().snapshot();
+    mvs::Simulator().snapshot();
     check(false, "an empty simulator has no snapshot");
   } catch (const mvs::Error &error) {
     check(error.code() == MVS_E_STATE, "the code of C");
@@ -38,7 +38,7 @@ void failures_are_thrown_with_code_and_part() {
 }
 
 void views_know_their_type() {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   sim.generate();
   const mvs::Snapshot snapshot = sim.snapshot();
   const mvs::View<double> x = snapshot.view<double>(MVS_ARRAY_NODE_POSITION);
@@ -56,7 +56,7 @@ void views_know_their_type() {
 }
 
 void tools_are_added_moved_told_and_removed() {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   sim.generate();
   mvs_tool_desc ball = {};
   ball.kind = MVS_TOOL_KIND_BALL;
@@ -100,7 +100,7 @@ void devices_are_found_opened_and_turned() {
     device.advance(0.01);
     std::uint64_t lost = 0;
     check(device.take_samples(lost).size() == 10 && lost == 0, "ticks");
-    mvs::Sim sim;
+    mvs::Simulator sim;
     sim.generate();
     check(device.sync(sim.get()).tool == 0, "an empty hand");
     device.cut();
@@ -111,7 +111,7 @@ void devices_are_found_opened_and_turned() {
 }
 
 void a_valve_is_worked_on_from_load_to_file() {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   sim.generate();
   const mvs::Snapshot open = sim.snapshot();
   sim.set_load(100, 0.5);
@@ -133,7 +133,7 @@ void a_valve_is_worked_on_from_load_to_file() {
         "a cut through the middle");
   check(now.section({1, 1, 1}, {1, 1, 1}).empty(), "a cut beside the valve");
   const std::string bytes = now.save_memory();
-  mvs::Sim other;
+  mvs::Simulator other;
   other.load_memory(bytes);
   check(other.snapshot().hash() == now.hash(), "saved and loaded");
   now.save("handles_test.obj");
@@ -144,7 +144,7 @@ void a_valve_is_worked_on_from_load_to_file() {
 }
 
 void operations_are_applied_undone_and_listed() {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   sim.generate();
   const mvs::Snapshot open = sim.snapshot();
   mvs_op_chord_length shorter = {};

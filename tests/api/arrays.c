@@ -153,7 +153,50 @@ static void the_orient_flag_turns_a_flipped_valve(void) {
   CHECK(same_hash(before, hash_of_valve(&f.desc)));
 }
 
+/* The rows of a table of chordae: names, ends, figures of the arrays. */
+static void each_chord_is_described(void) {
+  mvs_sim *sim;
+  const mvs_snapshot *closed;
+  mvs_parametric_desc shape = {.struct_size = sizeof shape, .branching = 1};
+  mvs_load_case load = {.struct_size = sizeof load, .pressure = 16e3, .boundary_fraction = 1};
+  mvs_settle_options few = {.struct_size = sizeof few, .max_iterations = 20};
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_generate_valve(sim, &shape));
+  MUST(mvs_set_load(sim, &load));
+  MUST(mvs_settle(sim, &few, NULL));
+  MUST(mvs_get_snapshot(sim, &closed));
+  uint32_t count = 0, trunks = 0;
+  mvs_view rest, strain, tension;
+  MUST(mvs_snapshot_get_part_count(closed, MVS_PART_CHORD, &count));
+  MUST(mvs_snapshot_get_array(closed, MVS_ARRAY_CHORD_REST_LENGTH, &rest));
+  MUST(mvs_snapshot_get_array(closed, MVS_ARRAY_CHORD_STRAIN, &strain));
+  MUST(mvs_snapshot_get_array(closed, MVS_ARRAY_CHORD_TENSION, &tension));
+  mvs_chord_info chord = {.struct_size = sizeof chord};
+  for (uint32_t c = 0; c < count; ++c) {
+    mvs_part part;
+    MUST(mvs_snapshot_get_chord(closed, c, &chord));
+    MUST(mvs_snapshot_get_part(closed, MVS_PART_CHORD, c, &part));
+    CHECK(chord.id == part.id && strcmp(chord.name, part.name) == 0);
+    CHECK(chord.rest_length == ((const double *)rest.data)[c]);
+    CHECK(chord.strain == ((const double *)strain.data)[c]);
+    CHECK(chord.tension == ((const double *)tension.data)[c]);
+    /* the definition of strain */
+    CHECK(fabs(chord.length - chord.rest_length * (1 + chord.strain)) < 1e-12);
+    CHECK(strncmp(chord.heads, "PM", 2) == 0 || strncmp(chord.heads, "AL", 2) == 0);
+    CHECK(chord.scallops[0] == 'A' || chord.scallops[0] == 'P');
+    trunks += chord.kind == MVS_CHORD_KIND_TRUNK;
+  }
+  CHECK(trunks > 0);
+  MUST_FAIL(mvs_snapshot_get_chord(closed, count, &chord), MVS_E_ARGUMENT, "index");
+  MUST_FAIL(mvs_snapshot_get_chord(NULL, 0, &chord), MVS_E_ARGUMENT, "snapshot");
+  chord.struct_size = 0;
+  CHECK(mvs_snapshot_get_chord(closed, 0, &chord) != MVS_OK);
+  mvs_snapshot_release(closed);
+  mvs_destroy(sim);
+}
+
 int main(void) {
+  each_chord_is_described();
   strided_and_misaligned_arrays_give_the_same_valve();
   a_stride_that_is_the_packed_one_is_the_same_as_zero();
   single_precision_is_widened();

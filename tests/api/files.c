@@ -73,6 +73,37 @@ static void vtp_is_written_with_results(void) {
   mvs_snapshot_release(snapshot);
 }
 
+/* The index of a VTM dataset names files that are there; a path of another ending is refused. */
+static void vtm_is_an_index_of_its_blocks(void) {
+  const mvs_snapshot *snapshot = present(sim);
+  uint64_t size = 0;
+  char index[2000] = "";
+  MUST(mvs_save_file(snapshot, "files_test.vtm", MVS_FORMAT_AUTO));
+  MUST(mvs_save_file(snapshot, "files_test.vtm", MVS_FORMAT_VTM)); /* over the old one */
+  FILE *file = fopen("files_test.vtm", "rb");
+  CHECK(file && fread(index, 1, sizeof index - 1, file) > 0);
+  if (file) fclose(file);
+  int blocks = 0;
+  for (char *at = index; (at = strstr(at, "file=\"")) != NULL; ++blocks) {
+    at += strlen("file=\"");
+    const size_t length = strcspn(at, "\"");
+    char path[200];
+    snprintf(path, sizeof path, "%.*s", (int)length, at);
+    CHECK(strncmp(path, "files_test/", 11) == 0);
+    CHECK(remove(path) == 0);
+  }
+  CHECK(blocks >= 1);
+  remove("files_test.vtm");
+  CHECK(remove("files_test") == 0);
+  MUST_FAIL(mvs_save_file(snapshot, "files_test.txt", MVS_FORMAT_VTM), MVS_E_ARGUMENT, "NAME.vtm");
+  MUST_FAIL(mvs_save_file(snapshot, "no/such/files_test.vtm", MVS_FORMAT_AUTO), MVS_E_IO,
+            "no/such/files_test");
+  MUST_FAIL(mvs_save_memory(snapshot, MVS_FORMAT_VTM, NULL, 0, &size), MVS_E_UNSUPPORTED,
+            "several files");
+  MUST_FAIL(mvs_load_memory(sim, "x", 1, MVS_FORMAT_VTM), MVS_E_UNSUPPORTED, "not read");
+  mvs_snapshot_release(snapshot);
+}
+
 static void refused_files_name_themselves_and_change_nothing(void) {
   hash128 before = sim_hash(sim);
   const mvs_snapshot *snapshot = present(sim);
@@ -81,9 +112,9 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   MUST_FAIL(mvs_load_file(sim, "no/such/file.obj", 0), MVS_E_IO, "no/such/file.obj: ");
   MUST_FAIL(mvs_load_file(sim, "", 0), MVS_E_ARGUMENT, "path is empty");
   MUST_FAIL(mvs_load_file(sim, "valve.stl", 0), MVS_E_ARGUMENT,
-            ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
+            ".obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb");
   MUST_FAIL(mvs_load_file(sim, "obj", 0), MVS_E_ARGUMENT,
-            ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
+            ".obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb");
   MUST_FAIL(mvs_load_file(sim, "valve.obj", 7), MVS_E_ARGUMENT, "format is 7");
   MUST_FAIL(mvs_load_memory(sim, "x", 1, 7), MVS_E_ARGUMENT, "format is 7");
   MUST_FAIL(mvs_load_memory(sim, "x", 1, MVS_FORMAT_VTP), MVS_E_UNSUPPORTED, "not read");
@@ -98,7 +129,7 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   MUST_FAIL(mvs_load_memory(sim, "", 0, 0), MVS_E_FORMAT, "");
   MUST_FAIL(mvs_save_file(snapshot, "no/such/folder/a.obj", 0), MVS_E_IO, "no/such/folder/a.obj");
   MUST_FAIL(mvs_save_file(snapshot, "a.stl", 0), MVS_E_ARGUMENT,
-            ".obj, .h5, .vtkhdf, .vtp, .inp and .feb");
+            ".obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb");
   MUST_FAIL(mvs_save_memory(snapshot, 9, NULL, 0, &size), MVS_E_ARGUMENT, "format is 9");
   /* a long path is abbreviated at its start, so that its end and the reason remain */
   memset(path, 'd', sizeof path);
@@ -193,6 +224,7 @@ int main(void) {
   a_solver_cache_of_another_version_is_refused();
   a_file_comes_back_the_same();
   vtp_is_written_with_results();
+  vtm_is_an_index_of_its_blocks();
   refused_files_name_themselves_and_change_nothing();
   a_target_that_cannot_be_replaced_is_an_io_error_with_a_remedy();
   mvs_destroy(sim);

@@ -9,8 +9,8 @@
 namespace bench {
 namespace {
 
-mvs::Sim closed_valve(uint32_t vertices) {
-  mvs::Sim sim;
+mvs::Simulator closed_valve(uint32_t vertices) {
+  mvs::Simulator sim;
   mvs_parametric_desc desc = {};
   desc.vertices = vertices;
   sim.generate(desc);
@@ -20,7 +20,8 @@ mvs::Sim closed_valve(uint32_t vertices) {
 }
 
 // The median of steps towards a lower pressure, each followed by the optional call.
-double step_cost(mvs::Sim sim, int steps, const std::function<void(mvs::Sim &)> &after) {
+double step_cost(mvs::Simulator sim, int steps,
+                 const std::function<void(mvs::Simulator &)> &after) {
   sim.set_load(0.9 * MVS_SYSTOLE_PA);
   std::vector<double> cpu_s;
   for (int k = 0; k < steps; ++k) {
@@ -33,7 +34,7 @@ double step_cost(mvs::Sim sim, int steps, const std::function<void(mvs::Sim &)> 
   return median(cpu_s);
 }
 
-mvs::Sim with_levels(mvs::Sim sim, int levels) {
+mvs::Simulator with_levels(mvs::Simulator sim, int levels) {
   const auto chords = sim.snapshot().parts(MVS_PART_CHORD);
   for (int k = 0; k < levels; ++k) {
     mvs_op_chord_length op = {};
@@ -49,8 +50,8 @@ mvs::Sim with_levels(mvs::Sim sim, int levels) {
 std::vector<Part> caller_parts(uint32_t vertices, int steps) {
   const auto valve = [=] { return closed_valve(vertices); };
   const double bare = step_cost(valve(), steps, {});
-  const auto snap = [](mvs::Sim &sim) { sim.snapshot(); };
-  const auto measure = [](mvs::Sim &sim) { sim.snapshot().measure(); };
+  const auto snap = [](mvs::Simulator &sim) { sim.snapshot(); };
+  const auto measure = [](mvs::Simulator &sim) { sim.snapshot().measure(); };
   std::vector<Part> parts;
   parts.push_back({"snapshot each step", step_cost(valve(), steps, snap), bare});
   parts.push_back({"measures each step", step_cost(valve(), steps, measure), bare});

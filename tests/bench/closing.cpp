@@ -13,7 +13,7 @@ size_t leaflet_vertices(const mvs::Snapshot &valve) {
   }));
 }
 
-void make(mvs::Sim &sim, const Case &of) {
+void make(mvs::Simulator &sim, const Case &of) {
   mvs_parametric_desc valve = {};
   valve.vertices = scene_vertices.at(of.scene);
   sim.generate(valve);
@@ -36,7 +36,7 @@ mvs_settle_options options_of(const Case &of) {
 }
 
 void close_once(const Case &of, Closing &closing) {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   make(sim, of);
   const Seconds took = timed([&] {
     try {

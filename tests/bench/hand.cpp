@@ -25,7 +25,7 @@ double in_use() {
   return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
-mvs_id add_grasp(mvs::Sim &sim, uint32_t node) {
+mvs_id add_grasp(mvs::Simulator &sim, uint32_t node) {
   mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
   desc.kind = MVS_TOOL_KIND_GRASP;
   desc.by_node = 1;
@@ -43,7 +43,7 @@ struct Hand {
   std::array<double, 3> from;
 };
 
-std::vector<Hand> take_hold(mvs::Sim &sim, size_t count) {
+std::vector<Hand> take_hold(mvs::Simulator &sim, size_t count) {
   const mvs::Snapshot valve = sim.snapshot();
   const auto edge = valve.view<uint32_t>(MVS_ARRAY_FREE_EDGE_NODES);
   std::vector<Hand> hands;
@@ -55,7 +55,7 @@ std::vector<Hand> take_hold(mvs::Sim &sim, size_t count) {
   return hands;
 }
 
-void move(mvs::Sim &sim, const std::vector<Hand> &hands, int step) {
+void move(mvs::Simulator &sim, const std::vector<Hand> &hands, int step) {
   for (const Hand &hand : hands) {
     std::array<double, 3> at = hand.from;
     at[2] += 1e-3 * std::sin(0.01 * step);
@@ -68,7 +68,7 @@ void move(mvs::Sim &sim, const std::vector<Hand> &hands, int step) {
 bool play(const char *name, size_t count, int every, bool looks, int steps) {
   mvs_parametric_desc small = {};
   small.vertices = 200;
-  mvs::Sim sim;
+  mvs::Simulator sim;
   sim.generate(small);
   const std::vector<Hand> hands = take_hold(sim, count);
   double before = 0;
@@ -88,7 +88,7 @@ bool play(const char *name, size_t count, int every, bool looks, int steps) {
   if (std::strstr(mvs_features(), "hdf5")) {
     session = static_cast<double>(end.save_memory(MVS_FORMAT_H5).size()) / moved;
   }
-  mvs::Sim again;
+  mvs::Simulator again;
   again.generate(small);
   const mvs_replay replay = again.replay_plan(plan);
   std::printf("%-34s %9.0f %8.1f %8.1f %8.1f\n", name, moved, memory, text, session);

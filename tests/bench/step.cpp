@@ -101,7 +101,8 @@ std::vector<double> all_of(const Row &row) {
 
 // One step and its cost. Reading a valve makes a snapshot, so only awake steps are checked: steps
 // at rest are timed without a snapshot.
-void take_step(mvs::Sim &sim, const Options &options, bool hand_moves, StepWatch &watch, Row &row) {
+void take_step(mvs::Simulator &sim, const Options &options, bool hand_moves, StepWatch &watch,
+               Row &row) {
   mvs_step_options how = {};
   how.dt = dt;
   how.budget = options.budget;
@@ -126,8 +127,8 @@ void take_step(mvs::Sim &sim, const Options &options, bool hand_moves, StepWatch
   row.quiet_by_hand += hand_moves ? quiet : 0;
 }
 
-Row run_phase(mvs::Sim &sim, const Options &options, const std::string &scene, const Phase &phase,
-              int steps) {
+Row run_phase(mvs::Simulator &sim, const Options &options, const std::string &scene,
+              const Phase &phase, int steps) {
   Row row;
   row.scene = scene;
   row.phase = phase.name;
@@ -147,7 +148,7 @@ Row run_phase(mvs::Sim &sim, const Options &options, const std::string &scene, c
 
 // A row a phase, over all its repetitions.
 std::vector<Row> run_scene(const Options &options, const std::string &scene) {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   mvs_parametric_desc valve = {};
   valve.vertices = scene_vertices.at(scene);
   sim.generate(valve);
@@ -168,7 +169,7 @@ std::vector<Row> run_scene(const Options &options, const std::string &scene) {
 }
 
 double explicit_step(const std::string &scene) {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   mvs_parametric_desc valve = {};
   valve.vertices = scene_vertices.at(scene);
   sim.generate(valve);

@@ -15,33 +15,33 @@ constexpr double pulled = 10e-3;  // m that the hand pulls A2 into the atrium
 constexpr double above = 10e-3;   // m above P2 the ball begins,
 constexpr double pushed = 14e-3;  // and moves down that far
 
-void nothing(mvs::Sim &) {}
+void nothing(mvs::Simulator &) {}
 
-Done beat(mvs::Sim &sim, int step, double) {
+Done beat(mvs::Simulator &sim, int step, double) {
   if (step % 20 != 0) return Done::nothing;
   sim.set_load(MVS_SYSTOLE_PA * (0.8 + 0.3 * std::sin(2e-3 * M_PI * step)));
   return Done::changed;
 }
 
-mvs_id chord_of(const mvs::Sim &sim, const std::string &name) {
+mvs_id chord_of(const mvs::Simulator &sim, const std::string &name) {
   return sim.snapshot().find(MVS_PART_CHORD, name).id;
 }
 
-void shorten(mvs::Sim &sim) {
+void shorten(mvs::Simulator &sim) {
   mvs_op_chord_length op = {};
   op.chord = chord_of(sim, "P2/1");
   op.factor = 0.85;
   sim.apply(op);
 }
 
-void sew_ring(mvs::Sim &sim) {
+void sew_ring(mvs::Simulator &sim) {
   mvs_op_ring op = {};
   op.size = 0.034;
   sim.apply(op);
 }
 
 // The chord with the largest tension: a slack one would leave the valve asleep.
-void cut_chord(mvs::Sim &sim) {
+void cut_chord(mvs::Simulator &sim) {
   const mvs::Snapshot valve = sim.snapshot();
   const auto tension = valve.view<double>(MVS_ARRAY_CHORD_TENSION);
   const auto tautest = std::max_element(tension.begin(), tension.end()) - tension.begin();
@@ -50,7 +50,7 @@ void cut_chord(mvs::Sim &sim) {
   sim.apply(op);
 }
 
-void undo_all(mvs::Sim &sim) {
+void undo_all(mvs::Simulator &sim) {
   while (!sim.snapshot().history().done.empty()) sim.undo();
 }
 
@@ -115,18 +115,18 @@ struct Hand {
   mvs_id tool = 0;
   Point start = {}, up = {};
 
-  void add(mvs::Sim &sim, mvs_tool_desc desc) {
+  void add(mvs::Simulator &sim, mvs_tool_desc desc) {
     std::copy(start.begin(), start.end(), desc.position);
     mvs::must(mvs_add_tool(sim.get(), &desc, &tool));
   }
-  void move(mvs::Sim &sim, double way) const {
+  void move(mvs::Simulator &sim, double way) const {
     const Point to = along(start, way, up);
     mvs::must(mvs_move_tool(sim.get(), tool, to.data(), nullptr));
   }
-  void remove(mvs::Sim &sim) const { mvs::must(mvs_remove_tool(sim.get(), tool)); }
+  void remove(mvs::Simulator &sim) const { mvs::must(mvs_remove_tool(sim.get(), tool)); }
 };
 
-void grasp(mvs::Sim &sim, Hand &hand) {
+void grasp(mvs::Simulator &sim, Hand &hand) {
   const mvs::Snapshot valve = sim.snapshot();
   mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
   desc.kind = MVS_TOOL_KIND_GRASP;
@@ -138,13 +138,13 @@ void grasp(mvs::Sim &sim, Hand &hand) {
 }
 
 // Moves there in the first half, then holds still.
-Done pull(mvs::Sim &sim, const Hand &hand, double share) {
+Done pull(mvs::Simulator &sim, const Hand &hand, double share) {
   if (share > 0.5) return Done::nothing;
   hand.move(sim, pulled * 2 * share);
   return Done::hand_moved;
 }
 
-void lay_ball(mvs::Sim &sim, Hand &hand) {
+void lay_ball(mvs::Simulator &sim, Hand &hand) {
   const mvs::Snapshot valve = sim.snapshot();
   mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
   desc.kind = MVS_TOOL_KIND_BALL;
@@ -155,7 +155,7 @@ void lay_ball(mvs::Sim &sim, Hand &hand) {
 }
 
 // Moves down, stays a while, and moves up.
-Done push(mvs::Sim &sim, const Hand &hand, double share) {
+Done push(mvs::Simulator &sim, const Hand &hand, double share) {
   if (share > 0.4 && share < 0.6) return Done::nothing;
   hand.move(sim, -pushed * std::min(1.0, 2.5 * std::min(share, 1 - share)));
   return Done::hand_moved;
@@ -165,14 +165,14 @@ Done push(mvs::Sim &sim, const Hand &hand, double share) {
 
 std::vector<Phase> play() {
   const auto hand = std::make_shared<Hand>();
-  const auto let_go = [hand](mvs::Sim &sim) { hand->remove(sim); };
-  return {{"load on", [](mvs::Sim &sim) { sim.set_load(MVS_SYSTOLE_PA); }},
+  const auto let_go = [hand](mvs::Simulator &sim) { hand->remove(sim); };
+  return {{"load on", [](mvs::Simulator &sim) { sim.set_load(MVS_SYSTOLE_PA); }},
           {"beat", nothing, beat},
-          {"grasp A2", [hand](mvs::Sim &sim) { grasp(sim, *hand); },
-           [hand](mvs::Sim &sim, int, double share) { return pull(sim, *hand, share); }},
+          {"grasp A2", [hand](mvs::Simulator &sim) { grasp(sim, *hand); },
+           [hand](mvs::Simulator &sim, int, double share) { return pull(sim, *hand, share); }},
           {"let go", let_go},
-          {"push P2", [hand](mvs::Sim &sim) { lay_ball(sim, *hand); },
-           [hand](mvs::Sim &sim, int, double share) { return push(sim, *hand, share); }},
+          {"push P2", [hand](mvs::Simulator &sim) { lay_ball(sim, *hand); },
+           [hand](mvs::Simulator &sim, int, double share) { return push(sim, *hand, share); }},
           {"ball gone", let_go},
           {"chord", shorten},
           {"ring", sew_ring},
@@ -180,7 +180,7 @@ std::vector<Phase> play() {
           {"cut", cut_chord},
           {"undo", undo_all},
           {"alone", nothing},
-          {"load off", [](mvs::Sim &sim) { sim.set_load(0, 0); }}};
+          {"load off", [](mvs::Simulator &sim) { sim.set_load(0, 0); }}};
 }
 
 }  // namespace bench

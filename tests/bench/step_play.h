@@ -15,8 +15,8 @@ struct Phase {
   enum class Done { nothing, changed, hand_moved };
 
   std::string name;
-  std::function<void(mvs::Sim &)> begin;
-  std::function<Done(mvs::Sim &, int step, double share)> during = {};
+  std::function<void(mvs::Simulator &)> begin;
+  std::function<Done(mvs::Simulator &, int step, double share)> during = {};
 };
 
 // The play ends in its initial state, so that it can be repeated: every operation undone, no tools.

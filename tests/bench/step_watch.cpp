@@ -25,14 +25,14 @@ bool held_nodes_stayed(const mvs::Snapshot &now, const std::vector<double> &befo
 
 }  // namespace
 
-size_t StepWatch::crossings(const mvs::Sim &sim) {
+size_t StepWatch::crossings(const mvs::Simulator &sim) {
   const mvs::Snapshot now = sim.snapshot();
   const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
   const auto triangles = now.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
   return stability::crossings(x.data(), x.rows(), triangles.data(), triangles.rows()).size();
 }
 
-double StepWatch::quiet(const mvs::Sim &sim, double dt, double least) {
+double StepWatch::quiet(const mvs::Simulator &sim, double dt, double least) {
   const mvs::Snapshot now = sim.snapshot();
   const auto kinds = now.view<uint8_t>(MVS_ARRAY_NODE_KIND);
   const double *v = now.view<double>(MVS_ARRAY_NODE_VELOCITY).data();
@@ -48,7 +48,7 @@ double StepWatch::quiet(const mvs::Sim &sim, double dt, double least) {
 
 // The pressure at the free edge has no potential and is left out of the energy: its work is known
 // from the shapes before and after.
-bool StepWatch::makes_energy(const mvs::Sim &sim, const mvs_stats &stats) {
+bool StepWatch::makes_energy(const mvs::Simulator &sim, const mvs_stats &stats) {
   const mvs::Snapshot now = sim.snapshot();
   const auto x = now.view<double>(MVS_ARRAY_NODE_POSITION);
   if (!edge_work_) edge_work_.emplace(now);

@@ -22,11 +22,11 @@ class StepWatch {
     edge_work_.reset();
   }
   // Pairs of triangles that cross, by the exact test alone, which is cheaper than all measures.
-  static size_t crossings(const mvs::Sim &sim);
+  static size_t crossings(const mvs::Simulator &sim);
   // The share of the free nodes that moved less than this distance (m) in the last step of dt (s).
-  static double quiet(const mvs::Sim &sim, double dt, double least);
+  static double quiet(const mvs::Simulator &sim, double dt, double least);
   // To be called after a step that was awake. Returns true if it created energy.
-  bool makes_energy(const mvs::Sim &sim, const mvs_stats &stats);
+  bool makes_energy(const mvs::Simulator &sim, const mvs_stats &stats);
 
  private:
   std::optional<stability::EdgeWork> edge_work_;

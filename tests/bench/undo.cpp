@@ -38,7 +38,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void shorten(mvs::Sim &sim, const std::vector<mvs_part> &chords, size_t k) {
+void shorten(mvs::Simulator &sim, const std::vector<mvs_part> &chords, size_t k) {
   mvs_op_chord_length op = {};
   op.op = {sizeof op, MVS_OP_CHORD_LENGTH};
   op.chord = chords[k % chords.size()].id;
@@ -52,7 +52,7 @@ int main(int argc, char **argv) {
   const int levels = argc > 1 ? std::atoi(argv[1]) : 2000;
   mvs_parametric_desc desc = {};
   desc.vertices = 1000;
-  mvs::Sim sim;
+  mvs::Simulator sim;
   sim.generate(desc);
   sim.set_load(MVS_SYSTOLE_PA);
   sim.settle();

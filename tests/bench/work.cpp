@@ -9,7 +9,7 @@
 int main(int argc, char **argv) {
   try {
     if (argc != 2) throw std::runtime_error("usage: bench_work FILE");
-    mvs::Sim sim;
+    mvs::Simulator sim;
     sim.generate();
     sim.set_load(MVS_SYSTOLE_PA);
     const mvs_stats stats = sim.settle();

@@ -93,6 +93,16 @@ class Doctor(Haptics):
         self.assertEqual(mvs("haptics", "doctor", "--driver", "phantom",
                              cwd=self.dir).returncode, 1)
 
+    def test_the_mouse_without_a_window_is_a_note_and_cannot_be_tested(self):
+        printed = self.json("haptics", "doctor", "--driver", "mouse")
+        self.assertEqual(printed["faults"], 0)
+        (window,) = [row for row in printed["findings"] if row["check"] == "window"]
+        self.assertEqual(window["verdict"], "note")
+        for command in ("list", "test"):
+            done = mvs("haptics", command, "--driver", "mouse", cwd=self.dir)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("start the example phantom, whose window the mouse drives", done.stderr)
+
     def test_faults_set_the_exit_code(self):
         done = mvs("haptics", "doctor", "--driver", "replay", "--option", "file=nowhere.txt",
                    "--json", cwd=self.dir)

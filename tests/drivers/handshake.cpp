@@ -4,6 +4,7 @@
 #include <set>
 #include <thread>
 
+#include "mouse_window.h"
 #include "plugin.h"
 
 namespace {
@@ -15,9 +16,11 @@ mvs_driver_negotiate_fn negotiate_of(const std::string &name) {
   return reinterpret_cast<mvs_driver_negotiate_fn>(dlsym(library, "mvs_driver_negotiate"));
 }
 
-const char *const kDrivers[] = {"template", "replay", "hand"};
+const char *const kDrivers[] = {"template", "replay", "hand", "mouse"};
 
 std::map<std::string, std::string> options_of(const std::string &driver) {
+  static MouseWindow window;
+  if (driver == "mouse") return {{"pointer", window.name()}};
   if (driver != "replay") return {};
   return {{"file", MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/circle.txt"}};
 }
@@ -162,6 +165,11 @@ TEST_CASE("forces_are_on_between_start_and_stop_only") {
       CHECK_EQ(plugin.read(now += 1000000, state), MVS_DRIVER_OK);
       return (state.flags & MVS_DRIVER_FLAG_FORCE_ON) != 0;
     };
+    if (plugin.info().freedoms_out == 0) {  // no motors
+      CHECK_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
+      CHECK_FALSE(on());
+      continue;
+    }
     CHECK_FALSE(on());
     CHECK_EQ(plugin.api.start(plugin.device), MVS_DRIVER_OK);
     CHECK(on());

@@ -211,7 +211,7 @@ class Script {
   // The plan, from the valve as it was made.
   void replay() {
     const mvs::Snapshot end = sim_.snapshot();
-    mvs::Sim again;
+    mvs::Simulator again;
     again.generate(desc_);
     const mvs_replay replay = again.replay_plan(end.plan());
     demand(replay.same_valve == 1, "the plan is not of its valve");
@@ -251,7 +251,7 @@ class Script {
   void save_and_load() {
     step();  // stores the positions of the hands: files do not hold pending moves
     const mvs::Snapshot valve = sim_.snapshot();
-    mvs::Sim copy;
+    mvs::Simulator copy;
     // OBJ files hold neither tools nor the next tool id
     const bool wants_whole = bytes_.below(2) == 1 || had_tools_;
     const bool whole = wants_whole && std::strstr(mvs_features(), "hdf5");
@@ -287,7 +287,7 @@ class Script {
     undone_ = kept_[2];
   }
 
-  mvs::Sim sim_;
+  mvs::Simulator sim_;
   mvs_parametric_desc desc_ = {};
   Bytes bytes_;
   bool replays_ = false, had_tools_ = false;

@@ -54,6 +54,42 @@ def test_an_hdf5_file_loads_with_the_same_hash(closed, tmp_path):
         assert sim.snapshot().hash == closed.hash
 
 
+def test_a_vtm_file_holds_the_orifice_and_the_coaptation_line(closed, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    path = tmp_path / 'a "b" & c.vtm'
+    for snapshot, leaks in ((closed, False), (with_cut_chordae(closed), True)):
+        snapshot.save(path)
+        blocks = pyvista.read(path)
+        names = ["valve", "orifice", "coaptation_line"] if leaks else ["valve", "coaptation_line"]
+        assert blocks.keys() == names
+        assert blocks["valve"].n_points == len(snapshot.node_position)
+        measures = snapshot.measures
+        if leaks:
+            area = measures.regurgitant_orifice_area * 1e6
+            assert blocks["orifice"].area == pytest.approx(area, rel=1e-9)
+            assert blocks["orifice"].field_data["regurgitant_orifice_area_mm2"][0] == area
+        line = blocks["coaptation_line"]
+        # the mean over stations at equal distances
+        mean = line.point_data["coaptation_length_mm"].mean()
+        assert mean == pytest.approx(measures.coaptation_length_mean * 1e3, rel=1e-9)
+        steps = line.compute_cell_sizes(length=True).cell_data["Length"]
+        assert len(steps) == line.n_points - 1
+        assert np.ptp(steps) < 0.5 * steps.mean()  # a curve, no jumps
+        lowest, highest = snapshot.node_position.min(axis=0) * 1e3, snapshot.node_position.max(axis=0) * 1e3
+        assert ((line.points > lowest) & (line.points < highest)).all()
+
+
+def with_cut_chordae(closed):
+    """The closed valve after the chordae of P2 are cut."""
+    with mvs.Simulator() as sim:
+        sim.restore(closed)
+        for row in closed.chords():
+            if row["name"].startswith("P2/"):
+                sim.apply("chord_remove", chord=row["name"])
+        sim.settle()
+        return sim.snapshot()
+
+
 def test_a_vtp_file_holds_the_leaflets(closed, tmp_path):
     path = tmp_path / "closed.vtp"
     closed.save(path)

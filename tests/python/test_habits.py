@@ -117,9 +117,25 @@ def test_chordae_behind_branch_points_have_the_head_of_their_trunk():
     assert (snapshot.node_kind[snapshot.chord_nodes[:, 0]] == mvs.NodeKind.BRANCH).any()
     heads = {part.name for part in snapshot.parts if part.kind == mvs.PartKind.HEAD}
     assert {row["head"] for row in table} == heads
-    ends = snapshot.node_kind[snapshot.chord_nodes[:, 1]]
-    assert all((row["site"] == "") == (end == mvs.NodeKind.BRANCH)
-               for row, end in zip(table, ends))
+    scallops = [part.name for part in snapshot.parts if part.kind == mvs.PartKind.SCALLOP]
+    for row in table:
+        sites = row["site"].split("+")
+        assert sites == [name for name in scallops if name in sites]
+        if row["kind"] == "trunk":  # where its branches end
+            below = {other["site"] for other in table if other["kind"] != "trunk"}
+            assert set(sites) <= below
+
+
+def test_flags_of_chordae_are_words(closed):
+    limits = closed.chord_flags
+    with mvs.Simulator() as sim:
+        sim.restore(closed)
+        sim.apply("chord_length", chord="A2/7", factor=2)
+        rows = {row["name"]: row for row in sim.snapshot().chords()}
+    assert rows["A2/7"]["flag"] == "slack" and rows["A2/7"]["tension"] == 0
+    words = {0: "", 1: "over strain", 2: "over tension", 3: "over strain, over tension"}
+    for row, flags in zip(closed.chords(), limits):
+        assert row["flag"].removesuffix(", slack") == words[int(flags)] or row["tension"] == 0
 
 
 def test_data_frames_have_the_values_and_units(closed):

@@ -2,6 +2,7 @@
 
 import inspect
 import pickle
+import re
 
 import mvs
 import numpy as np
@@ -309,3 +310,31 @@ def test_points_are_copied_unchanged():
     for wrong in (given[:, :2], given.ravel(), [["a", "b", "c"]], [[1j, 0, 0]], 3, [[1, 2], [3]]):
         with pytest.raises(mvs.ArgumentError, match=r"any: outline must be points.* in m"):
             field.read(wrong)
+
+
+def test_the_default_of_a_field_is_what_its_help_says_and_an_omitted_field_takes(opened):
+    numbers = 0
+    for kind in mvs.ops.KINDS.values():
+        for field in kind.fields:
+            said = re.search(r"\[([^]]*)\]$", field.help)
+            if said is None:
+                assert field.default is None
+            elif isinstance(field.default, str):
+                assert field.default == said[1]
+                assert not field.choices or field.default in dict(field.choices)
+            else:
+                assert field.default == float(said[1])
+                numbers += 1
+    assert numbers >= 5
+    assert mvs.ops.KINDS["chord_length"].field("chord").default is None
+    # an omitted field and its default give the same valve
+    hashes = []
+    strands = mvs.ops.KINDS["neochord"].field("strands").default
+    assert strands == 2
+    assert isinstance(strands, int)
+    for fields in ({}, {"strands": strands}):
+        with mvs.Simulator() as sim:
+            sim.restore(opened)
+            sim.apply("neochord", head=opened.chords()[0]["head"], site="P2:0.5:0.9", **fields)
+            hashes.append(sim.snapshot().hash)
+    assert hashes[0] == hashes[1]

@@ -165,3 +165,25 @@ def test_an_explicit_step_too_large_for_a_stiff_valve_diverges(real_valves):
         # nodes leave the range of the broad phase before a force is not finite
         with pytest.raises(mvs.DivergedError, match="time step is too large"):
             sim.settle(solver="explicit", dt=8e-6, max_iterations=2000)
+
+
+def test_slices_have_the_bits_of_one_call_and_leaving_them_cancels(sim):
+    sim.set_load(mvs.SYSTOLE_PA)
+    before = sim.snapshot()
+    for _ in sim.settle_slices(0):
+        assert sim.snapshot().hash == before.hash
+        break
+    with pytest.raises(mvs.StateError, match="begin_settle"):
+        sim.advance_settle(1)
+    shares = list(sim.settle_slices(0))
+    assert len(shares) == sim.stats.iterations + 1
+    assert shares == sorted(shares)
+    assert shares[-1] == 1 > shares[-2]
+    sliced = sim.snapshot()
+    sim.restore(before)
+    assert sim.settle().converged
+    assert sim.snapshot().hash == sliced.hash
+    sim.restore(before)
+    (share,) = sim.settle_slices(3600, solver="implicit", max_iterations=2)
+    assert share == 1
+    assert sim.stats.iterations == 2

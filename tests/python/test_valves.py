@@ -181,3 +181,9 @@ def test_a_valid_valve_issues_no_warning(valve):
             sim.set_valve(valve)
             sim.set_load(mvs.SYSTOLE_PA)
             assert not sim.settle(max_iterations=1).converged  # reported by the result
+
+
+def test_an_ensemble_warns_of_a_pressure_in_kpa(opened):
+    with pytest.warns(mvs.ValveWarning, match="looks like kPa given as Pa") as caught:
+        opened.ensemble(16.0, members=1, max_iterations=1)
+    assert len(caught) == 1

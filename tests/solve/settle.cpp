@@ -254,6 +254,26 @@ TEST_CASE("progress_is_reported_and_can_cancel") {
   }
 }
 
+// An iteration of a fine valve takes a second: the host is asked before each factorisation and each
+// solution with the factor, wherever it cancels.
+TEST_CASE("the_host_can_cancel_within_an_iteration") {
+  const ModelPtr model = make_model(moving_valve());
+  Solver solver(Backend::fastest);
+  const auto settle = [&](uint32_t &calls, uint32_t most) {
+    State state = initial_state(*model);
+    state.load = {systole, 1};
+    return solver.settle(*model, state, {}, [&](double, double) { return ++calls < most; });
+  };
+  uint32_t all = 0;
+  const SolveStats stats = settle(all, none);
+  CHECK(all > stats.iterations + 2 * stats.factorisations);
+  for (uint32_t most = 1; most <= all; most += 1 + all / 12) {
+    uint32_t calls = 0;
+    CHECK_THROWS_AS(settle(calls, most), Error);
+    CHECK(calls == most);
+  }
+}
+
 TEST_CASE("numbers_out_of_range_are_refused") {
   const ModelPtr model = make_model(small_valve());
   State state = initial_state(*model);

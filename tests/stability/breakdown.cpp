@@ -50,7 +50,7 @@ struct Run {
   double cpu_s = 0;
 };
 
-void operate(mvs::Sim &sim, const Run &run) {
+void operate(mvs::Simulator &sim, const Run &run) {
   if (run.size == 1) return;
   if (std::string(run.operation) == "annulus") {
     mvs_op_annulus_scale op = {};
@@ -87,7 +87,7 @@ std::vector<Pair> crossings_of(const mvs::Snapshot &now) {
 
 // J, potential and kinetic, from the statistics of a step too short for any motion.
 double energy_of(const mvs::Snapshot &valve) {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   mvs::must(mvs_restore(sim.get(), valve.get()));
   mvs_step_options options = {};
   options.dt = 1e-9;
@@ -137,7 +137,7 @@ class Ledger {
 };
 
 void play(Run &run) {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   mvs::must(mvs_restore(sim.get(), closed_valve("S").get()));
   operate(sim, run);
   const std::vector<Pair> before = crossings_of(sim.snapshot());

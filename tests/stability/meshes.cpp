@@ -51,7 +51,7 @@ std::vector<std::array<uint32_t, 2>> pairs_of(const mvs::Snapshot &valve) {
 // Lays out the rest shape with those edges shortened to a share of their length.
 auto shortened(double share) {
   return [=](Watch &watch, const std::string &name) {
-    mvs::Sim sim;
+    mvs::Simulator sim;
     make_valve(sim, name);
     const mvs::Snapshot valve = sim.snapshot();
     const auto pairs = pairs_of(valve);
@@ -62,7 +62,7 @@ auto shortened(double share) {
       }
       return at;
     };
-    mvs::Sim shaped;
+    mvs::Simulator shaped;
     if (!watch.attempt(set_displaced(shaped, valve, Places::rest, move))) return;
     watch.attempt(
         set_displaced(watch.sim(), shaped.snapshot(), Places::now,

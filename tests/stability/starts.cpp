@@ -29,7 +29,7 @@ void displaced(Watch &watch, const mvs::Snapshot &from, const Displacement &disp
 }
 
 mvs::Snapshot open_valve(const std::string &valve) {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   make_valve(sim, valve);
   return sim.snapshot();
 }

@@ -40,7 +40,7 @@ mvs_array indices(const std::vector<uint32_t> &v, uint32_t components) {
 }
 
 // One leaflet sheet with the library's own tissue, as designed to hang under 120 mmHg.
-void make_n32(mvs::Sim &sim) {
+void make_n32(mvs::Simulator &sim) {
   const nlohmann::json data = read_n32();
   const std::vector<double> nodes = points_of(data["vertices_relaxed"]);
   const std::vector<double> loaded = points_of(data["vertices_pressurized"]);
@@ -97,7 +97,7 @@ bool is_there(const std::string &name) {
   return name != "N32" || !read_n32().is_null();
 }
 
-void make_valve(mvs::Sim &sim, const std::string &name) {
+void make_valve(mvs::Simulator &sim, const std::string &name) {
   if (name == "N32") return make_n32(sim);
   mvs_parametric_desc desc = {};
   desc.vertices = sizes.at(name);
@@ -109,14 +109,14 @@ const mvs::Snapshot &closed_valve(const std::string &name) {
   static std::map<std::string, mvs::Snapshot> kept;
   const auto found = kept.find(name);
   if (found != kept.end()) return found->second;
-  mvs::Sim sim;
+  mvs::Simulator sim;
   make_valve(sim, name);
   sim.set_load(MVS_SYSTOLE_PA);
   if (!sim.settle().converged) throw std::runtime_error("the valve " + name + " does not close");
   return kept.emplace(name, sim.snapshot()).first->second;
 }
 
-mvs_result set_displaced(mvs::Sim &sim, const mvs::Snapshot &from, Places which,
+mvs_result set_displaced(mvs::Simulator &sim, const mvs::Snapshot &from, Places which,
                          const Displacement &displaced) {
   const auto kinds = from.view<uint8_t>(MVS_ARRAY_NODE_KIND);
   const auto now = from.view<double>(MVS_ARRAY_NODE_POSITION);

@@ -13,7 +13,7 @@ namespace stability {
 // "S", "M", "L", "XL": the parametric valve with 425, 1,700, 6,800, 27,000 vertices; "S2": with
 // branching chordae; "N32": a valve on a real annulus (alexkaiser/heart_valves).
 bool is_there(const std::string &name);
-void make_valve(mvs::Sim &sim, const std::string &name);
+void make_valve(mvs::Simulator &sim, const std::string &name);
 
 // The valve at rest under systolic pressure; settled once, then kept.
 const mvs::Snapshot &closed_valve(const std::string &name);
@@ -23,7 +23,7 @@ using Displacement =
     std::function<std::array<double, 3>(size_t node, uint8_t kind, std::array<double, 3> at)>;
 enum class Places { now, rest };
 // A new valve like a snapshot, with a displaced shape; through a file, as no other call sets both.
-mvs_result set_displaced(mvs::Sim &sim, const mvs::Snapshot &from, Places which,
+mvs_result set_displaced(mvs::Simulator &sim, const mvs::Snapshot &from, Places which,
                          const Displacement &displaced);
 
 }  // namespace stability

@@ -160,7 +160,7 @@ void Watch::load(double pressure, double boundary_fraction) {
 
 // The potential before a settle, from the statistics of a step too short for any motion.
 double Watch::potential_at_start() {
-  mvs::Sim probe;
+  mvs::Simulator probe;
   mvs::must(mvs_restore(probe.get(), sim_.snapshot().get()));
   mvs_step_options options = mvs::sized<mvs_step_options>();
   options.dt = 1e-9;

@@ -47,7 +47,7 @@ class Watch {
  public:
   Watch(SolverMode mode, const Effort &effort) : mode_(mode), effort_(effort) {}
 
-  mvs::Sim &sim() { return sim_; }
+  mvs::Simulator &sim() { return sim_; }
   SolverMode mode() const { return mode_; }
   const Effort &effort() const { return effort_; }
 
@@ -98,7 +98,7 @@ class Watch {
 
   SolverMode mode_;
   Effort effort_;
-  mvs::Sim sim_;
+  mvs::Simulator sim_;
   Verdict verdict_;
   std::string about_;
   Hash first_{};  // before the first operation, or at the start

@@ -65,7 +65,7 @@ Closed close_valve(const CloseOptions &options, const Console &console) {
   Progress progress(console);
   mvs_sim_desc desc = {};
   desc.backend = backends().at(options.backend);
-  mvs::Sim sim = load_sim(options.in, progress, desc);
+  mvs::Simulator sim = load_sim(options.in, progress, desc);
   set_tissue(sim, options.leaflet);
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
   mvs_settle_options settle = options.settle;
@@ -159,7 +159,8 @@ void add_close(CLI::App &app, Console &console) {
   const auto [command, options] = add_command<CloseOptions>(
       app, console, "close", "close a valve under systolic pressure and measure it", run_close);
   command->add_option("file", options->in, "valve to close, .obj, .h5 or .inp")->required();
-  command->add_option("-o,--output", options->out, "write the closed valve, .obj, .h5 or .vtp");
+  command->add_option("-o,--output", options->out,
+                      "write the closed valve, .obj, .h5, .vtp or .vtm");
   add_pressure_option(*command, options->pressure_mmhg);
   add_tissue_option(*command, options->leaflet);
   add_choice(*command, "--solver", options->solver, "method", solvers);

@@ -18,11 +18,13 @@ void run_convert(const ConvertOptions &options, const Console &console) {
 }  // namespace
 
 void add_convert(CLI::App &app, Console &console) {
-  const auto [command, options] = add_command<ConvertOptions>(
-      app, console, "convert",
-      "write a valve in another format: .vtp for ParaView and Slicer, .feb for FEBio", run_convert);
+  const auto [command, options] =
+      add_command<ConvertOptions>(app, console, "convert",
+                                  "write a valve in another format: .vtp for ParaView and Slicer, "
+                                  ".vtm with orifice and coaptation line, .feb for FEBio",
+                                  run_convert);
   command->add_option("file", options->in, "valve to read, .obj, .h5 or .inp")->required();
-  command->add_option("-o,--output", options->out, "file to write, .obj, .h5, .vtp or .feb")
+  command->add_option("-o,--output", options->out, "file to write, .obj, .h5, .vtp, .vtm or .feb")
       ->required();
 }
 

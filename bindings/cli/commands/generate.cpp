@@ -58,7 +58,7 @@ std::string check_chord_factor(const std::string &given) {
 mvs::Snapshot make_valve(const GenerateOptions &options) {
   mvs_parametric_desc desc = options.valve;
   for (const Dimension &length : lengths) desc.*length.value /= 1e3;
-  mvs::Sim sim = make_sim();
+  mvs::Simulator sim = make_sim();
   sim.generate(desc);
   for (const std::string &given : options.chord_factors) {
     const auto [name, factor] = parse_chord_factor(given);
@@ -89,7 +89,8 @@ void run_generate(const GenerateOptions &options, const Console &console) {
 void add_generate(CLI::App &app, Console &console) {
   const auto [command, options] = add_command<GenerateOptions>(
       app, console, "generate", "make a parametric mitral valve", run_generate);
-  command->add_option("-o,--output", options->out, "file to write, .obj, .h5 or .vtp")->required();
+  command->add_option("-o,--output", options->out, "file to write, .obj, .h5, .vtp or .vtm")
+      ->required();
   command->add_option("--vertices", options->valve.vertices, "leaflet vertices, about [425]")
       ->check(CLI::PositiveNumber);
   command->add_option("--chords", options->valve.chords, "chord segments, about [80]")

@@ -32,7 +32,7 @@ struct Operated {
 // Both closures start from the shape in the file.
 Operated operate(const OpRequest &request, const Console &console) {
   Progress progress(console);
-  mvs::Sim sim = load_sim(request.in, progress);
+  mvs::Simulator sim = load_sim(request.in, progress);
   const mvs::Snapshot first = sim.snapshot();
   OpText op(request.kind);
   for (const auto &[name, given] : request.fields) op.set(name, given, first);
@@ -129,7 +129,7 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
   request->kind = kind;
   CLI::App *command = add_command(op, console, dashed(kind.info.name), kind.info.help);
   for (const mvs_field_info &field : kind.fields) add_field(*command, *request, field);
-  command->add_option("-o,--output", request->out, "write the valve, .obj, .h5 or .vtp")
+  command->add_option("-o,--output", request->out, "write the valve, .obj, .h5, .vtp or .vtm")
       ->type_name("FILE");
   const CLI::Option *settle =
       add_pressure_option(*command, request->settle_mmhg, "--settle",

@@ -67,7 +67,7 @@ void show_plan(const PlanOptions &options, const Console &console) {
 }
 
 void check_plan(const PlanOptions &options, const Console &console) {
-  mvs::Sim sim = make_sim();
+  mvs::Simulator sim = make_sim();
   sim.load_file(options.on);
   const mvs_replay replay = sim.check_plan(plan_text(options.plan));
   print(
@@ -82,7 +82,7 @@ void check_plan(const PlanOptions &options, const Console &console) {
 
 void replay_plan(const PlanOptions &options, const Console &console) {
   Progress progress(console);
-  mvs::Sim sim = load_sim(options.on, progress);
+  mvs::Simulator sim = load_sim(options.on, progress);
   const mvs_replay done = sim.replay_plan(plan_text(options.plan));
   const mvs::Snapshot valve = sim.snapshot();
   if (!options.out.empty()) valve.save(options.out);

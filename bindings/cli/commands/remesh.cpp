@@ -26,7 +26,7 @@ std::string coarsening_text(const mvs_coarsening &made) {
 }
 
 void run_remesh(const RemeshOptions &options, const Console &console) {
-  mvs::Sim sim = make_sim();
+  mvs::Simulator sim = make_sim();
   sim.load_file(options.in);
   const Size before = size_of(sim.snapshot());
   for (uint32_t level = 0; level < options.refine; ++level) mvs::refine(sim);
@@ -53,7 +53,8 @@ void add_remesh(CLI::App &app, Console &console) {
   const auto [command, options] = add_command<RemeshOptions>(
       app, console, "remesh", "make a finer or coarser mesh of the same valve", run_remesh);
   command->add_option("file", options->in, "valve to read, .obj or .h5")->required();
-  command->add_option("-o,--output", options->out, "file to write, .obj, .h5 or .vtp")->required();
+  command->add_option("-o,--output", options->out, "file to write, .obj, .h5, .vtp or .vtm")
+      ->required();
   CLI::Option_group *how = command->add_option_group("how", "exactly one of these");
   how->add_option("--refine", options->refine, "split each triangle into four, this many times")
       ->check(CLI::Range(1, 8));

@@ -19,8 +19,8 @@ struct RepairOptions {
 void run_repair(const RepairOptions &options, Console &console) {
   const std::string plan = plan_text(options.plan);
   Progress progress(console);
-  mvs::Sim unrepaired = load_sim(options.file, progress);
-  mvs::Sim repaired = load_sim(options.file, progress);
+  mvs::Simulator unrepaired = load_sim(options.file, progress);
+  mvs::Simulator repaired = load_sim(options.file, progress);
   // an inapplicable plan fails before the closures, which take longer
   repaired.check_plan(plan);
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, unrepaired);

@@ -44,7 +44,7 @@ SweepGrid grid_of(const SweepOptions &options) {
 AtRest close_combination(const Sweep &sweep, size_t combination) {
   mvs_sim_desc desc = {};
   desc.progress = [](void *, double, double) -> int32_t { return InterruptFlag::is_set(); };
-  mvs::Sim sim = make_sim(desc);
+  mvs::Simulator sim = make_sim(desc);
   sim.restore(sweep.closed);
   sweep.grid.apply(combination, sim);
   return settle(sim, sweep.pressure_mmhg,
@@ -141,7 +141,7 @@ void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &opt
 void run_sweep(const SweepOptions &options, Console &console) {
   SweepGrid grid = grid_of(options);
   Progress progress(console);
-  mvs::Sim sim = load_sim(options.file, progress);
+  mvs::Simulator sim = load_sim(options.file, progress);
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
   Sweep sweep = {std::move(grid), sim.snapshot(), hash_of(sim.snapshot()), pressure_mmhg};
   SweepTable table(sweep.grid, options.csv, sweep.valve, pressure_mmhg);

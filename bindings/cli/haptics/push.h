@@ -22,7 +22,7 @@ struct Push {
 // A closed valve and its tautest chord. Made before a device starts, because the closure keeps a
 // processor busy.
 struct TautChord {
-  mvs::Sim sim;
+  mvs::Simulator sim;
   mvs_id id = 0;
   double tension = 0;               // N
   std::array<double, 3> pull = {};  // unit vector of the force on the hand

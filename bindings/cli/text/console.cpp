@@ -101,10 +101,10 @@ void Progress::show(double share, double residual) {
   line_open_ = terminal_;
 }
 
-mvs::Sim load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc) {
+mvs::Simulator load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc) {
   desc.progress = Progress::callback;
   desc.user = &progress;
-  mvs::Sim sim = make_sim(desc);
+  mvs::Simulator sim = make_sim(desc);
   sim.load_file(path);
   return sim;
 }

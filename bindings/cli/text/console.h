@@ -68,6 +68,6 @@ class Progress {
 
 // A simulator that holds the valve of a file and reports to `progress`, which must outlive it.
 // `desc` may set all fields except log and progress.
-mvs::Sim load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc = {});
+mvs::Simulator load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc = {});
 
 }  // namespace cli

@@ -158,7 +158,7 @@ std::vector<std::string> SweepGrid::values(size_t combination) const {
   return values;
 }
 
-void SweepGrid::apply(size_t combination, mvs::Sim &sim) const {
+void SweepGrid::apply(size_t combination, mvs::Simulator &sim) const {
   const std::vector<std::string> all = values(combination);
   auto value = all.begin();
   for (const SweepOp &op : ops_) {

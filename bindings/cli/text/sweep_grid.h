@@ -35,7 +35,7 @@ class SweepGrid {
   // The values of a combination in the order of columns(); the last axis changes fastest.
   std::vector<std::string> values(size_t combination) const;
   // Applies the operations of a combination, in the order in which they were given.
-  void apply(size_t combination, mvs::Sim &sim) const;
+  void apply(size_t combination, mvs::Simulator &sim) const;
 
  private:
   std::vector<SweepOp> ops_;

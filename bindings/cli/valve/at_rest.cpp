@@ -6,7 +6,7 @@
 
 namespace cli {
 
-AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name) {
+AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name) {
   sim.set_load(pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle();
   if (!stats.converged) {

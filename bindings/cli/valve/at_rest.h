@@ -16,7 +16,7 @@ struct AtRest {
 
 // Settles under a pressure and measures. A valve that is not at rest is a result, not an error:
 // stderr gets a warning with `name`.
-AtRest settle(mvs::Sim &sim, double pressure_mmhg, const std::string &name);
+AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name);
 
 // Adds --allow-unsettled, which has a command that closes valves end with 0 all the same.
 void add_unsettled_option(CLI::App &command, bool &allowed);

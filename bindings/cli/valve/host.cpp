@@ -9,13 +9,13 @@ void log_to_stderr(void *, mvs_log_level level, const char *text) {
   if (level <= MVS_LOG_WARNING) std::fprintf(stderr, "mvs: %s\n", text);
 }
 
-mvs::Sim make_sim(mvs_sim_desc desc) {
+mvs::Simulator make_sim(mvs_sim_desc desc) {
   desc.log = log_to_stderr;
-  return mvs::Sim(desc);
+  return mvs::Simulator(desc);
 }
 
 mvs::Snapshot load(const std::string &path) {
-  mvs::Sim sim = make_sim();
+  mvs::Simulator sim = make_sim();
   sim.load_file(path);
   return sim.snapshot();
 }

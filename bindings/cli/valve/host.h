@@ -10,7 +10,7 @@ namespace cli {
 void log_to_stderr(void *, mvs_log_level level, const char *text);
 
 // An empty simulator that logs to stderr. `desc` may set all fields except the log.
-mvs::Sim make_sim(mvs_sim_desc desc = {});
+mvs::Simulator make_sim(mvs_sim_desc desc = {});
 
 // Reads the valve and the state in a file.
 mvs::Snapshot load(const std::string &path);

@@ -34,7 +34,7 @@ inline CLI::Option *add_pressure_option(CLI::App &command, std::optional<double>
 
 // The given pressure, else that of the load in the file, else 120 mmHg. The load in the file
 // matters: a tricuspid valve closes at a fifth of the mitral pressure.
-inline double pressure_mmhg_of(const std::optional<double> &asked_mmhg, const mvs::Sim &sim) {
+inline double pressure_mmhg_of(const std::optional<double> &asked_mmhg, const mvs::Simulator &sim) {
   if (asked_mmhg) return *asked_mmhg;
   const double of_file = sim.load().pressure / pa_per_mmhg;
   return of_file != 0 ? of_file : 120;

@@ -37,7 +37,7 @@ void add_tissue_option(CLI::App &command, std::string &choice) {
       ->check(one_of(words));
 }
 
-void set_tissue(mvs::Sim &sim, const std::string &choice) {
+void set_tissue(mvs::Simulator &sim, const std::string &choice) {
   if (choice == "file") return;
   const std::vector<std::string> laws = known_laws();
   const mvs::Snapshot before = sim.snapshot();

@@ -12,7 +12,7 @@ void add_tissue_option(CLI::App &command, std::string &choice);
 // Sets the law of the leaflets. "file" leaves it, "membrane" turns springs into the membrane of the
 // same stress-strain curve and leaves membranes, any other word is a law with its default
 // constants.
-void set_tissue(mvs::Sim &sim, const std::string &choice);
+void set_tissue(mvs::Simulator &sim, const std::string &choice);
 
 // The distinct laws of the leaflets in their order: "spring, fung".
 std::string laws_of(const mvs::Snapshot &valve);

@@ -1,7 +1,7 @@
 """Types of the C interface of libmvs for Python; docstrings have shapes, units and errors."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any, Literal, Optional, Union, overload
 
@@ -40,7 +40,7 @@ _Point = Union[Sequence[float], _F64]
 _Path = Union[str, os.PathLike[str]]
 _Plan = Union[str, bytes, os.PathLike[str], Mapping[str, Any]]
 _Progress = Optional[Callable[[float, float], object]]
-_Format = Literal["auto", "obj", "h5", "vtp", "inp", "feb"]
+_Format = Literal["auto", "obj", "h5", "vtp", "inp", "feb", "vtm"]
 
 def version() -> str: ...
 def features() -> str: ...
@@ -181,6 +181,9 @@ class Snapshot:
     def history(self) -> tuple[HistoryEntry, ...]: ...
     @property
     def checkpoints(self) -> tuple[str, ...]: ...
+    def _chords(
+        self,
+    ) -> list[tuple[str, int, str, str, int, float, float, float, float]]: ...
     def chords(self) -> Table: ...
     def plot(
         self, view: Literal["atrium", "oblique", "chords", "coaptation", "strain"] = "atrium"
@@ -308,6 +311,27 @@ class Simulator:
         damping: Optional[float] = None,
         progress: _Progress = None,
     ) -> Stats: ...
+    def begin_settle(
+        self,
+        *,
+        solver: Literal["newton", "implicit", "explicit"] = "newton",
+        max_iterations: Optional[int] = None,
+        residual: Optional[float] = None,
+        dt: Optional[float] = None,
+        damping: Optional[float] = None,
+    ) -> None: ...
+    def advance_settle(self, seconds: float) -> float: ...
+    def cancel_settle(self) -> None: ...
+    def settle_slices(
+        self,
+        seconds: float = 0.05,
+        *,
+        solver: Literal["newton", "implicit", "explicit"] = "newton",
+        max_iterations: Optional[int] = None,
+        residual: Optional[float] = None,
+        dt: Optional[float] = None,
+        damping: Optional[float] = None,
+    ) -> Iterator[float]: ...
     def step(
         self,
         count: int = 1,

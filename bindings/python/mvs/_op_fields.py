@@ -95,6 +95,8 @@ class OpField:
 
     low, high: range of a number in ``unit``, of the count of points, or of the bytes of a text
     choices: the accepted words and their numbers in C
+    default: of an omitted field: a number in ``unit``, a word of ``choices``, or a rule in words
+        ("fitted"); None if it has none
     """
 
     kind: str
@@ -107,13 +109,17 @@ class OpField:
     unit: str
     help: str
     choices: tuple[tuple[str, int], ...]
+    default: Union[float, int, str, None] = None
 
     @classmethod
     def described_by(cls, kind: str, fields: dict[str, Any]) -> OpField:
         """The field that a dictionary of the binding describes."""
         pairs = (word.split("=") for word in fields["choices"].split())
         choices = tuple((word, int(number)) for word, number in pairs)
-        read = {"kind": kind, "type": FieldType(fields["type"]), "choices": choices}
+        type_ = FieldType(fields["type"])
+        read = {"kind": kind, "type": type_, "choices": choices}
+        if type_ == FieldType.COUNT and isinstance(fields["default"], float):
+            read["default"] = int(fields["default"])
         return cls(**{**fields, **read})
 
     def with_unit(self) -> str:

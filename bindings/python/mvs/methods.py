@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, Literal
 
 from . import _core
@@ -34,6 +35,7 @@ def attach() -> None:
     ):
         setattr(_core.Snapshot, name, method)
     setattr(_core.Simulator, "__repr__", simulator_text)
+    setattr(_core.Simulator, "settle_slices", settle_slices)
 
 
 def words_of(snapshot: _core.Snapshot) -> str:
@@ -64,6 +66,31 @@ def simulator_text(self: _core.Simulator) -> str:
     except Error as error:
         return f"<mvs.Simulator: {error}>"
     return f'<mvs.Simulator "{snapshot.name}": {words_of(snapshot)}>'
+
+
+def settle_slices(
+    self: _core.Simulator, seconds: float = 0.05, **options: Any
+) -> Iterator[float]:
+    """Settles in slices, for a program that has to answer in between (a window, asyncio).
+
+    Gives the completed share, in (0, 1], after each slice of `seconds`; at 1 the valve is settled,
+    with the bits of one call. Until then it is as before. An iteration is not divided: on large
+    valves a slice takes longer. Leaving the loop cancels.
+
+        for share in sim.settle_slices():
+            bar.update(share)
+
+    options: those of settle, without `progress`.
+    """
+    self.begin_settle(**options)
+    share = 0.0
+    try:
+        while share < 1:
+            share = self.advance_settle(seconds)
+            yield share
+    finally:
+        if share < 1:
+            self.cancel_settle()
 
 
 def reduced(self: _core.Snapshot) -> tuple[Any, ...]:

@@ -7,8 +7,6 @@ import html
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Union, overload
 
-import numpy as np
-
 from ._core import Snapshot
 from .errors import ArgumentError
 from .kinds import ChordKind, NodeKind, PartKind
@@ -106,63 +104,35 @@ CHORD_UNITS = {
     "name": "", "kind": "", "head": "", "site": "", "length": "m", "rest_length": "m",
     "strain": "", "tension": "N", "flag": "",
 }
-FLAGS = {0: "", 1: "strained", 2: "loaded", 3: "strained, loaded"}
-"""Words of Snapshot.chord_flags: beyond the limit of strain, of tension."""
 
 
 def chords(self: Snapshot) -> Table:
     """The chordae as a table (mvs.Table), a row per segment in the order of the arrays.
 
-    name, kind ("strut"), head (name of its papillary head; "" behind a branch point without one),
-    site (scallop of its leaflet end; "" at a branch point), length and rest_length in m, strain,
-    tension in N, flag ("strained", "loaded": beyond the limits of mvs.chord_limits).
+    The same rows as those of the command `mvs chords`. name, kind ("rough zone"), head (names of the
+    papillary heads above it, joined by "+"; "" without one), site (scallops in which it, or its
+    branches, end, joined by "+"), length and rest_length in m, strain (negative when slack), tension
+    in N, flag ("over strain", "over tension": beyond the limits of mvs.chord_limits; "slack").
     """
-    points = self.node_position[self.chord_nodes]
-    lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
-    heads, sites = _heads_of_chords(self), _sites_of_nodes(self)
-    names = [part.name for part in self.parts if part.kind == PartKind.CHORD]
-    return Table(
-        (
-            {
-                "name": names[c],
-                "kind": ChordKind(int(self.chord_kind[c])).name.lower(),
-                "head": heads[c],
-                "site": sites.get(int(node), ""),
-                "length": float(lengths[c]),
-                "rest_length": float(self.chord_rest_length[c]),
-                "strain": float(self.chord_strain[c]),
-                "tension": float(self.chord_tension[c]),
-                "flag": FLAGS[int(self.chord_flags[c])],
-            }
-            for c, node in enumerate(self.chord_nodes[:, 1])
-        ),
-        CHORD_UNITS,
-    )
+    return Table((_chord_row(*chord) for chord in self._chords()), CHORD_UNITS)
 
 
-def _heads_of_chords(snapshot: Snapshot) -> list[str]:
-    """The head that each chord hangs from, through branch points."""
-    names = [part.name for part in snapshot.parts if part.kind == PartKind.HEAD]
-    known = {int(node): name for node, name in zip(snapshot.head_nodes, names)}
-    segments = snapshot.chord_nodes.tolist()
-    # branch points are few levels deep; each pass passes the heads on by one level
-    before = -1
-    while len(known) != before:
-        before = len(known)
-        for a, b in segments:
-            if a in known and snapshot.node_kind[b] == NodeKind.BRANCH:
-                known.setdefault(b, known[a])
-    return [known.get(a, "") for a, _ in segments]
-
-
-def _sites_of_nodes(snapshot: Snapshot) -> dict[int, str]:
-    """The scallop of each leaflet vertex; of the first triangle, where two scallops meet."""
-    names = [part.name for part in snapshot.parts if part.kind == PartKind.SCALLOP]
-    sites: dict[int, str] = {}
-    for corners, scallop in zip(snapshot.triangle_nodes.tolist(), snapshot.triangle_scallop):
-        for node in corners:
-            sites.setdefault(node, names[scallop])
-    return sites
+def _chord_row(
+    name: str, kind: int, heads: str, scallops: str, flags: int, *numbers: float
+) -> dict[str, Any]:
+    length, rest_length, strain, tension = numbers
+    words = [word for bit, word in ((1, "over strain"), (2, "over tension")) if flags & bit]
+    return {
+        "name": name,
+        "kind": ChordKind(kind).name.lower().replace("_", " "),
+        "head": heads,
+        "site": scallops,
+        "length": length,
+        "rest_length": rest_length,
+        "strain": strain,
+        "tension": tension,
+        "flag": ", ".join([*words, *(["slack"] if tension == 0 else [])]),
+    }
 
 
 NODE_UNITS = {

@@ -65,16 +65,36 @@ py::object stats_of(Simulator &self) {
                      filled<mvs_profile>(self, &mvs_get_profile));
 }
 
-py::object settle(Simulator &self, const std::string &solver, Count max_iterations, Number residual,
-                  Number dt, Number damping, py::object progress) {
+mvs_settle_options settle_options(const std::string &solver, Count max_iterations, Number residual,
+                                  Number dt, Number damping) {
   auto options = sized<mvs_settle_options>();
   options.solver = solver_of(solver);
   options.max_iterations = max_iterations.value_or(0);
   options.residual = residual.value_or(0);
   options.dt = dt.value_or(0);
   options.damping = damping.value_or(0);
-  self.settle(options, std::move(progress));
+  return options;
+}
+
+py::object settle(Simulator &self, const std::string &solver, Count max_iterations, Number residual,
+                  Number dt, Number damping, py::object progress) {
+  const auto options = settle_options(solver, max_iterations, residual, dt, damping);
+  self.settle(std::move(progress),
+              [&](mvs_sim *sim) { return mvs_settle(sim, &options, nullptr); });
   return stats_of(self);
+}
+
+void begin_settle(Simulator &self, const std::string &solver, Count max_iterations, Number residual,
+                  Number dt, Number damping) {
+  const auto options = settle_options(solver, max_iterations, residual, dt, damping);
+  self.call([&](mvs_sim *sim) { return mvs_begin_settle(sim, &options); });
+}
+
+double advance_settle(Simulator &self, double seconds) {
+  double share = 0;
+  self.settle(py::none(),
+              [&](mvs_sim *sim) { return mvs_advance_settle(sim, seconds, &share, nullptr); });
+  return share;
 }
 
 py::object step(Simulator &self, uint64_t count, const std::string &solver, Number dt,
@@ -151,6 +171,20 @@ void bind_work(py::class_<Simulator> &type) {
            "rest [1e-5]\ndt: s, and damping: 1/s, of the dynamic solvers\nprogress: called with "
            "(share done, residual in N) in this thread; True cancels (CancelledError), an "
            "exception stops the work and is raised again");
+  type.def(
+      "begin_settle", &begin_settle, py::kw_only(), "solver"_a = "newton",
+      "max_iterations"_a = py::none(), "residual"_a = py::none(), "dt"_a = py::none(),
+      "damping"_a = py::none(),
+      "Begins a settle in slices, with the arguments of settle; see settle_slices. Until its end "
+      "the valve is as before; another call that changes it cancels the settle.");
+  type.def(
+      "advance_settle", &advance_settle, "seconds"_a,
+      "Advances the settle that begin_settle began, for `seconds` and at least one iteration. "
+      "Returns the completed share in [0, 1]; 1: the valve is settled, and `stats` tells how.");
+  type.def(
+      "cancel_settle",
+      [](Simulator &self) { self.call([](mvs_sim *sim) { return mvs_cancel_settle(sim); }); },
+      "Cancels a settle in slices, if one is under way.");
   type.def("step", &step, "count"_a = 1, py::kw_only(), "solver"_a = "implicit",
            "dt"_a = py::none(), "damping"_a = py::none(), "budget"_a = py::none(),
            "Advances by `count` time steps and returns mvs.Stats of the last. Ctrl-C stops between "

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "arrays.h"
+#include "simulator.h"
 #include "values.h"
 
 namespace mvs_python {
@@ -34,6 +35,15 @@ mvs_ensemble_summary summary_of(const Ensemble &self) {
   return found;
 }
 
+// Gives the warnings of Simulator.set_load.
+void check_load(const Snapshot &start, const mvs_load_case &load) {
+  Simulator sim("default", py::none());
+  sim.call([&](mvs_sim *held) {
+    const mvs_result restored = mvs_restore(held, start.get());
+    return restored == MVS_OK ? mvs_set_load(held, &load) : restored;
+  });
+}
+
 std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
                                        double boundary_fraction, uint32_t members, uint64_t seed,
                                        Number perturbation, Number wavelength, Number same,
@@ -41,6 +51,7 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
                                        Count max_iterations, Number residual, py::object progress) {
   if (members == 0) refuse(MVS_E_ARGUMENT, "members", "members: 1 to 1000 are needed, not 0");
   const mvs_load_case load{sizeof load, 0, pressure, boundary_fraction};
+  check_load(start, load);
   auto settle = sized<mvs_settle_options>();
   settle.solver = solver_of(solver);
   settle.max_iterations = max_iterations.value_or(0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <pybind11/stl.h>
 
@@ -23,6 +24,11 @@ py::dict field_of(uint32_t kind, uint32_t index) {
   field["unit"] = info.unit;
   field["help"] = info.help;
   field["choices"] = info.choices;
+  // a number, the word of a choice, or a rule ("of the valve"); None: the field has no default
+  const bool is_number = info.type != MVS_FIELD_CHOICE && !std::isnan(info.default_value);
+  field["default"] = is_number            ? py::object(py::float_(info.default_value))
+                     : *info.default_text ? py::object(py::str(info.default_text))
+                                          : py::object(py::none());
   return field;
 }
 

@@ -97,17 +97,6 @@ void Simulator::free_now() {
   mvs_destroy(closing);
 }
 
-mvs_stats Simulator::settle(const mvs_settle_options &options, py::object progress) {
-  auto stats = sized<mvs_stats>();
-  call_with(std::move(progress), [&](mvs_sim *sim) {
-    settling_ = true;
-    const mvs_result result = mvs_settle(sim, &options, &stats);
-    settling_ = false;
-    return result;
-  });
-  return stats;
-}
-
 std::unique_ptr<Snapshot> Simulator::snapshot() {
   const mvs_snapshot *taken = nullptr;
   look([&](mvs_sim *sim) { return mvs_get_snapshot(sim, &taken); });

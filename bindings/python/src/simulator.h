@@ -29,7 +29,6 @@ class Simulator {
   Simulator &operator=(const Simulator &) = delete;
 
   void close();
-  mvs_stats settle(const mvs_settle_options &options, py::object progress);
   std::unique_ptr<Snapshot> snapshot();
 
   // Runs work(mvs_sim *) when no other call is at work; raises its error or that of a callback.
@@ -38,6 +37,9 @@ class Simulator {
   // The same for long work, during which the library calls `progress`.
   template <typename Call>
   void call_with(py::object progress, Call &&work);
+  // The same for a settle.
+  template <typename Call>
+  void settle(py::object progress, Call &&work);
   // Runs a short work(mvs_sim *) `count` times in one turn; Ctrl-C stops between two of them.
   template <typename Call>
   void repeat(uint64_t count, Call &&work);
@@ -91,6 +93,16 @@ void Simulator::call_with(py::object progress, Call &&work) {
     const mvs_result result = work(sim);
     py::gil_scoped_acquire held;
     progress_ = py::none();
+    return result;
+  });
+}
+
+template <typename Call>
+void Simulator::settle(py::object progress, Call &&work) {
+  call_with(std::move(progress), [&](mvs_sim *sim) {
+    settling_ = true;
+    const mvs_result result = work(sim);
+    settling_ = false;
     return result;
   });
 }

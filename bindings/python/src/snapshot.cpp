@@ -147,6 +147,20 @@ py::bytes to_bytes(const Snapshot &snapshot, const std::string &format) {
   return py::bytes(bytes);
 }
 
+// The rows of mvs.tables.chords.
+py::list chords_of(const Snapshot &self) {
+  uint32_t count = 0;
+  must(mvs_snapshot_get_part_count(self.get(), MVS_PART_CHORD, &count));
+  py::list rows;
+  for (uint32_t c = 0; c < count; ++c) {
+    auto chord = sized<mvs_chord_info>();
+    release_and([&] { return mvs_snapshot_get_chord(self.get(), c, &chord); });
+    rows.append(py::make_tuple(chord.name, chord.kind, chord.heads, chord.scallops, chord.flags,
+                               chord.length, chord.rest_length, chord.strain, chord.tension));
+  }
+  return rows;
+}
+
 std::string text(const Snapshot &snapshot) {
   return std::string("<mvs.Snapshot \"") + mvs_snapshot_get_name(snapshot.get()) + "\" " +
          hash(snapshot) + ">";
@@ -161,9 +175,11 @@ uint32_t format_of(const std::string &name) {
   if (name == "h5") return MVS_FORMAT_H5;
   if (name == "inp") return MVS_FORMAT_INP;
   if (name == "feb") return MVS_FORMAT_FEB;
-  refuse(MVS_E_ARGUMENT, "format",
-         "format: \"auto\", \"obj\", \"h5\", \"vtp\", \"inp\" or \"feb\" is needed, not \"" + name +
-             "\"");
+  if (name == "vtm") return MVS_FORMAT_VTM;
+  refuse(
+      MVS_E_ARGUMENT, "format",
+      "format: \"auto\", \"obj\", \"h5\", \"vtp\", \"vtm\", \"inp\" or \"feb\" is needed, not \"" +
+          name + "\"");
 }
 
 void bind_snapshot(py::module_ &module) {
@@ -205,16 +221,19 @@ void bind_snapshot(py::module_ &module) {
                              "ones from first to last, then the undone ones in the order of redo.");
   type.def_property_readonly("checkpoints", &checkpoints,
                              "The names of the checkpoints (tuple of str).");
+  type.def("_chords", &chords_of);
   type.def("find", &find, "kind"_a, "name"_a,
            "The part of a kind with this name; IdError if there is no such part.");
   type.def("compare", &compare, "other"_a,
            "Distance between the leaflet surfaces of two snapshots (mvs.Comparison), m.");
   type.def("section", &section, "point"_a, "normal"_a,
            "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
-  type.def("save", &save, "path"_a, py::kw_only(), "format"_a = "auto",
-           "Writes a file; format \"auto\" follows the ending: .obj (exact round trip), .h5 (with "
-           "the history), .vtp (for ParaView and Slicer) or .feb (a FEBio model of the closure). "
-           "IoError if it cannot be written.");
+  type.def(
+      "save", &save, "path"_a, py::kw_only(), "format"_a = "auto",
+      "Writes a file; format \"auto\" follows the ending: .obj (exact round trip), .h5 (with "
+      "the history), .vtp (for ParaView and Slicer), .vtm (the same with orifice and coaptation "
+      "line, in a folder beside it) or .feb (a FEBio model of the closure). "
+      "IoError if it cannot be written.");
   type.def("to_bytes", &to_bytes, py::kw_only(), "format"_a = "obj",
            "The contents of the file that save would write.");
   bind_plan_writing(type);

@@ -162,6 +162,7 @@ void summarise(const std::vector<CoaptationLine> &lines, Coaptation &coaptation)
       coaptation.length_max = std::max(coaptation.length_max, station.length);
       coaptation.length_min = std::min(coaptation.length_min, station.length);
     }
+    coaptation.line_end.push_back(static_cast<uint32_t>(coaptation.line.size()));
   }
   if (length > 0) coaptation.length_mean = area / length;
 }

@@ -17,6 +17,7 @@ struct Coaptation {
   std::vector<double> distance;         // m per node, infinity for a node that faces no tissue
   std::vector<double> share;            // per triangle, 0..1
   std::vector<CoaptationStation> line;  // in order; several lines are concatenated
+  std::vector<uint32_t> line_end;       // of each line: the index behind its last station
   double area = 0, length_mean = 0, length_min = 0, length_max = 0, height = 0, depth = 0;
 };
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x);

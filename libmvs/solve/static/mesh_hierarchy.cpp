@@ -1,8 +1,10 @@
-// Nested iteration: coarsens, settles the coarse mesh, transfers its shape, settles the fine mesh.
+// Nested iteration: coarsens down to the coarsest mesh, then settles each level from the shape of
+// the coarser one.
 #include "solve/static/mesh_hierarchy.h"
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "anatomy/coarsen.h"
 #include "base/error.h"
@@ -22,71 +24,127 @@ double coarse_residual(const Model &coarse, const Load &load) {
   return settings::mesh_hierarchy::coarse_residual * std::abs(load.pressure) * mean_area(coarse);
 }
 
-// A mesh of the hierarchy with its state.
+// A mesh of the hierarchy.
 struct Level {
-  ModelPtr model;
+  const Model *model;
+  ModelPtr owned;  // null at the finest level
   State state;
+  SolveOptions options;
+  Progress progress;  // of this level and all coarser ones
+  bool has_coarser = false;
 };
+
+bool may_coarsen(const Level &level) {
+  return level.options.solver <= SolverKind::newton &&
+         sheet_vertices(*level.model) >= settings::mesh_hierarchy::min_vertices &&
+         level.state.tools.empty() && far_from_rest(*level.model, level.state);
+}
+
+Progress part_of(const Progress &whole, double from, double to) {
+  if (!whole) return {};
+  return [whole, from, to](double share, double residual) {
+    return whole(from + (to - from) * share, residual);
+  };
+}
+
 // Returns the next coarser level; empty where the valve cannot have so few vertices or its coarse
 // mesh intersects itself.
-std::optional<Level> coarser(const Model &model, const State &state, size_t vertices) {
+std::optional<Level> coarser(const Level &fine) {
+  namespace set = settings::mesh_hierarchy;
   try {
-    Coarsened made = coarsen(model, std::max(vertices / settings::mesh_hierarchy::coarsening,
-                                             settings::mesh_hierarchy::min_coarse_vertices));
-    Level level{std::move(made.model), to_coarse(made.map, state)};
-    if (!find_intersections(level.state.x, level.model->valve.triangles).empty()) return {};
-    return level;
+    const size_t vertices = sheet_vertices(*fine.model) / set::coarsening;
+    Coarsened made = coarsen(*fine.model, std::max(vertices, set::min_coarse_vertices));
+    State state = to_coarse(made.map, fine.state);
+    if (!find_intersections(state.x, made.model->valve.triangles).empty()) return {};
+    SolveOptions options = fine.options;
+    options.residual = std::max(options.residual, coarse_residual(*made.model, state.load));
+    options.max_iterations = set::max_coarse_iterations;
+    const Model *model = made.model.get();
+    return Level{model, std::move(made.model), std::move(state), options,
+                 part_of(fine.progress, 0, set::coarse_progress)};
   } catch (const Error &error) {
     if (error.code != MVS_E_ARGUMENT && error.code != MVS_E_OP) throw;
     return {};
   }
 }
 
-// Settles the coarse level and returns its shape on this mesh; empty where that intersects itself.
-std::optional<State> start_from(Solver &solver, Level &level, const Model &model,
-                                const State &state, const SolveOptions &options,
-                                const Progress &progress, SolveStats &spent) {
-  SolveOptions coarse = options;
-  coarse.residual = std::max(options.residual, coarse_residual(*level.model, state.load));
-  coarse.max_iterations = settings::mesh_hierarchy::max_coarse_iterations;
-  const auto tell = [&](double share, double residual) {
-    return progress(settings::mesh_hierarchy::coarse_progress * share, residual);
-  };
-  spent = settle_with_mesh_hierarchy(solver, *level.model, level.state, coarse,
-                                     progress ? Progress(tell) : Progress());
-  State start = transferred(*level.model, level.state, model);
-  if (!find_intersections(start.x, model.valve.triangles).empty()) return {};
-  start.time = state.time;
-  start.steps = state.steps;
-  start.load = state.load;
-  return start;
+// Starts a level from the shape of the settled coarser one, unless it intersects itself there.
+void start_from(const Level &coarse, Level &fine) {
+  State start = transferred(*coarse.model, coarse.state, *fine.model);
+  if (!find_intersections(start.x, fine.model->valve.triangles).empty()) return;
+  start.time = fine.state.time;
+  start.steps = fine.state.steps;
+  start.load = fine.state.load;
+  fine.state = std::move(start);
 }
+
+class HierarchySettling final : public Settling {
+ public:
+  HierarchySettling(Solver &solver, const Model &model, const State &state,
+                    const SolveOptions &options, const Progress &progress)
+      : solver_(&solver) {
+    levels_.push_back({&model, nullptr, state, options, progress});
+    while (may_coarsen(levels_.back())) {
+      std::optional<Level> next = coarser(levels_.back());
+      if (!next) break;
+      levels_.back().has_coarser = true;
+      levels_.push_back(std::move(*next));
+    }
+    begin_level();
+  }
+
+  bool advance() override {
+    if (running_->advance()) return true;
+    if (levels_.size() == 1) return false;
+    Level coarse = std::move(levels_.back());
+    levels_.pop_back();
+    spent_ = finish_level(coarse);
+    start_from(coarse, levels_.back());
+    begin_level();
+    return true;
+  }
+
+  SolveStats finish(State &state) override {
+    const SolveStats stats = finish_level(levels_.front());
+    state = std::move(levels_.front().state);
+    return stats;
+  }
+
+ private:
+  void begin_level() {
+    const Level &level = levels_.back();
+    const double before = level.has_coarser ? settings::mesh_hierarchy::coarse_progress : 0;
+    running_ = solver_->begin_settle(*level.model, level.state, level.options,
+                                     part_of(level.progress, before, 1));
+  }
+
+  // Returns the statistics of this level and all coarser ones.
+  SolveStats finish_level(Level &level) {
+    SolveStats stats = running_->finish(level.state);
+    const uint32_t iterations = stats.iterations;
+    if (level.has_coarser) stats.add(spent_);
+    stats.iterations = iterations;
+    return stats;
+  }
+
+  Solver *solver_;
+  std::vector<Level> levels_;  // the finest first; the last one is being settled
+  std::unique_ptr<Settling> running_;
+  SolveStats spent_;  // of the coarser levels
+};
 
 }  // namespace
 
+std::unique_ptr<Settling> begin_settle_with_mesh_hierarchy(Solver &solver, const Model &model,
+                                                           const State &state,
+                                                           const SolveOptions &options,
+                                                           const Progress &progress) {
+  return std::make_unique<HierarchySettling>(solver, model, state, options, progress);
+}
+
 SolveStats settle_with_mesh_hierarchy(Solver &solver, const Model &model, State &state,
                                       const SolveOptions &options, const Progress &progress) {
-  const size_t vertices = sheet_vertices(model);
-  SolveStats spent;
-  Progress remaining = progress;
-  if (options.solver <= SolverKind::newton && vertices >= settings::mesh_hierarchy::min_vertices &&
-      state.tools.empty() && far_from_rest(model, state)) {
-    if (std::optional<Level> level = coarser(model, state, vertices)) {
-      if (auto start = start_from(solver, *level, model, state, options, progress, spent)) {
-        state = std::move(*start);
-      }
-      remaining = [&](double share, double residual) {
-        return !progress || progress(settings::mesh_hierarchy::coarse_progress +
-                                         (1 - settings::mesh_hierarchy::coarse_progress) * share,
-                                     residual);
-      };
-    }
-  }
-  SolveStats stats = solver.settle(model, state, options, remaining);
-  const uint32_t iterations = stats.iterations;
-  stats.add(spent);
-  stats.iterations = iterations;
-  return stats;
+  return run(*begin_settle_with_mesh_hierarchy(solver, model, state, options, progress), state);
 }
 
 }  // namespace mvs::core

@@ -1,5 +1,5 @@
-// Newton's method: the loop, polish steps near rest, the boundary, step limits, the presolve of a
-// local subproblem. trust_region.cpp has the steps far from rest.
+// Newton's method: polish steps near rest, the boundary, step limits, the presolve of a local
+// subproblem. trust_region.cpp has the steps far from rest.
 #include "solve/static/newton.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include "energy/forces.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
-#include "solve/settle_watch.h"
 #include "solve/static/local_subproblem.h"
+#include "solve/static/newton_settling.h"
 
 namespace mvs::core {
 namespace {
@@ -47,41 +47,9 @@ Newton::Newton(const Model &model, DirectSolver &factor)
   total_energy_.use_verlet_list(false);
 }
 
-SolveStats Newton::settle(State &state, const SolveOptions &options, const Progress &progress) {
-  const double start = seconds_now();
-  const double tolerance = options.tolerance();
-  const uint32_t most =
-      options.max_iterations > 0 ? options.max_iterations : settings::defaults::newton_iterations;
-  begin(state);
-  BoundaryRamp ramp(*model_, state.load.boundary_fraction);
-  PolishSchedule polish{rest_force_};
-  SettleWatch watch(*model_, at_.x, state.load, tolerance, progress);
-  // a local subproblem has no tools
-  if (state.tools.empty() && limit_.distance == 0 && ramp.is_there(at_.x)) {
-    presolve_locally(state.load);
-  }
-  while (true) {
-    const bool arrived = ramp.is_there(at_.x);
-    stats_.converged = arrived && at_.residual <= tolerance;
-    if (stats_.converged || stats_.iterations == most || limit_.reached) break;
-    watch.look(at_.x, at_.residual);
-    ++stats_.iterations;
-    if (!arrived && ramp.may_move(at_.residual, rest_force_)) move_boundary(ramp);
-    iterate(polish);
-  }
-  watch.finish(at_.residual);
-  state.x = at_.x;
-  state.v.assign(at_.x.size(), Vec3::Zero());
-  stats_.residual = at_.residual;
-  stats_.energy = at_.energy;
-  stats_.contact_pairs = static_cast<uint32_t>(total_energy_.contact().contact_pairs().size());
-  stats_.skipped |= total_energy_.skipped();
-  stats_.wall_s = seconds_now() - start;
-  return stats_;
-}
-
-void Newton::begin(const State &state) {
+void Newton::begin(const State &state, double max_displacement) {
   at_.x = state.x;
+  if (max_displacement > 0) limit_ = {max_displacement, state.x};
   trial_.resize(at_.x.size());
   total_energy_.set_pressure(state.load.pressure);
   total_energy_.set_tools(state.tools);
@@ -92,8 +60,16 @@ void Newton::begin(const State &state) {
   evaluate();
 }
 
-// Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many iterations
-// there cost less than one of the whole valve.
+SolveStats Newton::finish(State &state) {
+  state.x = at_.x;
+  state.v.assign(at_.x.size(), Vec3::Zero());
+  stats_.residual = at_.residual;
+  stats_.energy = at_.energy;
+  stats_.contact_pairs = static_cast<uint32_t>(total_energy_.contact().contact_pairs().size());
+  stats_.skipped |= total_energy_.skipped();
+  return stats_;
+}
+
 void Newton::presolve_locally(const Load &load) {
   const std::vector<uint32_t> disturbed = disturbed_nodes(*model_, at_.gradient, rest_force_);
   const size_t nodes = at_.x.size();
@@ -109,9 +85,9 @@ void Newton::presolve_locally(const Load &load) {
   SolveOptions options;
   options.max_iterations = settings::local_subproblem::max_iterations;
   options.residual = settings::local_subproblem::residual * rest_force_;
-  Newton newton(region.model, system_.factor());
-  newton.limit_ = {settings::local_subproblem::max_displacement, state.x};
-  const SolveStats done = newton.settle(state, options, {});
+  NewtonSettling settling(region.model, system_.factor(), state, options, {},
+                          settings::local_subproblem::max_displacement);
+  const SolveStats done = run(settling, state);
   const auto &x = state.x.get();
   for (size_t k = 0; k < x.size(); ++k) at_.x[region.node[k]] = x[k];
   stats_.work.add(done.work);

@@ -1,5 +1,5 @@
-// Static closure: Newton's method on the total energy inside a trust region, while the boundary
-// moves to its target. Brings a state to rest under its load, or reports that it did not converge.
+// One iteration of a static closure: Newton's method on the total energy inside a trust region, and
+// the increments of the boundary on its way to its target (newton_settling.h has the loop).
 //
 // The matrix is H + lambda D (newton_system.h). Far from rest H is projected to be positive
 // semidefinite and lambda follows the gain ratio, the measured over the predicted change of energy
@@ -38,8 +38,22 @@ class Newton {
  public:
   Newton(const Model &model, DirectSolver &factor);
 
-  // Brings state.x to rest under state.load and sets velocities to zero.
-  SolveStats settle(State &state, const SolveOptions &options, const Progress &progress);
+  void set_poll(std::function<void()> poll) { system_.set_poll(std::move(poll)); }
+  // Starts at a state. `max_displacement`: m, of a local subproblem; 0: unlimited.
+  void begin(const State &state, double max_displacement);
+  // Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many
+  // iterations there cost less than one of the whole valve.
+  void presolve_locally(const Load &load);
+  void iterate(PolishSchedule &polish);
+  void move_boundary(BoundaryRamp &ramp);
+  // Moves the nodes to `state`, with zero velocities; returns the statistics.
+  SolveStats finish(State &state);
+
+  const std::vector<Vec3> &x() const { return at_.x; }
+  double residual() const { return at_.residual; }   // N
+  double rest_force() const { return rest_force_; }  // N
+  bool reached_limit() const { return limit_.reached; }
+  SolveStats &stats() { return stats_; }
 
  private:
   struct Iterate {
@@ -56,10 +70,7 @@ class Newton {
     std::vector<Vec3> origin;  // of the nodes
     bool reached = false;
   };
-  void begin(const State &state);
-  void presolve_locally(const Load &load);
   void evaluate();
-  void iterate(PolishSchedule &polish);
   bool newton_polish_step(double &polish_lambda);
   bool search_on_force();
   void trust_region_step();
@@ -69,7 +80,6 @@ class Newton {
   void shorten();
   std::vector<StoppedNode> stopped_nodes() const;
   bool hold(const std::vector<StoppedNode> &stopped);
-  void move_boundary(BoundaryRamp &ramp);
   void limit_step();
   double free_norm() const;
 

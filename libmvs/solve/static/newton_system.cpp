@@ -21,6 +21,7 @@ void NewtonSystem::assemble(Curvature curvature, Profile &profile) {
   curvature_ = curvature;
   if (total_energy_->hessian(*x_, curvature, assembler_, profile)) {
     assembler_.keep_order(++patterns_ % settings::newton::patterns_per_order != 0);
+    poll_();
     const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
     factor_->analyse(assembler_.matrix);
   }
@@ -47,6 +48,7 @@ void NewtonSystem::factorise(double &lambda, SolveStats &stats) {
       block.diagonal().array() += applied_lambda_ * lambda_scale_[assembler_.node_of[r]];
       if (!hold_.empty()) block += hold_[r];
     }
+    poll_();
     ++stats.factorisations;
     if (factor_->factorise(assembler_.matrix)) return;
     if (first) ++stats.shifted;
@@ -75,6 +77,7 @@ void NewtonSystem::carry(std::vector<Vec3> &step, SolveStats &stats) {
 }
 
 void NewtonSystem::solve_rows(std::vector<Vec3> &rows, SolveStats &stats) {
+  poll_();
   factor_->solve(rows);
   stats.work.linear_iterations += factor_->iterations();
 }

@@ -3,6 +3,8 @@
 // at the free edge is solved for as well, by GMRES around the factor.
 #pragma once
 
+#include <functional>
+
 #include "energy/total_energy.h"
 #include "linalg/direct_solver.h"
 #include "solve/solver.h"
@@ -17,6 +19,9 @@ class NewtonSystem {
       : model_(&model), total_energy_(&total_energy), factor_(&factor), x_(&x) {
     assembler_.place = x_;
   }
+  // To be called before each ordering, factorisation and solution, which take long on a fine mesh;
+  // it may throw.
+  void set_poll(std::function<void()> poll) { poll_ = std::move(poll); }
   // Begins a closure under a pressure of this size, Pa.
   void set_scale(double pressure, double mean_area);
 
@@ -51,6 +56,7 @@ class NewtonSystem {
   void solve_rows(std::vector<Vec3> &rows, SolveStats &stats);
   void include_skew(bool with_lambda, SolveStats &stats);
 
+  std::function<void()> poll_ = [] {};
   const Model *model_;
   TotalEnergy *total_energy_;
   DirectSolver *factor_;

@@ -1,0 +1,21 @@
+// Where chordae begin and end, through their branch points.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+
+namespace mvs::core {
+
+// Names for each chord segment, joined by '+' in the order of the valve; "" where there are none.
+struct ChordEnds {
+  std::vector<std::string> heads;     // papillary heads above it
+  std::vector<std::string> scallops;  // in which it, or its branches, end
+};
+
+// Heads are the roots of the chordae, nodes of the leaflets their ends. A node between scallops
+// belongs to the one with most of its triangles, or the first of these.
+ChordEnds find_chord_ends(const Model &model);
+
+}  // namespace mvs::core

@@ -1,0 +1,57 @@
+// The loop of a static closure.
+#include "solve/static/newton_settling.h"
+
+#include "solve/settings.h"
+
+namespace mvs::core {
+namespace {
+
+uint32_t max_iterations(const SolveOptions &options) {
+  return options.max_iterations > 0 ? options.max_iterations
+                                    : settings::defaults::newton_iterations;
+}
+
+}  // namespace
+
+NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const State &state,
+                               const SolveOptions &options, const Progress &progress,
+                               double max_displacement)
+    : tolerance_(options.tolerance()),
+      most_(max_iterations(options)),
+      newton_(model, factor),
+      ramp_(model, state.load.boundary_fraction),
+      polish_{},
+      watch_(model, state.x, state.load, tolerance_, progress) {
+  const AddedTime timer(seconds_);
+  newton_.set_poll([this] { watch_.poll(); });
+  newton_.begin(state, max_displacement);
+  polish_.best_residual = newton_.rest_force();
+  // a local subproblem has no tools
+  if (state.tools.empty() && max_displacement == 0 && ramp_.is_there(newton_.x())) {
+    newton_.presolve_locally(state.load);
+  }
+}
+
+bool NewtonSettling::advance() {
+  const AddedTime timer(seconds_);
+  const bool arrived = ramp_.is_there(newton_.x());
+  converged_ = arrived && newton_.residual() <= tolerance_;
+  if (converged_ || newton_.stats().iterations == most_ || newton_.reached_limit()) return false;
+  watch_.look(newton_.x(), newton_.residual());
+  ++newton_.stats().iterations;
+  if (!arrived && ramp_.may_move(newton_.residual(), newton_.rest_force())) {
+    newton_.move_boundary(ramp_);
+  }
+  newton_.iterate(polish_);
+  return true;
+}
+
+SolveStats NewtonSettling::finish(State &state) {
+  watch_.finish(newton_.residual());
+  SolveStats stats = newton_.finish(state);
+  stats.converged = converged_;
+  stats.wall_s = seconds_;
+  return stats;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,34 @@
+// The loop of a static closure: Newton iterations until the boundary is at its target and the valve
+// at rest, a limit of iterations, or the limit of a local subproblem.
+#pragma once
+
+#include "solve/settle_watch.h"
+#include "solve/settling.h"
+#include "solve/static/boundary_ramp.h"
+#include "solve/static/newton.h"
+
+namespace mvs::core {
+
+class NewtonSettling final : public Settling {
+ public:
+  // `max_displacement`: m, of a local subproblem; 0: unlimited. The model and the factor must
+  // outlive it.
+  NewtonSettling(const Model &model, DirectSolver &factor, const State &state,
+                 const SolveOptions &options, const Progress &progress,
+                 double max_displacement = 0);
+  bool advance() override;
+  // Sets velocities to zero.
+  SolveStats finish(State &state) override;
+
+ private:
+  double seconds_ = 0;
+  double tolerance_;  // N
+  uint32_t most_;     // iterations
+  bool converged_ = false;
+  Newton newton_;
+  BoundaryRamp ramp_;
+  PolishSchedule polish_;
+  SettleWatch watch_;
+};
+
+}  // namespace mvs::core
