@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034 # the lists of packages are for the scripts that source this
-# Sourced by demo and test: takes a fresh Debian 12 or Ubuntu 22.04 to where libmvs builds.
+# Sourced by demo, test, wheel: takes a fresh Debian 12 or Ubuntu 22.04 to where libmvs builds.
 # Installs only what is missing, from Debian's packages and PyPI; safe to repeat.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -38,6 +38,16 @@ install_packages() {
   "${root[@]}" apt-get -q update
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends install \
     "${missing[@]}" || give_up "apt-get could not install: ${missing[*]}"
+}
+
+# Runs a command as root: as_root COMMAND ...
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  else
+    command -v sudo >/dev/null || give_up "please start this as root, which it needs for: $*"
+    sudo "$@"
+  fi
 }
 
 build_packages=(build-essential cmake ninja-build pkg-config libeigen3-dev
