@@ -40,7 +40,7 @@ static const struct {
               {'t', "18 13 22 32|06 36"},
               {'v', "06 22 46"}};
 
-/* Of the grid: a digit's height, the step to the next character, and the width of a line. */
+/* In units of the grid: height of a digit, step to the next character, width of a line. */
 #define DIGIT_HEIGHT 6.0
 #define STEP 6.0
 #define LINE 0.9

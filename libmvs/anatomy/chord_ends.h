@@ -8,7 +8,7 @@
 
 namespace mvs::core {
 
-// Names for each chord segment, joined by '+' in the order of the valve; "" where there are none.
+// Names for each chord segment, joined by '+' in the order of the valve; "" without any.
 struct ChordEnds {
   std::vector<std::string> heads;     // papillary heads above it
   std::vector<std::string> scallops;  // in which it, or its branches, end

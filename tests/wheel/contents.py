@@ -49,7 +49,7 @@ def kind_of(name: str) -> str:
 
 
 def output(*command: str) -> str:
-    """What a program prints."""
+    """The output of a program."""
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
@@ -65,7 +65,7 @@ def exported(path: Path) -> set[str]:
 
 
 def faults_of_program(name: str, path: Path, ours: set[str]) -> list[str]:
-    """Of a program or library: a foreign one, foreign needs, foreign names, GPL code."""
+    """Faults of a program or library: a foreign one, foreign needs, foreign names, GPL code."""
     kind = kind_of(name)
     if not kind:
         return [f"{name} is bundled: the wheel needs it, or libmvs links a library of the system"]
@@ -83,7 +83,7 @@ def faults_of_program(name: str, path: Path, ours: set[str]) -> list[str]:
 
 
 def faults_of_names(names: list[str]) -> list[str]:
-    """What is missing in the list of the wheel's files."""
+    """Files that the wheel lacks."""
     drivers = {path.parent.name for path in ROOT.glob("haptic_drivers/*/CMakeLists.txt")}
     wanted = {f"mvs/mvs/drivers/{driver}.so" for driver in drivers}
     wanted |= {"mvs/bin/mvs", "mvs_command.py", "mvs/py.typed"}

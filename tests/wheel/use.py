@@ -26,7 +26,7 @@ def close_a_valve() -> mvs.Snapshot:
 
 
 COMMAND = Path(sysconfig.get_path("scripts")) / "mvs"
-"""That which pip has put beside this Python."""
+"""The command that pip has put beside this Python."""
 
 
 def run(*arguments: str) -> str:
