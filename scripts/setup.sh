@@ -77,7 +77,7 @@ build_preset() {
       -DCMAKE_C_COMPILER_LAUNCHER= -DCMAKE_CXX_COMPILER_LAUNCHER=)
   elif command -v ccache >/dev/null; then
     launcher+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  elif [ -z "${MVS_TEST_LONG:-}" ]; then
+  elif [ -z "${long:-}" ]; then
     launcher=(-DMVS_PRECOMPILED=all -DMVS_UNITY=)
   fi
   mkdir -p build
