@@ -135,15 +135,20 @@ typedef struct mvs_stats {
   uint32_t iterations;       /* Newton iterations, or time steps */
   uint32_t contact_pairs;    /* active contact pairs at the end */
   mvs_lowered_flags lowered; /* MVS_LOWERED_*: accuracy given up for the budget of a step */
-  uint32_t reserved;
+  uint32_t
+      stable; /* 1: the last settle found a stable equilibrium, and nothing has changed since */
   double residual; /* N, largest out-of-balance force on a free node or tool point */
   double energy;   /* J, total potential energy at the end */
   double kinetic;  /* J, kinetic energy at the end */
   double wall_s;   /* s, elapsed time */
+  /* Margins of mvs_stability at the equilibrium that a settle found; 0 where none was found. */
+  double stiffness_margin; /* N/m */
+  double growth_rate;      /* 1/s */
 } mvs_stats;
 
-/* Moves the valve to static equilibrium under the load. Ending without convergence is not an error:
- * the valve is then at the last iterate and stats->converged is 0. MVS_E_CANCELLED if the progress
+/* Moves the valve to stable static equilibrium under the load: an unstable one (mvs_stability) is
+ * left along its mode. Ending without convergence is not an error: the valve is then at the last
+ * iterate and stats->converged is 0. MVS_E_CANCELLED if the progress
  * callback cancelled, MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to
  * ten times its area because its law cannot bear the pressure. `options` and `stats` are nullable.
  */

@@ -45,6 +45,8 @@ enum mvs_array_kind_e {
                                         coarsening; UINT32_MAX for a new node */
   MVS_ARRAY_NODE_STRAIN_FIBRE = 11,  /* F64 n x 3: means of the triangles at a node by rest area */
   MVS_ARRAY_NODE_STRESS_FIBRE = 12,  /* F64 n x 3, Pa: the same */
+  MVS_ARRAY_NODE_MODE = 13,          /* F64 n x 3: mode of mvs_stability, the real part of the
+                                        eigenvector; the longest displacement is 1 */
   MVS_ARRAY_TRIANGLE_NODES = 20,     /* U32 m x 3 */
   MVS_ARRAY_TRIANGLE_LEAFLET = 21,   /* U32 m */
   MVS_ARRAY_TRIANGLE_SCALLOP = 22,   /* U32 m */
@@ -179,6 +181,26 @@ typedef struct mvs_rest {
  * rest; a change of valve, load or tools, and a step that moves, end it. Undo and files restore it.
  * A valve from another program is not known to be at rest. */
 MVS_API mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest *rest);
+
+/* Stability of the equilibrium that a snapshot at rest is in, under its load and tools.
+ *
+ * The tangent stiffness is K = Ks + N, Ks symmetric, N the skew part that the follower pressure has
+ * at the free edge. In overdamped motion, D dx/dt = -K x with a damping D of 500 1/s times the
+ * mass, a small disturbance grows or falls with the eigenvalues of -D^-1 K: the equilibrium is
+ * stable where all their real parts are negative. That is so wherever Ks is positive definite.
+ * Branch points of chordae that are all slack are left out. */
+typedef struct mvs_stability {
+  uint32_t struct_size;
+  uint32_t stable;         /* 1: growth_rate is at most 1e-3 1/s, or Ks is positive definite */
+  double stiffness_margin; /* N/m, smallest eigenvalue of Ks: near 0 a fold is about to snap */
+  double growth_rate;      /* 1/s, largest real part of an eigenvalue of -D^-1 K */
+} mvs_stability;
+
+/* Computes the stability at the positions of a snapshot, with a relative error of the margins below
+ * 1 %. Away from rest it is that of the tangent there. The mode is MVS_ARRAY_NODE_MODE. The first
+ * call for a snapshot takes the time of a few Newton iterations. */
+MVS_API mvs_result mvs_snapshot_get_stability(const mvs_snapshot *snapshot,
+                                              mvs_stability *stability);
 
 /* Measures of a valve (fields: MVS_STRUCT_MEASURES). Definitions and sources:
  * libmvs/measure/README.md. */

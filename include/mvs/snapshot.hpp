@@ -111,6 +111,9 @@ class Snapshot {
   mvs_chord_info chord(std::uint32_t index) const {
     return filled<mvs_chord_info>(mvs_snapshot_get_chord, held_, index);
   }
+  mvs_stability stability() const {
+    return filled<mvs_stability>(mvs_snapshot_get_stability, held_);
+  }
   bool at_rest() const { return filled<mvs_rest>(mvs_snapshot_get_rest, held_).at_rest != 0; }
 
   History history() const {

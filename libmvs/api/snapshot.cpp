@@ -94,6 +94,17 @@ mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest *rest) {
   });
 }
 
+mvs_result mvs_snapshot_get_stability(const mvs_snapshot *snapshot, mvs_stability *stability) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(stability, "stability");
+    const Stability &found = snapshot->stability();
+    write_struct(stability,
+                 mvs_stability{sizeof(mvs_stability), found.is_stable, found.stiffness, found.rate},
+                 "stability");
+  });
+}
+
 mvs_result mvs_snapshot_get_chord(const mvs_snapshot *snapshot, uint32_t index,
                                   mvs_chord_info *chord) {
   return at_boundary([&] {

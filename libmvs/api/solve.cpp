@@ -53,6 +53,9 @@ mvs_stats public_stats(const SolveStats &from) {
   stats.energy = from.energy;
   stats.kinetic = from.kinetic;
   stats.wall_s = from.wall_s;
+  stats.stable = from.stable ? 1 : 0;
+  stats.stiffness_margin = from.stiffness_margin;
+  stats.growth_rate = from.growth_rate;
   return stats;
 }
 

@@ -68,6 +68,8 @@ Viewed node_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.tensors().node_strain);
     case MVS_ARRAY_NODE_STRESS_FIBRE:
       return view_of(s.tensors().node_stress);
+    case MVS_ARRAY_NODE_MODE:
+      return view_of(s.stability().mode);
     default:
       return {};
   }

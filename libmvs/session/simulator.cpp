@@ -29,7 +29,10 @@ void mvs_sim::replace(SnapshotPtr next) {
   const std::lock_guard<std::mutex> lock(mutex_);
   now_ = next->value;
   stepped_.count = 0;
-  if (stats) stats->converged = now_.current.state.is_at_rest();
+  if (stats) {
+    stats->converged = now_.current.state.is_at_rest();
+    stats->stable = stats->stable && stats->converged;
+  }
   slices.reset();
   present_.swap(next);
 }

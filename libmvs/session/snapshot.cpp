@@ -131,6 +131,9 @@ const ChordEnds &mvs_snapshot::chord_ends() const {
 const Orifice &mvs_snapshot::orifice() const {
   return orifice_.get([this] { return measure_orifice(*model, state.x); });
 }
+const Stability &mvs_snapshot::stability() const {
+  return stability_.get([this] { return check_stability(*model, state); });
+}
 const Tables &mvs_snapshot::tables() const {
   return tables_.get([this] { return make_tables(*model); });
 }

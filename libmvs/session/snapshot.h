@@ -13,6 +13,7 @@
 #include "history/history.h"
 #include "measure/measure.h"
 #include "model/model.h"
+#include "solve/stability.h"
 
 namespace mvs::core {
 
@@ -64,6 +65,7 @@ struct mvs_snapshot {
   const mvs::core::ChordMeasures &chords() const;
   const mvs::core::ChordEnds &chord_ends() const;
   const mvs::core::Orifice &orifice() const;
+  const mvs::core::Stability &stability() const;
   const mvs::core::Tables &tables() const;
   const mvs_measures &measures() const;
 
@@ -86,6 +88,7 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::ChordMeasures> chords_;
   mvs::core::Lazy<mvs::core::ChordEnds> chord_ends_;
   mvs::core::Lazy<mvs::core::Orifice> orifice_;
+  mvs::core::Lazy<mvs::core::Stability> stability_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
   mvs::core::Lazy<mvs_measures> measures_;
 };

@@ -142,6 +142,29 @@ inline constexpr double min_hold_lambda = 100;
 
 }  // namespace trust_region
 
+// Stability of the equilibrium that a settle has found.
+namespace stability {
+
+// 1/s, mass-proportional: the damping of overdamped motion, as explicit_damping. The signs of rates
+// do not depend on its size.
+inline constexpr double damping = 500;
+// 1/s, the largest rate that counts as stable: it takes 1,000 s, many heart beats, to grow by e.
+// Rounding makes rates of about 1e-5 where a mode has no stiffness.
+inline constexpr double max_rate = 1e-3;
+// Relative residual of eigenpairs, and their iterations at most. The error of an eigenvalue is of
+// second order in it.
+inline constexpr double error = 1e-2;
+inline constexpr uint32_t most_iterations = 60;
+// N/m, added to an indefinite matrix: first, growing by, at most.
+inline constexpr double min_shift = 0.01, shift_growth = 4, max_shift = 1e12;
+// m, the longest displacement of a node by which a settle leaves an unstable equilibrium: at least;
+// at most, while the energy falls. The next stable one was 14 to 130 um away where one was found.
+inline constexpr double leave_by = 1e-5, leave_at_most = 1e-3;
+// Rest forces below which the stability is that of the equilibrium nearby.
+inline constexpr double early_residual = 0.03;
+
+}  // namespace stability
+
 // The local subproblem around a disturbance that is settled before the whole valve. An operation
 // disturbs a few nodes, a load all of them; share and radius are where subproblem and whole valve
 // together cost least.

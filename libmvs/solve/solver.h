@@ -14,10 +14,11 @@ namespace mvs::core {
 struct SolveOptions {
   SolverKind solver = SolverKind::unset;
   uint32_t max_iterations = 0;
-  double residual = 0;  // N
-  double dt = 0;        // s
-  double damping = 0;   // 1/s
-  uint32_t budget = 0;  // of a step
+  double residual = 0;           // N
+  double dt = 0;                 // s
+  double damping = 0;            // 1/s
+  uint32_t budget = 0;           // of a step
+  bool checks_stability = true;  // of the equilibrium that a settle finds
 
   // N, the residual at rest, or its default.
   double tolerance() const;
@@ -33,8 +34,12 @@ struct SolveStats {
   double energy = 0;    // J
   double kinetic = 0;   // J
   double wall_s = 0;
-  uint32_t skipped = 0;  // MVS_SKIPPED_*
-  uint32_t lowered = 0;  // MVS_LOWERED_*
+  // of the equilibrium that was checked last; zeros if none was (see Stability)
+  bool stable = false;
+  double stiffness_margin = 0;  // N/m
+  double growth_rate = 0;       // 1/s
+  uint32_t skipped = 0;         // MVS_SKIPPED_*
+  uint32_t lowered = 0;         // MVS_LOWERED_*
   Profile work;
 
   // Adds the counts and times of a run before; keeps the `skipped` bits that both runs have.

@@ -1,4 +1,6 @@
 /* Rest is part of the state: what finds it, what ends it, what keeps it; no settle is endless. */
+#include <math.h>
+
 #include "check.h"
 #include "funnel.h"
 
@@ -45,6 +47,35 @@ static void only_a_settle_that_converges_finds_rest(void) {
   CHECK(measures_now().at_rest == 1 && measures_now().under_load == 0);
 }
 
+/* Rest is stable: the margins of the settle are those of the snapshot, and the mode has length 1.
+ */
+static void a_settle_reports_how_stable_rest_is(void) {
+  const mvs_snapshot *snapshot = NULL;
+  mvs_stability stability = {.struct_size = sizeof stability};
+  mvs_view mode;
+  new_valve(funnel_load());
+  const mvs_stats unfinished = settle_at_most(2);
+  CHECK(unfinished.stable == 0 && unfinished.stiffness_margin == 0 && unfinished.growth_rate == 0);
+  const mvs_stats stats = settle_at_most(0);
+  CHECK(stats.stable == 1 && stats.stiffness_margin > 0 && stats.growth_rate < 0);
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_snapshot_get_stability(snapshot, &stability));
+  CHECK(stability.stable == 1);
+  /* each within 1 % */
+  CHECK(fabs(stability.stiffness_margin / stats.stiffness_margin - 1) < 0.02);
+  CHECK(fabs(stability.growth_rate / stats.growth_rate - 1) < 0.02);
+  MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_MODE, &mode));
+  double longest = 0;
+  for (uint64_t i = 0; i < mode.count; ++i) {
+    const double *d = (const double *)mode.data + 3 * i;
+    longest = fmax(longest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  CHECK(fabs(longest - 1) < 1e-12);
+  MUST_FAIL(mvs_snapshot_get_stability(snapshot, NULL), MVS_E_ARGUMENT, "stability");
+  MUST_FAIL(mvs_snapshot_get_stability(NULL, &stability), MVS_E_ARGUMENT, "snapshot");
+  mvs_snapshot_release(snapshot);
+}
+
 static mvs_id add_ball(double x) {
   mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_KIND_BALL};
   mvs_id tool = 0;
@@ -64,7 +95,7 @@ static void load_tools_and_tissue_end_rest(void) {
   more.pressure *= 1.01;
   MUST(mvs_set_load(sim, &more));
   MUST(mvs_get_stats(sim, &stats));
-  CHECK(!at_rest() && stats.converged == 0);
+  CHECK(!at_rest() && stats.converged == 0 && stats.stable == 0);
   CHECK(settle_at_most(0).converged == 1 && at_rest());
   const mvs_id tool = add_ball(0.2);
   CHECK(!at_rest());
@@ -154,6 +185,7 @@ static void triangles_that_cross_are_warned_of(void) {
 int main(void) {
   MUST(mvs_create(NULL, &sim));
   only_a_settle_that_converges_finds_rest();
+  a_settle_reports_how_stable_rest_is();
   load_tools_and_tissue_end_rest();
   a_step_that_moves_ends_rest_and_one_that_stands_keeps_it();
   files_and_snapshots_keep_rest();

@@ -18,7 +18,7 @@ from mvs import _core
 )
 def test_every_figure_has_a_unit_and_a_definition(kind):
     for field in dataclasses.fields(kind):
-        assert re.fullmatch(r"1|m|m2|m3|N|Pa|J|s|rad", mvs.unit_of(kind, field.name))
+        assert re.fullmatch(r"1|m|m2|m3|N|N/m|Pa|J|s|1/s|rad", mvs.unit_of(kind, field.name))
         assert len(mvs.definition_of(kind, field.name)) > 3
 
 

@@ -16,7 +16,9 @@ from mvs.report import cases, ensemble, gallery, page, table  # noqa: E402
 
 @pytest.fixture(scope="module")
 def case(opened, closed):
-    stats = mvs.Stats(True, 1, 0, 0, 1e-6, 0.0, 0.0, 0.1, mvs.Profile(*[0] * 15))
+    stats = mvs.Stats(
+        True, 1, 0, 0, True, 1e-6, 0.0, 0.0, 0.1, 1.0, -1.0, mvs.Profile(*[0] * 15)
+    )
     return cases.Case("shipped", "Shipped <valve>", "a note", opened, closed, stats)
 
 

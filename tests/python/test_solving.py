@@ -24,6 +24,16 @@ def test_settling_closes_the_shipped_valve():
     assert closed.measures.regurgitant_orifice_area == 0
 
 
+def test_rest_is_stable_and_the_mode_is_that_of_a_fold():
+    stats, closed = settle_fresh()
+    assert stats.stable and stats.stiffness_margin > 0 and stats.growth_rate < 0
+    assert closed.stability.stable
+    assert closed.stability.growth_rate == pytest.approx(stats.growth_rate, rel=0.02)
+    lengths = np.linalg.norm(closed.node_mode, axis=1)
+    assert lengths.max() == pytest.approx(1)
+    assert np.all(lengths[closed.annulus_nodes] == 0)
+
+
 def test_settling_twice_gives_the_same_bits():
     first, second = settle_fresh(max_iterations=20)[1], settle_fresh(max_iterations=20)[1]
     assert first.hash == second.hash

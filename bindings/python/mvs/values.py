@@ -35,6 +35,19 @@ class Load:
     boundary_fraction: Annotated[float, "1", "position of annulus and heads: 0 open to 1 loaded"]
 
 
+@with_field_help
+@dataclasses.dataclass(frozen=True)
+class Stability:
+    """Stability of an equilibrium: of overdamped motion, D dx/dt = -K x, D = 500 1/s times the mass.
+
+    K = Ks + N, N the skew part that the follower pressure has at the free edge.
+    """
+
+    stable: Annotated[bool, "1", "growth_rate is at most 1e-3 1/s, or Ks is positive definite"]
+    stiffness_margin: Annotated[float, "N/m", "smallest eigenvalue of Ks: near 0 a fold may snap"]
+    growth_rate: Annotated[float, "1/s", "largest real part of an eigenvalue of -D^-1 K"]
+
+
 @dataclasses.dataclass(frozen=True)
 class Part:
     """A named part of a valve; ``id`` survives undo, save and load."""
@@ -145,10 +158,21 @@ class Stats:
     iterations: Annotated[int, "1", "Newton iterations, or time steps"]
     contact_pairs: Annotated[int, "1", "active contact pairs at the end"]
     lowered: Annotated[int, "1", "MVS_LOWERED_* bits: accuracy given up for the budget of a step"]
+    stable: Annotated[
+        bool, "1", "1: the last settle found a stable equilibrium, and nothing has changed since"
+    ]
     residual: Annotated[float, "N", "largest out-of-balance force on a free node or tool point"]
     energy: Annotated[float, "J", "total potential energy at the end"]
     kinetic: Annotated[float, "J", "kinetic energy at the end"]
     wall_s: Annotated[float, "s", "elapsed time"]
+    stiffness_margin: Annotated[
+        float, "N/m", "smallest eigenvalue of the symmetric tangent stiffness at the equilibrium found"
+    ]
+    growth_rate: Annotated[
+        float,
+        "1/s",
+        "rightmost eigenvalue of overdamped motion at the equilibrium found: negative where it is stable",
+    ]
     profile: Annotated[Profile, "1", "work done and avoided"]
 
 

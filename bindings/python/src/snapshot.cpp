@@ -206,6 +206,15 @@ void bind_snapshot(py::module_ &module) {
         return rest.at_rest != 0;
       },
       "Whether a settle or step found this state at rest under its load.");
+  type.def_property_readonly(
+      "stability",
+      [](const Snapshot &self) {
+        auto stability = sized<mvs_stability>();
+        must(mvs_snapshot_get_stability(self.get(), &stability));
+        return stability_value(stability);
+      },
+      "Stability of the equilibrium that a snapshot at rest is in (mvs.Stability). The first use "
+      "computes it; node_mode is the mode.");
   type.def_property_readonly("load_case", &load_case, "The load (mvs.Load), Pa and fraction.");
   type.def_property_readonly("measures", &measures,
                              "The measures of the valve (mvs.Measures, SI units). The first call "

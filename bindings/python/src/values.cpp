@@ -56,12 +56,18 @@ py::object load_value(const mvs_load_case &s) {
   return make_value("Load", FIELD(pressure), FIELD(boundary_fraction));
 }
 
+py::object stability_value(const mvs_stability &s) {
+  return make_value("Stability", "stable"_a = s.stable != 0, FIELD(stiffness_margin),
+                    FIELD(growth_rate));
+}
+
 // Descriptions are read once: every step returns two of these structs.
 py::object stats_value(const mvs_stats &s, const mvs_profile &p) {
   static const auto stats = mvs::fields_of(MVS_STRUCT_STATS);
   static const auto profile = mvs::fields_of(MVS_STRUCT_PROFILE);
   py::dict fields = keywords(stats, &s);
   fields["converged"] = s.converged != 0;
+  fields["stable"] = s.stable != 0;
   fields["profile"] = make_value("Profile", **keywords(profile, &p));
   return make_value("Stats", **fields);
 }

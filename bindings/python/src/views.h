@@ -48,6 +48,9 @@ inline constexpr View views[] = {
      "(n, 3) float64: triangle_strain_fibre, mean of the triangles at a node by rest area."},
     {"node_stress_fibre", MVS_ARRAY_NODE_STRESS_FIBRE,
      "(n, 3) float64, Pa: triangle_stress_fibre, mean of the triangles at a node by rest area."},
+    {"node_mode", MVS_ARRAY_NODE_MODE,
+     "(n, 3) float64: mode of `stability`, the real part of the eigenvector; the longest "
+     "displacement is 1."},
     {"triangle_coapted", MVS_ARRAY_TRIANGLE_COAPTED,
      "(m,) float64: share of the triangle that faces another leaflet."},
     {"leaflet_law", MVS_ARRAY_LEAFLET_LAW, "(l,) uint32: mvs.LeafletLaw."},

@@ -11,7 +11,7 @@
 namespace mvs::core {
 ExplicitEuler::ExplicitEuler(const Model &model)
     : model_(&model),
-      total_energy_(model, ContactLaw::penalty),
+      total_energy_(model, contact_law),
       stable_dt_(stable_explicit_step(model)) {}
 
 void ExplicitEuler::step(State &state, const StepOptions &how, SolveStats &stats) {

@@ -12,6 +12,7 @@ namespace mvs::core {
 
 class ExplicitEuler {
  public:
+  static constexpr ContactLaw contact_law = ContactLaw::penalty;
   explicit ExplicitEuler(const Model &model);
   // s, the default of the time step (stable_step.h).
   double stable_dt() const { return stable_dt_; }

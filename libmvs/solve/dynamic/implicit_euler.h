@@ -26,6 +26,7 @@ namespace mvs::core {
 
 class ImplicitEuler {
  public:
+  static constexpr ContactLaw contact_law = ContactLaw::barrier;
   ImplicitEuler(const Model &model, Backend backend);
   // Does now what the first step from a state would do for those after it: memory, broad phase,
   // forces, factor. Like a step it may remove keys that do not fit from the solver cache.

@@ -1,10 +1,12 @@
-// Steps in time until the out-of-balance force is below the tolerance for several steps in a row.
+// Steps in time until the out-of-balance force is below the tolerance for several steps in a row,
+// at a stable equilibrium; an unstable one is left.
 #pragma once
 
 #include "solve/dynamic/time_step.h"
 #include "solve/settings.h"
 #include "solve/settle_watch.h"
 #include "solve/settling.h"
+#include "solve/stability.h"
 #include "solve/static/boundary_ramp.h"
 
 namespace mvs::core {
@@ -24,8 +26,9 @@ class SettlingInTime final : public Settling {
         watch_(model, state_.x, state_.load, tolerance, progress) {}
 
   bool advance() override {
-    if (stats_.iterations == most_ || calm_ == settings::settle::calm_steps) return false;
     const AddedTime timer(stats_.wall_s);
+    if (calm_ == settings::settle::calm_steps && is_stable()) return false;
+    if (stats_.iterations == most_) return false;
     ++stats_.iterations;
     stepper_->step(state_, how_, stats_);
     state_.time += how_.dt;
@@ -42,7 +45,7 @@ class SettlingInTime final : public Settling {
 
   SolveStats finish(State &state) override {
     watch_.finish(stats_.residual);
-    stats_.converged = calm_ == settings::settle::calm_steps;
+    stats_.converged = stats_.stable;
     stats_.kinetic = 0;
     stats_.skipped = stepper_->skipped();
     state_.v.assign(state_.v.size(), Vec3::Zero());
@@ -51,6 +54,16 @@ class SettlingInTime final : public Settling {
   }
 
  private:
+  // If not, the valve leaves the equilibrium.
+  bool is_stable() {
+    const Stability found = check_stability(*model_, state_, Stepper::contact_law, true);
+    stats_.stable = found.is_stable;
+    stats_.stiffness_margin = found.stiffness;
+    stats_.growth_rate = found.rate;
+    if (!found.is_stable) calm_ = 0;
+    return found.is_stable;
+  }
+
   const Model *model_;
   std::unique_ptr<Stepper> stepper_;
   State state_;

@@ -59,6 +59,7 @@ std::optional<Level> coarser(const Level &fine) {
     SolveOptions options = fine.options;
     options.residual = std::max(options.residual, coarse_residual(*made.model, state.load));
     options.max_iterations = set::max_coarse_iterations;
+    options.checks_stability = false;
     const Model *model = made.model.get();
     return Level{model, std::move(made.model), std::move(state), options,
                  part_of(fine.progress, 0, set::coarse_progress)};

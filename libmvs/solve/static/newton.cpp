@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "energy/forces.h"
+#include "linalg/gmres.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
 #include "solve/static/local_subproblem.h"
@@ -85,6 +87,7 @@ void Newton::presolve_locally(const Load &load) {
   SolveOptions options;
   options.max_iterations = settings::local_subproblem::max_iterations;
   options.residual = settings::local_subproblem::residual * rest_force_;
+  options.checks_stability = false;
   NewtonSettling settling(region.model, system_.factor(), state, options, {},
                           settings::local_subproblem::max_displacement);
   const SolveStats done = run(settling, state);
@@ -107,7 +110,7 @@ void Newton::evaluate() {
 
 void Newton::iterate(PolishSchedule &polish) {
   if (at_.residual < rest_force_ && polish.wait == 0) {
-    if (newton_polish_step(polish.lambda)) {
+    if (newton_polish_step(polish)) {
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
       // before shows that rest is near
       if (at_.residual < settings::newton::polish_progress * polish.best_residual) {
@@ -123,21 +126,67 @@ void Newton::iterate(PolishSchedule &polish) {
   trust_region_step();
 }
 
-// A Newton step on the out-of-balance force with the exact Hessian. Returns false, and moves no
-// node, unless the force falls.
-bool Newton::newton_polish_step(double &polish_lambda) {
-  double lambda = polish_lambda;
+// A Newton step on the out-of-balance force with the exact Hessian, or a step that leaves an
+// unstable equilibrium. Returns false, and moves no node, unless the force falls or the valve
+// leaves.
+bool Newton::newton_polish_step(PolishSchedule &polish) {
   system_.assemble(Curvature::exact, stats_.work);
-  system_.factorise(lambda, stats_);
-  const double applied = system_.applied_lambda();
-  const bool remove_lambda = applied < settings::newton::max_removed_lambda;
-  polish_lambda =
-      applied > settings::newton::min_lambda ? settings::newton::polish_lambda_share * applied : 0;
+  if (!system_.try_factorise(0, stats_)) {
+    ++stats_.shifted;
+    if (at_.residual > settings::stability::early_residual * rest_force_) return false;
+    if (at_.residual > polish.stable_residual) {
+      const Stability found = check_stability();
+      if (!found.is_stable) {
+        leave(found);
+        return true;
+      }
+      polish.stable_residual = at_.residual;
+    }
+    double lambda = std::max(polish.lambda, settings::newton::failed_lambda);
+    system_.factorise(lambda, stats_);
+    polish.lambda = settings::newton::polish_lambda_share * lambda;
+  }
+  const bool remove_lambda = system_.applied_lambda() < settings::newton::max_removed_lambda;
   system_.solve(at_.gradient, !remove_lambda, step_.newton, stats_);
   limit_step();
   if (!search_on_force()) return false;
   evaluate();
   return true;
+}
+
+Stability Newton::check_stability() {
+  return check_.check(*model_, total_energy_, at_.x, system_.hessian(), stats_);
+}
+
+bool Newton::is_stable() {
+  system_.assemble(Curvature::exact, stats_.work);
+  const Stability found = check_stability();
+  stats_.stable = found.is_stable;
+  stats_.stiffness_margin = found.stiffness;
+  stats_.growth_rate = found.rate;
+  if (!found.is_stable) leave(found);
+  return found.is_stable;
+}
+
+// Along the mode, to the side where the residual forces push, as far as the energy falls.
+void Newton::leave(const Stability &unstable) {
+  namespace set = settings::stability;
+  const double turn = dot(at_.gradient, unstable.mode) > 0 ? -1 : 1;
+  double lowest = std::numeric_limits<double>::infinity();
+  std::vector<Vec3> farthest;
+  for (double way = set::leave_by; way <= set::leave_at_most; way *= 2) {
+    step_.newton = unstable.mode;
+    for (Vec3 &d : step_.newton) d *= turn * way;
+    limit_step();
+    for (size_t i = 0; i < at_.x.size(); ++i) trial_[i] = at_.x[i] + step_.limited[i];
+    const double energy = total_energy_.energy(trial_);
+    ++stats_.work.passes;
+    if (energy >= lowest) break;
+    lowest = energy;
+    farthest = trial_;
+  }
+  at_.x = std::move(farthest);
+  evaluate();
 }
 
 // Backtracking line search on the norm of the force.

@@ -6,7 +6,9 @@
 // (Conn, Gould, Toint, Trust-Region Methods, 2000). Near rest H is exact, the ratio is 1 minus the
 // error of the predicted change relative to the slope, and a full step on the
 // out-of-balance force is tried first, which converges quadratically although the follower load
-// has no potential at the free edge. Conservative continuous collision detection shortens every
+// has no potential at the free edge. Where the exact Hessian is indefinite such steps would end at
+// whatever equilibrium is near: they are taken only if it is stable, and an unstable one is left
+// along its mode (solve/stability.h). Conservative continuous collision detection shortens every
 // step node by node, so that no sheet passes another (collision/step_limiter.h).
 //
 // Where only a few nodes are far from rest, as after an operation on a closed valve, a local
@@ -16,6 +18,7 @@
 #include "energy/total_energy.h"
 #include "linalg/direct_solver.h"
 #include "solve/solver.h"
+#include "solve/stability.h"
 #include "solve/static/boundary_ramp.h"
 #include "solve/static/newton_system.h"
 
@@ -26,6 +29,8 @@ struct PolishSchedule {
   double best_residual;  // N, the smallest that a polish step reached
   double lambda = 0;
   int wait = 0, pause = 1;  // iterations until the next attempt; after the next failure
+  // N, of the last iterate with an indefinite Hessian whose equilibrium was found to be stable.
+  double stable_residual = 0;
 };
 // A node that the step limiter stopped.
 struct StoppedNode {
@@ -38,7 +43,10 @@ class Newton {
  public:
   Newton(const Model &model, DirectSolver &factor);
 
-  void set_poll(std::function<void()> poll) { system_.set_poll(std::move(poll)); }
+  void set_poll(const std::function<void()> &poll) {
+    system_.set_poll(poll);
+    check_.set_poll(poll);
+  }
   // Starts at a state. `max_displacement`: m, of a local subproblem; 0: unlimited.
   void begin(const State &state, double max_displacement);
   // Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many
@@ -46,6 +54,9 @@ class Newton {
   void presolve_locally(const Load &load);
   void iterate(PolishSchedule &polish);
   void move_boundary(BoundaryRamp &ramp);
+  // Whether the present positions, which are in equilibrium, are a stable one. If not, the valve
+  // leaves it.
+  bool is_stable();
   // Moves the nodes to `state`, with zero velocities; returns the statistics.
   SolveStats finish(State &state);
 
@@ -71,7 +82,9 @@ class Newton {
     bool reached = false;
   };
   void evaluate();
-  bool newton_polish_step(double &polish_lambda);
+  bool newton_polish_step(PolishSchedule &polish);
+  Stability check_stability();
+  void leave(const Stability &unstable);
   bool search_on_force();
   void trust_region_step();
   double try_step(double &predicted_reduction);
@@ -87,6 +100,7 @@ class Newton {
   TotalEnergy total_energy_;
   Iterate at_;
   NewtonSystem system_;
+  StabilityCheck check_;
   SolveStats stats_;
   double rest_force_ = 0;  // N, of the pressure on a node of mean area
   double slack_ = 0;       // m, of the broad phase

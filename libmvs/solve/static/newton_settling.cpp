@@ -18,6 +18,7 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
                                double max_displacement)
     : tolerance_(options.tolerance()),
       most_(max_iterations(options)),
+      checks_stability_(options.checks_stability),
       newton_(model, factor),
       ramp_(model, state.load.boundary_fraction),
       polish_{},
@@ -35,7 +36,8 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
 bool NewtonSettling::advance() {
   const AddedTime timer(seconds_);
   const bool arrived = ramp_.is_there(newton_.x());
-  converged_ = arrived && newton_.residual() <= tolerance_;
+  const bool balanced = arrived && newton_.residual() <= tolerance_;
+  converged_ = balanced && (!checks_stability_ || newton_.is_stable());
   if (converged_ || newton_.stats().iterations == most_ || newton_.reached_limit()) return false;
   watch_.look(newton_.x(), newton_.residual());
   ++newton_.stats().iterations;

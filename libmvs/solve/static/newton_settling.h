@@ -24,6 +24,7 @@ class NewtonSettling final : public Settling {
   double seconds_ = 0;
   double tolerance_;  // N
   uint32_t most_;     // iterations
+  bool checks_stability_;
   bool converged_ = false;
   Newton newton_;
   BoundaryRamp ramp_;

@@ -38,25 +38,36 @@ void NewtonSystem::assemble(Curvature curvature, const std::vector<Vec3> &bounda
   assembler_.boundary_step = nullptr;
 }
 
-void NewtonSystem::factorise(double &lambda, SolveStats &stats) {
+bool NewtonSystem::try_factorise(double lambda, SolveStats &stats) {
   const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
   applied_lambda_ = std::max(lambda, settings::newton::min_lambda);
-  for (bool first = true;; first = false) {
-    for (size_t r = 0; r < diagonal_.size(); ++r) {
-      Mat3 &block = assembler_.matrix.value[assembler_.matrix.start[r]];
-      block = diagonal_[r];
-      block.diagonal().array() += applied_lambda_ * lambda_scale_[assembler_.node_of[r]];
-      if (!hold_.empty()) block += hold_[r];
-    }
-    poll_();
-    ++stats.factorisations;
-    if (factor_->factorise(assembler_.matrix)) return;
-    if (first) ++stats.shifted;
-    applied_lambda_ = lambda = std::max(settings::newton::failed_lambda_growth * applied_lambda_,
-                                        settings::newton::failed_lambda);
-    MVS_MUST(applied_lambda_ < settings::newton::max_failed_lambda, MVS_E_DIVERGED, "settle",
-             "the stiffness matrix is not finite; check the materials");
+  for (size_t r = 0; r < diagonal_.size(); ++r) {
+    Mat3 &block = assembler_.matrix.value[assembler_.matrix.start[r]];
+    block = diagonal_[r];
+    block.diagonal().array() += applied_lambda_ * lambda_scale_[assembler_.node_of[r]];
+    if (!hold_.empty()) block += hold_[r];
   }
+  poll_();
+  ++stats.factorisations;
+  return factor_->factorise(assembler_.matrix);
+}
+
+void NewtonSystem::factorise(double &lambda, SolveStats &stats) {
+  if (try_factorise(lambda, stats)) return;
+  ++stats.shifted;
+  do {
+    lambda = std::max(settings::newton::failed_lambda_growth * applied_lambda_,
+                      settings::newton::failed_lambda);
+    MVS_MUST(lambda < settings::newton::max_failed_lambda, MVS_E_DIVERGED, "settle",
+             "the stiffness matrix is not finite; check the materials");
+  } while (!try_factorise(lambda, stats));
+}
+
+const HessianAssembler &NewtonSystem::hessian() {
+  for (size_t r = 0; r < diagonal_.size(); ++r) {
+    assembler_.matrix.value[assembler_.matrix.start[r]] = diagonal_[r];
+  }
+  return assembler_;
 }
 
 void NewtonSystem::solve(const std::vector<Vec3> &g, bool with_lambda, std::vector<Vec3> &step,

@@ -29,8 +29,10 @@ class NewtonSystem {
   void assemble(Curvature curvature, Profile &profile);
   // The same with the displacements of the prescribed nodes, for carry().
   void assemble(Curvature curvature, const std::vector<Vec3> &boundary, Profile &profile);
-  // Factorises with this lambda, or with the first larger one that makes the matrix positive
-  // definite, which `lambda` then is.
+  // Factorises with this lambda; false if the matrix is not positive definite.
+  bool try_factorise(double lambda, SolveStats &stats);
+  // The same with the first larger lambda that makes the matrix positive definite, which `lambda`
+  // then is.
   void factorise(double &lambda, SolveStats &stats);
   double applied_lambda() const { return applied_lambda_; }
   DirectSolver &factor() { return *factor_; }
@@ -42,6 +44,8 @@ class NewtonSystem {
   // Sets the step of the free nodes to -H_ff^-1 H_fb dx_b: they follow the boundary.
   void carry(std::vector<Vec3> &step, SolveStats &stats);
 
+  // H itself, until the next factorisation.
+  const HessianAssembler &hessian();
   Curvature curvature() const { return curvature_; }
   // step^T H step, without lambda.
   double quadratic_form(const std::vector<Vec3> &step) const;

@@ -1,0 +1,160 @@
+// Certificate by a factorisation, then the two extreme eigenvalues with that factor.
+#include "solve/stability.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "linalg/cholesky.h"
+#include "linalg/spmv.h"
+#include "solve/settings.h"
+#include "solve/tools/tool_points.h"
+
+namespace mvs::core {
+namespace {
+
+namespace set = settings::stability;
+
+// N s/m per row: the damping of overdamped motion.
+std::vector<double> damping_of(const Model &model, const HessianAssembler &system) {
+  std::vector<double> damping;
+  for (const uint32_t i : system.node_of) damping.push_back(set::damping * model.node_mass[i]);
+  return damping;
+}
+
+// BlockVector without stiffness: branch points whose chordae are all slack. They have no place to
+// return to, and say nothing about the others.
+std::vector<uint8_t> loose_rows(const BlockMatrix &matrix) {
+  std::vector<uint8_t> is_loose(matrix.size(), 1);
+  for (uint32_t c = 0; c < matrix.size(); ++c) {
+    for (uint32_t k = matrix.start[c]; k < matrix.start[c + 1]; ++k) {
+      if (matrix.value[k].isZero(0)) continue;
+      is_loose[c] = is_loose[matrix.row[k]] = 0;
+    }
+  }
+  return is_loose;
+}
+
+// The same vector on every machine, with a share of every mode: numbers of a linear congruential
+// generator (Knuth, MMIX).
+BlockVector start_vector(const std::vector<uint8_t> &is_loose) {
+  BlockVector start(is_loose.size(), Vec3::Zero());
+  uint64_t seed = 1;
+  for (size_t r = 0; r < start.size(); ++r) {
+    for (int k = 0; k < 3; ++k) {
+      seed = 6364136223846793005u * seed + 1442695040888963407u;
+      if (!is_loose[r]) start[r][k] = static_cast<double>(seed >> 11) * 0x1p-53 - 0.5;
+    }
+  }
+  return start;
+}
+
+// By node, with a longest displacement of length 1.
+std::vector<Vec3> mode_of(const BlockVector &rows, const HessianAssembler &system, size_t nodes) {
+  double longest = 0;
+  for (const Vec3 &v : rows) longest = std::max(longest, v.squaredNorm());
+  std::vector<Vec3> mode(nodes, Vec3::Zero());
+  if (longest == 0) return mode;
+  for (size_t r = 0; r < rows.size(); ++r) mode[system.node_of[r]] = rows[r] / std::sqrt(longest);
+  return mode;
+}
+
+}  // namespace
+
+StabilityCheck::StabilityCheck() : factor_(make_block_factor()) {}
+
+// Factorises Ks plus a diagonal; false if that is not positive definite.
+bool StabilityCheck::factorise(const HessianAssembler &system, const std::vector<double> &added,
+                               SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+  const bool same_pattern =
+      is_analysed_ && matrix_.start == system.matrix.start && matrix_.row == system.matrix.row;
+  matrix_ = system.matrix;
+  for (uint32_t r = 0; r < matrix_.size(); ++r) {
+    matrix_.value[matrix_.start[r]].diagonal().array() += added[r];
+  }
+  poll_();
+  if (!same_pattern) factor_->analyse(matrix_);
+  is_analysed_ = true;
+  ++stats.factorisations;
+  return factor_->factorise(matrix_);
+}
+
+Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_energy,
+                                const std::vector<Vec3> &x, const HessianAssembler &system,
+                                SolveStats &stats) {
+  Stability found;
+  const std::vector<double> damping = damping_of(model, system);
+  std::vector<double> added = damping;
+  for (double &number : added) number *= set::max_rate;
+  const bool is_definite = factorise(system, added, stats);
+  double shift = 0;
+  while (!is_definite) {
+    shift = std::max(set::shift_growth * shift, set::min_shift);
+    MVS_MUST(shift < set::max_shift, MVS_E_DIVERGED, "settle",
+             "the stiffness matrix is not finite; check the materials");
+    if (factorise(system, std::vector<double>(added.size(), shift), stats)) break;
+  }
+  const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
+  BlockSpmv product;
+  const LinearMap solve = [&](const BlockVector &v, BlockVector &y) {
+    poll_();
+    y = v;
+    factor_->solve(y);
+  };
+  std::vector<Vec3> by_node(x.size(), Vec3::Zero()), skew(x.size(), Vec3::Zero());
+  const LinearMap multiply = [&](const BlockVector &v, BlockVector &y) {
+    product.multiply(system.matrix, v, y);
+    for (size_t r = 0; r < v.size(); ++r) by_node[system.node_of[r]] = v[r];
+    std::fill(skew.begin(), skew.end(), Vec3::Zero());
+    total_energy.add_skew(x, by_node, skew);
+    for (size_t r = 0; r < v.size(); ++r) y[r] += skew[system.node_of[r]];
+  };
+  std::vector<BlockVector> basis;
+  const BlockVector start = start_vector(loose_rows(system.matrix));
+  const Eigenpair symmetric =
+      smallest_eigenvalue(solve, start, {set::error, set::most_iterations}, basis);
+  found.stiffness = symmetric.real - shift;
+  const Eigenpair leaving = leftmost_eigenvalue(multiply, solve, damping, std::move(basis),
+                                                {set::error, set::most_iterations, set::max_rate});
+  stats.work.linear_iterations += symmetric.iterations + leaving.iterations;
+  found.rate = is_definite ? std::min(-leaving.real, 0.0) : -leaving.real;
+  found.is_stable = is_definite || found.rate <= set::max_rate;
+  found.mode = mode_of(leaving.vector, system, x.size());
+  return found;
+}
+
+Stability check_stability(const Model &model, State &state, ContactLaw law, bool leaves) {
+  const std::vector<Vec3> &x = state.x;
+  TotalEnergy total_energy(model, law);
+  SolveStats unseen;
+  std::vector<Vec3> gradient;
+  total_energy.use_verlet_list(false);
+  total_energy.set_pressure(state.load.pressure);
+  total_energy.set_tools(state.tools);
+  total_energy.prepare(x, x, 0, unseen.work);
+  total_energy.gradient(x, gradient, unseen.work);
+  HessianAssembler system;
+  system.place = &x;
+  total_energy.hessian(x, Curvature::exact, system, unseen.work);
+  Stability found = StabilityCheck().check(model, total_energy, x, system, unseen);
+  if (!found.is_stable && leaves) {
+    std::vector<Vec3> step = found.mode;
+    for (Vec3 &d : step) d *= set::leave_by;
+    total_energy.limit_step(x, 0, step, unseen.work);
+    std::vector<Vec3> &moved = state.x.edit();
+    for (size_t i = 0; i < moved.size(); ++i) moved[i] += step[i];
+  }
+  return found;
+}
+
+Stability check_stability(const Model &valve, const State &valve_state) {
+  ToolPoints points;
+  const Model &model = points.extend(valve, tool_points(valve_state.tools));
+  State state = ToolPoints::extended(valve_state);
+  Stability found = check_stability(model, state, ContactLaw::barrier, false);
+  found.mode.resize(valve_state.x.size());
+  return found;
+}
+
+}  // namespace mvs::core
