@@ -52,6 +52,10 @@ typedef struct mvs_profile {
   uint32_t orderings;         /* new sparsity patterns with their symbolic analysis */
   uint32_t linear_iterations; /* iterations of iterative linear solvers */
   uint32_t passes;            /* evaluations of energy, gradient or Hessian over all terms */
+  /* Coarser meshes, over which large valves close: crossings removed after interpolation, and
+   * shapes that were given up because crossings remained. */
+  uint32_t untangled;
+  uint32_t discarded_levels;
   double phase_s[MVS_PHASE_COUNT]; /* s, wall time of each phase */
 } mvs_profile;
 

@@ -69,6 +69,8 @@ mvs_profile public_profile(const SolveStats &from) {
   profile.orderings = from.work.orderings;
   profile.linear_iterations = from.work.linear_iterations;
   profile.passes = from.work.passes;
+  profile.untangled = from.untangled;
+  profile.discarded_levels = from.discarded;
   std::copy(from.work.seconds.begin(), from.work.seconds.end(), profile.phase_s);
   return profile;
 }

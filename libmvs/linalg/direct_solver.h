@@ -27,6 +27,9 @@ class DirectSolver {
   virtual void analyse(const BlockMatrix &matrix) = 0;
   // Factorises the values; false if the matrix is not positive definite (or not finite).
   virtual bool factorise(const BlockMatrix &matrix) = 0;
+  // The same with the cheap one of two factors alone, where a backend has two: false as well if
+  // rounding makes it fail.
+  virtual bool factorise_cheaply(const BlockMatrix &matrix) { return factorise(matrix); }
   // The same in parts of about equal work, 0 to parts - 1, of the same values, with the bits of
   // factorise(). A backend that cannot be interrupted does all work in the last part.
   virtual bool factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) {
@@ -34,6 +37,10 @@ class DirectSolver {
   }
   // Solves in place with the last factor.
   virtual void solve(std::vector<Vec3> &b) = 0;
+  // Applies the factor once, as a preconditioner: without the iterations of a solution.
+  virtual void precondition(std::vector<Vec3> &b) { solve(b); }
+  // Makes the factor as accurate as the backend can; false if it is already, or cannot be.
+  virtual bool sharpen() { return false; }
   // Iterations of the last solution; 0 for a direct one.
   virtual uint32_t iterations() const { return 0; }
 };

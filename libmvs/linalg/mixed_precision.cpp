@@ -9,8 +9,8 @@ namespace mvs::core {
 namespace {
 
 // Residual over right-hand side, in the norm of the factor: less than the linearisation error of a
-// Newton step, except at convergence.
-constexpr double residual_tolerance = 1e-7;
+// Newton step.
+constexpr double residual_tolerance = 1e-3;
 // A factor in double precision costs as much as about ten iterations.
 constexpr uint32_t most_iterations = 8;
 
@@ -18,7 +18,10 @@ class MixedPrecisionCholesky final : public DirectSolver {
  public:
   void analyse(const BlockMatrix &matrix) override;
   bool factorise(const BlockMatrix &matrix) override;
+  bool factorise_cheaply(const BlockMatrix &matrix) override;
   void solve(std::vector<Vec3> &b) override;
+  void precondition(std::vector<Vec3> &b) override { (uses_double_ ? double_ : float_)->solve(b); }
+  bool sharpen() override { return !uses_double_ && factorise_in_double(); }
   uint32_t iterations() const override { return iterations_; }
 
  private:
@@ -38,10 +41,14 @@ void MixedPrecisionCholesky::analyse(const BlockMatrix &matrix) {
   double_is_analysed_ = false;
 }
 
-bool MixedPrecisionCholesky::factorise(const BlockMatrix &matrix) {
+bool MixedPrecisionCholesky::factorise_cheaply(const BlockMatrix &matrix) {
   matrix_ = matrix;
   uses_double_ = false;
-  return float_->factorise(matrix_) || factorise_in_double();
+  return float_->factorise(matrix_);
+}
+
+bool MixedPrecisionCholesky::factorise(const BlockMatrix &matrix) {
+  return factorise_cheaply(matrix) || factorise_in_double();
 }
 
 bool MixedPrecisionCholesky::factorise_in_double() {

@@ -85,10 +85,13 @@ inline constexpr double min_lambda = 1e-4;
 // Factor and least value of lambda after a factorisation failed, and the value at which the matrix
 // counts as not finite.
 inline constexpr double failed_lambda_growth = 3, failed_lambda = 0.05, max_failed_lambda = 1e12;
+// Factorisations in single precision before double precision is tried as well. On the valves of
+// `bench_closure`, 122 of 122 double ones failed that followed a failed single one at once.
+inline constexpr uint32_t cheap_factorisations = 4;
 // Patterns that one elimination order serves. Contact asks for blocks outside the pattern in most
 // iterations, and an order is good for a few such patterns.
 inline constexpr uint32_t patterns_per_order = 6;
-// GMRES around the factor for the skew part of the load at the free edge: iterations at most,
+// GMRES with the factor for the skew part of the load at the free edge: iterations at most,
 // relative residual.
 inline constexpr int gmres_iterations = 30;
 inline constexpr double gmres_tolerance = 1e-3;
@@ -195,6 +198,15 @@ inline constexpr uint32_t max_coarse_iterations = 200;
 inline constexpr double coarse_progress = 0.25;
 
 }  // namespace mesh_hierarchy
+
+// Crossings after interpolation from a coarser mesh.
+namespace untangle {
+
+inline constexpr size_t max_crossings = 200;  // of triangles: with more the finer mesh starts open
+inline constexpr double increment = 0.05;     // of the contact thickness, in a round
+inline constexpr uint32_t rounds = 20;
+
+}  // namespace untangle
 
 // One implicit Euler step.
 namespace implicit {

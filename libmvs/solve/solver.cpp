@@ -13,6 +13,7 @@
 #include "solve/dynamic/implicit_euler.h"
 #include "solve/dynamic/settling_in_time.h"
 #include "solve/settings.h"
+#include "solve/static/mesh_hierarchy.h"
 #include "solve/static/newton_settling.h"
 #include "solve/tools/tool_points.h"
 
@@ -128,6 +129,7 @@ struct Solver::Work {
   }
 
   const Backend backend;
+  CoarseLevels coarse_levels;
   ToolPoints tool_points;
   std::unique_ptr<DirectSolver> factor;  // of settling
   std::optional<ImplicitEuler> implicit;
@@ -140,6 +142,10 @@ Solver::Solver(Backend backend) : work_(std::make_unique<Work>(backend)) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver &&) noexcept = default;
 Solver &Solver::operator=(Solver &&) noexcept = default;
+
+CoarseLevels &Solver::coarse_levels() {
+  return work_->coarse_levels;
+}
 
 std::unique_ptr<Settling> Solver::loop_over_nodes(const Model &model, State state,
                                                   const SolveOptions &options,

@@ -38,6 +38,8 @@ struct SolveStats {
   bool stable = false;
   double stiffness_margin = 0;  // N/m
   double growth_rate = 0;       // 1/s
+  uint32_t untangled = 0;       // crossings removed after interpolation from a coarser mesh
+  uint32_t discarded = 0;       // shapes of coarser meshes that were given up
   uint32_t skipped = 0;         // MVS_SKIPPED_*
   uint32_t lowered = 0;         // MVS_LOWERED_*
   Profile work;
@@ -48,6 +50,8 @@ struct SolveStats {
     iterations += before.iterations;
     factorisations += before.factorisations;
     shifted += before.shifted;
+    untangled += before.untangled;
+    discarded += before.discarded;
     wall_s += before.wall_s;
     work.add(before.work);
   }
@@ -56,6 +60,7 @@ struct SolveStats {
 // Receives the share done and the residual in N; returns true to continue, false to cancel.
 using Progress = std::function<bool(double share, double residual)>;
 
+class CoarseLevels;
 class Settling;
 
 // Keeps the symbolic factorisation and the broad phase between calls. They change no result: a new
@@ -79,6 +84,8 @@ class Solver {
   // after it, with the options of the last step. Changes no result; reports no error, because that
   // step will.
   void make_ready(const Model &model, const State &state) noexcept;
+  // Coarser meshes of the last models that were settled over a hierarchy.
+  CoarseLevels &coarse_levels();
 
  private:
   std::unique_ptr<Settling> loop_over_nodes(const Model &model, State state,

@@ -46,8 +46,8 @@ class StabilityCheck {
   bool is_analysed_ = false;
 };
 
-// The same for a state on its own: evaluates forces and Hessian at its positions. If `leaves`, moves
-// the state a little along the mode of an unstable equilibrium.
+// The same for a state on its own: evaluates forces and Hessian at its positions. If `leaves`,
+// moves the state a little along the mode of an unstable equilibrium.
 Stability check_stability(const Model &model, State &state, ContactLaw law, bool leaves);
 Stability check_stability(const Model &model, const State &state);
 

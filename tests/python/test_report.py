@@ -17,7 +17,7 @@ from mvs.report import cases, ensemble, gallery, page, table  # noqa: E402
 @pytest.fixture(scope="module")
 def case(opened, closed):
     stats = mvs.Stats(
-        True, 1, 0, 0, True, 1e-6, 0.0, 0.0, 0.1, 1.0, -1.0, mvs.Profile(*[0] * 15)
+        True, 1, 0, 0, True, 1e-6, 0.0, 0.0, 0.1, 1.0, -1.0, mvs.Profile(*[0] * 17)
     )
     return cases.Case("shipped", "Shipped <valve>", "a note", opened, closed, stats)
 

@@ -6,9 +6,11 @@
 #include <mvs/sim.h>
 
 #include "anatomy/parametric.h"
+#include "anatomy/refine.h"
 #include "base/error.h"
 #include "geometry/intersect.h"
 #include "solve/settings.h"
+#include "solve/static/untangle.h"
 
 using namespace mvs::core;
 
@@ -93,4 +95,59 @@ TEST_CASE("progress_increases_over_the_levels_and_can_cancel") {
                     Error);
     CHECK(told == most);
   }
+}
+
+TEST_CASE("a_few_crossings_of_a_finer_mesh_are_untangled") {
+  const ModelPtr coarse = valve_of(250);
+  State closed = loaded(*coarse);
+  REQUIRE(Solver(Backend::fastest).settle(*coarse, closed, {}, {}).converged);
+  const ModelPtr fine = make_model(refine(*coarse), nullptr);
+  const LevelMap map = make_level_map(*coarse, *fine);
+  State start = to_fine(map, *coarse, *fine, closed);
+  const auto &triangles = fine->valve.triangles;
+  REQUIRE(find_intersections(start.x, triangles).empty());
+  // pushes a free node of one leaflet, here and there, through what it touches
+  const double thickness = fine->valve.contact_thickness;
+  uint32_t tried = 0;
+  for (uint32_t i = 0; i < start.x.size() && tried < 6; i += 5) {
+    std::vector<Vec3> x = start.x;
+    uint32_t nearest = i;
+    for (uint32_t j = 0; j < x.size(); ++j) {
+      const double rest = (fine->valve.rest[i] - fine->valve.rest[j]).norm();
+      const double now = (x[i] - x[j]).norm();
+      if (rest < 10 * thickness || now > 1.2 * thickness) continue;
+      if (nearest == i || now < (x[i] - x[nearest]).norm()) nearest = j;
+    }
+    if (nearest == i || fine->topology.fixed[i]) continue;
+    x[i] += 1.3 * (x[nearest] - x[i]);
+    const std::vector<Vec3> tangled = x;
+    const Untangled done = untangle(map, closed.x, *fine, x);
+    if (done.found == 0) continue;
+    ++tried;
+    CHECK(done.left == 0);
+    CHECK(find_intersections(x, triangles).empty());
+    const double most = settings::untangle::rounds * settings::untangle::increment * thickness;
+    for (uint32_t j = 0; j < x.size(); ++j) {
+      CHECK((x[j] - tangled[j]).norm() <= (fine->topology.fixed[j] ? 0 : 1.000001 * most));
+    }
+  }
+  CHECK(tried == 6);
+}
+
+TEST_CASE("a_shape_that_cannot_be_untangled_stays_as_it_is") {
+  const ModelPtr coarse = valve_of(250);
+  const State closed = loaded(*coarse);
+  const ModelPtr fine = make_model(refine(*coarse), nullptr);
+  const LevelMap map = make_level_map(*coarse, *fine);
+  std::vector<Vec3> x = to_fine(map, *coarse, *fine, closed).x;
+  for (size_t i = 0; i < x.size(); ++i) {
+    if (!fine->topology.fixed[i])
+      x[i] +=
+          5e-3 * Vec3(static_cast<int>(i % 2), static_cast<int>(i % 3), static_cast<int>(i % 5));
+  }
+  const std::vector<Vec3> before = x;
+  const Untangled done = untangle(map, closed.x, *fine, x);
+  CHECK(done.found > settings::untangle::max_crossings);
+  CHECK(done.left > 0);
+  CHECK(x == before);
 }

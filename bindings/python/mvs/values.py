@@ -139,6 +139,8 @@ class Profile:
     orderings: Annotated[int, "1", "new sparsity patterns with their symbolic analysis"]
     linear_iterations: Annotated[int, "1", "iterations of iterative linear solvers"]
     passes: Annotated[int, "1", "evaluations of energy, gradient or Hessian over all terms"]
+    untangled: Annotated[int, "1", "crossings removed after interpolation from a coarser mesh"]
+    discarded_levels: Annotated[int, "1", "shapes of coarser meshes that were given up"]
     terms_s: Annotated[float, "s", "energy, gradient and Hessian blocks of the terms"]
     broad_s: Annotated[float, "s", "broad phase and step limiter"]
     narrow_s: Annotated[float, "s", "narrow phase: distances"]

@@ -11,6 +11,7 @@
 #include "geometry/intersect.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
+#include "solve/static/untangle.h"
 
 namespace mvs::core {
 namespace {
@@ -27,7 +28,7 @@ double coarse_residual(const Model &coarse, const Load &load) {
 // A mesh of the hierarchy.
 struct Level {
   const Model *model;
-  ModelPtr owned;  // null at the finest level
+  std::shared_ptr<const Coarsened> made;  // from the next finer level; null at the finest
   State state;
   SolveOptions options;
   Progress progress;  // of this level and all coarser ones
@@ -49,19 +50,19 @@ Progress part_of(const Progress &whole, double from, double to) {
 
 // Returns the next coarser level; empty where the valve cannot have so few vertices or its coarse
 // mesh intersects itself.
-std::optional<Level> coarser(const Level &fine) {
+std::optional<Level> coarser(const Level &fine, CoarseLevels &kept) {
   namespace set = settings::mesh_hierarchy;
   try {
     const size_t vertices = sheet_vertices(*fine.model) / set::coarsening;
-    Coarsened made = coarsen(*fine.model, std::max(vertices, set::min_coarse_vertices));
-    State state = to_coarse(made.map, fine.state);
-    if (!find_intersections(state.x, made.model->valve.triangles).empty()) return {};
+    const std::shared_ptr<const Coarsened> made =
+        kept.coarsened(*fine.model, std::max(vertices, set::min_coarse_vertices));
+    State state = to_coarse(made->map, fine.state);
+    if (!find_intersections(state.x, made->model->valve.triangles).empty()) return {};
     SolveOptions options = fine.options;
-    options.residual = std::max(options.residual, coarse_residual(*made.model, state.load));
+    options.residual = std::max(options.residual, coarse_residual(*made->model, state.load));
     options.max_iterations = set::max_coarse_iterations;
     options.checks_stability = false;
-    const Model *model = made.model.get();
-    return Level{model, std::move(made.model), std::move(state), options,
+    return Level{made->model.get(), made, std::move(state), options,
                  part_of(fine.progress, 0, set::coarse_progress)};
   } catch (const Error &error) {
     if (error.code != MVS_E_ARGUMENT && error.code != MVS_E_OP) throw;
@@ -69,15 +70,37 @@ std::optional<Level> coarser(const Level &fine) {
   }
 }
 
-// Starts a level from the shape of the settled coarser one, unless it intersects itself there.
-void start_from(const Level &coarse, Level &fine) {
-  State start = transferred(*coarse.model, coarse.state, *fine.model);
-  if (!find_intersections(start.x, fine.model->valve.triangles).empty()) return;
+// Starts a level from the shape of the settled coarser one, unless it intersects itself there and
+// cannot be untangled. Counts in the statistics of the coarser levels what was done.
+void start_from(const Level &coarse, Level &fine, SolveStats &spent) {
+  const LevelMap &map = coarse.made->map;
+  State start = to_fine(map, *coarse.model, *fine.model, coarse.state);
+  const Untangled done = untangle(map, coarse.state.x, *fine.model, start.x.edit());
+  spent.untangled += static_cast<uint32_t>(done.found - done.left);
+  if (done.left > 0) {
+    ++spent.discarded;
+    return;
+  }
   start.time = fine.state.time;
   start.steps = fine.state.steps;
   start.load = fine.state.load;
   fine.state = std::move(start);
 }
+
+}  // namespace
+
+std::shared_ptr<const Coarsened> CoarseLevels::coarsened(const Model &fine, size_t vertices) {
+  for (const Kept &kept : kept_) {
+    if (kept.serial == fine.serial && kept.vertices == vertices) return kept.made;
+  }
+  auto made = std::make_shared<const Coarsened>(coarsen(fine, vertices));
+  // a closure of the largest valve has five levels
+  if (kept_.size() == 5) kept_.erase(kept_.begin());
+  kept_.push_back({fine.serial, vertices, made});
+  return made;
+}
+
+namespace {
 
 class HierarchySettling final : public Settling {
  public:
@@ -86,7 +109,7 @@ class HierarchySettling final : public Settling {
       : solver_(&solver) {
     levels_.push_back({&model, nullptr, state, options, progress});
     while (may_coarsen(levels_.back())) {
-      std::optional<Level> next = coarser(levels_.back());
+      std::optional<Level> next = coarser(levels_.back(), solver.coarse_levels());
       if (!next) break;
       levels_.back().has_coarser = true;
       levels_.push_back(std::move(*next));
@@ -100,7 +123,7 @@ class HierarchySettling final : public Settling {
     Level coarse = std::move(levels_.back());
     levels_.pop_back();
     spent_ = finish_level(coarse);
-    start_from(coarse, levels_.back());
+    start_from(coarse, levels_.back(), spent_);
     begin_level();
     return true;
   }

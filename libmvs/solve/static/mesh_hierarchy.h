@@ -8,14 +8,34 @@
 // after most operations, starts from its own shape, which is better than that of a coarse mesh.
 #pragma once
 
+#include <memory>
+
+#include "anatomy/coarsen.h"
 #include "solve/settling.h"
 
 namespace mvs::core {
 
+// The coarser meshes of the models settled last, with their maps: a model that is settled again
+// from far away does not make them anew.
+class CoarseLevels {
+ public:
+  // See coarsen().
+  std::shared_ptr<const Coarsened> coarsened(const Model &fine, size_t vertices);
+
+ private:
+  struct Kept {
+    uint64_t serial;  // of the finer model
+    size_t vertices;  // asked for
+    std::shared_ptr<const Coarsened> made;
+  };
+  std::vector<Kept> kept_;  // the last one made last
+};
+
 // Settles as Solver::settle does. Uses coarser meshes with Newton's method on at least
 // settings::mesh_hierarchy::min_vertices vertices of the sheet, if the valve is far from rest and
-// has no tools, and if the shape from the coarse mesh does not intersect itself. The count of
-// iterations is that of the mesh itself; factorisations, passes and times are those of all levels.
+// has no tools, and if the shape from the coarse mesh does not intersect itself or can be untangled
+// (untangle.h). The count of iterations is that of the mesh itself; factorisations, passes and
+// times are those of all levels.
 SolveStats settle_with_mesh_hierarchy(Solver &solver, const Model &model, State &state,
                                       const SolveOptions &options, const Progress &progress);
 // Begins the same settle, to be advanced by the caller, as Solver::begin_settle.

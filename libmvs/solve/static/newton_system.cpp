@@ -38,8 +38,7 @@ void NewtonSystem::assemble(Curvature curvature, const std::vector<Vec3> &bounda
   assembler_.boundary_step = nullptr;
 }
 
-bool NewtonSystem::try_factorise(double lambda, SolveStats &stats) {
-  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+void NewtonSystem::add_lambda(double lambda) {
   applied_lambda_ = std::max(lambda, settings::newton::min_lambda);
   for (size_t r = 0; r < diagonal_.size(); ++r) {
     Mat3 &block = assembler_.matrix.value[assembler_.matrix.start[r]];
@@ -47,20 +46,36 @@ bool NewtonSystem::try_factorise(double lambda, SolveStats &stats) {
     block.diagonal().array() += applied_lambda_ * lambda_scale_[assembler_.node_of[r]];
     if (!hold_.empty()) block += hold_[r];
   }
-  poll_();
-  ++stats.factorisations;
-  return factor_->factorise(assembler_.matrix);
 }
 
+bool NewtonSystem::try_factorise(double lambda, SolveStats &stats) {
+  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+  add_lambda(lambda);
+  poll_();
+  ++stats.factorisations;
+  return factor_->factorise_cheaply(assembler_.matrix);
+}
+
+// A matrix that cannot be factorised is mostly indefinite: double precision, which takes twice the
+// time, is tried after a few larger lambdas only.
 void NewtonSystem::factorise(double &lambda, SolveStats &stats) {
   if (try_factorise(lambda, stats)) return;
   ++stats.shifted;
-  do {
+  const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
+  for (uint32_t failed = 1;; ++failed) {
     lambda = std::max(settings::newton::failed_lambda_growth * applied_lambda_,
                       settings::newton::failed_lambda);
     MVS_MUST(lambda < settings::newton::max_failed_lambda, MVS_E_DIVERGED, "settle",
              "the stiffness matrix is not finite; check the materials");
-  } while (!try_factorise(lambda, stats));
+    add_lambda(lambda);
+    poll_();
+    ++stats.factorisations;
+    const bool cheaply = failed < settings::newton::cheap_factorisations;
+    if (cheaply ? factor_->factorise_cheaply(assembler_.matrix)
+                : factor_->factorise(assembler_.matrix)) {
+      return;
+    }
+  }
 }
 
 const HessianAssembler &NewtonSystem::hessian() {
@@ -75,8 +90,11 @@ void NewtonSystem::solve(const std::vector<Vec3> &g, bool with_lambda, std::vect
   const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
   rows_.resize(assembler_.node_of.size());
   for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = -g[assembler_.node_of[r]];
-  solve_rows(rows_, stats);
-  if (curvature_ == Curvature::exact) include_skew(with_lambda, stats);
+  if (curvature_ == Curvature::exact) {
+    solve_exactly(with_lambda, stats);
+  } else {
+    solve_rows(rows_, stats);
+  }
   step.assign(x_->size(), Vec3::Zero());
   for (size_t r = 0; r < rows_.size(); ++r) step[assembler_.node_of[r]] = rows_[r];
 }
@@ -93,25 +111,40 @@ void NewtonSystem::solve_rows(std::vector<Vec3> &rows, SolveStats &stats) {
   stats.work.linear_iterations += factor_->iterations();
 }
 
-// Turns (H + lambda D)^-1 b into the solution for the true derivative, H + S (+ lambda D), S the
-// skew part at the free edge.
-void NewtonSystem::include_skew(bool with_lambda, SolveStats &stats) {
+// Solves the true linear system, (H + S (+ lambda D)) x = b, S the skew part at the free edge. A
+// factor in single precision may be too inaccurate to precondition it: then one in double.
+void NewtonSystem::solve_exactly(bool with_lambda, SolveStats &stats) {
   const double removed = with_lambda ? 0 : applied_lambda_;
-  auto apply = [&](const std::vector<Vec3> &v) {
+  const std::vector<Vec3> b = rows_;
+  const double error = solve_by_gmres(removed, stats);
+  if (error <= settings::newton::gmres_tolerance || !factor_->sharpen()) return;
+  rows_ = b;
+  solve_by_gmres(removed, stats);
+}
+
+// Returns the relative residual, in the norm of the preconditioned system.
+double NewtonSystem::solve_by_gmres(double removed_lambda, SolveStats &stats) {
+  const auto precondition = [&](std::vector<Vec3> &v) {
+    poll_();
+    ++stats.work.linear_iterations;
+    factor_->precondition(v);
+  };
+  const auto apply = [&](const std::vector<Vec3> &v) {
     direction_.assign(x_->size(), Vec3::Zero());
     for (size_t r = 0; r < v.size(); ++r) direction_[assembler_.node_of[r]] = v[r];
     skew_.assign(x_->size(), Vec3::Zero());
     total_energy_->add_skew(*x_, direction_, skew_);
     std::vector<Vec3> y(v.size());
+    product_.multiply(assembler_.matrix, v, y);
     for (size_t r = 0; r < v.size(); ++r) {
       const uint32_t i = assembler_.node_of[r];
-      y[r] = skew_[i] - removed * lambda_scale_[i] * v[r];
+      y[r] += skew_[i] - removed_lambda * lambda_scale_[i] * v[r];
     }
-    solve_rows(y, stats);
-    for (size_t r = 0; r < v.size(); ++r) y[r] += v[r];
+    precondition(y);
     return y;
   };
-  gmres(apply, rows_, settings::newton::gmres_iterations, settings::newton::gmres_tolerance);
+  precondition(rows_);
+  return gmres(apply, rows_, settings::newton::gmres_iterations, settings::newton::gmres_tolerance);
 }
 
 double NewtonSystem::quadratic_form(const std::vector<Vec3> &step) const {

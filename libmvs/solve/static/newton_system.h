@@ -1,12 +1,13 @@
 // The linear system of a Newton iteration: (H + lambda D) dx = -g, D a diagonal stiffness that the
 // load itself has (pressure times element size). Near rest the skew part that a follower load has
-// at the free edge is solved for as well, by GMRES around the factor.
+// at the free edge is solved for as well, by GMRES with the factor as preconditioner.
 #pragma once
 
 #include <functional>
 
 #include "energy/total_energy.h"
 #include "linalg/direct_solver.h"
+#include "linalg/spmv.h"
 #include "solve/solver.h"
 
 namespace mvs::core {
@@ -29,7 +30,8 @@ class NewtonSystem {
   void assemble(Curvature curvature, Profile &profile);
   // The same with the displacements of the prescribed nodes, for carry().
   void assemble(Curvature curvature, const std::vector<Vec3> &boundary, Profile &profile);
-  // Factorises with this lambda; false if the matrix is not positive definite.
+  // Factorises with this lambda; false if the matrix is not positive definite, or if single
+  // precision does not suffice.
   bool try_factorise(double lambda, SolveStats &stats);
   // The same with the first larger lambda that makes the matrix positive definite, which `lambda`
   // then is.
@@ -57,8 +59,10 @@ class NewtonSystem {
   void release() { hold_.clear(); }
 
  private:
+  void add_lambda(double lambda);
   void solve_rows(std::vector<Vec3> &rows, SolveStats &stats);
-  void include_skew(bool with_lambda, SolveStats &stats);
+  void solve_exactly(bool with_lambda, SolveStats &stats);
+  double solve_by_gmres(double removed_lambda, SolveStats &stats);
 
   std::function<void()> poll_ = [] {};
   const Model *model_;
@@ -71,9 +75,10 @@ class NewtonSystem {
   std::vector<double> lambda_scale_;    // N/m per node: D
   std::vector<Mat3> hold_;              // N/m per row; empty: no row is held
   std::vector<Vec3> rows_;              // right-hand side and solution
-  std::vector<Vec3> direction_, skew_;  // by node, of include_skew()
-  double applied_lambda_ = 0;           // in the factor
-  uint32_t patterns_ = 0;               // of the matrix so far
+  std::vector<Vec3> direction_, skew_;  // by node, of solve_by_gmres()
+  BlockSpmv product_;
+  double applied_lambda_ = 0;  // in the factor
+  uint32_t patterns_ = 0;      // of the matrix so far
 };
 
 }  // namespace mvs::core
