@@ -8,8 +8,8 @@
 //
 // Every run begins with a new snapshot, so that no run finds what another has computed. Columns:
 // CPU time in ms, the fastest of the runs, since other work on the machine only ever adds. A group
-// includes what it needs of others. The digest covers the bits of all figures and of the arrays
-// behind them: two builds that print the same one measure the same.
+// includes the parts of other groups that it needs. The digest covers the bits of all figures and
+// of the arrays behind them: two builds that print the same one measure the same.
 #include <mvs/sim.h>
 
 #include <CLI/CLI.hpp>

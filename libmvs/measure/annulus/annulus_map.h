@@ -1,5 +1,5 @@
-// What measures need of an annulus alone: the surface that spans it, its area, and its height on a
-// raster of the annulus plane.
+// The part of the measures that depends on the annulus alone: its spanning surface, area, and
+// height on a raster of the annulus plane.
 #pragma once
 
 #include <array>

@@ -13,39 +13,50 @@
 namespace mvs::core {
 namespace {
 
-// Fills cells without a height by the mean of their neighbours, from the borders of each hole
-// inwards.
-void fill_holes(const AnnulusMap &map, std::vector<double> &leaflet) {
-  std::vector<size_t> holes;
-  for (size_t c = 0; c < leaflet.size(); ++c) {
-    if (map.inside(c) && std::isinf(leaflet[c])) holes.push_back(c);
-  }
-  while (!holes.empty()) {
-    std::vector<size_t> left;
-    std::vector<std::pair<size_t, double>> filled;
-    for (const size_t cell : holes) {
-      const int column = static_cast<int>(cell) % AnnulusMap::across;
-      const int row = static_cast<int>(cell) / AnnulusMap::across;
-      double sum = 0, count = 0;
-      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, AnnulusMap::across - 1); ++r) {
-        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, AnnulusMap::across - 1);
-             ++c) {
-          const size_t n = AnnulusMap::at(c, r);
-          if (!map.inside(n) || std::isinf(leaflet[n])) continue;
-          sum += leaflet[n];
-          ++count;
-        }
-      }
-      if (count > 0) {
-        filled.emplace_back(cell, sum / count);
-      } else {
-        left.push_back(cell);
-      }
+// Calls visit(cell) for the cells around a cell and itself, row by row.
+template <typename Visit>
+void for_each_around(size_t cell, Visit visit) {
+  const int column = static_cast<int>(cell) % AnnulusMap::across;
+  const int row = static_cast<int>(cell) / AnnulusMap::across;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, AnnulusMap::across - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, AnnulusMap::across - 1); ++c) {
+      visit(AnnulusMap::at(c, r));
     }
-    if (filled.empty()) return;  // no leaflet over the annulus
-    for (const auto &[cell, height] : filled) leaflet[cell] = height;
-    holes = std::move(left);
   }
+}
+
+// Fills cells without a height by the mean of their neighbours, from the borders of each hole
+// inwards: in each round those next to a cell that had a height before it.
+void fill_holes(const AnnulusMap &map, std::vector<double> &leaflet) {
+  const auto is_hole = [&](size_t c) { return map.inside(c) && std::isinf(leaflet[c]); };
+  std::vector<size_t> front;
+  for (size_t c = 0; c < leaflet.size(); ++c) {
+    if (is_hole(c)) front.push_back(c);
+  }
+  std::vector<uint8_t> listed(front.empty() ? 0 : leaflet.size(), 0);
+  std::vector<std::pair<size_t, double>> filled;
+  do {
+    filled.clear();
+    for (const size_t cell : front) {
+      double sum = 0, count = 0;
+      for_each_around(cell, [&](size_t n) {
+        if (!map.inside(n) || std::isinf(leaflet[n])) return;
+        sum += leaflet[n];
+        ++count;
+      });
+      if (count > 0) filled.emplace_back(cell, sum / count);
+    }
+    for (const auto &[cell, height] : filled) leaflet[cell] = height;
+    front.clear();
+    for (const auto &[cell, height] : filled) {
+      for_each_around(cell, [&](size_t n) {
+        if (listed[n] || !is_hole(n)) return;
+        listed[n] = 1;
+        front.push_back(n);
+      });
+    }
+    // a cell that is listed now has a neighbour with a height, and is filled in the next round
+  } while (!filled.empty());
 }
 
 // Height of the leaflets above the annulus surface; 0 if either is not defined.
