@@ -140,8 +140,8 @@ TEST_CASE("extremes_of_coaptation_are_continuous") {
   }
 }
 
-// What contact adds to the slope: the border of the contact zone moves as leaflets close in. Yes or
-// no per sample has the slope of the sample's area alone, and jumps.
+// The part of the slope that contact adds: the border of the contact zone moves as leaflets close
+// in. Yes or no per sample has the slope of the sample's area alone, and jumps.
 TEST_CASE("coaptation_area_has_the_slope_of_its_secants") {
   const Shape shape = closed_valve(1);
   const auto area = [&](double h) {

@@ -145,7 +145,8 @@ void summarise(const std::vector<CoaptationLine> &lines, Coaptation &coaptation)
 
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x) {
   const Surface surface = surface_of(model.valve.triangles, x);
-  const FacingSurface nearest(model, x, surface);
+  const TriangleBvh tree(model.valve.triangles, x);
+  const FacingSurface nearest(model, x, surface, tree);
   const Frame frame = valve_frame(model, x);
   Coaptation coaptation;
   for (uint32_t node = 0; node < x.size(); ++node) {
@@ -153,7 +154,7 @@ Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x) {
     coaptation.distance.push_back(on_sheet ? nearest.of_node(node).distance
                                            : std::numeric_limits<double>::infinity());
   }
-  FacingWeight facing(model, x, surface);
+  FacingWeight facing(model, x, surface, tree);
   const std::vector<Coapted> samples = sample(model, x, surface, facing, coaptation);
   summarise(find_lines(model, x, samples, frame), coaptation);
   measure_central_section(model, frame.local(x), x, facing, coaptation);

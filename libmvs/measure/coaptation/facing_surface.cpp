@@ -32,18 +32,14 @@ std::vector<uint8_t> find_borders(const Model &model) {
   return border;
 }
 
-bool share_a_node(const Tri &l, const Tri &r) {
-  return std::any_of(l.begin(), l.end(),
-                     [&](uint32_t n) { return n == r[0] || n == r[1] || n == r[2]; });
-}
-
 }  // namespace
 
-FacingSurface::FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface)
+FacingSurface::FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
+                             const TriangleBvh &tree)
     : model_(model),
       x_(x),
       surface_(surface),
-      tree_(model.valve.triangles, x),
+      tree_(tree),
       border_(find_borders(model)),
       reach_(model.valve.contact_thickness) {}
 

@@ -21,7 +21,8 @@ struct Partner {
 // the two sides of a cleft of one leaflet, can.
 class FacingSurface {
  public:
-  FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
+  FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
+                const TriangleBvh &tree);
 
   Partner of_node(uint32_t node) const;
 
@@ -31,7 +32,7 @@ class FacingSurface {
   const Model &model_;
   const std::vector<Vec3> &x_;
   const Surface &surface_;
-  TriangleBvh tree_;
+  const TriangleBvh &tree_;
   std::vector<uint8_t> border_;  // per triangle: bit f is set where feature f is on the border
   double reach_;                 // m: the contact thickness
 };

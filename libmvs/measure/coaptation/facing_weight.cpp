@@ -8,34 +8,29 @@
 namespace mvs::core {
 namespace {
 
-// Each pair: where a ramp begins to fall from 1, and where it reaches 0. Their middles are the
-// thresholds of FacingSurface.
-constexpr double near = 0.85, far = 1.15;           // distance over reach
-constexpr double opposed = -0.6, oblique = -0.4;    // cosine between the normals
-constexpr double ahead = -0.6, aside = -0.4;        // minus cosine of normal and direction
-constexpr double over = 0.176, beyond = 0.364;      // tangents of 10 and 20 degrees
-constexpr double touching = 0.05, separate = 0.15;  // share of reach: below, no direction
-constexpr double nearest = 0.1;  // share of reach that rounds off which tissue is nearest
+// A ramp falls from 1 at its first value to 0 at its second. Their middles are the thresholds of
+// FacingSurface.
+struct Ramp {
+  double from, to;
+};
+constexpr Ramp distance_ramp = {0.85, 1.15};   // over reach
+constexpr Ramp normals_ramp = {-0.6, -0.4};    // cosine between the normals
+constexpr Ramp direction_ramp = {-0.6, -0.4};  // minus cosine of normal and direction
+constexpr Ramp border_ramp = {0.176, 0.364};   // tangents of 10 and 20 degrees
+constexpr Ramp contact_ramp = {0.05, 0.15};    // share of reach: below, directions do not count
+constexpr double nearest_share = 0.1;          // of reach: rounds off which tissue is nearest
 
-// 1 up to `from`, 0 from `to` on, a cubic between.
-double fall(double value, double from, double to) {
-  const double s = std::clamp((value - from) / (to - from), 0.0, 1.0);
+// 1 before the ramp, 0 behind it, a cubic between.
+double fall(double value, const Ramp &ramp) {
+  const double s = std::clamp((value - ramp.from) / (ramp.to - ramp.from), 0.0, 1.0);
   return 1 - s * s * (3 - 2 * s);
-}
-
-bool share_a_node(const Tri &l, const Tri &r) {
-  return std::any_of(l.begin(), l.end(),
-                     [&](uint32_t n) { return n == r[0] || n == r[1] || n == r[2]; });
 }
 
 }  // namespace
 
-FacingWeight::FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface)
-    : model_(model),
-      x_(x),
-      surface_(surface),
-      tree_(model.valve.triangles, x),
-      reach_(model.valve.contact_thickness) {
+FacingWeight::FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
+                           const TriangleBvh &tree)
+    : model_(model), x_(x), surface_(surface), tree_(tree), reach_(model.valve.contact_thickness) {
   find_borders();
 }
 
@@ -82,10 +77,10 @@ bool FacingWeight::begin(uint32_t triangle) {
   const Vec3 &normal = surface_.normal[triangle];
   const Tri &own = model_.valve.triangles[triangle];
   Aabb box = tree_.box_of(triangle);
-  box.low -= Vec3::Constant(far * reach_);
-  box.high += Vec3::Constant(far * reach_);
+  box.low -= Vec3::Constant(distance_ramp.to * reach_);
+  box.high += Vec3::Constant(distance_ramp.to * reach_);
   tree_.for_overlapping(box, [&](uint32_t t) {
-    if (surface_.normal[t].dot(normal) >= oblique) return;
+    if (surface_.normal[t].dot(normal) >= normals_ramp.to) return;
     if (!share_a_node(model_.valve.triangles[t], own)) candidates_.push_back(t);
   });
   std::sort(candidates_.begin(), candidates_.end());
@@ -94,25 +89,25 @@ bool FacingWeight::begin(uint32_t triangle) {
 
 FacingWeight::Weighed FacingWeight::weigh(uint32_t candidate, const Vec3 &p) const {
   Weighed none_there{0, 0, Vec3::Zero()};
-  const double limit = far * reach_;
+  const double limit = distance_ramp.to * reach_;
   if (tree_.box_of(candidate).distance2(p) >= limit * limit) return none_there;
   const TrianglePoint q = tree_.closest_on(candidate, p);
   if (q.distance2 >= limit * limit) return none_there;
   const Vec3 &normal = surface_.normal[triangle_], &other = surface_.normal[candidate];
   const double distance = std::sqrt(q.distance2);
-  Weighed result{fall(distance, near * reach_, limit), q.distance2,
+  Weighed result{fall(distance / reach_, distance_ramp), q.distance2,
                  tree_.point_at(candidate, q.weight)};
-  result.weight *= fall(other.dot(normal), opposed, oblique);
-  if (distance > touching * reach_) {
-    const double off = 1 - fall((p - result.point).dot(normal) / distance, ahead, aside);
-    result.weight *= 1 - off * (1 - fall(distance, touching * reach_, separate * reach_));
+  result.weight *= fall(other.dot(normal), normals_ramp);
+  if (distance > contact_ramp.from * reach_) {
+    const double off = 1 - fall((p - result.point).dot(normal) / distance, direction_ramp);
+    result.weight *= 1 - off * (1 - fall(distance / reach_, contact_ramp));
   }
   for (uint32_t b = first_border_[candidate]; b < first_border_[candidate + 1]; ++b) {
     if (result.weight == 0) return result;
     const Border &border = border_[b];
-    const double height = std::max((p - border.from).dot(other), nearest * reach_);
+    const double height = std::max((p - border.from).dot(other), nearest_share * reach_);
     const double out = (p - border.from).dot(border.out) - border.beyond;
-    result.weight *= fall(out / height, over, beyond);
+    result.weight *= fall(out / height, border_ramp);
   }
   return result;
 }
@@ -131,7 +126,7 @@ const Faced &FacingWeight::of_point(const Vec3 &p) {
     const Weighed found = weigh(t, p);
     if (found.weight == 0) continue;
     faced_.weight = std::max(faced_.weight, found.weight);
-    const double rounded = found.distance2 / (reach_ * reach_) + nearest * nearest;
+    const double rounded = found.distance2 / (reach_ * reach_) + nearest_share * nearest_share;
     const double counts = found.weight / (rounded * rounded);
     const uint32_t leaflet = model_.valve.triangle_leaflet[t];
     auto at = std::find_if(faced_.leaflets.begin(), faced_.leaflets.end(),

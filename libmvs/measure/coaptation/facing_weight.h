@@ -16,7 +16,7 @@ struct FacedLeaflet {
   Vec3 point, normal;  // means, the nearest tissue counting most
 };
 
-// What a point faces: a weight from 0 to 1, and tissue by leaflet.
+// The weight from 0 to 1 with which a point faces tissue, and that tissue by leaflet.
 struct Faced {
   double weight = 0;
   std::vector<FacedLeaflet> leaflets;
@@ -27,12 +27,13 @@ struct Faced {
 // it faces best, so that it is continuous, with a kink where another triangle takes over.
 class FacingWeight {
  public:
-  FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
+  FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
+               const TriangleBvh &tree);
 
   // Starts with a triangle: lists the triangles that points of it may face; returns whether there
   // are any.
   bool begin(uint32_t triangle);
-  // What a point of that triangle faces. The result is valid until the next call.
+  // Weighs a point of that triangle. The result is valid until the next call.
   const Faced &of_point(const Vec3 &p);
   // Its weight alone.
   double weight_of(const Vec3 &p) const;
@@ -54,7 +55,7 @@ class FacingWeight {
   const Model &model_;
   const std::vector<Vec3> &x_;
   const Surface &surface_;
-  TriangleBvh tree_;
+  const TriangleBvh &tree_;
   double reach_;
   std::vector<uint32_t> first_border_;  // per triangle: border_[first_border_[t] .. [t + 1])
   std::vector<Border> border_;
