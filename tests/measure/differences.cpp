@@ -127,7 +127,7 @@ TEST_CASE("extremes_of_coaptation_are_continuous") {
   for (const double annulus_scale : {1.0, 1.15}) {
     const Shape shape = closed_valve(annulus_scale);
     Measured last = lengths_of_coaptation(*shape.model, shape.x);
-    for (int k = 1; k <= 200; ++k) {
+    for (int k = 1; k <= 60; ++k) {
       const Measured next = lengths_of_coaptation(
           *shape.model,
           moved(shape.x, [&](const Vec3 &p) -> Vec3 { return p + 1e-6 * k * field(p, 100, 5); }));

