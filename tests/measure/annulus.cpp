@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "measure/annulus/annulus_map.h"
 #include "measure/annulus/frame.h"
+#include "measure/annulus/landmarks.h"
 #include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
@@ -157,6 +159,41 @@ TEST_CASE("annulus_of_one_leaflet_has_quarter_points") {
   CHECK(measures.ap == about(2 * radius, 1e-13));
   CHECK(measures.cc == about(2 * radius, 1e-13));
   CHECK((valve_frame(*model, valve.rest).axes - Mat3::Identity()).norm() < 1e-13);
+}
+
+// Six annuli are more than are kept, so that some are taken from memory and some made anew.
+TEST_CASE("a_kept_annulus_map_has_the_bits_of_a_new_one") {
+  for (int k = 0; k < 18; ++k) {
+    const ModelPtr model = model_of(saddle((k / 3 % 6 + 1) * 1e-3));
+    const Frame frame = valve_frame(*model, model->valve.rest);
+    const Loop loop(model->valve.annulus, model->valve.rest);
+    const auto kept = annulus_map(frame, loop.points());
+    const AnnulusMap made(frame, loop.points());
+    CHECK(kept->area() == made.area());
+    bool same = true;
+    for (size_t c = 0; c < made.heights().size(); ++c) {
+      same &= kept->inside(c) == made.inside(c);
+      same &= !made.inside(c) || kept->heights()[c] == made.heights()[c];
+    }
+    CHECK(same);
+  }
+}
+
+// Each side of the rim starts the search once, inside and outside of the annulus.
+TEST_CASE("height_of_the_annulus_surface_does_not_depend_on_where_the_search_begins") {
+  const ModelPtr model = model_of(saddle(6e-3, 24));
+  const Frame frame = valve_frame(*model, model->valve.rest);
+  const AnnulusSurface surface(frame, Loop(model->valve.annulus, model->valve.rest).points());
+  for (int i = -12; i <= 12; ++i) {
+    for (int j = -12; j <= 12; ++j) {
+      const double u = 1.6e-3 * i, v = 1.6e-3 * j, height = surface.height(u, v);
+      for (size_t begin = 0; begin < 24; ++begin) {
+        size_t near = begin;
+        const double found = surface.height(u, v, near);
+        CHECK((found == height || (std::isnan(found) && std::isnan(height))));
+      }
+    }
+  }
 }
 
 }  // namespace mvs::core::test

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "measure/annulus/annulus_surface.h"
+#include "measure/annulus/annulus_map.h"
 #include "measure/annulus/frame.h"
 #include "measure/annulus/landmarks.h"
 
@@ -47,7 +47,7 @@ AnnulusMeasures measure_annulus(const Model &model, const std::vector<Vec3> &x) 
   measures.ap = (landmarks.a - landmarks.p).norm();
   measures.cc = (landmarks.commissure[0] - landmarks.commissure[1]).norm();
   measures.perimeter = loop.length();
-  measures.area_3d = AnnulusSurface(frame, loop.points()).area();
+  measures.area_3d = annulus_map(frame, loop.points())->area();
   measures.area = projected_area(loop, frame);
   measures.saddle_height = height_over_plane(loop, frame);
   measures.nonplanar_angle = nonplanar_angle(landmarks);

@@ -38,6 +38,7 @@ AnnulusSurface::AnnulusSurface(const Frame &frame, const std::vector<Vec3> &rim)
   double turn = 0;
   for (size_t k = 0; k < sides(); ++k) turn += cross_in_plane(rim_[k], rim_[(k + 1) % sides()]);
   if (turn < 0) std::reverse(rim_.begin(), rim_.end());
+  star_shaped_ = winds_once();
   solve();
 }
 
@@ -86,24 +87,59 @@ void AnnulusSurface::solve() {
   std::copy(solution.begin(), solution.end(), height_.begin());
 }
 
-double AnnulusSurface::height(double u, double v) const {
-  const Vec3 p(u, v, 0);
+// Returns whether the rim goes around the centre once, without turning back.
+bool AnnulusSurface::winds_once() const {
+  size_t crossings = 0;  // of the ray towards +AP
   for (size_t k = 0; k < sides(); ++k) {
+    const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
+    if (!(cross_in_plane(a, b) > 0)) return false;
+    crossings += a[1] <= 0 && b[1] > 0;
+  }
+  return crossings == 1;
+}
+
+// Returns whether the ray from the centre through p meets a side of the rim between its ends.
+bool AnnulusSurface::is_strictly_towards(size_t k, const Vec3 &p) const {
+  return cross_in_plane(p, rim_[(k + 1) % sides()]) > 0 && cross_in_plane(rim_[k], p) > 0;
+}
+
+// Returns the first side of the rim whose triangle with the centre holds p, or sides(). Sectors of
+// a star-shaped rim do not overlap, so that one strictly around p is the only one to look at.
+size_t AnnulusSurface::find_side(const Vec3 &p, size_t near) const {
+  const auto holds = [&](size_t k) {
     const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
     const double area = cross_in_plane(a, b), toward_a = cross_in_plane(p, b),
                  toward_b = cross_in_plane(a, p);
-    if (toward_a < 0 || toward_b < 0 || area <= 0 || toward_a + toward_b > area) continue;
-    // the ray through p meets this side of the rim at a share f; rings are parallel to the side
-    const double s = (toward_a + toward_b) / area;
-    const double f = s > 0 ? toward_b / (toward_a + toward_b) : 0;
-    const size_t ring = std::min(static_cast<size_t>(s * rings), rings - 1);
-    const double over = s * rings - static_cast<double>(ring);
-    const auto along = [&](size_t r) {
-      return (1 - f) * height_[index(r, k)] + f * height_[index(r, k + 1)];
-    };
-    return (1 - over) * along(ring) + over * along(ring + 1);
+    return !(toward_a < 0 || toward_b < 0 || area <= 0 || toward_a + toward_b > area);
+  };
+  for (size_t i = 0; star_shaped_ && i < sides(); ++i) {
+    // near, then one after the other to both sides of it
+    const size_t off = i % 2 == 0 ? i / 2 : sides() - (i + 1) / 2, k = (near + off) % sides();
+    if (is_strictly_towards(k, p)) return holds(k) ? k : sides();
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  for (size_t k = 0; k < sides(); ++k) {
+    if (holds(k)) return k;
+  }
+  return sides();
+}
+
+double AnnulusSurface::height(double u, double v, size_t &near) const {
+  const Vec3 p(u, v, 0);
+  const size_t k = find_side(p, near);
+  if (k == sides()) return std::numeric_limits<double>::quiet_NaN();
+  near = k;
+  const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
+  const double area = cross_in_plane(a, b), toward_a = cross_in_plane(p, b),
+               toward_b = cross_in_plane(a, p);
+  // the ray through p meets this side of the rim at a share f; rings are parallel to the side
+  const double s = (toward_a + toward_b) / area;
+  const double f = s > 0 ? toward_b / (toward_a + toward_b) : 0;
+  const size_t ring = std::min(static_cast<size_t>(s * rings), rings - 1);
+  const double over = s * rings - static_cast<double>(ring);
+  const auto along = [&](size_t r) {
+    return (1 - f) * height_[index(r, k)] + f * height_[index(r, k + 1)];
+  };
+  return (1 - over) * along(ring) + over * along(ring + 1);
 }
 
 double AnnulusSurface::area() const {

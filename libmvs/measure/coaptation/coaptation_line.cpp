@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/math.h"
@@ -15,6 +16,11 @@ constexpr double trimmed = 0.005;  // of the area, at either end
 constexpr double window = 0.125;   // half width of the regression, share of the line
 constexpr int steps = 32;
 constexpr double flattest = 0.5;  // sine: slopes below 30 degrees count as 30
+// Each piece spreads over this angle to both sides when the ends of the line are looked for: a
+// piece that passes an end is left out gradually.
+constexpr double spread = 0.005;
+constexpr double ends = 0.05;  // share at either end of the line without minimum and maximum
+constexpr int profile = 100;   // intervals between the places where these are looked for
 
 // A piece with a parameter that increases along the line.
 struct Ordered {
@@ -22,33 +28,75 @@ struct Ordered {
   double area, order;
 };
 
+// The interval of the parameter that holds the area between two quantiles.
+struct Span {
+  double from, to;
+  double length() const { return to - from; }
+};
+
+// The share of a piece below t, when it is spread.
+double share_below(double order, double t) {
+  return std::clamp((t - order + spread) / (2 * spread), 0.0, 1.0);
+}
+
+// The parameter below which the given area lies, by bisection of the cumulative distribution of the
+// spread pieces, sorted by their order. The last interval, of 4e-7, is interpolated.
+double quantile(const std::vector<Ordered> &sorted, double area) {
+  std::vector<double> below = {0};
+  for (const Ordered &piece : sorted) below.push_back(below.back() + piece.area);
+  const auto first_from = [&](double t) {
+    return std::partition_point(sorted.begin(), sorted.end(),
+                                [&](const Ordered &piece) { return piece.order < t; }) -
+           sorted.begin();
+  };
+  const auto area_below = [&](double t) {
+    const auto whole = first_from(t - spread), some = first_from(t + spread);
+    double sum = below[static_cast<size_t>(whole)];
+    for (auto k = whole; k < some; ++k) {
+      const Ordered &piece = sorted[static_cast<size_t>(k)];
+      sum += piece.area * share_below(piece.order, t);
+    }
+    return sum;
+  };
+  double low = -4, high = 4, low_area = 0, high_area = below.back();
+  for (int k = 0; k < 24; ++k) {
+    const double middle = 0.5 * (low + high), found = area_below(middle);
+    (found < area ? low : high) = middle;
+    (found < area ? low_area : high_area) = found;
+  }
+  const double within = high_area - low_area;
+  return within > 0 ? low + (high - low) * (area - low_area) / within : low;
+}
+
+// Sorts pieces by parameter and removes the outermost share of their area; returns where the rest
+// begins and ends.
+Span trim(std::vector<Ordered> &pieces) {
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Ordered &l, const Ordered &r) { return l.order < r.order; });
+  double total = 0;
+  for (const Ordered &piece : pieces) total += piece.area;
+  const Span span{quantile(pieces, trimmed * total), quantile(pieces, (1 - trimmed) * total)};
+  for (Ordered &piece : pieces) {
+    piece.area *= share_below(piece.order, span.to) - share_below(piece.order, span.from);
+  }
+  return span;
+}
+
 // A polygon with the parameter and the arc length at each point.
 struct Curve {
   std::vector<Vec3> points;
   std::vector<double> order, start;
 };
 
-// Sorts pieces by parameter and removes the outermost share of their area.
-std::vector<Ordered> trim(std::vector<Ordered> pieces) {
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const Ordered &l, const Ordered &r) { return l.order < r.order; });
-  double total = 0, sum = 0;
-  for (const Ordered &piece : pieces) total += piece.area;
-  std::vector<Ordered> kept;
-  for (const Ordered &piece : pieces) {
-    const double middle = sum + 0.5 * piece.area;
-    if (middle > trimmed * total && middle < (1 - trimmed) * total) kept.push_back(piece);
-    sum += piece.area;
-  }
-  return kept;
-}
-
 // Local linear regression (Cleveland, JASA 74, 1979) at one parameter: unlike a mean it is not
-// biased inwards at the ends. Returns false if no piece is near.
+// biased inwards at the ends. Pieces are sorted. Returns false if no piece is near.
 bool regress(const std::vector<Ordered> &pieces, double at, double width, Vec3 &point) {
   double w = 0, wt = 0, wtt = 0;
   Vec3 wp = Vec3::Zero(), wtp = Vec3::Zero();
-  for (const Ordered &piece : pieces) {
+  auto first = std::partition_point(pieces.begin(), pieces.end(),
+                                    [&](const Ordered &piece) { return piece.order < at - width; });
+  for (; first != pieces.end() && first->order <= at + width; ++first) {
+    const Ordered &piece = *first;
     const double t = width > 0 ? (piece.order - at) / width : 0;
     const double weight = piece.area * std::max(0.0, 1 - std::abs(t));
     w += weight;
@@ -64,8 +112,8 @@ bool regress(const std::vector<Ordered> &pieces, double at, double width, Vec3 &
   return true;
 }
 
-Curve fit_curve(const std::vector<Ordered> &pieces) {
-  const double from = pieces.front().order, range = pieces.back().order - from;
+Curve fit_curve(const std::vector<Ordered> &pieces, const Span &span) {
+  const double from = span.from, range = span.length();
   Curve curve;
   for (int k = 0; k <= steps; ++k) {
     const double at = from + range * k / steps;
@@ -95,28 +143,77 @@ Vec3 point_at(const std::vector<Vec3> &points, const Place &place) {
   return points[place.k] + place.share * (points[place.k + 1] - points[place.k]);
 }
 
+// Distance of a piece from the begin of the curve.
+double distance_along(const Ordered &piece, const Curve &curve) {
+  const Place place = find_place(curve.order, piece.order);
+  const double start = curve.start[place.k], end = curve.start[place.k + 1];
+  return start + place.share * (end - start);
+}
+
 // Distributes the area of each piece linearly to its two nearest stations; assignment to one
 // station would show rows of pieces as ripples.
-CoaptationLine area_along(const std::vector<Ordered> &pieces, const Curve &curve, double spacing) {
+void fill_stations(const std::vector<Ordered> &pieces, const Curve &curve, double spacing,
+                   CoaptationLine &line) {
   const double length = curve.start.back();
   const int count = static_cast<int>(std::max(1.0, std::round(length / spacing)));
-  CoaptationLine line;
-  line.spacing = count > 1 ? length / count : std::max(length, spacing);
+  const double step = count > 1 ? length / count : line.length;
   for (int k = 0; k < count; ++k) {
     const Place place = find_place(curve.start, (k + 0.5) * length / count);
     line.stations.push_back({point_at(curve.points, place), 0});
   }
   for (const Ordered &piece : pieces) {
-    const Place on_curve = find_place(curve.order, piece.order);
-    const double start = curve.start[on_curve.k], end = curve.start[on_curve.k + 1];
-    const double t = start + on_curve.share * (end - start);
-    const double place = std::clamp(t / line.spacing - 0.5, 0.0, count - 1.0);
+    const double place = std::clamp(distance_along(piece, curve) / step - 0.5, 0.0, count - 1.0);
     const size_t before = static_cast<size_t>(place);
     const size_t after = std::min(before + 1, line.stations.size() - 1);
     const double share = place - static_cast<double>(before);
-    line.stations[before].length += (1 - share) * piece.area / line.spacing;
-    line.stations[after].length += share * piece.area / line.spacing;
+    line.stations[before].length += (1 - share) * piece.area / step;
+    line.stations[after].length += share * piece.area / step;
   }
+}
+
+// The area under a hat function of unit height over [at - width, at + width] within [0, length].
+double hat_area(double at, double width, double length) {
+  const auto side = [&](double room) {
+    const double r = std::min(room / width, 1.0);
+    return width * r * (1 - 0.5 * r);
+  };
+  return side(at) + side(length - at);
+}
+
+// Looks for the extremes of the coaptation length, smoothed by a hat function as wide as that of
+// the stations, at places that do not depend on their number.
+void find_extremes(const std::vector<Ordered> &pieces, const Curve &curve, double spacing,
+                   CoaptationLine &line) {
+  const double length = curve.start.back();
+  if (length < 2 * spacing) {  // one place: the mean
+    line.shortest = line.longest = line.area / line.length;
+    return;
+  }
+  std::array<double, profile + 1> sum{};
+  const double first = ends * length, step = (1 - 2 * ends) * length / profile;
+  for (const Ordered &piece : pieces) {
+    const double t = distance_along(piece, curve);
+    const double from = std::clamp(std::ceil((t - spacing - first) / step), 0.0, profile + 1.0);
+    for (size_t k = static_cast<size_t>(from); k <= profile; ++k) {
+      const double off = std::abs(t - first - static_cast<double>(k) * step) / spacing;
+      if (off >= 1 && t < first + static_cast<double>(k) * step) break;
+      sum[k] += piece.area * std::max(0.0, 1 - off);
+    }
+  }
+  for (size_t k = 0; k <= profile; ++k) {
+    const double at = first + static_cast<double>(k) * step;
+    const double here = sum[k] / hat_area(at, spacing, length);
+    line.shortest = k == 0 ? here : std::min(line.shortest, here);
+    line.longest = std::max(line.longest, here);
+  }
+}
+
+CoaptationLine area_along(const std::vector<Ordered> &pieces, const Curve &curve, double spacing) {
+  CoaptationLine line;
+  line.length = std::max(curve.start.back(), spacing);
+  for (const Ordered &piece : pieces) line.area += piece.area;
+  fill_stations(pieces, curve, spacing, line);
+  find_extremes(pieces, curve, spacing, line);
   return line;
 }
 
@@ -157,13 +254,15 @@ CoaptationLine find_coaptation_line(const std::vector<CoaptedPiece> &pieces, con
   for (const CoaptedPiece &piece : pieces) {
     ordered.push_back({piece.middle, piece.area, angle(piece.middle)});
   }
-  const Curve rough = fit_curve(trim(ordered));
+  std::vector<Ordered> rough_pieces = ordered;
+  const Span rough_span = trim(rough_pieces);
+  const Curve rough = fit_curve(rough_pieces, rough_span);
   for (size_t i = 0; i < pieces.size(); ++i) {
     const Vec3 centre = point_at(rough.points, find_place(rough.order, ordered[i].order));
     ordered[i].order = angle(slide(pieces[i], axis, (centre - pieces[i].middle).dot(axis)));
   }
-  ordered = trim(std::move(ordered));
-  return area_along(ordered, fit_curve(ordered), spacing);
+  const Span span = trim(ordered);
+  return area_along(ordered, fit_curve(ordered, span), spacing);
 }
 
 }  // namespace mvs::core

@@ -16,13 +16,16 @@ struct CoaptedPiece {
 
 struct CoaptationLine {
   std::vector<CoaptationStation> stations;
-  double spacing = 0;  // m between stations
+  double area = 0, length = 0;  // m2 of one side, m
+  // Extremes of the coaptation length along the line, but for 5 % of it at either end.
+  double shortest = 0, longest = 0;
 };
 
 // Fits a smooth curve through the middle of the pieces and returns, at stations about `spacing`
 // apart, the tissue area per length of curve: the coaptation length, measured along the tissue
 // whatever its tilt or bend. The line bulges away from the pole. The outermost 0.5 % of the area at
-// either end is left out. `pieces` must not be empty.
+// either end is left out. `pieces` must not be empty. All but the number of stations is continuous
+// in the pieces.
 CoaptationLine find_coaptation_line(const std::vector<CoaptedPiece> &pieces, const Vec3 &pole,
                                     const Vec3 &axis, double spacing);
 

@@ -32,35 +32,19 @@ std::vector<uint8_t> find_borders(const Model &model) {
   return border;
 }
 
-bool share_a_node(const Tri &l, const Tri &r) {
-  return std::any_of(l.begin(), l.end(),
-                     [&](uint32_t n) { return n == r[0] || n == r[1] || n == r[2]; });
-}
-
 }  // namespace
 
-FacingSurface::FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface)
+FacingSurface::FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
+                             const TriangleBvh &tree)
     : model_(model),
       x_(x),
       surface_(surface),
-      tree_(model.valve.triangles, x),
+      tree_(tree),
       border_(find_borders(model)),
       reach_(model.valve.contact_thickness) {}
 
-Vec3 FacingSurface::normal_at(uint32_t triangle, const std::array<double, 3> &weight) const {
-  Vec3 normal = Vec3::Zero();
-  for (size_t k = 0; k < 3; ++k) {
-    normal += weight[k] * surface_.node_normal[model_.valve.triangles[triangle][k]];
-  }
-  return normal.normalized();
-}
-
 Partner FacingSurface::of_node(uint32_t node) const {
   return find(x_[node], surface_.node_normal[node], {node, node, node});
-}
-
-Partner FacingSurface::of_point(uint32_t triangle, const Vec3 &p) const {
-  return find(p, surface_.normal[triangle], model_.valve.triangles[triangle]);
 }
 
 // Tissue of which only the border is near hides the tissue behind it: it lowers the limit but is
@@ -74,7 +58,7 @@ Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) c
     const TrianglePoint q = tree_.closest_on(t, p);
     if (q.distance2 > limit2) return;
     const double distance = std::sqrt(q.distance2);
-    const Vec3 point = tree_.point_at(t, q.weight), to_partner = point - p;
+    const Vec3 to_partner = tree_.point_at(t, q.weight) - p;
     const bool far = distance > touching * reach_;
     if (far && to_partner.dot(normal) < ahead * distance) return;
     const bool at_border = (border_[t] >> q.feature & 1) != 0;
@@ -82,7 +66,7 @@ Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) c
         far && at_border && -to_partner.dot(surface_.normal[t]) < straight_ahead * distance;
     if (q.distance2 == limit2 && (beyond || t > partner.triangle)) return;
     limit2 = q.distance2;
-    partner = beyond ? Partner() : Partner{t, distance, point, normal_at(t, q.weight)};
+    partner = beyond ? Partner() : Partner{t, distance};
   });
   return partner;
 }

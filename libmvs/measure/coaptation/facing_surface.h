@@ -1,4 +1,4 @@
-// Nearest tissue that a point of the sheet faces, in front of its atrial side.
+// Nearest tissue that a node of the sheet faces, in front of its atrial side.
 #pragma once
 
 #include <limits>
@@ -13,8 +13,6 @@ namespace mvs::core {
 struct Partner {
   uint32_t triangle = none;
   double distance = std::numeric_limits<double>::infinity();  // m
-  Vec3 point;
-  Vec3 normal = Vec3::Zero();  // interpolated from nodes: continuous across edges
 };
 
 // Two pieces of tissue face each other if they lie within reach, atrial side to atrial side: each
@@ -23,22 +21,20 @@ struct Partner {
 // the two sides of a cleft of one leaflet, can.
 class FacingSurface {
  public:
-  FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
+  FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
+                const TriangleBvh &tree);
 
-  double reach() const { return reach_; }  // m: the contact thickness
   Partner of_node(uint32_t node) const;
-  Partner of_point(uint32_t triangle, const Vec3 &p) const;
 
  private:
-  Vec3 normal_at(uint32_t triangle, const std::array<double, 3> &weight) const;
   Partner find(const Vec3 &p, const Vec3 &normal, const Tri &own) const;
 
   const Model &model_;
   const std::vector<Vec3> &x_;
   const Surface &surface_;
-  TriangleBvh tree_;
+  const TriangleBvh &tree_;
   std::vector<uint8_t> border_;  // per triangle: bit f is set where feature f is on the border
-  double reach_;
+  double reach_;                 // m: the contact thickness
 };
 
 }  // namespace mvs::core

@@ -4,12 +4,18 @@
 
 #include "measure/annulus/frame.h"
 #include "measure/orifice/samples.h"
+#include "measure/orifice/seal.h"
 #include "measure/orifice/smallest_cut.h"
 #include "measure/orifice/smallest_surface.h"
 
 namespace mvs::core {
 
 Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x) {
+  if (orifice::is_zipped(model, x)) return {};
+  return cut_orifice(model, x);
+}
+
+Orifice cut_orifice(const Model &model, const std::vector<Vec3> &x) {
   const Frame frame = valve_frame(model, x);
   const orifice::Sheet sheet = orifice::local_sheet(model, frame.local(x));
   const orifice::Samples samples = orifice::sample(sheet);

@@ -15,4 +15,7 @@ struct Orifice {
 };
 Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x);
 
+// The same without the quick proof that a valve is sealed: always by the minimum cut.
+Orifice cut_orifice(const Model &model, const std::vector<Vec3> &x);
+
 }  // namespace mvs::core

@@ -3,30 +3,20 @@
 
 #include <vector>
 
-#include "measure/annulus/frame.h"
+#include "measure/annulus/annulus_map.h"
 
 namespace mvs::core {
 
-class HeightField {
- public:
-  HeightField(const Frame &frame, const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+// Returns, per cell of the map, the height over the annulus plane of the highest leaflet point over
+// its centre; -infinity without a leaflet, and outside the annulus. `local` are the nodes in the
+// frame of the map.
+std::vector<double> highest_leaflet(const AnnulusMap &map, const std::vector<Tri> &triangles,
+                                    const std::vector<Vec3> &local);
 
-  struct Top {
-    uint32_t triangle = none;  // none without a leaflet
-    double height = 0;         // m over the annulus plane
-  };
-  // Returns the highest leaflet point over a point (AP, CC) of the annulus plane.
-  Top top(double u, double v) const;
-
- private:
-  size_t cell(size_t axis, double value) const;  // column or row, within the grid
-  void list_triangles();
-
-  const std::vector<Tri> &triangles_;
-  std::vector<Vec3> x_;  // in the frame
-  std::array<double, 2> low_{}, step_{};
-  size_t cells_ = 1;  // to a side
-  Rows rows_;         // triangles by cell
-};
+// One step of a morphological closing over the inside of the annulus: with sign +1, the height at
+// which a ball rests on the heights; with -1, the lowest points of balls with these centres.
+// -infinity outside of the annulus.
+std::vector<double> roll_ball(const AnnulusMap &map, const std::vector<double> &heights,
+                              double radius, double sign);
 
 }  // namespace mvs::core

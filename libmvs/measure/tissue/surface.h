@@ -1,6 +1,7 @@
 // Areas and normals of the deformed sheet.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "model/model.h"
@@ -13,5 +14,10 @@ struct Surface {
   std::vector<Vec3> node_normal;  // unit, per node: by the areas around it; zero off the sheet
 };
 Surface surface_of(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+
+inline bool share_a_node(const Tri &l, const Tri &r) {
+  return std::any_of(l.begin(), l.end(),
+                     [&](uint32_t n) { return n == r[0] || n == r[1] || n == r[2]; });
+}
 
 }  // namespace mvs::core

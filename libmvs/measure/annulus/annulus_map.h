@@ -1,0 +1,54 @@
+// The part of the measures that depends on the annulus alone: its spanning surface, area, and
+// height on a raster of the annulus plane.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "measure/annulus/annulus_surface.h"
+#include "measure/annulus/frame.h"
+
+namespace mvs::core {
+
+// Raster over the bounding box of the annulus: columns along AP, rows along CC.
+class AnnulusMap {
+ public:
+  static constexpr int across = 256;  // cells, about 0.13 mm each
+
+  AnnulusMap(const Frame &frame, const std::vector<Vec3> &rim);
+
+  const AnnulusSurface &surface() const { return surface_; }
+  double area() const { return area_; }  // m2, of the surface
+
+  double width() const { return width_; }  // m, of a cell along AP
+  double depth() const { return depth_; }  // m, along CC
+  // Coordinates of the centre of a column or row, m.
+  const std::array<double, across> &u() const { return u_; }
+  const std::array<double, across> &v() const { return v_; }
+  double low_v() const { return low_v_; }  // m, of the border of the raster
+
+  static size_t at(int column, int row) {
+    return static_cast<size_t>(row) * across + static_cast<size_t>(column);
+  }
+  // Height of the surface at the centre of a cell, m; NaN outside the annulus.
+  const std::vector<double> &heights() const { return heights_; }
+  bool inside(size_t cell) const { return inside_[cell] != 0; }
+
+  bool is_of(const Frame &frame, const std::vector<Vec3> &rim) const;
+
+ private:
+  Frame frame_;
+  std::vector<Vec3> rim_;
+  AnnulusSurface surface_;
+  double area_, low_v_, width_, depth_;
+  std::array<double, across> u_, v_;
+  std::vector<double> heights_;
+  std::vector<uint8_t> inside_;
+};
+
+// The map of an annulus, from any thread. The process keeps those of the last few annuli, as an
+// annulus stands while its valve is closed and operated on; a kept map has the bits of a new one.
+std::shared_ptr<const AnnulusMap> annulus_map(const Frame &frame, const std::vector<Vec3> &rim);
+
+}  // namespace mvs::core

@@ -1,0 +1,159 @@
+// Measures as functions of the positions: central differences over six decades of the step agree.
+// A yes-or-no test of a sample, or a count, would show as a jump in one of them.
+#include <doctest/doctest.h>
+#include <mvs/sim.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "anatomy/parametric.h"
+#include "measure/annulus/annulus.h"
+#include "measure/coaptation/coaptation.h"
+#include "measure/tenting/tenting_billow.h"
+#include "solve/solver.h"
+#include "tests/measure/shapes.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+struct Shape {
+  ModelPtr model;
+  std::vector<Vec3> x;
+};
+
+// A smooth field of vectors up to about 2, without any symmetry of the valve.
+Vec3 field(const Vec3 &p, double wave, int number) {
+  const double n = number;
+  const Vec3 q = wave * p + Vec3(0.3 * n, 0.7 * n, 1.1 * n);
+  return Vec3(std::sin(q[1] + 1.3 * n), std::sin(q[2] + 2.1 * n), std::sin(q[0] + 0.7 * n)) +
+         30 * Vec3(p[0] + 0.5 * p[1], p[1] - 0.3 * p[0], p[2] + 0.2 * p[0]);
+}
+
+// A closed valve, moved by up to 0.1 mm: the symmetry of the parametric one makes kinks, as both
+// halves are equally high.
+Shape closed_valve(double annulus_scale) {
+  mvs_parametric_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.annulus_scale = annulus_scale;
+  Shape shape;
+  shape.model = make_model(make_parametric_valve(desc));
+  State state = initial_state(*shape.model);
+  state.load = {120 * 133.322, 1};
+  Solver(Backend::fastest).settle(*shape.model, state, {}, nullptr);
+  shape.x = moved(state.x, [](const Vec3 &p) -> Vec3 { return p + 5e-5 * field(p, 150, 11); });
+  return shape;
+}
+
+// Six decades; and those below the distance of about 1 um between kinks of a largest or smallest
+// value (of 100 places, of 5 sections and their pieces) and of the ends of a line. Below 1e-12 m
+// rounding begins.
+const std::vector<double> six_decades = {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
+const std::vector<double> between_kinks = {1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+
+using Measured = std::vector<double>;
+
+Measured coaptation_area(const Model &model, const std::vector<Vec3> &x) {
+  return {measure_coaptation(model, x).area};
+}
+
+Measured lengths_of_coaptation(const Model &model, const std::vector<Vec3> &x) {
+  const Coaptation c = measure_coaptation(model, x);
+  return {c.length_mean, c.length_min, c.length_max, c.height, c.depth};
+}
+
+Measured annulus_of(const Model &model, const std::vector<Vec3> &x) {
+  const AnnulusMeasures a = measure_annulus(model, x);
+  return {a.ap, a.cc, a.perimeter, a.area, a.area_3d, a.saddle_height, a.nonplanar_angle};
+}
+
+Measured billow_of(const Model &model, const std::vector<Vec3> &x) {
+  const TentingBillow t = measure_tenting_billow(model, x);
+  return {t.billow_height};
+}
+
+// Slopes below this share of a measure over 10 mm are judged by it: they are sums that cancel.
+constexpr double least_slope = 0.2;
+constexpr double scale = 10e-3;
+
+void check_differences(
+    const Shape &shape, double wave, int number, const std::vector<double> &steps,
+    const std::function<Measured(const Model &, const std::vector<Vec3> &)> &of) {
+  const auto at = [&](double h) {
+    return of(*shape.model, moved(shape.x, [&](const Vec3 &p) -> Vec3 {
+      return p + h * field(p, wave, number);
+    }));
+  };
+  const Measured still = at(0);
+  Measured low(still.size(), HUGE_VAL), high(still.size(), -HUGE_VAL);
+  for (const double h : steps) {
+    const Measured ahead = at(h), behind = at(-h);
+    for (size_t k = 0; k < still.size(); ++k) {
+      const double slope = (ahead[k] - behind[k]) / (2 * h);
+      low[k] = std::min(low[k], slope);
+      high[k] = std::max(high[k], slope);
+    }
+  }
+  for (size_t k = 0; k < still.size(); ++k) {
+    const double slope =
+        std::max({std::abs(low[k]), std::abs(high[k]), least_slope * std::abs(still[k]) / scale});
+    CAPTURE(number);
+    CAPTURE(k);
+    CAPTURE(low[k]);
+    CAPTURE(high[k]);
+    CHECK(high[k] - low[k] <= 0.01 * slope);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("differences_of_measures_agree_over_decades_of_the_step") {
+  for (const double annulus_scale : {1.0, 1.15}) {  // sealed, leaking
+    const Shape shape = closed_valve(annulus_scale);
+    CHECK(measure_coaptation(*shape.model, shape.x).area > 10e-6);
+    for (int k = 0; k < 3; ++k) {
+      check_differences(shape, 60 + 30 * k, k, six_decades, coaptation_area);
+      check_differences(shape, 60 + 30 * k, k, between_kinks, lengths_of_coaptation);
+    }
+    check_differences(shape, 70, 3, {1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12}, annulus_of);
+    check_differences(shape, 70, 3, {1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12}, billow_of);
+  }
+}
+
+// Largest and smallest values have kinks, but no jumps: differences fall with the step.
+TEST_CASE("extremes_of_coaptation_are_continuous") {
+  for (const double annulus_scale : {1.0, 1.15}) {
+    const Shape shape = closed_valve(annulus_scale);
+    Measured last = lengths_of_coaptation(*shape.model, shape.x);
+    for (int k = 1; k <= 60; ++k) {
+      const Measured next = lengths_of_coaptation(
+          *shape.model,
+          moved(shape.x, [&](const Vec3 &p) -> Vec3 { return p + 1e-6 * k * field(p, 100, 5); }));
+      for (size_t m = 0; m < next.size(); ++m) {
+        CAPTURE(m);
+        CHECK(std::abs(next[m] - last[m]) < 40e-6);  // nodes move by up to 2 um
+      }
+      last = next;
+    }
+  }
+}
+
+// The part of the slope that contact adds: the border of the contact zone moves as leaflets close
+// in. Yes or no per sample has the slope of the sample's area alone, and jumps.
+TEST_CASE("coaptation_area_has_the_slope_of_its_secants") {
+  const Shape shape = closed_valve(1);
+  const auto area = [&](double h) {
+    return measure_coaptation(*shape.model, moved(shape.x,
+                                                  [&](const Vec3 &p) -> Vec3 {
+                                                    return p +
+                                                           h * Vec3(p[0] > 0 ? 1 : -1, 0, 0) *
+                                                               std::min(1.0, std::abs(p[0]) / 4e-3);
+                                                  }))
+        .area;
+  };
+  const double slope = (area(1e-8) - area(-1e-8)) / 2e-8;
+  CHECK(std::abs(slope) > 1e-3);
+  CHECK((area(5e-5) - area(-5e-5)) / 1e-4 == about(slope, 0.05));
+}
