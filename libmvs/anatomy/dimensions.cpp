@@ -51,11 +51,11 @@ Dimensions defaults_of(ParametricShape shape) {
   d.law = LeafletLawId::bilinear;
   d.chords = 100;
   d.branching = true;
-  d.annulus_ap = 26 * mm;
-  d.anterior_height = 25 * mm;
-  d.posterior_height = 14 * mm;
-  d.thickness = 0.8 * mm;
-  d.indentation_depth = 1 * mm;
+  d.annulus_ap = 26e-3;
+  d.anterior_height = 25e-3;
+  d.posterior_height = 14e-3;
+  d.thickness = 0.8e-3;
+  d.indentation_depth = 1e-3;
   return d;
 }
 
