@@ -168,10 +168,12 @@ static void show(void) {
 }
 
 static void open_valve(void) {
+  const mvs_parametric_desc founding = {.struct_size = sizeof founding,
+                                        .shape = MVS_SHAPE_FOUNDING};
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   must(mvs_create(NULL, &sim));
   must(option.valve ? mvs_load_file(sim, option.valve, MVS_FORMAT_AUTO)
-                    : mvs_generate_valve(sim, NULL));
+                    : mvs_generate_valve(sim, &founding));
   must(mvs_set_load(sim, &systole));
   must(mvs_settle(sim, NULL, NULL));
 }

@@ -89,12 +89,14 @@ static void tie_chord(mvs_id head, double along) {
 }
 
 int main(int argc, char **argv) {
+  const mvs_parametric_desc founding = {.struct_size = sizeof founding,
+                                        .shape = MVS_SHAPE_FOUNDING};
   const mvs_plan_options options = {sizeof options, 1, "examples/repair.c", "valve 1"};
   mvs_id strut[2] = {0, 0}, head[2] = {0, 0};
   const mvs_snapshot *valve;
   double leak, repaired;
   must(mvs_create(NULL, &sim));
-  must(mvs_generate_valve(sim, NULL));
+  must(mvs_generate_valve(sim, &founding));
   find_struts(strut, head);
   close_and_print("healthy");
 

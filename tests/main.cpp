@@ -9,7 +9,7 @@ namespace {
 // Cases that run for minutes under the sanitizers and execute the same code paths as other cases.
 constexpr const char *repeated =
     "the_valve_that_took_febio_107_seconds_closes,"
-    "the_default_valve_closes_competently_at_every_size,"
+    "the_founding_valve_closes_competently_at_every_size,"
     "a_target_edge_length_gives_a_number_of_vertices,"
     "surface_registration_is_a_local_minimum,"
     "fifty_thousand_triangles_are_tested_at_interactive_speed,"

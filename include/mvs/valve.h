@@ -208,13 +208,30 @@ typedef struct mvs_valve_desc {
   double bending_scale;     /* factor on E t^3 / (12 (1 - nu^2)) [1] */
 } mvs_valve_desc;
 
+/* Shape of a parametric valve. Both have the dimensions below; defaults that differ are given as
+ * [healthy; founding]. */
+enum mvs_shape_e {
+  /* Leaflets and chordae derived from one closed shape: seals with every tissue. The default. */
+  MVS_SHAPE_HEALTHY = 1,
+  /* The shape of the founding model (Tenenholtz et al. 2011), made for its springs. */
+  MVS_SHAPE_FOUNDING = 2
+};
+typedef uint32_t mvs_shape;
+
+/* mvs_parametric_desc.branching */
+enum mvs_branching_e {
+  MVS_BRANCHING_TREES = 1,   /* up to three chordae share a trunk from the papillary head */
+  MVS_BRANCHING_STRAIGHT = 2 /* each chord is one segment */
+};
+typedef uint32_t mvs_branching;
+
 /* A parametric mitral valve. Defaults are those of an adult human; sources in
- * libmvs/anatomy/README.md. The fibrous trigones lie at +-38 degrees from the A point. */
+ * libmvs/anatomy/PARAMETRIC.md. The fibrous trigones lie at +-38 degrees from the A point. */
 typedef struct mvs_parametric_desc {
   uint32_t struct_size;
   uint32_t vertices;           /* approximate number of leaflet vertices [425]; 200 to 100000 */
-  uint32_t chords;             /* approximate number of chord segments [80] */
-  uint32_t branching;          /* 1: chordae branch at free nodes [0: straight] */
+  uint32_t chords;             /* approximate number of chord segments [100; 80] */
+  mvs_branching branching;     /* MVS_BRANCHING_* [trees; straight] */
   double annulus_ap;           /* m, septal-lateral diameter */
   double annulus_cc;           /* m, intercommissural diameter */
   double saddle_height;        /* m */
@@ -229,6 +246,8 @@ typedef struct mvs_parametric_desc {
   double chord_slack;       /* factor on all rest lengths [1] */
   double indentation_depth; /* m, of the clefts on either side of P2 */
   double coaptation_depth;  /* m, of the coaptation line below the annulus plane, closed */
+  mvs_shape shape;          /* MVS_SHAPE_* [healthy] */
+  mvs_leaflet_law leaflet_law; /* MVS_LEAFLET_LAW_*, default constants [bilinear; spring] */
 } mvs_parametric_desc;
 
 #ifdef __cplusplus

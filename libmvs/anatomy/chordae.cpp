@@ -41,8 +41,9 @@ void name_commissural(const Shape &shape, double v, Row &row) {
   }
 }
 
-// Returns the rows of one muscle, `count` spots in total: free edge, rough zone, strut, base.
-std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
+// Returns the rows of one muscle of the founding shape, `count` spots in total: free edge, rough
+// zone, strut, base.
+std::vector<Row> founding_rows(const Shape &shape, uint32_t count) {
   const auto part = [&](double share) {
     return std::max(1u, static_cast<uint32_t>(std::lround(share * count)));
   };
@@ -57,6 +58,36 @@ std::vector<Row> plan_rows(const Shape &shape, uint32_t count) {
   name_commissural(shape, 1, rows[0]);
   name_commissural(shape, rough_v, rows[1]);
   return rows;
+}
+
+// The rows of the healthy shape: struts in two rows carry the belly of the anterior leaflet,
+// without which it billows with any soft tissue.
+std::vector<Row> healthy_rows(const Shape &shape, uint32_t count) {
+  const auto part = [&](double share) {
+    return std::max(1u, static_cast<uint32_t>(std::lround(share * count)));
+  };
+  const uint32_t basal = part(0.13), rough = part(0.29), struts = part(0.105);
+  const uint32_t others = basal + rough + 2 * struts, edge = std::max(count, others + 1) - others;
+  constexpr double rough_v = 0.75, strut_v = 0.5, belly_v = 0.25, basal_v = 0.35;
+  constexpr double strut_end = 0.7 * Shape::commissure;
+  std::vector<Row> rows = {
+      even_row(shape, 1, 0, pi, edge, ChordKind::marginal),
+      even_row(shape, rough_v, 0, pi, rough, ChordKind::rough_zone),
+      even_row(shape, strut_v, 0, strut_end, struts, ChordKind::strut),
+      even_row(shape, belly_v, 0, strut_end, struts, ChordKind::strut),
+      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, ChordKind::basal)};
+  name_commissural(shape, 1, rows[0]);
+  name_commissural(shape, rough_v, rows[1]);
+  return rows;
+}
+
+// Returns the rows of one muscle with `segments` chord segments. A tree of three branches has four;
+// the strut of the founding shape is always plain.
+std::vector<Row> plan_rows(const Shape &shape, const Dimensions &d, uint32_t segments) {
+  if (d.shape == ParametricShape::healthy) {
+    return healthy_rows(shape, d.branching ? (3 * segments + 2) / 4 : segments);
+  }
+  return founding_rows(shape, d.branching ? 1 + (3 * (segments - 1) + 2) / 4 : segments);
 }
 
 // Assigns spots to vertices, each vertex once.
@@ -114,12 +145,10 @@ void divide_into_trees(const Tree &run, size_t most, std::vector<Tree> &trees) {
 
 std::vector<Tree> plan_trees(const Shape &shape, const HalfSheet &sheet, const Dimensions &d) {
   const uint32_t segments = (d.chords + 1) / 2;
-  // a tree of three branches has four segments; the strut is always plain
-  const uint32_t spots = d.branching ? 1 + (3 * (segments - 1) + 2) / 4 : segments;
   const std::vector<Vec3> tips = shape.medial_tips();
   Snapper snapper(shape, sheet);
   std::vector<Tree> trees;
-  for (const Row &row : plan_rows(shape, spots)) {
+  for (const Row &row : plan_rows(shape, d, segments)) {
     Tree run;
     for (const Spot &spot : row) {
       const uint32_t vertex = snapper.nearest_free(spot.place);

@@ -4,6 +4,7 @@
 #include <cinttypes>
 
 #include "base/error.h"
+#include "model/law.h"
 
 namespace mvs::core {
 namespace {
@@ -42,6 +43,31 @@ void must_not_exceed(double value, const char *name, double factor, double other
            value / mm, factor, other_name, other / mm);
 }
 
+// Returns the defaults of a shape.
+Dimensions defaults_of(ParametricShape shape) {
+  Dimensions d;
+  if (shape == ParametricShape::founding) return d;
+  d.shape = shape;
+  d.law = LeafletLawId::bilinear;
+  d.chords = 100;
+  d.branching = true;
+  d.annulus_ap = 26e-3;
+  d.anterior_height = 25e-3;
+  d.posterior_height = 14e-3;
+  d.thickness = 0.8e-3;
+  d.indentation_depth = 1e-3;
+  return d;
+}
+
+ParametricShape shape_of(const mvs_parametric_desc &desc) {
+  MVS_MUST(desc.shape <= MVS_SHAPE_FOUNDING, MVS_E_ARGUMENT, "shape",
+           "parametric valve: shape is %" PRIu32
+           ", it must be 1 (healthy) or 2 (founding), or 0 "
+           "for healthy",
+           desc.shape);
+  return desc.shape == 0 ? ParametricShape::healthy : static_cast<ParametricShape>(desc.shape);
+}
+
 // Checks combinations of dimensions.
 void check_together(const Dimensions &d) {
   must_not_exceed(d.annulus_ap, "annulus_ap", 1.2, d.annulus_cc, "annulus_cc");
@@ -58,13 +84,23 @@ void check_together(const Dimensions &d) {
 }  // namespace
 
 Dimensions resolve_dimensions(const mvs_parametric_desc &desc) {
-  Dimensions d;
+  Dimensions d = defaults_of(shape_of(desc));
+  MVS_MUST(desc.leaflet_law == 0 ||
+               find_leaflet_law(static_cast<LeafletLawId>(desc.leaflet_law)) != nullptr,
+           MVS_E_ARGUMENT, "leaflet_law",
+           "parametric valve: leaflet_law is %" PRIu32
+           ", it must be a number of "
+           "MVS_LEAFLET_LAW_*, or 0 for the default of the shape",
+           desc.leaflet_law);
+  if (desc.leaflet_law != 0) d.law = static_cast<LeafletLawId>(desc.leaflet_law);
   take_count(d.vertices, desc.vertices, 200, 100000, "vertices");
   take_count(d.chords, desc.chords, 20, 400, "chords");
-  MVS_MUST(desc.branching <= 1, MVS_E_ARGUMENT, "branching",
-           "parametric valve: branching is %" PRIu32 ", it must be 0 (straight) or 1 (branching)",
+  MVS_MUST(desc.branching <= MVS_BRANCHING_STRAIGHT, MVS_E_ARGUMENT, "branching",
+           "parametric valve: branching is %" PRIu32
+           ", it must be 1 (trees) or 2 (straight), or 0 "
+           "for the default of the shape",
            desc.branching);
-  d.branching = desc.branching == 1;
+  if (desc.branching != 0) d.branching = desc.branching == MVS_BRANCHING_TREES;
   take_length(d.annulus_ap, desc.annulus_ap, 10 * mm, 60 * mm, "annulus_ap");
   take_length(d.annulus_cc, desc.annulus_cc, 10 * mm, 70 * mm, "annulus_cc");
   take_length(d.saddle_height, desc.saddle_height, 0.01 * mm, 15 * mm, "saddle_height");

@@ -5,13 +5,22 @@
 
 #include <cstdint>
 
+#include "model/kinds.h"
+
 namespace mvs::core {
 
 inline constexpr double mm = 1e-3;  // m
 
-// mvs_parametric_desc with defaults in place of zeros; lengths in m. Sources: PARAMETRIC.md of this
-// folder.
+enum class ParametricShape : uint32_t {
+  healthy = MVS_SHAPE_HEALTHY,
+  founding = MVS_SHAPE_FOUNDING
+};
+
+// mvs_parametric_desc with defaults in place of zeros; lengths in m. The values below are those of
+// the founding shape. Sources: PARAMETRIC.md of this folder.
 struct Dimensions {
+  ParametricShape shape = ParametricShape::founding;
+  LeafletLawId law = LeafletLawId::spring;
   uint32_t vertices = 425;
   uint32_t chords = 80;
   bool branching = false;

@@ -8,6 +8,7 @@
 
 #include "anatomy/chordae.h"
 #include "base/error.h"
+#include "model/law.h"
 
 namespace mvs::core {
 namespace {
@@ -15,7 +16,9 @@ namespace {
 // A2 extends to this share of the angle between its middle and a commissure.
 constexpr double a2_share = 0.42;
 // Position of a branch node between papillary tip and leaflet, as a share from the tip.
-constexpr double trunk_share = 0.6;
+double trunk_share(ParametricShape shape) {
+  return shape == ParametricShape::founding ? 0.6 : 0.4;
+}
 
 enum ScallopIndex : uint32_t { a1, a2, a3, p1, p2, p3 };
 
@@ -50,6 +53,8 @@ void name_parts(const Dimensions &d, Valve &valve) {
   for (const char *name : {"A", "P"}) {
     Leaflet leaflet;
     leaflet.name = name;
+    leaflet.law = d.law;
+    leaflet.constants = default_constants(find_leaflet_law(d.law)->constants);
     leaflet.thickness = d.thickness;
     valve.leaflets.push_back(leaflet);
   }
@@ -112,13 +117,19 @@ struct ChordBuilder {
   Valve &valve;
   std::array<int, 6> &number;
 
-  void add(uint32_t a, uint32_t b, ChordKind kind, double length, const Attachment &at) {
+  // Branches of the healthy shape have the cross-section of a chord, a trunk has that of its
+  // branches.
+  void add(uint32_t a, uint32_t b, ChordKind kind, double length, const Attachment &at,
+           size_t branches = 1) {
     const uint32_t scallop = scallop_at(halves.sheet.place[at.vertex].theta, medial);
     Chord chord;
     chord.a = a;
     chord.b = b;
     chord.kind = kind;
     chord.rest_length = halves.dimensions.chord_slack * length;
+    if (halves.dimensions.shape == ParametricShape::healthy) {
+      chord.area *= static_cast<double>(branches);
+    }
     chord.name = format("%s/%d", valve.scallops.get()[scallop].name.c_str(), ++number[scallop]);
     valve.chords.push_back(chord);
   }
@@ -139,12 +150,13 @@ void add_tree(const Tree &tree, uint32_t first_head, ChordBuilder &builder) {
       mean_open += halves.sheet.x[a.vertex] / static_cast<double>(tree.size());
       mean_closed += closed(a) / static_cast<double>(tree.size());
     }
-    const Vec3 node = tip + trunk_share * (mean_open - tip);
-    from_closed = tip + trunk_share * (mean_closed - tip);
+    const double share = trunk_share(halves.dimensions.shape);
+    const Vec3 node = tip + share * (mean_open - tip);
+    from_closed = tip + share * (mean_closed - tip);
     const uint32_t trunk_end = count_of(valve.rest);
     valve.rest.push_back(on_half(node, medial));
     builder.add(from, trunk_end, ChordKind::trunk, (from_closed - tip).norm(),
-                tree[tree.size() / 2]);
+                tree[tree.size() / 2], tree.size());
     from = trunk_end;
   }
   for (const Attachment &a : tree) {

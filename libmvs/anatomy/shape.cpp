@@ -23,11 +23,12 @@ constexpr double tilt_edge = 0.05;
 constexpr double inward_pull = 0.8;
 // Largest sum of both leans as a share of the AP diameter, so that the open orifice stays open.
 constexpr double greatest_lean = 0.65;
-// Position of the coaptation line from posterior to anterior annulus, and its width, as shares.
+// Position of the coaptation line of the founding shape from posterior to anterior annulus.
 constexpr double coaptation_share = 0.4;
-constexpr double coaptation_span = 0.86;
-// Length of a loaded leaflet over its rest length: slightly below the kink of its law.
-constexpr double closed_stretch = 1.15;
+// Lean of the open leaflets of the healthy shape: share of the way to the coaptation line, and sine
+// of the largest mean tilt.
+constexpr double open_lean = 0.45;
+constexpr double greatest_tilt = 0.8;
 
 double square(double a) {
   return a * a;
@@ -42,6 +43,20 @@ std::array<double, 2> generator(double a, double b, double v) {
 
 }  // namespace
 
+// The closed target: width of the coaptation line as a share of the annulus, length of a loaded
+// leaflet over its rest length, sag of the belly below the straight line as a share of its length.
+struct Shape::Closed {
+  double span, stretch, sag;
+};
+
+const Shape::Closed &Shape::target() const {
+  // Founding: slightly below the kink of its law. Healthy: what the stiffest tissues stretch by at
+  // 120 mmHg, so that they seal; its line ends near the commissures, where the leaflets fold; the
+  // sag keeps the bellies of the softest tissues, which stretch by 60 %, below 2 mm of billow.
+  static constexpr Closed founding = {0.86, 1.15, 0}, healthy_target = {0.95, 1.1, 0.07};
+  return healthy() ? healthy_target : founding;
+}
+
 Shape::Shape(const Dimensions &dimensions) : d_(dimensions) {
   constexpr int samples = 720;
   double length = 0;
@@ -53,6 +68,8 @@ Shape::Shape(const Dimensions &dimensions) : d_(dimensions) {
   }
   centroid_ = sum / length;
   centroid_.x() = 0;
+  share_ = healthy() ? balanced_share() : coaptation_share;
+  if (healthy()) return;
   const double lean = generator(tilt_annulus, tilt_edge, 1)[0] * (height(0) + height(pi));
   tilt_scale_ = std::min(1.0, greatest_lean * d_.annulus_ap / lean);
 }
@@ -69,17 +86,30 @@ Vec3 Shape::annulus(double theta) const {
 }
 
 double Shape::height(double theta) const {
-  const double angle = std::abs(theta), base = d_.commissure_height;
+  const double angle = std::abs(theta);
+  return healthy() ? healthy_height(angle) : founding_height(angle);
+}
+
+Vec3 Shape::open(const Place &place) const {
+  return healthy() ? healthy_open(place) : founding_open(place);
+}
+
+// Depth of the clefts at t, 0 at the P point and 1 at a commissure.
+double Shape::cleft_dip(double t) const {
+  return d_.indentation_depth * math::exp(-square((t - cleft) / cleft_width));
+}
+
+double Shape::founding_height(double angle) const {
+  const double base = d_.commissure_height;
   if (angle < commissure) {
     const double s = angle / commissure;
     return base + (d_.anterior_height - base) * square(1 - s * s * s);
   }
   const double t = (pi - angle) / (pi - commissure);
-  const double dip = d_.indentation_depth * math::exp(-square((t - cleft) / cleft_width));
-  return base + (d_.posterior_height - base) * square(1 - square(square(t))) - dip;
+  return base + (d_.posterior_height - base) * square(1 - square(square(t))) - cleft_dip(t);
 }
 
-Vec3 Shape::open(const Place &place) const {
+Vec3 Shape::founding_open(const Place &place) const {
   const Vec3 base = annulus(place.theta);
   Vec3 inward = coaptation(place.theta) - base;
   inward.x() = -inward_pull * base.x();
@@ -92,17 +122,66 @@ Vec3 Shape::open(const Place &place) const {
 
 Vec3 Shape::coaptation(double theta) const {
   const double s = math::sin(theta), c = std::abs(math::cos(theta));
-  const double y = 0.5 * d_.annulus_ap * (flatness * s * s + (2 * coaptation_share - 1) * c);
-  return {coaptation_span * 0.5 * d_.annulus_cc * s, y - centroid_.y(), -d_.coaptation_depth};
+  const double y = 0.5 * d_.annulus_ap * (flatness * s * s + (2 * share_ - 1) * c);
+  return {target().span * 0.5 * d_.annulus_cc * s, y - centroid_.y(), -d_.coaptation_depth};
 }
 
 Vec3 Shape::closed(const Place &place) const {
   const Vec3 base = d_.annulus_contraction * annulus(place.theta);
   const Vec3 line = coaptation(place.theta);
-  const double run = closed_stretch * height(place.theta) * place.v;
+  const double run = target().stretch * height(place.theta) * place.v;
   const double reach = (line - base).norm();
-  if (run < reach) return base + run / reach * (line - base);
-  return line - Vec3(0, 0, run - reach);
+  if (run >= reach) return line - Vec3(0, 0, run - reach);
+  const double u = run / reach;
+  const Vec3 straight = base + u * (line - base);
+  return healthy() ? Vec3(straight - Vec3(0, 0, target().sag * reach * 4 * u * (1 - u))) : straight;
+}
+
+double Shape::reach(double theta) const {
+  return (coaptation(theta) - annulus(theta)).norm();
+}
+
+double Shape::balanced_share() const {
+  Shape trial = *this;
+  double low = 0.1, high = 0.5;
+  for (int i = 0; i < 50; ++i) {
+    trial.share_ = 0.5 * (low + high);
+    const double anterior = target().stretch * d_.anterior_height - trial.reach(0);
+    const double posterior = target().stretch * d_.posterior_height - trial.reach(pi);
+    (anterior < posterior ? low : high) = trial.share_;
+  }
+  return 0.5 * (low + high);
+}
+
+// The heights at A2, P2 and the commissures are given; in between the overlap of the stretched
+// leaflet beyond the coaptation line goes from one to the other as cos^2, so that the free edges of
+// both leaflets meet all along the line.
+double Shape::healthy_height(double angle) const {
+  const bool anterior = angle < commissure;
+  const double middle = anterior ? d_.anterior_height : d_.posterior_height;
+  const double w = square(math::cos(angle)), s = target().stretch;
+  const double between = (1 - w) * d_.commissure_height + w * middle;
+  const double chord = (1 - w) * reach(commissure) + w * reach(anterior ? 0 : pi);
+  // at most 30 %, for combinations of dimensions far from any anatomy
+  const double more = std::clamp((reach(angle) - chord) / s, -0.3 * between, 0.3 * between);
+  return between + more - (anterior ? 0 : cleft_dip((pi - angle) / (pi - commissure)));
+}
+
+// An arc that hangs vertically at the free edge and leans towards the coaptation line, by the same
+// share of the way everywhere: the open orifice is that line, widened, and ends in points at the
+// commissures, where the leaflets have to fold.
+Vec3 Shape::healthy_open(const Place &place) const {
+  const Vec3 base = annulus(place.theta);
+  Vec3 way = coaptation(place.theta) - base;
+  way.z() = 0;
+  const double h = height(place.theta), distance = way.norm();
+  const double lean = std::min(open_lean * distance / h, greatest_tilt);
+  // the tilt goes evenly from 2 m at the annulus to 0, m on average
+  const double m = math::atan2(lean, std::sqrt(1 - lean * lean));
+  const double half = m * place.v, tilt = 2 * m - half;
+  const double length = h * place.v * (half < 1e-4 ? 1 - half * half / 6 : math::sin(half) / half);
+  const Vec3 inward = distance > 0 ? Vec3(way / distance) : Vec3::Zero();
+  return base + length * math::sin(tilt) * inward - Vec3(0, 0, length * math::cos(tilt));
 }
 
 std::vector<Vec3> Shape::medial_tips() const {

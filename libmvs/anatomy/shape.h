@@ -29,18 +29,32 @@ class Shape {
   static double cleft_theta();
 
   Vec3 annulus(double theta) const;
-  double height(double theta) const;  // from annulus to free edge along the leaflet
+  // From annulus to free edge along the leaflet.
+  double height(double theta) const;
   Vec3 open(const Place &place) const;
-  // Target position in the closed valve: on the straight line from the contracted annulus to the
-  // coaptation line, and vertically below that line.
+  // Target position in the closed valve: from the contracted annulus to the coaptation line, in the
+  // founding shape straight, in the healthy one sagging; and vertically below that line.
   Vec3 closed(const Place &place) const;
   // The tips of the posteromedial papillary muscle, anterior one first.
   std::vector<Vec3> medial_tips() const;
 
  private:
+  struct Closed;
+  bool healthy() const { return d_.shape == ParametricShape::healthy; }
+  const Closed &target() const;
   Vec3 coaptation(double theta) const;
+  // Distance from the annulus to the coaptation line.
+  double reach(double theta) const;
+  double cleft_dip(double t) const;
+  double founding_height(double angle) const;
+  double healthy_height(double angle) const;
+  Vec3 founding_open(const Place &place) const;
+  Vec3 healthy_open(const Place &place) const;
+  // The share at which both leaflets overlap by the same length at A2 and P2.
+  double balanced_share() const;
 
   Dimensions d_;
+  double share_ = 0;  // position of the coaptation line from posterior to anterior annulus
   Vec3 centroid_ = Vec3::Zero();
   double tilt_scale_ = 1;
 };

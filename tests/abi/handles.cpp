@@ -3,6 +3,8 @@
 #include <mvs/mvs.hpp>
 #include <type_traits>
 
+#include "tests/founding.h"
+
 namespace {
 
 int failures = 0;
@@ -17,7 +19,7 @@ void handles_move_and_snapshots_are_shared() {
   static_assert(!std::is_copy_constructible<mvs::Simulator>::value, "one owner");
   static_assert(std::is_nothrow_move_constructible<mvs::Simulator>::value, "moves");
   mvs::Simulator first;
-  first.generate();
+  first.generate(founding_valve());
   mvs::Simulator sim = std::move(first);
   const mvs::Snapshot one = sim.snapshot();
   mvs::Snapshot two = one, three = std::move(two);
@@ -39,7 +41,7 @@ void failures_are_thrown_with_code_and_part() {
 
 void views_know_their_type() {
   mvs::Simulator sim;
-  sim.generate();
+  sim.generate(founding_valve());
   const mvs::Snapshot snapshot = sim.snapshot();
   const mvs::View<double> x = snapshot.view<double>(MVS_ARRAY_NODE_POSITION);
   check(x.rows() > 0 && x.components() == 3, "positions are rows of three");
@@ -57,7 +59,7 @@ void views_know_their_type() {
 
 void tools_are_added_moved_told_and_removed() {
   mvs::Simulator sim;
-  sim.generate();
+  sim.generate(founding_valve());
   mvs_tool_desc ball = {};
   ball.kind = MVS_TOOL_KIND_BALL;
   ball.position[2] = 0.05;
@@ -101,7 +103,7 @@ void devices_are_found_opened_and_turned() {
     std::uint64_t lost = 0;
     check(device.take_samples(lost).size() == 10 && lost == 0, "ticks");
     mvs::Simulator sim;
-    sim.generate();
+    sim.generate(founding_valve());
     check(device.sync(sim.get()).tool == 0, "an empty hand");
     device.cut();
     device.advance(0.001);
@@ -112,7 +114,7 @@ void devices_are_found_opened_and_turned() {
 
 void a_valve_is_worked_on_from_load_to_file() {
   mvs::Simulator sim;
-  sim.generate();
+  sim.generate(founding_valve());
   const mvs::Snapshot open = sim.snapshot();
   sim.set_load(100, 0.5);
   check(sim.load().pressure == 100, "the load is read back");
@@ -145,7 +147,7 @@ void a_valve_is_worked_on_from_load_to_file() {
 
 void operations_are_applied_undone_and_listed() {
   mvs::Simulator sim;
-  sim.generate();
+  sim.generate(founding_valve());
   const mvs::Snapshot open = sim.snapshot();
   mvs_op_chord_length shorter = {};
   shorter.chord = open.find(MVS_PART_CHORD, "P2/3").id;

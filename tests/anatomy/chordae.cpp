@@ -14,6 +14,7 @@ namespace {
 
 mvs_parametric_desc described(uint32_t vertices, uint32_t chords, uint32_t branching) {
   mvs_parametric_desc desc{};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   desc.chords = chords;

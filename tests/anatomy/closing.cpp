@@ -1,4 +1,4 @@
-// The parametric valve under systolic pressure: competent by default, leaking when dilated.
+// The founding shape under systolic pressure: competent by default, leaking when dilated.
 #include <algorithm>
 
 #include <doctest/doctest.h>
@@ -32,6 +32,7 @@ Closed close(const Valve &valve) {
 
 mvs_parametric_desc sized(uint32_t vertices) {
   mvs_parametric_desc desc{};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   return desc;
@@ -50,7 +51,7 @@ double largest_edge_strain(const Closed &closed) {
 
 }  // namespace
 
-TEST_CASE("the_default_valve_closes_competently_at_every_size") {
+TEST_CASE("the_founding_valve_closes_competently_at_every_size") {
   for (uint32_t vertices : {200u, 425u, 1700u}) {
     CAPTURE(vertices);
     const Closed closed = close(make_parametric_valve(sized(vertices)));

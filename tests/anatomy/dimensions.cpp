@@ -80,12 +80,21 @@ TEST_CASE("counts_out_of_range_are_named") {
     CHECK(error_of(desc).part == "chords");
   }
   mvs_parametric_desc desc{};
-  desc.branching = 2;
+  desc.branching = 3;
   CHECK(error_of(desc).part == "branching");
   desc.branching = 0;
   desc.vertices = 200;
   desc.chords = 400;
   CHECK(error_of(desc).part == "chords");
+}
+
+TEST_CASE("an_unknown_shape_or_law_is_named") {
+  mvs_parametric_desc desc{};
+  desc.shape = 3;
+  CHECK(error_of(desc).part == "shape");
+  desc.shape = 0;
+  desc.leaflet_law = 7;
+  CHECK(error_of(desc).part == "leaflet_law");
 }
 
 TEST_CASE("dimensions_that_contradict_each_other_are_named") {

@@ -29,6 +29,7 @@ struct Named {
 
 inline ModelPtr parametric(uint32_t vertices, uint32_t branching = 0) {
   mvs_parametric_desc desc{};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   desc.branching = branching;
@@ -38,6 +39,7 @@ inline ModelPtr parametric(uint32_t vertices, uint32_t branching = 0) {
 // A dilated valve with tall leaflets and a boundary that moves under load.
 inline ModelPtr dilated() {
   mvs_parametric_desc desc{};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 900;
   desc.annulus_ap = 0.033;

@@ -10,6 +10,7 @@
 #include "anatomy/parametric.h"
 #include "anatomy/shape.h"
 #include "geometry/intersect.h"
+#include "tests/founding.h"
 
 using namespace mvs::core;
 
@@ -17,6 +18,7 @@ namespace {
 
 mvs_parametric_desc sized(uint32_t vertices) {
   mvs_parametric_desc desc{};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   return desc;
@@ -100,7 +102,7 @@ TEST_CASE("every_requested_size_is_met_within_five_percent_by_well_shaped_triang
 }
 
 TEST_CASE("edge_lengths_are_nearly_uniform") {
-  const Valve valve = make_parametric_valve({});
+  const Valve valve = make_parametric_valve(founding_valve());
   std::vector<double> lengths;
   for (const auto &[edge, uses] : edge_uses(valve)) {
     lengths.push_back((valve.rest[edge[0]] - valve.rest[edge[1]]).norm());
@@ -136,7 +138,7 @@ TEST_CASE("the_open_sheet_does_not_cross_itself") {
 }
 
 TEST_CASE("normals_point_into_the_funnel") {
-  const Valve valve = make_parametric_valve({});
+  const Valve valve = make_parametric_valve(founding_valve());
   for (const auto &[a, b, c] : valve.triangles) {
     const Vec3 middle = (valve.rest[a] + valve.rest[b] + valve.rest[c]) / 3;
     const Vec3 normal = (valve.rest[b] - valve.rest[a]).cross(valve.rest[c] - valve.rest[a]);
@@ -178,12 +180,12 @@ TEST_CASE("dimensions_are_the_requested_ones") {
   }
 }
 
-TEST_CASE("the_default_is_an_adult_valve") {
-  const Dimensions d = resolve_dimensions({});
+TEST_CASE("the_founding_shape_is_an_adult_valve") {
+  const Dimensions d = resolve_dimensions(founding_valve());
   const Shape shape(d);
   const double annulus =
       0.25 * M_PI * d.annulus_ap * d.annulus_cc;  // an ellipse's; a D has the same
-  const double ratio = area(make_parametric_valve({})) / annulus;
+  const double ratio = area(make_parametric_valve(founding_valve())) / annulus;
   // unloaded tissue: under pressure it stretches by a quarter each way (README)
   CHECK(ratio > 1.4);
   CHECK(ratio < 2.5);
@@ -208,7 +210,7 @@ TEST_CASE("refinement_converges_to_one_surface") {
 }
 
 TEST_CASE("the_two_halves_are_mirror_images_to_the_last_bit") {
-  const Valve valve = make_parametric_valve({});
+  const Valve valve = make_parametric_valve(founding_valve());
   std::set<std::array<double, 3>> places;
   for (const Vec3 &x : valve.rest) places.insert({x.x(), x.y(), x.z()});
   for (const Vec3 &x : valve.rest) {

@@ -157,7 +157,8 @@ static void the_orient_flag_turns_a_flipped_valve(void) {
 static void each_chord_is_described(void) {
   mvs_sim *sim;
   const mvs_snapshot *closed;
-  mvs_parametric_desc shape = {.struct_size = sizeof shape, .branching = 1};
+  mvs_parametric_desc shape = {
+      .struct_size = sizeof shape, .branching = 1, .shape = MVS_SHAPE_FOUNDING};
   mvs_load_case load = {.struct_size = sizeof load, .pressure = 16e3, .boundary_fraction = 1};
   mvs_settle_options few = {.struct_size = sizeof few, .max_iterations = 20};
   MUST(mvs_create(NULL, &sim));

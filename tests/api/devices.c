@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "tests/founding.h"
 
 #define TRAJECTORIES MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/"
 
@@ -135,7 +136,8 @@ static void an_undo_while_something_is_held_lets_it_go(void) {
 }
 
 static void another_valve_under_the_hand_is_another_hand(void) {
-  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  mvs_parametric_desc small = {
+      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
   mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   turn_until(device, MVS_EVENT_GRASPED, 400);
   MUST(mvs_generate_valve(sim, &small));
@@ -373,7 +375,7 @@ static void drivers_are_listed_and_looked_at(void) {
 int main(void) {
   mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   MUST(mvs_create(NULL, &sim));
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, NULL));
   closed = present();

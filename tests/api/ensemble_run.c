@@ -10,7 +10,10 @@ static const mvs_load_case systole = {sizeof(mvs_load_case), 0, MVS_SYSTOLE_PA, 
 /* The default valve, coarse, and half as thick so that it can fold in several ways. */
 static mvs_sim *thin_valve(void) {
   mvs_sim *sim = NULL;
-  mvs_parametric_desc desc = {.struct_size = sizeof desc, .vertices = 250, .thickness = 0.5e-3};
+  mvs_parametric_desc desc = {.struct_size = sizeof desc,
+                              .vertices = 250,
+                              .thickness = 0.5e-3,
+                              .shape = MVS_SHAPE_FOUNDING};
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_generate_valve(sim, &desc));
   return sim;

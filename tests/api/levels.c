@@ -20,6 +20,7 @@ static mvs_view view(const mvs_snapshot *snapshot, uint32_t which) {
 
 static void start(void) {
   mvs_parametric_desc desc = {0};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 300;
   MUST(mvs_generate_valve(sim, &desc));

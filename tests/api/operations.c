@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "tests/founding.h"
 
 static mvs_sim *sim;
 
@@ -36,7 +37,7 @@ static mvs_site on_scallop(const char *name, double along, double height) {
 }
 
 static void new_valve(void) {
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
 }
 
 static void close_a_bit(void) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "tests/founding.h"
 
 static char path[64]; /* path of the open journal */
 static mvs_id named(mvs_sim *sim, uint32_t kind, const char *name) {
@@ -18,7 +19,8 @@ static mvs_id named(mvs_sim *sim, uint32_t kind, const char *name) {
 
 static mvs_sim *new_valve(uint32_t vertices) {
   mvs_sim *sim = NULL;
-  mvs_parametric_desc desc = {.struct_size = sizeof desc, .vertices = vertices};
+  mvs_parametric_desc desc = {
+      .struct_size = sizeof desc, .vertices = vertices, .shape = MVS_SHAPE_FOUNDING};
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_generate_valve(sim, &desc));
   return sim;
@@ -217,7 +219,7 @@ static void a_cancelled_replay_changes_nothing(void) {
   mvs_sim *sim = NULL, *undisturbed = new_valve(0);
   uint64_t size = 0;
   MUST(mvs_create(&desc, &sim));
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   MUST(mvs_step(sim, NULL));
   MUST(mvs_step(undisturbed, NULL));
   char *before = plan_of(sim, &size);

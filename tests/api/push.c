@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "check.h"
+#include "tests/founding.h"
 
 static mvs_sim *sim;
 static const mvs_snapshot *closed;
@@ -15,7 +16,7 @@ typedef struct push {
 
 static void close_valve(void) {
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, NULL));
   MUST(mvs_get_snapshot(sim, &closed));

@@ -1,6 +1,7 @@
 /* A call that changes a stepped valve prepares the solver in that call, not in the next step,
  * without changing any bit. */
 #include "check.h"
+#include "tests/founding.h"
 
 static mvs_sim *sim;
 static const mvs_snapshot *closed;
@@ -63,7 +64,7 @@ static void the_next_step_makes_no_factor(void (*change)(void)) {
 int main(void) {
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   MUST(mvs_create(NULL, &sim));
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, NULL));
   MUST(mvs_get_snapshot(sim, &closed));

@@ -8,7 +8,8 @@ enum { steps_before = 25, steps_after = 15 };
 
 static mvs_sim *closing_sim(uint32_t solver) {
   mvs_sim *sim = NULL;
-  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  mvs_parametric_desc small = {
+      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
   mvs_load_case load = {
       .struct_size = sizeof load, .pressure = MVS_SYSTOLE_PA, .boundary_fraction = 1};
   mvs_step_options how = {.struct_size = sizeof how, .solver = solver};

@@ -3,6 +3,7 @@
 
 #include "check.h"
 #include "funnel.h"
+#include "tests/founding.h"
 
 static mvs_sim *sim;
 
@@ -155,7 +156,7 @@ static void tissue_that_yields_without_end_is_refused(void) {
   CHECK(same_hash(before, sim_hash(sim)) && !at_rest());
   /* the law's own constants bear systolic pressure */
   memset(soft.constants, 0, sizeof soft.constants);
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   MUST(mvs_set_leaflet(sim, 0, &soft));
   MUST(mvs_set_load(sim, &systole));
   CHECK(settle_at_most(0).converged == 1);

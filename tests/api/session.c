@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "tests/founding.h"
 
 static mvs_sim *sim;
 
@@ -56,7 +57,8 @@ static void steps(mvs_sim *of, uint32_t solver, int count) {
 
 /* A moving valve with four operations in its history, the last one undone. */
 static void make_session(uint32_t solver) {
-  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  mvs_parametric_desc small = {
+      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
   mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   MUST(mvs_generate_valve(sim, &small));
   mvs_op_chord_length shorter = {
@@ -144,7 +146,7 @@ static void a_session_goes_through_paths(void) {
     const mvs_snapshot *snapshot = present(sim);
     const hash128 before = sim_hash(sim);
     MUST(mvs_save_file(snapshot, paths[k], MVS_FORMAT_AUTO));
-    MUST(mvs_generate_valve(sim, NULL));
+    MUST(generate_founding(sim));
     MUST(mvs_load_file(sim, paths[k], MVS_FORMAT_AUTO));
     CHECK(same_hash(before, sim_hash(sim)));
     MUST(mvs_undo(sim));
@@ -171,7 +173,7 @@ static void a_spoilt_file_changes_nothing(void) {
 
 static void without_hdf5_it_says_so(void) {
   uint64_t size = 0;
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   const mvs_snapshot *snapshot = present(sim);
   MUST_FAIL(mvs_save_memory(snapshot, MVS_FORMAT_H5, NULL, 0, &size), MVS_E_UNSUPPORTED,
             "built without HDF5");

@@ -66,7 +66,8 @@ static void slices_have_the_bits_of_one_call(void) {
 
 /* Closed over coarser meshes, and pushed by a ball, whose point is a node of the solver. */
 static void slices_of_a_fine_valve_have_the_bits_of_one_call(void) {
-  mvs_parametric_desc shape = {.struct_size = sizeof shape, .vertices = 1300};
+  mvs_parametric_desc shape = {
+      .struct_size = sizeof shape, .vertices = 1300, .shape = MVS_SHAPE_FOUNDING};
   mvs_load_case load = {.struct_size = sizeof load, .pressure = 16e3, .boundary_fraction = 1};
   hash128 closed[2], pushed[2];
   for (int k = 0; k < 2; ++k) {

@@ -21,6 +21,7 @@ static const void *data_of(const mvs_snapshot *snapshot, uint32_t which) {
 
 static void start(void) {
   mvs_parametric_desc desc = {0};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 250;
   MUST(mvs_generate_valve(sim, &desc));

@@ -20,7 +20,8 @@ static void steps(mvs_sim *of, int count) {
 
 /* A small valve under some load; the first vertex of its free edge in *node, its place in at. */
 static void start(uint32_t *node, double at[3]) {
-  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  mvs_parametric_desc small = {
+      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
   mvs_load_case load = {sizeof load, 0, 2000, 0.2};
   mvs_view edge, x;
   MUST(mvs_generate_valve(sim, &small));
@@ -238,7 +239,8 @@ static void a_plan_does_with_tools_what_was_done(void) {
   mvs_id tools[2];
   mvs_replay replay = {.struct_size = sizeof replay};
   mvs_op_annulus_scale smaller = {{sizeof smaller, MVS_OP_ANNULUS_SCALE}, 0.97, 0, 0};
-  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  mvs_parametric_desc small = {
+      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
   const double axis[3] = {0, 1, 1}, up[3] = {0, 0, 0.03};
   mvs_tool_desc rod = {.struct_size = sizeof rod, .kind = MVS_TOOL_KIND_ROD};
   mvs_id third = 0;

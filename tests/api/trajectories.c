@@ -6,7 +6,8 @@
 
 static mvs_sim *make_sim(void) {
   mvs_sim *sim = NULL;
-  mvs_parametric_desc small = {.struct_size = sizeof small, .vertices = 200};
+  mvs_parametric_desc small = {
+      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_generate_valve(sim, &small));
   return sim;

@@ -2,6 +2,7 @@
  * not. */
 #include "check.h"
 #include "funnel.h"
+#include "tests/founding.h"
 
 typedef struct host {
   char told[1024]; /* the warnings, concatenated */
@@ -52,7 +53,7 @@ static mvs_result tissue(uint32_t law, double first, double second) {
  * natural chordae (Kunzelman and Cochran 1990: 10 to 130 MPa). */
 static void what_tissue_is_like_is_not_warned_of(void) {
   mvs_law law = {.struct_size = sizeof law};
-  WARNS(mvs_generate_valve(sim, NULL), 0, "");
+  WARNS(generate_founding(sim), 0, "");
   for (uint32_t k = 0; k < mvs_get_leaflet_law_count(); ++k) {
     MUST(mvs_get_leaflet_law(k, &law));
     WARNS(tissue(law.number, 0, 0), 0, "");
@@ -75,7 +76,7 @@ static void moduli_in_kpa_are_warned_of(void) {
   CHANGED(f.chords[2].young = 40e9, 1, "as steel wire does");
   CHANGED(f.leaflets[0].constants[0] = 100, 1, "has low modulus 100 Pa, tissue about 100000");
   CHANGED(f.desc.contact_stiffness = 20, 1, "contact stiffness is 20 Pa");
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   WARNS(tissue(MVS_LEAFLET_LAW_PROT, 0.052, 0), 2, "leaflet P has constant c0 0.052 Pa");
   WARNS(tissue(MVS_LEAFLET_LAW_NEO_HOOKEAN, 3000, 0), 2, "over 10 times its length");
   WARNS(tissue(MVS_LEAFLET_LAW_NEO_HOOKEAN, 33e9, 0), 2, "by less than 0.1 %");
@@ -89,14 +90,14 @@ static void lengths_in_other_units_are_warned_of(void) {
 }
 
 static void pressures_in_mmhg_are_warned_of(void) {
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   WARNS(load(120), 1, "a pressure of 120 Pa is 0.9 mmHg: looks like mmHg given as Pa");
   WARNS(load(-25), 1, "-25 mmHg are -3333.05 Pa");
   WARNS(load(120 * 133.322 * 20), 1, "looks like Pa taken for mmHg");
 }
 
 static void pressures_in_kpa_are_warned_of(void) {
-  MUST(mvs_generate_valve(sim, NULL));
+  MUST(generate_founding(sim));
   WARNS(load(16), 1, "a pressure of 16 Pa is 0.12 mmHg: looks like kPa given as Pa; 16 kPa are");
   WARNS(load(-13.33), 1, "-13.33 kPa are -13330 Pa");
   WARNS(load(120 * 133.322 / 900), 0, ""); /* the first of 900 steps of a ramp */

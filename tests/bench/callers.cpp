@@ -12,6 +12,7 @@ namespace {
 mvs::Simulator closed_valve(uint32_t vertices) {
   mvs::Simulator sim;
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.vertices = vertices;
   sim.generate(desc);
   sim.set_load(MVS_SYSTOLE_PA);

@@ -15,6 +15,7 @@ size_t leaflet_vertices(const mvs::Snapshot &valve) {
 
 void make(mvs::Simulator &sim, const Case &of) {
   mvs_parametric_desc valve = {};
+  valve.shape = MVS_SHAPE_FOUNDING;
   valve.vertices = scene_vertices.at(of.scene);
   sim.generate(valve);
   if (of.leaflet == "membrane") {

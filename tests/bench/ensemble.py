@@ -67,7 +67,7 @@ def main():
     print("| " + " | ".join(heads) + " |\n|" + "---|" * len(heads))
     with tempfile.TemporaryDirectory() as folder:
         for title, options in VALVES.items():
-            run("generate", "-o", "valve.obj", *options, cwd=folder)
+            run("generate", "--shape", "founding", "-o", "valve.obj", *options, cwd=folder)
             print(row(title, run("close", "valve.obj", "--members", members, cwd=folder)), flush=True)
 
 

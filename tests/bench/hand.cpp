@@ -67,6 +67,7 @@ void move(mvs::Simulator &sim, const std::vector<Hand> &hands, int step) {
 // Steps with a hand that moves before each, or every fourth.
 bool play(const char *name, size_t count, int every, bool looks, int steps) {
   mvs_parametric_desc small = {};
+  small.shape = MVS_SHAPE_FOUNDING;
   small.vertices = 200;
   mvs::Simulator sim;
   sim.generate(small);

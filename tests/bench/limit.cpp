@@ -43,6 +43,7 @@ struct Unit {
 
 ModelPtr make_scene(const Options &options, const std::string &scene) {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = bench::scene_vertices.at(scene);
   Valve valve = make_parametric_valve(desc);

@@ -138,7 +138,7 @@ def close(opened: mvs.Snapshot, pressure: float,
 def opened_valve(vertices: Optional[int], law: str) -> mvs.Snapshot:
     """The parametric valve, open, of springs or of membranes."""
     with mvs.Simulator() as sim:
-        sim.generate(vertices=vertices)
+        sim.generate(shape="founding", vertices=vertices)
         if law != "spring":
             sim.set_leaflet(law=law)
         return sim.snapshot()

@@ -58,6 +58,7 @@ struct Run {
 
 Valve make_scene(const Scene &scene) {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = bench::scene_vertices.at(scene.size);
   desc.annulus_scale = scene.annulus_scale;

@@ -71,6 +71,7 @@ class Scene {
  public:
   explicit Scene(uint32_t vertices) {
     mvs_parametric_desc valve = {};
+    valve.shape = MVS_SHAPE_FOUNDING;
     valve.struct_size = sizeof valve;
     valve.vertices = vertices;
     mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};

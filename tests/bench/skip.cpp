@@ -46,6 +46,7 @@ void to_membrane(Valve &valve) {
 
 ModelPtr scene(const Options &options, const Change &change) {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = bench::scene_vertices.at(options.scene);
   Valve valve = make_parametric_valve(desc);

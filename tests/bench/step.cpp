@@ -150,6 +150,7 @@ Row run_phase(mvs::Simulator &sim, const Options &options, const std::string &sc
 std::vector<Row> run_scene(const Options &options, const std::string &scene) {
   mvs::Simulator sim;
   mvs_parametric_desc valve = {};
+  valve.shape = MVS_SHAPE_FOUNDING;
   valve.vertices = scene_vertices.at(scene);
   sim.generate(valve);
   const std::vector<Phase> phases = bench::play();
@@ -171,6 +172,7 @@ std::vector<Row> run_scene(const Options &options, const std::string &scene) {
 double explicit_step(const std::string &scene) {
   mvs::Simulator sim;
   mvs_parametric_desc valve = {};
+  valve.shape = MVS_SHAPE_FOUNDING;
   valve.vertices = scene_vertices.at(scene);
   sim.generate(valve);
   sim.set_load(MVS_SYSTOLE_PA);

@@ -98,6 +98,7 @@ double fastest(const std::vector<double> &seconds) {
 
 std::deque<Bench> benches(uint32_t vertices) {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   const Valve valve = make_parametric_valve(desc);

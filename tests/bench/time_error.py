@@ -83,8 +83,10 @@ def finest_of(make: Callable[[mvs.Simulator], None], levels: int) -> dict[str, m
 
 
 def shipped(levels: int) -> Subject:
-    """The valve the project ships: 432 vertices, and refined."""
-    make = mvs.Simulator.generate
+    """The founding valve: 432 vertices, and refined."""
+    def make(sim: mvs.Simulator) -> None:
+        sim.generate(shape="founding")
+
     finest = finest_of(make, levels)
     return Subject("shipped", ELEMENTS, lambda law, k: refined(make, law, k), levels,
                    mvs.SYSTOLE_PA, finest, finest["bilinear"])

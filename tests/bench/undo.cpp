@@ -51,6 +51,7 @@ void shorten(mvs::Simulator &sim, const std::vector<mvs_part> &chords, size_t k)
 int main(int argc, char **argv) {
   const int levels = argc > 1 ? std::atoi(argv[1]) : 2000;
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.vertices = 1000;
   mvs::Simulator sim;
   sim.generate(desc);

@@ -6,11 +6,13 @@
 #include <exception>
 #include <mvs/mvs.hpp>
 
+#include "tests/founding.h"
+
 int main(int argc, char **argv) {
   try {
     if (argc != 2) throw std::runtime_error("usage: bench_work FILE");
     mvs::Simulator sim;
-    sim.generate();
+    sim.generate(founding_valve());
     sim.set_load(MVS_SYSTOLE_PA);
     const mvs_stats stats = sim.settle();
     for (int k = 0; k < 5; ++k) sim.step();

@@ -8,7 +8,7 @@ class Chords(Shell):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.ok("generate", "-o", "v.obj", "--chord-factor", "A2/7=0.8")
+        cls.ok("generate", "--shape", "founding", "-o", "v.obj", "--chord-factor", "A2/7=0.8")
         cls.closed = cls.json("close", "v.obj", "-o", "closed.obj")["measures"]
         cls.table = cls.json("chords", "closed.obj")
 

@@ -48,7 +48,7 @@ class Command(Shell):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.ok("generate", "-o", "v.obj")
+        cls.ok("generate", "--shape", "founding", "-o", "v.obj")
         cls.closed = cls.json("close", "v.obj", "-o", "closed.obj")
 
     def fails(self, *arguments):
@@ -68,7 +68,7 @@ class Command(Shell):
 
 class Json(Command):
     def test_every_command_prints_one_object_and_nothing_else(self):
-        for line in (["generate", "-o", "w.obj"], ["info", "v.obj"], ["measure", "v.obj"],
+        for line in (["generate", "--shape", "founding", "-o", "w.obj"], ["info", "v.obj"], ["measure", "v.obj"],
                      ["compare", "v.obj", "closed.obj"], ["convert", "v.obj", "-o", "w.vtp"]):
             done = self.ok(*line, "--json")
             self.assertIsInstance(json.loads(done.stdout), dict, line)
@@ -98,7 +98,7 @@ class Close(Command):
 
     def test_dilated_annulus_leaks(self):
         # annulus dilated by 15 %, one strut chord longer by 25 %
-        self.ok("generate", "-o", "dilated.obj", "--annulus-scale", 1.15,
+        self.ok("generate", "--shape", "founding", "-o", "dilated.obj", "--annulus-scale", 1.15,
                 "--chord-factor", "A2/7=1.25")
         leaking = self.json("close", "dilated.obj")
         self.assertTrue(leaking["converged"])
@@ -148,28 +148,42 @@ class Close(Command):
 class Generate(Command):
     def test_defaults_in_the_help_are_those_of_the_library(self):
         help_text = self.ok("generate", "--help").stdout
-        defaults = re.findall(r"^\s+(--[\w-]+)[^\n\[]*(?:\n\s+[^\n\[-]*)?\[([\d.]+)\]", help_text,
-                              re.M)
+        defaults = re.findall(r"^\s+(--[\w-]+)[^\n\[]*(?:\n\s+[^\n\[-]*)?"
+                              r"\[([\d.]+)(?:; +founding\s+([\d.]+))?\]", help_text, re.M)
         self.assertEqual(len(defaults), 16)
-        words = [word for default in defaults for word in default]
-        self.assertEqual(self.json("generate", "-o", "explicit.obj", *words)["hash"],
-                         self.json("info", "v.obj")["hash"])
+        healthy = [word for option, value, _ in defaults for word in (option, value)]
+        founding = [word for option, value, other in defaults for word in (option, other or value)]
+        self.assertEqual(self.json("generate", "-o", "explicit.obj", *healthy)["hash"],
+                         self.json("generate", "-o", "default.obj")["hash"])
+        self.assertEqual(
+            self.json("generate", "--shape", "founding", "-o", "explicit.obj", *founding)["hash"],
+            self.json("info", "v.obj")["hash"])
+
+    def test_the_membrane_is_the_tissue_of_the_default_valve(self):
+        def tissue(*words):
+            self.json("generate", "-o", "tissue.obj", "--vertices", 200, *words)
+            return self.json("close", "tissue.obj", "--pressure", 0)["leaflet"]
+        self.assertEqual(tissue(), "bilinear")
+        self.assertEqual(tissue("--leaflet", "membrane"), "bilinear")
+        self.assertEqual(tissue("--leaflet", "spring"), "spring")
+        self.assertEqual(tissue("--shape", "founding"), "spring")
+        self.assertEqual(tissue("--shape", "founding", "--leaflet", "fung"), "fung")
 
     def test_a_factor_of_one_on_a_chord_changes_no_bit(self):
         name = "P2/1"
-        same = self.json("generate", "-o", "same.obj", "--chord-factor", name + "=1")
+        same = self.json("generate", "--shape", "founding", "-o", "same.obj", "--chord-factor", name + "=1")
         self.assertEqual(same["hash"], self.json("info", "v.obj")["hash"])
 
     def test_a_longer_chord_is_the_only_difference(self):
         def lines(file):
             return (self.dir / file).read_text().splitlines()
-        self.ok("generate", "-o", "longer.obj", "--chord-factor", "P2/1=1.25")
+        self.ok("generate", "--shape", "founding", "-o", "longer.obj", "--chord-factor", "P2/1=1.25")
         changed = [(a, b) for a, b in zip(lines("v.obj"), lines("longer.obj")) if a != b]
         self.assertEqual(len(lines("v.obj")), len(lines("longer.obj")))
         self.assertEqual(len(changed), 1, changed)
 
     def test_dimensions_reach_the_valve(self):
-        self.ok("generate", "-o", "big.obj", "--annulus-ap", 30, "--annulus-cc", 38,
+        self.ok("generate", "--shape", "founding", "-o", "big.obj", "--annulus-ap", 30, "--annulus-cc", 38,
                 "--vertices", 1000)
         info = self.json("info", "big.obj")
         # 1000 is approximate: the mesh has whole rows and columns
@@ -179,15 +193,15 @@ class Generate(Command):
         self.assertAlmostEqual(info["annulus_cc_mm"], 38, delta=0.38)
 
     def test_an_impossible_valve_is_refused_with_its_range(self):
-        self.assertIn("annulus_ap", self.fails("generate", "-o", "x.obj", "--annulus-ap",
+        self.assertIn("annulus_ap", self.fails("generate", "--shape", "founding", "-o", "x.obj", "--annulus-ap",
                                                500).stderr)
 
     def test_an_unknown_chord_is_refused_by_name(self):
-        self.assertIn("P9/1", self.fails("generate", "-o", "x.obj", "--chord-factor",
+        self.assertIn("P9/1", self.fails("generate", "--shape", "founding", "-o", "x.obj", "--chord-factor",
                                          "P9/1=2").stderr)
 
     def test_a_missing_folder_is_reported(self):
-        self.assertIn("no/such", self.fails("generate", "-o", "no/such/folder/v.obj").stderr)
+        self.assertIn("no/such", self.fails("generate", "--shape", "founding", "-o", "no/such/folder/v.obj").stderr)
 
 
 class Compare(Command):
@@ -200,7 +214,7 @@ class Compare(Command):
                 self.assertLess(figures[key], 1e-9)
 
     def test_different_meshes_have_no_node_distance(self):
-        self.ok("generate", "-o", "fine.obj", "--vertices", 900)
+        self.ok("generate", "--shape", "founding", "-o", "fine.obj", "--vertices", 900)
         other = self.json("compare", "v.obj", "fine.obj")
         self.assertFalse(other["same_mesh"])
         self.assertIsNone(other["as_they_lie"]["node_rms_mm"])
@@ -312,7 +326,7 @@ class Plans(Command):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.ok("generate", "-o", "sick.obj", "--annulus-scale", 1.15, "--chord-factor", "A2/7=1.25")
+        cls.ok("generate", "--shape", "founding", "-o", "sick.obj", "--annulus-scale", 1.15, "--chord-factor", "A2/7=1.25")
         cls.plan("p.json", {"do": "annulus_scale", "factor": 0.85},
                  {"do": "chord_add", "head": "PM1",
                   "site": {"scallop": "A2", "along": 0.4, "height": 0.95}})
@@ -410,8 +424,8 @@ class Usage(Command):
     def test_unknown_words_are_usage_errors(self):
         for line in ([], ["fly"], ["close"], ["close", "v.obj", "--solver", "magic"],
                      ["close", "v.obj", "--pressure", "high"], ["generate"],
-                     ["generate", "-o", "x.obj", "--annulus-ap", "-3"],
-                     ["generate", "-o", "x.obj", "--chord-factor", "P2/1"],
+                     ["generate", "--shape", "founding", "-o", "x.obj", "--annulus-ap", "-3"],
+                     ["generate", "--shape", "founding", "-o", "x.obj", "--chord-factor", "P2/1"],
                      ["compare", "v.obj"], ["convert", "v.obj"]):
             with self.subTest(line):
                 self.assertNotEqual(self.misused(*line), "")

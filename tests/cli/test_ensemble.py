@@ -10,7 +10,7 @@ class Ensemble(Shell):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.ok("generate", "-o", "thin.obj", "--vertices", 250, "--thickness", 0.5)
+        cls.ok("generate", "--shape", "founding", "-o", "thin.obj", "--vertices", 250, "--thickness", 0.5)
         cls.plain = cls.json("close", "thin.obj", "-o", "plain.obj")
         cls.found = cls.json("close", "thin.obj", "--members", MEMBERS, "-o", "closed.obj")
 
@@ -62,7 +62,7 @@ class Ensemble(Shell):
         self.assertEqual([c["perturbation_mm"] for c in found["ensemble"]["closures"]], [0, 0])
 
     def test_errors_against_a_reference_have_a_range(self):
-        self.ok("generate", "-o", "other.obj", "--vertices", 250)
+        self.ok("generate", "--shape", "founding", "-o", "other.obj", "--vertices", 250)
         self.ok("close", "other.obj", "-o", "reference.obj")
         line = ["close", "thin.obj", "--reference", "reference.obj"]
         alone = self.json(*line)["reference"]

@@ -36,7 +36,7 @@ class Plans(unittest.TestCase):
 
     def repaired(self, number, vertices):
         sick = [word.format(strut=STRUT[vertices]) for word in SICK[number]]
-        self.json("generate", "--vertices", vertices, "--posterior-height", 12, *sick,
+        self.json("generate", "--shape", "founding", "--vertices", vertices, "--posterior-height", 12, *sick,
                   "-o", "sick.obj")
         return self.json("repair", "sick.obj", "--plan", PLANS / f"valve{number}.json")
 

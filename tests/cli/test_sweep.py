@@ -16,7 +16,7 @@ class Sweep(Shell):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.ok("generate", "-o", "v.obj", "--vertices", 200)
+        cls.ok("generate", "--shape", "founding", "-o", "v.obj", "--vertices", 200)
         cls.printed = cls.json("sweep", "v.obj", *GRID, "--csv", "all.csv", "--jobs", 1, "--sort",
                                ORIFICE)
 

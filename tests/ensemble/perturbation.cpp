@@ -14,6 +14,7 @@ namespace {
 
 ModelPtr valve(uint32_t vertices) {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   return make_model(make_parametric_valve(desc));

@@ -13,6 +13,7 @@ using namespace mvs::core;
 
 TEST_CASE("a translated sheet is apart by its translation") {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 250;
   const ModelPtr model = make_model(make_parametric_valve(desc));
@@ -71,6 +72,7 @@ TEST_CASE("the first fifteen loading paths differ") {
 // A balloon: neo-Hookean leaflets of 5 kPa bear no systolic pressure.
 TEST_CASE("a member that diverged is not at rest though its start was") {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 200;
   Valve valve = make_parametric_valve(desc);
@@ -91,6 +93,7 @@ TEST_CASE("a member that diverged is not at rest though its start was") {
 
 TEST_CASE("every loading path ends under the requested load") {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 200;
   desc.annulus_contraction = 0.9;  // so that the boundary moves

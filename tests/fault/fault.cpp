@@ -125,6 +125,7 @@ std::vector<Call> calls() {
       {"generate",
        [](Scene &s) {
          mvs_parametric_desc desc = {};
+         desc.shape = MVS_SHAPE_FOUNDING;
          desc.struct_size = sizeof desc;
          desc.vertices = 200;
          return mvs_generate_valve(s.sim, &desc);

@@ -9,6 +9,7 @@
 
 #include "check.h"
 #include "tests/fault/counted.h"
+#include "tests/founding.h"
 
 namespace {
 
@@ -18,7 +19,7 @@ mvs_sim *closed_valve() {
   mvs_sim *sim = nullptr;
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   MUST(mvs_create(nullptr, &sim));
-  MUST(mvs_generate_valve(sim, nullptr));
+  MUST(generate_founding(sim));
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, nullptr, nullptr));
   return sim;

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/founding.h"
 #include "tests/fuzz/op_builder.h"
 #include "tests/short_run.h"
 #include "tests/stability/crossings.h"
@@ -288,7 +289,7 @@ class Script {
   }
 
   mvs::Simulator sim_;
-  mvs_parametric_desc desc_ = {};
+  mvs_parametric_desc desc_ = founding_valve();
   Bytes bytes_;
   bool replays_ = false, had_tools_ = false;
   Hash first_{};   // expected after undoing everything: the hash before the first operation

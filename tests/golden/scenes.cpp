@@ -25,6 +25,7 @@ class Sim {
   explicit Sim(uint32_t vertices, uint32_t law = MVS_LEAFLET_LAW_SPRING, uint32_t branching = 0) {
     check(mvs_create(nullptr, &sim_));
     auto desc = sized<mvs_parametric_desc>();
+    desc.shape = MVS_SHAPE_FOUNDING;
     desc.vertices = vertices;
     desc.branching = branching;
     check(mvs_generate_valve(sim_, &desc));

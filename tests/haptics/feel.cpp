@@ -17,6 +17,7 @@ namespace {
 struct Valve425 {
   Valve425() {
     mvs_parametric_desc desc = {};
+    desc.shape = MVS_SHAPE_FOUNDING;
     desc.struct_size = sizeof desc;
     model = make_model(make_parametric_valve(desc));
     closed = initial_state(*model);

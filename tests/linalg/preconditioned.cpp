@@ -57,6 +57,7 @@ PcgResult solve(const Eigen::MatrixXd &a, const Positions &b, Positions &x, cons
 
 ModelPtr a_valve() {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 200;
   return make_model(make_parametric_valve(desc));

@@ -23,6 +23,7 @@ struct Closed {
 
 Closed close_valve(double annulus_scale) {
   mvs_parametric_desc desc{};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.annulus_scale = annulus_scale;
   Closed closed;

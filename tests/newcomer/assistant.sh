@@ -1,6 +1,6 @@
 # A surgeon's assistant with the command: a dilated annulus and a torn chord; which repair serves?
 set -eu
-mvs generate -o healthy.obj
+mvs generate --shape founding -o healthy.obj
 mvs op healthy.obj annulus-scale --factor 1.2 -o dilated.obj
 mvs op dilated.obj chord-remove --chord P2/3 -o sick.obj
 mvs close sick.obj -o sick_closed.obj

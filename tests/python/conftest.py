@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT / "tests" / "validation"))
 def sim():
     """A simulator with the shipped valve, open."""
     with mvs.Simulator() as made:
-        made.generate()
+        made.generate(shape="founding")
         yield made
 
 
@@ -23,7 +23,7 @@ def sim():
 def opened():
     """The shipped valve, open."""
     with mvs.Simulator() as made:
-        made.generate()
+        made.generate(shape="founding")
         return made.snapshot()
 
 
@@ -31,7 +31,7 @@ def opened():
 def closed():
     """The shipped valve, settled under 120 mmHg; its simulator is closed."""
     with mvs.Simulator() as made:
-        made.generate()
+        made.generate(shape="founding")
         made.set_load(mvs.SYSTOLE_PA)
         assert made.settle().converged
         return made.snapshot()

@@ -8,6 +8,10 @@ import pytest
 from conftest import ROOT
 
 
+def founding(sim):
+    sim.generate(shape="founding")
+
+
 @pytest.fixture(scope="module")
 def levels():
     import convergence
@@ -34,7 +38,7 @@ def test_a_run_has_its_row_and_its_place_in_the_picture(levels, tmp_path, monkey
 
     subject = time_error.Subject(
         "shipped", ("bilinear",),
-        lambda law, k: time_error.refined(mvs.Simulator.generate, law, k),
+        lambda law, k: time_error.refined(founding, law, k),
         1, mvs.SYSTOLE_PA, {"bilinear": levels[-1].closed}, None,
     )
     rows = [time_error.run(subject, "bilinear", solver, 0, 1e-3)

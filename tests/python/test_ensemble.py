@@ -13,7 +13,7 @@ MEMBERS = 4
 def thin():
     """A coarse valve half as thick as the shipped one, open: it has several folded equilibria."""
     with mvs.Simulator() as made:
-        made.generate(vertices=250, thickness=0.5e-3)
+        made.generate(shape="founding", vertices=250, thickness=0.5e-3)
         return made.snapshot()
 
 

@@ -111,7 +111,7 @@ def test_chordae_are_a_table(closed):
 
 def test_chordae_behind_branch_points_have_the_head_of_their_trunk():
     with mvs.Simulator() as sim:
-        sim.generate(branching=True)
+        sim.generate(shape="founding", branching=True)
         snapshot = sim.snapshot()
     table = snapshot.chords()
     assert (snapshot.node_kind[snapshot.chord_nodes[:, 0]] == mvs.NodeKind.BRANCH).any()

@@ -42,7 +42,7 @@ def test_undo_and_redo_stop_at_the_ends_of_the_history(sim):
             call()
     sim.apply("chord_length", chord="P2/3", factor=0.75)
     assert "P2/3" in sim.snapshot().history[0].title
-    sim.generate()
+    sim.generate(shape="founding")
     assert sim.snapshot().history == ()
 
 

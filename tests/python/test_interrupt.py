@@ -51,7 +51,7 @@ def test_ctrl_c_stops_a_replay_and_the_valve_is_as_before(sim):
     (steps,) = (step for step in plan["steps"] if step.get("count") == 2)
     steps["count"] = 1000000
     with mvs.Simulator() as other:
-        other.generate()
+        other.generate(shape="founding")
         before = other.snapshot().hash
         with interrupted_after(0.1):
             other.replay_plan(plan)

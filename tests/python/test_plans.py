@@ -23,7 +23,7 @@ def operate(sim):
 @pytest.fixture(scope="module")
 def operated():
     with mvs.Simulator() as sim:
-        sim.generate()
+        sim.generate(shape="founding")
         operate(sim)
         return sim.snapshot()
 
@@ -64,7 +64,7 @@ def test_a_long_plan_is_complete(opened):
 def test_the_same_valve_ends_at_the_same_bits(operated, tmp_path):
     for plan in shapes_of(operated.plan(), tmp_path):
         with mvs.Simulator() as sim:
-            sim.generate()
+            sim.generate(shape="founding")
             fresh = sim.snapshot().hash
             checked = sim.check_plan(plan)
             assert (checked.operations, checked.same_valve) == (3, True)
@@ -77,7 +77,7 @@ def test_the_same_valve_ends_at_the_same_bits(operated, tmp_path):
 
 def test_another_mesh_is_operated_on_by_name(operated):
     with mvs.Simulator() as sim:
-        sim.generate(vertices=800)
+        sim.generate(shape="founding", vertices=800)
         assert sim.replay_plan(operated.plan()) == mvs.Replay(3, False, False)
         done = sim.snapshot()
     assert done.find(mvs.PartKind.CHORD, "new one").id
@@ -138,14 +138,14 @@ def test_invalid_texts_and_paths_of_a_plan_are_refused(operated, tmp_path):
 def test_a_journal_outlives_its_simulator(tmp_path):
     path = tmp_path / "session.mvsj"
     first = mvs.Simulator()
-    first.generate()
+    first.generate(shape="founding")
     first.open_journal(path)
     operate(first)
     wanted = first.snapshot().hash
     del first  # not closed
     gc.collect()
     with mvs.Simulator() as sim:
-        sim.generate()
+        sim.generate(shape="founding")
         assert sim.recover_journal(path).operations == 3
         assert sim.snapshot().hash == wanted
         sim.undo()  # the journal continues
@@ -153,7 +153,7 @@ def test_a_journal_outlives_its_simulator(tmp_path):
         sim.close_journal()
         sim.apply("annulus_scale", factor=1.1)  # after the end of the journal
     with mvs.Simulator() as sim:
-        sim.generate()
+        sim.generate(shape="founding")
         sim.recover_journal(path)
         assert sim.snapshot().hash == undone
 
@@ -195,7 +195,7 @@ def test_a_journal_of_another_version_is_refused(sim, tmp_path, version, kind, w
 KILLED = """
 import os, signal, sys, mvs
 sim = mvs.Simulator()
-sim.generate()
+sim.generate(shape="founding")
 sim.open_journal(sys.argv[1])
 sim.apply("chord_length", chord="P2/3", factor=0.75)
 print(sim.snapshot().hash, flush=True)

@@ -40,7 +40,7 @@ def test_there_is_a_picture_of_each_kind_and_none_is_blank(pictures):
 
 def test_the_valve_of_a_file_closes_under_its_own_pressure_unless_given_another(tmp_path):
     with mvs.Simulator() as sim:
-        sim.generate(vertices=200)
+        sim.generate(shape="founding", vertices=200)
         sim.set_load(3e3)
         sim.snapshot().save(tmp_path / "tricuspid.h5")
     for asked, pressure in ((None, 3e3), (2e3, 2e3)):

@@ -11,7 +11,7 @@ import pytest
 
 def settle_fresh(**options):
     with mvs.Simulator() as sim:
-        sim.generate()
+        sim.generate(shape="founding")
         sim.set_load(mvs.SYSTOLE_PA)
         stats = sim.settle(**options)
         return stats, sim.snapshot()

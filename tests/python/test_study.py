@@ -147,7 +147,7 @@ def test_the_free_vertex_nearest_to_a_site_is_found(healthy):
 
 def test_branching_chordae_are_followed_to_the_leaflet():
     with mvs.Simulator() as sim:
-        sim.generate(branching=True)
+        sim.generate(shape="founding", branching=True)
         opened = sim.snapshot()
     anatomy = Anatomy(opened)
     reached = sorted(vertex for chord in anatomy.chords for vertex in chord.vertices)

@@ -76,7 +76,7 @@ def test_a_law_is_required(sim):
 )
 def test_a_resected_leaflet_that_stiffens_exponentially_comes_to_rest(sim, law, dimensions):
     """Forces of hundreds of newtons at the seam, where contact stops a few nodes."""
-    sim.generate(**dimensions)
+    sim.generate(shape="founding", **dimensions)
     sim.set_leaflet(law=law)
     sim.set_load(mvs.SYSTOLE_PA)
     assert sim.settle().converged
@@ -96,7 +96,7 @@ def test_a_resected_leaflet_that_stiffens_exponentially_comes_to_rest(sim, law, 
 )
 def test_a_valve_torn_by_an_operation_comes_to_rest(sim, dimensions, kind, fields):
     """The exponential laws end at 100 kPa; up to 100 MPa forces would reach 1e2 to 1e10 N."""
-    sim.generate(**dimensions)
+    sim.generate(shape="founding", **dimensions)
     sim.set_leaflet(law="may_newman_yin")
     sim.set_load(mvs.SYSTOLE_PA)
     assert sim.settle().converged
@@ -115,7 +115,7 @@ def test_a_valve_torn_by_an_operation_comes_to_rest(sim, dimensions, kind, field
 )
 def test_an_annulus_that_contracts_does_not_tear_tissue_in_live_steps(sim, law, dimensions):
     """Full pressure at once: the hardest case for exponential laws."""
-    sim.generate(**dimensions)
+    sim.generate(shape="founding", **dimensions)
     sim.set_leaflet(law=law)
     sim.set_load(mvs.SYSTOLE_PA)
     worst = max(sim.step(1, dt=1e-3).residual for _ in range(40))
@@ -125,7 +125,7 @@ def test_an_annulus_that_contracts_does_not_tear_tissue_in_live_steps(sim, law, 
 
 @pytest.mark.parametrize("budget", [4, 5, 8])
 def test_a_step_of_a_contracting_annulus_stays_within_its_budget(sim, budget):
-    sim.generate(annulus_contraction=0.85)
+    sim.generate(shape="founding", annulus_contraction=0.85)
     sim.set_leaflet(law="fung")
     sim.set_load(mvs.SYSTOLE_PA)
     for _ in range(60):

@@ -138,9 +138,9 @@ def test_zero_bending_scale_means_no_bending(valve):
 
 def test_dimensions_reach_the_generator():
     with mvs.Simulator() as sim:
-        sim.generate(annulus_ap=30e-3, annulus_cc=40e-3, thickness=0.8e-3)
+        sim.generate(shape="founding", annulus_ap=30e-3, annulus_cc=40e-3, thickness=0.8e-3)
         large = sim.snapshot()
-        sim.generate(annulus_ap=24e-3, annulus_cc=32e-3)
+        sim.generate(shape="founding", annulus_ap=24e-3, annulus_cc=32e-3)
         small = sim.snapshot()
     # a polygon through the annulus is slightly narrower than the curve
     assert large.measures.annulus_ap == pytest.approx(30e-3, rel=0.03)

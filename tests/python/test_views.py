@@ -59,7 +59,7 @@ def test_a_view_is_the_same_memory_each_time(closed, name):
 
 def test_a_view_outlives_snapshot_and_simulator():
     sim = mvs.Simulator()
-    sim.generate()
+    sim.generate(shape="founding")
     positions = sim.snapshot().node_position
     before = positions.copy()
     sim.set_load(mvs.SYSTOLE_PA)
@@ -71,7 +71,7 @@ def test_a_view_outlives_snapshot_and_simulator():
     others = []
     for _ in range(8):
         other = mvs.Simulator()
-        other.generate()
+        other.generate(shape="founding")
         others.append(other.snapshot())
     assert np.array_equal(positions, before)
 

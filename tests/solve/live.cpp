@@ -21,6 +21,7 @@ constexpr double systole = MVS_SYSTOLE_PA;
 
 ModelPtr small_parametric() {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 200;
   desc.annulus_contraction = 0.9;
@@ -156,6 +157,7 @@ TEST_CASE("an_unloaded_valve_rests_only_without_forces") {
 // leads uphill, and a valve that takes no part of it would never move.
 TEST_CASE("a_valve_out_of_balance_keeps_moving") {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 425;
   const ModelPtr model = make_model(make_parametric_valve(desc));

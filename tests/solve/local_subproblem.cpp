@@ -9,6 +9,7 @@
 #include "energy/total_energy.h"
 #include "geometry/intersect.h"
 #include "solve/solver.h"
+#include "tests/founding.h"
 #include "tests/solve/bench.h"
 
 namespace mvs::core::test {
@@ -27,7 +28,7 @@ std::vector<Vec3> gradient(const Model &model, const std::vector<Vec3> &x) {
 }  // namespace
 
 TEST_CASE("free_nodes_of_a_subproblem_have_the_forces_of_the_whole_valve") {
-  const ModelPtr model = make_model(make_parametric_valve({}));
+  const ModelPtr model = make_model(make_parametric_valve(founding_valve()));
   State state = closed(*model);
   std::vector<Vec3> x = state.x.get();
   const uint32_t place = model->valve.chords[3].b;
@@ -57,7 +58,7 @@ TEST_CASE("free_nodes_of_a_subproblem_have_the_forces_of_the_whole_valve") {
 }
 
 TEST_CASE("a_closed_valve_comes_to_rest_after_a_chord_is_cut_or_tightened_with_nothing_crossing") {
-  Valve valve = make_parametric_valve({});
+  Valve valve = make_parametric_valve(founding_valve());
   const State before = closed(*make_model(valve));
   for (const double factor : {0.75, 50.0}) {  // a chord of 50 times its length pulls nothing
     CAPTURE(factor);

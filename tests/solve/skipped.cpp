@@ -20,6 +20,7 @@ constexpr uint32_t terms = MVS_SKIPPED_SPRINGS | MVS_SKIPPED_MEMBRANE | MVS_SKIP
 
 ModelPtr valve(const std::function<void(Valve &)> &change = {}) {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 200;
   Valve made = make_parametric_valve(desc);

@@ -146,6 +146,7 @@ TEST_CASE("steps_and_closure_end_in_the_same_shape") {
 // default is not much smaller than it needs to be.
 TEST_CASE("the_default_explicit_step_is_stable_on_a_fine_valve") {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 700;
   Valve valve = make_parametric_valve(desc);

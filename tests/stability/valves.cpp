@@ -100,6 +100,7 @@ bool is_there(const std::string &name) {
 void make_valve(mvs::Simulator &sim, const std::string &name) {
   if (name == "N32") return make_n32(sim);
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.vertices = sizes.at(name);
   desc.branching = name == "S2";
   sim.generate(desc);

@@ -15,6 +15,7 @@ mvs_op_clip clip() {
 
 mvs_parametric_desc of_size(uint32_t vertices) {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
   return desc;

@@ -12,13 +12,14 @@
 #include "history/history.h"
 #include "measure/measure.h"
 #include "solve/solver.h"
+#include "tests/founding.h"
 
 namespace mvs::core::test {
 
 inline constexpr double mm = 1e-3;
 
 // The valve that mvs_generate_valve makes, at rest.
-inline ModelState shipped(const mvs_parametric_desc &desc = {}) {
+inline ModelState shipped(const mvs_parametric_desc &desc = founding_valve()) {
   const ModelPtr model = make_model(make_parametric_valve(desc));
   return {model, initial_state(*model)};
 }

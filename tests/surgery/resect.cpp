@@ -22,6 +22,7 @@ mvs_op_resect resection(double width, double base_width, double depth, double po
 
 ModelState fine_valve() {
   mvs_parametric_desc desc = {};
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.struct_size = sizeof desc;
   desc.vertices = 6800;
   return shipped(desc);
@@ -266,6 +267,7 @@ TEST_CASE("pieces_that_are_not_one_connected_piece_are_refused") {
 
 TEST_CASE("pieces_narrower_than_the_mesh_are_cut_or_refused_with_that_reason") {
   mvs_parametric_desc coarse = {};
+  coarse.shape = MVS_SHAPE_FOUNDING;
   coarse.struct_size = sizeof coarse;
   coarse.vertices = 200;
   const ModelState p = shipped(coarse);
@@ -318,6 +320,7 @@ TEST_CASE("any_piece_is_cut_or_refused") {
   std::vector<ModelState> valves;
   for (const uint32_t vertices : {425u, 200u, 900u}) {
     mvs_parametric_desc desc = {};
+    desc.shape = MVS_SHAPE_FOUNDING;
     desc.struct_size = sizeof desc;
     desc.vertices = vertices;
     valves.push_back(shipped(desc));

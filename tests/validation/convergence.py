@@ -56,7 +56,7 @@ def shipped(law: str) -> Callable[[mvs.Simulator], None]:
     """Makes the shipped valve, with springs or another law."""
 
     def prepare(sim: mvs.Simulator) -> None:
-        sim.generate()
+        sim.generate(shape="founding")
         if law != "spring":
             sim.set_leaflet(law=law)
 

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "commands/commands.h"
+#include "valve/tissue.h"
 
 namespace cli {
 namespace {
@@ -10,34 +11,43 @@ struct GenerateOptions {
   std::string out;
   mvs_parametric_desc valve = {};  // lengths in mm; make_valve converts them
   std::vector<std::string> chord_factors;
+  std::string shape = "healthy";
+  std::string leaflet;  // empty: the default of the shape
 };
 
 struct Dimension {
   const char *option;
   double mvs_parametric_desc::*value;
-  double standard;  // default of the library, for --help; tests/cli compares them
+  // defaults of the healthy and of the founding shape, for --help; tests/cli compares them
+  double healthy, founding;
   const char *help;
 };
 
 using P = mvs_parametric_desc;
 constexpr Dimension lengths[] = {
-    {"--annulus-ap", &P::annulus_ap, 28, "septal-lateral diameter of the annulus"},
-    {"--annulus-cc", &P::annulus_cc, 35, "intercommissural diameter of the annulus"},
-    {"--saddle-height", &P::saddle_height, 5.5, "height of the annular saddle"},
-    {"--anterior-height", &P::anterior_height, 23, "height of the anterior leaflet at A2"},
-    {"--posterior-height", &P::posterior_height, 13, "height of the posterior leaflet at P2"},
-    {"--commissure-height", &P::commissure_height, 8, "height of the leaflets at a commissure"},
-    {"--thickness", &P::thickness, 1, "thickness of the leaflets"},
-    {"--papillary-depth", &P::papillary_depth, 23.5, "papillary tip to annulus plane"},
-    {"--papillary-separation", &P::papillary_separation, 20, "between the two papillary tips"},
-    {"--indentation-depth", &P::indentation_depth, 2.5, "clefts on either side of P2"},
-    {"--coaptation-depth", &P::coaptation_depth, 5, "coaptation line below the annulus plane"},
+    {"--annulus-ap", &P::annulus_ap, 26, 28, "septal-lateral diameter of the annulus"},
+    {"--annulus-cc", &P::annulus_cc, 35, 35, "intercommissural diameter of the annulus"},
+    {"--saddle-height", &P::saddle_height, 5.5, 5.5, "height of the annular saddle"},
+    {"--anterior-height", &P::anterior_height, 25, 23, "height of the anterior leaflet at A2"},
+    {"--posterior-height", &P::posterior_height, 14, 13, "height of the posterior leaflet at P2"},
+    {"--commissure-height", &P::commissure_height, 8, 8, "height of the leaflets at a commissure"},
+    {"--thickness", &P::thickness, 0.8, 1, "thickness of the leaflets"},
+    {"--papillary-depth", &P::papillary_depth, 23.5, 23.5, "papillary tip to annulus plane"},
+    {"--papillary-separation", &P::papillary_separation, 20, 20, "between the two papillary tips"},
+    {"--indentation-depth", &P::indentation_depth, 1, 2.5, "clefts on either side of P2"},
+    {"--coaptation-depth", &P::coaptation_depth, 5, 5, "coaptation line below the annulus plane"},
 };
 constexpr Dimension factors[] = {
-    {"--annulus-contraction", &P::annulus_contraction, 1, "loaded over open size of the annulus"},
-    {"--annulus-scale", &P::annulus_scale, 1, "dilation of the loaded annulus, 1.15 for 15 %"},
-    {"--chord-slack", &P::chord_slack, 1, "factor on the rest length of every chord"},
+    {"--annulus-contraction", &P::annulus_contraction, 1, 1,
+     "loaded over open size of the annulus"},
+    {"--annulus-scale", &P::annulus_scale, 1, 1, "dilation of the loaded annulus, 1.15 for 15 %"},
+    {"--chord-slack", &P::chord_slack, 1, 1, "factor on the rest length of every chord"},
 };
+
+std::string default_of(const Dimension &d) {
+  return d.healthy == d.founding ? text("[%g]", d.healthy)
+                                 : text("[%g; founding %g]", d.healthy, d.founding);
+}
 
 // Splits "P2/3=1.25" into name and factor; the name is empty if the text has another form.
 std::pair<std::string, double> parse_chord_factor(const std::string &given) {
@@ -58,6 +68,8 @@ std::string check_chord_factor(const std::string &given) {
 mvs::Snapshot make_valve(const GenerateOptions &options) {
   mvs_parametric_desc desc = options.valve;
   for (const Dimension &length : lengths) desc.*length.value /= 1e3;
+  desc.shape = options.shape == "founding" ? MVS_SHAPE_FOUNDING : MVS_SHAPE_HEALTHY;
+  desc.leaflet_law = law_of(options.leaflet);
   mvs::Simulator sim = make_sim();
   sim.generate(desc);
   for (const std::string &given : options.chord_factors) {
@@ -93,17 +105,31 @@ void add_generate(CLI::App &app, Console &console) {
       ->required();
   command->add_option("--vertices", options->valve.vertices, "leaflet vertices, about [425]")
       ->check(CLI::PositiveNumber);
-  command->add_option("--chords", options->valve.chords, "chord segments, about [80]")
+  command->add_option("--chords", options->valve.chords, "chord segments, about [100; founding 80]")
       ->check(CLI::PositiveNumber);
   command->add_flag_callback(
-      "--branching", [valve = &options->valve] { valve->branching = 1; },
-      "chordae branch on their way to the leaflet");
+      "--branching", [valve = &options->valve] { valve->branching = MVS_BRANCHING_TREES; },
+      "chordae branch on their way to the leaflet: the default, but for the founding shape");
+  command->add_flag_callback(
+      "--straight", [valve = &options->valve] { valve->branching = MVS_BRANCHING_STRAIGHT; },
+      "each chord is one segment");
+  command
+      ->add_option(
+          "--shape", options->shape,
+          "healthy, which seals with every tissue, or founding, that of the founding model")
+      ->capture_default_str()
+      ->check(one_of({"healthy", "founding"}));
+  add_law_option(*command, options->leaflet);
   for (const Dimension &d : lengths) {
-    command->add_option(d.option, options->valve.*d.value, text("%s, mm [%g]", d.help, d.standard))
+    command
+        ->add_option(d.option, options->valve.*d.value,
+                     text("%s, mm %s", d.help, default_of(d).c_str()))
         ->check(CLI::PositiveNumber);
   }
   for (const Dimension &d : factors) {
-    command->add_option(d.option, options->valve.*d.value, text("%s [%g]", d.help, d.standard))
+    command
+        ->add_option(d.option, options->valve.*d.value,
+                     text("%s %s", d.help, default_of(d).c_str()))
         ->check(CLI::PositiveNumber);
   }
   command

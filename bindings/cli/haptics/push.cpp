@@ -155,6 +155,7 @@ Push Pusher::push(const std::string &direction, const Vector &axis, double force
 TautChord taut_chord() {
   TautChord found = {make_sim(), 0, 0, {}};
   mvs_parametric_desc small = {};
+  small.shape = MVS_SHAPE_FOUNDING;
   small.vertices = 200;
   found.sim.generate(small);
   found.sim.set_load(120 * pa_per_mmhg);

@@ -31,10 +31,32 @@ void add_tissue_option(CLI::App &command, std::string &choice) {
   const std::vector<std::string> laws = known_laws();
   words.insert(words.end(), laws.begin(), laws.end());
   command
-      .add_option("--leaflet", choice,
-                  "tissue of the leaflets: as in the file, membranes in place of springs, or a law")
+      .add_option(
+          "--leaflet", choice,
+          "tissue of the leaflets: as in the file, membrane in place of springs (the founding "
+          "model), or a law")
       ->capture_default_str()
       ->check(one_of(words));
+}
+
+void add_law_option(CLI::App &command, std::string &choice) {
+  std::vector<std::string> words = {"membrane"};
+  const std::vector<std::string> laws = known_laws();
+  words.insert(words.end(), laws.begin(), laws.end());
+  command
+      .add_option(
+          "--leaflet", choice,
+          "tissue of the leaflets: membrane (the law bilinear), spring (the founding model), "
+          "or another law [membrane; founding shape: spring]")
+      ->check(one_of(words));
+}
+
+mvs_leaflet_law law_of(const std::string &choice) {
+  if (choice.empty()) return 0;
+  if (choice == "membrane") return MVS_LEAFLET_LAW_BILINEAR;
+  const std::vector<std::string> laws = known_laws();
+  const auto at = std::find(laws.begin(), laws.end(), choice) - laws.begin();
+  return static_cast<mvs_leaflet_law>(at) + 1;
 }
 
 void set_tissue(mvs::Simulator &sim, const std::string &choice) {

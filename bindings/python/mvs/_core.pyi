@@ -263,7 +263,7 @@ class Simulator:
         *,
         vertices: Optional[int] = None,
         chords: Optional[int] = None,
-        branching: bool = False,
+        branching: Optional[bool] = None,
         annulus_ap: Optional[float] = None,
         annulus_cc: Optional[float] = None,
         saddle_height: Optional[float] = None,
@@ -278,6 +278,10 @@ class Simulator:
         chord_slack: Optional[float] = None,
         indentation_depth: Optional[float] = None,
         coaptation_depth: Optional[float] = None,
+        shape: Optional[Literal["healthy", "founding"]] = None,
+        leaflet: Union[None, LeafletLaw, Literal[
+            "spring", "bilinear", "fung", "may_newman_yin", "prot", "neo_hookean"
+        ]] = None,
     ) -> None: ...
     def set_leaflet(
         self,

@@ -108,18 +108,37 @@ py::object step(Simulator &self, uint64_t count, const std::string &solver, Numb
   return stats_of(self);
 }
 
+mvs_branching branching_of(const std::optional<bool> &given) {
+  if (!given) return 0;
+  return *given ? MVS_BRANCHING_TREES : MVS_BRANCHING_STRAIGHT;
+}
+
+mvs_shape shape_of(const std::optional<std::string> &given) {
+  if (!given) return 0;
+  if (*given == "healthy") return MVS_SHAPE_HEALTHY;
+  if (*given == "founding") return MVS_SHAPE_FOUNDING;
+  throw py::value_error("shape is '" + *given + "', it must be 'healthy' or 'founding'");
+}
+
+mvs_leaflet_law law_of(const py::object &given) {
+  if (given.is_none()) return 0;
+  return py::module_::import("mvs.laws").attr("leaflet_law_of")(given).cast<uint32_t>();
+}
+
 void bind_generate(py::class_<Simulator> &type) {
   type.def(
       "generate",
-      [](Simulator &self, Count vertices, Count chords, bool branching, Number annulus_ap,
-         Number annulus_cc, Number saddle_height, Number anterior_height, Number posterior_height,
-         Number commissure_height, Number thickness, Number papillary_depth,
-         Number papillary_separation, Number annulus_contraction, Number annulus_scale,
-         Number chord_slack, Number indentation_depth, Number coaptation_depth) {
+      [](Simulator &self, Count vertices, Count chords, std::optional<bool> branching,
+         Number annulus_ap, Number annulus_cc, Number saddle_height, Number anterior_height,
+         Number posterior_height, Number commissure_height, Number thickness,
+         Number papillary_depth, Number papillary_separation, Number annulus_contraction,
+         Number annulus_scale, Number chord_slack, Number indentation_depth,
+         Number coaptation_depth, const std::optional<std::string> &shape,
+         const py::object &leaflet) {
         const mvs_parametric_desc desc = {.struct_size = sizeof(mvs_parametric_desc),
                                           .vertices = vertices.value_or(0),
                                           .chords = chords.value_or(0),
-                                          .branching = branching ? 1u : 0u,
+                                          .branching = branching_of(branching),
                                           .annulus_ap = annulus_ap.value_or(0),
                                           .annulus_cc = annulus_cc.value_or(0),
                                           .saddle_height = saddle_height.value_or(0),
@@ -133,24 +152,30 @@ void bind_generate(py::class_<Simulator> &type) {
                                           .annulus_scale = annulus_scale.value_or(0),
                                           .chord_slack = chord_slack.value_or(0),
                                           .indentation_depth = indentation_depth.value_or(0),
-                                          .coaptation_depth = coaptation_depth.value_or(0)};
+                                          .coaptation_depth = coaptation_depth.value_or(0),
+                                          .shape = shape_of(shape),
+                                          .leaflet_law = law_of(leaflet)};
         self.call([&](mvs_sim *sim) { return mvs_generate_valve(sim, &desc); });
       },
-      py::kw_only(), "vertices"_a = py::none(), "chords"_a = py::none(), "branching"_a = false,
+      py::kw_only(), "vertices"_a = py::none(), "chords"_a = py::none(), "branching"_a = py::none(),
       "annulus_ap"_a = py::none(), "annulus_cc"_a = py::none(), "saddle_height"_a = py::none(),
       "anterior_height"_a = py::none(), "posterior_height"_a = py::none(),
       "commissure_height"_a = py::none(), "thickness"_a = py::none(),
       "papillary_depth"_a = py::none(), "papillary_separation"_a = py::none(),
       "annulus_contraction"_a = py::none(), "annulus_scale"_a = py::none(),
       "chord_slack"_a = py::none(), "indentation_depth"_a = py::none(),
-      "coaptation_depth"_a = py::none(),
+      "coaptation_depth"_a = py::none(), "shape"_a = py::none(), "leaflet"_a = py::none(),
       "Replaces the valve by a parametric mitral valve; None or 0 takes the default, an adult "
       "valve.\n\nvertices: approximate number of leaflet vertices, 200 to 100000\nchords: "
-      "approximate number of chord segments\nbranching: chordae branch at free nodes\nlengths in "
+      "approximate number of chord segments\nbranching: chordae share trunks; None: in the healthy "
+      "shape\nlengths in "
       "m; annulus_contraction: loaded over open size\nannulus_scale: factor on the loaded annulus "
       "(dilation); the rest shape stays\nchord_slack: factor on all rest "
       "lengths\nindentation_depth: of the clefts beside P2\ncoaptation_depth: of the closed "
-      "coaptation line below the annulus plane");
+      "coaptation line below the annulus plane\nshape: \"healthy\", which seals with every tissue, "
+      "or \"founding\", that of the founding model\nleaflet: law of the leaflets, a mvs.LeafletLaw "
+      "or its lower-case name, with default constants; None: \"bilinear\", the membrane, or "
+      "\"spring\" in the founding shape");
 }
 
 void set_load(Simulator &self, double pressure, double boundary_fraction) {

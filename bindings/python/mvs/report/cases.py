@@ -10,7 +10,8 @@ import numpy as np
 import mvs
 from mvs import ChordKind, PartKind, Simulator, Snapshot, Stats
 
-DILATION = 1.15
+# the shipped valve stays sealed up to 1.25
+DILATION = 1.3
 ELONGATION = 1.25
 
 

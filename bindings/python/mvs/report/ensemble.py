@@ -17,7 +17,7 @@ from .markup import cells, figure, heads, table
 from .table import ROWS, Row, value
 
 THIN = 0.5e-3
-"""m: half the thickness of the shipped valve's leaflets; an eighth of their bending stiffness"""
+"""m: half the thickness of the founding valve's leaflets; an eighth of their bending stiffness"""
 
 
 @dataclass(frozen=True)
@@ -31,17 +31,17 @@ class Run:
 
 def _thin() -> Snapshot:
     with Simulator() as sim:
-        sim.generate(thickness=THIN)
+        sim.generate(shape="founding", thickness=THIN)
         return sim.snapshot()
 
 
 def run(cases: list[Case], members: int, pressure_pa: float) -> Iterator[Run]:
     """The valves of the report under their own pressures, then one more under ``pressure_pa``: the
-    shipped valve with thinner leaflets, which fold more."""
+    founding valve with thinner leaflets, which fold more."""
     for case in cases:
         own = case.closed.load_case.pressure
         yield Run(case.key, case.title, case.opened.ensemble(own, members=members))
-    title = f"Shipped valve, leaflets {THIN * 1e3:g} mm thick"
+    title = f"Founding valve, leaflets {THIN * 1e3:g} mm thick"
     yield Run("thin", title, _thin().ensemble(pressure_pa, members=members))
 
 

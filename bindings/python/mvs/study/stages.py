@@ -32,13 +32,15 @@ class Stage:
 
 
 def healthy_valve(vertices: int = 425) -> Snapshot:
-    """The parametric valve of the study, open.
+    """The founding valve of the study, open.
 
     Its posterior leaflet is 12 mm tall, the lower end of the normal 12 to 14 mm. With the default
     of 13 mm the coaptation is so large that shortening any chord by 30 % opens less than 2 mm2.
     """
     with Simulator() as sim:
-        sim.generate(vertices=vertices, posterior_height=POSTERIOR_HEIGHT_M)
+        sim.generate(
+            shape="founding", vertices=vertices, posterior_height=POSTERIOR_HEIGHT_M
+        )
         return sim.snapshot()
 
 
