@@ -267,7 +267,7 @@ namespace explicit_euler {
 
 inline constexpr double max_displacement = 1;  // m: a larger one is a diverged step
 // Share of the contact thickness: the slack of the broad phase.
-inline constexpr double broad_phase_slack = 0.5;
+inline constexpr double broad_phase_slack = 0.1;
 // Share of the largest stable step that is taken by default. The estimate is 9.2 us on the shipped
 // valve, which is stable at 8 us (tests/solve/steps.cpp).
 inline constexpr double stable_share = 0.9;

@@ -38,6 +38,8 @@ Scene make_scene() {
   Scene scene;
   const mvs_load_case load = light_load();
   MUST(mvs_create(nullptr, &scene.sim));
+  // another annulus each time: the process keeps the surfaces of the last few (annulus_map.h)
+  valve.nodes[valve.annulus[0]][2] += 1e-12;
   MUST(mvs_set_valve(scene.sim, &valve.desc));
   MUST(mvs_set_load(scene.sim, &load));
   MUST(mvs_get_snapshot(scene.sim, &scene.snapshot));
@@ -272,6 +274,14 @@ std::string save_scene(uint32_t format) {
 
 int main() {
   make_funnel(&valve);
+  // fills what the process keeps (annulus_map.h): it would count as leaked
+  for (int k = 0; k < 4; ++k) {
+    const Scene scene = make_scene();
+    mvs_measures measures = {};
+    measures.struct_size = sizeof measures;
+    MUST(mvs_snapshot_measure(scene.snapshot, &measures));
+    free_scene(scene);
+  }
   saved = save_scene(MVS_FORMAT_OBJ);
   for (const Call &call : calls()) fail_each_allocation(call);
   for (const Call &call : calls_of_snapshots()) fail_each_allocation(call);

@@ -25,6 +25,7 @@ struct Closed {
 Closed close_valve(double annulus_scale) {
   mvs_parametric_desc desc{};
   desc.struct_size = sizeof desc;
+  desc.shape = MVS_SHAPE_FOUNDING;
   desc.annulus_scale = annulus_scale;
   Closed closed;
   closed.model = make_model(make_parametric_valve(desc));
@@ -65,7 +66,7 @@ TEST_CASE("a_valve_proven_to_be_sealed_has_no_minimum_cut") {
   CHECK(open > 5);
 }
 
-TEST_CASE("the_default_valve_is_proven_to_be_sealed_in_any_position_and_numbering") {
+TEST_CASE("the_founding_valve_is_proven_to_be_sealed_in_any_position_and_numbering") {
   const Closed closed = close_valve(1);
   CHECK(orifice::is_zipped(*closed.model, closed.x));
   CHECK(orifice::is_zipped(*closed.model, moved(closed.x, some_rigid_motion())));

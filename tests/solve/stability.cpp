@@ -69,6 +69,7 @@ Valve parametric(uint32_t vertices, LeafletLawId law) {
   mvs_parametric_desc desc = {};
   desc.struct_size = sizeof desc;
   desc.vertices = vertices;
+  desc.shape = MVS_SHAPE_FOUNDING;  // without branch points, which may have no stiffness
   Valve valve = make_parametric_valve(desc);
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.law = law;
