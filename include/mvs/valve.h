@@ -50,7 +50,7 @@ enum mvs_leaflet_law_e {
   /* W = c0 (exp(c1 (I1 - 3)^2 + c2 (I4 - 1)^2) - 1) (Prot et al. 2009): c0, Pa [52]; c1 [4.63]; c2
    * [22.6], the anterior leaflet; posterior 171, 5.28, 6.46. */
   MVS_LEAFLET_LAW_PROT = 5,
-  /* W = mu / 2 (I1 - 3): mu, Pa [100e3 / 3]; Young's modulus is 3 mu. */
+  /* W = mu / 2 (I1 - 3): mu, Pa [200e3]; Young's modulus is 3 mu. */
   MVS_LEAFLET_LAW_NEO_HOOKEAN = 6
 };
 typedef uint32_t mvs_leaflet_law;

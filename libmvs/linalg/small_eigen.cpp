@@ -70,7 +70,7 @@ struct Rotation {
     b = b * c - s.conjugate() * a;
     a = first;
   }
-  // Of columns: multiplies by the conjugate transpose from the right.
+  // Multiplies two columns by the conjugate transpose, from the right.
   void turn_columns(Complex &a, Complex &b) const {
     const Complex first = a * c + s.conjugate() * b;
     b = b * c - s * a;

@@ -1,5 +1,4 @@
-// Stability of equilibria: margins against dense algebra and closed forms, and settles that leave
-// what is unstable.
+// Stability of equilibria: margins against dense algebra and closed forms; unstable ones are left.
 #include "solve/stability.h"
 
 #include <Eigen/Eigenvalues>
@@ -104,7 +103,7 @@ struct Pyramid {
     base = 6 * std::sqrt(0.75) / 2 * radius * radius;
   }
   double length(double z) const { return std::sqrt(radius * radius + z * z); }
-  // Of the springs, upward.
+  // The upward force of the springs.
   double force(double z) const { return -6 * k * (1 - rest_length / length(z)) * z; }
   double pressure_at(double z) const { return -3 * force(z) / base; }
   // Vertical and lateral eigenvalue.
