@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from .cases import Case
@@ -53,7 +53,7 @@ def openings(case: Case) -> Iterator[str]:
                f"jet {_lean(jet)}")
 
 
-def _place(part: dict[str, Any]) -> str:
+def _place(part: Mapping[str, Any]) -> str:
     sides = [side for side in (part["anterior"], part["posterior"]) if side]
     place = f"between {sides[0]} and {sides[1]}" if len(sides) == 2 else f"within {''.join(sides)}"
     return f"{place}, at the commissure {part['commissures']}" if part["commissures"] else place
