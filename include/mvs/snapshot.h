@@ -272,8 +272,8 @@ typedef struct mvs_region_measures {
   double tenting_volume;         /* m3 */
 } mvs_region_measures;
 
-/* Returns the number of regions: the scallops in their order, then the commissures: two, or none if
- * one leaflet is attached along the whole annulus. */
+/* Returns the number of regions: the scallops in their order, then the commissures, one where the
+ * attachments of two leaflets meet: two of a mitral valve. */
 MVS_API mvs_result mvs_snapshot_get_region_count(const mvs_snapshot *snapshot, uint32_t *count);
 
 /* Returns region `index` of a snapshot. The first call computes all regions. */

@@ -2,6 +2,8 @@
 // a commissure along the annulus.
 #include "measure/regions/region_map.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/bvh.h"
@@ -37,13 +39,31 @@ class NearestOnLoop {
   TriangleBvh tree_;
 };
 
-// The scallop at the annulus edge that holds a place of the loop; `none` without tissue there.
-uint32_t scallop_at(const Model &model, const Loop &loop, const std::vector<uint32_t> &triangles,
-                    double s) {
-  s -= loop.length() * std::floor(s / loop.length());
-  size_t edge = 0;
-  while (edge + 1 < loop.size() && loop.start_of(edge + 1) <= s) ++edge;
-  return triangles[edge] == none ? none : model.valve.triangle_scallop[triangles[edge]];
+// A place of the annulus where the attachments of two leaflets meet.
+struct Commissure {
+  std::array<uint32_t, 2> scallops;  // that meet there, in their order
+  double at;                         // m along the annulus
+  bool operator<(const Commissure &other) const {
+    return scallops != other.scallops ? scallops < other.scallops : at < other.at;
+  }
+};
+
+// The commissures in the order of their scallops.
+std::vector<Commissure> commissures_of(const Model &model, const Loop &annulus) {
+  const Valve &valve = model.valve;
+  const std::vector<uint32_t> triangles = annulus_triangles(model);
+  std::vector<Commissure> found;
+  for (size_t k = 0; k < triangles.size(); ++k) {
+    const uint32_t before = triangles[(k + triangles.size() - 1) % triangles.size()];
+    const uint32_t after = triangles[k];
+    if (before == none || after == none) continue;
+    if (valve.triangle_leaflet[before] == valve.triangle_leaflet[after]) continue;
+    const auto [low, high] =
+        std::minmax({valve.triangle_scallop[before], valve.triangle_scallop[after]});
+    found.push_back({{low, high}, annulus.start_of(k)});
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace
@@ -60,27 +80,21 @@ void RegionMap::find_commissures(const Model &model) {
   const Valve &valve = model.valve;
   const std::vector<Vec3> &rest = valve.rest;
   const Loop loop(valve.annulus, rest);
-  const Arc arc = attachment(model, loop, anterior_leaflet(valve));
-  if (arc.length() == 0) return;  // the leaflet has no ends
-  const std::vector<uint32_t> triangles = annulus_triangles(model);
-  const double reach = reach_of_perimeter * loop.length();
-  const double inside = 1e-6 * loop.length();  // from the commissure to the edges beside it
-  const uint32_t first = static_cast<uint32_t>(names_.size());
-  for (const auto &[at, inwards] : {std::pair(arc.from, inside), std::pair(arc.to, -inside)}) {
-    const auto name_at = [&](double s) {
-      const uint32_t scallop = scallop_at(model, loop, triangles, s);
-      return scallop == none ? std::string() : valve.scallops[scallop].name;
-    };
-    const std::string anterior = name_at(at + inwards), other = name_at(at - inwards);
-    names_.push_back(anterior + "-" + other);
+  const std::vector<Commissure> commissures = commissures_of(model, loop);
+  for (const Commissure &c : commissures) {
+    names_.push_back(valve.scallops[c.scallops[0]].name + "-" + valve.scallops[c.scallops[1]].name);
   }
+  const double reach = reach_of_perimeter * loop.length();
   const NearestOnLoop nearest(loop);
   for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
-    const Tri &c = valve.triangles[t];
-    const double s = nearest((rest[c[0]] + rest[c[1]] + rest[c[2]]) / 3);
-    for (uint32_t k = 0; k < 2; ++k) {
-      const double off = std::remainder(s - (k == 0 ? arc.from : arc.to), loop.length());
-      if (std::abs(off) < reach) commissure_of_[t] = first + k;
+    const Tri &corner = valve.triangles[t];
+    const double s = nearest((rest[corner[0]] + rest[corner[1]] + rest[corner[2]]) / 3);
+    double least = reach;
+    for (size_t k = 0; k < commissures.size(); ++k) {
+      const double off = std::abs(std::remainder(s - commissures[k].at, loop.length()));
+      if (off >= least) continue;
+      least = off;
+      commissure_of_[t] = static_cast<uint32_t>(scallops_ + k);
     }
   }
 }
