@@ -85,6 +85,8 @@ enum mvs_array_kind_e {
   MVS_ARRAY_CURVE_START = 76,  /* U32 k + 1: first row of each curve's points, then their number */
   MVS_ARRAY_ORIFICE_VERTICES = 70,  /* F64 x 3, m: the smallest opening, as triangles */
   MVS_ARRAY_ORIFICE_TRIANGLES = 71, /* U32 x 3 into MVS_ARRAY_ORIFICE_VERTICES */
+  MVS_ARRAY_ORIFICE_PART = 72,      /* U32 per triangle of the orifice: index of its part, see
+                                       mvs_snapshot_get_orifice_part */
   MVS_ARRAY_VALVE_CONSTANTS = 80,   /* F64 4: density, kg/m3; contact thickness, m; contact
                                        stiffness, Pa; bending scale, 0: no bending */
   MVS_ARRAY_STATE_TIME = 81         /* F64 1, s: simulated time since the valve was set */
@@ -244,6 +246,61 @@ typedef struct mvs_measures {
   double leaflet_stress_p95; /* Pa */
   double leaflet_stress_p99; /* Pa */
 } mvs_measures;
+
+/* Kinds of regions. */
+enum mvs_region_kind_e {
+  MVS_REGION_SCALLOP = 1,   /* each triangle belongs to one scallop */
+  MVS_REGION_COMMISSURE = 2 /* the tissue of both leaflets near a commissure; overlaps scallops */
+};
+typedef uint32_t mvs_region_kind;
+
+/* Measures of one region of the leaflets. Areas and volumes of the scallops add up to those of
+ * mvs_measures. Definitions: libmvs/measure/DEFINITIONS.md. Texts are valid while the snapshot is
+ * held. */
+typedef struct mvs_region_measures {
+  uint32_t struct_size;
+  mvs_region_kind kind;          /* MVS_REGION_* */
+  const char *name;              /* "A2"; of a commissure the scallops that meet there, "A1-P1" */
+  double coaptation_area;        /* m2, of one side: half of the coapted tissue of the region */
+  double coaptation_length_mean; /* m, along its part of the coaptation line; 0 without one */
+  double coaptation_length_min;  /* m, the same */
+  double orifice_area;           /* m2, the part of the orifice nearest to this tissue */
+  double gap;                    /* m, widest ball in that part of the orifice; 0 when sealed */
+  double billow_height;          /* m, highest node above the annulus surface */
+  double billow_volume;          /* m3 */
+  double tenting_height;         /* m, deepest point on the atrial side below the annulus plane */
+  double tenting_volume;         /* m3 */
+} mvs_region_measures;
+
+/* Returns the number of regions: the scallops in their order, then the commissures, one where the
+ * attachments of two leaflets meet: two of a mitral valve. */
+MVS_API mvs_result mvs_snapshot_get_region_count(const mvs_snapshot *snapshot, uint32_t *count);
+
+/* Returns region `index` of a snapshot. The first call computes all regions. */
+MVS_API mvs_result mvs_snapshot_get_region(const mvs_snapshot *snapshot, uint32_t index,
+                                           mvs_region_measures *region);
+
+/* A part of the regurgitant orifice that is connected in itself. Texts are valid while the snapshot
+ * is held. */
+typedef struct mvs_orifice_part {
+  uint32_t struct_size;
+  uint32_t triangles;      /* of MVS_ARRAY_ORIFICE_TRIANGLES, see MVS_ARRAY_ORIFICE_PART */
+  double area;             /* m2 */
+  double gap;              /* m, widest ball in it */
+  double centroid[3];      /* m */
+  double direction[3];     /* unit, into the atrium: mean normal, the direction of the jet */
+  const char *anterior;    /* scallops of the anterior leaflet beside it, joined by '+', or "" */
+  const char *posterior;   /* scallops of the other leaflets beside it, joined by '+', or "" */
+  const char *commissures; /* commissures beside it, joined by '+', or "" */
+} mvs_orifice_part;
+
+/* Returns the number of parts of the orifice; 0 for a sealed valve. */
+MVS_API mvs_result mvs_snapshot_get_orifice_part_count(const mvs_snapshot *snapshot,
+                                                       uint32_t *count);
+
+/* Returns part `index` of the orifice, the largest first. */
+MVS_API mvs_result mvs_snapshot_get_orifice_part(const mvs_snapshot *snapshot, uint32_t index,
+                                                 mvs_orifice_part *part);
 
 /* Returns the working range of chordae of a kind: largest strain and tension in N; infinite for
  * sutures. Chordae rupture beyond this range; a chord outside it deserves inspection. Sources:

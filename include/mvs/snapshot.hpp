@@ -111,6 +111,26 @@ class Snapshot {
   mvs_chord_info chord(std::uint32_t index) const {
     return filled<mvs_chord_info>(mvs_snapshot_get_chord, held_, index);
   }
+
+  // The scallops, then the commissures.
+  std::vector<mvs_region_measures> regions() const {
+    std::uint32_t count = 0;
+    must(mvs_snapshot_get_region_count(held_, &count));
+    std::vector<mvs_region_measures> found;
+    for (std::uint32_t k = 0; k < count; ++k)
+      found.push_back(filled<mvs_region_measures>(mvs_snapshot_get_region, held_, k));
+    return found;
+  }
+  // The parts of the orifice, the largest first.
+  std::vector<mvs_orifice_part> orifice_parts() const {
+    std::uint32_t count = 0;
+    must(mvs_snapshot_get_orifice_part_count(held_, &count));
+    std::vector<mvs_orifice_part> found;
+    for (std::uint32_t k = 0; k < count; ++k)
+      found.push_back(filled<mvs_orifice_part>(mvs_snapshot_get_orifice_part, held_, k));
+    return found;
+  }
+
   mvs_stability stability() const {
     return filled<mvs_stability>(mvs_snapshot_get_stability, held_);
   }

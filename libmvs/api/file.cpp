@@ -116,6 +116,9 @@ std::vector<VtpArray> result_arrays(const mvs_snapshot &s) {
 VtkBlock orifice_block(const mvs_snapshot &s) {
   const Orifice &orifice = s.orifice();
   VtkBlock block{"orifice", orifice.vertices, {}, orifice.triangles, {}, {}};
+  VtpArray part{"orifice_part", false, 1, {}};
+  for (const uint32_t index : s.orifice_parts().of_triangle) part.values.push_back(index);
+  block.arrays.push_back(std::move(part));
   block.numbers = {{"regurgitant_orifice_area_mm2", 1e6 * orifice.area}};
   return block;
 }

@@ -54,6 +54,39 @@ mvs_chord_info public_chord(const mvs_snapshot &s, uint32_t index) {
   return info;
 }
 
+mvs_region_measures public_region(const mvs_snapshot &s, uint32_t index) {
+  const RegionMap &map = s.region_map();
+  const RegionMeasures &m = s.regions()[index];
+  mvs_region_measures out = {};
+  out.struct_size = sizeof out;
+  out.kind = index < map.scallops() ? MVS_REGION_SCALLOP : MVS_REGION_COMMISSURE;
+  out.name = map.name(index).c_str();
+  out.coaptation_area = m.coaptation_area;
+  out.coaptation_length_mean = m.coaptation_length_mean;
+  out.coaptation_length_min = m.coaptation_length_min;
+  out.orifice_area = m.orifice_area;
+  out.gap = m.gap;
+  out.billow_height = m.billow_height;
+  out.billow_volume = m.billow_volume;
+  out.tenting_height = m.tenting_height;
+  out.tenting_volume = m.tenting_volume;
+  return out;
+}
+
+mvs_orifice_part public_part(const OrificePart &part) {
+  mvs_orifice_part out = {};
+  out.struct_size = sizeof out;
+  out.triangles = part.triangles;
+  out.area = part.area;
+  out.gap = part.gap;
+  std::copy(part.centroid.begin(), part.centroid.end(), out.centroid);
+  std::copy(part.direction.begin(), part.direction.end(), out.direction);
+  out.anterior = part.anterior.c_str();
+  out.posterior = part.posterior.c_str();
+  out.commissures = part.commissures.c_str();
+  return out;
+}
+
 }  // namespace
 
 extern "C" {
@@ -114,6 +147,46 @@ mvs_result mvs_snapshot_get_chord(const mvs_snapshot *snapshot, uint32_t index,
     MVS_MUST(index < chords.size(), MVS_E_ARGUMENT, "index",
              "index is %u, but the valve has %zu chords", index, chords.size());
     write_struct(chord, public_chord(*snapshot, index), "chord");
+  });
+}
+
+mvs_result mvs_snapshot_get_region_count(const mvs_snapshot *snapshot, uint32_t *count) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    must_point(count, "count");
+    *count = static_cast<uint32_t>(snapshot->region_map().size());
+  });
+}
+
+mvs_result mvs_snapshot_get_region(const mvs_snapshot *snapshot, uint32_t index,
+                                   mvs_region_measures *region) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(region, "region");
+    const size_t count = snapshot->region_map().size();
+    MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but the valve has %zu regions",
+             index, count);
+    write_struct(region, public_region(*snapshot, index), "region");
+  });
+}
+
+mvs_result mvs_snapshot_get_orifice_part_count(const mvs_snapshot *snapshot, uint32_t *count) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    must_point(count, "count");
+    *count = static_cast<uint32_t>(snapshot->orifice_parts().parts.size());
+  });
+}
+
+mvs_result mvs_snapshot_get_orifice_part(const mvs_snapshot *snapshot, uint32_t index,
+                                         mvs_orifice_part *part) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(part, "part");
+    const std::vector<OrificePart> &parts = snapshot->orifice_parts().parts;
+    MVS_MUST(index < parts.size(), MVS_E_ARGUMENT, "index",
+             "index is %u, but the orifice has %zu parts", index, parts.size());
+    write_struct(part, public_part(parts[index]), "part");
   });
 }
 

@@ -164,6 +164,8 @@ Viewed other_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.orifice().vertices);
     case MVS_ARRAY_ORIFICE_TRIANGLES:
       return view_of(s.orifice().triangles);
+    case MVS_ARRAY_ORIFICE_PART:
+      return view_of(s.orifice_parts().of_triangle);
     case MVS_ARRAY_VALVE_CONSTANTS:
       return view_of(s.tables().valve_constants.data(), 4, 1, MVS_TYPE_F64, 8);
     case MVS_ARRAY_STATE_TIME:

@@ -7,6 +7,7 @@
 #include "measure/coaptation/coaptation.h"
 #include "measure/comparison/compare.h"
 #include "measure/orifice/orifice.h"
+#include "measure/regions/regions.h"
 #include "measure/tenting/tenting_billow.h"
 #include "measure/tissue/chords.h"
 #include "measure/tissue/section.h"

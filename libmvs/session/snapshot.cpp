@@ -131,6 +131,18 @@ const ChordEnds &mvs_snapshot::chord_ends() const {
 const Orifice &mvs_snapshot::orifice() const {
   return orifice_.get([this] { return measure_orifice(*model, state.x); });
 }
+const OrificeParts &mvs_snapshot::orifice_parts() const {
+  return orifice_parts_.get(
+      [this] { return find_orifice_parts(*model, state.x, region_map(), orifice()); });
+}
+const RegionMap &mvs_snapshot::region_map() const {
+  return region_map_.get([this] { return RegionMap(*model); });
+}
+const std::vector<RegionMeasures> &mvs_snapshot::regions() const {
+  return regions_.get([this] {
+    return measure_regions(*model, state.x, region_map(), coaptation(), orifice_parts());
+  });
+}
 const Stability &mvs_snapshot::stability() const {
   return stability_.get([this] { return check_stability(*model, state); });
 }

@@ -65,6 +65,9 @@ struct mvs_snapshot {
   const mvs::core::ChordMeasures &chords() const;
   const mvs::core::ChordEnds &chord_ends() const;
   const mvs::core::Orifice &orifice() const;
+  const mvs::core::OrificeParts &orifice_parts() const;
+  const mvs::core::RegionMap &region_map() const;
+  const std::vector<mvs::core::RegionMeasures> &regions() const;
   const mvs::core::Stability &stability() const;
   const mvs::core::Tables &tables() const;
   const mvs_measures &measures() const;
@@ -88,6 +91,9 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::ChordMeasures> chords_;
   mvs::core::Lazy<mvs::core::ChordEnds> chord_ends_;
   mvs::core::Lazy<mvs::core::Orifice> orifice_;
+  mvs::core::Lazy<mvs::core::OrificeParts> orifice_parts_;
+  mvs::core::Lazy<mvs::core::RegionMap> region_map_;
+  mvs::core::Lazy<std::vector<mvs::core::RegionMeasures>> regions_;
   mvs::core::Lazy<mvs::core::Stability> stability_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
   mvs::core::Lazy<mvs_measures> measures_;

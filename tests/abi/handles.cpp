@@ -1,4 +1,5 @@
 // The C++ handles: they free, share, throw, and show what C shows.
+#include <cmath>
 #include <cstdio>
 #include <mvs/mvs.hpp>
 #include <type_traits>
@@ -37,6 +38,18 @@ void failures_are_thrown_with_code_and_part() {
     check(error.part() == "sim" && error.line() == 0, "part and line of C");
     check(std::string(error.what()) == mvs_last_error()->message, "the sentence of C");
   }
+}
+
+void regions_and_openings_are_lists() {
+  mvs::Simulator sim;
+  sim.generate();
+  const mvs::Snapshot open = sim.snapshot();
+  double area = 0;
+  for (const mvs_orifice_part &part : open.orifice_parts()) area += part.area;
+  check(area > 0 && std::abs(area - open.measure().regurgitant_orifice_area) < 1e-15,
+        "the parts of an open valve add up");
+  check(open.regions().size() == open.parts(MVS_PART_SCALLOP).size() + 2,
+        "scallops and two commissures");
 }
 
 void views_know_their_type() {
@@ -193,6 +206,7 @@ void kinds_of_operations_describe_themselves() {
 void run() {
   handles_move_and_snapshots_are_shared();
   failures_are_thrown_with_code_and_part();
+  regions_and_openings_are_lists();
   views_know_their_type();
   tools_are_added_moved_told_and_removed();
   devices_are_found_opened_and_turned();

@@ -196,8 +196,61 @@ static void each_chord_is_described(void) {
   mvs_destroy(sim);
 }
 
+/* Six scallops and two commissures add up to the measures; a dilated annulus leaks at A2 and P2. */
+static void regions_and_orifice_parts_add_up(void) {
+  mvs_sim *sim;
+  const mvs_snapshot *closed;
+  mvs_parametric_desc shape = {.struct_size = sizeof shape, .annulus_scale = 1.2};
+  mvs_load_case load = {.struct_size = sizeof load, .pressure = 16e3, .boundary_fraction = 1};
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_generate_valve(sim, &shape));
+  MUST(mvs_set_load(sim, &load));
+  MUST(mvs_settle(sim, NULL, NULL));
+  MUST(mvs_get_snapshot(sim, &closed));
+  mvs_measures all = {.struct_size = sizeof all};
+  MUST(mvs_snapshot_measure(closed, &all));
+  uint32_t regions = 0, parts = 0, commissures = 0;
+  double coaptation = 0, orifice = 0, opening = 0;
+  MUST(mvs_snapshot_get_region_count(closed, &regions));
+  CHECK(regions == 8);
+  mvs_region_measures region = {.struct_size = sizeof region};
+  for (uint32_t k = 0; k < regions; ++k) {
+    MUST(mvs_snapshot_get_region(closed, k, &region));
+    commissures += region.kind == MVS_REGION_COMMISSURE;
+    if (region.kind != MVS_REGION_SCALLOP) continue;
+    coaptation += region.coaptation_area;
+    orifice += region.orifice_area;
+    if (strcmp(region.name, "A2") == 0) CHECK(region.gap > 1e-3);
+  }
+  CHECK(commissures == 2);
+  CHECK(orifice > 0);
+  CHECK(fabs(coaptation - all.coaptation_area) < 1e-15);
+  CHECK(fabs(orifice - all.regurgitant_orifice_area) < 1e-15);
+  MUST(mvs_snapshot_get_orifice_part_count(closed, &parts));
+  mvs_orifice_part part = {.struct_size = sizeof part};
+  mvs_view part_of;
+  MUST(mvs_snapshot_get_array(closed, MVS_ARRAY_ORIFICE_PART, &part_of));
+  uint64_t triangles = 0;
+  for (uint32_t k = parts; k-- > 0;) {
+    MUST(mvs_snapshot_get_orifice_part(closed, k, &part));
+    opening += part.area;
+    triangles += part.triangles;
+    CHECK(part.area <= all.regurgitant_orifice_area);
+  }
+  CHECK(triangles == part_of.count);
+  CHECK(fabs(opening - all.regurgitant_orifice_area) < 1e-15);
+  CHECK(strstr(part.anterior, "A2") != NULL && strstr(part.posterior, "P2") != NULL);
+  MUST_FAIL(mvs_snapshot_get_region(closed, regions, &region), MVS_E_ARGUMENT, "index");
+  MUST_FAIL(mvs_snapshot_get_orifice_part(closed, parts, &part), MVS_E_ARGUMENT, "index");
+  MUST_FAIL(mvs_snapshot_get_region(NULL, 0, &region), MVS_E_ARGUMENT, "snapshot");
+  MUST_FAIL(mvs_snapshot_get_region_count(closed, NULL), MVS_E_ARGUMENT, "count");
+  mvs_snapshot_release(closed);
+  mvs_destroy(sim);
+}
+
 int main(void) {
   each_chord_is_described();
+  regions_and_orifice_parts_add_up();
   strided_and_misaligned_arrays_give_the_same_valve();
   a_stride_that_is_the_packed_one_is_the_same_as_zero();
   single_precision_is_widened();

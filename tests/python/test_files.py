@@ -68,6 +68,9 @@ def test_a_vtm_file_holds_the_orifice_and_the_coaptation_line(closed, tmp_path):
             area = measures.regurgitant_orifice_area * 1e6
             assert blocks["orifice"].area == pytest.approx(area, rel=1e-9)
             assert blocks["orifice"].field_data["regurgitant_orifice_area_mm2"][0] == area
+            part = blocks["orifice"].cell_data["orifice_part"]
+            assert np.array_equal(part, snapshot.orifice_part)
+            assert set(part) == set(range(len(snapshot.orifice_parts())))
         line = blocks["coaptation_line"]
         # the mean over stations at equal distances
         mean = line.point_data["coaptation_length_mm"].mean()

@@ -10,7 +10,7 @@ from .arguments import wrap_methods
 from .drawing import snapshots
 from .errors import Error
 from .kinds import MMHG
-from .tables import chords, to_dataframe
+from .tables import chords, orifice_parts, regions, to_dataframe
 
 Form = Literal["obj", "h5"]
 
@@ -29,6 +29,8 @@ def attach() -> None:
         ("__deepcopy__", deeply_copied),
         ("_repr_html_", snapshots.repr_html),
         ("chords", chords),
+        ("regions", regions),
+        ("orifice_parts", orifice_parts),
         ("plot", snapshots.plot),
         ("to_dataframe", to_dataframe),
         ("to_pyvista", snapshots.to_pyvista),

@@ -135,6 +135,41 @@ def _chord_row(
     }
 
 
+REGION_UNITS = {
+    "name": "", "kind": "", "coaptation_area": "m2", "coaptation_length_mean": "m",
+    "coaptation_length_min": "m", "orifice_area": "m2", "gap": "m", "billow_height": "m",
+    "billow_volume": "m3", "tenting_height": "m", "tenting_volume": "m3",
+}
+PART_UNITS = {
+    "anterior": "", "posterior": "", "commissures": "", "triangles": "", "area": "m2", "gap": "m",
+    "x": "m", "y": "m", "z": "m", "jet_x": "", "jet_y": "", "jet_z": "",
+}
+
+
+def regions(self: Snapshot) -> Table:
+    """Where the valve leaks: the scallops, then the commissures, as a table (mvs.Table).
+
+    The same rows as those of the command `mvs leak`, in SI units. name ("A2"; "A1-P1" for the
+    commissure of these scallops), kind ("scallop", "commissure"), coaptation area of one side, mean and
+    least coaptation length, the part of the regurgitant orifice beside the region and the widest
+    gap in it, height and volume of billow and tenting. Areas and volumes of the scallops add up to the
+    measures; a commissure overlaps its scallops. Definitions: libmvs/measure/DEFINITIONS.md.
+    """
+    kinds = {1: "scallop", 2: "commissure"}
+    return Table((dict(zip(REGION_UNITS, (name, kinds[kind], *numbers)))
+                  for name, kind, *numbers in self._regions()), REGION_UNITS)
+
+
+def orifice_parts(self: Snapshot) -> Table:
+    """The connected parts of the regurgitant orifice as a table (mvs.Table), the largest first.
+
+    anterior, posterior: scallops beside the part, joined by "+"; commissures: the same, or "";
+    triangles: how many of orifice_triangles (orifice_part has the row of each); area in m2, widest gap
+    and centroid (x, y, z) in m; unit direction of the jet, into the atrium. No rows for a sealed valve.
+    """
+    return Table((dict(zip(PART_UNITS, row)) for row in self._orifice_parts()), PART_UNITS)
+
+
 NODE_UNITS = {
     "x": "m", "y": "m", "z": "m", "kind": "", "fx": "N", "fy": "N", "fz": "N", "coaptation": "m",
 }
@@ -174,14 +209,17 @@ def _measures(snapshot: Snapshot) -> Table:
     )
 
 
-_TABLES = {"measures": _measures, "chords": chords, "nodes": _nodes, "triangles": _triangles}
+_TABLES = {
+    "measures": _measures, "chords": chords, "nodes": _nodes, "triangles": _triangles,
+    "regions": regions, "orifice_parts": orifice_parts,
+}
 
 
 def to_dataframe(self: Snapshot, what: str = "measures") -> Any:
     """A pandas.DataFrame of this snapshot in SI units (extra ``tables``).
 
     what: "measures" (value, unit and definition of each), "chords" (as chords()), "nodes" or
-        "triangles" (the arrays); ``attrs["units"]`` of the frame has the units of the columns
+        "triangles" (the arrays), "regions" or "orifice_parts" (as those methods); ``attrs["units"]`` of the frame has the units of the columns
     """
     if what not in _TABLES:
         raise ArgumentError(f'what: one of {listed(_TABLES)} is needed, not "{what}"', "what")

@@ -161,6 +161,36 @@ py::list chords_of(const Snapshot &self) {
   return rows;
 }
 
+// The rows of mvs.tables.regions.
+py::list regions_of(const Snapshot &self) {
+  uint32_t count = 0;
+  must(mvs_snapshot_get_region_count(self.get(), &count));
+  py::list rows;
+  for (uint32_t k = 0; k < count; ++k) {
+    auto r = sized<mvs_region_measures>();
+    release_and([&] { return mvs_snapshot_get_region(self.get(), k, &r); });
+    rows.append(py::make_tuple(r.name, r.kind, r.coaptation_area, r.coaptation_length_mean,
+                               r.coaptation_length_min, r.orifice_area, r.gap, r.billow_height,
+                               r.billow_volume, r.tenting_height, r.tenting_volume));
+  }
+  return rows;
+}
+
+// The rows of mvs.tables.orifice_parts.
+py::list orifice_parts_of(const Snapshot &self) {
+  uint32_t count = 0;
+  release_and([&] { return mvs_snapshot_get_orifice_part_count(self.get(), &count); });
+  py::list rows;
+  for (uint32_t k = 0; k < count; ++k) {
+    auto p = sized<mvs_orifice_part>();
+    must(mvs_snapshot_get_orifice_part(self.get(), k, &p));
+    rows.append(py::make_tuple(p.anterior, p.posterior, p.commissures, p.triangles, p.area, p.gap,
+                               p.centroid[0], p.centroid[1], p.centroid[2], p.direction[0],
+                               p.direction[1], p.direction[2]));
+  }
+  return rows;
+}
+
 std::string text(const Snapshot &snapshot) {
   return std::string("<mvs.Snapshot \"") + mvs_snapshot_get_name(snapshot.get()) + "\" " +
          hash(snapshot) + ">";
@@ -231,6 +261,8 @@ void bind_snapshot(py::module_ &module) {
   type.def_property_readonly("checkpoints", &checkpoints,
                              "The names of the checkpoints (tuple of str).");
   type.def("_chords", &chords_of);
+  type.def("_regions", &regions_of);
+  type.def("_orifice_parts", &orifice_parts_of);
   type.def("find", &find, "kind"_a, "name"_a,
            "The part of a kind with this name; IdError if there is no such part.");
   type.def("compare", &compare, "other"_a,

@@ -86,6 +86,8 @@ inline constexpr View views[] = {
      "(o, 3) float64, m: the smallest opening; empty when sealed."},
     {"orifice_triangles", MVS_ARRAY_ORIFICE_TRIANGLES,
      "(q, 3) uint32 into orifice_vertices: the opening as triangles."},
+    {"orifice_part", MVS_ARRAY_ORIFICE_PART,
+     "(q,) uint32: row of the triangle's part in orifice_parts()."},
     {"valve_constants", MVS_ARRAY_VALVE_CONSTANTS,
      "(4,) float64: density, kg/m3; contact thickness, m; contact stiffness, Pa; bending scale."},
     {"state_time", MVS_ARRAY_STATE_TIME,

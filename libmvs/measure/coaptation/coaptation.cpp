@@ -31,24 +31,6 @@ struct Coapted {
   uint32_t leaflet, other;
 };
 
-// Calls visit(centre) for the centre of each of the parts^2 equal parts of a triangle, as
-// barycentric weights.
-template <typename Visit>
-void for_each_part(size_t parts, Visit visit) {
-  const double n = 3 * static_cast<double>(parts);
-  const auto centre = [&](size_t i, size_t j, double off) {
-    const double u = (3 * static_cast<double>(i) + off) / n;
-    const double v = (3 * static_cast<double>(j) + off) / n;
-    visit(std::array<double, 3>{1 - u - v, u, v});
-  };
-  for (size_t i = 0; i < parts; ++i) {
-    for (size_t j = 0; i + j < parts; ++j) {
-      centre(i, j, 1);
-      if (i + j + 1 < parts) centre(i, j, 2);
-    }
-  }
-}
-
 // Returns the coapted samples of all triangles; fills `share` and the area.
 std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
                             FacingWeight &facing, Coaptation &coaptation) {
@@ -122,6 +104,7 @@ std::vector<CoaptationLine> find_lines(const Model &model, const std::vector<Vec
       if (pieces.empty()) continue;
       const Vec3 pole = find_pole(model, annulus, {l, r}, mean_of(pieces));
       lines.push_back(find_coaptation_line(pieces, pole, axis, station_spacing(model)));
+      lines.back().leaflets = {l, r};
     }
   }
   return lines;
@@ -133,6 +116,7 @@ void summarise(const std::vector<CoaptationLine> &lines, Coaptation &coaptation)
   for (const CoaptationLine &line : lines) {
     coaptation.line.insert(coaptation.line.end(), line.stations.begin(), line.stations.end());
     coaptation.line_end.push_back(static_cast<uint32_t>(coaptation.line.size()));
+    coaptation.line_leaflets.push_back(line.leaflets);
     area += line.area;
     length += line.length;
     coaptation.length_max = std::max(coaptation.length_max, line.longest);

@@ -1,6 +1,7 @@
 // Coaptation: tissue that faces other tissue within the contact thickness.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "model/model.h"
@@ -18,6 +19,7 @@ struct Coaptation {
   std::vector<double> share;            // per triangle, 0..1
   std::vector<CoaptationStation> line;  // in order; several lines are concatenated
   std::vector<uint32_t> line_end;       // of each line: the index behind its last station
+  std::vector<std::array<uint32_t, 2>> line_leaflets;  // of each line: that meet there
   double area = 0, length_mean = 0, length_min = 0, length_max = 0, height = 0, depth = 0;
 };
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x);

@@ -1,6 +1,7 @@
 // Coaptation line through samples of the coaptation zone, with the coaptation length along it.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "measure/coaptation/coaptation.h"
@@ -16,7 +17,8 @@ struct CoaptedPiece {
 
 struct CoaptationLine {
   std::vector<CoaptationStation> stations;
-  double area = 0, length = 0;  // m2 of one side, m
+  std::array<uint32_t, 2> leaflets = {none, none};  // that meet there; the caller knows them
+  double area = 0, length = 0;                      // m2 of one side, m
   // Extremes of the coaptation length along the line, but for 5 % of it at either end.
   double shortest = 0, longest = 0;
 };

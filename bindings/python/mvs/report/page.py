@@ -8,6 +8,7 @@ from string import Template
 
 import mvs
 
+from . import leak
 from .cases import Case
 from .gallery import CAPTIONS, Picture
 from .markup import figure
@@ -52,6 +53,8 @@ $pictures
 within the contact thickness; definitions: libmvs/measure/README.md. The figures of the
 literature are widely quoted ranges for orientation, not limits of this model.</p>
 $table
+<h2>Where it leaks</h2>
+$leak
 $study
 <h2>Settings</h2>
 $settings
@@ -70,6 +73,7 @@ def build(cases: list[Case], pictures: list[Picture], study: str = "") -> str:
         comparison=_comparison(cases),
         pictures="".join(_row(name, cases, pictures) for name in CAPTIONS),
         table=as_html(cases),
+        leak=leak.as_html(cases),
         study=study,
         settings=_settings(cases),
     )

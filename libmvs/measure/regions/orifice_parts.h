@@ -1,0 +1,38 @@
+// Connected parts of the regurgitant orifice, and the tissue beside each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/orifice/orifice.h"
+#include "measure/regions/region_map.h"
+
+namespace mvs::core {
+
+// A small piece of the orifice and the tissue that is nearest to its centre.
+struct OrificeSample {
+  double area;      // m2
+  double width;     // m: diameter of the ball at the centre that touches the tissue
+  uint32_t tissue;  // triangle of the sheet
+  uint32_t part;
+};
+
+struct OrificePart {
+  uint32_t triangles = 0;
+  double area = 0;                  // m2
+  double gap = 0;                   // m, widest ball in it
+  Vec3 centroid = Vec3::Zero();     // m
+  Vec3 direction = Vec3::Zero();    // unit, mean normal, into the atrium
+  std::string anterior, posterior;  // scallops beside it, joined by '+'
+  std::string commissures;          // the same
+};
+
+struct OrificeParts {
+  std::vector<OrificePart> parts;     // the largest first
+  std::vector<uint32_t> of_triangle;  // per triangle of the orifice: its part
+  std::vector<OrificeSample> samples;
+};
+OrificeParts find_orifice_parts(const Model &model, const std::vector<Vec3> &x,
+                                const RegionMap &map, const Orifice &orifice);
+
+}  // namespace mvs::core

@@ -1,0 +1,102 @@
+// Commissural tissue: triangles whose nearest point of the annulus, in the rest shape, is close to
+// a commissure along the annulus.
+#include "measure/regions/region_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/bvh.h"
+#include "measure/annulus/landmarks.h"
+
+namespace mvs::core {
+namespace {
+
+// Half the width of a commissural region over the annulus perimeter: 6 mm for 120 mm.
+constexpr double reach_of_perimeter = 0.05;
+
+// Arc length of the annulus point that is nearest to p.
+class NearestOnLoop {
+ public:
+  explicit NearestOnLoop(const Loop &loop)
+      : loop_(loop), sides_(sides_of(loop)), tree_(sides_, loop.points()) {}
+
+  double operator()(const Vec3 &p) const {
+    const TriangleBvh::Hit hit = tree_.closest(p);
+    return loop_.start_of(hit.triangle) + (hit.point - loop_.point(hit.triangle)).norm();
+  }
+
+ private:
+  static std::vector<Tri> sides_of(const Loop &loop) {
+    std::vector<Tri> sides;
+    const uint32_t n = static_cast<uint32_t>(loop.size());
+    for (uint32_t k = 0; k < n; ++k) sides.push_back({k, (k + 1) % n, (k + 1) % n});
+    return sides;
+  }
+
+  const Loop &loop_;
+  std::vector<Tri> sides_;
+  TriangleBvh tree_;
+};
+
+// A place of the annulus where the attachments of two leaflets meet.
+struct Commissure {
+  std::array<uint32_t, 2> scallops;  // that meet there, in their order
+  double at;                         // m along the annulus
+  bool operator<(const Commissure &other) const {
+    return scallops != other.scallops ? scallops < other.scallops : at < other.at;
+  }
+};
+
+// The commissures in the order of their scallops.
+std::vector<Commissure> commissures_of(const Model &model, const Loop &annulus) {
+  const Valve &valve = model.valve;
+  const std::vector<uint32_t> triangles = annulus_triangles(model);
+  std::vector<Commissure> found;
+  for (size_t k = 0; k < triangles.size(); ++k) {
+    const uint32_t before = triangles[(k + triangles.size() - 1) % triangles.size()];
+    const uint32_t after = triangles[k];
+    if (before == none || after == none) continue;
+    if (valve.triangle_leaflet[before] == valve.triangle_leaflet[after]) continue;
+    const auto [low, high] =
+        std::minmax({valve.triangle_scallop[before], valve.triangle_scallop[after]});
+    found.push_back({{low, high}, annulus.start_of(k)});
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+RegionMap::RegionMap(const Model &model)
+    : scallops_(model.valve.scallops.size()),
+      scallop_of_(model.valve.triangle_scallop.begin(), model.valve.triangle_scallop.end()),
+      commissure_of_(model.valve.triangles.size(), none) {
+  for (const Scallop &scallop : model.valve.scallops) names_.push_back(scallop.name);
+  find_commissures(model);
+}
+
+void RegionMap::find_commissures(const Model &model) {
+  const Valve &valve = model.valve;
+  const std::vector<Vec3> &rest = valve.rest;
+  const Loop loop(valve.annulus, rest);
+  const std::vector<Commissure> commissures = commissures_of(model, loop);
+  for (const Commissure &c : commissures) {
+    names_.push_back(valve.scallops[c.scallops[0]].name + "-" + valve.scallops[c.scallops[1]].name);
+  }
+  const double reach = reach_of_perimeter * loop.length();
+  const NearestOnLoop nearest(loop);
+  for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
+    const Tri &corner = valve.triangles[t];
+    const double s = nearest((rest[corner[0]] + rest[corner[1]] + rest[corner[2]]) / 3);
+    double least = reach;
+    for (size_t k = 0; k < commissures.size(); ++k) {
+      const double off = std::abs(std::remainder(s - commissures[k].at, loop.length()));
+      if (off >= least) continue;
+      least = off;
+      commissure_of_[t] = static_cast<uint32_t>(scallops_ + k);
+    }
+  }
+}
+
+}  // namespace mvs::core
