@@ -10,9 +10,7 @@
 
 namespace mvs::core {
 ExplicitEuler::ExplicitEuler(const Model &model)
-    : model_(&model),
-      total_energy_(model, contact_law),
-      stable_dt_(stable_explicit_step(model)) {}
+    : model_(&model), total_energy_(model, contact_law), stable_dt_(stable_explicit_step(model)) {}
 
 void ExplicitEuler::step(State &state, const StepOptions &how, SolveStats &stats) {
   std::vector<Vec3> &x = state.x.edit(), &v = state.v.edit();
