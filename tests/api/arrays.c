@@ -200,7 +200,8 @@ static void each_chord_is_described(void) {
 static void regions_and_orifice_parts_add_up(void) {
   mvs_sim *sim;
   const mvs_snapshot *closed;
-  mvs_parametric_desc shape = {.struct_size = sizeof shape, .annulus_scale = 1.2};
+  mvs_parametric_desc shape = {
+      .struct_size = sizeof shape, .annulus_scale = 1.2, .shape = MVS_SHAPE_FOUNDING};
   mvs_load_case load = {.struct_size = sizeof load, .pressure = 16e3, .boundary_fraction = 1};
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_generate_valve(sim, &shape));

@@ -6,8 +6,9 @@ class Leak(Shell):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.ok("generate", "-o", "v.obj")
-        cls.ok("generate", "--annulus-scale", 1.2, "-o", "wide.obj")
+        founding = ("--shape", "founding", "--leaflet", "spring")
+        cls.ok("generate", *founding, "-o", "v.obj")
+        cls.ok("generate", *founding, "--annulus-scale", 1.2, "-o", "wide.obj")
         cls.closed = cls.json("close", "v.obj", "-o", "closed.obj")["measures"]
         cls.leaking = cls.json("close", "wide.obj", "-o", "leaking.obj")["measures"]
 

@@ -63,6 +63,7 @@ struct Closed {
 Closed close_valve(double annulus_scale, const std::string &cut) {
   mvs_parametric_desc desc{};
   desc.struct_size = sizeof desc;
+  desc.shape = MVS_SHAPE_FOUNDING;  // its leaks and straight chordae are known
   desc.annulus_scale = annulus_scale;
   Valve valve = make_parametric_valve(desc);
   if (!cut.empty()) {
