@@ -240,7 +240,8 @@ static void regions_and_orifice_parts_add_up(void) {
   }
   CHECK(triangles == part_of.count);
   CHECK(fabs(opening - all.regurgitant_orifice_area) < 1e-15);
-  CHECK(strstr(part.anterior, "A2") != NULL && strstr(part.posterior, "P2") != NULL);
+  CHECK(part.anterior != NULL && strstr(part.anterior, "A2") != NULL);
+  CHECK(part.posterior != NULL && strstr(part.posterior, "P2") != NULL);
   MUST_FAIL(mvs_snapshot_get_region(closed, regions, &region), MVS_E_ARGUMENT, "index");
   MUST_FAIL(mvs_snapshot_get_orifice_part(closed, parts, &part), MVS_E_ARGUMENT, "index");
   MUST_FAIL(mvs_snapshot_get_region(NULL, 0, &region), MVS_E_ARGUMENT, "snapshot");

@@ -15,29 +15,14 @@ namespace {
 // Half the width of a commissural region over the annulus perimeter: 6 mm for 120 mm.
 constexpr double reach_of_perimeter = 0.05;
 
-// Arc length of the annulus point that is nearest to p.
-class NearestOnLoop {
- public:
-  explicit NearestOnLoop(const Loop &loop)
-      : loop_(loop), sides_(sides_of(loop)), tree_(sides_, loop.points()) {}
-
-  double operator()(const Vec3 &p) const {
-    const TriangleBvh::Hit hit = tree_.closest(p);
-    return loop_.start_of(hit.triangle) + (hit.point - loop_.point(hit.triangle)).norm();
-  }
-
- private:
-  static std::vector<Tri> sides_of(const Loop &loop) {
-    std::vector<Tri> sides;
-    const uint32_t n = static_cast<uint32_t>(loop.size());
-    for (uint32_t k = 0; k < n; ++k) sides.push_back({k, (k + 1) % n, (k + 1) % n});
-    return sides;
-  }
-
-  const Loop &loop_;
-  std::vector<Tri> sides_;
-  TriangleBvh tree_;
-};
+// The sides of a loop as triangles of two different corners: side k leads from its point k to the
+// next.
+std::vector<Tri> sides_of(const Loop &loop) {
+  std::vector<Tri> sides;
+  const uint32_t n = static_cast<uint32_t>(loop.size());
+  for (uint32_t k = 0; k < n; ++k) sides.push_back({k, (k + 1) % n, (k + 1) % n});
+  return sides;
+}
 
 // A place of the annulus where the attachments of two leaflets meet.
 struct Commissure {
@@ -85,10 +70,13 @@ void RegionMap::find_commissures(const Model &model) {
     names_.push_back(valve.scallops[c.scallops[0]].name + "-" + valve.scallops[c.scallops[1]].name);
   }
   const double reach = reach_of_perimeter * loop.length();
-  const NearestOnLoop nearest(loop);
+  const std::vector<Tri> sides = sides_of(loop);
+  const TriangleBvh tree(sides, loop.points());
   for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
     const Tri &corner = valve.triangles[t];
-    const double s = nearest((rest[corner[0]] + rest[corner[1]] + rest[corner[2]]) / 3);
+    const auto nearest = tree.closest((rest[corner[0]] + rest[corner[1]] + rest[corner[2]]) / 3);
+    const double s =
+        loop.start_of(nearest.triangle) + (nearest.point - loop.point(nearest.triangle)).norm();
     double least = reach;
     for (size_t k = 0; k < commissures.size(); ++k) {
       const double off = std::abs(std::remainder(s - commissures[k].at, loop.length()));

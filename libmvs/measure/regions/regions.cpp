@@ -37,6 +37,7 @@ class LeafletTree {
   }
   static std::vector<Tri> triangles_of(const Model &model, const std::vector<uint32_t> &index) {
     std::vector<Tri> triangles;
+    triangles.reserve(index.size());
     for (const uint32_t t : index) triangles.push_back(model.valve.triangles[t]);
     return triangles;
   }
