@@ -23,6 +23,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
   cli::add_info(app, console);
   cli::add_chords(app, console);
   cli::add_leak(app, console);
+  cli::add_cost(app, console);
   cli::add_op(app, console);
   cli::add_close(app, console);
   cli::add_measure(app, console);

@@ -162,7 +162,8 @@ typedef struct mvs_field_info {
 enum mvs_struct_e {
   MVS_STRUCT_MEASURES = 1, /* mvs_measures */
   MVS_STRUCT_STATS = 2,    /* mvs_stats */
-  MVS_STRUCT_PROFILE = 3   /* mvs_profile; fields of its array phase_s are listed one by one */
+  MVS_STRUCT_PROFILE = 3,  /* mvs_profile; fields of its array phase_s are listed one by one */
+  MVS_STRUCT_COST = 4      /* mvs_cost */
 };
 typedef uint32_t mvs_struct;
 

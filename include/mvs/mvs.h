@@ -3,6 +3,7 @@
 #define MVS_MVS_H
 
 #include "base.h"
+#include "cost.h"
 #include "device.h"
 #include "file.h"
 #include "op.h"

@@ -64,6 +64,8 @@ enum mvs_array_kind_e {
   MVS_ARRAY_LEAFLET_CONSTANTS = 31, /* F64 l x 9: thickness in m, then the constants of the law */
   MVS_ARRAY_ANNULUS_NODES = 40,     /* U32 k, in order */
   MVS_ARRAY_FREE_EDGE_NODES = 41,   /* U32, in order */
+  MVS_ARRAY_ANNULUS_FORCE = 42,     /* F64 k x 3, N: pull of tissue and pressure on each of them,
+                                       which the sutures of a ring bear */
   MVS_ARRAY_CHORD_NODES = 50,       /* U32 c x 2 */
   MVS_ARRAY_CHORD_REST_LENGTH = 51, /* F64 c, m */
   MVS_ARRAY_CHORD_KIND = 52,        /* U32 c: MVS_CHORD_KIND_* */

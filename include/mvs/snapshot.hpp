@@ -58,6 +58,8 @@ struct History {
   std::vector<std::string> checkpoints;
 };
 
+struct Cost;
+
 // A reference to a snapshot; copies share it.
 class Snapshot {
  public:
@@ -153,6 +155,9 @@ class Snapshot {
 
   mvs_measures measure() const { return filled<mvs_measures>(mvs_snapshot_measure, held_); }
 
+  // Cost of the repair of this closed valve, and the open valve.
+  Cost cost(mvs_cost_options options = {}) const;
+
   mvs_comparison compare(const Snapshot &other) const {
     return filled<mvs_comparison>(mvs_snapshot_compare, held_, other.held_);
   }
@@ -204,6 +209,21 @@ class Snapshot {
  private:
   const mvs_snapshot *held_;
 };
+
+// Cost of a repair (mvs_cost), and the valve opened in diastole.
+struct Cost {
+  mvs_cost figures;
+  Snapshot opened;
+};
+
+inline Cost Snapshot::cost(mvs_cost_options options) const {
+  options.struct_size = sizeof options;
+  const mvs_snapshot *opened = nullptr;
+  mvs_cost figures = {};
+  figures.struct_size = sizeof figures;
+  must(mvs_snapshot_measure_cost(held_, &options, &figures, &opened));
+  return {figures, Snapshot(opened)};
+}
 
 }  // namespace mvs
 

@@ -142,6 +142,8 @@ Viewed other_view(const mvs_snapshot &s, uint32_t which) {
       return view_of(s.tables().leaflet_constants);
     case MVS_ARRAY_ANNULUS_NODES:
       return view_of(s.model->valve.annulus);
+    case MVS_ARRAY_ANNULUS_FORCE:
+      return view_of(s.annulus_force());
     case MVS_ARRAY_FREE_EDGE_NODES:
       return view_of(s.tables().free_edge_nodes);
     case MVS_ARRAY_HEAD_NODES:

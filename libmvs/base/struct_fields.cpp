@@ -1,6 +1,7 @@
 // structs.def as tables; the compiler checks that every field of each struct has its row.
 #include "base/struct_fields.h"
 
+#include <mvs/cost.h>
 #include <mvs/profile.h>
 #include <mvs/snapshot.h>
 
@@ -36,6 +37,11 @@ constexpr mvs_field_info row(uint32_t type, size_t offset, const char *name, con
 constexpr mvs_field_info measures_fields[] = {
 #include "base/structs.def"
 };
+#define COST(TYPE, name, unit, label, help) \
+  row(MVS_FIELD_##TYPE, offsetof(mvs_cost, name), #name, unit, label, help),
+constexpr mvs_field_info cost_fields[] = {
+#include "base/structs.def"
+};
 #define STAT(TYPE, name, unit, help) \
   row(MVS_FIELD_##TYPE, offsetof(mvs_stats, name), #name, unit, #name, help),
 constexpr mvs_field_info stats_fields[] = {
@@ -59,6 +65,7 @@ constexpr bool covers(const mvs_field_info (&fields)[count], size_t size) {
   return end == size;
 }
 static_assert(covers(measures_fields, sizeof(mvs_measures)));
+static_assert(covers(cost_fields, sizeof(mvs_cost)));
 static_assert(covers(stats_fields, sizeof(mvs_stats)));
 static_assert(covers(profile_fields, sizeof(mvs_profile)));
 
@@ -66,6 +73,10 @@ static_assert(covers(profile_fields, sizeof(mvs_profile)));
 #define MEASURE(TYPE, name, unit, label, help)     \
   static_assert(                                   \
       std::is_same_v<decltype(mvs_measures::name), \
+                     std::conditional_t<MVS_FIELD_##TYPE == MVS_FIELD_COUNT, uint32_t, double>>);
+#define COST(TYPE, name, unit, label, help)    \
+  static_assert(                               \
+      std::is_same_v<decltype(mvs_cost::name), \
                      std::conditional_t<MVS_FIELD_##TYPE == MVS_FIELD_COUNT, uint32_t, double>>);
 #define STAT(TYPE, name, unit, help)            \
   static_assert(                                \
@@ -79,6 +90,7 @@ std::span<const mvs_field_info> struct_fields(mvs_struct which) {
   if (which == MVS_STRUCT_MEASURES) return measures_fields;
   if (which == MVS_STRUCT_STATS) return stats_fields;
   if (which == MVS_STRUCT_PROFILE) return profile_fields;
+  if (which == MVS_STRUCT_COST) return cost_fields;
   return {};
 }
 

@@ -1,4 +1,5 @@
-// Descriptions of the fields of mvs_measures, mvs_stats and mvs_profile, made from structs.def.
+// Descriptions of the fields of mvs_measures, mvs_cost, mvs_stats and mvs_profile, made from
+// structs.def.
 #pragma once
 
 #include <mvs/base.h>

@@ -6,6 +6,7 @@
 #include "measure/annulus/frame.h"
 #include "measure/coaptation/coaptation.h"
 #include "measure/comparison/compare.h"
+#include "measure/cost/outflow.h"
 #include "measure/orifice/orifice.h"
 #include "measure/regions/regions.h"
 #include "measure/tenting/tenting_billow.h"

@@ -146,6 +146,13 @@ const std::vector<RegionMeasures> &mvs_snapshot::regions() const {
 const Stability &mvs_snapshot::stability() const {
   return stability_.get([this] { return check_stability(*model, state); });
 }
+const std::vector<Vec3> &mvs_snapshot::annulus_force() const {
+  return annulus_force_.get([this] {
+    std::vector<Vec3> force;
+    for (const uint32_t node : model->valve.annulus) force.push_back(forces().total[node]);
+    return force;
+  });
+}
 const Tables &mvs_snapshot::tables() const {
   return tables_.get([this] { return make_tables(*model); });
 }

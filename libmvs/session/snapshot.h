@@ -69,6 +69,7 @@ struct mvs_snapshot {
   const mvs::core::RegionMap &region_map() const;
   const std::vector<mvs::core::RegionMeasures> &regions() const;
   const mvs::core::Stability &stability() const;
+  const std::vector<mvs::core::Vec3> &annulus_force() const;  // N, on each node of the annulus
   const mvs::core::Tables &tables() const;
   const mvs_measures &measures() const;
 
@@ -95,6 +96,7 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::RegionMap> region_map_;
   mvs::core::Lazy<std::vector<mvs::core::RegionMeasures>> regions_;
   mvs::core::Lazy<mvs::core::Stability> stability_;
+  mvs::core::Lazy<std::vector<mvs::core::Vec3>> annulus_force_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
   mvs::core::Lazy<mvs_measures> measures_;
 };

@@ -15,6 +15,7 @@ namespace cli {
 void add_generate(CLI::App &app, Console &console);
 void add_info(CLI::App &app, Console &console);
 void add_chords(CLI::App &app, Console &console);
+void add_cost(CLI::App &app, Console &console);
 void add_leak(CLI::App &app, Console &console);
 void add_op(CLI::App &app, Console &console);
 void add_close(CLI::App &app, Console &console);

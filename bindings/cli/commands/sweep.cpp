@@ -10,6 +10,7 @@
 #include "text/readouts.h"
 #include "text/sweep_table.h"
 #include "valve/at_rest.h"
+#include "valve/cost.h"
 #include "valve/pressure.h"
 #include "valve/processes.h"
 
@@ -23,15 +24,16 @@ struct SweepOptions {
   std::vector<std::string> ops;
   std::optional<double> pressure_mmhg;
   unsigned jobs = core_count();
-  bool largest = false;
+  bool largest = false, cost = false;
+  CostOptions cost_options;
 };
 
 // The closed valve to which every combination is applied, and how a row is made of it.
 struct Sweep {
   SweepGrid grid;
   mvs::Snapshot closed;
-  std::string valve;  // the hash of the valve in the file
-  double pressure_mmhg;
+  SweepConditions conditions;
+  std::optional<CostMeter> cost;
 };
 
 SweepGrid grid_of(const SweepOptions &options) {
@@ -47,7 +49,7 @@ AtRest close_combination(const Sweep &sweep, size_t combination) {
   mvs::Simulator sim = make_sim(desc);
   sim.restore(sweep.closed);
   sweep.grid.apply(combination, sim);
-  return settle(sim, sweep.pressure_mmhg,
+  return settle(sim, sweep.conditions.pressure_mmhg,
                 "combination " + CLI::detail::join(sweep.grid.values(combination), " "));
 }
 
@@ -62,12 +64,19 @@ CsvRow row_of(const Sweep &sweep, size_t combination) {
     row.push_back(cell_of(at_rest.measures.intersections));
     const Json measures = measures_json(at_rest.measures);
     for (const auto &[key, value] : measures.items()) row.push_back(cell_of(value));
+    if (sweep.cost) {
+      const Json costs = cost_json(sweep.cost->of(at_rest.valve).figures);
+      for (const auto &[key, value] : costs.items()) {
+        if (!measures.contains(key)) row.push_back(cell_of(value));
+      }
+    }
   } catch (const mvs::Error &failure) {
     error = failure.what();
-    row.resize(row.size() + 1 + measure_keys().size());
+    row.resize(sweep.grid.columns().size() + 1 + measure_keys(sweep.cost.has_value()).size());
   }
-  row.push_back(cell_of(sweep.pressure_mmhg));
-  row.push_back(sweep.valve);
+  row.push_back(cell_of(sweep.conditions.pressure_mmhg));
+  row.push_back(sweep.conditions.valve);
+  if (sweep.cost) row.push_back(sweep.conditions.cost);
   row.push_back(error);
   return row;
 }
@@ -117,9 +126,9 @@ void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &opt
     return !table.cell(row, "error").empty();
   });
   Json best = Json::array();
-  std::string lines =
-      text("%s: %zu combinations under %g mmHg, %zu of them closed now, in %s",
-           options.file.c_str(), rows.size(), sweep.pressure_mmhg, closed_now, options.csv.c_str());
+  std::string lines = text("%s: %zu combinations under %g mmHg, %zu of them closed now, in %s",
+                           options.file.c_str(), rows.size(), sweep.conditions.pressure_mmhg,
+                           closed_now, options.csv.c_str());
   if (failed > 0) lines += text("\n%td cannot be applied: see the column error", failed);
   if (!options.sort.empty()) {
     const std::vector<CsvRow> first = table.best(options.sort, options.largest, most_shown);
@@ -129,7 +138,7 @@ void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &opt
   print(console,
         {{"file", options.file},
          {"csv", options.csv},
-         {"pressure_mmHg", sweep.pressure_mmhg},
+         {"pressure_mmHg", sweep.conditions.pressure_mmhg},
          {"combinations", rows.size()},
          {"closed_now", closed_now},
          {"failed", failed},
@@ -143,8 +152,16 @@ void run_sweep(const SweepOptions &options, Console &console) {
   Progress progress(console);
   mvs::Simulator sim = load_sim(options.file, progress);
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
-  Sweep sweep = {std::move(grid), sim.snapshot(), hash_of(sim.snapshot()), pressure_mmhg};
-  SweepTable table(sweep.grid, options.csv, sweep.valve, pressure_mmhg);
+  Sweep sweep = {std::move(grid), sim.snapshot(), {hash_of(sim.snapshot()), pressure_mmhg, ""}, {}};
+  if (options.cost) {
+    sweep.conditions.cost = words_of(options.cost_options);
+    sweep.cost.emplace(options.cost_options);
+  }
+  SweepTable table(sweep.grid, options.csv, sweep.conditions);
+  const std::vector<std::string> keys = measure_keys(options.cost);
+  if (!options.sort.empty() && std::find(keys.begin(), keys.end(), options.sort) == keys.end()) {
+    throw CLI::ValidationError("--sort", options.sort + " is measured with --cost only");
+  }
   const std::vector<size_t> missing = table.missing();
   if (!missing.empty()) {
     sweep.closed = settle(sim, pressure_mmhg, options.file).valve;
@@ -209,8 +226,11 @@ void add_sweep(CLI::App &app, Console &console) {
                           ->add_option("--sort", options->sort,
                                        "measure by which the best ten combinations are printed, "
                                        "smallest first: a column of the table")
-                          ->check(one_of(measure_keys()).description(""));
+                          ->check(one_of(measure_keys(true)).description(""));
   sort->type_name("MEASURE");
+  CLI::Option *cost = command->add_flag("--cost", options->cost,
+                                        "measure the cost of each repair, as `mvs cost` does");
+  for (CLI::Option *given : add_cost_options(*command, options->cost_options)) given->needs(cost);
   command->add_flag("--largest", options->largest, "print the largest first")->needs(sort);
   add_progress_flag(*command, console);
 }

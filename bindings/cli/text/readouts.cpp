@@ -1,4 +1,4 @@
-// Read-outs as JSON and text, made from the library's description of mvs_measures.
+// Read-outs as JSON and text, made from the library's descriptions of mvs_measures and mvs_cost.
 #include "text/readouts.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace cli {
 namespace {
 
-// A measure as it is shown.
+// A figure as it is shown.
 struct Readout {
   mvs_field_info field;
   std::string key;   // in JSON, with its unit
@@ -18,7 +18,10 @@ struct Readout {
   double text_scale = 1;
   bool is_count = false;
 
-  double value(const mvs_measures &measures) const { return mvs::field_value(&measures, field); }
+  template <typename Struct>
+  double value(const Struct &figures) const {
+    return mvs::field_value(&figures, field);
+  }
 };
 
 // The unit that people read, its factor from SI, and its suffix in JSON keys.
@@ -29,7 +32,6 @@ struct Shown {
 constexpr Shown shown[] = {{"m", "mm", 1e3},  {"m2", "mm2", 1e6},
                            {"m3", "ml", 1e6}, {"Pa", "kPa", 1e-3},
                            {"N", "N", 1},     {"rad", "deg", 57.29577951308232}};
-
 Readout readout_of(const mvs_field_info &field) {
   Readout readout{field, field.name, 1, "%", 100, field.type == MVS_FIELD_COUNT};
   for (const Shown &row : shown) {
@@ -51,6 +53,32 @@ const std::vector<Readout> &readouts() {
     return made;
   }();
   return all;
+}
+
+// Cost of a repair: pressure drops in mmHg, and a ratio that is no percentage.
+const std::vector<Readout> &cost_readouts() {
+  static const std::vector<Readout> all = [] {
+    std::vector<Readout> made;
+    for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_COST)) {
+      Readout readout = readout_of(field);
+      if (std::string_view(field.unit) == "Pa") {
+        readout.key = std::string(field.name) + "_mmHg";
+        readout.scale = readout.text_scale = 1 / pa_per_mmhg;
+        readout.unit = "mmHg";
+      } else if (*field.unit == 0) {
+        readout.text_scale = 1;
+        readout.unit = "";
+      }
+      made.push_back(readout);
+    }
+    return made;
+  }();
+  return all;
+}
+
+const char *sam_word(mvs_sam_risk risk) {
+  if (risk == MVS_SAM_LOW) return "low";
+  return risk == MVS_SAM_RAISED ? "raised" : "not determined";
 }
 
 bool is_orifice(const Readout &readout) {
@@ -130,6 +158,44 @@ std::string measures_text(const mvs_measures &before, const mvs_measures &after)
       table += text(" (%s, then %s)", leak_grade(before), leak_grade(after));
     }
     table += '\n';
+  }
+  return table;
+}
+
+Json cost_json(const mvs_cost &cost) {
+  Json object = Json::object();
+  for (const Readout &readout : cost_readouts()) {
+    const double value = readout.value(cost);
+    Json &cell = object[readout.key];
+    if (readout.key == "opened") {
+      cell = value != 0;
+    } else if (readout.key == "sam_risk") {
+      cell = sam_word(cost.sam_risk);
+    } else if (readout.is_count) {
+      cell = static_cast<uint32_t>(value);
+    } else {
+      cell = number_json(value, readout.scale);
+    }
+  }
+  return object;
+}
+
+std::string cost_text(const mvs_cost &cost) {
+  std::string table;
+  for (const Readout &readout : cost_readouts()) {
+    if (readout.key == "opened") continue;
+    const double value = readout.value(cost);
+    std::string cell = text("%.2f", value * readout.text_scale);
+    if (readout.key == "sam_risk") {
+      cell = sam_word(cost.sam_risk);
+    } else if (readout.is_count) {
+      cell = text("%u", static_cast<uint32_t>(value));
+    } else if (!std::isfinite(value)) {
+      cell = "not known";
+    } else if (!readout.unit.empty()) {
+      cell += " " + readout.unit;
+    }
+    table += text("  %-31s%16s\n", readout.field.label, cell.c_str());
   }
   return table;
 }

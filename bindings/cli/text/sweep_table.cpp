@@ -8,36 +8,50 @@
 namespace cli {
 namespace {
 
-CsvRow sweep_columns(const SweepGrid &grid) {
+CsvRow sweep_columns(const SweepGrid &grid, bool cost) {
   CsvRow columns = grid.columns();
   columns.emplace_back("converged");
-  for (const std::string &key : measure_keys()) columns.push_back(key);
-  for (const char *last : {"pressure_mmHg", "valve", "error"}) columns.emplace_back(last);
+  for (const std::string &key : measure_keys(cost)) columns.push_back(key);
+  for (const char *last : {"pressure_mmHg", "valve"}) columns.emplace_back(last);
+  if (cost) columns.emplace_back("cost");
+  columns.emplace_back("error");
   return columns;
 }
 
 }  // namespace
 
-std::vector<std::string> measure_keys() {
+std::vector<std::string> measure_keys(bool cost) {
   std::vector<std::string> keys = {"residual_N", "intersections"};
   const Json measures = measures_json({});
   for (const auto &[key, value] : measures.items()) keys.push_back(key);
+  if (!cost) return keys;
+  const Json costs = cost_json({});
+  for (const auto &[key, value] : costs.items()) {
+    if (!measures.contains(key)) keys.push_back(key);
+  }
   return keys;
 }
 
 std::string cell_of(const Json &value) {
+  if (value.is_string()) return value.get<std::string>();
   return value.is_null() ? "" : value.dump();
 }
 
-SweepTable::SweepTable(const SweepGrid &grid, const std::string &path, const std::string &valve,
-                       double pressure_mmhg)
-    : columns_(sweep_columns(grid)), parameters_(grid.columns().size()), file_(path, columns_) {
+SweepTable::SweepTable(const SweepGrid &grid, const std::string &path,
+                       const SweepConditions &conditions)
+    : columns_(sweep_columns(grid, !conditions.cost.empty())),
+      parameters_(grid.columns().size()),
+      file_(path, columns_) {
   for (size_t k = 0; k < grid.combinations(); ++k) order_[grid.values(k)] = k;
   for (const CsvRow &row : file_.rows()) {
-    if (cell(row, "valve") == valve && cell(row, "pressure_mmHg") == cell_of(pressure_mmhg))
-      continue;
+    const bool same = cell(row, "valve") == conditions.valve &&
+                      cell(row, "pressure_mmHg") == cell_of(conditions.pressure_mmhg) &&
+                      (conditions.cost.empty() || cell(row, "cost") == conditions.cost);
+    if (same) continue;
     fail(MVS_E_FORMAT, "csv",
-         path + ": holds rows of another valve or pressure: give the name of another file");
+         path +
+             ": holds rows of another valve or pressure, or other options of costs: give the "
+             "name of another file");
   }
 }
 

@@ -11,19 +11,27 @@
 
 namespace cli {
 
-// The columns between "converged" and "pressure_mmHg": all measures with their units.
-std::vector<std::string> measure_keys();
+// The columns between "converged" and "pressure_mmHg": all measures with their units; with `cost`
+// the cost of a repair, too.
+std::vector<std::string> measure_keys(bool cost);
 
 // A number as in JSON; "" for null.
 std::string cell_of(const Json &value);
 
-// Columns: the parameters, "converged", the measures, "pressure_mmHg", "valve" (its hash), "error".
+// The conditions of all rows of a table.
+struct SweepConditions {
+  std::string valve;  // hash of the valve in the file
+  double pressure_mmhg = 0;
+  std::string cost;  // how costs are measured, in words; "": they are not
+};
+
+// Columns: the parameters, "converged", the measures, "pressure_mmHg", "valve", with costs "cost",
+// "error".
 class SweepTable {
  public:
-  // Reads the rows of an existing file. Throws mvs::Error if it has other columns, or rows of
-  // another valve or pressure.
-  SweepTable(const SweepGrid &grid, const std::string &path, const std::string &valve,
-             double pressure_mmhg);
+  // Reads the rows of an existing file. Throws mvs::Error if it has other columns, or rows of other
+  // conditions.
+  SweepTable(const SweepGrid &grid, const std::string &path, const SweepConditions &conditions);
 
   const CsvRow &columns() const { return columns_; }
   const std::string &cell(const CsvRow &row, const std::string &column) const;

@@ -42,6 +42,7 @@ from .errors import (
     VersionError,
 )
 from .kinds import (
+    DIASTOLE_PA,
     MMHG,
     SYSTOLE_PA,
     ChordKind,
@@ -51,6 +52,7 @@ from .kinds import (
     NodeKind,
     PartKind,
     RingKind,
+    SamRisk,
     ToolKind,
 )
 from .laws import leaflet_law
@@ -61,6 +63,7 @@ from .values import (
     ChordLimits,
     Coarsening,
     Comparison,
+    Cost,
     EnsembleMember,
     EnsembleSummary,
     Fault,
@@ -84,6 +87,7 @@ features = tuple(_core.features().split())
 methods.attach()
 
 __all__ = [
+    "DIASTOLE_PA",
     "MMHG",
     "SYSTOLE_PA",
     "ArgumentError",
@@ -93,6 +97,7 @@ __all__ = [
     "ChordLimits",
     "Coarsening",
     "Comparison",
+    "Cost",
     "Curve",
     "Device",
     "DeviceError",
@@ -125,6 +130,7 @@ __all__ = [
     "Replay",
     "Ring",
     "RingKind",
+    "SamRisk",
     "Simulator",
     "Site",
     "Snapshot",

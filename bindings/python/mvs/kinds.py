@@ -8,6 +8,9 @@ MMHG = 133.322
 SYSTOLE_PA = 120 * MMHG
 """120 mmHg in Pa: the default systolic load."""
 
+DIASTOLE_PA = 5 * MMHG
+"""5 mmHg in Pa: the default pressure difference that opens the valve in Snapshot.cost()."""
+
 
 class NodeKind(IntEnum):
     """Values of ``Snapshot.node_kind``."""
@@ -40,6 +43,14 @@ class PartKind(IntEnum):
     HEAD = 4
     RING = 5
     CURVE = 6
+
+
+class SamRisk(IntEnum):
+    """Risk of systolic anterior motion of the anterior leaflet (mvs.Cost)."""
+
+    NOT_DETERMINED = 0
+    LOW = 1
+    RAISED = 2
 
 
 class RingKind(IntEnum):

@@ -17,7 +17,7 @@ from .errors import ArgumentError, Error
 from .kinds import SYSTOLE_PA
 from .ops import FieldType, Operation
 from .tables import Row, Table
-from .values import Measures, unit_of
+from .values import Cost, Measures, unit_of
 from .words import shown
 
 Step = Union[Operation, tuple[str, Mapping[str, Any]]]
@@ -34,6 +34,7 @@ class _Task:
     operations: tuple[Operation, ...]
     pressure: float
     settle: Mapping[str, Any]
+    cost: Optional[Mapping[str, Any]]
 
 
 def sweep(
@@ -43,6 +44,7 @@ def sweep(
     *,
     pressure_pa: Optional[float] = None,
     settle: Optional[Mapping[str, Any]] = None,
+    cost: Optional[Mapping[str, Any]] = None,
 ) -> Table:
     """Applies operations with all combinations of their parameters: a mvs.Table, a row for each.
 
@@ -61,6 +63,8 @@ def sweep(
     executor: any of concurrent.futures; None: one after another in this thread
     pressure_pa: Pa; None: that of the snapshot, else 120 mmHg
     settle: arguments of Simulator.settle
+    cost: arguments of Snapshot.cost, {} for its defaults; adds columns "cost.open_area", ... with
+        the fields of mvs.Cost. None: costs are not measured
     """
     start = valve if isinstance(valve, Snapshot) else _snapshot_of(valve)
     pressure = start.load_case.pressure or SYSTOLE_PA if pressure_pa is None else pressure_pa
@@ -69,12 +73,12 @@ def sweep(
     tasks, parameters = [], []
     for values in itertools.product(*(c.values for c in choices)):
         parameters.append({c.label: v for c, v in zip(choices, values) if c.label in varied})
-        tasks.append(_Task(start, _operations(choices, values), pressure, dict(settle or {})))
+        tasks.append(_Task(start, _operations(choices, values), pressure, dict(settle or {}), cost))
     if executor is None:
         results: Iterable[Row] = map(_run, tasks)
     else:
         results = [each.result() for each in [executor.submit(_run, task) for task in tasks]]
-    units = _units(choices, varied)
+    units = _units(choices, varied, cost is not None)
     return Table(({**p, **row} for p, row in zip(parameters, results)), units)
 
 
@@ -138,7 +142,7 @@ def _operations(choices: Sequence[_Choice], values: Sequence[Any]) -> tuple[Oper
     return tuple(made)
 
 
-def _units(choices: Sequence[_Choice], varied: Sequence[str]) -> dict[str, str]:
+def _units(choices: Sequence[_Choice], varied: Sequence[str], cost: bool) -> dict[str, str]:
     units = {
         c.label: operations.KINDS[c.kind].field(c.field).unit for c in choices if c.label in varied
     }
@@ -146,8 +150,18 @@ def _units(choices: Sequence[_Choice], varied: Sequence[str]) -> dict[str, str]:
     for field in dataclasses.fields(Measures):
         unit = unit_of(Measures, field.name)
         units[field.name] = "" if unit == "1" else unit
+    for name in _cost_names() if cost else ():
+        unit = unit_of(Cost, name)
+        units[f"cost.{name}"] = "" if unit == "1" else unit
     units["error"] = ""
     return units
+
+
+def _cost_names() -> list[str]:
+    """Those that the measures do not have, without the open valve."""
+    measures = {field.name for field in dataclasses.fields(Measures)}
+    names = [field.name for field in dataclasses.fields(Cost)]
+    return [name for name in names if name not in measures and name != "open_valve"]
 
 
 def _snapshot_of(valve: Valve) -> Snapshot:
@@ -159,6 +173,8 @@ def _snapshot_of(valve: Valve) -> Snapshot:
 def _run(task: _Task) -> Row:
     """One row; an impossible combination is a row with its sentence. Runs in a worker."""
     names = [field.name for field in dataclasses.fields(Measures)]
+    costs = _cost_names() if task.cost is not None else []
+    row: Row = dict.fromkeys([*names, *(f"cost.{name}" for name in costs)], float("nan"))
     try:
         with Simulator(log=lambda level, text: None) as sim:
             sim.restore(task.start)
@@ -166,7 +182,11 @@ def _run(task: _Task) -> Row:
                 sim.apply(operation)
             sim.set_load(task.pressure, 1.0)
             converged = sim.settle(**task.settle).converged
-            measures = sim.snapshot().measures
+            closed = sim.snapshot()
+        row.update({name: getattr(closed.measures, name) for name in names})
+        if task.cost is not None:
+            cost = closed.cost(**task.cost)
+            row.update({f"cost.{name}": getattr(cost, name) for name in costs})
     except Error as error:
-        return {"converged": False, **dict.fromkeys(names, float("nan")), "error": str(error)}
-    return {"converged": converged, **{n: getattr(measures, n) for n in names}, "error": ""}
+        return {"converged": False, **dict.fromkeys(row, float("nan")), "error": str(error)}
+    return {"converged": converged, **row, "error": ""}

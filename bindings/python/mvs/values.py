@@ -7,13 +7,13 @@ the same words: ``unit_of(Measures, "tenting_height")``.
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, Optional
+from typing import Annotated, Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .describe import annotation_of, with_field_help
-from .kinds import EnsembleOrder, PartKind, ToolKind
+from .kinds import EnsembleOrder, PartKind, SamRisk, ToolKind
 
 
 def unit_of(kind: type, name: str) -> str:
@@ -238,6 +238,47 @@ class Measures:
     leaflet_stress_p99: Annotated[
         float, "Pa", "the same for 99 %: one bad triangle does not change it"
     ]
+
+
+@with_field_help
+@dataclasses.dataclass(frozen=True, eq=False)
+class Cost:
+    """Cost of a repair. NaN where it is not known. Sources: libmvs/measure/DEFINITIONS.md."""
+
+    opened: Annotated[bool, "1", "1: the open valve came to rest"]
+    open_area: Annotated[float, "m2", "smallest cross-section of the valve opened in diastole"]
+    gradient: Annotated[
+        float, "Pa", "mean pressure drop of the flow through the open area; only with a flow"
+    ]
+    anterior_height: Annotated[
+        float, "m", "tissue from annulus to free edge, unloaded, central AP plane"
+    ]
+    posterior_height: Annotated[float, "m", "the same of the posterior leaflet"]
+    anterior_length: Annotated[
+        float, "m", "from annulus to coaptation along the closed leaflet, central AP plane"
+    ]
+    posterior_length: Annotated[float, "m", "the same of the posterior leaflet"]
+    length_ratio: Annotated[float, "1", "anterior over posterior length to coaptation"]
+    septal_distance: Annotated[
+        float, "m", "in the central AP plane; only with points of the septum"
+    ]
+    annulus_force_max: Annotated[
+        float, "N", "on one node of the annulus; the suture of a ring bears it"
+    ]
+    annulus_force_sum: Annotated[float, "N", "sum of magnitudes over the nodes of the annulus"]
+    sam_risk: Annotated[
+        SamRisk,
+        "1",
+        "0 not determined, 1 low, 2 raised: ratio at most 1.3, or septum within 25 mm",
+    ]
+    rings: Annotated[int, "1", "rings and bands, whose sutures bear the pull of the annulus"]
+    chords_over_strain: Annotated[
+        int, "1", "chordae strained beyond the limit of their kind, closed"
+    ]
+    chords_over_tension: Annotated[
+        int, "1", "chordae that carry more than the limit of their kind, closed"
+    ]
+    open_valve: Annotated[Any, "1", "the valve opened in diastole (mvs.Snapshot)"]
 
 
 @with_field_help

@@ -191,6 +191,26 @@ py::list orifice_parts_of(const Snapshot &self) {
   return rows;
 }
 
+// Cost of the repair of the closed valve (mvs.Cost).
+py::object cost(const Snapshot &self, std::optional<double> flow, const py::object &septum,
+                std::optional<double> pressure, std::optional<double> density,
+                std::optional<double> discharge) {
+  auto options = sized<mvs_cost_options>();
+  options.flow = flow.value_or(0);
+  options.pressure = pressure.value_or(0);
+  options.density = density.value_or(0);
+  options.discharge = discharge.value_or(0);
+  std::vector<py::array> kept;
+  if (!septum.is_none()) {
+    options.septum =
+        described(array_argument(septum, {"septum", 3, {MVS_TYPE_F64, MVS_TYPE_F32}}), kept);
+  }
+  auto figures = sized<mvs_cost>();
+  const mvs_snapshot *opened = nullptr;
+  release_and([&] { return mvs_snapshot_measure_cost(self.get(), &options, &figures, &opened); });
+  return cost_value(figures, py::cast(Snapshot(opened)));
+}
+
 std::string text(const Snapshot &snapshot) {
   return std::string("<mvs.Snapshot \"") + mvs_snapshot_get_name(snapshot.get()) + "\" " +
          hash(snapshot) + ">";
@@ -260,6 +280,13 @@ void bind_snapshot(py::module_ &module) {
                              "ones from first to last, then the undone ones in the order of redo.");
   type.def_property_readonly("checkpoints", &checkpoints,
                              "The names of the checkpoints (tuple of str).");
+  type.def("cost", &cost, py::kw_only(), "flow"_a = py::none(), "septum"_a = py::none(),
+           "pressure_pa"_a = py::none(), "density"_a = py::none(), "discharge"_a = py::none(),
+           "Cost of the repair of this closed valve (mvs.Cost), and the valve opened in "
+           "diastole.\n\nflow: m3/s through the open valve; None: no gradient\n"
+           "septum: (k, 3), m: points of the septum that faces the anterior leaflet in systole; "
+           "None: no risk of SAM\npressure_pa: Pa, atrium minus ventricle; None: 5 mmHg\n"
+           "density: kg/m3, of blood; None: 1060\ndischarge: discharge coefficient; None: 0.85");
   type.def("_chords", &chords_of);
   type.def("_regions", &regions_of);
   type.def("_orifice_parts", &orifice_parts_of);

@@ -77,6 +77,15 @@ py::object measures_value(const mvs_measures &s) {
   return make_value("Measures", **keywords(measures, &s));
 }
 
+py::object cost_value(const mvs_cost &s, py::object opened) {
+  static const auto cost = mvs::fields_of(MVS_STRUCT_COST);
+  py::dict fields = keywords(cost, &s);
+  fields["opened"] = s.opened != 0;
+  fields["sam_risk"] = py::module_::import("mvs.kinds").attr("SamRisk")(s.sam_risk);
+  fields["open_valve"] = std::move(opened);
+  return make_value("Cost", **fields);
+}
+
 py::object comparison_value(const mvs_comparison &s) {
   return make_value("Comparison", "same_mesh"_a = s.same_mesh != 0, FIELD(node_rms),
                     FIELD(node_max), FIELD(surface_rms), FIELD(surface_max),

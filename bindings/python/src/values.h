@@ -12,6 +12,7 @@ namespace mvs_python {
 uint32_t solver_of(const std::string &name);
 
 py::object load_value(const mvs_load_case &load);
+py::object cost_value(const mvs_cost &cost, py::object opened);
 py::object stability_value(const mvs_stability &stability);
 py::object stats_value(const mvs_stats &stats, const mvs_profile &profile);
 py::object measures_value(const mvs_measures &measures);

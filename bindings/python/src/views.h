@@ -57,6 +57,10 @@ inline constexpr View views[] = {
     {"leaflet_constants", MVS_ARRAY_LEAFLET_CONSTANTS,
      "(l, 9) float64: thickness in m, then the constants of the law."},
     {"annulus_nodes", MVS_ARRAY_ANNULUS_NODES, "(k,) uint32: in order around the annulus."},
+    {"annulus_force", MVS_ARRAY_ANNULUS_FORCE,
+     "(k, 3) float64, N: pull of tissue and pressure on each of annulus_nodes, which the sutures "
+     "of a ring "
+     "bear."},
     {"free_edge_nodes", MVS_ARRAY_FREE_EDGE_NODES, "(f,) uint32: in order along the free edge."},
     {"chord_nodes", MVS_ARRAY_CHORD_NODES, "(c, 2) uint32: papillary side first."},
     {"chord_rest_length", MVS_ARRAY_CHORD_REST_LENGTH, "(c,) float64, m."},

@@ -8,7 +8,7 @@ from string import Template
 
 import mvs
 
-from . import leak
+from . import cost, leak
 from .cases import Case
 from .gallery import CAPTIONS, Picture
 from .markup import figure
@@ -55,6 +55,8 @@ literature are widely quoted ranges for orientation, not limits of this model.</
 $table
 <h2>Where it leaks</h2>
 $leak
+<h2>Cost of the repair</h2>
+$cost
 $study
 <h2>Settings</h2>
 $settings
@@ -74,6 +76,7 @@ def build(cases: list[Case], pictures: list[Picture], study: str = "") -> str:
         pictures="".join(_row(name, cases, pictures) for name in CAPTIONS),
         table=as_html(cases),
         leak=leak.as_html(cases),
+        cost=cost.as_html(cases),
         study=study,
         settings=_settings(cases),
     )

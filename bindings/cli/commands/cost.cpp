@@ -1,0 +1,53 @@
+// `mvs cost`: the cost of the repair of a closed valve.
+#include <cstdio>
+
+#include "commands/commands.h"
+#include "text/readouts.h"
+#include "valve/cost.h"
+
+namespace cli {
+namespace {
+
+struct CommandOptions {
+  std::string file, out;
+  CostOptions cost;
+};
+
+void run_cost(const CommandOptions &options, Console &console) {
+  const mvs::Snapshot closed = load(options.file);
+  const CostMeter meter(options.cost);
+  Progress progress(console);
+  const mvs::Cost cost = meter.of(closed, &progress);
+  if (!options.out.empty()) cost.opened.save(options.out);
+  const std::string state = closed.at_rest() ? "at rest" : "not at rest";
+  print(console,
+        {{"file", options.file},
+         {"pressure_mmHg", closed.load().pressure / pa_per_mmhg},
+         {"diastole_mmHg", options.cost.diastole_mmhg},
+         {"at_rest", closed.at_rest()},
+         {"cost", cost_json(cost.figures)}},
+        text("%s: closed under %g mmHg, %s; opened by %g mmHg\n", options.file.c_str(),
+             closed.load().pressure / pa_per_mmhg, state.c_str(), options.cost.diastole_mmhg) +
+            cost_text(cost.figures));
+  if (cost.figures.opened == 0) {
+    std::fprintf(stderr, "mvs: warning: the open valve did not come to rest: no open area\n");
+    console.exit_code = 1;
+  }
+}
+
+}  // namespace
+
+void add_cost(CLI::App &app, Console &console) {
+  const auto [command, options] = add_command<CommandOptions>(
+      app, console, "cost",
+      "show the cost of a repair: area of the valve opened in diastole, gradient of a flow, "
+      "leaflet "
+      "lengths and risk of SAM, pull on the annulus, chordae beyond limits",
+      run_cost);
+  command->add_option("file", options->file, "closed valve, .obj, .h5 or .inp")->required();
+  command->add_option("-o,--output", options->out, "file for the open valve");
+  add_cost_options(*command, options->cost);
+  add_progress_flag(*command, console);
+}
+
+}  // namespace cli

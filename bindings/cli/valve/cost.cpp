@@ -1,0 +1,53 @@
+#include "valve/cost.h"
+
+#include "text/op_forms.h"
+
+namespace cli {
+
+std::array<CLI::Option *, 3> add_cost_options(CLI::App &command, CostOptions &options) {
+  CLI::Option *diastole = command.add_option("--diastole", options.diastole_mmhg,
+                                             "pressure difference that opens the valve, mmHg");
+  diastole->type_name("MMHG")->capture_default_str()->check(
+      CLI::Range(0.01, 100.0).description(""));
+  CLI::Option *flow =
+      command.add_option("--flow", options.flow_ml_s,
+                         "flow through the open valve, ml/s: gives the gradient [not known]");
+  flow->type_name("ML/S")->check(CLI::Range(0.001, 1e6).description(""));
+  CLI::Option *septum = command.add_option(
+      "--septum", options.septum,
+      "file with points of the septum that faces the anterior leaflet in systole, three numbers "
+      "per line, mm: gives the risk of SAM [not known]");
+  septum->type_name("FILE");
+  return {diastole, flow, septum};
+}
+
+std::string words_of(const CostOptions &options) {
+  std::string words = text("diastole %g mmHg", options.diastole_mmhg);
+  if (options.flow_ml_s > 0) words += text(", flow %g ml/s", options.flow_ml_s);
+  if (!options.septum.empty()) words += ", septum " + options.septum;
+  return words;
+}
+
+CostMeter::CostMeter(const CostOptions &options) {
+  options_.pressure = options.diastole_mmhg * pa_per_mmhg;
+  options_.flow = options.flow_ml_s * 1e-6;
+  if (options.septum.empty()) return;
+  septum_ = read_points_file(options.septum);
+  for (std::array<double, 3> &point : septum_) {
+    for (double &x : point) x *= 1e-3;
+  }
+}
+
+mvs::Cost CostMeter::of(const mvs::Snapshot &closed, Progress *progress) const {
+  mvs_cost_options options = options_;
+  if (!septum_.empty()) {
+    options.septum = mvs_array{septum_[0].data(), septum_.size(), 3, MVS_TYPE_F64, 0};
+  }
+  if (progress) {
+    options.progress = Progress::callback;
+    options.user = progress;
+  }
+  return closed.cost(options);
+}
+
+}  // namespace cli

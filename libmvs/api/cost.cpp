@@ -1,0 +1,116 @@
+// Cost of a repair: opens a copy of the valve, and measures it open and closed.
+#include <mvs/cost.h>
+
+#include <cmath>
+#include <limits>
+
+#include "api/structs.h"
+#include "measure/cost/outflow.h"
+#include "session/recorded_event.h"
+#include "session/snapshot.h"
+#include "solve/static/mesh_hierarchy.h"
+
+using namespace mvs::core;
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// Options with their defaults in place of zeros.
+struct CostOptions {
+  mvs_cost_options given;
+  std::vector<Vec3> septum;
+};
+
+double or_default(double given, double low, double high, const char *what, double otherwise) {
+  must_be_in(given, low, high, what);
+  return given == 0 ? otherwise : given;
+}
+
+CostOptions read_options(const mvs_cost_options *options) {
+  CostOptions read = {read_struct_or_default(options, "options"), {}};
+  mvs_cost_options &given = read.given;
+  MVS_MUST(given.backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, "options.backend",
+           "options.backend is %u: it has to be one of MVS_BACKEND_*", given.backend);
+  // up to 100 mmHg
+  given.pressure = or_default(given.pressure, 1, 13332.2, "options.pressure", MVS_DIASTOLE_PA);
+  must_be_in(given.residual, 1e-12, 1e3, "options.residual");
+  must_be_in(given.flow, 1e-9, 1, "options.flow");
+  given.density = or_default(given.density, 500, 2000, "options.density", 1060);
+  given.discharge = or_default(given.discharge, 0.1, 1, "options.discharge", 0.85);
+  read.septum = read_points(given.septum, "options.septum");
+  return read;
+}
+
+// The valve opened as by mvs_set_load and mvs_settle.
+SnapshotPtr open_valve(const mvs_snapshot &closed, const mvs_cost_options &options) {
+  Progress progress;
+  if (options.progress) {
+    progress = [&options](double share, double residual) {
+      return options.progress(options.user, share, residual) == 0;
+    };
+  }
+  State state = closed.state;
+  const RecordedEvent load = event_of(Load{-options.pressure, 0});
+  apply_event(*closed.model, state, load);
+  const Snapshot loaded = after_event(closed.value, state, load);
+  Solver solver(static_cast<Backend>(options.backend));
+  SolveOptions how = {};
+  how.residual = options.residual;
+  settle_with_mesh_hierarchy(solver, *closed.model, state, how, progress);
+  return make_snapshot(after_event(loaded, std::move(state), event_of(RecordedEvent::settle, how)));
+}
+
+void add_opening(const mvs_snapshot &opened, const mvs_cost_options &options, mvs_cost &cost) {
+  cost.opened = opened.state.is_at_rest();
+  cost.open_area = cost.opened ? opened.orifice().area : unknown;
+  cost.gradient = options.flow > 0 ? pressure_drop(options.flow, cost.open_area, options.density,
+                                                   options.discharge)
+                                   : unknown;
+}
+
+void add_outflow(const mvs_snapshot &closed, const std::vector<Vec3> &septum, mvs_cost &cost) {
+  const Outflow outflow = measure_outflow(*closed.model, closed.state.x);
+  cost.anterior_height = outflow.anterior_height;
+  cost.posterior_height = outflow.posterior_height;
+  cost.anterior_length = outflow.anterior_length;
+  cost.posterior_length = outflow.posterior_length;
+  cost.length_ratio = outflow.ratio();
+  cost.septal_distance = outflow.distance_to(septum);
+  const bool is_closed = closed.state.is_at_rest() && closed.state.load.pressure > 0;
+  if (!is_closed || std::isnan(cost.septal_distance)) return;
+  const bool raised = cost.length_ratio <= sam_ratio || cost.septal_distance <= sam_distance;
+  cost.sam_risk = raised ? MVS_SAM_RAISED : MVS_SAM_LOW;
+}
+
+void add_forces(const mvs_snapshot &closed, mvs_cost &cost) {
+  for (const Vec3 &force : closed.annulus_force()) {
+    cost.annulus_force_max = std::max(cost.annulus_force_max, force.norm());
+    cost.annulus_force_sum += force.norm();
+  }
+  cost.rings = static_cast<uint32_t>(closed.model->valve.rings.size());
+  cost.chords_over_strain = closed.chords().over_strain;
+  cost.chords_over_tension = closed.chords().over_tension;
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_snapshot_measure_cost(const mvs_snapshot *snapshot, const mvs_cost_options *options,
+                                     mvs_cost *cost, const mvs_snapshot **opened) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(cost, "cost");
+    const CostOptions how = read_options(options);
+    SnapshotPtr open = open_valve(*snapshot, how.given);
+    mvs_cost found = {};
+    add_opening(*open.get(), how.given, found);
+    add_outflow(*snapshot, how.septum, found);
+    add_forces(*snapshot, found);
+    write_struct(cost, found, "cost");
+    if (opened) *opened = open.release();
+  });
+}
+
+}  // extern "C"

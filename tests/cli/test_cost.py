@@ -1,0 +1,60 @@
+"""`mvs cost` and `mvs sweep --cost`: the cost of a repair."""
+import csv
+import unittest
+
+from test_cli import Shell, mvs
+
+
+class Cost(Shell):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.ok("generate", "-o", "v.obj")
+        cls.ok("close", "v.obj", "-o", "closed.obj")
+        (cls.dir / "septum.txt").write_text("# mm\n60, 0, -10\n80, 5, -10\n")
+
+    def test_an_open_valve_is_measured_and_written(self):
+        found = self.json("cost", "closed.obj", "-o", "opened.obj", "--flow", 250)
+        cost = found["cost"]
+        self.assertTrue(cost["opened"] and found["at_rest"])
+        opened = self.json("measure", "opened.obj")
+        self.assertAlmostEqual(opened["pressure_mmHg"], -5, 9)
+        self.assertEqual(opened["boundary_fraction"], 0)
+        self.assertAlmostEqual(opened["measures"]["regurgitant_orifice_area_mm2"],
+                               cost["open_area_mm2"], 9)
+        speed = 250e-6 / (0.85 * cost["open_area_mm2"] * 1e-6)
+        self.assertAlmostEqual(cost["gradient_mmHg"], 0.5 * 1060 * speed**2 / 133.322, 9)
+        self.assertEqual(cost["sam_risk"], "not determined")
+        self.assertIsNone(cost["septal_distance_mm"])
+
+    def test_points_of_the_septum_give_the_risk(self):
+        text = self.ok("cost", "closed.obj", "--septum", "septum.txt").stdout
+        self.assertRegex(text, r"Coaptation to septum +\d+\.\d\d mm\n")
+        self.assertRegex(text, r"Risk of SAM +low\n")
+        self.assertRegex(text, r"Gradient +not known\n")
+
+    def test_a_sweep_weighs_the_leak_against_the_open_area(self):
+        sweep = ("sweep", "v.obj", "--op", "ring size=28,34", "--csv", "t.csv")
+        lines = self.ok(*sweep, "--cost", "--sort", "open_area_mm2", "--largest").stdout
+        self.assertRegex(lines, r"first\n +\d+\.?\d* +ring_size_mm=34\n +\d+\.?\d* +ring_size_mm=28")
+        with open(self.dir / "t.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["sam_risk"] for row in rows], ["not determined"] * 2)
+        self.assertEqual(rows[0]["cost"], "diastole 5 mmHg")
+        self.assertLess(float(rows[0]["open_area_mm2"]), float(rows[1]["open_area_mm2"]))
+        self.refused(1, "other options of costs", *sweep, "--cost", "--flow", 250)
+
+    def test_wrong_input_is_named(self):
+        sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "u.csv")
+        self.refused(1, "none.txt", "cost", "closed.obj", "--septum", "none.txt")
+        self.refused(2, "--cost", *sweep, "--flow", 250)
+        self.refused(2, "--cost only", *sweep, "--sort", "open_area_mm2")
+
+    def refused(self, code, words, *arguments):
+        done = mvs(*arguments, cwd=self.dir)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(words, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
