@@ -26,11 +26,11 @@ inline const std::vector<std::string> phase_names = {"terms",    "broad",  "narr
 inline constexpr double rest_residual = 1e-4;
 
 struct Case {
-  std::string file;  // a valve with its load; empty: the scene, under systolic pressure
   std::string scene = "S", leaflet = "spring", solver = "newton";
   double residual = rest_residual;
   double dt = 0, damping = 0;  // of solvers in time; 0: the default
   uint32_t most = 0;           // iterations; 0: the default
+  std::string file = "";       // a valve with its load; empty: the scene, under systolic pressure
 };
 
 struct Closing {
@@ -48,8 +48,8 @@ struct Closing {
   // CPU seconds of a phase of the last run: its share of the wall time of that run, times the CPU
   // time.
   double phase(size_t k) const { return profile.phase_s[k] / wall_s.back() * cpu(); }
-  // What is in no phase: coarser meshes and transfers between them, crossing tests, the solver's
-  // own vectors, the check of stability.
+  // Time in no phase: coarser meshes and transfers between them, crossing tests, the solver's own
+  // vectors, the check of stability.
   double other() const;
 };
 

@@ -1,22 +1,23 @@
 """Run time against error: which element, solver, mesh and tolerance buy what.
 
-Every run closes a valve from open, one after the other in the order of the table. Times are CPU time
-(the machine may be shared), of the closure only. Error: distance of the closed surface, both ways,
-from the finest level of the same element (closed level by level, so that refining does not change
-folds; tests/validation/convergence.py), and from the shape of another model: FEBio's, Abaqus's, and
-of the shipped valve the finest membrane, which tells what springs cost.
+Every run closes a valve from open, one after the other in the order of the table. Times are CPU
+time (the machine may be shared), of the closure only. Error: distance of the closed surface, both
+ways, from the finest level of the same element (closed level by level, so that refining does not
+change folds; tests/validation/convergence.py), and from the shape of another model: FEBio's,
+Abaqus's, and of the shipped valve the finest membrane, which tells what springs cost.
 
-Baselines: the founding paper's explicit method and dynamic relaxation, with viscous and with kinetic
-damping, each with the settings that close this valve soonest (bench_baseline, a program of its own;
-the search for settings is not counted). The explicit method is run on the coarsest mesh.
+Baselines: the founding paper's explicit method and dynamic relaxation, with viscous and with
+kinetic damping, each with the settings that close this valve soonest (bench_baseline, a program of
+its own; the search for settings is not counted). The explicit method is run on the coarsest mesh.
 
 At rest is: below the tolerance, at a stable equilibrium of the contact law of the method. Where
-sheets cross it is an equilibrium of the penalty contact alone, which no tissue has.
+sheets cross it is an equilibrium of the penalty contact alone: tissue cannot be there.
 
     python tests/bench/time_error.py [--long] [--valves shipped,febio,texas] [--out DIR]
 
-writes DIR/time_error.csv and DIR/time_error.png. 10 min of CPU; --long: one level more, much longer.
-Texas, where it is named, takes minutes more. Needs matplotlib.
+writes DIR/time_error.csv and DIR/time_error.png. 20 min of CPU, of which the searches for settings
+take most; --long: one level more, much longer. Texas, where it is named, takes minutes more. Needs
+matplotlib.
 """
 
 from __future__ import annotations
@@ -276,7 +277,8 @@ def draw(rows: list[dict], path: Path) -> None:
     valves = list(dict.fromkeys(row["valve"] for row in rows))
     figure, axes = plt.subplots(1, len(valves), figsize=(6 * len(valves), 5.6), squeeze=False)
     for ax, valve in zip(axes[0], valves):
-        _draw_valve(ax, valve, [r for r in rows if r["valve"] == valve and r["converged"] != "diverged"])
+        _draw_valve(ax, valve, [r for r in rows
+                                if r["valve"] == valve and r["converged"] != "diverged"])
     handles = [plt.Line2D([], [], color=c, marker="o", ls="", label=NAMES.get(s, s))
                for s, c in COLOURS.items() if any(r["solver"] == s for r in rows)]
     handles += [plt.Line2D([], [], color="#555555", marker=MARKERS[e], ls="", label=name)
