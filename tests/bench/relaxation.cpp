@@ -18,6 +18,8 @@ namespace {
 // Faster modes than the slowest one share the velocity, so that the quotient is too large at first:
 // without a bound the valve creeps.
 constexpr double most_viscous = 0.3;
+// N. Spikes of 600 N faded, forces above this one only grew.
+constexpr double hopeless = 1e4;
 
 FictitiousMasses::Options masses_of(const RelaxationOptions &options) {
   if (options.renews_often) return {options.safety, 0.05, 0.5};
@@ -40,7 +42,7 @@ class Relaxation {
     for (; stats_.iterations < options_.most; ++stats_.iterations) {
       std::vector<Vec3> &x = state_->x.edit();
       evaluate(x);
-      if (!std::isfinite(stats_.residual)) break;
+      if (!(stats_.residual < hopeless)) break;
       if (is_at_rest(x)) break;
       step(x);
     }
