@@ -275,8 +275,11 @@ def draw(rows: list[dict], path: Path) -> None:
     import matplotlib.pyplot as plt
 
     valves = list(dict.fromkeys(row["valve"] for row in rows))
-    figure, axes = plt.subplots(1, len(valves), figsize=(6 * len(valves), 5.6), squeeze=False)
-    for ax, valve in zip(axes[0], valves):
+    columns = len(valves) if len(valves) < 4 else 2
+    lines = -(-len(valves) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(6 * columns, 0.8 + 4.8 * lines),
+                                squeeze=False)
+    for ax, valve in zip(axes.flat, valves):
         _draw_valve(ax, valve, [r for r in rows
                                 if r["valve"] == valve and r["converged"] != "diverged"])
     handles = [plt.Line2D([], [], color=c, marker="o", ls="", label=NAMES.get(s, s))
@@ -289,10 +292,10 @@ def draw(rows: list[dict], path: Path) -> None:
     if any(row["converged"] == "no" for row in rows):
         handles.append(plt.Line2D([], [], color="#555555", marker="x", ls="",
                                   label="not at a stable rest"))
-    lines = 3 if len(valves) == 1 else 2
-    figure.legend(handles=handles, loc="lower center", ncols=-(-len(handles) // lines),
+    rows_of_keys = 3 if columns == 1 else 2
+    figure.legend(handles=handles, loc="lower center", ncols=-(-len(handles) // rows_of_keys),
                   frameon=False)
-    figure.tight_layout(rect=(0, 0.05 * lines, 1, 1))
+    figure.tight_layout(rect=(0, (0.3 + 0.25 * rows_of_keys) / figure.get_figheight(), 1, 1))
     figure.savefig(path, dpi=130)
     plt.close(figure)
 
