@@ -14,6 +14,10 @@ size_t leaflet_vertices(const mvs::Snapshot &valve) {
 }
 
 void make(mvs::Simulator &sim, const Case &of) {
+  if (!of.file.empty()) {
+    sim.load_file(of.file);
+    return;
+  }
   mvs_parametric_desc valve = {};
   valve.shape = MVS_SHAPE_FOUNDING;
   valve.vertices = scene_vertices.at(of.scene);
@@ -50,17 +54,44 @@ void close_once(const Case &of, Closing &closing) {
   });
   closing.cpu_s.push_back(took.cpu);
   closing.wall_s.push_back(took.wall);
+  closing.closed = sim.snapshot().save_memory(MVS_FORMAT_OBJ);
+}
+
+}  // namespace
+
+double Closing::other() const {
+  double rest = cpu();
+  for (size_t k = 0; k < phase_names.size(); ++k) rest -= phase(k);
+  return rest;
+}
+
+Closing close(const Case &of, int repeat) {
+  Closing closing;
+  for (int k = 0; k < repeat; ++k) close_once(of, closing);
+  measure(closing);
+  return closing;
+}
+
+std::string open_valve(const Case &of) {
+  mvs::Simulator sim;
+  make(sim, of);
+  return sim.snapshot().save_memory(MVS_FORMAT_OBJ);
+}
+
+void measure(Closing &closing) {
+  if (closing.closed.empty()) return;
+  mvs::Simulator sim;
+  sim.load_memory(closing.closed, MVS_FORMAT_OBJ);
   const mvs::Snapshot closed = sim.snapshot();
   closing.vertices = leaflet_vertices(closed);
   closing.measures = closed.measure();
 }
 
-}  // namespace
-
-Closing close(const Case &of, int repeat) {
-  Closing closing;
-  for (int k = 0; k < repeat; ++k) close_once(of, closing);
-  return closing;
+mvs_comparison distance(const std::string &a, const std::string &b) {
+  mvs::Simulator first, second;
+  first.load_memory(a, MVS_FORMAT_OBJ);
+  second.load_memory(b, MVS_FORMAT_OBJ);
+  return first.snapshot().compare(second.snapshot());
 }
 
 }  // namespace bench

@@ -30,6 +30,7 @@ struct Case {
   double residual = rest_residual;
   double dt = 0, damping = 0;  // of solvers in time; 0: the default
   uint32_t most = 0;           // iterations; 0: the default
+  std::string file = "";       // a valve with its load; empty: the scene, under systolic pressure
 };
 
 struct Closing {
@@ -39,19 +40,29 @@ struct Closing {
   mvs_profile profile = {};
   mvs_measures measures = {};
   std::vector<double> cpu_s, wall_s;  // of each run
+  std::string closed;                 // the last shape, an extended OBJ file
 
   bool at_rest() const { return !diverged && stats.converged != 0; }
   double cpu() const { return median(cpu_s); }
   double wall() const { return median(wall_s); }
-  // CPU seconds of a phase: its share of the wall time, times the CPU time.
-  double phase(size_t k) const {
-    return stats.wall_s > 0 ? profile.phase_s[k] / stats.wall_s * cpu() : 0;
-  }
+  // CPU seconds of a phase of the last run: its share of the wall time of that run, times the CPU
+  // time.
+  double phase(size_t k) const { return profile.phase_s[k] / wall_s.back() * cpu(); }
+  // Time in no phase: coarser meshes and transfers between them, crossing tests, the solver's own
+  // vectors, the check of stability.
+  double other() const;
 };
 
 // Closes it `repeat` times, each in a new simulator, so that no run starts from another's cached
 // data.
 Closing close(const Case &of, int repeat);
+
+// The valve before it is closed, an extended OBJ file.
+std::string open_valve(const Case &of);
+// Sets `measures` and `vertices` from the closed shape, if there is one.
+void measure(Closing &closing);
+// Distances between the surfaces of two closed shapes.
+mvs_comparison distance(const std::string &a, const std::string &b);
 
 // The keys of a map, for options.
 template <typename Map>

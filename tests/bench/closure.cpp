@@ -5,16 +5,22 @@
 //                                    explicit method, at its largest stable step and best damping
 //   bench_closure --scenes XL --leaflets membrane
 //   bench_closure --explicit M       minutes; --dt and --damping spare it the search
+//   bench_closure --relaxation S M   dynamic relaxation at its best settings, with viscous and with
+//                                    kinetic damping; springs and membrane
 //   bench_closure --csv FILE         also as a table
 //
-// CPU seconds are medians of the runs; those of a phase are its share of the wall time.
+// CPU seconds are medians of the runs; those of a phase are its share of the wall time, "other" is
+// the time in no phase. "rms" and "max" are distances of the closed surface from that of newton
+// at a residual of 1e-7 N.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "tests/bench/founding.h"
+#include "tests/bench/relaxed_closing.h"
 #include "tests/bench/table.h"
 
 using namespace bench;
@@ -24,6 +30,7 @@ namespace {
 struct Options {
   std::vector<std::string> scenes = {"S", "M", "L"}, leaflets = {"spring", "membrane"};
   std::vector<std::string> solvers = {"newton"}, explicit_scenes = {"S"};
+  std::vector<std::string> relaxed_scenes = {"S"};
   double residual = rest_residual, dt = 0, damping = 0;
   int repeat = 3;
   std::string csv;
@@ -34,16 +41,33 @@ struct Row {
   Closing closing;
 };
 
+// The reference of closed shapes: newton's at a residual of 1e-7 N, where only rounding is left.
+class Converged {
+ public:
+  mvs_comparison distance_of(const Row &row) {
+    std::string &shape = shapes_[row.of.scene + row.of.leaflet];
+    if (shape.empty()) {
+      shape = close({row.of.scene, row.of.leaflet, "newton", 1e-7, 0, 0, iterations}, 1).closed;
+    }
+    return distance(row.closing.closed, shape);
+  }
+
+ private:
+  static constexpr uint32_t iterations = 100;  // at most
+  std::map<std::string, std::string> shapes_;
+};
+
 std::vector<std::string> columns() {
-  std::vector<std::string> names = {"scene",      "vertices", "leaflet ",  "solver  ",
-                                    "steps",      "factored", "orderings", "broad",
-                                    "passes",     "linear",   "cpu s",     "wall s",
-                                    "residual N", "at rest",  "crossings", "hole mm2"};
+  std::vector<std::string> names = {"scene",    "vertices",  "leaflet ",   "solver  ", "steps",
+                                    "factored", "orderings", "broad",      "passes",   "linear",
+                                    "cpu s",    "wall s",    "residual N", "at rest",  "crossings",
+                                    "hole mm2", "rms mm",    "max mm"};
   for (const std::string &phase : phase_names) names.push_back(phase + " ms");
+  names.push_back("other ms");
   return names;
 }
 
-void tell(Table &table, const Row &row) {
+void tell(Table &table, const Row &row, Converged &converged) {
   const mvs_stats &s = row.closing.stats;
   const mvs_profile &profile = row.closing.profile;
   std::vector<Cell> cells = {row.of.scene,
@@ -62,15 +86,20 @@ void tell(Table &table, const Row &row) {
                              row.closing.at_rest(),
                              row.closing.measures.intersections,
                              row.closing.measures.regurgitant_orifice_area * 1e6};
+  const mvs_comparison off = converged.distance_of(row);
+  cells.push_back(off.surface_rms * 1e3);
+  cells.push_back(off.surface_max * 1e3);
   for (size_t k = 0; k < phase_names.size(); ++k) cells.push_back(row.closing.phase(k) * 1e3);
+  cells.push_back(row.closing.other() * 1e3);
   table.row(cells);
 }
 
 std::vector<Row> run_all(const Options &options) {
   Table table(columns(), options.csv);
   std::vector<Row> rows;
+  Converged converged;
   const auto add = [&](const Row &row) {
-    tell(table, row);
+    tell(table, row, converged);
     rows.push_back(row);
   };
   for (const std::string &scene : options.scenes) {
@@ -86,24 +115,39 @@ std::vector<Row> run_all(const Options &options) {
         {scene, "spring", "explicit", options.residual, options.dt, options.damping});
     add({best.taken, best.closing});
   }
+  std::string settings;
+  for (const std::string &scene : options.relaxed_scenes) {
+    for (const std::string &leaflet : options.leaflets) {
+      for (const Damping damping : {Damping::viscous, Damping::kinetic}) {
+        const Case of{scene, leaflet, damping_names.at(damping), options.residual};
+        const Relaxed best = close_relaxed(of, damping);
+        add({of, best.closing});
+        settings += scene + ", " + leaflet + ": " + words_of(best) + "\n";
+      }
+    }
+  }
+  std::printf("%s", settings.c_str());
   return rows;
 }
 
-// The ratio of explicit to newton, where both ran on a scene and both converged.
+// The ratio of explicit and relaxation to newton, where both ran on a scene and both converged.
 void tell_ratios(const std::vector<Row> &rows) {
   for (const Row &slow : rows) {
-    if (slow.of.solver != "explicit") continue;
-    std::printf("%s: the founding method took steps of %.3g us and a damping of %.3g /s\n",
-                slow.of.scene.c_str(), slow.of.dt * 1e6, slow.of.damping);
+    if (solver_names.count(slow.of.solver) > 0 && slow.of.solver != "explicit") continue;
+    const std::string scene = slow.of.scene + ", " + slow.of.leaflet;
+    if (slow.of.solver == "explicit") {
+      std::printf("%s: the founding method took steps of %.3g us and a damping of %.3g /s\n",
+                  scene.c_str(), slow.of.dt * 1e6, slow.of.damping);
+    }
     for (const Row &fast : rows) {
       if (fast.of.solver != "newton" || slow.of.scene != fast.of.scene) continue;
       if (fast.of.leaflet != slow.of.leaflet) continue;
       if (slow.closing.at_rest() && fast.closing.at_rest()) {
-        std::printf("%s: explicit takes %.1f times as long as newton to the same residual\n",
-                    slow.of.scene.c_str(), slow.closing.cpu() / fast.closing.cpu());
+        std::printf("%s: %s takes %.1f times as long as newton to the same residual\n",
+                    scene.c_str(), slow.of.solver.c_str(), slow.closing.cpu() / fast.closing.cpu());
       } else {
-        std::printf("%s: no ratio, as one of the two did not reach the residual\n",
-                    slow.of.scene.c_str());
+        std::printf("%s: no ratio of %s to newton: one of the two did not reach the residual\n",
+                    scene.c_str(), slow.of.solver.c_str());
       }
     }
   }
@@ -120,6 +164,9 @@ void add_options(CLI::App &app, Options &options) {
       ->capture_default_str()
       ->check(CLI::IsMember(keys(solver_names)));
   app.add_option("--explicit", options.explicit_scenes, "scenes for the founding method, too")
+      ->capture_default_str()
+      ->check(CLI::IsMember(keys(scene_vertices)));
+  app.add_option("--relaxation", options.relaxed_scenes, "scenes for dynamic relaxation, too")
       ->capture_default_str()
       ->check(CLI::IsMember(keys(scene_vertices)));
   app.add_option("--dt", options.dt, "s, of the founding method [searched]")
@@ -142,6 +189,7 @@ int run(int argc, char **argv) {
   CLI11_PARSE(app, argc, argv);
   // naming solvers runs only those
   if (app.count("--solvers") > 0 && app.count("--explicit") == 0) options.explicit_scenes.clear();
+  if (app.count("--solvers") > 0 && app.count("--relaxation") == 0) options.relaxed_scenes.clear();
   tell_ratios(run_all(options));
   return 0;
 }

@@ -18,12 +18,15 @@ Closing attempt(Case of, const Closing *best) {
 }
 
 // The smallest edge, and with it the stable step, is in proportion to 1 / sqrt(vertices).
-double first_dt(const std::string &scene) {
-  return 8e-6 * std::sqrt(425.0 / scene_vertices.at(scene));
+double first_dt(const Case &of) {
+  Closing open;
+  open.closed = open_valve(of);
+  measure(open);
+  return 8e-6 * std::sqrt(425.0 / static_cast<double>(open.vertices));
 }
 
 Founding largest_step(Case of) {
-  of.dt = first_dt(of.scene);
+  of.dt = first_dt(of);
   Founding best{of, attempt(of, nullptr)};
   for (int k = 0; k < 12 && !best.closing.at_rest(); ++k) {
     best.taken.dt /= rung;

@@ -50,10 +50,12 @@ struct Cost {
 std::vector<Cost> costs(const std::vector<Closing> &closings) {
   std::vector<Cost> all = {{"closure", {}}, {"iterations", {}}};
   for (const std::string &phase : phase_names) all.push_back({phase, {}});
+  all.push_back({"other", {}});
   for (const Closing &closing : closings) {
     all[0].of.push_back(closing.cpu() * 1e3);
     all[1].of.push_back(closing.stats.iterations);
     for (size_t k = 0; k < phase_names.size(); ++k) all[2 + k].of.push_back(closing.phase(k) * 1e3);
+    all.back().of.push_back(closing.other() * 1e3);
   }
   return all;
 }

@@ -21,6 +21,7 @@
 #include "solve/solver.h"
 #include "tests/bench/callers.h"
 #include "tests/bench/closing.h"
+#include "tests/bench/search.h"
 #include "tests/bench/table.h"
 
 using namespace mvs::core;
@@ -123,7 +124,7 @@ ContactCost contact_cost(const Options &options, const Model &model, const std::
   BroadPhase pairs(model);
   ContactTerm contact(model);
   ContactCost cost = {};
-  cost.broad = bench::fastest(options.rounds, [&] { pairs.build(x, x, slack); });
+  cost.broad = bench::time_of_search(options.rounds, x, slack, pairs);
   cost.narrow = bench::fastest(options.rounds, [&] { contact.collect(x, pairs); });
   HessianAssembler system = room_for(model, x);
   std::vector<Vec3> g(x.size(), Vec3::Zero());

@@ -2,6 +2,7 @@
 error (tests/bench/time_error.py) keeps working."""
 
 import csv
+import sys
 
 import mvs
 import pytest
@@ -51,4 +52,35 @@ def test_a_run_has_its_row_and_its_place_in_the_picture(levels, tmp_path, monkey
     assert min(float(row["times_fastest"]) for row in read) == 1
     # 432 vertices lie 0.09 mm from 6,276, for every solver
     assert all(0.05 < float(row["error_rms_mm"]) < 0.15 for row in read)
+    assert (tmp_path / "picture.png").stat().st_size > 10_000
+
+
+BASELINE = """#!{python}
+import shutil, sys
+shutil.copy(sys.argv[3], sys.argv[7])
+print("method,converged,diverged,stable,steps,cpu_s,residual_N,crossings,settings")
+print(sys.argv[1] + ',no,no,no,40,0.5,0.1,0,"masses times 2"')
+"""
+
+
+def test_a_baseline_that_does_not_rest_has_its_row_and_its_cross(tmp_path, monkeypatch):
+    """A program stands in for bench_baseline: it returns the open valve."""
+    monkeypatch.syspath_prepend(str(ROOT / "tests" / "bench"))
+    import time_error
+
+    program = tmp_path / "baseline"
+    program.write_text(BASELINE.format(python=sys.executable))
+    program.chmod(0o755)
+    subject = time_error.Subject("shipped", ("bilinear",),
+                                 lambda law, k: time_error.refined(founding, law, k),
+                                 1, mvs.SYSTOLE_PA, {}, None)
+    rows = [time_error.run(subject, "bilinear", "newton", 0, 1e-3),
+            time_error.run(subject, "bilinear", "viscous", 0, 1e-3, program)]
+    assert [row["stable"] for row in rows] == ["yes", "no"]
+    found = rows[1]
+    assert found["converged"] == "no" and found["iterations"] == 40 and found["cpu_s"] == 0.5
+    assert found["settings"] == "masses times 2" and found["crossings"] == 0
+    for row in rows:
+        row["error_rms_mm"] = 0.1
+    time_error.draw(rows, tmp_path / "picture.png")
     assert (tmp_path / "picture.png").stat().st_size > 10_000
