@@ -42,18 +42,22 @@ std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, cons
     const size_t parts = coaptation_parts(model, t);
     const double area = surface.area[t] / static_cast<double>(parts * parts);
     if (facing.begin(t)) {
+      FacingPoints centres;
       for_each_part(parts, [&](const std::array<double, 3> &w) {
-        const Vec3 centre = w[0] * x[c[0]] + w[1] * x[c[1]] + w[2] * x[c[2]];
-        const Faced &faced = facing.of_point(centre);
-        sum += faced.weight;
-        for (const FacedLeaflet &f : faced.leaflets) {
+        centres.add(w[0] * x[c[0]] + w[1] * x[c[1]] + w[2] * x[c[2]]);
+      });
+      const std::span<const Faced> all = facing.of_points(centres);
+      for (size_t k = 0; k < all.size(); ++k) {
+        sum += all[k].weight;
+        for (const FacedLeaflet &f : all[k].leaflets) {
           // each side contributes half of the area of one side
+          const Vec3 centre(centres.x[k], centres.y[k], centres.z[k]);
           samples.push_back({{0.5 * (centre + f.point), surface.normal[t] - f.normal,
-                              0.5 * area * faced.weight * f.share},
+                              0.5 * area * all[k].weight * f.share},
                              valve.triangle_leaflet[t],
                              f.leaflet});
         }
-      });
+      }
     }
     coaptation.share.push_back(sum / static_cast<double>(parts * parts));
     coaptation.area += 0.5 * area * sum;

@@ -1,4 +1,4 @@
-// Smooth ramps over distance, directions and borders; candidates from a triangle tree.
+// Candidates from a triangle tree; sums over the leaflets that points face.
 #include "measure/coaptation/facing_weight.h"
 
 #include <Eigen/Geometry>
@@ -8,22 +8,14 @@
 namespace mvs::core {
 namespace {
 
-// A ramp falls from 1 at its first value to 0 at its second. Their middles are the thresholds of
-// FacingSurface.
-struct Ramp {
-  double from, to;
-};
-constexpr Ramp distance_ramp = {0.85, 1.15};   // over reach
-constexpr Ramp normals_ramp = {-0.6, -0.4};    // cosine between the normals
-constexpr Ramp direction_ramp = {-0.6, -0.4};  // minus cosine of normal and direction
-constexpr Ramp border_ramp = {0.176, 0.364};   // tangents of 10 and 20 degrees
-constexpr Ramp contact_ramp = {0.05, 0.15};    // share of reach: below, directions do not count
-constexpr double nearest_share = 0.1;          // of reach: rounds off which tissue is nearest
-
-// 1 before the ramp, 0 behind it, a cubic between.
-double fall(double value, const Ramp &ramp) {
-  const double s = std::clamp((value - ramp.from) / (ramp.to - ramp.from), 0.0, 1.0);
-  return 1 - s * s * (3 - 2 * s);
+// The squared distance of two boxes.
+double gap2(const Aabb &a, const Aabb &b) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double off = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+    sum += off * off;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -76,76 +68,81 @@ bool FacingWeight::begin(uint32_t triangle) {
   candidates_.clear();
   const Vec3 &normal = surface_.normal[triangle];
   const Tri &own = model_.valve.triangles[triangle];
-  Aabb box = tree_.box_of(triangle);
-  box.low -= Vec3::Constant(distance_ramp.to * reach_);
-  box.high += Vec3::Constant(distance_ramp.to * reach_);
+  const double limit = distance_ramp.to * reach_;
+  const Aabb &own_box = tree_.box_of(triangle);
+  Aabb box = own_box;
+  box.low -= Vec3::Constant(limit);
+  box.high += Vec3::Constant(limit);
   tree_.for_overlapping(box, [&](uint32_t t) {
-    if (surface_.normal[t].dot(normal) >= normals_ramp.to) return;
-    if (!share_a_node(model_.valve.triangles[t], own)) candidates_.push_back(t);
+    const double cosine = surface_.normal[t].dot(normal);
+    if (cosine >= normals_ramp.to || gap2(own_box, tree_.box_of(t)) >= limit * limit) return;
+    if (share_a_node(model_.valve.triangles[t], own)) return;
+    double weight = 0;
+    fall(cosine, normals_ramp, weight);
+    candidates_.push_back({t, weight});
   });
-  std::sort(candidates_.begin(), candidates_.end());
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate &l, const Candidate &r) { return l.triangle < r.triangle; });
   return !candidates_.empty();
 }
 
-FacingWeight::Weighed FacingWeight::weigh(uint32_t candidate, const Vec3 &p) const {
-  Weighed none_there{0, 0, Vec3::Zero()};
-  const double limit = distance_ramp.to * reach_;
-  if (tree_.box_of(candidate).distance2(p) >= limit * limit) return none_there;
-  const TrianglePoint q = tree_.closest_on(candidate, p);
-  if (q.distance2 >= limit * limit) return none_there;
-  const Vec3 &normal = surface_.normal[triangle_], &other = surface_.normal[candidate];
-  const double distance = std::sqrt(q.distance2);
-  Weighed result{fall(distance / reach_, distance_ramp), q.distance2,
-                 tree_.point_at(candidate, q.weight)};
-  result.weight *= fall(other.dot(normal), normals_ramp);
-  if (distance > contact_ramp.from * reach_) {
-    const double off = 1 - fall((p - result.point).dot(normal) / distance, direction_ramp);
-    result.weight *= 1 - off * (1 - fall(distance / reach_, contact_ramp));
-  }
-  for (uint32_t b = first_border_[candidate]; b < first_border_[candidate + 1]; ++b) {
-    if (result.weight == 0) return result;
-    const Border &border = border_[b];
-    const double height = std::max((p - border.from).dot(other), nearest_share * reach_);
-    const double out = (p - border.from).dot(border.out) - border.beyond;
-    result.weight *= fall(out / height, border_ramp);
-  }
-  return result;
+bool FacingWeight::weigh(const Candidate &candidate, const FacingPoints &points,
+                         FacingWeights &found) const {
+  const uint32_t t = candidate.triangle;
+  const Tri &c = model_.valve.triangles[t];
+  const std::span<const FacingBorder> borders(border_.data() + first_border_[t],
+                                              border_.data() + first_border_[t + 1]);
+  const FacingTriangle triangle = {{x_[c[0]], x_[c[1]], x_[c[2]]},
+                                   surface_.normal[t],
+                                   tree_.box_of(t),
+                                   borders,
+                                   candidate.normals};
+  return weigh_points(points, surface_.normal[triangle_], triangle, reach_, found);
 }
 
 double FacingWeight::weight_of(const Vec3 &p) const {
+  FacingPoints point;
+  FacingWeights found;
+  point.add(p);
   double weight = 0;
-  for (const uint32_t t : candidates_) weight = std::max(weight, weigh(t, p).weight);
+  for (const Candidate &candidate : candidates_) {
+    if (weigh(candidate, point, found)) weight = std::max(weight, found.weight[0]);
+  }
   return weight;
 }
 
-const Faced &FacingWeight::of_point(const Vec3 &p) {
-  faced_.weight = 0;
-  faced_.leaflets.clear();
-  double sum = 0;
-  for (const uint32_t t : candidates_) {
-    const Weighed found = weigh(t, p);
-    if (found.weight == 0) continue;
-    faced_.weight = std::max(faced_.weight, found.weight);
-    const double rounded = found.distance2 / (reach_ * reach_) + nearest_share * nearest_share;
-    const double counts = found.weight / (rounded * rounded);
-    const uint32_t leaflet = model_.valve.triangle_leaflet[t];
-    auto at = std::find_if(faced_.leaflets.begin(), faced_.leaflets.end(),
-                           [&](const FacedLeaflet &f) { return f.leaflet == leaflet; });
-    if (at == faced_.leaflets.end()) {
-      faced_.leaflets.push_back({leaflet, 0, Vec3::Zero(), Vec3::Zero()});
-      at = faced_.leaflets.end() - 1;
+std::span<const Faced> FacingWeight::of_points(const FacingPoints &points) {
+  if (faced_.size() < points.count) faced_.resize(points.count);
+  for (size_t k = 0; k < points.count; ++k) {
+    faced_[k].weight = 0;
+    faced_[k].leaflets.clear();
+  }
+  FacingPoints::Row sum{};
+  FacingWeights found;
+  for (const Candidate &candidate : candidates_) {
+    if (!weigh(candidate, points, found)) continue;
+    const uint32_t leaflet = model_.valve.triangle_leaflet[candidate.triangle];
+    const Vec3 &normal = surface_.normal[candidate.triangle];
+    for (size_t k = 0; k < points.count; ++k) {
+      if (found.weight[k] == 0) continue;
+      const double rounded = found.distance2[k] / (reach_ * reach_) + nearest_share * nearest_share;
+      const double counts = found.weight[k] / (rounded * rounded);
+      faced_[k].weight = std::max(faced_[k].weight, found.weight[k]);
+      sum[k] += counts;
+      FacedLeaflet &of = faced_[k].of(leaflet);
+      of.share += counts;
+      of.point += counts * Vec3(found.x[k], found.y[k], found.z[k]);
+      of.normal += counts * normal;
     }
-    at->share += counts;
-    at->point += counts * found.point;
-    at->normal += counts * surface_.normal[t];
-    sum += counts;
   }
-  for (FacedLeaflet &f : faced_.leaflets) {
-    f.point /= f.share;
-    f.normal /= f.share;
-    f.share /= sum;
+  for (size_t k = 0; k < points.count; ++k) {
+    for (FacedLeaflet &f : faced_[k].leaflets) {
+      f.point /= f.share;
+      f.normal /= f.share;
+      f.share /= sum[k];
+    }
   }
-  return faced_;
+  return {faced_.data(), points.count};
 }
 
 }  // namespace mvs::core

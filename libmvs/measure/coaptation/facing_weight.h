@@ -1,9 +1,10 @@
 // How much a point of the sheet faces other tissue, as a continuous function of all positions.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "measure/coaptation/facing_batch.h"
 #include "measure/tissue/surface.h"
 #include "model/model.h"
 
@@ -20,6 +21,14 @@ struct FacedLeaflet {
 struct Faced {
   double weight = 0;
   std::vector<FacedLeaflet> leaflets;
+
+  // The row of a leaflet, a new one at first.
+  FacedLeaflet &of(uint32_t leaflet) {
+    for (FacedLeaflet &f : leaflets) {
+      if (f.leaflet == leaflet) return f;
+    }
+    return leaflets.emplace_back(FacedLeaflet{leaflet, 0, Vec3::Zero(), Vec3::Zero()});
+  }
 };
 
 // The conditions of FacingSurface, each as a smooth ramp in the place of its threshold: distance,
@@ -33,24 +42,20 @@ class FacingWeight {
   // Starts with a triangle: lists the triangles that points of it may face; returns whether there
   // are any.
   bool begin(uint32_t triangle);
-  // Weighs a point of that triangle. The result is valid until the next call.
-  const Faced &of_point(const Vec3 &p);
-  // Its weight alone.
+  // Weighs points of that triangle. The result is valid until the next call.
+  std::span<const Faced> of_points(const FacingPoints &points);
+  // The weight of one point alone.
   double weight_of(const Vec3 &p) const;
 
  private:
-  // A half-plane that bounds a triangle at the border of the sheet.
-  struct Border {
-    Vec3 from, out;  // unit, in the plane of the triangle
-    double beyond;   // m, how far the triangle reaches out itself
-  };
-  struct Weighed {
-    double weight, distance2;
-    Vec3 point;
+  // A triangle that points may face.
+  struct Candidate {
+    uint32_t triangle;
+    double normals;  // weight of the angle between both normals
   };
 
   void find_borders();
-  Weighed weigh(uint32_t candidate, const Vec3 &p) const;
+  bool weigh(const Candidate &candidate, const FacingPoints &points, FacingWeights &found) const;
 
   const Model &model_;
   const std::vector<Vec3> &x_;
@@ -58,10 +63,10 @@ class FacingWeight {
   const TriangleBvh &tree_;
   double reach_;
   std::vector<uint32_t> first_border_;  // per triangle: border_[first_border_[t] .. [t + 1])
-  std::vector<Border> border_;
+  std::vector<FacingBorder> border_;
   uint32_t triangle_ = none;
-  std::vector<uint32_t> candidates_;
-  Faced faced_;
+  std::vector<Candidate> candidates_;
+  std::vector<Faced> faced_;  // one per point
 };
 
 }  // namespace mvs::core

@@ -1,0 +1,74 @@
+// Weights with which many points of one triangle face another triangle, by SIMD.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "base/simd.h"
+#include "geometry/bvh.h"
+
+namespace mvs::core {
+
+// A ramp falls from 1 at its first value to 0 at its second. Their middles are the thresholds of
+// FacingSurface.
+struct Ramp {
+  double from, to;
+};
+inline constexpr Ramp distance_ramp = {0.85, 1.15};   // over reach
+inline constexpr Ramp normals_ramp = {-0.6, -0.4};    // cosine between the normals
+inline constexpr Ramp direction_ramp = {-0.6, -0.4};  // minus cosine of normal and direction
+inline constexpr Ramp border_ramp = {0.176, 0.364};   // tangents of 10 and 20 degrees
+inline constexpr Ramp contact_ramp = {0.05,
+                                      0.15};  // share of reach: below, directions do not count
+inline constexpr double nearest_share = 0.1;  // of reach: rounds off which tissue is nearest
+
+// 1 before the ramp, 0 behind it, a cubic between. Of a number or of a vector of them.
+template <typename Value>
+MVS_INLINE void fall(const Value &value, const Ramp &ramp, Value &weight) {
+  const Value zero = {}, one = zero + 1;
+  const Value share = (value - ramp.from) / (ramp.to - ramp.from);
+  const Value s = share < zero ? zero : (one < share ? one : share);
+  weight = 1 - s * s * (3 - 2 * s);
+}
+
+// Points as a structure of arrays. At most as many as a triangle has parts for coaptation, rounded
+// up to full registers.
+struct FacingPoints {
+  static constexpr size_t most = 152;
+  using Row = std::array<double, most>;
+
+  size_t count = 0;
+  Row x{}, y{}, z{};
+
+  void add(const Vec3 &p) {
+    x[count] = p[0];
+    y[count] = p[1];
+    z[count++] = p[2];
+  }
+};
+
+// A half-plane that bounds a triangle at the border of the sheet.
+struct FacingBorder {
+  Vec3 from, out;  // unit, in the plane of the triangle
+  double beyond;   // m, how far the triangle reaches out itself
+};
+
+// The triangle that is faced.
+struct FacingTriangle {
+  std::array<Vec3, 3> corner;
+  Vec3 normal;
+  Aabb box;
+  std::span<const FacingBorder> borders;
+  double normals;  // weight of the angle between both normals
+};
+
+// Of each point: weight, squared distance to the triangle, and its nearest point.
+struct FacingWeights {
+  FacingPoints::Row weight, distance2, x, y, z;
+};
+
+// Weighs points with the normal of their own triangle; returns whether any weight is above 0.
+bool weigh_points(const FacingPoints &points, const Vec3 &normal, const FacingTriangle &triangle,
+                  double reach, FacingWeights &weights);
+
+}  // namespace mvs::core
