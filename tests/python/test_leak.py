@@ -1,5 +1,7 @@
 """Where a valve leaks: Snapshot.regions(), Snapshot.orifice_parts(), and their chapter of the report."""
 
+import io
+
 import mvs
 import numpy as np
 import pytest
@@ -69,3 +71,30 @@ def test_the_report_has_a_row_for_each_region_and_a_sentence_for_each_opening(cl
     assert len(sentences) == len(flail.orifice_parts())
     assert sentences[0] in text and "into the atrium" in sentences[0]
     assert "Flail &lt;P2&gt;" in text and "<P2>" not in text
+
+
+def test_a_picture_shows_each_opening_in_its_colour():
+    pytest.importorskip("pyvista")
+    from matplotlib import colors, image
+    from mvs.drawing.geometry import Drawing
+    from mvs.drawing.pictures import opening_words, picture, view_from_atrium
+    from mvs.drawing.scene import orifice_colour
+
+    with mvs.Simulator() as sim:
+        sim.generate(shape="founding", annulus_scale=1.1)
+        sim.set_load(mvs.SYSTOLE_PA)
+        sim.settle()
+        sim.apply("clip")
+        sim.apply("annulus_scale", factor=1.3)
+        sim.settle()
+        snapshot = sim.snapshot()
+    parts = snapshot.orifice_parts()
+    assert len(parts) == 2
+    words = [opening_words(part, first=k == 0) for k, part in enumerate(parts)]
+    assert words[0].startswith("regurgitant orifice\n") and words[1].startswith("A")
+    assert words[1].endswith(f"{parts[1]['area'] * 1e6:.1f} mm²")
+    png = picture(Drawing(snapshot), view_from_atrium(64), closed=True)
+    pixels = image.imread(io.BytesIO(png))[:, :, :3]
+    for part in range(2):
+        near = np.abs(pixels - colors.to_rgb(orifice_colour(part))).max(axis=2) < 0.02
+        assert near.sum() > 200, f"opening {part} is not in the picture"

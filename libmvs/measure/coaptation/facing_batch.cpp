@@ -168,7 +168,8 @@ struct FacingKernel {
     fall<Value>(distance / reach, distance_ramp, weight);
     weight = weight * triangle.normals;
     weigh_directions(p, q, distance, normal, triangle, reach, weight);
-    weight = (box2 < limit2) & (found.distance2 < limit2) ? weight : zero;
+    const Mask is_near = (box2 < limit2) & (found.distance2 < limit2);
+    weight = is_near ? weight : zero;
     store<V>(&weights.weight[first], weight);
     store<V>(&weights.distance2[first], found.distance2);
     store<V>(&weights.x[first], q.x);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from typing import Any, Optional
 
 import matplotlib
@@ -15,10 +16,12 @@ from numpy.typing import NDArray
 
 from mvs import PartKind
 from .geometry import Drawing
-from .scene import ORIFICE, Colours, Scene, View
+from .scene import ORIFICE_PARTS, Colours, Scene, View, orifice_colour
 
 INK = "#222222"
 DPI = 110
+LABEL_STEP = 5.5
+"""mm of the picture between labels of parts of the orifice."""
 STYLE = {"font.family": "DejaVu Sans", "font.size": 11, "text.color": INK}
 """Settings of matplotlib within a drawing function; those of the user stay as they are."""
 
@@ -159,14 +162,29 @@ def picture(
 
 
 def _label_orifice(ax: Any, drawing: Drawing, view: View) -> None:
+    """A label for each of the largest parts of the orifice, in its colour: place and area."""
     snapshot = drawing.snapshot
-    area = snapshot.measures.regurgitant_orifice_area * 1e6
-    right, top = ax.get_xlim()[1], ax.get_ylim()[1]
-    corners = drawing.place(snapshot.orifice_vertices)[snapshot.orifice_triangles]
-    spots = view.project(corners.mean(axis=1))
-    spot = spots[np.argmin(np.linalg.norm(spots - [right, top], axis=1))]
-    ax.annotate(
-        f"regurgitant orifice\n{area:.1f} mm²", xy=spot, xytext=(right - 1, top - 1.5),
-        ha="right", va="top", fontsize=12, color=ORIFICE, fontweight="bold",
-        arrowprops={"arrowstyle": "-", "color": ORIFICE, "linewidth": 1.5},
-    )
+    (left, right), top = ax.get_xlim(), ax.get_ylim()[1]
+    points = drawing.place(snapshot.orifice_vertices)
+    rows = {"left": 0, "right": 0}
+    for part, row in enumerate(list(snapshot.orifice_parts())[: len(ORIFICE_PARTS) - 1]):
+        corners = points[snapshot.orifice_triangles[snapshot.orifice_part == part]]
+        spots = view.project(corners.mean(axis=1))
+        # well to the left of the middle, so that an opening in the middle has its label on the right
+        side = "left" if spots[:, 0].mean() < 0.6 * left + 0.4 * right else "right"
+        at = np.array([left + 1 if side == "left" else right - 1, top - 1.5 - LABEL_STEP * rows[side]])
+        rows[side] += 1
+        spot = spots[np.argmin(np.linalg.norm(spots - at, axis=1))]
+        colour = orifice_colour(part)
+        ax.annotate(
+            opening_words(row, first=part == 0), xy=spot, xytext=at, ha=side, va="top",
+            fontsize=12, color=colour, fontweight="bold",
+            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 1.5},
+        )
+
+
+def opening_words(part: Mapping[str, Any], first: bool) -> str:
+    """Place and area of a part of the orifice: "A2 / P2\n48.8 mm²"."""
+    sides = " / ".join(side for side in (part["anterior"], part["posterior"]) if side)
+    title = "regurgitant orifice\n" if first else ""
+    return f"{title}{sides}\n{part['area'] * 1e6:.1f} mm²"

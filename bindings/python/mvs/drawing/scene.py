@@ -20,6 +20,8 @@ from .geometry import Drawing, Points  # noqa: E402
 ANTERIOR, POSTERIOR = "#efc4ae", "#dfa491"
 CHORD, SLACK, HEAD, ANNULUS, WALL = "#f4ecd8", "#a9a9a9", "#9e4a41", "#4a6d8c", "#d9b3a6"
 ORIFICE, SEWN = "#d7191c", "#2f5fa8"
+# of the parts of an orifice, the largest first; the last one for all others
+ORIFICE_PARTS = (ORIFICE, "#7b3294", "#b35806", "#1b7837", "#525252")
 PIXELS = 1100
 
 
@@ -216,13 +218,13 @@ class Scene:
                 )
 
     def add_orifice(self) -> None:
-        """Adds the regurgitant orifice in red, if there is one."""
+        """Adds each part of the regurgitant orifice in its colour, the largest in red."""
         snapshot = self.drawing.snapshot
-        if len(snapshot.orifice_triangles) == 0:
-            return
         points = self.drawing.place(snapshot.orifice_vertices)
-        surface = _surface(points, snapshot.orifice_triangles.astype(np.int64))
-        self.plotter.add_mesh(surface, color=ORIFICE, lighting=False)
+        for part in range(len(snapshot.orifice_parts())):
+            triangles = snapshot.orifice_triangles[snapshot.orifice_part == part]
+            surface = _surface(points, triangles.astype(np.int64))
+            self.plotter.add_mesh(surface, color=orifice_colour(part), lighting=False)
 
     def render(self, view: View) -> NDArray[np.uint8]:
         """Renders the picture: (height, width, 3)."""
@@ -239,6 +241,11 @@ class Scene:
         picture = self.plotter.screenshot(None, return_img=True)
         self.plotter.close()
         return np.asarray(picture)
+
+
+def orifice_colour(part: int) -> str:
+    """The colour of a part of the orifice; part 0 is the largest."""
+    return ORIFICE_PARTS[min(part, len(ORIFICE_PARTS) - 1)]
 
 
 def _smooth_loop(points: Points, fine: int = 6) -> Points:
