@@ -73,11 +73,11 @@ TriangleBvh::TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Ve
   });
 }
 
-TriangleBvh::Hit TriangleBvh::closest(const Vec3 &p) const {
+TriangleBvh::Hit TriangleBvh::closest(const Vec3 &p, uint32_t hint) const {
   Hit hit;
   hit.distance2 = std::numeric_limits<double>::infinity();
   std::array<double, 3> weight{};
-  visit_near(p, hit.distance2, [&](uint32_t t) {
+  const auto look_at = [&](uint32_t t) {
     const TrianglePoint q = closest_on(t, p);
     const bool tie = q.distance2 == hit.distance2 && t < hit.triangle;
     if (q.distance2 < hit.distance2 || tie) {
@@ -85,9 +85,22 @@ TriangleBvh::Hit TriangleBvh::closest(const Vec3 &p) const {
       hit.distance2 = q.distance2;
       weight = q.weight;
     }
-  });
+  };
+  if (hint != none) look_at(hint);
+  visit_near(p, hit.distance2, look_at);
   if (hit.triangle != none) hit.point = point_at(hit.triangle, weight);
   return hit;
+}
+
+bool TriangleBvh::is_within(const Vec3 &p, double distance) const {
+  double limit2 = distance * distance;
+  bool found = false;
+  visit_near(p, limit2, [&](uint32_t t) {
+    if (found || closest_on(t, p).distance2 >= limit2) return;
+    found = true;
+    limit2 = 0;
+  });
+  return found;
 }
 
 void SweptBvh::refit(const std::vector<SweptAabbF> &leaves, const std::vector<uint8_t> &rests) {

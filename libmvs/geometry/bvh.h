@@ -199,7 +199,10 @@ class TriangleBvh {
     double distance2 = 0;
     Vec3 point;
   };
-  Hit closest(const Vec3 &p) const;
+  // `hint`: a triangle that may be close, or `none`; it saves time and changes nothing else.
+  Hit closest(const Vec3 &p, uint32_t hint = none) const;
+  // Whether a triangle is nearer to p than a distance in m.
+  bool is_within(const Vec3 &p, double distance) const;
 
   TrianglePoint closest_on(uint32_t triangle, const Vec3 &p) const {
     const Tri &t = triangles_[triangle];

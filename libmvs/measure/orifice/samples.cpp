@@ -43,17 +43,6 @@ bool faces_something(const TriangleBvh &tree, const Vec3 &p, const Vec3 &normal,
   return found;
 }
 
-bool is_near(const TriangleBvh &tree, const Vec3 &p, double within) {
-  double limit2 = within * within;
-  bool found = false;
-  tree.visit_near(p, limit2, [&](uint32_t t) {
-    if (found || tree.closest_on(t, p).distance2 >= limit2) return;
-    found = true;
-    limit2 = 0;
-  });
-  return found;
-}
-
 Mesh refined(const Sheet &sheet) {
   const std::vector<Tri> rim = as_triangles(sheet.rim);
   const TriangleBvh rim_tree(rim, sheet.mesh.x), tree(sheet.mesh.triangles, sheet.mesh.x);
@@ -63,7 +52,7 @@ Mesh refined(const Sheet &sheet) {
     if (!(length > sheet.grain)) return false;
     if (edge.on_rim || length > coarsest * sheet.grain) return true;
     const Vec3 middle = 0.5 * (edge.a + edge.b), normal = edge.normal.normalized();
-    if (is_near(rim_tree, middle, (length - sheet.grain) / growth)) return true;
+    if (rim_tree.is_within(middle, (length - sheet.grain) / growth)) return true;
     if (!faces_something(tree, middle, normal, length / growth)) return false;
     const auto is_deep = [&](const Vec3 &p) {
       return faces_something(tree, p, normal, deep_of_seal * sheet.seal);

@@ -139,7 +139,7 @@ bool Space::is_open(uint32_t cell, uint32_t k) const {
   const double needed = 0.5 * sheet_.seal, slack = reach_of_spacing * spacing;
   if (only_wall || !(ball.radius > std::max(needed, slack))) return false;
   if (ball.radius * ball.radius > needed * needed + slack * slack) return true;
-  return tree_.closest(ball.centre).distance2 > needed * needed;
+  return !tree_.is_within(ball.centre, needed);
 }
 
 bool Space::leaks() {

@@ -35,8 +35,9 @@ class Shrinking {
   void list_triangles();
   double sweep();
   double area_around(uint32_t v, const Vec3 &p) const;
-  Vec3 move_of(uint32_t v) const;
-  Vec3 slide(uint32_t v, const Vec3 &p) const;
+  TriangleBvh::Hit nearest(uint32_t v, const Vec3 &p);
+  Vec3 move_of(uint32_t v);
+  Vec3 slide(uint32_t v, const Vec3 &p);
   bool is_on_rim(const Vec3 &p) const;
   double try_move(uint32_t v, const Vec3 &move);
 
@@ -47,6 +48,7 @@ class Shrinking {
   Mesh mesh_;
   std::vector<Hold> hold_;
   std::vector<std::array<uint32_t, 2>> rim_;  // per node: the next ones along the rim, or none
+  std::vector<uint32_t> nearest_;             // per node: the last triangle of the sheet found
   std::vector<uint32_t> first_;               // per node: opposite_[first_[v] .. first_[v + 1])
   std::vector<Edge> opposite_;
 };
@@ -58,6 +60,7 @@ Shrinking::Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples)
       tree_(sheet.mesh.triangles, sheet.mesh.x),
       normal_(mvs::core::surface_of(sheet.mesh.triangles, sheet.mesh.x).node_normal),
       mesh_(std::move(mesh)) {
+  nearest_.assign(mesh_.x.size(), none);
   hold_rim(on_samples);
   list_triangles();
 }
@@ -74,7 +77,7 @@ void Shrinking::hold_rim(size_t on_samples) {
     const Edge &e = sides[first].edge;
     const Vec3 middle = 0.5 * (mesh_.x[e[0]] + mesh_.x[e[1]]);
     const double off = off_of_length * (mesh_.x[e[0]] - mesh_.x[e[1]]).norm();
-    const bool along = last == first + 1 && tree_.closest(middle).distance2 < off * off;
+    const bool along = last == first + 1 && tree_.is_within(middle, off);
     for (int k = 0; k < 2; ++k) {
       Hold &hold = hold_[e[k]];
       hold = along && hold != Hold::stays ? Hold::slides : Hold::stays;
@@ -107,11 +110,18 @@ double Shrinking::area_around(uint32_t v, const Vec3 &p) const {
   return 0.5 * twice;
 }
 
+// The point of the sheet nearest to a place of a node, which has moved little since the last time.
+TriangleBvh::Hit Shrinking::nearest(uint32_t v, const Vec3 &p) {
+  const TriangleBvh::Hit hit = tree_.closest(p, nearest_[v]);
+  nearest_[v] = hit.triangle;
+  return hit;
+}
+
 // Returns the move that minimises a quadratic upper bound of the area around a node. The area of
 // each triangle is its opposite edge times the distance h from it, and h <= h2 / (2 h0) + h0 / 2
 // for the present h0: the minimum of the sum of these bounds has no larger area than the present
 // position.
-Vec3 Shrinking::move_of(uint32_t v) const {
+Vec3 Shrinking::move_of(uint32_t v) {
   const Vec3 &x = mesh_.x[v];
   Mat3 stiffness = Mat3::Zero();
   Vec3 force = Vec3::Zero();
@@ -129,7 +139,7 @@ Vec3 Shrinking::move_of(uint32_t v) const {
     stiffness += 1e-6 * stiffness.trace() * Mat3::Identity();
     return solve_positive(stiffness, force);
   }
-  const TriangleBvh::Hit hit = tree_.closest(x);
+  const TriangleBvh::Hit hit = nearest(v, x);
   const TrianglePoint where = tree_.closest_on(hit.triangle, x);
   Vec3 normal = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -146,15 +156,14 @@ Vec3 Shrinking::move_of(uint32_t v) const {
 
 // Returns the nearest point of the sheet. A node on the rim of the sheet may move inwards, but not
 // along the rim, which would round off corners or shorten a slit from its end.
-Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) const {
+Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) {
   const Vec3 &x = mesh_.x[v];
-  const Vec3 there = tree_.closest(p).point;
+  const Vec3 there = nearest(v, p).point;
   return is_on_rim(x) && is_on_rim(there) ? x : there;
 }
 
 bool Shrinking::is_on_rim(const Vec3 &p) const {
-  const double off = 1e-3 * sheet_.grain;
-  return rim_tree_.closest(p).distance2 < off * off;
+  return rim_tree_.is_within(p, 1e-3 * sheet_.grain);
 }
 
 // Applies the move, or a part of it, if that lowers the area; returns the decrease.
