@@ -53,7 +53,7 @@ def close_levels(
 
 
 def shipped(law: str) -> Callable[[mvs.Simulator], None]:
-    """Makes the shipped valve, with springs or another law."""
+    """Makes the founding valve, with springs or another law."""
 
     def prepare(sim: mvs.Simulator) -> None:
         sim.generate(shape="founding")
@@ -107,7 +107,7 @@ def main() -> None:
     )
     parser.add_argument("--long", action="store_true", help="also 27,000 vertices")
     count = 4 if parser.parse_args().long else 3
-    print("the shipped valve under 120 mmHg; distances from its finest level, in mm")
+    print("the founding valve under 120 mmHg; distances from its finest level, in mm")
     for law in ("spring", "bilinear"):
         print("\n" + table(law, close_levels(shipped(law), count)), flush=True)
 
