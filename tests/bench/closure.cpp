@@ -122,7 +122,8 @@ std::vector<Row> run_all(const Options &options) {
         const Case of{scene, leaflet, damping_names.at(damping), options.residual};
         const Relaxed best = close_relaxed(of, damping);
         add({of, best.closing});
-        settings += scene + ", " + leaflet + ": " + words_of(best) + "\n";
+        settings.append(scene).append(", ").append(leaflet).append(": ");
+        settings.append(words_of(best)).append("\n");
       }
     }
   }

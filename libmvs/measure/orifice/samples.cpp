@@ -102,6 +102,7 @@ void add_wall(const Sheet &sheet, Samples &samples) {
 
 std::vector<Tri> as_triangles(const std::vector<Edge> &edges) {
   std::vector<Tri> triangles;
+  triangles.reserve(edges.size());
   for (const Edge &edge : edges) triangles.push_back({edge[0], edge[1], edge[1]});
   return triangles;
 }

@@ -112,7 +112,7 @@ double Shrinking::area_around(uint32_t v, const Vec3 &p) const {
 
 // The point of the sheet nearest to a place of a node, which has moved little since the last time.
 TriangleBvh::Hit Shrinking::nearest(uint32_t v, const Vec3 &p) {
-  const TriangleBvh::Hit hit = tree_.closest(p, nearest_[v]);
+  TriangleBvh::Hit hit = tree_.closest(p, nearest_[v]);
   nearest_[v] = hit.triangle;
   return hit;
 }
@@ -169,7 +169,7 @@ bool Shrinking::is_on_rim(const Vec3 &p) const {
 // Applies the move, or a part of it, if that lowers the area; returns the decrease.
 double Shrinking::try_move(uint32_t v, const Vec3 &move) {
   const double before = area_around(v, mesh_.x[v]);
-  for (double part = 1; part > 0.1; part *= 0.5) {
+  for (const double part : {1.0, 0.5, 0.25, 0.125}) {
     Vec3 p = mesh_.x[v] + part * move;
     if (hold_[v] == Hold::slides) p = slide(v, p);
     const double after = area_around(v, p);
