@@ -22,22 +22,16 @@ struct CostOptions {
   std::vector<Vec3> septum;
 };
 
-double or_default(double given, double low, double high, const char *what, double otherwise) {
-  must_be_in(given, low, high, what);
-  return given == 0 ? otherwise : given;
-}
-
 CostOptions read_options(const mvs_cost_options *options) {
   CostOptions read = {read_struct_or_default(options, "options"), {}};
   mvs_cost_options &given = read.given;
-  MVS_MUST(given.backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, "options.backend",
-           "options.backend is %u: it has to be one of MVS_BACKEND_*", given.backend);
+  must_be_backend(given.backend, "options.backend");
   // up to 100 mmHg
-  given.pressure = or_default(given.pressure, 1, 13332.2, "options.pressure", MVS_DIASTOLE_PA);
+  given.pressure = or_default(given.pressure, MVS_DIASTOLE_PA, 1, 13332.2, "options.pressure");
   must_be_in(given.residual, 1e-12, 1e3, "options.residual");
   must_be_in(given.flow, 1e-9, 1, "options.flow");
-  given.density = or_default(given.density, 500, 2000, "options.density", 1060);
-  given.discharge = or_default(given.discharge, 0.1, 1, "options.discharge", 0.85);
+  given.density = or_default(given.density, 1060, 500, 2000, "options.density");
+  given.discharge = or_default(given.discharge, 0.85, 0.1, 1, "options.discharge");
   read.septum = read_points(given.septum, "options.septum");
   return read;
 }
@@ -50,15 +44,14 @@ SnapshotPtr open_valve(const mvs_snapshot &closed, const mvs_cost_options &optio
       return options.progress(options.user, share, residual) == 0;
     };
   }
+  const Load load = {-options.pressure, 0};
   State state = closed.state;
-  const RecordedEvent load = event_of(Load{-options.pressure, 0});
-  apply_event(*closed.model, state, load);
-  const Snapshot loaded = after_event(closed.value, state, load);
+  apply_event(*closed.model, state, event_of(load));
   Solver solver(static_cast<Backend>(options.backend));
   SolveOptions how = {};
   how.residual = options.residual;
   settle_with_mesh_hierarchy(solver, *closed.model, state, how, progress);
-  return make_snapshot(after_event(loaded, std::move(state), event_of(RecordedEvent::settle, how)));
+  return make_snapshot(after_settle(closed.value, load, how, std::move(state)));
 }
 
 void add_opening(const mvs_snapshot &opened, const mvs_cost_options &options, mvs_cost &cost) {

@@ -33,8 +33,7 @@ mvs_ensemble_options read_options(const mvs_ensemble_options *given) {
            most_members);
   MVS_MUST(options.start <= MVS_ENSEMBLE_START_SNAPSHOT, MVS_E_ARGUMENT, "options.start",
            "options.start is %u: it has to be one of MVS_ENSEMBLE_START_*, or 0", options.start);
-  MVS_MUST(options.backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, "options.backend",
-           "options.backend is %u: it has to be one of MVS_BACKEND_*", options.backend);
+  must_be_backend(options.backend, "options.backend");
   MVS_MUST((options.flags & ~uint32_t{MVS_ENSEMBLE_FLAG_UNPERTURBED}) == 0, MVS_E_ARGUMENT,
            "options.flags", "options.flags is %u: it has bits that this version does not know",
            options.flags);
@@ -74,11 +73,7 @@ Progress progress_of(const mvs_ensemble_options &options, uint32_t number) {
 // mvs_set_load and mvs_settle. The others begin a history: no plan reproduces them.
 SnapshotPtr snapshot_of(const Task &task, State state, bool plain) {
   if (plain) {
-    State loaded = task.start.state;
-    loaded.load = task.load;
-    const Snapshot before = after_event(task.start.value, loaded, event_of(task.load));
-    return make_snapshot(
-        after_event(before, std::move(state), event_of(RecordedEvent::settle, task.solve)));
+    return make_snapshot(after_settle(task.start.value, task.load, task.solve, std::move(state)));
   }
   share(state, task.start.state);
   return make_snapshot({{task.start.model, std::move(state)}, {}});

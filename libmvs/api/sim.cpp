@@ -16,8 +16,7 @@ mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim) {
   return at_boundary([&] {
     must_point(sim, "sim");
     const mvs_sim_desc how = read_struct_or_default(desc, "desc");
-    MVS_MUST(how.backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, "desc.backend",
-             "desc.backend is %u: it has to be one of MVS_BACKEND_*", how.backend);
+    must_be_backend(how.backend, "desc.backend");
     *sim = new mvs_sim(how);
   });
 }

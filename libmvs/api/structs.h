@@ -2,6 +2,8 @@
 // were compiled with older or newer headers than this library.
 #pragma once
 
+#include <mvs/sim.h>
+
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -89,6 +91,12 @@ std::vector<Part> read_list(const Struct *list, uint32_t count, uint32_t stride,
     parts.push_back(read(copy_known<Struct>(bytes, stride, what, k)));
   }
   return parts;
+}
+
+// Checks an MVS_BACKEND_*.
+inline void must_be_backend(mvs_backend backend, const char *what) {
+  MVS_MUST(backend <= MVS_BACKEND_BLOCK, MVS_E_ARGUMENT, what,
+           "%s is %u: it has to be one of MVS_BACKEND_*", what, backend);
 }
 
 // Copies the bytes that make() returns to the caller's memory, up to its capacity, and sets *size

@@ -10,10 +10,6 @@
 namespace mvs::core {
 namespace {
 
-double or_default(double given, double fallback) {
-  return given == 0 ? fallback : given;
-}
-
 void read_nodes_and_triangles(const mvs_valve_desc &desc, Described &described) {
   Valve &valve = described.valve;
   valve.rest = read_points(desc.nodes, "nodes");
@@ -35,7 +31,7 @@ template <typename Law, typename Values>
 void read_law_constants(const Law *law, const double *given, Values &values) {
   for (size_t k = 0; k < values.size(); ++k) {
     const bool known = law && k < law->constants.size();
-    values[k] = known ? or_default(given[k], law->constants[k].fallback) : given[k];
+    values[k] = known ? value_or(given[k], law->constants[k].fallback) : given[k];
   }
 }
 
@@ -45,7 +41,7 @@ Leaflet read_leaflet(const mvs_leaflet_desc &given) {
   leaflet.id = given.id;
   leaflet.name = text_or_empty(given.name);
   if (given.law != 0) leaflet.law = static_cast<LeafletLawId>(given.law);
-  leaflet.thickness = or_default(given.thickness, leaflet.thickness);
+  leaflet.thickness = value_or(given.thickness, leaflet.thickness);
   read_law_constants(find_leaflet_law(leaflet.law), given.constants, leaflet.constants);
   return leaflet;
 }
@@ -74,8 +70,8 @@ Chord read_chord(const mvs_chord_desc &given) {
   chord.kind = static_cast<ChordKind>(given.kind);
   if (given.law != 0) chord.law = static_cast<ChordLawId>(given.law);
   chord.rest_length = given.rest_length;
-  chord.young = or_default(given.young, chord.young);
-  chord.area = or_default(given.area, chord.area);
+  chord.young = value_or(given.young, chord.young);
+  chord.area = value_or(given.area, chord.area);
   read_law_constants(find_chord_law(chord.law), given.constants, chord.constants);
   return chord;
 }
@@ -107,14 +103,14 @@ void read_parts(const mvs_valve_desc &desc, Valve &valve) {
 
 void read_constants(const mvs_valve_desc &desc, Valve &valve) {
   if (desc.name) valve.name = desc.name;
-  valve.density = or_default(desc.density, valve.density);
-  valve.contact_thickness = or_default(desc.contact_thickness, valve.contact_thickness);
-  valve.contact_stiffness = or_default(desc.contact_stiffness, valve.contact_stiffness);
+  valve.density = value_or(desc.density, valve.density);
+  valve.contact_thickness = value_or(desc.contact_thickness, valve.contact_thickness);
+  valve.contact_stiffness = value_or(desc.contact_stiffness, valve.contact_stiffness);
   const bool no_bending = (desc.flags & MVS_VALVE_FLAG_NO_BENDING) != 0;
   MVS_MUST(!no_bending || desc.bending_scale == 0, MVS_E_ARGUMENT, "valve.bending_scale",
            "valve.bending_scale is %g: it has to be 0 with MVS_VALVE_FLAG_NO_BENDING",
            desc.bending_scale);
-  valve.bending_scale = no_bending ? 0 : or_default(desc.bending_scale, 1);
+  valve.bending_scale = no_bending ? 0 : value_or(desc.bending_scale, 1);
 }
 
 }  // namespace
@@ -148,7 +144,7 @@ void set_tissue(Leaflet &leaflet, const mvs_leaflet_desc &tissue) {
     read_law_constants(find_leaflet_law(law), tissue.constants, leaflet.constants);
   }
   leaflet.law = law;
-  leaflet.thickness = or_default(tissue.thickness, leaflet.thickness);
+  leaflet.thickness = value_or(tissue.thickness, leaflet.thickness);
 }
 
 State described_state(const Model &model, const std::vector<Vec3> &now) {

@@ -46,4 +46,10 @@ inline void must_be_in(double value, double low, double high, const char *what) 
            "%s is %g: it has to be 0 (the default) or %g to %g", what, value, low, high);
 }
 
+// The same; returns the option, or its default if it is zero.
+inline double or_default(double value, double fallback, double low, double high, const char *what) {
+  must_be_in(value, low, high, what);
+  return value_or(value, fallback);
+}
+
 }  // namespace mvs::core

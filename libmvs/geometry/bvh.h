@@ -166,6 +166,14 @@ struct Aabb {
     }
     return sum;
   }
+  double distance2(const Aabb &other) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double off = std::max({0.0, low[k] - other.high[k], other.low[k] - high[k]});
+      sum += off * off;
+    }
+    return sum;
+  }
 };
 
 Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/option_checks.h"
 #include "haptics/servo_types.h"
 
 namespace mvs::core {
@@ -59,12 +60,6 @@ void read_workspace(const mvs_driver_info &given, const char *driver, DeviceTrai
 // Copies a text that may lack its terminating zero.
 void copy_text(const char *from, char (&to)[64]) {
   std::memcpy(to, from, strnlen(from, sizeof to - 1));
-}
-
-double or_default(double given, double fallback, double low, double high, const char *what) {
-  MVS_MUST(given == 0 || (given >= low && given <= high), MVS_E_ARGUMENT, what,
-           "%s is %g: it has to be 0 (the default) or %g to %g", what, given, low, high);
-  return given == 0 ? fallback : given;
 }
 
 }  // namespace

@@ -18,16 +18,25 @@ inline RecordedEvent event_of(RecordedEvent::Kind kind, const SolveOptions &how)
   return event;
 }
 
-inline SolveOptions options_of(const RecordedEvent &event) {
-  return {event.solver, event.max_iterations, event.residual,
-          event.dt,     event.damping,        event.budget};
-}
-
 inline RecordedEvent event_of(const Load &load) {
   RecordedEvent event;
   event.pressure = load.pressure;
   event.boundary_fraction = load.boundary_fraction;
   return event;
+}
+
+// The snapshot after a load and the settle under it.
+inline Snapshot after_settle(const Snapshot &start, const Load &load, const SolveOptions &how,
+                             State settled) {
+  State loaded = start.current.state;
+  apply_event(*start.current.model, loaded, event_of(load));
+  const Snapshot before = after_event(start, std::move(loaded), event_of(load));
+  return after_event(before, std::move(settled), event_of(RecordedEvent::settle, how));
+}
+
+inline SolveOptions options_of(const RecordedEvent &event) {
+  return {event.solver, event.max_iterations, event.residual,
+          event.dt,     event.damping,        event.budget};
 }
 
 // The event tool_add, tool_move or tool_remove of a tool.

@@ -41,8 +41,7 @@ void add_cost(CLI::App &app, Console &console) {
   const auto [command, options] = add_command<CommandOptions>(
       app, console, "cost",
       "show the cost of a repair: area of the valve opened in diastole, gradient of a flow, "
-      "leaflet "
-      "lengths and risk of SAM, pull on the annulus, chordae beyond limits",
+      "leaflet lengths and risk of SAM, pull on the annulus, chordae beyond limits",
       run_cost);
   command->add_option("file", options->file, "closed valve, .obj, .h5 or .inp")->required();
   command->add_option("-o,--output", options->out, "file for the open valve");

@@ -62,14 +62,10 @@ CsvRow row_of(const Sweep &sweep, size_t combination) {
     row.emplace_back(at_rest.stats.converged ? "1" : "0");
     row.push_back(cell_of(at_rest.stats.residual));
     row.push_back(cell_of(at_rest.measures.intersections));
-    const Json measures = measures_json(at_rest.measures);
-    for (const auto &[key, value] : measures.items()) row.push_back(cell_of(value));
-    if (sweep.cost) {
-      const Json costs = cost_json(sweep.cost->of(at_rest.valve).figures);
-      for (const auto &[key, value] : costs.items()) {
-        if (!measures.contains(key)) row.push_back(cell_of(value));
-      }
-    }
+    std::optional<mvs_cost> cost;
+    if (sweep.cost) cost = sweep.cost->of(at_rest.valve).figures;
+    const Json figures = figures_json(at_rest.measures, cost ? &*cost : nullptr);
+    for (const auto &[key, value] : figures.items()) row.push_back(cell_of(value));
   } catch (const mvs::Error &failure) {
     error = failure.what();
     row.resize(sweep.grid.columns().size() + 1 + measure_keys(sweep.cost.has_value()).size());

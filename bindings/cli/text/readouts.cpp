@@ -180,6 +180,16 @@ Json cost_json(const mvs_cost &cost) {
   return object;
 }
 
+Json figures_json(const mvs_measures &measures, const mvs_cost *cost) {
+  Json figures = measures_json(measures);
+  if (!cost) return figures;
+  const Json costs = cost_json(*cost);
+  for (const auto &[key, value] : costs.items()) {
+    if (!figures.contains(key)) figures[key] = value;
+  }
+  return figures;
+}
+
 std::string cost_text(const mvs_cost &cost) {
   std::string table;
   for (const Readout &readout : cost_readouts()) {

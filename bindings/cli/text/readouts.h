@@ -22,6 +22,9 @@ std::string measures_text(const mvs_measures &before, const mvs_measures &after)
 Json cost_json(const mvs_cost &cost);
 std::string cost_text(const mvs_cost &cost);
 
+// Measures and, unless it is null, cost of one repair, each key once.
+Json figures_json(const mvs_measures &measures, const mvs_cost *cost);
+
 // Statistics of the members of an ensemble (mvs_ensemble_measure).
 struct Statistics {
   mvs_measures mean, min, max, deviation, count;

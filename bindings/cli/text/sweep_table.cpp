@@ -22,13 +22,9 @@ CsvRow sweep_columns(const SweepGrid &grid, bool cost) {
 
 std::vector<std::string> measure_keys(bool cost) {
   std::vector<std::string> keys = {"residual_N", "intersections"};
-  const Json measures = measures_json({});
-  for (const auto &[key, value] : measures.items()) keys.push_back(key);
-  if (!cost) return keys;
-  const Json costs = cost_json({});
-  for (const auto &[key, value] : costs.items()) {
-    if (!measures.contains(key)) keys.push_back(key);
-  }
+  const mvs_cost costs = {};
+  const Json figures = figures_json({}, cost ? &costs : nullptr);
+  for (const auto &[key, value] : figures.items()) keys.push_back(key);
   return keys;
 }
 

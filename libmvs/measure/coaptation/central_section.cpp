@@ -73,14 +73,17 @@ void measure_central_section(const Model &model, const std::vector<Vec3> &local,
     for (const double plane : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
       std::array<Vec3, 2> ends;
       if (!cut(corner, plane * thickness, ends) || !(det > 0)) continue;
-      double before = facing.weight_of(in_space(ends[0])), height = ends[0][2];
-      for (size_t k = 1; k <= pieces; ++k) {
+      FacingPoints points;
+      FacingPoints::Row height;
+      for (size_t k = 0; k <= pieces; ++k) {
         const double along = static_cast<double>(k) / static_cast<double>(pieces);
         const Vec3 p = ends[0] + along * (ends[1] - ends[0]);
-        const double weight = facing.weight_of(in_space(p));
-        extent.add(height, before, p[2], weight);
-        before = weight;
-        height = p[2];
+        height[k] = p[2];
+        points.add(in_space(p));
+      }
+      const FacingPoints::Row weight = facing.weights_of(points);
+      for (size_t k = 1; k <= pieces; ++k) {
+        extent.add(height[k - 1], weight[k - 1], height[k], weight[k]);
       }
     }
   }

@@ -62,7 +62,7 @@ struct FacingTriangle {
   double normals;  // weight of the angle between both normals
 };
 
-// Of each point: weight, squared distance to the triangle, and its nearest point.
+// Weight, squared distance to the triangle and its nearest point, for each point.
 struct FacingWeights {
   FacingPoints::Row weight, distance2, x, y, z;
 };

@@ -6,20 +6,6 @@
 #include <cmath>
 
 namespace mvs::core {
-namespace {
-
-// The squared distance of two boxes.
-double gap2(const Aabb &a, const Aabb &b) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double off = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
-    sum += off * off;
-  }
-  return sum;
-}
-
-}  // namespace
-
 FacingWeight::FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
                            const TriangleBvh &tree)
     : model_(model), x_(x), surface_(surface), tree_(tree), reach_(model.valve.contact_thickness) {
@@ -75,7 +61,7 @@ bool FacingWeight::begin(uint32_t triangle) {
   box.high += Vec3::Constant(limit);
   tree_.for_overlapping(box, [&](uint32_t t) {
     const double cosine = surface_.normal[t].dot(normal);
-    if (cosine >= normals_ramp.to || gap2(own_box, tree_.box_of(t)) >= limit * limit) return;
+    if (cosine >= normals_ramp.to || own_box.distance2(tree_.box_of(t)) >= limit * limit) return;
     if (share_a_node(model_.valve.triangles[t], own)) return;
     double weight = 0;
     fall(cosine, normals_ramp, weight);
@@ -100,13 +86,12 @@ bool FacingWeight::weigh(const Candidate &candidate, const FacingPoints &points,
   return weigh_points(points, surface_.normal[triangle_], triangle, reach_, found);
 }
 
-double FacingWeight::weight_of(const Vec3 &p) const {
-  FacingPoints point;
+FacingPoints::Row FacingWeight::weights_of(const FacingPoints &points) const {
+  FacingPoints::Row weight{};
   FacingWeights found;
-  point.add(p);
-  double weight = 0;
   for (const Candidate &candidate : candidates_) {
-    if (weigh(candidate, point, found)) weight = std::max(weight, found.weight[0]);
+    if (!weigh(candidate, points, found)) continue;
+    for (size_t k = 0; k < points.count; ++k) weight[k] = std::max(weight[k], found.weight[k]);
   }
   return weight;
 }

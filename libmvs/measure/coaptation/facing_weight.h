@@ -44,8 +44,8 @@ class FacingWeight {
   bool begin(uint32_t triangle);
   // Weighs points of that triangle. The result is valid until the next call.
   std::span<const Faced> of_points(const FacingPoints &points);
-  // The weight of one point alone.
-  double weight_of(const Vec3 &p) const;
+  // Their weights alone.
+  FacingPoints::Row weights_of(const FacingPoints &points) const;
 
  private:
   // A triangle that points may face.

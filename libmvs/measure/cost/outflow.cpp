@@ -19,28 +19,26 @@ struct Begin {
 
 Begin find_coaptation(const Model &model, const std::vector<ProfilePiece> &profile,
                       FacingWeight &facing) {
-  double length = 0, before = 0;
+  double length = 0;
   for (const ProfilePiece &piece : profile) {
     const double whole = (piece.to - piece.from).norm();
     if (!facing.begin(piece.triangle)) {
       length += whole;
-      before = 0;
       continue;
     }
     const size_t parts = coaptation_parts(model, piece.triangle);
-    double last = 0;
+    const auto along = [&](double k) { return k / static_cast<double>(parts); };
+    FacingPoints points;
     for (size_t k = 0; k <= parts; ++k) {
-      const double along = static_cast<double>(k) / static_cast<double>(parts);
-      const double weight = facing.weight_of(piece.from + along * (piece.to - piece.from));
-      if (weight >= 0.5) {
-        // at the start of a piece the weight of the piece before it is the same, or has stepped
-        const double share = k == 0 || weight == before
-                                 ? along
-                                 : last + (along - last) * (0.5 - before) / (weight - before);
-        return {length + share * whole, piece.from + share * (piece.to - piece.from)};
-      }
-      before = weight;
-      last = along;
+      points.add(piece.from + along(static_cast<double>(k)) * (piece.to - piece.from));
+    }
+    const FacingPoints::Row weight = facing.weights_of(points);
+    for (size_t k = 0; k <= parts; ++k) {
+      if (weight[k] < 0.5) continue;
+      // linear from the point before; the first point has that of the piece before, or a step
+      const double back = k == 0 ? 0 : (weight[k] - 0.5) / (weight[k] - weight[k - 1]);
+      const double share = along(static_cast<double>(k) - back);
+      return {length + share * whole, piece.from + share * (piece.to - piece.from)};
     }
     length += whole;
   }
