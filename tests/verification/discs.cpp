@@ -14,10 +14,9 @@ namespace {
 
 constexpr double radius = 10e-3;
 
-// Radii of the rings of nodes are in the table of profiles: 2, 1, 0.5, 0.25 mm apart.
-const std::vector<uint32_t> &levels() {
-  static const std::vector<uint32_t> usual = {5, 10, 20, 40};
-  return usual;
+// Radii of the rings of nodes are in the table of profiles: 2, 1, 0.5 and in long runs 0.25 mm apart.
+std::vector<uint32_t> levels() {
+  return long_runs() ? std::vector<uint32_t>{5, 10, 20, 40} : std::vector<uint32_t>{5, 10, 20};
 }
 
 struct Disc {
@@ -52,8 +51,7 @@ Disc inflated(const Published &law, uint32_t rings, double pressure, Mesh mesh) 
     if (mesh == irregular) disturb(valve, rings);
   });
   SolveOptions options;
-  // relative to the force of the pressure on a node; Hencky's stiff tissue needs nearly that much,
-  // since a position is rounded to 1e-18 m
+  // relative to the force of the pressure on a node
   options.residual = 1e-5 * pressure * disc.edge * disc.edge;
   const test::Settled settled = test::settle(disc.model, pressure, 0, options);
   if (!settled.stats.converged) throw std::runtime_error("a disc did not come to rest");
@@ -134,12 +132,13 @@ Study study_of(const std::string &name, const std::string &title) {
   return s;
 }
 
-// Strains of 7e-6, so that the law is Hencky's linear tissue; nu = 1/2.
+// Strains of up to 5e-5, so that the law is Hencky's linear tissue; nu = 1/2. A stiffer tissue has
+// forces that cannot be computed to the residual asked for: with 1e11 Pa they round to 5e-10 N.
 Study hencky() {
   Study s = study_of("hencky_disc", "Hencky's disc");
   s.source =
       "shared/data/verification/b_hencky_disc.csv, nu 0.5: w0 = 0.594879 a (p a / E h)^(1/3)";
-  const double pressure = 1e3, young = 1e11;
+  const double pressure = 1e3, young = 1e10;
   for (const test::Cells &row : test::reference_table("b_hencky_disc.csv")) {
     if (std::stod(row[0]) != 0.5 || std::stod(row[4]) != 1e-5) continue;
     // p a / E h = 1e-3 in that row
@@ -149,7 +148,6 @@ Study hencky() {
     law.constants[0] = young / 3;
     for (const uint32_t rings : levels()) {
       for (const Mesh mesh : {rings_of_triangles, irregular}) {
-        if (mesh == irregular && rings == 40 && !long_runs()) continue;
         const Disc disc = inflated(law, rings, pressure, mesh);
         s.rows.push_back({mesh == irregular ? "irregular triangles" : "rings of triangles", 0,
                           disc.edge, height(disc), exact});
@@ -165,7 +163,7 @@ Study hencky_of_springs() {
   s.source = "as for the membrane, nu = 1/3: what an equilateral lattice has";
   s.expects = "none: rings of triangles are no lattice, and refinement does not make them one";
   s.tolerance = s.order_low = s.order_high = 0;
-  const double pressure = 1e3, young = 1e11;
+  const double pressure = 1e3, young = 1e10;
   Published law = published("springs");
   law.constants = {young, young, 10};
   for (const test::Cells &row : test::reference_table("b_hencky_disc.csv")) {
