@@ -14,7 +14,8 @@ namespace {
 
 constexpr double radius = 10e-3;
 
-// Radii of the rings of nodes are in the table of profiles: 2, 1, 0.5 and in long runs 0.25 mm apart.
+// Radii of the rings of nodes are in the table of profiles: 2, 1, 0.5 and in long runs 0.25 mm
+// apart.
 std::vector<uint32_t> levels() {
   return long_runs() ? std::vector<uint32_t>{5, 10, 20, 40} : std::vector<uint32_t>{5, 10, 20};
 }
@@ -132,9 +133,9 @@ Study study_of(const std::string &name, const std::string &title) {
   return s;
 }
 
-// Strains of 1.6e-5, so that the law is Hencky's linear tissue to 1.4e-5 of the height, a tenth of the
-// error of the finest mesh; nu = 1/2. Forces round to 1.7e-10 N, a quarter of the residual there: with
-// 1e11 Pa they round to 6e-10 N, the residual itself.
+// Strains of 1.6e-5, so that the law is Hencky's linear tissue to 1.4e-5 of the height, a tenth of
+// the error of the finest mesh; nu = 1/2. Forces round to 1.7e-10 N, a quarter of the residual
+// there: with 1e11 Pa they round to 6e-10 N, the residual itself.
 Study hencky() {
   Study s = study_of("hencky_disc", "Hencky's disc");
   s.source =

@@ -8,6 +8,7 @@
 
 #include "tests/verification/patch.h"
 #include "tests/verification/study.h"
+#include "tests/verification/tube.h"
 
 namespace mvs::core::verification {
 namespace {
@@ -40,13 +41,6 @@ void add_sphere(Valve &valve, int times) {
   valve.triangles = triangles;
 }
 
-void make_tissue(Valve &valve, const Published &law) {
-  valve.leaflets.resize(1);
-  valve.leaflets[0].law = law.law;
-  valve.leaflets[0].constants = law.constants;
-  valve.bending_scale = 0;
-}
-
 Positions settled(const Model &model, State state, double pressure) {
   state.load = {pressure, 1};
   SolveOptions options;
@@ -75,52 +69,16 @@ Row sphere(const Published &law, int times, double pressure, double exact) {
   return {law.name, 1e-3 * pressure, mean_edge(model), std::cbrt(after / before) - 1, exact - 1};
 }
 
-// A tube whose ends are moved to the radius of Laplace's law for the pressure, at constant length:
-// then the whole tube has that radius. Fibres are circumferential. `rows` of equilateral triangles.
-struct Tube {
-  Model model;
-  uint32_t around, rows;
-};
-Tube tube(const Published &law, uint32_t around, uint32_t rows, double stretch) {
-  const double step = 2 * test::pi * radius / around, high = step * std::sqrt(0.75);
-  Valve valve;
-  std::vector<uint32_t> ends;
-  for (uint32_t j = 0; j <= rows; ++j) {
-    for (uint32_t i = 0; i < around; ++i) {
-      const double angle = 2 * test::pi * (i + 0.5 * (j % 2)) / around;
-      if (j == 0 || j == rows) ends.push_back(static_cast<uint32_t>(valve.rest.size()));
-      valve.rest.push_back({radius * std::cos(angle), radius * std::sin(angle), high * j});
-    }
-  }
-  for (uint32_t j = 0; j < rows; ++j) {
-    for (uint32_t i = 0; i < around; ++i) {
-      const uint32_t next = (i + 1) % around, shift = j % 2;
-      const uint32_t a = j * around + i, b = j * around + next;
-      const uint32_t c = (j + 1) * around + i, d = (j + 1) * around + next;
-      valve.triangles.push_back({a, b, shift == 0 ? c : d});
-      valve.triangles.push_back(shift == 0 ? Tri{b, d, c} : Tri{a, d, c});
-    }
-  }
-  for (const Tri &t : valve.triangles) {
-    const Vec3 normal = (valve.rest[t[1]] - valve.rest[t[0]])
-                            .cross(valve.rest[t[2]] - valve.rest[t[0]])
-                            .normalized();
-    valve.triangle_fibre.push_back(Vec3(Vec3::UnitZ().cross(normal).normalized()));
-  }
-  make_tissue(valve, law);
-  Tube result{test::model_of_sheet(valve, ends), around, rows};
-  for (Vec3 &p : result.model.valve.loaded) p.head<2>() *= stretch;
-  return result;
-}
-
+// A tube of equilateral triangles. Returns the strain of the middle row.
 Row cylinder(const Published &law, uint32_t around, uint32_t rows, double pressure, double exact) {
-  const Tube made = tube(law, around, rows, exact);
+  const double edge = 2 * test::pi * radius / around;
+  const Tube made =
+      tube_drawn_out(law, radius, {around, rows, rows * edge * std::sqrt(0.75)}, exact);
   const Positions x = settled(made.model, initial_state(made.model), pressure);
   double sum = 0;
-  const uint32_t middle = made.rows / 2 * around;
+  const uint32_t middle = rows / 2 * around;
   for (uint32_t i = 0; i < around; ++i) sum += x[middle + i].head<2>().norm();
-  return {law.name, 1e-3 * pressure, 2 * test::pi * radius / around, sum / around / radius - 1,
-          exact - 1};
+  return {law.name, 1e-3 * pressure, edge, sum / around / radius - 1, exact - 1};
 }
 
 Study study_of(const std::string &name, const std::string &title) {
@@ -139,9 +97,10 @@ Study study_of(const std::string &name, const std::string &title) {
 }
 
 // The length of a tube in rest radii is about 5.4 over `shortness`; 0: a sphere. A pressurised tube
-// between fixed ends is a column: beyond a critical length the straight one is unstable and bends.
-// The tissue of the anterior leaflet, stiff around and soft along, has a critical length of 1.03 rest
-// radii at this stretch (buckling.cpp), so that its tube is 0.91 long. The others are stable.
+// between fixed ends is a column: beyond a critical length it bends, and its straight shape is an
+// unstable equilibrium. With the law of the anterior leaflet, stiff around and soft along, that
+// length is 1.03 rest radii at this stretch (buckling.cpp), and its tube is 0.91 long. The straight
+// shapes of the other tubes are stable.
 struct Wanted {
   const char *material, *law;
   double stretch;

@@ -15,7 +15,7 @@ namespace {
 int print_tables(const char *folder) {
   std::vector<Study> all;
   for (const auto make : {law_studies, shear_studies, patch_studies, disc_studies, laplace_studies,
-                          cable_studies, bending_studies, step_studies}) {
+                          buckling_studies, cable_studies, bending_studies, step_studies}) {
     for (Study &study : make()) {
       std::cout << as_text(study) << std::endl;
       all.push_back(std::move(study));

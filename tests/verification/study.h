@@ -58,6 +58,7 @@ std::vector<Study> shear_studies();
 std::vector<Study> patch_studies();
 std::vector<Study> disc_studies();
 std::vector<Study> laplace_studies();
+std::vector<Study> buckling_studies();
 std::vector<Study> cable_studies();
 std::vector<Study> bending_studies();
 std::vector<Study> step_studies();

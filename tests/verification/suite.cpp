@@ -31,6 +31,9 @@ TEST_CASE("discs_deflect_as_hencky_and_the_finite_membrane") {
 TEST_CASE("spheres_and_tubes_follow_laplace") {
   check(laplace_studies());
 }
+TEST_CASE("tubes_of_fibres_bend_as_haringx_columns") {
+  check(buckling_studies());
+}
 TEST_CASE("cables_hang_as_the_closed_forms") {
   check(cable_studies());
 }
