@@ -136,7 +136,8 @@ def laws_picture(studies: Studies) -> bytes:
 CONVERGING = (
     ("Discs under pressure", ("hencky_disc", "finite_disc", "finite_disc_profile",
                               "finite_disc_stretch")),
-    ("Laplace: spheres and tubes", ("laplace_sphere", "laplace_cylinder")),
+    ("Laplace: spheres and tubes; a tube that bends", ("laplace_sphere", "laplace_cylinder",
+                                                     "tube_buckling")),
     ("Cables", ("catenary", "elastic_catenary")),
     ("Bending", ("heavy_cantilever", "bending_lattice")),
     ("Steps in time", ("steps_energy", "steps_spin")),
