@@ -178,7 +178,7 @@ struct Aabb {
 
 Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle);
 
-// A surface at rest: boxes that overlap a box, and triangles near a point.
+// A surface at rest: boxes that overlap a box, triangles near a point, pairs near each other.
 class TriangleBvh {
  public:
   // Keeps references to both: they must outlive the hierarchy.
@@ -190,6 +190,23 @@ class TriangleBvh {
     bvh_.for_overlapping([&](const Aabb &volume) { return !volume.overlaps(box); },
                          [&](uint32_t t) {
                            if (box_[t].overlaps(box)) visit(t);
+                         });
+  }
+  // Calls visit(a, b) once for at least every pair of triangles whose boxes are no further apart
+  // than sqrt(limit2); the visitor looks at the boxes itself.
+  template <typename Visit>
+  void for_near_pairs(double limit2, Visit &&visit) const {
+    const BvhTopology &topology = bvh_.topology();
+    bvh_.for_near_leaves([](const Aabb &) { return false; },
+                         [&](const Aabb &a, const Aabb &b) { return a.distance2(b) > limit2; },
+                         [&](uint32_t a, uint32_t b) {
+                           for (uint32_t i = topology.leaf_start[a]; i < topology.leaf_start[a + 1];
+                                ++i) {
+                             const uint32_t first = a == b ? i + 1 : topology.leaf_start[b];
+                             for (uint32_t j = first; j < topology.leaf_start[b + 1]; ++j) {
+                               visit(topology.order[i], topology.order[j]);
+                             }
+                           }
                          });
   }
   const Aabb &box_of(uint32_t triangle) const { return box_[triangle]; }
