@@ -1,5 +1,5 @@
 // A snapshot computes the groups of measures that it is asked for, and no other.
-#include <doctest.h>
+#include <doctest/doctest.h>
 
 #include "anatomy/parametric.h"
 #include "base/struct_fields.h"

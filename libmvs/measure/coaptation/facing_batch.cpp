@@ -1,9 +1,12 @@
 // The nearest points of the triangle, then the ramps of FacingWeight.
 #include "measure/coaptation/facing_batch.h"
 
+#if defined(__SSE2__) && defined(__GNUC__)
+#include <emmintrin.h>
+#endif
+
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstring>
 
 #include "geometry/simd_points.h"
 
@@ -13,7 +16,6 @@ namespace {
 template <typename V>
 struct FacingKernel : SimdPoints<V> {
   using Value = typename V::Value;
-  using Mask = typename V::Mask;
   using typename SimdPoints<V>::Point;
   using SimdPoints<V>::dot, SimdPoints<V>::subtract;
 
@@ -55,12 +57,18 @@ struct FacingKernel : SimdPoints<V> {
     weight = distance > contact_ramp.from * reach ? sided : weight;
   }
 
-  // Whether any element of a mask is set.
-  MVS_INLINE static bool any(const Mask &mask) {
-    int64_t element[V::width], set = 0;
-    std::memcpy(element, &mask, sizeof element);
-    for (const int64_t e : element) set |= e;
-    return set != 0;
+  // The compiler keeps std::sqrt of elements apart, as it may set errno.
+  MVS_INLINE static void root_of(const Value &square, Value &root) {
+    double element[V::width];
+    store<V>(element, square);
+#if defined(__SSE2__) && defined(__GNUC__)
+    for (size_t k = 0; k + 1 < V::width; k += 2) {
+      _mm_storeu_pd(element + k, _mm_sqrt_pd(_mm_loadu_pd(element + k)));
+    }
+#else
+    for (double &e : element) e = std::sqrt(e);
+#endif
+    load<V>(root, element);
   }
 
   MVS_INLINE static void load_points(const FacingPairs::Points &from, size_t first, Point &p) {
@@ -80,20 +88,14 @@ struct FacingKernel : SimdPoints<V> {
     load_points(pairs.c, first, c);
     typename SimdPoints<V>::Nearest found;
     SimdPoints<V>::nearest(p, a, b, c, found);
-    const Mask is_near = found.distance2 < limit2;
-    store<V>(&pairs.weight[first], zero);
-    if (!any(is_near)) return;
     const Point q = {found.u * a.x + found.v * b.x + found.w * c.x,
                      found.u * a.y + found.v * b.y + found.w * c.y,
                      found.u * a.z + found.v * b.z + found.w * c.z};
-    double root[V::width];
-    store<V>(root, found.distance2);
-    for (double &r : root) r = std::sqrt(r);
     Value distance, normals, weight;
-    load<V>(distance, root);
+    root_of(found.distance2, distance);
     load<V>(normals, &pairs.normals[first]);
     weigh(p, q, distance, normals, normal, reach, weight);
-    weight = is_near ? weight : zero;
+    weight = found.distance2 < limit2 ? weight : zero;
     store<V>(&pairs.weight[first], weight);
     store<V>(&pairs.distance2[first], found.distance2);
     store<V>(&pairs.nearest.x[first], q.x);
@@ -148,14 +150,13 @@ FacingBounds bounds_of(const std::array<Vec3, 3> &corner, const Vec3 &normal, co
 
 void least_squares_to(const FacingBounds &bounds, const FacingPoints &points,
                       FacingPoints::Row &squares) {
-  static const auto kernel =
-      simd_kernel<&bound_all<Double2>, &bound_all<Double4>, &bound_all<Double8>>();
+  static const auto kernel = simd_kernel<&bound_all<Double2>, &bound_all<Double4>>();
   kernel(bounds, points, squares.data());
 }
 
 void weigh_pairs(const Vec3 &normal, double reach, FacingPairs &pairs) {
-  static const auto kernel =
-      simd_kernel<&weigh_all<Double2>, &weigh_all<Double4>, &weigh_all<Double8>>();
+  // gcc selects elements of 512 bits one by one: AVX-512 takes a third longer than AVX2
+  static const auto kernel = simd_kernel<&weigh_all<Double2>, &weigh_all<Double4>>();
   kernel(normal, reach, pairs);
 }
 
