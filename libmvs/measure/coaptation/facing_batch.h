@@ -58,7 +58,7 @@ struct HalfSpace {
   double beyond = 0;
 };
 
-// What contains a triangle: its box, its plane, and the half-spaces at its sides.
+// The box of a triangle, its plane, and the half-spaces at its sides: they contain it.
 struct FacingBounds {
   Aabb box;
   HalfSpace plane;
