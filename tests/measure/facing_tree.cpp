@@ -11,7 +11,8 @@ using namespace mvs::core;
 
 namespace {
 
-constexpr double cosine = -0.4, reach = 5e-3;  // m: far enough for many pairs in an open valve
+// m: far enough to find triangles across the open valve
+constexpr double cosine = -0.4, reach = 20e-3;
 
 struct Fixture {
   ModelPtr model;
