@@ -156,6 +156,9 @@ typedef struct mvs_field_info {
    * if it has none. The same as a number in SI units, or of a choice; NaN if it is not fixed. */
   const char *default_text;
   double default_value;
+  const char *group_name; /* of a measure: the word of its group, "coaptation"; "" without one */
+  uint32_t group;         /* of a measure: MVS_MEASURE_GROUP_*; 0: not in a group */
+  uint32_t reserved;
 } mvs_field_info;
 
 /* Structs of results whose fields the library describes. */

@@ -249,6 +249,19 @@ typedef struct mvs_measures {
   double leaflet_stress_p99; /* Pa */
 } mvs_measures;
 
+/* Groups of measures. The figures of a group are computed together; mvs_field_info has the group of
+ * each field of mvs_measures. at_rest and under_load are in no group: they are always set. */
+enum mvs_measure_group_flags_e {
+  MVS_MEASURE_GROUP_CROSSINGS = 1,  /* intersections */
+  MVS_MEASURE_GROUP_ORIFICE = 2,    /* regurgitant_orifice_area: the longest */
+  MVS_MEASURE_GROUP_COAPTATION = 4, /* coaptation_* */
+  MVS_MEASURE_GROUP_TENTING = 8,    /* tenting_*, billow_* */
+  MVS_MEASURE_GROUP_ANNULUS = 16,   /* annulus_* */
+  MVS_MEASURE_GROUP_CHORDS = 32,    /* max_chord_*, chords_over_* */
+  MVS_MEASURE_GROUP_LEAFLETS = 64   /* max_leaflet_*, leaflet_*: strain, stress, area */
+};
+typedef uint32_t mvs_measure_group_flags;
+
 /* Kinds of regions. */
 enum mvs_region_kind_e {
   MVS_REGION_SCALLOP = 1,   /* each triangle belongs to one scallop */
@@ -311,6 +324,13 @@ MVS_API mvs_result mvs_get_chord_limits(mvs_chord_kind kind, double *strain, dou
 
 /* Measures a snapshot. The first call computes the measures, later calls return the same ones. */
 MVS_API mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *measures);
+
+/* Measures some groups, MVS_MEASURE_GROUP_* joined by |, with the same bits as
+ * mvs_snapshot_measure. Numbers of the other groups are NaN, their counts are 0, and computing them
+ * takes no time. Later calls return what an earlier call has computed. */
+MVS_API mvs_result mvs_snapshot_measure_groups(const mvs_snapshot *snapshot,
+                                               mvs_measure_group_flags groups,
+                                               mvs_measures *measures);
 
 /* Distances between two shapes, in m. Node figures are NaN where the meshes do not match. */
 typedef struct mvs_comparison {

@@ -154,6 +154,10 @@ class Snapshot {
   }
 
   mvs_measures measure() const { return filled<mvs_measures>(mvs_snapshot_measure, held_); }
+  // The groups MVS_MEASURE_GROUP_* only; NaN and 0 in the other fields.
+  mvs_measures measure(mvs_measure_group_flags groups) const {
+    return filled<mvs_measures>(mvs_snapshot_measure_groups, held_, groups);
+  }
 
   // Cost of the repair of this closed valve, and the open valve.
   Cost cost(mvs_cost_options options = {}) const;

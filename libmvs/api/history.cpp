@@ -112,6 +112,7 @@ mvs_result mvs_get_op_field(uint32_t index, uint32_t field, mvs_field_info *info
     out.choices = f.choices;
     out.default_text = default_of(f).text.c_str();
     out.default_value = default_of(f).value;
+    out.group_name = "";
     write_struct(info, out, "info");
   });
 }

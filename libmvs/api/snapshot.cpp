@@ -2,6 +2,7 @@
 #include "session/snapshot.h"
 
 #include "api/structs.h"
+#include "base/struct_fields.h"
 
 using namespace mvs::core;
 
@@ -195,6 +196,19 @@ mvs_result mvs_snapshot_measure(const mvs_snapshot *snapshot, mvs_measures *meas
     must_point(snapshot, "snapshot");
     checked_struct_size(measures, "measures");
     write_struct(measures, snapshot->measures(), "measures");
+  });
+}
+
+mvs_result mvs_snapshot_measure_groups(const mvs_snapshot *snapshot, mvs_measure_group_flags groups,
+                                       mvs_measures *measures) {
+  return at_boundary([&] {
+    must_point(snapshot, "snapshot");
+    checked_struct_size(measures, "measures");
+    const mvs_measure_group_flags unknown = groups & ~all_measure_groups();
+    MVS_MUST(unknown == 0, MVS_E_ARGUMENT, "groups",
+             "groups has bits 0x%x that this version does not know: join MVS_MEASURE_GROUP_* by |",
+             unknown);
+    write_struct(measures, snapshot->measures(groups), "measures");
   });
 }
 

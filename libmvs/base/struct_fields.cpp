@@ -29,11 +29,31 @@ constexpr mvs_field_info row(uint32_t type, size_t offset, const char *name, con
   field.choices = "";
   field.default_text = "";
   field.default_value = std::numeric_limits<double>::quiet_NaN();
+  field.group_name = "";
   return field;
 }
 
-#define MEASURE(TYPE, name, unit, label, help) \
-  row(MVS_FIELD_##TYPE, offsetof(mvs_measures, name), #name, unit, label, help),
+// The bit of each group of measures, by its word.
+namespace group {
+constexpr uint32_t none = 0;
+constexpr uint32_t crossings = MVS_MEASURE_GROUP_CROSSINGS;
+constexpr uint32_t orifice = MVS_MEASURE_GROUP_ORIFICE;
+constexpr uint32_t coaptation = MVS_MEASURE_GROUP_COAPTATION;
+constexpr uint32_t tenting = MVS_MEASURE_GROUP_TENTING;
+constexpr uint32_t annulus = MVS_MEASURE_GROUP_ANNULUS;
+constexpr uint32_t chords = MVS_MEASURE_GROUP_CHORDS;
+constexpr uint32_t leaflets = MVS_MEASURE_GROUP_LEAFLETS;
+}  // namespace group
+
+constexpr mvs_field_info in_group(mvs_field_info field, uint32_t bit, const char *word) {
+  field.group = bit;
+  field.group_name = bit != 0 ? word : "";
+  return field;
+}
+
+#define MEASURE(GROUP, TYPE, name, unit, label, help)                                     \
+  in_group(row(MVS_FIELD_##TYPE, offsetof(mvs_measures, name), #name, unit, label, help), \
+           group::GROUP, #GROUP),
 constexpr mvs_field_info measures_fields[] = {
 #include "base/structs.def"
 };
@@ -70,9 +90,9 @@ static_assert(covers(stats_fields, sizeof(mvs_stats)));
 static_assert(covers(profile_fields, sizeof(mvs_profile)));
 
 // The type of each row is that of its field.
-#define MEASURE(TYPE, name, unit, label, help)     \
-  static_assert(                                   \
-      std::is_same_v<decltype(mvs_measures::name), \
+#define MEASURE(GROUP, TYPE, name, unit, label, help) \
+  static_assert(                                      \
+      std::is_same_v<decltype(mvs_measures::name),    \
                      std::conditional_t<MVS_FIELD_##TYPE == MVS_FIELD_COUNT, uint32_t, double>>);
 #define COST(TYPE, name, unit, label, help)    \
   static_assert(                               \
@@ -92,6 +112,12 @@ std::span<const mvs_field_info> struct_fields(mvs_struct which) {
   if (which == MVS_STRUCT_PROFILE) return profile_fields;
   if (which == MVS_STRUCT_COST) return cost_fields;
   return {};
+}
+
+mvs_measure_group_flags all_measure_groups() {
+  mvs_measure_group_flags all = 0;
+  for (const mvs_field_info &field : measures_fields) all |= field.group;
+  return all;
 }
 
 }  // namespace mvs::core

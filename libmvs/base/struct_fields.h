@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mvs/base.h>
+#include <mvs/snapshot.h>
 
 #include <cstring>
 #include <span>
@@ -11,6 +12,9 @@ namespace mvs::core {
 
 // The fields of MVS_STRUCT_MEASURES, ... in the order of the struct; empty for an unknown number.
 std::span<const mvs_field_info> struct_fields(mvs_struct which);
+
+// All bits MVS_MEASURE_GROUP_*.
+mvs_measure_group_flags all_measure_groups();
 
 // Reads and writes a field of a struct as a number; a COUNT is converted.
 inline double read_field(const void *from, const mvs_field_info &field) {

@@ -169,11 +169,11 @@ std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
                                      const std::vector<Tri> &triangles) {
   const TriangleBvh bvh(triangles, x);
   std::vector<Edge> crossing;
-  for (uint32_t s = 0; s < triangles.size(); ++s) {
-    bvh.for_overlapping(bvh.box_of(s), [&](uint32_t t) {
-      if (t > s && pair_crosses(x, triangles[s], triangles[t])) crossing.push_back({s, t});
-    });
-  }
+  bvh.for_near_pairs(0, [&](uint32_t a, uint32_t b) {
+    if (!bvh.box_of(a).overlaps(bvh.box_of(b))) return;
+    const uint32_t s = std::min(a, b), t = std::max(a, b);
+    if (pair_crosses(x, triangles[s], triangles[t])) crossing.push_back({s, t});
+  });
   std::sort(crossing.begin(), crossing.end());
   return crossing;
 }

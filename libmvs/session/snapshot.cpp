@@ -1,5 +1,9 @@
 // Measures and tables of a snapshot.
 #include "session/snapshot.h"
+
+#include <limits>
+
+#include "base/struct_fields.h"
 #include "geometry/intersect.h"
 
 namespace {
@@ -46,8 +50,34 @@ Tables make_tables(const Model &model) {
   return tables;
 }
 
+void add_crossings(const mvs_snapshot &s, mvs_measures &m) {
+  m.intersections = s.crossings();
+}
+
+void add_orifice(const mvs_snapshot &s, mvs_measures &m) {
+  m.regurgitant_orifice_area = s.orifice().area;
+}
+
+void add_coaptation(const mvs_snapshot &s, mvs_measures &m) {
+  m.coaptation_area = s.coaptation().area;
+  m.coaptation_length_mean = s.coaptation().length_mean;
+  m.coaptation_length_min = s.coaptation().length_min;
+  m.coaptation_length_max = s.coaptation().length_max;
+  m.coaptation_height = s.coaptation().height;
+  m.coaptation_depth = s.coaptation().depth;
+}
+
+void add_tenting_billow(const mvs_snapshot &s, mvs_measures &m) {
+  const TentingBillow &measured = s.tenting_billow();
+  m.tenting_height = measured.tenting_height;
+  m.tenting_area = measured.tenting_area;
+  m.tenting_volume = measured.tenting_volume;
+  m.billow_height = measured.billow_height;
+  m.billow_volume = measured.billow_volume;
+}
+
 void add_annulus(const mvs_snapshot &s, mvs_measures &m) {
-  const AnnulusMeasures annulus = measure_annulus(*s.model, s.state.x);
+  const AnnulusMeasures &annulus = s.annulus();
   m.annulus_ap = annulus.ap;
   m.annulus_cc = annulus.cc;
   m.annulus_perimeter = annulus.perimeter;
@@ -57,32 +87,14 @@ void add_annulus(const mvs_snapshot &s, mvs_measures &m) {
   m.annulus_nonplanar_angle = annulus.nonplanar_angle;
 }
 
-void add_tenting_billow(const mvs_snapshot &s, mvs_measures &m) {
-  const TentingBillow measured = measure_tenting_billow(*s.model, s.state.x);
-  m.tenting_height = measured.tenting_height;
-  m.tenting_area = measured.tenting_area;
-  m.tenting_volume = measured.tenting_volume;
-  m.billow_height = measured.billow_height;
-  m.billow_volume = measured.billow_volume;
-}
-
-void add_closure(const mvs_snapshot &s, mvs_measures &m) {
-  m.intersections =
-      static_cast<uint32_t>(find_intersections(s.state.x, s.model->valve.triangles).size());
-  m.regurgitant_orifice_area = s.orifice().area;
-  m.coaptation_area = s.coaptation().area;
-  m.coaptation_length_mean = s.coaptation().length_mean;
-  m.coaptation_length_min = s.coaptation().length_min;
-  m.coaptation_length_max = s.coaptation().length_max;
-  m.coaptation_height = s.coaptation().height;
-  m.coaptation_depth = s.coaptation().depth;
-}
-
-void add_strength(const mvs_snapshot &s, mvs_measures &m) {
+void add_chords(const mvs_snapshot &s, mvs_measures &m) {
   m.max_chord_strain = s.chords().max_strain;
   m.max_chord_tension = s.chords().max_tension;
   m.chords_over_strain = s.chords().over_strain;
   m.chords_over_tension = s.chords().over_tension;
+}
+
+void add_leaflets(const mvs_snapshot &s, mvs_measures &m) {
   m.max_leaflet_strain = s.strain().max_strain;
   m.max_leaflet_stress = s.strain().max_stress;
   m.leaflet_area = s.strain().leaflet_area;
@@ -96,15 +108,15 @@ void add_strength(const mvs_snapshot &s, mvs_measures &m) {
   m.leaflet_stress_p99 = stress.p99;
 }
 
-mvs_measures make_measures(const mvs_snapshot &snapshot) {
+// NaN in every number and 0 in every count.
+mvs_measures no_measures() {
   mvs_measures measures = {};
   measures.struct_size = sizeof measures;
-  add_closure(snapshot, measures);
-  add_tenting_billow(snapshot, measures);
-  add_annulus(snapshot, measures);
-  add_strength(snapshot, measures);
-  measures.at_rest = snapshot.state.is_at_rest();
-  measures.under_load = snapshot.state.load.pressure > 0;
+  for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
+    if (field.type == MVS_FIELD_NUMBER) {
+      write_field(&measures, field, std::numeric_limits<double>::quiet_NaN());
+    }
+  }
   return measures;
 }
 
@@ -156,6 +168,41 @@ const std::vector<Vec3> &mvs_snapshot::annulus_force() const {
 const Tables &mvs_snapshot::tables() const {
   return tables_.get([this] { return make_tables(*model); });
 }
+const AnnulusMeasures &mvs_snapshot::annulus() const {
+  return annulus_.get([this] { return measure_annulus(*model, state.x); });
+}
+const TentingBillow &mvs_snapshot::tenting_billow() const {
+  return tenting_billow_.get([this] { return measure_tenting_billow(*model, state.x); });
+}
+uint32_t mvs_snapshot::crossings() const {
+  return crossings_.get([this] {
+    return static_cast<uint32_t>(find_intersections(state.x, model->valve.triangles).size());
+  });
+}
 const mvs_measures &mvs_snapshot::measures() const {
-  return measures_.get([this] { return make_measures(*this); });
+  return measures_.get([this] { return measures(all_measure_groups()); });
+}
+mvs_measures mvs_snapshot::measures(mvs_measure_group_flags groups) const {
+  mvs_measures m = no_measures();
+  if ((groups & MVS_MEASURE_GROUP_CROSSINGS) != 0) add_crossings(*this, m);
+  if ((groups & MVS_MEASURE_GROUP_ORIFICE) != 0) add_orifice(*this, m);
+  if ((groups & MVS_MEASURE_GROUP_COAPTATION) != 0) add_coaptation(*this, m);
+  if ((groups & MVS_MEASURE_GROUP_TENTING) != 0) add_tenting_billow(*this, m);
+  if ((groups & MVS_MEASURE_GROUP_ANNULUS) != 0) add_annulus(*this, m);
+  if ((groups & MVS_MEASURE_GROUP_CHORDS) != 0) add_chords(*this, m);
+  if ((groups & MVS_MEASURE_GROUP_LEAFLETS) != 0) add_leaflets(*this, m);
+  m.at_rest = state.is_at_rest();
+  m.under_load = state.load.pressure > 0;
+  return m;
+}
+mvs_measure_group_flags mvs_snapshot::computed_groups() const {
+  mvs_measure_group_flags groups = 0;
+  if (crossings_.is_computed()) groups |= MVS_MEASURE_GROUP_CROSSINGS;
+  if (orifice_.is_computed()) groups |= MVS_MEASURE_GROUP_ORIFICE;
+  if (coaptation_.is_computed()) groups |= MVS_MEASURE_GROUP_COAPTATION;
+  if (tenting_billow_.is_computed()) groups |= MVS_MEASURE_GROUP_TENTING;
+  if (annulus_.is_computed()) groups |= MVS_MEASURE_GROUP_ANNULUS;
+  if (chords_.is_computed()) groups |= MVS_MEASURE_GROUP_CHORDS;
+  if (strain_.is_computed()) groups |= MVS_MEASURE_GROUP_LEAFLETS;
+  return groups;
 }

@@ -28,6 +28,10 @@ class Lazy {
     if (!value_) value_.emplace(make());
     return *value_;
   }
+  bool is_computed() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return value_.has_value();
+  }
 
  private:
   mutable std::mutex mutex_;
@@ -71,7 +75,14 @@ struct mvs_snapshot {
   const mvs::core::Stability &stability() const;
   const std::vector<mvs::core::Vec3> &annulus_force() const;  // N, on each node of the annulus
   const mvs::core::Tables &tables() const;
+  const mvs::core::AnnulusMeasures &annulus() const;
+  const mvs::core::TentingBillow &tenting_billow() const;
+  uint32_t crossings() const;  // pairs of triangles that cross
   const mvs_measures &measures() const;
+  // Groups MVS_MEASURE_GROUP_* only; NaN and 0 in the others, which are not computed.
+  mvs_measures measures(mvs_measure_group_flags groups) const;
+  // The groups computed so far, by any call.
+  mvs_measure_group_flags computed_groups() const;
 
   const mvs::core::Snapshot value;
   const mvs::core::ModelPtr &model;
@@ -98,6 +109,9 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::Stability> stability_;
   mvs::core::Lazy<std::vector<mvs::core::Vec3>> annulus_force_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
+  mvs::core::Lazy<mvs::core::AnnulusMeasures> annulus_;
+  mvs::core::Lazy<mvs::core::TentingBillow> tenting_billow_;
+  mvs::core::Lazy<uint32_t> crossings_;
   mvs::core::Lazy<mvs_measures> measures_;
 };
 

@@ -2,7 +2,7 @@
 // it alone.
 //
 //   bench_measure                    S and M, closed, leaking and open
-//   bench_measure --scenes S --repeat 1
+//   bench_measure --scenes S --states closed --repeat 1
 //   bench_measure --shapes 50        also 50 random shapes of each, of which it prints the digest
 //   bench_measure --csv FILE
 //
@@ -31,7 +31,7 @@ using namespace mvs::core;
 namespace {
 
 struct Options {
-  std::vector<std::string> scenes = {"S", "M"};
+  std::vector<std::string> scenes = {"S", "M"}, states = {"closed", "leaking", "open"};
   int repeat = 20, shapes = 0;
   std::string csv;
 };
@@ -92,11 +92,10 @@ ModelState close(const std::string &scene, double annulus_scale) {
   return {model, state};
 }
 
-std::vector<Shape> shapes_of(const std::string &scene) {
-  const ModelState closed = close(scene, 1);
-  ModelState open = closed;
-  open.state = initial_state(*open.model);
-  return {{scene, "closed", closed}, {scene, "leaking", close(scene, 1.4)}, {scene, "open", open}};
+Shape shape_of(const std::string &scene, const std::string &state) {
+  ModelState valve = close(scene, state == "leaking" ? 1.4 : 1.0);
+  if (state == "open") valve.state = initial_state(*valve.model);
+  return {scene, state, valve};
 }
 
 // Moves the nodes by smooth waves of up to 2 mm, another set of them for each `number`.
@@ -147,6 +146,9 @@ int run(int argc, char **argv) {
   app.add_option("--scenes", options.scenes, "S 425, M 1700, L 6800 vertices")
       ->capture_default_str()
       ->check(CLI::IsMember(bench::keys(bench::scene_vertices)));
+  app.add_option("--states", options.states, "closed, leaking, open")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"closed", "leaking", "open"}));
   app.add_option("--repeat", options.repeat, "runs of each")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -157,7 +159,9 @@ int run(int argc, char **argv) {
                       "crossings", "strain", "leak mm2", "digest "},
                      options.csv);
   for (const std::string &scene : options.scenes) {
-    for (const Shape &shape : shapes_of(scene)) add_row(options, shape, table);
+    for (const std::string &state : options.states) {
+      add_row(options, shape_of(scene, state), table);
+    }
   }
   return 0;
 }

@@ -120,6 +120,20 @@ class Close(Command):
         self.assertIn("(no grade: not at rest)", self.ok("measure", "early.obj").stdout)
         self.ok(*early, "--allow-unsettled")
 
+    def test_measure_prints_only_the_groups_asked_for(self):
+        whole = self.json("measure", "closed.obj")
+        some = self.json("measure", "closed.obj", "--only", "orifice,coaptation")
+        keys = {key for key in whole["measures"] if key.startswith(("coaptation", "regurgitant"))}
+        self.assertEqual(set(some["measures"]), keys | {"at_rest", "under_load"})
+        self.assertTrue(all(some["measures"][key] == whole["measures"][key] for key in keys))
+        self.assertNotIn("intersections", some)
+        self.assertEqual(self.json("measure", "closed.obj", "--only", "crossings")["intersections"], 0)
+        shown = self.ok("measure", "closed.obj", "--only", "annulus").stdout
+        self.assertIn("Annulus AP diameter", shown)
+        self.assertNotIn("sealed", shown)
+        self.assertIn("'leaks' is unknown; choose from: crossings, orifice,",
+                      self.misused("measure", "closed.obj", "--only", "annulus,leaks"))
+
     def test_only_a_valve_at_rest_under_load_is_graded(self):
         self.assertIn("(no grade: no load)", self.ok("measure", "v.obj").stdout)
         self.assertIn("(sealed)", self.ok("measure", "closed.obj").stdout)

@@ -32,6 +32,42 @@ def test_measures_are_finite_floats(closed):
         assert math.isfinite(value)
 
 
+def test_each_group_alone_has_the_bits_of_the_whole(closed):
+    bits = closed.to_bytes()
+    with mvs.Simulator() as sim:
+        whole, seen = dataclasses.asdict(closed.measures), set()
+        for word in _core.measure_groups():
+            sim.load_bytes(bits)  # a new snapshot, which has computed nothing
+            alone = dataclasses.asdict(sim.snapshot().measure(word))
+            given = {name for name, value in alone.items() if name not in COUNTS and value == value}
+            assert given.isdisjoint(seen)
+            assert given or word == "crossings"  # its only figure is a count
+            assert alone["intersections"] == 0
+            assert all(alone[name] == whole[name] for name in given)
+            seen |= given
+            assert (alone["at_rest"], alone["under_load"]) == (1, 1)
+        assert seen == set(whole) - COUNTS
+        assert sim.snapshot().measure() == closed.measures
+
+
+def test_several_groups_are_measured_together(closed):
+    both = closed.measure(groups=("coaptation", "annulus"))
+    assert both.coaptation_area == closed.measures.coaptation_area
+    assert both.annulus_ap == closed.measures.annulus_ap
+    assert math.isnan(both.regurgitant_orifice_area) and math.isnan(both.leaflet_area)
+    nothing = closed.measure([])
+    assert math.isnan(nothing.annulus_ap) and nothing.at_rest == 1
+
+
+def test_an_unknown_group_is_refused_with_the_near_name(closed):
+    with pytest.raises(mvs.ArgumentError, match='"orifice".*not \'orifise\'.*did you mean'):
+        closed.measure("orifise")
+    with pytest.raises(mvs.ArgumentError, match="not 2"):
+        closed.measure([2])
+    with pytest.raises(mvs.ArgumentError, match="bits 0x80 that this version does not know"):
+        closed._measure(128 | 2)
+
+
 def test_measures_have_the_size_of_a_heart(closed):
     measures = closed.measures
     assert 20e-3 < measures.annulus_ap < measures.annulus_cc < 50e-3

@@ -97,6 +97,10 @@ Json json_number(const Readout &readout, const mvs_measures &measures) {
   return std::isfinite(value) ? Json(value * readout.scale) : Json();
 }
 
+bool is_in(const Readout &readout, mvs_measure_group_flags groups) {
+  return readout.field.group == 0 || (readout.field.group & groups) != 0;
+}
+
 // The cells of one read-out of several valves.
 std::string cells(const Readout &readout, const std::vector<const mvs_measures *> &valves) {
   std::string row = text("  %-27s", readout.field.label);
@@ -126,18 +130,33 @@ const char *leak_grade(const mvs_measures &measures) {
   return "severe";
 }
 
-Json measures_json(const mvs_measures &measures) {
+const MeasureGroups &measure_groups() {
+  static const MeasureGroups all = [] {
+    MeasureGroups found;
+    mvs_measure_group_flags seen = 0;
+    for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_MEASURES)) {
+      if ((field.group & ~seen) == 0) continue;
+      found.emplace_back(field.group_name, field.group);
+      seen |= field.group;
+    }
+    return found;
+  }();
+  return all;
+}
+
+Json measures_json(const mvs_measures &measures, mvs_measure_group_flags groups) {
   Json object = Json::object();
   for (const Readout &readout : readouts()) {
+    if (!is_in(readout, groups)) continue;
     if (readout.key != "intersections") object[readout.key] = json_number(readout, measures);
   }
   return object;
 }
 
-std::string measures_text(const mvs_measures &measures) {
+std::string measures_text(const mvs_measures &measures, mvs_measure_group_flags groups) {
   std::string table;
   for (const Readout &readout : readouts()) {
-    if (is_condition(readout)) continue;
+    if (is_condition(readout) || !is_in(readout, groups)) continue;
     table += cells(readout, {&measures});
     if (!readout.is_count && std::isfinite(readout.value(measures))) table += " " + readout.unit;
     if (is_orifice(readout)) {

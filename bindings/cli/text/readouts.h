@@ -2,17 +2,27 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "text/console.h"
 
 namespace cli {
 
+// The groups of measures: their words and their bits, in the order of mvs_measures.
+using MeasureGroups = std::vector<std::pair<std::string, mvs_measure_group_flags>>;
+const MeasureGroups &measure_groups();
+inline constexpr mvs_measure_group_flags all_measure_groups = ~mvs_measure_group_flags{0};
+
 // Every read-out, named with its unit: {"regurgitant_orifice_area_mm2": 0.0, ...}. A read-out
-// without a value, such as a coaptation length without coaptation, is null.
-Json measures_json(const mvs_measures &measures);
+// without a value, such as a coaptation length without coaptation, is null. Only those of the given
+// groups, and those without a group.
+Json measures_json(const mvs_measures &measures,
+                   mvs_measure_group_flags groups = all_measure_groups);
 
 // The same as a table, with the grade of the leak.
-std::string measures_text(const mvs_measures &measures);
+std::string measures_text(const mvs_measures &measures,
+                          mvs_measure_group_flags groups = all_measure_groups);
 
 // Two valves side by side.
 std::string measures_text(const mvs_measures &before, const mvs_measures &after);

@@ -25,6 +25,8 @@ PYBIND11_MODULE(_core, module) {
   mvs_python::bind_laws(module);
   module.def("field_descriptions", &mvs_python::field_descriptions, pybind11::arg("which"),
              "(name, unit, definition) of every field of a struct of results, MVS_STRUCT_*.");
+  module.def("measure_groups", &mvs_python::measure_groups,
+             "The groups of measures: {word: MVS_MEASURE_GROUP_*}.");
   module.def("version", &version, "The version of the library in use.");
   module.def("features", &mvs_features, "Optional parts of this build, separated by spaces.");
 }

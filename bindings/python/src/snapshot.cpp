@@ -44,6 +44,12 @@ py::object measures(const Snapshot &snapshot) {
   return measures_value(found);
 }
 
+py::object measures_of_groups(const Snapshot &snapshot, uint32_t groups) {
+  auto found = sized<mvs_measures>();
+  release_and([&] { return mvs_snapshot_measure_groups(snapshot.get(), groups, &found); });
+  return measures_value(found);
+}
+
 py::object frame(const Snapshot &snapshot) {
   double rows[12];
   release_and([&] { return mvs_snapshot_get_frame(snapshot.get(), rows); });
@@ -268,7 +274,7 @@ void bind_snapshot(py::module_ &module) {
   type.def_property_readonly("load_case", &load_case, "The load (mvs.Load), Pa and fraction.");
   type.def_property_readonly("measures", &measures,
                              "The measures of the valve (mvs.Measures, SI units). The first call "
-                             "on a snapshot computes them.");
+                             "on a snapshot computes them; measure(groups) computes some.");
   type.def_property_readonly("frame", &frame, "The anatomical frame of the valve (mvs.Frame), m.");
   type.def_property_readonly("parts", &parts,
                              "All named parts (tuple of mvs.Part): leaflets, scallops, chordae, "
@@ -287,6 +293,7 @@ void bind_snapshot(py::module_ &module) {
            "septum: (k, 3), m: points of the septum that faces the anterior leaflet in systole; "
            "None: no risk of SAM\npressure_pa: Pa, atrium minus ventricle; None: 5 mmHg\n"
            "density: kg/m3, of blood; None: 1060\ndischarge: discharge coefficient; None: 0.85");
+  type.def("_measure", &measures_of_groups);
   type.def("_chords", &chords_of);
   type.def("_regions", &regions_of);
   type.def("_orifice_parts", &orifice_parts_of);

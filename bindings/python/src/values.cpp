@@ -44,6 +44,14 @@ py::list field_descriptions(uint32_t which) {
   return rows;
 }
 
+py::dict measure_groups() {
+  py::dict groups;
+  for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_MEASURES)) {
+    if (field.group != 0) groups[field.group_name] = field.group;
+  }
+  return groups;
+}
+
 uint32_t solver_of(const std::string &name) {
   if (name == "newton") return MVS_SOLVER_NEWTON;
   if (name == "implicit") return MVS_SOLVER_IMPLICIT;

@@ -31,4 +31,7 @@ py::object ensemble_member_value(const mvs_ensemble_member &member, const mvs_st
 // (name, unit, help) of every field of a struct of results, MVS_STRUCT_*.
 py::list field_descriptions(uint32_t which);
 
+// {word: MVS_MEASURE_GROUP_*} of the groups of measures.
+py::dict measure_groups();
+
 }  // namespace mvs_python

@@ -30,6 +30,13 @@ AnnulusMap::AnnulusMap(const Frame &frame, const std::vector<Vec3> &rim)
       inside_.push_back(!std::isnan(heights_.back()));
     }
   }
+  for (size_t row = 0; row < across; ++row) {
+    for (size_t c = 0; c < across; ++c) {
+      if (!inside(row * across + c)) continue;
+      if (end_inside_[row] == 0) first_inside_[row] = c;
+      end_inside_[row] = c + 1;
+    }
+  }
 }
 
 bool AnnulusMap::is_of(const Frame &frame, const std::vector<Vec3> &rim) const {

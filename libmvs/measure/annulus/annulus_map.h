@@ -34,6 +34,9 @@ class AnnulusMap {
   // Height of the surface at the centre of a cell, m; NaN outside the annulus.
   const std::vector<double> &heights() const { return heights_; }
   bool inside(size_t cell) const { return inside_[cell] != 0; }
+  // The columns of a row from the first cell inside to behind the last one; 0 and 0 without any.
+  size_t first_inside(size_t row) const { return first_inside_[row]; }
+  size_t end_inside(size_t row) const { return end_inside_[row]; }
 
   bool is_of(const Frame &frame, const std::vector<Vec3> &rim) const;
 
@@ -45,6 +48,7 @@ class AnnulusMap {
   std::array<double, across> u_, v_;
   std::vector<double> heights_;
   std::vector<uint8_t> inside_;
+  std::array<size_t, across> first_inside_{}, end_inside_{};
 };
 
 // The map of an annulus, from any thread. The process keeps those of the last few annuli, as an

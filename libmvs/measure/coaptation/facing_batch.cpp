@@ -1,8 +1,12 @@
 // The nearest points of the triangle, then the ramps of FacingWeight.
 #include "measure/coaptation/facing_batch.h"
 
+#if defined(__SSE2__) && defined(__GNUC__)
+#include <emmintrin.h>
+#endif
+
+#include <Eigen/Geometry>
 #include <cmath>
-#include <cstring>
 
 #include "geometry/simd_points.h"
 
@@ -12,7 +16,6 @@ namespace {
 template <typename V>
 struct FacingKernel : SimdPoints<V> {
   using Value = typename V::Value;
-  using Mask = typename V::Mask;
   using typename SimdPoints<V>::Point;
   using SimdPoints<V>::dot, SimdPoints<V>::subtract;
 
@@ -33,102 +36,128 @@ struct FacingKernel : SimdPoints<V> {
     sum = (x * x + y * y) + z * z;
   }
 
-  // The product of all ramps but that of the distance itself and of the normals.
-  MVS_INLINE static void weigh_directions(const Point &p, const Point &q, const Value &distance,
-                                          const Vec3 &normal, const FacingTriangle &triangle,
-                                          double reach, Value &weight) {
-    Point to, own, other;
+  MVS_INLINE static void height_over(const Point &p, const HalfSpace &space, Value &height) {
+    height = ((p.x * space.out[0] + p.y * space.out[1]) + p.z * space.out[2]) - space.beyond;
+  }
+
+  // The ramps of the distance, and of the direction unless there is contact.
+  MVS_INLINE static void weigh(const Point &p, const Point &q, const Value &distance,
+                               const Value &normals, const Vec3 &normal, double reach,
+                               Value &weight) {
+    Point to, own;
     subtract(p, q, to);
     spread(normal, own);
-    spread(triangle.normal, other);
     Value along_normal, direction, contact;
+    fall<Value>(distance / reach, distance_ramp, weight);
+    weight = weight * normals;
     dot(to, own, along_normal);
     fall<Value>(along_normal / distance, direction_ramp, direction);
     fall<Value>(distance / reach, contact_ramp, contact);
     const Value sided = weight * (1 - (1 - direction) * (1 - contact));
     weight = distance > contact_ramp.from * reach ? sided : weight;
-    const Value least = Value{} + nearest_share * reach;
-    for (const FacingBorder &border : triangle.borders) {
-      Point start, outwards, from;
-      Value height, out, inside;
-      spread(border.from, start);
-      spread(border.out, outwards);
-      subtract(p, start, from);
-      dot(from, other, height);
-      dot(from, outwards, out);
-      height = height < least ? least : height;
-      fall<Value>((out - border.beyond) / height, border_ramp, inside);
-      weight = weight * inside;
+  }
+
+  // The compiler keeps std::sqrt of elements apart, as it may set errno.
+  MVS_INLINE static void root_of(const Value &square, Value &root) {
+    double element[V::width];
+    store<V>(element, square);
+#if defined(__SSE2__) && defined(__GNUC__)
+    for (size_t k = 0; k + 1 < V::width; k += 2) {
+      _mm_storeu_pd(element + k, _mm_sqrt_pd(_mm_loadu_pd(element + k)));
     }
+#else
+    for (double &e : element) e = std::sqrt(e);
+#endif
+    load<V>(root, element);
   }
 
-  // Whether any element of a mask is set.
-  MVS_INLINE static bool any(const Mask &mask) {
-    int64_t element[V::width], set = 0;
-    std::memcpy(element, &mask, sizeof element);
-    for (const int64_t e : element) set |= e;
-    return set != 0;
+  MVS_INLINE static void load_points(const FacingPairs::Points &from, size_t first, Point &p) {
+    load<V>(p.x, &from.x[first]);
+    load<V>(p.y, &from.y[first]);
+    load<V>(p.z, &from.z[first]);
   }
 
-  // The points from `first` on that one register holds; returns whether one has a weight.
-  MVS_INLINE static bool run(const FacingPoints &points, const Vec3 &normal,
-                             const FacingTriangle &triangle, double reach, size_t first,
-                             FacingWeights &weights) {
+  // The pairs from `first` on that one register holds.
+  MVS_INLINE static void run(const Vec3 &normal, double reach, size_t first, FacingPairs &pairs) {
     const double limit = distance_ramp.to * reach;
     const Value zero = {}, limit2 = zero + limit * limit;
-    Point p;
-    load<V>(p.x, &points.x[first]);
-    load<V>(p.y, &points.y[first]);
-    load<V>(p.z, &points.z[first]);
-    Value box2;
-    to_box(p, triangle.box, box2);
-    store<V>(&weights.weight[first], zero);
-    if (!any(box2 < limit2)) return false;
-    Point a, b, c;
-    spread(triangle.corner[0], a);
-    spread(triangle.corner[1], b);
-    spread(triangle.corner[2], c);
+    Point p, a, b, c;
+    load_points(pairs.p, first, p);
+    load_points(pairs.a, first, a);
+    load_points(pairs.b, first, b);
+    load_points(pairs.c, first, c);
     typename SimdPoints<V>::Nearest found;
     SimdPoints<V>::nearest(p, a, b, c, found);
     const Point q = {found.u * a.x + found.v * b.x + found.w * c.x,
                      found.u * a.y + found.v * b.y + found.w * c.y,
                      found.u * a.z + found.v * b.z + found.w * c.z};
-    double root[V::width];
-    store<V>(root, found.distance2);
-    for (double &r : root) r = std::sqrt(r);
-    Value distance, weight;
-    load<V>(distance, root);
-    fall<Value>(distance / reach, distance_ramp, weight);
-    weight = weight * triangle.normals;
-    weigh_directions(p, q, distance, normal, triangle, reach, weight);
-    const Mask is_near = (box2 < limit2) & (found.distance2 < limit2);
-    weight = is_near ? weight : zero;
-    store<V>(&weights.weight[first], weight);
-    store<V>(&weights.distance2[first], found.distance2);
-    store<V>(&weights.x[first], q.x);
-    store<V>(&weights.y[first], q.y);
-    store<V>(&weights.z[first], q.z);
-    return any(weight > zero);
+    Value distance, normals, weight;
+    root_of(found.distance2, distance);
+    load<V>(normals, &pairs.normals[first]);
+    weigh(p, q, distance, normals, normal, reach, weight);
+    weight = found.distance2 < limit2 ? weight : zero;
+    store<V>(&pairs.weight[first], weight);
+    store<V>(&pairs.distance2[first], found.distance2);
+    store<V>(&pairs.nearest.x[first], q.x);
+    store<V>(&pairs.nearest.y[first], q.y);
+    store<V>(&pairs.nearest.z[first], q.z);
   }
 };
 
 template <typename V>
-MVS_INLINE bool weigh_all(const FacingPoints &points, const Vec3 &normal,
-                          const FacingTriangle &triangle, double reach, FacingWeights &weights) {
-  bool found = false;
-  for (size_t first = 0; first < points.count; first += V::width) {
-    found |= FacingKernel<V>::run(points, normal, triangle, reach, first, weights);
+MVS_INLINE void weigh_all(const Vec3 &normal, double reach, FacingPairs &pairs) {
+  for (size_t first = 0; first < pairs.count; first += V::width) {
+    FacingKernel<V>::run(normal, reach, first, pairs);
   }
-  return found;
+}
+
+// The bounds by planes have a relative rounding error far below this.
+constexpr double rounding_of_planes = 1e-9;
+
+template <typename V>
+MVS_INLINE void bound_all(const FacingBounds &bounds, const FacingPoints &points, double *squares) {
+  using Value = typename V::Value;
+  for (size_t first = 0; first < points.count; first += V::width) {
+    typename FacingKernel<V>::Point p;
+    load<V>(p.x, &points.x[first]);
+    load<V>(p.y, &points.y[first]);
+    load<V>(p.z, &points.z[first]);
+    Value to_box, height, out, most = {};
+    FacingKernel<V>::to_box(p, bounds.box, to_box);
+    FacingKernel<V>::height_over(p, bounds.plane, height);
+    for (const HalfSpace &side : bounds.side) {
+      FacingKernel<V>::height_over(p, side, out);
+      most = most < out ? out : most;
+    }
+    const Value to_planes = (height * height + most * most) * (1 - rounding_of_planes);
+    store<V>(squares + first, to_box < to_planes ? to_planes : to_box);
+  }
 }
 
 }  // namespace
 
-bool weigh_points(const FacingPoints &points, const Vec3 &normal, const FacingTriangle &triangle,
-                  double reach, FacingWeights &weights) {
-  static const auto kernel =
-      simd_kernel<&weigh_all<Double2>, &weigh_all<Double4>, &weigh_all<Double8>>();
-  return kernel(points, normal, triangle, reach, weights);
+FacingBounds bounds_of(const std::array<Vec3, 3> &corner, const Vec3 &normal, const Aabb &box) {
+  FacingBounds bounds;
+  bounds.box = box;
+  bounds.plane = {normal, normal.dot(corner[0])};
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3 out = (corner[(k + 1) % 3] - corner[k]).cross(normal);
+    const double length = out.norm();
+    if (length > 0) bounds.side[k] = {out / length, out.dot(corner[k]) / length};
+  }
+  return bounds;
+}
+
+void least_squares_to(const FacingBounds &bounds, const FacingPoints &points,
+                      FacingPoints::Row &squares) {
+  static const auto kernel = simd_kernel<&bound_all<Double2>, &bound_all<Double4>>();
+  kernel(bounds, points, squares.data());
+}
+
+void weigh_pairs(const Vec3 &normal, double reach, FacingPairs &pairs) {
+  // gcc selects elements of 512 bits one by one: AVX-512 takes a third longer than AVX2
+  static const auto kernel = simd_kernel<&weigh_all<Double2>, &weigh_all<Double4>>();
+  kernel(normal, reach, pairs);
 }
 
 }  // namespace mvs::core

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "base/simd.h"
 #include "geometry/bvh.h"
@@ -53,22 +52,47 @@ struct FacingBorder {
   double beyond;   // m, how far the triangle reaches out itself
 };
 
-// The triangle that is faced.
-struct FacingTriangle {
-  std::array<Vec3, 3> corner;
-  Vec3 normal;
+// A half-space: outside where out.dot(p) > beyond.
+struct HalfSpace {
+  Vec3 out = Vec3::Zero();  // unit, or zero: all of space
+  double beyond = 0;
+};
+
+// The box of a triangle, its plane, and the half-spaces at its sides: they contain it.
+struct FacingBounds {
   Aabb box;
-  std::span<const FacingBorder> borders;
-  double normals;  // weight of the angle between both normals
+  HalfSpace plane;
+  std::array<HalfSpace, 3> side;
+};
+FacingBounds bounds_of(const std::array<Vec3, 3> &corner, const Vec3 &normal, const Aabb &box);
+
+// Lower bounds of the squared distances of points to a triangle.
+void least_squares_to(const FacingBounds &bounds, const FacingPoints &points,
+                      FacingPoints::Row &squares);
+
+// Points, each with a triangle that it may face, as a structure of arrays: one register holds pairs
+// of different triangles.
+struct FacingPairs {
+  static constexpr size_t most = 256;
+  using Row = std::array<double, most>;
+  struct Points {
+    Row x{}, y{}, z{};
+    void set(size_t k, const Vec3 &p) {
+      x[k] = p[0];
+      y[k] = p[1];
+      z[k] = p[2];
+    }
+  };
+
+  size_t count = 0;
+  Points p, a, b, c;  // the point, and the corners of the triangle
+  Row normals{};      // weight of the angle between the normals of both triangles
+  // Weight without borders, squared distance to the triangle and its nearest point.
+  Row weight{}, distance2{};
+  Points nearest;
 };
 
-// Weight, squared distance to the triangle and its nearest point, for each point.
-struct FacingWeights {
-  FacingPoints::Row weight, distance2, x, y, z;
-};
-
-// Weighs points with the normal of their own triangle; returns whether any weight is above 0.
-bool weigh_points(const FacingPoints &points, const Vec3 &normal, const FacingTriangle &triangle,
-                  double reach, FacingWeights &weights);
+// Weighs the pairs of points of one triangle, which has this normal.
+void weigh_pairs(const Vec3 &normal, double reach, FacingPairs &pairs);
 
 }  // namespace mvs::core

@@ -35,7 +35,7 @@ std::vector<uint8_t> find_borders(const Model &model) {
 }  // namespace
 
 FacingSurface::FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
-                             const TriangleBvh &tree)
+                             const FacingTree &tree)
     : model_(model),
       x_(x),
       surface_(surface),
@@ -52,7 +52,7 @@ Partner FacingSurface::of_node(uint32_t node) const {
 Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) const {
   Partner partner;
   double limit2 = reach_ * reach_;
-  tree_.visit_near(p, limit2, [&](uint32_t t) {
+  tree_.visit_near(p, normal, facing, limit2, [&](uint32_t t) {
     if (surface_.normal[t].dot(normal) > facing) return;
     if (share_a_node(model_.valve.triangles[t], own)) return;
     const TrianglePoint q = tree_.closest_on(t, p);

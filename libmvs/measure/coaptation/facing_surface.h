@@ -4,8 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/bvh.h"
-#include "measure/tissue/surface.h"
+#include "measure/coaptation/facing_tree.h"
 #include "model/model.h"
 
 namespace mvs::core {
@@ -22,7 +21,7 @@ struct Partner {
 class FacingSurface {
  public:
   FacingSurface(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
-                const TriangleBvh &tree);
+                const FacingTree &tree);
 
   Partner of_node(uint32_t node) const;
 
@@ -32,7 +31,7 @@ class FacingSurface {
   const Model &model_;
   const std::vector<Vec3> &x_;
   const Surface &surface_;
-  const TriangleBvh &tree_;
+  const FacingTree &tree_;
   std::vector<uint8_t> border_;  // per triangle: bit f is set where feature f is on the border
   double reach_;                 // m: the contact thickness
 };

@@ -7,9 +7,10 @@
 
 namespace mvs::core {
 FacingWeight::FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
-                           const TriangleBvh &tree)
+                           const FacingTree &tree)
     : model_(model), x_(x), surface_(surface), tree_(tree), reach_(model.valve.contact_thickness) {
   find_borders();
+  list_candidates();
 }
 
 // A triangle is bounded by its border edges, and by the mean direction of the border at a corner.
@@ -49,51 +50,110 @@ void FacingWeight::find_borders() {
   }
 }
 
-bool FacingWeight::begin(uint32_t triangle) {
-  triangle_ = triangle;
-  candidates_.clear();
-  const Vec3 &normal = surface_.normal[triangle];
-  const Tri &own = model_.valve.triangles[triangle];
+// All triangles at once: each pair of triangles is looked at once, for both of them.
+void FacingWeight::list_candidates() {
+  struct Pair {
+    uint32_t a, b;
+    double normals;
+  };
+  const std::vector<Tri> &triangles = model_.valve.triangles;
   const double limit = distance_ramp.to * reach_;
-  const Aabb &own_box = tree_.box_of(triangle);
-  Aabb box = own_box;
-  box.low -= Vec3::Constant(limit);
-  box.high += Vec3::Constant(limit);
-  tree_.for_overlapping(box, [&](uint32_t t) {
-    const double cosine = surface_.normal[t].dot(normal);
-    if (cosine >= normals_ramp.to || own_box.distance2(tree_.box_of(t)) >= limit * limit) return;
-    if (share_a_node(model_.valve.triangles[t], own)) return;
+  std::vector<Pair> pairs;
+  first_candidate_.assign(triangles.size() + 1, 0);
+  tree_.for_near_pairs(normals_ramp.to, limit * limit, [&](uint32_t a, uint32_t b) {
+    const double cosine = surface_.normal[a].dot(surface_.normal[b]);
+    if (cosine >= normals_ramp.to) return;
+    if (tree_.box_of(a).distance2(tree_.box_of(b)) >= limit * limit) return;
+    if (share_a_node(triangles[a], triangles[b])) return;
     double weight = 0;
     fall(cosine, normals_ramp, weight);
-    candidates_.push_back({t, weight});
+    pairs.push_back({a, b, weight});
+    ++first_candidate_[a + 1];
+    ++first_candidate_[b + 1];
   });
-  std::sort(candidates_.begin(), candidates_.end(),
-            [](const Candidate &l, const Candidate &r) { return l.triangle < r.triangle; });
-  return !candidates_.empty();
+  for (size_t t = 0; t < triangles.size(); ++t) first_candidate_[t + 1] += first_candidate_[t];
+  std::vector<uint32_t> next(first_candidate_.begin(), first_candidate_.end() - 1);
+  candidate_.resize(2 * pairs.size());
+  for (const Pair &pair : pairs) {
+    candidate_[next[pair.a]++] = {pair.b, pair.normals};
+    candidate_[next[pair.b]++] = {pair.a, pair.normals};
+  }
+  bounds_.resize(triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    if (!begin(t)) continue;
+    const Tri &c = triangles[t];
+    bounds_[t] = bounds_of({x_[c[0]], x_[c[1]], x_[c[2]]}, surface_.normal[t], tree_.box_of(t));
+    std::sort(candidate_.begin() + first_candidate_[t],
+              candidate_.begin() + first_candidate_[t + 1],
+              [](const Candidate &l, const Candidate &r) { return l.triangle < r.triangle; });
+  }
 }
 
-bool FacingWeight::weigh(const Candidate &candidate, const FacingPoints &points,
-                         FacingWeights &found) const {
-  const uint32_t t = candidate.triangle;
-  const Tri &c = model_.valve.triangles[t];
-  const std::span<const FacingBorder> borders(border_.data() + first_border_[t],
-                                              border_.data() + first_border_[t + 1]);
-  const FacingTriangle triangle = {{x_[c[0]], x_[c[1]], x_[c[2]]},
-                                   surface_.normal[t],
-                                   tree_.box_of(t),
-                                   borders,
-                                   candidate.normals};
-  return weigh_points(points, surface_.normal[triangle_], triangle, reach_, found);
+bool FacingWeight::begin(uint32_t triangle) {
+  triangle_ = triangle;
+  return first_candidate_[triangle] < first_candidate_[triangle + 1];
 }
 
-FacingPoints::Row FacingWeight::weights_of(const FacingPoints &points) const {
-  FacingPoints::Row weight{};
-  FacingWeights found;
-  for (const Candidate &candidate : candidates_) {
-    if (!weigh(candidate, points, found)) continue;
-    for (size_t k = 0; k < points.count; ++k) weight[k] = std::max(weight[k], found.weight[k]);
+double FacingWeight::within_borders(uint32_t triangle, const Vec3 &p, double weight) const {
+  const double least = nearest_share * reach_;
+  for (uint32_t k = first_border_[triangle]; k < first_border_[triangle + 1]; ++k) {
+    const FacingBorder &border = border_[k];
+    const Vec3 from = p - border.from;
+    const double height = from.dot(surface_.normal[triangle]);
+    double inside = 0;
+    fall((from.dot(border.out) - border.beyond) / (height < least ? least : height), border_ramp,
+         inside);
+    weight *= inside;
   }
   return weight;
+}
+
+// Weighs the pairs gathered so far, and begins anew.
+template <typename Visit>
+void FacingWeight::weigh(Visit &visit) {
+  weigh_pairs(surface_.normal[triangle_], reach_, pairs_);
+  for (size_t pair = 0; pair < pairs_.count; ++pair) {
+    if (pairs_.weight[pair] == 0) continue;
+    const Vec3 p(pairs_.p.x[pair], pairs_.p.y[pair], pairs_.p.z[pair]);
+    const uint32_t t = pair_triangle_[pair];
+    const double weight = within_borders(t, p, pairs_.weight[pair]);
+    if (weight != 0) visit(t, pair_point_[pair], pair, weight);
+  }
+  pairs_.count = 0;
+}
+
+// Only points near a triangle can have a weight.
+template <typename Visit>
+void FacingWeight::for_each_faced(const FacingPoints &points, Visit visit) {
+  const double limit = distance_ramp.to * reach_;
+  FacingPoints::Row squares;
+  pairs_.count = 0;
+  for (uint32_t i = first_candidate_[triangle_]; i < first_candidate_[triangle_ + 1]; ++i) {
+    const uint32_t t = candidate_[i].triangle;
+    const Tri &c = model_.valve.triangles[t];
+    least_squares_to(bounds_[t], points, squares);
+    for (uint32_t k = 0; k < points.count; ++k) {
+      if (!(squares[k] < limit * limit)) continue;
+      if (pairs_.count == FacingPairs::most) weigh(visit);
+      const size_t pair = pairs_.count++;
+      pairs_.p.set(pair, {points.x[k], points.y[k], points.z[k]});
+      pairs_.a.set(pair, x_[c[0]]);
+      pairs_.b.set(pair, x_[c[1]]);
+      pairs_.c.set(pair, x_[c[2]]);
+      pairs_.normals[pair] = candidate_[i].normals;
+      pair_point_[pair] = k;
+      pair_triangle_[pair] = t;
+    }
+  }
+  weigh(visit);
+}
+
+FacingPoints::Row FacingWeight::weights_of(const FacingPoints &points) {
+  FacingPoints::Row weights{};
+  for_each_faced(points, [&](uint32_t, uint32_t k, size_t, double weight) {
+    weights[k] = std::max(weights[k], weight);
+  });
+  return weights;
 }
 
 std::span<const Faced> FacingWeight::of_points(const FacingPoints &points) {
@@ -103,23 +163,18 @@ std::span<const Faced> FacingWeight::of_points(const FacingPoints &points) {
     faced_[k].leaflets.clear();
   }
   FacingPoints::Row sum{};
-  FacingWeights found;
-  for (const Candidate &candidate : candidates_) {
-    if (!weigh(candidate, points, found)) continue;
-    const uint32_t leaflet = model_.valve.triangle_leaflet[candidate.triangle];
-    const Vec3 &normal = surface_.normal[candidate.triangle];
-    for (size_t k = 0; k < points.count; ++k) {
-      if (found.weight[k] == 0) continue;
-      const double rounded = found.distance2[k] / (reach_ * reach_) + nearest_share * nearest_share;
-      const double counts = found.weight[k] / (rounded * rounded);
-      faced_[k].weight = std::max(faced_[k].weight, found.weight[k]);
-      sum[k] += counts;
-      FacedLeaflet &of = faced_[k].of(leaflet);
-      of.share += counts;
-      of.point += counts * Vec3(found.x[k], found.y[k], found.z[k]);
-      of.normal += counts * normal;
-    }
-  }
+  for_each_faced(points, [&](uint32_t t, uint32_t k, size_t pair, double weight) {
+    const double rounded =
+        pairs_.distance2[pair] / (reach_ * reach_) + nearest_share * nearest_share;
+    const double counts = weight / (rounded * rounded);
+    faced_[k].weight = std::max(faced_[k].weight, weight);
+    sum[k] += counts;
+    FacedLeaflet &of = faced_[k].of(model_.valve.triangle_leaflet[t]);
+    of.share += counts;
+    of.point +=
+        counts * Vec3(pairs_.nearest.x[pair], pairs_.nearest.y[pair], pairs_.nearest.z[pair]);
+    of.normal += counts * surface_.normal[t];
+  });
   for (size_t k = 0; k < points.count; ++k) {
     for (FacedLeaflet &f : faced_[k].leaflets) {
       f.point /= f.share;

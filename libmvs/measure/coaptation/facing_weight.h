@@ -1,10 +1,12 @@
 // How much a point of the sheet faces other tissue, as a continuous function of all positions.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "measure/coaptation/facing_batch.h"
+#include "measure/coaptation/facing_tree.h"
 #include "measure/tissue/surface.h"
 #include "model/model.h"
 
@@ -37,15 +39,14 @@ struct Faced {
 class FacingWeight {
  public:
   FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
-               const TriangleBvh &tree);
+               const FacingTree &tree);
 
-  // Starts with a triangle: lists the triangles that points of it may face; returns whether there
-  // are any.
+  // Starts with a triangle; returns whether there are triangles that points of it may face.
   bool begin(uint32_t triangle);
   // Weighs points of that triangle. The result is valid until the next call.
   std::span<const Faced> of_points(const FacingPoints &points);
   // Their weights alone.
-  FacingPoints::Row weights_of(const FacingPoints &points) const;
+  FacingPoints::Row weights_of(const FacingPoints &points);
 
  private:
   // A triangle that points may face.
@@ -55,17 +56,29 @@ class FacingWeight {
   };
 
   void find_borders();
-  bool weigh(const Candidate &candidate, const FacingPoints &points, FacingWeights &found) const;
+  void list_candidates();
+  // The weight with which a point faces a triangle, from that without its borders.
+  double within_borders(uint32_t triangle, const Vec3 &p, double weight) const;
+  // Calls visit(triangle, point, pair, weight) for points of the present triangle and triangles
+  // that they face, in the order of these triangles; `pair`: their place in pairs_.
+  template <typename Visit>
+  void for_each_faced(const FacingPoints &points, Visit visit);
+  template <typename Visit>
+  void weigh(Visit &visit);
 
   const Model &model_;
   const std::vector<Vec3> &x_;
   const Surface &surface_;
-  const TriangleBvh &tree_;
+  const FacingTree &tree_;
   double reach_;
   std::vector<uint32_t> first_border_;  // per triangle: border_[first_border_[t] .. [t + 1])
   std::vector<FacingBorder> border_;
+  std::vector<uint32_t> first_candidate_;  // per triangle, in the same way
+  std::vector<Candidate> candidate_;       // sorted by triangle
+  std::vector<FacingBounds> bounds_;       // of each triangle that has candidates
   uint32_t triangle_ = none;
-  std::vector<Candidate> candidates_;
+  FacingPairs pairs_;
+  std::array<uint32_t, FacingPairs::most> pair_point_{}, pair_triangle_{};
   std::vector<Faced> faced_;  // one per point
 };
 

@@ -206,7 +206,7 @@ def _finish_section(ax: Any, drawing: Drawing) -> None:
     ax.set_ylabel("height above the annulus plane, mm")
     ax.spines[["top", "right"]].set_visible(False)
     ax.legend(loc="lower left", frameon=False, fontsize=10)
-    area = drawing.snapshot.measures.regurgitant_orifice_area * 1e6
+    area = drawing.snapshot.measure("orifice").regurgitant_orifice_area * 1e6
     if area > 0:
         ax.text(right + 0.4, 7.4, f"leaks: {area:.1f} mm²", ha="right", color=ORIFICE,
                 fontweight="bold")

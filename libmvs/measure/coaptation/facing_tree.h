@@ -1,0 +1,91 @@
+// Triangles near a point or near each other that may face it: a hierarchy of boxes with the normals
+// of the triangles in them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "geometry/bvh.h"
+#include "measure/tissue/surface.h"
+
+namespace mvs::core {
+
+// Subtrees whose normals all exceed a cosine with the normal of the point, such as the tissue
+// around it, are not visited.
+class FacingTree {
+ public:
+  // Keeps references to all: they must outlive the tree.
+  FacingTree(const std::vector<Tri> &triangles, const std::vector<Vec3> &x, const Surface &surface);
+
+  // Calls visit(triangle) for at least every triangle nearer to p than sqrt(limit2) whose normal
+  // has at most this cosine with `normal`, near boxes first; the visitor may lower limit2.
+  template <typename Visit>
+  void visit_near(const Vec3 &p, const Vec3 &normal, double cosine, const double &limit2,
+                  Visit &&visit) const {
+    bvh_.for_nearest(
+        [&](const Volume &volume) {
+          const bool may_face = least_cosine(volume.normals, {normal, normal}) <= cosine + rounding;
+          return may_face ? volume.box.distance2(p) : HUGE_VAL;
+        },
+        limit2, visit);
+  }
+  // Calls visit(a, b) once for at least every pair of triangles whose normals have at most this
+  // cosine and whose boxes are no further apart than sqrt(limit2).
+  template <typename Visit>
+  void for_near_pairs(double cosine, double limit2, Visit &&visit) const {
+    const auto apart = [&](const Volume &a, const Volume &b) {
+      return least_cosine(a.normals, b.normals) > cosine + rounding ||
+             a.box.distance2(b.box) > limit2;
+    };
+    bvh_.for_near_leaves([](const Volume &) { return false; }, apart,
+                         [&](uint32_t a, uint32_t b) { visit_pairs(a, b, visit); });
+  }
+
+  const Aabb &box_of(uint32_t triangle) const { return box_[triangle]; }
+  TrianglePoint closest_on(uint32_t triangle, const Vec3 &p) const {
+    const Tri &t = triangles_[triangle];
+    return closest_on_triangle(p, x_[t[0]], x_[t[1]], x_[t[2]]);
+  }
+  Vec3 point_at(uint32_t triangle, const std::array<double, 3> &weight) const {
+    const Tri &t = triangles_[triangle];
+    return weight[0] * x_[t[0]] + weight[1] * x_[t[1]] + weight[2] * x_[t[2]];
+  }
+
+ private:
+  struct Volume {
+    Aabb box, normals;
+    void add(const Volume &other) {
+      box.add(other.box);
+      normals.add(other.normals);
+    }
+  };
+  static constexpr double rounding = 1e-9;  // of a cosine, by far
+
+  // A lower bound of the dot product of two vectors from these boxes.
+  static double least_cosine(const Aabb &a, const Aabb &b) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      sum += std::min(std::min(a.low[k] * b.low[k], a.low[k] * b.high[k]),
+                      std::min(a.high[k] * b.low[k], a.high[k] * b.high[k]));
+    }
+    return sum;
+  }
+  template <typename Visit>
+  void visit_pairs(uint32_t a, uint32_t b, Visit &visit) const {
+    const BvhTopology &topology = bvh_.topology();
+    for (uint32_t i = topology.leaf_start[a]; i < topology.leaf_start[a + 1]; ++i) {
+      const uint32_t first = a == b ? i + 1 : topology.leaf_start[b];
+      for (uint32_t j = first; j < topology.leaf_start[b + 1]; ++j) {
+        visit(topology.order[i], topology.order[j]);
+      }
+    }
+  }
+
+  const std::vector<Tri> &triangles_;
+  const std::vector<Vec3> &x_;
+  std::vector<Aabb> box_;  // of each triangle
+  Bvh<Volume> bvh_;
+};
+
+}  // namespace mvs::core
