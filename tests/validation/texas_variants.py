@@ -1,7 +1,7 @@
 """Texas and seeded variants of it: time, iterations, crossings and distance from Abaqus of each.
 
     python tests/validation/texas_variants.py [--variants 10] [--residual 1e-4] [--data DIR]
-    python tests/validation/texas_variants.py --variants 0 --chords 0.01 --phases
+    python tests/validation/texas_variants.py --variants 0 --chords 0.1 --phases
 
 A variant has its own random thickness of each leaflet (+-20 %) and rest length of each chord (+-5 %):
 its distance from Abaqus' frame, which is of the healthy valve, says only that it is still near. The
