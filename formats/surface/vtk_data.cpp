@@ -2,6 +2,9 @@
 // skipped, each by its own layout, as the format states no lengths.
 #include "formats/surface/vtk_data.h"
 
+#include <cmath>
+#include <optional>
+
 #include "base/error.h"
 #include "formats/text/line.h"
 
@@ -103,12 +106,15 @@ void VtkDataReader::read_scalars(SurfaceParts &parts) {
   keep(title, static_cast<uint32_t>(columns), rows_, of, parts);
 }
 
-// ASCII colours are numbers from 0 to 1, binary ones bytes.
+// Binary colours are bytes, ASCII ones these divided by 255; VTK writes labels of one byte so, too.
 void VtkDataReader::read_colours(SurfaceParts &parts) {
   const std::string title = name();
   const uint32_t columns = components("the number of colour components");
   cursor_.line();
+  const size_t arrays = parts.arrays.size();
   keep(title, columns, rows_, one_byte, parts);
+  if (is_binary_ || parts.arrays.size() == arrays) return;
+  for (double &value : parts.arrays.back().values) value = std::floor(255 * value + 0.5);
 }
 
 void VtkDataReader::read_lookup_table() {

@@ -48,6 +48,7 @@ class XmlReader {
   void advance(size_t to);
   void skip_past(std::string_view end, const char *sentence);
   std::string_view name();
+  void end_text(size_t end);
   void read_start();
   void read_attributes(XmlElement &element);
   void read_end();
@@ -58,7 +59,7 @@ class XmlReader {
   bool is_stopped_ = false;
   std::vector<XmlElement> elements_;
   std::vector<uint32_t> open_;
-  std::vector<size_t> content_start_;  // of each open element
+  size_t text_start_ = 0;  // of the text of the innermost open element
 };
 
 void XmlReader::advance(size_t to) {
@@ -101,7 +102,16 @@ void XmlReader::read_attributes(XmlElement &element) {
   }
 }
 
+// Text of the innermost open element ends before `end`, where a tag begins.
+void XmlReader::end_text(size_t end) {
+  if (open_.empty()) return;
+  const std::string_view found = text_.substr(text_start_, end - text_start_);
+  std::string_view &content = elements_[open_.back()].content;
+  if (without_blanks(content).empty()) content = found;
+}
+
 void XmlReader::read_start() {
+  end_text(at_ - 1);
   if (elements_.size() > 0 && open_.empty()) fail("the XML has more than one outermost element");
   if (open_.size() == deepest_element) fail("the XML is nested too deeply");
   XmlElement element;
@@ -115,23 +125,19 @@ void XmlReader::read_start() {
   if (!open_.empty()) elements_[open_.back()].inside.push_back(index);
   is_stopped_ = element.name == stop_;
   if (is_stopped_) element.content = text_.substr(at_);
-  if (!is_empty && !is_stopped_) {
-    open_.push_back(index);
-    content_start_.push_back(at_);
-  }
+  if (!is_empty && !is_stopped_) open_.push_back(index);
   elements_.push_back(std::move(element));
+  text_start_ = at_;
 }
 
 void XmlReader::read_end() {
-  const size_t end = at_ - 2;  // of the content, before "</"
+  end_text(at_ - 2);
   if (open_.empty() || elements_[open_.back()].name != name()) {
     fail("the XML closes an element that is not open");
   }
   skip_past(">", "the XML ends within an element: the file is cut short");
-  elements_[open_.back()].content =
-      text_.substr(content_start_.back(), end - content_start_.back());
   open_.pop_back();
-  content_start_.pop_back();
+  text_start_ = at_;
 }
 
 std::vector<XmlElement> XmlReader::read() {

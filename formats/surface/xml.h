@@ -13,7 +13,7 @@ namespace mvs::core {
 struct XmlElement {
   std::string_view name;
   std::vector<std::pair<std::string_view, std::string>> attributes;
-  std::string_view content;      // between the start and the end of the element
+  std::string_view content;      // the first text in it that is not blank
   std::vector<uint32_t> inside;  // indices of the elements in it, in order
   int32_t line = 0;
 

@@ -88,7 +88,7 @@ static void wrong_files_and_options_are_refused_with_path_and_line(void) {
   write_text(obj_path, "v 0 0 0\nv 1 0 0\nv 0 nan 0\n");
   MUST_FAIL(mvs_surface_file_open(obj_path, NULL, &file), MVS_E_FORMAT, "surface_test.obj:3: ");
   write_text(obj_path, "v 0 0 0\n");
-  MUST_FAIL(mvs_surface_file_open(obj_path, NULL, &file), MVS_E_ARGUMENT, "options.unit");
+  MUST_FAIL(mvs_surface_file_open(obj_path, NULL, &file), MVS_E_ARGUMENT, "state its unit");
   options.unit = 4;
   MUST_FAIL(mvs_surface_file_open(obj_path, &options, &file), MVS_E_ARGUMENT, "options.unit");
   options.unit = MVS_LENGTH_UNIT_MM;

@@ -23,9 +23,12 @@ struct VtpText {
                     const std::string &block, int components = 1) {
     std::string text = "<DataArray type=\"" + type + "\" Name=\"" + name +
                        "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"";
-    if (coding == "ascii") return text + "ascii\">\n" + values + "\n</DataArray>\n";
+    const std::string end =
+        "\n<InformationKey name=\"a\"><Value "
+        "index=\"0\">5</Value></InformationKey>\n</DataArray>\n";
+    if (coding == "ascii") return text + "ascii\">\n" + values + end;
     if (coding == "binary") {
-      return text + "binary\">\n  " + base64_of(with_length(block)) + "\n</DataArray>\n";
+      return text + "binary\">\n  " + base64_of(with_length(block)) + end;
     }
     text += "appended\" offset=\"" + std::to_string(appended.size()) + "\"/>\n";
     appended += coding == "raw" ? with_length(block) : base64_of(with_length(block));

@@ -158,6 +158,15 @@ TEST_CASE("strips_of_vtk_are_triangles_of_one_orientation") {
   CHECK(array_named(file, "s")->values == std::vector<double>{9, 9});
 }
 
+TEST_CASE("colours_of_vtk_are_bytes_in_ascii_files_as_well") {
+  const std::string text = vtk_sample(false, false).bytes;
+  const std::string labels = "SCALARS area%20of float 1\nLOOKUP_TABLE default\n";
+  const SurfaceFile file =
+      read_sample({"a.vtk", replaced(replaced(text, labels, "COLOR_SCALARS bytes 1\n"),
+                                     "0.5 1.5 2.5", "0.0039215 1 0.00784")});
+  CHECK(array_named(file, "bytes")->values == std::vector<double>{1, 255, 2, 2});
+}
+
 TEST_CASE("pieces_of_a_vtp_file_are_joined") {
   std::string text = vtp_sample("ascii").bytes;
   const size_t begin = text.find("<Piece"), end = text.find("</Piece>") + 9;
