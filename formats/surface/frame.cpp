@@ -86,4 +86,9 @@ void note_comment(SurfaceParts &parts, std::string_view comment) {
   if (parts.unit == LengthUnit::unknown) parts.unit = stated_unit(comment);
 }
 
+void note_field(SurfaceParts &parts, std::string_view name, std::string_view text) {
+  if (name == "SPACE") parts.frame = frame_of_word(text);
+  if (name == "UNITS") parts.unit = unit_of_word(text);
+}
+
 }  // namespace mvs::core

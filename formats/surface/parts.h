@@ -53,6 +53,8 @@ PatientFrame stated_frame(std::string_view comment);
 LengthUnit stated_unit(std::string_view comment);
 // Takes over what a comment states, unless an earlier comment has stated it.
 void note_comment(SurfaceParts &parts, std::string_view comment);
+// The same for a field of VTK files: SPACE, UNITS.
+void note_field(SurfaceParts &parts, std::string_view name, std::string_view text);
 
 // The words of files: "LPS", "ras", "left-posterior-superior"; "mm". Unknown for another word.
 PatientFrame frame_of_word(std::string_view word);

@@ -153,9 +153,7 @@ void VtkDataReader::read_field_array(SurfaceParts &parts) {
     cursor_ = ahead;
     cursor_.must_hold(rows, columns, "the number of texts");
     std::vector<std::string> found = texts(rows * columns);
-    if (place_ == Place::file && title == "SPACE" && !found.empty()) {
-      parts.frame = frame_of_word(found[0]);
-    }
+    if (place_ == Place::file && !found.empty()) note_field(parts, title, found[0]);
     if (place_ == Place::points && columns == 1) parts.point_names = std::move(found);
     return;
   }

@@ -1,5 +1,5 @@
 // VTK XML PolyData (.vtp), uncompressed, with any number of pieces. 3D Slicer states the frame in
-// the field array SPACE.
+// the field array SPACE, libmvs its unit in UNITS.
 #include "base/error.h"
 #include "formats/surface/cursor.h"
 #include "formats/surface/parts.h"
@@ -109,9 +109,10 @@ void read_vtp_fields(VtpFile &file, const XmlElement &data, SurfaceParts &parts)
   if (!fields) return;
   for (const uint32_t index : fields->inside) {
     const XmlElement &array = file.elements[index];
-    if (array.attribute("Name") != "SPACE" || array.attribute("type") != "String") continue;
+    const std::string_view name = array.attribute("Name");
+    if (array.attribute("type") != "String" || (name != "SPACE" && name != "UNITS")) continue;
     const std::vector<std::string> texts = file.data.texts(array);
-    if (!texts.empty()) parts.frame = frame_of_word(texts[0]);
+    if (!texts.empty()) note_field(parts, name, texts[0]);
   }
 }
 
@@ -146,6 +147,7 @@ SurfaceParts read_vtp(std::string_view bytes) {
     if (is_first) {
       piece.format = parts.format;
       piece.frame = parts.frame;
+      piece.unit = parts.unit;
       parts = std::move(piece);
     } else {
       append_piece(parts, std::move(piece));

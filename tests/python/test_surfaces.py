@@ -19,14 +19,12 @@ def corners(points, triangles):
     return np.asarray(points)[np.asarray(triangles, int)]
 
 
-@pytest.mark.parametrize("ending", ["stl", "ply", "off", "obj", "vtk"])
+@pytest.mark.parametrize("ending", ["stl", "ply", "off", "obj"])
 @pytest.mark.parametrize("binary", [False, True])
 def test_surfaces_written_by_meshio_are_read(tmp_path, ending, binary):
     meshio = pytest.importorskip("meshio")
     path = tmp_path / f"surface.{ending}"
-    options = {"binary": binary} if ending in ("stl", "ply", "vtk") else {}
-    if ending == "vtk":
-        pytest.skip("meshio writes unstructured grids, no PolyData")
+    options = {"binary": binary} if ending in ("stl", "ply") else {}
     meshio.Mesh(POINTS, [("triangle", TRIANGLES.astype(int))]).write(path, **options)
     surface = mvs.read_surface(path)
     tolerance = 1e-9 if ending != "stl" else 2e-9  # m; STL holds floats: 2e-8 of some 20 mm
@@ -109,7 +107,8 @@ def test_a_compressed_vtp_file_is_refused_with_the_remedy(tmp_path):
 def test_our_own_files_are_read_as_surfaces(closed, tmp_path):
     for name in ("closed.vtp", "closed.obj"):
         closed.save(tmp_path / name)
-        surface = mvs.read_surface(tmp_path / name, frame="LPS")
+        surface = mvs.read_surface(tmp_path / name, unit=None)
+        assert (surface.unit, surface.frame) == ("mm", "LPS")
         assert np.array_equal(surface.triangles, closed.triangle_nodes)
         # x * 1000 / 1000 rounds twice
         assert surface.points == pytest.approx(closed.node_position, rel=4e-16, abs=1e-18)
