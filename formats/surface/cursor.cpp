@@ -17,7 +17,7 @@ bool is_space(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
 }
 
-// The length of the UTF-8 sequence at the start of a text; 0 if there is none (RFC 3629).
+// Returns the length of the UTF-8 sequence at the start of a text; 0 for other bytes (RFC 3629).
 size_t utf8_length(std::string_view text) {
   const auto byte = [&](size_t k) {
     return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;

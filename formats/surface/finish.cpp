@@ -32,6 +32,21 @@ void must_have_rows(const SurfaceArray &array, const SurfaceParts &parts) {
            array.values.size(), rows, array.on_points ? "points" : "cells");
 }
 
+// Fails if rows by triangle would take far more memory than the file: a polygon of many corners has
+// as many triangles, each with the row of the polygon.
+void must_fit(const SurfaceParts &parts) {
+  constexpr uint64_t most = uint64_t{1} << 28;
+  uint64_t values = 0;
+  for (const SurfaceArray &array : parts.arrays) {
+    if (!array.on_points) values += uint64_t{array.components} * parts.triangles.size();
+  }
+  MVS_MUST(
+      values <= most, MVS_E_MEMORY, "",
+      "the arrays of polygons have %llu values as arrays of triangles, the limit is %llu: save "
+      "the surface without them",
+      static_cast<unsigned long long>(values), static_cast<unsigned long long>(most));
+}
+
 // Replaces the row of each cell by a row for each triangle of it.
 void spread_over_triangles(SurfaceArray &array, const SurfaceParts &parts) {
   std::vector<double> rows;
@@ -74,6 +89,7 @@ SurfaceFile finished_surface(SurfaceParts &&parts, const SurfaceFileOptions &opt
   file.format = parts.format;
   file.unit = chosen_unit(parts.unit, options.unit);
   file.file_frame = file.frame = parts.frame;
+  must_fit(parts);
   for (SurfaceArray &array : parts.arrays) {
     must_have_rows(array, parts);
     if (!array.on_points) spread_over_triangles(array, parts);

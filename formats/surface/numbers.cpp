@@ -9,7 +9,7 @@
 namespace mvs::core {
 namespace {
 
-using Kind = NumberType::Kind;
+using NumberKind = NumberType::Kind;
 
 struct TypeName {
   std::string_view name;
@@ -18,35 +18,35 @@ struct TypeName {
 
 // vtkIdType is written with 32 bits in legacy files, long with 64.
 constexpr TypeName type_names[] = {
-    {"char", {Kind::whole_signed, 1}},
-    {"int8", {Kind::whole_signed, 1}},
-    {"signed_char", {Kind::whole_signed, 1}},
-    {"uchar", {Kind::whole, 1}},
-    {"uint8", {Kind::whole, 1}},
-    {"unsigned_char", {Kind::whole, 1}},
-    {"short", {Kind::whole_signed, 2}},
-    {"int16", {Kind::whole_signed, 2}},
-    {"ushort", {Kind::whole, 2}},
-    {"uint16", {Kind::whole, 2}},
-    {"unsigned_short", {Kind::whole, 2}},
-    {"int", {Kind::whole_signed, 4}},
-    {"int32", {Kind::whole_signed, 4}},
-    {"vtkidtype", {Kind::whole_signed, 4}},
-    {"vtktypeint32", {Kind::whole_signed, 4}},
-    {"uint", {Kind::whole, 4}},
-    {"uint32", {Kind::whole, 4}},
-    {"unsigned_int", {Kind::whole, 4}},
-    {"vtktypeuint32", {Kind::whole, 4}},
-    {"long", {Kind::whole_signed, 8}},
-    {"int64", {Kind::whole_signed, 8}},
-    {"vtktypeint64", {Kind::whole_signed, 8}},
-    {"unsigned_long", {Kind::whole, 8}},
-    {"uint64", {Kind::whole, 8}},
-    {"vtktypeuint64", {Kind::whole, 8}},
-    {"float", {Kind::floating, 4}},
-    {"float32", {Kind::floating, 4}},
-    {"double", {Kind::floating, 8}},
-    {"float64", {Kind::floating, 8}},
+    {"char", {NumberKind::whole_signed, 1}},
+    {"int8", {NumberKind::whole_signed, 1}},
+    {"signed_char", {NumberKind::whole_signed, 1}},
+    {"uchar", {NumberKind::whole, 1}},
+    {"uint8", {NumberKind::whole, 1}},
+    {"unsigned_char", {NumberKind::whole, 1}},
+    {"short", {NumberKind::whole_signed, 2}},
+    {"int16", {NumberKind::whole_signed, 2}},
+    {"ushort", {NumberKind::whole, 2}},
+    {"uint16", {NumberKind::whole, 2}},
+    {"unsigned_short", {NumberKind::whole, 2}},
+    {"int", {NumberKind::whole_signed, 4}},
+    {"int32", {NumberKind::whole_signed, 4}},
+    {"vtkidtype", {NumberKind::whole_signed, 4}},
+    {"vtktypeint32", {NumberKind::whole_signed, 4}},
+    {"uint", {NumberKind::whole, 4}},
+    {"uint32", {NumberKind::whole, 4}},
+    {"unsigned_int", {NumberKind::whole, 4}},
+    {"vtktypeuint32", {NumberKind::whole, 4}},
+    {"long", {NumberKind::whole_signed, 8}},
+    {"int64", {NumberKind::whole_signed, 8}},
+    {"vtktypeint64", {NumberKind::whole_signed, 8}},
+    {"unsigned_long", {NumberKind::whole, 8}},
+    {"uint64", {NumberKind::whole, 8}},
+    {"vtktypeuint64", {NumberKind::whole, 8}},
+    {"float", {NumberKind::floating, 4}},
+    {"float32", {NumberKind::floating, 4}},
+    {"double", {NumberKind::floating, 8}},
+    {"float64", {NumberKind::floating, 8}},
 };
 
 template <typename Number>
@@ -70,10 +70,10 @@ double number_at(const char *at, NumberType type, bool is_big_endian) {
   char bytes[8];
   const bool swaps = is_big_endian != (std::endian::native == std::endian::big);
   for (size_t k = 0; k < type.size; ++k) bytes[k] = at[swaps ? type.size - 1 - k : k];
-  if (type.kind == Kind::floating) {
+  if (type.kind == NumberKind::floating) {
     return type.size == 4 ? read_as<float>(bytes) : read_as<double>(bytes);
   }
-  const bool has_sign = type.kind == Kind::whole_signed;
+  const bool has_sign = type.kind == NumberKind::whole_signed;
   switch (type.size) {
     case 1:
       return has_sign ? read_as<int8_t>(bytes) : read_as<uint8_t>(bytes);

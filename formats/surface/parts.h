@@ -1,4 +1,4 @@
-// What a file holds while it is read: in its unit and frame, with polygons of any size cut into
+// The content of a file while it is read: in its unit and frame, with polygons of any size cut into
 // triangles, and arrays with a row for each of its cells.
 #pragma once
 
@@ -43,15 +43,15 @@ void append_piece(SurfaceParts &to, SurfaceParts &&piece);
 // The order of the points along the curves of a file, each point once; points of no curve follow.
 std::vector<uint32_t> order_along_curves(const SurfaceParts &parts);
 
-// Finishes what a reader has found: arrays by triangle, points of a curve in its order; in metres
-// and in the wanted frame.
+// Returns the content in metres and in the wanted frame, with arrays by triangle and the points of
+// a curve in its order.
 SurfaceFile finished_surface(SurfaceParts &&parts, const SurfaceFileOptions &options);
 
 // The frame and unit that a comment states: "SPACE=LPS", "coordinate system: RAS", "units=mm";
 // unknown if it states none. Two different frames in one text: unknown.
 PatientFrame stated_frame(std::string_view comment);
 LengthUnit stated_unit(std::string_view comment);
-// Takes over what a comment states, unless an earlier comment has stated it.
+// Stores the frame and the unit of a comment, unless an earlier comment has stated them.
 void note_comment(SurfaceParts &parts, std::string_view comment);
 // The same for a field of VTK files: SPACE, UNITS.
 void note_field(SurfaceParts &parts, std::string_view name, std::string_view text);

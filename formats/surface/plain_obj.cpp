@@ -1,6 +1,7 @@
 // OBJ as a plain surface: v, f, l; all other statements, and the #mvs lines of an extended OBJ, are
 // skipped. References are v, v/vt, v//vn or v/vt/vn, counted from 1, or from the end with -1.
 #include <charconv>
+#include <span>
 
 #include "formats/surface/cursor.h"
 #include "formats/surface/parts.h"
@@ -13,7 +14,7 @@ namespace {
 struct ObjCell {
   bool is_face = true;
   int32_t line = 0;
-  std::vector<int64_t> corners;  // from 0
+  size_t end = 0;  // of its corners in a list of all
 };
 
 int64_t obj_corner(std::string_view word, size_t points, const Line &line) {
@@ -46,6 +47,7 @@ SurfaceParts read_plain_obj(std::string_view bytes) {
   SurfaceParts parts;
   parts.format = "OBJ";
   std::vector<ObjCell> cells;
+  std::vector<int64_t> corners;  // of all cells, from 0
   Cursor cursor(bytes);
   while (cursor.left() > 0) {
     const int32_t number = cursor.line_number();
@@ -58,19 +60,21 @@ SurfaceParts read_plain_obj(std::string_view bytes) {
       const double x = line.number(), y = line.number(), z = line.number();
       add_points(parts, std::vector<double>{x, y, z});
     } else if (keyword == "f" || keyword == "l") {
-      ObjCell cell{keyword == "f", number, {}};
       for (std::string_view word = line.word(); !word.empty(); word = line.word()) {
-        cell.corners.push_back(obj_corner(word, parts.points.size(), line));
+        corners.push_back(obj_corner(word, parts.points.size(), line));
       }
-      cells.push_back(std::move(cell));
+      cells.push_back({keyword == "f", number, corners.size()});
     }
   }
+  size_t start = 0;
   for (const ObjCell &cell : cells) {
+    const std::span<const int64_t> own(corners.data() + start, cell.end - start);
     if (cell.is_face) {
-      add_polygon(parts, cell.corners, cell.line);
+      add_polygon(parts, own, cell.line);
     } else {
-      add_path(parts, cell.corners, cell.line);
+      add_path(parts, own, cell.line);
     }
+    start = cell.end;
   }
   return parts;
 }

@@ -3,7 +3,7 @@
 //
 // A reader checks every count against the bytes that are left before it allocates, every index and
 // every coordinate, and throws MVS_E_FORMAT with the line, point or polygon that is wrong.
-// FORMAT.md lists what is read of each format.
+// FORMAT.md lists the variants of each format that are read.
 #pragma once
 
 #include <string>

@@ -162,8 +162,8 @@ void VtkDataReader::read_field_array(SurfaceParts &parts) {
   keep(title, columns, rows, of, parts);
 }
 
-// Texts are lines in an ASCII file; in a binary one the two highest bits of the first byte tell how
-// many bytes have the length: 3 one, 2 two, 1 four, 0 eight.
+// Texts are lines in an ASCII file. In a binary one the two highest bits of the first byte are the
+// number of bytes of the length: 3 one, 2 two, 1 four, 0 eight.
 std::string VtkDataReader::text() {
   if (!is_binary_) return as_utf8(percent_decoded(without_blanks(cursor_.line())));
   const auto first = static_cast<unsigned char>(cursor_.bytes(1, "a text")[0]);

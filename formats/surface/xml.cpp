@@ -10,7 +10,8 @@
 namespace mvs::core {
 namespace {
 
-constexpr size_t deepest_element = 32;
+// so that elements take no more memory than the file may have
+constexpr size_t deepest_element = 32, most_elements = size_t{1} << 20, most_attributes = 32;
 
 struct XmlEntity {
   std::string_view coded;
@@ -89,6 +90,7 @@ void XmlReader::read_attributes(XmlElement &element) {
     advance(std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()));
     if (at_ == text_.size()) fail("the XML ends within an element: the file is cut short");
     if (text_[at_] == '>' || text_[at_] == '/') return;
+    if (element.attributes.size() == most_attributes) fail("an element has over 32 attributes");
     const std::string_view key = name();
     advance(std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()));
     if (at_ == text_.size() || text_[at_] != '=') fail("an attribute of the XML has no value");
@@ -114,6 +116,7 @@ void XmlReader::read_start() {
   end_text(at_ - 1);
   if (elements_.size() > 0 && open_.empty()) fail("the XML has more than one outermost element");
   if (open_.size() == deepest_element) fail("the XML is nested too deeply");
+  if (elements_.size() == most_elements) fail("the XML has more than 2^20 elements");
   XmlElement element;
   element.line = line_;
   element.name = name();

@@ -26,7 +26,7 @@ struct XmlElement {
 // line.
 std::vector<XmlElement> read_xml(std::string_view text, std::string_view stop);
 
-// The first element of this name in another one; null if there is none.
+// Returns the first element of this name in another one, or null.
 const XmlElement *find_inside(const std::vector<XmlElement> &all, const XmlElement &in,
                               std::string_view name);
 

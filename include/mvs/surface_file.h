@@ -63,8 +63,11 @@ MVS_API void mvs_surface_file_release(mvs_surface_file *file);
 MVS_API mvs_result mvs_surface_file_get_info(const mvs_surface_file *file,
                                              mvs_surface_file_info *info);
 
-/* What the rows of an array belong to. */
-enum mvs_surface_place_e { MVS_SURFACE_PLACE_POINT = 1, MVS_SURFACE_PLACE_TRIANGLE = 2 };
+/* Places of arrays. */
+enum mvs_surface_place_e {
+  MVS_SURFACE_PLACE_POINT = 1,   /* a row for each point */
+  MVS_SURFACE_PLACE_TRIANGLE = 2 /* a row for each triangle */
+};
 typedef uint32_t mvs_surface_place;
 
 /* A named array of a file: labels, radii, colours, normals. Its values are those of the file, of
@@ -73,7 +76,7 @@ typedef struct mvs_surface_array {
   uint32_t struct_size;
   mvs_surface_place place; /* MVS_SURFACE_PLACE_* */
   const char *name;
-  mvs_view values; /* F64, a row for each point or triangle; NaN where the file has no number */
+  mvs_view values; /* F64, NaN where the file has no number */
 } mvs_surface_array;
 
 /* The arrays of a file, in its order. */

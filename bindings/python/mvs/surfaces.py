@@ -28,7 +28,7 @@ class Surface:
     points: Annotated[NDArray[np.float64], "(n, 3) float64, m", "the points"]
     triangles: Annotated[NDArray[np.uint32], "(m, 3) uint32", "the points of each triangle"]
     point_arrays: Annotated[
-        Arrays, "1", "arrays by name, (n,) or (n, c) float64: values of the file, not scaled or turned"
+        Arrays, "1", "arrays by name, (n,) or (n, c) float64: values of the file, never converted"
     ]
     triangle_arrays: Annotated[Arrays, "1", "the same with a row for each triangle, (m,) or (m, c)"]
     frame: Annotated[Optional[str], "1", '"LPS", "RAS", or None: the file does not state it']
@@ -38,17 +38,22 @@ class Surface:
 
     def __repr__(self) -> str:
         size = f"{len(self.points)} points, {len(self.triangles)} triangles"
-        return f"<mvs.Surface: {size}, {self.frame or 'unknown frame'}, from {self.format} in {self.unit}>"
+        frame = self.frame or "unknown frame"
+        return f"<mvs.Surface: {size}, {frame}, from {self.format} in {self.unit}>"
 
 
 @with_field_help
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Landmarks:
-    """Points in a file, with their names (read_landmarks). ``landmarks["AL"]`` is a position in m."""
+    """Points in a file, with names (read_landmarks). ``landmarks["AL"]`` is a position in m."""
 
-    points: Annotated[NDArray[np.float64], "(k, 3) float64, m", "the points, those of a curve in its order"]
-    names: Annotated[tuple[str, ...], "1", "names of the points; empty if the file has none"]
-    point_arrays: Annotated[Arrays, "1", "arrays by name, (k,) or (k, c) float64: values of the file"]
+    points: Annotated[
+        NDArray[np.float64], "(k, 3) float64, m", "the points, those of a curve in its order"
+    ]
+    names: Annotated[tuple[str, ...], "1", "names of the points; empty for a file without names"]
+    point_arrays: Annotated[
+        Arrays, "1", "arrays by name, (k,) or (k, c) float64: values of the file"
+    ]
     frame: Annotated[Optional[str], "1", '"LPS", "RAS", or None: the file does not state it']
     file_frame: Annotated[Optional[str], "1", "the frame in the file, before conversion"]
     unit: Annotated[str, "1", 'unit of the file, "m", "mm" or "cm"']
@@ -58,7 +63,7 @@ class Landmarks:
         return len(self.points)
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
-        """The position (3,) in m of the first point of this name; KeyError if there is none."""
+        """The position (3,) in m of the first point of this name; KeyError for another name."""
         if name not in self.names:
             raise KeyError(f'there is no point "{name}"{did_you_mean(name, self.names)}')
         return self.points[self.names.index(name)]
@@ -98,8 +103,10 @@ def read_surface(
 def read_landmarks(
     path: Path, unit: Optional[Unit] = "mm", frame: Optional[PatientFrame] = None
 ) -> Landmarks:
-    """Reads landmarks or a curve (mvs.Landmarks) from a .mrk.json or .fcsv file of 3D Slicer, a .csv
-    table with the columns label, x, y, z, or a .vtk, .vtp, .ply or .obj file without triangles.
+    """Reads landmarks or a curve (mvs.Landmarks).
+
+    path: a .mrk.json or .fcsv file of 3D Slicer, a .csv table with the columns label, x, y, z, or
+        a .vtk, .vtp, .ply or .obj file without triangles
 
     unit: of the file, "m", "mm" or "cm"; None: as the file states, as newer .mrk.json files do.
         Points are then in m

@@ -244,6 +244,18 @@ TEST_CASE("appended_arrays_may_not_overlap") {
   CHECK(refusal({"a.vtp", vtp}).code == MVS_E_FORMAT);
 }
 
+TEST_CASE("files_that_would_take_far_more_memory_than_their_bytes_are_refused") {
+  // a polygon of 300,000 corners whose row has 1,000 numbers: 2.4 GB as rows of triangles
+  std::string vtk =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+      "0 0 0 1 0 0 0 1 0\nPOLYGONS 1 300001\n300000";
+  for (int k = 0; k < 300000; ++k) vtk += k % 2 == 0 ? " 0" : " 1";
+  vtk += "\nCELL_DATA 1\nFIELD f 1\na 1000 1 float\n";
+  for (int k = 0; k < 1000; ++k) vtk += "0 ";
+  CHECK(refusal({"a.vtk", vtk}).code == MVS_E_MEMORY);
+  CHECK(refusal({"a.csv", std::string(size_t{17} << 20, ',')}).code == MVS_E_MEMORY);
+}
+
 TEST_CASE("real_surfaces_are_read") {
   const char *data = std::getenv("MVS_TEST_DATA");
   const std::string folder =
