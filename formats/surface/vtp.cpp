@@ -134,8 +134,8 @@ SurfaceParts read_vtp(std::string_view bytes) {
   const XmlElement root = elements[0];
   must_be_polydata(root);
   const XmlElement *appended = find_inside(elements, root, "AppendedData");
-  VtpData data(root, appended, bytes.size());
-  VtpFile file{std::move(elements), std::move(data)};
+  const VtpData data(root, appended, bytes.size());
+  VtpFile file{std::move(elements), data};
   const XmlElement &content = needed_element(file, root, "PolyData");
   SurfaceParts parts;
   parts.format = "VTP";
