@@ -92,6 +92,7 @@ PointColumns named_columns(const std::vector<std::string> &names, SurfaceParts &
                             {{"r", "a", "s"}, PatientFrame::ras},
                             {{"l", "p", "s"}, PatientFrame::lps}};
   std::vector<std::string> small;
+  small.reserve(names.size());
   for (const std::string &name : names) small.push_back(in_small_letters(name));
   const auto column = [&](std::string_view name) {
     const auto found = std::find(small.begin(), small.end(), name);
