@@ -10,6 +10,7 @@
 #include "plan.h"
 #include "sim.h"
 #include "snapshot.h"
+#include "surface_file.h"
 #include "tool.h"
 #include "valve.h"
 

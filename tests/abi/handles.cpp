@@ -203,6 +203,30 @@ void kinds_of_operations_describe_themselves() {
   check(std::string(kinds[0].fields.at(0).name) == "chord", "with their fields");
 }
 
+void surfaces_are_read_with_names_and_arrays() {
+  const char *const path = "handles_test.csv";
+  std::FILE *file = std::fopen(path, "wb");
+  check(file != nullptr, "a file to write");
+  if (!file) return;
+  std::fputs("label,r,a,s\nAL,1,2,3\nPM,4,5,6\n", file);
+  std::fclose(file);
+  mvs_surface_file_options options = {};
+  options.unit = MVS_LENGTH_UNIT_MM;
+  mvs::SurfaceFile first(path, options);
+  const mvs::SurfaceFile points = std::move(first);
+  check(points.points().rows() == 2 && points.points().row(1)[0] == 4e-3, "metres");
+  check(points.triangles().rows() == 0 && points.arrays().empty(), "no triangles");
+  check(points.names() == std::vector<std::string>{"AL", "PM"}, "names");
+  check(points.info().frame == MVS_PATIENT_FRAME_RAS, "the frame of the columns");
+  std::remove(path);
+  try {
+    const mvs::SurfaceFile missing(path, options);
+    check(false, "the file is gone");
+  } catch (const mvs::Error &error) {
+    check(error.code() == MVS_E_IO, "the code of C");
+  }
+}
+
 void run() {
   handles_move_and_snapshots_are_shared();
   failures_are_thrown_with_code_and_part();
@@ -213,6 +237,7 @@ void run() {
   a_valve_is_worked_on_from_load_to_file();
   operations_are_applied_undone_and_listed();
   kinds_of_operations_describe_themselves();
+  surfaces_are_read_with_names_and_arrays();
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ def test_stubs_match_the_module(tmp_path):
                 r"mvs\._core\.check_valve",
                 r"mvs\._core\.Simulator\.set_valve",
                 r"mvs\._core\.(Device|Simulator)\.__exit__",
-                r"mvs\._core\.(Device|Ensemble|Simulator|Snapshot)",
+                r"mvs\._core\.(Device|Ensemble|Simulator|Snapshot|SurfaceFile)",
                 r"mvs\._core\.(Ensemble|Snapshot)\.__init__",
                 "",
             ]

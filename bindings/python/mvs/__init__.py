@@ -57,6 +57,7 @@ from .kinds import (
 )
 from .laws import leaflet_law
 from .ops import Operation, Site
+from .surfaces import Landmarks, Surface, read_landmarks, read_surface
 from .sweeps import sweep
 from .tables import Table
 from .values import (
@@ -114,6 +115,7 @@ __all__ = [
     "IdError",
     "InternalError",
     "IoError",
+    "Landmarks",
     "Law",
     "LawConstant",
     "Leaflet",
@@ -137,6 +139,7 @@ __all__ = [
     "StateError",
     "Stability",
     "Stats",
+    "Surface",
     "Table",
     "Tool",
     "ToolKind",
@@ -152,6 +155,8 @@ __all__ = [
     "haptics",
     "leaflet_law",
     "ops",
+    "read_landmarks",
+    "read_surface",
     "sweep",
     "unit_of",
     "valve_of",

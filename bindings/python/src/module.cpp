@@ -5,6 +5,7 @@
 #include "laws.h"
 #include "simulator.h"
 #include "snapshot.h"
+#include "surface_file.h"
 #include "values.h"
 
 namespace {
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_core, module) {
   mvs_python::bind_simulator(module);
   mvs_python::bind_device(module);
   mvs_python::bind_laws(module);
+  mvs_python::bind_surface_file(module);
   module.def("field_descriptions", &mvs_python::field_descriptions, pybind11::arg("which"),
              "(name, unit, definition) of every field of a struct of results, MVS_STRUCT_*.");
   module.def("measure_groups", &mvs_python::measure_groups,

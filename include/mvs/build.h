@@ -1,0 +1,103 @@
+/* Builds a mitral valve from a patient's surface: from a segmentation or a mesh to a valve that
+ * closes. */
+#ifndef MVS_BUILD_H
+#define MVS_BUILD_H
+
+#include "base.h"
+#include "sim.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a surface is. */
+enum mvs_surface_kind_e {
+  MVS_SURFACE_KIND_MID = 1,    /* the mid-surface of the leaflets: one open sheet */
+  MVS_SURFACE_KIND_ATRIAL = 2, /* their atrial side, half a thickness above the mid-surface: one
+                                  open sheet, as SlicerHeart's leaflet models are */
+  MVS_SURFACE_KIND_SKIN = 3    /* both sides and the rims: a closed surface */
+};
+typedef uint32_t mvs_surface_kind;
+
+/* Values of mvs_surface_desc.triangle_leaflet. */
+enum mvs_leaflet_label_e {
+  MVS_LEAFLET_LABEL_UNKNOWN = 0,
+  MVS_LEAFLET_LABEL_ANTERIOR = 1,
+  MVS_LEAFLET_LABEL_POSTERIOR = 2
+};
+typedef uint32_t mvs_leaflet_label;
+
+/* The open, unloaded leaflets of a mitral valve as a triangle surface of any orientation and
+ * numbering, with the landmarks that are known. Lengths in m, all in one frame. */
+typedef struct mvs_surface_desc {
+  uint32_t struct_size;
+  mvs_surface_kind kind;      /* MVS_SURFACE_KIND_* [skin if it is closed, else mid] */
+  const char *name;           /* nullable ["valve"] */
+  mvs_array points;           /* F64 or F32, n x 3, required */
+  mvs_array triangles;        /* U32, m x 3 [each three points in turn are a triangle] */
+  mvs_array triangle_leaflet; /* U32, m: MVS_LEAFLET_LABEL_* [split between the commissures] */
+  mvs_array point_thickness;  /* F64, n, m: of the tissue [of a skin its own, else the option] */
+  mvs_array annulus;          /* k x 3, points along the annulus in any order [guessed: the boundary
+                                 that is farther from the papillary tips, or longer] */
+  mvs_array commissures;      /* 2 x 3, near the surface [guessed: where the leaflets are lowest] */
+  mvs_array anterior;         /* 1 x 3, a point near the anterior leaflet [guessed: the leaflet with
+                                 the greater height over its share of the annulus] */
+  mvs_array papillary_tips;   /* k x 3, k <= 64 [assumed: two, from normal anatomy] */
+  mvs_array closed_points;    /* F64 or F32: the same leaflets closed, in the same frame; chords get
+                                 the lengths with which the valve closes to it */
+  mvs_array closed_triangles; /* U32 [as triangles] */
+} mvs_surface_desc;
+
+/* How to build. */
+typedef struct mvs_build_options {
+  uint32_t struct_size;
+  mvs_leaflet_law leaflet_law; /* MVS_LEAFLET_LAW_*, default constants [bilinear] */
+  double edge;                 /* m, length of the triangles' sides [as for 1,000 vertices] */
+  double thickness;            /* m, where it is not known per point [0.8e-3] */
+  double chord_factor;         /* on all rest lengths [1] */
+  double coaptation_length;    /* m, overlap of both leaflets in the middle for which rest lengths
+                                  are chosen if no closed surface is given [8e-3] */
+  uint32_t chords;             /* about this number of chord segments [100] */
+  uint32_t reserved;
+} mvs_build_options;
+
+/* Where a finding comes from. */
+enum mvs_finding_source_e {
+  MVS_FINDING_SOURCE_GIVEN = 1,    /* by the caller */
+  MVS_FINDING_SOURCE_MEASURED = 2, /* on the surface */
+  MVS_FINDING_SOURCE_GUESSED = 3,  /* from the shape, by a rule that may be wrong */
+  MVS_FINDING_SOURCE_ASSUMED = 4   /* from a table of normal anatomy */
+};
+typedef uint32_t mvs_finding_source;
+
+/* What a build found, guessed or assumed. Texts are valid while the build is held. */
+typedef struct mvs_build_finding {
+  uint32_t struct_size;
+  mvs_finding_source source; /* MVS_FINDING_SOURCE_* */
+  const char *name;          /* "annulus", "commissures", "thickness" */
+  const char *sentence;      /* what was seen, and what to give if it is wrong */
+  const char *unit;          /* of the values: "m", "m2", or "" */
+  double confidence;         /* 0 to 1 */
+  mvs_view values;           /* F64, k x 1: points as x, y, z in turn */
+} mvs_build_finding;
+
+typedef struct mvs_build mvs_build;
+
+/* Replaces the valve of a simulator by one that is built from a surface: like mvs_set_valve, an
+ * event that mvs_undo takes back. `options` is nullable. `build` is nullable, else release it with
+ * mvs_build_release. Faults of the surface that no rule mends give MVS_E_OP and a sentence. */
+MVS_API mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
+                                   const mvs_build_options *options, mvs_build **build);
+
+/* The findings of a build, in the order in which they were made. */
+MVS_API mvs_result mvs_build_get_finding_count(const mvs_build *build, uint32_t *count);
+MVS_API mvs_result mvs_build_get_finding(const mvs_build *build, uint32_t index,
+                                         mvs_build_finding *finding);
+
+/* Releases a build. `build` is nullable. */
+MVS_API void mvs_build_release(mvs_build *build);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

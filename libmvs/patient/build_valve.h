@@ -1,0 +1,40 @@
+// From a patient's surface and landmarks to a complete valve.
+#pragma once
+
+#include "model/valve.h"
+#include "patient/leaflet_sheet.h"
+
+namespace mvs::core {
+
+enum class SurfaceKind : uint32_t { automatic = 0, mid = 1, atrial = 2, skin = 3 };
+
+// include/mvs/build.h describes the fields; empty: not known.
+struct PatientSurface {
+  SurfaceKind kind = SurfaceKind::automatic;
+  std::string name = "valve";
+  std::vector<Vec3> points;
+  std::vector<Tri> triangles;
+  std::vector<LeafletLabel> label;
+  std::vector<double> thickness;
+  std::vector<Vec3> annulus, commissures, anterior, tips;
+  std::vector<Vec3> closed_points;
+  std::vector<Tri> closed_triangles;
+};
+
+struct BuildSettings {
+  LeafletLawId law = LeafletLawId::bilinear;
+  double edge = 0;  // m; 0: as for 1,000 vertices
+  double thickness = 0.8e-3;
+  double chord_factor = 1;
+  double coaptation_length = 8e-3;
+  uint32_t chords = 100;
+};
+
+struct BuiltValve {
+  Valve valve;
+  Findings findings;
+};
+
+BuiltValve build_valve(PatientSurface surface, const BuildSettings &settings);
+
+}  // namespace mvs::core

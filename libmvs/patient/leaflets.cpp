@@ -1,0 +1,266 @@
+// Commissures, the anterior leaflet, scallops.
+#include "patient/leaflets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "measure/annulus/landmarks.h"
+#include "model/sides.h"
+
+namespace mvs::core {
+namespace {
+
+// Samples of the annulus: about 1 mm apart.
+constexpr size_t samples = 120;
+// No leaflet is attached along less than this share of the annulus: normal are 0.35 to 0.45 for the
+// anterior one.
+constexpr double least_share = 0.2;
+// m: a landmark farther from the surface is of another frame or patient. Landmarks of commissures
+// are placed by hand on images of 0.7 mm; networks err by up to 3.6 mm.
+constexpr double farthest_landmark = 8e-3;
+// Shares of an arc at which A2 and P2 begin and end: their widths in the parametric valve.
+constexpr double a2_begin = 0.29, p2_begin = 0.31;
+
+Finding &add(Findings &findings, const char *name, FindingSource source, double confidence,
+             std::string sentence) {
+  findings.push_back({name, source, confidence, std::move(sentence), {}, ""});
+  return findings.back();
+}
+
+// Mean over `half` neighbours on either side.
+std::vector<double> smoothed(const std::vector<double> &values, size_t half) {
+  const size_t n = values.size();
+  std::vector<double> mean(n, 0);
+  for (size_t k = 0; k < n; ++k) {
+    for (size_t j = 0; j <= 2 * half; ++j) mean[k] += values[(k + n + j - half) % n];
+    mean[k] /= static_cast<double>(2 * half + 1);
+  }
+  return mean;
+}
+
+double at_foot(const std::vector<double> &profile, double foot, double length) {
+  const double place = wrapped(foot, length) / length * static_cast<double>(profile.size());
+  return profile[std::min(profile.size() - 1, static_cast<size_t>(place))];
+}
+
+std::array<double, 2> feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
+                              const std::vector<Vec3> &points) {
+  std::array<double, 2> feet{};
+  for (size_t k = 0; k < 2; ++k) {
+    const SheetPlace place = place_on(sheet, coordinates, points[k]);
+    MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "commissures",
+             "commissure %zu lies %.1f mm from the surface, at most %.0f mm are accepted: are both "
+             "in one frame (LPS or RAS), of one patient and one phase?",
+             k + 1, place.distance * 1e3, farthest_landmark * 1e3);
+    feet[k] = place.foot;
+  }
+  const double apart = std::abs(around(feet[0], feet[1], coordinates.annulus_length));
+  MVS_MUST(apart >= least_share * coordinates.annulus_length, MVS_E_OP, "commissures",
+           "the commissures are %.1f mm apart along the annulus of %.0f mm, less than a fifth of "
+           "it: give one point for each commissure",
+           apart * 1e3, coordinates.annulus_length * 1e3);
+  return feet;
+}
+
+// The pair of samples with the lowest leaflets, far enough apart.
+std::array<size_t, 2> lowest_pair(const std::vector<double> &profile) {
+  const size_t n = profile.size();
+  const size_t gap = static_cast<size_t>(least_share * static_cast<double>(n));
+  std::array<size_t, 2> best = {0, n / 2};
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = i + gap; j < n && j - i <= n - gap; ++j) {
+      if (profile[i] + profile[j] < profile[best[0]] + profile[best[1]]) best = {i, j};
+    }
+  }
+  return best;
+}
+
+std::array<double, 2> guessed_commissures(const std::vector<double> &profile, double length,
+                                          Findings &findings) {
+  const auto [i, j] = lowest_pair(profile);
+  const double low = 0.5 * (profile[i] + profile[j]);
+  std::vector<double> sorted = profile;
+  std::sort(sorted.begin(), sorted.end());
+  const double middle = sorted[sorted.size() / 2];
+  // normal leaflets have 8 mm at the commissures and 12 mm or more in between
+  const double confidence = std::clamp(2 * (middle - low) / middle, 0.0, 0.9);
+  add(findings, "commissures", FindingSource::guessed, confidence,
+      format("the leaflets are lowest there, %.1f mm where half of them have more than %.1f mm; "
+             "give both commissures if this is wrong",
+             low * 1e3, middle * 1e3));
+  const double width = length / static_cast<double>(profile.size());
+  return {(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width};
+}
+
+// Labelled area around the annulus: that of the anterior leaflet positive, of the posterior one
+// negative.
+struct LabelledArea {
+  std::vector<double> balance = std::vector<double>(samples, 0);
+  double anterior = 0, posterior = 0;  // m2
+};
+
+LabelledArea labelled_area(const LeafletSheet &sheet, const SheetCoordinates &c) {
+  LabelledArea area;
+  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
+    if (t >= sheet.label.size() || sheet.label[t] == LeafletLabel::unknown) continue;
+    const Tri &tri = sheet.triangles[t];
+    const double part = triangle_area(sheet.x, tri);
+    const double shift = around(c.foot[tri[0]], c.foot[tri[1]], c.annulus_length) +
+                         around(c.foot[tri[0]], c.foot[tri[2]], c.annulus_length);
+    const double foot = wrapped(c.foot[tri[0]] + shift / 3, c.annulus_length);
+    const bool anterior = sheet.label[t] == LeafletLabel::anterior;
+    (anterior ? area.anterior : area.posterior) += part;
+    const size_t cell = static_cast<size_t>(foot / c.annulus_length * samples);
+    area.balance[std::min(samples - 1, cell)] += anterior ? part : -part;
+  }
+  return area;
+}
+
+// The arc of samples with the largest sum.
+std::array<size_t, 2> heaviest_arc(const std::vector<double> &balance) {
+  const size_t n = balance.size();
+  std::array<size_t, 2> best = {0, 0};
+  double most = 0;
+  for (size_t first = 0; first < n; ++first) {
+    double sum = 0;
+    for (size_t count = 1; count < n; ++count) {
+      sum += balance[(first + count - 1) % n];
+      if (sum > most) {
+        most = sum;
+        best = {first, first + count};
+      }
+    }
+  }
+  return best;
+}
+
+std::array<double, 2> commissures_of_labels(const LabelledArea &area, double length,
+                                            Findings &findings) {
+  const double total = area.anterior + area.posterior;
+  MVS_MUST(std::min(area.anterior, area.posterior) > 0.02 * total, MVS_E_OP, "triangle_leaflet",
+           "the labels show one leaflet only: the anterior one has %.0f mm2, the posterior one "
+           "%.0f mm2; label both, or leave the labels out and give the commissures",
+           area.anterior * 1e6, area.posterior * 1e6);
+  const auto [first, last] = heaviest_arc(area.balance);
+  double right = area.posterior;  // agreement: posterior tissue outside and anterior inside the arc
+  for (size_t k = first; k < last; ++k) right += area.balance[k % samples];
+  const double width = length / samples;
+  add(findings, "commissures", FindingSource::measured, std::clamp(right / total, 0.0, 1.0),
+      format("where the labels of the leaflets meet; %.0f %% of the labelled area agree with this "
+             "border",
+             100 * right / total));
+  return {static_cast<double>(first) * width, static_cast<double>(last) * width};
+}
+
+// The greatest height of a leaflet over the length of its attachment.
+double slenderness(const std::vector<double> &profile, double from, double to, double length) {
+  double tallest = 0;
+  for (size_t k = 0; k <= samples; ++k) {
+    const double s = from + (to - from) * static_cast<double>(k) / samples;
+    tallest = std::max(tallest, at_foot(profile, s, length));
+  }
+  return tallest / (to - from);
+}
+
+bool contains(double from, double to, double foot, double length) {
+  return wrapped(foot - from, length) < to - from;
+}
+
+// Whether the leaflet along an arc is the anterior one.
+bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
+                 const LeafletLandmarks &landmarks, const LabelledArea &area,
+                 const std::vector<double> &profile, const LeafletArcs &arcs, Findings &findings) {
+  const double length = c.annulus_length;
+  const auto [from, to] = arcs;
+  if (!landmarks.anterior.empty()) {
+    const SheetPlace place = place_on(sheet, c, landmarks.anterior[0]);
+    MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "anterior",
+             "the anterior point lies %.1f mm from the surface, at most %.0f mm are accepted: are "
+             "both in one frame (LPS or RAS)?",
+             place.distance * 1e3, farthest_landmark * 1e3);
+    add(findings, "anterior", FindingSource::given, 1, "the leaflet with the given point");
+    return contains(from, to, place.foot, length);
+  }
+  double labelled = 0;
+  for (size_t k = 0; k < samples; ++k) {
+    const double foot = (static_cast<double>(k) + 0.5) * length / samples;
+    labelled += contains(from, to, foot, length) ? area.balance[k] : -area.balance[k];
+  }
+  if (labelled != 0) {
+    add(findings, "anterior", FindingSource::measured, 1, "the leaflet that is labelled so");
+    return labelled > 0;
+  }
+  const double first = slenderness(profile, from, to, length);
+  const double second = slenderness(profile, to, from + length, length);
+  // normal: 23 mm over 40 mm against 13 mm over 65 mm, a factor of 2.9
+  const double ratio = std::max(first, second) / std::min(first, second);
+  add(findings, "anterior", FindingSource::guessed, std::clamp(0.5 * (ratio - 1), 0.0, 0.95),
+      format("the leaflet that is higher over its attachment, by a factor of %.1f; give a point of "
+             "the anterior leaflet if this is wrong",
+             ratio));
+  return first > second;
+}
+
+// The point of the annulus at an arc length.
+Vec3 annulus_point(const LeafletSheet &sheet, const SheetRims &rims, double s) {
+  return Loop(rims.annulus, sheet.x).at(s);
+}
+
+void put_points(const std::vector<Vec3> &points, Finding &finding) {
+  for (const Vec3 &p : points) {
+    finding.value.insert(finding.value.end(), {p.x(), p.y(), p.z()});
+  }
+  finding.unit = "m";
+}
+
+}  // namespace
+
+LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
+                          const SheetCoordinates &coordinates, const LeafletLandmarks &landmarks,
+                          Findings &findings) {
+  const double length = coordinates.annulus_length;
+  // a commissure is a notch some millimetres wide
+  const std::vector<double> profile = smoothed(height_profile(rims, coordinates, samples), 2);
+  const LabelledArea area = labelled_area(sheet, coordinates);
+  const size_t at = findings.size();
+  std::vector<Vec3> commissures = landmarks.commissures;
+  if (!commissures.empty()) {
+    MVS_MUST(commissures.size() == 2, MVS_E_ARGUMENT, "commissures",
+             "%zu commissures are given: a mitral valve has two", commissures.size());
+    add(findings, "commissures", FindingSource::given, 1, "the given points");
+  } else {
+    const std::array<double, 2> feet = area.anterior + area.posterior > 0
+                                           ? commissures_of_labels(area, length, findings)
+                                           : guessed_commissures(profile, length, findings);
+    for (const double s : feet) commissures.push_back(annulus_point(sheet, rims, s));
+  }
+  // found points take the same way as given ones, so that giving them changes no bit
+  const auto feet = feet_of(sheet, coordinates, commissures);
+  LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
+  if (!is_anterior(sheet, coordinates, landmarks, area, profile, arcs, findings)) {
+    arcs = {feet[1], feet[1] + wrapped(feet[0] - feet[1], length)};
+    std::swap(commissures[0], commissures[1]);
+  }
+  const double share = (arcs.to - arcs.from) / length;
+  MVS_MUST(share >= least_share && share <= 1 - least_share, MVS_E_OP, "commissures",
+           "the anterior leaflet would be attached along %.0f %% of the annulus: is a leaflet "
+           "missing, or are labels or commissures swapped?",
+           100 * share);
+  put_points({commissures[1], commissures[0]}, findings[at]);  // the anterolateral one first
+  put_points({annulus_point(sheet, rims, 0.5 * (arcs.from + arcs.to))}, findings.back());
+  return arcs;
+}
+
+uint32_t scallop_of(const LeafletArcs &arcs, double foot, double annulus_length) {
+  const double along = wrapped(foot - arcs.from, annulus_length), arc = arcs.to - arcs.from;
+  if (along < arc) {
+    const double f = along / arc;  // from A3 to A1
+    return f < a2_begin ? 2 : (f <= 1 - a2_begin ? 1 : 0);
+  }
+  const double f = (along - arc) / (annulus_length - arc);  // from P1 to P3
+  return f < p2_begin ? 3 : (f <= 1 - p2_begin ? 4 : 5);
+}
+
+}  // namespace mvs::core

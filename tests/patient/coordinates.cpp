@@ -1,0 +1,172 @@
+// Coordinates on a sheet, commissures and scallops, beside the formulas of the parametric valve.
+#include "patient/coordinates.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "measure/annulus/landmarks.h"
+#include "model/sides.h"
+#include "patient/leaflets.h"
+#include "tests/patient/parametric_sheet.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+Mat3 turn_of(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  Mat3 turn;
+  turn << c, -s, 0, s, c, 0, 0, 0, 1;
+  Mat3 tilt;
+  tilt << 1, 0, 0, 0, c, -s, 0, s, c;
+  return turn * tilt;
+}
+
+double triangle_foot(const SheetCoordinates &c, const Tri &t) {
+  const double shift = around(c.foot[t[0]], c.foot[t[1]], c.annulus_length) +
+                       around(c.foot[t[0]], c.foot[t[2]], c.annulus_length);
+  return wrapped(c.foot[t[0]] + shift / 3, c.annulus_length);
+}
+
+// Share of the area whose scallop differs from that of the generated valve.
+double misnamed_share(const ParametricSheet &p, const SheetCoordinates &c,
+                      const LeafletArcs &arcs) {
+  const Valve &valve = p.model->valve;
+  double wrong = 0, all = 0;
+  for (size_t t = 0; t < p.sheet.triangles.size(); ++t) {
+    const Tri &tri = p.sheet.triangles[t];
+    const double area = triangle_area(p.sheet.x, tri);
+    all += area;
+    if (scallop_of(arcs, triangle_foot(c, tri), c.annulus_length) != valve.triangle_scallop[t]) {
+      wrong += area;
+    }
+  }
+  return wrong / all;
+}
+
+}  // namespace
+
+TEST_CASE("lengths_around_a_loop_are_wrapped") {
+  CHECK(wrapped(-0.25, 1) == 0.75);
+  CHECK(wrapped(2.5, 1) == 0.5);
+  CHECK(around(0.9, 0.1, 1) == doctest::Approx(0.2));
+  CHECK(around(0.1, 0.9, 1) == doctest::Approx(-0.2));
+}
+
+TEST_CASE("heights_at_the_middles_of_the_leaflets_are_the_given_dimensions") {
+  for (const uint32_t vertices : {430u, 1600u}) {
+    const ParametricSheet p = parametric_sheet(vertices);
+    const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+    double anterior = 0, posterior = 0, lowest = 1;
+    for (const uint32_t i : p.rims.free_edge) {
+      (p.sheet.x[i].y() > 0 ? anterior : posterior) =
+          std::max(c.whole[i], p.sheet.x[i].y() > 0 ? anterior : posterior);
+      lowest = std::min(lowest, c.whole[i]);
+    }
+    CAPTURE(vertices);
+    // defaults of 25, 14 and 8 mm; the highest place of the anterior edge is A2
+    CHECK(anterior == doctest::Approx(25e-3).epsilon(0.03));
+    CHECK(lowest < 9.5e-3);
+    CHECK(lowest > 6e-3);
+    for (size_t i = 0; i < p.sheet.x.size(); ++i) {
+      CHECK(c.share[i] >= 0);
+      CHECK(c.share[i] <= 1);
+      CHECK(c.foot[i] >= 0);
+      CHECK(c.foot[i] < c.annulus_length);
+    }
+    for (const uint32_t i : p.rims.annulus) CHECK(c.height[i] == 0);
+    for (const uint32_t i : p.rims.free_edge) CHECK(c.share[i] == 1);
+  }
+}
+
+TEST_CASE("coordinates_move_with_the_sheet") {
+  ParametricSheet p = parametric_sheet(430);
+  const SheetCoordinates before = sheet_coordinates(p.sheet, p.rims);
+  const Mat3 turn = turn_of(0.7);
+  for (Vec3 &x : p.sheet.x) x = turn * x + Vec3(0.1, -0.2, 0.3);
+  const SheetCoordinates after = sheet_coordinates(p.sheet, p.rims);
+  // 1 nm: rounding of positions of 0.3 m, carried over 20 triangles
+  for (size_t i = 0; i < p.sheet.x.size(); ++i) {
+    CHECK(std::abs(around(before.foot[i], after.foot[i], before.annulus_length)) < 1e-9);
+    CHECK(std::abs(before.height[i] - after.height[i]) < 1e-9);
+  }
+}
+
+TEST_CASE("commissures_and_scallops_are_found_without_landmarks") {
+  for (const uint32_t vertices : {430u, 1600u}) {
+    const ParametricSheet p = parametric_sheet(vertices);
+    const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+    Findings findings;
+    const LeafletArcs arcs = find_leaflets(p.sheet, p.rims, c, {}, findings);
+    REQUIRE(findings.size() == 2);
+    CHECK(findings[0].source == FindingSource::guessed);
+    CHECK(findings[0].confidence > 0.5);
+    // x is posteromedial: the first commissure reported is the anterolateral one; the generated
+    // ones lie at x = +-17.5 mm
+    CHECK(findings[0].value[0] < -15e-3);
+    CHECK(findings[0].value[3] > 15e-3);
+    CHECK(findings[1].value[1] > 8e-3);  // A2 is at y = 13 mm
+    CAPTURE(vertices);
+    // scallops are split by angle there and by arc length here, and triangles lie on borders
+    CHECK(misnamed_share(p, c, arcs) < 0.12);
+  }
+}
+
+TEST_CASE("landmarks_that_were_found_give_the_same_leaflets_when_they_are_given") {
+  const ParametricSheet p = parametric_sheet(430);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  Findings first, second;
+  const LeafletArcs found = find_leaflets(p.sheet, p.rims, c, {}, first);
+  const auto point = [](const std::vector<double> &v, size_t k) {
+    return Vec3(v[3 * k], v[3 * k + 1], v[3 * k + 2]);
+  };
+  const LeafletLandmarks landmarks = {{point(first[0].value, 0), point(first[0].value, 1)},
+                                      {point(first[1].value, 0)}};
+  const LeafletArcs given = find_leaflets(p.sheet, p.rims, c, landmarks, second);
+  CHECK(given.from == found.from);
+  CHECK(given.to == found.to);
+  CHECK(second[0].source == FindingSource::given);
+  CHECK(second[0].value == first[0].value);
+}
+
+TEST_CASE("labels_give_the_commissures_also_if_some_are_wrong") {
+  ParametricSheet p = parametric_sheet(1600);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  const Valve &valve = p.model->valve;
+  for (size_t t = 0; t < p.sheet.label.size(); ++t) {
+    const bool swapped = t % 10 == 3;  // a tenth of the labels, everywhere
+    p.sheet.label[t] = (valve.triangle_leaflet[t] == 0) != swapped ? LeafletLabel::anterior
+                                                                   : LeafletLabel::posterior;
+  }
+  Findings findings;
+  const LeafletArcs arcs = find_leaflets(p.sheet, p.rims, c, {}, findings);
+  CHECK(findings[0].source == FindingSource::measured);
+  CHECK(findings[0].confidence == doctest::Approx(0.9).epsilon(0.03));
+  const Loop annulus(p.rims.annulus, p.sheet.x);
+  // the border of the labels is at x = +-17.5 mm, y of 4 mm; half a sample is 0.4 mm, a triangle 1
+  // mm
+  for (const double s : {arcs.from, arcs.to}) {
+    CHECK(std::abs(annulus.at(s).x()) == doctest::Approx(17.5e-3).epsilon(0.1));
+  }
+}
+
+TEST_CASE("leaflets_that_cannot_be_told_apart_are_refused") {
+  ParametricSheet p = parametric_sheet(430);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  Findings findings;
+  p.sheet.label.assign(p.sheet.triangles.size(), LeafletLabel::anterior);
+  CHECK_THROWS_WITH_AS(find_leaflets(p.sheet, p.rims, c, {}, findings),
+                       doctest::Contains("one leaflet only"), Error);
+  p.sheet.label.assign(p.sheet.triangles.size(), LeafletLabel::unknown);
+  // LPS for RAS: x and y negated about an origin that is not the valve
+  LeafletLandmarks far = {{Vec3(-0.12, 0.1, 0), Vec3(0.1, 0.1, 0)}, {}};
+  CHECK_THROWS_WITH_AS(find_leaflets(p.sheet, p.rims, c, far, findings),
+                       doctest::Contains("LPS or RAS"), Error);
+  far.commissures = {Vec3(17e-3, 4e-3, 0), Vec3(17e-3, 2e-3, 0)};
+  CHECK_THROWS_WITH_AS(find_leaflets(p.sheet, p.rims, c, far, findings),
+                       doctest::Contains("one point for each commissure"), Error);
+}
