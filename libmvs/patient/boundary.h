@@ -17,7 +17,7 @@ struct LoopShape {
   double length = 0;           // m
   Vec3 centre = Vec3::Zero();  // centroid by length
   Vec3 area = Vec3::Zero();    // m2, along the normal around which the loop runs counter-clockwise
-  double out_of_plane = 0;     // m, root mean square distance from the plane normal to `area`
+  double turning = 0;          // total change of direction in turns, of 24 equal steps around it
 };
 LoopShape shape_of(const LeafletSheet &sheet, const std::vector<uint32_t> &loop);
 
