@@ -32,6 +32,11 @@ Tissue tissue_of(const Surface &s) {
   return made;
 }
 
+const Tissue &fine_tissue() {
+  static const Tissue made = tissue_of(surface_of(parametric_sheet(1600).sheet));
+  return made;
+}
+
 // 0.8 to 1.6 mm, twice around the valve.
 double thickness_at(const Vec3 &p) {
   const double angle = math::atan2(p.y(), p.x());
@@ -125,27 +130,145 @@ LeafletSheet mid_of(const Surface &s, Findings &findings) {
 
 }  // namespace
 
+TEST_CASE("move_to_mid_moves_the_atrial_side_to_the_middle") {
+  const Tissue &tissue = fine_tissue();
+  const std::vector<Vec3> normal = vertex_normals(tissue.sheet);
+  LeafletSheet side = tissue.sheet;
+  for (size_t i = 0; i < side.x.size(); ++i) {
+    const double thickness = thickness_at(side.x[i]);
+    side.thickness.push_back(thickness);
+    side.x[i] += 0.5 * thickness * normal[i];
+  }
+  LeafletSheet moved = side;
+  Findings findings;
+  move_to_mid(moved, 0, findings);
+  const MidError e = error_of(moved, tissue.sheet);
+  CAPTURE(e.worst);
+  // before: a half
+  CHECK(e.rms < 0.03);
+  CHECK(e.covered == doctest::Approx(1).epsilon(0.01));
+  CHECK(moved.thickness == side.thickness);
+  CHECK(find_intersections(moved.x, moved.triangles).size() <=
+        find_intersections(side.x, side.triangles).size());
+  REQUIRE(find(findings, "mid_surface"));
+  CHECK(find(findings, "mid_surface")->source == FindingSource::measured);
+  CHECK(find(findings, "mid_surface")->value[0] == doctest::Approx(0.6e-3).epsilon(0.05));
+}
+
+TEST_CASE("move_to_mid_takes_the_given_thickness_where_the_sheet_has_none") {
+  Tissue tissue = tissue_of(funnel(48, 12));
+  const std::vector<Vec3> before = tissue.sheet.x;
+  Findings findings;
+  move_to_mid(tissue.sheet, 2e-3, findings);
+  for (size_t i = 0; i < before.size(); ++i) {
+    const Vec3 way = tissue.sheet.x[i] - before[i];
+    CHECK(way.norm() == doctest::Approx(1e-3));
+    CHECK(way.z() < 0);
+    CHECK(way.x() * before[i].x() + way.y() * before[i].y() > 0);  // off the axis
+  }
+  CHECK(tissue.sheet.thickness.empty());
+  CHECK(findings.back().source == FindingSource::assumed);
+}
+
+TEST_CASE("move_to_mid_stops_in_folds_that_are_narrower_than_the_tissue") {
+  // waves of 4.8 mm whose crests have a radius of 0.8 mm, and tissue of 4 mm
+  Surface s = funnel(120, 48);
+  for (size_t i = 0; i < s.x.size(); ++i) {
+    const double wave =
+        0.75e-3 * math::cos(2 * 3.14159265358979 * static_cast<double>(i / 120) / 16);
+    s.x[i] += wave * Vec3(-s.x[i].x(), -s.x[i].y(), 2.0 / 3 * s.x[i].head<2>().norm()).normalized();
+  }
+  Tissue tissue = tissue_of(s);
+  REQUIRE(find_intersections(tissue.sheet.x, tissue.sheet.triangles).empty());
+  const LeafletSheet before = tissue.sheet;
+  Findings findings;
+  move_to_mid(tissue.sheet, 4e-3, findings);
+  CHECK(find_intersections(tissue.sheet.x, tissue.sheet.triangles).empty());
+  double way = 0;
+  for (size_t i = 0; i < before.x.size(); ++i) {
+    way = std::max(way, (tissue.sheet.x[i] - before.x[i]).norm());
+  }
+  CHECK(way == doctest::Approx(2e-3));
+  CHECK(findings[0].value[0] < 1.9e-3);  // crests moved less
+}
+
 TEST_CASE("mid_of_skin_finds_the_mid_surface_and_the_thickness") {
-  const Tissue tissue = tissue_of(surface_of(parametric_sheet(1600).sheet));
+  const Tissue &tissue = fine_tissue();
   for (const uint32_t rows : {1u, 2u, 4u}) {
-    for (const bool inside_out : {false, true}) {
-      Surface s = renumbered(skin_of(tissue, rows), 11);
-      if (inside_out) s = flipped(s, 1);
+    // inside out with two rows
+    const Surface s = renumbered(flipped(skin_of(tissue, rows), rows == 2 ? 1 : 1000000), 11);
+    Findings findings;
+    LeafletSheet mid = mid_of(soup(s), findings);
+    const MidError e = error_of(mid, tissue.sheet);
+    CAPTURE(rows);
+    CAPTURE(e.worst);
+    // measured: 0.01, with the round band of four rows 0.05; 0.15 is what remeshing changes
+    CHECK(e.rms < 0.08);
+    CHECK(e.right_thickness > 0.98);
+    CHECK(e.covered == doctest::Approx(1).epsilon(0.06));
+    REQUIRE(find(findings, "thickness"));
+    CHECK(find(findings, "thickness")->value[0] == doctest::Approx(1.2e-3).epsilon(0.1));
+    Findings rim_findings;
+    const std::vector<Tri> wound = mid.triangles;
+    const SheetRims rims = find_rims(mid, {}, rim_findings);
+    CHECK(mid.triangles == wound);
+    CHECK(shape_of(mid, rims.annulus).length ==
+          doctest::Approx(shape_of(tissue.sheet, tissue.rims.annulus).length).epsilon(0.05));
+    CHECK(find_intersections(mid.x, mid.triangles).empty());
+  }
+}
+
+TEST_CASE("mid_of_skin_survives_noise_and_coarse_triangles") {
+  for (const uint32_t vertices : {430u, 1600u}) {
+    const Tissue tissue =
+        vertices == 1600 ? fine_tissue() : tissue_of(surface_of(parametric_sheet(vertices).sheet));
+    for (uint64_t seed = 1; seed <= (vertices == 430 ? 3 : 1); ++seed) {
+      Surface s = skin_of(tissue, 2);
+      uint64_t state = seed;
+      // uniform, 0.1 mm rms
+      for (Vec3 &x : s.x) {
+        x += 0.173e-3 * Vec3(next_share(state), next_share(state), next_share(state));
+      }
       Findings findings;
-      LeafletSheet mid = mid_of(soup(s), findings);
+      const LeafletSheet mid = mid_of(s, findings);
       const MidError e = error_of(mid, tissue.sheet);
-      CAPTURE(rows);
-      MESSAGE(e.rms, " ", e.worst, " ", e.right_thickness, " ", e.covered);
+      MESSAGE(vertices, " ", seed, " ", e.rms, " ", e.worst, " ", e.right_thickness, " ",
+              e.covered);
       CHECK(e.rms < 0.15);
-      CHECK(e.right_thickness > 0.95);
-      CHECK(e.covered > 0.9);
-      REQUIRE(find(findings, "thickness"));
-      CHECK(find(findings, "thickness")->value[0] == doctest::Approx(1.2e-3).epsilon(0.1));
-      Findings rim_findings;
-      const SheetRims rims = find_rims(mid, {}, rim_findings);
-      CHECK(shape_of(mid, rims.annulus).length ==
-            doctest::Approx(shape_of(tissue.sheet, tissue.rims.annulus).length).epsilon(0.05));
-      CHECK(find_intersections(mid.x, mid.triangles).empty());
+      CHECK(e.right_thickness > 0.9);
+      CHECK(e.covered == doctest::Approx(1).epsilon(0.1));
     }
   }
+}
+
+TEST_CASE("mid_of_skin_refuses_surfaces_that_are_no_skin_of_a_ring") {
+  Findings findings;
+  const Tissue tissue = tissue_of(funnel(48, 12));
+  CHECK_THROWS_WITH_AS(mid_of_skin(tissue.sheet, {}, findings),
+                       doctest::Contains("open along 100 mm"), Error);
+  // the skin of a disc: both sides closed by a vertex
+  Surface ball = funnel(48, 12);
+  ball.x.push_back({0, 0, 1e-3});
+  ball.x.push_back({0, 0, -13e-3});
+  for (uint32_t i = 0; i < 48; ++i) {
+    const uint32_t j = (i + 1) % 48, top = 48 * 13;
+    ball.triangles.push_back({j, i, top});
+    ball.triangles.push_back({12 * 48 + i, 12 * 48 + j, top + 1});
+  }
+  CHECK_THROWS_WITH_AS(mid_of(ball, findings), doctest::Contains("ball"), Error);
+  // a solid ring as thick as wide has no sides
+  Surface ring;
+  const uint32_t round = 60, across = 24;
+  for (uint32_t i = 0; i < round; ++i) {
+    for (uint32_t j = 0; j < across; ++j) {
+      const double a = 2 * 3.14159265358979 * i / round, b = 2 * 3.14159265358979 * j / across;
+      const double r = 15e-3 + 2e-3 * std::cos(b);
+      ring.x.push_back({r * std::cos(a), r * std::sin(a), 2e-3 * std::sin(b)});
+      const uint32_t i1 = (i + 1) % round, j1 = (j + 1) % across;
+      ring.triangles.push_back({i * across + j, i1 * across + j, i1 * across + j1});
+      ring.triangles.push_back({i * across + j, i1 * across + j1, i * across + j1});
+    }
+  }
+  CHECK_THROWS_WITH_AS(mid_of(ring, findings), doctest::Contains("does not split into two sides"),
+                       Error);
 }
