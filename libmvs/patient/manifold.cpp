@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "model/compressed_rows.h"
 #include "model/sides.h"
@@ -28,26 +29,40 @@ Vec3 inward(const std::vector<Vec3> &x, const Tri &t, const Edge &edge) {
   return size > 0 ? Vec3(off / size) : Vec3::Zero();
 }
 
-// Joins the sides first to last of one edge, the straightest pair first; on a tie the first.
+// Whether at most one in a hundred of the edges between two triangles is passed in the same
+// direction by both: then the winding says which triangles belong together where more meet.
+bool is_wound_alike(const std::vector<Tri> &triangles, const std::vector<Side> &sides) {
+  size_t alike = 0, unlike = 0;
+  for_each_edge(sides, [&](size_t first, size_t last) {
+    if (last - first != 2) return;
+    const bool same = side_from(triangles, sides[first]) == side_from(triangles, sides[first + 1]);
+    ++(same ? unlike : alike);
+  });
+  return unlike <= alike / 100;
+}
+
+// Joins the sides first to last of one edge, the straightest pair first; on a tie the first. Pairs
+// that pass the edge in the same direction come last if `wound_alike`.
 void join_straightest(const std::vector<Vec3> &x, const std::vector<Tri> &triangles,
-                      const std::vector<Side> &sides, size_t first, size_t last,
+                      std::span<const Side> sides, bool wound_alike,
                       std::vector<uint32_t> &across) {
   std::vector<Vec3> into;
-  for (size_t s = first; s < last; ++s) {
-    into.push_back(inward(x, triangles[sides[s].triangle], sides[s].edge));
-  }
-  std::vector<uint8_t> joined(last - first, 0);
-  for (size_t pair = 0; pair < (last - first) / 2; ++pair) {
+  for (const Side &side : sides) into.push_back(inward(x, triangles[side.triangle], side.edge));
+  std::vector<uint8_t> joined(sides.size(), 0);
+  for (size_t pair = 0; pair < sides.size() / 2; ++pair) {
     std::array<size_t, 2> best{};
-    double straightest = 2;
+    double straightest = INFINITY;
     for (size_t i = 0; i < into.size(); ++i) {
       for (size_t j = i + 1; j < into.size(); ++j) {
-        if (joined[i] != 0 || joined[j] != 0 || into[i].dot(into[j]) >= straightest) continue;
-        straightest = into[i].dot(into[j]);
+        if (joined[i] != 0 || joined[j] != 0) continue;
+        const bool same = side_from(triangles, sides[i]) == side_from(triangles, sides[j]);
+        const double bend = into[i].dot(into[j]) + (wound_alike && same ? 4 : 0);  // -1: straight
+        if (bend >= straightest) continue;
+        straightest = bend;
         best = {i, j};
       }
     }
-    const Side &a = sides[first + best[0]], &b = sides[first + best[1]];
+    const Side &a = sides[best[0]], &b = sides[best[1]];
     across[3 * a.triangle + a.k] = 3 * b.triangle + b.k;
     across[3 * b.triangle + b.k] = 3 * a.triangle + a.k;
     joined[best[0]] = joined[best[1]] = 1;
@@ -142,11 +157,12 @@ SurfaceJoin join_sides(const std::vector<Vec3> &x, const std::vector<Tri> &trian
   SurfaceJoin join;
   join.across.assign(3 * triangles.size(), none);
   const std::vector<Side> sides = sorted_sides(triangles);
+  const bool wound_alike = is_wound_alike(triangles, sides);
   for_each_edge(sides, [&](size_t first, size_t last) {
     if (last - first > 2 && join.opened++ == 0) {
       join.opened_at = 0.5 * (x[sides[first].edge[0]] + x[sides[first].edge[1]]);
     }
-    join_straightest(x, triangles, sides, first, last, join.across);
+    join_straightest(x, triangles, {sides.data() + first, last - first}, wound_alike, join.across);
   });
   return join;
 }

@@ -16,7 +16,8 @@ struct SurfaceJoin {
 };
 
 // Joins the triangles at each edge; where more than two meet, the pair that continues straightest,
-// then the next pair. Triangles may be wound in any way.
+// then the next pair. Triangles may be wound in any way; if they are wound alike but for some,
+// pairs keep to that, so that two bodies that touch at an edge come apart.
 SurfaceJoin join_sides(const std::vector<Vec3> &x, const std::vector<Tri> &triangles);
 
 // The piece of each triangle, connected across sides; pieces are numbered from 0 in the order of

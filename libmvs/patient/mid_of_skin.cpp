@@ -46,6 +46,50 @@ LeafletSheet closed_skin(LeafletSheet skin, Findings &findings) {
   return skin;
 }
 
+// Removes the steps and the noise of a skin that is finer than the tissue is thick, by Taubin's
+// filter (1995), which keeps the volume. Its rounds pass waves longer than about one and a half
+// thicknesses.
+void smooth_skin(LeafletSheet &skin, double thickness, Findings &findings) {
+  constexpr double most_rounds = 40;
+  const double fineness = thickness / median_edge(skin.x, skin.triangles);
+  const int rounds = static_cast<int>(std::min(most_rounds, 2 * fineness * fineness));
+  if (rounds == 0) return;
+  std::vector<std::vector<uint32_t>> around(skin.x.size());
+  const Rows stars = rows_of(skin.x.size(), skin.triangles);
+  for (uint32_t i = 0; i < around.size(); ++i)
+    around[i] = neighbours_in(skin.triangles, stars[i], i);
+  const std::vector<Vec3> before = skin.x;
+  std::vector<Vec3> next(skin.x.size());
+  for (int step = 0; step < 2 * rounds; ++step) {
+    const double factor = step % 2 == 0 ? 0.33 : -0.34;
+    for (size_t i = 0; i < next.size(); ++i) {
+      Vec3 mean = Vec3::Zero();
+      for (const uint32_t j : around[i]) mean += skin.x[j];
+      mean /= static_cast<double>(around[i].size());
+      next[i] = skin.x[i] + factor * (mean - skin.x[i]);
+    }
+    skin.x.swap(next);
+  }
+  double moved2 = 0;
+  for (size_t i = 0; i < before.size(); ++i) moved2 += (skin.x[i] - before[i]).squaredNorm();
+  const double moved = std::sqrt(moved2 / static_cast<double>(before.size()));
+  add_measured(findings, "smoothed_skin",
+               format("the skin is fine beside its thickness; steps and noise of %.2f mm were "
+                      "removed in %d rounds",
+                      moved * 1e3, rounds),
+               {moved}, "m");
+}
+
+// The median of the thickness behind all triangles.
+double median_thickness(const LeafletSheet &skin) {
+  std::vector<double> sorted;
+  for (const TissueBehind &b : tissue_behind(skin)) {
+    if (b.triangle != none) sorted.push_back(b.thickness);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
+}
+
 // A closed surface has the Euler characteristic V - F / 2: 2 of a ball, 0 of a ring.
 void check_ring(const LeafletSheet &skin) {
   const auto points = static_cast<long>(skin.x.size());
@@ -137,8 +181,9 @@ void add_thickness(const LeafletSheet &skin, const LeafletSheet &atrial, Finding
 
 LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks,
                          Findings &findings) {
-  const LeafletSheet closed = closed_skin(skin, findings);
+  LeafletSheet closed = closed_skin(skin, findings);
   check_ring(closed);
+  smooth_skin(closed, median_thickness(closed), findings);
   const std::vector<TissueBehind> behind = tissue_behind(closed);
   const std::vector<uint32_t> side_of = sides_of(closed, behind);
   std::vector<LeafletSheet> atrial;
