@@ -11,6 +11,7 @@
 #include "patient/manifold.h"
 #include "patient/mid_surface.h"
 #include "patient/skin_sides.h"
+#include "patient/smooth_skin.h"
 #include "patient/weld.h"
 
 namespace mvs::core {
@@ -18,6 +19,8 @@ namespace {
 
 // m: a longer boundary of a skin is no small hole, but a rim or a side that is missing.
 constexpr double longest_hole = 20e-3;
+// Rounds that remove the zigzag of single triangles, and leave waves of ten of them.
+constexpr int rim_rounds = 10;
 
 // A skin without holes, normals out of the tissue.
 LeafletSheet closed_skin(LeafletSheet skin, Findings &findings) {
@@ -44,40 +47,6 @@ LeafletSheet closed_skin(LeafletSheet skin, Findings &findings) {
     for (Tri &t : skin.triangles) std::swap(t[1], t[2]);
   }
   return skin;
-}
-
-// Removes the steps and the noise of a skin that is finer than the tissue is thick, by Taubin's
-// filter (1995), which keeps the volume. Its rounds pass waves longer than about one and a half
-// thicknesses.
-void smooth_skin(LeafletSheet &skin, double thickness, Findings &findings) {
-  constexpr double most_rounds = 40;
-  const double fineness = thickness / median_edge(skin.x, skin.triangles);
-  const int rounds = static_cast<int>(std::min(most_rounds, 2 * fineness * fineness));
-  if (rounds == 0) return;
-  std::vector<std::vector<uint32_t>> around(skin.x.size());
-  const Rows stars = rows_of(skin.x.size(), skin.triangles);
-  for (uint32_t i = 0; i < around.size(); ++i)
-    around[i] = neighbours_in(skin.triangles, stars[i], i);
-  const std::vector<Vec3> before = skin.x;
-  std::vector<Vec3> next(skin.x.size());
-  for (int step = 0; step < 2 * rounds; ++step) {
-    const double factor = step % 2 == 0 ? 0.33 : -0.34;
-    for (size_t i = 0; i < next.size(); ++i) {
-      Vec3 mean = Vec3::Zero();
-      for (const uint32_t j : around[i]) mean += skin.x[j];
-      mean /= static_cast<double>(around[i].size());
-      next[i] = skin.x[i] + factor * (mean - skin.x[i]);
-    }
-    skin.x.swap(next);
-  }
-  double moved2 = 0;
-  for (size_t i = 0; i < before.size(); ++i) moved2 += (skin.x[i] - before[i]).squaredNorm();
-  const double moved = std::sqrt(moved2 / static_cast<double>(before.size()));
-  add_measured(findings, "smoothed_skin",
-               format("the skin is fine beside its thickness; steps and noise of %.2f mm were "
-                      "removed in %d rounds",
-                      moved * 1e3, rounds),
-               {moved}, "m");
 }
 
 // The median of the thickness behind all triangles.
@@ -183,7 +152,7 @@ LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks
                          Findings &findings) {
   LeafletSheet closed = closed_skin(skin, findings);
   check_ring(closed);
-  smooth_skin(closed, median_thickness(closed), findings);
+  const int rounds = smooth_skin(closed, median_thickness(closed), findings);
   const std::vector<TissueBehind> behind = tissue_behind(closed);
   const std::vector<uint32_t> side_of = sides_of(closed, behind);
   std::vector<LeafletSheet> atrial;
@@ -199,6 +168,7 @@ LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks
            "points along the annulus");
   add_thickness(closed, atrial[0], findings);
   move_to_mid(atrial[0], 0, findings);
+  smooth_rims(atrial[0], std::min(rounds, rim_rounds));
   return std::move(atrial[0]);
 }
 
