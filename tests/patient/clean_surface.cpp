@@ -152,6 +152,32 @@ TEST_CASE("clean_surface_opens_edges_of_three_triangles_and_drops_the_fin") {
   CHECK_THROWS_WITH_AS(cleaned(s), doctest::Contains("more than two triangles meet"), Error);
 }
 
+TEST_CASE("clean_surface_takes_bodies_apart_that_touch_along_an_edge") {
+  // two cubes; their faces at the common edge are in line, but of different bodies
+  Surface s;
+  const std::array<Tri, 12> faces = {{{0, 2, 1},
+                                      {1, 2, 3},
+                                      {4, 5, 6},
+                                      {5, 7, 6},
+                                      {0, 1, 4},
+                                      {1, 5, 4},
+                                      {2, 6, 3},
+                                      {3, 6, 7},
+                                      {0, 4, 2},
+                                      {2, 4, 6},
+                                      {1, 3, 5},
+                                      {3, 7, 5}}};
+  for (const double at : {0.0, 15e-3}) {
+    const uint32_t first = static_cast<uint32_t>(s.x.size());
+    for (uint32_t k = 0; k < 8; ++k) {
+      s.x.push_back(Vec3(at + 15e-3 * (k & 1), at + 15e-3 * (k >> 1 & 1), 15e-3 * (k >> 2)));
+    }
+    for (const Tri &t : faces) s.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  CHECK_THROWS_WITH_AS(cleaned(s),
+                       doctest::Contains("2 pieces that are not connected, of 1350, 1350"), Error);
+}
+
 TEST_CASE("clean_surface_separates_parts_that_touch_in_a_point") {
   Surface s = funnel(24, 6);
   const size_t points = s.x.size();

@@ -12,6 +12,7 @@
 #include "patient/clean_surface.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
+#include "tests/patient/voxel_skin.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
@@ -43,6 +44,17 @@ double thickness_at(const Vec3 &p) {
   return 1.2e-3 + 0.4e-3 * math::sin(2 * angle) * math::cos(p.z() / 4e-3);
 }
 
+double evenly_thick(const Vec3 &) {
+  return 1.5e-3;
+}
+
+// From 1.6 mm at z = 0 to a sharp edge of 0.2 mm at z = -12 mm, of a funnel.
+double tapered(const Vec3 &p) {
+  return 1.6e-3 + 1.4e-3 * p.z() / 12e-3;
+}
+
+using ThicknessField = double (*)(const Vec3 &);
+
 std::vector<Vec3> vertex_normals(const LeafletSheet &sheet) {
   std::vector<Vec3> normal(sheet.x.size(), Vec3::Zero());
   for (const Tri &t : sheet.triangles) {
@@ -55,14 +67,14 @@ std::vector<Vec3> vertex_normals(const LeafletSheet &sheet) {
 
 // Both sides, half a thickness from the mid-surface, sewn at the rims by a round band of `rows`
 // rows of quads; one row makes a flat band.
-Surface skin_of(const Tissue &tissue, uint32_t rows) {
+Surface skin_of(const Tissue &tissue, uint32_t rows, ThicknessField thickness = thickness_at) {
   const LeafletSheet &mid = tissue.sheet;
   const uint32_t n = static_cast<uint32_t>(mid.x.size());
   const std::vector<Vec3> normal = vertex_normals(mid);
   Surface s;
   for (const double side : {0.5, -0.5}) {
     for (uint32_t i = 0; i < n; ++i) {
-      s.x.push_back(mid.x[i] + side * thickness_at(mid.x[i]) * normal[i]);
+      s.x.push_back(mid.x[i] + side * thickness(mid.x[i]) * normal[i]);
     }
   }
   for (const Tri &t : mid.triangles) {
@@ -80,7 +92,7 @@ Surface skin_of(const Tissue &tissue, uint32_t rows) {
         if (r == rows) continue;
         const Vec3 along = mid.x[loop[(k + 1) % m]] - mid.x[loop[(k + m - 1) % m]];
         const Vec3 out = along.cross(normal[i]).normalized();
-        const double angle = 3.14159265358979 * r / rows, half = 0.5 * thickness_at(mid.x[i]);
+        const double angle = 3.14159265358979 * r / rows, half = 0.5 * thickness(mid.x[i]);
         next[k] = static_cast<uint32_t>(s.x.size());
         s.x.push_back(mid.x[i] + half * (math::cos(angle) * normal[i] + math::sin(angle) * out));
       }
@@ -101,7 +113,8 @@ struct MidError {
   double rms = 0, worst = 0, right_thickness = 0, covered = 0;
 };
 
-MidError error_of(const LeafletSheet &found, const LeafletSheet &truth) {
+MidError error_of(const LeafletSheet &found, const LeafletSheet &truth,
+                  ThicknessField field = thickness_at) {
   const TriangleBvh bvh(truth.triangles, truth.x);
   MidError e;
   double all = 0, whole = 0;
@@ -110,7 +123,7 @@ MidError error_of(const LeafletSheet &found, const LeafletSheet &truth) {
     all += area;
     for (const uint32_t i : t) {
       const TriangleBvh::Hit hit = bvh.closest(found.x[i]);
-      const double thickness = thickness_at(hit.point), off = std::sqrt(hit.distance2) / thickness;
+      const double thickness = field(hit.point), off = std::sqrt(hit.distance2) / thickness;
       e.rms += area / 3 * off * off;
       e.worst = std::max(e.worst, off);
       if (std::abs(found.thickness[i] / thickness - 1) < 0.15) e.right_thickness += area / 3;
@@ -232,13 +245,45 @@ TEST_CASE("mid_of_skin_survives_noise_and_coarse_triangles") {
       Findings findings;
       const LeafletSheet mid = mid_of(s, findings);
       const MidError e = error_of(mid, tissue.sheet);
-      MESSAGE(vertices, " ", seed, " ", e.rms, " ", e.worst, " ", e.right_thickness, " ",
-              e.covered);
+      CAPTURE(vertices);
+      CAPTURE(seed);
+      // measured: up to 0.095, as the noise of one side is 0.08, and 0.96
       CHECK(e.rms < 0.15);
-      CHECK(e.right_thickness > 0.9);
-      CHECK(e.covered == doctest::Approx(1).epsilon(0.1));
+      CHECK(e.right_thickness > 0.95);
+      CHECK(e.covered == doctest::Approx(1).epsilon(0.03));
     }
   }
+}
+
+TEST_CASE("mid_of_skin_splits_a_skin_at_a_sharp_edge") {
+  const Tissue tissue = tissue_of(funnel(96, 24));
+  Findings findings;
+  const LeafletSheet mid = mid_of(skin_of(tissue, 1, tapered), findings);
+  const MidError e = error_of(mid, tissue.sheet, tapered);
+  CHECK(e.rms < 0.15);
+  CHECK(e.right_thickness > 0.95);
+  CHECK(e.covered == doctest::Approx(1).epsilon(0.03));
+}
+
+TEST_CASE("mid_of_skin_takes_the_skin_of_a_label_map") {
+  const LeafletSheet &truth = fine_tissue().sheet;
+  Findings findings;
+  LeafletSheet mid = mid_of(voxel_skin(truth, 0.7e-3, 1.5e-3, 5), findings);
+  const MidError e = error_of(mid, truth, evenly_thick);
+  // measured: 0.08 and 0.99; the voxels reach half a thickness beyond the rims
+  CHECK(e.rms < 0.15);
+  CHECK(e.right_thickness > 0.95);
+  CHECK(e.covered > 1);
+  CHECK(e.covered < 1.1);
+  REQUIRE(find(findings, "opened_edges"));  // voxels touch along an edge
+  REQUIRE(find(findings, "smoothed_skin"));
+  const SheetRims rims = find_rims(mid, {}, findings);
+  const Tissue &tissue = fine_tissue();
+  CHECK(shape_of(mid, rims.annulus).length ==
+        doctest::Approx(shape_of(truth, tissue.rims.annulus).length).epsilon(0.03));
+  CHECK(shape_of(mid, rims.free_edge).length ==
+        doctest::Approx(shape_of(truth, tissue.rims.free_edge).length).epsilon(0.03));
+  CHECK(find_intersections(mid.x, mid.triangles).empty());
 }
 
 TEST_CASE("mid_of_skin_refuses_surfaces_that_are_no_skin_of_a_ring") {
