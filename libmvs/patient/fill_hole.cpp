@@ -35,7 +35,7 @@ bool contains_edge(const std::vector<Edge> &sorted, const Edge &edge) {
 }
 
 // The triangulation of a polygon with the least sum of costs, whose diagonals are not edges of the
-// sheet already; empty if there is none.
+// sheet already; empty if no triangulation is without such diagonals.
 std::vector<Tri> least_triangulation(const std::vector<Vec3> &x,
                                      const std::vector<uint32_t> &polygon,
                                      const std::vector<Edge> &sheet_edges) {
@@ -157,6 +157,7 @@ bool flip_round(const std::vector<Vec3> &x, std::vector<Tri> &patch,
                 const std::vector<Edge> &sheet_edges) {
   const std::vector<InnerEdge> inner = inner_edges(patch);
   std::vector<Edge> patch_edges;
+  patch_edges.reserve(inner.size());
   for (const InnerEdge &e : inner) patch_edges.push_back(e.edge);
   std::vector<Edge> made;
   std::vector<uint8_t> claimed(patch.size(), 0);

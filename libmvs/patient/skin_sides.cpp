@@ -110,8 +110,9 @@ std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin) {
     const Vec3 from = (skin.x[tri[0]] + skin.x[tri[1]] + skin.x[tri[2]]) / 3;
     const Vec3 way = -unit_normal(skin, t);
     // short boxes hold few triangles
-    for (double length = longest_ray / 8; length <= longest_ray && behind[t].triangle == none;
-         length *= 2) {
+    for (const double share : {0.125, 0.25, 0.5, 1.0}) {
+      const double length = share * longest_ray;
+      if (behind[t].triangle != none) break;
       Aabb box;
       box.add(from);
       box.add(from + length * way);

@@ -205,6 +205,23 @@ TEST_CASE("move_to_mid_stops_in_folds_that_are_narrower_than_the_tissue") {
   CHECK(findings[0].value[0] < 1.9e-3);  // crests moved less
 }
 
+TEST_CASE("move_to_mid_makes_no_new_crossings_in_a_real_valve") {
+  const Surface s = real_stl("real_mitral/open_1146.stl");
+  if (s.x.empty()) {
+    MESSAGE("skipped: no real_mitral/open_1146.stl in MVS_TEST_DATA or ../shared/data");
+    return;
+  }
+  Tissue tissue = tissue_of(s);
+  const std::vector<Edge> before = find_intersections(tissue.sheet.x, tissue.sheet.triangles);
+  CHECK(before.size() == 4);
+  Findings findings;
+  move_to_mid(tissue.sheet, 2e-3, findings);
+  for (const Edge &pair : find_intersections(tissue.sheet.x, tissue.sheet.triangles)) {
+    CHECK(std::find(before.begin(), before.end(), pair) != before.end());
+  }
+  CHECK(findings[0].value[0] > 0.8e-3);
+}
+
 TEST_CASE("mid_of_skin_finds_the_mid_surface_and_the_thickness") {
   const Tissue &tissue = fine_tissue();
   for (const uint32_t rows : {1u, 2u, 4u}) {
