@@ -224,18 +224,19 @@ void make_manifold(LeafletSheet &sheet, Findings &findings) {
         {static_cast<double>(turned)}, "");
     join.across = join_sides(sheet.x, sheet.triangles).across;
   }
-  const size_t copies = separate_fans(sheet, join.across);
+  const size_t copies = separate_fans(sheet, join.across) + split_shared_edges(sheet);
   join = join_sides(sheet.x, sheet.triangles);
   MVS_MUST(join.opened == 0, MVS_E_OP, "triangles",
            "more than two triangles meet at an edge near (%.1f, %.1f, %.1f) mm, and no rule tells "
            "which of them are one surface: remove the others",
            join.opened_at.x() * 1e3, join.opened_at.y() * 1e3, join.opened_at.z() * 1e3);
   if (copies > 0) {
-    add_measured(findings, "separated_points",
-                 format("parts of the surface touched in single points; %zu of them became a point "
-                        "of each part",
-                        copies),
-                 {static_cast<double>(copies)}, "");
+    add_measured(
+        findings, "separated_points",
+        format("parts of the surface touched in single points or edges; %zu new points hold "
+               "them apart",
+               copies),
+        {static_cast<double>(copies)}, "");
   }
 }
 

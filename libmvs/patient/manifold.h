@@ -28,6 +28,12 @@ std::vector<uint32_t> pieces_of(const std::vector<uint32_t> &across);
 // first fan keeps the vertex, others get copies at the end. Returns the number of copies.
 size_t separate_fans(LeafletSheet &sheet, const std::vector<uint32_t> &across);
 
+// Gives each pair of triangles at an edge that more than two share a vertex of its own in the
+// middle of the edge, so that every edge has two triangles at most; for edges that are left after
+// separate_fans(), as both their vertices belong to one fan each. Returns the number of new
+// vertices.
+size_t split_shared_edges(LeafletSheet &sheet);
+
 // Turns triangles so that all of a piece are wound alike, the way of the larger part of its area.
 // Returns the number of turned triangles, or `none` if a piece has one side only (Moebius band).
 // `across` is out of date if triangles were turned.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/intersect.h"
 #include "model/compressed_rows.h"
 #include "model/sides.h"
 #include "patient/boundary.h"
@@ -131,6 +132,17 @@ LeafletSheet side_sheet(const LeafletSheet &skin, const std::vector<TissueBehind
   return sheet;
 }
 
+// Smooths rims as often as no triangles cross that did not before.
+void smooth_rims_freely(LeafletSheet &sheet, int rounds) {
+  const size_t crossings = find_intersections(sheet.x, sheet.triangles).size();
+  const std::vector<Vec3> before = sheet.x;
+  for (; rounds > 0; rounds /= 2) {
+    smooth_rims(sheet, rounds);
+    if (find_intersections(sheet.x, sheet.triangles).size() <= crossings) return;
+    sheet.x = before;
+  }
+}
+
 void add_thickness(const LeafletSheet &skin, const LeafletSheet &atrial, Findings &findings) {
   std::vector<double> sorted = atrial.thickness;
   std::sort(sorted.begin(), sorted.end());
@@ -168,7 +180,7 @@ LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks
            "points along the annulus");
   add_thickness(closed, atrial[0], findings);
   move_to_mid(atrial[0], 0, findings);
-  smooth_rims(atrial[0], std::min(rounds, rim_rounds));
+  smooth_rims_freely(atrial[0], std::min(rounds, rim_rounds));
   return std::move(atrial[0]);
 }
 

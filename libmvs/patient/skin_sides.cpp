@@ -40,43 +40,105 @@ double ray_distance(const Vec3 &from, const Vec3 &way, const Vec3 &a, const Vec3
   return u >= 0 && v >= 0 && u + v <= 1 ? ac.dot(q) / det : -1;
 }
 
-// The largest two components of the triangles with a mark, connected across edges that are no
-// ridges: 0 and 1, others `none`.
-std::vector<uint32_t> largest_components(const LeafletSheet &skin,
-                                         const std::vector<uint32_t> &across,
-                                         const std::vector<Vec3> &normal,
-                                         const std::vector<uint8_t> &marks) {
-  std::vector<uint32_t> joined = across;
+// The sides of a skin as components of the triangles with a mark, connected across edges that are
+// no ridges.
+struct Split {
+  std::vector<uint32_t> side_of;  // 0 and 1 for the largest two, others `none`
+  std::array<double, 3> area{};   // m2, of the largest three
+  double total = 0;               // m2, of all triangles
+};
+
+Split largest_components(const LeafletSheet &skin, const std::vector<uint32_t> &smooth,
+                         const std::vector<uint8_t> &marks) {
+  std::vector<uint32_t> joined = smooth;
   for (uint32_t side = 0; side < joined.size(); ++side) {
     if (joined[side] == none) continue;
-    const uint32_t t = side / 3, u = across[side] / 3;
-    if (marks[t] == 0 || marks[u] == 0 || normal[t].dot(normal[u]) < ridge) joined[side] = none;
+    if (marks[side / 3] == 0 || marks[joined[side] / 3] == 0) joined[side] = none;
   }
-  std::vector<uint32_t> piece = pieces_of(joined);
+  Split split;
+  std::vector<uint32_t> &piece = split.side_of;
+  piece = pieces_of(joined);
   std::vector<double> area;
-  double total = 0;
   for (uint32_t t = 0; t < piece.size(); ++t) {
     if (piece[t] == area.size()) area.push_back(0);
     const double part = triangle_area(skin.x, skin.triangles[t]);
-    total += part;
+    split.total += part;
     if (marks[t] != 0) area[piece[t]] += part;
   }
   std::vector<uint32_t> order(area.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](uint32_t a, uint32_t b) { return area[a] > area[b]; });
-  const double second = order.size() > 1 ? area[order[1]] : 0;
-  const double third = order.size() > 2 ? area[order[2]] : 0;
-  // sides differ by the curvature of a leaflet; thick rims of short leaflets take up to a third
-  MVS_MUST(second > 0.2 * total && third < 0.1 * total, MVS_E_OP, "triangles",
-           "the skin does not split into two sides: the parts that face parallel tissue have %.0f, "
-           "%.0f and %.0f of %.0f mm2; give the mid-surface or the atrial side instead",
-           area[order[0]] * 1e6, second * 1e6, third * 1e6, total * 1e6);
+  for (size_t k = 0; k < std::min<size_t>(3, order.size()); ++k) split.area[k] = area[order[k]];
   for (uint32_t t = 0; t < piece.size(); ++t) {
-    const bool first = piece[t] == order[0];
-    piece[t] = marks[t] == 0 || (!first && piece[t] != order[1]) ? none : (first ? 0 : 1);
+    const bool first = piece[t] == order[0], second = order.size() > 1 && piece[t] == order[1];
+    piece[t] = marks[t] == 0 || (!first && !second) ? none : (first ? 0 : 1);
   }
-  return piece;
+  return split;
+}
+
+// Takes the marks of triangles beside others without a mark.
+std::vector<uint8_t> eroded(const std::vector<uint32_t> &smooth,
+                            const std::vector<uint8_t> &marks) {
+  std::vector<uint8_t> out = marks;
+  for (uint32_t side = 0; side < smooth.size(); ++side) {
+    if (smooth[side] == none || marks[smooth[side] / 3] == 0) out[side / 3] = 0;
+  }
+  return out;
+}
+
+// Gives triangles with a mark the side of a neighbour, ring by ring.
+void grow_back(const std::vector<uint32_t> &smooth, const std::vector<uint8_t> &marks, int rounds,
+               std::vector<uint32_t> &side_of) {
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<uint32_t> before = side_of;
+    for (uint32_t side = 0; side < smooth.size(); ++side) {
+      const uint32_t t = side / 3;
+      if (smooth[side] == none || marks[t] == 0 || side_of[t] != none) continue;
+      side_of[t] = before[smooth[side] / 3];
+    }
+  }
+}
+
+// The two sides. Narrow bridges between them, as noise makes them at a rim, are cut: the marks are
+// eroded until two components are left, which then grow back.
+std::vector<uint32_t> split_sides(const LeafletSheet &skin, const std::vector<uint32_t> &smooth,
+                                  const std::vector<uint8_t> &marks) {
+  Split whole;
+  std::vector<uint8_t> kept = marks;
+  constexpr int most_erosions = 8;
+  for (int erosions = 0; erosions <= most_erosions; ++erosions) {
+    Split split = largest_components(skin, smooth, kept);
+    if (erosions == 0) whole = split;
+    // sides differ by the curvature of a leaflet, and thick rims of short leaflets take up to a
+    // third; erosion takes as much again
+    if (split.area[1] > 0.15 * split.total && split.area[1] > 0.4 * split.area[0] &&
+        split.area[2] < 0.1 * split.total) {
+      grow_back(smooth, marks, 2 * erosions, split.side_of);
+      return split.side_of;
+    }
+    kept = eroded(smooth, kept);
+  }
+  fail(MVS_E_OP, "triangles",
+       "the skin does not split into two sides: the parts that face parallel tissue have %.0f, "
+       "%.0f and %.0f of %.0f mm2; give the mid-surface or the atrial side instead",
+       whole.area[0] * 1e6, whole.area[1] * 1e6, whole.area[2] * 1e6, whole.total * 1e6);
+}
+
+// Rays from one side must leave through the other one.
+void check_facing(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
+                  const std::vector<uint32_t> &side_of) {
+  double facing = 0, wrong = 0;
+  for (size_t t = 0; t < side_of.size(); ++t) {
+    const uint32_t u = behind[t].triangle;
+    if (side_of[t] == none || u == none || side_of[u] == none) continue;
+    (side_of[u] == side_of[t] ? wrong : facing) += triangle_area(skin.x, skin.triangles[t]);
+  }
+  // folds that touch make some
+  MVS_MUST(wrong <= 0.05 * facing, MVS_E_OP, "triangles",
+           "the skin does not split into two sides: behind %.0f of %.0f mm2 lies the same side; "
+           "give the mid-surface or the atrial side instead",
+           wrong * 1e6, (wrong + facing) * 1e6);
 }
 
 // Adds triangles without a side that lie in a side, or in a notch of its rim: two of their
@@ -154,8 +216,14 @@ std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<Tissu
                normal[t].dot(normal[b.triangle]) < -parallel;
   }
   const std::vector<uint32_t> across = join_sides(skin.x, skin.triangles).across;
-  std::vector<uint32_t> side_of = largest_components(skin, across, normal, marks);
+  std::vector<uint32_t> smooth = across;  // without ridges
+  for (uint32_t side = 0; side < across.size(); ++side) {
+    if (across[side] == none) continue;
+    if (normal[side / 3].dot(normal[across[side] / 3]) < ridge) smooth[side] = none;
+  }
+  std::vector<uint32_t> side_of = split_sides(skin, smooth, marks);
   fill_notches(across, normal, side_of);
+  check_facing(skin, behind, side_of);
   return side_of;
 }
 
