@@ -8,6 +8,7 @@
 #include "patient/boundary.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
+#include "tests/patient/voxel_skin.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
@@ -176,6 +177,22 @@ TEST_CASE("clean_surface_takes_bodies_apart_that_touch_along_an_edge") {
   }
   CHECK_THROWS_WITH_AS(cleaned(s),
                        doctest::Contains("2 pieces that are not connected, of 1350, 1350"), Error);
+}
+
+TEST_CASE("clean_surface_splits_an_edge_of_a_body_that_touches_itself") {
+  // two plates, joined by two blocks between them that touch along an edge: both ends of the edge
+  // are on one fan of triangles each
+  const Surface s = cell_surface(Vec3::Zero(), 7e-3, {4, 4, 5}, [](const Cell &c) {
+    const bool in = c[0] >= 1 && c[0] <= 2 && c[1] >= 1 && c[1] <= 2 && c[2] >= 1 && c[2] <= 3;
+    return in && (c[2] != 2 || c[0] == c[1]);
+  });
+  Findings findings;
+  const LeafletSheet sheet = cleaned(s, findings);
+  CHECK(find(findings, "opened_edges"));
+  CHECK(find(findings, "separated_points")->value[0] == 2);
+  CHECK(wound_alike(sheet.triangles));
+  CHECK(boundary_loops(sheet).empty());
+  CHECK(area_of(sheet.x, sheet.triangles) == doctest::Approx(area_of(s.x, s.triangles)));
 }
 
 TEST_CASE("clean_surface_separates_parts_that_touch_in_a_point") {

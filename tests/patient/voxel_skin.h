@@ -13,55 +13,60 @@
 
 namespace mvs::core::test {
 
-// The boundary of the voxels (of `size` m) whose centres are nearer than half a thickness to a
-// sheet, two triangles for each face, after some rounds of Taubin's filter. Bodies that touch along
+using Cell = std::array<int, 3>;
+
+// The faces between cells of `size` m with inside(cell) and others, two triangles each, wound with
+// normals outward; cells are 0 to count - 1, those at the ends are outside. Bodies that touch along
 // an edge share it: four triangles meet there.
+template <typename Inside>
+Surface cell_surface(const Vec3 &low, double size, const Cell &count, Inside inside) {
+  Surface s;
+  std::map<Cell, uint32_t> corners;
+  const auto corner = [&](const Cell &c) {
+    const auto [at, made] = corners.insert({c, static_cast<uint32_t>(s.x.size())});
+    if (made) s.x.push_back(low + size * (Vec3(c[0], c[1], c[2]) - Vec3::Constant(0.5)));
+    return at->second;
+  };
+  const auto add_faces = [&](const Cell &c) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      Cell before = c;
+      --before[axis];
+      const bool here = inside(c);
+      if (inside(before) == here) continue;
+      std::array<Cell, 4> face = {c, c, c, c};
+      ++face[1][(axis + 1) % 3];
+      ++face[2][(axis + 1) % 3];
+      ++face[2][(axis + 2) % 3];
+      ++face[3][(axis + 2) % 3];
+      if (here) std::swap(face[1], face[3]);
+      const uint32_t a = corner(face[0]), b = corner(face[1]), d = corner(face[2]);
+      s.triangles.push_back({a, b, d});
+      s.triangles.push_back({a, d, corner(face[3])});
+    }
+  };
+  for (int k = 1; k < count[2]; ++k) {
+    for (int j = 1; j < count[1]; ++j) {
+      for (int i = 1; i < count[0]; ++i) add_faces({i, j, k});
+    }
+  }
+  return s;
+}
+
+// The boundary of the voxels (of `size` m) whose centres are nearer than half a thickness to a
+// sheet, after some rounds of Taubin's filter.
 inline Surface voxel_skin(const LeafletSheet &mid, double size, double thickness, int smoothings) {
   const TriangleBvh bvh(mid.triangles, mid.x);
   Aabb box;
   for (const Vec3 &p : mid.x) box.add(p);
   const Vec3 low = box.low - Vec3::Constant(3 * size + thickness);
-  std::array<int, 3> count{};
-  for (int k = 0; k < 3; ++k) {
-    count[static_cast<size_t>(k)] =
-        static_cast<int>((box.high[k] - box.low[k] + 2 * thickness) / size) + 6;
-  }
-  const auto index = [&](const std::array<int, 3> &c) {
-    return static_cast<size_t>((c[2] * count[1] + c[1]) * count[0] + c[0]);
-  };
-  std::vector<uint8_t> inside(static_cast<size_t>(count[0] * count[1] * count[2]));
-  const auto for_cells = [&](auto visit) {
-    for (int k = 1; k < count[2]; ++k) {
-      for (int j = 1; j < count[1]; ++j) {
-        for (int i = 1; i < count[0]; ++i) visit(std::array<int, 3>{i, j, k});
-      }
-    }
-  };
-  for_cells([&](const std::array<int, 3> &c) {
-    inside[index(c)] = bvh.is_within(low + size * Vec3(c[0], c[1], c[2]), 0.5 * thickness);
-  });
-  Surface s;
-  std::map<std::array<int, 3>, uint32_t> corners;
-  const auto corner = [&](const std::array<int, 3> &c) {
-    const auto [at, made] = corners.insert({c, static_cast<uint32_t>(s.x.size())});
-    if (made) s.x.push_back(low + size * (Vec3(c[0], c[1], c[2]) - Vec3::Constant(0.5)));
+  const Vec3 cells = (box.high - box.low + Vec3::Constant(2 * thickness)) / size;
+  Cell count{};
+  for (int k = 0; k < 3; ++k) count[static_cast<size_t>(k)] = static_cast<int>(cells[k]) + 6;
+  std::map<Cell, bool> known;  // each cell is asked for six times
+  Surface s = cell_surface(low, size, count, [&](const Cell &c) {
+    const auto [at, made] = known.insert({c, false});
+    if (made) at->second = bvh.is_within(low + size * Vec3(c[0], c[1], c[2]), 0.5 * thickness);
     return at->second;
-  };
-  for_cells([&](const std::array<int, 3> &c) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      std::array<int, 3> before = c;
-      --before[axis];
-      if (inside[index(before)] == inside[index(c)]) continue;
-      std::array<std::array<int, 3>, 4> face = {c, c, c, c};
-      ++face[1][(axis + 1) % 3];
-      ++face[2][(axis + 1) % 3];
-      ++face[2][(axis + 2) % 3];
-      ++face[3][(axis + 2) % 3];
-      if (inside[index(c)] != 0) std::swap(face[1], face[3]);
-      const uint32_t a = corner(face[0]), b = corner(face[1]), d = corner(face[2]);
-      s.triangles.push_back({a, b, d});
-      s.triangles.push_back({a, d, corner(face[3])});
-    }
   });
   const Rows stars = rows_of(s.x.size(), s.triangles);
   for (int step = 0; step < 2 * smoothings; ++step) {
