@@ -97,11 +97,11 @@ TEST_CASE("find_rims_fills_holes") {
 
 TEST_CASE("find_rims_fills_a_hole_beside_a_triangle_that_is_folded_back") {
   // the triangulation of least area would put a second triangle on the folded one
-  const Surface whole = funnel(24, 6);
-  const uint32_t middle = 24 * 3 + 5, a = middle + 1, b = middle - 24;
+  const Surface whole = funnel(32, 8);
+  const uint32_t middle = 32 * 4 + 5, a = middle + 1, b = middle + 33;
   Surface s = without_stars(whole, {middle});
   const Vec3 half = 0.5 * (s.x[a] + s.x[b]);
-  s.x.push_back(half + 0.3 * (half - s.x[middle]) + Vec3(0, 0, 0.2e-3));
+  s.x.push_back(half + (half - s.x[middle]) + Vec3(0, 0, 0.2e-3));
   const Tri fold = {a, b, static_cast<uint32_t>(s.x.size() - 1)};
   const auto joins = [&](const Tri &t) {
     return std::find(t.begin(), t.end(), a) != t.end() &&
