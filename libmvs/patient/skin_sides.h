@@ -1,0 +1,22 @@
+// The two sides of a closed skin.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "patient/leaflet_sheet.h"
+
+namespace mvs::core {
+
+// The tissue behind a triangle, along a ray from its centroid inward.
+struct TissueBehind {
+  double thickness = 0;      // m; 0 if the ray leaves nowhere within 12 mm
+  uint32_t triangle = none;  // where it leaves
+};
+// Normals of `skin` point out of the tissue.
+std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin);
+
+// The side of each triangle, 0 or 1; `none` for the bands at the rims.
+std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind);
+
+}  // namespace mvs::core

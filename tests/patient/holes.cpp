@@ -1,0 +1,180 @@
+// Holes, missing rims and handles of sheets.
+#include "patient/rims.h"
+
+#include <doctest/doctest.h>
+
+#include "base/error.h"
+#include "model/sides.h"
+#include "patient/boundary.h"
+#include "patient/clean_surface.h"
+#include "patient/manifold.h"
+#include "tests/patient/parametric_sheet.h"
+#include "tests/patient/surfaces.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+LeafletSheet cleaned(const Surface &s) {
+  Findings findings;
+  return clean_surface(s.x, s.triangles, {}, {}, findings);
+}
+
+SheetRims rims_of(const Surface &s, const RimLandmarks &landmarks, Findings &findings) {
+  LeafletSheet sheet = cleaned(s);
+  return find_rims(sheet, landmarks, findings);
+}
+
+// Drops the triangles around some vertices.
+Surface without_stars(Surface s, const std::vector<uint32_t> &vertices) {
+  std::erase_if(s.triangles, [&](const Tri &t) {
+    return std::any_of(t.begin(), t.end(), [&](uint32_t i) {
+      return std::find(vertices.begin(), vertices.end(), i) != vertices.end();
+    });
+  });
+  return s;
+}
+
+double area_of(const LeafletSheet &sheet) {
+  double area = 0;
+  for (const Tri &t : sheet.triangles) area += triangle_area(sheet.x, t);
+  return area;
+}
+
+}  // namespace
+
+TEST_CASE("find_rims_fills_holes") {
+  const ParametricSheet p = parametric_sheet(1600);
+  const double area = area_of(p.sheet);
+  const std::vector<uint8_t> rim = [&] {
+    std::vector<uint8_t> marks = marks_of(p.rims.annulus, p.sheet.x.size());
+    for (const uint32_t i : p.rims.free_edge) marks[i] = 1;
+    return marks;
+  }();
+  // three vertices inside, and one hole of several stars
+  std::vector<uint32_t> inside;
+  for (uint32_t i = 0; i < p.sheet.x.size() && inside.size() < 3; i += 97) {
+    bool far = true;
+    for (uint32_t j = 0; j < p.sheet.x.size(); ++j) {
+      if (rim[j] != 0) far = far && (p.sheet.x[i] - p.sheet.x[j]).norm() > 4e-3;
+    }
+    if (far) inside.push_back(i);
+  }
+  REQUIRE(inside.size() == 3);
+  std::vector<uint32_t> removed = inside;
+  for (uint32_t j = 0; j < p.sheet.x.size(); ++j) {
+    if ((p.sheet.x[j] - p.sheet.x[inside[2]]).norm() < 2e-3) removed.push_back(j);
+  }
+  Findings findings;
+  LeafletSheet sheet = cleaned(without_stars(surface_of(p.sheet), removed));
+  sheet.thickness.assign(sheet.x.size(), 1.1e-3);
+  sheet.label.assign(sheet.triangles.size(), LeafletLabel::posterior);
+  const double open_area = area_of(sheet);
+  const SheetRims rims = find_rims(sheet, {}, findings);
+  CHECK(rims.annulus.size() == p.rims.annulus.size());
+  const Finding *filled = find(findings, "filled_holes");
+  REQUIRE(filled);
+  CHECK(filled->value.size() == 3);
+  // a chord of a curved patch: the hole is 6 mm across, the leaflet has a radius of 10 mm and more
+  CHECK(area - open_area > 15e-6);
+  CHECK(area_of(sheet) == doctest::Approx(area).epsilon(0.05 * (area - open_area) / area));
+  CHECK(sheet.thickness.size() == sheet.x.size());
+  CHECK(sheet.label.size() == sheet.triangles.size());
+  for (const double t : sheet.thickness) CHECK(t == doctest::Approx(1.1e-3));
+  for (const LeafletLabel l : sheet.label) CHECK(l == LeafletLabel::posterior);
+  CHECK(boundary_loops(sheet).size() == 2);
+  CHECK(join_sides(sheet.x, sheet.triangles).opened == 0);
+  CHECK(wind_alike(sheet, join_sides(sheet.x, sheet.triangles).across) == 0);
+  // the filling has sides like those around it
+  const double side = std::sqrt(area / double(p.sheet.triangles.size()) * 4 / std::sqrt(3.0));
+  for (const Tri &t : sheet.triangles) {
+    for (size_t k = 0; k < 3; ++k) {
+      CHECK((sheet.x[t[(k + 1) % 3]] - sheet.x[t[k]]).norm() < 2.5 * side);
+    }
+  }
+}
+
+TEST_CASE("find_rims_fills_a_hole_beside_a_triangle_that_is_folded_back") {
+  // the triangulation of least area would put a second triangle on the folded one
+  const Surface whole = funnel(32, 8);
+  const uint32_t middle = 32 * 4 + 5, a = middle + 1, b = middle + 33;
+  Surface s = without_stars(whole, {middle});
+  const Vec3 half = 0.5 * (s.x[a] + s.x[b]);
+  s.x.push_back(half + (half - s.x[middle]) + Vec3(0, 0, 0.2e-3));
+  const Tri fold = {a, b, static_cast<uint32_t>(s.x.size() - 1)};
+  const auto joins = [&](const Tri &t) {
+    return std::find(t.begin(), t.end(), a) != t.end() &&
+           std::find(t.begin(), t.end(), b) != t.end();
+  };
+  REQUIRE(std::count_if(s.triangles.begin(), s.triangles.end(), joins) == 1);
+  s.triangles.push_back(fold);
+  LeafletSheet sheet = cleaned(s);
+  Findings findings;
+  find_rims(sheet, {}, findings);
+  CHECK(join_sides(sheet.x, sheet.triangles).opened == 0);
+  CHECK(boundary_loops(sheet).size() == 2);
+  CHECK(find(findings, "filled_holes")->value.size() == 1);
+}
+
+TEST_CASE("find_rims_keeps_a_torn_rim_as_one_boundary") {
+  const ParametricSheet p = parametric_sheet(1600);
+  std::vector<uint32_t> torn(p.rims.free_edge.begin() + 10, p.rims.free_edge.begin() + 16);
+  torn.insert(torn.end(), p.rims.annulus.begin() + 20, p.rims.annulus.begin() + 23);
+  LeafletSheet sheet = cleaned(without_stars(surface_of(p.sheet), torn));
+  Findings findings;
+  const SheetRims rims = find_rims(sheet, {}, findings);
+  CHECK(boundary_loops(sheet).size() == 2);
+  CHECK(rims.annulus.size() > p.rims.annulus.size() - 4);
+  CHECK(shape_of(sheet, rims.annulus).length ==
+        doctest::Approx(shape_of(p.sheet, p.rims.annulus).length).epsilon(0.1));
+}
+
+TEST_CASE("find_rims_refuses_surfaces_without_two_rims") {
+  const Surface whole = funnel(48, 12);
+  Findings findings;
+  // a hole 1/6 of the way around is no small one
+  std::vector<uint32_t> window;
+  for (uint32_t j = 3; j < 9; ++j) {
+    for (uint32_t i = 0; i < 10; ++i) window.push_back(48 * j + i);
+  }
+  CHECK_THROWS_WITH_AS(rims_of(without_stars(whole, window), {}, findings),
+                       doctest::Contains("3 boundaries: 10"), Error);
+  // a strip from rim to rim is missing
+  std::vector<uint32_t> strip;
+  for (uint32_t j = 0; j <= 12; ++j) strip.push_back(48 * j);
+  CHECK_THROWS_WITH_AS(rims_of(without_stars(whole, strip), {}, findings),
+                       doctest::Contains("one boundary"), Error);
+  // both rims are closed by fans
+  Surface closed = whole;
+  closed.x.push_back({0, 0, 1e-3});
+  closed.x.push_back({0, 0, -13e-3});
+  for (uint32_t i = 0; i < 48; ++i) {
+    const uint32_t j = (i + 1) % 48;
+    closed.triangles.push_back({j, i, static_cast<uint32_t>(whole.x.size())});
+    closed.triangles.push_back(
+        {12 * 48 + i, 12 * 48 + j, static_cast<uint32_t>(whole.x.size() + 1)});
+  }
+  CHECK_THROWS_WITH_AS(rims_of(closed, {}, findings), doctest::Contains("give it as skin"), Error);
+}
+
+TEST_CASE("find_rims_counts_handles") {
+  // a tube joins two windows on opposite sides
+  Surface s = without_stars(funnel(48, 12), {48 * 6, 48 * 6 + 24});
+  LeafletSheet sheet = cleaned(s);
+  std::vector<std::vector<uint32_t>> windows;
+  for (const std::vector<uint32_t> &loop : boundary_loops(sheet)) {
+    if (loop.size() == 6) windows.push_back(loop);
+  }
+  REQUIRE(windows.size() == 2);
+  const std::vector<uint32_t> &a = windows[0];
+  std::vector<uint32_t> b(windows[1].rbegin(), windows[1].rend());
+  for (size_t k = 0; k < 6; ++k) {
+    const size_t m = (k + 1) % 6;
+    sheet.triangles.push_back({a[m], a[k], b[k]});
+    sheet.triangles.push_back({a[m], b[k], b[m]});
+  }
+  Findings findings;
+  CHECK_THROWS_WITH_AS(rims_of({sheet.x, sheet.triangles}, {}, findings),
+                       doctest::Contains("1 handles"), Error);
+}

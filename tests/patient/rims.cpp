@@ -1,0 +1,263 @@
+// Rims and the orientation of sheets.
+#include "patient/rims.h"
+
+#include <doctest/doctest.h>
+
+#include "base/error.h"
+#include "model/sides.h"
+#include "patient/boundary.h"
+#include "patient/clean_surface.h"
+#include "tests/patient/parametric_sheet.h"
+#include "tests/patient/surfaces.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+LeafletSheet cleaned(const Surface &s) {
+  Findings findings;
+  return clean_surface(s.x, s.triangles, {}, {}, findings);
+}
+
+SheetRims rims_of(const Surface &s, const RimLandmarks &landmarks, Findings &findings) {
+  LeafletSheet sheet = cleaned(s);
+  return find_rims(sheet, landmarks, findings);
+}
+
+// Positions of loops, sorted, to compare loops of other numberings; equal up to 1 nm.
+std::vector<Vec3> points_of(const std::vector<uint32_t> &loop, const std::vector<Vec3> &x) {
+  std::vector<Vec3> points;
+  for (const uint32_t i : loop) points.push_back(x[i]);
+  return points;
+}
+
+// Whether both loops have the same points in the same order, from any start.
+bool same_loop(const std::vector<Vec3> &a, const std::vector<Vec3> &b, double tolerance) {
+  for (size_t shift = 0; shift < b.size(); ++shift) {
+    bool same = a.size() == b.size();
+    for (size_t k = 0; k < a.size() && same; ++k) {
+      same = (a[k] - b[(k + shift) % b.size()]).norm() <= tolerance;
+    }
+    if (same) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("find_rims_guesses_the_annulus_of_parametric_valves_however_they_lie") {
+  for (const uint32_t vertices : {200u, 430u, 1600u}) {
+    const ParametricSheet p = parametric_sheet(vertices);
+    const Surface s = surface_of(p.sheet);
+    CAPTURE(vertices);
+    for (const bool turned : {false, true}) {
+      Surface given = moved(renumbered(s, 7), 2.5);
+      if (turned) given = flipped(given, 1);
+      LeafletSheet sheet = cleaned(soup(given));
+      Findings findings;
+      const SheetRims rims = find_rims(sheet, {}, findings);
+      const Surface truth = moved(s, 2.5);
+      // 32 nm: coordinates of 0.4 m in single precision
+      CHECK(same_loop(points_of(rims.annulus, sheet.x), points_of(p.rims.annulus, truth.x), 4e-8));
+      CHECK(rims.free_edge.size() == p.rims.free_edge.size());
+      REQUIRE(find(findings, "annulus"));
+      CHECK(find(findings, "annulus")->source == FindingSource::guessed);
+      CHECK(find(findings, "annulus")->confidence > 0.5);
+      CHECK(find(findings, "atrium")->confidence > 0.9);
+      CHECK(find(findings, "orifice")->confidence == 1);
+      CHECK(boundary_loops(sheet).size() == 2);
+    }
+  }
+}
+
+TEST_CASE("find_rims_guesses_the_annulus_of_unusual_parametric_valves") {
+  struct Unusual {
+    const char *name;
+    mvs_shape shape;
+    double saddle, anterior, posterior, clefts;
+  };
+  for (const Unusual &u :
+       {Unusual{"founding", MVS_SHAPE_FOUNDING, 0, 0, 0, 0},
+        {"saddle", MVS_SHAPE_HEALTHY, 9e-3, 0, 0, 0},
+        {"short leaflets", MVS_SHAPE_HEALTHY, 0, 18e-3, 9e-3, 0},
+        {"a free edge longer than the annulus", MVS_SHAPE_HEALTHY, 0, 32e-3, 22e-3, 0},
+        {"clefts", MVS_SHAPE_HEALTHY, 0, 0, 0, 4e-3}}) {
+    mvs_parametric_desc desc = {};
+    desc.struct_size = sizeof desc;
+    desc.shape = u.shape;
+    desc.saddle_height = u.saddle;
+    desc.anterior_height = u.anterior;
+    desc.posterior_height = u.posterior;
+    desc.indentation_depth = u.clefts;
+    const ModelPtr model = make_model(make_parametric_valve(desc));
+    Findings findings;
+    CAPTURE(u.name);
+    std::vector<Vec3> found, truth;
+    LeafletSheet sheet = cleaned({model->valve.rest, model->valve.triangles});
+    const SheetRims rims = find_rims(sheet, {}, findings);
+    for (const uint32_t i : rims.annulus) found.push_back(sheet.x[i]);
+    for (const uint32_t i : model->valve.annulus) truth.push_back(model->valve.rest[i]);
+    std::reverse(truth.begin(), truth.end());
+    CHECK(same_loop(found, truth, 0));
+    CHECK(find(findings, "annulus")->confidence > 0.3);
+    CHECK(find(findings, "orifice")->confidence == 1);
+  }
+}
+
+TEST_CASE("find_rims_survives_noise_of_an_image") {
+  const ParametricSheet p = parametric_sheet(430);
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    Surface s = surface_of(p.sheet);
+    uint64_t state = seed;
+    // uniform, 0.2 mm rms: half width 0.2 sqrt(3)
+    for (Vec3 &x : s.x) {
+      x += 0.346e-3 * Vec3(next_share(state), next_share(state), next_share(state));
+    }
+    Findings findings;
+    const SheetRims rims = rims_of(s, {}, findings);
+    std::vector<uint32_t> found = rims.annulus, truth = p.rims.annulus;
+    std::sort(found.begin(), found.end());
+    std::sort(truth.begin(), truth.end());
+    CHECK(found == truth);
+    CHECK(find(findings, "annulus")->confidence > 0.4);
+  }
+}
+
+TEST_CASE("find_rims_takes_the_boundary_near_given_annulus_points") {
+  const ParametricSheet p = parametric_sheet(430);
+  const Surface s = surface_of(p.sheet);
+  RimLandmarks landmarks;
+  for (size_t k = 0; k < p.rims.annulus.size(); k += 5) {
+    landmarks.annulus.push_back(p.sheet.x[p.rims.annulus[k]] + Vec3(1e-3, 0, 0));
+  }
+  Findings findings;
+  const SheetRims rims = rims_of(s, landmarks, findings);
+  CHECK(rims.annulus.size() == p.rims.annulus.size());
+  CHECK(findings[0].source == FindingSource::given);
+  CHECK(findings[0].confidence > 0.8);
+  // points of the free edge make that the annulus, and the funnel stands on its head
+  landmarks.annulus.clear();
+  for (const uint32_t i : p.rims.free_edge) landmarks.annulus.push_back(p.sheet.x[i]);
+  Findings other;
+  CHECK(rims_of(s, landmarks, other).annulus.size() == p.rims.free_edge.size());
+  // LPS for RAS
+  for (Vec3 &x : landmarks.annulus) x = Vec3(0.1, 0.1, 0) - x;
+  CHECK_THROWS_WITH_AS(rims_of(s, landmarks, other), doctest::Contains("LPS or RAS"), Error);
+}
+
+TEST_CASE("find_rims_takes_the_boundary_far_from_given_tips") {
+  const Surface s = funnel(24, 6);
+  RimLandmarks landmarks;
+  landmarks.tips = {Vec3(10e-3, 0, -25e-3), Vec3(-10e-3, 0, -25e-3)};
+  Findings findings;
+  LeafletSheet sheet = cleaned(s);
+  const SheetRims rims = find_rims(sheet, landmarks, findings);
+  CHECK(sheet.x[rims.annulus[0]].z() == 0);
+  CHECK(find(findings, "annulus")->source == FindingSource::measured);
+  CHECK(find(findings, "annulus")->confidence > 0.9);
+  CHECK(find(findings, "atrium")->value[2] == doctest::Approx(1));
+  landmarks.tips[0].x() = landmarks.tips[1].x() = 0.2;
+  CHECK_THROWS_WITH_AS(rims_of(s, landmarks, findings), doctest::Contains("papillary tips lie"),
+                       Error);
+}
+
+TEST_CASE("rims_run_the_way_of_the_triangles_with_normals_into_the_atrium") {
+  for (const size_t flips : {1000000u, 1u}) {
+    LeafletSheet sheet = cleaned(flipped(funnel(24, 6), flips));
+    Findings findings;
+    const SheetRims rims = find_rims(sheet, {}, findings);
+    CHECK(shape_of(sheet, rims.annulus).area.z() > 0);
+    CHECK(shape_of(sheet, rims.free_edge).area.z() < 0);
+    const std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);
+    REQUIRE(loops.size() == 2);
+    CHECK(loops[0] == rims.annulus);
+    CHECK(loops[1] == rims.free_edge);
+    for (const Tri &t : sheet.triangles) {
+      const Vec3 e1 = sheet.x[t[1]] - sheet.x[t[0]], e2 = sheet.x[t[2]] - sheet.x[t[0]];
+      CHECK(e1.cross(e2).z() > 0);
+    }
+  }
+}
+
+TEST_CASE("shape_of_a_circle_is_that_of_the_circle") {
+  const LeafletSheet sheet = cleaned(funnel(200, 8));
+  const LoopShape shape = shape_of(sheet, boundary_loops(sheet)[0]);
+  const double pi = 3.14159265358979;
+  // a polygon of 200 sides: short by pi^2 / (6 n^2) of the length, 4 times that of the area
+  CHECK(shape.length == doctest::Approx(2 * pi * 16e-3).epsilon(5e-5));
+  CHECK(shape.area.norm() == doctest::Approx(pi * 256e-6).epsilon(2e-4));
+  CHECK(shape.centre.norm() < 1e-15);
+  CHECK(shape.turning == doctest::Approx(1));
+}
+
+TEST_CASE("find_rims_doubts_and_refuses_closed_leaflets") {
+  // the free edge is pressed flat, to a width of `share`
+  const auto pressed = [](double share) {
+    Surface s = funnel(48, 12);
+    for (Vec3 &x : s.x) x.y() *= 1 + (share - 1) * x.z() / -12e-3;
+    return s;
+  };
+  Findings findings;
+  CHECK_THROWS_WITH_AS(rims_of(pressed(0.05), {}, findings), doctest::Contains("to be closed"),
+                       Error);
+  rims_of(pressed(0.2), {}, findings);
+  CHECK(find(findings, "orifice")->confidence < 0.9);
+}
+
+TEST_CASE("find_rims_guesses_the_annulus_of_real_valves") {
+  const Surface s = real_stl("real_mitral/open_1146.stl");
+  const nlohmann::json kaiser = read_real_valve("kaiser_mitral_normal_1/N64.json");
+  if (s.x.empty() || kaiser.is_null()) {
+    MESSAGE("skipped: no real_mitral, kaiser_mitral_normal_1 in MVS_TEST_DATA or ../shared/data");
+    return;
+  }
+  LeafletSheet sheet = cleaned(s);
+  Findings findings;
+  const SheetRims rims = find_rims(sheet, {}, findings);
+  CHECK(rims.annulus.size() == 67);
+  CHECK(rims.free_edge.size() == 79);
+  CHECK(find(findings, "annulus")->confidence > 0.9);
+  CHECK(find(findings, "atrium")->confidence == 1);
+  CHECK(find(findings, "orifice")->confidence == 1);
+
+  for (const char *file : {"kaiser_mitral_normal_1/N32.json", "kaiser_mitral_normal_1/N64.json",
+                           "kaiser_mitral_normal_1/N128.json"}) {
+    const Valve valve = kaiser_valve(read_real_valve(file));
+    const Surface open = {valve.rest, valve.triangles};
+    LeafletSheet leaflets = cleaned(open);
+    Findings found;
+    const SheetRims made = find_rims(leaflets, {}, found);
+    Findings by_points;
+    RimLandmarks landmarks;
+    for (const uint32_t n : valve.annulus) landmarks.annulus.push_back(valve.rest[n]);
+    LeafletSheet again = cleaned(open);
+    CHECK(made.annulus == find_rims(again, landmarks, by_points).annulus);
+    CHECK(by_points[0].confidence == 1);
+    CHECK(find(found, "annulus")->confidence > 0.9);
+    CHECK(find(found, "orifice")->confidence == 1);
+  }
+}
+
+TEST_CASE("find_rims_recognises_a_real_valve_that_is_closed") {
+  for (const std::string level : {"N32", "N64"}) {
+    const nlohmann::json json = read_real_valve("kaiser_mitral_normal_1/" + level + ".json");
+    if (json.is_null()) {
+      MESSAGE("skipped: no kaiser_mitral_normal_1 in MVS_TEST_DATA or ../shared/data");
+      return;
+    }
+    Valve valve = kaiser_valve(json);
+    for (size_t i = 0; i < json["vertices_pressurized"].size(); ++i) {
+      valve.rest[i] = in_metres(json["vertices_pressurized"][i]);
+    }
+    Findings findings;
+    const Surface closed = {valve.rest, valve.triangles};
+    // the coarse one has a slit of 0.8 mm, the other one of 2.1 mm
+    if (level == "N32") {
+      CHECK_THROWS_WITH_AS(rims_of(closed, {}, findings), doctest::Contains("closed"), Error);
+    } else {
+      rims_of(closed, {}, findings);
+      CHECK(find(findings, "orifice")->confidence < 0.75);
+    }
+  }
+}
