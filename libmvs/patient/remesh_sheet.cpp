@@ -1,0 +1,248 @@
+// Rounds of edits, then improvement of the worst triangles, then the report.
+#include "patient/remesh_sheet.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "geometry/intersect.h"
+#include "patient/coordinates.h"
+#include "patient/sheet_edit.h"
+
+namespace mvs::core {
+namespace {
+
+// Relative edge lengths: below `low` a collapse, above `high` a split brings an edge nearer to the
+// wanted one.
+constexpr double low = 4.0 / 5, high = 4.0 / 3;
+constexpr int most_passes = 12;  // of splits, collapses or flips in one round: safety limit
+constexpr int last_rounds = 8;   // of flips and moves alone
+constexpr int improvements = 6;  // of the worst triangles
+constexpr double poor = 0.8572;  // cos 31 degrees: triangles below are improved
+constexpr double still = 2e-3;   // of an edge: shorter moves are left out
+
+// Along a rim the arc counts, so that no notch is skipped.
+double length_of(const InputSheet &input, const SheetMesh &mesh, const Edge &e) {
+  const auto [a, b] = e;
+  const MeshVertex &v = mesh.vertex[a];
+  const double chord = mesh.length(a, b);
+  if (v.rim == Rim::inside || (v.before != b && v.after != b)) return chord;
+  const double loop = input.curve(v.rim).length();
+  return std::max(chord, std::abs(around(v.arc, mesh.vertex[b].arc, loop)));
+}
+
+struct Candidate {
+  double length;
+  Edge edge;
+};
+
+// Edges with accept(length), sorted by order(length), then as they come.
+template <typename Accept>
+std::vector<Candidate> candidates(const InputSheet &input, const SheetMesh &mesh, Accept accept,
+                                  bool longest_first) {
+  std::vector<Candidate> found;
+  for (const Edge &e : mesh.edges()) {
+    const double length = length_of(input, mesh, e);
+    if (accept(length)) found.push_back({length, e});
+  }
+  std::stable_sort(found.begin(), found.end(), [&](const Candidate &p, const Candidate &q) {
+    return longest_first ? p.length > q.length : p.length < q.length;
+  });
+  return found;
+}
+
+bool split_long(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
+  bool any = false;
+  const auto is_long = [&](double l) { return l > high * edge; };
+  for (const Candidate &c : candidates(input, mesh, is_long, true)) {
+    any = editor.split(c.edge) || any;
+  }
+  return any;
+}
+
+bool collapse_short(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
+  bool any = false;
+  const auto is_short = [&](double l) { return l < low * edge; };
+  for (const Candidate &c : candidates(input, mesh, is_short, false)) {
+    const auto [a, b] = c.edge;
+    if (!mesh.are_joined(a, b) || length_of(input, mesh, c.edge) >= low * edge) continue;
+    any = editor.collapse(a, b, high * edge) || editor.collapse(b, a, high * edge) || any;
+  }
+  return any;
+}
+
+bool flip_all(SheetMesh &mesh, SheetEditor &editor, EditFor reason) {
+  bool any = false;
+  for (const Edge &e : mesh.edges()) any = editor.flip(e, reason) || any;
+  return any;
+}
+
+// The centroid of the star, area-weighted so that large triangles attract the vertex, in the plane
+// through the vertex normal to the input.
+Vec3 centre_of_star(const SheetMesh &mesh, uint32_t v) {
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  for (const uint32_t t : mesh.star[v]) {
+    const auto &[a, b, c] = mesh.triangles[t];
+    const Vec3 &p = mesh.x[a], &q = mesh.x[b], &r = mesh.x[c];
+    const double area = (q - p).cross(r - p).norm();
+    sum += area / 3 * (p + q + r);
+    weight += area;
+  }
+  if (weight == 0) return mesh.x[v];
+  const Vec3 way = sum / weight - mesh.x[v];
+  const Vec3 &n = mesh.vertex[v].normal;
+  return mesh.x[v] + way - way.dot(n) * n;
+}
+
+void relax(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
+  const auto halving = [](auto move) {  // the whole way, else a half or a quarter
+    for (const double share : {1.0, 0.5, 0.25}) {
+      if (move(share)) return;
+    }
+  };
+  for (uint32_t v = 0; v < mesh.x.size(); ++v) {
+    if (mesh.star[v].empty()) continue;
+    const MeshVertex &at = mesh.vertex[v];
+    if (at.rim == Rim::inside) {
+      const Vec3 from = mesh.x[v], way = centre_of_star(mesh, v) - from;
+      if (way.norm() < still * edge) continue;
+      halving([&](double share) {
+        return editor.move_inside(v, from + share * way, EditFor::spacing);
+      });
+    } else {
+      const double loop = input.curve(at.rim).length(), arc = at.arc;
+      const double way = 0.5 * (around(arc, mesh.vertex[at.before].arc, loop) +
+                                around(arc, mesh.vertex[at.after].arc, loop));
+      if (std::abs(way) < still * edge) continue;
+      halving(
+          [&](double share) { return editor.move_along(v, arc + share * way, EditFor::spacing); });
+    }
+  }
+}
+
+// Moves a vertex towards and away from its neighbours, or along its rim, while the least angle
+// around it grows: pattern search with steps in wanted edges.
+void search_place(SheetMesh &mesh, SheetEditor &editor, double edge, uint32_t v) {
+  const auto gains = [&](double length) {
+    if (mesh.vertex[v].rim != Rim::inside) {
+      const double arc = mesh.vertex[v].arc;
+      return editor.move_along(v, arc + length, EditFor::angle) ||
+             editor.move_along(v, arc - length, EditFor::angle);
+    }
+    for (const uint32_t t : mesh.star[v]) {
+      for (const uint32_t w : mesh.triangles[t]) {
+        const Vec3 from = mesh.x[v], way = mesh.x[w] - from;
+        const double norm = way.norm();
+        if (norm == 0) continue;
+        for (const double sign : {-1.0, 1.0}) {
+          const Vec3 to = from + sign * length / norm * way;
+          if (editor.move_inside(v, to, EditFor::angle)) return true;
+        }
+      }
+    }
+    return false;
+  };
+  constexpr double first_step = 0.2, last_step = 0.02;
+  constexpr int most_moves = 20;
+  double step = first_step;
+  for (int k = 0; k < most_moves && step >= last_step; ++k) {
+    if (editor.worst_around(v) < poor) return;
+    if (!gains(step * edge)) step *= 0.5;
+  }
+}
+
+// One pass over the poor triangles: a flip, else a better place of each corner.
+bool improve_poor(SheetMesh &mesh, SheetEditor &editor, double edge) {
+  bool any = false;
+  const size_t count = mesh.triangles.size();
+  for (uint32_t t = 0; t < count; ++t) {
+    const auto is_poor = [&] {
+      const Tri &tri = mesh.triangles[t];
+      return tri[0] != none && worst_cosine(mesh.x[tri[0]], mesh.x[tri[1]], mesh.x[tri[2]]) > poor;
+    };
+    if (!is_poor()) continue;
+    any = true;
+    const Tri tri = mesh.triangles[t];
+    bool flipped = false;
+    for (size_t k = 0; k < 3; ++k) {
+      flipped = flipped || editor.flip({tri[k], tri[(k + 1) % 3]}, EditFor::angle);
+    }
+    if (flipped) continue;
+    for (const uint32_t v : tri) search_place(mesh, editor, edge, v);
+  }
+  return any;
+}
+
+RemeshReport report_on(const InputSheet &input, const SheetMesh &mesh, const LeafletSheet &made) {
+  RemeshReport report;
+  double sum = 0;
+  report.shortest = 1e300;
+  const std::vector<Edge> edges = mesh.edges();
+  for (const auto &[a, b] : edges) {
+    const double length = mesh.length(a, b);
+    sum += length;
+    report.shortest = std::min(report.shortest, length);
+    report.longest = std::max(report.longest, length);
+  }
+  report.mean_edge = sum / static_cast<double>(edges.size());
+  double worst = -1;
+  for (const Tri &t : mesh.triangles) {
+    if (t[0] == none) continue;
+    const Vec3 &a = mesh.x[t[0]], &b = mesh.x[t[1]], &c = mesh.x[t[2]];
+    worst = std::max(worst, worst_cosine(a, b, c));
+    const Vec3 samples[] = {a, 0.5 * (a + b), (a + b + c) / 3};
+    for (const Vec3 &p : samples) {
+      double nearest2 = 1e300;
+      for (const uint32_t v : t) {
+        const Vec3 q = input.walk.at(input.walk.closest_from(mesh.vertex[v].place, p));
+        nearest2 = std::min(nearest2, (q - p).squaredNorm());
+      }
+      report.largest_distance = std::max(report.largest_distance, std::sqrt(nearest2));
+    }
+  }
+  report.worst_angle = math::atan2(std::sqrt(std::max(0.0, 1 - worst * worst)), worst);
+  report.crossings = find_intersections(made.x, made.triangles).size();
+  return report;
+}
+
+}  // namespace
+
+RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
+                           const RemeshGoal &goal) {
+  MVS_MUST(goal.edge > 0, MVS_E_OP, "edge", "the wanted edge is %g m: it must be positive",
+           goal.edge);
+  MVS_MUST(sheet.label.size() == sheet.triangles.size() &&
+               (sheet.thickness.empty() || sheet.thickness.size() == sheet.x.size()),
+           MVS_E_OP, "surface",
+           "%zu labels for %zu triangles, %zu thicknesses for %zu vertices: give one each",
+           sheet.label.size(), sheet.triangles.size(), sheet.thickness.size(), sheet.x.size());
+  const InputSheet input(sheet, rims);
+  SheetMesh mesh = mesh_of(input, rims);
+  SheetEditor editor(input, mesh, goal.edge);
+  using enum EditFor;
+  const auto repeat = [](auto pass) {
+    for (int k = 0; k < most_passes && pass(); ++k) {
+    }
+  };
+  for (int round = 0; round < goal.rounds; ++round) {
+    repeat([&] { return split_long(input, mesh, editor, goal.edge); });
+    repeat([&] { return collapse_short(input, mesh, editor, goal.edge); });
+    repeat([&] { return flip_all(mesh, editor, EditFor::spacing); });
+    relax(input, mesh, editor, goal.edge);
+  }
+  for (int round = 0; round < last_rounds; ++round) {
+    repeat([&] { return flip_all(mesh, editor, EditFor::angle); });
+    relax(input, mesh, editor, goal.edge);
+  }
+  for (int k = 0; k < improvements; ++k) {
+    if (!improve_poor(mesh, editor, goal.edge)) break;
+  }
+  SheetAndRims made = sheet_of(input, mesh);
+  RemeshedSheet result{std::move(made.sheet), std::move(made.rims), {}};
+  result.report = report_on(input, mesh, result.sheet);
+  return result;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,46 @@
+#include <cstdio>
+#include <ctime>
+#include "patient/remesh_sheet.h"
+#include "tests/patient/sheets.h"
+using namespace mvs::core;
+using namespace mvs::core::test;
+static void probe(const char *name, const LeafletSheet &s, const SheetRims &r, double edge) {
+  const clock_t t0 = clock();
+  RemeshedSheet m;
+  try {
+    m = remesh_sheet(s, r, {edge, 10});
+  } catch (std::exception &e) {
+    std::printf("%s: %s\n", name, e.what());
+    return;
+  }
+  const double cpu = double(clock() - t0) / CLOCKS_PER_SEC;
+  std::printf(
+      "%-22s edge %.2f tri %zu -> %zu  worst %.1f  mean/edge %.3f short %.2f long %.2f off %.3f mm "
+      "cross %zu area %.4f ann %.4f free %.4f  %.2f s\n",
+      name, edge * 1e3, s.triangles.size(), m.sheet.triangles.size(),
+      m.report.worst_angle * 57.29578, m.report.mean_edge / edge, m.report.shortest / edge,
+      m.report.longest / edge, m.report.largest_distance * 1e3, m.report.crossings,
+      sheet_area(m.sheet) / sheet_area(s),
+      loop_length(m.sheet, m.rims.annulus) / loop_length(s, r.annulus),
+      loop_length(m.sheet, m.rims.free_edge) / loop_length(s, r.free_edge), cpu);
+}
+TEST_CASE("probe") {
+  for (uint32_t n : {430u, 1600u, 2600u}) {
+    ParametricSheet p = parametric_sheet(n);
+    const double e = mean_edge(p.sheet);
+    for (double f : {0.7, 1.0, 1.5}) {
+      probe("parametric", p.sheet, p.rims, f * e);
+    }
+    SheetWithRims q = renumbered(p.sheet, p.rims, 5);
+    probe("renumbered", q.sheet, q.rims, e);
+    disturb(p.sheet, 0.2e-3, 7);
+    probe("noisy", p.sheet, p.rims, e);
+  }
+  for (double e : {0.5e-3, 1e-3}) {
+    SheetWithRims w = double_wall(0.3e-3, 0.5e-3);
+    probe("double wall", w.sheet, w.rims, e);
+  }
+  SheetWithRims real = real_sheet();
+  if (!real.sheet.x.empty())
+    for (double e : {1e-3, 1.3e-3, 1.7e-3}) probe("real", real.sheet, real.rims, e);
+}
