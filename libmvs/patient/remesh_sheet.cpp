@@ -16,11 +16,17 @@ namespace {
 // Relative edge lengths: below `low` a collapse, above `high` a split brings an edge nearer to the
 // wanted one.
 constexpr double low = 4.0 / 5, high = 4.0 / 3;
+// The mean of edges within these limits is below the wanted length by up to this factor, and the
+// limits are raised by it.
+constexpr double most_scale = 1.15;
 constexpr int most_passes = 12;  // of splits, collapses or flips in one round: safety limit
 constexpr int last_rounds = 8;   // of flips and moves alone
 constexpr int improvements = 6;  // of the worst triangles
 constexpr double poor = 0.8572;  // cos 31 degrees: triangles below are improved
-constexpr double still = 2e-3;   // of an edge: shorter moves are left out
+// Corners of rims that a vertex goes to: those that stand out by this height over a chord to this
+// distance on both sides, in wanted edges. A turn by 40 degrees does.
+constexpr double corner_reach = 0.5, corner_height = 0.17;
+constexpr double still = 2e-3;  // of an edge: shorter moves are left out
 
 // Along a rim the arc counts, so that no notch is skipped.
 double length_of(const InputSheet &input, const SheetMesh &mesh, const Edge &e) {
@@ -30,6 +36,13 @@ double length_of(const InputSheet &input, const SheetMesh &mesh, const Edge &e) 
   if (v.rim == Rim::inside || (v.before != b && v.after != b)) return chord;
   const double loop = input.curve(v.rim).length();
   return std::max(chord, std::abs(around(v.arc, mesh.vertex[b].arc, loop)));
+}
+
+double mean_length(const SheetMesh &mesh) {
+  const std::vector<Edge> edges = mesh.edges();
+  double sum = 0;
+  for (const auto &[a, b] : edges) sum += mesh.length(a, b);
+  return sum / static_cast<double>(edges.size());
 }
 
 struct Candidate {
@@ -96,12 +109,42 @@ Vec3 centre_of_star(const SheetMesh &mesh, uint32_t v) {
   return mesh.x[v] + way - way.dot(n) * n;
 }
 
+// The arc lengths at which vertices on rims should be: the corners of the input's rim for the
+// vertices nearest to them, the middles between their neighbours for others.
+std::vector<double> wanted_arcs(const InputSheet &input, const SheetMesh &mesh, double edge) {
+  std::vector<double> wanted(mesh.x.size(), 0);
+  for (size_t v = 0; v < mesh.x.size(); ++v) {
+    const MeshVertex &at = mesh.vertex[v];
+    if (at.rim == Rim::inside || mesh.star[v].empty()) continue;
+    const double loop = input.curve(at.rim).length();
+    wanted[v] = at.arc + 0.5 * (around(at.arc, mesh.vertex[at.before].arc, loop) +
+                                around(at.arc, mesh.vertex[at.after].arc, loop));
+  }
+  for (const Rim rim : {Rim::annulus, Rim::free_edge}) {
+    const RimCurve &curve = input.curve(rim);
+    for (const double corner : curve.corners(corner_reach * edge, corner_height * edge)) {
+      uint32_t nearest = none;
+      double least = curve.length();
+      for (uint32_t v = 0; v < mesh.x.size(); ++v) {
+        if (mesh.vertex[v].rim != rim || mesh.star[v].empty()) continue;
+        const double off = std::abs(around(mesh.vertex[v].arc, corner, curve.length()));
+        if (off >= least) continue;
+        least = off;
+        nearest = v;
+      }
+      wanted[nearest] = corner;
+    }
+  }
+  return wanted;
+}
+
 void relax(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
   const auto halving = [](auto move) {  // the whole way, else a half or a quarter
     for (const double share : {1.0, 0.5, 0.25}) {
       if (move(share)) return;
     }
   };
+  const std::vector<double> wanted = wanted_arcs(input, mesh, edge);
   for (uint32_t v = 0; v < mesh.x.size(); ++v) {
     if (mesh.star[v].empty()) continue;
     const MeshVertex &at = mesh.vertex[v];
@@ -112,9 +155,8 @@ void relax(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double
         return editor.move_inside(v, from + share * way, EditFor::spacing);
       });
     } else {
-      const double loop = input.curve(at.rim).length(), arc = at.arc;
-      const double way = 0.5 * (around(arc, mesh.vertex[at.before].arc, loop) +
-                                around(arc, mesh.vertex[at.after].arc, loop));
+      const double arc = at.arc;
+      const double way = around(arc, wanted[v], input.curve(at.rim).length());
       if (std::abs(way) < still * edge) continue;
       halving(
           [&](double share) { return editor.move_along(v, arc + share * way, EditFor::spacing); });
@@ -226,11 +268,13 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
     for (int k = 0; k < most_passes && pass(); ++k) {
     }
   };
+  double edge = goal.edge;  // at which edges are split and collapsed
   for (int round = 0; round < goal.rounds; ++round) {
-    repeat([&] { return split_long(input, mesh, editor, goal.edge); });
-    repeat([&] { return collapse_short(input, mesh, editor, goal.edge); });
+    repeat([&] { return split_long(input, mesh, editor, edge); });
+    repeat([&] { return collapse_short(input, mesh, editor, edge); });
     repeat([&] { return flip_all(mesh, editor, EditFor::spacing); });
     relax(input, mesh, editor, goal.edge);
+    edge = std::clamp(edge * goal.edge / mean_length(mesh), goal.edge, most_scale * goal.edge);
   }
   for (int round = 0; round < last_rounds; ++round) {
     repeat([&] { return flip_all(mesh, editor, EditFor::angle); });

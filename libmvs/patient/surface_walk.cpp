@@ -126,4 +126,21 @@ SurfacePlace RimCurve::place_at(double s) const {
   return place;
 }
 
+std::vector<double> RimCurve::corners(double reach, double height) const {
+  std::vector<double> out(x_.size()), found;
+  for (size_t k = 0; k < x_.size(); ++k) {
+    out[k] = std::sqrt(
+        closest_on_segment(x_[k], at(start_[k] - reach), at(start_[k] + reach)).distance2);
+  }
+  for (size_t k = 0; k < x_.size(); ++k) {
+    bool most = out[k] > height;
+    for (size_t j = 0; j < x_.size() && most; ++j) {
+      if (j == k || std::abs(around(start_[k], start_[j], length())) > reach) continue;
+      most = out[j] < out[k] || (out[j] == out[k] && k < j);
+    }
+    if (most) found.push_back(start_[k]);
+  }
+  return found;
+}
+
 }  // namespace mvs::core

@@ -43,6 +43,9 @@ class RimCurve {
   double start_of(size_t corner) const { return start_[corner]; }
   Vec3 at(double s) const;
   SurfacePlace place_at(double s) const;
+  // Arc lengths of the corners that stand out by more than `height` from the chord that reaches
+  // `reach` to either side, and more than all others within `reach`.
+  std::vector<double> corners(double reach, double height) const;
 
  private:
   // The segment that holds an arc length, and the share of it.

@@ -24,6 +24,19 @@ TEST_CASE("probe_mend") {
     for (uint32_t k = 8; k < 11; ++k) w.sheet.x[8 * columns + k] -= deep * radial;
     probe("poked 4", w.sheet, w.rims);
   }
+  for (double gap : {0.3e-3, 0.6e-3})
+  for (double wide : {1e-3, 2e-3, 4e-3}) for (double deep : {0.5e-3, 0.8e-3}) {
+    SheetWithRims w = double_wall(gap, 0.5e-3);
+    const uint32_t columns = static_cast<uint32_t>(w.rims.annulus.size());
+    const Vec3 c = w.sheet.x[8 * columns + 7];
+    const Vec3 radial = Vec3(c.x(), c.y(), 0).normalized();
+    for (size_t v = 0; v < w.sheet.x.size() / 2; ++v) {
+      const double r2 = (w.sheet.x[v] - c).squaredNorm() / (wide * wide);
+      w.sheet.x[v] -= deep * radial * std::max(0.0, 1 - r2);
+    }
+    std::printf("gap %.1f wide %.0f deep %.1f ", gap * 1e3, wide * 1e3, deep * 1e3);
+    probe("bump", w.sheet, w.rims);
+  }
   for (uint32_t n : {430u, 1600u}) {
     ParametricSheet p = parametric_sheet(n);
     const std::vector<uint8_t> a = marks_of(p.rims.annulus, p.sheet.x.size()), f = marks_of(p.rims.free_edge, p.sheet.x.size());
