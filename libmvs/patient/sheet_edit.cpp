@@ -12,6 +12,8 @@ namespace {
 // A triangle faces as the input does if their normals differ by less than 60 degrees; where the
 // input is curved more sharply than triangles resolve, by no more than before.
 constexpr double faces = 0.5;
+// Splits may lower that cosine: they are few, and without them long edges remain at creases.
+constexpr double split_slack = 0.25;
 // A triangle turns by less than 60 degrees at once.
 constexpr double least_turn = 0.5;
 // cos 5 degrees: the normal of a thinner triangle is not used as a reference.
@@ -76,16 +78,21 @@ SheetEditor::Look SheetEditor::look_at(const std::vector<Tri> &triangles) const 
   return look;
 }
 
-// `paired`: each triangle replaces that with the same number; else all replace all.
-bool SheetEditor::keeps_sides(const Look &before, const Look &after, bool paired) const {
-  if (after.facing < std::min(faces, before.facing)) return false;
+bool SheetEditor::keeps_sides(const Look &before, const Look &after, Change change) const {
+  const double slack = change == Change::split ? split_slack : 0;
+  if (after.facing < std::min(faces, before.facing) - slack) return false;
   const double area = before.area.norm();
   for (size_t k = 0; k < after.normal.size(); ++k) {
     const Vec3 &n = after.normal[k];
-    if (paired) {
-      const Vec3 &m = before.normal[k];
-      if (n.squaredNorm() > 0 && m.squaredNorm() > 0 && n.dot(m) < least_turn) return false;
-    } else if (n.squaredNorm() > 0 && n.dot(before.area) < least_turn * area) {
+    // triangles of a star replace themselves, the halves of a split their whole, a flip's both
+    Vec3 reference = before.area;
+    double length = area;
+    if (change != Change::flip) {
+      reference = before.normal[change == Change::split ? k - k % 2 : k];
+      length = 1;
+    }
+    if (n.squaredNorm() > 0 && reference.squaredNorm() > 0 &&
+        n.dot(reference) < least_turn * length) {
       return false;
     }
   }
@@ -147,10 +154,11 @@ double SheetEditor::worst_around(uint32_t v) const {
 }
 
 // The changed positions are in the mesh already; `before` is the look without them.
-bool SheetEditor::replace(const SheetPatch &patch, double limit, bool paired, const Look &before) {
+bool SheetEditor::replace(const SheetPatch &patch, double limit, Change change,
+                          const Look &before) {
   const Look after = look_at(patch.after);
   if (after.worst > limit) return false;
-  if (!keeps_sides(before, after, paired) || crosses(patch)) return false;
+  if (!keeps_sides(before, after, change) || crosses(patch)) return false;
   commit(patch);
   return true;
 }
@@ -164,7 +172,7 @@ bool SheetEditor::move_to(uint32_t v, const Vec3 &x, const MeshVertex &to, EditF
   mesh_.vertex[v] = to;
   const double limit =
       reason == EditFor::angle ? before.worst - least_gain : std::max(before.worst, fine);
-  if (replace(patch, limit, true, before)) return true;
+  if (replace(patch, limit, Change::star, before)) return true;
   mesh_.x[v] = old_x;
   mesh_.vertex[v] = old;
   return false;

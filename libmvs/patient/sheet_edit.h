@@ -51,9 +51,10 @@ class SheetEditor {
     Vec3 area = Vec3::Zero();  // sum of area vectors
   };
   Look look_at(const std::vector<Tri> &triangles) const;
-  bool keeps_sides(const Look &before, const Look &after, bool paired) const;
+  enum class Change { split, flip, star };
+  bool keeps_sides(const Look &before, const Look &after, Change change) const;
   bool crosses(const SheetPatch &patch) const;
-  bool replace(const SheetPatch &patch, double limit, bool paired, const Look &before);
+  bool replace(const SheetPatch &patch, double limit, Change change, const Look &before);
   bool move_to(uint32_t v, const Vec3 &x, const MeshVertex &to, EditFor reason);
   void commit(const SheetPatch &patch);
   SheetPatch star_of(uint32_t v) const;

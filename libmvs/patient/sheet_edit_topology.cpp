@@ -72,10 +72,10 @@ bool SheetEditor::split(const Edge &edge) {
   mesh_.vertex.push_back(v);
   mesh_.star.emplace_back();
   // halves of a triangle may be thinner than it: 1 accepts every angle
-  bool made = replace(patch, 1, false, before);
+  bool made = replace(patch, 1, Change::split, before);
   if (!made && !on_rim) {
     mesh_.x[m] = middle;
-    made = replace(patch, 1, false, before);
+    made = replace(patch, 1, Change::split, before);
   }
   if (!made) {
     mesh_.x.pop_back();
@@ -137,7 +137,7 @@ bool SheetEditor::flip(const Edge &edge, EditFor reason) {
   }
   const double off = distance_of_middle(c, d);
   if (off > off_input * edge_ && off > distance_of_middle(a, b)) return false;
-  return replace(patch, limit, false, before);
+  return replace(patch, limit, Change::flip, before);
 }
 
 // Whether a collapse of a into b leaves a manifold with two rims: the link condition (Dey,
@@ -181,7 +181,7 @@ bool SheetEditor::collapse(uint32_t a, uint32_t b, double longest) {
     }
   }
   const Look before = look_at(patch.before);
-  if (!replace(patch, std::max(collapse_limit, before.worst), true, before)) return false;
+  if (!replace(patch, std::max(collapse_limit, before.worst), Change::star, before)) return false;
   if (old.rim != Rim::inside) {
     mesh_.vertex[old.before].after = old.after;
     mesh_.vertex[old.after].before = old.before;

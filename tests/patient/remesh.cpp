@@ -23,6 +23,18 @@ static void probe(const char *name, const LeafletSheet &s, const SheetRims &r, d
       sheet_area(m.sheet) / sheet_area(s),
       loop_length(m.sheet, m.rims.annulus) / loop_length(s, r.annulus),
       loop_length(m.sheet, m.rims.free_edge) / loop_length(s, r.free_edge), cpu);
+      for (const auto &t : m.sheet.triangles) {
+        const Vec3 &a = m.sheet.x[t[0]], &b = m.sheet.x[t[1]], &c = m.sheet.x[t[2]];
+        double l = std::max({(a-b).norm(), (b-c).norm(), (c-a).norm()}) / edge;
+        double sh = std::min({(a-b).norm(), (b-c).norm(), (c-a).norm()}) / edge;
+        double ar = (b-a).cross(c-a).norm();
+        double h = ar / l / edge; double sn = 0;
+        for (auto [p,q,w] : {std::array{a,b,c}, std::array{b,c,a}, std::array{c,a,b}}) { double cc = (q-p).dot(w-p)/(q-p).norm()/(w-p).norm(); sn = std::max(sn, cc); }
+        (void)h;
+        if (l > 1.5 || sh < 0.5 || sn > std::cos(30/57.3)) { std::printf("   long %.2f short %.2f angle %.1f: ", l, sh, std::acos(sn)*57.3);
+          for (uint32_t v : t) { bool A = std::find(m.rims.annulus.begin(), m.rims.annulus.end(), v) != m.rims.annulus.end(); bool F = std::find(m.rims.free_edge.begin(), m.rims.free_edge.end(), v) != m.rims.free_edge.end(); std::printf(" %u%s (%.2f %.2f %.2f)", v, A ? "A" : F ? "F" : "", m.sheet.x[v].x()*1e3, m.sheet.x[v].y()*1e3, m.sheet.x[v].z()*1e3); }
+          std::printf("\n"); }
+      }
 }
 TEST_CASE("probe") {
   for (uint32_t n : {430u, 1600u, 2600u}) {
