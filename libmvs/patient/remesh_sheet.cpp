@@ -244,6 +244,11 @@ RemeshReport report_on(const InputSheet &input, const SheetMesh &mesh, const Lea
       report.largest_distance = std::max(report.largest_distance, std::sqrt(nearest2));
     }
   }
+  const TriangleBvh bvh(made.triangles, made.x);
+  for (const Vec3 &p : input.sheet.x) {
+    report.largest_distance =
+        std::max(report.largest_distance, std::sqrt(bvh.closest(p).distance2));
+  }
   report.worst_angle = math::atan2(std::sqrt(std::max(0.0, 1 - worst * worst)), worst);
   report.crossings = find_intersections(made.x, made.triangles).size();
   return report;

@@ -15,7 +15,8 @@ struct RemeshReport {
   double mean_edge = 0;         // m
   double shortest = 0;          // m
   double longest = 0;           // m
-  double largest_distance = 0;  // m, of corners, middles of edges and centroids from the input
+  double largest_distance = 0;  // m, between this sheet's and the input: of this one's corners,
+                                // middles of edges and centroids, and of the input's vertices
   size_t crossings = 0;         // pairs of triangles that cross; 0 if the input has none
 };
 

@@ -12,7 +12,10 @@ namespace {
 // A triangle faces as the input does if their normals differ by less than 60 degrees; where the
 // input is curved more sharply than triangles resolve, by no more than before.
 constexpr double faces = 0.5;
-// Splits may lower that cosine: they are few, and without them long edges remain at creases.
+// Edges join places where the normals of the input differ by less than 110 degrees, or by no more
+// than before: in a narrow fold, vertices stay on its ridge, and no edge cuts from wall to wall.
+constexpr double bends = -0.34;
+// Splits may lower both cosines: they are few, and without them long edges remain at creases.
 constexpr double split_slack = 0.25;
 // A triangle turns by less than 60 degrees at once.
 constexpr double least_turn = 0.5;
@@ -70,8 +73,10 @@ SheetEditor::Look SheetEditor::look_at(const std::vector<Tri> &triangles) const 
       continue;
     }
     if (cosine < needle) look.normal.back() = area / norm;
-    const Vec3 input =
-        mesh_.vertex[t[0]].normal + mesh_.vertex[t[1]].normal + mesh_.vertex[t[2]].normal;
+    const Vec3 &na = mesh_.vertex[t[0]].normal, &nb = mesh_.vertex[t[1]].normal;
+    const Vec3 &nc = mesh_.vertex[t[2]].normal;
+    look.bend = std::min({look.bend, na.dot(nb), nb.dot(nc), nc.dot(na)});
+    const Vec3 input = na + nb + nc;
     const double length = input.norm();
     if (length > 0) look.facing = std::min(look.facing, area.dot(input) / (norm * length));
   }
@@ -81,6 +86,7 @@ SheetEditor::Look SheetEditor::look_at(const std::vector<Tri> &triangles) const 
 bool SheetEditor::keeps_sides(const Look &before, const Look &after, Change change) const {
   const double slack = change == Change::split ? split_slack : 0;
   if (after.facing < std::min(faces, before.facing) - slack) return false;
+  if (after.bend < std::min(bends, before.bend) - slack) return false;
   const double area = before.area.norm();
   for (size_t k = 0; k < after.normal.size(); ++k) {
     const Vec3 &n = after.normal[k];

@@ -47,6 +47,7 @@ class SheetEditor {
   struct Look {
     double worst = -1;         // cosine
     double facing = 1;         // least cosine between a triangle's normal and the input's
+    double bend = 1;           // least cosine between the input's normals at the ends of an edge
     std::vector<Vec3> normal;  // unit, of each triangle; zero without one
     Vec3 area = Vec3::Zero();  // sum of area vectors
   };

@@ -56,3 +56,25 @@ TEST_CASE("probe") {
   if (!real.sheet.x.empty())
     for (double e : {1e-3, 1.3e-3, 1.7e-3}) probe("real", real.sheet, real.rims, e);
 }
+
+TEST_CASE("stress") {
+  for (double gap : {0.1e-3, 0.3e-3}) for (double edge : {0.4e-3, 0.8e-3, 1.5e-3, 2.5e-3}) {
+    // hairpin: a half circle of the gap's width
+    std::vector<std::array<double, 2>> profile;
+    for (int k = 16; k > 0; --k) profile.push_back({14e-3 + 0.5 * gap, k * 0.5e-3});
+    for (int k = 0; k <= 4; ++k) profile.push_back({14e-3 + 0.5 * gap * std::cos(k * 0.785398), -0.5 * gap * std::sin(k * 0.785398)});
+    for (int k = 1; k <= 16; ++k) profile.push_back({14e-3 - 0.5 * gap, k * 0.5e-3});
+    SheetWithRims w = revolved(profile, 176);
+    std::printf("gap %.1f ", gap * 1e3);
+    probe("hairpin", w.sheet, w.rims, edge);
+    disturb(w.sheet, gap * 0.2, 3);
+    probe("noisy hairpin", w.sheet, w.rims, edge);
+    SheetWithRims b = double_wall(gap, 0.5e-3);
+    probe("wall", b.sheet, b.rims, edge);
+  }
+  for (uint32_t n : {430u, 1600u}) for (double f : {0.4, 3.0, 5.0}) {
+    ParametricSheet p = parametric_sheet(n);
+    const double e = mean_edge(p.sheet);
+    probe("parametric", p.sheet, p.rims, e * f);
+  }
+}
