@@ -26,7 +26,8 @@ constexpr double poor = 0.8572;  // cos 31 degrees: triangles below are improved
 // Corners of rims that a vertex goes to: those that stand out by this height over a chord to this
 // distance on both sides, in wanted edges. A turn by 40 degrees does.
 constexpr double corner_reach = 0.5, corner_height = 0.17;
-constexpr double still = 2e-3;  // of an edge: shorter moves are left out
+constexpr double longest = 1.6;  // edge, in wanted ones, that a collapse for the angles may make
+constexpr double still = 2e-3;   // of an edge: shorter moves are left out
 
 // Along a rim the arc counts, so that no notch is skipped.
 double length_of(const InputSheet &input, const SheetMesh &mesh, const Edge &e) {
@@ -80,7 +81,8 @@ bool collapse_short(const InputSheet &input, SheetMesh &mesh, SheetEditor &edito
   for (const Candidate &c : candidates(input, mesh, is_short, false)) {
     const auto [a, b] = c.edge;
     if (!mesh.are_joined(a, b) || length_of(input, mesh, c.edge) >= low * edge) continue;
-    any = editor.collapse(a, b, high * edge) || editor.collapse(b, a, high * edge) || any;
+    any = editor.collapse(a, b, high * edge, EditFor::spacing) ||
+          editor.collapse(b, a, high * edge, EditFor::spacing) || any;
   }
   return any;
 }
@@ -195,24 +197,27 @@ void search_place(SheetMesh &mesh, SheetEditor &editor, double edge, uint32_t v)
   }
 }
 
-// One pass over the poor triangles: a flip, else a better place of each corner.
+// One pass over the poor triangles: a flip or a collapse that raises the least angle around, else a
+// better place of each corner. Returns whether there was one.
 bool improve_poor(SheetMesh &mesh, SheetEditor &editor, double edge) {
   bool any = false;
   const size_t count = mesh.triangles.size();
   for (uint32_t t = 0; t < count; ++t) {
-    const auto is_poor = [&] {
-      const Tri &tri = mesh.triangles[t];
-      return tri[0] != none && worst_cosine(mesh.x[tri[0]], mesh.x[tri[1]], mesh.x[tri[2]]) > poor;
-    };
-    if (!is_poor()) continue;
-    any = true;
     const Tri tri = mesh.triangles[t];
-    bool flipped = false;
-    for (size_t k = 0; k < 3; ++k) {
-      flipped = flipped || editor.flip({tri[k], tri[(k + 1) % 3]}, EditFor::angle);
+    if (tri[0] == none) continue;
+    if (worst_cosine(mesh.x[tri[0]], mesh.x[tri[1]], mesh.x[tri[2]]) <= poor) continue;
+    any = true;
+    bool changed = false;
+    for (size_t k = 0; k < 3 && !changed; ++k) {
+      changed = editor.flip({tri[k], tri[(k + 1) % 3]}, EditFor::angle);
     }
-    if (flipped) continue;
-    for (const uint32_t v : tri) search_place(mesh, editor, edge, v);
+    for (size_t k = 0; k < 3 && !changed; ++k) {
+      const uint32_t a = tri[k], b = tri[(k + 1) % 3];
+      if (mesh.length(a, b) > low * edge) continue;
+      changed = editor.collapse(a, b, longest * edge, EditFor::angle) ||
+                editor.collapse(b, a, longest * edge, EditFor::angle);
+    }
+    for (size_t k = 0; k < 3 && !changed; ++k) search_place(mesh, editor, edge, tri[k]);
   }
   return any;
 }

@@ -12,9 +12,9 @@ namespace {
 // A triangle faces as the input does if their normals differ by less than 60 degrees; where the
 // input is curved more sharply than triangles resolve, by no more than before.
 constexpr double faces = 0.5;
-// Edges join places where the normals of the input differ by less than 110 degrees, or by no more
+// Edges join places where the normals of the input differ by less than 127 degrees, or by no more
 // than before: in a narrow fold, vertices stay on its ridge, and no edge cuts from wall to wall.
-constexpr double bends = -0.34;
+constexpr double bends = -0.6;
 // Splits may lower both cosines: they are few, and without them long edges remain at creases.
 constexpr double split_slack = 0.25;
 // A triangle turns by less than 60 degrees at once.

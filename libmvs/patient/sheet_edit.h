@@ -17,8 +17,8 @@ struct SheetPatch {
   std::vector<Tri> before, after;
 };
 
-// Why an edge is flipped or a vertex moved: for even spacing (flips towards valence 6, 4 on rims;
-// angles may become lower within limits) or to raise the least angle around.
+// Why an edge is flipped or collapsed or a vertex moved: for even spacing (flips towards valence 6,
+// 4 on rims; angles may become lower within limits) or to raise the least angle around.
 enum class EditFor { spacing, angle };
 
 class SheetEditor {
@@ -33,7 +33,7 @@ class SheetEditor {
   // Replaces the edge of two triangles by that of their other corners.
   bool flip(const Edge &edge, EditFor reason);
   // Merges vertex a into b, unless that makes edges longer than `longest`.
-  bool collapse(uint32_t a, uint32_t b, double longest);
+  bool collapse(uint32_t a, uint32_t b, double longest, EditFor reason);
   // Moves a vertex inside to the place on the input to which a walk towards `target` leads.
   bool move_inside(uint32_t v, const Vec3 &target, EditFor reason);
   // Moves a vertex on a rim to an arc length.

@@ -157,7 +157,7 @@ bool SheetEditor::may_merge(uint32_t a, uint32_t b) const {
   return common.size() == (on_rim ? 1 : 2);
 }
 
-bool SheetEditor::collapse(uint32_t a, uint32_t b, double longest) {
+bool SheetEditor::collapse(uint32_t a, uint32_t b, double longest, EditFor reason) {
   if (!may_merge(a, b)) return false;
   SheetPatch patch = star_of(a);
   double off_before = off_input * edge_, off_after = 0;
@@ -181,7 +181,9 @@ bool SheetEditor::collapse(uint32_t a, uint32_t b, double longest) {
     }
   }
   const Look before = look_at(patch.before);
-  if (!replace(patch, std::max(collapse_limit, before.worst), Change::star, before)) return false;
+  const double limit =
+      reason == EditFor::angle ? before.worst - flip_gain : std::max(collapse_limit, before.worst);
+  if (!replace(patch, limit, Change::star, before)) return false;
   if (old.rim != Rim::inside) {
     mesh_.vertex[old.before].after = old.after;
     mesh_.vertex[old.after].before = old.before;
