@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -136,21 +137,48 @@ inline SheetWithRims revolved(const std::vector<std::array<double, 2>> &profile,
   return made;
 }
 
-// A double wall: two cylinders `gap` apart, joined at the bottom by a bulb of drop-shaped profile,
-// 2.6 mm wide.
-inline SheetWithRims double_wall(double gap, double edge) {
-  const double radius = 14e-3, height = 8e-3, drop = 2e-3, pi = 3.14159265358979;
+// Two cylinders `gap` apart, of radius 9 mm and 5 mm high, joined at the bottom by a fold with the
+// given profile from one to the other: offsets from the middle radius, and heights.
+inline constexpr double wall_radius = 9e-3;
+inline SheetWithRims double_wall(double gap, double edge,
+                                 const std::vector<std::array<double, 2>> &fold) {
   std::vector<std::array<double, 2>> profile;
+  constexpr double height = 5e-3, pi = 3.14159265358979;
   const int rows = static_cast<int>(height / edge);
-  for (int k = rows; k > 0; --k) profile.push_back({radius + 0.5 * gap, drop + k * edge});
-  const int parts = static_cast<int>(5.5 * drop / edge);
+  const double top = fold.front()[1];
+  for (int k = rows; k > 0; --k) profile.push_back({wall_radius + 0.5 * gap, top + k * edge});
+  for (const auto &[x, z] : fold) profile.push_back({wall_radius + x, z});
+  for (int k = 1; k <= rows; ++k) profile.push_back({wall_radius - 0.5 * gap, top + k * edge});
+  SheetWithRims made = revolved(profile, static_cast<uint32_t>(2 * pi * wall_radius / edge));
+  // the outer wall is labelled anterior
+  for (size_t t = 0; t < made.sheet.triangles.size(); ++t) {
+    const bool outer = 2 * t < made.sheet.triangles.size();
+    made.sheet.label[t] = outer ? LeafletLabel::anterior : LeafletLabel::posterior;
+  }
+  return made;
+}
+
+// A fold with a drop-shaped profile, 2.6 mm wide and 4 mm high.
+inline SheetWithRims wall_with_bulb(double gap, double edge) {
+  constexpr double size = 2e-3, pi = 3.14159265358979;
+  std::vector<std::array<double, 2>> fold;
+  const int parts = static_cast<int>(5.5 * size / edge);
   for (int k = 0; k <= parts; ++k) {
     const double t = 2 * pi * k / parts, half = std::sin(0.5 * t);
-    const double x = 0.5 * gap * std::cos(0.5 * t) + drop * std::sin(t) * half * half;
-    profile.push_back({radius + x, drop * std::cos(t)});
+    fold.push_back(
+        {0.5 * gap * std::cos(0.5 * t) + size * std::sin(t) * half * half, size * std::cos(t)});
   }
-  for (int k = 1; k <= rows; ++k) profile.push_back({radius - 0.5 * gap, drop + k * edge});
-  return revolved(profile, static_cast<uint32_t>(2 * pi * radius / edge));
+  return double_wall(gap, edge, fold);
+}
+
+// A fold that is a half circle as wide as the gap.
+inline SheetWithRims hairpin(double gap, double edge) {
+  std::vector<std::array<double, 2>> fold;
+  for (int k = 0; k <= 4; ++k) {
+    const double t = 3.14159265358979 * k / 4;
+    fold.push_back({0.5 * gap * std::cos(t), -0.5 * gap * std::sin(t)});
+  }
+  return double_wall(gap, edge, fold);
 }
 
 // Empty if the file does not exist. Equal points of the triangle soup are one vertex.
@@ -163,15 +191,12 @@ inline SheetWithRims real_sheet() {
   std::array<char, 84> head;
   in.read(head.data(), 84);
   std::map<std::array<float, 3>, uint32_t> vertex;
-  struct [[gnu::packed]] Facet {
-    std::array<float, 3> normal;
-    std::array<std::array<float, 3>, 3> corner;
-    uint16_t attribute;
-  };
-  for (Facet f; in.read(reinterpret_cast<char *>(&f), sizeof f);) {
+  // 50 bytes: the normal, three corners, an attribute
+  for (std::array<char, 50> facet; in.read(facet.data(), facet.size());) {
     Tri t;
     for (size_t k = 0; k < 3; ++k) {
-      const std::array<float, 3> p = f.corner[k];
+      std::array<float, 3> p;
+      std::memcpy(p.data(), facet.data() + 12 * (k + 1), sizeof p);
       const auto number = static_cast<uint32_t>(vertex.size());
       const auto [at, is_new] = vertex.insert({p, number});
       if (is_new) made.sheet.x.push_back(Vec3(p[0], p[1], p[2]) * 1e-3);
