@@ -273,7 +273,6 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
   const InputSheet input(sheet, rims);
   SheetMesh mesh = mesh_of(input, rims);
   SheetEditor editor(input, mesh, goal.edge);
-  using enum EditFor;
   const auto repeat = [](auto pass) {
     for (int k = 0; k < most_passes && pass(); ++k) {
     }

@@ -109,7 +109,6 @@ bool SheetEditor::flip(const Edge &edge, EditFor reason) {
   if (t == none || u == none) return false;
   const uint32_t c = third_corner(mesh_.triangles[t], a, b);
   const uint32_t d = third_corner(mesh_.triangles[u], a, b);
-  if (mesh_.are_joined(c, d)) return false;
   const Rim rim_c = mesh_.vertex[c].rim, rim_d = mesh_.vertex[d].rim;
   if (rim_c != Rim::inside && rim_c == rim_d) return false;
   const auto excess = [&](uint32_t v, int change) {
@@ -122,22 +121,23 @@ bool SheetEditor::flip(const Edge &edge, EditFor reason) {
     const int then = excess(a, -1) + excess(b, -1) + excess(c, 1) + excess(d, 1);
     if (then >= now) return false;
   }
-  SheetPatch patch;
-  patch.id = {t, u};
-  patch.before = {mesh_.triangles[t], mesh_.triangles[u]};
-  patch.after = {Tri{a, d, c}, Tri{d, b, c}};
-  const Look before = look_at(patch.before);
-  double limit = std::max(flip_limit, before.worst);
-  if (reason == EditFor::angle) {
+  const std::array<Tri, 2> made = {Tri{a, d, c}, Tri{d, b, c}};
+  const auto worst_of = [&](const std::array<Tri, 2> &pair) {
     const auto cosine = [&](const Tri &tri) {
       return worst_cosine(mesh_.x[tri[0]], mesh_.x[tri[1]], mesh_.x[tri[2]]);
     };
-    limit = before.worst - flip_gain;
-    if (std::max(cosine(patch.after[0]), cosine(patch.after[1])) > limit) return false;
-  }
+    return std::max(cosine(pair[0]), cosine(pair[1]));
+  };
+  const double worst = worst_of({mesh_.triangles[t], mesh_.triangles[u]});
+  const double limit = reason == EditFor::angle ? worst - flip_gain : std::max(flip_limit, worst);
+  if (worst_of(made) > limit || mesh_.are_joined(c, d)) return false;
+  SheetPatch patch;
+  patch.id = {t, u};
+  patch.before = {mesh_.triangles[t], mesh_.triangles[u]};
+  patch.after = {made[0], made[1]};
   const double off = distance_of_middle(c, d);
   if (off > off_input * edge_ && off > distance_of_middle(a, b)) return false;
-  return replace(patch, limit, Change::flip, before);
+  return replace(patch, limit, Change::flip, look_at(patch.before));
 }
 
 // Whether a collapse of a into b leaves a manifold with two rims: the link condition (Dey,

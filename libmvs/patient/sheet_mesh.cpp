@@ -81,7 +81,8 @@ std::vector<Edge> SheetMesh::edges() const {
     if (t[0] == none) continue;
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = t[k], b = t[(k + 1) % 3];
-      if (a < b || triangle_from(b, a) == none) edges.push_back({a, b});
+      const bool inside = vertex[a].rim == Rim::inside || vertex[a].rim != vertex[b].rim;
+      if (a < b || (!inside && triangle_from(b, a) == none)) edges.push_back({a, b});
     }
   }
   return edges;

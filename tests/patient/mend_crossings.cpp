@@ -86,34 +86,33 @@ TEST_CASE("walls_that_were_pushed_through_each_other_are_separated") {
 
 TEST_CASE("vertices_on_rims_move_along_them_only") {
   ParametricSheet p = parametric_sheet(430);
+  const auto &annulus = p.rims.annulus;
+  std::vector<Vec3> rim;
+  for (const uint32_t v : annulus) rim.push_back(p.sheet.x[v]);
+  // the sheet next to the annulus folds over it: an inner vertex goes past the opposite side
   const Rows stars = rows_of(p.sheet.x.size(), p.sheet.triangles);
-  const std::vector<uint8_t> at_annulus = marks_of(p.rims.annulus, p.sheet.x.size());
-  const std::vector<Vec3> rim = [&] {
-    std::vector<Vec3> x;
-    for (const uint32_t v : p.rims.annulus) x.push_back(p.sheet.x[v]);
-    return x;
-  }();
-  // a vertex of the annulus slides past its neighbour
-  const Vec3 way = p.sheet.x[p.rims.annulus[11]] - p.sheet.x[p.rims.annulus[10]];
+  const std::vector<uint8_t> at_annulus = marks_of(annulus, p.sheet.x.size());
   uint32_t inner = none;
-  for (const uint32_t v :
-       neighbours_in(p.sheet.triangles, stars[p.rims.annulus[10]], p.rims.annulus[10])) {
+  for (const uint32_t v : neighbours_in(p.sheet.triangles, stars[annulus[10]], annulus[10])) {
     if (!at_annulus[v]) inner = v;
   }
   REQUIRE(inner != none);
-  p.sheet.x[inner] += 2.2 * way;
+  const double pulled = 2 * (p.sheet.x[annulus[10]] - p.sheet.x[inner]).norm();
+  p.sheet.x[inner] += 2 * (p.sheet.x[annulus[10]] - p.sheet.x[inner]) + Vec3(1e-5, 2e-5, 3e-5);
+  p.sheet.x[inner] += 1.5 * (p.sheet.x[annulus[9]] - p.sheet.x[annulus[10]]);
   const std::vector<Vec3> before = p.sheet.x;
-  const CrossingReport report = mend_crossings(p.sheet, p.rims);
-  check_mended(report, p.sheet, before, 2.2 * way.norm());
+  check_mended(mend_crossings(p.sheet, p.rims), p.sheet, before, 2 * pulled);
+  bool slid = false;
   for (size_t k = 0; k < rim.size(); ++k) {
+    const Vec3 &x = p.sheet.x[annulus[k]];
+    slid = slid || x != rim[k];
     double least2 = 1;
     for (size_t j = 0; j < rim.size(); ++j) {
-      const SegmentPoint on =
-          closest_on_segment(p.sheet.x[p.rims.annulus[k]], rim[j], rim[(j + 1) % rim.size()]);
-      least2 = std::min(least2, on.distance2);
+      least2 = std::min(least2, closest_on_segment(x, rim[j], rim[(j + 1) % rim.size()]).distance2);
     }
     REQUIRE(std::sqrt(least2) < 1e-15);  // rounding
   }
+  CHECK(slid);
 }
 
 TEST_CASE("crossings_that_are_left_are_counted") {
