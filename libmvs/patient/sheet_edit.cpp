@@ -51,7 +51,7 @@ double worst_cosine(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 }
 
 SheetEditor::SheetEditor(const InputSheet &input, SheetMesh &mesh, double edge)
-    : input_(input), mesh_(mesh), grid_(box_of_sheet(mesh.x), edge), edge_(edge) {
+    : input_(input), mesh_(mesh), grid_(box_of_sheet(mesh.x), 1.5 * edge), edge_(edge) {
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     grid_.insert(t, aabb_of(mesh.x, mesh.triangles[t]));
   }
@@ -107,19 +107,31 @@ bool SheetEditor::keeps_sides(const Look &before, const Look &after, Change chan
 
 bool SheetEditor::crosses(const SheetPatch &patch) const {
   const std::vector<Vec3> &x = mesh_.x;
-  for (size_t k = 0; k < patch.after.size(); ++k) {
-    const Tri &t = patch.after[k];
-    if (t[0] == none) continue;
-    const bool hit = grid_.any_near(aabb_of(x, t), [&](uint32_t other) {
-      if (std::find(patch.id.begin(), patch.id.end(), other) != patch.id.end()) return false;
-      return mesh_triangles_cross(x, t, mesh_.triangles[other]);
-    });
-    if (hit) return true;
+  std::vector<Aabb> box(patch.after.size());
+  Aabb whole;
+  for (size_t k = 0; k < box.size(); ++k) {
+    if (patch.after[k][0] == none) continue;
+    box[k] = aabb_of(x, patch.after[k]);
+    whole.add(box[k]);
+  }
+  for (size_t k = 0; k < box.size(); ++k) {
     for (size_t l = 0; l < k; ++l) {
-      if (patch.after[l][0] != none && mesh_triangles_cross(x, t, patch.after[l])) return true;
+      // removed ones have empty boxes
+      if (box[k].overlaps(box[l]) && mesh_triangles_cross(x, patch.after[k], patch.after[l])) {
+        return true;
+      }
     }
   }
-  return false;
+  return grid_.any_near(whole, [&](uint32_t other, const Aabb &other_box) {
+    if (std::find(patch.id.begin(), patch.id.end(), other) != patch.id.end()) return false;
+    for (size_t k = 0; k < box.size(); ++k) {
+      if (box[k].overlaps(other_box) &&
+          mesh_triangles_cross(x, patch.after[k], mesh_.triangles[other])) {
+        return true;
+      }
+    }
+    return false;
+  });
 }
 
 void SheetEditor::commit(const SheetPatch &patch) {

@@ -16,8 +16,8 @@ class TriangleGrid {
   void insert(uint32_t triangle, const Aabb &box);
   void remove(uint32_t triangle);
 
-  // Calls visit(triangle) once for each triangle whose box overlaps `box`, until one returns true;
-  // returns whether one did.
+  // Calls visit(triangle, box) once for each triangle whose box overlaps `box`, until one returns
+  // true; returns whether one did.
   template <typename Visit>
   bool any_near(const Aabb &box, Visit &&visit) const {
     const Range asked = range_of(box);
@@ -32,7 +32,7 @@ class TriangleGrid {
                 std::max(asked.low[2], entry.range.low[2]) != k) {
               continue;
             }
-            if (entry.box.overlaps(box) && visit(t)) return true;
+            if (entry.box.overlaps(box) && visit(t, entry.box)) return true;
           }
         }
       }

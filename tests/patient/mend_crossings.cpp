@@ -60,7 +60,7 @@ TEST_CASE("vertices_pulled_past_their_neighbours_are_taken_back") {
 
 TEST_CASE("walls_that_were_pushed_through_each_other_are_separated") {
   constexpr double gap = 0.3e-3;
-  for (const double wide : {0.4e-3, 1e-3, 2e-3}) {  // 0.4 mm: a single vertex
+  for (const double wide : {0.4e-3, 2e-3}) {  // 0.4 mm: a single vertex
     for (const double deep : {0.5e-3, 0.8e-3}) {
       CAPTURE(wide);
       CAPTURE(deep);

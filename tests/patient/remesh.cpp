@@ -118,11 +118,11 @@ TEST_CASE("the_same_sheet_gives_the_same_bits") {
 }
 
 TEST_CASE("a_renumbered_and_turned_sheet_gives_the_same_figures") {
-  for (const uint32_t vertices : {430u, 1600u}) {
-    const ParametricSheet p = parametric_sheet(vertices);
-    const double edge = mean_edge(p.sheet);
-    const SheetWithRims other = renumbered(p.sheet, p.rims, 5);
-    const RemeshedSheet a = remesh_sheet(p.sheet, p.rims, {edge});
+  const ParametricSheet p = parametric_sheet(430);
+  const double edge = mean_edge(p.sheet);
+  const RemeshedSheet a = remesh_sheet(p.sheet, p.rims, {edge});
+  for (const uint32_t seed : {5u, 6u}) {
+    const SheetWithRims other = renumbered(p.sheet, p.rims, seed);
     const RemeshedSheet b = remesh_sheet(other.sheet, other.rims, {edge});
     check_sheet(b, other.sheet, other.rims, edge);
     CHECK(b.report.worst_angle > 30 * degree);
@@ -196,13 +196,12 @@ TEST_CASE("walls_of_a_fold_stay_apart_and_are_not_exchanged") {
   };
   SUBCASE("with a bulb") {
     const SheetWithRims w = wall_with_bulb(gap, 0.5e-3);
-    for (const double edge : {0.7e-3, 1e-3}) {
-      const RemeshedSheet made = remesh_sheet(w.sheet, w.rims, {edge});
-      check_sheet(made, w.sheet, w.rims, edge);
-      check_lengths(made, w.sheet, w.rims, 0.01);
-      CHECK(made.report.worst_angle > 30 * degree);
-      check_walls(made.sheet, 2e-3);
-    }
+    const double edge = 1e-3;
+    const RemeshedSheet made = remesh_sheet(w.sheet, w.rims, {edge});
+    check_sheet(made, w.sheet, w.rims, edge);
+    check_lengths(made, w.sheet, w.rims, 0.01);
+    CHECK(made.report.worst_angle > 30 * degree);
+    check_walls(made.sheet, 2e-3);
   }
   SUBCASE("narrower than the wanted edges") {
     const SheetWithRims w = hairpin(gap, 0.5e-3);
@@ -223,13 +222,12 @@ TEST_CASE("the_real_sheet_is_mended_and_remeshed") {
     return;
   }
   REQUIRE(mend_crossings(real.sheet, real.rims).after == 0);
-  for (const double edge : {1.3e-3, 1.7e-3}) {
-    const RemeshedSheet made = remesh_sheet(real.sheet, real.rims, {edge});
-    check_sheet(made, real.sheet, real.rims, edge);
-    check_lengths(made, real.sheet, real.rims, 0.01);
-    CHECK(made.report.worst_angle > 30 * degree);
-    CHECK(made.report.largest_distance < 0.4 * edge);  // at creases of the free edge
-  }
+  const double edge = 1.5e-3;
+  const RemeshedSheet made = remesh_sheet(real.sheet, real.rims, {edge});
+  check_sheet(made, real.sheet, real.rims, edge);
+  check_lengths(made, real.sheet, real.rims, 0.01);
+  CHECK(made.report.worst_angle > 30 * degree);
+  CHECK(made.report.largest_distance < 0.4 * edge);  // at creases of the free edge
 }
 
 TEST_CASE("sheets_that_cannot_be_remeshed_are_refused") {
