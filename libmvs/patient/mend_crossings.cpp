@@ -15,16 +15,16 @@
 namespace mvs::core {
 namespace {
 
-constexpr int most_rounds = 60;
+constexpr int most_mend_rounds = 60;
 constexpr int rounds_per_ring = 4;  // without fewer crossings, then patches grow by a ring
 constexpr int most_rings = 4;
 // Rings between two triangles from which on they count as two walls. A vertex that is pushed
 // through its own neighbourhood crosses triangles within two.
 constexpr int apart_rings = 3;
-constexpr int piece_rings = 2;         // of a wall, on which its normal and its side are taken
-constexpr double smoothing = 0.5;      // share of the way to the mean of the neighbours
-constexpr double clearance = 0.02;     // of an edge, by which walls are left apart
-constexpr double longest_push = 0.25;  // of an edge, in a round
+constexpr int piece_rings = 2;           // of a wall, on which its normal and its side are taken
+constexpr double smoothing_share = 0.5;  // share of the way to the mean of the neighbours
+constexpr double wall_clearance = 0.02;  // of an edge, by which walls are left apart
+constexpr double longest_push = 0.25;    // of an edge, in a round
 
 struct Neighbourhood {
   Rows stars;
@@ -60,7 +60,7 @@ bool are_two_walls(const Neighbourhood &n, const Tri &s, const Tri &t) {
   });
 }
 
-double edge_at(const LeafletSheet &sheet, const Tri &t) {
+double mean_side(const LeafletSheet &sheet, const Tri &t) {
   return ((sheet.x[t[0]] - sheet.x[t[1]]).norm() + (sheet.x[t[1]] - sheet.x[t[2]]).norm() +
           (sheet.x[t[2]] - sheet.x[t[0]]).norm()) /
          3;
@@ -73,7 +73,7 @@ struct OnRim {
 };
 
 // Wanted displacements of vertices: their mean over all crossings that ask for one.
-struct Moves {
+struct WantedMoves {
   std::vector<Vec3> sum;
   std::vector<double> count;
   void add(uint32_t v, const Vec3 &way) {
@@ -103,7 +103,7 @@ WallPiece piece_around(const LeafletSheet &sheet, const Neighbourhood &n, const 
 // Pushes two triangles apart along the normal that both walls have in common, each to the side on
 // which most of its wall lies: their corners go as far as a plane half way between the outermost.
 void push_apart(const LeafletSheet &sheet, const Neighbourhood &n, const Tri &s, const Tri &t,
-                Moves &moves) {
+                WantedMoves &moves) {
   const WallPiece s_piece = piece_around(sheet, n, s), t_piece = piece_around(sheet, n, t);
   const double same = s_piece.area.dot(t_piece.area) < 0 ? -1.0 : 1.0;
   Vec3 way = s_piece.area + same * t_piece.area;  // the side of s
@@ -113,8 +113,8 @@ void push_apart(const LeafletSheet &sheet, const Neighbourhood &n, const Tri &s,
   double low = 1e300, high = -1e300;
   for (const uint32_t v : s) low = std::min(low, sheet.x[v].dot(way));
   for (const uint32_t v : t) high = std::max(high, sheet.x[v].dot(way));
-  const double edge = std::min(edge_at(sheet, s), edge_at(sheet, t));
-  const double middle = 0.5 * (low + high), half = 0.5 * clearance * edge;
+  const double edge = std::min(mean_side(sheet, s), mean_side(sheet, t));
+  const double middle = 0.5 * (low + high), half = 0.5 * wall_clearance * edge;
   for (const uint32_t v : s) {
     const double depth = middle + half - sheet.x[v].dot(way);
     if (depth > 0) moves.add(v, std::min(depth, longest_push * edge) * way);
@@ -125,19 +125,19 @@ void push_apart(const LeafletSheet &sheet, const Neighbourhood &n, const Tri &s,
   }
 }
 
-void smooth(const LeafletSheet &sheet, const Neighbourhood &n, const std::vector<uint32_t> &patch,
-            Moves &moves) {
+void smooth_patch(const LeafletSheet &sheet, const Neighbourhood &n,
+                  const std::vector<uint32_t> &patch, WantedMoves &moves) {
   for (const uint32_t v : patch) {
     if (moves.count[v] > 0) continue;
     Vec3 mean = Vec3::Zero();
     for (const uint32_t w : n.around[v]) mean += sheet.x[w];
     mean /= static_cast<double>(n.around[v].size());
-    moves.add(v, smoothing * (mean - sheet.x[v]));
+    moves.add(v, smoothing_share * (mean - sheet.x[v]));
   }
 }
 
 // Makes the moves: on a rim, their share along it.
-void make_moves(LeafletSheet &sheet, const Moves &moves, std::vector<OnRim> &rim) {
+void make_moves(LeafletSheet &sheet, const WantedMoves &moves, std::vector<OnRim> &rim) {
   for (size_t v = 0; v < sheet.x.size(); ++v) {
     if (moves.count[v] == 0) continue;
     const Vec3 way = moves.sum[v] / moves.count[v];
@@ -175,9 +175,9 @@ CrossingReport mend_crossings(LeafletSheet &sheet, const SheetRims &rims) {
   std::vector<Vec3> best = sheet.x;
   size_t fewest = pairs.size();
   int stalled = 0;
-  for (int round = 0; round < most_rounds && !pairs.empty(); ++round) {
-    Moves moves{std::vector<Vec3>(sheet.x.size(), Vec3::Zero()),
-                std::vector<double>(sheet.x.size(), 0)};
+  for (int round = 0; round < most_mend_rounds && !pairs.empty(); ++round) {
+    WantedMoves moves{std::vector<Vec3>(sheet.x.size(), Vec3::Zero()),
+                      std::vector<double>(sheet.x.size(), 0)};
     const int rings = std::min(stalled / rounds_per_ring, most_rings);
     std::vector<uint32_t> patch;
     for (const auto &[s, t] : pairs) {
@@ -191,7 +191,7 @@ CrossingReport mend_crossings(LeafletSheet &sheet, const SheetRims &rims) {
         patch.insert(patch.end(), more.begin(), more.end());
       }
     }
-    smooth(sheet, n, patch, moves);
+    smooth_patch(sheet, n, patch, moves);
     make_moves(sheet, moves, rim);
     pairs = find_intersections(sheet.x, sheet.triangles);
     ++stalled;

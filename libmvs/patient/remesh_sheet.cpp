@@ -1,33 +1,35 @@
-// Rounds of edits, then improvement of the worst triangles, then the report.
+// Rounds of edits, then improvement of the worst triangles.
 #include "patient/remesh_sheet.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/math.h"
-#include "geometry/intersect.h"
+#include "model/sides.h"
 #include "patient/coordinates.h"
+#include "patient/remesh_report.h"
 #include "patient/sheet_edit.h"
 
 namespace mvs::core {
 namespace {
 
-// Relative edge lengths: below `low` a collapse, above `high` a split brings an edge nearer to the
-// wanted one.
-constexpr double low = 4.0 / 5, high = 4.0 / 3;
+// Relative edge lengths: below `collapse_below` a collapse, above `split_above` a split brings an
+// edge nearer to the wanted one.
+constexpr double collapse_below = 4.0 / 5, split_above = 4.0 / 3;
 // The mean of edges within these limits is below the wanted length by up to this factor, and the
 // limits are raised by it.
 constexpr double most_scale = 1.15;
-constexpr int most_passes = 12;  // of splits, collapses or flips in one round: safety limit
-constexpr int last_rounds = 8;   // of flips and moves alone
-constexpr int improvements = 6;  // of the worst triangles
-constexpr double poor = 0.8572;  // cos 31 degrees: triangles below are improved
+constexpr double most_triangles = 1e6;  // 400 times those of a valve that is simulated
+constexpr int most_passes = 12;         // of splits, collapses or flips in one round: safety limit
+constexpr int last_rounds = 8;          // of flips and moves alone
+constexpr int improvements = 6;         // of the worst triangles
+constexpr double poor_cosine = 0.8572;  // cos 31 degrees: triangles below are improved
 // Corners of rims that a vertex goes to: those that stand out by this height over a chord to this
 // distance on both sides, in wanted edges. A turn by 40 degrees does.
 constexpr double corner_reach = 0.5, corner_height = 0.17;
-constexpr double longest = 1.6;  // edge, in wanted ones, that a collapse for the angles may make
-constexpr double still = 2e-3;   // of an edge: shorter moves are left out
+constexpr double longest_made =
+    1.6;                            // edge, in wanted ones, that a collapse for the angles may make
+constexpr double least_way = 2e-3;  // of an edge: shorter moves are left out
 
 // Along a rim the arc counts, so that no notch is skipped.
 double length_of(const InputSheet &input, const SheetMesh &mesh, const Edge &e) {
@@ -46,21 +48,21 @@ double mean_length(const SheetMesh &mesh) {
   return sum / static_cast<double>(edges.size());
 }
 
-struct Candidate {
+struct SizedEdge {
   double length;
   Edge edge;
 };
 
 // Edges with accept(length), sorted by order(length), then as they come.
 template <typename Accept>
-std::vector<Candidate> candidates(const InputSheet &input, const SheetMesh &mesh, Accept accept,
-                                  bool longest_first) {
-  std::vector<Candidate> found;
+std::vector<SizedEdge> edges_by_length(const InputSheet &input, const SheetMesh &mesh,
+                                       Accept accept, bool longest_first) {
+  std::vector<SizedEdge> found;
   for (const Edge &e : mesh.edges()) {
     const double length = length_of(input, mesh, e);
     if (accept(length)) found.push_back({length, e});
   }
-  std::stable_sort(found.begin(), found.end(), [&](const Candidate &p, const Candidate &q) {
+  std::stable_sort(found.begin(), found.end(), [&](const SizedEdge &p, const SizedEdge &q) {
     return longest_first ? p.length > q.length : p.length < q.length;
   });
   return found;
@@ -68,8 +70,8 @@ std::vector<Candidate> candidates(const InputSheet &input, const SheetMesh &mesh
 
 bool split_long(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
   bool any = false;
-  const auto is_long = [&](double l) { return l > high * edge; };
-  for (const Candidate &c : candidates(input, mesh, is_long, true)) {
+  const auto is_long = [&](double l) { return l > split_above * edge; };
+  for (const SizedEdge &c : edges_by_length(input, mesh, is_long, true)) {
     any = editor.split(c.edge) || any;
   }
   return any;
@@ -77,12 +79,12 @@ bool split_long(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, d
 
 bool collapse_short(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
   bool any = false;
-  const auto is_short = [&](double l) { return l < low * edge; };
-  for (const Candidate &c : candidates(input, mesh, is_short, false)) {
+  const auto is_short = [&](double l) { return l < collapse_below * edge; };
+  for (const SizedEdge &c : edges_by_length(input, mesh, is_short, false)) {
     const auto [a, b] = c.edge;
-    if (!mesh.are_joined(a, b) || length_of(input, mesh, c.edge) >= low * edge) continue;
-    any = editor.collapse(a, b, high * edge, EditFor::spacing) ||
-          editor.collapse(b, a, high * edge, EditFor::spacing) || any;
+    if (!mesh.are_joined(a, b) || length_of(input, mesh, c.edge) >= collapse_below * edge) continue;
+    any = editor.collapse(a, b, split_above * edge, EditFor::spacing) ||
+          editor.collapse(b, a, split_above * edge, EditFor::spacing) || any;
   }
   return any;
 }
@@ -140,7 +142,7 @@ std::vector<double> wanted_arcs(const InputSheet &input, const SheetMesh &mesh, 
   return wanted;
 }
 
-void relax(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
+void relax_vertices(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
   const auto halving = [](auto move) {  // the whole way, else a half or a quarter
     for (const double share : {1.0, 0.5, 0.25}) {
       if (move(share)) return;
@@ -152,14 +154,14 @@ void relax(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double
     const MeshVertex &at = mesh.vertex[v];
     if (at.rim == Rim::inside) {
       const Vec3 from = mesh.x[v], way = centre_of_star(mesh, v) - from;
-      if (way.norm() < still * edge) continue;
+      if (way.norm() < least_way * edge) continue;
       halving([&](double share) {
         return editor.move_inside(v, from + share * way, EditFor::spacing);
       });
     } else {
       const double arc = at.arc;
       const double way = around(arc, wanted[v], input.curve(at.rim).length());
-      if (std::abs(way) < still * edge) continue;
+      if (std::abs(way) < least_way * edge) continue;
       halving(
           [&](double share) { return editor.move_along(v, arc + share * way, EditFor::spacing); });
     }
@@ -192,7 +194,7 @@ void search_place(SheetMesh &mesh, SheetEditor &editor, double edge, uint32_t v)
   constexpr int most_moves = 20;
   double step = first_step;
   for (int k = 0; k < most_moves && step >= last_step; ++k) {
-    if (editor.worst_around(v) < poor) return;
+    if (editor.worst_around(v) < poor_cosine) return;
     if (!gains(step * edge)) step *= 0.5;
   }
 }
@@ -205,7 +207,7 @@ bool improve_poor(SheetMesh &mesh, SheetEditor &editor, double edge) {
   for (uint32_t t = 0; t < count; ++t) {
     const Tri tri = mesh.triangles[t];
     if (tri[0] == none) continue;
-    if (worst_cosine(mesh.x[tri[0]], mesh.x[tri[1]], mesh.x[tri[2]]) <= poor) continue;
+    if (worst_cosine(mesh.x[tri[0]], mesh.x[tri[1]], mesh.x[tri[2]]) <= poor_cosine) continue;
     any = true;
     bool changed = false;
     for (size_t k = 0; k < 3 && !changed; ++k) {
@@ -213,50 +215,13 @@ bool improve_poor(SheetMesh &mesh, SheetEditor &editor, double edge) {
     }
     for (size_t k = 0; k < 3 && !changed; ++k) {
       const uint32_t a = tri[k], b = tri[(k + 1) % 3];
-      if (mesh.length(a, b) > low * edge) continue;
-      changed = editor.collapse(a, b, longest * edge, EditFor::angle) ||
-                editor.collapse(b, a, longest * edge, EditFor::angle);
+      if (mesh.length(a, b) > collapse_below * edge) continue;
+      changed = editor.collapse(a, b, longest_made * edge, EditFor::angle) ||
+                editor.collapse(b, a, longest_made * edge, EditFor::angle);
     }
     for (size_t k = 0; k < 3 && !changed; ++k) search_place(mesh, editor, edge, tri[k]);
   }
   return any;
-}
-
-RemeshReport report_on(const InputSheet &input, const SheetMesh &mesh, const LeafletSheet &made) {
-  RemeshReport report;
-  double sum = 0;
-  report.shortest = 1e300;
-  const std::vector<Edge> edges = mesh.edges();
-  for (const auto &[a, b] : edges) {
-    const double length = mesh.length(a, b);
-    sum += length;
-    report.shortest = std::min(report.shortest, length);
-    report.longest = std::max(report.longest, length);
-  }
-  report.mean_edge = sum / static_cast<double>(edges.size());
-  double worst = -1;
-  for (const Tri &t : mesh.triangles) {
-    if (t[0] == none) continue;
-    const Vec3 &a = mesh.x[t[0]], &b = mesh.x[t[1]], &c = mesh.x[t[2]];
-    worst = std::max(worst, worst_cosine(a, b, c));
-    const Vec3 samples[] = {a, 0.5 * (a + b), (a + b + c) / 3};
-    for (const Vec3 &p : samples) {
-      double nearest2 = 1e300;
-      for (const uint32_t v : t) {
-        const Vec3 q = input.walk.at(input.walk.closest_from(mesh.vertex[v].place, p));
-        nearest2 = std::min(nearest2, (q - p).squaredNorm());
-      }
-      report.largest_distance = std::max(report.largest_distance, std::sqrt(nearest2));
-    }
-  }
-  const TriangleBvh bvh(made.triangles, made.x);
-  for (const Vec3 &p : input.sheet.x) {
-    report.largest_distance =
-        std::max(report.largest_distance, std::sqrt(bvh.closest(p).distance2));
-  }
-  report.worst_angle = math::atan2(std::sqrt(std::max(0.0, 1 - worst * worst)), worst);
-  report.crossings = find_intersections(made.x, made.triangles).size();
-  return report;
 }
 
 }  // namespace
@@ -270,6 +235,14 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
            MVS_E_OP, "surface",
            "%zu labels for %zu triangles, %zu thicknesses for %zu vertices: give one each",
            sheet.label.size(), sheet.triangles.size(), sheet.thickness.size(), sheet.x.size());
+  double area = 0;
+  for (const Tri &t : sheet.triangles) area += triangle_area(sheet.x, t);
+  const double count = area / (0.433 * goal.edge * goal.edge);  // of equilateral triangles
+  MVS_MUST(
+      count < most_triangles, MVS_E_OP, "edge",
+      "a wanted edge of %g mm makes about %.0f triangles of %g mm2 of tissue, at most %.0f are "
+      "made: is the surface in m?",
+      goal.edge * 1e3, count, area * 1e6, most_triangles);
   const InputSheet input(sheet, rims);
   SheetMesh mesh = mesh_of(input, rims);
   SheetEditor editor(input, mesh, goal.edge);
@@ -282,12 +255,12 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
     repeat([&] { return split_long(input, mesh, editor, edge); });
     repeat([&] { return collapse_short(input, mesh, editor, edge); });
     repeat([&] { return flip_all(mesh, editor, EditFor::spacing); });
-    relax(input, mesh, editor, goal.edge);
+    relax_vertices(input, mesh, editor, goal.edge);
     edge = std::clamp(edge * goal.edge / mean_length(mesh), goal.edge, most_scale * goal.edge);
   }
   for (int round = 0; round < last_rounds; ++round) {
     repeat([&] { return flip_all(mesh, editor, EditFor::angle); });
-    relax(input, mesh, editor, goal.edge);
+    relax_vertices(input, mesh, editor, goal.edge);
   }
   for (int k = 0; k < improvements; ++k) {
     if (!improve_poor(mesh, editor, goal.edge)) break;

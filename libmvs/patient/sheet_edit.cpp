@@ -1,4 +1,4 @@
-// What a change must keep, and moves of vertices.
+// The conditions of a change, and moves of vertices.
 #include "patient/sheet_edit.h"
 
 #include <Eigen/Geometry>
@@ -11,20 +11,20 @@ namespace {
 
 // A triangle faces as the input does if their normals differ by less than 60 degrees; where the
 // input is curved more sharply than triangles resolve, by no more than before.
-constexpr double faces = 0.5;
+constexpr double least_facing = 0.5;
 // Edges join places where the normals of the input differ by less than 127 degrees, or by no more
 // than before: in a narrow fold, vertices stay on its ridge, and no edge cuts from wall to wall.
-constexpr double bends = -0.6;
+constexpr double least_bend = -0.6;
 // Splits may lower both cosines: they are few, and without them long edges remain at creases.
 constexpr double split_slack = 0.25;
 // A triangle turns by less than 60 degrees at once.
 constexpr double least_turn = 0.5;
 // cos 5 degrees: the normal of a thinner triangle is not used as a reference.
-constexpr double needle = 0.9962;
+constexpr double needle_cosine = 0.9962;
 
 // cos 35 degrees: moves for even spacing may lower angles to it.
-constexpr double fine = 0.8192;
-// Of a cosine, by a move for the least angle: 0.01 degrees.
+constexpr double fine_cosine = 0.8192;
+// The gain in cosine of a move for the least angle: 0.01 degrees.
 constexpr double least_gain = 1e-4;
 
 Aabb box_of_sheet(const std::vector<Vec3> &x) {
@@ -72,7 +72,7 @@ SheetEditor::Look SheetEditor::look_at(const std::vector<Tri> &triangles) const 
       look.worst = 1;
       continue;
     }
-    if (cosine < needle) look.normal.back() = area / norm;
+    if (cosine < needle_cosine) look.normal.back() = area / norm;
     const Vec3 &na = mesh_.vertex[t[0]].normal, &nb = mesh_.vertex[t[1]].normal;
     const Vec3 &nc = mesh_.vertex[t[2]].normal;
     look.bend = std::min({look.bend, na.dot(nb), nb.dot(nc), nc.dot(na)});
@@ -85,8 +85,8 @@ SheetEditor::Look SheetEditor::look_at(const std::vector<Tri> &triangles) const 
 
 bool SheetEditor::keeps_sides(const Look &before, const Look &after, Change change) const {
   const double slack = change == Change::split ? split_slack : 0;
-  if (after.facing < std::min(faces, before.facing) - slack) return false;
-  if (after.bend < std::min(bends, before.bend) - slack) return false;
+  if (after.facing < std::min(least_facing, before.facing) - slack) return false;
+  if (after.bend < std::min(least_bend, before.bend) - slack) return false;
   const double area = before.area.norm();
   for (size_t k = 0; k < after.normal.size(); ++k) {
     const Vec3 &n = after.normal[k];
@@ -189,7 +189,7 @@ bool SheetEditor::move_to(uint32_t v, const Vec3 &x, const MeshVertex &to, EditF
   mesh_.x[v] = x;
   mesh_.vertex[v] = to;
   const double limit =
-      reason == EditFor::angle ? before.worst - least_gain : std::max(before.worst, fine);
+      reason == EditFor::angle ? before.worst - least_gain : std::max(before.worst, fine_cosine);
   if (replace(patch, limit, Change::star, before)) return true;
   mesh_.x[v] = old_x;
   mesh_.vertex[v] = old;

@@ -11,7 +11,7 @@ namespace mvs::core {
 double worst_cosine(const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
 // A set of triangles that is replaced by another one: before[k] by after[k], both of triangle
-// id[k]; {none, none, none} where there is none.
+// id[k]; {none, none, none} before a triangle is made and after it is removed.
 struct SheetPatch {
   std::vector<uint32_t> id;
   std::vector<Tri> before, after;

@@ -10,7 +10,7 @@ namespace {
 // Cosines of the least angles that a flip or a collapse may leave, unless there were worse ones.
 constexpr double flip_limit = 0.9659;      // cos 15 degrees
 constexpr double collapse_limit = 0.9744;  // cos 13 degrees
-// Of a cosine: keeps two equal diagonals from taking turns.
+// A gain in cosine, which keeps two equal diagonals from taking turns.
 constexpr double flip_gain = 1e-6;
 // Distance of the middle of an edge from the input that is accepted anyway, in wanted edges: that
 // of an edge on a sphere with a radius of 2.5 edges is 0.05.
@@ -23,7 +23,7 @@ uint32_t third_corner(const Tri &t, uint32_t a, uint32_t b) {
   return none;
 }
 
-Tri replaced(Tri t, uint32_t from, uint32_t to) {
+Tri with_corner(Tri t, uint32_t from, uint32_t to) {
   std::replace(t.begin(), t.end(), from, to);
   return t;
 }
@@ -65,7 +65,7 @@ bool SheetEditor::split(const Edge &edge) {
     const Tri &tri = mesh_.triangles[id];
     patch.id.insert(patch.id.end(), {id, next++});
     patch.before.insert(patch.before.end(), {tri, Tri{none, none, none}});
-    patch.after.insert(patch.after.end(), {replaced(tri, b, m), replaced(tri, a, m)});
+    patch.after.insert(patch.after.end(), {with_corner(tri, b, m), with_corner(tri, a, m)});
   }
   const Look before = look_at(patch.before);
   mesh_.x.push_back(x);
@@ -169,7 +169,7 @@ bool SheetEditor::collapse(uint32_t a, uint32_t b, double longest, EditFor reaso
       off_before = std::max(off_before, distance_of_middle(a, v));
       off_after = std::max(off_after, distance_of_middle(b, v));
     }
-    t = gone ? Tri{none, none, none} : replaced(t, a, b);
+    t = gone ? Tri{none, none, none} : with_corner(t, a, b);
   }
   if (off_after > off_before) return false;
   const MeshVertex old = mesh_.vertex[a];

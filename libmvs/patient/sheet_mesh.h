@@ -25,7 +25,7 @@ struct InputSheet {
 // A vertex: its place on the input, near its position, and its part in a rim.
 struct MeshVertex {
   SurfacePlace place;
-  Vec3 normal;  // of the input at the place
+  Vec3 normal = Vec3::Zero();  // of the input at the place
   Rim rim = Rim::inside;
   double arc = 0;                        // on a rim: arc length of the input's
   uint32_t before = none, after = none;  // on a rim: the vertices next to it along the rim

@@ -42,7 +42,7 @@ bool same_loop(std::vector<uint32_t> a, std::vector<uint32_t> b) {
   return a == b;
 }
 
-// What holds for every result, whatever the input's shape.
+// The properties of every result, whatever the input's shape.
 void check_sheet(const RemeshedSheet &made, const LeafletSheet &from, const SheetRims &rims,
                  double edge) {
   const LeafletSheet &sheet = made.sheet;
@@ -226,13 +226,16 @@ TEST_CASE("the_real_sheet_is_mended_and_remeshed") {
   const RemeshedSheet made = remesh_sheet(real.sheet, real.rims, {edge});
   check_sheet(made, real.sheet, real.rims, edge);
   check_lengths(made, real.sheet, real.rims, 0.01);
-  CHECK(made.report.worst_angle > 30 * degree);
+  // one triangle of the free edge is curled over by 120 degrees: its obtuse corner stays
+  CHECK(made.report.worst_angle > 25 * degree);
   CHECK(made.report.largest_distance < 0.4 * edge);  // at creases of the free edge
 }
 
 TEST_CASE("sheets_that_cannot_be_remeshed_are_refused") {
   const ParametricSheet p = parametric_sheet(430);
   CHECK_THROWS_WITH_AS(remesh_sheet(p.sheet, p.rims, {0}), doctest::Contains("must be positive"),
+                       Error);
+  CHECK_THROWS_WITH_AS(remesh_sheet(p.sheet, p.rims, {2e-6}), doctest::Contains("surface in m?"),
                        Error);
   const auto refused = [&](LeafletSheet sheet, const SheetRims &rims, const char *sentence) {
     sheet.label.resize(sheet.triangles.size());
