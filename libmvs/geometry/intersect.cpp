@@ -114,15 +114,6 @@ uint32_t shared_first(Tri &s, Tri &t) {
   return shared;
 }
 
-bool pair_crosses(const std::vector<Vec3> &x, Tri s, Tri t) {
-  const uint32_t shared = shared_first(s, t);
-  const std::array<Vec3, 3> a = {x[s[0]], x[s[1]], x[s[2]]}, b = {x[t[0]], x[t[1]], x[t[2]]};
-  if (shared == 0) return triangles_cross(a, b);
-  if (shared >= 2) return is_folded_flat(a[0], a[1], a[2], b[2]);
-  return segment_crosses_triangle(a[1], a[2], b[0], b[1], b[2]) ||
-         segment_crosses_triangle(b[1], b[2], a[0], a[1], a[2]);
-}
-
 }  // namespace
 
 int orient3d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
@@ -165,6 +156,16 @@ bool triangles_cross(const std::array<Vec3, 3> &first, const std::array<Vec3, 3>
   return false;
 }
 
+bool triangles_cross(const std::vector<Vec3> &x, const Tri &first, const Tri &second) {
+  Tri s = first, t = second;
+  const uint32_t shared = shared_first(s, t);
+  const std::array<Vec3, 3> a = {x[s[0]], x[s[1]], x[s[2]]}, b = {x[t[0]], x[t[1]], x[t[2]]};
+  if (shared == 0) return triangles_cross(a, b);
+  if (shared >= 2) return is_folded_flat(a[0], a[1], a[2], b[2]);
+  return segment_crosses_triangle(a[1], a[2], b[0], b[1], b[2]) ||
+         segment_crosses_triangle(b[1], b[2], a[0], a[1], a[2]);
+}
+
 std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
                                      const std::vector<Tri> &triangles) {
   const TriangleBvh bvh(triangles, x);
@@ -172,7 +173,7 @@ std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
   bvh.for_near_pairs(0, [&](uint32_t a, uint32_t b) {
     if (!bvh.box_of(a).overlaps(bvh.box_of(b))) return;
     const uint32_t s = std::min(a, b), t = std::max(a, b);
-    if (pair_crosses(x, triangles[s], triangles[t])) crossing.push_back({s, t});
+    if (triangles_cross(x, triangles[s], triangles[t])) crossing.push_back({s, t});
   });
   std::sort(crossing.begin(), crossing.end());
   return crossing;

@@ -21,12 +21,15 @@ bool segment_crosses_triangle(const Vec3 &p, const Vec3 &q, const Vec3 &a, const
 // Returns whether two triangles have a point in common, under the same conditions.
 bool triangles_cross(const std::array<Vec3, 3> &first, const std::array<Vec3, 3> &second);
 
-// Returns the pairs of triangles that cross, lower index first, sorted. A pair crosses if
+// Returns whether two triangles of a surface with vertices `x` cross. A pair crosses if
 // - without a common node: the triangles have a point in common;
 // - with one common node: the opposite side of one passes through the other;
 // - with a common edge: they are folded onto each other, that is, coplanar with both third corners
 //   strictly on the same side, so that two layers of tissue are in one place;
 // - with the same three nodes: the triangle is not flat.
+bool triangles_cross(const std::vector<Vec3> &x, const Tri &first, const Tri &second);
+
+// Returns the pairs of triangles that cross, lower index first, sorted.
 std::vector<Edge> find_intersections(const std::vector<Vec3> &x, const std::vector<Tri> &triangles);
 
 }  // namespace mvs::core
