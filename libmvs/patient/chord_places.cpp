@@ -17,6 +17,7 @@ constexpr double rough_v = 0.75, strut_v = 0.5, belly_v = 0.25, basal_v = 0.35;
 // Struts end at this share of the way from A point to commissure, basal chordae begin at this share
 // from commissure to P point. Leaves within this share of a row from the commissure are its fan.
 constexpr double strut_end = 0.7, basal_begin = 0.15, fan_share = 0.08;
+constexpr uint32_t least_leaves = 8;  // of a half
 constexpr size_t most_leaves = 3, most_strut_leaves = 4;
 
 // Arc length of the free edge from the A point, over the foot: half of the edge for each muscle.
@@ -167,6 +168,13 @@ size_t count_segments(const Half &half, uint32_t leaves) {
   return count;
 }
 
+// Marginal chordae that a half has vertices for: two of three along its free edge.
+uint32_t room_of(const PatientGeometry &g, const Half &half) {
+  const auto count = std::count_if(g.rims.free_edge.begin(), g.rims.free_edge.end(),
+                                   [&](uint32_t i) { return half.contains(i); });
+  return static_cast<uint32_t>(2 * count / 3);
+}
+
 // Gives each place the nearest vertex of its half that is free, in coordinates along the sheet.
 class FreeVertices {
  public:
@@ -224,12 +232,18 @@ ChordPlan plan_chords(const PatientGeometry &g, uint32_t segments) {
            "%u chord segments are asked for: the number has to be 20 to 400", segments);
   const EdgeLength edge(g);
   const Half lateral(g, edge, false), medial(g, edge, true);
-  // the largest number of leaves that needs no more segments
+  const uint32_t room = std::min(room_of(g, lateral), room_of(g, medial));
+  // the largest number of leaves that fits
   uint32_t leaves = (segments + 1) / 2;
-  while (leaves > 6 &&
-         count_segments(lateral, leaves) + count_segments(medial, leaves) > segments) {
-    --leaves;
-  }
+  const auto fits = [&] {
+    return rows_of(lateral, leaves).front().count <= room &&
+           count_segments(lateral, leaves) + count_segments(medial, leaves) <= segments;
+  };
+  while (leaves > least_leaves && !fits()) --leaves;
+  MVS_MUST(fits(), MVS_E_OP, "chords",
+           "the free edge has room for %u marginal chordae in one half, at least %u are needed: "
+           "ask for shorter edges",
+           room, rows_of(lateral, least_leaves).front().count);
   FreeVertices vertices(g);
   ChordPlan plan;
   plan.anterolateral = plan_half(lateral, leaves, vertices);
