@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "patient/normal_equations.h"
 
 namespace mvs::core {
@@ -20,6 +21,8 @@ constexpr double robust_distance = 3e-3;
 // The fit ends where no factor changes by more than this, or the misfit falls by less than a share.
 constexpr double least_step = 1e-3, least_gain = 0.01;
 constexpr int most_halvings = 3;
+// By how much a group without influence is shortened at a time.
+constexpr double slack_probe = 0.05;
 // m, RMS distance of the annulus from the given surface: more is another frame or patient.
 constexpr double farthest_annulus = 8e-3;
 // A factor is not determined by the surface if its deviation is at least this share of the prior's.
@@ -32,28 +35,37 @@ double match_weight(const SurfaceMatch &m, const FitSettings &s) {
   return 0.5 * m.area / patch / (s.noise * s.noise * (1 + far * far));
 }
 
-// Minus twice the logarithm of the posterior.
+// Minus twice the logarithm of the posterior, whose gradient has the weights above.
 double misfit_of(const std::vector<SurfaceMatch> &matches, const std::vector<double> &factor,
                  const FitSettings &s) {
   double sum = 0;
   for (const SurfaceMatch &m : matches) {
-    sum += match_weight(m, s) * m.distance * m.distance;
+    const double far = m.distance / robust_distance, scale = robust_distance / s.noise;
+    sum += 0.5 * m.area / patch * scale * scale * math::log(1 + far * far);
   }
   for (const double f : factor) sum += (f - 1) * (f - 1) / (s.prior * s.prior);
   return sum;
 }
 
+// A closed valve with given factors.
+struct Trial {
+  std::vector<double> factor;
+  ClosedValve closed;
+  std::vector<SurfaceMatch> matches;
+  double misfit = 0;
+};
+
 struct Normal {
   DenseMatrix h;
   std::vector<double> right;
 };
-Normal normal_equations(const std::vector<SurfaceMatch> &matches, const std::vector<Vec3> &x,
-                        const std::vector<std::vector<double>> &jacobian,
-                        const std::vector<double> &factor, const FitSettings &s) {
-  const size_t n = factor.size();
+Normal normal_equations(const Trial &now, const std::vector<std::vector<double>> &jacobian,
+                        const FitSettings &s) {
+  const size_t n = now.factor.size();
   Normal normal{DenseMatrix(n), std::vector<double>(n, 0)};
-  for (size_t m = 0; m < matches.size(); ++m) {
-    const double w = match_weight(matches[m], s), r = matches[m].residual(x);
+  for (size_t m = 0; m < now.matches.size(); ++m) {
+    const double w = match_weight(now.matches[m], s);
+    const double r = now.matches[m].residual(now.closed.state.x);
     for (size_t i = 0; i < n; ++i) {
       normal.right[i] -= w * jacobian[i][m] * r;
       for (size_t j = 0; j < n; ++j) normal.h.at(i, j) += w * jacobian[i][m] * jacobian[j][m];
@@ -61,9 +73,19 @@ Normal normal_equations(const std::vector<SurfaceMatch> &matches, const std::vec
   }
   for (size_t i = 0; i < n; ++i) {
     normal.h.at(i, i) += 1 / (s.prior * s.prior);
-    normal.right[i] -= (factor[i] - 1) / (s.prior * s.prior);
+    normal.right[i] -= (now.factor[i] - 1) / (s.prior * s.prior);
   }
   return normal;
+}
+
+std::vector<double> bounded_step(const Normal &normal, const std::vector<double> &factor,
+                                 const FitSettings &s) {
+  std::vector<double> low, high;
+  for (const double f : factor) {
+    low.push_back(s.least - f);
+    high.push_back(s.most - f);
+  }
+  return solve_bounded(normal.h, normal.right, low, high);
 }
 
 void check_surface(const ClosedSurface &given, const Model &model) {
@@ -92,6 +114,64 @@ Valve scaled(const Valve &valve, const std::vector<ChordGroup> &groups,
   scale_groups(changed, groups, factor);
   return changed;
 }
+
+// The best trial so far, and the ways to a better one.
+struct Fit {
+  const Valve &valve;
+  const FitSettings &settings;
+  Solver &solver;
+  ClosedValve first;
+  SurfaceMatcher matcher;
+  std::vector<ChordGroup> groups;
+  Trial now;
+
+  Fit(const Valve &valve_in, const ClosedSurface &given, const FitSettings &s, Solver &solver_in)
+      : valve(valve_in),
+        settings(s),
+        solver(solver_in),
+        first(close_open(solver, valve, s.pressure)),
+        matcher(given, *first.model, first.state.x),
+        groups(chord_groups(*first.model, s.grouping)) {
+    now = judged(std::vector<double>(groups.size(), 1), first);
+  }
+
+  Trial judged(std::vector<double> factor, ClosedValve closed) const {
+    std::vector<SurfaceMatch> matches = matcher.match(*closed.model, closed.state.x);
+    const double misfit = misfit_of(matches, factor, settings);
+    return {std::move(factor), std::move(closed), std::move(matches), misfit};
+  }
+
+  // Takes the factors if the valve comes to rest with a smaller misfit.
+  bool accept(const std::vector<double> &factor) {
+    Trial there = judged(factor, close_again(solver, now.closed, scaled(valve, groups, factor)));
+    if (!there.closed.stats.converged || there.misfit >= now.misfit) return false;
+    now = std::move(there);
+    return true;
+  }
+
+  // Backtracks from a whole step.
+  bool step_along(std::vector<double> step) {
+    for (int trial = 0; trial <= most_halvings; ++trial) {
+      double largest = 0;
+      std::vector<double> next = now.factor;
+      for (size_t k = 0; k < next.size(); ++k) {
+        next[k] += step[k];
+        largest = std::max(largest, std::abs(step[k]));
+        step[k] *= 0.5;
+      }
+      if (largest < least_step) return false;
+      if (accept(next)) return true;
+    }
+    return false;
+  }
+
+  // A slack group changes nothing until it is short enough to be taut.
+  bool shorten(size_t group) {
+    std::vector<double> next = now.factor;
+    next[group] = std::max(settings.least, next[group] - slack_probe);
+    return next[group] < now.factor[group] && accept(next);
+  }
+};
 
 void report(const ChordFit &fit, const FitSettings &s, Findings &findings) {
   std::string open, bound;
@@ -149,60 +229,35 @@ ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettin
   Solver solver(Backend::fastest);
   if (!jacobian) jacobian = jacobian_by_differences(solver);
   check_surface(given, *make_model(valve));
-  ClosedValve closed = close_open(solver, valve, s.pressure);
-  const SurfaceMatcher matcher(given, *closed.model, closed.state.x);
-  ChordFit fit;
-  fit.groups = chord_groups(*closed.model, s.grouping);
+  Fit fit(valve, given, s, solver);
   const size_t n = fit.groups.size();
-  fit.factor.assign(n, 1);
-  fit.deviation.assign(n, s.prior);
-  std::vector<SurfaceMatch> matches = matcher.match(*closed.model, closed.state.x);
-  double misfit = misfit_of(matches, fit.factor, s);
-  fit.rms_before = fit.rms = rms_distance(matches);
-  bool improves = true;
-  while (improves && fit.rounds < s.rounds) {
-    ++fit.rounds;
-    // derivatives are by relative changes of the present lengths
-    std::vector<std::vector<double>> columns = jacobian(closed, fit.groups, matches);
+  std::vector<uint8_t> probed(n, 0);
+  std::vector<double> deviation(n, s.prior);
+  const double rms_before = rms_distance(fit.now.matches);
+  uint32_t rounds = 0;
+  for (bool improves = true; improves && rounds < s.rounds; ++rounds) {
+    const double before = fit.now.misfit;
+    std::vector<std::vector<double>> columns =
+        jacobian(fit.now.closed, fit.groups, fit.now.matches);
     for (size_t k = 0; k < n; ++k) {
-      for (double &c : columns[k]) c /= fit.factor[k];
+      for (double &c : columns[k]) c /= fit.now.factor[k];
     }
-    const Normal normal = normal_equations(matches, closed.state.x, columns, fit.factor, s);
+    const Normal normal = normal_equations(fit.now, columns, s);
     const std::vector<double> variance = inverse_diagonal(normal.h);
-    std::vector<double> low, high;
+    for (size_t k = 0; k < n; ++k) deviation[k] = std::sqrt(variance[k]);
+    fit.step_along(bounded_step(normal, fit.now.factor, s));
     for (size_t k = 0; k < n; ++k) {
-      fit.deviation[k] = std::sqrt(variance[k]);
-      low.push_back(s.least - fit.factor[k]);
-      high.push_back(s.most - fit.factor[k]);
+      if (deviation[k] < undetermined_share * s.prior || probed[k]) continue;
+      probed[k] = fit.shorten(k) ? 0 : 1;
     }
-    std::vector<double> step = solve_bounded(normal.h, normal.right, low, high);
-    improves = false;
-    for (int trial = 0; trial <= most_halvings && !improves; ++trial) {
-      double largest = 0;
-      std::vector<double> next = fit.factor;
-      for (size_t k = 0; k < n; ++k) {
-        next[k] += step[k];
-        largest = std::max(largest, std::abs(step[k]));
-        step[k] *= 0.5;
-      }
-      if (largest < least_step) break;
-      ClosedValve tried = close_again(solver, closed, scaled(valve, fit.groups, next));
-      std::vector<SurfaceMatch> there = matcher.match(*tried.model, tried.state.x);
-      const double value = misfit_of(there, next, s);
-      if (!tried.stats.converged || value >= misfit) continue;
-      improves = value < (1 - least_gain) * misfit;
-      misfit = value;
-      closed = std::move(tried);
-      matches = std::move(there);
-      fit.factor = next;
-      fit.rms = rms_distance(matches);
-      break;
-    }
+    improves = fit.now.misfit < (1 - least_gain) * before;
   }
-  fit.at_rest = closed.stats.converged;
-  scale_groups(valve, fit.groups, fit.factor);
-  report(fit, s, findings);
-  return fit;
+  scale_groups(valve, fit.groups, fit.now.factor);
+  ChordFit done{
+      std::move(fit.groups),         fit.now.factor, std::move(deviation),          rms_before,
+      rms_distance(fit.now.matches), rounds,         fit.now.closed.stats.converged};
+  report(done, s, findings);
+  return done;
 }
 
 }  // namespace mvs::core

@@ -2,7 +2,8 @@
 //
 // Bounded regularised least squares (Gauss-Newton): one factor for each group of chordae, with a
 // normal prior of mean 1; residuals are distances along fixed matches of both surfaces, renewed in
-// each round as in iterative closest points (Besl and McKay 1992).
+// each round as in iterative closest points (Besl and McKay 1992). Chordae that hang slack change
+// nothing, so their groups are also tried shorter.
 #pragma once
 
 #include <functional>
@@ -23,8 +24,8 @@ struct FitSettings {
   uint32_t rounds = 6;              // at most
 };
 
-// Derivatives of residuals of a closed valve by the factor of each group: [group][match]. The
-// default takes differences of closures that start from the closed valve.
+// Derivatives of residuals of a closed valve by a factor on the present lengths of each group:
+// [group][match]. The default takes differences of closures that start from the closed valve.
 using ClosedJacobian = std::function<std::vector<std::vector<double>>(
     const ClosedValve &closed, const std::vector<ChordGroup> &groups,
     const std::vector<SurfaceMatch> &matches)>;

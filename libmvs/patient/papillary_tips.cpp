@@ -21,6 +21,8 @@ constexpr double least_tip_depth = 5e-3;
 // the centre.
 constexpr double assumed_depth = 23.5 / 35, assumed_separation = 20.0 / 35;
 constexpr double assumed_posterior = 0.12;  // of the AP diameter
+// Share of the AP diameter from the centre towards the A point, beyond which tips are unusual.
+constexpr double most_forward = 0.2;
 // m: a tip is at least this much below the lowest leaflet, as chordae have a length.
 constexpr double below_leaflets = 1e-3;
 
@@ -83,8 +85,10 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
     return tips;
   }
   PapillaryTips tips;
+  double forward = 0;  // m, mean place of the tips from the centre towards the A point
   for (size_t k = 0; k < given.size(); ++k) {
     check_tip(given[k], k + 1, frame);
+    forward += frame.local(given[k])[1] / static_cast<double>(given.size());
     const bool medial = frame.local(given[k])[0] > frame.middle;
     (medial ? tips.posteromedial : tips.anterolateral).push_back(given[k]);
   }
@@ -93,13 +97,18 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
       "all %zu papillary tips lie on the %s side of the plane between the commissures: give at "
       "least one tip of each papillary muscle, or check commissures and anterior leaflet",
       given.size(), tips.anterolateral.empty() ? "posteromedial" : "anterolateral");
-  findings.push_back({"papillary_tips",
-                      FindingSource::given,
-                      1,
-                      format("the given points: %zu anterolateral, %zu posteromedial",
-                             tips.anterolateral.size(), tips.posteromedial.size()),
-                      {},
-                      ""});
+  const bool swapped = forward > most_forward * frame.diameter;
+  findings.push_back(
+      {"papillary_tips",
+       FindingSource::given,
+       swapped ? 0.4 : 1,
+       format("the given points: %zu anterolateral, %zu posteromedial%s", tips.anterolateral.size(),
+              tips.posteromedial.size(),
+              swapped ? "; they lie under the anterior leaflet, where normal tips lie under the "
+                        "posterior one: give a point of the anterior leaflet if both are swapped"
+                      : ""),
+       {},
+       ""});
   put_tips(tips, findings.back());
   return tips;
 }
