@@ -57,6 +57,15 @@ TEST_CASE("given_tips_are_grouped_by_their_side") {
   CHECK(tips.posteromedial[1] == Vec3(7, -5, -22) * mm);
   CHECK(findings.back().source == FindingSource::given);
   CHECK(findings.back().value.size() == 9);
+  CHECK(findings.back().confidence == 1);
+}
+
+TEST_CASE("tips_under_the_anterior_leaflet_lower_the_confidence") {
+  const PatientGeometry g = parametric_geometry(430);
+  Findings findings;
+  find_papillary_tips({Vec3(-10, 8, -23) * mm, Vec3(10, 8, -23) * mm}, g, findings);
+  CHECK(findings.back().confidence < 0.5);
+  CHECK(findings.back().sentence.find("swapped") != std::string::npos);
 }
 
 TEST_CASE("tips_of_another_frame_or_of_one_muscle_are_refused") {

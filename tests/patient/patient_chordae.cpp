@@ -195,8 +195,8 @@ TEST_CASE("chordae_that_make_no_sense_are_refused") {
 }
 
 TEST_CASE("valves_from_sheets_close_at_systole") {
-  check_competent(with_chordae(parametric_geometry(430)));
   check_competent(with_chordae(distorted(430, 0.7)));
+  check_competent(with_chordae(parametric_geometry(430), LeafletLawId::neo_hookean, {}));
   check_competent(with_chordae(parametric_geometry(1600), LeafletLawId::neo_hookean, {}));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 
 #include "geometry/intersect.h"
 #include "measure/measure.h"
@@ -22,9 +23,15 @@ inline PatientGeometry geometry_of(const LeafletSheet &sheet, const SheetRims &r
   return g;
 }
 
-inline PatientGeometry parametric_geometry(uint32_t vertices) {
-  const ParametricSheet p = parametric_sheet(vertices);
-  return geometry_of(p.sheet, p.rims);
+// Made once for all tests.
+inline const PatientGeometry &parametric_geometry(uint32_t vertices) {
+  static std::map<uint32_t, PatientGeometry> made;
+  auto at = made.find(vertices);
+  if (at == made.end()) {
+    const ParametricSheet p = parametric_sheet(vertices);
+    at = made.emplace(vertices, geometry_of(p.sheet, p.rims)).first;
+  }
+  return at->second;
 }
 
 // Leaflets without chordae: two leaflets of one law, six scallops.
