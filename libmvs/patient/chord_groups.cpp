@@ -26,7 +26,7 @@ const char *word_of(ChordKind kind) {
   return "other";
 }
 
-// The first segment that begins (or ends) at a node, `none` if there is none.
+// The first segment that begins (or ends) at a node, or `none`.
 uint32_t next_segment(const Model &model, uint32_t node, bool down) {
   for (const uint32_t c : model.topology.node_chords[node]) {
     const Chord &chord = model.valve.chords[c];

@@ -27,6 +27,7 @@ class EdgeLength {
     const std::vector<uint32_t> &edge = g.rims.free_edge;
     const std::vector<double> &foot = g.coordinates.foot;
     const size_t n = edge.size();
+    MVS_MUST(n >= 3, MVS_E_OP, "free edge", "the free edge has %zu vertices", n);
     double turn = 0;
     for (size_t k = 0; k < n; ++k) turn += around(foot[edge[k]], foot[edge[(k + 1) % n]], loop_);
     const bool forward = turn > 0;
@@ -113,7 +114,7 @@ class Half {
 
 std::vector<Row> rows_of(const Half &half, uint32_t leaves) {
   const auto part = [&](double share) {
-    return std::max(1u, static_cast<uint32_t>(share * leaves + 0.5));
+    return std::max(1u, static_cast<uint32_t>(std::floor(share * leaves + 0.5)));
   };
   const uint32_t basal = part(basal_part), rough = part(rough_part), struts = part(strut_part);
   const uint32_t others = basal + rough + 2 * struts;

@@ -69,7 +69,7 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
   MVS_MUST(given.size() <= most_tips, MVS_E_ARGUMENT, "papillary_tips",
            "%zu papillary tips are given, at most %zu are accepted", given.size(), most_tips);
   if (given.empty()) {
-    const PapillaryTips tips = assumed_tips(g, frame);
+    PapillaryTips tips = assumed_tips(g, frame);
     const double depth = -frame.local(tips.anterolateral[0])[2];
     findings.push_back(
         {"papillary_tips",
