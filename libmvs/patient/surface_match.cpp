@@ -19,6 +19,7 @@ constexpr double no_distance = 1e-6;
 
 std::vector<Vec3> triangle_normals(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {
   std::vector<Vec3> normals;
+  normals.reserve(triangles.size());
   for (const Tri &t : triangles) {
     normals.push_back((x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).normalized());
   }
