@@ -112,7 +112,7 @@ class Half {
   double a_;
 };
 
-std::vector<Row> rows_of(const Half &half, uint32_t leaves) {
+std::vector<Row> chord_rows(const Half &half, uint32_t leaves) {
   const auto part = [&](double share) {
     return std::max(1u, static_cast<uint32_t>(std::floor(share * leaves + 0.5)));
   };
@@ -161,7 +161,7 @@ std::vector<std::vector<size_t>> divide(const std::vector<Spot> &spots) {
 
 size_t count_segments(const Half &half, uint32_t leaves) {
   size_t count = 0;
-  for (const Row &row : rows_of(half, leaves)) {
+  for (const Row &row : chord_rows(half, leaves)) {
     for (const std::vector<size_t> &tree : divide(spots_of(half, row))) {
       count += tree.size() + (tree.size() > 1 ? 1 : 0);
     }
@@ -214,7 +214,7 @@ class FreeVertices {
 
 std::vector<ChordTree> plan_half(const Half &half, uint32_t leaves, FreeVertices &vertices) {
   std::vector<ChordTree> trees;
-  for (const Row &row : rows_of(half, leaves)) {
+  for (const Row &row : chord_rows(half, leaves)) {
     const std::vector<Spot> spots = spots_of(half, row);
     for (const std::vector<size_t> &tree : divide(spots)) {
       trees.push_back({spots[tree.front()].kind, {}});
@@ -237,14 +237,14 @@ ChordPlan plan_chords(const PatientGeometry &g, uint32_t segments) {
   // the largest number of leaves that fits
   uint32_t leaves = (segments + 1) / 2;
   const auto fits = [&] {
-    return rows_of(lateral, leaves).front().count <= room &&
+    return chord_rows(lateral, leaves).front().count <= room &&
            count_segments(lateral, leaves) + count_segments(medial, leaves) <= segments;
   };
   while (leaves > least_leaves && !fits()) --leaves;
   MVS_MUST(fits(), MVS_E_OP, "chords",
            "the free edge has room for %u marginal chordae in one half, at least %u are needed: "
            "ask for shorter edges",
-           room, rows_of(lateral, least_leaves).front().count);
+           room, chord_rows(lateral, least_leaves).front().count);
   FreeVertices vertices(g);
   ChordPlan plan;
   plan.anterolateral = plan_half(lateral, leaves, vertices);

@@ -215,6 +215,7 @@ ClosedJacobian jacobian_by_differences(Solver &solver) {
       const ClosedValve moved =
           close_again(solver, closed, scaled(closed.model->valve, groups, factor));
       std::vector<double> column;
+      column.reserve(matches.size());
       for (const SurfaceMatch &m : matches) {
         column.push_back((m.residual(moved.state.x) - m.residual(closed.state.x)) / difference);
       }
