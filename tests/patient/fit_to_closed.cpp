@@ -96,6 +96,7 @@ TEST_CASE("lengths_that_were_changed_are_found_from_the_closed_surface") {
   const Valve valve = patient_valve(430);
   const std::vector<ChordGroup> groups = chord_groups(*make_model(valve), ChordGrouping::kinds);
   std::vector<double> known;
+  known.reserve(groups.size());
   for (const ChordGroup &group : groups) known.push_back(known_factor(group));
   Valve truth = valve;
   scale_groups(truth, groups, known);
