@@ -1,0 +1,23 @@
+// Closures of a valve at systolic pressure, from the open shape or from a closed one.
+#pragma once
+
+#include "model/model.h"
+#include "solve/solver.h"
+
+namespace mvs::core {
+
+inline constexpr double systolic_pressure = 120 * 133.322;  // Pa
+
+struct ClosedValve {
+  ModelPtr model;
+  State state;
+  SolveStats stats;
+};
+
+// From the rest shape, as a caller closes a new valve.
+ClosedValve close_open(Solver &solver, const Valve &valve, double pressure);
+
+// From a closed valve with the same nodes and other rest lengths.
+ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &valve);
+
+}  // namespace mvs::core

@@ -1,0 +1,18 @@
+// Tips of the papillary muscles: given, or assumed from normal anatomy.
+#pragma once
+
+#include "patient/patient_geometry.h"
+
+namespace mvs::core {
+
+struct PapillaryTips {
+  std::vector<Vec3> anterolateral, posteromedial;  // at least one each
+};
+
+// Groups given points by their side of the plane between the commissures; without any, assumes one
+// tip for each muscle. Throws if tips are too many, too far from the annulus, not below it, or all
+// on one side.
+PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientGeometry &g,
+                                  Findings &findings);
+
+}  // namespace mvs::core

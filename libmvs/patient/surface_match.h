@@ -1,0 +1,52 @@
+// Matches between a simulated closed valve and a given closed surface, both ways.
+#pragma once
+
+#include <vector>
+
+#include "base/types.h"
+#include "geometry/bvh.h"
+#include "model/model.h"
+
+namespace mvs::core {
+
+struct ClosedSurface {
+  std::vector<Vec3> points;  // m
+  std::vector<Tri> triangles;
+};
+
+// A point of the valve, as weights of its nodes, and its closest point on the given surface, or the
+// other way round. The residual along `direction` is linear in the nodes.
+struct SurfaceMatch {
+  Tri nodes;
+  std::array<double, 3> weight;
+  Vec3 target, direction;
+  double distance = 0;  // m
+  double area = 0;      // m2 that the match stands for
+
+  double residual(const std::vector<Vec3> &x) const {
+    const Vec3 y = weight[0] * x[nodes[0]] + weight[1] * x[nodes[1]] + weight[2] * x[nodes[2]];
+    return direction.dot(y - target);
+  }
+};
+
+// Matches of surfaces that face the same way, so that a leaflet is not matched with the one that it
+// touches.
+class SurfaceMatcher {
+ public:
+  // Turns the surface, if that brings it closer to the closed valve. Keeps a reference to `given`.
+  SurfaceMatcher(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x);
+
+  std::vector<SurfaceMatch> match(const Model &model, const std::vector<Vec3> &x) const;
+
+ private:
+  const ClosedSurface &given_;
+  TriangleBvh tree_;
+  std::vector<Vec3> normal_;  // of each given triangle
+  std::vector<uint32_t> sample_;
+  double sample_area_ = 0;  // m2
+};
+
+// Root mean square of the distances, by area.
+double rms_distance(const std::vector<SurfaceMatch> &matches);
+
+}  // namespace mvs::core

@@ -1,0 +1,185 @@
+// Chord lengths from a closed surface: twin experiments, groups, normal equations; leak interval.
+#include "patient/fit_to_closed.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "ensemble/loading_path.h"
+#include "patient/leak_interval.h"
+#include "patient/normal_equations.h"
+#include "tests/patient/patient_valve.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+Valve patient_valve(uint32_t vertices) {
+  const PatientGeometry g = parametric_geometry(vertices);
+  Findings findings;
+  Valve valve = leaflets_of(g, LeafletLawId::neo_hookean);
+  add_chordae(valve, g, find_papillary_tips({}, g, findings), {}, findings);
+  return valve;
+}
+
+double known_factor(const ChordGroup &group) {
+  if (group.name[0] == 'A') return 0.93;
+  return group.name == "P marginal" ? 1.06 : 1;
+}
+
+// Distance of a shape of the valve from a surface, both ways.
+double distance_from(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x) {
+  return rms_distance(SurfaceMatcher(given, model, x).match(model, x));
+}
+
+// Closed along a path of its own: a disturbed start, four increments of the pressure.
+std::vector<Vec3> closed_elsewhere(const Model &model) {
+  Solver solver(Backend::fastest);
+  const Path path = make_path(1, {0.5 * mm, 5 * mm}, 7);
+  return close_along(solver, model, initial_state(model), {systolic_pressure, 1}, {}, path, {})
+      .state.x;
+}
+
+}  // namespace
+
+TEST_CASE("bounded_normal_equations_meet_their_conditions") {
+  DenseMatrix h(3);
+  h.entry = {4, 1, 0, 1, 3, -1, 0, -1, 2};
+  const std::vector<double> b = {1, 2, 3};
+  const std::vector<double> x = solve_dense(h, b);
+  for (size_t i = 0; i < 3; ++i) {
+    double sum = -b[i];
+    for (size_t j = 0; j < 3; ++j) sum += h.at(i, j) * x[j];
+    CHECK(std::abs(sum) < 1e-14);  // rounding
+  }
+  // x is about (-0.17, 1.67, 2.33): the second variable meets its bound
+  const std::vector<double> y = solve_bounded(h, b, {-1, -1, -9}, {9, 0.5, 9});
+  CHECK(y[1] == 0.5);
+  CHECK(y[0] == doctest::Approx((1 - 0.5) / 4));
+  CHECK(y[2] == doctest::Approx((3 + 0.5) / 2));
+  // the determinant is 18; the cofactors of the diagonal are 5, 8 and 11
+  const std::vector<double> inverse = inverse_diagonal(h);
+  CHECK(inverse[0] == doctest::Approx(5.0 / 18));
+  CHECK(inverse[1] == doctest::Approx(8.0 / 18));
+  CHECK(inverse[2] == doctest::Approx(11.0 / 18));
+}
+
+TEST_CASE("chordae_are_grouped_by_leaflet_kind_and_muscle") {
+  const ModelPtr model = make_model(patient_valve(430));
+  for (const ChordGrouping grouping : {ChordGrouping::kinds, ChordGrouping::halves}) {
+    const std::vector<ChordGroup> groups = chord_groups(*model, grouping);
+    const bool halves = grouping == ChordGrouping::halves;
+    CHECK(groups.size() == (halves ? 14 : 7));
+    std::vector<int> uses(model->valve.chords.size(), 0);
+    for (const ChordGroup &group : groups) {
+      for (const uint32_t c : group.chords) {
+        ++uses[c];
+        const Chord &chord = model->valve.chords[c];
+        if (halves && model->topology.node_kind[chord.a] == NodeKind::head) {
+          const bool medial = model->valve.rest[chord.a].x() > 0;
+          CHECK(group.name.substr(group.name.size() - 2) == (medial ? "PM" : "AL"));
+        }
+        if (chord.kind == ChordKind::strut) CHECK(group.name.substr(0, 7) == "A strut");
+        if (chord.kind == ChordKind::basal) CHECK(group.name.substr(0, 7) == "P basal");
+      }
+    }
+    CHECK(std::count(uses.begin(), uses.end(), 1) == static_cast<std::ptrdiff_t>(uses.size()));
+  }
+}
+
+TEST_CASE("lengths_that_were_changed_are_found_from_the_closed_surface") {
+  const Valve valve = patient_valve(430);
+  const std::vector<ChordGroup> groups = chord_groups(*make_model(valve), ChordGrouping::kinds);
+  std::vector<double> known;
+  known.reserve(groups.size());
+  for (const ChordGroup &group : groups) known.push_back(known_factor(group));
+  Valve truth = valve;
+  scale_groups(truth, groups, known);
+  Solver solver(Backend::fastest);
+  const ClosedValve target = close_open(solver, truth, systolic_pressure);
+  ClosedSurface surface{target.state.x, valve.triangles};
+  // segmentations are wound either way
+  for (Tri &t : surface.triangles) std::swap(t[1], t[2]);
+
+  Valve fitted = valve;
+  FitSettings settings;
+  settings.grouping = ChordGrouping::kinds;
+  settings.rounds = 3;
+  Findings findings;
+  const ChordFit fit = fit_to_closed(fitted, surface, settings, findings);
+  CHECK(fit.at_rest);
+  CHECK(fit.rms_before > 1 * mm);
+  CHECK(fit.rms < 0.3 * mm);
+  for (size_t k = 0; k < groups.size(); ++k) {
+    CAPTURE(groups[k].name);
+    // 0.03: 0.4 mm of a chord of 15 mm; neighbouring rows share so much of their pull
+    CHECK(std::abs(fit.factor[k] - known[k]) < 0.03);
+  }
+  REQUIRE(findings.size() == 2);
+  CHECK(findings[0].value[0] == fit.rms);
+  CHECK(findings[1].value == fit.factor);
+
+  const ModelPtr model = make_model(fitted);
+  CHECK(distance_from(surface, *model, closed_elsewhere(*model)) < 0.3 * mm);
+}
+
+TEST_CASE("a_jacobian_of_another_kind_can_be_given") {
+  const Valve valve = patient_valve(200);
+  Solver solver(Backend::fastest);
+  const ClosedValve closed = close_open(solver, valve, systolic_pressure);
+  const ClosedSurface surface{closed.state.x, valve.triangles};
+  Valve fitted = valve;
+  Findings findings;
+  size_t calls = 0;
+  const ChordFit fit = fit_to_closed(fitted, surface, {}, findings,
+                                     [&](const ClosedValve &, const std::vector<ChordGroup> &groups,
+                                         const std::vector<SurfaceMatch> &matches) {
+                                       ++calls;
+                                       return std::vector<std::vector<double>>(
+                                           groups.size(), std::vector<double>(matches.size(), 0));
+                                     });
+  // nothing depends on the lengths, so that they keep their prior
+  CHECK(calls == 1);
+  for (size_t k = 0; k < fit.groups.size(); ++k) {
+    CHECK(fit.factor[k] == 1);
+    CHECK(fit.deviation[k] == doctest::Approx(0.1));
+  }
+  CHECK(fitted.chords == valve.chords);
+  CHECK(findings[1].sentence.find("does not determine") != std::string::npos);
+  CHECK(findings[1].sentence.find("A strut") != std::string::npos);
+}
+
+TEST_CASE("closed_surfaces_of_another_frame_are_refused") {
+  Valve valve = patient_valve(200);
+  Findings findings;
+  ClosedSurface surface{valve.rest, valve.triangles};
+  for (Vec3 &p : surface.points) p += Vec3(0, 0, 0.1);
+  CHECK_THROWS_WITH_AS(fit_to_closed(valve, surface, {}, findings), doctest::Contains("LPS or RAS"),
+                       Error);
+  CHECK_THROWS_WITH_AS(fit_to_closed(valve, {surface.points, {}}, {}, findings),
+                       doctest::Contains("no triangles"), Error);
+  CHECK_THROWS_WITH_AS(fit_to_closed(valve, {surface.points, {{0, 1, 9999}}}, {}, findings),
+                       doctest::Contains("9999"), Error);
+}
+
+TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
+  Valve valve = patient_valve(200);
+  // chordae that are a quarter too short hold the leaflets apart
+  for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
+  Findings findings;
+  const LeakInterval interval = leak_interval(valve, findings);
+  const ClosedPatient closed = close_patient(valve);
+  CHECK(interval.leak[1] == measure_orifice(*closed.model, closed.state.x).area);
+  const auto [least, most] = std::minmax_element(interval.leak.begin(), interval.leak.end());
+  CHECK(*most > *least + 1e-6);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].name == "leak");
+  CHECK(findings[0].value == std::vector<double>(interval.leak.begin(), interval.leak.end()));
+  CHECK(findings[0].unit == "m2");
+  CHECK(findings[0].confidence < 0.8);  // that of a leak which does not depend on the lengths
+}

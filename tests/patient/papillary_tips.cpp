@@ -1,0 +1,85 @@
+// Tips of the papillary muscles: grouped, assumed, refused.
+#include "patient/papillary_tips.h"
+
+#include <doctest/doctest.h>
+
+#include "base/error.h"
+#include "tests/patient/patient_valve.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+PapillaryTips tips_of(const PatientGeometry &g, const std::vector<Vec3> &given) {
+  Findings findings;
+  return find_papillary_tips(given, g, findings);
+}
+
+}  // namespace
+
+TEST_CASE("assumed_tips_lie_where_the_parametric_valve_has_them") {
+  const PatientGeometry g = parametric_geometry(430);
+  Findings findings;
+  const PapillaryTips tips = find_papillary_tips({}, g, findings);
+  REQUIRE(tips.anterolateral.size() == 1);
+  REQUIRE(tips.posteromedial.size() == 1);
+  // x is posteromedial, y towards A, z into the atrium; 1 mm: commissures are found to 0.4 mm, and
+  // the middle of the annulus' heights depends on its nodes
+  CHECK((tips.anterolateral[0] - Vec3(-10, -3.1, -23.5) * mm).norm() < 1 * mm);
+  CHECK((tips.posteromedial[0] - Vec3(10, -3.1, -23.5) * mm).norm() < 1 * mm);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].source == FindingSource::assumed);
+  CHECK(findings[0].confidence < 0.5);
+  CHECK(findings[0].value.size() == 6);
+}
+
+TEST_CASE("assumed_tips_stay_below_leaflets_that_hang_deep") {
+  ParametricSheet p = parametric_sheet(430);
+  for (Vec3 &x : p.sheet.x) x.z() *= 2;
+  const PatientGeometry g = geometry_of(p.sheet, p.rims);
+  double lowest = 0;
+  for (const Vec3 &x : g.sheet.x) lowest = std::min(lowest, x.z());
+  REQUIRE(lowest < -30 * mm);
+  CHECK(tips_of(g, {}).anterolateral[0].z() < lowest);
+}
+
+TEST_CASE("given_tips_are_grouped_by_their_side") {
+  const PatientGeometry g = parametric_geometry(430);
+  Findings findings;
+  const PapillaryTips tips = find_papillary_tips(
+      {Vec3(9, 0, -25) * mm, Vec3(-12, -2, -20) * mm, Vec3(7, -5, -22) * mm}, g, findings);
+  REQUIRE(tips.anterolateral.size() == 1);
+  CHECK(tips.anterolateral[0] == Vec3(-12, -2, -20) * mm);
+  REQUIRE(tips.posteromedial.size() == 2);
+  CHECK(tips.posteromedial[1] == Vec3(7, -5, -22) * mm);
+  CHECK(findings.back().source == FindingSource::given);
+  CHECK(findings.back().value.size() == 9);
+  CHECK(findings.back().confidence == 1);
+}
+
+TEST_CASE("tips_under_the_anterior_leaflet_lower_the_confidence") {
+  const PatientGeometry g = parametric_geometry(430);
+  Findings findings;
+  find_papillary_tips({Vec3(-10, 8, -23) * mm, Vec3(10, 8, -23) * mm}, g, findings);
+  CHECK(findings.back().confidence < 0.5);
+  CHECK(findings.back().sentence.find("swapped") != std::string::npos);
+}
+
+TEST_CASE("tips_of_another_frame_or_of_one_muscle_are_refused") {
+  const PatientGeometry g = parametric_geometry(430);
+  const Vec3 lateral = Vec3(-10, -2, -23) * mm, medial = Vec3(10, -2, -23) * mm;
+  CHECK_THROWS_WITH_AS(tips_of(g, {lateral, medial + Vec3(0.2, 0, 0)}),
+                       doctest::Contains("LPS or RAS"), Error);
+  CHECK_THROWS_WITH_AS(tips_of(g, {lateral, Vec3(10, -2, 23) * mm}), doctest::Contains("above"),
+                       Error);
+  CHECK_THROWS_WITH_AS(tips_of(g, {lateral, Vec3(10, -2, -1) * mm}), doctest::Contains("below"),
+                       Error);
+  CHECK_THROWS_WITH_AS(tips_of(g, {medial, medial + Vec3(1, 0, 0) * mm}),
+                       doctest::Contains("one tip of each papillary muscle"), Error);
+  CHECK_THROWS_WITH_AS(tips_of(g, std::vector<Vec3>(65, lateral)), doctest::Contains("at most 64"),
+                       Error);
+  CHECK_THROWS_WITH_AS(tips_of(g, {lateral, Vec3(0, NAN, 0)}), doctest::Contains("finite"), Error);
+}
