@@ -20,6 +20,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
       "Lengths are in mm, pressures in mmHg. A research simulator, not a medical device.\n"
       "Exit code 0: done; 1: failed or not at rest, with the reason on stderr; 2: wrong usage.");
   cli::add_generate(app, console);
+  cli::add_import(app, console);
   cli::add_info(app, console);
   cli::add_chords(app, console);
   cli::add_leak(app, console);

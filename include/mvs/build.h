@@ -1,5 +1,5 @@
 /* Builds a mitral valve from a patient's surface: from a segmentation or a mesh to a valve that
- * closes. */
+ * closes. Experimental (experimental.h). */
 #ifndef MVS_BUILD_H
 #define MVS_BUILD_H
 
@@ -83,9 +83,11 @@ typedef struct mvs_build_finding {
 
 typedef struct mvs_build mvs_build;
 
-/* Replaces the valve of a simulator by one that is built from a surface: like mvs_set_valve, an
- * event that mvs_undo takes back. `options` is nullable. `build` is nullable, else release it with
- * mvs_build_release. Faults of the surface that no rule mends give MVS_E_OP and a sentence. */
+/* Replaces the valve of a simulator by one that is built from a surface, open and without load, and
+ * begins a history, like mvs_generate_valve. `options` is nullable. `build` is nullable, else
+ * release it with mvs_build_release. Faults of the surface that no rule mends give MVS_E_OP and a
+ * sentence; the simulator is unchanged then. MVS_E_CANCELLED if the
+ * progress callback of the simulator cancelled. */
 MVS_API mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
                                    const mvs_build_options *options, mvs_build **build);
 

@@ -1,10 +1,13 @@
-// The experimental interface for C++17: ensembles, mesh levels, solver profile; may change.
+// The experimental interface for C++17: valves from surfaces, ensembles, mesh levels, solver
+// profile; may change.
 #ifndef MVS_EXPERIMENTAL_HPP
 #define MVS_EXPERIMENTAL_HPP
 
 #include <mvs/experimental.h>
+#include <mvs/build.hpp>
 #include <mvs/ensemble.hpp>
 #include <mvs/mvs.hpp>
+#include <mvs/surface_file.hpp>
 
 namespace mvs {
 

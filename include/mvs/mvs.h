@@ -10,7 +10,6 @@
 #include "plan.h"
 #include "sim.h"
 #include "snapshot.h"
-#include "surface_file.h"
 #include "tool.h"
 #include "valve.h"
 

@@ -10,7 +10,6 @@
 #include <mvs/device.hpp>
 #include <mvs/op.hpp>
 #include <mvs/snapshot.hpp>
-#include <mvs/surface_file.hpp>
 #include <mvs/tool.hpp>
 
 #include <array>

@@ -1,5 +1,5 @@
 /* Reads a patient's surface, or landmarks, from a file of another program: points, triangles, named
- * arrays and names of points, in m and in a known frame.
+ * arrays and names of points, in m and in a known frame. Experimental (experimental.h).
  *
  * Surfaces: STL, PLY, OBJ, OFF, VTK legacy PolyData (.vtk) and VTK XML PolyData (.vtp,
  * uncompressed). Polygons of more than three corners are cut into fans of triangles. Landmarks and

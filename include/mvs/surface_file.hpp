@@ -1,4 +1,4 @@
-// Surfaces and landmarks in files, for C++17. Part of mvs/mvs.hpp.
+// Surfaces and landmarks in files, for C++17. Part of mvs/experimental.hpp.
 #ifndef MVS_SURFACE_FILE_HPP
 #define MVS_SURFACE_FILE_HPP
 

@@ -1,6 +1,6 @@
-// Bounding volume hierarchy over the triangles of a surface, for all queries of the library:
-// triangles nearest to a point, pairs of triangles near each other, and pairs of leaves of one
-// surface that come near each other while it moves.
+// Bounding volume hierarchy over the triangles of a surface, for all queries of the library: boxes
+// that overlap a box, triangles nearest to a point, and pairs of leaves of one surface that come
+// near each other while it moves.
 //
 // The topology is built once, top down, by splitting at the median of the longest extent of the
 // centroids (n log n, the same on every machine). Volumes are refitted bottom up in linear time, as
@@ -55,6 +55,18 @@ class Bvh {
         volume_[i] = volume_[i + 1];
         volume_[i].add(volume_[node.right]);
       }
+    }
+  }
+
+  // Calls visit(triangle) for the triangles of all leaves except those at or below a node with
+  // skip(volume), depth first.
+  template <typename Skip, typename Visit>
+  void for_overlapping(Skip &&skip, Visit &&visit) const {
+    for (uint32_t i = 0; i < volume_.size();) {
+      const BvhNode &node = topology_.nodes[i];
+      const bool skipped = skip(volume_[i]);
+      if (!skipped && node.is_leaf()) visit_leaf(node.leaf, visit);
+      i = skipped ? node.after : i + 1;
     }
   }
 
@@ -166,12 +178,20 @@ struct Aabb {
 
 Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle);
 
-// A surface at rest: triangles near a point, and pairs near each other.
+// A surface at rest: boxes that overlap a box, triangles near a point, pairs near each other.
 class TriangleBvh {
  public:
   // Keeps references to both: they must outlive the hierarchy.
   TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
 
+  // Calls visit(triangle) for every triangle whose box overlaps `box`.
+  template <typename Visit>
+  void for_overlapping(const Aabb &box, Visit &&visit) const {
+    bvh_.for_overlapping([&](const Aabb &volume) { return !volume.overlaps(box); },
+                         [&](uint32_t t) {
+                           if (box_[t].overlaps(box)) visit(t);
+                         });
+  }
   // Calls visit(a, b) once for at least every pair of triangles whose boxes are no further apart
   // than sqrt(limit2); the visitor looks at the boxes itself.
   template <typename Visit>

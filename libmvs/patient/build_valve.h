@@ -1,8 +1,9 @@
 // From a patient's surface and landmarks to a complete valve.
 #pragma once
 
-#include "model/valve.h"
+#include "model/model.h"
 #include "patient/leaflet_sheet.h"
+#include "solve/solver.h"
 
 namespace mvs::core {
 
@@ -23,18 +24,20 @@ struct PatientSurface {
 
 struct BuildSettings {
   LeafletLawId law = LeafletLawId::bilinear;
-  double edge = 0;  // m; 0: as for 1,000 vertices
-  double thickness = 0.8e-3;
+  double edge = 0;            // m; 0: as for 1,000 vertices
+  double thickness = 0.8e-3;  // m, where it is not known per point
+  bool thickness_is_given = false;
   double chord_factor = 1;
   double coaptation_length = 8e-3;
   uint32_t chords = 100;
 };
 
 struct BuiltValve {
-  Valve valve;
+  ModelPtr model;
   Findings findings;
 };
 
-BuiltValve build_valve(PatientSurface surface, const BuildSettings &settings);
+BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &settings,
+                       const Progress &progress);
 
 }  // namespace mvs::core

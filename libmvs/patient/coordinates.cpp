@@ -79,8 +79,8 @@ void make_harmonic(const EdgeWeights &weights, const std::vector<uint8_t> &held,
   precondition();
   direction = scaled;
   double product = dot(residual, scaled);
-  // the values are 0 to 1: 1e-8 of the first residual is far below what transport resolves
-  const double enough = 1e-16 * product;
+  // 1e-13 of the first residual: a rotated sheet gets the same lengths to 1 nm
+  const double enough = 1e-26 * product;
   for (size_t k = 0; k < 10 * n && product > enough; ++k) {
     apply(weights, held, direction, image);
     const double step = product / dot(direction, image);
@@ -115,13 +115,15 @@ Vec3 gradient(const LeafletSheet &sheet, const std::vector<double> &u, const Tri
 // triangles, else along the edge that leads farthest per length.
 FibreStep fibre_step(const LeafletSheet &sheet, const std::vector<double> &u,
                      std::span<const uint32_t> star, uint32_t vertex, double sign) {
+  // relative: of two equal ways, as on a symmetric sheet, the first is taken, whatever the rounding
+  constexpr double tie = 1e-6;
   FibreStep best;
   double steepest = 0;
   const auto offer = [&](uint32_t a, uint32_t b, double share) {
     const Vec3 q = sheet.x[a] + share * (sheet.x[b] - sheet.x[a]);
     const double gain = sign * (u[a] + share * (u[b] - u[a]) - u[vertex]);
     const double length = (q - sheet.x[vertex]).norm();
-    if (length <= 0 || gain / length <= steepest) return;
+    if (length <= 0 || gain / length <= (1 + tie) * steepest) return;
     steepest = gain / length;
     best = {a, b, share, length};
   };

@@ -17,11 +17,13 @@ constexpr size_t samples = 120;
 // No leaflet is attached along less than this share of the annulus: normal are 0.35 to 0.45 for the
 // anterior one.
 constexpr double least_share = 0.2;
+// The same for a guess, which must not take both ends of one notch.
+constexpr double least_guessed_share = 0.28;
 // m: a landmark farther from the surface is of another frame or patient. Landmarks of commissures
 // are placed by hand on images of 0.7 mm; networks err by up to 3.6 mm.
 constexpr double farthest_landmark = 8e-3;
 // Shares of an arc at which A2 and P2 begin and end: their widths in the parametric valve.
-constexpr double a2_begin = 0.29, p2_begin = 0.31;
+constexpr double a2_begin = 0.22, p2_begin = 0.27;
 
 Finding &add(Findings &findings, const char *name, FindingSource source, double confidence,
              std::string sentence) {
@@ -38,6 +40,26 @@ std::vector<double> smoothed(const std::vector<double> &values, size_t half) {
     mean[k] /= static_cast<double>(2 * half + 1);
   }
   return mean;
+}
+
+// The greatest value over `half` neighbours on either side, then the least of those (morphological
+// closing): notches narrower than 2 half + 1 samples are filled, everything wider stays.
+std::vector<double> without_notches(const std::vector<double> &values, size_t half) {
+  const size_t n = values.size();
+  std::vector<double> greatest(n), least(n);
+  for (size_t k = 0; k < n; ++k) {
+    greatest[k] = values[k];
+    for (size_t j = 0; j <= 2 * half; ++j) {
+      greatest[k] = std::max(greatest[k], values[(k + n + j - half) % n]);
+    }
+  }
+  for (size_t k = 0; k < n; ++k) {
+    least[k] = greatest[k];
+    for (size_t j = 0; j <= 2 * half; ++j) {
+      least[k] = std::min(least[k], greatest[(k + n + j - half) % n]);
+    }
+  }
+  return least;
 }
 
 double at_foot(const std::vector<double> &profile, double foot, double length) {
@@ -67,7 +89,7 @@ std::array<double, 2> feet_of(const LeafletSheet &sheet, const SheetCoordinates 
 // The pair of samples with the lowest leaflets, far enough apart.
 std::array<size_t, 2> lowest_pair(const std::vector<double> &profile) {
   const size_t n = profile.size();
-  const size_t gap = static_cast<size_t>(least_share * static_cast<double>(n));
+  const size_t gap = static_cast<size_t>(least_guessed_share * static_cast<double>(n));
   std::array<size_t, 2> best = {0, n / 2};
   for (size_t i = 0; i < n; ++i) {
     for (size_t j = i + gap; j < n && j - i <= n - gap; ++j) {
@@ -77,9 +99,26 @@ std::array<size_t, 2> lowest_pair(const std::vector<double> &profile) {
   return best;
 }
 
-std::array<double, 2> guessed_commissures(const std::vector<double> &profile, double length,
+// The lowest sample within 4 mm.
+size_t lowest_near(const std::vector<double> &profile, size_t at) {
+  constexpr size_t reach = 4;
+  const size_t n = profile.size();
+  size_t best = at;
+  for (size_t k = 0; k <= 2 * reach; ++k) {
+    const size_t there = (at + n + k - reach) % n;
+    if (profile[there] < profile[best]) best = there;
+  }
+  return best;
+}
+
+std::array<double, 2> guessed_commissures(const std::vector<double> &heights, double length,
                                           Findings &findings) {
-  const auto [i, j] = lowest_pair(profile);
+  // leaflets are low over 10 mm and more at a commissure; clefts and tears are narrower than 6 mm.
+  // Without them the pair is found, with them its places.
+  const std::vector<double> profile = smoothed(without_notches(heights, 3), 2);
+  const std::array<size_t, 2> pair = lowest_pair(profile);
+  const std::vector<double> exact = smoothed(heights, 2);
+  const size_t i = lowest_near(exact, pair[0]), j = lowest_near(exact, pair[1]);
   const double low = 0.5 * (profile[i] + profile[j]);
   std::vector<double> sorted = profile;
   std::sort(sorted.begin(), sorted.end());
@@ -221,8 +260,8 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
                           const SheetCoordinates &coordinates, const LeafletLandmarks &landmarks,
                           Findings &findings) {
   const double length = coordinates.annulus_length;
-  // a commissure is a notch some millimetres wide
-  const std::vector<double> profile = smoothed(height_profile(rims, coordinates, samples), 2);
+  const std::vector<double> heights = height_profile(rims, coordinates, samples);
+  const std::vector<double> profile = smoothed(heights, 2);
   const LabelledArea area = labelled_area(sheet, coordinates);
   const size_t at = findings.size();
   std::vector<Vec3> commissures = landmarks.commissures;
@@ -233,7 +272,7 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   } else {
     const std::array<double, 2> feet = area.anterior + area.posterior > 0
                                            ? commissures_of_labels(area, length, findings)
-                                           : guessed_commissures(profile, length, findings);
+                                           : guessed_commissures(heights, length, findings);
     for (const double s : feet) commissures.push_back(annulus_point(sheet, rims, s));
   }
   // found points take the same way as given ones, so that giving them changes no bit

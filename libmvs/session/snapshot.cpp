@@ -122,8 +122,17 @@ mvs_measures no_measures() {
 
 }  // namespace
 
+const BoundaryForces &mvs_snapshot::boundary_forces() const {
+  return forces_.get([this] {
+    BoundaryForces forces = {evaluate_forces(*model, state), {}};
+    for (const uint32_t node : model->valve.annulus) {
+      forces.annulus.push_back(forces.all.total[node]);
+    }
+    return forces;
+  });
+}
 const Forces &mvs_snapshot::forces() const {
-  return forces_.get([this] { return evaluate_forces(*model, state); });
+  return boundary_forces().all;
 }
 const Coaptation &mvs_snapshot::coaptation() const {
   return coaptation_.get([this] { return measure_coaptation(*model, state.x); });
@@ -159,11 +168,7 @@ const Stability &mvs_snapshot::stability() const {
   return stability_.get([this] { return check_stability(*model, state); });
 }
 const std::vector<Vec3> &mvs_snapshot::annulus_force() const {
-  return annulus_force_.get([this] {
-    std::vector<Vec3> force;
-    for (const uint32_t node : model->valve.annulus) force.push_back(forces().total[node]);
-    return force;
-  });
+  return boundary_forces().annulus;
 }
 const Tables &mvs_snapshot::tables() const {
   return tables_.get([this] { return make_tables(*model); });

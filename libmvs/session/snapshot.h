@@ -58,6 +58,12 @@ struct Tables {
 }  // namespace mvs::core
 
 // Immutable except for the reference count and the values computed on demand.
+// Forces on all nodes, and in N those on the nodes of the annulus, in its order.
+struct BoundaryForces {
+  mvs::core::Forces all;
+  std::vector<mvs::core::Vec3> annulus;
+};
+
 struct mvs_snapshot {
   explicit mvs_snapshot(mvs::core::Snapshot value_in)
       : value(std::move(value_in)), model(value.current.model), state(value.current.state) {}
@@ -94,9 +100,10 @@ struct mvs_snapshot {
 
  private:
   ~mvs_snapshot() = default;
+  const BoundaryForces &boundary_forces() const;
 
   mutable std::atomic<uint32_t> references_{1};
-  mvs::core::Lazy<mvs::core::Forces> forces_;
+  mvs::core::Lazy<BoundaryForces> forces_;
   mvs::core::Lazy<mvs::core::Coaptation> coaptation_;
   mvs::core::Lazy<mvs::core::Strain> strain_;
   mvs::core::Lazy<mvs::core::Tensors> tensors_;
@@ -107,7 +114,6 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::RegionMap> region_map_;
   mvs::core::Lazy<std::vector<mvs::core::RegionMeasures>> regions_;
   mvs::core::Lazy<mvs::core::Stability> stability_;
-  mvs::core::Lazy<std::vector<mvs::core::Vec3>> annulus_force_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
   mvs::core::Lazy<mvs::core::AnnulusMeasures> annulus_;
   mvs::core::Lazy<mvs::core::TentingBillow> tenting_billow_;

@@ -1,7 +1,7 @@
 // The C++ handles: they free, share, throw, and show what C shows.
 #include <cmath>
 #include <cstdio>
-#include <mvs/mvs.hpp>
+#include <mvs/experimental.hpp>
 #include <type_traits>
 
 #include "tests/founding.h"

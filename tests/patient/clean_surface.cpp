@@ -1,11 +1,11 @@
 // Cleaning of surfaces with known faults.
-#include "patient/clean_surface.h"
+#include "patient/surface/clean_surface.h"
 
 #include <doctest/doctest.h>
 
 #include "base/error.h"
 #include "model/sides.h"
-#include "patient/boundary.h"
+#include "patient/surface/boundary.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 #include "tests/patient/voxel_skin.h"

@@ -111,8 +111,9 @@ TEST_CASE("commissures_and_scallops_are_found_without_landmarks") {
     CHECK(findings[0].value[3] > 15e-3);
     CHECK(findings[1].value[1] > 8e-3);  // A2 is at y = 13 mm
     CAPTURE(vertices);
-    // scallops are split by angle there and by arc length here, and triangles lie on borders
-    CHECK(misnamed_share(p, c, arcs) < 0.12);
+    // scallops are split by angle there and by arc length here; one row of triangles along all six
+    // borders is 5 % of the area of the coarse valve, 3 % of the fine one
+    CHECK(misnamed_share(p, c, arcs) < 0.06);
   }
 }
 

@@ -1,5 +1,5 @@
 // Chord lengths from a closed surface: twin experiments, groups, normal equations; leak interval.
-#include "patient/fit_to_closed.h"
+#include "patient/fit/fit_to_closed.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "ensemble/loading_path.h"
-#include "patient/leak_interval.h"
-#include "patient/normal_equations.h"
+#include "patient/fit/leak_interval.h"
+#include "patient/fit/normal_equations.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;

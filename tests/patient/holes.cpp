@@ -1,13 +1,13 @@
 // Holes, missing rims and handles of sheets.
-#include "patient/rims.h"
+#include "patient/surface/rims.h"
 
 #include <doctest/doctest.h>
 
 #include "base/error.h"
 #include "model/sides.h"
-#include "patient/boundary.h"
-#include "patient/clean_surface.h"
-#include "patient/manifold.h"
+#include "patient/surface/boundary.h"
+#include "patient/surface/clean_surface.h"
+#include "patient/surface/manifold.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 

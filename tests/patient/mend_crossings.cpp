@@ -1,6 +1,6 @@
 // Crossings that are put into sheets on purpose, and those of a real one, are removed by small
 // moves.
-#include "patient/mend_crossings.h"
+#include "patient/surface/mend_crossings.h"
 
 #include "geometry/bvh.h"
 #include "geometry/intersect.h"

@@ -1,5 +1,5 @@
 // Mid-surfaces beside those from which sides and skins were made.
-#include "patient/mid_surface.h"
+#include "patient/surface/mid_surface.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include "geometry/bvh.h"
 #include "geometry/intersect.h"
 #include "model/sides.h"
-#include "patient/boundary.h"
-#include "patient/clean_surface.h"
+#include "patient/surface/boundary.h"
+#include "patient/surface/clean_surface.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 #include "tests/patient/voxel_skin.h"

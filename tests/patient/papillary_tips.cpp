@@ -1,5 +1,5 @@
 // Tips of the papillary muscles: grouped, assumed, refused.
-#include "patient/papillary_tips.h"
+#include "patient/chordae/papillary_tips.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Chordae of a patient's valve: pattern, lengths, and closures with them.
-#include "patient/patient_chordae.h"
+#include "patient/chordae/patient_chordae.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "patient/closed_target.h"
+#include "patient/chordae/closed_target.h"
 #include "tests/patient/kaiser_sheet.h"
 #include "tests/patient/patient_valve.h"
 

@@ -7,7 +7,7 @@
 #include "geometry/intersect.h"
 #include "measure/measure.h"
 #include "model/law.h"
-#include "patient/patient_chordae.h"
+#include "patient/chordae/patient_chordae.h"
 #include "solve/solver.h"
 #include "solve/static/mesh_hierarchy.h"
 #include "tests/patient/parametric_sheet.h"

@@ -3,8 +3,8 @@
 #include "geometry/bvh.h"
 #include "geometry/intersect.h"
 #include "model/winding.h"
-#include "patient/mend_crossings.h"
-#include "patient/remesh_sheet.h"
+#include "patient/mesh/remesh_sheet.h"
+#include "patient/surface/mend_crossings.h"
 #include "tests/patient/sheets.h"
 
 using namespace mvs::core;

@@ -1,12 +1,12 @@
 // Rims and the orientation of sheets.
-#include "patient/rims.h"
+#include "patient/surface/rims.h"
 
 #include <doctest/doctest.h>
 
 #include "base/error.h"
 #include "model/sides.h"
-#include "patient/boundary.h"
-#include "patient/clean_surface.h"
+#include "patient/surface/boundary.h"
+#include "patient/surface/clean_surface.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 

@@ -13,6 +13,7 @@ namespace cli {
 
 // Each adds its subcommand to the parser; the parser's callback runs it.
 void add_generate(CLI::App &app, Console &console);
+void add_import(CLI::App &app, Console &console);
 void add_info(CLI::App &app, Console &console);
 void add_chords(CLI::App &app, Console &console);
 void add_cost(CLI::App &app, Console &console);

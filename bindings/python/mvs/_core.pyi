@@ -23,6 +23,7 @@ from .values import (
     EnsembleMember,
     EnsembleSummary,
     Fault,
+    Finding,
     Frame,
     HistoryEntry,
     Load,
@@ -318,6 +319,30 @@ class Simulator:
         constants: Constants = ...,
         thickness: float = 0.0,
     ) -> None: ...
+    def build_valve(
+        self,
+        points: NDArray[Any],
+        triangles: Optional[_U32] = None,
+        *,
+        kind: Optional[Literal["mid", "atrial", "skin"]] = None,
+        name: str = "valve",
+        triangle_leaflet: Optional[_U32] = None,
+        thickness: Union[float, NDArray[Any], None] = None,
+        annulus: Optional[NDArray[Any]] = None,
+        commissures: Optional[NDArray[Any]] = None,
+        anterior: Optional[NDArray[Any]] = None,
+        papillary_tips: Optional[NDArray[Any]] = None,
+        closed_points: Optional[NDArray[Any]] = None,
+        closed_triangles: Optional[_U32] = None,
+        leaflet: Union[None, LeafletLaw, Literal[
+            "spring", "bilinear", "fung", "may_newman_yin", "prot", "neo_hookean"
+        ]] = None,
+        edge: Optional[float] = None,
+        chord_factor: Optional[float] = None,
+        coaptation_length: Optional[float] = None,
+        chords: Optional[int] = None,
+        progress: _Progress = None,
+    ) -> tuple[Finding, ...]: ...
     def refine(self, times: int = 1) -> None: ...
     def coarsen(
         self, *, vertices: Optional[int] = None, edge: Optional[float] = None

@@ -53,6 +53,15 @@ class SamRisk(IntEnum):
     RAISED = 2
 
 
+class FindingSource(IntEnum):
+    """Where a mvs.Finding comes from."""
+
+    GIVEN = 1
+    MEASURED = 2
+    GUESSED = 3
+    ASSUMED = 4
+
+
 class RingKind(IntEnum):
     """Kinds of rings: closed and rigid, or a flexible posterior band."""
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .describe import annotation_of, with_field_help
-from .kinds import EnsembleOrder, PartKind, SamRisk, ToolKind
+from .kinds import EnsembleOrder, FindingSource, PartKind, SamRisk, ToolKind
 
 
 def unit_of(kind: type, name: str) -> str:
@@ -347,6 +347,26 @@ class Coarsening:
     ]
     surface_rms: Annotated[float, "m", "RMS of that distance over all vertices of the fine level"]
     worst_quality: Annotated[float, "1", "worst triangle: 1 equilateral, 0 degenerate"]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Finding:
+    """What Simulator.build_valve found, guessed or assumed.
+
+    name: "annulus", "commissures", "thickness"
+    source: given, measured on the surface, guessed by a rule, or assumed from normal anatomy
+    confidence: 0 to 1
+    sentence: what was seen, and what to give if it is wrong
+    values: (k,) in `unit`; points as x, y, z in turn
+    unit: "m", "m2" or ""
+    """
+
+    name: str
+    source: FindingSource
+    confidence: float
+    sentence: str
+    values: NDArray[np.float64]
+    unit: str
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "build.h"
 #include "simulator.h"
 #include "values.h"
 #include "valve.h"
@@ -307,6 +308,7 @@ void bind_simulator(py::module_ &module) {
            "log"_a = py::none());
   bind_files(type);
   bind_generate(type);
+  bind_build(type);
   bind_levels(type);
   bind_tissue(type);
   bind_work(type);

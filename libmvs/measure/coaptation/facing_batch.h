@@ -77,10 +77,10 @@ struct FacingPairs {
   using Row = std::array<double, most>;
   struct Points {
     Row x{}, y{}, z{};
-    void set(size_t k, const Vec3 &p) {
-      x[k] = p[0];
-      y[k] = p[1];
-      z[k] = p[2];
+    void set(size_t k, const Vec3 &point) {
+      x[k] = point[0];
+      y[k] = point[1];
+      z[k] = point[2];
     }
   };
 

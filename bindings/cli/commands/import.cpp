@@ -1,0 +1,234 @@
+// `mvs import`: builds a valve from a patient's surface and landmarks.
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "commands/commands.h"
+#include "import/findings_file.h"
+#include "import/landmarks.h"
+#include "valve/tissue.h"
+
+namespace cli {
+namespace {
+
+struct ImportOptions {
+  std::string surface, out, findings_out, with;
+  std::string annulus, commissures, anterior, tips, closed;
+  std::string kind, leaflet, label_array, thickness_array;
+  FileOptions files;
+  double edge = 0, thickness = 0, coaptation_length = 0;  // mm
+  mvs_build_options build = {};
+};
+
+mvs_surface_kind kind_number(const std::string &kind) {
+  if (kind == "mid") return MVS_SURFACE_KIND_MID;
+  if (kind == "atrial") return MVS_SURFACE_KIND_ATRIAL;
+  return kind == "skin" ? MVS_SURFACE_KIND_SKIN : 0;
+}
+
+// The values of a named array of the surface, one a row.
+std::vector<double> array_values(const mvs::SurfaceFile &file, const std::string &name,
+                                 mvs_surface_place place) {
+  std::string known;
+  for (const mvs_surface_array &array : file.arrays()) {
+    if (array.place == place && name == array.name && array.values.components == 1) {
+      const mvs::View<double> view(array.values);
+      return {view.begin(), view.end()};
+    }
+    known += std::string(known.empty() ? "" : ", ") + array.name;
+  }
+  fail(MVS_E_ARGUMENT, name,
+       "the surface has no array \"" + name + "\" with one value for each " +
+           (place == MVS_SURFACE_PLACE_POINT ? "point" : "triangle") +
+           (known.empty() ? "; it has no arrays" : "; it has: " + known));
+}
+
+std::vector<uint32_t> labels_of(const mvs::SurfaceFile &file, const std::string &name) {
+  std::vector<uint32_t> labels;
+  for (const double value : array_values(file, name, MVS_SURFACE_PLACE_TRIANGLE)) {
+    if (value != 0 && value != 1 && value != 2) {
+      fail(MVS_E_ARGUMENT, name,
+           text("the array \"%s\" has the value %g: 0 is unknown, 1 anterior, 2 posterior",
+                name.c_str(), value));
+    }
+    labels.push_back(static_cast<uint32_t>(value));
+  }
+  return labels;
+}
+
+// What a build is given, with the memory that the description points to.
+struct Input {
+  mvs::SurfaceFile surface;
+  std::vector<double> annulus, commissures, anterior, tips, thickness;
+  std::vector<uint32_t> labels;
+  std::optional<mvs::SurfaceFile> closed;
+};
+
+mvs_array array_of(const mvs_view &view) {
+  return {view.data, view.count, view.components, view.type, view.stride};
+}
+
+mvs_array points_of(const std::vector<double> &values) {
+  if (values.empty()) return {};
+  return {values.data(), values.size() / 3, 3, MVS_TYPE_F64, 0};
+}
+
+mvs_surface_desc desc_of(const Input &input, const ImportOptions &options,
+                         const std::string &name) {
+  mvs_surface_desc desc = {};
+  const mvs_surface_file_info info = input.surface.info();
+  desc.kind = kind_number(options.kind);
+  desc.name = name.c_str();
+  desc.points = array_of(info.points);
+  desc.triangles = array_of(info.triangles);
+  if (!input.labels.empty()) {
+    desc.triangle_leaflet = {input.labels.data(), input.labels.size(), 1, MVS_TYPE_U32, 0};
+  }
+  if (!input.thickness.empty()) {
+    desc.point_thickness = {input.thickness.data(), input.thickness.size(), 1, MVS_TYPE_F64, 0};
+  }
+  desc.annulus = points_of(input.annulus);
+  desc.commissures = points_of(input.commissures);
+  desc.anterior = points_of(input.anterior);
+  desc.papillary_tips = points_of(input.tips);
+  if (input.closed) {
+    const mvs_surface_file_info closed = input.closed->info();
+    desc.closed_points = array_of(closed.points);
+    desc.closed_triangles = array_of(closed.triangles);
+  }
+  return desc;
+}
+
+// Landmarks of a file if one is given, else those of the findings.
+std::vector<double> landmarks(const std::string &path, const FileOptions &files,
+                              mvs_patient_frame frame, const std::vector<double> &known) {
+  return path.empty() ? known : read_landmarks(path, files, frame);
+}
+
+Input read_input(const ImportOptions &options, ImportOptions &with_known) {
+  const KnownValues known = options.with.empty() ? KnownValues{} : read_findings(options.with);
+  Input input{read_surface(options.surface, options.files), {}, {}, {}, {}, {}, {}, {}};
+  const mvs_patient_frame frame = input.surface.info().frame;
+  input.annulus = landmarks(options.annulus, options.files, frame, known.annulus);
+  input.commissures = landmarks(options.commissures, options.files, frame, known.commissures);
+  input.anterior = landmarks(options.anterior, options.files, frame, known.anterior);
+  input.tips = landmarks(options.tips, options.files, frame, known.papillary_tips);
+  if (!options.label_array.empty()) input.labels = labels_of(input.surface, options.label_array);
+  if (!options.thickness_array.empty()) {
+    const double metre = metres(input.surface.info().unit);
+    input.thickness = array_values(input.surface, options.thickness_array, MVS_SURFACE_PLACE_POINT);
+    for (double &value : input.thickness) value *= metre;
+  }
+  if (options.thickness == 0 && !known.thickness.empty()) {
+    with_known.build.thickness = known.thickness[0];
+  }
+  if (!options.closed.empty()) {
+    input.closed.emplace(read_surface(options.closed, options.files, frame));
+  }
+  return input;
+}
+
+std::string findings_path(const ImportOptions &options) {
+  if (!options.findings_out.empty()) return options.findings_out;
+  return std::filesystem::path(options.out).replace_extension(".import.json").string();
+}
+
+void run_import(const ImportOptions &given, Console &console) {
+  ImportOptions options = given;
+  options.build.edge = options.edge * 1e-3;
+  options.build.thickness = options.thickness * 1e-3;
+  options.build.coaptation_length = options.coaptation_length * 1e-3;
+  options.build.leaflet_law = law_of(options.leaflet);
+  const Input input = read_input(given, options);
+  const std::string name = std::filesystem::path(options.surface).stem().string();
+  Progress progress(console);
+  mvs_sim_desc how = {};
+  how.progress = &Progress::callback;
+  how.user = &progress;
+  mvs::Simulator sim = make_sim(how);
+  const std::vector<mvs::BuildFinding> findings =
+      mvs::build_valve(sim, desc_of(input, options, name), options.build);
+  const mvs::Snapshot valve = sim.snapshot();
+  valve.save(options.out);
+  const std::string path = findings_path(options);
+  write_findings(path, options.surface, findings);
+  const Size size = size_of(valve);
+  print(
+      console,
+      {{"file", options.out},
+       {"vertices", size.vertices},
+       {"faces", size.faces},
+       {"chords", size.chords},
+       {"heads", size.heads},
+       {"frame", frame_name(input.surface.info().frame)},
+       {"hash", hash_of(valve)},
+       {"findings_file", path},
+       {"findings", findings_json(findings)}},
+      text("%s: an open valve of %zu leaflet vertices, %zu triangles, %zu chordae, %zu papillary "
+           "heads\n%s: what was found, guessed and assumed; edit it and give it by --with",
+           options.out.c_str(), size.vertices, size.faces, size.chords, size.heads, path.c_str()) +
+          findings_text(findings));
+}
+
+void add_landmark_options(CLI::App &command, ImportOptions &options) {
+  const auto landmark = [&](const char *name, std::string &to, const char *help) {
+    command.add_option(name, to, std::string(help) + ": .mrk.json, .fcsv, .csv, .vtk, .vtp");
+  };
+  landmark("--annulus", options.annulus, "points or a curve along the annulus");
+  landmark("--commissures", options.commissures, "the two commissures");
+  landmark("--anterior", options.anterior, "one point of the anterior leaflet");
+  landmark("--tips", options.tips, "tips of the papillary muscles");
+}
+
+}  // namespace
+
+void add_import(CLI::App &app, Console &console) {
+  const auto [command, options] = add_command<ImportOptions>(
+      app, console, "import",
+      "build a valve from a surface of open leaflets and what is known of annulus, commissures and "
+      "papillary muscles",
+      run_import);
+  command
+      ->add_option("surface", options->surface, "open leaflets: .stl, .ply, .obj, .off, .vtk, .vtp")
+      ->required();
+  command->add_option("-o,--output", options->out, "file for the valve, .h5, .obj, .vtp or .vtm")
+      ->required();
+  add_file_options(*command, options->files);
+  add_landmark_options(*command, *options);
+  command->add_option("--closed", options->closed,
+                      "the same leaflets closed: chords get lengths with which the valve closes to "
+                      "them");
+  command
+      ->add_option("--kind", options->kind,
+                   "mid: the mid-surface; atrial: the atrial side; skin: both sides, closed "
+                   "[skin if it is closed, else mid]")
+      ->check(one_of({"mid", "atrial", "skin"}));
+  command->add_option("--labels", options->label_array,
+                      "array of the surface: 1 anterior, 2 posterior, 0 unknown, per triangle");
+  auto *array = command->add_option("--thickness-array", options->thickness_array,
+                                    "array of the surface: thickness per point, in its unit");
+  command->add_option("--thickness", options->thickness, "of the leaflets, mm [0.8]")
+      ->check(CLI::PositiveNumber)
+      ->excludes(array);
+  command->add_option("--edge", options->edge, "sides of the new triangles, mm [1,000 vertices]")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--coaptation-length", options->coaptation_length,
+                   "overlap in the middle for which rest lengths are chosen, mm [8]")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--chord-slack", options->build.chord_factor,
+                   "factor on the rest length of every chord [1]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--chords", options->build.chords, "chord segments, about [100]")
+      ->check(CLI::PositiveNumber);
+  add_law_option(*command, options->leaflet);
+  command->add_option("--with", options->with,
+                      "findings of an earlier import, edited: what is given, guessed or assumed in "
+                      "them is used");
+  command->add_option("--findings", options->findings_out,
+                      "file for the findings [VALVE.import.json beside the output]");
+  add_progress_flag(*command, console);
+}
+
+}  // namespace cli

@@ -1,0 +1,137 @@
+#include "import/findings_file.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace cli {
+namespace {
+
+constexpr const char *sources[] = {"", "given", "measured", "guessed", "assumed"};
+
+const char *source_name(mvs_finding_source source) {
+  return source >= MVS_FINDING_SOURCE_GIVEN && source <= MVS_FINDING_SOURCE_ASSUMED
+             ? sources[source]
+             : "unknown";
+}
+
+[[noreturn]] void refuse_findings(const std::string &path, const std::string &part,
+                                  const std::string &sentence) {
+  fail(MVS_E_FORMAT, part, path + ": " + sentence);
+}
+
+// The numbers of a finding; every one finite.
+std::vector<double> numbers_of(const std::string &path, const std::string &name, const Json &row) {
+  const auto values = row.find("values");
+  if (values == row.end() || !values->is_array()) {
+    refuse_findings(path, name, "the finding \"" + name + "\" has no list \"values\"");
+  }
+  std::vector<double> numbers;
+  for (const Json &value : *values) {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      refuse_findings(path, name,
+                      "the finding \"" + name + "\" has a value that is not a finite number");
+    }
+    numbers.push_back(value.get<double>());
+  }
+  return numbers;
+}
+
+Json parsed(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail(MVS_E_IO, path, path + ": the file of findings cannot be opened");
+  try {
+    return Json::parse(in);
+  } catch (const Json::exception &error) {
+    refuse_findings(path, "json", std::string("is no JSON text: ") + error.what());
+  }
+}
+
+// Where the values of a finding with this name go; null: they are no input of a build.
+std::vector<double> *target_of(KnownValues &known, const std::string &name) {
+  if (name == "annulus") return &known.annulus;
+  if (name == "commissures") return &known.commissures;
+  if (name == "anterior") return &known.anterior;
+  if (name == "papillary_tips") return &known.papillary_tips;
+  if (name == "thickness") return &known.thickness;
+  return nullptr;
+}
+
+}  // namespace
+
+Json findings_json(const std::vector<mvs::BuildFinding> &findings) {
+  Json rows = Json::array();
+  for (const mvs::BuildFinding &finding : findings) {
+    rows.push_back({{"name", finding.name},
+                    {"source", source_name(finding.source)},
+                    {"confidence", finding.confidence},
+                    {"sentence", finding.sentence},
+                    {"unit", finding.unit},
+                    {"values", finding.values}});
+  }
+  return rows;
+}
+
+std::string findings_text(const std::vector<mvs::BuildFinding> &findings) {
+  std::string lines;
+  for (const mvs::BuildFinding &finding : findings) {
+    lines += text("\n  %-15s %-9s %3.0f %%  %s", finding.name.c_str(), source_name(finding.source),
+                  100 * finding.confidence, finding.sentence.c_str());
+  }
+  return lines;
+}
+
+void write_findings(const std::string &path, const std::string &surface,
+                    const std::vector<mvs::BuildFinding> &findings) {
+  const Json object = {{"format", "libmvs import"},
+                       {"version", 1},
+                       {"surface", surface},
+                       {"findings", findings_json(findings)}};
+  const std::string beside = path + ".part";
+  {
+    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
+    out << object.dump(2) << '\n';
+    out.close();
+    if (!out) fail(MVS_E_IO, path, path + ": the file of findings cannot be written");
+  }
+  std::error_code error;
+  std::filesystem::rename(beside, path, error);
+  if (error) {
+    fail(MVS_E_IO, path, path + ": the file of findings cannot be written: " + error.message());
+  }
+}
+
+KnownValues read_findings(const std::string &path) {
+  const Json object = parsed(path);
+  if (!object.is_object() || object.value("format", "") != "libmvs import") {
+    refuse_findings(path, "format", "is no file of findings that `mvs import` wrote");
+  }
+  if (object.value("version", 0) != 1) {
+    refuse_findings(path, "version", "has a version that this program does not know: update mvs");
+  }
+  KnownValues known;
+  const auto rows = object.find("findings");
+  if (rows == object.end() || !rows->is_array()) {
+    refuse_findings(path, "findings", "has no list \"findings\"");
+  }
+  for (const Json &row : *rows) {
+    if (!row.is_object() || !row.contains("name") || !row["name"].is_string()) {
+      refuse_findings(path, "findings", "has a finding without a name");
+    }
+    const std::string name = row["name"].get<std::string>();
+    std::vector<double> *target = target_of(known, name);
+    const std::string source = row.value("source", "");
+    if (!target || source == "measured") continue;
+    *target = numbers_of(path, name, row);
+    const size_t width = name == "thickness" ? 1 : 3;
+    if (target->empty() || target->size() % width != 0 ||
+        (name == "thickness" && target->size() != 1)) {
+      refuse_findings(path, name,
+                      "the finding \"" + name + "\" has " + std::to_string(target->size()) +
+                          " values: points need x, y, z each, a thickness one");
+    }
+  }
+  return known;
+}
+
+}  // namespace cli

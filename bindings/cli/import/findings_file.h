@@ -1,0 +1,31 @@
+// The file of findings that `mvs import` writes beside a valve, and reads back by --with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "text/console.h"
+
+namespace cli {
+
+// Findings in SI units with all digits, so that a value read back is the same.
+Json findings_json(const std::vector<mvs::BuildFinding> &findings);
+
+// A table: name, source, confidence, sentence.
+std::string findings_text(const std::vector<mvs::BuildFinding> &findings);
+
+// Writes beside, then renames.
+void write_findings(const std::string &path, const std::string &surface,
+                    const std::vector<mvs::BuildFinding> &findings);
+
+// Values for a build. Empty: not known.
+struct KnownValues {
+  std::vector<double> annulus, commissures, anterior, papillary_tips;  // points, x, y, z in turn, m
+  std::vector<double> thickness;                                       // one, m
+};
+
+// The values of a file of findings that are given, guessed or assumed: what was measured is
+// measured again, unless its source is changed to "given".
+KnownValues read_findings(const std::string &path);
+
+}  // namespace cli

@@ -1,0 +1,144 @@
+#include "build.h"
+
+#include <mvs/build.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "arrays.h"
+#include "values.h"
+
+namespace mvs_python {
+namespace {
+
+using namespace py::literals;
+
+using Number = std::optional<double>;
+using Count = std::optional<uint32_t>;
+
+mvs_surface_kind kind_of(const std::optional<std::string> &given) {
+  if (!given) return 0;
+  static const std::map<std::string, mvs_surface_kind> kinds = {{"mid", MVS_SURFACE_KIND_MID},
+                                                                {"atrial", MVS_SURFACE_KIND_ATRIAL},
+                                                                {"skin", MVS_SURFACE_KIND_SKIN}};
+  const auto found = kinds.find(*given);
+  if (found == kinds.end()) {
+    refuse(MVS_E_ARGUMENT, "kind",
+           "kind is '" + *given + "', it must be 'mid', 'atrial' or 'skin'");
+  }
+  return found->second;
+}
+
+// The arrays of one call, described for the C interface.
+struct SurfaceArrays {
+  std::vector<py::array> kept;
+
+  mvs_array points(const py::object &value, const char *name) {
+    return array(value, {name, 3, {MVS_TYPE_F64, MVS_TYPE_F32}});
+  }
+  mvs_array triangles(const py::object &value, const char *name) {
+    return array(value, {name, 3, {MVS_TYPE_U32}});
+  }
+  mvs_array array(const py::object &value, Wanted wanted) {
+    if (value.is_none()) return {};
+    return described(array_argument(value, wanted), kept);
+  }
+};
+
+py::object finding_value(const mvs_build_finding &found) {
+  const auto *values = static_cast<const double *>(found.values.data);
+  const py::array_t<double> owned(static_cast<py::ssize_t>(found.values.count), values);
+  owned.attr("setflags")("write"_a = false);
+  const py::module_ module = py::module_::import("mvs.values");
+  return module.attr("Finding")(
+      "name"_a = found.name,
+      "source"_a = py::module_::import("mvs.kinds").attr("FindingSource")(found.source),
+      "confidence"_a = found.confidence, "sentence"_a = found.sentence, "values"_a = owned,
+      "unit"_a = found.unit);
+}
+
+py::tuple findings_of(const mvs_build *build) {
+  uint32_t count = 0;
+  must(mvs_build_get_finding_count(build, &count));
+  py::list findings;
+  for (uint32_t k = 0; k < count; ++k) {
+    auto found = sized<mvs_build_finding>();
+    must(mvs_build_get_finding(build, k, &found));
+    findings.append(finding_value(found));
+  }
+  return py::tuple(findings);
+}
+
+py::tuple build_valve(Simulator &self, const py::object &points, const py::object &triangles,
+                      const std::optional<std::string> &kind, const std::string &name,
+                      const py::object &triangle_leaflet, const py::object &thickness,
+                      const py::object &annulus, const py::object &commissures,
+                      const py::object &anterior, const py::object &papillary_tips,
+                      const py::object &closed_points, const py::object &closed_triangles,
+                      const py::object &leaflet, Number edge, Number chord_factor,
+                      Number coaptation_length, Count chords, py::object progress) {
+  SurfaceArrays arrays;
+  auto surface = sized<mvs_surface_desc>();
+  surface.kind = kind_of(kind);
+  surface.name = name.c_str();
+  surface.points = arrays.points(points, "points");
+  surface.triangles = arrays.triangles(triangles, "triangles");
+  surface.triangle_leaflet =
+      arrays.array(triangle_leaflet, {"triangle_leaflet", 1, {MVS_TYPE_U32}});
+  surface.annulus = arrays.points(annulus, "annulus");
+  surface.commissures = arrays.points(commissures, "commissures");
+  surface.anterior = arrays.points(anterior, "anterior");
+  surface.papillary_tips = arrays.points(papillary_tips, "papillary_tips");
+  surface.closed_points = arrays.points(closed_points, "closed_points");
+  surface.closed_triangles = arrays.triangles(closed_triangles, "closed_triangles");
+  auto options = sized<mvs_build_options>();
+  if (py::isinstance<py::float_>(thickness)) {
+    options.thickness = thickness.cast<double>();
+  } else {
+    surface.point_thickness =
+        arrays.array(thickness, {"thickness", 1, {MVS_TYPE_F64, MVS_TYPE_F32}});
+  }
+  options.leaflet_law =
+      leaflet.is_none()
+          ? 0
+          : py::module_::import("mvs.laws").attr("leaflet_law_of")(leaflet).cast<uint32_t>();
+  options.edge = edge.value_or(0);
+  options.chord_factor = chord_factor.value_or(0);
+  options.coaptation_length = coaptation_length.value_or(0);
+  options.chords = chords.value_or(0);
+  mvs_build *build = nullptr;
+  self.call_with(std::move(progress),
+                 [&](mvs_sim *sim) { return mvs_build_valve(sim, &surface, &options, &build); });
+  const std::unique_ptr<mvs_build, void (*)(mvs_build *)> held(build, &mvs_build_release);
+  return findings_of(build);
+}
+
+}  // namespace
+
+void bind_build(py::class_<Simulator> &type) {
+  type.def(
+      "build_valve", &build_valve, "points"_a, "triangles"_a = py::none(), py::kw_only(),
+      "kind"_a = py::none(), "name"_a = "valve", "triangle_leaflet"_a = py::none(),
+      "thickness"_a = py::none(), "annulus"_a = py::none(), "commissures"_a = py::none(),
+      "anterior"_a = py::none(), "papillary_tips"_a = py::none(), "closed_points"_a = py::none(),
+      "closed_triangles"_a = py::none(), "leaflet"_a = py::none(), "edge"_a = py::none(),
+      "chord_factor"_a = py::none(), "coaptation_length"_a = py::none(), "chords"_a = py::none(),
+      "progress"_a = py::none(),
+      "Replaces the valve by one that is built from a surface of open, unloaded leaflets, and "
+      "returns what was found, guessed and assumed (tuple of mvs.Finding). All in one frame, "
+      "in m.\n\npoints: (n, 3)\ntriangles: (m, 3) uint32; None: each three points in turn are "
+      "one\nkind: \"mid\", \"atrial\" or \"skin\"; None: a closed surface is a skin, an open one "
+      "the mid-surface\ntriangle_leaflet: (m,) uint32, 0 unknown, 1 anterior, 2 "
+      "posterior\nthickness: m, a number or (n,); None: 0.8 mm\nannulus: (k, 3), in any "
+      "order\ncommissures: (2, 3)\nanterior: (1, 3), a point of the anterior "
+      "leaflet\npapillary_tips: (k, 3)\nclosed_points, closed_triangles: the same leaflets "
+      "closed; chords get lengths with which the valve closes to them\nleaflet: law of the "
+      "leaflets; None: \"bilinear\"\nedge: m, of the triangles; None: as for 1,000 "
+      "vertices\nchord_factor: on all rest lengths [1]\ncoaptation_length: m, overlap in the "
+      "middle for which rest lengths are chosen [8e-3]\nchords: about this number of segments "
+      "[100]\nprogress: as in settle");
+}
+
+}  // namespace mvs_python

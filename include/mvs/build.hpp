@@ -1,0 +1,53 @@
+// Valves from surfaces for C++17. Part of mvs/experimental.hpp.
+#ifndef MVS_BUILD_HPP
+#define MVS_BUILD_HPP
+
+#include <mvs/build.h>
+#include <mvs/mvs.hpp>
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace mvs {
+
+// What a build found, guessed or assumed: mvs_build_finding, owned.
+struct BuildFinding {
+  std::string name, sentence, unit;
+  mvs_finding_source source = 0;
+  double confidence = 0;
+  std::vector<double> values;
+};
+
+inline BuildFinding build_finding(const mvs_build *build, std::uint32_t index) {
+  const auto found = filled<mvs_build_finding>(mvs_build_get_finding, build, index);
+  BuildFinding finding{found.name, found.sentence, found.unit, found.source, found.confidence, {}};
+  finding.values.resize(found.values.count);
+  if (!finding.values.empty()) {
+    std::memcpy(finding.values.data(), found.values.data, sizeof(double) * found.values.count);
+  }
+  return finding;
+}
+
+// Replaces the valve of `sim`; returns the findings.
+inline std::vector<BuildFinding> build_valve(Simulator &sim, mvs_surface_desc surface,
+                                             mvs_build_options options = {}) {
+  surface.struct_size = sizeof surface;
+  options.struct_size = sizeof options;
+  mvs_build *build = nullptr;
+  must(mvs_build_valve(sim.get(), &surface, &options, &build));
+  struct Release {
+    mvs_build *build;
+    ~Release() { mvs_build_release(build); }
+  } const release{build};
+  std::uint32_t count = 0;
+  must(mvs_build_get_finding_count(build, &count));
+  std::vector<BuildFinding> findings;
+  for (std::uint32_t k = 0; k < count; ++k) findings.push_back(build_finding(build, k));
+  return findings;
+}
+
+}  // namespace mvs
+
+#endif

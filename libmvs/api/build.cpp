@@ -1,0 +1,149 @@
+// Valves from surfaces: reads the surface and the options, builds, keeps the findings.
+#include <mvs/build.h>
+
+#include "api/sim_call.h"
+#include "base/array_view.h"
+#include "model/law.h"
+#include "patient/build_valve.h"
+#include "session/commit.h"
+
+using namespace mvs::core;
+
+struct mvs_build {
+  Findings findings;
+};
+
+namespace {
+
+std::vector<LeafletLabel> read_labels(const mvs_array &array) {
+  std::vector<LeafletLabel> labels;
+  for (const uint32_t given : read_indices(array, "surface.triangle_leaflet")) {
+    MVS_MUST(given <= MVS_LEAFLET_LABEL_POSTERIOR, MVS_E_ARGUMENT, "surface.triangle_leaflet",
+             "triangle %zu of surface.triangle_leaflet is %u: it has to be one of "
+             "MVS_LEAFLET_LABEL_*",
+             labels.size(), given);
+    labels.push_back(static_cast<LeafletLabel>(given));
+  }
+  return labels;
+}
+
+// The triangles of a surface; without a list, each three points in turn are one.
+std::vector<Tri> triangles_of(const mvs_array &array, size_t points, const char *what) {
+  if (is_given(array)) return read_triangles(array, what);
+  MVS_MUST(points % 3 == 0, MVS_E_ARGUMENT, what,
+           "%s is not given and there are %zu points: without triangles, each three points in turn "
+           "are one, so their number has to be a multiple of 3",
+           what, points);
+  std::vector<Tri> triangles(points / 3);
+  for (uint32_t t = 0; t < triangles.size(); ++t) triangles[t] = {3 * t, 3 * t + 1, 3 * t + 2};
+  return triangles;
+}
+
+void must_be_one_each(size_t given, size_t wanted, const char *what, const char *of) {
+  MVS_MUST(given == 0 || given == wanted, MVS_E_ARGUMENT, what,
+           "%s has %zu rows, the surface has %zu %s", what, given, wanted, of);
+}
+
+PatientSurface read_surface(const mvs_surface_desc *given) {
+  const mvs_surface_desc desc = read_struct(given, "surface");
+  MVS_MUST(desc.kind <= MVS_SURFACE_KIND_SKIN, MVS_E_ARGUMENT, "surface.kind",
+           "surface.kind is %u: it has to be one of MVS_SURFACE_KIND_*, or 0", desc.kind);
+  PatientSurface surface;
+  surface.kind = static_cast<SurfaceKind>(desc.kind);
+  if (desc.name) surface.name = desc.name;
+  surface.points = read_points(desc.points, "surface.points");
+  MVS_MUST(!surface.points.empty(), MVS_E_ARGUMENT, "surface.points",
+           "surface.points is empty: give the points of the leaflets, in m");
+  surface.triangles = triangles_of(desc.triangles, surface.points.size(), "surface.triangles");
+  surface.label = read_labels(desc.triangle_leaflet);
+  must_be_one_each(surface.label.size(), surface.triangles.size(), "surface.triangle_leaflet",
+                   "triangles");
+  surface.thickness = read_numbers(desc.point_thickness, "surface.point_thickness");
+  must_be_one_each(surface.thickness.size(), surface.points.size(), "surface.point_thickness",
+                   "points");
+  surface.annulus = read_points(desc.annulus, "surface.annulus");
+  surface.commissures = read_points(desc.commissures, "surface.commissures");
+  surface.anterior = read_points(desc.anterior, "surface.anterior");
+  surface.tips = read_points(desc.papillary_tips, "surface.papillary_tips");
+  surface.closed_points = read_points(desc.closed_points, "surface.closed_points");
+  if (!surface.closed_points.empty()) {
+    surface.closed_triangles = triangles_of(desc.closed_triangles, surface.closed_points.size(),
+                                            "surface.closed_triangles");
+  }
+  return surface;
+}
+
+BuildSettings read_options(const mvs_build_options *given) {
+  const mvs_build_options options = read_struct_or_default(given, "options");
+  must_be_zero(options.reserved, "options.reserved");
+  BuildSettings settings;
+  if (options.leaflet_law != 0) {
+    settings.law = static_cast<LeafletLawId>(options.leaflet_law);
+    MVS_MUST(find_leaflet_law(settings.law) != nullptr, MVS_E_ARGUMENT, "options.leaflet_law",
+             "options.leaflet_law is %u: it has to be one of MVS_LEAFLET_LAW_*, or 0",
+             options.leaflet_law);
+  }
+  // m: 0.2 mm gives 80,000 vertices
+  must_be_in(options.edge, 0.2e-3, 5e-3, "options.edge");
+  settings.edge = options.edge;
+  settings.thickness_is_given = options.thickness != 0;
+  settings.thickness =
+      or_default(options.thickness, settings.thickness, 0.1e-3, 5e-3, "options.thickness");
+  settings.chord_factor =
+      or_default(options.chord_factor, settings.chord_factor, 0.5, 2, "options.chord_factor");
+  settings.coaptation_length = or_default(options.coaptation_length, settings.coaptation_length,
+                                          1e-3, 20e-3, "options.coaptation_length");
+  MVS_MUST(options.chords == 0 || (options.chords >= 20 && options.chords <= 1000), MVS_E_ARGUMENT,
+           "options.chords",
+           "options.chords is %u: it has to be 0 (the default, 100) or 20 to 1000", options.chords);
+  if (options.chords != 0) settings.chords = options.chords;
+  return settings;
+}
+
+}  // namespace
+
+extern "C" {
+
+mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
+                           const mvs_build_options *options, mvs_build **build) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
+    const BuildSettings settings = read_options(options);
+    BuiltValve built = build_valve(read_surface(surface), settings, s.progress());
+    auto found = std::make_unique<mvs_build>(mvs_build{std::move(built.findings)});
+    State state = initial_state(*built.model);
+    replace_valve(s, {{std::move(built.model), std::move(state)}, {}});
+    if (build) *build = found.release();
+  });
+}
+
+mvs_result mvs_build_get_finding_count(const mvs_build *build, uint32_t *count) {
+  return at_boundary([&] {
+    must_point(build, "build");
+    must_point(count, "count");
+    *count = static_cast<uint32_t>(build->findings.size());
+  });
+}
+
+mvs_result mvs_build_get_finding(const mvs_build *build, uint32_t index,
+                                 mvs_build_finding *finding) {
+  return at_boundary([&] {
+    must_point(build, "build");
+    MVS_MUST(index < build->findings.size(), MVS_E_ARGUMENT, "index",
+             "index is %u: the build has %zu findings", index, build->findings.size());
+    const Finding &found = build->findings[index];
+    mvs_build_finding out = {};
+    out.source = static_cast<mvs_finding_source>(found.source);
+    out.name = found.name.c_str();
+    out.sentence = found.sentence.c_str();
+    out.unit = found.unit.c_str();
+    out.confidence = found.confidence;
+    out.values = {found.value.data(), found.value.size(), 1, MVS_TYPE_F64, sizeof(double)};
+    write_struct(finding, out, "finding");
+  });
+}
+
+void mvs_build_release(mvs_build *build) {
+  delete build;
+}
+
+}  // extern "C"

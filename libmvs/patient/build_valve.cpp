@@ -1,0 +1,277 @@
+// The steps of a build in their order, and the tissue of the valve that comes out.
+#include "patient/build_valve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "model/law.h"
+#include "patient/chordae/patient_chordae.h"
+#include "patient/fit/fit_to_closed.h"
+#include "patient/fit/leak_interval.h"
+#include "patient/mesh/remesh_sheet.h"
+#include "patient/surface/boundary.h"
+#include "patient/surface/clean_surface.h"
+#include "patient/surface/mend_crossings.h"
+#include "patient/surface/mid_surface.h"
+#include "patient/surface/rims.h"
+
+namespace mvs::core {
+namespace {
+
+constexpr double default_vertices = 1000;
+constexpr double degree = 3.14159265358979323846 / 180;
+const char *const scallop_names[] = {"A1", "A2", "A3", "P1", "P2", "P3"};
+
+// The mid-surface of the leaflets, wound with normals into the atrium, and its rims.
+struct MidSheet {
+  LeafletSheet sheet;
+  SheetRims rims;
+};
+
+SurfaceKind kind_of(const PatientSurface &surface, const LeafletSheet &sheet, Findings &findings) {
+  const bool closed = boundary_loops(sheet).empty();
+  if (surface.kind == SurfaceKind::automatic) {
+    const SurfaceKind kind = closed ? SurfaceKind::skin : SurfaceKind::mid;
+    findings.push_back({"kind",
+                        FindingSource::guessed,
+                        closed ? 0.95 : 0.6,
+                        closed ? "a closed surface: both sides of the leaflets (skin)"
+                               : "an open surface, taken for the mid-surface; if it is the atrial "
+                                 "side, say so: kind atrial",
+                        {},
+                        ""});
+    return kind;
+  }
+  MVS_MUST(surface.kind != SurfaceKind::skin || closed, MVS_E_OP, "kind",
+           "the surface is to be a skin and has a boundary: a skin is closed; close its holes, or "
+           "give it as mid or atrial");
+  MVS_MUST(surface.kind == SurfaceKind::skin || !closed, MVS_E_OP, "kind",
+           "the surface is closed: give it as skin; one sheet with annulus and free edge as "
+           "boundary is needed for mid and atrial");
+  findings.push_back({"kind", FindingSource::given, 1, "as given", {}, ""});
+  return surface.kind;
+}
+
+MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &settings,
+                        Findings &findings) {
+  MidSheet mid;
+  mid.sheet =
+      clean_surface(surface.points, surface.triangles, surface.label, surface.thickness, findings);
+  const RimLandmarks landmarks = {surface.annulus, surface.tips};
+  const SurfaceKind kind = kind_of(surface, mid.sheet, findings);
+  if (kind == SurfaceKind::skin) mid.sheet = mid_of_skin(mid.sheet, landmarks, findings);
+  mid.rims = find_rims(mid.sheet, landmarks, findings);
+  if (kind == SurfaceKind::atrial) move_to_mid(mid.sheet, settings.thickness, findings);
+  const CrossingReport crossings = mend_crossings(mid.sheet, mid.rims);
+  MVS_MUST(crossings.after == 0, MVS_E_OP, "crossings",
+           "%zu of %zu pairs of crossing triangles could not be separated by small moves: smooth "
+           "the surface where its leaflets touch",
+           crossings.after, crossings.before);
+  if (crossings.before > 0) {
+    findings.push_back({"crossings",
+                        FindingSource::measured,
+                        0.9,
+                        format("%zu pairs of triangles crossed and were separated by moves of at "
+                               "most %.2f mm",
+                               crossings.before, 1e3 * crossings.largest_move),
+                        {crossings.largest_move},
+                        "m"});
+  }
+  return mid;
+}
+
+double area_of(const LeafletSheet &sheet) {
+  double area = 0;
+  for (const Tri &t : sheet.triangles) {
+    area += 0.5 * (sheet.x[t[1]] - sheet.x[t[0]]).cross(sheet.x[t[2]] - sheet.x[t[0]]).norm();
+  }
+  return area;
+}
+
+// Equilateral triangles, two for each vertex.
+double default_edge(const LeafletSheet &sheet) {
+  return std::sqrt(area_of(sheet) / (default_vertices * 0.5 * std::sqrt(3.0)));
+}
+
+MidSheet remeshed(const MidSheet &mid, const BuildSettings &settings, Findings &findings) {
+  RemeshGoal goal;
+  goal.edge = settings.edge > 0 ? settings.edge : default_edge(mid.sheet);
+  RemeshedSheet made = remesh_sheet(mid.sheet, mid.rims, goal);
+  const RemeshReport &report = made.report;
+  MVS_MUST(report.crossings == 0, MVS_E_INTERNAL, "mesh", "%zu pairs of the new mesh cross",
+           report.crossings);
+  findings.push_back(
+      {"mesh",
+       FindingSource::measured,
+       1,
+       format("%zu vertices, sides of %.2f mm in the mean and %.2f to %.2f mm, worst angle %.0f "
+              "degrees, at most %.2f mm from the given surface",
+              made.sheet.x.size(), 1e3 * report.mean_edge, 1e3 * report.shortest,
+              1e3 * report.longest, report.worst_angle / degree, 1e3 * report.largest_distance),
+       {report.mean_edge, report.shortest, report.longest, report.largest_distance},
+       "m"});
+  return {std::move(made.sheet), std::move(made.rims)};
+}
+
+double mean_foot(const SheetCoordinates &c, const Tri &t) {
+  const double shift = around(c.foot[t[0]], c.foot[t[1]], c.annulus_length) +
+                       around(c.foot[t[0]], c.foot[t[2]], c.annulus_length);
+  return wrapped(c.foot[t[0]] + shift / 3, c.annulus_length);
+}
+
+void name_leaflets(const BuildSettings &settings, Valve &valve) {
+  for (const char *name : {"A", "P"}) {
+    Leaflet leaflet;
+    leaflet.name = name;
+    leaflet.law = settings.law;
+    leaflet.constants = default_constants(find_leaflet_law(settings.law)->constants);
+    leaflet.thickness = settings.thickness;
+    valve.leaflets.push_back(leaflet);
+  }
+  for (const char *name : scallop_names) {
+    valve.scallops.push_back({0, name, name[0] == 'A' ? 0u : 1u});
+  }
+}
+
+// Thickness of each triangle: the mean of its vertices if it is known.
+void set_thickness(const LeafletSheet &sheet, const BuildSettings &settings, Valve &valve,
+                   Findings &findings) {
+  const auto found = std::find_if(findings.begin(), findings.end(),
+                                  [](const Finding &f) { return f.name == "thickness"; });
+  if (sheet.thickness.empty()) {
+    if (found == findings.end()) {
+      const bool given = settings.thickness_is_given;
+      findings.push_back({"thickness",
+                          given ? FindingSource::given : FindingSource::assumed,
+                          given ? 1 : 0.5,
+                          format("%.2f mm everywhere%s", 1e3 * settings.thickness,
+                                 given ? ", as given" : "; give it if it is known"),
+                          {settings.thickness},
+                          "m"});
+    }
+    return;
+  }
+  double least = sheet.thickness[0], most = least;
+  for (const Tri &t : sheet.triangles) {
+    const double thickness =
+        (sheet.thickness[t[0]] + sheet.thickness[t[1]] + sheet.thickness[t[2]]) / 3;
+    least = std::min(least, thickness);
+    most = std::max(most, thickness);
+    valve.triangle_thickness.push_back(thickness);
+  }
+  if (found == findings.end()) {
+    findings.push_back({"thickness",
+                        FindingSource::given,
+                        1,
+                        format("%.2f to %.2f mm, as given", 1e3 * least, 1e3 * most),
+                        {least, most},
+                        "m"});
+  }
+}
+
+// m: mid-surfaces of leaflets that touch are a thickness apart; less where triangles are small, so
+// that tissue next to each other on the sheet is outside the contact.
+double contact_thickness(const Valve &valve, const BuildSettings &settings) {
+  double thickness = settings.thickness, edges = 0;
+  if (!valve.triangle_thickness.empty()) {
+    thickness = 0;
+    for (const double of : valve.triangle_thickness) thickness += of;
+    thickness /= static_cast<double>(valve.triangle_thickness.size());
+  }
+  for (const Tri &t : valve.triangles.get()) {
+    for (size_t k = 0; k < 3; ++k) edges += (valve.rest[t[k]] - valve.rest[t[(k + 1) % 3]]).norm();
+  }
+  return std::min(thickness, 0.6 * edges / (3 * static_cast<double>(valve.triangles.size())));
+}
+
+Valve tissue_of(const PatientGeometry &g, const BuildSettings &settings, Findings &findings) {
+  Valve valve;
+  name_leaflets(settings, valve);
+  valve.rest = g.sheet.x;
+  valve.triangles = g.sheet.triangles;
+  valve.annulus = g.rims.annulus;
+  for (const Tri &t : g.sheet.triangles) {
+    const uint32_t scallop =
+        scallop_of(g.arcs, mean_foot(g.coordinates, t), g.coordinates.annulus_length);
+    valve.triangle_scallop.push_back(scallop);
+    valve.triangle_leaflet.push_back(valve.scallops[scallop].leaflet);
+  }
+  set_thickness(g.sheet, settings, valve, findings);
+  valve.contact_thickness = contact_thickness(valve, settings);
+  return valve;
+}
+
+// The leaflets found on the given surface, on its new mesh.
+LeafletArcs arcs_on(const MidSheet &mesh, const SheetCoordinates &coordinates,
+                    const Findings &findings) {
+  const auto points_of = [&](const char *name) {
+    const auto finding = std::find_if(findings.begin(), findings.end(),
+                                      [&](const Finding &f) { return f.name == name; });
+    std::vector<Vec3> points;
+    for (size_t k = 0; k + 2 < finding->value.size(); k += 3) {
+      points.emplace_back(finding->value[k], finding->value[k + 1], finding->value[k + 2]);
+    }
+    return points;
+  };
+  Findings unused;  // they are those of the given surface
+  return find_leaflets(mesh.sheet, mesh.rims, coordinates,
+                       {points_of("commissures"), points_of("anterior")}, unused);
+}
+
+PatientGeometry find_geometry(const PatientSurface &surface, const BuildSettings &settings,
+                              Findings &findings) {
+  const MidSheet mid = find_mid_sheet(surface, settings, findings);
+  find_leaflets(mid.sheet, mid.rims, sheet_coordinates(mid.sheet, mid.rims),
+                {surface.commissures, surface.anterior}, findings);
+  MidSheet mesh = remeshed(mid, settings, findings);
+  PatientGeometry g;
+  g.coordinates = sheet_coordinates(mesh.sheet, mesh.rims);
+  g.arcs = arcs_on(mesh, g.coordinates, findings);
+  g.sheet = std::move(mesh.sheet);
+  g.rims = std::move(mesh.rims);
+  return g;
+}
+
+// Tells the host the share of the work that is done; throws if it cancels.
+void tell_progress(const Progress &progress, double share) {
+  MVS_MUST(!progress || progress(share, 0), MVS_E_CANCELLED, "progress",
+           "cancelled by the progress callback: the valve is as before");
+}
+
+void fit_chords(const PatientSurface &surface, const Progress &progress, Valve &valve,
+                Findings &findings) {
+  const FitSettings settings;
+  Solver solver(Backend::fastest);
+  const ClosedJacobian differences = jacobian_by_differences(solver);
+  double round = 0;
+  fit_to_closed(valve, {surface.closed_points, surface.closed_triangles}, settings, findings,
+                [&](const ClosedValve &closed, const std::vector<ChordGroup> &groups,
+                    const std::vector<SurfaceMatch> &matches) {
+                  tell_progress(progress, 0.1 + 0.7 * round++ / settings.rounds);
+                  return differences(closed, groups, matches);
+                });
+}
+
+}  // namespace
+
+BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &settings,
+                       const Progress &progress) {
+  BuiltValve built;
+  Findings &findings = built.findings;
+  tell_progress(progress, 0.0);
+  const PatientGeometry g = find_geometry(surface, settings, findings);
+  Valve valve = tissue_of(g, settings, findings);
+  valve.name = surface.name;
+  const PapillaryTips tips = find_papillary_tips(surface.tips, g, findings);
+  add_chordae(valve, g, tips, {settings.chords, settings.chord_factor, settings.coaptation_length},
+              findings);
+  tell_progress(progress, 0.1);
+  if (!surface.closed_points.empty()) fit_chords(surface, progress, valve, findings);
+  built.model = make_model(valve);
+  tell_progress(progress, 0.8);
+  leak_interval(valve, findings);
+  return built;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,116 @@
+// Grouping of given tips; places of assumed ones.
+#include "patient/chordae/papillary_tips.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "patient/chordae/annulus_frame.h"
+
+namespace mvs::core {
+namespace {
+
+constexpr size_t most_tips = 64;
+// m: normal tips are 23.5 +- 4 mm below the annulus, and less than 40 mm in dilated ventricles.
+constexpr double farthest_tip = 80e-3;
+// m below the mean plane of the annulus: the annulus itself is up to 7 mm off that plane.
+constexpr double least_tip_depth = 5e-3;
+
+// Places of normal anatomy, as those of the parametric valve (anatomy/PARAMETRIC.md), in widths of
+// the annulus: 23.5 mm below its plane and 20 mm apart at a width of 35 mm; a little posterior of
+// the centre.
+constexpr double assumed_depth = 23.5 / 35, assumed_separation = 20.0 / 35;
+constexpr double assumed_posterior = 0.12;  // of the AP diameter
+// Share of the AP diameter from the centre towards the A point, beyond which tips are unusual.
+constexpr double most_forward = 0.2;
+// m: a tip is at least this much below the lowest leaflet, as chordae have a length.
+constexpr double below_leaflets = 1e-3;
+
+void put_tips(const PapillaryTips &tips, Finding &finding) {
+  for (const std::vector<Vec3> *group : {&tips.anterolateral, &tips.posteromedial}) {
+    for (const Vec3 &p : *group) {
+      finding.value.insert(finding.value.end(), {p.x(), p.y(), p.z()});
+    }
+  }
+  finding.unit = "m";
+}
+
+PapillaryTips assumed_tips(const PatientGeometry &g, const AnnulusFrame &frame) {
+  double depth = assumed_depth * frame.width;
+  for (const uint32_t i : g.rims.free_edge) {
+    depth = std::max(depth, below_leaflets - frame.local(g.sheet.x[i])[2]);
+  }
+  const double half = 0.5 * assumed_separation * frame.width;
+  const double y = -assumed_posterior * frame.diameter;
+  return {{frame.global({frame.middle - half, y, -depth})},
+          {frame.global({frame.middle + half, y, -depth})}};
+}
+
+void check_tip(const Vec3 &tip, size_t number, const AnnulusFrame &frame) {
+  const Vec3 local = frame.local(tip);
+  MVS_MUST(std::isfinite(local.squaredNorm()), MVS_E_ARGUMENT, "papillary_tips",
+           "papillary tip %zu is not a finite point", number);
+  MVS_MUST(local.norm() <= farthest_tip, MVS_E_OP, "papillary_tips",
+           "papillary tip %zu lies %.0f mm from the centre of the annulus, at most %.0f mm are "
+           "accepted: are both in one frame (LPS or RAS), in m, and of one patient?",
+           number, local.norm() * 1e3, farthest_tip * 1e3);
+  MVS_MUST(
+      local[2] <= -least_tip_depth, MVS_E_OP, "papillary_tips",
+      "papillary tip %zu lies %.1f mm %s the plane of the annulus; tips are at least %.0f mm "
+      "below it: are both in one frame (LPS or RAS), and is the annulus the rim at the atrium?",
+      number, std::abs(local[2]) * 1e3, local[2] > 0 ? "above" : "below", least_tip_depth * 1e3);
+}
+
+}  // namespace
+
+PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientGeometry &g,
+                                  Findings &findings) {
+  const AnnulusFrame frame = annulus_frame(g, AnnulusCurve(g, g.sheet.x));
+  MVS_MUST(given.size() <= most_tips, MVS_E_ARGUMENT, "papillary_tips",
+           "%zu papillary tips are given, at most %zu are accepted", given.size(), most_tips);
+  if (given.empty()) {
+    PapillaryTips tips = assumed_tips(g, frame);
+    const double depth = -frame.local(tips.anterolateral[0])[2];
+    findings.push_back(
+        {"papillary_tips",
+         FindingSource::assumed,
+         0.2,
+         format("two tips of normal anatomy, %.1f mm below the plane of the annulus; "
+                "lengths of chordae and tethering follow from them: give the tips of "
+                "the papillary muscles at the phase of the surface",
+                depth * 1e3),
+         {},
+         ""});
+    put_tips(tips, findings.back());
+    return tips;
+  }
+  PapillaryTips tips;
+  double forward = 0;  // m, mean place of the tips from the centre towards the A point
+  for (size_t k = 0; k < given.size(); ++k) {
+    check_tip(given[k], k + 1, frame);
+    forward += frame.local(given[k])[1] / static_cast<double>(given.size());
+    const bool medial = frame.local(given[k])[0] > frame.middle;
+    (medial ? tips.posteromedial : tips.anterolateral).push_back(given[k]);
+  }
+  MVS_MUST(
+      !tips.anterolateral.empty() && !tips.posteromedial.empty(), MVS_E_OP, "papillary_tips",
+      "all %zu papillary tips lie on the %s side of the plane between the commissures: give at "
+      "least one tip of each papillary muscle, or check commissures and anterior leaflet",
+      given.size(), tips.anterolateral.empty() ? "posteromedial" : "anterolateral");
+  const bool swapped = forward > most_forward * frame.diameter;
+  findings.push_back(
+      {"papillary_tips",
+       FindingSource::given,
+       swapped ? 0.4 : 1,
+       format("the given points: %zu anterolateral, %zu posteromedial%s", tips.anterolateral.size(),
+              tips.posteromedial.size(),
+              swapped ? "; they lie under the anterior leaflet, where normal tips lie under the "
+                        "posterior one: give a point of the anterior leaflet if both are swapped"
+                      : ""),
+       {},
+       ""});
+  put_tips(tips, findings.back());
+  return tips;
+}
+
+}  // namespace mvs::core

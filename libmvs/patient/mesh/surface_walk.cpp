@@ -1,0 +1,146 @@
+// Closest points by descent over neighbouring triangles; boundary loops by arc length.
+#include "patient/mesh/surface_walk.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "base/error.h"
+#include "geometry/distance.h"
+#include "patient/coordinates.h"
+
+namespace mvs::core {
+namespace {
+
+// The triangle with both vertices on a side; `none` unless exactly one has.
+uint32_t only_triangle_at(const std::vector<Tri> &triangles, const Rows &stars, uint32_t a,
+                          uint32_t b) {
+  uint32_t found = none;
+  for (const uint32_t t : stars[a]) {
+    const Tri &tri = triangles[t];
+    if (std::find(tri.begin(), tri.end(), b) == tri.end()) continue;
+    if (found != none) return none;
+    found = t;
+  }
+  return found;
+}
+
+}  // namespace
+
+SurfaceWalk::SurfaceWalk(const std::vector<Vec3> &x, const std::vector<Tri> &triangles)
+    : x_(x), triangles_(triangles), stars_(rows_of(x.size(), triangles)) {
+  normal_.assign(x.size(), Vec3::Zero());
+  for (const Tri &t : triangles) {
+    const Vec3 area = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    for (const uint32_t corner : t) normal_[corner] += area;
+  }
+  for (Vec3 &n : normal_) {
+    const double norm = n.norm();
+    if (norm > 0) n /= norm;
+  }
+}
+
+Vec3 SurfaceWalk::at(const SurfacePlace &place) const {
+  const Tri &t = triangles_[place.triangle];
+  return place.weight[0] * x_[t[0]] + place.weight[1] * x_[t[1]] + place.weight[2] * x_[t[2]];
+}
+
+Vec3 SurfaceWalk::normal_at(const SurfacePlace &place) const {
+  const Tri &t = triangles_[place.triangle];
+  const Vec3 sum = place.weight[0] * normal_[t[0]] + place.weight[1] * normal_[t[1]] +
+                   place.weight[2] * normal_[t[2]];
+  const double norm = sum.norm();
+  return norm > 0 ? Vec3(sum / norm) : sum;
+}
+
+SurfacePlace SurfaceWalk::closest_from(const SurfacePlace &start, const Vec3 &p) const {
+  const auto closest_on = [&](uint32_t t) {
+    const Tri &tri = triangles_[t];
+    return closest_on_triangle(p, x_[tri[0]], x_[tri[1]], x_[tri[2]]);
+  };
+  uint32_t at = start.triangle;
+  TrianglePoint best = closest_on(at);
+  for (bool walks = true; walks && best.feature < 6;) {  // 6: inside the triangle
+    walks = false;
+    const bool corner = best.feature < 3;
+    const Tri &tri = triangles_[at];
+    const uint32_t a = tri[best.feature % 3], b = tri[(best.feature + 1) % 3];
+    uint32_t next = at;
+    for (const uint32_t t : stars_[a]) {
+      const Tri &other = triangles_[t];
+      if (t == at || (!corner && std::find(other.begin(), other.end(), b) == other.end())) continue;
+      const TrianglePoint on = closest_on(t);
+      if (on.distance2 >= best.distance2) continue;
+      best = on;
+      next = t;
+      walks = true;
+    }
+    at = next;
+  }
+  return {at, best.weight};
+}
+
+RimCurve::RimCurve(const LeafletSheet &sheet, const std::vector<uint32_t> &loop, const char *name) {
+  MVS_MUST(loop.size() >= 3, MVS_E_OP, name, "the %s has %zu vertices, a loop has at least 3", name,
+           loop.size());
+  const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
+  double s = 0;
+  for (size_t k = 0; k < loop.size(); ++k) {
+    const uint32_t a = loop[k], b = loop[(k + 1) % loop.size()];
+    const uint32_t t = only_triangle_at(sheet.triangles, stars, a, b);
+    MVS_MUST(t != none, MVS_E_OP, name,
+             "vertices %u and %u of the %s are not joined by a side of exactly one triangle: give "
+             "it as the boundary loop of the sheet",
+             a, b, name);
+    const Tri &tri = sheet.triangles[t];
+    const auto corner_of = [&](uint32_t vertex) {
+      return static_cast<uint32_t>(std::find(tri.begin(), tri.end(), vertex) - tri.begin());
+    };
+    x_.push_back(sheet.x[a]);
+    start_.push_back(s);
+    triangle_.push_back(t);
+    corner_.push_back({corner_of(a), corner_of(b)});
+    s += (sheet.x[b] - sheet.x[a]).norm();
+  }
+  start_.push_back(s);
+  MVS_MUST(s > 0, MVS_E_OP, name, "the %s has no length", name);
+}
+
+RimCurve::OnSegment RimCurve::locate(double s) const {
+  const double in = wrapped(s, length());
+  const auto after = std::upper_bound(start_.begin() + 1, start_.end() - 1, in);
+  const size_t k = static_cast<size_t>(after - start_.begin()) - 1;
+  const double span = start_[k + 1] - start_[k];
+  return {k, span > 0 ? std::clamp((in - start_[k]) / span, 0.0, 1.0) : 0.0};
+}
+
+Vec3 RimCurve::at(double s) const {
+  const OnSegment on = locate(s);
+  return (1 - on.share) * x_[on.segment] + on.share * x_[(on.segment + 1) % x_.size()];
+}
+
+SurfacePlace RimCurve::place_at(double s) const {
+  const OnSegment on = locate(s);
+  SurfacePlace place{triangle_[on.segment], {}};
+  place.weight[corner_[on.segment][0]] = 1 - on.share;
+  place.weight[corner_[on.segment][1]] = on.share;
+  return place;
+}
+
+std::vector<double> RimCurve::corners(double reach, double height) const {
+  std::vector<double> out(x_.size()), found;
+  for (size_t k = 0; k < x_.size(); ++k) {
+    out[k] = std::sqrt(
+        closest_on_segment(x_[k], at(start_[k] - reach), at(start_[k] + reach)).distance2);
+  }
+  for (size_t k = 0; k < x_.size(); ++k) {
+    bool most = out[k] > height;
+    for (size_t j = 0; j < x_.size() && most; ++j) {
+      if (j == k || std::abs(around(start_[k], start_[j], length())) > reach) continue;
+      most = out[j] < out[k] || (out[j] == out[k] && k < j);
+    }
+    if (most) found.push_back(start_[k]);
+  }
+  return found;
+}
+
+}  // namespace mvs::core

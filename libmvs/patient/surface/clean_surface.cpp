@@ -1,0 +1,273 @@
+// Checks, welding, pieces, winding.
+#include "patient/surface/clean_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "geometry/bvh.h"
+#include "model/sides.h"
+#include "patient/findings.h"
+#include "patient/surface/manifold.h"
+#include "patient/surface/weld.h"
+
+namespace mvs::core {
+namespace {
+
+// Share of the median edge within which points are one vertex: far below any side of use, and above
+// the rounding of text STL (1e-3 mm beside edges of 0.3 mm and more).
+constexpr double weld_share = 0.01;
+// Share of the area below which a separate piece is no leaflet.
+constexpr double spur_share = 0.01;
+// m: the largest extent of a mitral valve. The smallest annulus of an infant is 10 mm wide; a
+// dilated annulus is 60 mm wide, with papillary muscles and a margin 150 mm.
+constexpr double least_extent = 10e-3, most_extent = 150e-3;
+// m: tissue of leaflets has 0.5 to 5 mm.
+constexpr double most_thickness = 10e-3;
+
+void check_arrays(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
+                  const std::vector<LeafletLabel> &label, const std::vector<double> &thickness) {
+  MVS_MUST(!triangles.empty(), MVS_E_OP, "triangles",
+           "the surface has %zu points and no triangles: give the leaflets as triangles",
+           points.size());
+  MVS_MUST(label.empty() || label.size() == triangles.size(), MVS_E_ARGUMENT, "triangle_leaflet",
+           "%zu labels for %zu triangles: give one for each triangle, or none", label.size(),
+           triangles.size());
+  MVS_MUST(thickness.empty() || thickness.size() == points.size(), MVS_E_ARGUMENT,
+           "point_thickness", "%zu values for %zu points: give one for each point, or none",
+           thickness.size(), points.size());
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    for (const uint32_t i : triangles[t]) {
+      MVS_MUST(i < points.size(), MVS_E_OP, "triangles",
+               "triangle %zu has point %u of %zu: count points from 0", t, i, points.size());
+      MVS_MUST(points[i].allFinite(), MVS_E_OP, "points",
+               "point %u is (%g, %g, %g): give numbers, or drop triangle %zu", i, points[i].x(),
+               points[i].y(), points[i].z(), t);
+    }
+  }
+  for (size_t i = 0; i < thickness.size(); ++i) {
+    MVS_MUST(thickness[i] > 0 && thickness[i] <= most_thickness, MVS_E_OP, "point_thickness",
+             "the thickness at point %zu is %g m: tissue has 0.0005 to 0.005 m; divide by 1000 if "
+             "it is in mm",
+             i, thickness[i]);
+  }
+}
+
+// The largest extent of the triangles with a mark.
+double extent_of(const LeafletSheet &sheet, const std::vector<uint8_t> &marks) {
+  Aabb box;
+  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
+    if (marks[t] != 0) box.add(aabb_of(sheet.x, sheet.triangles[t]));
+  }
+  return (box.high - box.low).maxCoeff();
+}
+
+void check_extent(double extent) {
+  if (extent >= least_extent && extent <= most_extent) return;
+  struct Unit {
+    double metres;
+    const char *name;
+  };
+  for (const auto &[metres, name] : {Unit{1e-3, "mm"}, {1e-2, "cm"}, {1e-6, "um"}}) {
+    MVS_MUST(extent * metres < least_extent || extent * metres > most_extent, MVS_E_OP, "points",
+             "this surface is %.4g m wide: its lengths seem to be in %s; divide by %.0f or give "
+             "--unit %s",
+             extent, name, 1 / metres, name);
+  }
+  fail(MVS_E_OP, "points",
+       "this surface is %.4g m wide; a mitral valve is %.0f to %.0f mm wide: give lengths in m, of "
+       "the leaflets alone",
+       extent, least_extent * 1e3, most_extent * 1e3);
+}
+
+LeafletSheet welded_sheet(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
+                          const std::vector<LeafletLabel> &label,
+                          const std::vector<double> &thickness, Findings &findings) {
+  LeafletSheet sheet{points, triangles, label, thickness};
+  sheet.label.resize(triangles.size(), LeafletLabel::unknown);
+  drop_unused(sheet);
+  if (const size_t unused = points.size() - sheet.x.size(); unused > 0) {
+    add_measured(findings, "unused_points",
+                 format("%zu points are in no triangle and were dropped", unused),
+                 {static_cast<double>(unused)}, "");
+  }
+  const double distance = weld_share * median_edge(sheet.x, sheet.triangles);
+  const std::vector<uint32_t> first = weld_map(sheet.x, distance);
+  size_t welded = 0;
+  for (uint32_t i = 0; i < first.size(); ++i) welded += first[i] != i;
+  if (welded == 0) return sheet;
+  for (Tri &t : sheet.triangles) {
+    for (uint32_t &i : t) i = first[i];
+  }
+  add_measured(findings, "welded_points",
+               format("%zu of %zu points are as near as %.4f mm to another one and became one "
+                      "vertex with it",
+                      welded, first.size(), distance * 1e3),
+               {static_cast<double>(welded)}, "");
+  return sheet;
+}
+
+// Drops triangles with a repeated corner or without area on one edge, and all but the first of
+// those with the same corners.
+void drop_collapsed(LeafletSheet &sheet, Findings &findings) {
+  const size_t n = sheet.triangles.size();
+  std::vector<uint8_t> kept(n, 1);
+  size_t collapsed = 0, doubled = 0;
+  std::vector<std::pair<Tri, uint32_t>> sorted;
+  for (uint32_t t = 0; t < n; ++t) {
+    Tri corners = sheet.triangles[t];
+    std::sort(corners.begin(), corners.end());
+    if (corners[0] == corners[1] || corners[1] == corners[2]) {
+      kept[t] = 0;
+      ++collapsed;
+    } else {
+      sorted.push_back({corners, t});
+    }
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (size_t k = 1; k < sorted.size(); ++k) {
+    if (sorted[k].first != sorted[k - 1].first) continue;
+    kept[sorted[k].second] = 0;
+    ++doubled;
+  }
+  if (collapsed + doubled == 0) return;
+  keep_triangles(sheet, kept);
+  add_measured(findings, "dropped_triangles",
+               format("%zu triangles without area and %zu triangles in the place of another one "
+                      "were dropped",
+                      collapsed, doubled),
+               {static_cast<double>(collapsed), static_cast<double>(doubled)}, "");
+}
+
+struct Pieces {
+  std::vector<uint32_t> of_triangle;
+  std::vector<double> area;  // m2
+  uint32_t largest = 0;
+};
+
+Pieces measured_pieces(const LeafletSheet &sheet, const std::vector<uint32_t> &across) {
+  Pieces pieces;
+  pieces.of_triangle = pieces_of(across);
+  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
+    const uint32_t piece = pieces.of_triangle[t];
+    if (piece == pieces.area.size()) pieces.area.push_back(0);
+    pieces.area[piece] += triangle_area(sheet.x, sheet.triangles[t]);
+  }
+  const auto most = std::max_element(pieces.area.begin(), pieces.area.end());
+  pieces.largest = static_cast<uint32_t>(most - pieces.area.begin());
+  return pieces;
+}
+
+void refuse_pieces(const std::vector<double> &area, double least, const SurfaceJoin &join) {
+  std::vector<double> large;
+  std::copy_if(area.begin(), area.end(), std::back_inserter(large),
+               [&](double a) { return a >= least; });
+  if (large.size() == 1) return;
+  std::sort(large.rbegin(), large.rend());
+  std::string list;
+  for (size_t k = 0; k < std::min<size_t>(large.size(), 5); ++k) {
+    list += format("%s%.0f", k > 0 ? ", " : "", large[k] * 1e6);
+  }
+  if (large.size() > 5) list += ", ...";
+  std::string where;
+  if (join.opened > 0) {
+    where = format(
+        "; at %zu edges, the first near (%.1f, %.1f, %.1f) mm, more than two triangles "
+        "meet",
+        join.opened, join.opened_at.x() * 1e3, join.opened_at.y() * 1e3, join.opened_at.z() * 1e3);
+  }
+  fail(MVS_E_OP, "triangles",
+       "the surface has %zu pieces that are not connected, of %s mm2%s: give the leaflets as one "
+       "surface from the annulus to the free edge, with common points where pieces meet",
+       large.size(), list.c_str(), where.c_str());
+}
+
+// Keeps the largest piece.
+void drop_spurs(LeafletSheet &sheet, SurfaceJoin &join, Findings &findings) {
+  const Pieces pieces = measured_pieces(sheet, join.across);
+  const double total = std::accumulate(pieces.area.begin(), pieces.area.end(), 0.0);
+  std::vector<uint8_t> kept(sheet.triangles.size(), 0);
+  for (size_t t = 0; t < kept.size(); ++t) kept[t] = pieces.of_triangle[t] == pieces.largest;
+  check_extent(extent_of(sheet, kept));
+  refuse_pieces(pieces.area, spur_share * total, join);
+  if (pieces.area.size() == 1) return;
+  const double dropped = total - pieces.area[pieces.largest];
+  keep_triangles(sheet, kept);
+  add_measured(findings, "dropped_pieces",
+               format("%zu separate pieces of together %.2f mm2, each below 1 %% of the area, were "
+                      "dropped",
+                      pieces.area.size() - 1, dropped * 1e6),
+               {static_cast<double>(pieces.area.size() - 1), dropped}, "");
+  join.across = join_sides(sheet.x, sheet.triangles).across;
+}
+
+// Makes each edge a border of two triangles, and each vertex the centre of one fan.
+void make_manifold(LeafletSheet &sheet, Findings &findings) {
+  SurfaceJoin join = join_sides(sheet.x, sheet.triangles);
+  drop_spurs(sheet, join, findings);
+  if (join.opened > 0) {
+    add_measured(findings, "opened_edges",
+                 format("at %zu edges more than two triangles meet; the two that continue "
+                        "straightest stay joined there",
+                        join.opened),
+                 {join.opened_at.x(), join.opened_at.y(), join.opened_at.z()}, "m");
+  }
+  const uint32_t turned = wind_alike(sheet, join.across);
+  MVS_MUST(turned != none, MVS_E_OP, "triangles",
+           "the surface has one side only, like a Moebius band: the triangles cannot be wound "
+           "alike; look for a strip that is joined the wrong way round");
+  if (turned > 0) {
+    add_measured(
+        findings, "turned_triangles",
+        format("%u triangles were wound the other way than the rest and were turned", turned),
+        {static_cast<double>(turned)}, "");
+    join.across = join_sides(sheet.x, sheet.triangles).across;
+  }
+  const size_t copies = separate_fans(sheet, join.across) + split_shared_edges(sheet);
+  join = join_sides(sheet.x, sheet.triangles);
+  MVS_MUST(join.opened == 0, MVS_E_OP, "triangles",
+           "more than two triangles meet at an edge near (%.1f, %.1f, %.1f) mm, and no rule tells "
+           "which of them are one surface: remove the others",
+           join.opened_at.x() * 1e3, join.opened_at.y() * 1e3, join.opened_at.z() * 1e3);
+  if (copies > 0) {
+    add_measured(
+        findings, "separated_points",
+        format("parts of the surface touched in single points or edges; %zu new points hold "
+               "them apart",
+               copies),
+        {static_cast<double>(copies)}, "");
+  }
+}
+
+}  // namespace
+
+LeafletSheet clean_surface(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
+                           const std::vector<LeafletLabel> &label,
+                           const std::vector<double> &thickness, Findings &findings) {
+  check_arrays(points, triangles, label, thickness);
+  LeafletSheet sheet = welded_sheet(points, triangles, label, thickness, findings);
+  drop_collapsed(sheet, findings);
+  MVS_MUST(!sheet.triangles.empty(), MVS_E_OP, "triangles",
+           "all %zu triangles are without area: give the leaflets as triangles", triangles.size());
+  make_manifold(sheet, findings);
+  if (const size_t flat = remove_flat(sheet); flat > 0) {
+    add_measured(findings, "flat_triangles",
+                 format("%zu triangles with three corners on one line were joined to their "
+                        "neighbours",
+                        flat),
+                 {static_cast<double>(flat)}, "");
+  }
+  drop_unused(sheet);
+  double area = 0;
+  for (const Tri &t : sheet.triangles) area += triangle_area(sheet.x, t);
+  const double extent = extent_of(sheet, std::vector<uint8_t>(sheet.triangles.size(), 1));
+  add_measured(findings, "surface",
+               format("%zu triangles with sides of %.2f mm, together %.0f mm2 and %.1f mm wide",
+                      sheet.triangles.size(), median_edge(sheet.x, sheet.triangles) * 1e3,
+                      area * 1e6, extent * 1e3),
+               {area}, "m2");
+  return sheet;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,187 @@
+// The atrial side of a skin, with the thickness behind it, moved to the middle.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "geometry/intersect.h"
+#include "model/compressed_rows.h"
+#include "model/sides.h"
+#include "patient/findings.h"
+#include "patient/surface/boundary.h"
+#include "patient/surface/fill_hole.h"
+#include "patient/surface/manifold.h"
+#include "patient/surface/mid_surface.h"
+#include "patient/surface/skin_sides.h"
+#include "patient/surface/smooth_skin.h"
+#include "patient/surface/weld.h"
+
+namespace mvs::core {
+namespace {
+
+// m: a longer boundary of a skin is no small hole, but a rim or a side that is missing.
+constexpr double longest_hole = 20e-3;
+// Rounds that remove the zigzag of single triangles, and leave waves of ten of them.
+constexpr int rim_rounds = 10;
+
+// A skin without holes, normals out of the tissue.
+LeafletSheet closed_skin(LeafletSheet skin, Findings &findings) {
+  size_t holes = 0;
+  for (const std::vector<uint32_t> &loop : boundary_loops(skin)) {
+    const double length = shape_of(skin, loop).length;
+    MVS_MUST(
+        length < longest_hole, MVS_E_OP, "triangles",
+        "the skin is open along %.0f mm; both sides of the leaflets and their rims are needed: "
+        "close it, or give one side as the atrial surface",
+        length * 1e3);
+    fill_hole(skin, loop);
+    ++holes;
+  }
+  if (holes > 0) {
+    add_measured(findings, "filled_holes", format("%zu holes of the skin were filled", holes),
+                 {static_cast<double>(holes)}, "");
+  }
+  double volume = 0;
+  for (const Tri &t : skin.triangles) {
+    volume += skin.x[t[0]].dot(skin.x[t[1]].cross(skin.x[t[2]])) / 6;
+  }
+  if (volume < 0) {
+    for (Tri &t : skin.triangles) std::swap(t[1], t[2]);
+  }
+  return skin;
+}
+
+// The median of the thickness behind all triangles.
+double median_thickness(const LeafletSheet &skin) {
+  std::vector<double> sorted;
+  for (const TissueBehind &b : tissue_behind(skin)) {
+    if (b.triangle != none) sorted.push_back(b.thickness);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
+}
+
+// A closed surface has the Euler characteristic V - F / 2: 2 of a ball, 0 of a ring.
+void check_ring(const LeafletSheet &skin) {
+  const auto points = static_cast<long>(skin.x.size());
+  const long characteristic = points - static_cast<long>(skin.triangles.size() / 2);
+  MVS_MUST(characteristic != 2, MVS_E_OP, "triangles",
+           "the skin is that of a ball without an orifice: are the leaflets closed and joined, or "
+           "is this one leaflet only? Both leaflets have to be joined at the commissures");
+  MVS_MUST(characteristic == 0, MVS_E_OP, "triangles",
+           "the skin has %ld handles beside the orifice: leaflets touch and are joined, or have "
+           "holes; separate them there",
+           -characteristic / 2);
+}
+
+// Fills numbers that are not known (zero) with the mean of those of the neighbours, from ring to
+// ring, then takes the mean with the neighbours three times.
+void spread_and_smooth(const std::vector<Tri> &triangles, std::vector<double> &value) {
+  constexpr size_t smoothings = 3;
+  for (size_t round = 0, smoothed = 0; smoothed < smoothings && round < value.size(); ++round) {
+    const bool full = std::find(value.begin(), value.end(), 0.0) == value.end();
+    std::vector<double> sum = value, count(value.size(), 0);
+    for (size_t i = 0; i < value.size(); ++i) count[i] = value[i] > 0;
+    for (const Tri &t : triangles) {
+      for (size_t k = 0; k < 3; ++k) {
+        for (const uint32_t j : {t[(k + 1) % 3], t[(k + 2) % 3]}) {
+          if (value[j] == 0 || (!full && value[t[k]] > 0)) continue;
+          sum[t[k]] += value[j];
+          count[t[k]] += 1;
+        }
+      }
+    }
+    for (size_t i = 0; i < value.size(); ++i) {
+      if (count[i] > 0) value[i] = sum[i] / count[i];
+    }
+    smoothed += full;
+  }
+}
+
+// The median thickness behind the triangles of a side around each vertex; 0 where none has any.
+std::vector<double> thickness_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
+                                 const std::vector<uint32_t> &side_of, uint32_t side) {
+  const Rows stars = rows_of(skin.x.size(), skin.triangles);
+  std::vector<double> thickness(skin.x.size(), 0);
+  std::vector<double> around;
+  for (size_t i = 0; i < thickness.size(); ++i) {
+    around.clear();
+    for (const uint32_t t : stars[i]) {
+      const uint32_t u = behind[t].triangle;
+      if (side_of[t] == side && u != none && side_of[u] == 1 - side) {
+        around.push_back(behind[t].thickness);
+      }
+    }
+    std::sort(around.begin(), around.end());
+    if (!around.empty())
+      thickness[i] = 0.5 * (around[around.size() / 2] + around[(around.size() - 1) / 2]);
+  }
+  return thickness;
+}
+
+// One side as a sheet, with the thickness of the tissue behind it.
+LeafletSheet side_sheet(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
+                        const std::vector<uint32_t> &side_of, uint32_t side) {
+  LeafletSheet sheet = skin;
+  sheet.thickness = thickness_of(skin, behind, side_of, side);
+  std::vector<uint8_t> kept(skin.triangles.size());
+  for (size_t t = 0; t < kept.size(); ++t) kept[t] = side_of[t] == side;
+  keep_triangles(sheet, kept);
+  separate_fans(sheet, join_sides(sheet.x, sheet.triangles).across);
+  drop_unused(sheet);
+  spread_and_smooth(sheet.triangles, sheet.thickness);
+  return sheet;
+}
+
+// Smooths rims as often as no triangles cross that did not before.
+void smooth_rims_freely(LeafletSheet &sheet, int rounds) {
+  const size_t crossings = find_intersections(sheet.x, sheet.triangles).size();
+  const std::vector<Vec3> before = sheet.x;
+  for (; rounds > 0; rounds /= 2) {
+    smooth_rims(sheet, rounds);
+    if (find_intersections(sheet.x, sheet.triangles).size() <= crossings) return;
+    sheet.x = before;
+  }
+}
+
+void add_thickness(const LeafletSheet &skin, const LeafletSheet &atrial, Findings &findings) {
+  std::vector<double> sorted = atrial.thickness;
+  std::sort(sorted.begin(), sorted.end());
+  const size_t n = sorted.size();
+  const double low = sorted[n / 20], median = sorted[n / 2], high = sorted[n - 1 - n / 20];
+  double all = 0, part = 0;
+  for (const Tri &t : skin.triangles) all += triangle_area(skin.x, t);
+  for (const Tri &t : atrial.triangles) part += triangle_area(atrial.x, t);
+  add_measured(findings, "thickness",
+               format("%.2f mm between both sides of the skin, %.2f to %.2f mm on 90 %% of it; the "
+                      "atrial side is %.0f %% of the skin",
+                      median * 1e3, low * 1e3, high * 1e3, 100 * part / all),
+               {median, low, high}, "m");
+}
+
+}  // namespace
+
+LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks,
+                         Findings &findings) {
+  LeafletSheet closed = closed_skin(skin, findings);
+  check_ring(closed);
+  const int rounds = smooth_skin(closed, median_thickness(closed), findings);
+  const std::vector<TissueBehind> behind = tissue_behind(closed);
+  const std::vector<uint32_t> side_of = sides_of(closed, behind);
+  std::vector<LeafletSheet> atrial;
+  for (const uint32_t side : {0u, 1u}) {
+    LeafletSheet sheet = side_sheet(closed, behind, side_of, side);
+    const Tri first = sheet.triangles[0];
+    Findings unused;
+    find_rims(sheet, landmarks, unused);  // normals into the atrium
+    if (sheet.triangles[0] == first) atrial.push_back(std::move(sheet));
+  }
+  MVS_MUST(atrial.size() == 1, MVS_E_OP, "triangles",
+           "the sides of the skin do not show which is the atrial one: give the papillary tips and "
+           "points along the annulus");
+  add_thickness(closed, atrial[0], findings);
+  move_to_mid(atrial[0], 0, findings);
+  smooth_rims_freely(atrial[0], std::min(rounds, rim_rounds));
+  return std::move(atrial[0]);
+}
+
+}  // namespace mvs::core

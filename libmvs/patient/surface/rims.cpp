@@ -1,0 +1,277 @@
+// Holes, Euler characteristic, which rim is the annulus, which side the atrium.
+#include "patient/surface/rims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "geometry/distance.h"
+#include "measure/annulus/landmarks.h"
+#include "model/sides.h"
+#include "patient/findings.h"
+#include "patient/surface/boundary.h"
+#include "patient/surface/fill_hole.h"
+
+namespace mvs::core {
+namespace {
+
+// A loop shorter than this share of the longest one is a hole: 20 to 30 mm around, 6 to 10 mm
+// across. The free edge of a severe stenosis (1 cm2) is longer, 35 mm.
+constexpr double hole_share = 0.2;
+// m: annulus points farther from the rim in the mean are of another frame or patient. Points by
+// hand on images of 0.7 mm lie within 3 mm; the height of the leaflets is 10 mm and more.
+constexpr double farthest_annulus = 8e-3;
+// m: papillary tips lie 15 to 40 mm below the annulus, also in a dilated ventricle.
+constexpr double farthest_papillary_tip = 70e-3;
+// m: the mean width of the orifice (twice its area over the length of the free edge). Real and
+// parametric open valves have 3.7 mm and more; below one thickness the edges touch along most of
+// their length.
+constexpr double closed_width = 1e-3, doubtful_width = 3e-3;
+
+struct RimLoop {
+  std::vector<uint32_t> loop;
+  LoopShape shape;
+};
+
+std::string list_of_lengths(const std::vector<RimLoop> &rims) {
+  std::string list;
+  for (size_t k = 0; k < std::min<size_t>(rims.size(), 6); ++k) {
+    const Vec3 &c = rims[k].shape.centre;
+    list += format("%s%.0f mm around (%.0f, %.0f, %.0f) mm", k > 0 ? ", " : "",
+                   rims[k].shape.length * 1e3, c.x() * 1e3, c.y() * 1e3, c.z() * 1e3);
+  }
+  return list + (rims.size() > 6 ? ", ..." : "");
+}
+
+// All boundary loops, the longest first.
+std::vector<RimLoop> sorted_rims(const LeafletSheet &sheet) {
+  std::vector<RimLoop> rims;
+  for (std::vector<uint32_t> &loop : boundary_loops(sheet)) {
+    const LoopShape shape = shape_of(sheet, loop);
+    rims.push_back({std::move(loop), shape});
+  }
+  std::stable_sort(rims.begin(), rims.end(), [](const RimLoop &a, const RimLoop &b) {
+    return a.shape.length > b.shape.length;
+  });
+  return rims;
+}
+
+// Fills the short loops and drops them from the list.
+void fill_holes(LeafletSheet &sheet, std::vector<RimLoop> &rims, Findings &findings) {
+  if (rims.empty()) return;
+  const double limit = hole_share * rims[0].shape.length;
+  std::vector<double> lengths;
+  size_t triangles = 0;
+  while (rims.back().shape.length < limit) {
+    triangles += fill_hole(sheet, rims.back().loop);
+    lengths.push_back(rims.back().shape.length);
+    rims.pop_back();
+  }
+  if (lengths.empty()) return;
+  add_measured(findings, "filled_holes",
+               format("%zu holes, the longest %.1f mm around, were filled with %zu triangles",
+                      lengths.size(), lengths.back() * 1e3, triangles),
+               lengths, "m");
+}
+
+void check_rims(const std::vector<RimLoop> &rims) {
+  MVS_MUST(!rims.empty(), MVS_E_OP, "triangles",
+           "the surface is closed: give it as skin, or open it at annulus and free edge");
+  MVS_MUST(rims.size() != 1, MVS_E_OP, "triangles",
+           "the surface has one boundary, %s; leaflets have two, annulus and free edge: is the "
+           "orifice closed by triangles, or is this a part of a leaflet?",
+           list_of_lengths(rims).c_str());
+  MVS_MUST(rims.size() == 2, MVS_E_OP, "triangles",
+           "the surface has %zu boundaries: %s; leaflets have two, annulus and free edge, and only "
+           "holes below a fifth of the longest boundary are filled: close the others",
+           rims.size(), list_of_lengths(rims).c_str());
+}
+
+// The Euler characteristic of a sheet with two rims is -2 for each handle.
+void check_handles(const LeafletSheet &sheet) {
+  size_t edges = 0;
+  const std::vector<Side> sides = sorted_sides(sheet.triangles);
+  for_each_edge(sides, [&](size_t, size_t) { ++edges; });
+  const size_t handles = (edges - std::min(edges, sheet.x.size() + sheet.triangles.size())) / 2;
+  MVS_MUST(
+      handles == 0, MVS_E_OP, "triangles",
+      "the surface has %zu handles: leaflets touch and are joined there, or a bridge of tissue "
+      "passes over the orifice; open the surface at these places",
+      handles);
+}
+
+// The mean distance of points from the curve of a rim.
+double mean_distance(const LeafletSheet &sheet, const RimLoop &rim,
+                     const std::vector<Vec3> &points) {
+  double sum = 0;
+  for (const Vec3 &p : points) {
+    double least2 = INFINITY;
+    for (size_t k = 0; k < rim.loop.size(); ++k) {
+      const Vec3 &a = sheet.x[rim.loop[k]], &b = sheet.x[rim.loop[(k + 1) % rim.loop.size()]];
+      const double length2 = (b - a).squaredNorm();
+      const double s = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
+      least2 = std::min(least2, (a + s * (b - a) - p).squaredNorm());
+    }
+    sum += std::sqrt(least2);
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+// Whether the first rim is the annulus, with how it was decided.
+bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims,
+                     const std::vector<Vec3> &points, Finding &finding) {
+  const double d0 = mean_distance(sheet, rims[0], points);
+  const double d1 = mean_distance(sheet, rims[1], points);
+  const double near = std::min(d0, d1), far = std::max(d0, d1);
+  MVS_MUST(
+      near <= farthest_annulus, MVS_E_OP, "annulus",
+      "the annulus points lie %.1f mm from the nearest boundary of the surface in the mean, at "
+      "most %.0f mm are accepted: are both in one frame (LPS or RAS), of one patient and one "
+      "phase?",
+      near * 1e3, farthest_annulus * 1e3);
+  finding.source = FindingSource::given;
+  finding.confidence = far > 0 ? (far - near) / far : 0;
+  finding.sentence = format(
+      "the boundary %.1f mm from the given points in the mean; the other one is %.1f mm away",
+      near * 1e3, far * 1e3);
+  return d0 <= d1;
+}
+
+bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
+                   Finding &finding) {
+  std::array<double, 2> apart{};
+  for (size_t k = 0; k < 2; ++k) {
+    for (const Vec3 &tip : tips) apart[k] += (tip - rims[k].shape.centre).norm();
+    apart[k] /= static_cast<double>(tips.size());
+  }
+  const double near = std::min(apart[0], apart[1]), far = std::max(apart[0], apart[1]);
+  MVS_MUST(near <= farthest_papillary_tip, MVS_E_OP, "papillary_tips",
+           "the papillary tips lie %.0f mm from the middle of the nearer boundary in the mean, at "
+           "most %.0f mm are accepted: are both in one frame (LPS or RAS)?",
+           near * 1e3, farthest_papillary_tip * 1e3);
+  // the free edge of a normal valve is two thirds as far from the tips
+  finding.confidence = std::clamp(3 * (far - near) / far, 0.0, 1.0);
+  finding.sentence = format(
+      "the boundary whose middle is %.0f mm from the papillary tips; the other one is %.0f mm away",
+      far * 1e3, near * 1e3);
+  return apart[0] >= apart[1];
+}
+
+// How much a rim looks like an annulus: its spanned area, times its roundness (4 pi area /
+// length^2) over the square of its turning, as the free edge has scallops. Annulus over free
+// edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
+// by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less
+// plane than many a free edge.)
+double annulus_likeness(const LoopShape &shape) {
+  const double area = shape.area.norm();
+  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
+}
+
+bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
+  const double a = annulus_likeness(rims[0].shape), b = annulus_likeness(rims[1].shape);
+  const double odds = std::max(a, b) / std::max(std::min(a, b), 1e-300);
+  const LoopShape &annulus = rims[a >= b ? 0 : 1].shape, &edge = rims[a >= b ? 1 : 0].shape;
+  finding.source = FindingSource::guessed;
+  finding.confidence = std::min((odds - 1) / (odds + 1), 0.95);
+  finding.sentence = format(
+      "the boundary that is larger, rounder and smoother: it is %.0f mm long, spans %.0f mm2 and "
+      "turns %.1f times; the other one is %.0f mm long, spans %.0f mm2 and turns %.1f times; give "
+      "points of the annulus if this is wrong",
+      annulus.length * 1e3, annulus.area.norm() * 1e6, annulus.turning, edge.length * 1e3,
+      edge.area.norm() * 1e6, edge.turning);
+  return a >= b;
+}
+
+// Puts the annulus first.
+void order_rims(const LeafletSheet &sheet, std::vector<RimLoop> &rims,
+                const RimLandmarks &landmarks, Findings &findings) {
+  Finding finding;
+  finding.name = "annulus";
+  const bool first = !landmarks.annulus.empty()
+                         ? first_by_points(sheet, rims, landmarks.annulus, finding)
+                         : (!landmarks.tips.empty() ? first_by_tips(rims, landmarks.tips, finding)
+                                                    : first_by_shape(rims, finding));
+  if (!first) std::swap(rims[0], rims[1]);
+  for (const uint32_t node : rims[0].loop) {
+    const Vec3 &p = sheet.x[node];
+    finding.value.insert(finding.value.end(), {p.x(), p.y(), p.z()});
+  }
+  finding.unit = "m";
+  findings.push_back(finding);
+}
+
+// The direction from the ventricle into the atrium: from the free edge to the annulus, or from the
+// tips if they are given.
+void orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
+            Findings &findings) {
+  const LoopShape &annulus = rims[0].shape, &edge = rims[1].shape;
+  const Vec3 axis = annulus.area.normalized();
+  const double depth = axis.dot(annulus.centre - edge.centre);
+  double up = depth;
+  Finding finding;
+  finding.name = "atrium";
+  finding.sentence = format("the free edge lies %.1f mm below the annulus", std::abs(depth) * 1e3);
+  // normal leaflets reach 10 mm deep; at 2.5 mm noise of an image can turn the sign
+  finding.confidence = std::clamp(std::abs(depth) / 5e-3, 0.0, 1.0);
+  if (!tips.empty()) {
+    up = 0;
+    for (const Vec3 &tip : tips) up += axis.dot(annulus.centre - tip);
+    up /= static_cast<double>(tips.size());
+    const bool agree = (up > 0) == (depth > 0);
+    finding.sentence = format(
+        "away from the papillary tips, %.1f mm from the annulus; the free edge lies %.1f mm on %s "
+        "side",
+        std::abs(up) * 1e3, std::abs(depth) * 1e3, agree ? "the same" : "the other");
+    finding.confidence = agree ? 1 : 0.5;
+  }
+  MVS_MUST(
+      up != 0, MVS_E_OP, "triangles",
+      "the free edge lies in the plane of the annulus: give the papillary tips, so that atrium "
+      "and ventricle can be told apart");
+  if (up < 0) {
+    for (Tri &t : sheet.triangles) std::swap(t[1], t[2]);
+    for (RimLoop &rim : rims) {
+      std::reverse(rim.loop.begin() + 1, rim.loop.end());
+      rim.shape.area = -rim.shape.area;
+    }
+  }
+  const Vec3 into_atrium = up < 0 ? Vec3(-axis) : axis;
+  finding.value = {into_atrium.x(), into_atrium.y(), into_atrium.z()};
+  findings.push_back(finding);
+}
+
+// A closed valve has no orifice seen from the atrium. Leaflets that are closed but whose edges lie
+// apart below the coaptation are not recognised; an open valve with a slit as orifice is refused.
+void check_open(const std::vector<RimLoop> &rims, Findings &findings) {
+  const LoopShape &annulus = rims[0].shape, &edge = rims[1].shape;
+  const double area = std::abs(edge.area.dot(annulus.area.normalized()));
+  const double width = 2 * area / edge.length;
+  MVS_MUST(width >= closed_width, MVS_E_OP, "points",
+           "the leaflets seem to be closed: their edges are %.2f mm apart in the mean, seen from "
+           "the atrium; give the open leaflets, and these as the closed ones",
+           width * 1e3);
+  Finding finding;
+  finding.name = "orifice";
+  finding.confidence = std::min(1.0, width / doubtful_width);
+  finding.sentence = format("%.0f mm2 between the free edges, seen from the atrium%s", area * 1e6,
+                            width < doubtful_width ? ": are these the open leaflets?" : "");
+  finding.value = {area};
+  finding.unit = "m2";
+  findings.push_back(finding);
+}
+
+}  // namespace
+
+SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings &findings) {
+  std::vector<RimLoop> rims = sorted_rims(sheet);
+  fill_holes(sheet, rims, findings);
+  check_rims(rims);
+  check_handles(sheet);
+  order_rims(sheet, rims, landmarks, findings);
+  orient(sheet, rims, landmarks.tips, findings);
+  check_open(rims, findings);
+  return {std::move(rims[0].loop), std::move(rims[1].loop)};
+}
+
+}  // namespace mvs::core

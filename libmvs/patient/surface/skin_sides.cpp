@@ -1,0 +1,230 @@
+// Rays, parallel triangles, components.
+#include "patient/surface/skin_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "geometry/bvh.h"
+#include "model/sides.h"
+#include "patient/surface/manifold.h"
+
+namespace mvs::core {
+namespace {
+
+// m: longest rays. Myxomatous leaflets are up to 6 mm thick.
+constexpr double longest_ray = 12e-3;
+// Triangles of a side face one that is parallel within 37 degrees; triangles of a rounded rim face
+// none from there on.
+constexpr double parallel = 0.8;
+// Thickness of a side over the median: beyond, the ray runs along the leaflet.
+constexpr double thickest = 3;
+// Cosine of the angle between neighbours beyond which their edge is a ridge between the sides of a
+// thin rim.
+constexpr double ridge = 0.3;
+
+Vec3 unit_normal(const LeafletSheet &sheet, uint32_t t) {
+  const Tri &tri = sheet.triangles[t];
+  return (sheet.x[tri[1]] - sheet.x[tri[0]]).cross(sheet.x[tri[2]] - sheet.x[tri[0]]).normalized();
+}
+
+// Distance along a ray to a triangle (Moeller & Trumbore 1997); negative if it passes by.
+double ray_distance(const Vec3 &from, const Vec3 &way, const Vec3 &a, const Vec3 &b,
+                    const Vec3 &c) {
+  const Vec3 ab = b - a, ac = c - a, p = way.cross(ac);
+  const double det = ab.dot(p);
+  if (det == 0) return -1;
+  const Vec3 s = from - a, q = s.cross(ab);
+  const double u = s.dot(p) / det, v = way.dot(q) / det;
+  return u >= 0 && v >= 0 && u + v <= 1 ? ac.dot(q) / det : -1;
+}
+
+// The sides of a skin as components of the triangles with a mark, connected across edges that are
+// no ridges.
+struct Split {
+  std::vector<uint32_t> side_of;  // 0 and 1 for the largest two, others `none`
+  std::array<double, 3> area{};   // m2, of the largest three
+  double total = 0;               // m2, of all triangles
+};
+
+Split largest_components(const LeafletSheet &skin, const std::vector<uint32_t> &smooth,
+                         const std::vector<uint8_t> &marks) {
+  std::vector<uint32_t> joined = smooth;
+  for (uint32_t side = 0; side < joined.size(); ++side) {
+    if (joined[side] == none) continue;
+    if (marks[side / 3] == 0 || marks[joined[side] / 3] == 0) joined[side] = none;
+  }
+  Split split;
+  std::vector<uint32_t> &piece = split.side_of;
+  piece = pieces_of(joined);
+  std::vector<double> area;
+  for (uint32_t t = 0; t < piece.size(); ++t) {
+    if (piece[t] == area.size()) area.push_back(0);
+    const double part = triangle_area(skin.x, skin.triangles[t]);
+    split.total += part;
+    if (marks[t] != 0) area[piece[t]] += part;
+  }
+  std::vector<uint32_t> order(area.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return area[a] > area[b]; });
+  for (size_t k = 0; k < std::min<size_t>(3, order.size()); ++k) split.area[k] = area[order[k]];
+  for (uint32_t t = 0; t < piece.size(); ++t) {
+    const bool first = piece[t] == order[0], second = order.size() > 1 && piece[t] == order[1];
+    piece[t] = marks[t] == 0 || (!first && !second) ? none : (first ? 0 : 1);
+  }
+  return split;
+}
+
+// Takes the marks of triangles beside others without a mark.
+std::vector<uint8_t> eroded(const std::vector<uint32_t> &smooth,
+                            const std::vector<uint8_t> &marks) {
+  std::vector<uint8_t> out = marks;
+  for (uint32_t side = 0; side < smooth.size(); ++side) {
+    if (smooth[side] == none || marks[smooth[side] / 3] == 0) out[side / 3] = 0;
+  }
+  return out;
+}
+
+// Gives triangles with a mark the side of a neighbour, ring by ring.
+void grow_back(const std::vector<uint32_t> &smooth, const std::vector<uint8_t> &marks, int rounds,
+               std::vector<uint32_t> &side_of) {
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<uint32_t> before = side_of;
+    for (uint32_t side = 0; side < smooth.size(); ++side) {
+      const uint32_t t = side / 3;
+      if (smooth[side] == none || marks[t] == 0 || side_of[t] != none) continue;
+      side_of[t] = before[smooth[side] / 3];
+    }
+  }
+}
+
+// The two sides. Narrow bridges between them, as noise makes them at a rim, are cut: the marks are
+// eroded until two components are left, which then grow back.
+std::vector<uint32_t> split_sides(const LeafletSheet &skin, const std::vector<uint32_t> &smooth,
+                                  const std::vector<uint8_t> &marks) {
+  Split whole;
+  std::vector<uint8_t> kept = marks;
+  constexpr int most_erosions = 8;
+  for (int erosions = 0; erosions <= most_erosions; ++erosions) {
+    Split split = largest_components(skin, smooth, kept);
+    if (erosions == 0) whole = split;
+    // sides differ by the curvature of a leaflet, and thick rims of short leaflets take up to a
+    // third; erosion takes as much again
+    if (split.area[1] > 0.15 * split.total && split.area[1] > 0.4 * split.area[0] &&
+        split.area[2] < 0.1 * split.total) {
+      grow_back(smooth, marks, 2 * erosions, split.side_of);
+      return split.side_of;
+    }
+    kept = eroded(smooth, kept);
+  }
+  fail(MVS_E_OP, "triangles",
+       "the skin does not split into two sides: the parts that face parallel tissue have %.0f, "
+       "%.0f and %.0f of %.0f mm2; give the mid-surface or the atrial side instead",
+       whole.area[0] * 1e6, whole.area[1] * 1e6, whole.area[2] * 1e6, whole.total * 1e6);
+}
+
+// Rays from one side must leave through the other one.
+void check_facing(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
+                  const std::vector<uint32_t> &side_of) {
+  double facing = 0, wrong = 0;
+  for (size_t t = 0; t < side_of.size(); ++t) {
+    const uint32_t u = behind[t].triangle;
+    if (side_of[t] == none || u == none || side_of[u] == none) continue;
+    (side_of[u] == side_of[t] ? wrong : facing) += triangle_area(skin.x, skin.triangles[t]);
+  }
+  // folds that touch make some
+  MVS_MUST(wrong <= 0.05 * facing, MVS_E_OP, "triangles",
+           "the skin does not split into two sides: behind %.0f of %.0f mm2 lies the same side; "
+           "give the mid-surface or the atrial side instead",
+           wrong * 1e6, (wrong + facing) * 1e6);
+}
+
+// Adds triangles without a side that lie in a side, or in a notch of its rim: two of their
+// neighbours belong to it and turn less than 37 degrees from them.
+void fill_notches(const std::vector<uint32_t> &across, const std::vector<Vec3> &normal,
+                  std::vector<uint32_t> &side_of) {
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (uint32_t t = 0; t < side_of.size(); ++t) {
+      if (side_of[t] != none) continue;
+      std::array<int, 2> beside{};
+      for (uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
+        const uint32_t u = across[side] == none ? none : across[side] / 3;
+        if (u == none || side_of[u] == none || normal[t].dot(normal[u]) < parallel) continue;
+        ++beside[side_of[u]];
+      }
+      if (beside[0] < 2 && beside[1] < 2) continue;
+      side_of[t] = beside[0] >= 2 ? 0 : 1;
+      grown = true;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin) {
+  const TriangleBvh bvh(skin.triangles, skin.x);
+  std::vector<TissueBehind> behind(skin.triangles.size());
+  for (uint32_t t = 0; t < behind.size(); ++t) {
+    const Tri &tri = skin.triangles[t];
+    const Vec3 from = (skin.x[tri[0]] + skin.x[tri[1]] + skin.x[tri[2]]) / 3;
+    const Vec3 way = -unit_normal(skin, t);
+    // short boxes hold few triangles
+    for (const double share : {0.125, 0.25, 0.5, 1.0}) {
+      const double length = share * longest_ray;
+      if (behind[t].triangle != none) break;
+      Aabb box;
+      box.add(from);
+      box.add(from + length * way);
+      double least = length;
+      bvh.for_overlapping(box, [&](uint32_t u) {
+        if (u == t || unit_normal(skin, u).dot(way) <= 0) return;
+        const Tri &other = skin.triangles[u];
+        const double distance =
+            ray_distance(from, way, skin.x[other[0]], skin.x[other[1]], skin.x[other[2]]);
+        if (distance < 0 || distance > least || (distance == least && u > behind[t].triangle)) {
+          return;
+        }
+        least = distance;
+        behind[t] = {distance, u};
+      });
+    }
+  }
+  return behind;
+}
+
+std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind) {
+  const size_t n = skin.triangles.size();
+  std::vector<double> sorted;
+  for (const TissueBehind &b : behind) {
+    if (b.triangle != none) sorted.push_back(b.thickness);
+  }
+  MVS_MUST(2 * sorted.size() > n, MVS_E_OP, "triangles",
+           "behind %zu of %zu triangles there is no tissue within %.0f mm: is this the skin of "
+           "leaflets?",
+           n - sorted.size(), n, longest_ray * 1e3);
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  std::vector<Vec3> normal(n);
+  for (uint32_t t = 0; t < n; ++t) normal[t] = unit_normal(skin, t);
+  std::vector<uint8_t> marks(n, 0);
+  for (uint32_t t = 0; t < n; ++t) {
+    const TissueBehind &b = behind[t];
+    marks[t] = b.triangle != none && b.thickness <= thickest * median &&
+               normal[t].dot(normal[b.triangle]) < -parallel;
+  }
+  const std::vector<uint32_t> across = join_sides(skin.x, skin.triangles).across;
+  std::vector<uint32_t> smooth = across;  // without ridges
+  for (uint32_t side = 0; side < across.size(); ++side) {
+    if (across[side] == none) continue;
+    if (normal[side / 3].dot(normal[across[side] / 3]) < ridge) smooth[side] = none;
+  }
+  std::vector<uint32_t> side_of = split_sides(skin, smooth, marks);
+  fill_notches(across, normal, side_of);
+  check_facing(skin, behind, side_of);
+  return side_of;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,147 @@
+"""`mvs import`: a surface and landmarks in files become a valve; findings are edited and read back."""
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+
+MVS = os.environ["MVS_COMMAND"]
+
+
+def mvs(*arguments):
+    return subprocess.run([MVS, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+
+
+def read_obj(path):
+    """Points in m and triangles of an OBJ file in mm; points without a triangle are left out."""
+    points, triangles = [], []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        words = line.split()
+        if words[:1] == ["v"]:
+            points.append(tuple(1e-3 * float(word) for word in words[1:4]))
+        elif words[:1] == ["f"]:
+            triangles.append(tuple(int(word.split("/")[0]) - 1 for word in words[1:4]))
+    used = sorted({k for t in triangles for k in t})
+    place = {old: new for new, old in enumerate(used)}
+    return [points[k] for k in used], [tuple(place[k] for k in t) for t in triangles]
+
+
+def write_stl(path, points, triangles):
+    """Binary STL in mm."""
+    with path.open("wb") as out:
+        out.write(b"leaflets".ljust(80) + struct.pack("<I", len(triangles)))
+        for t in triangles:
+            corners = [1e3 * x for k in t for x in points[k]]
+            out.write(struct.pack("<12fH", 0, 0, 0, *corners, 0))
+
+
+def write_ply(path, points, triangles, frame):
+    """Text PLY in mm, with the comment by which 3D Slicer states the frame."""
+    lines = ["ply", "format ascii 1.0", f"comment SPACE={frame}", f"element vertex {len(points)}",
+             "property double x", "property double y", "property double z",
+             f"element face {len(triangles)}", "property list uchar int vertex_indices",
+             "end_header"]
+    lines += [" ".join(repr(1e3 * x) for x in p) for p in points]
+    lines += [f"3 {a} {b} {c}" for a, b, c in triangles]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
+def write_markups(path, points, frame):
+    """Points of 3D Slicer in mm."""
+    controls = [{"id": str(k), "label": f"F-{k}", "position": [1e3 * x for x in p],
+                 "positionStatus": "defined"} for k, p in enumerate(points)]
+    path.write_text(json.dumps({"markups": [
+        {"type": "Fiducial", "coordinateSystem": frame, "coordinateUnits": "mm",
+         "controlPoints": controls}]}), encoding="utf-8")
+
+
+class SurfaceImport(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.dir = pathlib.Path(folder.name)
+        assert mvs("generate", "-o", cls.dir / "made.obj").returncode == 0
+        cls.points, cls.triangles = read_obj(cls.dir / "made.obj")
+        write_stl(cls.dir / "open.stl", cls.points, cls.triangles)
+
+    def ok(self, *arguments):
+        done = mvs(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def fails(self, code, word, *arguments):
+        done = mvs(*arguments)
+        self.assertEqual(done.returncode, code, done.stdout)
+        self.assertIn(word, done.stderr)
+
+    def imported(self, surface, out, *arguments):
+        done = self.ok("import", self.dir / surface, "-o", self.dir / out, "--json",
+                       "--edge", "2.4", *arguments)  # 350 vertices: fast
+        return json.loads(done.stdout)
+
+    def test_a_surface_alone_becomes_a_valve_that_closes(self):
+        printed = self.imported("open.stl", "alone.h5")
+        self.assertGreater(printed["vertices"], 250)
+        closed = json.loads(self.ok("close", self.dir / "alone.h5", "-o", self.dir / "closed.h5",
+                                    "--json").stdout)
+        self.assertTrue(closed["converged"], closed)
+        found = {row["name"]: row for row in printed["findings"]}
+        self.assertEqual(found["papillary_tips"]["source"], "assumed")
+        self.assertEqual(found["annulus"]["source"], "guessed")
+        self.assertEqual(len(found["leak"]["values"]), 3)
+
+    def test_findings_read_back_change_no_bit_and_edited_ones_count(self):
+        first = self.imported("open.stl", "first.h5")
+        findings = self.dir / "first.import.json"
+        self.assertEqual(json.loads(findings.read_text())["findings"], first["findings"])
+        again = self.imported("open.stl", "again.h5", "--with", findings)
+        self.assertEqual(again["hash"], first["hash"])
+        edited = json.loads(findings.read_text())
+        for row in edited["findings"]:
+            if row["name"] == "papillary_tips":
+                row["values"][2] -= 0.002
+        findings.write_text(json.dumps(edited))
+        other = self.imported("open.stl", "other.h5", "--with", findings)
+        self.assertNotEqual(other["hash"], first["hash"])
+        rows = {row["name"]: row for row in other["findings"]}
+        self.assertEqual(rows["papillary_tips"]["source"], "given")
+
+    def test_landmarks_of_another_known_frame_are_turned(self):
+        def negated(points):
+            return [(-x, -y, z) for x, y, z in points]
+
+        found = {row["name"]: row["values"]
+                 for row in self.imported("open.stl", "plain.h5")["findings"]}
+        tips = [found["papillary_tips"][k:k + 3] for k in range(0, len(found["papillary_tips"]), 3)]
+        write_ply(self.dir / "lps.ply", self.points, self.triangles, "LPS")
+        write_markups(self.dir / "ras.mrk.json", negated(tips), "RAS")
+        write_markups(self.dir / "lps.mrk.json", tips, "LPS")
+        same = [self.imported("lps.ply", f"{k}.h5", "--tips", self.dir / name)
+                for k, name in enumerate(("ras.mrk.json", "lps.mrk.json"))]
+        self.assertEqual(same[0]["frame"], "LPS")
+        self.assertEqual(same[0]["hash"], same[1]["hash"])
+
+    def test_bad_input_is_refused_with_a_sentence_and_leaves_files_alone(self):
+        out = self.dir / "kept.h5"
+        out.write_bytes(b"kept")
+        self.fails(1, "mm", "import", self.dir / "open.stl", "-o", out, "--unit", "m")
+        self.fails(1, "cannot", "import", self.dir / "missing.stl", "-o", out)
+        (self.dir / "cut.stl").write_bytes((self.dir / "open.stl").read_bytes()[:-7])
+        self.fails(1, "cut.stl", "import", self.dir / "cut.stl", "-o", out)
+        far = [(0.5 + x, y, z) for x, y, z in self.points[:2]]
+        write_markups(self.dir / "far.mrk.json", far, "LPS")
+        self.fails(1, "LPS or RAS", "import", self.dir / "open.stl", "-o", out,
+                   "--commissures", self.dir / "far.mrk.json")
+        (self.dir / "other.json").write_text("{}")
+        self.fails(1, "mvs import", "import", self.dir / "open.stl", "-o", out,
+                   "--with", self.dir / "other.json")
+        self.fails(2, "--kind", "import", self.dir / "open.stl", "-o", out, "--kind", "outer")
+        self.assertEqual(out.read_bytes(), b"kept")
+        self.assertFalse((self.dir / "kept.import.json").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
