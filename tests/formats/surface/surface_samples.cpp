@@ -163,17 +163,18 @@ SurfaceSample vtp_sample(const std::string &coding) {
       "\" header_type=\"UInt32\">\n<PolyData>\n<FieldData>\n<Array type=\"String\" Name=\"SPACE\" "
       "NumberOfTuples=\"1\" format=\"ascii\">76 80 83 0</Array>\n</FieldData>\n<Piece "
       "NumberOfPoints=\"6\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-      "NumberOfPolys=\"3\">\n<PointData Scalars=\"label\">\n" +
-      vtp.array("Int64", "label", tuples(labels), tuple_bytes(labels)) +
-      "</PointData>\n<CellData>\n" +
-      vtp.array("Int64", "area &amp; more", "1 2 3", tuple_bytes({1, 2, 3})) +
-      "</CellData>\n<Points>\n" +
-      vtp.array("Float64", "Points", point_lines(),
-                point_bytes<double>(std::endian::native == std::endian::big), 3) +
-      "</Points>\n<Polys>\n" +
-      vtp.array("Int64", "connectivity", tuples(corners), tuple_bytes(corners)) +
-      vtp.array("Int64", "offsets", tuples(ends), tuple_bytes(ends)) +
-      "</Polys>\n</Piece>\n</PolyData>\n";
+      "NumberOfPolys=\"3\">\n<PointData Scalars=\"label\">\n";
+  // one statement each: the order of the arrays is that of the calls
+  text += vtp.array("Int64", "label", tuples(labels), tuple_bytes(labels));
+  text += "</PointData>\n<CellData>\n";
+  text += vtp.array("Int64", "area &amp; more", "1 2 3", tuple_bytes({1, 2, 3}));
+  text += "</CellData>\n<Points>\n";
+  text += vtp.array("Float64", "Points", point_lines(),
+                    point_bytes<double>(std::endian::native == std::endian::big), 3);
+  text += "</Points>\n<Polys>\n";
+  text += vtp.array("Int64", "connectivity", tuples(corners), tuple_bytes(corners));
+  text += vtp.array("Int64", "offsets", tuples(ends), tuple_bytes(ends));
+  text += "</Polys>\n</Piece>\n</PolyData>\n";
   if (!vtp.appended.empty()) {
     text +=
         "<AppendedData encoding=\"" + coding + "\">\n   _" + vtp.appended + "\n  </AppendedData>\n";
