@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* What a surface is. */
+/* Kinds of surfaces. */
 enum mvs_surface_kind_e {
   MVS_SURFACE_KIND_MID = 1,    /* the mid-surface of the leaflets: one open sheet */
   MVS_SURFACE_KIND_ATRIAL = 2, /* their atrial side, half a thickness above the mid-surface: one
@@ -70,12 +70,13 @@ enum mvs_finding_source_e {
 };
 typedef uint32_t mvs_finding_source;
 
-/* What a build found, guessed or assumed. Texts are valid while the build is held. */
+/* A finding: a value that a build found, guessed or assumed. Texts are valid while the build is
+ * held. */
 typedef struct mvs_build_finding {
   uint32_t struct_size;
   mvs_finding_source source; /* MVS_FINDING_SOURCE_* */
   const char *name;          /* "annulus", "commissures", "thickness" */
-  const char *sentence;      /* what was seen, and what to give if it is wrong */
+  const char *sentence;      /* the observation, and the input to give if it is wrong */
   const char *unit;          /* of the values: "m", "m2", or "" */
   double confidence;         /* 0 to 1 */
   mvs_view values;           /* F64, k x 1: points as x, y, z in turn */

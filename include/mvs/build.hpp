@@ -12,7 +12,7 @@
 
 namespace mvs {
 
-// What a build found, guessed or assumed: mvs_build_finding, owned.
+// A value that a build found, guessed or assumed: mvs_build_finding, owned.
 struct BuildFinding {
   std::string name, sentence, unit;
   mvs_finding_source source = 0;

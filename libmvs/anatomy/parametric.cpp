@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "anatomy/chordae.h"
+#include "anatomy/leaflet_names.h"
 #include "base/error.h"
-#include "model/law.h"
 
 namespace mvs::core {
 namespace {
@@ -46,21 +46,6 @@ Vec3 on_half(const Vec3 &x, bool medial) {
 
 uint32_t count_of(const CowVector<Vec3> &nodes) {
   return static_cast<uint32_t>(nodes.size());
-}
-
-void name_parts(const Dimensions &d, Valve &valve) {
-  valve.name = "parametric mitral valve";
-  for (const char *name : {"A", "P"}) {
-    Leaflet leaflet;
-    leaflet.name = name;
-    leaflet.law = d.law;
-    leaflet.constants = default_constants(find_leaflet_law(d.law)->constants);
-    leaflet.thickness = d.thickness;
-    valve.leaflets.push_back(leaflet);
-  }
-  for (const char *name : {"A1", "A2", "A3", "P1", "P2", "P3"}) {
-    valve.scallops.push_back({0, name, name[0] == 'A' ? 0u : 1u});
-  }
 }
 
 // Adds the vertices of the medial half, then the mirror images of those that are not on the mirror
@@ -191,7 +176,8 @@ Valve make_parametric_valve(const mvs_parametric_desc &desc) {
   const HalfSheet sheet = mesh_half_sheet(shape, d.vertices);
   Halves halves{d, shape, sheet, {}};
   Valve valve;
-  name_parts(d, valve);
+  valve.name = "parametric mitral valve";
+  name_leaflets(d.law, d.thickness, valve);
   add_vertices(halves, valve);
   add_triangles(halves, valve);
   add_annulus(halves, valve);

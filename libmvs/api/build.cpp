@@ -128,8 +128,7 @@ mvs_result mvs_build_get_finding(const mvs_build *build, uint32_t index,
                                  mvs_build_finding *finding) {
   return at_boundary([&] {
     must_point(build, "build");
-    MVS_MUST(index < build->findings.size(), MVS_E_ARGUMENT, "index",
-             "index is %u: the build has %zu findings", index, build->findings.size());
+    must_be_index(index, build->findings.size(), "build", "findings");
     const Finding &found = build->findings[index];
     mvs_build_finding out = {};
     out.source = static_cast<mvs_finding_source>(found.source);

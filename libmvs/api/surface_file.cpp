@@ -30,11 +30,6 @@ mvs_view rows_of(const void *data, uint64_t count, uint32_t components, mvs_type
   return {count > 0 ? data : nullptr, count, components, type, components * bytes_each};
 }
 
-void must_be_index(uint32_t index, size_t count, const char *what) {
-  MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but the file has %zu %s", index,
-           count, what);
-}
-
 }  // namespace
 
 extern "C" {
@@ -84,7 +79,7 @@ mvs_result mvs_surface_file_get_array(const mvs_surface_file *file, uint32_t ind
                                       mvs_surface_array *array) {
   return at_boundary([&] {
     must_point(file, "file");
-    must_be_index(index, file->content.arrays.size(), "arrays");
+    must_be_index(index, file->content.arrays.size(), "file", "arrays");
     const SurfaceArray &values = file->content.arrays[index];
     mvs_surface_array found = {};
     found.place = values.on_points ? MVS_SURFACE_PLACE_POINT : MVS_SURFACE_PLACE_TRIANGLE;
@@ -108,7 +103,7 @@ mvs_result mvs_surface_file_get_name(const mvs_surface_file *file, uint32_t inde
   return at_boundary([&] {
     must_point(file, "file");
     must_point(name, "name");
-    must_be_index(index, file->content.point_names.size(), "names of points");
+    must_be_index(index, file->content.point_names.size(), "file", "names of points");
     *name = file->content.point_names[index].c_str();
   });
 }

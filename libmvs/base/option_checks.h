@@ -15,6 +15,12 @@ inline void must_point(const void *pointer, const char *what) {
   MVS_MUST(pointer != nullptr, MVS_E_ARGUMENT, what, "%s is a null pointer", what);
 }
 
+// Throws MVS_E_ARGUMENT unless an index is below the number of `what` that `owner` has.
+inline void must_be_index(uint32_t index, size_t count, const char *owner, const char *what) {
+  MVS_MUST(index < count, MVS_E_ARGUMENT, "index", "index is %u, but the %s has %zu %s", index,
+           owner, count, what);
+}
+
 // Converts a nullable text.
 inline std::string text_or_empty(const char *text) {
   return text ? text : "";

@@ -61,14 +61,18 @@ Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle) {
   return box;
 }
 
-TriangleBvh::TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x)
-    : triangles_(triangles), x_(x), bvh_(x, triangles, triangles_in_leaf) {
+BoxedTriangles::BoxedTriangles(const std::vector<Tri> &triangles, const std::vector<Vec3> &x)
+    : triangles_(triangles), x_(x) {
   box_.reserve(triangles.size());
   for (const Tri &t : triangles) box_.push_back(aabb_of(x, t));
+}
+
+TriangleBvh::TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x)
+    : BoxedTriangles(triangles, x), bvh_(x, triangles, triangles_in_leaf) {
   const BvhTopology &topology = bvh_.topology();
   bvh_.refit([&](uint32_t leaf, Aabb &volume) {
     for (uint32_t k = topology.leaf_start[leaf]; k < topology.leaf_start[leaf + 1]; ++k) {
-      volume.add(box_[topology.order[k]]);
+      volume.add(box_of(topology.order[k]));
     }
   });
 }

@@ -102,6 +102,21 @@ class Bvh {
     if (!volume_.empty()) pairs_within(0, rests, apart, visit);
   }
 
+  // Calls visit(a, b) once for each pair of triangles of those leaves.
+  template <typename Apart, typename Visit>
+  void for_near_triangles(Apart &&apart, Visit &&visit) const {
+    for_near_leaves([](const Volume &) { return false; }, apart,
+                    [&](uint32_t a, uint32_t b) {
+                      for (uint32_t i = topology_.leaf_start[a]; i < topology_.leaf_start[a + 1];
+                           ++i) {
+                        const uint32_t first = a == b ? i + 1 : topology_.leaf_start[b];
+                        for (uint32_t j = first; j < topology_.leaf_start[b + 1]; ++j) {
+                          visit(topology_.order[i], topology_.order[j]);
+                        }
+                      }
+                    });
+  }
+
  private:
   template <typename Visit>
   void visit_leaf(uint32_t leaf, Visit &visit) const {
@@ -178,8 +193,30 @@ struct Aabb {
 
 Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle);
 
+// The triangles of a surface at rest, with their boxes.
+class BoxedTriangles {
+ public:
+  // Keeps references to both.
+  BoxedTriangles(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+
+  const Aabb &box_of(uint32_t triangle) const { return box_[triangle]; }
+  TrianglePoint closest_on(uint32_t triangle, const Vec3 &p) const {
+    const Tri &t = triangles_[triangle];
+    return closest_on_triangle(p, x_[t[0]], x_[t[1]], x_[t[2]]);
+  }
+  Vec3 point_at(uint32_t triangle, const std::array<double, 3> &weight) const {
+    const Tri &t = triangles_[triangle];
+    return weight[0] * x_[t[0]] + weight[1] * x_[t[1]] + weight[2] * x_[t[2]];
+  }
+
+ private:
+  const std::vector<Tri> &triangles_;
+  const std::vector<Vec3> &x_;
+  std::vector<Aabb> box_;
+};
+
 // A surface at rest: boxes that overlap a box, triangles near a point, pairs near each other.
-class TriangleBvh {
+class TriangleBvh : public BoxedTriangles {
  public:
   // Keeps references to both: they must outlive the hierarchy.
   TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
@@ -189,27 +226,16 @@ class TriangleBvh {
   void for_overlapping(const Aabb &box, Visit &&visit) const {
     bvh_.for_overlapping([&](const Aabb &volume) { return !volume.overlaps(box); },
                          [&](uint32_t t) {
-                           if (box_[t].overlaps(box)) visit(t);
+                           if (box_of(t).overlaps(box)) visit(t);
                          });
   }
   // Calls visit(a, b) once for at least every pair of triangles whose boxes are no further apart
   // than sqrt(limit2); the visitor looks at the boxes itself.
   template <typename Visit>
   void for_near_pairs(double limit2, Visit &&visit) const {
-    const BvhTopology &topology = bvh_.topology();
-    bvh_.for_near_leaves([](const Aabb &) { return false; },
-                         [&](const Aabb &a, const Aabb &b) { return a.distance2(b) > limit2; },
-                         [&](uint32_t a, uint32_t b) {
-                           for (uint32_t i = topology.leaf_start[a]; i < topology.leaf_start[a + 1];
-                                ++i) {
-                             const uint32_t first = a == b ? i + 1 : topology.leaf_start[b];
-                             for (uint32_t j = first; j < topology.leaf_start[b + 1]; ++j) {
-                               visit(topology.order[i], topology.order[j]);
-                             }
-                           }
-                         });
+    bvh_.for_near_triangles([&](const Aabb &a, const Aabb &b) { return a.distance2(b) > limit2; },
+                            visit);
   }
-  const Aabb &box_of(uint32_t triangle) const { return box_[triangle]; }
 
   // Calls visit(triangle) for at least every triangle nearer to p than sqrt(limit2), near boxes
   // first; the visitor may lower limit2, which it holds by reference.
@@ -229,19 +255,7 @@ class TriangleBvh {
   // Whether a triangle is nearer to p than a distance in m.
   bool is_within(const Vec3 &p, double distance) const;
 
-  TrianglePoint closest_on(uint32_t triangle, const Vec3 &p) const {
-    const Tri &t = triangles_[triangle];
-    return closest_on_triangle(p, x_[t[0]], x_[t[1]], x_[t[2]]);
-  }
-  Vec3 point_at(uint32_t triangle, const std::array<double, 3> &weight) const {
-    const Tri &t = triangles_[triangle];
-    return weight[0] * x_[t[0]] + weight[1] * x_[t[1]] + weight[2] * x_[t[2]];
-  }
-
  private:
-  const std::vector<Tri> &triangles_;
-  const std::vector<Vec3> &x_;
-  std::vector<Aabb> box_;  // of each triangle
   Bvh<Aabb> bvh_;
 };
 

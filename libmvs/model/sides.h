@@ -59,6 +59,13 @@ inline double triangle_area(const std::vector<Vec3> &x, const Tri &t) {
   return 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm();
 }
 
+// Area of a surface, m2.
+inline double surface_area(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {
+  double area = 0;
+  for (const Tri &t : triangles) area += triangle_area(x, t);
+  return area;
+}
+
 // Calls visit(first, last) for the range of sides of each edge.
 template <typename Visit>
 void for_each_edge(const std::vector<Side> &sides, Visit visit) {

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "anatomy/leaflet_names.h"
 #include "base/error.h"
-#include "model/law.h"
+#include "model/sides.h"
 #include "patient/chordae/patient_chordae.h"
+#include "patient/findings.h"
 #include "patient/fit/fit_to_closed.h"
 #include "patient/fit/leak_interval.h"
 #include "patient/mesh/remesh_sheet.h"
@@ -20,8 +23,7 @@ namespace mvs::core {
 namespace {
 
 constexpr double default_vertices = 1000;
-constexpr double degree = 3.14159265358979323846 / 180;
-const char *const scallop_names[] = {"A1", "A2", "A3", "P1", "P2", "P3"};
+constexpr double degree = std::numbers::pi / 180;
 
 // The mid-surface of the leaflets, wound with normals into the atrium, and its rims.
 struct MidSheet {
@@ -81,17 +83,10 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
   return mid;
 }
 
-double area_of(const LeafletSheet &sheet) {
-  double area = 0;
-  for (const Tri &t : sheet.triangles) {
-    area += 0.5 * (sheet.x[t[1]] - sheet.x[t[0]]).cross(sheet.x[t[2]] - sheet.x[t[0]]).norm();
-  }
-  return area;
-}
-
 // Equilateral triangles, two for each vertex.
 double default_edge(const LeafletSheet &sheet) {
-  return std::sqrt(area_of(sheet) / (default_vertices * 0.5 * std::sqrt(3.0)));
+  return std::sqrt(surface_area(sheet.x, sheet.triangles) /
+                   (default_vertices * 0.5 * std::sqrt(3.0)));
 }
 
 MidSheet remeshed(const MidSheet &mid, const BuildSettings &settings, Findings &findings) {
@@ -114,33 +109,12 @@ MidSheet remeshed(const MidSheet &mid, const BuildSettings &settings, Findings &
   return {std::move(made.sheet), std::move(made.rims)};
 }
 
-double mean_foot(const SheetCoordinates &c, const Tri &t) {
-  const double shift = around(c.foot[t[0]], c.foot[t[1]], c.annulus_length) +
-                       around(c.foot[t[0]], c.foot[t[2]], c.annulus_length);
-  return wrapped(c.foot[t[0]] + shift / 3, c.annulus_length);
-}
-
-void name_leaflets(const BuildSettings &settings, Valve &valve) {
-  for (const char *name : {"A", "P"}) {
-    Leaflet leaflet;
-    leaflet.name = name;
-    leaflet.law = settings.law;
-    leaflet.constants = default_constants(find_leaflet_law(settings.law)->constants);
-    leaflet.thickness = settings.thickness;
-    valve.leaflets.push_back(leaflet);
-  }
-  for (const char *name : scallop_names) {
-    valve.scallops.push_back({0, name, name[0] == 'A' ? 0u : 1u});
-  }
-}
-
 // Thickness of each triangle: the mean of its vertices if it is known.
 void set_thickness(const LeafletSheet &sheet, const BuildSettings &settings, Valve &valve,
                    Findings &findings) {
-  const auto found = std::find_if(findings.begin(), findings.end(),
-                                  [](const Finding &f) { return f.name == "thickness"; });
+  const bool found = find_finding(findings, "thickness") != nullptr;
   if (sheet.thickness.empty()) {
-    if (found == findings.end()) {
+    if (!found) {
       const bool given = settings.thickness_is_given;
       findings.push_back({"thickness",
                           given ? FindingSource::given : FindingSource::assumed,
@@ -160,8 +134,8 @@ void set_thickness(const LeafletSheet &sheet, const BuildSettings &settings, Val
     most = std::max(most, thickness);
     valve.triangle_thickness.push_back(thickness);
   }
-  if (found == findings.end()) {
-    findings.push_back({"thickness",
+  if (!found) {
+    findings.push_back({"point_thickness",
                         FindingSource::given,
                         1,
                         format("%.2f to %.2f mm, as given", 1e3 * least, 1e3 * most),
@@ -187,13 +161,13 @@ double contact_thickness(const Valve &valve, const BuildSettings &settings) {
 
 Valve tissue_of(const PatientGeometry &g, const BuildSettings &settings, Findings &findings) {
   Valve valve;
-  name_leaflets(settings, valve);
+  name_leaflets(settings.law, settings.thickness, valve);
   valve.rest = g.sheet.x;
   valve.triangles = g.sheet.triangles;
   valve.annulus = g.rims.annulus;
   for (const Tri &t : g.sheet.triangles) {
     const uint32_t scallop =
-        scallop_of(g.arcs, mean_foot(g.coordinates, t), g.coordinates.annulus_length);
+        scallop_of(g.arcs, triangle_foot(g.coordinates, t), g.coordinates.annulus_length);
     valve.triangle_scallop.push_back(scallop);
     valve.triangle_leaflet.push_back(valve.scallops[scallop].leaflet);
   }
@@ -205,18 +179,11 @@ Valve tissue_of(const PatientGeometry &g, const BuildSettings &settings, Finding
 // The leaflets found on the given surface, on its new mesh.
 LeafletArcs arcs_on(const MidSheet &mesh, const SheetCoordinates &coordinates,
                     const Findings &findings) {
-  const auto points_of = [&](const char *name) {
-    const auto finding = std::find_if(findings.begin(), findings.end(),
-                                      [&](const Finding &f) { return f.name == name; });
-    std::vector<Vec3> points;
-    for (size_t k = 0; k + 2 < finding->value.size(); k += 3) {
-      points.emplace_back(finding->value[k], finding->value[k + 1], finding->value[k + 2]);
-    }
-    return points;
-  };
   Findings unused;  // they are those of the given surface
   return find_leaflets(mesh.sheet, mesh.rims, coordinates,
-                       {points_of("commissures"), points_of("anterior")}, unused);
+                       {points_in(*find_finding(findings, "commissures")),
+                        points_in(*find_finding(findings, "anterior"))},
+                       unused);
 }
 
 PatientGeometry find_geometry(const PatientSurface &surface, const BuildSettings &settings,

@@ -248,6 +248,14 @@ SheetPlace place_on(const LeafletSheet &sheet, const SheetCoordinates &coordinat
   return place;
 }
 
+double triangle_foot(const SheetCoordinates &coordinates, const Tri &triangle) {
+  const std::vector<double> &foot = coordinates.foot;
+  const double length = coordinates.annulus_length;
+  const double shift = around(foot[triangle[0]], foot[triangle[1]], length) +
+                       around(foot[triangle[0]], foot[triangle[2]], length);
+  return wrapped(foot[triangle[0]] + shift / 3, length);
+}
+
 std::vector<double> height_profile(const SheetRims &rims, const SheetCoordinates &coordinates,
                                    size_t count) {
   // along the free edge, feet go around the annulus once; near fans and notches several edge

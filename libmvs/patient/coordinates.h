@@ -21,6 +21,9 @@ struct SheetPlace {
 };
 SheetPlace place_on(const LeafletSheet &sheet, const SheetCoordinates &coordinates, const Vec3 &p);
 
+// The foot of the centroid of a triangle, m.
+double triangle_foot(const SheetCoordinates &coordinates, const Tri &triangle);
+
 // The height of the leaflet (m, annulus to free edge) at `count` feet evenly along the annulus.
 std::vector<double> height_profile(const SheetRims &rims, const SheetCoordinates &coordinates,
                                    size_t count);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "measure/annulus/landmarks.h"
 #include "model/sides.h"
+#include "patient/findings.h"
 
 namespace mvs::core {
 namespace {
@@ -146,9 +147,7 @@ LabelledArea labelled_area(const LeafletSheet &sheet, const SheetCoordinates &c)
     if (t >= sheet.label.size() || sheet.label[t] == LeafletLabel::unknown) continue;
     const Tri &tri = sheet.triangles[t];
     const double part = triangle_area(sheet.x, tri);
-    const double shift = around(c.foot[tri[0]], c.foot[tri[1]], c.annulus_length) +
-                         around(c.foot[tri[0]], c.foot[tri[2]], c.annulus_length);
-    const double foot = wrapped(c.foot[tri[0]] + shift / 3, c.annulus_length);
+    const double foot = triangle_foot(c, tri);
     const bool anterior = sheet.label[t] == LeafletLabel::anterior;
     (anterior ? area.anterior : area.posterior) += part;
     const size_t cell = static_cast<size_t>(foot / c.annulus_length * samples);
@@ -247,13 +246,6 @@ Vec3 annulus_point(const LeafletSheet &sheet, const SheetRims &rims, double s) {
   return Loop(rims.annulus, sheet.x).at(s);
 }
 
-void put_points(const std::vector<Vec3> &points, Finding &finding) {
-  for (const Vec3 &p : points) {
-    finding.value.insert(finding.value.end(), {p.x(), p.y(), p.z()});
-  }
-  finding.unit = "m";
-}
-
 }  // namespace
 
 LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
@@ -287,8 +279,8 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
            "the anterior leaflet would be attached along %.0f %% of the annulus: is a leaflet "
            "missing, or are labels or commissures swapped?",
            100 * share);
-  put_points({commissures[1], commissures[0]}, findings[at]);  // the anterolateral one first
-  put_points({annulus_point(sheet, rims, 0.5 * (arcs.from + arcs.to))}, findings.back());
+  set_points({commissures[1], commissures[0]}, findings[at]);  // the anterolateral one first
+  set_points({annulus_point(sheet, rims, 0.5 * (arcs.from + arcs.to))}, findings.back());
   return arcs;
 }
 

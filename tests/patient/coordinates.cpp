@@ -26,12 +26,6 @@ Mat3 turn_of(double angle) {
   return turn * tilt;
 }
 
-double triangle_foot(const SheetCoordinates &c, const Tri &t) {
-  const double shift = around(c.foot[t[0]], c.foot[t[1]], c.annulus_length) +
-                       around(c.foot[t[0]], c.foot[t[2]], c.annulus_length);
-  return wrapped(c.foot[t[0]] + shift / 3, c.annulus_length);
-}
-
 // Share of the area whose scallop differs from that of the generated valve.
 double misnamed_share(const ParametricSheet &p, const SheetCoordinates &c,
                       const LeafletArcs &arcs) {

@@ -8,6 +8,7 @@
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
 #include "patient/surface/manifold.h"
+#include "tests/patient/cleaned.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 
@@ -15,16 +16,6 @@ using namespace mvs::core;
 using namespace mvs::core::test;
 
 namespace {
-
-LeafletSheet cleaned(const Surface &s) {
-  Findings findings;
-  return clean_surface(s.x, s.triangles, {}, {}, findings);
-}
-
-SheetRims rims_of(const Surface &s, const RimLandmarks &landmarks, Findings &findings) {
-  LeafletSheet sheet = cleaned(s);
-  return find_rims(sheet, landmarks, findings);
-}
 
 // Drops the triangles around some vertices.
 Surface without_stars(Surface s, const std::vector<uint32_t> &vertices) {

@@ -7,6 +7,7 @@
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
+#include "tests/patient/cleaned.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 
@@ -14,16 +15,6 @@ using namespace mvs::core;
 using namespace mvs::core::test;
 
 namespace {
-
-LeafletSheet cleaned(const Surface &s) {
-  Findings findings;
-  return clean_surface(s.x, s.triangles, {}, {}, findings);
-}
-
-SheetRims rims_of(const Surface &s, const RimLandmarks &landmarks, Findings &findings) {
-  LeafletSheet sheet = cleaned(s);
-  return find_rims(sheet, landmarks, findings);
-}
 
 // Positions of loops, sorted, to compare loops of other numberings; equal up to 1 nm.
 std::vector<Vec3> points_of(const std::vector<uint32_t> &loop, const std::vector<Vec3> &x) {

@@ -64,6 +64,17 @@ def test_the_way_in_which_a_surface_is_stored_changes_the_shape_little(surface):
         assert again.measures.leaflet_area == pytest.approx(area, rel=0.02)
 
 
+def test_a_thickness_of_each_point_is_a_finding_of_its_own(surface):
+    # `mvs import --with` takes "thickness" as one number for all of the tissue
+    thickness = np.linspace(0.7e-3, 0.9e-3, len(surface["points"]))
+    opened, found, _ = built({**surface, "thickness": thickness})
+    assert "thickness" not in found
+    assert found["point_thickness"].source == mvs.FindingSource.GIVEN
+    least, most = found["point_thickness"].values
+    assert 0.7e-3 <= least < most <= 0.9e-3
+    assert np.ptp(opened.triangle_thickness) > 1e-4
+
+
 def test_bad_arguments_are_refused_and_change_nothing(surface):
     with mvs.Simulator() as sim:
         sim.generate()

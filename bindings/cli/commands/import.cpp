@@ -56,7 +56,7 @@ std::vector<uint32_t> labels_of(const mvs::SurfaceFile &file, const std::string 
   return labels;
 }
 
-// What a build is given, with the memory that the description points to.
+// Input of a build, with the memory that the description points to.
 struct Input {
   mvs::SurfaceFile surface;
   std::vector<double> annulus, commissures, anterior, tips, thickness;

@@ -1,8 +1,9 @@
 #include "import/findings_file.h"
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
+
+#include "text/replace_file.h"
 
 namespace cli {
 namespace {
@@ -87,18 +88,7 @@ void write_findings(const std::string &path, const std::string &surface,
                        {"version", 1},
                        {"surface", surface},
                        {"findings", findings_json(findings)}};
-  const std::string beside = path + ".part";
-  {
-    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-    out << object.dump(2) << '\n';
-    out.close();
-    if (!out) fail(MVS_E_IO, path, path + ": the file of findings cannot be written");
-  }
-  std::error_code error;
-  std::filesystem::rename(beside, path, error);
-  if (error) {
-    fail(MVS_E_IO, path, path + ": the file of findings cannot be written: " + error.message());
-  }
+  replace_file(path, object.dump(2) + "\n", "findings");
 }
 
 KnownValues read_findings(const std::string &path) {

@@ -24,8 +24,8 @@ struct KnownValues {
   std::vector<double> thickness;                                       // one, m
 };
 
-// The values of a file of findings that are given, guessed or assumed: what was measured is
-// measured again, unless its source is changed to "given".
+// The values of a file of findings that are given, guessed or assumed. Measured ones are left out,
+// as the build measures them again; a source that is changed to "given" counts.
 KnownValues read_findings(const std::string &path);
 
 }  // namespace cli

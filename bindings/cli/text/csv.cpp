@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "text/replace_file.h"
 #include "valve/host.h"
 
 namespace cli {
@@ -90,28 +91,17 @@ CsvFile::CsvFile(const std::string &path, const CsvRow &columns) : path_(path), 
 }
 
 void CsvFile::append(const CsvRow &row) {
-  write(path_, csv_line(row) + "\n", true);
+  std::ofstream file(path_, std::ios::binary | std::ios::app);
+  file << csv_line(row) + "\n" << std::flush;
+  if (!file) fail(MVS_E_IO, "csv", path_ + ": cannot be written: " + std::strerror(errno));
   rows_.push_back(row);
 }
 
 void CsvFile::rewrite(std::vector<CsvRow> rows) {
   std::string content = csv_line(columns_) + "\n";
   for (const CsvRow &row : rows) content += csv_line(row) + "\n";
-  const std::string beside = path_ + ".new";
-  write(beside, content, false);
-  std::error_code error;
-  std::filesystem::rename(beside, path_, error);
-  if (error) {
-    std::filesystem::remove(beside);
-    fail(MVS_E_IO, "csv", path_ + ": cannot be replaced: " + error.message());
-  }
+  replace_file(path_, content, "csv");
   rows_ = std::move(rows);
-}
-
-void CsvFile::write(const std::string &path, const std::string &content, bool at_end) const {
-  std::ofstream file(path, std::ios::binary | (at_end ? std::ios::app : std::ios::trunc));
-  file << content << std::flush;
-  if (!file) fail(MVS_E_IO, "csv", path + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace cli

@@ -28,8 +28,6 @@ class CsvFile {
   void rewrite(std::vector<CsvRow> rows);
 
  private:
-  void write(const std::string &path, const std::string &content, bool at_end) const;
-
   std::string path_;
   CsvRow columns_;
   std::vector<CsvRow> rows_;

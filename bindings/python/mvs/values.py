@@ -351,7 +351,7 @@ class Coarsening:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Finding:
-    """What Simulator.build_valve found, guessed or assumed.
+    """A value that Simulator.build_valve found, guessed or assumed.
 
     name: "annulus", "commissures", "thickness"
     source: given, measured on the surface, guessed by a rule, or assumed from normal anatomy

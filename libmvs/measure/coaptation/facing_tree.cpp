@@ -10,13 +10,11 @@ constexpr uint32_t faced_in_leaf = 4;  // triangles
 
 FacingTree::FacingTree(const std::vector<Tri> &triangles, const std::vector<Vec3> &x,
                        const Surface &surface)
-    : triangles_(triangles), x_(x), bvh_(x, triangles, faced_in_leaf) {
-  box_.reserve(triangles.size());
-  for (const Tri &t : triangles) box_.push_back(aabb_of(x, t));
+    : BoxedTriangles(triangles, x), bvh_(x, triangles, faced_in_leaf) {
   const BvhTopology &topology = bvh_.topology();
   bvh_.refit([&](uint32_t leaf, Volume &volume) {
     for (uint32_t k = topology.leaf_start[leaf]; k < topology.leaf_start[leaf + 1]; ++k) {
-      volume.box.add(box_[topology.order[k]]);
+      volume.box.add(box_of(topology.order[k]));
       volume.normals.add(surface.normal[topology.order[k]]);
     }
   });

@@ -13,7 +13,7 @@ namespace mvs::core {
 
 // Subtrees whose normals all exceed a cosine with the normal of the point, such as the tissue
 // around it, are not visited.
-class FacingTree {
+class FacingTree : public BoxedTriangles {
  public:
   // Keeps references to all: they must outlive the tree.
   FacingTree(const std::vector<Tri> &triangles, const std::vector<Vec3> &x, const Surface &surface);
@@ -38,18 +38,7 @@ class FacingTree {
       return least_cosine(a.normals, b.normals) > cosine + rounding ||
              a.box.distance2(b.box) > limit2;
     };
-    bvh_.for_near_leaves([](const Volume &) { return false; }, apart,
-                         [&](uint32_t a, uint32_t b) { visit_pairs(a, b, visit); });
-  }
-
-  const Aabb &box_of(uint32_t triangle) const { return box_[triangle]; }
-  TrianglePoint closest_on(uint32_t triangle, const Vec3 &p) const {
-    const Tri &t = triangles_[triangle];
-    return closest_on_triangle(p, x_[t[0]], x_[t[1]], x_[t[2]]);
-  }
-  Vec3 point_at(uint32_t triangle, const std::array<double, 3> &weight) const {
-    const Tri &t = triangles_[triangle];
-    return weight[0] * x_[t[0]] + weight[1] * x_[t[1]] + weight[2] * x_[t[2]];
+    bvh_.for_near_triangles(apart, visit);
   }
 
  private:
@@ -71,20 +60,7 @@ class FacingTree {
     }
     return sum;
   }
-  template <typename Visit>
-  void visit_pairs(uint32_t a, uint32_t b, Visit &visit) const {
-    const BvhTopology &topology = bvh_.topology();
-    for (uint32_t i = topology.leaf_start[a]; i < topology.leaf_start[a + 1]; ++i) {
-      const uint32_t first = a == b ? i + 1 : topology.leaf_start[b];
-      for (uint32_t j = first; j < topology.leaf_start[b + 1]; ++j) {
-        visit(topology.order[i], topology.order[j]);
-      }
-    }
-  }
 
-  const std::vector<Tri> &triangles_;
-  const std::vector<Vec3> &x_;
-  std::vector<Aabb> box_;  // of each triangle
   Bvh<Volume> bvh_;
 };
 

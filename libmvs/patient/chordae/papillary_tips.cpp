@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "patient/chordae/annulus_frame.h"
+#include "patient/findings.h"
 
 namespace mvs::core {
 namespace {
@@ -27,12 +28,9 @@ constexpr double most_forward = 0.2;
 constexpr double below_leaflets = 1e-3;
 
 void put_tips(const PapillaryTips &tips, Finding &finding) {
-  for (const std::vector<Vec3> *group : {&tips.anterolateral, &tips.posteromedial}) {
-    for (const Vec3 &p : *group) {
-      finding.value.insert(finding.value.end(), {p.x(), p.y(), p.z()});
-    }
-  }
-  finding.unit = "m";
+  std::vector<Vec3> all = tips.anterolateral;
+  all.insert(all.end(), tips.posteromedial.begin(), tips.posteromedial.end());
+  set_points(all, finding);
 }
 
 PapillaryTips assumed_tips(const PatientGeometry &g, const AnnulusFrame &frame) {

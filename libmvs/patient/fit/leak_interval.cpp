@@ -19,18 +19,20 @@ constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
 LeakInterval leak_interval(const Valve &valve, Findings &findings) {
   LeakInterval interval;
   bool at_rest = true;
-  // a solver of its own: the middle leak is the one that the built valve shows
-  Solver solver(Backend::fastest);
-  const ClosedValve middle = close_open(solver, valve, systolic_pressure);
-  for (size_t k = 0; k < interval.factor.size(); ++k) {
-    Valve changed = valve;
-    for (Chord &chord : changed.chords) chord.rest_length *= interval.factor[k];
-    // from the closed valve: a third of the time, and the same folds
-    const ClosedValve closed =
-        interval.factor[k] == 1 ? middle : close_again(solver, middle, changed);
+  const auto record = [&](size_t k, const ClosedValve &closed) {
     interval.leak[k] = measure_orifice(*closed.model, closed.state.x).area;
     interval.at_rest[k] = closed.stats.converged;
     at_rest = at_rest && closed.stats.converged;
+  };
+  // a solver of its own: the middle leak is the one that the built valve shows
+  Solver solver(Backend::fastest);
+  const ClosedValve middle = close_open(solver, valve, systolic_pressure);
+  record(1, middle);
+  for (const size_t k : {size_t{0}, size_t{2}}) {
+    Valve changed = valve;
+    for (Chord &chord : changed.chords) chord.rest_length *= interval.factor[k];
+    // from the closed valve: a third of the time, and the same folds
+    record(k, close_again(solver, middle, changed));
   }
   const auto [least, most] = std::minmax_element(interval.leak.begin(), interval.leak.end());
   const double unsure = std::min(1.0, (*most - *least) / unknown_leak);

@@ -65,8 +65,7 @@ SurfaceMatcher::SurfaceMatcher(const ClosedSurface &given, const Model &model,
     : given_(given),
       tree_(given.triangles, given.points),
       normal_(triangle_normals(given.points, given.triangles)) {
-  double area = 0;
-  for (const Tri &t : given.triangles) area += triangle_area(given.points, t);
+  const double area = surface_area(given.points, given.triangles);
   const std::vector<uint8_t> used = vertex_marks(given.triangles, given.points.size());
   const size_t count = static_cast<size_t>(std::count(used.begin(), used.end(), 1));
   const size_t stride = count / most_samples + 1;

@@ -235,8 +235,7 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
            MVS_E_OP, "surface",
            "%zu labels for %zu triangles, %zu thicknesses for %zu vertices: give one each",
            sheet.label.size(), sheet.triangles.size(), sheet.thickness.size(), sheet.x.size());
-  double area = 0;
-  for (const Tri &t : sheet.triangles) area += triangle_area(sheet.x, t);
+  const double area = surface_area(sheet.x, sheet.triangles);
   const double count = area / (0.433 * goal.edge * goal.edge);  // of equilateral triangles
   MVS_MUST(
       count < most_triangles, MVS_E_OP, "edge",

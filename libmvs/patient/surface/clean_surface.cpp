@@ -259,8 +259,7 @@ LeafletSheet clean_surface(const std::vector<Vec3> &points, const std::vector<Tr
                  {static_cast<double>(flat)}, "");
   }
   drop_unused(sheet);
-  double area = 0;
-  for (const Tri &t : sheet.triangles) area += triangle_area(sheet.x, t);
+  const double area = surface_area(sheet.x, sheet.triangles);
   const double extent = extent_of(sheet, std::vector<uint8_t>(sheet.triangles.size(), 1));
   add_measured(findings, "surface",
                format("%zu triangles with sides of %.2f mm, together %.0f mm2 and %.1f mm wide",

@@ -9,14 +9,6 @@
 namespace mvs::core {
 namespace {
 
-uint32_t side_start(const std::vector<Tri> &triangles, uint32_t side) {
-  return triangles[side / 3][side % 3];
-}
-
-uint32_t side_end(const std::vector<Tri> &triangles, uint32_t side) {
-  return triangles[side / 3][(side % 3 + 1) % 3];
-}
-
 // A triangle's height over its longest side.
 struct FlatTriangle {
   uint32_t side = none;  // the longest

@@ -10,14 +10,6 @@
 namespace mvs::core {
 namespace {
 
-uint32_t corner_at(const std::vector<Tri> &triangles, uint32_t side) {
-  return triangles[side / 3][side % 3];
-}
-
-uint32_t corner_after(const std::vector<Tri> &triangles, uint32_t side) {
-  return triangles[side / 3][(side % 3 + 1) % 3];
-}
-
 // The unit direction from an edge into a triangle.
 Vec3 inward(const std::vector<Vec3> &x, const Tri &t, const Edge &edge) {
   const Vec3 along = x[edge[1]] - x[edge[0]], to = x[opposite_corner(t, edge)] - x[edge[0]];
@@ -125,7 +117,7 @@ uint32_t wind_alike(LeafletSheet &sheet, const std::vector<uint32_t> &across) {
       way[t] = 1;
       walk_piece(across, t, [&](uint32_t side) {
         const uint32_t other = across[side];
-        const bool alike = corner_at(triangles, side) == corner_after(triangles, other);
+        const bool alike = side_start(triangles, side) == side_end(triangles, other);
         const uint8_t want = alike ? way[side / 3] : static_cast<uint8_t>(3 - way[side / 3]);
         uint8_t &have = way[other / 3];
         two_sided = two_sided && (have == 0 || have == want);

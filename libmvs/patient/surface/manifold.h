@@ -7,8 +7,15 @@
 
 namespace mvs::core {
 
-// Side k of triangle t is 3 t + k; it joins corners k and k + 1. `across` is the side of the other
-// triangle, or `none` at a boundary.
+// Corners of side 3 t + k of triangle t: k and k + 1.
+inline uint32_t side_start(const std::vector<Tri> &triangles, uint32_t side) {
+  return triangles[side / 3][side % 3];
+}
+inline uint32_t side_end(const std::vector<Tri> &triangles, uint32_t side) {
+  return triangles[side / 3][(side % 3 + 1) % 3];
+}
+
+// `across`: for each side that of the other triangle, or `none` at a boundary.
 struct SurfaceJoin {
   std::vector<uint32_t> across;
   size_t opened = 0;              // edges with more than two triangles

@@ -148,9 +148,8 @@ void add_thickness(const LeafletSheet &skin, const LeafletSheet &atrial, Finding
   std::sort(sorted.begin(), sorted.end());
   const size_t n = sorted.size();
   const double low = sorted[n / 20], median = sorted[n / 2], high = sorted[n - 1 - n / 20];
-  double all = 0, part = 0;
-  for (const Tri &t : skin.triangles) all += triangle_area(skin.x, t);
-  for (const Tri &t : atrial.triangles) part += triangle_area(atrial.x, t);
+  const double all = surface_area(skin.x, skin.triangles);
+  const double part = surface_area(atrial.x, atrial.triangles);
   add_measured(findings, "thickness",
                format("%.2f mm between both sides of the skin, %.2f to %.2f mm on 90 %% of it; the "
                       "atrial side is %.0f %% of the skin",

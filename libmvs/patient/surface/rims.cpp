@@ -193,11 +193,9 @@ void order_rims(const LeafletSheet &sheet, std::vector<RimLoop> &rims,
                          : (!landmarks.tips.empty() ? first_by_tips(rims, landmarks.tips, finding)
                                                     : first_by_shape(rims, finding));
   if (!first) std::swap(rims[0], rims[1]);
-  for (const uint32_t node : rims[0].loop) {
-    const Vec3 &p = sheet.x[node];
-    finding.value.insert(finding.value.end(), {p.x(), p.y(), p.z()});
-  }
-  finding.unit = "m";
+  std::vector<Vec3> points;
+  for (const uint32_t node : rims[0].loop) points.push_back(sheet.x[node]);
+  set_points(points, finding);
   findings.push_back(finding);
 }
 

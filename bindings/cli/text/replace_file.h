@@ -1,0 +1,12 @@
+// Writes a file whole.
+#pragma once
+
+#include <string>
+
+namespace cli {
+
+// Writes the bytes to a new file beside `path`, then renames it, so that `path` is the former file
+// or the whole new one. Throws mvs::Error with this part.
+void replace_file(const std::string &path, const std::string &bytes, const std::string &part);
+
+}  // namespace cli
