@@ -19,6 +19,7 @@ namespace {
 // Positions of loops, sorted, to compare loops of other numberings; equal up to 1 nm.
 std::vector<Vec3> points_of(const std::vector<uint32_t> &loop, const std::vector<Vec3> &x) {
   std::vector<Vec3> points;
+  points.reserve(loop.size());
   for (const uint32_t i : loop) points.push_back(x[i]);
   return points;
 }
