@@ -121,10 +121,15 @@ void must_be_polydata(const XmlElement &root) {
   MVS_MUST(root.attribute("type") == "PolyData", MVS_E_FORMAT, "",
            "the file holds %s: save the surface as PolyData (in ParaView: Extract Surface)",
            quoted(root.attribute("type")).c_str());
-  MVS_MUST(
-      root.attribute("compressor").empty(), MVS_E_UNSUPPORTED, "compressor",
-      "the file is compressed: save it without compression (3D Slicer: the box Compress off "
-      "in Save; ParaView: Compressor Type None; PyVista: compression=None), or as .vtk or .stl");
+  const std::string_view compressor = root.attribute("compressor");
+  if (compressor.empty()) return;
+  MVS_MUST(compressor == "vtkZLibDataCompressor" && has_zlib(), MVS_E_UNSUPPORTED, "compressor",
+           "the file is compressed by %s, %s: save it without compression (3D Slicer: the box "
+           "Compress off in Save; ParaView: Compressor Type None; PyVista: compression=None), or as "
+           ".vtk or .stl",
+           quoted(compressor).c_str(),
+           has_zlib() ? "only zlib is read"
+                      : "and this libmvs was built without zlib (-DMVS_ZLIB=ON)");
 }
 
 }  // namespace

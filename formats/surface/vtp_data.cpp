@@ -39,6 +39,7 @@ VtpData::VtpData(const XmlElement &root, const XmlElement *appended, size_t file
     : unused_(file_bytes) {
   is_big_endian_ = root.attribute("byte_order", "LittleEndian") == "BigEndian";
   header_size_ = root.attribute("header_type", "UInt32") == "UInt64" ? 8 : 4;
+  is_compressed_ = !root.attribute("compressor").empty();
   if (!appended) return;
   is_raw_ = appended->attribute("encoding", "base64") == "raw";
   const size_t start = appended->content.find('_');
@@ -88,6 +89,89 @@ std::string VtpData::base64_block(std::string_view text, const XmlElement &array
   return bytes.substr(skipped, length);
 }
 
+// The number of blocks, which begins the header of a compressed array.
+uint64_t VtpData::block_count(std::string_view header, const XmlElement &array) const {
+  const uint64_t count = length_at(header, array);
+  if (count > unused_ / header_size_) {
+    fail_at(array, "the array %s states %llu blocks, which the file does not have: it is cut short",
+            quoted_name(array).c_str(), static_cast<unsigned long long>(count));
+  }
+  return count;
+}
+
+VtpBlocks VtpData::blocks_at(std::string_view header, const XmlElement &array) const {
+  const NumberType type = {NumberType::Kind::whole, static_cast<uint8_t>(header_size_)};
+  const auto size_at = [&](size_t word) {
+    // sizes of whole blocks are checked against the stored ones when they are inflated
+    const double size = number_at(header.data() + word * header_size_, type, is_big_endian_);
+    constexpr double exact = 9e15;  // below 2^53
+    if (size > exact) fail_at(array, "the array %s states %g bytes", quoted_name(array).c_str(), size);
+    return static_cast<uint64_t>(size);
+  };
+  VtpBlocks blocks{size_at(1), size_at(2), {}};
+  const uint64_t count = block_count(header, array);
+  uint64_t sum = 0;
+  for (size_t k = 0; k < count; ++k) {
+    blocks.stored.push_back(length_at(header.substr((3 + k) * header_size_), array));
+    sum += blocks.stored.back();
+    if (sum > unused_) {
+      fail_at(array, "the blocks of the array %s are longer than the file: it is cut short",
+              quoted_name(array).c_str());
+    }
+  }
+  return blocks;
+}
+
+std::string VtpData::inflated(const VtpBlocks &blocks, std::string_view stored,
+                              const XmlElement &array) {
+  try {
+    return inflate_blocks(blocks, stored);
+  } catch (const Error &error) {
+    throw Error(error.code, as_utf8(array.attribute("Name")), error.what(), array.line);
+  }
+}
+
+std::string VtpData::compressed_raw(std::string_view rest, const XmlElement &array) {
+  const auto must_hold = [&](uint64_t bytes) {
+    if (rest.size() >= bytes) return;
+    fail_at(array, "the file ends within the array %s: it is cut short",
+            quoted_name(array).c_str());
+  };
+  must_hold(3 * header_size_);
+  const uint64_t header = (3 + block_count(rest, array)) * header_size_;
+  must_hold(header);
+  const VtpBlocks blocks = blocks_at(rest.substr(0, header), array);
+  const uint64_t length = blocks.stored_size();
+  must_hold(header + length);
+  use(header + length, array);
+  return inflated(blocks, rest.substr(header, length), array);
+}
+
+// Header and blocks are base64 texts of their own, one behind the other.
+std::string VtpData::compressed_base64(std::string_view text, const XmlElement &array) {
+  const std::string part = as_utf8(array.attribute("Name", array.name));
+  const auto digits = [&](uint64_t from, uint64_t bytes) {
+    const uint64_t count = base64_length(bytes);
+    if (text.size() < from || text.size() - from < count) {
+      fail_at(array, "the text of the array %s ends before its data: the file is cut short",
+              quoted_name(array).c_str());
+    }
+    return text.substr(from, count);
+  };
+  // three words are a multiple of three bytes, so that their digits end with them
+  const std::string start = base64_bytes(digits(0, 3 * header_size_), part.c_str());
+  const uint64_t header_bytes = (3 + block_count(start, array)) * header_size_;
+  const std::string header = base64_bytes(digits(0, header_bytes), part.c_str());
+  if (header.size() < header_bytes) {
+    fail_at(array, "the array %s has fewer bytes than it states", quoted_name(array).c_str());
+  }
+  const VtpBlocks blocks = blocks_at(header, array);
+  const uint64_t header_digits = base64_length(header_bytes);
+  const std::string_view data = digits(header_digits, blocks.stored_size());
+  use(header_digits + data.size(), array);
+  return inflated(blocks, base64_bytes(data, part.c_str()), array);
+}
+
 std::string VtpData::appended_block(const XmlElement &array) {
   uint64_t offset = 0;
   if (!parse_whole(array.attribute("offset"), offset) || offset > appended_.size()) {
@@ -98,8 +182,10 @@ std::string VtpData::appended_block(const XmlElement &array) {
   if (!is_raw_) {
     // blanks do not stand within base64 digits of VTK
     const size_t end = rest.find_first_of(" \t\r\n<");
-    return base64_block(rest.substr(0, end), array);
+    const std::string_view text = rest.substr(0, end);
+    return is_compressed_ ? compressed_base64(text, array) : base64_block(text, array);
   }
+  if (is_compressed_) return compressed_raw(rest, array);
   const uint64_t length = length_at(rest, array);
   if (rest.size() - header_size_ < length) {
     fail_at(array, "the file ends within the array %s: it is cut short",
@@ -115,7 +201,8 @@ std::string VtpData::block(const XmlElement &array) {
   for (const char c : array.content) {
     if (c != ' ' && c != '\t' && c != '\r' && c != '\n') digits += c;
   }
-  return digits.empty() ? digits : base64_block(digits, array);
+  if (digits.empty()) return digits;
+  return is_compressed_ ? compressed_base64(digits, array) : base64_block(digits, array);
 }
 
 std::vector<double> VtpData::numbers(const XmlElement &array, uint64_t count) {

@@ -7,15 +7,16 @@
 
 #include "anatomy/leaflet_names.h"
 #include "base/error.h"
+#include "geometry/intersect.h"
 #include "model/sides.h"
 #include "patient/chordae/patient_chordae.h"
 #include "patient/findings.h"
 #include "patient/fit/fit_to_closed.h"
-#include "patient/fit/leak_interval.h"
 #include "patient/mesh/remesh_sheet.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
 #include "patient/surface/mend_crossings.h"
+#include "patient/surface/mend_free_edge.h"
 #include "patient/surface/mid_surface.h"
 #include "patient/surface/rims.h"
 
@@ -24,6 +25,10 @@ namespace {
 
 constexpr double default_vertices = 1000;
 constexpr double degree = std::numbers::pi / 180;
+
+void begin_stage(const BuildSettings &settings, const char *name) {
+  if (settings.on_stage) settings.on_stage(name);
+}
 
 // The mid-surface of the leaflets, wound with normals into the atrium, and its rims.
 struct MidSheet {
@@ -55,17 +60,41 @@ SurfaceKind kind_of(const PatientSurface &surface, const LeafletSheet &sheet, Fi
   return surface.kind;
 }
 
+// Fills notches of the free edge, moves an atrial surface to the middle of the tissue, separates
+// triangles that cross. Notches whose filling stays crossed are kept open.
+CrossingReport mend(const BuildSettings &settings, SurfaceKind kind, MidSheet &mid,
+                    Findings &findings) {
+  const MidSheet as_found = mid;
+  std::vector<uint8_t> kept(mid.sheet.x.size(), 0);
+  for (;;) {
+    mid = as_found;
+    Findings made;
+    const FilledNotches notches = fill_notches(mid.sheet, mid.rims, kept);
+    report_notches(notches, made);
+    if (kind == SurfaceKind::atrial) move_to_mid(mid.sheet, settings.thickness, made);
+    const CrossingReport crossings = mend_crossings(mid.sheet, mid.rims);
+    if (crossings.after > 0) {
+      const std::vector<Edge> left = find_intersections(mid.sheet.x, mid.sheet.triangles);
+      if (keep_crossing(notches, left, kept)) continue;
+    }
+    findings.insert(findings.end(), made.begin(), made.end());
+    return crossings;
+  }
+}
+
 MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &settings,
                         Findings &findings) {
   MidSheet mid;
+  begin_stage(settings, "clean");
   mid.sheet =
       clean_surface(surface.points, surface.triangles, surface.label, surface.thickness, findings);
   const RimLandmarks landmarks = {surface.annulus, surface.tips};
   const SurfaceKind kind = kind_of(surface, mid.sheet, findings);
+  begin_stage(settings, "mid");
   if (kind == SurfaceKind::skin) mid.sheet = mid_of_skin(mid.sheet, landmarks, findings);
   mid.rims = find_rims(mid.sheet, landmarks, findings);
-  if (kind == SurfaceKind::atrial) move_to_mid(mid.sheet, settings.thickness, findings);
-  const CrossingReport crossings = mend_crossings(mid.sheet, mid.rims);
+  begin_stage(settings, "untangle");
+  const CrossingReport crossings = mend(settings, kind, mid, findings);
   MVS_MUST(crossings.after == 0, MVS_E_OP, "crossings",
            "%zu of %zu pairs of crossing triangles could not be separated by small moves: smooth "
            "the surface where its leaflets touch",
@@ -189,8 +218,10 @@ LeafletArcs arcs_on(const MidSheet &mesh, const SheetCoordinates &coordinates,
 PatientGeometry find_geometry(const PatientSurface &surface, const BuildSettings &settings,
                               Findings &findings) {
   const MidSheet mid = find_mid_sheet(surface, settings, findings);
+  begin_stage(settings, "leaflets");
   find_leaflets(mid.sheet, mid.rims, sheet_coordinates(mid.sheet, mid.rims),
                 {surface.commissures, surface.anterior}, findings);
+  begin_stage(settings, "remesh");
   MidSheet mesh = remeshed(mid, settings, findings);
   PatientGeometry g;
   g.coordinates = sheet_coordinates(mesh.sheet, mesh.rims);
@@ -209,14 +240,9 @@ void tell_progress(const Progress &progress, double share) {
 void fit_chords(const PatientSurface &surface, const Progress &progress, Valve &valve,
                 Findings &findings) {
   const FitSettings settings;
-  Solver solver(Backend::fastest);
-  const ClosedJacobian differences = jacobian_by_differences(solver);
-  double round = 0;
-  fit_to_closed(valve, {surface.closed_points, surface.closed_triangles}, settings, findings,
-                [&](const ClosedValve &closed, const std::vector<ChordGroup> &groups,
-                    const std::vector<SurfaceMatch> &matches) {
-                  tell_progress(progress, 0.1 + 0.7 * round++ / settings.rounds);
-                  return differences(closed, groups, matches);
+  fit_to_closed(valve, {surface.closed_points, surface.closed_triangles}, settings, findings, {},
+                [&](uint32_t start) {
+                  tell_progress(progress, 0.1 + 0.7 * start / settings.starts);
                 });
 }
 
@@ -228,16 +254,21 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   Findings &findings = built.findings;
   tell_progress(progress, 0.0);
   const PatientGeometry g = find_geometry(surface, settings, findings);
+  begin_stage(settings, "chordae");
   Valve valve = tissue_of(g, settings, findings);
   valve.name = surface.name;
   const PapillaryTips tips = find_papillary_tips(surface.tips, g, findings);
   add_chordae(valve, g, tips, {settings.chords, settings.chord_factor, settings.coaptation_length},
               findings);
   tell_progress(progress, 0.1);
-  if (!surface.closed_points.empty()) fit_chords(surface, progress, valve, findings);
-  built.model = make_model(valve);
+  if (!surface.closed_points.empty()) {
+    begin_stage(settings, "fit");
+    fit_chords(surface, progress, valve, findings);
+  }
+  built.model = make_model(std::move(valve));
   tell_progress(progress, 0.8);
-  leak_interval(valve, findings);
+  begin_stage(settings, "leak");
+  built.leak = leak_interval(built.model, findings);
   return built;
 }
 

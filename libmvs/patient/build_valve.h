@@ -1,7 +1,10 @@
 // From a patient's surface and landmarks to a complete valve.
 #pragma once
 
+#include <functional>
+
 #include "model/model.h"
+#include "patient/fit/leak_interval.h"
 #include "patient/leaflet_sheet.h"
 #include "solve/solver.h"
 
@@ -30,11 +33,13 @@ struct BuildSettings {
   double chord_factor = 1;
   double coaptation_length = 8e-3;
   uint32_t chords = 100;
+  std::function<void(const char *)> on_stage;  // called with the name of each stage as it begins
 };
 
 struct BuiltValve {
   ModelPtr model;
   Findings findings;
+  LeakInterval leak;
 };
 
 BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &settings,

@@ -61,7 +61,8 @@ def test_surfaces_written_by_vtk_are_read(tmp_path, ending, binary):
 
 @pytest.mark.parametrize("appended", ["raw", "base64"])
 @pytest.mark.parametrize("header", [32, 64])
-def test_appended_vtp_arrays_are_read(tmp_path, appended, header):
+@pytest.mark.parametrize("compressor", ["None", "ZLib"])
+def test_appended_vtp_arrays_are_read(tmp_path, appended, header, compressor):
     pyvista = pytest.importorskip("pyvista")
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -74,7 +75,8 @@ def test_appended_vtp_arrays_are_read(tmp_path, appended, header):
     writer.SetInputData(mesh)
     writer.SetDataModeToAppended()
     writer.SetEncodeAppendedData(appended == "base64")
-    writer.SetCompressorTypeToNone()
+    getattr(writer, f"SetCompressorTypeTo{compressor}")()
+    writer.SetBlockSize(64)  # bytes: several blocks, the last one a part
     writer.SetHeaderType(header)
     assert writer.Write() == 1
     surface = mvs.read_surface(path, frame="LPS")
@@ -96,10 +98,21 @@ def test_strips_of_vtk_are_read(tmp_path):
     assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c) > 0).all()
 
 
-def test_a_compressed_vtp_file_is_refused_with_the_remedy(tmp_path):
+@pytest.mark.parametrize("binary", [False, True])
+def test_vtp_files_as_vtk_writes_them_by_default_are_read(tmp_path, binary):
+    pyvista = pytest.importorskip("pyvista")
+    sphere = pyvista.Sphere(theta_resolution=90, phi_resolution=90)
+    path = tmp_path / "surface.vtp"
+    sphere.save(path, binary=binary)
+    surface = mvs.read_surface(path, unit="m")
+    assert np.array_equal(surface.points, np.asarray(sphere.points, dtype=float))
+    assert np.array_equal(surface.triangles, sphere.regular_faces)
+
+
+def test_other_compressors_are_refused_with_the_remedy(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     path = tmp_path / "surface.vtp"
-    pyvista.Sphere().save(path)
+    pyvista.Sphere().save(path, compression="lzma")
     with pytest.raises(mvs.UnsupportedError, match="without compression"):
         mvs.read_surface(path)
 

@@ -34,7 +34,7 @@ GPL = [b"GNU General Public License", b"CHOLMOD error", b"CHOLMOD warning", b"Su
 """Texts in the programs of GPL libraries that could have been linked statically."""
 
 LICENCES = {"LICENSE", "hdf5.txt", "hdf5-lbnl.txt", "libeigen3-dev.txt", "nlohmann-json3-dev.txt",
-            "libcli11-dev.txt", "pybind11.txt"}
+            "libcli11-dev.txt", "zlib1g-dev.txt", "pybind11.txt"}
 
 
 def kind_of(name: str) -> str:

@@ -5,8 +5,8 @@
 
 namespace mvs::core {
 
-ClosedValve close_open(Solver &solver, const Valve &valve, double pressure) {
-  ClosedValve closed{make_model(valve), {}, {}};
+ClosedValve close_open(Solver &solver, ModelPtr model, double pressure) {
+  ClosedValve closed{std::move(model), {}, {}};
   closed.state = initial_state(*closed.model);
   closed.state.load = {pressure, 1};
   closed.stats = settle_with_mesh_hierarchy(solver, *closed.model, closed.state, {}, {});

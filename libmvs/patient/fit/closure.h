@@ -15,7 +15,7 @@ struct ClosedValve {
 };
 
 // From the rest shape, as a caller closes a new valve.
-ClosedValve close_open(Solver &solver, const Valve &valve, double pressure);
+ClosedValve close_open(Solver &solver, ModelPtr model, double pressure);
 
 // From a closed valve with the same nodes and other rest lengths.
 ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &valve);

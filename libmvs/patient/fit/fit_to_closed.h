@@ -1,9 +1,12 @@
 // Rest lengths of chordae with which a valve closes to a given surface.
 //
-// Bounded regularised least squares (Gauss-Newton): one factor for each group of chordae, with a
-// normal prior of mean 1; residuals are distances along fixed matches of both surfaces, renewed in
-// each round as in iterative closest points (Besl and McKay 1992). Chordae that hang slack change
-// nothing, so their groups are also tried shorter.
+// Bounded regularised least squares (Gauss-Newton), first one factor for each group of chordae with
+// a normal prior of mean 1, then one for each chord with the group's as its mean; residuals are
+// distances along fixed matches of both surfaces, renewed in each round as in iterative closest
+// points (Besl and McKay 1992). Chordae that hang slack change nothing, so their groups are also
+// tried shorter. The search is repeated from other lengths, and every result is closed from the
+// open shape, as a user closes the valve: that closure decides which one is taken, and those that
+// are as good show how far the surface leaves lengths and shape open.
 #pragma once
 
 #include <functional>
@@ -17,31 +20,47 @@ namespace mvs::core {
 
 struct FitSettings {
   ChordGrouping grouping = ChordGrouping::halves;
+  bool one_by_one = true;  // each chord after the groups
   double pressure = systolic_pressure;
   double least = 0.8, most = 1.25;  // factors
-  double prior = 0.1;               // standard deviation of a factor
+  double prior = 0.1;               // standard deviation of a group's factor
+  double single_prior = 0.04;       // of a chord's factor around that of its group
   double noise = 0.5e-3;            // m, standard deviation of the given surface
-  uint32_t rounds = 6;              // at most
+  uint32_t rounds = 6;              // at most, of each search
+  uint32_t starts = 3;              // searches, the first from factors of 1
 };
 
+// A factor is not determined by the surface if its deviation is at least this share of the prior's.
+inline constexpr double undetermined_share = 0.7;
+
 // Derivatives of residuals of a closed valve by a factor on the present lengths of each group:
-// [group][match]. The default takes differences of closures that start from the closed valve.
+// [group][match]. The default is jacobian_by_linearisation() (linear_closure.h).
 using ClosedJacobian = std::function<std::vector<std::vector<double>>(
     const ClosedValve &closed, const std::vector<ChordGroup> &groups,
     const std::vector<SurfaceMatch> &matches)>;
+// Differences of closures that start from the closed valve; for checks.
 ClosedJacobian jacobian_by_differences(Solver &solver);
 
 struct ChordFit {
   std::vector<ChordGroup> groups;
-  std::vector<double> factor;      // of each group
-  std::vector<double> deviation;   // posterior standard deviation of each factor
-  double rms_before = 0, rms = 0;  // m, distance of both surfaces
-  uint32_t rounds = 0;
-  bool at_rest = false;  // the closed valve of the fitted lengths
+  std::vector<double> factor;           // of each group: the mean of its chordae
+  std::vector<double> deviation;        // of each group's factor: standard deviation of the
+                                        // posterior and of the fits that are as good
+  std::vector<double> chord_factor;     // of each chord segment; 1 for sutures
+  std::vector<double> chord_deviation;  // the same
+  double rms_before = 0, rms = 0;       // m, distance of both surfaces, closed from open
+  double spread = 0;                    // m, RMS between the nodes of fits that are as good
+  std::vector<double> leaks;            // m2, of all fits that are as good, the taken one first
+  uint32_t rounds = 0;                  // of all searches
+  bool at_rest = false;                 // the closed valve of the fitted lengths
 };
+
+// Called before each search with its number, from 0; may throw to end the fit.
+using FitProgress = std::function<void(uint32_t start)>;
 
 // Changes the rest lengths of `valve`. Throws if the surface is empty or lies elsewhere.
 ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettings &settings,
-                       Findings &findings, ClosedJacobian jacobian = {});
+                       Findings &findings, ClosedJacobian jacobian = {},
+                       const FitProgress &progress = {});
 
 }  // namespace mvs::core

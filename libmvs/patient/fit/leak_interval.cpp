@@ -16,20 +16,21 @@ constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
 
 }  // namespace
 
-LeakInterval leak_interval(const Valve &valve, Findings &findings) {
+LeakInterval leak_interval(const ModelPtr &model, Findings &findings) {
   LeakInterval interval;
   bool at_rest = true;
   const auto record = [&](size_t k, const ClosedValve &closed) {
     interval.leak[k] = measure_orifice(*closed.model, closed.state.x).area;
     interval.at_rest[k] = closed.stats.converged;
+    interval.iterations[k] = closed.stats.iterations;
     at_rest = at_rest && closed.stats.converged;
   };
   // a solver of its own: the middle leak is the one that the built valve shows
   Solver solver(Backend::fastest);
-  const ClosedValve middle = close_open(solver, valve, systolic_pressure);
+  const ClosedValve middle = close_open(solver, model, systolic_pressure);
   record(1, middle);
   for (const size_t k : {size_t{0}, size_t{2}}) {
-    Valve changed = valve;
+    Valve changed = model->valve;
     for (Chord &chord : changed.chords) chord.rest_length *= interval.factor[k];
     // from the closed valve: a third of the time, and the same folds
     record(k, close_again(solver, middle, changed));

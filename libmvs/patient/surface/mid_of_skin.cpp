@@ -8,6 +8,7 @@
 #include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/surface/boundary.h"
+#include "patient/surface/cut_handles.h"
 #include "patient/surface/fill_hole.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/mid_surface.h"
@@ -60,17 +61,16 @@ double median_thickness(const LeafletSheet &skin) {
   return sorted.empty() ? 0 : sorted[sorted.size() / 2];
 }
 
-// A closed surface has the Euler characteristic V - F / 2: 2 of a ball, 0 of a ring.
-void check_ring(const LeafletSheet &skin) {
-  const auto points = static_cast<long>(skin.x.size());
-  const long characteristic = points - static_cast<long>(skin.triangles.size() / 2);
-  MVS_MUST(characteristic != 2, MVS_E_OP, "triangles",
+// A skin is a ring: one handle, the orifice. Small handles beside it are cut.
+void make_ring(LeafletSheet &skin, Findings &findings) {
+  const size_t handles = cut_handles(skin, 1, findings);
+  MVS_MUST(handles != 0, MVS_E_OP, "triangles",
            "the skin is that of a ball without an orifice: are the leaflets closed and joined, or "
            "is this one leaflet only? Both leaflets have to be joined at the commissures");
-  MVS_MUST(characteristic == 0, MVS_E_OP, "triangles",
-           "the skin has %ld handles beside the orifice: leaflets touch and are joined, or have "
-           "holes; separate them there",
-           -characteristic / 2);
+  MVS_MUST(handles == 1, MVS_E_OP, "triangles",
+           "the skin has %zu handles beside the orifice that are more than %.0f mm around: leaflets "
+           "touch and are joined, or have holes; separate them there (smaller handles are cut)",
+           handles - 1, longest_handle * 1e3);
 }
 
 // Fills numbers that are not known (zero) with the mean of those of the neighbours, from ring to
@@ -162,7 +162,7 @@ void add_thickness(const LeafletSheet &skin, const LeafletSheet &atrial, Finding
 LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks,
                          Findings &findings) {
   LeafletSheet closed = closed_skin(skin, findings);
-  check_ring(closed);
+  make_ring(closed, findings);
   const int rounds = smooth_skin(closed, median_thickness(closed), findings);
   const std::vector<TissueBehind> behind = tissue_behind(closed);
   const std::vector<uint32_t> side_of = sides_of(closed, behind);

@@ -11,6 +11,7 @@
 #include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/surface/boundary.h"
+#include "patient/surface/cut_handles.h"
 #include "patient/surface/fill_hole.h"
 
 namespace mvs::core {
@@ -88,17 +89,13 @@ void check_rims(const std::vector<RimLoop> &rims) {
            rims.size(), list_of_lengths(rims).c_str());
 }
 
-// The Euler characteristic of a sheet with two rims is -2 for each handle.
-void check_handles(const LeafletSheet &sheet) {
-  size_t edges = 0;
-  const std::vector<Side> sides = sorted_sides(sheet.triangles);
-  for_each_edge(sides, [&](size_t, size_t) { ++edges; });
-  const size_t handles = (edges - std::min(edges, sheet.x.size() + sheet.triangles.size())) / 2;
-  MVS_MUST(
-      handles == 0, MVS_E_OP, "triangles",
-      "the surface has %zu handles: leaflets touch and are joined there, or a bridge of tissue "
-      "passes over the orifice; open the surface at these places",
-      handles);
+void check_handles(LeafletSheet &sheet, Findings &findings) {
+  const size_t handles = cut_handles(sheet, 0, findings);
+  MVS_MUST(handles == 0, MVS_E_OP, "triangles",
+           "the surface has %zu handles more than %.0f mm around: leaflets touch and are joined "
+           "there, or a bridge of tissue passes over the orifice; open the surface at these places "
+           "(smaller handles are cut)",
+           handles, longest_handle * 1e3);
 }
 
 // The mean distance of points from the curve of a rim.
@@ -265,7 +262,7 @@ SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings
   std::vector<RimLoop> rims = sorted_rims(sheet);
   fill_holes(sheet, rims, findings);
   check_rims(rims);
-  check_handles(sheet);
+  check_handles(sheet, findings);
   order_rims(sheet, rims, landmarks, findings);
   orient(sheet, rims, landmarks.tips, findings);
   check_open(rims, findings);

@@ -1,6 +1,8 @@
 // Writers of the sample, each by the description of its format.
 #include "tests/formats/surface/surface_samples.h"
 
+#include "formats/surface/vtp_blocks.h"
+
 namespace mvs::core {
 namespace {
 
@@ -15,9 +17,46 @@ std::string base64_of(const std::string &bytes) {
   return text;
 }
 
+// A zlib stream (RFC 1950) whose bytes are stored as they are.
+std::string zlib_stream(const std::string &bytes) {
+  uint32_t a = 1, b = 0;  // Adler-32
+  for (const char c : bytes) {
+    a = (a + static_cast<unsigned char>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  const uint16_t size = static_cast<uint16_t>(bytes.size());
+  std::string stream = "\x78\x01\x01";
+  for (const uint16_t word : {size, static_cast<uint16_t>(~size)}) {
+    stream += {static_cast<char>(word & 255), static_cast<char>(word >> 8)};
+  }
+  stream += bytes;
+  for (const uint32_t word : {b, a}) {
+    stream += {static_cast<char>(word >> 8), static_cast<char>(word & 255)};
+  }
+  return stream;
+}
+
 // A VTP file while it is written: arrays in the element or appended.
 struct VtpText {
-  std::string coding, appended = {};
+  std::string coding;
+  bool is_compressed;
+  std::string appended = {};
+
+  // An array with its length, or its compressed blocks of 32 bytes with their header.
+  std::string coded(const std::string &bytes, bool is_raw) const {
+    if (!is_compressed) return is_raw ? with_length(bytes) : base64_of(with_length(bytes));
+    constexpr uint32_t whole = 32;
+    const uint32_t size = static_cast<uint32_t>(bytes.size()), last = size % whole;
+    std::string header, blocks;
+    for (size_t at = 0; at < size; at += whole) {
+      const std::string stream = zlib_stream(bytes.substr(at, whole));
+      header += number_bytes(static_cast<uint32_t>(stream.size()));
+      blocks += stream;
+    }
+    const uint32_t count = (size + whole - 1) / whole;
+    header = number_bytes(count) + number_bytes(whole) + number_bytes(last) + header;
+    return is_raw ? header + blocks : base64_of(header) + base64_of(blocks);
+  }
 
   std::string array(const std::string &type, const std::string &name, const std::string &values,
                     const std::string &block, int components = 1) {
@@ -28,10 +67,10 @@ struct VtpText {
         "index=\"0\">5</Value></InformationKey>\n</DataArray>\n";
     if (coding == "ascii") return text + "ascii\">\n" + values + end;
     if (coding == "binary") {
-      return text + "binary\">\n  " + base64_of(with_length(block)) + end;
+      return text + "binary\">\n  " + coded(block, false) + end;
     }
     text += "appended\" offset=\"" + std::to_string(appended.size()) + "\"/>\n";
-    appended += coding == "raw" ? with_length(block) : base64_of(with_length(block));
+    appended += coded(block, coding == "raw");
     return text;
   }
 };
@@ -154,12 +193,13 @@ SurfaceSample vtk_sample(bool is_binary, bool is_version_5) {
           bytes};
 }
 
-SurfaceSample vtp_sample(const std::string &coding) {
-  VtpText vtp{coding};
+SurfaceSample vtp_sample(const std::string &coding, bool is_compressed) {
+  VtpText vtp{coding, is_compressed};
   std::string text =
       "<?xml version=\"1.0\"?>\n<!-- a comment -->\n<VTKFile type=\"PolyData\" version=\"0.1\" "
       "byte_order=\"" +
       std::string(std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian") +
+      (is_compressed ? "\" compressor=\"vtkZLibDataCompressor" : "") +
       "\" header_type=\"UInt32\">\n<PolyData>\n<FieldData>\n<Array type=\"String\" Name=\"SPACE\" "
       "NumberOfTuples=\"1\" format=\"ascii\">76 80 83 0</Array>\n</FieldData>\n<Piece "
       "NumberOfPoints=\"6\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
@@ -179,7 +219,7 @@ SurfaceSample vtp_sample(const std::string &coding) {
     text +=
         "<AppendedData encoding=\"" + coding + "\">\n   _" + vtp.appended + "\n  </AppendedData>\n";
   }
-  return {coding + ".vtp", text + "</VTKFile>\n"};
+  return {coding + (is_compressed ? "_zlib" : "") + ".vtp", text + "</VTKFile>\n"};
 }
 
 SurfaceSample markups_sample() {
@@ -207,7 +247,7 @@ SurfaceSample csv_sample() {
 }
 
 std::vector<SurfaceSample> surface_samples() {
-  return {stl_sample(true, "solid but binary"),
+  std::vector<SurfaceSample> samples = {stl_sample(true, "solid but binary"),
           stl_sample(false, "name"),
           ply_sample("ascii"),
           ply_sample("binary_little_endian"),
@@ -222,6 +262,12 @@ std::vector<SurfaceSample> surface_samples() {
           vtp_sample("binary"),
           vtp_sample("raw"),
           vtp_sample("base64")};
+  if (has_zlib()) {
+    for (const char *coding : {"binary", "raw", "base64"}) {
+      samples.push_back(vtp_sample(coding, true));
+    }
+  }
+  return samples;
 }
 
 std::vector<SurfaceSample> landmark_samples() {

@@ -96,7 +96,7 @@ SurfaceSample obj_sample();
 SurfaceSample off_sample();
 SurfaceSample vtk_sample(bool is_binary, bool is_version_5);
 // "ascii", "binary", "raw", "base64"; the latter two are appended.
-SurfaceSample vtp_sample(const std::string &coding);
+SurfaceSample vtp_sample(const std::string &coding, bool is_compressed = false);
 SurfaceSample markups_sample();
 SurfaceSample fcsv_sample();
 SurfaceSample csv_sample();

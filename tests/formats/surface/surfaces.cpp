@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "formats/formats.h"
+#include "formats/surface/vtp_blocks.h"
 #include "tests/formats/surface/surface_samples.h"
 
 using namespace mvs::core;
@@ -184,7 +185,7 @@ TEST_CASE("variants_that_are_not_read_are_refused_with_the_remedy") {
     return std::string(refusal({name, bytes}).what());
   };
   const std::string compressed =
-      sentence("a.vtp", replaced(vtp, "header_type", "compressor=\"vtkZLibDataCompressor\" h"));
+      sentence("a.vtp", replaced(vtp, "header_type", "compressor=\"vtkLZMADataCompressor\" h"));
   CHECK(compressed.find("without compression") != std::string::npos);
   CHECK(sentence("a.vtp", replaced(vtp, "\"PolyData\"", "\"UnstructuredGrid\"")).find("PolyData") !=
         std::string::npos);
@@ -192,6 +193,23 @@ TEST_CASE("variants_that_are_not_read_are_refused_with_the_remedy") {
             .find("PolyData") != std::string::npos);
   CHECK(sentence("a.step", "").find(".stl") != std::string::npos);
   CHECK(sentence("a.STL", "").find("cut short") != std::string::npos);
+}
+
+TEST_CASE("damaged_compressed_arrays_are_refused") {
+  if (!has_zlib()) {
+    MESSAGE("built without zlib");
+    return;
+  }
+  const SurfaceSample whole = vtp_sample("raw", true);
+  const size_t stream = whole.bytes.find("\x78\x01\x01");
+  REQUIRE(stream != std::string::npos);
+  SurfaceSample changed = whole;
+  changed.bytes[stream + 8] ^= 1;  // the checksum of zlib finds one bit
+  CHECK(std::string(refusal(changed).what()).find("damaged") != std::string::npos);
+  changed = whole;
+  // the size of whole blocks, the second word of the header: more than the streams can hold
+  changed.bytes[whole.bytes.find("   _") + 4 + 6] = '\x7f';
+  CHECK(refusal(changed).code == MVS_E_FORMAT);
 }
 
 TEST_CASE("numbers_that_are_not_finite_are_refused_with_line_or_point") {

@@ -1,0 +1,176 @@
+// Pairs of vertices of the free edge with a short chord and a long way along the edge.
+#include "patient/surface/mend_free_edge.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "model/sides.h"
+#include "patient/findings.h"
+#include "patient/surface/fill_hole.h"
+
+namespace mvs::core {
+namespace {
+
+// The way along the edge over the chord from which on it is a notch: a triangle as deep as a third
+// of its width has 1.2. Gentle waves of the edge stay.
+constexpr double least_detour = 1.2;
+constexpr size_t most_vertices = 60;  // of a notch; three voxels a mm over 20 mm
+
+struct Notch {
+  size_t first = 0, count = 0;  // in the loop: the ends and the vertices between
+  double saved = 0;             // m: way along the edge less chord
+  double width = 0, depth = 0;  // m
+};
+
+class FreeEdge {
+ public:
+  // Vertices that are `kept` stay on the edge.
+  FreeEdge(LeafletSheet &sheet, std::vector<uint32_t> &loop, const std::vector<uint8_t> &kept)
+      : sheet_(sheet), loop_(loop), kept_(kept), normal_(sheet.x.size(), Vec3::Zero()) {
+    for (const Tri &t : sheet.triangles) {
+      const Vec3 n = (sheet.x[t[1]] - sheet.x[t[0]]).cross(sheet.x[t[2]] - sheet.x[t[0]]);
+      for (const uint32_t i : t) normal_[i] += n;
+    }
+    for (const Side &side : sorted_sides(sheet.triangles)) edges_.push_back(side.edge);
+  }
+
+  // The notch that shortens the edge most; `count` is 0 if there is none.
+  Notch largest() const {
+    Notch best;
+    for (size_t k = 0; k < loop_.size(); ++k) {
+      const Notch here = from(k);
+      if (here.saved > best.saved) best = here;
+    }
+    return best;
+  }
+
+  // Returns the vertices that are no longer on the edge.
+  std::vector<uint32_t> fill(const Notch &notch) {
+    std::vector<uint32_t> ring;
+    for (size_t k = 0; k < notch.count; ++k) ring.push_back(vertex(notch.first + k));
+    const size_t before = sheet_.triangles.size();
+    fill_hole(sheet_, ring);
+    for (size_t t = before; t < sheet_.triangles.size(); ++t) {
+      const Tri &tri = sheet_.triangles[t];
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t a = tri[k], b = tri[(k + 1) % 3];
+        edges_.push_back({std::min(a, b), std::max(a, b)});
+      }
+    }
+    std::sort(edges_.begin(), edges_.end());
+    normal_.resize(sheet_.x.size(), Vec3::Zero());
+    std::vector<uint32_t> kept;
+    for (size_t k = notch.count - 1; k <= loop_.size(); ++k) kept.push_back(vertex(notch.first + k));
+    loop_ = std::move(kept);
+    return {ring.begin() + 1, ring.end() - 1};
+  }
+
+ private:
+  bool stays(uint32_t i) const { return i < kept_.size() && kept_[i] != 0; }
+  uint32_t vertex(size_t k) const { return loop_[k % loop_.size()]; }
+  const Vec3 &at(size_t k) const { return sheet_.x[vertex(k)]; }
+
+  // The best notch that begins at a place of the loop.
+  Notch from(size_t first) const {
+    Notch best;
+    double way = 0;
+    Vec3 normal = normal_[vertex(first)];
+    const size_t most = std::min(most_vertices, loop_.size() - 3);
+    for (size_t step = 1; step <= most; ++step) {
+      way += (at(first + step) - at(first + step - 1)).norm();
+      normal += normal_[vertex(first + step)];
+      const double width = (at(first + step) - at(first)).norm();
+      if (step < 2 || width > widest_notch || way < least_detour * width) continue;
+      if (way - width <= best.saved) continue;
+      Notch notch{first, step + 1, way - width, width, 0};
+      if (is_inward(notch, normal)) best = notch;
+    }
+    return best;
+  }
+
+  // Whether the vertices between lie on the side of the tissue, not too deep, and the mouth is no
+  // edge yet. The tissue is on the left of the edge, seen from the tip of the normal.
+  bool is_inward(Notch &notch, const Vec3 &normal) const {
+    const uint32_t a = vertex(notch.first), b = vertex(notch.first + notch.count - 1);
+    const Edge mouth = {std::min(a, b), std::max(a, b)};
+    if (std::binary_search(edges_.begin(), edges_.end(), mouth)) return false;
+    const Vec3 along = sheet_.x[b] - sheet_.x[a];
+    const Vec3 inward = normal.cross(along);
+    const double size = inward.norm();
+    if (!(size > 0)) return false;
+    for (size_t k = 1; k + 1 < notch.count; ++k) {
+      if (stays(vertex(notch.first + k))) return false;
+      const Vec3 off = at(notch.first + k) - sheet_.x[a];
+      if (off.dot(inward) <= 0) return false;
+      const double length2 = along.squaredNorm();
+      const double share = length2 > 0 ? std::clamp(off.dot(along) / length2, 0.0, 1.0) : 0;
+      notch.depth = std::max(notch.depth, (off - share * along).norm());
+    }
+    return notch.depth <= deepest_notch;
+  }
+
+  LeafletSheet &sheet_;
+  std::vector<uint32_t> &loop_;
+  const std::vector<uint8_t> &kept_;
+  std::vector<Vec3> normal_;  // of each vertex, by area
+  std::vector<Edge> edges_;   // of the sheet, sorted
+};
+
+}  // namespace
+
+FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vector<uint8_t> &kept) {
+  FilledNotches filled;
+  filled.sheet_triangles = sheet.triangles.size();
+  const double area = surface_area(sheet.x, sheet.triangles);
+  FreeEdge edge(sheet, rims.free_edge, kept);
+  for (Notch notch = edge.largest(); notch.count > 0; notch = edge.largest()) {
+    filled.inner.push_back(edge.fill(notch));
+    filled.last.push_back(sheet.triangles.size());
+    filled.deepest = std::max(filled.deepest, notch.depth);
+    filled.saved += notch.saved;
+  }
+  filled.area = surface_area(sheet.x, sheet.triangles) - area;
+  return filled;
+}
+
+bool keep_crossing(const FilledNotches &notches, const std::vector<Edge> &crossings,
+                   std::vector<uint8_t> &kept) {
+  std::vector<uint8_t> chosen(notches.last.size(), 0);
+  for (const Edge &pair : crossings) {
+    for (const uint32_t t : pair) {
+      if (t < notches.sheet_triangles) continue;
+      const auto above = std::upper_bound(notches.last.begin(), notches.last.end(), t);
+      chosen[static_cast<size_t>(above - notches.last.begin())] = 1;
+    }
+  }
+  bool any = false;
+  const bool all = std::find(chosen.begin(), chosen.end(), 1) == chosen.end();
+  for (size_t n = 0; n < chosen.size(); ++n) {
+    if (chosen[n] == 0 && !all) continue;
+    for (const uint32_t i : notches.inner[n]) {
+      if (i >= kept.size()) continue;  // made by a filling
+      any = any || kept[i] == 0;
+      kept[i] = 1;
+    }
+  }
+  return any;
+}
+
+void report_notches(const FilledNotches &notches, Findings &findings) {
+  if (notches.last.empty()) return;
+  findings.push_back(
+      {"free_edge",
+       FindingSource::guessed,
+       0.6,
+       format("%zu notches of the free edge, up to %.1f mm deep and at most %.0f mm wide, were "
+              "filled with %.1f mm2 of tissue; the edge is %.1f mm shorter for it. Deeper clefts "
+              "are kept: if a notch is a cleft, extend it in the surface",
+              notches.last.size(), notches.deepest * 1e3, widest_notch * 1e3, notches.area * 1e6,
+              notches.saved * 1e3),
+       {notches.deepest, notches.saved},
+       "m"});
+}
+
+}  // namespace mvs::core
