@@ -123,13 +123,13 @@ void must_be_polydata(const XmlElement &root) {
            quoted(root.attribute("type")).c_str());
   const std::string_view compressor = root.attribute("compressor");
   if (compressor.empty()) return;
-  MVS_MUST(compressor == "vtkZLibDataCompressor" && has_zlib(), MVS_E_UNSUPPORTED, "compressor",
-           "the file is compressed by %s, %s: save it without compression (3D Slicer: the box "
-           "Compress off in Save; ParaView: Compressor Type None; PyVista: compression=None), or as "
-           ".vtk or .stl",
-           quoted(compressor).c_str(),
-           has_zlib() ? "only zlib is read"
-                      : "and this libmvs was built without zlib (-DMVS_ZLIB=ON)");
+  MVS_MUST(
+      compressor == "vtkZLibDataCompressor" && has_zlib(), MVS_E_UNSUPPORTED, "compressor",
+      "the file is compressed by %s, %s: save it without compression (3D Slicer: the box "
+      "Compress off in Save; ParaView: Compressor Type None; PyVista: compression=None), or as "
+      ".vtk or .stl",
+      quoted(compressor).c_str(),
+      has_zlib() ? "only zlib is read" : "and this libmvs was built without zlib (-DMVS_ZLIB=ON)");
 }
 
 }  // namespace

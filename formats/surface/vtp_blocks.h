@@ -9,8 +9,8 @@
 
 namespace mvs::core {
 
-// Sizes in bytes, from the header of an array: the number of blocks, the size of a whole block, that
-// of the last one if it is a part, and the stored size of each.
+// Sizes in bytes, from the header of an array: the number of blocks, the size of a whole block,
+// that of the last one if it is a part, and the stored size of each.
 struct VtpBlocks {
   uint64_t whole = 0, last = 0;
   std::vector<uint64_t> stored;

@@ -105,7 +105,8 @@ VtpBlocks VtpData::blocks_at(std::string_view header, const XmlElement &array) c
     // sizes of whole blocks are checked against the stored ones when they are inflated
     const double size = number_at(header.data() + word * header_size_, type, is_big_endian_);
     constexpr double exact = 9e15;  // below 2^53
-    if (size > exact) fail_at(array, "the array %s states %g bytes", quoted_name(array).c_str(), size);
+    if (size > exact)
+      fail_at(array, "the array %s states %g bytes", quoted_name(array).c_str(), size);
     return static_cast<uint64_t>(size);
   };
   VtpBlocks blocks{size_at(1), size_at(2), {}};

@@ -9,6 +9,7 @@
 #include "measure/annulus/landmarks.h"
 #include "model/sides.h"
 #include "patient/findings.h"
+#include "patient/leaflet_odds.h"
 
 namespace mvs::core {
 namespace {
@@ -63,11 +64,6 @@ std::vector<double> without_notches(const std::vector<double> &values, size_t ha
   return least;
 }
 
-double at_foot(const std::vector<double> &profile, double foot, double length) {
-  const double place = wrapped(foot, length) / length * static_cast<double>(profile.size());
-  return profile[std::min(profile.size() - 1, static_cast<size_t>(place))];
-}
-
 std::array<double, 2> feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
                               const std::vector<Vec3> &points) {
   std::array<double, 2> feet{};
@@ -87,19 +83,6 @@ std::array<double, 2> feet_of(const LeafletSheet &sheet, const SheetCoordinates 
   return feet;
 }
 
-// The pair of samples with the lowest leaflets, far enough apart.
-std::array<size_t, 2> lowest_pair(const std::vector<double> &profile) {
-  const size_t n = profile.size();
-  const size_t gap = static_cast<size_t>(least_guessed_share * static_cast<double>(n));
-  std::array<size_t, 2> best = {0, n / 2};
-  for (size_t i = 0; i < n; ++i) {
-    for (size_t j = i + gap; j < n && j - i <= n - gap; ++j) {
-      if (profile[i] + profile[j] < profile[best[0]] + profile[best[1]]) best = {i, j};
-    }
-  }
-  return best;
-}
-
 // The lowest sample within 4 mm.
 size_t lowest_near(const std::vector<double> &profile, size_t at) {
   constexpr size_t reach = 4;
@@ -112,25 +95,32 @@ size_t lowest_near(const std::vector<double> &profile, size_t at) {
   return best;
 }
 
-std::array<double, 2> guessed_commissures(const std::vector<double> &heights, double length,
+// Clefts and tears are narrower than 6 mm, leaflets are low over 10 mm and more at a commissure.
+AnnulusSamples annulus_samples(const LeafletSheet &sheet, const SheetRims &rims,
+                               const std::vector<double> &heights, const std::vector<Vec3> &tips) {
+  const Loop loop(rims.annulus, sheet.x);
+  AnnulusSamples annulus;
+  annulus.tips = tips;
+  annulus.height = smoothed(without_notches(heights, 3), 2);
+  for (size_t k = 0; k < samples; ++k) {
+    annulus.points.push_back(loop.at((static_cast<double>(k) + 0.5) / samples * loop.length()));
+  }
+  return annulus;
+}
+
+std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
+                                          const std::vector<double> &heights, double length,
                                           Findings &findings) {
-  // leaflets are low over 10 mm and more at a commissure; clefts and tears are narrower than 6 mm.
-  // Without them the pair is found, with them its places.
-  const std::vector<double> profile = smoothed(without_notches(heights, 3), 2);
-  const std::array<size_t, 2> pair = lowest_pair(profile);
+  const ArcGuess guess = ArcOdds(annulus).best(least_guessed_share);
   const std::vector<double> exact = smoothed(heights, 2);
-  const size_t i = lowest_near(exact, pair[0]), j = lowest_near(exact, pair[1]);
-  const double low = 0.5 * (profile[i] + profile[j]);
-  std::vector<double> sorted = profile;
-  std::sort(sorted.begin(), sorted.end());
-  const double middle = sorted[sorted.size() / 2];
-  // normal leaflets have 8 mm at the commissures and 12 mm or more in between
-  const double confidence = std::clamp(2 * (middle - low) / middle, 0.0, 0.9);
-  add(findings, "commissures", FindingSource::guessed, confidence,
-      format("the leaflets are lowest there, %.1f mm where half of them have more than %.1f mm; "
-             "give both commissures if this is wrong",
-             low * 1e3, middle * 1e3));
-  const double width = length / static_cast<double>(profile.size());
+  const size_t i = lowest_near(exact, guess.from), j = lowest_near(exact, guess.to % samples);
+  add(findings, "commissures", FindingSource::guessed, std::min(0.9, guess.confidence),
+      format(
+          "where heights of the leaflets, shape of the annulus%s are most like those of a normal "
+          "valve; the leaflets are %.1f and %.1f mm high there. Give both commissures first: "
+          "scallops, chordae and the closed shape follow from them",
+          annulus.tips.empty() ? "" : " and papillary tips", exact[i] * 1e3, exact[j] * 1e3));
+  const double width = length / samples;
   return {(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width};
 }
 
@@ -192,16 +182,6 @@ std::array<double, 2> commissures_of_labels(const LabelledArea &area, double len
   return {static_cast<double>(first) * width, static_cast<double>(last) * width};
 }
 
-// The greatest height of a leaflet over the length of its attachment.
-double slenderness(const std::vector<double> &profile, double from, double to, double length) {
-  double tallest = 0;
-  for (size_t k = 0; k <= samples; ++k) {
-    const double s = from + (to - from) * static_cast<double>(k) / samples;
-    tallest = std::max(tallest, at_foot(profile, s, length));
-  }
-  return tallest / (to - from);
-}
-
 bool contains(double from, double to, double foot, double length) {
   return wrapped(foot - from, length) < to - from;
 }
@@ -209,7 +189,7 @@ bool contains(double from, double to, double foot, double length) {
 // Whether the leaflet along an arc is the anterior one.
 bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
                  const LeafletLandmarks &landmarks, const LabelledArea &area,
-                 const std::vector<double> &profile, const LeafletArcs &arcs, Findings &findings) {
+                 const AnnulusSamples &annulus, const LeafletArcs &arcs, Findings &findings) {
   const double length = c.annulus_length;
   const auto [from, to] = arcs;
   if (!landmarks.anterior.empty()) {
@@ -230,15 +210,19 @@ bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
     add(findings, "anterior", FindingSource::measured, 1, "the leaflet that is labelled so");
     return labelled > 0;
   }
-  const double first = slenderness(profile, from, to, length);
-  const double second = slenderness(profile, to, from + length, length);
-  // normal: 23 mm over 40 mm against 13 mm over 65 mm, a factor of 2.9
-  const double ratio = std::max(first, second) / std::min(first, second);
-  add(findings, "anterior", FindingSource::guessed, std::clamp(0.5 * (ratio - 1), 0.0, 0.95),
-      format("the leaflet that is higher over its attachment, by a factor of %.1f; give a point of "
-             "the anterior leaflet if this is wrong",
-             ratio));
-  return first > second;
+  const auto sample = [&](double foot) {
+    return static_cast<size_t>(wrapped(foot, length) / length * samples) % samples;
+  };
+  size_t first = sample(from), last = sample(to);
+  if (last <= first) last += samples;
+  const double odds = ArcOdds(annulus).is_anterior(first, last);
+  add(findings, "anterior", FindingSource::guessed, std::min(0.95, std::abs(2 * odds - 1)),
+      format("the leaflet that is more like a normal anterior one by its height, the share and the "
+             "flatness of its annulus%s: %.0f %% likely; give a point of the anterior leaflet if "
+             "this is wrong",
+             annulus.tips.empty() ? "" : " and the papillary tips",
+             100 * std::max(odds, 1 - odds)));
+  return odds >= 0.5;
 }
 
 // The point of the annulus at an arc length.
@@ -253,7 +237,7 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
                           Findings &findings) {
   const double length = coordinates.annulus_length;
   const std::vector<double> heights = height_profile(rims, coordinates, samples);
-  const std::vector<double> profile = smoothed(heights, 2);
+  const AnnulusSamples annulus = annulus_samples(sheet, rims, heights, landmarks.tips);
   const LabelledArea area = labelled_area(sheet, coordinates);
   const size_t at = findings.size();
   std::vector<Vec3> commissures = landmarks.commissures;
@@ -262,15 +246,16 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
              "%zu commissures are given: a mitral valve has two", commissures.size());
     add(findings, "commissures", FindingSource::given, 1, "the given points");
   } else {
-    const std::array<double, 2> feet = area.anterior + area.posterior > 0
-                                           ? commissures_of_labels(area, length, findings)
-                                           : guessed_commissures(heights, length, findings);
+    const std::array<double, 2> feet =
+        area.anterior + area.posterior > 0
+            ? commissures_of_labels(area, length, findings)
+            : guessed_commissures(annulus, heights, length, findings);
     for (const double s : feet) commissures.push_back(annulus_point(sheet, rims, s));
   }
   // found points take the same way as given ones, so that giving them changes no bit
   const auto feet = feet_of(sheet, coordinates, commissures);
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
-  if (!is_anterior(sheet, coordinates, landmarks, area, profile, arcs, findings)) {
+  if (!is_anterior(sheet, coordinates, landmarks, area, annulus, arcs, findings)) {
     arcs = {feet[1], feet[1] + wrapped(feet[0] - feet[1], length)};
     std::swap(commissures[0], commissures[1]);
   }

@@ -18,11 +18,12 @@ struct LeafletArcs {
 struct LeafletLandmarks {
   std::vector<Vec3> commissures;  // two
   std::vector<Vec3> anterior;     // one
+  std::vector<Vec3> tips;         // of the papillary muscles: they help to guess the others
 };
 
-// From given commissures, else from labels (the arc that agrees best with them), else the two feet
-// where the leaflets are lowest. Throws if a landmark is far from the sheet or labels lack a
-// leaflet.
+// From given commissures, else from labels (the arc that agrees best with them), else the arc that
+// is most like that of a normal anterior leaflet (leaflet_odds.h). Throws if a landmark is far from
+// the sheet or labels lack a leaflet.
 LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
                           const SheetCoordinates &coordinates, const LeafletLandmarks &landmarks,
                           Findings &findings);

@@ -52,7 +52,8 @@ Case parametric(const char *name, uint32_t vertices) {
   Case made{name, {}};
   made.surface.triangles = valve.triangles;
   uint32_t nodes = 0;
-  for (const Tri &t : valve.triangles.get()) nodes = std::max({nodes, t[0] + 1, t[1] + 1, t[2] + 1});
+  for (const Tri &t : valve.triangles.get())
+    nodes = std::max({nodes, t[0] + 1, t[1] + 1, t[2] + 1});
   made.surface.points.assign(valve.rest.begin(), valve.rest.begin() + nodes);
   for (const Head &head : valve.heads) made.surface.tips.push_back(valve.rest[head.node]);
   return made;
@@ -79,7 +80,8 @@ void add_closed(const BuildSettings &settings, Case &of) {
   Valve valve = built.model->valve;
   const std::vector<ChordGroup> groups = chord_groups(*built.model, ChordGrouping::kinds);
   std::vector<double> factor;
-  for (size_t k = 0; k < groups.size(); ++k) factor.push_back(k % 3 == 0 ? 0.93 : k % 3 == 1 ? 1.06 : 1);
+  for (size_t k = 0; k < groups.size(); ++k)
+    factor.push_back(k % 3 == 0 ? 0.93 : k % 3 == 1 ? 1.06 : 1);
   scale_groups(valve, groups, factor);
   Solver solver(Backend::fastest);
   const ClosedValve closed = close_open(solver, make_model(std::move(valve)), systolic_pressure);
@@ -88,7 +90,8 @@ void add_closed(const BuildSettings &settings, Case &of) {
 }
 
 // CPU seconds of each stage of one build; the whole is their sum.
-std::map<std::string, double> time_stages(const Case &of, BuildSettings settings, BuiltValve &built) {
+std::map<std::string, double> time_stages(const Case &of, BuildSettings settings,
+                                          BuiltValve &built) {
   std::map<std::string, double> spent;
   std::string stage;
   double since = bench::cpu_now();

@@ -119,8 +119,8 @@ TEST_CASE("landmarks_that_were_found_give_the_same_leaflets_when_they_are_given"
   const auto point = [](const std::vector<double> &v, size_t k) {
     return Vec3(v[3 * k], v[3 * k + 1], v[3 * k + 2]);
   };
-  const LeafletLandmarks landmarks = {{point(first[0].value, 0), point(first[0].value, 1)},
-                                      {point(first[1].value, 0)}};
+  const LeafletLandmarks landmarks = {
+      {point(first[0].value, 0), point(first[0].value, 1)}, {point(first[1].value, 0)}, {}};
   const LeafletArcs given = find_leaflets(p.sheet, p.rims, c, landmarks, second);
   CHECK(given.from == found.from);
   CHECK(given.to == found.to);
@@ -158,7 +158,7 @@ TEST_CASE("leaflets_that_cannot_be_told_apart_are_refused") {
                        doctest::Contains("one leaflet only"), Error);
   p.sheet.label.assign(p.sheet.triangles.size(), LeafletLabel::unknown);
   // LPS for RAS: x and y negated about an origin that is not the valve
-  LeafletLandmarks far = {{Vec3(-0.12, 0.1, 0), Vec3(0.1, 0.1, 0)}, {}};
+  LeafletLandmarks far = {{Vec3(-0.12, 0.1, 0), Vec3(0.1, 0.1, 0)}, {}, {}};
   CHECK_THROWS_WITH_AS(find_leaflets(p.sheet, p.rims, c, far, findings),
                        doctest::Contains("LPS or RAS"), Error);
   far.commissures = {Vec3(17e-3, 4e-3, 0), Vec3(17e-3, 2e-3, 0)};

@@ -109,7 +109,6 @@ TEST_CASE("lengths_that_were_changed_are_found_from_the_closed_surface") {
   Valve fitted = valve;
   FitSettings settings;
   settings.grouping = ChordGrouping::kinds;
-  settings.rounds = 3;
   settings.one_by_one = false;
   settings.starts = 1;
   Findings findings;
@@ -119,8 +118,9 @@ TEST_CASE("lengths_that_were_changed_are_found_from_the_closed_surface") {
   CHECK(fit.rms < 0.3 * mm);
   for (size_t k = 0; k < groups.size(); ++k) {
     CAPTURE(groups[k].name);
-    // 0.03: 0.4 mm of a chord of 15 mm; neighbouring rows share so much of their pull
-    CHECK(std::abs(fit.factor[k] - known[k]) < 0.03);
+    // 0.03: 0.4 mm of a chord of 15 mm; neighbouring rows share so much of their pull. Chordae that
+    // are nearly slack are open by more, which the deviation says
+    CHECK(std::abs(fit.factor[k] - known[k]) < std::max(0.03, 2 * fit.deviation[k]));
   }
   REQUIRE(findings.size() == 4);
   CHECK(findings[0].value[0] == fit.rms);
@@ -177,13 +177,17 @@ TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
   // chordae that are a quarter too short hold the leaflets apart
   for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
   Findings findings;
-  const LeakInterval interval = leak_interval(make_model(valve), findings);
+  const LeakInterval interval = leak_interval(make_model(valve), {}, {}, findings);
   const ClosedPatient closed = close_patient(valve);
   CHECK(interval.leak[1] == measure_orifice(*closed.model, closed.state.x).area);
   const auto [least, most] = std::minmax_element(interval.leak.begin(), interval.leak.end());
   CHECK(*most > *least + 1e-6);
-  REQUIRE(findings.size() == 1);
+  REQUIRE(findings.size() == 2);
   CHECK(findings[0].name == "leak");
+  CHECK(findings[1].name == "leak_interval");
+  CHECK(interval.draws > 0);
+  CHECK(interval.least <= *least);
+  CHECK(interval.most > *most);
   CHECK(findings[0].value == std::vector<double>(interval.leak.begin(), interval.leak.end()));
   CHECK(findings[0].unit == "m2");
   CHECK(findings[0].confidence < 0.8);  // that of a leak which does not depend on the lengths

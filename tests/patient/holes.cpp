@@ -1,5 +1,8 @@
 // Holes, missing rims and handles of sheets.
+#include "patient/findings.h"
+#include "patient/surface/cut_handles.h"
 #include "patient/surface/rims.h"
+#include "patient/surface/shortest_loops.h"
 
 #include <doctest/doctest.h>
 
@@ -149,9 +152,10 @@ TEST_CASE("find_rims_refuses_surfaces_without_two_rims") {
   CHECK_THROWS_WITH_AS(rims_of(closed, {}, findings), doctest::Contains("give it as skin"), Error);
 }
 
-TEST_CASE("find_rims_counts_handles") {
-  // a tube joins two windows on opposite sides
+// A funnel, `size` times as large, with a tube that joins two windows on opposite sides.
+LeafletSheet with_tube(double size) {
   Surface s = without_stars(funnel(48, 12), {48 * 6, 48 * 6 + 24});
+  for (Vec3 &p : s.x) p *= size;
   LeafletSheet sheet = cleaned(s);
   std::vector<std::vector<uint32_t>> windows;
   for (const std::vector<uint32_t> &loop : boundary_loops(sheet)) {
@@ -165,7 +169,25 @@ TEST_CASE("find_rims_counts_handles") {
     sheet.triangles.push_back({a[m], a[k], b[k]});
     sheet.triangles.push_back({a[m], b[k], b[m]});
   }
+  sheet.label.assign(sheet.triangles.size(), LeafletLabel::unknown);
+  return sheet;
+}
+
+TEST_CASE("a_narrow_tube_is_cut_and_a_wide_one_is_refused") {
   Findings findings;
-  CHECK_THROWS_WITH_AS(rims_of({sheet.x, sheet.triangles}, {}, findings),
-                       doctest::Contains("1 handles"), Error);
+  LeafletSheet narrow = with_tube(1), wide = with_tube(3);
+  CHECK(handle_count(narrow, 2) == 1);
+  const std::vector<SurfaceLoop> loops = shortest_loops(narrow, longest_handle);
+  REQUIRE(!loops.empty());
+  // around the tube: the six sides of a window
+  CHECK(loops[0].vertices.size() == 6);
+  const SheetRims rims = find_rims(narrow, {}, findings);
+  REQUIRE(find_finding(findings, "cut_handles") != nullptr);
+  CHECK(find_finding(findings, "cut_handles")->value[0] == loops[0].length);
+  CHECK(handle_count(narrow, 2) == 0);
+  CHECK(rims.annulus.size() == 48);
+  CHECK(rims.free_edge.size() == 48);
+  CHECK(shortest_loops(narrow, longest_handle).empty());
+  CHECK_THROWS_WITH_AS(find_rims(wide, {}, findings), doctest::Contains("1 handles more than 12"),
+                       Error);
 }

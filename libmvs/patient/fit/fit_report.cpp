@@ -51,9 +51,9 @@ void report_fit(const ChordFit &fit, const FitSettings &s, Findings &findings) {
        fit.factor, ""});
   if (fit.chord_factor.empty()) return;
   const double prior = std::sqrt(s.prior * s.prior + s.single_prior * s.single_prior);
-  const auto known = std::count_if(
-      fit.chord_deviation.begin(), fit.chord_deviation.end(),
-      [&](double deviation) { return deviation < undetermined_share * prior; });
+  const auto known =
+      std::count_if(fit.chord_deviation.begin(), fit.chord_deviation.end(),
+                    [&](double deviation) { return deviation < undetermined_share * prior; });
   std::vector<double> rows;
   for (size_t c = 0; c < fit.chord_factor.size(); ++c) {
     rows.push_back(fit.chord_factor[c]);
@@ -67,7 +67,9 @@ void report_fit(const ChordFit &fit, const FitSettings &s, Findings &findings) {
        std::move(rows), ""});
   const auto [least, most] = std::minmax_element(fit.leaks.begin(), fit.leaks.end());
   findings.push_back(
-      {"fit_spread", FindingSource::measured, fit.leaks.size() > 1 ? confidence : 0.5 * confidence,
+      {"fit_spread",
+       FindingSource::measured,
+       fit.leaks.size() > 1 ? confidence : 0.5 * confidence,
        format("%zu of %u fits from different lengths are as good; their closed valves are up to "
               "%.2f mm (RMS) apart and leak through %.1f to %.1f mm2",
               fit.leaks.size(), s.starts, fit.spread * 1e3, *least * 1e6, *most * 1e6),

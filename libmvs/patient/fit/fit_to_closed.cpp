@@ -66,8 +66,9 @@ FitParameters singles_of(const FitParameters &groups, const std::vector<double> 
   return singles;
 }
 
-// Searches from a closed trial. A search follows one fold; the valve is closed from open afterwards,
-// and if that is another fold, which is farther from the surface, the search goes on from there.
+// Searches from a closed trial. A search follows one fold; the valve is closed from open
+// afterwards, and if that is another fold, which is farther from the surface, the search goes on
+// from there.
 Found search(const FitSearch &fit, const FitParameters &groups, const FitSettings &s,
              FitTrial start) {
   Found best;
@@ -211,7 +212,8 @@ ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettin
   collect(found, best, groups, s, valve.chords.size(), done);
   done.rms = found[best].rms;
   done.at_rest = found[best].trial.closed.stats.converged;
-  for (size_t c = 0; c < valve.chords.size(); ++c) valve.chords[c].rest_length *= done.chord_factor[c];
+  for (size_t c = 0; c < valve.chords.size(); ++c)
+    valve.chords[c].rest_length *= done.chord_factor[c];
   report_fit(done, s, findings);
   return done;
 }

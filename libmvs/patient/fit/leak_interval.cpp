@@ -1,11 +1,14 @@
-// Three closures and their orifices.
+// Closures from open and their orifices.
 #include "patient/fit/leak_interval.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "measure/orifice/orifice.h"
+#include "patient/chordae/chord_groups.h"
 #include "patient/fit/closure.h"
+#include "patient/normal_numbers.h"
 
 namespace mvs::core {
 namespace {
@@ -13,43 +16,115 @@ namespace {
 // Confidence of a leak that does not depend on the lengths, and the difference at which none is
 // left: grades of regurgitation are 10 to 20 mm2 apart (0.2, 0.3, 0.4 cm2).
 constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
+// m2: a valve with less is sealed: meshes of one valve differ by as much.
+constexpr double sealed = 0.5e-6;
+constexpr uint32_t most_draws = 6;
+constexpr double widening = 0.25;  // of the range, on both sides
+constexpr uint64_t seed = 22;
+const double half_range = std::sqrt(3.0);  // of a uniform deviate, in standard deviations
 
-}  // namespace
-
-LeakInterval leak_interval(const ModelPtr &model, Findings &findings) {
-  LeakInterval interval;
-  bool at_rest = true;
-  const auto record = [&](size_t k, const ClosedValve &closed) {
-    interval.leak[k] = measure_orifice(*closed.model, closed.state.x).area;
-    interval.at_rest[k] = closed.stats.converged;
-    interval.iterations[k] = closed.stats.iterations;
-    at_rest = at_rest && closed.stats.converged;
-  };
-  // a solver of its own: the middle leak is the one that the built valve shows
+struct Closed {
+  double leak;
+  bool at_rest;
+  uint32_t iterations;
+};
+Closed close_with(const Valve &valve, const std::vector<double> &factor) {
+  Valve changed = valve;
+  for (size_t c = 0; c < factor.size(); ++c) changed.chords[c].rest_length *= factor[c];
   Solver solver(Backend::fastest);
-  const ClosedValve middle = close_open(solver, model, systolic_pressure);
-  record(1, middle);
-  for (const size_t k : {size_t{0}, size_t{2}}) {
-    Valve changed = model->valve;
-    for (Chord &chord : changed.chords) chord.rest_length *= interval.factor[k];
-    // from the closed valve: a third of the time, and the same folds
-    record(k, close_again(solver, middle, changed));
+  const ClosedValve closed = close_open(solver, make_model(std::move(changed)), systolic_pressure);
+  return {measure_orifice(*closed.model, closed.state.x).area, closed.stats.converged,
+          closed.stats.iterations};
+}
+
+std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const LengthRange &range,
+                                  size_t chords, NormalNumbers &random) {
+  const auto deviate = [&](double half) { return half * (2 * random.uniform() - 1); };
+  std::vector<double> factor(chords, 1);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const double shared = 1 + deviate(g < range.group.size() ? range.group[g] : range.all);
+    for (const uint32_t c : groups[g].chords) factor[c] = shared * (1 + deviate(range.single));
   }
-  const auto [least, most] = std::minmax_element(interval.leak.begin(), interval.leak.end());
-  const double unsure = std::min(1.0, (*most - *least) / unknown_leak);
+  return factor;
+}
+
+void report(const LeakInterval &interval, bool at_rest, Findings &findings) {
+  const double unsure = std::min(1.0, (interval.most - interval.least) / unknown_leak);
   const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
+  const auto &[f0, f1, f2] = interval.factor;
   findings.push_back(
       {"leak",
        FindingSource::measured,
        confidence,
-       format(
-           "regurgitant orifice at 120 mmHg with chordae of 90, 100 and 110 %% of their lengths: "
-           "%.1f, %.1f and %.1f mm2%s; lengths of chordae are not seen in images, so one of "
-           "these numbers alone says little",
-           interval.leak[0] * 1e6, interval.leak[1] * 1e6, interval.leak[2] * 1e6,
-           at_rest ? "" : ", not all of them at rest"),
+       format("regurgitant orifice at 120 mmHg with chordae of %.0f, %.0f and %.0f %% of their "
+              "lengths: %.1f, %.1f and %.1f mm2%s; lengths of chordae are not seen in images, so "
+              "one of these numbers alone says little",
+              100 * f0, 100 * f1, 100 * f2, interval.leak[0] * 1e6, interval.leak[1] * 1e6,
+              interval.leak[2] * 1e6, at_rest ? "" : ", not all of them at rest"),
        {interval.leak.begin(), interval.leak.end()},
        "m2"});
+  findings.push_back(
+      {"leak_interval",
+       FindingSource::measured,
+       confidence,
+       format(
+           "%.1f to %.1f mm2 for lengths of chordae within that range%s", interval.least * 1e6,
+           interval.most * 1e6,
+           interval.draws == 0
+               ? ": sealed with all three"
+               : format(", from %u closures with random lengths as well", interval.draws).c_str()),
+       {interval.least, interval.most},
+       "m2"});
+}
+
+}  // namespace
+
+LengthRange range_after(const ChordFit &fit) {
+  LengthRange range;
+  double sum = 0;
+  for (const double deviation : fit.deviation) {
+    range.group.push_back(std::min(range.all, half_range * deviation));
+    sum += range.group.back() * range.group.back() / static_cast<double>(fit.deviation.size());
+  }
+  range.all = std::sqrt(sum);
+  return range;
+}
+
+LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range,
+                           const std::vector<double> &known, Findings &findings,
+                           const std::function<void(uint32_t, uint32_t)> &tell) {
+  const size_t chords = model->valve.chords.size();
+  LeakInterval interval;
+  interval.factor = {1 - range.all, 1, 1 + range.all};
+  bool at_rest = true;
+  std::vector<double> leaks = known;
+  uint32_t number = 0;
+  const auto close = [&](const std::vector<double> &factor) {
+    if (tell) tell(number, 3 + most_draws);
+    ++number;
+    const Closed closed = close_with(model->valve, factor);
+    if (closed.at_rest) leaks.push_back(closed.leak);
+    at_rest = at_rest && closed.at_rest;
+    return closed;
+  };
+  for (size_t k = 0; k < 3; ++k) {
+    const Closed closed = close(std::vector<double>(chords, interval.factor[k]));
+    interval.leak[k] = closed.leak;
+    interval.at_rest[k] = closed.at_rest;
+    interval.iterations[k] = closed.iterations;
+  }
+  const bool is_sealed = at_rest && *std::max_element(leaks.begin(), leaks.end()) < sealed;
+  NormalNumbers random(seed);
+  const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
+  for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {
+    close(drawn_factors(groups, range, chords, random));
+  }
+  if (leaks.empty()) leaks.assign(interval.leak.begin(), interval.leak.end());
+  const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
+  const double more = is_sealed ? 0 : widening * (*most - *least);
+  interval.least = std::max(0.0, *least - more);
+  interval.most = *most + more;
+  report(interval, at_rest, findings);
   return interval;
 }
 

@@ -117,15 +117,13 @@ size_t cut_handles(LeafletSheet &surface, size_t kept, Findings &findings) {
   }
   if (lengths.empty()) return handles;
   const double longest = *std::max_element(lengths.begin(), lengths.end());
-  findings.push_back({"cut_handles",
-                      FindingSource::guessed,
-                      0.6,
-                      format("%zu handles (tunnels through the tissue, or bridges of tissue), the "
-                             "largest %.1f mm around, were cut and closed at %s mm; if leaflets are "
-                             "joined wrongly there, separate them in the surface",
-                             lengths.size(), longest * 1e3, places.c_str()),
-                      lengths,
-                      "m"});
+  findings.push_back(
+      {"cut_handles", FindingSource::guessed, 0.6,
+       format("%zu handles (tunnels through the tissue, or bridges of tissue), the "
+              "largest %.1f mm around, were cut and closed at %s mm; if leaflets are "
+              "joined wrongly there, separate them in the surface",
+              lengths.size(), longest * 1e3, places.c_str()),
+       lengths, "m"});
   return handles;
 }
 

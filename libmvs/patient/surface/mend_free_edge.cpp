@@ -62,7 +62,8 @@ class FreeEdge {
     std::sort(edges_.begin(), edges_.end());
     normal_.resize(sheet_.x.size(), Vec3::Zero());
     std::vector<uint32_t> kept;
-    for (size_t k = notch.count - 1; k <= loop_.size(); ++k) kept.push_back(vertex(notch.first + k));
+    for (size_t k = notch.count - 1; k <= loop_.size(); ++k)
+      kept.push_back(vertex(notch.first + k));
     loop_ = std::move(kept);
     return {ring.begin() + 1, ring.end() - 1};
   }

@@ -67,10 +67,11 @@ void make_ring(LeafletSheet &skin, Findings &findings) {
   MVS_MUST(handles != 0, MVS_E_OP, "triangles",
            "the skin is that of a ball without an orifice: are the leaflets closed and joined, or "
            "is this one leaflet only? Both leaflets have to be joined at the commissures");
-  MVS_MUST(handles == 1, MVS_E_OP, "triangles",
-           "the skin has %zu handles beside the orifice that are more than %.0f mm around: leaflets "
-           "touch and are joined, or have holes; separate them there (smaller handles are cut)",
-           handles - 1, longest_handle * 1e3);
+  MVS_MUST(
+      handles == 1, MVS_E_OP, "triangles",
+      "the skin has %zu handles beside the orifice that are more than %.0f mm around: leaflets "
+      "touch and are joined, or have holes; separate them there (smaller handles are cut)",
+      handles - 1, longest_handle * 1e3);
 }
 
 // Fills numbers that are not known (zero) with the mean of those of the neighbours, from ring to

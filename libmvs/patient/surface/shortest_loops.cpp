@@ -47,8 +47,7 @@ EdgeGraph graph_of(const LeafletSheet &surface) {
   const std::vector<Side> sides = sorted_sides(surface.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
     const Edge &e = sides[first].edge;
-    const uint32_t other =
-        last - first > 1 ? sides[first + 1].triangle : triangles + loop_of[e[0]];
+    const uint32_t other = last - first > 1 ? sides[first + 1].triangle : triangles + loop_of[e[0]];
     const uint32_t index = static_cast<uint32_t>(graph.edges.size());
     graph.edges.push_back(
         {e, {sides[first].triangle, other}, (surface.x[e[1]] - surface.x[e[0]]).norm()});
@@ -131,8 +130,7 @@ SurfaceLoop loop_over(const EdgeGraph &graph, const PathTree &tree, uint32_t edg
   loop.vertices = left;
   loop.vertices.insert(loop.vertices.end(), right.rbegin() + 1, right.rend());
   const double shared = tree.distance[left.back()];
-  loop.length =
-      tree.distance[a] + tree.distance[b] + graph.edges[edge].length - 2 * shared;
+  loop.length = tree.distance[a] + tree.distance[b] + graph.edges[edge].length - 2 * shared;
   return loop;
 }
 
@@ -148,8 +146,7 @@ std::vector<uint32_t> edges_left(const EdgeGraph &graph, const PathTree &tree, d
   for (uint32_t e = 0; e < graph.edges.size(); ++e) {
     if (in_tree[e] != 0) continue;
     const SurfaceEdge &edge = graph.edges[e];
-    const double length =
-        tree.distance[edge.edge[0]] + tree.distance[edge.edge[1]] + edge.length;
+    const double length = tree.distance[edge.edge[0]] + tree.distance[edge.edge[1]] + edge.length;
     if (length <= longest) {
       short_loops.push_back({-length, e});
     } else {
@@ -198,9 +195,8 @@ std::vector<SurfaceLoop> shortest_loops(const LeafletSheet &surface, double long
       found.push_back(loop_over(graph, around, e));
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const SurfaceLoop &a, const SurfaceLoop &b) {
-    return a.length < b.length;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const SurfaceLoop &a, const SurfaceLoop &b) { return a.length < b.length; });
   return found;
 }
 

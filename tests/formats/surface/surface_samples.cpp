@@ -248,20 +248,20 @@ SurfaceSample csv_sample() {
 
 std::vector<SurfaceSample> surface_samples() {
   std::vector<SurfaceSample> samples = {stl_sample(true, "solid but binary"),
-          stl_sample(false, "name"),
-          ply_sample("ascii"),
-          ply_sample("binary_little_endian"),
-          ply_sample("binary_big_endian"),
-          obj_sample(),
-          off_sample(),
-          vtk_sample(false, false),
-          vtk_sample(false, true),
-          vtk_sample(true, false),
-          vtk_sample(true, true),
-          vtp_sample("ascii"),
-          vtp_sample("binary"),
-          vtp_sample("raw"),
-          vtp_sample("base64")};
+                                        stl_sample(false, "name"),
+                                        ply_sample("ascii"),
+                                        ply_sample("binary_little_endian"),
+                                        ply_sample("binary_big_endian"),
+                                        obj_sample(),
+                                        off_sample(),
+                                        vtk_sample(false, false),
+                                        vtk_sample(false, true),
+                                        vtk_sample(true, false),
+                                        vtk_sample(true, true),
+                                        vtp_sample("ascii"),
+                                        vtp_sample("binary"),
+                                        vtp_sample("raw"),
+                                        vtp_sample("base64")};
   if (has_zlib()) {
     for (const char *coding : {"binary", "raw", "base64"}) {
       samples.push_back(vtp_sample(coding, true));

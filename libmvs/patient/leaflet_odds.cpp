@@ -1,0 +1,151 @@
+// Cues as normal deviates. The odds of the two sides of one pair of feet are the fourth root of
+// what independent cues give, as these depend on each other; pairs near each other share their
+// errors.
+#include "patient/leaflet_odds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+
+namespace mvs::core {
+namespace {
+
+struct Cue {
+  double mean, deviation;
+  double off(double value) const { return (value - mean) / deviation; }
+};
+
+// Heights of the leaflets at the commissures over the median one: 8 to 10 mm of 13 to 20.
+constexpr Cue end_height = {0.55, 0.15};
+// Logarithm of the height of the anterior leaflet over that of the posterior one: 22 to 25 mm over
+// 12 to 14 mm; 26 over 15 mm in a valve from CT.
+constexpr Cue height_ratio = {0.55, 0.25};
+// Share of the annulus: 0.35 to 0.45 between trigones and commissures, 0.5 where the commissures
+// are at its widest place.
+constexpr Cue attachment = {0.42, 0.08};
+// Way from the line between the commissures to the middle of the anterior annulus, over that from
+// there to the middle of the posterior annulus: the annulus is D-shaped, flat at the aorta. 0.33 in
+// a valve from CT, 0.38 in one from ultrasound, 0.42 to 0.5 in parametric ones.
+constexpr Cue flatness = {0.4, 0.08};
+// Distance of the commissures over the largest width of the annulus: they end its long axis.
+constexpr Cue end_distance = {0.95, 0.08};
+// Place of the papillary tips from the middle of the annulus towards the A point, over the AP
+// diameter: a little posterior; 0.44 posterior in a valve from CT.
+constexpr Cue tips_forward = {-0.2, 0.2};
+// Sine of the angle between the line of the commissures and that of the papillary muscles.
+constexpr Cue tips_turn = {0, 0.3};
+
+constexpr double dependence = 0.25;
+constexpr size_t near = 4;  // samples of about 1 mm
+
+double squared(double v) {
+  return v * v;
+}
+
+}  // namespace
+
+ArcOdds::ArcOdds(const AnnulusSamples &annulus) : annulus_(annulus) {
+  std::vector<double> sorted = annulus.height;
+  std::sort(sorted.begin(), sorted.end());
+  median_ = sorted[sorted.size() / 2];
+  for (const Vec3 &p : annulus.points) {
+    for (const Vec3 &q : annulus.points) width_ = std::max(width_, (p - q).norm());
+  }
+}
+
+double ArcOdds::tallest(size_t from, size_t to) const {
+  const size_t n = annulus_.height.size();
+  double most = 0;
+  for (size_t k = from; k <= to; ++k) most = std::max(most, annulus_.height[k % n]);
+  return most;
+}
+
+// Deviations of the papillary tips: their place, and the direction in which they lie apart.
+double ArcOdds::forward_of_tips(const Vec3 &ends, const Vec3 &across) const {
+  const std::vector<Vec3> &tips = annulus_.tips;
+  if (tips.empty()) return 0;
+  Vec3 centre = Vec3::Zero(), middle = Vec3::Zero();
+  for (const Vec3 &p : annulus_.points) {
+    centre += p / static_cast<double>(annulus_.points.size());
+  }
+  Vec3 apart = Vec3::Zero();
+  for (const Vec3 &p : tips) {
+    middle += p / static_cast<double>(tips.size());
+    for (const Vec3 &q : tips) {
+      if ((p - q).squaredNorm() > apart.squaredNorm()) apart = p - q;
+    }
+  }
+  const double diameter = across.norm();
+  double sum = squared(tips_forward.off((middle - centre).dot(across) / (diameter * diameter)));
+  if (apart.norm() > 0 && ends.norm() > 0) {
+    const double cosine = apart.dot(ends) / (apart.norm() * ends.norm());
+    sum += squared(tips_turn.off(std::sqrt(std::max(0.0, 1 - cosine * cosine))));
+  }
+  return sum;
+}
+
+double ArcOdds::misfit(size_t from, size_t to) const {
+  const size_t n = annulus_.points.size();
+  const Vec3 &a = annulus_.points[from % n], &b = annulus_.points[to % n];
+  const Vec3 &anterior = annulus_.points[(from + to) / 2 % n];
+  const Vec3 &posterior = annulus_.points[(from + to + n) / 2 % n];
+  const Vec3 across = anterior - posterior, middle = 0.5 * (a + b);
+  const double diameter2 = std::max(across.squaredNorm(), 1e-12);
+  const double share = static_cast<double>(to - from) / static_cast<double>(n);
+  const double low = 0.5 * (annulus_.height[from % n] + annulus_.height[to % n]) / median_;
+  const double ratio = tallest(from, to) / std::max(tallest(to, from + n), 1e-6);
+  double sum = squared(std::max(0.0, end_height.off(low)));
+  sum += squared(height_ratio.off(math::log(ratio)));
+  sum += squared(attachment.off(share));
+  sum += squared(flatness.off((anterior - middle).dot(across) / diameter2));
+  sum += squared(std::min(0.0, end_distance.off((a - b).norm() / width_)));
+  return sum + forward_of_tips(a - b, across);
+}
+
+ArcGuess ArcOdds::best(double least_share) const {
+  const size_t n = annulus_.points.size();
+  const size_t gap = static_cast<size_t>(least_share * static_cast<double>(n));
+  ArcGuess guess;
+  double least = INFINITY;
+  std::vector<double> misfits(n * n, INFINITY);
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = i + gap; j <= i + n - gap; ++j) {
+      const double here = misfits[i * n + j % n] = misfit(i, j);
+      if (here >= least) continue;
+      least = here;
+      guess.from = i;
+      guess.to = j;
+    }
+  }
+  // the posterior of pairs of feet, whatever lies between, and of the side
+  const auto apart = [n](size_t a, size_t b) {
+    const size_t d = a > b ? a - b : b - a;
+    return std::min(d, n - d);
+  };
+  double all = 0, pair = 0;
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = 0; j < n; ++j) {
+      const double m = misfits[i * n + j];
+      if (m == INFINITY) continue;
+      const double weight = math::exp(-0.5 * (m - least));
+      all += weight;
+      const size_t to = guess.to % n;
+      if ((apart(i, guess.from) <= near && apart(j, to) <= near) ||
+          (apart(j, guess.from) <= near && apart(i, to) <= near)) {
+        pair += weight;
+      }
+    }
+  }
+  guess.confidence = pair / all;
+  guess.orientation = is_anterior(guess.from, guess.to);
+  return guess;
+}
+
+double ArcOdds::is_anterior(size_t from, size_t to) const {
+  const size_t n = annulus_.points.size();
+  const double difference = misfit(to % n, from + (to >= n ? 0 : n)) - misfit(from, to);
+  return 1 / (1 + math::exp(-0.5 * dependence * difference));
+}
+
+}  // namespace mvs::core
