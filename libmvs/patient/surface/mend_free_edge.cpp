@@ -27,13 +27,14 @@ struct Notch {
 class FreeEdge {
  public:
   // Vertices that are `kept` stay on the edge.
-  FreeEdge(LeafletSheet &sheet, std::vector<uint32_t> &loop, const std::vector<uint8_t> &kept)
-      : sheet_(sheet), loop_(loop), kept_(kept), normal_(sheet.x.size(), Vec3::Zero()) {
+  FreeEdge(LeafletSheet &sheet, std::vector<uint32_t> &loop, std::vector<uint8_t> kept)
+      : sheet_(sheet), loop_(loop), kept_(std::move(kept)), normal_(sheet.x.size(), Vec3::Zero()) {
     for (const Tri &t : sheet.triangles) {
       const Vec3 n = (sheet.x[t[1]] - sheet.x[t[0]]).cross(sheet.x[t[2]] - sheet.x[t[0]]);
       for (const uint32_t i : t) normal_[i] += n;
     }
     for (const Side &side : sorted_sides(sheet.triangles)) edges_.push_back(side.edge);
+    keep_clefts();
   }
 
   // The notch that shortens the edge most; `count` is 0 if there is none.
@@ -86,7 +87,7 @@ class FreeEdge {
       if (step < 2 || width > widest_notch || way < least_detour * width) continue;
       if (way - width <= best.saved) continue;
       Notch notch{first, step + 1, way - width, width, 0};
-      if (is_inward(notch, normal)) best = notch;
+      if (is_inward(notch, normal) && notch.depth <= deepest_notch) best = notch;
     }
     return best;
   }
@@ -109,14 +110,36 @@ class FreeEdge {
       const double share = length2 > 0 ? std::clamp(off.dot(along) / length2, 0.0, 1.0) : 0;
       notch.depth = std::max(notch.depth, (off - share * along).norm());
     }
-    return notch.depth <= deepest_notch;
+    return true;
+  }
+
+  // Marks the vertices of clefts that are narrow and too deep to be notches: the bottom of one is
+  // no notch either.
+  void keep_clefts() {
+    std::vector<uint8_t> in_cleft(sheet_.x.size(), 0);
+    for (size_t first = 0; first < loop_.size(); ++first) {
+      Vec3 normal = normal_[vertex(first)];
+      for (size_t step = 1; step <= std::min(most_vertices, loop_.size() - 3); ++step) {
+        normal += normal_[vertex(first + step)];
+        Notch cleft{first, step + 1, 0, (at(first + step) - at(first)).norm(), 0};
+        // a cleft is deeper than wide
+        if (step < 2 || cleft.width > widest_notch) continue;
+        if (!is_inward(cleft, normal) || cleft.depth <= std::max(deepest_notch, cleft.width)) {
+          continue;
+        }
+        for (size_t k = 1; k < step; ++k) in_cleft[vertex(first + k)] = 1;
+      }
+    }
+    for (size_t i = 0; i < in_cleft.size(); ++i) {
+      if (in_cleft[i] != 0) kept_[i] = 1;
+    }
   }
 
   LeafletSheet &sheet_;
   std::vector<uint32_t> &loop_;
-  const std::vector<uint8_t> &kept_;
-  std::vector<Vec3> normal_;  // of each vertex, by area
-  std::vector<Edge> edges_;   // of the sheet, sorted
+  std::vector<uint8_t> kept_;  // vertices that stay on the edge
+  std::vector<Vec3> normal_;   // of each vertex, by area
+  std::vector<Edge> edges_;    // of the sheet, sorted
 };
 
 }  // namespace
