@@ -39,9 +39,9 @@ typedef struct mvs_surface_desc {
   mvs_array point_thickness;  /* F64, n, m: of the tissue [of a skin its own, else the option] */
   mvs_array annulus;          /* k x 3, points along the annulus in any order [guessed: the boundary
                                  that is farther from the papillary tips, or longer] */
-  mvs_array commissures;      /* 2 x 3, near the surface [guessed: where the leaflets are lowest] */
-  mvs_array anterior;         /* 1 x 3, a point near the anterior leaflet [guessed: the leaflet with
-                                 the greater height over its share of the annulus] */
+  mvs_array commissures;      /* 2 x 3, near the surface [guessed from heights, annulus and tips] */
+  mvs_array anterior;         /* 1 x 3, a point near the anterior leaflet [guessed: the leaflet that
+                                 is more like a normal anterior one] */
   mvs_array papillary_tips;   /* k x 3, k <= 64 [assumed: two, from normal anatomy] */
   mvs_array closed_points;    /* F64 or F32: the same leaflets closed, in the same frame; chords get
                                  the lengths with which the valve closes to it */

@@ -119,7 +119,8 @@ std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
           "where heights of the leaflets, shape of the annulus%s are most like those of a normal "
           "valve; the leaflets are %.1f and %.1f mm high there. Give both commissures first: "
           "scallops, chordae and the closed shape follow from them",
-          annulus.tips.empty() ? "" : " and papillary tips", exact[i] * 1e3, exact[j] * 1e3));
+          annulus.tips.empty() ? " and shape of the annulus" : ", annulus and papillary tips",
+          exact[i] * 1e3, exact[j] * 1e3));
   const double width = length / samples;
   return {(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width};
 }
@@ -217,10 +218,10 @@ bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
   if (last <= first) last += samples;
   const double odds = ArcOdds(annulus).is_anterior(first, last);
   add(findings, "anterior", FindingSource::guessed, std::min(0.95, std::abs(2 * odds - 1)),
-      format("the leaflet that is more like a normal anterior one by its height, the share and the "
+      format("the leaflet that is more like a normal anterior one by its height and the share and "
              "flatness of its annulus%s: %.0f %% likely; give a point of the anterior leaflet if "
              "this is wrong",
-             annulus.tips.empty() ? "" : " and the papillary tips",
+             annulus.tips.empty() ? "" : ", and by the papillary tips",
              100 * std::max(odds, 1 - odds)));
   return odds >= 0.5;
 }
