@@ -122,7 +122,7 @@ double squared(double v) {
   return v * v;
 }
 
-// Puts the searches that are as good as the best one into the fit, with what they leave open.
+// Puts the searches that are as good as the best one into the fit, with deviations and spread.
 void collect(const std::vector<Found> &found, size_t best, const FitParameters &groups,
              const FitSettings &s, size_t chords, ChordFit &fit) {
   const Found &taken = found[best];

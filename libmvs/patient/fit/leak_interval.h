@@ -23,7 +23,7 @@ struct LengthRange {
   std::vector<double> group;  // of each of the groups of ChordGrouping::halves; empty: `all`
   double single = 0.03;       // of a chord beside its group
 };
-// That which a fit leaves open.
+// The range that a fit leaves open.
 LengthRange range_after(const ChordFit &fit);
 
 struct LeakInterval {

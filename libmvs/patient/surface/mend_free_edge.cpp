@@ -37,7 +37,7 @@ class FreeEdge {
     keep_clefts();
   }
 
-  // The notch that shortens the edge most; `count` is 0 if there is none.
+  // The notch that shortens the edge most; without any, `count` is 0.
   Notch largest() const {
     Notch best;
     for (size_t k = 0; k < loop_.size(); ++k) {
