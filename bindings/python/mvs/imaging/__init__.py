@@ -1,0 +1,1 @@
+"""Volumes, label maps and landmarks of patients."""
