@@ -10,7 +10,7 @@ Needs SimpleITK and SciPy. `python -m mvs.imaging.phantom --help` is the command
 """
 
 from .files import save
-from .make import Phantom, Volume, make
+from .volumes import Phantom, Volume, make
 from .settings import LABEL_ERRORS, PRESETS, LabelErrors, Settings, micro_ct, ultrasound
 
 __all__ = [

@@ -89,7 +89,7 @@ def _arc(p: Points, q: Points, length: float, out: Points) -> Points:
     side /= np.linalg.norm(side)
     half = _half_angle(chord / length)
     radius = length / (2 * half)
-    count = max(4, int(np.ceil(2 * half / 0.15)))
+    count = max(2, int(np.ceil(2 * half / 0.3)))
     angles = np.linspace(-half, half, count + 1)
     x = radius * np.sin(angles) + chord / 2
     y = radius * (np.cos(angles) - np.cos(half))

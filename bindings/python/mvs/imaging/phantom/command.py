@@ -14,7 +14,7 @@ from ..._core import Simulator, Snapshot
 from ...errors import ArgumentError, Error
 from ...kinds import LeafletLaw
 from .files import label_errors_of, save
-from .make import Phantom, Volume, make
+from .volumes import Phantom, Volume, make
 from .settings import LABEL_ERRORS, PRESETS, LabelErrors, Settings
 from .truth import MM, Progress
 
@@ -63,6 +63,7 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
     direct = (
         "spacing", "margin", "noise", "bias", "drop_out", "tilt", "landmark_error", "seed", "pose",
         "pressure", "law", "vertices", "thickness_variation", "chord_shape", "misplaced",
+        "chord_diameter", "head_spread",
     )
     changes = {
         name: getattr(arguments, name) for name in direct if getattr(arguments, name) is not None
@@ -134,6 +135,9 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     truth("--vertices", type=int, metavar="N", help="refine to at least so many [1600]")
     truth("--pressure", type=float, metavar="MMHG", help="that closes it [120]")
     truth("--thickness-variation", type=float, metavar="X", help="relative [0.15]")
+    truth("--chord-diameter", type=float, metavar="X", help="factor on diameters of chordae [0.6]")
+    truth("--head-spread", type=float, metavar="MM",
+          help="radius over which the chordae of a head are spread [2.5]")
     truth("--chord-shape", choices=("arc", "straight"), help="of slack chordae [arc]")
     shape = parser.add_argument_group("parametric valve, as of `mvs generate`").add_argument
     shape("--shape", choices=("healthy", "founding"), help="[healthy]")

@@ -28,21 +28,6 @@ class Sheet:
     def __len__(self) -> int:
         return len(self.triangles)
 
-    def box(self, element: int) -> tuple[Points, Points]:
-        """Bounds of a triangle with its thickness."""
-        corners = self.points[self.triangles[element]]
-        reach = self.half[self.triangles[element]].max()
-        return corners.min(axis=0) - reach, corners.max(axis=0) + reach
-
-    def pieces(self, element: int, _size: float) -> list[tuple[Points, Points]]:
-        """Boxes that cover the solid of a triangle."""
-        return [self.box(element)]
-
-    def distance(self, element: int, at: Points) -> Values:
-        """Signed distance of points (k, 3) to the solid of a triangle."""
-        nodes = self.triangles[element]
-        return _triangle_distance(self.points[nodes], self.half[nodes], at)
-
 
 @dataclasses.dataclass(frozen=True)
 class Cones:
@@ -56,16 +41,13 @@ class Cones:
     def __len__(self) -> int:
         return len(self.start)
 
-    def pieces(self, element: int, size: float) -> list[tuple[Points, Points]]:
-        """Boxes that cover a cone: one for each part of its axis of about its diameter."""
+    def pieces(self, element: int, size: float) -> list[tuple[Points, Points, float]]:
+        """Parts of the axis of about a diameter each: start, end, largest radius of the cone."""
         a, b = self.start[element], self.end[element]
         radius = float(max(self.first[element], self.last[element]))
         count = max(1, int(np.ceil(np.linalg.norm(b - a) / (2 * radius + size))))
         knots = a + np.linspace(0, 1, count + 1)[:, None] * (b - a)
-        return [
-            (np.minimum(p, q) - radius, np.maximum(p, q) + radius)
-            for p, q in zip(knots, knots[1:])
-        ]
+        return [(p, q, radius) for p, q in zip(knots, knots[1:])]
 
     def distance(self, element: int, at: Points) -> Values:
         """Signed distance of points (k, 3) to a cone.
@@ -87,34 +69,53 @@ class Cones:
         return np.sqrt(x * x + (y - s) ** 2) - first + slope * s
 
 
-def _triangle_distance(corners: Points, half: Values, at: Points) -> Values:
-    """Distance of points to a triangle less the half thickness at the nearest point.
+def distance_to_sheet(sheet: Sheet, triangle: NDArray[np.int32], at: Points) -> Values:
+    """Signed distances of points (n, 3) to the solids of one triangle each.
 
     The nearest point is the foot in the plane where it lies inside, else the nearest of those on
-    the three sides.
+    the three sides; the half thickness there is subtracted.
     """
-    a, b, c = corners
-    ab, ac, out = b - a, c - a, at - a
-    normal = np.cross(ab, ac)
-    square = float(normal @ normal)
+    nodes = sheet.triangles[triangle]
+    corner = [sheet.points[nodes[:, k]] for k in range(3)]
+    half = [sheet.half[nodes[:, k]] for k in range(3)]
     best = np.full(len(at), np.inf)
     thick = np.zeros(len(at))
-    for p, q, hp, hq in ((a, b, *half[[0, 1]]), (b, c, *half[[1, 2]]), (c, a, *half[[2, 0]])):
-        side = q - p
-        length2 = max(float(side @ side), 1e-30)
-        rest = at - p
-        share = np.clip(rest @ side / length2, 0, 1)
-        rest = rest - share[:, None] * side
-        d2 = np.einsum("ij,ij->i", rest, rest)
-        nearer = d2 < best
-        best = np.where(nearer, d2, best)
-        thick = np.where(nearer, hp + share * (hq - hp), thick)
-    if square > 1e-30:
-        beta = out @ (np.cross(ac, normal) / square)
-        gamma = out @ (np.cross(normal, ab) / square)
-        inside = (beta >= 0) & (gamma >= 0) & (beta + gamma <= 1)
-        foot2 = (out @ normal) ** 2 / square
-        best = np.where(inside, foot2, best)
-        linear = half[0] + beta * (half[1] - half[0]) + gamma * (half[2] - half[0])
-        thick = np.where(inside, linear, thick)
-    return np.sqrt(best) - thick
+    for p, q in ((0, 1), (1, 2), (2, 0)):
+        side, rest = corner[q] - corner[p], at - corner[p]
+        share = np.clip(_dot(rest, side) / np.maximum(_dot(side, side), 1e-30), 0, 1)
+        rest -= share[:, None] * side
+        square = _dot(rest, rest)
+        nearer = square < best
+        best = np.where(nearer, square, best)
+        thick = np.where(nearer, half[p] + share * (half[q] - half[p]), thick)
+    ab, ac, out = corner[1] - corner[0], corner[2] - corner[0], at - corner[0]
+    normal = np.cross(ab, ac)
+    area2 = np.maximum(_dot(normal, normal), 1e-30)
+    beta, gamma = _dot(np.cross(out, ac), normal) / area2, _dot(np.cross(ab, out), normal) / area2
+    inside = (beta >= 0) & (gamma >= 0) & (beta + gamma <= 1)
+    best = np.where(inside, np.minimum(best, _dot(out, normal) ** 2 / area2), best)
+    linear = half[0] + beta * (half[1] - half[0]) + gamma * (half[2] - half[0])
+    return np.sqrt(best) - np.where(inside, linear, thick)
+
+
+def sheet_samples(sheet: Sheet, gap: float) -> tuple[Points, NDArray[np.int32]]:
+    """Points of the triangles of a sheet at most about `gap` apart, and the triangle of each."""
+    corners = sheet.points[sheet.triangles]
+    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    counts = np.maximum(1, np.ceil(sides / gap)).astype(int)
+    points, owners = [], []
+    for count in np.unique(counts):
+        own = np.flatnonzero(counts == count)
+        u, v = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
+        keep = u + v <= count
+        u, v = u[keep] / count, v[keep] / count
+        weights = np.stack([1 - u - v, u, v], axis=1)
+        points.append(np.einsum("sk,tkd->tsd", weights, corners[own]).reshape(-1, 3))
+        owners.append(np.repeat(own, len(weights)))
+    if not points:
+        return np.zeros((0, 3)), np.zeros(0, dtype=np.int32)
+    return np.concatenate(points), np.concatenate(owners).astype(np.int32)
+
+
+def _dot(a: Points, b: Points) -> Values:
+    return np.einsum("ij,ij->i", a, b)

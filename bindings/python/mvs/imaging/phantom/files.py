@@ -15,7 +15,7 @@ import numpy as np
 
 from ..._core import Snapshot
 from .landmarks import write_landmarks
-from .make import Phantom, Volume
+from .volumes import Phantom, Volume
 from .settings import as_dictionary
 from .truth import MM
 

@@ -80,7 +80,7 @@ def with_errors(
     amplitude, factor = 0.0, 0.0
     moved = "displacement" in errors.kinds
     gross = any(kind in errors.kinds for kind in GROSS)
-    for _ in range(2):
+    for _ in range(2 if moved and gross else 1):
         if gross:
             factor = _bisect(
                 lambda f: at(amplitude, f).statistics[-1].hd95, errors.hd95, LARGEST_FACTOR
@@ -122,10 +122,10 @@ class _Maker:
         self.shift = displacement.at(self.points)
         self.growth = thickening.at(self.points)[:, 0]
         self.spurs = _draw_spurs(places, random)
-        self.holes = _draw_holes(places, random)
-        self.eaten = _draw_eaten(places, random)
+        self.holes = self._balls(_draw_holes(places, random))
+        self.eaten = self._balls(_draw_eaten(places, random))
         self.swaps = [
-            (c, random.uniform(2.5, 4.0), int(random.integers(2))) for c in places.commissures
+            (c, random.uniform(1.5, 2.5), int(random.integers(2))) for c in places.commissures
         ]
 
     def labels(self, amplitude: float, factor: float) -> Labels:
@@ -136,9 +136,9 @@ class _Maker:
             if "spurs" in self.kinds:
                 self._add_spurs(found, factor)
             if "holes" in self.kinds:
-                self._remove_balls(found, [(c, factor * r) for c, r in self.holes])
+                self._remove(found, self.holes, factor)
             if "eaten" in self.kinds:
-                self._remove_balls(found, [(c, factor * r) for c, r in self.eaten])
+                self._remove(found, self.eaten, factor)
             if "swapped" in self.kinds:
                 self._swap(found, factor)
         return found
@@ -168,11 +168,17 @@ class _Maker:
             inside = distance_field(self.grid, cones, 0.0).distance < 0
             labels[inside & (labels == 0)] = which + 1
 
-    def _remove_balls(self, labels: Labels, balls: list[tuple[Points, float]]) -> None:
-        gone = np.zeros(len(self.points), dtype=bool)
+    def _balls(self, balls: list[tuple[Points, float]]) -> Points:
+        """For each voxel the factor on the radii of balls at which the first of them reaches it."""
+        least = np.full(len(self.points), np.inf)
         for centre, radius in balls:
-            gone |= ((self.points - centre) ** 2).sum(axis=1) < radius * radius
-        labels[tuple(self.voxels[gone].T)] = 0
+            if radius > 0:
+                away = np.sqrt(((self.points - centre) ** 2).sum(axis=1))
+                least = np.minimum(least, away / radius)
+        return least
+
+    def _remove(self, labels: Labels, reached: Points, factor: float) -> None:
+        labels[tuple(self.voxels[reached < factor].T)] = 0
 
     def _swap(self, labels: Labels, factor: float) -> None:
         values = labels[tuple(self.voxels.T)]
@@ -192,13 +198,13 @@ def _draw_spurs(places: LeafletPlaces, random: np.random.Generator):
     side = random.choice([-1.0, 1.0], 8)[:, None]
     direction = side * places.normals[chosen] + 0.5 * random.normal(size=(8, 3))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-    return places.inner[chosen], direction, random.uniform(2.5, 6.0, 8), places.leaflet[chosen]
+    return places.inner[chosen], direction, random.uniform(4.0, 8.0, 8), places.leaflet[chosen]
 
 
 def _draw_holes(places: LeafletPlaces, random: np.random.Generator) -> list[tuple[Points, float]]:
     """Four balls on the leaflets, their radii in mm."""
     chosen = random.choice(len(places.inner), 4)
-    return [(places.inner[n], r) for n, r in zip(chosen, random.uniform(0.6, 1.6, 4))]
+    return [(places.inner[n], r) for n, r in zip(chosen, random.uniform(0.5, 1.2, 4))]
 
 
 def _draw_eaten(places: LeafletPlaces, random: np.random.Generator) -> list[tuple[Points, float]]:
@@ -206,7 +212,7 @@ def _draw_eaten(places: LeafletPlaces, random: np.random.Generator) -> list[tupl
     balls = []
     for _ in range(4):
         centre = places.free_edge[random.integers(len(places.free_edge))]
-        half, depth = random.uniform(2.0, 4.5), random.uniform(1.2, 2.6)
+        half, depth = random.uniform(2.0, 4.5), random.uniform(0.8, 1.8)
         away = np.linalg.norm(places.free_edge - centre, axis=1)
         for n in np.flatnonzero(away < half):
             balls.append((places.free_edge[n], depth * float(np.sqrt(1 - (away[n] / half) ** 2))))

@@ -56,6 +56,8 @@ class Settings:
     )
     vertices: Annotated[int, "1", "least number of vertices of the true leaflets"] = 1600
     thickness_variation: Annotated[float, "1", "smooth relative variation of thickness"] = 0.15
+    chord_diameter: Annotated[float, "1", "factor on the diameters of the valve's chordae"] = 0.6
+    head_spread: Annotated[float, "mm", "radius over which the chordae of a head are spread"] = 2.5
     chord_shape: Annotated[str, "1", '"arc": slack chordae are arcs of their rest length; "straight"'] = "arc"
     muscle_radius: Annotated[tuple[float, float], "mm", "of papillary muscles: tip, base"] = (1.5, 4.0)
     muscle_length: Annotated[float, "mm", "of papillary muscles"] = 10.0
@@ -115,6 +117,8 @@ def _check(settings: Settings) -> None:
     if settings.muscle_radius[1] - settings.muscle_radius[0] >= settings.muscle_length:
         _refuse("muscle_length", "muscle_length must exceed the difference of the muscle_radius")
     _within("muscle_length", settings.muscle_length, 1.0, 60.0, "mm")
+    _within("chord_diameter", settings.chord_diameter, 0.1, 5.0, "")
+    _within("head_spread", settings.head_spread, 0.0, 10.0, "mm")
     if settings.chord_shape not in ("arc", "straight"):
         _refuse("chord_shape", f"{settings.chord_shape!r} is not 'arc' or 'straight'")
     if settings.law.upper() not in LeafletLaw.__members__:

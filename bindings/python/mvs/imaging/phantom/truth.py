@@ -18,6 +18,7 @@ from ...arrays import Leaflet, Valve
 from ...editing import valve_of
 from ...errors import OpError
 from ...kinds import MMHG, LeafletLaw, NodeKind
+from .heads import with_spread_heads
 from .settings import Settings
 
 MM = 1e3
@@ -50,13 +51,17 @@ def true_valve(
     given = valve_of(valve) if isinstance(valve, Snapshot) else dataclasses.replace(valve)
     given.nodes_now = None
     pose = pose_of(settings)
-    with Simulator() as sim:
-        sim.set_valve(posed(given, pose))
+    with Simulator(log=lambda _level, _text: None) as sim:  # short edges: contact_thickness() heeds them
+        spread = with_spread_heads(
+            posed(given, pose), settings.head_spread / MM, settings.chord_diameter
+        )
+        sim.set_valve(spread)
         while _leaflet_vertices(sim.snapshot()) < settings.vertices:
             sim.refine()
         fine = valve_of(sim.snapshot())
         fine.leaflets = [_tissue(leaflet, settings) for leaflet in fine.leaflets]
         fine.triangle_thickness = varied_thickness(fine, settings)
+        fine.contact_thickness = contact_thickness(fine)
         fine.nodes_now = None
         sim.set_valve(fine)
         opened = sim.snapshot()
@@ -109,6 +114,16 @@ def varied_thickness(valve: Valve, settings: Settings) -> NDArray[np.float64]:
     phases = random.uniform(0, 2 * np.pi, 3)
     factor = np.sin(centres @ waves.T + phases).sum(axis=1) / 3
     return np.ascontiguousarray(base * (1 + settings.thickness_variation * factor))
+
+
+def contact_thickness(valve: Valve) -> float:
+    """The distance of mid-surfaces at which leaflets touch (m): their mean thickness.
+
+    At most three quarters of the median edge: neighbours in the sheet are no contact.
+    """
+    corners = valve.nodes[valve.triangles]
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    return float(min(np.mean(valve.triangle_thickness), 0.75 * np.median(edges)))
 
 
 def leaflet_nodes(snapshot: Snapshot) -> NDArray[np.bool_]:

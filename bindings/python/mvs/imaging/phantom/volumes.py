@@ -16,7 +16,7 @@ from .images import Shares, micro_ct_image, reflection_of, ultrasound_image
 from .label_errors import FlawedLabels, LeafletPlaces, with_errors
 from .labels import label_names, leaflet_fields, leaflet_labels, with_other_parts
 from .landmarks import LandmarkSet, commissure_nodes, landmarks_of
-from .rasterise import Solid, coverage, distance_field, sub_voxels, thinnest
+from .rasterise import Solid, coverage, distance_field, sub_voxels
 from .settings import Settings
 from .truth import MM, Progress, Truth, leaflet_nodes, true_valve
 
@@ -91,7 +91,7 @@ def _volume(snapshot: Snapshot, settings: Settings, stage: int, progress: Progre
     flaws = None
     if settings.labels.kinds:
         random = np.random.default_rng([settings.seed, 6, stage])
-        places = _places(snapshot)
+        places = places_of(snapshot)
         flaws = with_errors(grid, fields, anatomy.names, places, settings.labels, random)
     placed = _placed(grid, placement)
     labels = with_other_parts(exact if flaws is None else flaws.labels, parts, count)
@@ -110,12 +110,11 @@ def _image_and_parts(grid, anatomy, settings, stage, done):
     """The grey values, and the voxels of chordae, muscles and wall if labels have them."""
     solids: list[tuple[str, Solid]] = [("leaflet", sheet) for sheet in anatomy.leaflets]
     solids += [("muscles", anatomy.muscles), ("chordae", anatomy.chords), ("wall", anatomy.wall)]
-    parts = sub_voxels(settings.spacing, thinnest([solid for _, solid in solids]))
     reach = max(np.sqrt(3) * settings.spacing, 0.3)
     shares, elements, inside = Shares(grid), [], {}
     for n, (name, solid) in enumerate(solids):
         field = distance_field(grid, solid, reach)
-        shares.add(name, coverage(grid, solid, field, parts))
+        shares.add(name, coverage(grid, solid, field, sub_voxels(settings.spacing, solid)))
         if name == "leaflet":
             elements.append(field.element if settings.kind == "ultrasound" else None)
         else:
@@ -163,6 +162,11 @@ def _grid_of(snapshot: Snapshot, anatomy: Anatomy, settings: Settings, placement
     )
 
 
+def grid_of(volume: Volume, settings: Settings) -> Grid:
+    """The grid of a volume in the frame of the truth."""
+    return _grid_of(volume.snapshot, volume.anatomy, settings, volume.placement)
+
+
 def _placed(grid: Grid, placement: Matrix) -> Grid:
     return dataclasses.replace(
         grid, origin=_apply(placement, grid.origin[None])[0], axes=placement[:3, :3] @ grid.axes
@@ -180,7 +184,7 @@ def _rotation(axis: Matrix, angle: float) -> Matrix:
     return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
 
-def _places(snapshot: Snapshot) -> LeafletPlaces:
+def places_of(snapshot: Snapshot) -> LeafletPlaces:
     """Points of the leaflets at which labels get errors."""
     nodes = MM * np.asarray(snapshot.node_position)
     triangles = np.asarray(snapshot.triangle_nodes).astype(np.int64)
