@@ -107,10 +107,10 @@ def run_build(chosen: argparse.Namespace) -> int:
     findings = chosen.findings or chosen.output.with_suffix(".import.json")
     write_findings(findings, str(chosen.image), made.findings)
     if chosen.report:
-        from .report import write_report
+        from .page import write_page
 
         console.stage("report")
-        write_report(chosen.report, made, str(chosen.image))
+        write_page(chosen.report, made, str(chosen.image))
     console.done()
     _print_result(chosen, made, findings)
     if not made.converged:

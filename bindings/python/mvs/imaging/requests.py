@@ -15,7 +15,7 @@ from .landmarks import read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
 from .reading import LabelMap, is_label_map, labels_of, read_labels, read_volume
-from .valve import ImageValve, build
+from .valve import ImageValve, build, scanned
 
 PARTS = {"annulus": "annulus", "commissures": "commissures", "anterior": "anterior",
          "tips": "papillary_tips"}
@@ -52,6 +52,7 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     leaflets = leaflets_in(image, segments, settings)
     check_open_valve(leaflets, settings)
     surface: Optional[Sheet] = None
+    motion = Motion.none()
     found: list[mvs.Finding] = []
     if loaded is not None:
         console.stage("mid-surface of the closed leaflets")
@@ -61,8 +62,12 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
         surface.points = motion(surface.points)
         found.append(how)
     console.stage("building and closing the valve")
-    return build(leaflets, landmarks, surface, chosen.image.name.split(".")[0],
+    made = build(leaflets, landmarks, surface, chosen.image.name.split(".")[0],
                  lambda done, _: console.share(done), findings=tuple(found), **options)
+    if chosen.report:
+        made.image = scanned(image)
+        made.loaded_image = scanned(loaded, motion) if loaded is not None else None
+    return made
 
 
 def motion_between(how: str, landmarks: dict[str, Any],

@@ -8,18 +8,56 @@ from typing import Any, Optional
 
 import numpy as np
 
+from numpy.typing import NDArray
+
 import mvs
 from .findings import finding
+from .grid import Grid, Points, crop, isotropic
 from .labels import Leaflets
 from .landmarks import PARTS, check_near
+from .loaded import Motion
 from .mesh import Sheet
+from .needs import need
+from .reading import LabelMap
 
 Progress = Optional[Callable[[float, float], object]]
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class ScannedImage:
+    """A volume to draw, and the rigid motion from its frame to that of the open image."""
+
+    grid: Grid
+    values: NDArray[Any]
+    motion: Motion
+
+    def sample(self, points: Points) -> Points:
+        """Values at points (..., 3) in m in the frame of the open image."""
+        own = (points.reshape(-1, 3) - self.motion.shift) @ self.motion.turn
+        return self.grid.sample(self.values, own).reshape(points.shape[:-1])
+
+
+def scanned(image: Any, motion: Optional[Motion] = None) -> ScannedImage:
+    """A volume, or the segments of a label map, for pictures; at most some 10 million voxels."""
+    sitk = need("SimpleITK")
+    if isinstance(image, LabelMap):
+        mask = sum((k + 1) * m.astype(np.uint8) for k, m in enumerate(image.masks.values()))
+        drawn = sitk.GetImageFromArray(mask)
+        drawn.CopyInformation(image.image)
+        image = crop(drawn, mask > 0, 10e-3)
+    extent = np.prod(np.array(image.GetSize()) * np.array(image.GetSpacing()) * 1e-3)
+    step = max(min(image.GetSpacing()) * 1e-3, float(extent / 1e7) ** (1 / 3))
+    values = sitk.GetArrayViewFromImage(image)
+    grid, volume = isotropic(image, step, float(values.min()))
+    return ScannedImage(grid, volume, motion or Motion.none())
+
+
 @dataclasses.dataclass(eq=False)
 class ImageValve:
-    """A valve from images: the open valve, the one closed under 120 mmHg, and what was found."""
+    """A valve from images: the open valve, the one closed under 120 mmHg, and what was found.
+
+    stages: name, CPU seconds and result of each stage of a segmentation
+    """
 
     opened: mvs.Snapshot
     closed: mvs.Snapshot
@@ -28,6 +66,9 @@ class ImageValve:
     loaded: Optional[Sheet]
     findings: tuple[mvs.Finding, ...]
     landmarks: dict[str, Any]
+    image: Optional[ScannedImage] = None
+    loaded_image: Optional[ScannedImage] = None
+    stages: tuple[tuple[str, float, str], ...] = ()
 
 
 def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[Sheet] = None,
@@ -65,15 +106,13 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
     return ImageValve(opened, closed, stats.converged, leaflets, loaded, tuple(every), dict(given))
 
 
-def leaflet_mesh(snapshot: mvs.Snapshot) -> tuple[np.ndarray, np.ndarray]:
+def leaflet_mesh(snapshot: mvs.Snapshot) -> tuple[Points, NDArray[np.int64]]:
     """Points (n, 3) in m and triangles (m, 3) of the leaflets."""
     return (np.asarray(snapshot.node_position), np.asarray(snapshot.triangle_nodes, np.int64))
 
 
-def distances(points: np.ndarray, surface_points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+def distances(points: Points, surface_points: Points, triangles: NDArray[np.int64]) -> Points:
     """The distance (n,) of points from a triangle surface."""
-    from .needs import need
-
     pyvista = need("pyvista")
     surface = pyvista.PolyData.from_regular_faces(surface_points * 1e3, triangles)
     _, closest = surface.find_closest_cell(points * 1e3, return_closest_point=True)
