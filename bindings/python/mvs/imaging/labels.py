@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Grid, Volume, crop, isotropic, spacing_of
-from .mesh import (Sheet, areas, boundary_loops, handles, largest_piece, loop_length, pieces)
+from .mesh import (Sheet, areas, boundary_loops, edges_with_triangles, handles, largest_piece, loop_length, pieces)
 from .needs import need
 from .reading import LabelMap
 from .sheet import SheetSettings, mid_surface
@@ -191,7 +191,7 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
             "dropped", FindingSource.MEASURED, 0.9,
             f"{len(smaller)} pieces beside the sheet, {100 * sum(smaller) / whole:.2g} % of its area, "
             "were dropped"))
-    _report_thickness(sheet, findings)
+    report_thickness(sheet, findings)
     return sheet, grid
 
 
@@ -218,7 +218,7 @@ def fitted_sheet(grid: Grid, tissue: Volume, voxel: float,
     return mid_surface(grid, tissue, SheetSettings(wide, smoothing))
 
 
-def _report_thickness(sheet: Sheet, findings: list[Finding]) -> None:
+def report_thickness(sheet: Sheet, findings: list[Finding]) -> None:
     thickness, known = sheet.values["thickness"], sheet.values["measured"] > 0
     low, middle, high = np.percentile(thickness, [5, 50, 95])
     findings.append(finding(
@@ -300,11 +300,11 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
             "LPS: mend the segmentation there, or allow larger holes by --hole", "image")
     for loop in loops[2:]:
         fill_hole(found, loop)
-    if len(loops) > 2:
+    holes = [one for one in length[2:] if one > 2e-3]
+    if holes:
         found.findings.append(finding(
             "holes", FindingSource.MEASURED, 0.8,
-            f"{len(loops) - 2} holes with rims up to {1e3 * length[2]:.1f} mm long were filled",
-            length[2:], "m"))
+            f"{len(holes)} holes with rims up to {1e3 * holes[0]:.1f} mm long were filled", holes, "m"))
 
 
 def fill_hole(found: Leaflets, loop: NDArray[np.int64]) -> None:
@@ -314,7 +314,12 @@ def fill_hole(found: Leaflets, loop: NDArray[np.int64]) -> None:
     sheet.points = np.vstack([sheet.points, sheet.points[loop].mean(axis=0)])
     for name, value in sheet.values.items():
         sheet.values[name] = np.append(value, value[loop].mean())
-    fan = np.column_stack([np.roll(loop, -1), loop, np.full(len(loop), middle)])
+    after = np.roll(loop, -1)
+    # against the edge of the triangle beside, so that both wind alike
+    edges = {(int(a), int(b)) for a, b in edges_with_triangles(sheet.triangles)[0]}
+    if (int(loop[0]), int(after[0])) not in edges:
+        loop, after = after, loop
+    fan = np.column_stack([after, loop, np.full(len(loop), middle)])
     beside = found.leaflet[np.isin(sheet.triangles, loop).any(axis=1)]
     label = np.bincount(beside, minlength=3).argmax()
     sheet.triangles = np.vstack([sheet.triangles, fan])

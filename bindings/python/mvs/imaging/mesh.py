@@ -27,6 +27,10 @@ class Sheet:
     triangles: Triangles
     values: dict[str, NDArray[Any]] = dataclasses.field(default_factory=dict)
 
+    def __str__(self) -> str:
+        size = 1e4 * areas(self.points, self.triangles).sum()
+        return f"{len(self.triangles)} triangles, {size:.1f} cm2"
+
     def part(self, kept: NDArray[np.bool_]) -> "Sheet":
         """The triangles that are kept, with their points only."""
         triangles = self.triangles[kept]
@@ -77,24 +81,45 @@ def pieces(triangles: Triangles, count: int) -> NDArray[np.int64]:
 def boundary_loops(triangles: Triangles) -> list[NDArray[np.int64]]:
     """The closed loops of edges with one triangle, each as points in order.
 
-    A point at which loops touch belongs to each of them.
+    Each edge is in one loop; a point at which loops touch may be in several. In a surface without
+    edges of three triangles every point has an even number of such edges, so that loops close.
     """
-    edges, _ = edges_with_triangles(triangles)
-    keys = np.sort(edges, axis=1)
-    _, inverse, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    rim = edges[count[inverse.ravel()] == 1]
-    leaving: dict[int, list[int]] = {}
+    edges, count = unique_edges(triangles)
+    rim = edges[count == 1]
+    beside: dict[int, list[int]] = {}
     for a, b in rim.tolist():
-        leaving.setdefault(a, []).append(b)
+        beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
     loops = []
-    for start in sorted(leaving):
-        while leaving.get(start):
-            loop, at = [start], leaving[start].pop()
-            while at != start and leaving.get(at):
+    for start in sorted(beside):
+        while beside[start]:
+            loop, at = [], start
+            while True:
                 loop.append(at)
-                at = leaving[at].pop()
+                after = beside[at].pop()
+                beside[after].remove(at)
+                at = after
+                if at == start or not beside[at]:
+                    break
             loops.append(np.array(loop))
     return loops
+
+
+def manifold(triangles: Triangles, points: Points) -> Triangles:
+    """Without the smallest triangles at edges that more than two triangles share."""
+    for _ in range(10):
+        edges, owner = edges_with_triangles(triangles)
+        _, inverse, count = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True,
+                                      return_counts=True)
+        crowded = count[inverse.ravel()] > 2
+        if not crowded.any():
+            break
+        size = areas(points, triangles)
+        rows, edge = owner[crowded], inverse.ravel()[crowded]
+        order = np.lexsort((size[rows], edge))
+        _, first = np.unique(edge[order], return_index=True)
+        triangles = np.delete(triangles, np.unique(rows[order][first]), axis=0)
+    return triangles
 
 
 def loop_length(points: Points, loop: NDArray[np.int64]) -> float:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mvs import ArgumentError
 from .grid import Grid, Points, Volume
-from .mesh import Sheet, Smoothing, normals, smooth_rims, unique_edges
+from .mesh import Sheet, Smoothing, manifold, normals, smooth_rims, unique_edges
 from .needs import need
 from .orientation import directions, neighbour_pairs, orient
 
@@ -105,8 +105,10 @@ def _cut_at_rim(grid: Grid, sheet: Sheet, share: Volume, rim: float) -> Sheet:
         raise ArgumentError("the image has no sheet of tissue in it", "image")
     triangles = mesh.regular_faces.astype(np.int64)
     a, b, c = triangles.T
-    return Sheet(np.asarray(mesh.points, float) * 1e-3,
-                 triangles[(a != b) & (b != c) & (c != a)])
+    triangles = triangles[(a != b) & (b != c) & (c != a)]
+    _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
+    points = np.asarray(mesh.points, float) * 1e-3
+    return Sheet(points, manifold(triangles[np.sort(first)], points))
 
 
 def between_sides(grid: Grid, tissue: Volume, sheet: Sheet, settings: SheetSettings) -> Sheet:
@@ -122,6 +124,7 @@ def between_sides(grid: Grid, tissue: Volume, sheet: Sheet, settings: SheetSetti
         sides = np.stack([side_distance(grid, tissue, points, sign * across,
                                         settings.most_thickness) for sign in (1, -1)])
         valid = _plausible(sides)
+        valid &= _usual_there(sides, valid, smooth, 6 * passes)
         shift = np.zeros(len(points))
         shift[valid] = (sides[0][valid] - sides[1][valid]) / 2
         points = points + smooth(shift, passes, valid)[:, None] * across
@@ -140,6 +143,15 @@ def _plausible(sides: Points) -> NDArray[np.bool_]:
         raise ArgumentError("the image has no thin sheet of tissue: no two sides face each other",
                             "image")
     return np.asarray(found & (total < 2.5 * np.median(total[found])) & (total > 0))
+
+
+def _usual_there(sides: Points, valid: NDArray[np.bool_], smooth: Smoothing,
+                 passes: int) -> NDArray[np.bool_]:
+    """False where the tissue is 1.4 times as thick as around: a chord or a spur stands on the sheet."""
+    total = np.where(valid, sides.sum(axis=0), 0)
+    around = np.minimum(smooth(total, passes, valid), 1.5 * np.median(total[valid]))
+    around = smooth(total, passes, valid & (total < 1.25 * around))
+    return np.asarray((total < 1.4 * around) | (around <= 0))
 
 
 def side_distance(grid: Grid, tissue: Volume, points: Points, along: Points,
