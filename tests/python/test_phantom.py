@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 sitk = pytest.importorskip("SimpleITK")
-pytest.importorskip("scipy")
+cKDTree = pytest.importorskip("scipy.spatial").cKDTree
 
 from mvs.imaging import phantom  # noqa: E402
 from mvs.imaging.phantom import __main__ as program  # noqa: E402
@@ -105,9 +105,9 @@ def test_grey_values_hold_the_volume_of_the_tissue(valve):
     made = phantom.make(valve, settings, loaded=False).opened
     values = sitk.GetArrayFromImage(made.image).astype(float) - images.BACKGROUND
     labels = sitk.GetArrayFromImage(made.labels)
-    # without noise and blur no voxel holds more than full tissue, and most of a leaflet is full
+    # without noise and blur no voxel holds more than full tissue; voxels are as wide as a leaflet
     assert values.min() == 0 and values.max() <= images.ATTENUATION["chordae"]
-    assert np.median(values[labels == 1]) > 0.9 * images.ATTENUATION["leaflet"]
+    assert np.median(values[labels == 1]) > 0.75 * images.ATTENUATION["leaflet"]
     grid, shares = _grid(made.image), images.Shares(_grid(made.image))
     for sheet in made.anatomy.leaflets:
         field = rasterise.distance_field(grid, sheet, 1.0)
@@ -227,10 +227,12 @@ def test_volumes_lie_where_the_valve_is(echo, scanned):
         nodes = 1e3 * np.asarray(made.snapshot.node_position)
         inside = np.unique(np.asarray(made.snapshot.triangle_nodes))
         placed = nodes[inside] @ made.placement[:3, :3].T + made.placement[:3, 3]
-        labels = made.true_labels
-        found = [labels[labels.TransformPhysicalPointToIndex(p)] for p in placed.tolist()]
-        # mid-surfaces lie inside of labels that are a voxel wide or more, but for corners of voxels
-        assert np.mean(np.array(found) > 0) > 0.97
+        voxels = np.argwhere(sitk.GetArrayFromImage(made.true_labels) > 0)
+        grid = _grid(made.true_labels)
+        away = cKDTree(grid.to_patient(voxels[:, ::-1].astype(float))).query(placed)[0]
+        # a mid-surface lies in tissue, its nearest voxel 0.48 spacings away on average
+        # (that of random points); 0.9 if the volume were moved by a voxel
+        assert away.max() < np.sqrt(3) * grid.spacing and away.mean() < 0.6 * grid.spacing
 
 
 def test_landmarks_are_files_that_libmvs_reads(scanned, tmp_path):

@@ -27,6 +27,8 @@ from .smooth_noise import SmoothNoise
 
 Points = NDArray[np.float64]
 LARGEST_FACTOR, LARGEST_AMPLITUDE = 4.0, 2.0
+HOLES_APART, LARGEST_HOLE_FACTOR = 8.0, 1.7
+"""mm between holes, which reach 4 mm: larger ones would be seen and mended by an observer."""
 GROSS = ("spurs", "holes", "eaten", "swapped")
 
 
@@ -136,7 +138,7 @@ class _Maker:
             if "spurs" in self.kinds:
                 self._add_spurs(found, factor)
             if "holes" in self.kinds:
-                self._remove(found, self.holes, factor)
+                self._remove(found, self.holes, min(factor, LARGEST_HOLE_FACTOR))
             if "eaten" in self.kinds:
                 self._remove(found, self.eaten, factor)
             if "swapped" in self.kinds:
@@ -202,9 +204,13 @@ def _draw_spurs(places: LeafletPlaces, random: np.random.Generator):
 
 
 def _draw_holes(places: LeafletPlaces, random: np.random.Generator) -> list[tuple[Points, float]]:
-    """Four balls on the leaflets, their radii in mm."""
-    chosen = random.choice(len(places.inner), 4)
-    return [(places.inner[n], r) for n, r in zip(chosen, random.uniform(0.5, 1.2, 4))]
+    """Up to four balls on the leaflets, 8 mm apart or more, their radii in mm."""
+    chosen: list[Points] = []
+    for n in random.choice(len(places.inner), 40):
+        centre = places.inner[n]
+        if len(chosen) < 4 and all(np.linalg.norm(centre - c) >= HOLES_APART for c in chosen):
+            chosen.append(centre)
+    return list(zip(chosen, random.uniform(0.5, 1.2, len(chosen))))
 
 
 def _draw_eaten(places: LeafletPlaces, random: np.random.Generator) -> list[tuple[Points, float]]:
