@@ -289,7 +289,7 @@ def test_absurd_requests_are_refused_with_a_sentence(monkeypatch, capsys, tmp_pa
 
 def test_the_command_prints_the_measured_errors(monkeypatch, capsys, tmp_path):
     given = ["--kind", "ultrasound", "--spacing", "1", "--vertices", "0", "--open-only",
-             "--annulus-ap", "24"]
+             "--annulus-ap", "24", "--label-errors", "spurs,holes"]
     monkeypatch.setattr("sys.argv", ["phantom", "-o", str(tmp_path), "--json", *given])
     assert program.main() == 0
     output = capsys.readouterr()

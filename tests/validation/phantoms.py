@@ -33,7 +33,7 @@ NEAR = {"micro-ct": 1.5, "ultrasound": 5.0}
 
 @dataclasses.dataclass
 class Row:
-    """The figures of one case; nan where there are none."""
+    """The figures of one case; nan: not measured."""
 
     name: str
     refused: str = ""

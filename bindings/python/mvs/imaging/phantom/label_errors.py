@@ -194,7 +194,9 @@ class _Maker:
         labels[tuple(self.voxels.T)] = values
 
 
-def _draw_spurs(places: LeafletPlaces, random: np.random.Generator):
+def _draw_spurs(
+    places: LeafletPlaces, random: np.random.Generator
+) -> tuple[Points, Points, Points, NDArray[np.int64]]:
     """Eight fingers: where they start, their direction, length (mm) and leaflet."""
     chosen = random.choice(len(places.inner), 8)
     side = random.choice([-1.0, 1.0], 8)[:, None]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -25,7 +26,7 @@ Matrix = NDArray[np.float64]
 
 @dataclasses.dataclass(frozen=True)
 class Volume:
-    """One volume of a phantom: what a scanner and an observer give, and the truth behind it.
+    """One volume of a phantom: the input of a recovery, and the truth.
 
     image, labels: SimpleITK.Image; landmarks: by name, in mm, LPS; label_names: of 1, 2, ...
     true_labels: SimpleITK.Image, without errors; flaws: of the labels, None if they are exact
@@ -106,7 +107,9 @@ def _volume(snapshot: Snapshot, settings: Settings, stage: int, progress: Progre
     )
 
 
-def _image_and_parts(grid, anatomy, settings, stage, done):
+def _image_and_parts(
+    grid: Grid, anatomy: Anatomy, settings: Settings, stage: int, done: Callable[[float], None]
+) -> tuple[NDArray[Any], Optional[list[NDArray[np.bool_]]]]:
     """The grey values, and the voxels of chordae, muscles and wall if labels have them."""
     solids: list[tuple[str, Solid]] = [("leaflet", sheet) for sheet in anatomy.leaflets]
     solids += [("muscles", anatomy.muscles), ("chordae", anatomy.chords), ("wall", anatomy.wall)]
