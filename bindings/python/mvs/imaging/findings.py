@@ -1,4 +1,4 @@
-"""What was found in an image: sentences of the kind of mvs.Finding, and their file."""
+"""Findings in an image, as those of a build (mvs.Finding), and their file."""
 
 from __future__ import annotations
 

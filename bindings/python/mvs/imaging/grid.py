@@ -60,7 +60,7 @@ def spacing_of(image: Any) -> float:
 
 
 def box_of(mask: NDArray[np.bool_]) -> Optional[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """First and last index (x, y, z) of the true voxels of (z, y, x); None: there are none."""
+    """First and last index (x, y, z) of the true voxels of (z, y, x); None without any."""
     ends = []
     for axis in range(3):
         others = tuple(k for k in range(3) if k != axis)

@@ -10,10 +10,11 @@ import numpy as np
 import mvs
 from .console import Console
 from .findings import finding, read_known
-from .labels import (ANTERIOR, POSTERIOR, UNKNOWN, LabelSettings, check_open_valve, leaflets_in)
+from .labels import (ANTERIOR, POSTERIOR, UNKNOWN, LabelSettings, leaflets_in)
 from .landmarks import read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
+from .open_valve import check_open_valve
 from .reading import LabelMap, is_label_map, labels_of, read_labels, read_volume
 from .valve import ImageValve, build, scanned
 

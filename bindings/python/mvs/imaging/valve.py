@@ -54,7 +54,7 @@ def scanned(image: Any, motion: Optional[Motion] = None) -> ScannedImage:
 
 @dataclasses.dataclass(eq=False)
 class ImageValve:
-    """A valve from images: the open valve, the one closed under 120 mmHg, and what was found.
+    """A valve from images, open and closed under 120 mmHg, with the findings on the way.
 
     stages: name, CPU seconds and result of each stage of a segmentation
     """

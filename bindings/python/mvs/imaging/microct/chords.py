@@ -20,6 +20,9 @@ TRUNK = 3e-3
 SAME_HEAD = 4e-3
 """m: chords of one muscle that begin nearer than this to each other have one head"""
 
+EXTENSION = 4e-3
+"""m: the end of a chord is continued at most so far to its insertion"""
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ChordNetwork:
@@ -116,12 +119,26 @@ def _cut(path: NDArray[np.int64], use: NDArray[np.int64], at: Points) -> list[in
 
 
 def _insertion(line: Points, surface: Any) -> Points:
-    """Where the end of a line, continued straight, meets the mid-surface; else its nearest point."""
-    tail = line[-1] - line[max(-6, -len(line))]
-    size = float(np.linalg.norm(tail))
-    end = line[-1] + (tail / size * 0.4e-3 if size > 0 else 0)
-    _, closest = surface.find_closest_cell(end * 1e3, return_closest_point=True)
-    return np.asarray(closest, float) * 1e-3
+    """Where the end of a line, continued straight, first comes within 0.3 mm of the mid-surface; else
+    the nearest point of the mid-surface to that continuation.
+
+    Where a chord comes near to a leaflet its tissue is joined to it, the sooner the flatter it lies, and
+    the skeleton bends: the direction is that of the last 2.5 mm without the last 0.8 mm.
+    """
+    left = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line[::-1], axis=0), axis=1))])[::-1]
+    straight = line[(left > 0.8e-3) & (left < 3.3e-3)]
+    places = line[-1:]
+    if len(straight) >= 4:
+        middle = straight.mean(axis=0)
+        along = np.linalg.svd(straight - middle, full_matrices=False)[2][0]
+        along *= np.sign(along @ (straight[-1] - straight[0])) or 1.0
+        start = (line[-1] - middle) @ along - 0.8e-3
+        places = middle + (start + np.arange(0, EXTENSION, 0.1e-3))[:, None] * along
+    _, closest = surface.find_closest_cell(places * 1e3, return_closest_point=True)
+    closest = np.atleast_2d(closest) * 1e-3
+    away = np.linalg.norm(closest - places, axis=1)
+    near = np.flatnonzero(away < 0.3e-3)
+    return np.asarray(closest[near[0] if len(near) else away.argmin()], float)
 
 
 def smooth_line(line: Points, step: float) -> Points:

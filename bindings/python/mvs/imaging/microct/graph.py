@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh import Sheet
 from ..needs import need
 from ..orientation import neighbour_pairs
 from .segment import EVERYWHERE, Mask, Thick, Tissue
@@ -68,7 +69,7 @@ def paths_of(results: Mapping[str, Any]) -> Paths:
     image, sparse, search = need("scipy.ndimage"), need("scipy.sparse"), need("scipy.sparse.csgraph")
     tissue: Tissue = results["tissue"]
     muscles: Muscles = results["muscles"]
-    leaflets = results["leaflets"].mask
+    leaflets = near_sheet(tissue, results["sheet"])
     chords = tissue.mask & ~leaflets & ~muscles.mask & ~muscles.wall
     step = tissue.grid.step
     # with the muscles, so that the skeleton of chordae that merge above a muscle goes on into it
@@ -98,6 +99,19 @@ def paths_of(results: Mapping[str, Any]) -> Paths:
     return Paths(voxels, paths, tuple(int(own[path[0]]) for path in paths), chords)
 
 
+def near_sheet(tissue: Tissue, sheet: Sheet) -> Mask:
+    """The tissue within half of the thickness and one voxel of a mid-surface."""
+    voxels = np.argwhere(tissue.mask)
+    reach = 0.75 * float(sheet.values["thickness"].max()) + tissue.grid.step
+    away, nearest = need("scipy.spatial").cKDTree(sheet.points).query(
+        tissue.grid.place(voxels[:, ::-1]), distance_upper_bound=reach)
+    found = np.isfinite(away)
+    found[found] = (away[found] < sheet.values["thickness"][nearest[found]] / 2 + tissue.grid.step)
+    mask = np.zeros(tissue.mask.shape, bool)
+    mask[tuple(voxels[found].T)] = True
+    return mask
+
+
 def _trace(before: NDArray[np.int64], end: int) -> NDArray[np.int64]:
     path = [int(end)]
     while before[path[-1]] >= 0:
@@ -107,7 +121,7 @@ def _trace(before: NDArray[np.int64], end: int) -> NDArray[np.int64]:
 
 def _one_of_each_flare(ends: NDArray[np.int64], voxels: NDArray[np.int64], away: Points,
                        before: NDArray[np.int64], step: float) -> NDArray[np.int64]:
-    """Of ends that are near to each other and whose paths join soon, the one nearest to the leaflet."""
+    """Keeps one end, the nearest to the leaflet, of those near to each other whose paths join soon."""
     order = ends[np.argsort(away[ends], kind="stable")]
     kept: list[int] = []
     reach = int(np.ceil(2 * SAME_END / step))

@@ -19,7 +19,7 @@ EVERYWHERE = np.ones((3, 3, 3), bool)
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Tissue:
-    """Share of tissue (0 to 1) on cubic voxels around the valve, and the mask of what is connected."""
+    """Share of tissue (0 to 1) on cubic voxels around the valve, and the mask of the largest component."""
 
     grid: Grid
     share: Volume

@@ -13,7 +13,8 @@ import mvs
 from mvs.mesh import edges_of, shortest_paths
 from ..console import Console
 from ..findings import finding
-from ..labels import Leaflets, check_open_valve, report_thickness
+from ..labels import Leaflets, report_thickness
+from ..open_valve import check_open_valve
 from ..pipeline import Pipeline, Run
 from ..valve import ImageValve, build, distance_from_image, scanned
 from .chords import ChordNetwork
@@ -56,7 +57,7 @@ def valve_of_volumes(image: Any, loaded: Optional[Any], landmarks: Mapping[str, 
 
 
 def leaflets_of_run(run: Run) -> Leaflets:
-    """The leaflets of a segmentation; refuses what is no open valve."""
+    """The leaflets of a segmentation; ArgumentError unless they are an open valve."""
     sheet = run["sheet"]
     leaflets = Leaflets(sheet, np.zeros(len(sheet.triangles), np.uint32), [])
     tissue = run["tissue"]
