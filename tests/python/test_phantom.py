@@ -205,17 +205,27 @@ def test_statistics_of_shifted_blocks_are_known():
     assert empty.dice == 0 and np.isinf(empty.mean)
 
 
-def test_speckle_of_tissue_is_rayleigh_distributed():
+def speckle(**changes):
+    """The envelope of a block of tissue, without its rims."""
     grid = around(np.array([[0.0] * 3, [30.0] * 3]), 0.7, 0.0, np.eye(3), 10**6)
     shares = images.Shares(grid)
     shares.add("leaflet", np.ones(grid.shape, np.float32))
-    settings = phantom.ultrasound(noise=0.0, bias=0.0)
+    settings = phantom.ultrasound(noise=0.0, bias=0.0, **changes)
     grey = images.ultrasound_image(grid, shares, np.ones(grid.shape, np.float32), settings, 0)
     decibel = (grey / 255.0 - 1) * images.DYNAMIC_RANGE_DB + images.BRIGHTEST_DB
-    inner = (10 ** (decibel / 20))[4:-4, 4:-4, 4:-4]
-    # some 15,000 speckles: means to 1 %; brightest values are clipped at twice the mean amplitude
+    return (10 ** (decibel / 20))[4:-4, 4:-4, 4:-4]
+
+
+@pytest.mark.parametrize("blur", [(0.9, 1.8), (0.0, 0.0)])
+def test_speckle_of_tissue_is_rayleigh_distributed(blur):
+    inner = speckle(blur=blur)
+    # thousands of speckles: means to 2 %; brightest values are clipped at twice the mean amplitude
     assert (inner**2).mean() == pytest.approx(1.0, rel=0.05)
     assert inner.mean() / inner.std() == pytest.approx(1.913, rel=0.05)
+
+
+def test_speckle_is_wider_across_the_beam():
+    inner = speckle()
     line = inner - inner.mean()
     across = (line[:, :, 1:] * line[:, :, :-1]).mean() / inner.var()
     along = (line[1:] * line[:-1]).mean() / inner.var()

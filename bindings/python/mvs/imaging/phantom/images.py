@@ -143,7 +143,8 @@ def _kernel_energy(settings: Settings) -> float:
     for sigma in _sigmas(settings):
         one = np.zeros(2 * int(np.ceil(4 * sigma)) + 3)
         one[len(one) // 2] = 1
-        energy *= float((gaussian_filter1d(one, sigma, truncate=4.0) ** 2).sum())
+        if sigma > 0:  # gaussian_filter leaves out such axes, gaussian_filter1d divides by 0
+            energy *= float((gaussian_filter1d(one, sigma, truncate=4.0) ** 2).sum())
     return energy
 
 
