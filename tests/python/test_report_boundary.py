@@ -12,8 +12,10 @@ import pytest
 
 PACKAGE = Path(mvs.__file__).parent
 REPORT = [p for p in sorted((PACKAGE / "report").glob("*.py")) if p.exists()]
+# applications: their pages share pieces of HTML
+APPLICATIONS = {PACKAGE / "report", PACKAGE / "imaging"}
 OTHERS = [p for p in sorted(PACKAGE.rglob("*.py"))
-          if p.parent != PACKAGE / "report" and p.exists()]
+          if not APPLICATIONS & {*p.parents} and p.exists()]
 PUBLIC = {"mvs": {*mvs.__all__, "__version__", "study"}, "mvs.mesh": set(vars(mvs.mesh)),
           "mvs.study": set(mvs.study.__all__)}
 DRAWING = {p.stem for p in (PACKAGE / "drawing").glob("*.py")}

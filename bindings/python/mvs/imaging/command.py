@@ -1,0 +1,141 @@
+"""The command `mvs-image`: from an image of an open valve to a valve that closes.
+
+    mvs-image open.seg.nrrd --loaded closed.seg.nrrd --tips tips.mrk.json -o valve.h5 --report out.html
+
+`build` is the command that runs if none is named; `phantom` makes test images where it is installed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Optional
+
+import mvs
+from .console import Console
+
+LANDMARKS = {"annulus": "points or a curve along the annulus", "commissures": "the two commissures",
+             "anterior": "a point of the anterior leaflet", "tips": "tips of the papillary muscles"}
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    """Runs the command; 0: done, 1: failed with a sentence on stderr, 2: wrong usage."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    parser, commands = parser_of()
+    if given and given[0] not in commands and given[0] not in ("-h", "--help", "--version"):
+        given.insert(0, "build")
+    chosen = parser.parse_args(given or ["--help"])
+    try:
+        return int(chosen.run(chosen) or 0)
+    except (mvs.Error, OSError, ImportError) as error:
+        print(f"mvs-image: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("mvs-image: stopped", file=sys.stderr)
+        return 130
+
+
+def parser_of() -> tuple[argparse.ArgumentParser, set[str]]:
+    """The parser and the names of its commands."""
+    parser = argparse.ArgumentParser(
+        prog="mvs-image", description="Mitral valves from images. A research tool, not a medical "
+        "device. `mvs-image IMAGE ...` is short for `mvs-image build IMAGE ...`.")
+    parser.add_argument("--version", action="version", version=mvs.__version__)
+    commands = parser.add_subparsers(title="commands", required=True)
+    names = {"build"}
+    add_build(commands)
+    if importlib.util.find_spec("mvs.imaging.phantom") is not None:
+        from .phantom.command import add_to
+
+        add_to(commands)
+        names.add("phantom")
+    return parser, names
+
+
+def add_build(commands: Any) -> None:
+    parser = commands.add_parser(
+        "build", help="builds a valve from an image of open leaflets, and closes it",
+        description="Lengths in mm. Images: NRRD, NIfTI, MetaImage, a folder of DICOM files. A label "
+        "map or .seg.nrrd has the leaflets as labels; a grey volume is segmented as a micro-CT.")
+    add = parser.add_argument
+    add("image", type=Path, help="the open valve")
+    add("-o", "--output", type=Path, required=True, help="file for the valve: .h5, .obj, .vtp, .vtm")
+    add("--loaded", type=Path, metavar="IMAGE", help="the valve closed under load")
+    add("--report", type=Path, metavar="HTML", help="a page with pictures and tables")
+    add("--findings", type=Path, metavar="JSON", help="[VALVE.import.json beside the output]")
+    add("--with", type=Path, dest="known", metavar="JSON",
+        help="findings of an earlier run, edited: what is given, guessed or assumed is used")
+    add("--json", action="store_true", help="print one JSON object")
+    add("--quiet", action="store_true", help="no progress on stderr")
+    labels = parser.add_argument_group("labels").add_argument
+    for leaflet in ("anterior", "posterior"):
+        labels(f"--{leaflet}-label", metavar="NAME", help=f"segment of the {leaflet} leaflet [by name]")
+    labels("--leaflet-label", metavar="NAME", help="segment of both leaflets")
+    labels("--hole", type=float, metavar="MM", help="diameter of the largest hole that is filled [7]")
+    points = parser.add_argument_group("landmarks: .mrk.json, .fcsv, .csv, .vtk, .vtp").add_argument
+    for part, words in LANDMARKS.items():
+        points(f"--{part}", type=Path, metavar="FILE", help=words)
+    for part, words in LANDMARKS.items():
+        points(f"--loaded-{part}", type=Path, metavar="FILE", help=f"{words}, in the loaded image")
+    points("--frame", choices=("LPS", "RAS"), help="of landmark files that do not state it")
+    parser.add_argument_group("loaded image").add_argument(
+        "--register", choices=("none", "landmarks", "image"), default=None,
+        help="to the open image: none: both have the same frame; landmarks: by those of both images; "
+        "image: by grey values [none; image for grey volumes]")
+    build = parser.add_argument_group("valve").add_argument
+    build("--edge", type=float, metavar="MM", help="of the triangles [1,000 vertices]")
+    build("--chords", type=int, metavar="N", help="chord segments where none are seen, about [100]")
+    build("--leaflet", metavar="LAW", help="tissue of the leaflets [bilinear]")
+    build("--thickness", type=float, metavar="MM", help="of the leaflets [measured]")
+    build("--coaptation-length", type=float, metavar="MM",
+          help="overlap in the middle for which rest lengths are chosen [8]")
+    parser.set_defaults(run=run_build)
+
+
+def run_build(chosen: argparse.Namespace) -> int:
+    """Builds, closes, writes valve, findings and report."""
+    from .findings import write_findings
+    from .requests import valve_of_request
+
+    console = Console(chosen.quiet)
+    made = valve_of_request(chosen, console)
+    made.opened.save(str(chosen.output))
+    findings = chosen.findings or chosen.output.with_suffix(".import.json")
+    write_findings(findings, str(chosen.image), made.findings)
+    if chosen.report:
+        from .page import write_page
+
+        console.stage("report")
+        write_page(chosen.report, made, str(chosen.image))
+    console.done()
+    _print_result(chosen, made, findings)
+    if not made.converged:
+        print("mvs-image: the valve does not come to rest under load; the findings say what was "
+              "guessed", file=sys.stderr)
+    return 0 if made.converged else 1
+
+
+def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None:
+    opened, closed = made.opened, made.closed
+    vertices = int((opened.node_kind <= mvs.NodeKind.ANNULUS).sum())
+    leak = closed.measures.regurgitant_orifice_area * 1e6
+    rows = [{"name": f.name, "source": mvs.FindingSource(f.source).name.lower(),
+             "confidence": f.confidence, "sentence": f.sentence} for f in made.findings]
+    if chosen.json:
+        print(json.dumps({
+            "file": str(chosen.output), "findings_file": str(findings), "vertices": vertices,
+            "chords": len(opened.chord_kind), "converged": made.converged,
+            "regurgitant_orifice_area_mm2": leak, "hash": str(opened.hash), "findings": rows}))
+        return
+    print(f"{chosen.output}: an open valve of {vertices} leaflet vertices, {len(opened.chord_kind)} "
+          f"chord segments, {len(opened.head_nodes)} papillary heads")
+    print(f"{findings}: what was found, guessed and assumed; edit it and give it by --with")
+    print(f"closed under 120 mmHg: {'at rest' if made.converged else 'NOT at rest'}, "
+          f"{'sealed' if leak < 0.05 else f'leaks through {leak:.1f} mm2'}")
+    for row in rows:
+        print(f"  {row['name']:<18} {row['source']:<9} {100 * row['confidence']:3.0f} %  "
+              f"{row['sentence']}")

@@ -1,0 +1,64 @@
+"""Findings in an image, as those of a build (mvs.Finding), and their file."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any, Union
+
+import numpy as np
+
+import mvs
+
+
+def finding(name: str, source: mvs.FindingSource, confidence: float, sentence: str,
+            values: Sequence[float] = (), unit: str = "") -> mvs.Finding:
+    """A finding; `values` in SI units, points as x, y, z in turn."""
+    return mvs.Finding(name, source, float(confidence), sentence,
+                       np.asarray(values, float).ravel(), unit)
+
+
+def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
+                   findings: Iterable[mvs.Finding]) -> None:
+    """Writes the file that `mvs import --with` reads, beside and then renamed."""
+    rows: list[dict[str, Any]] = [
+        {"name": one.name, "source": mvs.FindingSource(one.source).name.lower(),
+         "confidence": float(one.confidence), "sentence": one.sentence, "unit": one.unit,
+         "values": [float(value) for value in one.values]}
+        for one in findings
+    ]
+    text = json.dumps({"format": "libmvs import", "version": 1, "surface": source,
+                       "findings": rows}, indent=2, ensure_ascii=False)
+    beside = f"{os.fspath(path)}.part"
+    with open(beside, "w", encoding="utf-8") as file:
+        file.write(text + "\n")
+    os.replace(beside, path)
+
+
+def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
+    """The landmarks in a file of findings that are given, guessed or assumed (`--with`).
+
+    Measured ones are left out: they are measured again. ArgumentError for another file.
+    """
+    try:
+        with open(path, encoding="utf-8") as file:
+            read = json.load(file)
+        rows = read["findings"] if read["format"] == "libmvs import" else None
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings ({error})", "with") from error
+    if rows is None or read.get("version") != 1:
+        raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings of this version", "with")
+    known: dict[str, Any] = {}
+    for row in rows:
+        if row["name"] not in ("annulus", "commissures", "anterior", "papillary_tips", "thickness"):
+            continue
+        if row["source"] == "measured":
+            continue
+        values = np.asarray(row["values"], float)
+        if not len(values) or not np.isfinite(values).all():
+            raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" needs numbers",
+                                  row["name"])
+        known[row["name"]] = (float(values[0]) if row["name"] == "thickness"
+                              else values.reshape(-1, 3).copy())
+    return known

@@ -1,0 +1,275 @@
+"""Leaflets in a label map: one mid-surface with thickness and leaflet of each triangle.
+
+Labels of real networks have spurs, holes, eaten rims, islands and swapped parts near the commissures:
+what is mended is a finding, and what no rule mends is refused with a sentence.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mvs import ArgumentError, Finding, FindingSource
+from .findings import finding
+from .grid import Grid, Volume, crop, isotropic, spacing_of
+from .mesh import Sheet, areas, handles, largest_piece, pieces
+from .needs import need
+from .reading import LabelMap
+from .sheet import SheetSettings, mid_surface
+
+UNKNOWN, ANTERIOR, POSTERIOR = 0, 1, 2
+WORDS = {ANTERIOR: ("anterior", "aml", "ant", "a"), POSTERIOR: ("posterior", "pml", "post", "p")}
+
+
+@dataclasses.dataclass(frozen=True)
+class LabelSettings:
+    """Lengths in m.
+
+    hole: the diameter of the largest hole that is filled
+    island: pieces of tissue below this share of the whole are dropped
+    blur, smoothing: of the mid-surface (SheetSettings); None: from voxels and thickness
+    """
+
+    hole: float = 7e-3
+    island: float = 0.05
+    blur: Optional[float] = None
+    smoothing: Optional[float] = None
+
+
+@dataclasses.dataclass(eq=False)
+class Leaflets:
+    """Leaflets in an image: the sheet and the leaflet of each triangle (0 unknown, 1 A, 2 P)."""
+
+    sheet: Sheet
+    leaflet: NDArray[np.uint32]
+    findings: list[Finding]
+
+
+def leaflet_of(name: str) -> Optional[int]:
+    """The leaflet that the name of a segment means; 0: leaflets without distinction; None: neither."""
+    words = name.lower().replace("_", " ").replace("-", " ").split()
+    for label, known in WORDS.items():
+        if any(word in known for word in words):
+            return label
+    return UNKNOWN if any(w.startswith(("leaflet", "valve", "mitral", "mv")) for w in words) else None
+
+
+def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None) -> dict[str, int]:
+    """The leaflet of each segment that is a part of the leaflets.
+
+    chosen: leaflet by name of segment, as the caller knows it; else by the names, or, if no name
+        means a leaflet and there is one segment, that one. ArgumentError names the segments otherwise
+    """
+    known = ", ".join(f'"{name}"' for name in labels.masks) or "none"
+    if chosen:
+        lost = [name for name in chosen if name not in labels.masks]
+        if lost:
+            raise ArgumentError(f'there is no segment "{lost[0]}"; the image has: {known}', "labels")
+        return dict(chosen)
+    filled = [name for name, mask in labels.masks.items() if mask.any()]
+    if not filled:
+        raise ArgumentError("the image has no valve in it: every voxel is background", "labels")
+    found = {name: leaflet_of(name) for name in filled}
+    meant = {name: label for name, label in found.items() if label is not None}
+    if not meant and len(filled) == 1:
+        return {filled[0]: UNKNOWN}
+    if not meant:
+        raise ArgumentError(
+            f"no name of a segment means a leaflet (the image has: {known}): say which ones are, "
+            "with --anterior-label and --posterior-label, or --leaflet-label", "labels")
+    got = set(meant.values())
+    if got in ({ANTERIOR}, {POSTERIOR}):
+        missing = "posterior" if got == {ANTERIOR} else "anterior"
+        raise ArgumentError(
+            f"one leaflet is missing: the image has {known}, and no segment of the {missing} leaflet. "
+            "A valve needs both; if the segment holds both leaflets, say --leaflet-label", "labels")
+    return meant
+
+
+def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
+                settings: LabelSettings = LabelSettings()) -> Leaflets:
+    """The mid-surface of the leaflets in a label map."""
+    segments = choose_segments(labels, chosen)
+    findings: list[Finding] = []
+    mask = np.zeros(next(iter(labels.masks.values())).shape, bool)
+    for name in segments:
+        mask |= labels.masks[name]
+    mask = _without_islands(mask, settings.island, findings)
+    sheet, grid = _sheet_of(labels.image, mask, settings, findings)
+    leaflet = _leaflet_of_triangles(labels, segments, grid, sheet, findings)
+    return Leaflets(sheet, leaflet, findings)
+
+
+def _without_islands(mask: NDArray[np.bool_], least: float,
+                     findings: list[Finding]) -> NDArray[np.bool_]:
+    """The largest piece of the tissue; refuses several large ones."""
+    image = need("scipy.ndimage")
+    label, count = image.label(mask, np.ones((3, 3, 3)))
+    if count <= 1:
+        return mask
+    size = np.bincount(label.ravel())[1:]
+    order = np.argsort(-size, kind="stable")
+    share = size[order] / size.sum()
+    large = int((share >= least).sum())
+    if large > 1:
+        words = ", ".join(f"{100 * s:.0f} %" for s in share[:large])
+        raise ArgumentError(
+            f"the tissue consists of {large} disconnected pieces ({words} of the voxels): leaflets "
+            "meet at both commissures. Join the pieces in the segmentation, or name the right segments",
+            "labels")
+    findings.append(finding(
+        "islands", FindingSource.MEASURED, 0.9,
+        f"{count - 1} pieces beside the leaflets, {100 * share[1:].sum():.2g} % of the voxels, were "
+        "dropped"))
+    return np.asarray(label == order[0] + 1)
+
+
+def sheet_of_image(image: Any, level: float = 0.0) -> tuple[Sheet, float]:
+    """The mid-surface of a signed image, tissue above `level`, and the size of its voxels, m.
+
+    The largest piece. Values are scaled so that the level stays where interpolation puts it.
+    """
+    sitk = need("SimpleITK")
+    values = sitk.GetArrayFromImage(image)
+    inside = values > level
+    if not inside.any() or inside.all():
+        raise ArgumentError(f"the image has no tissue: no surface at the level {level:g}", "image")
+    voxel = spacing_of(image)
+    part = crop(image, inside, 4e-3)
+    grid, signed = isotropic(part, grid_step(image, inside), float(values.min()))
+    high, low = np.percentile(values[inside], 90) - level, level - np.percentile(values[~inside], 10)
+    above = signed - level
+    tissue = np.clip(0.5 + 0.5 * np.where(above > 0, above / high, above / low), 0, 1)
+    sheet = fitted_sheet(grid, tissue.astype(np.float32), voxel)
+    return largest_piece(sheet)[0], voxel
+
+
+def tissue_on_grid(image: Any, mask: NDArray[np.bool_], step: float,
+                   margin: float = 4e-3) -> tuple[Grid, Volume]:
+    """The share of tissue (0 to 1) on cubic voxels around a mask."""
+    sitk = need("SimpleITK")
+    marked = sitk.GetImageFromArray(mask.astype(np.uint8))
+    marked.CopyInformation(image)
+    part = sitk.Cast(crop(marked, mask, margin), sitk.sitkFloat32)
+    return isotropic(part, step, 0.0)
+
+
+def grid_step(image: Any, mask: NDArray[np.bool_], most: int = 30_000_000) -> float:
+    """Half of the smallest edge of a voxel, more where the grid would have more than `most` voxels."""
+    spacing = np.array(image.GetSpacing()) * 1e-3
+    where = np.argwhere(mask)
+    extent = (np.ptp(where, axis=0)[::-1] + 1) * spacing + 8e-3
+    return float(max(spacing.min() / 2, (np.prod(extent) / most) ** (1 / 3)))
+
+
+def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
+              findings: list[Finding]) -> tuple[Sheet, Grid]:
+    """The mid-surface; tissue is closed step by step until the sheet has no tunnel."""
+    voxel = spacing_of(image)
+    grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
+    for attempt in range(4):
+        radius = attempt * voxel
+        sheet, smaller = largest_piece(fitted_sheet(grid, _closed(grid, tissue, radius), voxel, settings))
+        tunnels = handles(sheet)
+        if not tunnels:
+            break
+    if tunnels:
+        raise ArgumentError(
+            f"the leaflets have {tunnels} tunnels, bridges between two parts of the tissue, even after "
+            f"gaps of {2e3 * radius:.1f} mm are closed: mend the segmentation there", "labels")
+    if radius:
+        findings.append(finding("closed_gaps", FindingSource.GUESSED, 0.6,
+                                f"gaps in the labels up to {2e3 * radius:.1f} mm were closed, because "
+                                "tunnels ran through the tissue", [2 * radius], "m"))
+    whole = areas(sheet.points, sheet.triangles).sum()
+    if smaller:
+        findings.append(finding(
+            "dropped", FindingSource.MEASURED, 0.9,
+            f"{len(smaller)} pieces beside the sheet, {100 * sum(smaller) / whole:.2g} % of its area, "
+            "were dropped"))
+    report_thickness(sheet, findings)
+    return sheet, grid
+
+
+def _closed(grid: Grid, tissue: Volume, radius: float) -> Volume:
+    """Grey closing with a ball, by distances."""
+    if radius <= 0:
+        return tissue
+    image = need("scipy.ndimage")
+    voxels = radius / grid.step
+    wide = image.distance_transform_edt(tissue < 0.5) <= voxels
+    closed = image.distance_transform_edt(wide) > voxels
+    return np.maximum(tissue, closed.astype(np.float32))
+
+
+def fitted_sheet(grid: Grid, tissue: Volume, voxel: float,
+                 settings: LabelSettings = LabelSettings()) -> Sheet:
+    """The mid-surface with a Gaussian that fits the thickness found with a narrow one."""
+    smoothing = settings.smoothing or 2 * voxel
+    narrow = settings.blur or max(0.9 * voxel, 1.5 * grid.step)
+    sheet = mid_surface(grid, tissue, SheetSettings(narrow, smoothing))
+    wide = 0.5 * float(np.median(sheet.values["thickness"]))
+    if settings.blur or wide <= 1.1 * narrow:
+        return sheet
+    return mid_surface(grid, tissue, SheetSettings(wide, smoothing))
+
+
+def report_thickness(sheet: Sheet, findings: list[Finding]) -> None:
+    thickness, known = sheet.values["thickness"], sheet.values["measured"] > 0
+    low, middle, high = np.percentile(thickness, [5, 50, 95])
+    findings.append(finding(
+        "image_thickness", FindingSource.MEASURED, 0.8 if known.mean() > 0.8 else 0.5,
+        f"the tissue is {middle * 1e3:.2f} mm thick in the middle of its range, {low * 1e3:.2f} to "
+        f"{high * 1e3:.2f} mm between the 5th and 95th percentile; measured at "
+        f"{100 * known.mean():.0f} % of the points, averaged elsewhere", [low, middle, high], "m"))
+
+
+def _leaflet_of_triangles(labels: LabelMap, segments: Mapping[str, int], grid: Grid, sheet: Sheet,
+                          findings: list[Finding]) -> NDArray[np.uint32]:
+    """The leaflet of each triangle: the larger share of labels near it, in one piece per leaflet."""
+    both = set(segments.values()) >= {ANTERIOR, POSTERIOR}
+    if not both:
+        return np.zeros(len(sheet.triangles), np.uint32)
+    share = np.zeros(len(sheet.triangles))
+    centres = sheet.points[sheet.triangles].mean(axis=1)
+    blur = max(1.5e-3, 2 * spacing_of(labels.image))
+    for name, label in segments.items():
+        if label == UNKNOWN:
+            continue
+        box, tissue = tissue_on_grid(labels.image, labels.masks[name], spacing_of(labels.image))
+        spread = need("scipy.ndimage").gaussian_filter(tissue, blur / box.step, truncate=3)
+        share += (1 if label == ANTERIOR else -1) * box.sample(spread, centres)
+    leaflet = np.where(share > 0, ANTERIOR, POSTERIOR).astype(np.uint32)
+    swapped = _one_piece_each(sheet, leaflet)
+    if swapped:
+        whole = areas(sheet.points, sheet.triangles).sum()
+        findings.append(finding(
+            "swapped_labels", FindingSource.MEASURED, 0.7,
+            f"{100 * swapped / whole:.2g} % of the area had the label of the other leaflet, away from "
+            "the rest of that leaflet, and was given back. Give the two commissures if the leaflets "
+            "should be parted elsewhere", [swapped], "m2"))
+    return leaflet
+
+
+def _one_piece_each(sheet: Sheet, leaflet: NDArray[np.uint32]) -> float:
+    """Keeps the largest piece of each label and turns the others over; returns their area, m2."""
+    size = areas(sheet.points, sheet.triangles)
+    turned = 0.0
+    for _ in range(4):
+        before = turned
+        for label in (ANTERIOR, POSTERIOR):
+            rows = np.flatnonzero(leaflet == label)
+            if not len(rows):
+                continue
+            piece = pieces(sheet.triangles[rows], len(sheet.points))
+            area = np.bincount(piece, size[rows])
+            others = rows[piece != area.argmax()]
+            leaflet[others] = ANTERIOR + POSTERIOR - label
+            turned += float(size[others].sum())
+        if turned == before:
+            break
+    return turned

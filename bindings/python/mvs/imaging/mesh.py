@@ -1,0 +1,187 @@
+"""Triangle sheets in NumPy: boundary loops, pieces, topology, smoothing on the surface."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .needs import need
+
+Points = NDArray[np.float64]
+Triangles = NDArray[np.int64]
+
+
+@dataclasses.dataclass(eq=False)
+class Sheet:
+    """A triangle surface with values of its points.
+
+    points: (n, 3) m
+    triangles: (m, 3) int64
+    values: arrays (n,) or (n, k) by name
+    """
+
+    points: Points
+    triangles: Triangles
+    values: dict[str, NDArray[Any]] = dataclasses.field(default_factory=dict)
+
+    def __str__(self) -> str:
+        size = 1e4 * areas(self.points, self.triangles).sum()
+        return f"{len(self.triangles)} triangles, {size:.1f} cm2"
+
+    def part(self, kept: NDArray[np.bool_]) -> "Sheet":
+        """The triangles that are kept, with their points only."""
+        triangles = self.triangles[kept]
+        used, index = np.unique(triangles, return_inverse=True)
+        return Sheet(self.points[used], index.reshape(-1, 3).astype(np.int64),
+                     {name: value[used] for name, value in self.values.items()})
+
+
+def edges_with_triangles(triangles: Triangles) -> tuple[Triangles, NDArray[np.int64]]:
+    """All directed edges (3m, 2) and their triangles."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    return edges, np.tile(np.arange(len(triangles)), 3)
+
+
+def unique_edges(triangles: Triangles) -> tuple[Triangles, NDArray[np.int64]]:
+    """Undirected edges (e, 2) and the number of triangles at each."""
+    edges = np.sort(edges_with_triangles(triangles)[0], axis=1)
+    found, count = np.unique(edges, axis=0, return_counts=True)
+    return found, count
+
+
+def areas(points: Points, triangles: Triangles) -> Points:
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
+
+
+def normals(points: Points, triangles: Triangles) -> Points:
+    """Unit normals of the points, weighted by area."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    faces = np.cross(b - a, c - a)
+    total = np.zeros_like(points)
+    for k in range(3):
+        for axis in range(3):
+            total[:, axis] += np.bincount(triangles[:, k], faces[:, axis], len(points))
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return total / np.where(length > 0, length, 1)
+
+
+def pieces(triangles: Triangles, count: int) -> NDArray[np.int64]:
+    """The connected piece of each triangle; pieces share points."""
+    sparse, graph = need("scipy.sparse"), need("scipy.sparse.csgraph")
+    edges = edges_with_triangles(triangles)[0]
+    links = sparse.coo_matrix((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), (count, count))
+    _, label = graph.connected_components(links, directed=False)
+    return np.asarray(label[triangles[:, 0]], dtype=np.int64)
+
+
+def boundary_loops(triangles: Triangles) -> list[NDArray[np.int64]]:
+    """The closed loops of edges with one triangle, each as points in order.
+
+    Each edge is in one loop; a point at which loops touch may be in several. In a surface without
+    edges of three triangles every point has an even number of such edges, so that loops close.
+    """
+    edges, count = unique_edges(triangles)
+    rim = edges[count == 1]
+    beside: dict[int, list[int]] = {}
+    for a, b in rim.tolist():
+        beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
+    loops = []
+    for start in sorted(beside):
+        while beside[start]:
+            loop, at = [], start
+            while True:
+                loop.append(at)
+                after = beside[at].pop()
+                beside[after].remove(at)
+                at = after
+                if at == start or not beside[at]:
+                    break
+            loops.append(np.array(loop))
+    return loops
+
+
+def manifold(triangles: Triangles, points: Points) -> Triangles:
+    """Without the smallest triangles at edges that more than two triangles share."""
+    for _ in range(10):
+        edges, owner = edges_with_triangles(triangles)
+        _, inverse, count = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True,
+                                      return_counts=True)
+        crowded = count[inverse.ravel()] > 2
+        if not crowded.any():
+            break
+        size = areas(points, triangles)
+        rows, edge = owner[crowded], inverse.ravel()[crowded]
+        order = np.lexsort((size[rows], edge))
+        _, first = np.unique(edge[order], return_index=True)
+        triangles = np.delete(triangles, np.unique(rows[order][first]), axis=0)
+    return triangles
+
+
+def loop_length(points: Points, loop: NDArray[np.int64]) -> float:
+    return float(np.linalg.norm(points[loop] - points[np.roll(loop, -1)], axis=1).sum())
+
+
+def handles(sheet: Sheet) -> int:
+    """The genus of one connected sheet: tunnels through it, which no leaflet has."""
+    edges, _ = unique_edges(sheet.triangles)
+    euler = len(np.unique(sheet.triangles)) - len(edges) + len(sheet.triangles)
+    return max(0, (2 - len(boundary_loops(sheet.triangles)) - euler) // 2)
+
+
+class Smoothing:
+    """Averages of point values over a neighbourhood of the surface: heat flow with uniform weights.
+
+    One pass replaces a value by the mean of itself and its neighbours.
+    """
+
+    def __init__(self, triangles: Triangles, count: int) -> None:
+        sparse = need("scipy.sparse")
+        edges, _ = unique_edges(triangles)
+        ends = np.concatenate([edges, edges[:, ::-1]])
+        links = sparse.coo_matrix((np.ones(len(ends)), ends.T), (count, count)).tocsr()
+        links = links + sparse.identity(count, format="csr")
+        weight = np.asarray(links.sum(axis=1)).ravel()
+        self._mean = sparse.diags(1 / weight) @ links
+
+    def __call__(self, values: NDArray[Any], passes: int,
+                 weight: Optional[NDArray[Any]] = None) -> NDArray[Any]:
+        """Values (n,) or (n, k) after some passes; points of weight 0 take part with none."""
+        if weight is None:
+            for _ in range(passes):
+                values = self._mean @ values
+            return values
+        column = weight if values.ndim == 1 else weight[:, None]
+        total, share = values * column, weight.astype(float)
+        for _ in range(passes):
+            total, share = self._mean @ total, self._mean @ share
+        column = share if values.ndim == 1 else share[:, None]
+        return np.asarray(total / np.maximum(column, 1e-12))
+
+
+def smooth_rims(sheet: Sheet, passes: int) -> None:
+    """Moves the points of boundary loops to the mean with their neighbours along the loop.
+
+    Taubin's two steps (1995) keep the length of the loop.
+    """
+    for loop in boundary_loops(sheet.triangles):
+        if len(loop) < 8:
+            continue
+        line = sheet.points[loop]
+        for _ in range(passes):
+            for step in (0.5, -0.53):
+                line = line + step * ((np.roll(line, 1, 0) + np.roll(line, -1, 0)) / 2 - line)
+        sheet.points[loop] = line
+
+
+def largest_piece(sheet: Sheet) -> tuple[Sheet, list[float]]:
+    """The piece of the largest area, and the areas (m2) of the others, largest first."""
+    label = pieces(sheet.triangles, len(sheet.points))
+    size = np.bincount(label, areas(sheet.points, sheet.triangles))
+    order = np.argsort(-size, kind="stable")
+    order = order[size[order] > 0]
+    return sheet.part(label == order[0]), [float(size[k]) for k in order[1:]]

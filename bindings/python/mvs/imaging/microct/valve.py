@@ -1,0 +1,160 @@
+"""A valve from grey volumes: leaflets built as from a surface, with the chordae that are seen."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mvs
+from mvs.mesh import edges_of, shortest_paths
+from ..console import Console
+from ..findings import finding
+from ..labels import Leaflets, report_thickness
+from ..open_valve import check_open_valve
+from ..pipeline import Pipeline, Run
+from ..valve import ImageValve, build, distance_from_image, scanned
+from .chords import ChordNetwork
+from .loaded import Loaded, loaded_of, with_loaded_boundary, with_loaded_lengths
+from .stages import PIPELINE
+
+Points = NDArray[np.float64]
+MARGINAL, BASAL = 2.5e-3, 4e-3
+"""m: insertions this near to the free edge are marginal, this near to the annulus basal"""
+
+
+def valve_of_volumes(image: Any, loaded: Optional[Any], landmarks: Mapping[str, Any],
+                     loaded_landmarks: Mapping[str, Any], register: Optional[str], console: Console,
+                     name: str = "valve", pipeline: Pipeline = PIPELINE, **options: Any) -> ImageValve:
+    """Builds and closes the valve in a micro-CT-like volume; chordae are those in the image.
+
+    loaded: the same valve under load: positions of annulus and heads, lengths of chordae
+    """
+    run = pipeline.run({"image": image, "tips": landmarks.get("papillary_tips")},
+                       progress=console.stage)
+    leaflets = leaflets_of_run(run)
+    network: ChordNetwork = run["chords"]
+    given = dict(landmarks)
+    if given.get("papillary_tips") is None and network.heads:
+        given["papillary_tips"] = network.nodes[:network.heads]
+    other: Optional[Loaded] = None
+    if loaded is not None:
+        other = loaded_of(loaded, image, landmarks, loaded_landmarks, register, pipeline, console)
+    console.stage("building and closing the valve")
+    made = build(leaflets, given, None, name, lambda done, _: console.share(done),
+                 findings=tuple(other.findings if other else ()), **options)
+    if network.heads:
+        made = with_chords(made, network, other)
+    made.image = scanned(image)
+    if other is not None and loaded is not None:
+        made.loaded, made.loaded_image = other.surface, scanned(loaded, other.motion)
+        made.findings += (distance_from_image(made.closed, other.surface),)
+    made.stages = run.table()
+    return made
+
+
+def leaflets_of_run(run: Run) -> Leaflets:
+    """The leaflets of a segmentation; ArgumentError unless they are an open valve."""
+    sheet = run["sheet"]
+    leaflets = Leaflets(sheet, np.zeros(len(sheet.triangles), np.uint32), [])
+    tissue = run["tissue"]
+    leaflets.findings.append(finding(
+        "segmentation", mvs.FindingSource.MEASURED, 0.7,
+        f"{tissue}; {run['thick']}; {run['muscles']}; chordae: {run['chords']}"))
+    check_open_valve(leaflets)
+    report_thickness(sheet, leaflets.findings)
+    return leaflets
+
+
+def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded]) -> ImageValve:
+    """The valve with the chordae of the image in the place of assumed ones, closed again."""
+    valve = mvs.valve_of(made.opened)
+    vertex, moved = _vertices_of(made.opened, network)
+    _set_chords(valve, made.opened, network, vertex)
+    found = [_chord_finding(network, moved)]
+    if loaded is not None:
+        found += with_loaded_boundary(valve, network, loaded)
+    with mvs.Simulator() as sim:
+        sim.set_valve(valve)
+        opened = sim.snapshot()
+        sim.set_load(mvs.SYSTOLE_PA)
+        stats = sim.settle()
+        closed = sim.snapshot()
+    if loaded is not None and stats.converged:
+        opened, closed, stats, more = with_loaded_lengths(valve, closed, network, loaded)
+        found.append(more)
+    assumed = ("chordae", "leak", "papillary_tips")
+    kept = [one for one in made.findings if one.name not in assumed]
+    return dataclasses.replace(made, opened=opened, closed=closed, converged=stats.converged,
+                               findings=(*kept, *found))
+
+
+def _vertices_of(opened: mvs.Snapshot, network: ChordNetwork) -> tuple[NDArray[np.int64], Points]:
+    """A leaflet vertex of its own for each insertion, the nearest ones in all (linear assignment)."""
+    from ..needs import need
+
+    kinds = np.asarray(opened.node_kind)
+    free = np.flatnonzero(kinds == mvs.NodeKind.LEAFLET)
+    ends = network.nodes[network.heads + network.branches:]
+    away = np.linalg.norm(ends[:, None] - np.asarray(opened.node_rest)[free][None], axis=2)
+    rows, columns = need("scipy.optimize").linear_sum_assignment(away)
+    return free[columns[np.argsort(rows)]], away[rows, columns]
+
+
+def _set_chords(valve: mvs.Valve, opened: mvs.Snapshot, network: ChordNetwork,
+                vertex: NDArray[np.int64]) -> None:
+    kinds = np.asarray(opened.node_kind)
+    count = int((kinds <= mvs.NodeKind.ANNULUS).sum())
+    first = network.heads + network.branches
+    inner = network.nodes[:first]
+    valve.nodes = np.vstack([valve.nodes[:count], inner])
+    place = np.concatenate([count + np.arange(first), vertex])
+    ends = place[network.segments]
+    rest = network.length.copy()
+    for k, ((_, b), line) in enumerate(zip(network.segments, network.lines)):
+        if b >= first:
+            # the end moves to the vertex: the length changes as seen from 3 mm before it
+            near = line[max(0, len(line) - 1 - int(3e-3 / max(rest[k] / len(line), 1e-6)))]
+            rest[k] += float(np.linalg.norm(valve.nodes[place[b]] - near)
+                             - np.linalg.norm(line[-1] - near))
+    chords = len(ends)
+    valve.chord_nodes = ends.astype(np.uint32)
+    valve.chord_rest_length = rest
+    valve.chord_area = np.pi / 4 * network.diameter ** 2
+    valve.chord_kind = _kinds(opened, network, vertex, first)
+    valve.chord_young = np.full(chords, np.median(valve.chord_young))
+    valve.chord_law = np.full(chords, valve.chord_law[0], np.uint32)
+    valve.chord_constants = np.tile(valve.chord_constants[0], (chords, 1))
+    valve.head_nodes = (count + np.arange(network.heads)).astype(np.uint32)
+    for field in ("chord_id", "chord_names", "head_id", "head_names", "node_origin", "nodes_loaded",
+                  "nodes_open", "nodes_now"):
+        setattr(valve, field, None)
+
+
+def _kinds(opened: mvs.Snapshot, network: ChordNetwork, vertex: NDArray[np.int64],
+           first: int) -> NDArray[np.uint32]:
+    """Kind of each segment by the distance of its insertion from free edge and annulus."""
+    points = np.asarray(opened.node_rest)
+    edges = edges_of(np.asarray(opened.triangle_nodes, np.int64))
+    to_edge, _ = shortest_paths(points, edges, np.asarray(opened.free_edge_nodes, np.int64))
+    to_annulus, _ = shortest_paths(points, edges, np.asarray(opened.annulus_nodes, np.int64))
+    kinds = []
+    for _, b in network.segments:
+        if b < first:
+            kinds.append(mvs.ChordKind.TRUNK)
+            continue
+        node = vertex[b - first]
+        kinds.append(mvs.ChordKind.MARGINAL if to_edge[node] < MARGINAL else
+                     mvs.ChordKind.BASAL if to_annulus[node] < BASAL else mvs.ChordKind.ROUGH_ZONE)
+    return np.array(kinds, np.uint32)
+
+
+def _chord_finding(network: ChordNetwork, moved: Points) -> mvs.Finding:
+    return finding(
+        "chordae", mvs.FindingSource.MEASURED, 0.7,
+        f"{network}; their ends moved by {1e3 * np.median(moved):.2f} mm in the median, at most "
+        f"{1e3 * moved.max():.2f} mm, to vertices of the mesh; rest lengths are the lengths in the open "
+        "image, slack arcs included", network.length, "m")

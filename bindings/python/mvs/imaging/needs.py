@@ -1,0 +1,26 @@
+"""Imports the packages of the extra "imaging", or names the extra that is missing."""
+
+from __future__ import annotations
+
+import importlib
+from types import ModuleType
+
+EXTRA = {
+    "SimpleITK": "SimpleITK",
+    "skimage": "scikit-image",
+    "scipy": "SciPy",
+    "pyvista": "PyVista",
+    "slicerio": "slicerio",
+    "matplotlib": "Matplotlib",
+}
+
+
+def need(name: str) -> ModuleType:
+    """The module `name`, such as "scipy.ndimage"; ImportError names the extra if it is absent."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        package = EXTRA.get(name.split(".")[0], name)
+        raise ImportError(
+            f"mvs.imaging needs {package}: pip install 'libmvs[imaging]'"
+        ) from error

@@ -1,0 +1,62 @@
+"""Whether leaflets in an image are an open valve: two rims, the right size, holes filled."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mvs import ArgumentError, FindingSource
+from .findings import finding
+from .labels import Leaflets, LabelSettings
+from .mesh import areas, boundary_loops, edges_with_triangles, loop_length
+
+
+def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings()) -> None:
+    """Fills small holes; ArgumentError unless the rest is an open valve, a ring of tissue with two rims."""
+    sheet = found.sheet
+    total = float(areas(sheet.points, sheet.triangles).sum())
+    if total < 3e-4 or total > 5e-3:
+        raise ArgumentError(
+            f"the leaflets have {total * 1e4:.1f} cm2 (those of a mitral valve have 6 to 30): there is "
+            "no whole valve in the image, or its spacing is wrong", "image")
+    loops = sorted(boundary_loops(sheet.triangles), key=lambda loop: -loop_length(sheet.points, loop))
+    length = [loop_length(sheet.points, loop) for loop in loops]
+    rims = [k for k, l in enumerate(length) if k < 2 or l > np.pi * settings.hole]
+    if len(loops) < 2 or length[1] <= np.pi * settings.hole:
+        raise ArgumentError(
+            "the leaflets have one rim and no orifice: the valve is closed in this image, or the label "
+            "covers the orifice. Give the image of the open valve, and the closed one by --loaded",
+            "image")
+    if len(rims) > 2:
+        centre = sheet.points[loops[2]].mean(axis=0) * 1e3
+        raise ArgumentError(
+            f"the leaflets have {len(rims)} rims, {', '.join(f'{1e3 * length[k]:.0f}' for k in rims)} "
+            "mm long: an open valve has two, annulus and free edge. The third surrounds a hole, or the "
+            f"label joins the leaflets, near ({centre[0]:.0f}, {centre[1]:.0f}, {centre[2]:.0f}) mm in "
+            "LPS: mend the segmentation there, or allow larger holes by --hole", "image")
+    for loop in loops[2:]:
+        fill_hole(found, loop)
+    holes = [one for one in length[2:] if one > 2e-3]
+    if holes:
+        found.findings.append(finding(
+            "holes", FindingSource.MEASURED, 0.8,
+            f"{len(holes)} holes with rims up to {1e3 * holes[0]:.1f} mm long were filled", holes, "m"))
+
+
+def fill_hole(found: Leaflets, loop: NDArray[np.int64]) -> None:
+    """Closes a hole by triangles to the middle of its rim, of the leaflet that is most of the rim."""
+    sheet = found.sheet
+    middle = len(sheet.points)
+    sheet.points = np.vstack([sheet.points, sheet.points[loop].mean(axis=0)])
+    for name, value in sheet.values.items():
+        sheet.values[name] = np.append(value, value[loop].mean())
+    after = np.roll(loop, -1)
+    # against the edge of the triangle beside, so that both wind alike
+    edges = {(int(a), int(b)) for a, b in edges_with_triangles(sheet.triangles)[0]}
+    if (int(loop[0]), int(after[0])) not in edges:
+        loop, after = after, loop
+    fan = np.column_stack([after, loop, np.full(len(loop), middle)])
+    beside = found.leaflet[np.isin(sheet.triangles, loop).any(axis=1)]
+    label = np.bincount(beside, minlength=3).argmax()
+    sheet.triangles = np.vstack([sheet.triangles, fan])
+    found.leaflet = np.append(found.leaflet, np.full(len(fan), label, np.uint32))

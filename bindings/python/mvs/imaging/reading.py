@@ -1,0 +1,170 @@
+"""Reads volumes and label maps: NRRD, NIfTI, MetaImage, DICOM series, .seg.nrrd.
+
+Volumes are `SimpleITK.Image` in LPS with lengths in mm, as ITK reads every one of these formats.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mvs import ArgumentError, FormatError, IoError
+from .needs import need
+
+PathLike = Union[str, "os.PathLike[str]"]
+ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LabelMap:
+    """Segments of one image: `masks` by name, each a bool array (z, y, x) of the voxels of `image`.
+
+    Segments may overlap, as those of .seg.nrrd files in several layers do.
+    """
+
+    image: Any
+    masks: dict[str, NDArray[np.bool_]]
+    values: dict[str, int]
+
+    def __repr__(self) -> str:
+        parts = ", ".join(f"{name}: {int(mask.sum())}" for name, mask in self.masks.items())
+        return f"<mvs.imaging.LabelMap: {self.image.GetSize()}, voxels {{{parts}}}>"
+
+
+def read_volume(path: PathLike) -> Any:
+    """Reads a grey volume as float32 (SimpleITK.Image); a folder is read as a DICOM series.
+
+    FormatError if the file is no volume of three dimensions, ArgumentError for a voxel size that no
+    image of a heart valve has.
+    """
+    image = _read(path)
+    sitk = need("SimpleITK")
+    if image.GetNumberOfComponentsPerPixel() != 1:
+        raise FormatError(f"{os.fspath(path)}: has {image.GetNumberOfComponentsPerPixel()} values at "
+                          "each voxel: give a volume with one, or a .seg.nrrd file", "image")
+    check_voxels(image, os.fspath(path))
+    return sitk.Cast(image, sitk.sitkFloat32)
+
+
+def read_labels(path: PathLike, names: Optional[dict[int, str]] = None) -> LabelMap:
+    """Reads a label map: a .seg.nrrd file with the names of its segments, or whole numbers.
+
+    names: the name of each value; values without a name, except 0, are called by their number.
+        A signed label image (negative outside, positive inside) is one segment called "1"
+    """
+    if os.fspath(path).lower().endswith((".seg.nrrd", ".seg.nhdr")):
+        return _read_segments(path)
+    return labels_of(_read(path), names, os.fspath(path))
+
+
+def labels_of(image: Any, names: Optional[dict[int, str]] = None, path: str = "image") -> LabelMap:
+    """The segments of a label image in memory."""
+    check_voxels(image, path)
+    sitk = need("SimpleITK")
+    values = sitk.GetArrayViewFromImage(image)
+    if not np.issubdtype(values.dtype, np.integer) and not (values == np.rint(values)).all():
+        raise FormatError(f"{path}: the voxels are no whole numbers: this is a grey volume and no "
+                          "label map", "labels")
+    found = [int(k) for k in np.unique(values) if k != 0]
+    if len(found) > 64:
+        raise FormatError(f"{path}: has {len(found)} different values: this is a grey volume and no "
+                          "label map (at most 64 labels)", "labels")
+    named = {k: (names or {}).get(k, str(k)) for k in found}
+    return LabelMap(image, {named[k]: np.asarray(values == k) for k in found},
+                    {named[k]: k for k in found})
+
+
+def is_label_map(image: Any) -> bool:
+    """Whether a volume holds at most 16 different whole numbers."""
+    values = need("SimpleITK").GetArrayViewFromImage(image)
+    sample = np.unique(values.ravel()[:: max(1, values.size // 200_000)])
+    if len(sample) > 16 or (sample != np.rint(sample)).any():
+        return False
+    return len(np.unique(values)) <= 16
+
+
+def check_voxels(image: Any, path: str) -> None:
+    """Refuses voxel sizes that no image of a heart valve has: 0.005 to 3 mm are taken as mm."""
+    spacing = np.array(image.GetSpacing())
+    extent = spacing * np.array(image.GetSize())
+    words = " x ".join(f"{s:.3g}" for s in spacing)
+    if image.GetDimension() != 3:
+        raise FormatError(f"{path}: has {image.GetDimension()} dimensions: give one volume of 3", "image")
+    if (spacing < 0.005).any() and extent.max() < 1:
+        raise ArgumentError(
+            f"{path}: the voxels measure {words} mm and the whole image {extent.max():.3g} mm: the "
+            "spacing looks like metres. Multiply it by 1000 in the header", "spacing")
+    if extent.max() < 20:
+        raise ArgumentError(
+            f"{path}: the whole image measures {extent.max():.3g} mm, less than a mitral valve: the "
+            "spacing looks like cm or an image of a part. Give spacing in mm and the whole valve",
+            "spacing")
+    if (spacing > 3).any() or (spacing < 0.005).any():
+        raise ArgumentError(
+            f"{path}: the voxels measure {words} mm: leaflets are 1 mm thick and need voxels of at "
+            "most 3 mm on each side. Check the spacing in the header", "spacing")
+
+
+def _read(path: PathLike) -> Any:
+    sitk = need("SimpleITK")
+    name = os.fspath(path)
+    if Path(name).is_dir():
+        return _read_dicom(name)
+    if not Path(name).exists():
+        raise IoError(f"{name}: there is no such file", "path")
+    try:
+        return sitk.ReadImage(name)
+    except RuntimeError as error:
+        reason = str(error).strip().splitlines()[-1]
+        raise FormatError(f"{name}: is no volume that SimpleITK reads ({reason}): give "
+                          f"{', '.join(ENDINGS)} or a folder of DICOM files", "path") from error
+
+
+def _read_dicom(folder: str) -> Any:
+    sitk = need("SimpleITK")
+    series = sitk.ImageSeriesReader.GetGDCMSeriesIDs(folder)
+    if not series:
+        raise FormatError(f"{folder}: has no DICOM series", "path")
+    if len(series) > 1:
+        sizes = [f"{one}: {len(sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, one))} files"
+                 for one in series]
+        raise FormatError(f"{folder}: has {len(series)} DICOM series ({'; '.join(sizes)}): put one "
+                          "of them in a folder of its own", "path")
+    reader = sitk.ImageSeriesReader()
+    reader.SetFileNames(sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, series[0]))
+    return reader.Execute()
+
+
+def _read_segments(path: PathLike) -> LabelMap:
+    """The segments of a .seg.nrrd file, each of its own layer, placed by its header."""
+    sitk = need("SimpleITK")
+    name = os.fspath(path)
+    if not Path(name).exists():
+        raise IoError(f"{name}: there is no such file", "path")
+    try:
+        segmentation = need("slicerio").read_segmentation(name)
+        voxels, to_lps = segmentation["voxels"], np.array(segmentation["ijkToLPS"], float)
+        segments = segmentation["segments"]
+    except (OSError, ValueError, KeyError, IndexError) as error:
+        raise FormatError(f"{name}: is no segmentation of 3D Slicer ({error})", "path") from error
+    spacing = np.linalg.norm(to_lps[:3, :3], axis=0)
+    first = voxels[0] if voxels.ndim == 4 else voxels
+    image = sitk.GetImageFromArray(np.ascontiguousarray(first.T))
+    image.SetSpacing(spacing.tolist())
+    image.SetOrigin(to_lps[:3, 3].tolist())
+    image.SetDirection((to_lps[:3, :3] / spacing).ravel().tolist())
+    check_voxels(image, name)
+    masks, values = {}, {}
+    for segment in segments:
+        layer = voxels[int(segment.get("layer", 0))] if voxels.ndim == 4 else voxels
+        title, copy = segment.get("name") or segment["id"], 2
+        while title in masks:
+            title, copy = f"{segment['name']} {copy}", copy + 1
+        masks[title] = np.ascontiguousarray((layer == int(segment["labelValue"])).T)
+        values[title] = int(segment["labelValue"])
+    return LabelMap(image, masks, values)

@@ -1,0 +1,131 @@
+"""Reads the files that a call of `mvs-image` names, and builds the valve."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any, Optional
+
+import numpy as np
+
+import mvs
+from .console import Console
+from .findings import finding, read_known
+from .labels import (ANTERIOR, POSTERIOR, UNKNOWN, LabelSettings, leaflets_in)
+from .landmarks import read_part
+from .loaded import Motion, closed_surface, motion_of_landmarks
+from .mesh import Sheet
+from .open_valve import check_open_valve
+from .reading import LabelMap, is_label_map, labels_of, read_labels, read_volume
+from .valve import ImageValve, build, scanned
+
+PARTS = {"annulus": "annulus", "commissures": "commissures", "anterior": "anterior",
+         "tips": "papillary_tips"}
+
+
+def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve:
+    """The valve that the arguments of `mvs-image build` ask for."""
+    landmarks = read_known(chosen.known) if chosen.known else {}
+    thickness = landmarks.pop("thickness", None)
+    landmarks.update(_landmarks(chosen, ""))
+    options = _options(chosen)
+    if thickness is not None:
+        options.setdefault("thickness", thickness)
+    console.stage("reading images")
+    image = _image(chosen.image)
+    loaded = _image(chosen.loaded) if chosen.loaded else None
+    if not isinstance(image, LabelMap):
+        from .microct.valve import valve_of_volumes
+
+        return valve_of_volumes(image, loaded, landmarks, _landmarks(chosen, "loaded_"),
+                                chosen.register, console, name=chosen.image.stem, **options)
+    if loaded is not None and not isinstance(loaded, LabelMap):
+        raise mvs.ArgumentError("the open image is a label map and the loaded one a grey volume: give "
+                                "the labels of the loaded leaflets", "loaded")
+    return _valve_of_labels(chosen, image, loaded, landmarks, options, console)
+
+
+def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Optional[LabelMap],
+                     landmarks: dict[str, Any], options: dict[str, Any],
+                     console: Console) -> ImageValve:
+    settings = LabelSettings() if chosen.hole is None else LabelSettings(hole=chosen.hole * 1e-3)
+    segments = _segments(chosen)
+    console.stage("mid-surface of the open leaflets")
+    leaflets = leaflets_in(image, segments, settings)
+    check_open_valve(leaflets, settings)
+    surface: Optional[Sheet] = None
+    motion = Motion.none()
+    found: list[mvs.Finding] = []
+    if loaded is not None:
+        console.stage("mid-surface of the closed leaflets")
+        surface, found = closed_surface(loaded, segments, settings)
+        motion, how = motion_between(chosen.register or "none", landmarks,
+                                     _landmarks(chosen, "loaded_"))
+        surface.points = motion(surface.points)
+        found.append(how)
+    console.stage("building and closing the valve")
+    made = build(leaflets, landmarks, surface, chosen.image.name.split(".")[0],
+                 lambda done, _: console.share(done), findings=tuple(found), **options)
+    if chosen.report:
+        made.image = scanned(image)
+        made.loaded_image = scanned(loaded, motion) if loaded is not None else None
+    return made
+
+
+def motion_between(how: str, landmarks: dict[str, Any],
+                   loaded: dict[str, Any]) -> tuple[Motion, mvs.Finding]:
+    """The rigid motion from the loaded frame to the open one, by landmarks of both or none."""
+    if how == "none":
+        return Motion.none(), finding(
+            "registration", mvs.FindingSource.ASSUMED, 0.5,
+            "open and loaded image are taken to be in one frame, as phases of one acquisition are; "
+            "else give --register landmarks")
+    if how == "image":
+        raise mvs.ArgumentError("--register image needs grey volumes: label maps move with the "
+                                "leaflets. Use --register landmarks", "register")
+    common = [part for part in PARTS.values()
+              if part in landmarks and part in loaded
+              and len(np.atleast_2d(landmarks[part])) == len(np.atleast_2d(loaded[part]))]
+    if not common:
+        raise mvs.ArgumentError("--register landmarks needs the same landmarks of both images, such as "
+                                "--annulus and --loaded-annulus", "register")
+    start = np.vstack([np.atleast_2d(loaded[part]) for part in common])
+    end = np.vstack([np.atleast_2d(landmarks[part]) for part in common])
+    motion, rms = motion_of_landmarks(start, end)
+    if rms > 8e-3:
+        raise mvs.ArgumentError(
+            f"the landmarks of both images ({', '.join(common)}) differ by {rms * 1e3:.0f} mm RMS after "
+            "the best rigid motion: they are of another patient, or in another order", "register")
+    return motion, finding(
+        "registration", mvs.FindingSource.MEASURED, 0.8,
+        f"the loaded image was moved to the open one by {len(start)} landmarks ({', '.join(common)}); "
+        f"{rms * 1e3:.1f} mm RMS remain, which include the motion of the annulus",
+        [*motion.turn.ravel(), *motion.shift])
+
+
+def _image(path: Any) -> Any:
+    """A label map, or a grey volume."""
+    if str(path).lower().endswith((".seg.nrrd", ".seg.nhdr")):
+        return read_labels(path)
+    volume = read_volume(path)
+    return labels_of(volume, path=str(path)) if is_label_map(volume) else volume
+
+
+def _landmarks(chosen: argparse.Namespace, prefix: str) -> dict[str, Any]:
+    return {part: read_part(getattr(chosen, prefix + option), part, chosen.frame)
+            for option, part in PARTS.items() if getattr(chosen, prefix + option)}
+
+
+def _segments(chosen: argparse.Namespace) -> Optional[dict[str, int]]:
+    given = {chosen.anterior_label: ANTERIOR, chosen.posterior_label: POSTERIOR,
+             chosen.leaflet_label: UNKNOWN}
+    return {name: label for name, label in given.items() if name is not None} or None
+
+
+def _options(chosen: argparse.Namespace) -> dict[str, Any]:
+    lengths = {"edge": chosen.edge, "thickness": chosen.thickness,
+               "coaptation_length": chosen.coaptation_length}
+    options: dict[str, Any] = {name: value * 1e-3 for name, value in lengths.items()
+                               if value is not None}
+    options.update({name: getattr(chosen, name) for name in ("chords", "leaflet")
+                    if getattr(chosen, name) is not None})
+    return options

@@ -1,0 +1,140 @@
+"""From leaflets in an image to a valve that closes, with mvs.Simulator.build_valve."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any, Optional
+
+import numpy as np
+
+from numpy.typing import NDArray
+
+import mvs
+from .findings import finding
+from .grid import Grid, Points, crop, isotropic
+from .labels import Leaflets
+from .landmarks import PARTS, check_near
+from .loaded import Motion
+from .mesh import Sheet
+from .needs import need
+from .reading import LabelMap
+
+Progress = Optional[Callable[[float, float], object]]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ScannedImage:
+    """A volume to draw, and the rigid motion from its frame to that of the open image."""
+
+    grid: Grid
+    values: NDArray[Any]
+    motion: Motion
+
+    def sample(self, points: Points) -> Points:
+        """Values at points (..., 3) in m in the frame of the open image."""
+        own = (points.reshape(-1, 3) - self.motion.shift) @ self.motion.turn
+        return self.grid.sample(self.values, own).reshape(points.shape[:-1])
+
+
+def scanned(image: Any, motion: Optional[Motion] = None) -> ScannedImage:
+    """A volume, or the segments of a label map, for pictures; at most some 10 million voxels."""
+    sitk = need("SimpleITK")
+    if isinstance(image, LabelMap):
+        mask = sum((k + 1) * m.astype(np.uint8) for k, m in enumerate(image.masks.values()))
+        drawn = sitk.GetImageFromArray(mask)
+        drawn.CopyInformation(image.image)
+        image = crop(drawn, mask > 0, 10e-3)
+    extent = np.prod(np.array(image.GetSize()) * np.array(image.GetSpacing()) * 1e-3)
+    step = max(min(image.GetSpacing()) * 1e-3, float(extent / 1e7) ** (1 / 3))
+    values = sitk.GetArrayViewFromImage(image)
+    grid, volume = isotropic(image, step, float(values.min()))
+    return ScannedImage(grid, volume, motion or Motion.none())
+
+
+@dataclasses.dataclass(eq=False)
+class ImageValve:
+    """A valve from images, open and closed under 120 mmHg, with the findings on the way.
+
+    stages: name, CPU seconds and result of each stage of a segmentation
+    """
+
+    opened: mvs.Snapshot
+    closed: mvs.Snapshot
+    converged: bool
+    leaflets: Leaflets
+    loaded: Optional[Sheet]
+    findings: tuple[mvs.Finding, ...]
+    landmarks: dict[str, Any]
+    image: Optional[ScannedImage] = None
+    loaded_image: Optional[ScannedImage] = None
+    stages: tuple[tuple[str, float, str], ...] = ()
+
+
+def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[Sheet] = None,
+          name: str = "valve", progress: Progress = None, pressure: float = mvs.SYSTOLE_PA,
+          findings: tuple[mvs.Finding, ...] = (), **options: Any) -> ImageValve:
+    """Builds and closes the valve.
+
+    landmarks: positions (n, 3) in m by part: annulus, commissures, anterior, papillary_tips; those
+        that are None are guessed
+    loaded: the closed leaflets; chords get the lengths with which the valve closes to them
+    options: edge, chords, leaflet, ... of mvs.Simulator.build_valve
+    """
+    sheet = leaflets.sheet
+    given = {part: np.ascontiguousarray(landmarks[part]) for part in PARTS
+             if landmarks.get(part) is not None}
+    check_near(given, sheet.points, "the leaflets in the image")
+    arguments: dict[str, Any] = {**options, **given}
+    arguments.setdefault("thickness", np.ascontiguousarray(sheet.values["thickness"]))
+    if leaflets.leaflet.any():
+        arguments["triangle_leaflet"] = np.ascontiguousarray(leaflets.leaflet)
+    if loaded is not None:
+        arguments["closed_points"] = np.ascontiguousarray(loaded.points)
+        arguments["closed_triangles"] = np.ascontiguousarray(loaded.triangles, dtype=np.uint32)
+    with mvs.Simulator() as sim:
+        found = sim.build_valve(np.ascontiguousarray(sheet.points),
+                                np.ascontiguousarray(sheet.triangles, dtype=np.uint32),
+                                kind="mid", name=name, progress=progress, **arguments)
+        opened = sim.snapshot()
+        sim.set_load(pressure)
+        stats = sim.settle()
+        closed = sim.snapshot()
+    every = [*leaflets.findings, *findings, *found, _distance_of_meshes(opened, sheet)]
+    if loaded is not None:
+        every.append(distance_from_image(closed, loaded))
+    return ImageValve(opened, closed, stats.converged, leaflets, loaded, tuple(every), dict(given))
+
+
+def leaflet_mesh(snapshot: mvs.Snapshot) -> tuple[Points, NDArray[np.int64]]:
+    """Points (n, 3) in m and triangles (m, 3) of the leaflets."""
+    return (np.asarray(snapshot.node_position), np.asarray(snapshot.triangle_nodes, np.int64))
+
+
+def distances(points: Points, surface_points: Points, triangles: NDArray[np.int64]) -> Points:
+    """The distance (n,) of points from a triangle surface."""
+    pyvista = need("pyvista")
+    surface = pyvista.PolyData.from_regular_faces(surface_points * 1e3, triangles)
+    _, closest = surface.find_closest_cell(points * 1e3, return_closest_point=True)
+    return np.asarray(np.linalg.norm(points - closest * 1e-3, axis=1))
+
+
+def _distance_of_meshes(opened: mvs.Snapshot, sheet: Sheet) -> mvs.Finding:
+    """How far the mid-surface in the image lies from the built mesh."""
+    away = distances(sheet.points, *leaflet_mesh(opened))
+    rms, high = float(np.sqrt((away ** 2).mean())), float(away.max())
+    return finding("mesh_distance", mvs.FindingSource.MEASURED, 1.0,
+                   f"the mid-surface in the image lies {rms * 1e3:.2f} mm RMS, at most "
+                   f"{high * 1e3:.2f} mm, from the mesh", [rms, high], "m")
+
+
+def distance_from_image(closed: mvs.Snapshot, loaded: Sheet) -> mvs.Finding:
+    """How far the simulated closed valve lies from the leaflets in the loaded image, both ways."""
+    points, triangles = leaflet_mesh(closed)
+    back = distances(loaded.points, points, triangles)
+    there = distances(points[np.unique(triangles)], loaded.points, loaded.triangles)
+    rms = float(np.sqrt(((back ** 2).mean() + (there ** 2).mean()) / 2))
+    high = float(np.percentile(np.concatenate([back, there]), 95))
+    return finding("closed_distance", mvs.FindingSource.MEASURED, 1.0,
+                   f"under load the simulated valve lies {rms * 1e3:.2f} mm RMS from the leaflets in the "
+                   f"loaded image, 95 % of it within {high * 1e3:.2f} mm", [rms, high], "m")

@@ -1,0 +1,254 @@
+"""mvs.imaging: label maps become mid-surfaces of leaflets; faults are refused with a sentence."""
+
+import json
+
+import mvs
+import numpy as np
+import pytest
+
+sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleITK)")
+pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
+pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
+
+from mvs import imaging  # noqa: E402
+from mvs.imaging import mesh  # noqa: E402
+from mvs.imaging.command import main  # noqa: E402
+
+VOXEL = 0.7  # mm, of ultrasound
+
+
+def funnel(voxel=VOXEL, thickness=1.4, gap=0.0, seed=None):
+    """Labels of an open valve: a cone around z, wide at the annulus (top); 1 anterior, 2 posterior.
+
+    Distances from the cone are exact, so that its mid-surface and thickness are known.
+    """
+    n = int(40 / voxel)
+    z, y, x = np.meshgrid(*[(np.arange(n) - n / 2 + 0.5) * voxel] * 3, indexing="ij")
+    radius = np.hypot(x, y)
+    # from (16, 8) at the annulus to (8, -8) at the free edge, in the plane (radius, z)
+    along = np.array([-8, -16]) / np.hypot(8, 16)
+    share = (radius - 16) * along[0] + (z - 8) * along[1]
+    away = np.abs((radius - 16) * along[1] - (z - 8) * along[0])
+    tissue = (away < thickness / 2) & (share > 0) & (share < np.hypot(8, 16))
+    labels = np.where(tissue, np.where(y > gap, 1, 2), 0).astype(np.uint8)
+    if seed is not None:
+        random = np.random.default_rng(seed)
+        edge = tissue ^ (np.pad(tissue, 1)[2:, 1:-1, 1:-1] | tissue)
+        labels[tissue & (random.random(labels.shape) < 0.03)] = 0
+        labels[edge & (random.random(labels.shape) < 0.1)] = 1
+    return labels, np.stack([x, y, z], -1)
+
+
+def image_of(labels, voxel=VOXEL):
+    image = sitk.GetImageFromArray(labels)
+    image.SetSpacing([voxel] * 3)
+    n = labels.shape[0]
+    image.SetOrigin([(0.5 - n / 2) * voxel] * 3)
+    return image
+
+
+NAMES = {1: "anterior leaflet", 2: "posterior leaflet"}
+
+
+def away_from_cone(points):
+    """Distance (mm) of points from the cone's mid-surface."""
+    x, y, z = 1e3 * points.T
+    along = np.array([-8, -16]) / np.hypot(8, 16)
+    return (np.hypot(x, y) - 16) * along[1] - (z - 8) * along[0]
+
+
+def found_in(labels, **more):
+    return imaging.leaflets_in(imaging.labels_of(image_of(labels), NAMES), **more)
+
+
+def test_the_mid_surface_of_labels_is_sub_voxel_and_has_its_thickness():
+    found = found_in(funnel()[0])
+    away = away_from_cone(found.sheet.points)
+    # voxels are 0.7 mm: a tenth of one
+    assert np.sqrt((away**2).mean()) < 0.07
+    thickness = found.sheet.values["thickness"] * 1e3
+    assert np.percentile(np.abs(thickness - 1.4), 95) < 0.15 * 1.4
+    imaging.check_open_valve(found)
+    loops = mesh.boundary_loops(found.sheet.triangles)
+    lengths = sorted(mesh.loop_length(found.sheet.points, loop) * 1e3 for loop in loops)
+    # both rims are circles of radius 8 and 16 mm
+    assert lengths == pytest.approx([2 * np.pi * 8, 2 * np.pi * 16], rel=0.06)
+    share = np.bincount(found.leaflet) / len(found.leaflet)
+    assert share[1:] == pytest.approx([0.5, 0.5], abs=0.03)
+
+
+def test_noise_holes_spurs_and_islands_move_the_surface_less_than_half_a_voxel():
+    labels, at = funnel(seed=1)
+    hole = np.linalg.norm(at - [0, 12, 0], axis=-1) < 1.5
+    labels[hole] = 0
+    spur = (np.hypot(at[..., 1], at[..., 2]) < 1) & (at[..., 0] > 12) & (at[..., 0] < 15.5)
+    labels[spur] = 1
+    labels[:3, :3, :3] = 2
+    found = found_in(labels)
+    imaging.check_open_valve(found)
+    away = away_from_cone(found.sheet.points)
+    assert np.sqrt((away**2).mean()) < 0.35
+    assert "islands" in {one.name for one in found.findings}
+
+
+def test_labels_swapped_near_a_commissure_are_given_back():
+    labels, at = funnel()
+    swapped = (np.linalg.norm(at - [10, 6, -2], axis=-1) < 2.5) & (labels > 0)
+    labels[swapped] = 2
+    found = found_in(labels)
+    assert "swapped_labels" in {one.name for one in found.findings}
+    for label in (1, 2):
+        rows = found.sheet.triangles[found.leaflet == label]
+        assert len(np.unique(mesh.pieces(rows, len(found.sheet.points)))) == 1
+
+
+def refused(labels, words, **more):
+    with pytest.raises(mvs.Error, match=words) as caught:
+        found = found_in(labels, **more)
+        imaging.check_open_valve(found)
+    assert len(str(caught.value)) > 40
+
+
+def test_faults_of_label_maps_are_refused_with_a_sentence():
+    labels, at = funnel()
+    refused(np.zeros_like(labels), "no valve in it")
+    refused(np.where(labels == 1, 1, 0).astype(np.uint8), "one leaflet is missing")
+    apart = labels.copy()
+    apart[np.abs(at[..., 0]) < 1.5] = 0
+    refused(apart, "2 disconnected pieces")
+    closed = labels.copy()
+    closed[(np.abs(at[..., 2] + 7) < 0.8) & (np.hypot(at[..., 0], at[..., 1]) < 9)] = 1
+    refused(closed, "closed in this image")
+    torn = labels.copy()
+    torn[np.linalg.norm(at - [0, 12, 0], axis=-1) < 5] = 0
+    refused(torn, "rims")
+    numbers = imaging.labels_of(image_of(labels))
+    with pytest.raises(mvs.ArgumentError, match='say which ones.*--anterior-label'):
+        imaging.leaflets_in(numbers)
+    with pytest.raises(mvs.ArgumentError, match='no segment "x".*"1", "2"'):
+        imaging.leaflets_in(numbers, {"x": 1})
+
+
+def test_spacing_in_metres_or_cm_and_other_files_are_refused(tmp_path):
+    labels, _ = funnel()
+    for scale, words in ((1e-3, "metres"), (0.1, "cm"), (20, "at most 3 mm")):
+        image = image_of(labels, VOXEL * scale)
+        with pytest.raises(mvs.ArgumentError, match=words):
+            imaging.labels_of(image)
+    grey = sitk.GetImageFromArray(np.random.default_rng(0).random((30, 30, 30)))
+    with pytest.raises(mvs.FormatError, match="no label map"):
+        imaging.labels_of(grey)
+    path = tmp_path / "a.nrrd"
+    path.write_text("no image")
+    with pytest.raises(mvs.FormatError, match="no volume that SimpleITK reads"):
+        imaging.read_volume(path)
+    with pytest.raises(mvs.IoError, match="no such file"):
+        imaging.read_labels(tmp_path / "b.seg.nrrd")
+
+
+def test_every_volume_format_gives_the_same_positions(tmp_path):
+    image = image_of(funnel(2.0)[0], 2.0)
+    image.SetDirection([0, -1, 0, 1, 0, 0, 0, 0, 1])
+    for ending in ("nrrd", "nii.gz", "mha"):
+        sitk.WriteImage(image, str(tmp_path / f"a.{ending}"))
+        read = imaging.read_labels(tmp_path / f"a.{ending}", NAMES)
+        for index in ((0, 0, 0), (3, 5, 7)):
+            # NIfTI holds single precision
+            assert read.image.TransformIndexToPhysicalPoint(index) == pytest.approx(
+                image.TransformIndexToPhysicalPoint(index), abs=1e-4)
+        assert np.array_equal(read.masks["anterior leaflet"],
+                              sitk.GetArrayFromImage(image) == 1)
+
+
+def test_segments_of_slicer_may_overlap_in_layers(tmp_path):
+    nrrd = pytest.importorskip("nrrd")
+    labels, _ = funnel(2.0)
+    header = {"space": "left-posterior-superior", "kinds": ["list", "domain", "domain", "domain"],
+              "space directions": np.array([[np.nan] * 3, [2, 0, 0], [0, 2, 0], [0, 0, 2]]),
+              "space origin": np.array([1.0, 2, 3])}
+    for row, (name, layer) in enumerate((("Anterior leaflet", 0), ("Posterior leaflet", 1))):
+        header.update({f"Segment{row}_ID": f"S{row}", f"Segment{row}_Name": name,
+                       f"Segment{row}_LabelValue": "1", f"Segment{row}_Layer": str(layer),
+                       f"Segment{row}_Extent": "0 1 0 1 0 1", f"Segment{row}_Color": "1 0 0",
+                       f"Segment{row}_Tags": "|"})
+    layers = np.stack([labels.T == 1, labels.T > 0]).astype(np.uint8)
+    path = tmp_path / "a.seg.nrrd"
+    nrrd.write(str(path), layers, header)
+    read = imaging.read_labels(path)
+    assert np.array_equal(read.masks["Anterior leaflet"], labels == 1)
+    assert np.array_equal(read.masks["Posterior leaflet"], labels > 0)  # overlaps
+    assert read.image.GetOrigin() == (1, 2, 3) and read.image.GetSpacing() == (2, 2, 2)
+
+
+def markups(path, points, frame):
+    rows = [{"id": str(k), "label": f"P{k}", "position": [float(c) for c in p],
+             "positionStatus": "defined"} for k, p in enumerate(points)]
+    path.write_text(json.dumps({"markups": [{
+        "type": "Fiducial", "coordinateSystem": frame, "coordinateUnits": "mm",
+        "controlPoints": rows}]}))
+    return path
+
+
+def test_landmarks_of_another_frame_or_patient_are_refused(tmp_path):
+    path = markups(tmp_path / "tips.mrk.json", [[30, 30, 0], [30, 20, 0]], "")
+    with pytest.raises(mvs.ArgumentError, match="LPS or RAS"):
+        imaging.read_part(path, "tips")
+    assert imaging.read_part(path, "tips", "RAS")[0] == pytest.approx([-0.03, -0.03, 0])
+    tissue = np.array([[0.03, 0.03, 0], [0.04, 0.03, 0.01]])
+    from mvs.imaging.landmarks import check_near
+
+    with pytest.raises(mvs.ArgumentError, match="x and y mirrored"):
+        check_near({"annulus": -tissue * [1, 1, -1]}, tissue)
+    with pytest.raises(mvs.ArgumentError, match="another patient"):
+        check_near({"commissures": tissue + 0.2}, tissue)
+
+
+def test_registration_by_landmarks_recovers_a_rigid_motion():
+    random = np.random.default_rng(2)
+    start = random.normal(scale=0.02, size=(9, 3))
+    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    motion, rms = imaging.motion_of_landmarks(start, start @ turn.T + [0.1, 0, -0.2])
+    assert motion.turn == pytest.approx(turn, abs=1e-12) and rms < 1e-12
+
+
+def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
+    """Two images, one command; findings that are read back give the same valve."""
+    labels, _ = funnel()
+    sitk.WriteImage(image_of(labels), str(tmp_path / "open.nrrd"))
+    tips = markups(tmp_path / "tips.mrk.json", [[12, 0, -20], [-12, 0, -20]], "LPS")
+    call = [str(tmp_path / "open.nrrd"), "--anterior-label", "1", "--posterior-label", "2",
+            "--tips", str(tips), "--edge", "2.5", "--json"]
+    assert main([*call, "-o", str(tmp_path / "a.h5")]) == 0
+    output = capsys.readouterr()
+    made = json.loads(output.out)
+    assert made["converged"] and "mid-surface" in output.err
+    assert {"image_thickness", "mesh", "mesh_distance"} <= {row["name"] for row in made["findings"]}
+    again = [*call, "--with", str(tmp_path / "a.import.json"), "-o", str(tmp_path / "b.h5"), "--quiet"]
+    assert main(again) == 0
+    output = capsys.readouterr()
+    assert json.loads(output.out)["hash"] == made["hash"] and output.err == ""
+    assert main([str(tmp_path / "none.nrrd"), "-o", str(tmp_path / "c.h5"), "--quiet"]) == 1
+    assert "no such file" in capsys.readouterr().err
+
+
+def test_a_real_closed_leaflet_agrees_with_the_medial_surface_of_another_program(real_valves):
+    """Half a voxel RMS, from each point of the other surface (cm-rep) that is not on its rim.
+
+    Its label image is signed; its medial surface has the frame RAS of NIfTI files.
+    """
+    pyvista = pytest.importorskip("pyvista")
+    folder = real_valves / "real_mitral"
+    if not folder.is_dir():
+        pytest.skip(f"no {folder}")
+    found, voxel = imaging.sheet_of_image(imaging.read_volume(folder / "closed_anterior_label.nii.gz"))
+    other = pyvista.read(folder / "closed_anterior_medial.vtk").triangulate()
+    points = np.asarray(other.points, float) * [-1, -1, 1]
+    ours = pyvista.PolyData.from_regular_faces(found.points * 1e3, found.triangles)
+    _, closest = ours.find_closest_cell(points, return_closest_point=True)
+    away = np.linalg.norm(points - closest, axis=1)
+    assert np.sqrt((away**2).mean()) < 0.5 * voxel * 1e3
+    rim = np.concatenate(mesh.boundary_loops(other.regular_faces.astype(np.int64)))
+    inner = ~np.isin(np.arange(len(points)), rim)
+    # away from the rims, where the two programs end the sheet differently, a third of a voxel
+    assert np.sqrt((away[inner] ** 2).mean()) < voxel * 1e3 / 3

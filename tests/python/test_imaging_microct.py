@@ -1,0 +1,145 @@
+"""mvs.imaging.microct: grey volumes become leaflets, papillary muscles and chordae; stages can be replaced."""
+
+import mvs
+import numpy as np
+import pytest
+
+sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleITK)")
+pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
+
+from mvs import imaging  # noqa: E402
+from mvs.imaging import mesh  # noqa: E402
+from mvs.imaging.microct import PIPELINE  # noqa: E402
+
+VOXEL, THICKNESS, DIAMETER = 0.3, 1.0, 0.9  # mm
+TOP, BOTTOM, HEIGHT = 8.5, 6.5, 9.0  # mm: radii of annulus and free edge
+MUSCLES = np.array([[4.5, 0, -11.0], [-4.5, 0, -11.0]])
+INSERTIONS = np.array([[radius * np.cos(a), radius * np.sin(a), z] for a in
+                       np.radians([20, 70, 110, 160, 200, 250, 290, 340])
+                       for radius, z in [(BOTTOM, 0.2)]])
+
+
+def distance_from_segment(at, a, b):
+    along = (b - a) / np.linalg.norm(b - a)
+    place = np.clip((at - a) @ along, 0, np.linalg.norm(b - a))
+    return np.linalg.norm(at - a - place[..., None] * along, axis=-1)
+
+
+def muscle_of(end):
+    return 0 if end[0] > 0 else 1
+
+
+@pytest.fixture(scope="module")
+def volume():
+    """A cone of tissue, eight straight chords and two muscles, blurred, with noise."""
+    shape = (86, 70, 70)  # z, y, x
+    index = np.stack(np.meshgrid(*[np.arange(n) for n in shape], indexing="ij"), -1)[..., ::-1]
+    at = index * VOXEL - [10.35, 10.35, 15.0]
+    radius, z = np.hypot(at[..., 0], at[..., 1]), at[..., 2]
+    along = np.array([TOP - BOTTOM, HEIGHT]) / np.hypot(TOP - BOTTOM, HEIGHT)
+    share = (radius - BOTTOM) * along[0] + z * along[1]
+    away = np.abs((radius - BOTTOM) * along[1] - z * along[0])
+    solid = np.minimum(THICKNESS / 2 - away,
+                       np.minimum(share, np.hypot(TOP - BOTTOM, HEIGHT) - share))
+    for end in INSERTIONS:
+        chord = DIAMETER / 2 - distance_from_segment(at, MUSCLES[muscle_of(end)], end)
+        solid = np.maximum(solid, chord)
+    for centre in MUSCLES:
+        solid = np.maximum(solid, 2.2 - np.linalg.norm(at - centre + [0, 0, 1.5], axis=-1))
+    grey = np.clip(solid / VOXEL + 0.5, 0, 1)  # partial volume
+    noise = np.random.default_rng(0).normal(scale=0.05, size=shape)
+    image = sitk.GetImageFromArray((100 + 900 * (grey + noise)).astype(np.float32))
+    image.SetSpacing([VOXEL] * 3)
+    image.SetOrigin([-10.35, -10.35, -15.0])
+    return image
+
+
+@pytest.fixture(scope="module")
+def run(volume):
+    return PIPELINE.run({"image": volume, "tips": MUSCLES * 1e-3})
+
+
+def test_the_mid_surface_is_within_half_a_voxel_and_its_thickness_within_15_percent(run):
+    sheet = run["sheet"]
+    x, y, z = 1e3 * sheet.points.T
+    along = np.array([TOP - BOTTOM, HEIGHT]) / np.hypot(TOP - BOTTOM, HEIGHT)
+    away = (np.hypot(x, y) - BOTTOM) * along[1] - z * along[0]
+    assert np.sqrt((away**2).mean()) < 0.5 * VOXEL
+    error = sheet.values["thickness"] * 1e3 / THICKNESS - 1
+    assert np.sqrt((error**2).mean()) < 0.15
+    assert len(mesh.boundary_loops(sheet.triangles)) == 2 and mesh.handles(sheet) == 0
+
+
+def test_chords_have_both_ends_their_lengths_and_diameters(run):
+    network = run["chords"]
+    assert network.heads == 2 and len(network.segments) == len(INSERTIONS)
+    ends = network.nodes[network.segments[:, 1]] * 1e3
+    for end in INSERTIONS:
+        k = np.linalg.norm(ends - end, axis=1).argmin()
+        # at a rim the sheet goes on into the chord, for about its diameter and half of the thickness
+        assert np.linalg.norm(ends[k] - end) < DIAMETER + THICKNESS / 2
+        head = network.nodes[network.segments[k, 0]] * 1e3
+        assert np.linalg.norm(head - MUSCLES[muscle_of(end)]) < 1e-6
+        true = np.linalg.norm(ends[k] - head)
+        assert network.length[k] * 1e3 == pytest.approx(true, rel=0.02)
+        assert network.diameter[k] * 1e3 == pytest.approx(DIAMETER, rel=0.15)
+
+
+def test_stages_are_kept_and_can_be_replaced(run, volume):
+    assert [name for name, _, _ in run.table()] == [
+        "tissue", "thick", "leaflets", "sheet", "muscles", "paths", "chords"]
+    calls = []
+
+    def other(results):
+        calls.append(results["tissue"])
+        return run["thick"]
+
+    again = PIPELINE.replaced("thick", other).run({"image": volume}, until="thick")
+    assert calls and "leaflets" not in again.results
+    with pytest.raises(mvs.ArgumentError, match='no stage "x".*tissue, thick'):
+        PIPELINE.replaced("x", other)
+    given = PIPELINE.run({"image": volume, "tissue": run["tissue"]}, until="tissue")
+    assert given["tissue"] is run["tissue"] and not given.seconds
+
+
+def test_an_image_without_a_valve_is_refused():
+    noise = np.random.default_rng(1).normal(100, 5, (60, 60, 60)).astype(np.float32)
+    image = sitk.GetImageFromArray(noise)
+    with pytest.raises(mvs.ArgumentError, match="no valve is seen"):
+        PIPELINE.run({"image": image}, until="tissue")
+    z, y, x = np.mgrid[:60, :60, :60] * 0.5 - 15
+    ball = sitk.GetImageFromArray(np.where(x**2 + y**2 + z**2 < 64, 900, 100).astype(np.float32) + noise)
+    ball.SetSpacing([0.5] * 3)
+    with pytest.raises(mvs.ArgumentError, match="no leaflet is seen"):
+        PIPELINE.run({"image": ball}, until="sheet")
+
+
+def test_the_valve_has_the_chords_of_the_image_and_comes_to_rest(run, volume):
+    from mvs.imaging.console import Console
+    from mvs.imaging.microct.valve import valve_of_volumes
+
+    seen = imaging.Pipeline(tuple((name, lambda _, name=name: run[name]) for name in run.seconds))
+    made = valve_of_volumes(volume, None, {"papillary_tips": MUSCLES * 1e-3}, {}, None,
+                            Console(quiet=True), pipeline=seen, edge=1.8e-3)
+    assert made.converged and made.closed.at_rest
+    assert len(made.opened.chord_kind) == len(INSERTIONS)
+    named = {one.name: one for one in made.findings}
+    assert named["chordae"].source == mvs.FindingSource.MEASURED
+    nodes = np.asarray(made.opened.node_rest)[np.asarray(made.opened.chord_nodes)]
+    straight = np.linalg.norm(nodes[:, 0] - nodes[:, 1], axis=1)
+    # the chords of the image are straight; the skeleton is smoothed, and ends move to vertices
+    assert np.asarray(made.opened.chord_rest_length) == pytest.approx(straight, rel=0.03)
+    for end in INSERTIONS:
+        assert np.linalg.norm(nodes[:, 1] * 1e3 - end, axis=1).min() < DIAMETER + THICKNESS / 2 + 1.8 / 2
+
+
+def test_registration_by_images_recovers_a_rigid_motion(volume):
+    moved = sitk.Euler3DTransform()
+    moved.SetRotation(0.05, -0.04, 0.06)
+    moved.SetTranslation((1.0, -0.5, 0.8))
+    other = sitk.Resample(volume, volume, moved, sitk.sitkLinear, 100.0)
+    motion, _ = imaging.motion_of_images(other, volume)
+    points = np.random.default_rng(3).uniform(-8e-3, 8e-3, (50, 3))
+    # a point p of the resampled image shows what the first one has at moved(p)
+    true = np.array([moved.TransformPoint((1e3 * p).tolist()) for p in points]) * 1e-3
+    assert np.linalg.norm(motion(points) - true, axis=1).max() < 0.3e-3  # a voxel

@@ -1,0 +1,275 @@
+"""Valves recovered from phantom volumes, compared with the valves that the volumes were made of.
+
+    python tests/validation/phantoms.py [--kind micro-ct|ultrasound] [--cases N] [--short] [--data DIR]
+
+For each case: a phantom (mvs.imaging.phantom; open and loaded, closed under another tissue law and on
+a finer mesh than the recovered model), written to a folder without its truth; the recovery of
+`mvs-image build`, which sees that folder only; then distances from the truth. Micro-CT: from the grey
+volumes alone. Ultrasound: from labels with errors and landmarks, also without the loaded image.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import os
+import shutil
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any, Optional
+
+import mvs
+import numpy as np
+import phantom_cases
+from mvs.imaging import phantom
+from mvs.imaging.phantom.truth import true_valve
+
+MM = 1e3
+NEAR = {"micro-ct": 1.5, "ultrasound": 5.0}
+"""mm: an end of a chord is right if it is at most so far from that of its true chord; chordae end 2 to
+4 mm apart on the leaflets."""
+
+
+@dataclasses.dataclass
+class Row:
+    """The figures of one case; nan: not measured."""
+
+    name: str
+    refused: str = ""
+    mid_rms: float = np.nan
+    thickness: float = np.nan
+    chords: float = np.nan
+    lengths: float = np.nan
+    closed_rms: float = np.nan
+    law_rms: float = np.nan
+    leak: float = np.nan
+    low: float = np.nan
+    high: float = np.nan
+    unfitted: float = np.nan
+    cpu_phantom: float = np.nan
+    cpu_recovery: float = np.nan
+
+
+HEADINGS = {
+    "mid_rms": "mid-surface RMS, mm", "thickness": "thickness error, %",
+    "chords": "both ends right, %", "lengths": "length error, %",
+    "closed_rms": "closed RMS, mm", "law_rms": "closed RMS by the law alone, mm", "leak": "true leak, mm2", "low": "from", "high": "to",
+    "unfitted": "interval unfitted, mm2", "cpu_phantom": "CPU phantom, s",
+    "cpu_recovery": "CPU recovery, s",
+}
+
+
+def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder: Path) -> Row:
+    """Makes a phantom, recovers it from its files, and compares."""
+    row, start = Row(name), time.process_time()
+    made = phantom.make(valve, settings)
+    phantom.save(made, folder)
+    shutil.rmtree(folder / "truth")  # the recovery sees images, labels and landmarks only
+    row.cpu_phantom = time.process_time() - start
+    row.leak = made.truth.closed.measures.regurgitant_orifice_area * MM**2
+    row.law_rms = closed_with_default_law(made.truth) * MM
+    start = time.process_time()
+    try:
+        found = recover(folder, settings.kind, loaded=True)
+    except mvs.Error as error:
+        row.refused = str(error)
+        return row
+    row.cpu_recovery = time.process_time() - start
+    compare(row, made, found)
+    if settings.kind == "ultrasound":
+        low, high = leak_interval(recover(folder, settings.kind, loaded=False))
+        row.unfitted = high - low
+    return row
+
+
+def truth_of(name: str, valve: mvs.Snapshot, settings: phantom.Settings, _folder: Path) -> Row:
+    """The leak of the true valve, and the part of the closed RMS that is due to the law alone."""
+    truth = true_valve(valve, settings, loaded=True)
+    leak = truth.closed.measures.regurgitant_orifice_area * MM**2
+    return Row(name, leak=leak, law_rms=closed_with_default_law(truth) * MM)
+
+
+def recover(folder: Path, kind: str, loaded: bool) -> Any:
+    """The valve that `mvs-image build` makes of the files of a folder (mvs.imaging.ImageValve)."""
+    from mvs.imaging.command import parser_of
+    from mvs.imaging.console import Console
+    from mvs.imaging.requests import valve_of_request
+
+    ending = "nrrd" if kind == "micro-ct" else "seg.nrrd"
+    given = ["build", str(folder / f"open.{ending}"), "-o", str(folder / "valve.h5"), "--quiet"]
+    if loaded:
+        given += ["--loaded", str(folder / f"loaded.{ending}")]
+    if kind == "ultrasound":
+        for part in ("commissures", "annulus", "anterior", "tips"):
+            given += [f"--{part}", str(folder / f"open_{part}.mrk.json")]
+            if loaded:
+                given += [f"--loaded-{part}", str(folder / f"loaded_{part}.mrk.json")]
+    return valve_of_request(parser_of()[0].parse_args(given), Console(True))
+
+
+def compare(row: Row, made: phantom.Phantom, found: Any) -> None:
+    """Fills the figures of a row; the open image has the frame of the truth."""
+    truth = made.truth
+    row.mid_rms = found.opened.compare(truth.opened).surface_rms * MM
+    row.thickness = 100 * thickness_error(found.opened, truth.opened)
+    row.chords, row.lengths = chord_errors(found.opened, truth.opened, NEAR[made.settings.kind])
+    row.closed_rms = found.closed.compare(truth.closed).surface_rms * MM
+    row.low, row.high = leak_interval(found)
+
+
+def closed_with_default_law(truth: Any) -> float:
+    """RMS in m between the true closed valve and itself closed with the tissue of a recovered valve.
+
+    The part of the closed RMS that no recovery can avoid, as images do not show the tissue law.
+    """
+    valve = mvs.valve_of(truth.opened)
+    valve.leaflets = [
+        dataclasses.replace(leaf, law=mvs.LeafletLaw.BILINEAR, constants=()) for leaf in valve.leaflets
+    ]
+    with mvs.Simulator(log=lambda *_: None) as sim:
+        sim.set_valve(valve)
+        sim.set_load(truth.closed.load_case.pressure)
+        sim.settle()
+        return sim.snapshot().compare(truth.closed).surface_rms
+
+
+def thickness_error(found: mvs.Snapshot, truth: mvs.Snapshot) -> float:
+    """The median over the recovered triangles of |t - t_true| / t_true, at the nearest true triangle."""
+    from scipy.spatial import cKDTree
+
+    nearest = cKDTree(_centres(truth)).query(_centres(found))[1]
+    true = np.asarray(truth.triangle_thickness)[nearest]
+    return float(np.median(np.abs(np.asarray(found.triangle_thickness) - true) / true))
+
+
+def _centres(valve: mvs.Snapshot) -> np.ndarray:
+    return np.asarray(valve.node_position)[np.asarray(valve.triangle_nodes)].mean(axis=1)
+
+
+def chord_errors(found: mvs.Snapshot, truth: mvs.Snapshot, near: float) -> tuple[float, float]:
+    """Share of true chordae with both ends right, and the median length error of these, in percent.
+
+    A chord is the way from a papillary head to a leaflet. Chordae are paired one to one so that the
+    sum of the distances of their ends is least.
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    (ends, heads, lengths), (true_ends, true_heads, true_lengths) = ways(found), ways(truth)
+    if not len(ends):
+        return 0.0, np.nan
+    at_leaflet = np.linalg.norm(true_ends[:, None] - ends, axis=2)
+    at_head = np.linalg.norm(true_heads[:, None] - heads, axis=2)
+    a, b = linear_sum_assignment(np.minimum(at_leaflet + at_head, 0.1))
+    right = (at_leaflet[a, b] * MM <= near) & (at_head[a, b] * MM <= near)
+    error = np.abs(lengths[b] / true_lengths[a] - 1)[right]
+    share = 100 * float(right.sum()) / len(true_ends)
+    return share, 100 * float(np.median(error)) if right.any() else np.nan
+
+
+def ways(valve: mvs.Snapshot) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """For each chord end at a leaflet: its place, that of its head (n, 3), and rest length in between.
+
+    Branched chordae are followed along the segment that leads to the head in the fewest steps.
+    """
+    position, kind = np.asarray(valve.node_position), np.asarray(valve.node_kind)
+    segments, rest = np.asarray(valve.chord_nodes), np.asarray(valve.chord_rest_length)
+    reached = {int(n): (int(n), 0.0) for n in valve.head_nodes}  # node: head, length to it
+    front = list(reached)
+    while front:
+        following = []
+        for (a, b), length in zip(segments.tolist(), rest.tolist()):
+            for p, q in ((a, b), (b, a)):
+                free = kind[q] not in (mvs.NodeKind.LEAFLET, mvs.NodeKind.ANNULUS)
+                if p in front and q not in reached and free:
+                    reached[q] = (reached[p][0], reached[p][1] + length)
+                    following.append(q)
+        front = following
+    ends, heads, lengths = [], [], []
+    for (a, b), length in zip(segments.tolist(), rest.tolist()):
+        for p, q in ((a, b), (b, a)):
+            if p in reached and kind[q] in (mvs.NodeKind.LEAFLET, mvs.NodeKind.ANNULUS):
+                ends.append(position[q])
+                heads.append(position[reached[p][0]])
+                lengths.append(reached[p][1] + length)
+    shape = np.zeros((0, 3))
+    return np.array(ends or shape), np.array(heads or shape), np.array(lengths)
+
+
+def leak_interval(found: Any) -> tuple[float, float]:
+    """The reported interval of the leak in mm2; without one, the leak of the recovered valve twice."""
+    values = [f.values for f in found.findings if f.name == "leak" and len(f.values)]
+    leak = values[-1] if values else [found.closed.measures.regurgitant_orifice_area]
+    return float(np.min(leak)) * MM**2, float(np.max(leak)) * MM**2
+
+
+def table(rows: list[Row], spacing: float) -> str:
+    """A Markdown table of the rows, with medians and counts."""
+    keys = [k for k in HEADINGS if any(np.isfinite(getattr(r, k)) for r in rows)]
+    lines = ["| case | " + " | ".join(HEADINGS[k] for k in keys) + " |", "|---" * (len(keys) + 1) + "|"]
+    for row in rows:
+        values = ["" if np.isnan(getattr(row, k)) else f"{getattr(row, k):.2f}" for k in keys]
+        lines.append(f"| {row.name} | " + " | ".join(values) + " |" +
+                     (f" refused: {row.refused}" if row.refused else ""))
+    done = [r for r in rows if not r.refused]
+    if done:
+        medians = [f"{np.nanmedian([getattr(r, k) for r in done]):.2f}" for k in keys]
+        lines.append("| median | " + " | ".join(medians) + " |")
+    if not any(np.isfinite(r.low) for r in done):
+        return "\n".join(lines)
+    held = sum(r.low - 0.1 <= r.leak <= r.high + 0.1 for r in done)  # leaks are equal to 0.1 mm2
+    lines += ["", f"{len(done)} of {len(rows)} recovered; voxels of {spacing:g} mm; true leak inside of "
+              f"the reported interval in {held} of {len(done)}; median interval "
+              f"{np.median([r.high - r.low for r in done]) if done else np.nan:.1f} mm2"]
+    return "\n".join(lines)
+
+
+def settings_of(arguments: argparse.Namespace, kind: str, seed: int) -> phantom.Settings:
+    """The phantom of a case; --short: a coarser true mesh and voxels."""
+    changes: dict[str, Any] = {"seed": seed, "pose": True}
+    if arguments.short:
+        changes.update(vertices=0, spacing={"micro-ct": 0.3, "ultrasound": 0.7}[kind])
+    if arguments.law:
+        changes["law"] = arguments.law
+    if arguments.exact_labels:
+        changes["labels"] = phantom.LabelErrors()
+    return phantom.PRESETS[kind](**changes)
+
+
+def main() -> int:
+    """Runs the cases and prints the table; the exit code is 1 if no case was recovered."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    default = Path(__file__).resolve().parents[3] / "shared" / "data"
+    add = parser.add_argument
+    add("--data", type=Path, default=Path(os.environ.get("MVS_TEST_DATA", default)), metavar="DIR")
+    add("--kind", choices=tuple(phantom.PRESETS), default="ultrasound")
+    add("--cases", type=int, metavar="N", help="[4; 2 with --short]")
+    add("--first", type=int, default=1, metavar="N", help="leave out the cases before this one [1]")
+    add("--seed", type=int, default=0, metavar="N", help="of the cases [0]")
+    add("--short", action="store_true", help="two cases of coarse phantoms, in less than a minute")
+    add("--exact-labels", action="store_true", help="ultrasound labels without errors")
+    add("--law", metavar="LAW", help="tissue of the true leaflets [may_newman_yin]")
+    add("--truth-only", action="store_true", help="no volumes: the true leak, and how far the law "
+        "alone moves the closed shape")
+    add("--keep", type=Path, metavar="DIR", help="keep the files that the recovery saw")
+    arguments = parser.parse_args()
+    count = arguments.cases or (2 if arguments.short else 4)
+    rows: list[Row] = []
+    spacing: Optional[float] = None
+    chosen = phantom_cases.cases(arguments.data, count, arguments.seed)
+    for k, (name, valve) in enumerate(chosen[arguments.first - 1 :], arguments.first):
+        settings = settings_of(arguments, arguments.kind, 1000 * arguments.seed + k)
+        spacing = settings.spacing
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = arguments.keep / f"case{k}" if arguments.keep else Path(temporary)
+            print(name, file=sys.stderr, flush=True)
+            row = truth_of if arguments.truth_only else run_case
+            rows.append(row(name, valve(), settings, folder))
+            print(f"  {rows[-1]}", file=sys.stderr, flush=True)
+    print(table(rows, spacing or 0.0))
+    return 0 if any(not row.refused for row in rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
