@@ -133,6 +133,35 @@ def test_the_valve_has_the_chords_of_the_image_and_comes_to_rest(run, volume):
         assert np.linalg.norm(nodes[:, 1] * 1e3 - end, axis=1).min() < DIAMETER + THICKNESS / 2 + 1.8 / 2
 
 
+def test_a_loaded_volume_gives_places_and_lengths(run, volume):
+    """The loaded volume is the open one: nothing may move, and every chord is found again."""
+    from mvs.imaging.console import Console
+    from mvs.imaging.microct.valve import valve_of_volumes
+
+    seen = imaging.Pipeline(tuple((name, lambda _, name=name: run[name]) for name in run.seconds))
+    tips = {"papillary_tips": MUSCLES * 1e-3}
+    made = valve_of_volumes(volume, volume, tips, tips, "none", Console(quiet=True), pipeline=seen,
+                            edge=1.8e-3)
+    assert made.converged and made.loaded is not None
+    named = {one.name: one for one in made.findings}
+    assert {"registration", "head_motion", "annulus_motion", "loaded_chordae",
+            "closed_distance"} <= set(named)
+    heads = np.asarray(made.opened.head_nodes)
+    assert np.asarray(made.opened.node_loaded)[heads] * 1e3 == pytest.approx(MUSCLES, abs=1e-9)
+    # the rim of the remeshed leaflets lies on the rim in the image
+    annulus = np.asarray(made.opened.annulus_nodes)
+    moved = (made.opened.node_loaded - made.opened.node_rest)[annulus]
+    assert np.linalg.norm(moved, axis=1).max() < 0.5 * VOXEL * 1e-3
+
+    pytest.importorskip("matplotlib")
+    from mvs.imaging.page import page_of
+
+    text = page_of(made, "open <1>.nrrd")
+    # two rows of slices, four pictures of the valve, thickness, distances
+    assert text.count("<img ") == 8 and "open &lt;1&gt;.nrrd" in text
+    assert all(f"<td>{name}</td>" in text for name in (*run.seconds, *named))
+
+
 def test_registration_by_images_recovers_a_rigid_motion(volume):
     moved = sitk.Euler3DTransform()
     moved.SetRotation(0.05, -0.04, 0.06)

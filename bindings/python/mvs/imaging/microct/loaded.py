@@ -115,12 +115,7 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
             # at most a quarter shorter or longer than in the open image: beyond, another chord was seen
             rest[k] = np.clip(rest[k] + target - lengths[k], 0.75 * open_rest[k], 1.25 * open_rest[k])
         valve.chord_rest_length = rest.copy()
-        with mvs.Simulator() as sim:
-            sim.set_valve(valve)
-            opened = sim.snapshot()
-            sim.set_load(mvs.SYSTOLE_PA)
-            stats = sim.settle()
-            closed = sim.snapshot()
+        opened, closed, stats = settled(valve)
     assert stats is not None
     change = rest / open_rest - 1
     return opened, closed, stats, finding(
@@ -128,6 +123,16 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
         f"{len(matched)} of {len(rest)} segments were found in the loaded image, too; their rest lengths "
         f"changed by {100 * np.median(change[list(matched)]) if matched else 0:.1f} % in the median, so "
         "that they are as long under load as there", change, "")
+
+
+def settled(valve: mvs.Valve) -> tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats]:
+    """The valve open, and closed under 120 mmHg."""
+    with mvs.Simulator() as sim:
+        sim.set_valve(valve)
+        opened = sim.snapshot()
+        sim.set_load(mvs.SYSTOLE_PA)
+        stats = sim.settle()
+        return opened, sim.snapshot(), stats
 
 
 def _lengths(closed: mvs.Snapshot, valve: mvs.Valve) -> Points:

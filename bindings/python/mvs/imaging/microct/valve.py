@@ -18,7 +18,7 @@ from ..open_valve import check_open_valve
 from ..pipeline import Pipeline, Run
 from ..valve import ImageValve, build, distance_from_image, scanned
 from .chords import ChordNetwork
-from .loaded import Loaded, loaded_of, with_loaded_boundary, with_loaded_lengths
+from .loaded import Loaded, loaded_of, settled, with_loaded_boundary, with_loaded_lengths
 from .stages import PIPELINE
 
 Points = NDArray[np.float64]
@@ -77,12 +77,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     found = [_chord_finding(network, moved)]
     if loaded is not None:
         found += with_loaded_boundary(valve, network, loaded)
-    with mvs.Simulator() as sim:
-        sim.set_valve(valve)
-        opened = sim.snapshot()
-        sim.set_load(mvs.SYSTOLE_PA)
-        stats = sim.settle()
-        closed = sim.snapshot()
+    opened, closed, stats = settled(valve)
     if loaded is not None and stats.converged:
         opened, closed, stats, more = with_loaded_lengths(valve, closed, network, loaded)
         found.append(more)
