@@ -41,9 +41,18 @@ export async function openPlanner(context, { hash = '' } = {}) {
   return { page, errors, requests };
 }
 
-/** Waits until nothing is calculated and the valve is shown. */
-export async function closed(page) {
-  await page.waitForFunction(() => window.planner?.state.main.value && !window.planner.state.busy.value, null, { timeout: 60_000 });
+/** Waits until nothing is calculated and the valve is shown. The page's policy forbids waitForFunction (eval). */
+export async function closed(page, limit = 60_000) {
+  const end = Date.now() + limit;
+  for (;;) {
+    const idle = await page.evaluate(() => {
+      const { state } = window.planner ?? {};
+      return !!state?.main.value && !state.busy.value && !(state.draft.value && state.pending.value);
+    });
+    if (idle) return;
+    if (Date.now() > end) throw new Error(`the page is busy for more than ${limit / 1000} s`);
+    await page.waitForTimeout(20);
+  }
 }
 
 /** The figures of the valve on the page. */

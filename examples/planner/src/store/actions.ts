@@ -125,6 +125,7 @@ let timer = 0;
 export function edit(kind: string, fields: Record<string, FieldValue>): void {
   batch(() => {
     state.draft.value = { kind, fields };
+    state.pending.value = true;
     state.panel.value = 'repair';
     state.motion.value = null;
     state.openness.value = 1;
@@ -163,6 +164,8 @@ async function refresh(): Promise<void> {
     batch(() => {
       state.preview.value = null;
       state.draftMessage.value = '';
+      state.pending.value = false;
+      state.busy.value = null;
     });
     return;
   }
@@ -192,6 +195,7 @@ async function refresh(): Promise<void> {
   } finally {
     if (call.id === draftCall) {
       draftCall = 0;
+      state.pending.value = false;
       state.busy.value = null;
     }
   }
@@ -216,6 +220,7 @@ export function discard(): void {
     state.preview.value = null;
     state.draftMessage.value = '';
     state.picking.value = null;
+    state.pending.value = false;
     state.busy.value = null;
   });
   void request('discard', null).catch(fail);

@@ -31,6 +31,8 @@ export const reference = signal<Shown | null>(null);
 
 export const draft = signal<Draft | null>(null);
 export const draftMessage = signal('');
+/** True from a change of the form until its preview or its refusal. */
+export const pending = signal(false);
 export const choice = signal<Choice | null>(null);
 /** The field of the draft that the next click in the picture fills. */
 export const picking = signal<string | null>(null);

@@ -31,7 +31,7 @@ export function TopBar() {
   );
 }
 
-const presets: [Preset, string][] = [['surgeon', 'Surgeon'], ['ventricle', 'Ventricle'], ['commissure', 'Commissure'], ['section', 'Section']];
+const presets: [Preset, string][] = [['surgeon', 'Surgeon'], ['ventricle', 'Ventricle'], ['commissure', 'Side'], ['section', 'Section']];
 
 export function ViewBar(props: { go: (preset: Preset) => void }) {
   return (
@@ -57,7 +57,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         <Button kind="quiet" icon={<Hand size={18} />} label="Grasp and pull tissue" keys="G" pressed={state.tool.value === 'grasp'} disabled={!!state.draft.value} onClick={() => (state.tool.value = 'grasp')} />
         <Button kind="quiet" icon={<span class="ball" />} label="Push tissue with a ball" keys="B" pressed={state.tool.value === 'push'} disabled={!!state.draft.value} onClick={() => (state.tool.value = 'push')} />
       </div>
-      <label class="colours"><span>Colours</span>
+      <label class="colours">
         <select value={state.map.value} aria-label="Colours" onChange={(event) => (state.map.value = event.currentTarget.value as MapName)}>
           {Object.entries(mapWords).map(([name, words]) => <option value={name}>{words.title}</option>)}
         </select>

@@ -21,7 +21,7 @@ export function Verdict() {
         {state.preview.value && <span class="tag">preview</span>}
       </div>
       <div class="verdict-figure">
-        <span class="big" data-testid="orifice">{figure(m.orifice, m.orifice > 0 && m.orifice < 10 ? 1 : 0)}</span> mm² leak
+        <span class="big" data-testid="orifice">{figure(m.orifice, m.orifice > 0 && m.orifice < 10 ? 1 : 0)}</span> mm² leak{m.orifice === 0 && graded && ' at 120 mmHg'}
         {before && Math.abs(before.measures.orifice - m.orifice) > 0.05 && (
           <span class="was"> was {figure(before.measures.orifice, 1)}</span>
         )}

@@ -78,9 +78,9 @@ export class Camera {
     const x = new Vector3().crossVectors(top, z).normalize();
     const y = new Vector3().crossVectors(z, x);
     const orientation = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(x, y, z));
-    const depth = preset === 'surgeon' ? 0.1 : preset === 'ventricle' ? 0.35 : 0.42;
+    const depth = preset === 'surgeon' ? 0.1 : preset === 'ventricle' ? 0.3 : 0.48;
     const target = at ?? origin.clone().addScaledVector(up, -depth * radius);
-    const room = preset === 'surgeon' ? 1.25 : 1.45;
+    const room = preset === 'surgeon' ? 1.02 : 1.2;
     const narrow = Math.min(1, this.aspect);
     this.goal = { orientation, target, distance: (room * radius) / Math.tan(this.fov / 2) / narrow };
   }

@@ -4,6 +4,8 @@ import { figure } from '../text/texts';
 import { Shapes, type Mesh } from './mesh';
 import type { Mark } from './scene';
 import { tissue } from './colours';
+import { pickSurface } from './pick';
+import type { Topology } from '../protocol';
 import type { Viewport } from './viewport';
 
 interface Label {
@@ -11,6 +13,21 @@ interface Label {
   at: number[];
   kind: string;
 }
+
+/** One label for all heads of a papillary muscle: AL1, AL2 and AL3 are AL. */
+function headLabels(topology: Topology, x: Float32Array): Label[] {
+  const muscles = new Map<string, number[][]>();
+  topology.headNodes.forEach((node, h) => {
+    const name = topology.heads[h].name.replace(/\d+$/, '') || topology.heads[h].name;
+    muscles.set(name, [...(muscles.get(name) ?? []), [0, 1, 2].map((c) => x[3 * node + c])]);
+  });
+  return [...muscles].map(([text, places]) => ({
+    text, kind: 'head', at: [0, 1, 2].map((c) => places.reduce((sum, place) => sum + place[c], 0) / places.length),
+  }));
+}
+
+/** mm behind the leaflets at which a label is still shown: its place is the mean of a curved scallop. */
+const tolerance = 4;
 
 export class Labels {
   private layer: HTMLElement;
@@ -47,9 +64,7 @@ export class Labels {
         const [a, b, c, n] = sums[s];
         if (n) labels.push({ text: part.name, at: [a / n, b / n, c / n], kind: 'scallop' });
       });
-      topology.headNodes.forEach((node, h) =>
-        labels.push({ text: topology.heads[h].name, at: [0, 1, 2].map((c) => x[3 * node + c]), kind: 'head' }),
-      );
+      labels.push(...headLabels(topology, x));
     }
     const choice = state.choice.value;
     const k = choice?.kind === 'chord' ? topology.chords.findIndex((part) => part.id === choice.id) : -1;
@@ -61,6 +76,15 @@ export class Labels {
       labels.push({ text, at, kind: 'chord' });
     }
     return labels;
+  }
+
+  /** Whether a leaflet lies between the eye and a place. */
+  private hidden(view: Viewport, at: number[], px: number, py: number): boolean {
+    const picture = state.picture.value!;
+    const topology = state.topologyOf(picture)!;
+    const hit = pickSurface(view.camera, topology, picture.positions, px, py, view.width, view.height, view.plane());
+    const eye = view.camera.position();
+    return !!hit && Math.hypot(at[0] - eye.x, at[1] - eye.y, at[2] - eye.z) > hit.distance + tolerance;
   }
 
   update(view: Viewport): void {
@@ -76,6 +100,7 @@ export class Labels {
       if (element.textContent !== label.text) element.textContent = label.text;
       element.className = `label label-${label.kind}`;
       const [px, py] = view.camera.project(label.at[0], label.at[1], label.at[2], view.width, view.height);
+      element.hidden = label.kind !== 'chord' && this.hidden(view, label.at, px, py);
       element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(-50%, -50%)`;
     });
   }

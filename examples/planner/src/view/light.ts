@@ -1,9 +1,9 @@
 // The light of both renderers: a key light from the upper left of the viewer, a weak fill from the other side,
 // an ambient part that falls from above to below, and a small highlight (Blinn-Phong). Axes of the camera.
 
-export const key = normalised(-0.45, 0.62, 0.64);
-export const fillLight = normalised(0.75, -0.25, 0.6);
-export const strength = { key: 0.72, fill: 0.2, ambient: 0.3, highlight: 0.2, shininess: 24 };
+export const key = normalised(-0.3, 0.42, 0.86);
+export const fillLight = normalised(0.6, -0.6, 0.5);
+export const strength = { key: 0.66, fill: 0.26, ambient: 0.32, highlight: 0.14, shininess: 28 };
 
 function normalised(x: number, y: number, z: number): [number, number, number] {
   const s = 1 / Math.hypot(x, y, z);

@@ -97,13 +97,13 @@ function seams(topology: Topology, picture: Picture): Mesh {
       const key = Math.min(a, b) * topology.nodes + Math.max(a, b);
       const other = owner.get(key);
       if (other === undefined) owner.set(key, triangleScallop[t]);
-      else if (other !== triangleScallop[t]) shapes.tube(point(x, a), point(x, b), 0.14, tissue.seam, 5);
+      else if (other !== triangleScallop[t]) shapes.tube(point(x, a), point(x, b), 0.1, tissue.seam, 4);
     }
   }
   const edge = Array.from(topology.freeEdge, (node) => point(x, node));
   for (let k = 0; k < edge.length; ++k) {
     const [a, b] = [edge[k], edge[(k + 1) % edge.length]];
-    if (Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 8) shapes.tube(a, b, 0.24, tissue.edge, 5);
+    if (Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 8) shapes.tube(a, b, 0.2, tissue.edge, 5);
   }
   return shapes.mesh({ cut: true });
 }
@@ -122,13 +122,16 @@ function chordae(topology: Topology, picture: Picture, options: SceneOptions): M
   const shapes = new Shapes();
   const x = picture.positions;
   const many = topology.chordKind.length > 1500;
+  const onLeaflet = new Uint8Array(topology.nodes);
+  for (const node of topology.triangles) onLeaflet[node] = 1;
   for (let k = 0; k < topology.chordKind.length; ++k) {
     const [a, b] = [point(x, topology.chordNodes[2 * k]), point(x, topology.chordNodes[2 * k + 1])];
     const chosen = k === options.chosenChord;
     const thin = Math.min(0.75, Math.max(0.22, 0.62 * topology.chordRadius[k]));
     const radius = (many ? 0.15 : thin) * (chosen ? 1.8 : 1);
     shapes.tube(a, b, radius, chordColour(topology, picture, options, k), many ? 4 : 7);
-    if (!many) shapes.sphere(b, radius * 1.25, chordColour(topology, picture, options, k), 4, 6);
+    // a joint where chordae branch; on the leaflet it would show on the other side
+    if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0) shapes.sphere(b, radius * 1.15, chordColour(topology, picture, options, k), 4, 6);
   }
   return shapes.mesh({ cut: true });
 }
@@ -137,13 +140,13 @@ function boundary(topology: Topology, picture: Picture, options: SceneOptions): 
   const shapes = new Shapes();
   const x = picture.positions;
   shapes.path(Array.from(topology.annulus, (node) => point(x, node)), 0.55, tissue.annulus, true);
-  const radius = topology.headNodes.length > 6 ? 1.1 : 2;
+  const radius = topology.headNodes.length > 8 ? 0.9 : topology.headNodes.length > 2 ? 1.5 : 2;
   topology.headNodes.forEach((node, h) => {
     const at = point(x, node);
     const chosen = h === options.chosenHead;
     shapes.sphere(at, radius, chosen ? tissue.chosen : tissue.head, 10, 16);
-    const below = [at[0] - 7 * options.frame[9], at[1] - 7 * options.frame[10], at[2] - 7 * options.frame[11]];
-    shapes.tube(at, below, radius, tissue.head, 16, radius * 1.7);
+    const below = [at[0] - 4.5 * options.frame[9], at[1] - 4.5 * options.frame[10], at[2] - 4.5 * options.frame[11]];
+    shapes.tube(at, below, radius, tissue.head, 16, radius * 1.25);
   });
   for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
     const points = [];
