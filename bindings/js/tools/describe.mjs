@@ -148,7 +148,7 @@ function steps(fn, describer) {
       made.push({ ...row, how: "outScalar", element: scalars[base]?.[0] ?? "u32" });
     } else {
       made.push({ ...row, how: describer.byName.has(p.type) && !describer.byName.get(p.type).flags ? "enum" : "scalar",
-        of: p.type, element: scalars[p.type]?.[0] ?? "u32" });
+        of: p.type, element: scalars[describer.byName.get(p.type)?.type ?? p.type][0] });
     }
     if (p.direction === "in" && /[\[*]/.test(p.type) === false && p.length === undefined) throw new Error(fn.name);
   }

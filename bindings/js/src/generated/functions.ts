@@ -78,7 +78,7 @@ const signatures: Record<string, Signature> = {
     name: "mvs_result_name",
     returns: "const char *",
     steps: [
-      { name: "code", nullable: false, how: "enum", of: "mvs_result", element: "u32" },
+      { name: "code", nullable: false, how: "enum", of: "mvs_result", element: "i32" },
     ],
   },
   mvs_version: {

@@ -9,6 +9,25 @@ export const closed = (mvs, vertices = 425) => {
   return sim;
 };
 
+// Takes all memory but about `kept` bytes, in one piece; below 0: until there is none.
+function fill(heap, kept) {
+  const blocks = kept > 0 ? [heap.allocate(kept)] : [];
+  try {
+    for (let size = 1 << 20; size >= 1024; ) {
+      try {
+        blocks.push(heap.allocate(size));
+      } catch (error) {
+        if (kept < 0 && size === 1024) throw error;
+        size /= 2;
+      }
+    }
+  } finally {
+    if (kept < 0) blocks.splice(0).forEach((block) => heap.free(block));
+  }
+  if (kept > 0) heap.free(blocks.shift());
+  return blocks;
+}
+
 export const life = {
   a_valve_closes_and_can_be_measured({ mvs }) {
     const sim = closed(mvs);
@@ -128,14 +147,31 @@ export const life = {
   },
 
   async memory_that_is_exhausted_is_a_failure({ load }) {
-    const mvs = await load({ maxMemory: 48 << 20 });
+    const mvs = await load({ maxMemory: 32 << 20 });
     const sim = mvs.simulator();
     sim.generateValve();
-    const hash = sim.read((snapshot) => snapshot.hash);
-    await fails(() => sim.generateValve({ vertices: 60000 }), "MVS_E_MEMORY", /memory/);
-    equal(sim.read((snapshot) => snapshot.hash), hash, "hash after the failure");
     sim.setLoad();
+    const open = sim.snapshot();
+    const { heap } = mvs.c;
+    let refused = 0;
+    for (let kept = 16; kept <= 16384; kept *= 2) {
+      const blocks = fill(heap, 1024 * kept);
+      for (const work of [() => sim.settle(), () => sim.generateValve({ vertices: 3000 }), () => sim.read((s) => s.measure())]) {
+        try {
+          work();
+        } catch (error) {
+          equal(error.code, "MVS_E_MEMORY", String(error));
+          ++refused;
+          equal(sim.read((s) => s.hash), open.hash, "hash after the failure");
+        }
+        sim.restore(open);
+      }
+      for (const block of blocks) heap.free(block);
+    }
+    ok(refused >= 3, `${refused} calls were refused`);
+    await fails(() => fill(heap, -1), "MVS_E_MEMORY", /bytes are free/);
     equal(sim.settle().converged, 1, "closes afterwards");
+    open.dispose();
     sim.dispose();
   },
 

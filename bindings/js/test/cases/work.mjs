@@ -90,7 +90,7 @@ export const work = {
     await fails(() => sim.setLoad({ pressure: "high" }), "MVS_E_ARGUMENT", /pressure is not a number/);
     await fails(() => sim.setLoad(7), "MVS_E_ARGUMENT", /not an object/);
     await fails(() => sim.load("", "h5"), "MVS_E_UNSUPPORTED", /./);
-    await fails(() => sim.setValve({}), "MVS_E_ARGUMENT", /nodes/);
+    await fails(() => sim.setValve({}), "MVS_E_OP", /nodes/);
     await fails(() => mvs.c.mvs_device_open?.() ?? mvs.c.raw("mvs_no_such"), "MVS_E_UNSUPPORTED", /no function/);
     await fails(() => mvs.readSurface("solid x", "part.stl", { unit: "mm" }), "MVS_E_FORMAT", /part\.stl/);
     sim.generateValve();
