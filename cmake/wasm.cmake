@@ -8,8 +8,9 @@ if(NOT EMSCRIPTEN)
 endif()
 # Eigen 3.4 takes clang for gcc 4.2. Before gcc 6.3 (10 * major + minor >= 63) it has minimum and maximum
 # as x86 assembly, from gcc 6.0 on constraints of x86 in asm statements: 5.13 has neither.
-add_compile_options(-fwasm-exceptions -msimd128 -msse2 -fgnuc-version=5.13.0 -Wno-error=shorten-64-to-32)
+add_compile_options(-fwasm-exceptions -msimd128 -msse2 -fgnuc-version=5.13.0)
 add_link_options(-fwasm-exceptions)
+set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 
 # Headers without code, from the host. /usr/include itself must not be searched, because its other
 # headers are not those of emscripten's C library: a folder that holds links is.

@@ -20,7 +20,7 @@ const folder = join(root, "build/wasm/bindings/js");
 const table = read(join(root, "tests/golden/digests.csv"));
 const scenes = process.env.MVS_JS_SCENES ?? "close";
 const asked = scenes === "all" ? [] : scenes.split(",");
-const program = process.env.MVS_GOLDEN ?? join(root, "build/release/bin/golden");
+const program = process.env.MVS_GOLDEN ?? join(root, "build/release/tests/golden/golden");
 const wasm = readFileSync(join(folder, "golden.wasm"));
 // a script of a web page: in Node it only has to be evaluated
 const create = new Function(`${read(join(folder, "golden.js"))}; return createGolden;`)();
