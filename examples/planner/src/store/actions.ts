@@ -77,6 +77,7 @@ function show(shown: Shown, fresh: boolean): void {
 
 function begun(shown: Shown | null, title: string): void {
   if (!shown) return;
+  state.imported.value = null;
   show(shown, true);
   state.title.value = title;
   state.notes.value = '';
@@ -101,7 +102,32 @@ export async function openFile(file: File): Promise<void> {
     begun(await run(t.closing, 'open_file', { name: file.name, bytes }), file.name.replace(/\.obj$/i, ''));
     return;
   }
+  if (/\.(stl|ply|obj|off|vtp|vtk)$/i.test(file.name)) return beginImport(file.name, bytes);
   state.notice.value = { kind: 'error', text: t.unknownFile(file.name) };
+}
+
+/** Shows a surface to build a valve from. The unit is asked for because most files do not state it. */
+export async function beginImport(name: string, bytes: Uint8Array, unit = 'mm'): Promise<void> {
+  const surface = await run(t.reading, 'read_surface', { name, bytes: bytes.slice(), unit });
+  if (!surface) return;
+  discard();
+  batch(() => {
+    state.imported.value = { name, bytes, unit, surface, points: { annulus: [], commissures: [], anterior: [] }, findings: [] };
+    state.panel.value = 'import';
+    state.status.value = t.importBegun(surface.triangles.length / 3);
+  });
+}
+
+/** Builds a valve from the surface and closes it. */
+export async function buildValve(): Promise<void> {
+  const from = state.imported.value;
+  if (!from) return;
+  const title = from.name.replace(/\.\w+$/, '');
+  const built = await run(t.building, 'build', { ...from.points, tips: [], name: title });
+  if (!built) return;
+  begun(built.shown, title);
+  state.imported.value = { ...from, findings: built.findings };
+  state.panel.value = 'import';
 }
 
 export async function openSession(bytes: Uint8Array): Promise<void> {
@@ -141,6 +167,7 @@ export function setField(name: string, value: FieldValue | undefined): void {
   const fields = { ...now.fields };
   if (value === undefined) delete fields[name];
   else fields[name] = value;
+  if (state.picking.value === name) state.picking.value = null;
   edit(now.kind, fields);
 }
 

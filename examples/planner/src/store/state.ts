@@ -1,6 +1,8 @@
 // The state of the page as signals: what is shown, what is chosen, what runs.
 import { computed, signal } from '@preact/signals';
-import type { Cost, FieldValue, Figures, FoundingResult, Motion, OperationInfo, Picture, Shown, Spread, Topology } from '../protocol';
+import type {
+  Cost, FieldValue, Figures, Finding, FoundingResult, Motion, OperationInfo, Picture, Shown, Spread, Surface, Topology,
+} from '../protocol';
 import type { MapName } from '../view/colours';
 
 export interface Draft {
@@ -60,6 +62,18 @@ export const changed = signal(false);
 export const cost = signal<{ hash: string; value: Cost } | null>(null);
 export const spread = signal<{ hash: string; value: Spread } | null>(null);
 export const tour = signal<{ number: number; founding: FoundingResult | null; startArea: number } | null>(null);
+/** A surface that a valve is to be built from, the points that were clicked, and what was found. */
+export interface Imported {
+  name: string;
+  bytes: Uint8Array;
+  unit: string;
+  surface: Surface;
+  points: { annulus: number[][]; commissures: number[][]; anterior: number[][] };
+  findings: Finding[];
+}
+export const imported = signal<Imported | null>(null);
+/** Which points the next clicks on the surface set. */
+export const importing = signal<keyof Imported['points']>('commissures');
 export const dialog = signal<'keys' | 'report' | 'about' | 'recover' | 'notes' | null>(null);
 
 const topologies = new Map<string, Topology>();

@@ -73,6 +73,7 @@ export const t = {
   sessionOpened: 'Session opened. The plan was repeated and gives exactly the saved valve.',
   sessionDiffers: 'Session opened, but the repeated plan differs from the saved valve: it was saved by another version.',
   unknownFile: (name: string) => `${name} is not a file this page can open: it takes a session (.mvsplan), a valve (.obj), or a surface (.stl, .ply, .obj).`,
+  importBegun: (triangles: number) => `Surface with ${triangles} triangles. Mark both commissures, then build the valve.`,
   statusLine: (f: Figures) =>
     f.measures.orifice > 0
       ? `${grade(f.measures.orifice).word}: ${number(f.measures.orifice)} mm² at ${where(f)}. Coaptation ${number(f.measures.coaptationMean)} mm.`
@@ -100,7 +101,7 @@ export const tourTexts = {
   ],
   goals: {
     sealed: 'No leak under 120 mmHg',
-    chords: 'No chord beyond its working limit',
+    chords: (healthy: number) => healthy > 0 ? `No more chordae beyond their limit than in the healthy valve (${healthy})` : 'No chord beyond its working limit',
     open: 'Opens to at least 90 % of the healthy area',
   },
   won: 'All goals reached.',
@@ -133,4 +134,15 @@ export const mapWords: Record<string, { title: string; scale: string }> = {
   stretch: { title: 'Stretch', scale: 'Stretch of the leaflets' },
   load: { title: 'Chord load', scale: 'Chord load, of its limit' },
   distance: { title: 'Change', scale: 'Moved from the valve before' },
+};
+
+export const importTexts = {
+  none: 'Drop a surface file (STL, PLY, OBJ) on the picture, or choose Open.',
+  intro: 'Mark what you know by clicking on the surface; the rest is guessed from its shape and listed afterwards. The two commissures help most.',
+  unit: 'Unit of the file',
+  size: (mm: number) => `The surface is ${mm.toFixed(1)} mm wide. An open valve is 30 to 60 mm wide.`,
+  points: { commissures: 'Both commissures', anterior: 'A point of the anterior leaflet', annulus: 'Points along the annulus' },
+  tips: 'Papillary tips and chordae are placed by normal anatomy.',
+  found: 'What was found and what was guessed',
+  sources: ['', 'given', 'measured', 'guessed', 'normal anatomy'],
 };

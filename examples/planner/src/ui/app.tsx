@@ -9,6 +9,7 @@ import { maps } from '../view/colours';
 import type { Preset } from '../view/camera';
 import { Viewport } from '../view/viewport';
 import { Dialogs, Notice, Recovery } from './dialogs';
+import { ImportPanel } from './import';
 import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
 import { chooseFile, Scale, TopBar, ViewBar } from './toolbar';
@@ -47,6 +48,7 @@ function Panels() {
         {panel === 'repair' && <RepairPanel />}
         {panel === 'plan' && <PlanPanel />}
         {panel === 'tour' && <TourPanel />}
+        {panel === 'import' && <ImportPanel />}
       </div>
     </aside>
   );

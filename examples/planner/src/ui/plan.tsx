@@ -19,8 +19,8 @@ export function PlanPanel() {
         <Button icon={<Undo2 size={16} />} keys="Control+Z" disabled={!state.canUndo.value} onClick={() => void undo()}>Undo</Button>
         <Button icon={<Redo2 size={16} />} keys="Control+Y" disabled={!state.canRedo.value} onClick={() => void redo()}>Redo</Button>
       </div>
+      <h2>{state.title.value || figures.valve}</h2>
       <ol class="history" data-testid="history">
-        <li class="history-start">{state.title.value || figures.valve}</li>
         {figures.history.map((entry) => <li class={entry.undone ? 'undone' : ''}>{say(entry.title)}</li>)}
       </ol>
       {done.length === 0 && <p class="hint">Nothing has been done yet. Operations appear here one by one.</p>}

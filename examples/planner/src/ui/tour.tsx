@@ -40,10 +40,11 @@ function Goal() {
   const texts = tourTexts.valves[tour.number - 1];
   if (!figures) return null;
   const cost = state.cost.value?.hash === figures.hash ? state.cost.value.value : null;
+  const healthyOver = tour.founding?.healthy.measures.chordsOver ?? 0;
   const healthyArea = tour.founding?.healthy.openArea;
   const checks: { text: string; done: boolean | null }[] = [
     { text: tourTexts.goals.sealed, done: figures.measures.atRest && figures.measures.orifice === 0 },
-    { text: tourTexts.goals.chords, done: figures.measures.chordsOver === 0 },
+    { text: tourTexts.goals.chords(healthyOver), done: figures.measures.chordsOver <= healthyOver },
     { text: tourTexts.goals.open, done: cost && healthyArea ? cost.openArea >= 0.9 * healthyArea : null },
   ];
   const won = checks.every((check) => check.done);

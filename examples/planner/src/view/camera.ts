@@ -85,6 +85,24 @@ export class Camera {
     this.goal = { orientation, target, distance: (room * radius) / Math.tan(this.fov / 2) / narrow };
   }
 
+  /** Turns to a surface of unknown orientation: along its shortest axis of the coordinates, whole in the picture. */
+  lookAtBox(points: Float32Array): void {
+    this.goal = null;
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    points.forEach((v, i) => {
+      low[i % 3] = Math.min(low[i % 3], v);
+      high[i % 3] = Math.max(high[i % 3], v);
+    });
+    const size = high.map((v, c) => v - low[c]);
+    this.target.set(...(low.map((v, c) => 0.5 * (v + high[c])) as [number, number, number]));
+    const axis = size.indexOf(Math.min(...size));
+    const z = new Vector3().setComponent(axis, 1);
+    const y = new Vector3().setComponent((axis + 2) % 3, 1);
+    this.orientation.setFromRotationMatrix(new Matrix4().makeBasis(new Vector3().crossVectors(y, z), y, z));
+    this.distance = (0.75 * Math.max(...size)) / Math.tan(this.fov / 2);
+  }
+
   /** Moves towards the goal by the time that has passed, s; false when there is nothing to do. */
   advance(seconds: number): boolean {
     if (!this.goal) return false;

@@ -17,9 +17,6 @@ type Drag =
   | { kind: 'chord'; id: string; rest: number; moved: number }
   | { kind: 'hand'; depth: number };
 
-/** Receives clicks on the surface that is being imported. */
-export const surfaceClick: { handler: ((at: [number, number, number], triangle: number) => void) | null } = { handler: null };
-
 export class Gestures {
   private pointers = new Map<number, { x: number; y: number }>();
   private start = { x: 0, y: 0 };
@@ -43,6 +40,7 @@ export class Gestures {
   }
 
   private hit(p: { x: number; y: number }, reach: number): Hit | null {
+    if (this.view.surface) return null;
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     if (!picture || !topology) return null;
@@ -209,12 +207,17 @@ export class Gestures {
   }
 
   private click(p: { x: number; y: number }, reach: number): void {
-    if (surfaceClick.handler && this.view.surface) {
+    const imported = state.imported.value;
+    if (imported && this.view.surface) {
       const { camera, width, height } = this.view;
       camera.update();
       const { positions, index } = this.view.surface;
       const hit = pickSurface(camera, { triangles: index }, positions, p.x, p.y, width, height, null);
-      if (hit) surfaceClick.handler(hit.at, hit.triangle);
+      const kind = state.importing.value;
+      const most = { annulus: 200, commissures: 2, anterior: 1 }[kind];
+      if (!hit) return;
+      const points = [...imported.points[kind], hit.at].slice(-most);
+      state.imported.value = { ...imported, points: { ...imported.points, [kind]: points } };
       return;
     }
     const hit = this.hit(p, reach);

@@ -50,7 +50,8 @@ export class Labels {
   private wanted(): Label[] {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
-    if (!picture || !topology) return [];
+    const importing = state.imported.value && !state.imported.value.findings.length;
+    if (!picture || !topology || importing) return [];
     const x = picture.positions;
     const labels: Label[] = [];
     if (state.labelsOn.value) {

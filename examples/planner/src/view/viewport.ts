@@ -8,7 +8,8 @@ import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { sceneMeshes, type Mark } from './scene';
-import type { Mesh } from './mesh';
+import { vertexNormals, type Mesh } from './mesh';
+import { tissue } from './colours';
 import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
@@ -52,7 +53,37 @@ export class Viewport {
       void [state.sectionOn.value, state.sectionAt.value, state.labelsOn.value, state.draft.value];
       this.moved();
     });
+    effect(() => {
+      const shown = state.imported.value;
+      this.showSurface(shown && !shown.findings.length ? shown : null);
+    });
     requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Shows the surface of an import instead of the valve, with the points that were clicked. */
+  private showSurface(shown: state.Imported | null): void {
+    const fresh = shown && this.surface?.positions !== shown.surface.points;
+    if (!shown) this.surface = null;
+    else if (fresh) this.surface = this.surfaceMesh(shown.surface.points, shown.surface.triangles);
+    this.extraMarks = [];
+    for (const [kind, points] of Object.entries(shown?.points ?? {})) {
+      const colour = kind === 'annulus' ? tissue.annulus : kind === 'commissures' ? tissue.chosen : tissue.over;
+      for (const at of points) this.extraMarks.push({ at, colour, radius: 0.9 });
+    }
+    this.touchScene();
+    if (fresh && shown) this.camera.lookAtBox(shown.surface.points);
+  }
+
+  private surfaceMesh(positions: Float32Array, index: Uint32Array): Mesh {
+    const shade = (colour: readonly number[]) => {
+      const out = new Float32Array(positions.length);
+      for (let i = 0; i < out.length; i += 3) out.set(colour, i);
+      return out;
+    };
+    return {
+      positions, index, normals: vertexNormals(positions, index), front: shade(tissue.atrialAnterior),
+      back: shade(tissue.ventricularAnterior), opacity: 1, overlay: false, cut: false, flat: false,
+    };
   }
 
   private makeRenderer(forceSoftware: boolean): Renderer {
