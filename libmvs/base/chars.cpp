@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "base/bit_cast.h"
 
@@ -45,13 +46,15 @@ char *strip_zeros(char *text) {
 namespace c_library {
 
 // A decimal of 15 digits is read back from the double nearest to it, so that no shorter one than
-// that of 15 digits without its zeros reads back as `value`. 17 digits always do. At a power of two
-// the numbers below are nearer than those above: the decimal above may read back where the nearest,
-// which is below, does not.
+// that of 15 digits without its zeros reads back as `value`; numbers below 2.2e-308 have fewer bits
+// and are tried from one digit on. 17 digits always do. At a power of two the numbers below are
+// nearer than those above: the decimal above may read back where the nearest, which is below, does
+// not.
 char *double_to_chars(char (&text)[double_chars], double value) {
   constexpr uint64_t mantissa = (uint64_t{1} << 52) - 1;
   const bool power_of_two = (bit_cast<uint64_t>(value) & mantissa) == 0;
-  for (int digits = 15; digits < 17; ++digits) {
+  const int fewest = value < std::numeric_limits<double>::min() ? 1 : 15;
+  for (int digits = fewest; digits < 17; ++digits) {
     std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
     if (std::strtod(text, nullptr) == value) return strip_zeros(text);
     if (power_of_two && increment(text) && std::strtod(text, nullptr) == value) {
@@ -88,7 +91,8 @@ bool double_from_chars(std::string_view text, double &value) {
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   return error == std::errc() && stop == end;
 }
-#else
+#elif defined(__EMSCRIPTEN__)
+// the decimal separator of its C library is a point in every locale
 char *double_to_chars(char (&text)[double_chars], double value) {
   return c_library::double_to_chars(text, value);
 }
@@ -96,6 +100,8 @@ char *double_to_chars(char (&text)[double_chars], double value) {
 bool double_from_chars(std::string_view text, double &value) {
   return c_library::double_from_chars(text, value);
 }
+#else
+#error "the standard library has no std::to_chars of double: use libstdc++ 11, libc++ 20 or newer"
 #endif
 
 }  // namespace mvs::core

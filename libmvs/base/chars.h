@@ -1,5 +1,5 @@
 // Decimal text of a double without locale: std::to_chars and std::from_chars, or where the standard
-// library has them for integers only (libc++ 14), the same results through the C library.
+// library has them for integers only (emscripten's libc++ 14), the same through the C library.
 #pragma once
 
 #include <string_view>
@@ -17,7 +17,7 @@ char *double_to_chars(char (&text)[double_chars], double value);
 // or is out of range. At most 128 characters.
 bool double_from_chars(std::string_view text, double &value);
 
-// The same through the C library, on every machine, for the test of equality.
+// The same through the C library, in the C locale; on every machine, for the test of equality.
 namespace c_library {
 char *double_to_chars(char (&text)[double_chars], double value);
 bool double_from_chars(std::string_view text, double &value);

@@ -55,14 +55,12 @@ TEST_CASE("c_library_writes_powers_of_two_as_to_chars_does") {
   CHECK(differing == 0);
 }
 
-TEST_CASE("c_library_refuses_what_from_chars_refuses") {
+TEST_CASE("c_library_refuses_what_is_no_decimal") {
   double value = 7;
-  for (const char *text :
+  for (const std::string text :
        {"", "+1", " 1", "1 ", "0x10", "inf", "nan", "1e", "1e999", "--1", "1.2.3"}) {
     CAPTURE(text);
-    double other = 0;
     CHECK_FALSE(c_library::double_from_chars(text, value));
-    CHECK_FALSE(double_from_chars(text, other));
   }
   CHECK(value == 7);
   CHECK(c_library::double_from_chars("-1.5e3", value));

@@ -1,4 +1,4 @@
-// What every entry of the package exports, besides loadMvs.
+// Exports of every entry of the package, besides loadMvs.
 export { ArrayView } from "./arrays.js";
 export type { ArrayInput, FaultCallback, LogCallback, ProgressCallback, TypedArray } from "./arrays.js";
 export { Ensemble } from "./ensemble.js";

@@ -35,7 +35,7 @@ interface Callbacks {
 
 type Output = { name: string; read: () => unknown };
 
-/** What one call has put together. */
+/** Arguments, outputs and callbacks of one call. */
 interface Call {
   signature: Signature;
   arena: Arena;
@@ -58,6 +58,7 @@ export class Calls {
   private nextUser = 1;
   private thrown: { error: unknown } | undefined;
   private broken = "";
+  private depth = 0;
   /** Handles that are not released yet, by the function that releases them. */
   readonly held = new Map<string, number>();
 
@@ -86,14 +87,20 @@ export class Calls {
   /** Calls a function of the module by its name in C, with numbers. */
   raw(name: string, ...values: (number | bigint)[]): number {
     if (this.broken) throw new MvsError("MVS_E_INTERNAL", "module", this.broken);
+    if (name === "mvs_destroy" && this.depth > 0) {
+      throw new MvsError("MVS_E_STATE", "simulator", "a callback cannot dispose of a simulator: cancel the call, and do it afterwards");
+    }
     const fn = this.module[`_${name}`] as ((...values: (number | bigint)[]) => number) | undefined;
     if (!fn) throw new MvsError("MVS_E_UNSUPPORTED", name, `this build has no function ${name}`);
+    ++this.depth;
     try {
       return fn(...values);
     } catch (error) {
       // a trap: the state of the module is unknown
       this.broken = `the module stopped in ${name} (${String(error)}): load it anew`;
       throw new MvsError("MVS_E_INTERNAL", "module", this.broken);
+    } finally {
+      --this.depth;
     }
   }
 

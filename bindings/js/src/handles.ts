@@ -39,10 +39,10 @@ export abstract class Owned {
 
   /** Releases the memory now. Safe to repeat. */
   dispose(): void {
-    const { release } = this;
+    if (!this.release) return;
+    this.release();
     this.release = undefined;
     forgotten.unregister(this);
-    release?.();
   }
 
   [Symbol.dispose](): void {

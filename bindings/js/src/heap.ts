@@ -1,12 +1,14 @@
 // The memory of the module: allocation, text, numbers. Views are made anew after it has grown.
 import { MvsError, refuse } from "./error.js";
 
-/** What emscripten's module offers; functions of the library under "_" and their names. */
+/** The part of emscripten's module that is used; functions of the library under "_" and their names. */
 export interface EmscriptenModule {
   HEAPU8: Uint8Array;
   FS: {
     writeFile(path: string, data: Uint8Array): void;
     unlink(path: string): void;
+    mkdir(path: string): void;
+    chdir(path: string): void;
   };
   _malloc(size: number): number;
   _free(address: number): void;

@@ -120,7 +120,7 @@ export function readView(heap: Heap, at: number): ArrayView {
     view.getUint32(at + 16, true), view.getUint32(at + 20, true), Number(view.getBigUint64(at + 24, true)));
 }
 
-/** Writes structs, with what they point to in an arena. */
+/** Writes structs and the arrays and texts that they point to, in an arena. */
 export class StructWriter {
   constructor(
     private readonly arena: Arena,

@@ -34,6 +34,8 @@ export class Mvs {
 
   constructor(module: EmscriptenModule) {
     this.c = new Functions(module);
+    module.FS.mkdir("/files");
+    module.FS.chdir("/files");
   }
 
   simulator(options?: SimulatorOptions): Simulator {

@@ -1,16 +1,16 @@
-// Picking: what a ray from the eye meets first. Leaflets by the intersection of a ray with triangles
+// Picking: the part that a ray from the eye meets first. Leaflets by the intersection of a ray with triangles
 // (Moeller, Trumbore 1997); chordae and papillary heads, which are thin, by their distance from the ray.
 import type { Snapshot } from "./snapshot.js";
 
 export interface Ray {
   origin: ArrayLike<number>;
-  /** Of any length but 0. */
+  /** Any length but 0. */
   direction: ArrayLike<number>;
   /** m, radius within which a chord or head is met, at the eye [1e-3]. */
   radius?: number;
   /** Growth of that radius per m from the eye, for perspective [0]. */
   spread?: number;
-  /** What may be met [all]. */
+  /** Kinds that may be met [all]. */
   kinds?: readonly ("leaflet" | "chord" | "head")[];
 }
 
@@ -86,7 +86,7 @@ function pickLeaflet(snapshot: Snapshot, o: Vector, d: Vector): Found | undefine
   return best;
 }
 
-// Of those within reach the one nearest to the ray, by the share of its radius.
+// The segment nearest to the ray, by the share of its radius, of those within reach.
 function pickThin(count: number, ends: (k: number) => [Vector, Vector], o: Vector, d: Vector, ray: Ray, behind: number): Found | undefined {
   let best: (Found & { share: number }) | undefined;
   for (let k = 0; k < count; ++k) {
@@ -100,13 +100,13 @@ function pickThin(count: number, ends: (k: number) => [Vector, Vector], o: Vecto
   return best;
 }
 
-/** What a ray meets: a chord or head within its radius and not behind a leaflet, else the leaflet. */
+/** The part that a ray meets: a chord or head within its radius and not behind a leaflet, else the leaflet. */
 export function pick(snapshot: Snapshot, ray: Ray): Picked | undefined {
   const o: Vector = [ray.origin[0]!, ray.origin[1]!, ray.origin[2]!];
   const length = Math.hypot(ray.direction[0]!, ray.direction[1]!, ray.direction[2]!);
   const d: Vector = [ray.direction[0]! / length, ray.direction[1]! / length, ray.direction[2]! / length];
   const allowed = ray.kinds ?? ["leaflet", "chord", "head"];
-  // where leaflets may be met, they hide what is behind them
+  // leaflets that may be met hide chordae and heads behind them
   const leaflet = pickLeaflet(snapshot, o, d);
   const behind = leaflet && allowed.includes("leaflet") ? leaflet.distance : Infinity;
   const x = snapshot.array("node_position");

@@ -69,7 +69,7 @@ export class Simulator extends Owned {
     this.mvs.c.mvs_set_valve(this.handle, valve);
   }
 
-  /** Replaces the valve by one built from a patient's surface; returns what was found and guessed. */
+  /** Replaces the valve by one built from a patient's surface; returns the findings and guesses. */
   buildValve(surface: SurfaceDesc, options?: BuildOptions): Finding[] {
     const { c } = this.mvs;
     const build = c.mvs_build_valve(this.handle, surface, options);

@@ -1,5 +1,6 @@
 // Surfaces and landmarks of other programs, read from bytes.
 import type { TypedArray } from "./arrays.js";
+import { refuse } from "./error.js";
 import type { LengthUnit, PatientFrame, SurfacePlace } from "./generated/enums.js";
 import type { SurfaceFileOptions } from "./generated/structs.js";
 import { toBytes } from "./heap.js";
@@ -25,8 +26,9 @@ export interface Surface {
  */
 export function readSurface(mvs: Mvs, data: Uint8Array | string, name: string, options?: SurfaceFileOptions): Surface {
   const { c } = mvs;
-  // emscripten's file system in memory, without folders: a name cannot leave it
-  const path = name.replace(/^.*[\\/]/, "") || "surface";
+  // the file system of the module is in memory; its present folder is empty (Mvs)
+  const path = name.replace(/^.*[\\/]/, "");
+  if (/^\.*$/.test(path) || path.includes("\0")) refuse("name", `${JSON.stringify(name)} is no name of a file`);
   c.module.FS.writeFile(path, toBytes(data, "data"));
   let file: number;
   try {

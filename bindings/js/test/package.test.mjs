@@ -59,7 +59,8 @@ test("npm pack makes a package that works in an empty folder", async (t) => {
         // @ts-expect-error a field that does not exist
         sim.settle({ iterations: 3 });
         export const all: [number, Float64Array, bigint, typeof MvsError, number, Snapshot] = [area, x, made, MvsError, NodeKind.annulus, snapshot];`);
-      run(process.execPath, typescript, "--noEmit", "--strict", "--target", "es2022", "--module", "nodenext", "--lib", "es2022,dom,esnext.disposable", "types.mts");
+      file("types.cts", `import libmvs = require("libmvs");\nexport const load: () => Promise<libmvs.Mvs> = libmvs.loadMvs;`);
+      run(process.execPath, typescript, "--noEmit", "--strict", "--target", "es2022", "--module", "nodenext", "--lib", "es2022,dom,esnext.disposable", "types.mts", "types.cts");
     });
   } finally {
     rmSync(folder, { recursive: true });

@@ -2,7 +2,7 @@
 //
 //   node tools/build.mjs [FOLDER OF mvs.js AND mvs.wasm]
 import { execFileSync } from "node:child_process";
-import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -12,7 +12,8 @@ const here = resolve(dirname(fileURLToPath(import.meta.url)), "..");
 const root = resolve(here, "../..");
 const module = resolve(process.argv[2] ?? join(root, "build/wasm/bindings/js"));
 const target = join(root, "build/js");
-const dist = join(target, "dist");
+// replaced as a whole at the end, so that programs that use the package never see half of it
+const dist = join(target, "dist.new");
 const node = "node18";
 const browsers = ["chrome95", "firefox100", "safari16.4"];
 
@@ -40,8 +41,12 @@ copyFileSync(join(module, "mvs.wasm"), join(dist, "mvs.wasm"));
 
 execFileSync(process.execPath, [join(here, "node_modules/typescript/bin/tsc"), "-p", here, "--emitDeclarationOnly", "--outDir", join(dist, "types")], { stdio: "inherit" });
 
+rmSync(join(target, "dist"), { recursive: true, force: true });
+renameSync(dist, join(target, "dist"));
+
 const manifest = JSON.parse(readFileSync(join(here, "package.json"), "utf8"));
 delete manifest.scripts;
+delete manifest.type; // so that the declarations serve import and require alike
 delete manifest.devDependencies;
 writeFileSync(join(target, "package.json"), JSON.stringify(manifest, null, 2) + "\n");
 copyFileSync(join(here, "README.md"), join(target, "README.md"));

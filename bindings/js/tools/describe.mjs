@@ -111,7 +111,7 @@ class Describer {
 // Functions whose code is their answer, not a failure.
 const returnsCode = new Set(["mvs_check_valve"]);
 
-// What a wrapper does with the parameters of a function, one step for one or more of them.
+// The steps of a wrapper, one for one or more parameters of its function.
 function steps(fn, describer) {
   const list = fn.parameters;
   const made = [];

@@ -9,7 +9,7 @@ export const closed = (mvs, vertices = 425) => {
   return sim;
 };
 
-// Takes all memory but about `kept` bytes, in one piece; below 0: until there is none.
+// Takes all memory but about `kept` bytes, in one piece; below 0: all memory.
 function fill(heap, kept) {
   const blocks = kept > 0 ? [heap.allocate(kept)] : [];
   try {

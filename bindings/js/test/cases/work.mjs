@@ -1,4 +1,4 @@
-// What a program does with a valve: operations, history, plans, files, instruments, slices, picking.
+// Work on a valve: operations, history, plans, files, instruments, slices, picking.
 import { closed } from "./life.mjs";
 import { equal, fails, near, ok } from "../check.mjs";
 
@@ -92,6 +92,7 @@ export const work = {
     await fails(() => sim.load("", "h5"), "MVS_E_UNSUPPORTED", /./);
     await fails(() => sim.setValve({}), "MVS_E_OP", /nodes/);
     await fails(() => mvs.c.mvs_device_open?.() ?? mvs.c.raw("mvs_no_such"), "MVS_E_UNSUPPORTED", /no function/);
+    await fails(() => mvs.readSurface("", "folder/.."), "MVS_E_ARGUMENT", /no name of a file/);
     await fails(() => mvs.readSurface("solid x", "part.stl", { unit: "mm" }), "MVS_E_FORMAT", /part\.stl/);
     sim.generateValve();
     await fails(() => sim.read((s) => s.part("chord", "a\0b")), "MVS_E_ARGUMENT", /zero character/);
@@ -189,6 +190,12 @@ export const work = {
     }
     ok(thrown instanceof RangeError, "the exception of a callback reaches the caller");
     thrower.dispose();
+    const eager = mvs.simulator({ progress: () => eager.dispose() });
+    eager.generateValve();
+    eager.setLoad();
+    await fails(() => eager.settle(), "MVS_E_STATE", /callback cannot dispose/);
+    ok(!eager.isDisposed, "still held");
+    eager.dispose();
   },
 
   plans_and_files_come_back({ mvs }) {
