@@ -88,7 +88,7 @@ function SideBySide() {
         {rows.map(([label, get, digits, unit]) => (
           <tr><th scope="row">{label}</th><td>{figure(get(other.measures), digits)} {unit}</td><td>{figure(get(now.measures), digits)} {unit}</td></tr>
         ))}
-        <tr><th scope="row">Steps</th><td>{other.history.filter((e) => !e.undone).map((e) => say(e.title)).join('; ') || 'none'}</td><td>{now.history.filter((e) => !e.undone).map((e) => say(e.title)).join('; ') || 'none'}</td></tr>
+        <tr class="wrap"><th scope="row">Steps</th><td>{other.history.filter((e) => !e.undone).map((e) => say(e.title)).join('; ') || 'none'}</td><td>{now.history.filter((e) => !e.undone).map((e) => say(e.title)).join('; ') || 'none'}</td></tr>
       </tbody>
     </table>
   );

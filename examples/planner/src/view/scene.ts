@@ -1,6 +1,6 @@
 // Meshes of a valve: leaflets with both sides told apart, chordae as tubes, papillary heads, annulus, ring,
 // seams of the scallops, the orifice over everything, and the marks of what is chosen.
-import type { Fields, Picture, Topology } from '../protocol';
+import type { Fields, OrificePart, Picture, Topology } from '../protocol';
 import { colourOf, maps, tissue, type MapName } from './colours';
 import { Shapes, vertexNormals, type Colour, type Mesh } from './mesh';
 
@@ -15,7 +15,7 @@ export interface SceneOptions {
   chosenChord: number;
   chosenHead: number;
   chordsOn: boolean;
-  marks: Mark[];
+  jets: OrificePart[];
 }
 
 export interface Mark {
@@ -175,17 +175,30 @@ function orifice(picture: Picture): Mesh {
   };
 }
 
+/** An arrow along the jet of each part of the orifice, longer for larger parts. */
+function jets(parts: OrificePart[]): Mesh {
+  const shapes = new Shapes();
+  for (const part of parts) {
+    if (part.area < 1) continue;
+    const length = 4 + Math.min(8, Math.sqrt(part.area));
+    const along = (s: number) => part.centroid.map((v, c) => v + s * part.direction[c]);
+    shapes.tube(along(0.5), along(length), 0.45, tissue.orifice, 10);
+    shapes.tube(along(length), along(length + 2.5), 1.2, tissue.orifice, 12, 0.02);
+  }
+  return shapes.mesh({ overlay: true });
+}
+
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, picture: Picture, options: SceneOptions): Mesh[] {
   const meshes = [leafletMesh(topology, picture, options), seams(topology, picture), boundary(topology, picture, options)];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options));
   if (picture.orificeTriangles.length) meshes.push(orifice(picture));
-  const marks = new Shapes();
-  for (const mark of options.marks) marks.sphere(mark.at, mark.radius, mark.colour);
+  if (options.jets.length) meshes.push(jets(options.jets));
   if (picture.hand) {
-    marks.sphere(picture.hand.subarray(0, 3), 1.1, tissue.hand);
-    marks.tube(picture.hand.subarray(0, 3), picture.hand.subarray(3, 6), 0.35, tissue.hand);
+    const hand = new Shapes();
+    hand.sphere(picture.hand.subarray(0, 3), 1.1, tissue.hand);
+    hand.tube(picture.hand.subarray(0, 3), picture.hand.subarray(3, 6), 0.35, tissue.hand);
+    meshes.push(hand.mesh({ overlay: true }));
   }
-  if (options.marks.length || picture.hand) meshes.push(marks.mesh({ overlay: true }));
   return meshes;
 }

@@ -172,7 +172,7 @@ export class Viewport {
   /** The place of the handle of the section plane. */
   handle(): number[] {
     const f = this.frameOf();
-    const up = 0.45 * this.radius();
+    const up = 0.3 * this.radius();
     return [0, 1, 2].map((c) => f[c] + state.sectionAt.value * f[6 + c] + up * f[9 + c]);
   }
 
@@ -200,7 +200,7 @@ export class Viewport {
       chosenChord: choice?.kind === 'chord' ? topology.chords.findIndex((part) => part.id === choice.id) : -1,
       chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
       chordsOn: state.chordsOn.value,
-      marks: [],
+      jets: figures?.orificeParts ?? [],
     });
   }
 

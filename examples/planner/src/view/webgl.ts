@@ -1,7 +1,7 @@
 // WebGL renderer on three.js: the same light and colours as the rasteriser, by one small shader. A lost
 // context comes back by itself; three.js makes its buffers anew.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, Matrix4, Mesh as Object3, PerspectiveCamera, RawShaderMaterial,
+  BufferAttribute, BufferGeometry, Color, ColorManagement, DoubleSide, LinearSRGBColorSpace, Matrix4, Mesh as Object3, PerspectiveCamera, RawShaderMaterial,
   GLSL3, Scene as Scene3, Vector2, Vector4, WebGLRenderer,
 } from 'three';
 import type { Camera } from './camera';
@@ -50,6 +50,9 @@ export class WebGl implements Renderer {
     const context = this.canvas.getContext('webgl2', { antialias: true, powerPreference: 'default' });
     if (!context) throw new Error('no WebGL 2');
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context, antialias: true, preserveDrawingBuffer: false });
+    // colours are those of the screen, as in the rasteriser
+    ColorManagement.enabled = false;
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.sortObjects = true;
     this.camera.matrixAutoUpdate = false;
     this.canvas.addEventListener('webglcontextlost', (event) => (event.preventDefault(), onLost()));
@@ -98,7 +101,7 @@ export class WebGl implements Renderer {
     geometry.setIndex(new BufferAttribute(mesh.index, 1));
     const material = new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader, fragmentShader, side: DoubleSide,
-      transparent: mesh.opacity < 1 || mesh.overlay, depthTest: !mesh.overlay, depthWrite: mesh.opacity === 1,
+      transparent: mesh.opacity < 1 || mesh.overlay, depthWrite: mesh.opacity === 1 || mesh.overlay,
       uniforms: {
         plane: { value: new Vector4(0, 0, 0, 1) },
         opacity: { value: mesh.opacity },
@@ -106,6 +109,8 @@ export class WebGl implements Renderer {
       },
     });
     const object = new Object3(geometry, material);
+    // an overlay hides nothing of itself but everything of the others
+    if (mesh.overlay) object.onBeforeRender = (renderer) => renderer.clearDepth();
     object.frustumCulled = false;
     object.matrixAutoUpdate = false;
     object.renderOrder = (mesh.overlay ? 2000 : mesh.opacity < 1 ? 1000 : 0) + order;
