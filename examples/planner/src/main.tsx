@@ -2,13 +2,14 @@
 import { render } from 'preact';
 import { App } from './ui/app';
 import { connect, fail, openShipped, request } from './store/actions';
-import { findCopy, keepCopy } from './store/keep';
+import { findCopy, keepCopy, visited } from './store/keep';
 import * as state from './store/state';
 import './style.css';
 
 async function start(): Promise<void> {
   const library = document.getElementById('library')?.textContent ?? '';
   connect();
+  if (visited()) state.panel.value = 'valve';
   render(<App />, document.getElementById('app')!);
   try {
     const { version, operations } = await request('start', { library });

@@ -82,6 +82,19 @@ export async function findCopy(): Promise<void> {
   }
 }
 
+const visitedKey = 'mvs-planner-1-visited';
+
+/** Whether the page was used in this browser before; nothing about a valve is stored for it. */
+export function visited(): boolean {
+  try {
+    const before = localStorage.getItem(visitedKey) === 'yes';
+    localStorage.setItem(visitedKey, 'yes');
+    return before;
+  } catch {
+    return false;
+  }
+}
+
 export async function allowAutosave(allowed: boolean): Promise<void> {
   try {
     localStorage.setItem(allowedKey, allowed ? 'yes' : 'no');

@@ -39,7 +39,8 @@ export const choice = signal<Choice | null>(null);
 /** The field of the draft that the next click in the picture fills. */
 export const picking = signal<string | null>(null);
 
-export const panel = signal<Panel>('valve');
+/** The first visit begins with the tour. */
+export const panel = signal<Panel>('tour');
 export const tool = signal<Tool>('look');
 export const map = signal<MapName>('tissue');
 export const openness = signal(1);

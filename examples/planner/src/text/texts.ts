@@ -8,17 +8,18 @@ export function grade(orifice: number): { level: number; word: string } {
   if (orifice <= 0) return { level: 0, word: 'Sealed' };
   if (orifice < 20) return { level: 1, word: 'Mild leak' };
   if (orifice < 30) return { level: 2, word: 'Moderate leak' };
-  if (orifice < 40) return { level: 3, word: 'Moderate to severe leak' };
+  if (orifice < 40) return { level: 3, word: 'Moderate–severe leak' };
   return { level: 4, word: 'Severe leak' };
 }
 
 /** Where a valve leaks, by scallops or commissures. */
 export function where(figures: Figures): string {
-  const places = figures.orificeParts.slice(0, 3).map((part) => {
-    if (part.anterior && part.posterior) return `${part.anterior} and ${part.posterior}`;
-    return part.anterior || part.posterior || `commissure ${part.commissures}`;
-  });
-  return [...new Set(places)].join('; ');
+  const union = (get: (part: Figures['orificeParts'][number]) => string) =>
+    [...new Set(figures.orificeParts.flatMap((part) => get(part).split('+')))].filter(Boolean).sort().join(', ');
+  const leaflets = [union((part) => part.anterior), union((part) => part.posterior)].filter(Boolean).join(' and ');
+  const places = leaflets || `commissure ${union((part) => part.commissures)}`;
+  const count = figures.orificeParts.length;
+  return count > 1 ? `${places}, in ${count} places` : places;
 }
 
 export interface Words {

@@ -9,6 +9,7 @@ import { maps } from '../view/colours';
 import type { Preset } from '../view/camera';
 import { Viewport } from '../view/viewport';
 import { Dialogs, Notice, Recovery } from './dialogs';
+import { Button } from './parts';
 import { ImportPanel } from './import';
 import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
@@ -34,6 +35,13 @@ function Panels() {
   return (
     <aside class="side">
       <Verdict />
+      {state.draft.value && panel !== 'repair' && (
+        <div class="pending" role="status">
+          <span>A preview, not applied yet</span>
+          <Button kind="main" disabled={!state.preview.value} onClick={() => void apply()}>Apply</Button>
+          <Button onClick={discard}>Discard</Button>
+        </div>
+      )}
       <div class="tabs" role="tablist" aria-label="Panels" onKeyDown={(event) => {
         if (event.key === 'ArrowRight') steps(1);
         else if (event.key === 'ArrowLeft') steps(-1);

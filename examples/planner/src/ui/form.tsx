@@ -127,7 +127,7 @@ function NumberField(props: FieldProps) {
         <span class="unit">{unit}</span>
       </div>
       {rest !== null && value !== undefined && <small>was {figure(rest)} mm, {value < rest ? 'shorter' : 'longer'} by {figure(Math.abs(value - rest))} mm</small>}
-      {value === undefined && field.fallback && !rest && <small>left out: {Number.isFinite(field.fallbackValue) ? `${+(field.fallbackValue * scale).toPrecision(4)} ${unit}` : field.fallback}</small>}
+      {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && <small>left empty: {field.fallback}</small>}
     </div>
   );
 }

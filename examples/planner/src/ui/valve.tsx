@@ -27,6 +27,7 @@ export function Verdict() {
         )}
       </div>
       {m.orifice > 0 && graded && <div class="verdict-where">at {where(figures)}</div>}
+      {m.orifice === 0 && graded && <div class="verdict-where">leaflets meet over {figure(m.coaptationMean)} mm</div>}
       {!graded && <div class="verdict-where">The valve did not come to rest; its figures are not final.</div>}
       {m.chordsOver > 0 && (
         <div class="verdict-warn">{m.chordsOver} {m.chordsOver === 1 ? 'chord' : 'chordae'} beyond the working limit</div>

@@ -52,7 +52,7 @@ export class Gestures {
   private down(event: PointerEvent): void {
     const p = this.place(event);
     this.view.renderer.canvas.setPointerCapture(event.pointerId);
-    this.view.renderer.canvas.focus({ preventScroll: true });
+    this.view.renderer.canvas.focus({ preventScroll: true, focusVisible: false } as FocusOptions);
     this.pointers.set(event.pointerId, p);
     if (this.pointers.size > 1) {
       this.drag = { kind: 'pan' };

@@ -51,6 +51,9 @@ export function pickSurface(
   return best;
 }
 
+/** About half the width of a chord in the picture, pixels. */
+const drawn = 4;
+
 /** Distance of a pixel from a segment on the screen, and the place along it. */
 function segmentDistance(p: number[], a: number[], b: number[]): [number, number] {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -77,14 +80,16 @@ export function pick(
     if (distance < nearest && range(node) < far) [head, nearest] = [h, distance];
   });
   let chord = -1;
-  nearest = reach;
+  nearest = Infinity;
   for (let k = 0; chordsOn && k < topology.chordKind.length; ++k) {
     const [a, b] = [topology.chordNodes[2 * k], topology.chordNodes[2 * k + 1]];
     const [distance, s] = segmentDistance([px, py], screen(a), screen(b));
     const depth = (1 - s) * range(a) + s * range(b);
-    if (distance >= nearest || depth > far) continue;
+    // of chordae under the pointer the one in front, else the nearest on the screen
+    const score = Math.max(0, distance - drawn) + depth / 1e3;
+    if (distance > reach || score >= nearest || depth > far) continue;
     if (plane && hidden(x, a, s, b, plane)) continue;
-    [chord, nearest] = [k, distance];
+    [chord, nearest] = [k, score];
   }
   return { surface, chord, head };
 }

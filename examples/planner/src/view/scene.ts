@@ -147,6 +147,7 @@ function boundary(topology: Topology, picture: Picture, options: SceneOptions): 
     shapes.sphere(at, radius, chosen ? tissue.chosen : tissue.head, 10, 16);
     const below = [at[0] - 4.5 * options.frame[9], at[1] - 4.5 * options.frame[10], at[2] - 4.5 * options.frame[11]];
     shapes.tube(at, below, radius, tissue.head, 16, radius * 1.25);
+    shapes.sphere(below, radius * 1.25, tissue.head, 10, 16);
   });
   for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
     const points = [];

@@ -100,7 +100,7 @@ export class WebGl implements Renderer {
     }
     geometry.setIndex(new BufferAttribute(mesh.index, 1));
     const material = new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader, fragmentShader, side: DoubleSide,
+      glslVersion: GLSL3, vertexShader, fragmentShader, side: DoubleSide, forceSinglePass: true,
       transparent: mesh.opacity < 1 || mesh.overlay, depthWrite: mesh.opacity === 1 || mesh.overlay,
       uniforms: {
         plane: { value: new Vector4(0, 0, 0, 1) },
