@@ -11,6 +11,16 @@ function inScript(code: string): string {
   return code.replace(/<\/(script)/gi, '<\\/$1').replace(/<!--/g, '<\\!--');
 }
 
+const bundled = ['three', 'preact', '@preact/signals', '@preact/signals-core', 'fflate', 'lucide-preact'];
+
+/** The licences of libmvs and of the npm packages in the page, which have to go with it. */
+function licences(): string {
+  const root = resolve(__dirname, '..');
+  const texts = [`libmvs\n\n${readFileSync(resolve(root, '../../LICENSE'), 'utf8')}`];
+  for (const name of bundled) texts.push(`${name}\n\n${readFileSync(resolve(root, 'node_modules', name, 'LICENSE'), 'utf8')}`);
+  return texts.join(`\n${'-'.repeat(60)}\n`);
+}
+
 export function onePage(): Plugin {
   return {
     name: 'one-page',
@@ -38,6 +48,7 @@ export function onePage(): Plugin {
           '</body>',
           () =>
             `<script type="text/plain" id="library">${library}</script>` +
+            `<script type="text/plain" id="licences">${inScript(licences())}</script>` +
             `<script type="module">${inScript(script)}</script></body>`,
         );
       page.source = html;

@@ -26,6 +26,7 @@ export function Dialogs() {
       <Modal title="Keys and help">
         <table class="table"><tbody>{help.keys.map(([key, text]) => <tr><th scope="row"><kbd>{key}</kbd></th><td>{text}</td></tr>)}</tbody></table>
         <p>Left button or one finger turns; right button or two fingers move; wheel or pinch zooms. Click chooses.</p>
+        <details class="section"><summary>Licences</summary><pre class="licences">{document.getElementById('licences')?.textContent}</pre></details>
         <p class="hint">{t.research} libmvs {state.version.value}. The page calculates in your browser and cannot connect to anything.</p>
       </Modal>
     );
