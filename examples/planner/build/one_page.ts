@@ -17,7 +17,8 @@ const bundled = ['three', 'preact', '@preact/signals', '@preact/signals-core', '
 function licences(): string {
   const root = resolve(__dirname, '..');
   const texts = [`libmvs\n\n${readFileSync(resolve(root, '../../LICENSE'), 'utf8')}`];
-  for (const name of bundled) texts.push(`${name}\n\n${readFileSync(resolve(root, 'node_modules', name, 'LICENSE'), 'utf8')}`);
+  for (const name of bundled)
+    texts.push(`${name}\n\n${readFileSync(resolve(root, 'node_modules', name, 'LICENSE'), 'utf8')}`);
   return texts.join(`\n${'-'.repeat(60)}\n`);
 }
 
@@ -39,7 +40,9 @@ export function onePage(): Plugin {
         else throw new Error(`the page would need another file: ${name}`);
         delete bundle[name];
       }
-      const library = gzipSync(readFileSync(resolve(packageFolder(), 'mvs.wasm')), { level: 9 }).toString('base64');
+      const library = gzipSync(readFileSync(resolve(packageFolder(), 'mvs.wasm')), { level: 9 }).toString(
+        'base64',
+      );
       html = html
         .replace(/<script type="module"[^>]*><\/script>/, '')
         .replace(/<link rel="stylesheet"[^>]*>/, '')

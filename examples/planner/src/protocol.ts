@@ -152,8 +152,7 @@ export interface Motion {
 
 /** A place on a leaflet, as operations take it. */
 export type Site =
-  | { triangle: number; u: [number, number, number] }
-  | { scallop: string; along: number; height: number };
+  { triangle: number; u: [number, number, number] } | { scallop: string; along: number; height: number };
 
 /** The value of a field of an operation in the units of the page. */
 export type FieldValue = number | string | Site | [number, number, number] | number[][];
@@ -286,9 +285,7 @@ export interface Finding {
 
 export type CallName = keyof Calls;
 
-export type ToWorker =
-  | { id: number; call: CallName; argument: unknown }
-  | { cancel: number };
+export type ToWorker = { id: number; call: CallName; argument: unknown } | { cancel: number };
 
 export type FromWorker =
   | { id: number; result: unknown }

@@ -5,15 +5,28 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
-export const page_path = resolve(process.env.PLANNER_PAGE ?? join(dirname(fileURLToPath(import.meta.url)), '../../../out/planner.html'));
+export const page_path = resolve(
+  process.env.PLANNER_PAGE ?? join(dirname(fileURLToPath(import.meta.url)), '../../../out/planner.html'),
+);
 
 const flags = [
-  '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-  '--disable-component-update', '--disable-sync',
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
 ];
 
 /** A browser with a profile of its own, so that storage outlives the page. `software`: no WebGL. */
-export async function openBrowser({ width = 1280, height = 720, profile, touch = false, software = false } = {}) {
+export async function openBrowser({
+  width = 1280,
+  height = 720,
+  profile,
+  touch = false,
+  software = false,
+} = {}) {
   const folder = profile ?? mkdtempSync(join(tmpdir(), 'planner-'));
   const context = await chromium.launchPersistentContext(folder, {
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',

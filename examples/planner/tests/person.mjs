@@ -29,7 +29,11 @@ export function chordPlace(page, name) {
     const k = topology.chords.findIndex((part) => part.name === wanted);
     const box = viewport.renderer.canvas.getBoundingClientRect();
     const at = (node) => {
-      const [x, y] = viewport.camera.project(...picture.positions.slice(3 * node, 3 * node + 3), viewport.width, viewport.height);
+      const [x, y] = viewport.camera.project(
+        ...picture.positions.slice(3 * node, 3 * node + 3),
+        viewport.width,
+        viewport.height,
+      );
       return { x: box.left + x, y: box.top + y };
     };
     const [head, leaf] = [at(topology.chordNodes[2 * k]), at(topology.chordNodes[2 * k + 1])];
@@ -52,7 +56,9 @@ export async function chooseAnyChord(page, names) {
       const chosen = await page.evaluate(() => {
         const { state } = window.planner;
         const { value } = state.choice;
-        return value?.kind === 'chord' ? state.main.value.figures.chords.find((chord) => chord.id === value.id)?.name : '';
+        return value?.kind === 'chord'
+          ? state.main.value.figures.chords.find((chord) => chord.id === value.id)?.name
+          : '';
       });
       if (chosen === name) return { name, place };
     }
@@ -65,7 +71,12 @@ export async function cameraRests(page) {
   let old = '';
   for (let k = 0; k < 100; ++k) {
     await page.waitForTimeout(60);
-    const now = await page.evaluate(() => JSON.stringify([window.planner.viewport.camera.orientation.toArray(), window.planner.viewport.camera.distance]));
+    const now = await page.evaluate(() =>
+      JSON.stringify([
+        window.planner.viewport.camera.orientation.toArray(),
+        window.planner.viewport.camera.distance,
+      ]),
+    );
     if (now === old) return;
     old = now;
   }

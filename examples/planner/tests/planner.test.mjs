@@ -16,7 +16,12 @@ function nativeHash(session) {
     if (!name.includes('/')) writeFileSync(join(folder, name), bytes);
   }
   const told = execFileSync(process.env.MVS_COMMAND, [
-    'plan', 'replay', join(folder, 'plan.json'), '--on', join(folder, 'valve.obj'), '--json',
+    'plan',
+    'replay',
+    join(folder, 'plan.json'),
+    '--on',
+    join(folder, 'valve.obj'),
+    '--json',
   ]);
   return JSON.parse(String(told)).hash;
 }
@@ -67,7 +72,8 @@ describe('planner', () => {
   it('opens_and_closes', async () => {
     await page.keyboard.press('o');
     await page.waitForTimeout(100);
-    for (let k = 0; k < 200 && !(await page.evaluate(() => window.planner.state.motion.value)); ++k) await page.waitForTimeout(50);
+    for (let k = 0; k < 200 && !(await page.evaluate(() => window.planner.state.motion.value)); ++k)
+      await page.waitForTimeout(50);
     const span = await page.evaluate(() => {
       const { state } = window.planner;
       const [a, b] = [state.motion.value.picture.positions, state.main.value.picture.positions];
@@ -117,26 +123,39 @@ describe('planner', () => {
       const picture = state.picture.value;
       const topology = state.topologyOf(picture);
       const k = topology.chords.findIndex((part) => part.name === wanted);
-      const at = (node) => viewport.camera.project(...picture.positions.slice(3 * node, 3 * node + 3), viewport.width, viewport.height);
+      const at = (node) =>
+        viewport.camera.project(
+          ...picture.positions.slice(3 * node, 3 * node + 3),
+          viewport.width,
+          viewport.height,
+        );
       const [head, leaf] = [at(topology.chordNodes[2 * k]), at(topology.chordNodes[2 * k + 1])];
       const length = Math.hypot(head[0] - leaf[0], head[1] - leaf[1]);
       return [(head[0] - leaf[0]) / length, (head[1] - leaf[1]) / length];
     }, name);
-    for (let k = 1; k <= 10; ++k) await page.mouse.move(place.x + 3 * k * direction[0], place.y + 3 * k * direction[1]);
+    for (let k = 1; k <= 10; ++k)
+      await page.mouse.move(place.x + 3 * k * direction[0], place.y + 3 * k * direction[1]);
     await page.mouse.up();
     await page.waitForTimeout(200);
     await closed(page);
     const rest = async () => (await figures(page)).chords.find((chord) => chord.name === name).rest;
-    const old = await page.evaluate((wanted) => window.planner.state.main.value.figures.chords.find((c) => c.name === wanted).rest, name);
+    const old = await page.evaluate(
+      (wanted) => window.planner.state.main.value.figures.chords.find((c) => c.name === wanted).rest,
+      name,
+    );
     assert.ok((await rest()) < old - 0.5, `${name}: ${await rest()} of ${old} mm`);
     await apply(page);
     assert.match((await figures(page)).history[0].title, new RegExp(`Shorten chord ${name}`));
   });
 
-  it('saves_a_session_that_the_native_command_repeats', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' }, async () => {
-    const path = await save(page);
-    assert.equal(nativeHash(path), (await figures(page)).hash);
-  });
+  it(
+    'saves_a_session_that_the_native_command_repeats',
+    { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' },
+    async () => {
+      const path = await save(page);
+      assert.equal(nativeHash(path), (await figures(page)).hash);
+    },
+  );
 
   it('opens_a_saved_session_with_its_hash', async () => {
     const { hash } = await figures(page);
@@ -165,7 +184,10 @@ describe('planner', () => {
     await openPanel(page, 'Plan');
     await page.getByRole('button', { name: 'Report' }).click();
     await page.getByTestId('report').getByText('Before').first().waitFor();
-    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save as HTML' }).click()]);
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('button', { name: 'Save as HTML' }).click(),
+    ]);
     const html = readFileSync(await download.path(), 'utf8');
     assert.equal(html.match(/<img src="data:image\/png/g).length, 4);
     assert.ok(!/<script/i.test(html));
@@ -184,6 +206,9 @@ describe('planner', () => {
     assert.ok(refused, 'the policy of the page forbids requests');
     assert.deepEqual(requests, []);
     // the refusal above is logged by the browser
-    assert.deepEqual(errors.filter((text) => !/example\.org/.test(text)), []);
+    assert.deepEqual(
+      errors.filter((text) => !/example\.org/.test(text)),
+      [],
+    );
   });
 });

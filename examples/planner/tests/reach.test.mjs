@@ -79,7 +79,9 @@ describe('planner for everybody', () => {
       const { hash } = await figures(page);
       const other = await context.newPage();
       await page.close({ runBeforeUnload: false });
-      await other.goto((await import('node:url')).pathToFileURL((await import('./browser.mjs')).page_path).href);
+      await other.goto(
+        (await import('node:url')).pathToFileURL((await import('./browser.mjs')).page_path).href,
+      );
       await closed(other);
       await other.getByRole('button', { name: 'Recover it' }).click();
       await other.waitForTimeout(300);
@@ -89,13 +91,18 @@ describe('planner for everybody', () => {
   });
 
   it('fits_a_tablet_and_a_large_screen', async () => {
-    for (const [width, height] of [[1280, 720], [1920, 1080], [820, 1180]]) {
+    for (const [width, height] of [
+      [1280, 720],
+      [1920, 1080],
+      [820, 1180],
+    ]) {
       await on({ width, height }, async ({ page }) => {
         const clipped = await page.evaluate(() => {
           const bad = [];
           for (const button of document.querySelectorAll('header button, .viewbar button, .tabs button')) {
             const box = button.getBoundingClientRect();
-            if (box.left < 0 || box.right > innerWidth + 0.5 || box.bottom > innerHeight + 0.5) bad.push(button.textContent || button.ariaLabel);
+            if (box.left < 0 || box.right > innerWidth + 0.5 || box.bottom > innerHeight + 0.5)
+              bad.push(button.textContent || button.ariaLabel);
           }
           return bad;
         });
@@ -107,7 +114,11 @@ describe('planner for everybody', () => {
   it('turns_and_zooms_with_fingers', async () => {
     await on({ width: 820, height: 1180, touch: true }, async ({ page, context }) => {
       const client = await context.newCDPSession(page);
-      const camera = () => page.evaluate(() => [...window.planner.viewport.camera.orientation.toArray(), window.planner.viewport.camera.distance]);
+      const camera = () =>
+        page.evaluate(() => [
+          ...window.planner.viewport.camera.orientation.toArray(),
+          window.planner.viewport.camera.distance,
+        ]);
       const touch = (type, points) => client.send('Input.dispatchTouchEvent', { type, touchPoints: points });
       const start = await camera();
       await touch('touchStart', [{ x: 400, y: 300 }]);
@@ -115,8 +126,15 @@ describe('planner for everybody', () => {
       await touch('touchEnd', []);
       const turned = await camera();
       assert.ok(Math.abs(turned[1] - start[1]) + Math.abs(turned[0] - start[0]) > 0.05);
-      await touch('touchStart', [{ x: 380, y: 300, id: 1 }, { x: 420, y: 300, id: 2 }]);
-      for (let k = 1; k <= 8; ++k) await touch('touchMove', [{ x: 380 - 8 * k, y: 300, id: 1 }, { x: 420 + 8 * k, y: 300, id: 2 }]);
+      await touch('touchStart', [
+        { x: 380, y: 300, id: 1 },
+        { x: 420, y: 300, id: 2 },
+      ]);
+      for (let k = 1; k <= 8; ++k)
+        await touch('touchMove', [
+          { x: 380 - 8 * k, y: 300, id: 1 },
+          { x: 420 + 8 * k, y: 300, id: 2 },
+        ]);
       await touch('touchEnd', []);
       assert.ok((await camera())[4] < 0.6 * turned[4], 'spreading two fingers brings the valve nearer');
     });

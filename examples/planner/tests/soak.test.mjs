@@ -12,8 +12,33 @@ function generator(start) {
   return () => (state = (state * 48271) % 2147483647) / 2147483647;
 }
 
-const keys = ['1', '2', '3', '4', 'v', 'r', 'p', 'l', 'o', 'x', 'c', 'n', 'm', 'g', 'b', 'Escape', 'Enter', 'Tab', 'ArrowLeft', 'ArrowUp',
-  'Control+z', 'Control+y', '+', '-', 'Space'];
+const keys = [
+  '1',
+  '2',
+  '3',
+  '4',
+  'v',
+  'r',
+  'p',
+  'l',
+  'o',
+  'x',
+  'c',
+  'n',
+  'm',
+  'g',
+  'b',
+  'Escape',
+  'Enter',
+  'Tab',
+  'ArrowLeft',
+  'ArrowUp',
+  'Control+z',
+  'Control+y',
+  '+',
+  '-',
+  'Space',
+];
 
 async function event(page, random) {
   const { width, height } = page.viewportSize();

@@ -9,10 +9,11 @@ async function lengthen(page, name, millimetres) {
   await page.keyboard.press('2');
   await cameraRests(page);
   const { head, leaf, places } = await chordPlace(page, name);
-  const chosen = () => page.evaluate(() => {
-    const { state } = window.planner;
-    return state.main.value.figures.chords.find((chord) => chord.id === state.choice.value?.id)?.name;
-  });
+  const chosen = () =>
+    page.evaluate(() => {
+      const { state } = window.planner;
+      return state.main.value.figures.chords.find((chord) => chord.id === state.choice.value?.id)?.name;
+    });
   let place;
   for (const candidate of places.reverse()) {
     await page.mouse.click(candidate.x, candidate.y);
@@ -22,9 +23,14 @@ async function lengthen(page, name, millimetres) {
     }
   }
   assert.ok(place, `${name} is seen from the ventricle`);
-  const scale = await page.evaluate(() => window.planner.viewport.camera.scale(window.planner.viewport.height));
+  const scale = await page.evaluate(() =>
+    window.planner.viewport.camera.scale(window.planner.viewport.height),
+  );
   const length = Math.hypot(leaf.x - head.x, leaf.y - head.y);
-  const [dx, dy] = [((leaf.x - head.x) / length) * (millimetres / scale), ((leaf.y - head.y) / length) * (millimetres / scale)];
+  const [dx, dy] = [
+    ((leaf.x - head.x) / length) * (millimetres / scale),
+    ((leaf.y - head.y) / length) * (millimetres / scale),
+  ];
   await page.mouse.move(place.x, place.y);
   await page.mouse.down();
   for (let k = 1; k <= 8; ++k) await page.mouse.move(place.x + (k / 8) * dx, place.y + (k / 8) * dy);

@@ -85,12 +85,17 @@ function begun(shown: Shown | null, title: string): void {
 }
 
 export async function openShipped(name: string, title: string, vertices = 425): Promise<void> {
-  const shown = await run(t.closing, 'open_shipped', { name, vertices }, {
-    motion: (motion) => {
-      state.receive(motion.picture);
-      state.motion.value = motion;
+  const shown = await run(
+    t.closing,
+    'open_shipped',
+    { name, vertices },
+    {
+      motion: (motion) => {
+        state.receive(motion.picture);
+        state.motion.value = motion;
+      },
     },
-  });
+  );
   begun(shown, title);
 }
 
@@ -112,7 +117,14 @@ export async function beginImport(name: string, bytes: Uint8Array, unit = 'mm'):
   if (!surface) return;
   discard();
   batch(() => {
-    state.imported.value = { name, bytes, unit, surface, points: { annulus: [], commissures: [], anterior: [] }, findings: [] };
+    state.imported.value = {
+      name,
+      bytes,
+      unit,
+      surface,
+      points: { annulus: [], commissures: [], anterior: [] },
+      findings: [],
+    };
     state.panel.value = 'import';
     state.status.value = t.importBegun(surface.triangles.length / 3);
   });

@@ -60,7 +60,13 @@ export class Client {
     this.worker.postMessage({ cancel: id });
   }
 
-  private receive(data: { id: number; result?: unknown; failure?: Failure; motion?: Motion; share?: number }): void {
+  private receive(data: {
+    id: number;
+    result?: unknown;
+    failure?: Failure;
+    motion?: Motion;
+    share?: number;
+  }): void {
     const request = this.open.get(data.id);
     if (data.motion) {
       (request?.motion ?? this.listeners.get(data.id))?.(data.motion);

@@ -24,7 +24,12 @@ export function download(bytes: Uint8Array | string, name: string, type: string)
 }
 
 function fileName(): string {
-  return (state.title.value || 'valve').replace(/[^\p{L}\p{N} _.-]+/gu, ' ').trim().slice(0, 60) || 'valve';
+  return (
+    (state.title.value || 'valve')
+      .replace(/[^\p{L}\p{N} _.-]+/gu, ' ')
+      .trim()
+      .slice(0, 60) || 'valve'
+  );
 }
 
 export async function saveObj(): Promise<void> {
@@ -49,7 +54,10 @@ function openDatabase(): Promise<IDBDatabase> {
   });
 }
 
-async function withStore<T>(mode: IDBTransactionMode, work: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
+async function withStore<T>(
+  mode: IDBTransactionMode,
+  work: (store: IDBObjectStore) => IDBRequest<T>,
+): Promise<T> {
   const base = await openDatabase();
   try {
     return await new Promise<T>((resolve, reject) => {

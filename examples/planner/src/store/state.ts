@@ -1,7 +1,18 @@
 // The state of the page as signals: what is shown, what is chosen, what runs.
 import { computed, signal } from '@preact/signals';
 import type {
-  Cost, FieldValue, Figures, Finding, FoundingResult, Motion, OperationInfo, Picture, Shown, Spread, Surface, Topology,
+  Cost,
+  FieldValue,
+  Figures,
+  Finding,
+  FoundingResult,
+  Motion,
+  OperationInfo,
+  Picture,
+  Shown,
+  Spread,
+  Surface,
+  Topology,
 } from '../protocol';
 import type { MapName } from '../view/colours';
 
@@ -62,7 +73,9 @@ export const notes = signal('');
 export const changed = signal(false);
 export const cost = signal<{ hash: string; value: Cost } | null>(null);
 export const spread = signal<{ hash: string; value: Spread } | null>(null);
-export const tour = signal<{ number: number; founding: FoundingResult | null; startArea: number } | null>(null);
+export const tour = signal<{ number: number; founding: FoundingResult | null; startArea: number } | null>(
+  null,
+);
 /** A surface that a valve is to be built from, the points that were clicked, and what was found. */
 export interface Imported {
   name: string;

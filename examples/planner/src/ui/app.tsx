@@ -22,7 +22,10 @@ export const view = (): Viewport | null => viewport;
 const go = (preset: Preset): void => viewport?.go(preset);
 
 const panels: [state.Panel, string, string][] = [
-  ['valve', 'Valve', 'V'], ['repair', 'Repair', 'R'], ['plan', 'Plan', 'P'], ['tour', 'Learn', 'L'],
+  ['valve', 'Valve', 'V'],
+  ['repair', 'Repair', 'R'],
+  ['plan', 'Plan', 'P'],
+  ['tour', 'Learn', 'L'],
 ];
 
 function Panels() {
@@ -38,17 +41,34 @@ function Panels() {
       {state.draft.value && panel !== 'repair' && (
         <div class="pending" role="status">
           <span>A preview, not applied yet</span>
-          <Button kind="main" disabled={!state.preview.value} onClick={() => void apply()}>Apply</Button>
+          <Button kind="main" disabled={!state.preview.value} onClick={() => void apply()}>
+            Apply
+          </Button>
           <Button onClick={discard}>Discard</Button>
         </div>
       )}
-      <div class="tabs" role="tablist" aria-label="Panels" onKeyDown={(event) => {
-        if (event.key === 'ArrowRight') steps(1);
-        else if (event.key === 'ArrowLeft') steps(-1);
-      }}>
+      <div
+        class="tabs"
+        role="tablist"
+        aria-label="Panels"
+        onKeyDown={(event) => {
+          if (event.key === 'ArrowRight') steps(1);
+          else if (event.key === 'ArrowLeft') steps(-1);
+        }}
+      >
         {panels.map(([name, text, key]) => (
-          <button type="button" role="tab" id={`tab-${name}`} aria-selected={panel === name} aria-controls="panel" tabIndex={panel === name ? 0 : -1}
-            title={`(${key})`} onClick={() => (state.panel.value = name)}>{text}</button>
+          <button
+            type="button"
+            role="tab"
+            id={`tab-${name}`}
+            aria-selected={panel === name}
+            aria-controls="panel"
+            tabIndex={panel === name ? 0 : -1}
+            title={`(${key})`}
+            onClick={() => (state.panel.value = name)}
+          >
+            {text}
+          </button>
         ))}
       </div>
       <div class="panel" id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}>
@@ -69,7 +89,11 @@ function Busy() {
     <div class="busy" data-testid="busy">
       <span>{busy.text}</span>
       <progress max="1" value={busy.share || undefined} />
-      {busy.cancel && <button type="button" class="link" onClick={busy.cancel}>Cancel</button>}
+      {busy.cancel && (
+        <button type="button" class="link" onClick={busy.cancel}>
+          Cancel
+        </button>
+      )}
     </div>
   );
 }
@@ -83,14 +107,19 @@ function Picture() {
   }, []);
   return (
     <main class="picture">
-      <div class="canvas" ref={host}
+      <div
+        class="canvas"
+        ref={host}
         onDragOver={(event) => event.preventDefault()}
         onDrop={(event) => {
           event.preventDefault();
           const file = event.dataTransfer?.files[0];
           if (file) void openFile(file);
-        }} />
-      <p id="picture-help" class="hidden">{help.picture}</p>
+        }}
+      />
+      <p id="picture-help" class="hidden">
+        {help.picture}
+      </p>
       <Scale />
       <Busy />
       <ViewBar go={go} />
@@ -103,7 +132,10 @@ const mapNames: MapName[] = ['tissue', ...(Object.keys(maps) as MapName[])];
 /** Keys of the page; not while text is typed. */
 function onKey(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
-  const typing = /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== 'range' && (target as HTMLInputElement).type !== 'checkbox';
+  const typing =
+    /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) &&
+    (target as HTMLInputElement).type !== 'range' &&
+    (target as HTMLInputElement).type !== 'checkbox';
   if (state.dialog.value) return;
   const control = event.ctrlKey || event.metaKey;
   const key = event.key.toLowerCase();
@@ -118,7 +150,13 @@ function onKey(event: KeyboardEvent): void {
   }
   if (event.key === 'Escape' && state.draft.value) return discard();
   if (typing || control || event.altKey) return;
-  if (event.key === 'Enter' && state.draft.value && target.tagName !== 'BUTTON' && target.tagName !== 'SUMMARY') return void apply();
+  if (
+    event.key === 'Enter' &&
+    state.draft.value &&
+    target.tagName !== 'BUTTON' &&
+    target.tagName !== 'SUMMARY'
+  )
+    return void apply();
   const views: Record<string, Preset> = { 1: 'surgeon', 2: 'ventricle', 3: 'commissure', 4: 'section' };
   if (views[key]) {
     if (key === '4') state.sectionOn.value = true;
@@ -126,7 +164,8 @@ function onKey(event: KeyboardEvent): void {
   }
   const panel = panels.find(([, , letter]) => letter.toLowerCase() === key);
   if (panel) state.panel.value = panel[0];
-  else if (key === 'o' && state.main.value && !state.draft.value) void openTo(state.openness.value >= 1 ? 0 : 1);
+  else if (key === 'o' && state.main.value && !state.draft.value)
+    void openTo(state.openness.value >= 1 ? 0 : 1);
   else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
   else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
   else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;
@@ -147,7 +186,9 @@ export function App() {
       <div class="broken" role="alert">
         <h1>The page stopped</h1>
         <p>{state.broken.value}</p>
-        <button type="button" class="button main" onClick={() => location.reload()}>Load it again</button>
+        <button type="button" class="button main" onClick={() => location.reload()}>
+          Load it again
+        </button>
       </div>
     );
   }
@@ -156,7 +197,9 @@ export function App() {
       <TopBar />
       <Picture />
       <Panels />
-      <div class="hidden" role="status" aria-live="polite" data-testid="status">{state.status.value}</div>
+      <div class="hidden" role="status" aria-live="polite" data-testid="status">
+        {state.status.value}
+      </div>
       <Notice />
       <Recovery />
       <Dialogs />

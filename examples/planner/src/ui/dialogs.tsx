@@ -13,8 +13,19 @@ export function Modal(props: { title: string; wide?: boolean; children: Componen
   useEffect(() => dialog.current?.showModal(), []);
   const close = () => (state.dialog.value = null);
   return (
-    <dialog ref={dialog} class={props.wide ? 'wide' : ''} aria-label={props.title} onClose={close} onCancel={close}>
-      <div class="form-head"><h2>{props.title}</h2><Button kind="quiet" onClick={close}>Close</Button></div>
+    <dialog
+      ref={dialog}
+      class={props.wide ? 'wide' : ''}
+      aria-label={props.title}
+      onClose={close}
+      onCancel={close}
+    >
+      <div class="form-head">
+        <h2>{props.title}</h2>
+        <Button kind="quiet" onClick={close}>
+          Close
+        </Button>
+      </div>
       {props.children}
     </dialog>
   );
@@ -24,10 +35,30 @@ export function Dialogs() {
   if (state.dialog.value === 'keys') {
     return (
       <Modal title="Keys and help">
-        <table class="table"><tbody>{help.keys.map(([key, text]) => <tr><th scope="row"><kbd>{key}</kbd></th><td>{text}</td></tr>)}</tbody></table>
-        <p>Left button or one finger turns; right button or two fingers move; wheel or pinch zooms. Click chooses.</p>
-        <details class="section"><summary>Licences</summary><pre class="licences">{document.getElementById('licences')?.textContent}</pre></details>
-        <p class="hint">{t.research} libmvs {state.version.value}. The page calculates in your browser and cannot connect to anything.</p>
+        <table class="table">
+          <tbody>
+            {help.keys.map(([key, text]) => (
+              <tr>
+                <th scope="row">
+                  <kbd>{key}</kbd>
+                </th>
+                <td>{text}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+        <p>
+          Left button or one finger turns; right button or two fingers move; wheel or pinch zooms. Click
+          chooses.
+        </p>
+        <details class="section">
+          <summary>Licences</summary>
+          <pre class="licences">{document.getElementById('licences')?.textContent}</pre>
+        </details>
+        <p class="hint">
+          {t.research} libmvs {state.version.value}. The page calculates in your browser and cannot connect to
+          anything.
+        </p>
       </Modal>
     );
   }
@@ -44,9 +75,15 @@ export function Notice() {
   }, [notice]);
   if (!notice) return null;
   return (
-    <div class={`notice ${notice.kind}`} role={notice.kind === 'error' ? 'alert' : 'status'} data-testid="notice">
+    <div
+      class={`notice ${notice.kind}`}
+      role={notice.kind === 'error' ? 'alert' : 'status'}
+      data-testid="notice"
+    >
       <span>{notice.text}</span>
-      <Button kind="quiet" onClick={() => (state.notice.value = null)}>Close</Button>
+      <Button kind="quiet" onClick={() => (state.notice.value = null)}>
+        Close
+      </Button>
     </div>
   );
 }
@@ -56,8 +93,12 @@ export function Recovery() {
   if (!kept || !state.ready.value) return null;
   return (
     <div class="notice info" role="status" data-testid="recovery">
-      <span>A session was left here: {kept.title || 'without a name'}, {new Date(kept.saved).toLocaleString()}.</span>
-      <Button kind="main" onClick={() => void recover().catch(fail)}>Recover it</Button>
+      <span>
+        A session was left here: {kept.title || 'without a name'}, {new Date(kept.saved).toLocaleString()}.
+      </span>
+      <Button kind="main" onClick={() => void recover().catch(fail)}>
+        Recover it
+      </Button>
       <Button onClick={() => void forgetCopy().catch(fail)}>Delete it</Button>
     </div>
   );

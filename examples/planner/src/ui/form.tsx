@@ -21,10 +21,18 @@ const sliders: Record<string, Record<string, [number, number, number]>> = {
 };
 /** Fields that are asked for although the library does not require them. */
 const prominent: Record<string, string[]> = {
-  ring: ['size'], band: ['factor'], annulus_scale: ['factor', 'ap', 'cc'], neochord: ['site', 'head', 'length'],
-  chord_add: ['site', 'head', 'length'], chord_length: ['chord', 'length'], chord_remove: ['chord'],
-  chord_transfer: ['chord', 'end', 'site', 'head'], head_move: ['head', 'by'], clip: ['position', 'width', 'anterior', 'posterior'],
-  resect: ['scallop', 'position', 'width', 'depth'], patch: ['site', 'width', 'height'],
+  ring: ['size'],
+  band: ['factor'],
+  annulus_scale: ['factor', 'ap', 'cc'],
+  neochord: ['site', 'head', 'length'],
+  chord_add: ['site', 'head', 'length'],
+  chord_length: ['chord', 'length'],
+  chord_remove: ['chord'],
+  chord_transfer: ['chord', 'end', 'site', 'head'],
+  head_move: ['head', 'by'],
+  clip: ['position', 'width', 'anterior', 'posterior'],
+  resect: ['scallop', 'position', 'width', 'depth'],
+  patch: ['site', 'width', 'height'],
 };
 
 /** Names that hold shares, shown in per cent. */
@@ -34,32 +42,63 @@ export function OperationForm() {
   const draft = state.draft.value!;
   const info = state.operations.value.find((operation) => operation.name === draft.kind)!;
   const words = wordsOf(draft.kind, info.help);
-  const first = prominent[draft.kind] ?? info.fields.filter((field) => field.required).map((field) => field.name);
+  const first =
+    prominent[draft.kind] ?? info.fields.filter((field) => field.required).map((field) => field.name);
   // outlines and measured curves come from other programs, not from a form
   const usable = info.fields.filter((field) => field.type !== 'points' && field.type !== 'point');
-  const shown = first.map((name) => usable.find((field) => field.name === name)).filter((f): f is FieldInfo => !!f);
+  const shown = first
+    .map((name) => usable.find((field) => field.name === name))
+    .filter((f): f is FieldInfo => !!f);
   const more = usable.filter((field) => !first.includes(field.name));
   const picking = state.picking.value;
   const ready = complete(draft.kind, draft.fields);
   return (
-    <form class="panel-body form" data-testid="form" onSubmit={(event) => (event.preventDefault(), void apply())}>
+    <form
+      class="panel-body form"
+      data-testid="form"
+      onSubmit={(event) => (event.preventDefault(), void apply())}
+    >
       <div class="form-head">
         <h2>{words.title}</h2>
-        <Button kind="quiet" icon={<X size={18} />} label="Leave without a change" keys="Escape" onClick={discard} />
+        <Button
+          kind="quiet"
+          icon={<X size={18} />}
+          label="Leave without a change"
+          keys="Escape"
+          onClick={discard}
+        />
       </div>
       <p class="hint">{words.short}</p>
-      {picking && <p class="ask" role="status"><Crosshair size={16} aria-hidden="true" /> {question(info.fields.find((field) => field.name === picking)!)}</p>}
-      {shown.map((field) => <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />)}
+      {picking && (
+        <p class="ask" role="status">
+          <Crosshair size={16} aria-hidden="true" />{' '}
+          {question(info.fields.find((field) => field.name === picking)!)}
+        </p>
+      )}
+      {shown.map((field) => (
+        <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
+      ))}
       {more.length > 0 && (
         <Section title="More">
-          {more.map((field) => <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />)}
+          {more.map((field) => (
+            <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
+          ))}
         </Section>
       )}
-      {state.draftMessage.value && <p class="message" role="alert">{state.draftMessage.value}</p>}
+      {state.draftMessage.value && (
+        <p class="message" role="alert">
+          {state.draftMessage.value}
+        </p>
+      )}
       <div class="form-foot">
-        <button type="submit" class="button main" disabled={!state.preview.value || !ready} title="(Enter)"><Check size={16} /><span>Apply</span></button>
+        <button type="submit" class="button main" disabled={!state.preview.value || !ready} title="(Enter)">
+          <Check size={16} />
+          <span>Apply</span>
+        </button>
         <Button onClick={discard}>Discard</Button>
-        {ready && !state.preview.value && !state.draftMessage.value && <span class="hint">{t.previewing}</span>}
+        {ready && !state.preview.value && !state.draftMessage.value && (
+          <span class="hint">{t.previewing}</span>
+        )}
       </div>
     </form>
   );
@@ -81,7 +120,8 @@ interface FieldProps {
 function Field(props: FieldProps) {
   const { field } = props;
   if (field.type === 'number' || field.type === 'count') return <NumberField {...props} />;
-  if (field.type === 'chord' || field.type === 'head' || field.type === 'scallop') return <PartField {...props} />;
+  if (field.type === 'chord' || field.type === 'head' || field.type === 'scallop')
+    return <PartField {...props} />;
   if (field.type === 'site') return <SiteField {...props} />;
   if (field.type === 'choice') return <ChoiceField {...props} />;
   if (field.type === 'vector') return <VectorField {...props} />;
@@ -119,15 +159,37 @@ function NumberField(props: FieldProps) {
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <div class="number">
         {range && (
-          <input type="range" aria-label={labelOf(props)} min={low! * scale} max={high! * scale} step={range[2] * scale}
-            value={(shown ?? (low! + high!) / 2) * scale} onInput={(event) => set(event.currentTarget.value)} />
+          <input
+            type="range"
+            aria-label={labelOf(props)}
+            min={low! * scale}
+            max={high! * scale}
+            step={range[2] * scale}
+            value={(shown ?? (low! + high!) / 2) * scale}
+            onInput={(event) => set(event.currentTarget.value)}
+          />
         )}
-        <input id={`f-${field.name}`} type="number" inputMode="decimal" step="any" value={value === undefined ? '' : +(value * scale).toPrecision(6)}
-          placeholder={fallback !== undefined ? String(+(fallback * scale).toPrecision(4)) : field.fallback ? 'auto' : ''} onChange={(event) => set(event.currentTarget.value)} />
+        <input
+          id={`f-${field.name}`}
+          type="number"
+          inputMode="decimal"
+          step="any"
+          value={value === undefined ? '' : +(value * scale).toPrecision(6)}
+          placeholder={
+            fallback !== undefined ? String(+(fallback * scale).toPrecision(4)) : field.fallback ? 'auto' : ''
+          }
+          onChange={(event) => set(event.currentTarget.value)}
+        />
         <span class="unit">{unit}</span>
       </div>
-      {rest !== null && value !== undefined && <small>was {figure(rest)} mm, {value < rest ? 'shorter' : 'longer'} by {figure(Math.abs(value - rest))} mm</small>}
-      {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && <small>left empty: {field.fallback}</small>}
+      {rest !== null && value !== undefined && (
+        <small>
+          was {figure(rest)} mm, {value < rest ? 'shorter' : 'longer'} by {figure(Math.abs(value - rest))} mm
+        </small>
+      )}
+      {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && (
+        <small>left empty: {field.fallback}</small>
+      )}
     </div>
   );
 }
@@ -135,26 +197,38 @@ function NumberField(props: FieldProps) {
 function PickButton({ field }: { field: FieldInfo }) {
   const on = state.picking.value === field.name;
   return (
-    <Button kind="quiet" pressed={on} icon={<Crosshair size={16} />} label={`Pick in the picture: ${field.label || field.name}`}
+    <Button
+      kind="quiet"
+      pressed={on}
+      icon={<Crosshair size={16} />}
+      label={`Pick in the picture: ${field.label || field.name}`}
       onClick={() => {
         state.preview.value = null;
         state.picking.value = on ? null : field.name;
-      }} />
+      }}
+    />
   );
 }
 
 function PartField(props: FieldProps) {
   const { field } = props;
   const topology = state.main.value && state.topologyOf(state.main.value.picture);
-  const parts = field.type === 'chord' ? topology?.chords : field.type === 'head' ? topology?.heads : topology?.scallops;
+  const parts =
+    field.type === 'chord' ? topology?.chords : field.type === 'head' ? topology?.heads : topology?.scallops;
   const value = state.draft.value?.fields[field.name] as string | undefined;
   return (
     <div class="field" title={field.help}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <div class="number">
-        <select id={`f-${field.name}`} value={value ?? ''} onChange={(event) => setField(field.name, event.currentTarget.value || undefined)}>
+        <select
+          id={`f-${field.name}`}
+          value={value ?? ''}
+          onChange={(event) => setField(field.name, event.currentTarget.value || undefined)}
+        >
           <option value="">{field.required ? 'choose…' : field.fallback || 'none'}</option>
-          {parts?.map((part) => <option value={part.id}>{part.name}</option>)}
+          {parts?.map((part) => (
+            <option value={part.id}>{part.name}</option>
+          ))}
         </select>
         <PickButton field={field} />
       </div>
@@ -169,7 +243,9 @@ function SiteField(props: FieldProps) {
   const value = state.draft.value?.fields[field.name] as Site | undefined;
   const scallopOf = () => {
     if (!value || !topology) return '';
-    return 'triangle' in value ? topology.scallops[topology.triangleScallop[value.triangle]].id : value.scallop;
+    return 'triangle' in value
+      ? topology.scallops[topology.triangleScallop[value.triangle]].id
+      : value.scallop;
   };
   const place = value && !('triangle' in value) ? value : { scallop: scallopOf(), along: 0.5, height: 0.9 };
   const set = (change: Partial<{ scallop: string; along: number; height: number }>) => {
@@ -181,17 +257,43 @@ function SiteField(props: FieldProps) {
     <div class="field" title={field.help}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <div class="number">
-        <select id={`f-${field.name}`} value={scallopOf()} onChange={(event) => set({ scallop: event.currentTarget.value })}>
+        <select
+          id={`f-${field.name}`}
+          value={scallopOf()}
+          onChange={(event) => set({ scallop: event.currentTarget.value })}
+        >
           <option value="">choose…</option>
-          {topology?.scallops.map((part) => <option value={part.id}>{part.name}</option>)}
+          {topology?.scallops.map((part) => (
+            <option value={part.id}>{part.name}</option>
+          ))}
         </select>
         <PickButton field={field} />
       </div>
       {value && 'triangle' in value && <small>picked on {name}</small>}
       {value && !('triangle' in value) && (
         <>
-          <label class="slider"><span>Along the scallop</span><input type="range" min="0" max="1" step="0.05" value={value.along} onInput={(event) => set({ along: +event.currentTarget.value })} /></label>
-          <label class="slider"><span>From annulus to free edge</span><input type="range" min="0.1" max="1" step="0.05" value={value.height} onInput={(event) => set({ height: +event.currentTarget.value })} /></label>
+          <label class="slider">
+            <span>Along the scallop</span>
+            <input
+              type="range"
+              min="0"
+              max="1"
+              step="0.05"
+              value={value.along}
+              onInput={(event) => set({ along: +event.currentTarget.value })}
+            />
+          </label>
+          <label class="slider">
+            <span>From annulus to free edge</span>
+            <input
+              type="range"
+              min="0.1"
+              max="1"
+              step="0.05"
+              value={value.height}
+              onInput={(event) => set({ height: +event.currentTarget.value })}
+            />
+          </label>
         </>
       )}
     </div>
@@ -204,9 +306,17 @@ function ChoiceField(props: FieldProps) {
   return (
     <div class="field" title={field.help}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
-      <select id={`f-${field.name}`} value={value === undefined ? '' : String(value)} onChange={(event) => setField(field.name, event.currentTarget.value === '' ? undefined : +event.currentTarget.value)}>
+      <select
+        id={`f-${field.name}`}
+        value={value === undefined ? '' : String(value)}
+        onChange={(event) =>
+          setField(field.name, event.currentTarget.value === '' ? undefined : +event.currentTarget.value)
+        }
+      >
         <option value="">{field.fallback || 'default'}</option>
-        {field.choices.map((choice) => <option value={choice.value}>{choice.name.replace(/_/g, ' ')}</option>)}
+        {field.choices.map((choice) => (
+          <option value={choice.value}>{choice.name.replace(/_/g, ' ')}</option>
+        ))}
       </select>
     </div>
   );
@@ -222,13 +332,21 @@ function VectorField(props: FieldProps) {
       <legend>{labelOf(props)}</legend>
       {axes.map((axis, c) => (
         <label class="slider">
-          <span>{axis}: {figure(value[c])} mm</span>
-          <input type="range" min="-10" max="10" step="0.5" value={value[c]}
+          <span>
+            {axis}: {figure(value[c])} mm
+          </span>
+          <input
+            type="range"
+            min="-10"
+            max="10"
+            step="0.5"
+            value={value[c]}
             onInput={(event) => {
               const next = [...value] as [number, number, number];
               next[c] = +event.currentTarget.value;
               setField(field.name, next as FieldValue);
-            }} />
+            }}
+          />
         </label>
       ))}
     </fieldset>
@@ -240,7 +358,13 @@ function TextField(props: FieldProps) {
   return (
     <div class="field" title={field.help}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
-      <input id={`f-${field.name}`} type="text" maxLength={60} placeholder={field.fallback} onChange={(event) => setField(field.name, event.currentTarget.value || undefined)} />
+      <input
+        id={`f-${field.name}`}
+        type="text"
+        maxLength={60}
+        placeholder={field.fallback}
+        onChange={(event) => setField(field.name, event.currentTarget.value || undefined)}
+      />
     </div>
   );
 }

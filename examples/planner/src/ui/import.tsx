@@ -19,21 +19,38 @@ export function ImportPanel() {
       <p>{importTexts.intro}</p>
       <div class="field">
         <label for="unit">{importTexts.unit}</label>
-        <select id="unit" value={imported.unit} onChange={(event) => void beginImport(imported.name, imported.bytes, event.currentTarget.value)}>
-          <option value="mm">mm</option><option value="cm">cm</option><option value="m">m</option>
+        <select
+          id="unit"
+          value={imported.unit}
+          onChange={(event) => void beginImport(imported.name, imported.bytes, event.currentTarget.value)}
+        >
+          <option value="mm">mm</option>
+          <option value="cm">cm</option>
+          <option value="m">m</option>
         </select>
         <small>{importTexts.size(extent(imported.surface.points))}</small>
       </div>
       {kinds.map((kind) => (
         <div class="row">
-          <Button pressed={state.importing.value === kind} onClick={() => (state.importing.value = kind)}>{importTexts.points[kind]}</Button>
-          <span class="hint">{imported.points[kind].length ? `${imported.points[kind].length} set` : 'will be guessed'}</span>
-          {imported.points[kind].length > 0 && <Button kind="quiet" onClick={() => clear(kind)}>Clear</Button>}
+          <Button pressed={state.importing.value === kind} onClick={() => (state.importing.value = kind)}>
+            {importTexts.points[kind]}
+          </Button>
+          <span class="hint">
+            {imported.points[kind].length ? `${imported.points[kind].length} set` : 'will be guessed'}
+          </span>
+          {imported.points[kind].length > 0 && (
+            <Button kind="quiet" onClick={() => clear(kind)}>
+              Clear
+            </Button>
+          )}
         </div>
       ))}
       <p class="hint">{importTexts.tips}</p>
       <div class="form-foot">
-        <button type="button" class="button main" onClick={() => void buildValve()}><Hammer size={16} /><span>Build and close the valve</span></button>
+        <button type="button" class="button main" onClick={() => void buildValve()}>
+          <Hammer size={16} />
+          <span>Build and close the valve</span>
+        </button>
         <Button onClick={() => ((state.imported.value = null), (state.panel.value = 'valve'))}>Leave</Button>
       </div>
     </div>
@@ -45,7 +62,8 @@ function extent(points: Float32Array): number {
   let largest = 0;
   for (let c = 0; c < 3; ++c) {
     let [low, high] = [Infinity, -Infinity];
-    for (let i = c; i < points.length; i += 3) [low, high] = [Math.min(low, points[i]), Math.max(high, points[i])];
+    for (let i = c; i < points.length; i += 3)
+      [low, high] = [Math.min(low, points[i]), Math.max(high, points[i])];
     largest = Math.max(largest, high - low);
   }
   return largest;
@@ -60,7 +78,8 @@ function Findings() {
       <ul class="findings" data-testid="findings">
         {findings.map((finding) => (
           <li class={`source-${finding.source}`}>
-            <strong>{finding.name.replace(/_/g, ' ')}</strong> <span class="tag">{importTexts.sources[finding.source]}</span>
+            <strong>{finding.name.replace(/_/g, ' ')}</strong>{' '}
+            <span class="tag">{importTexts.sources[finding.source]}</span>
             <p>{finding.sentence}</p>
           </li>
         ))}

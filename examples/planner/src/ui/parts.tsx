@@ -2,7 +2,17 @@
 import type { ComponentChildren, JSX } from 'preact';
 import { figure } from '../text/texts';
 
-export function Figure(props: { label: string; value: number; unit: string; digits?: number; before?: number; good?: 'low' | 'high'; help?: string; spread?: [number, number] | null; warn?: boolean }) {
+export function Figure(props: {
+  label: string;
+  value: number;
+  unit: string;
+  digits?: number;
+  before?: number;
+  good?: 'low' | 'high';
+  help?: string;
+  spread?: [number, number] | null;
+  warn?: boolean;
+}) {
   const digits = props.digits ?? 1;
   const differs = props.before !== undefined && Math.abs(props.before - props.value) >= 0.5 * 10 ** -digits;
   const better = differs && props.good ? (props.good === 'low') === props.value < props.before! : null;
@@ -27,13 +37,32 @@ export function Figure(props: { label: string; value: number; unit: string; digi
 }
 
 export function Button(
-  props: { icon?: JSX.Element; children?: ComponentChildren; kind?: 'main' | 'plain' | 'quiet'; keys?: string } & Omit<JSX.HTMLAttributes<HTMLButtonElement>, 'icon'> & { disabled?: boolean; title?: string; onClick?: () => void; pressed?: boolean; label?: string },
+  props: {
+    icon?: JSX.Element;
+    children?: ComponentChildren;
+    kind?: 'main' | 'plain' | 'quiet';
+    keys?: string;
+  } & Omit<JSX.HTMLAttributes<HTMLButtonElement>, 'icon'> & {
+      disabled?: boolean;
+      title?: string;
+      onClick?: () => void;
+      pressed?: boolean;
+      label?: string;
+    },
 ) {
   const { icon, children, kind = 'plain', keys, pressed, label, title, disabled, onClick } = props;
   const hint = [title ?? label, keys ? `(${keys})` : ''].filter(Boolean).join(' ');
   return (
-    <button type="button" class={`button ${kind}`} disabled={disabled} title={hint || undefined} aria-label={label}
-      aria-pressed={pressed === undefined ? undefined : pressed} aria-keyshortcuts={keys} onClick={onClick}>
+    <button
+      type="button"
+      class={`button ${kind}`}
+      disabled={disabled}
+      title={hint || undefined}
+      aria-label={label}
+      aria-pressed={pressed === undefined ? undefined : pressed}
+      aria-keyshortcuts={keys}
+      onClick={onClick}
+    >
       {icon}
       {children !== undefined && <span>{children}</span>}
     </button>

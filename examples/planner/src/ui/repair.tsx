@@ -1,6 +1,20 @@
 // The panel "Repair": what can be done, the form of the operation that is being planned, and the chord or head
 // that is chosen. Forms come from the library's table of operations.
-import { ArrowUpDown, Circle, CircleDashed, Grip, Maximize2, Minus, Move, Paperclip, Scissors, Shapes as ShapesIcon, Spline, Square, Triangle } from 'lucide-preact';
+import {
+  ArrowUpDown,
+  Circle,
+  CircleDashed,
+  Grip,
+  Maximize2,
+  Minus,
+  Move,
+  Paperclip,
+  Scissors,
+  Shapes as ShapesIcon,
+  Spline,
+  Square,
+  Triangle,
+} from 'lucide-preact';
 import { edit } from '../store/actions';
 import * as state from '../store/state';
 import { figure, kinds, wordsOf } from '../text/texts';
@@ -9,11 +23,34 @@ import { OperationForm } from './form';
 import { Button, Section } from './parts';
 
 const icons: Record<string, typeof Circle> = {
-  ring: Circle, band: CircleDashed, annulus_scale: Maximize2, neochord: Spline, chord_add: Minus, chord_length: ArrowUpDown,
-  chord_remove: Scissors, chord_transfer: Move, head_move: Grip, clip: Paperclip, resect: Triangle, patch: Square,
+  ring: Circle,
+  band: CircleDashed,
+  annulus_scale: Maximize2,
+  neochord: Spline,
+  chord_add: Minus,
+  chord_length: ArrowUpDown,
+  chord_remove: Scissors,
+  chord_transfer: Move,
+  head_move: Grip,
+  clip: Paperclip,
+  resect: Triangle,
+  patch: Square,
 };
 /** The order in which a surgeon looks for them; unknown operations follow. */
-const order = ['ring', 'band', 'annulus_scale', 'neochord', 'chord_length', 'chord_remove', 'chord_transfer', 'clip', 'resect', 'patch', 'head_move', 'chord_add'];
+const order = [
+  'ring',
+  'band',
+  'annulus_scale',
+  'neochord',
+  'chord_length',
+  'chord_remove',
+  'chord_transfer',
+  'clip',
+  'resect',
+  'patch',
+  'head_move',
+  'chord_add',
+];
 const often = 8;
 
 /** The first values of a form: those with which a preview says something. */
@@ -21,19 +58,27 @@ export function firstFields(kind: string): Record<string, FieldValue> {
   const figures = state.main.value?.figures;
   const choice = state.choice.value;
   const chord = choice?.kind === 'chord' ? figures?.chords.find((item) => item.id === choice.id) : undefined;
-  if (kind === 'ring') return { size: Math.min(40, Math.max(24, 2 * Math.round((figures?.measures.annulusCc ?? 34) / 2))) };
+  if (kind === 'ring')
+    return { size: Math.min(40, Math.max(24, 2 * Math.round((figures?.measures.annulusCc ?? 34) / 2))) };
   if (kind === 'band') return { factor: 0.9 };
   if (kind === 'annulus_scale') return { factor: 0.95 };
-  if (kind === 'chord_length') return chord ? { chord: chord.id, length: +(0.9 * chord.rest).toFixed(1) } : {};
+  if (kind === 'chord_length')
+    return chord ? { chord: chord.id, length: +(0.9 * chord.rest).toFixed(1) } : {};
   if (kind === 'chord_remove' || kind === 'chord_transfer') return chord ? { chord: chord.id } : {};
-  if (kind === 'head_move') return choice?.kind === 'head' ? { head: choice.id, by: [0, 0, 0], frame: 1 } : { by: [0, 0, 0], frame: 1 };
+  if (kind === 'head_move')
+    return choice?.kind === 'head'
+      ? { head: choice.id, by: [0, 0, 0], frame: 1 }
+      : { by: [0, 0, 0], frame: 1 };
   return {};
 }
 
 /** The field that the first click in the picture fills. */
 export function firstPick(kind: string, fields: Record<string, FieldValue>): string | null {
   const info = state.operations.value.find((operation) => operation.name === kind);
-  const asks = info?.fields.filter((field) => ['chord', 'site', 'head'].includes(field.type) && fields[field.name] === undefined) ?? [];
+  const asks =
+    info?.fields.filter(
+      (field) => ['chord', 'site', 'head'].includes(field.type) && fields[field.name] === undefined,
+    ) ?? [];
   const site = asks.find((field) => field.type === 'site' && field.required);
   return (site ?? asks.find((field) => field.required))?.name ?? (kind === 'chord_transfer' ? 'site' : null);
 }
@@ -50,21 +95,32 @@ export function RepairPanel() {
   if (!state.main.value) return <p class="hint">The valve is being closed…</p>;
   if (draft) return <OperationForm key={draft.kind} />;
   const sorted = [...known].sort((a, b) => rank(a.name) - rank(b.name));
-  const cards = (from: number, to: number) => sorted.slice(from, to).map((operation) => {
-    const Icon = icons[operation.name] ?? ShapesIcon;
-    const words = wordsOf(operation.name, operation.help);
-    return (
-      <button type="button" class="card" onClick={() => begin(operation.name)} data-operation={operation.name}>
-        <Icon size={22} aria-hidden="true" />
-        <span><strong>{words.title}</strong><small>{words.short}</small></span>
-      </button>
-    );
-  });
+  const cards = (from: number, to: number) =>
+    sorted.slice(from, to).map((operation) => {
+      const Icon = icons[operation.name] ?? ShapesIcon;
+      const words = wordsOf(operation.name, operation.help);
+      return (
+        <button
+          type="button"
+          class="card"
+          onClick={() => begin(operation.name)}
+          data-operation={operation.name}
+        >
+          <Icon size={22} aria-hidden="true" />
+          <span>
+            <strong>{words.title}</strong>
+            <small>{words.short}</small>
+          </span>
+        </button>
+      );
+    });
   return (
     <div class="panel-body">
       <Chosen />
       <div class="cards">{cards(0, often)}</div>
-      <Section title="More operations"><div class="cards">{cards(often, sorted.length)}</div></Section>
+      <Section title="More operations">
+        <div class="cards">{cards(often, sorted.length)}</div>
+      </Section>
     </div>
   );
 }
@@ -77,7 +133,10 @@ function rank(name: string): number {
 function Chosen() {
   const choice = state.choice.value;
   const figures = state.main.value?.figures;
-  if (!choice || !figures) return <p class="hint">Click a chord, a papillary head or a leaflet in the picture, or choose an operation.</p>;
+  if (!choice || !figures)
+    return (
+      <p class="hint">Click a chord, a papillary head or a leaflet in the picture, or choose an operation.</p>
+    );
   if (choice.kind === 'chord') {
     const chord = figures.chords.find((item) => item.id === choice.id);
     if (!chord) return null;
@@ -85,16 +144,31 @@ function Chosen() {
     return (
       <div class="chosen-card" data-testid="chosen">
         <h3>Chord {chord.name}</h3>
-        <p>{kinds[chord.kind]}, {chord.heads || 'branch'} to {chord.scallops || 'branch'}</p>
+        <p>
+          {kinds[chord.kind]}, {chord.heads || 'branch'} to {chord.scallops || 'branch'}
+        </p>
         <dl>
-          <dt>Length without pull</dt><dd>{figure(chord.rest)} mm</dd>
-          <dt>Pull</dt><dd>{figure(chord.tension, 2)} N</dd>
-          <dt>Stretch</dt><dd>{chord.strain <= 0 ? 'slack' : `${figure(100 * chord.strain)} %, ${Math.round(100 * share)} % of its limit`}</dd>
+          <dt>Length without pull</dt>
+          <dd>{figure(chord.rest)} mm</dd>
+          <dt>Pull</dt>
+          <dd>{figure(chord.tension, 2)} N</dd>
+          <dt>Stretch</dt>
+          <dd>
+            {chord.strain <= 0
+              ? 'slack'
+              : `${figure(100 * chord.strain)} %, ${Math.round(100 * share)} % of its limit`}
+          </dd>
         </dl>
         <div class="row">
-          <Button kind="main" icon={<ArrowUpDown size={16} />} onClick={() => begin('chord_length')}>Change length</Button>
-          <Button icon={<Scissors size={16} />} onClick={() => begin('chord_remove')}>Cut</Button>
-          <Button icon={<Move size={16} />} onClick={() => begin('chord_transfer')}>Transfer</Button>
+          <Button kind="main" icon={<ArrowUpDown size={16} />} onClick={() => begin('chord_length')}>
+            Change length
+          </Button>
+          <Button icon={<Scissors size={16} />} onClick={() => begin('chord_remove')}>
+            Cut
+          </Button>
+          <Button icon={<Move size={16} />} onClick={() => begin('chord_transfer')}>
+            Transfer
+          </Button>
         </div>
         <p class="hint">Or drag the blue chord in the picture: towards the muscle shortens it.</p>
       </div>
@@ -107,10 +181,20 @@ function Chosen() {
     return (
       <div class="chosen-card" data-testid="chosen">
         <h3>Papillary head {topology!.heads[h].name}</h3>
-        <dl><dt>Pull of its chordae</dt><dd>{figure(figures.heads[h], 2)} N</dd></dl>
+        <dl>
+          <dt>Pull of its chordae</dt>
+          <dd>{figure(figures.heads[h], 2)} N</dd>
+        </dl>
         <div class="row">
-          <Button icon={<Spline size={16} />} onClick={() => (edit('neochord', { head: choice.id }), (state.picking.value = 'site'))}>Artificial chord from here</Button>
-          <Button icon={<Grip size={16} />} onClick={() => begin('head_move')}>Move</Button>
+          <Button
+            icon={<Spline size={16} />}
+            onClick={() => (edit('neochord', { head: choice.id }), (state.picking.value = 'site'))}
+          >
+            Artificial chord from here
+          </Button>
+          <Button icon={<Grip size={16} />} onClick={() => begin('head_move')}>
+            Move
+          </Button>
         </div>
       </div>
     );
@@ -123,15 +207,21 @@ function Chosen() {
     <div class="chosen-card" data-testid="chosen">
       <h3>Scallop {part.name}</h3>
       <dl>
-        <dt>Coaptation</dt><dd>{figure(region.coaptationMean)} mm</dd>
-        <dt>Leak</dt><dd>{region.orifice > 0 ? `${figure(region.orifice)} mm²` : 'none'}</dd>
-        <dt>Prolapse</dt><dd>{region.billow > 0 ? `${figure(region.billow)} mm` : 'none'}</dd>
+        <dt>Coaptation</dt>
+        <dd>{figure(region.coaptationMean)} mm</dd>
+        <dt>Leak</dt>
+        <dd>{region.orifice > 0 ? `${figure(region.orifice)} mm²` : 'none'}</dd>
+        <dt>Prolapse</dt>
+        <dd>{region.billow > 0 ? `${figure(region.billow)} mm` : 'none'}</dd>
       </dl>
       <div class="row">
-        <Button icon={<Spline size={16} />} onClick={() => begin('neochord')}>Artificial chord</Button>
-        <Button icon={<Triangle size={16} />} onClick={() => (edit('resect', { scallop: choice.id }))}>Resect</Button>
+        <Button icon={<Spline size={16} />} onClick={() => begin('neochord')}>
+          Artificial chord
+        </Button>
+        <Button icon={<Triangle size={16} />} onClick={() => edit('resect', { scallop: choice.id })}>
+          Resect
+        </Button>
       </div>
     </div>
   );
 }
-

@@ -19,7 +19,11 @@ interface Pictures {
 function takePictures(): Pictures {
   const viewport = view()!;
   const { camera } = viewport;
-  const kept = { target: camera.target.clone(), orientation: camera.orientation.clone(), distance: camera.distance };
+  const kept = {
+    target: camera.target.clone(),
+    orientation: camera.orientation.clone(),
+    distance: camera.distance,
+  };
   const now = state.main.value!;
   const section = state.sectionOn.value;
   state.sectionOn.value = false;
@@ -67,9 +71,16 @@ function reportHtml(pictures: Pictures): string {
   const now = state.main.value!.figures;
   const then = (state.first.value ?? state.main.value!).figures;
   const images = (list: string[]) => list.map((source) => `<img src="${source}" alt="">`).join('');
-  const steps = now.history.filter((entry) => !entry.undone).map((entry) => `<li>${escape(say(entry.title))}</li>`).join('');
-  const table = rows.map(([label, get, digits, unit]) =>
-    `<tr><th>${escape(label)}</th><td>${figure(get(then), digits)} ${unit}</td><td>${figure(get(now), digits)} ${unit}</td></tr>`).join('');
+  const steps = now.history
+    .filter((entry) => !entry.undone)
+    .map((entry) => `<li>${escape(say(entry.title))}</li>`)
+    .join('');
+  const table = rows
+    .map(
+      ([label, get, digits, unit]) =>
+        `<tr><th>${escape(label)}</th><td>${figure(get(then), digits)} ${unit}</td><td>${figure(get(now), digits)} ${unit}</td></tr>`,
+    )
+    .join('');
   return `<h1>${escape(state.title.value || now.valve)}</h1><p>${new Date().toLocaleString()}. Closed at 120 mmHg.</p>
 <div class="pair"><section><h2>Before</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
 <section><h2>After</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
@@ -89,13 +100,20 @@ export function ReportDialog() {
     html.value = reportHtml(takePictures());
   }, []);
   const save = () =>
-    download(`<!doctype html><html lang="en"><meta charset="utf-8"><title>Valve report</title><style>${style}</style><body>${html.value}</body></html>`,
-      `${state.title.value || 'valve'} report.html`, 'text/html');
+    download(
+      `<!doctype html><html lang="en"><meta charset="utf-8"><title>Valve report</title><style>${style}</style><body>${html.value}</body></html>`,
+      `${state.title.value || 'valve'} report.html`,
+      'text/html',
+    );
   return (
     <Modal title="Report" wide>
       <div class="row no-print">
-        <Button kind="main" icon={<Download size={16} />} onClick={save}>Save as HTML</Button>
-        <Button icon={<Printer size={16} />} onClick={() => window.print()}>Print</Button>
+        <Button kind="main" icon={<Download size={16} />} onClick={save}>
+          Save as HTML
+        </Button>
+        <Button icon={<Printer size={16} />} onClick={() => window.print()}>
+          Print
+        </Button>
       </div>
       {/* the markup is made above; texts of the user are escaped there */}
       <div class="report" data-testid="report" dangerouslySetInnerHTML={{ __html: html.value }} />

@@ -33,7 +33,9 @@ export function SectionPlot() {
     const point = [0, 1, 2].map((c) => f[c] + at * f[6 + c]);
     const normal = [f[6], f[7], f[8]];
     const ask = async (which: string, style: string, name: string): Promise<Curve> => ({
-      points: await request('section', { which, point, normal }), style, name,
+      points: await request('section', { which, point, normal }),
+      style,
+      name,
     });
     const turn = ++lastTurn;
     const wanted = [ask('main', preview ? 'before' : 'now', preview ? 'before' : 'now')];
@@ -50,19 +52,47 @@ export function SectionPlot() {
     <div>
       <svg class="plot" viewBox="-26 -12 52 36" role="img" aria-label="Section through the leaflets">
         <line x1="-24" y1="0" x2="24" y2="0" class="plot-axis" />
-        <text x="-25" y="-1" class="plot-text">posterior</text>
-        <text x="25" y="-1" text-anchor="end" class="plot-text">anterior</text>
-        {curves.value.map((curve) => <path d={lines(curve.points, f)} class={`plot-${curve.style}`} />)}
+        <text x="-25" y="-1" class="plot-text">
+          posterior
+        </text>
+        <text x="25" y="-1" text-anchor="end" class="plot-text">
+          anterior
+        </text>
+        {curves.value.map((curve) => (
+          <path d={lines(curve.points, f)} class={`plot-${curve.style}`} />
+        ))}
         <line x1="-24" y1="21" x2="-14" y2="21" class="plot-scale" />
-        <text x="-19" y="23.5" text-anchor="middle" class="plot-text">10 mm</text>
+        <text x="-19" y="23.5" text-anchor="middle" class="plot-text">
+          10 mm
+        </text>
       </svg>
-      <div class="legend">{curves.value.map((curve) => <span><i class={`key key-${curve.style}`} />{curve.name}</span>)}</div>
+      <div class="legend">
+        {curves.value.map((curve) => (
+          <span>
+            <i class={`key key-${curve.style}`} />
+            {curve.name}
+          </span>
+        ))}
+      </div>
       <label class="slider">
         <span>Plane, from the middle: {state.sectionAt.value.toFixed(1)} mm</span>
-        <input type="range" min={-limit} max={limit} step="0.5" value={state.sectionAt.value}
-          onInput={(event) => (state.sectionAt.value = +event.currentTarget.value)} />
+        <input
+          type="range"
+          min={-limit}
+          max={limit}
+          step="0.5"
+          value={state.sectionAt.value}
+          onInput={(event) => (state.sectionAt.value = +event.currentTarget.value)}
+        />
       </label>
-      <label class="check"><input type="checkbox" checked={state.sectionOn.value} onChange={(event) => (state.sectionOn.value = event.currentTarget.checked)} /> Cut the picture at this plane</label>
+      <label class="check">
+        <input
+          type="checkbox"
+          checked={state.sectionOn.value}
+          onChange={(event) => (state.sectionOn.value = event.currentTarget.checked)}
+        />{' '}
+        Cut the picture at this plane
+      </label>
     </div>
   );
 }

@@ -21,12 +21,20 @@ export function TourPanel() {
       {!tour && (
         <>
           <h2>{tourTexts.heading}</h2>
-          {tourTexts.intro.map((line) => <p>{line}</p>)}
+          {tourTexts.intro.map((line) => (
+            <p>{line}</p>
+          ))}
         </>
       )}
       <div class="row">
         {tourTexts.valves.map((_, k) => (
-          <Button kind={tour?.number === k + 1 ? 'main' : 'plain'} pressed={tour?.number === k + 1} onClick={() => void startValve(k + 1)}>Valve {k + 1}</Button>
+          <Button
+            kind={tour?.number === k + 1 ? 'main' : 'plain'}
+            pressed={tour?.number === k + 1}
+            onClick={() => void startValve(k + 1)}
+          >
+            Valve {k + 1}
+          </Button>
         ))}
       </div>
       {tour && <Goal />}
@@ -52,18 +60,45 @@ function Goal() {
     <>
       <h2>{texts.title}</h2>
       <p>{texts.story}</p>
-      <details class="section"><summary>A hint</summary><div class="section-body"><p>{texts.hint}</p></div></details>
+      <details class="section">
+        <summary>A hint</summary>
+        <div class="section-body">
+          <p>{texts.hint}</p>
+        </div>
+      </details>
       <h3>Goal</h3>
       <ul class="goals" data-testid="goals">
         {checks.map((check) => (
           <li class={check.done === null ? 'open' : check.done ? 'done' : 'missed'}>
-            {check.done === null ? <CircleHelp size={18} /> : check.done ? <Check size={18} /> : <X size={18} />}
+            {check.done === null ? (
+              <CircleHelp size={18} />
+            ) : check.done ? (
+              <Check size={18} />
+            ) : (
+              <X size={18} />
+            )}
             <span>{check.text}</span>
           </li>
         ))}
       </ul>
-      {!cost && <Button onClick={() => void measureCost()} disabled={!!state.preview.value}>Measure how far it opens</Button>}
-      {won && <p class="won" role="status">{tourTexts.won}{tour.number < 3 && <> <Button kind="main" onClick={() => void startValve(tour.number + 1)}>Next valve</Button></>}</p>}
+      {!cost && (
+        <Button onClick={() => void measureCost()} disabled={!!state.preview.value}>
+          Measure how far it opens
+        </Button>
+      )}
+      {won && (
+        <p class="won" role="status">
+          {tourTexts.won}
+          {tour.number < 3 && (
+            <>
+              {' '}
+              <Button kind="main" onClick={() => void startValve(tour.number + 1)}>
+                Next valve
+              </Button>
+            </>
+          )}
+        </p>
+      )}
       <Score />
     </>
   );
@@ -76,18 +111,32 @@ function Score() {
   const cost = state.cost.value?.hash === figures.hash ? state.cost.value.value : null;
   const columns = [
     { name: 'Yours', m: figures.measures, area: cost?.openArea },
-    ...(founding ? [
-      { name: 'Study surgeon', m: founding.repaired.measures, area: founding.repaired.openArea },
-      { name: 'Healthy', m: founding.healthy.measures, area: founding.healthy.openArea },
-    ] : []),
+    ...(founding
+      ? [
+          { name: 'Study surgeon', m: founding.repaired.measures, area: founding.repaired.openArea },
+          { name: 'Healthy', m: founding.healthy.measures, area: founding.healthy.openArea },
+        ]
+      : []),
   ];
   const row = (label: string, get: (column: (typeof columns)[number]) => string) => (
-    <tr><th scope="row">{label}</th>{columns.map((column) => <td>{get(column)}</td>)}</tr>
+    <tr>
+      <th scope="row">{label}</th>
+      {columns.map((column) => (
+        <td>{get(column)}</td>
+      ))}
+    </tr>
   );
   return (
     <>
       <table class="table" data-testid="score">
-        <thead><tr><th></th>{columns.map((column) => <th>{column.name}</th>)}</tr></thead>
+        <thead>
+          <tr>
+            <th></th>
+            {columns.map((column) => (
+              <th>{column.name}</th>
+            ))}
+          </tr>
+        </thead>
         <tbody>
           {row('Leak, mm²', (c) => figure(c.m.orifice, 1))}
           {row('Coaptation, mm', (c) => figure(c.m.coaptationMean, 1))}
@@ -97,8 +146,15 @@ function Score() {
         </tbody>
       </table>
       {founding && (
-        <details class="section"><summary>What the study’s surgeon did</summary>
-          <div class="section-body"><ol>{founding.repaired.operations.map((line) => <li>{say(line)}</li>)}</ol></div>
+        <details class="section">
+          <summary>What the study’s surgeon did</summary>
+          <div class="section-body">
+            <ol>
+              {founding.repaired.operations.map((line) => (
+                <li>{say(line)}</li>
+              ))}
+            </ol>
+          </div>
         </details>
       )}
     </>

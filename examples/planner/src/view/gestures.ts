@@ -46,7 +46,18 @@ export class Gestures {
     if (!picture || !topology) return null;
     const { camera, width, height } = this.view;
     camera.update();
-    return pick(camera, topology, picture, p.x, p.y, width, height, reach, state.chordsOn.value, this.view.plane());
+    return pick(
+      camera,
+      topology,
+      picture,
+      p.x,
+      p.y,
+      width,
+      height,
+      reach,
+      state.chordsOn.value,
+      this.view.plane(),
+    );
   }
 
   private down(event: PointerEvent): void {
@@ -60,12 +71,19 @@ export class Gestures {
     }
     this.start = p;
     this.travelled = 0;
-    this.drag = event.button === 2 || event.button === 1 || event.shiftKey ? { kind: 'pan' } : this.dragAt(p, reachOf(event));
+    this.drag =
+      event.button === 2 || event.button === 1 || event.shiftKey
+        ? { kind: 'pan' }
+        : this.dragAt(p, reachOf(event));
   }
 
   private dragAt(p: { x: number; y: number }, reach: number): Drag {
     if (state.sectionOn.value) {
-      const [hx, hy] = this.view.camera.project(...(this.view.handle() as [number, number, number]), this.view.width, this.view.height);
+      const [hx, hy] = this.view.camera.project(
+        ...(this.view.handle() as [number, number, number]),
+        this.view.width,
+        this.view.height,
+      );
       if (Math.hypot(hx - p.x, hy - p.y) < 16 + reach / 2) return { kind: 'handle' };
     }
     const hit = this.hit(p, reach);
@@ -74,7 +92,12 @@ export class Gestures {
     const picture = state.picture.value!;
     const topology = state.topologyOf(picture)!;
     const choice = state.choice.value;
-    if (hit.chord >= 0 && choice?.kind === 'chord' && topology.chords[hit.chord].id === choice.id && !state.motion.value) {
+    if (
+      hit.chord >= 0 &&
+      choice?.kind === 'chord' &&
+      topology.chords[hit.chord].id === choice.id &&
+      !state.motion.value
+    ) {
       const chord = state.main.value?.figures.chords.find((item) => item.id === choice.id);
       if (chord) return { kind: 'chord', id: choice.id, rest: this.presentLength(chord.rest), moved: 0 };
     }
@@ -99,12 +122,16 @@ export class Gestures {
       const length = Math.hypot(...towards);
       for (let c = 0; c < 3; ++c) position[c] += (4.5 * towards[c]) / length;
     }
-    request('hand_begin', { tool: state.tool.value === 'push' ? 'ball' : 'grasp', node: surface.node, position }, {
-      motion: (motion) => {
-        state.receive(motion.picture);
-        if (this.drag.kind === 'hand') state.motion.value = motion;
+    request(
+      'hand_begin',
+      { tool: state.tool.value === 'push' ? 'ball' : 'grasp', node: surface.node, position },
+      {
+        motion: (motion) => {
+          state.receive(motion.picture);
+          if (this.drag.kind === 'hand') state.motion.value = motion;
+        },
       },
-    }).catch(fail);
+    ).catch(fail);
     return { kind: 'hand', depth: surface.distance - (state.tool.value === 'push' ? 4.5 : 0) };
   }
 
@@ -136,10 +163,17 @@ export class Gestures {
     const canvas = this.view.renderer.canvas;
     const picture = state.picture.value;
     const figures = (state.preview.value ?? state.main.value)?.figures;
-    canvas.style.cursor = hit && (hit.chord >= 0 || hit.head >= 0) ? 'pointer' : state.tool.value === 'look' ? 'grab' : 'crosshair';
+    canvas.style.cursor =
+      hit && (hit.chord >= 0 || hit.head >= 0)
+        ? 'pointer'
+        : state.tool.value === 'look'
+          ? 'grab'
+          : 'crosshair';
     if (!hit || !picture || !figures) return;
     const chord = hit.chord >= 0 ? figures.chords[hit.chord] : null;
-    canvas.title = chord ? `${chord.name}: ${chord.length.toFixed(1)} mm, pull ${chord.tension.toFixed(2)} N` : '';
+    canvas.title = chord
+      ? `${chord.name}: ${chord.length.toFixed(1)} mm, pull ${chord.tension.toFixed(2)} N`
+      : '';
   }
 
   private pinch(id: number, p: { x: number; y: number }): void {
@@ -158,7 +192,13 @@ export class Gestures {
     const f = this.view.frameOf();
     const at = this.view.handle();
     const project = (s: number) =>
-      this.view.camera.project(at[0] + s * f[6], at[1] + s * f[7], at[2] + s * f[8], this.view.width, this.view.height);
+      this.view.camera.project(
+        at[0] + s * f[6],
+        at[1] + s * f[7],
+        at[2] + s * f[8],
+        this.view.width,
+        this.view.height,
+      );
     const [a, b] = [project(0), project(1)];
     const [ux, uy] = [b[0] - a[0], b[1] - a[1]];
     const length = ux * ux + uy * uy;
@@ -176,11 +216,18 @@ export class Gestures {
     const x = picture.positions;
     const [a, b] = [topology.chordNodes[2 * k], topology.chordNodes[2 * k + 1]];
     const project = (node: number) =>
-      this.view.camera.project(x[3 * node], x[3 * node + 1], x[3 * node + 2], this.view.width, this.view.height);
+      this.view.camera.project(
+        x[3 * node],
+        x[3 * node + 1],
+        x[3 * node + 2],
+        this.view.width,
+        this.view.height,
+      );
     const [head, leaf] = [project(a), project(b)];
     const [ux, uy] = [head[0] - leaf[0], head[1] - leaf[1]];
     const length = Math.hypot(ux, uy);
-    const along = length > 20 ? ((p.x - this.start.x) * ux + (p.y - this.start.y) * uy) / length : p.y - this.start.y;
+    const along =
+      length > 20 ? ((p.x - this.start.x) * ux + (p.y - this.start.y) * uy) / length : p.y - this.start.y;
     const millimetres = along * this.view.camera.scale(this.view.height);
     const wanted = Math.min(2 * drag.rest, Math.max(0.3 * drag.rest, drag.rest - millimetres));
     edit('chord_length', { chord: drag.id, length: Math.round(10 * wanted) / 10 });
@@ -201,7 +248,12 @@ export class Gestures {
       request('hand_end', null).then(() => (state.motion.value = null), fail);
       return;
     }
-    if (this.pointers.size === 0 && this.travelled < clickMotion && event.type === 'pointerup' && event.button === 0)
+    if (
+      this.pointers.size === 0 &&
+      this.travelled < clickMotion &&
+      event.type === 'pointerup' &&
+      event.button === 0
+    )
       this.click(p, reachOf(event));
     this.drag = { kind: 'turn' };
   }
@@ -227,7 +279,11 @@ export class Gestures {
     if (state.picking.value) return this.fillField(hit, state.picking.value);
     if (hit.head >= 0) state.choice.value = { kind: 'head', id: topology.heads[hit.head].id };
     else if (hit.chord >= 0) state.choice.value = { kind: 'chord', id: topology.chords[hit.chord].id };
-    else if (hit.surface) state.choice.value = { kind: 'scallop', id: topology.scallops[topology.triangleScallop[hit.surface.triangle]].id };
+    else if (hit.surface)
+      state.choice.value = {
+        kind: 'scallop',
+        id: topology.scallops[topology.triangleScallop[hit.surface.triangle]].id,
+      };
     else state.choice.value = null;
   }
 
@@ -241,7 +297,8 @@ export class Gestures {
     if (!draft || !topology || !field || !picture) return;
     if (field.type === 'head' && hit.head >= 0) setField(name, topology.heads[hit.head].id);
     else if (field.type === 'chord' && hit.chord >= 0) setField(name, topology.chords[hit.chord].id);
-    else if (field.type === 'scallop' && hit.surface) setField(name, topology.scallops[topology.triangleScallop[hit.surface.triangle]].id);
+    else if (field.type === 'scallop' && hit.surface)
+      setField(name, topology.scallops[topology.triangleScallop[hit.surface.triangle]].id);
     else if (field.type === 'site' && hit.surface) this.fillSite(name, hit);
     else return;
     state.picking.value = null;
@@ -257,8 +314,11 @@ export class Gestures {
     const info = state.operations.value.find((operation) => operation.name === draft.kind);
     const head = info?.fields.find((field) => field.type === 'head' && field.required);
     if (head && fields[head.name] === undefined) {
-      const range = (node: number) => Math.hypot(...[0, 1, 2].map((c) => picture.positions[3 * node + c] - at[c]));
-      const order = [...topology.headNodes.keys()].sort((i, j) => range(topology.headNodes[i]) - range(topology.headNodes[j]));
+      const range = (node: number) =>
+        Math.hypot(...[0, 1, 2].map((c) => picture.positions[3 * node + c] - at[c]));
+      const order = [...topology.headNodes.keys()].sort(
+        (i, j) => range(topology.headNodes[i]) - range(topology.headNodes[j]),
+      );
       if (order.length) fields[head.name] = topology.heads[order[0]].id;
     }
     edit(draft.kind, fields);
@@ -271,7 +331,12 @@ export class Gestures {
   }
 
   private key(event: KeyboardEvent): void {
-    const turns: Record<string, [number, number]> = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] };
+    const turns: Record<string, [number, number]> = {
+      ArrowLeft: [-0.1, 0],
+      ArrowRight: [0.1, 0],
+      ArrowUp: [0, -0.1],
+      ArrowDown: [0, 0.1],
+    };
     const turn = turns[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (turn && event.shiftKey) this.view.camera.pan(turn[0] * 200, turn[1] * 200, this.view.height);

@@ -22,7 +22,9 @@ function headLabels(topology: Topology, x: Float32Array): Label[] {
     muscles.set(name, [...(muscles.get(name) ?? []), [0, 1, 2].map((c) => x[3 * node + c])]);
   });
   return [...muscles].map(([text, places]) => ({
-    text, kind: 'head', at: [0, 1, 2].map((c) => places.reduce((sum, place) => sum + place[c], 0) / places.length),
+    text,
+    kind: 'head',
+    at: [0, 1, 2].map((c) => places.reduce((sum, place) => sum + place[c], 0) / places.length),
   }));
 }
 
@@ -83,7 +85,16 @@ export class Labels {
   private hidden(view: Viewport, at: number[], px: number, py: number): boolean {
     const picture = state.picture.value!;
     const topology = state.topologyOf(picture)!;
-    const hit = pickSurface(view.camera, topology, picture.positions, px, py, view.width, view.height, view.plane());
+    const hit = pickSurface(
+      view.camera,
+      topology,
+      picture.positions,
+      px,
+      py,
+      view.width,
+      view.height,
+      view.plane(),
+    );
     const eye = view.camera.position();
     return !!hit && Math.hypot(at[0] - eye.x, at[1] - eye.y, at[2] - eye.z) > hit.distance + tolerance;
   }

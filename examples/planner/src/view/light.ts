@@ -13,7 +13,15 @@ function normalised(x: number, y: number, z: number): [number, number, number] {
 const half = normalised(key[0], key[1], key[2] + 1);
 
 /** Lights a colour (0 to 1) with a unit normal; writes 0 to 255. */
-export function shade(r: number, g: number, b: number, nx: number, ny: number, nz: number, out: number[]): void {
+export function shade(
+  r: number,
+  g: number,
+  b: number,
+  nx: number,
+  ny: number,
+  nz: number,
+  out: number[],
+): void {
   const k = Math.max(0, nx * key[0] + ny * key[1] + nz * key[2]);
   const f = Math.max(0, nx * fillLight[0] + ny * fillLight[1] + nz * fillLight[2]);
   const ambient = strength.ambient * (0.85 + 0.15 * ny);

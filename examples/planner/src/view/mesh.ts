@@ -34,7 +34,14 @@ export class Shapes {
   }
 
   /** A tube between two points; its ends may have different radii and colours. */
-  tube(a: ArrayLike<number>, b: ArrayLike<number>, radius: number, c: Colour, sides = 7, radiusB = radius): void {
+  tube(
+    a: ArrayLike<number>,
+    b: ArrayLike<number>,
+    radius: number,
+    c: Colour,
+    sides = 7,
+    radiusB = radius,
+  ): void {
     let [dx, dy, dz] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     const length = Math.hypot(dx, dy, dz);
     if (length < 1e-9) return;
@@ -44,13 +51,17 @@ export class Shapes {
     const s = 1 / Math.hypot(ux, uy, uz);
     [ux, uy, uz] = [ux * s, uy * s, uz * s];
     const [vx, vy, vz] = [dy * uz - dz * uy, dz * ux - dx * uz, dx * uy - dy * ux];
+    const slope = (radius - radiusB) / length;
+    const lean = 1 / Math.hypot(1, slope);
     const first = this.positions.length / 3;
     for (let k = 0; k < sides; ++k) {
       const angle = (2 * Math.PI * k) / sides;
       const [p, q] = [Math.cos(angle), Math.sin(angle)];
       const [nx, ny, nz] = [ux * p + vx * q, uy * p + vy * q, uz * p + vz * q];
-      this.vertex(a[0] + nx * radius, a[1] + ny * radius, a[2] + nz * radius, nx, ny, nz, c);
-      this.vertex(b[0] + nx * radiusB, b[1] + ny * radiusB, b[2] + nz * radiusB, nx, ny, nz, c);
+      // the normal of a cone leans towards its narrow end
+      const normal = [(nx + slope * dx) * lean, (ny + slope * dy) * lean, (nz + slope * dz) * lean] as const;
+      this.vertex(a[0] + nx * radius, a[1] + ny * radius, a[2] + nz * radius, ...normal, c);
+      this.vertex(b[0] + nx * radiusB, b[1] + ny * radiusB, b[2] + nz * radiusB, ...normal, c);
     }
     for (let k = 0; k < sides; ++k) {
       const [i, j] = [first + 2 * k, first + 2 * ((k + 1) % sides)];
@@ -106,9 +117,15 @@ export function vertexNormals(positions: Float32Array, index: Uint32Array): Floa
   const normals = new Float32Array(positions.length);
   for (let t = 0; t < index.length; t += 3) {
     const [a, b, c] = [3 * index[t], 3 * index[t + 1], 3 * index[t + 2]];
-    const ux = positions[b] - positions[a], uy = positions[b + 1] - positions[a + 1], uz = positions[b + 2] - positions[a + 2];
-    const vx = positions[c] - positions[a], vy = positions[c + 1] - positions[a + 1], vz = positions[c + 2] - positions[a + 2];
-    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const ux = positions[b] - positions[a],
+      uy = positions[b + 1] - positions[a + 1],
+      uz = positions[b + 2] - positions[a + 2];
+    const vx = positions[c] - positions[a],
+      vy = positions[c + 1] - positions[a + 1],
+      vz = positions[c + 2] - positions[a + 2];
+    const nx = uy * vz - uz * vy,
+      ny = uz * vx - ux * vz,
+      nz = ux * vy - uy * vx;
     for (const i of [a, b, c]) {
       normals[i] += nx;
       normals[i + 1] += ny;

@@ -104,7 +104,9 @@ function transform(
   const { positions: p, normals: n, front, back, flat } = mesh;
   const lit = [0, 0, 0];
   for (let i = 0, o = 0; i < p.length; i += 3, o += stride) {
-    const x = p[i], y = p[i + 1], z = p[i + 2];
+    const x = p[i],
+      y = p[i + 1],
+      z = p[i + 2];
     const w = m[3] * x + m[7] * y + m[11] * z + m[15];
     const s = w > 1e-3 ? 1 / w : 0;
     out[o] = ((m[0] * x + m[4] * y + m[8] * z + m[12]) * s + 1) * 0.5 * width;
@@ -146,7 +148,9 @@ function fill(
 ): void {
   const { index, opacity } = mesh;
   for (let t = 0; t < index.length; t += 3) {
-    const a = index[t] * stride, b = index[t + 1] * stride, c = index[t + 2] * stride;
+    const a = index[t] * stride,
+      b = index[t + 1] * stride,
+      c = index[t + 2] * stride;
     if (v[a + 3] === 0 || v[b + 3] === 0 || v[c + 3] === 0) continue;
     if (cut && v[a + 10] > 0 && v[b + 10] > 0 && v[c + 10] > 0) continue;
     const area = (v[b] - v[a]) * (v[c + 1] - v[a + 1]) - (v[c] - v[a]) * (v[b + 1] - v[a + 1]);
@@ -158,8 +162,10 @@ function fill(
     const y0 = Math.max(0, Math.ceil(Math.min(v[a + 1], v[b + 1], v[c + 1]) - 0.5));
     const y1 = Math.min(height - 1, Math.floor(Math.max(v[a + 1], v[b + 1], v[c + 1]) - 0.5));
     const s = 1 / area;
-    const bx = (v[c + 1] - v[a + 1]) * s, by = -(v[c] - v[a]) * s;
-    const cx = -(v[b + 1] - v[a + 1]) * s, cy = (v[b] - v[a]) * s;
+    const bx = (v[c + 1] - v[a + 1]) * s,
+      by = -(v[c] - v[a]) * s;
+    const cx = -(v[b + 1] - v[a + 1]) * s,
+      cy = (v[b] - v[a]) * s;
     for (let y = y0; y <= y1; ++y) {
       let u = (x0 + 0.5 - v[a]) * bx + (y + 0.5 - v[a + 1]) * by;
       let w = (x0 + 0.5 - v[a]) * cx + (y + 0.5 - v[a + 1]) * cy;

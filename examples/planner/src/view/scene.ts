@@ -39,7 +39,9 @@ function mapValues(picture: Picture, options: SceneOptions): Float32Array | null
     const values = new Float32Array(x.length / 3);
     for (let i = 0; i < values.length; ++i) {
       values[i] =
-        (x[3 * i] - frame[0]) * frame[9] + (x[3 * i + 1] - frame[1]) * frame[10] + (x[3 * i + 2] - frame[2]) * frame[11];
+        (x[3 * i] - frame[0]) * frame[9] +
+        (x[3 * i + 1] - frame[1]) * frame[10] +
+        (x[3 * i + 2] - frame[2]) * frame[11];
     }
     return values;
   }
@@ -62,13 +64,19 @@ function leafletMesh(topology: Topology, picture: Picture, options: SceneOptions
       back.set(colour, 3 * i);
     }
   } else {
-    const anterior = Math.max(0, topology.leaflets.findIndex((leaflet) => leaflet.name === 'A'));
+    const anterior = Math.max(
+      0,
+      topology.leaflets.findIndex((leaflet) => leaflet.name === 'A'),
+    );
     const { triangles, triangleLeaflet } = topology;
     for (let t = 0; t < triangleLeaflet.length; ++t) {
       const isAnterior = triangleLeaflet[t] === anterior;
       for (let k = 0; k < 3; ++k) {
         front.set(isAnterior ? tissue.atrialAnterior : tissue.atrialPosterior, 3 * triangles[3 * t + k]);
-        back.set(isAnterior ? tissue.ventricularAnterior : tissue.ventricularPosterior, 3 * triangles[3 * t + k]);
+        back.set(
+          isAnterior ? tissue.ventricularAnterior : tissue.ventricularPosterior,
+          3 * triangles[3 * t + k],
+        );
       }
     }
   }
@@ -131,7 +139,8 @@ function chordae(topology: Topology, picture: Picture, options: SceneOptions): M
     const radius = (many ? 0.15 : thin) * (chosen ? 1.8 : 1);
     shapes.tube(a, b, radius, chordColour(topology, picture, options, k), many ? 4 : 7);
     // a joint where chordae branch; on the leaflet it would show on the other side
-    if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0) shapes.sphere(b, radius * 1.15, chordColour(topology, picture, options, k), 4, 6);
+    if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0)
+      shapes.sphere(b, radius * 1.15, chordColour(topology, picture, options, k), 4, 6);
   }
   return shapes.mesh({ cut: true });
 }
@@ -139,19 +148,29 @@ function chordae(topology: Topology, picture: Picture, options: SceneOptions): M
 function boundary(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
   const shapes = new Shapes();
   const x = picture.positions;
-  shapes.path(Array.from(topology.annulus, (node) => point(x, node)), 0.55, tissue.annulus, true);
+  shapes.path(
+    Array.from(topology.annulus, (node) => point(x, node)),
+    0.55,
+    tissue.annulus,
+    true,
+  );
   const radius = topology.headNodes.length > 8 ? 0.9 : topology.headNodes.length > 2 ? 1.5 : 2;
   topology.headNodes.forEach((node, h) => {
     const at = point(x, node);
     const chosen = h === options.chosenHead;
     shapes.sphere(at, radius, chosen ? tissue.chosen : tissue.head, 10, 16);
-    const below = [at[0] - 4.5 * options.frame[9], at[1] - 4.5 * options.frame[10], at[2] - 4.5 * options.frame[11]];
+    const below = [
+      at[0] - 4.5 * options.frame[9],
+      at[1] - 4.5 * options.frame[10],
+      at[2] - 4.5 * options.frame[11],
+    ];
     shapes.tube(at, below, radius, tissue.head, 16, radius * 1.25);
     shapes.sphere(below, radius * 1.25, tissue.head, 10, 16);
   });
   for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
     const points = [];
-    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k) points.push(point(picture.ringPoints, k));
+    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k)
+      points.push(point(picture.ringPoints, k));
     const [a, b] = [points[0], points[points.length - 1]];
     const closed = Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 6;
     shapes.path(points, 1.15, tissue.ring, closed, 10);
@@ -191,7 +210,11 @@ function jets(parts: OrificePart[]): Mesh {
 
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, picture: Picture, options: SceneOptions): Mesh[] {
-  const meshes = [leafletMesh(topology, picture, options), seams(topology, picture), boundary(topology, picture, options)];
+  const meshes = [
+    leafletMesh(topology, picture, options),
+    seams(topology, picture),
+    boundary(topology, picture, options),
+  ];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options));
   if (picture.orificeTriangles.length) meshes.push(orifice(picture));
   if (options.jets.length) meshes.push(jets(options.jets));

@@ -35,7 +35,10 @@ export class Viewport {
   /** A surface to show instead of a valve, during an import. */
   surface: Mesh | null = null;
 
-  constructor(readonly host: HTMLElement, forceSoftware: boolean) {
+  constructor(
+    readonly host: HTMLElement,
+    forceSoftware: boolean,
+  ) {
     this.renderer = this.makeRenderer(forceSoftware);
     host.prepend(this.renderer.canvas);
     this.describe();
@@ -45,8 +48,16 @@ export class Viewport {
     this.resize();
     effect(() => {
       // whatever the scene is made of
-      void [state.picture.value, state.preview.value, state.main.value, state.map.value, state.choice.value,
-        state.chordsOn.value, state.reference.value, state.compared.value];
+      void [
+        state.picture.value,
+        state.preview.value,
+        state.main.value,
+        state.map.value,
+        state.choice.value,
+        state.chordsOn.value,
+        state.reference.value,
+        state.compared.value,
+      ];
       this.touchScene();
     });
     effect(() => {
@@ -67,7 +78,8 @@ export class Viewport {
     else if (fresh) this.surface = this.surfaceMesh(shown.surface.points, shown.surface.triangles);
     this.extraMarks = [];
     for (const [kind, points] of Object.entries(shown?.points ?? {})) {
-      const colour = kind === 'annulus' ? tissue.annulus : kind === 'commissures' ? tissue.chosen : tissue.over;
+      const colour =
+        kind === 'annulus' ? tissue.annulus : kind === 'commissures' ? tissue.chosen : tissue.over;
       for (const at of points) this.extraMarks.push({ at, colour, radius: 0.9 });
     }
     this.touchScene();
@@ -81,15 +93,25 @@ export class Viewport {
       return out;
     };
     return {
-      positions, index, normals: vertexNormals(positions, index), front: shade(tissue.atrialAnterior),
-      back: shade(tissue.ventricularAnterior), opacity: 1, overlay: false, cut: false, flat: false,
+      positions,
+      index,
+      normals: vertexNormals(positions, index),
+      front: shade(tissue.atrialAnterior),
+      back: shade(tissue.ventricularAnterior),
+      opacity: 1,
+      overlay: false,
+      cut: false,
+      flat: false,
     };
   }
 
   private makeRenderer(forceSoftware: boolean): Renderer {
     if (!forceSoftware) {
       try {
-        return new WebGl(() => (this.dirty = false), () => this.touchScene());
+        return new WebGl(
+          () => (this.dirty = false),
+          () => this.touchScene(),
+        );
       } catch {
         // a window without a graphics processor: the rasteriser below
       }
@@ -144,7 +166,8 @@ export class Viewport {
     const topology = picture && state.topologyOf(picture);
     if (!picture || !topology) return [0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1];
     const centre = [0, 0, 0];
-    for (const node of topology.annulus) for (let c = 0; c < 3; ++c) centre[c] += picture.positions[3 * node + c] / topology.annulus.length;
+    for (const node of topology.annulus)
+      for (let c = 0; c < 3; ++c) centre[c] += picture.positions[3 * node + c] / topology.annulus.length;
     return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
   }
 
@@ -196,7 +219,11 @@ export class Viewport {
       fields: figures?.fields ?? null,
       distance: this.distances(),
       frame: this.frameOf(),
-      load: figures ? Float32Array.from(figures.chords, (c) => Math.max(c.strain / c.strainLimit, c.tension / c.tensionLimit)) : null,
+      load: figures
+        ? Float32Array.from(figures.chords, (c) =>
+            Math.max(c.strain / c.strainLimit, c.tension / c.tensionLimit),
+          )
+        : null,
       chosenChord: choice?.kind === 'chord' ? topology.chords.findIndex((part) => part.id === choice.id) : -1,
       chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
       chordsOn: state.chordsOn.value,
@@ -207,7 +234,8 @@ export class Viewport {
   /** Distance of each node from its place in the valve before, matched by origin. */
   private distances(): Float32Array | null {
     const now = (state.preview.value ?? state.main.value)?.picture;
-    const then = (state.compared.value ?? (state.preview.value ? state.main.value : state.first.value))?.picture;
+    const then = (state.compared.value ?? (state.preview.value ? state.main.value : state.first.value))
+      ?.picture;
     const [a, b] = [now && state.topologyOf(now), then && state.topologyOf(then)];
     if (!now || !then || !a || !b) return null;
     const rows = new Map<number, number>();
@@ -223,7 +251,11 @@ export class Viewport {
 
   /** The first picture of a valve sets the camera. */
   private frameNewValve(): void {
-    const key = state.main.value ? `figures ${state.first.value?.figures.hash ?? ''}` : state.motion.value ? 'motion' : '';
+    const key = state.main.value
+      ? `figures ${state.first.value?.figures.hash ?? ''}`
+      : state.motion.value
+        ? 'motion'
+        : '';
     if (!key || key === this.framed || (key === 'motion' && this.framed)) return;
     this.framed = key;
     this.go('surgeon', true);
@@ -232,7 +264,8 @@ export class Viewport {
   scene(): Scene {
     const meshes = [...this.meshes];
     const marks = this.extraMarks;
-    if (marks.length || state.sectionOn.value) meshes.push(this.labels.markMesh(marks, state.sectionOn.value ? this.handle() : null));
+    if (marks.length || state.sectionOn.value)
+      meshes.push(this.labels.markMesh(marks, state.sectionOn.value ? this.handle() : null));
     return { meshes, background, plane: this.plane() };
   }
 

@@ -1,8 +1,21 @@
 // WebGL renderer on three.js: the same light and colours as the rasteriser, by one small shader. A lost
 // context comes back by itself; three.js makes its buffers anew.
 import {
-  BufferAttribute, BufferGeometry, Color, ColorManagement, DoubleSide, LinearSRGBColorSpace, Matrix4, Mesh as Object3, PerspectiveCamera, RawShaderMaterial,
-  GLSL3, Scene as Scene3, Vector2, Vector4, WebGLRenderer,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  ColorManagement,
+  DoubleSide,
+  LinearSRGBColorSpace,
+  Matrix4,
+  Mesh as Object3,
+  PerspectiveCamera,
+  RawShaderMaterial,
+  GLSL3,
+  Scene as Scene3,
+  Vector2,
+  Vector4,
+  WebGLRenderer,
 } from 'three';
 import type { Camera } from './camera';
 import { shadeGlsl } from './light';
@@ -49,7 +62,12 @@ export class WebGl implements Renderer {
     this.canvas = document.createElement('canvas');
     const context = this.canvas.getContext('webgl2', { antialias: true, powerPreference: 'default' });
     if (!context) throw new Error('no WebGL 2');
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, context, antialias: true, preserveDrawingBuffer: false });
+    this.renderer = new WebGLRenderer({
+      canvas: this.canvas,
+      context,
+      antialias: true,
+      preserveDrawingBuffer: false,
+    });
     // colours are those of the screen, as in the rasteriser
     ColorManagement.enabled = false;
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
@@ -95,13 +113,20 @@ export class WebGl implements Renderer {
   private make(mesh: Mesh, order: number): Drawn {
     const geometry = new BufferGeometry();
     for (const name of ['position', 'normal', 'front', 'back'] as const) {
-      const data = { position: mesh.positions, normal: mesh.normals, front: mesh.front, back: mesh.back }[name];
+      const data = { position: mesh.positions, normal: mesh.normals, front: mesh.front, back: mesh.back }[
+        name
+      ];
       geometry.setAttribute(name, new BufferAttribute(data, 3));
     }
     geometry.setIndex(new BufferAttribute(mesh.index, 1));
     const material = new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader, fragmentShader, side: DoubleSide, forceSinglePass: true,
-      transparent: mesh.opacity < 1 || mesh.overlay, depthWrite: mesh.opacity === 1 || mesh.overlay,
+      glslVersion: GLSL3,
+      vertexShader,
+      fragmentShader,
+      side: DoubleSide,
+      forceSinglePass: true,
+      transparent: mesh.opacity < 1 || mesh.overlay,
+      depthWrite: mesh.opacity === 1 || mesh.overlay,
       uniforms: {
         plane: { value: new Vector4(0, 0, 0, 1) },
         opacity: { value: mesh.opacity },

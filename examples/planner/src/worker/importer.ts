@@ -20,7 +20,8 @@ export class Importer {
 
   /** The OBJ file of a valve that is built from the surface read last. */
   build(request: BuildRequest, report: (share: number) => void): { valve: Uint8Array; findings: Finding[] } {
-    const metres = (rows: number[][]) => (rows.length ? rows.map((row) => row.map((v) => v / mm)) : undefined);
+    const metres = (rows: number[][]) =>
+      rows.length ? rows.map((row) => row.map((v) => v / mm)) : undefined;
     const sim = this.mvs.simulator({ progress: (share) => (report(share), false) });
     try {
       const findings = sim.buildValve({
@@ -35,7 +36,10 @@ export class Importer {
       return {
         valve: sim.read((snapshot) => snapshot.save('obj')),
         findings: findings.map(({ name, source, sentence, confidence }) => ({
-          name, source: sources[String(source)] ?? 0, sentence, confidence,
+          name,
+          source: sources[String(source)] ?? 0,
+          sentence,
+          confidence,
         })),
       };
     } finally {

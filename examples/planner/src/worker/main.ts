@@ -57,7 +57,10 @@ function shippedValve(name: string, vertices: number): Uint8Array {
 }
 
 type Handlers = {
-  [Name in CallName]: (argument: Calls[Name]['argument'], under: Under) => Promise<Calls[Name]['result']> | Calls[Name]['result'];
+  [Name in CallName]: (
+    argument: Calls[Name]['argument'],
+    under: Under,
+  ) => Promise<Calls[Name]['result']> | Calls[Name]['result'];
 };
 
 const handlers: Handlers = {

@@ -1,7 +1,16 @@
 // Pictures and figures of a snapshot, in the units of the page.
 import { ChordKind, type Mvs, type Snapshot } from 'libmvs';
 import type {
-  Chord, Figures, HistoryEntry, Measures, Motion, OrificePart, Part, Picture, Region, Topology,
+  Chord,
+  Figures,
+  HistoryEntry,
+  Measures,
+  Motion,
+  OrificePart,
+  Part,
+  Picture,
+  Region,
+  Topology,
 } from '../protocol';
 import { ml, mm, mm2, scaled } from './units';
 
@@ -22,14 +31,31 @@ function topologyKey(snapshot: Snapshot): string {
   let hash = hashWords(2166136261, snapshot.array<Uint32Array>('triangle_nodes'));
   hash = hashWords(hash, snapshot.array<Uint32Array>('chord_nodes'));
   hash = hashWords(hash, snapshot.array<Uint32Array>('chord_kind'));
-  const names = ['chord', 'ring', 'head'].flatMap((kind) => partsOf(snapshot, kind as 'chord').map((p) => `${p.id}${p.name}`));
-  const text = new Uint32Array(names.join().split('').map((c) => c.charCodeAt(0)));
+  const names = ['chord', 'ring', 'head'].flatMap((kind) =>
+    partsOf(snapshot, kind as 'chord').map((p) => `${p.id}${p.name}`),
+  );
+  const text = new Uint32Array(
+    names
+      .join()
+      .split('')
+      .map((c) => c.charCodeAt(0)),
+  );
   return `${hashWords(hash, text).toString(16)}-${snapshot.view('node_position').count}`;
 }
 
 function connectivity(snapshot: Snapshot, key: string): Topology {
-  const u32 = (name: 'triangle_nodes' | 'triangle_leaflet' | 'triangle_scallop' | 'annulus_nodes' | 'free_edge_nodes' |
-    'chord_nodes' | 'chord_kind' | 'head_nodes' | 'node_origin') => snapshot.copy<Uint32Array>(name);
+  const u32 = (
+    name:
+      | 'triangle_nodes'
+      | 'triangle_leaflet'
+      | 'triangle_scallop'
+      | 'annulus_nodes'
+      | 'free_edge_nodes'
+      | 'chord_nodes'
+      | 'chord_kind'
+      | 'head_nodes'
+      | 'node_origin',
+  ) => snapshot.copy<Uint32Array>(name);
   const radius = snapshot.copy<Float64Array>('chord_area').map((area) => Math.sqrt(area / Math.PI) * mm);
   return {
     key,
@@ -72,7 +98,9 @@ export function pictureOf(snapshot: Snapshot, withOrifice: boolean): Picture {
     ringPoints: scaled(snapshot.array<Float64Array>('ring_points'), mm),
     ringStart: snapshot.copy<Uint32Array>('ring_start'),
     chordTaut: chordStrains(snapshot),
-    orificeVertices: withOrifice ? scaled(snapshot.array<Float64Array>('orifice_vertices'), mm) : new Float32Array(0),
+    orificeVertices: withOrifice
+      ? scaled(snapshot.array<Float64Array>('orifice_vertices'), mm)
+      : new Float32Array(0),
     orificeTriangles: withOrifice ? snapshot.copy<Uint32Array>('orifice_triangles') : new Uint32Array(0),
   };
   if (!sent.has(topology)) {
@@ -168,7 +196,10 @@ function orificePartsOf(snapshot: Snapshot): OrificePart[] {
 function historyOf(snapshot: Snapshot): HistoryEntry[] {
   const { done, undone } = snapshot.history();
   const entry = (undoneNow: boolean) => (item: (typeof done)[number]) => ({
-    title: item.title, kind: String(item.kind), group: item.in_group, undone: undoneNow,
+    title: item.title,
+    kind: String(item.kind),
+    group: item.in_group,
+    undone: undoneNow,
   });
   return [...done.map(entry(false)), ...undone.map(entry(true))];
 }
@@ -205,7 +236,10 @@ export function figuresOf(mvs: Mvs, snapshot: Snapshot): Figures {
     heads,
     frame: [...frame.origin.map((v) => v * mm), ...frame.ap, ...frame.cc, ...frame.atrium],
     history: historyOf(snapshot),
-    fields: { coaptation: scaled(snapshot.array<Float64Array>('node_coaptation'), mm), stretch: nodeStretch(snapshot) },
+    fields: {
+      coaptation: scaled(snapshot.array<Float64Array>('node_coaptation'), mm),
+      stretch: nodeStretch(snapshot),
+    },
   };
 }
 

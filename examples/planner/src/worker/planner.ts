@@ -30,18 +30,28 @@ export class Planner {
       fields: operation.fields.map((field) => {
         const { factor, unit } = pageUnit(field.unit);
         return {
-          name: field.name, type: String(field.type), required: field.required === 1,
-          low: field.low * factor, high: field.high * factor, unit,
-          label: field.label, help: field.help,
+          name: field.name,
+          type: String(field.type),
+          required: field.required === 1,
+          low: field.low * factor,
+          high: field.high * factor,
+          unit,
+          label: field.label,
+          help: field.help,
           choices: Object.entries(field.words).map(([name, value]) => ({ name, value })),
-          fallback: field.default_text, fallbackValue: field.default_value * factor,
+          fallback: field.default_text,
+          fallbackValue: field.default_value * factor,
         };
       }),
     }));
   }
 
   /** Takes over a valve file as the start of a plan, closes it, and begins a history. */
-  async openBytes(bytes: Uint8Array | string, signal: AbortSignal, report: (share: number) => void): Promise<Shown> {
+  async openBytes(
+    bytes: Uint8Array | string,
+    signal: AbortSignal,
+    report: (share: number) => void,
+  ): Promise<Shown> {
     this.second.load(bytes, 'obj');
     const start = this.second.read((snapshot) => snapshot.save('obj'));
     this.main.load(start, 'obj');
@@ -92,7 +102,11 @@ export class Planner {
   }
 
   /** The closed valve after an operation, beside the plan. */
-  async previewOf(operation: Operation, signal: AbortSignal, report: (share: number) => void): Promise<Shown> {
+  async previewOf(
+    operation: Operation,
+    signal: AbortSignal,
+    report: (share: number) => void,
+  ): Promise<Shown> {
     this.discard();
     const fields = this.fieldsOf(operation);
     this.main.check(operation.kind, fields);
@@ -110,7 +124,8 @@ export class Planner {
 
   /** The preview becomes the valve of the plan. */
   accept(): Shown {
-    if (!this.preview) throw new MvsError('MVS_E_STATE', 'preview', 'there is no preview to apply: choose an operation');
+    if (!this.preview)
+      throw new MvsError('MVS_E_STATE', 'preview', 'there is no preview to apply: choose an operation');
     this.main.restore(this.preview);
     this.discard();
     return this.shown();
@@ -165,7 +180,13 @@ export class Planner {
 
   section(which: string, point: number[], normal: number[]): Float32Array {
     const cut = (snapshot: Snapshot) =>
-      Float32Array.from(snapshot.section(point.map((v) => v / mm), normal), (v) => v * mm);
+      Float32Array.from(
+        snapshot.section(
+          point.map((v) => v / mm),
+          normal,
+        ),
+        (v) => v * mm,
+      );
     if (which === 'preview' && this.preview) return cut(this.preview);
     const kept = this.checkpoints.get(which);
     return kept ? cut(kept) : this.main.read(cut);
@@ -206,10 +227,14 @@ export class Planner {
         const low = ensemble.measure('min');
         const high = ensemble.measure('max');
         const row = (name: string, field: keyof typeof low, factor: number) => ({
-          name, min: (low[field] as number) * factor, max: (high[field] as number) * factor,
+          name,
+          min: (low[field] as number) * factor,
+          max: (high[field] as number) * factor,
         });
         return {
-          members: summary.members, converged: summary.converged, equilibria: summary.equilibria,
+          members: summary.members,
+          converged: summary.converged,
+          equilibria: summary.equilibria,
           nodeMax: summary.node_max * mm,
           rows: [
             row('orifice', 'regurgitant_orifice_area', mm2),
@@ -243,10 +268,12 @@ export class Planner {
 function toLibrary(type: string, factor: number, value: FieldValue): unknown {
   if (type === 'chord' || type === 'head' || type === 'scallop') return BigInt(value as string);
   if (type === 'site') {
-    const site = value as { triangle: number; u: number[] } | { scallop: string; along: number; height: number };
+    const site = value as
+      { triangle: number; u: number[] } | { scallop: string; along: number; height: number };
     return 'triangle' in site ? site : { scallop: BigInt(site.scallop), u: [site.along, site.height] };
   }
   if (typeof value === 'number') return type === 'number' ? value / factor : value;
-  if (Array.isArray(value)) return value.map((v) => (Array.isArray(v) ? v.map((w) => w / factor) : v / factor));
+  if (Array.isArray(value))
+    return value.map((v) => (Array.isArray(v) ? v.map((w) => w / factor) : v / factor));
   return value;
 }

@@ -31,7 +31,13 @@ export function saveSession(planner: Planner, title: string, notes: string): Uin
   const [plan, hash] = planner.main.read((snapshot) => [snapshot.plan({ notes }), snapshot.hash]);
   files['plan.json'] = strToU8(plan);
   const description: Description = {
-    format, version, title, notes, hash, saved: new Date().toISOString(), checkpoints,
+    format,
+    version,
+    title,
+    notes,
+    hash,
+    saved: new Date().toISOString(),
+    checkpoints,
   };
   files['session.json'] = strToU8(JSON.stringify(description, null, 2));
   return zipSync(files, { level: 6 });
@@ -66,7 +72,8 @@ function describe(files: Record<string, Uint8Array>): Description {
     return refuse('session.json is damaged: it is not JSON');
   }
   if (description?.format !== format) refuse('session.json describes another kind of file');
-  if (description.version !== version) refuse(`the session is of version ${description.version}; this page reads ${version}`);
+  if (description.version !== version)
+    refuse(`the session is of version ${description.version}; this page reads ${version}`);
   return description;
 }
 
@@ -74,15 +81,18 @@ function describe(files: Record<string, Uint8Array>): Description {
 export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened {
   const files = unpack(bytes);
   const description = describe(files);
-  const text = (name: string): string => (files[name] ? strFromU8(files[name]) : refuse(`${name} is missing from the session`));
+  const text = (name: string): string =>
+    files[name] ? strFromU8(files[name]) : refuse(`${name} is missing from the session`);
   const trial = planner.mvs.simulator();
   try {
     const valve = files['valve.obj'] ?? refuse('valve.obj is missing from the session');
-    const checkpoints = (Array.isArray(description.checkpoints) ? description.checkpoints : []).map(({ name, plan }) => {
-      trial.load(valve, 'obj');
-      trial.replayPlan(text(String(plan)));
-      return [String(name), trial.snapshot()] as const;
-    });
+    const checkpoints = (Array.isArray(description.checkpoints) ? description.checkpoints : []).map(
+      ({ name, plan }) => {
+        trial.load(valve, 'obj');
+        trial.replayPlan(text(String(plan)));
+        return [String(name), trial.snapshot()] as const;
+      },
+    );
     trial.load(valve, 'obj');
     trial.replayPlan(text('plan.json'));
     trial.read((snapshot) => planner.take(valve, snapshot, checkpoints));
