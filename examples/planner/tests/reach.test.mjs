@@ -55,12 +55,49 @@ describe('planner for everybody', () => {
     });
   });
 
-  it('draws_without_webgl', async () => {
+  for (const hash of ['#software', '#webgl']) {
+    it(`draws_by_${hash.slice(1)}`, async () => {
+      await on({ hash }, async ({ page }) => {
+        assert.equal(await page.evaluate(() => window.planner.viewport.renderer.name), hash.slice(1));
+        await begin(page, 'ring');
+        await apply(page);
+        assert.equal((await figures(page)).history.length, 1);
+      });
+    });
+  }
+
+  it('draws_where_the_browser_has_no_webgl', async () => {
     await on({ software: true }, async ({ page }) => {
       assert.equal(await page.evaluate(() => window.planner.viewport.renderer.name), 'software');
-      await begin(page, 'ring');
-      await apply(page);
-      assert.equal((await figures(page)).history.length, 1);
+    });
+  });
+
+  it('comes_back_after_a_lost_context', async () => {
+    await on({ hash: '#webgl' }, async ({ page }) => {
+      const share = () =>
+        page.evaluate(() => {
+          const { viewport } = window.planner;
+          const canvas = document.createElement('canvas');
+          [canvas.width, canvas.height] = [64, 36];
+          const paint = canvas.getContext('2d');
+          viewport.draw(false);
+          paint.drawImage(viewport.renderer.canvas, 0, 0, 64, 36);
+          const { data } = paint.getImageData(0, 0, 64, 36);
+          let pink = 0;
+          for (let i = 0; i < data.length; i += 4) pink += data[i] > data[i + 2] + 20 ? 1 : 0;
+          return pink / (64 * 36);
+        });
+      const before = await share();
+      assert.ok(before > 0.15);
+      await page.evaluate(async () => {
+        const context = window.planner.viewport.renderer.canvas.getContext('webgl2');
+        const extension = context.getExtension('WEBGL_lose_context');
+        extension.loseContext();
+        await new Promise((done) => setTimeout(done, 200));
+        extension.restoreContext();
+        await new Promise((done) => setTimeout(done, 400));
+      });
+      assert.ok(Math.abs((await share()) - before) < 0.02, 'the same picture as before');
     });
   });
 

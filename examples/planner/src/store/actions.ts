@@ -52,7 +52,7 @@ export function fail(error: unknown): void {
 }
 
 /** Shows a valve as that of the plan. */
-function show(shown: Shown, fresh: boolean): void {
+export function show(shown: Shown, fresh: boolean): void {
   state.receive(shown.picture);
   batch(() => {
     state.main.value = shown;
@@ -306,38 +306,4 @@ export async function openTo(share: number): Promise<void> {
     }
     openingCall = 0;
   }
-}
-
-export async function saveCheckpoint(name: string): Promise<void> {
-  const names = await run(t.saving, 'checkpoint', { name });
-  if (names) state.checkpoints.value = names;
-}
-
-export async function restoreCheckpoint(name: string): Promise<void> {
-  const shown = await run(t.undoing, 'restore', { name });
-  if (shown) show(shown, false);
-}
-
-export async function compareCheckpoint(name: string | null): Promise<void> {
-  state.compareWith.value = name;
-  state.compared.value = null;
-  if (!name) return;
-  const shown = await run(t.measuring, 'read_checkpoint', { name });
-  if (!shown) return;
-  state.receive(shown.picture);
-  state.compared.value = shown;
-}
-
-export async function measureCost(): Promise<void> {
-  const figures = state.figures.value;
-  if (!figures) return;
-  const value = await run(t.measuring, 'cost', { which: state.preview.value ? 'preview' : 'main' });
-  if (value) state.cost.value = { hash: figures.hash, value };
-}
-
-export async function measureSpread(): Promise<void> {
-  const figures = state.main.value?.figures;
-  if (!figures) return;
-  const value = await run(t.spreading, 'spread', { members: 8 });
-  if (value) state.spread.value = { hash: figures.hash, value };
 }

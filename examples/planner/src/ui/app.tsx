@@ -101,8 +101,8 @@ function Busy() {
 function Picture() {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    const software = /[?&#]software/.test(location.href);
-    viewport = new Viewport(host.current!, software);
+    const wanted = /#(webgl|software)/.exec(location.hash)?.[1] ?? '';
+    viewport = new Viewport(host.current!, wanted as 'webgl' | 'software' | '');
     Object.assign(window, { planner: { state, viewport } });
   }, []);
   return (

@@ -1,7 +1,8 @@
 // The panel "Plan": what was done, checkpoints, two plans side by side, notes, and keeping it all.
 import { useSignal } from '@preact/signals';
 import { Bookmark, Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
-import { compareCheckpoint, redo, restoreCheckpoint, saveCheckpoint, undo } from '../store/actions';
+import { redo, undo } from '../store/actions';
+import { compareCheckpoint, restoreCheckpoint, saveCheckpoint } from '../store/measure';
 import { allowAutosave, autosave, saveObj, saveSession, storageWorks } from '../store/keep';
 import * as state from '../store/state';
 import { figure, say } from '../text/texts';

@@ -1,7 +1,8 @@
 // The tour: the three leaking valves of the founding study, a goal, and a score beside the healthy valve and the
 // founding surgeon's repair.
 import { Check, CircleHelp, X } from 'lucide-preact';
-import { measureCost, openShipped, request } from '../store/actions';
+import { openShipped, request } from '../store/actions';
+import { measureCost } from '../store/measure';
 import * as state from '../store/state';
 import { figure, say, tourTexts } from '../text/texts';
 import { Button } from './parts';

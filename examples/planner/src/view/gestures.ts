@@ -1,7 +1,8 @@
 // The pointer in the picture: turn, pan, zoom with mouse or fingers; click to choose; drag a chosen chord to
 // change its length; drag the handle of the section plane; grasp or push tissue.
 import * as state from '../store/state';
-import { edit, fail, request, setField, tell } from '../store/actions';
+import { edit, fail, request, tell } from '../store/actions';
+import { fillField } from './answer';
 import { pick, pickSurface, type Hit } from './pick';
 import type { Viewport } from './viewport';
 
@@ -276,7 +277,7 @@ export class Gestures {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     if (!hit || !topology || state.motion.value) return;
-    if (state.picking.value) return this.fillField(hit, state.picking.value);
+    if (state.picking.value) return fillField(hit, state.picking.value);
     if (hit.head >= 0) state.choice.value = { kind: 'head', id: topology.heads[hit.head].id };
     else if (hit.chord >= 0) state.choice.value = { kind: 'chord', id: topology.chords[hit.chord].id };
     else if (hit.surface)
@@ -285,43 +286,6 @@ export class Gestures {
         id: topology.scallops[topology.triangleScallop[hit.surface.triangle]].id,
       };
     else state.choice.value = null;
-  }
-
-  /** A click answers the question of the form: which head, chord, scallop or place. */
-  private fillField(hit: Hit, name: string): void {
-    const draft = state.draft.value;
-    const picture = state.main.value?.picture;
-    const topology = picture && state.topologyOf(picture);
-    const info = state.operations.value.find((operation) => operation.name === draft?.kind);
-    const field = info?.fields.find((candidate) => candidate.name === name);
-    if (!draft || !topology || !field || !picture) return;
-    if (field.type === 'head' && hit.head >= 0) setField(name, topology.heads[hit.head].id);
-    else if (field.type === 'chord' && hit.chord >= 0) setField(name, topology.chords[hit.chord].id);
-    else if (field.type === 'scallop' && hit.surface)
-      setField(name, topology.scallops[topology.triangleScallop[hit.surface.triangle]].id);
-    else if (field.type === 'site' && hit.surface) this.fillSite(name, hit);
-    else return;
-    state.picking.value = null;
-  }
-
-  /** A place on the leaflet; the papillary head is the nearer one unless it was chosen before. */
-  private fillSite(name: string, hit: Hit): void {
-    const draft = state.draft.value!;
-    const picture = state.main.value!.picture;
-    const topology = state.topologyOf(picture)!;
-    const { triangle, u, at } = hit.surface!;
-    const fields = { ...draft.fields, [name]: { triangle, u } };
-    const info = state.operations.value.find((operation) => operation.name === draft.kind);
-    const head = info?.fields.find((field) => field.type === 'head' && field.required);
-    if (head && fields[head.name] === undefined) {
-      const range = (node: number) =>
-        Math.hypot(...[0, 1, 2].map((c) => picture.positions[3 * node + c] - at[c]));
-      const order = [...topology.headNodes.keys()].sort(
-        (i, j) => range(topology.headNodes[i]) - range(topology.headNodes[j]),
-      );
-      if (order.length) fields[head.name] = topology.heads[order[0]].id;
-    }
-    edit(draft.kind, fields);
   }
 
   private wheel(event: WheelEvent): void {

@@ -37,9 +37,9 @@ export class Viewport {
 
   constructor(
     readonly host: HTMLElement,
-    forceSoftware: boolean,
+    wanted: 'webgl' | 'software' | '',
   ) {
-    this.renderer = this.makeRenderer(forceSoftware);
+    this.renderer = this.makeRenderer(wanted);
     host.prepend(this.renderer.canvas);
     this.describe();
     this.labels = new Labels(host);
@@ -105,18 +105,18 @@ export class Viewport {
     };
   }
 
-  private makeRenderer(forceSoftware: boolean): Renderer {
-    if (!forceSoftware) {
-      try {
-        return new WebGl(
-          () => (this.dirty = false),
-          () => this.touchScene(),
-        );
-      } catch {
-        // a window without a graphics processor: the rasteriser below
-      }
+  private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
+    if (wanted === 'software') return new Raster();
+    try {
+      return new WebGl(
+        wanted === 'webgl',
+        () => (this.dirty = false),
+        () => this.touchScene(),
+      );
+    } catch {
+      // a browser without WebGL, or one that emulates it more slowly than the rasteriser
+      return new Raster();
     }
-    return new Raster();
   }
 
   private describe(): void {

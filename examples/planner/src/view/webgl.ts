@@ -57,11 +57,15 @@ export class WebGl implements Renderer {
   private drawn: Drawn[] = [];
   private size = [1, 1, 1];
 
-  /** Throws where the browser has no WebGL 2. */
-  constructor(onLost: () => void, onRestored: () => void) {
+  /** Throws where the browser has no WebGL 2, or emulates it on the processor, unless that is wanted. */
+  constructor(emulated: boolean, onLost: () => void, onRestored: () => void) {
     this.canvas = document.createElement('canvas');
     const context = this.canvas.getContext('webgl2', { antialias: true, powerPreference: 'default' });
     if (!context) throw new Error('no WebGL 2');
+    const info = context.getExtension('WEBGL_debug_renderer_info');
+    const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+    if (!emulated && /swiftshader|llvmpipe|softpipe|basic render/i.test(name))
+      throw new Error(`${name} is not a graphics processor`);
     this.renderer = new WebGLRenderer({
       canvas: this.canvas,
       context,
