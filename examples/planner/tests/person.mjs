@@ -1,4 +1,4 @@
-// What a person does on the page: look, point, press, type.
+// Actions of a person on the page: look, point, press, type.
 import { closed } from './browser.mjs';
 
 export async function openPanel(page, name) {

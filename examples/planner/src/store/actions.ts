@@ -1,4 +1,4 @@
-// What the page does when a button, a key or the pointer asks for it.
+// Actions of buttons, keys and the pointer.
 import { batch } from '@preact/signals';
 import { say, t } from '../text/texts';
 import type { CallName, Calls, FieldValue, Shown } from '../protocol';

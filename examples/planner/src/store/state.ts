@@ -1,4 +1,4 @@
-// The state of the page as signals: what is shown, what is chosen, what runs.
+// The state of the page as signals: valve, preview, choice, form, running request.
 import { computed, signal } from '@preact/signals';
 import type {
   Cost,
@@ -76,7 +76,7 @@ export const spread = signal<{ hash: string; value: Spread } | null>(null);
 export const tour = signal<{ number: number; founding: FoundingResult | null; startArea: number } | null>(
   null,
 );
-/** A surface that a valve is to be built from, the points that were clicked, and what was found. */
+/** A surface that a valve is to be built from, the clicked points, and the findings. */
 export interface Imported {
   name: string;
   bytes: Uint8Array;

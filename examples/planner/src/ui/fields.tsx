@@ -6,7 +6,7 @@ import { figure } from '../text/texts';
 import type { FieldInfo, FieldValue, Site } from '../protocol';
 import { Button } from './parts';
 
-/** Ranges and steps of sliders: what is done, where the library accepts more. */
+/** Ranges and steps of sliders: usual values, where the library accepts more. */
 const sliders: Record<string, Record<string, [number, number, number]>> = {
   ring: { size: [24, 40, 2] },
   band: { factor: [0.6, 1, 0.01] },

@@ -1,4 +1,4 @@
-// Bringing in a patient's surface: unit, points that the surgeon knows, building, and what was guessed.
+// Bringing in a patient's surface: unit, points that the surgeon knows, building, and the findings.
 import { Hammer } from 'lucide-preact';
 import { beginImport, buildValve } from '../store/actions';
 import * as state from '../store/state';

@@ -1,4 +1,4 @@
-// The panel "Plan": what was done, checkpoints, two plans side by side, notes, and keeping it all.
+// The panel "Plan": operations, checkpoints, two plans side by side, notes, and keeping it all.
 import { useSignal } from '@preact/signals';
 import { Bookmark, Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
 import { redo, undo } from '../store/actions';

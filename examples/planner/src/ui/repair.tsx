@@ -1,4 +1,4 @@
-// The panel "Repair": what can be done, the form of the operation that is being planned, and the chord or head
+// The panel "Repair": operations, the form of the operation that is being planned, and the chord or head
 // that is chosen. Forms come from the library's table of operations.
 import {
   ArrowUpDown,

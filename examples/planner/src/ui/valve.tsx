@@ -1,4 +1,4 @@
-// The panel "Valve": the verdict in large letters, then what a surgeon reads, the physics behind a click.
+// The panel "Valve": the verdict in large letters, then the clinical figures, the physics behind a click.
 import { Activity, Layers } from 'lucide-preact';
 import { measureCost, measureSpread } from '../store/measure';
 import * as state from '../store/state';

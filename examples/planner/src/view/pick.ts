@@ -1,4 +1,4 @@
-// What lies under the pointer: a leaflet triangle by Moeller and Trumbore's intersection, a chord or a papillary
+// Parts under the pointer: a leaflet triangle by Moeller and Trumbore's intersection, a chord or a papillary
 // head within a distance on the screen, if no leaflet hides it.
 import type { Picture, Topology } from '../protocol';
 import type { Camera } from './camera';

@@ -1,5 +1,5 @@
 // Meshes of a valve: leaflets with both sides told apart, chordae as tubes, papillary heads, annulus, ring,
-// seams of the scallops, the orifice over everything, and the marks of what is chosen.
+// seams of the scallops, the orifice over everything, and the marks of the chosen part.
 import type { Fields, OrificePart, Picture, Topology } from '../protocol';
 import { colourOf, maps, tissue, type MapName } from './colours';
 import { Shapes, vertexNormals, type Colour, type Mesh } from './mesh';
