@@ -14,6 +14,7 @@ export function grade(orifice: number): { level: number; word: string } {
 
 /** Where a valve leaks, by scallops or commissures. */
 export function where(figures: Figures): string {
+  if (!figures.orificeParts.length) return '';
   const union = (get: (part: Figures['orificeParts'][number]) => string) =>
     [...new Set(figures.orificeParts.flatMap((part) => get(part).split('+')))]
       .filter(Boolean)

@@ -49,7 +49,7 @@ export function ImportPanel() {
       <div class="form-foot">
         <button type="button" class="button main" onClick={() => void buildValve()}>
           <Hammer size={16} />
-          <span>Build and close the valve</span>
+          <span>Build the valve</span>
         </button>
         <Button onClick={() => ((state.imported.value = null), (state.panel.value = 'valve'))}>Leave</Button>
       </div>

@@ -86,14 +86,16 @@ export class Camera {
   }
 
   /** Turns to a surface of unknown orientation: along its shortest axis of the coordinates, whole in the picture. */
-  lookAtBox(points: Float32Array): void {
+  lookAtBox(points: Float32Array, triangles: Uint32Array): void {
     this.goal = null;
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
-    points.forEach((v, i) => {
-      low[i % 3] = Math.min(low[i % 3], v);
-      high[i % 3] = Math.max(high[i % 3], v);
-    });
+    for (const node of triangles) {
+      for (let c = 0; c < 3; ++c) {
+        low[c] = Math.min(low[c], points[3 * node + c]);
+        high[c] = Math.max(high[c], points[3 * node + c]);
+      }
+    }
     const size = high.map((v, c) => v - low[c]);
     this.target.set(...(low.map((v, c) => 0.5 * (v + high[c])) as [number, number, number]));
     const axis = size.indexOf(Math.min(...size));

@@ -83,7 +83,7 @@ export class Viewport {
       for (const at of points) this.extraMarks.push({ at, colour, radius: 0.9 });
     }
     this.touchScene();
-    if (fresh && shown) this.camera.lookAtBox(shown.surface.points);
+    if (fresh && shown) this.camera.lookAtBox(shown.surface.points, shown.surface.triangles);
   }
 
   private surfaceMesh(positions: Float32Array, index: Uint32Array): Mesh {
