@@ -1,10 +1,10 @@
 // Writer of extended OBJ, in the order of FORMAT.md; equal valves and states give equal bytes.
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <span>
 
+#include "base/bit_cast.h"
 #include "base/error.h"
 #include "formats/formats.h"
 #include "formats/obj/words.h"
@@ -16,7 +16,7 @@ namespace mvs::core {
 namespace {
 
 bool same_bits(double a, double b) {
-  return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+  return bit_cast<uint64_t>(a) == bit_cast<uint64_t>(b);
 }
 
 bool same_bits(const Vec3 &a, const Vec3 &b) {

@@ -2,9 +2,9 @@
 #include "formats/plan/tool.h"
 
 #include <Eigen/Geometry>
-#include <bit>
 #include <cmath>
 
+#include "base/bit_cast.h"
 #include "base/error.h"
 #include "formats/text/base64.h"
 #include "history/tool_trajectory.h"
@@ -86,7 +86,7 @@ std::vector<Vec3> read_points(const Json &json) {
   const std::vector<uint64_t> words = unpacked<uint64_t>(json, "points_m");
   std::vector<Vec3> points(words.size() / 3);
   for (size_t k = 0; k < 3 * points.size(); ++k) {
-    points[k / 3][k % 3] = std::bit_cast<double>(words[k]);
+    points[k / 3][k % 3] = bit_cast<double>(words[k]);
   }
   return points;
 }
@@ -155,7 +155,7 @@ Json trajectory_json(const RecordedEvent &event) {
   }
   std::vector<uint64_t> words;
   for (const Vec3 &point : event.points.get()) {
-    for (int k = 0; k < 3; ++k) words.push_back(std::bit_cast<uint64_t>(point[k]));
+    for (int k = 0; k < 3; ++k) words.push_back(bit_cast<uint64_t>(point[k]));
   }
   json.set("do", "tool_trajectory");
   json.set("count", event.count);

@@ -78,7 +78,7 @@ class PoolReader {
              "the file refers to entry %llu of %s, which has %zu",
              static_cast<unsigned long long>(number), group_.c_str(), ends_.size());
     const uint64_t start = number == 0 ? 0 : ends_[number - 1];
-    return {values_.data() + start, ends_[number] - start};
+    return {values_.data() + start, static_cast<size_t>(ends_[number] - start)};
   }
 
  private:

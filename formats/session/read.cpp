@@ -1,10 +1,10 @@
 // Reader of sessions. Arrays, lists, models and entries are built once by their number in the file,
 // so that shared data is shared again.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <tuple>
 
+#include "base/bit_cast.h"
 #include "base/error.h"
 #include "formats/formats.h"
 #include "formats/session/layout.h"
@@ -135,7 +135,7 @@ void SessionReader::choice(RecordedEvent::Kind &kind) {
 }
 
 void SessionReader::number(double &value) {
-  value = std::bit_cast<double>(next());
+  value = bit_cast<double>(next());
   MVS_MUST(std::isfinite(value), MVS_E_FORMAT, "mvs", "a number of the file is not finite");
 }
 

@@ -1,8 +1,8 @@
 // Writer of sessions. Shared data is found by its address first, so that each array is hashed once,
 // not once per level.
-#include <bit>
 #include <cmath>
 
+#include "base/bit_cast.h"
 #include "base/error.h"
 #include "formats/formats.h"
 #include "formats/session/layout.h"
@@ -85,7 +85,7 @@ void must_be_finite(double number) {
 
 void SessionWriter::number(double value) {
   must_be_finite(value);
-  word(std::bit_cast<uint64_t>(value));
+  word(bit_cast<uint64_t>(value));
 }
 
 void SessionWriter::text(std::string_view text) {

@@ -1,9 +1,11 @@
-// Decimal text through std::to_chars and std::from_chars, with the exponent shifted in between.
+// Decimal text through to_chars and from_chars, with the exponent shifted in between.
 #include "formats/text/decimal.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "base/chars.h"
 
 namespace mvs::core {
 namespace {
@@ -82,9 +84,8 @@ void append_decimal(std::string &out, double value, int shift) {
     out += '0';
     return;
   }
-  char text[32];
-  char *const end =
-      std::to_chars(text, text + sizeof text, std::abs(value), std::chars_format::scientific).ptr;
+  char text[double_chars];
+  char *const end = double_to_chars(text, std::abs(value));
   char *const e = std::find(text, end, 'e');
   int exponent = 0;
   std::from_chars(e[1] == '+' ? e + 2 : e + 1, end, exponent);
@@ -108,10 +109,9 @@ bool parse_decimal(std::string_view token, double &value, int shift) {
   char *end = std::copy_n(token.data(), mantissa.length, text);
   *end++ = 'e';
   end = std::to_chars(end, text + sizeof text, exponent - shift).ptr;
-  const auto [stop, error] = std::from_chars(text, end, value);
   // implementations report underflow differently: zero from nonzero digits is refused here
-  return error == std::errc() && stop == end && std::isfinite(value) &&
-         (value != 0 || !mantissa.nonzero);
+  return double_from_chars({text, static_cast<size_t>(end - text)}, value) &&
+         std::isfinite(value) && (value != 0 || !mantissa.nonzero);
 }
 
 }  // namespace mvs::core

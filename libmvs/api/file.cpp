@@ -183,8 +183,7 @@ mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format_given) 
 
 mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size, uint32_t format_given) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
-    must_point(data, "data");
-    load_bytes(s, {static_cast<const char *>(data), size}, checked_format(format_given));
+    load_bytes(s, read_bytes(data, size), checked_format(format_given));
   });
 }
 

@@ -27,11 +27,6 @@ mvs_replay replay_of(const Plan &plan, const Snapshot &from, const Snapshot &to)
   return replay;
 }
 
-Plan read_given(const void *data, uint64_t size) {
-  must_point(data, "data");
-  return read_plan({static_cast<const char *>(data), size});
-}
-
 }  // namespace
 
 extern "C" {
@@ -54,7 +49,7 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
   return call_at_boundary(sim, [&](mvs_sim &s) {
     const SnapshotPtr before = s.present();
     if (replay) checked_struct_size(replay, "replay");
-    const Plan plan = read_given(data, size);
+    const Plan plan = read_plan(read_bytes(data, size));
     const bool exact = plan.valve_hash == hash_text(before->value.current);
     must_be_no_group(s, "replay");
     Replay steps(before->value, exact, event_runner(s));
@@ -71,7 +66,7 @@ mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size, m
     must_point(sim, "sim");
     if (replay) checked_struct_size(replay, "replay");
     const SnapshotPtr before = sim->present();
-    const Plan plan = read_given(data, size);
+    const Plan plan = read_plan(read_bytes(data, size));
     const bool exact = plan.valve_hash == hash_text(before->value.current);
     Replay steps(before->value, exact, {});
     steps.run(plan.steps);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/exception_boundary.h"
@@ -99,6 +100,14 @@ inline void must_be_backend(mvs_backend backend, const char *what) {
            "%s is %u: it has to be one of MVS_BACKEND_*", what, backend);
 }
 
+// The bytes that a caller gives; throws MVS_E_ARGUMENT where none can be as long (32 bits).
+inline std::string_view read_bytes(const void *data, uint64_t size) {
+  must_point(data, "data");
+  MVS_MUST(static_cast<size_t>(size) == size, MVS_E_ARGUMENT, "size",
+           "size is %llu: no memory is as long", static_cast<unsigned long long>(size));
+  return {static_cast<const char *>(data), static_cast<size_t>(size)};
+}
+
 // Copies the bytes that make() returns to the caller's memory, up to its capacity, and sets *size
 // to their full number.
 template <typename Make>
@@ -106,7 +115,9 @@ void write_bytes(void *data, uint64_t capacity, uint64_t *size, Make make) {
   must_point(size, "size");
   if (capacity > 0) must_point(data, "data");
   const std::string bytes = make();
-  if (capacity > 0) std::memcpy(data, bytes.data(), std::min<uint64_t>(capacity, bytes.size()));
+  if (capacity > 0)
+    std::memcpy(data, bytes.data(),
+                static_cast<size_t>(std::min<uint64_t>(capacity, bytes.size())));
   *size = bytes.size();
 }
 

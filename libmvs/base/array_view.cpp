@@ -93,9 +93,11 @@ std::vector<Vec3> read_points(const mvs_array &array, const char *what) {
 }
 
 std::vector<std::array<double, 2>> read_pairs(const mvs_array &array, const char *what) {
-  std::vector<std::array<double, 2>> pairs(array.count);
-  for_each_real(array, 2, what,
-                [&](uint64_t row, uint32_t column, double value) { pairs[row][column] = value; });
+  std::vector<std::array<double, 2>> pairs;
+  for_each_real(array, 2, what, [&](uint64_t row, uint32_t column, double value) {
+    if (pairs.empty()) pairs.resize(array.count);
+    pairs[row][column] = value;
+  });
   return pairs;
 }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/bit_cast.h"
+
 namespace mvs::core {
 
 // Two independent 64-bit states. A word changes each of them by xor, a product with an odd number
@@ -20,7 +22,7 @@ class Hash {
     b_ = (b_ ^ std::rotl(word, 29)) * 0xc2b2ae3d27d4eb4fu;
     b_ ^= b_ >> 29;
   }
-  void add(double number) { add(std::bit_cast<uint64_t>(number)); }
+  void add(double number) { add(bit_cast<uint64_t>(number)); }
   void add(std::string_view text) {
     add(uint64_t{text.size()});
     for (const char c : text) add(uint64_t{static_cast<unsigned char>(c)});

@@ -6,10 +6,10 @@
 #include "base/math.h"
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <limits>
 
+#include "base/bit_cast.h"
 #include "base/math_tables.h"
 
 namespace mvs::core::math {
@@ -55,7 +55,7 @@ Pair two_product(double a, double b) {
 
 // 2^k for a normal result.
 double power_of_two(int k) {
-  return std::bit_cast<double>(static_cast<uint64_t>(k + exponent_bias) << mantissa_bits);
+  return bit_cast<double>(static_cast<uint64_t>(k + exponent_bias) << mantissa_bits);
 }
 
 // x 2^k, rounded once more where it is subnormal.
@@ -86,12 +86,12 @@ LogReduction reduce_log(double x) {
     x *= 0x1p54;
     shift = 54;
   }
-  const auto bits = std::bit_cast<uint64_t>(x);
+  const auto bits = bit_cast<uint64_t>(x);
   const uint64_t offset = bits - log_first;
   const auto k = static_cast<int>(static_cast<int64_t>(offset) >> mantissa_bits);
-  const auto m = std::bit_cast<double>(bits - (offset & exponent_mask));
+  const auto m = bit_cast<double>(bits - (offset & exponent_mask));
   const double *row = log_table[offset >> 45 & 127];
-  const auto head = std::bit_cast<double>(std::bit_cast<uint64_t>(m) & 0xffffffff00000000);
+  const auto head = bit_cast<double>(bit_cast<uint64_t>(m) & 0xffffffff00000000);
   return {static_cast<double>(k - shift), row,
           fast_two_sum(head * row[0] - 1, (m - head) * row[0])};
 }
@@ -145,7 +145,7 @@ struct Angle {
 // give neither multiples of 4 nor less than 2^-150.
 Angle reduce_any_angle(double x) {
   constexpr int words = 8, limbs = words + 2;
-  const auto bits = std::bit_cast<uint64_t>(x);
+  const auto bits = bit_cast<uint64_t>(x);
   const int exponent =
       static_cast<int>(bits >> mantissa_bits & 2047) - exponent_bias - mantissa_bits;
   const uint64_t m = (bits & ~exponent_mask) | uint64_t{1} << mantissa_bits;
@@ -248,7 +248,7 @@ Pair atan_of_ratio(double small, double large) {
 // atan2 for y, x >= 0, not both 0.
 Pair atan_of(double y, double x) {
   const double large = y > x ? y : x;
-  const auto bits = std::bit_cast<uint64_t>(large);
+  const auto bits = bit_cast<uint64_t>(large);
   const int exponent = static_cast<int>(bits >> mantissa_bits) - exponent_bias;
   // scaled to about 1, so that products of halves neither overflow nor underflow
   const double a = scaled(y, -exponent / 2) * power_of_two(-exponent - -exponent / 2);

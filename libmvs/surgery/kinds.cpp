@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <type_traits>
 #include <vector>
+
+#include "base/chars.h"
 
 namespace mvs::core {
 namespace {
@@ -87,9 +88,7 @@ OpDefault read_default(const OpField &field) {
   constexpr double unfixed = std::numeric_limits<double>::quiet_NaN();
   if (open == std::string_view::npos || help.back() != ']') return {"", unfixed};
   OpDefault found{std::string(help.substr(open + 1, help.size() - open - 2)), unfixed};
-  const char *end = found.text.data() + found.text.size();
-  const auto [last, error] = std::from_chars(found.text.data(), end, found.value);
-  if (error == std::errc() && last == end) return found;
+  if (double_from_chars(found.text, found.value)) return found;
   const std::optional<uint32_t> choice = choice_of(field, found.text);
   found.value = choice ? *choice : unfixed;
   return found;

@@ -3,6 +3,7 @@
 //
 //   golden TABLE [SCENE ...]     compares; exit code 1 and one line for each digest that differs
 //   golden --write TABLE         writes the table anew
+//   golden --hash [SCENE ...]    prints the snapshot hash of each scene, to compare two builds
 //
 // A digest covers the bits of one array, not the snapshot hash, so that renaming a field or
 // reordering the hash leaves it unchanged. The digests are the same for every compiler,
@@ -119,14 +120,30 @@ bool is_asked_for(const std::string &scene, const std::vector<std::string> &pref
   return prefixes.empty();
 }
 
+// Prints the snapshot hash of each scene.
+void print_hashes(const std::vector<std::string> &prefixes) {
+  for (const golden::Group &group : golden::groups()) {
+    if (!is_asked_for(group.name, prefixes)) continue;
+    group.run([](const std::string &scene, const mvs_snapshot *snapshot) {
+      uint64_t hash[2];
+      golden::check(mvs_snapshot_get_hash(snapshot, hash));
+      std::printf("%016" PRIx64 "%016" PRIx64 " %s\n", hash[0], hash[1], scene.c_str());
+    });
+  }
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const bool writes = arguments.size() == 2 && arguments[0] == "--write";
   if (arguments.empty() || (arguments[0] == "--write" && !writes)) {
-    std::fprintf(stderr, "usage: golden TABLE [SCENE ...] | golden --write TABLE\n");
+    std::fprintf(stderr, "usage: golden TABLE [SCENE ...] | --write TABLE | --hash [SCENE ...]\n");
     return 2;
+  }
+  if (arguments[0] == "--hash") {
+    print_hashes({arguments.begin() + 1, arguments.end()});
+    return 0;
   }
   const std::string path = writes ? arguments[1] : arguments[0];
   const std::vector<std::string> prefixes(arguments.begin() + (writes ? 2 : 1), arguments.end());

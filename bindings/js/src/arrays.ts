@@ -1,0 +1,94 @@
+// Arrays of numbers into and out of the module.
+import { refuse, MvsError } from "./error.js";
+import type { Heap } from "./heap.js";
+
+export type TypedArray = Float64Array | Float32Array | Uint32Array | BigUint64Array | Uint8Array;
+/** Numbers in rows one after the other, or rows of numbers. */
+export type ArrayInput = ArrayLike<number> | readonly (readonly number[])[];
+
+/** Receives one line of the log. */
+export type LogCallback = (level: "error" | "warning" | "info" | "debug", text: string) => void;
+/** Receives the completed share and the largest out-of-balance force, N; returning true cancels. */
+export type ProgressCallback = (share: number, residual: number) => boolean | void;
+/** Receives one fault of a valve. */
+export type FaultCallback = (part: string, sentence: string) => void;
+
+/** Element types by their numbers, mvs_type. */
+const kinds = [
+  undefined,
+  { make: Float64Array, type: 1 },
+  { make: Float32Array, type: 2 },
+  { make: Uint32Array, type: 3 },
+  { make: BigUint64Array, type: 4 },
+  { make: Uint8Array, type: 5 },
+] as const;
+
+/**
+ * A read-only array of the library, without a copy: `values` looks into the memory of the module, and
+ * is made anew after that has grown. Do not keep `values` across calls; keep this object.
+ */
+export class ArrayView {
+  private made: TypedArray | undefined;
+  /** Whether the owner of the array is still held. */
+  isValid: () => boolean = () => true;
+
+  constructor(
+    private readonly heap: Heap,
+    private readonly address: number,
+    /** Rows. */
+    readonly count: number,
+    /** Numbers in a row. */
+    readonly components: number,
+    private readonly type: number,
+    private readonly stride: number,
+  ) {}
+
+  get values(): TypedArray {
+    if (!this.isValid()) {
+      throw new MvsError("MVS_E_STATE", "array", "the owner of this array was disposed of: copy what is needed longer");
+    }
+    if (!this.made || (this.made.buffer !== this.heap.buffer && this.made.length > 0) || this.made.byteLength === 0) {
+      this.made = this.make();
+    }
+    return this.made;
+  }
+
+  /** A copy with a buffer of its own, which may be transferred to another thread. */
+  copy(): TypedArray {
+    return this.values.slice();
+  }
+
+  private make(): TypedArray {
+    const kind = kinds[this.type];
+    if (!kind) throw new MvsError("MVS_E_INTERNAL", "array", `an array is of the unknown type ${this.type}`);
+    const { make } = kind;
+    const length = this.count * this.components;
+    if (length === 0) return new make(0);
+    const row = this.components * make.BYTES_PER_ELEMENT;
+    if (this.stride === row) return new make(this.heap.buffer as ArrayBuffer, this.address, length);
+    const packed = new Uint8Array(this.count * row);
+    for (let r = 0; r < this.count; ++r) {
+      const from = this.address + r * this.stride;
+      packed.set(this.heap.bytes.subarray(from, from + row), r * row);
+    }
+    return new make(packed.buffer);
+  }
+}
+
+/** A typed array that the C interface can read, with the number of its type. */
+export function typed(input: ArrayInput, element: string, what: string): { data: TypedArray; type: number } {
+  if (input instanceof Float64Array) return { data: input, type: 1 };
+  if (input instanceof Float32Array) return { data: input, type: 2 };
+  if (input instanceof Uint32Array) return { data: input, type: 3 };
+  if (typeof input !== "object" || input === null || typeof input.length !== "number") {
+    return refuse(what, `${what} is not an array of numbers`);
+  }
+  const flat = Array.from(input as ArrayLike<number | readonly number[]>).flat() as number[];
+  for (const [k, value] of flat.entries()) {
+    if (typeof value !== "number") refuse(what, `${what} has an element ${k} that is not a number`);
+    if (element === "U32" && !(Number.isInteger(value) && value >= 0 && value <= 0xffffffff)) {
+      refuse(what, `${what} has an element ${k} of ${value}: it has to be a whole number from 0`);
+    }
+  }
+  return element === "U32" ? { data: Uint32Array.from(flat), type: 3 } : { data: Float64Array.from(flat), type: 1 };
+}

@@ -1,0 +1,24 @@
+// Failures as exceptions.
+
+/** A failure of the library, or of the values that were passed to it. */
+export class MvsError extends Error {
+  override readonly name = "MvsError";
+  /** The result code by its name in C: "MVS_E_ARGUMENT". */
+  readonly code: string;
+  /** The part concerned ("triangle 17", "chord P2/3"), or "". */
+  readonly part: string;
+  /** The line of the file being read, from 1; 0 without a file. */
+  readonly line: number;
+
+  constructor(code: string, part: string, message: string, line = 0) {
+    super(message);
+    this.code = code;
+    this.part = part;
+    this.line = line;
+  }
+}
+
+/** Throws MVS_E_ARGUMENT about a part with a sentence. */
+export function refuse(part: string, message: string): never {
+  throw new MvsError("MVS_E_ARGUMENT", part, message);
+}

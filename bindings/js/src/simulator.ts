@@ -1,0 +1,284 @@
+// The simulator: a valve with its load, settled and stepped, operated on, pushed and pulled.
+import type { LogCallback, ProgressCallback } from "./arrays.js";
+import { MvsError } from "./error.js";
+import type { Backend, Format } from "./generated/enums.js";
+import type {
+  BuildFinding, BuildOptions, Coarsening, CoarsenOptions, LeafletDesc, LoadCase, LoadCaseInput, ParametricDesc, Profile, Replay,
+  SettleOptions, Stats, StepOptions, SurfaceDesc, ToolDesc, ToolState, ValveDesc,
+} from "./generated/structs.js";
+import { Owned } from "./handles.js";
+import type { Mvs } from "./library.js";
+import { OperationWriter, type OperationFields, type PartRef } from "./operations.js";
+import { Snapshot } from "./snapshot.js";
+
+/** 120 mmHg in Pa: the default systolic load. */
+export const SYSTOLE_PA = 15998.64;
+/** 5 mmHg in Pa: the default pressure difference that opens the valve in diastole. */
+export const DIASTOLE_PA = 666.61;
+
+export interface SimulatorOptions {
+  backend?: Backend;
+  log?: LogCallback;
+  /** Called during long calls; returning true cancels the call, which throws MVS_E_CANCELLED. */
+  progress?: ProgressCallback;
+}
+
+/** A settle in slices, for a thread that has to answer in between. */
+export interface SliceOptions extends SettleOptions {
+  /** s, length of a slice [0.02]. */
+  slice?: number;
+  /** Receives the completed share after every slice. */
+  onProgress?: (share: number) => void;
+  /** Cancels the settle between two slices. */
+  signal?: AbortSignal;
+}
+
+/** A finding of a build: `values` is a copy. */
+export type Finding = Omit<BuildFinding, "values"> & { values: Float64Array };
+
+/** Lets the event loop run: messages and timers that wait are served. */
+function breathe(): Promise<void> {
+  return new Promise((resolve) => {
+    if (typeof setImmediate === "function") {
+      setImmediate(resolve);
+      return;
+    }
+    const channel = new MessageChannel();
+    channel.port1.onmessage = () => {
+      channel.port1.close();
+      resolve();
+    };
+    channel.port2.postMessage(0);
+  });
+}
+
+export class Simulator extends Owned {
+  constructor(readonly mvs: Mvs, options: SimulatorOptions = {}) {
+    const { c } = mvs;
+    const handle = c.mvs_create(options);
+    super("simulator", handle, () => c.mvs_destroy(handle));
+  }
+
+  /** Replaces the valve by a parametric one [the default valve]. */
+  generateValve(desc?: ParametricDesc): void {
+    this.mvs.c.mvs_generate_valve(this.handle, desc);
+  }
+
+  /** Replaces the valve by one described by arrays. */
+  setValve(valve: ValveDesc): void {
+    this.mvs.c.mvs_set_valve(this.handle, valve);
+  }
+
+  /** Replaces the valve by one built from a patient's surface; returns the findings and guesses. */
+  buildValve(surface: SurfaceDesc, options?: BuildOptions): Finding[] {
+    const { c } = this.mvs;
+    const build = c.mvs_build_valve(this.handle, surface, options);
+    try {
+      return Array.from({ length: c.mvs_build_get_finding_count(build) }, (_, k) => {
+        const finding = c.mvs_build_get_finding(build, k);
+        return { ...finding, values: finding.values.copy() as Float64Array };
+      });
+    } finally {
+      c.mvs_build_release(build);
+    }
+  }
+
+  /** Changes the tissue of a leaflet, of all where `leaflet` is null. */
+  setLeaflet(leaflet: PartRef | null, tissue: Omit<LeafletDesc, "name" | "id">): void {
+    const id = typeof leaflet === "string" ? this.findPart("leaflet", leaflet) : (leaflet ?? 0n);
+    this.mvs.c.mvs_set_leaflet(this.handle, id, tissue);
+  }
+
+  /** Loads the bytes of a file: "obj" or "inp". */
+  load(data: Uint8Array | string, format: Format = "auto"): void {
+    this.mvs.c.mvs_load_memory(this.handle, data, format);
+  }
+
+  /** Sets the load for the next settle or step [systole]. Nothing moves yet. */
+  setLoad(load: LoadCaseInput = { pressure: SYSTOLE_PA, boundary_fraction: 1 }): void {
+    this.mvs.c.mvs_set_load(this.handle, load);
+  }
+
+  get loadCase(): LoadCase {
+    return this.mvs.c.mvs_get_load(this.handle);
+  }
+
+  /** Moves the valve to stable static equilibrium. `converged` is 0 where it did not come to rest. */
+  settle(options?: SettleOptions): Stats {
+    return this.mvs.c.mvs_settle(this.handle, options);
+  }
+
+  /** Begins a settle in slices (mvs_begin_settle). */
+  beginSettle(options?: SettleOptions): void {
+    this.mvs.c.mvs_begin_settle(this.handle, options);
+  }
+
+  /** Advances it for `seconds`; `share` is 1 at the end, and `stats` are those of the settle then. */
+  advanceSettle(seconds: number): { share: number; stats: Stats } {
+    return this.mvs.c.mvs_advance_settle(this.handle, seconds);
+  }
+
+  cancelSettle(): void {
+    this.mvs.c.mvs_cancel_settle(this.handle);
+  }
+
+  /**
+   * Settles in slices with the event loop running in between; the result has the same bits as that of
+   * settle(). Throws MVS_E_CANCELLED if the signal aborts it: the valve is then as before.
+   */
+  async settleInSlices(options: SliceOptions = {}): Promise<Stats> {
+    const { slice = 0.02, onProgress, signal, ...settle } = options;
+    const stop = (): never => {
+      throw new MvsError("MVS_E_CANCELLED", "settle", "the settle was cancelled; the valve is as before");
+    };
+    if (signal?.aborted) stop();
+    this.beginSettle(settle);
+    try {
+      for (;;) {
+        const { share, stats } = this.advanceSettle(slice);
+        onProgress?.(share);
+        if (share >= 1) return stats;
+        await breathe();
+        if (signal?.aborted) stop();
+      }
+    } catch (error) {
+      if (!this.isDisposed) this.cancelSettle();
+      throw error;
+    }
+  }
+
+  /** Advances by time steps of bounded work. */
+  step(options?: StepOptions, count = 1): void {
+    for (let k = 0; k < count; ++k) this.mvs.c.mvs_step(this.handle, options);
+  }
+
+  /** Statistics of the last settle or step. */
+  stats(): Stats {
+    return this.mvs.c.mvs_get_stats(this.handle);
+  }
+
+  profile(): Profile {
+    return this.mvs.c.mvs_get_profile(this.handle);
+  }
+
+  /** The valve and state after the last finished call, without copying arrays. Dispose of it. */
+  snapshot(): Snapshot {
+    return new Snapshot(this.mvs, this.mvs.c.mvs_get_snapshot(this.handle));
+  }
+
+  /** Calls `read` with a snapshot, which is disposed of afterwards. */
+  read<T>(read: (snapshot: Snapshot) => T): T {
+    const snapshot = this.snapshot();
+    try {
+      return read(snapshot);
+    } finally {
+      snapshot.dispose();
+    }
+  }
+
+  restore(snapshot: Snapshot): void {
+    this.mvs.c.mvs_restore(this.handle, snapshot.handle);
+  }
+
+  /** Throws what apply() would throw; nothing changes. */
+  check(operation: string, fields: OperationFields = {}): void {
+    this.mvs.c.mvs_check_op(this.handle, this.operation(operation, fields));
+  }
+
+  /** Applies an operation by its name; returns the id of the part that it made, or 0n. */
+  apply(operation: string, fields: OperationFields = {}): bigint {
+    return this.mvs.c.mvs_apply_op(this.handle, this.operation(operation, fields));
+  }
+
+  undo(): void {
+    this.mvs.c.mvs_undo(this.handle);
+  }
+
+  redo(): void {
+    this.mvs.c.mvs_redo(this.handle);
+  }
+
+  /** Operations of `work` are undone and redone together; a failure in it undoes them. */
+  group<T>(name: string, work: () => T): T {
+    const { c } = this.mvs;
+    const before = this.snapshot();
+    try {
+      c.mvs_begin_group(this.handle, name);
+      let result: T;
+      try {
+        result = work();
+      } catch (error) {
+        c.mvs_end_group(this.handle);
+        this.restore(before);
+        throw error;
+      }
+      c.mvs_end_group(this.handle);
+      return result;
+    } finally {
+      before.dispose();
+    }
+  }
+
+  setCheckpoint(name: string): void {
+    this.mvs.c.mvs_set_checkpoint(this.handle, name);
+  }
+
+  restoreCheckpoint(name: string): void {
+    this.mvs.c.mvs_restore_checkpoint(this.handle, name);
+  }
+
+  /** Adds an instrument; returns its id. */
+  addTool(tool: ToolDesc): bigint {
+    return this.mvs.c.mvs_add_tool(this.handle, tool);
+  }
+
+  /** Grasps a node, with the hand at its place or at `position`. */
+  grasp(node: number, options: Omit<ToolDesc, "kind" | "by_node" | "node"> = {}): bigint {
+    const position = options.position ?? this.read((snapshot) => Array.from(snapshot.array("node_position").subarray(3 * node, 3 * node + 3)));
+    return this.addTool({ ...options, kind: "grasp", by_node: 1, node, position });
+  }
+
+  /** Moves the hand of a tool; the next settle or step takes it there. */
+  moveTool(tool: bigint, position: ArrayLike<number>, axis?: ArrayLike<number>): void {
+    this.mvs.c.mvs_move_tool(this.handle, tool, position, axis);
+  }
+
+  removeTool(tool: bigint): void {
+    this.mvs.c.mvs_remove_tool(this.handle, tool);
+  }
+
+  tool(tool: bigint): ToolState {
+    return this.mvs.c.mvs_get_tool(this.handle, tool);
+  }
+
+  /** Replays the text of a plan: completely, or not at all. */
+  replayPlan(plan: string | Uint8Array): Replay {
+    return this.mvs.c.mvs_replay_plan(this.handle, plan);
+  }
+
+  /** Checks whether replayPlan would apply every operation. */
+  checkPlan(plan: string | Uint8Array): Replay {
+    return this.mvs.c.mvs_check_plan(this.handle, plan);
+  }
+
+  refine(): void {
+    this.mvs.c.mvs_refine_valve(this.handle);
+  }
+
+  coarsen(options: CoarsenOptions): Coarsening {
+    return this.mvs.c.mvs_coarsen_valve(this.handle, options);
+  }
+
+  transferState(from: Snapshot): void {
+    this.mvs.c.mvs_transfer_state(this.handle, from.handle);
+  }
+
+  private operation(name: string, fields: OperationFields): ReturnType<OperationWriter["make"]> {
+    const writer = new OperationWriter(this.mvs.operations, (kind, part) => this.findPart(kind, part));
+    return writer.make(name, fields);
+  }
+
+  private findPart(kind: "leaflet" | "chord" | "head" | "scallop", name: string): bigint {
+    return this.read((snapshot) => snapshot.part(kind, name).id);
+  }
+}

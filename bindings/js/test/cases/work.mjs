@@ -1,0 +1,352 @@
+// Work on a valve: operations, history, plans, files, instruments, slices, picking.
+import { closed } from "./life.mjs";
+import { equal, fails, near, ok } from "../check.mjs";
+
+const hashOf = (sim) => sim.read((snapshot) => snapshot.hash);
+
+// The middle of a chord and a ray that meets it from 0.1 m away, at a right angle to it.
+function rayAt(snapshot, chord) {
+  const x = snapshot.array("node_position");
+  const nodes = snapshot.array("chord_nodes");
+  const [a, b] = [nodes[2 * chord], nodes[2 * chord + 1]].map((n) => [x[3 * n], x[3 * n + 1], x[3 * n + 2]]);
+  const middle = a.map((v, k) => (v + b[k]) / 2);
+  const along = b.map((v, k) => v - a[k]);
+  const across = Math.abs(along[2]) > Math.abs(along[0]) ? [along[2], 0, -along[0]] : [along[1], -along[0], 0];
+  const length = Math.hypot(...across);
+  return { middle, origin: middle.map((v, k) => v - (0.1 * across[k]) / length), direction: across };
+}
+
+export const work = {
+  operations_are_described_for_forms({ mvs }) {
+    const names = mvs.operations.map((one) => one.name);
+    ok(names.includes("chord_length") && names.includes("patch"), `operations: ${names}`);
+    const ring = mvs.operations.find((one) => one.name === "ring");
+    const size = ring.fields.find((field) => field.name === "size");
+    equal(size.type, "number", "type of ring.size");
+    equal(size.unit, "m", "unit of ring.size");
+    ok(size.high > size.low && size.help.length > 0 && size.label.length > 0, "range, help, label of ring.size");
+    const transfer = mvs.operations.find((one) => one.name === "chord_transfer");
+    equal(transfer.fields.find((field) => field.name === "end").words.head, 2, "word of a choice");
+    ok(mvs.fields("measures").some((field) => field.name === "coaptation_area" && field.unit === "m2"), "fields of measures");
+    ok(mvs.laws().leaflet.some((law) => law.word === "fung"), "laws");
+  },
+
+  operations_by_name_are_applied_and_undone({ mvs }) {
+    const sim = closed(mvs);
+    const before = hashOf(sim);
+    const length = () => sim.read((s) => s.chords().find((chord) => chord.name === "A2/7").rest_length);
+    const whole = length();
+    equal(sim.apply("chord_length", { chord: "A2/7", factor: 0.75 }), 0n, "part made");
+    near(length(), 0.75 * whole, 1e-12, "length");
+    sim.undo();
+    equal(hashOf(sim), before, "hash after undo");
+    sim.redo();
+    const made = sim.apply("neochord", { head: "PM1", site: { scallop: "P2", u: [0.5, 1] }, length: 14e-3 });
+    ok(made > 0n, "id of the neochord");
+    sim.apply("ring", { size: 0.032, name: "34" });
+    sim.apply("head_move", { head: "AL1", by: [0, 0, -1e-3], frame: "valve" });
+    sim.read((s) => {
+      equal(s.part("chord", made).id, made, "part by its id");
+      equal(s.parts("ring")[0].name, "34", "ring");
+      equal(s.history().done.length, 4, "operations");
+      equal(s.history().done[0].kind, "chord_length", "kind");
+    });
+    sim.dispose();
+  },
+
+  every_kind_of_site_is_written({ mvs }) {
+    const sim = closed(mvs);
+    const node = sim.read((s) => s.array("node_kind").findIndex((kind, k) => kind === 0 && k > 100));
+    for (const site of [{ node }, { triangle: 40, u: [0.2, 0.3, 0.5] }, { scallop: "A2", u: [0.62, 0.85] }]) {
+      sim.check("chord_add", { head: "AL1", site });
+    }
+    sim.check("ring", { curve: Float64Array.from({ length: 30 }, (_, k) => 0.015 * (k % 3 === 2 ? 0 : k % 3 === 1 ? Math.sin(k / 5) : Math.cos(k / 5))) });
+    sim.dispose();
+  },
+
+  bad_operations_are_refused_with_part_and_remedy: async ({ mvs }) => {
+    const sim = closed(mvs);
+    const before = hashOf(sim);
+    await fails(() => sim.apply("mend", {}), "MVS_E_ARGUMENT", /no operation is called mend; there are chord_length/, "operation");
+    await fails(() => sim.apply("ring", { sise: 1 }), "MVS_E_ARGUMENT", /ring has no field sise; its fields are/, "ring.sise");
+    await fails(() => sim.apply("ring", { size: "34" }), "MVS_E_ARGUMENT", /ring.size is not a number/, "ring.size");
+    await fails(() => sim.apply("chord_remove", { chord: "Z9/1" }), "MVS_E_ID", /Z9\/1/);
+    await fails(() => sim.apply("chord_remove", { chord: 999999n }), "MVS_E_ID", /999999/);
+    await fails(() => sim.apply("chord_transfer", { chord: "A2/2", end: "tail" }), "MVS_E_ARGUMENT", /one of .*leaflet.*head/);
+    await fails(() => sim.apply("chord_add", { head: "AL1", site: { where: 1 } }), "MVS_E_ARGUMENT", /\{ node \}/);
+    await fails(() => sim.apply("chord_length", { chord: "A2/7", factor: NaN }), "MVS_E_ARGUMENT", /factor/);
+    await fails(() => sim.undo(), "MVS_E_STATE", /undo/);
+    equal(hashOf(sim), before, "hash");
+    sim.dispose();
+  },
+
+  async bad_values_are_refused({ mvs }) {
+    const sim = mvs.simulator();
+    await fails(() => sim.settle(), "MVS_E_STATE", /valve/);
+    await fails(() => sim.generateValve({ vertices: -5 }), "MVS_E_ARGUMENT", /vertices is -5/, "desc.vertices");
+    await fails(() => sim.generateValve({ vertices: 1.5 }), "MVS_E_ARGUMENT", /whole number/);
+    await fails(() => sim.generateValve({ annulus_ap: 10 }), "MVS_E_ARGUMENT", /annulus_ap/);
+    await fails(() => sim.generateValve({ colour: 3 }), "MVS_E_ARGUMENT", /no field colour; its fields are vertices/);
+    await fails(() => sim.setLoad({ pressure: "high" }), "MVS_E_ARGUMENT", /pressure is not a number/);
+    await fails(() => sim.setLoad(7), "MVS_E_ARGUMENT", /not an object/);
+    await fails(() => sim.load("", "h5"), "MVS_E_UNSUPPORTED", /./);
+    await fails(() => sim.setValve({}), "MVS_E_OP", /nodes/);
+    await fails(() => mvs.c.mvs_device_open?.() ?? mvs.c.raw("mvs_no_such"), "MVS_E_UNSUPPORTED", /no function/);
+    await fails(() => mvs.readSurface("", "folder/.."), "MVS_E_ARGUMENT", /no name of a file/);
+    await fails(() => mvs.readSurface("solid x", "part.stl", { unit: "mm" }), "MVS_E_FORMAT", /part\.stl/);
+    sim.generateValve();
+    await fails(() => sim.read((s) => s.part("chord", "a\0b")), "MVS_E_ARGUMENT", /zero character/);
+    await fails(() => sim.read((s) => s.array("node_colour")), "MVS_E_ARGUMENT", /one of node_position/);
+    await fails(() => sim.moveTool(5n, [0, 0]), "MVS_E_ARGUMENT", /has to have 3/);
+    await fails(() => sim.moveTool(5n, [0, 0, 0]), "MVS_E_ID", /5/);
+    await fails(() => sim.moveTool("x", [0, 0, 0]), "MVS_E_ARGUMENT", /bigint/);
+    sim.dispose();
+  },
+
+  groups_and_checkpoints({ mvs }) {
+    const sim = closed(mvs);
+    const before = hashOf(sim);
+    sim.setCheckpoint("start");
+    sim.group("both", () => {
+      sim.apply("chord_length", { chord: "A2/7", factor: 0.9 });
+      sim.apply("chord_remove", { chord: "P2/2" });
+    });
+    equal(sim.read((s) => s.history().done.map((entry) => entry.in_group).join()), "both,both", "groups");
+    sim.undo();
+    equal(sim.read((s) => s.history().undone.length), 2, "undone together");
+    let thrown;
+    try {
+      sim.group("broken", () => {
+        sim.apply("chord_remove", { chord: "P2/2" });
+        throw new Error("mine");
+      });
+    } catch (error) {
+      thrown = error.message;
+    }
+    equal(thrown, "mine", "the exception of the caller");
+    sim.restoreCheckpoint("start");
+    equal(sim.read((s) => s.array("node_position").length) > 0, true, "restored");
+    equal(sim.read((s) => s.history().checkpoints.join()), "start", "checkpoints");
+    equal(hashOf(sim), before, "hash");
+    sim.dispose();
+  },
+
+  a_settle_in_slices_has_the_same_bits: async ({ mvs }) => {
+    const sim = mvs.simulator();
+    sim.generateValve();
+    sim.setLoad();
+    const open = sim.snapshot();
+    const shares = [];
+    let served = 0;
+    const timer = setInterval(() => ++served, 0);
+    const stats = await sim.settleInSlices({ slice: 0.001, onProgress: (share) => shares.push(share) });
+    clearInterval(timer);
+    equal(stats.converged, 1, "converged");
+    ok(shares.length > 3 && shares.at(-1) === 1, `shares ${shares}`);
+    ok(served > 0, "timers run in between");
+    const sliced = hashOf(sim);
+    sim.restore(open);
+    sim.settle();
+    equal(sliced, hashOf(sim), "hash");
+    sim.restore(open);
+    const controller = new AbortController();
+    await fails(
+      () => sim.settleInSlices({ slice: 0.001, signal: controller.signal, onProgress: () => controller.abort() }),
+      "MVS_E_CANCELLED", /cancelled/);
+    equal(hashOf(sim), open.hash, "hash after the cancellation");
+    await fails(() => sim.advanceSettle(0), "MVS_E_STATE", /settle/);
+    open.dispose();
+    sim.dispose();
+  },
+
+  progress_and_log_reach_javascript: async ({ mvs }) => {
+    const lines = [];
+    let calls = 0;
+    const sim = mvs.simulator({ log: (level, text) => lines.push(`${level} ${text}`), progress: () => void ++calls });
+    sim.generateValve();
+    sim.setLoad({ pressure: 120, boundary_fraction: 1 });
+    ok(lines.some((line) => line.startsWith("warning") && /mmHg/.test(line)), `log: ${lines}`);
+    sim.setLoad();
+    sim.settle();
+    ok(calls > 0, "progress was called");
+    sim.dispose();
+    const strict = mvs.simulator({ progress: (share) => share >= 0 });
+    strict.generateValve();
+    strict.setLoad();
+    await fails(() => strict.settle(), "MVS_E_CANCELLED", /cancel/);
+    strict.dispose();
+    const thrower = mvs.simulator({
+      progress: () => {
+        throw new RangeError("of the caller");
+      },
+    });
+    thrower.generateValve();
+    thrower.setLoad();
+    let thrown;
+    try {
+      thrower.settle();
+    } catch (error) {
+      thrown = error;
+    }
+    ok(thrown instanceof RangeError, "the exception of a callback reaches the caller");
+    thrower.dispose();
+    const eager = mvs.simulator({ progress: () => eager.dispose() });
+    eager.generateValve();
+    eager.setLoad();
+    await fails(() => eager.settle(), "MVS_E_STATE", /callback cannot dispose/);
+    ok(!eager.isDisposed, "still held");
+    eager.dispose();
+  },
+
+  plans_and_files_come_back({ mvs }) {
+    const sim = closed(mvs);
+    sim.apply("chord_length", { chord: "A2/7", factor: 0.75 });
+    sim.settle();
+    const snapshot = sim.snapshot();
+    const plan = snapshot.plan({ author: "test", notes: "äöü" });
+    const again = mvs.simulator();
+    again.generateValve({ vertices: 425 });
+    equal(again.checkPlan(plan).operations, 1, "operations");
+    const replay = again.replayPlan(plan);
+    equal(replay.same_result, 1, "same_result");
+    equal(hashOf(again), snapshot.hash, "hash of the replay");
+    const text = snapshot.toObj();
+    again.load(text);
+    equal(again.read((s) => s.toObj()), text, "OBJ of the loaded OBJ");
+    ok(new TextDecoder().decode(snapshot.save("vtp")).includes("PolyData"), "VTP");
+    for (const owned of [snapshot, sim, again]) owned.dispose();
+  },
+
+  a_valve_of_arrays_is_that_of_the_snapshot({ mvs }) {
+    const sim = closed(mvs);
+    const made = mvs.simulator();
+    sim.read((s) => {
+      const chords = s.array("chord_nodes");
+      const lengths = s.array("chord_rest_length");
+      const heads = s.array("head_nodes");
+      const valve = {
+        nodes: s.array("node_rest"),
+        nodes_loaded: s.array("node_loaded"),
+        triangles: s.array("triangle_nodes"),
+        triangle_leaflet: Array.from(s.array("triangle_leaflet")),
+        annulus: s.array("annulus_nodes"),
+        leaflets: s.parts("leaflet").map(({ name }) => ({ name, law: "spring" })),
+        chords: Array.from(lengths, (rest_length, k) => ({ node_a: chords[2 * k], node_b: chords[2 * k + 1], rest_length })),
+        heads: Array.from(heads, (node, k) => ({ node, name: `H${k}` })),
+      };
+      const { code, faults } = mvs.checkValve(valve);
+      equal(code, "MVS_OK", JSON.stringify(faults));
+      made.setValve(valve);
+      equal(mvs.checkValve({ ...valve, annulus: [0, 1] }).code !== "MVS_OK", true, "a bad annulus");
+      ok(mvs.checkValve({ ...valve, annulus: [0, 1] }).faults[0].sentence.length > 10, "a sentence");
+    });
+    equal(made.read((s) => s.parts("head")[0].name), "H0", "name");
+    made.setLoad();
+    equal(made.settle().converged, 1, "converged");
+    for (const owned of [made, sim]) owned.dispose();
+  },
+
+  instruments_grasp_and_push({ mvs }) {
+    const sim = closed(mvs);
+    const node = 200;
+    const tool = sim.grasp(node, { max_force: 2 });
+    const start = Array.from(sim.tool(tool).position);
+    for (let k = 1; k <= 20; ++k) {
+      sim.moveTool(tool, [start[0], start[1], start[2] + 100e-6 * k]);
+      sim.step();
+    }
+    const state = sim.tool(tool);
+    equal(state.kind, "grasp", "kind");
+    equal(state.node, node, "node");
+    ok(Math.hypot(...state.force) > 1e-3, "the tissue pulls");
+    equal(sim.read((s) => s.tools().length), 1, "tools");
+    sim.removeTool(tool);
+    const ball = sim.addTool({ kind: "ball", position: [start[0], start[1], start[2] + 30e-3], radius: 2e-3 });
+    ok(sim.tool(ball).distance > 0, "distance of a ball");
+    sim.dispose();
+  },
+
+  a_ray_meets_leaflets_chords_and_heads({ mvs }) {
+    const sim = closed(mvs);
+    sim.read((s) => {
+      const { origin, atrium } = s.frame();
+      const from = origin.map((value, k) => value + 0.1 * atrium[k]);
+      const leaflet = s.pick({ origin: from, direction: atrium.map((v) => -v) });
+      equal(leaflet.kind, "leaflet", "kind");
+      ok(/^[AP]\d$/.test(leaflet.name), `scallop ${leaflet.name}`);
+      near(leaflet.u[0] + leaflet.u[1] + leaflet.u[2], 1, 1e-9, "barycentric coordinates");
+      sim.check("chord_add", { head: "AL1", site: { triangle: leaflet.index, u: leaflet.u } });
+      for (const index of [0, 5, 11]) {
+        const { middle, ...ray } = rayAt(s, index);
+        const met = s.pick({ ...ray, radius: 1e-5, kinds: ["chord"] });
+        equal(met?.kind, "chord", "kind");
+        near(Math.hypot(...met.point.map((v, k) => v - middle[k])), 0, 2e-4, "distance from its middle");
+      }
+      const node = s.array("head_nodes")[0];
+      const at = Array.from(s.array("node_position").subarray(3 * node, 3 * node + 3));
+      const head = s.pick({ origin: [at[0], at[1], at[2] - 0.1], direction: [0, 0, 2] });
+      equal(head.kind, "head", "kind");
+      equal(head.name, s.parts("head")[0].name, "name");
+      equal(s.pick({ origin: [1, 1, 1], direction: [1, 0, 0] }), undefined, "nothing is met");
+    });
+    sim.dispose();
+  },
+
+  read_outs_of_leak_cost_and_shape({ mvs }) {
+    const sim = mvs.simulator();
+    sim.generateValve({ annulus_scale: 1.25, chord_slack: 1.1, shape: "founding" });
+    sim.setLoad();
+    sim.settle();
+    const s = sim.snapshot();
+    const measures = s.measure("orifice", "annulus");
+    ok(measures.regurgitant_orifice_area > 0, "it leaks");
+    ok(Number.isNaN(measures.coaptation_area), "other groups are not measured");
+    const parts = s.orificeParts();
+    near(parts.reduce((sum, part) => sum + part.area, 0), measures.regurgitant_orifice_area, 1e-12, "area of the parts");
+    equal(s.regions().length, s.parts("scallop").length + 2, "regions");
+    const section = s.section(s.frame().origin, s.frame().cc);
+    ok(section.length > 0 && section.length % 6 === 0, "section");
+    equal(s.compare(s).node_max, 0, "compared with itself");
+    equal(s.stability().stable, 1, "stable");
+    const { cost, opened } = s.cost({ flow: 2e-4 });
+    ok(cost.open_area > 1e-4 && cost.gradient > 0, "open area and gradient");
+    opened.dispose();
+    s.dispose();
+    sim.dispose();
+  },
+
+  coarser_and_finer_meshes({ mvs }) {
+    const sim = mvs.simulator();
+    sim.generateValve({ vertices: 800 });
+    equal(sim.coarsen({ vertices: 500 }).vertices, 500, "vertices");
+    sim.refine();
+    ok(sim.read((s) => s.view("triangle_nodes").count) > 2000, "triangles");
+    sim.dispose();
+  },
+
+  a_surface_is_read_and_becomes_a_valve({ mvs }) {
+    const source = mvs.simulator();
+    source.generateValve({ vertices: 600 });
+    let text = "OFF\n";
+    const tips = [];
+    source.read((s) => {
+      const x = s.array("node_rest");
+      const t = s.array("triangle_nodes");
+      const count = Math.max(...t) + 1;
+      text += `${count} ${t.length / 3} 0\n`;
+      for (let k = 0; k < count; ++k) text += `${1e3 * x[3 * k]} ${1e3 * x[3 * k + 1]} ${1e3 * x[3 * k + 2]}\n`;
+      for (let k = 0; k < t.length; k += 3) text += `3 ${t[k]} ${t[k + 1]} ${t[k + 2]}\n`;
+      for (const node of s.array("head_nodes")) tips.push(Array.from(x.subarray(3 * node, 3 * node + 3)));
+    });
+    const surface = mvs.readSurface(text, "folder/leaflets.off", { unit: "mm" });
+    equal(surface.format, "OFF", "format");
+    equal(surface.points.length / 3 > 500, true, "points");
+    const sim = mvs.simulator();
+    const findings = sim.buildValve({ points: surface.points, triangles: surface.triangles, papillary_tips: tips }, { chords: 60 });
+    ok(findings.some((finding) => finding.name === "annulus" && finding.sentence.length > 10), "findings");
+    sim.setLoad();
+    sim.settle();
+    ok(sim.read((s) => s.measure("coaptation").coaptation_area) > 0, "leaflets coapt");
+    for (const owned of [source, sim]) owned.dispose();
+  },
+};

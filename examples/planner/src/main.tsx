@@ -1,0 +1,37 @@
+// Starts the page: the worker with the library, then the shipped valve.
+import { render } from 'preact';
+import { App } from './ui/app';
+import { connect, fail, openShipped, request } from './store/actions';
+import { findCopy, keepCopy, visited } from './store/keep';
+import * as state from './store/state';
+import './style.css';
+
+async function start(): Promise<void> {
+  const library = document.getElementById('library')?.textContent ?? '';
+  connect();
+  if (visited()) state.panel.value = 'valve';
+  render(<App />, document.getElementById('app')!);
+  try {
+    const { version, operations } = await request('start', { library });
+    state.version.value = version;
+    state.operations.value = operations;
+    document.getElementById('library')?.remove();
+    await openShipped('healthy', 'Healthy valve');
+    state.ready.value = true;
+  } catch (error) {
+    fail(error);
+  }
+  await findCopy();
+  // the copy follows every change of the plan
+  let kept = state.main.value;
+  state.main.subscribe((now) => {
+    if (now && now !== kept) void keepCopy();
+    kept = now;
+  });
+}
+
+window.addEventListener('beforeunload', (event) => {
+  if (state.changed.value) event.preventDefault();
+});
+
+void start();

@@ -1,0 +1,294 @@
+// Messages between the page and the worker that owns the library. Lengths are in mm, forces in N,
+// pressures in mmHg, areas in mm2, strains as fractions: the worker converts, the page only shows.
+
+/** A named part: a scallop, a chord, a papillary head, a ring. Ids are those of the library, as text. */
+export interface Part {
+  id: string;
+  name: string;
+}
+
+/** Connectivity of a valve: constant until an operation changes it. */
+export interface Topology {
+  key: string;
+  nodes: number;
+  triangles: Uint32Array;
+  triangleLeaflet: Uint32Array;
+  triangleScallop: Uint32Array;
+  annulus: Uint32Array;
+  freeEdge: Uint32Array;
+  chordNodes: Uint32Array;
+  chordKind: Uint32Array;
+  chordRadius: Float32Array;
+  headNodes: Uint32Array;
+  origin: Uint32Array;
+  leaflets: Part[];
+  scallops: Part[];
+  chords: Part[];
+  heads: Part[];
+  rings: Part[];
+}
+
+/** Positions of one moment, and what colours need. Arrays are transferred. */
+export interface Picture {
+  topology: string;
+  /** Sent with the first picture of a topology only. */
+  connectivity?: Topology;
+  positions: Float32Array;
+  ringPoints: Float32Array;
+  ringStart: Uint32Array;
+  chordTaut: Float32Array;
+  orificeVertices: Float32Array;
+  orificeTriangles: Uint32Array;
+  /** The hand of a tool, if there is one: position, then the held point. */
+  hand?: Float32Array;
+}
+
+/** Values per node for colour maps, computed on request of a full read-out. */
+export interface Fields {
+  coaptation: Float32Array;
+  stretch: Float32Array;
+}
+
+export interface Chord {
+  id: string;
+  name: string;
+  kind: number;
+  heads: string;
+  scallops: string;
+  length: number;
+  rest: number;
+  strain: number;
+  tension: number;
+  strainLimit: number;
+  tensionLimit: number;
+  over: boolean;
+}
+
+export interface Region {
+  name: string;
+  commissure: boolean;
+  coaptationMean: number;
+  coaptationMin: number;
+  orifice: number;
+  gap: number;
+  billow: number;
+  tenting: number;
+}
+
+export interface OrificePart {
+  area: number;
+  gap: number;
+  centroid: [number, number, number];
+  direction: [number, number, number];
+  anterior: string;
+  posterior: string;
+  commissures: string;
+}
+
+export interface Measures {
+  orifice: number;
+  coaptationArea: number;
+  coaptationMean: number;
+  coaptationMin: number;
+  coaptationMax: number;
+  coaptationHeight: number;
+  coaptationDepth: number;
+  tentingHeight: number;
+  tentingArea: number;
+  tentingVolume: number;
+  billowHeight: number;
+  billowVolume: number;
+  annulusAp: number;
+  annulusCc: number;
+  annulusPerimeter: number;
+  annulusArea: number;
+  annulusSaddle: number;
+  annulusAngle: number;
+  maxChordStrain: number;
+  maxChordTension: number;
+  maxLeafletStrain: number;
+  leafletStrain95: number;
+  leafletStress95: number;
+  chordsOver: number;
+  crossings: number;
+  atRest: boolean;
+  underLoad: boolean;
+}
+
+export interface HistoryEntry {
+  title: string;
+  kind: string;
+  group: string;
+  undone: boolean;
+}
+
+/** Figures of a snapshot. */
+export interface Figures {
+  hash: string;
+  valve: string;
+  measures: Measures;
+  regions: Region[];
+  orificeParts: OrificePart[];
+  chords: Chord[];
+  /** Force on each papillary head, N. */
+  heads: number[];
+  /** Rows: origin, AP (towards anterior), CC, into the atrium; the origin in mm. */
+  frame: number[];
+  history: HistoryEntry[];
+  fields: Fields;
+}
+
+/** A snapshot as the page shows it. */
+export interface Shown {
+  picture: Picture;
+  figures: Figures;
+}
+
+/** A picture while something moves: a settle, the opening slider, a hand. */
+export interface Motion {
+  picture: Picture;
+  share: number;
+}
+
+/** A place on a leaflet, as operations take it. */
+export type Site =
+  { triangle: number; u: [number, number, number] } | { scallop: string; along: number; height: number };
+
+/** The value of a field of an operation in the units of the page. */
+export type FieldValue = number | string | Site | [number, number, number] | number[][];
+
+/** An operation: its kind and the fields that are given. */
+export interface Operation {
+  kind: string;
+  fields: Record<string, FieldValue>;
+}
+
+/** A field of an operation, from the library's table. */
+export interface FieldInfo {
+  name: string;
+  type: string;
+  required: boolean;
+  low: number;
+  high: number;
+  unit: string;
+  label: string;
+  help: string;
+  choices: { name: string; value: number }[];
+  fallback: string;
+  fallbackValue: number;
+}
+
+export interface OperationInfo {
+  name: string;
+  help: string;
+  fields: FieldInfo[];
+}
+
+export interface Failure {
+  code: string;
+  part: string;
+  message: string;
+}
+
+/** Requests of the page: name, argument, result. */
+export interface Calls {
+  start: { argument: { library: string }; result: { version: string; operations: OperationInfo[] } };
+  open_shipped: { argument: { name: string; vertices: number }; result: Shown };
+  open_file: { argument: { name: string; bytes: Uint8Array }; result: Shown };
+  preview: { argument: Operation; result: Shown };
+  accept: { argument: null; result: Shown };
+  discard: { argument: null; result: null };
+  check: { argument: Operation; result: null };
+  undo: { argument: null; result: Shown };
+  redo: { argument: null; result: Shown };
+  open_to: { argument: { share: number }; result: Motion };
+  close_again: { argument: null; result: Shown };
+  cost: { argument: { which: 'main' | 'preview' }; result: Cost };
+  section: { argument: { which: string; point: number[]; normal: number[] }; result: Float32Array };
+  hand_begin: { argument: Hand; result: null };
+  hand_move: { argument: { position: number[] }; result: null };
+  hand_end: { argument: null; result: Shown };
+  checkpoint: { argument: { name: string }; result: string[] };
+  restore: { argument: { name: string }; result: Shown };
+  read_checkpoint: { argument: { name: string }; result: Shown };
+  save_obj: { argument: null; result: Uint8Array };
+  save_session: { argument: { notes: string; title: string }; result: Uint8Array };
+  open_session: { argument: { bytes: Uint8Array }; result: SessionOpened };
+  founding: { argument: { number: number; vertices: number }; result: FoundingResult };
+  spread: { argument: { members: number }; result: Spread };
+  read_surface: { argument: { name: string; bytes: Uint8Array; unit: string }; result: Surface };
+  build: { argument: BuildRequest; result: { shown: Shown; findings: Finding[] } };
+}
+
+export interface Hand {
+  tool: 'grasp' | 'ball';
+  node: number;
+  position: number[];
+}
+
+export interface Cost {
+  openArea: number;
+  anteriorLength: number;
+  posteriorLength: number;
+  lengthRatio: number;
+  annulusForce: number;
+}
+
+export interface SessionOpened {
+  shown: Shown;
+  checkpoints: string[];
+  notes: string;
+  title: string;
+  sameResult: boolean;
+}
+
+/** Figures of the healthy valve and of the founding paper's repair, for the score of the tour. */
+export interface FoundingResult {
+  healthy: { measures: Measures; openArea: number };
+  repaired: { measures: Measures; openArea: number; operations: string[] };
+}
+
+export interface SpreadRow {
+  name: string;
+  min: number;
+  max: number;
+}
+
+export interface Spread {
+  members: number;
+  converged: number;
+  equilibria: number;
+  nodeMax: number;
+  rows: SpreadRow[];
+}
+
+export interface Surface {
+  points: Float32Array;
+  triangles: Uint32Array;
+  format: string;
+}
+
+export interface BuildRequest {
+  annulus: number[][];
+  tips: number[][];
+  commissures: number[][];
+  anterior: number[][];
+  name: string;
+}
+
+export interface Finding {
+  name: string;
+  source: number;
+  sentence: string;
+  confidence: number;
+}
+
+export type CallName = keyof Calls;
+
+export type ToWorker = { id: number; call: CallName; argument: unknown } | { cancel: number };
+
+export type FromWorker =
+  | { id: number; result: unknown }
+  | { id: number; failure: Failure }
+  | { id: number; motion: Motion }
+  | { id: number; share: number };

@@ -1,0 +1,87 @@
+// Requests to the worker: one message out, one answer in. The worker is a classic worker from a blob, the only
+// kind that a page from disk may have.
+import PlannerWorker from '../worker/main?worker&inline';
+import type { CallName, Calls, Failure, Motion } from '../protocol';
+
+/** A request that failed. */
+export class CallError extends Error {
+  constructor(readonly failure: Failure) {
+    super(failure.message);
+  }
+  get cancelled(): boolean {
+    return this.failure.code === 'MVS_E_CANCELLED';
+  }
+}
+
+interface Open {
+  resolve: (value: never) => void;
+  reject: (error: unknown) => void;
+  motion?: (motion: Motion) => void;
+  share?: (share: number) => void;
+}
+
+export interface CallOptions {
+  motion?: (motion: Motion) => void;
+  share?: (share: number) => void;
+}
+
+export class Client {
+  private worker: Worker;
+  private next = 1;
+  private open = new Map<number, Open>();
+  private listeners = new Map<number, (motion: Motion) => void>();
+
+  constructor(private readonly broken: (sentence: string) => void) {
+    this.worker = new PlannerWorker();
+    this.worker.onmessage = ({ data }) => this.receive(data);
+    this.worker.onerror = (event) => this.broken(event.message || 'the worker did not start');
+  }
+
+  call<Name extends CallName>(
+    name: Name,
+    argument: Calls[Name]['argument'],
+    options: CallOptions = {},
+  ): Promise<Calls[Name]['result']> & { id: number } {
+    const id = this.next++;
+    const promise = new Promise<Calls[Name]['result']>((resolve, reject) => {
+      this.open.set(id, { resolve: resolve as never, reject, ...options });
+      if (options.motion && name === 'hand_begin') this.listeners.set(id, options.motion);
+      this.worker.postMessage({ id, call: name, argument });
+    });
+    return Object.assign(promise, { id });
+  }
+
+  /** A message without an answer, handled at once. */
+  tell(name: CallName, argument: unknown): void {
+    this.worker.postMessage({ id: 0, call: name, argument });
+  }
+
+  cancel(id: number): void {
+    this.worker.postMessage({ cancel: id });
+  }
+
+  private receive(data: {
+    id: number;
+    result?: unknown;
+    failure?: Failure;
+    motion?: Motion;
+    share?: number;
+  }): void {
+    const request = this.open.get(data.id);
+    if (data.motion) {
+      (request?.motion ?? this.listeners.get(data.id))?.(data.motion);
+      return;
+    }
+    if (data.share !== undefined) {
+      request?.share?.(data.share);
+      return;
+    }
+    if (!request) {
+      if (data.failure) this.broken(data.failure.message);
+      return;
+    }
+    this.open.delete(data.id);
+    if (data.failure) request.reject(new CallError(data.failure));
+    else request.resolve(data.result as never);
+  }
+}

@@ -1,0 +1,38 @@
+// Checkpoints, and figures that are calculated on request.
+import { run, show } from './actions';
+import * as state from './state';
+import { t } from '../text/texts';
+
+export async function saveCheckpoint(name: string): Promise<void> {
+  const names = await run(t.saving, 'checkpoint', { name });
+  if (names) state.checkpoints.value = names;
+}
+
+export async function restoreCheckpoint(name: string): Promise<void> {
+  const shown = await run(t.undoing, 'restore', { name });
+  if (shown) show(shown, false);
+}
+
+export async function compareCheckpoint(name: string | null): Promise<void> {
+  state.compareWith.value = name;
+  state.compared.value = null;
+  if (!name) return;
+  const shown = await run(t.measuring, 'read_checkpoint', { name });
+  if (!shown) return;
+  state.receive(shown.picture);
+  state.compared.value = shown;
+}
+
+export async function measureCost(): Promise<void> {
+  const figures = state.figures.value;
+  if (!figures) return;
+  const value = await run(t.measuring, 'cost', { which: state.preview.value ? 'preview' : 'main' });
+  if (value) state.cost.value = { hash: figures.hash, value };
+}
+
+export async function measureSpread(): Promise<void> {
+  const figures = state.main.value?.figures;
+  if (!figures) return;
+  const value = await run(t.spreading, 'spread', { members: 8 });
+  if (value) state.spread.value = { hash: figures.hash, value };
+}

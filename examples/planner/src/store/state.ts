@@ -1,0 +1,116 @@
+// The state of the page as signals: valve, preview, choice, form, running request.
+import { computed, signal } from '@preact/signals';
+import type {
+  Cost,
+  FieldValue,
+  Figures,
+  Finding,
+  FoundingResult,
+  Motion,
+  OperationInfo,
+  Picture,
+  Shown,
+  Spread,
+  Surface,
+  Topology,
+} from '../protocol';
+import type { MapName } from '../view/colours';
+
+export interface Draft {
+  kind: string;
+  fields: Record<string, FieldValue>;
+}
+
+export interface Choice {
+  kind: 'chord' | 'head' | 'scallop' | 'orifice';
+  id: string;
+}
+
+export type Panel = 'valve' | 'repair' | 'plan' | 'tour' | 'import';
+export type Tool = 'look' | 'grasp' | 'push';
+
+export const ready = signal(false);
+export const broken = signal('');
+export const version = signal('');
+export const operations = signal<OperationInfo[]>([]);
+
+/** The valve of the plan, the preview of an operation, and the moving picture that hides both. */
+export const main = signal<Shown | null>(null);
+export const preview = signal<Shown | null>(null);
+export const motion = signal<Motion | null>(null);
+/** The first closed valve of the plan, for "before". */
+export const first = signal<Shown | null>(null);
+export const reference = signal<Shown | null>(null);
+
+export const draft = signal<Draft | null>(null);
+export const draftMessage = signal('');
+/** True from a change of the form until its preview or its refusal. */
+export const pending = signal(false);
+export const choice = signal<Choice | null>(null);
+/** The field of the draft that the next click in the picture fills. */
+export const picking = signal<string | null>(null);
+
+/** The first visit begins with the tour. */
+export const panel = signal<Panel>('tour');
+export const tool = signal<Tool>('look');
+export const map = signal<MapName>('tissue');
+export const openness = signal(1);
+export const sectionOn = signal(false);
+export const sectionAt = signal(0);
+export const labelsOn = signal(true);
+export const chordsOn = signal(true);
+export const compareWith = signal<string | null>(null);
+export const compared = signal<Shown | null>(null);
+
+export const busy = signal<{ text: string; share: number; cancel?: () => void } | null>(null);
+export const notice = signal<{ text: string; kind: 'info' | 'error' } | null>(null);
+/** The sentence of the polite status line. */
+export const status = signal('');
+
+export const checkpoints = signal<string[]>([]);
+export const title = signal('');
+export const notes = signal('');
+export const changed = signal(false);
+export const cost = signal<{ hash: string; value: Cost } | null>(null);
+export const spread = signal<{ hash: string; value: Spread } | null>(null);
+export const tour = signal<{ number: number; founding: FoundingResult | null; startArea: number } | null>(
+  null,
+);
+/** A surface that a valve is to be built from, the clicked points, and the findings. */
+export interface Imported {
+  name: string;
+  bytes: Uint8Array;
+  unit: string;
+  surface: Surface;
+  points: { annulus: number[][]; commissures: number[][]; anterior: number[][] };
+  findings: Finding[];
+}
+export const imported = signal<Imported | null>(null);
+/** Which points the next clicks on the surface set. */
+export const importing = signal<keyof Imported['points']>('commissures');
+export const dialog = signal<'keys' | 'report' | 'about' | 'recover' | 'notes' | null>(null);
+
+const topologies = new Map<string, Topology>();
+
+/** Keeps the connectivity that comes with a picture. */
+export function receive(picture: Picture): void {
+  if (picture.connectivity) topologies.set(picture.topology, picture.connectivity);
+}
+
+export function topologyOf(picture: Picture): Topology | undefined {
+  return topologies.get(picture.topology);
+}
+
+/** The figures beside the picture: those of the preview if there is one. */
+export const figures = computed<Figures | null>(() => (preview.value ?? main.value)?.figures ?? null);
+/** The figures before the preview, or before the whole plan. */
+export const before = computed<Figures | null>(() => {
+  if (preview.value) return main.value?.figures ?? null;
+  const begin = first.value?.figures;
+  return begin && begin.hash !== main.value?.figures.hash ? begin : null;
+});
+export const picture = computed<Picture | null>(
+  () => motion.value?.picture ?? (preview.value ?? main.value)?.picture ?? null,
+);
+export const canUndo = computed(() => main.value?.figures.history.some((entry) => !entry.undone) ?? false);
+export const canRedo = computed(() => main.value?.figures.history.some((entry) => entry.undone) ?? false);

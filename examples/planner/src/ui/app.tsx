@@ -1,0 +1,208 @@
+// The page: bar, picture, panels, dialogs, keys.
+import { useEffect, useRef } from 'preact/hooks';
+import { apply, discard, openFile, openTo, redo, undo } from '../store/actions';
+import { saveSession } from '../store/keep';
+import * as state from '../store/state';
+import { help } from '../text/texts';
+import type { MapName } from '../view/colours';
+import { maps } from '../view/colours';
+import type { Preset } from '../view/camera';
+import { Viewport } from '../view/viewport';
+import { Dialogs, Notice, Recovery } from './dialogs';
+import { Button } from './parts';
+import { ImportPanel } from './import';
+import { PlanPanel } from './plan';
+import { RepairPanel } from './repair';
+import { chooseFile, Scale, TopBar, ViewBar } from './toolbar';
+import { TourPanel } from './tour';
+import { ValvePanel, Verdict } from './valve';
+
+let viewport: Viewport | null = null;
+export const view = (): Viewport | null => viewport;
+const go = (preset: Preset): void => viewport?.go(preset);
+
+const panels: [state.Panel, string, string][] = [
+  ['valve', 'Valve', 'V'],
+  ['repair', 'Repair', 'R'],
+  ['plan', 'Plan', 'P'],
+  ['tour', 'Learn', 'L'],
+];
+
+function Panels() {
+  const panel = state.panel.value;
+  const steps = (by: number) => {
+    const k = panels.findIndex(([name]) => name === panel);
+    state.panel.value = panels[(k + by + panels.length) % panels.length][0];
+    requestAnimationFrame(() => document.getElementById(`tab-${state.panel.value}`)?.focus());
+  };
+  return (
+    <aside class="side">
+      <Verdict />
+      {state.draft.value && panel !== 'repair' && (
+        <div class="pending" role="status">
+          <span>A preview, not applied yet</span>
+          <Button kind="main" disabled={!state.preview.value} onClick={() => void apply()}>
+            Apply
+          </Button>
+          <Button onClick={discard}>Discard</Button>
+        </div>
+      )}
+      <div
+        class="tabs"
+        role="tablist"
+        aria-label="Panels"
+        onKeyDown={(event) => {
+          if (event.key === 'ArrowRight') steps(1);
+          else if (event.key === 'ArrowLeft') steps(-1);
+        }}
+      >
+        {panels.map(([name, text, key]) => (
+          <button
+            type="button"
+            role="tab"
+            id={`tab-${name}`}
+            aria-selected={panel === name}
+            aria-controls="panel"
+            tabIndex={panel === name ? 0 : -1}
+            title={`(${key})`}
+            onClick={() => (state.panel.value = name)}
+          >
+            {text}
+          </button>
+        ))}
+      </div>
+      <div class="panel" id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}>
+        {panel === 'valve' && <ValvePanel />}
+        {panel === 'repair' && <RepairPanel />}
+        {panel === 'plan' && <PlanPanel />}
+        {panel === 'tour' && <TourPanel />}
+        {panel === 'import' && <ImportPanel />}
+      </div>
+    </aside>
+  );
+}
+
+function Busy() {
+  const busy = state.busy.value;
+  if (!busy) return null;
+  return (
+    <div class="busy" data-testid="busy">
+      <span>{busy.text}</span>
+      <progress max="1" value={busy.share || undefined} />
+      {busy.cancel && (
+        <button type="button" class="link" onClick={busy.cancel}>
+          Cancel
+        </button>
+      )}
+    </div>
+  );
+}
+
+function Picture() {
+  const host = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const wanted = /#(webgl|software)/.exec(location.hash)?.[1] ?? '';
+    viewport = new Viewport(host.current!, wanted as 'webgl' | 'software' | '');
+    Object.assign(window, { planner: { state, viewport } });
+  }, []);
+  return (
+    <main class="picture">
+      <div
+        class="canvas"
+        ref={host}
+        onDragOver={(event) => event.preventDefault()}
+        onDrop={(event) => {
+          event.preventDefault();
+          const file = event.dataTransfer?.files[0];
+          if (file) void openFile(file);
+        }}
+      />
+      <p id="picture-help" class="hidden">
+        {help.picture}
+      </p>
+      <Scale />
+      <Busy />
+      <ViewBar go={go} />
+    </main>
+  );
+}
+
+const mapNames: MapName[] = ['tissue', ...(Object.keys(maps) as MapName[])];
+
+/** Keys of the page; not while text is typed. */
+function onKey(event: KeyboardEvent): void {
+  const target = event.target as HTMLElement;
+  const typing =
+    /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) &&
+    (target as HTMLInputElement).type !== 'range' &&
+    (target as HTMLInputElement).type !== 'checkbox';
+  if (state.dialog.value) return;
+  const control = event.ctrlKey || event.metaKey;
+  const key = event.key.toLowerCase();
+  if (control && !typing) {
+    if (key === 'z' && !event.shiftKey) void undo();
+    else if (key === 'y' || (key === 'z' && event.shiftKey)) void redo();
+    else if (key === 's') void saveSession();
+    else if (key === 'o') chooseFile();
+    else return;
+    event.preventDefault();
+    return;
+  }
+  if (event.key === 'Escape' && state.draft.value) return discard();
+  if (typing || control || event.altKey) return;
+  if (
+    event.key === 'Enter' &&
+    state.draft.value &&
+    target.tagName !== 'BUTTON' &&
+    target.tagName !== 'SUMMARY'
+  )
+    return void apply();
+  const views: Record<string, Preset> = { 1: 'surgeon', 2: 'ventricle', 3: 'commissure', 4: 'section' };
+  if (views[key]) {
+    if (key === '4') state.sectionOn.value = true;
+    return go(views[key]);
+  }
+  const panel = panels.find(([, , letter]) => letter.toLowerCase() === key);
+  if (panel) state.panel.value = panel[0];
+  else if (key === 'o' && state.main.value && !state.draft.value)
+    void openTo(state.openness.value >= 1 ? 0 : 1);
+  else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
+  else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
+  else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;
+  else if (key === 'm') state.map.value = mapNames[(mapNames.indexOf(state.map.value) + 1) % mapNames.length];
+  else if ((key === 'g' || key === 'b') && !state.draft.value) {
+    const tool = key === 'g' ? 'grasp' : 'push';
+    state.tool.value = state.tool.value === tool ? 'look' : tool;
+  } else if (key === '?') state.dialog.value = 'keys';
+}
+
+export function App() {
+  useEffect(() => {
+    window.addEventListener('keydown', onKey);
+    return () => window.removeEventListener('keydown', onKey);
+  }, []);
+  if (state.broken.value) {
+    return (
+      <div class="broken" role="alert">
+        <h1>The page stopped</h1>
+        <p>{state.broken.value}</p>
+        <button type="button" class="button main" onClick={() => location.reload()}>
+          Load it again
+        </button>
+      </div>
+    );
+  }
+  return (
+    <div class="app">
+      <TopBar />
+      <Picture />
+      <Panels />
+      <div class="hidden" role="status" aria-live="polite" data-testid="status">
+        {state.status.value}
+      </div>
+      <Notice />
+      <Recovery />
+      <Dialogs />
+    </div>
+  );
+}

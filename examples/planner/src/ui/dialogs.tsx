@@ -1,0 +1,105 @@
+// Dialogs: the list of keys, the report; a notice at the foot of the page; the offer to recover a session.
+import { useEffect, useRef } from 'preact/hooks';
+import type { ComponentChildren } from 'preact';
+import { fail } from '../store/actions';
+import { forgetCopy, recover, recoverable } from '../store/keep';
+import * as state from '../store/state';
+import { help, t } from '../text/texts';
+import { Button } from './parts';
+import { ReportDialog } from './report';
+
+export function Modal(props: { title: string; wide?: boolean; children: ComponentChildren }) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => dialog.current?.showModal(), []);
+  const close = () => (state.dialog.value = null);
+  return (
+    <dialog
+      ref={dialog}
+      class={props.wide ? 'wide' : ''}
+      aria-label={props.title}
+      onClose={close}
+      onCancel={close}
+    >
+      <div class="form-head">
+        <h2>{props.title}</h2>
+        <Button kind="quiet" onClick={close}>
+          Close
+        </Button>
+      </div>
+      {props.children}
+    </dialog>
+  );
+}
+
+export function Dialogs() {
+  if (state.dialog.value === 'keys') {
+    return (
+      <Modal title="Keys and help">
+        <table class="table">
+          <tbody>
+            {help.keys.map(([key, text]) => (
+              <tr>
+                <th scope="row">
+                  <kbd>{key}</kbd>
+                </th>
+                <td>{text}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+        <p>
+          Left button or one finger turns; right button or two fingers move; wheel or pinch zooms. Click
+          chooses.
+        </p>
+        <details class="section">
+          <summary>Licences</summary>
+          <pre class="licences">{document.getElementById('licences')?.textContent}</pre>
+        </details>
+        <p class="hint">
+          {t.research} libmvs {state.version.value}. The page calculates in your browser and cannot connect to
+          anything.
+        </p>
+      </Modal>
+    );
+  }
+  if (state.dialog.value === 'report') return <ReportDialog />;
+  return null;
+}
+
+export function Notice() {
+  const notice = state.notice.value;
+  useEffect(() => {
+    if (notice?.kind !== 'info') return;
+    const timer = setTimeout(() => (state.notice.value = null), 8000);
+    return () => clearTimeout(timer);
+  }, [notice]);
+  if (!notice) return null;
+  return (
+    <div
+      class={`notice ${notice.kind}`}
+      role={notice.kind === 'error' ? 'alert' : 'status'}
+      data-testid="notice"
+    >
+      <span>{notice.text}</span>
+      <Button kind="quiet" onClick={() => (state.notice.value = null)}>
+        Close
+      </Button>
+    </div>
+  );
+}
+
+export function Recovery() {
+  const kept = recoverable.value;
+  if (!kept || !state.ready.value) return null;
+  return (
+    <div class="notice info" role="status" data-testid="recovery">
+      <span>
+        A session was left here: {kept.title || 'without a name'}, {new Date(kept.saved).toLocaleString()}.
+      </span>
+      <Button kind="main" onClick={() => void recover().catch(fail)}>
+        Recover it
+      </Button>
+      <Button onClick={() => void forgetCopy().catch(fail)}>Delete it</Button>
+    </div>
+  );
+}

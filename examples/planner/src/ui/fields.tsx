@@ -1,0 +1,281 @@
+// Fields of operations: a number with a slider, a part of the valve, a place on a leaflet, a choice, a direction, a text.
+import { Crosshair } from 'lucide-preact';
+import { setField } from '../store/actions';
+import * as state from '../store/state';
+import { figure } from '../text/texts';
+import type { FieldInfo, FieldValue, Site } from '../protocol';
+import { Button } from './parts';
+
+/** Ranges and steps of sliders: usual values, where the library accepts more. */
+const sliders: Record<string, Record<string, [number, number, number]>> = {
+  ring: { size: [24, 40, 2] },
+  band: { factor: [0.6, 1, 0.01] },
+  annulus_scale: { factor: [0.7, 1.2, 0.01], ap: [0.7, 1.2, 0.01], cc: [0.7, 1.2, 0.01] },
+  neochord: { length: [5, 40, 0.5] },
+  chord_add: { length: [5, 40, 0.5] },
+  chord_length: { length: [3, 45, 0.1] },
+  clip: { position: [-1, 1, 0.05], width: [2, 12, 0.5] },
+  resect: { position: [-1, 1, 0.05], width: [2, 20, 0.5], depth: [2, 15, 0.5] },
+  patch: { width: [4, 25, 0.5], height: [3, 18, 0.5] },
+};
+
+/** Names that hold shares, shown in per cent. */
+const shares = new Set(['factor', 'ap', 'cc', 'ap_ratio', 'area_factor']);
+
+interface FieldProps {
+  kind: string;
+  field: FieldInfo;
+  label?: string;
+}
+
+export function Field(props: FieldProps) {
+  const { field } = props;
+  if (field.type === 'number' || field.type === 'count') return <NumberField {...props} />;
+  if (field.type === 'chord' || field.type === 'head' || field.type === 'scallop')
+    return <PartField {...props} />;
+  if (field.type === 'site') return <SiteField {...props} />;
+  if (field.type === 'choice') return <ChoiceField {...props} />;
+  if (field.type === 'vector') return <VectorField {...props} />;
+  return <TextField {...props} />;
+}
+
+function labelOf({ field, label }: FieldProps): string {
+  return label ?? (field.label || field.name);
+}
+
+/** Present length of the chord in the form, for "18.2 mm, was 20.4". */
+function restOfChord(): number | null {
+  const id = state.draft.value?.fields.chord;
+  return state.main.value?.figures.chords.find((chord) => chord.id === id)?.rest ?? null;
+}
+
+function NumberField(props: FieldProps) {
+  const { kind, field } = props;
+  const value = state.draft.value?.fields[field.name] as number | undefined;
+  const percent = shares.has(field.name) && field.unit === '';
+  const scale = percent ? 100 : 1;
+  const unit = percent ? '%' : field.unit;
+  const range = sliders[kind]?.[field.name];
+  const rest = kind === 'chord_length' && field.name === 'length' ? restOfChord() : null;
+  const fallback = Number.isFinite(field.fallbackValue) && field.fallback ? field.fallbackValue : undefined;
+  const set = (text: string) => {
+    const number = parseFloat(text.replace(',', '.'));
+    setField(field.name, Number.isFinite(number) ? number / scale : undefined);
+  };
+  const shown = value ?? (range ? fallback : undefined);
+  const low = rest ? +(0.4 * rest).toFixed(1) : range?.[0];
+  const high = rest ? +(1.6 * rest).toFixed(1) : range?.[1];
+  return (
+    <div class="field" title={field.help}>
+      <label for={`f-${field.name}`}>{labelOf(props)}</label>
+      <div class="number">
+        {range && (
+          <input
+            type="range"
+            aria-label={labelOf(props)}
+            min={low! * scale}
+            max={high! * scale}
+            step={range[2] * scale}
+            value={(shown ?? (low! + high!) / 2) * scale}
+            onInput={(event) => set(event.currentTarget.value)}
+          />
+        )}
+        <input
+          id={`f-${field.name}`}
+          type="number"
+          inputMode="decimal"
+          step="any"
+          value={value === undefined ? '' : +(value * scale).toPrecision(6)}
+          placeholder={
+            fallback !== undefined ? String(+(fallback * scale).toPrecision(4)) : field.fallback ? 'auto' : ''
+          }
+          onChange={(event) => set(event.currentTarget.value)}
+        />
+        <span class="unit">{unit}</span>
+      </div>
+      {rest !== null && value !== undefined && (
+        <small>
+          was {figure(rest)} mm, {value < rest ? 'shorter' : 'longer'} by {figure(Math.abs(value - rest))} mm
+        </small>
+      )}
+      {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && (
+        <small>left empty: {field.fallback}</small>
+      )}
+    </div>
+  );
+}
+
+function PickButton({ field }: { field: FieldInfo }) {
+  const on = state.picking.value === field.name;
+  return (
+    <Button
+      kind="quiet"
+      pressed={on}
+      icon={<Crosshair size={16} />}
+      label={`Pick in the picture: ${field.label || field.name}`}
+      onClick={() => {
+        state.preview.value = null;
+        state.picking.value = on ? null : field.name;
+      }}
+    />
+  );
+}
+
+function PartField(props: FieldProps) {
+  const { field } = props;
+  const topology = state.main.value && state.topologyOf(state.main.value.picture);
+  const parts =
+    field.type === 'chord' ? topology?.chords : field.type === 'head' ? topology?.heads : topology?.scallops;
+  const value = state.draft.value?.fields[field.name] as string | undefined;
+  return (
+    <div class="field" title={field.help}>
+      <label for={`f-${field.name}`}>{labelOf(props)}</label>
+      <div class="number">
+        <select
+          id={`f-${field.name}`}
+          value={value ?? ''}
+          onChange={(event) => setField(field.name, event.currentTarget.value || undefined)}
+        >
+          <option value="">{field.required ? 'choose…' : field.fallback || 'none'}</option>
+          {parts?.map((part) => (
+            <option value={part.id}>{part.name}</option>
+          ))}
+        </select>
+        <PickButton field={field} />
+      </div>
+    </div>
+  );
+}
+
+/** A place on a leaflet: by a click, or by scallop and two shares for the keyboard. */
+function SiteField(props: FieldProps) {
+  const { field } = props;
+  const topology = state.main.value && state.topologyOf(state.main.value.picture);
+  const value = state.draft.value?.fields[field.name] as Site | undefined;
+  const scallopOf = () => {
+    if (!value || !topology) return '';
+    return 'triangle' in value
+      ? topology.scallops[topology.triangleScallop[value.triangle]].id
+      : value.scallop;
+  };
+  const place = value && !('triangle' in value) ? value : { scallop: scallopOf(), along: 0.5, height: 0.9 };
+  const set = (change: Partial<{ scallop: string; along: number; height: number }>) => {
+    const next = { ...place, ...change };
+    setField(field.name, next.scallop ? next : undefined);
+  };
+  const name = topology?.scallops.find((part) => part.id === scallopOf())?.name;
+  return (
+    <div class="field" title={field.help}>
+      <label for={`f-${field.name}`}>{labelOf(props)}</label>
+      <div class="number">
+        <select
+          id={`f-${field.name}`}
+          value={scallopOf()}
+          onChange={(event) => set({ scallop: event.currentTarget.value })}
+        >
+          <option value="">choose…</option>
+          {topology?.scallops.map((part) => (
+            <option value={part.id}>{part.name}</option>
+          ))}
+        </select>
+        <PickButton field={field} />
+      </div>
+      {value && 'triangle' in value && <small>picked on {name}</small>}
+      {value && !('triangle' in value) && (
+        <>
+          <label class="slider">
+            <span>Along the scallop</span>
+            <input
+              type="range"
+              min="0"
+              max="1"
+              step="0.05"
+              value={value.along}
+              onInput={(event) => set({ along: +event.currentTarget.value })}
+            />
+          </label>
+          <label class="slider">
+            <span>From annulus to free edge</span>
+            <input
+              type="range"
+              min="0.1"
+              max="1"
+              step="0.05"
+              value={value.height}
+              onInput={(event) => set({ height: +event.currentTarget.value })}
+            />
+          </label>
+        </>
+      )}
+    </div>
+  );
+}
+
+function ChoiceField(props: FieldProps) {
+  const { field } = props;
+  const value = state.draft.value?.fields[field.name] as number | undefined;
+  return (
+    <div class="field" title={field.help}>
+      <label for={`f-${field.name}`}>{labelOf(props)}</label>
+      <select
+        id={`f-${field.name}`}
+        value={value === undefined ? '' : String(value)}
+        onChange={(event) =>
+          setField(field.name, event.currentTarget.value === '' ? undefined : +event.currentTarget.value)
+        }
+      >
+        <option value="">{field.fallback || 'default'}</option>
+        {field.choices.map((choice) => (
+          <option value={choice.value}>{choice.name.replace(/_/g, ' ')}</option>
+        ))}
+      </select>
+    </div>
+  );
+}
+
+const axes = ['Towards the front', 'To the side', 'Towards the atrium'];
+
+function VectorField(props: FieldProps) {
+  const { field } = props;
+  const value = (state.draft.value?.fields[field.name] as [number, number, number] | undefined) ?? [0, 0, 0];
+  return (
+    <fieldset class="field" title={field.help}>
+      <legend>{labelOf(props)}</legend>
+      {axes.map((axis, c) => (
+        <label class="slider">
+          <span>
+            {axis}: {figure(value[c])} mm
+          </span>
+          <input
+            type="range"
+            min="-10"
+            max="10"
+            step="0.5"
+            value={value[c]}
+            onInput={(event) => {
+              const next = [...value] as [number, number, number];
+              next[c] = +event.currentTarget.value;
+              setField(field.name, next as FieldValue);
+            }}
+          />
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+function TextField(props: FieldProps) {
+  const { field } = props;
+  return (
+    <div class="field" title={field.help}>
+      <label for={`f-${field.name}`}>{labelOf(props)}</label>
+      <input
+        id={`f-${field.name}`}
+        type="text"
+        maxLength={60}
+        placeholder={field.fallback}
+        onChange={(event) => setField(field.name, event.currentTarget.value || undefined)}
+      />
+    </div>
+  );
+}

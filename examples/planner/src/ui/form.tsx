@@ -1,0 +1,98 @@
+// The form of an operation, generated from the library's table: numbers as sliders with a box, parts as lists
+// that a click in the picture fills too, fields that few need behind "More".
+import { Check, Crosshair, X } from 'lucide-preact';
+import { apply, complete, discard } from '../store/actions';
+import * as state from '../store/state';
+import { t, wordsOf } from '../text/texts';
+import type { FieldInfo } from '../protocol';
+import { Field } from './fields';
+import { Button, Section } from './parts';
+
+/** Fields that are asked for although the library does not require them. */
+const prominent: Record<string, string[]> = {
+  ring: ['size'],
+  band: ['factor'],
+  annulus_scale: ['factor', 'ap', 'cc'],
+  neochord: ['site', 'head', 'length'],
+  chord_add: ['site', 'head', 'length'],
+  chord_length: ['chord', 'length'],
+  chord_remove: ['chord'],
+  chord_transfer: ['chord', 'end', 'site', 'head'],
+  head_move: ['head', 'by'],
+  clip: ['position', 'width', 'anterior', 'posterior'],
+  resect: ['scallop', 'position', 'width', 'depth'],
+  patch: ['site', 'width', 'height'],
+};
+
+export function OperationForm() {
+  const draft = state.draft.value!;
+  const info = state.operations.value.find((operation) => operation.name === draft.kind)!;
+  const words = wordsOf(draft.kind, info.help);
+  const first =
+    prominent[draft.kind] ?? info.fields.filter((field) => field.required).map((field) => field.name);
+  // outlines and measured curves come from other programs, not from a form
+  const usable = info.fields.filter((field) => field.type !== 'points' && field.type !== 'point');
+  const shown = first
+    .map((name) => usable.find((field) => field.name === name))
+    .filter((f): f is FieldInfo => !!f);
+  const more = usable.filter((field) => !first.includes(field.name));
+  const picking = state.picking.value;
+  const ready = complete(draft.kind, draft.fields);
+  return (
+    <form
+      class="panel-body form"
+      data-testid="form"
+      onSubmit={(event) => (event.preventDefault(), void apply())}
+    >
+      <div class="form-head">
+        <h2>{words.title}</h2>
+        <Button
+          kind="quiet"
+          icon={<X size={18} />}
+          label="Leave without a change"
+          keys="Escape"
+          onClick={discard}
+        />
+      </div>
+      <p class="hint">{words.short}</p>
+      {picking && (
+        <p class="ask" role="status">
+          <Crosshair size={16} aria-hidden="true" />{' '}
+          {question(info.fields.find((field) => field.name === picking)!)}
+        </p>
+      )}
+      {shown.map((field) => (
+        <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
+      ))}
+      {more.length > 0 && (
+        <Section title="More">
+          {more.map((field) => (
+            <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
+          ))}
+        </Section>
+      )}
+      {state.draftMessage.value && (
+        <p class="message" role="alert">
+          {state.draftMessage.value}
+        </p>
+      )}
+      <div class="form-foot">
+        <button type="submit" class="button main" disabled={!state.preview.value || !ready} title="(Enter)">
+          <Check size={16} />
+          <span>Apply</span>
+        </button>
+        <Button onClick={discard}>Discard</Button>
+        {ready && !state.preview.value && !state.draftMessage.value && (
+          <span class="hint">{t.previewing}</span>
+        )}
+      </div>
+    </form>
+  );
+}
+
+function question(field: FieldInfo): string {
+  if (field.type === 'site') return 'Click the place on the leaflet.';
+  if (field.type === 'head') return 'Click a papillary head, or choose it below.';
+  if (field.type === 'chord') return 'Click a chord, or choose it below.';
+  return 'Click a scallop, or choose it below.';
+}

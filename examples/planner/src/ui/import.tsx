@@ -1,0 +1,89 @@
+// Bringing in a patient's surface: unit, points that the surgeon knows, building, and the findings.
+import { Hammer } from 'lucide-preact';
+import { beginImport, buildValve } from '../store/actions';
+import * as state from '../store/state';
+import { importTexts } from '../text/texts';
+import { Button } from './parts';
+
+const kinds = ['commissures', 'anterior', 'annulus'] as const;
+
+export function ImportPanel() {
+  const imported = state.imported.value;
+  if (!imported) return <p class="hint">{importTexts.none}</p>;
+  if (imported.findings.length) return <Findings />;
+  const clear = (kind: (typeof kinds)[number]) =>
+    (state.imported.value = { ...imported, points: { ...imported.points, [kind]: [] } });
+  return (
+    <div class="panel-body">
+      <h2>{imported.name}</h2>
+      <p>{importTexts.intro}</p>
+      <div class="field">
+        <label for="unit">{importTexts.unit}</label>
+        <select
+          id="unit"
+          value={imported.unit}
+          onChange={(event) => void beginImport(imported.name, imported.bytes, event.currentTarget.value)}
+        >
+          <option value="mm">mm</option>
+          <option value="cm">cm</option>
+          <option value="m">m</option>
+        </select>
+        <small>{importTexts.size(extent(imported.surface.points))}</small>
+      </div>
+      {kinds.map((kind) => (
+        <div class="row">
+          <Button pressed={state.importing.value === kind} onClick={() => (state.importing.value = kind)}>
+            {importTexts.points[kind]}
+          </Button>
+          <span class="hint">
+            {imported.points[kind].length ? `${imported.points[kind].length} set` : 'will be guessed'}
+          </span>
+          {imported.points[kind].length > 0 && (
+            <Button kind="quiet" onClick={() => clear(kind)}>
+              Clear
+            </Button>
+          )}
+        </div>
+      ))}
+      <p class="hint">{importTexts.tips}</p>
+      <div class="form-foot">
+        <button type="button" class="button main" onClick={() => void buildValve()}>
+          <Hammer size={16} />
+          <span>Build the valve</span>
+        </button>
+        <Button onClick={() => ((state.imported.value = null), (state.panel.value = 'valve'))}>Leave</Button>
+      </div>
+    </div>
+  );
+}
+
+/** Largest side of the box around points, mm. */
+function extent(points: Float32Array): number {
+  let largest = 0;
+  for (let c = 0; c < 3; ++c) {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = c; i < points.length; i += 3)
+      [low, high] = [Math.min(low, points[i]), Math.max(high, points[i])];
+    largest = Math.max(largest, high - low);
+  }
+  return largest;
+}
+
+function Findings() {
+  const { findings, name } = state.imported.value!;
+  return (
+    <div class="panel-body">
+      <h2>{importTexts.found}</h2>
+      <p class="hint">{name}</p>
+      <ul class="findings" data-testid="findings">
+        {findings.map((finding) => (
+          <li class={`source-${finding.source}`}>
+            <strong>{finding.name.replace(/_/g, ' ')}</strong>{' '}
+            <span class="tag">{importTexts.sources[finding.source]}</span>
+            <p>{finding.sentence}</p>
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}

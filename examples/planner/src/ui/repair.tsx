@@ -1,0 +1,227 @@
+// The panel "Repair": operations, the form of the operation that is being planned, and the chord or head
+// that is chosen. Forms come from the library's table of operations.
+import {
+  ArrowUpDown,
+  Circle,
+  CircleDashed,
+  Grip,
+  Maximize2,
+  Minus,
+  Move,
+  Paperclip,
+  Scissors,
+  Shapes as ShapesIcon,
+  Spline,
+  Square,
+  Triangle,
+} from 'lucide-preact';
+import { edit } from '../store/actions';
+import * as state from '../store/state';
+import { figure, kinds, wordsOf } from '../text/texts';
+import type { FieldValue } from '../protocol';
+import { OperationForm } from './form';
+import { Button, Section } from './parts';
+
+const icons: Record<string, typeof Circle> = {
+  ring: Circle,
+  band: CircleDashed,
+  annulus_scale: Maximize2,
+  neochord: Spline,
+  chord_add: Minus,
+  chord_length: ArrowUpDown,
+  chord_remove: Scissors,
+  chord_transfer: Move,
+  head_move: Grip,
+  clip: Paperclip,
+  resect: Triangle,
+  patch: Square,
+};
+/** The order in which a surgeon looks for them; unknown operations follow. */
+const order = [
+  'ring',
+  'band',
+  'annulus_scale',
+  'neochord',
+  'chord_length',
+  'chord_remove',
+  'chord_transfer',
+  'clip',
+  'resect',
+  'patch',
+  'head_move',
+  'chord_add',
+];
+const often = 8;
+
+/** The first values of a form: those with which a preview says something. */
+export function firstFields(kind: string): Record<string, FieldValue> {
+  const figures = state.main.value?.figures;
+  const choice = state.choice.value;
+  const chord = choice?.kind === 'chord' ? figures?.chords.find((item) => item.id === choice.id) : undefined;
+  if (kind === 'ring')
+    return { size: Math.min(40, Math.max(24, 2 * Math.round((figures?.measures.annulusCc ?? 34) / 2))) };
+  if (kind === 'band') return { factor: 0.9 };
+  if (kind === 'annulus_scale') return { factor: 0.95 };
+  if (kind === 'chord_length')
+    return chord ? { chord: chord.id, length: +(0.9 * chord.rest).toFixed(1) } : {};
+  if (kind === 'chord_remove' || kind === 'chord_transfer') return chord ? { chord: chord.id } : {};
+  if (kind === 'head_move')
+    return choice?.kind === 'head'
+      ? { head: choice.id, by: [0, 0, 0], frame: 1 }
+      : { by: [0, 0, 0], frame: 1 };
+  return {};
+}
+
+/** The field that the first click in the picture fills. */
+export function firstPick(kind: string, fields: Record<string, FieldValue>): string | null {
+  const info = state.operations.value.find((operation) => operation.name === kind);
+  const asks =
+    info?.fields.filter(
+      (field) => ['chord', 'site', 'head'].includes(field.type) && fields[field.name] === undefined,
+    ) ?? [];
+  const site = asks.find((field) => field.type === 'site' && field.required);
+  return (site ?? asks.find((field) => field.required))?.name ?? (kind === 'chord_transfer' ? 'site' : null);
+}
+
+export function begin(kind: string): void {
+  const fields = firstFields(kind);
+  edit(kind, fields);
+  state.picking.value = firstPick(kind, fields);
+}
+
+export function RepairPanel() {
+  const draft = state.draft.value;
+  const known = state.operations.value;
+  if (!state.main.value) return <p class="hint">The valve is being closed…</p>;
+  if (draft) return <OperationForm key={draft.kind} />;
+  const sorted = [...known].sort((a, b) => rank(a.name) - rank(b.name));
+  const cards = (from: number, to: number) =>
+    sorted.slice(from, to).map((operation) => {
+      const Icon = icons[operation.name] ?? ShapesIcon;
+      const words = wordsOf(operation.name, operation.help);
+      return (
+        <button
+          type="button"
+          class="card"
+          onClick={() => begin(operation.name)}
+          data-operation={operation.name}
+        >
+          <Icon size={22} aria-hidden="true" />
+          <span>
+            <strong>{words.title}</strong>
+            <small>{words.short}</small>
+          </span>
+        </button>
+      );
+    });
+  return (
+    <div class="panel-body">
+      <Chosen />
+      <div class="cards">{cards(0, often)}</div>
+      <Section title="More operations">
+        <div class="cards">{cards(often, sorted.length)}</div>
+      </Section>
+    </div>
+  );
+}
+
+function rank(name: string): number {
+  const k = order.indexOf(name);
+  return k < 0 ? order.length : k;
+}
+
+function Chosen() {
+  const choice = state.choice.value;
+  const figures = state.main.value?.figures;
+  if (!choice || !figures)
+    return (
+      <p class="hint">Click a chord, a papillary head or a leaflet in the picture, or choose an operation.</p>
+    );
+  if (choice.kind === 'chord') {
+    const chord = figures.chords.find((item) => item.id === choice.id);
+    if (!chord) return null;
+    const share = Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
+    return (
+      <div class="chosen-card" data-testid="chosen">
+        <h3>Chord {chord.name}</h3>
+        <p>
+          {kinds[chord.kind]}, {chord.heads || 'branch'} to {chord.scallops || 'branch'}
+        </p>
+        <dl>
+          <dt>Length without pull</dt>
+          <dd>{figure(chord.rest)} mm</dd>
+          <dt>Pull</dt>
+          <dd>{figure(chord.tension, 2)} N</dd>
+          <dt>Stretch</dt>
+          <dd>
+            {chord.strain <= 0
+              ? 'slack'
+              : `${figure(100 * chord.strain)} %, ${Math.round(100 * share)} % of its limit`}
+          </dd>
+        </dl>
+        <div class="row">
+          <Button kind="main" icon={<ArrowUpDown size={16} />} onClick={() => begin('chord_length')}>
+            Change length
+          </Button>
+          <Button icon={<Scissors size={16} />} onClick={() => begin('chord_remove')}>
+            Cut
+          </Button>
+          <Button icon={<Move size={16} />} onClick={() => begin('chord_transfer')}>
+            Transfer
+          </Button>
+        </div>
+        <p class="hint">Or drag the blue chord in the picture: towards the muscle shortens it.</p>
+      </div>
+    );
+  }
+  if (choice.kind === 'head') {
+    const topology = state.topologyOf(state.main.value!.picture);
+    const h = topology?.heads.findIndex((part) => part.id === choice.id) ?? -1;
+    if (h < 0) return null;
+    return (
+      <div class="chosen-card" data-testid="chosen">
+        <h3>Papillary head {topology!.heads[h].name}</h3>
+        <dl>
+          <dt>Pull of its chordae</dt>
+          <dd>{figure(figures.heads[h], 2)} N</dd>
+        </dl>
+        <div class="row">
+          <Button
+            icon={<Spline size={16} />}
+            onClick={() => (edit('neochord', { head: choice.id }), (state.picking.value = 'site'))}
+          >
+            Artificial chord from here
+          </Button>
+          <Button icon={<Grip size={16} />} onClick={() => begin('head_move')}>
+            Move
+          </Button>
+        </div>
+      </div>
+    );
+  }
+  const topology = state.topologyOf(state.main.value!.picture);
+  const part = topology?.scallops.find((item) => item.id === choice.id);
+  const region = figures.regions.find((item) => item.name === part?.name);
+  if (!part || !region) return null;
+  return (
+    <div class="chosen-card" data-testid="chosen">
+      <h3>Scallop {part.name}</h3>
+      <dl>
+        <dt>Coaptation</dt>
+        <dd>{figure(region.coaptationMean)} mm</dd>
+        <dt>Leak</dt>
+        <dd>{region.orifice > 0 ? `${figure(region.orifice)} mm²` : 'none'}</dd>
+        <dt>Prolapse</dt>
+        <dd>{region.billow > 0 ? `${figure(region.billow)} mm` : 'none'}</dd>
+      </dl>
+      <div class="row">
+        <Button icon={<Spline size={16} />} onClick={() => begin('neochord')}>
+          Artificial chord
+        </Button>
+        <Button icon={<Triangle size={16} />} onClick={() => edit('resect', { scallop: choice.id })}>
+          Resect
+        </Button>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,122 @@
+// The report: pictures and figures before and after, and the plan. One HTML file without a script, or print.
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { Download, Printer } from 'lucide-preact';
+import { download } from '../store/keep';
+import * as state from '../store/state';
+import { figure, grade, say, where } from '../text/texts';
+import type { Figures, Shown } from '../protocol';
+import { view } from './app';
+import { Modal } from './dialogs';
+import { Button } from './parts';
+
+interface Pictures {
+  before: string[];
+  after: string[];
+}
+
+/** Surgeon's view and ventricle of both valves; the page shows the present valve again afterwards. */
+function takePictures(): Pictures {
+  const viewport = view()!;
+  const { camera } = viewport;
+  const kept = {
+    target: camera.target.clone(),
+    orientation: camera.orientation.clone(),
+    distance: camera.distance,
+  };
+  const now = state.main.value!;
+  const section = state.sectionOn.value;
+  state.sectionOn.value = false;
+  const take = (shown: Shown) => {
+    state.main.value = shown;
+    return (['surgeon', 'ventricle'] as const).map((preset) => {
+      viewport.go(preset, true);
+      viewport.touchScene();
+      return viewport.snapshot();
+    });
+  };
+  const pictures = { before: take(state.first.value ?? now), after: take(now) };
+  state.main.value = now;
+  state.sectionOn.value = section;
+  camera.target.copy(kept.target);
+  camera.orientation.copy(kept.orientation);
+  camera.distance = kept.distance;
+  viewport.touchScene();
+  return pictures;
+}
+
+const rows: [string, (f: Figures) => number, number, string][] = [
+  ['Leak', (f) => f.measures.orifice, 1, 'mm²'],
+  ['Coaptation length, mean', (f) => f.measures.coaptationMean, 1, 'mm'],
+  ['Coaptation height A2–P2', (f) => f.measures.coaptationHeight, 1, 'mm'],
+  ['Tenting height', (f) => f.measures.tentingHeight, 1, 'mm'],
+  ['Prolapse above annulus', (f) => f.measures.billowHeight, 1, 'mm'],
+  ['Annulus front to back', (f) => f.measures.annulusAp, 1, 'mm'],
+  ['Annulus side to side', (f) => f.measures.annulusCc, 1, 'mm'],
+  ['Chordae beyond their limit', (f) => f.measures.chordsOver, 0, ''],
+  ['Strongest chord pull', (f) => f.measures.maxChordTension, 2, 'N'],
+];
+
+function escape(text: string): string {
+  return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+}
+
+function verdictOf(figures: Figures): string {
+  const place = where(figures);
+  return grade(figures.measures.orifice).word + (place ? ` at ${place}` : '');
+}
+
+/** The report as the body of an HTML page. */
+function reportHtml(pictures: Pictures): string {
+  const now = state.main.value!.figures;
+  const then = (state.first.value ?? state.main.value!).figures;
+  const images = (list: string[]) => list.map((source) => `<img src="${source}" alt="">`).join('');
+  const steps = now.history
+    .filter((entry) => !entry.undone)
+    .map((entry) => `<li>${escape(say(entry.title))}</li>`)
+    .join('');
+  const table = rows
+    .map(
+      ([label, get, digits, unit]) =>
+        `<tr><th>${escape(label)}</th><td>${figure(get(then), digits)} ${unit}</td><td>${figure(get(now), digits)} ${unit}</td></tr>`,
+    )
+    .join('');
+  return `<h1>${escape(state.title.value || now.valve)}</h1><p>${new Date().toLocaleString()}. Closed at 120 mmHg.</p>
+<div class="pair"><section><h2>Before</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
+<section><h2>After</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
+<h2>Plan</h2><ol>${steps || '<li>Nothing was done.</li>'}</ol>
+<h2>Figures</h2><table><tr><th></th><th>Before</th><th>After</th></tr>${table}</table>
+${state.notes.value ? `<h2>Notes</h2><p>${escape(state.notes.value)}</p>` : ''}
+<p><small>libmvs ${escape(state.version.value)}, fingerprint ${now.hash}. Research simulator: not for decisions on treatment.</small></p>`;
+}
+
+const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
+.pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px;margin:.2rem 0}
+table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400}`;
+
+export function ReportDialog() {
+  const html = useSignal('');
+  useEffect(() => {
+    html.value = reportHtml(takePictures());
+  }, []);
+  const save = () =>
+    download(
+      `<!doctype html><html lang="en"><meta charset="utf-8"><title>Valve report</title><style>${style}</style><body>${html.value}</body></html>`,
+      `${state.title.value || 'valve'} report.html`,
+      'text/html',
+    );
+  return (
+    <Modal title="Report" wide>
+      <div class="row no-print">
+        <Button kind="main" icon={<Download size={16} />} onClick={save}>
+          Save as HTML
+        </Button>
+        <Button icon={<Printer size={16} />} onClick={() => window.print()}>
+          Print
+        </Button>
+      </div>
+      {/* the markup is made above; texts of the user are escaped there */}
+      <div class="report" data-testid="report" dangerouslySetInnerHTML={{ __html: html.value }} />
+    </Modal>
+  );
+}

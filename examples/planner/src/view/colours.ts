@@ -1,0 +1,77 @@
+// Colours of tissue and devices, and colour maps that remain ordered for colour-blind people: cividis (Nunez
+// et al. 2018) for amounts, blue to orange through grey for heights above and below a plane.
+import type { Colour } from './mesh';
+
+export const tissue = {
+  atrialAnterior: [0.93, 0.74, 0.66] as Colour,
+  atrialPosterior: [0.89, 0.66, 0.6] as Colour,
+  ventricularAnterior: [0.62, 0.66, 0.8] as Colour,
+  ventricularPosterior: [0.54, 0.6, 0.76] as Colour,
+  chord: [0.95, 0.91, 0.8] as Colour,
+  slack: [0.78, 0.8, 0.82] as Colour,
+  strut: [0.98, 0.95, 0.86] as Colour,
+  over: [0.9, 0.38, 0.0] as Colour,
+  suture: [0.16, 0.45, 0.75] as Colour,
+  chosen: [0.1, 0.62, 0.95] as Colour,
+  head: [0.62, 0.3, 0.25] as Colour,
+  annulus: [0.83, 0.71, 0.5] as Colour,
+  edge: [0.52, 0.3, 0.28] as Colour,
+  seam: [0.72, 0.5, 0.45] as Colour,
+  ring: [0.93, 0.95, 0.97] as Colour,
+  orifice: [0.78, 0.06, 0.12] as Colour,
+  hand: [0.1, 0.45, 0.85] as Colour,
+};
+
+const cividis: Colour[] = [
+  [0.0, 0.135, 0.305],
+  [0.12, 0.22, 0.42],
+  [0.28, 0.31, 0.42],
+  [0.39, 0.4, 0.44],
+  [0.49, 0.49, 0.47],
+  [0.6, 0.58, 0.46],
+  [0.72, 0.68, 0.43],
+  [0.86, 0.79, 0.36],
+  [0.995, 0.91, 0.22],
+];
+const diverging: Colour[] = [
+  [0.03, 0.25, 0.55],
+  [0.2, 0.47, 0.75],
+  [0.53, 0.71, 0.88],
+  [0.91, 0.91, 0.9],
+  [0.95, 0.69, 0.42],
+  [0.85, 0.42, 0.1],
+  [0.55, 0.22, 0.0],
+];
+
+export type MapName = 'tissue' | 'coaptation' | 'height' | 'stretch' | 'load' | 'distance';
+
+export interface ColourMap {
+  colours: Colour[];
+  low: number;
+  high: number;
+  unit: string;
+}
+
+/** Ranges in the unit that is written at the scale. */
+export const maps: Record<Exclude<MapName, 'tissue'>, ColourMap> = {
+  coaptation: { colours: [...cividis].reverse(), low: 0.5, high: 2.5, unit: 'mm' },
+  height: { colours: diverging, low: -9, high: 9, unit: 'mm' },
+  stretch: { colours: cividis, low: 0, high: 40, unit: '%' },
+  load: { colours: cividis, low: 0, high: 100, unit: '%' },
+  distance: { colours: cividis, low: 0, high: 4, unit: 'mm' },
+};
+
+/** Colour of a value; values out of the range take the end's colour, values without number grey. */
+export function colourOf(map: ColourMap, value: number): Colour {
+  if (!Number.isFinite(value)) return [0.72, 0.72, 0.72];
+  const t = Math.min(1, Math.max(0, (value - map.low) / (map.high - map.low))) * (map.colours.length - 1);
+  const k = Math.min(map.colours.length - 2, Math.floor(t));
+  const s = t - k;
+  const [a, b] = [map.colours[k], map.colours[k + 1]];
+  return [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])];
+}
+
+/** A CSS gradient of a map, from low to high. */
+export function gradient(map: ColourMap): string {
+  return `linear-gradient(to right, ${map.colours.map((c) => `rgb(${c.map((v) => Math.round(255 * v)).join(' ')})`).join(', ')})`;
+}

@@ -1,0 +1,228 @@
+// Meshes of a valve: leaflets with both sides told apart, chordae as tubes, papillary heads, annulus, ring,
+// seams of the scallops, the orifice over everything, and the marks of the chosen part.
+import type { Fields, OrificePart, Picture, Topology } from '../protocol';
+import { colourOf, maps, tissue, type MapName } from './colours';
+import { Shapes, vertexNormals, type Colour, type Mesh } from './mesh';
+
+export interface SceneOptions {
+  map: MapName;
+  fields: Fields | null;
+  /** Values of the map `distance`, mm per node, if a reference is given. */
+  distance: Float32Array | null;
+  frame: number[];
+  /** Share of the limit per chord; above 1 it is beyond it. */
+  load: Float32Array | null;
+  chosenChord: number;
+  chosenHead: number;
+  chordsOn: boolean;
+  jets: OrificePart[];
+}
+
+export interface Mark {
+  at: number[];
+  colour: Colour;
+  radius: number;
+}
+
+const suture = 7;
+const strut = 3;
+
+function point(x: Float32Array, node: number): number[] {
+  return [x[3 * node], x[3 * node + 1], x[3 * node + 2]];
+}
+
+/** Value of the colour map at each node. */
+function mapValues(picture: Picture, options: SceneOptions): Float32Array | null {
+  const { map, fields, frame } = options;
+  if (map === 'height') {
+    const x = picture.positions;
+    const values = new Float32Array(x.length / 3);
+    for (let i = 0; i < values.length; ++i) {
+      values[i] =
+        (x[3 * i] - frame[0]) * frame[9] +
+        (x[3 * i + 1] - frame[1]) * frame[10] +
+        (x[3 * i + 2] - frame[2]) * frame[11];
+    }
+    return values;
+  }
+  if (map === 'distance') return options.distance;
+  if (!fields) return null;
+  if (map === 'coaptation') return fields.coaptation;
+  if (map === 'stretch') return fields.stretch.map((v) => 100 * v);
+  return null;
+}
+
+function leafletMesh(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+  const nodes = picture.positions.length / 3;
+  const front = new Float32Array(3 * nodes);
+  const back = new Float32Array(3 * nodes);
+  const values = options.map === 'tissue' || options.map === 'load' ? null : mapValues(picture, options);
+  if (values && options.map !== 'tissue' && options.map !== 'load') {
+    for (let i = 0; i < nodes; ++i) {
+      const colour = colourOf(maps[options.map], values[i]);
+      front.set(colour, 3 * i);
+      back.set(colour, 3 * i);
+    }
+  } else {
+    const anterior = Math.max(
+      0,
+      topology.leaflets.findIndex((leaflet) => leaflet.name === 'A'),
+    );
+    const { triangles, triangleLeaflet } = topology;
+    for (let t = 0; t < triangleLeaflet.length; ++t) {
+      const isAnterior = triangleLeaflet[t] === anterior;
+      for (let k = 0; k < 3; ++k) {
+        front.set(isAnterior ? tissue.atrialAnterior : tissue.atrialPosterior, 3 * triangles[3 * t + k]);
+        back.set(
+          isAnterior ? tissue.ventricularAnterior : tissue.ventricularPosterior,
+          3 * triangles[3 * t + k],
+        );
+      }
+    }
+  }
+  return {
+    positions: picture.positions,
+    normals: vertexNormals(picture.positions, topology.triangles),
+    index: topology.triangles,
+    front,
+    back,
+    opacity: 1,
+    overlay: false,
+    cut: true,
+    flat: false,
+  };
+}
+
+/** Edges between two scallops, and the free edge, as thin lines on the sheet. */
+function seams(topology: Topology, picture: Picture): Mesh {
+  const shapes = new Shapes();
+  const x = picture.positions;
+  const owner = new Map<number, number>();
+  const { triangles, triangleScallop } = topology;
+  for (let t = 0; t < triangleScallop.length; ++t) {
+    for (let k = 0; k < 3; ++k) {
+      const [a, b] = [triangles[3 * t + k], triangles[3 * t + ((k + 1) % 3)]];
+      const key = Math.min(a, b) * topology.nodes + Math.max(a, b);
+      const other = owner.get(key);
+      if (other === undefined) owner.set(key, triangleScallop[t]);
+      else if (other !== triangleScallop[t]) shapes.tube(point(x, a), point(x, b), 0.1, tissue.seam, 4);
+    }
+  }
+  const edge = Array.from(topology.freeEdge, (node) => point(x, node));
+  for (let k = 0; k < edge.length; ++k) {
+    const [a, b] = [edge[k], edge[(k + 1) % edge.length]];
+    if (Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 8) shapes.tube(a, b, 0.2, tissue.edge, 5);
+  }
+  return shapes.mesh({ cut: true });
+}
+
+function chordColour(topology: Topology, picture: Picture, options: SceneOptions, k: number): Colour {
+  if (k === options.chosenChord) return tissue.chosen;
+  if (topology.chordKind[k] === suture) return tissue.suture;
+  const load = options.load ? options.load[k] : 0;
+  if (options.map === 'load') return colourOf(maps.load, 100 * load);
+  if (load > 1) return tissue.over;
+  if (picture.chordTaut[k] < 0) return tissue.slack;
+  return topology.chordKind[k] === strut ? tissue.strut : tissue.chord;
+}
+
+function chordae(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+  const shapes = new Shapes();
+  const x = picture.positions;
+  const many = topology.chordKind.length > 1500;
+  const onLeaflet = new Uint8Array(topology.nodes);
+  for (const node of topology.triangles) onLeaflet[node] = 1;
+  for (let k = 0; k < topology.chordKind.length; ++k) {
+    const [a, b] = [point(x, topology.chordNodes[2 * k]), point(x, topology.chordNodes[2 * k + 1])];
+    const chosen = k === options.chosenChord;
+    const thin = Math.min(0.75, Math.max(0.22, 0.62 * topology.chordRadius[k]));
+    const radius = (many ? 0.15 : thin) * (chosen ? 1.8 : 1);
+    shapes.tube(a, b, radius, chordColour(topology, picture, options, k), many ? 4 : 7);
+    // a joint where chordae branch; on the leaflet it would show on the other side
+    if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0)
+      shapes.sphere(b, radius * 1.15, chordColour(topology, picture, options, k), 4, 6);
+  }
+  return shapes.mesh({ cut: true });
+}
+
+function boundary(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+  const shapes = new Shapes();
+  const x = picture.positions;
+  shapes.path(
+    Array.from(topology.annulus, (node) => point(x, node)),
+    0.55,
+    tissue.annulus,
+    true,
+  );
+  const radius = topology.headNodes.length > 8 ? 0.9 : topology.headNodes.length > 2 ? 1.5 : 2;
+  topology.headNodes.forEach((node, h) => {
+    const at = point(x, node);
+    const chosen = h === options.chosenHead;
+    shapes.sphere(at, radius, chosen ? tissue.chosen : tissue.head, 10, 16);
+    const below = [
+      at[0] - 4.5 * options.frame[9],
+      at[1] - 4.5 * options.frame[10],
+      at[2] - 4.5 * options.frame[11],
+    ];
+    shapes.tube(at, below, radius, tissue.head, 16, radius * 1.25);
+    shapes.sphere(below, radius * 1.25, tissue.head, 10, 16);
+  });
+  for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
+    const points = [];
+    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k)
+      points.push(point(picture.ringPoints, k));
+    const [a, b] = [points[0], points[points.length - 1]];
+    const closed = Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 6;
+    shapes.path(points, 1.15, tissue.ring, closed, 10);
+  }
+  return shapes.mesh();
+}
+
+function orifice(picture: Picture): Mesh {
+  const count = picture.orificeVertices.length;
+  const colours = new Float32Array(count);
+  for (let i = 0; i < count; i += 3) colours.set(tissue.orifice, i);
+  return {
+    positions: picture.orificeVertices,
+    normals: vertexNormals(picture.orificeVertices, picture.orificeTriangles),
+    index: picture.orificeTriangles,
+    front: colours,
+    back: colours,
+    opacity: 0.85,
+    overlay: true,
+    cut: false,
+    flat: true,
+  };
+}
+
+/** An arrow along the jet of each part of the orifice, longer for larger parts. */
+function jets(parts: OrificePart[]): Mesh {
+  const shapes = new Shapes();
+  for (const part of parts) {
+    if (part.area < 1) continue;
+    const length = 4 + Math.min(8, Math.sqrt(part.area));
+    const along = (s: number) => part.centroid.map((v, c) => v + s * part.direction[c]);
+    shapes.tube(along(0.5), along(length), 0.45, tissue.orifice, 10);
+    shapes.tube(along(length), along(length + 2.5), 1.2, tissue.orifice, 12, 0.02);
+  }
+  return shapes.mesh({ overlay: true });
+}
+
+/** Everything that is drawn of a valve. */
+export function sceneMeshes(topology: Topology, picture: Picture, options: SceneOptions): Mesh[] {
+  const meshes = [
+    leafletMesh(topology, picture, options),
+    seams(topology, picture),
+    boundary(topology, picture, options),
+  ];
+  if (options.chordsOn) meshes.push(chordae(topology, picture, options));
+  if (picture.orificeTriangles.length) meshes.push(orifice(picture));
+  if (options.jets.length) meshes.push(jets(options.jets));
+  if (picture.hand) {
+    const hand = new Shapes();
+    hand.sphere(picture.hand.subarray(0, 3), 1.1, tissue.hand);
+    hand.tube(picture.hand.subarray(0, 3), picture.hand.subarray(3, 6), 0.35, tissue.hand);
+    meshes.push(hand.mesh({ overlay: true }));
+  }
+  return meshes;
+}

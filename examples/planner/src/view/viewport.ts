@@ -1,0 +1,300 @@
+// The picture: canvas, renderer, camera, labels, and the pointer. Draws only when something has changed; while
+// something moves at a lower resolution, then once more in full.
+import { effect } from '@preact/signals';
+import * as state from '../store/state';
+import { Camera, type Preset } from './camera';
+import { Gestures } from './gestures';
+import { Labels } from './labels';
+import { Raster } from './raster';
+import type { CutPlane, Renderer, Scene } from './renderer';
+import { sceneMeshes, type Mark } from './scene';
+import { vertexNormals, type Mesh } from './mesh';
+import { tissue } from './colours';
+import { WebGl } from './webgl';
+
+/** ms without motion until the picture is drawn in full. */
+const still = 140;
+const background: [number, number, number] = [0.925, 0.937, 0.949];
+
+export class Viewport {
+  readonly camera = new Camera();
+  renderer: Renderer;
+  readonly labels: Labels;
+  width = 1;
+  height = 1;
+  private meshes: Mesh[] = [];
+  private sceneDirty = true;
+  private dirty = true;
+  private lastMotion = 0;
+  private lastFrame = 0;
+  private drawnFully = false;
+  private framed = '';
+  /** ms of the last pictures, for the tests. */
+  readonly times: number[] = [];
+  extraMarks: Mark[] = [];
+  /** A surface to show instead of a valve, during an import. */
+  surface: Mesh | null = null;
+
+  constructor(
+    readonly host: HTMLElement,
+    wanted: 'webgl' | 'software' | '',
+  ) {
+    this.renderer = this.makeRenderer(wanted);
+    host.prepend(this.renderer.canvas);
+    this.describe();
+    this.labels = new Labels(host);
+    new Gestures(this);
+    new ResizeObserver(() => this.resize()).observe(host);
+    this.resize();
+    effect(() => {
+      // whatever the scene is made of
+      void [
+        state.picture.value,
+        state.preview.value,
+        state.main.value,
+        state.map.value,
+        state.choice.value,
+        state.chordsOn.value,
+        state.reference.value,
+        state.compared.value,
+      ];
+      this.touchScene();
+    });
+    effect(() => {
+      void [state.sectionOn.value, state.sectionAt.value, state.labelsOn.value, state.draft.value];
+      this.moved();
+    });
+    effect(() => {
+      const shown = state.imported.value;
+      this.showSurface(shown && !shown.findings.length ? shown : null);
+    });
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Shows the surface of an import instead of the valve, with the points that were clicked. */
+  private showSurface(shown: state.Imported | null): void {
+    const fresh = shown && this.surface?.positions !== shown.surface.points;
+    if (!shown) this.surface = null;
+    else if (fresh) this.surface = this.surfaceMesh(shown.surface.points, shown.surface.triangles);
+    this.extraMarks = [];
+    for (const [kind, points] of Object.entries(shown?.points ?? {})) {
+      const colour =
+        kind === 'annulus' ? tissue.annulus : kind === 'commissures' ? tissue.chosen : tissue.over;
+      for (const at of points) this.extraMarks.push({ at, colour, radius: 0.9 });
+    }
+    this.touchScene();
+    if (fresh && shown) this.camera.lookAtBox(shown.surface.points, shown.surface.triangles);
+  }
+
+  private surfaceMesh(positions: Float32Array, index: Uint32Array): Mesh {
+    const shade = (colour: readonly number[]) => {
+      const out = new Float32Array(positions.length);
+      for (let i = 0; i < out.length; i += 3) out.set(colour, i);
+      return out;
+    };
+    return {
+      positions,
+      index,
+      normals: vertexNormals(positions, index),
+      front: shade(tissue.atrialAnterior),
+      back: shade(tissue.ventricularAnterior),
+      opacity: 1,
+      overlay: false,
+      cut: false,
+      flat: false,
+    };
+  }
+
+  private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
+    if (wanted === 'software') return new Raster();
+    try {
+      return new WebGl(
+        wanted === 'webgl',
+        () => (this.dirty = false),
+        () => this.touchScene(),
+      );
+    } catch {
+      // a browser without WebGL, or one that emulates it more slowly than the rasteriser
+      return new Raster();
+    }
+  }
+
+  private describe(): void {
+    const { canvas } = this.renderer;
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'application');
+    canvas.setAttribute('aria-label', 'Picture of the valve');
+    canvas.setAttribute('aria-describedby', 'picture-help');
+  }
+
+  resize(): void {
+    const box = this.host.getBoundingClientRect();
+    this.width = Math.max(1, Math.round(box.width));
+    this.height = Math.max(1, Math.round(box.height));
+    this.camera.aspect = this.width / this.height;
+    this.renderer.resize(this.width, this.height, window.devicePixelRatio || 1);
+    this.moved();
+  }
+
+  /** The scene has to be built anew. */
+  touchScene(): void {
+    this.sceneDirty = true;
+    this.moved();
+  }
+
+  /** The camera has moved, or something that needs no new meshes. */
+  moved(): void {
+    this.dirty = true;
+    this.drawnFully = false;
+    this.lastMotion = performance.now();
+  }
+
+  go(preset: Preset, atOnce = false): void {
+    const frame = this.frameOf();
+    this.camera.go(preset, frame, this.radius());
+    if (atOnce) this.camera.finish();
+    this.moved();
+  }
+
+  frameOf(): number[] {
+    return (state.preview.value ?? state.main.value)?.figures.frame ?? this.guessedFrame();
+  }
+
+  /** Frame of a picture that has no figures yet: centre and normal of the annulus. */
+  private guessedFrame(): number[] {
+    const picture = state.picture.value;
+    const topology = picture && state.topologyOf(picture);
+    if (!picture || !topology) return [0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1];
+    const centre = [0, 0, 0];
+    for (const node of topology.annulus)
+      for (let c = 0; c < 3; ++c) centre[c] += picture.positions[3 * node + c] / topology.annulus.length;
+    return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
+  }
+
+  /** Radius of the annulus, mm. */
+  radius(): number {
+    const picture = state.main.value?.picture ?? state.picture.value;
+    const topology = picture && state.topologyOf(picture);
+    if (!picture || !topology) return 20;
+    const frame = this.frameOf();
+    let largest = 5;
+    for (const node of topology.annulus) {
+      const [x, y, z] = [0, 1, 2].map((c) => picture.positions[3 * node + c] - frame[c]);
+      largest = Math.max(largest, Math.hypot(x, y, z));
+    }
+    return largest;
+  }
+
+  plane(): CutPlane | null {
+    if (!state.sectionOn.value) return null;
+    const f = this.frameOf();
+    const normal: [number, number, number] = [f[6], f[7], f[8]];
+    return { normal, offset: f[0] * f[6] + f[1] * f[7] + f[2] * f[8] + state.sectionAt.value };
+  }
+
+  /** The place of the handle of the section plane. */
+  handle(): number[] {
+    const f = this.frameOf();
+    const up = 0.3 * this.radius();
+    return [0, 1, 2].map((c) => f[c] + state.sectionAt.value * f[6 + c] + up * f[9 + c]);
+  }
+
+  private buildScene(): void {
+    this.sceneDirty = false;
+    const picture = state.picture.value;
+    const topology = picture && state.topologyOf(picture);
+    if (this.surface) {
+      this.meshes = [this.surface];
+      return;
+    }
+    if (!picture || !topology) {
+      this.meshes = [];
+      return;
+    }
+    const shown = state.motion.value ? null : (state.preview.value ?? state.main.value);
+    const figures = shown?.figures ?? null;
+    const choice = state.choice.value;
+    this.meshes = sceneMeshes(topology, picture, {
+      map: shown ? state.map.value : 'tissue',
+      fields: figures?.fields ?? null,
+      distance: this.distances(),
+      frame: this.frameOf(),
+      load: figures
+        ? Float32Array.from(figures.chords, (c) =>
+            Math.max(c.strain / c.strainLimit, c.tension / c.tensionLimit),
+          )
+        : null,
+      chosenChord: choice?.kind === 'chord' ? topology.chords.findIndex((part) => part.id === choice.id) : -1,
+      chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
+      chordsOn: state.chordsOn.value,
+      jets: figures?.orificeParts ?? [],
+    });
+  }
+
+  /** Distance of each node from its place in the valve before, matched by origin. */
+  private distances(): Float32Array | null {
+    const now = (state.preview.value ?? state.main.value)?.picture;
+    const then = (state.compared.value ?? (state.preview.value ? state.main.value : state.first.value))
+      ?.picture;
+    const [a, b] = [now && state.topologyOf(now), then && state.topologyOf(then)];
+    if (!now || !then || !a || !b) return null;
+    const rows = new Map<number, number>();
+    b.origin.forEach((origin, row) => rows.set(origin, row));
+    return Float32Array.from(a.origin, (origin, i) => {
+      const j = origin === 0xffffffff ? undefined : rows.get(origin);
+      if (j === undefined) return NaN;
+      let sum = 0;
+      for (let c = 0; c < 3; ++c) sum += (now.positions[3 * i + c] - then.positions[3 * j + c]) ** 2;
+      return Math.sqrt(sum);
+    });
+  }
+
+  /** The first picture of a valve sets the camera. */
+  private frameNewValve(): void {
+    const key = state.main.value
+      ? `figures ${state.first.value?.figures.hash ?? ''}`
+      : state.motion.value
+        ? 'motion'
+        : '';
+    if (!key || key === this.framed || (key === 'motion' && this.framed)) return;
+    this.framed = key;
+    this.go('surgeon', true);
+  }
+
+  scene(): Scene {
+    const meshes = [...this.meshes];
+    const marks = this.extraMarks;
+    if (marks.length || state.sectionOn.value)
+      meshes.push(this.labels.markMesh(marks, state.sectionOn.value ? this.handle() : null));
+    return { meshes, background, plane: this.plane() };
+  }
+
+  private frame(now: number): void {
+    requestAnimationFrame((next) => this.frame(next));
+    const seconds = Math.min(0.1, (now - this.lastFrame) / 1000);
+    this.lastFrame = now;
+    if (this.camera.advance(seconds)) this.moved();
+    const resting = performance.now() - this.lastMotion > still;
+    if (!this.dirty && (this.drawnFully || !resting)) return;
+    this.draw(!resting);
+  }
+
+  draw(fast: boolean): void {
+    const begin = performance.now();
+    this.frameNewValve();
+    if (this.sceneDirty) this.buildScene();
+    this.camera.update();
+    this.renderer.draw(this.scene(), this.camera, fast);
+    this.labels.update(this);
+    this.dirty = false;
+    this.drawnFully = !fast;
+    this.times.push(performance.now() - begin);
+    if (this.times.length > 400) this.times.shift();
+  }
+
+  /** A PNG picture of the present view, as a data URL. */
+  snapshot(): string {
+    this.draw(false);
+    return this.renderer.canvas.toDataURL('image/png');
+  }
+}

@@ -1,0 +1,67 @@
+// The valves of the tour: the three diseased valves of the founding paper's study (Tenenholtz et al., IROS 2011)
+// as examples/plans/README.md makes them, their healthy original, and the paper's repairs.
+import type { Mvs, Simulator } from 'libmvs';
+import plan1 from '../../../plans/valve1.json?raw';
+import plan2 from '../../../plans/valve2.json?raw';
+import plan3 from '../../../plans/valve3.json?raw';
+import type { FoundingResult } from '../protocol';
+import { figuresOf } from './picture';
+import { mm2 } from './units';
+
+interface Disease {
+  annulus: number;
+  chord?: [string, number];
+  plan: string;
+}
+
+const diseases: Record<number, Disease> = {
+  0: { annulus: 1, plan: '' },
+  1: { annulus: 1.15, chord: ['A1/11', 1.25], plan: plan1 },
+  2: { annulus: 1, chord: ['A2/4', 0.7], plan: plan2 },
+  3: { annulus: 1.1, chord: ['A2/4', 0.67], plan: plan3 },
+};
+
+/** The OBJ file of a valve of the study; number 0 is the healthy one. */
+export function foundingValve(mvs: Mvs, number: number, vertices: number): Uint8Array {
+  const { annulus, chord } = diseases[number];
+  const sim = mvs.simulator();
+  try {
+    sim.generateValve({ shape: 'founding', posterior_height: 0.012, annulus_scale: annulus, vertices });
+    if (chord) sim.apply('chord_length', { chord: chord[0], factor: chord[1] });
+    return sim.read((snapshot) => snapshot.save('obj'));
+  } finally {
+    sim.dispose();
+  }
+}
+
+function result(mvs: Mvs, sim: Simulator): { figures: ReturnType<typeof figuresOf>; openArea: number } {
+  return sim.read((snapshot) => {
+    const { cost, opened } = snapshot.cost({ residual: 1e-4 });
+    opened.dispose();
+    return { figures: figuresOf(mvs, snapshot), openArea: cost.open_area * mm2 };
+  });
+}
+
+/** Figures of the healthy valve and of the founding paper's repair of valve `number`. */
+export function foundingResult(mvs: Mvs, number: number, vertices: number): FoundingResult {
+  const sim = mvs.simulator();
+  try {
+    sim.load(foundingValve(mvs, 0, vertices), 'obj');
+    sim.setLoad();
+    sim.settle({ residual: 1e-4 });
+    const healthy = result(mvs, sim);
+    sim.load(foundingValve(mvs, number, vertices), 'obj');
+    sim.replayPlan(diseases[number].plan);
+    const repaired = result(mvs, sim);
+    return {
+      healthy: { measures: healthy.figures.measures, openArea: healthy.openArea },
+      repaired: {
+        measures: repaired.figures.measures,
+        openArea: repaired.openArea,
+        operations: repaired.figures.history.map((entry) => entry.title),
+      },
+    };
+  } finally {
+    sim.dispose();
+  }
+}

@@ -1,0 +1,62 @@
+// A hand in the living valve: a tool at the pointer, time steps of the library between two pictures. The valve
+// of the plan does not change; it returns when the hand lets go.
+import type { Simulator } from 'libmvs';
+import type { Hand, Motion } from '../protocol';
+import { motionOf } from './picture';
+import { mm } from './units';
+
+/** Milliseconds between pictures, and of them for time steps. */
+const beat = 16;
+const work = 11;
+/** s; at most this much of simulated time between two pictures, so that fast machines run in real time. */
+const step = { solver: 'implicit' as const, dt: 2e-3 };
+const mostSteps = 8;
+
+export class HandLoop {
+  private tool: bigint;
+  private running = true;
+  private target: number[] | null = null;
+
+  constructor(
+    private readonly sim: Simulator,
+    hand: Hand,
+    private readonly show: (motion: Motion) => void,
+    private readonly failed: (error: unknown) => void,
+  ) {
+    const position = hand.position.map((v) => v / mm);
+    this.tool =
+      hand.tool === 'grasp'
+        ? sim.grasp(hand.node, { position, max_force: 3 })
+        : sim.addTool({ kind: 'ball', position, radius: 3e-3, max_force: 3 });
+    setTimeout(() => this.beat(), 0);
+  }
+
+  move(position: number[]): void {
+    this.target = position.map((v) => v / mm);
+  }
+
+  private beat(): void {
+    if (!this.running) return;
+    const begin = performance.now();
+    try {
+      if (this.target) this.sim.moveTool(this.tool, this.target);
+      this.target = null;
+      for (let k = 0; k < mostSteps && performance.now() - begin < work; ++k) this.sim.step(step);
+      const state = this.sim.tool(this.tool);
+      this.sim.read((snapshot) => {
+        const motion = motionOf(snapshot, 1);
+        motion.picture.hand = Float32Array.from([...state.position, ...state.proxy], (v) => v * mm);
+        this.show(motion);
+      });
+    } catch (error) {
+      this.running = false;
+      this.failed(error);
+      return;
+    }
+    setTimeout(() => this.beat(), Math.max(0, beat - (performance.now() - begin)));
+  }
+
+  end(): void {
+    this.running = false;
+  }
+}

@@ -1,0 +1,173 @@
+// The worker: answers the requests of the page one after the other. A request that is under way can be cancelled;
+// long ones report their progress.
+import { loadMvs, MvsError, SYSTOLE_PA, type Mvs } from 'libmvs';
+import type { CallName, Calls, Failure, Motion } from '../protocol';
+import { foundingResult, foundingValve } from './founding';
+import { HandLoop } from './hand';
+import { Importer } from './importer';
+import { buffersOf } from './picture';
+import { Planner } from './planner';
+import { openSession, saveSession } from './session';
+
+declare const self: DedicatedWorkerGlobalScope;
+
+interface Under {
+  id: number;
+  signal: AbortSignal;
+  report: (share: number) => void;
+}
+
+let mvs: Mvs;
+let planner: Planner;
+let importer: Importer;
+let hand: HandLoop | null = null;
+/** True while the slider of the opening moves the second simulator. */
+let opening = false;
+
+function post(message: unknown): void {
+  self.postMessage(message, [...buffersOf(message)]);
+}
+
+/** gzip in base64 to bytes, without a request. */
+async function unpack(text: string): Promise<ArrayBuffer> {
+  const packed = atob(text);
+  const bytes = new Uint8Array(packed.length);
+  for (let i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(stream).arrayBuffer();
+}
+
+async function start(library: string): Promise<Calls['start']['result']> {
+  mvs = await loadMvs({ wasm: await unpack(library) });
+  planner = new Planner(mvs);
+  importer = new Importer(mvs);
+  return { version: mvs.version, operations: planner.operations() };
+}
+
+function shippedValve(name: string, vertices: number): Uint8Array {
+  const number = /^founding([0-3])$/.exec(name);
+  if (number) return foundingValve(mvs, Number(number[1]), vertices);
+  const sim = mvs.simulator();
+  try {
+    sim.generateValve({ vertices });
+    return sim.read((snapshot) => snapshot.save('obj'));
+  } finally {
+    sim.dispose();
+  }
+}
+
+type Handlers = {
+  [Name in CallName]: (
+    argument: Calls[Name]['argument'],
+    under: Under,
+  ) => Promise<Calls[Name]['result']> | Calls[Name]['result'];
+};
+
+const handlers: Handlers = {
+  start: ({ library }) => start(library),
+  open_shipped: ({ name, vertices }, { id, signal, report }) => {
+    const bytes = shippedValve(name, vertices);
+    const closed = planner.openBytes(bytes, signal, report);
+    // the open valve is shown while it closes
+    post({ id, motion: planner.motion(0) });
+    return closed;
+  },
+  open_file: ({ bytes }, { signal, report }) => planner.openBytes(bytes, signal, report),
+  preview: (operation, { signal, report }) => planner.previewOf(operation, signal, report),
+  accept: () => planner.accept(),
+  discard: () => (planner.discard(), null),
+  check: (operation) => (planner.check(operation), null),
+  undo: () => planner.undo(),
+  redo: (_, { signal, report }) => planner.redo(signal, report),
+  open_to: async ({ share }, { signal }) => {
+    const fresh = !opening;
+    opening = true;
+    return planner.openTo(share, fresh, signal);
+  },
+  close_again: () => planner.shown(),
+  cost: ({ which }) => planner.cost(which),
+  section: ({ which, point, normal }) => planner.section(which, point, normal),
+  hand_begin: (argument, { id }) => {
+    const sim = planner.beside();
+    sim.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
+    hand?.end();
+    hand = new HandLoop(
+      sim,
+      argument,
+      (motion: Motion) => post({ id, motion }),
+      (error) => post({ id, failure: failureOf(error) }),
+    );
+    return null;
+  },
+  hand_move: ({ position }) => (hand?.move(position), null),
+  hand_end: () => {
+    hand?.end();
+    hand = null;
+    return planner.shown();
+  },
+  checkpoint: ({ name }) => planner.checkpoint(name),
+  restore: ({ name }) => planner.restore(name),
+  read_checkpoint: ({ name }) => planner.readCheckpoint(name),
+  save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),
+  save_session: ({ title, notes }) => saveSession(planner, title, notes),
+  open_session: ({ bytes }) => openSession(planner, bytes),
+  founding: ({ number, vertices }) => foundingResult(mvs, number, vertices),
+  spread: ({ members }, { report }) => planner.spread(members, report),
+  read_surface: ({ name, bytes, unit }) => importer.read(name, bytes, unit),
+  build: async (request, { signal, report }) => {
+    const { valve, findings } = importer.build(request, report);
+    return { shown: await planner.openBytes(valve, signal, report), findings };
+  },
+};
+
+function failureOf(error: unknown): Failure {
+  if (error instanceof MvsError) return { code: error.code, part: error.part, message: error.message };
+  return { code: 'MVS_E_INTERNAL', part: 'page', message: String((error as Error)?.message ?? error) };
+}
+
+interface Request {
+  id: number;
+  call: CallName;
+  argument: never;
+}
+
+const queue: Request[] = [];
+const cancelled = new Set<number>();
+let running: { id: number; abort: AbortController } | null = null;
+
+async function work(): Promise<void> {
+  while (!running) {
+    const request = queue.shift();
+    if (!request) return;
+    const { id, call, argument } = request;
+    const abort = new AbortController();
+    if (cancelled.delete(id)) {
+      post({ id, failure: { code: 'MVS_E_CANCELLED', part: call, message: 'cancelled' } });
+      continue;
+    }
+    running = { id, abort };
+    if (call !== 'open_to') opening = false;
+    try {
+      const report = (share: number) => post({ id, share });
+      post({ id, result: await handlers[call](argument, { id, signal: abort.signal, report }) });
+    } catch (error) {
+      post({ id, failure: failureOf(error) });
+    }
+    running = null;
+  }
+}
+
+self.onmessage = ({ data }: MessageEvent<Request | { cancel: number }>) => {
+  if ('cancel' in data) {
+    if (running?.id === data.cancel) running.abort.abort();
+    else if (queue.some((request) => request.id === data.cancel)) cancelled.add(data.cancel);
+    return;
+  }
+  if (data.call === 'hand_move') {
+    // at once, not behind a long request
+    hand?.move((data.argument as { position: number[] }).position);
+    return;
+  }
+  queue.push(data);
+  void work();
+};

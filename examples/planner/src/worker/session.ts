@@ -1,0 +1,110 @@
+// The session file: a zip archive of valve.obj (the starting valve), plan.json (every load, operation and settle
+// from it to the present valve), checkpoints/N.json (plans) and session.json (names, notes, the hash). Nothing else
+// is needed to repeat it: `mvs repair valve.obj --plan plan.json`.
+import { MvsError } from 'libmvs';
+import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
+import type { SessionOpened } from '../protocol';
+import type { Planner } from './planner';
+
+const format = 'mvs-planner-session';
+const version = 1;
+/** Bytes: files above are not sessions of a valve. */
+const largest = 256 << 20;
+
+interface Description {
+  format: string;
+  version: number;
+  title: string;
+  notes: string;
+  hash: string;
+  saved: string;
+  checkpoints: { name: string; plan: string }[];
+}
+
+export function saveSession(planner: Planner, title: string, notes: string): Uint8Array {
+  const files: Record<string, Uint8Array> = { 'valve.obj': planner.start };
+  const checkpoints = [...planner.checkpoints].map(([name, snapshot], k) => {
+    const plan = `checkpoints/${k + 1}.json`;
+    files[plan] = strToU8(snapshot.plan());
+    return { name, plan };
+  });
+  const [plan, hash] = planner.main.read((snapshot) => [snapshot.plan({ notes }), snapshot.hash]);
+  files['plan.json'] = strToU8(plan);
+  const description: Description = {
+    format,
+    version,
+    title,
+    notes,
+    hash,
+    saved: new Date().toISOString(),
+    checkpoints,
+  };
+  files['session.json'] = strToU8(JSON.stringify(description, null, 2));
+  return zipSync(files, { level: 6 });
+}
+
+function refuse(sentence: string): never {
+  throw new MvsError('MVS_E_FORMAT', 'session', sentence);
+}
+
+/** Files of an archive of bounded size. */
+function unpack(bytes: Uint8Array): Record<string, Uint8Array> {
+  let total = 0;
+  try {
+    return unzipSync(bytes, {
+      filter: (file) => {
+        total += file.originalSize;
+        return total <= largest;
+      },
+    });
+  } catch {
+    return refuse('this file is not a session: it is not a zip archive, or it is damaged');
+  }
+}
+
+function describe(files: Record<string, Uint8Array>): Description {
+  const text = files['session.json'];
+  if (!text) refuse('this archive is not a session: session.json is missing');
+  let description: Description;
+  try {
+    description = JSON.parse(strFromU8(text)) as Description;
+  } catch {
+    return refuse('session.json is damaged: it is not JSON');
+  }
+  if (description?.format !== format) refuse('session.json describes another kind of file');
+  if (description.version !== version)
+    refuse(`the session is of version ${description.version}; this page reads ${version}`);
+  return description;
+}
+
+/** Opens a session: the plan is repeated from the starting valve, and the hash compared. */
+export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened {
+  const files = unpack(bytes);
+  const description = describe(files);
+  const text = (name: string): string =>
+    files[name] ? strFromU8(files[name]) : refuse(`${name} is missing from the session`);
+  const trial = planner.mvs.simulator();
+  try {
+    const valve = files['valve.obj'] ?? refuse('valve.obj is missing from the session');
+    const checkpoints = (Array.isArray(description.checkpoints) ? description.checkpoints : []).map(
+      ({ name, plan }) => {
+        trial.load(valve, 'obj');
+        trial.replayPlan(text(String(plan)));
+        return [String(name), trial.snapshot()] as const;
+      },
+    );
+    trial.load(valve, 'obj');
+    trial.replayPlan(text('plan.json'));
+    trial.read((snapshot) => planner.take(valve, snapshot, checkpoints));
+  } finally {
+    trial.dispose();
+  }
+  const shown = planner.shown();
+  return {
+    shown,
+    checkpoints: [...planner.checkpoints.keys()],
+    notes: String(description.notes ?? ''),
+    title: String(description.title ?? ''),
+    sameResult: shown.figures.hash === description.hash,
+  };
+}

@@ -1,0 +1,79 @@
+// Opens the built page from disk in Debian's Chromium, as a person would; collects errors of the page.
+import { chromium } from 'playwright-core';
+import { mkdtempSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+export const page_path = resolve(
+  process.env.PLANNER_PAGE ?? join(dirname(fileURLToPath(import.meta.url)), '../../../out/planner.html'),
+);
+
+const flags = [
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
+
+/** A browser with a profile of its own, so that storage outlives the page. `software`: no WebGL. */
+export async function openBrowser({
+  width = 1280,
+  height = 720,
+  profile,
+  touch = false,
+  software = false,
+} = {}) {
+  const folder = profile ?? mkdtempSync(join(tmpdir(), 'planner-'));
+  const context = await chromium.launchPersistentContext(folder, {
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    headless: true,
+    args: software ? [...flags, '--disable-3d-apis'] : flags,
+    viewport: { width, height },
+    hasTouch: touch,
+    acceptDownloads: true,
+  });
+  return { context, profile: folder };
+}
+
+/** Opens the page and waits for the closed valve. */
+export async function openPlanner(context, { hash = '' } = {}) {
+  const page = context.pages()[0] ?? (await context.newPage());
+  const errors = [];
+  const requests = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+  page.on('request', (request) => {
+    if (!/^(file|blob|data):/.test(request.url())) requests.push(request.url());
+  });
+  await page.goto(pathToFileURL(page_path).href + hash);
+  await closed(page);
+  return { page, errors, requests };
+}
+
+/** Waits until nothing is calculated and the valve is shown. The page's policy forbids waitForFunction (eval). */
+export async function closed(page, limit = 60_000) {
+  const end = Date.now() + limit;
+  for (;;) {
+    const idle = await page.evaluate(() => {
+      const { state } = window.planner ?? {};
+      return !!state?.main.value && !state.busy.value && !(state.draft.value && state.pending.value);
+    });
+    if (idle) return;
+    if (Date.now() > end) throw new Error(`the page is busy for more than ${limit / 1000} s`);
+    await page.waitForTimeout(20);
+  }
+}
+
+/** The figures of the valve on the page. */
+export function figures(page) {
+  return page.evaluate(() => {
+    const { state } = window.planner;
+    const shown = state.preview.value ?? state.main.value;
+    const { fields: _, ...rest } = shown.figures;
+    return rest;
+  });
+}

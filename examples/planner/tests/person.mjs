@@ -1,0 +1,96 @@
+// Actions of a person on the page: look, point, press, type.
+import { closed } from './browser.mjs';
+
+export async function openPanel(page, name) {
+  await page.getByRole('tab', { name }).click();
+}
+
+export async function begin(page, kind) {
+  await openPanel(page, 'Repair');
+  const card = page.locator(`[data-operation=${kind}]`);
+  if (!(await card.isVisible())) await page.getByText('More operations').click();
+  await card.click();
+  await closed(page);
+}
+
+export async function apply(page) {
+  await closed(page);
+  await page.getByRole('button', { name: 'Apply', exact: true }).click();
+  await page.getByTestId('form').waitFor({ state: 'detached' });
+  await closed(page);
+}
+
+/** Pixel of a chord's middle and of its ends in the window, if the picture shows them. */
+export function chordPlace(page, name) {
+  return page.evaluate((wanted) => {
+    const { state, viewport } = window.planner;
+    const picture = state.picture.value;
+    const topology = state.topologyOf(picture);
+    const k = topology.chords.findIndex((part) => part.name === wanted);
+    const box = viewport.renderer.canvas.getBoundingClientRect();
+    const at = (node) => {
+      const [x, y] = viewport.camera.project(
+        ...picture.positions.slice(3 * node, 3 * node + 3),
+        viewport.width,
+        viewport.height,
+      );
+      return { x: box.left + x, y: box.top + y };
+    };
+    const [head, leaf] = [at(topology.chordNodes[2 * k]), at(topology.chordNodes[2 * k + 1])];
+    const middle = (s) => ({ x: head.x + s * (leaf.x - head.x), y: head.y + s * (leaf.y - head.y) });
+    return { head, leaf, middle: middle(0.5), places: [0.2, 0.35, 0.5, 0.65].map(middle) };
+  }, name);
+}
+
+/** Names of all chordae of the valve. */
+export function chordNames(page) {
+  return page.evaluate(() => window.planner.state.main.value.figures.chords.map((chord) => chord.name));
+}
+
+/** Clicks on chordae until one is chosen; returns its name and the place that was clicked. */
+export async function chooseAnyChord(page, names) {
+  for (const name of names) {
+    const { places } = await chordPlace(page, name);
+    for (const place of places) {
+      await page.mouse.click(place.x, place.y);
+      const chosen = await page.evaluate(() => {
+        const { state } = window.planner;
+        const { value } = state.choice;
+        return value?.kind === 'chord'
+          ? state.main.value.figures.chords.find((chord) => chord.id === value.id)?.name
+          : '';
+      });
+      if (chosen === name) return { name, place };
+    }
+  }
+  throw new Error('no chord could be chosen by a click');
+}
+
+/** Waits until the camera rests. */
+export async function cameraRests(page) {
+  let old = '';
+  for (let k = 0; k < 100; ++k) {
+    await page.waitForTimeout(60);
+    const now = await page.evaluate(() =>
+      JSON.stringify([
+        window.planner.viewport.camera.orientation.toArray(),
+        window.planner.viewport.camera.distance,
+      ]),
+    );
+    if (now === old) return;
+    old = now;
+  }
+}
+
+export async function save(page) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Control+s')]);
+  await closed(page);
+  return download.path();
+}
+
+/** Opens a file as the dialog would. */
+export async function open(page, path) {
+  await page.setInputFiles('#file', path);
+  await page.waitForTimeout(150);
+  await closed(page);
+}

@@ -1,0 +1,214 @@
+// The planner as a person uses it: the built page, opened from disk in Chromium.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { unzipSync } from 'fflate';
+import { closed, figures, openBrowser, openPlanner, page_path } from './browser.mjs';
+import { apply, begin, cameraRests, chooseAnyChord, chordNames, open, openPanel, save } from './person.mjs';
+
+/** Repeats a session with the native command; returns the hash that it finds. */
+function nativeHash(session) {
+  const folder = mkdtempSync(join(tmpdir(), 'session-'));
+  for (const [name, bytes] of Object.entries(unzipSync(readFileSync(session)))) {
+    if (!name.includes('/')) writeFileSync(join(folder, name), bytes);
+  }
+  const told = execFileSync(process.env.MVS_COMMAND, [
+    'plan',
+    'replay',
+    join(folder, 'plan.json'),
+    '--on',
+    join(folder, 'valve.obj'),
+    '--json',
+  ]);
+  return JSON.parse(String(told)).hash;
+}
+
+describe('planner', () => {
+  let context, page, errors, requests;
+  before(async () => {
+    ({ context } = await openBrowser());
+    ({ page, errors, requests } = await openPlanner(context));
+  });
+  after(async () => {
+    await context.close();
+  });
+
+  it('is_one_file_of_at_most_4_MB', () => {
+    assert.ok(statSync(page_path).size <= 4e6);
+  });
+
+  it('shows_a_sealed_valve', async () => {
+    const found = await figures(page);
+    assert.equal(found.measures.orifice, 0);
+    assert.ok(found.measures.atRest && found.measures.underLoad);
+    assert.match(await page.getByTestId('verdict').innerText(), /Sealed/);
+  });
+
+  it('draws_the_valve', async () => {
+    const colours = await page.evaluate(() => {
+      const source = window.planner.viewport.snapshot();
+      return new Promise((resolve) => {
+        const image = new Image();
+        image.onload = () => {
+          const canvas = document.createElement('canvas');
+          [canvas.width, canvas.height] = [image.width, image.height];
+          const paint = canvas.getContext('2d');
+          paint.drawImage(image, 0, 0);
+          const { data } = paint.getImageData(0, 0, image.width, image.height);
+          let pink = 0;
+          for (let i = 0; i < data.length; i += 4) pink += data[i] > data[i + 2] + 20 ? 1 : 0;
+          resolve(pink / (data.length / 4));
+        };
+        image.src = source;
+      });
+    });
+    // the annulus spans about two thirds of the height: tissue is a fifth to a half of the picture
+    assert.ok(colours > 0.15 && colours < 0.6, `share of tissue ${colours}`);
+  });
+
+  it('opens_and_closes', async () => {
+    await page.keyboard.press('o');
+    await page.waitForTimeout(100);
+    for (let k = 0; k < 200 && !(await page.evaluate(() => window.planner.state.motion.value)); ++k)
+      await page.waitForTimeout(50);
+    const span = await page.evaluate(() => {
+      const { state } = window.planner;
+      const [a, b] = [state.motion.value.picture.positions, state.main.value.picture.positions];
+      return Math.max(...a.map((v, i) => Math.abs(v - b[i])));
+    });
+    assert.ok(span > 8, `the leaflets move by ${span} mm`);
+    await page.keyboard.press('o');
+    await closed(page);
+    assert.equal(await page.evaluate(() => window.planner.state.motion.value), null);
+  });
+
+  it('previews_before_it_applies_and_undo_returns', async () => {
+    const { hash } = await figures(page);
+    await begin(page, 'ring');
+    assert.notEqual((await figures(page)).hash, hash);
+    await page.keyboard.press('Escape');
+    assert.equal((await figures(page)).hash, hash);
+    await begin(page, 'ring');
+    await apply(page);
+    assert.equal((await figures(page)).history.length, 1);
+    await page.keyboard.press('Control+z');
+    await page.waitForTimeout(50);
+    await closed(page);
+    assert.equal((await figures(page)).hash, hash);
+  });
+
+  it('says_why_an_operation_is_impossible', async () => {
+    await begin(page, 'annulus_scale');
+    await page.locator('#f-factor').fill('9000');
+    await page.keyboard.press('Tab');
+    await page.waitForTimeout(200);
+    await closed(page);
+    assert.match(await page.getByRole('alert').innerText(), /factor/);
+    assert.ok(await page.getByRole('button', { name: 'Apply', exact: true }).isDisabled());
+    await page.getByRole('button', { name: 'Discard' }).click();
+  });
+
+  it('shortens_a_chord_by_dragging', async () => {
+    await page.keyboard.press('2');
+    await cameraRests(page);
+    const { place, name } = await chooseAnyChord(page, await chordNames(page));
+    await page.mouse.move(place.x, place.y);
+    await page.mouse.down();
+    // towards the papillary head on the screen, whichever side it is on
+    const direction = await page.evaluate((wanted) => {
+      const { state, viewport } = window.planner;
+      const picture = state.picture.value;
+      const topology = state.topologyOf(picture);
+      const k = topology.chords.findIndex((part) => part.name === wanted);
+      const at = (node) =>
+        viewport.camera.project(
+          ...picture.positions.slice(3 * node, 3 * node + 3),
+          viewport.width,
+          viewport.height,
+        );
+      const [head, leaf] = [at(topology.chordNodes[2 * k]), at(topology.chordNodes[2 * k + 1])];
+      const length = Math.hypot(head[0] - leaf[0], head[1] - leaf[1]);
+      return [(head[0] - leaf[0]) / length, (head[1] - leaf[1]) / length];
+    }, name);
+    for (let k = 1; k <= 10; ++k)
+      await page.mouse.move(place.x + 3 * k * direction[0], place.y + 3 * k * direction[1]);
+    await page.mouse.up();
+    await page.waitForTimeout(200);
+    await closed(page);
+    const rest = async () => (await figures(page)).chords.find((chord) => chord.name === name).rest;
+    const old = await page.evaluate(
+      (wanted) => window.planner.state.main.value.figures.chords.find((c) => c.name === wanted).rest,
+      name,
+    );
+    assert.ok((await rest()) < old - 0.5, `${name}: ${await rest()} of ${old} mm`);
+    await apply(page);
+    assert.match((await figures(page)).history[0].title, new RegExp(`Shorten chord ${name}`));
+  });
+
+  it(
+    'saves_a_session_that_the_native_command_repeats',
+    { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' },
+    async () => {
+      const path = await save(page);
+      assert.equal(nativeHash(path), (await figures(page)).hash);
+    },
+  );
+
+  it('opens_a_saved_session_with_its_hash', async () => {
+    const { hash } = await figures(page);
+    const path = await save(page);
+    const copy = join(mkdtempSync(join(tmpdir(), 'session-')), 'kept.mvsplan');
+    writeFileSync(copy, readFileSync(path));
+    await page.keyboard.press('Control+z');
+    await page.waitForTimeout(50);
+    await closed(page);
+    assert.notEqual((await figures(page)).hash, hash);
+    await open(page, copy);
+    assert.equal((await figures(page)).hash, hash);
+    assert.match(await page.getByTestId('notice').innerText(), /exactly the saved valve/);
+  });
+
+  it('refuses_a_damaged_session_and_stays', async () => {
+    const { hash } = await figures(page);
+    const path = join(mkdtempSync(join(tmpdir(), 'session-')), 'broken.mvsplan');
+    writeFileSync(path, 'not an archive');
+    await open(page, path);
+    assert.match(await page.getByTestId('notice').innerText(), /not a session/);
+    assert.equal((await figures(page)).hash, hash);
+  });
+
+  it('makes_a_report_without_a_script', async () => {
+    await openPanel(page, 'Plan');
+    await page.getByRole('button', { name: 'Report' }).click();
+    await page.getByTestId('report').getByText('Before').first().waitFor();
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('button', { name: 'Save as HTML' }).click(),
+    ]);
+    const html = readFileSync(await download.path(), 'utf8');
+    assert.equal(html.match(/<img src="data:image\/png/g).length, 4);
+    assert.ok(!/<script/i.test(html));
+    await page.keyboard.press('Escape');
+  });
+
+  it('connects_to_nothing_and_has_no_errors', async () => {
+    const refused = await page.evaluate(async () => {
+      try {
+        await fetch('https://example.org/');
+        return false;
+      } catch {
+        return true;
+      }
+    });
+    assert.ok(refused, 'the policy of the page forbids requests');
+    assert.deepEqual(requests, []);
+    // the refusal above is logged by the browser
+    assert.deepEqual(
+      errors.filter((text) => !/example\.org/.test(text)),
+      [],
+    );
+  });
+});

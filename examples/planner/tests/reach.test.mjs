@@ -1,0 +1,179 @@
+// The page for everybody: keyboard alone, touch, no WebGL, small windows, a crash.
+import assert from 'node:assert/strict';
+import { describe, it } from 'node:test';
+import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
+import { begin, apply, openPanel } from './person.mjs';
+
+async function on(options, work) {
+  const { context, profile } = await openBrowser(options);
+  try {
+    const opened = await openPlanner(context, options);
+    await work({ ...opened, context, profile });
+    assert.deepEqual(opened.errors, []);
+  } finally {
+    await context.close();
+  }
+}
+
+/** Presses Tab until an element has the focus. */
+async function tabTo(page, wanted) {
+  for (let k = 0; k < 60; ++k) {
+    await page.keyboard.press('Tab');
+    const text = await page.evaluate(() => {
+      const { activeElement: e } = document;
+      return `${e?.id} ${e?.getAttribute('data-operation') ?? ''} ${e?.textContent ?? ''}`;
+    });
+    if (wanted.test(text)) return;
+  }
+  throw new Error(`the keyboard does not reach ${wanted}`);
+}
+
+describe('planner for everybody', () => {
+  it('is_used_with_the_keyboard_alone', async () => {
+    await on({}, async ({ page }) => {
+      const { hash } = await figures(page);
+      await page.keyboard.press('r');
+      await tabTo(page, /annulus_scale/);
+      await page.keyboard.press('Enter');
+      await page.waitForTimeout(150);
+      await closed(page);
+      await tabTo(page, /f-factor/);
+      await page.keyboard.press('Control+a');
+      await page.keyboard.type('92');
+      await tabTo(page, /Apply/);
+      await page.waitForTimeout(150);
+      await closed(page);
+      await page.keyboard.press('Enter');
+      await page.waitForTimeout(150);
+      await closed(page);
+      assert.match((await figures(page)).history[0].title, /92/);
+      await page.keyboard.press('Control+z');
+      await page.waitForTimeout(50);
+      await closed(page);
+      assert.equal((await figures(page)).hash, hash);
+      await tabTo(page, /^ *$|valve/i);
+    });
+  });
+
+  for (const hash of ['#software', '#webgl']) {
+    it(`draws_by_${hash.slice(1)}`, async () => {
+      await on({ hash }, async ({ page }) => {
+        assert.equal(await page.evaluate(() => window.planner.viewport.renderer.name), hash.slice(1));
+        await begin(page, 'ring');
+        await apply(page);
+        assert.equal((await figures(page)).history.length, 1);
+      });
+    });
+  }
+
+  it('draws_where_the_browser_has_no_webgl', async () => {
+    await on({ software: true }, async ({ page }) => {
+      assert.equal(await page.evaluate(() => window.planner.viewport.renderer.name), 'software');
+    });
+  });
+
+  it('comes_back_after_a_lost_context', async () => {
+    await on({ hash: '#webgl' }, async ({ page }) => {
+      const share = () =>
+        page.evaluate(() => {
+          const { viewport } = window.planner;
+          const canvas = document.createElement('canvas');
+          [canvas.width, canvas.height] = [64, 36];
+          const paint = canvas.getContext('2d');
+          viewport.draw(false);
+          paint.drawImage(viewport.renderer.canvas, 0, 0, 64, 36);
+          const { data } = paint.getImageData(0, 0, 64, 36);
+          let pink = 0;
+          for (let i = 0; i < data.length; i += 4) pink += data[i] > data[i + 2] + 20 ? 1 : 0;
+          return pink / (64 * 36);
+        });
+      const before = await share();
+      assert.ok(before > 0.15);
+      await page.evaluate(async () => {
+        const context = window.planner.viewport.renderer.canvas.getContext('webgl2');
+        const extension = context.getExtension('WEBGL_lose_context');
+        extension.loseContext();
+        await new Promise((done) => setTimeout(done, 200));
+        extension.restoreContext();
+        await new Promise((done) => setTimeout(done, 400));
+      });
+      assert.ok(Math.abs((await share()) - before) < 0.02, 'the same picture as before');
+    });
+  });
+
+  it('recovers_a_session_after_a_closed_tab_only_where_it_was_allowed', async () => {
+    await on({}, async ({ page, context }) => {
+      await begin(page, 'annulus_scale');
+      await apply(page);
+      await page.reload({ waitUntil: 'load' });
+      await closed(page);
+      assert.equal(await page.getByTestId('recovery').count(), 0);
+      await openPanel(page, 'Plan');
+      await page.getByLabel(/Keep a copy/).check();
+      await begin(page, 'annulus_scale');
+      await apply(page);
+      await page.waitForTimeout(400);
+      const { hash } = await figures(page);
+      const other = await context.newPage();
+      await page.close({ runBeforeUnload: false });
+      await other.goto(
+        (await import('node:url')).pathToFileURL((await import('./browser.mjs')).page_path).href,
+      );
+      await closed(other);
+      await other.getByRole('button', { name: 'Recover it' }).click();
+      await other.waitForTimeout(300);
+      await closed(other);
+      assert.equal((await figures(other)).hash, hash);
+    });
+  });
+
+  it('fits_a_tablet_and_a_large_screen', async () => {
+    for (const [width, height] of [
+      [1280, 720],
+      [1920, 1080],
+      [820, 1180],
+    ]) {
+      await on({ width, height }, async ({ page }) => {
+        const clipped = await page.evaluate(() => {
+          const bad = [];
+          for (const button of document.querySelectorAll('header button, .viewbar button, .tabs button')) {
+            const box = button.getBoundingClientRect();
+            if (box.left < 0 || box.right > innerWidth + 0.5 || box.bottom > innerHeight + 0.5)
+              bad.push(button.textContent || button.ariaLabel);
+          }
+          return bad;
+        });
+        assert.deepEqual(clipped, [], `${width} x ${height}`);
+      });
+    }
+  });
+
+  it('turns_and_zooms_with_fingers', async () => {
+    await on({ width: 820, height: 1180, touch: true }, async ({ page, context }) => {
+      const client = await context.newCDPSession(page);
+      const camera = () =>
+        page.evaluate(() => [
+          ...window.planner.viewport.camera.orientation.toArray(),
+          window.planner.viewport.camera.distance,
+        ]);
+      const touch = (type, points) => client.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+      const start = await camera();
+      await touch('touchStart', [{ x: 400, y: 300 }]);
+      for (let k = 1; k <= 8; ++k) await touch('touchMove', [{ x: 400 + 10 * k, y: 300 }]);
+      await touch('touchEnd', []);
+      const turned = await camera();
+      assert.ok(Math.abs(turned[1] - start[1]) + Math.abs(turned[0] - start[0]) > 0.05);
+      await touch('touchStart', [
+        { x: 380, y: 300, id: 1 },
+        { x: 420, y: 300, id: 2 },
+      ]);
+      for (let k = 1; k <= 8; ++k)
+        await touch('touchMove', [
+          { x: 380 - 8 * k, y: 300, id: 1 },
+          { x: 420 + 8 * k, y: 300, id: 2 },
+        ]);
+      await touch('touchEnd', []);
+      assert.ok((await camera())[4] < 0.6 * turned[4], 'spreading two fingers brings the valve nearer');
+    });
+  });
+});

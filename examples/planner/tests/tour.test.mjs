@@ -1,0 +1,86 @@
+// The three valves of the tour, sealed with pointer and keys only, each in at most 60 actions.
+import assert from 'node:assert/strict';
+import { describe, it } from 'node:test';
+import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
+import { apply, begin, cameraRests, chordPlace, openPanel } from './person.mjs';
+
+/** Chooses a chord by a click and drags it away from its papillary head by millimetres of the picture. */
+async function lengthen(page, name, millimetres) {
+  await page.keyboard.press('2');
+  await cameraRests(page);
+  const { head, leaf, places } = await chordPlace(page, name);
+  const chosen = () =>
+    page.evaluate(() => {
+      const { state } = window.planner;
+      return state.main.value.figures.chords.find((chord) => chord.id === state.choice.value?.id)?.name;
+    });
+  let place;
+  for (const candidate of places.reverse()) {
+    await page.mouse.click(candidate.x, candidate.y);
+    if ((await chosen()) === name) {
+      place = candidate;
+      break;
+    }
+  }
+  assert.ok(place, `${name} is seen from the ventricle`);
+  const scale = await page.evaluate(() =>
+    window.planner.viewport.camera.scale(window.planner.viewport.height),
+  );
+  const length = Math.hypot(leaf.x - head.x, leaf.y - head.y);
+  const [dx, dy] = [
+    ((leaf.x - head.x) / length) * (millimetres / scale),
+    ((leaf.y - head.y) / length) * (millimetres / scale),
+  ];
+  await page.mouse.move(place.x, place.y);
+  await page.mouse.down();
+  for (let k = 1; k <= 8; ++k) await page.mouse.move(place.x + (k / 8) * dx, place.y + (k / 8) * dy);
+  await page.mouse.up();
+  await page.waitForTimeout(200);
+  await apply(page);
+}
+
+async function set(page, field, value) {
+  await page.locator(`#f-${field}`).fill(String(value));
+  await page.keyboard.press('Tab');
+  await page.waitForTimeout(200);
+  await closed(page);
+}
+
+const repairs = {
+  1: async (page) => {
+    await begin(page, 'band');
+    await apply(page);
+  },
+  2: async (page) => lengthen(page, 'A2/4', 3.7),
+  3: async (page) => {
+    await lengthen(page, 'A2/4', 6.5);
+    await begin(page, 'band');
+    await set(page, 'factor', 90);
+    await apply(page);
+  },
+};
+
+describe('tour', () => {
+  for (const number of [1, 2, 3]) {
+    it(`valve_${number}_is_sealed_by_hand_and_reaches_all_goals`, async () => {
+      const { context } = await openBrowser();
+      try {
+        const { page, errors } = await openPlanner(context);
+        await openPanel(page, 'Learn');
+        await page.getByRole('button', { name: `Valve ${number}` }).click();
+        await page.waitForTimeout(200);
+        await closed(page);
+        assert.ok((await figures(page)).measures.orifice > 3, 'the valve of the study leaks');
+        await repairs[number](page);
+        assert.equal((await figures(page)).measures.orifice, 0);
+        await openPanel(page, 'Learn');
+        await page.getByTestId('score').getByText('Study surgeon').waitFor({ timeout: 30_000 });
+        await page.getByRole('button', { name: 'Measure how far it opens' }).click();
+        await page.getByText('All goals reached.').waitFor({ timeout: 30_000 });
+        assert.deepEqual(errors, []);
+      } finally {
+        await context.close();
+      }
+    });
+  }
+});
