@@ -145,6 +145,7 @@ NodeField Differentiation::motion_of(const std::vector<ParameterStep> &steps) {
 }
 
 void Differentiation::solve_directly() {
+  tangent_.expect_solutions(options_.tests ? 3 * parameters_.size() : parameters_.size());
   for (size_t p = 0; p < parameters_.size(); ++p) {
     motions_.push_back(motion_of({{&parameters_[p], 1}}));
     for (size_t q = 0; q < gradients_.size(); ++q) {

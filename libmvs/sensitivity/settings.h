@@ -12,6 +12,10 @@ inline constexpr double broad_phase_slack = 0.1;
 inline constexpr int gmres_iterations = 100, refinements = 4;
 inline constexpr double gmres_tolerance = 1e-10, solve_tolerance = 1e-12, solve_limit = 1e-6;
 
+// Solutions from which a dense factor over the free edge may pay, and its rows at most: it takes
+// one solution with Ks a row, and saves the ten to thirty iterations of GMRES of each solution.
+inline constexpr unsigned many_solutions = 12, most_dense_rows = 900;
+
 // Factor of an indefinite Ks: N/m on its diagonal.
 inline constexpr double first_shift = 1e-4, shift_growth = 4, most_shift = 1e12;
 

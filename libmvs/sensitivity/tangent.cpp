@@ -77,9 +77,59 @@ void EquilibriumTangent::apply(const NodeField &rows, bool transposed, NodeField
   for (size_t r = 0; r < rows.size(); ++r) y[r] += sign * skew_[free_.node_of[r]];
 }
 
-// One round of refinement: x += GMRES solution for the residual. Returns |b - K x| / |b|.
-double EquilibriumTangent::refine(const NodeField &b, bool transposed, NodeField &x) {
-  NodeField r = residuals_;
+// With Ks = L L^T, E the rows of the free edge and N = E n E^T: K y = b has the solution
+// y = Ks^-1 (b - E n y_E), y_E from (I + E^T Ks^-1 E n) y_E = E^T Ks^-1 b.
+void EquilibriumTangent::expect_solutions(size_t count) {
+  if (dense_ || shift_ != 0 || count < set::many_solutions) return;
+  const size_t nodes = model_->node_count();
+  NodeField unit(nodes, Vec3::Zero()), column(nodes);
+  std::vector<uint8_t> is_edge(free_.node_of.size(), 0);
+  for (const std::vector<uint32_t> &loop : model_->topology.free_edges) {
+    for (const uint32_t node : loop) {
+      if (free_.row_of[node] != none) is_edge[free_.row_of[node]] = 1;
+    }
+  }
+  for (uint32_t r = 0; r < is_edge.size(); ++r) {
+    if (is_edge[r]) edge_.push_back(r);
+  }
+  const size_t n = 3 * edge_.size();
+  if (n == 0 || n > set::most_dense_rows || n > 6 * count) return edge_.clear();
+  std::vector<double> matrix(n * n, 0);
+  for (size_t c = 0; c < n; ++c) {
+    unit[free_.node_of[edge_[c / 3]]][static_cast<int>(c % 3)] = 1;
+    std::fill(column.begin(), column.end(), Vec3::Zero());
+    total_energy_.add_skew(state_->x, unit, column);
+    unit[free_.node_of[edge_[c / 3]]].setZero();
+    NodeField rows(free_.node_of.size());
+    for (size_t r = 0; r < rows.size(); ++r) rows[r] = column[free_.node_of[r]];
+    factor_->solve(rows);
+    for (size_t i = 0; i < n; ++i) {
+      matrix[i * n + c] = rows[edge_[i / 3]][static_cast<int>(i % 3)] + (i == c ? 1.0 : 0.0);
+    }
+  }
+  dense_ = std::make_unique<DenseFactor>(n, std::move(matrix));
+  if (!dense_->is_regular()) dense_.reset();
+}
+
+void EquilibriumTangent::eliminate_skew(NodeField &r) {
+  NodeField y = r;
+  factor_->solve(y);
+  std::vector<double> edge;
+  for (const uint32_t row : edge_) edge.insert(edge.end(), y[row].data(), y[row].data() + 3);
+  dense_->solve(edge);
+  direction_.assign(model_->node_count(), Vec3::Zero());
+  for (size_t k = 0; k < edge_.size(); ++k) {
+    direction_[free_.node_of[edge_[k]]] = Vec3(edge[3 * k], edge[3 * k + 1], edge[3 * k + 2]);
+  }
+  skew_.assign(model_->node_count(), Vec3::Zero());
+  total_energy_.add_skew(state_->x, direction_, skew_);
+  for (size_t k = 0; k < r.size(); ++k) r[k] -= skew_[free_.node_of[k]];
+  factor_->solve(r);
+}
+
+// Solves for a residual in place, to about 1e-10.
+void EquilibriumTangent::approximate(bool transposed, NodeField &r) {
+  if (dense_ && !transposed) return eliminate_skew(r);
   factor_->solve(r);
   const auto preconditioned = [&](const NodeField &v) {
     NodeField y(v.size());
@@ -88,6 +138,12 @@ double EquilibriumTangent::refine(const NodeField &b, bool transposed, NodeField
     return y;
   };
   gmres(preconditioned, r, set::gmres_iterations, set::gmres_tolerance);
+}
+
+// One round of refinement: x += an approximate solution for the residual. Returns |b - K x| / |b|.
+double EquilibriumTangent::refine(const NodeField &b, bool transposed, NodeField &x) {
+  NodeField r = residuals_;
+  approximate(transposed, r);
   for (size_t k = 0; k < x.size(); ++k) x[k] += r[k];
   residuals_.resize(x.size());
   apply(x, transposed, residuals_);

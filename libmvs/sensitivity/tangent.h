@@ -1,6 +1,9 @@
-// The exact tangent K = Ks + N of an equilibrium and solutions with it or its transpose: a sparse
-// Cholesky factor of the symmetric part Ks preconditions GMRES for the skew part N of the follower
-// pressure, inside iterative refinement (Saad, Iterative Methods for Sparse Linear Systems, 2003).
+// The exact tangent K = Ks + N of an equilibrium and solutions with it or its transpose, by a
+// sparse Cholesky factor of the symmetric part Ks inside iterative refinement. For few solutions
+// the factor preconditions GMRES (Saad, Iterative Methods for Sparse Linear Systems, 2003). For
+// many the skew part N of the follower pressure, which couples the nodes of the free edge alone, is
+// eliminated by the Woodbury identity with a dense factor over these nodes (Hager, SIAM Review 31,
+// 1989).
 //
 // Unlike the Hessians of a settle it is never projected. Vectors have one entry a node; entries of
 // prescribed nodes are zero in solutions.
@@ -12,6 +15,7 @@
 #include "energy/total_energy.h"
 #include "linalg/direct_solver.h"
 #include "linalg/spmv.h"
+#include "sensitivity/dense_factor.h"
 
 namespace mvs::core {
 
@@ -22,6 +26,8 @@ class EquilibriumTangent {
   // `state` has a position for each node of `model`, points of instruments included.
   EquilibriumTangent(const Model &model, const State &state);
 
+  // Makes the dense factor, if that pays for this number of solutions with K (not its transpose).
+  void expect_solutions(size_t count);
   // Solves K y = b, or its transpose, in place of b; prescribed entries of b are ignored.
   void solve(NodeField &b, bool transposed);
   // y = K v or its transpose, over all nodes: also for motion of prescribed nodes.
@@ -42,6 +48,8 @@ class EquilibriumTangent {
   void factorise();
   void hold_loose_rows();
   void apply(const NodeField &rows, bool transposed, NodeField &y);
+  void approximate(bool transposed, NodeField &r);
+  void eliminate_skew(NodeField &r);
   double refine(const NodeField &b, bool transposed, NodeField &x);
 
   const Model *model_;
@@ -54,6 +62,8 @@ class EquilibriumTangent {
   NodeField gradient_, trial_;              // at the equilibrium; of gradient_at()
   NodeField direction_, skew_, residuals_;  // work space
   std::vector<uint8_t> is_loose_;           // rows without stiffness
+  std::vector<uint32_t> edge_;              // rows that N couples, while there is a dense factor
+  std::unique_ptr<DenseFactor> dense_;
   double shift_ = 0;  // N/m on the diagonal of the factor, where Ks is indefinite
   double residual_ = 0, linear_error_ = 0;
 };

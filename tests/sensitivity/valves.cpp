@@ -210,6 +210,7 @@ struct Compared {
 Compared compare(const Closed &closed, const Quantity &q, const std::vector<Parameter> &parameters,
                  const std::vector<double> &direction, const NodeField &motion, bool smooth,
                  double slack) {
+  if (fastest_of(motion) == 0) return {smooth, 0, 0};  // all chordae are slack: nothing to compare
   const double h = 0.5 * slack / fastest_of(motion);
   Closed above = closed, below = closed;
   double slope = 0;
