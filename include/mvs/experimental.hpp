@@ -1,4 +1,4 @@
-// The experimental interface for C++17: valves from surfaces, ensembles, sensitivities, mesh levels,
+// The experimental interface for C++17: surfaces, ensembles, sensitivities, mesh levels,
 // solver profile; may change.
 #ifndef MVS_EXPERIMENTAL_HPP
 #define MVS_EXPERIMENTAL_HPP
