@@ -10,8 +10,10 @@
 // 1e-4 N. Shares are of that closure, from the same run of the program. The orifice is that of a
 // valve with its annulus dilated by 1.4.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <mvs/experimental.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +29,7 @@ struct Options {
 };
 
 struct Valve {
-  mvs::Simulator sim;
-  mvs::Snapshot closed;
+  std::optional<mvs::Snapshot> closed;
   double closure_s = 0;  // CPU
 };
 
@@ -49,8 +50,7 @@ Valve closed_valve(const std::string &scene, double annulus_scale, int repeat) {
     const double took =
         bench::timed([&] { mvs::must(mvs_settle(sim.get(), &options, nullptr)); }).cpu;
     valve.closure_s = k == 0 ? took : std::min(took, valve.closure_s);
-    valve.closed = sim.snapshot();
-    valve.sim = std::move(sim);
+    valve.closed.emplace(sim.snapshot());
   }
   return valve;
 }
@@ -67,13 +67,13 @@ std::vector<mvs_parameter> rest_lengths(const mvs::Snapshot &valve) {
 
 void add_row(const Options &options, const std::string &scene, const Valve &valve,
              const std::string &name, const mvs_quantity &quantity, bench::Table &table) {
-  const std::vector<mvs_parameter> to = rest_lengths(valve.closed);
+  const std::vector<mvs_parameter> to = rest_lengths(*valve.closed);
   mvs_sensitivity_summary summary = {};
   const auto time = [&](mvs_sensitivity_flags flags) {
     mvs_sensitivity_options how = {};
     how.flags = flags;
     return bench::fastest(options.repeat, [&] {
-      summary = mvs::Sensitivity(valve.closed, {quantity}, to, how).summary();
+      summary = mvs::Sensitivity(*valve.closed, {quantity}, to, how).summary();
     });
   };
   const double motion =
