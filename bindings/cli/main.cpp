@@ -33,6 +33,7 @@ void add_commands(CLI::App &app, cli::Console &console) {
   cli::add_plan(app, console);
   cli::add_remesh(app, console);
   cli::add_repair(app, console);
+  cli::add_sensitivity(app, console);
   cli::add_sweep(app, console);
   cli::add_haptics(app, console);
 }

@@ -1,5 +1,5 @@
-// The experimental interface for C++17: valves from surfaces, ensembles, mesh levels, solver
-// profile; may change.
+// The experimental interface for C++17: surfaces, ensembles, sensitivities, mesh levels,
+// solver profile; may change.
 #ifndef MVS_EXPERIMENTAL_HPP
 #define MVS_EXPERIMENTAL_HPP
 
@@ -7,6 +7,7 @@
 #include <mvs/build.hpp>
 #include <mvs/ensemble.hpp>
 #include <mvs/mvs.hpp>
+#include <mvs/sensitivity.hpp>
 #include <mvs/surface_file.hpp>
 
 namespace mvs {

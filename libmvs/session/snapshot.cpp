@@ -5,6 +5,7 @@
 
 #include "base/struct_fields.h"
 #include "geometry/intersect.h"
+#include "measure/fields.h"
 
 namespace {
 
@@ -52,60 +53,6 @@ Tables make_tables(const Model &model) {
 
 void add_crossings(const mvs_snapshot &s, mvs_measures &m) {
   m.intersections = s.crossings();
-}
-
-void add_orifice(const mvs_snapshot &s, mvs_measures &m) {
-  m.regurgitant_orifice_area = s.orifice().area;
-}
-
-void add_coaptation(const mvs_snapshot &s, mvs_measures &m) {
-  m.coaptation_area = s.coaptation().area;
-  m.coaptation_length_mean = s.coaptation().length_mean;
-  m.coaptation_length_min = s.coaptation().length_min;
-  m.coaptation_length_max = s.coaptation().length_max;
-  m.coaptation_height = s.coaptation().height;
-  m.coaptation_depth = s.coaptation().depth;
-}
-
-void add_tenting_billow(const mvs_snapshot &s, mvs_measures &m) {
-  const TentingBillow &measured = s.tenting_billow();
-  m.tenting_height = measured.tenting_height;
-  m.tenting_area = measured.tenting_area;
-  m.tenting_volume = measured.tenting_volume;
-  m.billow_height = measured.billow_height;
-  m.billow_volume = measured.billow_volume;
-}
-
-void add_annulus(const mvs_snapshot &s, mvs_measures &m) {
-  const AnnulusMeasures &annulus = s.annulus();
-  m.annulus_ap = annulus.ap;
-  m.annulus_cc = annulus.cc;
-  m.annulus_perimeter = annulus.perimeter;
-  m.annulus_area_3d = annulus.area_3d;
-  m.annulus_area = annulus.area;
-  m.annulus_saddle_height = annulus.saddle_height;
-  m.annulus_nonplanar_angle = annulus.nonplanar_angle;
-}
-
-void add_chords(const mvs_snapshot &s, mvs_measures &m) {
-  m.max_chord_strain = s.chords().max_strain;
-  m.max_chord_tension = s.chords().max_tension;
-  m.chords_over_strain = s.chords().over_strain;
-  m.chords_over_tension = s.chords().over_tension;
-}
-
-void add_leaflets(const mvs_snapshot &s, mvs_measures &m) {
-  m.max_leaflet_strain = s.strain().max_strain;
-  m.max_leaflet_stress = s.strain().max_stress;
-  m.leaflet_area = s.strain().leaflet_area;
-  const Percentiles &strain = s.strain().strain_percentiles;
-  m.leaflet_strain_p50 = strain.p50;
-  m.leaflet_strain_p95 = strain.p95;
-  m.leaflet_strain_p99 = strain.p99;
-  const Percentiles &stress = s.strain().stress_percentiles;
-  m.leaflet_stress_p50 = stress.p50;
-  m.leaflet_stress_p95 = stress.p95;
-  m.leaflet_stress_p99 = stress.p99;
 }
 
 // NaN in every number and 0 in every count.
@@ -190,12 +137,12 @@ const mvs_measures &mvs_snapshot::measures() const {
 mvs_measures mvs_snapshot::measures(mvs_measure_group_flags groups) const {
   mvs_measures m = no_measures();
   if ((groups & MVS_MEASURE_GROUP_CROSSINGS) != 0) add_crossings(*this, m);
-  if ((groups & MVS_MEASURE_GROUP_ORIFICE) != 0) add_orifice(*this, m);
-  if ((groups & MVS_MEASURE_GROUP_COAPTATION) != 0) add_coaptation(*this, m);
-  if ((groups & MVS_MEASURE_GROUP_TENTING) != 0) add_tenting_billow(*this, m);
-  if ((groups & MVS_MEASURE_GROUP_ANNULUS) != 0) add_annulus(*this, m);
-  if ((groups & MVS_MEASURE_GROUP_CHORDS) != 0) add_chords(*this, m);
-  if ((groups & MVS_MEASURE_GROUP_LEAFLETS) != 0) add_leaflets(*this, m);
+  if ((groups & MVS_MEASURE_GROUP_ORIFICE) != 0) fill_group(orifice(), m);
+  if ((groups & MVS_MEASURE_GROUP_COAPTATION) != 0) fill_group(coaptation(), m);
+  if ((groups & MVS_MEASURE_GROUP_TENTING) != 0) fill_group(tenting_billow(), m);
+  if ((groups & MVS_MEASURE_GROUP_ANNULUS) != 0) fill_group(annulus(), m);
+  if ((groups & MVS_MEASURE_GROUP_CHORDS) != 0) fill_group(chords(), m);
+  if ((groups & MVS_MEASURE_GROUP_LEAFLETS) != 0) fill_group(strain(), m);
   m.at_rest = state.is_at_rest();
   m.under_load = state.load.pressure > 0;
   return m;

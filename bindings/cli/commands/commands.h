@@ -26,6 +26,7 @@ void add_convert(CLI::App &app, Console &console);
 void add_plan(CLI::App &app, Console &console);
 void add_remesh(CLI::App &app, Console &console);
 void add_repair(CLI::App &app, Console &console);
+void add_sensitivity(CLI::App &app, Console &console);
 void add_sweep(CLI::App &app, Console &console);
 void add_haptics(CLI::App &app, Console &console);
 

@@ -41,6 +41,7 @@ from .errors import (
     ValveWarning,
     VersionError,
 )
+from .fitting import Fit, Points, Prior, fit
 from .kinds import (
     DIASTOLE_PA,
     MMHG,
@@ -58,6 +59,7 @@ from .kinds import (
 )
 from .laws import leaflet_law
 from .ops import Operation, Site
+from .sensitivities import Sensitivity
 from .surfaces import Landmarks, Surface, read_landmarks, read_surface
 from .sweeps import sweep
 from .tables import Table
@@ -113,6 +115,7 @@ __all__ = [
     "Fault",
     "Finding",
     "FindingSource",
+    "Fit",
     "FormatError",
     "Frame",
     "HistoryEntry",
@@ -132,11 +135,14 @@ __all__ = [
     "Operation",
     "Part",
     "PartKind",
+    "Points",
+    "Prior",
     "Profile",
     "Replay",
     "Ring",
     "RingKind",
     "SamRisk",
+    "Sensitivity",
     "Simulator",
     "Site",
     "Snapshot",
@@ -156,6 +162,7 @@ __all__ = [
     "chord_limits",
     "definition_of",
     "features",
+    "fit",
     "haptics",
     "leaflet_law",
     "ops",

@@ -14,6 +14,7 @@ from .drawing.snapshots import Picture
 from .kinds import LeafletLaw, PartKind
 from .laws import Constants
 from .ops import Group, Operation
+from .sensitivities import Sensitivity
 from .tables import Table
 from .values import (
     ChordLimits,
@@ -246,6 +247,18 @@ class Snapshot:
         residual: Optional[float] = None,
         progress: _Progress = None,
     ) -> Ensemble: ...
+    def sensitivity(
+        self,
+        of: Any,
+        to: Any,
+        *,
+        slack: Optional[float] = None,
+        motion: bool = False,
+        test: bool = True,
+    ) -> Sensitivity: ...
+    def _sensitivity(
+        self, of: list[Any], to: list[Any], flags: int, slack: Optional[float]
+    ) -> dict[str, Any]: ...
     def save(self, path: _Path, *, format: _Format = "auto") -> None: ...
     def to_bytes(self, *, format: _Format = "obj") -> bytes: ...
     def plan(self, *, author: str = "", notes: str = "", measures: bool = False) -> str: ...
@@ -381,6 +394,7 @@ class Simulator:
     ) -> None: ...
     def advance_settle(self, seconds: float) -> float: ...
     def cancel_settle(self) -> None: ...
+    def sensitivity(self, *args: Any, **options: Any) -> Sensitivity: ...
     def settle_slices(
         self,
         seconds: float = 0.05,

@@ -10,6 +10,7 @@ from .arguments import wrap_methods
 from .drawing import snapshots
 from .errors import ArgumentError, Error
 from .kinds import MMHG
+from .sensitivities import sensitivity, simulator_sensitivity
 from .tables import chords, orifice_parts, regions, to_dataframe
 from .values import Measures
 from .words import did_you_mean, listed, shown
@@ -35,12 +36,14 @@ def attach() -> None:
         ("regions", regions),
         ("orifice_parts", orifice_parts),
         ("plot", snapshots.plot),
+        ("sensitivity", sensitivity),
         ("to_dataframe", to_dataframe),
         ("to_pyvista", snapshots.to_pyvista),
     ):
         setattr(_core.Snapshot, name, method)
     setattr(_core.Simulator, "__repr__", simulator_text)
     setattr(_core.Simulator, "settle_slices", settle_slices)
+    setattr(_core.Simulator, "sensitivity", simulator_sensitivity)
 
 
 def words_of(snapshot: _core.Snapshot) -> str:

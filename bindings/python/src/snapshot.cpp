@@ -8,6 +8,7 @@
 
 #include "arrays.h"
 #include "ensemble.h"
+#include "sensitivity.h"
 #include "values.h"
 #include "views.h"
 
@@ -313,6 +314,7 @@ void bind_snapshot(py::module_ &module) {
            "The contents of the file that save would write.");
   bind_plan_writing(type);
   bind_ensemble(module, type);
+  bind_sensitivity(type);
   type.def("__repr__", &text);
 }
 

@@ -156,6 +156,17 @@ FacingPoints::Row FacingWeight::weights_of(const FacingPoints &points) {
   return weights;
 }
 
+FacingWeight::Best FacingWeight::best_of(const FacingPoints &points) {
+  Best best;
+  best.triangle.fill(none);
+  for_each_faced(points, [&](uint32_t t, uint32_t k, size_t, double weight) {
+    if (weight <= best.weight[k]) return;
+    best.weight[k] = weight;
+    best.triangle[k] = t;
+  });
+  return best;
+}
+
 std::span<const Faced> FacingWeight::of_points(const FacingPoints &points) {
   if (faced_.size() < points.count) faced_.resize(points.count);
   for (size_t k = 0; k < points.count; ++k) {

@@ -47,6 +47,12 @@ class FacingWeight {
   std::span<const Faced> of_points(const FacingPoints &points);
   // Their weights alone.
   FacingPoints::Row weights_of(const FacingPoints &points);
+  // Their weights with the triangle that each faces best; `none` where the weight is 0.
+  struct Best {
+    FacingPoints::Row weight{};
+    std::array<uint32_t, FacingPoints::most> triangle{};
+  };
+  Best best_of(const FacingPoints &points);
 
  private:
   // A triangle that points may face.

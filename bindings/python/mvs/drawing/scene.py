@@ -174,9 +174,15 @@ class Scene:
         wall = _surface(points, np.concatenate(triangles))
         self.plotter.add_mesh(wall, color=WALL, smooth_shading=True, ambient=0.3, specular=0.0)
 
-    def add_chords(self, tension: Optional[NDArray[np.float64]] = None, high: float = 1.0) -> None:
+    def add_chords(
+        self,
+        values: Optional[NDArray[np.float64]] = None,
+        high: float = 1.0,
+        low: float = 0.0,
+        shades: str = "viridis",
+    ) -> None:
         """Adds chordae as tubes of their cross-section that taper towards the leaflet, coloured by
-        tension in N if it is given."""
+        values, such as the tension in N, if they are given; grey where these are 0 or below `low`."""
         snapshot = self.drawing.snapshot
         radius = np.sqrt(snapshot.chord_area / np.pi) * 1e3
         for row, (a, b) in enumerate(snapshot.chord_nodes):
@@ -184,13 +190,13 @@ class Scene:
             if snapshot.chord_kind[row] == ChordKind.SUTURE:
                 self.plotter.add_mesh(tube, color=SEWN, smooth_shading=True, ambient=0.25)
                 continue
-            if tension is None or tension[row] <= 0:
-                colour: Any = CHORD if tension is None else SLACK
+            if values is None or values[row] == 0 or values[row] < low:
+                colour: Any = CHORD if values is None else SLACK
                 self.plotter.add_mesh(tube, color=colour, smooth_shading=True, ambient=0.25)
                 continue
-            tube.point_data["tension"] = np.full(tube.n_points, tension[row])
+            tube.point_data["value"] = np.full(tube.n_points, values[row])
             self.plotter.add_mesh(
-                tube, scalars="tension", clim=(0, high), cmap="viridis", smooth_shading=True,
+                tube, scalars="value", clim=(low, high), cmap=shades, smooth_shading=True,
                 ambient=0.25, show_scalar_bar=False,
             )
 

@@ -35,7 +35,8 @@ class Picture:
         return self.png
 
 
-def _need(call: str) -> None:
+def need(call: str) -> None:
+    """Raises ImportError with the remedy unless the packages of pictures are there."""
     try:
         import matplotlib  # noqa: F401
         import pyvista  # noqa: F401
@@ -53,7 +54,7 @@ def plot(self: Snapshot, view: str = "atrium") -> Picture:
     """
     if view not in VIEWS:
         raise ArgumentError(f'view: one of {listed(VIEWS)} is needed, not "{view}"', "view")
-    _need("plot")
+    need("plot")
     from .geometry import Drawing
     from .maps import coaptation_map, strain_map
     from .pictures import picture, view_from_atrium, view_from_ventricle, view_oblique
@@ -83,7 +84,7 @@ def to_pyvista(self: Snapshot) -> Any:
         per triangle leaflet, scallop, thickness (m), stretch_1, stretch_2, stress_1, stress_2 (Pa)
     chords: lines; per line kind, strain, tension (N), flags, rest_length (m)
     """
-    _need("to_pyvista")
+    need("to_pyvista")
     import pyvista
 
     gap = self.node_coaptation

@@ -1,0 +1,122 @@
+#include "valve/sensitivity.h"
+
+#include <utility>
+
+namespace cli {
+namespace {
+
+// The unit that people read, and its factor from SI.
+struct Shown {
+  const char *si, *unit;
+  double scale;
+};
+constexpr Shown shown[] = {{"m", "mm", 1e3},    {"m2", "mm2", 1e6},
+                           {"m3", "ml", 1e6},   {"N", "N", 1},
+                           {"Pa", "kPa", 1e-3}, {"rad", "deg", 57.29577951308232}};
+
+AskedQuantity quantity_of(const std::string &given) {
+  AskedQuantity asked{given, given, "", 1};
+  if (given == "coaptation") asked.name = "coaptation_area";
+  if (given == "orifice") asked.name = "regurgitant_orifice_area";
+  for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_MEASURES)) {
+    if (asked.name != field.name) continue;
+    for (const Shown &row : shown) {
+      if (std::string(row.si) != field.unit) continue;
+      asked.unit = row.unit;
+      asked.scale = row.scale;
+    }
+  }
+  return asked;
+}
+
+// One parameter for each part of a kind.
+AskedParameters of_parts(const mvs::Snapshot &valve, mvs_part_kind parts, mvs_parameter_kind kind) {
+  AskedParameters asked{{}, {}, "mm", 1e-3};
+  for (const mvs_part &part : valve.parts(parts)) {
+    const uint32_t axes = kind == MVS_PARAMETER_HEAD_POSITION ? 3 : 1;
+    for (uint32_t axis = 0; axis < axes; ++axis) {
+      mvs_parameter parameter = {};
+      parameter.kind = kind;
+      parameter.index = part.index;
+      parameter.component = axis;
+      asked.list.push_back(parameter);
+      asked.names.push_back(axes == 1 ? part.name : text("%s %c", part.name, "xyz"[axis]));
+    }
+  }
+  return asked;
+}
+
+AskedParameters single(const std::string &name, mvs_parameter_kind kind, const std::string &unit,
+                       double scale) {
+  mvs_parameter parameter = {};
+  parameter.kind = kind;
+  return {{name}, {parameter}, unit, scale};
+}
+
+AskedParameters parameters_of(const mvs::Snapshot &valve, const std::string &to) {
+  if (to == "chords") return of_parts(valve, MVS_PART_CHORD, MVS_PARAMETER_CHORD_REST_LENGTH);
+  if (to == "heads") return of_parts(valve, MVS_PART_HEAD, MVS_PARAMETER_HEAD_POSITION);
+  if (to == "scallops") return of_parts(valve, MVS_PART_SCALLOP, MVS_PARAMETER_SCALLOP_THICKNESS);
+  if (to == "pressure") return single(to, MVS_PARAMETER_PRESSURE, "mmHg", pa_per_mmhg);
+  return single(to, MVS_PARAMETER_ANNULUS_SCALE, "%", 0.01);
+}
+
+template <typename Number>
+std::vector<Number> array_of(const mvs::Sensitivity &found, mvs_sensitivity_array which) {
+  mvs_view view = {};
+  mvs::must(mvs_sensitivity_get_array(found.get(), which, &view));
+  const auto *data = static_cast<const Number *>(view.data);
+  return {data, data + view.count * view.components};
+}
+
+}  // namespace
+
+std::vector<std::string> parameter_words() {
+  return {"chords", "heads", "scallops", "pressure", "annulus_scale"};
+}
+
+SensitivityTable sensitivity_table(const mvs::Snapshot &valve, const std::vector<std::string> &of,
+                                   const std::string &to) {
+  SensitivityTable table = {};
+  std::vector<mvs_quantity> list;
+  for (const std::string &name : of) table.quantities.push_back(quantity_of(name));
+  for (const AskedQuantity &asked : table.quantities) {
+    mvs_quantity quantity = {};
+    quantity.kind = MVS_QUANTITY_MEASURE;
+    quantity.measure = asked.name.c_str();
+    list.push_back(quantity);
+  }
+  table.parameters = parameters_of(valve, to);
+  const mvs::Sensitivity found(valve, list, table.parameters.list);
+  table.summary = found.summary();
+  table.value = array_of<double>(found, MVS_SENSITIVITY_ARRAY_VALUE);
+  table.derivative = array_of<double>(found, MVS_SENSITIVITY_ARRAY_DERIVATIVE);
+  table.quantity_notes = array_of<uint32_t>(found, MVS_SENSITIVITY_ARRAY_QUANTITY_NOTES);
+  table.parameter_notes = array_of<uint32_t>(found, MVS_SENSITIVITY_ARRAY_PARAMETER_NOTES);
+  const size_t columns = table.parameters.names.size();
+  for (size_t q = 0; q < table.quantities.size(); ++q) {
+    table.value[q] *= table.quantities[q].scale;
+    for (size_t p = 0; p < columns; ++p) {
+      table.derivative[q * columns + p] *= table.quantities[q].scale * table.parameters.scale;
+    }
+  }
+  return table;
+}
+
+std::vector<std::string> note_words(mvs_sensitivity_notes notes) {
+  static const std::pair<mvs_sensitivity_notes, const char *> words[] = {
+      {MVS_SENSITIVITY_NOTE_SWITCH, "switch"},
+      {MVS_SENSITIVITY_NOTE_CHORD, "chord about to switch"},
+      {MVS_SENSITIVITY_NOTE_SNAP, "about to snap"},
+      {MVS_SENSITIVITY_NOTE_DIFFERENCES, "by differences"},
+      {MVS_SENSITIVITY_NOTE_RASTER, "on a raster"},
+      {MVS_SENSITIVITY_NOTE_EXTREME, "extreme value"},
+      {MVS_SENSITIVITY_NOTE_ENVELOPE, "rim fixed in the tissue"}};
+  std::vector<std::string> found;
+  for (const auto &[bit, word] : words) {
+    if ((notes & bit) != 0) found.emplace_back(word);
+  }
+  return found;
+}
+
+}  // namespace cli

@@ -1,0 +1,45 @@
+// Derivatives of measures of a valve in the units of the command.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "text/console.h"
+
+namespace cli {
+
+struct AskedQuantity {
+  std::string label;  // as given: "coaptation"
+  std::string name;   // of the measure
+  std::string unit;   // shown: "mm2"
+  double scale;       // from SI
+};
+
+struct AskedParameters {
+  std::vector<std::string> names;
+  std::vector<mvs_parameter> list;
+  std::string unit;  // of a change: "mm"
+  double scale;      // SI per unit
+};
+
+struct SensitivityTable {
+  std::vector<AskedQuantity> quantities;
+  AskedParameters parameters;
+  std::vector<double> value, derivative;  // in shown units; a row a quantity
+  std::vector<mvs_sensitivity_notes> quantity_notes, parameter_notes;
+  mvs_sensitivity_summary summary;
+
+  double at(size_t q, size_t p) const { return derivative[q * parameters.names.size() + p]; }
+};
+
+// Values of --to.
+std::vector<std::string> parameter_words();
+
+// Measures by their names, or "coaptation" and "orifice".
+SensitivityTable sensitivity_table(const mvs::Snapshot &valve, const std::vector<std::string> &of,
+                                   const std::string &to);
+
+// Words of MVS_SENSITIVITY_NOTE_*.
+std::vector<std::string> note_words(mvs_sensitivity_notes notes);
+
+}  // namespace cli

@@ -1,0 +1,180 @@
+"""Bounded Gauss-Newton fit of a closed valve (scipy.optimize.least_squares, trust region reflective) with
+the exact Jacobian of Snapshot.sensitivity and normal priors."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Mapping
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from ..errors import ArgumentError, DivergedError, StateError
+from .quiet import quiet
+from .parameters import Free, Prior, free_parameters
+from .result import Fit, Start, Trace
+from .targets import Target, target_of
+
+Array = NDArray[np.float64]
+
+LOST = 10.0
+"""Residual in standard deviations of every datum of a trial that does not come to rest: worse than any
+trial that does, so that the step is refused."""
+
+
+class Problem:
+    """Residuals and Jacobian of one start; keeps the last closures."""
+
+    def __init__(self, start: _core.Snapshot, free: Free, target: Target, noise: float,
+                 with_prior: bool, residual: float) -> None:
+        self.start, self.free, self.target = start, free, target
+        self.noise, self.with_prior, self.residual = noise, with_prior, residual
+        self.load = start.load_case
+        self.closed: dict[bytes, Optional[_core.Snapshot]] = {}
+        self.last = start
+        self.closures = 0
+        self.trace: list[Trace] = []
+        self.sim = _core.Simulator(log=lambda level, text: None)
+
+    def close(self, z: Array) -> Optional[_core.Snapshot]:
+        """The closed valve with these parameters, from the last closed shape; None if not at rest."""
+        key = z.tobytes()
+        if key not in self.closed:
+            self.closed.clear()
+            self.closed[key] = self._settle(z)
+        return self.closed[key]
+
+    def _settle(self, z: Array) -> Optional[_core.Snapshot]:
+        self.closures += 1
+        with quiet():
+            self.sim.set_valve(self.free.valve(z, self.last.node_position))
+            self.sim.set_load(self.load.pressure, self.load.boundary_fraction)
+            try:
+                if not self.sim.settle(residual=self.residual).converged:
+                    return None
+            except DivergedError:
+                return None
+        self.last = self.sim.snapshot()
+        return self.last
+
+    def data(self, closed: _core.Snapshot) -> Array:
+        return self.target.residuals(np.array(closed.node_position))[0] / self.noise
+
+    def residuals(self, z: Array) -> Array:
+        closed = self.close(z)
+        count = len(self.data(self.start))
+        r = self.data(closed) if closed is not None else np.full(count, LOST)
+        self.trace.append(Trace(self.closures, float(r @ r), float(z @ z), closed is not None))
+        return np.concatenate([r, z]) if self.with_prior else r
+
+    def jacobian(self, z: Array) -> Array:
+        j = self.data_jacobian(z)
+        return np.vstack([j, np.eye(len(z))]) if self.with_prior else j
+
+    def data_jacobian(self, z: Array) -> Array:
+        """d(data residuals) / dz, from the exact derivatives at the closure."""
+        closed = self.close(z)
+        if closed is None:
+            raise StateError("fit: the valve does not come to rest; tighten the priors or the bounds", "fit")
+        nodes, directions = self.target.residuals(np.array(closed.node_position))[1:]
+        found = closed._sensitivity([(2, 0, 0, None, None, np.zeros((len(closed.node_position), 3)))],
+                                    list(self.free.rows), 1 | 4 | 8, None)
+        motion = found["motion"].reshape(len(z), -1, 3)[:, nodes]
+        return np.einsum("pki,ki->kp", motion, directions) * (self.free.deviation / self.noise)
+
+
+def fit(
+    start: _core.Snapshot,
+    target: Any,
+    *,
+    free: Union[str, Iterable[str]] = "chords",
+    noise: float = 0.5e-3,
+    priors: Union[None, bool, Mapping[str, Prior]] = None,
+    starts: int = 1,
+    residual: float = 1e-5,
+    most: int = 15,
+    tolerance: float = 1e-3,
+) -> Fit:
+    """Fits parameters of a closed valve to a measured shape (mvs.Fit); extra ``fit`` (scipy).
+
+        found = mvs.fit(closed, (points, triangles), free=["chords", "heads"], noise=0.5e-3)
+        found.table(); found.interval("coaptation"); found.save_report("fit.html")
+
+    start: the closed valve at rest with the parameters to begin with
+    target: mvs.Points (tracked nodes), mvs.Surface or (points, triangles) of the closed leaflets, m, or a
+        closed mvs.Snapshot, in the frame of the valve
+    free: groups of parameters: "chords" (rest lengths), "tissue" (constants of each leaflet), "thickness",
+        "heads" (coordinates), "prestrain"
+    noise: m, standard deviation of the data
+    priors: mvs.Prior by group [mvs.PRIORS]; False: no priors, for which the data must have as many
+        residuals as there are parameters
+    starts: folds to start from: the closure itself and members of its ensemble; the best is returned
+    residual: N, at rest; most: closures of a start; tolerance: of the cost, relative
+
+    The closure of each trial starts from the last closed shape. The start changes nothing.
+    """
+    from scipy.optimize import least_squares
+
+    groups = [free] if isinstance(free, str) else list(free)
+    if not noise > 0:
+        raise ArgumentError(f"noise: a positive number of m is needed, not {noise}", "noise")
+    if starts < 1:
+        raise ArgumentError("starts: at least 1 is needed", "starts")
+    if not start.at_rest:
+        raise StateError("fit: the start is not at rest under its load: settle it first", "start")
+    rows = free_parameters(start, groups, priors if isinstance(priors, Mapping) else None)
+    data = target_of(start, target)
+    with_prior = priors is not False
+    count = len(data.residuals(np.array(start.node_position))[0])
+    if not with_prior and count < len(rows.labels):
+        raise ArgumentError(
+            f"fit: {count} residuals do not determine {len(rows.labels)} parameters without priors: give "
+            "priors, more data, or fewer groups", "priors"
+        )
+    begun = time.process_time()
+    fits, problems = [], []
+    for first in _folds(start, starts):
+        problem = Problem(first, rows, data, noise, with_prior, residual)
+        z = np.zeros(len(rows.labels))
+        before = problem.residuals(z)
+        fits.append(least_squares(problem.residuals, z, problem.jacobian, (-rows.reach, rows.reach),
+                                  method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6, max_nfev=most))
+        problems.append((problem, before))
+    return _result(start, rows, data, noise, with_prior, fits, problems, begun)
+
+
+def _folds(start: _core.Snapshot, starts: int) -> list[_core.Snapshot]:
+    """The start and distinct equilibria of its ensemble."""
+    if starts == 1:
+        return [start]
+    load = start.load_case
+    with quiet():
+        ensemble = start.ensemble(load.pressure, load.boundary_fraction, members=starts)
+    firsts, seen = [start], set()
+    for number, member in enumerate(ensemble.members):
+        if member.converged and member.equilibrium not in seen:
+            seen.add(member.equilibrium)
+            if number > 0:
+                firsts.append(ensemble.snapshot(number))
+    return firsts
+
+
+def _result(start: _core.Snapshot, rows: Free, data: Target, noise: float, with_prior: bool,
+            fits: list[Any], problems: list[Any], begun: float) -> Fit:
+    costs = [float(found.cost) for found in fits]
+    best = int(np.argmin(costs))
+    found, (problem, before) = fits[best], problems[best]
+    closed = problem.close(found.x)
+    if closed is None:
+        raise StateError("fit: no trial came to rest; tighten the priors or the bounds", "fit")
+    return Fit(
+        start=start, closed=closed, free=rows, target=data, noise=noise, z=found.x,
+        jacobian=problem.data_jacobian(found.x), with_prior=with_prior,
+        residuals_before=before[: len(problem.data(start))] * noise,
+        residuals_after=problem.data(closed) * noise,
+        starts=tuple(Start(cost, problems[k][0].closures, fits[k].message) for k, cost in enumerate(costs)),
+        trace=tuple(problem.trace), closures=sum(p.closures for p, _ in problems),
+        cpu_seconds=time.process_time() - begun,
+    )

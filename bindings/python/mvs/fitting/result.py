@@ -1,0 +1,193 @@
+"""Result of a fit: parameters with intervals, what the data determine, predictions."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from ..errors import ArgumentError
+from ..sensitivities import SHORT
+from ..tables import Table
+from ..values import Measures, unit_of
+from .parameters import Free
+from .targets import Target
+
+Array = NDArray[np.float64]
+
+ILL_CONDITIONED = 1e8
+"""Ratio of the largest to the smallest singular value of the fit from which its intervals mean little."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Interval:
+    """A predicted quantity: value at the fit, standard deviation, and interval of a level."""
+
+    name: str
+    unit: str
+    value: float
+    deviation: float
+    low: float
+    high: float
+    level: float
+    samples: Optional[Array] = dataclasses.field(default=None, repr=False)
+
+
+@dataclasses.dataclass(frozen=True)
+class Start:
+    """One start of a fit: half the sum of squares at its end, closures, and why it ended."""
+
+    cost: float
+    closures: int
+    message: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Trace:
+    """One trial: closures so far, squares of data and prior in standard deviations, whether at rest."""
+
+    closures: int
+    data: float
+    prior: float
+    at_rest: bool
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Fit:
+    """A fitted valve, `closed`, with the uncertainty of its parameters.
+
+    z: parameters in standard deviations of their priors; jacobian: of the data residuals over `noise`,
+    by z; residuals_before, residuals_after: m
+    """
+
+    start: _core.Snapshot
+    closed: _core.Snapshot
+    free: Free
+    target: Target
+    noise: float
+    z: Array
+    jacobian: Array
+    with_prior: bool
+    residuals_before: Array
+    residuals_after: Array
+    starts: tuple[Start, ...]
+    trace: tuple[Trace, ...]
+    closures: int
+    cpu_seconds: float
+
+    @property
+    def values(self) -> Array:
+        """The fitted parameters in their units, in the order of `free.labels`."""
+        return self.free.values(self.z)
+
+    @property
+    def singular_values(self) -> Array:
+        """Of the Jacobian in standard deviations of data and prior: directions above 1 are determined
+        better by the data than by the prior."""
+        return np.linalg.svd(self.jacobian, compute_uv=False)
+
+    @property
+    def determined(self) -> Array:
+        """Share of the prior variance of each parameter that the data remove: 1 determined, 0 not."""
+        return 1 - np.diag(self.covariance_z) if self.with_prior else np.ones(len(self.z))
+
+    @property
+    def covariance_z(self) -> Array:
+        """Posterior covariance of z (Laplace's approximation): (J^T J + I)^-1."""
+        normal = self.jacobian.T @ self.jacobian + (np.eye(len(self.z)) if self.with_prior else 0)
+        return np.linalg.pinv(normal, hermitian=True)
+
+    @property
+    def covariance(self) -> Array:
+        """Posterior covariance of the parameters in their units."""
+        d = self.free.deviation
+        return d[:, None] * self.covariance_z * d[None, :]
+
+    @property
+    def condition(self) -> float:
+        """Of the least-squares problem, priors included."""
+        s = np.linalg.svd(np.vstack([self.jacobian, np.eye(len(self.z))]) if self.with_prior
+                          else self.jacobian, compute_uv=False)
+        return float(s[0] / s[-1]) if s[-1] > 0 else float("inf")
+
+    @property
+    def rms(self) -> float:
+        """m, root mean square of the residuals at the end."""
+        return float(np.sqrt(np.mean(self.residuals_after**2)))
+
+    def table(self) -> Table:
+        """A row a parameter: start, value, posterior and prior deviation, share determined, at a bound."""
+        units = {"parameter": "", "unit": "", "start": "", "value": "", "deviation": "", "prior": "",
+                 "determined": "", "at_bound": ""}
+        deviation = np.sqrt(np.diag(self.covariance))
+        return Table(
+            (
+                {"parameter": label, "unit": self.free.units[k], "start": float(self.free.start[k]),
+                 "value": float(self.values[k]), "deviation": float(deviation[k]),
+                 "prior": float(self.free.deviation[k]), "determined": float(self.determined[k]),
+                 "at_bound": bool(abs(self.z[k]) > 0.999 * self.free.reach[k])}
+                for k, label in enumerate(self.free.labels)
+            ),
+            units,
+        )
+
+    def interval(self, of: str, level: float = 0.9, samples: int = 0, seed: int = 0) -> Interval:
+        """Posterior predictive interval of a measure of the closed valve.
+
+        samples: 0: by its derivative, to first order; else closures of draws from the posterior, for
+            measures that are not smooth, such as a leak that may vanish
+        """
+        if not 0 < level < 1:
+            raise ArgumentError(f"level: a number between 0 and 1 is needed, not {level}", "level")
+        name = SHORT.get(of, of)
+        found = self.closed._sensitivity([(8, 0, 0, name, None, None)], list(self.free.rows), 4 | 8, None)
+        value = float(found["value"][0])
+        slope = np.asarray(found["derivative"][0]) * self.free.deviation
+        deviation = float(np.sqrt(max(slope @ self.covariance_z @ slope, 0)))
+        unit = unit_of(Measures, name)
+        if samples == 0:
+            reach = _normal_quantile(0.5 + level / 2) * deviation
+            return Interval(name, unit, value, deviation, value - reach, value + reach, level)
+        drawn = self.draws(name, samples, seed)
+        low, high = np.quantile(drawn, [0.5 - level / 2, 0.5 + level / 2])
+        return Interval(name, unit, value, float(np.std(drawn)), float(low), float(high), level, drawn)
+
+    def draws(self, measure: str, samples: int, seed: int = 0) -> Array:
+        """The measure of closed valves with parameters drawn from the posterior, within the bounds."""
+        from .fit import Problem
+
+        random = np.random.default_rng(seed)
+        problem = Problem(self.closed, self.free, self.target, self.noise, self.with_prior, 1e-5)
+        root = np.linalg.cholesky(self.covariance_z + 1e-12 * np.eye(len(self.z)))
+        found = []
+        for _ in range(samples):
+            z = np.clip(self.z + root @ random.normal(size=len(self.z)), -self.free.reach, self.free.reach)
+            problem.last = self.closed
+            closed = problem.close(z)
+            if closed is not None:
+                found.append(getattr(closed.measures, measure))
+        if not found:
+            raise ArgumentError("interval: no draw came to rest; use samples=0", "samples")
+        return np.array(found)
+
+    def save_report(self, path: Union[str, os.PathLike[str]], measures: Any = None) -> None:
+        """Writes an HTML page: parameters, intervals, covariance, trace, shape before and after."""
+        from .report import page_of
+
+        text = page_of(self, measures)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def __repr__(self) -> str:
+        return (f"<mvs.Fit: {len(self.z)} parameters, residual {self.rms * 1e3:.3f} mm RMS, "
+                f"{self.closures} closures>")
+
+
+def _normal_quantile(p: float) -> float:
+    from statistics import NormalDist
+
+    return NormalDist().inv_cdf(p)

@@ -1,0 +1,299 @@
+"""Derivatives of a closed valve with labels: Snapshot.sensitivity and Simulator.sensitivity."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from .drawing.snapshots import Picture, need
+from .errors import ArgumentError
+from .kinds import PartKind
+from .laws import leaflet_law
+from .tables import Table
+from .values import Measures, unit_of
+from .words import did_you_mean, listed, shown
+
+Array = NDArray[np.float64]
+Labelled = tuple[str, str, tuple[Any, ...]]
+"""A label, its unit, and the row for the binding."""
+Asked = Union[str, NDArray[Any], tuple[str, NDArray[Any]], Mapping[str, NDArray[Any]]]
+
+SHORT = {"orifice": "regurgitant_orifice_area", "coaptation": "coaptation_area"}
+"""Short names of measures."""
+AXES = "xyz"
+QUANTITY = {"position": 1, "linear": 2, "length": 4, "strain": 5, "tension": 6, "force": 7, "measure": 8}
+PARAMETER = {
+    "length": 1, "young": 2, "area": 3, "constant": 4, "leaflet_thickness": 5,
+    "scallop_constant": 6, "thickness": 7, "prestrain": 8, "pressure": 9, "node": 10, "head": 11,
+    "annulus_scale": 12, "mode": 13,
+}
+SHOWN = {"m": (1e3, "mm"), "m2": (1e6, "mm2"), "m3": (1e6, "ml"), "N": (1.0, "N"), "Pa": (1e-3, "kPa")}
+"""Scale and unit that pictures show."""
+NOTES = {
+    1: "switch", 2: "chord", 4: "snap", 8: "differences", 16: "raster", 32: "extreme", 64: "envelope"
+}
+"""Words of MVS_SENSITIVITY_NOTE_*."""
+OF_WORDS = ("measures", "tension", "strain", "length", "force")
+TO_WORDS = (
+    "chords", "areas", "moduli", "tissue", "thickness", "scallops", "pressure", "prestrain", "heads",
+    "annulus", "annulus_scale",
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Sensitivity:
+    """Derivatives of quantities (rows) with respect to parameters (columns), SI units.
+
+    of, to: labels of the rows and columns; of_units, to_units: their units
+    value: (q,) of each quantity
+    derivative: (q, p); above, below: (q, p) for a growing and a falling parameter, which differ from
+        it only where a chord is about to become slack or taut
+    of_notes, to_notes: words about each row and column: "switch" (both sides differ within `slack`),
+        "chord", "snap", "differences", "raster", "extreme", "envelope" (mvs/sensitivity.h)
+    motion: (p, n, 3) dx/dp of all nodes, or None
+    smooth: no "switch", "chord" or "snap"
+    """
+
+    of: tuple[str, ...]
+    to: tuple[str, ...]
+    of_units: tuple[str, ...]
+    to_units: tuple[str, ...]
+    value: Array
+    derivative: Array
+    above: Array
+    below: Array
+    of_notes: tuple[tuple[str, ...], ...]
+    to_notes: tuple[tuple[str, ...], ...]
+    motion: Optional[Array]
+    smooth: bool
+    adjoint_solves: int
+    direct_solves: int
+    residual: float
+    linear_error: float
+    stiffness_margin: float
+    snapshot: _core.Snapshot = dataclasses.field(repr=False)
+
+    def plot(self, of: Optional[str] = None) -> Picture:
+        """The valve from below with its chordae coloured by their influence on a quantity: its change
+        for a rest length 1 mm longer. Needs all rest lengths (to="chords"); extra ``report``."""
+        row = self._row(self.of[0] if of is None else of)
+        names = [part.name for part in self.snapshot.parts if part.kind == PartKind.CHORD]
+        columns = [f"chords {name}" for name in names]
+        if not set(columns) <= set(self.to):
+            raise ArgumentError('plot: needs the rest lengths of all chordae: to="chords"', "to")
+        need("Sensitivity.plot")
+        from .drawing.geometry import Drawing
+        from .drawing.influence import influence_map
+
+        scale, unit = SHOWN.get(self.of_units[row], (1.0, ""))
+        change = self.derivative[row, [self.to.index(c) for c in columns]] * scale * 1e-3
+        text = f"{self.of[row]}: change in {unit or '1'} for a chord 1 mm longer"
+        return Picture(influence_map(Drawing(self.snapshot), change, names, text))
+
+    def __getitem__(self, label: str) -> Array:
+        """The row of a quantity, by its label."""
+        return self.derivative[self._row(label)]
+
+    def _row(self, label: str) -> int:
+        label = SHORT.get(label, label)
+        if label not in self.of:
+            near = did_you_mean(label, self.of)
+            raise KeyError(f'no quantity "{label}"{near}; there are {listed(self.of)}')
+        return self.of.index(label)
+
+    def table(self, sort: Optional[str] = None) -> Table:
+        """A row a parameter, with the derivative of each quantity; sorted by influence.
+
+        sort: the quantity whose derivative is largest in magnitude in the first row; None: the first
+        """
+        row = self._row(self.of[0] if sort is None else sort)
+        order = np.argsort(-np.abs(self.derivative[row]), kind="stable")
+        units = {"parameter": "", "unit": ""}
+        units |= {f"d {name}": unit for name, unit in zip(self.of, self.of_units)}
+        units["notes"] = ""
+        return Table(
+            (
+                {"parameter": self.to[p], "unit": self.to_units[p]}
+                | {f"d {name}": float(self.derivative[q, p]) for q, name in enumerate(self.of)}
+                | {"notes": ", ".join(self.to_notes[p])}
+                for p in order
+            ),
+            units,
+        )
+
+    def __repr__(self) -> str:
+        words = "smooth" if self.smooth else "with notes"
+        return f"<mvs.Sensitivity: {len(self.of)} quantities by {len(self.to)} parameters, {words}>"
+
+
+def sensitivity(
+    self: _core.Snapshot,
+    of: Union[Asked, Iterable[Asked]],
+    to: Union[Asked, Iterable[Asked]],
+    *,
+    slack: Optional[float] = None,
+    motion: bool = False,
+    test: bool = True,
+) -> Sensitivity:
+    """Derivatives of a valve at rest (mvs.Sensitivity): how it answers to each of its parameters.
+
+        closed.sensitivity(of=["coaptation", "tension"], to="chords").table()
+
+    of: quantities, one or several of
+        the name of a measure ("coaptation_area"; "coaptation" and "orifice" for short), "measures"
+        (all that have a derivative), "tension", "strain", "length" (of every chord) or one of them
+        ("tension P2/3"), "force" (on every head) or one ("force PM1"), an array (n, 3) of weights of
+        the positions, a pair (label, array) or a mapping of labels to arrays
+    to: parameters, one or several of
+        "chords" (rest lengths), "areas", "moduli" (of every chord) or one ("chords P2/3"), "tissue"
+        (every constant of every leaflet), "thickness" (by leaflet), "scallops" (thickness by
+        scallop), "pressure", "prestrain", "heads" (their coordinates), "annulus" (coordinates of its
+        nodes), "annulus_scale" (also of a ring: its size times this), an array (n, 3) that moves
+        prescribed nodes (a mode), a pair (label, array) or a mapping
+    slack: m, the distance at which both sides are tested [1e-7]
+    motion: also dx/dp of all nodes
+    test: False: no test of both sides, no margin; faster
+
+    StateError if the valve is not at rest or not stable.
+    """
+    rows = _listed(of, lambda item: quantities(self, item))
+    columns = _listed(to, lambda item: parameters(self, item))
+    flags = (1 if motion else 0) | (0 if test else 4 | 8)
+    found = self._sensitivity([r[2] for r in rows], [c[2] for c in columns], flags, slack)
+    moved = found.pop("motion")
+    nodes = len(self.node_position)
+    notes = {key: tuple(map(_words, found.pop(key).tolist())) for key in ("of_notes", "to_notes")}
+    found.pop("weak_chords")
+    return Sensitivity(
+        of=tuple(r[0] for r in rows),
+        to=tuple(c[0] for c in columns),
+        of_units=tuple(r[1] for r in rows),
+        to_units=tuple(c[1] for c in columns),
+        snapshot=self,
+        motion=moved.reshape(len(columns), -1, 3)[:, :nodes] if motion else None,
+        **notes,
+        **found,
+    )
+
+
+def simulator_sensitivity(self: _core.Simulator, *args: Any, **options: Any) -> Sensitivity:
+    """Snapshot.sensitivity of the present snapshot."""
+    return sensitivity(self.snapshot(), *args, **options)
+
+
+def _words(bits: int) -> tuple[str, ...]:
+    return tuple(word for bit, word in NOTES.items() if bits & bit)
+
+
+def _listed(asked: Any, meaning: Any) -> list[Labelled]:
+    several = isinstance(asked, (list, set, frozenset)) or isinstance(asked, Iterator)
+    several = several or (isinstance(asked, tuple) and not _is_pair(asked))
+    rows = [row for item in (asked if several else [asked]) for row in meaning(item)]
+    if not rows:
+        raise ArgumentError("sensitivity: at least one quantity and one parameter are needed", "of")
+    return rows
+
+
+def _is_pair(item: Any) -> bool:
+    return isinstance(item, tuple) and len(item) == 2 and isinstance(item[1], np.ndarray)
+
+
+def _arrays(item: Any, label: str) -> Optional[list[tuple[str, Array]]]:
+    """Labels and arrays of an item that is not a text."""
+    if isinstance(item, np.ndarray):
+        return [(label, item)]
+    if _is_pair(item):
+        return [item]
+    return list(item.items()) if isinstance(item, Mapping) else None
+
+
+def quantities(snapshot: _core.Snapshot, item: Asked) -> list[Labelled]:
+    """The quantities that one item of `of` asks for."""
+    arrays = _arrays(item, "functional")
+    if arrays is not None:
+        kind = QUANTITY["linear"]
+        return [(label, "", (kind, 0, 0, None, None, weights)) for label, weights in arrays]
+    if not isinstance(item, str):
+        raise ArgumentError(f"of: a name or an array is needed, not {shown(item)}", "of")
+    if item == "measures":
+        return [row for name in measure_names() for row in quantities(snapshot, name)]
+    name = SHORT.get(item, item)
+    if name in measure_names():
+        return [(name, unit_of(Measures, name), (QUANTITY["measure"], 0, 0, name, None, None))]
+    word, _, part = item.partition(" ")
+    if word == "force":
+        kind = QUANTITY["force"]
+        heads = _parts(snapshot, PartKind.HEAD, part)
+        return [(f"force {n}", "N", (kind, k, 3, None, None, None)) for k, n in heads]
+    units = {"tension": "N", "strain": "", "length": "m"}
+    if word in units:
+        chords = _parts(snapshot, PartKind.CHORD, part)
+        return [
+            (f"{word} {n}", units[word], (QUANTITY[word], k, 0, None, None, None)) for k, n in chords
+        ]
+    known = [*SHORT, *OF_WORDS, *measure_names()]
+    raise ArgumentError(
+        f'of: "{item}" is not known{did_you_mean(item, known)}; there are {listed(known)}', "of"
+    )
+
+
+def parameters(snapshot: _core.Snapshot, item: Asked) -> list[Labelled]:
+    """The parameters that one item of `to` asks for."""
+    arrays = _arrays(item, "mode")
+    if arrays is not None:
+        return [(label, "", (PARAMETER["mode"], 0, 0, mode)) for label, mode in arrays]
+    if not isinstance(item, str):
+        raise ArgumentError(f"to: a name or an array is needed, not {shown(item)}", "to")
+    word, _, part = item.partition(" ")
+    if word in ("pressure", "prestrain", "annulus_scale") and not part:
+        return [(word, "Pa" if word == "pressure" else "", (PARAMETER[word], 0, 0, None))]
+    of_parts = {
+        "chords": (PartKind.CHORD, "length", "m"), "areas": (PartKind.CHORD, "area", "m2"),
+        "moduli": (PartKind.CHORD, "young", "Pa"),
+        "thickness": (PartKind.LEAFLET, "leaflet_thickness", "m"),
+        "scallops": (PartKind.SCALLOP, "thickness", "m"),
+    }
+    if word in of_parts:
+        kind, what, unit = of_parts[word]
+        return [
+            (f"{word} {n}", unit, (PARAMETER[what], k, 0, None))
+            for k, n in _parts(snapshot, kind, part)
+        ]
+    if word == "tissue":
+        return [row for k, n in _parts(snapshot, PartKind.LEAFLET, part)
+                for row in _constants(snapshot, k, n)]
+    if word == "heads":
+        return [(f"head {n} {AXES[a]}", "m", (PARAMETER["head"], k, a, None))
+                for k, n in _parts(snapshot, PartKind.HEAD, part) for a in range(3)]
+    if word == "annulus" and not part:
+        return [(f"annulus {i} {AXES[a]}", "m", (PARAMETER["node"], int(i), a, None))
+                for i in snapshot.annulus_nodes for a in range(3)]
+    raise ArgumentError(
+        f'to: "{item}" is not known{did_you_mean(item, TO_WORDS)}; there are {listed(TO_WORDS)}', "to"
+    )
+
+
+def measure_names() -> tuple[str, ...]:
+    """Measures that have a derivative."""
+    fields = (f for f in dataclasses.fields(Measures) if str(f.type).startswith("Annotated[float"))
+    return tuple(f.name for f in fields if not f.name.endswith(("_p50", "_p95", "_p99")))
+
+
+def _parts(snapshot: _core.Snapshot, kind: PartKind, name: str) -> list[tuple[int, str]]:
+    if name:
+        part = snapshot.find(kind, name)
+        return [(part.index, part.name)]
+    return [(part.index, part.name) for part in snapshot.parts if part.kind == kind]
+
+
+def _constants(snapshot: _core.Snapshot, leaflet: int, name: str) -> list[Labelled]:
+    law = leaflet_law(int(snapshot.leaflet_law[leaflet]))
+    return [
+        (f"tissue {name} {constant.key}", constant.unit, (PARAMETER["constant"], leaflet, c, None))
+        for c, constant in enumerate(law.constants)
+    ]

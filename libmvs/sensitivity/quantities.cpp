@@ -1,0 +1,287 @@
+// Gradients of positions, chordae, head forces and measures.
+#include "sensitivity/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "base/error.h"
+#include "base/struct_fields.h"
+#include "measure/fields.h"
+#include "model/chord_law.h"
+#include "sensitivity/coaptation_gradient.h"
+#include "sensitivity/orifice_gradient.h"
+#include "sensitivity/settings.h"
+
+namespace mvs::core {
+namespace {
+
+using Kind = QuantityKind;
+
+bool is_named(const mvs_field_info &field, const char *name) {
+  return std::strcmp(field.name, name) == 0;
+}
+
+// A percentile is a value of single triangles in turn, and a count a whole number.
+bool has_derivative(const mvs_field_info &field) {
+  return field.type == MVS_FIELD_NUMBER && std::strstr(field.name, "_p50") == nullptr &&
+         std::strstr(field.name, "_p95") == nullptr && std::strstr(field.name, "_p99") == nullptr;
+}
+
+struct ChordState {
+  Vec3 along;  // unit, from a to b
+  double length, strain;
+  Axial response;
+};
+
+ChordState chord_state(const Model &model, uint32_t index, const std::vector<Vec3> &x) {
+  const Chord &chord = model.valve.chords[index];
+  const Vec3 d = x[chord.b] - x[chord.a];
+  const double length = d.norm(), strain = length / chord.rest_length - 1;
+  return {d / length, length, strain, chord_response(model.valve, chord, strain)};
+}
+
+void add_length(const Model &model, uint32_t index, const ChordState &at, double times,
+                NodeField &g) {
+  const Chord &chord = model.valve.chords[index];
+  g[chord.a] -= times * at.along;
+  g[chord.b] += times * at.along;
+}
+
+void add_tension(const Model &model, uint32_t index, const std::vector<Vec3> &x, double times,
+                 QuantityGradient &q) {
+  const ChordState at = chord_state(model, index, x);
+  const Chord &chord = model.valve.chords[index];
+  add_length(model, index, at, times * chord.area * at.response.slope / chord.rest_length,
+             q.by_position);
+  q.tension.push_back({index, times});
+}
+
+// q = direction . sum of tension times unit vector from the head.
+void head_force(const Model &model, const Quantity &quantity, const std::vector<Vec3> &x,
+                QuantityGradient &q) {
+  const uint32_t node = model.valve.heads[quantity.index].node;
+  const Rows &rows = model.topology.node_chords;
+  const auto for_each_chord = [&](auto use) {
+    for (uint32_t i = rows.start[node]; i < rows.start[node + 1]; ++i) {
+      const uint32_t c = rows.items[i];
+      const ChordState at = chord_state(model, c, x);
+      const double sign = model.valve.chords[c].a == node ? 1 : -1;
+      use(c, at, Vec3(sign * at.along), model.valve.chords[c].area * at.response.stress);
+    }
+  };
+  Vec3 force = Vec3::Zero();
+  for_each_chord([&](uint32_t, const ChordState &, const Vec3 &away, double tension) {
+    force += tension * away;
+  });
+  Vec3 direction = Vec3::Zero();
+  if (quantity.component < 3) {
+    direction[static_cast<int>(quantity.component)] = 1;
+  } else if (force.norm() > 0) {
+    direction = force.normalized();
+  }
+  q.value = direction.dot(force);
+  for_each_chord([&](uint32_t c, const ChordState &at, const Vec3 &away, double tension) {
+    add_tension(model, c, x, direction.dot(away), q);
+    const uint32_t other = model.valve.chords[c].other_end(node);
+    const Vec3 turn = (tension / at.length) * (direction - direction.dot(away) * away);
+    q.by_position[other] += turn;
+    q.by_position[node] -= turn;
+  });
+}
+
+void leaflet_area(const Model &model, const std::vector<Vec3> &x, QuantityGradient &q) {
+  for (const Tri &t : model.valve.triangles) {
+    const Vec3 twice = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    const double size = twice.norm();
+    q.value += 0.5 * size;
+    if (size == 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 opposite = x[t[(k + 2) % 3]] - x[t[(k + 1) % 3]];
+      q.by_position[t[k]] += 0.5 / size * twice.cross(opposite);
+    }
+  }
+}
+
+// The first chord with the largest strain or tension.
+void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_tension,
+                       QuantityGradient &q) {
+  q.notes |= MVS_SENSITIVITY_NOTE_EXTREME;
+  uint32_t largest = none;
+  for (uint32_t c = 0; c < model.valve.chords.size(); ++c) {
+    const ChordState at = chord_state(model, c, x);
+    const double value = is_tension ? model.valve.chords[c].area * at.response.stress : at.strain;
+    if (value <= q.value) continue;
+    q.value = value;
+    largest = c;
+  }
+  if (largest == none) return;
+  if (is_tension) {
+    add_tension(model, largest, x, 1, q);
+  } else {
+    const ChordState at = chord_state(model, largest, x);
+    add_length(model, largest, at, 1 / model.valve.chords[largest].rest_length, q.by_position);
+    q.strain.push_back({largest, 1});
+  }
+}
+
+void measure(const Model &model, const State &state, const mvs_field_info &field,
+             QuantityGradient &q) {
+  if (is_named(field, "leaflet_area")) return leaflet_area(model, state.x, q);
+  if (is_named(field, "max_chord_tension")) return largest_of_chords(model, state.x, true, q);
+  if (is_named(field, "max_chord_strain")) return largest_of_chords(model, state.x, false, q);
+  if (is_named(field, "coaptation_area")) {
+    q.value = coaptation_area_gradient(model, state.x, q.by_position);
+    return;
+  }
+  if (is_named(field, "regurgitant_orifice_area")) {
+    q.value = orifice_area_gradient(model, state.x, q.by_position);
+    q.notes |= MVS_SENSITIVITY_NOTE_ENVELOPE;
+    return;
+  }
+  q.by_differences = true;
+  q.notes |= MVS_SENSITIVITY_NOTE_DIFFERENCES;
+  if (std::strncmp(field.name, "tenting_", 8) == 0 || is_named(field, "billow_volume")) {
+    q.notes |= MVS_SENSITIVITY_NOTE_RASTER;
+  } else if (field.group != MVS_MEASURE_GROUP_ANNULUS || is_named(field, "annulus_saddle_height")) {
+    q.notes |= MVS_SENSITIVITY_NOTE_EXTREME;
+  }
+  q.value = measure_field(model, state.x, field);
+}
+
+}  // namespace
+
+const mvs_field_info *find_measure(const char *name, size_t place) {
+  MVS_MUST(name != nullptr, MVS_E_ARGUMENT, "quantities",
+           "quantities[%zu].measure is a null pointer: give the name of a field of mvs_measures",
+           place);
+  std::string names;
+  for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
+    if (!has_derivative(field)) continue;
+    if (is_named(field, name)) return &field;
+    names += names.empty() ? "" : ", ";
+    names += field.name;
+  }
+  for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
+    MVS_MUST(!is_named(field, name), MVS_E_ARGUMENT, "quantities",
+             "quantities[%zu]: %s is a count or a percentile and has no derivative", place, name);
+  }
+  fail(MVS_E_ARGUMENT, "quantities", "quantities[%zu]: no measure is named \"%s\"; there are %s",
+       place, name, names.c_str());
+}
+
+void check_quantity(const Model &model, const Quantity &q, size_t place) {
+  const Valve &valve = model.valve;
+  MVS_MUST(q.kind >= Kind::node_position && q.kind <= Kind::measure, MVS_E_ARGUMENT, "quantities",
+           "quantities[%zu].kind is %u: it has to be one of MVS_QUANTITY_*", place,
+           static_cast<uint32_t>(q.kind));
+  const bool of_node = q.kind == Kind::node_position || q.kind == Kind::node_distance;
+  const bool of_chord = q.kind >= Kind::chord_length && q.kind <= Kind::chord_tension;
+  size_t count = 1, components = 1;
+  if (of_node) count = model.node_count();
+  if (of_chord) count = valve.chords.size();
+  if (q.kind == Kind::head_force) count = valve.heads.size();
+  if (q.kind == Kind::node_position) components = 3;
+  if (q.kind == Kind::head_force) components = 4;
+  MVS_MUST(q.index < count, MVS_E_ARGUMENT, "quantities",
+           "quantities[%zu].index is %u: it has to be below %zu", place, q.index, count);
+  MVS_MUST(q.component < components, MVS_E_ARGUMENT, "quantities",
+           "quantities[%zu].component is %u: it has to be below %zu", place, q.component,
+           components);
+  MVS_MUST(q.point.allFinite(), MVS_E_ARGUMENT, "quantities", "quantities[%zu].point is not finite",
+           place);
+  if (q.kind != Kind::linear) return;
+  MVS_MUST(q.weights.size() == model.node_count(), MVS_E_ARGUMENT, "quantities",
+           "quantities[%zu].weights has %zu rows, but the valve has %zu nodes", place,
+           q.weights.size(), model.node_count());
+  for (const Vec3 &w : q.weights) {
+    MVS_MUST(w.allFinite(), MVS_E_ARGUMENT, "quantities", "quantities[%zu].weights are not finite",
+             place);
+  }
+}
+
+QuantityGradient quantity_gradient(const Model &model, const State &state,
+                                   const Quantity &quantity) {
+  const std::vector<Vec3> &x = state.x;
+  QuantityGradient q;
+  q.by_position.assign(x.size(), Vec3::Zero());
+  const uint32_t index = quantity.index;
+  switch (quantity.kind) {
+    case Kind::node_position: {
+      const auto axis = static_cast<int>(quantity.component);
+      q.value = x[index][axis];
+      q.by_position[index][axis] = 1;
+      break;
+    }
+    case Kind::linear:
+      for (size_t i = 0; i < quantity.weights.size(); ++i) {
+        q.value += quantity.weights[i].dot(x[i]);
+        q.by_position[i] = quantity.weights[i];
+      }
+      break;
+    case Kind::node_distance: {
+      const Vec3 away = x[index] - quantity.point;
+      q.value = away.norm();
+      if (q.value > 0) q.by_position[index] = away / q.value;
+      break;
+    }
+    case Kind::chord_length:
+    case Kind::chord_strain: {
+      const ChordState at = chord_state(model, index, x);
+      const bool is_strain = quantity.kind == Kind::chord_strain;
+      q.value = is_strain ? at.strain : at.length;
+      add_length(model, index, at, is_strain ? 1 / model.valve.chords[index].rest_length : 1.0,
+                 q.by_position);
+      if (is_strain) q.strain.push_back({index, 1});
+      break;
+    }
+    case Kind::chord_tension:
+      q.value = model.valve.chords[index].area * chord_state(model, index, x).response.stress;
+      add_tension(model, index, x, 1, q);
+      break;
+    case Kind::head_force:
+      head_force(model, quantity, x, q);
+      break;
+    case Kind::measure:
+      measure(model, state, *quantity.measure, q);
+      break;
+  }
+  return q;
+}
+
+double explicit_derivative(const Model &model, const std::vector<Vec3> &x,
+                           const QuantityGradient &gradient, const Parameter &parameter) {
+  double sum = 0;
+  for (const ChordShare &share : gradient.tension) {
+    sum += share.factor * tension_derivative(model, share.chord, x, parameter);
+  }
+  if (parameter.kind != ParameterKind::chord_rest_length) return sum;
+  for (const ChordShare &share : gradient.strain) {
+    if (share.chord != parameter.index) continue;
+    const double rest = model.valve.chords[share.chord].rest_length;
+    sum -= share.factor * chord_state(model, share.chord, x).length / (rest * rest);
+  }
+  return sum;
+}
+
+double measure_difference(const Model &model, const State &state, const Quantity &quantity,
+                          const Parameter &parameter, const NodeField &motion) {
+  namespace set = settings::sensitivity;
+  const mvs_field_info &field = *quantity.measure;
+  double fastest = 0;
+  for (const Vec3 &v : motion) fastest = std::max(fastest, v.norm());
+  if (fastest == 0) return 0;
+  const bool is_raster =
+      std::strncmp(field.name, "tenting_", 8) == 0 || is_named(field, "billow_volume");
+  const double h = (is_raster ? set::raster_step : set::measure_step) / fastest;
+  const auto at = [&](double by) {
+    const ParameterStep step{&parameter, by};
+    std::vector<Vec3> x = state.x;
+    for (size_t i = 0; i < x.size(); ++i) x[i] += by * motion[i];
+    return measure_field(changed_model(model, {&step, 1}), x, field);
+  };
+  return (at(h) - at(-h)) / (2 * h);
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,33 @@
+// Derivatives of quantities of an equilibrium with respect to parameters: adjoint or direct
+// differentiation with the exact tangent, a test of both sides, and one-sided derivatives where
+// chordae are about to become slack or taut.
+#pragma once
+
+#include "sensitivity/quantities.h"
+
+namespace mvs::core {
+
+struct SensitivityOptions {
+  bool with_motion = false, direct = false, tests = true, with_margin = true;
+  double slack = 1e-7;  // m
+};
+
+struct Sensitivity {
+  size_t nodes = 0;                              // rows of `motion` for each parameter
+  std::vector<double> value;                     // per quantity
+  std::vector<double> derivative, above, below;  // a row a quantity
+  std::vector<mvs_sensitivity_notes> quantity_notes, parameter_notes;
+  std::vector<uint32_t> weak_chords;
+  NodeField motion;  // dx/dp of each parameter in turn
+  uint32_t adjoint_solves = 0, direct_solves = 0;
+  double residual = 0, linear_error = 0, stiffness_margin = 0;
+};
+
+// Throws MVS_E_STATE if the state is not at rest or not stable, MVS_E_ARGUMENT for parameters and
+// quantities that the valve does not have.
+Sensitivity differentiate(const Model &model, const State &state,
+                          const std::vector<Quantity> &quantities,
+                          const std::vector<Parameter> &parameters,
+                          const SensitivityOptions &options);
+
+}  // namespace mvs::core

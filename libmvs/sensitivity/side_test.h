@@ -1,0 +1,21 @@
+// Test of a derivative on both sides: whether the valve follows it there.
+//
+// For a step h along the parameters and the positions that they move, the out-of-balance force
+// e = (g(x + h dx, p + h) - g(x, p)) / h would be 0 if the forces were linear; K^-1 e is the error
+// of dx on that side. At a smooth point both sides have opposite errors of order h; where contact,
+// a chord or the law of a spring switches within h, they do not. So the test needs no list of what
+// may switch, and does not take the mean of two sides for a derivative, as a central difference
+// would.
+#pragma once
+
+#include "sensitivity/parameters.h"
+#include "sensitivity/tangent.h"
+
+namespace mvs::core {
+
+// `motion` is dx for the change `steps` of the parameters. Takes two solutions.
+bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
+                         const std::vector<ParameterStep> &steps, const NodeField &motion,
+                         double slack);
+
+}  // namespace mvs::core

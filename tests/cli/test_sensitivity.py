@@ -1,0 +1,49 @@
+"""`mvs sensitivity`: derivatives of measures, sorted by influence."""
+import unittest
+
+from test_cli import Shell, mvs
+
+
+class Sensitivity(Shell):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.ok("generate", "--vertices", 250, "-o", "v.obj")
+        cls.ok("close", "v.obj", "-o", "closed.obj")
+
+    def test_rows_are_sorted_by_influence(self):
+        found = self.json("sensitivity", "closed.obj", "--of", "coaptation,leaflet_area", "--to", "chords")
+        key = "d_coaptation_area_mm2_per_mm"
+        sizes = [abs(row[key]) for row in found["parameters"]]
+        self.assertEqual(sizes, sorted(sizes, reverse=True))
+        self.assertGreater(sizes[0], 0)
+        self.assertEqual(found["quantities"][0]["name"], "coaptation_area")
+        other = self.json("sensitivity", "closed.obj", "--of", "coaptation,leaflet_area",
+                          "--sort", "leaflet_area", "--top", 3)
+        self.assertEqual(len(other["parameters"]), 3)
+        by = {row["parameter"]: row[key] for row in found["parameters"]}
+        for row in other["parameters"]:
+            self.assertEqual(row[key], by[row["parameter"]])
+
+    def test_heads_scallops_and_load(self):
+        for to, name in (("heads", "PM1 x"), ("scallops", "P2"), ("pressure", "pressure"),
+                         ("annulus_scale", "annulus_scale")):
+            text = self.ok("sensitivity", "closed.obj", "--to", to).stdout
+            self.assertIn(f"\n  {name} ", text)
+            self.assertRegex(text, r"coaptation = \d+\.?\d* mm2")
+
+    def refused(self, *arguments, code):
+        done = mvs("sensitivity", *arguments, cwd=self.dir)
+        self.assertEqual((done.returncode, done.stdout), (code, ""))
+        return done.stderr
+
+    def test_bad_input_is_refused(self):
+        self.assertIn("not at rest", self.refused("v.obj", code=1))
+        self.assertIn("no measure is named", self.refused("closed.obj", "--of", "x", code=1))
+        self.assertIn("it has to be one of the quantities",
+                      self.refused("closed.obj", "--sort", "orifice", code=1))
+        self.assertIn("choose from", self.refused("closed.obj", "--to", "x", code=2))
+
+
+if __name__ == "__main__":
+    unittest.main()

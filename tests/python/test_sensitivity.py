@@ -1,0 +1,117 @@
+"""Snapshot.sensitivity: labelled derivatives, against settles; bad input."""
+
+import numpy as np
+import pytest
+
+import mvs
+
+TIGHT = 1e-10  # N: settles for differences of 0.02 um
+
+
+@pytest.fixture(scope="module")
+def sim():
+    with mvs.Simulator() as made:
+        made.generate(vertices=250)
+        made.set_load(mvs.SYSTOLE_PA)
+        assert made.settle(residual=TIGHT).converged
+        yield made
+
+
+@pytest.fixture(scope="module")
+def closed(sim):
+    return sim.snapshot()
+
+
+def difference(sim, closed, chord, step, value):
+    """Central difference of a quantity of settled valves by a rest length."""
+    rest = closed.chord_rest_length[closed.find(mvs.PartKind.CHORD, chord).index]
+    sides = []
+    for by in (step, -step):
+        sim.restore(closed)
+        sim.apply("chord_length", chord=chord, length=float(rest + by))
+        assert sim.settle(residual=TIGHT).converged
+        sides.append(value(sim.snapshot()))
+    sim.restore(closed)
+    return (sides[0] - sides[1]) / (2 * step)
+
+
+def test_labels_and_values_match_differences(sim, closed):
+    found = closed.sensitivity(of=["coaptation", "tension"], to="chords")
+    names = [row["name"] for row in closed.chords()]
+    assert found.to == tuple(f"chords {name}" for name in names)
+    assert found.of == ("coaptation_area", *(f"tension {name}" for name in names))
+    assert found.derivative.shape == (1 + len(names), len(names))
+    assert found.of_units[:2] == ("m2", "N") and set(found.to_units) == {"m"}
+    assert found.value[0] == pytest.approx(closed.measures.coaptation_area, rel=1e-12)
+    assert found.value[1:] == pytest.approx(closed.chord_tension, abs=1e-12)
+    best = int(np.argmax(np.abs(found["coaptation"])))
+    slope = difference(sim, closed, names[best], 2e-8, lambda s: s.measures.coaptation_area)
+    # rounding of settles, and kinks of single samples of the coaptation
+    assert found["coaptation"][best] == pytest.approx(slope, rel=1e-3)
+
+
+def test_motion_and_modes(closed):
+    heads = closed.sensitivity(of="annulus_cc", to=["heads", "annulus_scale"], motion=True)
+    nodes = len(closed.node_position)
+    assert heads.motion.shape == (len(heads.to), nodes, 3)
+    # the motion of all heads and of the annulus by one vector is a translation
+    shift = np.zeros((nodes, 3))
+    shift[closed.node_kind == int(mvs.NodeKind.ANNULUS)] = [0, 0, 1]
+    shift[closed.head_nodes] = [0, 0, 1]
+    moved = closed.sensitivity(of="annulus_cc", to=("up", shift), motion=True)
+    bound = closed.node_kind != int(mvs.NodeKind.BRANCH)  # slack branch points have no place
+    assert moved.to == ("up",)
+    assert moved.motion[0][bound] == pytest.approx(np.tile([0, 0, 1], (bound.sum(), 1)), abs=1e-6)
+    assert heads["annulus_cc"][:-1] == pytest.approx(0, abs=1e-12)
+    assert heads["annulus_cc"][-1] == pytest.approx(closed.measures.annulus_cc, rel=1e-6)
+
+
+def test_weights_and_tissue(closed):
+    weights = np.random.default_rng(1).normal(size=closed.node_position.shape)
+    found = closed.sensitivity(of={"mine": weights}, to=["tissue", "pressure", "prestrain", "scallops"])
+    assert found.of == ("mine",)
+    assert "pressure" in found.to and "scallops A2" in found.to
+    assert any(label.startswith("tissue A ") for label in found.to)
+    assert found.value[0] == pytest.approx((weights * closed.node_position).sum(), rel=1e-12)
+    assert np.isfinite(found.derivative).all()
+
+
+def test_a_table_is_sorted_by_influence(closed):
+    table = closed.sensitivity(of=["coaptation", "leaflet_area"], to="chords").table()
+    sizes = np.abs(table["d coaptation_area"])
+    assert (np.diff(sizes) <= 0).all() and sizes[0] > 0
+    assert table.units["d leaflet_area"] == "m2"
+
+
+def test_the_simulator_differentiates_its_present_snapshot(sim, closed):
+    sim.restore(closed)
+    found = sim.sensitivity(of="coaptation", to="pressure")
+    assert found.derivative == closed.sensitivity(of="coaptation", to="pressure").derivative
+
+
+def test_bad_input_is_refused(sim, closed):
+    with pytest.raises(mvs.ArgumentError, match="did you mean"):
+        closed.sensitivity(of="coaptation_aera", to="chords")
+    with pytest.raises(mvs.ArgumentError, match='"chords"'):
+        closed.sensitivity(of="coaptation", to="chordae")
+    with pytest.raises(mvs.ArgumentError, match="at least one"):
+        closed.sensitivity(of=[], to="chords")
+    with pytest.raises(mvs.IdError):
+        closed.sensitivity(of="tension Q9/1", to="chords")
+    with pytest.raises(mvs.ArgumentError, match="nodes"):
+        closed.sensitivity(of=np.zeros((3, 3)), to="chords")
+    with pytest.raises(KeyError, match="tension"):
+        closed.sensitivity(of="tension", to="pressure")["orifice"]
+    sim.restore(closed)
+    sim.set_load(0.9 * mvs.SYSTOLE_PA)
+    with pytest.raises(mvs.StateError, match="not at rest"):
+        sim.sensitivity(of="coaptation", to="chords")
+    sim.restore(closed)
+
+
+def test_the_map_shows_the_chordae(closed):
+    pytest.importorskip("pyvista")
+    picture = closed.sensitivity(of="coaptation", to="chords").plot()
+    assert picture.png.startswith(b"\x89PNG")
+    with pytest.raises(mvs.ArgumentError, match="all chordae"):
+        closed.sensitivity(of="coaptation", to="pressure").plot()

@@ -1,0 +1,167 @@
+// Sensitivities of a pyramid of springs and membranes with one chord, whose height is known in
+// closed form.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "sensitivity/sensitivity.h"
+#include "tests/solve/bench.h"
+
+namespace mvs::core::test {
+namespace {
+
+// Six triangles around an apex at height z, the rim fixed, under the pressure p; a chord of rest
+// length L0 leads from the apex down to a head at height -d. The apex is in equilibrium where
+//     6 k (1 - R / L) z + E A ((z + d) / L0 - 1) = p B / 3,   L^2 = r^2 + z^2,
+// R the rest length of the springs, k = low t (area of two triangles) / R^2, B the area of the
+// base.
+struct Pyramid {
+  static constexpr double radius = 10e-3, rest_height = 3e-3, depth = 12e-3, height = 5e-3;
+  Model model;
+  State state;
+  double rest_length, k, base;
+
+  explicit Pyramid(double chord_strain = 0.02) {
+    Valve valve;
+    valve.bending_scale = 0;
+    valve.contact_thickness = 1e-4;
+    valve.rest.push_back({0, 0, rest_height});
+    for (uint32_t i = 0; i < 6; ++i) {
+      valve.rest.push_back({radius * std::cos(i * pi / 3), radius * std::sin(i * pi / 3), 0});
+      valve.triangles.push_back({0, 1 + i, 1 + (i + 1) % 6});
+    }
+    valve.rest.push_back({0, 0, -depth});
+    valve.heads.push_back({1, "PM1", 7});
+    Chord chord;
+    chord.a = 7;
+    chord.b = 0;
+    chord.rest_length = (height + depth) / (1 + chord_strain);
+    chord.young = 1e6;
+    valve.chords.push_back(chord);
+    valve.leaflets.resize(1);
+    valve.leaflets[0].name = "A";
+    model = model_of_sheet(valve, {1, 2, 3, 4, 5, 6, 7});
+    rest_length = std::hypot(radius, rest_height);
+    k = 100e3 * 1e-3 * 2 * model.rest_area[0] / (rest_length * rest_length);
+    base = 6 * std::sqrt(0.75) / 2 * radius * radius;
+    state = initial_state(model);
+    state.x.edit()[0].z() = height;
+    state.load.pressure = 3 / base * (spring() + tension());
+    state.rest_tolerance = 1e-12;
+  }
+  const Chord &chord() const { return model.valve.chords[0]; }
+  double length() const { return std::hypot(radius, height); }
+  double spring() const { return 6 * k * (1 - rest_length / length()) * height; }
+  double tension() const {
+    return std::max(0.0,
+                    chord().young * chord().area * ((height + depth) / chord().rest_length - 1));
+  }
+  double chord_stiffness() const { return chord().young * chord().area / chord().rest_length; }
+  double sheet_stiffness() const {
+    return 6 * k * (1 - rest_length * radius * radius / std::pow(length(), 3));
+  }
+};
+
+std::vector<Parameter> all_parameters() {
+  using Kind = ParameterKind;
+  return {{Kind::chord_rest_length, 0, 0, {}}, {Kind::chord_young, 0, 0, {}},
+          {Kind::chord_area, 0, 0, {}},        {Kind::leaflet_constant, 0, 0, {}},
+          {Kind::leaflet_thickness, 0, 0, {}}, {Kind::pressure, 0, 0, {}},
+          {Kind::head_position, 0, 2, {}},     {Kind::node_position, 7, 2, {}}};
+}
+
+// -dF/dp of the equation above, in the order of all_parameters().
+std::vector<double> forces(const Pyramid &p) {
+  const double stretch = (p.height + p.depth) / p.chord().rest_length;
+  return {p.chord_stiffness() * stretch,
+          -p.tension() / p.chord().young,
+          -p.tension() / p.chord().area,
+          -p.spring() / 100e3,
+          -p.spring() / 1e-3,
+          p.base / 3,
+          p.chord_stiffness(),
+          p.chord_stiffness()};
+}
+
+const Quantity apex = {QuantityKind::node_position, 0, 2, nullptr, Vec3::Zero(), {}};
+const Quantity tension_of_chord = {QuantityKind::chord_tension, 0, 0, nullptr, Vec3::Zero(), {}};
+
+}  // namespace
+
+TEST_CASE("height_of_a_pyramid_follows_each_parameter") {
+  const Pyramid p;
+  const std::vector<Parameter> parameters = all_parameters();
+  const std::vector<double> wanted = forces(p);
+  for (const bool direct : {false, true}) {
+    SensitivityOptions options;
+    options.direct = direct;
+    const Sensitivity found = differentiate(p.model, p.state, {apex}, parameters, options);
+    CHECK((found.adjoint_solves == 1) != direct);
+    for (size_t k = 0; k < parameters.size(); ++k) {
+      CAPTURE(k);
+      // rounding, and of the fourth-order difference for the modulus
+      CHECK(found.derivative[k] ==
+            about(wanted[k] / (p.chord_stiffness() + p.sheet_stiffness()), 1e-9));
+      CHECK(found.parameter_notes[k] == 0);
+    }
+    CHECK(found.quantity_notes[0] == 0);
+    CHECK(found.value[0] == p.height);
+  }
+}
+
+TEST_CASE("tension_of_a_chord_follows_its_length_at_fixed_positions_too") {
+  const Pyramid p;
+  const double total = p.chord_stiffness() + p.sheet_stiffness();
+  const double stretch = (p.height + p.depth) / p.chord().rest_length;
+  const Sensitivity found = differentiate(p.model, p.state, {tension_of_chord},
+                                          {{ParameterKind::chord_rest_length, 0, 0, {}}}, {});
+  // the sheet gives way: only its share of the change is left
+  CHECK(found.derivative[0] ==
+        about(-p.chord_stiffness() * stretch * p.sheet_stiffness() / total, 1e-9));
+}
+
+TEST_CASE("a_chord_at_its_rest_length_has_a_derivative_on_each_side") {
+  for (const double strain : {1e-7, -1e-7}) {
+    const Pyramid p(strain);
+    const Sensitivity found = differentiate(p.model, p.state, {apex, tension_of_chord},
+                                            {{ParameterKind::pressure, 0, 0, {}}}, {});
+    REQUIRE(found.weak_chords.size() == 1);
+    const double push = p.base / 3, sheet = p.sheet_stiffness(), chord = p.chord_stiffness();
+    // more pressure lifts the apex and stretches the chord; less makes it slack
+    CHECK(found.above[0] == about(push / (sheet + chord), 1e-6));
+    CHECK(found.below[0] == about(push / sheet, 1e-6));
+    CHECK(found.above[1] == about(push * chord / (sheet + chord), 1e-6));
+    CHECK(std::abs(found.below[1]) < 1e-9 * found.above[1]);
+    CHECK((found.parameter_notes[0] & MVS_SENSITIVITY_NOTE_CHORD) != 0);
+    CHECK((found.parameter_notes[0] & MVS_SENSITIVITY_NOTE_SWITCH) != 0);
+    CHECK(found.derivative[0] == (strain > 0 ? found.above[0] : found.below[0]));
+  }
+}
+
+TEST_CASE("an_unstable_or_moving_state_has_no_derivatives") {
+  Pyramid p;
+  const auto message = [&] {
+    try {
+      differentiate(p.model, p.state, {apex}, all_parameters(), {});
+    } catch (const Error &error) {
+      CHECK(error.code == MVS_E_STATE);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  p.state.load.pressure *= 1.001;
+  CHECK(message().find("settle the valve") != std::string::npos);
+  p.state.rest_tolerance = 0;
+  CHECK(message().find("not at rest") != std::string::npos);
+  // between its two stable heights, without the chord, the pyramid is at a saddle
+  Pyramid slack(-0.5);
+  slack.state.x.edit()[0].z() = 0;
+  slack.state.load.pressure = 0;
+  slack.state.rest_tolerance = 1e-12;
+  p.model = slack.model;
+  p.state = slack.state;
+  CHECK(message().find("unstable") != std::string::npos);
+}
+
+}  // namespace mvs::core::test

@@ -1,0 +1,324 @@
+// Sensitivities of closed valves against central differences of settles, along random parameters
+// and along the gradient. MVS_TEST_LONG: 200 pairs of valve and parameter.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "anatomy/parametric.h"
+#include "base/error.h"
+#include "measure/coaptation/coaptation.h"
+#include "measure/tissue/chords.h"
+#include "sensitivity/coaptation_gradient.h"
+#include "sensitivity/sensitivity.h"
+#include "tests/solve/bench.h"
+
+namespace mvs::core::test {
+namespace {
+
+// Some valves do not settle so far: rounding, or a snap on the way.
+struct NotAtRest {};
+
+constexpr double rest_force = 1e-10;  // N; settles end far below it, because Newton converges
+
+State settled(const Model &model, State state) {
+  SolveOptions options;
+  options.residual = rest_force;
+  state.rest_tolerance = 0;
+  const SolveStats stats = Solver(Backend::fastest).settle(model, state, options, nullptr);
+  if (!stats.converged) throw NotAtRest();
+  return state;
+}
+
+struct Closed {
+  ModelPtr model;
+  State state;
+};
+
+Closed closed_valve(Random &random) {
+  const LeafletLawId laws[] = {LeafletLawId::bilinear, LeafletLawId::fung,
+                               LeafletLawId::may_newman_yin, LeafletLawId::prot,
+                               LeafletLawId::spring};
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = static_cast<uint32_t>(random(200, 400));
+  desc.annulus_scale = random(0.9, 1.25);
+  if (random(0, 1) < 0.3) desc.shape = MVS_SHAPE_FOUNDING;
+  Valve valve = make_parametric_valve(desc);
+  const LeafletLawId law = laws[static_cast<size_t>(random(0, 5))];
+  for (Leaflet &leaflet : valve.leaflets.edit()) {
+    leaflet.law = law;
+    leaflet.constants = default_constants(find_leaflet_law(law)->constants);
+  }
+  // the symmetry of the parametric valve
+  for (Chord &chord : valve.chords.edit()) chord.rest_length *= random(0.9, 1.1);
+  Closed made;
+  made.model = make_model(valve);
+  State state = initial_state(*made.model);
+  state.load = {random(80, 140) * 133.322, 1};
+  made.state = settled(*made.model, state);
+  return made;
+}
+
+// The first valve from a seed on that comes to rest.
+Closed some_valve(Random &random, uint64_t &seed) {
+  for (;;) {
+    try {
+      random = Random(seed++);
+      return closed_valve(random);
+    } catch (const NotAtRest &) {
+    }
+  }
+}
+
+// Changes the description of the valve itself.
+Closed changed(const Closed &from, const Parameter &p, double by) {
+  Valve valve = from.model->valve;
+  State state = from.state;
+  const auto shift = [&](uint32_t node, const Vec3 &move) {
+    for (CowVector<Vec3> *places : {&valve.open, &valve.loaded, &state.x}) {
+      places->edit()[node] += move;
+    }
+  };
+  switch (p.kind) {
+    case ParameterKind::chord_rest_length:
+      valve.chords.edit()[p.index].rest_length += by;
+      break;
+    case ParameterKind::chord_area:
+      valve.chords.edit()[p.index].area += by;
+      break;
+    case ParameterKind::chord_young:
+      valve.chords.edit()[p.index].young += by;
+      break;
+    case ParameterKind::leaflet_constant:
+      valve.leaflets.edit()[p.index].constants[p.component] += by;
+      break;
+    case ParameterKind::leaflet_thickness:
+      for (size_t t = 0; t < valve.triangles.size(); ++t) {
+        if (valve.triangle_leaflet[t] == p.index) valve.triangle_thickness.edit()[t] += by;
+      }
+      break;
+    case ParameterKind::scallop_thickness:
+      for (size_t t = 0; t < valve.triangles.size(); ++t) {
+        if (valve.triangle_scallop[t] == p.index) valve.triangle_thickness.edit()[t] += by;
+      }
+      break;
+    case ParameterKind::pressure:
+      state.load.pressure += by;
+      break;
+    case ParameterKind::head_position:
+      shift(valve.heads[p.index].node, by * Vec3::Unit(static_cast<int>(p.component)));
+      break;
+    case ParameterKind::node_position:
+      shift(p.index, by * Vec3::Unit(static_cast<int>(p.component)));
+      break;
+    case ParameterKind::boundary_mode:
+      for (uint32_t i = 0; i < p.mode.size(); ++i) {
+        if (!p.mode[i].isZero(0)) shift(i, by * p.mode[i]);
+      }
+      break;
+    default:
+      FAIL("not among the parameters of this test");
+  }
+  return {make_model(valve), state};
+}
+
+Parameter random_parameter(const Closed &closed, Random &random) {
+  const Valve &valve = closed.model->valve;
+  const auto any = [&](size_t count) {
+    return static_cast<uint32_t>(random(0, static_cast<double>(count)));
+  };
+  using Kind = ParameterKind;
+  const Kind kinds[] = {Kind::chord_rest_length, Kind::chord_area,        Kind::chord_young,
+                        Kind::leaflet_constant,  Kind::leaflet_thickness, Kind::scallop_thickness,
+                        Kind::pressure,          Kind::head_position,     Kind::node_position,
+                        Kind::boundary_mode};
+  Parameter p;
+  p.kind = kinds[any(10)];
+  // half of all, as it matters most
+  if (random(0, 1) < 0.4) p.kind = Kind::chord_rest_length;
+  if (p.kind <= Kind::chord_area) p.index = any(valve.chords.size());
+  if (p.kind == Kind::leaflet_constant) p.index = any(valve.leaflets.size());
+  if (p.kind == Kind::leaflet_thickness) p.index = any(valve.leaflets.size());
+  if (p.kind == Kind::scallop_thickness) p.index = any(valve.scallops.size());
+  if (p.kind == Kind::head_position) {
+    p.index = any(valve.heads.size());
+    p.component = any(3);
+  }
+  if (p.kind == Kind::node_position) {
+    p.index = valve.annulus[any(valve.annulus.size())];
+    p.component = any(3);
+  }
+  if (p.kind == Kind::boundary_mode) {
+    p.mode.assign(closed.model->node_count(), Vec3::Zero());
+    for (const uint32_t node : valve.annulus) p.mode[node] = random.vector(1);
+  }
+  return p;
+}
+
+// A branch point whose chordae bear nothing has no place of its own.
+bool is_idle(const Closed &closed, uint32_t node) {
+  if (closed.model->topology.node_kind[node] != NodeKind::branch) return false;
+  const ChordMeasures chords = measure_chords(*closed.model, closed.state.x);
+  const Rows &rows = closed.model->topology.node_chords;
+  for (uint32_t k = rows.start[node]; k < rows.start[node + 1]; ++k) {
+    if (chords.tension[rows.items[k]] > 2 * rest_force) return false;
+  }
+  return true;
+}
+
+Quantity random_functional(const Closed &closed, Random &random) {
+  Quantity q;
+  q.weights = random.vectors(closed.model->node_count(), 1);
+  for (uint32_t i = 0; i < q.weights.size(); ++i) {
+    if (is_idle(closed, i)) q.weights[i].setZero();
+  }
+  return q;
+}
+
+double fastest_of(const NodeField &field) {
+  double most = 0;
+  for (const Vec3 &v : field) most = std::max(most, v.norm());
+  return most;
+}
+
+double value_of(const Closed &closed, const Quantity &q) {
+  return quantity_gradient(*closed.model, closed.state, q).value;
+}
+
+Closed settled(Closed closed) {
+  closed.state = settled(*closed.model, closed.state);
+  return closed;
+}
+
+}  // namespace
+
+TEST_CASE("coaptation_gradient_is_that_of_differences") {
+  Random random(11);
+  Closed closed = closed_valve(random);
+  std::vector<Vec3> x = closed.state.x;
+  NodeField g(x.size(), Vec3::Zero());
+  const double area = coaptation_area_gradient(*closed.model, x, g);
+  CHECK(area == about(measure_coaptation(*closed.model, x).area, 1e-12));
+  REQUIRE(area > 1e-5);
+  const NodeField direction = random.vectors(x.size(), 1);
+  double slope = 0;
+  for (size_t i = 0; i < x.size(); ++i) slope += g[i].dot(direction[i]);
+  const double h = 1e-9;
+  const auto at = [&](double by) {
+    std::vector<Vec3> moved = x;
+    for (size_t i = 0; i < x.size(); ++i) moved[i] += by * direction[i];
+    return measure_coaptation(*closed.model, moved).area;
+  };
+  // kinks of single samples within 1e-9 m, and the rounding of 1e-16 / 1e-9
+  CHECK((at(h) - at(-h)) / (2 * h) == about(slope, 1e-5));
+}
+
+// One pair of a valve and a parameter, or of a valve and the gradient of a functional over all rest
+// lengths: what the derivative says, and a central difference of two settles.
+struct Compared {
+  bool smooth;
+  double motion_error, functional_error;  // relative
+};
+
+Compared compare(const Closed &closed, const Quantity &q, const std::vector<Parameter> &parameters,
+                 const std::vector<double> &direction, const NodeField &motion, bool smooth,
+                 double slack) {
+  if (fastest_of(motion) == 0) return {smooth, 0, 0};  // all chordae are slack: nothing to compare
+  const double h = 0.5 * slack / fastest_of(motion);
+  Closed above = closed, below = closed;
+  double slope = 0;
+  for (size_t p = 0; p < parameters.size(); ++p) {
+    above = changed(above, parameters[p], h * direction[p]);
+    below = changed(below, parameters[p], -h * direction[p]);
+  }
+  above = settled(above);
+  below = settled(below);
+  NodeField error(motion.size(), Vec3::Zero());
+  for (uint32_t i = 0; i < error.size(); ++i) {
+    slope += q.weights[i].dot(motion[i]);
+    if (is_idle(closed, i)) continue;
+    error[i] = (above.state.x[i] - below.state.x[i]) / (2 * h) - motion[i];
+  }
+  const double difference = (value_of(above, q) - value_of(below, q)) / (2 * h);
+  return {smooth, fastest_of(error) / fastest_of(motion), std::abs(difference / slope - 1)};
+}
+
+Compared along_a_parameter(const Closed &closed, const Quantity &q, const Parameter &p) {
+  SensitivityOptions options;
+  options.with_motion = true;
+  const Sensitivity found = differentiate(*closed.model, closed.state, {q}, {p}, options);
+  return compare(closed, q, {p}, {1}, found.motion, found.parameter_notes[0] == 0, options.slack);
+}
+
+// Adjoint and direct derivatives agree, and both with the difference.
+Compared along_the_gradient(const Closed &closed, const Quantity &q) {
+  std::vector<Parameter> lengths;
+  for (uint32_t c = 0; c < closed.model->valve.chords.size(); ++c) {
+    lengths.push_back({ParameterKind::chord_rest_length, c, 0, {}});
+  }
+  const Sensitivity adjoint = differentiate(*closed.model, closed.state, {q}, lengths, {});
+  CHECK(adjoint.adjoint_solves >= 1);
+  SensitivityOptions options;
+  options.with_motion = true;
+  options.tests = false;
+  const Sensitivity direct = differentiate(*closed.model, closed.state, {q}, lengths, options);
+  std::vector<double> direction;
+  NodeField motion(closed.model->node_count(), Vec3::Zero());
+  double largest = 0;
+  for (const double d : adjoint.derivative) largest = std::max(largest, std::abs(d));
+  for (size_t p = 0; p < lengths.size(); ++p) {
+    // both have a relative error of the linear solutions, below 1e-11
+    CHECK(std::abs(adjoint.derivative[p] - direct.derivative[p]) < 1e-9 * largest);
+    const double rest = closed.model->valve.chords[p].rest_length;
+    direction.push_back(rest * rest * adjoint.derivative[p]);
+    for (size_t i = 0; i < motion.size(); ++i) {
+      motion[i] += direction[p] * direct.motion[p * motion.size() + i];
+    }
+  }
+  return compare(closed, q, lengths, direction, motion, adjoint.quantity_notes[0] == 0,
+                 options.slack);
+}
+
+TEST_CASE("derivatives_that_are_declared_smooth_match_central_differences") {
+  const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
+  const int pairs = is_long ? 200 : 8;
+  int smooth = 0, wrong = 0, cases = 0;
+  double worst = 0, worst_functional = 0;
+  uint64_t seed = 100;
+  for (int pair = 0; pair < pairs; ++pair) {
+    Random random(seed);
+    const Closed closed = some_valve(random, seed);
+    const Parameter p = random_parameter(closed, random);
+    const Quantity q = random_functional(closed, random);
+    for (const bool gradient : {false, true}) {
+      Compared found = {false, 0, 0};
+      try {
+        found = gradient ? along_the_gradient(closed, q) : along_a_parameter(closed, q, p);
+      } catch (const NotAtRest &) {
+        MESSAGE("pair " << pair << ": a moved valve does not come to rest at 1e-10 N");
+      } catch (const Error &error) {
+        // refused, with its reason: not declared smooth
+        CHECK(error.code == MVS_E_DIVERGED);
+        MESSAGE("pair " << pair << ": " << std::string(error.what()));
+      }
+      CAPTURE(pair);
+      CAPTURE(gradient);
+      ++cases;
+      if (!found.smooth) continue;
+      ++smooth;
+      // 1e-4: what the issue asks for; the displacement of 5e-8 m leaves rounding of about 1e-6
+      CHECK(found.motion_error < 1e-4);
+      wrong += found.motion_error >= 1e-4;
+      worst = std::max(worst, found.motion_error);
+      worst_functional = std::max(worst_functional, found.functional_error);
+    }
+  }
+  MESSAGE(smooth << " of " << cases << " declared smooth, " << wrong
+                 << " of them wrong; largest error " << worst << " of positions, "
+                 << worst_functional << " of functionals");
+  CHECK(smooth >= 0.8 * cases);
+}
+
+}  // namespace mvs::core::test
