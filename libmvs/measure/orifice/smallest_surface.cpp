@@ -49,6 +49,7 @@ class Shrinking {
   std::vector<Hold> hold_;
   std::vector<std::array<uint32_t, 2>> rim_;  // per node: the next ones along the rim, or none
   std::vector<uint32_t> nearest_;             // per node: the last triangle of the sheet found
+  std::vector<uint8_t> on_rim_;               // per node: lies on a rim of the sheet
   std::vector<uint32_t> first_;               // per node: opposite_[first_[v] .. first_[v + 1])
   std::vector<Edge> opposite_;
 };

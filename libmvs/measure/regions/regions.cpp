@@ -126,7 +126,6 @@ void add_tenting_billow(const Model &model, const std::vector<Vec3> &x, const Re
   const AtrialSurface atrial = atrial_surface(model, x);
   const std::vector<Tri> &sheet = model.valve.triangles;
   const TriangleBvh tree(sheet, atrial.local);
-  const double cell_area = atrial.map->width() * atrial.map->depth();
   for (int row = 0; row < AnnulusMap::across; ++row) {
     for (int column = 0; column < AnnulusMap::across; ++column) {
       const size_t cell = AnnulusMap::at(column, row);
@@ -137,9 +136,9 @@ void add_tenting_billow(const Model &model, const std::vector<Vec3> &x, const Re
       const double rise = atrial.rise(cell);
       map.for_each(tree.closest(p).triangle, [&](uint32_t region) {
         RegionMeasures &m = measures[region];
-        m.tenting_height = std::max(m.tenting_height, -height);
-        m.tenting_volume += cell_area * std::max(0.0, -rise);
-        m.billow_volume += cell_area * std::max(0.0, rise);
+        m.tenting_height = std::max(m.tenting_height, -atrial.map->share(cell) * height);
+        m.tenting_volume += atrial.area(cell) * std::max(0.0, -rise);
+        m.billow_volume += atrial.area(cell) * std::max(0.0, rise);
       });
     }
   }
