@@ -263,7 +263,8 @@ void DelaunayBuilder::fill_cavity() {
 uint32_t DelaunayBuilder::insert(uint32_t vertex) {
   const uint32_t start = locate(at(vertex));
   for (const uint32_t corner : tetrahedra_[start].corner) {
-    if (at(corner) == at(vertex)) return corner;
+    const LatticePoint &p = at(corner), &q = at(vertex);
+    if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) return corner;
   }
   find_cavity(start, vertex);
   fill_cavity();
