@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -27,20 +28,32 @@ int64_t volume(const LatticePoint &a, const LatticePoint &b, const LatticePoint 
 }
 
 // Returns whether p is strictly inside the sphere through a, b, c, d, which have positive volume.
+// The determinant is evaluated in doubles first: its terms l m, with l and m exact integers, have
+// relative errors of at most 2 u from the conversion of m and the product (u = 2^-53), and the
+// three sums add at most 3 u, so that a value above 1e-15 > 6 u of the sum of magnitudes has the
+// right sign. Otherwise it is evaluated exactly.
 bool in_sphere(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
                const LatticePoint &d, const LatticePoint &p) {
   const std::array<Step, 4> row = {step(p, a), step(p, b), step(p, c), step(p, d)};
   const auto minor = [&](int i, int j) { return row[i][0] * row[j][1] - row[i][1] * row[j][0]; };
   const int64_t ab = minor(0, 1), ac = minor(0, 2), ad = minor(0, 3);
   const int64_t bc = minor(1, 2), bd = minor(1, 3), cd = minor(2, 3);
-  const int64_t abc = row[0][2] * bc - row[1][2] * ac + row[2][2] * ab;
-  const int64_t abd = row[0][2] * bd - row[1][2] * ad + row[3][2] * ab;
-  const int64_t acd = row[0][2] * cd - row[2][2] * ad + row[3][2] * ac;
-  const int64_t bcd = row[1][2] * cd - row[2][2] * bd + row[3][2] * bc;
-  const auto lift = [&](int i) {
-    return row[i][0] * row[i][0] + row[i][1] * row[i][1] + row[i][2] * row[i][2];
-  };
-  return Wide{lift(0)} * bcd - Wide{lift(1)} * acd + Wide{lift(2)} * abd - Wide{lift(3)} * abc > 0;
+  const std::array<int64_t, 4> volume = {row[1][2] * cd - row[2][2] * bd + row[3][2] * bc,
+                                         row[2][2] * ad - row[0][2] * cd - row[3][2] * ac,
+                                         row[0][2] * bd - row[1][2] * ad + row[3][2] * ab,
+                                         row[1][2] * ac - row[0][2] * bc - row[2][2] * ab};
+  double sum = 0, magnitude = 0;
+  std::array<int64_t, 4> lift;
+  for (size_t i = 0; i < 4; ++i) {
+    lift[i] = row[i][0] * row[i][0] + row[i][1] * row[i][1] + row[i][2] * row[i][2];
+    const double term = static_cast<double>(lift[i]) * static_cast<double>(volume[i]);
+    sum += term;
+    magnitude += std::abs(term);
+  }
+  if (std::abs(sum) > 1e-15 * magnitude) return sum > 0;
+  Wide exact = 0;
+  for (size_t i = 0; i < 4; ++i) exact += Wide{lift[i]} * volume[i];
+  return exact > 0;
 }
 
 // Returns the Morton code of a point: the interleaved bits of its coordinates.
@@ -250,7 +263,8 @@ void DelaunayBuilder::fill_cavity() {
 uint32_t DelaunayBuilder::insert(uint32_t vertex) {
   const uint32_t start = locate(at(vertex));
   for (const uint32_t corner : tetrahedra_[start].corner) {
-    if (at(corner) == at(vertex)) return corner;
+    const LatticePoint &p = at(corner), &q = at(vertex);
+    if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) return corner;
   }
   find_cavity(start, vertex);
   fill_cavity();

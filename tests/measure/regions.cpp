@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <mvs/sim.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <set>
 #include <string>
@@ -202,6 +203,35 @@ TEST_CASE("a_rigid_motion_changes_no_region") {
       // rounding may choose other diagonals of the samples of the orifice
       CHECK(std::abs(a.orifice_area - b.orifice_area) <= 0.02 * still.orifice.area);
       CHECK(std::abs(a.gap - b.gap) < 0.1 * mm);
+    }
+  }
+}
+
+// The default valve is its own mirror image, with places of the coaptation line as near to a
+// scallop as to its neighbour, or to tissue of a commissure as to other tissue: rounding may not
+// decide.
+TEST_CASE("a_rigid_motion_changes_no_coaptation_length_of_the_default_valve") {
+  mvs_parametric_desc desc{};
+  desc.struct_size = sizeof desc;
+  const ModelPtr model = make_model(make_parametric_valve(desc));
+  State state = initial_state(*model);
+  state.load = {120 * 133.322, 1};
+  CHECK(Solver(Backend::fastest).settle(*model, state, {}, nullptr).converged);
+  const RegionMap map(*model);
+  const auto regions = [&](const std::vector<Vec3> &x) {
+    return measure_regions(*model, x, map, measure_coaptation(*model, x), {});
+  };
+  const std::vector<RegionMeasures> still = regions(state.x);
+  for (int k = 0; k < 6; ++k) {
+    const Eigen::AngleAxisd turn(0.3 + k, Vec3(1, k, 0.2 * k * k).normalized());
+    const std::vector<RegionMeasures> there =
+        regions(moved(state.x, [&](const Vec3 &p) -> Vec3 { return turn * p; }));
+    for (size_t r = 0; r < still.size(); ++r) {
+      CAPTURE(map.name(r));
+      CHECK(still[r].coaptation_length_mean > 0);
+      // rounding of positions of 30 mm, times the slope of a share over 0.1 mm
+      CHECK(std::abs(there[r].coaptation_length_mean - still[r].coaptation_length_mean) < 1e-9);
+      CHECK(std::abs(there[r].coaptation_length_min - still[r].coaptation_length_min) < 1e-9);
     }
   }
 }

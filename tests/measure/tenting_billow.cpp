@@ -40,7 +40,8 @@ TEST_CASE("a_bowl_tents_by_its_paraboloid") {
   CHECK(measured.tenting_area == about(4.0 / 3 * radius * depth, meshed));
   CHECK(measured.tenting_volume == about(0.5 * pi * radius * radius * depth, meshed));
   CHECK(measured.billow_height == 0);
-  CHECK(measured.billow_volume == 0);
+  // on the rim the ball has less room, and bridges a few micrometres of the bowl
+  CHECK(measured.billow_volume < 1e-5 * measured.tenting_volume);
 }
 
 TEST_CASE("a_dome_billows_by_its_paraboloid") {
@@ -97,11 +98,11 @@ TEST_CASE("tissue_below_the_coaptation_line_does_not_tent") {
   };
   const TentingBillow little = tenting_billow_of(closed(2e-3)),
                       lot = tenting_billow_of(closed(9e-3));
-  // the ball of 0.6 mm sinks 0.13 mm into the gap of 0.5 mm between their upper edges; cells of
-  // 0.11 mm see that to 0.1 mm
+  // the ball of 0.6 mm would sink 0.13 mm into the gap of 0.5 mm between their upper edges; the gap
+  // is filled from around it, which leaves -0.05 to 0.1 mm
   for (const double height : {little.tenting_height, lot.tenting_height}) {
-    CHECK(height > 4.03e-3);
-    CHECK(height < 4.14e-3);
+    CHECK(height > 3.95e-3);
+    CHECK(height < 4.1e-3);
   }
   CHECK(lot.tenting_volume == about(little.tenting_volume, 2e-3));
   CHECK(lot.tenting_area == about(0.5 * 28e-3 * 4e-3, 0.02));  // a triangle, but for the gap
@@ -120,6 +121,33 @@ TEST_CASE("tenting_and_billow_are_invariant_under_motion_and_renumbering") {
   check_same(measure_tenting_billow(*model, moved(valve.rest, some_rigid_motion())));
   const Renumbered other = renumbered(valve);
   check_same(measure_tenting_billow(*other.model, other(valve.rest)));
+}
+
+// The sheet is moved across the raster in steps of a thousandth of a cell: samples at centres of
+// cells would give volumes in steps, exact sections give a line. A hanging wall under an
+// overhanging edge.
+TEST_CASE("the_volume_under_an_overhang_is_linear_in_its_place") {
+  const auto volume = [](double shift) {
+    Sheet sheet;
+    sheet.around = 96;
+    sheet.rings = 24;
+    sheet.at = [=](double angle, double s) -> Vec3 {
+      const Vec3 rim(14e-3 * std::cos(angle), 18e-3 * std::sin(angle), 0);
+      const Vec3 line(0.2e-3 * std::cos(angle) + shift, 14e-3 * std::sin(angle), -4e-3);
+      const double belly = std::min(1.0, 2 * s), down = std::max(0.0, 2 * s - 1);
+      // the side of +x overhangs the other one by 2 mm
+      const double over = std::cos(angle) > 0 ? -2e-3 * down * std::cos(angle) : 0;
+      return (1 - belly) * rim + belly * line + Vec3(over, 0, -3e-3 * down);
+    };
+    return tenting_billow_of(sheet).tenting_volume;
+  };
+  constexpr double cell = 28e-3 / 256;
+  const double first = volume(0), last = volume(cell);
+  for (int k = 1; k < 8; ++k) {
+    const double share = k / 8.0, line = (1 - share) * first + share * last;
+    // what remains is the corner that the ball leaves below the edge, in cells
+    CHECK(volume(share * cell) == about(line, 3e-4));
+  }
 }
 
 }  // namespace mvs::core::test

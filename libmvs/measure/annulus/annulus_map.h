@@ -11,10 +11,16 @@
 
 namespace mvs::core {
 
-// Raster over the bounding box of the annulus: columns along AP, rows along CC.
+// Raster over the bounding box of the annulus: columns along AP, rows along CC. A cell stands for
+// its part of the line through the centres of its row: integrals along these lines are continuous in
+// the positions of the annulus.
 class AnnulusMap {
  public:
   static constexpr int across = 256;  // cells, about 0.13 mm each
+  // A part of the line through the centres of a row, by coordinate along AP, m.
+  struct Interval {
+    double from, to;
+  };
 
   AnnulusMap(const Frame &frame, const std::vector<Vec3> &rim);
 
@@ -26,14 +32,20 @@ class AnnulusMap {
   // Coordinates of the centre of a column or row, m.
   const std::array<double, across> &u() const { return u_; }
   const std::array<double, across> &v() const { return v_; }
-  double low_v() const { return low_v_; }  // m, of the border of the raster
+  // Coordinates of the border of the raster, m.
+  double low_u() const { return low_u_; }
+  double low_v() const { return low_v_; }
 
   static size_t at(int column, int row) {
     return static_cast<size_t>(row) * across + static_cast<size_t>(column);
   }
-  // Height of the surface at the centre of a cell, m; NaN outside the annulus.
+  // Height of the surface over the middle of the part of a cell inside the annulus, m; NaN outside.
   const std::vector<double> &heights() const { return heights_; }
-  bool inside(size_t cell) const { return inside_[cell] != 0; }
+  // The share of a cell that is inside the annulus: 0 to 1.
+  double share(size_t cell) const { return shares_[cell]; }
+  bool inside(size_t cell) const { return shares_[cell] > 0; }
+  // The parts of a row inside the annulus, one after the other.
+  const std::vector<Interval> &intervals(size_t row) const { return intervals_[row]; }
   // The columns of a row from the first cell inside to behind the last one; 0 and 0 without any.
   size_t first_inside(size_t row) const { return first_inside_[row]; }
   size_t end_inside(size_t row) const { return end_inside_[row]; }
@@ -41,13 +53,16 @@ class AnnulusMap {
   bool is_of(const Frame &frame, const std::vector<Vec3> &rim) const;
 
  private:
+  void find_intervals();
+  void fill_row(size_t row, size_t &near);
+
   Frame frame_;
   std::vector<Vec3> rim_;
   AnnulusSurface surface_;
-  double area_, low_v_, width_, depth_;
+  double area_, low_u_, low_v_, width_, depth_;
   std::array<double, across> u_, v_;
-  std::vector<double> heights_;
-  std::vector<uint8_t> inside_;
+  std::array<std::vector<Interval>, across> intervals_;
+  std::vector<double> heights_, shares_;
   std::array<size_t, across> first_inside_{}, end_inside_{};
 };
 

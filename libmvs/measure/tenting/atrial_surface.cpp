@@ -1,5 +1,5 @@
-// Raster of the leaflets seen from the atrium, closed morphologically by a ball of the contact
-// thickness; holes are filled from their borders inwards.
+// Raster of the leaflets seen from the atrium; gaps are filled from around them, and the whole is
+// closed morphologically by a ball of the contact thickness.
 #include "measure/tenting/atrial_surface.h"
 
 #include <algorithm>
@@ -7,55 +7,35 @@
 #include <limits>
 
 #include "measure/annulus/landmarks.h"
-#include "measure/tenting/height_field.h"
+#include "measure/tenting/fill_gaps.h"
+#include "measure/tenting/rolling_ball.h"
+#include "measure/tenting/upper_envelope.h"
 
 namespace mvs::core {
 namespace {
 
-// Calls visit(cell) for the cells around a cell and itself, row by row.
-template <typename Visit>
-void for_each_around(size_t cell, Visit visit) {
-  const int column = static_cast<int>(cell) % AnnulusMap::across;
-  const int row = static_cast<int>(cell) / AnnulusMap::across;
-  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, AnnulusMap::across - 1); ++r) {
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, AnnulusMap::across - 1); ++c) {
-      visit(AnnulusMap::at(c, r));
-    }
-  }
-}
+// Gaps below this share of a cell are rounding of its covered length.
+constexpr double rounding = 1e-9;
+// Tissue deeper than this below the rest of a cell, over the contact thickness, does not count as
+// deeper: a ball that rests on the rest of the cell does not reach it.
+constexpr double most_of_thickness = 0.25;
 
-// Fills cells without a height by the mean of their neighbours, from the borders of each hole
-// inwards: in each round those next to a cell that had a height before it.
-void fill_holes(const AnnulusMap &map, std::vector<double> &leaflet) {
-  const auto is_hole = [&](size_t c) { return map.inside(c) && std::isinf(leaflet[c]); };
-  std::vector<size_t> front;
-  for (size_t c = 0; c < leaflet.size(); ++c) {
-    if (is_hole(c)) front.push_back(c);
+// The mean height of each cell: of the tissue seen there, and in gaps of the tissue around them.
+std::vector<double> mean_heights(const AnnulusMap &map, VisibleTissue seen) {
+  const double nothing = -std::numeric_limits<double>::infinity();
+  bool has_tissue = false;
+  std::vector<uint32_t> gaps;
+  for (uint32_t c = 0; c < seen.covered.size(); ++c) {
+    has_tissue |= seen.covered[c] > 0;
+    if (map.share(c) - seen.covered[c] > rounding) gaps.push_back(c);
   }
-  std::vector<uint8_t> listed(front.empty() ? 0 : leaflet.size(), 0);
-  std::vector<std::pair<size_t, double>> filled;
-  do {
-    filled.clear();
-    for (const size_t cell : front) {
-      double sum = 0, count = 0;
-      for_each_around(cell, [&](size_t n) {
-        if (!map.inside(n) || std::isinf(leaflet[n])) return;
-        sum += leaflet[n];
-        ++count;
-      });
-      if (count > 0) filled.emplace_back(cell, sum / count);
-    }
-    for (const auto &[cell, height] : filled) leaflet[cell] = height;
-    front.clear();
-    for (const auto &[cell, height] : filled) {
-      for_each_around(cell, [&](size_t n) {
-        if (listed[n] || !is_hole(n)) return;
-        listed[n] = 1;
-        front.push_back(n);
-      });
-    }
-    // a cell that is listed now has a neighbour with a height, and is filled in the next round
-  } while (!filled.empty());
+  if (!has_tissue) return std::vector<double>(seen.covered.size(), nothing);
+  if (!gaps.empty()) {
+    // on the rim, the weight of a cell is the covered share of its part inside
+    for (const uint32_t c : gaps) seen.covered[c] /= map.share(c);
+    fill_gaps(seen.covered, AnnulusMap::across, gaps, seen.height);
+  }
+  return std::move(seen.height);
 }
 
 }  // namespace
@@ -72,9 +52,10 @@ AtrialSurface atrial_surface(const Model &model, const std::vector<Vec3> &x) {
   surface.map = annulus_map(surface.frame, Loop(model.valve.annulus, x).points());
   const AnnulusMap &map = *surface.map;
   const double radius = 0.5 * model.valve.contact_thickness;
-  surface.heights = highest_leaflet(map, model.valve.triangles, surface.local);
+  const double most = most_of_thickness * model.valve.contact_thickness;
+  surface.heights =
+      mean_heights(map, visible_tissue(map, model.valve.triangles, surface.local, most));
   surface.heights = roll_ball(map, roll_ball(map, surface.heights, radius, 1), radius, -1);
-  fill_holes(map, surface.heights);
   return surface;
 }
 

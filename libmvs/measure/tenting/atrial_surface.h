@@ -18,6 +18,8 @@ struct AtrialSurface {
 
   // Height above the surface that spans the annulus; 0 if either is not defined.
   double rise(size_t cell) const;
+  // The area of a cell inside the annulus, m2.
+  double area(size_t cell) const { return map->share(cell) * map->width() * map->depth(); }
 };
 AtrialSurface atrial_surface(const Model &model, const std::vector<Vec3> &x);
 

@@ -13,9 +13,10 @@ namespace {
 double area_below(const AtrialSurface &atrial, int row) {
   double sum = 0;
   for (int column = 0; column < AnnulusMap::across; ++column) {
-    sum += atrial.map->width() * std::max(0.0, -atrial.rise(AnnulusMap::at(column, row)));
+    const size_t cell = AnnulusMap::at(column, row);
+    sum += atrial.map->share(cell) * std::max(0.0, -atrial.rise(cell));
   }
-  return sum;
+  return atrial.map->width() * sum;
 }
 
 // Area below the annulus surface in the central AP plane, interpolated between the adjacent rows.
@@ -33,14 +34,14 @@ TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3>
   const AtrialSurface atrial = atrial_surface(model, x);
   const AnnulusMap &map = *atrial.map;
   TentingBillow result;
-  const double cell = map.width() * map.depth();
   for (size_t c = 0; c < atrial.heights.size(); ++c) {
     if (!map.inside(c)) continue;
     const double rise = atrial.rise(c);
-    result.tenting_volume += cell * std::max(0.0, -rise);
-    result.billow_volume += cell * std::max(0.0, rise);
+    result.tenting_volume += atrial.area(c) * std::max(0.0, -rise);
+    result.billow_volume += atrial.area(c) * std::max(0.0, rise);
     if (std::isfinite(atrial.heights[c])) {
-      result.tenting_height = std::max(result.tenting_height, -atrial.heights[c]);
+      // in proportion on the rim, so that no cell enters with its whole depth
+      result.tenting_height = std::max(result.tenting_height, -map.share(c) * atrial.heights[c]);
     }
   }
   result.tenting_area = central_area_below(atrial);
