@@ -17,8 +17,6 @@
 namespace mvs::core {
 namespace {
 
-using Kind = QuantityKind;
-
 bool is_named(const mvs_field_info &field, const char *name) {
   return std::strcmp(field.name, name) == 0;
 }
@@ -173,17 +171,19 @@ const mvs_field_info *find_measure(const char *name, size_t place) {
 
 void check_quantity(const Model &model, const Quantity &q, size_t place) {
   const Valve &valve = model.valve;
-  MVS_MUST(q.kind >= Kind::node_position && q.kind <= Kind::measure, MVS_E_ARGUMENT, "quantities",
-           "quantities[%zu].kind is %u: it has to be one of MVS_QUANTITY_*", place,
+  MVS_MUST(q.kind >= QuantityKind::node_position && q.kind <= QuantityKind::measure, MVS_E_ARGUMENT,
+           "quantities", "quantities[%zu].kind is %u: it has to be one of MVS_QUANTITY_*", place,
            static_cast<uint32_t>(q.kind));
-  const bool of_node = q.kind == Kind::node_position || q.kind == Kind::node_distance;
-  const bool of_chord = q.kind >= Kind::chord_length && q.kind <= Kind::chord_tension;
+  const bool of_node =
+      q.kind == QuantityKind::node_position || q.kind == QuantityKind::node_distance;
+  const bool of_chord =
+      q.kind >= QuantityKind::chord_length && q.kind <= QuantityKind::chord_tension;
   size_t count = 1, components = 1;
   if (of_node) count = model.node_count();
   if (of_chord) count = valve.chords.size();
-  if (q.kind == Kind::head_force) count = valve.heads.size();
-  if (q.kind == Kind::node_position) components = 3;
-  if (q.kind == Kind::head_force) components = 4;
+  if (q.kind == QuantityKind::head_force) count = valve.heads.size();
+  if (q.kind == QuantityKind::node_position) components = 3;
+  if (q.kind == QuantityKind::head_force) components = 4;
   MVS_MUST(q.index < count, MVS_E_ARGUMENT, "quantities",
            "quantities[%zu].index is %u: it has to be below %zu", place, q.index, count);
   MVS_MUST(q.component < components, MVS_E_ARGUMENT, "quantities",
@@ -191,7 +191,7 @@ void check_quantity(const Model &model, const Quantity &q, size_t place) {
            components);
   MVS_MUST(q.point.allFinite(), MVS_E_ARGUMENT, "quantities", "quantities[%zu].point is not finite",
            place);
-  if (q.kind != Kind::linear) return;
+  if (q.kind != QuantityKind::linear) return;
   MVS_MUST(q.weights.size() == model.node_count(), MVS_E_ARGUMENT, "quantities",
            "quantities[%zu].weights has %zu rows, but the valve has %zu nodes", place,
            q.weights.size(), model.node_count());
@@ -208,42 +208,42 @@ QuantityGradient quantity_gradient(const Model &model, const State &state,
   q.by_position.assign(x.size(), Vec3::Zero());
   const uint32_t index = quantity.index;
   switch (quantity.kind) {
-    case Kind::node_position: {
+    case QuantityKind::node_position: {
       const auto axis = static_cast<int>(quantity.component);
       q.value = x[index][axis];
       q.by_position[index][axis] = 1;
       break;
     }
-    case Kind::linear:
+    case QuantityKind::linear:
       for (size_t i = 0; i < quantity.weights.size(); ++i) {
         q.value += quantity.weights[i].dot(x[i]);
         q.by_position[i] = quantity.weights[i];
       }
       break;
-    case Kind::node_distance: {
+    case QuantityKind::node_distance: {
       const Vec3 away = x[index] - quantity.point;
       q.value = away.norm();
       if (q.value > 0) q.by_position[index] = away / q.value;
       break;
     }
-    case Kind::chord_length:
-    case Kind::chord_strain: {
+    case QuantityKind::chord_length:
+    case QuantityKind::chord_strain: {
       const ChordState at = chord_state(model, index, x);
-      const bool is_strain = quantity.kind == Kind::chord_strain;
+      const bool is_strain = quantity.kind == QuantityKind::chord_strain;
       q.value = is_strain ? at.strain : at.length;
       add_length(model, index, at, is_strain ? 1 / model.valve.chords[index].rest_length : 1.0,
                  q.by_position);
       if (is_strain) q.strain.push_back({index, 1});
       break;
     }
-    case Kind::chord_tension:
+    case QuantityKind::chord_tension:
       q.value = model.valve.chords[index].area * chord_state(model, index, x).response.stress;
       add_tension(model, index, x, 1, q);
       break;
-    case Kind::head_force:
+    case QuantityKind::head_force:
       head_force(model, quantity, x, q);
       break;
-    case Kind::measure:
+    case QuantityKind::measure:
       measure(model, state, *quantity.measure, q);
       break;
   }

@@ -3,9 +3,10 @@
 #include "measure/tenting/upper_envelope.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
+
+#include "base/bit_cast.h"
 
 #include "measure/tenting/row_sections.h"
 
@@ -162,8 +163,8 @@ class Row {
   // ends_: what remains shows that a cell has a fold or a border.
   void add(const Section &s) {
     const size_t first = column_of(s.from), last = column_of(s.to);
-    ends_[first] += std::bit_cast<uint64_t>(s.from);
-    ends_[last] -= std::bit_cast<uint64_t>(s.to);
+    ends_[first] += bit_cast<uint64_t>(s.from);
+    ends_[last] -= bit_cast<uint64_t>(s.to);
     double from = s.from, at_from = s.at_from;
     for (size_t c = first; c < last; ++c) {
       const double to = border(c + 1), at_to = s.height(to);

@@ -21,7 +21,7 @@ constexpr double farthest_annulus = 8e-3;
 // Fits are as good as the best one if their distance is at most this much larger: less than two
 // segmentations of one valve differ by.
 constexpr double as_good_share = 1.1, as_good_distance = 0.05e-3;  // m
-constexpr uint64_t seed = 22;                                      // of the other starts
+constexpr uint64_t start_seed = 22;                                // of the other starts
 
 void check_surface(const ClosedSurface &given, const Model &model) {
   MVS_MUST(!given.triangles.empty(), MVS_E_ARGUMENT, "closed_triangles",
@@ -101,7 +101,7 @@ Found search(const FitSearch &fit, const FitParameters &groups, const FitSetting
 std::vector<double> start_factors(const FitParameters &groups, const FitSettings &s,
                                   uint32_t start) {
   std::vector<double> factor = groups.mean;
-  NormalNumbers random(seed + start);
+  NormalNumbers random(start_seed + start);
   for (double &f : factor) {
     if (start > 0) f = std::clamp(f + groups.deviation * random.next(), s.least, s.most);
   }
