@@ -12,8 +12,8 @@
 namespace mvs::core {
 
 // Raster over the bounding box of the annulus: columns along AP, rows along CC. A cell stands for
-// its part of the line through the centres of its row: integrals along these lines are continuous in
-// the positions of the annulus.
+// its part of the line through the centres of its row: integrals along these lines are continuous
+// in the positions of the annulus.
 class AnnulusMap {
  public:
   static constexpr int across = 256;  // cells, about 0.13 mm each

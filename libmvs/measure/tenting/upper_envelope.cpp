@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/bit_cast.h"
-
 #include "measure/tenting/row_sections.h"
 
 namespace mvs::core {
