@@ -14,8 +14,12 @@ namespace mvs::core {
 namespace {
 
 // The way along the edge over the chord from which on it is a notch: a missing triangle has 2, a
-// missing square 3. The dip of a normal free edge at a commissure has 1.4 and stays.
-constexpr double least_detour = 1.5;
+// missing square 3. The dip of a normal free edge at a commissure has 1.4 and stays, unless the
+// edge is torn, with three sharp notches or more: then what is between tears is no shape of the
+// leaflet.
+constexpr double sharp_detour = 1.5, gentle_detour = 1.2;
+constexpr size_t sharp_of_torn = 3;
+constexpr double bottom = 0.3e-3;     // m: vertices of a cleft less above its deepest one
 constexpr size_t most_vertices = 60;  // of a notch; three voxels a mm over 20 mm
 
 struct Notch {
@@ -26,9 +30,14 @@ struct Notch {
 
 class FreeEdge {
  public:
-  // Vertices that are `kept` stay on the edge.
-  FreeEdge(LeafletSheet &sheet, std::vector<uint32_t> &loop, std::vector<uint8_t> kept)
-      : sheet_(sheet), loop_(loop), kept_(std::move(kept)), normal_(sheet.x.size(), Vec3::Zero()) {
+  // Vertices that are `kept` stay on the edge. `detour`: the least one of a notch.
+  FreeEdge(LeafletSheet &sheet, std::vector<uint32_t> &loop, std::vector<uint8_t> kept,
+           double detour)
+      : sheet_(sheet),
+        loop_(loop),
+        detour_(detour),
+        kept_(std::move(kept)),
+        normal_(sheet.x.size(), Vec3::Zero()) {
     for (const Tri &t : sheet.triangles) {
       const Vec3 n = (sheet.x[t[1]] - sheet.x[t[0]]).cross(sheet.x[t[2]] - sheet.x[t[0]]);
       for (const uint32_t i : t) normal_[i] += n;
@@ -84,7 +93,7 @@ class FreeEdge {
       way += (at(first + step) - at(first + step - 1)).norm();
       normal += normal_[vertex(first + step)];
       const double width = (at(first + step) - at(first)).norm();
-      if (step < 2 || width > widest_notch || way < least_detour * width) continue;
+      if (step < 2 || width > widest_notch || way < detour_ * width) continue;
       if (way - width <= best.saved) continue;
       Notch notch{first, step + 1, way - width, width, 0};
       if (is_inward(notch, normal) && notch.depth <= deepest_notch) best = notch;
@@ -104,19 +113,25 @@ class FreeEdge {
     if (!(size > 0)) return false;
     for (size_t k = 1; k + 1 < notch.count; ++k) {
       if (stays(vertex(notch.first + k))) return false;
-      const Vec3 off = at(notch.first + k) - sheet_.x[a];
-      if (off.dot(inward) <= 0) return false;
-      const double length2 = along.squaredNorm();
-      const double share = length2 > 0 ? std::clamp(off.dot(along) / length2, 0.0, 1.0) : 0;
-      notch.depth = std::max(notch.depth, (off - share * along).norm());
+      if ((at(notch.first + k) - sheet_.x[a]).dot(inward) <= 0) return false;
+      notch.depth = std::max(notch.depth, depth_of(notch, k));
     }
     return true;
   }
 
-  // Marks the vertices of clefts that are narrow and too deep to be notches: the bottom of one is
-  // no notch either.
+  // m, of a vertex of a notch from the straight line over its mouth.
+  double depth_of(const Notch &notch, size_t k) const {
+    const Vec3 &a = at(notch.first), &b = at(notch.first + notch.count - 1);
+    const Vec3 along = b - a, off = at(notch.first + k) - a;
+    const double length2 = along.squaredNorm();
+    const double share = length2 > 0 ? std::clamp(off.dot(along) / length2, 0.0, 1.0) : 0;
+    return (off - share * along).norm();
+  }
+
+  // Marks the bottoms of clefts, which are narrow and too deep to be notches, so that no notch has
+  // such a bottom. The corner of the orifice at a commissure is one as well.
   void keep_clefts() {
-    std::vector<uint8_t> in_cleft(sheet_.x.size(), 0);
+    std::vector<uint8_t> is_bottom(sheet_.x.size(), 0);
     for (size_t first = 0; first < loop_.size(); ++first) {
       Vec3 normal = normal_[vertex(first)];
       for (size_t step = 1; step <= std::min(most_vertices, loop_.size() - 3); ++step) {
@@ -127,28 +142,30 @@ class FreeEdge {
         if (!is_inward(cleft, normal) || cleft.depth <= std::max(deepest_notch, cleft.width)) {
           continue;
         }
-        for (size_t k = 1; k < step; ++k) in_cleft[vertex(first + k)] = 1;
+        for (size_t k = 1; k < step; ++k) {
+          if (depth_of(cleft, k) > cleft.depth - bottom) is_bottom[vertex(first + k)] = 1;
+        }
       }
     }
-    for (size_t i = 0; i < in_cleft.size(); ++i) {
-      if (in_cleft[i] != 0) kept_[i] = 1;
+    for (size_t i = 0; i < is_bottom.size(); ++i) {
+      if (is_bottom[i] != 0) kept_[i] = 1;
     }
   }
 
   LeafletSheet &sheet_;
   std::vector<uint32_t> &loop_;
+  double detour_;
   std::vector<uint8_t> kept_;  // vertices that stay on the edge
   std::vector<Vec3> normal_;   // of each vertex, by area
   std::vector<Edge> edges_;    // of the sheet, sorted
 };
 
-}  // namespace
-
-FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vector<uint8_t> &kept) {
+FilledNotches fill_with(double detour, const std::vector<uint8_t> &kept, LeafletSheet &sheet,
+                        std::vector<uint32_t> &loop) {
   FilledNotches filled;
   filled.sheet_triangles = sheet.triangles.size();
   const double area = surface_area(sheet.x, sheet.triangles);
-  FreeEdge edge(sheet, rims.free_edge, kept);
+  FreeEdge edge(sheet, loop, kept, detour);
   for (Notch notch = edge.largest(); notch.count > 0; notch = edge.largest()) {
     filled.inner.push_back(edge.fill(notch));
     filled.last.push_back(sheet.triangles.size());
@@ -157,6 +174,20 @@ FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vect
   }
   filled.area = surface_area(sheet.x, sheet.triangles) - area;
   return filled;
+}
+
+}  // namespace
+
+FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vector<uint8_t> &kept) {
+  LeafletSheet with_sharp = sheet;
+  std::vector<uint32_t> loop = rims.free_edge;
+  FilledNotches sharp = fill_with(sharp_detour, kept, with_sharp, loop);
+  if (sharp.last.size() >= sharp_of_torn) {
+    return fill_with(gentle_detour, kept, sheet, rims.free_edge);
+  }
+  sheet = std::move(with_sharp);
+  rims.free_edge = std::move(loop);
+  return sharp;
 }
 
 bool keep_crossing(const FilledNotches &notches, const std::vector<Edge> &crossings,
