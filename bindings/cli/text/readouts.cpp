@@ -24,21 +24,12 @@ struct Readout {
   }
 };
 
-// The unit that people read, its factor from SI, and its suffix in JSON keys.
-struct Shown {
-  const char *si, *unit;
-  double scale;
-};
-constexpr Shown shown[] = {{"m", "mm", 1e3},  {"m2", "mm2", 1e6},
-                           {"m3", "ml", 1e6}, {"Pa", "kPa", 1e-3},
-                           {"N", "N", 1},     {"rad", "deg", 57.29577951308232}};
 Readout readout_of(const mvs_field_info &field) {
   Readout readout{field, field.name, 1, "%", 100, field.type == MVS_FIELD_COUNT};
-  for (const Shown &row : shown) {
-    if (std::string_view(row.si) != field.unit) continue;
-    readout.key += std::string("_") + row.unit;
-    readout.scale = readout.text_scale = row.scale;
-    readout.unit = row.unit;
+  if (const ShownUnit *row = shown_unit(field.unit)) {
+    readout.key += std::string("_") + row->unit;
+    readout.scale = readout.text_scale = row->scale;
+    readout.unit = row->unit;
   }
   return readout;
 }
@@ -117,6 +108,16 @@ std::string cells(const Readout &readout, const std::vector<const mvs_measures *
 }
 
 }  // namespace
+
+const ShownUnit *shown_unit(const std::string &si) {
+  static constexpr ShownUnit shown[] = {{"m", "mm", 1e3},  {"m2", "mm2", 1e6},
+                                        {"m3", "ml", 1e6}, {"Pa", "kPa", 1e-3},
+                                        {"N", "N", 1},     {"rad", "deg", 57.29577951308232}};
+  for (const ShownUnit &row : shown) {
+    if (si == row.si) return &row;
+  }
+  return nullptr;
+}
 
 // Grades by effective orifice area, 0.20, 0.30 and 0.40 cm2.
 const char *leak_grade(const mvs_measures &measures) {

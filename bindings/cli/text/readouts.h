@@ -14,6 +14,14 @@ using MeasureGroups = std::vector<std::pair<std::string, mvs_measure_group_flags
 const MeasureGroups &measure_groups();
 inline constexpr mvs_measure_group_flags all_measure_groups = ~mvs_measure_group_flags{0};
 
+// The unit in which people read values of an SI unit, and the factor from SI.
+struct ShownUnit {
+  const char *si, *unit;
+  double scale;
+};
+// The row of an SI unit ("m2": mm2, 1e6); null for numbers without a unit.
+const ShownUnit *shown_unit(const std::string &si);
+
 // Every read-out, named with its unit: {"regurgitant_orifice_area_mm2": 0.0, ...}. A read-out
 // without a value, such as a coaptation length without coaptation, is null. Only those of the given
 // groups, and those without a group.

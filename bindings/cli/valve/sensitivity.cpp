@@ -2,17 +2,10 @@
 
 #include <utility>
 
+#include "text/readouts.h"
+
 namespace cli {
 namespace {
-
-// The unit that people read, and its factor from SI.
-struct Shown {
-  const char *si, *unit;
-  double scale;
-};
-constexpr Shown shown[] = {{"m", "mm", 1e3},    {"m2", "mm2", 1e6},
-                           {"m3", "ml", 1e6},   {"N", "N", 1},
-                           {"Pa", "kPa", 1e-3}, {"rad", "deg", 57.29577951308232}};
 
 AskedQuantity quantity_of(const std::string &given) {
   AskedQuantity asked{given, given, "", 1};
@@ -20,10 +13,9 @@ AskedQuantity quantity_of(const std::string &given) {
   if (given == "orifice") asked.name = "regurgitant_orifice_area";
   for (const mvs_field_info &field : mvs::fields_of(MVS_STRUCT_MEASURES)) {
     if (asked.name != field.name) continue;
-    for (const Shown &row : shown) {
-      if (std::string(row.si) != field.unit) continue;
-      asked.unit = row.unit;
-      asked.scale = row.scale;
+    if (const ShownUnit *row = shown_unit(field.unit)) {
+      asked.unit = row->unit;
+      asked.scale = row->scale;
     }
   }
   return asked;

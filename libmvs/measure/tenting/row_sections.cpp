@@ -8,8 +8,6 @@
 namespace mvs::core {
 namespace {
 
-constexpr size_t across = AnnulusMap::across;
-
 // The rows of the map with v in [low, high): first to end.
 struct RowRange {
   size_t first, end;
@@ -17,9 +15,9 @@ struct RowRange {
 RowRange rows_between(const AnnulusMap &map, double low, double high) {
   const auto place = [&](double v) {
     const double row = std::ceil((v - map.v()[0]) / map.depth());
-    size_t k = static_cast<size_t>(std::clamp(row, 0.0, static_cast<double>(across)));
+    size_t k = static_cast<size_t>(std::clamp(row, 0.0, static_cast<double>(AnnulusMap::across)));
     while (k > 0 && map.v()[k - 1] >= v) --k;  // rounding of the quotient
-    while (k < across && map.v()[k] < v) ++k;
+    while (k < AnnulusMap::across && map.v()[k] < v) ++k;
     return k;
   };
   return {place(low), place(high)};
@@ -51,14 +49,14 @@ Sections cut_triangles(const AnnulusMap &map, const std::vector<Tri> &triangles,
   std::vector<RowRange> rows;
   rows.reserve(triangles.size());
   Sections sections;
-  sections.first.assign(across + 1, 0);
+  sections.first.assign(AnnulusMap::across + 1, 0);
   for (const Tri &t : triangles) {
     const auto [low, high] = std::minmax({local[t[0]][1], local[t[1]][1], local[t[2]][1]});
     rows.push_back(rows_between(map, low, high));
     for (size_t r = rows.back().first; r < rows.back().end; ++r) ++sections.first[r + 1];
   }
-  for (size_t r = 0; r < across; ++r) sections.first[r + 1] += sections.first[r];
-  sections.items.resize(sections.first[across]);
+  for (size_t r = 0; r < AnnulusMap::across; ++r) sections.first[r + 1] += sections.first[r];
+  sections.items.resize(sections.first[AnnulusMap::across]);
   std::vector<size_t> next(sections.first.begin(), sections.first.end() - 1);
   for (size_t k = 0; k < triangles.size(); ++k) {
     if (rows[k].first == rows[k].end) continue;

@@ -12,7 +12,6 @@
 namespace mvs::core {
 namespace {
 
-constexpr size_t across = AnnulusMap::across;
 // Cells with as many layers, up to rounding of the sum of their sections.
 constexpr double one_layer = 1e-9;
 // The most halvings of an interval in which more than two sections are the highest.
@@ -155,7 +154,7 @@ class Row {
   }
   size_t column_of(double u) const {
     const double column = std::floor((u - map_.low_u()) / map_.width());
-    return static_cast<size_t>(std::clamp(column, 0.0, across - 1.0));
+    return static_cast<size_t>(std::clamp(column, 0.0, AnnulusMap::across - 1.0));
   }
 
   // Adds a section to the sums of its cells. Sections that begin where another one ends cancel in
@@ -183,7 +182,7 @@ class Row {
   }
 
   void write(size_t column) {
-    const size_t cell = row_ * across + column;
+    const size_t cell = row_ * AnnulusMap::across + column;
     if (!map_.inside(cell)) return;
     const double covered = covered_[column] / map_.width();
     const bool is_plain = ends_[column] == 0 && map_.share(cell) == 1;
@@ -235,9 +234,10 @@ class Row {
   double most_;
   size_t row_ = 0;
   std::vector<Part> parts_;
-  std::array<uint32_t, across> first_part_;  // of each cell: the head of its list in parts_
-  std::array<uint64_t, across> ends_;
-  std::array<double, across> covered_, height_, lowest_, highest_;
+  std::array<uint32_t, AnnulusMap::across>
+      first_part_;  // of each cell: the head of its list in parts_
+  std::array<uint64_t, AnnulusMap::across> ends_;
+  std::array<double, AnnulusMap::across> covered_, height_, lowest_, highest_;
   std::vector<const Section *> near_, layers_;
   std::vector<double> places_;
   std::vector<Stretch> envelope_;
@@ -247,11 +247,11 @@ class Row {
 
 VisibleTissue visible_tissue(const AnnulusMap &map, const std::vector<Tri> &triangles,
                              const std::vector<Vec3> &local, double most) {
-  VisibleTissue result{std::vector<double>(across * across, 0),
-                       std::vector<double>(across * across, 0)};
+  VisibleTissue result{std::vector<double>(AnnulusMap::across * AnnulusMap::across, 0),
+                       std::vector<double>(AnnulusMap::across * AnnulusMap::across, 0)};
   const Sections sections = cut_triangles(map, triangles, local);
   Row row(map, most, result);
-  for (size_t r = 0; r < across; ++r) {
+  for (size_t r = 0; r < AnnulusMap::across; ++r) {
     row.fill(r, sections.items.data() + sections.first[r],
              sections.items.data() + sections.first[r + 1]);
   }
