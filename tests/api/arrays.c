@@ -236,7 +236,8 @@ static void regions_and_orifice_parts_add_up(void) {
     MUST(mvs_snapshot_get_orifice_part(closed, k, &part));
     opening += part.area;
     triangles += part.triangles;
-    CHECK(part.area <= all.regurgitant_orifice_area);
+    /* m2: triangles are summed in another order */
+    CHECK(part.area <= all.regurgitant_orifice_area + 1e-15);
   }
   CHECK(triangles == part_of.count);
   CHECK(fabs(opening - all.regurgitant_orifice_area) < 1e-15);
