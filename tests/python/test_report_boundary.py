@@ -13,7 +13,7 @@ import pytest
 PACKAGE = Path(mvs.__file__).parent
 REPORT = [p for p in sorted((PACKAGE / "report").glob("*.py")) if p.exists()]
 # applications: their pages share pieces of HTML
-APPLICATIONS = {PACKAGE / "report", PACKAGE / "imaging"}
+APPLICATIONS = {PACKAGE / "report", PACKAGE / "imaging", PACKAGE / "fitting"}
 OTHERS = [p for p in sorted(PACKAGE.rglob("*.py"))
           if not APPLICATIONS & {*p.parents} and p.exists()]
 PUBLIC = {"mvs": {*mvs.__all__, "__version__", "study"}, "mvs.mesh": set(vars(mvs.mesh)),
