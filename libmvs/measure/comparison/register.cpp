@@ -86,14 +86,7 @@ Rigid moved_by(const Rigid &motion, const Vec6 &step, const Vec3 &centre) {
 }  // namespace
 
 Rigid align(const Frame &a, const Frame &b) {
-  // Element by element: emscripten 3.1.6 compiles Eigen's product of the transposed matrix to a wrong
-  // element (1, 2), which the test of rings in bindings/js shows.
-  Mat3 turn;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      turn(row, column) = b.axes.col(row).dot(a.axes.col(column));
-    }
-  }
+  const Mat3 turn = b.axes.transpose() * a.axes;
   return {turn, b.origin - turn * a.origin};
 }
 

@@ -637,6 +637,117 @@ export const EnsembleArray = {
 } as const;
 export type EnsembleArray = keyof typeof EnsembleArray;
 
+/** Parameters of model and load. `index` and `component` are fields of mvs_parameter. */
+export const ParameterKind = {
+  /** m; index: chord segment */
+  chord_rest_length: 1,
+  /** Pa; index: chord segment with a law that has a modulus */
+  chord_young: 2,
+  /** m2; index: chord segment */
+  chord_area: 3,
+  /** its unit; index: leaflet; component: constant of its law */
+  leaflet_constant: 4,
+  /** m, added to all its triangles; index: leaflet */
+  leaflet_thickness: 5,
+  /** its unit; index: scallop; component: constant */
+  scallop_constant: 6,
+  /** m; index: scallop */
+  scallop_thickness: 7,
+  /** e: the rest shape of the leaflets shrinks by 1 / (1 + e) */
+  prestrain: 8,
+  /** Pa */
+  pressure: 9,
+  /** m; index: prescribed node; component: axis 0 to 2 */
+  node_position: 10,
+  /** m; index: papillary head; component: axis 0 to 2 */
+  head_position: 11,
+  /** e: the annulus grows by 1 + e about its centroid; a ring changes its size by e times the size */
+  annulus_scale: 12,
+  /** factor of a displacement field of the prescribed nodes */
+  boundary_mode: 13,
+} as const;
+export type ParameterKind = keyof typeof ParameterKind;
+
+/** Quantities. */
+export const QuantityKind = {
+  /** m; index: node; component: axis 0 to 2 */
+  node_position: 1,
+  /**
+   * sum of weights times positions; also the first-order change of any function of the positions,
+   * by its gradient as weights
+   */
+  linear: 2,
+  /** m, of a node from `point`; index: node */
+  node_distance: 3,
+  /** m; index: chord segment */
+  chord_length: 4,
+  /** index: chord segment; negative when slack */
+  chord_strain: 5,
+  /** N; index: chord segment */
+  chord_tension: 6,
+  /** N; index: papillary head; component: axis 0 to 2, or 3: its magnitude */
+  head_force: 7,
+  /** a number of mvs_measures; `measure`: the name of the field */
+  measure: 8,
+} as const;
+export type QuantityKind = keyof typeof QuantityKind;
+
+/** mvs_sensitivity_options.flags */
+export const SensitivityFlags = {
+  /** also dx/dp of all nodes: MVS_SENSITIVITY_ARRAY_MOTION */
+  motion: 1,
+  /** one solution for each parameter, with few quantities too */
+  direct: 2,
+  /** no test of both sides: faster, for fits */
+  no_test: 4,
+  /** no eigenvalue: stiffness_margin is NaN */
+  no_margin: 8,
+} as const;
+export type SensitivityFlags = keyof typeof SensitivityFlags;
+
+/** Flags of a quantity or a parameter. */
+export const SensitivityNotes = {
+  /**
+   * the forces of both sides differ: contact, chordae or the law of a spring switch within `slack`.
+   * A parameter is tested along itself, a quantity along its gradient
+   */
+  note_switch: 1,
+  /** a chord is about to switch: see the arrays ABOVE, BELOW */
+  note_chord: 2,
+  /** the smallest eigenvalue of the tangent is near zero */
+  note_snap: 4,
+  /** the measure is differenced along dx/dp */
+  note_differences: 8,
+  /** the same, and the measure moves in small steps: see libmvs/measure/DEFINITIONS.md */
+  note_raster: 16,
+  /** a largest or smallest value: its derivative changes where another place takes over */
+  note_extreme: 32,
+  /** the orifice: its rim is taken as fixed in the tissue */
+  note_envelope: 64,
+} as const;
+export type SensitivityNotes = keyof typeof SensitivityNotes;
+
+/** Arrays of a result: q quantities, p parameters, n nodes. */
+export const SensitivityArray = {
+  /** F64 q */
+  value: 1,
+  /** F64 q x p, a row a quantity */
+  derivative: 2,
+  /** F64 q x p: derivatives for a growing parameter; equal to DERIVATIVE without weak chordae */
+  above: 3,
+  /** F64 q x p: the same for a falling one */
+  below: 4,
+  /** U32 q: MVS_SENSITIVITY_NOTE_* */
+  quantity_notes: 5,
+  /** U32 p: MVS_SENSITIVITY_NOTE_* */
+  parameter_notes: 6,
+  /** U32: indices of chord segments */
+  weak_chords: 7,
+  /** F64 (p n) x 3: dx/dp of all nodes for each parameter in turn; empty unless asked for */
+  motion: 8,
+} as const;
+export type SensitivityArray = keyof typeof SensitivityArray;
+
 /** Frames of patients in medical images. They differ in the signs of x and y. */
 export const PatientFrame = {
   /** the file does not state it */
@@ -737,6 +848,11 @@ export const enums: Record<string, Record<string, number>> = {
   mvs_ensemble_order: EnsembleOrder,
   mvs_ensemble_statistic: EnsembleStatistic,
   mvs_ensemble_array: EnsembleArray,
+  mvs_parameter_kind: ParameterKind,
+  mvs_quantity_kind: QuantityKind,
+  mvs_sensitivity_flags: SensitivityFlags,
+  mvs_sensitivity_notes: SensitivityNotes,
+  mvs_sensitivity_array: SensitivityArray,
   mvs_patient_frame: PatientFrame,
   mvs_length_unit: LengthUnit,
   mvs_surface_place: SurfacePlace,

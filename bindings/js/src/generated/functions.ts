@@ -11,6 +11,7 @@ import type {
   Format,
   PartKind,
   Result,
+  SensitivityArray,
   Struct,
 } from "./enums.js";
 import type {
@@ -36,13 +37,17 @@ import type {
   Measures,
   OpInfo,
   OrificePart,
+  Parameter,
   ParametricDesc,
   Part,
   PlanOptions,
   Profile,
+  Quantity,
   RegionMeasures,
   Replay,
   Rest,
+  SensitivityOptions,
+  SensitivitySummary,
   SettleOptions,
   SimDesc,
   Stability,
@@ -63,6 +68,8 @@ export type SimHandle = number & { readonly of?: "mvs_sim" };
 export type SnapshotHandle = number & { readonly of?: "mvs_snapshot" };
 /** The address of a mvs_ensemble. */
 export type EnsembleHandle = number & { readonly of?: "mvs_ensemble" };
+/** The address of a mvs_sensitivity. */
+export type SensitivityHandle = number & { readonly of?: "mvs_sensitivity" };
 /** The address of a mvs_surface_file. */
 export type SurfaceFileHandle = number & { readonly of?: "mvs_surface_file" };
 /** The address of a mvs_build. */
@@ -777,6 +784,45 @@ const signatures: Record<string, Signature> = {
     steps: [
       { name: "ensemble", nullable: false, how: "handle", of: "mvs_ensemble" },
       { name: "which", nullable: false, how: "enum", of: "mvs_ensemble_array", element: "u32" },
+      { name: "view", nullable: false, how: "outView", of: "mvs_view" },
+    ],
+  },
+  mvs_sensitivity_run: {
+    name: "mvs_sensitivity_run",
+    returns: "mvs_result",
+    steps: [
+      { name: "snapshot", nullable: false, how: "handle", of: "mvs_snapshot" },
+      { name: "quantities", nullable: false, how: "inStruct", of: "mvs_quantity" },
+      { name: "quantity_count", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
+      { name: "quantity_stride", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
+      { name: "parameters", nullable: false, how: "inStruct", of: "mvs_parameter" },
+      { name: "parameter_count", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
+      { name: "parameter_stride", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
+      { name: "options", nullable: true, how: "inStruct", of: "mvs_sensitivity_options" },
+      { name: "sensitivity", nullable: false, how: "outHandle", of: "mvs_sensitivity" },
+    ],
+  },
+  mvs_sensitivity_release: {
+    name: "mvs_sensitivity_release",
+    returns: "void",
+    steps: [
+      { name: "sensitivity", nullable: true, how: "handle", of: "mvs_sensitivity" },
+    ],
+  },
+  mvs_sensitivity_get_summary: {
+    name: "mvs_sensitivity_get_summary",
+    returns: "mvs_result",
+    steps: [
+      { name: "sensitivity", nullable: false, how: "handle", of: "mvs_sensitivity" },
+      { name: "summary", nullable: false, how: "outStruct", of: "mvs_sensitivity_summary" },
+    ],
+  },
+  mvs_sensitivity_get_array: {
+    name: "mvs_sensitivity_get_array",
+    returns: "mvs_result",
+    steps: [
+      { name: "sensitivity", nullable: false, how: "handle", of: "mvs_sensitivity" },
+      { name: "which", nullable: false, how: "enum", of: "mvs_sensitivity_array", element: "u32" },
       { name: "view", nullable: false, how: "outView", of: "mvs_view" },
     ],
   },
@@ -1522,6 +1568,31 @@ export class Functions extends Calls {
   /** Returns a view of one array, zero-copy, valid until the ensemble is released. */
   mvs_ensemble_get_array(ensemble: EnsembleHandle, which: EnsembleArray | number): ArrayView {
     return this.invoke(signatures.mvs_ensemble_get_array!, [ensemble, which]) as never;
+  }
+
+  /**
+   * Differentiates quantities of a snapshot at rest with respect to parameters; lists with strides
+   * as in mvs_valve_desc. The snapshot does not change. `options` is nullable. From any thread.
+   * MVS_E_STATE if the snapshot is not at rest, or its equilibrium is unstable; MVS_E_ARGUMENT for
+   * a quantity or parameter that the valve does not have, or that has no derivative.
+   */
+  mvs_sensitivity_run(snapshot: SnapshotHandle, quantities: Quantity, quantity_count: number, quantity_stride: number, parameters: Parameter, parameter_count: number, parameter_stride: number, options?: SensitivityOptions | null): SensitivityHandle {
+    return this.invoke(signatures.mvs_sensitivity_run!, [snapshot, quantities, quantity_count, quantity_stride, parameters, parameter_count, parameter_stride, options]) as never;
+  }
+
+  /** Releases a result. `sensitivity` is nullable. */
+  mvs_sensitivity_release(sensitivity: SensitivityHandle | null): void {
+    return this.invoke(signatures.mvs_sensitivity_release!, [sensitivity]) as never;
+  }
+
+  /** Reads the summary. */
+  mvs_sensitivity_get_summary(sensitivity: SensitivityHandle): SensitivitySummary {
+    return this.invoke(signatures.mvs_sensitivity_get_summary!, [sensitivity]) as never;
+  }
+
+  /** Returns a view of one array, zero-copy, valid until the result is released. */
+  mvs_sensitivity_get_array(sensitivity: SensitivityHandle, which: SensitivityArray | number): ArrayView {
+    return this.invoke(signatures.mvs_sensitivity_get_array!, [sensitivity, which]) as never;
   }
 
   /**

@@ -17,8 +17,10 @@ import type {
   LeafletLaw,
   LengthUnit,
   OpKind,
+  ParameterKind,
   PartKind,
   PatientFrame,
+  QuantityKind,
   RegionKind,
   RingKind,
   SamRisk,
@@ -1082,6 +1084,67 @@ export interface EnsembleMember {
   ramp: number;
 }
 
+/**
+ * One parameter. Positions are the present ones of prescribed nodes: their targets move alike, open
+ * and loaded.
+ */
+export interface Parameter {
+  /** MVS_PARAMETER_* */
+  kind?: ParameterKind | number;
+  index?: number;
+  component?: number;
+  /** F64 or F32, n x 3, m: of MVS_PARAMETER_BOUNDARY_MODE, zero at free nodes */
+  mode?: ArrayInput;
+}
+
+/** One quantity. */
+export interface Quantity {
+  /** MVS_QUANTITY_* */
+  kind?: QuantityKind | number;
+  index?: number;
+  component?: number;
+  /** "coaptation_area", ...; null for other kinds */
+  measure?: string | null;
+  /** m */
+  point?: ArrayLike<number>;
+  /** F64 or F32, n x 3 */
+  weights?: ArrayInput;
+}
+
+/** Options of mvs_sensitivity_run. */
+export interface SensitivityOptions {
+  /** MVS_SENSITIVITY_MOTION, ... */
+  flags?: number;
+  /**
+   * m [1e-7]: a derivative is tested where it moves the fastest node by this much, and chordae this
+   * near to their rest length are about to switch; 1e-9 to 1e-3
+   */
+  slack?: number;
+}
+
+/** Summary of a result. */
+export interface SensitivitySummary {
+  quantities: number;
+  parameters: number;
+  /** 1: no NOTE_SWITCH, NOTE_CHORD or NOTE_SNAP */
+  smooth: number;
+  /** solutions with the transpose of K */
+  adjoint_solves: number;
+  /** solutions with K, those of tests included */
+  direct_solves: number;
+  /** chordae within `slack` of their rest length */
+  weak_chords: number;
+  /** N, out-of-balance force of the snapshot */
+  residual: number;
+  /** largest |K y - b| / |b| of all solutions */
+  linear_error: number;
+  /**
+   * N/m, smallest eigenvalue of the symmetric part of K over the leaflets, with branch points in
+   * equilibrium
+   */
+  stiffness_margin: number;
+}
+
 /** How to read a file. */
 export interface SurfaceFileOptions {
   /**
@@ -1146,11 +1209,11 @@ export interface SurfaceDesc {
    * papillary tips, or longer]
    */
   annulus?: ArrayInput;
-  /** 2 x 3, near the surface [guessed: where the leaflets are lowest] */
+  /** 2 x 3, near the surface [guessed from heights, annulus and tips] */
   commissures?: ArrayInput;
   /**
-   * 1 x 3, a point near the anterior leaflet [guessed: the leaflet with the greater height over its
-   * share of the annulus]
+   * 1 x 3, a point near the anterior leaflet [guessed: the leaflet that is more like a normal
+   * anterior one]
    */
   anterior?: ArrayInput;
   /** k x 3, k <= 64 [assumed: two, from normal anatomy] */
@@ -1942,6 +2005,51 @@ export const layouts: Record<string, Layout> = {
       { name: "surface_rms", kind: "f64", at: 48 },
       { name: "surface_max", kind: "f64", at: 56 },
       { name: "ramp", kind: "f64", at: 64 },
+    ],
+  },
+  mvs_parameter: {
+    size: 48,
+    sized: false,
+    fields: [
+      { name: "kind", kind: "enum", of: "mvs_parameter_kind", at: 0 },
+      { name: "index", kind: "u32", at: 4 },
+      { name: "component", kind: "u32", at: 8 },
+      { name: "mode", kind: "array", at: 16, components: 3, element: "F64" },
+    ],
+  },
+  mvs_quantity: {
+    size: 80,
+    sized: false,
+    fields: [
+      { name: "kind", kind: "enum", of: "mvs_quantity_kind", at: 0 },
+      { name: "index", kind: "u32", at: 4 },
+      { name: "component", kind: "u32", at: 8 },
+      { name: "measure", kind: "text", at: 16 },
+      { name: "point", kind: "f64", at: 24, length: 3 },
+      { name: "weights", kind: "array", at: 48, components: 3, element: "F64" },
+    ],
+  },
+  mvs_sensitivity_options: {
+    size: 16,
+    sized: true,
+    fields: [
+      { name: "flags", kind: "u32", of: "mvs_sensitivity_flags", at: 4 },
+      { name: "slack", kind: "f64", at: 8 },
+    ],
+  },
+  mvs_sensitivity_summary: {
+    size: 56,
+    sized: true,
+    fields: [
+      { name: "quantities", kind: "u32", at: 4 },
+      { name: "parameters", kind: "u32", at: 8 },
+      { name: "smooth", kind: "u32", at: 12 },
+      { name: "adjoint_solves", kind: "u32", at: 16 },
+      { name: "direct_solves", kind: "u32", at: 20 },
+      { name: "weak_chords", kind: "u32", at: 24 },
+      { name: "residual", kind: "f64", at: 32 },
+      { name: "linear_error", kind: "f64", at: 40 },
+      { name: "stiffness_margin", kind: "f64", at: 48 },
     ],
   },
   mvs_surface_file_options: {
