@@ -14,7 +14,7 @@ set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 
 # Headers without code, from the host. /usr/include itself must not be searched, because its other
 # headers are not those of emscripten's C library: a folder that holds links is.
-set(wasm_include ${CMAKE_BINARY_DIR}/host_headers)
+set(wasm_include ${CMAKE_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${wasm_include})
 foreach(package Eigen3:eigen3/Eigen/Core:Eigen nlohmann_json:nlohmann/json.hpp:nlohmann)
   string(REPLACE ":" ";" package ${package})
