@@ -152,6 +152,8 @@ describe('planner', () => {
     'saves_a_session_that_the_native_command_repeats',
     { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' },
     async () => {
+      await begin(page, 'ring');
+      await apply(page);
       const path = await save(page);
       assert.equal(nativeHash(path), (await figures(page)).hash);
     },
