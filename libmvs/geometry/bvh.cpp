@@ -78,29 +78,17 @@ TriangleBvh::TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Ve
 }
 
 TriangleBvh::Hit TriangleBvh::closest(const Vec3 &p, uint32_t hint) const {
-  Hit hit;
-  hit.distance2 = std::numeric_limits<double>::infinity();
-  std::array<double, 3> weight{};
-  const auto look_at = [&](uint32_t t) {
-    const TrianglePoint q = closest_on(t, p);
-    const bool tie = q.distance2 == hit.distance2 && t < hit.triangle;
-    if (q.distance2 < hit.distance2 || tie) {
-      hit.triangle = t;
-      hit.distance2 = q.distance2;
-      weight = q.weight;
-    }
-  };
-  if (hint != none) look_at(hint);
-  visit_near(p, hit.distance2, look_at);
-  if (hit.triangle != none) hit.point = point_at(hit.triangle, weight);
-  return hit;
+  ClosestSoFar best(*this, p);
+  if (hint != none) best.look_at(hint);
+  visit_near(p, best.distance2(), [&](uint32_t t) { best.look_at(t); });
+  return best.hit();
 }
 
 bool TriangleBvh::is_within(const Vec3 &p, double distance) const {
   double limit2 = distance * distance;
   bool found = false;
   visit_near(p, limit2, [&](uint32_t t) {
-    if (found || closest_on(t, p).distance2 >= limit2) return;
+    if (found || box_of(t).distance2(p) >= limit2 || closest_on(t, p).distance2 >= limit2) return;
     found = true;
     limit2 = 0;
   });

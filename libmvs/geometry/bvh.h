@@ -7,6 +7,9 @@
 // often as the surface moves (van den Bergen, J. Graphics Tools 2(4), 1997).
 #pragma once
 
+#include <algorithm>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/types.h"
@@ -75,21 +78,26 @@ class Bvh {
   template <typename Distance2, typename Visit>
   void for_nearest(Distance2 &&distance2, const double &limit2, Visit &&visit) const {
     // the median split keeps the depth below 33, and each level leaves one entry on the stack
-    std::array<uint32_t, 40> stack;
+    struct Waiting {
+      uint32_t node;
+      double distance2;
+    };
+    std::array<Waiting, 40> stack;
     size_t count = 0;
-    if (!volume_.empty()) stack[count++] = 0;
+    if (!volume_.empty()) stack[count++] = {0, distance2(volume_[0])};
     while (count > 0) {
-      const uint32_t i = stack[--count];
+      const auto [i, distance2_of_i] = stack[--count];
+      if (distance2_of_i > limit2) continue;
       const BvhNode &node = topology_.nodes[i];
-      if (distance2(volume_[i]) > limit2) continue;
       if (node.is_leaf()) {
         visit_leaf(node.leaf, visit);
         continue;
       }
-      const uint32_t left = i + 1, right = node.right;
-      const bool left_first = distance2(volume_[left]) <= distance2(volume_[right]);
-      stack[count++] = left_first ? right : left;
-      stack[count++] = left_first ? left : right;
+      Waiting near = {i + 1, distance2(volume_[i + 1])};
+      Waiting far = {node.right, distance2(volume_[node.right])};
+      if (near.distance2 > far.distance2) std::swap(near, far);
+      stack[count++] = far;
+      stack[count++] = near;
     }
   }
 
@@ -176,7 +184,7 @@ struct Aabb {
   double distance2(const Vec3 &p) const {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const double off = p[k] < low[k] ? low[k] - p[k] : (p[k] > high[k] ? p[k] - high[k] : 0.0);
+      const double off = std::max(std::max(0.0, low[k] - p[k]), p[k] - high[k]);
       sum += off * off;
     }
     return sum;
@@ -257,6 +265,37 @@ class TriangleBvh : public BoxedTriangles {
 
  private:
   Bvh<Aabb> bvh_;
+};
+
+// The closest point to p of the triangles looked at so far; on equal distance, that of the first
+// triangle.
+class ClosestSoFar {
+ public:
+  // Keeps references to both.
+  ClosestSoFar(const BoxedTriangles &triangles, const Vec3 &p) : triangles_(triangles), p_(p) {}
+
+  void look_at(uint32_t t) {
+    if (triangles_.box_of(t).distance2(p_) > distance2_) return;
+    const TrianglePoint q = triangles_.closest_on(t, p_);
+    const bool is_tie = q.distance2 == distance2_ && t < triangle_;
+    if (!(q.distance2 < distance2_ || is_tie)) return;
+    triangle_ = t;
+    distance2_ = q.distance2;
+    weight_ = q.weight;
+  }
+  // Infinite before the first triangle.
+  const double &distance2() const { return distance2_; }
+  TriangleBvh::Hit hit() const {
+    if (triangle_ == none) return {none, distance2_, Vec3::Zero()};
+    return {triangle_, distance2_, triangles_.point_at(triangle_, weight_)};
+  }
+
+ private:
+  const BoxedTriangles &triangles_;
+  const Vec3 &p_;
+  uint32_t triangle_ = none;
+  double distance2_ = std::numeric_limits<double>::infinity();
+  std::array<double, 3> weight_{};
 };
 
 // A surface in motion: pairs of leaves, of at most eight triangles each, that come near each other

@@ -108,7 +108,8 @@ const RegionMap &mvs_snapshot::region_map() const {
 }
 const std::vector<RegionMeasures> &mvs_snapshot::regions() const {
   return regions_.get([this] {
-    return measure_regions(*model, state.x, region_map(), coaptation(), orifice_parts());
+    return measure_regions(*model, state.x, region_map(), coaptation(), orifice_parts(),
+                           atrial_surface());
   });
 }
 const Stability &mvs_snapshot::stability() const {
@@ -123,8 +124,11 @@ const Tables &mvs_snapshot::tables() const {
 const AnnulusMeasures &mvs_snapshot::annulus() const {
   return annulus_.get([this] { return measure_annulus(*model, state.x); });
 }
+const AtrialSurface &mvs_snapshot::atrial_surface() const {
+  return atrial_surface_.get([this] { return mvs::core::atrial_surface(*model, state.x); });
+}
 const TentingBillow &mvs_snapshot::tenting_billow() const {
-  return tenting_billow_.get([this] { return measure_tenting_billow(*model, state.x); });
+  return tenting_billow_.get([this] { return measure_tenting_billow(atrial_surface()); });
 }
 uint32_t mvs_snapshot::crossings() const {
   return crossings_.get([this] {

@@ -82,6 +82,8 @@ struct mvs_snapshot {
   const std::vector<mvs::core::Vec3> &annulus_force() const;  // N, on each node of the annulus
   const mvs::core::Tables &tables() const;
   const mvs::core::AnnulusMeasures &annulus() const;
+  // Leaflets seen from the atrium, for tenting, billow and regions.
+  const mvs::core::AtrialSurface &atrial_surface() const;
   const mvs::core::TentingBillow &tenting_billow() const;
   uint32_t crossings() const;  // pairs of triangles that cross
   const mvs_measures &measures() const;
@@ -116,6 +118,7 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::Stability> stability_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
   mvs::core::Lazy<mvs::core::AnnulusMeasures> annulus_;
+  mvs::core::Lazy<mvs::core::AtrialSurface> atrial_surface_;
   mvs::core::Lazy<mvs::core::TentingBillow> tenting_billow_;
   mvs::core::Lazy<uint32_t> crossings_;
   mvs::core::Lazy<mvs_measures> measures_;

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "tests/bench/founding.h"
-#include "tests/bench/relaxed_closing.h"
+#include "tests/bench/relaxation/relaxed_closing.h"
 #include "tests/bench/table.h"
 
 using namespace bench;

@@ -1,5 +1,5 @@
-// Cost of the measures of a closed valve: all that mvs_snapshot_measure returns, and each group of
-// it alone.
+// Cost of the measures of a closed valve: all that mvs_snapshot_measure returns, the same and the
+// measures of regions, and each group alone.
 //
 //   bench_measure                    S and M, closed, leaking and open
 //   bench_measure --scenes S --states closed --repeat 1
@@ -64,6 +64,7 @@ class Digest {
     }
     add(s.strain().stretch);
     add(s.strain().stress);
+    add(s.regions());
   }
   std::string text() const {
     char digits[17];
@@ -125,6 +126,7 @@ double time_of(const Options &options, const ModelState &state, Group &&group) {
 void add_row(const Options &options, const Shape &shape, bench::Table &table) {
   const auto time = [&](auto &&group) { return time_of(options, shape.state, group); };
   const double all = time([](const mvs_snapshot &s) { s.measures(); });
+  const double regions = time([](const mvs_snapshot &s) { s.measures(), s.regions(); });
   const double orifice = time([](const mvs_snapshot &s) { s.orifice(); });
   const double coaptation = time([](const mvs_snapshot &s) { s.coaptation(); });
   const double tenting =
@@ -136,8 +138,9 @@ void add_row(const Options &options, const Shape &shape, bench::Table &table) {
   Digest digest;
   digest.add(*fresh(shape.state).get());
   for (int k = 0; k < options.shapes; ++k) digest.add(*fresh(wavy(shape.state, k)).get());
-  table.row({shape.scene, shape.name, all, orifice, coaptation, tenting, annulus, crossings, strain,
-             1e6 * fresh(shape.state)->measures().regurgitant_orifice_area, digest.text()});
+  table.row({shape.scene, shape.name, all, regions, orifice, coaptation, tenting, annulus,
+             crossings, strain, 1e6 * fresh(shape.state)->measures().regurgitant_orifice_area,
+             digest.text()});
 }
 
 int run(int argc, char **argv) {
@@ -155,8 +158,8 @@ int run(int argc, char **argv) {
   app.add_option("--shapes", options.shapes, "random shapes in the digest");
   app.add_option("--csv", options.csv, "file to write the table to");
   CLI11_PARSE(app, argc, argv);
-  bench::Table table({"scene ", "shape ", "all ms", "orifice", "coaptation", "tenting", "annulus",
-                      "crossings", "strain", "leak mm2", "digest "},
+  bench::Table table({"scene ", "shape ", "all ms", "and regions", "orifice", "coaptation",
+                      "tenting", "annulus", "crossings", "strain", "leak mm2", "digest "},
                      options.csv);
   for (const std::string &scene : options.scenes) {
     for (const std::string &state : options.states) {

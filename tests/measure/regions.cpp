@@ -34,7 +34,7 @@ struct Measured {
         coaptation(measure_coaptation(*model, x)),
         orifice(measure_orifice(*model, x)),
         parts(find_orifice_parts(*model, x, map, orifice)),
-        regions(measure_regions(*model, x, map, coaptation, parts)) {}
+        regions(measure_regions(*model, x, map, coaptation, parts, atrial_surface(*model, x))) {}
 
   const RegionMeasures &of(const std::string &name) const {
     for (size_t k = 0; k < map.size(); ++k) {
@@ -219,7 +219,8 @@ TEST_CASE("a_rigid_motion_changes_no_coaptation_length_of_the_default_valve") {
   CHECK(Solver(Backend::fastest).settle(*model, state, {}, nullptr).converged);
   const RegionMap map(*model);
   const auto regions = [&](const std::vector<Vec3> &x) {
-    return measure_regions(*model, x, map, measure_coaptation(*model, x), {});
+    return measure_regions(*model, x, map, measure_coaptation(*model, x), {},
+                           atrial_surface(*model, x));
   };
   const std::vector<RegionMeasures> still = regions(state.x);
   for (int k = 0; k < 6; ++k) {

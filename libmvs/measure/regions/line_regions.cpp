@@ -29,13 +29,17 @@ class Tissue {
 
   bool is_empty() const { return triangles_.empty(); }
   // Infinite without triangles.
-  double distance(const Vec3 &p) const {
-    return tree_ ? std::sqrt(tree_->closest(p).distance2) : std::numeric_limits<double>::infinity();
+  double distance(const Vec3 &p) {
+    if (!tree_) return std::numeric_limits<double>::infinity();
+    const TriangleBvh::Hit hit = tree_->closest(p, nearest_);
+    nearest_ = hit.triangle;
+    return std::sqrt(hit.distance2);
   }
 
  private:
   std::vector<Tri> triangles_;
   std::optional<TriangleBvh> tree_;
+  uint32_t nearest_ = none;  // to the last point, most often near the next one, too
 };
 
 // The tissue of one leaflet by region.
@@ -63,7 +67,7 @@ class LeafletRegions {
   }
 
   // The share of a place that belongs to each region.
-  std::vector<double> shares(const Vec3 &p) const {
+  std::vector<double> shares(const Vec3 &p) {
     std::vector<double> near(inside_.size()), shares(inside_.size(), 0);
     for (size_t r = 0; r < near.size(); ++r) near[r] = inside_[r]->distance(p);
     for (size_t r = 0; r < near.size(); ++r) {
@@ -117,7 +121,7 @@ void add_coaptation_lengths(const Model &model, const std::vector<Vec3> &x, cons
                                 coaptation.line_leaflets[line].end());
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
     for (const uint32_t leaflet : sides) {
-      const LeafletRegions regions(model, x, map, leaflet);
+      LeafletRegions regions(model, x, map, leaflet);
       for (uint32_t k = begin; k + 1 < end; ++k) {
         const CoaptationStation &a = coaptation.line[k], &b = coaptation.line[k + 1];
         const double along = (b.point - a.point).norm() / places;

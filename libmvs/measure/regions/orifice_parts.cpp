@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "geometry/bvh.h"
+#include "geometry/closest_nearby.h"
 #include "measure/annulus/landmarks.h"
 #include "measure/coaptation/coaptation_parts.h"
 #include "model/sides.h"
@@ -93,6 +93,7 @@ void sample_orifice(const Model &model, const std::vector<Vec3> &x, const Orific
                     OrificeParts &found) {
   const TriangleBvh tree(model.valve.triangles, x);
   const double spacing = spacing_of_thickness * model.valve.contact_thickness;
+  uint32_t nearest = none;  // to the sample before, most often near this one, too
   for (uint32_t t = 0; t < orifice.triangles.size(); ++t) {
     const Tri &c = orifice.triangles[t];
     const Vec3 &p = orifice.vertices[c[0]], &q = orifice.vertices[c[1]],
@@ -101,8 +102,13 @@ void sample_orifice(const Model &model, const std::vector<Vec3> &x, const Orific
     const auto parts =
         static_cast<size_t>(std::clamp(std::ceil(longest / spacing), 1.0, most_parts));
     const double area = area_vector(orifice, t).norm() / static_cast<double>(parts * parts);
+    const Vec3 centre = (p + q + r) / 3;
+    const double radius = std::max({(p - centre).norm(), (q - centre).norm(), (r - centre).norm()});
+    const ClosestNearby tissue(tree, centre, radius, nearest);
+    nearest = tissue.closest_to_centre();
     for_each_part(parts, [&](const std::array<double, 3> &w) {
-      const TriangleBvh::Hit hit = tree.closest(w[0] * p + w[1] * q + w[2] * r);
+      const TriangleBvh::Hit hit = tissue.closest(w[0] * p + w[1] * q + w[2] * r, nearest);
+      nearest = hit.triangle;
       const double width = 2 * std::sqrt(hit.distance2);
       found.samples.push_back({area, width, hit.triangle, found.of_triangle[t]});
       OrificePart &part = found.parts[found.of_triangle[t]];

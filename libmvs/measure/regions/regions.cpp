@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/bvh.h"
+#include "geometry/closest_nearby.h"
 #include "measure/regions/line_regions.h"
-#include "measure/tenting/atrial_surface.h"
 #include "measure/tissue/surface.h"
 
 namespace mvs::core {
@@ -32,33 +31,71 @@ void add_orifice(const RegionMap &map, const OrificeParts &orifice,
   }
 }
 
-void add_tenting_billow(const Model &model, const std::vector<Vec3> &x, const RegionMap &map,
-                        std::vector<RegionMeasures> &measures) {
-  const AtrialSurface atrial = atrial_surface(model, x);
-  const std::vector<Tri> &sheet = model.valve.triangles;
-  const TriangleBvh tree(sheet, atrial.local);
-  for (int row = 0; row < AnnulusMap::across; ++row) {
-    for (int column = 0; column < AnnulusMap::across; ++column) {
+// Cells of a side of a block, which look for their tissue together.
+constexpr int block = 4;
+
+// A cell that is measured, and its place in the frame of the valve.
+struct Cell {
+  size_t cell;
+  Vec3 place;
+};
+
+// The measured cells of a block.
+std::vector<Cell> cells_of_block(const AtrialSurface &atrial, int first_column, int first_row) {
+  std::vector<Cell> cells;
+  const AnnulusMap &map = *atrial.map;
+  for (int row = first_row; row < std::min(first_row + block, AnnulusMap::across); ++row) {
+    for (int column = first_column; column < std::min(first_column + block, AnnulusMap::across);
+         ++column) {
       const size_t cell = AnnulusMap::at(column, row);
       const double height = atrial.heights[cell];
-      if (!atrial.map->inside(cell) || !std::isfinite(height)) continue;
-      const Vec3 p(atrial.map->u()[static_cast<size_t>(column)],
-                   atrial.map->v()[static_cast<size_t>(row)], height);
-      const double rise = atrial.rise(cell);
-      map.for_each(tree.closest(p).triangle, [&](uint32_t region) {
-        RegionMeasures &m = measures[region];
-        m.tenting_height = std::max(m.tenting_height, -atrial.map->share(cell) * height);
-        m.tenting_volume += atrial.area(cell) * std::max(0.0, -rise);
-        m.billow_volume += atrial.area(cell) * std::max(0.0, rise);
-      });
+      if (!map.inside(cell) || !std::isfinite(height)) continue;
+      cells.push_back({cell, Vec3(map.u()[static_cast<size_t>(column)],
+                                  map.v()[static_cast<size_t>(row)], height)});
     }
   }
-  const std::vector<double> rises = node_rises(model, atrial);
+  return cells;
+}
+
+// The triangle closest to each cell; `none` for cells that are not measured.
+std::vector<uint32_t> tissue_of_cells(const Model &model, const AtrialSurface &atrial) {
+  std::vector<uint32_t> tissue(atrial.heights.size(), none);
+  const TriangleBvh tree(model.valve.triangles, atrial.local);
+  uint32_t nearest = none;  // to the cell before, most often near this one, too
+  for (int row = 0; row < AnnulusMap::across; row += block) {
+    for (int column = 0; column < AnnulusMap::across; column += block) {
+      const std::vector<Cell> cells = cells_of_block(atrial, column, row);
+      if (cells.empty()) continue;
+      const Vec3 centre = cells[cells.size() / 2].place;
+      double radius = 0;
+      for (const Cell &c : cells) radius = std::max(radius, (c.place - centre).norm());
+      const ClosestNearby near(tree, centre, radius, nearest);
+      for (const Cell &c : cells)
+        tissue[c.cell] = nearest = near.closest(c.place, nearest).triangle;
+    }
+  }
+  return tissue;
+}
+
+void add_tenting_billow(const Model &model, const AtrialSurface &atrial, const RegionMap &map,
+                        std::vector<RegionMeasures> &measures) {
+  const std::vector<uint32_t> tissue = tissue_of_cells(model, atrial);
+  for (size_t cell = 0; cell < tissue.size(); ++cell) {
+    if (tissue[cell] == none) continue;
+    const double rise = atrial.rise(cell), depth = -atrial.map->share(cell) * atrial.heights[cell];
+    map.for_each(tissue[cell], [&](uint32_t region) {
+      RegionMeasures &m = measures[region];
+      m.tenting_height = std::max(m.tenting_height, depth);
+      m.tenting_volume += atrial.area(cell) * std::max(0.0, -rise);
+      m.billow_volume += atrial.area(cell) * std::max(0.0, rise);
+    });
+  }
+  const std::vector<Tri> &sheet = model.valve.triangles;
   for (uint32_t t = 0; t < sheet.size(); ++t) {
     map.for_each(t, [&](uint32_t region) {
       double &highest = measures[region].billow_height;
       for (const uint32_t node : sheet[t]) {
-        if (rises[node] > highest) highest = rises[node];  // false for NaN
+        if (atrial.node_rise[node] > highest) highest = atrial.node_rise[node];  // false for NaN
       }
     });
   }
@@ -68,12 +105,13 @@ void add_tenting_billow(const Model &model, const std::vector<Vec3> &x, const Re
 
 std::vector<RegionMeasures> measure_regions(const Model &model, const std::vector<Vec3> &x,
                                             const RegionMap &map, const Coaptation &coaptation,
-                                            const OrificeParts &orifice) {
+                                            const OrificeParts &orifice,
+                                            const AtrialSurface &atrial) {
   std::vector<RegionMeasures> measures(map.size());
   add_areas(model, x, map, coaptation, measures);
   add_coaptation_lengths(model, x, map, coaptation, measures);
   add_orifice(map, orifice, measures);
-  add_tenting_billow(model, x, map, measures);
+  add_tenting_billow(model, atrial, map, measures);
   return measures;
 }
 

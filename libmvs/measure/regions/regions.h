@@ -7,6 +7,7 @@
 #include "measure/coaptation/coaptation.h"
 #include "measure/regions/orifice_parts.h"
 #include "measure/regions/region_map.h"
+#include "measure/tenting/atrial_surface.h"
 
 namespace mvs::core {
 
@@ -21,6 +22,7 @@ struct RegionMeasures {
 // Measures each region of the map. Areas and volumes of the scallops add up to those of the valve.
 std::vector<RegionMeasures> measure_regions(const Model &model, const std::vector<Vec3> &x,
                                             const RegionMap &map, const Coaptation &coaptation,
-                                            const OrificeParts &orifice);
+                                            const OrificeParts &orifice,
+                                            const AtrialSurface &atrial);
 
 }  // namespace mvs::core

@@ -38,6 +38,20 @@ std::vector<double> mean_heights(const AnnulusMap &map, VisibleTissue seen) {
   return std::move(seen.height);
 }
 
+// Heights of the nodes of the sheet above the surface that spans the annulus.
+std::vector<double> node_rises(const Model &model, const std::vector<Vec3> &local,
+                               const AnnulusSurface &surface) {
+  std::vector<double> rises(local.size(), std::numeric_limits<double>::quiet_NaN());
+  size_t near = 0;
+  const Rows &sheet = model.topology.node_triangles;
+  for (size_t node = 0; node < rises.size(); ++node) {
+    if (sheet.start[node] == sheet.start[node + 1]) continue;
+    const Vec3 &p = local[node];
+    rises[node] = p[2] - surface.height(p[0], p[1], near);
+  }
+  return rises;
+}
+
 }  // namespace
 
 double AtrialSurface::rise(size_t cell) const {
@@ -56,20 +70,8 @@ AtrialSurface atrial_surface(const Model &model, const std::vector<Vec3> &x) {
   surface.heights =
       mean_heights(map, visible_tissue(map, model.valve.triangles, surface.local, most));
   surface.heights = roll_ball(map, roll_ball(map, surface.heights, radius, 1), radius, -1);
+  surface.node_rise = node_rises(model, surface.local, map.surface());
   return surface;
-}
-
-std::vector<double> node_rises(const Model &model, const AtrialSurface &atrial) {
-  const AnnulusSurface &surface = atrial.map->surface();
-  std::vector<double> rises(atrial.local.size(), std::numeric_limits<double>::quiet_NaN());
-  size_t near = 0;
-  const Rows &sheet = model.topology.node_triangles;
-  for (size_t node = 0; node < rises.size(); ++node) {
-    if (sheet.start[node] == sheet.start[node + 1]) continue;
-    const Vec3 &p = atrial.local[node];
-    rises[node] = p[2] - surface.height(p[0], p[1], near);
-  }
-  return rises;
 }
 
 }  // namespace mvs::core

@@ -15,6 +15,9 @@ struct AtrialSurface {
   std::vector<Vec3> local;  // nodes in the frame
   std::shared_ptr<const AnnulusMap> map;
   std::vector<double> heights;  // m per cell, over the annulus plane; infinite where undefined
+  // m, height of each node of the sheet above the surface that spans the annulus; NaN for other
+  // nodes and outside the annulus
+  std::vector<double> node_rise;
 
   // Height above the surface that spans the annulus; 0 if either is not defined.
   double rise(size_t cell) const;
@@ -22,9 +25,5 @@ struct AtrialSurface {
   double area(size_t cell) const { return map->share(cell) * map->width() * map->depth(); }
 };
 AtrialSurface atrial_surface(const Model &model, const std::vector<Vec3> &x);
-
-// Height of each node of the sheet above the surface that spans the annulus; NaN for other nodes
-// and outside the annulus.
-std::vector<double> node_rises(const Model &model, const AtrialSurface &atrial);
 
 }  // namespace mvs::core

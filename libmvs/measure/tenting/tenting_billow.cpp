@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/tenting/atrial_surface.h"
-
 namespace mvs::core {
 namespace {
 
@@ -30,8 +28,7 @@ double central_area_below(const AtrialSurface &atrial) {
 
 }  // namespace
 
-TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3> &x) {
-  const AtrialSurface atrial = atrial_surface(model, x);
+TentingBillow measure_tenting_billow(const AtrialSurface &atrial) {
   const AnnulusMap &map = *atrial.map;
   TentingBillow result;
   for (size_t c = 0; c < atrial.heights.size(); ++c) {
@@ -45,7 +42,7 @@ TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3>
     }
   }
   result.tenting_area = central_area_below(atrial);
-  for (const double rise : node_rises(model, atrial)) {
+  for (const double rise : atrial.node_rise) {
     if (rise > result.billow_height) result.billow_height = rise;  // false for NaN
   }
   return result;

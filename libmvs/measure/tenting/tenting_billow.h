@@ -1,9 +1,7 @@
 // Tenting and billow: depth of the leaflets below the annulus surface, and height above it.
 #pragma once
 
-#include <vector>
-
-#include "model/model.h"
+#include "measure/tenting/atrial_surface.h"
 
 namespace mvs::core {
 
@@ -11,6 +9,9 @@ struct TentingBillow {
   double tenting_height = 0, tenting_area = 0, tenting_volume = 0, billow_height = 0,
          billow_volume = 0;
 };
-TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3> &x);
+TentingBillow measure_tenting_billow(const AtrialSurface &atrial);
+inline TentingBillow measure_tenting_billow(const Model &model, const std::vector<Vec3> &x) {
+  return measure_tenting_billow(atrial_surface(model, x));
+}
 
 }  // namespace mvs::core

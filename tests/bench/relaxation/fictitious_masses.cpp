@@ -1,5 +1,5 @@
 // Sums of the rows of the projected stiffness of tissue and contact.
-#include "tests/bench/fictitious_masses.h"
+#include "tests/bench/relaxation/fictitious_masses.h"
 
 #include <algorithm>
 #include <cmath>

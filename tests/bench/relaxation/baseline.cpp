@@ -13,7 +13,7 @@
 #include <string>
 
 #include "tests/bench/founding.h"
-#include "tests/bench/relaxed_closing.h"
+#include "tests/bench/relaxation/relaxed_closing.h"
 
 using namespace bench;
 

@@ -29,8 +29,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/bench/step_play.h"
-#include "tests/bench/step_watch.h"
+#include "tests/bench/live/step_play.h"
+#include "tests/bench/live/step_watch.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Search for the settings of dynamic relaxation; each trial is a closure.
-#include "tests/bench/relaxed_closing.h"
+#include "tests/bench/relaxation/relaxed_closing.h"
 
 #include <algorithm>
 #include <cmath>

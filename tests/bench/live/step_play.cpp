@@ -1,4 +1,4 @@
-#include "tests/bench/step_play.h"
+#include "tests/bench/live/step_play.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The loop of dynamic relaxation, over the energy terms of the library.
-#include "tests/bench/relaxation.h"
+#include "tests/bench/relaxation/relaxation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "solve/settings.h"
 #include "solve/stability.h"
 #include "solve/static/boundary_ramp.h"
-#include "tests/bench/fictitious_masses.h"
+#include "tests/bench/relaxation/fictitious_masses.h"
 
 using namespace mvs::core;
 

@@ -1,4 +1,4 @@
-#include "tests/bench/step_watch.h"
+#include "tests/bench/live/step_watch.h"
 
 #include <cmath>
 

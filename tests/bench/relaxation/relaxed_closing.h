@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/bench/closing.h"
-#include "tests/bench/relaxation.h"
+#include "tests/bench/relaxation/relaxation.h"
 
 namespace bench {
 

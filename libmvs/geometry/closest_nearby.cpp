@@ -1,0 +1,33 @@
+// Collects triangles by the distance of their boxes.
+#include "geometry/closest_nearby.h"
+
+#include <cmath>
+
+namespace mvs::core {
+namespace {
+
+// Above the rounding of the distances that decide which triangles are collected.
+constexpr double with_rounding = 1 + 1e-9;
+
+}  // namespace
+
+ClosestNearby::ClosestNearby(const TriangleBvh &tree, const Vec3 &centre, double radius,
+                             uint32_t hint)
+    : tree_(tree) {
+  const TriangleBvh::Hit hit = tree.closest(centre, hint);
+  first_ = hit.triangle;
+  const double limit = (std::sqrt(hit.distance2) + 2 * radius) * with_rounding;
+  const double limit2 = limit * limit;
+  tree.visit_near(centre, limit2, [&](uint32_t t) {
+    if (tree.box_of(t).distance2(centre) <= limit2) triangles_.push_back(t);
+  });
+}
+
+TriangleBvh::Hit ClosestNearby::closest(const Vec3 &p, uint32_t hint) const {
+  ClosestSoFar best(tree_, p);
+  if (hint != none) best.look_at(hint);
+  for (const uint32_t t : triangles_) best.look_at(t);
+  return best.hit();
+}
+
+}  // namespace mvs::core

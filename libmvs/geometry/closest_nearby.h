@@ -1,0 +1,29 @@
+// Closest points of a surface to many points that lie near each other: the triangles that can be
+// closest to any of them are collected once.
+#pragma once
+
+#include <vector>
+
+#include "geometry/bvh.h"
+
+namespace mvs::core {
+
+// For points within a ball. If the surface is at distance d from the centre, it is within d + r of
+// a point of the ball, so that the closest triangle of any point is within d + 2 r of the centre.
+class ClosestNearby {
+ public:
+  // `hint`: a triangle that may be close to the centre, or `none`. Keeps a reference to the tree.
+  ClosestNearby(const TriangleBvh &tree, const Vec3 &centre, double radius, uint32_t hint);
+
+  // The same as TriangleBvh::closest, for a point in the ball.
+  TriangleBvh::Hit closest(const Vec3 &p, uint32_t hint = none) const;
+  // The triangle closest to the centre; `none` without triangles.
+  uint32_t closest_to_centre() const { return first_; }
+
+ private:
+  const TriangleBvh &tree_;
+  uint32_t first_;
+  std::vector<uint32_t> triangles_;
+};
+
+}  // namespace mvs::core
