@@ -78,6 +78,9 @@ def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder:
         return row
     row.cpu_recovery = time.process_time() - start
     compare(row, made, found)
+    for one in found.findings:
+        if one.name in ("leak", "leak_interval", "edge_lost", "filled_holes", "free_edge"):
+            print(f"    {one.name}: {one.sentence}", file=sys.stderr)
     if settings.kind == "ultrasound":
         low, high = leak_interval(recover(folder, settings.kind, loaded=False))
         row.unfitted = high - low
@@ -199,7 +202,7 @@ def ways(valve: mvs.Snapshot) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def leak_interval(found: Any) -> tuple[float, float]:
     """The reported interval of the leak in mm2; without one, the leak of the recovered valve twice."""
-    values = [f.values for f in found.findings if f.name == "leak" and len(f.values)]
+    values = [f.values for f in found.findings if f.name == "leak_interval"]
     leak = values[-1] if values else [found.closed.measures.regurgitant_orifice_area]
     return float(np.min(leak)) * MM**2, float(np.max(leak)) * MM**2
 

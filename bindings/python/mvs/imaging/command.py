@@ -76,6 +76,12 @@ def add_build(commands: Any) -> None:
         labels(f"--{leaflet}-label", metavar="NAME", help=f"segment of the {leaflet} leaflet [by name]")
     labels("--leaflet-label", metavar="NAME", help="segment of both leaflets")
     labels("--hole", type=float, metavar="MM", help="diameter of the largest hole that is filled [7]")
+    labels("--edge-error", type=float, metavar="MM",
+           help="how far the free edge may lie farther out or in: widens the interval of leaks [half a "
+           "voxel]")
+    labels("--edge-lost", type=float, metavar="MM",
+           help="tissue that the labels may lack at the free edge: widens the interval of leaks [half "
+           "of the mean depth of its notches]")
     points = parser.add_argument_group("landmarks: .mrk.json, .fcsv, .csv, .vtk, .vtp").add_argument
     for part, words in LANDMARKS.items():
         points(f"--{part}", type=Path, metavar="FILE", help=words)

@@ -9,7 +9,8 @@ import numpy as np
 
 import mvs
 from .console import Console
-from .findings import finding, read_known
+from .findings import LENGTHS, finding, read_known
+from .grid import spacing_of
 from .labels import (ANTERIOR, POSTERIOR, UNKNOWN, LabelSettings, leaflets_in)
 from .landmarks import read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
@@ -25,11 +26,9 @@ PARTS = {"annulus": "annulus", "commissures": "commissures", "anterior": "anteri
 def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve:
     """The valve that the arguments of `mvs-image build` ask for."""
     landmarks = read_known(chosen.known) if chosen.known else {}
-    thickness = landmarks.pop("thickness", None)
+    lengths = {name: landmarks.pop(name) for name in LENGTHS if name in landmarks}
     landmarks.update(_landmarks(chosen, ""))
-    options = _options(chosen)
-    if thickness is not None:
-        options.setdefault("thickness", thickness)
+    options = {**lengths, **_options(chosen)}
     console.stage("reading images")
     image = _image(chosen.image)
     loaded = _image(chosen.loaded) if chosen.loaded else None
@@ -52,6 +51,8 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     console.stage("mid-surface of the open leaflets")
     leaflets = leaflets_in(image, segments, settings)
     check_open_valve(leaflets, settings)
+    # where a voxel is half full the free edge may be anywhere in it
+    options.setdefault("edge_error", spacing_of(image.image) / 2)
     surface: Optional[Sheet] = None
     motion = Motion.none()
     found: list[mvs.Finding] = []
@@ -123,7 +124,8 @@ def _segments(chosen: argparse.Namespace) -> Optional[dict[str, int]]:
 
 def _options(chosen: argparse.Namespace) -> dict[str, Any]:
     lengths = {"edge": chosen.edge, "thickness": chosen.thickness,
-               "coaptation_length": chosen.coaptation_length}
+               "coaptation_length": chosen.coaptation_length,
+               "edge_error": chosen.edge_error, "edge_lost": chosen.edge_lost}
     options: dict[str, Any] = {name: value * 1e-3 for name, value in lengths.items()
                                if value is not None}
     options.update({name: getattr(chosen, name) for name in ("chords", "leaflet")
