@@ -93,6 +93,11 @@ BuildSettings read_options(const mvs_build_options *given) {
       or_default(options.chord_factor, settings.chord_factor, 0.5, 2, "options.chord_factor");
   settings.coaptation_length = or_default(options.coaptation_length, settings.coaptation_length,
                                           1e-3, 20e-3, "options.coaptation_length");
+  // m: beyond 5 mm nothing is known of the leaflets
+  must_be_in(options.edge_error, 1e-6, 5e-3, "options.edge_error");
+  must_be_in(options.edge_lost, 1e-6, 5e-3, "options.edge_lost");
+  settings.edge_error = options.edge_error;
+  settings.edge_lost = options.edge_lost;
   MVS_MUST(options.chords == 0 || (options.chords >= 20 && options.chords <= 1000), MVS_E_ARGUMENT,
            "options.chords",
            "options.chords is %u: it has to be 0 (the default, 100) or 20 to 1000", options.chords);

@@ -32,6 +32,8 @@ struct BuildSettings {
   bool thickness_is_given = false;
   double chord_factor = 1;
   double coaptation_length = 8e-3;
+  double edge_error = 0;  // m, of the free edge, farther out or in
+  double edge_lost = 0;   // m, of tissue below it that may be missing; 0: from its filled notches
   uint32_t chords = 100;
   std::function<void(const char *)> on_stage;  // called with the name of each stage as it begins
 };

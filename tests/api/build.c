@@ -109,6 +109,35 @@ static void a_surface_becomes_a_valve_that_closes(surface *s) {
   mvs_destroy(sim);
 }
 
+static void an_edge_that_is_not_sure_changes_findings_only(surface *s) {
+  mvs_sim *exact = NULL, *unsure = NULL;
+  mvs_build *build = NULL;
+  mvs_build_finding finding = {.struct_size = sizeof finding};
+  const mvs_surface_desc desc = desc_of(s);
+  /* 200 vertices: the closures of the interval are short */
+  mvs_build_options options = {.struct_size = sizeof options, .edge = 3.2e-3};
+  MUST(mvs_create(NULL, &exact));
+  MUST(mvs_build_valve(exact, &desc, &options, &build));
+  CHECK(find(build, "edge_error", &finding) == UINT32_MAX);
+  CHECK(find(build, "edge_lost", &finding) == UINT32_MAX);
+  mvs_build_release(build);
+  options.edge_error = 0.35e-3;
+  options.edge_lost = 1.5e-3;
+  MUST(mvs_create(NULL, &unsure));
+  MUST(mvs_build_valve(unsure, &desc, &options, &build));
+  CHECK(find(build, "edge_error", &finding) != UINT32_MAX);
+  CHECK(((const double *)finding.values.data)[0] == 0.35e-3);
+  CHECK(finding.source == MVS_FINDING_SOURCE_GIVEN);
+  CHECK(find(build, "edge_lost", &finding) != UINT32_MAX);
+  CHECK(((const double *)finding.values.data)[0] == 1.5e-3);
+  CHECK(find(build, "leak_interval", &finding) != UINT32_MAX);
+  CHECK(strstr(finding.sentence, "1.9 mm farther out") != NULL);
+  CHECK(same_hash(sim_hash(exact), sim_hash(unsure)));
+  mvs_build_release(build);
+  mvs_destroy(exact);
+  mvs_destroy(unsure);
+}
+
 static void bad_input_is_refused_and_changes_nothing(surface *s) {
   mvs_sim *sim = NULL;
   mvs_build *build = NULL;
@@ -135,6 +164,12 @@ static void bad_input_is_refused_and_changes_nothing(surface *s) {
   options.edge = 1;
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge");
   options.edge = 0;
+  options.edge_error = 6e-3;
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge_error");
+  options.edge_error = 0;
+  options.edge_lost = -1e-3;
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge_lost");
+  options.edge_lost = 0;
   options.chords = 3;
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.chords");
   /* lengths in mm */
@@ -155,6 +190,7 @@ int main(void) {
   static surface s;
   take_surface(&s);
   a_surface_becomes_a_valve_that_closes(&s);
+  an_edge_that_is_not_sure_changes_findings_only(&s);
   bad_input_is_refused_and_changes_nothing(&s);
   return finish("build");
 }

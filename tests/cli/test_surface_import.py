@@ -94,7 +94,7 @@ class SurfaceImport(unittest.TestCase):
         self.assertEqual(len(found["leak"]["values"]), 3)
 
     def test_findings_read_back_change_no_bit_and_edited_ones_count(self):
-        first = self.imported("open.stl", "first.h5")
+        first = self.imported("open.stl", "first.h5", "--edge-error", "0.4")
         findings = self.dir / "first.import.json"
         self.assertEqual(json.loads(findings.read_text())["findings"], first["findings"])
         again = self.imported("open.stl", "again.h5", "--with", findings)
@@ -103,11 +103,16 @@ class SurfaceImport(unittest.TestCase):
         for row in edited["findings"]:
             if row["name"] == "papillary_tips":
                 row["values"][2] -= 0.002
+            if row["name"] == "edge_error":
+                self.assertEqual(row["values"], [0.4 * 1e-3])
+                row["values"] = [0.6e-3]
         findings.write_text(json.dumps(edited))
         other = self.imported("open.stl", "other.h5", "--with", findings)
         self.assertNotEqual(other["hash"], first["hash"])
         rows = {row["name"]: row for row in other["findings"]}
         self.assertEqual(rows["papillary_tips"]["source"], "given")
+        self.assertEqual(rows["edge_error"]["values"], [0.6e-3])
+        self.assertIn("0.6 mm farther out", rows["leak_interval"]["sentence"])
 
     def test_landmarks_of_another_known_frame_are_turned(self):
         def negated(points):

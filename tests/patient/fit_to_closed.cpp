@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "ensemble/loading_path.h"
+#include "geometry/intersect.h"
+#include "patient/fit/free_edge_shift.h"
 #include "patient/fit/leak_interval.h"
 #include "patient/fit/normal_equations.h"
 #include "tests/patient/patient_valve.h"
@@ -177,7 +179,7 @@ TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
   // chordae that are a quarter too short hold the leaflets apart
   for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
   Findings findings;
-  const LeakInterval interval = leak_interval(make_model(valve), {}, {}, findings);
+  const LeakInterval interval = leak_interval(make_model(valve), {}, {}, {}, findings);
   const ClosedPatient closed = close_patient(valve);
   CHECK(interval.leak[1] == measure_orifice(*closed.model, closed.state.x).area);
   const auto [least, most] = std::minmax_element(interval.leak.begin(), interval.leak.end());
@@ -191,4 +193,49 @@ TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
   CHECK(findings[0].value == std::vector<double>(interval.leak.begin(), interval.leak.end()));
   CHECK(findings[0].unit == "m2");
   CHECK(findings[0].confidence < 0.8);  // that of a leak which does not depend on the lengths
+}
+
+TEST_CASE("a_free_edge_moves_by_its_error_and_chordae_follow") {
+  const PatientGeometry &g = parametric_geometry(430);
+  const Valve valve = patient_valve(430);
+  for (const double by : {1 * mm, -1 * mm}) {
+    const Valve moved = with_edge_moved(valve, g, by);
+    const std::vector<Vec3> &x = moved.rest.get();
+    PatientGeometry other = g;
+    std::copy_n(x.begin(), other.sheet.x.size(), other.sheet.x.begin());
+    const SheetCoordinates c = sheet_coordinates(other.sheet, g.rims);
+    double grown = 0;
+    for (const uint32_t i : g.rims.free_edge) grown += c.whole[i] - g.coordinates.whole[i];
+    // coordinates are exact to some percent of the height; commissures move less
+    CHECK(grown / static_cast<double>(g.rims.free_edge.size()) == doctest::Approx(by).epsilon(0.2));
+    for (const uint32_t i : g.rims.annulus) CHECK(x[i] == valve.rest.get()[i]);
+    CHECK(find_intersections(other.sheet.x, other.sheet.triangles).empty());
+    for (size_t k = 0; k < valve.chords.size(); ++k) {
+      const Chord &was = valve.chords[k], &is = moved.chords[k];
+      const double before = (valve.rest.get()[was.b] - valve.rest.get()[was.a]).norm();
+      const double after = (x[is.b] - x[is.a]).norm();
+      CHECK(is.rest_length - was.rest_length == doctest::Approx(after - before));
+    }
+  }
+  CHECK(with_edge_moved(valve, g, 0).rest.get() == valve.rest.get());
+}
+
+TEST_CASE("an_edge_that_is_not_sure_widens_the_interval_of_leaks") {
+  const PatientGeometry &g = parametric_geometry(200);
+  Valve valve = patient_valve(200);
+  for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
+  Findings exact, unsure;
+  const LeakInterval sure = leak_interval(make_model(valve), {}, {}, {}, exact);
+  const LeakInterval wide = leak_interval(make_model(valve), {}, {2 * mm, 1 * mm, &g}, {}, unsure);
+  CHECK(wide.leak == sure.leak);
+  CHECK(sure.edge_leak[0] == 0);
+  // leaflets that are longer leak less; shorter ones hang on longer chordae, and may leak less as
+  // well
+  CHECK(wide.edge_leak[0] < wide.leak[1]);
+  for (const double leak : wide.edge_leak) {
+    CHECK(wide.least <= leak);
+    CHECK(wide.most >= leak);
+  }
+  CHECK(unsure[1].sentence.find("2.0 mm farther out") != std::string::npos);
+  CHECK(exact[1].sentence.find("farther") == std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "base/error.h"
+#include "geometry/intersect.h"
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
@@ -150,6 +151,84 @@ TEST_CASE("find_rims_refuses_surfaces_without_two_rims") {
         {12 * 48 + i, 12 * 48 + j, static_cast<uint32_t>(whole.x.size() + 1)});
   }
   CHECK_THROWS_WITH_AS(rims_of(closed, {}, findings), doctest::Contains("give it as skin"), Error);
+}
+
+// A funnel without the vertices (i, row) for 12 columns i in a row, 1.2 mm high each, from a column
+// on.
+Surface with_slit(const Surface &whole, uint32_t row, uint32_t column) {
+  std::vector<uint32_t> slit;
+  for (uint32_t i = 0; i < 12; ++i) slit.push_back(48 * row + (column + i) % 48);
+  return without_stars(whole, slit);
+}
+
+TEST_CASE("holes_one_triangle_from_the_free_edge_are_filled_as_a_guess") {
+  const Surface whole = funnel(48, 12);
+  // 2.4 mm high, 14 to 16 mm wide: longer around than a fifth of the annulus; one row below it is
+  // left
+  const Surface slit = with_slit(whole, 10, 5),
+                both = with_slit(without_stars(slit, {48 * 5}), 10, 28);
+  const LeafletSheet full = cleaned(whole);
+  for (const size_t holes : {1u, 3u}) {
+    Findings findings;
+    LeafletSheet sheet = cleaned(holes == 1 ? slit : both);
+    const double open_area = area_of(sheet), full_area = area_of(full);
+    const SheetRims rims = find_rims(sheet, {}, findings);
+    CHECK(rims.free_edge.size() == 48);
+    CHECK(rims.annulus.size() == 48);
+    CHECK(boundary_loops(sheet).size() == 2);
+    CHECK(join_sides(sheet.x, sheet.triangles).opened == 0);
+    CHECK(find_intersections(sheet.x, sheet.triangles).empty());
+    // least area: the filling is a chord of a leaflet with a radius of 9 mm
+    CHECK(area_of(sheet) - open_area > 0.85 * (full_area - open_area));
+    const Finding *filled = find(findings, "filled_holes");
+    REQUIRE(filled);
+    CHECK(filled->value.size() == holes);
+    CHECK(filled->value.back() > 0.2 * shape_of(full, rims.annulus).length);
+    CHECK(filled->source == FindingSource::guessed);
+    CHECK(filled->confidence == 0.5);
+    CHECK(filled->sentence.find("cut the strand") != std::string::npos);
+  }
+  // far from the rims and short: surer
+  Findings findings;
+  rims_of(without_stars(whole, {48 * 5}), {}, findings);
+  CHECK(find(findings, "filled_holes")->confidence == 0.9);
+}
+
+TEST_CASE("a_second_orifice_is_no_hole") {
+  const Surface slit = with_slit(funnel(48, 12), 10, 5);
+  Findings findings;
+  // half of its rim has the label of the other leaflet
+  LeafletSheet labelled = cleaned(slit);
+  for (size_t t = 0; t < labelled.triangles.size(); ++t) {
+    const Vec3 &p = labelled.x[labelled.triangles[t][0]];
+    const double angle = std::atan2(p.y(), p.x()) / 6.283185307179586 * 48;
+    labelled.label[t] =
+        angle > 10.5 && angle < 34 ? LeafletLabel::anterior : LeafletLabel::posterior;
+  }
+  LeafletSheet one_label = labelled;
+  CHECK_THROWS_WITH_AS(find_rims(labelled, {}, findings), doctest::Contains("3 boundaries"), Error);
+  one_label.label.assign(one_label.triangles.size(), LeafletLabel::posterior);
+  CHECK_NOTHROW(find_rims(one_label, {}, findings));
+  // no labels, and tissue hangs down from its rim
+  LeafletSheet sleeve = cleaned(slit);
+  for (const std::vector<uint32_t> &loop : boundary_loops(sleeve)) {
+    if (loop.size() > 40) continue;
+    const uint32_t first = static_cast<uint32_t>(sleeve.x.size()),
+                   n = static_cast<uint32_t>(loop.size());
+    for (const uint32_t i : loop) {
+      const Vec3 out(sleeve.x[i].x(), sleeve.x[i].y(), 0);
+      sleeve.x.push_back(sleeve.x[i] + 2e-3 * out.normalized());
+    }
+    for (uint32_t k = 0; k < n; ++k) {
+      const uint32_t m = (k + 1) % n;
+      sleeve.triangles.push_back({loop[m], loop[k], first + k});
+      sleeve.triangles.push_back({loop[m], first + k, first + m});
+    }
+    break;
+  }
+  sleeve.label.assign(sleeve.triangles.size(), LeafletLabel::unknown);
+  CHECK_THROWS_WITH_AS(find_rims(sleeve, {}, findings),
+                       doctest::Contains("less than 40 mm2 within one leaflet"), Error);
 }
 
 // A funnel, `size` times as large, with a tube that joins two windows on opposite sides.

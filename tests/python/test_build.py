@@ -75,6 +75,21 @@ def test_a_thickness_of_each_point_is_a_finding_of_its_own(surface):
     assert np.ptp(opened.triangle_thickness) > 1e-4
 
 
+def test_tissue_missing_at_a_torn_edge_is_a_guess_that_can_be_given_back(surface):
+    torn = data.torn({**surface, "edge": 3.2e-3}, 0.15, 5)
+    with mvs.Simulator() as sim:
+        first = named(sim.build_valve(**torn))
+        opened = sim.snapshot()
+        lost = first["edge_lost"]
+        assert lost.source == mvs.FindingSource.GUESSED
+        # half of the mean depth of the notches, of which the first value is the deepest
+        assert 0 < lost.values[0] <= first["free_edge"].values[0] / 2
+        second = named(sim.build_valve(**torn, edge_lost=float(lost.values[0])))
+        assert sim.snapshot().hash == opened.hash
+    assert second["edge_lost"].source == mvs.FindingSource.GIVEN
+    assert (second["leak_interval"].values == first["leak_interval"].values).all()
+
+
 def test_bad_arguments_are_refused_and_change_nothing(surface):
     with mvs.Simulator() as sim:
         sim.generate()

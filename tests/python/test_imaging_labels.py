@@ -102,6 +102,27 @@ def test_labels_swapped_near_a_commissure_are_given_back():
         assert len(np.unique(mesh.pieces(rows, len(found.sheet.points)))) == 1
 
 
+def slit(labels, at, row):
+    """Labels without tissue 2.1 mm high and 14 mm wide in the anterior leaflet, `row` mm down it."""
+    along = np.array([-8, -16]) / np.hypot(8, 16)
+    share = (np.hypot(at[..., 0], at[..., 1]) - 16) * along[0] + (at[..., 2] - 8) * along[1]
+    found = labels.copy()
+    found[(np.abs(share - row) < 1.05) & (np.abs(at[..., 0]) < 7) & (at[..., 1] > 0)] = 0
+    return found
+
+
+def test_long_holes_beside_the_free_edge_are_filled_as_a_guess():
+    """The leaflets are 17.9 mm high: two voxels of tissue are left below the hole."""
+    labels, at = funnel()
+    tips = np.array([[12e-3, 0, -20e-3], [-12e-3, 0, -20e-3]])
+    found = found_in(slit(labels, at, 15.2))
+    imaging.check_open_valve(found)
+    made = imaging.build(found, {"papillary_tips": tips}, edge=3.2e-3)
+    filled = {one.name: one for one in made.findings}["filled_holes"]
+    assert filled.source == mvs.FindingSource.GUESSED and filled.confidence == 0.5
+    assert len(filled.values) == 1 and filled.values[0] > 22e-3  # the rim of a hole of 7 mm
+
+
 def refused(labels, words, **more):
     with pytest.raises(mvs.Error, match=words) as caught:
         found = found_in(labels, **more)
@@ -119,6 +140,9 @@ def test_faults_of_label_maps_are_refused_with_a_sentence():
     closed = labels.copy()
     closed[(np.abs(at[..., 2] + 7) < 0.8) & (np.hypot(at[..., 0], at[..., 1]) < 9)] = 1
     refused(closed, "closed in this image")
+    # a slit through the commissure: half of its rim is of the other leaflet
+    across = slit(labels, at[..., [1, 0, 2]], 15.2)
+    refused(across, "3 rims.*joins the leaflets")
     torn = labels.copy()
     torn[np.linalg.norm(at - [0, 12, 0], axis=-1) < 5] = 0
     refused(torn, "rims")
@@ -158,6 +182,49 @@ def test_every_volume_format_gives_the_same_positions(tmp_path):
                 image.TransformIndexToPhysicalPoint(index), abs=1e-4)
         assert np.array_equal(read.masks["anterior leaflet"],
                               sitk.GetArrayFromImage(image) == 1)
+
+
+def dicom_series(folder, image):
+    """One file for each slice, as scanners write them."""
+    folder.mkdir()
+    writer = sitk.ImageFileWriter()
+    writer.KeepOriginalImageUIDOn()
+    rows = np.array(image.GetDirection()).reshape(3, 3)
+    for k in range(image.GetDepth()):
+        one = image[:, :, k]
+        place = image.TransformIndexToPhysicalPoint((0, 0, k))
+        for tag, value in {
+            "0020|000e": f"1.2.826.0.1.3680043.2.1125.{sum(map(ord, folder.name))}",
+            "0020|0032": "\\".join(f"{x:.6f}" for x in place),
+            "0020|0037": "\\".join(f"{x:g}" for x in (*rows[:, 0], *rows[:, 1])),
+            "0020|0013": str(k), "0008|0060": "CT", "0018|0050": f"{image.GetSpacing()[2]:g}",
+        }.items():
+            one.SetMetaData(tag, value)
+        # the names are in no order of the slices
+        writer.SetFileName(str(folder / f"{(7 * k) % 100:03d}.dcm"))
+        writer.Execute(one)
+
+
+def test_a_dicom_series_is_read_in_the_order_of_its_slices(tmp_path):
+    image = sitk.Cast(image_of(funnel(2.0)[0], 2.0), sitk.sitkUInt16)
+    image.SetDirection([0, -1, 0, 1, 0, 0, 0, 0, 1])
+    dicom_series(tmp_path / "a", image)
+    assert len(list((tmp_path / "a").iterdir())) == image.GetDepth()
+    read = imaging.read_volume(tmp_path / "a")
+    assert np.array_equal(sitk.GetArrayFromImage(read), sitk.GetArrayFromImage(image))
+    for index in ((0, 0, 0), (3, 5, 7)):
+        # positions are written with six digits
+        assert read.TransformIndexToPhysicalPoint(index) == pytest.approx(
+            image.TransformIndexToPhysicalPoint(index), abs=1e-5)
+    labels = imaging.read_labels(tmp_path / "a", NAMES)
+    assert np.array_equal(labels.masks["anterior leaflet"], sitk.GetArrayFromImage(image) == 1)
+    dicom_series(tmp_path / "b", image)
+    for file in (tmp_path / "b").iterdir():
+        file.rename(tmp_path / "a" / f"b{file.name}")
+    with pytest.raises(mvs.FormatError, match="2 DICOM series .*folder of its own"):
+        imaging.read_volume(tmp_path / "a")
+    with pytest.raises(mvs.FormatError, match="no DICOM series"):
+        imaging.read_volume(tmp_path / "b")
 
 
 def test_segments_of_slicer_may_overlap_in_layers(tmp_path):
@@ -224,6 +291,11 @@ def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
     made = json.loads(output.out)
     assert made["converged"] and "mid-surface" in output.err
     assert {"image_thickness", "mesh", "mesh_distance"} <= {row["name"] for row in made["findings"]}
+    rows = {row["name"]: row for row in made["findings"]}
+    assert rows["edge_error"]["source"] == rows["edge_lost"]["source"] == "assumed"
+    # half a voxel and two voxels of 0.7 mm
+    assert "0.35 mm" in rows["edge_error"]["sentence"] and "1.40 mm" in rows["edge_lost"]["sentence"]
+    assert "1.8 mm farther out" in rows["leak_interval"]["sentence"]
     again = [*call, "--with", str(tmp_path / "a.import.json"), "-o", str(tmp_path / "b.h5"), "--quiet"]
     assert main(again) == 0
     output = capsys.readouterr()

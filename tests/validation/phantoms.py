@@ -61,8 +61,9 @@ HEADINGS = {
 }
 
 
-def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder: Path) -> Row:
-    """Makes a phantom, recovers it from its files, and compares."""
+def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder: Path,
+             unfitted: bool = True) -> Row:
+    """Makes a phantom, recovers it from its files, and compares; `unfitted`: also without the loaded image."""
     row, start = Row(name), time.process_time()
     made = phantom.make(valve, settings)
     phantom.save(made, folder)
@@ -78,13 +79,16 @@ def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder:
         return row
     row.cpu_recovery = time.process_time() - start
     compare(row, made, found)
-    if settings.kind == "ultrasound":
+    for one in found.findings:
+        if one.name in ("leak", "leak_interval", "edge_lost", "filled_holes", "free_edge", "holes"):
+            print(f"    {one.name}: {one.sentence}", file=sys.stderr)
+    if settings.kind == "ultrasound" and unfitted:
         low, high = leak_interval(recover(folder, settings.kind, loaded=False))
         row.unfitted = high - low
     return row
 
 
-def truth_of(name: str, valve: mvs.Snapshot, settings: phantom.Settings, _folder: Path) -> Row:
+def truth_of(name: str, valve: mvs.Snapshot, settings: phantom.Settings) -> Row:
     """The leak of the true valve, and the part of the closed RMS that is due to the law alone."""
     truth = true_valve(valve, settings, loaded=True)
     leak = truth.closed.measures.regurgitant_orifice_area * MM**2
@@ -199,7 +203,7 @@ def ways(valve: mvs.Snapshot) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def leak_interval(found: Any) -> tuple[float, float]:
     """The reported interval of the leak in mm2; without one, the leak of the recovered valve twice."""
-    values = [f.values for f in found.findings if f.name == "leak" and len(f.values)]
+    values = [f.values for f in found.findings if f.name == "leak_interval"]
     leak = values[-1] if values else [found.closed.measures.regurgitant_orifice_area]
     return float(np.min(leak)) * MM**2, float(np.max(leak)) * MM**2
 
@@ -248,6 +252,7 @@ def main() -> int:
     add("--first", type=int, default=1, metavar="N", help="leave out the cases before this one [1]")
     add("--seed", type=int, default=0, metavar="N", help="of the cases [0]")
     add("--short", action="store_true", help="two cases of coarse phantoms, in less than a minute")
+    add("--fitted-only", action="store_true", help="ultrasound: not also without the loaded image")
     add("--exact-labels", action="store_true", help="ultrasound labels without errors")
     add("--law", metavar="LAW", help="tissue of the true leaflets [may_newman_yin]")
     add("--truth-only", action="store_true", help="no volumes: the true leak, and how far the law "
@@ -264,8 +269,10 @@ def main() -> int:
         with tempfile.TemporaryDirectory() as temporary:
             folder = arguments.keep / f"case{k}" if arguments.keep else Path(temporary)
             print(name, file=sys.stderr, flush=True)
-            row = truth_of if arguments.truth_only else run_case
-            rows.append(row(name, valve(), settings, folder))
+            if arguments.truth_only:
+                rows.append(truth_of(name, valve(), settings))
+            else:
+                rows.append(run_case(name, valve(), settings, folder, not arguments.fitted_only))
             print(f"  {rows[-1]}", file=sys.stderr, flush=True)
     print(table(rows, spacing or 0.0))
     return 0 if any(not row.refused for row in rows) else 1

@@ -120,6 +120,51 @@ def torn(surface: Surface, share: float, seed: int) -> Surface:
     return without(surface, chosen)
 
 
+def welded(surface: Surface) -> Surface:
+    """A surface with triangles; points of a soup that are equal become one."""
+    if "triangles" in surface:
+        return surface
+    points, index = np.unique(surface["points"], axis=0, return_inverse=True)
+    return {**surface, "points": points, "triangles": index.reshape(-1, 3).astype(np.uint32)}
+
+
+def free_edge(surface: Surface) -> np.ndarray:
+    """The points of the free edge: the rim that spans less."""
+    triangles = surface["triangles"].astype(int)
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    known = {tuple(e) for e in edges}
+    after = {int(a): int(b) for a, b in edges if (b, a) not in known}
+    loops = []
+    while after:
+        loop = [next(iter(after))]
+        while (following := after.pop(loop[-1], None)) is not None and following != loop[0]:
+            loop.append(following)
+        loops.append(np.array(loop))
+
+    def spanned(loop: np.ndarray) -> float:
+        x = surface["points"][loop] - surface["points"][loop].mean(0)
+        return float(np.linalg.norm(np.cross(x, np.roll(x, -1, axis=0)).sum(0)) / 2)
+
+    return min(sorted(loops, key=len)[-2:], key=spanned)
+
+
+def eaten(surface: Surface, stretches: int, seed: int) -> Surface:
+    """Stretches of the free edge, 4 to 10 mm wide and 1 to 3 mm deep, are missing, as networks lose them."""
+    surface = welded(surface)
+    random = np.random.default_rng(seed)
+    edge = surface["points"][free_edge(surface)]
+    middle = surface["points"][surface["triangles"]].mean(1)
+    gone = np.zeros(len(middle), bool)
+    for _ in range(stretches):
+        centre = edge[random.integers(len(edge))]
+        half, depth = random.uniform(2e-3, 5e-3), random.uniform(1e-3, 3e-3)
+        away = np.linalg.norm(edge - centre, axis=1)
+        for n in np.flatnonzero(away < half):
+            radius = depth * np.sqrt(1 - (away[n] / half) ** 2)
+            gone |= np.linalg.norm(middle - edge[n], axis=1) < radius
+    return without(surface, np.flatnonzero(gone))
+
+
 def with_holes(surface: Surface, count: int, seed: int) -> Surface:
     """All triangles around some inner points are missing."""
     triangles = surface["triangles"]

@@ -55,6 +55,8 @@ std::vector<double> *target_of(KnownValues &known, const std::string &name) {
   if (name == "anterior") return &known.anterior;
   if (name == "papillary_tips") return &known.papillary_tips;
   if (name == "thickness") return &known.thickness;
+  if (name == "edge_error") return &known.edge_error;
+  if (name == "edge_lost") return &known.edge_lost;
   return nullptr;
 }
 
@@ -113,12 +115,13 @@ KnownValues read_findings(const std::string &path) {
     const std::string source = row.value("source", "");
     if (!target || source == "measured") continue;
     *target = numbers_of(path, name, row);
-    const size_t width = name == "thickness" ? 1 : 3;
-    if (target->empty() || target->size() % width != 0 ||
-        (name == "thickness" && target->size() != 1)) {
+    const bool is_length = target != &known.annulus && target != &known.commissures &&
+                           target != &known.anterior && target != &known.papillary_tips;
+    if (target->empty() || target->size() % (is_length ? 1 : 3) != 0 ||
+        (is_length && target->size() != 1)) {
       refuse_findings(path, name,
                       "the finding \"" + name + "\" has " + std::to_string(target->size()) +
-                          " values: points need x, y, z each, a thickness one");
+                          " values: points need x, y, z each, a length one");
     }
   }
   return known;

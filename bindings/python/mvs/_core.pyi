@@ -353,6 +353,8 @@ class Simulator:
         edge: Optional[float] = None,
         chord_factor: Optional[float] = None,
         coaptation_length: Optional[float] = None,
+        edge_error: Optional[float] = None,
+        edge_lost: Optional[float] = None,
         chords: Optional[int] = None,
         progress: _Progress = None,
     ) -> tuple[Finding, ...]: ...

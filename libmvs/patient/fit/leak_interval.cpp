@@ -8,6 +8,7 @@
 #include "measure/orifice/orifice.h"
 #include "patient/chordae/chord_groups.h"
 #include "patient/fit/closure.h"
+#include "patient/fit/free_edge_shift.h"
 #include "patient/normal_numbers.h"
 
 namespace mvs::core {
@@ -28,8 +29,9 @@ struct Closed {
   bool at_rest;
   uint32_t iterations;
 };
-Closed close_with(const Valve &valve, const std::vector<double> &factor) {
-  Valve changed = valve;
+Closed close_with(const Valve &valve, const std::vector<double> &factor, const EdgeRange &edge,
+                  double by) {
+  Valve changed = by != 0 ? with_edge_moved(valve, *edge.geometry, by) : valve;
   for (size_t c = 0; c < factor.size(); ++c) changed.chords[c].rest_length *= factor[c];
   Solver solver(Backend::fastest);
   try {
@@ -55,7 +57,15 @@ std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const L
   return factor;
 }
 
-void report(const LeakInterval &interval, bool at_rest, Findings &findings) {
+std::string lengths_and_edge(const LeakInterval &interval, const EdgeRange &edge) {
+  if (!edge.geometry) return "lengths of chordae within that range";
+  return format(
+      "lengths of chordae within that range and a free edge up to %.1f mm farther out "
+      "(%.1f mm2 with the lengths as they are) or %.1f mm farther in (%.1f mm2)",
+      edge.out * 1e3, interval.edge_leak[0] * 1e6, edge.in * 1e3, interval.edge_leak[1] * 1e6);
+}
+
+void report(const LeakInterval &interval, const EdgeRange &edge, bool at_rest, Findings &findings) {
   const double unsure = std::min(1.0, (interval.most - interval.least) / unknown_leak);
   const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
   const auto &[f0, f1, f2] = interval.factor;
@@ -74,12 +84,11 @@ void report(const LeakInterval &interval, bool at_rest, Findings &findings) {
       {"leak_interval",
        FindingSource::measured,
        confidence,
-       format(
-           "%.1f to %.1f mm2 for lengths of chordae within that range%s", interval.least * 1e6,
-           interval.most * 1e6,
-           interval.draws == 0
-               ? ": sealed with all three"
-               : format(", from %u closures with random lengths as well", interval.draws).c_str()),
+       format("%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
+              lengths_and_edge(interval, edge).c_str(),
+              interval.draws == 0
+                  ? ": sealed with all of them"
+                  : format(", from %u closures with random ones as well", interval.draws).c_str()),
        {interval.least, interval.most},
        "m2"});
 }
@@ -97,7 +106,7 @@ LengthRange range_after(const ChordFit &fit) {
   return range;
 }
 
-LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range,
+LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
                            const std::vector<double> &known, Findings &findings,
                            const std::function<void(uint32_t, uint32_t)> &tell) {
   const size_t chords = model->valve.chords.size();
@@ -106,32 +115,38 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range,
   bool at_rest = true;
   std::vector<double> leaks = known;
   uint32_t number = 0;
-  const auto close = [&](const std::vector<double> &factor) {
-    if (tell) tell(number, 3 + most_draws);
+  const uint32_t closures = (edge.geometry ? 5 : 3) + most_draws;
+  const auto close = [&](const std::vector<double> &factor, double by) {
+    if (tell) tell(number, closures);
     ++number;
-    const Closed closed = close_with(model->valve, factor);
+    const Closed closed = close_with(model->valve, factor, edge, by);
     if (closed.at_rest) leaks.push_back(closed.leak);
     at_rest = at_rest && closed.at_rest;
     return closed;
   };
   for (size_t k = 0; k < 3; ++k) {
-    const Closed closed = close(std::vector<double>(chords, interval.factor[k]));
+    const Closed closed = close(std::vector<double>(chords, interval.factor[k]), 0);
     interval.leak[k] = closed.leak;
     interval.at_rest[k] = closed.at_rest;
     interval.iterations[k] = closed.iterations;
+  }
+  for (size_t k = 0; edge.geometry && k < 2; ++k) {
+    interval.edge_leak[k] =
+        close(std::vector<double>(chords, 1), k == 0 ? edge.out : -edge.in).leak;
   }
   const bool is_sealed = at_rest && *std::max_element(leaks.begin(), leaks.end()) < sealed;
   NormalNumbers random(seed);
   const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
   for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {
-    close(drawn_factors(groups, range, chords, random));
+    const std::vector<double> factor = drawn_factors(groups, range, chords, random);
+    close(factor, edge.geometry ? random.uniform() * (edge.out + edge.in) - edge.in : 0);
   }
   if (leaks.empty()) leaks.assign(interval.leak.begin(), interval.leak.end());
   const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
   const double more = is_sealed ? 0 : widening * (*most - *least);
   interval.least = std::max(0.0, *least - more);
   interval.most = *most + more;
-  report(interval, at_rest, findings);
+  report(interval, edge, at_rest, findings);
   return interval;
 }
 

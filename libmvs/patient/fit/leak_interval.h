@@ -1,11 +1,12 @@
-// How much the leak of a built valve depends on the lengths of its chordae.
+// How much the leak of a built valve depends on the lengths of its chordae and on its free edge.
 //
-// The valve is closed with all lengths shorter, as they are, and longer. If one of these closures
-// leaks, it is closed with random lengths from the same range as well, one factor for each group of
-// chordae and one for each chord, and the interval is the range of all leaks, a quarter wider on
-// both sides and not below 0: of nine closures alone, one valve in five would lie outside
-// (exchangeable samples). Every closure starts from the open shape, so that none depends on
-// another.
+// The valve is closed with all lengths shorter, as they are, and longer; if the free edge is known
+// to some error only, also with the edge farther out and farther in by it (free_edge_shift.h). If
+// one of these closures leaks, it is closed with random lengths from the same range as well, one
+// factor for each group of chordae and one for each chord, and with a random edge; the interval is
+// the range of all leaks, a quarter wider on both sides and not below 0: of nine closures alone,
+// one valve in five would lie outside (exchangeable samples). Every closure starts from the open
+// shape, so that none depends on another.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 #include "model/model.h"
 #include "patient/fit/fit_to_closed.h"
-#include "patient/leaflet_sheet.h"
+#include "patient/patient_geometry.h"
 
 namespace mvs::core {
 
@@ -26,18 +27,25 @@ struct LengthRange {
 // The range that a fit leaves open.
 LengthRange range_after(const ChordFit &fit);
 
+// How far the free edge may be from where it was found; exact without a geometry.
+struct EdgeRange {
+  double out = 0, in = 0;                     // m
+  const PatientGeometry *geometry = nullptr;  // of the valve
+};
+
 struct LeakInterval {
   std::array<double, 3> factor = {};        // on all rest lengths
   std::array<double, 3> leak = {};          // m2, regurgitant orifice at 120 mmHg
   std::array<bool, 3> at_rest = {};         // whether the closure came to rest
   std::array<uint32_t, 3> iterations = {};  // of each closure
+  std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; 0: edge exact
   double least = 0, most = 0;               // m2, the interval
   uint32_t draws = 0;                       // closures with random lengths
 };
 
 // `known`: leaks of other closures of the same valve, m2, which the interval contains. `tell` is
 // called before each closure with its number and their number at most; it may throw.
-LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range,
+LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
                            const std::vector<double> &known, Findings &findings,
                            const std::function<void(uint32_t, uint32_t)> &tell = {});
 

@@ -170,9 +170,11 @@ FilledNotches fill_with(double detour, const std::vector<uint8_t> &kept, Leaflet
     filled.inner.push_back(edge.fill(notch));
     filled.last.push_back(sheet.triangles.size());
     filled.deepest = std::max(filled.deepest, notch.depth);
+    filled.mean_depth += notch.depth;
     filled.saved += notch.saved;
   }
   filled.area = surface_area(sheet.x, sheet.triangles) - area;
+  if (!filled.last.empty()) filled.mean_depth /= static_cast<double>(filled.last.size());
   return filled;
 }
 
@@ -224,7 +226,7 @@ void report_notches(const FilledNotches &notches, Findings &findings) {
               "are kept: if a notch is a cleft, extend it in the surface",
               notches.last.size(), notches.deepest * 1e3, widest_notch * 1e3, notches.area * 1e6,
               notches.saved * 1e3),
-       {notches.deepest, notches.saved},
+       {notches.deepest, notches.saved, notches.mean_depth},
        "m"});
 }
 

@@ -13,6 +13,7 @@ inline constexpr double widest_notch = 6e-3, deepest_notch = 4e-3;
 // The notches that were filled.
 struct FilledNotches {
   double deepest = 0, saved = 0, area = 0;   // m, m, m2
+  double mean_depth = 0;                     // m
   size_t sheet_triangles = 0;                // those of a filling come behind
   std::vector<size_t> last;                  // behind the last triangle of each notch
   std::vector<std::vector<uint32_t>> inner;  // vertices of each notch that left the edge

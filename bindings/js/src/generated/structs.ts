@@ -1244,6 +1244,16 @@ export interface BuildOptions {
   coaptation_length?: number;
   /** about this number of chord segments [100] */
   chords?: number;
+  /**
+   * m, up to 5e-3: how far the free edge may lie farther out or in than in the surface; widens the
+   * interval of leaks [0]
+   */
+  edge_error?: number;
+  /**
+   * m, up to 5e-3: of tissue that may be missing at the free edge; widens the interval of leaks.
+   * 1e-6: none [half of the mean depth of the notches that were filled]
+   */
+  edge_lost?: number;
 }
 
 /**
@@ -2100,7 +2110,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_build_options: {
-    size: 48,
+    size: 64,
     sized: true,
     fields: [
       { name: "leaflet_law", kind: "enum", of: "mvs_leaflet_law", at: 4 },
@@ -2109,6 +2119,8 @@ export const layouts: Record<string, Layout> = {
       { name: "chord_factor", kind: "f64", at: 24 },
       { name: "coaptation_length", kind: "f64", at: 32 },
       { name: "chords", kind: "u32", at: 40 },
+      { name: "edge_error", kind: "f64", at: 48 },
+      { name: "edge_lost", kind: "f64", at: 56 },
     ],
   },
   mvs_build_finding: {

@@ -66,6 +66,7 @@ def add_build(commands: Any) -> None:
     add("-o", "--output", type=Path, required=True, help="file for the valve: .h5, .obj, .vtp, .vtm")
     add("--loaded", type=Path, metavar="IMAGE", help="the valve closed under load")
     add("--report", type=Path, metavar="HTML", help="a page with pictures and tables")
+    add("--plan", type=Path, metavar="JSON", help="operations on the valve: the report shows it repaired")
     add("--findings", type=Path, metavar="JSON", help="[VALVE.import.json beside the output]")
     add("--with", type=Path, dest="known", metavar="JSON",
         help="findings of an earlier run, edited: what is given, guessed or assumed is used")
@@ -76,6 +77,12 @@ def add_build(commands: Any) -> None:
         labels(f"--{leaflet}-label", metavar="NAME", help=f"segment of the {leaflet} leaflet [by name]")
     labels("--leaflet-label", metavar="NAME", help="segment of both leaflets")
     labels("--hole", type=float, metavar="MM", help="diameter of the largest hole that is filled [7]")
+    labels("--edge-error", type=float, metavar="MM",
+           help="how far the free edge may lie farther out or in: widens the interval of leaks [half a "
+           "voxel]")
+    labels("--edge-lost", type=float, metavar="MM",
+           help="tissue that the labels may lack at the free edge: widens the interval of leaks [two "
+           "voxels]")
     points = parser.add_argument_group("landmarks: .mrk.json, .fcsv, .csv, .vtk, .vtp").add_argument
     for part, words in LANDMARKS.items():
         points(f"--{part}", type=Path, metavar="FILE", help=words)
@@ -106,6 +113,11 @@ def run_build(chosen: argparse.Namespace) -> int:
     made.opened.save(str(chosen.output))
     findings = chosen.findings or chosen.output.with_suffix(".import.json")
     write_findings(findings, str(chosen.image), made.findings)
+    if chosen.plan:
+        from .repair import repaired
+
+        console.stage("repair")
+        made.repair = repaired(made.opened, chosen.plan)
     if chosen.report:
         from .page import write_page
 
@@ -129,13 +141,27 @@ def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None
         print(json.dumps({
             "file": str(chosen.output), "findings_file": str(findings), "vertices": vertices,
             "chords": len(opened.chord_kind), "converged": made.converged,
-            "regurgitant_orifice_area_mm2": leak, "hash": str(opened.hash), "findings": rows}))
+            "regurgitant_orifice_area_mm2": leak, "hash": str(opened.hash), "findings": rows,
+            **_repair_facts(made)}))
         return
     print(f"{chosen.output}: an open valve of {vertices} leaflet vertices, {len(opened.chord_kind)} "
           f"chord segments, {len(opened.head_nodes)} papillary heads")
     print(f"{findings}: what was found, guessed and assumed; edit it and give it by --with")
     print(f"closed under 120 mmHg: {'at rest' if made.converged else 'NOT at rest'}, "
           f"{'sealed' if leak < 0.05 else f'leaks through {leak:.1f} mm2'}")
+    if made.repair:
+        facts = _repair_facts(made)["repair"]
+        print(f"after {facts['operations']} operations: "
+              f"{'at rest' if facts['converged'] else 'NOT at rest'}, "
+              f"{facts['regurgitant_orifice_area_mm2']:.1f} mm2")
     for row in rows:
         print(f"  {row['name']:<18} {row['source']:<9} {100 * row['confidence']:3.0f} %  "
               f"{row['sentence']}")
+
+
+def _repair_facts(made: Any) -> dict[str, Any]:
+    if not made.repair:
+        return {}
+    leak = made.repair.closed.measures.regurgitant_orifice_area * 1e6
+    return {"repair": {"operations": made.repair.operations, "converged": made.repair.converged,
+                       "regurgitant_orifice_area_mm2": leak}}

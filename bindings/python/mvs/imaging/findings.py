@@ -11,6 +11,10 @@ import numpy as np
 
 import mvs
 
+POINTS = ("annulus", "commissures", "anterior", "papillary_tips")
+LENGTHS = ("thickness", "edge_error", "edge_lost")
+"""Findings that are an input of a build; lengths are one number each, m."""
+
 
 def finding(name: str, source: mvs.FindingSource, confidence: float, sentence: str,
             values: Sequence[float] = (), unit: str = "") -> mvs.Finding:
@@ -51,7 +55,7 @@ def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
         raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings of this version", "with")
     known: dict[str, Any] = {}
     for row in rows:
-        if row["name"] not in ("annulus", "commissures", "anterior", "papillary_tips", "thickness"):
+        if row["name"] not in POINTS + LENGTHS:
             continue
         if row["source"] == "measured":
             continue
@@ -59,6 +63,6 @@ def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
         if not len(values) or not np.isfinite(values).all():
             raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" needs numbers",
                                   row["name"])
-        known[row["name"]] = (float(values[0]) if row["name"] == "thickness"
+        known[row["name"]] = (float(values[0]) if row["name"] in LENGTHS
                               else values.reshape(-1, 3).copy())
     return known

@@ -11,8 +11,16 @@ from .labels import Leaflets, LabelSettings
 from .mesh import areas, boundary_loops, edges_with_triangles, loop_length
 
 
+LONG_HOLE_SHARE, LONG_HOLE_AREA, OTHER_LEAFLET = 0.4, 40e-6, 0.1
+"""Of libmvs/patient/surface/rims.cpp, which fills holes of a longer rim: its share of the longest one, the
+m2 that it spans, and the share of it with the label of the other leaflet."""
+
+
 def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings()) -> None:
-    """Fills small holes; ArgumentError unless the rest is an open valve, a ring of tissue with two rims."""
+    """Fills small holes; ArgumentError unless the rest is an open valve, a ring of tissue with two rims.
+
+    Longer holes that are narrow and lie in one leaflet are left to the build, which fills them as well.
+    """
     sheet = found.sheet
     total = float(areas(sheet.points, sheet.triangles).sum())
     if total < 3e-4 or total > 5e-3:
@@ -21,26 +29,38 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
             "no whole valve in the image, or its spacing is wrong", "image")
     loops = sorted(boundary_loops(sheet.triangles), key=lambda loop: -loop_length(sheet.points, loop))
     length = [loop_length(sheet.points, loop) for loop in loops]
-    rims = [k for k, l in enumerate(length) if k < 2 or l > np.pi * settings.hole]
+    small = [k for k, l in enumerate(length) if k >= 2 and l <= np.pi * settings.hole]
+    rims = [k for k in range(len(loops))
+            if k < 2 or k not in small and not _is_long_hole(found, loops[k], length[k], length[0])]
     if len(loops) < 2 or length[1] <= np.pi * settings.hole:
         raise ArgumentError(
             "the leaflets have one rim and no orifice: the valve is closed in this image, or the label "
             "covers the orifice. Give the image of the open valve, and the closed one by --loaded",
             "image")
     if len(rims) > 2:
-        centre = sheet.points[loops[2]].mean(axis=0) * 1e3
+        centre = sheet.points[loops[rims[2]]].mean(axis=0) * 1e3
         raise ArgumentError(
             f"the leaflets have {len(rims)} rims, {', '.join(f'{1e3 * length[k]:.0f}' for k in rims)} "
             "mm long: an open valve has two, annulus and free edge. The third surrounds a hole, or the "
             f"label joins the leaflets, near ({centre[0]:.0f}, {centre[1]:.0f}, {centre[2]:.0f}) mm in "
             "LPS: mend the segmentation there, or allow larger holes by --hole", "image")
-    for loop in loops[2:]:
-        fill_hole(found, loop)
-    holes = [one for one in length[2:] if one > 2e-3]
+    for k in small:
+        fill_hole(found, loops[k])
+    holes = [length[k] for k in small if length[k] > 2e-3]
     if holes:
         found.findings.append(finding(
-            "holes", FindingSource.MEASURED, 0.8,
+            "holes", FindingSource.GUESSED, 0.8,
             f"{len(holes)} holes with rims up to {1e3 * holes[0]:.1f} mm long were filled", holes, "m"))
+
+
+def _is_long_hole(found: Leaflets, loop: NDArray[np.int64], length: float, longest: float) -> bool:
+    """Whether a loop is narrow and lies in one leaflet: labels lose stretches above a strand of tissue."""
+    x = found.sheet.points[loop] - found.sheet.points[loop].mean(axis=0)
+    area = np.linalg.norm(np.cross(x, np.roll(x, -1, axis=0)).sum(axis=0)) / 2
+    at_rim = np.isin(found.sheet.triangles, loop).sum(axis=1) >= 2
+    label = np.bincount(found.leaflet[at_rim], minlength=3)[1:]
+    return bool(length < LONG_HOLE_SHARE * longest and area < LONG_HOLE_AREA
+                and label.min() <= OTHER_LEAFLET * label.sum())
 
 
 def fill_hole(found: Leaflets, loop: NDArray[np.int64]) -> None:

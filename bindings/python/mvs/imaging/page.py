@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 import mvs
 from mvs.report.markup import cells, figure, heads, table
 from .needs import need
+from .repair import chapter
 from .valve import ImageValve, ScannedImage, leaflet_mesh
 
 PAGE = Template("""<!DOCTYPE html>
@@ -35,6 +36,7 @@ Nothing here may be used to decide on the treatment of a patient.</p>
 <h2>The valve</h2><div class="row">$pictures</div>
 <h2>Thickness</h2><div class="row">$thickness</div>
 <h2>How well it closes on the loaded image</h2>$loaded
+$repair
 <h2>Measured, given, guessed and assumed</h2>$findings
 <h2>Stages</h2>$stages
 </body></html>
@@ -56,13 +58,17 @@ def page_of(made: ImageValve, source: str) -> str:
     rest = "at rest" if made.converged else "NOT at rest"
     verdict = f"Closed under 120 mmHg: {rest}, " + (
         "sealed." if leak < 0.05 else f"leaks through {leak:.1f} mm2.")
-    interval = next((one.sentence for one in made.findings if one.name == "leak"), "")
+    said = {one.name: one.sentence for one in made.findings}
+    interval = " ".join(f"{words}." for words in (
+        said.get("leak"), "Interval: " + said["leak_interval"] if "leak_interval" in said else None)
+        if words)
     return PAGE.substitute(
         title=html.escape(source), source=html.escape(source), version=mvs.__version__,
         verdict=html.escape(f"{verdict} {interval}"), slices=_slices(made), pictures=_pictures(made),
         thickness=figure(thickness_histogram(made),
                          "Thickness of the tissue over the area of the leaflets"),
-        loaded=_loaded(made), findings=_findings(made), stages=_stages(made))
+        loaded=_loaded(made), repair=chapter(made.closed, made.repair) if made.repair else "",
+        findings=_findings(made), stages=_stages(made))
 
 
 def _findings(made: ImageValve) -> str:

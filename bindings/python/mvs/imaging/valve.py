@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from .loaded import Motion
 from .mesh import Sheet
 from .needs import need
 from .reading import LabelMap
+
+if TYPE_CHECKING:
+    from .repair import Repair
 
 Progress = Optional[Callable[[float, float], object]]
 
@@ -57,6 +60,7 @@ class ImageValve:
     """A valve from images, open and closed under 120 mmHg, with the findings on the way.
 
     stages: name, CPU seconds and result of each stage of a segmentation
+    repair: the valve after the operations of a plan
     """
 
     opened: mvs.Snapshot
@@ -69,6 +73,7 @@ class ImageValve:
     image: Optional[ScannedImage] = None
     loaded_image: Optional[ScannedImage] = None
     stages: tuple[tuple[str, float, str], ...] = ()
+    repair: Optional["Repair"] = None
 
 
 def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[Sheet] = None,
