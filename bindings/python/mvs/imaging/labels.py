@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Grid, Volume, crop, isotropic, spacing_of
-from .mesh import Sheet, areas, handles, largest_piece, pieces
+from .mesh import (Sheet, areas, boundary_loops, handles, is_crumpled, largest_piece, loop_length,
+                   pieces)
 from .needs import need
 from .reading import LabelMap
 from .sheet import SheetSettings, mid_surface
@@ -171,20 +172,26 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
     """The mid-surface; tissue is closed step by step until the sheet has no tunnel."""
     voxel = spacing_of(image)
     grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
+    first: Optional[tuple[Sheet, list[float], float]] = None  # without tunnels
     for attempt in range(4):
         radius = attempt * voxel
         sheet, smaller = largest_piece(fitted_sheet(grid, _closed(grid, tissue, radius), voxel, settings))
         tunnels = handles(sheet)
-        if not tunnels:
+        if tunnels:
+            continue
+        first = first or (sheet, smaller, radius)
+        if not _has_ragged_hole(sheet, settings.hole):
+            first = (sheet, smaller, radius)
             break
-    if tunnels:
+    if first is None:
         raise ArgumentError(
             f"the leaflets have {tunnels} tunnels, bridges between two parts of the tissue, even after "
             f"gaps of {2e3 * radius:.1f} mm are closed: mend the segmentation there", "labels")
+    sheet, smaller, radius = first
     if radius:
         findings.append(finding("closed_gaps", FindingSource.GUESSED, 0.6,
                                 f"gaps in the labels up to {2e3 * radius:.1f} mm were closed, because "
-                                "tunnels ran through the tissue", [2 * radius], "m"))
+                                "tunnels or ragged holes ran through the tissue", [2 * radius], "m"))
     whole = areas(sheet.points, sheet.triangles).sum()
     if smaller:
         findings.append(finding(
@@ -193,6 +200,17 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
             "were dropped"))
     report_thickness(sheet, findings)
     return sheet, grid
+
+
+def _has_ragged_hole(sheet: Sheet, hole: float) -> bool:
+    """Whether a rim beside the two longest is long or crumpled: labels with shreds, or a strand of tissue
+    below an eaten free edge."""
+    loops = sorted(boundary_loops(sheet.triangles), key=lambda loop: -loop_length(sheet.points, loop))
+    for loop in loops[2:]:
+        length = loop_length(sheet.points, loop)
+        if length > np.pi * hole or length > hole and is_crumpled(sheet.points, loop, length):
+            return True
+    return False
 
 
 def _closed(grid: Grid, tissue: Volume, radius: float) -> Volume:

@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, FindingSource
 from .findings import finding
 from .labels import Leaflets, LabelSettings
-from .mesh import areas, boundary_loops, edges_with_triangles, loop_length
+from .mesh import areas, boundary_loops, edges_with_triangles, loop_length, spanned
 
 
 LONG_HOLE_SHARE, LONG_HOLE_AREA, OTHER_LEAFLET = 0.4, 40e-6, 0.1
 """Of libmvs/patient/surface/rims.cpp, which fills holes of a longer rim: its share of the longest one, the
 m2 that it spans, and the share of it with the label of the other leaflet."""
-
 
 def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings()) -> None:
     """Fills small holes; ArgumentError unless the rest is an open valve, a ring of tissue with two rims.
@@ -55,8 +54,7 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
 
 def _is_long_hole(found: Leaflets, loop: NDArray[np.int64], length: float, longest: float) -> bool:
     """Whether a loop is narrow and lies in one leaflet: labels lose stretches above a strand of tissue."""
-    x = found.sheet.points[loop] - found.sheet.points[loop].mean(axis=0)
-    area = np.linalg.norm(np.cross(x, np.roll(x, -1, axis=0)).sum(axis=0)) / 2
+    area = spanned(found.sheet.points, loop)
     at_rim = np.isin(found.sheet.triangles, loop).sum(axis=1) >= 2
     label = np.bincount(found.leaflet[at_rim], minlength=3)[1:]
     return bool(length < LONG_HOLE_SHARE * longest and area < LONG_HOLE_AREA
