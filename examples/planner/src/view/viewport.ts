@@ -2,12 +2,14 @@
 // something moves at a lower resolution, then once more in full.
 import { effect } from '@preact/signals';
 import * as state from '../store/state';
+import { appTexts } from '../text/texts';
 import { Camera, type Preset } from './camera';
 import { Gestures } from './gestures';
 import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
-import { sceneMeshes, type Mark } from './scene';
+import { marksMesh } from './marks';
+import { sceneMeshes } from './scene';
 import { vertexNormals, type Mesh } from './mesh';
 import { tissue } from './colours';
 import { WebGl } from './webgl';
@@ -31,7 +33,6 @@ export class Viewport {
   private framed = '';
   /** ms of the last pictures, for the tests. */
   readonly times: number[] = [];
-  extraMarks: Mark[] = [];
   /** A surface to show instead of a valve, during an import. */
   surface: Mesh | null = null;
 
@@ -62,6 +63,7 @@ export class Viewport {
     });
     effect(() => {
       void [state.sectionOn.value, state.sectionAt.value, state.labelsOn.value, state.draft.value];
+      void [state.picking.value, state.outline.value];
       this.moved();
     });
     effect(() => {
@@ -71,17 +73,11 @@ export class Viewport {
     requestAnimationFrame((now) => this.frame(now));
   }
 
-  /** Shows the surface of an import instead of the valve, with the points that were clicked. */
+  /** Shows the surface of an import instead of the valve. */
   private showSurface(shown: state.Imported | null): void {
     const fresh = shown && this.surface?.positions !== shown.surface.points;
     if (!shown) this.surface = null;
     else if (fresh) this.surface = this.surfaceMesh(shown.surface.points, shown.surface.triangles);
-    this.extraMarks = [];
-    for (const [kind, points] of Object.entries(shown?.points ?? {})) {
-      const colour =
-        kind === 'annulus' ? tissue.annulus : kind === 'commissures' ? tissue.chosen : tissue.over;
-      for (const at of points) this.extraMarks.push({ at, colour, radius: 0.9 });
-    }
     this.touchScene();
     if (fresh && shown) this.camera.lookAtBox(shown.surface.points, shown.surface.triangles);
   }
@@ -123,7 +119,7 @@ export class Viewport {
     const { canvas } = this.renderer;
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'application');
-    canvas.setAttribute('aria-label', 'Picture of the valve');
+    canvas.setAttribute('aria-label', appTexts.picture);
     canvas.setAttribute('aria-describedby', 'picture-help');
   }
 
@@ -214,6 +210,7 @@ export class Viewport {
     const shown = state.motion.value ? null : (state.preview.value ?? state.main.value);
     const figures = shown?.figures ?? null;
     const choice = state.choice.value;
+    const chord = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
     this.meshes = sceneMeshes(topology, picture, {
       map: shown ? state.map.value : 'tissue',
       fields: figures?.fields ?? null,
@@ -224,7 +221,7 @@ export class Viewport {
             Math.max(c.strain / c.strainLimit, c.tension / c.tensionLimit),
           )
         : null,
-      chosenChord: choice?.kind === 'chord' ? topology.chords.findIndex((part) => part.id === choice.id) : -1,
+      chosenChord: topology.chords.findIndex((part) => part.id === chord),
       chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
       chordsOn: state.chordsOn.value,
       jets: figures?.orificeParts ?? [],
@@ -263,9 +260,8 @@ export class Viewport {
 
   scene(): Scene {
     const meshes = [...this.meshes];
-    const marks = this.extraMarks;
-    if (marks.length || state.sectionOn.value)
-      meshes.push(this.labels.markMesh(marks, state.sectionOn.value ? this.handle() : null));
+    const marks = marksMesh(state.sectionOn.value ? this.handle() : null);
+    if (marks) meshes.push(marks);
     return { meshes, background, plane: this.plane() };
   }
 
