@@ -29,7 +29,7 @@ export function edit(kind: string, fields: Record<string, FieldValue>): void {
 }
 
 /** Fields that a list of points replaces; the library takes either. */
-const shapes: Record<string, { points: string; instead: string[] }> = {
+export const replacements: Record<string, { points: string; instead: string[] }> = {
   resect: { points: 'outline', instead: ['scallop', 'position', 'width', 'base_width', 'depth'] },
   ring: { points: 'curve', instead: ['size', 'ap_ratio', 'saddle'] },
 };
@@ -38,7 +38,7 @@ export function setField(name: string, value: FieldValue | undefined): void {
   const now = state.draft.value;
   if (!now) return;
   const fields = { ...now.fields };
-  const shape = shapes[now.kind];
+  const shape = replacements[now.kind];
   if (shape?.points === name) for (const other of shape.instead) delete fields[other];
   else if (shape?.instead.includes(name)) delete fields[shape.points];
   if (value === undefined) delete fields[name];
@@ -137,8 +137,11 @@ function ended(): void {
 
 function reveal(draft: state.Draft, shown: Shown): void {
   state.receive(shown.picture);
+  const before = state.preview.value;
+  // the last figures come with the picture of the orifice again: it need not be drawn twice
+  const same = before?.figures.hash === shown.figures.hash && before.figures.known === 'orifice';
   batch(() => {
-    state.preview.value = shown;
+    state.preview.value = same ? { ...shown, picture: before.picture } : shown;
     state.previewed.value = draft;
     state.draftMessage.value = '';
     if (shown.figures.known === 'shape') state.busy.value = null;

@@ -28,12 +28,12 @@ async function leave(): Promise<Left | null> {
   }
 }
 
-/** Offers the way back to a plan that was left. */
-function offerReturn(left: Left | null): void {
+/** Offers the way back to a plan that was left, after what `said` the notice before. */
+function offerReturn(left: Left | null, said = state.notice.value): void {
   if (!left) return;
   state.notice.value = {
-    kind: 'info',
-    text: leaveTexts.left(left.title),
+    kind: said?.kind ?? 'info',
+    text: [said?.text, leaveTexts.left(left.title)].filter(Boolean).join(' '),
     action: { text: leaveTexts.back, run: () => void comeBack(left) },
   };
 }
@@ -54,7 +54,7 @@ function begun(shown: Shown | null, title: string, left: Left | null): void {
   state.title.value = title;
   state.notes.value = '';
   state.changed.value = false;
-  offerReturn(left);
+  offerReturn(left, null);
 }
 
 export async function openShipped(

@@ -42,7 +42,6 @@ export const previewed = signal<Draft | null>(null);
 export const motion = signal<Motion | null>(null);
 /** The first closed valve of the plan, for "before". */
 export const first = signal<Shown | null>(null);
-export const reference = signal<Shown | null>(null);
 
 export const draft = signal<Draft | null>(null);
 export const draftMessage = signal('');
@@ -119,10 +118,12 @@ export const before = computed<Figures | null>(() => {
   const begin = first.value?.figures;
   return begin && begin.hash !== main.value?.figures.hash ? begin : null;
 });
-/** The chord that the preview adds. */
+/** The kind of stitches. */
+const suture = 7;
+/** The chord that the preview adds; stitches of a clip or a suture do not count. */
 export const added = computed(() => {
   const old = new Set(main.value?.figures.chords.map((chord) => chord.id));
-  return preview.value?.figures.chords.find((chord) => !old.has(chord.id)) ?? null;
+  return preview.value?.figures.chords.find((chord) => chord.kind !== suture && !old.has(chord.id)) ?? null;
 });
 /** What is shown belongs to an older form than the present one: its shape is still to come. */
 export const outdated = computed(() => pending.value && previewed.value !== draft.value);

@@ -100,7 +100,7 @@ export const operationWords: Record<string, Words> = {
   },
   clip: {
     title: 'Clip',
-    short: 'Join A2 and P2 edge to edge',
+    short: 'Join A2 and P2 edge to edge; drag the blue ball along the edge',
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
@@ -112,7 +112,7 @@ export const operationWords: Record<string, Words> = {
   },
   resect: {
     title: 'Resection',
-    short: 'Take out a piece of a scallop and suture',
+    short: 'Take out a piece of a leaflet and suture',
     fields: {
       scallop: 'Scallop',
       position: 'Position along the scallop',
@@ -234,6 +234,7 @@ export const tourTexts = {
         : `No more chordae beyond their limit than in the healthy valve${healthy ? ` (${healthy})` : ''}`,
     open: 'Opens to at least 90 % of the healthy area',
   },
+  shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens wide' },
   won: 'All goals reached.',
 };
 

@@ -32,6 +32,10 @@ const panels: [state.Panel, string, string][] = [
 
 function Panels() {
   const panel = state.panel.value;
+  const body = useRef<HTMLDivElement>(null);
+  // another panel or form begins at its top
+  const form = state.draft.value?.kind;
+  useEffect(() => body.current?.scrollTo(0, 0), [panel, form]);
   const steps = (by: number) => {
     const k = panels.findIndex(([name]) => name === panel);
     state.panel.value = panels[(k + by + panels.length) % panels.length][0];
@@ -73,7 +77,7 @@ function Panels() {
           </button>
         ))}
       </div>
-      <div class="panel" id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}>
+      <div class="panel" ref={body} id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}>
         {panel === 'valve' && <ValvePanel />}
         {panel === 'repair' && <RepairPanel />}
         {panel === 'plan' && <PlanPanel />}

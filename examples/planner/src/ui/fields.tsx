@@ -51,6 +51,17 @@ function restOfChord(): number | null {
   return state.main.value?.figures.chords.find((chord) => chord.id === id)?.rest ?? null;
 }
 
+/** The value of an empty field; "0, the middle" is 0. Only plain numbers are free of units. */
+function fallbackOf(field: FieldInfo): number | undefined {
+  if (!field.fallback) return undefined;
+  const value = Number.isFinite(field.fallbackValue)
+    ? field.fallbackValue
+    : field.unit
+      ? NaN
+      : parseFloat(field.fallback);
+  return Number.isFinite(value) ? value : undefined;
+}
+
 function NumberField(props: FieldProps) {
   const { kind, field } = props;
   const value = state.draft.value?.fields[field.name] as number | undefined;
@@ -59,7 +70,7 @@ function NumberField(props: FieldProps) {
   const unit = percent ? '%' : field.unit;
   const range = sliders[kind]?.[field.name];
   const rest = kind === 'chord_length' && field.name === 'length' ? restOfChord() : null;
-  const given = Number.isFinite(field.fallbackValue) && field.fallback ? field.fallbackValue : undefined;
+  const given = fallbackOf(field);
   const fallback = field.name === 'length' ? (state.added.value?.rest ?? given) : given;
   const set = (text: string) => {
     const number = parseFloat(text.replace(',', '.'));

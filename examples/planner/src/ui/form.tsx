@@ -1,7 +1,7 @@
 // The form of an operation, generated from the library's table: numbers as sliders with a box, parts as lists
 // that a click in the picture fills too, fields that few need behind "More".
 import { Check, Crosshair, X } from 'lucide-preact';
-import { apply, complete, discard } from '../store/edit';
+import { apply, complete, discard, replacements } from '../store/edit';
 import * as state from '../store/state';
 import { appTexts, formTexts, t, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
@@ -31,11 +31,14 @@ export function OperationForm() {
   const first =
     prominent[draft.kind] ?? info.fields.filter((field) => field.required).map((field) => field.name);
   const usable = info.fields.filter((field) => field.type !== 'point' && !field.name.startsWith('landmarks'));
+  const picking = state.picking.value;
+  // a list of points that is given or drawn stands instead of other fields
+  const points = replacements[draft.kind];
+  const hidden = points && (picking === points.points || draft.fields[points.points]) ? points.instead : [];
   const shown = first
     .map((name) => usable.find((field) => field.name === name))
-    .filter((f): f is FieldInfo => !!f);
-  const more = usable.filter((field) => !first.includes(field.name));
-  const picking = state.picking.value;
+    .filter((f): f is FieldInfo => !!f && !hidden.includes(f.name));
+  const more = usable.filter((field) => !first.includes(field.name) && !hidden.includes(field.name));
   const ready = complete(draft.kind, draft.fields);
   return (
     <form
@@ -73,7 +76,7 @@ export function OperationForm() {
         <button
           type="submit"
           class="button main"
-          disabled={!ready || !!state.draftMessage.value}
+          disabled={!ready || !!state.draftMessage.value || picking === points?.points}
           title={formTexts.enter}
         >
           <Check size={16} />

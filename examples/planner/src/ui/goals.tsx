@@ -7,6 +7,7 @@ import { Button } from './parts';
 
 interface Check {
   text: string;
+  short: string;
   /** null: not known yet. */
   done: boolean | null;
 }
@@ -18,30 +19,37 @@ function checks(): Check[] {
   const cost = state.cost.value?.hash === hash ? state.cost.value.value : null;
   const healthyOver = founding?.healthy.measures.chordsOver;
   return [
-    { text: tourTexts.goals.sealed, done: measures.atRest && measures.orifice === 0 },
+    {
+      text: tourTexts.goals.sealed,
+      short: tourTexts.shortGoals.sealed,
+      done: measures.atRest && measures.orifice === 0,
+    },
     {
       text: tourTexts.goals.chords(healthyOver),
+      short: tourTexts.shortGoals.chords,
       done: healthyOver === undefined ? null : measures.chordsOver <= healthyOver,
     },
     {
       text: tourTexts.goals.open,
+      short: tourTexts.shortGoals.open,
       done: cost && founding ? cost.openArea >= 0.9 * founding.healthy.openArea : null,
     },
   ];
 }
 
-export function Goals({ number }: { number: number }) {
+/** `short`: in one line, without the heading. */
+export function Goals({ number, short }: { number: number; short?: boolean }) {
   const found = checks();
   const icon = ({ done }: Check) =>
     done === null ? <CircleHelp size={18} /> : done ? <Check size={18} /> : <X size={18} />;
   return (
     <>
-      <h3>{tourTexts.goal(number)}</h3>
-      <ul class="goals" data-testid="goals">
+      {!short && <h3>{tourTexts.goal(number)}</h3>}
+      <ul class={`goals${short ? ' short' : ''}`} aria-label={tourTexts.goal(number)} data-testid="goals">
         {found.map((check) => (
           <li class={check.done === null ? 'open' : check.done ? 'done' : 'missed'}>
             {icon(check)}
-            <span>{check.text}</span>
+            <span title={short ? check.text : undefined}>{short ? check.short : check.text}</span>
           </li>
         ))}
       </ul>

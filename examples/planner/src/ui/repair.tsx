@@ -45,9 +45,9 @@ const order = [
   'neochord',
   'chord_length',
   'chord_remove',
-  'chord_transfer',
-  'clip',
   'resect',
+  'clip',
+  'chord_transfer',
   'patch',
   'head_move',
   'chord_add',
@@ -117,7 +117,7 @@ export function RepairPanel() {
     });
   return (
     <div class="panel-body">
-      {state.tour.value && <Goals number={state.tour.value.number} />}
+      {state.tour.value && <Goals number={state.tour.value.number} short />}
       <Chosen />
       <div class="cards">{cards(0, often)}</div>
       <Section title={repairTexts.more}>

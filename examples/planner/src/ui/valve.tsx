@@ -64,9 +64,7 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
       </div>
       {graded && (
         <div class="verdict-where">
-          {orifice > 0
-            ? words.at(all ? where(figures) : '…')
-            : words.meet(all ? figure(coaptationMean) : '…')}
+          {orifice > 0 ? words.at(where(figures)) : words.meet(all ? figure(coaptationMean) : '…')}
         </div>
       )}
     </>

@@ -25,25 +25,46 @@ export function addOutlinePoint(hit: Hit): void {
   if (of === leaflet) state.outline.value = [...state.outline.value, [...hit.surface.at]];
 }
 
-/** The node of the free edge of the leaflet that is nearest to a point. */
-function onFreeEdge(topology: Topology, x: Float32Array, at: number[]): number[] {
+/** Weight of the whole distance beside that along the edge. */
+const beside = 0.2;
+
+/**
+ * Nodes of the free edge of the leaflet to which the ends of the cut lead: those below the ends, that is nearest along
+ * the CC axis, and two different ones. The nearest in space would be the deepest of the edge for both ends.
+ */
+function edgeBelow(topology: Topology, x: Float32Array, frame: number[], ends: number[][]): number[][] {
   const own = new Uint8Array(topology.nodes);
   for (let i = 0; i < topology.triangles.length; ++i)
     if (topology.triangleLeaflet[Math.floor(i / 3)] === leaflet) own[topology.triangles[i]] = 1;
   const place = (node: number) => [x[3 * node], x[3 * node + 1], x[3 * node + 2]];
-  const away = (node: number) => Math.hypot(...place(node).map((v, c) => v - at[c]));
-  const edge = Array.from(topology.freeEdge).filter((node) => own[node]);
-  return edge.length ? place(edge.reduce((a, b) => (away(a) <= away(b) ? a : b))) : at;
+  const cc = (at: number[]) => at.reduce((sum, v, c) => sum + v * frame[6 + c], 0);
+  const edge = Array.from(topology.freeEdge)
+    .filter((node) => own[node])
+    .map(place)
+    .sort((a, b) => cc(a) - cc(b));
+  if (edge.length < 3) return ends;
+  const away = (a: number[], b: number[]) =>
+    Math.abs(cc(a) - cc(b)) + beside * Math.hypot(...a.map((v, c) => v - b[c]));
+  const rows = ends.map((end) =>
+    edge.reduce((best, at, k) => (away(at, end) < away(edge[best], end) ? k : best), 0),
+  );
+  if (rows[0] === rows[1]) {
+    const rising = cc(ends[0]) <= cc(ends[1]);
+    rows[0] = Math.max(0, Math.min(edge.length - 1, rows[0] + (rising ? -1 : 1)));
+    rows[1] = Math.max(0, Math.min(edge.length - 1, rows[1] + (rising ? 1 : -1)));
+  }
+  return rows.map((k) => edge[k]);
 }
 
 /** The clicked points with their ways to the free edge. */
 export function wholeOutline(): number[][] {
   const points = state.outline.value;
-  const picture = state.main.value?.picture;
-  const topology = picture && state.topologyOf(picture);
+  const shown = state.main.value;
+  const topology = shown && state.topologyOf(shown.picture);
   if (!points.length || !topology) return points;
-  const edge = (at: number[]) => onFreeEdge(topology, picture.positions, at);
-  return [edge(points[0]), ...points, edge(points[points.length - 1])];
+  const ends = [points[0], points[points.length - 1]];
+  const [first, last] = edgeBelow(topology, shown.picture.positions, shown.figures.frame, ends);
+  return [first, ...points, last];
 }
 
 /** Takes the outline into the form; its preview follows. */

@@ -10,13 +10,26 @@ import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
 import { sceneMeshes } from './scene';
-import { vertexNormals, type Mesh } from './mesh';
-import { tissue } from './colours';
+import type { Mesh } from './mesh';
+import { surfaceMesh } from './surface';
 import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
 const background: [number, number, number] = [0.925, 0.937, 0.949];
+
+/** Whatever is drawn over the scene. */
+function overlayInputs(): unknown[] {
+  const draft = state.draft.value;
+  return [
+    state.sectionOn.value,
+    state.sectionAt.value,
+    state.labelsOn.value,
+    state.picking.value,
+    state.outline.value,
+    draft?.kind === 'clip' ? draft : null,
+  ];
+}
 
 export class Viewport {
   readonly camera = new Camera();
@@ -31,6 +44,8 @@ export class Viewport {
   private lastFrame = 0;
   private drawnFully = false;
   private framed = '';
+  private builtFrom: unknown[] = [];
+  private overlaid: unknown[] = [];
   /** ms of the last pictures, for the tests. */
   readonly times: number[] = [];
   /** A surface to show instead of a valve, during an import. */
@@ -48,22 +63,15 @@ export class Viewport {
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
     effect(() => {
-      // whatever the scene is made of
-      void [
-        state.picture.value,
-        state.preview.value,
-        state.main.value,
-        state.map.value,
-        state.choice.value,
-        state.chordsOn.value,
-        state.reference.value,
-        state.compared.value,
-      ];
+      const inputs = this.sceneInputs();
+      if (inputs.every((input, k) => input === this.builtFrom[k])) return;
+      this.builtFrom = inputs;
       this.touchScene();
     });
     effect(() => {
-      void [state.sectionOn.value, state.sectionAt.value, state.labelsOn.value, state.draft.value];
-      void [state.picking.value, state.outline.value];
+      const inputs = overlayInputs();
+      if (inputs.every((input, k) => input === this.overlaid[k])) return;
+      this.overlaid = inputs;
       this.moved();
     });
     effect(() => {
@@ -77,28 +85,9 @@ export class Viewport {
   private showSurface(shown: state.Imported | null): void {
     const fresh = shown && this.surface?.positions !== shown.surface.points;
     if (!shown) this.surface = null;
-    else if (fresh) this.surface = this.surfaceMesh(shown.surface.points, shown.surface.triangles);
+    else if (fresh) this.surface = surfaceMesh(shown.surface.points, shown.surface.triangles);
     this.touchScene();
     if (fresh && shown) this.camera.lookAtBox(shown.surface.points, shown.surface.triangles);
-  }
-
-  private surfaceMesh(positions: Float32Array, index: Uint32Array): Mesh {
-    const shade = (colour: readonly number[]) => {
-      const out = new Float32Array(positions.length);
-      for (let i = 0; i < out.length; i += 3) out.set(colour, i);
-      return out;
-    };
-    return {
-      positions,
-      index,
-      normals: vertexNormals(positions, index),
-      front: shade(tissue.atrialAnterior),
-      back: shade(tissue.ventricularAnterior),
-      opacity: 1,
-      overlay: false,
-      cut: false,
-      flat: false,
-    };
   }
 
   private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
@@ -132,10 +121,30 @@ export class Viewport {
     this.moved();
   }
 
-  /** The scene has to be built anew. */
+  /** Whatever the scene is made of: it is built anew where one of these changes. */
+  private sceneInputs(): unknown[] {
+    const figures = (state.preview.value ?? state.main.value)?.figures;
+    return [
+      state.picture.value,
+      state.motion.value,
+      figures?.hash,
+      figures?.orificeParts.length,
+      // colours of the leaflets and chordae
+      state.map.value,
+      state.map.value === 'tissue' ? null : figures?.fields,
+      state.map.value === 'distance' ? state.compared.value : null,
+      state.map.value === 'distance' ? state.main.value : null,
+      state.choice.value,
+      state.added.value?.id,
+      state.chordsOn.value,
+    ];
+  }
+
+  /** The scene has to be built anew; a valve at rest is drawn in full at once. */
   touchScene(): void {
     this.sceneDirty = true;
-    this.moved();
+    if (state.motion.value) this.moved();
+    else [this.dirty, this.drawnFully] = [true, false];
   }
 
   /** The camera has moved, or something that needs no new meshes. */

@@ -250,7 +250,7 @@ export function figuresOf(mvs: Mvs, snapshot: Snapshot, known: Known = 'all'): F
     valve: snapshot.name,
     measures,
     regions: all ? regionsOf(snapshot) : [],
-    orificeParts: all ? orificePartsOf(snapshot) : [],
+    orificeParts: known === 'shape' ? [] : orificePartsOf(snapshot),
     chords,
     heads,
     frame: frameOf(snapshot),
