@@ -223,4 +223,55 @@ describe('planner features', () => {
     // the healthy valve is another shape of the same tissue
     assert.ok((await length('healthy')) > 20 && (await length('healthy')) !== (await length('now')));
   });
+
+  it('takes_clicked_papillary_tips_at_import', async () => {
+    await page.getByRole('button', { name: 'Healthy valve' }).click();
+    await page.waitForTimeout(200);
+    await closed(page);
+    // the open leaflets as a surface of another program
+    await page.keyboard.press('o');
+    for (let k = 0; k < 200 && !(await page.evaluate(() => !!window.planner.state.motion.value)); ++k)
+      await page.waitForTimeout(50);
+    const text = await page.evaluate(() => {
+      const { state } = window.planner;
+      const { picture } = state.motion.value;
+      const { triangles } = state.topologyOf(picture);
+      let obj = '';
+      for (let i = 0; i < picture.positions.length; i += 3)
+        obj += `v ${[...picture.positions.slice(i, i + 3)].join(' ')}\n`;
+      for (let i = 0; i < triangles.length; i += 3)
+        obj += `f ${[...triangles.slice(i, i + 3)].map((node) => node + 1).join(' ')}\n`;
+      return obj;
+    });
+    const path = join(mkdtempSync(join(tmpdir(), 'surface-')), 'leaflets.obj');
+    writeFileSync(path, text);
+    await open(page, path);
+    await page.getByRole('button', { name: 'Papillary tips' }).click();
+    // below the annulus, in the view from the side
+    await page.keyboard.press('3');
+    await cameraRests(page);
+    const canvas = await page.locator('canvas').first().boundingBox();
+    for (const along of [0.4, 0.6])
+      await page.mouse.click(canvas.x + along * canvas.width, canvas.y + 0.8 * canvas.height);
+    assert.match(await page.locator('.panel').innerText(), /2 set/);
+    const clicked = await page.evaluate(() => window.planner.state.imported.value.points.tips);
+    await page.getByRole('button', { name: 'Build the valve' }).click();
+    await page.getByTestId('findings').waitFor({ timeout: 60_000 });
+    await closed(page);
+    assert.match(await page.getByTestId('findings').innerText(), /papillary tips\s+given/i);
+    // the heads of the built valve stand where the clicks were, to the width of a pixel in float precision
+    const away = await page.evaluate((tips) => {
+      const { state } = window.planner;
+      const { picture } = state.main.value;
+      const { headNodes } = state.topologyOf(picture);
+      return tips.map((tip) =>
+        Math.min(
+          ...Array.from(headNodes, (node) =>
+            Math.hypot(...tip.map((v, c) => v - picture.positions[3 * node + c])),
+          ),
+        ),
+      );
+    }, clicked);
+    assert.ok(Math.max(...away) < 0.1, `${away} mm`);
+  });
 });

@@ -290,6 +290,7 @@ export const importTexts = {
 };
 
 export const verdictTexts = {
+  surface: 'A surface, not a valve yet',
   preview: 'preview',
   trying: 'trying…',
   measuring: 'Measuring…',

@@ -11,10 +11,11 @@ import { Chordae, Scallops } from './tables';
 
 export function Verdict() {
   const figures = state.figures.value;
-  if (!figures)
+  const surface = state.imported.value && !state.imported.value.findings.length;
+  if (!figures || surface)
     return (
-      <div class="verdict waiting">
-        <strong>…</strong>
+      <div class="verdict waiting" data-testid="verdict">
+        <strong>{surface ? verdictTexts.surface : '…'}</strong>
       </div>
     );
   const words = verdictTexts;
