@@ -1,8 +1,6 @@
 // Actions of a person on the page: look, point, press, type.
 import { closed } from './browser.mjs';
 
-export { closed };
-
 export async function openPanel(page, name) {
   await page.getByRole('tab', { name }).click();
 }

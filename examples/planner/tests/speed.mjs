@@ -5,8 +5,8 @@ import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { openBrowser, page_path } from './browser.mjs';
-import { begin, closed, open } from './person.mjs';
+import { closed, openBrowser, page_path } from './browser.mjs';
+import { begin, open } from './person.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const library = resolve(here, '../../../build/js/dist/index.mjs');

@@ -1,7 +1,8 @@
 // Requests to the worker: one message out, one answer in. The worker is a classic worker from a blob, the only
 // kind that a page from disk may have.
 import PlannerWorker from '../worker/main?worker&inline';
-import type { CallName, Calls, Failure, Motion, Shown } from '../protocol';
+import type { CallName, Calls } from '../calls';
+import type { Failure, Motion, Shown } from '../protocol';
 
 /** A request that failed. */
 export class CallError extends Error {

@@ -1,7 +1,8 @@
 // Requests to the worker, with a line of progress and a notice where they fail; the valve that a result brings.
 import { batch } from '@preact/signals';
 import { say, t } from '../text/texts';
-import type { CallName, Calls, Shown } from '../protocol';
+import type { CallName, Calls } from '../calls';
+import type { Shown } from '../protocol';
 import { CallError, Client, type CallOptions } from './client';
 import * as state from './state';
 

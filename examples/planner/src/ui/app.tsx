@@ -17,7 +17,8 @@ import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
 import { chooseFile, Scale, TopBar, ViewBar } from './toolbar';
 import { TourPanel } from './tour';
-import { ValvePanel, Verdict } from './valve';
+import { ValvePanel } from './valve';
+import { Verdict } from './verdict';
 
 let viewport: Viewport | null = null;
 export const view = (): Viewport | null => viewport;

@@ -5,6 +5,7 @@ import * as state from '../store/state';
 import { appTexts } from '../text/texts';
 import { Camera, type Preset } from './camera';
 import { Gestures } from './gestures';
+import { overlayInputs, sameInputs, sceneInputs } from './inputs';
 import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
@@ -17,19 +18,6 @@ import { WebGl } from './webgl';
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
 const background: [number, number, number] = [0.925, 0.937, 0.949];
-
-/** Whatever is drawn over the scene. */
-function overlayInputs(): unknown[] {
-  const draft = state.draft.value;
-  return [
-    state.sectionOn.value,
-    state.sectionAt.value,
-    state.labelsOn.value,
-    state.picking.value,
-    state.outline.value,
-    draft?.kind === 'clip' ? draft : null,
-  ];
-}
 
 export class Viewport {
   readonly camera = new Camera();
@@ -63,14 +51,14 @@ export class Viewport {
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
     effect(() => {
-      const inputs = this.sceneInputs();
-      if (inputs.every((input, k) => input === this.builtFrom[k])) return;
+      const inputs = sceneInputs();
+      if (sameInputs(inputs, this.builtFrom)) return;
       this.builtFrom = inputs;
       this.touchScene();
     });
     effect(() => {
       const inputs = overlayInputs();
-      if (inputs.every((input, k) => input === this.overlaid[k])) return;
+      if (sameInputs(inputs, this.overlaid)) return;
       this.overlaid = inputs;
       this.moved();
     });
@@ -119,25 +107,6 @@ export class Viewport {
     this.camera.aspect = this.width / this.height;
     this.renderer.resize(this.width, this.height, window.devicePixelRatio || 1);
     this.moved();
-  }
-
-  /** Whatever the scene is made of: it is built anew where one of these changes. */
-  private sceneInputs(): unknown[] {
-    const figures = (state.preview.value ?? state.main.value)?.figures;
-    return [
-      state.picture.value,
-      state.motion.value,
-      figures?.hash,
-      figures?.orificeParts.length,
-      // colours of the leaflets and chordae
-      state.map.value,
-      state.map.value === 'tissue' ? null : figures?.fields,
-      state.map.value === 'distance' ? state.compared.value : null,
-      state.map.value === 'distance' ? state.main.value : null,
-      state.choice.value,
-      state.added.value?.id,
-      state.chordsOn.value,
-    ];
   }
 
   /** The scene has to be built anew; a valve at rest is drawn in full at once. */

@@ -1,7 +1,8 @@
 // The worker: answers the requests of the page one after the other. A request that is under way can be cancelled;
 // long ones report their progress.
 import { loadMvs, MvsError, SYSTOLE_PA, type Mvs } from 'libmvs';
-import type { CallName, Calls, Failure, Motion, Shown } from '../protocol';
+import type { CallName, Calls } from '../calls';
+import type { Failure, Motion, Shown } from '../protocol';
 import { foundingResult, foundingValve } from './founding';
 import { HandLoop } from './hand';
 import { Importer } from './importer';
