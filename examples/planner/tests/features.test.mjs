@@ -1,4 +1,4 @@
-// What a surgeon does beyond the first steps: stages of a preview, drawing a resection, sliding a clip, a measured
+// What a surgeon does beyond the first steps: drawing a resection, sliding a clip, a measured
 // ring, the gradient of a flow, devices, a file that follows the plan, the way back to a plan that was left.
 import assert from 'node:assert/strict';
 import { mkdtempSync, writeFileSync } from 'node:fs';
@@ -44,52 +44,6 @@ describe('planner features', () => {
   after(async () => {
     await context.close();
     assert.deepEqual(errors, []);
-  });
-
-  it('shows_the_shape_first_and_marks_what_is_to_come', async () => {
-    await page.evaluate(() => {
-      const { state } = window.planner;
-      window.seen = [];
-      state.preview.subscribe((preview) => {
-        // after the page has shown it
-        if (preview)
-          setTimeout(() => {
-            const verdict = document.querySelector('[data-testid=verdict]').innerText;
-            window.seen.push({ known: preview.figures.known, verdict, now: state.preview.value === preview });
-          });
-      });
-    });
-    await begin(page, 'ring');
-    const seen = await page.evaluate(() => window.seen);
-    assert.deepEqual(
-      seen.map(({ known }) => known),
-      ['shape', 'orifice', 'all'],
-    );
-    const [shape, , all] = seen;
-    assert.ok(!shape.now || /Measuring…[^]*…/.test(shape.verdict), shape.verdict);
-    assert.doesNotMatch(all.verdict, /…/);
-    // while a newer value is tried, the older figures are marked as such
-    const tags = await page.evaluate(async () => {
-      const { state } = window.planner;
-      const slider = document.querySelector('.form input[type=range]');
-      slider.value = Number(slider.value) - 2;
-      slider.dispatchEvent(new Event('input', { bubbles: true }));
-      await new Promise((done) => setTimeout(done));
-      return { outdated: state.outdated.value, text: document.querySelector('.verdict .tag').innerText };
-    });
-    assert.deepEqual(tags, { outdated: true, text: 'trying…' });
-    await closed(page);
-  });
-
-  it('applies_the_value_that_is_typed_last', async () => {
-    await begin(page, 'annulus_scale');
-    await page.locator('#f-factor').fill('93');
-    await page.keyboard.press('Enter');
-    await page.getByTestId('form').waitFor({ state: 'detached' });
-    assert.match((await figures(page)).history.at(-1).title, /93/);
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
   });
 
   it('resects_along_a_drawn_outline', async () => {
@@ -256,7 +210,7 @@ describe('planner features', () => {
     assert.match(await page.locator('.panel').innerText(), /2 set/);
     const clicked = await page.evaluate(() => window.planner.state.imported.value.points.tips);
     await page.getByRole('button', { name: 'Build the valve' }).click();
-    await page.getByTestId('findings').waitFor({ timeout: 60_000 });
+    await page.getByTestId('findings').waitFor({ timeout: 240_000 });
     await closed(page);
     assert.match(await page.getByTestId('findings').innerText(), /papillary tips\s+given/i);
     // the heads of the built valve stand where the clicks were, to the width of a pixel in float precision

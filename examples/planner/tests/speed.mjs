@@ -1,12 +1,13 @@
 // Prints how fast the page is: first picture, time from a change of a form to the shape, the leak and all figures, and
-// frames and tasks of the main thread while a valve settles. Usage: node tests/speed.mjs [VERTICES ...]; the default
-// is 425 1700 3500, of which the last has 7,000 faces.
-import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+// frames and tasks of the main thread while a valve settles. CPU times hold on a busy machine as well. Usage:
+// node tests/speed.mjs [VERTICES ...]; the default is 425 1700 3710, of which the last has 7,000 faces.
+import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { closed, openBrowser, page_path } from './browser.mjs';
 import { begin, open } from './person.mjs';
+import { cpuBetween, traced } from './trace.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const library = resolve(here, '../../../build/js/dist/index.mjs');
@@ -29,89 +30,77 @@ async function valveFile(vertices) {
   return { path, faces };
 }
 
-const sorted = (values) => [...values].sort((a, b) => a - b);
-const share = (values, s) =>
-  sorted(values)[Math.min(values.length - 1, Math.floor(s * values.length))] ?? NaN;
+/** The value below which a share of the values lies. */
+function quantile(values, share) {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? NaN;
+}
 const ms = (value) => `${value.toFixed(0).padStart(6)} ms`;
 
-/** Installs clocks in the page: changes of forms, stages of previews as drawn, frames, long tasks. */
+/** Installs clocks in the page: marks of changes of the form and of stages as drawn, and frames. */
 function installClocks(page) {
   return page.evaluate(() => {
-    const clocks = { changed: 0, stages: [], frames: [], tasks: [], settling: false };
-    window.clocks = clocks;
-    addEventListener('input', () => (clocks.changed = performance.now()), true);
-    const { state } = window.planner;
-    state.preview.subscribe((preview) => {
-      if (!preview || !clocks.changed) return;
-      const { known = 'all' } = preview.figures;
-      const from = clocks.changed;
+    const frames = (window.frameTimes = []);
+    addEventListener('input', () => performance.mark('changed'), true);
+    window.planner.state.preview.subscribe((preview) => {
+      const { known = 'all' } = preview?.figures ?? {};
       // drawn at the end of the next frame
-      requestAnimationFrame(() =>
-        requestAnimationFrame(() => clocks.stages.push({ known, from, time: performance.now() - from })),
-      );
+      if (preview) requestAnimationFrame(() => requestAnimationFrame(() => performance.mark(known)));
     });
     let last = 0;
     const frame = (now) => {
-      if (clocks.settling && last) clocks.frames.push(now - last);
+      if (last) frames.push(now - last);
       last = now;
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
-    new PerformanceObserver((list) => {
-      if (clocks.settling) clocks.tasks.push(...list.getEntries().map((entry) => entry.duration));
-    }).observe({ entryTypes: ['longtask'] });
   });
 }
 
-/** Moves the slider of a form by keys; returns the times to each stage of the preview. */
-async function previews(page) {
-  await begin(page, 'annulus_scale');
-  await page.locator('.form input[type=range]').first().focus();
-  await page.evaluate(() => (window.clocks.settling = true));
-  const before = browserCpu();
+/** Moves the slider of a form by keys. */
+async function changeForm(page) {
   for (let k = 0; k < rounds; ++k) {
     await page.keyboard.press(k % 2 ? 'ArrowRight' : 'ArrowLeft');
     await page.waitForTimeout(60);
     await closed(page);
-    await page.waitForTimeout(120);
+    await page.waitForTimeout(150);
   }
-  const cpu = (browserCpu() - before) / rounds;
-  const { stages, frames, tasks } = await page.evaluate(() => {
-    window.clocks.settling = false;
-    return window.clocks;
-  });
-  const last = (known) => {
-    const times = new Map();
-    for (const stage of stages) if (stage.known === known) times.set(stage.from, stage.time);
-    return [...times.values()];
-  };
-  return { shape: last('shape'), orifice: last('orifice'), all: last('all'), frames, tasks, cpu };
 }
 
-/** CPU time, ms, of this process's children and theirs: the browser. From /proc of Linux, in ticks of 10 ms. */
-function browserCpu() {
-  const parents = new Map();
-  const times = new Map();
-  for (const name of readdirSync('/proc')) {
-    if (!/^\d+$/.test(name)) continue;
-    try {
-      const words = readFileSync(`/proc/${name}/stat`, 'utf8')
-        .replace(/^.*\) /, '')
-        .split(' ');
-      parents.set(name, words[1]);
-      times.set(name, 10 * (Number(words[11]) + Number(words[12])));
-    } catch {
-      // a process that has ended
-    }
+/** Times from each change to the first mark of a name: by the clock, and CPU of page and worker. */
+function timesTo(name, { main, worker, marks }) {
+  const changes = marks.filter((mark) => mark.name === 'changed').map((mark) => mark.time);
+  const found = [];
+  changes.forEach((from, k) => {
+    const end = marks.find((m) => m.name === name && m.time > from && m.time < (changes[k + 1] ?? Infinity));
+    if (end)
+      found.push({
+        wall: end.time - from,
+        cpu: cpuBetween(main, from, end.time) + cpuBetween(worker, from, end.time),
+      });
+  });
+  return found;
+}
+
+function report(trace, frames) {
+  for (const [title, name] of [
+    ['change to shape', 'shape'],
+    ['change to leak', 'orifice'],
+    ['change to all figures', 'all'],
+  ]) {
+    const times = timesTo(name, trace);
+    const [cpu, wall] = [times.map((t) => t.cpu), times.map((t) => t.wall)];
+    console.log(
+      `  ${title.padEnd(32)} CPU ${ms(quantile(cpu, 0.5))}, clock ${ms(quantile(wall, 0.5))}, worst ${ms(quantile(wall, 1))} (${times.length})`,
+    );
   }
-  const isOurs = (name) => {
-    for (let at = parents.get(name); at && at !== '0'; at = parents.get(at))
-      if (at === String(process.pid)) return true;
-    return false;
-  };
-  let sum = 0;
-  for (const [name, time] of times) if (isOurs(name)) sum += time;
-  return sum;
+  const cpu = trace.main.map((task) => task.cpu);
+  console.log(
+    `  longest task of the main thread  CPU ${ms(Math.max(...cpu))}, clock ${ms(Math.max(...trace.main.map((task) => task.wall)))}`,
+  );
+  console.log(
+    `  frame while it settles               ${ms(quantile(frames, 0.5))}, 95 % below ${ms(quantile(frames, 0.95))}`,
+  );
 }
 
 async function measure(vertices) {
@@ -130,27 +119,16 @@ async function measure(vertices) {
     await open(page, path);
     await closed(page, 300_000);
     await installClocks(page);
-    const found = await previews(page);
+    await begin(page, 'annulus_scale');
+    await page.locator('.form input[type=range]').first().focus();
+    await page.evaluate(() => (window.frameTimes.length = 0));
+    const trace = await traced(page, () => changeForm(page));
     console.log(`${vertices} vertices, ${faces} faces`);
-    console.log(`  first picture of the page        ${ms(first)}`);
-    for (const [name, times] of [
-      ['change to shape', found.shape],
-      ['change to leak', found.orifice],
-      ['change to all figures', found.all],
-    ])
-      console.log(
-        `  ${name.padEnd(32)} ${ms(share(times, 0.5))}, worst ${ms(share(times, 1))} of ${times.length}`,
-      );
-    console.log(`  CPU of the browser per change    ${ms(found.cpu)}`);
-    console.log(
-      `  frame while it settles           ${ms(share(found.frames, 0.5))}, 95 % below ${ms(share(found.frames, 0.95))}`,
-    );
-    console.log(
-      `  longest task of the main thread  ${ms(Math.max(0, ...found.tasks))}, ${found.tasks.length} above 50 ms`,
-    );
+    console.log(`  first picture of the page            ${ms(first)}`);
+    report(trace, await page.evaluate(() => window.frameTimes));
   } finally {
     await context.close();
   }
 }
 
-for (const vertices of sizes.length ? sizes : [425, 1700, 3500]) await measure(vertices);
+for (const vertices of sizes.length ? sizes : [425, 1700, 3710]) await measure(vertices);
