@@ -1,9 +1,12 @@
 // Starts the page: the worker with the library, then the shipped valve.
 import { render } from 'preact';
 import { App } from './ui/app';
-import { connect, fail, openShipped, request } from './store/actions';
-import { findCopy, keepCopy, visited } from './store/keep';
+import { openShipped } from './store/files';
+import { connect, fail, request } from './store/requests';
+import { findCopy, keepCopy, visited, writeKeptFile } from './store/keep';
 import * as state from './store/state';
+import { watchTour } from './store/tour';
+import { barTexts } from './text/texts';
 import './style.css';
 
 async function start(): Promise<void> {
@@ -16,16 +19,17 @@ async function start(): Promise<void> {
     state.version.value = version;
     state.operations.value = operations;
     document.getElementById('library')?.remove();
-    await openShipped('healthy', 'Healthy valve');
+    await openShipped('healthy', barTexts.healthy);
     state.ready.value = true;
   } catch (error) {
     fail(error);
   }
+  watchTour();
   await findCopy();
-  // the copy follows every change of the plan
+  // the copy and the chosen file follow every change of the plan
   let kept = state.main.value;
   state.main.subscribe((now) => {
-    if (now && now !== kept) void keepCopy();
+    if (now && now !== kept) void keepCopy().then(writeKeptFile);
     kept = now;
   });
 }

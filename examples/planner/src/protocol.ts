@@ -1,4 +1,4 @@
-// Messages between the page and the worker that owns the library. Lengths are in mm, forces in N,
+// Data in the messages (calls.ts) between the page and the worker that owns the library. Lengths are in mm, forces in N,
 // pressures in mmHg, areas in mm2, strains as fractions: the worker converts, the page only shows.
 
 /** A named part: a scallop, a chord, a papillary head, a ring. Ids are those of the library, as text. */
@@ -62,6 +62,8 @@ export interface Chord {
   strainLimit: number;
   tensionLimit: number;
   over: boolean;
+  /** Of a modulus that only sutures have. */
+  artificial: boolean;
 }
 
 export interface Region {
@@ -122,8 +124,15 @@ export interface HistoryEntry {
   undone: boolean;
 }
 
+/**
+ * How much of a snapshot is known: its shape, also its orifice, or all. The shape is calculated first and the
+ * regions last; numbers that are still to come are NaN, their lists are empty and their fields null.
+ */
+export type Known = 'shape' | 'orifice' | 'all';
+
 /** Figures of a snapshot. */
 export interface Figures {
+  known: Known;
   hash: string;
   valve: string;
   measures: Measures;
@@ -135,7 +144,7 @@ export interface Figures {
   /** Rows: origin, AP (towards anterior), CC, into the atrium; the origin in mm. */
   frame: number[];
   history: HistoryEntry[];
-  fields: Fields;
+  fields: Fields | null;
 }
 
 /** A snapshot as the page shows it. */
@@ -190,35 +199,15 @@ export interface Failure {
   message: string;
 }
 
-/** Requests of the page: name, argument, result. */
-export interface Calls {
-  start: { argument: { library: string }; result: { version: string; operations: OperationInfo[] } };
-  open_shipped: { argument: { name: string; vertices: number }; result: Shown };
-  open_file: { argument: { name: string; bytes: Uint8Array }; result: Shown };
-  preview: { argument: Operation; result: Shown };
-  accept: { argument: null; result: Shown };
-  discard: { argument: null; result: null };
-  check: { argument: Operation; result: null };
-  undo: { argument: null; result: Shown };
-  redo: { argument: null; result: Shown };
-  open_to: { argument: { share: number }; result: Motion };
-  close_again: { argument: null; result: Shown };
-  cost: { argument: { which: 'main' | 'preview' }; result: Cost };
-  section: { argument: { which: string; point: number[]; normal: number[] }; result: Float32Array };
-  hand_begin: { argument: Hand; result: null };
-  hand_move: { argument: { position: number[] }; result: null };
-  hand_end: { argument: null; result: Shown };
-  checkpoint: { argument: { name: string }; result: string[] };
-  restore: { argument: { name: string }; result: Shown };
-  read_checkpoint: { argument: { name: string }; result: Shown };
-  save_obj: { argument: null; result: Uint8Array };
-  save_session: { argument: { notes: string; title: string }; result: Uint8Array };
-  open_session: { argument: { bytes: Uint8Array }; result: SessionOpened };
-  founding: { argument: { number: number; vertices: number }; result: FoundingResult };
-  spread: { argument: { members: number }; result: Spread };
-  read_surface: { argument: { name: string; bytes: Uint8Array; unit: string }; result: Surface };
-  build: { argument: BuildRequest; result: { shown: Shown; findings: Finding[] } };
+/** A cut across the CC axis at an offset from the middle, mm; in the frame of the healthy valve for that valve. */
+export interface SectionRequest {
+  which: 'main' | 'preview' | 'first' | 'healthy' | `checkpoint ${string}`;
+  frame: number[];
+  offset: number;
 }
+
+/** Segments of a cut: AP and height of their two ends, mm, rows of four. */
+export type Section = Float32Array;
 
 export interface Hand {
   tool: 'grasp' | 'ball';
@@ -232,6 +221,8 @@ export interface Cost {
   posteriorLength: number;
   lengthRatio: number;
   annulusForce: number;
+  /** mmHg, of the flow that was given; NaN without one. */
+  gradient: number;
 }
 
 export interface SessionOpened {
@@ -282,13 +273,3 @@ export interface Finding {
   sentence: string;
   confidence: number;
 }
-
-export type CallName = keyof Calls;
-
-export type ToWorker = { id: number; call: CallName; argument: unknown } | { cancel: number };
-
-export type FromWorker =
-  | { id: number; result: unknown }
-  | { id: number; failure: Failure }
-  | { id: number; motion: Motion }
-  | { id: number; share: number };

@@ -100,6 +100,52 @@ describe('planner', () => {
     assert.equal((await figures(page)).hash, hash);
   });
 
+  it('shows_the_shape_first_and_marks_what_is_to_come', async () => {
+    await page.evaluate(() => {
+      const { state } = window.planner;
+      window.seen = [];
+      state.preview.subscribe((preview) => {
+        // after the page has shown it
+        if (preview)
+          setTimeout(() => {
+            const verdict = document.querySelector('[data-testid=verdict]').innerText;
+            window.seen.push({ known: preview.figures.known, verdict, now: state.preview.value === preview });
+          });
+      });
+    });
+    await begin(page, 'ring');
+    const seen = await page.evaluate(() => window.seen);
+    assert.deepEqual(
+      seen.map(({ known }) => known),
+      ['shape', 'orifice', 'all'],
+    );
+    const [shape, , all] = seen;
+    assert.ok(!shape.now || /Measuring…[^]*…/.test(shape.verdict), shape.verdict);
+    assert.doesNotMatch(all.verdict, /…/);
+    // while a newer value is tried, the older figures are marked as such
+    const tags = await page.evaluate(async () => {
+      const { state } = window.planner;
+      const slider = document.querySelector('.form input[type=range]');
+      slider.value = Number(slider.value) - 2;
+      slider.dispatchEvent(new Event('input', { bubbles: true }));
+      await new Promise((done) => setTimeout(done));
+      return { outdated: state.outdated.value, text: document.querySelector('.verdict .tag').innerText };
+    });
+    assert.deepEqual(tags, { outdated: true, text: 'trying…' });
+    await page.keyboard.press('Escape');
+  });
+
+  it('applies_the_value_that_is_typed_last', async () => {
+    await begin(page, 'annulus_scale');
+    await page.locator('#f-factor').fill('93');
+    await page.keyboard.press('Enter');
+    await page.getByTestId('form').waitFor({ state: 'detached' });
+    assert.match((await figures(page)).history.at(-1).title, /93/);
+    await page.keyboard.press('Control+z');
+    await page.waitForTimeout(50);
+    await closed(page);
+  });
+
   it('says_why_an_operation_is_impossible', async () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('9000');

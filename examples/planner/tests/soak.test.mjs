@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
 
-const events = Number(process.env.PLANNER_EVENTS ?? 2000);
+const events = Number(process.env.PLANNER_EVENTS ?? 10_000);
 const seed = Number(process.env.PLANNER_SEED ?? 1);
 
 /** Park and Miller's generator. */

@@ -1,7 +1,8 @@
 // Requests to the worker: one message out, one answer in. The worker is a classic worker from a blob, the only
 // kind that a page from disk may have.
 import PlannerWorker from '../worker/main?worker&inline';
-import type { CallName, Calls, Failure, Motion } from '../protocol';
+import type { CallName, Calls } from '../calls';
+import type { Failure, Motion, Shown } from '../protocol';
 
 /** A request that failed. */
 export class CallError extends Error {
@@ -17,11 +18,13 @@ interface Open {
   resolve: (value: never) => void;
   reject: (error: unknown) => void;
   motion?: (motion: Motion) => void;
+  stage?: (shown: Shown) => void;
   share?: (share: number) => void;
 }
 
 export interface CallOptions {
   motion?: (motion: Motion) => void;
+  stage?: (shown: Shown) => void;
   share?: (share: number) => void;
 }
 
@@ -65,11 +68,16 @@ export class Client {
     result?: unknown;
     failure?: Failure;
     motion?: Motion;
+    stage?: Shown;
     share?: number;
   }): void {
     const request = this.open.get(data.id);
     if (data.motion) {
       (request?.motion ?? this.listeners.get(data.id))?.(data.motion);
+      return;
+    }
+    if (data.stage) {
+      request?.stage?.(data.stage);
       return;
     }
     if (data.share !== undefined) {

@@ -1,7 +1,8 @@
 // Keeping: downloads of valve and session, and the copy for recovery. Storage of a page from disk is shared by every
 // page from disk, so the copy is made only where the user allows it.
 import { signal } from '@preact/signals';
-import { fail, openSession, request, run } from './actions';
+import { openSession } from './files';
+import { fail, request, run } from './requests';
 import * as state from './state';
 import { t } from '../text/texts';
 
@@ -127,6 +128,59 @@ export async function keepCopy(): Promise<void> {
     storageWorks.value = false;
     fail(error);
   }
+}
+
+/** Whether the browser can write to a file that the user chose; only Chromium can. */
+export const canKeepFile = 'showSaveFilePicker' in window;
+/** The name of the file that follows the plan, or nothing. */
+export const keptFile = signal('');
+let handle: FileSystemFileHandle | null = null;
+let writing: Promise<void> = Promise.resolve();
+
+interface SavePicker {
+  showSaveFilePicker(options: {
+    suggestedName: string;
+    types: { description: string; accept: Record<string, string[]> }[];
+  }): Promise<FileSystemFileHandle>;
+}
+
+/** Asks for a file; from then on every change of the plan is written to it. */
+export async function chooseKeptFile(): Promise<void> {
+  try {
+    handle = await (window as unknown as SavePicker).showSaveFilePicker({
+      suggestedName: `${fileName()}.mvsplan`,
+      types: [{ description: t.sessionFile, accept: { 'application/zip': ['.mvsplan'] } }],
+    });
+  } catch (error) {
+    // the user closed the dialog
+    if (!(error instanceof DOMException && error.name === 'AbortError')) fail(error);
+    return;
+  }
+  keptFile.value = handle.name;
+  await writeKeptFile();
+}
+
+export function leaveKeptFile(): void {
+  handle = null;
+  keptFile.value = '';
+}
+
+/** Writes the session to the chosen file, one write after the other; the file is replaced as a whole. */
+export function writeKeptFile(): Promise<void> {
+  writing = writing.then(async () => {
+    if (!handle || !state.main.value) return;
+    try {
+      const bytes = await request('save_session', { title: state.title.value, notes: state.notes.value });
+      const stream = await handle.createWritable();
+      await stream.write(bytes.slice());
+      await stream.close();
+      state.changed.value = false;
+    } catch (error) {
+      leaveKeptFile();
+      fail(error);
+    }
+  });
+  return writing;
 }
 
 export async function forgetCopy(): Promise<void> {

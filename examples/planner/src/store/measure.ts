@@ -1,5 +1,5 @@
 // Checkpoints, and figures that are calculated on request.
-import { run, show } from './actions';
+import { run, show } from './requests';
 import * as state from './state';
 import { t } from '../text/texts';
 
@@ -26,7 +26,10 @@ export async function compareCheckpoint(name: string | null): Promise<void> {
 export async function measureCost(): Promise<void> {
   const figures = state.figures.value;
   if (!figures) return;
-  const value = await run(t.measuring, 'cost', { which: state.preview.value ? 'preview' : 'main' });
+  const value = await run(t.measuring, 'cost', {
+    which: state.preview.value ? 'preview' : 'main',
+    flow: state.flow.value ?? 0,
+  });
   if (value) state.cost.value = { hash: figures.hash, value };
 }
 

@@ -37,22 +37,27 @@ export const operations = signal<OperationInfo[]>([]);
 /** The valve of the plan, the preview of an operation, and the moving picture that hides both. */
 export const main = signal<Shown | null>(null);
 export const preview = signal<Shown | null>(null);
+/** The form that the preview, or its refusal, belongs to. */
+export const previewed = signal<Draft | null>(null);
 export const motion = signal<Motion | null>(null);
 /** The first closed valve of the plan, for "before". */
 export const first = signal<Shown | null>(null);
-export const reference = signal<Shown | null>(null);
 
 export const draft = signal<Draft | null>(null);
 export const draftMessage = signal('');
-/** True from a change of the form until its preview or its refusal. */
+/** True from a change of the form until all of its preview is known, or its refusal. */
 export const pending = signal(false);
 export const choice = signal<Choice | null>(null);
+/** Points of the outline that is being drawn on a leaflet, mm. */
+export const outline = signal<number[][]>([]);
 /** The field of the draft that the next click in the picture fills. */
 export const picking = signal<string | null>(null);
 
 /** The first visit begins with the tour. */
 export const panel = signal<Panel>('tour');
 export const tool = signal<Tool>('look');
+/** A hand holds or pushes tissue of the living valve. */
+export const handing = signal(false);
 export const map = signal<MapName>('tissue');
 export const openness = signal(1);
 export const sectionOn = signal(false);
@@ -63,7 +68,11 @@ export const compareWith = signal<string | null>(null);
 export const compared = signal<Shown | null>(null);
 
 export const busy = signal<{ text: string; share: number; cancel?: () => void } | null>(null);
-export const notice = signal<{ text: string; kind: 'info' | 'error' } | null>(null);
+export const notice = signal<{
+  text: string;
+  kind: 'info' | 'error';
+  action?: { text: string; run: () => void };
+} | null>(null);
 /** The sentence of the polite status line. */
 export const status = signal('');
 
@@ -72,17 +81,17 @@ export const title = signal('');
 export const notes = signal('');
 export const changed = signal(false);
 export const cost = signal<{ hash: string; value: Cost } | null>(null);
+/** ml/s through the open valve, where it is known. */
+export const flow = signal<number | null>(null);
 export const spread = signal<{ hash: string; value: Spread } | null>(null);
-export const tour = signal<{ number: number; founding: FoundingResult | null; startArea: number } | null>(
-  null,
-);
+export const tour = signal<{ number: number; founding: FoundingResult | null } | null>(null);
 /** A surface that a valve is to be built from, the clicked points, and the findings. */
 export interface Imported {
   name: string;
   bytes: Uint8Array;
   unit: string;
   surface: Surface;
-  points: { annulus: number[][]; commissures: number[][]; anterior: number[][] };
+  points: { annulus: number[][]; commissures: number[][]; anterior: number[][]; tips: number[][] };
   findings: Finding[];
 }
 export const imported = signal<Imported | null>(null);
@@ -109,6 +118,15 @@ export const before = computed<Figures | null>(() => {
   const begin = first.value?.figures;
   return begin && begin.hash !== main.value?.figures.hash ? begin : null;
 });
+/** The kind of stitches. */
+const suture = 7;
+/** The chord that the preview adds; stitches of a clip or a suture do not count. */
+export const added = computed(() => {
+  const old = new Set(main.value?.figures.chords.map((chord) => chord.id));
+  return preview.value?.figures.chords.find((chord) => chord.kind !== suture && !old.has(chord.id)) ?? null;
+});
+/** What is shown belongs to an older form than the present one: its shape is still to come. */
+export const outdated = computed(() => pending.value && previewed.value !== draft.value);
 export const picture = computed<Picture | null>(
   () => motion.value?.picture ?? (preview.value ?? main.value)?.picture ?? null,
 );

@@ -100,7 +100,7 @@ export const operationWords: Record<string, Words> = {
   },
   clip: {
     title: 'Clip',
-    short: 'Join A2 and P2 edge to edge',
+    short: 'Join A2 and P2 edge to edge; drag the blue ball along the edge',
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
@@ -112,7 +112,7 @@ export const operationWords: Record<string, Words> = {
   },
   resect: {
     title: 'Resection',
-    short: 'Take out a piece of a scallop and suture',
+    short: 'Take out a piece of a leaflet and suture',
     fields: {
       scallop: 'Scallop',
       position: 'Position along the scallop',
@@ -165,6 +165,7 @@ export const t = {
   building: 'Building the valve…',
   reading: 'Reading the file…',
   cancel: 'Cancel',
+  sessionFile: 'Repair session',
   sessionOpened: 'Session opened. The plan was repeated and gives exactly the saved valve.',
   sessionDiffers:
     'Session opened, but the repeated plan differs from the saved valve: it was saved by another version.',
@@ -186,6 +187,20 @@ export const kinds = ['Other', 'Marginal', 'Rough zone', 'Strut', 'Basal', 'Comm
 export { number as figure };
 
 export const tourTexts = {
+  valveOf: (k: number) => `Valve ${k}`,
+  hint: 'A hint',
+  goal: (number: number) => `Goals of valve ${number}`,
+  repair: 'Repair this valve',
+  next: 'Next valve',
+  study: 'What the study’s surgeon did',
+  columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Healthy' },
+  rows: {
+    leak: 'Leak, mm²',
+    coaptation: 'Coaptation, mm',
+    over: 'Chordae beyond limit',
+    area: 'Open area, cm²',
+    ap: 'Annulus AP, mm',
+  },
   heading: 'Learn it on three leaking valves',
   intro: [
     'A surgeon in the study of 2011 learned this kind of program in ten minutes and sealed these three valves.',
@@ -213,12 +228,13 @@ export const tourTexts = {
   ],
   goals: {
     sealed: 'No leak under 120 mmHg',
-    chords: (healthy: number) =>
-      healthy > 0
-        ? `No more chordae beyond their limit than in the healthy valve (${healthy})`
-        : 'No chord beyond its working limit',
+    chords: (healthy: number | undefined) =>
+      healthy === 0
+        ? 'No chord beyond its working limit'
+        : `No more chordae beyond their limit than in the healthy valve${healthy ? ` (${healthy})` : ''}`,
     open: 'Opens to at least 90 % of the healthy area',
   },
+  shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens wide' },
   won: 'All goals reached.',
 };
 
@@ -252,6 +268,11 @@ export const mapWords: Record<string, { title: string; scale: string }> = {
 };
 
 export const importTexts = {
+  set: (count: number) => `${count} set`,
+  guessed: 'will be guessed',
+  clear: 'Clear',
+  build: 'Build the valve',
+  leave: 'Leave',
   none: 'Drop a surface file (STL, PLY, OBJ) on the picture, or choose Open.',
   intro:
     'Mark what you know by clicking on the surface; the rest is guessed from its shape and listed afterwards. The two commissures help most.',
@@ -261,8 +282,317 @@ export const importTexts = {
     commissures: 'Both commissures',
     anterior: 'A point of the anterior leaflet',
     annulus: 'Points along the annulus',
+    tips: 'Papillary tips',
   },
-  tips: 'Papillary tips and chordae are placed by normal anatomy.',
+  tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
   found: 'What was found and what was guessed',
   sources: ['', 'given', 'measured', 'guessed', 'normal anatomy'],
+};
+
+export const verdictTexts = {
+  surface: 'A surface, not a valve yet',
+  preview: 'preview',
+  trying: 'trying…',
+  measuring: 'Measuring…',
+  notAtRest: 'Not at rest',
+  notFinal: 'The valve did not come to rest; its figures are not final.',
+  leak: 'mm² leak',
+  atPressure: ' at 120 mmHg',
+  was: (orifice: number) => ` was ${number(orifice)}`,
+  at: (place: string) => `at ${place}`,
+  meet: (length: string) => `leaflets meet over ${length} mm`,
+  chordsOver: (count: number, healthy: number | undefined) =>
+    `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit` +
+    (healthy ? ` (healthy valve: ${healthy})` : ''),
+};
+
+export const leaveTexts = {
+  left: (title: string) => `The changed plan “${title || 'without a name'}” was closed.`,
+  back: 'Return to it',
+};
+
+export const partTexts = {
+  before: (value: string) => `before ${value}`,
+  range: (low: string, high: string) => `${low} to ${high}`,
+  spreadHelp: 'Over eight ways in which the closed leaflets can fold',
+};
+
+export const appTexts = {
+  panels: 'Panels',
+  valve: 'Valve',
+  repair: 'Repair',
+  plan: 'Plan',
+  tour: 'Learn',
+  notApplied: 'A preview, not applied yet',
+  apply: 'Apply',
+  discard: 'Discard',
+  close: 'Close',
+  closing: 'The valve is being closed…',
+  stopped: 'The page stopped',
+  again: 'Load it again',
+  picture: 'Picture of the valve',
+};
+
+export const barTexts = {
+  open: 'Open',
+  save: 'Save',
+  undo: 'Undo',
+  redo: 'Redo',
+  healthy: 'Healthy valve',
+  help: 'Keys and help',
+  view: 'View',
+  viewOf: (name: string) => `View: ${name}`,
+  presets: { surgeon: 'Surgeon', ventricle: 'Ventricle', commissure: 'Side', section: 'Section' },
+  opened: 'Open',
+  closed: 'Closed',
+  opening: 'Open or closed',
+  show: 'Show',
+  cut: 'Cut at the section plane',
+  chordae: 'Chordae',
+  names: 'Names',
+  pointer: 'Pointer',
+  look: 'Turn and choose',
+  grasp: 'Grasp and pull tissue',
+  push: 'Push tissue with a ball',
+  colours: 'Colours',
+  atrial: 'atrial side',
+  ventricular: 'ventricular side',
+  leak: 'leak',
+  over: 'chord beyond its limit',
+};
+
+export const valveTexts = {
+  coaptationMean: 'Coaptation length, mean',
+  coaptationMeanHelp:
+    'Length over which the leaflets lie against each other. Surgeons aim at 8 mm or more at A2-P2.',
+  coaptationHeight: 'Coaptation height, A2–P2',
+  tenting: 'Tenting height',
+  tentingHelp: 'Deepest point of the closed leaflets below the plane of the annulus',
+  prolapse: 'Prolapse above annulus',
+  prolapseHelp: 'Highest point above the surface of the annulus; more than 2 mm is prolapse',
+  annulus: 'Annulus',
+  ap: 'Front to back (AP)',
+  cc: 'Side to side (CC)',
+  circumference: 'Circumference',
+  area: 'Area',
+  section: 'Section through the valve',
+  physics: 'Physics',
+  coaptationArea: 'Coaptation area',
+  coaptationLeast: 'Coaptation, least',
+  tentingVolume: 'Tenting volume',
+  prolapseVolume: 'Prolapse volume',
+  saddle: 'Saddle height',
+  angle: 'Non-planar angle',
+  stretch95: 'Leaflet stretch, 95 % below',
+  stress95: 'Leaflet stress, 95 % below',
+  strongestPull: 'Strongest chord pull',
+  pullOn: (head: string) => `Pull on ${head}`,
+  head: (h: number) => `head ${h}`,
+  closedAt: 'Closed at 120 mmHg. Fingerprint of this valve:',
+  howCertain: 'How certain? Close it 8 times',
+  spread: (converged: number, members: number, shapes: number, apart: number) =>
+    `${converged} of ${members} closures at rest, ${shapes} ${shapes === 1 ? 'shape' : 'different folds'}, at most ${number(apart)} mm apart.`,
+  spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
+  opens: 'How far it opens',
+  openArea: 'Open area in diastole',
+  openAreaHelp: 'Smallest opening at 5 mmHg',
+  annulusPull: 'Pull on the annulus',
+  measureOpen: 'Measure the open area',
+  flow: 'Flow through the open valve',
+  flowUnit: 'ml/s',
+  flowHint: 'Mean flow while the ventricle fills, about 200 ml/s at rest. Without it there is no gradient.',
+  gradient: 'Mean pressure gradient',
+  gradientHelp:
+    'Pressure lost by the flow through the open area; more than 5 mmHg is too much after a repair',
+};
+
+export const tableTexts = {
+  scallops: 'Scallop by scallop',
+  scallop: 'Scallop',
+  coaptation: 'Coaptation',
+  leak: 'Leak',
+  prolapse: 'Prolapse',
+  commissure: (name: string) => `Commissure ${name}`,
+  was: (value: string) => ` was ${value}`,
+  chordae: (count: number) => `Chordae (${count})`,
+  chordaeHint: 'The most loaded first. Choose one to shorten, lengthen or cut it.',
+  chord: 'Chord',
+  kind: 'Kind',
+  length: 'Length',
+  pull: 'Pull',
+  ofLimit: 'Of limit',
+  slack: 'slack',
+};
+
+/** Fewest points of a ring from a file. */
+export const fewestPoints = 8;
+
+export const deviceTexts = {
+  title: (count: number) => `Rings, clips, artificial chordae (${count})`,
+  device: 'Device',
+  figures: 'Figures',
+  ring: (cc: number, ap: number, round: number) =>
+    `${number(cc)} mm wide, ${number(ap)} mm front to back, ${number(round, 0)} mm around`,
+  band: (length: number) => `${number(length, 0)} mm long`,
+  clip: (stitches: number, pull: number) => `${stitches} stitches, strongest pull ${number(pull, 2)} N`,
+  neochord: (chord: { length: number; tension: number; heads: string; scallops: string }) =>
+    `${chord.heads} to ${chord.scallops}, ${number(chord.length)} mm, ${chord.tension > 0 ? `pull ${number(chord.tension, 2)} N` : 'slack'}`,
+};
+
+export const formTexts = {
+  leave: 'Leave without a change',
+  more: 'More',
+  enter: '(Enter)',
+  questions: {
+    site: 'Click the place on the leaflet.',
+    head: 'Click a papillary head, or choose it below.',
+    chord: 'Click a chord, or choose it below.',
+    scallop: 'Click a scallop, or choose it below.',
+    points: 'Click along the cut on the leaflet, from free edge to free edge.',
+  } as Record<string, string>,
+  change: (was: number, now: number) =>
+    `was ${number(was)} mm, ${now < was ? 'shorter' : 'longer'} by ${number(Math.abs(now - was))} mm`,
+  leftEmpty: (fallback: string) => `left empty: ${fallback}`,
+  auto: 'auto',
+  choose: 'choose…',
+  none: 'none',
+  default: 'default',
+  pick: (label: string) => `Pick in the picture: ${label}`,
+  picked: (scallop: string) => `picked on ${scallop}`,
+  along: 'Along the scallop',
+  height: 'From annulus to free edge',
+  axes: ['Towards the front', 'To the side', 'Towards the atrium'],
+  axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
+};
+
+export const pointTexts = {
+  draw: 'Draw the cut in the picture',
+  drawAgain: 'Draw it again',
+  outlined: 'Cut as drawn.',
+  use: 'Use this cut',
+  back: 'Remove last point',
+  count: (count: number) =>
+    count < 2
+      ? 'Click two or more points on the leaflet, around the piece to take out.'
+      : `${count} points; the ends lead to the free edge.`,
+  curve: 'Or a measured ring, from a file',
+  curveHint: 'One point of the ring in each line: x, y, z in mm or m (text, CSV, OBJ).',
+  curveRead: (count: number) => `${count} points read; the ring is laid on the annulus.`,
+  fewPoints: (name: string, count: number) =>
+    `${name} has ${count} lines with x, y and z: a ring needs at least ${fewestPoints}.`,
+  remove: 'Remove',
+};
+
+export const repairTexts = {
+  more: 'More operations',
+  hint: 'Click a chord, a papillary head or a leaflet in the picture, or choose an operation.',
+  chord: (name: string) => `Chord ${name}`,
+  between: (kind: string, heads: string, scallops: string) =>
+    `${kind}, ${heads || 'branch'} to ${scallops || 'branch'}`,
+  rest: 'Length without pull',
+  pull: 'Pull',
+  stretch: 'Stretch',
+  slack: 'slack',
+  ofLimit: (stretch: number, share: number) =>
+    `${number(100 * stretch)} %, ${Math.round(100 * share)} % of its limit`,
+  changeLength: 'Change length',
+  cut: 'Cut',
+  transfer: 'Transfer',
+  drag: 'Or drag the blue chord in the picture: towards the muscle shortens it.',
+  head: (name: string) => `Papillary head ${name}`,
+  pullOfChordae: 'Pull of its chordae',
+  neochordFrom: 'Artificial chord from here',
+  move: 'Move',
+  scallop: (name: string) => `Scallop ${name}`,
+  coaptation: 'Coaptation',
+  leak: 'Leak',
+  prolapse: 'Prolapse',
+  none: 'none',
+  neochord: 'Artificial chord',
+  resect: 'Resect',
+};
+
+export const planTexts = {
+  nothing: 'Nothing has been done yet. Operations appear here one by one.',
+  checkpoints: 'Checkpoints',
+  checkpointName: 'Name of the checkpoint',
+  planOf: (k: number) => `Plan ${k}`,
+  keep: 'Keep',
+  returnTo: 'Return to it',
+  compare: 'Compare',
+  present: 'Present plan',
+  steps: 'Steps',
+  none: 'none',
+  notes: 'Notes',
+  save: 'Save session',
+  obj: 'Valve as OBJ',
+  report: 'Report',
+  autosave: 'Keep a copy in this browser, to recover after a crash',
+  autosaveHint:
+    'Any page opened from this computer’s disk in this browser could read that copy, and the browser may remove it. Nothing is sent anywhere.',
+  keepFile: 'Save every change to a file…',
+  keptFile: (name: string) => `Every change is saved to ${name}.`,
+  stopFile: 'Stop',
+  noFile: 'This browser cannot save changes to a file by itself: use “Save session”.',
+  noStorage: 'This browser refuses storage to pages from disk: save the session to a file.',
+};
+
+/** Names of figures in the comparison and in the report. */
+export const figureNames = {
+  orifice: 'Leak',
+  coaptationMean: 'Coaptation length, mean',
+  coaptationHeight: 'Coaptation height A2–P2',
+  tentingHeight: 'Tenting height',
+  billowHeight: 'Prolapse above annulus',
+  annulusAp: 'Annulus front to back',
+  annulusCc: 'Annulus side to side',
+  chordsOver: 'Chordae beyond their limit',
+  maxChordTension: 'Strongest chord pull',
+};
+
+export const reportTexts = {
+  title: 'Report',
+  fileTitle: 'Valve report',
+  fileName: (title: string) => `${title || 'valve'} report.html`,
+  closed: (when: string) => `${when}. Closed at 120 mmHg.`,
+  before: 'Before',
+  after: 'After',
+  plan: 'Plan',
+  nothing: 'Nothing was done.',
+  figures: 'Figures',
+  notes: 'Notes',
+  foot: (version: string, hash: string) =>
+    `libmvs ${version}, fingerprint ${hash}. Research simulator: not for decisions on treatment.`,
+  save: 'Save as HTML',
+  print: 'Print',
+  verdict: (word: string, place: string) => word + (place ? ` at ${place}` : ''),
+};
+
+export const dialogTexts = {
+  pointer:
+    'Left button or one finger turns; right button or two fingers move; wheel or pinch zooms. Click chooses.',
+  licences: 'Licences',
+  about: (version: string) =>
+    `${t.research} libmvs ${version}. The page calculates in your browser and cannot connect to anything.`,
+  left: (title: string, saved: string) => `A session was left here: ${title || 'without a name'}, ${saved}.`,
+  recover: 'Recover it',
+  forget: 'Delete it',
+};
+
+export const sectionTexts = {
+  label: 'Section through the leaflets',
+  posterior: 'posterior',
+  anterior: 'anterior',
+  scale: '10 mm',
+  healthy: 'healthy',
+  now: 'now',
+  before: 'before',
+  preview: 'preview',
+  plane: (mm: number) => `Plane, from the middle: ${mm.toFixed(1)} mm`,
+  cut: 'Cut the picture at this plane',
+};
+
+export const gestureTexts = {
+  chord: (name: string, length: number, tension: number) =>
+    `${name}: ${number(length)} mm, pull ${number(tension, 2)} N`,
 };

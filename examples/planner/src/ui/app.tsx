@@ -1,9 +1,11 @@
 // The page: bar, picture, panels, dialogs, keys.
 import { useEffect, useRef } from 'preact/hooks';
-import { apply, discard, openFile, openTo, redo, undo } from '../store/actions';
+import { apply, discard } from '../store/edit';
+import { openFile } from '../store/files';
+import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { help } from '../text/texts';
+import { appTexts, help, t } from '../text/texts';
 import type { MapName } from '../view/colours';
 import { maps } from '../view/colours';
 import type { Preset } from '../view/camera';
@@ -15,21 +17,26 @@ import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
 import { chooseFile, Scale, TopBar, ViewBar } from './toolbar';
 import { TourPanel } from './tour';
-import { ValvePanel, Verdict } from './valve';
+import { ValvePanel } from './valve';
+import { Verdict } from './verdict';
 
 let viewport: Viewport | null = null;
 export const view = (): Viewport | null => viewport;
 const go = (preset: Preset): void => viewport?.go(preset);
 
 const panels: [state.Panel, string, string][] = [
-  ['valve', 'Valve', 'V'],
-  ['repair', 'Repair', 'R'],
-  ['plan', 'Plan', 'P'],
-  ['tour', 'Learn', 'L'],
+  ['valve', appTexts.valve, 'V'],
+  ['repair', appTexts.repair, 'R'],
+  ['plan', appTexts.plan, 'P'],
+  ['tour', appTexts.tour, 'L'],
 ];
 
 function Panels() {
   const panel = state.panel.value;
+  const body = useRef<HTMLDivElement>(null);
+  // another panel or form begins at its top
+  const form = state.draft.value?.kind;
+  useEffect(() => body.current?.scrollTo(0, 0), [panel, form]);
   const steps = (by: number) => {
     const k = panels.findIndex(([name]) => name === panel);
     state.panel.value = panels[(k + by + panels.length) % panels.length][0];
@@ -40,17 +47,17 @@ function Panels() {
       <Verdict />
       {state.draft.value && panel !== 'repair' && (
         <div class="pending" role="status">
-          <span>A preview, not applied yet</span>
+          <span>{appTexts.notApplied}</span>
           <Button kind="main" disabled={!state.preview.value} onClick={() => void apply()}>
-            Apply
+            {appTexts.apply}
           </Button>
-          <Button onClick={discard}>Discard</Button>
+          <Button onClick={discard}>{appTexts.discard}</Button>
         </div>
       )}
       <div
         class="tabs"
         role="tablist"
-        aria-label="Panels"
+        aria-label={appTexts.panels}
         onKeyDown={(event) => {
           if (event.key === 'ArrowRight') steps(1);
           else if (event.key === 'ArrowLeft') steps(-1);
@@ -71,7 +78,7 @@ function Panels() {
           </button>
         ))}
       </div>
-      <div class="panel" id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}>
+      <div class="panel" ref={body} id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}>
         {panel === 'valve' && <ValvePanel />}
         {panel === 'repair' && <RepairPanel />}
         {panel === 'plan' && <PlanPanel />}
@@ -91,7 +98,7 @@ function Busy() {
       <progress max="1" value={busy.share || undefined} />
       {busy.cancel && (
         <button type="button" class="link" onClick={busy.cancel}>
-          Cancel
+          {t.cancel}
         </button>
       )}
     </div>
@@ -184,10 +191,10 @@ export function App() {
   if (state.broken.value) {
     return (
       <div class="broken" role="alert">
-        <h1>The page stopped</h1>
+        <h1>{appTexts.stopped}</h1>
         <p>{state.broken.value}</p>
         <button type="button" class="button main" onClick={() => location.reload()}>
-          Load it again
+          {appTexts.again}
         </button>
       </div>
     );

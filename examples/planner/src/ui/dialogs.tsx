@@ -1,10 +1,10 @@
 // Dialogs: the list of keys, the report; a notice at the foot of the page; the offer to recover a session.
 import { useEffect, useRef } from 'preact/hooks';
 import type { ComponentChildren } from 'preact';
-import { fail } from '../store/actions';
+import { fail } from '../store/requests';
 import { forgetCopy, recover, recoverable } from '../store/keep';
 import * as state from '../store/state';
-import { help, t } from '../text/texts';
+import { appTexts, barTexts, dialogTexts, help } from '../text/texts';
 import { Button } from './parts';
 import { ReportDialog } from './report';
 
@@ -23,7 +23,7 @@ export function Modal(props: { title: string; wide?: boolean; children: Componen
       <div class="form-head">
         <h2>{props.title}</h2>
         <Button kind="quiet" onClick={close}>
-          Close
+          {appTexts.close}
         </Button>
       </div>
       {props.children}
@@ -34,7 +34,7 @@ export function Modal(props: { title: string; wide?: boolean; children: Componen
 export function Dialogs() {
   if (state.dialog.value === 'keys') {
     return (
-      <Modal title="Keys and help">
+      <Modal title={barTexts.help}>
         <table class="table">
           <tbody>
             {help.keys.map(([key, text]) => (
@@ -47,18 +47,12 @@ export function Dialogs() {
             ))}
           </tbody>
         </table>
-        <p>
-          Left button or one finger turns; right button or two fingers move; wheel or pinch zooms. Click
-          chooses.
-        </p>
+        <p>{dialogTexts.pointer}</p>
         <details class="section">
-          <summary>Licences</summary>
+          <summary>{dialogTexts.licences}</summary>
           <pre class="licences">{document.getElementById('licences')?.textContent}</pre>
         </details>
-        <p class="hint">
-          {t.research} libmvs {state.version.value}. The page calculates in your browser and cannot connect to
-          anything.
-        </p>
+        <p class="hint">{dialogTexts.about(state.version.value)}</p>
       </Modal>
     );
   }
@@ -70,7 +64,7 @@ export function Notice() {
   const notice = state.notice.value;
   useEffect(() => {
     if (notice?.kind !== 'info') return;
-    const timer = setTimeout(() => (state.notice.value = null), 8000);
+    const timer = setTimeout(() => (state.notice.value = null), notice.action ? 30_000 : 8000);
     return () => clearTimeout(timer);
   }, [notice]);
   if (!notice) return null;
@@ -81,8 +75,13 @@ export function Notice() {
       data-testid="notice"
     >
       <span>{notice.text}</span>
+      {notice.action && (
+        <Button kind="main" onClick={() => ((state.notice.value = null), notice.action!.run())}>
+          {notice.action.text}
+        </Button>
+      )}
       <Button kind="quiet" onClick={() => (state.notice.value = null)}>
-        Close
+        {appTexts.close}
       </Button>
     </div>
   );
@@ -93,13 +92,11 @@ export function Recovery() {
   if (!kept || !state.ready.value) return null;
   return (
     <div class="notice info" role="status" data-testid="recovery">
-      <span>
-        A session was left here: {kept.title || 'without a name'}, {new Date(kept.saved).toLocaleString()}.
-      </span>
+      <span>{dialogTexts.left(kept.title, new Date(kept.saved).toLocaleString())}</span>
       <Button kind="main" onClick={() => void recover().catch(fail)}>
-        Recover it
+        {dialogTexts.recover}
       </Button>
-      <Button onClick={() => void forgetCopy().catch(fail)}>Delete it</Button>
+      <Button onClick={() => void forgetCopy().catch(fail)}>{dialogTexts.forget}</Button>
     </div>
   );
 }

@@ -1,10 +1,11 @@
 // Fields of operations: a number with a slider, a part of the valve, a place on a leaflet, a choice, a direction, a text.
 import { Crosshair } from 'lucide-preact';
-import { setField } from '../store/actions';
+import { pickField, setField } from '../store/edit';
 import * as state from '../store/state';
-import { figure } from '../text/texts';
+import { formTexts } from '../text/texts';
 import type { FieldInfo, FieldValue, Site } from '../protocol';
 import { Button } from './parts';
+import { PointsField } from './points';
 
 /** Ranges and steps of sliders: usual values, where the library accepts more. */
 const sliders: Record<string, Record<string, [number, number, number]>> = {
@@ -36,6 +37,7 @@ export function Field(props: FieldProps) {
   if (field.type === 'site') return <SiteField {...props} />;
   if (field.type === 'choice') return <ChoiceField {...props} />;
   if (field.type === 'vector') return <VectorField {...props} />;
+  if (field.type === 'points') return <PointsField {...props} />;
   return <TextField {...props} />;
 }
 
@@ -49,6 +51,17 @@ function restOfChord(): number | null {
   return state.main.value?.figures.chords.find((chord) => chord.id === id)?.rest ?? null;
 }
 
+/** The value of an empty field; "0, the middle" is 0. Only plain numbers are free of units. */
+function fallbackOf(field: FieldInfo): number | undefined {
+  if (!field.fallback) return undefined;
+  const value = Number.isFinite(field.fallbackValue)
+    ? field.fallbackValue
+    : field.unit
+      ? NaN
+      : parseFloat(field.fallback);
+  return Number.isFinite(value) ? value : undefined;
+}
+
 function NumberField(props: FieldProps) {
   const { kind, field } = props;
   const value = state.draft.value?.fields[field.name] as number | undefined;
@@ -57,7 +70,8 @@ function NumberField(props: FieldProps) {
   const unit = percent ? '%' : field.unit;
   const range = sliders[kind]?.[field.name];
   const rest = kind === 'chord_length' && field.name === 'length' ? restOfChord() : null;
-  const fallback = Number.isFinite(field.fallbackValue) && field.fallback ? field.fallbackValue : undefined;
+  const given = fallbackOf(field);
+  const fallback = field.name === 'length' ? (state.added.value?.rest ?? given) : given;
   const set = (text: string) => {
     const number = parseFloat(text.replace(',', '.'));
     setField(field.name, Number.isFinite(number) ? number / scale : undefined);
@@ -70,15 +84,21 @@ function NumberField(props: FieldProps) {
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <div class="number">
         {range && (
-          <input
-            type="range"
-            aria-label={labelOf(props)}
-            min={low! * scale}
-            max={high! * scale}
-            step={range[2] * scale}
-            value={(shown ?? (low! + high!) / 2) * scale}
-            onInput={(event) => set(event.currentTarget.value)}
-          />
+          <span class="slide">
+            <input
+              type="range"
+              aria-label={labelOf(props)}
+              min={low! * scale}
+              max={high! * scale}
+              step={range[2] * scale}
+              value={(shown ?? (low! + high!) / 2) * scale}
+              onInput={(event) => set(event.currentTarget.value)}
+            />
+            <span class="ends" aria-hidden="true">
+              <i>{+(low! * scale).toPrecision(4)}</i>
+              <i>{+(high! * scale).toPrecision(4)}</i>
+            </span>
+          </span>
         )}
         <input
           id={`f-${field.name}`}
@@ -87,19 +107,19 @@ function NumberField(props: FieldProps) {
           step="any"
           value={value === undefined ? '' : +(value * scale).toPrecision(6)}
           placeholder={
-            fallback !== undefined ? String(+(fallback * scale).toPrecision(4)) : field.fallback ? 'auto' : ''
+            fallback !== undefined
+              ? String(+(fallback * scale).toPrecision(3))
+              : field.fallback
+                ? formTexts.auto
+                : ''
           }
           onChange={(event) => set(event.currentTarget.value)}
         />
         <span class="unit">{unit}</span>
       </div>
-      {rest !== null && value !== undefined && (
-        <small>
-          was {figure(rest)} mm, {value < rest ? 'shorter' : 'longer'} by {figure(Math.abs(value - rest))} mm
-        </small>
-      )}
+      {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}
       {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && (
-        <small>left empty: {field.fallback}</small>
+        <small>{formTexts.leftEmpty(field.fallback)}</small>
       )}
     </div>
   );
@@ -112,11 +132,8 @@ function PickButton({ field }: { field: FieldInfo }) {
       kind="quiet"
       pressed={on}
       icon={<Crosshair size={16} />}
-      label={`Pick in the picture: ${field.label || field.name}`}
-      onClick={() => {
-        state.preview.value = null;
-        state.picking.value = on ? null : field.name;
-      }}
+      label={formTexts.pick(field.label || field.name)}
+      onClick={() => pickField(on ? null : field.name)}
     />
   );
 }
@@ -136,7 +153,7 @@ function PartField(props: FieldProps) {
           value={value ?? ''}
           onChange={(event) => setField(field.name, event.currentTarget.value || undefined)}
         >
-          <option value="">{field.required ? 'choose…' : field.fallback || 'none'}</option>
+          <option value="">{field.required ? formTexts.choose : field.fallback || formTexts.none}</option>
           {parts?.map((part) => (
             <option value={part.id}>{part.name}</option>
           ))}
@@ -173,18 +190,18 @@ function SiteField(props: FieldProps) {
           value={scallopOf()}
           onChange={(event) => set({ scallop: event.currentTarget.value })}
         >
-          <option value="">choose…</option>
+          <option value="">{formTexts.choose}</option>
           {topology?.scallops.map((part) => (
             <option value={part.id}>{part.name}</option>
           ))}
         </select>
         <PickButton field={field} />
       </div>
-      {value && 'triangle' in value && <small>picked on {name}</small>}
+      {value && 'triangle' in value && <small>{formTexts.picked(name ?? '')}</small>}
       {value && !('triangle' in value) && (
         <>
           <label class="slider">
-            <span>Along the scallop</span>
+            <span>{formTexts.along}</span>
             <input
               type="range"
               min="0"
@@ -195,7 +212,7 @@ function SiteField(props: FieldProps) {
             />
           </label>
           <label class="slider">
-            <span>From annulus to free edge</span>
+            <span>{formTexts.height}</span>
             <input
               type="range"
               min="0.1"
@@ -224,7 +241,7 @@ function ChoiceField(props: FieldProps) {
           setField(field.name, event.currentTarget.value === '' ? undefined : +event.currentTarget.value)
         }
       >
-        <option value="">{field.fallback || 'default'}</option>
+        <option value="">{field.fallback || formTexts.default}</option>
         {field.choices.map((choice) => (
           <option value={choice.value}>{choice.name.replace(/_/g, ' ')}</option>
         ))}
@@ -233,19 +250,15 @@ function ChoiceField(props: FieldProps) {
   );
 }
 
-const axes = ['Towards the front', 'To the side', 'Towards the atrium'];
-
 function VectorField(props: FieldProps) {
   const { field } = props;
   const value = (state.draft.value?.fields[field.name] as [number, number, number] | undefined) ?? [0, 0, 0];
   return (
     <fieldset class="field" title={field.help}>
       <legend>{labelOf(props)}</legend>
-      {axes.map((axis, c) => (
+      {formTexts.axes.map((axis, c) => (
         <label class="slider">
-          <span>
-            {axis}: {figure(value[c])} mm
-          </span>
+          <span>{formTexts.axis(axis, value[c])}</span>
           <input
             type="range"
             min="-10"

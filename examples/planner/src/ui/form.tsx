@@ -1,9 +1,9 @@
 // The form of an operation, generated from the library's table: numbers as sliders with a box, parts as lists
 // that a click in the picture fills too, fields that few need behind "More".
 import { Check, Crosshair, X } from 'lucide-preact';
-import { apply, complete, discard } from '../store/actions';
+import { apply, complete, discard, replacements } from '../store/edit';
 import * as state from '../store/state';
-import { t, wordsOf } from '../text/texts';
+import { appTexts, formTexts, t, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 import { Field } from './fields';
 import { Button, Section } from './parts';
@@ -20,7 +20,7 @@ const prominent: Record<string, string[]> = {
   chord_transfer: ['chord', 'end', 'site', 'head'],
   head_move: ['head', 'by'],
   clip: ['position', 'width', 'anterior', 'posterior'],
-  resect: ['scallop', 'position', 'width', 'depth'],
+  resect: ['outline', 'scallop', 'position', 'width', 'depth'],
   patch: ['site', 'width', 'height'],
 };
 
@@ -30,13 +30,15 @@ export function OperationForm() {
   const words = wordsOf(draft.kind, info.help);
   const first =
     prominent[draft.kind] ?? info.fields.filter((field) => field.required).map((field) => field.name);
-  // outlines and measured curves come from other programs, not from a form
-  const usable = info.fields.filter((field) => field.type !== 'points' && field.type !== 'point');
+  const usable = info.fields.filter((field) => field.type !== 'point' && !field.name.startsWith('landmarks'));
+  const picking = state.picking.value;
+  // a list of points that is given or drawn stands instead of other fields
+  const points = replacements[draft.kind];
+  const hidden = points && (picking === points.points || draft.fields[points.points]) ? points.instead : [];
   const shown = first
     .map((name) => usable.find((field) => field.name === name))
-    .filter((f): f is FieldInfo => !!f);
-  const more = usable.filter((field) => !first.includes(field.name));
-  const picking = state.picking.value;
+    .filter((f): f is FieldInfo => !!f && !hidden.includes(f.name));
+  const more = usable.filter((field) => !first.includes(field.name) && !hidden.includes(field.name));
   const ready = complete(draft.kind, draft.fields);
   return (
     <form
@@ -46,13 +48,7 @@ export function OperationForm() {
     >
       <div class="form-head">
         <h2>{words.title}</h2>
-        <Button
-          kind="quiet"
-          icon={<X size={18} />}
-          label="Leave without a change"
-          keys="Escape"
-          onClick={discard}
-        />
+        <Button kind="quiet" icon={<X size={18} />} label={formTexts.leave} keys="Escape" onClick={discard} />
       </div>
       <p class="hint">{words.short}</p>
       {picking && (
@@ -65,7 +61,7 @@ export function OperationForm() {
         <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
       ))}
       {more.length > 0 && (
-        <Section title="More">
+        <Section title={formTexts.more}>
           {more.map((field) => (
             <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
           ))}
@@ -77,22 +73,20 @@ export function OperationForm() {
         </p>
       )}
       <div class="form-foot">
-        <button type="submit" class="button main" disabled={!state.preview.value || !ready} title="(Enter)">
+        <button
+          type="submit"
+          class="button main"
+          disabled={!ready || !!state.draftMessage.value || picking === points?.points}
+          title={formTexts.enter}
+        >
           <Check size={16} />
-          <span>Apply</span>
+          <span>{appTexts.apply}</span>
         </button>
-        <Button onClick={discard}>Discard</Button>
-        {ready && !state.preview.value && !state.draftMessage.value && (
-          <span class="hint">{t.previewing}</span>
-        )}
+        <Button onClick={discard}>{appTexts.discard}</Button>
+        {ready && state.outdated.value && <span class="hint">{t.previewing}</span>}
       </div>
     </form>
   );
 }
 
-function question(field: FieldInfo): string {
-  if (field.type === 'site') return 'Click the place on the leaflet.';
-  if (field.type === 'head') return 'Click a papillary head, or choose it below.';
-  if (field.type === 'chord') return 'Click a chord, or choose it below.';
-  return 'Click a scallop, or choose it below.';
-}
+const question = (field: FieldInfo): string => formTexts.questions[field.type] ?? '';

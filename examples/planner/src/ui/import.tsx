@@ -1,11 +1,11 @@
 // Bringing in a patient's surface: unit, points that the surgeon knows, building, and the findings.
 import { Hammer } from 'lucide-preact';
-import { beginImport, buildValve } from '../store/actions';
+import { beginImport, buildValve } from '../store/files';
 import * as state from '../store/state';
 import { importTexts } from '../text/texts';
 import { Button } from './parts';
 
-const kinds = ['commissures', 'anterior', 'annulus'] as const;
+const kinds = ['commissures', 'anterior', 'annulus', 'tips'] as const;
 
 export function ImportPanel() {
   const imported = state.imported.value;
@@ -36,11 +36,13 @@ export function ImportPanel() {
             {importTexts.points[kind]}
           </Button>
           <span class="hint">
-            {imported.points[kind].length ? `${imported.points[kind].length} set` : 'will be guessed'}
+            {imported.points[kind].length
+              ? importTexts.set(imported.points[kind].length)
+              : importTexts.guessed}
           </span>
           {imported.points[kind].length > 0 && (
             <Button kind="quiet" onClick={() => clear(kind)}>
-              Clear
+              {importTexts.clear}
             </Button>
           )}
         </div>
@@ -49,9 +51,11 @@ export function ImportPanel() {
       <div class="form-foot">
         <button type="button" class="button main" onClick={() => void buildValve()}>
           <Hammer size={16} />
-          <span>Build the valve</span>
+          <span>{importTexts.build}</span>
         </button>
-        <Button onClick={() => ((state.imported.value = null), (state.panel.value = 'valve'))}>Leave</Button>
+        <Button onClick={() => ((state.imported.value = null), (state.panel.value = 'valve'))}>
+          {importTexts.leave}
+        </Button>
       </div>
     </div>
   );

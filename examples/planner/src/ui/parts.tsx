@@ -1,6 +1,7 @@
 // Small parts that all panels use.
 import type { ComponentChildren, JSX } from 'preact';
-import { figure } from '../text/texts';
+import * as state from '../store/state';
+import { figure, partTexts } from '../text/texts';
 
 export function Figure(props: {
   label: string;
@@ -14,22 +15,23 @@ export function Figure(props: {
   warn?: boolean;
 }) {
   const digits = props.digits ?? 1;
+  const waiting = Number.isNaN(props.value) && state.pending.value;
   const differs = props.before !== undefined && Math.abs(props.before - props.value) >= 0.5 * 10 ** -digits;
   const better = differs && props.good ? (props.good === 'low') === props.value < props.before! : null;
   return (
     <div class={`figure${props.warn ? ' warn' : ''}`} title={props.help}>
       <span class="figure-label">{props.label}</span>
       <span class="figure-value">
-        {figure(props.value, digits)} <small>{props.unit}</small>
+        {waiting ? '…' : figure(props.value, digits)} <small>{props.unit}</small>
       </span>
       {differs && (
         <span class={`figure-before ${better === null ? '' : better ? 'better' : 'worse'}`}>
-          before {figure(props.before!, digits)}
+          {partTexts.before(figure(props.before!, digits))}
         </span>
       )}
       {props.spread && props.spread[1] - props.spread[0] >= 0.5 * 10 ** -digits && (
-        <span class="figure-before" title="Over eight ways in which the closed leaflets can fold">
-          {figure(props.spread[0], digits)} to {figure(props.spread[1], digits)}
+        <span class="figure-before" title={partTexts.spreadHelp}>
+          {partTexts.range(figure(props.spread[0], digits), figure(props.spread[1], digits))}
         </span>
       )}
     </div>

@@ -1,18 +1,28 @@
 // The panel "Plan": operations, checkpoints, two plans side by side, notes, and keeping it all.
 import { useSignal } from '@preact/signals';
 import { Bookmark, Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
-import { redo, undo } from '../store/actions';
+import { redo, undo } from '../store/history';
 import { compareCheckpoint, restoreCheckpoint, saveCheckpoint } from '../store/measure';
-import { allowAutosave, autosave, saveObj, saveSession, storageWorks } from '../store/keep';
+import {
+  allowAutosave,
+  autosave,
+  canKeepFile,
+  chooseKeptFile,
+  keptFile,
+  leaveKeptFile,
+  saveObj,
+  saveSession,
+  storageWorks,
+} from '../store/keep';
 import * as state from '../store/state';
-import { figure, say } from '../text/texts';
+import { appTexts, barTexts, figure, figureNames, planTexts, say } from '../text/texts';
 import type { Measures } from '../protocol';
 import { Button, Section } from './parts';
 
 export function PlanPanel() {
   const figures = state.main.value?.figures;
   const name = useSignal('');
-  if (!figures) return <p class="hint">The valve is being closed…</p>;
+  if (!figures) return <p class="hint">{appTexts.closing}</p>;
   const done = figures.history.filter((entry) => !entry.undone);
   return (
     <div class="panel-body">
@@ -23,7 +33,7 @@ export function PlanPanel() {
           disabled={!state.canUndo.value}
           onClick={() => void undo()}
         >
-          Undo
+          {barTexts.undo}
         </Button>
         <Button
           icon={<Redo2 size={16} />}
@@ -31,7 +41,7 @@ export function PlanPanel() {
           disabled={!state.canRedo.value}
           onClick={() => void redo()}
         >
-          Redo
+          {barTexts.redo}
         </Button>
       </div>
       <h2>{state.title.value || figures.valve}</h2>
@@ -40,13 +50,13 @@ export function PlanPanel() {
           <li class={entry.undone ? 'undone' : ''}>{say(entry.title)}</li>
         ))}
       </ol>
-      {done.length === 0 && <p class="hint">Nothing has been done yet. Operations appear here one by one.</p>}
-      <Section title="Checkpoints" open>
+      {done.length === 0 && <p class="hint">{planTexts.nothing}</p>}
+      <Section title={planTexts.checkpoints} open>
         <form
           class="row"
           onSubmit={(event) => {
             event.preventDefault();
-            const given = name.value.trim() || `Plan ${state.checkpoints.value.length + 1}`;
+            const given = name.value.trim() || planTexts.planOf(state.checkpoints.value.length + 1);
             void saveCheckpoint(given);
             name.value = '';
           }}
@@ -54,52 +64,67 @@ export function PlanPanel() {
           <input
             type="text"
             maxLength={40}
-            aria-label="Name of the checkpoint"
-            placeholder={`Plan ${state.checkpoints.value.length + 1}`}
+            aria-label={planTexts.checkpointName}
+            placeholder={planTexts.planOf(state.checkpoints.value.length + 1)}
             value={name.value}
             onInput={(event) => (name.value = event.currentTarget.value)}
           />
           <button type="submit" class="button plain">
             <Bookmark size={16} />
-            <span>Keep</span>
+            <span>{planTexts.keep}</span>
           </button>
         </form>
         {state.checkpoints.value.map((checkpoint) => (
           <div class="row checkpoint">
             <span>{checkpoint}</span>
-            <Button onClick={() => void restoreCheckpoint(checkpoint)}>Return to it</Button>
+            <Button onClick={() => void restoreCheckpoint(checkpoint)}>{planTexts.returnTo}</Button>
             <Button
               pressed={state.compareWith.value === checkpoint}
               onClick={() =>
                 void compareCheckpoint(state.compareWith.value === checkpoint ? null : checkpoint)
               }
             >
-              Compare
+              {planTexts.compare}
             </Button>
           </div>
         ))}
         {state.compared.value && <SideBySide />}
       </Section>
-      <Section title="Notes">
+      <Section title={planTexts.notes}>
         <textarea
           rows={4}
-          aria-label="Notes"
+          aria-label={planTexts.notes}
           value={state.notes.value}
           onInput={(event) => (state.notes.value = event.currentTarget.value)}
         />
       </Section>
-      <Section title="Keep" open>
+      <Section title={planTexts.keep} open>
         <div class="row">
           <Button kind="main" icon={<Save size={16} />} keys="Control+S" onClick={() => void saveSession()}>
-            Save session
+            {planTexts.save}
           </Button>
           <Button icon={<Download size={16} />} onClick={() => void saveObj()}>
-            Valve as OBJ
+            {planTexts.obj}
           </Button>
           <Button icon={<FileText size={16} />} onClick={() => (state.dialog.value = 'report')}>
-            Report
+            {planTexts.report}
           </Button>
         </div>
+        <div class="row">
+          {keptFile.value ? (
+            <>
+              <span class="hint" role="status" data-testid="kept-file">
+                {planTexts.keptFile(keptFile.value)}
+              </span>
+              <Button kind="quiet" onClick={leaveKeptFile}>
+                {planTexts.stopFile}
+              </Button>
+            </>
+          ) : (
+            canKeepFile && <Button onClick={() => void chooseKeptFile()}>{planTexts.keepFile}</Button>
+          )}
+        </div>
+        {!canKeepFile && <p class="hint">{planTexts.noFile}</p>}
         <label class="check">
           <input
             type="checkbox"
@@ -107,28 +132,24 @@ export function PlanPanel() {
             disabled={!storageWorks.value}
             onChange={(event) => void allowAutosave(event.currentTarget.checked)}
           />
-          Keep a copy in this browser, to recover after a crash
+          {planTexts.autosave}
         </label>
-        <p class="hint">
-          {storageWorks.value
-            ? 'Any page opened from this computer’s disk in this browser could read that copy, and the browser may remove it. Nothing is sent anywhere.'
-            : 'This browser refuses storage to pages from disk: save the session to a file.'}
-        </p>
+        <p class="hint">{storageWorks.value ? planTexts.autosaveHint : planTexts.noStorage}</p>
       </Section>
     </div>
   );
 }
 
 const rows: [string, (m: Measures) => number, number, string][] = [
-  ['Leak', (m) => m.orifice, 1, 'mm²'],
-  ['Coaptation, mean', (m) => m.coaptationMean, 1, 'mm'],
-  ['Coaptation height', (m) => m.coaptationHeight, 1, 'mm'],
-  ['Tenting height', (m) => m.tentingHeight, 1, 'mm'],
-  ['Prolapse', (m) => m.billowHeight, 1, 'mm'],
-  ['Annulus AP', (m) => m.annulusAp, 1, 'mm'],
-  ['Annulus CC', (m) => m.annulusCc, 1, 'mm'],
-  ['Chordae beyond limit', (m) => m.chordsOver, 0, ''],
-  ['Strongest chord pull', (m) => m.maxChordTension, 2, 'N'],
+  [figureNames.orifice, (m) => m.orifice, 1, 'mm²'],
+  [figureNames.coaptationMean, (m) => m.coaptationMean, 1, 'mm'],
+  [figureNames.coaptationHeight, (m) => m.coaptationHeight, 1, 'mm'],
+  [figureNames.tentingHeight, (m) => m.tentingHeight, 1, 'mm'],
+  [figureNames.billowHeight, (m) => m.billowHeight, 1, 'mm'],
+  [figureNames.annulusAp, (m) => m.annulusAp, 1, 'mm'],
+  [figureNames.annulusCc, (m) => m.annulusCc, 1, 'mm'],
+  [figureNames.chordsOver, (m) => m.chordsOver, 0, ''],
+  [figureNames.maxChordTension, (m) => m.maxChordTension, 2, 'N'],
 ];
 
 function SideBySide() {
@@ -140,7 +161,7 @@ function SideBySide() {
         <tr>
           <th></th>
           <th>{state.compareWith.value}</th>
-          <th>Present plan</th>
+          <th>{planTexts.present}</th>
         </tr>
       </thead>
       <tbody>
@@ -156,18 +177,18 @@ function SideBySide() {
           </tr>
         ))}
         <tr class="wrap">
-          <th scope="row">Steps</th>
+          <th scope="row">{planTexts.steps}</th>
           <td>
             {other.history
               .filter((e) => !e.undone)
               .map((e) => say(e.title))
-              .join('; ') || 'none'}
+              .join('; ') || planTexts.none}
           </td>
           <td>
             {now.history
               .filter((e) => !e.undone)
               .map((e) => say(e.title))
-              .join('; ') || 'none'}
+              .join('; ') || planTexts.none}
           </td>
         </tr>
       </tbody>

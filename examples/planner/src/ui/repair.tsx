@@ -15,11 +15,12 @@ import {
   Square,
   Triangle,
 } from 'lucide-preact';
-import { edit } from '../store/actions';
+import { edit } from '../store/edit';
 import * as state from '../store/state';
-import { figure, kinds, wordsOf } from '../text/texts';
+import { appTexts, figure, kinds, repairTexts, wordsOf } from '../text/texts';
 import type { FieldValue } from '../protocol';
 import { OperationForm } from './form';
+import { Goals } from './goals';
 import { Button, Section } from './parts';
 
 const icons: Record<string, typeof Circle> = {
@@ -44,9 +45,9 @@ const order = [
   'neochord',
   'chord_length',
   'chord_remove',
-  'chord_transfer',
-  'clip',
   'resect',
+  'clip',
+  'chord_transfer',
   'patch',
   'head_move',
   'chord_add',
@@ -92,7 +93,7 @@ export function begin(kind: string): void {
 export function RepairPanel() {
   const draft = state.draft.value;
   const known = state.operations.value;
-  if (!state.main.value) return <p class="hint">The valve is being closed…</p>;
+  if (!state.main.value) return <p class="hint">{appTexts.closing}</p>;
   if (draft) return <OperationForm key={draft.kind} />;
   const sorted = [...known].sort((a, b) => rank(a.name) - rank(b.name));
   const cards = (from: number, to: number) =>
@@ -116,9 +117,10 @@ export function RepairPanel() {
     });
   return (
     <div class="panel-body">
+      {state.tour.value && <Goals number={state.tour.value.number} short />}
       <Chosen />
       <div class="cards">{cards(0, often)}</div>
-      <Section title="More operations">
+      <Section title={repairTexts.more}>
         <div class="cards">{cards(often, sorted.length)}</div>
       </Section>
     </div>
@@ -133,44 +135,35 @@ function rank(name: string): number {
 function Chosen() {
   const choice = state.choice.value;
   const figures = state.main.value?.figures;
-  if (!choice || !figures)
-    return (
-      <p class="hint">Click a chord, a papillary head or a leaflet in the picture, or choose an operation.</p>
-    );
+  if (!choice || !figures) return <p class="hint">{repairTexts.hint}</p>;
   if (choice.kind === 'chord') {
     const chord = figures.chords.find((item) => item.id === choice.id);
     if (!chord) return null;
     const share = Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
     return (
       <div class="chosen-card" data-testid="chosen">
-        <h3>Chord {chord.name}</h3>
-        <p>
-          {kinds[chord.kind]}, {chord.heads || 'branch'} to {chord.scallops || 'branch'}
-        </p>
+        <h3>{repairTexts.chord(chord.name)}</h3>
+        <p>{repairTexts.between(kinds[chord.kind], chord.heads, chord.scallops)}</p>
         <dl>
-          <dt>Length without pull</dt>
+          <dt>{repairTexts.rest}</dt>
           <dd>{figure(chord.rest)} mm</dd>
-          <dt>Pull</dt>
+          <dt>{repairTexts.pull}</dt>
           <dd>{figure(chord.tension, 2)} N</dd>
-          <dt>Stretch</dt>
-          <dd>
-            {chord.strain <= 0
-              ? 'slack'
-              : `${figure(100 * chord.strain)} %, ${Math.round(100 * share)} % of its limit`}
-          </dd>
+          <dt>{repairTexts.stretch}</dt>
+          <dd>{chord.strain <= 0 ? repairTexts.slack : repairTexts.ofLimit(chord.strain, share)}</dd>
         </dl>
         <div class="row">
           <Button kind="main" icon={<ArrowUpDown size={16} />} onClick={() => begin('chord_length')}>
-            Change length
+            {repairTexts.changeLength}
           </Button>
           <Button icon={<Scissors size={16} />} onClick={() => begin('chord_remove')}>
-            Cut
+            {repairTexts.cut}
           </Button>
           <Button icon={<Move size={16} />} onClick={() => begin('chord_transfer')}>
-            Transfer
+            {repairTexts.transfer}
           </Button>
         </div>
-        <p class="hint">Or drag the blue chord in the picture: towards the muscle shortens it.</p>
+        <p class="hint">{repairTexts.drag}</p>
       </div>
     );
   }
@@ -180,9 +173,9 @@ function Chosen() {
     if (h < 0) return null;
     return (
       <div class="chosen-card" data-testid="chosen">
-        <h3>Papillary head {topology!.heads[h].name}</h3>
+        <h3>{repairTexts.head(topology!.heads[h].name)}</h3>
         <dl>
-          <dt>Pull of its chordae</dt>
+          <dt>{repairTexts.pullOfChordae}</dt>
           <dd>{figure(figures.heads[h], 2)} N</dd>
         </dl>
         <div class="row">
@@ -190,10 +183,10 @@ function Chosen() {
             icon={<Spline size={16} />}
             onClick={() => (edit('neochord', { head: choice.id }), (state.picking.value = 'site'))}
           >
-            Artificial chord from here
+            {repairTexts.neochordFrom}
           </Button>
           <Button icon={<Grip size={16} />} onClick={() => begin('head_move')}>
-            Move
+            {repairTexts.move}
           </Button>
         </div>
       </div>
@@ -205,21 +198,21 @@ function Chosen() {
   if (!part || !region) return null;
   return (
     <div class="chosen-card" data-testid="chosen">
-      <h3>Scallop {part.name}</h3>
+      <h3>{repairTexts.scallop(part.name)}</h3>
       <dl>
-        <dt>Coaptation</dt>
+        <dt>{repairTexts.coaptation}</dt>
         <dd>{figure(region.coaptationMean)} mm</dd>
-        <dt>Leak</dt>
-        <dd>{region.orifice > 0 ? `${figure(region.orifice)} mm²` : 'none'}</dd>
-        <dt>Prolapse</dt>
-        <dd>{region.billow > 0 ? `${figure(region.billow)} mm` : 'none'}</dd>
+        <dt>{repairTexts.leak}</dt>
+        <dd>{region.orifice > 0 ? `${figure(region.orifice)} mm²` : repairTexts.none}</dd>
+        <dt>{repairTexts.prolapse}</dt>
+        <dd>{region.billow > 0 ? `${figure(region.billow)} mm` : repairTexts.none}</dd>
       </dl>
       <div class="row">
         <Button icon={<Spline size={16} />} onClick={() => begin('neochord')}>
-          Artificial chord
+          {repairTexts.neochord}
         </Button>
         <Button icon={<Triangle size={16} />} onClick={() => edit('resect', { scallop: choice.id })}>
-          Resect
+          {repairTexts.resect}
         </Button>
       </div>
     </div>

@@ -4,7 +4,7 @@ import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
-import { figure, grade, say, where } from '../text/texts';
+import { figure, figureNames, grade, reportTexts, say, where } from '../text/texts';
 import type { Figures, Shown } from '../protocol';
 import { view } from './app';
 import { Modal } from './dialogs';
@@ -46,15 +46,15 @@ function takePictures(): Pictures {
 }
 
 const rows: [string, (f: Figures) => number, number, string][] = [
-  ['Leak', (f) => f.measures.orifice, 1, 'mm²'],
-  ['Coaptation length, mean', (f) => f.measures.coaptationMean, 1, 'mm'],
-  ['Coaptation height A2–P2', (f) => f.measures.coaptationHeight, 1, 'mm'],
-  ['Tenting height', (f) => f.measures.tentingHeight, 1, 'mm'],
-  ['Prolapse above annulus', (f) => f.measures.billowHeight, 1, 'mm'],
-  ['Annulus front to back', (f) => f.measures.annulusAp, 1, 'mm'],
-  ['Annulus side to side', (f) => f.measures.annulusCc, 1, 'mm'],
-  ['Chordae beyond their limit', (f) => f.measures.chordsOver, 0, ''],
-  ['Strongest chord pull', (f) => f.measures.maxChordTension, 2, 'N'],
+  [figureNames.orifice, (f) => f.measures.orifice, 1, 'mm²'],
+  [figureNames.coaptationMean, (f) => f.measures.coaptationMean, 1, 'mm'],
+  [figureNames.coaptationHeight, (f) => f.measures.coaptationHeight, 1, 'mm'],
+  [figureNames.tentingHeight, (f) => f.measures.tentingHeight, 1, 'mm'],
+  [figureNames.billowHeight, (f) => f.measures.billowHeight, 1, 'mm'],
+  [figureNames.annulusAp, (f) => f.measures.annulusAp, 1, 'mm'],
+  [figureNames.annulusCc, (f) => f.measures.annulusCc, 1, 'mm'],
+  [figureNames.chordsOver, (f) => f.measures.chordsOver, 0, ''],
+  [figureNames.maxChordTension, (f) => f.measures.maxChordTension, 2, 'N'],
 ];
 
 function escape(text: string): string {
@@ -62,8 +62,7 @@ function escape(text: string): string {
 }
 
 function verdictOf(figures: Figures): string {
-  const place = where(figures);
-  return grade(figures.measures.orifice).word + (place ? ` at ${place}` : '');
+  return reportTexts.verdict(grade(figures.measures.orifice).word, where(figures));
 }
 
 /** The report as the body of an HTML page. */
@@ -81,13 +80,13 @@ function reportHtml(pictures: Pictures): string {
         `<tr><th>${escape(label)}</th><td>${figure(get(then), digits)} ${unit}</td><td>${figure(get(now), digits)} ${unit}</td></tr>`,
     )
     .join('');
-  return `<h1>${escape(state.title.value || now.valve)}</h1><p>${new Date().toLocaleString()}. Closed at 120 mmHg.</p>
-<div class="pair"><section><h2>Before</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
-<section><h2>After</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
-<h2>Plan</h2><ol>${steps || '<li>Nothing was done.</li>'}</ol>
-<h2>Figures</h2><table><tr><th></th><th>Before</th><th>After</th></tr>${table}</table>
-${state.notes.value ? `<h2>Notes</h2><p>${escape(state.notes.value)}</p>` : ''}
-<p><small>libmvs ${escape(state.version.value)}, fingerprint ${now.hash}. Research simulator: not for decisions on treatment.</small></p>`;
+  return `<h1>${escape(state.title.value || now.valve)}</h1><p>${reportTexts.closed(new Date().toLocaleString())}</p>
+<div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
+<section><h2>${reportTexts.after}</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
+<h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
+<h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}</table>
+${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
+<p><small>${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
 }
 
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
@@ -101,18 +100,18 @@ export function ReportDialog() {
   }, []);
   const save = () =>
     download(
-      `<!doctype html><html lang="en"><meta charset="utf-8"><title>Valve report</title><style>${style}</style><body>${html.value}</body></html>`,
-      `${state.title.value || 'valve'} report.html`,
+      `<!doctype html><html lang="en"><meta charset="utf-8"><title>${reportTexts.fileTitle}</title><style>${style}</style><body>${html.value}</body></html>`,
+      reportTexts.fileName(state.title.value),
       'text/html',
     );
   return (
-    <Modal title="Report" wide>
+    <Modal title={reportTexts.title} wide>
       <div class="row no-print">
         <Button kind="main" icon={<Download size={16} />} onClick={save}>
-          Save as HTML
+          {reportTexts.save}
         </Button>
         <Button icon={<Printer size={16} />} onClick={() => window.print()}>
-          Print
+          {reportTexts.print}
         </Button>
       </div>
       {/* the markup is made above; texts of the user are escaped there */}

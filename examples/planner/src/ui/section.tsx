@@ -1,69 +1,82 @@
-// The section plot: the leaflets in a plane from front to back, now, before, and at a checkpoint, in mm.
+// The section plot: the leaflets in a plane from front to back, healthy, before, now and at a checkpoint, in mm.
 import { useSignal, useSignalEffect } from '@preact/signals';
-import { fail, request } from '../store/actions';
+import { fail, request } from '../store/requests';
 import * as state from '../store/state';
+import { sectionTexts } from '../text/texts';
+import type { Section, SectionRequest } from '../protocol';
 
 interface Curve {
-  points: Float32Array;
+  points: Section;
   style: string;
   name: string;
 }
 
-/** Segments in the plane of the section: AP to the right, into the atrium upwards. */
-function lines(points: Float32Array, f: number[]): string {
+function lines(points: Section): string {
+  const put = (i: number) => `${points[i].toFixed(2)} ${(-points[i + 1]).toFixed(2)}`;
   let path = '';
-  const put = (i: number) => {
-    const d = [points[i] - f[0], points[i + 1] - f[1], points[i + 2] - f[2]];
-    const ap = d[0] * f[3] + d[1] * f[4] + d[2] * f[5];
-    const up = d[0] * f[9] + d[1] * f[10] + d[2] * f[11];
-    return `${ap.toFixed(2)} ${(-up).toFixed(2)}`;
-  };
-  for (let i = 0; i < points.length; i += 6) path += `M${put(i)}L${put(i + 3)}`;
+  for (let i = 0; i < points.length; i += 4) path += `M${put(i)}L${put(i + 2)}`;
   return path;
+}
+
+/** The curves to draw, and a key that changes with the valves, the plane and the preview. */
+function wanted(): { key: string; curves: (Omit<Curve, 'points'> & { which: SectionRequest['which'] })[] } {
+  const preview = state.preview.value?.figures.hash;
+  const first = state.first.value?.figures.hash;
+  const main = state.main.value?.figures.hash;
+  const other = state.compareWith.value;
+  const curves: ReturnType<typeof wanted>['curves'] = [];
+  if (state.tour.value?.founding)
+    curves.push({ which: 'healthy', style: 'healthy', name: sectionTexts.healthy });
+  curves.push(
+    preview
+      ? { which: 'main', style: 'before', name: sectionTexts.before }
+      : { which: 'main', style: 'now', name: sectionTexts.now },
+  );
+  if (preview) curves.push({ which: 'preview', style: 'now', name: sectionTexts.preview });
+  else if (first && first !== main)
+    curves.unshift({ which: 'first', style: 'before', name: sectionTexts.before });
+  if (other) curves.push({ which: `checkpoint ${other}`, style: 'other', name: other });
+  const key = [main, first, preview, other, state.sectionAt.value, curves.length].join();
+  return { key, curves };
 }
 
 export function SectionPlot() {
   const curves = useSignal<Curve[]>([]);
+  const shown = useSignal('');
   useSignalEffect(() => {
-    const f = state.main.value?.figures.frame;
-    const at = state.sectionAt.value;
-    const preview = state.preview.value;
-    const other = state.compareWith.value;
-    if (!f || !state.main.value) return;
-    const point = [0, 1, 2].map((c) => f[c] + at * f[6 + c]);
-    const normal = [f[6], f[7], f[8]];
-    const ask = async (which: string, style: string, name: string): Promise<Curve> => ({
-      points: await request('section', { which, point, normal }),
-      style,
-      name,
+    const frame = state.main.value?.figures.frame;
+    const offset = state.sectionAt.value;
+    const asked = wanted();
+    if (!frame) return;
+    const ask = async ({ which, ...curve }: (typeof asked.curves)[number]): Promise<Curve> => ({
+      ...curve,
+      points: await request('section', { which, frame, offset }),
     });
     const turn = ++lastTurn;
-    const wanted = [ask('main', preview ? 'before' : 'now', preview ? 'before' : 'now')];
-    if (preview) wanted.push(ask('preview', 'now', 'preview'));
-    if (other) wanted.push(ask(other, 'other', other));
-    Promise.all(wanted).then((found) => {
-      if (turn === lastTurn) curves.value = found;
+    Promise.all(asked.curves.map(ask)).then((found) => {
+      if (turn === lastTurn)
+        [curves.value, shown.value] = [found.filter(({ points }) => points.length), asked.key];
     }, fail);
   });
-  const f = state.main.value?.figures.frame;
+  const outdated = state.outdated.value || shown.value !== wanted().key;
   const limit = 0.5 * (state.figures.value?.measures.annulusCc ?? 40);
-  if (!f) return null;
+  if (!state.main.value) return null;
   return (
-    <div>
-      <svg class="plot" viewBox="-26 -12 52 36" role="img" aria-label="Section through the leaflets">
+    <div class={outdated ? 'outdated' : ''} aria-busy={outdated}>
+      <svg class="plot" viewBox="-26 -12 52 36" role="img" aria-label={sectionTexts.label}>
         <line x1="-24" y1="0" x2="24" y2="0" class="plot-axis" />
         <text x="-25" y="-1" class="plot-text">
-          posterior
+          {sectionTexts.posterior}
         </text>
         <text x="25" y="-1" text-anchor="end" class="plot-text">
-          anterior
+          {sectionTexts.anterior}
         </text>
         {curves.value.map((curve) => (
-          <path d={lines(curve.points, f)} class={`plot-${curve.style}`} />
+          <path d={lines(curve.points)} class={`plot-${curve.style}`} />
         ))}
         <line x1="-24" y1="21" x2="-14" y2="21" class="plot-scale" />
         <text x="-19" y="23.5" text-anchor="middle" class="plot-text">
-          10 mm
+          {sectionTexts.scale}
         </text>
       </svg>
       <div class="legend">
@@ -75,7 +88,7 @@ export function SectionPlot() {
         ))}
       </div>
       <label class="slider">
-        <span>Plane, from the middle: {state.sectionAt.value.toFixed(1)} mm</span>
+        <span>{sectionTexts.plane(state.sectionAt.value)}</span>
         <input
           type="range"
           min={-limit}
@@ -91,7 +104,7 @@ export function SectionPlot() {
           checked={state.sectionOn.value}
           onChange={(event) => (state.sectionOn.value = event.currentTarget.checked)}
         />{' '}
-        Cut the picture at this plane
+        {sectionTexts.cut}
       </label>
     </div>
   );

@@ -1,36 +1,40 @@
 // Scallops and chordae as tables: the twin of the picture for keyboard and screen reader.
 import * as state from '../store/state';
-import { figure, kinds } from '../text/texts';
+import { figure, kinds, tableTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import { Section } from './parts';
 
 export function Scallops({ figures }: { figures: Figures }) {
   const before = state.before.value;
+  // the regions of a preview are known last: their rows wait with dots
+  const waiting = figures.known !== 'all';
+  const regions = waiting ? (before?.regions ?? []) : figures.regions;
+  const dots = (text: string) => (waiting ? '…' : text);
   return (
-    <Section title="Scallop by scallop" open>
+    <Section title={tableTexts.scallops} open>
       <table class="table" data-testid="scallops">
         <thead>
           <tr>
-            <th>Scallop</th>
-            <th>Coaptation</th>
-            <th>Leak</th>
-            <th>Prolapse</th>
+            <th>{tableTexts.scallop}</th>
+            <th>{tableTexts.coaptation}</th>
+            <th>{tableTexts.leak}</th>
+            <th>{tableTexts.prolapse}</th>
           </tr>
         </thead>
         <tbody>
-          {figures.regions.map((region) => {
+          {regions.map((region) => {
             const was = before?.regions.find((candidate) => candidate.name === region.name);
             return (
-              <tr class={region.orifice > 0 ? 'leaking' : ''}>
-                <th scope="row">{region.commissure ? `Commissure ${region.name}` : region.name}</th>
+              <tr class={!waiting && region.orifice > 0 ? 'leaking' : ''}>
+                <th scope="row">{region.commissure ? tableTexts.commissure(region.name) : region.name}</th>
                 <td>
-                  {figure(region.coaptationMean)} mm
-                  {was && Math.abs(was.coaptationMean - region.coaptationMean) >= 0.05 && (
-                    <small> was {figure(was.coaptationMean)}</small>
+                  {dots(`${figure(region.coaptationMean)} mm`)}
+                  {was && !waiting && Math.abs(was.coaptationMean - region.coaptationMean) >= 0.05 && (
+                    <small>{tableTexts.was(figure(was.coaptationMean))}</small>
                   )}
                 </td>
-                <td>{region.orifice > 0 ? `${figure(region.orifice)} mm²` : '–'}</td>
-                <td>{region.billow > 0 ? `${figure(region.billow)} mm` : '–'}</td>
+                <td>{dots(region.orifice > 0 ? `${figure(region.orifice)} mm²` : '–')}</td>
+                <td>{dots(region.billow > 0 ? `${figure(region.billow)} mm` : '–')}</td>
               </tr>
             );
           })}
@@ -44,17 +48,17 @@ export function Chordae({ figures }: { figures: Figures }) {
   const chosen = state.choice.value;
   const rows = [...figures.chords].sort((a, b) => b.strain / b.strainLimit - a.strain / a.strainLimit);
   return (
-    <Section title={`Chordae (${figures.chords.length})`}>
-      <p class="hint">The most loaded first. Choose one to shorten, lengthen or cut it.</p>
+    <Section title={tableTexts.chordae(figures.chords.length)}>
+      <p class="hint">{tableTexts.chordaeHint}</p>
       <div class="scroll">
         <table class="table" data-testid="chords">
           <thead>
             <tr>
-              <th>Chord</th>
-              <th>Kind</th>
-              <th>Length</th>
-              <th>Pull</th>
-              <th>Of limit</th>
+              <th>{tableTexts.chord}</th>
+              <th>{tableTexts.kind}</th>
+              <th>{tableTexts.length}</th>
+              <th>{tableTexts.pull}</th>
+              <th>{tableTexts.ofLimit}</th>
             </tr>
           </thead>
           <tbody>
@@ -77,7 +81,7 @@ export function Chordae({ figures }: { figures: Figures }) {
                   <td>{kinds[chord.kind]}</td>
                   <td>{figure(chord.length)} mm</td>
                   <td>{figure(chord.tension, 2)} N</td>
-                  <td>{chord.strain <= 0 ? 'slack' : `${Math.round(100 * share)} %`}</td>
+                  <td>{chord.strain <= 0 ? tableTexts.slack : `${Math.round(100 * share)} %`}</td>
                 </tr>
               );
             })}

@@ -1,9 +1,10 @@
 // The bar above (files, undo, help) and the bar below the picture (views, opening, colours, tools).
 import { CircleHelp, Eye, FolderOpen, Hand, Redo2, Save, Slice, Tag, Undo2, Workflow } from 'lucide-preact';
-import { openFile, openShipped, openTo, redo, undo } from '../store/actions';
+import { openFile, openShipped } from '../store/files';
+import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { mapWords, t } from '../text/texts';
+import { barTexts, mapWords, t } from '../text/texts';
 import { gradient, maps, type MapName } from '../view/colours';
 import type { Preset } from '../view/camera';
 import { Button } from './parts';
@@ -30,7 +31,7 @@ export function TopBar() {
           }}
         />
         <Button icon={<FolderOpen size={18} />} keys="Control+O" onClick={chooseFile}>
-          Open
+          {barTexts.open}
         </Button>
         <Button
           icon={<Save size={18} />}
@@ -38,12 +39,12 @@ export function TopBar() {
           disabled={!state.main.value}
           onClick={() => void saveSession()}
         >
-          Save
+          {barTexts.save}
         </Button>
         <Button
           kind="quiet"
           icon={<Undo2 size={18} />}
-          label="Undo"
+          label={barTexts.undo}
           keys="Control+Z"
           disabled={!state.canUndo.value}
           onClick={() => void undo()}
@@ -51,21 +52,18 @@ export function TopBar() {
         <Button
           kind="quiet"
           icon={<Redo2 size={18} />}
-          label="Redo"
+          label={barTexts.redo}
           keys="Control+Y"
           disabled={!state.canRedo.value}
           onClick={() => void redo()}
         />
-        <Button
-          kind="quiet"
-          onClick={() => ((state.tour.value = null), void openShipped('healthy', 'Healthy valve'))}
-        >
-          Healthy valve
+        <Button kind="quiet" onClick={() => void openShipped('healthy', barTexts.healthy)}>
+          {barTexts.healthy}
         </Button>
         <Button
           kind="quiet"
           icon={<CircleHelp size={18} />}
-          label="Keys and help"
+          label={barTexts.help}
           keys="?"
           onClick={() => (state.dialog.value = 'keys')}
         />
@@ -74,21 +72,16 @@ export function TopBar() {
   );
 }
 
-const presets: [Preset, string][] = [
-  ['surgeon', 'Surgeon'],
-  ['ventricle', 'Ventricle'],
-  ['commissure', 'Side'],
-  ['section', 'Section'],
-];
+const presets = Object.entries(barTexts.presets) as [Preset, string][];
 
 export function ViewBar(props: { go: (preset: Preset) => void }) {
   return (
     <div class="viewbar">
-      <div class="group" role="group" aria-label="View">
+      <div class="group" role="group" aria-label={barTexts.view}>
         {presets.map(([preset, name], k) => (
           <Button
             keys={String(k + 1)}
-            title={`View: ${name}`}
+            title={barTexts.viewOf(name)}
             onClick={() => {
               if (preset === 'section') state.sectionOn.value = true;
               props.go(preset);
@@ -99,24 +92,24 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         ))}
       </div>
       <label class="opening">
-        <span>Open</span>
+        <span>{barTexts.opened}</span>
         <input
           type="range"
           min="0"
           max="1"
           step="0.02"
           value={state.openness.value}
-          aria-label="Open or closed"
+          aria-label={barTexts.opening}
           disabled={!state.main.value || !!state.draft.value}
           onInput={(event) => void openTo(+event.currentTarget.value)}
         />
-        <span>Closed</span>
+        <span>{barTexts.closed}</span>
       </label>
-      <div class="group" role="group" aria-label="Show">
+      <div class="group" role="group" aria-label={barTexts.show}>
         <Button
           kind="quiet"
           icon={<Slice size={18} />}
-          label="Cut at the section plane"
+          label={barTexts.cut}
           keys="X"
           pressed={state.sectionOn.value}
           onClick={() => (state.sectionOn.value = !state.sectionOn.value)}
@@ -124,7 +117,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         <Button
           kind="quiet"
           icon={<Workflow size={18} />}
-          label="Chordae"
+          label={barTexts.chordae}
           keys="C"
           pressed={state.chordsOn.value}
           onClick={() => (state.chordsOn.value = !state.chordsOn.value)}
@@ -132,24 +125,24 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         <Button
           kind="quiet"
           icon={<Tag size={18} />}
-          label="Names"
+          label={barTexts.names}
           keys="N"
           pressed={state.labelsOn.value}
           onClick={() => (state.labelsOn.value = !state.labelsOn.value)}
         />
       </div>
-      <div class="group" role="group" aria-label="Pointer">
+      <div class="group" role="group" aria-label={barTexts.pointer}>
         <Button
           kind="quiet"
           icon={<Eye size={18} />}
-          label="Turn and choose"
+          label={barTexts.look}
           pressed={state.tool.value === 'look'}
           onClick={() => (state.tool.value = 'look')}
         />
         <Button
           kind="quiet"
           icon={<Hand size={18} />}
-          label="Grasp and pull tissue"
+          label={barTexts.grasp}
           keys="G"
           pressed={state.tool.value === 'grasp'}
           disabled={!!state.draft.value}
@@ -158,7 +151,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         <Button
           kind="quiet"
           icon={<span class="ball" />}
-          label="Push tissue with a ball"
+          label={barTexts.push}
           keys="B"
           pressed={state.tool.value === 'push'}
           disabled={!!state.draft.value}
@@ -168,7 +161,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
       <label class="colours">
         <select
           value={state.map.value}
-          aria-label="Colours"
+          aria-label={barTexts.colours}
           onChange={(event) => (state.map.value = event.currentTarget.value as MapName)}
         >
           {Object.entries(mapWords).map(([name, words]) => (
@@ -187,19 +180,19 @@ export function Scale() {
     return (
       <div class="scale" aria-hidden="true">
         <span>
-          <i class="key key-atrial" /> atrial side
+          <i class="key key-atrial" /> {barTexts.atrial}
         </span>
         <span>
-          <i class="key key-ventricular" /> ventricular side
+          <i class="key key-ventricular" /> {barTexts.ventricular}
         </span>
         {(state.figures.value?.measures.orifice ?? 0) > 0 && (
           <span>
-            <i class="key key-orifice" /> leak
+            <i class="key key-orifice" /> {barTexts.leak}
           </span>
         )}
         {(state.figures.value?.measures.chordsOver ?? 0) > 0 && (
           <span>
-            <i class="key key-over" /> chord beyond its limit
+            <i class="key key-over" /> {barTexts.over}
           </span>
         )}
       </div>

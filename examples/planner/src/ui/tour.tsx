@@ -1,19 +1,11 @@
 // The tour: the three leaking valves of the founding study, a goal, and a score beside the healthy valve and the
 // founding surgeon's repair.
-import { Check, CircleHelp, X } from 'lucide-preact';
-import { openShipped, request } from '../store/actions';
-import { measureCost } from '../store/measure';
+import { Wrench } from 'lucide-preact';
 import * as state from '../store/state';
+import { startValve } from '../store/tour';
 import { figure, say, tourTexts } from '../text/texts';
+import { Goals } from './goals';
 import { Button } from './parts';
-
-export async function startValve(number: number): Promise<void> {
-  state.tour.value = { number, founding: null, startArea: 0 };
-  await openShipped(`founding${number}`, tourTexts.valves[number - 1].title);
-  state.panel.value = 'tour';
-  const founding = await request('founding', { number, vertices: 425 }).catch(() => null);
-  if (state.tour.value?.number === number) state.tour.value = { ...state.tour.value, founding };
-}
 
 export function TourPanel() {
   const tour = state.tour.value;
@@ -34,7 +26,7 @@ export function TourPanel() {
             pressed={tour?.number === k + 1}
             onClick={() => void startValve(k + 1)}
           >
-            Valve {k + 1}
+            {tourTexts.valveOf(k + 1)}
           </Button>
         ))}
       </div>
@@ -45,61 +37,22 @@ export function TourPanel() {
 
 function Goal() {
   const tour = state.tour.value!;
-  const figures = state.main.value?.figures;
   const texts = tourTexts.valves[tour.number - 1];
-  if (!figures) return null;
-  const cost = state.cost.value?.hash === figures.hash ? state.cost.value.value : null;
-  const healthyOver = tour.founding?.healthy.measures.chordsOver ?? 0;
-  const healthyArea = tour.founding?.healthy.openArea;
-  const checks: { text: string; done: boolean | null }[] = [
-    { text: tourTexts.goals.sealed, done: figures.measures.atRest && figures.measures.orifice === 0 },
-    { text: tourTexts.goals.chords(healthyOver), done: figures.measures.chordsOver <= healthyOver },
-    { text: tourTexts.goals.open, done: cost && healthyArea ? cost.openArea >= 0.9 * healthyArea : null },
-  ];
-  const won = checks.every((check) => check.done);
+  if (!state.main.value) return null;
   return (
     <>
       <h2>{texts.title}</h2>
       <p>{texts.story}</p>
       <details class="section">
-        <summary>A hint</summary>
+        <summary>{tourTexts.hint}</summary>
         <div class="section-body">
           <p>{texts.hint}</p>
         </div>
       </details>
-      <h3>Goal</h3>
-      <ul class="goals" data-testid="goals">
-        {checks.map((check) => (
-          <li class={check.done === null ? 'open' : check.done ? 'done' : 'missed'}>
-            {check.done === null ? (
-              <CircleHelp size={18} />
-            ) : check.done ? (
-              <Check size={18} />
-            ) : (
-              <X size={18} />
-            )}
-            <span>{check.text}</span>
-          </li>
-        ))}
-      </ul>
-      {!cost && (
-        <Button onClick={() => void measureCost()} disabled={!!state.preview.value}>
-          Measure how far it opens
-        </Button>
-      )}
-      {won && (
-        <p class="won" role="status">
-          {tourTexts.won}
-          {tour.number < 3 && (
-            <>
-              {' '}
-              <Button kind="main" onClick={() => void startValve(tour.number + 1)}>
-                Next valve
-              </Button>
-            </>
-          )}
-        </p>
-      )}
+      <Goals number={tour.number} />
+      <Button kind="main" icon={<Wrench size={16} />} onClick={() => (state.panel.value = 'repair')}>
+        {tourTexts.repair}
+      </Button>
       <Score />
     </>
   );
@@ -111,11 +64,11 @@ function Score() {
   const founding = tour.founding;
   const cost = state.cost.value?.hash === figures.hash ? state.cost.value.value : null;
   const columns = [
-    { name: 'Yours', m: figures.measures, area: cost?.openArea },
+    { name: tourTexts.columns.yours, m: figures.measures, area: cost?.openArea },
     ...(founding
       ? [
-          { name: 'Study surgeon', m: founding.repaired.measures, area: founding.repaired.openArea },
-          { name: 'Healthy', m: founding.healthy.measures, area: founding.healthy.openArea },
+          { name: tourTexts.columns.study, m: founding.repaired.measures, area: founding.repaired.openArea },
+          { name: tourTexts.columns.healthy, m: founding.healthy.measures, area: founding.healthy.openArea },
         ]
       : []),
   ];
@@ -139,16 +92,16 @@ function Score() {
           </tr>
         </thead>
         <tbody>
-          {row('Leak, mm²', (c) => figure(c.m.orifice, 1))}
-          {row('Coaptation, mm', (c) => figure(c.m.coaptationMean, 1))}
-          {row('Chordae beyond limit', (c) => String(c.m.chordsOver))}
-          {row('Open area, cm²', (c) => (c.area === undefined ? '?' : figure(c.area / 100, 2)))}
-          {row('Annulus AP, mm', (c) => figure(c.m.annulusAp, 1))}
+          {row(tourTexts.rows.leak, (c) => figure(c.m.orifice, 1))}
+          {row(tourTexts.rows.coaptation, (c) => figure(c.m.coaptationMean, 1))}
+          {row(tourTexts.rows.over, (c) => String(c.m.chordsOver))}
+          {row(tourTexts.rows.area, (c) => (c.area === undefined ? '?' : figure(c.area / 100, 2)))}
+          {row(tourTexts.rows.ap, (c) => figure(c.m.annulusAp, 1))}
         </tbody>
       </table>
       {founding && (
         <details class="section">
-          <summary>What the study’s surgeon did</summary>
+          <summary>{tourTexts.study}</summary>
           <div class="section-body">
             <ol>
               {founding.repaired.operations.map((line) => (

@@ -1,5 +1,5 @@
 // A click in the picture as the answer to a question of the form.
-import { edit, setField } from '../store/actions';
+import { edit, setField } from '../store/edit';
 import * as state from '../store/state';
 import type { Hit } from './pick';
 

@@ -1,9 +1,6 @@
 // Names over the picture: scallops, papillary heads, the chosen chord, as HTML text at projected places.
 import * as state from '../store/state';
 import { figure } from '../text/texts';
-import { Shapes, type Mesh } from './mesh';
-import type { Mark } from './scene';
-import { tissue } from './colours';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
 import type { Viewport } from './viewport';
@@ -42,13 +39,6 @@ export class Labels {
     host.append(this.layer);
   }
 
-  markMesh(marks: Mark[], handle: number[] | null): Mesh {
-    const shapes = new Shapes();
-    for (const mark of marks) shapes.sphere(mark.at, mark.radius, mark.colour);
-    if (handle) shapes.sphere(handle, 1.6, tissue.chosen);
-    return shapes.mesh({ overlay: true });
-  }
-
   private wanted(): Label[] {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
@@ -57,6 +47,7 @@ export class Labels {
     const x = picture.positions;
     const labels: Label[] = [];
     if (state.labelsOn.value) {
+      labels.push(...headLabels(topology, x));
       const sums = topology.scallops.map(() => [0, 0, 0, 0]);
       for (let i = 0; i < topology.triangles.length; ++i) {
         const sum = sums[topology.triangleScallop[Math.floor(i / 3)]];
@@ -67,10 +58,10 @@ export class Labels {
         const [a, b, c, n] = sums[s];
         if (n) labels.push({ text: part.name, at: [a / n, b / n, c / n], kind: 'scallop' });
       });
-      labels.push(...headLabels(topology, x));
     }
     const choice = state.choice.value;
-    const k = choice?.kind === 'chord' ? topology.chords.findIndex((part) => part.id === choice.id) : -1;
+    const named = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
+    const k = topology.chords.findIndex((part) => part.id === named);
     if (k >= 0) {
       const [a, b] = [topology.chordNodes[2 * k], topology.chordNodes[2 * k + 1]];
       const at = [0, 1, 2].map((c) => 0.5 * (x[3 * a + c] + x[3 * b + c]));
@@ -101,6 +92,7 @@ export class Labels {
 
   update(view: Viewport): void {
     const labels = this.wanted();
+    const taken: [number, number][] = [];
     while (this.elements.length > labels.length) this.elements.pop()!.remove();
     labels.forEach((label, k) => {
       let element = this.elements[k];
@@ -112,7 +104,10 @@ export class Labels {
       if (element.textContent !== label.text) element.textContent = label.text;
       element.className = `label label-${label.kind}`;
       const [px, py] = view.camera.project(label.at[0], label.at[1], label.at[2], view.width, view.height);
-      element.hidden = label.kind !== 'chord' && this.hidden(view, label.at, px, py);
+      // a scallop gives way to labels in front of it
+      const covered = label.kind === 'scallop' && taken.some(([x, y]) => Math.hypot(x - px, y - py) < 24);
+      element.hidden = label.kind !== 'chord' && (covered || this.hidden(view, label.at, px, py));
+      if (!element.hidden) taken.push([px, py]);
       element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(-50%, -50%)`;
     });
   }

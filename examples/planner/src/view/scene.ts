@@ -18,12 +18,6 @@ export interface SceneOptions {
   jets: OrificePart[];
 }
 
-export interface Mark {
-  at: number[];
-  colour: Colour;
-  radius: number;
-}
-
 const suture = 7;
 const strut = 3;
 

@@ -2,14 +2,17 @@
 // something moves at a lower resolution, then once more in full.
 import { effect } from '@preact/signals';
 import * as state from '../store/state';
+import { appTexts } from '../text/texts';
 import { Camera, type Preset } from './camera';
 import { Gestures } from './gestures';
+import { overlayInputs, sameInputs, sceneInputs } from './inputs';
 import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
-import { sceneMeshes, type Mark } from './scene';
-import { vertexNormals, type Mesh } from './mesh';
-import { tissue } from './colours';
+import { marksMesh } from './marks';
+import { sceneMeshes } from './scene';
+import type { Mesh } from './mesh';
+import { surfaceMesh } from './surface';
 import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
@@ -29,9 +32,10 @@ export class Viewport {
   private lastFrame = 0;
   private drawnFully = false;
   private framed = '';
+  private builtFrom: unknown[] = [];
+  private overlaid: unknown[] = [];
   /** ms of the last pictures, for the tests. */
   readonly times: number[] = [];
-  extraMarks: Mark[] = [];
   /** A surface to show instead of a valve, during an import. */
   surface: Mesh | null = null;
 
@@ -47,21 +51,15 @@ export class Viewport {
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
     effect(() => {
-      // whatever the scene is made of
-      void [
-        state.picture.value,
-        state.preview.value,
-        state.main.value,
-        state.map.value,
-        state.choice.value,
-        state.chordsOn.value,
-        state.reference.value,
-        state.compared.value,
-      ];
+      const inputs = sceneInputs();
+      if (sameInputs(inputs, this.builtFrom)) return;
+      this.builtFrom = inputs;
       this.touchScene();
     });
     effect(() => {
-      void [state.sectionOn.value, state.sectionAt.value, state.labelsOn.value, state.draft.value];
+      const inputs = overlayInputs();
+      if (sameInputs(inputs, this.overlaid)) return;
+      this.overlaid = inputs;
       this.moved();
     });
     effect(() => {
@@ -71,38 +69,13 @@ export class Viewport {
     requestAnimationFrame((now) => this.frame(now));
   }
 
-  /** Shows the surface of an import instead of the valve, with the points that were clicked. */
+  /** Shows the surface of an import instead of the valve. */
   private showSurface(shown: state.Imported | null): void {
     const fresh = shown && this.surface?.positions !== shown.surface.points;
     if (!shown) this.surface = null;
-    else if (fresh) this.surface = this.surfaceMesh(shown.surface.points, shown.surface.triangles);
-    this.extraMarks = [];
-    for (const [kind, points] of Object.entries(shown?.points ?? {})) {
-      const colour =
-        kind === 'annulus' ? tissue.annulus : kind === 'commissures' ? tissue.chosen : tissue.over;
-      for (const at of points) this.extraMarks.push({ at, colour, radius: 0.9 });
-    }
+    else if (fresh) this.surface = surfaceMesh(shown.surface.points, shown.surface.triangles);
     this.touchScene();
     if (fresh && shown) this.camera.lookAtBox(shown.surface.points, shown.surface.triangles);
-  }
-
-  private surfaceMesh(positions: Float32Array, index: Uint32Array): Mesh {
-    const shade = (colour: readonly number[]) => {
-      const out = new Float32Array(positions.length);
-      for (let i = 0; i < out.length; i += 3) out.set(colour, i);
-      return out;
-    };
-    return {
-      positions,
-      index,
-      normals: vertexNormals(positions, index),
-      front: shade(tissue.atrialAnterior),
-      back: shade(tissue.ventricularAnterior),
-      opacity: 1,
-      overlay: false,
-      cut: false,
-      flat: false,
-    };
   }
 
   private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
@@ -123,7 +96,7 @@ export class Viewport {
     const { canvas } = this.renderer;
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'application');
-    canvas.setAttribute('aria-label', 'Picture of the valve');
+    canvas.setAttribute('aria-label', appTexts.picture);
     canvas.setAttribute('aria-describedby', 'picture-help');
   }
 
@@ -136,10 +109,11 @@ export class Viewport {
     this.moved();
   }
 
-  /** The scene has to be built anew. */
+  /** The scene has to be built anew; a valve at rest is drawn in full at once. */
   touchScene(): void {
     this.sceneDirty = true;
-    this.moved();
+    if (state.motion.value) this.moved();
+    else [this.dirty, this.drawnFully] = [true, false];
   }
 
   /** The camera has moved, or something that needs no new meshes. */
@@ -214,6 +188,7 @@ export class Viewport {
     const shown = state.motion.value ? null : (state.preview.value ?? state.main.value);
     const figures = shown?.figures ?? null;
     const choice = state.choice.value;
+    const chord = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
     this.meshes = sceneMeshes(topology, picture, {
       map: shown ? state.map.value : 'tissue',
       fields: figures?.fields ?? null,
@@ -224,7 +199,7 @@ export class Viewport {
             Math.max(c.strain / c.strainLimit, c.tension / c.tensionLimit),
           )
         : null,
-      chosenChord: choice?.kind === 'chord' ? topology.chords.findIndex((part) => part.id === choice.id) : -1,
+      chosenChord: topology.chords.findIndex((part) => part.id === chord),
       chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
       chordsOn: state.chordsOn.value,
       jets: figures?.orificeParts ?? [],
@@ -263,9 +238,8 @@ export class Viewport {
 
   scene(): Scene {
     const meshes = [...this.meshes];
-    const marks = this.extraMarks;
-    if (marks.length || state.sectionOn.value)
-      meshes.push(this.labels.markMesh(marks, state.sectionOn.value ? this.handle() : null));
+    const marks = marksMesh(state.sectionOn.value ? this.handle() : null);
+    if (marks) meshes.push(marks);
     return { meshes, background, plane: this.plane() };
   }
 

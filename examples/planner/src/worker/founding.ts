@@ -1,6 +1,6 @@
 // The valves of the tour: the three diseased valves of the founding paper's study (Tenenholtz et al., IROS 2011)
 // as examples/plans/README.md makes them, their healthy original, and the paper's repairs.
-import type { Mvs, Simulator } from 'libmvs';
+import type { Mvs, Simulator, Snapshot } from 'libmvs';
 import plan1 from '../../../plans/valve1.json?raw';
 import plan2 from '../../../plans/valve2.json?raw';
 import plan3 from '../../../plans/valve3.json?raw';
@@ -42,14 +42,20 @@ function result(mvs: Mvs, sim: Simulator): { figures: ReturnType<typeof figuresO
   });
 }
 
-/** Figures of the healthy valve and of the founding paper's repair of valve `number`. */
-export function foundingResult(mvs: Mvs, number: number, vertices: number): FoundingResult {
+/** Figures of the healthy valve, which `keep` receives, and of the founding paper's repair of valve `number`. */
+export function foundingResult(
+  mvs: Mvs,
+  number: number,
+  vertices: number,
+  keep: (healthy: Snapshot) => void,
+): FoundingResult {
   const sim = mvs.simulator();
   try {
     sim.load(foundingValve(mvs, 0, vertices), 'obj');
     sim.setLoad();
     sim.settle({ residual: 1e-4 });
     const healthy = result(mvs, sim);
+    keep(sim.snapshot());
     sim.load(foundingValve(mvs, number, vertices), 'obj');
     sim.replayPlan(diseases[number].plan);
     const repaired = result(mvs, sim);

@@ -1,10 +1,12 @@
 // The worker: answers the requests of the page one after the other. A request that is under way can be cancelled;
 // long ones report their progress.
 import { loadMvs, MvsError, SYSTOLE_PA, type Mvs } from 'libmvs';
-import type { CallName, Calls, Failure, Motion } from '../protocol';
+import type { CallName, Calls } from '../calls';
+import type { Failure, Motion, Shown } from '../protocol';
 import { foundingResult, foundingValve } from './founding';
 import { HandLoop } from './hand';
 import { Importer } from './importer';
+import { operationsOf } from './operations';
 import { buffersOf } from './picture';
 import { Planner } from './planner';
 import { openSession, saveSession } from './session';
@@ -41,7 +43,7 @@ async function start(library: string): Promise<Calls['start']['result']> {
   mvs = await loadMvs({ wasm: await unpack(library) });
   planner = new Planner(mvs);
   importer = new Importer(mvs);
-  return { version: mvs.version, operations: planner.operations() };
+  return { version: mvs.version, operations: operationsOf(mvs) };
 }
 
 function shippedValve(name: string, vertices: number): Uint8Array {
@@ -73,7 +75,8 @@ const handlers: Handlers = {
     return closed;
   },
   open_file: ({ bytes }, { signal, report }) => planner.openBytes(bytes, signal, report),
-  preview: (operation, { signal, report }) => planner.previewOf(operation, signal, report),
+  preview: (operation, { id, signal, report }) =>
+    planner.previewOf(operation, signal, report, (stage: Shown) => post({ id, stage })),
   accept: () => planner.accept(),
   discard: () => (planner.discard(), null),
   check: (operation) => (planner.check(operation), null),
@@ -85,8 +88,8 @@ const handlers: Handlers = {
     return planner.openTo(share, fresh, signal);
   },
   close_again: () => planner.shown(),
-  cost: ({ which }) => planner.cost(which),
-  section: ({ which, point, normal }) => planner.section(which, point, normal),
+  cost: ({ which, flow }) => planner.cost(which, flow),
+  section: (request) => planner.section(request),
   hand_begin: (argument, { id }) => {
     const sim = planner.beside();
     sim.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
@@ -111,7 +114,8 @@ const handlers: Handlers = {
   save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),
   save_session: ({ title, notes }) => saveSession(planner, title, notes),
   open_session: ({ bytes }) => openSession(planner, bytes),
-  founding: ({ number, vertices }) => foundingResult(mvs, number, vertices),
+  founding: ({ number, vertices }) =>
+    foundingResult(mvs, number, vertices, (healthy) => planner.keepHealthy(healthy)),
   spread: ({ members }, { report }) => planner.spread(members, report),
   read_surface: ({ name, bytes, unit }) => importer.read(name, bytes, unit),
   build: async (request, { signal, report }) => {

@@ -4,6 +4,7 @@ import type {
   Chord,
   Figures,
   HistoryEntry,
+  Known,
   Measures,
   Motion,
   OrificePart,
@@ -114,8 +115,14 @@ export function motionOf(snapshot: Snapshot, share: number): Motion {
   return { picture: pictureOf(snapshot, false), share };
 }
 
-function measuresOf(snapshot: Snapshot): Measures {
-  const m = snapshot.measure();
+/** The measures known so far; the others are NaN. */
+function measuresOf(snapshot: Snapshot, known: Known): Measures {
+  const m =
+    known === 'all'
+      ? snapshot.measure()
+      : known === 'orifice'
+        ? snapshot.measure('orifice', 'chords', 'annulus')
+        : snapshot.measure('chords', 'annulus');
   return {
     orifice: m.regurgitant_orifice_area * mm2,
     coaptationArea: m.coaptation_area * mm2,
@@ -147,8 +154,12 @@ function measuresOf(snapshot: Snapshot): Measures {
   };
 }
 
+/** Pa; natural chordae have less, expanded PTFE 400 MPa. */
+const sutureYoung = 2e8;
+
 function chordsOf(mvs: Mvs, snapshot: Snapshot): Chord[] {
-  return snapshot.chords().map((chord) => {
+  const young = snapshot.copy<Float64Array>('chord_young');
+  return snapshot.chords().map((chord, k) => {
     const kind = ChordKind[chord.kind];
     const limits = mvs.c.mvs_get_chord_limits(chord.kind);
     return {
@@ -164,6 +175,7 @@ function chordsOf(mvs: Mvs, snapshot: Snapshot): Chord[] {
       strainLimit: limits.strain,
       tensionLimit: limits.tension,
       over: chord.flags !== 0,
+      artificial: young[k] >= sutureYoung,
     };
   });
 }
@@ -218,28 +230,37 @@ function nodeStretch(snapshot: Snapshot): Float32Array {
   return sum.map((v, i) => (count[i] ? v / count[i] : NaN));
 }
 
-export function figuresOf(mvs: Mvs, snapshot: Snapshot): Figures {
-  const chords = chordsOf(mvs, snapshot);
-  const measures = measuresOf(snapshot);
-  measures.chordsOver = new Set(chords.filter((c) => c.over).map((c) => c.name)).size;
+/** Rows: origin in mm, AP, CC, into the atrium. */
+export function frameOf(snapshot: Snapshot): number[] {
   const frame = snapshot.frame();
+  return [...frame.origin.map((v) => v * mm), ...frame.ap, ...frame.cc, ...frame.atrium];
+}
+
+export function figuresOf(mvs: Mvs, snapshot: Snapshot, known: Known = 'all'): Figures {
+  const all = known === 'all';
+  const chords = chordsOf(mvs, snapshot);
+  const measures = measuresOf(snapshot, known);
+  measures.chordsOver = new Set(chords.filter((c) => c.over).map((c) => c.name)).size;
   const force = snapshot.array<Float64Array>('head_force');
   const heads = [];
   for (let h = 0; h < force.length; h += 3) heads.push(Math.hypot(force[h], force[h + 1], force[h + 2]));
   return {
+    known,
     hash: snapshot.hash,
     valve: snapshot.name,
     measures,
-    regions: regionsOf(snapshot),
-    orificeParts: orificePartsOf(snapshot),
+    regions: all ? regionsOf(snapshot) : [],
+    orificeParts: known === 'shape' ? [] : orificePartsOf(snapshot),
     chords,
     heads,
-    frame: [...frame.origin.map((v) => v * mm), ...frame.ap, ...frame.cc, ...frame.atrium],
+    frame: frameOf(snapshot),
     history: historyOf(snapshot),
-    fields: {
-      coaptation: scaled(snapshot.array<Float64Array>('node_coaptation'), mm),
-      stretch: nodeStretch(snapshot),
-    },
+    fields: all
+      ? {
+          coaptation: scaled(snapshot.array<Float64Array>('node_coaptation'), mm),
+          stretch: nodeStretch(snapshot),
+        }
+      : null,
   };
 }
 

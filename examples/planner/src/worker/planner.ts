@@ -1,14 +1,25 @@
 // The valve of the page: one simulator that holds the plan, and a second one for everything that must not
 // change it: previews, the opening slider, a hand in the valve.
 import { DIASTOLE_PA, MvsError, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
-import type { Cost, FieldValue, Motion, Operation, OperationInfo, Shown, Spread } from '../protocol';
-import { figuresOf, motionOf, pictureOf } from './picture';
-import { mm, mm2, pageUnit } from './units';
+import type { Cost, Known, Motion, Operation, Section, SectionRequest, Shown, Spread } from '../protocol';
+import { libraryFields } from './operations';
+import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
+import { sectionOf } from './section';
+import { ml, mm, mm2, mmHg } from './units';
 
 /** Settles run in slices of this length, s, so that a cancel is heard. */
 const slice = 0.03;
 /** N, largest out-of-balance force at rest: that of the library's recommendation for closures. */
 const settleOptions = { residual: 1e-4 };
+
+/** Lets the worker receive messages. */
+function breathe(): Promise<void> {
+  return new Promise((resolve) => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => (port1.close(), resolve());
+    port2.postMessage(0);
+  });
+}
 
 export class Planner {
   readonly main: Simulator;
@@ -17,33 +28,14 @@ export class Planner {
   /** Bytes of the starting valve, an OBJ file. */
   start = new Uint8Array(0);
   readonly checkpoints = new Map<string, Snapshot>();
+  /** The healthy original of a valve of the tour. */
+  private healthy: Snapshot | null = null;
+  /** The closed valve before the first operation. */
+  private first: Snapshot | null = null;
 
   constructor(readonly mvs: Mvs) {
     this.main = mvs.simulator();
     this.second = mvs.simulator();
-  }
-
-  operations(): OperationInfo[] {
-    return this.mvs.operations.map((operation) => ({
-      name: operation.name,
-      help: operation.help,
-      fields: operation.fields.map((field) => {
-        const { factor, unit } = pageUnit(field.unit);
-        return {
-          name: field.name,
-          type: String(field.type),
-          required: field.required === 1,
-          low: field.low * factor,
-          high: field.high * factor,
-          unit,
-          label: field.label,
-          help: field.help,
-          choices: Object.entries(field.words).map(([name, value]) => ({ name, value })),
-          fallback: field.default_text,
-          fallbackValue: field.default_value * factor,
-        };
-      }),
-    }));
   }
 
   /** Takes over a valve file as the start of a plan, closes it, and begins a history. */
@@ -71,7 +63,15 @@ export class Planner {
   private forget(): void {
     for (const snapshot of this.checkpoints.values()) snapshot.dispose();
     this.checkpoints.clear();
+    this.keepHealthy(null);
+    this.first?.dispose();
+    this.first = null;
     this.discard();
+  }
+
+  keepHealthy(snapshot: Snapshot | null): void {
+    this.healthy?.dispose();
+    this.healthy = snapshot;
   }
 
   /** The picture of the valve as it is, without figures. */
@@ -82,6 +82,7 @@ export class Planner {
   private async close(signal: AbortSignal, report: (share: number) => void): Promise<Shown> {
     this.main.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
     await this.settle(this.main, signal, report);
+    this.first = this.main.snapshot();
     return this.shown();
   }
 
@@ -93,28 +94,41 @@ export class Planner {
     return this.main.read((snapshot) => this.shownOf(snapshot));
   }
 
-  shownOf(snapshot: Snapshot): Shown {
-    return { picture: pictureOf(snapshot, true), figures: figuresOf(this.mvs, snapshot) };
+  shownOf(snapshot: Snapshot, known: Known = 'all'): Shown {
+    return {
+      picture: pictureOf(snapshot, known !== 'shape'),
+      figures: figuresOf(this.mvs, snapshot, known),
+    };
   }
 
   check(operation: Operation): void {
-    this.main.check(operation.kind, this.fieldsOf(operation));
+    this.main.check(operation.kind, libraryFields(this.mvs, operation));
   }
 
-  /** The closed valve after an operation, beside the plan. */
+  /**
+   * The closed valve after an operation, beside the plan. `stage` receives the shape, then the orifice, because the
+   * figures take several times as long as the shape; the result has all.
+   */
   async previewOf(
     operation: Operation,
     signal: AbortSignal,
     report: (share: number) => void,
+    stage: (shown: Shown) => void,
   ): Promise<Shown> {
     this.discard();
-    const fields = this.fieldsOf(operation);
+    const fields = libraryFields(this.mvs, operation);
     this.main.check(operation.kind, fields);
     this.main.read((snapshot) => this.second.restore(snapshot));
     this.second.apply(operation.kind, fields);
     await this.settle(this.second, signal, report);
-    this.preview = this.second.snapshot();
-    return this.shownOf(this.preview);
+    const preview = this.second.snapshot();
+    this.preview = preview;
+    for (const known of ['shape', 'orifice'] as const) {
+      stage(this.shownOf(preview, known));
+      await breathe();
+      if (signal.aborted) throw new MvsError('MVS_E_CANCELLED', 'preview', 'the preview was cancelled');
+    }
+    return this.shownOf(preview);
   }
 
   discard(): void {
@@ -122,13 +136,13 @@ export class Planner {
     this.preview = null;
   }
 
-  /** The preview becomes the valve of the plan. */
-  accept(): Shown {
+  /** The preview becomes the valve of the plan; the page has its figures. */
+  accept(): { hash: string } {
     if (!this.preview)
       throw new MvsError('MVS_E_STATE', 'preview', 'there is no preview to apply: choose an operation');
     this.main.restore(this.preview);
     this.discard();
-    return this.shown();
+    return { hash: this.main.read((snapshot) => snapshot.hash) };
   }
 
   undo(): Shown {
@@ -161,10 +175,12 @@ export class Planner {
     return this.second;
   }
 
-  cost(which: 'main' | 'preview'): Cost {
+  /** The valve opened in diastole; the gradient of a flow in ml/s, if one is given. */
+  cost(which: 'main' | 'preview', flow: number): Cost {
     const held = which === 'preview' && this.preview ? null : this.main.snapshot();
     try {
-      const { cost, opened } = (held ?? this.preview!).cost({ residual: 1e-4 });
+      const asked = flow > 0 ? { residual: 1e-4, flow: flow / ml } : { residual: 1e-4 };
+      const { cost, opened } = (held ?? this.preview!).cost(asked);
       opened.dispose();
       return {
         openArea: cost.open_area * mm2,
@@ -172,24 +188,21 @@ export class Planner {
         posteriorLength: cost.posterior_length * mm,
         lengthRatio: cost.length_ratio,
         annulusForce: cost.annulus_force_sum,
+        gradient: cost.gradient / mmHg,
       };
     } finally {
       held?.dispose();
     }
   }
 
-  section(which: string, point: number[], normal: number[]): Float32Array {
-    const cut = (snapshot: Snapshot) =>
-      Float32Array.from(
-        snapshot.section(
-          point.map((v) => v / mm),
-          normal,
-        ),
-        (v) => v * mm,
-      );
-    if (which === 'preview' && this.preview) return cut(this.preview);
-    const kept = this.checkpoints.get(which);
-    return kept ? cut(kept) : this.main.read(cut);
+  section({ which, frame, offset }: SectionRequest): Section {
+    if (which === 'preview' && this.preview) return sectionOf(this.preview, frame, offset);
+    if (which === 'first' && this.first) return sectionOf(this.first, frame, offset);
+    if (which === 'healthy')
+      return this.healthy ? sectionOf(this.healthy, frameOf(this.healthy), offset) : new Float32Array(0);
+    const kept = this.checkpoints.get(which.replace(/^checkpoint /, ''));
+    if (kept && which.startsWith('checkpoint ')) return sectionOf(kept, frame, offset);
+    return this.main.read((snapshot) => sectionOf(snapshot, frame, offset));
   }
 
   checkpoint(name: string): string[] {
@@ -250,30 +263,4 @@ export class Planner {
       }
     });
   }
-
-  /** Fields of an operation in SI units, parts by their ids. */
-  private fieldsOf(operation: Operation): Record<string, never> {
-    const info = this.mvs.operations.find((candidate) => candidate.name === operation.kind);
-    if (!info) throw new MvsError('MVS_E_OP', operation.kind, `there is no operation ${operation.kind}`);
-    const out: Record<string, unknown> = {};
-    for (const [name, value] of Object.entries(operation.fields)) {
-      const field = info.fields.find((candidate) => candidate.name === name);
-      if (!field) throw new MvsError('MVS_E_OP', name, `${operation.kind} has no field ${name}`);
-      out[name] = toLibrary(String(field.type), pageUnit(field.unit).factor, value);
-    }
-    return out as Record<string, never>;
-  }
-}
-
-function toLibrary(type: string, factor: number, value: FieldValue): unknown {
-  if (type === 'chord' || type === 'head' || type === 'scallop') return BigInt(value as string);
-  if (type === 'site') {
-    const site = value as
-      { triangle: number; u: number[] } | { scallop: string; along: number; height: number };
-    return 'triangle' in site ? site : { scallop: BigInt(site.scallop), u: [site.along, site.height] };
-  }
-  if (typeof value === 'number') return type === 'number' ? value / factor : value;
-  if (Array.isArray(value))
-    return value.map((v) => (Array.isArray(v) ? v.map((w) => w / factor) : v / factor));
-  return value;
 }

@@ -1,0 +1,59 @@
+// Requests of the page to the worker and their answers; the data in them is described in protocol.ts.
+import type {
+  BuildRequest,
+  Cost,
+  Failure,
+  Finding,
+  FoundingResult,
+  Hand,
+  Motion,
+  Operation,
+  OperationInfo,
+  Section,
+  SectionRequest,
+  SessionOpened,
+  Shown,
+  Spread,
+  Surface,
+} from './protocol';
+
+/** Requests of the page: name, argument, result. */
+export interface Calls {
+  start: { argument: { library: string }; result: { version: string; operations: OperationInfo[] } };
+  open_shipped: { argument: { name: string; vertices: number }; result: Shown };
+  open_file: { argument: { name: string; bytes: Uint8Array }; result: Shown };
+  preview: { argument: Operation; result: Shown };
+  accept: { argument: null; result: { hash: string } };
+  discard: { argument: null; result: null };
+  check: { argument: Operation; result: null };
+  undo: { argument: null; result: Shown };
+  redo: { argument: null; result: Shown };
+  open_to: { argument: { share: number }; result: Motion };
+  close_again: { argument: null; result: Shown };
+  cost: { argument: { which: 'main' | 'preview'; flow: number }; result: Cost };
+  section: { argument: SectionRequest; result: Section };
+  hand_begin: { argument: Hand; result: null };
+  hand_move: { argument: { position: number[] }; result: null };
+  hand_end: { argument: null; result: Shown };
+  checkpoint: { argument: { name: string }; result: string[] };
+  restore: { argument: { name: string }; result: Shown };
+  read_checkpoint: { argument: { name: string }; result: Shown };
+  save_obj: { argument: null; result: Uint8Array };
+  save_session: { argument: { notes: string; title: string }; result: Uint8Array };
+  open_session: { argument: { bytes: Uint8Array }; result: SessionOpened };
+  founding: { argument: { number: number; vertices: number }; result: FoundingResult };
+  spread: { argument: { members: number }; result: Spread };
+  read_surface: { argument: { name: string; bytes: Uint8Array; unit: string }; result: Surface };
+  build: { argument: BuildRequest; result: { shown: Shown; findings: Finding[] } };
+}
+
+export type CallName = keyof Calls;
+
+export type ToWorker = { id: number; call: CallName; argument: unknown } | { cancel: number };
+
+export type FromWorker =
+  | { id: number; result: unknown }
+  | { id: number; failure: Failure }
+  | { id: number; motion: Motion }
+  | { id: number; stage: Shown }
+  | { id: number; share: number };

@@ -1,0 +1,190 @@
+// The operation in the form and its preview. The shape of a preview is shown before its figures are known. A newer
+// value does not interrupt the shape of an older one unless that takes long: the picture then follows a slider.
+import { batch } from '@preact/signals';
+import { t } from '../text/texts';
+import type { FieldValue, Shown } from '../protocol';
+import { cancel, fail, isCancelled, request, run, sentenceOf, show } from './requests';
+import * as state from './state';
+
+/** ms for which a newer value waits for the shape of an older one. */
+const patience = 250;
+
+/** The preview that the worker calculates. */
+let under: { id: number; draft: state.Draft; shaped: boolean } | null = null;
+let timer = 0;
+/** Apply was pressed before the shape of the present form was known. */
+let applyNext = false;
+
+/** Begins or changes an operation; its preview follows. */
+export function edit(kind: string, fields: Record<string, FieldValue>): void {
+  applyNext = false;
+  batch(() => {
+    state.draft.value = { kind, fields };
+    state.panel.value = 'repair';
+    state.motion.value = null;
+    state.openness.value = 1;
+    state.tool.value = 'look';
+  });
+  refresh();
+}
+
+/** Fields that a list of points replaces; the library takes either. */
+export const replacements: Record<string, { points: string; instead: string[] }> = {
+  resect: { points: 'outline', instead: ['scallop', 'position', 'width', 'base_width', 'depth'] },
+  ring: { points: 'curve', instead: ['size', 'ap_ratio', 'saddle'] },
+};
+
+export function setField(name: string, value: FieldValue | undefined): void {
+  const now = state.draft.value;
+  if (!now) return;
+  const fields = { ...now.fields };
+  const shape = replacements[now.kind];
+  if (shape?.points === name) for (const other of shape.instead) delete fields[other];
+  else if (shape?.instead.includes(name)) delete fields[shape.points];
+  if (value === undefined) delete fields[name];
+  else fields[name] = value;
+  if (state.picking.value === name) state.picking.value = null;
+  edit(now.kind, fields);
+}
+
+/** Lets the next click in the picture fill a field. The valve before the operation is shown to click on. */
+export function pickField(name: string | null): void {
+  state.picking.value = name;
+  if (name) leavePreview();
+  else refresh();
+}
+
+/** Whether a draft has all that it needs for a preview. */
+export function complete(kind: string, fields: Record<string, FieldValue>): boolean {
+  const info = state.operations.value.find((operation) => operation.name === kind);
+  if (!info) return false;
+  if (info.fields.some((field) => field.required && fields[field.name] === undefined)) return false;
+  if (kind === 'chord_length') return fields.length !== undefined || fields.factor !== undefined;
+  if (kind === 'ring') return fields.size !== undefined || fields.curve !== undefined;
+  if (kind === 'band') return fields.length !== undefined || fields.factor !== undefined;
+  if (kind === 'chord_transfer') return fields.site !== undefined || fields.head !== undefined;
+  return true;
+}
+
+/** Ends the preview that is shown or calculated; the form stays. */
+function leavePreview(): void {
+  window.clearTimeout(timer);
+  timer = 0;
+  if (under) cancel(under.id);
+  const busy = !!under;
+  under = null;
+  batch(() => {
+    state.preview.value = null;
+    state.previewed.value = null;
+    state.draftMessage.value = '';
+    state.pending.value = false;
+    if (busy) state.busy.value = null;
+  });
+}
+
+/** Calculates the preview of the form, at once or as soon as the shape before it is shown. */
+function refresh(): void {
+  const draft = state.draft.value;
+  if (!draft || !complete(draft.kind, draft.fields)) return leavePreview();
+  state.pending.value = true;
+  if (!under || under.shaped) return void calculate(draft);
+  timer ||= window.setTimeout(next, patience);
+}
+
+/** Goes on with the newest form. */
+function next(): void {
+  window.clearTimeout(timer);
+  timer = 0;
+  const draft = state.draft.value;
+  if (draft && draft !== under?.draft) void calculate(draft);
+}
+
+async function calculate(draft: state.Draft): Promise<void> {
+  if (under) cancel(under.id);
+  const call = request('preview', draft, {
+    share: (share) => {
+      if (call.id === under?.id) state.busy.value = { text: t.previewing, share };
+    },
+    stage: (shown) => {
+      if (call.id !== under?.id) return;
+      under.shaped = true;
+      reveal(draft, shown);
+      if (timer) next();
+    },
+  });
+  under = { id: call.id, draft, shaped: false };
+  state.busy.value = { text: t.previewing, share: 0 };
+  try {
+    const shown = await call;
+    if (call.id === under?.id) reveal(draft, shown);
+  } catch (error) {
+    if (call.id === under?.id && !isCancelled(error)) refuse(draft, sentenceOf(error));
+  } finally {
+    if (call.id === under?.id) ended();
+  }
+}
+
+/** Nothing is calculated any more, unless the form has changed in the meantime. */
+function ended(): void {
+  under = null;
+  if (timer) return next();
+  batch(() => {
+    state.pending.value = false;
+    state.busy.value = null;
+  });
+  if (applyNext) void apply();
+}
+
+function reveal(draft: state.Draft, shown: Shown): void {
+  state.receive(shown.picture);
+  const before = state.preview.value;
+  // the last figures come with the picture of the orifice again: it need not be drawn twice
+  const same = before?.figures.hash === shown.figures.hash && before.figures.known === 'orifice';
+  batch(() => {
+    state.preview.value = same ? { ...shown, picture: before.picture } : shown;
+    state.previewed.value = draft;
+    state.draftMessage.value = '';
+    if (shown.figures.known === 'shape') state.busy.value = null;
+    else if (shown.figures.known === 'all') state.status.value = t.previewLine(shown.figures);
+  });
+}
+
+function refuse(draft: state.Draft, sentence: string): void {
+  applyNext = false;
+  batch(() => {
+    state.preview.value = null;
+    state.previewed.value = draft;
+    state.draftMessage.value = sentence;
+    state.status.value = sentence;
+  });
+}
+
+/** Applies the operation of the form, if need be as soon as its preview is there. */
+export async function apply(): Promise<void> {
+  const draft = state.draft.value;
+  if (!draft || state.draftMessage.value) return;
+  const shown = state.preview.value;
+  if (state.pending.value || !shown) {
+    if (!state.pending.value) refresh();
+    applyNext = state.pending.value;
+    return;
+  }
+  applyNext = false;
+  const accepted = await run(t.applying, 'accept', null);
+  if (!accepted) return;
+  const valve = accepted.hash === shown.figures.hash ? shown : await run(t.measuring, 'close_again', null);
+  if (!valve) return;
+  show(valve, false);
+  state.changed.value = true;
+}
+
+/** Leaves the form without a change. */
+export function discard(): void {
+  applyNext = false;
+  leavePreview();
+  batch(() => {
+    state.draft.value = null;
+    state.picking.value = null;
+  });
+  void request('discard', null).catch(fail);
+}

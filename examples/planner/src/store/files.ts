@@ -1,0 +1,142 @@
+// Opening: shipped valves, valve files, sessions, and surfaces that become a valve.
+import { batch } from '@preact/signals';
+import { leaveTexts, t } from '../text/texts';
+import type { Shown } from '../protocol';
+import { discard } from './edit';
+import { request, run, show } from './requests';
+import * as state from './state';
+
+/** A changed plan that gives way to another one, as a session. */
+interface Left {
+  title: string;
+  bytes: Uint8Array;
+  tour: typeof state.tour.value;
+}
+
+/** The present plan if it has changes that are not saved. */
+async function leave(): Promise<Left | null> {
+  if (!state.changed.value || !state.canUndo.value) return null;
+  const title = state.title.value;
+  try {
+    return {
+      title,
+      tour: state.tour.value,
+      bytes: await request('save_session', { title, notes: state.notes.value }),
+    };
+  } catch {
+    return null;
+  }
+}
+
+/** Offers the way back to a plan that was left, after what `said` the notice before. */
+function offerReturn(left: Left | null, said = state.notice.value): void {
+  if (!left) return;
+  state.notice.value = {
+    kind: said?.kind ?? 'info',
+    text: [said?.text, leaveTexts.left(left.title)].filter(Boolean).join(' '),
+    action: { text: leaveTexts.back, run: () => void comeBack(left) },
+  };
+}
+
+async function comeBack(left: Left): Promise<void> {
+  await openSession(left.bytes);
+  state.tour.value = left.tour;
+  state.changed.value = true;
+}
+
+/** Vertices of the shipped valves. */
+const shippedVertices = 425;
+
+function begun(shown: Shown | null, title: string, left: Left | null): void {
+  if (!shown) return;
+  state.imported.value = null;
+  show(shown, true);
+  state.title.value = title;
+  state.notes.value = '';
+  state.changed.value = false;
+  offerReturn(left, null);
+}
+
+export async function openShipped(
+  name: string,
+  title: string,
+  tour: typeof state.tour.value = null,
+): Promise<void> {
+  const left = await leave();
+  state.tour.value = tour;
+  const shown = await run(
+    t.closing,
+    'open_shipped',
+    { name, vertices: shippedVertices },
+    {
+      motion: (motion) => {
+        state.receive(motion.picture);
+        state.motion.value = motion;
+      },
+    },
+  );
+  begun(shown, title, left);
+}
+
+export async function openFile(file: File): Promise<void> {
+  const left = await leave();
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  if (/\.mvsplan$|\.zip$/i.test(file.name)) return openSession(bytes, left);
+  const head = new TextDecoder().decode(bytes.subarray(0, 4000));
+  if (/\.obj$/i.test(file.name) && /^#mvs|^# ?mvs|mvs:/m.test(head)) {
+    const shown = await run(t.closing, 'open_file', { name: file.name, bytes });
+    state.tour.value = null;
+    return begun(shown, file.name.replace(/\.obj$/i, ''), left);
+  }
+  if (/\.(stl|ply|obj|off|vtp|vtk)$/i.test(file.name)) return beginImport(file.name, bytes);
+  state.notice.value = { kind: 'error', text: t.unknownFile(file.name) };
+}
+
+/** Shows a surface to build a valve from. The unit is asked for because most files do not state it. */
+export async function beginImport(name: string, bytes: Uint8Array, unit = 'mm'): Promise<void> {
+  const surface = await run(t.reading, 'read_surface', { name, bytes: bytes.slice(), unit });
+  if (!surface) return;
+  discard();
+  batch(() => {
+    state.imported.value = {
+      name,
+      bytes,
+      unit,
+      surface,
+      points: { annulus: [], commissures: [], anterior: [], tips: [] },
+      findings: [],
+    };
+    state.panel.value = 'import';
+    state.status.value = t.importBegun(surface.triangles.length / 3);
+  });
+}
+
+/** Builds a valve from the surface and closes it. */
+export async function buildValve(): Promise<void> {
+  const from = state.imported.value;
+  if (!from) return;
+  const title = from.name.replace(/\.\w+$/, '');
+  const left = await leave();
+  const built = await run(t.building, 'build', { ...from.points, name: title });
+  if (!built) return;
+  state.tour.value = null;
+  begun(built.shown, title, left);
+  state.imported.value = { ...from, findings: built.findings };
+  state.panel.value = 'import';
+}
+
+export async function openSession(bytes: Uint8Array, left: Left | null = null): Promise<void> {
+  const opened = await run(t.replaying, 'open_session', { bytes });
+  if (!opened) return;
+  show(opened.shown, true);
+  state.tour.value = null;
+  state.first.value = null;
+  state.checkpoints.value = opened.checkpoints;
+  state.title.value = opened.title;
+  state.notes.value = opened.notes;
+  state.changed.value = false;
+  state.notice.value = opened.sameResult
+    ? { kind: 'info', text: t.sessionOpened }
+    : { kind: 'error', text: t.sessionDiffers };
+  offerReturn(left);
+}

@@ -1,0 +1,83 @@
+// Requests to the worker, with a line of progress and a notice where they fail; the valve that a result brings.
+import { batch } from '@preact/signals';
+import { say, t } from '../text/texts';
+import type { CallName, Calls } from '../calls';
+import type { Shown } from '../protocol';
+import { CallError, Client, type CallOptions } from './client';
+import * as state from './state';
+
+let client: Client;
+
+export function connect(): Client {
+  client = new Client((sentence) => (state.broken.value = sentence));
+  return client;
+}
+
+export function request<Name extends CallName>(
+  name: Name,
+  argument: Calls[Name]['argument'],
+  options: CallOptions = {},
+): Promise<Calls[Name]['result']> & { id: number } {
+  return client.call(name, argument, options);
+}
+
+export const tell = (name: CallName, argument: unknown): void => client.tell(name, argument);
+export const cancel = (id: number): void => client.cancel(id);
+
+/** Runs a request with a line of progress; failures become a notice. */
+export async function run<Name extends CallName>(
+  text: string,
+  name: Name,
+  argument: Calls[Name]['argument'],
+  options: CallOptions = {},
+): Promise<Calls[Name]['result'] | null> {
+  const call = request(name, argument, {
+    ...options,
+    share: (share) => {
+      if (state.busy.value) state.busy.value = { ...state.busy.value, share };
+    },
+  });
+  state.busy.value = { text, share: 0, cancel: () => client.cancel(call.id) };
+  try {
+    return await call;
+  } catch (error) {
+    fail(error);
+    return null;
+  } finally {
+    state.busy.value = null;
+  }
+}
+
+export const sentenceOf = (error: unknown): string =>
+  say(error instanceof Error ? error.message : String(error));
+
+export const isCancelled = (error: unknown): boolean => error instanceof CallError && error.cancelled;
+
+export function fail(error: unknown): void {
+  if (!isCancelled(error)) state.notice.value = { kind: 'error', text: sentenceOf(error) };
+}
+
+/** Shows a valve as that of the plan; `fresh` where it begins another plan. */
+export function show(shown: Shown, fresh: boolean): void {
+  state.receive(shown.picture);
+  batch(() => {
+    state.main.value = shown;
+    state.preview.value = null;
+    state.previewed.value = null;
+    state.motion.value = null;
+    state.openness.value = 1;
+    state.draft.value = null;
+    state.draftMessage.value = '';
+    state.picking.value = null;
+    if (fresh) {
+      state.first.value = shown;
+      state.choice.value = null;
+      state.checkpoints.value = [];
+      state.compared.value = null;
+      state.compareWith.value = null;
+      state.cost.value = null;
+      state.spread.value = null;
+    }
+    state.status.value = t.statusLine(shown.figures);
+  });
+}

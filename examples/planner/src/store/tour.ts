@@ -1,0 +1,30 @@
+// The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
+import { effect } from '@preact/signals';
+import { tourTexts } from '../text/texts';
+import { openShipped } from './files';
+import { measureCost } from './measure';
+import { request } from './requests';
+import * as state from './state';
+
+export async function startValve(number: number): Promise<void> {
+  await openShipped(`founding${number}`, tourTexts.valves[number - 1].title, { number, founding: null });
+  state.panel.value = 'tour';
+  const founding = await request('founding', { number, vertices: 425 }).catch(() => null);
+  if (state.tour.value?.number === number) state.tour.value = { ...state.tour.value, founding };
+}
+
+/** Measures the opening of each sealed valve of the tour as soon as nothing else is under way. */
+export function watchTour(): void {
+  effect(() => {
+    const figures = state.main.value?.figures;
+    const idle = state.tour.value?.founding && figures && !state.draft.value && !state.busy.value;
+    if (!idle || figures.measures.orifice > 0 || !figures.measures.atRest) return;
+    if (state.cost.value?.hash !== figures.hash && measured !== figures.hash) {
+      measured = figures.hash;
+      void measureCost();
+    }
+  });
+}
+
+/** The valve whose opening was asked for last: a failure is not repeated. */
+let measured = '';

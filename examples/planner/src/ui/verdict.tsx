@@ -1,0 +1,68 @@
+// The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
+// come.
+import * as state from '../store/state';
+import { figure, grade, verdictTexts, where } from '../text/texts';
+import type { Figures } from '../protocol';
+
+export function Verdict() {
+  const figures = state.figures.value;
+  const surface = state.imported.value && !state.imported.value.findings.length;
+  if (!figures || surface)
+    return (
+      <div class="verdict waiting" data-testid="verdict">
+        <strong>{surface ? verdictTexts.surface : '…'}</strong>
+      </div>
+    );
+  const words = verdictTexts;
+  const m = figures.measures;
+  const shape = figures.known === 'shape';
+  const graded = m.atRest && m.underLoad && !shape;
+  const { level, word } = grade(m.orifice);
+  const tag = state.outdated.value ? words.trying : state.preview.value ? words.preview : '';
+  return (
+    <div
+      class={`verdict level-${graded ? level : 'none'}${state.outdated.value ? ' outdated' : ''}`}
+      data-testid="verdict"
+      aria-busy={state.pending.value}
+    >
+      <div class="verdict-word">
+        <strong>{shape ? words.measuring : graded ? word : words.notAtRest}</strong>
+        {tag && <span class="tag">{tag}</span>}
+      </div>
+      <Leak figures={figures} graded={graded} />
+      {!graded && !shape && <div class="verdict-where">{words.notFinal}</div>}
+      {m.chordsOver > 0 && (
+        <div class="verdict-warn">
+          {words.chordsOver(m.chordsOver, state.tour.value?.founding?.healthy.measures.chordsOver)}
+        </div>
+      )}
+    </div>
+  );
+}
+
+/** The size of the leak and its place, or how far the leaflets meet; dots stand for what is still to come. */
+function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
+  const words = verdictTexts;
+  const { orifice, coaptationMean } = figures.measures;
+  const before = state.before.value;
+  const all = figures.known === 'all';
+  return (
+    <>
+      <div class="verdict-figure">
+        <span class="big" data-testid="orifice">
+          {figures.known === 'shape' ? '…' : figure(orifice, orifice > 0 && orifice < 10 ? 1 : 0)}
+        </span>{' '}
+        {words.leak}
+        {orifice === 0 && graded && words.atPressure}
+        {before && Math.abs(before.measures.orifice - orifice) > 0.05 && (
+          <span class="was">{words.was(before.measures.orifice)}</span>
+        )}
+      </div>
+      {graded && (
+        <div class="verdict-where">
+          {orifice > 0 ? words.at(where(figures)) : words.meet(all ? figure(coaptationMean) : '…')}
+        </div>
+      )}
+    </>
+  );
+}

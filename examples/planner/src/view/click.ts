@@ -1,0 +1,61 @@
+// A click in the picture: chooses a part, answers the question of the form, adds a point to an outline, or marks a
+// point of an imported surface.
+import * as state from '../store/state';
+import type { Topology } from '../protocol';
+import { fillField } from './answer';
+import type { Place } from './drags';
+import { addOutlinePoint } from './outline';
+import { pickSurface, type Hit } from './pick';
+import type { Viewport } from './viewport';
+
+/** The most points of each kind; the oldest gives way. */
+const most = { annulus: 200, commissures: 2, anterior: 1, tips: 12 };
+
+/** Marks a point on the surface of an import. Papillary tips stand below it: a click beside the surface sets one at
+ *  the depth of the middle of the surface, see `tipAt`. */
+function markImport(view: Viewport, imported: state.Imported, p: Place): void {
+  const { camera, width, height } = view;
+  camera.update();
+  const { positions, index } = view.surface!;
+  const hit = pickSurface(camera, { triangles: index }, positions, p.x, p.y, width, height, null);
+  const kind = state.importing.value;
+  const at = hit?.at ?? (kind === 'tips' ? tipAt(view, p) : null);
+  if (!at) return;
+  const points = [...imported.points[kind], at].slice(-most[kind]);
+  state.imported.value = { ...imported, points: { ...imported.points, [kind]: points } };
+}
+
+/** The place of the pointer in the plane through the target of the camera, which is the middle of the surface. */
+function tipAt(view: Viewport, p: Place): number[] {
+  const { camera } = view;
+  const { origin, direction } = camera.ray(p.x, p.y, view.width, view.height);
+  const forward = camera.target.clone().sub(origin);
+  const depth = forward.lengthSq() / forward.dot(direction);
+  const at = origin.addScaledVector(direction, depth);
+  return [at.x, at.y, at.z];
+}
+
+function choiceOf(hit: Hit, topology: Topology): state.Choice | null {
+  if (hit.head >= 0) return { kind: 'head', id: topology.heads[hit.head].id };
+  if (hit.chord >= 0) return { kind: 'chord', id: topology.chords[hit.chord].id };
+  if (!hit.surface) return null;
+  return { kind: 'scallop', id: topology.scallops[topology.triangleScallop[hit.surface.triangle]].id };
+}
+
+/** Chooses a part; the panel "Repair" says what can be done with it. */
+function choose(choice: state.Choice | null): void {
+  state.choice.value = choice;
+  if (choice && state.panel.value !== 'import') state.panel.value = 'repair';
+}
+
+export function click(view: Viewport, p: Place, hit: Hit | null): void {
+  const imported = state.imported.value;
+  if (imported && view.surface) return markImport(view, imported, p);
+  const picture = state.picture.value;
+  const topology = picture && state.topologyOf(picture);
+  if (!hit || !topology || state.motion.value) return;
+  const { picking } = state;
+  if (picking.value === 'outline') return addOutlinePoint(hit);
+  if (picking.value) return fillField(hit, picking.value);
+  choose(choiceOf(hit, topology));
+}

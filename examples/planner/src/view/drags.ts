@@ -1,0 +1,155 @@
+// Drags in the picture that change the plan: a chord to its length, a clip along the free edge, the handle of the
+// section plane, tissue in the living valve. Directions on the screen are those of the projected parts.
+import * as state from '../store/state';
+import { edit } from '../store/edit';
+import { fail, request, tell } from '../store/requests';
+import { clipPlace } from './clip';
+import type { Hit } from './pick';
+import type { Viewport } from './viewport';
+
+export interface Place {
+  x: number;
+  y: number;
+}
+
+export type Drag =
+  | { kind: 'turn' }
+  | { kind: 'pan' }
+  | { kind: 'handle' }
+  | { kind: 'clip'; position: number }
+  | { kind: 'chord'; id: string; rest: number }
+  | { kind: 'hand'; depth: number };
+
+/** mm between the ball and the tissue where it begins. */
+const ballGap = 4.5;
+
+function project(view: Viewport, at: ArrayLike<number>): [number, number, number] {
+  return view.camera.project(at[0], at[1], at[2], view.width, view.height);
+}
+
+function isNear(view: Viewport, at: ArrayLike<number>, p: Place, reach: number): boolean {
+  const [x, y] = project(view, at);
+  return Math.hypot(x - p.x, y - p.y) < 16 + reach / 2;
+}
+
+/** What a press at a place drags: a part under the pointer, or the camera. */
+export function dragAt(view: Viewport, p: Place, reach: number, hit: Hit | null): Drag {
+  if (state.sectionOn.value && isNear(view, view.handle(), p, reach)) return { kind: 'handle' };
+  const clip = clipPlace();
+  if (clip && isNear(view, clip.at, p, reach)) return { kind: 'clip', position: clip.position };
+  if (!hit) return { kind: 'turn' };
+  if (state.tool.value !== 'look' && hit.surface) return grasp(view, hit);
+  const topology = state.topologyOf(state.picture.value!)!;
+  const choice = state.choice.value;
+  const chosen = hit.chord >= 0 && choice?.kind === 'chord' && topology.chords[hit.chord].id === choice.id;
+  if (chosen && !state.motion.value) {
+    const chord = state.main.value?.figures.chords.find((item) => item.id === choice.id);
+    if (chord) return { kind: 'chord', id: choice.id, rest: presentLength(chord.rest) };
+  }
+  return { kind: 'turn' };
+}
+
+/** The length in the form, or that of the valve. */
+function presentLength(rest: number): number {
+  const draft = state.draft.value;
+  if (draft?.kind !== 'chord_length') return rest;
+  if (typeof draft.fields.length === 'number') return draft.fields.length;
+  return typeof draft.fields.factor === 'number' ? rest * draft.fields.factor : rest;
+}
+
+function grasp(view: Viewport, hit: Hit): Drag {
+  const surface = hit.surface!;
+  const ball = state.tool.value === 'push';
+  const position = [...surface.at];
+  if (ball) {
+    // outside of the tissue, on the side of the viewer
+    const eye = view.camera.position();
+    const towards = [eye.x - surface.at[0], eye.y - surface.at[1], eye.z - surface.at[2]];
+    const length = Math.hypot(...towards);
+    for (let c = 0; c < 3; ++c) position[c] += (ballGap * towards[c]) / length;
+  }
+  request(
+    'hand_begin',
+    { tool: ball ? 'ball' : 'grasp', node: surface.node, position },
+    {
+      motion: (motion) => {
+        state.receive(motion.picture);
+        if (state.handing.value) state.motion.value = motion;
+      },
+    },
+  ).catch(fail);
+  state.handing.value = true;
+  return { kind: 'hand', depth: surface.distance - (ball ? ballGap : 0) };
+}
+
+/** Moves the tool of the hand in the plane in which it began. */
+export function dragHand(view: Viewport, depth: number, p: Place): void {
+  const { origin, direction } = view.camera.ray(p.x, p.y, view.width, view.height);
+  const at = origin.addScaledVector(direction, depth);
+  tell('hand_move', { position: [at.x, at.y, at.z] });
+}
+
+/** Ends the hand; the valve of the plan returns. */
+export function dropHand(): void {
+  state.handing.value = false;
+  request('hand_end', null).then(() => (state.motion.value = null), fail);
+}
+
+/** Motion of the pointer along an axis of the valve, mm; `across` where the axis points at the viewer. */
+function along(view: Viewport, from: number[], axis: number[], dx: number, dy: number): number {
+  const [a, b] = [
+    project(view, from),
+    project(
+      view,
+      [0, 1, 2].map((c) => from[c] + axis[c]),
+    ),
+  ];
+  const [ux, uy] = [b[0] - a[0], b[1] - a[1]];
+  const length = ux * ux + uy * uy;
+  // seen along its axis a part follows the pointer to the left and right
+  return length > 1 ? (dx * ux + dy * uy) / length : dx * view.camera.scale(view.height);
+}
+
+export function dragHandle(view: Viewport, dx: number, dy: number): void {
+  const f = view.frameOf();
+  const step = along(view, view.handle(), [f[6], f[7], f[8]], dx, dy);
+  const limit = 0.9 * view.radius();
+  state.sectionAt.value = Math.min(limit, Math.max(-limit, state.sectionAt.value + step));
+}
+
+/** Slides the clip of the form along the free edge. */
+export function dragClip(
+  view: Viewport,
+  drag: Extract<Drag, { kind: 'clip' }>,
+  dx: number,
+  dy: number,
+): void {
+  const clip = clipPlace();
+  const draft = state.draft.value;
+  if (!clip || draft?.kind !== 'clip') return;
+  const f = view.frameOf();
+  const step = along(view, clip.at, [f[6], f[7], f[8]], dx, dy) / clip.half;
+  drag.position = Math.min(1, Math.max(-1, drag.position + step));
+  const position = Math.round(20 * drag.position) / 20;
+  if (position !== draft.fields.position) edit('clip', { ...draft.fields, position });
+}
+
+/** Pulling towards the papillary head shortens, in mm of the picture. */
+export function dragChord(
+  view: Viewport,
+  drag: Extract<Drag, { kind: 'chord' }>,
+  start: Place,
+  p: Place,
+): void {
+  const picture = state.main.value!.picture;
+  const topology = state.topologyOf(picture)!;
+  const k = topology.chords.findIndex((part) => part.id === drag.id);
+  const end = (node: number) => project(view, picture.positions.subarray(3 * node, 3 * node + 3));
+  const [head, leaf] = [end(topology.chordNodes[2 * k]), end(topology.chordNodes[2 * k + 1])];
+  const [ux, uy] = [head[0] - leaf[0], head[1] - leaf[1]];
+  const length = Math.hypot(ux, uy);
+  const pulled = length > 20 ? ((p.x - start.x) * ux + (p.y - start.y) * uy) / length : p.y - start.y;
+  const millimetres = pulled * view.camera.scale(view.height);
+  const wanted = Math.min(2 * drag.rest, Math.max(0.3 * drag.rest, drag.rest - millimetres));
+  edit('chord_length', { chord: drag.id, length: Math.round(10 * wanted) / 10 });
+}

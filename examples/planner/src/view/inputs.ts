@@ -1,0 +1,39 @@
+// What the picture depends on, as lists whose items are compared by identity.
+import * as state from '../store/state';
+
+/** Whatever the scene is made of: it is built anew where one of these changes. */
+export function sceneInputs(): unknown[] {
+  const figures = (state.preview.value ?? state.main.value)?.figures;
+  return [
+    state.picture.value,
+    state.motion.value,
+    figures?.hash,
+    figures?.orificeParts.length,
+    // colours of the leaflets and chordae
+    state.map.value,
+    state.map.value === 'tissue' ? null : figures?.fields,
+    state.map.value === 'distance' ? state.compared.value : null,
+    state.map.value === 'distance' ? state.main.value : null,
+    state.choice.value,
+    state.added.value?.id,
+    state.chordsOn.value,
+  ];
+}
+
+/** Whatever is drawn over the scene. */
+export function overlayInputs(): unknown[] {
+  const draft = state.draft.value;
+  return [
+    state.sectionOn.value,
+    state.sectionAt.value,
+    state.labelsOn.value,
+    state.picking.value,
+    state.outline.value,
+    draft?.kind === 'clip' ? draft : null,
+  ];
+}
+
+/** Whether two lists are the same, item by item. */
+export function sameInputs(a: unknown[], b: unknown[]): boolean {
+  return a.length === b.length && a.every((item, k) => item === b[k]);
+}

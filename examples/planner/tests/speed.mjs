@@ -1,0 +1,134 @@
+// Prints how fast the page is: first picture, time from a change of a form to the shape, the leak and all figures, and
+// frames and tasks of the main thread while a valve settles. CPU times hold on a busy machine as well. Usage:
+// node tests/speed.mjs [VERTICES ...]; the default is 425 1700 3710, of which the last has 7,000 faces.
+import { mkdtempSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { closed, openBrowser, page_path } from './browser.mjs';
+import { begin, open } from './person.mjs';
+import { cpuBetween, traced } from './trace.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const library = resolve(here, '../../../build/js/dist/index.mjs');
+const sizes = process.argv.slice(2).map(Number);
+const rounds = 9;
+
+/** The OBJ file of the shipped valve with about this many vertices. */
+async function valveFile(vertices) {
+  const { loadMvs } = await import(pathToFileURL(library).href);
+  const mvs = await loadMvs();
+  const sim = mvs.simulator();
+  sim.generateValve({ vertices });
+  const [bytes, faces] = sim.read((snapshot) => [
+    snapshot.save('obj'),
+    snapshot.view('triangle_nodes').count,
+  ]);
+  sim.dispose();
+  const path = join(mkdtempSync(join(tmpdir(), 'speed-')), `valve${vertices}.obj`);
+  writeFileSync(path, bytes);
+  return { path, faces };
+}
+
+/** The value below which a share of the values lies. */
+function quantile(values, share) {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? NaN;
+}
+const ms = (value) => `${value.toFixed(0).padStart(6)} ms`;
+
+/** Installs clocks in the page: marks of changes of the form and of stages as drawn, and frames. */
+function installClocks(page) {
+  return page.evaluate(() => {
+    const frames = (window.frameTimes = []);
+    addEventListener('input', () => performance.mark('changed'), true);
+    window.planner.state.preview.subscribe((preview) => {
+      const { known = 'all' } = preview?.figures ?? {};
+      // drawn at the end of the next frame
+      if (preview) requestAnimationFrame(() => requestAnimationFrame(() => performance.mark(known)));
+    });
+    let last = 0;
+    const frame = (now) => {
+      if (last) frames.push(now - last);
+      last = now;
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  });
+}
+
+/** Moves the slider of a form by keys. */
+async function changeForm(page) {
+  for (let k = 0; k < rounds; ++k) {
+    await page.keyboard.press(k % 2 ? 'ArrowRight' : 'ArrowLeft');
+    await page.waitForTimeout(60);
+    await closed(page);
+    await page.waitForTimeout(150);
+  }
+}
+
+/** Times from each change to the first mark of a name: by the clock, and CPU of page and worker. */
+function timesTo(name, { main, worker, marks }) {
+  const changes = marks.filter((mark) => mark.name === 'changed').map((mark) => mark.time);
+  const found = [];
+  changes.forEach((from, k) => {
+    const end = marks.find((m) => m.name === name && m.time > from && m.time < (changes[k + 1] ?? Infinity));
+    if (end)
+      found.push({
+        wall: end.time - from,
+        cpu: cpuBetween(main, from, end.time) + cpuBetween(worker, from, end.time),
+      });
+  });
+  return found;
+}
+
+function report(trace, frames) {
+  for (const [title, name] of [
+    ['change to shape', 'shape'],
+    ['change to leak', 'orifice'],
+    ['change to all figures', 'all'],
+  ]) {
+    const times = timesTo(name, trace);
+    const [cpu, wall] = [times.map((t) => t.cpu), times.map((t) => t.wall)];
+    console.log(
+      `  ${title.padEnd(32)} CPU ${ms(quantile(cpu, 0.5))}, clock ${ms(quantile(wall, 0.5))}, worst ${ms(quantile(wall, 1))} (${times.length})`,
+    );
+  }
+  const cpu = trace.main.map((task) => task.cpu);
+  console.log(
+    `  longest task of the main thread  CPU ${ms(Math.max(...cpu))}, clock ${ms(Math.max(...trace.main.map((task) => task.wall)))}`,
+  );
+  console.log(
+    `  frame while it settles               ${ms(quantile(frames, 0.5))}, 95 % below ${ms(quantile(frames, 0.95))}`,
+  );
+}
+
+async function measure(vertices) {
+  const { path, faces } = await valveFile(vertices);
+  const { context } = await openBrowser();
+  try {
+    const page = context.pages()[0] ?? (await context.newPage());
+    const begun = performance.now();
+    await page.goto(pathToFileURL(page_path).href);
+    await page.evaluate(async () => {
+      while (!window.planner?.state.picture.value) await new Promise((done) => setTimeout(done, 5));
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    });
+    const first = performance.now() - begun;
+    await closed(page);
+    await open(page, path);
+    await closed(page, 300_000);
+    await installClocks(page);
+    await begin(page, 'annulus_scale');
+    await page.locator('.form input[type=range]').first().focus();
+    await page.evaluate(() => (window.frameTimes.length = 0));
+    const trace = await traced(page, () => changeForm(page));
+    console.log(`${vertices} vertices, ${faces} faces`);
+    console.log(`  first picture of the page            ${ms(first)}`);
+    report(trace, await page.evaluate(() => window.frameTimes));
+  } finally {
+    await context.close();
+  }
+}
+
+for (const vertices of sizes.length ? sizes : [425, 1700, 3710]) await measure(vertices);
