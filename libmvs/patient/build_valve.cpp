@@ -11,6 +11,7 @@
 #include "model/sides.h"
 #include "patient/chordae/patient_chordae.h"
 #include "patient/findings.h"
+#include "patient/fit/edge_range.h"
 #include "patient/fit/fit_to_closed.h"
 #include "patient/mesh/remesh_sheet.h"
 #include "patient/surface/boundary.h"
@@ -28,10 +29,6 @@ constexpr double default_vertices = 1000;
 // thickness apart. With the default of the model, 20 kPa, they come as close as 0.58 of it, where
 // contact is stiff and slack folds creep: closures take 100 to 360 iterations instead of 50 to 100.
 constexpr double contact_stiffness = 80e3;
-constexpr double exact_edge = 10e-6;  // m: a free edge with a smaller error is exact
-// Of the mean depth of filled notches: they are filled to the straight line over their mouth, and
-// what is missing beyond it or in a wide dip is not seen.
-constexpr double lost_share = 0.5;
 constexpr double degree = std::numbers::pi / 180;
 
 void begin_stage(const BuildSettings &settings, const char *name) {
@@ -255,38 +252,6 @@ ChordFit fit_chords(const PatientSurface &surface, const Progress &progress, Val
       [&](uint32_t start) { tell_progress(progress, 0.1 + 0.7 * start / settings.starts); });
 }
 
-// How far the free edge may be from its place in the surface: its error as given, and the tissue
-// that may be missing below it, as given or as the notches that were filled make likely.
-EdgeRange find_edge_range(const BuildSettings &settings, const PatientGeometry &g,
-                          Findings &findings) {
-  const Finding *notches = find_finding(findings, "free_edge");
-  const bool given = settings.edge_lost > 0;
-  const double lost = given ? settings.edge_lost : (notches ? lost_share * notches->value[2] : 0);
-  if (settings.edge_error > 0) {
-    findings.push_back({"edge_error",
-                        FindingSource::given,
-                        1,
-                        format("the free edge may lie %.2f mm farther out or in, as given; the "
-                               "interval of leaks allows for it",
-                               settings.edge_error * 1e3),
-                        {settings.edge_error},
-                        "m"});
-  }
-  if (lost > 0) {
-    findings.push_back(
-        {"edge_lost",
-         given ? FindingSource::given : FindingSource::guessed,
-         given ? 1 : 0.4,
-         format("up to %.2f mm of tissue may be missing at the free edge, %s; the "
-                "interval of leaks allows for it",
-                lost * 1e3, given ? "as given" : "half of the mean depth of its filled notches"),
-         {lost},
-         "m"});
-  }
-  const double out = settings.edge_error + lost;
-  return out < exact_edge ? EdgeRange{} : EdgeRange{out, settings.edge_error, &g};
-}
-
 }  // namespace
 
 BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &settings,
@@ -314,7 +279,7 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   }
   built.model = make_model(std::move(valve));
   begin_stage(settings, "leak");
-  const EdgeRange edge = find_edge_range(settings, g, findings);
+  const EdgeRange edge = find_edge_range(settings.edge_error, settings.edge_lost, g, findings);
   built.leak = leak_interval(
       built.model, range, edge, leaks, findings,
       [&](uint32_t k, uint32_t of) { tell_progress(progress, done + (1 - done) * k / of); });

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "model/model.h"
+#include "patient/fit/edge_range.h"
 #include "patient/fit/fit_to_closed.h"
-#include "patient/patient_geometry.h"
 
 namespace mvs::core {
 
@@ -26,12 +26,6 @@ struct LengthRange {
 };
 // The range that a fit leaves open.
 LengthRange range_after(const ChordFit &fit);
-
-// How far the free edge may be from where it was found; exact without a geometry.
-struct EdgeRange {
-  double out = 0, in = 0;                     // m
-  const PatientGeometry *geometry = nullptr;  // of the valve
-};
 
 struct LeakInterval {
   std::array<double, 3> factor = {};        // on all rest lengths
