@@ -234,7 +234,7 @@ export const tourTexts = {
         : `No more chordae beyond their limit than in the healthy valve${healthy ? ` (${healthy})` : ''}`,
     open: 'Opens to at least 90 % of the healthy area',
   },
-  shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens wide' },
+  shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },
   won: 'All goals reached.',
 };
 
