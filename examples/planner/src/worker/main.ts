@@ -3,7 +3,7 @@
 import { loadMvs, MvsError, SYSTOLE_PA, type Mvs } from 'libmvs';
 import type { CallName, Calls } from '../calls';
 import type { Failure, Motion, Shown } from '../protocol';
-import { foundingResult, foundingValve } from './founding';
+import { foundingRepair, foundingValve, HealthyValve } from './founding';
 import { HandLoop } from './hand';
 import { Importer } from './importer';
 import { operationsOf } from './operations';
@@ -22,6 +22,7 @@ interface Under {
 let mvs: Mvs;
 let planner: Planner;
 let importer: Importer;
+let healthy: HealthyValve | null = null;
 let hand: HandLoop | null = null;
 /** True while the slider of the opening moves the second simulator. */
 let opening = false;
@@ -114,8 +115,12 @@ const handlers: Handlers = {
   save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),
   save_session: ({ title, notes }) => saveSession(planner, title, notes),
   open_session: ({ bytes }) => openSession(planner, bytes),
-  founding: ({ number, vertices }) =>
-    foundingResult(mvs, number, vertices, (healthy) => planner.keepHealthy(healthy)),
+  founding_healthy: ({ vertices }) => {
+    healthy ??= new HealthyValve(mvs, vertices);
+    planner.healthy = healthy.snapshot;
+    return healthy.figures;
+  },
+  founding_repair: ({ number, vertices }) => foundingRepair(mvs, number, vertices),
   spread: ({ members }, { report }) => planner.spread(members, report),
   read_surface: ({ name, bytes, unit }) => importer.read(name, bytes, unit),
   build: async (request, { signal, report }) => {

@@ -28,8 +28,8 @@ export class Planner {
   /** Bytes of the starting valve, an OBJ file. */
   start = new Uint8Array(0);
   readonly checkpoints = new Map<string, Snapshot>();
-  /** The healthy original of a valve of the tour. */
-  private healthy: Snapshot | null = null;
+  /** The healthy original of a valve of the tour; it belongs to the tour. */
+  healthy: Snapshot | null = null;
   /** The closed valve before the first operation. */
   private first: Snapshot | null = null;
 
@@ -63,15 +63,10 @@ export class Planner {
   private forget(): void {
     for (const snapshot of this.checkpoints.values()) snapshot.dispose();
     this.checkpoints.clear();
-    this.keepHealthy(null);
+    this.healthy = null;
     this.first?.dispose();
     this.first = null;
     this.discard();
-  }
-
-  keepHealthy(snapshot: Snapshot | null): void {
-    this.healthy?.dispose();
-    this.healthy = snapshot;
   }
 
   /** The picture of the valve as it is, without figures. */
