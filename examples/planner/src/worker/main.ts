@@ -3,6 +3,7 @@
 import { loadMvs, MvsError, SYSTOLE_PA, type Mvs } from 'libmvs';
 import type { CallName, Calls } from '../calls';
 import type { Failure, Motion, Shown } from '../protocol';
+import { refusals } from '../text/texts';
 import { foundingRepair, foundingValve, HealthyValve } from './founding';
 import { HandLoop } from './hand';
 import { Importer } from './importer';
@@ -151,7 +152,7 @@ async function work(): Promise<void> {
     const { id, call, argument } = request;
     const abort = new AbortController();
     if (cancelled.delete(id)) {
-      post({ id, failure: { code: 'MVS_E_CANCELLED', part: call, message: 'cancelled' } });
+      post({ id, failure: { code: 'MVS_E_CANCELLED', part: call, message: refusals.cancelled } });
       continue;
     }
     running = { id, abort };
