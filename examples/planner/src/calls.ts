@@ -41,7 +41,11 @@ export interface Calls {
   save_obj: { argument: null; result: Uint8Array };
   save_session: { argument: { notes: string; title: string }; result: Uint8Array };
   open_session: { argument: { bytes: Uint8Array }; result: SessionOpened };
-  founding: { argument: { number: number; vertices: number }; result: FoundingResult };
+  founding_healthy: { argument: { vertices: number }; result: FoundingResult['healthy'] };
+  founding_repair: {
+    argument: { number: number; vertices: number };
+    result: FoundingResult['repaired'];
+  };
   spread: { argument: { members: number }; result: Spread };
   read_surface: { argument: { name: string; bytes: Uint8Array; unit: string }; result: Surface };
   build: { argument: BuildRequest; result: { shown: Shown; findings: Finding[] } };

@@ -1,5 +1,6 @@
 // Requests to the worker: one message out, one answer in. The worker is a classic worker from a blob, the only
 // kind that a page from disk may have.
+import { refusals } from '../text/texts';
 import PlannerWorker from '../worker/main?worker&inline';
 import type { CallName, Calls } from '../calls';
 import type { Failure, Motion, Shown } from '../protocol';
@@ -37,7 +38,7 @@ export class Client {
   constructor(private readonly broken: (sentence: string) => void) {
     this.worker = new PlannerWorker();
     this.worker.onmessage = ({ data }) => this.receive(data);
-    this.worker.onerror = (event) => this.broken(event.message || 'the worker did not start');
+    this.worker.onerror = (event) => this.broken(event.message || refusals.noWorker);
   }
 
   call<Name extends CallName>(

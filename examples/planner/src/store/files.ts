@@ -45,7 +45,7 @@ async function comeBack(left: Left): Promise<void> {
 }
 
 /** Vertices of the shipped valves. */
-const shippedVertices = 425;
+export const shippedVertices = 425;
 
 function begun(shown: Shown | null, title: string, left: Left | null): void {
   if (!shown) return;

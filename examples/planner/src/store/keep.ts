@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import { openSession } from './files';
 import { fail, request, run } from './requests';
 import * as state from './state';
-import { t } from '../text/texts';
+import { refusals, t } from '../text/texts';
 
 const database = 'mvs-planner-1';
 const store = 'session';
@@ -50,8 +50,8 @@ function openDatabase(): Promise<IDBDatabase> {
     const opening = indexedDB.open(database, 1);
     opening.onupgradeneeded = () => opening.result.createObjectStore(store);
     opening.onsuccess = () => resolve(opening.result);
-    opening.onerror = () => reject(opening.error ?? new Error('no storage'));
-    opening.onblocked = () => reject(new Error('the storage is in use by another page'));
+    opening.onerror = () => reject(opening.error ?? new Error(refusals.noStorage));
+    opening.onblocked = () => reject(new Error(refusals.storageInUse));
   });
 }
 

@@ -1,16 +1,23 @@
 // The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
 import { effect } from '@preact/signals';
 import { tourTexts } from '../text/texts';
-import { openShipped } from './files';
+import { openShipped, shippedVertices } from './files';
 import { measureCost } from './measure';
-import { request } from './requests';
+import { fail, request } from './requests';
 import * as state from './state';
 
 export async function startValve(number: number): Promise<void> {
   await openShipped(`founding${number}`, tourTexts.valves[number - 1].title, { number, founding: null });
   state.panel.value = 'tour';
-  const founding = await request('founding', { number, vertices: 425 }).catch(() => null);
-  if (state.tour.value?.number === number) state.tour.value = { ...state.tour.value, founding };
+  // two requests, between which a preview has its turn
+  try {
+    const healthy = await request('founding_healthy', { vertices: shippedVertices });
+    const repaired = await request('founding_repair', { number, vertices: shippedVertices });
+    if (state.tour.value?.number === number)
+      state.tour.value = { ...state.tour.value, founding: { healthy, repaired } };
+  } catch (error) {
+    fail(error);
+  }
 }
 
 /** Measures the opening of each sealed valve of the tour as soon as nothing else is under way. */

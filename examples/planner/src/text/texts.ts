@@ -234,7 +234,7 @@ export const tourTexts = {
         : `No more chordae beyond their limit than in the healthy valve${healthy ? ` (${healthy})` : ''}`,
     open: 'Opens to at least 90 % of the healthy area',
   },
-  shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens wide' },
+  shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },
   won: 'All goals reached.',
 };
 
@@ -287,6 +287,25 @@ export const importTexts = {
   tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
   found: 'What was found and what was guessed',
   sources: ['', 'given', 'measured', 'guessed', 'normal anatomy'],
+};
+
+/** Refusals of the worker and of the page; those of the library come in its own words. */
+export const refusals = {
+  notArchive: 'this file is not a session: it is not a zip archive, or it is damaged',
+  notSession: 'this archive is not a session: session.json is missing',
+  notJson: 'session.json is damaged: it is not JSON',
+  otherKind: 'session.json describes another kind of file',
+  otherVersion: (given: number, known: number) =>
+    `the session is of version ${given}; this page reads ${known}`,
+  missing: (file: string) => `${file} is missing from the session`,
+  noPreview: 'there is no preview to apply: choose an operation',
+  noCheckpoint: (name: string) => `there is no checkpoint ${name}`,
+  noOperation: (kind: string) => `there is no operation ${kind}`,
+  noField: (kind: string, name: string) => `${kind} has no field ${name}`,
+  cancelled: 'cancelled',
+  noWorker: 'the worker did not start',
+  noStorage: 'no storage',
+  storageInUse: 'the storage is in use by another page',
 };
 
 export const verdictTexts = {

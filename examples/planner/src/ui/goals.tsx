@@ -37,6 +37,12 @@ function checks(): Check[] {
   ];
 }
 
+/** Goes on with the next valve; the plan that has reached the goals needs no way back. */
+function next(number: number): void {
+  state.changed.value = false;
+  void startValve(number + 1);
+}
+
 /** `short`: in one line, without the heading. */
 export function Goals({ number, short }: { number: number; short?: boolean }) {
   const found = checks();
@@ -59,7 +65,7 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
           {number < 3 && (
             <>
               {' '}
-              <Button kind="main" onClick={() => void startValve(number + 1)}>
+              <Button kind="main" onClick={() => next(number)}>
                 {tourTexts.next}
               </Button>
             </>

@@ -42,30 +42,37 @@ function result(mvs: Mvs, sim: Simulator): { figures: ReturnType<typeof figuresO
   });
 }
 
-/** Figures of the healthy valve, which `keep` receives, and of the founding paper's repair of valve `number`. */
-export function foundingResult(
-  mvs: Mvs,
-  number: number,
-  vertices: number,
-  keep: (healthy: Snapshot) => void,
-): FoundingResult {
+/** The closed healthy valve and its figures, calculated once for all valves of the tour. */
+export class HealthyValve {
+  readonly figures: FoundingResult['healthy'];
+  readonly snapshot: Snapshot;
+
+  constructor(mvs: Mvs, vertices: number) {
+    const sim = mvs.simulator();
+    try {
+      sim.load(foundingValve(mvs, 0, vertices), 'obj');
+      sim.setLoad();
+      sim.settle({ residual: 1e-4 });
+      const { figures, openArea } = result(mvs, sim);
+      this.figures = { measures: figures.measures, openArea };
+      this.snapshot = sim.snapshot();
+    } finally {
+      sim.dispose();
+    }
+  }
+}
+
+/** Figures of the founding paper's repair of valve `number`. */
+export function foundingRepair(mvs: Mvs, number: number, vertices: number): FoundingResult['repaired'] {
   const sim = mvs.simulator();
   try {
-    sim.load(foundingValve(mvs, 0, vertices), 'obj');
-    sim.setLoad();
-    sim.settle({ residual: 1e-4 });
-    const healthy = result(mvs, sim);
-    keep(sim.snapshot());
     sim.load(foundingValve(mvs, number, vertices), 'obj');
     sim.replayPlan(diseases[number].plan);
-    const repaired = result(mvs, sim);
+    const { figures, openArea } = result(mvs, sim);
     return {
-      healthy: { measures: healthy.figures.measures, openArea: healthy.openArea },
-      repaired: {
-        measures: repaired.figures.measures,
-        openArea: repaired.openArea,
-        operations: repaired.figures.history.map((entry) => entry.title),
-      },
+      measures: figures.measures,
+      openArea,
+      operations: figures.history.map((entry) => entry.title),
     };
   } finally {
     sim.dispose();

@@ -3,7 +3,8 @@
 import { loadMvs, MvsError, SYSTOLE_PA, type Mvs } from 'libmvs';
 import type { CallName, Calls } from '../calls';
 import type { Failure, Motion, Shown } from '../protocol';
-import { foundingResult, foundingValve } from './founding';
+import { refusals } from '../text/texts';
+import { foundingRepair, foundingValve, HealthyValve } from './founding';
 import { HandLoop } from './hand';
 import { Importer } from './importer';
 import { operationsOf } from './operations';
@@ -22,6 +23,7 @@ interface Under {
 let mvs: Mvs;
 let planner: Planner;
 let importer: Importer;
+let healthy: HealthyValve | null = null;
 let hand: HandLoop | null = null;
 /** True while the slider of the opening moves the second simulator. */
 let opening = false;
@@ -114,8 +116,12 @@ const handlers: Handlers = {
   save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),
   save_session: ({ title, notes }) => saveSession(planner, title, notes),
   open_session: ({ bytes }) => openSession(planner, bytes),
-  founding: ({ number, vertices }) =>
-    foundingResult(mvs, number, vertices, (healthy) => planner.keepHealthy(healthy)),
+  founding_healthy: ({ vertices }) => {
+    healthy ??= new HealthyValve(mvs, vertices);
+    planner.healthy = healthy.snapshot;
+    return healthy.figures;
+  },
+  founding_repair: ({ number, vertices }) => foundingRepair(mvs, number, vertices),
   spread: ({ members }, { report }) => planner.spread(members, report),
   read_surface: ({ name, bytes, unit }) => importer.read(name, bytes, unit),
   build: async (request, { signal, report }) => {
@@ -146,7 +152,7 @@ async function work(): Promise<void> {
     const { id, call, argument } = request;
     const abort = new AbortController();
     if (cancelled.delete(id)) {
-      post({ id, failure: { code: 'MVS_E_CANCELLED', part: call, message: 'cancelled' } });
+      post({ id, failure: { code: 'MVS_E_CANCELLED', part: call, message: refusals.cancelled } });
       continue;
     }
     running = { id, abort };

@@ -1,6 +1,7 @@
 // The library's table of operations in the units of the page, and fields of the page in those of the library.
 import { MvsError, type Mvs } from 'libmvs';
 import type { FieldValue, Operation, OperationInfo } from '../protocol';
+import { refusals } from '../text/texts';
 import { pageUnit } from './units';
 
 export function operationsOf(mvs: Mvs): OperationInfo[] {
@@ -29,11 +30,11 @@ export function operationsOf(mvs: Mvs): OperationInfo[] {
 /** Fields of an operation in SI units, parts by their ids. */
 export function libraryFields(mvs: Mvs, operation: Operation): Record<string, never> {
   const info = mvs.operations.find((candidate) => candidate.name === operation.kind);
-  if (!info) throw new MvsError('MVS_E_OP', operation.kind, `there is no operation ${operation.kind}`);
+  if (!info) throw new MvsError('MVS_E_OP', operation.kind, refusals.noOperation(operation.kind));
   const out: Record<string, unknown> = {};
   for (const [name, value] of Object.entries(operation.fields)) {
     const field = info.fields.find((candidate) => candidate.name === name);
-    if (!field) throw new MvsError('MVS_E_OP', name, `${operation.kind} has no field ${name}`);
+    if (!field) throw new MvsError('MVS_E_OP', name, refusals.noField(operation.kind, name));
     out[name] = toLibrary(String(field.type), pageUnit(field.unit).factor, value);
   }
   return out as Record<string, never>;

@@ -2,6 +2,7 @@
 // change it: previews, the opening slider, a hand in the valve.
 import { DIASTOLE_PA, MvsError, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
 import type { Cost, Known, Motion, Operation, Section, SectionRequest, Shown, Spread } from '../protocol';
+import { refusals } from '../text/texts';
 import { libraryFields } from './operations';
 import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
 import { sectionOf } from './section';
@@ -28,8 +29,8 @@ export class Planner {
   /** Bytes of the starting valve, an OBJ file. */
   start = new Uint8Array(0);
   readonly checkpoints = new Map<string, Snapshot>();
-  /** The healthy original of a valve of the tour. */
-  private healthy: Snapshot | null = null;
+  /** The healthy original of a valve of the tour; it belongs to the tour. */
+  healthy: Snapshot | null = null;
   /** The closed valve before the first operation. */
   private first: Snapshot | null = null;
 
@@ -63,15 +64,10 @@ export class Planner {
   private forget(): void {
     for (const snapshot of this.checkpoints.values()) snapshot.dispose();
     this.checkpoints.clear();
-    this.keepHealthy(null);
+    this.healthy = null;
     this.first?.dispose();
     this.first = null;
     this.discard();
-  }
-
-  keepHealthy(snapshot: Snapshot | null): void {
-    this.healthy?.dispose();
-    this.healthy = snapshot;
   }
 
   /** The picture of the valve as it is, without figures. */
@@ -126,7 +122,7 @@ export class Planner {
     for (const known of ['shape', 'orifice'] as const) {
       stage(this.shownOf(preview, known));
       await breathe();
-      if (signal.aborted) throw new MvsError('MVS_E_CANCELLED', 'preview', 'the preview was cancelled');
+      if (signal.aborted) throw new MvsError('MVS_E_CANCELLED', 'preview', refusals.cancelled);
     }
     return this.shownOf(preview);
   }
@@ -138,8 +134,7 @@ export class Planner {
 
   /** The preview becomes the valve of the plan; the page has its figures. */
   accept(): { hash: string } {
-    if (!this.preview)
-      throw new MvsError('MVS_E_STATE', 'preview', 'there is no preview to apply: choose an operation');
+    if (!this.preview) throw new MvsError('MVS_E_STATE', 'preview', refusals.noPreview);
     this.main.restore(this.preview);
     this.discard();
     return { hash: this.main.read((snapshot) => snapshot.hash) };
@@ -213,7 +208,7 @@ export class Planner {
 
   private checkpointOf(name: string): Snapshot {
     const kept = this.checkpoints.get(name);
-    if (!kept) throw new MvsError('MVS_E_ID', name, `there is no checkpoint ${name}`);
+    if (!kept) throw new MvsError('MVS_E_ID', name, refusals.noCheckpoint(name));
     return kept;
   }
 

@@ -4,6 +4,7 @@
 import { MvsError } from 'libmvs';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
 import type { SessionOpened } from '../protocol';
+import { refusals } from '../text/texts';
 import type { Planner } from './planner';
 
 const format = 'mvs-planner-session';
@@ -58,22 +59,21 @@ function unpack(bytes: Uint8Array): Record<string, Uint8Array> {
       },
     });
   } catch {
-    return refuse('this file is not a session: it is not a zip archive, or it is damaged');
+    return refuse(refusals.notArchive);
   }
 }
 
 function describe(files: Record<string, Uint8Array>): Description {
   const text = files['session.json'];
-  if (!text) refuse('this archive is not a session: session.json is missing');
+  if (!text) refuse(refusals.notSession);
   let description: Description;
   try {
     description = JSON.parse(strFromU8(text)) as Description;
   } catch {
-    return refuse('session.json is damaged: it is not JSON');
+    return refuse(refusals.notJson);
   }
-  if (description?.format !== format) refuse('session.json describes another kind of file');
-  if (description.version !== version)
-    refuse(`the session is of version ${description.version}; this page reads ${version}`);
+  if (description?.format !== format) refuse(refusals.otherKind);
+  if (description.version !== version) refuse(refusals.otherVersion(description.version, version));
   return description;
 }
 
@@ -82,10 +82,10 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
   const files = unpack(bytes);
   const description = describe(files);
   const text = (name: string): string =>
-    files[name] ? strFromU8(files[name]) : refuse(`${name} is missing from the session`);
+    files[name] ? strFromU8(files[name]) : refuse(refusals.missing(name));
   const trial = planner.mvs.simulator();
   try {
-    const valve = files['valve.obj'] ?? refuse('valve.obj is missing from the session');
+    const valve = files['valve.obj'] ?? refuse(refusals.missing('valve.obj'));
     const checkpoints = (Array.isArray(description.checkpoints) ? description.checkpoints : []).map(
       ({ name, plan }) => {
         trial.load(valve, 'obj');
