@@ -15,6 +15,12 @@ struct Device {
   double mass, drag;                // kg, N s/m: moved with the hand
   unsigned delay;                   // samples from writing a force to its effect
   unsigned freedoms_in;
+  // Of a device with motors for torque: N m, N m/rad, N m s/rad; 0: unknown.
+  double torque = 0, angular_stiffness = 0, angular_damping = 0;
+  double inertia = 5e-5, turn_drag = 0;  // kg m2, N m s/rad: turned with the hand
+  double turn_resolution = 0;            // rad, of its encoders
+
+  unsigned freedoms_out() const { return force <= 0 ? 0 : torque <= 0 ? 3 : 6; }
 };
 
 // Returns a device by name; throws a Refusal with all names.

@@ -7,7 +7,9 @@
 
 #include "body.h"
 #include "common/interface.h"
+#include "common/rotation.h"
 #include "motors.h"
+#include "wrist.h"
 
 using driver::give;
 using driver::guarded;
@@ -19,11 +21,14 @@ struct mvs_driver_device {
   explicit mvs_driver_device(hand::Settings wanted)
       : settings(std::move(wanted)),
         body(settings.oscillator, settings.script, settings.from),
-        motors(settings.device) {}
+        wrist(settings.rotation),
+        motors(settings.device.force, settings.device.delay),
+        twisters(settings.device.torque, settings.device.delay) {}
 
   const hand::Settings settings;
   hand::Body body;
-  hand::Motors motors;
+  hand::Wrist wrist;
+  hand::Motors motors, twisters;     // of force, of torque
   std::atomic<bool> running{false};  // stop() is called from any thread
   bool on = false;                   // of the last force written
   bool seen = false, begun = false;  // a sample was read: ever, since start()
@@ -36,13 +41,18 @@ namespace {
 
 const char *const kOptions[] = {
     ("device: what it holds: ideal, touch (default), omni, desktop, premium15, premium30, omega, "
-     "delta, lambda or falcon"),
+     "delta, lambda, falcon, premium6 or sigma; the last two have motors for torque"),
     "mass: of the hand, kg",
     "arm_stiffness: N/m, of the spring by which the arm leads it",
     "arm_damping: N s/m, beside that spring",
     "target: x,y,z in m, where the arm leads it",
     "amplitude: x,y,z in m, of a sine about the target",
     "frequency: Hz, of that sine",
+    "inertia: of the hand, kg m2",
+    "wrist_stiffness: N m/rad, of the spring by which the wrist holds its orientation",
+    "wrist_damping: N m s/rad, beside that spring",
+    "turned: x,y,z in rad, the rotation vector with which the hand begins",
+    "turn_amplitude: x,y,z in rad, of a sine of the wrist at `frequency`",
     "file: a recording (haptic_drivers/replay/README.md) that leads the arm instead",
     "from: x,y,z in m, where the hand begins, if not at the target",
     "push: x,y,z in N, a constant force on the hand",
@@ -54,6 +64,11 @@ const char *const kOptions[] = {
     "damping: N s/m, likewise",
     "rate: Hz",
     "resolution: m, a step of its encoder",
+    "torque: N m, the device's peak torque",
+    "angular_stiffness: N m/rad, the largest that is stable",
+    "angular_damping: N m s/rad, likewise",
+    "turn_resolution: rad, a step of its encoder of orientation",
+    "device_inertia: kg m2, turned along with the hand",
     "device_mass: kg, moved along with the hand",
     "device_damping: N s/m, likewise",
     "delay: samples, from the writing of a force to its effect",
@@ -99,7 +114,7 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *out) {
   const hand::Device &held = device->settings.device;
   mvs_driver_info info = {};
   info.freedoms_in = held.freedoms_in;
-  info.freedoms_out = held.force > 0 ? 3 : 0;
+  info.freedoms_out = held.freedoms_out();
   info.buttons = 2;
   info.has_deadman = device->settings.faults.kind == Fault::kDeadman;
   for (int k = 0; k < 3; ++k) {
@@ -110,6 +125,9 @@ int32_t info(mvs_driver_device *device, mvs_driver_info *out) {
   info.continuous_force = held.continuous_force;
   info.max_stiffness = held.stiffness;
   info.max_damping = held.damping;
+  info.peak_torque = held.torque;
+  info.max_angular_stiffness = held.angular_stiffness;
+  info.max_angular_damping = held.angular_damping;
   info.rate = held.rate;
   std::snprintf(info.model, sizeof info.model, "%s (simulated)", held.model);
   give(info, out);
@@ -126,6 +144,7 @@ int32_t start(mvs_driver_device *device) {
   device->begun = false;
   device->on = false;
   device->motors.off();
+  device->twisters.off();
   device->running = true;
   return MVS_DRIVER_OK;
 }
@@ -142,8 +161,12 @@ void sample(mvs_driver_device &device, uint64_t now_ns) {
   const bool felt = device.running && !device.settings.faults.limp(before);
   Vector force = device.settings.push;
   for (int k = 0; k < 3; ++k) force[k] += felt ? device.motors.force()[k] : 0;
-  device.body.move(before < 0 ? -length : before, length, force);
+  const double begin = before < 0 ? -length : before;
+  device.body.move(begin, length, force);
+  if (device.settings.device.freedoms_in == 6)
+    device.wrist.move(begin, length, felt ? device.twisters.force() : Vector{});
   device.motors.sampled();
+  device.twisters.sampled();
   device.now_ns = now_ns;
   if (device.running && !device.begun) device.begin_ns = now_ns;
   device.begun = device.begun || device.running;
@@ -163,14 +186,16 @@ mvs_driver_state state_of(const mvs_driver_device &device) {
   if (settings.faults.kind == Fault::kDeadman) state.flags |= MVS_DRIVER_FLAG_HELD;
   const bool on = device.running && device.on && !settings.faults.limp(script_time(device));
   if (on) state.flags |= MVS_DRIVER_FLAG_FORCE_ON;
-  if (on && device.motors.saturated()) state.flags |= MVS_DRIVER_FLAG_SATURATED;
+  if (on && (device.motors.saturated() || device.twisters.saturated()))
+    state.flags |= MVS_DRIVER_FLAG_SATURATED;
   state.time_ns = device.now_ns;
   state.sequence = device.last.sequence + 1;
   for (int k = 0; k < 3; ++k)
     state.position[k] = encoded(device.body.position()[k], settings.device.resolution);
   for (int k = 0; k < 3 && settings.measures_velocity; ++k)
     state.velocity[k] = device.body.velocity()[k];
-  state.orientation[0] = 1;
+  const hand::Quaternion turned = device.wrist.encoded(settings.device.turn_resolution);
+  std::copy(turned.begin(), turned.end(), state.orientation);
   state.buttons = settings.buttons;
   if (!settings.script.recording) return state;
   const driver::Pose pose = settings.script.recording->at(script_time(device));
@@ -206,15 +231,20 @@ int32_t write(mvs_driver_device *device, const mvs_driver_force *force) {
   if (device->settings.faults.now(Fault::kUnplug, script_time(*device))) return unplugged(device);
   const mvs_driver_force wanted = take(force);
   device->on = wanted.on && device->running;
-  Vector newtons = {};
-  for (int k = 0; k < 3 && device->on; ++k) newtons[k] = wanted.force[k];
-  if (!std::isfinite(newtons[0] + newtons[1] + newtons[2])) {
+  Vector newtons = {}, torque = {};
+  for (int k = 0; k < 3 && device->on; ++k) {
+    newtons[k] = wanted.force[k];
+    torque[k] = wanted.torque[k];
+  }
+  if (!driver::is_finite(wanted)) {
     device->on = false;
     device->motors.off();
+    device->twisters.off();
     device->sentence = "the force that was written is not finite";
     return MVS_DRIVER_E_FAULT;
   }
   device->motors.write(newtons);
+  if (device->settings.device.torque > 0) device->twisters.write(torque);
   return MVS_DRIVER_OK;
 }
 

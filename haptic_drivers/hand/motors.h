@@ -1,4 +1,5 @@
-// Motors of a device: the written force, delayed, held (zero-order hold) and limited to the peak.
+// Motors of a device: the written force or torque, delayed by some samples, held (zero-order hold)
+// and limited to the peak; 0: unlimited.
 #pragma once
 
 #include <mvs/driver.h>
@@ -11,9 +12,9 @@ namespace hand {
 
 class Motors {
  public:
-  explicit Motors(const Device &device) : device_(device) {}
+  Motors(double peak, unsigned delay) : peak_(peak), delay_(delay) {}
 
-  const driver::Vector &force() const { return acting_; }  // N, on the hand
+  const driver::Vector &force() const { return acting_; }  // on the hand
   bool saturated() const { return saturated_; }
 
   void write(const driver::Vector &wanted) {
@@ -21,17 +22,16 @@ class Motors {
     for (const double f : wanted) square += f * f;
     const double size = std::sqrt(square);
     // tolerance for the rounding of a force that libmvs clamped to the peak
-    saturated_ = device_.force > 0 && size > device_.force * (1 + 1e-9);
-    for (int k = 0; k < 3; ++k)
-      line_[0][k] = saturated_ ? wanted[k] * device_.force / size : wanted[k];
-    if (device_.delay == 0) acting_ = line_[0];
+    saturated_ = peak_ > 0 && size > peak_ * (1 + 1e-9);
+    for (int k = 0; k < 3; ++k) line_[0][k] = saturated_ ? wanted[k] * peak_ / size : wanted[k];
+    if (delay_ == 0) acting_ = line_[0];
   }
 
   // Advances the delay line by one sample.
   void sampled() {
-    if (device_.delay == 0) return;
-    acting_ = line_[device_.delay - 1];
-    for (unsigned k = device_.delay; k > 0; --k) line_[k] = line_[k - 1];
+    if (delay_ == 0) return;
+    acting_ = line_[delay_ - 1];
+    for (unsigned k = delay_; k > 0; --k) line_[k] = line_[k - 1];
   }
 
   void off() {
@@ -41,7 +41,8 @@ class Motors {
   }
 
  private:
-  const Device device_;
+  const double peak_;
+  const unsigned delay_;
   std::array<driver::Vector, 17> line_ = {};  // delay line, newest first
   driver::Vector acting_ = {};
   bool saturated_ = false;

@@ -23,6 +23,13 @@ Device held_device(const Options &options) {
   held.resolution = options.number("resolution", held.resolution, 0, 0.01);
   held.mass = options.number("device_mass", held.mass, 0, 100);
   held.drag = options.number("device_damping", held.drag, 0, kMost);
+  held.torque = options.number("torque", held.torque, 0, kMost);
+  held.angular_stiffness = options.number("angular_stiffness", held.angular_stiffness, 0, kMost);
+  held.angular_damping = options.number("angular_damping", held.angular_damping, 0, kMost);
+  held.turn_resolution = options.number("turn_resolution", held.turn_resolution, 0, 0.1);
+  held.inertia = options.number("device_inertia", held.inertia, 0, 1);
+  if (held.torque > 0 && held.freedoms_in != 6)
+    refuse(MVS_DRIVER_E_OPTION, "option torque: this device does not measure orientation");
   const double delay = options.number("delay", held.delay, 0, 16);
   if (delay != std::floor(delay))
     refuse(MVS_DRIVER_E_OPTION, "option delay: give a whole number of samples");
@@ -33,16 +40,18 @@ Device held_device(const Options &options) {
 Script script_of(const Options &options) {
   Script script;
   if (const auto file = options.text("file")) {
-    if (options.given("target") || options.given("amplitude") || options.given("frequency"))
-      refuse(MVS_DRIVER_E_OPTION,
-             "option file: the file leads the hand; leave out target, amplitude and frequency");
+    for (const char *key : {"target", "amplitude", "frequency", "turned", "turn_amplitude"})
+      if (options.given(key))
+        refuse(MVS_DRIVER_E_OPTION,
+               std::string("option file: the file leads the hand; leave out ") + key);
     script.recording = driver::RecordingFile::load(*file);
     return script;
   }
   script.target = options.vector("target", {}, 1);
   script.amplitude = options.vector("amplitude", {}, 1);
   script.frequency = options.number("frequency", 0, 0, 1000);
-  if (options.given("amplitude") != options.given("frequency"))
+  const bool swings = options.given("amplitude") || options.given("turn_amplitude");
+  if (swings != options.given("frequency"))
     refuse(MVS_DRIVER_E_OPTION, "options amplitude and frequency: give both or neither");
   return script;
 }
@@ -61,6 +70,21 @@ Oscillator oscillator_of(const Options &options, const Device &held, const Scrip
   return o;
 }
 
+// Defaults: the order of a hand that holds a stylus; assumed.
+Rotation rotation_of(const Options &options, const Device &held, const Script &script) {
+  Rotation out;
+  out.oscillator.mass = options.number("inertia", 2e-4, 0, 1) + held.inertia;
+  out.oscillator.stiffness = options.number("wrist_stiffness", 1, 0, kMost);
+  out.oscillator.arm_damping = options.number("wrist_damping", 0.02, 0, kMost);
+  out.oscillator.damping = held.turn_drag;
+  out.oscillator.swing = kTwoPi * script.frequency;
+  out.from = options.vector("turned", {}, 3);
+  out.amplitude = options.vector("turn_amplitude", {}, 3);
+  if (out.oscillator.mass < 1e-6)
+    refuse(MVS_DRIVER_E_OPTION, "option inertia: hand and device together have below 1e-6 kg m2");
+  return out;
+}
+
 }  // namespace
 
 Settings settings(const mvs_driver_host *host) {
@@ -69,6 +93,7 @@ Settings settings(const mvs_driver_host *host) {
   out.device = held_device(options);
   out.script = script_of(options);
   out.oscillator = oscillator_of(options, out.device, out.script);
+  out.rotation = rotation_of(options, out.device, out.script);
   const auto &recording = out.script.recording;
   const driver::Vector begin = recording ? recording->at(0).position : out.script.target;
   out.from = options.vector("from", begin, 1);

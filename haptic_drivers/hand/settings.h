@@ -17,9 +17,16 @@ struct Script {
   std::optional<driver::Recording> recording;  // replaces the other members
 };
 
+// Rotation of the hand about its wrist.
+struct Rotation {
+  Oscillator oscillator;                     // kg m2, N m/rad, N m s/rad
+  driver::Vector from = {}, amplitude = {};  // rad: initial rotation vector, and of the swing
+};
+
 struct Settings {
   Device device;
   Oscillator oscillator;  // hand and device together
+  Rotation rotation;
   Script script;
   driver::Vector from = {}, push = {};  // m, initial position; N, additional force
   bool measures_velocity = false;

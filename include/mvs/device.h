@@ -81,7 +81,8 @@ MVS_API void mvs_device_close(mvs_device *device);
 
 /* Properties of a device as its driver reports them, in the frame of the device; numbers that the
  * driver does not know are those of the weakest device known to libmvs (3.3 N, 0.88 N continuous,
- * 400 N/m, 4 N s/m). `realtime` is set by mvs_device_start: its thread got real-time priority. */
+ * 400 N/m, 4 N s/m, 0.188 N m). `realtime` is set by mvs_device_start: its thread got real-time
+ * priority. */
 typedef struct mvs_device_info {
   uint32_t struct_size;
   uint32_t freedoms_in, freedoms_out, buttons;
@@ -93,6 +94,10 @@ typedef struct mvs_device_info {
   double max_speed;                          /* m/s */
   double rate;                               /* Hz */
   char driver[64], model[64], serial[64], firmware[64];
+  /* 0 unless the device measures orientation and renders torque (6 freedoms in and out). */
+  double peak_torque, continuous_torque; /* N m */
+  double max_angular_stiffness;          /* N m/rad */
+  double max_angular_damping;            /* N m s/rad */
 } mvs_device_info;
 /* Reads the properties of a device. */
 MVS_API mvs_result mvs_device_get_info(const mvs_device *device, mvs_device_info *info);
@@ -105,20 +110,30 @@ typedef struct mvs_device_limits {
   double continuous_force; /* N, allowed average of the force [that of the device] */
   double thermal_s;        /* s, averaging time of that limit; 0.1 to 1000 [10] */
   double slew;             /* N/s, largest rate of change of the force [100 / s times `force`] */
-  double gate;             /* N, forces start only while the force is below it [0.2] */
+  double gate;             /* N, forces start only while the force is below it, and the torque
+                              below the same share of `torque` as it is of `force` [0.2] */
   double ramp_s;           /* s, duration of the initial ramp; 0.01 to 10 [1] */
   double speed;            /* m/s, above it forces latch off [that of the device, at most 1] */
   double stale_s;          /* s, an older tissue model fades; 0.005 to 10 [0.1] */
   double fade_s;           /* s, duration of fading; 0.001 to 1 [0.05] */
   double stiffness;        /* N/m, largest stiffness felt by the hand [that of the device] */
+  /* Of devices that render torque; 0 for others. thermal_s, ramp_s, stale_s and fade_s hold for
+   * the torque as well. */
+  double torque;            /* N m [peak torque of the device] */
+  double continuous_torque; /* N m, allowed average of the torque [that of the device] */
+  double torque_slew;       /* N m/s, its largest rate of change [100 / s times `torque`] */
+  double angular_stiffness; /* N m/rad, largest one felt by the hand [that of the device] */
+  double angular_speed;     /* rad/s, above it forces latch off; 0.1 to 100 [20] */
 } mvs_device_limits;
 /* Set and read the limits; unset fields read as the default in effect. */
 MVS_API mvs_result mvs_device_set_limits(mvs_device *device, const mvs_device_limits *limits);
 MVS_API mvs_result mvs_device_get_limits(const mvs_device *device, mvs_device_limits *limits);
 
 /* Map from the device's workspace to the scene: p = origin + scale * rotation * p_device; forces of
- * the scene are multiplied by `force_scale`. The hand feels scale * force_scale times the stiffness
- * of the tissue; the tool's spring is softened so that this does not exceed the limit. */
+ * the scene are multiplied by `force_scale`, torques by force_scale / scale, which is the torque of
+ * these forces at the smaller levers of the device. The hand feels scale * force_scale times the
+ * stiffness of the tissue; the tool's spring is softened so that this does not exceed the limit,
+ * and on a device that renders torque so that translation and rotation together do not. */
 typedef struct mvs_device_view {
   uint32_t struct_size;
   uint32_t reserved;
@@ -136,7 +151,8 @@ enum mvs_hand_mode_e {
   MVS_HAND_MODE_LOOK = 0,  /* points at nodes and chordae without force */
   MVS_HAND_MODE_GRASP = 1, /* the button grasps the nearest node, drags and releases it */
   MVS_HAND_MODE_BALL = 2,  /* pushes tissue with a ball */
-  MVS_HAND_MODE_ROD = 3,   /* pushes with a rod along the stylus */
+  MVS_HAND_MODE_ROD = 3,   /* pushes with a rod along the stylus; its torque is rendered by devices
+                              with 6 freedoms out */
   MVS_HAND_MODE_FEEL = 4,  /* feels the tension of `chord` */
   MVS_HAND_MODE_DRAG = 5   /* the button drags the leaflet end of `chord` to set its length */
 };
@@ -207,6 +223,10 @@ typedef struct mvs_device_report {
   double force[3];            /* N, of the tissue on the hand, before it is scaled */
   double stiffness;           /* N/m, largest stiffness of the rendered tissue model */
   double drag_to[3];          /* m, target of a dragged chord end */
+  double torque[3]; /* N m, in the scene, of the tissue on the hand about `position`, before
+                       it is scaled; of a rod, on every device */
+  double
+      angular_stiffness; /* N m/rad, largest one of the rendered tissue model; 0 without torque */
 } mvs_device_report;
 
 /* Exchanges hand and tissue data between device and valve; to be called before each mvs_step.
@@ -227,12 +247,14 @@ typedef uint32_t mvs_device_phase;
 
 /* Limits applied to the last force: bits of mvs_device_state.limited. */
 enum mvs_limited_flags_e {
-  MVS_LIMITED_FORCE = 1 << 0,      /* clamped */
-  MVS_LIMITED_CONTINUOUS = 1 << 1, /* clamped to the continuous limit of the motors */
-  MVS_LIMITED_SLEW = 1 << 2,
+  MVS_LIMITED_FORCE = 1 << 0, /* clamped */
+  MVS_LIMITED_CONTINUOUS =
+      1 << 1,                  /* force or torque clamped to the continuous limit of the motors */
+  MVS_LIMITED_SLEW = 1 << 2,   /* force or torque changed at its largest rate */
   MVS_LIMITED_ENERGY = 1 << 3, /* damped, because the loop had generated energy */
   MVS_LIMITED_WALL = 1 << 4,   /* the wall of the workspace acted */
-  MVS_LIMITED_NUMBER = 1 << 5  /* a force was not finite and became zero */
+  MVS_LIMITED_NUMBER = 1 << 5, /* a force was not finite and became zero */
+  MVS_LIMITED_TORQUE = 1 << 6  /* the torque was clamped */
 };
 typedef uint32_t mvs_limited_flags;
 
@@ -263,14 +285,16 @@ typedef struct mvs_device_state {
   double rate;               /* Hz, recent average */
   double worst_period;       /* s, the longest between two ticks since mvs_device_start */
   double model_age;          /* s, of the tissue model; infinite before the first */
-  double energy;             /* J, generated by the loop and not yet removed by damping */
-  double heat;               /* 0 cool .. 1 at the continuous limit */
+  double energy;             /* J, generated by the loop, work of torques included, and not yet
+                                removed by damping */
+  double heat;               /* 0 cool .. 1 at the continuous limit, of force or torque */
   uint64_t ticks;            /* of the servo */
   uint64_t late;             /* ticks later than two periods */
   uint64_t bad_samples;      /* samples with a defect since mvs_device_start */
   mvs_sample_fault_flags sample_faults; /* MVS_SAMPLE_FAULT_*, of these samples; a defect latches
                                            forces off only once they are armed */
   uint32_t reserved;
+  double torque[3]; /* N m, of the device, about `hand`: the commanded torque */
 } mvs_device_state;
 /* Reads the status, from any thread. */
 MVS_API mvs_result mvs_device_get_state(mvs_device *device, mvs_device_state *state);
@@ -285,6 +309,7 @@ typedef struct mvs_device_sample {
   double gripper;            /* rad */
   uint32_t buttons;          /* as the driver reports them */
   mvs_limited_flags limited; /* MVS_LIMITED_* */
+  double torque[3];          /* N m, about `position` */
 } mvs_device_sample;
 
 /* Takes the ticks since the last call, oldest first, out of a buffer of 8192: writes at most

@@ -85,7 +85,7 @@ typedef struct mvs_driver_info {
                                                 axes */
   double peak_force;                         /* N */
   double continuous_force;                   /* N, sustained without time limit */
-  double peak_torque;                        /* N m */
+  double peak_torque;                        /* N m, about any axis */
   double max_stiffness;                      /* N/m, largest stable stiffness at its rate */
   double max_damping;                        /* N s/m, largest stable damping at its rate */
   double max_speed;                          /* m/s */
@@ -94,6 +94,11 @@ typedef struct mvs_driver_info {
    * y up, z towards the user: p = frame[:, :3] p_device + frame[:, 3]. All zero: identity. */
   double frame[12];
   char model[64], serial[64], firmware[64];
+  /* Of a device with freedoms_out 6; 0 is unknown, as above. Unknown values follow from those of
+   * the force with the lever peak_torque / peak_force. */
+  double continuous_torque;     /* N m, sustained without time limit */
+  double max_angular_stiffness; /* N m/rad, largest stable stiffness of a rotation */
+  double max_angular_damping;   /* N m s/rad, likewise */
 } mvs_driver_info;
 
 /* Bits of mvs_driver_state.flags. */
@@ -123,12 +128,13 @@ typedef struct mvs_driver_state {
   mvs_cause cause;        /* MVS_CAUSE_*: the device itself switched its forces off */
 } mvs_driver_state;
 
-/* Force on the hand, valid until the next one. */
+/* Force on the hand, valid until the next one. Force and torque act at mvs_driver_state.position
+ * along the axes of that position. The torque is zero for a device with freedoms_out below 6. */
 typedef struct mvs_driver_force {
   uint32_t struct_size;
   uint32_t on;      /* 0: motors off */
   double force[3];  /* N, on the hand */
-  double torque[3]; /* N m, on the hand */
+  double torque[3]; /* N m, on the hand, about its position */
   double gripper;   /* N m, opening the fingers */
 } mvs_driver_force;
 

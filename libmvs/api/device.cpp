@@ -65,6 +65,7 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
   write(view.scale() * view.turned(now.pose.velocity), out.velocity);
   write(now.pose.position, out.hand);
   write(now.force, out.force);
+  write(now.torque, out.torque);
   out.rate = now.rate;
   out.worst_period = now.worst_period;
   out.model_age = now.model_age;
@@ -82,7 +83,7 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
 void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   const ServoStatus now = d.device.status();
   ServoLinks &links = d.device.links();
-  d.hand.begin(now, d.device.limits().stiffness);
+  d.hand.begin(now, {d.device.limits().stiffness, d.device.limits().angular_stiffness});
   ButtonEvent event;
   while (links.buttons.pop(event)) d.hand.take_button(event, sim);
   if (now.phase == DevicePhase::stopped) {

@@ -4,27 +4,44 @@
 #include <algorithm>
 
 namespace mvs::core {
+namespace {
+
+double work_over(const Wrench &wrench, const Twist &step) {
+  return wrench.force.dot(step.linear) + wrench.torque.dot(step.angular);
+}
+
+Wrench sum_of(const Wrench &a, const Wrench &b) {
+  return {a.force + b.force, a.torque + b.torque};
+}
+
+}  // namespace
 
 // The energy is clamped at 0: a store of dissipated energy could be released at once later.
-void EnergyObserver::take_step(const Vec3 &step, const std::array<Vec3, 2> &sent,
-                               const Vec3 &before, const Vec3 &now) {
-  const double given = std::max(sent[0].dot(step), sent[1].dot(step));
-  energy_ = std::max(0.0, energy_ + given - 0.5 * (before + now).dot(step));
+void EnergyObserver::take_step(const Twist &step, const std::array<Wrench, 2> &sent,
+                               const Wrench &before, const Wrench &now) {
+  const double given = std::max(work_over(sent[0], step), work_over(sent[1], step));
+  energy_ = std::max(0.0, energy_ + given - 0.5 * work_over(sum_of(before, now), step));
 }
 
 // The old model did the work W_old from its origin to the hand. The consistent value is the work of
 // the simulation between the two origins plus that of the new model from its origin to the hand.
-void EnergyObserver::take_model(const TissueModel &before, const TissueModel &now, const Vec3 &hand,
-                                double share) {
-  const double simulated = 0.5 * (before.force + now.force).dot(now.origin - before.origin);
+void EnergyObserver::take_model(const TissueModel &before, const TissueModel &now,
+                                const Placement &hand, double share) {
+  Twist moved = {now.origin - before.origin, Vec3::Zero()};
+  if (before.turns != 0 && now.turns != 0)
+    moved.angular = small_rotation(before.orientation, now.orientation);
+  const Wrench both = sum_of({before.force, before.torque}, {now.force, now.torque});
+  const double simulated = 0.5 * work_over(both, moved);
   const double made = work_to(before, hand) - simulated - work_to(now, hand);
   energy_ = std::max(0.0, energy_ + share * made);
 }
 
-Vec3 EnergyObserver::damp(const Vec3 &velocity, double dt, double most) const {
-  const double square = velocity.squaredNorm();
-  if (energy_ <= 0 || square == 0) return Vec3::Zero();
-  return -std::min(most, energy_ / (square * dt)) * velocity;
+Wrench EnergyObserver::damp(const Twist &velocity, double dt, const Damping &most) const {
+  const double ratio = most.angular / most.linear;  // m2
+  const double square = velocity.linear.squaredNorm() + ratio * velocity.angular.squaredNorm();
+  if (energy_ <= 0 || square == 0) return {};
+  const double damping = std::min(most.linear, energy_ / (square * dt));
+  return {-damping * velocity.linear, -damping * ratio * velocity.angular};
 }
 
 }  // namespace mvs::core

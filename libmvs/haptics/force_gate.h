@@ -12,8 +12,8 @@ namespace mvs::core {
 struct Facts {
   Cause cause = Cause::nothing;  // a reason to latch
   bool may_feel = false;         // tissue model is fresh and the device is not parked
-  double wanted = 0;             // N, norm of the unlimited force
-  double dt = 0;                 // s
+  double wanted = 0;  // N, norm of the unlimited force, or of the torque at the device's lever
+  double dt = 0;      // s
 };
 
 // Requests of the application, from any thread.

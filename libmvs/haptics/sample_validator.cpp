@@ -94,9 +94,12 @@ void SampleValidator::take_time(const mvs_driver_state &sample) {
 
 void SampleValidator::take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits) {
   const Vec3 before = pose_.position;
+  const Eigen::Quaterniond turned = pose_.orientation;
   pose_.position = traits_->turn * Vec3::Map(sample.position) + traits_->shift;
   const double *const q = sample.orientation;
   pose_.orientation = traits_->turn_quaternion * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  // work of torques needs more than the 1e-3 that is_unit() allows
+  if (traits_->renders_torque) pose_.orientation.normalize();
   pose_.gripper = std::isfinite(sample.gripper) ? sample.gripper : 0;
   if (!has_pose_) {
     has_pose_ = true;
@@ -108,6 +111,18 @@ void SampleValidator::take_pose(const mvs_driver_state &sample, const mvs_device
   fast_ = speed > limits.speed ? fast_ + 1 : 0;
   if (speed > jump * limits.speed || fast_ >= fast_samples) latch_cause(Cause::velocity);
   take_velocity(sample, step);
+  if (traits_->renders_torque) take_spin(turned, limits);
+}
+
+// Estimates the angular velocity; latches as for velocity. A jump of the orientation is as
+// dangerous as one of the position: the torque follows it.
+void SampleValidator::take_spin(const Eigen::Quaterniond &before, const mvs_device_limits &limits) {
+  const Vec3 turn = small_rotation(before, pose_.orientation);
+  const double speed = turn.norm() / std::max(dt_, 0.5 / traits_->info.rate);
+  fast_turns_ = speed > limits.angular_speed ? fast_turns_ + 1 : 0;
+  if (speed > jump * limits.angular_speed || fast_turns_ >= fast_samples)
+    latch_cause(Cause::velocity);
+  pose_.spin += dt_ / (velocity_filter + dt_) * (turn / dt_ - pose_.spin);
 }
 
 void SampleValidator::take_velocity(const mvs_driver_state &sample, const Vec3 &step) {

@@ -32,6 +32,7 @@ class SampleValidator {
   void take_time(const mvs_driver_state &sample);
   void take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits);
   void take_velocity(const mvs_driver_state &sample, const Vec3 &step);
+  void take_spin(const Eigen::Quaterniond &before, const mvs_device_limits &limits);
   void latch_cause(Cause cause) {
     if (cause_ == Cause::nothing) cause_ = cause;
   }
@@ -42,7 +43,7 @@ class SampleValidator {
   uint64_t time_ns_ = 0, sequence_ = 0;
   double dt_ = 0, passed_ = 0, silent_ = 0;  // s
   double still_ = 0;                         // s, since the time of new samples advanced
-  uint32_t fast_ = 0;                        // consecutive samples above the speed limit
+  uint32_t fast_ = 0, fast_turns_ = 0;       // consecutive samples above the speed limit
   Cause cause_ = Cause::nothing;
   uint32_t flags_ = 0, faults_ = 0;
 };

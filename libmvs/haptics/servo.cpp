@@ -16,6 +16,12 @@ bool is_finite(const TissueModel &t) {
          t.normal.allFinite() && std::isfinite(t.gap) && std::isfinite(t.most);
 }
 
+bool has_finite_torque(const TissueModel &t) {
+  return t.orientation.coeffs().allFinite() && t.torque.allFinite() && t.coupling.allFinite() &&
+         t.turning.allFinite() && t.arm.allFinite() && std::isfinite(t.lever) &&
+         std::isfinite(t.most_torque);
+}
+
 }  // namespace
 
 Servo::Servo(const DeviceTraits &traits, const mvs_device_limits &limits, ServoLinks &links)
@@ -30,7 +36,7 @@ void Servo::start() {
   buttons_.start();
   gate_.start();
   energy_.forget();
-  field_ = force_ = before_ = Vec3::Zero();
+  field_ = sent_ = before_ = {};
   tissue_ = {};
   links_->tissue.refresh();  // discards a model posted before the start
   status_ = {};
@@ -44,21 +50,25 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
   bits_ = 0;
   validator_.take(sample, limits_);
   const double dt = validator_.dt();
-  const Vec3 &hand = validator_.pose().position;
+  const Placement hand = validator_.pose().placement();
   if (dt > 0) {
     // work of the sent forces against the field at both ends of the step
     uint32_t unused = 0;
-    energy_.take_step(hand - at_, {force_, before_}, field_, rendered(wanted(), unused));
-    heat_.spend(force_, dt, limits_);
+    Twist step = {hand.position - last_.position, Vec3::Zero()};
+    if (traits_->renders_torque) step.angular = small_rotation(last_.orientation, hand.orientation);
+    energy_.take_step(step, {sent_, before_}, field_, rendered(wanted(), unused));
+    heat_.spend(sent_.force, dt, force_limits(limits_), limits_.thermal_s);
+    torque_heat_.spend(sent_.torque, dt, torque_limits(limits_), limits_.thermal_s);
   }
-  at_ = hand;
+  last_ = hand;
   age(dt);
   take_updates();
   const bool may_feel = status_.model_age <= limits_.stale_s && !validator_.is_parked();
-  const Vec3 field = wanted();
-  share_ = gate_.share({validator_.cause(), may_feel, field.norm(), validator_.passed()}, limits_);
-  before_ = force_;
-  force_ = limited(field);
+  const Wrench field = wanted();
+  share_ =
+      gate_.share({validator_.cause(), may_feel, gated_size(field), validator_.passed()}, limits_);
+  before_ = sent_;
+  sent_ = limited(field);
   write_force(force);
   publish(sample);
 }
@@ -66,11 +76,12 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
 void Servo::lose(Cause cause) {
   links_->requests.cut(cause);
   share_ = gate_.share({}, limits_);
-  force_ = Vec3::Zero();
+  sent_ = {};
   status_.phase = gate_.phase();
   status_.cause = gate_.cause();
   status_.device_cause = cause;
-  status_.force = force_;
+  status_.force = sent_.force;
+  status_.torque = sent_.torque;
   links_->status.post(status_);
 }
 
@@ -78,15 +89,16 @@ void Servo::lose(Cause cause) {
 void Servo::take_updates() {
   if (links_->limits.refresh()) limits_ = links_->limits.get();
   if (!links_->tissue.refresh()) return;
-  const TissueModel &next = links_->tissue.get();
-  if (!is_finite(next)) {
+  TissueModel next = links_->tissue.get();
+  if (!is_finite(next) || (next.turns != 0 && !has_finite_torque(next))) {
     bits_ |= MVS_LIMITED_NUMBER;
     tissue_ = {};
     return links_->requests.cut(Cause::not_finite);
   }
+  if (!traits_->renders_torque) next.turns = 0;
   const bool same_contact = next.contact == tissue_.contact && next.kind != TissueModel::free;
   if (same_contact && tissue_.kind != TissueModel::free) {
-    energy_.take_model(tissue_, next, validator_.pose().position, share_);
+    energy_.take_model(tissue_, next, validator_.pose().placement(), share_);
   } else {
     energy_.forget();
   }
@@ -94,35 +106,59 @@ void Servo::take_updates() {
   status_.model_age = 0;
 }
 
-Vec3 Servo::wanted() const {
-  const Vec3 &hand = validator_.pose().position;
-  return force_at(tissue_, hand) + workspace_wall(*traits_, hand);
+Wrench Servo::wanted() const {
+  const Placement hand = validator_.pose().placement();
+  Wrench wrench = wrench_at(tissue_, hand);
+  wrench.force += workspace_wall(*traits_, hand.position);
+  return wrench;
+}
+
+// Returns the size of the field for the gate, N: a torque counts as the same share of its limit.
+double Servo::gated_size(const Wrench &field) const {
+  const double size = field.force.norm();
+  if (limits_.torque <= 0) return size;
+  return std::max(size, field.torque.norm() * (limits_.force / limits_.torque));
 }
 
 // Returns the gated field, clamped to the peak force and to the heat budget.
-Vec3 Servo::rendered(const Vec3 &given, uint32_t &bits) const {
+Wrench Servo::rendered(const Wrench &given, uint32_t &bits) const {
   const bool is_warm = (validator_.flags() & MVS_DRIVER_FLAG_WARM) != 0;
-  const Vec3 force = clamped(share_ * given, limits_.force, MVS_LIMITED_FORCE, bits);
-  return clamped(force, heat_.most(limits_, is_warm), MVS_LIMITED_CONTINUOUS, bits);
+  Wrench out;
+  out.force = clamped(share_ * given.force, limits_.force, MVS_LIMITED_FORCE, bits);
+  out.force =
+      clamped(out.force, heat_.most(force_limits(limits_), is_warm), MVS_LIMITED_CONTINUOUS, bits);
+  if (!traits_->renders_torque) return out;
+  out.torque = clamped(share_ * given.torque, limits_.torque, MVS_LIMITED_TORQUE, bits);
+  out.torque = clamped(out.torque, torque_heat_.most(torque_limits(limits_), is_warm),
+                       MVS_LIMITED_CONTINUOUS, bits);
+  return out;
 }
 
-Vec3 Servo::limited(const Vec3 &given) {
+Wrench Servo::limited(const Wrench &given) {
   field_ = rendered(given, bits_);
-  if (share_ == 0) return Vec3::Zero();
+  if (share_ == 0) return {};
   const double dt = validator_.dt();
-  Vec3 force = field_;
+  Wrench next = field_;
   if (dt > 0) {
-    const Vec3 damping = energy_.damp(validator_.pose().velocity, dt, traits_->info.max_damping);
-    if (!damping.isZero(0)) bits_ |= MVS_LIMITED_ENERGY;
-    force = clamped(force + damping, limits_.force, MVS_LIMITED_FORCE, bits_);
+    const HandPose &pose = validator_.pose();
+    const Damping most = {traits_->info.max_damping, traits_->info.max_angular_damping};
+    const Wrench damping = energy_.damp({pose.velocity, pose.spin}, dt, most);
+    if (!damping.force.isZero(0) || !damping.torque.isZero(0)) bits_ |= MVS_LIMITED_ENERGY;
+    next.force = clamped(next.force + damping.force, limits_.force, MVS_LIMITED_FORCE, bits_);
+    next.torque = clamped(next.torque + damping.torque, limits_.torque, MVS_LIMITED_TORQUE, bits_);
   }
-  return force_ + clamped(force - force_, limits_.slew * dt, MVS_LIMITED_SLEW, bits_);
+  next.force =
+      sent_.force + clamped(next.force - sent_.force, limits_.slew * dt, MVS_LIMITED_SLEW, bits_);
+  next.torque = sent_.torque + clamped(next.torque - sent_.torque, limits_.torque_slew * dt,
+                                       MVS_LIMITED_SLEW, bits_);
+  return next;
 }
 
 void Servo::write_force(mvs_driver_force &force) const {
-  const Vec3 sent = traits_->turn.transpose() * force_;
+  const Vec3 sent = traits_->turn.transpose() * sent_.force;
+  const Vec3 torque = traits_->turn.transpose() * sent_.torque;
   std::copy(sent.data(), sent.data() + 3, force.force);
-  std::fill(force.torque, force.torque + 3, 0.0);
+  std::copy(torque.data(), torque.data() + 3, force.torque);
   force.gripper = 0;
   force.on = gate_.is_armed() ? 1 : 0;
 }
@@ -146,9 +182,10 @@ void Servo::publish(const mvs_driver_state &sample) {
   status_.flags = validator_.flags();
   status_.limited = bits_;
   status_.pose = validator_.pose();
-  status_.force = force_;
+  status_.force = sent_.force;
+  status_.torque = sent_.torque;
   status_.energy = energy_.energy();
-  status_.heat = heat_.heat();
+  status_.heat = std::max(heat_.heat(), torque_heat_.heat());
   if (buttons_.take(sample.buttons, validator_.dt())) {
     links_->buttons.push({buttons_.down(), status_.pose.position});
   }
@@ -163,7 +200,8 @@ void Servo::keep_sample(const mvs_driver_state &sample) {
   std::copy_n(status_.pose.position.data(), 3, row.position);
   const Eigen::Quaterniond &q = status_.pose.orientation;
   for (int k = 0; k < 4; ++k) row.orientation[k] = k == 0 ? q.w() : q.vec()[k - 1];
-  std::copy_n(force_.data(), 3, row.force);
+  std::copy_n(sent_.force.data(), 3, row.force);
+  std::copy_n(sent_.torque.data(), 3, row.torque);
   row.servo_s = servo_s_;
   row.gripper = status_.pose.gripper;
   row.buttons = sample.buttons;

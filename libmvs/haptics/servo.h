@@ -1,9 +1,10 @@
-// The servo loop body: one sample of the hand in, one force out. Called at the device's rate, on
-// the driver's thread or on ours; no lock, allocation, system call or exception.
+// The servo loop body: one sample of the hand in, one force and torque out. Called at the device's
+// rate, on the driver's thread or on ours; no lock, allocation, system call or exception.
 //
 // Order: validate the sample; evaluate the newest tissue model and the workspace wall; multiply by
 // the share of the force gate; clamp; dissipate generated energy; limit the slew rate. The reported
-// force is the force sent to the motors.
+// force is the force sent to the motors. A torque is treated as the force is, with its own limits,
+// on devices that render it, and is zero on others.
 #pragma once
 
 #include "haptics/budget.h"
@@ -39,9 +40,10 @@ class Servo {
 
  private:
   void take_updates();
-  Vec3 wanted() const;
-  Vec3 rendered(const Vec3 &given, uint32_t &bits) const;
-  Vec3 limited(const Vec3 &given);
+  Wrench wanted() const;
+  Wrench rendered(const Wrench &given, uint32_t &bits) const;
+  Wrench limited(const Wrench &given);
+  double gated_size(const Wrench &field) const;
   void age(double dt);
   void write_force(mvs_driver_force &force) const;
   void publish(const mvs_driver_state &sample);
@@ -53,13 +55,13 @@ class Servo {
   SampleValidator validator_;
   Buttons buttons_;
   ForceGate gate_;
-  HeatBudget heat_;
+  HeatBudget heat_, torque_heat_;
   EnergyObserver energy_;
   TissueModel tissue_;
-  Vec3 field_ = Vec3::Zero();   // rendered force of tissue and wall at the last sample
-  Vec3 force_ = Vec3::Zero();   // sent to the motors last
-  Vec3 before_ = Vec3::Zero();  // sent before that
-  Vec3 at_ = Vec3::Zero();      // position of the hand at the last tick
+  Wrench field_;    // rendered force of tissue and wall at the last sample
+  Wrench sent_;     // to the motors last
+  Wrench before_;   // sent before that
+  Placement last_;  // of the hand at the last tick
   double share_ = 0;
   uint32_t bits_ = 0;  // MVS_LIMITED_*
   ServoStatus status_;

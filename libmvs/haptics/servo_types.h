@@ -44,6 +44,8 @@ struct DeviceTraits {
   Eigen::Quaterniond turn_quaternion = Eigen::Quaterniond::Identity();
   Vec3 shift = Vec3::Zero();
   bool has_workspace = false;
+  // It measures orientation and has motors for torque; every limit of torque is 0 without.
+  bool renders_torque = false;
 };
 
 // Checks a driver's description; throws MVS_E_DEVICE for numbers out of range.
@@ -56,7 +58,10 @@ mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_devic
 struct HandPose {
   Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Vec3 spin = Vec3::Zero();  // rad/s, estimated; of devices that render torque
   double gripper = 0;
+
+  Placement placement() const { return {position, orientation}; }
 };
 
 // A change of the buttons.
@@ -71,7 +76,7 @@ struct ServoStatus {
   Cause cause = Cause::nothing, device_cause = Cause::nothing;
   uint32_t flags = 0, limited = 0, buttons = 0;
   HandPose pose;
-  Vec3 force = Vec3::Zero();
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
   double time = 0, rate = 0, worst_period = 0, model_age = 0, energy = 0, heat = 0;
   uint64_t ticks = 0, late = 0;
   uint64_t bad_samples = 0;

@@ -1,6 +1,7 @@
 // Local tissue models of grasps, balls, rods and chordae.
 #include "haptics/tissue_model_builder.h"
 
+#include "geometry/distance.h"
 #include "model/chord_law.h"
 #include "model/model.h"
 
@@ -11,6 +12,33 @@ constexpr double same_place = 0.5e-3;  // m, motion of the tool within which its
 constexpr uint32_t refresh_calls = 32;  // a stiffness is reused for at most this many calls...
 constexpr uint32_t least_calls = 8;     // ...and, within one contact, for at least this many
 
+// Returns the point of the axis of a rod that is nearest to the leaflets, as its share of the
+// length.
+double nearest_on_axis(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
+  const Vec3 &a = tool.proxy[0], &b = tool.proxy[1];
+  double least = std::numeric_limits<double>::infinity(), share = 0;
+  const auto take = [&](double distance2, double at) {
+    if (distance2 < least) share = at;
+    least = std::min(least, distance2);
+  };
+  for (const Tri &t : model.valve.triangles) {
+    const Vec3 &p = x[t[0]], &q = x[t[1]], &r = x[t[2]];
+    take(closest_on_triangle(a, p, q, r).distance2, 0);
+    take(closest_on_triangle(b, p, q, r).distance2, 1);
+    for (uint32_t k = 0; k < 3; ++k) {
+      const SegmentPair pair = closest_of_segments(a, b, x[t[k]], x[t[(k + 1) % 3]]);
+      take(pair.distance2, pair.s);
+    }
+  }
+  return share;
+}
+
+// Returns the orientation of a hand that lay along the axis of the tool when the tool moved last:
+// the present one, turned by the shortest way. Rotation about the axis changes nothing.
+Eigen::Quaterniond orientation_of(const Tool &tool, const Eigen::Quaterniond &hand) {
+  return Eigen::Quaterniond::FromTwoVectors(hand * Vec3::UnitZ(), tool.axis) * hand;
+}
+
 }  // namespace
 
 TissueModel TissueModelBuilder::next(uint32_t kind) const {
@@ -20,20 +48,35 @@ TissueModel TissueModelBuilder::next(uint32_t kind) const {
   return tissue;
 }
 
-void TissueModelBuilder::refresh_stiffness(const Model &model, const State &state,
-                                           const Tool &tool) {
-  const bool is_near = (tool.position - at_).norm() <= same_place;
-  const bool serves =
-      age_ > 0 && valve_ == model.serial && (is_near || age_ > refresh_calls - least_calls);
+// The far end of a tool moves by its length times the change of its axis.
+bool TissueModelBuilder::needs_stiffness(const Model &model, const Tool &tool) {
+  const double moved =
+      (tool.position - at_).norm() + (turns_ ? tool.length * (tool.axis - axis_).norm() : 0);
+  const bool serves = age_ > 0 && valve_ == model.serial &&
+                      (moved <= same_place || age_ > refresh_calls - least_calls);
   age_ = serves ? age_ - 1 : refresh_calls;
-  if (serves) return;
-  stiffness_ = feel_.stiffness(model, state, tool);
+  return !serves;
+}
+
+void TissueModelBuilder::refresh_stiffness(const Model &model, const State &state, const Tool &tool,
+                                           bool turns) {
+  if (turns != turns_) age_ = 0;
+  turns_ = turns;
+  if (!needs_stiffness(model, tool)) return;
+  stiffness_ = {};
+  if (turns) {
+    stiffness_ = feel_.wrench_stiffness(model, state, tool);
+  } else {
+    stiffness_.linear = feel_.stiffness(model, state, tool);
+  }
   at_ = tool.position;
+  axis_ = tool.axis;
   valve_ = model.serial;
 }
 
 // A ball or rod without contact gets no stiffness, only the plane of the nearest tissue.
-TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, const Tool &tool) {
+TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, const Tool &tool,
+                                        const Eigen::Quaterniond *orientation) {
   const bool grasp = tool.kind == ToolKind::grasp;
   const Room room = grasp ? Room{0, Vec3::Zero()} : room_of(model, state.x, tool);
   const bool touches = grasp || room.distance < tool_range(model);
@@ -42,10 +85,22 @@ TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, 
                                       : TissueModel::near);
   tissue.origin = tool.position;
   tissue.most = tool.max_force;
+  const bool turns = orientation && has_torque(tool);
+  if (turns) {
+    tissue.turns = 1;
+    tissue.orientation = orientation_of(tool, *orientation);
+    tissue.lever = tool.length;
+    tissue.most_torque = 0.5 * tool.max_force * tool.length;
+  }
   if (touches) {
-    refresh_stiffness(model, state, tool);
-    tissue.force = force_of(state, tool).force;
-    tissue.stiffness = stiffness_;
+    refresh_stiffness(model, state, tool, turns);
+    const ToolForce felt = force_of(state, tool);
+    tissue.force = felt.force;
+    tissue.stiffness = stiffness_.linear;
+    if (!turns) return tissue;
+    tissue.torque = felt.torque;
+    tissue.coupling = stiffness_.coupling;
+    tissue.turning = stiffness_.angular;
     return tissue;
   }
   age_ = 0;
@@ -53,6 +108,7 @@ TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, 
   tissue.normal = room.away;
   tissue.gap = room.distance - tool_range(model);
   tissue.stiffness = tool.stiffness * Mat3::Identity();
+  if (turns) tissue.arm = nearest_on_axis(model, state.x, tool) * tool.length * tool.axis;
   return tissue;
 }
 

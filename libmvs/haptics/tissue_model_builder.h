@@ -16,21 +16,26 @@ class TissueModelBuilder {
     age_ = 0;
   }
   TissueModel nothing() const { return next(TissueModel::free); }
-  TissueModel of_tool(const Model &model, const State &state, const Tool &tool);
+  // With the orientation of the hand the model of a tool with a torque includes it; a null one is
+  // that of a device without motors for it.
+  TissueModel of_tool(const Model &model, const State &state, const Tool &tool,
+                      const Eigen::Quaterniond *orientation = nullptr);
   // The tension of a chord at its leaflet end, multiplied by `gain`.
   TissueModel of_chord(const Model &model, const State &state, const Chord &chord, const Vec3 &hand,
                        double gain) const;
 
  private:
   TissueModel next(uint32_t kind) const;
-  void refresh_stiffness(const Model &model, const State &state, const Tool &tool);
+  bool needs_stiffness(const Model &model, const Tool &tool);
+  void refresh_stiffness(const Model &model, const State &state, const Tool &tool, bool turns);
 
   uint64_t contact_ = 0;
   ToolFeel feel_{Backend::block};
-  Mat3 stiffness_ = Mat3::Zero();
-  Vec3 at_ = Vec3::Zero();  // position of the hand at the last stiffness
-  uint64_t valve_ = 0;      // serial of its model
-  uint32_t age_ = 0;        // calls left until the next stiffness
+  ToolStiffness stiffness_;
+  Vec3 at_ = Vec3::Zero(), axis_ = Vec3::Zero();  // of the hand at the last stiffness
+  bool turns_ = false;                            // that stiffness has rotation
+  uint64_t valve_ = 0;                            // serial of its model
+  uint32_t age_ = 0;                              // calls left until the next stiffness
 };
 
 }  // namespace mvs::core

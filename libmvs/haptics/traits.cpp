@@ -13,10 +13,13 @@ namespace {
 // The weakest device of the table in haptic_drivers/hand/README.md (3D Systems Touch).
 constexpr double weakest_force = 3.3, weakest_continuous = 0.88;  // N
 constexpr double weakest_stiffness = 400, weakest_damping = 4;    // N/m, N s/m
-constexpr double usual_rate = 1000;                               // Hz
-constexpr double usual_speed = 1;                                 // m/s
-constexpr double max_force = 1000, max_extent = 10,
-                 max_stiffness = 1e6;  // N, m, N/m: of any device
+// The weakest device with motors for torque (PHANTOM Premium 6DOF, as its library reports it).
+constexpr double weakest_torque = 0.188;  // N m
+constexpr double usual_turns = 20;        // rad/s, limit of the angular speed
+constexpr double usual_rate = 1000;       // Hz
+constexpr double usual_speed = 1;         // m/s
+constexpr double max_force = 1000, max_extent = 10, max_stiffness = 1e6,
+                 max_torque = 100;  // N, m, N/m, N m: of any device
 constexpr double slowest_rate = 100, fastest_rate = 10000, fastest = 100;  // Hz, Hz, m/s
 
 // Returns the fallback for 0.
@@ -57,6 +60,27 @@ void read_workspace(const mvs_driver_info &given, const char *driver, DeviceTrai
   traits.has_workspace = true;
 }
 
+// Limits of torque; unknown ones are those of the force at the lever peak_torque / peak_force. They
+// are checked also for a device without torque, which has limits of 0.
+void read_torque(const mvs_driver_info &given, const char *driver, DeviceTraits &traits) {
+  mvs_device_info &info = traits.info;
+  const double peak =
+      number(given.peak_torque, weakest_torque, max_torque, driver, "the peak torque");
+  const double lever = std::min(peak / info.peak_force, max_extent);
+  const double continuous = number(given.continuous_torque, lever * info.continuous_force,
+                                   max_torque, driver, "the continuous torque");
+  const double stiffness = number(given.max_angular_stiffness, lever * lever * info.max_stiffness,
+                                  max_stiffness, driver, "the largest angular stiffness");
+  const double damping = number(given.max_angular_damping, lever * lever * info.max_damping,
+                                max_stiffness, driver, "the angular damping");
+  traits.renders_torque = given.freedoms_out == 6 && given.freedoms_in == 6;
+  if (!traits.renders_torque) return;
+  info.peak_torque = peak;
+  info.continuous_torque = std::min(peak, continuous);
+  info.max_angular_stiffness = stiffness;
+  info.max_angular_damping = damping;
+}
+
 // Copies a text that may lack its terminating zero.
 void copy_text(const char *from, char (&to)[64]) {
   std::memcpy(to, from, strnlen(from, sizeof to - 1));
@@ -89,6 +113,7 @@ DeviceTraits read_traits(const mvs_driver_info &given, const char *driver) {
   MVS_MUST(info.rate >= slowest_rate, MVS_E_DEVICE, driver,
            "the driver's rate is %g Hz: below %g Hz no force can be stable", info.rate,
            slowest_rate);
+  read_torque(given, driver, traits);
   traits.has_deadman = given.has_deadman != 0;
   copy_text(driver, info.driver);
   copy_text(given.model, info.model);
@@ -116,6 +141,17 @@ mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_devic
       or_default(given.speed, std::min(info.max_speed, usual_speed), 1e-3, fastest, "limits.speed");
   out.stale_s = or_default(given.stale_s, 0.1, 0.005, 10, "limits.stale_s");
   out.fade_s = or_default(given.fade_s, 0.05, 1e-3, 1, "limits.fade_s");
+  out.torque = at_most(given.torque, info.peak_torque, "limits.torque");
+  out.continuous_torque = std::min(
+      out.torque,
+      at_most(given.continuous_torque, info.continuous_torque, "limits.continuous_torque"));
+  out.torque_slew =
+      or_default(given.torque_slew, 100 * out.torque, 1e-6, 1e6, "limits.torque_slew");
+  out.angular_stiffness =
+      at_most(given.angular_stiffness, info.max_angular_stiffness, "limits.angular_stiffness");
+  out.angular_speed =
+      or_default(given.angular_speed, usual_turns, 0.1, fastest, "limits.angular_speed");
+  if (info.peak_torque == 0) out.torque_slew = out.angular_speed = 0;
   return out;
 }
 

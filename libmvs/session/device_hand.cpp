@@ -51,7 +51,7 @@ const Chord *Hand::chord(const mvs_sim &sim) const {
   return nullptr;
 }
 
-void Hand::begin(const ServoStatus &current, double most) {
+void Hand::begin(const ServoStatus &current, const StiffnessLimits &most) {
   events_ = 0;
   most_ = most;
   place_ = view_.to_scene(current.pose.position);
@@ -115,6 +115,19 @@ void Hand::let_go(mvs_sim &sim) {
 }
 
 // The spring stiffness is limited to the value that the device can render through this view.
+// Returns the largest stiffness of a tool's spring, N/m, that the device renders stably. A rod has
+// half of it at each end: with the lever L its energy is k (x^2 + (x + L p)^2) / 4, whose larger
+// eigenvalue in the metric of StiffnessLimits is k times `largest`.
+double Hand::stiffest_spring(ToolKind kind) const {
+  const double linear = most_.linear / view_.stiffness_scale();
+  if (kind != ToolKind::rod || most_.angular <= 0) return linear;
+  const double angular = most_.angular / view_.torque_scale();
+  const double a = 1 / linear, b = 0.5 * hand_.length * hand_.length / angular;
+  const double half = 0.5 * (a - b), off2 = 0.25 * hand_.length * hand_.length / (linear * angular);
+  const double largest = 0.5 * (a + b) + std::sqrt(half * half + off2);
+  return 1 / largest;
+}
+
 mvs_tool_desc Hand::describe(ToolKind kind) const {
   mvs_tool_desc desc = {};
   desc.struct_size = sizeof desc;
@@ -126,7 +139,7 @@ mvs_tool_desc Hand::describe(ToolKind kind) const {
   }
   if (kind != ToolKind::grasp) desc.radius = hand_.radius;
   desc.reach = hand_.reach;
-  desc.stiffness = std::max(1.0, std::min(hand_.stiffness, most_ / view_.stiffness_scale()));
+  desc.stiffness = std::max(1.0, std::min(hand_.stiffness, stiffest_spring(kind)));
   desc.max_force = hand_.max_force;
   return desc;
 }
@@ -172,7 +185,7 @@ TissueModel Hand::tissue(mvs_sim &sim) {
   TissueModel scene = builder_.nothing();
   felt_ = Vec3::Zero();
   if (held) {
-    scene = builder_.of_tool(*now.model, now.state, *held);
+    scene = builder_.of_tool(*now.model, now.state, *held, most_.angular > 0 ? &turn_ : nullptr);
   } else if (felt) {
     scene = builder_.of_chord(*now.model, now.state, *felt, place_, hand_.gain);
     felt_ = scene.force;
@@ -196,8 +209,11 @@ mvs_device_report Hand::report(const mvs_sim &sim, const TissueModel &tissue, bo
   const Tool *const held = tool(sim);
   out.node = held ? held->node : none;
   write(place_, out.position);
-  write(held ? force_of(now.state, *held).force : felt_, out.force);
+  const ToolForce force = held ? force_of(now.state, *held) : ToolForce{felt_, Vec3::Zero()};
+  write(force.force, out.force);
+  write(force.torque, out.torque);
   out.stiffness = largest_eigenvalue(tissue.stiffness);
+  out.angular_stiffness = largest_eigenvalue(tissue.turning);
   write(drag_to_, out.drag_to);
   return out;
 }

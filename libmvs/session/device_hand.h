@@ -32,8 +32,8 @@ class Hand {
   const mvs_device_hand &hand() const { return hand_; }
   const DeviceView &view() const { return view_; }
 
-  // Starts a sync with the present pose of the device; `most` is its largest stiffness, N/m.
-  void begin(const ServoStatus &current, double most);
+  // Starts a sync with the present pose of the device.
+  void begin(const ServoStatus &current, const StiffnessLimits &most);
   void take_button(const ButtonEvent &event, mvs_sim &sim);
   // Updates the tool after the hand: adds it, moves it, or removes it after a change of the mode.
   void follow(mvs_sim &sim);
@@ -53,13 +53,14 @@ class Hand {
   bool add(mvs_sim &sim, mvs_tool_desc desc);
   mvs_tool_desc describe(ToolKind kind) const;
   Vec3 axis() const;
+  double stiffest_spring(ToolKind kind) const;
 
   DeviceView view_;
   mvs_device_hand hand_ = {};
   TissueModelBuilder builder_;
   Vec3 place_ = Vec3::Zero();  // of the hand, in the scene
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
-  double most_ = 0;  // N/m
+  StiffnessLimits most_;
   Id tool_ = 0, chord_ = 0;
   bool down_ = false, changed_ = true;
   uint32_t events_ = 0;

@@ -38,17 +38,49 @@ mvs_device_view DeviceView::get() const {
   return out;
 }
 
-TissueModel DeviceView::to_device(const TissueModel &scene, double most) const {
+TissueModel DeviceView::to_device(const TissueModel &scene, const StiffnessLimits &most) const {
   const Mat3 turn = rotation_.toRotationMatrix();
   TissueModel out = scene;
   out.origin = to_device(scene.origin);
   out.force = force_scale_ * (turn.transpose() * scene.force);
   const Mat3 felt = stiffness_scale() * (turn.transpose() * scene.stiffness * turn);
-  out.stiffness = with_eigenvalues_in(felt, 0, most);
+  out.stiffness = with_eigenvalues_in(felt, 0, most.linear);
   out.most = force_scale_ * scene.most;
   out.normal = turn.transpose() * scene.normal;
   out.gap = scene.gap / scale_;
+  if (scene.turns != 0) turn_to_device(scene, most, out);
   return out;
+}
+
+// The six components are limited together, in the metric of both limits: the part of the stiffness
+// that a force along the tool makes indefinite would generate energy.
+void DeviceView::turn_to_device(const TissueModel &scene, const StiffnessLimits &most,
+                                TissueModel &out) const {
+  const Mat3 turn = rotation_.toRotationMatrix();
+  const auto turned = [&](double factor, const Mat3 &m) -> Mat3 {
+    return factor * (turn.transpose() * m * turn);
+  };
+  out.orientation = rotation_.conjugate() * scene.orientation;
+  out.torque = torque_scale() * (turn.transpose() * scene.torque);
+  out.most_torque = torque_scale() * scene.most_torque;
+  out.lever = scene.lever / scale_;
+  out.arm = turn.transpose() * scene.arm / scale_;
+  if (scene.kind == TissueModel::near) {
+    const double tilt2 = out.arm.cross(out.normal).squaredNorm();
+    const double limit = 1 / (1 / most.linear + tilt2 / most.angular);
+    out.stiffness = std::min(stiffness_scale() * scene.stiffness(0, 0), limit) * Mat3::Identity();
+    return;
+  }
+  const double length = std::sqrt(most.angular / most.linear);
+  Mat6 felt;
+  felt.topLeftCorner<3, 3>() = turned(stiffness_scale(), scene.stiffness);
+  felt.topRightCorner<3, 3>() = turned(force_scale_ / length, scene.coupling);
+  felt.bottomLeftCorner<3, 3>() = felt.topRightCorner<3, 3>().transpose();
+  felt.bottomRightCorner<3, 3>() = turned(torque_scale() / (length * length), scene.turning);
+  felt = with_eigenvalues_in(felt, 0, most.linear);
+  out.stiffness = felt.topLeftCorner<3, 3>();
+  out.coupling = length * felt.topRightCorner<3, 3>();
+  out.turning = length * length * felt.bottomRightCorner<3, 3>();
 }
 
 }  // namespace mvs::core

@@ -9,6 +9,13 @@
 
 namespace mvs::core {
 
+// Largest stiffness that a device renders stably, N/m and N m/rad; the latter is 0 without motors
+// for torque. Translation and rotation together are limited: the energy of a tissue model is at
+// most (linear |x|^2 + angular |p|^2) / 2.
+struct StiffnessLimits {
+  double linear = 0, angular = 0;
+};
+
 class DeviceView {
  public:
   // Throws MVS_E_ARGUMENT.
@@ -24,12 +31,17 @@ class DeviceView {
   double scale() const { return scale_; }
   // Device stiffness per scene stiffness.
   double stiffness_scale() const { return scale_ * force_scale_; }
-  // Transforms a tissue model of the scene to the device, with a stiffness of at most `most` N/m.
-  TissueModel to_device(const TissueModel &scene, double most) const;
+  // Device torque per scene torque: of the scaled forces at levers of the device's size.
+  double torque_scale() const { return force_scale_ / scale_; }
+  // Transforms a tissue model of the scene to the device, with at most this stiffness.
+  TissueModel to_device(const TissueModel &scene, const StiffnessLimits &most) const;
 
  private:
   Vec3 origin_ = Vec3::Zero();
   Eigen::Quaterniond rotation_ = Eigen::Quaterniond::Identity();
+  void turn_to_device(const TissueModel &scene, const StiffnessLimits &most,
+                      TissueModel &out) const;
+
   double scale_ = 1, force_scale_ = 1;
 };
 

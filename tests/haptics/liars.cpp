@@ -57,6 +57,9 @@ TEST_CASE("false_statements_of_a_driver_about_itself_are_refused") {
                       {"refuses", MVS_E_DEVICE, "does not say why"},
                       {"no_handle", MVS_E_DEVICE, "returns no device"},
                       {"nan", MVS_E_DEVICE, "peak force"},
+                      {"torque_nan", MVS_E_DEVICE, "the peak torque nan"},
+                      {"torque_negative", MVS_E_DEVICE, "the peak torque -0.1"},
+                      {"turn_nan", MVS_E_DEVICE, "angular stiffness"},
                       {"frame", MVS_E_DEVICE, "frame"},
                       {"workspace", MVS_E_DEVICE, "workspace"}};
   for (const Lie &lie : lies) {

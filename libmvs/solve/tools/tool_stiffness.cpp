@@ -29,6 +29,10 @@ uint32_t spring_node(const State &state, size_t nodes, const Tool &tool, uint32_
 
 }  // namespace
 
+bool has_torque(const Tool &tool) {
+  return springs_of(tool) > 1;
+}
+
 ToolForce force_of(const State &state, const Tool &tool) {
   ToolForce sum;
   for (uint32_t k = 0; k < springs_of(tool); ++k) {
@@ -87,29 +91,75 @@ bool ToolFeel::try_factorise(double more_mass) {
   return factor_->factorise(system_.matrix);
 }
 
-Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Tool &tool) {
+ToolFeel::Springs ToolFeel::springs_at(const Model &valve, const State &valve_state,
+                                       const Tool &tool) {
   const size_t nodes = valve_state.x.size();
   take_model(points_.extend(valve, tool_points(valve_state.tools)));
   const State state = ToolPoints::extended(valve_state);
   factorise(state);
-  std::array<uint32_t, 2> row;
-  std::array<Mat3, 2> block;
-  Mat3 sum = Mat3::Zero();
-  const uint32_t springs = springs_of(tool);
-  for (uint32_t k = 0; k < springs; ++k) {
+  Springs out;
+  out.count = springs_of(tool);
+  for (uint32_t k = 0; k < out.count; ++k) {
     const uint32_t node = spring_node(valve_state, nodes, tool, k);
-    row[k] = system_.row_of[node];
-    block[k] = hold_block(hold_of(tool, k, node), state.x[node]);
-    sum += block[k];
+    const Hold hold = hold_of(tool, k, node);
+    out.row[k] = system_.row_of[node];
+    out.block[k] = hold_block(hold, state.x[node]);
+    out.arm[k] = tool.target(k) - tool.position;
+    out.force[k] = -pull(hold, state.x[node]);
   }
+  return out;
+}
+
+// The forces against springs whose ends at the hand moved, while the valve follows.
+void ToolFeel::follow(const Springs &springs, const std::array<Vec3, 2> &moved,
+                      std::array<Vec3, 2> &answer) {
+  rows_.assign(system_.matrix.size(), Vec3::Zero());
+  for (uint32_t k = 0; k < springs.count; ++k) {
+    answer[k] = springs.block[k] * moved[k];
+    rows_[springs.row[k]] = answer[k];
+  }
+  factor_->solve(rows_);
+  for (uint32_t k = 0; k < springs.count; ++k)
+    answer[k] -= springs.block[k] * rows_[springs.row[k]];
+}
+
+Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Tool &tool) {
+  const Springs springs = springs_at(valve, valve_state, tool);
+  std::array<Vec3, 2> moved, answer;
+  Mat3 sum = Mat3::Zero();
   for (int c = 0; c < 3; ++c) {
-    rows_.assign(system_.matrix.size(), Vec3::Zero());
-    for (uint32_t k = 0; k < springs; ++k) rows_[row[k]] = block[k].col(c);
-    factor_->solve(rows_);
-    for (uint32_t k = 0; k < springs; ++k) sum.col(c) -= block[k] * rows_[row[k]];
+    moved.fill(Vec3::Unit(c));
+    follow(springs, moved, answer);
+    for (uint32_t k = 0; k < springs.count; ++k) sum.col(c) += answer[k];
   }
   const Mat3 symmetric = 0.5 * (sum + sum.transpose());
   return with_eigenvalues_in(symmetric, 0, std::numeric_limits<double>::infinity());
+}
+
+ToolStiffness ToolFeel::wrench_stiffness(const Model &valve, const State &valve_state,
+                                         const Tool &tool) {
+  const Springs springs = springs_at(valve, valve_state, tool);
+  std::array<Vec3, 2> moved, answer;
+  Mat3 linear = Mat3::Zero(), coupling = Mat3::Zero(), angular = Mat3::Zero();
+  for (int c = 0; c < 6; ++c) {
+    const Vec3 unit = Vec3::Unit(c % 3);
+    for (uint32_t k = 0; k < springs.count; ++k)
+      moved[k] = c < 3 ? unit : Vec3(unit.cross(springs.arm[k]));
+    follow(springs, moved, answer);
+    for (uint32_t k = 0; k < springs.count; ++k) {
+      (c < 3 ? linear : coupling).col(c % 3) += answer[k];
+      if (c >= 3) angular.col(c % 3) += springs.arm[k].cross(answer[k]);
+    }
+  }
+  for (uint32_t k = 0; k < springs.count; ++k) {
+    const Vec3 &arm = springs.arm[k], &force = springs.force[k];
+    angular += force.dot(arm) * Mat3::Identity() - arm * force.transpose();
+  }
+  ToolStiffness out;
+  out.linear = 0.5 * (linear + linear.transpose());
+  out.coupling = coupling;
+  out.angular = 0.5 * (angular + angular.transpose());
+  return out;
 }
 
 }  // namespace mvs::core

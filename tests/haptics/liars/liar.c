@@ -37,6 +37,16 @@ static int32_t info(mvs_driver_device *device, mvs_driver_info *to) {
 #ifdef LIE_NAN
   to->peak_force = NAN;
 #endif
+#ifdef LIE_TORQUE_NAN
+  to->peak_torque = NAN;
+#endif
+#ifdef LIE_TORQUE_NEGATIVE
+  to->freedoms_in = to->freedoms_out = 6;
+  to->peak_torque = -0.1;
+#endif
+#ifdef LIE_TURN_NAN
+  to->max_angular_stiffness = NAN;
+#endif
 #ifdef LIE_FRAME
   to->frame[0] = to->frame[5] = to->frame[10] = 2;
 #endif
