@@ -223,10 +223,9 @@ typedef struct mvs_device_report {
   double force[3];            /* N, of the tissue on the hand, before it is scaled */
   double stiffness;           /* N/m, largest stiffness of the rendered tissue model */
   double drag_to[3];          /* m, target of a dragged chord end */
-  double torque[3]; /* N m, in the scene, of the tissue on the hand about `position`, before
-                       it is scaled; of a rod, on every device */
-  double
-      angular_stiffness; /* N m/rad, largest one of the rendered tissue model; 0 without torque */
+  double torque[3];         /* N m, in the scene, on the hand about `position`, before it is scaled;
+                               of a rod, on every device */
+  double angular_stiffness; /* N m/rad, largest one of that model; 0 if it has no torque */
 } mvs_device_report;
 
 /* Exchanges hand and tissue data between device and valve; to be called before each mvs_step.
@@ -247,14 +246,13 @@ typedef uint32_t mvs_device_phase;
 
 /* Limits applied to the last force: bits of mvs_device_state.limited. */
 enum mvs_limited_flags_e {
-  MVS_LIMITED_FORCE = 1 << 0, /* clamped */
-  MVS_LIMITED_CONTINUOUS =
-      1 << 1,                  /* force or torque clamped to the continuous limit of the motors */
-  MVS_LIMITED_SLEW = 1 << 2,   /* force or torque changed at its largest rate */
-  MVS_LIMITED_ENERGY = 1 << 3, /* damped, because the loop had generated energy */
-  MVS_LIMITED_WALL = 1 << 4,   /* the wall of the workspace acted */
-  MVS_LIMITED_NUMBER = 1 << 5, /* a force was not finite and became zero */
-  MVS_LIMITED_TORQUE = 1 << 6  /* the torque was clamped */
+  MVS_LIMITED_FORCE = 1 << 0,      /* clamped */
+  MVS_LIMITED_CONTINUOUS = 1 << 1, /* to the continuous limit of the motors; also of the torque */
+  MVS_LIMITED_SLEW = 1 << 2,       /* also of the torque */
+  MVS_LIMITED_ENERGY = 1 << 3,     /* damped, because the loop had generated energy */
+  MVS_LIMITED_WALL = 1 << 4,       /* the wall of the workspace acted */
+  MVS_LIMITED_NUMBER = 1 << 5,     /* a force was not finite and became zero */
+  MVS_LIMITED_TORQUE = 1 << 6      /* the torque was clamped */
 };
 typedef uint32_t mvs_limited_flags;
 

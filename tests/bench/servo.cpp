@@ -2,19 +2,22 @@
 //
 //   bench_servo                      scenes S and M, 10 s each
 //   bench_servo --scenes S --seconds 2
+//   bench_servo --tool rod --device premium6
 //
 // A simulated hand (haptic_drivers/hand) holds a Touch at 1 kHz on a thread of the library's,
 // grasps the edge of a closed valve and swings 3 mm at 1 Hz; this thread hands over and steps the
-// valve as fast as it can. "body" is the time that the servo took for a sample
-// (mvs_device_sample.servo_s, wall time: what preempts it counts), "period" the time between two
-// samples, "sync" and "step" the CPU time of handing over and of simulating. "late" counts periods
-// above two. "fifo" says whether the system gave the servo's thread real-time priority; without it
-// the worst periods are those of the machine's other work.
+// valve as fast as it can. With --tool rod it pushes with a rod instead and turns by 0.1 rad; on
+// the device premium6 the rod's torque is rendered. "body" is the time that the servo took for a
+// sample (mvs_device_sample.servo_s, wall time: what preempts it counts), "period" the time between
+// two samples, "sync" and "step" the CPU time of handing over and of simulating. "late" counts
+// periods above two. "fifo" says whether the system gave the servo's thread real-time priority;
+// without it the worst periods are those of the machine's other work.
 #include <mvs/mvs.hpp>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <map>
@@ -29,6 +32,10 @@ double cpu_now() {
   timespec now = {};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double norm(const double *v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 double quantile(std::vector<double> &values, double share) {
@@ -63,13 +70,18 @@ std::array<double, 3> highest_edge(mvs_sim *sim) {
 }
 
 struct Times {
+  double torque = 0, force = 0;  // largest of a sample, N m, N
   std::vector<double> body, period, free_sync, free_step, sync, step;
   uint64_t lost = 0;
 };
 
+struct Choice {
+  std::string tool = "grasp", device = "touch";
+};
+
 class Scene {
  public:
-  explicit Scene(uint32_t vertices) {
+  Scene(uint32_t vertices, const Choice &choice) : choice_(choice) {
     mvs_parametric_desc valve = {};
     valve.shape = MVS_SHAPE_FOUNDING;
     valve.struct_size = sizeof valve;
@@ -115,16 +127,20 @@ class Scene {
     mvs_device_desc desc = {};
     desc.struct_size = sizeof desc;
     desc.driver = "hand";
-    desc.options =
-        "device=touch\namplitude=0.003,0.003,0\nfrequency=1\nfault=stuck_button\n"
-        "fault_at=0.5";
+    const bool rod = choice_.tool == "rod";
+    std::string options =
+        "device=" + choice_.device + "\nfrequency=1\nfault=stuck_button\nfault_at=0.5";
+    options += rod ? "\namplitude=0.003,0.003,0.006" : "\namplitude=0.003,0.003,0";
+    if (choice_.device == "premium6") options += "\nturn_amplitude=0.1,0,0";
+    desc.options = options.c_str();
     mvs_device_view view = {};
     view.struct_size = sizeof view;
     const auto at = highest_edge(sim_);
     std::copy(at.begin(), at.end(), view.origin);
+    if (rod) view.origin[2] += 4e-3;  // it begins off the tissue
     mvs_device_hand hand = {};
     hand.struct_size = sizeof hand;
-    hand.mode = MVS_HAND_MODE_GRASP;
+    hand.mode = rod ? MVS_HAND_MODE_ROD : MVS_HAND_MODE_GRASP;
     hand.reach = 0.02;
     mvs::must(mvs_device_open(&desc, &device_));
     mvs::must(mvs_device_set_view(device_, &view));
@@ -147,32 +163,37 @@ class Scene {
   }
 
   void fetch(Times &times) {
-    mvs_device_sample rows[256];
+    mvs_device_sample rows[256] = {};
     uint64_t count = 0, lost = 0;
     do {
       mvs::must(mvs_device_take_samples(device_, rows, sizeof rows[0], 256, &count, &lost));
       times.lost += lost;
       for (uint64_t k = 0; k < count; ++k) {
         times.body.push_back(rows[k].servo_s);
+        times.torque = std::max(times.torque, norm(rows[k].torque));
+        times.force = std::max(times.force, norm(rows[k].force));
         if (last_ > 0) times.period.push_back(rows[k].time - last_);
         last_ = rows[k].time;
       }
     } while (count == 256);
   }
 
+  Choice choice_;
   mvs_sim *sim_ = nullptr;
   mvs_device *device_ = nullptr;
   double last_ = 0;
 };
 
-void run(const std::string &name, double seconds) {
-  Scene scene(scene_vertices.at(name));
+void run(const std::string &name, double seconds, const Choice &choice) {
+  Scene scene(scene_vertices.at(name), choice);
   Times times = scene.play(seconds);
   print(name.c_str(), "body", times.body);
   print(name.c_str(), "period", times.period);
   print(name.c_str(), "sync", times.sync);
   print(name.c_str(), "step", times.step);
   std::printf("%-5s %zu turns before the grasp\n", name.c_str(), times.free_step.size());
+  std::printf("%-5s largest force %.3g N, torque %.3g N m\n", name.c_str(), times.force,
+              times.torque);
   const mvs_device_state state = scene.state();
   std::printf("%-5s fifo %s, late %llu of %llu, not fetched %llu, phase %u, cause %u\n",
               name.c_str(), scene.is_realtime() ? "granted" : "refused",
@@ -188,10 +209,14 @@ int bench(int argc, char **argv) {
   app.add_option("--scenes", scenes, "S (425 vertices), M (1,700)")
       ->check(CLI::IsMember({"S", "M"}));
   app.add_option("--seconds", seconds, "of play, each")->check(CLI::Range(0.1, 3600.0));
+  Choice choice;
+  app.add_option("--tool", choice.tool, "of the hand")->check(CLI::IsMember({"grasp", "rod"}));
+  app.add_option("--device", choice.device, "that is simulated")
+      ->check(CLI::IsMember({"touch", "premium6"}));
   CLI11_PARSE(app, argc, argv);
   std::printf("us\n%-5s %-7s %8s %9s %9s %9s %9s %9s\n", "scene", "what", "count", "p50", "p99",
               "p99.9", "p99.99", "max");
-  for (const std::string &name : scenes) run(name, seconds);
+  for (const std::string &name : scenes) run(name, seconds, choice);
   return 0;
 }
 

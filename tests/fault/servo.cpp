@@ -13,7 +13,7 @@ namespace {
 
 // A simulated hand that swings through a valve, started and armed.
 struct Scene {
-  explicit Scene(const char *options) {
+  Scene(const char *options, uint32_t mode) {
     const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
     MUST(mvs_create(nullptr, &sim));
     MUST(generate_founding(sim));
@@ -26,7 +26,7 @@ struct Scene {
     desc.options = options;
     mvs_device_hand hand = {};
     hand.struct_size = sizeof hand;
-    hand.mode = MVS_HAND_MODE_GRASP;
+    hand.mode = mode;
     hand.reach = 0.05;
     MUST(mvs_device_open(&desc, &device));
     MUST(mvs_device_set_hand(device, &hand));
@@ -56,17 +56,26 @@ struct Scene {
 [[maybe_unused]] constexpr char grasping[] =
     "device=touch\namplitude=0.005,0,0\nfrequency=2\nfault=stuck_button\nfault_at=0.1";
 
+// A device that renders the torque of the rod that it holds.
+[[maybe_unused]] constexpr char turning[] =
+    "device=premium6\namplitude=0.005,0,0.01\nturn_amplitude=0.1,0.1,0\nfrequency=2";
+
 #if HAS_OWN_MALLOC
-void ticks_allocate_nothing(const char *options, uint32_t phase) {
-  const Scene scene(options);
+void ticks_allocate_nothing(const char *options, uint32_t phase,
+                            uint32_t mode = MVS_HAND_MODE_GRASP) {
+  const Scene scene(options, mode);
   long made = 0;
+  bool twisted = false;
   for (int k = 0; k < 200; ++k) {
     scene.hand_over();
     const long before = allocations;
     MUST(mvs_device_advance(scene.device, 0.01));
     made += allocations - before;
+    const mvs_device_state now = scene.state();
+    twisted = twisted || now.torque[0] != 0;
   }
   CHECK(made == 0);
+  CHECK(twisted == (mode == MVS_HAND_MODE_ROD));
   CHECK(scene.state().phase == phase);
   std::printf("%ld allocations in %llu ticks\n", made,
               static_cast<unsigned long long>(scene.state().ticks));
@@ -74,8 +83,8 @@ void ticks_allocate_nothing(const char *options, uint32_t phase) {
 #endif
 
 #if HAS_SECCOMP
-void ticks_call_no_system() {
-  const Scene scene(grasping);
+void ticks_call_no_system(const char *options, uint32_t mode) {
+  const Scene scene(options, mode);
   for (int k = 0; k < 100; ++k) {
     scene.hand_over();
     MUST(mvs_device_advance(scene.device, 0.01));
@@ -92,9 +101,11 @@ int main() {
   ticks_allocate_nothing(grasping, MVS_DEVICE_PHASE_ON);
   ticks_allocate_nothing("fault=nan_position\nfault_at=0.5", MVS_DEVICE_PHASE_LATCHED);
   ticks_allocate_nothing("fault=jump\nfault_at=0.5", MVS_DEVICE_PHASE_LATCHED);
+  ticks_allocate_nothing(turning, MVS_DEVICE_PHASE_ON, MVS_HAND_MODE_ROD);
 #endif
 #if HAS_SECCOMP
-  ticks_call_no_system();
+  ticks_call_no_system(grasping, MVS_HAND_MODE_GRASP);
+  ticks_call_no_system(turning, MVS_HAND_MODE_ROD);
 #endif
   return finish("servo");
 }

@@ -520,6 +520,11 @@ class Device:
         stale_s: Optional[float] = None,
         fade_s: Optional[float] = None,
         stiffness: Optional[float] = None,
+        torque: Optional[float] = None,
+        continuous_torque: Optional[float] = None,
+        torque_slew: Optional[float] = None,
+        angular_stiffness: Optional[float] = None,
+        angular_speed: Optional[float] = None,
     ) -> None: ...
     def set_view(
         self,

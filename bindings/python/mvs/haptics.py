@@ -71,6 +71,7 @@ class Limited(IntFlag):
     ENERGY = 8
     WALL = 16
     NUMBER = 32
+    TORQUE = 64
 
 
 class SampleFault(IntFlag):
@@ -150,6 +151,10 @@ class Info:
     max_damping: Annotated[float, "N s/m", "largest stable value"]
     max_speed: Annotated[float, "m/s", "largest speed of the hand"]
     rate: Annotated[float, "Hz", "of its servo"]
+    peak_torque: Annotated[float, "N m", "largest torque of the motors; 0: renders none"]
+    continuous_torque: Annotated[float, "N m", "largest continuous torque of the motors"]
+    max_angular_stiffness: Annotated[float, "N m/rad", "largest stable value"]
+    max_angular_damping: Annotated[float, "N m s/rad", "largest stable value"]
 
 
 @with_field_help
@@ -167,6 +172,11 @@ class Limits:
     stale_s: Annotated[float, "s", "age at which the tissue model fades"]
     fade_s: Annotated[float, "s", "duration of the fade"]
     stiffness: Annotated[float, "N/m", "largest rendered stiffness"]
+    torque: Annotated[float, "N m", "largest torque; 0: the device renders none"]
+    continuous_torque: Annotated[float, "N m", "largest mean torque"]
+    torque_slew: Annotated[float, "N m/s", "largest rate of change of the torque"]
+    angular_stiffness: Annotated[float, "N m/rad", "largest rendered angular stiffness"]
+    angular_speed: Annotated[float, "rad/s", "above which forces latch off"]
 
 
 @with_field_help
@@ -213,6 +223,8 @@ class Report:
     force: Annotated[Vector, "N", "of the tissue on the hand, before scaling"]
     stiffness: Annotated[float, "N/m", "largest rendered stiffness"]
     drag_to: Annotated[Vector, "m", "target of the chord's end at Event.DRAGGED, for chord_length"]
+    torque: Annotated[Vector, "N m", "of the tissue on the hand about its position, before scaling"]
+    angular_stiffness: Annotated[float, "N m/rad", "largest rendered angular stiffness"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -239,6 +251,7 @@ class State:
     late: Annotated[int, "1", "ticks later than two periods"]
     bad_samples: Annotated[int, "1", "samples of the driver with a defect, since start"]
     sample_faults: Annotated[SampleFault, "1", "defects of these samples"]
+    torque: Annotated[Vector, "N m", "sent to the motors, about hand, device frame"]
 
 
 def option_lines(options: Options) -> str:

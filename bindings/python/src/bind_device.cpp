@@ -98,7 +98,8 @@ void put(Device &self, Struct given, mvs_result (*set)(mvs_device *, const Struc
 
 void set_limits(Device &self, Number force, Number continuous_force, Number thermal_s, Number slew,
                 Number gate, Number ramp_s, Number speed, Number stale_s, Number fade_s,
-                Number stiffness) {
+                Number stiffness, Number torque, Number continuous_torque, Number torque_slew,
+                Number angular_stiffness, Number angular_speed) {
   mvs_device_limits limits{};
   limits.force = force.value_or(0);
   limits.continuous_force = continuous_force.value_or(0);
@@ -110,6 +111,11 @@ void set_limits(Device &self, Number force, Number continuous_force, Number ther
   limits.stale_s = stale_s.value_or(0);
   limits.fade_s = fade_s.value_or(0);
   limits.stiffness = stiffness.value_or(0);
+  limits.torque = torque.value_or(0);
+  limits.continuous_torque = continuous_torque.value_or(0);
+  limits.torque_slew = torque_slew.value_or(0);
+  limits.angular_stiffness = angular_stiffness.value_or(0);
+  limits.angular_speed = angular_speed.value_or(0);
   put(self, limits, &mvs_device_set_limits);
 }
 
@@ -154,13 +160,21 @@ void bind_settings(py::class_<Device> &type) {
   type.def("set_limits", &set_limits, py::kw_only(), "force"_a = none, "continuous_force"_a = none,
            "thermal_s"_a = none, "slew"_a = none, "gate"_a = none, "ramp_s"_a = none,
            "speed"_a = none, "stale_s"_a = none, "fade_s"_a = none, "stiffness"_a = none,
+           "torque"_a = none, "continuous_torque"_a = none, "torque_slew"_a = none,
+           "angular_stiffness"_a = none, "angular_speed"_a = none,
            "Sets the limits of the user; omitted ones take their defaults, and no limit exceeds "
            "that of the device.\n\nforce: N [peak force]\ncontinuous_force: N, mean force [the "
            "device's]\nthermal_s: s, averaging time of the mean force [10]\nslew: N/s [100 times "
            "force]\ngate: N, forces start only below it [0.2]\nramp_s: s, duration of the ramp at "
            "the start [1]\nspeed: m/s, above which forces latch off [the device's, at most "
            "1]\nstale_s: s, age at which the tissue model fades [0.1]\nfade_s: s, duration of the "
-           "fade [0.05]\nstiffness: N/m, upper limit of the rendered stiffness [the device's]");
+           "fade [0.05]\nstiffness: N/m, upper limit of the rendered stiffness [the "
+           "device's]\ntorque: N m [peak "
+           "torque, 0 without motors for it]\ncontinuous_torque: N m, mean torque [the "
+           "device's]\ntorque_slew: "
+           "N m/s [100 times torque]\nangular_stiffness: N m/rad [the device's]\nangular_speed: "
+           "rad/s, above "
+           "which forces latch off, of devices with motors for torque [20]");
   type.def("set_view", &set_view, py::kw_only(), "origin"_a = std::array<double, 3>{},
            "rotation"_a = std::array<double, 4>{1, 0, 0, 0}, "scale"_a = 1.0, "force_scale"_a = 1.0,
            "Maps the device's workspace to the scene: p = origin + scale * rotation * p_device; "
@@ -250,7 +264,7 @@ void bind_work(py::class_<Device> &type) {
 
 void bind_device(py::module_ &module) {
   PYBIND11_NUMPY_DTYPE(mvs_device_sample, time, position, orientation, force, servo_s, gripper,
-                       buttons, limited);
+                       buttons, limited, torque);
   py::class_<Device> type(
       module, "Device",
       "An open haptic device; its motors are off until start() and arm().\n\nCalls release the "

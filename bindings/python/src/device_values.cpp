@@ -46,13 +46,15 @@ py::object device_info_value(const mvs_device_info &s) {
       "firmware"_a = text(s.firmware), FIELD(freedoms_in), FIELD(freedoms_out), FIELD(buttons),
       "clock"_a = s.clock == MVS_CLOCK_VIRTUAL ? "virtual" : "real", "realtime"_a = s.realtime != 0,
       VECTOR(workspace_min), VECTOR(workspace_max), FIELD(peak_force), FIELD(continuous_force),
-      FIELD(max_stiffness), FIELD(max_damping), FIELD(max_speed), FIELD(rate));
+      FIELD(max_stiffness), FIELD(max_damping), FIELD(max_speed), FIELD(rate), FIELD(peak_torque),
+      FIELD(continuous_torque), FIELD(max_angular_stiffness), FIELD(max_angular_damping));
 }
 
 py::object device_limits_value(const mvs_device_limits &s) {
   return make_haptic("Limits", FIELD(force), FIELD(continuous_force), FIELD(thermal_s), FIELD(slew),
                      FIELD(gate), FIELD(ramp_s), FIELD(speed), FIELD(stale_s), FIELD(fade_s),
-                     FIELD(stiffness));
+                     FIELD(stiffness), FIELD(torque), FIELD(continuous_torque), FIELD(torque_slew),
+                     FIELD(angular_stiffness), FIELD(angular_speed));
 }
 
 py::object device_view_value(const mvs_device_view &s) {
@@ -71,16 +73,17 @@ py::object device_report_value(const mvs_device_report &s) {
                      "near_chord"_a = id_or_none(s.near_chord), FIELD(near_chord_distance),
                      "near_node"_a = node_or_none(s.near_node), FIELD(near_node_distance),
                      "node"_a = node_or_none(s.node), VECTOR(position), VECTOR(force),
-                     FIELD(stiffness), VECTOR(drag_to));
+                     FIELD(stiffness), VECTOR(drag_to), VECTOR(torque), FIELD(angular_stiffness));
 }
 
 py::object device_state_value(const mvs_device_state &s) {
-  return make_haptic(
-      "State", "phase"_a = number("Phase", s.phase), "cause"_a = number("Cause", s.cause),
-      FIELD(flags), "limited"_a = number("Limited", s.limited), FIELD(buttons), FIELD(time),
-      VECTOR(position), VECTOR(orientation), VECTOR(velocity), VECTOR(hand), VECTOR(force),
-      FIELD(rate), FIELD(worst_period), FIELD(model_age), FIELD(energy), FIELD(heat), FIELD(ticks),
-      FIELD(late), FIELD(bad_samples), "sample_faults"_a = number("SampleFault", s.sample_faults));
+  return make_haptic("State", "phase"_a = number("Phase", s.phase),
+                     "cause"_a = number("Cause", s.cause), FIELD(flags),
+                     "limited"_a = number("Limited", s.limited), FIELD(buttons), FIELD(time),
+                     VECTOR(position), VECTOR(orientation), VECTOR(velocity), VECTOR(hand),
+                     VECTOR(force), FIELD(rate), FIELD(worst_period), FIELD(model_age),
+                     FIELD(energy), FIELD(heat), FIELD(ticks), FIELD(late), FIELD(bad_samples),
+                     "sample_faults"_a = number("SampleFault", s.sample_faults), VECTOR(torque));
 }
 
 }  // namespace mvs_python
