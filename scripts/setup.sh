@@ -53,8 +53,8 @@ as_root() {
 build_packages=(build-essential cmake ninja-build pkg-config libeigen3-dev
   libhdf5-dev libcli11-dev nlohmann-json3-dev zlib1g-dev)
 python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
-test_packages=(libsuitesparse-dev abigail-tools doctest-dev libtinyobjloader-dev libspnav0 libglfw3-dev locales xvfb
-  xauth xdotool clang clang-format clang-tidy git)
+test_packages=(libsuitesparse-dev abigail-tools doctest-dev libtinyobjloader-dev libccd-dev libspnav0
+  libglfw3-dev locales xvfb xauth xdotool clang clang-format clang-tidy git)
 
 # How many files are compiled as one (cmake/unity.cmake): one by one unless scripts/demo or the short
 # gate sets it.
