@@ -13,7 +13,7 @@ namespace {
 // The weakest device of the table in haptic_drivers/hand/README.md (3D Systems Touch).
 constexpr double weakest_force = 3.3, weakest_continuous = 0.88;  // N
 constexpr double weakest_stiffness = 400, weakest_damping = 4;    // N/m, N s/m
-// The weakest device with motors for torque (PHANTOM Premium 6DOF, as its library reports it).
+// The weakest device with motors for torque (PHANTOM Premium 6DOF; commonly quoted, not measured).
 constexpr double weakest_torque = 0.188;  // N m
 constexpr double usual_turns = 20;        // rad/s, limit of the angular speed
 constexpr double usual_rate = 1000;       // Hz

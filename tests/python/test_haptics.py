@@ -57,6 +57,20 @@ def test_settings_can_be_read_back(device):
     assert device.limits.ramp_s == 0.5
 
 
+def test_a_device_with_motors_for_torque_has_limits_of_torque(device):
+    assert device.info.peak_torque == device.limits.torque == device.limits.torque_slew == 0
+    np.testing.assert_array_equal(device.state.torque, [0, 0, 0])
+    with mvs.Device("hand", options={"device": "premium6"}, clock="virtual") as other:
+        assert (other.info.freedoms_out, other.info.peak_torque) == (6, 0.188)
+        assert other.limits.angular_stiffness == other.info.max_angular_stiffness > 0
+        other.set_limits(torque=0.05, angular_speed=5)
+        assert (other.limits.torque, other.limits.torque_slew) == (0.05, 5)
+        assert (other.limits.angular_speed, other.limits.force) == (5, other.info.peak_force)
+        with pytest.raises(mvs.ArgumentError, match="torque"):
+            other.set_limits(torque=-1)
+    assert mvs.unit_of(mvs.haptics.Report, "torque") == "N m"
+
+
 def grasp_a2(device, closed, seconds):
     """Plays the recording in a closed valve; returns every report and the trace."""
     reports, rows = [], []
