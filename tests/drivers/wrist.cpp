@@ -1,6 +1,7 @@
 // The simulated hand turns as the closed form, creates no energy, and clamps torque.
 #include "hand.h"
 
+#include <array>
 #include <complex>
 
 namespace {

@@ -13,7 +13,9 @@
 // - two segments: ours takes segments within 1e-6 rad as parallel, and then is at most that times
 //   their length too large. GJK with round bodies ends before it has found a slight overlap:
 //   libccd's is too large, by at most 10 um;
-// - crossings: both agree but for pairs that touch, within 1e-10 m. Ours is exact for these.
+// - crossings: both agree but for pairs that touch, within 1e-9 m, and ours is exact for these; and
+//   some 30 in a million, on the lattice or small, which cross by up to 1 mm (the separating axis
+//   test says so) and which libccd finds apart: its GJK ends at a tie.
 //
 // libccd compares with absolute numbers made for lengths around 1: coordinates are multiplied by
 // 1024, that is, about millimetres, without rounding. Its defaults are 1e-4 and unbounded
@@ -48,9 +50,10 @@ using Segment = std::array<Vec3, 2>;
 
 constexpr double scale = 1024;        // libccd's lengths per metre
 constexpr double near_enough = 1e-9;  // m, of a distance: a tenth of the smallest gap in contact
-// m, of pairs that touch. Rounding of coordinates of 0.1 m moves a corner by 1e-17 m, and a
-// distance along two edges that are parallel within 1e-3 by 1e3 times that, twice: below 1e-11 m.
-constexpr double barely = 1e-10;
+// m, of pairs that touch. Rounding of coordinates of 0.1 m moves a corner by 1e-17 m, and the place
+// where narrow triangles meet, whose sides are parallel within 1e-5, by up to 1e5 times that for
+// each of three factors: 1e-9 m at worst. Seen: 3e-10 m.
+constexpr double barely = 1e-9;
 
 bool is_long() {
   const char *const asked = std::getenv("MVS_TEST_LONG");
@@ -325,16 +328,27 @@ bool are_parallel(const Segment &a, const Segment &b) {
   return u.cross(v).norm() < 1.01e-6 * u.norm() * v.norm();
 }
 
-// Counts crossings on which both disagree. `apart` is the distance of pairs that we find apart.
+// Takes crossings on which both disagree. `apart` is the distance of pairs that do not cross,
+// `deep` the depth of pairs that do, and negative with a separating axis.
 void take_crossing(Disagreements &d, int kind, bool ours, bool theirs,
                    const std::function<double()> &apart, const std::function<double()> &deep) {
   if (ours == theirs) return;
   const auto k = static_cast<size_t>(kind);
   ++d.all[k];
-  const double margin = ours ? deep() : apart();
-  if (margin <= barely) return;
-  ++(ours ? d.libccds : d.ours)[k];
-  ++d.unexplained;
+  const double depth = deep();
+  if (ours ? std::abs(depth) <= barely : apart() <= barely) return;
+  const bool right = ours ? depth > barely : depth < -barely;
+  ++(right ? d.libccds : d.ours)[k];
+  if (!right) ++d.unexplained;
+}
+
+// Ties lead libccd's GJK astray in about 30 of a million pairs.
+void check_crossings(const Disagreements &d, int met) {
+  CHECK_EQ(d.unexplained, 0);
+  int astray = 0;
+  for (const int count : d.libccds) astray += count;
+  CHECK_LE(astray, std::max(3, pairs / 10000));
+  CHECK_GT(met, pairs / 10);
 }
 
 }  // namespace
@@ -384,8 +398,7 @@ TEST_CASE("triangles_cross_where_libccd_finds_that_they_meet") {
         [&] { return third_distance(a, b); }, [&] { return depth(a, b); });
   }
   d.print("two triangles");
-  CHECK_EQ(d.unexplained, 0);
-  CHECK_GT(met, pairs / 10);
+  check_crossings(d, met);
 }
 
 TEST_CASE("segments_cross_triangles_where_libccd_finds_that_they_meet") {
@@ -404,7 +417,6 @@ TEST_CASE("segments_cross_triangles_where_libccd_finds_that_they_meet") {
         [&] { return third_distance(flat, t); }, [&] { return depth(s, t); });
   }
   d.print("segment and triangle");
-  CHECK_EQ(d.unexplained, 0);
-  CHECK_GT(met, pairs / 10);
+  check_crossings(d, met);
 }
 #endif

@@ -394,7 +394,8 @@ TEST_CASE("a device without motors for torque, or without orientation, gets zero
   grasp.turning = 0.1 * Mat3::Identity();
   grasp.coupling = Mat3::Identity();
   grasp.most_torque = 100;
-  for (const auto &[in, out] : {std::array{6u, 3u}, {3u, 3u}, {3u, 6u}, {6u, 6u}}) {
+  for (const auto &freedoms : {std::array{6u, 3u}, {3u, 3u}, {3u, 6u}, {6u, 6u}}) {
+    const uint32_t in = freedoms[0], out = freedoms[1];
     CAPTURE(in);
     CAPTURE(out);
     Bare bare(in, out);
