@@ -29,24 +29,20 @@ TEST_CASE("distances_and_crossings_are_those_of_libccd") {
 #else
 #include <ccd/ccd.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "geometry/distance.h"
 #include "geometry/intersect.h"
+#include "tests/geometry/odd_points.h"
+#include "tests/geometry/third_computation.h"
 
 using namespace mvs::core;
 
 namespace {
-
-using Triangle = std::array<Vec3, 3>;
-using Segment = std::array<Vec3, 2>;
 
 constexpr double scale = 1024;        // libccd's lengths per metre
 constexpr double near_enough = 1e-9;  // m, of a distance: a tenth of the smallest gap in contact
@@ -121,157 +117,6 @@ double libccd_distance(const Vec3 &p, const Triangle &t) {
   const ccd_vec3_t point = to_ccd(p), a = to_ccd(t[0]), b = to_ccd(t[1]), c = to_ccd(t[2]);
   return std::sqrt(ccdVec3PointTriDist2(&point, &a, &b, &c, nullptr)) / scale;
 }
-
-// The third computation: by all features, in long double.
-using Long3 = Eigen::Matrix<long double, 3, 1>;
-
-long double distance2(const Long3 &p, const Long3 &a, const Long3 &b) {
-  const Long3 ab = b - a;
-  const long double length2 = ab.squaredNorm();
-  const long double s = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0L, 1.0L) : 0.0L;
-  return (p - a - s * ab).squaredNorm();
-}
-
-double third_distance(const Segment &first, const Segment &second) {
-  const Long3 a = first[0].cast<long double>(), b = first[1].cast<long double>();
-  const Long3 c = second[0].cast<long double>(), d = second[1].cast<long double>();
-  long double least =
-      std::min({distance2(a, c, d), distance2(b, c, d), distance2(c, a, b), distance2(d, a, b)});
-  const Long3 u = b - a, v = d - c, w = a - c;
-  const long double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-  const long double det = uu * vv - uv * uv;
-  if (det > 0) {
-    const long double s = (uv * v.dot(w) - vv * u.dot(w)) / det;
-    const long double t = (uu * v.dot(w) - uv * u.dot(w)) / det;
-    if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
-      least = std::min(least, (w + s * u - t * v).squaredNorm());
-  }
-  return static_cast<double>(std::sqrt(least));
-}
-
-double third_distance(const Vec3 &point, const Triangle &t) {
-  const Long3 p = point.cast<long double>(), a = t[0].cast<long double>();
-  const Long3 b = t[1].cast<long double>(), c = t[2].cast<long double>();
-  long double least = std::min({distance2(p, a, b), distance2(p, b, c), distance2(p, c, a)});
-  const Long3 u = b - a, v = c - a, w = p - a;
-  const long double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-  const long double det = uu * vv - uv * uv;
-  if (det > 0) {
-    const long double s = (vv * u.dot(w) - uv * v.dot(w)) / det;
-    const long double r = (uu * v.dot(w) - uv * u.dot(w)) / det;
-    if (s >= 0 && r >= 0 && s + r <= 1) least = std::min(least, (w - s * u - r * v).squaredNorm());
-  }
-  return static_cast<double>(std::sqrt(least));
-}
-
-// The distance of two triangles that do not cross.
-double third_distance(const Triangle &a, const Triangle &b) {
-  double least = third_distance(a[0], b);
-  for (size_t k = 0; k < 3; ++k) {
-    least = std::min({least, third_distance(a[k], b), third_distance(b[k], a)});
-    for (size_t j = 0; j < 3; ++j) {
-      least = std::min(
-          least, third_distance(Segment{a[k], a[(k + 1) % 3]}, Segment{b[j], b[(j + 1) % 3]}));
-    }
-  }
-  return least;
-}
-
-// An upper bound of the depth of two bodies that cross: the least overlap along the axes of the
-// separating axis test. 0 for flat contact.
-template <size_t N, size_t M>
-double depth(const std::array<Vec3, N> &a, const std::array<Vec3, M> &b) {
-  double least = 1;
-  const auto try_axis = [&](const Vec3 &axis) {
-    if (axis.norm() < 1e-12) return;
-    std::array<double, 4> range = {1e9, -1e9, 1e9, -1e9};
-    for (const Vec3 &p : a) {
-      range[0] = std::min(range[0], p.dot(axis.normalized()));
-      range[1] = std::max(range[1], p.dot(axis.normalized()));
-    }
-    for (const Vec3 &p : b) {
-      range[2] = std::min(range[2], p.dot(axis.normalized()));
-      range[3] = std::max(range[3], p.dot(axis.normalized()));
-    }
-    least = std::min({least, range[1] - range[2], range[3] - range[0]});
-  };
-  std::vector<Vec3> sides, normals;
-  for (size_t k = 0; k < N; ++k) sides.push_back(a[(k + 1) % N] - a[k]);
-  for (size_t k = 0; k < M; ++k) sides.push_back(b[(k + 1) % M] - b[k]);
-  for (size_t j = 0; j < sides.size(); ++j) {
-    for (size_t k = 0; k < j; ++k) normals.push_back(1e3 * sides[j].cross(sides[k]));
-  }
-  for (const Vec3 &n : normals) {
-    try_axis(n);
-    for (const Vec3 &side : sides) try_axis(1e3 * n.cross(side));
-  }
-  for (const Vec3 &side : sides) try_axis(side);
-  return least;
-}
-
-// Points around the origin, 1 to 100 mm away, in one of several kinds of position.
-class Points {
- public:
-  explicit Points(uint64_t seed) : state_(seed) {}
-  uint32_t below(uint32_t n) { return static_cast<uint32_t>(bits() >> 33) % n; }
-  // Moves on to another kind of pair; all of its points are of that kind.
-  void next_pair() {
-    kind_ = static_cast<int>(below(8));
-    size_ = kind_ == 5 ? 1e-5 : 0.01;
-    middle_ = kind_ == 6 ? Vec3(0.07, -0.05, 0.03) : Vec3(0, 0, 0);
-    line_ = any();
-    made_.clear();
-  }
-  int kind() const { return kind_; }
-  Vec3 point() {
-    Vec3 p = middle_ + size_ * any();
-    if (kind_ == 1) p = lattice();                           // ties of all sorts
-    if (kind_ == 2) p.z() = middle_.z();                     // one plane, exactly
-    if (kind_ == 3) p = middle_ + size_ * number() * line_;  // one line, but for rounding
-    if (kind_ == 4) p = middle_ + size_ * (number() * line_ + 1e-5 * any());  // needles
-    if (kind_ == 7 && made_.size() > 1 && below(2) == 0) p = on_an_edge();
-    made_.push_back(p);
-    return p;
-  }
-  template <size_t N>
-  std::array<Vec3, N> points() {
-    std::array<Vec3, N> out;
-    for (Vec3 &p : out) p = point();
-    return out;
-  }
-
- private:
-  uint64_t bits() {  // xorshift64* (Vigna 2016)
-    state_ ^= state_ >> 12;
-    state_ ^= state_ << 25;
-    state_ ^= state_ >> 27;
-    return state_ * 0x2545F4914F6CDD1D;
-  }
-  double number() { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; }
-  Vec3 any() {
-    const double x = number(), y = number();
-    return Vec3(x, y, number());
-  }
-  Vec3 lattice() {
-    const double x = below(5), y = below(5);
-    return 0x1p-9 * Vec3(x, y, below(3));
-  }
-  // A corner of before, or the middle between two: contact at a corner or edge.
-  Vec3 on_an_edge() {
-    const Vec3 &p = made_[below(static_cast<uint32_t>(made_.size()))];
-    const Vec3 &q = made_[below(static_cast<uint32_t>(made_.size()))];
-    return 0.5 * (p + q);
-  }
-
-  uint64_t state_;
-  int kind_ = 0;
-  double size_ = 0;
-  Vec3 middle_, line_;
-  std::vector<Vec3> made_;
-};
-
-constexpr const char *kind_names[] = {"random", "lattice", "plane",   "line",
-                                      "needle", "small",   "far off", "touching"};
 
 // Pairs on which both disagree, by kind; and those on which one of both is wrong.
 struct Disagreements {
