@@ -12,7 +12,8 @@
 //   that are flat to rounding. model/check_sheet.cpp refuses a height below 1e-6 at rest;
 // - two segments: ours takes segments within 1e-6 rad as parallel, and then is at most that times
 //   their length too large. GJK with round bodies ends before it has found a slight overlap:
-//   libccd's is too large, by at most 10 um;
+//   libccd's is too large, by at most 10 um, and by up to 2 mm in 10 of a million, at ties of the
+//   lattice;
 // - crossings: both agree but for pairs that touch, within 1e-9 m, and ours is exact for these; and
 //   some 30 in a million, on the lattice or small, which cross by up to 1 mm (the separating axis
 //   test says so) and which libccd finds apart: its GJK ends at a tie.
@@ -121,7 +122,8 @@ double libccd_distance(const Vec3 &p, const Triangle &t) {
 // Pairs on which both disagree, by kind; and those on which one of both is wrong.
 struct Disagreements {
   std::array<int, 8> all = {}, ours = {}, libccds = {};
-  int unexplained = 0;
+  int unexplained = 0;  // ours wrong without a reason
+  int astray = 0;       // libccd wrong beyond rounding and the end of its iteration
 
   void print(const std::string &what) const {
     int sum = 0;
@@ -131,7 +133,8 @@ struct Disagreements {
       MESSAGE(what, ", ", std::string(kind_names[k]), ": ", all[k], " differ, ours wrong in ",
               ours[k], ", libccd in ", libccds[k]);
     }
-    MESSAGE(what, ": ", sum, " of ", pairs, " differ, ", unexplained, " unexplained");
+    MESSAGE(what, ": ", sum, " of ", pairs, " differ; ours wrong without reason in ", unexplained,
+            ", libccd astray in ", astray);
   }
 };
 
@@ -150,9 +153,8 @@ void take_distance(Disagreements &d, int kind, const Distances &found, const Exp
   if (std::abs(found.ours - found.libccds) > near_enough) ++d.all[k];
   if (our_error > near_enough) ++d.ours[k];
   if (std::abs(more) > near_enough) ++d.libccds[k];
-  if (our_error > near_enough + explained.ours || more > near_enough + explained.libccds ||
-      more < -near_enough)
-    ++d.unexplained;
+  if (our_error > near_enough + explained.ours) ++d.unexplained;
+  if (more > near_enough + explained.libccds || more < -near_enough) ++d.astray;
 }
 
 double longest_side(const Triangle &t) {
@@ -184,16 +186,13 @@ void take_crossing(Disagreements &d, int kind, bool ours, bool theirs,
   if (ours ? std::abs(depth) <= barely : apart() <= barely) return;
   const bool right = ours ? depth > barely : depth < -barely;
   ++(right ? d.libccds : d.ours)[k];
-  if (!right) ++d.unexplained;
+  ++(right ? d.astray : d.unexplained);
 }
 
-// Ties lead libccd's GJK astray in about 30 of a million pairs.
-void check_crossings(const Disagreements &d, int met) {
+// Ties, as on the lattice, lead libccd's GJK astray: in 27 of a million pairs of triangles.
+void check(const Disagreements &d) {
   CHECK_EQ(d.unexplained, 0);
-  int astray = 0;
-  for (const int count : d.libccds) astray += count;
-  CHECK_LE(astray, std::max(3, pairs / 10000));
-  CHECK_GT(met, pairs / 10);
+  CHECK_LE(d.astray, std::max(3, pairs / 10000));
 }
 
 }  // namespace
@@ -211,6 +210,7 @@ TEST_CASE("distances_of_points_and_triangles_are_those_of_libccd") {
   }
   d.print("point and triangle");
   CHECK_EQ(d.unexplained, 0);
+  CHECK_EQ(d.astray, 0);
 }
 
 TEST_CASE("distances_of_segments_are_those_at_which_capsules_of_libccd_meet") {
@@ -226,7 +226,7 @@ TEST_CASE("distances_of_segments_are_those_at_which_capsules_of_libccd_meet") {
                   {parallel, 1e-5});
   }
   d.print("two segments");
-  CHECK_EQ(d.unexplained, 0);
+  check(d);
 }
 
 TEST_CASE("triangles_cross_where_libccd_finds_that_they_meet") {
@@ -243,7 +243,8 @@ TEST_CASE("triangles_cross_where_libccd_finds_that_they_meet") {
         [&] { return third_distance(a, b); }, [&] { return depth(a, b); });
   }
   d.print("two triangles");
-  check_crossings(d, met);
+  check(d);
+  CHECK_GT(met, pairs / 10);
 }
 
 TEST_CASE("segments_cross_triangles_where_libccd_finds_that_they_meet") {
@@ -262,6 +263,7 @@ TEST_CASE("segments_cross_triangles_where_libccd_finds_that_they_meet") {
         [&] { return third_distance(flat, t); }, [&] { return depth(s, t); });
   }
   d.print("segment and triangle");
-  check_crossings(d, met);
+  check(d);
+  CHECK_GT(met, pairs / 10);
 }
 #endif

@@ -127,7 +127,11 @@ Json info_json(const mvs_device_info &info) {
           {"max_stiffness_N_m", info.max_stiffness},
           {"max_damping_N_s_m", info.max_damping},
           {"max_speed_m_s", info.max_speed},
-          {"rate_Hz", info.rate}};
+          {"rate_Hz", info.rate},
+          {"peak_torque_N_m", info.peak_torque},
+          {"continuous_torque_N_m", info.continuous_torque},
+          {"max_angular_stiffness_N_m_rad", info.max_angular_stiffness},
+          {"max_angular_damping_N_m_s_rad", info.max_angular_damping}};
 }
 
 std::string info_text(const mvs_device_info &info) {
@@ -140,8 +144,13 @@ std::string info_text(const mvs_device_info &info) {
                 info.buttons);
   if (size[0] > 0) lines += text(", workspace %.0f x %.0f x %.0f mm", size[0], size[1], size[2]);
   if (info.freedoms_out == 0) return lines + text(", %g Hz, no force\n", info.rate);
-  return lines + text("\n  %g N peak, %g N continuous, %g N/m, %g N s/m, %g Hz\n", info.peak_force,
-                      info.continuous_force, info.max_stiffness, info.max_damping, info.rate);
+  lines += text("\n  %g N peak, %g N continuous, %g N/m, %g N s/m, %g Hz\n", info.peak_force,
+                info.continuous_force, info.max_stiffness, info.max_damping, info.rate);
+  if (info.peak_torque > 0)
+    lines +=
+        text("  %g N m peak, %.2g N m continuous, %.2g N m/rad, %.2g N m s/rad\n", info.peak_torque,
+             info.continuous_torque, info.max_angular_stiffness, info.max_angular_damping);
+  return lines;
 }
 
 }  // namespace cli
