@@ -26,7 +26,7 @@ class Differentiation {
   Sensitivity run();
 
  private:
-  void must_be_stable();
+  void find_margin();
   std::vector<QuantityGradient> gradients();
   void note_everywhere(mvs_sensitivity_notes note);
   void add_one_sides(const LinearResponse &response);
@@ -44,25 +44,13 @@ class Differentiation {
   Sensitivity result_;
 };
 
-// With Ks positive definite the equilibrium is stable; otherwise the eigenvalues decide.
-void Differentiation::must_be_stable() {
-  const double limit = set::rest_share * request_.state.rest_tolerance;
-  MVS_MUST(tangent_.residual() <= limit, MVS_E_STATE, "snapshot",
-           "the out-of-balance force is %.2g N, above the %.2g N of its rest: settle the valve "
-           "with Newton's method first",
-           tangent_.residual(), request_.state.rest_tolerance);
-  if (!tangent_.is_definite()) {
-    const Stability found = check_stability(request_.model, request_.state);
-    MVS_MUST(found.is_stable, MVS_E_STATE, "snapshot",
-             "the equilibrium is unstable (growth rate %.2g 1/s), so that its derivatives mean "
-             "nothing: settle the valve again",
-             found.rate);
-    snaps_ = found.rate > -set::near_snap_rate;
-  }
+void Differentiation::find_margin() {
+  const double rate = must_be_stable(request_.model, request_.state, tangent_);
   result_.residual = tangent_.residual();
   result_.stiffness_margin = options_.with_margin ? tangent_.smallest_stiffness()
                                                   : std::numeric_limits<double>::quiet_NaN();
-  if (tangent_.is_definite()) snaps_ = result_.stiffness_margin < set::near_snap;
+  snaps_ = tangent_.is_definite() ? result_.stiffness_margin < set::near_snap
+                                  : rate > -set::near_snap_rate;
 }
 
 // Gradients of the quantities, then of the elongations of weak chordae.
@@ -148,7 +136,7 @@ void Differentiation::test_quantities(LinearResponse &response) {
 }
 
 Sensitivity Differentiation::run() {
-  must_be_stable();
+  find_margin();
   std::vector<QuantityGradient> list = gradients();
   const bool adjoint = is_adjoint(list, request_.parameters.size(), options_);
   LinearResponse response(request_, std::move(list), tangent_);
@@ -180,10 +168,7 @@ Sensitivity differentiate_at(const Model &model, const State &state,
                              const std::vector<Quantity> &quantities,
                              const std::vector<Parameter> &parameters,
                              const SensitivityOptions &options) {
-  State slack = state;
-  const double margin = std::max(set::idle_margin, 10 * options.slack);
-  const double tension = set::idle_share * state.rest_tolerance;
-  if (!slacken_idle_branches(model, tension, margin, slack.x.edit())) slack.x = state.x;
+  const State slack = with_slack_branches(model, state, options.slack);
   const SensitivityRequest request = {model, slack, quantities, parameters};
   Sensitivity found = Differentiation(request, options).run();
   for (size_t q = 0; q < quantities.size(); ++q) {
@@ -195,6 +180,33 @@ Sensitivity differentiate_at(const Model &model, const State &state,
 }
 
 }  // namespace
+
+State with_slack_branches(const Model &model, const State &state, double slack) {
+  MVS_MUST(state.is_at_rest(), MVS_E_STATE, "snapshot",
+           "the snapshot is not at rest under its load: settle the valve, then take its "
+           "sensitivity");
+  State moved = state;
+  const double margin = std::max(set::idle_margin, 10 * slack);
+  const double tension = set::idle_share * state.rest_tolerance;
+  if (!slacken_idle_branches(model, tension, margin, moved.x.edit())) moved.x = state.x;
+  return moved;
+}
+
+// With Ks positive definite the equilibrium is stable; otherwise the eigenvalues decide.
+double must_be_stable(const Model &model, const State &state, const EquilibriumTangent &tangent) {
+  const double limit = set::rest_share * state.rest_tolerance;
+  MVS_MUST(tangent.residual() <= limit, MVS_E_STATE, "snapshot",
+           "the out-of-balance force is %.2g N, above the %.2g N of its rest: settle the valve "
+           "with Newton's method first",
+           tangent.residual(), state.rest_tolerance);
+  if (tangent.is_definite()) return -std::numeric_limits<double>::infinity();
+  const Stability found = check_stability(model, state);
+  MVS_MUST(found.is_stable, MVS_E_STATE, "snapshot",
+           "the equilibrium is unstable (growth rate %.2g 1/s), so that its derivatives mean "
+           "nothing: settle the valve again",
+           found.rate);
+  return found.rate;
+}
 
 Sensitivity differentiate(const Model &model, const State &state,
                           const std::vector<Quantity> &quantities,

@@ -23,6 +23,9 @@ LOST = 10.0
 """Residual in standard deviations of every datum of a trial that does not come to rest: worse than any
 trial that does, so that the step is refused."""
 
+FIRST_RADIUS = 8.0
+"""First trust region, in standard deviations of the prior: about the length of a draw of 80 parameters."""
+
 
 class Problem:
     """Residuals and Jacobian of one start; keeps the last closures."""
@@ -140,7 +143,10 @@ def fit(
         z = np.zeros(len(rows.labels))
         before = problem.residuals(z)
         fits.append(least_squares(problem.residuals, z, problem.jacobian, (-rows.reach, rows.reach),
-                                  method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6, max_nfev=most))
+                                  method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6, max_nfev=most,
+                                  # the default is a dense SVD at each trial, whose BLAS threads take
+                                  # more CPU than the closures where cores are shared
+                                  tr_solver="lsmr", x_scale=FIRST_RADIUS))
         problems.append((problem, before))
     return _result(start, rows, data, noise, with_prior, fits, problems, begun)
 
