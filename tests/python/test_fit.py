@@ -155,6 +155,37 @@ def test_several_starts_report_their_spread(start, truth):
         0.5 * (np.sum((found.residuals_after / NOISE) ** 2) + found.z @ found.z), rel=1e-6)
 
 
+def test_a_label_map_is_a_target(start):
+    sitk = pytest.importorskip("SimpleITK")
+    from scipy.spatial import cKDTree
+
+    from mvs.fitting.targets import target_of
+    from mvs.imaging import labels_of
+
+    # voxels of 0.5 mm within 0.75 mm of the closed leaflets, each with the label of the nearer one
+    x, triangles = np.array(start.node_position), np.array(start.triangle_nodes)
+    weights = np.array([(i, j, 12 - i - j) for i in range(13) for j in range(13 - i)]) / 12
+    points = np.einsum("kc,tcd->tkd", weights, x[triangles]).reshape(-1, 3)
+    origin = points.min(axis=0) - 3e-3
+    size = np.ceil((np.ptp(points, axis=0) + 6e-3) / 0.5e-3).astype(int)
+    grid = np.stack(np.meshgrid(*map(np.arange, size), indexing="ij"), -1).reshape(-1, 3) * 0.5e-3 + origin
+    away, nearest = cKDTree(points).query(grid, distance_upper_bound=0.75e-3)
+    voxels = np.zeros(len(grid), np.uint8)
+    inside = np.isfinite(away)
+    voxels[inside] = 1 + np.repeat(start.triangle_leaflet, len(weights))[nearest[inside]]
+    image = sitk.GetImageFromArray(voxels.reshape(size).transpose(2, 1, 0))
+    image.SetSpacing([0.5] * 3)
+    image.SetOrigin(list(origin * 1e3))
+    labels = labels_of(image, {1: "anterior leaflet", 2: "posterior leaflet"})
+    residuals = target_of(start, labels).residuals(x)[0]
+    # a third of a voxel is the error of the mid-surface; found 0.16 mm
+    assert np.sqrt(np.mean(residuals**2)) < 0.2e-3
+    one = sitk.GetImageFromArray(np.where(voxels == 2, 0, voxels).reshape(size).transpose(2, 1, 0))
+    one.SetSpacing([0.5] * 3)
+    with pytest.raises(mvs.ArgumentError, match="one leaflet is missing"):
+        target_of(start, labels_of(one, {1: "anterior leaflet"}))
+
+
 def test_bad_input_is_refused(start, truth):
     nodes = np.unique(start.triangle_nodes)
     places = truth.node_position[nodes]

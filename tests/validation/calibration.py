@@ -39,7 +39,7 @@ import numpy as np  # noqa: E402
 REACH, LEVEL = 3.0, 0.9
 DRAWS, CLOSED = 39, 19
 """Of parameters, and of these that are closed: 90 % of the ranks are a whole number in both."""
-SHOWN = 100
+SHOWN = 50
 """Cases after which the table so far is printed."""
 REST = 1e-6
 """N"""

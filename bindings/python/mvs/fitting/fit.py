@@ -38,6 +38,7 @@ class Problem:
         self.closed: dict[bytes, Optional[_core.Snapshot]] = {}
         self.last = start
         self.closures = 0
+        self.derivatives: Optional[Array] = None
         self.trace: list[Trace] = []
         self.sim = _core.Simulator(log=lambda level, text: None)
 
@@ -77,15 +78,22 @@ class Problem:
         return np.vstack([j, np.eye(len(z))]) if self.with_prior else j
 
     def data_jacobian(self, z: Array) -> Array:
-        """d(data residuals) / dz, from the exact derivatives at the closure."""
+        """d(data residuals) / dz, from the exact derivatives at the closure. A closure that is about to
+        snap has none: those of the last closure that had stand in for them."""
         closed = self.close(z)
         if closed is None:
             raise StateError("fit: the valve does not come to rest; tighten the priors or the bounds", "fit")
         nodes, directions = self.target.residuals(np.array(closed.node_position))[1:]
-        found = closed._sensitivity([(2, 0, 0, None, None, np.zeros((len(closed.node_position), 3)))],
-                                    list(self.free.rows), 1 | 4 | 8, None)
+        try:
+            found = closed._sensitivity([(2, 0, 0, None, None, np.zeros((len(closed.node_position), 3)))],
+                                        list(self.free.rows), 1 | 4 | 8, None)
+        except (DivergedError, StateError):
+            if self.derivatives is None:
+                raise
+            return self.derivatives
         motion = found["motion"].reshape(len(z), -1, 3)[:, nodes]
-        return np.einsum("pki,ki->kp", motion, directions) * (self.free.deviation / self.noise)
+        self.derivatives = np.einsum("pki,ki->kp", motion, directions) * (self.free.deviation / self.noise)
+        return self.derivatives
 
 
 def fit(
@@ -107,7 +115,8 @@ def fit(
 
     start: the closed valve at rest with the parameters to begin with
     target: mvs.Points (tracked nodes), mvs.Surface or (points, triangles) of the closed leaflets, m, or a
-        closed mvs.Snapshot, in the frame of the valve
+        closed mvs.Snapshot, in the frame of the valve; a mvs.imaging.LabelMap of the closed leaflets, each
+        with a label of its own where they touch: the mid-surface of its voxels
     free: groups of parameters: "chords" (rest lengths), "tissue" (constants of each leaflet), "thickness",
         "heads" (coordinates), "prestrain"
     noise: m, standard deviation of the data

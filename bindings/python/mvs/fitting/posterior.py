@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
+from ..errors import DivergedError, StateError
 from ..sensitivities import PARAMETER, QUANTITY
 from .quiet import quiet
 
@@ -118,10 +119,23 @@ def linearised(fit: Fit) -> Linear:
     return Linear(z, jacobian.T @ jacobian, jacobian.T @ (residual / fit.noise), chords, tension, slope)
 
 
+def _normal(fit: Fit) -> Linear:
+    """Without chordae that may be slack: the normal posterior of the fit."""
+    right = fit.jacobian.T @ (fit.residuals_after / fit.noise)
+    nothing = np.zeros(0)
+    return Linear(fit.z, fit.jacobian.T @ fit.jacobian, right, np.zeros(0, np.int64), nothing,
+                  np.zeros((0, len(fit.z))))
+
+
 def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:
-    """Parameters z (count, p) from the posterior, each `thin` trajectories after the last."""
+    """Parameters z (count, p) from the posterior, each `thin` trajectories after the last. At a fit that is
+    about to snap, where the linearisation fails, from the normal posterior within the bounds."""
     random = np.random.default_rng(seed)
-    linear, reach = linearised(fit), fit.free.reach
+    try:
+        linear = linearised(fit)
+    except (DivergedError, StateError):
+        linear = _normal(fit)
+    reach = fit.free.reach
     # the mass is the posterior precision of a valve whose chordae are all taut
     inverse = np.linalg.inv(np.linalg.cholesky(linear.normal + np.eye(len(fit.z))))
     z = np.clip(fit.z, -0.999 * reach, 0.999 * reach)
