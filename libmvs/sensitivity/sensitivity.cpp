@@ -188,7 +188,12 @@ State with_slack_branches(const Model &model, const State &state, double slack) 
   State moved = state;
   const double margin = std::max(set::idle_margin, 10 * slack);
   const double tension = set::idle_share * state.rest_tolerance;
-  if (!slacken_idle_branches(model, tension, margin, moved.x.edit())) moved.x = state.x;
+  if (!slacken_idle_branches(model, tension, margin, moved.x.edit())) {
+    moved.x = state.x;
+  } else {
+    // the insertions have lost that tension
+    moved.rest_tolerance += tension;
+  }
   return moved;
 }
 

@@ -95,6 +95,15 @@ def rank(truth: float, drawn: np.ndarray) -> tuple[int, int]:
     return int((drawn < truth).sum()), len(drawn)
 
 
+def tried(job: tuple[int, str, int, float, float, bool]) -> Optional[Case]:
+    """run_case, or None where the fit ends with an error: one case does not end the others."""
+    try:
+        return run_case(job)
+    except (mvs.DivergedError, mvs.StateError) as error:
+        print(f"seed {job[0]}: {error}", file=sys.stderr, flush=True)
+        return None
+
+
 def run_case(job: tuple[int, str, int, float, float, bool]) -> Optional[Case]:
     """One truth, its fit, and its ranks; None if truth or start do not come to rest."""
     seed, kind, vertices, noise, prior, refit = job
@@ -171,7 +180,7 @@ def table_of(cases: list[Case]) -> list[tuple[str, int, int, np.ndarray]]:
 
 def report(kind: str, cases: list[Case], asked: int) -> bool:
     """Prints the table; whether all counts are within chance."""
-    print(f"\n{kind}: {len(cases)} of {asked} truths came to rest; mean squared residual over noise "
+    print(f"\n{kind}: {len(cases)} of {asked} truths were fitted; mean squared residual over noise "
           f"{np.mean([c.chi_square for c in cases]):.3f}; {np.mean([c.seconds for c in cases]):.1f} s of CPU "
           "a case\n\n| quantity | held | 95 % of a count by chance | ranks, tenths |\n|---|---|---|---|")
     right = True
@@ -203,7 +212,7 @@ def main() -> None:
                 for k in range(options.cases)]
         cases: list[Case] = []
         with concurrent.futures.ProcessPoolExecutor(options.processes) as pool:
-            for number, case in enumerate(pool.map(run_case, jobs), 1):
+            for number, case in enumerate(pool.map(tried, jobs), 1):
                 cases += [] if case is None else [case]
                 if number % SHOWN == 0 and number < len(jobs):
                     report(kind, cases, number)
