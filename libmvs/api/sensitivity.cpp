@@ -2,6 +2,7 @@
 #include <mvs/sensitivity.h>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 
 #include "api/structs.h"
@@ -51,7 +52,8 @@ std::vector<Parameter> read_parameters(const mvs_parameter *list, uint32_t count
   return parameters;
 }
 
-std::vector<Quantity> read_quantities(const mvs_quantity *list, uint32_t count, uint32_t stride) {
+std::vector<Quantity> read_quantities(const mvs_snapshot &snapshot, const mvs_quantity *list,
+                                      uint32_t count, uint32_t stride) {
   std::vector<Quantity> quantities;
   for (const mvs_quantity &given : read_list(list, count, stride, "quantities", copy_quantity)) {
     must_be_zero(given.reserved, "quantities.reserved");
@@ -62,7 +64,12 @@ std::vector<Quantity> read_quantities(const mvs_quantity *list, uint32_t count, 
                          nullptr,
                          Vec3(given.point[0], given.point[1], given.point[2]),
                          read_points(given.weights, "quantities.weights")};
-    if (is_measure) quantity.measure = find_measure(given.measure, quantities.size());
+    if (is_measure) {
+      quantity.measure = find_measure(given.measure, quantities.size());
+      const bool is_orifice = std::strcmp(quantity.measure->name, "regurgitant_orifice_area") == 0;
+      // kept by the snapshot, for its measures and for the next call
+      if (is_orifice && snapshot.state.is_at_rest()) quantity.orifice = &snapshot.orifice();
+    }
     quantities.push_back(std::move(quantity));
   }
   return quantities;
@@ -136,7 +143,8 @@ mvs_result mvs_sensitivity_run(const mvs_snapshot *snapshot, const mvs_quantity 
     must_point(snapshot, "snapshot");
     must_point(sensitivity, "sensitivity");
     const SensitivityOptions how = read_options(options);
-    const std::vector<Quantity> of = read_quantities(quantities, quantity_count, quantity_stride);
+    const std::vector<Quantity> of =
+        read_quantities(*snapshot, quantities, quantity_count, quantity_stride);
     const std::vector<Parameter> to =
         read_parameters(parameters, parameter_count, parameter_stride);
     auto result = std::make_unique<mvs_sensitivity>();

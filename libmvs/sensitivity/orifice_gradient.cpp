@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 
 #include "geometry/bvh.h"
-#include "measure/orifice/orifice.h"
 #include "model/sides.h"
 
 namespace mvs::core {
@@ -37,8 +36,8 @@ std::vector<Vec3> area_variation(const Orifice &orifice) {
 
 }  // namespace
 
-double orifice_area_gradient(const Model &model, const std::vector<Vec3> &x, NodeField &g) {
-  const Orifice orifice = measure_orifice(model, x);
+double orifice_area_gradient(const Model &model, const std::vector<Vec3> &x, const Orifice &orifice,
+                             NodeField &g) {
   if (orifice.triangles.empty()) return 0;
   const TriangleBvh tree(model.valve.triangles, x);
   const std::vector<uint8_t> is_rim = rim_of(orifice);

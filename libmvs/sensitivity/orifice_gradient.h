@@ -7,11 +7,13 @@
 // in steps there (measure/DEFINITIONS.md).
 #pragma once
 
+#include "measure/orifice/orifice.h"
 #include "sensitivity/tangent.h"
 
 namespace mvs::core {
 
-// Adds the gradient to g, m, and returns the area, m2.
-double orifice_area_gradient(const Model &model, const std::vector<Vec3> &x, NodeField &g);
+// Adds the gradient to g, m, and returns the area, m2; `orifice` is that of the positions x.
+double orifice_area_gradient(const Model &model, const std::vector<Vec3> &x, const Orifice &orifice,
+                             NodeField &g);
 
 }  // namespace mvs::core

@@ -38,6 +38,10 @@ struct Parameter {
   std::vector<Vec3> mode;  // m, one a node: of a boundary mode
 };
 
+bool is_of_chord(ParameterKind kind);
+// The leaflet of a parameter of tissue.
+uint32_t leaflet_of_parameter(const Valve &valve, const Parameter &parameter);
+
 // Throws MVS_E_ARGUMENT, with the place of the parameter in its list, unless the valve has it.
 void check_parameter(const Model &model, const Parameter &parameter, size_t place);
 
@@ -63,6 +67,9 @@ struct ParameterStep {
 // The model after changes; masses and the distances of contact keep their values. Pressure and
 // positions are not part of it.
 Model changed_model(const Model &model, std::span<const ParameterStep> steps);
+// Adds a multiple of dE/dx of the elastic terms of the leaflets.
+void add_elastic(const Model &model, double times, const std::vector<Vec3> &x,
+                 std::vector<Vec3> &g);
 // Adds the change of dE/dx at fixed positions x, without that by the motion of prescribed nodes.
 void add_change(const Model &model, std::span<const ParameterStep> steps,
                 const std::vector<Vec3> &x, std::vector<Vec3> &g);

@@ -124,8 +124,9 @@ void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_t
   }
 }
 
-void measure(const Model &model, const State &state, const mvs_field_info &field,
+void measure(const Model &model, const State &state, const Quantity &quantity,
              QuantityGradient &q) {
+  const mvs_field_info &field = *quantity.measure;
   if (is_named(field, "leaflet_area")) return leaflet_area(model, state.x, q);
   if (is_named(field, "max_chord_tension")) return largest_of_chords(model, state.x, true, q);
   if (is_named(field, "max_chord_strain")) return largest_of_chords(model, state.x, false, q);
@@ -134,7 +135,10 @@ void measure(const Model &model, const State &state, const mvs_field_info &field
     return;
   }
   if (is_named(field, "regurgitant_orifice_area")) {
-    q.value = orifice_area_gradient(model, state.x, q.by_position);
+    q.value =
+        quantity.orifice != nullptr
+            ? orifice_area_gradient(model, state.x, *quantity.orifice, q.by_position)
+            : orifice_area_gradient(model, state.x, measure_orifice(model, state.x), q.by_position);
     q.notes |= MVS_SENSITIVITY_NOTE_ENVELOPE;
     return;
   }
@@ -244,7 +248,7 @@ QuantityGradient quantity_gradient(const Model &model, const State &state,
       head_force(model, quantity, x, q);
       break;
     case QuantityKind::measure:
-      measure(model, state, *quantity.measure, q);
+      measure(model, state, quantity, q);
       break;
   }
   return q;

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "measure/orifice/orifice.h"
 #include "sensitivity/parameters.h"
 #include "sensitivity/tangent.h"
 
@@ -28,6 +29,7 @@ struct Quantity {
   const mvs_field_info *measure = nullptr;
   Vec3 point = Vec3::Zero();
   std::vector<Vec3> weights;
+  const Orifice *orifice = nullptr;  // of this state, if it is known: it takes as long as a closure
 };
 
 // Throws MVS_E_ARGUMENT, with the place of the quantity in its list, unless the valve has it and it

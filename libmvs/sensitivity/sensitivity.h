@@ -30,4 +30,12 @@ Sensitivity differentiate(const Model &model, const State &state,
                           const std::vector<Parameter> &parameters,
                           const SensitivityOptions &options);
 
+// The state with idle branch points out of the way (idle_branches.h). Throws MVS_E_STATE unless it
+// is at rest.
+State with_slack_branches(const Model &model, const State &state, double slack);
+
+// Returns the growth rate, 1/s, of the slowest motion, minus infinity where Ks is definite; throws
+// MVS_E_STATE for an unstable equilibrium, or one that is not at rest.
+double must_be_stable(const Model &model, const State &state, const EquilibriumTangent &tangent);
+
 }  // namespace mvs::core

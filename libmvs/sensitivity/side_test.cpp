@@ -16,9 +16,10 @@ double fastest_of(const NodeField &field) {
 
 // The error of the motion on one side.
 NodeField error_at(const Model &model, const State &state, EquilibriumTangent &tangent,
-                   std::vector<ParameterStep> steps, const NodeField &motion, double h) {
+                   std::span<const ParameterStep> direction, const NodeField &motion, double h) {
   std::vector<Vec3> x = state.x;
   for (size_t i = 0; i < x.size(); ++i) x[i] += h * motion[i];
+  std::vector<ParameterStep> steps(direction.begin(), direction.end());
   for (ParameterStep &step : steps) step.by *= h;
   NodeField e = tangent.gradient_at(x);
   add_change(model, steps, x, e);
@@ -30,7 +31,7 @@ NodeField error_at(const Model &model, const State &state, EquilibriumTangent &t
 }  // namespace
 
 bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
-                         const std::vector<ParameterStep> &steps, const NodeField &motion,
+                         std::span<const ParameterStep> steps, const NodeField &motion,
                          double slack) {
   namespace set = settings::sensitivity;
   double fastest = fastest_of(motion);

@@ -8,6 +8,8 @@
 // would.
 #pragma once
 
+#include <span>
+
 #include "sensitivity/parameters.h"
 #include "sensitivity/tangent.h"
 
@@ -15,7 +17,7 @@ namespace mvs::core {
 
 // `motion` is dx for the change `steps` of the parameters. Takes two solutions.
 bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
-                         const std::vector<ParameterStep> &steps, const NodeField &motion,
+                         std::span<const ParameterStep> steps, const NodeField &motion,
                          double slack);
 
 }  // namespace mvs::core

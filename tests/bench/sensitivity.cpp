@@ -8,7 +8,8 @@
 //
 // CPU time in ms of the fastest run; the closure is one from open, with its check of stability, to
 // 1e-4 N. Shares are of that closure, from the same run of the program. The orifice is that of a
-// valve with its annulus dilated by 1.4.
+// valve with its annulus dilated by 1.4; its measurement, which the snapshot keeps for its measures
+// and its gradients, is timed apart.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -30,7 +31,7 @@ struct Options {
 
 struct Valve {
   std::optional<mvs::Snapshot> closed;
-  double closure_s = 0;  // CPU
+  double closure_s = 0, orifice_s = 0;  // CPU
 };
 
 Valve closed_valve(const std::string &scene, double annulus_scale, int repeat) {
@@ -51,6 +52,9 @@ Valve closed_valve(const std::string &scene, double annulus_scale, int repeat) {
         bench::timed([&] { mvs::must(mvs_settle(sim.get(), &options, nullptr)); }).cpu;
     valve.closure_s = k == 0 ? took : std::min(took, valve.closure_s);
     valve.closed.emplace(sim.snapshot());
+    const double measured =
+        bench::timed([&] { valve.closed->measure(MVS_MEASURE_GROUP_ORIFICE); }).cpu;
+    valve.orifice_s = k == 0 ? measured : std::min(measured, valve.orifice_s);
   }
   return valve;
 }
@@ -82,7 +86,7 @@ void add_row(const Options &options, const std::string &scene, const Valve &valv
   const double all = time(0);
   table.row({scene, name, static_cast<uint32_t>(to.size()), 1e3 * valve.closure_s, 1e3 * plain,
              100 * plain / valve.closure_s, 1e3 * all, 100 * all / valve.closure_s, 1e3 * motion,
-             100 * motion / valve.closure_s, summary.linear_error});
+             100 * motion / valve.closure_s, summary.linear_error, 1e3 * valve.orifice_s});
 }
 
 mvs_quantity measure(const char *name) {
@@ -103,9 +107,10 @@ int run(int argc, char **argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--csv", options.csv, "file to write the table to");
   CLI11_PARSE(app, argc, argv);
-  bench::Table table({"scene ", "quantity                ", "chordae", "closure ms", "adjoint ms",
-                      "adjoint %", "tested ms", "tested %", "motion ms", "motion %", "error "},
-                     options.csv);
+  bench::Table table(
+      {"scene ", "quantity                ", "chordae", "closure ms", "adjoint ms", "adjoint %",
+       "tested ms", "tested %", "motion ms", "motion %", "error ", "orifice ms"},
+      options.csv);
   for (const std::string &scene : options.scenes) {
     const Valve sealed = closed_valve(scene, 1, options.repeat);
     const Valve leaking = closed_valve(scene, 1.4, options.repeat);

@@ -23,11 +23,6 @@ void add_length_derivative(const Valve &valve, const Chord &c, const std::vector
   g[c.b] += f;
 }
 
-double derivative_of(const SurfaceMatch &m, const std::vector<Vec3> &dx) {
-  return m.direction.dot(m.weight[0] * dx[m.nodes[0]] + m.weight[1] * dx[m.nodes[1]] +
-                         m.weight[2] * dx[m.nodes[2]]);
-}
-
 }  // namespace
 
 ClosedJacobian jacobian_by_linearisation() {
@@ -59,7 +54,7 @@ ClosedJacobian jacobian_by_linearisation() {
       system.solve(g, true, step, unseen);
       std::vector<double> column;
       column.reserve(matches.size());
-      for (const SurfaceMatch &m : matches) column.push_back(derivative_of(m, step));
+      for (const SurfaceMatch &m : matches) column.push_back(m.derivative(step));
       jacobian.push_back(std::move(column));
     }
     return jacobian;

@@ -8,7 +8,9 @@ namespace mvs::core {
 // H dx = -dg/dL at the equilibrium of the closed valve: one factorisation of the tangent for all
 // groups, one solution for each. Modes that are softer than a thousandth of the stiffness of the
 // load are damped, as their displacements are beyond the linear range. Contact and slack chordae
-// are taken as they are at the equilibrium: chordae that hang slack have no derivative.
+// are taken as they are at the equilibrium: chordae that hang slack have no derivative. The damping
+// pays: with the exact derivatives of the room `sensitivity` fits took as long and ended a little
+// farther from their surfaces (tests/bench/fit_jacobian.cpp).
 ClosedJacobian jacobian_by_linearisation();
 
 }  // namespace mvs::core

@@ -23,6 +23,9 @@ LOST = 10.0
 """Residual in standard deviations of every datum of a trial that does not come to rest: worse than any
 trial that does, so that the step is refused."""
 
+FIRST_RADIUS = 8.0
+"""First trust region, in standard deviations of the prior: about the length of a draw of 80 parameters."""
+
 
 class Problem:
     """Residuals and Jacobian of one start; keeps the last closures."""
@@ -35,6 +38,7 @@ class Problem:
         self.closed: dict[bytes, Optional[_core.Snapshot]] = {}
         self.last = start
         self.closures = 0
+        self.derivatives: Optional[Array] = None
         self.trace: list[Trace] = []
         self.sim = _core.Simulator(log=lambda level, text: None)
 
@@ -74,15 +78,22 @@ class Problem:
         return np.vstack([j, np.eye(len(z))]) if self.with_prior else j
 
     def data_jacobian(self, z: Array) -> Array:
-        """d(data residuals) / dz, from the exact derivatives at the closure."""
+        """d(data residuals) / dz, from the exact derivatives at the closure. A closure that is about to
+        snap has none: those of the last closure that had stand in for them."""
         closed = self.close(z)
         if closed is None:
             raise StateError("fit: the valve does not come to rest; tighten the priors or the bounds", "fit")
         nodes, directions = self.target.residuals(np.array(closed.node_position))[1:]
-        found = closed._sensitivity([(2, 0, 0, None, None, np.zeros((len(closed.node_position), 3)))],
-                                    list(self.free.rows), 1 | 4 | 8, None)
+        try:
+            found = closed._sensitivity([(2, 0, 0, None, None, np.zeros((len(closed.node_position), 3)))],
+                                        list(self.free.rows), 1 | 4 | 8, None)
+        except (DivergedError, StateError):
+            if self.derivatives is None:
+                raise
+            return self.derivatives
         motion = found["motion"].reshape(len(z), -1, 3)[:, nodes]
-        return np.einsum("pki,ki->kp", motion, directions) * (self.free.deviation / self.noise)
+        self.derivatives = np.einsum("pki,ki->kp", motion, directions) * (self.free.deviation / self.noise)
+        return self.derivatives
 
 
 def fit(
@@ -104,7 +115,8 @@ def fit(
 
     start: the closed valve at rest with the parameters to begin with
     target: mvs.Points (tracked nodes), mvs.Surface or (points, triangles) of the closed leaflets, m, or a
-        closed mvs.Snapshot, in the frame of the valve
+        closed mvs.Snapshot, in the frame of the valve; a mvs.imaging.LabelMap of the closed leaflets, each
+        with a label of its own where they touch: the mid-surface of its voxels
     free: groups of parameters: "chords" (rest lengths), "tissue" (constants of each leaflet), "thickness",
         "heads" (coordinates), "prestrain"
     noise: m, standard deviation of the data
@@ -140,7 +152,10 @@ def fit(
         z = np.zeros(len(rows.labels))
         before = problem.residuals(z)
         fits.append(least_squares(problem.residuals, z, problem.jacobian, (-rows.reach, rows.reach),
-                                  method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6, max_nfev=most))
+                                  method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6, max_nfev=most,
+                                  # the default is a dense SVD at each trial, whose BLAS threads take
+                                  # more CPU than the closures where cores are shared
+                                  tr_solver="lsmr", x_scale=FIRST_RADIUS))
         problems.append((problem, before))
     return _result(start, rows, data, noise, with_prior, fits, problems, begun)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+from collections.abc import Iterator
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -138,8 +139,8 @@ class Fit:
     def interval(self, of: str, level: float = 0.9, samples: int = 0, seed: int = 0) -> Interval:
         """Posterior predictive interval of a measure of the closed valve.
 
-        samples: 0: by its derivative, to first order; else closures of draws from the posterior, for
-            measures that are not smooth, such as a leak that may vanish
+        samples: 0: by its derivative, to first order; else closures of draws from the posterior
+            (sample), for measures that are not smooth, such as a leak
         """
         if not 0 < level < 1:
             raise ArgumentError(f"level: a number between 0 and 1 is needed, not {level}", "level")
@@ -158,21 +159,34 @@ class Fit:
 
     def draws(self, measure: str, samples: int, seed: int = 0) -> Array:
         """The measure of closed valves with parameters drawn from the posterior, within the bounds."""
-        from .fit import Problem
-
-        random = np.random.default_rng(seed)
-        problem = Problem(self.closed, self.free, self.target, self.noise, self.with_prior, 1e-5)
-        root = np.linalg.cholesky(self.covariance_z + 1e-12 * np.eye(len(self.z)))
-        found = []
-        for _ in range(samples):
-            z = np.clip(self.z + root @ random.normal(size=len(self.z)), -self.free.reach, self.free.reach)
-            problem.last = self.closed
-            closed = problem.close(z)
-            if closed is not None:
-                found.append(getattr(closed.measures, measure))
+        found = [getattr(closed.measures, measure) for closed in self.closures_of(self.sample(samples, seed))]
         if not found:
             raise ArgumentError("interval: no draw came to rest; use samples=0", "samples")
         return np.array(found)
+
+    def sample(self, count: int, seed: int = 0) -> Array:
+        """Parameters z (count, p) drawn from the posterior within the bounds. With priors, chordae that hang
+        slack have their one-sided posterior (fitting/posterior.py), which covariance does not describe."""
+        from .posterior import draw
+
+        if self.with_prior:
+            return draw(self, count, seed)
+        random = np.random.default_rng(seed)
+        root = np.linalg.cholesky(self.covariance_z + 1e-12 * np.eye(len(self.z)))
+        drawn = self.z + random.normal(size=(count, len(self.z))) @ root.T
+        return np.clip(drawn, -self.free.reach, self.free.reach)
+
+    def closures_of(self, drawn: Array) -> Iterator[_core.Snapshot]:
+        """The closed valve of each row of parameters z, from the fitted shape; without those that do not
+        come to rest."""
+        from .fit import Problem
+
+        problem = Problem(self.closed, self.free, self.target, self.noise, self.with_prior, 1e-5)
+        for z in drawn:
+            problem.last = self.closed
+            closed = problem.close(z)
+            if closed is not None:
+                yield closed
 
     def save_report(self, path: Union[str, os.PathLike[str]], measures: Any = None) -> None:
         """Writes an HTML page: parameters, intervals, covariance, trace, shape before and after."""

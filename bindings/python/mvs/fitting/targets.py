@@ -106,6 +106,8 @@ def target_of(start: _core.Snapshot, given: Any) -> Target:
         target = SurfaceTarget(given.points, given.triangles, leaflet)
     elif isinstance(given, _core.Snapshot):
         target = SurfaceTarget(given.node_position, given.triangle_nodes, leaflet)
+    elif type(given).__module__.startswith("mvs.imaging") and hasattr(given, "masks"):
+        target = _labelled(given, leaflet)
     elif isinstance(given, tuple) and len(given) == 2:
         points, triangles = np.asarray(given[0], float), np.asarray(given[1])
         if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
@@ -115,7 +117,8 @@ def target_of(start: _core.Snapshot, given: Any) -> Target:
         target = SurfaceTarget(points, triangles, leaflet)
     else:
         raise ArgumentError(
-            "target: mvs.Points, a mvs.Surface, a closed mvs.Snapshot, or (points, triangles) is needed",
+            "target: mvs.Points, a mvs.Surface, a closed mvs.Snapshot, a mvs.imaging.LabelMap, or (points, "
+            "triangles) is needed",
             "target",
         )
     away = target.residuals(np.array(start.node_position))[0]
@@ -129,6 +132,14 @@ def target_of(start: _core.Snapshot, given: Any) -> Target:
             "target",
         )
     return target
+
+
+def _labelled(labels: Any, leaflet: NDArray[np.int64]) -> Target:
+    """The mid-surfaces of the closed leaflets in a label map (mvs.imaging.closed_surface)."""
+    from ..imaging import closed_surface
+
+    sheet = closed_surface(labels)[0]
+    return SurfaceTarget(sheet.points, sheet.triangles, leaflet)
 
 
 def _checked_points(start: _core.Snapshot, given: Points) -> Points:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
+
+import mvs
 
 from mvs.drawing.geometry import Drawing
 from mvs.drawing.maps import coaptation_map, section_plot, strain_map
@@ -38,6 +41,8 @@ CAPTIONS = {
     "closed-chordae": "Closed, from the posterior side and below: tension of the chordae.",
     "coaptation": "Coaptation: distance of each leaflet from the facing one. Below, the leaflets "
     "cut at a commissure and unrolled.",
+    "influence": "What a chord does: change of the coaptation area for a rest length 1 mm longer, and "
+    "the names of the chordae that matter most. Derivatives hold near this shape only.",
     "strain": "Largest principal strain of the leaflets, from the atrium and unrolled.",
     "section": "Central anteroposterior cross-section: open, and closed with each sheet drawn as "
     "thick as the contact thickness.",
@@ -75,4 +80,17 @@ def pictures_of(case: Case, scales: Scales) -> list[Picture]:
         "strain": strain_map(closed, scales.atrium_mm, scales.strain_percent),
         "section": section_plot(opened, closed),
     }
-    return [Picture(name, case.key, made[name]) for name in CAPTIONS]
+    influence = _influence(case)
+    if influence is not None:
+        made["influence"] = influence
+    return [Picture(name, case.key, made[name]) for name in CAPTIONS if name in made]
+
+
+def _influence(case: Case) -> Optional[bytes]:
+    """Chordae coloured by their influence; None for a valve that has no derivatives: not at rest, without
+    chordae, or about to snap."""
+    try:
+        found = case.closed.sensitivity("coaptation", "chords")
+    except (mvs.StateError, mvs.DivergedError, mvs.ArgumentError):
+        return None
+    return found.plot("coaptation").png

@@ -1,0 +1,160 @@
+"""Draws from the posterior of a fit where chordae may be slack.
+
+A chord that hangs slack at the fit says that it is longer than its length there, and nothing else: its
+posterior is one-sided, and the normal approximation of Fit.covariance does not describe it. So all
+chordae are taken as taut, at no tension where they hang slack, and the equilibrium is linearised there:
+
+    tension t = t0 + T (w - w0),   residuals r = r0 + J (w - w0)
+
+with w the lengths that act. A chord of length z acts with w = z while it is taut, and otherwise with
+w = z - y, at which its tension vanishes: y >= 0, t >= 0, y t = 0, a linear complementarity problem.
+Draws of z are by Hamiltonian Monte Carlo (Neal, MCMC using Hamiltonian dynamics, 2011) with the normal
+prior, its bounds, and the residuals of w(z).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from ..errors import DivergedError, StateError
+from ..sensitivities import PARAMETER, QUANTITY
+from .quiet import quiet
+
+if TYPE_CHECKING:
+    from .result import Fit
+
+Array = NDArray[np.float64]
+
+JUST_TAUT = 1e-9
+"""Strain of a slack chord in the linearisation: far below every law's scale, above rounding."""
+SOFTEST = 1e-6
+"""Stiffness of a slack chord, of the stiffest: the least that makes the problem definite."""
+FLIPS = 60
+"""Changes of the set of slack chordae at most; block changes first, then one at a time."""
+BLOCKS = 8
+STEP = 0.25
+"""Leapfrog step, in standard deviations of a posterior whose chordae are all taut; STEPS of them."""
+STEPS = 15
+
+
+@dataclasses.dataclass(frozen=True)
+class Linear:
+    """The equilibrium with all chordae taut: z at it, normal matrix J^T J, J^T r, tensions, their slope T
+    by all z, and the places of chord lengths among z."""
+
+    z: Array
+    normal: Array
+    right: Array
+    chords: NDArray[np.int64]
+    tension: Array
+    slope: Array
+
+    def slack_of(self, z: Array, guess: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
+        """Slack y >= 0 of each chord, with w = z - y, and which are slack, from a guess of these: block
+        principal pivoting with least-index steps at its end (Judice & Pires, 1994). Chordae in series share
+        their tension, and the least slack is taken (SOFTEST)."""
+        slack, own = guess.copy(), -self.slope[:, self.chords]
+        own = own + SOFTEST * np.abs(np.diag(own)).max(initial=0) * np.eye(len(own))
+        taut = self.tension + self.slope @ (z - self.z)
+        y = np.zeros(len(taut))
+        for flip in range(FLIPS):
+            y = np.zeros(len(taut))
+            if slack.any():
+                y[slack] = np.linalg.solve(own[np.ix_(slack, slack)], -taut[slack])
+            wrong = np.where(slack, y < -1e-12, taut + own @ y < -1e-10)
+            if not wrong.any():
+                break
+            slack = slack ^ (wrong if flip < BLOCKS else np.arange(len(wrong)) == np.argmax(wrong))
+        return y, slack
+
+    def energy(self, z: Array, slack: NDArray[np.bool_]) -> tuple[float, Array, NDArray[np.bool_]]:
+        """Minus the logarithm of the posterior, its gradient, and the slack chordae."""
+        y, slack = self.slack_of(z, slack)
+        d = z - self.z
+        d[self.chords] -= y
+        pull = self.normal @ d
+        value = 0.5 * z @ z + d @ (0.5 * pull + self.right)
+        slope = pull + self.right
+        rows = self.chords[slack]
+        if len(rows):
+            own = -self.slope[:, self.chords]
+            inside = own[np.ix_(slack, slack)] + SOFTEST * np.abs(np.diag(own)).max() * np.eye(len(rows))
+            # dy = -inside^-1 slope dz of the slack chordae
+            slope = slope + self.slope[slack].T @ np.linalg.solve(inside.T, slope[rows])
+        return float(value), z + slope, slack
+
+
+def linearised(fit: Fit) -> Linear:
+    """The linearisation at a fit."""
+    free, closed = fit.free, fit.closed
+    chords = np.array([k for k, row in enumerate(free.rows) if row[0] == PARAMETER["length"]], np.int64)
+    of = np.array([free.rows[k][1] for k in chords], np.int64)
+    rest = np.array(closed.chord_rest_length)
+    length = rest * (1 + np.array(closed.chord_strain))
+    z = fit.z.copy()
+    taut = np.minimum(rest, length / (1 + JUST_TAUT))
+    z[chords] = (taut[of] - free.start[chords]) / free.deviation[chords]
+    with quiet():
+        with _core.Simulator(log=lambda level, text: None) as sim:
+            sim.set_valve(free.valve(z, np.array(closed.node_position)))
+            sim.set_load(closed.load_case.pressure, closed.load_case.boundary_fraction)
+            sim.settle()
+            at = sim.snapshot()
+    x = np.array(at.node_position)
+    residual, nodes, directions = fit.target.residuals(x)
+    quantities = [(QUANTITY["tension"], int(c), 0, None, None, None) for c in of]
+    quantities = quantities or [(QUANTITY["linear"], 0, 0, None, None, np.zeros_like(x))]
+    found = at._sensitivity(quantities, list(free.rows), 1 | 4 | 8, None)
+    motion = found["motion"].reshape(len(z), -1, 3)[:, nodes]
+    jacobian = np.einsum("pki,ki->kp", motion, directions) * (free.deviation / fit.noise)
+    tension, slope = np.zeros(0), np.zeros((0, len(z)))
+    if len(of):
+        tension = np.asarray(found["value"], float).copy()
+        slope = np.asarray(found["derivative"], float).reshape(len(of), -1) * free.deviation
+    return Linear(z, jacobian.T @ jacobian, jacobian.T @ (residual / fit.noise), chords, tension, slope)
+
+
+def _normal(fit: Fit) -> Linear:
+    """Without chordae that may be slack: the normal posterior of the fit."""
+    right = fit.jacobian.T @ (fit.residuals_after / fit.noise)
+    nothing = np.zeros(0)
+    return Linear(fit.z, fit.jacobian.T @ fit.jacobian, right, np.zeros(0, np.int64), nothing,
+                  np.zeros((0, len(fit.z))))
+
+
+def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:
+    """Parameters z (count, p) from the posterior, each `thin` trajectories after the last. At a fit that is
+    about to snap, where the linearisation fails, from the normal posterior within the bounds."""
+    random = np.random.default_rng(seed)
+    try:
+        linear = linearised(fit)
+    except (DivergedError, StateError):
+        linear = _normal(fit)
+    reach = fit.free.reach
+    # the mass is the posterior precision of a valve whose chordae are all taut
+    inverse = np.linalg.inv(np.linalg.cholesky(linear.normal + np.eye(len(fit.z))))
+    z = np.clip(fit.z, -0.999 * reach, 0.999 * reach)
+    value, slope, slack = linear.energy(z, linear.tension < 1e-6)
+    drawn = []
+    for number in range((count + 4) * thin):
+        momentum = random.normal(size=len(z))
+        begun, there, now = value + 0.5 * momentum @ momentum, z, slack
+        grade, energy = slope, value
+        step = STEP * random.uniform(0.6, 1.2)
+        for _ in range(STEPS):
+            momentum = momentum - 0.5 * step * (inverse @ grade)
+            there = there + step * (momentum @ inverse)
+            energy, grade, now = linear.energy(there, now)
+            momentum = momentum - 0.5 * step * (inverse @ grade)
+        # bounds at the end only: most paths of a hundred parameters touch one
+        inside = bool((np.abs(there) <= reach).all())
+        if inside and np.log(random.uniform()) < begun - energy - 0.5 * momentum @ momentum:
+            z, value, slope, slack = there, energy, grade, now
+        if number >= 4 * thin and number % thin == 0:
+            drawn.append(z.copy())
+    return np.array(drawn)
