@@ -23,6 +23,8 @@ namespace instrument {
 
 // N/m, axial stiffness of a rod: 5 N on its ends shorten it by a quarter of a millimetre.
 inline constexpr double rod_stiffness = 2e4;
+// N/m, of each of the six edges of the frame of a convex tool, as for a rod.
+inline constexpr double frame_stiffness = 2e4;
 
 }  // namespace instrument
 

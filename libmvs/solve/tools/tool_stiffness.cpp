@@ -2,6 +2,7 @@
 #include "solve/tools/tool_stiffness.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 
 #include "base/error.h"
@@ -13,7 +14,7 @@ namespace {
 
 // The number of springs between a hand and its tool.
 uint32_t springs_of(const Tool &tool) {
-  return tool.kind == ToolKind::rod ? 2 : 1;
+  return std::max(1u, tool.points());
 }
 
 // The node of spring k of a tool, in a state that has nodes for the points of tools.
@@ -92,8 +93,8 @@ Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Too
   take_model(points_.extend(valve, tool_points(valve_state.tools)));
   const State state = ToolPoints::extended(valve_state);
   factorise(state);
-  std::array<uint32_t, 2> row;
-  std::array<Mat3, 2> block;
+  std::array<uint32_t, frame_points> row;
+  std::array<Mat3, frame_points> block;
   Mat3 sum = Mat3::Zero();
   const uint32_t springs = springs_of(tool);
   for (uint32_t k = 0; k < springs; ++k) {
