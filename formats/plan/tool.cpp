@@ -127,7 +127,7 @@ ToolShapePtr read_shape(const Json &json) {
   MVS_MUST(are_valid(bodies), MVS_E_FORMAT, "plan",
            "bodies has to be 1 to %u bodies with kind, radius_m and vertices_m, within %g m and of "
            "at most %u vertices",
-           most_bodies, most_body_extent, most_vertices);
+           most_tool_bodies, most_body_extent, most_tool_vertices);
   return ToolShapePtr(std::make_shared<const ToolShape>(std::move(bodies)));
 }
 

@@ -57,11 +57,11 @@ typedef uint32_t mvs_body_kind;
 /* A body of a convex tool, in the frame of the hand: the origin is the hand's `position`, the axes
  * turn with its `orientation`. Every coordinate is within 0.3 m. */
 typedef struct mvs_body_desc {
-  mvs_body_kind kind;     /* MVS_BODY_KIND_* */
-  uint32_t vertex_count;  /* of a hull, at least 4 */
-  const double *vertices; /* m, of a hull: x y z of each; not all near one plane */
-  double position[3];     /* m */
-  double end[3];          /* m */
+  mvs_body_kind kind; /* MVS_BODY_KIND_* */
+  uint32_t reserved;
+  mvs_array vertices;    /* n x 3: m, of a hull, at least 4, not all near one plane */
+  double position[3];    /* m */
+  double end[3];         /* m */
   double size[3];        /* m, edges of a box; size[0]: radius of the circles of a cylinder or cone;
                             1e-4 to 0.3 */
   double orientation[4]; /* of a box, w x y z of a quaternion of any length; all 0: the hand's */
@@ -113,8 +113,8 @@ MVS_API mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id 
 MVS_API mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
                                  const double axis[3]);
 
-/* The same with an orientation, w x y z of a quaternion of any length, nullable: unchanged. It
- * turns a convex tool; a rod takes the z axis that it turns to; others have no orientation. */
+/* The same with an orientation, w x y z of a quaternion of any length, of a convex tool; a rod takes
+ * the z axis that it turns to, others have none. `orientation` is nullable: unchanged. */
 MVS_API mvs_result mvs_move_tool_pose(mvs_sim *sim, mvs_id tool, const double position[3],
                                       const double orientation[4]);
 

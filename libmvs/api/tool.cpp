@@ -78,9 +78,15 @@ mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(tool, "tool");
     const mvs_tool_desc read = read_struct(desc, "desc");
-    const std::vector<mvs_body_desc> bodies =
-        read_list(read.bodies, read.body_count, read.body_stride, "desc.bodies", body_of);
-    *tool = add_tool_now(s, read, bodies);
+    std::vector<std::string> warnings;
+    ToolShapePtr shape;
+    if (read.kind == MVS_TOOL_KIND_CONVEX) {
+      const auto bodies =
+          read_list(read.bodies, read.body_count, read.body_stride, "desc.bodies", body_of);
+      shape = read_bodies(bodies, "desc", read.strict_hulls == 1, warnings);
+    }
+    *tool = add_tool_now(s, read, shape);
+    for (const std::string &warning : warnings) s.log(MVS_LOG_WARNING, "%s", warning.c_str());
   });
 }
 

@@ -106,6 +106,8 @@ const std::vector<BodyPair> &ConvexBodies::barrier_pairs(const std::vector<Vec3>
     for (const ConvexBody &body : instrument.bodies) {
       place_body(shape, body.index, std::span(x).subspan(instrument.frame, 4), vertices_);
       place_body(shape, body.index, std::span(dx).subspan(instrument.frame, 4), motion_);
+      box_ = {};
+      for (const Vec3 &v : vertices_) box_.add(v);
       longest_ = 0;
       for (const Vec3 &m : motion_) longest_ = std::max(longest_, m.squaredNorm());
       longest_ = std::sqrt(longest_);
@@ -136,19 +138,25 @@ void ConvexBodies::add_pair(uint32_t frame, std::span<const uint32_t> part, doub
   if (approach == 0) return;
   const auto corners = std::span<const Vec3>(place).first(part.size());
   const double cutoff = radius + least_tool_distance + approach / usable_share;
+  if (is_apart(box_, corners, cutoff)) return;
   const ConvexDistance found = convex_distance(vertices_, corners, cutoff);
   if (found.is_beyond) return;
   const Vec3 normal = found.distance > 0 ? Vec3(found.apart / found.distance) : Vec3::Zero();
   const double gap = plane_gap(vertices_, corners, normal);
-  double low = std::numeric_limits<double>::infinity();
-  for (size_t k = 0; k < vertices_.size(); ++k)
-    low = std::min(low, normal.dot(vertices_[k] - place[0]));
-  double nearer = 0;
+  pairs_.push_back({frame, node, normal, gap, radius, approach_along(normal)});
+}
+
+// A vertex that is farther from the plane than the nearest one may come nearer by the difference.
+// The largest approach beyond that is a convex function of the share of the step, and 0 at 0: at a
+// share it is at most that share of its value for the whole step.
+double ConvexBodies::approach_along(const Vec3 &normal) const {
+  double low = std::numeric_limits<double>::infinity(), nearer = 0;
+  for (const Vec3 &v : vertices_) low = std::min(low, normal.dot(v));
   for (size_t k = 0; k < vertices_.size(); ++k) {
-    const double room = normal.dot(vertices_[k] - place[0]) - low;
+    const double room = normal.dot(vertices_[k]) - low;
     nearer = std::max(nearer, -normal.dot(motion_[k]) - room);
   }
-  pairs_.push_back({frame, node, normal, gap, radius, nearer});
+  return nearer;
 }
 
 void ConvexBodies::shorten(std::vector<Vec3> &step, double longest) const {

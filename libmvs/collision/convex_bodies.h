@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "geometry/swept_aabb.h"
+#include "geometry/bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {
@@ -61,10 +61,14 @@ class ConvexBodies {
   void add_pair(uint32_t frame, std::span<const uint32_t> part, double radius,
                 const std::vector<Vec3> &x, const std::vector<Vec3> &dx);
 
+  // m, by which the body at hand comes nearer to a plane normal to this direction, at least 0.
+  double approach_along(const Vec3 &normal) const;
+
   const Model *model_;
   std::vector<ConvexInstrument> instruments_;
   std::vector<BodyPair> pairs_;
   std::vector<Vec3> vertices_, motion_;  // of the body at hand
+  Aabb box_;                             // of vertices_
   double longest_ = 0;                   // m, of motion_
   std::vector<uint8_t> outside_;         // as in InstrumentBodies
 };

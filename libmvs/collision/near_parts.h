@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "geometry/bvh.h"
@@ -21,6 +22,16 @@ inline uint8_t sides_outside(const Aabb &box, const Vec3 &place) {
 inline void sort_unique(std::vector<uint32_t> &numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// Returns whether the hull of points is farther than `reach` from a box along one axis.
+inline bool is_apart(const Aabb &box, std::span<const Vec3> part, double reach) {
+  Vec3 low = part[0], high = part[0];
+  for (const Vec3 &p : part.subspan(1)) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return ((low - box.high).array() > reach).any() || ((box.low - high).array() > reach).any();
 }
 
 }  // namespace mvs::core

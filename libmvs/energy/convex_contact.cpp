@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "collision/contact_params.h"
+#include "collision/near_parts.h"
 #include "energy/settings.h"
 #include "geometry/convex_distance.h"
 
@@ -13,16 +14,6 @@ namespace mvs::core {
 namespace {
 
 constexpr double frame_stiffness = settings::instrument::frame_stiffness;
-
-// Whether a part is farther than `reach` from a box along one axis.
-bool is_apart(const Aabb &box, std::span<const Vec3> part, double reach) {
-  Vec3 low = part[0], high = part[0];
-  for (const Vec3 &p : part.subspan(1)) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return ((low - box.high).array() > reach).any() || ((box.low - high).array() > reach).any();
-}
 
 // Adds the weights of corner k of the difference of both hulls, times a factor.
 void add_corner(const ConvexDistance &found, uint32_t k, size_t parts,

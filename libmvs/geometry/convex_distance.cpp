@@ -137,11 +137,13 @@ ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b,
   Simplex s;
   s.corner[s.count++] = {a[0] - b[0], 0, 0};
   Nearest nearest = nearest_of_point(s, 0);
+  bool are_apart = false;  // a plane has been found between the hulls
   for (int turn = 0; turn < most_turns; ++turn) {
     if (nearest.distance2 == 0) return {};
     const uint32_t i = lowest(a, nearest.at), j = lowest(b, -nearest.at);
     const Vec3 corner = a[i] - b[j];
     const double along = nearest.at.dot(corner);
+    are_apart = are_apart || along > 0;
     if (along > 0 && along * along > cutoff * cutoff * nearest.distance2) {
       ConvexDistance found;
       found.apart = nearest.at;
@@ -152,14 +154,15 @@ ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b,
     if (nearest.distance2 - along <= least_progress * nearest.distance2 || has(s, i, j)) break;
     Simplex next = s;
     next.corner[next.count++] = {corner, i, j};
-    if (next.count == 4 && is_inside_tetrahedron(next)) return {};
+    // rounding may put the origin into a flat tetrahedron, but not past a plane
+    if (next.count == 4 && !are_apart && is_inside_tetrahedron(next)) return {};
     const Nearest closer = nearest_of(next);
     if (!(closer.distance2 < nearest.distance2)) break;
     reduce(next, closer);
     s = next;
     nearest = closer;
   }
-  return result_of(s, nearest);
+  return are_apart ? result_of(s, nearest) : ConvexDistance();
 }
 
 double plane_gap(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3 &n) {

@@ -82,10 +82,10 @@ bool are_valid(const std::vector<ToolBody> &bodies) {
     count += vertices.size();
     const bool is_body = body.kind >= BodyKind::hull && body.kind <= BodyKind::cone &&
                          body.radius >= 0 && body.radius <= most_body_radius && !vertices.empty() &&
-                         count <= most_vertices;
+                         count <= most_tool_vertices;
     if (!is_body || !std::all_of(vertices.begin(), vertices.end(), is_within_extent)) return false;
   }
-  return !bodies.empty() && bodies.size() <= most_bodies;
+  return !bodies.empty() && bodies.size() <= most_tool_bodies;
 }
 
 Quaternion quaternion_of(const Vec3 &m) {

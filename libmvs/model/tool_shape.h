@@ -67,7 +67,7 @@ class ToolShapePtr {
 };
 
 // Limits of a shape.
-inline constexpr uint32_t most_bodies = 16, most_vertices = 2048;
+inline constexpr uint32_t most_tool_bodies = 16, most_tool_vertices = 2048;
 inline constexpr double most_body_extent = 0.3, most_body_radius = 0.02;  // m
 
 // Returns whether bodies can be those of a tool: counts and sizes are in their limits, and each

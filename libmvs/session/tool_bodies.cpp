@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/array_view.h"
 #include "base/error.h"
 #include "base/option_checks.h"
 #include "geometry/convex_hull.h"
@@ -12,6 +13,8 @@
 
 namespace mvs::core {
 namespace {
+
+static_assert(most_tool_bodies == MVS_MAX_BODIES && most_tool_vertices == MVS_MAX_BODY_VERTICES);
 
 constexpr double least_size = 1e-4;    // m, of what has a size
 constexpr double default_ball = 2e-3;  // m
@@ -99,15 +102,14 @@ void BodyReader::add_circle(const Vec3 &centre, std::vector<Vec3> &to) const {
 }
 
 std::vector<Vec3> BodyReader::hull() const {
-  MVS_MUST(desc.vertices && desc.vertex_count >= 4, MVS_E_ARGUMENT, name.c_str(),
-           "%s is a hull with %u vertices: it needs at least 4", name.c_str(),
-           desc.vertices ? desc.vertex_count : 0);
-  MVS_MUST(desc.vertex_count <= most_vertices, MVS_E_ARGUMENT, name.c_str(),
-           "%s is a hull with %u vertices: a tool has at most %u", name.c_str(), desc.vertex_count,
-           most_vertices);
+  const std::vector<Vec3> given = read_points(desc.vertices, (name + ".vertices").c_str());
+  MVS_MUST(given.size() >= 4, MVS_E_ARGUMENT, name.c_str(),
+           "%s is a hull with %zu vertices: it needs at least 4", name.c_str(), given.size());
+  MVS_MUST(given.size() <= most_tool_vertices, MVS_E_ARGUMENT, name.c_str(),
+           "%s is a hull with %zu vertices: a tool has at most %u", name.c_str(), given.size(),
+           most_tool_vertices);
   std::vector<Vec3> points;
-  for (uint32_t k = 0; k < desc.vertex_count; ++k)
-    points.push_back(place(desc.vertices + 3 * size_t{k}, "vertices"));
+  for (const Vec3 &v : given) points.push_back(place(v.data(), "vertices"));
   const ConvexHull hull = convex_hull(points);
   MVS_MUST(!hull.faces.empty(), MVS_E_ARGUMENT, name.c_str(),
            "%s is a hull whose vertices lie in one plane or coincide: it has no volume; use a box, "
@@ -129,7 +131,7 @@ std::vector<Vec3> BodyReader::hull() const {
 
 std::vector<Vec3> BodyReader::vertices() const {
   if (desc.kind == MVS_BODY_KIND_HULL) return hull();
-  MVS_MUST(!desc.vertices && desc.vertex_count == 0, MVS_E_ARGUMENT, name.c_str(),
+  MVS_MUST(!is_given(desc.vertices), MVS_E_ARGUMENT, name.c_str(),
            "%s has vertices, but only a hull has them", name.c_str());
   if (desc.kind == MVS_BODY_KIND_BALL) return {place(desc.position, "position")};
   if (desc.kind == MVS_BODY_KIND_CAPSULE) return segment();
@@ -150,6 +152,7 @@ ToolBody read_body(const BodyReader &reader) {
   MVS_MUST(desc.kind >= MVS_BODY_KIND_HULL && desc.kind <= MVS_BODY_KIND_CONE, MVS_E_ARGUMENT,
            reader.name.c_str(), "%s.kind is %u: it has to be one of MVS_BODY_KIND_*",
            reader.name.c_str(), desc.kind);
+  must_be_zero(desc.reserved, (reader.name + ".reserved").c_str());
   ToolBody body;
   body.kind = static_cast<BodyKind>(desc.kind);
   body.radius = reader.radius();
@@ -159,21 +162,22 @@ ToolBody read_body(const BodyReader &reader) {
 
 }  // namespace
 
-ToolShapePtr read_bodies(const std::vector<mvs_body_desc> &bodies, bool strict,
-                         std::vector<std::string> &warnings) {
-  MVS_MUST(!bodies.empty() && bodies.size() <= most_bodies, MVS_E_ARGUMENT, "desc.body_count",
-           "desc.body_count is %zu: a convex tool has 1 to %u bodies", bodies.size(), most_bodies);
+ToolShapePtr read_bodies(const std::vector<mvs_body_desc> &bodies, const std::string &of,
+                         bool strict, std::vector<std::string> &warnings) {
+  MVS_MUST(!bodies.empty() && bodies.size() <= most_tool_bodies, MVS_E_ARGUMENT, of.c_str(),
+           "%s.body_count is %zu: a convex tool has 1 to %u bodies", of.c_str(), bodies.size(),
+           most_tool_bodies);
   std::vector<ToolBody> read;
   size_t vertices = 0;
   for (size_t k = 0; k < bodies.size(); ++k) {
-    const std::string name = "desc.bodies[" + std::to_string(k) + "]";
+    const std::string name = of + ".bodies[" + std::to_string(k) + "]";
     read.push_back(read_body({bodies[k], name, strict, warnings}));
     vertices += read.back().vertices.size();
-    MVS_MUST(vertices <= most_vertices, MVS_E_ARGUMENT, name.c_str(),
+    MVS_MUST(vertices <= most_tool_vertices, MVS_E_ARGUMENT, name.c_str(),
              "the bodies up to %s have %zu vertices: a tool has at most %u", name.c_str(), vertices,
-             most_vertices);
+             most_tool_vertices);
   }
-  MVS_MUST(are_valid(read), MVS_E_ARGUMENT, "desc.bodies",
+  MVS_MUST(are_valid(read), MVS_E_ARGUMENT, of.c_str(),
            "a body of the tool reaches farther than %g m from the hand along an axis",
            most_body_extent);
   return ToolShapePtr(std::make_shared<const ToolShape>(std::move(read)));

@@ -34,15 +34,14 @@ void check_numbers(const mvs_tool_desc &desc) {
 }
 
 // Fills in shape and orientation of a convex tool.
-void read_convex(const mvs_tool_desc &desc, const std::vector<mvs_body_desc> &bodies, Tool &tool,
-                 std::vector<std::string> &warnings) {
-  tool.shape = read_bodies(bodies, desc.strict_hulls == 1, warnings);
+void read_convex(const mvs_tool_desc &desc, const ToolShapePtr &shape, Tool &tool) {
+  MVS_MUST(shape, MVS_E_ARGUMENT, "desc.body_count", "a convex tool has at least one body");
+  tool.shape = shape;
   tool.length = tool.shape->arm();
   tool.axis = read_orientation(desc.orientation, "desc.orientation");
 }
 
-Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc,
-               const std::vector<mvs_body_desc> &bodies, std::vector<std::string> &warnings) {
+Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc, const ToolShapePtr &shape) {
   check_numbers(desc);
   Tool tool;
   tool.kind = static_cast<ToolKind>(desc.kind);
@@ -57,7 +56,7 @@ Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc,
     return tool;
   }
   if (tool.kind == ToolKind::convex) {
-    read_convex(desc, bodies, tool, warnings);
+    read_convex(desc, shape, tool);
     return tool;
   }
   tool.radius = sizes.radius;
@@ -108,13 +107,11 @@ double read_reach(double given, double fallback, const std::string &of) {
   return value_or(given, fallback);
 }
 
-Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const std::vector<mvs_body_desc> &bodies) {
+Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const ToolShapePtr &shape) {
   const SnapshotPtr before = sim.present();
-  std::vector<std::string> warnings;
-  Tool added = read_tool(*before.get(), desc, bodies, warnings);
+  Tool added = read_tool(*before.get(), desc, shape);
   added.id = first_tool_id + before->state.tools_made;
   apply_at_once(sim, event_of(RecordedEvent::tool_add, added));
-  for (const std::string &warning : warnings) sim.log(MVS_LOG_WARNING, "%s", warning.c_str());
   return added.id;
 }
 

@@ -132,8 +132,9 @@ static const double flat[12] = {0, 0, 0, 1e-3, 0, 0, 0, 1e-3, 0, 1e-3, 1e-3, 0};
 static const double dented[15] = {0, 0, 0, 1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1e-3, 2e-4, 2e-4, 2e-4};
 
 static mvs_body_desc hull_of(const double *vertices, uint32_t count) {
-  mvs_body_desc hull = {
-      .kind = MVS_BODY_KIND_HULL, .vertices = vertices, .vertex_count = count, .radius = 1e-4};
+  mvs_body_desc hull = {.kind = MVS_BODY_KIND_HULL,
+                        .vertices = {vertices, count, 3, MVS_TYPE_F64, 0},
+                        .radius = 1e-4};
   return hull;
 }
 
@@ -141,14 +142,17 @@ static void wrong_hulls_are_refused(void) {
   double wild[12];
   memcpy(wild, dented, sizeof wild);
   wild[4] = NAN;
-  must_refuse(hull_of(NULL, 0), "0 vertices");
-  must_refuse(hull_of(NULL, 8), "0 vertices");
+  mvs_body_desc none = hull_of(NULL, 0);
+  memset(&none.vertices, 0, sizeof none.vertices);
+  must_refuse(none, "0 vertices");
+  must_refuse(hull_of(NULL, 8), "vertices");
   must_refuse(hull_of(dented, 3), "at least 4");
   must_refuse(hull_of(flat, 4), "no volume");
   must_refuse(hull_of(wild, 4), "within 0.3");
   wild[4] = 0.4;
   must_refuse(hull_of(wild, 4), "within 0.3");
-  must_refuse(hull_of(dented, MVS_MAX_BODY_VERTICES + 1), "at most 2048");
+  static double many[3 * (MVS_MAX_BODY_VERTICES + 1)];
+  must_refuse(hull_of(many, MVS_MAX_BODY_VERTICES + 1), "at most 2048");
 }
 
 static void wrong_bodies_are_refused(void) {
@@ -162,7 +166,7 @@ static void wrong_bodies_are_refused(void) {
   body.radius = 1;
   must_refuse(body, "radius");
   body = hook[0];
-  body.vertices = flat;
+  body.vertices = hull_of(flat, 4).vertices;
   must_refuse(body, "only a hull");
   body = hook[1];
   body.size[1] = 0;

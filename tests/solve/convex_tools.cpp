@@ -62,6 +62,39 @@ ToolBody polyhedral_ball(double radius, uint32_t vertices) {
   return hull_body(std::move(points), 0);
 }
 
+ToolBody box_body(const Vec3 &half, double radius) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < 8; ++k)
+    points.push_back(half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  return {BodyKind::box, radius, std::move(points)};
+}
+
+std::vector<ToolBody> hook_bodies(double radius) {
+  const Vec3 heel = Vec3::Zero(), toe(3e-3, 0, 0);
+  return {{BodyKind::capsule, radius, {heel, Vec3(0, 0, 15e-3)}},
+          {BodyKind::capsule, radius, {heel, toe}},
+          {BodyKind::capsule, radius, {toe, Vec3(3e-3, 0, 2e-3)}}};
+}
+
+// Along the longest side of the box around all of them.
+Tool bounding_capsule(const std::vector<ToolBody> &bodies) {
+  Vec3 low = Vec3::Constant(1), high = -low;
+  for (const ToolBody &body : bodies) {
+    for (const Vec3 &v : body.vertices.get()) {
+      low = low.cwiseMin(v - Vec3::Constant(body.radius));
+      high = high.cwiseMax(v + Vec3::Constant(body.radius));
+    }
+  }
+  const Vec3 middle = 0.5 * (low + high), half = 0.5 * (high - low);
+  int longest = 0;
+  half.maxCoeff(&longest);
+  Vec3 across = half;
+  across[longest] = 0;
+  const Vec3 end = half[longest] * Vec3::Unit(longest);
+  return convex_at(Vec3::Zero(),
+                   {{BodyKind::capsule, across.norm(), {middle - end, middle + end}}});
+}
+
 Place place_above(const Model &model, const std::vector<Vec3> &x, uint32_t triangle,
                   double height) {
   const auto [a, b, c] = model.valve.triangles[triangle];

@@ -23,6 +23,14 @@ ToolBody polyhedral_ball(double radius, uint32_t vertices);
 // The hull of points.
 ToolBody hull_body(std::vector<Vec3> points, double radius);
 
+// A box around the hand.
+ToolBody box_body(const Vec3 &half, double radius);
+// A hook in the x z plane, open upwards: a shaft up from the hand, a bar to x = 3 mm, a tip of 2
+// mm.
+std::vector<ToolBody> hook_bodies(double radius);
+// A tool of one capsule that contains bodies.
+Tool bounding_capsule(const std::vector<ToolBody> &bodies);
+
 // The middle of a triangle, lifted by a height, with its normal and the direction of an edge.
 struct Place {
   Vec3 point, normal, along;

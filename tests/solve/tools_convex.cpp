@@ -132,7 +132,7 @@ TEST_CASE("a_body_of_one_point_feels_as_a_ball_of_its_radius") {
       tool.max_force = 2;
     }
     add_tool(disc, state, tool);
-    state.tools[0].position.z() = 1e-3;
+    state.tools[0].position.z() = -3e-3;
     const Settled settled = settle(disc, state, options);
     CHECK(settled.stats.converged);
     force[k] = force_of(settled.state, settled.state.tools[0]);
@@ -147,52 +147,68 @@ TEST_CASE("a_body_of_one_point_feels_as_a_ball_of_its_radius") {
 
 TEST_CASE("polyhedral_balls_converge_to_the_ball_at_second_order") {
   const Model disc = clamped_disc(8, 12e-3, [](Valve &) {});
+  // the mean over a few orientations: whether a corner or a facet is at the front differs by as
+  // much as the error itself
   const auto lift = [&](const ToolBody &body) {
-    State state = initial_state(disc);
-    SolveOptions options;
-    options.residual = 1e-8;
-    add_tool(disc, state, convex_at(Vec3(1e-3, 0.5e-3, 4e-3), {body}));
-    state.tools[0].position.z() = 1e-3;
-    const Settled settled = settle(disc, state, options);
-    CHECK(settled.stats.converged);
-    return force_of(settled.state, settled.state.tools[0]).force.norm();
-  };
-  const double wanted = lift(ball_body(3e-3));
-  double spacing2_before = 0, error_before = 0;
-  for (const uint32_t count : {64u, 250u, 1000u}) {
-    const double error = std::abs(lift(polyhedral_ball(3e-3, count)) - wanted) / wanted;
-    const double spacing2 = 1.0 / count;  // squared distance of neighbours on the unit sphere
-    MESSAGE(count << " vertices: force off by " << 100 * error << " %");
-    // a facet lies at most spacing^2 / 8 inside of the sphere: a lower force, by a share like it
-    CHECK(error <= 8 * spacing2);
-    if (error_before > 0) {
-      const double order =
-          2 * std::log(error_before / error) / std::log(spacing2_before / spacing2);
-      CHECK(order >= 1.6);
+    Random random(9);
+    double sum = 0;
+    for (int k = 0; k < 6; ++k) {
+      State state = initial_state(disc);
+      SolveOptions options;
+      options.residual = 1e-8;
+      options.max_iterations = 60;
+      Tool tool = convex_at(Vec3(1e-3, 0.5e-3, 4e-3), {body});
+      tool.axis = random.vector(0.5);
+      add_tool(disc, state, tool);
+      state.tools[0].position.z() = -3e-3;
+      const Settled settled = settle(disc, state, options);
+      const double force = force_of(settled.state, settled.state.tools[0]).force.norm();
+      // the last digits stay out of reach where a facet is parallel to an edge of the sheet
+      // (energy/convex_contact.h); they are a tenth of the error at most
+      CHECK(settled.stats.residual <= 2e-3 * force);
+      sum += force / 6;
     }
-    spacing2_before = spacing2;
-    error_before = error;
+    return sum;
+  };
+  const double ball = lift(ball_body(3e-3));
+  std::array<double, 3> force;
+  const std::array<uint32_t, 3> counts = {64, 250, 1000};
+  for (int k = 0; k < 3; ++k) {
+    force[k] = lift(polyhedral_ball(3e-3, counts[k]));
+    MESSAGE(counts[k] << " vertices: " << 100 * (force[k] / ball - 1) << " %");
   }
+  // an error of a / N, with the squared distance of neighbours: differences of 1/64 - 1/250 and
+  // 1/250 - 1/1000, times a
+  const double wanted = (1.0 / 64 - 1.0 / 250) / (1.0 / 250 - 1.0 / 1000);
+  CHECK((force[1] - force[0]) / (force[2] - force[1]) == about(wanted, 0.1));
+  // the limit for N to infinity: that of the ball less 0.1 %, the frame's elasticity where a force
+  // acts on its surface and not at the hand
+  const double limit = force[2] + (force[2] - force[1]) / 3;
+  CHECK(limit == about(ball, 1.5e-3));
 }
 
 TEST_CASE("a_stretched_frame_keeps_its_form_to_a_per_cent") {
-  const Model disc = clamped_disc(8, 12e-3, [](Valve &) {});
+  const Model disc = clamped_disc(8, 12e-3, [](Valve &valve) {
+    valve.leaflets.resize(1);
+    valve.leaflets[0].thickness = 10e-3;
+  });
   State state = initial_state(disc);
-  // pushes with its end, 10 mm from the hand, at the default limit of 5 N
-  Tool tool = convex_at(Vec3(0, 0, 4e-3), {capsule_body(Vec3(0, 0, 1), 20e-3, 2e-3)});
+  // pushes with its end, 10 mm from the hand
+  Tool tool = convex_at(Vec3(0, 0, 14e-3), {capsule_body(Vec3(0, 0, 1), 20e-3, 2e-3)});
   tool.max_force = 5;
-  tool.stiffness = 2000;
-  tool.position.z() = 14e-3;
+  tool.stiffness = 5000;
   add_tool(disc, state, tool);
-  state.tools[0].position.z() = 4e-3;
+  state.tools[0].position.z() = 7e-3;
   const Settled settled = settle(disc, state);
   CHECK(settled.stats.converged);
   const Tool &after = settled.state.tools[0];
-  CHECK(force_of(settled.state, after).force.z() > 3);
-  const double edge = frame_edge(after.length);
+  const double force = force_of(settled.state, after).force.z(), edge = frame_edge(after.length);
+  CHECK(force > 0.5);
   for (uint32_t k = 1; k < frame_points; ++k) {
-    for (uint32_t l = 0; l < k; ++l)
-      CHECK((after.proxy[k] - after.proxy[l]).norm() == about(edge, 0.012));
+    for (uint32_t l = 0; l < k; ++l) {
+      const double stretch = (after.proxy[k] - after.proxy[l]).norm() / edge - 1;
+      CHECK(std::abs(stretch) <= 0.01 * force / 5);
+    }
   }
 }
 

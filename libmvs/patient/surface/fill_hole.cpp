@@ -12,7 +12,7 @@ namespace mvs::core {
 namespace {
 
 // Vertices of a loop beyond which its triangulation would take more than about a second.
-constexpr size_t most_hole_vertices = 700;
+constexpr size_t most_vertices = 700;
 // A side of the filling this much longer than those of the loop is halved: halving at 4/3 makes
 // sides of 2/3, so that both are as far from 1 (Botsch & Kobbelt 2004).
 constexpr double long_side = 4.0 / 3;
@@ -220,9 +220,9 @@ std::vector<LeafletLabel> loop_labels(const LeafletSheet &sheet,
 
 size_t fill_hole(LeafletSheet &sheet, const std::vector<uint32_t> &loop) {
   const size_t n = loop.size();
-  MVS_MUST(n <= most_hole_vertices, MVS_E_OP, "triangles",
+  MVS_MUST(n <= most_vertices, MVS_E_OP, "triangles",
            "a hole has %zu vertices, at most %zu are filled: close it, or reduce the surface", n,
-           most_hole_vertices);
+           most_vertices);
   double length = 0;
   for (size_t k = 0; k < n; ++k) length += (sheet.x[loop[(k + 1) % n]] - sheet.x[loop[k]]).norm();
   const std::vector<LeafletLabel> label = loop_labels(sheet, loop);

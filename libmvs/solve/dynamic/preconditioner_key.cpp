@@ -114,13 +114,13 @@ class CacheReader {
 
   ToolShapePtr shape() {
     const uint64_t count = whole();
-    must(count <= most_bodies);
+    must(count <= most_tool_bodies);
     std::vector<ToolBody> bodies(count);
     for (ToolBody &body : bodies) {
       body.kind = static_cast<BodyKind>(index());
       body.radius = number();
       const uint64_t size = whole();
-      must(size <= most_vertices);
+      must(size <= most_tool_vertices);
       std::vector<Vec3> vertices(size);
       for (Vec3 &v : vertices) v = vector();
       body.vertices = std::move(vertices);
